@@ -1,0 +1,37 @@
+/* Laws: which strength makes which mesh field by which equation, and what it adds to the particles. One file per law; signs and factors live
+ * here and nowhere else. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_LAW_H
+#define PM_LAW_H
+
+#include "mesh/grid.h"
+
+struct pm_law_constant {
+	const char *name, *unit;
+	double otherwise; /* default */
+	const char *text;
+};
+
+struct pm_law {
+	const char *name, *sentence, *source;
+	unsigned dims;          /* bit 1u<<dim for each dimension it is defined in */
+	const char *strength;   /* particle field deposited: "mass", "charge", "circulation"; NULL: none (free, passive) */
+	const char *density;    /* mesh field p2m makes of it: "rho", "omega" */
+	const char *potential;  /* what a solver makes: "phi", "psi" */
+	const char *field;      /* what mgrad makes: "g", "E", "u"; dim components */
+	enum { PM_GRADIENT, PM_CURL } of_potential; /* field = sign * grad(potential), or (d psi/dy, -d psi/dx) */
+	double sign;            /* of the gradient: -1 for g and E */
+	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */
+	const char *per;        /* change = (strength/per) * field: "mass" for (q/m) E; NULL: the field itself */
+	double (*coefficient)(const struct pm_frame *f); /* c in lap potential = c * density */
+	const char *kernel;     /* defaults, so that the words work bare */
+	const char *symbol;     /* of poisson-fft: "spectral", "fd2", "fd4" */
+	const char *order;      /* of mgrad: "2", "4", "6", "spectral" */
+	const struct pm_law_constant *constants; /* {0} ends */
+};
+
+extern const struct pm_law *const pm_laws[]; /* generated from lib/law/, NULL ends */
+extern const char *const pm_law_names[];
+const struct pm_law *pm_law_find(const char *name);          /* NULL with a message */
+const struct pm_law *pm_law_of(const struct pm_frame *f);    /* NULL with a message */
+
+#endif

@@ -1,0 +1,118 @@
+/* A stage: what a tool is, and the one contract under which it runs as a process, fused inside cycle, or piped inside cycle (docs/stage.md).
+ * A tool is one constant struct of this type named tool_<name>; the library does the rest.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STAGE_H
+#define PM_STAGE_H
+
+#include "stream/wire.h"
+
+/* The type of the variable an option fills in the tool's config struct. Not given and no default: false, INT64_MIN, NAN, NULL, n = 0. */
+enum pm_option_kind {
+	PM_FLAG,    /* bool */
+	PM_INTEGER, /* int64_t */
+	PM_REAL,    /* double; finite */
+	PM_WORD,    /* const char *, one of the choices */
+	PM_TEXT,    /* const char * */
+	PM_CELLS,   /* struct pm_cells: 64 or 64x32x32 */
+	PM_VECTOR,  /* struct pm_vector: 1,2.5,-3 */
+	PM_LIST     /* struct pm_list: words separated by commas; may be repeated */
+};
+enum { PM_LIST_MOST = 32 };
+struct pm_cells {
+	size_t cells[3];
+	int n; /* numbers given; one stands for every axis (pm_cells_for) */
+};
+struct pm_vector {
+	double x[PM_COMPONENTS];
+	int n;
+};
+struct pm_list {
+	const char *item[PM_LIST_MOST];
+	int n;
+};
+
+struct pm_option {
+	const char *name; /* long form, without the dashes; NULL ends the rows */
+	char letter;      /* short form, 0 none */
+	enum pm_option_kind kind;
+	const char *unit;     /* shown in help: "length", "time", "cells", "FILE", ... */
+	const char *fallback; /* the default, as one would type it; NULL none */
+	double low, high;     /* inclusive range of numbers; both 0: any */
+	const char *const *choices; /* of a PM_WORD (and of the items of a PM_LIST, if not NULL) */
+	const char *text;     /* one sentence */
+	bool cosmetic;        /* does not change the results: kept out of the history */
+	size_t offset;        /* in the config struct */
+};
+
+struct pm_example {
+	const char *text, *command; /* a command line that runs as printed, in an empty directory, in less than a second */
+};
+
+enum pm_kind { PM_SOURCE, PM_FILTER, PM_SINK };
+
+/* What plan returns besides 0 and failure. */
+enum {
+	PM_PASS = 1, /* nothing to do in this frame: it passes untouched, frame() is not called */
+	PM_SKIP = 2, /* the frame is left out of the output */
+	PM_HOLD = 3  /* the header of the result depends on data: everything is loaded first, and frame() may still change the header */
+};
+
+struct pm_stage {
+	const struct pm_tool *tool;
+	enum pm_kind kind;   /* from the tool; begin may change it (diag --tee: a filter) */
+	void *config;        /* tool->config bytes, filled from the options */
+	void *state;         /* tool->state bytes, zero at begin: only a cache (plans, hierarchies, orders) */
+	int nargs;
+	const char **args;   /* what is not an option */
+	char *word;          /* as typed, without the options of the library; keys the report */
+	json_t *entry;       /* for the history; NULL with --no-history */
+	bool verbose, planning; /* planning: this plan is a trial on a bare header (cycle), not to be cached or counted */
+	double setup, seconds;  /* spent in begin and plan; in frame */
+	struct pm_run *run;  /* of the library */
+};
+
+struct pm_tool {
+	const char *name, *summary;        /* one sentence, no full stop */
+	const char *about;                 /* a paragraph or two: the equation, the source, the limits */
+	enum pm_kind kind;
+	bool makes;                        /* makes change or derived fields from state, and changes no state: runs when cycle primes */
+	const char *reads, *changes, *adds;/* fields, for people */
+	size_t config, state;
+	const struct pm_option *options;   /* rows; may be NULL */
+	const struct pm_option *(*more)(void); /* further rows computed from a table; may be NULL */
+	const char *arguments, *arguments_text; /* synopsis of what is not an option ("ACTION..."), and a sentence; NULL none */
+	int least, most;                   /* how many of them */
+	const struct pm_example *examples; /* {0} ends */
+	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */
+	int (*plan)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
+	int (*frame)(struct pm_stage *s, struct pm_frame *f);  /* the data are there: compute */
+	int (*end)(struct pm_stage *s);    /* the input ended well */
+	void (*free)(struct pm_stage *s);
+	int (*source)(struct pm_stage *s, struct pm_frame **f); /* sources: 1 and a frame, 0 no more */
+	int (*whole)(struct pm_stage *s);  /* replaces the loop over frames altogether (cycle, scmp) */
+};
+
+/* main of every tool. */
+int pm_main(const struct pm_tool *tool, int argc, char **argv);
+
+/* For tools. */
+bool pm_given(const struct pm_stage *s, const char *option);       /* was it typed? */
+int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
+void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
+struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
+struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */
+/* Reports travel in the tail under the stage's word; counts add up over steps, the rest is replaced. */
+void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value);
+void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count);
+void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);
+const char *pm_nearest(const char *word, const char *const *names); /* NULL if none is near */
+
+/* For cycle and the tests: a stage made from words, run on a frame in memory. */
+struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv); /* parsed and begun */
+struct pm_stage *pm_stage_free(struct pm_stage *s);
+int pm_stage_plan(struct pm_stage *s, struct pm_frame *f);  /* plan alone */
+int pm_stage_apply(struct pm_stage *s, struct pm_frame *f); /* plan, ready, frame, settle; 0, PM_SKIP or failure */
+extern const struct pm_tool *const pm_tools[];              /* all of tools/, NULL ends; only linked where used */
+const struct pm_tool *pm_tool_find(const char *name);
+
+#endif

@@ -1,0 +1,135 @@
+/* A frame: one instant of one simulation (docs/stream.md). Attributes, particle sets, meshes, and one flat list of fields in the order in
+ * which they travel. Planar everywhere: component c of a field is one contiguous array.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_FRAME_H
+#define PM_FRAME_H
+
+#include <jansson.h>
+
+#include "base/base.h"
+
+enum { PM_NAME = 64, PM_COMPONENTS = 16, PM_TERMS = 16 };
+
+enum pm_type { PM_F64, PM_F32, PM_I64, PM_U8 };
+enum pm_role { PM_STATE, PM_CHANGE, PM_DERIVED, PM_REGISTER };
+enum pm_face { PM_PERIODIC, PM_OPEN, PM_WALL, PM_NEUMANN, PM_ABSORBING };          /* of the fields */
+enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };             /* of the particles: periodic, reflect, absorb, open */
+
+extern const char *const pm_type_names[], *const pm_role_names[], *const pm_face_names[], *const pm_particle_face_names[]; /* NULL ends */
+size_t pm_type_size(enum pm_type type); /* bytes of a value on the wire */
+
+/* What the running stage does with a field; set while it plans, cleared when it is done. */
+enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4 };
+
+struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
+
+/* In memory real fields (f64, f32) are always double; an f32 field is rounded to f32 when a stage has changed it. i64 is int64_t, u8 bytes. */
+struct pm_field {
+	char name[PM_NAME];
+	char on[PM_NAME];     /* the set or mesh it belongs to */
+	char unit[PM_NAME];   /* free text, "" unknown */
+	char of[PM_NAME];     /* change fields: the state it is the rate of, "" none (bfield) */
+	char kernel[PM_NAME]; /* mesh fields made by p2m, and what was derived from them: the kernel's name, else "" */
+	int components;       /* 1..PM_COMPONENTS */
+	enum pm_type type;
+	enum pm_role role;
+	bool extensive;       /* a strength (true) or a value (false) */
+	bool uniform;         /* all values of a component are equal: value[c], and no data on the wire */
+	double value[PM_COMPONENTS];
+	unsigned char half[PM_COMPONENTS][3]; /* meshes: 1 where the component sits half a cell up that axis */
+	char terms[PM_TERMS][PM_NAME];        /* change fields: who has added to it (self, near, external, ...) */
+	int nterms;
+	size_t count;         /* values per component: n of the set, points of the mesh */
+	unsigned use;         /* PM_USE_... bits of the running stage */
+	struct pm_buffer *buffer; /* NULL: not held (passing by), uniform and not expanded, or a header only */
+	json_t *more;         /* keys we do not know; they travel */
+};
+
+struct pm_set {
+	char name[PM_NAME];
+	uint64_t n;          /* particles, 0 is legal */
+	double kick, drift;  /* done fractions of the step under way, 0..1 */
+	int stage;           /* passes done of a multi-stage scheme, 0 outside */
+	bool fixed;          /* never pushed (a fixed background of bodies) */
+	json_t *more;
+};
+
+struct pm_mesh {
+	char name[PM_NAME];
+	size_t cells[3];     /* >= 1 per axis below dim, 1 above */
+	double lo[3], h[3];  /* [length]; point i of an axis sits at lo + i*h */
+	json_t *more;
+};
+
+struct pm_frame {
+	int dim;                        /* 1, 2, 3 */
+	char law[PM_NAME];              /* a name of lib/law */
+	json_t *constants;              /* object: constants of the law and the scene by name (G, eps0, nu, background, softening ...) */
+	char scene[PM_NAME];
+	json_t *parameters;             /* object: parameters of the scene */
+	double time, dt;                /* [time] */
+	double start;                   /* [time] at substep 0 of the step under way; equal to time when substep is 0 */
+	int64_t step;                   /* full steps done */
+	int substep;                    /* pushes done in the step under way, 0 between steps */
+	double lo[3], hi[3];            /* the box [length] */
+	enum pm_face face[3][2];        /* of the fields: [axis][low, high] */
+	enum pm_particle_face pface[3][2];
+	uint64_t seed;
+	json_t *history;                /* array of objects, one per stage */
+	json_t *report;                 /* object: what the stages report, keyed by the word as typed; travels in the tail */
+	json_t *more;                   /* attributes we do not know; they travel */
+	size_t nsets, nmeshes, nfields;
+	struct pm_set **sets;
+	struct pm_mesh **meshes;
+	struct pm_field **fields;       /* in the order in which they travel */
+	size_t ndropped;
+	struct pm_field **dropped;      /* dropped by the running stage; gone when it settles */
+};
+
+struct pm_frame *pm_frame_new(int dim); /* law free, unit box [0,1], all faces open, no sets, no meshes */
+struct pm_frame *pm_frame_free(struct pm_frame *f);
+struct pm_frame *pm_frame_copy(const struct pm_frame *f);   /* shares the buffers */
+struct pm_frame *pm_frame_header(const struct pm_frame *f); /* a copy without data, to try a plan on */
+
+struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name);   /* NULL if not there */
+struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NULL if not there; name NULL: the first */
+struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
+struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
+struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name); /* NULL if not there */
+size_t pm_mesh_points(const struct pm_frame *f, const struct pm_mesh *m, size_t points[3]); /* cells (periodic) or cells+1; their product */
+double pm_frame_constant(const struct pm_frame *f, const char *name, double otherwise);
+void pm_frame_constant_set(struct pm_frame *f, const char *name, double value);
+double pm_frame_parameter(const struct pm_frame *f, const char *name, double otherwise);
+void pm_frame_parameter_set(struct pm_frame *f, const char *name, double value);
+
+/* For the plan of a stage. Fields that nobody touches keep their order and go first; changed and new ones follow in the order of these calls.
+ * NULL means failure with a message. */
+struct pm_field *pm_reads(struct pm_frame *f, const char *on, const char *name);   /* its data will be there, not to be written */
+struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name); /* read and rewritten in place */
+struct pm_field *pm_makes(struct pm_frame *f, const char *on, const char *name, int components, enum pm_role role); /* new, zero; replaces one of
+	that name; f64, a value, unit "": set the rest on what is returned */
+/* Adds to the change field `name` of set `on` (rate of state `of`), made at zero where missing. A term already there is refused, unless
+ * replace, which starts the field anew and is refused if other terms would be lost. */
+struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *name, const char *of, int components, const char *term,
+	bool replace);
+void pm_drops(struct pm_frame *f, struct pm_field *field);
+void pm_drops_roles(struct pm_frame *f, const char *on, unsigned roles); /* roles: bits 1u << enum pm_role; on NULL: every mesh */
+
+/* For the computing function of a stage: the data of component c (double, int64_t or bytes), count values long. */
+const double *pm_in(const struct pm_field *field, int c);
+double *pm_out(struct pm_field *field, int c);
+const int64_t *pm_in_i64(const struct pm_field *field, int c);
+int64_t *pm_out_i64(struct pm_field *field, int c);
+const unsigned char *pm_in_u8(const struct pm_field *field, int c);
+unsigned char *pm_out_u8(struct pm_field *field, int c);
+
+/* For the layer that runs stages. ready: uniform fields that are read are filled in, new ones are zero, changed ones are ours to write.
+ * settle: what was changed is finite (else -PM_NUMERICS naming it), f32 is rounded, the use bits are cleared. */
+int pm_frame_ready(struct pm_frame *f);
+int pm_frame_settle(struct pm_frame *f);
+int pm_field_ready(struct pm_field *field);
+void *pm_field_bytes(struct pm_field *field); /* the buffer as it is, NULL if none */
+/* Sets that change the number of particles: every field of the set gets count n; those in use are reallocated (contents lost). */
+int pm_frame_set_resize(struct pm_frame *f, struct pm_set *set, uint64_t n);
+
+#endif

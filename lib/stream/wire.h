@@ -1,0 +1,42 @@
+/* The stream on the wire (docs/stream.md): header, data, tail, end, abort. One reader and one writer serve every engine.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_WIRE_H
+#define PM_WIRE_H
+
+#include "stream/frame.h"
+
+enum { PM_LINE = 64, PM_PIECE = 256 * 1024 };
+
+/* What pm_read_header found; negative is a failure, an abort that came down the stream included (its code and message). */
+enum { PM_GOT_EOF = 0, PM_GOT_FRAME = 1, PM_GOT_END = 2 };
+
+struct pm_reader;
+struct pm_writer;
+
+struct pm_reader *pm_reader_open(const char *path); /* NULL: standard input; NULL returned on failure */
+struct pm_reader *pm_reader_of_fd(int fd);          /* closes fd when closed */
+struct pm_reader *pm_reader_close(struct pm_reader *r);
+uint64_t pm_reader_frame(const struct pm_reader *r);  /* number of the frame being read, from 1 over the whole input */
+bool pm_reader_aborted(const struct pm_reader *r);    /* the failure was an abort sent by a stage upstream */
+
+/* Next header. Fields of the frame hold no data yet (uniform ones their values). */
+int pm_read_header(struct pm_reader *r, struct pm_frame **f);
+/* The data and the tail of that frame, after a stage has planned on it: loads what is in use (everything if hold), forwards what stays to the
+ * writer if there is one, discards the rest. Checks every checksum; values of fields in use must be finite. */
+int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w);
+/* A whole frame, everything loaded: header and payload in one call. */
+int pm_read_frame(struct pm_reader *r, struct pm_frame **f);
+
+struct pm_writer *pm_writer_open(const char *path); /* NULL: standard output (refused on a terminal) */
+struct pm_writer *pm_writer_of_fd(int fd);
+int pm_writer_close(struct pm_writer *w);           /* 0 or failure; frees in any case */
+bool pm_writer_dirty(const struct pm_writer *w);    /* something has been written */
+
+int pm_write_header(struct pm_writer *w, const struct pm_frame *f);
+int pm_write_payload(struct pm_writer *w, struct pm_frame *f); /* the fields not forwarded by pm_read_payload, and the tail */
+int pm_write_frame(struct pm_writer *w, struct pm_frame *f);   /* header, all fields, tail */
+int pm_write_end(struct pm_writer *w);
+/* Ends the stream badly: fills the bytes promised with zeros and says why. */
+int pm_write_abort(struct pm_writer *w, int code, const char *message);
+
+#endif
