@@ -55,7 +55,7 @@ $(B)/libpmpipe.a: $(lib_obj)
 $(B)/libpmpipe.so: $(lib_obj)
 	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.0 -o $@ $^ $(LDLIBS_ALL)
 
-$(B)/tables/tools.c: $(tool_src) tools Makefile
+$(B)/tables/tools.c: $(tool_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
 	@{ echo '#include "stage/stage.h"'; for n in $(basename $(notdir $(tool_src))); do echo "extern const struct pm_tool tool_$$n;" | tr - _; done; \
 	echo 'const struct pm_tool *const pm_tools[] = {'; for n in $(basename $(notdir $(tool_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
