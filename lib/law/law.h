@@ -32,6 +32,9 @@ struct pm_law {
 extern const struct pm_law *const pm_laws[]; /* generated from lib/law/, NULL ends */
 extern const char *const pm_law_names[];
 const struct pm_law *pm_law_find(const char *name);          /* NULL with a message */
-const struct pm_law *pm_law_of(const struct pm_frame *f);    /* NULL with a message */
+static inline const struct pm_law *pm_law_of(const struct pm_frame *f) /* NULL with a message */
+{
+	return pm_law_find(f->law);
+}
 
 #endif
