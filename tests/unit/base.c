@@ -1,0 +1,126 @@
+/* The ground floor against published values (reference/cases.md FP-01 to FP-05, HC-58). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "check.h"
+
+static void sums(void)
+{
+	size_t n = 10000000;
+	double *x = pm_alloc(n, sizeof *x);
+	double naive = 0;
+	float single = 0;
+	for (size_t i = 0; i < n; i++) {
+		x[i] = 0.1;
+		naive += x[i];
+		single += 0.1f;
+	}
+	check_near(single, 1087937, 0, "FP-01: ten million 0.1 in single precision, one after the other, give 1087937");
+	check_near(naive, 999999.99983897537, 0, "FP-01: in double precision 999999.99983897537");
+	check_near(pm_sum_array(n, x), 1000000, 0, "HC-58: compensated they give 1000000 to the last bit");
+	double hard[] = {1, 1e100, 1, -1e100}, ones[] = {1, 1, 1, 1};
+	check_near(pm_sum_array(4, hard), 2, 0, "FP-01: 1, 1e100, 1, -1e100 sum to 2");
+	check_near(pm_sum_products(4, hard, ones), 2, 0, "so does their product with ones");
+	for (size_t i = 0; i < n; i++)
+		x[i] = sin((double)i) * exp(30 * cos(0.7 * (double)i));
+	double s[3];
+	for (int t = 1; t <= 3; t++) {
+		pm_threads_use(t);
+		s[t - 1] = pm_sum_array(n - 77, x);
+	}
+	check(!memcmp(s, s + 1, sizeof *s) && !memcmp(s, s + 2, sizeof *s), "a sum has the same bytes with 1, 2 and 3 threads");
+	check(pm_finite(n, x), "a finite array is finite");
+	x[n - 1] = NAN;
+	check(!pm_finite(n, x) && pm_finite(n - 1, x), "a NaN in the last place is seen");
+	x[n - 1] = -INFINITY;
+	check(!pm_finite(n, x), "so is an infinity");
+	pm_free(x);
+}
+
+static void checksums(void)
+{
+	check(pm_crc32c(0, "123456789", 9) == 0xE3069283u, "CRC-32C of 123456789 is E3069283 (RFC 3720)");
+	unsigned char zero[32] = {0};
+	check(pm_crc32c(0, zero, 32) == 0x8A9136AAu, "of 32 zero bytes 8A9136AA");
+	size_t n = 100003;
+	unsigned char *b = malloc(n);
+	for (size_t i = 0; i < n; i++)
+		b[i] = (unsigned char)(i * 7 + i / 251);
+	uint32_t bit = ~0u; /* the definition, bit by bit */
+	for (size_t i = 0; i < n; i++) {
+		bit ^= b[i];
+		for (int k = 0; k < 8; k++)
+			bit = bit >> 1 ^ (bit & 1 ? 0x82F63B78u : 0);
+	}
+	check(pm_crc32c(0, b, n) == ~bit, "a long block agrees with the definition");
+	check(pm_crc32c(pm_crc32c(0, b, 777), b + 777, n - 777) == ~bit, "in two calls too");
+	check(pm_crc32c_join(pm_crc32c(0, b, 12345), pm_crc32c(0, b + 12345, n - 12345), n - 12345) == ~bit, "and joined from two pieces");
+	free(b);
+}
+
+static void numbers(void)
+{
+	double u[2], v[2], sum = 0, square = 0, cross = 0;
+	pm_random(1, 2, 3, u), pm_random(1, 2, 3, v);
+	check(!memcmp(u, v, sizeof u), "a random number depends on seed, id and counter only");
+	int n = 100000;
+	for (int i = 0; i < n; i++) {
+		pm_random(1, (uint64_t)i, 0, u), pm_random(2, (uint64_t)i, 0, v);
+		sum += u[0], square += u[0] * u[0], cross += (u[0] - .5) * (v[0] - .5) * 12;
+	}
+	/* four standard errors: 1/sqrt(12 n), sqrt(4/45/n), 1/sqrt(n) */
+	check_near(sum / n, 0.5, 4 / sqrt(12. * n), "uniform numbers have mean 1/2");
+	check_near(square / n, 1 / 3., 4 * sqrt(4 / 45. / n), "and second moment 1/3");
+	check_near(cross / n, 0, 4 / sqrt(n), "HC-56: seeds 1 and 2 are not correlated");
+	double m2 = 0, m4 = 0;
+	for (int i = 0; i < n; i++) {
+		pm_random_normal(7, (uint64_t)i, 1, u);
+		m2 += u[0] * u[0], m4 += pow(u[1], 4);
+	}
+	check_near(m2 / n, 1, 4 * sqrt(2. / n), "normal numbers have variance 1");
+	check_near(m4 / n, 3, 4 * sqrt(96. / n), "and fourth moment 3");
+}
+
+static void traps(void)
+{
+	float h = 0;
+	int at = 0;
+	for (int i = 1; !at; i++) {
+		float next = h + 1.0f / (float)i;
+		if (next == h)
+			at = i;
+		h = next;
+	}
+	check(at == 2097152 && fabs(h - 15.4036827) < 1e-6, "FP-02: the harmonic series in single precision stops at 15.4036827, n = 2097152");
+	volatile double x = 1e8, root = (-x + sqrt(x * x - 4)) / 2;
+	check_near(root, -7.4505805969238281e-09, 0, "FP-02: the small root by the schoolbook formula is 25 % off: the compiler does not reorder");
+	double a = 4, b = 4.25;
+	for (int i = 2; i <= 30; i++) {
+		double c = 108 - (815 - 1500 / a) / b;
+		a = b, b = c;
+	}
+	check_near(b, 100, 1e-6, "FP-03: Muller's recurrence shows 100 where the limit is 5");
+	volatile double tiny = -1e-17;
+	check(tiny - floor(tiny) == 1, "FP-04: -1e-17 wrapped naively is 1, out of range: folding must guard it");
+	check((int)floor(-0.25) == -1 && (int)-0.25 == 0, "FP-04: floor gives -1 where a cast gives 0");
+	volatile float stall = 1.0f;
+	check(stall + 2.9e-8f == stall, "FP-04: a single-precision position stalls");
+	volatile double r = 1e-200;
+	check(r * r == 0 && hypot(r, 0) == r, "FP-05: r^2 underflows at 1e-200, hypot does not");
+	check(1 - erf(6) == 0 && fabs(erfc(6) / 2.151973671249892e-17 - 1) < 1e-14, "FP-05: erfc(6), where 1 - erf(6) is 0");
+	check_near(-expm1(-1e-12) / 1e-12, 0.9999999999995, 1e-15, "FP-05: (1 - exp(-x))/x by expm1");
+	volatile double denormal = 1e-310, other = 2e-310;
+	check(denormal != other && other - denormal != 0, "denormals are kept: x != y means x - y != 0");
+}
+
+int main(void)
+{
+	sums();
+	checksums();
+	numbers();
+	traps();
+	check(!pm_alloc(SIZE_MAX / 2, 16) && strstr(pm_message(), "more than memory"), "a size that overflows is refused, not wrapped");
+	check(pm_fail(PM_NUMERICS, "%d bad", 3) == -3 && !strcmp(pm_message(), "3 bad") && pm_exit_code(-PM_MISSING) == 1, "a failure carries code and message");
+	return check_done();
+}
