@@ -1,9 +1,11 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c become programs, lib/*/ become tables and one library.
-# make, make check, make asan, make install PREFIX=... DESTDIR=...; PORTABLE=1 leaves out -march=native; B=dir builds elsewhere.
+# make, demo, check, check-long, asan, valgrind, bench, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 CC ?= gcc
 B ?= build
 PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^\#define PM_VERSION "\(.*\)"/\1/p' lib/base/base.h)
+SOVERSION = 0
 
 WARN = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(WERROR),-Werror)
 ARCH = $(if $(PORTABLE),,-march=native $(if $(findstring gcc,$(CC)),-mprefer-vector-width=512))
@@ -16,12 +18,12 @@ lib_src := $(sort $(wildcard lib/*/*.c))
 lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o)
 tool_src := $(sort $(wildcard tools/*.c))
 tool_obj := $(tool_src:%.c=$(B)/%.o)
-tools := $(tool_src:tools/%.c=bin/%)
-ifneq ($(B),build)
-tools := $(tool_src:tools/%.c=$(B)/bin/%)
-endif
+bin_dir := $(if $(filter build,$(B)),bin,$(B)/bin)
+tools := $(tool_src:tools/%.c=$(bin_dir)/%)
 unit_src := $(sort $(wildcard tests/unit/*.c))
 unit := $(unit_src:%.c=$(B)/%)
+bench_src := $(sort $(wildcard bench/*.c))
+bench := $(bench_src:%.c=$(B)/%)
 
 all: $(tools) $(B)/libpmpipe.so
 
@@ -53,7 +55,7 @@ $(B)/libpmpipe.a: $(lib_obj)
 	ar rcs $@ $^
 
 $(B)/libpmpipe.so: $(lib_obj)
-	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.0 -o $@ $^ $(LDLIBS_ALL)
+	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.$(SOVERSION) -o $@ $^ $(LDLIBS_ALL)
 
 $(B)/tables/tools.c: $(tool_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
@@ -66,9 +68,8 @@ $(B)/mains/%.c: Makefile
 	@n=$$(echo $* | tr - _); printf '#include "stage/stage.h"\nextern const struct pm_tool tool_%s;\nint main(int argc, char **argv)\n{\n\treturn pm_main(&tool_%s, argc, argv);\n}\n' $$n $$n > $@
 $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
-.PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o
+.PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
 
-bin_dir := $(if $(filter build,$(B)),bin,$(B)/bin)
 $(bin_dir)/cycle: $(B)/mains/cycle.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_ALL)
@@ -76,12 +77,74 @@ $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_ALL)
 
-$(B)/tests/unit/%: $(B)/tests/unit/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+# Unit tests and measuring programs link every tool.
+$(unit) $(bench): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_ALL)
 unit: $(unit)
+
+demo:
+	sh pipelines/demo.sh
+check:
+	sh tests/check.sh
+check-long:
+	PM_LONG=1 sh tests/check.sh
+
+# The sanitizers see the unit tests and the tests that feed the tools what they do not like.
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+asan_tests ?= $(wildcard tests/tool/contract.bats tests/tool/cut-stream.bats tests/tool/examples.bats tests/hard/pipe-contract.bats)
+asan:
+	+$(MAKE) B=build/asan OPT=-O1 CFLAGS='$(SANITIZE)' all unit
+	B=build/asan bash tests/run.sh $(asan_tests)
+valgrind:
+	+$(MAKE) B=build/valgrind OPT=-O1 PORTABLE=1 unit
+	B=build/valgrind PM_WRAP='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite' bash tests/run.sh unit
+
+bench: all $(bench)
+	bash bench/run.sh
+measure:
+	@bash tests/measure.sh
+
+# What compilers, mandoc and shellcheck have to say; all must be silent.
+lint: all man
+	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit
+	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit,@echo 'lint: no clang here')
+	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(wildcard pipelines/*.sh tests/*.sh bench/*.sh),@echo 'lint: no shellcheck here')
+
+# Manual pages and completion are printed by the programs.
+man := $(tool_src:tools/%.c=$(B)/man/%.1)
+man: $(man)
+$(B)/man/%.1: $(bin_dir)/%
+	@mkdir -p $(@D)
+	$< --man > $@.part && mv $@.part $@
+$(B)/completion.bash: $(tools)
+	@{ echo '# bash completion of the pmpipe programs'; for t in $(tools); do $$t --complete || exit 1; done; } > $@.part && mv $@.part $@
+$(B)/pmpipe.pc: lib/pmpipe.pc.in Makefile lib/base/base.h
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' $< > $@
+
+D = $(DESTDIR)$(PREFIX)
+headers := $(sort $(wildcard lib/*/*.h))
+install: all man $(B)/libpmpipe.a $(B)/completion.bash $(B)/pmpipe.pc
+	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/share/man/man1 $(D)/share/bash-completion/completions $(D)/share/doc/pmpipe
+	install $(tools) $(D)/bin
+	install -m 644 $(man) $(D)/share/man/man1
+	install -m 644 $(B)/completion.bash $(D)/share/bash-completion/completions/pmpipe
+	for t in $(notdir $(tools)); do ln -sf pmpipe $(D)/share/bash-completion/completions/$$t; done
+	install -m 644 $(B)/libpmpipe.a $(D)/lib
+	install $(B)/libpmpipe.so $(D)/lib/libpmpipe.so.$(VERSION)
+	ln -sf libpmpipe.so.$(VERSION) $(D)/lib/libpmpipe.so.$(SOVERSION)
+	ln -sf libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so
+	for h in $(headers); do install -D -m 644 $$h $(D)/include/pmpipe/$${h#lib/} || exit 1; done
+	install -m 644 $(B)/pmpipe.pc $(D)/lib/pkgconfig
+	install -m 644 README.md NEWS COPYING docs/stream.md docs/stage.md docs/read.py $(D)/share/doc/pmpipe
+uninstall:
+	rm -f $(tools:$(bin_dir)/%=$(D)/bin/%) $(man:$(B)/man/%=$(D)/share/man/man1/%)
+	rm -f $(D)/share/bash-completion/completions/pmpipe $(addprefix $(D)/share/bash-completion/completions/,$(notdir $(tools)))
+	rm -f $(D)/lib/libpmpipe.a $(D)/lib/libpmpipe.so $(D)/lib/libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so.$(VERSION) $(D)/lib/pkgconfig/pmpipe.pc
+	rm -rf $(D)/include/pmpipe $(D)/share/doc/pmpipe
 
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit clean
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+.PHONY: all unit demo check check-long asan valgrind bench measure lint man install uninstall clean
+-include $(lib_obj:.o=.d) $(tool_obj:.o=.d) $(unit:=.d) $(bench:=.d)

@@ -1,0 +1,62 @@
+# shellcheck shell=sh
+# What demo.sh and tests/check.sh share; plain sh, sourced from the top of the tree.
+# set_up PACKAGE...: installs what of these Debian packages is missing, then builds everything with make.
+# SPDX-License-Identifier: GPL-3.0-or-later
+me=$(basename "$0" .sh)
+
+stop() {
+	echo "$me: $*" >&2
+	exit 1
+}
+
+# Is it there already? Asked of the thing itself, so that machines without dpkg are judged fairly too.
+there() {
+	case $1 in
+	libc6-dev) header stdio.h ;;
+	libfftw3-dev) header fftw3.h ;;
+	libgsl-dev) header gsl/gsl_version.h ;;
+	libjansson-dev) header jansson.h ;;
+	libpng-dev) header png.h ;;
+	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
+	bsdutils) command -v script >/dev/null 2>&1 ;;
+	*) command -v "$1" >/dev/null 2>&1 ;;
+	esac
+}
+header() {
+	echo "#include <$1>" | gcc -E -x c - >/dev/null 2>&1
+}
+
+missing() {
+	for package; do
+		there "$package" || printf '%s ' "$package"
+	done
+}
+
+install_packages() {
+	command -v apt-get >/dev/null 2>&1 || stop "please install: $* (there is no apt-get here to do it)"
+	root=
+	if [ "$(id -u)" != 0 ]; then
+		command -v sudo >/dev/null 2>&1 || stop "please install as root: apt-get install $*"
+		root=sudo
+	fi
+	echo "$me: installing $*"
+	log=$(mktemp)
+	$root apt-get -qq -o Acquire::Retries=1 -o Acquire::http::Timeout=30 update >"$log" 2>&1
+	# shellcheck disable=SC2086 # no quotes: $root may be nothing
+	if ! $root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install "$@" >>"$log" 2>&1; then
+		[ -z "${SHOW_LOG:-}" ] || cat "$log" >&2
+		rm -f "$log"
+		stop "could not install $* (no network, or no rights? SHOW_LOG=1 shows why; with these packages installed it runs offline)"
+	fi
+	rm -f "$log"
+}
+
+set_up() {
+	wanted=$(missing "$@")
+	# shellcheck disable=SC2086 # a list of words
+	[ -z "$wanted" ] || install_packages $wanted
+	wanted=$(missing "$@")
+	[ -z "$wanted" ] || stop "still missing after installing: $wanted"
+	echo "$me: building"
+	make -s -j "$(nproc)" all unit || stop "the build failed"
+}

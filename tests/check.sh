@@ -1,0 +1,9 @@
+#!/bin/sh
+# The whole suite, from a bare Debian machine: installs what is missing (as root or with sudo), builds, runs the unit tests and every bats
+# file, and ends with `N passed, N failed, N skipped`. PM_LONG=1 adds the long physics. Arguments: only these bats files, or `unit`.
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -u
+cd "$(dirname "$0")/.." || exit 1
+. pipelines/set-up.sh
+set_up gcc libc6-dev make libfftw3-dev libgsl-dev libjansson-dev libpng-dev pkg-config bats parallel python3 mandoc bsdutils
+exec bash tests/run.sh "$@"
