@@ -13,13 +13,25 @@ struct pm_kernel {
 	int moments;    /* discrete moments 0..moments of sum_i (x_i - x)^k W are exact (1, 0, 0, ...) */
 	int smooth;     /* continuous derivatives: -1 jumps, 0 continuous, 1 ... */
 	bool positive;
-	/* The weights of the `width` points around a particle. odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
-	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Horner about the nearest node. */
-	void (*weights)(double t, double *w);
+	/* The weights of the `width` points around a particle, polynomials in t: coefficients[power][point], powers 0..degree.
+	 * odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
+	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). */
+	int degree;
+	const double *coefficients;
 };
 
 extern const struct pm_kernel *const pm_kernels[]; /* generated from lib/kernel/, NULL ends */
 extern const char *const pm_kernel_names[];
 const struct pm_kernel *pm_kernel_find(const char *name); /* NULL with a message */
+
+/* w[0..width-1] at t, by Horner. */
+static inline void pm_kernel_weights(const struct pm_kernel *k, double t, double *w)
+{
+	for (int i = 0; i < k->width; i++) {
+		w[i] = k->coefficients[k->degree * k->width + i];
+		for (int power = k->degree - 1; power >= 0; power--)
+			w[i] = w[i] * t + k->coefficients[power * k->width + i];
+	}
+}
 
 #endif
