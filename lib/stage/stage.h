@@ -112,7 +112,7 @@ struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv)
 struct pm_stage *pm_stage_free(struct pm_stage *s);
 int pm_stage_plan(struct pm_stage *s, struct pm_frame *f);  /* plan alone */
 int pm_stage_apply(struct pm_stage *s, struct pm_frame *f); /* plan, ready, frame, settle; 0, PM_SKIP or failure */
-extern const struct pm_tool *const pm_tools[];              /* all of tools/, NULL ends; only linked where used */
+extern const struct pm_tool *const pm_tools[] __attribute__((weak)); /* all of tools/, NULL ends; linked into cycle and the tests only */
 const struct pm_tool *pm_tool_find(const char *name);
 
 #endif

@@ -41,6 +41,7 @@ struct pm_field {
 	int nterms;
 	size_t count;         /* values per component: n of the set, points of the mesh */
 	unsigned use;         /* PM_USE_... bits of the running stage */
+	bool finite;          /* known to hold only finite values */
 	struct pm_buffer *buffer; /* NULL: not held (passing by), uniform and not expanded, or a header only */
 	json_t *more;         /* keys we do not know; they travel */
 };
@@ -128,8 +129,16 @@ unsigned char *pm_out_u8(struct pm_field *field, int c);
 int pm_frame_ready(struct pm_frame *f);
 int pm_frame_settle(struct pm_frame *f);
 int pm_field_ready(struct pm_field *field);
+int pm_field_hold(struct pm_field *field); /* a buffer of its own, contents undefined */
 void *pm_field_bytes(struct pm_field *field); /* the buffer as it is, NULL if none */
-/* Sets that change the number of particles: every field of the set gets count n; those in use are reallocated (contents lost). */
+/* Sets that change the number of particles (plan returned PM_HOLD, everything is loaded): every field of the set gets count n and keeps its
+ * first values, so one that loses particles compacts first and resizes then. */
 int pm_frame_set_resize(struct pm_frame *f, struct pm_set *set, uint64_t n);
+int pm_field_resize(struct pm_field *field, size_t count);
+int pm_field_settle(struct pm_field *field);
+int pm_field_check(struct pm_field *field, int code); /* finite, or failure with that code naming the place; reals only */
+struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data);
+struct pm_field *pm_field_free(struct pm_field *field);
+size_t pm_field_memory(const struct pm_field *field); /* bytes of a value in memory */
 
 #endif

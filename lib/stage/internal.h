@@ -1,0 +1,38 @@
+/* Shared by the files of lib/stage only. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STAGE_INTERNAL_H
+#define PM_STAGE_INTERNAL_H
+
+#include "stage/stage.h"
+
+/* Options of the library, the same for every tool. */
+struct pm_common {
+	bool help, man, complete, examples, version, no_history, verbose;
+	const char *input, *output, *timing;
+	int64_t threads;
+};
+extern const struct pm_option pm_common_options[];
+
+struct pm_run {
+	struct pm_common common;
+	int ngiven;
+	const char *given[128]; /* long names */
+	struct pm_reader *reader;
+	struct pm_writer *writer;
+	double began; /* clock when the stage was made */
+};
+
+enum { PM_ROWS = 3 };
+/* The rows of a tool: its own, those computed, those of the library; any may be NULL. */
+void pm_option_rows(const struct pm_tool *tool, const struct pm_option *rows[PM_ROWS]);
+int pm_options_parse(struct pm_stage *s, int argc, char **argv);
+struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
+int pm_stage_begin(struct pm_stage *s);
+void pm_history_add(struct pm_stage *s, struct pm_frame *f);
+void pm_timing_write(const struct pm_stage *s, const char *file, double wall);
+
+void pm_help(const struct pm_tool *tool);
+void pm_man(const struct pm_tool *tool);
+void pm_complete(const struct pm_tool *tool);
+void pm_print_examples(const struct pm_tool *tool);
+
+#endif

@@ -1,0 +1,370 @@
+/* Option rows drive the command line: types, ranges, defaults, choices, the nearest name for a slip. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stage/internal.h"
+
+#define AT(member) offsetof(struct pm_common, member)
+const struct pm_option pm_common_options[] = {
+	{"input", 'i', PM_TEXT, "FILE", NULL, 0, 0, NULL, "read FILE instead of standard input", true, AT(input)},
+	{"output", 'o', PM_TEXT, "FILE", NULL, 0, 0, NULL, "write FILE instead of standard output", true, AT(output)},
+	{"threads", 0, PM_INTEGER, "1", NULL, 1, 4096, NULL, "threads; results do not depend on it (also OMP_NUM_THREADS)", true, AT(threads)},
+	{"timing", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "append a line to FILE: word, seconds of set-up, seconds of work", true, AT(timing)},
+	{"no-history", 0, PM_FLAG, "", NULL, 0, 0, NULL, "add no entry to the history of the stream", true, AT(no_history)},
+	{"verbose", 0, PM_FLAG, "", NULL, 0, 0, NULL, "say on standard error what was decided", true, AT(verbose)},
+	{"help", 'h', PM_FLAG, "", NULL, 0, 0, NULL, "print this help", true, AT(help)},
+	{"man", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the manual page (troff)", true, AT(man)},
+	{"examples", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the examples, one command a line", true, AT(examples)},
+	{"complete", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the options with their choices, for completion", true, AT(complete)},
+	{"version", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the version", true, AT(version)},
+	{0},
+};
+#undef AT
+
+void pm_option_rows(const struct pm_tool *tool, const struct pm_option *rows[PM_ROWS])
+{
+	rows[0] = tool->options;
+	rows[1] = tool->more ? tool->more() : NULL;
+	rows[2] = pm_common_options;
+}
+
+/* ---- the nearest name ---- */
+
+/* Edits (insert, delete, replace, swap of neighbours) between two words of at most 63 letters. */
+static int distance(const char *a, const char *b)
+{
+	int n = (int)strlen(a), m = (int)strlen(b), d[65][65];
+	if (n > 63 || m > 63)
+		return 99;
+	for (int i = 0; i <= n; i++)
+		for (int j = 0; j <= m; j++) {
+			if (!i || !j) {
+				d[i][j] = i + j;
+				continue;
+			}
+			int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+			best = d[i - 1][j] + 1 < best ? d[i - 1][j] + 1 : best;
+			best = d[i][j - 1] + 1 < best ? d[i][j - 1] + 1 : best;
+			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + 1 < best)
+				best = d[i - 2][j - 2] + 1;
+			d[i][j] = best;
+		}
+	return d[n][m];
+}
+
+static const char *nearer(const char *word, const char *name, const char *best, int *least)
+{
+	int far = distance(word, name);
+	if (!strncmp(word, name, strlen(word)) && strlen(word) >= 2)
+		far = far > 1 ? 1 : far; /* a beginning is near */
+	if (far >= *least || far > 1 + (int)strlen(word) / 3)
+		return best;
+	*least = far;
+	return name;
+}
+
+const char *pm_nearest(const char *word, const char *const *names)
+{
+	const char *best = NULL;
+	int least = 99;
+	for (int i = 0; names && names[i]; i++)
+		best = nearer(word, names[i], best, &least);
+	return best;
+}
+
+static int unknown_option(const struct pm_tool *tool, const char *typed, const char *name)
+{
+	const struct pm_option *rows[PM_ROWS];
+	const char *best = NULL;
+	int least = 99;
+	pm_option_rows(tool, rows);
+	for (int k = 0; k < PM_ROWS; k++)
+		for (const struct pm_option *o = rows[k]; o && o->name; o++)
+			best = nearer(name, o->name, best, &least);
+	if (best)
+		return pm_fail(PM_USAGE, "no option '%s' (did you mean --%s?)", typed, best);
+	return pm_fail(PM_USAGE, "no option '%s' (%s --help lists them)", typed, tool->name);
+}
+
+/* ---- values ---- */
+
+static int not_a_choice(const struct pm_option *o, const char *value)
+{
+	char list[512] = "";
+	const char *near = pm_nearest(value, o->choices);
+	for (int i = 0; o->choices[i]; i++)
+		snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", o->choices[i]);
+	if (near)
+		return pm_fail(PM_USAGE, "--%s '%s' is not one of %s (did you mean %s?)", o->name, value, list, near);
+	return pm_fail(PM_USAGE, "--%s '%s' is not one of %s", o->name, value, list);
+}
+
+static bool is_choice(const struct pm_option *o, const char *value)
+{
+	for (int i = 0; o->choices && o->choices[i]; i++)
+		if (!strcmp(o->choices[i], value))
+			return true;
+	return !o->choices;
+}
+
+static int number(const struct pm_option *o, const char *text, const char *stop, double *out)
+{
+	char *end;
+	errno = 0;
+	double x = strtod(text, &end);
+	if (end == text || (*end && !strchr(stop, *end)) || !isfinite(x) || errno == ERANGE)
+		return pm_fail(PM_USAGE, "--%s '%s' is not a number", o->name, text);
+	if ((o->low != 0 || o->high != 0) && !(x >= o->low && x <= o->high))
+		return pm_fail(PM_USAGE, "--%s %g is outside its range, %g to %g", o->name, x, o->low, o->high);
+	*out = x;
+	return 0;
+}
+
+static int integer(const struct pm_option *o, const char *text, int64_t *out)
+{
+	char *end;
+	errno = 0;
+	long long x = strtoll(text, &end, 10);
+	if (*end == 'e' || *end == '.') { /* 1e6 is how people write a million */
+		double d;
+		if (!number(o, text, "", &d) && d == floor(d) && fabs(d) < 0x1p53) {
+			x = (long long)d;
+			end = "";
+		}
+	}
+	if (end == text || *end || errno)
+		return pm_fail(PM_USAGE, "--%s '%s' is not a whole number", o->name, text);
+	if ((o->low != 0 || o->high != 0) && !((double)x >= o->low && (double)x <= o->high))
+		return pm_fail(PM_USAGE, "--%s %lld is outside its range, %.17g to %.17g", o->name, x, o->low, o->high);
+	*out = x;
+	return 0;
+}
+
+static int cells(const struct pm_option *o, const char *text, struct pm_cells *out)
+{
+	const char *p = text;
+	for (out->n = 0; out->n < 3; out->n++) {
+		char *end;
+		errno = 0;
+		long long x = strtoll(p, &end, 10);
+		if (end == p || errno || x < 1 || x > 1 << 30 || (*end && *end != 'x'))
+			return pm_fail(PM_USAGE, "--%s '%s' is not a number of cells (64 or 64x32x32)", o->name, text);
+		out->cells[out->n] = (size_t)x;
+		if (!*end) {
+			out->n++;
+			return 0;
+		}
+		p = end + 1;
+	}
+	return pm_fail(PM_USAGE, "--%s '%s' has more than three axes", o->name, text);
+}
+
+static int vector(const struct pm_option *o, const char *text, struct pm_vector *out)
+{
+	const char *p = text;
+	for (out->n = 0; out->n < PM_COMPONENTS;) {
+		int status = number(o, p, ",", &out->x[out->n]);
+		if (status)
+			return status;
+		out->n++;
+		p = strchr(p, ',');
+		if (!p)
+			return 0;
+		p++;
+	}
+	return pm_fail(PM_USAGE, "--%s '%s' has more than %d numbers", o->name, text, PM_COMPONENTS);
+}
+
+/* The copies live as long as the process, like argv. */
+static int list(const struct pm_option *o, const char *text, struct pm_list *out)
+{
+	char *copy = strdup(text), *next = NULL;
+	for (char *item = copy ? strtok_r(copy, ",", &next) : NULL; item; item = strtok_r(NULL, ",", &next)) {
+		if (!is_choice(o, item))
+			return not_a_choice(o, item);
+		if (out->n == PM_LIST_MOST)
+			return pm_fail(PM_USAGE, "--%s has more than %d items", o->name, PM_LIST_MOST);
+		out->item[out->n++] = item;
+	}
+	return 0;
+}
+
+static int set_value(const struct pm_option *o, const char *text, char *config)
+{
+	void *at = config + o->offset;
+	switch (o->kind) {
+	case PM_FLAG:
+		*(bool *)at = true;
+		return 0;
+	case PM_INTEGER:
+		return integer(o, text, at);
+	case PM_REAL:
+		return number(o, text, "", at);
+	case PM_WORD:
+		if (!is_choice(o, text))
+			return not_a_choice(o, text);
+		/* fall through */
+	case PM_TEXT:
+		*(const char **)at = text;
+		return 0;
+	case PM_CELLS:
+		return cells(o, text, at);
+	case PM_VECTOR:
+		return vector(o, text, at);
+	case PM_LIST:
+		return list(o, text, at);
+	}
+	return 0;
+}
+
+static int set_default(const struct pm_option *o, char *config)
+{
+	if (o->fallback)
+		return set_value(o, o->fallback, config);
+	if (o->kind == PM_INTEGER)
+		*(int64_t *)(void *)(config + o->offset) = INT64_MIN;
+	if (o->kind == PM_REAL)
+		*(double *)(void *)(config + o->offset) = NAN;
+	return 0; /* the rest is zero already */
+}
+
+/* ---- the command line ---- */
+
+struct found {
+	const struct pm_option *row;
+	bool common;
+};
+
+static struct found find(const struct pm_tool *tool, const char *name, size_t length, char letter)
+{
+	const struct pm_option *rows[PM_ROWS];
+	pm_option_rows(tool, rows);
+	for (int k = 0; k < PM_ROWS; k++)
+		for (const struct pm_option *o = rows[k]; o && o->name; o++)
+			if (letter ? o->letter == letter : strlen(o->name) == length && !strncmp(o->name, name, length))
+				return (struct found){o, k == PM_ROWS - 1};
+	return (struct found){0};
+}
+
+static void word_add(struct pm_stage *s, const char *text)
+{
+	size_t old = s->word ? strlen(s->word) : 0, n = strlen(text);
+	char *word = realloc(s->word, old + n + 2);
+	if (!word)
+		return;
+	if (old)
+		word[old++] = ' ';
+	memcpy(word + old, text, n + 1);
+	s->word = word;
+}
+
+static void note(struct pm_stage *s, const struct pm_option *o, const char *value)
+{
+	if (s->run->ngiven < 128)
+		s->run->given[s->run->ngiven++] = o->name;
+	if (o->cosmetic)
+		return;
+	json_t *options = json_object_get(s->entry, "options");
+	json_object_set_new(options, o->name, o->kind == PM_FLAG ? json_true() : json_string(value));
+}
+
+/* One option at argv[i]; returns how many words it took, or failure. */
+static int option(struct pm_stage *s, int argc, char **argv, int i)
+{
+	char *typed = argv[i], *value = NULL;
+	bool is_long = typed[1] == '-';
+	char *name = typed + 1 + is_long, *equals = is_long ? strchr(name, '=') : NULL;
+	size_t length = equals ? (size_t)(equals - name) : strlen(name);
+	struct found f = find(s->tool, name, length, is_long ? 0 : *name);
+	if (!f.row)
+		return unknown_option(s->tool, typed, name);
+	int took = 1;
+	if (is_long)
+		value = equals ? equals + 1 : NULL;
+	else
+		value = name[1] ? name + 1 : NULL;
+	if (f.row->kind == PM_FLAG && value)
+		return pm_fail(PM_USAGE, "option '%s' takes no value", typed);
+	if (f.row->kind != PM_FLAG && !value) {
+		if (i + 1 >= argc)
+			return pm_fail(PM_USAGE, "option '%s' wants a value", typed);
+		value = argv[i + 1];
+		took = 2;
+	}
+	char *config = f.common ? (char *)&s->run->common : s->config;
+	int status = set_value(f.row, value, config);
+	if (status)
+		return status;
+	note(s, f.row, value);
+	if (!f.common) {
+		word_add(s, typed);
+		if (took == 2)
+			word_add(s, value);
+	}
+	return took;
+}
+
+static int arguments_check(const struct pm_stage *s)
+{
+	const struct pm_tool *t = s->tool;
+	const struct pm_common *c = &s->run->common;
+	if (c->help || c->man || c->complete || c->examples || c->version)
+		return 0;
+	if (s->nargs > t->most && !t->arguments)
+		return pm_fail(PM_USAGE, "'%s' is one word too many (%s takes options only)", s->args[0], t->name);
+	if (s->nargs > t->most)
+		return pm_fail(PM_USAGE, "'%s' is one word too many (wanted: %s)", s->args[t->most], t->arguments);
+	if (s->nargs < t->least)
+		return pm_fail(PM_USAGE, "%s is missing (%s)", t->arguments, t->arguments_text);
+	return 0;
+}
+
+int pm_options_parse(struct pm_stage *s, int argc, char **argv)
+{
+	const struct pm_option *rows[PM_ROWS];
+	pm_option_rows(s->tool, rows);
+	for (int k = 0; k < PM_ROWS; k++)
+		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
+			int status = set_default(o, k == PM_ROWS - 1 ? (char *)&s->run->common : s->config);
+			if (status)
+				return status;
+		}
+	word_add(s, s->tool->name);
+	bool only_words = false;
+	json_t *arguments = json_array();
+	json_object_set_new(s->entry, "arguments", arguments);
+	for (int i = 1; i < argc;) {
+		if (!only_words && !strcmp(argv[i], "--")) {
+			only_words = true;
+			i++;
+		} else if (!only_words && argv[i][0] == '-' && argv[i][1]) {
+			int took = option(s, argc, argv, i);
+			if (took < 0)
+				return took;
+			i += took;
+		} else {
+			word_add(s, argv[i]);
+			json_array_append_new(arguments, json_string(argv[i]));
+			s->args[s->nargs++] = argv[i++];
+		}
+	}
+	return arguments_check(s);
+}
+
+bool pm_given(const struct pm_stage *s, const char *name)
+{
+	for (int i = 0; i < s->run->ngiven; i++)
+		if (!strcmp(s->run->given[i], name))
+			return true;
+	return false;
+}
+
+int pm_cells_for(const struct pm_cells *c, int dim, size_t out[3])
+{
+	if (c->n != 1 && c->n != dim)
+		return pm_fail(PM_USAGE, "%d numbers of cells for a frame of %d dimensions (one, or one per axis)", c->n, dim);
+	for (int a = 0; a < 3; a++)
+		out[a] = a >= dim ? 1 : c->n == 1 ? c->cells[0] : c->cells[a];
+	return 0;
+}

@@ -1,0 +1,173 @@
+/* A stage as a process in a pipe: reads a stream, writes one, says what went wrong in one line, and tells those behind it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "stage/internal.h"
+
+struct pm_reader *pm_stage_reader(struct pm_stage *s)
+{
+	if (!s->run->reader)
+		s->run->reader = pm_reader_open(s->run->common.input);
+	return s->run->reader;
+}
+
+struct pm_writer *pm_stage_writer(struct pm_stage *s)
+{
+	if (!s->run->writer)
+		s->run->writer = pm_writer_open(s->run->common.output);
+	return s->run->writer;
+}
+
+/* One frame through a filter. The header goes out before the data are read, unless it depends on them. */
+static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_writer *w, struct pm_frame *f)
+{
+	int plan = pm_stage_plan(s, f), status = plan < 0 ? plan : 0;
+	bool hold = plan == PM_HOLD, emit = w && plan != PM_SKIP;
+	if (status)
+		return status;
+	pm_history_add(s, f);
+	if (emit && !hold)
+		status = pm_write_header(w, f);
+	if (!status)
+		status = pm_read_payload(r, f, hold, emit && !hold ? w : NULL);
+	if (!status && (plan == 0 || hold)) {
+		status = pm_frame_ready(f);
+		double t = pm_seconds();
+		if (!status && s->tool->frame)
+			status = s->tool->frame(s, f);
+		s->seconds += pm_seconds() - t;
+		if (status == PM_SKIP) /* only where the header has not gone out */
+			return 0;
+	}
+	if (status >= 0)
+		status = pm_frame_settle(f);
+	if (status >= 0 && emit)
+		status = hold ? pm_write_frame(w, f) : pm_write_payload(w, f);
+	return status < 0 ? status : 0;
+}
+
+static int run_filter(struct pm_stage *s)
+{
+	struct pm_reader *r = pm_stage_reader(s);
+	struct pm_writer *w = s->kind == PM_FILTER ? pm_stage_writer(s) : NULL;
+	if (!r || (s->kind == PM_FILTER && !w))
+		return -PM_DATA;
+	for (;;) {
+		struct pm_frame *f = NULL;
+		int got = pm_read_header(r, &f), status = 0;
+		if (got < 0 || got == PM_GOT_EOF)
+			return got;
+		if (got == PM_GOT_END)
+			status = w ? pm_write_end(w) : 0;
+		else {
+			status = filter_frame(s, r, w, f);
+			pm_frame_free(f);
+		}
+		if (status)
+			return status;
+	}
+}
+
+static int run_source(struct pm_stage *s)
+{
+	struct pm_writer *w = pm_stage_writer(s);
+	struct pm_frame *f = NULL;
+	int more, status = w ? 0 : -PM_USAGE;
+	while (!status) {
+		double t = pm_seconds();
+		more = s->tool->source(s, &f);
+		s->seconds += pm_seconds() - t;
+		if (more <= 0) {
+			status = more;
+			break;
+		}
+		pm_history_add(s, f);
+		status = pm_frame_settle(f);
+		if (!status)
+			status = pm_write_frame(w, f);
+		f = pm_frame_free(f);
+	}
+	pm_frame_free(f);
+	return status ? status : pm_write_end(w);
+}
+
+static bool print_and_go(const struct pm_tool *tool, const struct pm_common *c)
+{
+	if (c->help)
+		pm_help(tool);
+	else if (c->man)
+		pm_man(tool);
+	else if (c->complete)
+		pm_complete(tool);
+	else if (c->examples)
+		pm_print_examples(tool);
+	else if (c->version)
+		printf("%s (pmpipe) %s\n", tool->name, PM_VERSION);
+	else
+		return false;
+	return true;
+}
+
+/* The line on stderr, and the same line down the stream for those behind. */
+static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
+{
+	char text[2048];
+	struct pm_reader *r = s ? s->run->reader : NULL;
+	bool passed_on = r && pm_reader_aborted(r), in_frame = r && !passed_on && (s->kind == PM_FILTER || s->kind == PM_SINK) && !tool->whole;
+	if (passed_on)
+		snprintf(text, sizeof text, "%s", pm_message());
+	else if (in_frame)
+		snprintf(text, sizeof text, "%s: frame %llu: %s", tool->name, (unsigned long long)pm_reader_frame(r), pm_message());
+	else
+		snprintf(text, sizeof text, "%s: %s", tool->name, pm_message());
+	fprintf(stderr, passed_on ? "%s: stopped by %s\n" : "%.0s%s\n", tool->name, text);
+	if ((s ? s->kind : tool->kind) == PM_SINK || (isatty(STDOUT_FILENO) && !(s && s->run->common.output)))
+		return;
+	struct pm_writer *w = s && s->run->writer ? s->run->writer : pm_writer_open(s ? s->run->common.output : NULL);
+	if (w)
+		pm_write_abort(w, pm_exit_code(status), text);
+	if (s)
+		s->run->writer = w;
+}
+
+static int run(struct pm_stage *s)
+{
+	int status = pm_stage_begin(s);
+	if (status)
+		return status;
+	if (s->kind == PM_SINK && s->run->common.output && !freopen(s->run->common.output, "w", stdout))
+		return pm_fail_errno("cannot write '%s'", s->run->common.output);
+	if (s->tool->whole)
+		status = s->tool->whole(s);
+	else
+		status = s->kind == PM_SOURCE ? run_source(s) : run_filter(s);
+	if (!status && s->tool->end)
+		status = s->tool->end(s);
+	return status;
+}
+
+int pm_main(const struct pm_tool *tool, int argc, char **argv)
+{
+	int status = 0;
+	struct pm_stage *s = pm_stage_make(tool, argc, argv, &status);
+	bool printed = s && !status && print_and_go(tool, &s->run->common);
+	if (s && !status && !printed)
+		status = run(s);
+	if (status < 0)
+		tell(s, tool, status);
+	else if (s && !printed)
+		pm_timing_write(s, s->run->common.timing, -1);
+	if (s && s->run->writer && pm_writer_close(s->run->writer) && !status) {
+		status = -PM_DATA;
+		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
+	}
+	if (fflush(stdout) && !status) {
+		status = pm_fail_errno("cannot write the output");
+		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
+	}
+	pm_stage_free(s);
+	return pm_exit_code(status);
+}

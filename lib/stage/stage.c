@@ -1,0 +1,175 @@
+/* A stage made from words, and run on a frame in memory: the part of the contract that every engine shares.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stage/internal.h"
+
+struct pm_stage *pm_stage_free(struct pm_stage *s)
+{
+	if (!s)
+		return NULL;
+	if (s->tool->free && s->state)
+		s->tool->free(s);
+	if (s->run)
+		pm_reader_close(s->run->reader);
+	json_decref(s->entry);
+	free(s->config), free(s->state), free((void *)s->args), free(s->word), free(s->run), free(s);
+	return NULL;
+}
+
+struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status)
+{
+	struct pm_stage *s = calloc(1, sizeof *s);
+	if (!s)
+		return NULL;
+	s->tool = tool;
+	s->kind = tool->kind;
+	s->config = calloc(1, tool->config + 1);
+	s->args = calloc((size_t)argc + 1, sizeof *s->args);
+	s->run = calloc(1, sizeof *s->run);
+	if (!s->config || !s->args || !s->run) {
+		*status = pm_fail(PM_DATA, "out of memory");
+		return s;
+	}
+	s->run->began = pm_seconds();
+	s->entry = json_pack("{s:s,s:s,s:{}}", "program", tool->name, "version", PM_VERSION, "options");
+	*status = pm_options_parse(s, argc, argv);
+	s->verbose = s->run->common.verbose;
+	if (s->run->common.no_history) {
+		json_decref(s->entry);
+		s->entry = NULL;
+	}
+	return s;
+}
+
+int pm_stage_begin(struct pm_stage *s)
+{
+	if (s->run->common.threads > 0)
+		pm_threads_use((int)s->run->common.threads);
+	s->state = calloc(1, s->tool->state + 1);
+	if (!s->state)
+		return pm_fail(PM_DATA, "out of memory");
+	int status = s->tool->begin ? s->tool->begin(s) : 0;
+	s->setup += pm_seconds() - s->run->began;
+	return status;
+}
+
+struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv)
+{
+	int status = 0;
+	struct pm_stage *s = pm_stage_make(tool, argc, argv, &status);
+	if (s && !status)
+		status = pm_stage_begin(s);
+	return status ? pm_stage_free(s) : s;
+}
+
+int pm_stage_plan(struct pm_stage *s, struct pm_frame *f)
+{
+	double t = pm_seconds();
+	int status = s->tool->plan ? s->tool->plan(s, f) : 0;
+	s->setup += pm_seconds() - t;
+	return status;
+}
+
+/* The input of a stage is finite; only fields that came from outside are looked at, the rest is known. */
+static int check_input(struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nfields + f->ndropped; i++) {
+		struct pm_field *p = i < f->nfields ? f->fields[i] : f->dropped[i - f->nfields];
+		if (p->use & (PM_USE_READ | PM_USE_CHANGE) && !p->finite) {
+			int status = pm_field_check(p, PM_DATA);
+			if (status)
+				return status;
+		}
+	}
+	return 0;
+}
+
+int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
+{
+	int plan = pm_stage_plan(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
+	if (!status)
+		status = check_input(f);
+	if (!status)
+		status = pm_frame_ready(f);
+	if (!status && s->tool->frame) {
+		double t = pm_seconds();
+		status = s->tool->frame(s, f);
+		s->seconds += pm_seconds() - t;
+	}
+	if (status < 0 || status == PM_SKIP)
+		return status;
+	return pm_frame_settle(f);
+}
+
+void pm_history_add(struct pm_stage *s, struct pm_frame *f)
+{
+	size_t i;
+	json_t *e;
+	if (!s->entry)
+		return;
+	json_array_foreach(f->history, i, e) if (json_equal(e, s->entry))
+		return;
+	json_array_append_new(f->history, json_deep_copy(s->entry));
+}
+
+static json_t *own_report(const struct pm_stage *s, struct pm_frame *f)
+{
+	json_t *mine = json_object_get(f->report, s->word);
+	if (!mine) {
+		mine = json_object();
+		json_object_set_new(f->report, s->word, mine);
+	}
+	return mine;
+}
+
+void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value)
+{
+	json_object_set_new(own_report(s, f), key, isfinite(value) ? json_real(value) : json_string(isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"));
+}
+
+void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count)
+{
+	json_t *mine = own_report(s, f);
+	json_object_set_new(mine, key, json_integer(json_integer_value(json_object_get(mine, key)) + (json_int_t)count));
+}
+
+void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value)
+{
+	json_object_set_new(own_report(s, f), key, json_string(value));
+}
+
+void pm_say(const struct pm_stage *s, const char *format, ...)
+{
+	va_list ap;
+	if (!s->verbose || s->planning)
+		return;
+	fprintf(stderr, "%s: ", s->tool->name);
+	va_start(ap, format);
+	vfprintf(stderr, format, ap);
+	va_end(ap);
+	fputc('\n', stderr);
+}
+
+void pm_timing_write(const struct pm_stage *s, const char *file, double wall)
+{
+	FILE *out = file ? fopen(file, "a") : NULL;
+	if (!out)
+		return;
+	fprintf(out, "%s\t%.9f\t%.9f", s->word, s->setup, s->seconds);
+	if (wall >= 0)
+		fprintf(out, "\t%.9f", wall);
+	fputc('\n', out);
+	fclose(out);
+}
+
+const struct pm_tool *pm_tool_find(const char *name)
+{
+	for (int i = 0; pm_tools && pm_tools[i]; i++)
+		if (!strcmp(pm_tools[i]->name, name))
+			return pm_tools[i];
+	return NULL;
+}

@@ -1,0 +1,10 @@
+/* What the reader asks of the writer while a field passes by. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_FORWARD_H
+#define PM_FORWARD_H
+
+#include "stream/wire.h"
+
+int pm_forward(struct pm_writer *w, const void *piece, size_t n);
+int pm_forward_done(struct pm_writer *w, const struct pm_field *field, uint32_t crc); /* pads; the next field in order must be this one */
+
+#endif

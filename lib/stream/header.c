@@ -1,0 +1,466 @@
+/* The JSON header of a frame. Writing leaves out what is at its default; reading believes nothing: every number has a limit, every name a
+ * length, every reference an object. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream/header.h"
+
+static const int64_t most_particles = (int64_t)1 << 48, most_cells = (int64_t)1 << 31;
+enum { most_objects = 4096 };
+
+char *pm_json_line(const json_t *j) { return json_dumps(j, JSON_SORT_KEYS | JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY); }
+
+size_t pm_field_wire(const struct pm_field *field)
+{
+	return field->uniform ? 0 : field->count * (size_t)field->components * pm_type_size(field->type);
+}
+
+/* ---- writing ---- */
+
+static json_t *reals(const double *x, int n)
+{
+	json_t *a = json_array();
+	for (int i = 0; i < n; i++)
+		json_array_append_new(a, json_real(x[i])); /* NULL for NaN and infinities: the array comes out short */
+	return a;
+}
+
+static json_t *field_json(const struct pm_field *p)
+{
+	json_t *j = json_copy(p->more);
+	json_object_set_new(j, "name", json_string(p->name));
+	json_object_set_new(j, "on", json_string(p->on));
+	json_object_set_new(j, "components", json_integer(p->components));
+	json_object_set_new(j, "type", json_string(pm_type_names[p->type]));
+	json_object_set_new(j, "role", json_string(pm_role_names[p->role]));
+	json_object_set_new(j, "kind", json_string(p->extensive ? "strength" : "value"));
+	json_object_set_new(j, "unit", json_string(p->unit));
+	if (*p->of)
+		json_object_set_new(j, "of", json_string(p->of));
+	if (*p->kernel)
+		json_object_set_new(j, "kernel", json_string(p->kernel));
+	if (p->uniform)
+		json_object_set_new(j, "uniform", reals(p->value, p->components));
+	if (p->nterms) {
+		json_t *terms = json_array();
+		for (int i = 0; i < p->nterms; i++)
+			json_array_append_new(terms, json_string(p->terms[i]));
+		json_object_set_new(j, "terms", terms);
+	}
+	bool staggered = false;
+	json_t *half = json_array();
+	for (int c = 0; c < p->components; c++) {
+		json_array_append_new(half, json_pack("[i,i,i]", p->half[c][0], p->half[c][1], p->half[c][2]));
+		staggered |= p->half[c][0] | p->half[c][1] | p->half[c][2];
+	}
+	if (staggered)
+		json_object_set(j, "half", half);
+	json_decref(half);
+	return j;
+}
+
+static json_t *set_json(const struct pm_set *s)
+{
+	json_t *j = json_copy(s->more);
+	json_object_set_new(j, "name", json_string(s->name));
+	json_object_set_new(j, "n", json_integer((json_int_t)s->n));
+	json_object_set_new(j, "done", json_pack("{s:f,s:f}", "kick", s->kick, "drift", s->drift));
+	if (s->stage)
+		json_object_set_new(j, "stage", json_integer(s->stage));
+	if (s->fixed)
+		json_object_set_new(j, "fixed", json_true());
+	return j;
+}
+
+static json_t *mesh_json(const struct pm_mesh *m, int dim)
+{
+	json_t *j = json_copy(m->more), *cells = json_array();
+	for (int a = 0; a < dim; a++)
+		json_array_append_new(cells, json_integer((json_int_t)m->cells[a]));
+	json_object_set_new(j, "name", json_string(m->name));
+	json_object_set_new(j, "cells", cells);
+	json_object_set_new(j, "lo", reals(m->lo, dim));
+	json_object_set_new(j, "h", reals(m->h, dim));
+	return j;
+}
+
+static json_t *box_json(const struct pm_frame *f)
+{
+	json_t *faces = json_array(), *particles = json_array();
+	for (int a = 0; a < f->dim; a++) {
+		json_array_append_new(faces, json_pack("[s,s]", pm_face_names[f->face[a][0]], pm_face_names[f->face[a][1]]));
+		json_array_append_new(particles,
+			json_pack("[s,s]", pm_particle_face_names[f->pface[a][0]], pm_particle_face_names[f->pface[a][1]]));
+	}
+	return json_pack("{s:o,s:o,s:o,s:o}", "lo", reals(f->lo, f->dim), "hi", reals(f->hi, f->dim), "fields", faces, "particles", particles);
+}
+
+static bool header_finite(const struct pm_frame *f)
+{
+	bool good = isfinite(f->time) && isfinite(f->dt) && isfinite(f->start);
+	for (int a = 0; a < f->dim; a++)
+		good = good && isfinite(f->lo[a]) && isfinite(f->hi[a]);
+	for (size_t i = 0; i < f->nmeshes; i++)
+		for (int a = 0; a < f->dim; a++)
+			good = good && isfinite(f->meshes[i]->lo[a]) && isfinite(f->meshes[i]->h[a]);
+	for (size_t i = 0; i < f->nfields; i++)
+		for (int c = 0; f->fields[i]->uniform && c < f->fields[i]->components; c++)
+			good = good && isfinite(f->fields[i]->value[c]);
+	return good;
+}
+
+json_t *pm_header_json(const struct pm_frame *f)
+{
+	if (!header_finite(f)) {
+		pm_fail(PM_NUMERICS, "a number of the header is not finite (time, dt, box, mesh or a uniform field)");
+		return NULL;
+	}
+	json_t *j = json_copy(f->more), *sets = json_array(), *meshes = json_array(), *fields = json_array();
+	for (size_t i = 0; i < f->nsets; i++)
+		json_array_append_new(sets, set_json(f->sets[i]));
+	for (size_t i = 0; i < f->nmeshes; i++)
+		json_array_append_new(meshes, mesh_json(f->meshes[i], f->dim));
+	for (size_t i = 0; i < f->nfields; i++)
+		json_array_append_new(fields, field_json(f->fields[i]));
+	json_object_set_new(j, "byte_order", json_string("little"));
+	json_object_set_new(j, "dim", json_integer(f->dim));
+	json_object_set_new(j, "law", json_pack("{s:s,s:O}", "name", f->law, "constants", f->constants));
+	json_object_set_new(j, "scene", json_pack("{s:s,s:O}", "name", f->scene, "parameters", f->parameters));
+	json_object_set_new(j, "time", json_real(f->time));
+	json_object_set_new(j, "dt", json_real(f->dt));
+	if (f->substep)
+		json_object_set_new(j, "start", json_real(f->start));
+	json_object_set_new(j, "step", json_integer(f->step));
+	json_object_set_new(j, "substep", json_integer(f->substep));
+	json_object_set_new(j, "seed", json_integer((json_int_t)f->seed));
+	json_object_set_new(j, "box", box_json(f));
+	json_object_set(j, "history", f->history);
+	json_object_set_new(j, "sets", sets);
+	json_object_set_new(j, "meshes", meshes);
+	json_object_set_new(j, "fields", fields);
+	return j;
+}
+
+/* ---- reading; the first complaint is kept, later ones do not matter ---- */
+
+struct look {
+	json_t *j;        /* a shallow copy, from which known keys are taken away */
+	const char *what; /* for messages */
+	bool bad;
+};
+
+static void complain(struct look *l, const char *key, const char *why)
+{
+	if (!l->bad)
+		pm_fail(PM_DATA, "the header is wrong: %s '%s' %s", l->what, key, why);
+	l->bad = true;
+}
+
+/* Takes a key away; the value lives on in the original object. */
+static const json_t *take(struct look *l, const char *key, bool must)
+{
+	const json_t *v = json_object_get(l->j, key);
+	if (!v && must)
+		complain(l, key, "is missing");
+	json_object_del(l->j, key); /* borrowed: the original holds it */
+	return v;
+}
+
+static int64_t take_integer(struct look *l, const char *key, int64_t low, int64_t high, bool must, int64_t otherwise)
+{
+	const json_t *v = take(l, key, must);
+	if (!v)
+		return otherwise;
+	if (!json_is_integer(v) || json_integer_value(v) < low || json_integer_value(v) > high) {
+		complain(l, key, "is not an integer in its range");
+		return otherwise;
+	}
+	return json_integer_value(v);
+}
+
+static double take_real(struct look *l, const char *key, bool must, double otherwise)
+{
+	const json_t *v = take(l, key, must);
+	if (v && !json_is_number(v))
+		complain(l, key, "is not a number");
+	return json_is_number(v) ? json_number_value(v) : otherwise;
+}
+
+static void take_name(struct look *l, const char *key, bool must, bool empty, char out[PM_NAME])
+{
+	const json_t *v = take(l, key, must);
+	const char *s = json_is_string(v) ? json_string_value(v) : "";
+	if (v && (!json_is_string(v) || json_string_length(v) != strlen(s) || strlen(s) >= PM_NAME || (!empty && !*s)))
+		complain(l, key, "is not a name of 1 to 63 bytes");
+	else
+		snprintf(out, PM_NAME, "%s", s);
+}
+
+static int which(const char *s, const char *const *names)
+{
+	for (int i = 0; s && names[i]; i++)
+		if (!strcmp(s, names[i]))
+			return i;
+	return -1;
+}
+
+static int take_choice(struct look *l, const char *key, const char *const *names)
+{
+	const json_t *v = take(l, key, true);
+	int i = which(json_string_value(v), names);
+	if (v && i < 0)
+		complain(l, key, "is not one of the words it can be");
+	return i < 0 ? 0 : i;
+}
+
+static void take_reals(struct look *l, const char *key, int n, double *out)
+{
+	const json_t *v = take(l, key, true);
+	if (!v)
+		return;
+	if (!json_is_array(v) || json_array_size(v) != (size_t)n) {
+		complain(l, key, "is not an array of the right length");
+		return;
+	}
+	for (int i = 0; i < n; i++) {
+		const json_t *e = json_array_get(v, (size_t)i);
+		if (!json_is_number(e))
+			complain(l, key, "holds something that is not a number");
+		out[i] = json_number_value(e);
+	}
+}
+
+/* An object to keep as it is. */
+static void take_object(struct look *l, const char *key, json_t **out)
+{
+	const json_t *v = take(l, key, false);
+	if (v && !json_is_object(v))
+		complain(l, key, "is not an object");
+	else if (v) {
+		json_decref(*out);
+		*out = json_deep_copy(v);
+	}
+}
+
+static struct look look_at(const json_t *j, const char *what)
+{
+	struct look l = {json_is_object(j) ? json_copy((json_t *)(uintptr_t)j) : NULL, what, false};
+	if (!l.j)
+		complain(&l, "", "is not an object");
+	return l;
+}
+
+/* Hands what is left to the owner; true if all was well. */
+static bool look_done(struct look *l, json_t **more)
+{
+	json_decref(*more);
+	*more = l->j;
+	return !l->bad;
+}
+
+static void read_faces(struct look *l, const char *key, int dim, const char *const *names, int out[3][2])
+{
+	const json_t *v = take(l, key, true);
+	for (int a = 0; a < dim && !l->bad; a++)
+		for (int s = 0; s < 2; s++) {
+			int i = which(json_string_value(json_array_get(json_array_get(v, (size_t)a), (size_t)s)), names);
+			if (i < 0)
+				complain(l, key, "is not a pair of boundary words per axis");
+			out[a][s] = i < 0 ? 0 : i;
+		}
+}
+
+static bool read_box(const json_t *j, struct pm_frame *f)
+{
+	struct look l = look_at(j, "box");
+	json_t *rest = NULL;
+	int faces[3][2], particles[3][2];
+	if (!l.j)
+		return false;
+	take_reals(&l, "lo", f->dim, f->lo);
+	take_reals(&l, "hi", f->dim, f->hi);
+	read_faces(&l, "fields", f->dim, pm_face_names, faces);
+	read_faces(&l, "particles", f->dim, pm_particle_face_names, particles);
+	for (int a = 0; a < f->dim && !l.bad; a++) {
+		if (!(f->hi[a] > f->lo[a]))
+			complain(&l, "hi", "is not above lo");
+		if ((faces[a][0] == PM_PERIODIC) != (faces[a][1] == PM_PERIODIC) || (particles[a][0] == PM_PFOLD) != (particles[a][1] == PM_PFOLD))
+			complain(&l, "fields", "has an axis with one periodic face");
+		for (int s = 0; s < 2; s++)
+			f->face[a][s] = (enum pm_face)faces[a][s], f->pface[a][s] = (enum pm_particle_face)particles[a][s];
+	}
+	bool good = look_done(&l, &rest);
+	json_decref(rest);
+	return good;
+}
+
+static bool read_set(const json_t *j, struct pm_frame *f)
+{
+	struct look l = look_at(j, "set");
+	char name[PM_NAME] = "";
+	if (!l.j)
+		return false;
+	take_name(&l, "name", true, false, name);
+	if (pm_frame_set(f, name) || pm_frame_mesh(f, name))
+		complain(&l, name, "is there twice");
+	struct pm_set *s = pm_frame_set_new(f, name, (uint64_t)take_integer(&l, "n", 0, most_particles, true, 0));
+	const json_t *done = take(&l, "done", false);
+	s->kick = json_number_value(json_object_get(done, "kick"));
+	s->drift = json_number_value(json_object_get(done, "drift"));
+	if (!(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
+		complain(&l, "done", "is not a fraction");
+	s->stage = (int)take_integer(&l, "stage", 0, 64, false, 0);
+	s->fixed = json_is_true(take(&l, "fixed", false));
+	return look_done(&l, &s->more);
+}
+
+static bool read_mesh(const json_t *j, struct pm_frame *f)
+{
+	struct look l = look_at(j, "mesh");
+	char name[PM_NAME] = "";
+	double cells[3] = {1, 1, 1}, lo[3] = {0}, h[3] = {1, 1, 1};
+	size_t one[3] = {1, 1, 1};
+	if (!l.j)
+		return false;
+	take_name(&l, "name", true, false, name);
+	if (pm_frame_set(f, name) || pm_frame_mesh(f, name))
+		complain(&l, name, "is there twice");
+	take_reals(&l, "cells", f->dim, cells);
+	take_reals(&l, "lo", f->dim, lo);
+	take_reals(&l, "h", f->dim, h);
+	struct pm_mesh *m = pm_frame_mesh_new(f, name, one);
+	double points = 1;
+	for (int a = 0; a < f->dim && !l.bad; a++) {
+		if (!(cells[a] >= 1 && cells[a] <= (double)most_cells && cells[a] == floor(cells[a])) || !(h[a] > 0))
+			complain(&l, name, "has a number of cells or a spacing that cannot be");
+		else
+			m->cells[a] = (size_t)cells[a], m->lo[a] = lo[a], m->h[a] = h[a];
+		points *= cells[a] + 1;
+	}
+	if (!l.bad && points > 0x1p48)
+		complain(&l, name, "has more points than there can be");
+	return look_done(&l, &m->more);
+}
+
+static void read_field_lists(struct look *l, struct pm_field *p)
+{
+	const json_t *terms = take(l, "terms", false), *half = take(l, "half", false), *e;
+	size_t i;
+	if (json_array_size(terms) > PM_TERMS)
+		complain(l, "terms", "are too many");
+	else
+		json_array_foreach(terms, i, e) {
+			if (!json_is_string(e) || json_string_length(e) >= PM_NAME)
+				complain(l, "terms", "are not names");
+			else
+				snprintf(p->terms[p->nterms++], PM_NAME, "%s", json_string_value(e));
+		}
+	if (half && json_array_size(half) != (size_t)p->components)
+		complain(l, "half", "does not have one entry per component");
+	else
+		json_array_foreach(half, i, e) for (size_t a = 0; a < 3; a++)
+			p->half[i][a] = json_integer_value(json_array_get(e, a)) == 1;
+}
+
+static bool read_field(const json_t *j, struct pm_frame *f)
+{
+	struct look l = look_at(j, "field");
+	char name[PM_NAME] = "", on[PM_NAME] = "";
+	if (!l.j)
+		return false;
+	take_name(&l, "name", true, false, name);
+	take_name(&l, "on", true, false, on);
+	if (!l.bad && pm_frame_field(f, on, name))
+		complain(&l, name, "is there twice");
+	int components = (int)take_integer(&l, "components", 1, PM_COMPONENTS, true, 1);
+	struct pm_field *p = l.bad ? NULL : pm_makes(f, on, name, components, PM_STATE);
+	if (!p) {
+		if (!l.bad)
+			complain(&l, on, "is the owner of a field, but neither a set nor a mesh");
+		json_decref(l.j);
+		return false;
+	}
+	p->use = 0;
+	p->type = (enum pm_type)take_choice(&l, "type", pm_type_names);
+	p->role = (enum pm_role)take_choice(&l, "role", pm_role_names);
+	const json_t *kind = take(&l, "kind", true);
+	p->extensive = json_is_string(kind) && !strcmp(json_string_value(kind), "strength");
+	take_name(&l, "unit", false, true, p->unit);
+	take_name(&l, "of", false, true, p->of);
+	take_name(&l, "kernel", false, true, p->kernel);
+	p->uniform = json_object_get(l.j, "uniform") != NULL;
+	if (p->uniform)
+		take_reals(&l, "uniform", components, p->value);
+	read_field_lists(&l, p);
+	return look_done(&l, &p->more);
+}
+
+static bool read_list(struct look *l, const char *key, struct pm_frame *f, bool (*one)(const json_t *, struct pm_frame *))
+{
+	const json_t *list = take(l, key, true), *e;
+	size_t i;
+	if (!json_is_array(list) || json_array_size(list) > most_objects) {
+		complain(l, key, "is not an array, or a very long one");
+		return false;
+	}
+	json_array_foreach(list, i, e) if (!one(e, f))
+		return false;
+	return true;
+}
+
+static void read_named(struct look *l, const char *key, const char *inside, char name[PM_NAME], json_t **object)
+{
+	const json_t *v = take(l, key, true);
+	struct look in = look_at(v, key);
+	json_t *rest = NULL;
+	if (in.j) {
+		take_name(&in, "name", true, true, name);
+		take_object(&in, inside, object);
+		if (!look_done(&in, &rest))
+			l->bad = true;
+		json_decref(rest);
+	} else
+		l->bad = true;
+}
+
+static bool read_all(struct look *l, struct pm_frame *f)
+{
+	read_named(l, "law", "constants", f->law, &f->constants);
+	read_named(l, "scene", "parameters", f->scene, &f->parameters);
+	f->time = take_real(l, "time", true, 0);
+	f->dt = take_real(l, "dt", true, 0);
+	f->start = take_real(l, "start", false, f->time);
+	f->step = take_integer(l, "step", 0, INT64_MAX, true, 0);
+	f->substep = (int)take_integer(l, "substep", 0, 1 << 20, true, 0);
+	f->seed = (uint64_t)take_integer(l, "seed", 0, INT64_MAX, false, 0);
+	const json_t *history = take(l, "history", false);
+	if (json_is_array(history)) {
+		json_decref(f->history);
+		f->history = json_deep_copy(history);
+	} else if (history)
+		complain(l, "history", "is not an array");
+	const json_t *box = take(l, "box", true);
+	return !l->bad && read_box(box, f) && read_list(l, "sets", f, read_set) && read_list(l, "meshes", f, read_mesh) &&
+		read_list(l, "fields", f, read_field) && !l->bad;
+}
+
+int pm_header_frame(const json_t *header, struct pm_frame **out)
+{
+	struct look l = look_at(header, "frame");
+	if (!l.j)
+		return -PM_DATA;
+	const json_t *order = take(&l, "byte_order", false);
+	if (order && (!json_is_string(order) || strcmp(json_string_value(order), "little")))
+		complain(&l, "byte_order", "is not little (data are little-endian, always; swap them where they are made)");
+	int dim = (int)take_integer(&l, "dim", 1, 3, true, 1);
+	struct pm_frame *f = pm_frame_new(dim);
+	bool good = f && read_all(&l, f);
+	if (!f)
+		return -PM_DATA;
+	if (!look_done(&l, &f->more) || !good) {
+		pm_frame_free(f);
+		return -PM_DATA;
+	}
+	*out = f;
+	return 0;
+}

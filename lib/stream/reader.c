@@ -1,0 +1,374 @@
+/* The reading half of the stream. Nothing it reads is believed before it is checked. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "stream/forward.h"
+#include "stream/header.h"
+#include "stream/wire.h"
+
+enum { most_text = 16 << 20 }; /* bytes of a header, tail or message */
+
+struct item { /* one field of the frame under way, as it was when its header was read */
+	struct pm_field *field;
+	size_t bytes, count;
+	enum pm_type type;
+	uint32_t crc;
+};
+
+struct pm_reader {
+	int fd;
+	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
+	uint64_t frame, frames;    /* number under way, from 1; frames of this stream */
+	size_t nitems;
+	struct item *items;
+	size_t at, have;
+	char piece[PM_PIECE], scratch[PM_PIECE];
+};
+
+struct pm_reader *pm_reader_of_fd(int fd)
+{
+	struct pm_reader *r = malloc(sizeof *r);
+	if (!r) {
+		pm_fail(PM_DATA, "out of memory");
+		return NULL;
+	}
+	memset(r, 0, offsetof(struct pm_reader, piece));
+	r->fd = fd;
+	r->frame = 1;
+	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* no pipe, or not allowed: as well */
+	return r;
+}
+
+struct pm_reader *pm_reader_open(const char *path)
+{
+	int fd = path ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
+	if (fd < 0) {
+		pm_fail_errno("cannot open '%s'", path);
+		return NULL;
+	}
+	return pm_reader_of_fd(fd);
+}
+
+struct pm_reader *pm_reader_close(struct pm_reader *r)
+{
+	if (r) {
+		if (r->fd != STDIN_FILENO)
+			close(r->fd);
+		free(r->items);
+		free(r);
+	}
+	return NULL;
+}
+
+uint64_t pm_reader_frame(const struct pm_reader *r) { return r->frame; }
+
+bool pm_reader_aborted(const struct pm_reader *r) { return r->aborted; }
+
+/* Reads exactly n bytes; -1 and errno on failure, otherwise the bytes there were (fewer only at end of file). Large reads go past the buffer. */
+static ssize_t get(struct pm_reader *r, void *to, size_t n)
+{
+	size_t done = 0;
+	while (done < n) {
+		if (r->have == r->at) {
+			bool direct = n - done >= sizeof r->piece;
+			ssize_t k = read(r->fd, direct ? (char *)to + done : r->piece, direct ? n - done : sizeof r->piece);
+			if (k < 0 && errno == EINTR)
+				continue;
+			if (k <= 0)
+				return k < 0 ? -1 : (ssize_t)done;
+			r->any = true;
+			if (direct) {
+				done += (size_t)k;
+				continue;
+			}
+			r->at = 0, r->have = (size_t)k;
+		}
+		size_t k = n - done < r->have - r->at ? n - done : r->have - r->at;
+		memcpy((char *)to + done, r->piece + r->at, k);
+		r->at += k, done += k;
+	}
+	return (ssize_t)done;
+}
+
+static int must_get(struct pm_reader *r, void *to, size_t n, const char *what)
+{
+	ssize_t k = get(r, to, n);
+	if (k < 0)
+		return pm_fail_errno("cannot read");
+	return (size_t)k == n ? 0 : pm_fail(PM_DATA, "the input ends in %s: it was cut (run the whole pipeline again)", what);
+}
+
+/* A 64-byte line: "PMPIPE/1 word a b", spaces, newline. */
+struct line {
+	char word[16];
+	uint64_t number[2];
+	int numbers;
+};
+
+static int line_parse(const char *text, struct line *l)
+{
+	char copy[PM_LINE + 1], *next = NULL;
+	memcpy(copy, text, PM_LINE);
+	copy[PM_LINE] = 0;
+	if (memcmp(copy, "PMPIPE/", 7))
+		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
+	if (memcmp(copy, "PMPIPE/1 ", 9))
+		return pm_fail(PM_DATA, "the stream has version %ld, this program reads version 1 (use a newer pmpipe)", strtol(copy + 7, NULL, 10));
+	if (strlen(copy) != PM_LINE || copy[PM_LINE - 1] != '\n')
+		return pm_fail(PM_DATA, "a line of the stream is damaged");
+	char *word = strtok_r(copy + 9, " \n", &next), *number;
+	snprintf(l->word, sizeof l->word, "%s", word ? word : "");
+	for (l->numbers = 0; (number = strtok_r(NULL, " \n", &next)); l->numbers++) {
+		char *end;
+		errno = 0;
+		if (l->numbers < 2)
+			l->number[l->numbers] = strtoull(number, &end, 10);
+		if (l->numbers >= 2 || *end || errno || *number == '-')
+			return pm_fail(PM_DATA, "a line of the stream is damaged: '%s'", number);
+	}
+	return 0;
+}
+
+/* Text that fills a multiple of 64 bytes with the line before it; free() it. */
+static int get_text(struct pm_reader *r, uint64_t bytes, const char *what, char **text)
+{
+	if (bytes > most_text || bytes % PM_LINE)
+		return pm_fail(PM_DATA, "%s of %llu bytes: not a multiple of 64 up to 16 MiB", what, (unsigned long long)bytes);
+	char *t = malloc(bytes + 1);
+	if (!t)
+		return pm_fail(PM_DATA, "out of memory");
+	int status = must_get(r, t, bytes, what);
+	if (status) {
+		free(t);
+		return status;
+	}
+	t[bytes] = 0;
+	*text = t;
+	return 0;
+}
+
+static int get_json(struct pm_reader *r, uint64_t bytes, const char *what, json_t **out)
+{
+	char *text = NULL;
+	json_error_t error;
+	int status = get_text(r, bytes, what, &text);
+	if (status)
+		return status;
+	json_t *j = json_loadb(text, bytes, JSON_REJECT_DUPLICATES, &error);
+	free(text);
+	if (!j)
+		return pm_fail(PM_DATA, "%s is not JSON: %s", what, error.text);
+	*out = j;
+	return 0;
+}
+
+static int get_abort(struct pm_reader *r, const struct line *l)
+{
+	char *text = NULL;
+	int code = l->numbers == 2 && l->number[0] >= 1 && l->number[0] <= 3 ? (int)l->number[0] : PM_DATA;
+	int status = l->numbers == 2 ? get_text(r, l->number[1], "an abort message", &text) : pm_fail(PM_DATA, "a damaged abort line");
+	if (status)
+		return status;
+	r->aborted = true;
+	size_t n = strlen(text);
+	while (n && (text[n - 1] == '\n' || text[n - 1] == ' '))
+		text[--n] = 0;
+	for (char *c = text; *c; c++) /* one line, and nothing a terminal would act on */
+		if ((unsigned char)*c < ' ' || *c == 0x7f)
+			*c = ' ';
+	status = pm_fail(code, "%s", text);
+	free(text);
+	return status;
+}
+
+static size_t padded(size_t bytes) { return (bytes + PM_LINE - 1) / PM_LINE * PM_LINE; }
+
+/* Remembers what will come, and checks it against the payload promised by the line. */
+static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t payload)
+{
+	struct item *items = realloc(r->items, (f->nfields + 1) * sizeof *items);
+	if (!items)
+		return pm_fail(PM_DATA, "out of memory");
+	r->items = items;
+	r->nitems = f->nfields;
+	uint64_t total = 0; /* n < 2^48, 16 components, 8 bytes: a field fits; the sum is checked */
+	for (size_t i = 0; i < f->nfields; i++) {
+		struct pm_field *p = f->fields[i];
+		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0};
+		if (__builtin_add_overflow(total, padded(items[i].bytes), &total))
+			return pm_fail(PM_DATA, "the fields of the header are larger than can be");
+	}
+	return total == payload ? 0
+				: pm_fail(PM_DATA, "the header describes %llu bytes of data, its line promises %llu", (unsigned long long)total,
+					  (unsigned long long)payload);
+}
+
+static int get_frame(struct pm_reader *r, const struct line *l, struct pm_frame **out)
+{
+	json_t *header = NULL;
+	struct pm_frame *f = NULL;
+	int status = l->numbers == 2 ? get_json(r, l->number[0], "a header", &header) : pm_fail(PM_DATA, "a damaged frame line");
+	if (status)
+		return status;
+	status = pm_header_frame(header, &f);
+	json_decref(header);
+	if (!status)
+		status = items_fill(r, f, l->number[1]);
+	if (status) {
+		pm_frame_free(f);
+		return status;
+	}
+	r->stream = true;
+	r->frames++;
+	*out = f;
+	return PM_GOT_FRAME;
+}
+
+int pm_read_header(struct pm_reader *r, struct pm_frame **f)
+{
+	char text[PM_LINE];
+	struct line l = {0};
+	ssize_t k = get(r, text, PM_LINE);
+	if (k < 0)
+		return pm_fail_errno("cannot read");
+	if (k == 0 && !r->any)
+		return pm_fail(PM_DATA, "no input: zero bytes are not a stream (the stage before did not start)");
+	if (k == 0 && !r->stream)
+		return PM_GOT_EOF;
+	if (k == 0)
+		return pm_fail(PM_DATA, "the input ends without an end marker: it was cut (run the whole pipeline again)");
+	if (k < PM_LINE && (k < 7 || memcmp(text, "PMPIPE/", 7)))
+		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
+	if (k < PM_LINE)
+		return pm_fail(PM_DATA, "the input ends in a line: it was cut (run the whole pipeline again)");
+	int status = line_parse(text, &l);
+	if (status)
+		return status;
+	if (!strcmp(l.word, "frame"))
+		return get_frame(r, &l, f);
+	if (!strcmp(l.word, "abort"))
+		return get_abort(r, &l);
+	if (strcmp(l.word, "end"))
+		return pm_fail(PM_DATA, "'%s' where a frame or the end should be", l.word);
+	if (l.numbers != 1 || l.number[0] != r->frames)
+		return pm_fail(PM_DATA, "the end marker counts other frames than the %llu that came", (unsigned long long)r->frames);
+	r->frames = 0;
+	r->stream = false;
+	return PM_GOT_END;
+}
+
+/* f32 is widened to double on the way in; everything else lies in memory as it travels. */
+static void store(struct item *it, size_t offset, const char *piece, size_t n)
+{
+	char *base = pm_field_bytes(it->field);
+	if (it->type != PM_F32) {
+		if (piece != base + offset)
+			memcpy(base + offset, piece, n);
+		return;
+	}
+	double *y = (double *)(void *)base + offset / 4;
+	for (size_t i = 0; i < n / 4; i++) {
+		float v;
+		memcpy(&v, piece + 4 * i, 4);
+		y[i] = v;
+	}
+}
+
+static int get_field(struct pm_reader *r, struct item *it, bool load, struct pm_writer *w)
+{
+	int status = load ? pm_field_hold(it->field) : 0;
+	char *base = load && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
+	for (size_t done = 0; done < it->bytes && !status;) {
+		size_t n = it->bytes - done < PM_PIECE ? it->bytes - done : PM_PIECE;
+		char *piece = base ? base + done : r->scratch;
+		status = must_get(r, piece, n, "the data");
+		if (status)
+			break;
+		it->crc = pm_crc32c(it->crc, piece, n);
+		if (load && !base)
+			store(it, done, piece, n);
+		if (w)
+			status = pm_forward(w, piece, n);
+		done += n;
+	}
+	char pad[PM_LINE];
+	size_t rest = padded(it->bytes) - it->bytes;
+	if (!status && rest)
+		status = must_get(r, pad, rest, "the data");
+	return !status && w ? pm_forward_done(w, it->field, it->crc) : status;
+}
+
+static int get_tail(struct pm_reader *r, struct pm_frame *f)
+{
+	char text[PM_LINE];
+	struct line l = {0};
+	json_t *tail = NULL;
+	int status = must_get(r, text, PM_LINE, "a tail");
+	if (!status)
+		status = line_parse(text, &l);
+	if (!status && !strcmp(l.word, "abort"))
+		return get_abort(r, &l);
+	if (!status && (strcmp(l.word, "tail") || l.numbers != 1))
+		status = pm_fail(PM_DATA, "'%s' where the tail of the frame should be", l.word);
+	if (!status)
+		status = get_json(r, l.number[0], "a tail", &tail);
+	if (status)
+		return status;
+	const json_t *crcs = json_object_get(tail, "crc32c"), *report = json_object_get(tail, "report");
+	if (!json_is_array(crcs) || json_array_size(crcs) != r->nitems || (report && !json_is_object(report)))
+		status = pm_fail(PM_DATA, "the tail does not fit the fields of the frame");
+	for (size_t i = 0; i < r->nitems && !status; i++)
+		if (json_integer_value(json_array_get(crcs, i)) != (json_int_t)r->items[i].crc)
+			status = pm_fail(PM_DATA, "the checksum of field %zu of %zu is wrong: the data were damaged on the way", i + 1, r->nitems);
+	if (!status && report) {
+		json_decref(f->report);
+		f->report = json_deep_copy(report);
+	}
+	json_decref(tail);
+	return status;
+}
+
+static bool stays(const struct pm_frame *f, const struct pm_field *field)
+{
+	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
+		return false;
+	for (size_t i = 0; i < f->ndropped; i++)
+		if (f->dropped[i] == field)
+			return false;
+	return true;
+}
+
+int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w)
+{
+	int status = 0;
+	for (size_t i = 0; i < r->nitems && !status; i++) {
+		struct item *it = r->items + i;
+		bool load = hold || it->field->use & (PM_USE_READ | PM_USE_CHANGE), pass = w && stays(f, it->field);
+		if (it->bytes)
+			status = get_field(r, it, load, pass ? w : NULL);
+		else if (pass)
+			status = pm_forward_done(w, it->field, 0);
+	}
+	if (!status)
+		status = get_tail(r, f);
+	for (size_t i = 0; i < r->nitems && !status; i++)
+		if (r->items[i].bytes && r->items[i].field->use & (PM_USE_READ | PM_USE_CHANGE))
+			status = pm_field_check(r->items[i].field, PM_DATA);
+	if (!status)
+		r->frame++;
+	return status;
+}
+
+int pm_read_frame(struct pm_reader *r, struct pm_frame **f)
+{
+	int got = pm_read_header(r, f);
+	if (got != PM_GOT_FRAME)
+		return got;
+	int status = pm_read_payload(r, *f, true, NULL);
+	if (status)
+		*f = pm_frame_free(*f);
+	return status ? status : PM_GOT_FRAME;
+}

@@ -1,0 +1,208 @@
+/* The writing half of the stream. It knows at any time how many bytes it has promised, so that a failure can be told in place.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "stream/forward.h"
+#include "stream/header.h"
+
+struct pm_writer {
+	int fd;
+	bool dirty;
+	uint64_t frames, left; /* of this stream; bytes of the frame's payload still promised */
+	size_t next, ncrc;     /* field under way; room in crc */
+	uint32_t *crc;
+};
+
+struct pm_writer *pm_writer_of_fd(int fd)
+{
+	struct pm_writer *w = calloc(1, sizeof *w);
+	if (!w) {
+		pm_fail(PM_DATA, "out of memory");
+		return NULL;
+	}
+	w->fd = fd;
+	fcntl(fd, F_SETPIPE_SZ, 1 << 20);
+	return w;
+}
+
+struct pm_writer *pm_writer_open(const char *path)
+{
+	if (!path && isatty(STDOUT_FILENO)) {
+		pm_fail(PM_USAGE, "standard output is a terminal, and a stream is not text (send it on: | sls, | stab, or > FILE)");
+		return NULL;
+	}
+	int fd = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : STDOUT_FILENO;
+	if (fd < 0) {
+		pm_fail_errno("cannot write '%s'", path);
+		return NULL;
+	}
+	return pm_writer_of_fd(fd);
+}
+
+int pm_writer_close(struct pm_writer *w)
+{
+	if (!w)
+		return 0;
+	int status = close(w->fd) ? pm_fail_errno("cannot close the output") : 0;
+	free(w->crc);
+	free(w);
+	return status;
+}
+
+bool pm_writer_dirty(const struct pm_writer *w) { return w->dirty; }
+
+static int put(struct pm_writer *w, const void *data, size_t n)
+{
+	const char *p = data;
+	w->dirty = w->dirty || n;
+	while (n) {
+		ssize_t k = write(w->fd, p, n);
+		if (k < 0 && errno == EINTR)
+			continue;
+		if (k < 0)
+			return pm_fail_errno("cannot write the output");
+		p += k, n -= (size_t)k;
+	}
+	return 0;
+}
+
+static size_t padded(size_t bytes) { return (bytes + PM_LINE - 1) / PM_LINE * PM_LINE; }
+
+static void line(char out[PM_LINE], const char *format, unsigned long long a, unsigned long long b)
+{
+	char text[2 * PM_LINE];
+	int n = snprintf(text, sizeof text, format, a, b);
+	memset(out, ' ', PM_LINE);
+	memcpy(out, text, (size_t)n < PM_LINE - 1 ? (size_t)n : PM_LINE - 1);
+	out[PM_LINE - 1] = '\n';
+}
+
+/* A line and the text it announces in one write: the text padded with spaces to a multiple of 64, a newline last. */
+static int put_text(struct pm_writer *w, const char *format, unsigned long long a, bool size_first, const char *text)
+{
+	size_t n = strlen(text), bytes = padded(n + 1);
+	char *all = malloc(PM_LINE + bytes);
+	if (!all)
+		return pm_fail(PM_DATA, "out of memory");
+	line(all, format, size_first ? bytes : a, size_first ? a : bytes);
+	memcpy(all + PM_LINE, text, n);
+	memset(all + PM_LINE + n, ' ', bytes - n);
+	all[PM_LINE + bytes - 1] = '\n';
+	int status = put(w, all, PM_LINE + bytes);
+	free(all);
+	return status;
+}
+
+int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
+{
+	json_t *j = pm_header_json(f);
+	if (!j)
+		return -PM_NUMERICS;
+	char *text = pm_json_line(j);
+	json_decref(j);
+	if (!text)
+		return pm_fail(PM_DATA, "the header cannot be written as JSON (a name that is not UTF-8?)");
+	uint64_t payload = 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		payload += padded(pm_field_wire(f->fields[i]));
+	int status = 0;
+	if (w->ncrc < f->nfields) {
+		free(w->crc);
+		w->crc = malloc(f->nfields * sizeof *w->crc);
+		w->ncrc = w->crc ? f->nfields : 0;
+		status = w->crc ? 0 : pm_fail(PM_DATA, "out of memory");
+	}
+	if (!status)
+		status = put_text(w, "PMPIPE/1 frame %llu %llu", payload, true, text);
+	free(text);
+	w->left = payload;
+	w->next = 0;
+	return status;
+}
+
+int pm_forward(struct pm_writer *w, const void *piece, size_t n)
+{
+	int status = put(w, piece, n);
+	w->left -= status ? 0 : n;
+	return status;
+}
+
+int pm_forward_done(struct pm_writer *w, const struct pm_field *field, uint32_t crc)
+{
+	static const char zero[PM_LINE];
+	size_t bytes = pm_field_wire(field);
+	w->crc[w->next++] = crc;
+	return pm_forward(w, zero, padded(bytes) - bytes);
+}
+
+static int put_field(struct pm_writer *w, struct pm_field *p)
+{
+	static _Thread_local float narrow[PM_PIECE / 4];
+	size_t bytes = pm_field_wire(p);
+	const char *data = pm_field_bytes(p);
+	uint32_t crc = 0;
+	int status = 0;
+	for (size_t done = 0; done < bytes && !status;) {
+		size_t n = bytes - done < PM_PIECE ? bytes - done : PM_PIECE;
+		const void *piece = data + done;
+		if (p->type == PM_F32) {
+			const double *y = (const double *)(const void *)data + done / 4;
+			for (size_t i = 0; i < n / 4; i++)
+				narrow[i] = (float)y[i];
+			piece = narrow;
+		}
+		crc = pm_crc32c(crc, piece, n);
+		status = pm_forward(w, piece, n);
+		done += n;
+	}
+	return status ? status : pm_forward_done(w, p, crc);
+}
+
+static int put_tail(struct pm_writer *w, const struct pm_frame *f)
+{
+	json_t *crcs = json_array();
+	for (size_t i = 0; i < f->nfields; i++)
+		json_array_append_new(crcs, json_integer(w->crc[i]));
+	json_t *tail = json_pack("{s:o,s:O}", "crc32c", crcs, "report", f->report);
+	char *text = pm_json_line(tail);
+	json_decref(tail);
+	int status = text ? put_text(w, "PMPIPE/1 tail %llu", 0, true, text) : pm_fail(PM_DATA, "the tail cannot be written as JSON");
+	free(text);
+	w->frames++;
+	return status;
+}
+
+int pm_write_payload(struct pm_writer *w, struct pm_frame *f)
+{
+	int status = 0;
+	while (w->next < f->nfields && !status)
+		status = put_field(w, f->fields[w->next]);
+	return status ? status : put_tail(w, f);
+}
+
+int pm_write_frame(struct pm_writer *w, struct pm_frame *f)
+{
+	int status = pm_write_header(w, f);
+	return status ? status : pm_write_payload(w, f);
+}
+
+int pm_write_end(struct pm_writer *w)
+{
+	char text[PM_LINE];
+	line(text, "PMPIPE/1 end %llu", w->frames, 0);
+	w->frames = 0;
+	return put(w, text, PM_LINE);
+}
+
+int pm_write_abort(struct pm_writer *w, int code, const char *message)
+{
+	static const char zero[4096];
+	int status = 0;
+	while (w->left && !status)
+		status = pm_forward(w, zero, w->left < sizeof zero ? w->left : sizeof zero);
+	return status ? status : put_text(w, "PMPIPE/1 abort %llu %llu", (unsigned long long)code, false, message);
+}
