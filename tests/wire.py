@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Takes streams apart and puts strange ones together, for the tests (docs/stream.md). Plain Python, streams of a few kilobytes.
+
+  wire.py places FILE               name and offset of every place where a cut tells: before and inside each part
+  wire.py cut FILE PLACE            the stream up to that place
+  wire.py header FILE [FRAME]       the header as JSON
+  wire.py tail FILE [FRAME]         the tail as JSON
+  wire.py edit FILE CODE            runs Python CODE on each frame and writes the stream anew with right sizes and checksums; it sees
+                                    h (header), data (list of bytearray, one per field), field(NAME) -> index, put(NAME, I, VALUE)
+  wire.py text FILE FROM TO         replaces text in the header as it stands (bytes, \\xNN understood), sizes kept right
+  wire.py line FILE FROM TO         replaces text in the 64-byte lines
+  wire.py flip FILE PLACE           inverts one bit of the byte at that place
+SPDX-License-Identifier: GPL-3.0-or-later"""
+import json, struct, sys
+
+SIZE = {"f64": 8, "f32": 4, "i64": 8, "u8": 1}
+CODE = {"f64": "d", "f32": "f", "i64": "q", "u8": "B"}
+
+
+def table():
+    rows = []
+    for i in range(256):
+        for _ in range(8):
+            i = i >> 1 ^ (0x82F63B78 if i & 1 else 0)
+        rows.append(i)
+    return rows
+
+
+TABLE = table()
+
+
+def crc32c(data):
+    c = 0xFFFFFFFF
+    for b in data:
+        c = c >> 8 ^ TABLE[(c ^ b) & 255]
+    return c ^ 0xFFFFFFFF
+
+
+def up(n):
+    return -(-n // 64) * 64
+
+
+def line(*words):
+    return " ".join(map(str, words)).encode().ljust(63) + b"\n"
+
+
+def block(value):
+    """Canonical JSON, padded to a multiple of 64 with the newline last."""
+    text = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()
+    return text.ljust(up(len(text) + 1) - 1) + b"\n"
+
+
+def count(h, f):
+    """Values per component of a field."""
+    for s in h["sets"]:
+        if s["name"] == f["on"]:
+            return s["n"]
+    m = next(m for m in h["meshes"] if m["name"] == f["on"])
+    n = 1
+    for a in range(h["dim"]):
+        n *= m["cells"][a] + (h["box"]["fields"][a][0] != "periodic")
+    return n
+
+
+def size(h, f):
+    return 0 if "uniform" in f else f["components"] * count(h, f) * SIZE[f["type"]]
+
+
+def parts(data):
+    """[(kind, start, end)] of a sound stream: line, header, field NAME, tail-line, tail, end."""
+    at, out = 0, []
+    while at < len(data):
+        words = data[at:at + 64].split()
+        out.append((words[1].decode() + "-line", at, at + 64))
+        at += 64
+        if words[1] == b"frame":
+            hb = int(words[2])
+            h = json.loads(data[at:at + hb])
+            out.append(("header", at, at + hb))
+            at += hb
+            for f in h["fields"]:
+                n = up(size(h, f))
+                if n:
+                    out.append(("field %s" % f["name"], at, at + n))
+                at += n
+        elif words[1] in (b"tail", b"abort"):
+            n = int(words[-1])
+            out.append((words[1].decode(), at, at + n))
+            at += n
+    return out
+
+
+def frames(data):
+    """[(header, [field bytes], tail)]"""
+    out = []
+    for kind, a, b in parts(data):
+        if kind == "header":
+            h, fields = json.loads(data[a:b]), []
+            left = [f for f in h["fields"]]
+        elif kind.startswith("field "):
+            while size(h, left[0]) == 0:
+                fields.append(bytearray())
+                left.pop(0)
+            fields.append(bytearray(data[a:a + size(h, left.pop(0))]))
+        elif kind == "tail":
+            fields += [bytearray() for f in left]
+            out.append((h, fields, json.loads(data[a:b])))
+    return out
+
+
+def frame_bytes(h, fields, tail):
+    header = block(h)
+    payload = b"".join(bytes(d).ljust(up(len(d)), b"\0") for d in fields)
+    tail = dict(tail, crc32c=[crc32c(d) for d in fields])
+    t = block(tail)
+    return line("PMPIPE/1 frame", len(header), len(payload)) + header + payload + line("PMPIPE/1 tail", len(t)) + t
+
+
+def places(data):
+    """Every boundary, and one place inside each part."""
+    out, seen = [], {}
+    for kind, a, b in parts(data):
+        seen[kind] = seen.get(kind, 0) + 1
+        name = kind.replace(" ", "-") + (str(seen[kind]) if seen[kind] > 1 else "")
+        out += [("before-" + name, a), ("in-" + name, (a + b) // 2 + 1)]
+    return out
+
+
+def edit(data, code):
+    out = []
+    all = frames(data)
+    for h, fields, tail in all:
+        def field(name):
+            return [f["name"] for f in h["fields"]].index(name)
+
+        def put(name, i, value):
+            f = h["fields"][field(name)]
+            struct.pack_into("<" + CODE[f["type"]], fields[field(name)], i * SIZE[f["type"]], value)
+        exec(code, {"h": h, "data": fields, "tail": tail, "field": field, "put": put, "struct": struct, "crc32c": crc32c})
+        out.append(frame_bytes(h, fields, tail))
+    return b"".join(out) + line("PMPIPE/1 end", len(all))
+
+
+def text(data, a, b, old, new):
+    header = data[a:b].rstrip()
+    if old not in header:
+        sys.exit("wire.py: no %r in the header %r" % (old, header))
+    header = block(header.replace(old, new, 1))
+    words = data[a - 64:a].split()
+    return data[:a - 64] + line("PMPIPE/1 frame", len(header), int(words[3])) + header + data[b:]
+
+
+def literal(s):
+    return s.encode("latin-1").decode("unicode_escape").encode("latin-1") if "\\" in s else s.encode()
+
+
+def main(action, path, *rest):
+    data = open(path, "rb").read()
+    out = sys.stdout.buffer
+    spots = [(k, a, b) for k, a, b in parts(data)] if action != "line" else []
+    if action == "places":
+        out.write("".join("%s\n" % n for n, _ in places(data)).encode())
+    elif action == "cut":
+        out.write(data[:dict(places(data))[rest[0]]])
+    elif action == "flip":
+        at = dict(places(data))[rest[0]]
+        out.write(data[:at] + bytes([data[at] ^ 1]) + data[at + 1:])
+    elif action in ("header", "tail"):
+        h = frames(data)[int(rest[0]) - 1 if rest else 0][0 if action == "header" else 2]
+        out.write(json.dumps(h, indent=1, sort_keys=True).encode() + b"\n")
+    elif action == "edit":
+        out.write(edit(data, rest[0]))
+    elif action == "text":
+        _, a, b = next(p for p in spots if p[0] == "header")
+        out.write(text(data, a, b, literal(rest[0]), literal(rest[1])))
+    elif action == "line":
+        old, new = literal(rest[0]), literal(rest[1])
+        at = data.index(old)
+        whole = data[at // 64 * 64:at // 64 * 64 + 64].rstrip().replace(old, new, 1).ljust(63)[:63] + b"\n"
+        out.write(data[:at // 64 * 64] + whole + data[at // 64 * 64 + 64:])
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
