@@ -13,41 +13,47 @@ def crc32c(data, c=0xFFFFFFFF):
         c = c >> 8 ^ TABLE[(c ^ byte) & 255]
     return c ^ 0xFFFFFFFF
 
+def fail(message, code=1):
+    print(message, file=sys.stderr)
+    sys.exit(code)
+
 def frames(file):
     def take(n):
         data = file.read(n)
-        return data if len(data) == n else sys.exit("the stream is cut")
-    def block(n):
-        text = take(int(n))
-        return sys.exit(text.decode().strip()) if words[1] == b"abort" else json.loads(text)
-    line = take(64)
-    while line:                                              # after an end, end-of-file or another stream
-        words = line.split()
-        if words[0] != b"PMPIPE/1":
-            sys.exit("not a stream of version 1")
-        if words[1] != b"end":
-            header = block(words[-1] if words[1] == b"abort" else words[2])
-            length = {s["name"]: s["n"] for s in header["sets"]}
-            for m in header["meshes"]:
-                faces = header["box"]["fields"]
-                length[m["name"]] = math.prod(n + (f[0] != "periodic") for n, f in zip(m["cells"], faces))
-            data, sums = [], []
-            for f in header["fields"]:
-                n, all = length[f["on"]], array.array(TYPES[f["type"]])
-                if "uniform" not in f:
-                    bytes = f["components"] * n * all.itemsize
-                    padded = take(-(-bytes // 64) * 64)
-                    all.frombytes(padded[:bytes])
-                sums.append(crc32c(all.tobytes()))
-                if sys.byteorder == "big":
-                    all.byteswap()
-                data.append([[v] * n for v in f["uniform"]] if "uniform" in f else [all[c * n:c * n + n] for c in range(f["components"])])
-            words = take(64).split()
-            tail = block(words[-1])
-            if tail["crc32c"] != sums:
-                sys.exit("a checksum is wrong")
-            yield header, data, tail
-        line = take(64) if words[1] != b"end" else file.read(64)
+        return data if len(data) == n else fail("the stream is cut")
+    def line():
+        words = take(64).split()
+        if words[:1] != [b"PMPIPE/1"]:
+            fail("this is not a stream of version 1")
+        if words[1] == b"abort":
+            fail(take(int(words[3])).decode().strip(), int(words[2]))
+        return words
+    while True:
+        words = line()
+        if words[1] == b"end":
+            if not file.peek(1):                        # or another stream follows
+                return
+            continue
+        header = json.loads(take(int(words[2])))
+        length = {s["name"]: s["n"] for s in header["sets"]}
+        for m in header["meshes"]:
+            faces = header["box"]["fields"]
+            length[m["name"]] = math.prod(n + (f[0] != "periodic") for n, f in zip(m["cells"], faces))
+        data, sums = [], []
+        for f in header["fields"]:
+            n, values = length[f["on"]], array.array(TYPES[f["type"]])
+            if "uniform" not in f:
+                size = f["components"] * n * values.itemsize
+                values.frombytes(take(-(-size // 64) * 64)[:size])
+            sums.append(crc32c(values.tobytes()))
+            if sys.byteorder == "big":
+                values.byteswap()
+            data.append([[u] * n for u in f["uniform"]] if "uniform" in f else
+                        [values[c * n:c * n + n] for c in range(f["components"])])
+        tail = json.loads(take(int(line()[2])))
+        if tail["crc32c"] != sums:
+            fail("a checksum is wrong")
+        yield header, data, tail
 
 if __name__ == "__main__":
     for header, data, tail in frames(sys.stdin.buffer):

@@ -6,12 +6,15 @@
   wire.py header FILE [FRAME]       the header as JSON
   wire.py tail FILE [FRAME]         the tail as JSON
   wire.py edit FILE CODE            runs Python CODE on each frame and writes the stream anew with right sizes and checksums; it sees
-                                    h (header), data (list of bytearray, one per field), field(NAME) -> index, put(NAME, I, VALUE)
+                                    h (header), data (list of bytearray, one per field), field(NAME) -> index, put(NAME, I, VALUE), resize(SET, N)
   wire.py text FILE FROM TO         replaces text in the header as it stands (bytes, \\xNN understood), sizes kept right
   wire.py line FILE FROM TO         replaces text in the 64-byte lines
   wire.py flip FILE PLACE           inverts one bit of the byte at that place
+  wire.py frames FILE...            the frames of all these files as one stream
+  wire.py messages FILE             the aborts in a stream, one `code message` a line
+  wire.py closed COMMAND...         runs it with a standard output that nobody reads; prints its exit status, 141 for SIGPIPE
 SPDX-License-Identifier: GPL-3.0-or-later"""
-import json, struct, sys
+import json, os, struct, subprocess, sys
 
 SIZE = {"f64": 8, "f32": 4, "i64": 8, "u8": 1}
 CODE = {"f64": "d", "f32": "f", "i64": "q", "u8": "B"}
@@ -136,7 +139,16 @@ def edit(data, code):
         def put(name, i, value):
             f = h["fields"][field(name)]
             struct.pack_into("<" + CODE[f["type"]], fields[field(name)], i * SIZE[f["type"]], value)
-        exec(code, {"h": h, "data": fields, "tail": tail, "field": field, "put": put, "struct": struct, "crc32c": crc32c})
+
+        def resize(name, n):
+            s = next(s for s in h["sets"] if s["name"] == name)
+            for f, d in zip(h["fields"], data):
+                if f["on"] == name and "uniform" not in f:
+                    one, w = s["n"] * SIZE[f["type"]], n * SIZE[f["type"]]
+                    d[:] = b"".join((d[c * one:c * one + one] * (n // max(s["n"], 1) + 1))[:w] for c in range(f["components"]))
+            s["n"] = n
+        data = fields
+        exec(code, {"resize": resize, "h": h, "data": fields, "tail": tail, "field": field, "put": put, "struct": struct, "crc32c": crc32c})
         out.append(frame_bytes(h, fields, tail))
     return b"".join(out) + line("PMPIPE/1 end", len(all))
 
@@ -154,7 +166,16 @@ def literal(s):
     return s.encode("latin-1").decode("unicode_escape").encode("latin-1") if "\\" in s else s.encode()
 
 
+def closed(command):
+    r, w = os.pipe()
+    os.close(r)
+    code = subprocess.run(command, stdout=w).returncode
+    print(code if code >= 0 else 128 - code)
+
+
 def main(action, path, *rest):
+    if action == "closed":
+        return closed([path, *rest])
     data = open(path, "rb").read()
     out = sys.stdout.buffer
     spots = [(k, a, b) for k, a, b in parts(data)] if action != "line" else []
@@ -168,6 +189,13 @@ def main(action, path, *rest):
     elif action in ("header", "tail"):
         h = frames(data)[int(rest[0]) - 1 if rest else 0][0 if action == "header" else 2]
         out.write(json.dumps(h, indent=1, sort_keys=True).encode() + b"\n")
+    elif action == "frames":
+        all = [f for p in (path, *rest) for f in frames(open(p, "rb").read())]
+        out.write(b"".join(frame_bytes(*f) for f in all) + line("PMPIPE/1 end", len(all)))
+    elif action == "messages":
+        for kind, a, b in spots:
+            if kind == "abort":
+                out.write(data[a - 64:a].split()[2] + b" " + data[a:b].rstrip() + b"\n")
     elif action == "edit":
         out.write(edit(data, rest[0]))
     elif action == "text":
