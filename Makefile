@@ -1,7 +1,9 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c become programs, lib/*/ become tables and one library.
 # make, demo, check, check-long, asan, valgrind, bench, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
-CC ?= gcc
+ifeq ($(origin CC),default)
+CC = gcc
+endif
 B ?= build
 PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^\#define PM_VERSION "\(.*\)"/\1/p' lib/base/base.h)
@@ -117,8 +119,8 @@ man: $(man)
 $(B)/man/%.1: $(bin_dir)/%
 	@mkdir -p $(@D)
 	$< --man > $@.part && mv $@.part $@
-$(B)/completion.bash: $(tools)
-	@{ echo '# bash completion of the pmpipe programs'; for t in $(tools); do $$t --complete || exit 1; done; } > $@.part && mv $@.part $@
+$(B)/completion.bash: lib/stage/completion.sh $(tools)
+	@bash lib/stage/completion.sh $(tools) > $@.part && mv $@.part $@
 $(B)/pmpipe.pc: lib/pmpipe.pc.in Makefile lib/base/base.h
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' $< > $@
 
