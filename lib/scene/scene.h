@@ -14,22 +14,23 @@ struct pm_scene_parameter {
 	const char *text;
 };
 
-struct pm_scene_choice { /* what pinit was asked for, defaults filled in */
+struct pm_scene_choice { /* what pinit was asked for, defaults filled in and ranges checked */
 	int dim;
 	uint64_t n, seed;
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
-	bool has_cells, has_box, has_dt;   /* typed by the user; pinit applies them after make, on top of the scene's own */
 };
 
 struct pm_scene {
 	const char *name, *sentence, *source;
 	unsigned dims;           /* bit 1u<<dim for each dimension it exists in */
 	int dim;                 /* default */
-	uint64_t n;              /* default; 0: the scene decides */
+	uint64_t n;              /* default, in its default dimension */
+	bool n_fixed;            /* no other n */
+	bool random;             /* depends on the seed */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
-	/* Makes the frame: attributes, sets, fields (with data: pm_makes, pm_frame_ready, pm_out), a default mesh, dt. 0 or failure. */
+	/* Fills a new frame of c->dim: law, constants, box, faces, sets with their data, the mesh "mesh", dt. 0 or failure. */
 	int (*make)(const struct pm_scene_choice *c, struct pm_frame *f);
-	/* Exact numbers a test or diag can ask for, by name (see the scene's head); NAN if it has none of that name. May be NULL. */
+	/* The exact value of one of diag's columns (or of a number in the scene's head) at time t; NAN if it has none of that name. May be NULL. */
 	double (*exact)(const struct pm_frame *f, const char *quantity, double t);
 };
 

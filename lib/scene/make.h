@@ -1,0 +1,102 @@
+/* What the scenes share: box and faces, the default mesh, a set with x, v, mass and id, and a centre of mass at rest.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SCENE_MAKE_H
+#define PM_SCENE_MAKE_H
+
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+struct scene_body { /* the arrays of a set, n values per component */
+	double *x[3], *v[3]; /* [length], [length/time]; v all NULL for a set that never moves */
+	double *mass;        /* [mass]; NULL where all are equal */
+	int64_t *id;
+};
+
+/* Gravity with G = 1 in a cube lo..hi with the same faces all round; dt as given. */
+static inline void scene_world(struct pm_frame *f, double lo, double hi, enum pm_face face, double softening, double dt)
+{
+	snprintf(f->law, sizeof f->law, "gravity");
+	pm_frame_constant_set(f, "G", 1);
+	pm_frame_constant_set(f, "softening", softening);
+	for (int d = 0; d < f->dim; d++) {
+		f->lo[d] = lo, f->hi[d] = hi;
+		for (int side = 0; side < 2; side++) {
+			f->face[d][side] = face;
+			f->pface[d][side] = face == PM_PERIODIC ? PM_PFOLD : PM_POPEN;
+		}
+	}
+	f->dt = dt;
+}
+
+/* The default mesh: so many cells on every axis of the box. */
+static inline int scene_mesh(struct pm_frame *f, size_t cells)
+{
+	const size_t c[3] = {cells, f->dim > 1 ? cells : 1, f->dim > 2 ? cells : 1};
+	return pm_frame_mesh_new(f, "mesh", c) ? 0 : -PM_DATA;
+}
+
+/* A set with x, mass, id, and v if it moves; mass is that of each particle, NAN if they differ and the caller fills b->mass. */
+static inline int scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, double mass, struct scene_body *b)
+{
+	struct pm_set *set = pm_frame_set_new(f, name, n);
+	struct pm_field *x = set ? pm_makes(f, name, "x", f->dim, PM_STATE) : NULL;
+	struct pm_field *v = x && moves ? pm_makes(f, name, "v", f->dim, PM_STATE) : NULL;
+	struct pm_field *m = x && (v || !moves) ? pm_makes(f, name, "mass", 1, PM_STATE) : NULL;
+	struct pm_field *id = m ? pm_makes(f, name, "id", 1, PM_STATE) : NULL;
+	if (!id)
+		return -PM_DATA;
+	set->fixed = !moves;
+	snprintf(x->unit, sizeof x->unit, "length");
+	snprintf(m->unit, sizeof m->unit, "mass");
+	m->extensive = true;
+	id->type = PM_I64;
+	m->uniform = !isnan(mass);
+	m->value[0] = m->uniform ? mass : 0;
+	if (pm_field_ready(x) || pm_field_ready(id) || (v && pm_field_ready(v)) || (!m->uniform && pm_field_ready(m)))
+		return -PM_DATA;
+	*b = (struct scene_body){.mass = m->uniform ? NULL : pm_out(m, 0), .id = pm_out_i64(id, 0)};
+	for (int d = 0; d < f->dim; d++) {
+		b->x[d] = pm_out(x, d);
+		b->v[d] = v ? pm_out(v, d) : NULL;
+	}
+	if (v)
+		snprintf(v->unit, sizeof v->unit, "length/time");
+	for (uint64_t i = 0; i < n; i++)
+		b->id[i] = (int64_t)i;
+	return 0;
+}
+
+/* Takes the weighted mean (weights all equal if NULL) of n values away; twice, so that what is left is rounding alone. */
+static inline void scene_centre(uint64_t n, const double *weight, double *a)
+{
+	if (!n)
+		return;
+	const double total = weight ? pm_sum_array(n, weight) : (double)n;
+	for (int pass = 0; pass < 2; pass++) {
+		const double mean = (weight ? pm_sum_products(n, weight, a) : pm_sum_array(n, a)) / total;
+#pragma omp parallel for schedule(static)
+		for (uint64_t i = 0; i < n; i++)
+			a[i] -= mean;
+	}
+}
+
+/* Particles per axis of a regular arrangement of n in dim dimensions; 0 with a message if n is not such a power. */
+static inline size_t scene_per_axis(uint64_t n, int dim)
+{
+	const uint64_t side = (uint64_t)llround(pow((double)n, 1.0 / dim));
+	uint64_t full = 1, below = 1, above = 1;
+	for (int d = 0; d < dim; d++)
+		full *= side;
+	if (full == n && n)
+		return side;
+	const uint64_t low = full > n ? side - 1 : side;
+	for (int d = 0; d < dim; d++)
+		below *= low, above *= low + 1;
+	pm_fail(PM_USAGE, "%llu particles do not fill a lattice in %d-D (take -n %llu or %llu)", (unsigned long long)n, dim,
+		(unsigned long long)below, (unsigned long long)above);
+	return 0;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* Two particles at rest anywhere in a periodic box whose default mesh has cells of length 1: the finest look at a force.
+ * The defaults are PM-01 of the reference cases: 16^3 cells, m = 1 at (3.3, 4.7, 5.2) and m = 2 at (7.9, 6.1, 9.4), G = 1, lap phi =
+ * 4 pi G (rho - mean); with them the field of the neutralised periodic system at the first particle is acc_x, acc_y, acc_z of `exact`
+ * (Ewald sums, two splittings agree to 1e-13). Exact: mass, energy_kinetic = 0 (at t = 0). SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/make.h"
+
+enum { LENGTH, X1, Y1, Z1, X2, Y2, Z2, M1, M2, SOFTENING };
+
+static const struct pm_scene_parameter rows[] = {
+	{"length", "cells", 16, 1, 4096, "side of the box, and the number of cells on each axis"},
+	{"x1", "length", 3.3, 0, 4096, "first particle, x"},
+	{"y1", "length", 4.7, 0, 4096, "first particle, y"},
+	{"z1", "length", 5.2, 0, 4096, "first particle, z"},
+	{"x2", "length", 7.9, 0, 4096, "second particle, x"},
+	{"y2", "length", 6.1, 0, 4096, "second particle, y"},
+	{"z2", "length", 9.4, 0, 4096, "second particle, z"},
+	{"m1", "mass", 1, 0, 1e300, "first particle, mass"},
+	{"m2", "mass", 2, 0, 1e300, "second particle, mass"},
+	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{0},
+};
+
+static int make(const struct pm_scene_choice *c, struct pm_frame *f)
+{
+	const double length = c->value[LENGTH];
+	struct scene_body b;
+	if (length != floor(length))
+		return pm_fail(PM_USAGE, "--length %g is not a whole number of cells", length);
+	for (int d = 0; d < c->dim; d++)
+		if (c->value[X1 + d] >= length || c->value[X2 + d] >= length)
+			return pm_fail(PM_USAGE, "a particle lies outside the box 0..%g (change --length or the positions)", length);
+	scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.1);
+	if (scene_mesh(f, (size_t)length) || scene_set(f, "matter", 2, true, c->value[M1] == c->value[M2] ? c->value[M1] : NAN, &b))
+		return -PM_DATA;
+	for (int i = 0; i < 2; i++) {
+		for (int d = 0; d < c->dim; d++) {
+			b.x[d][i] = c->value[(i ? X2 : X1) + d];
+			b.v[d][i] = 0;
+		}
+		if (b.mass)
+			b.mass[i] = c->value[M1 + i];
+	}
+	return 0;
+}
+
+static double exact(const struct pm_frame *f, const char *quantity, double t)
+{
+	static const double force[3] = {0.0269507714622, 0.00946960886732, 0.0254426249975};
+	bool standard = f->dim == 3 && t == 0;
+	for (int i = LENGTH; i < SOFTENING; i++)
+		standard = standard && pm_frame_parameter(f, rows[i].name, rows[i].otherwise) == rows[i].otherwise;
+	if (!strcmp(quantity, "mass"))
+		return pm_frame_parameter(f, "m1", 1) + pm_frame_parameter(f, "m2", 2);
+	if (!strcmp(quantity, "energy_kinetic") && t == 0)
+		return 0;
+	if (standard && !strncmp(quantity, "acc_", 4) && quantity[4] >= 'x' && quantity[4] <= 'z' && !quantity[5])
+		return force[quantity[4] - 'x'];
+	return NAN;
+}
+
+const struct pm_scene scene_pair = {
+	.name = "pair",
+	.sentence = "two particles at rest in a periodic box, to look at a force",
+	.source = "PM-01 of the reference cases",
+	.dims = 1u << 1 | 1u << 2 | 1u << 3,
+	.dim = 3,
+	.n = 2,
+	.n_fixed = true,
+	.parameters = rows,
+	.make = make,
+	.exact = exact,
+};

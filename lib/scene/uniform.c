@@ -1,0 +1,78 @@
+/* Particles at random in a periodic box, the same chance everywhere, at rest or with a Maxwellian of 1-D dispersion `dispersion`.
+ * Poisson noise: the number in a cell of the box has the variance of its mean. Masses are equal, or log-uniform over
+ * `mass-spread` decades (m = mass/n 10^(spread (u - 1/2))). Total momentum is zero.
+ * Source: Hockney, Eastwood 1988, section 9; HC-14 of the reference cases for the spread of masses.
+ * Exact: mass (equal masses), energy_kinetic (mean over seeds; dim/2 M sigma^2 (1 - 1/n)). Cost N.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/make.h"
+
+enum { MASS, LENGTH, DISPERSION, SPREAD, SOFTENING };
+
+static const struct pm_scene_parameter rows[] = {
+	{"mass", "mass", 1, 0, 1e300, "total mass"},
+	{"length", "length", 1, 1e-300, 1e300, "side of the box"},
+	{"dispersion", "velocity", 0, 0, 1e300, "standard deviation of each velocity component"},
+	{"mass-spread", "decades", 0, 0, 100, "masses log-uniform over so many decades"},
+	{"softening", "length", 0.001, 0, 1e6, "softening length of direct sums"},
+	{0},
+};
+
+static void particle(const struct pm_scene_choice *c, uint64_t i, const struct scene_body *b)
+{
+	double u[2], w[2], z[2], z2[2];
+	pm_random(c->seed, i, 0, u);
+	pm_random(c->seed, i, 1, w);
+	pm_random_normal(c->seed, i, 2, z);
+	pm_random_normal(c->seed, i, 3, z2);
+	const double place[3] = {u[0], u[1], w[0]}, velocity[3] = {z[0], z[1], z2[0]};
+	for (int d = 0; d < c->dim; d++) {
+		b->x[d][i] = c->value[LENGTH] * place[d];
+		b->v[d][i] = c->value[DISPERSION] * velocity[d];
+		if (b->x[d][i] >= c->value[LENGTH]) /* rounding of the product */
+			b->x[d][i] = 0;
+	}
+	if (b->mass)
+		b->mass[i] = c->value[MASS] / (double)c->n * pow(10, c->value[SPREAD] * (w[1] - 0.5));
+}
+
+static int make(const struct pm_scene_choice *c, struct pm_frame *f)
+{
+	static const size_t cells[4] = {0, 128, 64, 32};
+	const double mass = c->n ? c->value[MASS] / (double)c->n : 0;
+	struct scene_body b;
+	scene_world(f, 0, c->value[LENGTH], PM_PERIODIC, c->value[SOFTENING], 0.01);
+	if (scene_mesh(f, cells[c->dim]) || scene_set(f, "matter", c->n, true, c->value[SPREAD] > 0 ? NAN : mass, &b))
+		return -PM_DATA;
+#pragma omp parallel for schedule(static)
+	for (uint64_t i = 0; i < c->n; i++)
+		particle(c, i, &b);
+	for (int d = 0; d < c->dim && c->value[DISPERSION] > 0; d++)
+		scene_centre(c->n, b.mass, b.v[d]);
+	return 0;
+}
+
+static double exact(const struct pm_frame *f, const char *quantity, double t)
+{
+	const double sigma = pm_frame_parameter(f, "dispersion", 0), mass = pm_frame_parameter(f, "mass", 1);
+	const struct pm_set *set = pm_frame_set(f, "matter");
+	if (pm_frame_parameter(f, "mass-spread", 0) > 0)
+		return NAN;
+	if (!strcmp(quantity, "mass"))
+		return mass;
+	if (!strcmp(quantity, "energy_kinetic") && t == 0 && set && set->n)
+		return 0.5 * f->dim * mass * sigma * sigma * (1 - 1 / (double)set->n);
+	return NAN;
+}
+
+const struct pm_scene scene_uniform = {
+	.name = "uniform",
+	.sentence = "particles at random in a periodic box",
+	.source = "Hockney, Eastwood 1988",
+	.dims = 1u << 1 | 1u << 2 | 1u << 3,
+	.dim = 3,
+	.n = 10000,
+	.random = true,
+	.parameters = rows,
+	.make = make,
+	.exact = exact,
+};
