@@ -1,0 +1,60 @@
+/* What diag measures: bulk quantities of particles, energies of the field, Lagrangian radii. All sums are compensated and taken over a fixed
+ * partition in a fixed order, so that they do not depend on the number of threads.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MEASURE_H
+#define PM_MEASURE_H
+
+#include "mesh/grid.h"
+
+struct pm_bodies { /* one set; arrays of n values */
+	size_t n;
+	int dim, vdim;               /* components of x and of v; 0: none */
+	const double *x[3], *v[3];   /* [length], [length/time] */
+	const double *mass;          /* [mass]; NULL none */
+	const double *strength;      /* what makes the field; NULL none */
+	const double *phi;           /* potential at the particles; NULL none */
+};
+
+struct pm_bulk {
+	double n, mass;              /* [1], [mass] */
+	double kinetic;              /* sum m v^2/2 */
+	double momentum[3], scale;   /* sum m v; sum m |v| */
+	double angular[3];           /* sum m x cross v, about the origin */
+	double moment[3];            /* sum m x */
+	double movers, square;       /* particles with a velocity; sum v^2 over them */
+	double farthest;             /* max |x| */
+};
+/* Of one set, added to *bulk. Without masses what needs them becomes NAN. */
+void pm_bulk_add(const struct pm_bodies *b, struct pm_bulk *bulk);
+
+/* sum q phi/2 over the particles of a set. */
+double pm_energy_at_particles(const struct pm_bodies *b);
+/* integral of rho phi/2 over a mesh, end nodes with half weight. */
+double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const double *phi);
+/* Direct sum over the pairs of a with b (each once if a == b) of q q' coefficient potential(r^2, softening, dim). Cost n^2. */
+double pm_energy_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b, double coefficient, double softening,
+	double (*potential)(double r2, double softening, int dim));
+
+struct pm_shell {
+	double r, mass; /* [length], [mass] */
+	size_t index;   /* breaks ties */
+};
+/* Smallest r within which at least each fraction of the mass lies; sorts the shells. NAN if there are none. */
+void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fraction, double *radius);
+
+/* The columns of diag. */
+enum pm_column {
+	PM_STEP, PM_TIME, PM_ENERGY_KINETIC, PM_ENERGY_MESH, PM_ENERGY_PAIR, PM_ENERGY, PM_MOMENTUM, PM_MOMENTUM_SCALE = PM_MOMENTUM + 3, PM_ANGULAR,
+	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO, PM_COLUMNS
+};
+extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
+/* Does it exist in dim dimensions with velocities of vdim components? */
+bool pm_column_exists(enum pm_column c, int dim, int vdim);
+
+struct pm_measures {
+	double value[PM_COLUMNS]; /* NAN where it cannot be computed */
+};
+/* All columns from bulk and field energies (NAN: not there); field: the law has one, so that without its energy there is no total. */
+struct pm_measures pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field);
+
+#endif

@@ -1,0 +1,190 @@
+/* pinit: makes a scene. The scenes are the files of lib/scene; their parameters become options here, one row per name, and one that the
+ * chosen scene does not have is refused. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/rows.h"
+#include "stage/stage.h"
+
+struct config {
+	int64_t n, seed, dim;
+	struct pm_cells cells;
+	struct pm_vector box;
+	double dt;
+	struct pm_list faces, particle_faces;
+	double parameter[SCENE_ROWS];
+};
+struct state {
+	const struct pm_scene *scene;
+	struct pm_scene_choice choice;
+	bool done;
+};
+
+static const struct pm_option *parameters(void)
+{
+	static struct pm_option options[SCENE_ROWS + 1];
+	static char text[SCENE_ROWS][512];
+	const struct pm_scene_parameter *rows[SCENE_ROWS];
+	const int n = scene_rows(rows);
+	for (int i = 0; i < n; i++) {
+		scene_row_text(rows[i], text[i], sizeof text[i]);
+		options[i] = (struct pm_option){.name = rows[i]->name, .kind = PM_REAL, .unit = rows[i]->unit, .text = text[i],
+			.offset = offsetof(struct config, parameter) + (size_t)i * sizeof(double)};
+	}
+	return options;
+}
+
+/* The scene's parameters as typed or by default; what it does not have is refused. */
+static int choose(const struct config *o, const struct pm_scene *scene, double *value)
+{
+	const struct pm_scene_parameter *rows[SCENE_ROWS], *own = scene->parameters;
+	const char *names[PM_SCENE_PARAMETERS + 1] = {0};
+	const int n = scene_rows(rows);
+	bool mine[SCENE_ROWS] = {0};
+	for (int i = 0; own[i].name; i++) {
+		const int k = scene_row_at(rows, n, names[i] = own[i].name);
+		mine[k] = true;
+		value[i] = isnan(o->parameter[k]) ? own[i].otherwise : o->parameter[k];
+		if ((own[i].low != 0 || own[i].high != 0) && !(value[i] >= own[i].low && value[i] <= own[i].high))
+			return pm_fail(PM_USAGE, "--%s %g is not in %g..%g", own[i].name, value[i], own[i].low, own[i].high);
+	}
+	for (int k = 0; k < n; k++)
+		if (!mine[k] && !isnan(o->parameter[k])) {
+			const char *near = pm_nearest(rows[k]->name, names);
+			return pm_fail(PM_USAGE, "the scene %s has no --%s (%s --%s)", scene->name, rows[k]->name, near ? "did you mean" : "it has",
+				near ? near : names[0]);
+		}
+	return 0;
+}
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	struct state *state = s->state;
+	const struct pm_scene *scene = NULL;
+	for (int i = 0; pm_scenes[i]; i++)
+		if (!strcmp(pm_scene_names[i], s->args[0]))
+			scene = pm_scenes[i];
+	if (!scene) {
+		const char *near = pm_nearest(s->args[0], pm_scene_names);
+		return pm_fail(PM_USAGE, "no scene '%s' (%s %s; pinit --help lists them)", s->args[0], near ? "did you mean" : "there is",
+			near ? near : pm_scene_names[0]);
+	}
+	state->scene = scene;
+	state->choice = (struct pm_scene_choice){.dim = o->dim == INT64_MIN ? scene->dim : (int)o->dim,
+		.n = o->n == INT64_MIN ? scene->n : (uint64_t)o->n, .seed = (uint64_t)o->seed};
+	if (!(scene->dims >> state->choice.dim & 1))
+		return pm_fail(PM_USAGE, "the scene %s does not exist in %d-D (take --dim %d)", scene->name, state->choice.dim, scene->dim);
+	if (scene->n_fixed && state->choice.n != scene->n)
+		return pm_fail(PM_USAGE, "the scene %s has -n %d, no other", scene->name, (int)scene->n);
+	return choose(o, scene, state->choice.value);
+}
+
+/* The k-th face as typed: one word for all, or low and high of each axis in turn. -PM_USAGE if the count is wrong. */
+static int face(const struct pm_list *words, const char *const *names, int faces, int k)
+{
+	int i = 0;
+	if (words->n != 1 && words->n != faces)
+		return pm_fail(PM_USAGE, "faces are 1 word or %d (low and high of each axis), not %d", faces, words->n);
+	while (strcmp(names[i], words->item[words->n == 1 ? 0 : k]))
+		i++;
+	return i;
+}
+
+/* Faces over the scene's own; particle faces follow the fields' unless they are typed. */
+static int adjust_faces(const struct config *o, struct pm_frame *f, int d)
+{
+	for (int side = 0; side < 2 && (o->faces.n || o->particle_faces.n); side++) {
+		const int k = o->faces.n ? face(&o->faces, pm_face_names, 2 * f->dim, 2 * d + side) : (int)f->face[d][side];
+		const int p = o->particle_faces.n ? face(&o->particle_faces, pm_particle_face_names, 2 * f->dim, 2 * d + side)
+			: k == PM_PERIODIC ? PM_PFOLD : k == PM_OPEN ? PM_POPEN : PM_PREFLECT;
+		if (k < 0 || p < 0)
+			return -PM_USAGE;
+		f->face[d][side] = (enum pm_face)k, f->pface[d][side] = (enum pm_particle_face)p;
+	}
+	if ((f->face[d][0] == PM_PERIODIC) != (f->face[d][1] == PM_PERIODIC) || (f->pface[d][0] == PM_PFOLD) != (f->pface[d][1] == PM_PFOLD))
+		return pm_fail(PM_USAGE, "axis %c is periodic at one face and not at the other", "xyz"[d]);
+	return 0;
+}
+
+/* What the user typed, over the scene's own box, faces, mesh and step. */
+static int adjust(const struct config *o, struct pm_frame *f)
+{
+	struct pm_mesh *m = pm_frame_mesh(f, NULL);
+	if (o->box.n && o->box.n != 2 && o->box.n != 2 * f->dim)
+		return pm_fail(PM_USAGE, "--box is lo,hi of all axes or of each (%d numbers), not %d numbers", 2 * f->dim, o->box.n);
+	if (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells))
+		return -PM_USAGE;
+	for (int d = 0; d < f->dim; d++) {
+		const double *edge = o->box.x + (o->box.n == 2 ? 0 : 2 * d);
+		if (o->box.n)
+			f->lo[d] = edge[0], f->hi[d] = edge[1];
+		if (!(f->lo[d] < f->hi[d]))
+			return pm_fail(PM_USAGE, "--box %g,%g is empty", f->lo[d], f->hi[d]);
+		if (adjust_faces(o, f, d))
+			return -PM_USAGE;
+		m->lo[d] = f->lo[d];
+		m->h[d] = (f->hi[d] - f->lo[d]) / (double)m->cells[d];
+	}
+	if (!isnan(o->dt))
+		f->dt = o->dt;
+	return 0;
+}
+
+static int source(struct pm_stage *s, struct pm_frame **out)
+{
+	struct state *state = s->state;
+	const struct pm_scene *scene = state->scene;
+	const struct pm_scene_choice *c = &state->choice;
+	struct pm_frame *f = state->done ? NULL : pm_frame_new(c->dim);
+	if (!f)
+		return state->done ? 0 : -PM_DATA;
+	state->done = true;
+	snprintf(f->scene, sizeof f->scene, "%s", scene->name);
+	f->seed = c->seed;
+	for (int i = 0; scene->parameters[i].name; i++)
+		pm_frame_parameter_set(f, scene->parameters[i].name, c->value[i]);
+	int status = scene->make(c, f);
+	status = status ? status : adjust(s->config, f);
+	*out = status ? pm_frame_free(f) : f;
+	return status ? status : 1;
+}
+
+#define AT(member) .offset = offsetof(struct config, member)
+static const struct pm_option options[] = {
+	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, .text = "how many (default: the scene's)", AT(n)},
+	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, .text = "of the random numbers", AT(seed)},
+	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, .text = "dimensions (default: the scene's)", AT(dim)},
+	{.name = "cells", .kind = PM_CELLS, .unit = "cells", .text = "of the default mesh, as 64 or 64x32x32 (default: the scene's)", AT(cells)},
+	{.name = "box", .kind = PM_VECTOR, .unit = "length", .text = "lo,hi of all axes, or of each in turn (default: the scene's)", AT(box)},
+	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, .text = "step (default: the scene's)", AT(dt)},
+	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, .text = "of the fields: one word, or low and high of each axis", AT(faces)},
+	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names,
+		.text = "of the particles: one word, or low and high of each axis (default: what goes with --faces)", AT(particle_faces)},
+	{0},
+};
+
+static const struct pm_example examples[] = {
+	{"A star cluster, measured", "pinit plummer -n 1000 --seed 7 | diag"},
+	{"An ellipse of two unequal bodies, listed", "pinit two-body --eccentricity 0.5 --ratio 3 | sls"},
+	{"Random particles in a square with walls", "pinit uniform --dim 2 -n 500 --faces wall | sls"},
+	{0},
+};
+
+const struct pm_tool tool_pinit = {
+	.name = "pinit",
+	.summary = "makes a scene: particles, law, box, step and default mesh",
+	.kind = PM_SOURCE,
+	.adds = "x, v, mass, id of the scene's sets",
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.more = parameters,
+	.arguments = "SCENE",
+	.arguments_text = "the name of a scene",
+	.least = 1,
+	.most = 1,
+	.examples = examples,
+	.begin = begin,
+	.source = source,
+};
