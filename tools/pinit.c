@@ -20,12 +20,23 @@ struct state {
 	bool done;
 };
 
+/* The list of scenes, written from their table together with the options. */
+static char about[8192];
+
+static void list_scenes(void)
+{
+	size_t at = (size_t)snprintf(about, sizeof about, "The scenes:");
+	for (int i = 0; pm_scenes[i] && at < sizeof about; i++)
+		at += (size_t)snprintf(about + at, sizeof about - at, "\n  %-14s %s (%s)", pm_scenes[i]->name, pm_scenes[i]->sentence, pm_scenes[i]->source);
+}
+
 static const struct pm_option *parameters(void)
 {
 	static struct pm_option options[SCENE_ROWS + 1];
 	static char text[SCENE_ROWS][512];
 	const struct pm_scene_parameter *rows[SCENE_ROWS];
 	const int n = scene_rows(rows);
+	list_scenes();
 	for (int i = 0; i < n; i++) {
 		scene_row_text(rows[i], text[i], sizeof text[i]);
 		options[i] = (struct pm_option){.name = rows[i]->name, .kind = PM_REAL, .unit = rows[i]->unit, .text = text[i],
@@ -174,6 +185,7 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_pinit = {
 	.name = "pinit",
 	.summary = "makes a scene: particles, law, box, step and default mesh",
+	.about = about,
 	.kind = PM_SOURCE,
 	.adds = "x, v, mass, id of the scene's sets",
 	.config = sizeof(struct config),
