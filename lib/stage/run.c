@@ -123,7 +123,8 @@ static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 		snprintf(text, sizeof text, "%s: frame %llu: %s", tool->name, (unsigned long long)pm_reader_frame(r), pm_message());
 	else
 		snprintf(text, sizeof text, "%s: %s", tool->name, pm_message());
-	fprintf(stderr, passed_on ? "%s: stopped by %s\n" : "%.0s%s\n", tool->name, text);
+	if (!getenv("PM_QUIET")) /* set by cycle for its processes */
+		fprintf(stderr, passed_on ? "%s: stopped by %s\n" : "%.0s%s\n", tool->name, text);
 	if ((s ? s->kind : tool->kind) == PM_SINK || (isatty(STDOUT_FILENO) && !(s && s->run->common.output)))
 		return;
 	struct pm_writer *w = s && s->run->writer ? s->run->writer : pm_writer_open(s ? s->run->common.output : NULL);

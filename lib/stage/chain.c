@@ -1,0 +1,167 @@
+/* Processes joined by pipes. A thread writes while this one reads, so that a frame larger than all the pipes together cannot lock up.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <limits.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "stage/chain.h"
+#include "stage/stage.h"
+
+struct pm_chain {
+	int n;
+	bool broken; /* a process failed: the others are told to go */
+	pid_t *pid;
+	struct pm_writer *to;
+	struct pm_reader *from;
+};
+
+/* The directory of this program, where its sisters are. */
+static const char *home(void)
+{
+	static char path[PATH_MAX];
+	ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+	if (n <= 0)
+		return NULL;
+	path[n] = 0;
+	return dirname(path);
+}
+
+static void child(char **argv, int in, int out)
+{
+	char path[PATH_MAX + 64];
+	const char *dir = pm_tool_find(argv[0]) ? home() : NULL;
+	setpgid(0, 0); /* an interrupt from the terminal is for cycle, which ends the step first */
+	signal(SIGPIPE, SIG_DFL);
+	setenv("PM_QUIET", "1", 1); /* its message comes back down the stream, and cycle says it once */
+	dup2(in, STDIN_FILENO);
+	dup2(out, STDOUT_FILENO);
+	if (dir) {
+		snprintf(path, sizeof path, "%s/%s", dir, argv[0]);
+		execv(path, argv);
+	}
+	execvp(argv[0], argv);
+	dprintf(STDERR_FILENO, "cycle: cannot run '%s': %s\n", argv[0], strerror(errno));
+	_exit(127);
+}
+
+struct pm_chain *pm_chain_new(char ***words)
+{
+	struct pm_chain *c = calloc(1, sizeof *c);
+	int in[2], out[2], n = 0, status = 0;
+	while (words[n])
+		n++;
+	if (!c || !(c->pid = calloc((size_t)n, sizeof *c->pid)) || pipe2(in, O_CLOEXEC)) {
+		pm_fail_errno("cannot make a pipe");
+		free(c);
+		return NULL;
+	}
+	c->to = pm_writer_of_fd(in[1]);
+	int next = in[0];
+	for (; c->n < n && !status; c->n++) {
+		status = pipe2(out, O_CLOEXEC);
+		c->pid[c->n] = status ? -1 : fork();
+		if (!status && c->pid[c->n] == 0)
+			child(words[c->n], next, out[1]);
+		close(next);
+		if (!status)
+			close(out[1]);
+		next = out[0];
+		status = status || c->pid[c->n] < 0;
+	}
+	if (status) {
+		pm_fail_errno("cannot start '%s'", words[c->n - 1][0]);
+		free(c->pid), free(c);
+		return NULL;
+	}
+	c->from = pm_reader_of_fd(next);
+	return c;
+}
+
+struct sending {
+	struct pm_writer *to;
+	struct pm_frame *f; /* NULL: the end marker */
+	int status;
+	char message[512];
+};
+
+/* A thread of its own, in which a process that is gone is an error (EPIPE) and not a signal. */
+static void *sending_run(void *p)
+{
+	struct sending *s = p;
+	sigset_t set;
+	sigemptyset(&set);
+	sigaddset(&set, SIGPIPE);
+	pthread_sigmask(SIG_BLOCK, &set, NULL);
+	s->status = s->f ? pm_write_frame(s->to, s->f) : pm_write_end(s->to);
+	if (s->status)
+		snprintf(s->message, sizeof s->message, "%s", pm_message()); /* messages belong to a thread */
+	return NULL;
+}
+
+/* Sends, and meanwhile reads what comes back. */
+static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **back)
+{
+	pthread_t writer;
+	if (pthread_create(&writer, NULL, sending_run, s))
+		return pm_fail_errno("cannot start a thread");
+	int got = pm_read_header(c->from, back);
+	if (got == PM_GOT_FRAME) {
+		int status = pm_read_payload(c->from, *back, true, NULL);
+		got = status ? status : got;
+	}
+	if (got < 0) {
+		c->broken = true;
+		for (int i = 0; i < c->n; i++) /* a writer that waits for one of them sees it go */
+			kill(c->pid[i], SIGTERM);
+	}
+	pthread_join(writer, NULL);
+	return got;
+}
+
+int pm_chain_apply(struct pm_chain *c, struct pm_frame **f)
+{
+	struct sending s = {c->to, *f, 0, ""};
+	struct pm_frame *back = NULL;
+	int got = exchange(c, &s, &back);
+	if (got != PM_GOT_FRAME) {
+		pm_frame_free(back);
+		return got < 0 ? got : pm_fail(PM_DATA, "a stage ended its output before its input ended");
+	}
+	pm_frame_free(*f);
+	*f = back;
+	return s.status ? pm_fail(PM_DATA, "%s", s.message) : 0;
+}
+
+static int last_words(struct pm_chain *c)
+{
+	struct sending s = {c->to, NULL, 0, ""};
+	struct pm_frame *f = NULL;
+	int got = exchange(c, &s, &f);
+	pm_frame_free(f);
+	return got == PM_GOT_END || got < 0 ? (got < 0 ? got : 0) : pm_fail(PM_DATA, "a stage sent a frame too many");
+}
+
+int pm_chain_close(struct pm_chain *c)
+{
+	if (!c)
+		return 0;
+	int status = c->broken ? 0 : last_words(c), how;
+	pm_writer_close(c->to);
+	pm_reader_close(c->from);
+	for (int i = 0; i < c->n; i++) {
+		bool bad = waitpid(c->pid[i], &how, 0) > 0 && (!WIFEXITED(how) || WEXITSTATUS(how));
+		if (bad && !c->broken && !status)
+			status = pm_fail(PM_DATA, "process %d of the sentence ended with status %d", i + 1,
+				WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how));
+	}
+	free(c->pid);
+	free(c);
+	return status;
+}

@@ -1,0 +1,168 @@
+/* The loop of cycle. Everything is decided between steps, from the frame alone, so that every engine and a resumed run do the same.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "stage/internal.h"
+#include "stage/loop.h"
+#include "stage/sentence.h"
+
+struct cycle {
+	const struct pm_loop *c;
+	struct pm_stage *s;
+	struct pm_sentence *words;
+	struct pm_writer *out;
+	int64_t start, written; /* step at the beginning of the run; step last written */
+	double told;            /* clock of the last progress line */
+};
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int signal_number)
+{
+	stop = signal_number;
+	signal(signal_number, SIG_DFL); /* a second one does not wait for the step */
+}
+
+/* A one-frame stream under a temporary name, renamed when it is whole. The step of the beginning travels in it. */
+static int checkpoint(struct cycle *y, const struct pm_frame *f)
+{
+	const char *name = y->c->checkpoint;
+	if (!name)
+		return 0;
+	char temporary[4096];
+	snprintf(temporary, sizeof temporary, "%s.part", name);
+	struct pm_frame *copy = pm_frame_copy(f);
+	struct pm_writer *w = copy ? pm_writer_open(temporary) : NULL;
+	if (!w) {
+		pm_frame_free(copy);
+		return -PM_DATA;
+	}
+	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
+	int status = pm_write_frame(w, copy);
+	status = status ? status : pm_write_end(w);
+	int closed = pm_writer_close(w);
+	pm_frame_free(copy);
+	status = status ? status : closed;
+	if (!status && rename(temporary, name))
+		status = pm_fail_errno("cannot rename '%s' to '%s'", temporary, name);
+	if (status)
+		unlink(temporary);
+	return status;
+}
+
+static int write_out(struct cycle *y, struct pm_frame *f)
+{
+	y->written = f->step;
+	int status = pm_write_frame(y->out, f);
+	return status ? status : checkpoint(y, f);
+}
+
+static void progress(struct cycle *y, const struct pm_frame *f, bool last)
+{
+	double now = pm_seconds();
+	if (!isatty(STDERR_FILENO) || (!last && now - y->told < 0.2))
+		return;
+	y->told = now;
+	fprintf(stderr, "\rcycle: step %lld, time %g%s", (long long)f->step, f->time, last ? "\n" : "   ");
+}
+
+static bool done(const struct cycle *y, const struct pm_frame *f)
+{
+	if (f->substep)
+		return false;
+	return (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && f->time >= y->c->time - f->dt / 2);
+}
+
+static int prime(struct cycle *y, struct pm_frame **f)
+{
+	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
+}
+
+/* One pass of the sentence; a frame is written where a step that counts was completed. */
+static int pass(struct cycle *y, struct pm_frame **f)
+{
+	int64_t step = (*f)->step;
+	int substep = (*f)->substep, status = prime(y, f);
+	if (!status)
+		status = pm_sentence_pass(y->words, f);
+	if (status)
+		return pm_fail(-status, "step %lld: %s", (long long)step + 1, pm_message());
+	if ((*f)->step == step && (*f)->substep == substep)
+		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
+	bool full = (*f)->substep == 0 && (*f)->step > step;
+	progress(y, *f, false);
+	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
+}
+
+static int interrupted(struct cycle *y, const struct pm_frame *f)
+{
+	int status = checkpoint(y, f);
+	if (status)
+		return status;
+	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
+		y->c->checkpoint ? ", go on with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
+}
+
+static int run_frame(struct cycle *y, struct pm_frame **f)
+{
+	int status = 0;
+	const json_t *start = json_object_get((*f)->more, "cycle_start");
+	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
+	json_object_del((*f)->more, "cycle_start");
+	y->written = -1;
+	if (!y->c->resume)
+		pm_history_add(y->s, *f);
+	if (y->c->every > 0 && !y->c->resume) {
+		status = prime(y, f);
+		status = status ? status : write_out(y, *f);
+	}
+	while (!status && !done(y, *f)) {
+		status = pass(y, f);
+		if (!status && stop && (*f)->substep == 0)
+			status = interrupted(y, *f);
+	}
+	progress(y, *f, true);
+	return !status && y->written != (*f)->step ? write_out(y, *f) : status;
+}
+
+static int frames(struct cycle *y, struct pm_reader *in)
+{
+	for (;;) {
+		struct pm_frame *f = NULL;
+		int got = pm_read_frame(in, &f);
+		if (got == PM_GOT_EOF || (got < 0 && pm_reader_aborted(in)))
+			return got;
+		if (got < 0)
+			return pm_fail(-got, "frame %llu: %s", (unsigned long long)pm_reader_frame(in), pm_message());
+		int status = got == PM_GOT_END ? pm_write_end(y->out) : run_frame(y, &f);
+		pm_frame_free(f);
+		if (status)
+			return status;
+	}
+}
+
+int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
+{
+	struct cycle y = {.c = c, .s = s};
+	y.words = pm_sentence_new(s->args[0], !strcmp(c->engine, "fused"), &c->moves);
+	if (!y.words)
+		return -PM_USAGE;
+	if (c->resume)
+		s->run->reader = pm_reader_open(c->resume);
+	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
+	y.out = in ? pm_stage_writer(s) : NULL;
+	int status = y.out ? 0 : -PM_DATA;
+	signal(SIGINT, on_signal);
+	signal(SIGTERM, on_signal);
+	if (!status)
+		status = frames(&y, in);
+	pm_sentence_timing(y.words, s->run->common.timing);
+	s->seconds = pm_seconds() - s->run->began;
+	char message[1024];
+	snprintf(message, sizeof message, "%s", pm_message());
+	int end = pm_sentence_free(y.words);
+	return status ? pm_fail(-status, "%s", message) : end;
+}

@@ -1,0 +1,17 @@
+/* The loop of cycle: full steps, output, checkpoints, interrupts. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_LOOP_H
+#define PM_LOOP_H
+
+#include "stage/stage.h"
+
+struct pm_loop { /* what the user asked for; the config of cycle */
+	int64_t steps, every; /* INT64_MIN: not asked */
+	double time;          /* NAN: not asked */
+	const char *engine, *checkpoint, *resume;
+	struct pm_list moves;
+};
+
+/* Runs the sentence s->args[0] on every frame of the input. */
+int pm_loop_run(struct pm_stage *s, const struct pm_loop *c);
+
+#endif

@@ -1,0 +1,248 @@
+/* Words and quotes as POSIX has them, without expansion; then segments: runs of our own words (fused), and chains of processes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stage/chain.h"
+#include "stage/internal.h"
+#include "stage/sentence.h"
+
+enum { most_words = 64, most_arguments = 64 };
+
+struct word {
+	char *argv[most_arguments + 2]; /* one to spare for --no-history */
+	int argc;
+	const struct pm_tool *tool; /* NULL: a foreign program */
+	struct pm_stage *stage;     /* our own words: planned here even when they run as processes */
+	bool makes;                 /* runs when priming */
+};
+
+struct segment {
+	int first, count;        /* words */
+	bool process;
+	struct pm_chain *chain[2]; /* all its words; those that make fields (priming) */
+};
+
+struct pm_sentence {
+	int nwords, nsegments;
+	struct word word[most_words];
+	struct segment segment[most_words];
+};
+
+/* ---- text to words ---- */
+
+static int word_end(struct pm_sentence *s, char *buffer, size_t *n, bool *open)
+{
+	struct word *w = s->word + s->nwords;
+	if (!*open)
+		return 0;
+	if (w->argc == most_arguments)
+		return pm_fail(PM_USAGE, "more than %d words between two bars", most_arguments);
+	buffer[*n] = 0;
+	w->argv[w->argc++] = strdup(buffer);
+	*n = 0;
+	*open = false;
+	return 0;
+}
+
+static int stage_end(struct pm_sentence *s)
+{
+	if (!s->word[s->nwords].argc)
+		return pm_fail(PM_USAGE, "there is no word before a bar, or after the last one");
+	return ++s->nwords < most_words ? 0 : pm_fail(PM_USAGE, "more than %d stages", most_words - 1);
+}
+
+static int split(struct pm_sentence *s, const char *text, char *buffer)
+{
+	size_t n = 0;
+	bool open = false;
+	int status = 0;
+	for (const char *c = text; *c && !status; c++) {
+		if (*c == '\'' || *c == '"') {
+			char quote = *c;
+			open = true;
+			for (c++; *c && *c != quote; c++) {
+				if (quote == '"' && *c == '\\' && (c[1] == '"' || c[1] == '\\'))
+					c++;
+				buffer[n++] = *c;
+			}
+			if (!*c)
+				return pm_fail(PM_USAGE, "a quote is not closed in the sentence");
+		} else if (*c == '|') {
+			status = word_end(s, buffer, &n, &open);
+			status = status ? status : stage_end(s);
+		} else if (*c == ' ' || *c == '\t' || *c == '\n') {
+			status = word_end(s, buffer, &n, &open);
+		} else {
+			if (*c == '\\' && c[1])
+				c++;
+			open = true;
+			buffer[n++] = *c;
+		}
+	}
+	status = status ? status : word_end(s, buffer, &n, &open);
+	return status ? status : stage_end(s);
+}
+
+/* ---- words to stages and segments ---- */
+
+static bool in_list(const struct pm_list *list, const char *name)
+{
+	for (int i = 0; i < list->n; i++)
+		if (!strcmp(list->item[i], name))
+			return true;
+	return false;
+}
+
+static int word_make(struct word *w, const struct pm_list *moves)
+{
+	w->tool = pm_tool_find(w->argv[0]);
+	if (!w->tool) {
+		w->makes = !in_list(moves, w->argv[0]);
+		return 0;
+	}
+	w->makes = w->tool->makes;
+	w->argv[w->argc] = "--no-history"; /* ends up last, also for the process; cycle's own entry says it all */
+	if (!strcmp(w->tool->name, "cycle") || w->tool->kind == PM_SOURCE)
+		return pm_fail(PM_USAGE, "'%s' cannot stand inside a sentence", w->argv[0]);
+	int status = 0;
+	w->stage = pm_stage_make(w->tool, w->argc, w->argv, &status);
+	if (w->stage && !status)
+		status = pm_stage_begin(w->stage);
+	if (status)
+		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	if (w->stage->kind == PM_SINK)
+		return pm_fail(PM_USAGE, "'%s' ends a stream and cannot stand inside a sentence (diag --tee FILE can)", w->argv[0]);
+	return 0;
+}
+
+static void segments_make(struct pm_sentence *s, bool fused)
+{
+	for (int i = 0; i < s->nwords; i++) {
+		bool process = !fused || !s->word[i].tool;
+		struct segment *last = s->nsegments ? s->segment + s->nsegments - 1 : NULL;
+		if (last && last->process == process)
+			last->count++;
+		else
+			s->segment[s->nsegments++] = (struct segment){i, 1, process, {NULL, NULL}};
+	}
+}
+
+int pm_sentence_free(struct pm_sentence *s)
+{
+	int status = 0;
+	if (!s)
+		return 0;
+	for (int i = 0; i < s->nsegments; i++)
+		for (int k = 0; k < 2; k++) {
+			int end = pm_chain_close(s->segment[i].chain[k]);
+			status = status ? status : end;
+		}
+	for (int i = 0; i <= s->nwords && i < most_words; i++) {
+		pm_stage_free(s->word[i].stage);
+		for (int k = 0; k < s->word[i].argc; k++)
+			free(s->word[i].argv[k]);
+	}
+	free(s);
+	return status;
+}
+
+struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves)
+{
+	struct pm_sentence *s = calloc(1, sizeof *s);
+	char *buffer = malloc(strlen(text) + 1);
+	int status = s && buffer ? split(s, text, buffer) : pm_fail(PM_DATA, "out of memory");
+	free(buffer);
+	for (int i = 0; s && i < s->nwords && !status; i++)
+		status = word_make(s->word + i, moves);
+	if (status) {
+		pm_sentence_free(s);
+		return NULL;
+	}
+	segments_make(s, fused);
+	return s;
+}
+
+/* ---- running ---- */
+
+/* The argv lists of a segment, all its words or those that make fields. */
+static struct pm_chain *chain_start(struct pm_sentence *s, const struct segment *g, bool priming)
+{
+	char **list[most_words + 1];
+	int n = 0;
+	for (int i = g->first; i < g->first + g->count; i++)
+		if (!priming || s->word[i].makes)
+			list[n++] = s->word[i].argv;
+	list[n] = NULL;
+	return n ? pm_chain_new(list) : NULL;
+}
+
+static int run_processes(struct pm_sentence *s, struct segment *g, bool priming, struct pm_frame **f)
+{
+	bool any = !priming;
+	for (int i = g->first; i < g->first + g->count; i++)
+		any |= s->word[i].makes;
+	if (!any)
+		return 0;
+	if (!g->chain[priming])
+		g->chain[priming] = chain_start(s, g, priming);
+	if (!g->chain[priming])
+		return -PM_DATA;
+	return pm_chain_apply(g->chain[priming], f);
+}
+
+static int run_fused(struct pm_sentence *s, const struct segment *g, bool priming, struct pm_frame *f)
+{
+	for (int i = g->first; i < g->first + g->count; i++) {
+		struct word *w = s->word + i;
+		if (priming && !w->makes)
+			continue;
+		int status = pm_stage_apply(w->stage, f);
+		if (status == PM_SKIP)
+			return pm_fail(PM_USAGE, "'%s' left the frame out: inside a sentence every frame goes on", w->stage->word);
+		if (status < 0)
+			return pm_fail(-status, "%s: %s", w->stage->word, pm_message());
+	}
+	return 0;
+}
+
+static int run_all(struct pm_sentence *s, bool priming, struct pm_frame **f)
+{
+	int status = 0;
+	for (int i = 0; i < s->nsegments && !status; i++) {
+		struct segment *g = s->segment + i;
+		status = g->process ? run_processes(s, g, priming, f) : run_fused(s, g, priming, *f);
+	}
+	return status;
+}
+
+int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f) { return run_all(s, false, f); }
+
+int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f) { return run_all(s, true, f); }
+
+/* Tried on a bare header: plans say what is missing without computing anything. */
+bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
+{
+	struct pm_frame *h = pm_frame_header(f);
+	bool needs = false, known = h != NULL;
+	for (int i = 0; i < s->nwords && known && !needs; i++) {
+		struct word *w = s->word + i;
+		if (!w->stage)
+			break; /* what a foreign word adds or moves is not known before it runs */
+		w->stage->planning = true;
+		int status = pm_stage_plan(w->stage, h);
+		w->stage->planning = false;
+		needs = status == -PM_MISSING && !w->makes;
+		known = status >= 0;
+		pm_frame_settle(h);
+	}
+	pm_frame_free(h);
+	return needs;
+}
+
+void pm_sentence_timing(const struct pm_sentence *s, const char *file)
+{
+	for (int i = 0; i < s->nwords; i++)
+		if (s->word[i].stage)
+			pm_timing_write(s->word[i].stage, file, -1);
+}

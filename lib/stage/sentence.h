@@ -1,0 +1,19 @@
+/* A sentence: the words between the quotes of cycle, made into stages and run on a frame, fused or as processes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SENTENCE_H
+#define PM_SENTENCE_H
+
+#include "stage/stage.h"
+
+struct pm_sentence;
+
+/* moves: foreign words that change state (the others are taken to make change or derived fields). fused: our own words run in this process. */
+struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves);
+int pm_sentence_free(struct pm_sentence *s); /* 0, or how a process ended badly */
+/* True if a word that changes state needs a change field that neither the frame nor an earlier word supplies. */
+bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
+int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */
+int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
+void pm_sentence_timing(const struct pm_sentence *s, const char *file);
+
+#endif
