@@ -12,7 +12,6 @@ static double coefficient(const struct pm_frame *f)
 
 static const struct pm_law_constant constants[] = {
 	{"G", "length^dim/(mass time^2)", 1, "constant of gravity"},
-	{"softening", "length", 0, "length over which a point mass is smoothed in sums over pairs"},
 	{0},
 };
 
@@ -33,5 +32,6 @@ const struct pm_law law_gravity = {
 	.kernel = "cic",
 	.symbol = "spectral",
 	.order = "4",
+	.mollifier = "plummer",
 	.constants = constants,
 };

@@ -26,6 +26,7 @@ struct pm_law {
 	const char *kernel;     /* defaults, so that the words work bare */
 	const char *symbol;     /* of poisson-fft: "spectral", "fd2", "fd4" */
 	const char *order;      /* of mgrad: "2", "4", "6", "spectral" */
+	const char *mollifier;  /* of pp: "plummer", "krasny" */
 	const struct pm_law_constant *constants; /* {0} ends */
 };
 

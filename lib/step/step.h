@@ -1,30 +1,33 @@
 /* Steps: how push advances state by its rates. push knows no law: x' = v (or vel), v' = acc, s' = its change field.
- * One file per action or scheme. SPDX-License-Identifier: GPL-3.0-or-later */
+ * One file per action or scheme; what push does around them is in rates.h, done.h and advance.h.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STEP_H
 #define PM_STEP_H
 
 #include "base/base.h"
 
-/* One state field of one set, with its rate; arrays of n values per component. */
-struct pm_rate {
-	size_t n;
-	int components;      /* of the state */
-	int given;           /* components of the rate; the missing ones are zero */
-	double *y[16];       /* state */
-	const double *k[16]; /* rate now */
-	double *q[3][16];    /* registers, zero when a scheme starts; scheme->registers of them */
+enum { PM_STEP_PASSES = 4, PM_REGISTERS = 3 };
+
+enum pm_step_kind {
+	PM_KICK,  /* advances every state but the positions, and counts as kick */
+	PM_DRIFT, /* advances the positions, and counts as drift */
+	PM_SCHEME /* advances every state through a whole step, one pass of the sentence per force evaluation */
 };
 
 struct pm_step {
 	const char *name, *sentence, *source;
+	enum pm_step_kind kind;
 	int passes;    /* force evaluations per step */
-	int order;     /* of the whole scheme */
-	int registers; /* per state field */
-	bool keeps;    /* registers live across steps (ab2, ab3) */
-	double real_limit, imaginary_limit; /* |lambda| dt on the axes */
-	double (*at)(int pass); /* stage time of the state after pass 0..passes-1, in units of dt; 1 after the last */
-	/* One pass: y is advanced, registers updated; history is the number of earlier rates the registers hold (keeps). */
-	void (*pass)(int pass, double dt, struct pm_rate *r);
+	int registers; /* per state, zero at the first pass, dropped after the last; each a linear combination of rates, so that it does not
+	                * change when a particle is folded and changes sign when it is reflected */
+	int rates;     /* old rates kept from step to step: q[0] that of the last step, q[1] the one before; push shifts them */
+	const char *start;  /* of schemes that keep rates: the one-step scheme that makes the first steps */
+	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: the scheme is not for decay */
+	double imaginary_limit; /* and on the imaginary axis */
+	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt */
+	/* One pass over n values: y is advanced, k is its rate now, q the registers. */
+	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
 };
 
 extern const struct pm_step *const pm_steps[]; /* generated from lib/step/, NULL ends */

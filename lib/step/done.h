@@ -1,0 +1,158 @@
+/* The clock: what part of the step each set has done, which pass of which scheme is under way, and when the step is complete.
+ * All of it is arithmetic on the header. Beside kick, drift and stage a set carries, under the key "scheme", {name, dt, rates} of the
+ * scheme that owns its registers (rates: how many steps they remember), and "open": true after drift --open.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STEP_DONE_H
+#define PM_STEP_DONE_H
+
+#include <stdio.h>
+#include <string.h>
+
+#include "step/rates.h"
+
+static const double pm_done_tolerance = 1e-12; /* thirds and sevenths add to one only up to round-off */
+
+/* What a scheme does with one set in this pass. */
+struct pm_pass {
+	const struct pm_step *step; /* the scheme, or the one that starts it */
+	int pass;                   /* of step */
+	int registers;              /* in use: those the asked scheme keeps first, then those of step */
+	int known;                  /* kept registers that are there already */
+	int kept;                   /* registers that stay when the pass is done */
+	bool shift;                 /* the rate enters the kept registers */
+};
+
+static inline bool pm_done_open(const struct pm_set *s) { return json_is_true(json_object_get(s->more, "open")); }
+
+static inline bool pm_done_complete(const struct pm_set *s)
+{
+	return s->stage == 0 && s->drift == 1 && (s->kick == 0 || s->kick == 1) && !pm_done_open(s);
+}
+
+static inline const char *pm_scheme_name(const struct pm_set *s)
+{
+	const char *name = json_string_value(json_object_get(json_object_get(s->more, "scheme"), "name"));
+	return name ? name : "a scheme";
+}
+
+static inline void pm_scheme_set(struct pm_set *s, const char *name, double dt, int rates)
+{
+	if (!s->more)
+		s->more = json_object();
+	json_object_set_new(s->more, "scheme", json_pack("{s:s,s:f,s:i}", "name", name, "dt", dt, "rates", rates));
+}
+
+static inline void pm_register_name(char to[PM_NAME], int i, const char *state)
+{
+	char number[4] = "";
+	if (i)
+		snprintf(number, sizeof number, "%d", i + 1);
+	snprintf(to, PM_NAME, "q%s_%.56s", number, state);
+}
+
+/* Steps remembered by the registers of a set for this scheme and dt; 0 where anything does not fit, so that the scheme starts anew. */
+static inline int pm_scheme_memory(const struct pm_frame *f, const struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates)
+{
+	const json_t *scheme = json_object_get(s->more, "scheme"), *count = json_object_get(scheme, "rates");
+	json_int_t most = json_is_integer(count) ? json_integer_value(count) : 0;
+	if (strcmp(pm_scheme_name(s), asked->name) || json_number_value(json_object_get(scheme, "dt")) != f->dt || most < 0 || most > asked->rates)
+		return 0;
+	for (int r = 0; r < n; r++)
+		for (int i = 0; i < asked->rates; i++) {
+			char name[PM_NAME];
+			pm_register_name(name, i, rates[r].state->name);
+			const struct pm_field *q = pm_frame_field(f, s->name, name);
+			if (!q || q->role != PM_REGISTER)
+				return 0;
+		}
+	return (int)most;
+}
+
+static inline int pm_done_refuse(const struct pm_set *s, const char *what)
+{
+	if (s->stage)
+		return pm_fail(PM_DATA, "%s on '%s' while %s is under way (%d passes done; finish its step first)", what, s->name, pm_scheme_name(s),
+			s->stage);
+	if (pm_done_complete(s))
+		return pm_fail(PM_DATA, "%s on '%s', which has completed its step and waits for the other sets (drift --open where a kick is still to "
+			"come; --set to move the others)", what, s->name);
+	return 0;
+}
+
+/* Adds the fractions of one push to a set. */
+static inline int pm_done_add(struct pm_set *s, double kick, double drift, bool open)
+{
+	int status = pm_done_refuse(s, kick > 0 && drift > 0 ? "kick and drift" : kick > 0 ? "kick" : "drift");
+	if (status)
+		return status;
+	double *done[] = {&s->kick, &s->drift}, more[] = {kick, drift};
+	for (int i = 0; i < 2; i++) {
+		double sum = *done[i] + more[i];
+		if (sum > 1 + pm_done_tolerance)
+			return pm_fail(PM_DATA, "%s on '%s' adds up to %.6g of a step (kick %.6g, drift %.6g were done before this push; each may reach 1)",
+				i ? "drift" : "kick", s->name, sum, s->kick, s->drift);
+		more[i] = fabs(sum - 1) <= pm_done_tolerance ? 1 : sum;
+	}
+	s->kick = more[0], s->drift = more[1];
+	if (open && s->drift == 1 && s->kick == 0)
+		json_object_set_new(s->more, "open", json_true());
+	else if (kick > 0)
+		json_object_del(s->more, "open");
+	json_object_del(s->more, "scheme"); /* old rates are worth nothing after another way of moving */
+	return 0;
+}
+
+/* The next pass of a scheme on a set; moves the set's clock on. */
+static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates,
+	struct pm_pass *p)
+{
+	if (s->stage ? strcmp(pm_scheme_name(s), asked->name) : pm_done_complete(s))
+		return pm_done_refuse(s, asked->name);
+	if (!s->stage && (s->kick > 0 || s->drift > 0))
+		return pm_fail(PM_DATA, "%s on '%s' in the middle of a step (kick %.6g, drift %.6g are done; complete them first)", asked->name, s->name,
+			s->kick, s->drift);
+	int memory = pm_scheme_memory(f, s, asked, n, rates);
+	const struct pm_step *step = memory < asked->rates ? pm_step_find(asked->start) : asked;
+	if (!step)
+		return -PM_DATA;
+	if (s->stage >= step->passes)
+		return pm_fail(PM_DATA, "'%s' claims %d passes of %s, which has %d", s->name, s->stage, step->name, step->passes);
+	bool last = s->stage + 1 == step->passes;
+	*p = (struct pm_pass){.step = step, .pass = s->stage, .registers = asked->rates + step->registers,
+		.known = s->stage ? PM_REGISTERS : memory ? asked->rates : 0, .shift = s->stage == 0};
+	p->kept = last ? asked->rates : p->registers;
+	if (last)
+		memory = memory < asked->rates ? memory + 1 : memory;
+	pm_scheme_set(s, asked->name, f->dt, memory);
+	if (last && !asked->rates)
+		json_object_del(s->more, "scheme");
+	s->stage = last ? 0 : s->stage + 1;
+	s->drift = last ? 1 : step->at[p->pass];
+	s->kick = last;
+	return 0;
+}
+
+/* After a push: time follows the slowest set that moves; when all have completed the step, it is done. */
+static inline void pm_done_close(struct pm_frame *f)
+{
+	double slowest = 1;
+	bool complete = true;
+	if (f->substep == 0)
+		f->start = f->time;
+	for (size_t i = 0; i < f->nsets; i++)
+		if (pm_set_moves(f, f->sets[i])) {
+			slowest = fmin(slowest, f->sets[i]->drift);
+			complete = complete && pm_done_complete(f->sets[i]);
+		}
+	f->time = f->start + f->dt * slowest;
+	f->substep++;
+	if (!complete)
+		return;
+	f->start = f->time;
+	f->step++;
+	f->substep = 0;
+	for (size_t i = 0; i < f->nsets; i++)
+		f->sets[i]->kick = f->sets[i]->drift = 0;
+}
+
+#endif

@@ -1,0 +1,25 @@
+/* Explicit Euler: y += dt k. All states advance together from the rates at the start of the step.
+ * Source: Hairer, Norsett and Wanner 1993, section I.7.
+ * First order; a negative control: circles become spirals, every undamped oscillation grows. One pass, no registers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step/step.h"
+
+static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
+{
+	(void)p, (void)q;
+	for (size_t i = 0; i < n; i++)
+		y[i] += dt * k[i];
+}
+
+const struct pm_step step_euler = {
+	.name = "euler",
+	.sentence = "explicit Euler, first order",
+	.source = "Hairer, Norsett and Wanner 1993, I.7",
+	.kind = PM_SCHEME,
+	.passes = 1,
+	.order = 1,
+	.real_limit = 2,
+	.imaginary_limit = 0,
+	.at = {1},
+	.pass = pass,
+};

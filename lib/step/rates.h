@@ -1,0 +1,111 @@
+/* Which state fields of a set move, and by which rates: x' = v, or vel for a set without v; v' = acc; any other state by the change field that
+ * names it. Reads headers only. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STEP_RATES_H
+#define PM_STEP_RATES_H
+
+#include <string.h>
+
+#include "step/step.h"
+#include "stream/frame.h"
+
+enum { PM_RATES = 16 };
+
+struct pm_rate {
+	struct pm_field *state, *rate;
+	struct pm_field *q[PM_REGISTERS]; /* registers of a scheme; NULL outside */
+};
+
+static const char *const pm_rate_remedy = "compute it first: p2m | poisson-fft | mgrad | m2p, or pp";
+
+static inline bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
+
+/* True if the set is one that push moves. */
+static inline bool pm_set_moves(const struct pm_frame *f, const struct pm_set *s)
+{
+	return !s->fixed && pm_rate_is_state(pm_frame_field(f, s->name, "x"));
+}
+
+/* What stands against advancing a set by its change fields: a magnetic field, or a change on a mesh that was not carried to the particles. */
+static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by)
+{
+	if (pm_frame_field(f, s->name, "bfield"))
+		return pm_fail(PM_DATA, "'%s' has a magnetic field, which %s would leave out (use a magnetic scheme: push boris)", s->name, by);
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *m = f->fields[i];
+		if (m->role != PM_CHANGE || !m->of[0] || !pm_frame_mesh(f, m->on) || !pm_rate_is_state(pm_frame_field(f, s->name, m->of)))
+			continue;
+		bool carried = false;
+		for (size_t j = 0; j < f->nfields; j++)
+			carried |= f->fields[j]->role == PM_CHANGE && !strcmp(f->fields[j]->on, s->name) && !strcmp(f->fields[j]->of, m->of);
+		if (!carried)
+			return pm_fail(PM_DATA, "the change '%s' of '%s' is on mesh '%s' and not yet on '%s' (carry it over with m2p)", m->name, m->of,
+				m->on, s->name);
+	}
+	return 0;
+}
+
+/* The rate of one state: *rate NULL if it has none and needs none. */
+static inline int pm_rate_of(const struct pm_frame *f, const struct pm_set *s, const char *state, struct pm_field **rate)
+{
+	bool x = !strcmp(state, "x"), v = !strcmp(state, "v");
+	struct pm_field *velocity = pm_frame_field(f, s->name, "v");
+	*rate = NULL;
+	if (x && pm_rate_is_state(velocity)) {
+		*rate = velocity;
+		return 0;
+	}
+	const char *named = x ? "vel" : v ? "acc" : NULL;
+	for (size_t i = 0; i < f->nfields && !*rate; i++) {
+		struct pm_field *c = f->fields[i];
+		if (c->role == PM_CHANGE && !strcmp(c->on, s->name) && !strcmp(c->of, state) && (!named || !strcmp(c->name, named)))
+			*rate = c;
+	}
+	if (named && !*rate)
+		return pm_fail(PM_MISSING, "no field '%s' on '%s' (%s)", named, s->name, pm_rate_remedy);
+	return 0;
+}
+
+/* Every change field must have found its state, or a contribution would be lost without a word. */
+static inline int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s)
+{
+	bool v = pm_rate_is_state(pm_frame_field(f, s->name, "v"));
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *c = f->fields[i];
+		if (c->role != PM_CHANGE || !c->of[0] || strcmp(c->on, s->name))
+			continue;
+		if (!pm_rate_is_state(pm_frame_field(f, s->name, c->of)))
+			return pm_fail(PM_DATA, "'%s' on '%s' is the change of '%s', which is not there (add it with stab, or push clear)", c->name, s->name,
+				c->of);
+		if (v && !strcmp(c->of, "x"))
+			return pm_fail(PM_DATA, "'%s' has both a velocity 'v' and a change '%s' of 'x' (drop one of them with sel or push clear)", s->name,
+				c->name);
+	}
+	return 0;
+}
+
+/* The rates of a set, positions first; which of them: those a kick, a drift or a scheme advances. The number of them, or failure. */
+static inline int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES])
+{
+	static const char *const first[] = {"x", "v"};
+	int n = 0, status = 0;
+	for (int i = kind == PM_KICK; i < (kind == PM_DRIFT ? 1 : 2) && !status; i++) {
+		struct pm_field *state = pm_frame_field(f, s->name, first[i]);
+		if (!pm_rate_is_state(state))
+			continue;
+		rates[n] = (struct pm_rate){.state = state};
+		status = pm_rate_of(f, s, first[i], &rates[n++].rate);
+	}
+	for (size_t i = 0; i < f->nfields && kind != PM_DRIFT && !status; i++) {
+		struct pm_field *state = f->fields[i], *rate = NULL;
+		if (state->role != PM_STATE || strcmp(state->on, s->name) || !strcmp(state->name, "x") || !strcmp(state->name, "v"))
+			continue;
+		status = pm_rate_of(f, s, state->name, &rate);
+		if (rate && n == PM_RATES)
+			return pm_fail(PM_DATA, "more than %d fields of '%s' change", PM_RATES, s->name);
+		if (rate)
+			rates[n++] = (struct pm_rate){.state = state, .rate = rate};
+	}
+	return status ? status : n;
+}
+
+#endif
