@@ -44,7 +44,7 @@ static inline void pm_scheme_set(struct pm_set *s, const char *name, double dt, 
 
 static inline void pm_register_name(char to[PM_NAME], int i, const char *state)
 {
-	char number[4] = "";
+	char number[16] = "";
 	if (i)
 		snprintf(number, sizeof number, "%d", i + 1);
 	snprintf(to, PM_NAME, "q%s_%.56s", number, state);

@@ -1,0 +1,191 @@
+/* push: the only word that moves particles and advances time. It knows no law: x' = v (or vel), v' = acc, any other state by the change field
+ * that names it. Actions and schemes are files of lib/step; rates.h, done.h and advance.h there hold the rules, the clock and the loops.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stage/stage.h"
+#include "step/moving.h"
+
+struct config {
+	double dt;
+	const char *set;
+	bool open, clear;
+	struct pm_push push;
+};
+
+struct state { /* what plan leaves for frame */
+	struct pm_moving *moving;
+	size_t n;
+};
+
+static const struct pm_step *find(const char *name, size_t length)
+{
+	for (int i = 0; pm_steps[i]; i++)
+		if (strlen(pm_step_names[i]) == length && !strncmp(pm_step_names[i], name, length))
+			return pm_steps[i];
+	return NULL;
+}
+
+static int unknown(const char *word)
+{
+	const char *near = pm_nearest(word, pm_step_names);
+	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], clear, or one of euler, rk2, rk4, lsrk3, ab2, ab3)", word,
+		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+/* One word: clear, NAME or NAME/N. */
+static int action(struct config *cfg, const char *word)
+{
+	struct pm_push *p = &cfg->push;
+	const char *slash = strchr(word, '/');
+	const struct pm_step *step = find(word, slash ? (size_t)(slash - word) : strlen(word));
+	char *end = "";
+	double n = slash ? strtod(slash + 1, &end) : 1;
+	if (cfg->clear)
+		return pm_fail(PM_USAGE, "'%s' after clear (put clear last: it takes the rates away)", word);
+	if ((cfg->clear = !strcmp(word, "clear")))
+		return 0;
+	if (!step)
+		return unknown(word);
+	if (*end || (slash && !slash[1]) || !isfinite(n) || n < 1 || (slash && step->kind == PM_SCHEME))
+		return pm_fail(PM_USAGE, "'%s' (a part of a step is written kick/N or drift/N, N >= 1; schemes have no parts)", word);
+	if (step->kind == PM_KICK && p->drift > 0)
+		return pm_fail(PM_USAGE, "'%s' after drift has no force at the new positions (push drift | force | push kick)", word);
+	if (p->scheme || (step->kind == PM_SCHEME && p->actions.actions))
+		return pm_fail(PM_USAGE, "'%s': a whole scheme stands alone", word);
+	if (p->actions.actions == PM_ADVANCE_ACTIONS)
+		return pm_fail(PM_USAGE, "more than %d actions", PM_ADVANCE_ACTIONS);
+	p->part[p->actions.actions] = 1 / n;
+	p->actions.action[p->actions.actions++].step = step;
+	p->kick += step->kind == PM_KICK ? 1 / n : 0;
+	p->drift += step->kind == PM_DRIFT ? 1 / n : 0;
+	p->scheme = step->kind == PM_SCHEME ? step : NULL;
+	p->moves = p->moves || step->kind != PM_KICK;
+	return 0;
+}
+
+static int begin(struct pm_stage *s)
+{
+	struct config *cfg = s->config;
+	for (int i = 0; i < s->nargs; i++) {
+		int status = action(cfg, s->args[i]);
+		if (status)
+			return status;
+	}
+	cfg->push.open = cfg->open;
+	if (cfg->open && !(cfg->push.drift > 0))
+		return pm_fail(PM_USAGE, "--open belongs to drift (push drift --open | force | push kick)");
+	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt 0 moves nothing") : 0;
+}
+
+static int take_dt(const struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *cfg = s->config;
+	if (pm_given(s, "dt") && f->substep && cfg->dt != f->dt)
+		return pm_fail(PM_DATA, "--dt %g in the middle of a step of dt %g (it may change only at substep 0)", cfg->dt, f->dt);
+	if (pm_given(s, "dt"))
+		f->dt = cfg->dt;
+	return f->dt != 0 && isfinite(f->dt) ? 0 : pm_fail(PM_DATA, "the frame has no time step (push --dt, or the word dt)");
+}
+
+/* Change and derived fields of the meshes, of fixed sets and, where clear asks for it, of the sets themselves. */
+static void drop(struct pm_frame *f, const struct config *cfg)
+{
+	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
+	pm_drops_roles(f, NULL, roles);
+	for (size_t i = 0; i < f->nsets; i++)
+		if (f->sets[i]->fixed || (cfg->clear && (!cfg->set || !strcmp(cfg->set, f->sets[i]->name))))
+			pm_drops_roles(f, f->sets[i]->name, roles);
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *cfg = s->config;
+	struct state *state = s->state;
+	const struct pm_set *named = cfg->set ? pm_frame_set(f, cfg->set) : NULL;
+	bool steps = cfg->push.actions.actions > 0;
+	int status = steps ? take_dt(s, f) : 0;
+	if (!status && cfg->set && !named)
+		return pm_fail(PM_DATA, "no set '%s' (sls lists the sets)", cfg->set);
+	if (!status && named && steps && !pm_set_moves(f, named))
+		return pm_fail(PM_DATA, "'%s' does not move: %s", cfg->set, named->fixed ? "it is fixed" : "it has no positions 'x'");
+	void *room = realloc(state->moving, (f->nsets + 1) * sizeof *state->moving);
+	if (!room)
+		return pm_fail(PM_DATA, "out of memory");
+	state->moving = room;
+	state->n = 0;
+	for (size_t i = 0; i < f->nsets && steps && !status; i++)
+		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
+			status = pm_moving_plan(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
+	if (!status && steps && !state->n)
+		return pm_fail(PM_DATA, "no set that moves (a set with positions 'x' that is not fixed)");
+	if (status)
+		return status;
+	if (cfg->clear || cfg->push.moves)
+		drop(f, cfg);
+	if (steps)
+		pm_done_close(f);
+	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *cfg = s->config;
+	const struct state *state = s->state;
+	for (size_t i = 0; i < state->n; i++) {
+		struct pm_moving *m = &state->moving[i];
+		uint64_t absorbed = 0;
+		pm_moving_run(f, m, &cfg->push);
+		if (cfg->push.moves && pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, m, &absorbed))
+			return -PM_DATA;
+		if (absorbed)
+			pm_report_count(s, f, "absorbed", absorbed);
+	}
+	return 0;
+}
+
+static void release(struct pm_stage *s)
+{
+	free(((struct state *)s->state)->moving);
+}
+
+static const struct pm_option options[] = {
+	{.name = "dt", .kind = PM_REAL, .unit = "time", .text = "overrides the frame's time step and records it; only at substep 0",
+		.offset = offsetof(struct config, dt)},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "moves this set only; time waits for the others", .offset = offsetof(struct config, set)},
+	{.name = "open", .kind = PM_FLAG, .text = "the drift does not complete the step: a kick is still to come", .offset = offsetof(struct config, open)},
+	{0},
+};
+
+static const struct pm_example examples[] = {
+	{"a step of leapfrog with the direct sum", "pinit two-body | pp | push kick/2 drift | pp | push kick/2 | sls"},
+	{"ten steps of it", "pinit two-body | cycle -n 10 'push kick/2 drift | pp | push kick/2' | sls"},
+	{"one step of Runge-Kutta is four passes of the force", "pinit two-body | pp | push rk4 | pp | push rk4 | pp | push rk4 | pp | push rk4 | sls"},
+	{0},
+};
+
+const struct pm_tool tool_push = {
+	.name = "push",
+	.summary = "advance state by its rates, and time with it",
+	.about = "Actions are kick[/N], drift[/N] and clear, or one whole scheme, which takes one pass of the sentence per stage. A set with v moves by "
+		"x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that names it. A missing rate is an error, never "
+		"zero. Moving particles drops change and derived fields; kick keeps them. A step is complete when drift has reached 1 and kick 0 or 1 in "
+		"every set that moves. Particles are folded, mirrored or absorbed at the faces of the box.",
+	.kind = PM_FILTER,
+	.reads = "v, acc, vel and other change fields",
+	.changes = "x, v and the states that change fields name; time, step",
+	.adds = "registers q_x, q_v ... between the passes of a scheme",
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.arguments = "ACTION...",
+	.arguments_text = "kick, drift (with /N a part of the step), clear; or euler, rk2, rk4, lsrk3, ab2, ab3",
+	.least = 1,
+	.most = PM_ADVANCE_ACTIONS,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+	.free = release,
+};
