@@ -73,6 +73,9 @@ static int split(struct pm_sentence *s, const char *text, char *buffer)
 			status = status ? status : stage_end(s);
 		} else if (*c == ' ' || *c == '\t' || *c == '\n') {
 			status = word_end(s, buffer, &n, &open);
+		} else if (*c == '#' && !open) {
+			while (c[1] && c[1] != '\n')
+				c++;
 		} else {
 			if (*c == '\\' && c[1])
 				c++;

@@ -58,6 +58,7 @@ struct pm_frame *pm_frame_new(int dim)
 	f->history = json_array();
 	f->report = json_object();
 	f->more = json_object();
+	f->inside = json_object();
 	for (int a = 0; a < 3; a++) {
 		f->hi[a] = a < dim;
 		for (int s = 0; s < 2; s++)
@@ -84,7 +85,8 @@ struct pm_frame *pm_frame_free(struct pm_frame *f)
 	if (!f)
 		return NULL;
 	frame_lists_free(f);
-	json_decref(f->constants), json_decref(f->parameters), json_decref(f->history), json_decref(f->report), json_decref(f->more);
+	json_decref(f->constants), json_decref(f->parameters), json_decref(f->history), json_decref(f->report), json_decref(f->more),
+		json_decref(f->inside);
 	free(f);
 	return NULL;
 }
@@ -102,6 +104,7 @@ static struct pm_frame *copy(const struct pm_frame *f, bool with_data)
 	c->history = with_data ? json_deep_copy(f->history) : json_array();
 	c->report = with_data ? json_deep_copy(f->report) : json_object();
 	c->more = json_deep_copy(f->more);
+	c->inside = json_deep_copy(f->inside);
 	c->nsets = c->nmeshes = c->nfields = c->ndropped = 0;
 	c->sets = NULL, c->meshes = NULL, c->fields = c->dropped = NULL;
 	for (size_t i = 0; i < f->nsets; i++) {

@@ -79,6 +79,7 @@ struct pm_frame {
 	json_t *history;                /* array of objects, one per stage */
 	json_t *report;                 /* object: what the stages report, keyed by the word as typed; travels in the tail */
 	json_t *more;                   /* attributes we do not know; they travel */
+	json_t *inside;                 /* the same inside "box", "law" and "scene", keyed by these */
 	size_t nsets, nmeshes, nfields;
 	struct pm_set **sets;
 	struct pm_mesh **meshes;

@@ -7,6 +7,7 @@
 
 static const int64_t most_particles = (int64_t)1 << 48, most_cells = (int64_t)1 << 31;
 enum { most_objects = 4096 };
+static const char *const kinds[] = {"value", "strength", NULL};
 
 char *pm_json_line(const json_t *j) { return json_dumps(j, JSON_SORT_KEYS | JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY); }
 
@@ -33,7 +34,7 @@ static json_t *field_json(const struct pm_field *p)
 	json_object_set_new(j, "components", json_integer(p->components));
 	json_object_set_new(j, "type", json_string(pm_type_names[p->type]));
 	json_object_set_new(j, "role", json_string(pm_role_names[p->role]));
-	json_object_set_new(j, "kind", json_string(p->extensive ? "strength" : "value"));
+	json_object_set_new(j, "kind", json_string(kinds[p->extensive]));
 	json_object_set_new(j, "unit", json_string(p->unit));
 	if (*p->of)
 		json_object_set_new(j, "of", json_string(p->of));
@@ -95,6 +96,13 @@ static json_t *box_json(const struct pm_frame *f)
 	return json_pack("{s:o,s:o,s:o,s:o}", "lo", reals(f->lo, f->dim), "hi", reals(f->hi, f->dim), "fields", faces, "particles", particles);
 }
 
+/* Puts an object under its key, together with what we did not know in it. */
+static void put_named(json_t *j, const struct pm_frame *f, const char *key, json_t *object)
+{
+	json_object_update(object, json_object_get(f->inside, key));
+	json_object_set_new(j, key, object);
+}
+
 static bool header_finite(const struct pm_frame *f)
 {
 	bool good = isfinite(f->time) && isfinite(f->dt) && isfinite(f->start);
@@ -124,8 +132,8 @@ json_t *pm_header_json(const struct pm_frame *f)
 		json_array_append_new(fields, field_json(f->fields[i]));
 	json_object_set_new(j, "byte_order", json_string("little"));
 	json_object_set_new(j, "dim", json_integer(f->dim));
-	json_object_set_new(j, "law", json_pack("{s:s,s:O}", "name", f->law, "constants", f->constants));
-	json_object_set_new(j, "scene", json_pack("{s:s,s:O}", "name", f->scene, "parameters", f->parameters));
+	put_named(j, f, "law", json_pack("{s:s,s:O}", "name", f->law, "constants", f->constants));
+	put_named(j, f, "scene", json_pack("{s:s,s:O}", "name", f->scene, "parameters", f->parameters));
 	json_object_set_new(j, "time", json_real(f->time));
 	json_object_set_new(j, "dt", json_real(f->dt));
 	if (f->substep)
@@ -133,7 +141,7 @@ json_t *pm_header_json(const struct pm_frame *f)
 	json_object_set_new(j, "step", json_integer(f->step));
 	json_object_set_new(j, "substep", json_integer(f->substep));
 	json_object_set_new(j, "seed", json_integer((json_int_t)f->seed));
-	json_object_set_new(j, "box", box_json(f));
+	put_named(j, f, "box", box_json(f));
 	json_object_set(j, "history", f->history);
 	json_object_set_new(j, "sets", sets);
 	json_object_set_new(j, "meshes", meshes);
@@ -250,6 +258,15 @@ static struct look look_at(const json_t *j, const char *what)
 	return l;
 }
 
+/* Keeps what is left of an object inside the frame; true if all was well. */
+static bool look_done_inside(struct look *l, struct pm_frame *f, const char *key)
+{
+	if (json_object_size(l->j))
+		json_object_set(f->inside, key, l->j);
+	json_decref(l->j);
+	return !l->bad;
+}
+
 /* Hands what is left to the owner; true if all was well. */
 static bool look_done(struct look *l, json_t **more)
 {
@@ -273,7 +290,6 @@ static void read_faces(struct look *l, const char *key, int dim, const char *con
 static bool read_box(const json_t *j, struct pm_frame *f)
 {
 	struct look l = look_at(j, "box");
-	json_t *rest = NULL;
 	int faces[3][2], particles[3][2];
 	if (!l.j)
 		return false;
@@ -289,9 +305,7 @@ static bool read_box(const json_t *j, struct pm_frame *f)
 		for (int s = 0; s < 2; s++)
 			f->face[a][s] = (enum pm_face)faces[a][s], f->pface[a][s] = (enum pm_particle_face)particles[a][s];
 	}
-	bool good = look_done(&l, &rest);
-	json_decref(rest);
-	return good;
+	return look_done_inside(&l, f, "box");
 }
 
 static bool read_set(const json_t *j, struct pm_frame *f)
@@ -305,9 +319,10 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 		complain(&l, name, "is there twice");
 	struct pm_set *s = pm_frame_set_new(f, name, (uint64_t)take_integer(&l, "n", 0, most_particles, true, 0));
 	const json_t *done = take(&l, "done", false);
-	s->kick = json_number_value(json_object_get(done, "kick"));
-	s->drift = json_number_value(json_object_get(done, "drift"));
-	if (!(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
+	const json_t *kick = json_object_get(done, "kick"), *drift = json_object_get(done, "drift");
+	s->kick = json_number_value(kick);
+	s->drift = json_number_value(drift);
+	if ((done && !(json_is_number(kick) && json_is_number(drift))) || !(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
 		complain(&l, "done", "is not a fraction");
 	s->stage = (int)take_integer(&l, "stage", 0, 64, false, 0);
 	s->fixed = json_is_true(take(&l, "fixed", false));
@@ -383,8 +398,7 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	p->use = 0;
 	p->type = (enum pm_type)take_choice(&l, "type", pm_type_names);
 	p->role = (enum pm_role)take_choice(&l, "role", pm_role_names);
-	const json_t *kind = take(&l, "kind", true);
-	p->extensive = json_is_string(kind) && !strcmp(json_string_value(kind), "strength");
+	p->extensive = take_choice(&l, "kind", kinds) == 1;
 	take_name(&l, "unit", false, true, p->unit);
 	take_name(&l, "of", false, true, p->of);
 	take_name(&l, "kernel", false, true, p->kernel);
@@ -408,25 +422,22 @@ static bool read_list(struct look *l, const char *key, struct pm_frame *f, bool 
 	return true;
 }
 
-static void read_named(struct look *l, const char *key, const char *inside, char name[PM_NAME], json_t **object)
+static void read_named(struct look *l, struct pm_frame *f, const char *key, const char *inside, char name[PM_NAME], json_t **object)
 {
 	const json_t *v = take(l, key, true);
 	struct look in = look_at(v, key);
-	json_t *rest = NULL;
 	if (in.j) {
 		take_name(&in, "name", true, true, name);
 		take_object(&in, inside, object);
-		if (!look_done(&in, &rest))
-			l->bad = true;
-		json_decref(rest);
-	} else
+	}
+	if (!in.j || !look_done_inside(&in, f, key))
 		l->bad = true;
 }
 
 static bool read_all(struct look *l, struct pm_frame *f)
 {
-	read_named(l, "law", "constants", f->law, &f->constants);
-	read_named(l, "scene", "parameters", f->scene, &f->parameters);
+	read_named(l, f, "law", "constants", f->law, &f->constants);
+	read_named(l, f, "scene", "parameters", f->scene, &f->parameters);
 	f->time = take_real(l, "time", true, 0);
 	f->dt = take_real(l, "dt", true, 0);
 	f->start = take_real(l, "start", false, f->time);
@@ -434,11 +445,14 @@ static bool read_all(struct look *l, struct pm_frame *f)
 	f->substep = (int)take_integer(l, "substep", 0, 1 << 20, true, 0);
 	f->seed = (uint64_t)take_integer(l, "seed", 0, INT64_MAX, false, 0);
 	const json_t *history = take(l, "history", false);
-	if (json_is_array(history)) {
+	bool entries = json_is_array(history);
+	for (size_t i = 0; i < json_array_size(history); i++)
+		entries = entries && json_is_object(json_array_get(history, i));
+	if (entries) {
 		json_decref(f->history);
 		f->history = json_deep_copy(history);
 	} else if (history)
-		complain(l, "history", "is not an array");
+		complain(l, "history", "is not an array of objects");
 	const json_t *box = take(l, "box", true);
 	return !l->bad && read_box(box, f) && read_list(l, "sets", f, read_set) && read_list(l, "meshes", f, read_mesh) &&
 		read_list(l, "fields", f, read_field) && !l->bad;
