@@ -24,26 +24,24 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 	return true;
 }
 
-struct pm_measures pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field)
+void pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field, struct pm_measures *m)
 {
-	struct pm_measures m;
 	const double w = isnan(pair) ? mesh : pair;
-	m.value[PM_STEP] = (double)f->step;
-	m.value[PM_TIME] = f->time;
-	m.value[PM_ENERGY_KINETIC] = bulk->kinetic;
-	m.value[PM_ENERGY_MESH] = mesh;
-	m.value[PM_ENERGY_PAIR] = pair;
-	m.value[PM_ENERGY] = bulk->kinetic + (field ? w : 0);
+	m->value[PM_STEP] = (double)f->step;
+	m->value[PM_TIME] = f->time;
+	m->value[PM_ENERGY_KINETIC] = bulk->kinetic;
+	m->value[PM_ENERGY_MESH] = mesh;
+	m->value[PM_ENERGY_PAIR] = pair;
+	m->value[PM_ENERGY] = bulk->kinetic + (field ? w : 0);
 	for (int d = 0; d < 3; d++) {
-		m.value[PM_MOMENTUM + d] = bulk->momentum[d];
-		m.value[PM_ANGULAR + d] = bulk->angular[d];
-		m.value[PM_CENTRE + d] = bulk->moment[d] / bulk->mass; /* NAN without particles */
+		m->value[PM_MOMENTUM + d] = bulk->momentum[d];
+		m->value[PM_ANGULAR + d] = bulk->angular[d];
+		m->value[PM_CENTRE + d] = bulk->moment[d] / bulk->mass; /* NAN without particles */
 	}
-	m.value[PM_MOMENTUM_SCALE] = bulk->scale;
-	m.value[PM_MASS] = bulk->mass;
-	m.value[PM_PARTICLES] = bulk->n;
-	m.value[PM_SPEED_RMS] = sqrt(bulk->square / bulk->movers);
-	m.value[PM_DISTANCE_MAX] = bulk->farthest;
-	m.value[PM_VIRIAL_RATIO] = 2 * bulk->kinetic / fabs(w);
-	return m;
+	m->value[PM_MOMENTUM_SCALE] = bulk->scale;
+	m->value[PM_MASS] = bulk->mass;
+	m->value[PM_PARTICLES] = bulk->n;
+	m->value[PM_SPEED_RMS] = sqrt(bulk->square / bulk->movers);
+	m->value[PM_DISTANCE_MAX] = bulk->farthest;
+	m->value[PM_VIRIAL_RATIO] = 2 * bulk->kinetic / fabs(w);
 }

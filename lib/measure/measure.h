@@ -52,9 +52,22 @@ extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
 
 struct pm_measures {
-	double value[PM_COLUMNS]; /* NAN where it cannot be computed */
+	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
+	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 };
 /* All columns from bulk and field energies (NAN: not there); field: the law has one, so that without its energy there is no total. */
-struct pm_measures pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field);
+void pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field, struct pm_measures *m);
+
+struct pm_measure { /* what to measure of a frame */
+	const char *set;             /* only this one; NULL all */
+	const char *strength, *density, *potential; /* names under the frame's law; potential NULL: it has no field */
+	double coefficient, softening; /* of the direct sum */
+	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
+	int nradii;
+	const double *fraction;      /* of the mass, of each Lagrangian radius */
+};
+/* In a plan: declares what is there of the fields that are read. */
+void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
+int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif

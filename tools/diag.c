@@ -1,0 +1,187 @@
+/* diag: measures every frame and prints a row of numbers, as a table or as JSON. With --tee it writes them to a file and passes the frame on.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "law/law.h"
+#include "measure/measure.h"
+#include "mollifier/mollifier.h"
+#include "scene/scene.h"
+#include "stage/stage.h"
+
+struct config {
+	const char *set, *format, *tee;
+	struct pm_list columns;
+	struct pm_vector radii;
+	bool pair, exact;
+};
+enum { EXACT = -1, MOST = 2 * (PM_LIST_MOST + PM_COMPONENTS) };
+struct state {
+	FILE *out;
+	int n; /* columns, decided by the first frame; 0 before */
+	struct column {
+		char name[PM_NAME + 6];
+		int from; /* place among the measures, PM_COLUMNS and above the radii; EXACT: what the scene knows of the name behind exact_ */
+	} column[MOST];
+};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *c = s->config;
+	struct state *state = s->state;
+	for (int k = 0; k < c->radii.n; k++)
+		if (!(c->radii.x[k] > 0 && c->radii.x[k] <= 1))
+			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii.x[k]);
+	s->kind = c->tee ? PM_FILTER : PM_SINK;
+	state->out = c->tee ? fopen(c->tee, "w") : stdout;
+	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
+}
+
+static struct pm_measure how_of(const struct config *c, const struct pm_frame *f, const struct pm_law *law)
+{
+	const struct pm_mollifier *plummer = c->pair ? pm_mollifier_find("plummer") : NULL;
+	return (struct pm_measure){.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
+		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
+		.pair = plummer ? plummer->potential : NULL, .nradii = c->radii.n, .fraction = c->radii.x};
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *c = s->config;
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	if (f->substep)
+		return PM_PASS; /* state is not at the header's time */
+	if (c->set && !pm_frame_set(f, c->set))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", c->set);
+	for (int d = 0; d < f->dim && c->pair; d++)
+		if (f->face[d][0] == PM_PERIODIC)
+			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, and this box is periodic (leave --pair out)");
+	const struct pm_measure how = how_of(c, f, law);
+	pm_measure_reads(&how, f);
+	return 0;
+}
+
+static const struct pm_scene *scene_of(const struct pm_frame *f)
+{
+	for (int i = 0; pm_scenes[i]; i++)
+		if (!strcmp(pm_scene_names[i], f->scene) && pm_scenes[i]->exact)
+			return pm_scenes[i];
+	return NULL;
+}
+
+static void add(struct state *state, const struct config *c, const struct pm_frame *f, int from, const char *name)
+{
+	const struct pm_scene *scene = c->exact ? scene_of(f) : NULL;
+	struct column *column = &state->column[state->n];
+	snprintf(column->name, sizeof column->name, "%s", name);
+	column->from = from;
+	state->n++;
+	if (!scene || !isfinite(scene->exact(f, name, f->time)))
+		return;
+	snprintf(column[1].name, sizeof column->name, "exact_%s", name);
+	column[1].from = EXACT;
+	state->n++;
+}
+
+/* All columns that exist here, or those asked for in their order; radii last. They stay the same over the stream. */
+static int decide(struct state *state, const struct config *c, const struct pm_frame *f)
+{
+	int vdim = 0;
+	char radius[PM_NAME];
+	if (c->exact && !scene_of(f))
+		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
+			vdim = f->fields[i]->components;
+	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
+		if (pm_column_exists((enum pm_column)k, f->dim, vdim))
+			add(state, c, f, k, pm_column_names[k]);
+	for (int i = 0; i < c->columns.n; i++)
+		for (int k = 0; k < PM_COLUMNS; k++)
+			if (!strcmp(c->columns.item[i], pm_column_names[k]))
+				add(state, c, f, k, pm_column_names[k]);
+	for (int k = 0; k < c->radii.n; k++) {
+		snprintf(radius, sizeof radius, "radius_%g", c->radii.x[k]);
+		add(state, c, f, PM_COLUMNS + k, radius);
+	}
+	return 0;
+}
+
+static double value(const struct column *column, const struct pm_measures *m, const struct pm_frame *f)
+{
+	const struct pm_scene *scene = column->from == EXACT ? scene_of(f) : NULL;
+	if (column->from == EXACT)
+		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	return column->from < PM_COLUMNS ? m->value[column->from] : m->radius[column->from - PM_COLUMNS];
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *c = s->config;
+	struct state *state = s->state;
+	struct pm_measures m;
+	const bool json = !strcmp(c->format, "json"), first = !state->n;
+	const struct pm_measure how = how_of(c, f, pm_law_of(f));
+	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m))
+		return -PM_DATA;
+	for (int i = 0; i < state->n && first && !json; i++)
+		fprintf(state->out, "%s%c", state->column[i].name, i + 1 < state->n ? '\t' : '\n');
+	for (int i = 0; i < state->n; i++) {
+		const double x = value(&state->column[i], &m, f);
+		if (json)
+			fprintf(state->out, "%c\"%s\":", i ? ',' : '{', state->column[i].name);
+		fprintf(state->out, isfinite(x) ? "%.17g" : json ? "null" : "nan", x);
+		fputs(i + 1 < state->n ? json ? "" : "\t" : json ? "}\n" : "\n", state->out);
+	}
+	return fflush(state->out) ? pm_fail_errno("cannot write the table") : 0;
+}
+
+static void release(struct pm_stage *s)
+{
+	struct state *state = s->state;
+	if (state->out && state->out != stdout)
+		fclose(state->out);
+}
+
+#define AT(member) .offset = offsetof(struct config, member)
+static const char *const formats[] = {"tsv", "json", NULL};
+static const struct pm_option options[] = {
+	{.name = "set", .kind = PM_TEXT, .text = "measure this set alone (default: all)", AT(set), .cosmetic = true},
+	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .text = "these columns in this order (default: all)", AT(columns), .cosmetic = true},
+	{.name = "radii", .kind = PM_VECTOR, .text = "add Lagrangian radii about the centre of mass, for these fractions of the mass", AT(radii),
+		.cosmetic = true},
+	{.name = "pair", .kind = PM_FLAG, .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)", AT(pair), .cosmetic = true},
+	{.name = "exact", .kind = PM_FLAG, .text = "beside every column the scene knows exactly, exact_NAME", AT(exact), .cosmetic = true},
+	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .text = "a table with a header line, or one JSON object a line",
+		AT(format), .cosmetic = true},
+	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .text = "write to FILE and pass the frames on", AT(tee), .cosmetic = true},
+	{0},
+};
+
+static const struct pm_example examples[] = {
+	{"The numbers of a star cluster beside the exact ones", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
+	{"Two columns as JSON", "pinit two-body --eccentricity 0.5 | diag --pair --columns energy,angular_momentum_z --format json"},
+	{"A table on the way", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
+	{0},
+};
+
+const struct pm_tool tool_diag = {
+	.name = "diag",
+	.summary = "measures energy, momentum, mass, radii of every frame",
+	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it holds the self-energy of the smeared particles); of the field at the\n"
+		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
+		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
+		"of threads. Frames inside a step (substep other than 0) give no row.",
+	.kind = PM_SINK,
+	.reads = "x, v, mass, the law's strength and potential, density and potential of the mesh",
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+	.free = release,
+};
