@@ -1,0 +1,38 @@
+/* Plans of the transforms: serial FFTW plans, measured once under a lock and kept in the user's cache, so that every process computes with
+ * the same plan and so gets the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PLAN_H
+#define PM_PLAN_H
+
+#include <fftw3.h>
+
+#include "base/base.h"
+
+enum { PM_LANES = 16, PM_PLANS = 16 };
+enum pm_effort { PM_ESTIMATE, PM_MEASURE, PM_PATIENT };
+extern const char *const pm_effort_names[]; /* NULL ends */
+
+/* block: double [n][PM_LANES], PM_LANES/2 interleaved complex lines, in place. row: n doubles to n/2+1 complex and back, out of place, the
+ * input is lost. Nothing is normalised. All arrays are 64-byte aligned (pm_alloc). */
+enum pm_transform { PM_BLOCK_FORWARD, PM_BLOCK_BACKWARD, PM_ROW_FORWARD, PM_ROW_BACKWARD };
+
+struct pm_planner {
+	enum pm_effort effort;
+	int n;
+	struct {
+		enum pm_transform transform;
+		size_t n;
+		fftw_plan plan;
+	} entry[PM_PLANS];
+	int stored, measured, estimated; /* where the plans came from: the cache, measured now, no cache to keep them in */
+	uint32_t sum;                    /* CRC-32C of the wisdom in use; 0 if all is estimated */
+	char note[320];                  /* what was wrong with the cache, "" nothing */
+};
+
+/* Effort by name; NULL: of the environment variable PM_PLAN, else measure. -1 and a message if the name is none. */
+int pm_effort_find(const char *name);
+
+/* A plan, owned by the planner. The planner of FFTW is not thread-safe: never inside a parallel region. NULL with a message. */
+fftw_plan pm_plan(struct pm_planner *p, enum pm_transform transform, size_t n);
+void pm_planner_clear(struct pm_planner *p);
+
+#endif

@@ -1,0 +1,34 @@
+/* The Poisson solver by fast transforms: lap phi = c*s with the faces of a grid (docs/methods/poisson-fft.md).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_POISSON_FFT_H
+#define PM_POISSON_FFT_H
+
+#include "mesh/grid.h"
+#include "mesh/plan.h"
+
+enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4 };
+extern const char *const pm_symbol_names[]; /* NULL ends */
+int pm_symbol_find(const char *name);       /* -1 and a message if it is none */
+
+/* The eigenvalue [1/length^2] of -k^2, or of the centred second difference of order 2 or 4, on exp(i*theta*x/h). */
+double pm_symbol_value(enum pm_symbol symbol, double theta, double h);
+
+/* The value at r = 0 of the sampled free-space Green's function of the grid (the head of fft-green.c), and the function at r > 0. */
+double pm_green_centre(enum pm_symbol symbol, int dim, const double h[3]);
+double pm_green(int dim, double r2);
+
+struct pm_poisson_fft;
+
+/* 0, or the sentence that says what cannot be done and what can do it; needs no data and plans nothing. */
+int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol);
+bool pm_poisson_fft_singular(const struct pm_grid *g); /* only periodic and neumann faces: phi is free by a constant */
+
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, enum pm_symbol symbol, enum pm_effort effort); /* NULL with a message */
+struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
+const struct pm_planner *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
+
+/* s and phi: the points of the grid; they may be the same array. Singular problems: the mean of s (end nodes with half weight) is taken out and
+ * given in *mean, phi has mean zero; else *mean is 0. c [phi/(s length^2)]. */
+int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, double *mean);
+
+#endif
