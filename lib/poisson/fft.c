@@ -85,7 +85,7 @@ int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol)
 		return pm_fail(PM_DATA, "open faces on %d of %d axes (poisson-fft takes open faces on all axes, or any mixture of periodic, wall and neumann)",
 			open, g->dim);
 	if (open && symbol != PM_SPECTRAL && !(g->dim == 1 && symbol == PM_FD2))
-		return pm_fail(PM_USAGE, "--symbol %s has no free-space Green's function here (choose --symbol spectral for open faces)", pm_symbol_names[symbol]);
+		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral for open faces)", pm_symbol_names[symbol]);
 	return 0;
 }
 
