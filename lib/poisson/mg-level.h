@@ -1,0 +1,89 @@
+/* The grids of a multigrid hierarchy and what is done on them; private to lib/poisson/mg*.c.
+ * Axes are those of memory: axis 0 is x; a 2-D mesh has its y as axis 2, so that axis 2 always counts what threads share out ("planes").
+ * Rows are padded: mg_lanes values at a time, one spare vector at the end. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_POISSON_MG_LEVEL_H
+#define PM_POISSON_MG_LEVEL_H
+
+#include "poisson/mg.h"
+
+enum { mg_lanes = 8, mg_cubic = 4 };
+
+struct mg_axis {
+	size_t cells, points;  /* 1 cell, 1 point, w = 0: an axis on which nothing varies */
+	size_t first, end;     /* unknowns first <= i < end; wall nodes are left out and stay 0 */
+	bool periodic, neumann[2];
+	double length, h, w;   /* [length]; w = 1/h^2 */
+};
+
+/* From an axis of a grid to the same axis of the next coarser one. Node i has parents parent[i] and parent[i]+1 (before folding a periodic
+ * axis; -1 and n_c occur) with linear weights w; a = w W_i/W_parent with the quadrature weights W, so that restriction keeps sums. */
+struct mg_map {
+	bool same, half;       /* not coarsened; every second node */
+	ptrdiff_t *parent;
+	double *w[2], *a[2];
+	size_t *four;          /* mg_cubic parents per node, folded, for the start of full multigrid */
+	double *cubic;         /* and their weights */
+};
+
+struct mg_level {
+	int dim;               /* 1: x; 2: x and planes; 3: all */
+	struct mg_axis axis[3];
+	size_t stride, plane;  /* of a row, of a plane */
+	double diagonal;       /* 2 (wx + wy + wz) */
+	bool fixed;            /* at least one wall: not singular */
+	double *u, *f;
+	int64_t *mask[3];      /* per row: unknowns of even x, of odd x, all of them; 0 or -1 */
+	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
+};
+
+enum { mg_levels_most = 96 };
+
+struct pm_mg {
+	struct pm_grid grid;
+	int levels, threads;
+	struct mg_level level[mg_levels_most];
+	double *scratch;       /* per thread: a residual row, a coarse row */
+	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
+	double *sums;          /* per plane of the finest grid */
+};
+
+/* What a sweep does with a plane, in this order. */
+enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK };
+enum { mg_stages_most = 2 * 64 + 1 };
+
+/* mg-level.c */
+bool mg_build(struct pm_mg *mg, const struct pm_grid *g);
+void mg_demolish(struct pm_mg *mg);
+
+static inline size_t mg_below(const struct mg_axis *a, size_t i) /* neighbour of node i, folded at the faces */
+{
+	return i ? i - 1 : a->periodic ? a->points - 1 : a->points > 1;
+}
+static inline size_t mg_above(const struct mg_axis *a, size_t i)
+{
+	return i + 1 < a->points ? i + 1 : a->periodic ? 0 : i - (a->points > 1);
+}
+static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].points * l->plane; }
+
+/* mg-relax.c */
+void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
+void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
+double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* r[-1] ... r[points]; returns the sum of squares */
+void mg_source_row(const struct mg_level *l, size_t j, size_t k, double *r); /* the same of f, 0 where there is no unknown */
+
+/* mg-transfer.c */
+void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+double mg_restrict(struct pm_mg *mg, int fine, bool residual); /* of f - lap u, or of f; returns the sum of squares of what is restricted */
+
+/* mg-sweep.c */
+void mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
+
+/* mg-cycle.c */
+size_t mg_unknowns(const struct mg_level *l);
+void mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
+double mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
+void mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */
+void mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* from the coarsest grid up, one cycle on each but the finest */
+
+#endif
