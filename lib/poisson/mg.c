@@ -11,20 +11,30 @@
 #include <stdio.h>
 #include <string.h>
 
-struct pm_mg *pm_mg_new(const struct pm_grid *g)
+int pm_mg_check(const struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim; d++)
 		for (int s = 0; s < 2; s++) {
 			enum pm_face face = g->face[d][s];
-			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN) {
-				pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, not %s ones on axis %c (use poisson-fft)", pm_face_names[face], "xyz"[d]);
-				return NULL;
-			}
+			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN)
+				return pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft, which has open faces)",
+					"xyz"[d], pm_face_names[face]);
 		}
-	struct pm_mg *mg = pm_zalloc(1, sizeof *mg);
+	return 0;
+}
+
+struct pm_mg *pm_mg_new(const struct pm_grid *g)
+{
+	struct pm_mg *mg = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *mg);
 	if (mg && !mg_build(mg, g))
 		mg = pm_mg_free(mg);
 	return mg;
+}
+
+bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g)
+{
+	return mg->threads == pm_threads() && mg->grid.dim == g->dim && !memcmp(mg->grid.points, g->points, sizeof g->points) &&
+		!memcmp(mg->grid.cells, g->cells, sizeof g->cells) && !memcmp(mg->grid.h, g->h, sizeof g->h) && !memcmp(mg->grid.face, g->face, sizeof g->face);
 }
 
 struct pm_mg *pm_mg_free(struct pm_mg *mg)

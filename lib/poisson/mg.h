@@ -29,9 +29,12 @@ struct pm_mg_record {
 
 struct pm_mg; /* the hierarchy of grids, for one pm_grid */
 
+/* 0, or a failure that names what can: faces open and absorbing are refused. */
+int pm_mg_check(const struct pm_grid *g);
 /* Faces periodic, wall (phi = 0) or neumann (no normal gradient), in any mixture. NULL with a message. */
 struct pm_mg *pm_mg_new(const struct pm_grid *g);
 struct pm_mg *pm_mg_free(struct pm_mg *mg);
+bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g); /* was it made for this grid? */
 int pm_mg_levels(const struct pm_mg *mg);
 
 /* lap phi = c*s; s and phi have the points of the grid and may be the same array. Singular problems: the mean of s is removed and that of phi
