@@ -325,7 +325,8 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 	if ((done && !(json_is_number(kick) && json_is_number(drift))) || !(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
 		complain(&l, "done", "is not a fraction");
 	s->stage = (int)take_integer(&l, "stage", 0, 64, false, 0);
-	s->fixed = json_is_true(take(&l, "fixed", false));
+	const json_t *fixed = take(&l, "fixed", false); /* json_is_true would evaluate the call twice */
+	s->fixed = json_is_true(fixed);
 	return look_done(&l, &s->more);
 }
 
