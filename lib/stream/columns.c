@@ -1,0 +1,153 @@
+/* A plain table as a frame. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream/columns.h"
+
+static bool among(const char *name, const char *const *list)
+{
+	for (; list && *list; list++)
+		if (!strcmp(name, *list))
+			return true;
+	return false;
+}
+
+static bool is_strength(const char *name)
+{
+	static const char *const names[] = {"mass", "charge", "circulation", NULL};
+	return among(name, names);
+}
+
+/* The field and component a column stands for; component -1: a field of one component. */
+static int meaning(const char *name, char field[PM_NAME])
+{
+	size_t n = strlen(name), k = n;
+	if (n == 1 && *name >= 'x' && *name <= 'z')
+		return snprintf(field, PM_NAME, "x"), *name - 'x';
+	if (n == 2 && *name == 'v' && name[1] >= 'x' && name[1] <= 'z')
+		return snprintf(field, PM_NAME, "v"), name[1] - 'x';
+	while (k > 0 && name[k - 1] >= '0' && name[k - 1] <= '9')
+		k--;
+	if (k > 1 && k < n && n - k < 3 && name[k - 1] == '_') {
+		snprintf(field, PM_NAME, "%.*s", (int)k - 1, name);
+		return atoi(name + k);
+	}
+	snprintf(field, PM_NAME, "%s", name);
+	return -1;
+}
+
+struct plan {
+	char field[PM_NAME];
+	int component, components; /* of the field, in the entry of its first column */
+	int first;                 /* column that holds the entry of the field */
+};
+
+/* Groups the columns into fields. */
+static int group(int n, const struct pm_column *column, const struct pm_columns_choice *choice, struct plan *plan)
+{
+	for (int i = 0; i < n; i++) {
+		bool whole = among(column[i].name, choice->text);
+		plan[i].component = meaning(column[i].name, plan[i].field);
+		if (whole)
+			plan[i].component = -1, snprintf(plan[i].field, PM_NAME, "%s", column[i].name);
+		plan[i].first = among(column[i].name, choice->skip) ? -1 : i;
+		for (int k = 0; k < i && plan[i].first == i; k++)
+			if (plan[k].first == k && !strcmp(plan[k].field, plan[i].field)) {
+				plan[i].first = k;
+				if (plan[i].component < 0 || plan[k].component < 0)
+					return pm_fail(PM_DATA, "the columns '%s' and '%s' are the same field", column[k].name, column[i].name);
+			}
+		if (plan[i].first >= 0)
+			plan[plan[i].first].components++;
+	}
+	for (int i = 0; i < n; i++) { /* every component once */
+		unsigned seen = 0;
+		if (plan[i].first != i || plan[i].component < 0)
+			continue;
+		for (int k = i; k < n; k++)
+			if (plan[k].first == i && plan[k].component < PM_COMPONENTS)
+				seen |= 1u << plan[k].component;
+		if (plan[i].components > PM_COMPONENTS || seen != (1u << plan[i].components) - 1)
+			return pm_fail(PM_DATA, "the columns of '%s' are not its components one by one, from the first (%s%s)", plan[i].field,
+				strcmp(plan[i].field, "x") && strcmp(plan[i].field, "v") ? plan[i].field : "", strcmp(plan[i].field, "x") ? strcmp(plan[i].field, "v") ? "_0 ..." : "vx vy vz" : "x y z");
+	}
+	return 0;
+}
+
+static int positions(int n, const struct plan *plan, int dim)
+{
+	for (int i = 0; i < n; i++)
+		if (plan[i].first == i && !strcmp(plan[i].field, "x")) {
+			if (dim && dim != plan[i].components)
+				return pm_fail(PM_DATA, "%d position columns, where --dim asks for %d", plan[i].components, dim);
+			return plan[i].components;
+		}
+	return pm_fail(PM_DATA, "no column 'x' (the first line of the table names its columns: x y z vx vy vz mass ...)");
+}
+
+static struct pm_field *field_make(struct pm_frame *f, const struct pm_columns_choice *choice, const struct plan *p, const char *column, bool text)
+{
+	struct pm_field *field = pm_makes(f, choice->set, p->field, text ? PM_COMPONENTS : p->components, PM_STATE);
+	if (!field)
+		return NULL;
+	field->type = text ? PM_U8 : strcmp(p->field, "id") ? PM_F64 : PM_I64;
+	field->extensive = is_strength(p->field) || among(column, choice->strength) || among(p->field, choice->strength);
+	if (text)
+		snprintf(field->unit, PM_NAME, "text");
+	return field;
+}
+
+static int frame_make(int n, struct pm_column *column, const struct plan *plan, const struct pm_columns_choice *choice, size_t rows, struct pm_frame *f)
+{
+	if (!pm_frame_set_new(f, choice->set, rows))
+		return -PM_DATA;
+	for (int i = 0; i < n; i++) {
+		bool text = !strcmp(column[i].name, "name") || among(column[i].name, choice->text);
+		if (plan[i].first < 0)
+			continue;
+		column[i].field = plan[i].first == i ? field_make(f, choice, plan + i, column[i].name, text) : column[plan[i].first].field;
+		if (!column[i].field)
+			return -PM_DATA;
+		column[i].text = text;
+		column[i].component = plan[i].component < 0 ? 0 : plan[i].component;
+	}
+	return pm_frame_ready(f);
+}
+
+int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, struct pm_frame **f)
+{
+	struct pm_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
+	struct plan *plan = pm_zalloc(PM_COLUMNS, sizeof *plan);
+	size_t rows = 0;
+	int n = 0, dim = 0, status = column && plan ? 0 : -PM_DATA;
+	*f = NULL;
+	if (!status && (n = pm_text_names(t, t->size, column)) <= 0)
+		status = n < 0 ? n : pm_fail(PM_DATA, "line %lu: the text ends before a line of column names", (unsigned long)t->line);
+	if (!status && !(status = group(n, column, choice, plan)))
+		dim = positions(n, plan, choice->dim), status = dim < 0 ? dim : pm_table_count(t, t->size, &rows);
+	if (!status && !(*f = pm_frame_new(dim)))
+		status = -PM_DATA;
+	if (!status && !(status = frame_make(n, column, plan, choice, rows, *f)) && !(status = pm_table_read(t, t->size, n, column)))
+		status = pm_frame_settle(*f);
+	if (status)
+		*f = pm_frame_free(*f);
+	pm_free(column), pm_free(plan);
+	return status;
+}
+
+void pm_columns_box(struct pm_frame *f, const char *set)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x");
+	double side = 0, centre[3] = {0}, far = 0;
+	for (int a = 0; x->count && a < f->dim; a++) {
+		double low = HUGE_VAL, high = -HUGE_VAL;
+		for (size_t i = 0; i < x->count; i++)
+			low = fmin(low, pm_in(x, a)[i]), high = fmax(high, pm_in(x, a)[i]);
+		side = fmax(side, high - low);
+		centre[a] = low / 2 + high / 2;
+		far = fmax(far, fabs(centre[a]));
+	}
+	side = side > far * 1e-9 ? side : fmax(far, 0.5);
+	for (int a = 0; x->count && a < f->dim; a++)
+		f->lo[a] = centre[a] - side, f->hi[a] = centre[a] + side;
+}

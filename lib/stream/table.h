@@ -1,0 +1,40 @@
+/* Tables of text: a line of column names, then a row a line, blanks or tabs between; lines that are empty or start with '#' are passed over.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TABLE_H
+#define PM_TABLE_H
+
+#include <stdio.h>
+
+#include "stream/frame.h"
+
+enum { PM_COLUMNS = 256 };
+
+struct pm_column {
+	char name[PM_NAME];
+	struct pm_field *field; /* NULL: read over */
+	int component;
+	bool text;   /* a u8 field whose components are the letters, ended by 0 if shorter */
+};
+
+/* A text in memory and the place reached. */
+struct pm_text {
+	char *data;    /* ends in a 0 that does not count */
+	size_t size, at;
+	uint64_t line; /* of `at`, from 1 */
+};
+
+int pm_text_open(struct pm_text *t, const char *path); /* reads all of it; "-" is standard input */
+void pm_text_close(struct pm_text *t);
+/* The next line that is neither empty nor a comment, split into names; 0 at the end of the text. */
+int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column);
+size_t pm_text_line_end(const struct pm_text *t, size_t at); /* the newline, or the end of the text */
+/* Rows between the place reached and end. */
+int pm_table_count(const struct pm_text *t, size_t end, size_t *rows);
+/* Reads them; the fields hold data and have as many values. What is wrong is named by line and column. */
+int pm_table_read(struct pm_text *t, size_t end, int ncolumns, const struct pm_column *column);
+
+/* The columns of what `on` holds, uniform fields left out: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; no two alike. Their number. */
+int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column);
+int pm_table_write(FILE *out, size_t rows, int ncolumns, const struct pm_column *column);
+
+#endif

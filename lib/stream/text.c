@@ -1,0 +1,186 @@
+/* Frames as text. The header is the JSON of the wire, so that whatever travels in a stream travels here; the number of rows decides how many
+ * particles a set has (rows may be taken out or put in with any text tool), a mesh must have all its points.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/decimal.h"
+#include "stream/header.h"
+#include "stream/text.h"
+
+static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", end_mark[] = "#end ";
+
+/* The n-th owner of fields: sets first, then meshes. NULL behind the last. */
+static const char *owner(const struct pm_frame *f, size_t n, const char **kind)
+{
+	*kind = n < f->nsets ? "set" : "mesh";
+	return n < f->nsets ? f->sets[n]->name : n - f->nsets < f->nmeshes ? f->meshes[n - f->nsets]->name : NULL;
+}
+
+static size_t rows_of(const struct pm_frame *f, const char *on)
+{
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, on))
+			return f->fields[i]->count;
+	return 0;
+}
+
+static int json_write(FILE *out, const char *mark, const json_t *j)
+{
+	char *line = j ? pm_json_line(j) : NULL;
+	if (!line)
+		return pm_fail(PM_DATA, "the header cannot be written as text");
+	fprintf(out, "%s%s\n", mark, line);
+	free(line);
+	return 0;
+}
+
+int pm_text_frame_write(FILE *out, struct pm_frame *f)
+{
+	struct pm_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
+	json_t *header = pm_header_json(f);
+	const char *on, *kind;
+	int status = column && header ? json_write(out, frame_mark, header) : -PM_DATA;
+	if (!status && json_object_size(f->report))
+		status = json_write(out, report_mark, f->report);
+	for (size_t i = 0; !status && (on = owner(f, i, &kind)); i++) {
+		int n = pm_table_columns(f, on, column);
+		if (n > 0)
+			fprintf(out, "#%s %s\n", kind, on);
+		status = n < 0 ? n : pm_table_write(out, rows_of(f, on), n, column);
+	}
+	json_decref(header);
+	pm_free(column);
+	return status;
+}
+
+void pm_text_end_write(FILE *out, uint64_t frames) { fprintf(out, "%s%llu\n", end_mark, (unsigned long long)frames); }
+
+static bool starts(const struct pm_text *t, const char *mark)
+{
+	return !strncmp(t->data + t->at, mark, strlen(mark)); /* the text ends in a 0 */
+}
+
+bool pm_text_is_frames(const struct pm_text *t) { return starts(t, frame_mark) || starts(t, end_mark); }
+
+/* The JSON behind the mark of this line, which is passed. */
+static json_t *json_read(struct pm_text *t, const char *mark)
+{
+	json_error_t why;
+	size_t end = pm_text_line_end(t, t->at), at = t->at + strlen(mark);
+	json_t *j = json_loadb(t->data + at, end - at, JSON_REJECT_DUPLICATES, &why);
+	if (!j)
+		pm_fail(PM_DATA, "line %lu: the JSON behind %sis wrong: %s", (unsigned long)t->line, mark, why.text);
+	t->at = end < t->size ? end + 1 : end;
+	t->line++;
+	return j;
+}
+
+/* Where the next line is that starts with one of our marks. */
+static size_t table_end(const struct pm_text *t)
+{
+	static const char *const marks[] = {"\n#pmpipe ", "\n#report ", "\n#set ", "\n#mesh ", "\n#end ", NULL};
+	for (const char *s = t->data + t->at; (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
+		for (int i = 0; s[1] == '#' && marks[i]; i++)
+			if (!strncmp(s, marks[i], strlen(marks[i])))
+				return (size_t)(s + 1 - t->data);
+	return t->size;
+}
+
+/* Gives each column read its field; all that the header promises must be there, and nothing else. */
+static int match(const struct pm_text *t, int n, struct pm_column *column, int nwant, const struct pm_column *want)
+{
+	for (int i = 0; i < n; i++) {
+		int k = 0;
+		while (k < nwant && strcmp(want[k].name, column[i].name))
+			k++;
+		for (int j = 0; j < i; j++)
+			k = strcmp(column[j].name, column[i].name) ? k : nwant;
+		if (k == nwant)
+			return pm_fail(PM_DATA, "line %lu: column '%s' is not in the header of its frame, or is there twice", (unsigned long)t->line - 1, column[i].name);
+		column[i] = want[k];
+	}
+	return n == nwant ? 0 : pm_fail(PM_DATA, "line %lu: %d columns, where the header of the frame asks for %d", (unsigned long)t->line - 1, n, nwant);
+}
+
+static int rows_hold(struct pm_frame *f, const char *on, size_t rows, uint64_t line)
+{
+	struct pm_set *set = pm_frame_set(f, on);
+	if (set && set->n != rows) {
+		int status = pm_frame_set_resize(f, set, rows);
+		if (status)
+			return status;
+	}
+	for (size_t i = 0; i < f->nfields; i++) {
+		struct pm_field *field = f->fields[i];
+		if (strcmp(field->on, on) || field->uniform)
+			continue;
+		if (field->count != rows)
+			return pm_fail(PM_DATA, "line %lu: %zu rows, where the mesh '%s' has %zu points", (unsigned long)line, rows, on, field->count);
+		if (pm_field_hold(field))
+			return -PM_DATA;
+	}
+	return 0;
+}
+
+/* One table: names and rows into the fields of `on`. column: room for twice PM_COLUMNS. */
+static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, const char *kind, struct pm_column *column)
+{
+	char mark[PM_NAME + 16];
+	size_t rows, end;
+	uint64_t line = t->line;
+	struct pm_column *want = column + PM_COLUMNS;
+	int nwant = pm_table_columns(f, on, want), n;
+	if (nwant <= 0)
+		return nwant;
+	size_t length = (size_t)snprintf(mark, sizeof mark, "#%s %s\n", kind, on);
+	if (t->size - t->at < length || memcmp(t->data + t->at, mark, length))
+		return pm_fail(PM_DATA, "line %lu: the table of %s '%s' is not here, where the header of the frame asks for it", (unsigned long)line, kind, on);
+	t->at += length, t->line++;
+	end = table_end(t);
+	if ((n = pm_text_names(t, end, column)) < 0 || match(t, n, column, nwant, want) || pm_table_count(t, end, &rows) || rows_hold(f, on, rows, line))
+		return -PM_DATA;
+	return pm_table_read(t, end, n, column);
+}
+
+static int frame_tables(struct pm_text *t, struct pm_frame *f)
+{
+	struct pm_column *column = pm_alloc(2 * PM_COLUMNS, sizeof *column);
+	const char *on, *kind;
+	int status = column ? 0 : -PM_DATA;
+	if (!status && starts(t, report_mark)) {
+		json_t *report = json_read(t, report_mark);
+		status = json_is_object(report) ? 0 : report ? pm_fail(PM_DATA, "line %lu: the report is not an object", (unsigned long)t->line - 1) : -PM_DATA;
+		json_decref(f->report);
+		f->report = report ? report : json_object();
+	}
+	for (size_t i = 0; !status && (on = owner(f, i, &kind)); i++)
+		status = table_read(t, f, on, kind, column);
+	pm_free(column);
+	return status;
+}
+
+int pm_text_frame_read(struct pm_text *t, struct pm_frame **f, uint64_t *frames)
+{
+	while (starts(t, end_mark)) { /* several texts may follow each other */
+		int64_t count;
+		if (!pm_integer_read(t->data + t->at + strlen(end_mark), &count) || (uint64_t)count != *frames)
+			return pm_fail(PM_DATA, "line %lu: the end line does not count the %lu frames before it", (unsigned long)t->line, (unsigned long)*frames);
+		size_t end = pm_text_line_end(t, t->at);
+		t->at = end < t->size ? end + 1 : end, t->line++;
+		*frames = 0;
+		if (t->at == t->size)
+			return 0;
+	}
+	if (t->at == t->size)
+		return pm_fail(PM_DATA, "line %lu: the text stops before its end line (it was cut)", (unsigned long)t->line);
+	if (!starts(t, frame_mark))
+		return pm_fail(PM_DATA, "line %lu: neither '%s...' nor '%s...'", (unsigned long)t->line, frame_mark, end_mark);
+	json_t *header = json_read(t, frame_mark);
+	int status = header ? pm_header_frame(header, f) : -PM_DATA;
+	json_decref(header);
+	if (!status && (status = frame_tables(t, *f)) < 0)
+		*f = pm_frame_free(*f);
+	++*frames;
+	return status < 0 ? status : 1;
+}
