@@ -41,6 +41,20 @@ static bool listed(const struct pm_list *list, const char *name)
 	return !list->n;
 }
 
+/* Every field asked for is somewhere. */
+static int asked(const struct config *c, const struct pm_frame *f)
+{
+	for (int i = 0; i < c->fields.n + c->on.n; i++) {
+		const char *name = i < c->fields.n ? c->fields.item[i] : c->on.item[i - c->fields.n];
+		bool there = i >= c->fields.n && (pm_frame_set(f, name) || pm_frame_mesh(f, name));
+		for (size_t k = 0; k < f->nfields && i < c->fields.n; k++)
+			there |= !strcmp(f->fields[k]->name, name);
+		if (!there)
+			return pm_fail(PM_DATA, "no %s '%s' in the first stream (sls lists what there is)", i < c->fields.n ? "field" : "set or mesh", name);
+	}
+	return 0;
+}
+
 /* The fields of one frame must be in the other. */
 static int one_sided(const struct config *c, const struct pm_frame *f, const struct pm_frame *other, const char *which)
 {
@@ -80,6 +94,8 @@ static int pair(const struct config *c, struct pm_frame *f, struct pm_frame *g, 
 	p->n = 0;
 	if (f->dim != g->dim)
 		return pm_fail(PM_DATA, "the first stream has %d dimensions, the second %d", f->dim, g->dim);
+	if ((status = asked(c, f)))
+		return status;
 	if (!c->common && ((status = one_sided(c, f, g, "first")) || (status = one_sided(c, g, f, "second"))))
 		return status;
 	for (size_t i = 0; i < f->nfields && !status; i++) {
@@ -124,21 +140,36 @@ static void place(const struct pm_frame *f, const struct pm_field *a, bool id, s
 		snprintf(out, 64, "%zu", worst);
 }
 
-/* Prints a row; counts it in *over if it is beyond the tolerance. */
-static void row(const struct config *c, uint64_t number, const char *on, const char *name, size_t n, const struct pm_norms *d, const char *at, int *over)
+struct state {
+	uint64_t frame; /* from 1 */
+	bool begun;     /* the line of words is out */
+	bool over;      /* a norm was beyond the tolerance */
+};
+
+static void words(struct state *st)
+{
+	if (!st->begun)
+		puts("frame\ton\tfield\tn\tl1\tl2\tmax\trelative_l2\trelative_max\tworst");
+	st->begun = true;
+}
+
+static void row(const struct config *c, struct state *st, const char *on, const char *name, size_t n, const struct pm_norms *d, const char *at)
 {
 	const double all[] = {d->l1, d->l2, d->max, d->relative_l2, d->relative_max};
-	printf("%llu\t%s\t%s\t%zu", (unsigned long long)number, on, name, n);
+	words(st);
+	printf("%llu\t%s\t%s\t%zu", (unsigned long long)st->frame, on, name, n);
 	for (int i = 0; norms[i]; i++) {
 		printf("\t%.10g", all[i]);
-		if (!strcmp(norms[i], c->norm) && !(all[i] <= c->tolerance) && !isnan(c->tolerance) && !(*over)++)
-			pm_fail(PM_DATA, "frame %llu: '%s' on '%s': %s is %.4g, above %g", (unsigned long long)number, name, on, c->norm, all[i], c->tolerance);
+		if (!strcmp(norms[i], c->norm) && !(all[i] <= c->tolerance) && !isnan(c->tolerance) && !st->over) {
+			pm_fail(PM_DATA, "frame %llu: '%s' on '%s': %s is %.4g, above %g", (unsigned long long)st->frame, name, on, c->norm, all[i], c->tolerance);
+			st->over = true;
+		}
 	}
 	printf("\t%s\n", at);
 }
 
-static int field_row(const struct config *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b, uint64_t number,
-	int *over)
+static int field_row(const struct config *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b,
+	struct state *st)
 {
 	char at[64];
 	size_t *match = NULL, *work = NULL;
@@ -156,13 +187,13 @@ static int field_row(const struct config *c, const struct pm_frame *f, const str
 	if (!status) {
 		struct pm_norms d = pm_norms_of(a, b, match, weight);
 		place(f, a, id, d.worst, at);
-		row(c, number, a->on, a->name, a->count, &d, at, over);
+		row(c, st, a->on, a->name, a->count, &d, at);
 	}
 	pm_free(match), pm_free(work), pm_free(weight);
 	return status;
 }
 
-static int compare(const struct config *c, struct pm_reader *r[2], struct pm_frame *f[2], uint64_t number, int *over)
+static int compare(const struct config *c, struct pm_reader *r[2], struct pm_frame *f[2], struct state *st)
 {
 	struct pairs p;
 	int status = pair(c, f[0], f[1], &p);
@@ -172,10 +203,10 @@ static int compare(const struct config *c, struct pm_reader *r[2], struct pm_fra
 	if (!status && !c->fields.n && !c->on.n) {
 		double dt = fabs(f[0]->time - f[1]->time), relative = dt == 0 ? 0 : dt / fabs(f[1]->time);
 		struct pm_norms d = {dt, dt, dt, relative, relative, 0};
-		row(c, number, "-", "time", 1, &d, "-", over);
+		row(c, st, "-", "time", 1, &d, "-");
 	}
 	for (int i = 0; i < p.n && !status; i++)
-		status = field_row(c, f[0], f[1], p.a[i], p.b[i], number, over);
+		status = field_row(c, f[0], f[1], p.a[i], p.b[i], st);
 	return status;
 }
 
@@ -189,23 +220,33 @@ static int next(struct pm_reader *r, struct pm_frame **f)
 	return got;
 }
 
+/* The failure again, with the place in front. */
+static int at_frame(const struct state *st, const char *stream, int status)
+{
+	char why[1024];
+	snprintf(why, sizeof why, "%s", pm_message());
+	return pm_fail(-status, "frame %llu%s%s: %s", (unsigned long long)st->frame, *stream ? " of " : "", stream, why);
+}
+
 static int streams(struct pm_stage *s, struct pm_reader *r[2])
 {
-	int over = 0, status = 0, got[2] = {1, 1};
-	puts("frame\ton\tfield\tn\tl1\tl2\tmax\trelative_l2\trelative_max\tworst");
-	for (uint64_t number = 1; !status; number++) {
+	struct state *st = s->state;
+	int status = 0, got[2] = {1, 1};
+	while (!status && got[0] && got[1]) {
 		struct pm_frame *f[2] = {NULL, NULL};
+		st->frame++;
 		for (int i = 0; i < 2 && !status; i++)
-			status = (got[i] = next(r[i], &f[i])) < 0 ? got[i] : 0;
-		if (!status && got[0] && got[1])
-			status = compare(s->config, r, f, number, &over);
-		else if (!status && got[0] != got[1])
-			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", s->args[got[0] != 0], (unsigned long long)number - 1, s->args[got[0] == 0]);
+			if ((got[i] = next(r[i], &f[i])) < 0)
+				status = at_frame(st, s->args[i], got[i]);
+		if (!status && got[0] != got[1])
+			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", s->args[got[0] != 0], (unsigned long long)st->frame - 1, s->args[got[0] == 0]);
+		if (!status && got[0] && (status = compare(s->config, r, f, st)))
+			status = at_frame(st, "", status);
 		pm_frame_free(f[0]), pm_frame_free(f[1]);
-		if (!status && !got[0])
-			break;
 	}
-	return status ? status : over ? -PM_DATA : 0;
+	if (!status)
+		words(st);
+	return status ? status : st->over ? -PM_DATA : 0;
 }
 
 static int whole(struct pm_stage *s)
@@ -238,6 +279,7 @@ const struct pm_tool tool_scmp = {
 		 "the other is exit 1. Without --field and --set the times are compared too.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.arguments = "A B",
 	.arguments_text = "Two streams; - is standard input.",

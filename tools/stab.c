@@ -45,16 +45,25 @@ static const struct pm_option options[] = {
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", .text = "With --plain: write this mesh, the coordinates of its points first.", .offset = offsetof(struct config, mesh)},
 	{0}};
 
+/* Text holds the frames as they are: no entry in their history. */
+static void no_entry(struct pm_stage *s)
+{
+	json_decref(s->entry);
+	s->entry = NULL;
+}
+
 static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
 	static const char *const reading[] = {"law", "constant", "dt", "time", "dim", "box", "faces", "particle-faces", "cells", "strength", "unit", "text", "skip", "number", NULL};
 	if (s->nargs)
 		s->kind = PM_SOURCE;
-	else
+	else {
+		no_entry(s);
 		for (int i = 0; reading[i]; i++)
 			if (pm_given(s, reading[i]))
 				return pm_fail(PM_USAGE, "--%s is for reading a table (name its file, or - for standard input)", reading[i]);
+	}
 	if (s->nargs && (c->plain || c->mesh))
 		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text; reading '%s' needs neither", s->args[0]);
 	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh goes with --plain") : 0;
@@ -105,8 +114,7 @@ static int frames(struct pm_stage *s, struct state *st, struct pm_frame **f)
 	for (int i = 0; plain[i]; i++)
 		if (pm_given(s, plain[i]))
 			return pm_fail(PM_USAGE, "--%s is for plain tables, and this text holds whole frames (change them with smod)", plain[i]);
-	json_decref(s->entry); /* the frames are what they were: no entry in their history */
-	s->entry = NULL;
+	no_entry(s);
 	return pm_text_frame_read(&st->text, f, &st->frames);
 }
 

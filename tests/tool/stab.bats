@@ -1,0 +1,184 @@
+# stab: text to stream and back. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -0 .5 4 5 6 1e-300 -3\n'; }
+
+@test "stream to text to stream gives equal bytes, with a mesh field, a uniform field and a report" {
+	pinit plummer -n 137 --seed 3 | p2m -n 7x6x5 >a || skip "p2m is not there"
+	sh_ok 'stab <a | stab - >b; cmp a b'
+	sh_ok 'stab <a >t; stab - <t | stab | cmp - t'
+}
+
+@test "stream to text to stream gives equal bytes for every scene" {
+	for scene in $(pinit --complete | tr ' ' '\n' | grep -xE 'plummer|uniform|lattice|two-body|kepler|pair|cold-collapse'); do
+		sh_ok "pinit $scene >a; stab <a | stab - | cmp - a"
+	done
+	sh_ok 'pinit plummer -n 20 >a; stab <a | stab - | cmp - a'
+}
+
+@test "text to stream to text gives the same numbers, the smallest and the largest included" {
+	table >t
+	sh_ok 'stab t | stab --plain | tr "\t" " " | tail -n +2 >u; stab t | stab | stab - | stab --plain | tr "\t" " " | tail -n +2 | cmp - u; cat u'
+	[ "${lines[0]}" = "0.5 0.25 -1e-17 1 2 3 2.385 7" ]
+	[ "${lines[1]}" = "1e+300 -0 0.5 4 5 6 1e-300 -3" ]
+}
+
+@test "the names of the bodies travel with them" {
+	sh_ok "stab $top/data/solar-system.tsv --law gravity --constant G=2.95912208286e-4 | stab --plain | cut -f1 | paste -sd,"
+	[ "$output" = "name,sun,jupiter,saturn,uranus,neptune,pluto" ]
+}
+
+@test "text that stab wrote is read with rows taken out" {
+	sh_ok 'pinit plummer -n 10 | stab | awk -F"\t" "/^#/ || NF != 7 || \$7 != 4" | stab - | stab --plain | cut -f8 | paste -sd,'
+	[ "$output" = "id,0,1,2,3,5,6,7,8,9" ]
+}
+
+@test "HC-59: empty lines, comments, CRLF, blanks before, tabs and no newline at the end are all legal" {
+	printf '# a table\r\n\r\n  x\ty   mass\r\n\n 1 2\t3\r\n# between\n4 5 6' >t
+	sh_ok 'stab t | stab --plain | paste -sd" " | tr "\t" " "'
+	[ "$output" = "x y mass 1 2 3 4 5 6" ]
+}
+
+@test "HC-59: no rows make a set of no particles, one row makes one" {
+	sh_ok 'printf "x y z mass\n" | stab - | stab --plain'
+	[ "$output" = "x	y	z	mass" ]
+	sh_ok 'printf "x y z mass\n1 2 3 4" | stab - | stab --plain | tail -1'
+	[ "$output" = "1	2	3	4" ]
+}
+
+@test "HC-59: what is not finite is refused with its line and column" {
+	for bad in nan NaN inf -Inf 1e999; do
+		printf 'x y z\n1 2 3\n# one\n4 %s 6\n' "$bad" >t
+		run -1 --separate-stderr stab t
+		[ "$stderr" = "stab: t: line 4, column 2 'y': '$bad' is not finite" ]
+	done
+}
+
+@test "HC-60: a row with too few or too many columns is refused with its line" {
+	printf 'x y z\n1 2 3\n\n1 2\n1 2 3 4\n' >t
+	run -1 --separate-stderr stab t
+	[ "$stderr" = "stab: t: line 4: 2 columns, where the line of names has 3" ]
+	printf 'x y z\n1 2 3\n1 2 3 4\n' >t
+	run -1 --separate-stderr stab t
+	[ "$stderr" = "stab: t: line 3: 4 columns, where the line of names has 3" ]
+}
+
+@test "HC-59: the first wrong line is named in a text of many pieces, whatever the number of threads" {
+	awk 'BEGIN { print "x y z"; for (i = 0; i < 200000; i++) print i * 0.37, -i, i == 150000 ? "1.2.3" : i == 150007 ? "nan" : 0.5 }' >t
+	for n in 1 2 3; do
+		run -1 --separate-stderr stab --threads $n t
+		[ "$stderr" = "stab: t: line 150002, column 3 'z': '1.2.3' is not a number" ]
+	done
+}
+
+@test "what is not a number, not whole or too long is refused" {
+	printf 'x label\n1 sun\n' >t
+	run -1 --separate-stderr stab t
+	[ "$stderr" = "stab: t: line 2, column 2 'label': 'sun' is not a number" ]
+	printf 'x id\n1 1.5\n' >t
+	run -1 --separate-stderr stab t
+	[ "$stderr" = "stab: t: line 2, column 2 'id': '1.5' is not a whole number that fits" ]
+	printf 'x name\n1 abcdefghijklmnopq\n' >t
+	run -1 --separate-stderr stab t
+	[ "$stderr" = "stab: t: line 2, column 2 'name': 'abcdefghijklmnopq' has too many letters" ]
+}
+
+@test "--text keeps a column of letters and --skip leaves one out" {
+	printf 'x label junk\n1 s%%un 0\n2 a#b ?\n' >t
+	sh_ok 'stab t --text label --skip junk | stab --plain | tail -n +2 | paste -sd" " | tr "\t" " "'
+	[ "$output" = "1 s%25un 2 a%23b" ]
+	sh_ok 'stab t --text label --skip junk >a; stab <a | stab - | cmp - a'
+}
+
+@test "a table without columns, without x, with one twice or with a gap is refused" {
+	run -1 --separate-stderr bash -c ': | stab -'
+	[ "$stderr" = "stab: standard input: line 1: the text ends before a line of column names" ]
+	for head in 'mass' 'x z' 'x x' 'x q_0 q_2' 'x y z vx vz' 'x q q_0'; do
+		run -1 --separate-stderr bash -c "printf '$head\n' | stab -"
+		[ "${#stderr_lines[@]}" = 1 ]
+	done
+}
+
+@test "columns NAME_0 NAME_1 are one field in any order of columns, a lone NAME_3 is refused" {
+	sh_ok 'printf "q_1 x q_0\n2 0 1\n" | stab - | stab --plain | tail -1'
+	[ "$output" = "2	1	0" ] || [ "$output" = "1	2	0" ]
+	run -1 bash -o pipefail -c 'printf "x q_3\n0 1\n" | stab -'
+}
+
+@test "the options of a table become attributes of the frame" {
+	printf 'x y mass w\n0 0 1 1\n' >t
+	sh_ok 'stab t --law free --constant a=2.5,b=3 --dt 0.125 --time 2 --dim 2 --box -1,2 --faces periodic --cells 4x5 --strength w --unit mass=kg --number --set stars | stab | head -1 | cut -c9-'
+	echo "$output" | jq -e '.law.constants.a == 2.5 and .law.constants.b == 3 and .dt == 0.125 and .time == 2 and .box.lo == [-1,-1] and .box.hi == [2,2]
+		and .box.fields[1] == ["periodic","periodic"] and .box.particles[0] == ["periodic","periodic"] and .meshes[0].cells == [4,5] and .sets[0].name == "stars"
+		and ([.fields[] | select(.name == "w" or .name == "mass") | .kind] == ["strength","strength"]) and ([.fields[] | select(.name == "mass").unit] == ["kg"])
+		and ([.fields[] | select(.name == "id").type] == ["i64"])'
+	sh_ok 'stab t --faces open,wall --particle-faces absorb,open,reflect,open | stab | head -1 | cut -c9-'
+	echo "$output" | jq -e '.box.fields == [["open","open"],["wall","wall"]] and .box.particles == [["absorb","open"],["reflect","open"]]'
+}
+
+@test "without --box the box is a cube of twice the extent about the particles" {
+	sh_ok 'printf "x y z\n1 0 0\n3 1 0\n" | stab - | stab | head -1 | cut -c9-'
+	echo "$output" | jq -e '.box.lo == [0,-1.5,-2] and .box.hi == [4,2.5,2]'
+	sh_ok 'printf "x\n1e300\n" | stab - | stab | head -1 | cut -c9-'
+	echo "$output" | jq -e '.box.lo[0] < 1e300 and .box.hi[0] > 1e300'
+}
+
+@test "wrong options are usage errors" {
+	printf 'x\n0\n' >t
+	for o in '--dim 2' '--box 1' '--box 2,1' '--faces soft' '--faces periodic,open,open' '--constant G' '--constant G=x' '--law gravity2' '--plain' '--mesh m' '--dt -1'; do
+		run bash -c "stab t $o >/dev/null"
+		[ "$status" = 2 ] || { [ "$o" = "--dim 2" ] && [ "$status" = 1 ]; }
+	done
+	run -2 bash -c 'pinit plummer -n 5 | stab --law free'
+	run -2 bash -o pipefail -c 'pinit plummer -n 5 | stab | stab - --law free'
+	run -2 bash -c 'pinit plummer -n 5 | stab --mesh mesh'
+}
+
+@test "--plain writes the points of a mesh with their coordinates" {
+	sh_ok 'pinit lattice -n 8 | p2m -n 2 | stab --plain --mesh mesh' || skip "p2m is not there"
+	[ "${lines[0]}" = "x	y	z	rho" ]
+	[ "${#lines[@]}" -ge 9 ]
+	run -1 bash -c 'pinit plummer -n 5 | stab --plain --set nobody'
+	run -1 bash -c 'pinit plummer -n 5 | stab --plain --mesh nowhere'
+}
+
+@test "text that was cut, or whose header lies, is refused" {
+	pinit plummer -n 5 | stab >t
+	head -n -1 t >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"stops before its end line"* ]]
+	sed 's/^#end 1/#end 2/' t >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"does not count the 1 frames"* ]]
+	sed 's/"dim":3/"dim":7/' t >u
+	run -1 stab u
+	sed 's/"n":5/"n":-5/' t >u
+	run -1 stab u
+	sed '1s/{/{{/' t >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"line 1: the JSON"* ]]
+	sed 's/^x\ty/x\tq/' t >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"column 'q'"* ]]
+	sed '/^#set/d' t >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"the table of set 'matter' is not here"* ]]
+}
+
+@test "several frames and a stream of none come back" {
+	pinit plummer -n 5 >a
+	sh_ok 'stab <a >t; cat t t | stab - | stab | grep -c "^#pmpipe"'
+	[ "$output" = 2 ]
+	printf '#end 0\n' >t
+	sh_ok 'stab t | stab | cmp - t'
+	run -1 stab /nonexistent
+}
+
+@test "a stream that was cut, garbage or empty is an error for stab" {
+	pinit plummer -n 50 >a
+	head -c 2000 a >cut
+	run -1 stab -i cut
+	run -1 bash -c ': | stab'
+	run -1 bash -c 'head -c 500 /dev/zero | stab'
+	run -1 bash -c 'stab <a >/dev/full'
+}
