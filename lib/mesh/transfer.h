@@ -38,8 +38,9 @@ int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x
 int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
 	double *const out[], struct pm_strays *strays);
 
-/* The least number of cells to add below and above each axis so that the kernel of every particle stays inside (open faces only); NULL-safe
- * for periodic axes, where it is 0. -PM_DATA with a message if a wall is in the way or the mesh would be absurdly large. */
+/* How many cells to add below and above each axis so that the kernel of every particle stays inside; only open and absorbing faces move.
+ * -PM_DATA with a message if a wall is in the way or the mesh would have more than PM_TRANSFER_POINTS points. */
+#define PM_TRANSFER_POINTS 4294967296.0 /* 32 GiB a component */
 int pm_transfer_grow(const struct pm_transfer *t, size_t n, const double *const x[], size_t below[3], size_t above[3]);
 
 #endif

@@ -1,0 +1,220 @@
+/* m2p: mesh fields at the positions of particles, added to what changes them; the gathering is lib/mesh/transfer.c.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "law/law.h"
+#include "mesh/transfer_frame.h"
+#include "stage/stage.h"
+
+enum { MOST = 64 }; /* sets */
+
+struct config {
+	const char *kernel, *mesh, *set, *field, *outside;
+	bool replace;
+};
+
+/* What the options and the frame's law ask for. */
+struct job {
+	const struct pm_law *law;
+	const char *name, *sets[MOST]; /* of the mesh field; of the sets that take it */
+	size_t nsets;
+	struct pm_mesh *mesh;
+	struct pm_field *field;
+	struct pm_transfer transfer;
+};
+
+static bool has_state(const struct pm_frame *f, const char *set, const char *name)
+{
+	const struct pm_field *field = name ? pm_frame_field(f, set, name) : NULL;
+	return !name || (field && field->role == PM_STATE);
+}
+
+/* A set takes the law's field if it has what the field moves; any other field if it has positions. */
+static int choose_sets(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	const char *of = o->field ? NULL : j->law->of, *strength = !o->field && j->law->per ? j->law->strength : NULL;
+	if (o->set && !pm_frame_set(f, o->set))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", o->set);
+	for (size_t i = 0; i < f->nsets && j->nsets < MOST; i++) {
+		const char *name = f->sets[i]->name;
+		bool all = has_state(f, name, "x") && has_state(f, name, of) && has_state(f, name, strength);
+		if (o->set ? !strcmp(o->set, name) : all)
+			j->sets[j->nsets++] = name;
+		if (o->set && !strcmp(o->set, name) && !all)
+			return pm_fail(PM_DATA, "'%s' has not the state x%s%s%s%s that m2p of '%s' needs (stab adds it)", name, of ? ", " : "", of ? of : "",
+				strength ? ", " : "", strength ? strength : "", j->name);
+	}
+	if (!j->nsets)
+		return pm_fail(PM_DATA, "no set has the state x%s%s%s%s that m2p of '%s' needs (stab adds it)", of ? ", " : "", of ? of : "",
+			strength ? ", " : "", strength ? strength : "", j->name);
+	return 0;
+}
+
+/* The mesh that has the field, or the words that make it. */
+static int choose_field(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	const struct pm_law *law = j->law;
+	const char *words = "";
+	for (size_t i = 0; i < f->nmeshes && !j->field; i++)
+		if (!o->mesh || !strcmp(o->mesh, f->meshes[i]->name)) {
+			j->mesh = f->meshes[i];
+			j->field = pm_frame_field(f, j->mesh->name, j->name);
+		}
+	if (!j->mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
+	if (law->field && !strcmp(j->name, law->field))
+		words = " (run p2m | poisson-fft | mgrad first)";
+	else if (law->potential && !strcmp(j->name, law->potential))
+		words = " (run p2m | poisson-fft first)";
+	else if (law->density && !strcmp(j->name, law->density))
+		words = " (run p2m first)";
+	if (!j->field)
+		return pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, o->mesh || f->nmeshes == 1 ? j->mesh->name : "any", words);
+	return 0;
+}
+
+/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. */
+static void set_images(const struct job *j, int dim, struct pm_transfer *t)
+{
+	bool law = j->law->field && !strcmp(j->name, j->law->field), curl = law && j->law->of_potential == PM_CURL;
+	for (int c = 0; c < t->components && t->components == dim; c++)
+		if (curl && dim == 2)
+			t->flip[c][1 - c] = 1;
+		else if (!curl && (law || dim > 1))
+			t->flip[c][c] = 1;
+}
+
+static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	*j = (struct job){.law = pm_law_of(f)};
+	if (!j->law)
+		return -PM_DATA;
+	j->name = o->field ? o->field : j->law->field;
+	if (!j->name)
+		return pm_fail(PM_DATA, "the law '%s' takes nothing from a mesh (choose a field with --field NAME)", f->law);
+	int status = choose_field(o, f, j);
+	if (!status)
+		status = choose_sets(o, f, j);
+	if (status)
+		return status;
+	const char *kernel = o->kernel ? o->kernel : j->field->kernel[0] ? j->field->kernel : j->law->kernel ? j->law->kernel : "cic";
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_find(kernel), .components = j->field->components};
+	if (!j->transfer.kernel)
+		return -PM_DATA;
+	memcpy(j->transfer.half, j->field->half, sizeof j->transfer.half);
+	set_images(j, f->dim, &j->transfer);
+	return 0;
+}
+
+/* The particle field of --field: a new derived one, or a strength that is there, which needs a volume. */
+static struct pm_field *make_field(struct pm_frame *f, const char *set, const struct job *j)
+{
+	const struct pm_field *old = pm_frame_field(f, set, j->name);
+	bool strength = old && old->extensive;
+	enum pm_role role = old ? old->role : PM_DERIVED;
+	if (strength && !pm_frame_field(f, set, "volume")) {
+		pm_fail(PM_DATA, "'%s' on '%s' is a strength: the mesh value must be multiplied by a 'volume', and there is none (scalc makes one)",
+			j->name, set);
+		return NULL;
+	}
+	if (strength && !pm_reads(f, set, "volume"))
+		return NULL;
+	if (old && !strength && role != PM_DERIVED) {
+		pm_fail(PM_DATA, "'%s' on '%s' is %s, not m2p's to replace", j->name, set, pm_role_names[role]);
+		return NULL;
+	}
+	struct pm_field *made = pm_makes(f, set, j->name, j->field->components, role);
+	if (made)
+		made->extensive = strength;
+	return made;
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j = {0};
+	int status = job_of(o, f, &j);
+	if (!status && !pm_reads(f, j.mesh->name, j.name))
+		status = -PM_DATA;
+	const char *term = !status && j.field->role == PM_STATE ? "external" : "self";
+	for (size_t i = 0; i < j.nsets && !status; i++) {
+		const char *set = j.sets[i];
+		status = pm_reads_positions(f, set);
+		if (!status && !o->field && j.law->per && (!pm_reads(f, set, j.law->strength) || !pm_reads(f, set, j.law->per)))
+			status = -PM_DATA;
+		if (!status && !(o->field ? make_field(f, set, &j)
+					  : pm_contributes(f, set, j.law->change, j.law->of, j.field->components, term, o->replace)))
+			status = -PM_DATA;
+	}
+	return status;
+}
+
+/* out[c] += factor * value, with factor 1, strength/per of the law, or the volume. */
+static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const char *set)
+{
+	const struct config *o = s->config;
+	struct pm_field *target = pm_frame_field(f, set, o->field ? o->field : j->law->change);
+	const double *x[3], *mesh[PM_COMPONENTS], *factor = NULL;
+	double *out[PM_COMPONENTS], *ratio = NULL;
+	struct pm_strays strays = {.count = 0};
+	pm_positions(f, set, x);
+	for (int c = 0; c < j->transfer.components; c++) {
+		mesh[c] = pm_in(j->field, c);
+		out[c] = pm_out(target, c);
+	}
+	if (o->field && target->extensive)
+		factor = pm_in(pm_frame_field(f, set, "volume"), 0);
+	int status = !o->field && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
+	if (!status)
+		status = pm_gather(&j->transfer, target->count, x, mesh, ratio ? ratio : factor, out, &strays);
+	pm_free(ratio);
+	if (!status && strays.count && strcmp(o->outside, "drop"))
+		return pm_strays_refuse(&strays, set, j->mesh, &j->transfer, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
+	if (!status && strays.count)
+		pm_report_count(s, f, "dropped", strays.count);
+	return status;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct job j = {0};
+	int status = job_of(s->config, f, &j);
+	for (size_t i = 0; i < j.nsets && !status; i++)
+		status = gather_set(s, f, &j, j.sets[i]);
+	return status;
+}
+
+#define AT(member) offsetof(struct config, member)
+static const char *const outside[] = {"error", "drop", NULL};
+static const struct pm_option options[] = {
+	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how mesh points are weighted (default: the kernel the field was made with)", false,
+		AT(kernel)},
+	{"field", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "gather this mesh field to a particle field of the same name instead", false, AT(field)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first that has the field)", false, AT(mesh)},
+	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set with the state that the law moves)", false, AT(set)},
+	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, or leave out and count", false, AT(outside)},
+	{"replace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "compute the change field anew instead of refusing to add twice", false, AT(replace)},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"the acceleration of each star from the mesh", "pinit uniform -n 1000 | p2m -n 16 | poisson-fft | mgrad | m2p | sls"},
+	{"the density where the particles are", "pinit uniform -n 1000 | p2m -n 16 --kernel tsc | m2p --field rho | sls"},
+	{0},
+};
+const struct pm_tool tool_m2p = {
+	.name = "m2p",
+	.summary = "bring mesh fields to the particles and add them to what changes the particles",
+	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
+		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
+		 "a field that was given counts as the term external, one that was solved for as self. See docs/methods/transfer.md.",
+	.kind = PM_FILTER,
+	.makes = true,
+	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",
+	.adds = "the law's change field (acc, vel), or with --field a derived particle field",
+	.config = sizeof(struct config),
+	.options = options,
+	.examples = examples,
+	.plan = plan,
+	.frame = frame,
+};

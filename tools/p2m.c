@@ -1,0 +1,200 @@
+/* p2m: strengths of particles to a density on a mesh; the spreading is lib/mesh/transfer.c.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "law/law.h"
+#include "mesh/regrid.h"
+#include "mesh/transfer_frame.h"
+#include "stage/stage.h"
+
+enum { MOST = 64 }; /* sets */
+
+struct config {
+	const char *kernel, *mesh, *set, *strength, *field, *outside;
+	struct pm_cells cells;
+	bool add;
+};
+
+/* What the options and the frame's law ask for. */
+struct job {
+	const struct pm_kernel *kernel;
+	const char *strength, *density, *sets[MOST];
+	size_t nsets;
+	struct pm_mesh *mesh;
+};
+
+static int choose_sets(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	if (o->set && !pm_frame_set(f, o->set))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", o->set);
+	for (size_t i = 0; i < f->nsets && j->nsets < MOST; i++) {
+		const char *name = f->sets[i]->name;
+		if (o->set ? !strcmp(o->set, name) : pm_frame_field(f, name, j->strength) != NULL)
+			j->sets[j->nsets++] = name;
+	}
+	if (!j->nsets)
+		return pm_fail(PM_DATA, "no field '%s' on any set (add it with stab --strength, or choose another with --strength FIELD)", j->strength);
+	return 0;
+}
+
+static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	j->nsets = 0;
+	j->strength = o->strength ? o->strength : law->strength;
+	j->density = o->field ? o->field : law->density ? law->density : "rho";
+	j->kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "cic");
+	if (!j->kernel)
+		return -PM_DATA;
+	if (!j->strength)
+		return pm_fail(PM_DATA, "the law '%s' puts nothing on a mesh (choose a field with --strength FIELD)", f->law);
+	j->mesh = pm_frame_mesh(f, o->mesh);
+	if (!j->mesh && !o->cells.n)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
+	return choose_sets(o, f, j);
+}
+
+static int regrid(const struct config *o, struct pm_frame *f, struct job *j)
+{
+	size_t cells[3] = {1, 1, 1};
+	int status = o->cells.n ? pm_cells_for(&o->cells, f->dim, cells) : 0;
+	if (status || !o->cells.n)
+		return status;
+	if (!j->mesh)
+		return (j->mesh = pm_frame_mesh_new(f, o->mesh ? o->mesh : "mesh", cells)) ? 0 : -PM_DATA;
+	return memcmp(cells, j->mesh->cells, sizeof cells) ? pm_mesh_regrid_box(f, j->mesh, cells) : 0;
+}
+
+static int make_density(const struct config *o, struct pm_frame *f, const struct job *j)
+{
+	const struct pm_field *q = pm_frame_field(f, j->sets[0], j->strength), *old = pm_frame_field(f, j->mesh->name, j->density);
+	if (old && old->role != PM_DERIVED)
+		return pm_fail(PM_DATA, "'%s' on '%s' is %s, not p2m's to replace (choose another name with --field)", j->density, old->on,
+			pm_role_names[old->role]);
+	for (size_t i = 1; i < j->nsets; i++)
+		if (pm_frame_field(f, j->sets[i], j->strength)->components != q->components)
+			return pm_fail(PM_DATA, "'%s' has not the same number of components on '%s' and '%s' (choose one with --set)", j->strength,
+				j->sets[0], j->sets[i]);
+	if (old && o->add && (old->components != q->components || strcmp(old->kernel, j->kernel->name)))
+		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and kernel '%s': %d of kernel %s cannot be added", j->density, old->on,
+			old->components, old->kernel, q->components, j->kernel->name);
+	struct pm_field *made = old && o->add ? pm_changes(f, old->on, j->density) : pm_makes(f, j->mesh->name, j->density, q->components, PM_DERIVED);
+	if (!made)
+		return -PM_DATA;
+	snprintf(made->kernel, sizeof made->kernel, "%s", j->kernel->name);
+	if (q->extensive && q->unit[0])
+		snprintf(made->unit, sizeof made->unit, "%.40s/length^%d", q->unit, f->dim);
+	return 0;
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j = {0};
+	int status = job_of(o, f, &j);
+	if (!status)
+		status = regrid(o, f, &j);
+	for (size_t i = 0; i < j.nsets && !status; i++) {
+		status = pm_reads_positions(f, j.sets[i]);
+		if (!status)
+			status = pm_reads_strength(f, j.sets[i], j.strength);
+	}
+	if (!status)
+		status = make_density(o, f, &j);
+	return status ? status : strcmp(o->outside, "grow") ? 0 : PM_HOLD;
+}
+
+static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job *j)
+{
+	int components = pm_frame_field(f, j->mesh->name, j->density)->components;
+	return (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+}
+
+static int grow(const struct config *o, struct pm_frame *f, struct job *j)
+{
+	size_t cells[3];
+	double lo[3];
+	struct pm_transfer t = transfer_of(f, j);
+	int grown = pm_mesh_fit(f, j->mesh, &t, j->nsets, j->sets, cells, lo);
+	if (grown <= 0)
+		return grown;
+	if (o->add)
+		return pm_fail(PM_DATA, "mesh '%s' cannot grow under --add (let the first p2m grow it)", j->mesh->name);
+	int status = pm_mesh_regrid(f, j->mesh, cells, lo, j->mesh->h);
+	if (!status)
+		status = make_density(o, f, j);
+	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
+}
+
+static int spread_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const char *set)
+{
+	const struct config *o = s->config;
+	struct pm_transfer t = transfer_of(f, j);
+	const double *x[3], *q[PM_COMPONENTS];
+	double *mesh[PM_COMPONENTS], *made = NULL;
+	struct pm_strays strays = {.count = 0};
+	pm_positions(f, set, x);
+	for (int c = 0; c < t.components; c++)
+		mesh[c] = pm_out(pm_frame_field(f, j->mesh->name, j->density), c);
+	int status = pm_strengths(f, set, j->strength, q, &made);
+	if (!status)
+		status = pm_spread(&t, pm_frame_set(f, set)->n, x, q, mesh, &strays);
+	pm_free(made);
+	if (!status && strays.count && strcmp(o->outside, "drop"))
+		return pm_strays_refuse(&strays, set, j->mesh, &t, "a larger box, or --outside grow or drop");
+	if (!status && strays.count)
+		pm_report_count(s, f, "dropped", strays.count);
+	return status;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j = {0};
+	int status = job_of(o, f, &j);
+	if (!status && !strcmp(o->outside, "grow"))
+		status = grow(o, f, &j);
+	for (size_t i = 0; i < j.nsets && !status; i++)
+		status = spread_set(s, f, &j, j.sets[i]);
+	return status;
+}
+
+#define AT(member) offsetof(struct config, member)
+static const char *const outside[] = {"error", "drop", "grow", NULL};
+static const struct pm_option options[] = {
+	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how a strength is shared among mesh points (default: the law's)", false, AT(kernel)},
+	{"cells", 'n', PM_CELLS, "cells", NULL, 1, 1 << 24, NULL, "give the mesh this many cells over the box, 64 or 64x32x32", false, AT(cells)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
+	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set that has the strength)", false, AT(set)},
+	{"strength", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the particle field (default: the law's); a value is multiplied by volume", false, AT(strength)},
+	{"field", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh field made (default: the law's density)", false, AT(field)},
+	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, leave out and count, or enlarge the mesh",
+		false, AT(outside)},
+	{"add", 0, PM_FLAG, "", NULL, 0, 0, NULL, "add to the density that is there instead of replacing it", false, AT(add)},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"the density of a star cluster on its default mesh", "pinit plummer -n 1000 | p2m --outside drop | sls"},
+	{"on a finer mesh with a smoother kernel", "pinit uniform -n 1000 | p2m -n 24x32x20 --kernel tsc | sls"},
+	{0},
+};
+const struct pm_tool tool_p2m = {
+	.name = "p2m",
+	.summary = "put the strengths of particles on a mesh as a density",
+	.about = "density(i) = sum over particles of strength * W((x - x_i)/h) / (volume of a cell), W a product of one-dimensional kernels (Hockney and Eastwood "
+		 "1988, chapter 5). The mesh goes on beyond a wall as its odd image, beyond a neumann face as its even image; at open faces the support of "
+		 "every kernel must stay inside the mesh. End nodes of faces that are not periodic have half weight in mesh sums. See docs/methods/transfer.md.",
+	.kind = PM_FILTER,
+	.makes = true,
+	.reads = "x and the law's strength (mass, charge, circulation) of every set that has it",
+	.changes = "the geometry of the mesh (-n, --outside grow)",
+	.adds = "the law's density (rho, omega) on the mesh, derived",
+	.config = sizeof(struct config),
+	.options = options,
+	.examples = examples,
+	.plan = plan,
+	.frame = frame,
+};
