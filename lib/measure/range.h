@@ -1,0 +1,16 @@
+/* Smallest, largest and mean value of a field. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_RANGE_H
+#define PM_RANGE_H
+
+#include "stream/frame.h"
+
+struct pm_range {
+	double min, max, mean;
+	double least; /* the smallest above 0, infinite where there is none */
+};
+
+/* Of component c, or of the length over all components where c is -1. A field without values gives NAN throughout. */
+struct pm_range pm_range_of(const struct pm_field *field, int c);
+double pm_field_value(const struct pm_field *field, int c, size_t i); /* of any type; c = -1: the length */
+
+#endif
