@@ -1,0 +1,108 @@
+# pinit: scenes from the command line. The scenes themselves are tested in tests/unit/scene.c.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+header() { head -c 8192 "$1" | sed -n 2p; }
+field() { header "$1" | tr '\0' ' ' | python3 -c "import json,sys; h=json.loads(sys.stdin.read()); print($2)"; }
+
+scenes="cold-collapse cold-sphere kepler lattice pair plummer two-body uniform"
+
+@test "pinit: every scene makes one frame that names the scene and passes the checks of a reader" {
+	for s in $scenes; do
+		sh_ok "pinit $s > $s; diag < $s > $s.tsv"
+		[ "$(wc -l < "$s.tsv")" = 2 ]
+		[ "$(field "$s" "h['scene']['name']")" = "$s" ]
+	done
+}
+
+@test "pinit: the help lists every scene and every parameter with its defaults" {
+	run -0 pinit --help
+	for s in $scenes; do
+		grep -q "^  $s  " <<<"$output"
+	done
+	grep -q -- '--truncation X .*plummer 11' <<<"$output"
+}
+
+@test "pinit: a scene that does not exist is refused with the nearest name, exit 2" {
+	run -2 --separate-stderr pinit plumer
+	[[ $stderr == *"no scene 'plumer' (did you mean plummer;"* ]]
+}
+
+@test "pinit: a parameter that the scene does not have is refused with the nearest it has, exit 2" {
+	run -2 --separate-stderr pinit cold-collapse --mass-spread 3
+	[[ $stderr == *"the scene cold-collapse has no --mass-spread"* ]]
+	run -2 --separate-stderr pinit kepler --eccentricty 0.5
+	[[ $stderr == *"eccentricity"* ]]
+}
+
+@test "pinit: values outside a range, a dimension or a count that the scene has not are refused, exit 2" {
+	run -2 --separate-stderr pinit kepler --eccentricity 1.5
+	[[ $stderr == *"--eccentricity 1.5 is not in 0..0.999"* ]]
+	run -2 --separate-stderr pinit plummer --dim 2
+	[[ $stderr == *"does not exist in 2-D (take --dim 3)"* ]]
+	run -2 --separate-stderr pinit two-body -n 3
+	run -2 --separate-stderr pinit lattice --dim 3 -n 1000001
+	[[ $stderr == *"take -n 1000000 or 1030301"* ]]
+	run -2 --separate-stderr pinit lattice -n 27 --spacing 1.5
+	[[ $stderr == *"do not fill whole cells"* ]]
+	run -2 --separate-stderr pinit uniform --box 3,1
+	run -2 --separate-stderr pinit uniform --faces wall,wall
+	[[ $stderr == *"1 word or 6"* ]]
+	run -2 --separate-stderr pinit uniform --dim 2 --faces wall,periodic,open,open
+	[[ $stderr == *"axis x is periodic at one face"* ]]
+}
+
+@test "pinit: mesh, box, step and faces can be typed over the scene's own" {
+	sh_ok 'pinit uniform --dim 3 -n 10 --cells 8x6x4 --box -1,3 --dt 0.125 --faces wall > a'
+	[ "$(field a "h['meshes'][0]['cells'], h['meshes'][0]['h'], h['box']['lo'], h['box']['hi'], h['dt']")" = \
+		"[8, 6, 4] [0.5, 0.6666666666666666, 1.0] [-1.0, -1.0, -1.0] [3.0, 3.0, 3.0] 0.125" ]
+	[ "$(field a "h['box']['fields'][2], h['box']['particles'][2]")" = "['wall', 'wall'] ['reflect', 'reflect']" ]
+	sh_ok 'pinit uniform --dim 2 -n 10 --box 0,1,-2,2 --faces wall,open,neumann,neumann --particle-faces absorb > b'
+	[ "$(field b "h['box']['lo'], h['box']['hi'], h['box']['fields'], h['box']['particles'][0]")" = \
+		"[0.0, -2.0] [1.0, 2.0] [['wall', 'open'], ['neumann', 'neumann']] ['absorb', 'absorb']" ]
+}
+
+@test "pinit: the parameters, the seed and equal masses are in the header, not in the data" {
+	sh_ok 'pinit plummer -n 100 --seed 12345 --truncation 7.25 > a'
+	[ "$(field a "h['scene']['parameters']['truncation'], h['seed'], len([f for f in h['fields'] if f['name']=='mass'][0]['uniform'])")" = "7.25 12345 1" ]
+}
+
+@test "pinit: no particles at all is legal" {
+	for s in plummer uniform lattice cold-collapse cold-sphere; do
+		sh_ok "pinit $s -n 0 | diag --columns particles,mass"
+		[ "${lines[1]}" = "0	0" ]
+	done
+}
+
+@test "HC-56: the same seed gives the same bytes with 1, 2 and 16 threads, another seed gives others" {
+	for s in plummer uniform cold-sphere; do
+		for t in 1 2 16; do
+			pinit $s -n 20000 --seed 3 --threads $t > $t
+		done
+		same_as 1 2
+		same_as 1 16
+		pinit $s -n 20000 --seed 4 > other
+		run -1 cmp -s 1 other
+	done
+}
+
+@test "pinit: more particles of the same seed begin with the same ones, up to the shift of the centre" {
+	pinit uniform -n 5 --dim 1 --seed 9 > a
+	pinit uniform -n 9 --dim 1 --seed 9 > b
+	python3 - <<'PY'
+import struct
+def xs(name, n):
+    b = open(name, 'rb').read()
+    size = int(b[:64].split()[2])
+    return struct.unpack('<%dd' % n, b[64 + size:64 + size + 8 * n])
+assert xs('a', 5) == xs('b', 9)[:5]
+PY
+}
+
+@test "pinit: mass-spread draws the masses over so many decades" {
+	sh_ok 'pinit uniform -n 20000 --mass-spread 12 --dispersion 1 | diag --columns momentum_x,momentum_y,momentum_z,momentum_scale'
+	read -r x y z scale <<<"${lines[1]}"
+	for p in $x $y $z; do
+		below "$p" "$(awk -v s="$scale" 'BEGIN { print 1e-15 * s }')" # one subtraction of the weighted mean, compensated sums
+	done
+}

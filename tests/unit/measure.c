@@ -1,0 +1,145 @@
+/* What diag measures, against sums done by hand, exact fields, and itself with other numbers of threads. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "measure/measure.h"
+#include "check.h"
+
+static double plummer(double r2, double softening, int dim)
+{
+	(void)dim;
+	return -1 / (4 * pm_pi * sqrt(r2 + softening * softening));
+}
+
+static void sums(void)
+{
+	const size_t n = 10000000;
+	double *m = pm_alloc(n, sizeof *m), hard[] = {1, 1e100, 1, -1e100}, one[] = {1, 1, 1, 1};
+	for (size_t i = 0; i < n; i++)
+		m[i] = 0.1;
+	struct pm_bodies b = {.n = n, .dim = 1, .vdim = 1, .x = {m}, .v = {m}, .mass = m};
+	struct pm_bulk bulk = {0};
+	pm_bulk_add(&b, &bulk);
+	check_near(bulk.mass, 1000000, 0, "HC-58: the mass of ten million particles of 0.1 is 1000000 to the last bit");
+	bulk = (struct pm_bulk){0};
+	b = (struct pm_bodies){.n = 4, .dim = 1, .vdim = 1, .x = {one}, .v = {hard}, .mass = one, .strength = hard, .phi = one};
+	pm_bulk_add(&b, &bulk);
+	check_near(bulk.momentum[0], 2, 0, "HC-58: the momentum of 1, 1e100, 1, -1e100 is 2");
+	check_near(pm_energy_at_particles(&b), 1, 0, "HC-58: the energy at the particles too is compensated");
+	pm_free(m);
+}
+
+static void by_hand(void)
+{
+	const double x[3][2] = {{1, 2}, {-1, 3}, {0.5, 0}}, v[3][2] = {{0, 2}, {1, 0}, {4, -1}}, m[2] = {2, 3}, q[2] = {2, -3};
+	const struct pm_bodies b = {.n = 2, .dim = 3, .vdim = 3, .x = {x[0], x[1], x[2]}, .v = {v[0], v[1], v[2]}, .mass = m, .strength = q};
+	struct pm_bulk bulk = {0};
+	pm_bulk_add(&b, &bulk);
+	check(bulk.n == 2 && bulk.mass == 5 && bulk.kinetic == 24.5, "mass and kinetic energy of two bodies");
+	check(bulk.momentum[0] == 6 && bulk.momentum[1] == 2 && bulk.momentum[2] == 5, "their momentum");
+	/* 2 (-4.5, -4, 1) + 3 (-3, 2, -6) */
+	check(bulk.angular[0] == -18 && bulk.angular[1] == -2 && bulk.angular[2] == -16, "their angular momentum");
+	check(bulk.moment[0] == 8 && bulk.farthest == sqrt(13), "their first moment and the largest distance");
+	check_near(bulk.scale, 2 * sqrt(17) + 3 * sqrt(5), 1e-14, "the scale of their momentum");
+	check_near(pm_energy_of_pairs(&b, &b, 4 * pm_pi, 0.5, plummer), 6 / sqrt(17.25 + 0.25), 1e-15, "their pair energy with softening");
+	const struct pm_bodies still = {.n = 2, .dim = 3, .x = {x[0], x[1], x[2]}};
+	bulk = (struct pm_bulk){0};
+	pm_bulk_add(&still, &bulk);
+	check(isnan(bulk.mass) && bulk.movers == 0, "without masses the mass is not a number");
+}
+
+/* Two sets in one sum, one set in halves: the pair energy is the same. */
+static void pairs(void)
+{
+	enum { n = 1201 };
+	static double x[3][n], q[n];
+	for (int i = 0; i < n; i++) {
+		double u[2];
+		for (int d = 0; d < 3; d++) {
+			pm_random(5, (uint64_t)i, (uint64_t)d, u);
+			x[d][i] = u[0];
+		}
+		q[i] = u[1] - 0.3;
+	}
+	const int cut = 517;
+	struct pm_bodies all = {.n = n, .dim = 3, .x = {x[0], x[1], x[2]}, .strength = q}, a = all, b = all;
+	a.n = cut, b.n = n - cut, b.strength += cut;
+	for (int d = 0; d < 3; d++)
+		b.x[d] += cut;
+	const double whole = pm_energy_of_pairs(&all, &all, 1, 0.1, plummer);
+	const double parts = pm_energy_of_pairs(&a, &a, 1, 0.1, plummer) + pm_energy_of_pairs(&b, &b, 1, 0.1, plummer) + pm_energy_of_pairs(&a, &b, 1, 0.1, plummer);
+	check_near(parts, whole, 1e-13 * fabs(whole), "the pair energy of two sets is that of their union");
+	double again[2];
+	for (int t = 0; t < 2; t++) {
+		pm_threads_use(t ? 3 : 1);
+		again[t] = pm_energy_of_pairs(&all, &all, 1, 0.1, plummer);
+	}
+	check(again[0] == whole && again[1] == whole, "HC-58: with 1, 2 and 3 threads the same bytes");
+}
+
+static void bulk_threads(void)
+{
+	const size_t n = 300007;
+	double *a[7];
+	for (int k = 0; k < 7; k++) {
+		a[k] = pm_alloc(n, sizeof **a);
+		for (size_t i = 0; i < n; i++)
+			a[k][i] = sin((double)i * (k + 1)) * exp(20 * cos(0.3 * (double)i));
+	}
+	const struct pm_bodies b = {.n = n, .dim = 3, .vdim = 3, .x = {a[0], a[1], a[2]}, .v = {a[3], a[4], a[5]}, .mass = a[6]};
+	struct pm_bulk bulk[3] = {0};
+	for (int t = 0; t < 3; t++) {
+		pm_threads_use(t + 1);
+		pm_bulk_add(&b, &bulk[t]);
+	}
+	check(!memcmp(bulk, bulk + 1, sizeof *bulk) && !memcmp(bulk, bulk + 2, sizeof *bulk), "HC-58: all bulk quantities have the same bytes with 1, 2 and 3 threads");
+	for (int k = 0; k < 7; k++)
+		pm_free(a[k]);
+}
+
+/* rho = cos kx, phi = -cos kx: the integral is -L/4 (periodic: exact sum; walls: the ends have half weight, exact too). */
+static void on_mesh(void)
+{
+	for (int periodic = 0; periodic < 2; periodic++) {
+		struct pm_frame *f = pm_frame_new(2);
+		const size_t cells[3] = {12, 7, 1};
+		for (int d = 0; d < 2; d++) {
+			f->hi[d] = d ? 3 : 2.385;
+			for (int s = 0; s < 2; s++)
+				f->face[d][s] = periodic ? PM_PERIODIC : PM_NEUMANN;
+		}
+		const struct pm_grid g = pm_grid_of(f, pm_frame_mesh_new(f, "mesh", cells));
+		double rho[13 * 8], phi[13 * 8];
+		for (size_t p = 0; p < pm_grid_size(&g); p++) {
+			rho[p] = cos(2 * pm_pi * (double)(p % g.points[0]) / 12);
+			phi[p] = -rho[p];
+		}
+		check_near(pm_energy_on_mesh(&g, rho, phi), -0.25 * 2.385 * 3, 1e-14, periodic ? "the energy of a wave on a periodic mesh" : "the same between faces, whose points count half");
+		pm_frame_free(f);
+	}
+}
+
+static void radii(void)
+{
+	enum { n = 1000 };
+	struct pm_shell shell[n];
+	const double fraction[] = {0.1, 0.5, 1, 1e-9};
+	double r[4];
+	for (size_t i = 0; i < n; i++)
+		shell[i] = (struct pm_shell){(double)((i * 617) % n + 1), 0.001, i};
+	pm_radii(n, shell, 4, fraction, r);
+	check(r[0] == 100 && r[1] == 500 && r[2] == 1000 && r[3] == 1, "Lagrangian radii of a thousand equal shells");
+	pm_radii(0, shell, 1, fraction, r);
+	check(isnan(r[0]), "of none there is none");
+}
+
+int main(void)
+{
+	sums();
+	by_hand();
+	pairs();
+	bulk_threads();
+	on_mesh();
+	radii();
+	return check_done();
+}
