@@ -1,0 +1,93 @@
+/* Which derivatives make grad, curl, div and lap: the list of terms, and what is refused.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "mesh/gradient.h"
+
+const char *const pm_operator_names[] = {"grad", "curl", "div", "lap", NULL};
+const char *const pm_order_names[] = {"2", "4", "6", "spectral", NULL};
+
+int pm_order_find(const char *name)
+{
+	static const int order[] = {2, 4, 6, 0};
+	for (int i = 0; pm_order_names[i]; i++)
+		if (!strcmp(name, pm_order_names[i]))
+			return order[i];
+	return pm_fail(PM_USAGE, "no order '%s' (choose 2, 4, 6 or spectral)", name), -1;
+}
+
+static void add(struct pm_operator *o, int out, int in, int axis, double sign)
+{
+	o->term[o->nterms++] = (struct pm_operator_term){out, in, axis, sign};
+}
+
+static int faces(const struct pm_operator *o)
+{
+	const struct pm_grid *g = &o->grid;
+	for (int d = 0; d < g->dim; d++) {
+		size_t need = (size_t)(o->order + o->derivative);
+		for (int side = 0; side < 2; side++) {
+			if (g->face[d][side] == PM_ABSORBING)
+				return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (mgrad takes periodic, wall, neumann or open faces)");
+			if (g->face[d][side] == PM_OPEN && o->order && g->points[d] < need)
+				return pm_fail(PM_DATA, "order %d at an open face needs %zu nodes, axis %c has %zu (choose a lower --order or more cells)", o->order,
+					need, "xyz"[d], g->points[d]);
+			if (g->face[d][side] == PM_OPEN && !o->order)
+				return pm_fail(PM_DATA, "--order spectral needs periodic, wall or neumann faces, axis %c is open (choose --order 2, 4 or 6)", "xyz"[d]);
+		}
+		if (!o->order && g->face[d][0] != g->face[d][1])
+			return pm_fail(PM_DATA, "--order spectral needs the same face at both ends of axis %c (choose --order 2, 4 or 6)", "xyz"[d]);
+	}
+	return 0;
+}
+
+int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_operator_kind kind, int order, int in, bool flow)
+{
+	int dim = g->dim;
+	*o = (struct pm_operator){.grid = *g, .kind = kind, .order = order, .in = in, .flow = flow, .derivative = kind == PM_OP_LAP ? 2 : 1};
+	if (kind == PM_OP_GRAD && in == 1) {
+		o->out = dim;
+		for (int d = 0; d < dim; d++)
+			add(o, d, 0, d, 1);
+	} else if (kind == PM_OP_LAP && in <= 3) {
+		o->out = in;
+		for (int c = 0; c < in; c++)
+			for (int d = 0; d < dim; d++)
+				add(o, c, c, d, 1);
+	} else if (kind == PM_OP_DIV && in == dim) {
+		o->out = 1;
+		for (int d = 0; d < dim; d++)
+			add(o, 0, d, d, 1);
+	} else if (kind == PM_OP_CURL && dim == 3 && in == 3) {
+		o->out = 3;
+		for (int c = 0; c < 3; c++) {
+			add(o, c, (c + 2) % 3, (c + 1) % 3, 1);
+			add(o, c, (c + 1) % 3, (c + 2) % 3, -1);
+		}
+	} else if (kind == PM_OP_CURL && dim == 2 && in == 1) {
+		o->out = 2;
+		add(o, 0, 0, 1, 1);
+		add(o, 1, 0, 0, -1);
+	} else if (kind == PM_OP_CURL && dim == 2 && in == 2) {
+		o->out = 1;
+		add(o, 0, 1, 0, 1);
+		add(o, 0, 0, 1, -1);
+	} else {
+		return pm_fail(PM_DATA, "no %s of a field of %d components in %d-D (grad takes 1, div %d, lap 1 to 3%s)", pm_operator_names[kind], in, dim, dim,
+			dim == 3 ? ", curl 3" : dim == 2 ? ", curl 1 or 2" : "");
+	}
+	return faces(o);
+}
+
+int pm_operator_plan(struct pm_operator *o, struct pm_planner *p)
+{
+	for (int d = 0; d < o->grid.dim && !o->order; d++)
+		if (pm_line_init(p, o->grid.face[d][0], o->grid.cells[d], &o->line[d]))
+			return -PM_DATA;
+	return 0;
+}
+
+int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[])
+{
+	return o->order ? pm_operator_differences(o, factor, in, out) : pm_operator_spectral(o, factor, in, out);
+}

@@ -1,0 +1,45 @@
+/* Operators on mesh fields: grad, curl, div and lap by centred differences of order 2, 4, 6 or spectrally (docs/methods/mgrad.md).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_GRADIENT_H
+#define PM_GRADIENT_H
+
+#include "mesh/lines.h"
+
+enum pm_operator_kind { PM_OP_GRAD, PM_OP_CURL, PM_OP_DIV, PM_OP_LAP };
+extern const char *const pm_operator_names[], *const pm_order_names[]; /* NULL ends; orders 2, 4, 6, spectral */
+int pm_order_find(const char *name);                                   /* 2, 4, 6; 0 spectral; -1 and a message */
+
+enum { PM_TAPS = 8, PM_ENDS = 12, PM_TERMS_MOST = 16 };
+
+/* One term: out component += sign * derivative of in component along an axis. */
+struct pm_operator_term {
+	int out, in, axis;
+	double sign;
+};
+
+struct pm_operator {
+	struct pm_grid grid;
+	enum pm_operator_kind kind;
+	int order;      /* 0: spectral */
+	int in, out;    /* components */
+	bool flow;      /* a vector field is a flow (walls: normal component odd, others even), else a gradient (the other way round) */
+	int derivative; /* 1; lap: 2 */
+	int nterms;     /* in order of out */
+	struct pm_operator_term term[PM_TERMS_MOST];
+	struct pm_line line[3]; /* spectral: after pm_operator_plan */
+};
+
+/* Which operator on a field of `in` components: 0, or the sentence that says what cannot be done. Plans nothing. */
+int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_operator_kind kind, int order, int in, bool flow);
+/* The transforms of a spectral operator; nothing to do for differences. */
+int pm_operator_plan(struct pm_operator *o, struct pm_planner *p);
+/* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. */
+int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
+
+/* Of gradient.c and gradient-spectral.c: all of out, by differences; one term, added or set. */
+int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
+int pm_operator_spectral(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
+/* Do images of a component change sign at a face? */
+bool pm_operator_odd(const struct pm_operator *o, int component, int axis, int side);
+
+#endif
