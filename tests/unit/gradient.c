@@ -215,7 +215,7 @@ static void orders(void)
 			for (enum pm_face face = PM_PERIODIC; face <= PM_NEUMANN; face++) {
 				double h[3], error[3] = {0};
 				for (int l = 0; l < 3; l++) {
-					size_t n = 48u << l;
+					size_t n = (face == PM_OPEN && kind == PM_OP_LAP ? 24u : 48u) << l; /* one-sided weights reach round-off sooner */
 					struct pm_grid g = box(1, n, 1, 1, face, 0, 0);
 					g.h[0] = h[l] = 2 / (double)n;
 					double s[200], out[200], scale = face == PM_OPEN ? pm_pi / 2 : pm_pi;
