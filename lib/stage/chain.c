@@ -47,7 +47,10 @@ static void child(char **argv, int in, int out)
 		execv(path, argv);
 	}
 	execvp(argv[0], argv);
-	dprintf(STDERR_FILENO, "cycle: cannot run '%s': %s\n", argv[0], strerror(errno));
+	snprintf(path, sizeof path, "cannot run '%s': %s", argv[0], strerror(errno));
+	struct pm_writer *w = pm_writer_of_fd(STDOUT_FILENO);
+	if (w)
+		pm_write_abort(w, PM_DATA, path);
 	_exit(127);
 }
 

@@ -1,0 +1,160 @@
+#!/usr/bin/env bats
+# cycle: what it counts, writes, primes, keeps and refuses. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+leap='push kick/2 drift | pp | push kick/2'
+frames() { sls --format json | grep -c '"step"'; }
+steps_of() { diag | column step | tr '\n' ' '; }
+
+@test "without --every only the last frame is written" {
+	sh_ok "pinit two-body | cycle -n 7 '$leap' | diag"
+	[ "$(pinit two-body | cycle -n 7 "$leap" | steps_of)" = "7 " ]
+}
+
+@test "with --every the beginning, the multiples and the last are written" {
+	[ "$(pinit two-body | cycle -n 7 --every 3 "$leap" | steps_of)" = "0 3 6 7 " ]
+}
+
+@test "the beginning is written primed: it holds the force" {
+	pinit two-body | cycle -n 1 --every 1 "$leap" | sel --frames 0 | sls | grep -q acc
+}
+
+@test "-t stops at the first step with time >= t - dt/2" {
+	pinit two-body --dt 0.1 > a
+	[ "$(cycle -t 0.449 "$leap" < a | steps_of)" = "4 " ]
+	[ "$(cycle -t 0.451 "$leap" < a | steps_of)" = "5 " ]
+}
+
+@test "-n 0 passes the frame on" {
+	pinit two-body --no-history > a
+	cycle -n 0 --no-history "$leap" < a > b
+	same_as a b
+}
+
+@test "every input frame starts its own run, and two streams stay two" {
+	pinit two-body > a
+	[ "$(cat a a | cycle -n 2 "$leap" | steps_of)" = "2 2 " ]
+	cycle -n 2 "$leap" < a > b
+	[ "$(cycle -n 2 "$leap" < b | steps_of)" = "4 " ]
+}
+
+@test "-n counts from the beginning, also after resume" {
+	pinit two-body > a
+	cycle -n 5 --checkpoint c "$leap" < a > five
+	cycle -n 9 --resume c "$leap" > nine
+	cycle -n 9 "$leap" < a > want
+	same_as nine want
+}
+
+@test "after resume the frames are the same bytes, history and all" {
+	pinit two-body > a
+	cycle -n 6 --every 2 "$leap" < a > all
+	cycle -n 4 --every 2 --checkpoint c "$leap" < a > first
+	cycle -n 6 --every 2 --resume c "$leap" > rest
+	sel --no-history --frames 3 < all > x
+	sel --no-history --frames 0 < rest > y
+	same_as x y
+}
+
+@test "a checkpoint is a stream of one frame under its own name" {
+	pinit two-body | cycle -n 3 --checkpoint c "$leap" > b
+	[ "$(steps_of < c)" = "3 " ]
+	[ ! -e c.part ]
+}
+
+@test "the history holds one entry for the whole loop" {
+	pinit two-body | cycle -n 3 "$leap" | cycle -n 2 "$leap" > b
+	[ "$(sls --history < b | grep -c cycle)" -eq 1 ]
+	! sls --history < b | grep -q push.*kick/2.*arguments
+}
+
+@test "words and quotes are read as the shell does, comments too" {
+	sh_ok "pinit two-body | cycle -n 1 '\"push\" kick/2  drift # half a kick
+	| pp --softening \"0.1\" # the force
+	| push '\"'kick/2'\"'' | diag"
+}
+
+@test "a stage in Python works inside, between ours, in both engines" {
+	stage="$top/tests/drag.py"
+	pinit plummer -n 50 --no-history > a
+	s="push kick/2 drift | pp | $stage 0.5 | push kick/2"
+	cycle --no-history -n 3 "$s" < a > fused
+	cycle --no-history -n 3 --engine pipes "$s" < a > pipes
+	same_as fused pipes
+	e0=$(diag < a | column energy_kinetic)
+	e1=$(cycle -n 40 "$stage 1 | push kick drift" < a | diag | column energy_kinetic)
+	t=$(cycle -n 40 "$stage 1 | push kick drift" < a | diag | column time)
+	# v' = -v by Euler steps: the kinetic energy falls as (1 - dt)^(2n)
+	dt=$(awk -v t="$t" 'BEGIN { print t / 40 }')
+	within "$(awk -v a="$e1" -v b="$e0" 'BEGIN { print a / b }')" "$(awk -v d="$dt" 'BEGIN { print (1 - d) ^ 80 }')" 1e-6
+}
+
+@test "a foreign word that is not there is named" {
+	pinit two-body > a
+	run -1 bash -c "cycle -n 1 'no-such-word | push kick drift' < a > b"
+	[[ $output == *"cannot run 'no-such-word'"* ]]
+	[ "${#lines[@]}" -eq 1 ]
+}
+
+@test "a sentence without a push is refused, not run for ever" {
+	pinit two-body > a
+	run -2 bash -c "cycle -n 1 'pp --replace' < a > b"
+	[[ $output == *"no word that completes a step"* ]]
+}
+
+@test "what cannot stand inside a sentence is refused before input is read" {
+	for word in 'sls' 'pinit plummer' 'cycle -n 1 pp' '' 'pp | | push kick' "pp 'open" 'pp --sofening 1'; do
+		run -2 bash -c "cycle -n 1 \"$word\" < /dev/null > b"
+		[ "${#lines[@]}" -eq 1 ]
+		head -c 64 b | grep -q '^PMPIPE/1 abort 2 '
+	done
+}
+
+@test "how long must be said" {
+	run -2 bash -c "cycle 'pp' < /dev/null > b"
+	[[ $output == *"how long"* ]]
+}
+
+@test "a failure inside names the step and the stage, and travels" {
+	pinit two-body > a
+	for engine in fused pipes; do
+		run -1 bash -c "set -o pipefail; cycle -n 3 --engine $engine 'push kick/2 drift | push kick/2' < a | diag"
+		[[ $output == *"cycle: step 1: push"*"no field 'acc'"* ]]
+		[[ $output == *"diag: stopped by cycle: step 1"* ]]
+	done
+}
+
+@test "a value that is not finite stops the run with exit 3, step and stage named" {
+	for engine in fused pipes; do
+		run -3 bash -c "pinit two-body | cycle -n 50 --engine $engine 'push kick/2 drift --dt 1e200 | pp | push kick/2' > b"
+		[[ $output == *"cycle: step "*"push"*"not finite"* ]]
+		tail -c 200 b | grep -q 'PMPIPE/1 abort 3'
+	done
+}
+
+@test "SIGTERM: the step is ended, a checkpoint written, the stream aborted; resume goes on to the same bytes" {
+	pinit plummer -n 400 --no-history > a
+	cycle --no-history -n 400 --checkpoint c "$leap" < a > b 2> err &
+	pid=$!
+	sleep 0.3
+	kill -TERM $pid
+	wait $pid && status=0 || status=$?
+	if [ $status -ne 0 ]; then # it may have been done already on a fast machine
+		grep -q 'stopped by signal 15 after step' err
+		tail -c 256 b | grep -q 'PMPIPE/1 abort 1'
+		cycle --no-history -n 400 --resume c "$leap" > rest
+	else cp b rest; fi
+	cycle --no-history -n 400 "$leap" < a > want
+	same_as rest want
+}
+
+@test "the timing file has a line for every stage" {
+	pinit two-body | cycle -n 3 --timing t "$leap" > b
+	[ "$(wc -l < t)" -eq 4 ]
+	cut -f1 t | grep -q '^push kick/2 drift$'
+}
+
+@test "the forces are not counted twice: pp after cycle is refused" {
+	run -1 bash -c "set -o pipefail; pinit two-body | cycle -n 2 '$leap' | pp > b"
+	[[ $output == *"already holds the term 'self'"* ]]
+}

@@ -1,0 +1,79 @@
+#!/usr/bin/env bats
+# The same bytes for every way of running a sentence: a shell loop, fused, processes on pipes; 1, 2 and 3 threads; even and odd meshes; fresh and
+# resumed; with an empty cache directory and with a foreign one. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+steps=4
+
+# loop SENTENCE FIRST < frame: the sentence as processes started anew for every step; FIRST makes the force of the beginning.
+loop() {
+	cat > now
+	if [ -n "$2" ]; then bash -o pipefail -c "$2 < now > next" && mv next now || return; fi
+	for _ in $(seq "$3"); do bash -o pipefail -c "$1 < now > next" && mv next now || return; done
+	cat now
+}
+
+# quiet SENTENCE: every word with --no-history.
+quiet() { echo "$1" | sed 's/ *| */ --no-history | /g; s/$/ --no-history/'; }
+
+# all_ways SCENE FORCE SENTENCE PASSES: compares the checksums of every way with the first.
+all_ways() {
+	local want got ways=0
+	$1 --no-history > start
+	export XDG_CACHE_HOME=$PWD/empty
+	want=$(OMP_NUM_THREADS=1 loop "$(quiet "$3")" "$(quiet "$2")" $((steps * $4)) < start | cksum)
+	for cache in empty foreign; do
+		export XDG_CACHE_HOME=$PWD/$cache
+		mkdir -p "$XDG_CACHE_HOME/pmpipe"
+		[ $cache = empty ] || for f in wisdom wisdom.lock plans; do echo 'not wisdom at all' > "$XDG_CACHE_HOME/pmpipe/$f"; done
+		for threads in 1 2 3; do
+			for engine in fused pipes; do
+				got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --engine $engine "$3" < start | cksum)
+				[ "$got" = "$want" ] || { echo "$engine, $threads threads, $cache cache: $got, the shell loop: $want"; return 1; }
+				OMP_NUM_THREADS=$threads cycle --no-history -n 2 --checkpoint half --engine $engine "$3" < start > /dev/null
+				got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --resume half --engine $engine "$3" | cksum)
+				[ "$got" = "$want" ] || { echo "resumed, $engine, $threads threads, $cache cache: $got, want $want"; return 1; }
+				ways=$((ways + 2))
+			done
+		done
+	done
+	[ $ways -eq 24 ]
+}
+
+force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
+
+@test "equal bytes: gravity in open space, leapfrog, an even mesh" {
+	all_ways "pinit plummer -n 500" "$(force 24)" "push kick/2 drift | $(force 24) | push kick/2" 1
+}
+
+@test "equal bytes: gravity in open space, leapfrog, an odd mesh with three different sides" {
+	all_ways "pinit plummer -n 500" "$(force 27x25x31)" "push kick/2 drift | $(force 27x25x31) | push kick/2" 1
+}
+
+@test "equal bytes: gravity in a periodic box, four passes a step (rk4), an odd mesh" {
+	all_ways "pinit uniform -n 500" "" "$(force 15) | push rk4" 4
+}
+
+@test "equal bytes: gravity by multigrid in a periodic box, lsrk3" {
+	all_ways "pinit uniform -n 300" "" "p2m -n 12x16x20 | poisson-mg | mgrad | m2p | push lsrk3" 3
+}
+
+@test "equal bytes: direct sum, leapfrog" {
+	all_ways "pinit plummer -n 300" "pp" "push kick/2 drift | pp | push kick/2" 1
+}
+
+@test "equal bytes: the free law" {
+	all_ways "pinit uniform -n 1001 --law free" "" "push drift" 1
+}
+
+@test "equal bytes: a scheme with a memory (ab3), over its start" {
+	pinit plummer -n 200 --no-history > start
+	for engine in fused pipes; do
+		for threads in 1 3; do
+			OMP_NUM_THREADS=$threads cycle --no-history -n 5 --engine $engine 'pp | push ab3' < start | cksum
+			OMP_NUM_THREADS=$threads cycle --no-history -n 3 --checkpoint c --engine $engine 'pp | push ab3' < start > /dev/null
+			OMP_NUM_THREADS=$threads cycle --no-history -n 5 --resume c --engine $engine 'pp | push ab3' | cksum
+		done
+	done | sort -u > sums
+	[ "$(wc -l < sums)" -eq 1 ]
+}
