@@ -91,9 +91,11 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	t->target = pm_makes(f, mesh->name, target, t->operator.out, PM_DERIVED);
-	if (t->target)
-		memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
-	return t->target ? 0 : -PM_DATA;
+	if (!t->target)
+		return -PM_DATA;
+	t->target->use |= PM_USE_FILL;
+	memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
+	return 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)

@@ -84,6 +84,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	t->target = pm_makes(f, mesh->name, target, t->source->components, PM_DERIVED);
 	if (!t->target)
 		return -PM_DATA;
+	t->target->use |= PM_USE_FILL;
 	memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
 	memcpy(t->target->half, t->source->half, sizeof t->target->half);
 	for (int c = 0; c < t->source->components; c++)

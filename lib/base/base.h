@@ -22,6 +22,8 @@ int pm_fail(int code, const char *format, ...) __attribute__((format(printf, 2, 
 int pm_fail_errno(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The last message of this thread, "" if none. */
 const char *pm_message(void);
+/* The last failure of this thread as a return value, for callers that were handed NULL. */
+int pm_failed(void);
 /* The exit status of a return value: 0, 1, 2 or 3. */
 int pm_exit_code(int status);
 

@@ -7,6 +7,7 @@
 #include "base/base.h"
 
 static _Thread_local char message[1024];
+static _Thread_local int last = -PM_DATA;
 
 int pm_fail(int code, const char *format, ...)
 {
@@ -16,7 +17,8 @@ int pm_fail(int code, const char *format, ...)
 	vsnprintf(text, sizeof text, format, ap);
 	va_end(ap);
 	memcpy(message, text, sizeof message);
-	return -code;
+	last = -code;
+	return last;
 }
 
 int pm_fail_errno(const char *format, ...)
@@ -29,6 +31,8 @@ int pm_fail_errno(const char *format, ...)
 	va_end(ap);
 	return pm_fail(PM_DATA, "%s: %s", text, strerror(error));
 }
+
+int pm_failed(void) { return last; }
 
 const char *pm_message(void) { return message; }
 

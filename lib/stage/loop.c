@@ -38,7 +38,7 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	struct pm_writer *w = copy ? pm_writer_open(temporary) : NULL;
 	if (!w) {
 		pm_frame_free(copy);
-		return -PM_DATA;
+		return pm_failed();
 	}
 	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
 	int status = pm_write_frame(w, copy);
@@ -149,12 +149,12 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	struct cycle y = {.c = c, .s = s};
 	y.words = pm_sentence_new(s->args[0], !strcmp(c->engine, "fused"), &c->moves);
 	if (!y.words)
-		return -PM_USAGE;
+		return pm_failed();
 	if (c->resume)
 		s->run->reader = pm_reader_open(c->resume);
 	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
 	y.out = in ? pm_stage_writer(s) : NULL;
-	int status = y.out ? 0 : -PM_DATA;
+	int status = y.out ? 0 : pm_failed();
 	signal(SIGINT, on_signal);
 	signal(SIGTERM, on_signal);
 	if (!status)

@@ -54,7 +54,7 @@ static int run_filter(struct pm_stage *s)
 	struct pm_reader *r = pm_stage_reader(s);
 	struct pm_writer *w = s->kind == PM_FILTER ? pm_stage_writer(s) : NULL;
 	if (!r || (s->kind == PM_FILTER && !w))
-		return -PM_DATA;
+		return pm_failed();
 	for (;;) {
 		struct pm_frame *f = NULL;
 		int got = pm_read_header(r, &f), status = 0;
@@ -75,7 +75,7 @@ static int run_source(struct pm_stage *s)
 {
 	struct pm_writer *w = pm_stage_writer(s);
 	struct pm_frame *f = NULL;
-	int more, status = w ? 0 : -PM_USAGE;
+	int more, status = w ? 0 : pm_failed();
 	while (!status) {
 		double t = pm_seconds();
 		more = s->tool->source(s, &f);

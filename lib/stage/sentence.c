@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "stage/chain.h"
 #include "stage/internal.h"
@@ -97,12 +98,35 @@ static bool in_list(const struct pm_list *list, const char *name)
 	return false;
 }
 
+/* A foreign word must be a program that can be run: said before any input is read. */
+static int foreign_check(const char *name)
+{
+	const char *names[256], *near;
+	char path[4096], *list = strdup(getenv("PATH") ? getenv("PATH") : "/bin:/usr/bin"), *next = NULL;
+	bool found = strchr(name, '/') ? access(name, X_OK) == 0 : false;
+	for (char *dir = strchr(name, '/') || !list ? NULL : strtok_r(list, ":", &next); dir && !found; dir = strtok_r(NULL, ":", &next)) {
+		snprintf(path, sizeof path, "%s/%s", dir, name);
+		found = access(path, X_OK) == 0;
+	}
+	free(list);
+	if (found)
+		return 0;
+	int n = 0;
+	for (; n < 255 && pm_tools[n]; n++)
+		names[n] = pm_tools[n]->name;
+	names[n] = NULL;
+	near = pm_nearest(name, names);
+	if (near)
+		return pm_fail(PM_USAGE, "no word '%s' (did you mean %s?)", name, near);
+	return pm_fail(PM_USAGE, "no word '%s': neither a tool of pmpipe nor a program on PATH", name);
+}
+
 static int word_make(struct word *w, const struct pm_list *moves)
 {
 	w->tool = pm_tool_find(w->argv[0]);
 	if (!w->tool) {
 		w->makes = !in_list(moves, w->argv[0]);
-		return 0;
+		return foreign_check(w->argv[0]);
 	}
 	w->makes = w->tool->makes;
 	w->argv[w->argc] = "--no-history"; /* ends up last, also for the process; cycle's own entry says it all */

@@ -77,7 +77,7 @@ static inline void pm_advance_axis(size_t n, const struct pm_advance *a, int nli
 {
 	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;
 	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
 		size_t i = block * PM_ADVANCE_BLOCK, m = n - i < PM_ADVANCE_BLOCK ? n - i : PM_ADVANCE_BLOCK;
 		for (int l = 0; l < nlines; l++)

@@ -106,7 +106,7 @@ int pm_field_ready(struct pm_field *field)
 		return 0;
 	if (field->use & PM_USE_NEW && field->uniform)
 		return 0;
-	field->buffer = buffer_new(values(field), pm_field_memory(field), field->use & PM_USE_NEW);
+	field->buffer = buffer_new(values(field), pm_field_memory(field), field->use & PM_USE_NEW && !(field->use & PM_USE_FILL));
 	if (!field->buffer)
 		return -PM_DATA;
 	if (!(field->use & PM_USE_NEW))

@@ -21,6 +21,7 @@ struct item { /* one field of the frame under way, as it was when its header was
 struct pm_reader {
 	int fd;
 	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
+	bool whole;                /* the frame under way has been read to its tail; it stays the one under way until the next begins */
 	uint64_t frame, frames;    /* number under way, from 1; frames of this stream */
 	size_t nitems;
 	struct item *items;
@@ -231,6 +232,8 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 {
 	char text[PM_LINE];
 	struct line l = {0};
+	r->frame += r->whole;
+	r->whole = false;
 	ssize_t k = get(r, text, PM_LINE);
 	if (k < 0)
 		return pm_fail_errno("cannot read");
@@ -357,8 +360,7 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (r->items[i].bytes && r->items[i].field->use & (PM_USE_READ | PM_USE_CHANGE))
 			status = pm_field_check(r->items[i].field, PM_DATA);
-	if (!status)
-		r->frame++;
+	r->whole = !status;
 	return status;
 }
 

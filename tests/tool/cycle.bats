@@ -91,8 +91,10 @@ steps_of() { diag | column step | tr '\n' ' '; }
 
 @test "a foreign word that is not there is named" {
 	pinit two-body > a
-	run -1 bash -c "cycle -n 1 'no-such-word | push kick drift' < a > b"
-	[[ $output == *"cannot run 'no-such-word'"* ]]
+	run -2 bash -c "cycle -n 1 'no-such-word | push kick drift' < a > b"
+	[[ $output == "cycle: no word 'no-such-word'"* ]]
+	run -2 bash -c "cycle -n 1 'poison-fft | push kick drift' < a > b"
+	[[ $output == *"did you mean poisson-fft?"* ]]
 	[ "${#lines[@]}" -eq 1 ]
 }
 
