@@ -8,11 +8,15 @@
 struct pm_mollifier {
 	const char *name, *sentence, *source;
 	unsigned dims; /* bit 1u<<dim */
-	/* force(r2, delta, dim): f such that the field of a unit strength (lap phi = delta function) at displacement x from it is -f*x, r2 = |x|^2;
-	 * 0 at r = 0. potential: phi of it, lap phi = delta function smeared; finite at r = 0 if delta > 0. */
+	/* force(r2, delta, dim): f such that the gradient of the potential of a unit strength (lap phi = delta function) at displacement x from
+	 * it is f*x, r2 = |x|^2; finite unless r2 and delta are both 0. potential: phi, lap phi = the blob; finite likewise, and equal to the
+	 * bare one far away. Bare: f = 1/(2r), 1/(2 pi r^2), 1/(4 pi r^3); phi = r/2, ln(r)/(2 pi), -1/(4 pi r) in 1-D, 2-D, 3-D. */
 	double (*force)(double r2, double delta, int dim);
 	double (*potential)(double r2, double delta, int dim);
-	int order; /* of the error against the bare kernel away from the source, in delta; 0: exact beyond delta */
+	int order;    /* of force/bare - 1 in delta/r away from the source; 0: exact from r = reach*delta on */
+	double reach; /* beyond reach*delta the bare kernel to round-off; 0 never */
+	bool square;  /* force and potential are the bare ones at r2 + delta^2, which the fast loops use */
+	bool bare;    /* delta is not used */
 };
 
 extern const struct pm_mollifier *const pm_mollifiers[]; /* generated from lib/mollifier/, NULL ends */

@@ -1,0 +1,24 @@
+/* Direct summation over all pairs (docs/methods/pp.md). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PP_H
+#define PM_PP_H
+
+#include "mollifier/mollifier.h"
+
+struct pm_pp {
+	int dim;      /* 1, 2, 3 */
+	double delta; /* [length] of the mollifier, >= 0 */
+	const struct pm_mollifier *mollifier;
+	bool half;    /* each pair once, by symmetry; else each target over all sources */
+};
+
+/* For each of the first `targets` of n particles: gradient[c][i] = sum over j != i of q[j] d(phi1)/dx_c (x_i - x_j), and
+ * potential[i] = the same sum of phi1, where lap phi1 = delta function, mollified. potential may be NULL. Pairs closer than 1e-100 and not mollified
+ * exert nothing; *coincident of them are counted. The same bytes for any number of threads. 0 or failure. */
+int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient, double *potential,
+	uint64_t *coincident);
+
+/* The same by the plain double loop, each pair through the mollifier's functions: what the other two are tested against. */
+int pm_pp_plain(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient,
+	double *potential, uint64_t *coincident);
+
+#endif
