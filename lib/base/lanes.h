@@ -16,6 +16,13 @@ enum { PM_LANES = 8 };
 typedef double pm_lanes __attribute__((vector_size(64)));
 typedef int64_t pm_lanes_bits __attribute__((vector_size(64)));
 
+/* Before a short loop over vectors, which must vanish if they are to stay in registers. */
+#ifdef __clang__
+#define PM_LANES_UNROLL _Pragma("unroll")
+#else
+#define PM_LANES_UNROLL _Pragma("GCC unroll 8")
+#endif
+
 #define PM_LANES_INLINE static inline __attribute__((always_inline, unused))
 
 PM_LANES_INLINE pm_lanes pm_lanes_all(double x) { return (pm_lanes){x, x, x, x, x, x, x, x}; }

@@ -19,7 +19,7 @@ static const double far_away = 1e100; /* where the particles sit that fill up a 
 struct work {
 	int dim;
 	size_t targets, n, padded, tile;
-	double delta2, near2; /* within sqrt(near2) a mollifier with a reach is evaluated one by one */
+	double delta2, near2; /* the first is 0 unless the mollifier is bare(r^2 + delta^2); within sqrt(near2) a mollifier with a reach is evaluated one by one */
 	double *x[3], *q, *g[3], *phi;
 	const struct pm_pp *p;
 	uint64_t *coincident; /* pairs, per group or tile */
@@ -42,33 +42,37 @@ PM_LANES_INLINE pm_lanes bare(int dim, pm_lanes d2)
 }
 
 /* Lanes that need the mollifier's own functions. */
-static __attribute__((noinline)) void one_by_one(const struct work *w, double within, bool force, bool potential, const pm_lanes *r2, pm_lanes *f,
-	pm_lanes *u)
+static __attribute__((noinline)) void one_by_one(const struct work *w, bool potential, const pm_lanes *r2, pm_lanes *f, pm_lanes *u)
 {
 	const struct pm_mollifier *m = w->p->mollifier;
 	double c = unit(w->dim);
 	for (int l = 0; l < PM_LANES; l++)
-		if ((*r2)[l] < within) {
-			if (force)
-				(*f)[l] = c * m->force((*r2)[l], w->p->delta, w->dim);
+		if ((*r2)[l] < w->near2) {
+			(*f)[l] = c * m->force((*r2)[l], w->p->delta, w->dim);
 			if (potential)
 				(*u)[l] = c * m->potential((*r2)[l], w->p->delta, w->dim);
 		}
 }
 
-/* Force factor and potential of a unit strength at squared distance r2, in units of unit(dim). */
-PM_LANES_INLINE void pair(const struct work *w, int dim, enum mode mode, bool potential, pm_lanes r2, pm_lanes *f, pm_lanes *u)
+/* ln r, 0 for coincident particles. */
+static __attribute__((noinline)) void logarithm(const pm_lanes *d2, pm_lanes *u)
 {
-	pm_lanes d2 = mode == OTHER ? r2 : r2 + pm_lanes_all(w->delta2);
+	for (int l = 0; l < PM_LANES; l++)
+		(*u)[l] = (*d2)[l] < least ? 0 : 0.5 * log((*d2)[l]);
+}
+
+/* Force factor and potential of a unit strength at r^2 + delta2 = d2, in units of unit(dim). */
+PM_LANES_INLINE void pair(const struct work *w, int dim, enum mode mode, bool potential, pm_lanes d2, pm_lanes *f, pm_lanes *u)
+{
 	*f = bare(dim, d2);
 	if (mode != SQUARE)
 		*f = pm_lanes_where_not_below(d2, pm_lanes_all(least), *f);
 	if (potential && dim != 2)
 		*u = dim == 3 ? -*f * d2 : *f * d2;
-	if (mode == OTHER && pm_lanes_any_below(r2, pm_lanes_all(w->near2)))
-		one_by_one(w, w->near2, true, potential, &r2, f, u);
-	if (potential && dim == 2)
-		one_by_one(w, HUGE_VAL, false, true, &r2, f, u);
+	else if (potential)
+		logarithm(&d2, u);
+	if (mode == OTHER && pm_lanes_any_below(d2, pm_lanes_all(w->near2)))
+		one_by_one(w, potential, &d2, f, u);
 }
 
 /* Lanes whose particle is not i; lane l is particle first + l. */
@@ -81,11 +85,11 @@ PM_LANES_INLINE pm_lanes others(size_t first, size_t i, pm_lanes v)
 }
 
 /* How many of the lanes, of which lane l is particle first + l, are in [from, to) and coincide. */
-static __attribute__((noinline)) unsigned count(const struct work *w, size_t first, size_t from, size_t to, const pm_lanes *r2)
+static __attribute__((noinline)) unsigned count(size_t first, size_t from, size_t to, const pm_lanes *d2)
 {
 	unsigned c = 0;
 	for (size_t l = 0; l < PM_LANES; l++)
-		c += first + l >= from && first + l < to && (*r2)[l] + w->delta2 < least;
+		c += first + l >= from && first + l < to && (*d2)[l] < least;
 	return c;
 }
 
@@ -93,36 +97,44 @@ static __attribute__((noinline)) unsigned count(const struct work *w, size_t fir
 PM_LANES_INLINE void group_block(const struct work *w, int dim, enum mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
 	unsigned *coincident)
 {
-	pm_lanes x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0};
+	pm_lanes x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_lanes_all(w->delta2);
+	PM_LANES_UNROLL
 	for (int k = 0; k < GROUP; k++) {
+		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			x[d][k] = pm_lanes_load(w->x[d] + i + (size_t)k * PM_LANES), g[d][k] = zero;
 		phi[k] = zero;
 	}
 	for (size_t j = j0; j < j1; j++) {
 		pm_lanes q = pm_lanes_all(w->q[j]), y[3];
+		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			y[d] = pm_lanes_all(w->x[d][j]);
+		PM_LANES_UNROLL
 		for (int k = 0; k < GROUP; k++) {
-			pm_lanes s[3], r2 = zero, f, u = zero;
+			pm_lanes s[3], d2 = delta2, f, u = zero;
+			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++) {
 				s[d] = x[d][k] - y[d];
-				r2 = d ? pm_lanes_fma(s[d], s[d], r2) : s[d] * s[d];
+				d2 = pm_lanes_fma(s[d], s[d], d2);
 			}
-			pair(w, dim, mode, potential, r2, &f, &u);
-			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(r2 + pm_lanes_all(w->delta2), pm_lanes_all(least)), 0))
-				*coincident += count(w, i + (size_t)k * PM_LANES, 0, j < w->targets ? j : w->targets, &r2); /* each pair once */
+			pair(w, dim, mode, potential, d2, &f, &u);
+			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
+				*coincident += count(i + (size_t)k * PM_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
 			if (self)
 				f = others(i + (size_t)k * PM_LANES, j, f), u = others(i + (size_t)k * PM_LANES, j, u);
 			f *= q;
+			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++)
 				g[d][k] = pm_lanes_fma(f, s[d], g[d][k]);
 			if (potential)
 				phi[k] = pm_lanes_fma(q, u, phi[k]);
 		}
 	}
+	PM_LANES_UNROLL
 	for (int k = 0; k < GROUP; k++) {
 		size_t at = i + (size_t)k * PM_LANES;
+		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			pm_lanes_store(w->g[d] + at, pm_lanes_load(w->g[d] + at) + g[d][k]);
 		if (potential)
@@ -130,24 +142,21 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum mode mode, 
 	}
 }
 
-PM_LANES_INLINE void full(const struct work *w, int dim, enum mode mode, bool potential)
+/* All sources on one group of targets; blocks end where the group's own particles begin and end. */
+PM_LANES_INLINE void group(const struct work *w, int dim, enum mode mode, bool potential, size_t i)
 {
-	size_t width = GROUP * PM_LANES, groups = (w->targets + width - 1) / width;
-#pragma omp parallel for schedule(static)
-	for (size_t group = 0; group < groups; group++) {
-		unsigned coincident = 0;
-		size_t i = group * width;
-		for (size_t j = 0, end; j < w->n; j = end) { /* blocks end where the group's own particles begin and end */
-			end = j + SOURCES < w->n ? j + SOURCES : w->n;
-			bool self = j >= i && j < i + width;
-			end = self && end > i + width ? i + width : !self && j < i && end > i ? i : end;
-			if (self)
-				group_block(w, dim, mode, potential, true, i, j, end, &coincident);
-			else
-				group_block(w, dim, mode, potential, false, i, j, end, &coincident);
-		}
-		w->coincident[group] = coincident;
+	size_t width = GROUP * PM_LANES;
+	unsigned coincident = 0;
+	for (size_t j = 0, end; j < w->n; j = end) {
+		end = j + SOURCES < w->n ? j + SOURCES : w->n;
+		bool self = j >= i && j < i + width;
+		end = self && end > i + width ? i + width : !self && j < i && end > i ? i : end;
+		if (self)
+			group_block(w, dim, mode, potential, true, i, j, end, &coincident);
+		else
+			group_block(w, dim, mode, potential, false, i, j, end, &coincident);
 	}
+	w->coincident[i / width] = coincident;
 }
 
 /* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. */
@@ -155,23 +164,26 @@ PM_LANES_INLINE void tiles(const struct work *w, int dim, enum mode mode, bool p
 	uint64_t *coincident)
 {
 	for (size_t i = i0; i < i1; i++) {
-		pm_lanes x[3], g[3], qi = pm_lanes_all(w->q[i]), phi = {0}, zero = {0};
+		pm_lanes x[3], g[3], qi = pm_lanes_all(w->q[i]), phi = {0}, zero = {0}, delta2 = pm_lanes_all(w->delta2);
+		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			x[d] = pm_lanes_all(w->x[d][i]), g[d] = zero;
 		for (size_t j = diagonal ? (i + 1) / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES) {
-			pm_lanes s[3], r2 = zero, f, u = zero, qj = pm_lanes_load(w->q + j);
+			pm_lanes s[3], d2 = delta2, f, u = zero, qj = pm_lanes_load(w->q + j);
+			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++) {
 				s[d] = x[d] - pm_lanes_load(w->x[d] + j);
-				r2 = d ? pm_lanes_fma(s[d], s[d], r2) : s[d] * s[d];
+				d2 = pm_lanes_fma(s[d], s[d], d2);
 			}
-			pair(w, dim, mode, potential, r2, &f, &u);
-			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(r2 + pm_lanes_all(w->delta2), pm_lanes_all(least)), 0))
-				*coincident += count(w, j, i + 1, i < w->targets ? w->n : 0, &r2);
+			pair(w, dim, mode, potential, d2, &f, &u);
+			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
+				*coincident += count(j, i + 1, i < w->targets ? w->n : 0, &d2);
 			if (diagonal && j <= i)
 				for (size_t l = 0; l < PM_LANES; l++)
 					if (j + l <= i)
 						f[l] = 0, u[l] = 0;
 			pm_lanes fi = f * qj, fj = f * qi;
+			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++) {
 				g[d] = pm_lanes_fma(fi, s[d], g[d]);
 				pm_lanes_store(w->g[d] + j, pm_lanes_fnma(fj, s[d], pm_lanes_load(w->g[d] + j)));
@@ -181,6 +193,7 @@ PM_LANES_INLINE void tiles(const struct work *w, int dim, enum mode mode, bool p
 				pm_lanes_store(w->phi + j, pm_lanes_fma(qi, u, pm_lanes_load(w->phi + j)));
 			}
 		}
+		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			w->g[d][i] += pm_lanes_sum(g[d]);
 		if (potential)
@@ -188,8 +201,46 @@ PM_LANES_INLINE void tiles(const struct work *w, int dim, enum mode mode, bool p
 	}
 }
 
+/* Each pair of two tiles once. */
+PM_LANES_INLINE void meeting(const struct work *w, int dim, enum mode mode, bool potential, size_t a, size_t b)
+{
+	size_t a0 = a * w->tile, a1 = a0 + w->tile < w->padded ? a0 + w->tile : w->padded;
+	size_t b0 = b * w->tile, b1 = b0 + w->tile < w->padded ? b0 + w->tile : w->padded;
+	if (a == b)
+		tiles(w, dim, mode, potential, true, a0, a1, b0, b1, w->coincident + a);
+	else
+		tiles(w, dim, mode, potential, false, a0, a1, b0, b1, w->coincident + a);
+}
+
+/* One loop compiled for each dimension, mode and kind of result. */
+struct loops {
+	void (*group)(const struct work *w, size_t i);
+	void (*meeting)(const struct work *w, size_t a, size_t b);
+};
+#define LOOPS(dim, mode) \
+	static void group_##dim##_##mode(const struct work *w, size_t i) { group(w, dim, mode, false, i); } \
+	static void group_phi_##dim##_##mode(const struct work *w, size_t i) { group(w, dim, mode, true, i); } \
+	static void meeting_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, dim, mode, false, a, b); } \
+	static void meeting_phi_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, dim, mode, true, a, b); }
+#define ROW(mode) { \
+	{{group_1_##mode, meeting_1_##mode}, {group_phi_1_##mode, meeting_phi_1_##mode}}, \
+	{{group_2_##mode, meeting_2_##mode}, {group_phi_2_##mode, meeting_phi_2_##mode}}, \
+	{{group_3_##mode, meeting_3_##mode}, {group_phi_3_##mode, meeting_phi_3_##mode}}}
+LOOPS(1, SQUARE) LOOPS(2, SQUARE) LOOPS(3, SQUARE)
+LOOPS(1, GUARDED) LOOPS(2, GUARDED) LOOPS(3, GUARDED)
+LOOPS(1, OTHER) LOOPS(2, OTHER) LOOPS(3, OTHER)
+static const struct loops table[3][3][2] = {ROW(SQUARE), ROW(GUARDED), ROW(OTHER)};
+
+static void full(const struct work *w, const struct loops *l)
+{
+	size_t width = GROUP * PM_LANES, groups = (w->targets + width - 1) / width;
+#pragma omp parallel for schedule(static)
+	for (size_t i = 0; i < groups; i++)
+		l->group(w, i * width);
+}
+
 /* A tournament of m tiles: in round r meet those with a + b = r modulo m, a <= b. */
-PM_LANES_INLINE void half(const struct work *w, int dim, enum mode mode, bool potential)
+static void half(const struct work *w, const struct loops *l)
 {
 	size_t m = (w->padded + w->tile - 1) / w->tile;
 #pragma omp parallel
@@ -197,29 +248,11 @@ PM_LANES_INLINE void half(const struct work *w, int dim, enum mode mode, bool po
 		size_t below = r / 2 + 1, meetings = below + (r + m) / 2 - r;
 #pragma omp for schedule(static)
 		for (size_t k = 0; k < meetings; k++) {
-			size_t a = k < below ? k : r + 1 + (k - below), b = (r + m - a) % m;
-			size_t a1 = (a + 1) * w->tile < w->padded ? (a + 1) * w->tile : w->padded;
-			size_t b1 = (b + 1) * w->tile < w->padded ? (b + 1) * w->tile : w->padded;
-			if (a == b)
-				tiles(w, dim, mode, potential, true, a * w->tile, a1, b * w->tile, b1, w->coincident + a);
-			else
-				tiles(w, dim, mode, potential, false, a * w->tile, a1, b * w->tile, b1, w->coincident + a);
+			size_t a = k < below ? k : r + 1 + (k - below);
+			l->meeting(w, a, (r + m - a) % m);
 		}
 	}
 }
-
-#define LOOPS(dim, mode) \
-	static void full_##dim##_##mode(const struct work *w) { w->phi ? full(w, dim, mode, true) : full(w, dim, mode, false); } \
-	static void half_##dim##_##mode(const struct work *w) { w->phi ? half(w, dim, mode, true) : half(w, dim, mode, false); }
-LOOPS(1, SQUARE) LOOPS(2, SQUARE) LOOPS(3, SQUARE)
-LOOPS(1, GUARDED) LOOPS(2, GUARDED) LOOPS(3, GUARDED)
-LOOPS(1, OTHER) LOOPS(2, OTHER) LOOPS(3, OTHER)
-
-typedef void loop(const struct work *w);
-static loop *const loops[2][3][3] = {
-	{{full_1_SQUARE, full_2_SQUARE, full_3_SQUARE}, {full_1_GUARDED, full_2_GUARDED, full_3_GUARDED}, {full_1_OTHER, full_2_OTHER, full_3_OTHER}},
-	{{half_1_SQUARE, half_2_SQUARE, half_3_SQUARE}, {half_1_GUARDED, half_2_GUARDED, half_3_GUARDED}, {half_1_OTHER, half_2_OTHER, half_3_OTHER}},
-};
 
 static double *padded(size_t n, size_t all, const double *from, double fill)
 {
@@ -269,7 +302,8 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 	if (!status) {
 		w.targets = targets;
 		enum mode mode = !p->mollifier->square ? OTHER : w.delta2 < least ? GUARDED : SQUARE;
-		loops[p->half][mode][p->dim - 1](&w);
+		const struct loops *l = &table[mode][p->dim - 1][potential != NULL];
+		p->half ? half(&w, l) : full(&w, l);
 		double c = 1 / unit(p->dim);
 		for (size_t i = 0; i < targets; i++) {
 			for (int d = 0; d < p->dim; d++)

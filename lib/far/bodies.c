@@ -1,0 +1,122 @@
+/* Sources and targets of far fields, between the sets of a frame and plain arrays.
+ * Every set with positions and the strength is a source. Every set with positions feels the sum (test particles too); a fixed one is given
+ * its potential only. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "far/bodies.h"
+
+static const struct pm_field *state_of(const struct pm_frame *f, const struct pm_set *s, const char *name)
+{
+	const struct pm_field *field = pm_frame_field(f, s->name, name);
+	return field && field->role == PM_STATE ? field : NULL;
+}
+
+static bool is_source(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far)
+{
+	return state_of(f, s, "x") && state_of(f, s, far->strength);
+}
+
+static bool is_target(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far)
+{
+	return (!far->set || !strcmp(far->set, s->name)) && state_of(f, s, "x")
+		&& (!far->per || (state_of(f, s, far->per) && state_of(f, s, far->strength))) && (!s->fixed || far->with_potential);
+}
+
+static int plan_set(struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, const char *term, bool replace)
+{
+	const struct pm_field *x = state_of(f, s, "x");
+	bool source = is_source(f, s, far), target = is_target(f, s, far);
+	if ((source || target) && x->components < f->dim)
+		return pm_fail(PM_DATA, "'x' of '%s' has %d components in %d-D", s->name, x->components, f->dim);
+	bool good = (!source && !target) || pm_reads(f, s->name, "x");
+	good = good && (!source || pm_reads(f, s->name, far->strength)) && (!target || !far->per || pm_reads(f, s->name, far->per));
+	if (good && target && !s->fixed)
+		good = pm_contributes(f, s->name, far->change, far->of, f->dim, term, replace);
+	if (good && target && far->with_potential)
+		good = pm_makes(f, s->name, far->potential, 1, PM_DERIVED);
+	return good ? 0 : -PM_DATA;
+}
+
+int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace)
+{
+	int sources = 0, targets = 0, status = 0;
+	for (size_t i = 0; i < f->nsets; i++)
+		sources += is_source(f, f->sets[i], far), targets += is_target(f, f->sets[i], far);
+	if (!sources)
+		return pm_fail(PM_DATA, "no set with 'x' and '%s' (add it with stab --strength)", far->strength);
+	if (!targets)
+		return pm_fail(PM_DATA, "no set '%s' that could feel the sum (sls lists the sets)", far->set ? far->set : "");
+	for (size_t i = 0; i < f->nsets && !status; i++)
+		status = plan_set(f, f->sets[i], far, term, replace);
+	return status;
+}
+
+static void put(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, struct pm_bodies *b)
+{
+	const struct pm_field *q = state_of(f, s, far->strength);
+	for (int d = 0; d < f->dim; d++)
+		memcpy(b->x[d] + b->n, pm_in(state_of(f, s, "x"), d), s->n * sizeof(double));
+	if (q)
+		memcpy(b->q + b->n, pm_in(q, 0), s->n * sizeof(double));
+	b->n += s->n;
+}
+
+int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b)
+{
+	size_t n = 1, size = sizeof(double);
+	for (size_t i = 0; i < f->nsets; i++)
+		n += f->sets[i]->n;
+	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .potential = far->with_potential ? pm_alloc(n, size) : NULL};
+	bool good = b->q && (b->potential || !far->with_potential);
+	for (int d = 0; d < f->dim; d++) {
+		b->x[d] = pm_alloc(n, size), b->gradient[d] = pm_alloc(n, size);
+		good = good && b->x[d] && b->gradient[d];
+	}
+	if (!good) {
+		pm_bodies_free(b);
+		return -PM_DATA;
+	}
+	for (size_t i = 0; i < f->nsets; i++)
+		if (is_target(f, f->sets[i], far))
+			put(f, f->sets[i], far, b);
+	b->targets = b->n;
+	for (size_t i = 0; i < f->nsets; i++)
+		if (!is_target(f, f->sets[i], far) && is_source(f, f->sets[i], far))
+			put(f, f->sets[i], far, b);
+	return 0;
+}
+
+static void add(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
+{
+	struct pm_field *change = pm_frame_field(f, s->name, far->change);
+	const double *q = far->per ? pm_in(state_of(f, s, far->strength), 0) : NULL, *per = far->per ? pm_in(state_of(f, s, far->per), 0) : NULL;
+	for (int d = 0; d < f->dim; d++) {
+		const double *g = b->gradient[far->curl ? 1 - d : d] + at;
+		double factor = !far->curl ? far->sign * c : d ? -c : c, *y = pm_out(change, d);
+		for (size_t i = 0; i < s->n; i++)
+			y[i] += per ? factor * g[i] * (q[i] / per[i]) : factor * g[i];
+	}
+}
+
+void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coefficient, const struct pm_bodies *b)
+{
+	size_t at = 0;
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_set *s = f->sets[i];
+		if (!is_target(f, s, far))
+			continue;
+		if (!s->fixed)
+			add(f, s, far, coefficient, b, at);
+		double *phi = b->potential ? pm_out(pm_frame_field(f, s->name, far->potential), 0) : NULL;
+		for (size_t k = 0; phi && k < s->n; k++)
+			phi[k] = coefficient * b->potential[at + k];
+		at += s->n;
+	}
+}
+
+void pm_bodies_free(struct pm_bodies *b)
+{
+	for (int d = 0; d < 3; d++)
+		pm_free(b->x[d]), pm_free(b->gradient[d]);
+	pm_free(b->q), pm_free(b->potential);
+}

@@ -1,0 +1,31 @@
+/* What every far field that works on particles directly shares: which sets are sources and which feel the sum, the particles in one array, and
+ * the sums back on the sets. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_BODIES_H
+#define PM_BODIES_H
+
+#include "stream/frame.h"
+
+/* What is summed, in the words of a law. */
+struct pm_far {
+	const char *strength;     /* field of the sources */
+	const char *change, *of;  /* what is added to, and the state it is the rate of */
+	const char *per;          /* change = strength/per * field; NULL: the field itself */
+	const char *potential;    /* name of the derived field */
+	bool curl;                /* field = (d psi/dy, -d psi/dx), else sign * gradient */
+	double sign;
+	const char *set;          /* the only set acted on; NULL all. Every set with the strength is a source */
+	bool with_potential;      /* also for sets that are fixed: they store energy */
+};
+
+struct pm_bodies {
+	size_t targets, n;                /* targets come first, then those that are sources alone */
+	double *x[3], *q;                 /* n each; q is 0 for test particles */
+	double *gradient[3], *potential;  /* room for n each, of unit coefficient; potential NULL if not wanted */
+};
+
+int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace);
+int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b);
+void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coefficient, const struct pm_bodies *b);
+void pm_bodies_free(struct pm_bodies *b);
+
+#endif
