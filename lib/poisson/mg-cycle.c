@@ -40,7 +40,7 @@ void mg_solve_coarsest(struct pm_mg *mg)
 double mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero)
 {
 	smooth(mg, at, o->relaxation, zero ? MG_ZERO : MG_RED, o->pre);
-	return mg_restrict(mg, at, true);
+	return mg_restrict(mg, at);
 }
 
 /* The second: solve on the coarser grids, correct and relax. */
@@ -60,7 +60,7 @@ void mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o)
 void mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
 	for (int at = 0; at + 1 < mg->levels; at++)
-		mg_restrict(mg, at, false);
+		mg_restrict_source(mg, at);
 	mg_solve_coarsest(mg);
 	for (int at = mg->levels - 2; at >= 0; at--) {
 		smooth(mg, at, o->relaxation, MG_INTERPOLATE, 0);

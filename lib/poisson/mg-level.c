@@ -6,8 +6,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/mg-level.h"
 
-#include <string.h>
-
 static void axis_fill(struct mg_axis *a)
 {
 	bool wall[2] = {!a->periodic && !a->neumann[0], !a->periodic && !a->neumann[1]};
@@ -66,33 +64,16 @@ static size_t fold(ptrdiff_t i, const struct mg_axis *a)
 	return (size_t)(i < 0 ? i + n : i < n ? i : a->periodic ? i - n : n - 1);
 }
 
-/* Lagrange weights of up to four coarse nodes around position x [coarse cells]. */
-static void cubic_weights(const struct mg_axis *c, ptrdiff_t below, double x, size_t *node, double *w)
-{
-	ptrdiff_t n = (ptrdiff_t)c->points, q = c->periodic || n > mg_cubic ? mg_cubic : n, start = below - 1;
-	if (!c->periodic)
-		start = start < 0 ? 0 : start > n - q ? n - q : start;
-	for (ptrdiff_t m = 0; m < mg_cubic; m++) {
-		node[m] = m < q ? (size_t)(((start + m) % n + n) % n) : 0;
-		w[m] = m < q;
-		for (ptrdiff_t o = 0; o < q; o++)
-			if (o != m)
-				w[m] *= (x - (double)(start + o)) / (double)(m - o);
-	}
-}
-
 static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct mg_map *map)
 {
 	map->same = f->cells == c->cells && f->points == c->points;
 	map->half = f->cells == 2 * c->cells;
 	map->parent = pm_zalloc(f->points, sizeof *map->parent);
-	map->four = pm_zalloc(f->points, mg_cubic * sizeof *map->four);
-	map->cubic = pm_zalloc(f->points, mg_cubic * sizeof *map->cubic);
 	for (int m = 0; m < 2; m++) {
 		map->w[m] = pm_zalloc(f->points, sizeof(double));
 		map->a[m] = pm_zalloc(f->points, sizeof(double));
 	}
-	if (!map->parent || !map->four || !map->cubic || !map->w[0] || !map->w[1] || !map->a[0] || !map->a[1])
+	if (!map->parent || !map->w[0] || !map->w[1] || !map->a[0] || !map->a[1])
 		return false;
 	bool flattened = f->points > 1 && f->cells == 1; /* two neumann nodes become one */
 	for (size_t i = 0; i < f->points; i++) {
@@ -103,9 +84,8 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 		map->w[1][i] = t;
 		for (int m = 0; m < 2; m++)
 			map->a[m][i] = map->w[m][i] * axis_weight(f, i) / axis_weight(c, fold((ptrdiff_t)below + m, c));
-		cubic_weights(c, (ptrdiff_t)below, (double)below + t, map->four + mg_cubic * i, map->cubic + mg_cubic * i);
 	}
-	return true;
+	return mg_full_tables(f, c, map);
 }
 
 static bool level_alloc(struct mg_level *l)
@@ -179,9 +159,9 @@ void mg_demolish(struct pm_mg *mg)
 		pm_free(l->u), pm_free(l->f);
 		for (int d = 0; d < 3; d++) {
 			struct mg_map *m = &l->map[d];
-			pm_free(l->mask[d]), pm_free(m->parent), pm_free(m->four), pm_free(m->cubic);
+			pm_free(l->mask[d]), pm_free(m->parent);
 			for (int p = 0; p < 2; p++)
-				pm_free(m->w[p]), pm_free(m->a[p]);
+				pm_free(m->w[p]), pm_free(m->a[p]), pm_free(m->four[p]), pm_free(m->cubic[p]);
 		}
 	}
 	pm_free(mg->scratch), pm_free(mg->sums);

@@ -6,7 +6,7 @@
 
 #include "poisson/mg.h"
 
-enum { mg_lanes = 8, mg_cubic = 4 };
+enum { mg_lanes = 8, mg_cubic = 4, mg_parallel = 131072 }; /* values below which a grid is not worth the barriers of threads */
 
 struct mg_axis {
 	size_t cells, points;  /* 1 cell, 1 point, w = 0: an axis on which nothing varies */
@@ -21,8 +21,8 @@ struct mg_map {
 	bool same, half;       /* not coarsened; every second node */
 	ptrdiff_t *parent;
 	double *w[2], *a[2];
-	size_t *four;          /* mg_cubic parents per node, folded, for the start of full multigrid */
-	double *cubic;         /* and their weights */
+	size_t *four[2];       /* to start full multigrid: mg_cubic parents per node, folded, */
+	double *cubic[2];      /* and their weights in [0] interpolation, [1] restriction of the right-hand side */
 };
 
 struct mg_level {
@@ -69,12 +69,22 @@ static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].point
 void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
 double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* r[-1] ... r[points]; returns the sum of squares */
-void mg_source_row(const struct mg_level *l, size_t j, size_t k, double *r); /* the same of f, 0 where there is no unknown */
 
 /* mg-transfer.c */
+struct mg_parents { /* of one node along one axis, without those of weight 0 */
+	int n;
+	size_t node[mg_cubic];
+	double w[mg_cubic];
+};
+void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x */
+void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t); /* a combination of coarse rows, closed behind its end */
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+double mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
+
+/* mg-full.c */
+bool mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
 void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-double mg_restrict(struct pm_mg *mg, int fine, bool residual); /* of f - lap u, or of f; returns the sum of squares of what is restricted */
+void mg_restrict_source(struct pm_mg *mg, int fine);
 
 /* mg-sweep.c */
 void mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);

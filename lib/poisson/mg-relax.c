@@ -131,13 +131,3 @@ double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
 	r[x->points] = r[mg_above(x, x->points - 1)];
 	return sum;
 }
-
-void mg_source_row(const struct mg_level *l, size_t j, size_t k, double *r)
-{
-	const struct mg_axis *x = &l->axis[0];
-	const double *f = l->f + k * l->plane + j * l->stride;
-	for (size_t i = 0; i < x->points; i++)
-		r[i] = l->mask[2][i] ? f[i] : 0;
-	r[-1] = r[mg_below(x, 0)];
-	r[x->points] = r[mg_above(x, x->points - 1)];
-}

@@ -91,8 +91,8 @@ void mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum 
 	struct sweep s = {.mg = mg, .level = &mg->level[level], .relaxation = relaxation, .n = n, .stages = stages};
 	const struct mg_axis *z = &s.level->axis[2];
 	int most = (int)((z->end - z->first) / (size_t)(2 * n + 2));
-	int parts = mg_size(s.level) < 32768 ? 1 : mg->threads < most ? mg->threads : most;
-	if (parts < 1 || (parts == 1 && mg_size(s.level) < 32768))
+	int parts = mg_size(s.level) < mg_parallel ? 1 : mg->threads < most ? mg->threads : most;
+	if (parts < 1 || (parts == 1 && mg_size(s.level) < mg_parallel))
 		sweep_plain(&s, mg->scratch);
 	else
 		sweep_tiled(&s, parts);

@@ -1,8 +1,8 @@
-/* Between the grids of a multigrid hierarchy: u += P e (linear), u = P3 e (cubic, to start full multigrid), f_coarse = R (f - lap u).
+/* Between the grids of a multigrid hierarchy: u += P e (linear), f_coarse = R (f - lap u).
  * P is the tensor product of linear interpolations; R = W_c^-1 P^T W with the quadrature weights W, which is full weighting
  * (1 2 1)/4 per axis where n is even and faces are folded, keeps the integral of the residual (so singular problems stay solvable) and serves any
  * ratio n/n_c. With 1/h^2 kept in the operator nothing is left to scale (the factor 4 missing in texts that multiply by h^2).
- * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6; cubic interpolation for full multigrid: Brandt 1977.
+ * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/mg-level.h"
 
@@ -18,45 +18,29 @@ static inline size_t fold(ptrdiff_t i, size_t n)
 	return (size_t)(i < 0 ? i + (ptrdiff_t)n : i < (ptrdiff_t)n ? i : i - (ptrdiff_t)n);
 }
 
-/* Parents of node i along one axis, without those of weight 0. */
-struct parents {
-	int n;
-	size_t node[mg_cubic];
-	double w[mg_cubic];
-};
-
-static struct parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
+static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
 {
-	struct parents p = {0};
+	struct mg_parents p = {0};
 	for (int m = 0; m < 2; m++)
 		if (map->w[m][i] != 0)
 			p.node[p.n] = fold(map->parent[i] + m, coarse->points), p.w[p.n++] = map->w[m][i];
 	return p;
 }
 
-static struct parents parents_cubic(const struct mg_map *map, size_t i)
-{
-	struct parents p = {0};
-	for (size_t m = mg_cubic * i; m < mg_cubic * (i + 1); m++)
-		if (map->cubic[m] != 0)
-			p.node[p.n] = map->four[m], p.w[p.n++] = map->cubic[m];
-	return p;
-}
-
-static void add_row(size_t n, double w, const double *restrict x, double *restrict y)
+void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
 {
 	for (size_t i = 0; i < n; i++)
 		y[i] += w * x[i];
 }
 
 /* The coarse rows combined along y and z into t, closed behind its end. */
-static void gather(const struct mg_level *c, const struct parents *y, const struct parents *z, double *t)
+void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
 {
 	size_t n = c->axis[0].points;
 	memset(t, 0, c->stride * sizeof *t);
 	for (int a = 0; a < z->n; a++)
 		for (int b = 0; b < y->n; b++)
-			add_row(n, z->w[a] * y->w[b], c->u + z->node[a] * c->plane + y->node[b] * c->stride, t);
+			mg_add_row(n, z->w[a] * y->w[b], c->u + z->node[a] * c->plane + y->node[b] * c->stride, t);
 	t[n] = c->axis[0].periodic ? t[0] : 0;
 }
 
@@ -76,7 +60,7 @@ static void spread_row(const struct mg_level *fine, const double *t, double *u)
 	const struct mg_map *x = &fine->map[0];
 	size_t n = fine->axis[0].points;
 	if (x->same)
-		add_row(n, 1, t, u);
+		mg_add_row(n, 1, t, u);
 	else if (x->half)
 		spread_half(n, t, u);
 	else
@@ -87,28 +71,11 @@ static void spread_row(const struct mg_level *fine, const double *t, double *u)
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
 {
 	const struct mg_axis *y = &fine->axis[1];
-	struct parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
+	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
 	for (size_t j = y->first; j < y->end; j++) {
-		struct parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
-		gather(coarse, &py, &pz, w);
+		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
+		mg_gather(coarse, &py, &pz, w);
 		spread_row(fine, w, fine->u + k * fine->plane + j * fine->stride);
-	}
-}
-
-void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
-{
-	const struct mg_axis *x = &fine->axis[0], *y = &fine->axis[1];
-	const struct mg_map *map = &fine->map[0];
-	struct parents pz = parents_cubic(&fine->map[2], k);
-	for (size_t j = y->first; j < y->end; j++) {
-		struct parents py = parents_cubic(&fine->map[1], j);
-		double *u = fine->u + k * fine->plane + j * fine->stride;
-		gather(coarse, &py, &pz, w);
-		for (size_t i = x->first; i < x->end; i++) {
-			const size_t *four = map->four + mg_cubic * i;
-			const double *c = map->cubic + mg_cubic * i;
-			u[i] = (c[0] * w[four[0]] + c[1] * w[four[1]]) + (c[2] * w[four[2]] + c[3] * w[four[3]]);
-		}
 	}
 }
 
@@ -142,7 +109,7 @@ static void collect_row(const struct mg_level *fine, const struct mg_axis *x, co
 }
 
 /* The rows of fine plane k (unfolded: -n < k < n) are added to coarse planes from <= K < to. Returns the sum of squares. */
-static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, ptrdiff_t k, const size_t range[2], bool residual, double *w)
+static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, ptrdiff_t k, const size_t range[2], double *w)
 {
 	const struct mg_axis *y = &fine->axis[1], *cy = &coarse->axis[1];
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
@@ -150,12 +117,8 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
 	double *r = w + mg_lanes, *c = r + fine->stride + mg_lanes, sum = 0;
 	for (size_t j = y->first; j < y->end; j++) {
-		const double *row = r;
-		if (residual)
-			sum += mg_residual_row(fine, j, here, r);
-		else
-			mg_source_row(fine, j, here, r);
-		collect_row(fine, &coarse->axis[0], row, c);
+		sum += mg_residual_row(fine, j, here, r);
+		collect_row(fine, &coarse->axis[0], r, c);
 		for (int a = 0; a < 2; a++) {
 			ptrdiff_t up = mz->parent[here] + a - shift;
 			if (mz->a[a][here] == 0 || up < (ptrdiff_t)range[0] || up >= (ptrdiff_t)range[1])
@@ -163,7 +126,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			for (int b = 0; b < 2; b++) {
 				size_t over = fold(my->parent[j] + b, cy->points);
 				if (my->a[b][j] != 0)
-					add_row(coarse->axis[0].points, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+					mg_add_row(coarse->axis[0].points, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
 		}
 	}
@@ -190,7 +153,7 @@ static ptrdiff_t last_child(const struct mg_level *fine, const struct mg_level *
 }
 
 /* Coarse planes range[0] <= K < range[1]. The sums of squares are kept for the fine planes that no other range starts with. */
-static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], bool residual, double *w, double *sums)
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], double *w, double *sums)
 {
 	const struct mg_axis *z = &coarse->axis[2];
 	ptrdiff_t from = first_child(fine, coarse, range[0]), to = last_child(fine, coarse, range[1] - 1);
@@ -199,22 +162,22 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 	for (size_t K = range[0]; K < range[1]; K++)
 		memset(coarse->f + K * coarse->plane, 0, coarse->axis[1].points * coarse->stride * sizeof(double));
 	for (ptrdiff_t k = from; k <= to || k < mine; k++) {
-		double sum = restrict_plane(fine, coarse, k, range, residual, w);
+		double sum = restrict_plane(fine, coarse, k, range, w);
 		if (k < mine && sums)
 			sums[fold(k, fine->axis[2].points)] = sum;
 	}
 }
 
-double mg_restrict(struct pm_mg *mg, int at, bool residual)
+double mg_restrict(struct pm_mg *mg, int at)
 {
 	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
 	const struct mg_axis *z = &coarse->axis[2];
-	size_t n = z->end - z->first, parts = (size_t)mg->threads < n / 4 && mg_size(fine) > 32768 ? (size_t)mg->threads : 1;
+	size_t n = z->end - z->first, parts = (size_t)mg->threads < n / 4 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
 	double total = 0;
 	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
 	for (size_t p = 0; p < parts; p++) {
 		size_t range[2] = {z->first + n * p / parts, z->first + n * (p + 1) / parts};
-		restrict_range(fine, coarse, range, residual, mg->scratch + p * mg->room, at ? NULL : mg->sums);
+		restrict_range(fine, coarse, range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
 	}
 	if (at == 0)
 		for (size_t k = fine->axis[2].first; k < fine->axis[2].end; k++)

@@ -54,7 +54,7 @@ static double sum_planes(struct pm_mg *mg, row_sum *row, const double *values)
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
 	struct pm_sum total = {0};
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > 32768)
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++) {
 		struct pm_sum plane = {0};
 		for (size_t j = 0; j < y->points; j++)
@@ -99,7 +99,7 @@ static void load(struct pm_mg *mg, double c, double average, const double *s, co
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > 32768)
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++)
 		for (size_t j = 0; j < y->points; j++) {
 			bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
@@ -116,7 +116,7 @@ static void store(const struct pm_mg *mg, double factor, double average, double 
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > 32768)
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < l->axis[2].points; k++)
 		for (size_t j = 0; j < y->points; j++)
 			for (size_t i = 0; i < x->points; i++)
@@ -167,10 +167,11 @@ static int not_converged(const struct pm_mg_record *r, const struct pm_mg_choice
 /* The cycles until the tolerance, round-off or the last one. */
 static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r)
 {
+	int least = o->cycle == PM_MG_FMG; /* full multigrid includes a cycle on the finest grid */
 	for (;; r->cycles++) {
 		double squares = mg_cycle_down(mg, 0, o, false), now = sqrt(squares) / source;
 		r->history[r->n++] = r->after = now;
-		r->converged = now <= o->tolerance;
+		r->converged = now <= o->tolerance && r->cycles >= least;
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
 		if (!r->converged && slow && at_roundoff(mg, squares, source))
 			r->converged = r->floor = true;
