@@ -1,16 +1,238 @@
-/* placeholder until the tiles */
-#include "mesh/transfer_axis.h"
+/* Spread and gather by tiles of cells: particles are sorted by tile (transfer_order.c), each tile works on a block of its own without faces
+ * (transfer_tile.c), and blocks meet the mesh here, where points beyond a face are folded back with the sign of their image. A point's sum is
+ * made of its tiles' sums, in the order of the tiles, each in the order of the stream: the same bytes for any number of threads.
+ * Cost: two passes over the particles for the order, width^dim products each, a pass over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include <string.h>
+
+#include "mesh/transfer_order.h"
+#include "mesh/transfer_tile.h"
+
+enum { piece = 16384 }; /* particles per job: a crowded tile is shared out */
+
+struct job {
+	size_t tile, from, to; /* records */
+};
+
+/* One pass: the components that sit at the same offset. */
+struct pass {
+	const struct pm_transfer *t;
+	int components, which[PM_COMPONENTS];
+	struct pm_axis axes[3];
+	struct pm_order order;
+	size_t jobs;
+	struct job *job;
+	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
+};
+
+/* The slots of a tile: first cell, and how many. */
+static size_t tile_slots(const struct pass *w, size_t tile, int d, size_t *first)
+{
+	const uint32_t *across = w->order.across;
+	size_t edge = (size_t)1 << pm_tile_shift[w->order.dim][d];
+	size_t at = d == 0 ? tile % across[0] : d == 1 ? tile / across[0] % across[1] : tile / across[0] / across[1];
+	const struct pm_axis *a = &w->axes[d];
+	*first = at * edge;
+	return (a->count - *first < edge ? a->count - *first : edge) + (a->slots - a->count);
+}
+
+static int list_jobs(struct pass *w)
+{
+	size_t most = w->order.tiles + w->order.n / piece;
+	w->job = pm_alloc(most < w->order.n ? most : w->order.n, sizeof *w->job);
+	if (!w->job)
+		return -PM_DATA;
+	for (size_t tile = 0; tile < w->order.tiles; tile++)
+		for (size_t at = w->order.begin[tile], end = w->order.begin[tile + 1]; at < end; at += piece)
+			w->job[w->jobs++] = (struct job){tile, at, end - at < piece ? end : at + piece};
+	return 0;
+}
+
+static struct pm_tile tile_of(const struct pass *w, const struct job *j, double *block)
+{
+	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->axes[0].shift, .count = j->to - j->from, .stride = w->order.stride,
+		.block = block, .records = w->order.records + j->from * (size_t)w->order.stride};
+	for (int d = 0; d < 3; d++)
+		tile_slots(w, j->tile, d, &t.cell[d]);
+	return t;
+}
+
+/* One row of a block to the mesh, times factor; the row is zero afterwards. */
+static void add_row(const struct pm_axis *a, const double *put, size_t first, size_t n, double factor, double *restrict row, double *restrict mesh)
+{
+	size_t slot = first, end = first + n, from = a->from < end ? a->from : end, to = a->to < end ? a->to : end;
+	for (; slot < from; slot++)
+		mesh[a->at[slot]] += factor * put[slot] * row[slot - first];
+	if (slot < to) {
+		double *restrict points = mesh + a->at[slot], *restrict values = row + (slot - first);
+		size_t m = to - slot;
+		for (size_t i = 0; i < m; i++)
+			points[i] += factor * values[i];
+		slot = to;
+	}
+	for (; slot < end; slot++)
+		mesh[a->at[slot]] += factor * put[slot] * row[slot - first];
+	memset(row, 0, n * sizeof *row);
+}
+
+/* The rows of a job's block that belong to this thread. */
+static void add_block(const struct pass *w, const struct job *j, int c, int thread, int threads, double *block, double *mesh)
+{
+	const struct pm_grid *g = &w->t->grid;
+	const unsigned char *flip = w->t->flip[c];
+	const struct pm_axis *a = w->axes;
+	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
+	double scale = 1 / pm_grid_cell(g);
+	for (int d = 0; d < 3; d++)
+		n[d] = tile_slots(w, j->tile, d, &first[d]);
+	for (size_t z = 0; z < n[2]; z++)
+		for (size_t y = 0; y < n[1]; y++) {
+			size_t sz = first[2] + z, sy = first[1] + y, line = a[2].at[sz] * g->points[1] + a[1].at[sy];
+			if (line % (size_t)threads == (size_t)thread)
+				add_row(&a[0], a[0].put[flip[0]], first[0], n[0], scale * a[2].put[flip[2]][sz] * a[1].put[flip[1]][sy],
+					block + z * plane + y * row, mesh + line * g->points[0]);
+		}
+}
+
+/* Jobs are taken in waves: every thread fills blocks of the wave, then adds the mesh lines that are its own from all of them in order. */
+static void spread_component(const struct pass *w, int value, int threads, double *mesh)
+{
+	size_t wave = threads == 1 ? 1 : 8 * (size_t)threads;
+	pm_tile_loop *loop = pm_tile_spread(w->order.dim, w->t->kernel);
+#pragma omp parallel num_threads(threads)
+	for (size_t from = 0; from < w->jobs; from += wave) {
+		size_t to = w->jobs - from < wave ? w->jobs : from + wave;
+#pragma omp for schedule(dynamic, 1)
+		for (size_t j = from; j < to; j++) {
+			struct pm_tile t = tile_of(w, &w->job[j], w->blocks + (j - from) * PM_BLOCK_MOST);
+			t.value = w->order.dim + value;
+			loop(&t);
+		}
+		for (size_t j = from; j < to; j++)
+			add_block(w, &w->job[j], w->which[value], omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
+#pragma omp barrier
+	}
+}
+
+/* A row of the mesh to a block. */
+static void load_row(const struct pm_axis *a, const double *get, size_t first, size_t n, double factor, const double *restrict mesh,
+	double *restrict row)
+{
+	size_t slot = first, end = first + n, from = a->from < end ? a->from : end, to = a->to < end ? a->to : end;
+	for (; slot < from; slot++)
+		row[slot - first] = factor * get[slot] * mesh[a->at[slot]];
+	if (slot < to) {
+		const double *points = mesh + a->at[slot];
+		for (size_t i = slot; i < to; i++)
+			row[i - first] = factor * points[i - slot];
+		slot = to;
+	}
+	for (; slot < end; slot++)
+		row[slot - first] = factor * get[slot] * mesh[a->at[slot]];
+}
+
+static void load_block(const struct pass *w, const struct job *j, int c, const double *mesh, double *block)
+{
+	const struct pm_grid *g = &w->t->grid;
+	const unsigned char *flip = w->t->flip[c];
+	const struct pm_axis *a = w->axes;
+	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
+	for (int d = 0; d < 3; d++)
+		n[d] = tile_slots(w, j->tile, d, &first[d]);
+	for (size_t z = 0; z < n[2]; z++)
+		for (size_t y = 0; y < n[1]; y++) {
+			size_t sz = first[2] + z, sy = first[1] + y, line = a[2].at[sz] * g->points[1] + a[1].at[sy];
+			load_row(&a[0], a[0].get[flip[0]], first[0], n[0], a[2].get[flip[2]][sz] * a[1].get[flip[1]][sy],
+				mesh + line * g->points[0], block + z * plane + y * row);
+		}
+}
+
+static void gather_pass(const struct pass *w, int threads, const double *const mesh[])
+{
+	pm_tile_loop *loop = pm_tile_gather(w->order.dim, w->t->kernel);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+	for (size_t j = 0; j < w->jobs; j++) {
+		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
+		struct pm_tile t = tile_of(w, &w->job[j], block);
+		t.components = w->components;
+		for (int c = 0; c < w->components; c++)
+			load_block(w, &w->job[j], w->which[c], mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
+		loop(&t);
+	}
+}
+
+/* The next pass: the first component not yet done, and all that sit where it does. False if there is none. */
+static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
+{
+	*w = (struct pass){.t = t};
+	for (int c = 0; c < t->components; c++)
+		if (!done[c] && (!w->components || !memcmp(t->half[c], t->half[w->which[0]], sizeof t->half[c]))) {
+			done[c] = true;
+			w->which[w->components++] = c;
+		}
+	return w->components > 0;
+}
+
+/* Orders the particles with the values that go along; blocks for at most `at_once` jobs of `each` components. */
+static int begin_pass(struct pass *w, size_t n, const double *const x[], int nvalues, const double *const values[], size_t at_once,
+	size_t each, struct pm_strays *strays)
+{
+	const double *taken[PM_COMPONENTS];
+	int dim = w->t->grid.dim, status = pm_axes_init(w->axes, w->t, w->t->half[w->which[0]]);
+	for (int c = 0; c < nvalues; c++)
+		taken[c] = values[w->which[c]];
+	if (!status)
+		status = pm_order_init(&w->order, w->axes, dim, n, x, nvalues, taken, nvalues ? 0 : w->components, strays);
+	if (!status)
+		status = list_jobs(w);
+	at_once = at_once < w->jobs ? at_once : w->jobs;
+	w->blocks = status ? NULL : pm_zalloc(at_once * each * PM_BLOCK_MOST, sizeof *w->blocks);
+	return w->blocks ? 0 : -PM_DATA;
+}
+
+static void end_pass(struct pass *w)
+{
+	pm_free(w->blocks);
+	pm_free(w->job);
+	pm_order_free(&w->order);
+	pm_axes_free(w->axes);
+}
 
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays)
 {
-	return pm_spread_plain(t, n, x, strength, mesh, strays);
+	bool done[PM_COMPONENTS] = {false};
+	struct pass w;
+	int status = 0, threads = pm_threads();
+	*strays = (struct pm_strays){.count = 0};
+	while (n && !status && next_pass(t, done, &w)) {
+		status = begin_pass(&w, n, x, w.components, strength, threads == 1 ? 1 : 8 * (size_t)threads, 1, strays);
+		for (int c = 0; c < w.components && !status; c++)
+			spread_component(&w, c, threads, mesh[w.which[c]]);
+		end_pass(&w);
+	}
+	return status;
 }
 
 int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
 	double *const out[], struct pm_strays *strays)
 {
-	return pm_gather_plain(t, n, x, mesh, factor, out, strays);
+	bool done[PM_COMPONENTS] = {false};
+	struct pass w;
+	int status = 0, threads = pm_threads();
+	*strays = (struct pm_strays){.count = 0};
+	while (n && !status && next_pass(t, done, &w)) {
+		double *to[PM_COMPONENTS];
+		for (int c = 0; c < w.components; c++)
+			to[c] = out[w.which[c]];
+		status = begin_pass(&w, n, x, 0, NULL, (size_t)threads, (size_t)w.components, strays);
+		if (!status) {
+			gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh);
+			pm_order_return(&w.order, w.components, factor, to);
+		}
+		end_pass(&w);
+	}
+	return status;
 }
 
 /* Cells missing below and above on one axis. floor + 1: one cell to spare against rounding. */

@@ -47,6 +47,17 @@ static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, bool h
 			a->get[flip][slot] = sign;
 		}
 	}
+	a->from = a->slots;
+	a->to = 0;
+	for (size_t slot = 0; slot < a->slots; slot++) {
+		ptrdiff_t point = first + (ptrdiff_t)slot;
+		if (point >= !a->periodic && point < n && slot < a->from)
+			a->from = slot;
+		if (point >= !a->periodic && point < n)
+			a->to = slot + 1;
+	}
+	if (a->to < a->from)
+		a->from = a->to = a->slots;
 }
 
 /* Open and absorbing faces keep the kernel inside the points 1..n-1; at walls and neumann faces a particle may sit on the face itself. */
@@ -160,7 +171,7 @@ bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *restri
 	bool all = true;
 	for (size_t i = 0; i < n; i++)
 		if (!pm_axis_locate(a, x[i], &u[i])) {
-			u[i] = NAN;
+			u[i] = -1;
 			all = false;
 		}
 	return all;

@@ -17,6 +17,7 @@ struct pm_axis {
 	size_t *at;        /* [slots] */
 	double *put[2];    /* [flip][slots] factor of what is spread to the slot: sign of the image, 1/weight of the point */
 	double *get[2];    /* [flip][slots] factor of what is gathered from it */
+	size_t from, to;   /* slots from..to-1 are consecutive points with factors 1 */
 };
 
 /* For components that sit at half[]; axes above dim have one cell. */
@@ -25,7 +26,7 @@ void pm_axes_free(struct pm_axis axes[3]);
 
 /* u of a particle anywhere: periodic axes fold (lo+L is lo; -1e-17 and 1e300 too); false if the axis does not hold it. */
 bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
-/* The same for n particles; u is NaN where the axis does not hold it. False if there is one such. */
+/* The same for n particles; u is -1 where the axis does not hold it. False if there is one such. */
 bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, double *u);
 
 /* Notes a stray; the one with the least index is kept. */

@@ -155,9 +155,11 @@ static double adjoint_error(struct problem *a)
  * occur. 1e-13: sums of a few hundred terms, each with some ten roundings. */
 static void check_adjoint(int dim, const size_t cells[3])
 {
-	for (int k = 0; pm_kernels[k]; k++)
+	for (int k = 0; pm_kernels[k]; k++) {
+		double worst = 0;
+		int at[4] = {0}, cases = 0;
 		for (int rule = 0; rule < FACES; rule++)
-			for (int vector = 0; vector < 3; vector++) {
+			for (int vector = 0; vector < 3; vector++, cases++) {
 				const int rules[3] = {rule, (rule + vector) % FACES, (rule + 2 * vector) % FACES};
 				struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernels[k], vector ? dim : 1, 300);
 				for (int c = 0; c < a.t.components && vector; c++) {
@@ -165,12 +167,15 @@ static void check_adjoint(int dim, const size_t cells[3])
 					a.t.half[c][(c + 1) % dim] = vector == 2;
 				}
 				double error = adjoint_error(&a);
-				if (!(error <= 1e-13))
-					check(false, "%s, %d-D, face rules %d %d %d, kind %d: spread and gather are adjoint (got %.3g, tolerance 1e-13)",
-						pm_kernels[k]->name, dim, rules[0], rules[1], rules[2], vector, error);
+				if (!(error <= worst)) {
+					worst = error;
+					memcpy(at, (const int[]){rules[0], rules[1], rules[2], vector}, sizeof at);
+				}
 				problem_free(&a);
 			}
-	check(true, "%d-D, %zux%zux%zu: spread and gather of every kernel were compared at every face rule", dim, cells[0], cells[1], cells[2]);
+		check(worst <= 1e-13, "%s, %d-D: spread and gather are adjoint at every face rule (%d cases; worst %.2g at faces %d %d %d kind %d)",
+			pm_kernels[k]->name, dim, cases, worst, at[0], at[1], at[2], at[3]);
+	}
 }
 
 /* Total strength with half weights: exact at periodic, neumann and open faces; moments where nothing is near a face. */
@@ -194,6 +199,231 @@ static void check_total(int dim, const size_t cells[3], int rule)
 	}
 }
 
+/* The greatest difference of two arrays over the greatest value. */
+static double difference(size_t n, const double *a, const double *b)
+{
+	double most = 0, size = 0;
+	for (size_t i = 0; i < n; i++) {
+		most = fmax(most, fabs(a[i] - b[i]));
+		size = fmax(size, fabs(b[i]));
+	}
+	return size > 0 ? most / size : most;
+}
+
+/* Tiles against plain loops; meshes of several tiles that end in the middle of one. 1e-13: the order of some hundred terms per point. */
+static void check_plain(int dim, const size_t cells[3], size_t n)
+{
+	double worst[2] = {0};
+	for (int k = 0; pm_kernels[k]; k++)
+		for (int rule = 0; rule < FACES; rule++) {
+			const int rules[3] = {rule, (rule + 1) % FACES, (rule + 3) % FACES};
+			struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernels[k], dim, n), b = problem_new(a.t.grid, a.t.kernel, dim, n);
+			struct pm_strays strays;
+			for (int c = 1; c < dim; c++)
+				a.t.half[c][0] = b.t.half[c][0] = a.t.flip[c][c] = b.t.flip[c][c] = 1;
+			pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+			pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
+			for (int c = 0; c < dim; c++)
+				worst[0] = fmax(worst[0], difference(a.points, a.mesh[c], b.mesh[c]));
+			pm_gather(&a.t, n, in(a.x), in(b.mesh), a.q[0], a.out, &strays);
+			pm_gather_plain(&a.t, n, in(a.x), in(b.mesh), a.q[0], b.out, &strays);
+			for (int c = 0; c < dim; c++)
+				worst[1] = fmax(worst[1], difference(n, a.out[c], b.out[c]));
+			problem_free(&a);
+			problem_free(&b);
+		}
+	check(worst[0] <= 1e-13, "%d-D: spreading by tiles is the plain loop (off by %.2g, tolerance 1e-13)", dim, worst[0]);
+	check(worst[1] <= 1e-13, "%d-D: gathering by tiles is the plain loop (off by %.2g, tolerance 1e-13)", dim, worst[1]);
+}
+
+/* Threads 1, 2, 3; a third of the particles crowd one tile so that it is shared out. */
+static void check_threads(int dim, const size_t cells[3])
+{
+	const int rules[3] = {0, 2, 0};
+	const size_t n = 60000;
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n);
+	struct pm_strays strays;
+	double *mesh = pm_alloc(a.points, sizeof *mesh), *out = pm_alloc(n, sizeof *out);
+	int threads = pm_threads();
+	bool same = true;
+	for (size_t p = 0; p < n; p += 3)
+		for (int d = 0; d < dim; d++)
+			a.x[d][p] = a.t.grid.lo[d] + a.t.grid.h[d] * (3 + 2e-5 * (double)p);
+	for (int count = 1; count <= 3; count++) {
+		pm_threads_use(count);
+		for (int c = 0; c < dim; c++) {
+			memset(a.mesh[c], 0, a.points * sizeof *mesh);
+			memset(a.out[c], 0, n * sizeof *out);
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_gather(&a.t, n, in(a.x), in(a.mesh), NULL, a.out, &strays);
+		if (count == 1) {
+			memcpy(mesh, a.mesh[dim - 1], a.points * sizeof *mesh);
+			memcpy(out, a.out[dim - 1], n * sizeof *out);
+		}
+		same = same && !memcmp(mesh, a.mesh[dim - 1], a.points * sizeof *mesh) && !memcmp(out, a.out[dim - 1], n * sizeof *out);
+	}
+	check(same, "%d-D: 1, 2 and 3 threads give equal bytes, crowded tile included", dim);
+	pm_threads_use(threads);
+	pm_free(mesh);
+	pm_free(out);
+	problem_free(&a);
+}
+
+/* The images, made by hand: a mesh with walls is half of a periodic mesh of twice the length that holds the mirrored particles as well. */
+static void check_images(int rule, double sign)
+{
+	for (int k = 0; pm_kernels[k]; k++) {
+		enum { cells = 12, n = 40 };
+		struct problem a = problem_new(grid_of(1, (const size_t[]){cells, 1, 1}, (const int[]){rule, 0, 0}), pm_kernels[k], 1, n);
+		struct problem b = problem_new(grid_of(1, (const size_t[]){2 * cells, 1, 1}, (const int[]){0, 0, 0}), pm_kernels[k], 1, 2 * n);
+		struct pm_strays strays;
+		double lo = a.t.grid.lo[0], worst = 0;
+		for (int p = 0; p < n; p++) { /* not on half nodes, where ngp goes up in the original and down in the image */
+			double u[2];
+			pm_random(5, (uint64_t)p, 0, u);
+			a.x[0][p] = b.x[0][p] = lo + a.t.grid.h[0] * (p < 2 ? p * cells : u[0] * cells);
+			b.x[0][n + p] = 2 * lo - a.x[0][p];
+			b.q[0][p] = a.q[0][p];
+			b.q[0][n + p] = sign * a.q[0][p];
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_spread(&b.t, 2 * n, in(b.x), in(b.q), b.mesh, &strays);
+		for (int i = 0; i <= cells; i++)
+			worst = fmax(worst, fabs(a.mesh[0][i] - b.mesh[0][i]));
+		check(worst <= 1e-13, "%s at a %s face: the image has %s sign (off by %.2g, tolerance 1e-13)", pm_kernels[k]->name, rule_names[rule],
+			sign > 0 ? "the same" : "the opposite", worst);
+		if (sign < 0)
+			check(a.mesh[0][0] == 0 && a.mesh[0][cells] == 0, "%s: the density on a wall is 0", pm_kernels[k]->name);
+		problem_free(&a);
+		problem_free(&b);
+	}
+}
+
+/* FP-04, HC-59: positions that a cast or x - L floor(x/L) would put out of range. */
+static void check_edges(void)
+{
+	const double length = 7 * 0.7, lo = -0.3;
+	const double places[] = {lo, lo + length, nextafter(lo, -1), nextafter(lo + length, -1), nextafter(lo + length, 9), lo - 1e-17, -1e-17, 1e300, -1e300,
+		DBL_MAX, -DBL_MAX, DBL_MIN, lo - length, lo + 1e9 * length};
+	enum { n = sizeof places / sizeof *places };
+	for (int k = 0; pm_kernels[k]; k++) {
+		struct problem a = problem_new(grid_of(3, (const size_t[]){7, 7, 7}, (const int[]){0, 0, 0}), pm_kernels[k], 1, n);
+		struct pm_strays strays;
+		double total = 0, want = 0;
+		for (int p = 0; p < n; p++) {
+			a.x[0][p] = places[p];
+			a.x[1][p] = places[(p + 3) % n];
+			a.x[2][p] = places[(p + 5) % n];
+			want += a.q[0][p];
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		for (size_t i = 0; i < a.points; i++)
+			total += a.mesh[0][i] * pm_grid_cell(&a.t.grid);
+		check(strays.count == 0 && fabs(total - want) <= 1e-13, "HC-59, FP-04: %s finds a place for x = -1e-17, L, L - ulp, 1e300 (off by %.2g)",
+			a.t.kernel->name, fabs(total - want));
+		problem_free(&a);
+	}
+	struct problem a = problem_new(grid_of(1, (const size_t[]){7, 1, 1}, (const int[]){0, 0, 0}), pm_kernel_find("cic"), 1, 1);
+	struct problem b = problem_new(a.t.grid, a.t.kernel, 1, 1);
+	struct pm_strays strays;
+	a.x[0][0] = lo;
+	b.x[0][0] = lo + length;
+	pm_spread(&a.t, 1, in(a.x), in(a.q), a.mesh, &strays);
+	pm_spread(&b.t, 1, in(b.x), in(b.q), b.mesh, &strays);
+	check(difference(a.points, a.mesh[0], b.mesh[0]) <= 1e-14, "FP-04: lo + L is lo");
+	b.x[0][0] = NAN;
+	pm_spread(&b.t, 1, in(b.x), in(b.q), b.mesh, &strays);
+	check(strays.count == 1, "a position that is no number is a stray, not an index");
+	problem_free(&a);
+	problem_free(&b);
+}
+
+/* At open faces the support stays inside the points 1..n-1; at the others a particle may sit on the face. */
+static void check_open(void)
+{
+	for (int k = 0; pm_kernels[k]; k++) {
+		const struct pm_kernel *kernel = pm_kernels[k];
+		enum { cells = 11 };
+		struct problem a = problem_new(grid_of(1, (const size_t[]){cells, 1, 1}, (const int[]){3, 0, 0}), kernel, 1, 3);
+		struct pm_strays strays;
+		double lo = 0, r = 0.5 * kernel->width, sum = 0;
+		a.t.grid.lo[0] = lo; /* so that the limits are exact */
+		a.t.grid.h[0] = 1;
+		a.x[0][0] = r;
+		a.x[0][1] = nextafter(cells - r, 0);
+		a.x[0][2] = cells / 2.;
+		pm_spread(&a.t, 3, in(a.x), in(a.q), a.mesh, &strays);
+		for (int i = 1; i < cells; i++)
+			sum += a.mesh[0][i];
+		check(strays.count == 0 && a.mesh[0][0] == 0 && a.mesh[0][cells] == 0 && fabs(sum - a.q[0][0] - a.q[0][1] - a.q[0][2]) <= 1e-14,
+			"%s may come within %g cells of an open face and leaves the end nodes 0", kernel->name, r);
+		a.x[0][1] = nextafter(r, 0);
+		a.x[0][2] = nextafter(cells - r + 1e-15, 99);
+		pm_spread(&a.t, 3, in(a.x), in(a.q), a.mesh, &strays);
+		check(strays.count == 2 && strays.first == 1 && strays.x[0] == a.x[0][1] && strays.axis == 0,
+			"%s nearer than that is a stray, counted, the first one named", kernel->name);
+		size_t below[3], above[3];
+		a.x[0][1] = -4.25;
+		a.x[0][2] = cells + 0.5;
+		int status = pm_transfer_grow(&a.t, 3, in(a.x), below, above);
+		a.t.grid.cells[0] += below[0] + above[0];
+		a.t.grid.points[0] = a.t.grid.cells[0] + 1;
+		a.t.grid.lo[0] -= (double)below[0];
+		pm_gather(&a.t, 0, in(a.x), in(a.mesh), NULL, a.out, &strays);
+		double *bigger = pm_zalloc(a.t.grid.points[0], sizeof *bigger);
+		pm_spread(&a.t, 3, in(a.x), in(a.q), &bigger, &strays);
+		check(!status && strays.count == 0 && below[0] <= 8 && above[0] <= 6, "%s: the mesh grows by %zu and %zu cells and holds all", kernel->name,
+			below[0], above[0]);
+		pm_free(bigger);
+		problem_free(&a);
+	}
+}
+
+static void check_few(void)
+{
+	struct problem a = problem_new(grid_of(2, (const size_t[]){5, 4, 1}, (const int[]){0, 2, 0}), pm_kernel_find("pcs"), 1, 1);
+	struct pm_strays strays;
+	a.mesh[0][3] = 5;
+	check(!pm_spread(&a.t, 0, in(a.x), in(a.q), a.mesh, &strays) && a.mesh[0][3] == 5 && !strays.count, "no particles add nothing");
+	check(!pm_gather(&a.t, 0, in(a.x), in(a.mesh), NULL, a.out, &strays), "no particles gather nothing");
+	double before = 0, after = 0;
+	for (size_t i = 0; i < a.points; i++)
+		before += weight(&a, 0, i) * a.mesh[0][i];
+	pm_spread(&a.t, 1, in(a.x), in(a.q), a.mesh, &strays);
+	for (size_t i = 0; i < a.points; i++)
+		after += weight(&a, 0, i) * a.mesh[0][i];
+	check_near((after - before) * pm_grid_cell(&a.t.grid), a.q[0][0], 1e-14, "one particle adds its strength to what is there");
+	problem_free(&a);
+}
+
+/* A field of low degree is gathered exactly, as the kernel's moments promise. */
+static void check_exact(void)
+{
+	for (int k = 0; pm_kernels[k]; k++) {
+		struct problem a = problem_new(grid_of(3, (const size_t[]){10, 12, 11}, (const int[]){3, 3, 3}), pm_kernels[k], 1, 200);
+		const struct pm_grid *g = &a.t.grid;
+		struct pm_strays strays;
+		double worst = 0;
+		for (size_t i = 0; i < a.points; i++) {
+			double x = (double)(i % g->points[0]), y = (double)(i / g->points[0] % g->points[1]), z = (double)(i / g->points[0] / g->points[1]);
+			a.mesh[0][i] = 1 + (a.t.kernel->moments > 0 ? x - 2 * y + z * x : 0) + (a.t.kernel->moments > 1 ? x * x - y * y * z : 0);
+		}
+		pm_gather(&a.t, a.n, in(a.x), in(a.mesh), NULL, a.out, &strays);
+		for (size_t p = 0; p < a.n; p++) {
+			double s[3];
+			for (int d = 0; d < 3; d++)
+				s[d] = (a.x[d][p] - g->lo[d]) / g->h[d];
+			double want = 1 + (a.t.kernel->moments > 0 ? s[0] - 2 * s[1] + s[2] * s[0] : 0) +
+				      (a.t.kernel->moments > 1 ? s[0] * s[0] - s[1] * s[1] * s[2] : 0);
+			worst = fmax(worst, fabs(a.out[0][p] - want));
+		}
+		check(worst <= 1e-11, "%s gathers polynomials of degree %d per axis exactly (off by %.2g of 1000)", a.t.kernel->name, a.t.kernel->moments,
+			worst);
+		problem_free(&a);
+	}
+}
+
 int main(void)
 {
 	check_adjoint(1, (const size_t[]){13, 1, 1});
@@ -203,5 +433,18 @@ int main(void)
 		if (rule != 1)
 			for (int dim = 1; dim <= 3; dim++)
 				check_total(dim, (const size_t[]){11, 8, 9}, rule);
+	check_plain(1, (const size_t[]){5003, 1, 1}, 3000);
+	check_plain(2, (const size_t[]){131, 70, 1}, 3000);
+	check_plain(3, (const size_t[]){33, 18, 20}, 3000);
+	check_plain(3, (const size_t[]){3, 17, 2}, 100);
+	check_threads(1, (const size_t[]){9001, 1, 1});
+	check_threads(2, (const size_t[]){130, 67, 1});
+	check_threads(3, (const size_t[]){35, 20, 33});
+	check_images(1, -1);
+	check_images(2, 1);
+	check_edges();
+	check_open();
+	check_few();
+	check_exact();
 	return check_done();
 }

@@ -1,0 +1,81 @@
+/* Speed of spread and gather, million particles per second: every kernel, random and tile-ordered positions, one scalar and (gather) a vector.
+ * transfer [cells per axis [particles per cell [dim]]]; the threads are OMP_NUM_THREADS. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "mesh/transfer.h"
+
+enum { repeats = 3 };
+
+struct run {
+	struct pm_transfer t;
+	size_t n;
+	double *x[3], *q, *mesh[3], *out[3];
+};
+
+/* Position p: anywhere, or in the order of tiles of 16^3 (64^2, 4096) cells. */
+static void place(struct run *r, bool ordered, size_t per_cell)
+{
+	int dim = r->t.grid.dim;
+	size_t cells = r->t.grid.cells[0], edge = dim == 1 ? 4096 : dim == 2 ? 64 : 16, n = r->n;
+	if (edge > cells)
+		edge = cells;
+	size_t volume = edge * (dim > 1 ? edge : 1) * (dim > 2 ? edge : 1) * per_cell;
+#pragma omp parallel for
+	for (size_t p = 0; p < n; p++) {
+		size_t tile = p / volume, across = cells / edge;
+		for (int d = 0; d < dim; d++) {
+			double u[2];
+			pm_random(1, p, (uint64_t)d, u);
+			r->x[d][p] = ordered ? (double)(tile % across * edge) + u[0] * (double)edge : u[0] * (double)cells;
+			tile /= across;
+		}
+		r->q[p] = 1;
+	}
+}
+
+static double rate(struct run *r, const struct pm_kernel *k, int gathered)
+{
+	double best = INFINITY;
+	struct pm_strays strays;
+	r->t.kernel = k;
+	r->t.components = gathered ? gathered : 1;
+	for (int i = 0; i < repeats; i++) {
+		double began = pm_seconds();
+		int status = gathered ? pm_gather(&r->t, r->n, (const double *const *)r->x, (const double *const *)r->mesh, NULL, r->out, &strays)
+				      : pm_spread(&r->t, r->n, (const double *const *)r->x, (const double *const *)&r->q, r->mesh, &strays);
+		double took = pm_seconds() - began;
+		if (status)
+			exit(1);
+		best = took < best ? took : best;
+	}
+	return 1e-6 * (double)r->n / best;
+}
+
+int main(int argc, char **argv)
+{
+	size_t cells = argc > 1 ? strtoul(argv[1], NULL, 10) : 128, per_cell = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
+	int dim = argc > 3 ? atoi(argv[3]) : 3;
+	struct run r = {.t.grid = {.dim = dim}, .n = per_cell};
+	for (int d = 0; d < 3; d++) {
+		r.t.grid.cells[d] = r.t.grid.points[d] = d < dim ? cells : 1;
+		r.t.grid.h[d] = 1;
+		r.n *= d < dim ? cells : 1;
+	}
+	r.q = pm_zalloc(r.n, sizeof(double));
+	for (int d = 0; d < 3; d++) {
+		r.x[d] = pm_zalloc(r.n, sizeof(double));
+		r.out[d] = pm_zalloc(r.n, sizeof(double));
+		r.mesh[d] = pm_zalloc(pm_grid_size(&r.t.grid), sizeof(double));
+	}
+	printf("%d-D, %zu cells per axis, %zu particles, %d threads; million particles per second\n", dim, cells, r.n, pm_threads());
+	printf("kernel\torder\tspread\tgather\tgather %d components\n", dim);
+	for (int i = 0; pm_kernels[i]; i++)
+		for (int ordered = 0; ordered < 2; ordered++) {
+			place(&r, ordered, per_cell);
+			double spread = rate(&r, pm_kernels[i], 0), gather = rate(&r, pm_kernels[i], 1), vector = rate(&r, pm_kernels[i], dim);
+			printf("%s\t%s\t%.1f\t%.1f\t%.1f\n", pm_kernels[i]->name, ordered ? "tiles" : "random", spread, gather, vector);
+			fflush(stdout);
+		}
+	return 0;
+}

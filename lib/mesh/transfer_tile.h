@@ -1,0 +1,33 @@
+/* The work on one tile: particles to a block of mesh points and back. Inside lib/mesh only.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_TILE_H
+#define PM_TRANSFER_TILE_H
+
+#include "mesh/transfer_axis.h"
+
+/* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors. Its rows have this many
+ * points, its planes this many rows. */
+static const int pm_block_row[4] = {0, 4096 + 8, 64 + 8, 16 + 8};
+static const int pm_block_rows[4] = {0, 1, 64 + 8, 16 + 8};
+static const int pm_block_planes[4] = {0, 1, 1, 16 + 8};
+enum { PM_BLOCK_MOST = 24 * 24 * 24 };
+
+/* What the loops over particles need. */
+struct pm_tile {
+	const struct pm_kernel *kernel;
+	double shift;           /* of the axes: t = u - cell - shift */
+	size_t cell[3];         /* the first of the tile */
+	size_t count;           /* particles */
+	int stride;             /* doubles per record */
+	int value;              /* spread: place of the strength in the record */
+	int components;         /* gather */
+	double *block;          /* spread: added to; gather: [components][PM_BLOCK_MOST], read */
+	double *records;        /* [count][stride]; gather leaves the values in 0..components-1 */
+};
+
+/* Chosen by dim and the kernel's width and degree. */
+typedef void pm_tile_loop(const struct pm_tile *t);
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k);
+pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
+
+#endif
