@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "scene/rows.h"
-#include "stage/stage.h"
+#include "stage/attributes.h"
 
 struct config {
 	int64_t n, seed, dim;
@@ -91,54 +91,18 @@ static int begin(struct pm_stage *s)
 	return choose(o, scene, state->choice.value);
 }
 
-/* The k-th face as typed: one word for all, or low and high of each axis in turn. -PM_USAGE if the count is wrong. */
-static int face(const struct pm_list *words, const char *const *names, int faces, int k)
-{
-	int i = 0;
-	if (words->n != 1 && words->n != faces)
-		return pm_fail(PM_USAGE, "faces are 1 word or %d (low and high of each axis), not %d", faces, words->n);
-	while (strcmp(names[i], words->item[words->n == 1 ? 0 : k]))
-		i++;
-	return i;
-}
-
-/* Faces over the scene's own; particle faces follow the fields' unless they are typed. */
-static int adjust_faces(const struct config *o, struct pm_frame *f, int d)
-{
-	for (int side = 0; side < 2 && (o->faces.n || o->particle_faces.n); side++) {
-		const int k = o->faces.n ? face(&o->faces, pm_face_names, 2 * f->dim, 2 * d + side) : (int)f->face[d][side];
-		const int p = o->particle_faces.n ? face(&o->particle_faces, pm_particle_face_names, 2 * f->dim, 2 * d + side)
-			: k == PM_PERIODIC ? PM_PFOLD : k == PM_OPEN ? PM_POPEN : PM_PREFLECT;
-		if (k < 0 || p < 0)
-			return -PM_USAGE;
-		f->face[d][side] = (enum pm_face)k, f->pface[d][side] = (enum pm_particle_face)p;
-	}
-	if ((f->face[d][0] == PM_PERIODIC) != (f->face[d][1] == PM_PERIODIC) || (f->pface[d][0] == PM_PFOLD) != (f->pface[d][1] == PM_PFOLD))
-		return pm_fail(PM_USAGE, "axis %c is periodic at one face and not at the other", "xyz"[d]);
-	return 0;
-}
-
 /* What the user typed, over the scene's own box, faces, mesh and step. */
 static int adjust(const struct config *o, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
-	if (o->box.n && o->box.n != 2 && o->box.n != 2 * f->dim)
-		return pm_fail(PM_USAGE, "--box is lo,hi of all axes or of each (%d numbers), not %d numbers", 2 * f->dim, o->box.n);
-	if (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells))
+	if (pm_attributes_box(f, &o->box) || pm_attributes_faces(f, &o->faces) || pm_attributes_particle_faces(f, &o->particle_faces) ||
+		(o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
 	for (int d = 0; d < f->dim; d++) {
-		const double *edge = o->box.x + (o->box.n == 2 ? 0 : 2 * d);
-		if (o->box.n)
-			f->lo[d] = edge[0], f->hi[d] = edge[1];
-		if (!(f->lo[d] < f->hi[d]))
-			return pm_fail(PM_USAGE, "--box %g,%g is empty", f->lo[d], f->hi[d]);
-		if (adjust_faces(o, f, d))
-			return -PM_USAGE;
 		m->lo[d] = f->lo[d];
 		m->h[d] = (f->hi[d] - f->lo[d]) / (double)m->cells[d];
 	}
-	if (!isnan(o->dt))
-		f->dt = o->dt;
+	f->dt = isnan(o->dt) ? f->dt : o->dt;
 	return 0;
 }
 
@@ -167,18 +131,19 @@ static const struct pm_option options[] = {
 	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, .text = "of the random numbers", AT(seed)},
 	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, .text = "dimensions (default: the scene's)", AT(dim)},
 	{.name = "cells", .kind = PM_CELLS, .unit = "cells", .text = "of the default mesh, as 64 or 64x32x32 (default: the scene's)", AT(cells)},
-	{.name = "box", .kind = PM_VECTOR, .unit = "length", .text = "lo,hi of all axes, or of each in turn (default: the scene's)", AT(box)},
+	{.name = "box", .kind = PM_VECTOR, .unit = "length", .text = "lo,hi of all axes, or all lo and then all hi (default: the scene's)", AT(box)},
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, .text = "step (default: the scene's)", AT(dt)},
-	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, .text = "of the fields: one word, or low and high of each axis", AT(faces)},
-	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names,
-		.text = "of the particles: one word, or low and high of each axis (default: what goes with --faces)", AT(particle_faces)},
+	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, AT(faces),
+		.text = "of the fields: one word, one per axis, or low,high per axis (default: the scene's)"},
+	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names, AT(particle_faces),
+		.text = "of the particles: one word, one per axis, or low,high per axis (default: periodic where the fields are, else open)"},
 	{0},
 };
 
 static const struct pm_example examples[] = {
 	{"A star cluster, measured", "pinit plummer -n 1000 --seed 7 | diag"},
 	{"An ellipse of two unequal bodies, listed", "pinit two-body --eccentricity 0.5 --ratio 3 | sls"},
-	{"Random particles in a square with walls", "pinit uniform --dim 2 -n 500 --faces wall | sls"},
+	{"Random particles in a square with walls", "pinit uniform --dim 2 -n 500 --faces wall --particle-faces reflect | sls"},
 	{0},
 };
 

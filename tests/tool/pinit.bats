@@ -46,18 +46,19 @@ scenes="cold-collapse cold-sphere kepler lattice pair plummer two-body uniform"
 	run -2 --separate-stderr pinit lattice -n 27 --spacing 1.5
 	[[ $stderr == *"do not fill whole cells"* ]]
 	run -2 --separate-stderr pinit uniform --box 3,1
+	[[ $stderr == *"3 is not below 1"* ]]
 	run -2 --separate-stderr pinit uniform --faces wall,wall
-	[[ $stderr == *"1 word or 6"* ]]
+	[[ $stderr == *"not 2"* ]]
 	run -2 --separate-stderr pinit uniform --dim 2 --faces wall,periodic,open,open
-	[[ $stderr == *"axis x is periodic at one face"* ]]
+	[[ $stderr == *"periodic at both faces or at none"* ]]
 }
 
 @test "pinit: mesh, box, step and faces can be typed over the scene's own" {
-	sh_ok 'pinit uniform --dim 3 -n 10 --cells 8x6x4 --box -1,3 --dt 0.125 --faces wall > a'
+	sh_ok 'pinit uniform --dim 3 -n 10 --cells 8x6x4 --box -1,3 --dt 0.125 --faces wall --particle-faces reflect > a'
 	[ "$(field a "h['meshes'][0]['cells'], h['meshes'][0]['h'], h['box']['lo'], h['box']['hi'], h['dt']")" = \
 		"[8, 6, 4] [0.5, 0.6666666666666666, 1.0] [-1.0, -1.0, -1.0] [3.0, 3.0, 3.0] 0.125" ]
 	[ "$(field a "h['box']['fields'][2], h['box']['particles'][2]")" = "['wall', 'wall'] ['reflect', 'reflect']" ]
-	sh_ok 'pinit uniform --dim 2 -n 10 --box 0,1,-2,2 --faces wall,open,neumann,neumann --particle-faces absorb > b'
+	sh_ok 'pinit uniform --dim 2 -n 10 --box 0,-2,1,2 --faces wall,open,neumann,neumann --particle-faces absorb > b'
 	[ "$(field b "h['box']['lo'], h['box']['hi'], h['box']['fields'], h['box']['particles'][0]")" = \
 		"[0.0, -2.0] [1.0, 2.0] [['wall', 'open'], ['neumann', 'neumann']] ['absorb', 'absorb']" ]
 }
