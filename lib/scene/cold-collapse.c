@@ -19,7 +19,7 @@ static const struct pm_scene_parameter rows[] = {
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	static const size_t cells[4] = {0, 128, 64, 32};
+	static const size_t cells[4] = {0, 128, 64, 16};
 	const size_t side = scene_per_axis(c->n ? c->n : 1, c->dim);
 	const double length = c->value[LENGTH], k = 2 * pm_pi * c->value[MODE] / length, volume = pow(length, c->dim);
 	struct scene_body b;

@@ -1,7 +1,7 @@
 /* A Plummer sphere in equilibrium, G = M = a = 1: rho = 3/(4 pi) (1 + r^2)^(-5/2), f(E) ~ (-E)^(7/2), sigma^2(r) = 1/(6 sqrt(1 + r^2)).
  * Radii from the mass fraction M(r) = (1 + r^-2)^(-3/2), speeds by rejection from q^2 (1 - q^2)^(7/2), q = v/v_escape.
  * Source: Aarseth, Henon, Wielen 1974, Astron. Astrophys. 37, 183, appendix.
- * The sphere ends at `truncation`; the mass outside is left out, not spread over the rest (1.2 % at 11 a), so density and potential
+ * The sphere ends at `truncation`; the mass outside is left out, not spread over the rest (1.5 % at 10 a), so density and potential
  * gradient inside are Plummer's. Centre of mass and momentum are zero. With theta = atan(truncation) the energies are
  * K = 3/32 (theta - sin(4 theta)/4) and W = -3 (theta/16 - sin(4 theta)/64 - sin(2 theta)^3/48); -3 pi/64 in all without an end.
  * Exact: mass, energy_kinetic, energy_field_pair, energy, virial_ratio, radius_F (fraction F of the mass kept), dispersion_centre. Cost N.
@@ -11,7 +11,7 @@
 enum { TRUNCATION, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"truncation", "length", 11, 0.1, 1e6, "no particle starts outside this radius (the scale radius is 1)"},
+	{"truncation", "length", 10, 0.1, 1e6, "no particle starts outside this radius (the scale radius is 1)"},
 	{"softening", "length", 0.02, 0, 1e6, "softening length of direct sums"},
 	{0},
 };
@@ -51,7 +51,7 @@ static void particle(uint64_t seed, uint64_t id, double kept, double x[3], doubl
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const double kept = mass_within(c->value[TRUNCATION]), side = 16 * fmax(1, c->value[TRUNCATION] / 11);
+	const double kept = mass_within(c->value[TRUNCATION]), side = 14 * fmax(1, c->value[TRUNCATION] / 10);
 	struct scene_body b;
 	scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], 1.0 / 32);
 	if (scene_mesh(f, 64) || scene_set(f, "matter", c->n, true, c->n ? kept / (double)c->n : 0, &b))

@@ -20,7 +20,7 @@ scenes="cold-collapse cold-sphere kepler lattice pair plummer two-body uniform"
 	for s in $scenes; do
 		grep -q "^  $s  " <<<"$output"
 	done
-	grep -q -- '--truncation X .*plummer 11' <<<"$output"
+	grep -q -- '--truncation X .*plummer 10' <<<"$output"
 }
 
 @test "pinit: a scene that does not exist is refused with the nearest name, exit 2" {
