@@ -1,0 +1,111 @@
+# diag: what it prints. The sums themselves are tested in tests/unit/measure.c. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+@test "diag: a table with a header line of words, one row a frame, the same columns all along" {
+	sh_ok 'pinit plummer -n 100 > a; cat a a a | diag > t'
+	[ "$(wc -l < t)" = 4 ]
+	[ "$(awk -F'\t' '{ print NF }' t | sort -u | wc -l)" = 1 ]
+	for c in step time energy_kinetic energy_field_mesh energy_field_pair energy momentum_x angular_momentum_z mass; do
+		[ -n "$(column $c < t)" ]
+	done
+	[ "$(head -n1 t | cut -f1-6)" = "$(printf 'step\ttime\tenergy_kinetic\tenergy_field_mesh\tenergy_field_pair\tenergy')" ]
+}
+
+@test "diag: the columns follow the dimension" {
+	sh_ok 'pinit uniform --dim 1 -n 10 | diag'
+	[[ ${lines[0]} != *momentum_y* && ${lines[0]} != *angular* ]]
+	sh_ok 'pinit uniform --dim 2 -n 10 | diag'
+	[[ ${lines[0]} == *angular_momentum_z* && ${lines[0]} != *angular_momentum_x* ]]
+}
+
+@test "diag: what cannot be computed is nan, and null in JSON" {
+	sh_ok 'pinit plummer -n 100 > a; diag < a > t'
+	[ "$(column energy < t)" = nan ]
+	sh_ok 'diag --format json < a'
+	[ "$(jq .energy <<<"$output")" = null ]
+	[ "$(jq .mass <<<"$output")" != null ]
+}
+
+@test "diag: --columns chooses and orders; a column that does not exist is refused, exit 2" {
+	sh_ok 'pinit two-body | diag --columns mass,step'
+	[ "${lines[0]}" = "$(printf 'mass\tstep')" ]
+	[ "${lines[1]}" = "$(printf '1\t0')" ]
+	run -2 --separate-stderr diag --columns masss
+	[[ $stderr == *mass* ]]
+}
+
+@test "PM-09: plummer has the exact energy, Lagrangian radii and virial ratio" {
+	# radius_F counts the mass that is kept, so F = 0.1/0.985185 ... is the reference's tenth of all.
+	# 1e4 particles scatter the energy by 0.7 %, the end at 10 a costs 0.5 %: the mean of four seeds is within the case's 1 %
+	for s in 1 2 3 4; do
+		pinit plummer -n 10000 --seed $s | pp --potential | diag --exact --radii 0.10150373,0.50751869,0.91353358 > $s
+	done
+	for c in energy virial_ratio radius_0.101504 radius_0.507519 radius_0.913534; do
+		eval "$(echo $c | tr . _)=$(for s in 1 2 3 4; do column $c < $s; done | awk '{ s += $1 } END { printf "%.17g", s / NR }')"
+	done
+	within "$energy" -0.147262155637022 0.00147
+	within "$virial_ratio" 1 0.02
+	within "$radius_0_101504" 0.524028063612871 0.0157 # 3 %
+	within "$radius_0_507519" 1.30476602650411 0.0261  # 2 %
+	within "$radius_0_913534" 3.70711279195408 0.111   # 3 %
+	within "$(column exact_radius_0.913534 < 1)" 3.70711279195408 1e-5
+	within "$energy" "$(column exact_energy < 1)" 0.0015 # three standard deviations of the mean of four
+}
+
+@test "diag: the direct sum of --pair is that of pp --potential" {
+	sh_ok 'pinit plummer -n 2000 > a; diag --pair < a > b; pp --potential < a | diag > c'
+	within "$(column energy_field_pair < b)" "$(column energy_field_pair < c)" 1e-13
+}
+
+@test "diag: the orbit of two bodies has its exact energies and angular momentum" {
+	for e in 0 0.5 0.9; do
+		sh_ok "pinit two-body --eccentricity $e --ratio 3 | diag --pair --exact > t"
+		for c in energy energy_kinetic energy_field_pair angular_momentum_z mass; do
+			within "$(column $c < t)" "$(column exact_$c < t)" 1e-15
+		done
+	done
+	sh_ok 'pinit kepler | diag --pair --exact > t'
+	within "$(column energy < t)" -0.5 1e-15
+	within "$(column angular_momentum_z < t)" "$(column exact_angular_momentum_z < t)" 1e-15
+}
+
+@test "diag: --pair in a periodic box and --exact without a scene are refused" {
+	run -2 --separate-stderr bash -o pipefail -c 'pinit uniform -n 10 | diag --pair'
+	[[ $stderr == *"this box is periodic"* ]]
+	run -2 --separate-stderr diag --radii 1.5
+	[[ $stderr == *"not a fraction"* ]]
+}
+
+@test "diag: --set measures one set, and a set that is not there is named" {
+	sh_ok 'pinit kepler | diag --set sun --columns mass,particles'
+	[ "${lines[1]}" = "$(printf '1\t1')" ]
+	run -1 --separate-stderr bash -o pipefail -c 'pinit kepler | diag --set moon'
+	[[ $stderr == *"no set 'moon'"* ]]
+}
+
+@test "diag: --tee writes the table to a file and passes the frame on unchanged" {
+	sh_ok 'pinit plummer -n 1000 > a; diag --tee t --no-history < a > b; diag < a > u'
+	same_as a b
+	same_as t u
+}
+
+@test "diag: inside cycle it writes a row a step, at whole steps only" {
+	sh_ok "pinit kepler | cycle -n 5 'push drift | diag --tee t' > b"
+	[ "$(column step < t | tr '\n' ' ')" = "1 2 3 4 5 " ]
+}
+
+@test "HC-58: the table has the same bytes with 1, 2 and 3 threads" {
+	pinit plummer -n 50000 > a
+	for t in 1 2 3; do
+		diag --radii 0.5 --threads $t < a > $t
+	done
+	same_as 1 2
+	same_as 1 3
+}
+
+@test "diag: a full disk is an error, a closed reader is not" {
+	run -1 --separate-stderr bash -c 'pinit two-body | diag > /dev/full'
+	[[ $stderr == *"cannot write"* ]]
+	run -1 --separate-stderr bash -o pipefail -c 'pinit two-body | diag --tee /no/such/place/t'
+	[[ $stderr == *"/no/such/place/t"* ]]
+}
