@@ -1,0 +1,244 @@
+/* The table of steps against its promises: stability limits on both axes, orders, registers (TI-01); leapfrog on the oscillator (TI-02) and on an
+ * eccentric Kepler orbit (HC-17, PM-10). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <complex.h>
+#include <gsl/gsl_eigen.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "step/step.h"
+
+enum { MOST = 8 };
+
+/* A system y' = rate(y) of m real numbers. */
+struct problem {
+	int m;
+	void (*rate)(const double *y, double *k);
+};
+
+/* One whole step of a scheme; memory: registers that hold old rates, `known` of them; returns how many are known afterwards. */
+static int whole_step(const struct pm_step *asked, const struct problem *p, double dt, double *y, double memory[2][MOST], int known)
+{
+	const struct pm_step *step = known < asked->rates ? pm_step_find(asked->start) : asked;
+	double own[PM_REGISTERS][MOST] = {{0}}, k[MOST];
+	double *q[PM_REGISTERS];
+	for (int r = 0; r < PM_REGISTERS; r++)
+		q[r] = step == asked && r < asked->rates ? memory[r] : own[r];
+	for (int pass = 0; pass < step->passes; pass++) {
+		p->rate(y, k);
+		step->pass(pass, dt, (size_t)p->m, y, k, q);
+		if (pass == 0 && asked->rates) {
+			memcpy(memory[1], memory[0], sizeof memory[0]);
+			memcpy(memory[0], k, sizeof k);
+		}
+	}
+	return known < asked->rates ? known + 1 : known;
+}
+
+/* kick/2 drift kick/2, where the first half of y are positions. */
+static void leapfrog(const struct problem *p, double dt, double *y)
+{
+	size_t half = (size_t)p->m / 2;
+	const struct pm_step *kick = pm_step_find("kick"), *drift = pm_step_find("drift");
+	double k[MOST];
+	p->rate(y, k);
+	kick->pass(0, dt / 2, half, y + half, k + half, NULL);
+	drift->pass(0, dt, half, y, y + half, NULL);
+	p->rate(y, k);
+	kick->pass(0, dt / 2, half, y + half, k + half, NULL);
+}
+
+static double complex lambda;
+static void linear(const double *y, double *k)
+{
+	double complex r = lambda * (y[0] + I * y[1]);
+	k[0] = creal(r), k[1] = cimag(r);
+}
+static void oscillator(const double *y, double *k) { k[0] = y[1], k[1] = -y[0]; }
+static void pendulum(const double *y, double *k) { k[0] = y[1], k[1] = -sin(y[0]); }
+static void kepler(const double *y, double *k)
+{
+	double r2 = y[0] * y[0] + y[1] * y[1], f = 1 / (r2 * sqrt(r2));
+	k[0] = y[2], k[1] = y[3], k[2] = -f * y[0], k[3] = -f * y[1];
+}
+
+/* Spectral radius of the map of one step on (y, old rates) at lambda dt = z. */
+static double amplification(const struct pm_step *step, double complex z)
+{
+	struct problem p = {2, step->kind == PM_SCHEME ? linear : oscillator};
+	int m = 2 + 2 * step->rates;
+	double a[MOST * MOST], radius = 0;
+	lambda = z;
+	for (int c = 0; c < m; c++) {
+		double y[MOST] = {0}, memory[2][MOST] = {{0}};
+		double *part = c < 2 ? y : memory[(c - 2) / 2];
+		part[c % 2] = 1;
+		if (step->kind == PM_SCHEME)
+			whole_step(step, &p, 1, y, memory, step->rates);
+		else
+			leapfrog(&p, cimag(z), y);
+		for (int r = 0; r < m; r++)
+			a[r * m + c] = r < 2 ? y[r] : memory[(r - 2) / 2][r % 2];
+	}
+	gsl_matrix_view view = gsl_matrix_view_array(a, (size_t)m, (size_t)m);
+	gsl_vector_complex *values = gsl_vector_complex_alloc((size_t)m);
+	gsl_eigen_nonsymm_workspace *w = gsl_eigen_nonsymm_alloc((size_t)m);
+	gsl_eigen_nonsymm(&view.matrix, values, w);
+	for (int i = 0; i < m; i++) {
+		gsl_complex v = gsl_vector_complex_get(values, (size_t)i);
+		radius = fmax(radius, hypot(GSL_REAL(v), GSL_IMAG(v)));
+	}
+	gsl_eigen_nonsymm_free(w), gsl_vector_complex_free(values);
+	return radius;
+}
+
+/* Largest |z| along a direction for which nothing grows; 3e-14 above one is round-off, and hides growth like z^4/8 below z = 7e-4. */
+static double limit(const struct pm_step *step, double complex direction)
+{
+	double lo = 0, hi = 0;
+	while (hi < 8 && amplification(step, (hi + 0.05) * direction) <= 1 + 3e-14)
+		hi += 0.05;
+	for (lo = hi, hi += 0.05; hi - lo > 1e-9;) {
+		double mid = 0.5 * (lo + hi);
+		*(amplification(step, mid * direction) <= 1 + 3e-14 ? &lo : &hi) = mid;
+	}
+	return lo;
+}
+
+static void limits(const struct pm_step *s, const char *name)
+{
+	char text[128];
+	/* 1e-3: the tolerance of the reference table */
+	snprintf(text, sizeof text, "TI-01: %s: stability limit on the imaginary axis as claimed", name);
+	check_near(limit(s, I), s->imaginary_limit, 1e-3, text);
+	snprintf(text, sizeof text, "TI-01: %s: stability limit on the real axis as claimed", name);
+	if (!isnan(s->real_limit))
+		check_near(limit(s, -1), s->real_limit, 1e-3, text);
+}
+
+/* Error of the pendulum at t = 2 with n steps, against rk4 with many. */
+static double pendulum_error(const struct pm_step *s, int n)
+{
+	struct problem p = {2, pendulum};
+	double y[2] = {1.1, 0.4}, exact[2] = {1.1, 0.4}, memory[2][MOST] = {{0}};
+	for (int i = 0; i < 4000; i++)
+		whole_step(pm_step_find("rk4"), &p, 2.0 / 4000, exact, memory, 0);
+	memset(memory, 0, sizeof memory);
+	for (int i = 0, known = 0; i < n; i++)
+		if (s->kind == PM_SCHEME)
+			known = whole_step(s, &p, 2.0 / n, y, memory, known);
+		else
+			leapfrog(&p, 2.0 / n, y);
+	return hypot(y[0] - exact[0], y[1] - exact[1]);
+}
+
+static void orders(const struct pm_step *s, const char *name)
+{
+	double h[4], e[4];
+	char text[128];
+	for (int i = 0; i < 4; i++) {
+		int n = 37 << i;
+		h[i] = 2.0 / n, e[i] = pendulum_error(s, n);
+	}
+	snprintf(text, sizeof text, "TI-01: %s: order of a nonlinear pendulum from four steps", name);
+	check_order(4, h, e, s->order, text);
+	check(log(e[2] / e[3]) / log(2) < s->order + 0.3, "TI-01: %s: and it is no higher than claimed (%.3f)", name, log(e[2] / e[3]) / log(2));
+}
+
+static void promises(const struct pm_step *s, const char *name)
+{
+	check(!strcmp(s->name, name), "%s: the entry carries the name of its file", name);
+	check(s->passes <= PM_STEP_PASSES && s->at[s->passes - 1] == 1, "%s: the last pass ends at the end of the step", name);
+	const struct pm_step *start = s->start ? pm_step_find(s->start) : NULL;
+	check(!s->rates == !start && s->rates + (start ? start->registers : s->registers) <= PM_REGISTERS,
+		"%s: what it keeps and what its start needs fit into the registers", name);
+}
+
+/* TI-02: cos(theta) = 1 - (w dt)^2/2, and (v^2 + w^2 (1 - w^2 dt^2/4) x^2)/2 is constant. */
+static void verlet(double dt, double phase)
+{
+	struct problem p = {2, oscillator};
+	double y[2] = {1, 0}, a = sqrt(1 - dt * dt / 4), shadow = 0, turned = 0, last = 0;
+	int n = 5000;
+	for (int i = 0; i < n; i++) {
+		leapfrog(&p, dt, y);
+		double angle = atan2(-y[1] / a, y[0]), step = angle - last;
+		turned += step - 2 * pm_pi * floor(step / (2 * pm_pi) + 0.5);
+		last = angle;
+		shadow = fmax(shadow, fabs(0.5 * (y[1] * y[1] + a * a * y[0] * y[0]) - 0.5 * a * a));
+	}
+	char text[128];
+	snprintf(text, sizeof text, "TI-02: leapfrog at w dt = %g turns by the reference angle per step", dt);
+	check_near(turned / n, phase, 1e-13, text);
+	snprintf(text, sizeof text, "TI-02: leapfrog at w dt = %g keeps the shadow energy over %d steps", dt, n);
+	check_near(shadow, 0, 1e-13, text);
+}
+
+static double energy(const double *y) { return 0.5 * (y[2] * y[2] + y[3] * y[3]) - 1 / hypot(y[0], y[1]); }
+
+/* Direction of the apocentre, from the Laplace-Runge-Lenz vector. */
+static double apsis(const double *y)
+{
+	double l = y[0] * y[3] - y[1] * y[2], r = hypot(y[0], y[1]);
+	return atan2(-(-l * y[2] - y[1] / r), -(l * y[3] - y[0] / r));
+}
+
+/* HC-17: e = 0.9, 1000 steps per orbit, 1000 orbits. */
+static void long_orbit(void)
+{
+	struct problem p = {4, kepler};
+	double y[4] = {-1.9, 0, 0, -sqrt(0.1 / 1.9)}, dt = 2 * pm_pi / 1000, e0 = energy(y), worst = 0, turned = 0, last = apsis(y), rv = -1;
+	double sn = 0, st = 0, stt = 0, se = 0, ste = 0;
+	int orbits = 0;
+	for (int i = 0; i < 1000000; i++) {
+		leapfrog(&p, dt, y);
+		double now = y[0] * y[2] + y[1] * y[3];
+		if (rv > 0 && now <= 0) { /* just past the apocentre */
+			double angle = apsis(y), de = energy(y) / e0 - 1, d = angle - last;
+			turned += d - 2 * pm_pi * floor(d / (2 * pm_pi) + 0.5);
+			last = angle, worst = fmax(worst, fabs(de)), orbits++;
+			sn++, st += orbits, stt += (double)orbits * orbits, se += de, ste += orbits * de;
+		}
+		rv = now;
+	}
+	double slope = (sn * ste - st * se) / (sn * stt - st * st);
+	check(orbits >= 990, "HC-17: %d orbits were followed", orbits);
+	check_near(worst, 0, 1e-8, "HC-17: leapfrog on e = 0.9: |dE/E| at the apocentre stays below 1e-8 for 1000 orbits");
+	check_near(slope * orbits, 0, 1e-9, "HC-17: and has no trend");
+	check_near(turned / orbits, -1.0773e-2, 1.0773e-4, "HC-17: precession -1.0773e-2 rad per orbit within 1 percent");
+}
+
+/* PM-10: position after whole periods; the scheme is the same, so only round-off and its growth may differ. */
+static void orbit(const char *scheme, int steps, int orbits, double x0, double y0, double tolerance)
+{
+	struct problem p = {4, kepler};
+	double y[4] = {-1.9, 0, 0, -sqrt(0.1 / 1.9)}, memory[2][MOST] = {{0}};
+	for (int i = 0; i < steps * orbits; i++)
+		if (strcmp(scheme, "kdk"))
+			whole_step(pm_step_find(scheme), &p, 2 * pm_pi / steps, y, memory, 0);
+		else
+			leapfrog(&p, 2 * pm_pi / steps, y);
+	char text[128];
+	snprintf(text, sizeof text, "PM-10: Kepler e = 0.9, %s, %d steps per orbit, %d orbits: x", scheme, steps, orbits);
+	check_near(y[0], x0, tolerance, text);
+	snprintf(text, sizeof text, "PM-10: Kepler e = 0.9, %s, %d steps per orbit, %d orbits: y", scheme, steps, orbits);
+	check_near(y[1], y0, tolerance, text);
+}
+
+int main(void)
+{
+	for (int i = 0; pm_steps[i]; i++) {
+		promises(pm_steps[i], pm_step_names[i]);
+		limits(pm_steps[i], pm_step_names[i]);
+		orders(pm_steps[i], pm_step_names[i]);
+	}
+	verlet(0.1, 0.10004171361154);
+	verlet(0.5, 0.505360510284157);
+	orbit("kdk", 1000, 1, -1.899890053, 0.02043960759, 1e-8);
+	orbit("kdk", 1000, 10, -1.889015833, 0.2040059636, 1e-6);
+	orbit("kdk", 4000, 10, -1.899956311, 0.01288462278, 1e-6);
+	orbit("rk4", 1000, 10, -1.889329315, -0.03909421541, 1e-6);
+	orbit("rk4", 4000, 10, -1.899993061, -4.399275757e-05, 1e-6);
+	long_orbit();
+	return check_done();
+}
