@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads pmpipe streams (docs/stream.md) in plain Python: `for header, data, tail in frames(file)`; data[i][c] is component c of field i.
 As a program it prints standard input: a line per field, then its values. SPDX-License-Identifier: GPL-3.0-or-later"""
-import array, json, math, sys
+import array, json, math, signal, sys
 
 TYPES = {"f64": "d", "f32": "f", "i64": "q", "u8": "B"}
 TABLE = list(range(256))
@@ -56,6 +56,7 @@ def frames(file):
         yield header, data, tail
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     for header, data, tail in frames(sys.stdin.buffer):
         for field, values in zip(header["fields"], data):
             print(field["on"], field["name"], field["type"])

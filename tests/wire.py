@@ -8,6 +8,7 @@
   wire.py edit FILE CODE            runs Python CODE on each frame and writes the stream anew with right sizes and checksums; it sees
                                     h (header), data (list of bytearray, one per field), field(NAME) -> index, put(NAME, I, VALUE), resize(SET, N)
   wire.py text FILE FROM TO         replaces text in the header as it stands (bytes, \\xNN understood), sizes kept right
+  wire.py tail-text FILE FROM TO    the same in the tail
   wire.py line FILE FROM TO         replaces text in the 64-byte lines
   wire.py flip FILE PLACE           inverts one bit of the byte at that place
   wire.py frames FILE...            the frames of all these files as one stream
@@ -47,9 +48,20 @@ def line(*words):
     return " ".join(map(str, words)).encode().ljust(63) + b"\n"
 
 
+def canonical(v):
+    if isinstance(v, dict):
+        return "{%s}" % ",".join(canonical(k) + ":" + canonical(v[k]) for k in sorted(v))
+    if isinstance(v, list):
+        return "[%s]" % ",".join(map(canonical, v))
+    if isinstance(v, float):
+        t = "%.17g" % v
+        return t if set(t) & set(".en") else t + ".0"
+    return json.dumps(v, ensure_ascii=False)
+
+
 def block(value):
     """Canonical JSON, padded to a multiple of 64 with the newline last."""
-    text = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()
+    text = value if isinstance(value, bytes) else canonical(value).encode()
     return text.ljust(up(len(text) + 1) - 1) + b"\n"
 
 
@@ -154,12 +166,12 @@ def edit(data, code):
 
 
 def text(data, a, b, old, new):
-    header = data[a:b].rstrip()
-    if old not in header:
-        sys.exit("wire.py: no %r in the header %r" % (old, header))
-    header = block(header.replace(old, new, 1))
-    words = data[a - 64:a].split()
-    return data[:a - 64] + line("PMPIPE/1 frame", len(header), int(words[3])) + header + data[b:]
+    old_block = data[a:b].rstrip()
+    if old not in old_block:
+        sys.exit("wire.py: no %r in %r" % (old, old_block))
+    new_block = block(old_block.replace(old, new, 1))
+    words = data[a - 64:a].decode().split()
+    return data[:a - 64] + line(*words[:2], len(new_block), *words[3:]) + new_block + data[b:]
 
 
 def literal(s):
@@ -198,8 +210,8 @@ def main(action, path, *rest):
                 out.write(data[a - 64:a].split()[2] + b" " + data[a:b].rstrip() + b"\n")
     elif action == "edit":
         out.write(edit(data, rest[0]))
-    elif action == "text":
-        _, a, b = next(p for p in spots if p[0] == "header")
+    elif action in ("text", "tail-text"):
+        _, a, b = next(p for p in spots if p[0] == ("header" if action == "text" else "tail"))
         out.write(text(data, a, b, literal(rest[0]), literal(rest[1])))
     elif action == "line":
         old, new = literal(rest[0]), literal(rest[1])

@@ -1,0 +1,208 @@
+# The contract of a stage, for every tool: usage errors, aborts, terminals, the order of what it does, frames without memory.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+load words
+
+# usage PATTERN COMMAND LINE: exit 2 before the input is read (it never comes), one line, and an abort alone for those behind.
+usage() {
+	local got=0 tool=${2%% *}
+	timeout 5 bash -c "exec $2" < <(sleep 6) >out 2>err || got=$?
+	[ $got = 2 ] || { echo "$2: exit status $got"; cat err; return 1; }
+	[ "$(wc -l <err)" = 1 ] && grep -Eq -- "^$tool: .*($1)" err || { echo "$2: wanted '$1', got"; cat err; return 1; }
+	if "$tool" --help | grep -q 'writes text'; then
+		[ ! -s out ]
+	else
+		[ "$(wire places out | tr '\n' ' ')" = "before-abort-line in-abort-line before-abort in-abort " ] && [ "$(wire messages out)" = "2 $(cat err)" ]
+	fi || { echo "$2: on standard output"; cat out; return 1; }
+}
+
+@test "an unknown option: exit 2, the nearest name, before input is read, for every tool" {
+	for t in $(tools); do
+		# Every second letter pair of its first own option, swapped; all tools have the library's --threads.
+		usage 'did you mean --threads' "$t --thraeds 2"
+		first=$("$t" --complete | head -n 1 | cut -d' ' -f1)
+		[ ${#first} -lt 6 ] || usage "did you mean $first" "$t ${first%?}x"
+		usage 'no option' "$t --qqqqqqqqqq"
+		usage 'no option' "$t -Q"
+	done
+}
+
+@test "a missing value, a value that is none, a value too many: exit 2" {
+	usage 'wants a value' 'p2m --kernel'
+	usage 'not a number' 'push kick --dt fast'
+	usage 'not a number' 'push kick --dt nan'
+	usage 'not a number' 'push kick --dt inf'
+	usage 'not a number' 'push kick --dt 1e999'
+	usage 'not a whole number' "cycle -n 1.5 'push drift'"
+	usage 'takes no value' 'push kick --verbose=yes'
+	usage 'not a number of cells' 'p2m -n 64x'
+	usage 'not a number of cells' 'p2m -n 0'
+	usage 'more than three' 'p2m -n 4x4x4x4'
+}
+
+@test "a value out of its range: exit 2, the range" {
+	usage 'outside its range, 1 to 4096' 'diag --threads 0'
+	usage 'outside its range' "cycle -n -1 'push drift'"
+	usage 'outside its range' 'pinit plummer -n -5'
+	usage 'outside its range' "cycle -n 5 --every 0 'push drift'"
+}
+
+@test "a wrong choice: exit 2, the choices and the nearest" {
+	usage 'cic.*did you mean cic' 'p2m --kernel cci'
+	usage 'fused.*did you mean fused' "cycle -n 1 --engine fusde 'push drift'"
+	usage 'did you mean plummer' 'pinit plumer'
+	usage 'spectral' 'poisson-fft --symbol special'
+}
+
+@test "a missing argument, an argument too many: exit 2" {
+	usage 'SENTENCE is missing' 'cycle -n 1'
+	usage 'missing' pinit
+	usage 'missing' push
+	usage 'one word too many' 'p2m p2m'
+	usage 'one word too many' "cycle -n 1 'push drift' again"
+	usage 'how long' "cycle 'push drift'"
+}
+
+@test "a usage error inside a sentence: exit 2 before input is read, the word is named" {
+	usage 'p2m.*kernel' "cycle -n 1 'p2m --kernel cci'"
+	usage 'did you mean' "cycle -n 1 'p2m --kernle cic'"
+}
+
+@test "abort travels: a failure in stage 2 of 5 ends every later stage with its code and message" {
+	five() { # COMMAND LINE OF STAGE 2, CODE, PATTERN
+		bash -c "cat in.pm | $1 2>err.2 | p2m 2>err.3 | poisson-fft 2>err.4 | diag 2>err.5 >out
+			echo \"\${PIPESTATUS[@]:1}\" >codes"
+		[ "$(cat codes)" = "$2 $2 $2 $2" ] || { echo "$1: codes $(cat codes)"; cat err.*; return 1; }
+		grep -Eq -- "$3" err.2 || { cat err.2; return 1; }
+		[ "$(cat err.3)" = "p2m: stopped by $(cat err.2)" ]
+		[ "$(cat err.4)" = "poisson-fft: stopped by $(cat err.2)" ]
+		[ "$(cat err.5)" = "diag: stopped by $(cat err.2)" ]
+	}
+	cloud >in.pm
+	five 'push kick' 1 "push: frame 1: .*acc"
+	five 'push --nonsense' 2 "push: no option"
+	pinit plummer -n 12 --cells 4 | tee slow.pm >/dev/null
+	wire edit slow.pm 'put("v", 3, 1e308)' >in.pm
+	five 'push drift --dt 10' 3 "push: frame 1: .*not finite"
+	# A stage that is not there at all, and one that is killed: those behind see a stream that is cut.
+	run bash -o pipefail -c 'pinit uniform -n 12 --cells 4 | nosuchstage 2>/dev/null | p2m 2>/dev/null | diag'
+	[[ $output == *"diag: stopped by p2m: frame 1: no input: zero bytes"* ]]
+}
+
+@test "abort travels out of cycle, and through cycle, with its code and message" {
+	run bash -c 'pinit uniform -n 12 --cells 4 | cycle -n 2 "push kick/2 drift | push kick/2" 2>err | diag'
+	[ "$status" = 1 ]
+	[ "${lines[-1]}" = "diag: stopped by $(cat err)" ]
+	run bash -c 'pinit uniform --nonsense 2>err | cycle -n 2 "push drift" 2>/dev/null | diag'
+	[ "$status" = 2 ]
+	[ "${lines[-1]}" = "diag: stopped by $(cat err)" ]
+}
+
+@test "a failure in the second frame: the first comes out whole, then the abort" {
+	cloud >a.pm
+	wire edit a.pm 'put("x", 1, float("nan"))' >b.pm
+	wire frames a.pm b.pm >two.pm
+	p2m <a.pm >alone.pm
+	got=0
+	p2m <two.pm >out.pm 2>err || got=$?
+	[ $got = 1 ]
+	grep -q '^p2m: frame 2: ' err
+	[ "$(wire messages out.pm)" = "1 $(cat err)" ]
+	cmp -n "$(($(wc -c <alone.pm) - 64))" alone.pm out.pm
+}
+
+@test "a stream on a terminal is refused with a hint: exit 2, for every tool that writes one" {
+	cloud >in.pm
+	for t in $(tools); do
+		"$t" --help | grep -q 'writes text' && continue
+		[ "$t" = pinit ] && line="pinit uniform -n 12 --cells 4" || { input "$t" >in.pm && cp in.pm same.pm && line="$(words "$t") <in.pm"; }
+		got=0
+		script -qec "bash -c $(printf %q "$line")" /dev/null >screen </dev/null || got=$?
+		[ $got = 2 ] && grep -q "$t: .*standard output is a terminal.*sls" screen && ! grep -q PMPIPE screen || { echo "$t: exit status $got"; cat -A screen | head; return 1; }
+	done
+}
+
+@test "a stage writes frame k completely before it reads k+1" {
+	cloud >a.pm
+	p2m <a.pm >want.pm
+	coproc P { p2m 2>err; }
+	# The frame without the end marker: the answer must come while the input stays open.
+	wire cut a.pm before-end-line >&"${P[1]}"
+	timeout 5 head -c $(($(wc -c <want.pm) - 64)) <&"${P[0]}" >got.pm
+	cmp -n "$(wc -c <got.pm)" want.pm got.pm
+	[ "$(wc -c <got.pm)" = $(($(wc -c <want.pm) - 64)) ]
+	exec {P[1]}>&-
+	wait
+}
+
+@test "equal runs give equal bytes, for every tool that writes a stream" {
+	for t in $(readers); do
+		"$t" --help | grep -q 'writes text' && continue
+		input "$t" >in.pm
+		cp in.pm same.pm
+		bash -c "$(words "$t")" <in.pm >one.pm
+		bash -c "$(words "$t")" <in.pm >two.pm
+		cmp one.pm two.pm
+	done
+}
+
+@test "state between frames is only a cache: a frame after others comes out as it does alone" {
+	for t in $(readers); do
+		"$t" --help | grep -q 'writes text' && continue
+		case $t in stack | scmp) continue ;; esac # they take a second stream, frame by frame
+		input "$t" >in.pm
+		wire edit in.pm 'h["seed"] = 5; put("x", 0, 0.25)' >other.pm
+		bash -c "$(words "$t")" <in.pm >alone.pm
+		for before in 1 10; do
+			wire frames $(yes other.pm | head -n $before) in.pm >many.pm
+			bash -c "$(words "$t")" <many.pm | tail -c "$(wc -c <alone.pm)" >last.pm
+			cmp <(head -c -64 alone.pm) <(head -c -64 last.pm) || { echo "$t after $before others"; return 1; }
+		done
+	done
+}
+
+@test "history: one entry per stage with the options that change results, none for those that do not, none twice" {
+	pinit uniform -n 12 --cells 4 --threads 2 | push drift | push drift | p2m --kernel tsc --threads 1 >a.pm
+	wire header a.pm | python3 -c '
+import json, sys
+h = json.load(sys.stdin)["history"]
+assert [e["program"] for e in h] == ["pinit", "push", "p2m"], h
+assert h[2]["options"] == {"kernel": "tsc"}, h
+assert "threads" not in h[0]["options"], h'
+	pinit uniform -n 12 --cells 4 --no-history | push drift --no-history >b.pm
+	[ "$(wire header b.pm | python3 -c 'import json, sys; print(len(json.load(sys.stdin)["history"]))')" = 0 ]
+}
+
+@test "--timing appends the word, its seconds of set-up and of work" {
+	pinit uniform -n 12 --cells 4 | p2m --timing t.tsv >/dev/null
+	pinit uniform -n 12 --cells 4 | p2m --kernel tsc --timing t.tsv >/dev/null
+	[ "$(wc -l <t.tsv)" = 2 ]
+	awk -F'\t' 'NF < 3 || $2 !~ /^[0-9.]+$/ || $3 !~ /^[0-9.]+$/ { bad = 1 } END { exit bad }' t.tsv
+	[ "$(cut -f1 t.tsv | tail -n 1)" = "p2m --kernel tsc" ]
+}
+
+@test "-i and -o stand for standard input and output" {
+	cloud >a.pm
+	p2m <a.pm >b.pm
+	p2m -i a.pm -o c.pm
+	cmp b.pm c.pm
+	run -1 p2m -i nosuch.pm -o d.pm
+	[[ $output == "p2m: "*"cannot open 'nosuch.pm'"*"No such file"* ]]
+	run -1 p2m -i a.pm -o /nosuch/d.pm
+	[[ $output == "p2m: "*"cannot write '/nosuch/d.pm'"* ]]
+}
+
+@test "a stage holds only the fields it reads: poisson-fft's memory does not depend on the number of particles" {
+	peak() { # the address space that just suffices, by bisection to 8 MB
+		local low=0 high=2000 mid
+		while [ $((high - low)) -gt 8 ]; do
+			mid=$(((low + high) / 2))
+			if (ulimit -v $((mid * 1024)) && OMP_NUM_THREADS=1 poisson-fft <"$1" >/dev/null 2>&1); then high=$mid; else low=$mid; fi
+		done
+		echo $high
+	}
+	pinit uniform -n 1000 --cells 8 | p2m >small.pm
+	pinit uniform -n 1000000 --cells 8 | p2m >large.pm
+	[ "$(wc -c <large.pm)" -gt 48000000 ]
+	within "$(peak large.pm)" "$(peak small.pm)" 10 "megabytes" # one step of the bisection
+}

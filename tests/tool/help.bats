@@ -1,0 +1,71 @@
+# What every tool prints of itself: help, manual page, completion, version.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+load words
+
+@test "--help of every tool: its name, its options, its examples, exit 0, nothing on stderr" {
+	for t in $(tools); do
+		run -0 --separate-stderr "$t" --help
+		[[ $output == "$t: "* && -z $stderr ]] || { echo "$t"; return 1; }
+		while read -r option _; do
+			grep -q -- "$option" <<<"$output" || { echo "$t --help lacks $option"; return 1; }
+		done < <("$t" --complete)
+		while IFS= read -r example; do
+			grep -qF -- "$example" <<<"$output" || { echo "$t --help lacks $example"; return 1; }
+		done < <("$t" --examples)
+	done
+}
+
+@test "--help: every option has a sentence, and no option is there twice" {
+	for t in $(tools); do
+		[ -z "$("$t" --complete | cut -d' ' -f1 | sort | uniq -d)" ] || { echo "$t: twice"; return 1; }
+		"$t" --help | awk -v t="$t" '/^  (-|   )/ && /--/ && NF < 3 { print t ": " $0; bad = 1 } END { exit bad }'
+	done
+}
+
+@test "--help: no letter stands for two options" {
+	for t in $(tools); do
+		[ -z "$("$t" --help | grep -oE '^  -[a-zA-Z],' | sort | uniq -d)" ] || { echo "$t"; return 1; }
+	done
+}
+
+@test "--man of every tool passes mandoc's lint and names every option" {
+	for t in $(tools); do
+		"$t" --man >"$t.1"
+		run mandoc -T lint -W warning "$t.1"
+		[ -z "$output" ] || { echo "$output"; return 1; }
+		mandoc -T utf8 "$t.1" | sed 's/.\x08//g; s/‐/-/g' >text
+		while read -r option _; do
+			grep -q -- "$option" text || { echo "$t.1 lacks $option"; return 1; }
+		done < <("$t" --complete)
+	done
+}
+
+@test "--version of every tool is the library's" {
+	version=$(sed -n 's/^#define PM_VERSION "\(.*\)"/\1/p' "$top/lib/base/base.h")
+	for t in $(tools); do
+		[ "$("$t" --version)" = "$t (pmpipe) $version" ] || { echo "$t"; return 1; }
+	done
+}
+
+@test "the same option word means the same kind of value in every tool" {
+	for t in $(tools); do
+		"$t" --help | awk -v t="$t" '/^  (-|   )/ && match($0, /--[a-z-]+( [A-Z][A-Z,.]*)?/) { print substr($0, RSTART, RLENGTH), t }'
+	done | sort -u >all
+	# A number, a flag, or words: one name, or several with commas.
+	awk '{ kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) { print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
+}
+
+@test "the completion file is bash, and completes options and choices" {
+	bash "$top/lib/stage/completion.sh" $(tools) >completion.bash
+	run -0 bash -c '. ./completion.bash
+		complete -p cycle >/dev/null
+		COMP_WORDS=(cycle --ever) COMP_CWORD=1; _pmpipe; echo "${COMPREPLY[@]}"
+		COMP_WORDS=(cycle --engine p) COMP_CWORD=2; _pmpipe; echo "${COMPREPLY[@]}"'
+	[ "$output" = $'--every\npipes' ]
+}
+
+@test "--help on a full disk: exit 1" {
+	run -1 bash -c 'cycle --help >/dev/full'
+	[[ $output == *"No space left"* ]]
+}

@@ -1,0 +1,33 @@
+# For the tests of the contract: on what every tool works, and by which command line. `input TOOL` writes a stream the tool reads well;
+# `words TOOL` prints a command line that reads standard input. A tool that is not here fails the test that looks for it.
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+wire() { python3 "$top/tests/wire.py" "$@"; }
+tools() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | sort); }
+readers() { tools | grep -vx pinit; }
+
+words() {
+	case $1 in
+	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
+	dt) echo "dt --courant 0.5" ;;
+	push) echo "push drift" ;;
+	scalc) echo "scalc 'kinetic = 0.5*(v_0^2 + v_1^2 + v_2^2)'" ;;
+	scmp) echo "scmp - same.pm" ;;
+	sdraw) echo "sdraw -o picture.png" ;;
+	smod) echo "smod --shift 1,0,0" ;;
+	stack) echo "stack - same.pm" ;;
+	*) echo "$1" ;;
+	esac
+}
+
+# Inputs are small, so that Python can sum them: a dozen bodies, and where a mesh is needed one of 4 cells an axis.
+input() {
+	case $1 in
+	cycle | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
+	m2p) cloud | p2m | poisson-fft | mgrad ;;
+	mgrad) cloud | p2m | poisson-fft ;;
+	poisson-*) cloud | p2m ;;
+	*) cloud ;;
+	esac
+}
+cloud() { pinit uniform -n 12 --seed 3 --cells 4; }
