@@ -362,8 +362,8 @@ static void read_field_lists(struct look *l, struct pm_field *p)
 {
 	const json_t *terms = take(l, "terms", false), *half = take(l, "half", false), *e;
 	size_t i;
-	if (json_array_size(terms) > PM_TERMS)
-		complain(l, "terms", "are too many");
+	if ((terms && !json_is_array(terms)) || json_array_size(terms) > PM_TERMS)
+		complain(l, "terms", "are no array, or a very long one");
 	else
 		json_array_foreach(terms, i, e) {
 			if (!json_is_string(e) || json_string_length(e) >= PM_NAME)
@@ -374,8 +374,12 @@ static void read_field_lists(struct look *l, struct pm_field *p)
 	if (half && json_array_size(half) != (size_t)p->components)
 		complain(l, "half", "does not have one entry per component");
 	else
-		json_array_foreach(half, i, e) for (size_t a = 0; a < 3; a++)
-			p->half[i][a] = json_integer_value(json_array_get(e, a)) == 1;
+		json_array_foreach(half, i, e) for (size_t a = 0; a < 3; a++) {
+			const json_t *one = json_array_get(e, a);
+			if (!json_is_integer(one) || json_integer_value(one) < 0 || json_integer_value(one) > 1)
+				complain(l, "half", "is not three times 0 or 1 per component");
+			p->half[i][a] = json_integer_value(one) == 1;
+		}
 }
 
 static bool read_field(const json_t *j, struct pm_frame *f)

@@ -1,0 +1,27 @@
+# Every example of every tool runs as printed, in an empty directory, in less than a second.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+load words
+
+# A tenth of the allowance is for a loaded machine's mood: the median example takes a few hundredths.
+limit=${PM_EXAMPLE_SECONDS:-10}
+
+@test "every tool has at least one example" {
+	for t in $(tools); do
+		[ "$("$t" --examples | wc -l)" -ge 1 ] || { echo "$t has none"; return 1; }
+	done
+}
+
+@test "every example of every tool runs as printed" {
+	n=0
+	for t in $(tools); do
+		while IFS= read -r example; do
+			n=$((n + 1))
+			mkdir "$n"
+			(cd "$n" && timeout "$limit" bash -o pipefail -c "$example" >out 2>err </dev/null) || { echo "$t: exit status $? of: $example"; cat "$n/err"; return 1; }
+			[ ! -s "$n/err" ] || { echo "$t: says on stderr: $example"; cat "$n/err"; return 1; }
+			rm -r "$n"
+		done < <("$t" --examples)
+	done
+	[ $n -ge "$(tools | wc -l)" ]
+}

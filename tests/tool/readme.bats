@@ -1,0 +1,50 @@
+# Every code block of the README is run as printed.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# block N: the Nth sh block of the README.
+block() {
+	awk -v n="$1" '/^```sh$/ { k++; on = 1; next } /^```$/ { on = 0 } on && k == n' "$top/README.md"
+}
+
+@test "README: the first result is within 40 lines" {
+	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
+	[ "$first" -le 40 ]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 6) ]]
+}
+
+@test "README: the demo ends with numbers and a picture that exists" {
+	(cd "$top" && sh pipelines/demo.sh >"$BATS_TEST_TMPDIR/out")
+	picture=$(sed -n '$s/^picture: //p' out)
+	[ -s "$top/$picture" ]
+	[ "$(head -c 4 "$top/$picture" | tail -c 3)" = PNG ]
+	[ "$(grep -cE '[0-9]' out)" -gt 3 ]
+}
+
+@test "README: the sentence prints a header and the frames at steps 0, 10 and 20" {
+	{ echo "cd '$top'"; block 3; } >sentence.sh
+	run -0 --separate-stderr bash -euo pipefail sentence.sh
+	[ "$(column step <<<"$output" | tr '\n' ' ')" = "0 10 20 " ]
+}
+
+@test "README: swapping words: mesh and direct forces of a cluster agree to a few per cent" {
+	block 4 >swap.sh
+	run -0 bash -euo pipefail swap.sh
+	[[ $output == *acc* ]]
+}
+
+@test "README: a stream can be listed, printed and drawn" {
+	block 5 >look.sh
+	run -0 bash -euo pipefail look.sh
+	[ -s cluster.png ]
+}
+
+@test "README: the picture is there and small" {
+	picture=$(sed -n 's/^!\[.*](\(.*\))$/\1/p' "$top/README.md")
+	[ -s "$top/$picture" ]
+	[ "$(wc -c <"$top/$picture")" -lt 100000 ]
+}
+
+@test "README: every link leads somewhere" {
+	grep -o '](\([^)]*\))' "$top/README.md" | tr -d '()]' | while read -r f; do [ -e "$top/$f" ]; done
+}
