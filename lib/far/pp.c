@@ -234,7 +234,7 @@ static const struct loops table[3][3][2] = {ROW(SQUARE), ROW(GUARDED), ROW(OTHER
 static void full(const struct work *w, const struct loops *l)
 {
 	size_t width = GROUP * PM_LANES, groups = (w->targets + width - 1) / width;
-#pragma omp parallel for schedule(static) if (groups > 1)
+#pragma omp parallel for schedule(static) if (groups > 8)
 	for (size_t i = 0; i < groups; i++)
 		l->group(w, i * width);
 }
@@ -243,7 +243,7 @@ static void full(const struct work *w, const struct loops *l)
 static void half(const struct work *w, const struct loops *l)
 {
 	size_t m = (w->padded + w->tile - 1) / w->tile;
-#pragma omp parallel if (m > 2)
+#pragma omp parallel if (w->n > 1000)
 	for (size_t r = 0; r < m; r++) {
 		size_t below = r / 2 + 1, meetings = below + (r + m) / 2 - r;
 #pragma omp for schedule(static)
