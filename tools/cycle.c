@@ -21,6 +21,8 @@ static const struct pm_option options[] = {
 	{"engine", 0, PM_WORD, "", "fused", 0, 0, engines, "run the words in one process, or as long-lived processes on pipes", true, AT(engine)},
 	{"checkpoint", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "keep the frame last written in FILE, and on SIGINT and SIGTERM", true, AT(checkpoint)},
 	{"resume", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "go on from a checkpoint instead of standard input", true, AT(resume)},
+	{"other-plans", 0, PM_FLAG, "", NULL, 0, 0, NULL, "let --resume go on where transforms are planned otherwise than before (the bytes may differ)", true,
+		AT(other_plans)},
 	{"moves", 0, PM_LIST, "", NULL, 0, 0, NULL, "foreign words that change state and are left out of priming", true, AT(moves)},
 	{0},
 };

@@ -16,6 +16,7 @@ struct cycle {
 	struct pm_writer *out;
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
+	json_t *before;         /* resume: the report of the checkpoint, until the first pass has been compared with it */
 };
 
 static volatile sig_atomic_t stop;
@@ -81,6 +82,25 @@ static int prime(struct cycle *y, struct pm_frame **f)
 	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
 }
 
+/* Stages that plan transforms report which plans they run; a resumed run must have the same ones, or its bytes would differ. */
+static int same_plans(struct cycle *y, const struct pm_frame *f)
+{
+	const char *word;
+	json_t *entry;
+	int status = 0;
+	json_object_foreach(y->before, word, entry)
+	{
+		const char *old = json_string_value(json_object_get(entry, "plan"));
+		const char *now = json_string_value(json_object_get(json_object_get(f->report, word), "plan"));
+		if (old && now && strcmp(old, now) && !y->c->other_plans && !status)
+			status = pm_fail(PM_DATA, "'%s' runs with the plans '%s', the checkpoint was made with '%s': the bytes would differ (--other-plans goes on, "
+						  "PM_PLAN=estimate runs alike everywhere)", word, now, old);
+	}
+	json_decref(y->before);
+	y->before = NULL;
+	return status;
+}
+
 /* One pass of the sentence; a frame is written where a step that counts was completed. */
 static int pass(struct cycle *y, struct pm_frame **f)
 {
@@ -90,6 +110,8 @@ static int pass(struct cycle *y, struct pm_frame **f)
 		status = pm_sentence_pass(y->words, f);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)step + 1, pm_message());
+	if (y->before && same_plans(y, *f))
+		return -PM_DATA;
 	if ((*f)->step == step && (*f)->substep == substep)
 		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
 	bool full = (*f)->substep == 0 && (*f)->step > step;
@@ -113,6 +135,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
 	json_object_del((*f)->more, "cycle_start");
 	y->written = -1;
+	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
 		pm_history_add(y->s, *f);
 	if (y->c->every > 0 && !y->c->resume) {
@@ -125,6 +148,8 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 			status = interrupted(y, *f);
 	}
 	progress(y, *f, true);
+	json_decref(y->before);
+	y->before = NULL;
 	return !status && y->written != (*f)->step ? write_out(y, *f) : status;
 }
 

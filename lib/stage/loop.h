@@ -9,6 +9,7 @@ struct pm_loop { /* what the user asked for; the config of cycle */
 	double time;          /* NAN: not asked */
 	const char *engine, *checkpoint, *resume;
 	struct pm_list moves;
+	bool other_plans;
 };
 
 /* Runs the sentence s->args[0] on every frame of the input. */
