@@ -77,7 +77,7 @@ int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
 		if (g->face[d][0] != g->face[d][1])
-			return pm_fail(PM_DATA, "axis %c is %s below and %s above: a transform needs the same on both (poisson-mg takes wall faces; or make them equal)",
+			return pm_fail(PM_DATA, "axis %c is %s below and %s above: a transform needs the same on both (poisson-mg takes wall and neumann on one axis)",
 				"xyz"[d], pm_face_names[g->face[d][0]], pm_face_names[g->face[d][1]]);
 		open += g->face[d][0] == PM_OPEN;
 	}
