@@ -1,0 +1,85 @@
+# Means, plans, caches. HC-24 and HC-29 are in tests/unit/poisson-fft.c. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+@test "HC-23: a mean density of 1 in a periodic box is removed and reported, phi has mean zero" {
+	sh_ok "pinit uniform -n 500 | p2m -n 12x8x9 | poisson-fft > out"
+	mean=$(tr '\0' '\n' < out | grep -ao '"mean_removed":[0-9.e+-]*' | cut -d: -f2)
+	within "$mean" 1 1e-14 # mass 1 in a box of volume 1
+	phi=$(stab --plain --mesh mesh < out | awk 'NR > 1 { s += $5; n++ } END { print s/n }')
+	below "$phi" 1e-12
+}
+
+@test "poisson-fft: threads 1, 2, 3 give equal bytes, with an empty cache and with a foreign one" {
+	pinit uniform -n 2000 --seed 3 | p2m -n 24x15x20 > rho
+	pinit plummer -n 500 --seed 3 | p2m -n 17 --outside drop > free
+	for cache in empty foreign; do
+		mkdir -p $cache/pmpipe
+		export XDG_CACHE_HOME=$PWD/$cache
+		if [ $cache = foreign ]; then # what is there is garbage, truncated, or somebody else's
+			for f in empty/pmpipe/fftw-*; do
+				echo garbage > "foreign/pmpipe/${f##*/}"
+			done
+			f=$(ls empty/pmpipe/fftw-* | head -1)
+			head -c 100 "$f" > "foreign/pmpipe/${f##*/}"
+		fi
+		for n in 1 2 3; do
+			poisson-fft --threads $n < rho > $cache.$n
+			poisson-fft --threads $n < free > $cache.free.$n
+			same_as $cache.1 $cache.$n
+			same_as $cache.free.1 $cache.free.$n
+		done
+	done
+}
+
+@test "poisson-fft: processes that start together on an empty cache compute with the same plans" {
+	pinit uniform -n 2000 --seed 3 | p2m -n 48x40x27 > rho
+	mkdir cache
+	export XDG_CACHE_HOME=$PWD/cache
+	for i in 1 2 3 4 5 6; do
+		poisson-fft < rho > out.$i &
+	done
+	wait
+	for i in 2 3 4 5 6; do
+		same_as out.1 out.$i
+	done
+	[ -z "$(find cache -name '*.[0-9]*')" ] # nothing half written is left
+}
+
+@test "poisson-fft: without a cache to write to, plans are estimated, say so, and give equal bytes" {
+	pinit uniform -n 500 | p2m -n 12 > rho
+	touch file # not a directory: nothing can be made below it, not even by root
+	XDG_CACHE_HOME=$PWD/file run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > a'
+	[[ $stderr == *estimated* ]]
+	env -u XDG_CACHE_HOME -u HOME bash -c 'poisson-fft < rho > b'
+	same_as a b
+	poisson-fft --plan estimate --no-history < rho > c
+	poisson-fft --no-history < rho > d # HOME's cache: other plans are allowed, the result is not
+	stab --plain --mesh mesh < c > c.txt
+	stab --plain --mesh mesh < d > d.txt
+	worst=$(paste c.txt d.txt | awk 'NR > 1 { d = $5 - $10; if (d < 0) d = -d; if (d > m) m = d } END { print m + 0 }')
+	below "$worst" 1e-12
+}
+
+@test "poisson-fft: a foreign cache file is named with --verbose, replaced, and used from then on" {
+	pinit uniform -n 500 | p2m -n 12 > rho
+	export XDG_CACHE_HOME=$PWD/cache
+	poisson-fft < rho > a
+	for f in cache/pmpipe/fftw-*; do
+		echo foreign > "$f"
+	done
+	run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > b'
+	[[ $stderr == *"not a plan of ours"* ]]
+	run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > c'
+	[[ $stderr == *" 0 measured, 0 estimated"* ]]
+	same_as b c
+}
+
+@test "poisson-fft: the result does not depend on the frames before" {
+	for n in 12 9 16; do
+		pinit uniform -n 300 --seed $n | p2m -n $n --no-history > rho.$n
+		poisson-fft --no-history < rho.$n > alone.$n
+	done
+	cat rho.12 rho.9 rho.12 rho.16 rho.9 | poisson-fft --no-history > together
+	cat alone.12 alone.9 alone.12 alone.16 alone.9 > want
+	same_as together want
+}

@@ -1,0 +1,57 @@
+# mgrad: options and refusals. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+export PM_PLAN=estimate
+
+refused() {
+	run -"$1" --separate-stderr bash -c "$3 > out"
+	[[ $stderr == *"$2"* ]] || { echo "message: $stderr" >&2; false; }
+}
+
+@test "mgrad: bare it makes g from phi, dim components, with the kernel's name" {
+	for dim in 1 2 3; do
+		sh_ok "pinit uniform --dim $dim -n 100 | p2m -n 8 --kernel tsc | poisson-fft | mgrad | sls"
+		[[ $output =~ g\ +$dim\ f64\ derived.*kernel\ tsc ]]
+	done
+}
+
+@test "mgrad: lap of order 2 undoes poisson-fft --symbol fd2" {
+	sh_ok "pinit uniform -n 100 | p2m -n 8x9x7 | poisson-fft --symbol fd2 --coefficient 1 | mgrad --operator lap --order 2 --target back | stab --plain --mesh mesh > a"
+	worst=$(awk 'NR > 1 { d = $4 - 1 - $6; if (d < 0) d = -d; if (d > m) m = d } END { print m + 0 }' a) # the mean density is 1
+	below "$worst" 1e-11
+}
+
+@test "mgrad: spectral lap undoes poisson-fft at walls and neumann faces" {
+	sh_ok "pinit uniform -n 100 --faces wall,wall,neumann,neumann,periodic,periodic | p2m -n 8x9x7 | poisson-fft --symbol spectral --coefficient 1 |
+		mgrad --operator lap --order spectral --target back | stab --plain --mesh mesh > a"
+	worst=$(awk 'NR > 1 { d = $4 - $6; if (d < 0) d = -d; if (d > m) m = d } END { print m + 0 }' a)
+	below "$worst" 1e-10
+}
+
+@test "mgrad: div of grad and curl of grad" {
+	sh_ok "pinit uniform -n 100 | p2m -n 8x9x7 | poisson-fft | mgrad --operator grad --source phi --target a | mgrad --operator curl --source a --target c |
+		mgrad --operator div --source a --target d --order spectral | stab --plain --mesh mesh > a"
+	head -1 a | grep -q "c_0.*c_1.*c_2"
+	worst=$(awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^c_/) c[$i] = i; next } { for (k in c) { d = $(c[k]); if (d < 0) d = -d; if (d > m) m = d } } END { print m + 0 }' a)
+	below "$worst" 1e-11 # second derivatives of size 1e2
+}
+
+@test "mgrad: what it cannot do is refused with what can" {
+	pinit uniform -n 100 | p2m -n 8 > rho
+	pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft > free
+	refused 1 "no field 'phi' on 'mesh' (poisson-fft or poisson-mg makes" "mgrad < rho"
+	refused 1 "choose --order 2, 4 or 6" "mgrad --order spectral < free"
+	refused 2 "needs a --target" "mgrad --operator lap < free"
+	refused 1 "grad takes 1" "mgrad < free | mgrad --operator grad --source g --target gg"
+	refused 2 "" "mgrad --order 3 < free"
+}
+
+@test "mgrad: threads 1, 2, 3 give equal bytes" {
+	pinit plummer -n 500 | p2m -n 17 --outside drop | poisson-fft > free
+	pinit uniform -n 500 --faces wall | p2m -n 9x14x10 | poisson-fft > walls
+	for n in 1 2 3; do
+		mgrad --threads $n < free > free.$n
+		mgrad --threads $n --order spectral < walls > walls.$n
+		same_as free.1 free.$n
+		same_as walls.1 walls.$n
+	done
+}
