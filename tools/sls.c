@@ -25,6 +25,13 @@ static const struct pm_option options[] = {
 	{.name = "format", .kind = PM_WORD, .choices = formats, .fallback = "text", .text = "text for people, json (one line a frame) for programs.", .offset = offsetof(struct config, format)},
 	{0}};
 
+static int begin(struct pm_stage *s)
+{
+	json_decref(s->entry); /* looking leaves no trace */
+	s->entry = NULL;
+	return 0;
+}
+
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	for (size_t i = 0; ((const struct config *)s->config)->data && i < f->nfields; i++)
@@ -214,6 +221,7 @@ const struct pm_tool tool_sls = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
+	.begin = begin,
 	.plan = plan,
 	.frame = frame,
 	.end = end,

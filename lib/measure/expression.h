@@ -1,0 +1,38 @@
+/* Arithmetic over the values of fields, as people type it: "sqrt(vx^2 + vy^2)", "x < 0.5 && mass > 0" (docs/methods/expressions.md).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_EXPRESSION_H
+#define PM_EXPRESSION_H
+
+#include "stream/frame.h"
+
+enum { PM_EXPRESSION_STEPS = 256, PM_EXPRESSION_VALUES = 32, PM_EXPRESSION_DEPTH = 16, PM_EXPRESSION_PARTS = PM_COMPONENTS };
+
+/* A name in an expression: a component of a field, a coordinate of a mesh point, or a number of the frame. */
+struct pm_expression_value {
+	char field[PM_NAME]; /* "" none */
+	int component;
+	int axis;            /* of the mesh point, -1 none */
+	double number;
+};
+
+struct pm_expression {
+	char on[PM_NAME];    /* the set or mesh */
+	int nsteps, nvalues, depth;
+	int nparts, part[PM_EXPRESSION_PARTS + 1]; /* "a, b, c" has three parts: part[k] is the first step of the k-th */
+	struct pm_expression_step {
+		int code, value;
+		double number;
+	} step[PM_EXPRESSION_STEPS];
+	struct pm_expression_value value[PM_EXPRESSION_VALUES];
+};
+
+/* Compiles text for the fields of `on` and marks what it reads. 0, or failure naming the column. Names: the components of x are x y z, of v vx vy vz, of any
+ * field NAME_0 or NAME.x or NAMEx; a field of one component is NAME. On a mesh x y z are the coordinates of the point. time, dt, step, n, dim, pi, Lx Ly Lz, and
+ * the constants of the frame by name. */
+int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text);
+/* Part k for every value of the set or mesh; out must not be an input of it. Constant time a value: the same bytes for any number of threads. */
+void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, double *out);
+/* All parts at once into the components of a field that may be an input. */
+void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *f, struct pm_field *field);
+
+#endif

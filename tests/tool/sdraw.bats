@@ -1,0 +1,144 @@
+# sdraw: pictures. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# Frames a: a 3-D mesh field rho, g (vector) and particles; made without other tools than stab and scalc-free text.
+mesh() { # DIM: a mesh of 4 cells per axis, open faces, with f = x + 10 y (+ 100 z), w a vector
+	local n
+	printf '%s' "$1" | awk '{ d = $1; n = 5
+		box = d == 1 ? "[0.0]" : d == 2 ? "[0.0,0.0]" : "[0.0,0.0,0.0]"; hi = box; gsub("0.0", "4.0", hi); cells = box; gsub("0.0", "4", cells); h = box; gsub("0.0", "1.0", h)
+		faces = "[\"open\",\"open\"]"; all = faces; for (i = 1; i < d; i++) all = all "," faces
+		printf "#pmpipe {\"byte_order\":\"little\",\"box\":{\"fields\":[%s],\"hi\":%s,\"lo\":%s,\"particles\":[%s]},\"dim\":%d,\"dt\":0.1,\"fields\":[", all, hi, box, all, d
+		printf "{\"components\":1,\"kind\":\"value\",\"name\":\"f\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"},"
+		printf "{\"components\":2,\"kind\":\"value\",\"name\":\"w\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"}],\"history\":[],"
+		printf "\"law\":{\"constants\":{},\"name\":\"free\"},\"meshes\":[{\"cells\":%s,\"h\":%s,\"lo\":%s,\"name\":\"mesh\"}],\"scene\":{\"name\":\"\",\"parameters\":{}},", cells, h, box
+		printf "\"seed\":1,\"sets\":[],\"step\":0,\"substep\":0,\"time\":0.0}\n#mesh mesh\nf w_0 w_1\n"
+		for (k = 0; k < (d > 2 ? n : 1); k++) for (j = 0; j < (d > 1 ? n : 1); j++) for (i = 0; i < n; i++) print 1 + i + 10*j + 100*k, i - 2, j
+		print "#end 1" }' | stab -
+}
+# pixel FILE X Y: r g b of a PPM that sdraw made.
+pixel() { local w; w=$(sed -n 2p "$1" | cut -d' ' -f1); tail -c +$((1 + $(head -3 "$1" | wc -c) + 3 * ($3 * w + $2))) "$1" | head -c 3 | od -An -tu1 | xargs; }
+picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] && [ "$(tail -c 8 "$1" | head -c 4)" = IEND ]; }
+
+@test "particles become a PNG whose name is printed" {
+	sh_ok 'pinit plummer -n 300 | sdraw -o p.png'
+	[ "$output" = p.png ]
+	picture p.png
+}
+
+@test "PNG and PPM are the same picture" {
+	command -v pngtopnm || skip "no pngtopnm"
+	pinit plummer -n 300 >a
+	sdraw -o p.png <a; sdraw --format ppm <a >p.ppm
+	pngtopnm p.png | cmp - p.ppm
+}
+
+@test "the picture does not depend on the number of threads" {
+	pinit plummer -n 6000 >a
+	sdraw --threads 1 --format ppm <a >one
+	for n in 2 3; do sdraw --threads $n --format ppm <a | cmp - one; done
+}
+
+@test "several frames become a sequence, a name without number is refused at the second" {
+	pinit plummer -n 20 >a; cat a a a >aaa
+	sh_ok 'sdraw --size 64 <aaa'
+	[ "$output" = "$(printf 'frame-0001.png\nframe-0002.png\nframe-0003.png')" ]
+	picture frame-0003.png
+	sh_ok 'sdraw --size 64 -o p%d.png <aaa | tail -1'
+	[ "$output" = p3.png ]
+	run -2 --separate-stderr bash -c 'sdraw --size 64 -o p.png <aaa'
+	[[ "$stderr" == "sdraw: frame 2: 'p.png' would be overwritten"* ]]
+}
+
+@test "ppm frames follow one another, in a pipe or in one file" {
+	pinit plummer -n 20 >a; cat a a >aa
+	sdraw --size 64 --format ppm <a >one
+	cat one one >two
+	sdraw --size 64 --format ppm <aa | cmp - two
+	sh_ok 'sdraw --size 64 --format ppm -o m.ppm <aa'
+	[ "$output" = m.ppm ]
+	cmp m.ppm two
+	sh_ok 'sdraw --size 64 --format ppm -o m%02d.ppm <aa'
+	cmp m02.ppm one
+}
+
+@test "a mesh field is drawn in one, two and three dimensions" {
+	for d in 1 2 3; do
+		mesh $d >m
+		sh_ok 'sdraw --field f -o f.png <m; sdraw -o g.png <m; sdraw --mesh mesh --field w --component y -o h.png <m; sdraw --field w --component 0 -o i.png <m'
+		for p in f g h i; do picture $p.png; done
+	done
+}
+
+@test "colours follow the numbers: the map's ends sit at the corners of a field that grows towards them" {
+	mesh 2 >m
+	sdraw --field f --format ppm --size 400 <m >p
+	# data area: letter = 400/56, left 6.2, top 3.4 letters: 44, 24; its corners a few pixels inside
+	[ "$(pixel p 47 420)" != "$(pixel p 441 27)" ]
+	read -r r g b <<<"$(pixel p 47 420)"; within "$r" 68 6; within "$g" 1 8; within "$b" 85 6   # viridis starts at 68 1 84
+	read -r r g b <<<"$(pixel p 441 27)"; within "$r" 253 8; within "$g" 231 8; within "$b" 37 12 # and ends at 253 231 37
+}
+
+@test "a slice takes the plane asked for, a projection the integral" {
+	mesh 3 >m
+	sdraw --field f --format ppm --size 64 <m >middle
+	sdraw --field f --format ppm --size 64 --slice 2 <m | cmp - middle
+	sdraw --field f --format ppm --size 64 --slice 0.5 --range 0,500 <m >low
+	sdraw --field f --format ppm --size 64 --slice 3.5 --range 0,500 <m >high
+	run ! cmp -s low high
+	for axis in x y z; do sdraw --field f --format ppm --size 64 --axis $axis --project <m >p$axis; done
+	run ! cmp -s px py
+	run -1 --separate-stderr bash -c 'sdraw --field f --slice 9 <m'
+	[[ "$stderr" == *"--slice 9 is outside the box, 0 to 4 along z"* ]]
+}
+
+@test "numbers of both signs are drawn about zero in two colours" {
+	mesh 2 >m
+	sdraw --field w --component x --format ppm --size 400 <m >p
+	read -r r g b <<<"$(pixel p 244 224)" # the middle, where w_x = 0
+	within "$r" 221 6; within "$g" 221 6; within "$b" 221 6 # Moreland's middle is 221 221 221
+}
+
+@test "every option of particles draws another picture" {
+	pinit plummer -n 200 >a
+	sdraw --size 64 --format ppm <a >p0
+	i=0
+	for o in '--x x --y z' '--y vx' '--colour hypot(vx,vy)' '--field v' '--weight mass' '--style density' '--style density --linear' '--style density --log --map grey' \
+		'--colour x --range 0,1' '--colour x --map magma' '--window -2,2,-2,2' '--title hello' '--size 70' '--colour abs(x)+1 --log' '--set matter --style points --window -3,3,-3,3'; do
+		i=$((i + 1))
+		# shellcheck disable=SC2086
+		sdraw --size 64 --format ppm $o <a >p$i
+		for k in $(seq 0 $((i - 1))); do run ! cmp -s p$k p$i; done
+	done
+}
+
+@test "no particles, one particle and equal numbers make pictures too" {
+	printf 'x y z q\n' | stab - | sdraw -o a.png
+	printf 'x y z q\n1 1 1 0\n' | stab - | sdraw --colour q -o b.png
+	printf 'x y z q\n1 1 1 5\n1 1 1 5\n' | stab - | sdraw --style density --weight q -o c.png
+	printf 'x\n0\n1\n' | stab - | sdraw --style points -o d.png
+	for p in a b c d; do picture $p.png; done
+}
+
+@test "what cannot be drawn is refused in one line" {
+	pinit plummer -n 20 >a; mesh 2 >m
+	for o in '--field nothing' '--set nobody' '--mesh nowhere' '--x q' '--x "sqrt(x)"' '--mesh mesh'; do
+		run --separate-stderr bash -c "sdraw $o -o p.png <a"
+		[ "$status" != 0 ] && [ "${#stderr_lines[@]}" = 1 ]
+	done
+	run -1 bash -c 'sdraw --field w --component 2 -o p.png <m'
+	run -1 bash -c 'sdraw --set matter -o p.png <m'
+	run -1 bash -c 'sdraw --field w --component x --log --range 1,2 -o p.png <m; sdraw --colour "-1-x^2" --log -o p.png <a'
+	for o in '-o p%s.png' '-o %d%d.png' '--range 2,1' '--range 1' '--window 1,2,3' '--component q' '--project --slice 0' '--log --linear' '--size 5' '--map rainbow' '--format gif' '--style art' '--axis w' '--log --range 0,1 --colour x'; do
+		run -2 bash -c "sdraw $o <a"
+	done
+	run -1 bash -c 'sdraw -o /nonexistent/p.png <a'
+	run -1 bash -c 'sdraw -o /dev/full <a'
+	run -1 bash -c 'sdraw --format ppm <a >/dev/full'
+}
+
+@test "nothing is drawn of a stream that was cut" {
+	pinit plummer -n 100 >a; head -c 3000 a >cut
+	run -1 bash -c 'sdraw -o p.png <cut'
+	[ ! -e p.png ]
+	run -1 bash -c ': | sdraw -o p.png'
+}

@@ -1,0 +1,195 @@
+/* sdraw: pictures of a mesh field or of particles, a PNG per frame or PPM for a movie (docs/methods/pictures.md). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "measure/colour.h"
+#include "measure/view.h"
+#include "stage/stage.h"
+
+static const char *const axes[] = {"x", "y", "z", NULL}, *const formats[] = {"png", "ppm", NULL}, *const styles[] = {"auto", "points", "density", NULL};
+static const char *const maps[] = {"auto", "viridis", "magma", "inferno", "grey", "coolwarm", NULL};
+
+struct config {
+	const char *field, *mesh, *set, *x, *y, *colour, *weight, *title, *component, *axis, *map, *format, *style, *output;
+	double slice;
+	struct pm_vector range, window;
+	int64_t size;
+	bool project, log, linear;
+};
+
+struct state {
+	uint64_t frame;
+	struct pm_view view;
+	FILE *movie;
+};
+
+static const struct pm_option options[] = {
+	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .fallback = "frame-%04d.png", .text = "The file to write; %d or %04d stands for the number of the frame.", .cosmetic = true, .offset = offsetof(struct config, output)},
+	{.name = "format", .kind = PM_WORD, .choices = formats, .fallback = "png", .text = "png: a file a frame; ppm: all frames one behind the other, to standard output unless --output is given.", .offset = offsetof(struct config, format)},
+	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", .text = "Draw this mesh field; if only the particles have it, colour them by it.", .offset = offsetof(struct config, field)},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", .text = "Draw a field of this mesh (the last one without --field).", .offset = offsetof(struct config, mesh)},
+	{.name = "component", .kind = PM_TEXT, .unit = "x|y|z|NUMBER", .text = "Component of a vector field; its length without.", .offset = offsetof(struct config, component)},
+	{.name = "axis", .kind = PM_WORD, .choices = axes, .fallback = "z", .text = "The axis a slice or projection is across (3-D).", .offset = offsetof(struct config, axis)},
+	{.name = "slice", .kind = PM_REAL, .unit = "length", .text = "Where the slice is; the middle of the box without.", .offset = offsetof(struct config, slice)},
+	{.name = "project", .kind = PM_FLAG, .text = "The integral along the axis instead of a slice.", .offset = offsetof(struct config, project)},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "Draw the particles of this set.", .offset = offsetof(struct config, set)},
+	{.name = "x", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "What goes across (x), for particles.", .offset = offsetof(struct config, x)},
+	{.name = "y", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "What goes up (y; vx in 1-D), for particles.", .offset = offsetof(struct config, y)},
+	{.name = "colour", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "What colours the points.", .offset = offsetof(struct config, colour)},
+	{.name = "weight", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "What the density is of, 1 a particle without.", .offset = offsetof(struct config, weight)},
+	{.name = "style", .kind = PM_WORD, .choices = styles, .fallback = "auto", .text = "Points, or density; auto takes density from 4000 particles on unless they are coloured.", .offset = offsetof(struct config, style)},
+	{.name = "log", .kind = PM_FLAG, .text = "Colours by the logarithm.", .offset = offsetof(struct config, log)},
+	{.name = "linear", .kind = PM_FLAG, .text = "Colours of a density by the number itself, not its logarithm.", .offset = offsetof(struct config, linear)},
+	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", .text = "Numbers at the ends of the colours; those of each frame without.", .offset = offsetof(struct config, range)},
+	{.name = "window", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", .text = "The part to show; the box without.", .offset = offsetof(struct config, window)},
+	{.name = "map", .kind = PM_WORD, .choices = maps, .fallback = "auto", .text = "Colours; auto: viridis for fields, inferno for densities, coolwarm for numbers of both signs.", .offset = offsetof(struct config, map)},
+	{.name = "size", .kind = PM_INTEGER, .unit = "pixels", .fallback = "640", .low = 64, .high = 8192, .text = "The longer side of the data area.", .offset = offsetof(struct config, size)},
+	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", .text = "Title; scene, field, time and step without.", .offset = offsetof(struct config, title)},
+	{0}};
+
+/* Where the number of the frame goes: %d or %0Nd once. *width is N. 0 none, 1 there, -1 wrong. */
+static int number_place(const char *name, const char **place, const char **behind, int *width)
+{
+	const char *p = strchr(name, '%');
+	if (!p)
+		return 0;
+	*place = p++;
+	*width = *p == '0' && isdigit((unsigned char)p[1]) ? p[1] - '0' : 0;
+	p += *width ? 2 : 0;
+	*behind = p + 1;
+	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
+}
+
+static int component_of(const char *word)
+{
+	if (strlen(word) == 1 && *word >= 'x' && *word <= 'z')
+		return *word - 'x';
+	char *end;
+	long k = strtol(word, &end, 10);
+	return *word && !*end && k >= 0 && k < PM_COMPONENTS ? (int)k : -1;
+}
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *c = s->config;
+	struct state *st = s->state;
+	const char *place, *behind;
+	int width;
+	if (number_place(c->output, &place, &behind, &width) < 0)
+		return pm_fail(PM_USAGE, "--output '%s': only %%d or %%04d can stand for the number of the frame, once", c->output);
+	if (c->range.n && (c->range.n != 2 || !(c->range.x[1] > c->range.x[0])))
+		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
+	if (c->window.n && (c->window.n != 4 || !(c->window.x[1] > c->window.x[0]) || !(c->window.x[3] > c->window.x[2])))
+		return pm_fail(PM_USAGE, "--window takes XLO,XHI,YLO,YHI with each LO below its HI");
+	if (c->component && component_of(c->component) < 0)
+		return pm_fail(PM_USAGE, "--component '%s' is none of x, y, z or a number from 0 to %d", c->component, PM_COMPONENTS - 1);
+	if (c->project && !isnan(c->slice))
+		return pm_fail(PM_USAGE, "--project and --slice exclude each other");
+	if (c->log && c->linear)
+		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
+	if (!strcmp(c->format, "ppm") && !pm_given(s, "output") && isatty(STDOUT_FILENO))
+		return pm_fail(PM_USAGE, "a picture does not go to a terminal (give --output FILE, or a pipe)");
+	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight, .title = c->title,
+		.component = c->component ? component_of(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,
+		.points = !strcmp(c->style, "points"), .density = !strcmp(c->style, "density"), .log = c->log, .linear = c->linear, .map = pm_colour_find(c->map),
+		.nrange = c->range.n, .range = {c->range.x[0], c->range.x[1]}, .nwindow = c->window.n,
+		.window = {c->window.x[0], c->window.x[1], c->window.x[2], c->window.x[3]}, .size = (int)c->size};
+	return 0;
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	return pm_view_plan(&((struct state *)s->state)->view, f);
+}
+
+/* The name of the picture of this frame. */
+static int name_of(const struct config *c, uint64_t frame, bool movie, char out[4096])
+{
+	const char *place, *behind;
+	int width, there = number_place(c->output, &place, &behind, &width);
+	if (!there && frame > 1 && !movie)
+		return pm_fail(PM_USAGE, "'%s' would be overwritten (give --output a name with %%04d, or choose a frame with sel)", c->output);
+	if (there)
+		snprintf(out, 4096, "%.*s%0*llu%s", (int)(place - c->output), c->output, width, (unsigned long long)frame, behind);
+	else
+		snprintf(out, 4096, "%s", c->output);
+	return 0;
+}
+
+static int write_picture(struct pm_stage *s, const struct pm_picture *p)
+{
+	const struct config *c = s->config;
+	struct state *st = s->state;
+	bool ppm = !strcmp(c->format, "ppm"), movie = ppm && !strchr(c->output, '%');
+	char name[4096];
+	int status = name_of(c, st->frame, movie, name);
+	if (status)
+		return status;
+	if (ppm && (!pm_given(s, "output") || !strcmp(c->output, "-")))
+		return pm_picture_ppm(p, stdout);
+	FILE *out = movie && st->movie ? st->movie : fopen(name, "wb");
+	if (!out)
+		return pm_fail_errno("cannot write '%s'", name);
+	status = ppm ? pm_picture_ppm(p, out) : pm_picture_png(p, out);
+	if (movie)
+		st->movie = out;
+	else if (fclose(out) && !status)
+		status = pm_fail_errno("cannot write '%s'", name);
+	if (!status && !(movie && st->frame > 1))
+		puts(name);
+	return status;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct state *st = s->state;
+	struct pm_plot plot;
+	st->frame++;
+	int status = pm_view_draw(&st->view, f, &plot);
+	if (!status)
+		status = write_picture(s, &plot.picture);
+	pm_plot_free(&plot);
+	return status;
+}
+
+static int end(struct pm_stage *s)
+{
+	struct state *st = s->state;
+	FILE *movie = st->movie;
+	st->movie = NULL;
+	return movie && fclose(movie) ? pm_fail_errno("cannot write '%s'", ((const struct config *)s->config)->output) : 0;
+}
+
+static void done(struct pm_stage *s)
+{
+	struct state *st = s->state;
+	if (st->movie)
+		fclose(st->movie);
+}
+
+static const struct pm_example examples[] = {
+	{"The particles of a scene seen along z.", "pinit plummer -n 20000 | sdraw -o plummer.png"},
+	{"A slice of the density, coloured by its logarithm.", "pinit plummer -n 20000 | p2m -n 64 | sdraw --field rho --project --log -o rho.png"},
+	{"Radius against radial velocity, coloured by the speed.", "pinit plummer -n 1000 | sdraw --x 'sqrt(x^2+y^2+z^2)' --y '(x*vx+y*vy+z*vz)/sqrt(x^2+y^2+z^2)' --colour 'hypot(vx,vy,vz)' -o phase.png"},
+	{0}};
+
+const struct pm_tool tool_sdraw = {
+	.name = "sdraw",
+	.summary = "pictures of a mesh field or of particles",
+	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as density; with --field a mesh "
+		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A point at an end of the bar says that numbers lie beyond it. "
+		 "A movie: sdraw --format ppm --range LO,HI | ffmpeg -f image2pipe -i - movie.mp4.",
+	.kind = PM_SINK,
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+	.end = end,
+	.free = done,
+};
