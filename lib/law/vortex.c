@@ -1,0 +1,40 @@
+/* Vortices in the plane, the vorticity form of Euler's equations: lap psi = -omega, u = (d psi/dy, -d psi/dx), vel += u; a particle carries the
+ * circulation Gamma = omega times its volume. With viscosity nu, D omega/Dt = nu lap omega, which the word diffuse adds. A point vortex turns
+ * its surroundings at u_theta = Gamma/(2 pi r), counter-clockwise for Gamma > 0.
+ * Source: Cottet and Koumoutsakos 2000, sections 2.1 and 8.2.
+ * Defaults: m4prime, which keeps circulation and both impulses where particles are remeshed; spectral inverse and differences of order 6,
+ * because the velocity is smoother than the vorticity. Periodic boxes lose the mean of omega (the solver reports it).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "law/law.h"
+
+static double coefficient(const struct pm_frame *f)
+{
+	(void)f;
+	return -1;
+}
+
+static const struct pm_law_constant constants[] = {
+	{"nu", "length^2/time", 0, "kinematic viscosity"},
+	{0},
+};
+
+const struct pm_law law_vortex = {
+	.name = "vortex",
+	.sentence = "vortices carry each other: lap psi = -omega, velocity (d psi/dy, -d psi/dx)",
+	.source = "Cottet and Koumoutsakos 2000",
+	.dims = 1u << 2,
+	.strength = "circulation",
+	.density = "omega",
+	.potential = "psi",
+	.field = "u",
+	.of_potential = PM_CURL,
+	.sign = 1,
+	.change = "vel",
+	.of = "x",
+	.coefficient = coefficient,
+	.kernel = "m4prime",
+	.symbol = "spectral",
+	.order = "6",
+	.mollifier = "krasny",
+	.constants = constants,
+};
