@@ -1,0 +1,79 @@
+# Poisson's equation by multigrid: exact solutions, and the same differences inverted by transforms. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# source CELLS EXPRESSION [pinit options]: a frame whose rho is the awk expression of i, the number of the mesh point (x fastest)
+source_of() {
+	local cells=$1 expression=$2
+	shift 2
+	pinit uniform -n 2 "$@" | p2m -n "$cells" | stab |
+		awk "/^#mesh/ { m = 1; print; getline; print; next } /^#end/ { m = 0 } m { printf \"%.17g\\n\", $expression; i++; next } { print }" | stab -
+}
+phi() { stab --plain --mesh mesh | awk 'NR > 1 { print $NF }'; }
+differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
+
+@test "PS-05: -lap u = 1 in a square with walls: u at the centre and its integral, order 2" {
+	c=() s=()
+	for n in 16 32 64; do
+		source_of $n 1 --dim 2 --faces wall | poisson-mg --coefficient -1 | phi >u
+		read -r centre sum < <(awk -v n=$n '{ s += $1 } NR == (n/2)*(n+1) + n/2 + 1 { c = $1 } END { printf "%.17g %.17g\n", c - 0.0736713532815138, s/n/n - 0.0351442537387884 }' u)
+		c+=("$(awk "BEGIN { print 1/$n }")" "${centre#-}") s+=("$(awk "BEGIN { print 1/$n }")" "${sum#-}")
+	done
+	order 2 "${c[@]}"
+	order 2 "${s[@]}"
+	within "${c[5]}" 1.417e-5 0.02e-5 # 0.0580 h^2, tests/unit/poisson-mg
+}
+
+@test "PS-06: a sine in a periodic box is amplified as the second difference says" {
+	# 1.0032189644401 and 1.0530292875455 are the ratios for N = 32, m = 1, 4 on [0, 2 pi); on a box of length 1 u = s/(2 pi m)^2
+	for row in "1 1.0032189644401" "4 1.0530292875455"; do
+		read -r m ratio <<<"$row"
+		for dim in 1 2 3; do
+			source_of 32 "sin(6.283185307179586*$m*(i%32)/32)" --dim $dim | poisson-mg --coefficient -1 --tolerance 1e-14 | phi >u
+			got=$(awk -v m=$m 'NR == 8/m + 1 { printf "%.16g", $1 * (6.283185307179586*m)^2 }' u)
+			within "$got" "$ratio" 1e-12 "m = $m, $dim-D"
+		done
+	done
+}
+
+@test "multigrid and the transforms invert the same differences to 1e-9, with every kind of face" {
+	for faces in periodic wall neumann periodic,periodic,wall,wall,neumann,neumann; do
+		for n in 32 31x20x7 27x33x48; do
+			pinit uniform -n 3000 --faces $faces | p2m -n $n >m
+			poisson-fft --plan estimate --symbol fd2 <m >f
+			for cycle in v w fmg; do
+				poisson-mg --cycle $cycle <m >g
+				below "$(differ g f)" 1e-9 "$faces $n $cycle"
+			done
+		done
+	done
+}
+
+@test "in 1-D and 2-D too" {
+	for dim in 1 2; do
+		for faces in periodic wall neumann; do
+			for n in 64 37; do
+				pinit uniform -n 300 --dim $dim --faces $faces | p2m -n $n >m
+				poisson-fft --plan estimate --symbol fd2 <m >f
+				poisson-mg <m >g
+				below "$(differ g f)" 1e-9 "$dim-D $faces $n"
+			done
+		done
+	done
+}
+
+@test "PM-01: the forces of two particles, cic, 7-point Laplacian by multigrid, gradients of order 4 and 2" {
+	# want from reference/values.csv, by transforms; 1e-11: the tolerance of the residual. exact: Ewald
+	f() { pinit pair | p2m | $1 | mgrad --order $2 | m2p | stab --plain | awk 'NR == 2 { print $(NF-2), $(NF-1), $NF }'; }
+	read -r x y z < <(f poisson-mg 4)
+	within $x 0.02690820956069 1e-11
+	within $y 0.009754634575902 1e-11
+	within $z 0.02535070183723 1e-11
+	mg=$(f poisson-mg 2)
+	read -r x y z <<<"$mg"
+	within $x 0.02663957298003 1e-11
+	within $y 0.009361482740412 1e-11
+	within $z 0.02494476327532 1e-11
+	# with the same second-order gradient, spectral and multigrid differ by less (3.3e-4) than either is wrong (5.9e-4, 6.3e-4)
+	echo "$mg $(f 'poisson-fft --plan estimate --symbol spectral' 2) 0.0269507714622 0.00946960886732 0.0254426249975" |
+		awk '{ for (i = 1; i <= 3; i++) { d += ($i - $(i+3))^2; a += ($i - $(i+6))^2; b += ($(i+3) - $(i+6))^2 } print sqrt(d), sqrt(a), sqrt(b); exit !(d < a && d < b) }'
+}
