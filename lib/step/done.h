@@ -68,23 +68,25 @@ static inline int pm_scheme_memory(const struct pm_frame *f, const struct pm_set
 	return (int)most;
 }
 
-static inline int pm_done_refuse(const struct pm_set *s, const char *what)
+/* Whether a set may be pushed at all: by a scheme (NULL: kicks and drifts), with this kick and drift. */
+static inline int pm_done_allows(const struct pm_set *s, const struct pm_step *scheme, double kick, double drift)
 {
-	if (s->stage)
+	const char *what = scheme ? scheme->name : kick > 0 && drift > 0 ? "kick and drift" : kick > 0 ? "kick" : "drift";
+	if (s->stage && (!scheme || strcmp(pm_scheme_name(s), scheme->name)))
 		return pm_fail(PM_DATA, "%s on '%s' while %s is under way (%d passes done; finish its step first)", what, s->name, pm_scheme_name(s),
 			s->stage);
 	if (pm_done_complete(s))
-		return pm_fail(PM_DATA, "%s on '%s', which has completed its step and waits for the other sets (drift --open where a kick is still to "
-			"come; --set to move the others)", what, s->name);
+		return pm_fail(PM_DATA, "%s on '%s', which has completed its step and waits for the other sets (--set to move those; drift --open where a "
+			"kick is still to come)", what, s->name);
+	if (scheme && !s->stage && (s->kick > 0 || s->drift > 0))
+		return pm_fail(PM_DATA, "%s on '%s' in the middle of a step (kick %.6g, drift %.6g are done; complete them first)", what, s->name, s->kick,
+			s->drift);
 	return 0;
 }
 
 /* Adds the fractions of one push to a set. */
 static inline int pm_done_add(struct pm_set *s, double kick, double drift, bool open)
 {
-	int status = pm_done_refuse(s, kick > 0 && drift > 0 ? "kick and drift" : kick > 0 ? "kick" : "drift");
-	if (status)
-		return status;
 	double *done[] = {&s->kick, &s->drift}, more[] = {kick, drift};
 	for (int i = 0; i < 2; i++) {
 		double sum = *done[i] + more[i];
@@ -106,11 +108,6 @@ static inline int pm_done_add(struct pm_set *s, double kick, double drift, bool 
 static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates,
 	struct pm_pass *p)
 {
-	if (s->stage ? strcmp(pm_scheme_name(s), asked->name) : pm_done_complete(s))
-		return pm_done_refuse(s, asked->name);
-	if (!s->stage && (s->kick > 0 || s->drift > 0))
-		return pm_fail(PM_DATA, "%s on '%s' in the middle of a step (kick %.6g, drift %.6g are done; complete them first)", asked->name, s->name,
-			s->kick, s->drift);
 	int memory = pm_scheme_memory(f, s, asked, n, rates);
 	const struct pm_step *step = memory < asked->rates ? pm_step_find(asked->start) : asked;
 	if (!step)

@@ -107,11 +107,11 @@ static inline int pm_moving_fields(struct pm_frame *f, struct pm_moving *m, cons
 static inline int pm_moving_plan(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m)
 {
 	enum pm_step_kind kind = p->scheme || (p->kick > 0 && p->drift > 0) ? PM_SCHEME : p->kick > 0 ? PM_KICK : PM_DRIFT;
-	int status = 0;
+	int status = pm_done_allows(set, p->scheme, p->kick, p->drift);
 	*m = (struct pm_moving){.set = set, .x = pm_frame_field(f, set->name, "x"), .v = pm_frame_field(f, set->name, "v")};
 	if (!pm_rate_is_state(m->v))
 		m->v = NULL;
-	if (kind != PM_DRIFT)
+	if (!status && kind != PM_DRIFT)
 		status = pm_rates_allowed(f, set, p->scheme ? p->scheme->name : "a plain kick");
 	if (!status)
 		status = pm_rates_complete(f, set);
