@@ -1,13 +1,10 @@
 /* m2p: mesh fields at the positions of particles, added to what changes them; the gathering is lib/mesh/transfer.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <string.h>
 
 #include "law/law.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
-
-enum { MOST = 64 }; /* sets */
 
 struct config {
 	const char *kernel, *mesh, *set, *field, *outside;
@@ -17,39 +14,12 @@ struct config {
 /* What the options and the frame's law ask for. */
 struct job {
 	const struct pm_law *law;
-	const char *name, *sets[MOST]; /* of the mesh field; of the sets that take it */
-	size_t nsets;
+	const char *name; /* of the mesh field */
+	struct pm_sets sets;
 	struct pm_mesh *mesh;
 	struct pm_field *field;
 	struct pm_transfer transfer;
 };
-
-static bool has_state(const struct pm_frame *f, const char *set, const char *name)
-{
-	const struct pm_field *field = name ? pm_frame_field(f, set, name) : NULL;
-	return !name || (field && field->role == PM_STATE);
-}
-
-/* A set takes the law's field if it has what the field moves; any other field if it has positions. */
-static int choose_sets(const struct config *o, const struct pm_frame *f, struct job *j)
-{
-	const char *of = o->field ? NULL : j->law->of, *strength = !o->field && j->law->per ? j->law->strength : NULL;
-	if (o->set && !pm_frame_set(f, o->set))
-		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", o->set);
-	for (size_t i = 0; i < f->nsets && j->nsets < MOST; i++) {
-		const char *name = f->sets[i]->name;
-		bool all = has_state(f, name, "x") && has_state(f, name, of) && has_state(f, name, strength);
-		if (o->set ? !strcmp(o->set, name) : all)
-			j->sets[j->nsets++] = name;
-		if (o->set && !strcmp(o->set, name) && !all)
-			return pm_fail(PM_DATA, "'%s' has not the state x%s%s%s%s that m2p of '%s' needs (stab adds it)", name, of ? ", " : "", of ? of : "",
-				strength ? ", " : "", strength ? strength : "", j->name);
-	}
-	if (!j->nsets)
-		return pm_fail(PM_DATA, "no set has the state x%s%s%s%s that m2p of '%s' needs (stab adds it)", of ? ", " : "", of ? of : "",
-			strength ? ", " : "", strength ? strength : "", j->name);
-	return 0;
-}
 
 /* The mesh that has the field, or the words that make it. */
 static int choose_field(const struct config *o, const struct pm_frame *f, struct job *j)
@@ -69,9 +39,7 @@ static int choose_field(const struct config *o, const struct pm_frame *f, struct
 		words = " (run p2m | poisson-fft first)";
 	else if (law->density && !strcmp(j->name, law->density))
 		words = " (run p2m first)";
-	if (!j->field)
-		return pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, o->mesh || f->nmeshes == 1 ? j->mesh->name : "any", words);
-	return 0;
+	return j->field ? 0 : pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, o->mesh ? o->mesh : j->mesh->name, words);
 }
 
 /* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. */
@@ -94,8 +62,10 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	if (!j->name)
 		return pm_fail(PM_DATA, "the law '%s' takes nothing from a mesh (choose a field with --field NAME)", f->law);
 	int status = choose_field(o, f, j);
+	/* A set takes the law's field if it has what that moves, any other field if it has positions. */
+	const char *const law[] = {"x", j->law->of, j->law->per, j->law->per ? j->law->strength : NULL, NULL}, *const any[] = {"x", NULL};
 	if (!status)
-		status = choose_sets(o, f, j);
+		status = pm_sets_choose(f, o->set, o->field ? any : law, "stab reads it from a table", &j->sets);
 	if (status)
 		return status;
 	const char *kernel = o->kernel ? o->kernel : j->field->kernel[0] ? j->field->kernel : j->law->kernel ? j->law->kernel : "cic";
@@ -107,29 +77,6 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	return 0;
 }
 
-/* The particle field of --field: a new derived one, or a strength that is there, which needs a volume. */
-static struct pm_field *make_field(struct pm_frame *f, const char *set, const struct job *j)
-{
-	const struct pm_field *old = pm_frame_field(f, set, j->name);
-	bool strength = old && old->extensive;
-	enum pm_role role = old ? old->role : PM_DERIVED;
-	if (strength && !pm_frame_field(f, set, "volume")) {
-		pm_fail(PM_DATA, "'%s' on '%s' is a strength: the mesh value must be multiplied by a 'volume', and there is none (scalc makes one)",
-			j->name, set);
-		return NULL;
-	}
-	if (strength && !pm_reads(f, set, "volume"))
-		return NULL;
-	if (old && !strength && role != PM_DERIVED) {
-		pm_fail(PM_DATA, "'%s' on '%s' is %s, not m2p's to replace", j->name, set, pm_role_names[role]);
-		return NULL;
-	}
-	struct pm_field *made = pm_makes(f, set, j->name, j->field->components, role);
-	if (made)
-		made->extensive = strength;
-	return made;
-}
-
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -138,12 +85,12 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (!status && !pm_reads(f, j.mesh->name, j.name))
 		status = -PM_DATA;
 	const char *term = !status && j.field->role == PM_STATE ? "external" : "self";
-	for (size_t i = 0; i < j.nsets && !status; i++) {
-		const char *set = j.sets[i];
+	for (size_t i = 0; i < j.sets.n && !status; i++) {
+		const char *set = j.sets.name[i];
 		status = pm_reads_positions(f, set);
 		if (!status && !o->field && j.law->per && (!pm_reads(f, set, j.law->strength) || !pm_reads(f, set, j.law->per)))
 			status = -PM_DATA;
-		if (!status && !(o->field ? make_field(f, set, &j)
+		if (!status && !(o->field ? pm_makes_gathered(f, set, j.field)
 					  : pm_contributes(f, set, j.law->change, j.law->of, j.field->components, term, o->replace)))
 			status = -PM_DATA;
 	}
@@ -180,8 +127,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct job j = {0};
 	int status = job_of(s->config, f, &j);
-	for (size_t i = 0; i < j.nsets && !status; i++)
-		status = gather_set(s, f, &j, j.sets[i]);
+	for (size_t i = 0; i < j.sets.n && !status; i++)
+		status = gather_set(s, f, &j, j.sets.name[i]);
 	return status;
 }
 

@@ -1,14 +1,11 @@
 /* p2m: strengths of particles to a density on a mesh; the spreading is lib/mesh/transfer.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <string.h>
 
 #include "law/law.h"
 #include "mesh/regrid.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
-
-enum { MOST = 64 }; /* sets */
 
 struct config {
 	const char *kernel, *mesh, *set, *strength, *field, *outside;
@@ -19,31 +16,16 @@ struct config {
 /* What the options and the frame's law ask for. */
 struct job {
 	const struct pm_kernel *kernel;
-	const char *strength, *density, *sets[MOST];
-	size_t nsets;
+	const char *strength, *density;
+	struct pm_sets sets;
 	struct pm_mesh *mesh;
 };
-
-static int choose_sets(const struct config *o, const struct pm_frame *f, struct job *j)
-{
-	if (o->set && !pm_frame_set(f, o->set))
-		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", o->set);
-	for (size_t i = 0; i < f->nsets && j->nsets < MOST; i++) {
-		const char *name = f->sets[i]->name;
-		if (o->set ? !strcmp(o->set, name) : pm_frame_field(f, name, j->strength) != NULL)
-			j->sets[j->nsets++] = name;
-	}
-	if (!j->nsets)
-		return pm_fail(PM_DATA, "no field '%s' on any set (add it with stab --strength, or choose another with --strength FIELD)", j->strength);
-	return 0;
-}
 
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
 {
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	j->nsets = 0;
 	j->strength = o->strength ? o->strength : law->strength;
 	j->density = o->field ? o->field : law->density ? law->density : "rho";
 	j->kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "cic");
@@ -54,7 +36,8 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh && !o->cells.n)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
-	return choose_sets(o, f, j);
+	return pm_sets_choose(f, o->set, (const char *const[]){j->strength, NULL}, "add it with stab --strength, or choose another with --strength FIELD",
+		&j->sets);
 }
 
 static int regrid(const struct config *o, struct pm_frame *f, struct job *j)
@@ -68,28 +51,6 @@ static int regrid(const struct config *o, struct pm_frame *f, struct job *j)
 	return memcmp(cells, j->mesh->cells, sizeof cells) ? pm_mesh_regrid_box(f, j->mesh, cells) : 0;
 }
 
-static int make_density(const struct config *o, struct pm_frame *f, const struct job *j)
-{
-	const struct pm_field *q = pm_frame_field(f, j->sets[0], j->strength), *old = pm_frame_field(f, j->mesh->name, j->density);
-	if (old && old->role != PM_DERIVED)
-		return pm_fail(PM_DATA, "'%s' on '%s' is %s, not p2m's to replace (choose another name with --field)", j->density, old->on,
-			pm_role_names[old->role]);
-	for (size_t i = 1; i < j->nsets; i++)
-		if (pm_frame_field(f, j->sets[i], j->strength)->components != q->components)
-			return pm_fail(PM_DATA, "'%s' has not the same number of components on '%s' and '%s' (choose one with --set)", j->strength,
-				j->sets[0], j->sets[i]);
-	if (old && o->add && (old->components != q->components || strcmp(old->kernel, j->kernel->name)))
-		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and kernel '%s': %d of kernel %s cannot be added", j->density, old->on,
-			old->components, old->kernel, q->components, j->kernel->name);
-	struct pm_field *made = old && o->add ? pm_changes(f, old->on, j->density) : pm_makes(f, j->mesh->name, j->density, q->components, PM_DERIVED);
-	if (!made)
-		return -PM_DATA;
-	snprintf(made->kernel, sizeof made->kernel, "%s", j->kernel->name);
-	if (q->extensive && q->unit[0])
-		snprintf(made->unit, sizeof made->unit, "%.40s/length^%d", q->unit, f->dim);
-	return 0;
-}
-
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -97,35 +58,28 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	int status = job_of(o, f, &j);
 	if (!status)
 		status = regrid(o, f, &j);
-	for (size_t i = 0; i < j.nsets && !status; i++) {
-		status = pm_reads_positions(f, j.sets[i]);
-		if (!status)
-			status = pm_reads_strength(f, j.sets[i], j.strength);
-	}
+	for (size_t i = 0; i < j.sets.n && !status; i++)
+		if (!(status = pm_reads_positions(f, j.sets.name[i])))
+			status = pm_reads_strength(f, j.sets.name[i], j.strength);
 	if (!status)
-		status = make_density(o, f, &j);
+		status = pm_makes_density(f, j.mesh, j.density, j.kernel, &j.sets, j.strength, o->add);
 	return status ? status : strcmp(o->outside, "grow") ? 0 : PM_HOLD;
 }
 
 static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job *j)
 {
-	int components = pm_frame_field(f, j->mesh->name, j->density)->components;
+	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
 	return (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
 }
 
 static int grow(const struct config *o, struct pm_frame *f, struct job *j)
 {
-	size_t cells[3];
-	double lo[3];
 	struct pm_transfer t = transfer_of(f, j);
-	int grown = pm_mesh_fit(f, j->mesh, &t, j->nsets, j->sets, cells, lo);
-	if (grown <= 0)
-		return grown;
-	if (o->add)
-		return pm_fail(PM_DATA, "mesh '%s' cannot grow under --add (let the first p2m grow it)", j->mesh->name);
-	int status = pm_mesh_regrid(f, j->mesh, cells, lo, j->mesh->h);
-	if (!status)
-		status = make_density(o, f, j);
+	int status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
+	if (status == 1 && o->add)
+		return pm_fail(PM_DATA, "mesh '%s' would have to grow under --add (let the first p2m grow it)", j->mesh->name);
+	if (status == 1)
+		status = pm_makes_density(f, j->mesh, j->density, j->kernel, &j->sets, j->strength, false);
 	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
 }
 
@@ -157,8 +111,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	int status = job_of(o, f, &j);
 	if (!status && !strcmp(o->outside, "grow"))
 		status = grow(o, f, &j);
-	for (size_t i = 0; i < j.nsets && !status; i++)
-		status = spread_set(s, f, &j, j.sets[i]);
+	for (size_t i = 0; i < j.sets.n && !status; i++)
+		status = spread_set(s, f, &j, j.sets.name[i]);
 	return status;
 }
 

@@ -5,6 +5,15 @@
 
 #include "mesh/transfer.h"
 
+/* The sets that take part: those that have every field of needs[] (NULL ends) as state or derived, or the one named only. Fails with a sentence if there is none
+ * (remedy in brackets). */
+enum { PM_SETS_MOST = 64 };
+struct pm_sets {
+	size_t n;
+	const char *name[PM_SETS_MOST];
+};
+int pm_sets_choose(const struct pm_frame *f, const char *only, const char *const needs[], const char *remedy, struct pm_sets *sets);
+
 /* Declares x of the set as read; fails with a sentence if it has not got dim real components. */
 int pm_reads_positions(struct pm_frame *f, const char *set);
 void pm_positions(const struct pm_frame *f, const char *set, const double *x[3]);
@@ -20,9 +29,16 @@ int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, co
 /* Refuses strays with a sentence that names the first, and the remedies of the tool. */
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy);
 
-/* The geometry on which every particle of the sets fits, in whole blocks of 8 cells so that a slow expansion does not change the mesh at every
- * step: 1 if it is another than m has, 0 if not, or failure. */
-int pm_mesh_fit(const struct pm_frame *f, const struct pm_mesh *m, const struct pm_transfer *t, size_t nsets, const char *const *sets, size_t cells[3],
-	double lo[3]);
+/* Enlarges the mesh (regrid.h) so that every particle of the sets fits, by whole blocks of 8 cells: a slow expansion does not change it at every
+ * step. 1 if it had to, 0 if not, or failure. */
+int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer *t, const struct pm_sets *sets);
+
+/* Makes the mesh field `name` for the density of field `strength` of the sets, or with add changes the one that is there. */
+int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *name, const struct pm_kernel *k, const struct pm_sets *sets,
+	const char *strength, bool add);
+
+/* Makes the particle field that takes the values of a mesh field of the same name: new and derived, or a strength that is there (values times
+ * volume, which is then read); NULL with a message if it has no volume or is other state. */
+struct pm_field *pm_makes_gathered(struct pm_frame *f, const char *set, const struct pm_field *from);
 
 #endif

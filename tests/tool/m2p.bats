@@ -1,0 +1,119 @@
+# m2p: what is gathered, to what it is added, and what is refused.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# given FIELD FACES ROLE X...: a frame in the box 0..4 of one axis whose mesh of 4 cells has the field 0 1 4 9 16, and particles at X, at rest, of mass 2.
+given() {
+	local field=$1 faces=$2 role=$3
+	shift 3
+	{
+		echo "x vx mass"
+		printf '%s 0 2\n' "$@"
+	} | stab - --law gravity --box 0,4 --faces "$faces" --particle-faces open -n 4 | p2m --outside drop | stab |
+		sed "1s/\"name\":\"rho\",\"on\":\"mesh\",\"role\":\"derived\"/\"name\":\"$field\",\"on\":\"mesh\",\"role\":\"$role\"/" |
+		awk -v f="$field" '/^#end/ { inside = 0 } inside == 2 { print i * i; i++; next } inside == 1 { print f; inside = 2; next } /^#mesh/ { inside = 1 } { print }' |
+		stab -
+}
+
+# of FIELD: that column of the particles, one line.
+of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; next } { printf "%s%s", (NR > 2 ? " " : ""), $c } END { print "" }'; }
+
+@test "m2p needs no options: the law's mesh field is added to its change field as the term self" {
+	sh_ok 'pinit uniform -n 50 | p2m -n 8 --kernel tsc | poisson-fft | mgrad | m2p | sls'
+	[[ $output =~ acc\ +3\ f64\ change ]]
+	[[ $output =~ self ]]
+}
+
+@test "m2p interpolates with the kernel the field was made with, or with --kernel" {
+	given g open derived 2.25 1.5 >a
+	[ "$(m2p <a | of acc)" = "5.25 2.5" ]              # cic: between 4 and 9, between 1 and 4
+	[ "$(m2p --kernel tsc <a | of acc)" = "5.3125 2.5" ] # x^2 + 1/4
+	[ "$(m2p --kernel ngp <a | of acc)" = "4 4" ]
+}
+
+@test "m2p: a given field is the term external, and the same term twice is refused unless --replace" {
+	given g open state 2.25 >a
+	m2p <a >b
+	[ "$(of acc <b)" = 5.25 ]
+	sh_ok 'sls <b'
+	[[ $output =~ external ]]
+	run -1 bash -c 'm2p <b'
+	[[ $output =~ "already holds the term 'external'" ]]
+	same_as <(m2p --replace --no-history <b) b
+}
+
+@test "m2p without its mesh field names the words that make it" {
+	pinit uniform -n 5 | p2m -n 4 >a
+	run -1 m2p <a
+	[[ $output =~ "m2p: frame 1: no field 'g' on mesh 'mesh' (run p2m | poisson-fft | mgrad first)" ]]
+	run -1 m2p --field phi <a
+	[[ $output =~ "(run p2m | poisson-fft first)" ]]
+	run -1 bash -c 'pinit uniform -n 5 | m2p --field rho'
+	[[ $output =~ "(run p2m first)" ]]
+	printf 'x mass\n1.25 2\n' | stab - --law free --box 0,4 -n 8 >b
+	run -1 m2p <b
+	[[ $output =~ "choose a field with --field" ]]
+}
+
+@test "m2p --field gathers any mesh field to a derived particle field, also where nothing moves" {
+	given heat open derived 2.25 1.5 >a
+	[ "$(m2p --field heat <a | of heat)" = "5.25 2.5" ]
+	sh_ok 'm2p --field heat <a | sls'
+	[[ $output =~ heat\ +1\ f64\ derived && ! $output =~ acc ]]
+}
+
+@test "m2p onto a strength multiplies by the volume and is refused without one" {
+	given mass open derived 2.25 1.5 >a
+	run -1 m2p --field mass <a
+	[[ $output =~ "'mass' on 'matter' is a strength" ]]
+	stab <a | sed '1s/{"components":1,"kind":"strength","name":"mass"/{"components":1,"kind":"value","name":"volume","on":"matter","role":"state","type":"f64","uniform":[0.5],"unit":""},&/' |
+		stab - >b
+	[ "$(m2p --field mass <b | of mass)" = "2.625 1.25" ]
+}
+
+@test "m2p: at a wall the gradient's normal component has an even image, a scalar an odd one" {
+	given g wall derived 0.25 3.75 >a
+	[ "$(m2p <a | of acc)" = "0.25 14.25" ] # 0 and 1; 9 and 16
+	[ "$(m2p --kernel tsc <a | of acc)" = "0.3125 13.8125" ] # 1(0.03125+0.28125) and 9(0.28125+0.03125)+16(0.6875)
+	given phi wall derived 0.25 3.75 >b
+	[ "$(m2p --field phi --kernel tsc <b | of phi)" = "0.25 2.25" ] # 1(0.28125-0.03125); 9(0.28125-0.03125), the end node is 0
+}
+
+@test "m2p honours components that sit half a cell up" {
+	given g periodic derived 2.25 | stab | sed '1s/"kernel":"cic",/&"half":[[1]],/' | stab - >a
+	[ "$(m2p <a | of acc)" = 3.25 ] # values 0 1 4 9 at 0.5 1.5 2.5 3.5: a quarter below 2.5
+}
+
+@test "m2p names a particle the mesh does not hold, or leaves it out and counts it" {
+	given g open derived 2.25 7 >a
+	run -1 m2p <a
+	[[ $output =~ "particle 1 of 'matter' at (7) is outside mesh 'mesh'" ]]
+	[ "$(m2p --outside drop <a | of acc)" = "5.25 0" ]
+	sh_ok 'm2p --outside drop <a | sls --report'
+	[[ $output =~ dropped.*1 ]]
+}
+
+@test "m2p leaves sets alone that lack what the law moves, and says so if there is no other" {
+	given g open derived 2.25 | stab | sed '1s/"name":"v"/"name":"w"/; s/^x\tvx/x\tw/' | stab - >a
+	run -1 m2p <a
+	[[ $output =~ "no field 'v' on 'matter'" ]]
+}
+
+@test "HC-59: m2p of no particles exits 0" {
+	printf 'x vx mass\n' | stab - --law gravity --box 0,4 --faces periodic -n 4 | p2m | poisson-fft | mgrad >a
+	sh_ok 'm2p <a | sls'
+	[[ $output =~ acc ]]
+}
+
+@test "m2p gives the same bytes with 1, 2 and 3 threads, and after other frames" {
+	pinit uniform -n 30000 --seed 3 | p2m -n 33x20x18 --kernel pcs | poisson-fft | mgrad >a
+	pinit uniform -n 500 --seed 4 | p2m -n 7 | poisson-fft | mgrad >b
+	for threads in 1 2 3; do
+		m2p --threads $threads <a | cksum >sum.$threads
+	done
+	same_as sum.1 sum.2
+	same_as sum.1 sum.3
+	cat b a b a | m2p >several
+	cat <(m2p <b) <(m2p <a) <(m2p <b) <(m2p <a) >single
+	same_as several single
+}
