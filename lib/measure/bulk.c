@@ -59,7 +59,7 @@ void pm_bulk_add(const struct pm_bodies *b, struct pm_bulk *bulk)
 	const size_t blocks = (b->n + pm_sum_block - 1) / pm_sum_block;
 	for (size_t first = 0; first < blocks; first += BATCH) {
 		const size_t n = blocks - first < BATCH ? blocks - first : BATCH;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > 1)
 		for (size_t k = 0; k < n; k++)
 			batch[k] = block_of(b, (first + k) * pm_sum_block);
 		for (size_t k = 0; k < n; k++)

@@ -25,7 +25,7 @@ double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const doubl
 	const size_t rows = g->points[1] * g->points[2];
 	for (size_t first = 0; first < rows; first += BATCH) {
 		const size_t n = rows - first < BATCH ? rows - first : BATCH;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n * g->points[0] > 4096)
 		for (size_t k = 0; k < n; k++)
 			batch[k] = row_on_mesh(g, rho, phi, first + k);
 		for (size_t k = 0; k < n; k++)
@@ -55,7 +55,7 @@ double pm_energy_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b, 
 	double batch[BATCH];
 	for (size_t first = 0; first < a->n; first += BATCH) {
 		const size_t n = a->n - first < BATCH ? a->n - first : BATCH;
-#pragma omp parallel for schedule(dynamic, 8)
+#pragma omp parallel for schedule(dynamic, 8) if (a->n * b->n > 4096)
 		for (size_t k = 0; k < n; k++)
 			batch[k] = row_of_pairs(a, b, first + k, softening, potential);
 		for (size_t k = 0; k < n; k++)
