@@ -29,50 +29,6 @@ void pm_option_rows(const struct pm_tool *tool, const struct pm_option *rows[PM_
 	rows[2] = pm_common_options;
 }
 
-/* ---- the nearest name ---- */
-
-/* Edits (insert, delete, replace, swap of neighbours) between two words of at most 63 letters. */
-static int distance(const char *a, const char *b)
-{
-	int n = (int)strlen(a), m = (int)strlen(b), d[65][65];
-	if (n > 63 || m > 63)
-		return 99;
-	for (int i = 0; i <= n; i++)
-		for (int j = 0; j <= m; j++) {
-			if (!i || !j) {
-				d[i][j] = i + j;
-				continue;
-			}
-			int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-			best = d[i - 1][j] + 1 < best ? d[i - 1][j] + 1 : best;
-			best = d[i][j - 1] + 1 < best ? d[i][j - 1] + 1 : best;
-			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + 1 < best)
-				best = d[i - 2][j - 2] + 1;
-			d[i][j] = best;
-		}
-	return d[n][m];
-}
-
-static const char *nearer(const char *word, const char *name, const char *best, int *least)
-{
-	int far = distance(word, name);
-	if (!strncmp(word, name, strlen(word)) && strlen(word) >= 2)
-		far = far > 1 ? 1 : far; /* a beginning is near */
-	if (far >= *least || far > 1 + (int)strlen(word) / 3)
-		return best;
-	*least = far;
-	return name;
-}
-
-const char *pm_nearest(const char *word, const char *const *names)
-{
-	const char *best = NULL;
-	int least = 99;
-	for (int i = 0; names && names[i]; i++)
-		best = nearer(word, names[i], best, &least);
-	return best;
-}
-
 static int unknown_option(const struct pm_tool *tool, const char *typed, const char *name)
 {
 	const struct pm_option *rows[PM_ROWS];
@@ -81,7 +37,7 @@ static int unknown_option(const struct pm_tool *tool, const char *typed, const c
 	pm_option_rows(tool, rows);
 	for (int k = 0; k < PM_ROWS; k++)
 		for (const struct pm_option *o = rows[k]; o && o->name; o++)
-			best = nearer(name, o->name, best, &least);
+			best = pm_nearer(name, o->name, best, &least);
 	if (best)
 		return pm_fail(PM_USAGE, "no option '%s' (did you mean --%s?)", typed, best);
 	return pm_fail(PM_USAGE, "no option '%s' (%s --help lists them)", typed, tool->name);

@@ -4,6 +4,7 @@
 
 #include "stream/frame.h"
 
+extern const char *const pm_kind_names[]; /* value, strength */
 json_t *pm_header_json(const struct pm_frame *f);                 /* NULL if a number is not finite, with a message */
 int pm_header_frame(const json_t *header, struct pm_frame **f);   /* everything checked; keys we do not know are kept */
 size_t pm_field_wire(const struct pm_field *field);               /* bytes on the wire without padding; 0 if uniform */
