@@ -3,22 +3,29 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/pface.h"
 
-void pm_pface_fold(size_t n, double lo, double hi, double *x)
-{
-	double length = hi - lo;
-	for (size_t i = 0; i < n; i++) {
-		double y = x[i] - length * floor((x[i] - lo) / length);
-		y = y < lo || y >= hi ? lo : y; /* -1e-17 + L rounds to L, which is lo */
-		x[i] = x[i] >= lo && x[i] < hi ? x[i] : y;
-	}
-}
-
-static bool any_outside(size_t n, double lo, double hi, const double *x)
+/* Whether any of a few values is not in [lo, hi), or [lo, hi] if closed. */
+static inline bool any_outside(size_t n, double lo, double hi, bool closed, const double *x)
 {
 	int out = 0;
 	for (size_t i = 0; i < n; i++)
-		out |= !(x[i] >= lo) | !(x[i] <= hi);
+		out |= (x[i] < lo) | (closed ? x[i] > hi : x[i] >= hi);
 	return out;
+}
+
+void pm_pface_fold(size_t n, double lo, double hi, double *x)
+{
+	enum { FEW = 128 }; /* most particles stay inside, and a look is cheaper than the fold */
+	double length = hi - lo;
+	for (size_t b = 0; b < n; b += FEW) {
+		size_t m = n - b < FEW ? n - b : FEW;
+		if (!any_outside(m, lo, hi, false, x + b))
+			continue;
+		for (size_t i = b; i < b + m; i++) {
+			double y = x[i] - length * floor((x[i] - lo) / length);
+			y = y < lo || y >= hi ? lo : y; /* -1e-17 + L rounds to L, which is lo */
+			x[i] = x[i] >= lo && x[i] < hi ? x[i] : y;
+		}
+	}
 }
 
 /* Mirrors one position; true if the velocity changes sign. */
@@ -40,7 +47,7 @@ static bool mirror_one(double lo, double hi, const bool mirror[2], double *x)
 
 void pm_pface_reflect(size_t n, double lo, double hi, const bool mirror[2], double *x, int nw, double *const *w)
 {
-	if (!any_outside(n, lo, hi, x))
+	if (!any_outside(n, lo, hi, true, x))
 		return;
 	for (size_t i = 0; i < n; i++)
 		if (mirror_one(lo, hi, mirror, x + i))
