@@ -1,0 +1,82 @@
+# pp as a word: PM-04 through text, what it refuses, that no force is counted twice, bytes for any number of threads.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+refuses() {
+	run -"$1" bash -o pipefail -c "$3 >/dev/null"
+	[[ $output == *"$2"* ]] || { echo "wanted '$2', got: $output"; return 1; }
+}
+
+# fixture: 1000 equal masses from minstd, seed 1, in the unit cube.
+fixture() {
+	awk 'BEGIN { print "x y z mass"; s = 1; for (i = 0; i < 1000; i++) { for (d = 0; d < 3; d++) { s = 16807 * s % 2147483647; printf "%.17g ", s / 2147483647 } print 0.001 } }'
+}
+
+@test "PM-04: potential energy, accelerations and their rms, softening 0 and 0.02, both loops" {
+	fixture > t
+	for row in "0 -0.948594200251237 1.92402927877 1.08042713489 -0.510656396488 2.33233822183884" \
+		"0.02 -0.945179423083813 1.90890639535 1.07398591166 -0.511505973216 2.0039070942471"; do
+		set -- $row
+		for loop in half full; do
+			stab t --law gravity --constant G=1 | pp --softening "$1" --potential --loop $loop | stab --plain |
+				awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == 2 { a = $c["acc_0"] "\n" $c["acc_1"] "\n" $c["acc_2"] }
+					{ u += 0.0005 * $c["phi"]; r += $c["acc_0"]^2 + $c["acc_1"]^2 + $c["acc_2"]^2 } END { printf "%s\n%.17g\n%.17g\n", a, u, sqrt(r / 1000) }' > out
+			within "$(sed -n 4p out)" "$2" 1e-13 "energy"
+			within "$(sed -n 1p out)" "$3" 1e-11 "acc x" # the reference has 12 digits
+			within "$(sed -n 2p out)" "$4" 1e-11 "acc y"
+			within "$(sed -n 3p out)" "$5" 1e-12 "acc z"
+			within "$(sed -n 5p out)" "$6" 1e-12 "rms"
+		done
+	done
+}
+
+@test "no softening length is an error, never a silent 0" {
+	fixture > t
+	refuses 1 "no softening length (--softening LENGTH, 0 if you mean it; or --mollifier none)" "stab t --law gravity | pp"
+	sh_ok "stab t --law gravity | pp --mollifier none | stab --plain > a"
+	sh_ok "stab t --law gravity | pp --softening 0 | stab --plain > b"
+	same_as a b
+	sh_ok "stab t --law gravity --constant softening=0 | pp | stab --plain > c"
+	same_as a c
+}
+
+@test "a periodic box and a wall are refused with the name of what can do them" {
+	refuses 1 "periodic along x and pp sums in open space (p2m | poisson-fft | mgrad | m2p does such boxes; for periodic ones also the word ewald)" "pinit pair | pp"
+	fixture > t
+	refuses 1 "the box is wall along x" "stab t --law gravity --faces wall | pp --softening 0"
+}
+
+@test "a law without a field, a set without masses and a mollifier of other dimensions are refused" {
+	fixture > t
+	refuses 1 "the law free has no sum over pairs" "stab t | pp --softening 0"
+	sed 's/mass/weight/' t > u
+	refuses 1 "no set with 'x' and 'mass' (add it with stab --strength)" "stab u --law gravity | pp --softening 0"
+	refuses 1 "the mollifier krasny is not defined in 3-D" "stab t --law gravity | pp --softening 0.1 --mollifier krasny"
+	refuses 1 "no set 'gas' that could feel the sum" "stab t --law gravity | pp --softening 0 --set gas"
+}
+
+@test "the force is not added twice: a second pp is refused, --replace computes it anew" {
+	refuses 1 "'acc' on 'matter' already holds the term 'self'" "pinit plummer -n 50 | pp | pp"
+	refuses 1 "already holds the term 'self'" "pinit plummer -n 50 | cycle -n 2 'push kick/2 drift | pp | push kick/2' | pp"
+	pinit plummer -n 50 | pp --no-history > a
+	pinit plummer -n 50 | pp --no-history | pp --replace --no-history > b
+	same_as a b
+}
+
+@test "the bytes do not depend on the number of threads" {
+	pinit plummer -n 1300 > a
+	for loop in half full; do
+		for t in 1 2 3; do
+			OMP_NUM_THREADS=$t pp --loop $loop --potential < a > "b$t"
+		done
+		same_as b1 b2
+		same_as b1 b3
+	done
+}
+
+@test "N = 0, N = 1 and N = 2: no force, no force, equal and opposite" {
+	printf 'x y z mass\n' > t
+	stab t --law gravity | pp --softening 0 | sls | grep -q 'acc  *3 f64 change'
+	printf 'x y z mass\n1 2 3 4\n' > t
+	[ "$(stab t --law gravity | pp --softening 0 --potential | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"] + 0, $c["phi"] + 0 }')" = "0 0" ]
+}

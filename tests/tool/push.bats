@@ -1,0 +1,84 @@
+# push as a word: its sentences when it refuses, what it leaves in the stream, bytes for any number of threads. The rules one by one are in
+# tests/unit/push.c. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# refuses STATUS 'WORDS' COMMAND LINE: the exit status, and the words on stderr.
+refuses() {
+	run -"$1" bash -o pipefail -c "$3 >/dev/null"
+	[[ $output == *"$2"* ]] || { echo "wanted '$2', got: $output"; return 1; }
+}
+
+@test "push kick without acc exits 1 and says how to compute it" {
+	refuses 1 "push: frame 1: no field 'acc' on 'matter' (compute it first: p2m | poisson-fft | mgrad | m2p, or pp)" "pinit two-body | push kick"
+	refuses 1 "no field 'acc' on 'matter' (compute it first" "pinit two-body | push rk4"
+	refuses 1 "no field 'acc'" "pinit two-body | pp | push drift | push kick" # drift took it away
+}
+
+@test "a misspelt action exits 2 with the nearest name, a part of a scheme and a kick after a drift are refused" {
+	refuses 2 "did you mean 'drift'" "pinit two-body | push drfit"
+	refuses 2 "schemes have no parts" "pinit two-body | push rk4/2"
+	refuses 2 "push drift | force | push kick" "pinit two-body | push drift kick"
+}
+
+@test "kick and drift that do not add up to a step exit 1" {
+	refuses 1 "kick on 'matter' adds up to 1.5 of a step" "pinit two-body | pp | push kick | push kick/2"
+	refuses 1 "drift on 'matter' adds up to 2 of a step" "pinit two-body | pp | push kick/2 drift | pp | push kick/2 drift"
+	refuses 1 "rk2 on 'matter' in the middle of a step" "pinit two-body | pp | push kick/2 | push rk2"
+	refuses 1 "while rk4 is under way" "pinit two-body | pp | push rk4 | push drift"
+	refuses 1 "may change only at substep 0" "pinit two-body | pp | push kick/2 | push drift --dt 0.5"
+}
+
+@test "a change on a mesh that m2p has not carried over is refused" {
+	pinit two-body --cells 4 | stab > a
+	sed -e '1s/"fields":\[{"comp/"fields":[{"components":1,"kind":"value","name":"dv","of":"v","on":"mesh","role":"change","terms":["self"],"type":"f64","uniform":[1.0],"unit":""},{"comp/' a > b
+	refuses 1 "the change 'dv' of 'v' is on mesh 'mesh' and not yet on 'matter' (carry it over with m2p)" "stab b | push kick"
+}
+
+@test "registers live between the passes of rk4 and are gone after the last" {
+	pinit two-body | pp | push rk4 > a
+	stab < a | grep -q '"name":"q_x"'
+	stab < a | grep -q '"name":"q2_v"'
+	[ "$(stab < a | grep -c '"role":"register"')" = 1 ] # all in the one line of the header
+	pp < a | push rk4 | pp | push rk4 | pp | push rk4 > b
+	run ! grep -aq register b
+	sls < b | grep -q 'step 1 substep 0'
+}
+
+@test "ab3 takes three passes in its first two steps and one from then on" {
+	pinit two-body > a
+	local passes=0
+	for want in 1 1 1 2 2 2 3 4 5; do # the step under way in each pass
+		[ "$(sls < a | grep -o ' step [0-9]*')" = " step $((want - 1))" ]
+		pp < a | push ab3 > b
+		mv b a
+		passes=$((passes + 1))
+	done
+	sls < a | grep -q 'step 5 substep 0'
+}
+
+@test "the bytes do not depend on the number of threads, for every action and scheme" {
+	pinit uniform -n 5001 --dispersion 1 > a
+	for words in 'kick/2 drift' euler rk2 rk4 lsrk3 ab2 ab3; do
+		for t in 1 2 3; do
+			OMP_NUM_THREADS=$t cycle -n 2 "p2m -n 8 | poisson-fft | mgrad | m2p --replace | push $words$([[ $words == kick* ]] && echo ' | p2m -n 8 | poisson-fft | mgrad | m2p | push kick/2')" < a > "b$t"
+		done
+		same_as b1 b2
+		same_as b1 b3
+	done
+}
+
+@test "particles that leave through an absorbing face are taken out, counted, and N = 0 goes on" {
+	printf 'x y z vx vy vz id\n1 1 1 -9 0 0 1\n1 1 1 0 0 0 2\n1 1 1 0 9 0 3\n' > t
+	stab t --box 0,2 --particle-faces absorb --dt 0.5 | push drift > a
+	stab --plain < a | cut -f1 > ids
+	[ "$(stab --plain < a | wc -l)" = 2 ]
+	grep -aq '"absorbed":2' a
+	printf 'x y z vx vy vz\n1 1 1 9 0 0\n' > t
+	stab t --box 0,2 --particle-faces absorb --dt 0.5 | push drift | push drift | sls | grep -q 'set matter: 0 particles'
+}
+
+@test "FP-04: -1e-17 is folded to the lower face, never to L" {
+	printf 'x y z vx vy vz\n-1e-17 1 2 0 0 0\n' > t
+	stab t --box 0,2 --faces periodic --particle-faces periodic --dt 0.5 | push drift | stab --plain > a
+	awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { exit !($c["x"] == 0 && $c["y"] == 1 && $c["z"] == 0) }' a
+}
