@@ -5,7 +5,7 @@
 
 #include "base/base.h"
 
-enum { PM_KERNEL_WIDTH = 8 }; /* the widest */
+enum { PM_KERNEL_WIDTH = 8, PM_KERNEL_DEGREE = 15 }; /* the most */
 
 struct pm_kernel {
 	const char *name, *sentence, *source;
@@ -15,7 +15,8 @@ struct pm_kernel {
 	bool positive;
 	/* The weights of the `width` points around a particle, polynomials in t: coefficients[power][point], powers 0..degree.
 	 * odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
-	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). */
+	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Of degree >= width they are found about the nearest node:
+	 * above t = 1/2 those of 1 - t in the opposite order (kernels are even). In powers of t up to 1 the high orders lose digits. */
 	int degree;
 	const double *coefficients;
 };
@@ -24,13 +25,19 @@ extern const struct pm_kernel *const pm_kernels[]; /* generated from lib/kernel/
 extern const char *const pm_kernel_names[];
 const struct pm_kernel *pm_kernel_find(const char *name); /* NULL with a message */
 
+/* Is t to be taken from the point above? */
+static inline bool pm_kernel_folds(int width, int degree, double t) { return width % 2 == 0 && degree >= width && t > 0.5; }
+
 /* w[0..width-1] at t, by Horner. */
 static inline void pm_kernel_weights(const struct pm_kernel *k, double t, double *w)
 {
+	bool fold = pm_kernel_folds(k->width, k->degree, t);
+	double s = fold ? 1 - t : t;
 	for (int i = 0; i < k->width; i++) {
-		w[i] = k->coefficients[k->degree * k->width + i];
+		double sum = k->coefficients[k->degree * k->width + i];
 		for (int power = k->degree - 1; power >= 0; power--)
-			w[i] = w[i] * t + k->coefficients[power * k->width + i];
+			sum = sum * s + k->coefficients[power * k->width + i];
+		w[fold ? k->width - 1 - i : i] = sum;
 	}
 }
 

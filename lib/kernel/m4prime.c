@@ -3,13 +3,7 @@
  * -t^2(1-t)/2. Exact for quadratics: conserves total, centre and second moment; negative down to -2/27. 4 points per axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel/kernel.h"
-
-static const double coefficients[] = { /* [power of t][point] */
-	0, 1, 0, 0,
-	-0.5, 0, 0.5, 0,
-	1, -2.5, 2, -0.5,
-	-0.5, 1.5, -1.5, 0.5,
-};
+#include "kernel/m4prime.h"
 
 const struct pm_kernel kernel_m4prime = {
 	.name = "m4prime",
@@ -20,5 +14,5 @@ const struct pm_kernel kernel_m4prime = {
 	.smooth = 1,
 	.positive = false,
 	.degree = 3,
-	.coefficients = coefficients,
+	.coefficients = pm_m4prime,
 };

@@ -29,11 +29,15 @@ INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, d
 INLINE void find_weights(int width, int degree, const double *coefficients, double t, double *w)
 {
 	const int n = padded(width);
+	const bool fold = pm_kernel_folds(width, degree, t);
+	double s = fold ? 1 - t : t, v[lanes];
 	for (int i = 0; i < n; i++)
-		w[i] = coefficients[degree * n + i];
+		v[i] = coefficients[degree * n + i];
 	for (int power = degree - 1; power >= 0; power--)
 		for (int i = 0; i < n; i++)
-			w[i] = w[i] * t + coefficients[power * n + i];
+			v[i] = v[i] * s + coefficients[power * n + i];
+	for (int i = 0; i < n; i++)
+		w[i] = fold && i < width ? v[width - 1 - i] : v[i];
 }
 
 INLINE void find_places(int dim, const struct pm_tile *t, const double *records, size_t m, struct batch *b)
@@ -52,7 +56,7 @@ INLINE void find_places(int dim, const struct pm_tile *t, const double *records,
 INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	double coefficients[lanes * lanes];
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
 	struct batch b;
 	pad_coefficients(t->kernel, width, degree, coefficients);
 	for (size_t from = 0; from < t->count; from += batch) {
@@ -79,7 +83,7 @@ INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	double coefficients[lanes * lanes];
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
 	struct batch b;
 	pad_coefficients(t->kernel, width, degree, coefficients);
 	for (size_t from = 0; from < t->count; from += batch) {
@@ -111,7 +115,7 @@ INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 	}
 }
 
-/* One function per dimension and width for the degree width-1 (B-splines and M'4), and one for any degree. */
+/* One function per dimension and width for the degree width-1 (B-splines, M'4 and M'6), and one for any degree. */
 #define LOOPS(dim, width, name, degree) \
 	static void spread_##name##_##dim##_##width(const struct pm_tile *t) { spread(dim, width, degree, t); } \
 	static void gather_##name##_##dim##_##width(const struct pm_tile *t) { gather(dim, width, degree, t); }

@@ -373,7 +373,7 @@ static void check_open(void)
 		pm_gather(&a.t, 0, in(a.x), in(a.mesh), NULL, a.out, &strays);
 		double *bigger = pm_zalloc(a.t.grid.points[0], sizeof *bigger);
 		pm_spread(&a.t, 3, in(a.x), in(a.q), &bigger, &strays);
-		check(!status && strays.count == 0 && below[0] <= 8 && above[0] <= 6, "%s: the mesh grows by %zu and %zu cells and holds all", kernel->name,
+		check(!status && strays.count == 0 && (double)below[0] <= 6 + r && (double)above[0] <= 4 + r, "%s: the mesh grows by %zu and %zu cells and holds all", kernel->name,
 			below[0], above[0]);
 		pm_free(bigger);
 		problem_free(&a);
@@ -428,11 +428,11 @@ int main(void)
 {
 	check_adjoint(1, (const size_t[]){13, 1, 1});
 	check_adjoint(2, (const size_t[]){9, 14, 1});
-	check_adjoint(3, (const size_t[]){9, 8, 11});
+	check_adjoint(3, (const size_t[]){9, 10, 11}); /* the widest kernel, 8 points, needs 9 cells between open faces */
 	for (int rule = 0; rule < 4; rule++)
 		if (rule != 1)
 			for (int dim = 1; dim <= 3; dim++)
-				check_total(dim, (const size_t[]){11, 8, 9}, rule);
+				check_total(dim, (const size_t[]){11, 10, 9}, rule);
 	check_plain(1, (const size_t[]){5003, 1, 1}, 3000);
 	check_plain(2, (const size_t[]){131, 70, 1}, 3000);
 	check_plain(3, (const size_t[]){33, 18, 20}, 3000);
