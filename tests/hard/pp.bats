@@ -1,0 +1,41 @@
+# HC-19: close and coincident pairs under pp. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at distance R
+	local r=$1 eps=$2
+	shift 2
+	printf 'x y z mass\n0 0 0 1\n%s 0 0 1\n' "$r" > t
+	stab t --law gravity --constant G=1 | pp --softening "$eps" --potential "$@" > a && stab --plain < a |
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { a = $c["acc_0"] } END { printf "%.17g\n", a }'
+}
+
+@test "HC-19: r = 1e-12, 1e-200 and 0 with softening 0: finite, the force of Newton or none, and the coincident pair is counted and told" {
+	for loop in half full; do
+		within "$(pair 1e-12 0 --loop $loop)" -1e24 1e10
+		run ! grep -aq coincident a
+		for r in 1e-200 0; do
+			within "$(pair $r 0 --loop $loop)" 0 0
+			grep -aq '"coincident":1' a
+			run -0 bash -c "stab t --law gravity | pp --softening 0 --loop $loop --verbose 2>&1 > /dev/null"
+			[[ $output == *"1 pairs coincide"* ]]
+		done
+	done
+}
+
+@test "HC-19: the same with softening 0.01: a force that vanishes with r, nothing to tell" {
+	for loop in half full; do
+		within "$(pair 1e-12 0.01 --loop $loop)" -1e-6 1e-20
+		within "$(pair 1e-200 0.01 --loop $loop)" 0 1e-190
+		within "$(pair 0 0.01 --loop $loop)" 0 0
+		run ! grep -aq coincident a
+	done
+}
+
+@test "a hundred coincident particles exert nothing on each other and their sum on a far one" {
+	{ echo 'x y z mass'; for i in $(seq 100); do echo '1 1 1 0.01'; done; echo '3 1 1 1'; } > t
+	stab t --law gravity --constant G=1 | pp --softening 0 > a
+	grep -aq '"coincident":4950' a
+	stab --plain < a | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { last = $c["acc_0"]; print last }' > out
+	within "$(tail -n 1 out)" -0.25 1e-15
+	within "$(head -n 1 out)" 0.25 1e-15
+}

@@ -1,0 +1,52 @@
+# Orders and invariants of the integrators by the words, on two bodies with softening 0. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# miss SENTENCE STEPS: distance of the second body from the exact place after a quarter of an eccentric orbit, T = 2 pi.
+miss() {
+	pinit two-body --eccentricity 0.3 --dt "$(awk -v n="$2" 'BEGIN { printf "%.17g", atan2(0, -1) / 2 / n }')" |
+		cycle -n "$2" "$1" | stab --plain |
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x[NR] = $c["x"]; y[NR] = $c["y"] }
+			END { # relative orbit from the apocentre: mean anomaly pi + t
+				t = atan2(0, -1) / 2; f = 0; for (i = 0; i < 60; i++) f -= (f + 0.3 * sin(f) - t) / (1 + 0.3 * cos(f))
+				ex = -cos(f) - 0.3; ey = -sqrt(1 - 0.09) * sin(f)
+				dx = x[3] - x[2]; dy = y[3] - y[2]; if (dx * ex < 0) { dx = -dx; dy = -dy }
+				printf "%.10g\n", sqrt((dx - ex)^2 + (dy - ey)^2) }'
+}
+
+# has_order CLAIM SENTENCE: from 40, 80, 160 steps.
+has_order() {
+	order "$1" 4 "$(miss "$2" 40)" 2 "$(miss "$2" 80)" 1 "$(miss "$2" 160)"
+}
+
+@test "TI-01: global orders of the integrators: leapfrog 2 (both ways round), euler 1, rk2 2, lsrk3 3, rk4 4, ab2 2, ab3 3" {
+	has_order 2 'push kick/2 drift | pp | push kick/2'
+	has_order 2 'push drift/2 | pp | push kick drift/2'
+	has_order 1 'pp | push kick drift'
+	has_order 1 'pp | push euler'
+	has_order 2 'pp | push rk2'
+	has_order 3 'pp | push lsrk3'
+	has_order 4 'pp | push rk4'
+	has_order 2 'pp | push ab2'
+	has_order 3 'pp | push ab3'
+}
+
+@test "leapfrog is reversible: 200 steps, the same back with dt < 0, and the start again to round-off" {
+	pinit plummer -n 100 > a
+	cycle -n 200 "push kick/2 drift | pp --softening 0.1 | push kick/2" < a > b
+	dt=$(stab < a | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2)
+	cycle -n 200 "push kick/2 drift --dt -$dt | pp --softening 0.1 | push kick/2" < b > c
+	scmp --field x --tolerance 1e-11 a c
+}
+
+@test "momentum of 500 stars under pp and leapfrog stays at round-off, energy error falls with dt^2" {
+	pinit plummer -n 500 --dt 0.04 > a
+	for k in 1 2 4; do
+		cycle -n $((25 * k)) "push --dt $(awk -v k=$k 'BEGIN { print 0.04 / k }') kick/2 drift | pp | push kick/2" < a | pp --potential --replace | diag > "d$k"
+	done
+	pp --potential < a | diag > d0
+	# 25 to 100 steps of 500 sums of 500 terms
+	within "$(column momentum_x < d4)" "$(column momentum_x < d0)" "$(awk -v s="$(column momentum_scale < d0)" 'BEGIN { print 1e-12 * s }')"
+	e0=$(column energy < d0)
+	err() { awk -v a="$(column energy < "$1")" -v b="$e0" 'BEGIN { d = a - b; print d < 0 ? -d : d }'; }
+	order 2 4 "$(err d1)" 2 "$(err d2)" 1 "$(err d4)"
+}
