@@ -1,0 +1,39 @@
+# Every pipeline prints its numbers, and they are what its head says. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+pipeline() {
+	run -0 bash "$top/pipelines/$1.sh"
+	[[ $output != *OFF* ]]
+	[ "$(grep -c ' ok$' <<<"$output")" = "$2" ]
+	echo "$output"
+}
+
+@test "PM-09: pm-plummer keeps momentum to 1e-12 and energy, and leaves a picture" {
+	pipeline pm-plummer 9
+	head -c 8 pm-plummer.png | xxd -p | grep -q '^89504e470d0a1a0a$'
+	[ "$(ls)" = pm-plummer.png ]
+}
+
+@test "pm-two-body: a circle on the mesh, and by direct summation with the exact lag of the leapfrog" {
+	pipeline pm-two-body 10
+	[ -z "$(ls)" ]
+}
+
+@test "PM-06: pm-cold-collapse follows cosh(t) to the crossing, and cos(k dx/2) on every mesh" {
+	pipeline pm-cold-collapse 6
+}
+
+@test "PM-10: pp-kepler ends where the same schemes end, to 1e-6" {
+	pipeline pp-kepler 10
+}
+
+@test "solar-system: periods and energy over 1000 years, by leapfrog and with one word swapped" {
+	pipeline solar-system 14
+}
+
+@test "a pipeline whose number is off says so and exits 1" {
+	sed 's/-1.889015833 1e-6/-1.889016833 1e-7/' "$top/pipelines/pp-kepler.sh" > pp-kepler.sh
+	cp "$top/pipelines/numbers.sh" .
+	PM_BIN=${PM_BIN:-$top/bin} run -1 bash pp-kepler.sh
+	[[ $output == *OFF* ]]
+}
