@@ -4,6 +4,7 @@
 # Expected (PM-06): k A = 0.0771540 at t = 1 and 0.1881098 at t = 2 on 128 cells; growth rate cos(k dx/2) on every mesh; crossing to 1 %.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
+# shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"
 export OMP_NUM_THREADS=1 # too small for threads
 dt=0.05

@@ -6,6 +6,7 @@
 # with 128^3 cells (CELLS=128, eight times the work) it hardly does. PARTICLES, STEPS, CELLS change the run; the numbers are those of the default.
 # Writes pm-plummer.png, the surface density at the end. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
+# shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"
 particles=${PARTICLES:-10000}
 steps=${STEPS:-200}

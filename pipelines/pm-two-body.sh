@@ -5,6 +5,7 @@
 # by 2 pi (w dt)^2/3 = 0.002067 (its rate is 1/24 (w dt)^2 high, its orbit 1/4 wide). The mesh force at 16 cells adds 0.02 at most.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
+# shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"
 cells=${CELLS:-64}
 steps=200

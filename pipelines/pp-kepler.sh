@@ -5,6 +5,7 @@
 # to 6e-11, the pericentre turns by -0.10773086; rk4 ends at (-1.889329315, -0.0390942154), has lost 0.347 % for good, turns by 0.00082.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
+# shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"
 export OMP_NUM_THREADS=1 # too small for threads
 orbits=10

@@ -6,6 +6,7 @@
 # Jupiter; rk4's adds up, to 3e-5 in 1000 years.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
+# shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"
 export OMP_NUM_THREADS=1 # too small for threads
 years=${YEARS:-1000}
