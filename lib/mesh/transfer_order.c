@@ -99,7 +99,10 @@ static int allocate(struct pm_order *o)
 	o->tile = pm_alloc(o->n, sizeof *o->tile);
 	o->begin = pm_alloc(columns + 1, sizeof *o->begin);
 	o->cursor = pm_alloc((size_t)(o->chunks + 1) * columns, sizeof *o->cursor);
-	o->records = pm_alloc(o->n, (size_t)o->stride * sizeof *o->records);
+	size_t doubles = o->n * (size_t)o->stride;
+	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
+	if (o->records)
+		memset(o->records + doubles, 0, 4 * sizeof *o->records);
 	return o->tile && o->begin && o->cursor && o->records ? 0 : -PM_DATA;
 }
 

@@ -7,16 +7,28 @@
 #include "mesh/transfer_tile.h"
 
 #define INLINE static inline __attribute__((always_inline))
-enum { batch = 128, lanes = PM_KERNEL_WIDTH };
+enum { lanes = PM_KERNEL_WIDTH };
 
-/* Particles of one batch: place of the first point in the block, distances from the base point. */
-struct batch {
-	int32_t base[batch];
-	double t[3][batch];
-};
+/* Vectors of the compiler (gcc, clang), at any address. Only pointers to doubles go through functions. */
+typedef double vec2 __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int32_t int4 __attribute__((vector_size(16), aligned(4), may_alias));
 
 /* Vector length for a width. */
 INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
+
+/* y = a * x, y += a * x, y = y * a + x, for n lanes. */
+#define LANES(n, y, x, statement) \
+	switch (n) { \
+	case 2: { typedef vec2 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 4: { typedef vec4 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 8: { typedef vec8 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	default: { double *v = (y); const double *u = (x); statement; } \
+	}
+INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
+INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
+INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
 
 /* coefficients[power][lane], lanes beyond the width are 0. */
 INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
@@ -30,52 +42,51 @@ INLINE void find_weights(int width, int degree, const double *coefficients, doub
 {
 	const int n = padded(width);
 	const bool fold = pm_kernel_folds(width, degree, t);
-	double s = fold ? 1 - t : t, v[lanes];
-	for (int i = 0; i < n; i++)
-		v[i] = coefficients[degree * n + i];
+	double v[lanes];
+	row_set(n, 1, coefficients + degree * n, v);
 	for (int power = degree - 1; power >= 0; power--)
-		for (int i = 0; i < n; i++)
-			v[i] = v[i] * s + coefficients[power * n + i];
-	for (int i = 0; i < n; i++)
-		w[i] = fold && i < width ? v[width - 1 - i] : v[i];
+		row_horner(n, fold ? 1 - t : t, coefficients + power * n, v);
+	row_set(n, 1, v, w);
+	if (fold)
+		for (int i = 0; i < width; i++)
+			w[i] = v[width - 1 - i];
 }
 
-INLINE void find_places(int dim, const struct pm_tile *t, const double *records, size_t m, struct batch *b)
+/* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
+INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record, double w[3][lanes])
 {
-	const int step[3] = {1, pm_block_row[dim], pm_block_row[dim] * pm_block_rows[dim]};
-	for (int d = 0; d < dim; d++)
-		for (size_t i = 0; i < m; i++) {
-			double u = records[i * (size_t)t->stride + (size_t)d];
-			int32_t cell = (int32_t)u; /* u >= 0: floor */
-			int32_t place = (cell - (int32_t)t->cell[d]) * step[d];
-			b->t[d][i] = u - cell - t->shift;
-			b->base[i] = d ? b->base[i] + place : place;
-		}
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	double distance[4];
+	int32_t cell[4];
+	vec4 u = *(const vec4 *)record; /* lanes from dim on hold something else */
+	int4 floor_u = __builtin_convertvector(u, int4); /* u >= 0 */
+	*(int4 *)cell = floor_u;
+	*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4) - t->shift;
+	for (int d = 0; d < 3; d++)
+		if (d < dim)
+			find_weights(width, degree, coefficients, distance[d], w[d]);
+		else
+			w[d][0] = 1;
+	size_t place = (size_t)cell[0] - t->cell[0];
+	if (dim > 1)
+		place += ((size_t)cell[1] - t->cell[1]) * (size_t)row;
+	if (dim > 2)
+		place += ((size_t)cell[2] - t->cell[2]) * (size_t)plane;
+	return place;
 }
 
 INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
-	struct batch b;
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes];
 	pad_coefficients(t->kernel, width, degree, coefficients);
-	for (size_t from = 0; from < t->count; from += batch) {
-		size_t m = t->count - from < batch ? t->count - from : batch;
-		const double *records = t->records + from * (size_t)t->stride;
-		find_places(dim, t, records, m, &b);
-		for (size_t i = 0; i < m; i++) {
-			double wx[lanes], wy[lanes] = {1}, wz[lanes] = {1}, *block = t->block + b.base[i], q = records[i * (size_t)t->stride + (size_t)t->value];
-			find_weights(width, degree, coefficients, b.t[0][i], wx);
-			if (dim > 1)
-				find_weights(width, degree, coefficients, b.t[1][i], wy);
-			if (dim > 2)
-				find_weights(width, degree, coefficients, b.t[2][i], wz);
-			for (int z = 0; z < (dim > 2 ? width : 1); z++)
-				for (int y = 0; y < (dim > 1 ? width : 1); y++) {
-					double f = q * wz[z] * wy[y], *points = block + z * plane + y * row;
-					for (int x = 0; x < n; x++)
-						points[x] += f * wx[x];
-				}
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		double *block = t->block + find_support(dim, width, degree, t, coefficients, record, w), q = record[t->value];
+		for (int z = 0; z < (dim > 2 ? width : 1); z++) {
+			row_set(dim > 1 ? n : 1, q * w[2][z], w[1], f);
+			for (int y = 0; y < (dim > 1 ? width : 1); y++)
+				row_add(n, f[y], w[0], block + z * plane + y * row);
 		}
 	}
 }
@@ -83,34 +94,25 @@ INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
-	struct batch b;
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes][lanes], sum[lanes];
 	pad_coefficients(t->kernel, width, degree, coefficients);
-	for (size_t from = 0; from < t->count; from += batch) {
-		size_t m = t->count - from < batch ? t->count - from : batch;
-		double *records = t->records + from * (size_t)t->stride;
-		find_places(dim, t, records, m, &b);
-		for (size_t i = 0; i < m; i++) {
-			double wx[lanes], wy[lanes] = {1}, wz[lanes] = {1};
-			find_weights(width, degree, coefficients, b.t[0][i], wx);
-			if (dim > 1)
-				find_weights(width, degree, coefficients, b.t[1][i], wy);
-			if (dim > 2)
-				find_weights(width, degree, coefficients, b.t[2][i], wz);
-			for (int c = 0; c < t->components; c++) {
-				const double *block = t->block + (size_t)c * PM_BLOCK_MOST + b.base[i];
-				double sum[lanes] = {0}, total = 0;
-				for (int z = 0; z < (dim > 2 ? width : 1); z++)
-					for (int y = 0; y < (dim > 1 ? width : 1); y++) {
-						double f = wz[z] * wy[y];
-						const double *points = block + z * plane + y * row;
-						for (int x = 0; x < n; x++)
-							sum[x] += f * points[x];
-					}
-				for (int x = 0; x < n; x++)
-					total += sum[x] * wx[x];
-				records[i * (size_t)t->stride + (size_t)c] = total;
-			}
+	for (size_t i = 0; i < t->count; i++) {
+		double *record = t->records + i * (size_t)t->stride;
+		size_t place = find_support(dim, width, degree, t, coefficients, record, w);
+		for (int z = 0; z < (dim > 2 ? width : 1); z++)
+			row_set(dim > 1 ? n : 1, w[2][z], w[1], f[z]);
+		for (int c = 0; c < t->components; c++) {
+			const double *block = t->block + (size_t)c * PM_BLOCK_MOST + place;
+			double total = 0;
+			for (int z = 0; z < (dim > 2 ? width : 1); z++)
+				for (int y = 0; y < (dim > 1 ? width : 1); y++)
+					if (z + y == 0)
+						row_set(n, f[z][y], block, sum);
+					else
+						row_add(n, f[z][y], block + z * plane + y * row, sum);
+			for (int x = 0; x < n; x++)
+				total += sum[x] * w[0][x];
+			record[c] = total;
 		}
 	}
 }
