@@ -82,37 +82,36 @@ static struct mg_parents parents(const struct mg_map *map, int way, size_t i)
 	return p;
 }
 
-void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *t)
+void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
 {
 	const struct mg_axis *x = &fine->axis[0], *y = &fine->axis[1];
 	struct mg_parents pz = parents(&fine->map[2], 0, k);
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents(&fine->map[1], 0, j);
 		double *u = fine->u + k * fine->plane + j * fine->stride;
-		mg_gather(coarse, &py, &pz, t);
+		const double *t = mg_gather(coarse, &py, &pz, w);
 		for (size_t i = x->first; i < x->end; i++) {
 			const size_t *four = fine->map[0].four[0] + mg_cubic * i;
 			const double *c = fine->map[0].cubic[0] + mg_cubic * i;
-			u[i] = (c[0] * t[four[0]] + c[1] * t[four[1]]) + (c[2] * t[four[2]] + c[3] * t[four[3]]);
+			u[mg_slot(fine, i)] = (c[0] * t[four[0]] + c[1] * t[four[1]]) + (c[2] * t[four[2]] + c[3] * t[four[3]]);
 		}
 	}
 }
 
 /* A row of f onto the nodes of a coarse row. */
-static void collect(const struct mg_level *fine, size_t points, const double *f, double *c)
+static void collect(const struct mg_level *fine, const struct mg_level *coarse, const double *f, double *c)
 {
 	const struct mg_axis *x = &fine->axis[0];
-	memset(c, 0, points * sizeof *c);
+	memset(c, 0, coarse->stride * sizeof *c);
 	for (size_t i = x->first; i < x->end; i++)
 		for (size_t m = mg_cubic * i; m < mg_cubic * (i + 1); m++)
-			c[fine->map[0].four[1][m]] += fine->map[0].cubic[1][m] * f[i];
+			c[mg_slot(coarse, fine->map[0].four[1][m])] += fine->map[0].cubic[1][m] * f[mg_slot(fine, i)];
 }
 
 /* Coarse planes range[0] <= K < range[1], each summed in the order of the fine rows. */
 static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], double *c)
 {
 	const struct mg_axis *y = &fine->axis[1], *z = &fine->axis[2];
-	size_t n = coarse->axis[0].points;
 	memset(coarse->f + range[0] * coarse->plane, 0, (range[1] - range[0]) * coarse->plane * sizeof(double));
 	for (size_t k = z->first; k < z->end; k++) {
 		struct mg_parents pz = parents(&fine->map[2], 1, k);
@@ -121,10 +120,10 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 			any |= pz.node[a] >= range[0] && pz.node[a] < range[1];
 		for (size_t j = y->first; any && j < y->end; j++) {
 			struct mg_parents py = parents(&fine->map[1], 1, j);
-			collect(fine, n, fine->f + k * fine->plane + j * fine->stride, c);
+			collect(fine, coarse, fine->f + k * fine->plane + j * fine->stride, c);
 			for (int a = 0; a < pz.n; a++)
 				for (int b = 0; b < py.n && pz.node[a] >= range[0] && pz.node[a] < range[1]; b++)
-					mg_add_row(n, pz.w[a] * py.w[b], c, coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
+					mg_add_row(coarse->stride, pz.w[a] * py.w[b], c, coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
 		}
 	}
 }

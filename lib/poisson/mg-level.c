@@ -91,7 +91,8 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 static bool level_alloc(struct mg_level *l)
 {
 	const struct mg_axis *x = &l->axis[0];
-	l->stride = mg_lanes * ((x->points + mg_lanes - 1) / mg_lanes + 1);
+	l->half = mg_lanes * ((x->points + 2 * mg_lanes - 1) / (2 * mg_lanes) + 1);
+	l->stride = 2 * l->half;
 	l->plane = l->stride * l->axis[1].points;
 	if (l->plane % 512 == 0 && l->axis[1].points > 1) /* planes a multiple of 4 KiB apart would share the sets of the cache */
 		l->plane += mg_lanes;
@@ -100,11 +101,11 @@ static bool level_alloc(struct mg_level *l)
 		l->fixed |= !axis_free(&l->axis[d]);
 	l->u = pm_zalloc(mg_size(l), sizeof(double));
 	l->f = pm_zalloc(mg_size(l), sizeof(double));
-	for (int m = 0; m < 3; m++)
-		if (!(l->mask[m] = pm_zalloc(l->stride, sizeof(int64_t))))
+	for (int m = 0; m < 2; m++)
+		if (!(l->mask[m] = pm_zalloc(l->half, sizeof(int64_t))))
 			return false;
 	for (size_t i = x->first; i < x->end; i++)
-		l->mask[i & 1][i] = l->mask[2][i] = -1;
+		l->mask[i & 1][i / 2] = -1;
 	return l->u && l->f;
 }
 
@@ -156,10 +157,10 @@ void mg_demolish(struct pm_mg *mg)
 {
 	for (int i = 0; i < mg_levels_most; i++) {
 		struct mg_level *l = &mg->level[i];
-		pm_free(l->u), pm_free(l->f);
+		pm_free(l->u), pm_free(l->f), pm_free(l->mask[0]), pm_free(l->mask[1]);
 		for (int d = 0; d < 3; d++) {
 			struct mg_map *m = &l->map[d];
-			pm_free(l->mask[d]), pm_free(m->parent);
+			pm_free(m->parent);
 			for (int p = 0; p < 2; p++)
 				pm_free(m->w[p]), pm_free(m->a[p]), pm_free(m->four[p]), pm_free(m->cubic[p]);
 		}

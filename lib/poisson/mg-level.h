@@ -1,6 +1,8 @@
 /* The grids of a multigrid hierarchy and what is done on them; private to lib/poisson/mg*.c.
  * Axes are those of memory: axis 0 is x; a 2-D mesh has its y as axis 2, so that axis 2 always counts what threads share out ("planes").
- * Rows are padded: mg_lanes values at a time, one spare vector at the end. SPDX-License-Identifier: GPL-3.0-or-later */
+ * A row holds its even nodes first, then its odd ones (mg_slot): the nodes of one colour are one half of a row, all their neighbours along x are the other
+ * half of it, and their neighbours along y and z lie at the same place of the same half of other rows. Each half is padded to whole vectors of
+ * mg_lanes values and one more. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MG_LEVEL_H
 #define PM_POISSON_MG_LEVEL_H
 
@@ -28,11 +30,11 @@ struct mg_map {
 struct mg_level {
 	int dim;               /* 1: x; 2: x and planes; 3: all */
 	struct mg_axis axis[3];
-	size_t stride, plane;  /* of a row, of a plane */
+	size_t half, stride, plane; /* of half a row, of a row, of a plane */
 	double diagonal;       /* 2 (wx + wy + wz) */
 	bool fixed;            /* at least one wall: not singular */
 	double *u, *f;
-	int64_t *mask[3];      /* per row: unknowns of even x, of odd x, all of them; 0 or -1 */
+	int64_t *mask[2];      /* per half: -1 for an unknown, else 0 */
 	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
 };
 
@@ -42,7 +44,7 @@ struct pm_mg {
 	struct pm_grid grid;
 	int levels, threads;
 	struct mg_level level[mg_levels_most];
-	double *scratch;       /* per thread: a residual row, a coarse row */
+	double *scratch;       /* per thread: four rows */
 	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
 	double *sums;          /* per plane of the finest grid */
 };
@@ -50,6 +52,8 @@ struct pm_mg {
 /* What a sweep does with a plane, in this order. */
 enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK };
 enum { mg_stages_most = 2 * 64 + 1 };
+
+static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
 /* mg-level.c */
 bool mg_build(struct pm_mg *mg, const struct pm_grid *g);
@@ -68,7 +72,7 @@ static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].point
 /* mg-relax.c */
 void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
-double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* r[-1] ... r[points]; returns the sum of squares */
+double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
 
 /* mg-transfer.c */
 struct mg_parents { /* of one node along one axis, without those of weight 0 */
@@ -77,7 +81,8 @@ struct mg_parents { /* of one node along one axis, without those of weight 0 */
 	double w[mg_cubic];
 };
 void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x */
-void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t); /* a combination of coarse rows, closed behind its end */
+/* A combination of coarse rows: as a row in w, and from node to node, closed behind its end, behind it (which is returned). */
+double *mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *w);
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
 double mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
 

@@ -1,9 +1,9 @@
 /* Red-black Gauss-Seidel and the residual, row by row, for the 3-, 5- and 7-point Laplacian.
  *   u += (omega/D) (lap u - f) on the nodes of one colour, D = 2 (1/hx^2 + 1/hy^2 + 1/hz^2); r = f - lap u
- * (Trottenberg, Oosterlee, Schueller 2001, section 2.1.2). Colours are the parity of i+j+k; a whole row is computed and the other colour masked out, with the
- * x neighbours taken from registers, so nothing just stored is loaded again. Where an odd number of nodes is periodic, two nodes of one
- * colour meet: along x each sees the old value of the other, along y and z the order of the sweep decides, always the same.
- * Cost: 14 operations per node and colour. SPDX-License-Identifier: GPL-3.0-or-later */
+ * (Trottenberg, Oosterlee, Schueller 2001, section 2.1.2). Colours are the parity of i+j+k, so the nodes of one colour are the even or the odd half of
+ * each row (mg-level.h) and nothing is computed in vain. Where an odd number of nodes is periodic, two nodes of one colour meet: along x each sees
+ * the old value of the other, along y and z the order of the sweep decides, always the same.
+ * Cost: 13 operations per node and sweep. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/mg-level.h"
 
 typedef double vec __attribute__((vector_size(8 * mg_lanes), may_alias));
@@ -30,36 +30,46 @@ static struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
 }
 
 /* The neighbours of the ends of a row: the right one is put behind the row, the left one is returned. */
-static inline double close_row(const struct mg_axis *x, double *u)
+static inline double close_row(const struct mg_level *l, double *u)
 {
-	u[x->points] = u[mg_above(x, x->points - 1)];
-	return u[mg_below(x, 0)];
+	const struct mg_axis *x = &l->axis[0];
+	u[mg_slot(l, x->points)] = u[mg_slot(l, mg_above(x, x->points - 1))];
+	return u[mg_slot(l, mg_below(x, 0))];
 }
 
-#define LAPLACIAN(result, here, before, after, i) \
+/* lap u of nodes i ... i+mg_lanes-1 of the half at offset at; sides is the sum of their neighbours along x. */
+#define LAPLACIAN(result, here, sides, at, i) \
 	do { \
-		result = wx * (SHIFT_UP(before, here) + SHIFT_DOWN(here, after)); \
+		result = wx * (sides); \
 		if (dim == 3) \
-			result += wy * (CAT(a.south + (i)) + CAT(a.north + (i))); \
+			result += wy * (CAT(a.south + (at) + (i)) + CAT(a.north + (at) + (i))); \
 		if (dim >= 2) \
-			result += wz * (CAT(a.back + (i)) + CAT(a.front + (i))); \
-		result -= l->diagonal * (here); \
+			result += wz * (CAT(a.back + (at) + (i)) + CAT(a.front + (at) + (i))); \
+		result -= diagonal * (here); \
 	} while (0)
 
-static inline __attribute__((always_inline)) void relax_row(const int dim, const struct mg_level *l, double factor, struct rows a, const int64_t *mask)
+/* Relaxes the even (odd = 0) or the odd half of a row. */
+static inline __attribute__((always_inline)) void relax_row(const int dim, const struct mg_level *l, double factor, struct rows a, const int odd)
 {
-	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w;
-	vec before = {0}, here, after, lap;
-	before += close_row(&l->axis[0], a.u);
-	here = CAT(a.u);
-	for (size_t i = 0; i < l->axis[0].points; i += mg_lanes) {
-		after = CAT(a.u + i + mg_lanes);
-		LAPLACIAN(lap, here, before, after, i);
-		vec change = factor * (lap - CAT(a.f + i));
-		change = (vec)((vmask)change & *(const vmask *)(mask + i));
-		AT(a.u + i) = here + change;
-		before = here;
-		here = after;
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
+	const int64_t *mask = l->mask[odd];
+	double *other = a.u + l->half - at;
+	vec last = {0}, next, here, lap, sides, change;
+	last += close_row(l, a.u);
+	if (odd)
+		last = CAT(other);
+	for (size_t i = 0; i < n; i += mg_lanes) {
+		next = CAT(other + i + (odd ? mg_lanes : 0));
+		here = CAT(a.u + at + i);
+		if (odd)
+			sides = last + SHIFT_DOWN(last, next);
+		else
+			sides = SHIFT_UP(last, next) + next;
+		LAPLACIAN(lap, here, sides, at, i);
+		change = factor * (lap - CAT(a.f + at + i));
+		AT(a.u + at + i) = here + (vec)((vmask)change & *(const vmask *)(mask + i));
+		last = next;
 	}
 }
 
@@ -70,17 +80,18 @@ void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, siz
 	double factor = relaxation / l->diagonal;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct rows a = rows_at(l, j, k);
-		double left = close_row(x, a.u);
+		double left = close_row(l, a.u);
 		for (size_t i = x->first; i < x->end; i++) {
+			size_t at = mg_slot(l, i);
 			if (((i + j + k) & 1) != (size_t)colour)
 				continue;
-			double lap = x->w * ((i ? a.u[i - 1] : left) + a.u[i + 1]);
+			double lap = x->w * ((i ? a.u[mg_slot(l, i - 1)] : left) + a.u[mg_slot(l, i + 1)]);
 			if (l->dim == 3)
-				lap += y->w * (a.south[i] + a.north[i]);
+				lap += y->w * (a.south[at] + a.north[at]);
 			if (l->dim >= 2)
-				lap += l->axis[2].w * (a.back[i] + a.front[i]);
-			lap -= l->diagonal * a.u[i];
-			a.u[i] = a.u[i] + factor * (lap - a.f[i]);
+				lap += l->axis[2].w * (a.back[at] + a.front[at]);
+			lap -= l->diagonal * a.u[at];
+			a.u[at] = a.u[at] + factor * (lap - a.f[at]);
 		}
 	}
 }
@@ -89,7 +100,10 @@ static inline __attribute__((always_inline)) void relax_plane(const int dim, con
 {
 	const struct mg_axis *y = &l->axis[1];
 	for (size_t j = y->first; j < y->end; j++)
-		relax_row(dim, l, factor, rows_at(l, j, k), l->mask[(j + k + (size_t)colour) & 1]);
+		if ((j + k + (size_t)colour) & 1)
+			relax_row(dim, l, factor, rows_at(l, j, k), 1);
+		else
+			relax_row(dim, l, factor, rows_at(l, j, k), 0);
 }
 
 void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k)
@@ -105,29 +119,32 @@ void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, siz
 
 static inline __attribute__((always_inline)) double residual_row(const int dim, const struct mg_level *l, struct rows a, double *restrict r)
 {
-	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w;
-	vec before = {0}, here, after, lap, sum = {0};
-	before += close_row(&l->axis[0], a.u);
-	here = CAT(a.u);
-	for (size_t i = 0; i < l->axis[0].points; i += mg_lanes) {
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t half = l->half;
+	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
+	vec before = {0}, even, odd, after, lap, v, w, sum = {0};
+	before += close_row(l, a.u);
+	even = CAT(a.u);
+	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
+		odd = CAT(a.u + half + i);
 		after = CAT(a.u + i + mg_lanes);
-		LAPLACIAN(lap, here, before, after, i);
-		vec v = CAT(a.f + i) - lap;
-		v = (vec)((vmask)v & *(const vmask *)(l->mask[2] + i));
-		sum += v * v;
+		LAPLACIAN(lap, even, SHIFT_UP(before, odd) + odd, 0, i);
+		v = (vec)((vmask)(CAT(a.f + i) - lap) & *(const vmask *)(mask[0] + i));
+		LAPLACIAN(lap, odd, even + SHIFT_DOWN(even, after), half, i);
+		w = (vec)((vmask)(CAT(a.f + half + i) - lap) & *(const vmask *)(mask[1] + i));
+		sum += v * v + w * w;
 		AT(r + i) = v;
-		before = here;
-		here = after;
+		AT(r + half + i) = w;
+		before = odd;
+		even = after;
 	}
 	return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
 }
 
 double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
 {
-	const struct mg_axis *x = &l->axis[0];
 	struct rows a = rows_at(l, j, k);
 	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);
-	r[-1] = r[mg_below(x, 0)];
-	r[x->points] = r[mg_above(x, x->points - 1)];
+	close_row(l, r);
 	return sum;
 }

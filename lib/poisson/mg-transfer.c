@@ -33,39 +33,56 @@ void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y
 		y[i] += w * x[i];
 }
 
-/* The coarse rows combined along y and z into t, closed behind its end. */
-void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
+/* Node after node from a row, and back. */
+static void unfold_row(const struct mg_level *l, const double *restrict row, double *restrict t)
 {
-	size_t n = c->axis[0].points;
-	memset(t, 0, c->stride * sizeof *t);
-	for (int a = 0; a < z->n; a++)
-		for (int b = 0; b < y->n; b++)
-			mg_add_row(n, z->w[a] * y->w[b], c->u + z->node[a] * c->plane + y->node[b] * c->stride, t);
-	t[n] = c->axis[0].periodic ? t[0] : 0;
+	for (size_t i = 0; i < l->half; i += mg_lanes) {
+		vec even = CAT(row + i), odd = CAT(row + l->half + i);
+		AT(t + 2 * i) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+		AT(t + 2 * i + mg_lanes) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+	}
 }
-
-/* u[2i] += t[i], u[2i+1] += (t[i] + t[i+1])/2, with values behind the end that nobody reads. */
-static void spread_half(size_t points, const double *restrict t, double *restrict u)
+static void fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
 {
-	for (size_t i = 0, c = 0; i < points; i += 2 * mg_lanes, c += mg_lanes) {
-		vec a = CAT(t + c), b = CAT(t + c + mg_lanes);
-		vec m = 0.5 * (a + __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8));
-		AT(u + i) += __builtin_shufflevector(a, m, 0, 8, 1, 9, 2, 10, 3, 11);
-		AT(u + i + mg_lanes) += __builtin_shufflevector(a, m, 4, 12, 5, 13, 6, 14, 7, 15);
+	for (size_t i = 0; i < l->half; i += mg_lanes) {
+		vec a = CAT(t + 2 * i), b = CAT(t + 2 * i + mg_lanes);
+		AT(row + i) = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+		AT(row + l->half + i) = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
 	}
 }
 
-static void spread_row(const struct mg_level *fine, const double *t, double *u)
+double *mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *w)
+{
+	double *t = w + c->stride;
+	memset(w, 0, c->stride * sizeof *w);
+	for (int a = 0; a < z->n; a++)
+		for (int b = 0; b < y->n; b++)
+			mg_add_row(c->stride, z->w[a] * y->w[b], c->u + z->node[a] * c->plane + y->node[b] * c->stride, w);
+	unfold_row(c, w, t);
+	t[c->axis[0].points] = c->axis[0].periodic ? t[0] : 0;
+	return t;
+}
+
+/* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, with values behind the end that nobody reads. */
+static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
+{
+	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
+		vec a = CAT(t + i), b = CAT(t + i + mg_lanes);
+		AT(u + i) += a;
+		AT(u + fine->half + i) += 0.5 * (a + __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8));
+	}
+}
+
+static void spread_row(const struct mg_level *fine, const double *row, const double *t, double *u)
 {
 	const struct mg_map *x = &fine->map[0];
-	size_t n = fine->axis[0].points;
 	if (x->same)
-		mg_add_row(n, 1, t, u);
+		mg_add_row(fine->stride, 1, row, u);
 	else if (x->half)
-		spread_half(n, t, u);
+		spread_half(fine, t, u);
 	else
-		for (size_t i = 0; i < n; i++)
-			u[i] += x->w[0][i] * t[x->parent[i]] + x->w[1][i] * t[x->parent[i] + 1];
+		for (size_t i = 0; i < fine->axis[0].points; i++)
+			u[mg_slot(fine, i)] += x->w[0][i] * t[x->parent[i]] + x->w[1][i] * t[x->parent[i] + 1];
 }
 
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
@@ -74,37 +91,37 @@ void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse
 	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
-		mg_gather(coarse, &py, &pz, w);
-		spread_row(fine, w, fine->u + k * fine->plane + j * fine->stride);
+		const double *t = mg_gather(coarse, &py, &pz, w);
+		spread_row(fine, w, t, fine->u + k * fine->plane + j * fine->stride);
 	}
 }
 
-/* c[i] = (r[2i-1] + r[2i+1])/4 + r[2i]/2 */
-static void collect_half(size_t points, const double *restrict r, double *restrict c)
+/* c_i = (r_2i-1 + r_2i+1)/4 + r_2i/2, node after node */
+static void collect_half(const struct mg_level *fine, const double *restrict r, double *restrict c)
 {
 	vec before = {0};
-	before += r[-1];
-	for (size_t i = 0, m = 0; i < points; i += 2 * mg_lanes, m += mg_lanes) {
-		vec a = CAT(r + i), b = CAT(r + i + mg_lanes);
-		vec even = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14), odd = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-		AT(c + m) = 0.25 * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + 0.5 * even;
+	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
+	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
+		vec odd = CAT(r + fine->half + i);
+		AT(c + i) = 0.25 * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + 0.5 * CAT(r + i);
 		before = odd;
 	}
 }
 
-static void collect_row(const struct mg_level *fine, const struct mg_axis *x, const double *r, double *c)
+/* A fine row r onto a coarse row c; w: room for one. */
+static void collect_row(const struct mg_level *fine, const struct mg_level *coarse, const double *r, double *c, double *w)
 {
 	const struct mg_map *map = &fine->map[0];
-	size_t n = fine->axis[0].points;
 	if (map->same) {
-		memcpy(c, r, n * sizeof *c);
+		memcpy(c, r, fine->stride * sizeof *c);
 	} else if (map->half) {
-		collect_half(n, r, c);
+		collect_half(fine, r, w);
+		fold_row(coarse, w, c);
 	} else {
-		memset(c, 0, x->points * sizeof *c);
-		for (size_t i = 0; i < n; i++)
+		memset(c, 0, coarse->stride * sizeof *c);
+		for (size_t i = 0; i < fine->axis[0].points; i++)
 			for (int m = 0; m < 2; m++)
-				c[fold(map->parent[i] + m, x->points)] += map->a[m][i] * r[i];
+				c[mg_slot(coarse, fold(map->parent[i] + m, coarse->axis[0].points))] += map->a[m][i] * r[mg_slot(fine, i)];
 	}
 }
 
@@ -115,10 +132,10 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
 	size_t here = fold(k, fine->axis[2].points);
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
-	double *r = w + mg_lanes, *c = r + fine->stride + mg_lanes, sum = 0;
+	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0;
 	for (size_t j = y->first; j < y->end; j++) {
 		sum += mg_residual_row(fine, j, here, r);
-		collect_row(fine, &coarse->axis[0], r, c);
+		collect_row(fine, coarse, r, c, t);
 		for (int a = 0; a < 2; a++) {
 			ptrdiff_t up = mz->parent[here] + a - shift;
 			if (mz->a[a][here] == 0 || up < (ptrdiff_t)range[0] || up >= (ptrdiff_t)range[1])
@@ -126,7 +143,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			for (int b = 0; b < 2; b++) {
 				size_t over = fold(my->parent[j] + b, cy->points);
 				if (my->a[b][j] != 0)
-					mg_add_row(coarse->axis[0].points, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+					mg_add_row(coarse->stride, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
 		}
 	}

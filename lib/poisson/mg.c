@@ -46,72 +46,73 @@ struct pm_mg *pm_mg_free(struct pm_mg *mg)
 
 int pm_mg_levels(const struct pm_mg *mg) { return mg->levels; }
 
-/* Sum over the planes of the finest grid of what `row` makes of each row; rows and planes are added in order. */
-typedef double row_sum(const struct mg_level *l, size_t j, size_t k, const double *values);
+static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (i == 0 || i + 1 == a->points) ? 0.5 : 1; }
 
-static double sum_planes(struct pm_mg *mg, row_sum *row, const double *values)
+/* With the weights of quadrature; rows and planes are added in order. */
+static double mean(struct pm_mg *mg, const double *values)
 {
-	const struct mg_level *l = &mg->level[0];
-	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
+	const struct mg_axis *x = &mg->level[0].axis[0], *y = x + 1, *z = x + 2;
 	struct pm_sum total = {0};
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(&mg->level[0]) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++) {
 		struct pm_sum plane = {0};
-		for (size_t j = 0; j < y->points; j++)
-			pm_sum_add(&plane, row(l, j, k, values ? values + (k * y->points + j) * x->points : l->u + k * l->plane + j * l->stride));
-		mg->sums[k] = pm_sum_total(plane);
+		for (size_t j = 0; j < y->points; j++) {
+			const double *v = values + (k * y->points + j) * x->points;
+			double sum = x->periodic ? 0 : -0.5 * (v[0] + v[x->points - 1]);
+			for (size_t i = 0; i < x->points; i++)
+				sum += v[i];
+			pm_sum_add(&plane, half(y, j) * sum);
+		}
+		mg->sums[k] = half(z, k) * pm_sum_total(plane);
 	}
 	for (size_t k = 0; k < z->points; k++)
 		pm_sum_add(&total, mg->sums[k]);
-	return pm_sum_total(total);
+	return pm_sum_total(total) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }
 
-static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (i == 0 || i + 1 == a->points) ? 0.5 : 1; }
-
-static double row_mean(const struct mg_level *l, size_t j, size_t k, const double *v) /* with the weights of quadrature */
+/* Sum of squares over the unknowns of u or f. */
+static double squares(struct pm_mg *mg, const double *values)
 {
-	const struct mg_axis *x = &l->axis[0];
-	double sum = 0;
-	for (size_t i = 0; i < x->points; i++)
-		sum += half(x, i) * v[i];
-	return sum * half(&l->axis[1], j) * half(&l->axis[2], k);
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
+	double total = 0;
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
+	for (size_t k = z->first; k < z->end; k++) {
+		mg->sums[k] = 0;
+		for (size_t j = y->first; j < y->end; j++)
+			for (int odd = 0; odd < 2; odd++) {
+				const double *v = values + k * l->plane + j * l->stride + (size_t)odd * l->half;
+				double sum = 0;
+				for (size_t i = 0; i < l->half; i++)
+					sum += l->mask[odd][i] ? v[i] * v[i] : 0;
+				mg->sums[k] += sum;
+			}
+	}
+	for (size_t k = z->first; k < z->end; k++)
+		total += mg->sums[k];
+	return total;
 }
 
-static double row_squares(const struct mg_level *l, size_t j, size_t k, const double *v)
-{
-	double sum = 0;
-	(void)j, (void)k;
-	for (size_t i = 0; i < l->axis[0].points; i++)
-		sum += v[i] * v[i];
-	return sum;
-}
-
-static double mean(struct pm_mg *mg, const double *values)
-{
-	double cells = 1;
-	for (int d = 0; d < 3; d++)
-		cells *= (double)mg->level[0].axis[d].cells;
-	return sum_planes(mg, row_mean, values) / cells;
-}
-
-/* f = c (s - mean) on the unknowns, 0 elsewhere; u = 0. */
+/* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
 static void load(struct pm_mg *mg, double c, double average, const double *s, const double *u)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
 	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++)
-		for (size_t j = 0; j < y->points; j++) {
-			bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
-			size_t from = (k * y->points + j) * x->points, to = k * l->plane + j * l->stride;
-			for (size_t i = 0; i < x->points; i++) {
-				bool unknown = inside && l->mask[2][i];
-				l->f[to + i] = unknown ? c * (s[from + i] - average) : 0;
-				l->u[to + i] = unknown && u ? u[from + i] : 0;
+		for (size_t j = 0; j < y->points; j++)
+			for (size_t odd = 0; odd < 2; odd++) {
+				bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
+				size_t from = (k * y->points + j) * x->points + odd, to = k * l->plane + j * l->stride + odd * l->half;
+				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++) {
+					bool unknown = inside && l->mask[odd][i];
+					l->f[to + i] = unknown ? c * (s[from + 2 * i] - average) : 0;
+					l->u[to + i] = unknown && u ? u[from + 2 * i] : 0;
+				}
 			}
-		}
 }
 
+/* phi = factor u - average */
 static void store(const struct pm_mg *mg, double factor, double average, double *phi)
 {
 	const struct mg_level *l = &mg->level[0];
@@ -119,8 +120,20 @@ static void store(const struct pm_mg *mg, double factor, double average, double 
 	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < l->axis[2].points; k++)
 		for (size_t j = 0; j < y->points; j++)
-			for (size_t i = 0; i < x->points; i++)
-				phi[(k * y->points + j) * x->points + i] = factor * (l->u[k * l->plane + j * l->stride + i] - average);
+			for (size_t odd = 0; odd < 2; odd++)
+				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++)
+					phi[(k * y->points + j) * x->points + 2 * i + odd] = factor * l->u[k * l->plane + j * l->stride + odd * l->half + i] - average;
+}
+
+/* The largest |c (s - average)|. */
+static double largest(size_t n, double c, double average, const double *s)
+{
+	double most = 0;
+	for (size_t i = 0; i < n; i++) {
+		double v = fabs(c * (s[i] - average));
+		most = v > most ? v : most;
+	}
+	return most;
 }
 
 void pm_mg_start(struct pm_mg *mg, const double *f, const double *u) { load(mg, 1, 0, f, u); }
@@ -147,11 +160,11 @@ double pm_mg_residual(const struct pm_mg *mg)
 
 void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
 
-/* Is a sum of squares of the residual what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to half a unit. */
-static bool at_roundoff(struct pm_mg *mg, double squares, double source)
+/* Is the residual (root of the sum of squares, as the source) what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to half a unit. */
+static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 {
-	double terms = mg->level[0].diagonal * sqrt(sum_planes(mg, row_squares, NULL)) + source;
-	return sqrt(squares) <= 2 * DBL_EPSILON * terms;
+	double terms = mg->level[0].diagonal * sqrt(squares(mg, mg->level[0].u)) + source;
+	return residual <= 2 * DBL_EPSILON * terms;
 }
 
 static int not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o)
@@ -169,11 +182,11 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 {
 	int least = o->cycle == PM_MG_FMG; /* full multigrid includes a cycle on the finest grid */
 	for (;; r->cycles++) {
-		double squares = mg_cycle_down(mg, 0, o, false), now = sqrt(squares) / source;
+		double residual = sqrt(mg_cycle_down(mg, 0, o, false)), now = residual / source;
 		r->history[r->n++] = r->after = now;
 		r->converged = now <= o->tolerance && r->cycles >= least;
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
-		if (!r->converged && slow && at_roundoff(mg, squares, source))
+		if (!r->converged && slow && at_roundoff(mg, residual, source))
 			r->converged = r->floor = true;
 		if (r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
 			break;
@@ -188,25 +201,21 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
 	struct mg_level *l = &mg->level[0];
-	size_t n = l->axis[0].points * l->axis[1].points * l->axis[2].points;
-	double most = 0;
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
-	for (size_t i = 0; i < n; i++)
-		most = fmax(most, fabs(c * (s[i] - r->mean)));
+	double most = largest(pm_grid_size(&mg->grid), c, r->mean, s);
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
 	load(mg, c / unit, r->mean, s, NULL);
-	double squares = 0;
-	for (size_t k = l->axis[2].first; k < l->axis[2].end; k++)
-		for (size_t j = l->axis[1].first; j < l->axis[1].end; j++)
-			squares += row_squares(l, j, k, l->f + k * l->plane + j * l->stride);
-	r->converged = squares == 0 || mg->levels == 1;
-	if (squares != 0 && mg->levels == 1)
+	double source = sqrt(squares(mg, l->f));
+	r->converged = source == 0 || mg->levels == 1;
+	if (source != 0 && mg->levels == 1)
 		mg_solve_coarsest(mg);
 	if (!r->converged) {
 		if (o->cycle == PM_MG_FMG)
 			mg_start_full(mg, o);
-		iterate(mg, o, sqrt(squares), r);
+		iterate(mg, o, source, r);
 	}
-	store(mg, unit, l->fixed ? 0 : mean(mg, NULL), phi);
+	store(mg, unit, 0, phi);
+	if (r->singular)
+		store(mg, unit, mean(mg, phi), phi);
 	return r->converged ? 0 : not_converged(r, o);
 }

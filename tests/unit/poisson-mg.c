@@ -431,7 +431,8 @@ static double weighted(const struct mg_level *l, const double *a, const double *
 					const struct mg_axis *x = &l->axis[d];
 					w *= !x->periodic && (at[d] == 0 || at[d] + 1 == x->points) ? x->h / 2 : x->h;
 				}
-				sum += w * a[k * l->plane + j * l->stride + i] * b[k * l->plane + j * l->stride + i];
+				size_t p = k * l->plane + j * l->stride + mg_slot(l, i);
+				sum += w * a[p] * b[p];
 			}
 	return sum;
 }
@@ -444,7 +445,7 @@ static void fill(const struct mg_level *l, double *a, uint64_t seed)
 			for (size_t i = l->axis[0].first; i < l->axis[0].end; i++) {
 				double u[2];
 				pm_random(seed, (k * l->axis[1].points + j) * l->axis[0].points + i, 0, u);
-				a[k * l->plane + j * l->stride + i] = u[0] - 0.5;
+				a[k * l->plane + j * l->stride + mg_slot(l, i)] = u[0] - 0.5;
 			}
 }
 
