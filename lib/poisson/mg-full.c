@@ -82,26 +82,72 @@ static struct mg_parents parents(const struct mg_map *map, int way, size_t i)
 	return p;
 }
 
+/* Node i of a fine row from the coarse values t, by the table. */
+static double interpolated(const struct mg_map *map, size_t i, const double *t)
+{
+	const size_t *four = map->four[0] + mg_cubic * i;
+	const double *c = map->cubic[0] + mg_cubic * i;
+	return (c[0] * t[four[0]] + c[1] * t[four[1]]) + (c[2] * t[four[2]] + c[3] * t[four[3]]);
+}
+
+/* u_2i = t_i, u_2i+1 = (-t_i-1 + 9 t_i + 9 t_i+1 - t_i+2)/16, one-sided at the ends unless periodic. */
+static void interpolate_half(const struct mg_level *fine, const struct mg_axis *coarse, const double *restrict t, double *restrict u)
+{
+	const struct mg_axis *x = &fine->axis[0];
+	double *odd = u + fine->half;
+	size_t n = x->points / 2;
+	for (size_t i = 0; i < coarse->points; i++)
+		u[i] = t[i];
+	for (size_t i = 0; i < n; i++)
+		odd[i] = 0.0625 * (9 * (t[i] + t[i + 1]) - (t[i - 1] + t[i + 2]));
+	if (!x->periodic) {
+		odd[0] = interpolated(&fine->map[0], 1, t);
+		odd[n - 1] = interpolated(&fine->map[0], 2 * n - 1, t);
+	}
+}
+
 void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
 {
 	const struct mg_axis *x = &fine->axis[0], *y = &fine->axis[1];
 	struct mg_parents pz = parents(&fine->map[2], 0, k);
+	double *t = w + mg_lanes;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents(&fine->map[1], 0, j);
 		double *u = fine->u + k * fine->plane + j * fine->stride;
-		const double *t = mg_gather(coarse, &py, &pz, w);
-		for (size_t i = x->first; i < x->end; i++) {
-			const size_t *four = fine->map[0].four[0] + mg_cubic * i;
-			const double *c = fine->map[0].cubic[0] + mg_cubic * i;
-			u[mg_slot(fine, i)] = (c[0] * t[four[0]] + c[1] * t[four[1]]) + (c[2] * t[four[2]] + c[3] * t[four[3]]);
-		}
+		mg_gather(coarse, &py, &pz, t);
+		if (fine->map[0].half)
+			interpolate_half(fine, &coarse->axis[0], t, u);
+		else
+			for (size_t i = x->first; i < x->end; i++)
+				u[mg_slot(fine, i)] = interpolated(&fine->map[0], i, t);
 	}
 }
 
-/* A row of f onto the nodes of a coarse row. */
+/* c_i = (16 f_2i + 9 (f_2i-1 + f_2i+1) - (f_2i-3 + f_2i+3))/32, node after node; w: room for the odd half with two values more at each end. */
+static void collect_half(const struct mg_level *fine, size_t points, const double *restrict f, double *restrict c, double *restrict w)
+{
+	const struct mg_axis *x = &fine->axis[0];
+	double *odd = w + mg_lanes;
+	size_t n = x->points / 2;
+	memcpy(odd, f + fine->half, n * sizeof *odd);
+	for (ptrdiff_t o = -2; o <= 2; o++) { /* -3, -1 on the left; on the right the next two */
+		ptrdiff_t i = o < 0 ? o : (ptrdiff_t)n + o;
+		odd[i] = f[mg_slot(fine, reflect(2 * i + 1, x))];
+	}
+	for (size_t i = 0; i < points; i++)
+		c[i] = 0.03125 * (16 * f[i] + 9 * (odd[i - 1] + odd[i]) - (odd[i - 2] + odd[i + 1]));
+}
+
+/* A row of f onto a coarse row c. */
 static void collect(const struct mg_level *fine, const struct mg_level *coarse, const double *f, double *c)
 {
 	const struct mg_axis *x = &fine->axis[0];
+	double *t = c + coarse->stride, *w = t + coarse->stride;
+	if (fine->map[0].half) {
+		collect_half(fine, coarse->axis[0].points, f, t, w);
+		mg_fold_row(coarse, t, c);
+		return;
+	}
 	memset(c, 0, coarse->stride * sizeof *c);
 	for (size_t i = x->first; i < x->end; i++)
 		for (size_t m = mg_cubic * i; m < mg_cubic * (i + 1); m++)

@@ -75,7 +75,7 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 	}
 	if (!map->parent || !map->w[0] || !map->w[1] || !map->a[0] || !map->a[1])
 		return false;
-	bool flattened = f->points > 1 && f->cells == 1; /* two neumann nodes become one */
+	bool flattened = f->cells == 1 && f->points > c->points; /* two neumann nodes become one */
 	for (size_t i = 0; i < f->points; i++) {
 		size_t at = flattened ? 0 : i * c->cells, below = at / f->cells;
 		double t = (double)(at % f->cells) / (double)f->cells;

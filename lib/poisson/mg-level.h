@@ -80,9 +80,10 @@ struct mg_parents { /* of one node along one axis, without those of weight 0 */
 	size_t node[mg_cubic];
 	double w[mg_cubic];
 };
-void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x */
-/* A combination of coarse rows: as a row in w, and from node to node, closed behind its end, behind it (which is returned). */
-double *mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *w);
+void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x; n a multiple of mg_lanes */
+void mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row); /* from node after node to a row */
+/* A combination of coarse rows, node after node in t, closed at its ends if periodic: t[-1] ... t[n+1]. */
+void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
 double mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
 

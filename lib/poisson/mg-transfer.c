@@ -29,20 +29,11 @@ static struct mg_parents parents_linear(const struct mg_map *map, const struct m
 
 void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
 {
-	for (size_t i = 0; i < n; i++)
-		y[i] += w * x[i];
+	for (size_t i = 0; i < n; i += mg_lanes)
+		AT(y + i) += w * CAT(x + i);
 }
 
-/* Node after node from a row, and back. */
-static void unfold_row(const struct mg_level *l, const double *restrict row, double *restrict t)
-{
-	for (size_t i = 0; i < l->half; i += mg_lanes) {
-		vec even = CAT(row + i), odd = CAT(row + l->half + i);
-		AT(t + 2 * i) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
-		AT(t + 2 * i + mg_lanes) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
-	}
-}
-static void fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
+void mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
 {
 	for (size_t i = 0; i < l->half; i += mg_lanes) {
 		vec a = CAT(t + 2 * i), b = CAT(t + 2 * i + mg_lanes);
@@ -51,16 +42,43 @@ static void fold_row(const struct mg_level *l, const double *restrict t, double 
 	}
 }
 
-double *mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *w)
+/* n rows with weights w, from rows to node after node. */
+static inline __attribute__((always_inline)) void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
 {
-	double *t = w + c->stride;
-	memset(w, 0, c->stride * sizeof *w);
+	for (size_t i = 0; i < c->half; i += mg_lanes) {
+		vec even = w[0] * CAT(row[0] + i), odd = w[0] * CAT(row[0] + c->half + i);
+		for (int m = 1; m < n; m++) {
+			even += w[m] * CAT(row[m] + i);
+			odd += w[m] * CAT(row[m] + c->half + i);
+		}
+		AT(t + 2 * i) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+		AT(t + 2 * i + mg_lanes) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+	}
+}
+
+void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
+{
+	const double *row[mg_cubic * mg_cubic];
+	double w[mg_cubic * mg_cubic];
+	size_t points = c->axis[0].points;
+	int n = 0;
 	for (int a = 0; a < z->n; a++)
-		for (int b = 0; b < y->n; b++)
-			mg_add_row(c->stride, z->w[a] * y->w[b], c->u + z->node[a] * c->plane + y->node[b] * c->stride, w);
-	unfold_row(c, w, t);
-	t[c->axis[0].points] = c->axis[0].periodic ? t[0] : 0;
-	return t;
+		for (int b = 0; b < y->n; b++, n++) {
+			w[n] = z->w[a] * y->w[b];
+			row[n] = c->u + z->node[a] * c->plane + y->node[b] * c->stride;
+		}
+	if (n == 1)
+		combine(c, 1, row, w, t);
+	else if (n == 2)
+		combine(c, 2, row, w, t);
+	else if (n == 4)
+		combine(c, 4, row, w, t);
+	else
+		combine(c, n, row, w, t);
+	bool periodic = c->axis[0].periodic;
+	t[-1] = periodic ? t[points - 1] : 0;
+	t[points] = periodic ? t[0] : 0;
+	t[points + 1] = periodic ? t[points > 1] : 0;
 }
 
 /* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, with values behind the end that nobody reads. */
@@ -73,12 +91,10 @@ static void spread_half(const struct mg_level *fine, const double *restrict t, d
 	}
 }
 
-static void spread_row(const struct mg_level *fine, const double *row, const double *t, double *u)
+static void spread_row(const struct mg_level *fine, const double *t, double *u)
 {
 	const struct mg_map *x = &fine->map[0];
-	if (x->same)
-		mg_add_row(fine->stride, 1, row, u);
-	else if (x->half)
+	if (x->half)
 		spread_half(fine, t, u);
 	else
 		for (size_t i = 0; i < fine->axis[0].points; i++)
@@ -91,8 +107,8 @@ void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse
 	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
-		const double *t = mg_gather(coarse, &py, &pz, w);
-		spread_row(fine, w, t, fine->u + k * fine->plane + j * fine->stride);
+		mg_gather(coarse, &py, &pz, w + mg_lanes);
+		spread_row(fine, w + mg_lanes, fine->u + k * fine->plane + j * fine->stride);
 	}
 }
 
@@ -116,7 +132,7 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 		memcpy(c, r, fine->stride * sizeof *c);
 	} else if (map->half) {
 		collect_half(fine, r, w);
-		fold_row(coarse, w, c);
+		mg_fold_row(coarse, w, c);
 	} else {
 		memset(c, 0, coarse->stride * sizeof *c);
 		for (size_t i = 0; i < fine->axis[0].points; i++)
