@@ -60,9 +60,10 @@ static int run_filter(struct pm_stage *s)
 		int got = pm_read_header(r, &f), status = 0;
 		if (got < 0 || got == PM_GOT_EOF)
 			return got;
-		if (got == PM_GOT_END)
-			status = w ? pm_write_end(w) : 0;
-		else {
+		if (got == PM_GOT_END) {
+			status = w && s->tool->flush ? s->tool->flush(s, w) : 0;
+			status = w && !status ? pm_write_end(w) : status;
+		} else {
 			status = filter_frame(s, r, w, f);
 			pm_frame_free(f);
 		}

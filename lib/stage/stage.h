@@ -86,6 +86,7 @@ struct pm_tool {
 	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */
 	int (*plan)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
 	int (*frame)(struct pm_stage *s, struct pm_frame *f);  /* the data are there: compute */
+	int (*flush)(struct pm_stage *s, struct pm_writer *w); /* filters: before an end marker goes out; may write frames held back */
 	int (*end)(struct pm_stage *s);    /* the input ended well */
 	void (*free)(struct pm_stage *s);
 	int (*source)(struct pm_stage *s, struct pm_frame **f); /* sources: 1 and a frame, 0 no more */

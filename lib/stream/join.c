@@ -1,0 +1,286 @@
+/* Frames made of others. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream/join.h"
+
+/* ---- less ---- */
+
+static void fields_remove(struct pm_frame *f, const char *on, unsigned roles)
+{
+	for (size_t i = f->nfields; i-- > 0;)
+		if ((!on || !strcmp(f->fields[i]->on, on)) && roles >> f->fields[i]->role & 1)
+			pm_drops(f, f->fields[i]);
+}
+
+void pm_frame_remove(struct pm_frame *f, const char *name)
+{
+	fields_remove(f, name, ~0u);
+	for (size_t i = 0; i < f->nsets; i++)
+		if (!strcmp(f->sets[i]->name, name)) {
+			json_decref(f->sets[i]->more);
+			free(f->sets[i]);
+			memmove(f->sets + i, f->sets + i + 1, (--f->nsets - i) * sizeof *f->sets);
+			return;
+		}
+	for (size_t i = 0; i < f->nmeshes; i++)
+		if (!strcmp(f->meshes[i]->name, name)) {
+			json_decref(f->meshes[i]->more);
+			free(f->meshes[i]);
+			memmove(f->meshes + i, f->meshes + i + 1, (--f->nmeshes - i) * sizeof *f->meshes);
+			return;
+		}
+}
+
+static void compact(struct pm_field *field, const unsigned char *keep)
+{
+	size_t size = pm_field_memory(field), n = field->count;
+	for (int c = 0; c < field->components; c++) {
+		char *y = (char *)pm_field_bytes(field) + (size_t)c * n * size;
+		for (size_t i = 0, k = 0; i < n; i++)
+			if (keep[i])
+				memmove(y + k++ * size, y + i * size, size);
+	}
+}
+
+int pm_frame_select(struct pm_frame *f, struct pm_set *set, const unsigned char *keep)
+{
+	size_t left = 0;
+	for (size_t i = 0; i < set->n; i++)
+		left += keep[i] != 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, set->name) && pm_field_bytes(f->fields[i]))
+			compact(f->fields[i], keep);
+	return pm_frame_set_resize(f, set, left);
+}
+
+/* ---- more ---- */
+
+static const unsigned passing = 1u << PM_CHANGE | 1u << PM_DERIVED | 1u << PM_REGISTER;
+
+static int same_constants(const struct pm_frame *a, const struct pm_frame *b)
+{
+	const char *key;
+	json_t *value;
+	json_object_foreach(b->constants, key, value) {
+		json_t *here = json_object_get(a->constants, key);
+		if (!here)
+			json_object_set(a->constants, key, value);
+		else if (json_is_number(here) && json_is_number(value) ? json_number_value(here) != json_number_value(value) : !json_equal(here, value))
+			return pm_fail(PM_DATA, "the constant %s is %.10g in one scene and %.10g in another (smod --constant %s=...)", key, json_number_value(here),
+				json_number_value(value), key);
+	}
+	return 0;
+}
+
+static int same_physics(const struct pm_frame *a, const struct pm_frame *b)
+{
+	if (a->dim != b->dim)
+		return pm_fail(PM_DATA, "one scene has %d dimensions, another %d", a->dim, b->dim);
+	if (strcmp(a->law, b->law))
+		return pm_fail(PM_DATA, "one scene obeys the law %s, another %s (smod --law)", a->law, b->law);
+	if (a->time != b->time)
+		return pm_fail(PM_DATA, "one scene is at time %.10g, another at %.10g (smod --time)", a->time, b->time);
+	if (memcmp(a->face, b->face, sizeof a->face) || memcmp(a->pface, b->pface, sizeof a->pface))
+		return pm_fail(PM_DATA, "the scenes have different faces (smod --faces, --particle-faces)");
+	for (int d = 0; d < a->dim; d++)
+		if (a->face[d][0] == PM_PERIODIC && (a->lo[d] != b->lo[d] || a->hi[d] != b->hi[d]))
+			return pm_fail(PM_DATA, "the scenes are periodic along %c with different boxes (smod --box)", "xyz"[d]);
+	return same_constants(a, b);
+}
+
+static int at_rest(const struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nfields; i++)
+		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
+			return pm_fail(PM_DATA, "the mesh field '%s' is state, which cannot be put together (leave it out with sel --drop)", f->fields[i]->name);
+	return f->substep ? pm_fail(PM_DATA, "a scene is inside a step (substep %d), where scenes cannot be put together", f->substep) : 0;
+}
+
+void pm_frame_meshes_span(struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nmeshes; i++)
+		for (int a = 0; a < f->dim; a++) {
+			f->meshes[i]->lo[a] = f->lo[a];
+			f->meshes[i]->h[a] = (f->hi[a] - f->lo[a]) / (double)f->meshes[i]->cells[a];
+		}
+}
+
+/* The name a set gets in frame a. */
+static int set_name(const struct pm_frame *a, const struct pm_frame *b, const struct pm_set *set, const struct pm_join *join, char name[PM_NAME])
+{
+	const char *base = join->frames < (size_t)join->nnames ? join->names[join->frames] : set->name;
+	if (base != set->name && b->nsets > 1)
+		return pm_fail(PM_DATA, "the %zu sets of one scene cannot all be called '%s' (rename them with smod --rename)", b->nsets, base);
+	snprintf(name, PM_NAME, "%s", base);
+	for (int k = 2; a && !join->merge && (pm_frame_set(a, name) || pm_frame_mesh(a, name)); k++)
+		snprintf(name, PM_NAME, "%.50s-%d", base, k);
+	return 0;
+}
+
+static void next_id(const struct pm_frame *f, struct pm_join *join)
+{
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *p = f->fields[i];
+		if (strcmp(p->name, "id") || p->type != PM_I64 || !pm_field_bytes((struct pm_field *)(uintptr_t)p))
+			continue;
+		for (size_t k = 0; k < p->count; k++)
+			if (pm_in_i64(p, 0)[k] >= join->next_id && pm_in_i64(p, 0)[k] < INT64_MAX)
+				join->next_id = pm_in_i64(p, 0)[k] + 1;
+	}
+}
+
+/* Fills values at.. of `to` with those of `from`; ids move up by offset. */
+static void values_copy(struct pm_field *to, size_t at, const struct pm_field *from, int64_t offset)
+{
+	size_t size = pm_field_memory(to);
+	for (int c = 0; c < to->components; c++) {
+		const char *y = (const char *)pm_field_bytes((struct pm_field *)(uintptr_t)from) + (size_t)c * from->count * size;
+		memcpy((char *)pm_field_bytes(to) + ((size_t)c * to->count + at) * size, y, from->count * size);
+	}
+	for (size_t i = 0; offset && i < from->count; i++)
+		pm_out_i64(to, 0)[at + i] += offset;
+}
+
+static struct pm_field *field_like(struct pm_frame *f, const char *on, const struct pm_field *p)
+{
+	struct pm_field *q = pm_makes(f, on, p->name, p->components, p->role);
+	if (!q)
+		return NULL;
+	q->type = p->type, q->extensive = p->extensive, q->uniform = p->uniform;
+	memcpy(q->value, p->value, sizeof q->value);
+	memcpy(q->unit, p->unit, PM_NAME), memcpy(q->of, p->of, PM_NAME);
+	json_object_update(q->more, p->more);
+	return pm_field_ready(q) ? NULL : q;
+}
+
+static bool same_value(const struct pm_field *p, const struct pm_field *q)
+{
+	return p->uniform && q->uniform && !memcmp(p->value, q->value, (size_t)p->components * sizeof *p->value);
+}
+
+/* The values of b's field behind those of a's; where not all are equal any more, both are spelt out. */
+static int field_append(struct pm_frame *a, const char *on, const struct pm_field *q, size_t before, int64_t offset)
+{
+	struct pm_field *p = pm_frame_field(a, on, q->name), *spelt;
+	if (!p || p->components != q->components || p->type != q->type || p->extensive != q->extensive)
+		return pm_fail(PM_DATA, "'%s' on '%s' is not in all scenes, or not of the same kind (--merge needs the same fields; sel --drop)", q->name, on);
+	if (same_value(p, q))
+		return 0;
+	if (p->uniform) { /* ready fills the values in */
+		p->uniform = false, p->use = PM_USE_CHANGE;
+		if (!p->buffer && pm_field_ready(p))
+			return -PM_DATA;
+		p->use = 0;
+	}
+	if (!(spelt = pm_field_copy(q, true)))
+		return -PM_DATA;
+	spelt->use = PM_USE_READ;
+	int status = pm_field_ready(spelt);
+	if (!status)
+		values_copy(p, before, spelt, offset);
+	pm_field_free(spelt);
+	return status;
+}
+
+static int set_merge(struct pm_frame *a, struct pm_set *into, const struct pm_frame *b, const struct pm_set *set, int64_t offset)
+{
+	size_t before = into->n, nfields = 0, expected = 0;
+	int status = pm_frame_set_resize(a, into, into->n + set->n);
+	for (size_t i = 0; i < a->nfields; i++)
+		expected += !strcmp(a->fields[i]->on, into->name);
+	for (size_t i = 0; i < b->nfields && !status; i++)
+		if (!strcmp(b->fields[i]->on, set->name) && !(passing >> b->fields[i]->role & 1)) {
+			status = field_append(a, into->name, b->fields[i], before, strcmp(b->fields[i]->name, "id") ? 0 : offset);
+			nfields++;
+		}
+	return status ? status : nfields == expected ? 0 : pm_fail(PM_DATA, "'%s' has fields that are not in all scenes (--merge needs the same fields; sel --drop)", into->name);
+}
+
+static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *b, const struct pm_set *set, int64_t offset)
+{
+	struct pm_set *s = pm_frame_set_new(a, name, set->n);
+	if (!s)
+		return pm_fail(PM_DATA, "out of memory");
+	s->fixed = set->fixed;
+	for (size_t i = 0; i < b->nfields; i++) {
+		const struct pm_field *p = b->fields[i];
+		if (strcmp(p->on, set->name) || passing >> p->role & 1)
+			continue;
+		struct pm_field *q = field_like(a, name, p);
+		if (!q)
+			return -PM_DATA;
+		if (!p->uniform)
+			values_copy(q, 0, p, strcmp(p->name, "id") ? 0 : offset);
+	}
+	return 0;
+}
+
+/* How far the ids of b must move so that none is below next_id; 0 where they are all above. */
+static int64_t id_offset(const struct pm_frame *b, const struct pm_join *join)
+{
+	int64_t least = INT64_MAX;
+	for (size_t i = 0; i < b->nfields; i++)
+		for (size_t k = 0; !strcmp(b->fields[i]->name, "id") && b->fields[i]->type == PM_I64 && b->fields[i]->buffer && k < b->fields[i]->count; k++)
+			least = pm_in_i64(b->fields[i], 0)[k] < least ? pm_in_i64(b->fields[i], 0)[k] : least;
+	return least >= join->next_id ? 0 : join->next_id - least;
+}
+
+static void history_join(struct pm_frame *a, const struct pm_frame *b)
+{
+	size_t i, k;
+	json_t *e, *h;
+	json_array_foreach(b->history, i, e) {
+		bool there = false;
+		json_array_foreach(a->history, k, h) there |= json_equal(h, e) == 1;
+		if (!there)
+			json_array_append_new(a->history, json_deep_copy(e));
+	}
+}
+
+int pm_frame_join_first(struct pm_frame *a, struct pm_join *join)
+{
+	char name[PM_NAME];
+	int status = at_rest(a);
+	fields_remove(a, NULL, passing);
+	for (size_t i = 0; i < a->nsets && !status; i++) {
+		char old[PM_NAME];
+		if ((status = set_name(NULL, a, a->sets[i], join, name)))
+			break;
+		memcpy(old, a->sets[i]->name, PM_NAME);
+		for (size_t k = 0; k < a->nfields; k++)
+			if (!strcmp(a->fields[k]->on, old))
+				memcpy(a->fields[k]->on, name, PM_NAME);
+		memcpy(a->sets[i]->name, name, PM_NAME);
+	}
+	next_id(a, join);
+	join->frames++;
+	return status;
+}
+
+int pm_frame_join(struct pm_frame *a, const struct pm_frame *b, struct pm_join *join)
+{
+	char name[PM_NAME];
+	int status;
+	if ((status = at_rest(b)) || (status = same_physics(a, b)))
+		return status;
+	int64_t offset = id_offset(b, join);
+	for (size_t i = 0; i < b->nsets && !status; i++) {
+		if ((status = set_name(a, b, b->sets[i], join, name)))
+			break;
+		struct pm_set *into = join->merge ? pm_frame_set(a, name) : NULL;
+		status = into ? set_merge(a, into, b, b->sets[i], offset) : set_add(a, name, b, b->sets[i], offset);
+	}
+	for (int d = 0; d < a->dim; d++)
+		a->lo[d] = fmin(a->lo[d], b->lo[d]), a->hi[d] = fmax(a->hi[d], b->hi[d]);
+	a->dt = a->dt > 0 && b->dt > 0 ? fmin(a->dt, b->dt) : fmax(a->dt, b->dt);
+	pm_frame_meshes_span(a);
+	next_id(a, join);
+	history_join(a, b);
+	if (strcmp(a->scene, b->scene) || !json_equal(a->parameters, b->parameters)) {
+		snprintf(a->scene, PM_NAME, "stack");
+		json_object_clear(a->parameters);
+	}
+	join->frames++;
+	return status;
+}
