@@ -95,11 +95,11 @@ check-long:
 	PM_LONG=1 sh tests/check.sh
 
 # The sanitizers see the unit tests and the tests that feed the tools what they do not like.
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-format-truncation
 asan_tests ?= $(wildcard tests/tool/contract.bats tests/tool/cut-stream.bats tests/tool/examples.bats tests/hard/pipe-contract.bats)
 asan:
 	+$(MAKE) B=build/asan OPT=-O1 CFLAGS='$(SANITIZE)' all unit
-	B=build/asan bash tests/run.sh $(asan_tests)
+	B=build/asan PM_SANITIZED=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0 bash tests/run.sh $(asan_tests)
 valgrind:
 	+$(MAKE) B=build/valgrind OPT=-O1 PORTABLE=1 unit
 	B=build/valgrind PM_WRAP='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite' bash tests/run.sh unit

@@ -79,6 +79,7 @@ static struct pm_frame *copy(const struct pm_frame *f, bool with_data)
 	c->sets = NULL, c->meshes = NULL, c->fields = c->dropped = NULL;
 	for (size_t i = 0; i < f->nsets; i++) {
 		struct pm_set *s = pm_frame_set_new(c, "", 0);
+		json_decref(s->more);
 		*s = *f->sets[i];
 		s->more = json_deep_copy(s->more);
 	}

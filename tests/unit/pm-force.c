@@ -13,21 +13,21 @@ struct pm {
 	struct pm_transfer in, out;
 	struct pm_poisson_fft *solver;
 	struct pm_operator grad;
+	struct pm_planner planner;
 	double *rho, *phi, *g[3];
 };
 
 static void pm_new(struct pm *p, struct pm_grid g, const char *in, const char *out, enum pm_symbol symbol, int order)
 {
-	struct pm_planner planner = {.effort = PM_ESTIMATE};
 	size_t n = pm_grid_size(&g);
-	*p = (struct pm){.grid = g};
+	*p = (struct pm){.grid = g, .planner.effort = PM_ESTIMATE};
 	p->in = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find(in), .components = 1};
 	p->out = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find(out), .components = g.dim};
 	for (int d = 0; d < 3; d++)
 		p->out.flip[d][d] = 1;
 	p->solver = pm_poisson_fft_new(&g, symbol, PM_ESTIMATE);
 	pm_operator_init(&p->grad, &g, PM_OP_GRAD, order, 1, false);
-	pm_operator_plan(&p->grad, &planner); /* lives as long as the program */
+	pm_operator_plan(&p->grad, &p->planner);
 	p->rho = calloc(n, sizeof(double));
 	p->phi = calloc(n, sizeof(double));
 	for (int d = 0; d < 3; d++)
@@ -37,6 +37,7 @@ static void pm_new(struct pm *p, struct pm_grid g, const char *in, const char *o
 static void pm_delete(struct pm *p)
 {
 	pm_poisson_fft_free(p->solver);
+	pm_planner_clear(&p->planner);
 	free(p->rho), free(p->phi);
 	for (int d = 0; d < 3; d++)
 		free(p->g[d]);
