@@ -1,58 +1,58 @@
-# sort: reorders particles. SPDX-License-Identifier: GPL-3.0-or-later
+# ssort: reorders particles. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "id") c = i; next } { print $c }' | paste -sd' '; }
 
 @test "particles come in the order of their cells, x fastest, equal cells in the order they had" {
 	printf 'x y id\n3.5 3.5 1\n0.5 0.5 2\n1.5 0.2 3\n0.9 0.1 4\n0.5 1.5 5\n-1 -9 6\n4 4 7\n' >t
-	[ "$(stab t --box 0,4 --cells 4 --number 2>&1 | head -c 0; stab t --box 0,4 --cells 4 | sort | ids)" = "2 4 6 3 5 1 7" ]
+	[ "$(stab t --box 0,4 --cells 4 --number 2>&1 | head -c 0; stab t --box 0,4 --cells 4 | ssort | ids)" = "2 4 6 3 5 1 7" ]
 }
 
 @test "a periodic axis wraps" {
 	printf 'x id\n4.5 1\n-0.5 2\n1.5 3\n0.1 4\n' >t
-	[ "$(stab t --box 0,4 --cells 4 --faces periodic | sort | ids)" = "1 4 3 2" ]
+	[ "$(stab t --box 0,4 --cells 4 --faces periodic | ssort | ids)" = "1 4 3 2" ]
 }
 
 @test "--by sorts by an expression or by ids beyond 2^53, --reverse turns the order round, both are stable" {
 	printf 'x q id\n1 2 9007199254740993\n2 1 9007199254740992\n3 2 -5\n' >t
-	[ "$(stab t | sort --by id | ids)" = "-5 9007199254740992 9007199254740993" ]
-	[ "$(stab t | sort --by q | ids)" = "9007199254740992 9007199254740993 -5" ]
-	[ "$(stab t | sort --by q --reverse | ids)" = "9007199254740993 -5 9007199254740992" ]
-	[ "$(stab t | sort --by '-x*q' | ids)" = "-5 9007199254740993 9007199254740992" ]
+	[ "$(stab t | ssort --by id | ids)" = "-5 9007199254740992 9007199254740993" ]
+	[ "$(stab t | ssort --by q | ids)" = "9007199254740992 9007199254740993 -5" ]
+	[ "$(stab t | ssort --by q --reverse | ids)" = "9007199254740993 -5 9007199254740992" ]
+	[ "$(stab t | ssort --by '-x*q' | ids)" = "-5 9007199254740993 9007199254740992" ]
 }
 
 @test "every field is permuted, nothing else changes" {
 	pinit plummer -n 3001 --seed 2 >a
-	sh_ok 'sort <a | scmp --tolerance 0 - a'
-	sh_ok 'sort <a | sort --by id | scmp --by-index --set matter --tolerance 0 - a'
-	sh_ok 'printf "x name id\n3 c 1\n1 a 2\n2 b 3\n" | stab - | sort --by x | stab --plain | tail -n +2 | paste -sd" " | tr "\t" " "'
+	sh_ok 'ssort <a | scmp --tolerance 0 - a'
+	sh_ok 'ssort <a | ssort --by id | scmp --by-index --set matter --tolerance 0 - a'
+	sh_ok 'printf "x name id\n3 c 1\n1 a 2\n2 b 3\n" | stab - | ssort --by x | stab --plain | tail -n +2 | paste -sd" " | tr "\t" " "'
 	[[ "$output" == *a*b*c* ]]
 }
 
 @test "the order does not depend on the number of threads" {
 	pinit plummer -n 5000 >a
-	sort --no-history --threads 1 <a >one
-	for n in 2 3; do sort --no-history --threads $n <a | cmp - one; done
+	ssort --no-history --threads 1 <a >one
+	for n in 2 3; do ssort --no-history --threads $n <a | cmp - one; done
 }
 
 @test "sorting twice is sorting once, and only frames whose step is a multiple of --every are touched" {
 	pinit plummer -n 500 >a
-	sort --no-history <a >b
-	sort --no-history <b | cmp - b
+	ssort --no-history <a >b
+	ssort --no-history <b | cmp - b
 	smod --no-history --step 7 <a >c
-	sort --no-history --every 5 <c | cmp - c
-	run ! cmp -s <(sort --no-history --every 7 <c) c
+	ssort --no-history --every 5 <c | cmp - c
+	run ! cmp -s <(ssort --no-history --every 7 <c) c
 }
 
 @test "a frame inside a step passes as it is" {
 	pinit plummer -n 50 | push drift/2 --no-history >a || skip "push is not there"
-	sort --no-history <a | cmp - a
+	ssort --no-history <a | cmp - a
 }
 
 @test "sets without particles are sorted; --set chooses one" {
-	sh_ok 'printf "x\n" | stab - | sort | sls'
+	sh_ok 'printf "x\n" | stab - | ssort | sls'
 	printf 'x id\n2 1\n1 2\n' | stab - --box 0,4 --set a >a; printf 'x id\n2 3\n1 4\n' | stab - --box 0,4 --set b >b
-	sh_ok 'stack a b | sort --set b --by x >c; stab --plain --set a <c | tail -n +2 | cut -f2 | paste -sd" "; stab --plain --set b <c | tail -n +2 | cut -f2 | paste -sd" "'
+	sh_ok 'stack a b | ssort --set b --by x >c; stab --plain --set a <c | tail -n +2 | cut -f2 | paste -sd" "; stab --plain --set b <c | tail -n +2 | cut -f2 | paste -sd" "'
 	[ "${lines[0]}" = "1 2" ]
 	[ "${lines[1]}" = "4 3" ]
 }
@@ -60,12 +60,12 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 @test "what cannot be sorted is refused in one line" {
 	pinit plummer -n 10 >a
 	for o in '--set nobody' '--by nothing' '--mesh nowhere' "--by 'log(x-100)'" '--every 0' "--by 'x+'"; do
-		run --separate-stderr bash -c "sort $o <a >/dev/null"
+		run --separate-stderr bash -c "ssort $o <a >/dev/null"
 		[ "$status" != 0 ] && [ "${#stderr_lines[@]}" = 1 ]
 	done
 	head -c -200 a >cut
-	run -1 bash -c 'sort <cut >/dev/null'
+	run -1 bash -c 'ssort <cut >/dev/null'
 	sel --drop mesh <a >b
-	run -1 --separate-stderr bash -c 'sort <b >/dev/null'
+	run -1 --separate-stderr bash -c 'ssort <b >/dev/null'
 	[[ "$stderr" == *"no mesh to sort by"* ]]
 }

@@ -1,4 +1,4 @@
-/* sort: reorders the particles of a set in memory, by cell or by an expression, so that neighbours in space are neighbours in memory. Stable.
+/* ssort: reorders the particles of a set in memory, by cell or by an expression, so that neighbours in space are neighbours in memory. Stable.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -104,13 +104,13 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 }
 
 static const struct pm_example examples[] = {
-	{"Particles by the cell of the mesh they are in.", "pinit plummer -n 2000 | sort | sls"},
-	{"Back in the order of their ids.", "pinit plummer -n 2000 > a; sort < a | sort --by id > b; scmp --by-index --set matter --tolerance 0 a b"},
-	{"The ten innermost.", "pinit plummer -n 2000 | sort --by 'x^2+y^2+z^2' | stab --plain | head -11"},
+	{"Particles by the cell of the mesh they are in.", "pinit plummer -n 2000 | ssort | sls"},
+	{"Back in the order of their ids.", "pinit plummer -n 2000 > a; sort < a | ssort --by id > b; scmp --by-index --set matter --tolerance 0 a b"},
+	{"The ten innermost.", "pinit plummer -n 2000 | ssort --by 'x^2+y^2+z^2' | stab --plain | head -11"},
 	{0}};
 
-const struct pm_tool tool_sort = {
-	.name = "sort",
+const struct pm_tool tool_ssort = {
+	.name = "ssort",
 	.summary = "reorders particles by cell or by an expression",
 	.about = "Permutes every field of the set, so that particles that are near each other are so in memory and p2m, m2p and pair find them in the cache. By default by "
 		 "the cells of the first mesh, x fastest; particles with equal keys keep their order. Only at substep 0: other frames pass as they are. "
