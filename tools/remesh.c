@@ -1,0 +1,167 @@
+/* remesh: particles back onto the nodes of a mesh; the sharing is lib/mesh/remesh.c, the distortion lib/mesh/distortion.c.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "law/law.h"
+#include "mesh/distortion.h"
+#include "mesh/regrid.h"
+#include "mesh/remesh_frame.h"
+#include "stage/stage.h"
+
+struct config {
+	const char *kernel, *mesh, *set, *when, *by, *outside;
+	struct pm_cells cells;
+	struct pm_list drop;
+	double cut_off, threshold;
+	int64_t every;
+};
+
+struct job {
+	struct pm_remesh_choice choice;
+	struct pm_sets sets;
+	struct pm_mesh *mesh;
+};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	for (int i = 0; i < o->drop.n; i++)
+		if (!strcmp(o->drop.item[i], "x"))
+			return pm_fail(PM_USAGE, "--drop x would leave no particles");
+	if (pm_given(s, "threshold") && strcmp(o->when, "distortion"))
+		return pm_fail(PM_USAGE, "--threshold belongs to --when distortion");
+	return 0;
+}
+
+static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	*j = (struct job){.choice = {.kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "m4prime"), .cut_off = o->cut_off,
+		.by = o->by, .drop = o->drop.item, .ndrop = o->drop.n, .overlap = !strcmp(o->when, "distortion")}};
+	j->mesh = pm_frame_mesh(f, o->mesh);
+	if (!j->mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
+	return j->choice.kernel ? pm_remesh_choose(f, o->set, &j->choice, &j->sets) : -PM_DATA;
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j;
+	if (f->substep || f->step % o->every)
+		return PM_PASS;
+	int status = job_of(o, f, &j);
+	for (size_t i = 0; i < j.sets.n && !status; i++) {
+		status = pm_remesh_reads(f, j.sets.name[i], &j.choice);
+		if (!status && !j.choice.overlap)
+			pm_remesh_drops(f, j.sets.name[i]);
+	}
+	return status ? status : PM_HOLD;
+}
+
+/* The largest distortion of the sets, reported. */
+static int measure(struct pm_stage *s, struct pm_frame *f, const struct job *j, double *most)
+{
+	int status = 0;
+	for (size_t i = 0; i < j->sets.n && !status; i++) {
+		double here;
+		status = pm_distortion(f, j->sets.name[i], j->mesh, &here);
+		*most = here > *most || isnan(here) ? here : *most;
+	}
+	if (!status)
+		pm_report(s, f, "distortion", *most);
+	return status;
+}
+
+/* The mesh as asked for: other cells, or enlarged until every particle fits. */
+static int fit(const struct config *o, struct pm_frame *f, struct job *j)
+{
+	const struct pm_grid g = pm_grid_of(f, j->mesh);
+	const struct pm_transfer t = {.grid = g, .kernel = j->choice.kernel};
+	size_t cells[3] = {1, 1, 1};
+	int status = o->cells.n ? pm_cells_for(&o->cells, f->dim, cells) : 0;
+	if (!status && o->cells.n && memcmp(cells, j->mesh->cells, sizeof cells))
+		status = pm_mesh_regrid_box(f, j->mesh, cells);
+	else if (!status && !strcmp(o->outside, "grow"))
+		status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
+	return status < 0 ? status : 0;
+}
+
+/* Sums of what was cut add up over frames. */
+static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_remesh_loss *loss)
+{
+	for (int i = 0; i < loss->n && loss->cut; i++) {
+		char key[PM_NAME + 16] = "lost_";
+		strcat(key, loss->of[i].name);
+		pm_report(s, f, key, json_number_value(json_object_get(json_object_get(f->report, s->word), key)) + loss->of[i].sum);
+	}
+	pm_report_count(s, f, "cut", loss->cut);
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j;
+	double distortion = 0;
+	int status = job_of(o, f, &j);
+	if (!status && j.choice.overlap)
+		status = measure(s, f, &j, &distortion);
+	if (status || (j.choice.overlap && distortion <= o->threshold))
+		return status;
+	status = fit(o, f, &j);
+	for (size_t i = 0; i < j.sets.n && !status; i++) {
+		struct pm_remesh_loss loss;
+		pm_remesh_drops(f, j.sets.name[i]);
+		status = pm_remesh_set(f, j.sets.name[i], j.mesh, &j.choice, &loss);
+		if (!status)
+			report(s, f, &loss);
+	}
+	if (!status)
+		pm_report_count(s, f, "remeshings", 1);
+	return status;
+}
+
+#define AT(member) offsetof(struct config, member)
+static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "grow", NULL};
+static const struct pm_option options[] = {
+	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how a strength is shared among nodes (default: the law's, else m4prime)", false, AT(kernel)},
+	{"cells", 'n', PM_CELLS, "cells", NULL, 1, 1 << 24, NULL, "give the mesh this many cells over the box, 64 or 64x32x32", false, AT(cells)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
+	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set with a strength that is not fixed)", false, AT(set)},
+	{"cut-off", 0, PM_REAL, "", "0", 0, 1, NULL, "nodes up to this part of the largest strength become no particles; counted, and their strength summed",
+		false, AT(cut_off)},
+	{"every", 0, PM_INTEGER, "steps", "1", 1, 1e15, NULL, "only where the frame's step is a multiple of this", false, AT(every)},
+	{"when", 0, PM_WORD, "", "always", 0, 0, when, "always, or where the distortion of the particles exceeds --threshold", false, AT(when)},
+	{"threshold", 0, PM_REAL, "", "0.02", 0, 1e9, NULL, "mean relative change of the overlap of particles that is too much", false, AT(threshold)},
+	{"by", 0, PM_TEXT, "STRENGTH", NULL, 0, 0, NULL, "carry values (v) as this strength times value: momentum by mass", false, AT(by)},
+	{"drop", 0, PM_LIST, "FIELD", NULL, 0, 0, NULL, "fields that the new particles do without", false, AT(drop)},
+	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, or enlarge the mesh", false, AT(outside)},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"a cloud of masses becomes a lattice of masses, their momentum kept", "pinit uniform -n 1000 | remesh -n 16 --kernel tsc --by mass | sls"},
+	{"three vortices carry each other; the smallest strengths are left out",
+		"printf 'x y circulation\\n0 0 1\\n1 0 1\\n0 1 1\\n' | stab - --law vortex --box -8,8 --dt 0.5 | cycle -n 5 "
+		"'p2m | poisson-fft --plan estimate | mgrad | m2p | push rk2 | remesh --cut-off 1e-4' | sls"},
+	{0},
+};
+const struct pm_tool tool_remesh = {
+	.name = "remesh",
+	.summary = "put the strengths of particles back onto the nodes of a mesh, which become the particles",
+	.about = "strength(i) = sum over particles of strength * W((x - x_i)/h): nodes that are not 0, or above --cut-off, are the new particles, in the order of the "
+		 "mesh. The total is conserved to round-off, moments as the kernel promises (docs/methods/kernels.md). Acts between steps only; inside a step the frame "
+		 "passes. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean of |H - H0|/H0 over the "
+		 "particles, H = sum of volume * zeta(distance), H0 that after the last remesh. See docs/methods/remesh.md.",
+	.kind = PM_FILTER,
+	.reads = "x and every strength (mass, charge, circulation); with --by values; volume",
+	.changes = "the particles: their number, x, strengths, volume; the geometry of the mesh (-n, --outside grow)",
+	.adds = "overlap, with --when distortion",
+	.config = sizeof(struct config),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+};
