@@ -162,6 +162,9 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 	}
 	snprintf(text, sizeof text, "%s in %d-D: the force is the slope of the potential", name, dim);
 	check_near(worst, 0, 1e-9, text); /* differences of fourth order with step 1e-3 leave 1e-11, round-off 1e-12 */
+	double edge = (m->reach > 0 ? m->reach : 1) * delta, below = m->potential(edge * edge * (1 - 1e-10), delta, dim);
+	snprintf(text, sizeof text, "%s in %d-D: the potential is continuous", name, dim);
+	check_near(m->potential(edge * edge * (1 + 1e-10), delta, dim) / below, 1, 1e-8, text);
 	check(isfinite(m->force(0, delta, dim)) && isfinite(m->potential(0, delta, dim)), "%s in %d-D: finite at r = 0", name, dim);
 	double near = m->force(1e-12, delta, dim), zero = m->force(0, delta, dim);
 	snprintf(text, sizeof text, "%s in %d-D: the force factor is smooth at r = 0", name, dim);

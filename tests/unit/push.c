@@ -369,7 +369,10 @@ static void faces(void)
 		f->pface[0][s] = PM_PREFLECT;
 	const double inside[] = {9.75, 0.125, 10, 3, 0}, fast[] = {2, -1, 0, 1e6, -44};
 	memcpy(pm_out(pm_frame_field(f, "matter", "x"), 0), inside, sizeof inside), memcpy(pm_out(pm_frame_field(f, "matter", "v"), 0), fast, sizeof fast);
+	struct pm_frame *before = pm_frame_copy(f);
 	push(f, "drift");
+	check_near(at(before, "matter", "v", 0, 0), 2, 0, "reflect: a frame that shares the buffers keeps its velocities");
+	pm_frame_free(before);
 	check_near(at(f, "matter", "x", 0, 0), 9.75, 0, "reflect: mirrored at the top");
 	check_near(at(f, "matter", "v", 0, 0), -2, 0, "reflect: and turned round");
 	check_near(at(f, "matter", "x", 0, 1), 0.125, 0, "reflect: mirrored at the bottom");
