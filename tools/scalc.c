@@ -25,12 +25,12 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", .text = "Sets to compute on (every set without, unless --mesh is given).", .offset = offsetof(struct config, sets)},
-	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", .text = "Meshes to compute on.", .offset = offsetof(struct config, meshes)},
-	{.name = "role", .kind = PM_WORD, .choices = roles, .fallback = "auto", .text = "Role of a new field: state survives when particles move, derived does not; auto: state with --strength, else derived.", .offset = offsetof(struct config, role)},
-	{.name = "strength", .kind = PM_FLAG, .text = "New fields are strengths (extensive).", .offset = offsetof(struct config, strength)},
-	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", .text = "Unit to write beside the fields.", .offset = offsetof(struct config, unit)},
-	{.name = "type", .kind = PM_WORD, .choices = types, .fallback = "f64", .text = "How new fields are stored; i64 takes the floor.", .offset = offsetof(struct config, type)},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", .text = "sets to compute on (every set without, unless --mesh is given)", .offset = offsetof(struct config, sets)},
+	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", .text = "meshes to compute on", .offset = offsetof(struct config, meshes)},
+	{.name = "role", .kind = PM_WORD, .choices = roles, .fallback = "auto", .text = "role of a new field: state survives when particles move, derived does not; auto: state with --extensive, else derived", .offset = offsetof(struct config, role)},
+	{.name = "extensive", .kind = PM_FLAG, .text = "new fields are strengths (extensive)", .offset = offsetof(struct config, strength)},
+	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", .text = "unit to write beside the fields", .offset = offsetof(struct config, unit)},
+	{.name = "type", .kind = PM_WORD, .choices = types, .fallback = "f64", .text = "how new fields are stored; i64 takes the floor", .offset = offsetof(struct config, type)},
 	{0}};
 
 /* "NAME = EXPRESSION": the name, and where the expression starts. */
@@ -183,7 +183,7 @@ static void done(struct pm_stage *s) { free(((struct state *)s->state)->job); }
 
 static const struct pm_example examples[] = {
 	{"The speed of every particle.", "pinit plummer -n 100 | scalc 'speed = sqrt(vx^2 + vy^2 + vz^2)' | sls --data"},
-	{"Two groups by position, and a charge for each.", "pinit plummer -n 100 | scalc --role state --type i64 'side = x > 0' | scalc --strength 'charge = side ? 1 : -1' | sls"},
+	{"Two groups by position, and a charge for each.", "pinit plummer -n 100 | scalc --role state --type i64 'side = x > 0' | scalc --extensive 'charge = side ? 1 : -1' | sls"},
 	{"A mesh field from another.", "pinit plummer -n 1000 | p2m | scalc --mesh mesh 'logrho = log10(rho + 1e-6)' | sls --data"},
 	{0}};
 

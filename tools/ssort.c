@@ -13,11 +13,11 @@ struct config {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "Sort this set only (every set without).", .offset = offsetof(struct config, set)},
-	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "Sort by this, ascending, instead of by cell: id, mass, 'hypot(x,y)'.", .offset = offsetof(struct config, by)},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", .text = "Sort by the cells of this mesh (the first without).", .offset = offsetof(struct config, mesh)},
-	{.name = "reverse", .kind = PM_FLAG, .text = "Descending.", .offset = offsetof(struct config, reverse)},
-	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, .text = "Sort only frames whose step is a multiple of this.", .offset = offsetof(struct config, every)},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "sort this set only (every set without)", .offset = offsetof(struct config, set)},
+	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "sort by this, ascending, instead of by cell: id, mass, 'hypot(x,y)'", .offset = offsetof(struct config, by)},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", .text = "sort by the cells of this mesh (the first without)", .offset = offsetof(struct config, mesh)},
+	{.name = "reverse", .kind = PM_FLAG, .text = "largest first", .offset = offsetof(struct config, reverse)},
+	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, .text = "sort only frames whose step is a multiple of this", .offset = offsetof(struct config, every)},
 	{0}};
 
 static bool chosen(const struct config *c, const struct pm_set *set) { return !c->set || !strcmp(c->set, set->name); }
@@ -105,8 +105,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const struct pm_example examples[] = {
 	{"Particles by the cell of the mesh they are in.", "pinit plummer -n 2000 | ssort | sls"},
-	{"Back in the order of their ids.", "pinit plummer -n 2000 > a; sort < a | ssort --by id > b; scmp --by-index --set matter --tolerance 0 a b"},
-	{"The ten innermost.", "pinit plummer -n 2000 | ssort --by 'x^2+y^2+z^2' | stab --plain | head -11"},
+	{"Back in the order of their ids.", "pinit plummer -n 2000 > a; ssort < a | ssort --by id > b; scmp --by-index --set matter --tolerance 0 a b"},
+	{"The ten innermost.", "pinit plummer -n 2000 | ssort --by 'x^2+y^2+z^2' | stab --plain | sed -n 1,11p"},
 	{0}};
 
 const struct pm_tool tool_ssort = {

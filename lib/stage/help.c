@@ -39,6 +39,16 @@ static void option_facts(const struct pm_option *o, char *out, size_t size)
 		add(out, size, "; default %s", o->fallback);
 }
 
+/* A row of the library whose name the tool gives a meaning of its own. */
+static bool hidden(const struct pm_option *const rows[PM_ROWS], const struct pm_option *row)
+{
+	for (int k = 0; k < PM_ROWS; k++)
+		for (const struct pm_option *o = rows[k]; o && o->name; o++)
+			if (!strcmp(o->name, row->name))
+				return o != row;
+	return false;
+}
+
 void pm_help(const struct pm_tool *t)
 {
 	const struct pm_option *rows[PM_ROWS];
@@ -60,6 +70,8 @@ void pm_help(const struct pm_tool *t)
 		if (rows[k])
 			printf("\n%s:\n", k == PM_ROWS - 1 ? "options of every tool" : k ? "further options" : "options");
 		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
+			if (hidden(rows, o))
+				continue;
 			option_head(o, head, sizeof head);
 			option_facts(o, facts, sizeof facts);
 			printf("  %-26s %s%s\n", head, o->text, facts);
@@ -106,6 +118,8 @@ static void man_options(const struct pm_tool *t)
 	pm_option_rows(t, rows);
 	for (int k = 0; k < PM_ROWS; k++)
 		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
+			if (hidden(rows, o))
+				continue;
 			option_head(o, head, sizeof head);
 			option_facts(o, facts, sizeof facts);
 			const char *h = head;
@@ -171,6 +185,8 @@ void pm_complete(const struct pm_tool *t)
 	pm_option_rows(t, rows);
 	for (int k = 0; k < PM_ROWS; k++)
 		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
+			if (hidden(rows, o))
+				continue;
 			printf("--%s", o->name);
 			for (int i = 0; o->choices && o->choices[i]; i++)
 				printf(" %s", o->choices[i]);

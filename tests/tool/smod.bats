@@ -2,7 +2,7 @@
 load ../helper
 
 t() { printf 'x y z vx vy vz mass id\n1 2 3 4 5 6 7 8\n' | stab - --box -8,8 --cells 2 --law free --constant G=1; }
-row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | /usr/bin/sort | awk '{ printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
+row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{ printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
 # id mass vx vy vz x y z
 
 @test "--shift, --boost and --scale do what they say to what they name" {
@@ -53,7 +53,7 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	sh_ok 'pinit plummer -n 10 | smod --fixed matter | smod --loose matter | sls'
 	[[ "$output" != *fixed* ]]
 	[ "$(t | smod --shift 1,1,1 --rename x=q | stab --plain | head -1 | tr '\t' ' ')" = "mass id q_0 q_1 q_2" ] || t | smod --shift 1,1,1 --rename x=q | stab --plain | grep -q 'q_0'
-	[ "$(t | smod --shift 1,1,1 --rename v=w | row)" = "8 7 4 5 6 2 3 4" ] || [ "$(t | smod --shift 1,1,1 --rename v=w | stab --plain | tail -1 | tr '\t' '\n' | /usr/bin/sort -n | paste -sd' ')" = "2 3 4 4 5 6 7 8" ]
+	[ "$(t | smod --shift 1,1,1 --rename v=w | row)" = "8 7 4 5 6 2 3 4" ] || [ "$(t | smod --shift 1,1,1 --rename v=w | stab --plain | tail -1 | tr '\t' '\n' | sort -n | paste -sd' ')" = "2 3 4 4 5 6 7 8" ]
 }
 
 @test "a uniform field stays uniform when it is scaled" {
