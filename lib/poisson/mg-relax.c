@@ -19,7 +19,7 @@ struct rows {
 	const double *f, *south, *north, *back, *front; /* neighbours along y and z */
 };
 
-static struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
+static inline __attribute__((always_inline)) struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
 	double *plane = l->u + k * l->plane;
@@ -37,15 +37,23 @@ static inline double close_row(const struct mg_level *l, double *u)
 	return u[mg_slot(l, mg_below(x, 0))];
 }
 
-/* lap u of nodes i ... i+mg_lanes-1 of the half at offset at; sides is the sum of their neighbours along x. */
-#define LAPLACIAN(result, here, sides, at, i) \
+/* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
+#define LAPLACIAN(result, alongx, alongy, alongz, here) \
 	do { \
-		result = wx * (sides); \
+		result = wx * (alongx); \
 		if (dim == 3) \
-			result += wy * (CAT(a.south + (at) + (i)) + CAT(a.north + (at) + (i))); \
+			result += wy * (alongy); \
 		if (dim >= 2) \
-			result += wz * (CAT(a.back + (at) + (i)) + CAT(a.front + (at) + (i))); \
+			result += wz * (alongz); \
 		result -= diagonal * (here); \
+	} while (0)
+
+/* u += change at p, only where there is an unknown; walls and padding are in the first and the last vector of half a row. */
+#define CHANGE(p, here, change, mask, i, n) \
+	do { \
+		if ((i) == 0 || (i) + mg_lanes >= (n)) \
+			change = (vec)((vmask)change & *(const vmask *)((mask) + (i))); \
+		AT(p) = (here) + change; \
 	} while (0)
 
 /* Relaxes the even (odd = 0) or the odd half of a row. */
@@ -53,7 +61,6 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 {
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
-	const int64_t *mask = l->mask[odd];
 	double *other = a.u + l->half - at;
 	vec last = {0}, next, here, lap, sides, change;
 	last += close_row(l, a.u);
@@ -66,10 +73,40 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 			sides = last + SHIFT_DOWN(last, next);
 		else
 			sides = SHIFT_UP(last, next) + next;
-		LAPLACIAN(lap, here, sides, at, i);
+		LAPLACIAN(lap, sides, CAT(a.south + at + i) + CAT(a.north + at + i), CAT(a.back + at + i) + CAT(a.front + at + i), here);
 		change = factor * (lap - CAT(a.f + at + i));
-		AT(a.u + at + i) = here + (vec)((vmask)change & *(const vmask *)(mask + i));
+		CHANGE(a.u + at + i, here, change, l->mask[odd], i, n);
 		last = next;
+	}
+}
+
+/* Relaxes the even half of row e and the odd half of row o, which are neighbours: what one has beside it along x, the other has along y, so that two
+ * of five loads are saved. beyond_e and beyond_o are their outer neighbours along y. The bytes are those of relax_row. */
+static inline __attribute__((always_inline)) void relax_pair(const struct mg_level *l, double factor, struct rows e, struct rows o, const double *beyond_e,
+	const double *beyond_o)
+{
+	enum { dim = 3 };
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t half = l->half, n = (l->axis[0].points + 1) / 2, m = l->axis[0].points / 2;
+	vec e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
+	e_last += close_row(l, e.u);
+	close_row(l, o.u);
+	o_last = CAT(o.u);
+	for (size_t i = 0; i < n; i += mg_lanes) {
+		e_next = CAT(e.u + half + i);
+		o_next = CAT(o.u + i + mg_lanes);
+		here = CAT(e.u + i);
+		sides = SHIFT_UP(e_last, e_next) + e_next;
+		LAPLACIAN(lap, sides, CAT(beyond_e + i) + o_last, CAT(e.back + i) + CAT(e.front + i), here);
+		change = factor * (lap - CAT(e.f + i));
+		CHANGE(e.u + i, here, change, l->mask[0], i, n);
+		here = CAT(o.u + half + i);
+		sides = o_last + SHIFT_DOWN(o_last, o_next);
+		LAPLACIAN(lap, sides, CAT(beyond_o + half + i) + e_next, CAT(o.back + half + i) + CAT(o.front + half + i), here);
+		change = factor * (lap - CAT(o.f + half + i));
+		CHANGE(o.u + half + i, here, change, l->mask[1], i, m);
+		e_last = e_next;
+		o_last = o_next;
 	}
 }
 
@@ -96,25 +133,39 @@ void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, siz
 	}
 }
 
-static inline __attribute__((always_inline)) void relax_plane(const int dim, const struct mg_level *l, double factor, int colour, size_t k)
+static inline __attribute__((always_inline)) void relax_rows(const int dim, const struct mg_level *l, double factor, int colour, size_t j, size_t k)
+{
+	if ((j + k + (size_t)colour) & 1)
+		relax_row(dim, l, factor, rows_at(l, j, k), 1);
+	else
+		relax_row(dim, l, factor, rows_at(l, j, k), 0);
+}
+
+/* Two rows at a time, unless they meet across the seam of a periodic axis too. */
+static void relax_plane(const struct mg_level *l, double factor, int colour, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1];
-	for (size_t j = y->first; j < y->end; j++)
+	size_t j = y->first;
+	for (; j + 1 < y->end && y->points > 2; j += 2) {
+		struct rows a = rows_at(l, j, k), b = rows_at(l, j + 1, k);
 		if ((j + k + (size_t)colour) & 1)
-			relax_row(dim, l, factor, rows_at(l, j, k), 1);
+			relax_pair(l, factor, b, a, b.north, a.south);
 		else
-			relax_row(dim, l, factor, rows_at(l, j, k), 0);
+			relax_pair(l, factor, a, b, a.south, b.north);
+	}
+	for (; j < y->end; j++)
+		relax_rows(3, l, factor, colour, j, k);
 }
 
 void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k)
 {
 	double factor = relaxation / l->diagonal;
 	if (l->dim == 3)
-		relax_plane(3, l, factor, colour, k);
+		relax_plane(l, factor, colour, k);
 	else if (l->dim == 2)
-		relax_plane(2, l, factor, colour, k);
+		relax_rows(2, l, factor, colour, 0, k);
 	else
-		relax_plane(1, l, factor, colour, k);
+		relax_rows(1, l, factor, colour, 0, k);
 }
 
 static inline __attribute__((always_inline)) double residual_row(const int dim, const struct mg_level *l, struct rows a, double *restrict r)
@@ -128,9 +179,9 @@ static inline __attribute__((always_inline)) double residual_row(const int dim, 
 	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
 		odd = CAT(a.u + half + i);
 		after = CAT(a.u + i + mg_lanes);
-		LAPLACIAN(lap, even, SHIFT_UP(before, odd) + odd, 0, i);
+		LAPLACIAN(lap, SHIFT_UP(before, odd) + odd, CAT(a.south + i) + CAT(a.north + i), CAT(a.back + i) + CAT(a.front + i), even);
 		v = (vec)((vmask)(CAT(a.f + i) - lap) & *(const vmask *)(mask[0] + i));
-		LAPLACIAN(lap, odd, even + SHIFT_DOWN(even, after), half, i);
+		LAPLACIAN(lap, even + SHIFT_DOWN(even, after), CAT(a.south + half + i) + CAT(a.north + half + i), CAT(a.back + half + i) + CAT(a.front + half + i), odd);
 		w = (vec)((vmask)(CAT(a.f + half + i) - lap) & *(const vmask *)(mask[1] + i));
 		sum += v * v + w * w;
 		AT(r + i) = v;
