@@ -120,6 +120,7 @@ void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *co
 		else
 			for (size_t i = x->first; i < x->end; i++)
 				u[mg_slot(fine, i)] = interpolated(&fine->map[0], i, t);
+		mg_close_row(fine, u);
 	}
 }
 

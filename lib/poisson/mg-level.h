@@ -69,6 +69,13 @@ static inline size_t mg_above(const struct mg_axis *a, size_t i)
 }
 static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].points * l->plane; }
 
+/* Every row of u is kept closed by who changes it: behind its last node stands the right neighbour of that, folded at the face. */
+static inline void mg_close_row(const struct mg_level *l, double *u)
+{
+	const struct mg_axis *x = &l->axis[0];
+	u[mg_slot(l, x->points)] = u[mg_slot(l, mg_above(x, x->points - 1))];
+}
+
 /* mg-relax.c */
 void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);

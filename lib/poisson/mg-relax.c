@@ -29,13 +29,7 @@ static inline __attribute__((always_inline)) struct rows rows_at(const struct mg
 		.back = l->u + mg_below(z, k) * l->plane + row, .front = l->u + mg_above(z, k) * l->plane + row};
 }
 
-/* The neighbours of the ends of a row: the right one is put behind the row, the left one is returned. */
-static inline double close_row(const struct mg_level *l, double *u)
-{
-	const struct mg_axis *x = &l->axis[0];
-	u[mg_slot(l, x->points)] = u[mg_slot(l, mg_above(x, x->points - 1))];
-	return u[mg_slot(l, mg_below(x, 0))];
-}
+static inline double left_end(const struct mg_level *l, const double *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
 
 /* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
 #define LAPLACIAN(result, alongx, alongy, alongz, here) \
@@ -63,7 +57,7 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
 	double *other = a.u + l->half - at;
 	vec last = {0}, next, here, lap, sides, change;
-	last += close_row(l, a.u);
+	last += left_end(l, a.u);
 	if (odd)
 		last = CAT(other);
 	for (size_t i = 0; i < n; i += mg_lanes) {
@@ -78,6 +72,7 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 		CHANGE(a.u + at + i, here, change, l->mask[odd], i, n);
 		last = next;
 	}
+	mg_close_row(l, a.u);
 }
 
 /* Relaxes the even half of row e and the odd half of row o, which are neighbours: what one has beside it along x, the other has along y, so that two
@@ -89,8 +84,7 @@ static inline __attribute__((always_inline)) void relax_pair(const struct mg_lev
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t half = l->half, n = (l->axis[0].points + 1) / 2, m = l->axis[0].points / 2;
 	vec e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
-	e_last += close_row(l, e.u);
-	close_row(l, o.u);
+	e_last += left_end(l, e.u);
 	o_last = CAT(o.u);
 	for (size_t i = 0; i < n; i += mg_lanes) {
 		e_next = CAT(e.u + half + i);
@@ -108,6 +102,8 @@ static inline __attribute__((always_inline)) void relax_pair(const struct mg_lev
 		e_last = e_next;
 		o_last = o_next;
 	}
+	mg_close_row(l, e.u);
+	mg_close_row(l, o.u);
 }
 
 /* What a row is made of without vectors or masks: the reference of relax_row, used by the tests. */
@@ -117,7 +113,7 @@ void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, siz
 	double factor = relaxation / l->diagonal;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct rows a = rows_at(l, j, k);
-		double left = close_row(l, a.u);
+		double left = left_end(l, a.u);
 		for (size_t i = x->first; i < x->end; i++) {
 			size_t at = mg_slot(l, i);
 			if (((i + j + k) & 1) != (size_t)colour)
@@ -130,6 +126,7 @@ void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, siz
 			lap -= l->diagonal * a.u[at];
 			a.u[at] = a.u[at] + factor * (lap - a.f[at]);
 		}
+		mg_close_row(l, a.u);
 	}
 }
 
@@ -174,7 +171,7 @@ static inline __attribute__((always_inline)) double residual_row(const int dim, 
 	const size_t half = l->half;
 	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
 	vec before = {0}, even, odd, after, lap, v, w, sum = {0};
-	before += close_row(l, a.u);
+	before += left_end(l, a.u);
 	even = CAT(a.u);
 	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
 		odd = CAT(a.u + half + i);
@@ -196,6 +193,6 @@ double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
 {
 	struct rows a = rows_at(l, j, k);
 	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);
-	close_row(l, r);
+	mg_close_row(l, r);
 	return sum;
 }

@@ -99,6 +99,7 @@ static void spread_row(const struct mg_level *fine, const double *t, double *u)
 	else
 		for (size_t i = 0; i < fine->axis[0].points; i++)
 			u[mg_slot(fine, i)] += x->w[0][i] * t[x->parent[i]] + x->w[1][i] * t[x->parent[i] + 1];
+	mg_close_row(fine, u);
 }
 
 void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)

@@ -100,7 +100,7 @@ static void load(struct pm_mg *mg, double c, double average, const double *s, co
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
 	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++)
-		for (size_t j = 0; j < y->points; j++)
+		for (size_t j = 0; j < y->points; j++) {
 			for (size_t odd = 0; odd < 2; odd++) {
 				bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
 				size_t from = (k * y->points + j) * x->points + odd, to = k * l->plane + j * l->stride + odd * l->half;
@@ -110,6 +110,8 @@ static void load(struct pm_mg *mg, double c, double average, const double *s, co
 					l->u[to + i] = unknown && u ? u[from + 2 * i] : 0;
 				}
 			}
+			mg_close_row(l, l->u + k * l->plane + j * l->stride);
+		}
 }
 
 /* phi = factor u - average */
