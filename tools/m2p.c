@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "mesh/carry.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
 
@@ -93,6 +94,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		if (!status && !(o->field ? pm_makes_gathered(f, set, j.field)
 					  : pm_contributes(f, set, j.law->change, j.law->of, j.field->components, term, o->replace)))
 			status = -PM_DATA;
+		if (!status && !o->field)
+			status = pm_carry_plan(f, set, j.mesh, o->replace);
 	}
 	return status;
 }
@@ -116,6 +119,8 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	if (!status)
 		status = pm_gather(&j->transfer, target->count, x, mesh, ratio ? ratio : factor, out, &strays);
 	pm_free(ratio);
+	if (!status && !o->field)
+		status = pm_carry(f, set, j->mesh, o->kernel ? j->transfer.kernel : NULL, &j->transfer);
 	if (!status && strays.count && strcmp(o->outside, "drop"))
 		return pm_strays_refuse(&strays, set, j->mesh, &j->transfer, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
 	if (!status && strays.count)
@@ -154,11 +159,12 @@ const struct pm_tool tool_m2p = {
 	.summary = "bring mesh fields to the particles and add them to what changes the particles",
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
 		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
-		 "a field that was given counts as the term external, one that was solved for as self. See docs/methods/transfer.md.",
+		 "a field that was given counts as the term external, one that was solved for as self. Changes on the mesh (domega of diffuse) are carried over "
+		 "to the strengths they belong to (dcirculation), times the volume of the particle. See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",
-	.adds = "the law's change field (acc, vel), or with --field a derived particle field",
+	.adds = "the law's change field (acc, vel) and those of the mesh (dcirculation), or with --field a derived particle field",
 	.config = sizeof(struct config),
 	.options = options,
 	.examples = examples,

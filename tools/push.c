@@ -10,7 +10,7 @@
 struct config {
 	double dt;
 	const char *set;
-	bool open, clear;
+	bool open, clear, unsafe;
 	struct pm_push push;
 };
 
@@ -74,6 +74,7 @@ static int begin(struct pm_stage *s)
 			return status;
 	}
 	cfg->push.open = cfg->open;
+	cfg->push.unsafe = cfg->unsafe;
 	if (cfg->open && !(cfg->push.drift > 0))
 		return pm_fail(PM_USAGE, "--open belongs to drift (push drift --open | force | push kick)");
 	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt 0 moves nothing") : 0;
@@ -155,6 +156,7 @@ static const struct pm_option options[] = {
 		.offset = offsetof(struct config, dt)},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "moves this set only; time waits for the others", .offset = offsetof(struct config, set)},
 	{.name = "open", .kind = PM_FLAG, .text = "the drift does not complete the step: a kick is still to come", .offset = offsetof(struct config, open)},
+	{.name = "unsafe", .kind = PM_FLAG, .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)", .offset = offsetof(struct config, unsafe)},
 	{0},
 };
 

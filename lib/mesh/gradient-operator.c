@@ -79,6 +79,15 @@ int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_ope
 	return faces(o);
 }
 
+double pm_operator_fastest(const struct pm_operator *o)
+{
+	const double at_grid_frequency[] = {pm_pi * pm_pi, 4, 16.0 / 3, 272.0 / 45}; /* order 0 (spectral), 2, 4, 6 */
+	double sum = 0;
+	for (int d = 0; d < o->grid.dim; d++)
+		sum += at_grid_frequency[o->order / 2] / (o->grid.h[d] * o->grid.h[d]);
+	return sum;
+}
+
 int pm_operator_plan(struct pm_operator *o, struct pm_planner *p)
 {
 	for (int d = 0; d < o->grid.dim && !o->order; d++)

@@ -14,7 +14,7 @@ struct pm_push {
 	double part[PM_ADVANCE_ACTIONS]; /* of dt, for each action */
 	double kick, drift;              /* sums of the parts */
 	const struct pm_step *scheme;    /* NULL: kicks and drifts */
-	bool open, moves;                /* a kick is still to come after the drift; positions change */
+	bool open, moves, unsafe;        /* a kick is still to come after the drift; positions change; any step length */
 };
 
 struct pm_moving {
@@ -117,6 +117,8 @@ static inline int pm_moving_plan(struct pm_frame *f, struct pm_set *set, const s
 		status = pm_rates_complete(f, set);
 	if (!status)
 		status = m->n = pm_rates(f, set, kind, m->rates);
+	if (status >= 0 && kind != PM_DRIFT && !p->unsafe)
+		status = pm_rates_stable(f, m->rates, m->n, p->scheme);
 	if (status >= 0)
 		status = p->scheme ? pm_done_pass(f, set, p->scheme, m->n, m->rates, &m->pass) : pm_done_add(set, p->kick, p->drift, p->open);
 	return status < 0 ? status : pm_moving_fields(f, m, p);

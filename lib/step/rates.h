@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "step/step.h"
-#include "stream/frame.h"
+#include "stream/fastest.h"
 
 enum { PM_RATES = 16 };
 
@@ -25,6 +25,21 @@ static inline bool pm_set_moves(const struct pm_frame *f, const struct pm_set *s
 	return !s->fixed && pm_rate_is_state(pm_frame_field(f, s->name, "x"));
 }
 
+/* Does the set hold every term of a change on a mesh? */
+static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
+{
+	int found = 0;
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *c = f->fields[i];
+		if (c->role != PM_CHANGE || strcmp(c->on, s->name) || strcmp(c->of, m->of))
+			continue;
+		for (int t = 0; t < m->nterms; t++)
+			for (int k = 0; k < c->nterms; k++)
+				found += !strcmp(m->terms[t], c->terms[k]);
+	}
+	return found >= m->nterms;
+}
+
 /* What stands against advancing a set by its change fields: a magnetic field, or a change on a mesh that was not carried to the particles. */
 static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by)
 {
@@ -34,10 +49,7 @@ static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set
 		const struct pm_field *m = f->fields[i];
 		if (m->role != PM_CHANGE || !m->of[0] || !pm_frame_mesh(f, m->on) || !pm_rate_is_state(pm_frame_field(f, s->name, m->of)))
 			continue;
-		bool carried = false;
-		for (size_t j = 0; j < f->nfields; j++)
-			carried |= f->fields[j]->role == PM_CHANGE && !strcmp(f->fields[j]->on, s->name) && !strcmp(f->fields[j]->of, m->of);
-		if (!carried)
+		if (!pm_rate_carried(f, s, m))
 			return pm_fail(PM_DATA, "the change '%s' of '%s' is on mesh '%s' and not yet on '%s' (carry it over with m2p)", m->name, m->of,
 				m->on, s->name);
 	}
@@ -106,6 +118,20 @@ static inline int pm_rates(const struct pm_frame *f, const struct pm_set *s, enu
 			rates[n++] = (struct pm_rate){.state = state, .rate = rate};
 	}
 	return status ? status : n;
+}
+
+/* Refuses a step beyond the limit of the scheme on the negative real axis (kicks: Euler's, 2) for a rate that says how fast it decays. */
+static inline int pm_rates_stable(const struct pm_frame *f, const struct pm_rate *rates, int n, const struct pm_step *scheme)
+{
+	double limit = scheme && !isnan(scheme->real_limit) ? scheme->real_limit : 2;
+	for (int r = 0; r < n; r++) {
+		double fastest = pm_fastest(rates[r].rate);
+		if (fabs(f->dt) * fastest > limit * (1 + 1e-12))
+			return pm_fail(PM_NUMERICS, "dt %g is %.4g times what %s can bear: '%s' decays at up to %g per time, and the step would grow without bound "
+				"(dt up to %.6g, or --unsafe)", f->dt, fabs(f->dt) * fastest / limit, scheme ? scheme->name : "a kick", rates[r].rate->name, fastest,
+				limit / fastest);
+	}
+	return 0;
 }
 
 #endif
