@@ -29,15 +29,17 @@ static inline bool pm_set_moves(const struct pm_frame *f, const struct pm_set *s
 static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
 {
 	int found = 0;
+	bool any = false;
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *c = f->fields[i];
 		if (c->role != PM_CHANGE || strcmp(c->on, s->name) || strcmp(c->of, m->of))
 			continue;
+		any = true;
 		for (int t = 0; t < m->nterms; t++)
 			for (int k = 0; k < c->nterms; k++)
 				found += !strcmp(m->terms[t], c->terms[k]);
 	}
-	return found >= m->nterms;
+	return any && found >= m->nterms;
 }
 
 /* What stands against advancing a set by its change fields: a magnetic field, or a change on a mesh that was not carried to the particles. */
