@@ -92,6 +92,8 @@ load ../helper
 @test "diag: inside cycle it writes a row a step, at whole steps only" {
 	sh_ok "pinit kepler | cycle -n 5 'push drift | diag --tee t' > b"
 	[ "$(column step < t | tr '\n' ' ')" = "1 2 3 4 5 " ]
+	sh_ok "pinit kepler | cycle -n 5 'pp | push rk4 | diag --tee t' > b" # four passes a step
+	[ "$(column step < t | tr '\n' ' ')" = "1 2 3 4 5 " ]
 }
 
 @test "HC-58: the table has the same bytes with 1, 2 and 3 threads" {

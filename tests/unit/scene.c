@@ -165,6 +165,17 @@ static void orbits(void)
 		const double energy = 0.5 * (v[0] * v[0] + v[1] * v[1]) - o.gm / hypot(x[0], x[1]), turn = x[0] * v[1] - x[1] * v[0];
 		worst = fmax(worst, fabs(energy + o.gm / (2 * o.axis)) + fabs(turn - sqrt(o.gm * o.axis * (1 - o.e * o.e))));
 	}
+	double moved = 0;
+	for (int k = 0; k <= 40; k++) { /* v is the rate of x: centred differences over 1e-5 are good to 1e-9, rounding to 1e-10 */
+		const struct scene_orbit o = {2.385, 1.7, 0.6};
+		double x1[2], x2[2];
+		const double t = 0.173 * k, h = 1e-5;
+		scene_orbit_at(o, t, x, v);
+		scene_orbit_at(o, t - h, x1, (double[2]){0});
+		scene_orbit_at(o, t + h, x2, (double[2]){0});
+		moved = fmax(moved, hypot((x2[0] - x1[0]) / (2 * h) - v[0], (x2[1] - x1[1]) / (2 * h) - v[1]));
+	}
+	check_near(moved, 0, 1e-7, "the velocity on the Kepler orbit is the rate of the position");
 	check_near(worst, 0, 1e-12, "the Kepler orbit keeps energy and angular momentum all the way round");
 	scene_orbit_at((struct scene_orbit){1, 1, 0.9}, 0, x, v);
 	check(x[0] == -1.9 && fabs(x[1]) < 1e-15 && fabs(v[0]) < 1e-15, "PM-10: it starts at (-1.9, 0)");
