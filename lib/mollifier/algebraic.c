@@ -7,8 +7,8 @@
 static double force(double r2, double delta, int dim)
 {
 	(void)dim;
-	double d2 = delta * delta, u = r2 / d2, w = 1 + u;
-	return d2 > 0 ? (u * u + 3 * u + 4) / (2 * pm_pi * d2 * w * w * w) : pm_bare_force(r2, 2);
+	double d2 = delta * delta, w = 1 + r2 / d2, a = r2 / d2 / w; /* a <= 1: powers of r2 overflow */
+	return d2 > 0 ? (a * a + (3 * a + 4 / w) / w) / (2 * pm_pi * d2 * w) : pm_bare_force(r2, 2);
 }
 
 static double potential(double r2, double delta, int dim)

@@ -85,8 +85,8 @@ static double difference(size_t n, const struct sums *a, const struct sums *b, i
 	double most = 0, scale = 0, most_phi = 0, scale_phi = 0;
 	for (size_t i = 0; i < n; i++) {
 		for (int d = 0; d < dim; d++)
-			most = fmax(most, fabs(a->g[d][i] - b->g[d][i])), scale = fmax(scale, fabs(b->g[d][i]));
-		most_phi = fmax(most_phi, fabs(a->phi[i] - b->phi[i])), scale_phi = fmax(scale_phi, fabs(b->phi[i]));
+			most = isfinite(a->g[d][i] + b->g[d][i]) ? fmax(most, fabs(a->g[d][i] - b->g[d][i])) : INFINITY, scale = fmax(scale, fabs(b->g[d][i]));
+		most_phi = isnan(a->phi[i] + b->phi[i]) ? INFINITY : fmax(most_phi, fabs(a->phi[i] - b->phi[i])), scale_phi = fmax(scale_phi, fabs(b->phi[i]));
 	}
 	most = scale > 0 ? most / scale : most;
 	return potential && scale_phi > 0 ? fmax(most, most_phi / scale_phi) : most;
