@@ -90,7 +90,7 @@ static const struct pm_option options[] = {
 		.text = "length over which a point is smoothed; by default the frame's constant softening"},
 	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, .offset = AT(mollifier),
 		.text = "how a point is smoothed; by default what the law names"},
-	{.name = "loop", .kind = PM_WORD, .fallback = "full", .choices = loops, .offset = AT(loop),
+	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, .offset = AT(loop),
 		.text = "each pair once by symmetry, or each target over all sources; equal to round-off"},
 	{.name = "potential", .kind = PM_FLAG, .offset = AT(potential), .text = "also the potential at each particle, without its own"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "acts on this set only; every set with the strength remains a source"},
@@ -99,7 +99,7 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"accelerations and potential of a star cluster", "pinit plummer -n 500 | pp --potential | sls"},
-	{"two ways of summing, compared", "pinit plummer -n 500 > a; pp --loop half < a > b; pp < a | scmp --field acc --tolerance 1e-12 b -"},
+	{"two ways of summing, compared", "pinit plummer -n 500 > a; pp --loop full < a > b; pp < a | scmp --field acc --tolerance 1e-12 b -"},
 	{0},
 };
 const struct pm_tool tool_pp = {

@@ -9,7 +9,7 @@
 #include "far/pp.h"
 #include "base/lanes.h"
 
-enum { GROUP = 4, SOURCES = 1024 }; /* vectors of targets per group; sources per block */
+enum { GROUP = 4, SOURCES = 1024, ROWS = 2 }; /* vectors of targets per group; sources per block; particles at a time in the half loop */
 enum mode { SQUARE, GUARDED, OTHER }; /* bare at r2 + delta2; the same where that may vanish; any mollifier */
 
 static const double least = 1e-200; /* of r2: see lib/mollifier/bare.h */
@@ -75,13 +75,16 @@ PM_LANES_INLINE void pair(const struct work *w, int dim, enum mode mode, bool po
 		one_by_one(w, potential, &d2, f, u);
 }
 
-/* Lanes whose particle is not i; lane l is particle first + l. */
+/* Lanes whose particle is not i, or comes after i; lane l is particle first + l. */
 PM_LANES_INLINE pm_lanes others(size_t first, size_t i, pm_lanes v)
 {
-	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7};
 	int64_t at = (int64_t)i - (int64_t)first;
-	pm_lanes_bits here = {at, at, at, at, at, at, at, at};
-	return (pm_lanes)((pm_lanes_bits)v & (lane != here));
+	return (pm_lanes)((pm_lanes_bits)v & ((pm_lanes_bits){0, 1, 2, 3, 4, 5, 6, 7} != at));
+}
+PM_LANES_INLINE pm_lanes after(size_t first, size_t i, pm_lanes v)
+{
+	int64_t at = (int64_t)i - (int64_t)first;
+	return (pm_lanes)((pm_lanes_bits)v & ((pm_lanes_bits){0, 1, 2, 3, 4, 5, 6, 7} > at));
 }
 
 /* How many of the lanes, of which lane l is particle first + l, are in [from, to) and coincide. */
@@ -159,45 +162,61 @@ PM_LANES_INLINE void group(const struct work *w, int dim, enum mode mode, bool p
 	w->coincident[i / width] = coincident;
 }
 
-/* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. */
+/* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. ROWS particles i at a time share what is loaded of j; tiles are
+ * multiples of a vector, so none is left over. */
 PM_LANES_INLINE void tiles(const struct work *w, int dim, enum mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
 	uint64_t *coincident)
 {
-	for (size_t i = i0; i < i1; i++) {
-		pm_lanes x[3], g[3], qi = pm_lanes_all(w->q[i]), phi = {0}, zero = {0}, delta2 = pm_lanes_all(w->delta2);
+	for (size_t i = i0; i < i1; i += ROWS) {
+		pm_lanes x[3][ROWS], g[3][ROWS], qi[ROWS], phi[ROWS], zero = {0}, delta2 = pm_lanes_all(w->delta2);
 		PM_LANES_UNROLL
-		for (int d = 0; d < dim; d++)
-			x[d] = pm_lanes_all(w->x[d][i]), g[d] = zero;
-		for (size_t j = diagonal ? (i + 1) / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES) {
-			pm_lanes s[3], d2 = delta2, f, u = zero, qj = pm_lanes_load(w->q + j);
+		for (int k = 0; k < ROWS; k++) {
+			qi[k] = pm_lanes_all(w->q[i + (size_t)k]), phi[k] = zero;
 			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++) {
-				s[d] = x[d] - pm_lanes_load(w->x[d] + j);
-				d2 = pm_lanes_fma(s[d], s[d], d2);
-			}
-			pair(w, dim, mode, potential, d2, &f, &u);
-			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
-				*coincident += count(j, i + 1, i < w->targets ? w->n : 0, &d2);
-			if (diagonal && j <= i)
-				for (size_t l = 0; l < PM_LANES; l++)
-					if (j + l <= i)
-						f[l] = 0, u[l] = 0;
-			pm_lanes fi = f * qj, fj = f * qi;
+			for (int d = 0; d < dim; d++)
+				x[d][k] = pm_lanes_all(w->x[d][i + (size_t)k]), g[d][k] = zero;
+		}
+		for (size_t j = diagonal ? i / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES) {
+			pm_lanes y[3], h[3], qj = pm_lanes_load(w->q + j), phj = potential ? pm_lanes_load(w->phi + j) : zero;
 			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++) {
-				g[d] = pm_lanes_fma(fi, s[d], g[d]);
-				pm_lanes_store(w->g[d] + j, pm_lanes_fnma(fj, s[d], pm_lanes_load(w->g[d] + j)));
+			for (int d = 0; d < dim; d++)
+				y[d] = pm_lanes_load(w->x[d] + j), h[d] = pm_lanes_load(w->g[d] + j);
+			PM_LANES_UNROLL
+			for (int k = 0; k < ROWS; k++) {
+				pm_lanes s[3], d2 = delta2, f, u = zero;
+				PM_LANES_UNROLL
+				for (int d = 0; d < dim; d++) {
+					s[d] = x[d][k] - y[d];
+					d2 = pm_lanes_fma(s[d], s[d], d2);
+				}
+				pair(w, dim, mode, potential, d2, &f, &u);
+				if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
+					*coincident += count(j, i + (size_t)k + 1, i + (size_t)k < w->targets ? w->n : 0, &d2);
+				if (diagonal && j <= i + (size_t)k)
+					f = after(j, i + (size_t)k, f), u = after(j, i + (size_t)k, u);
+				pm_lanes fi = f * qj, fj = f * qi[k];
+				PM_LANES_UNROLL
+				for (int d = 0; d < dim; d++) {
+					g[d][k] = pm_lanes_fma(fi, s[d], g[d][k]);
+					h[d] = pm_lanes_fnma(fj, s[d], h[d]);
+				}
+				if (potential)
+					phi[k] = pm_lanes_fma(qj, u, phi[k]), phj = pm_lanes_fma(qi[k], u, phj);
 			}
-			if (potential) {
-				phi = pm_lanes_fma(qj, u, phi);
-				pm_lanes_store(w->phi + j, pm_lanes_fma(qi, u, pm_lanes_load(w->phi + j)));
-			}
+			PM_LANES_UNROLL
+			for (int d = 0; d < dim; d++)
+				pm_lanes_store(w->g[d] + j, h[d]);
+			if (potential)
+				pm_lanes_store(w->phi + j, phj);
 		}
 		PM_LANES_UNROLL
-		for (int d = 0; d < dim; d++)
-			w->g[d][i] += pm_lanes_sum(g[d]);
-		if (potential)
-			w->phi[i] += pm_lanes_sum(phi);
+		for (int k = 0; k < ROWS; k++) {
+			PM_LANES_UNROLL
+			for (int d = 0; d < dim; d++)
+				w->g[d][i + (size_t)k] += pm_lanes_sum(g[d][k]);
+			if (potential)
+				w->phi[i + (size_t)k] += pm_lanes_sum(phi[k]);
+		}
 	}
 }
 
