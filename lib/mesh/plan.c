@@ -22,7 +22,7 @@ enum { PATH = 1024, FILE_MOST = 1 << 20 };
 
 const char *const pm_effort_names[] = {"estimate", "measure", "patient", NULL};
 static const unsigned effort_flag[] = {FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
-static const char *const transform_names[] = {"block-forward", "block-backward", "row-forward", "row-backward"};
+static const char *const transform_names[] = {"block-forward", "block-backward"};
 
 int pm_effort_find(const char *name)
 {
@@ -40,21 +40,12 @@ int pm_effort_find(const char *name)
 	return -1;
 }
 
-static fftw_plan make(enum pm_transform transform, size_t n, unsigned flags, double *a, double *b)
+static fftw_plan make(enum pm_transform transform, size_t n, unsigned flags, double *block)
 {
-	int length = (int)n, lanes = PM_LANES / 2;
-	fftw_complex *z = (fftw_complex *)a;
-	flags |= FFTW_DESTROY_INPUT;
-	switch (transform) {
-	case PM_BLOCK_FORWARD:
-		return fftw_plan_many_dft(1, &length, lanes, z, NULL, lanes, 1, z, NULL, lanes, 1, FFTW_FORWARD, flags);
-	case PM_BLOCK_BACKWARD:
-		return fftw_plan_many_dft(1, &length, lanes, z, NULL, lanes, 1, z, NULL, lanes, 1, FFTW_BACKWARD, flags);
-	case PM_ROW_FORWARD:
-		return fftw_plan_dft_r2c_1d(length, a, (fftw_complex *)b, flags);
-	default:
-		return fftw_plan_dft_c2r_1d(length, z, b, flags);
-	}
+	fftw_iodim length = {(int)n, PM_LANES, PM_LANES}, lines = {PM_LANES / 2, 1, 1};
+	bool back = transform == PM_BLOCK_BACKWARD; /* the transform of the other sign exchanges real and imaginary parts */
+	double *re = block + (back ? PM_LANES / 2 : 0), *im = block + (back ? 0 : PM_LANES / 2);
+	return fftw_plan_guru_split_dft(1, &length, 1, &lines, re, im, re, im, flags);
 }
 
 /* The first line of FFTW's wisdom names its version and the codelets this processor can run: wisdom is good only where it is the same. */
@@ -135,7 +126,7 @@ static int wisdom_write(const char *path, const char *wisdom)
 }
 
 /* The plan that a file's wisdom holds, NULL if it holds none. */
-static fftw_plan stored(struct pm_planner *p, const char *path, enum pm_transform transform, size_t n, double *a, double *b)
+static fftw_plan stored(struct pm_planner *p, const char *path, enum pm_transform transform, size_t n, double *block)
 {
 	char *w = wisdom_read(p, path);
 	if (!w)
@@ -143,7 +134,7 @@ static fftw_plan stored(struct pm_planner *p, const char *path, enum pm_transfor
 	fftw_forget_wisdom();
 	fftw_plan plan = NULL;
 	if (fftw_import_wisdom_from_string(w))
-		plan = make(transform, n, effort_flag[p->effort] | FFTW_WISDOM_ONLY, a, b);
+		plan = make(transform, n, effort_flag[p->effort] | FFTW_WISDOM_ONLY, block);
 	if (plan)
 		p->sum = pm_crc32c(p->sum, w, strlen(w));
 	else
@@ -153,7 +144,7 @@ static fftw_plan stored(struct pm_planner *p, const char *path, enum pm_transfor
 }
 
 /* Measures and stores under the lock; what comes back was read from the file. NULL: nothing can be stored. */
-static fftw_plan measured(struct pm_planner *p, const char *directory, const char *path, enum pm_transform transform, size_t n, double *a, double *b)
+static fftw_plan measured(struct pm_planner *p, const char *directory, const char *path, enum pm_transform transform, size_t n, double *block)
 {
 	char name[PATH];
 	snprintf(name, sizeof name, "%.990s/lock", directory);
@@ -164,18 +155,18 @@ static fftw_plan measured(struct pm_planner *p, const char *directory, const cha
 			close(lock);
 		return NULL;
 	}
-	fftw_plan plan = stored(p, path, transform, n, a, b); /* another process may have been first */
+	fftw_plan plan = stored(p, path, transform, n, block); /* another process may have been first */
 	if (plan) {
 		p->stored++;
 		close(lock);
 		return plan;
 	}
 	fftw_forget_wisdom();
-	fftw_plan first = make(transform, n, effort_flag[p->effort], a, b);
+	fftw_plan first = make(transform, n, effort_flag[p->effort], block);
 	char *w = first ? fftw_export_wisdom_to_string() : NULL;
 	fftw_destroy_plan(first);
 	if (w && wisdom_write(path, w) == 0) {
-		plan = stored(p, path, transform, n, a, b);
+		plan = stored(p, path, transform, n, block);
 		p->measured += plan != NULL;
 	} else {
 		note(p, path, strerror(errno));
@@ -185,7 +176,7 @@ static fftw_plan measured(struct pm_planner *p, const char *directory, const cha
 	return plan;
 }
 
-static fftw_plan find(struct pm_planner *p, enum pm_transform transform, size_t n, double *a, double *b)
+static fftw_plan find(struct pm_planner *p, enum pm_transform transform, size_t n, double *block)
 {
 	fftw_plan plan = NULL;
 	char directory[PATH] = "", path[PATH];
@@ -193,15 +184,15 @@ static fftw_plan find(struct pm_planner *p, enum pm_transform transform, size_t 
 		cache_directory(directory);
 	if (*directory) {
 		snprintf(path, sizeof path, "%.800s/fftw-%08x-%s-%s-%zu", directory, signature(), pm_effort_names[p->effort], transform_names[transform], n);
-		plan = stored(p, path, transform, n, a, b);
+		plan = stored(p, path, transform, n, block);
 		if (plan)
 			p->stored++;
 		else
-			plan = measured(p, directory, path, transform, n, a, b);
+			plan = measured(p, directory, path, transform, n, block);
 	}
 	if (!plan) {
 		fftw_forget_wisdom();
-		plan = make(transform, n, FFTW_ESTIMATE, a, b);
+		plan = make(transform, n, FFTW_ESTIMATE, block);
 		p->estimated++;
 	}
 	return plan;
@@ -216,13 +207,11 @@ fftw_plan pm_plan(struct pm_planner *p, enum pm_transform transform, size_t n)
 		pm_fail(PM_DATA, "no plan for transforms of length %zu", n);
 		return NULL;
 	}
-	size_t size = transform <= PM_BLOCK_BACKWARD ? n * PM_LANES : n + 2;
-	double *a = pm_zalloc(size, sizeof *a), *b = pm_zalloc(size, sizeof *b);
-	fftw_plan plan = a && b ? find(p, transform, n, a, b) : NULL;
-	if (a && b && !plan)
+	double *block = pm_zalloc(n * PM_LANES, sizeof *block);
+	fftw_plan plan = block ? find(p, transform, n, block) : NULL;
+	if (block && !plan)
 		pm_fail(PM_DATA, "FFTW makes no plan for transforms of length %zu", n);
-	pm_free(a);
-	pm_free(b);
+	pm_free(block);
 	if (plan) {
 		p->entry[p->n].transform = transform;
 		p->entry[p->n].n = n;
@@ -233,6 +222,8 @@ fftw_plan pm_plan(struct pm_planner *p, enum pm_transform transform, size_t n)
 
 void pm_planner_clear(struct pm_planner *p)
 {
+	for (int i = 0; i < p->nmade; i++)
+		p->unmake(p->made[i]);
 	for (int i = 0; i < p->n; i++)
 		fftw_destroy_plan(p->entry[i].plan);
 	*p = (struct pm_planner){.effort = p->effort};

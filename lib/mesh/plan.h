@@ -11,9 +11,8 @@ enum { PM_LANES = 16, PM_PLANS = 16 };
 enum pm_effort { PM_ESTIMATE, PM_MEASURE, PM_PATIENT };
 extern const char *const pm_effort_names[]; /* NULL ends */
 
-/* block: double [n][PM_LANES], PM_LANES/2 interleaved complex lines, in place. row: n doubles to n/2+1 complex and back, out of place, the
- * input is lost. Nothing is normalised. All arrays are 64-byte aligned (pm_alloc). */
-enum pm_transform { PM_BLOCK_FORWARD, PM_BLOCK_BACKWARD, PM_ROW_FORWARD, PM_ROW_BACKWARD };
+/* Of blocks: double [n][PM_LANES], PM_LANES/2 complex lines side by side, real parts first (mesh/lanes.h), in place, not normalised. */
+enum pm_transform { PM_BLOCK_FORWARD, PM_BLOCK_BACKWARD };
 
 struct pm_planner {
 	enum pm_effort effort;
@@ -26,6 +25,8 @@ struct pm_planner {
 	int stored, measured, estimated; /* where the plans came from: the cache, measured now, no cache to keep them in */
 	uint32_t sum;                    /* CRC-32C of the wisdom in use; 0 if all is estimated */
 	char note[320];                  /* what was wrong with the cache, "" nothing */
+	int nmade;                       /* transforms made with it (mesh/lanes.c) */
+	void *made[PM_PLANS], *(*unmake)(void *);
 };
 
 /* Effort by name; NULL: of the environment variable PM_PLAN, else measure. -1 and a message if the name is none. */

@@ -7,44 +7,12 @@
  * Determinism: serial plans, a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh,
  * open 4 in 3-D and half a copy for the Green's function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/lines.h"
-#include "poisson/fft.h"
-
-enum { L = PM_LANES, X = 0, Y = 1, Z = 2 };
+#include "poisson/fft-passes.h"
 
 const char *const pm_symbol_names[] = {"spectral", "fd2", "fd4", NULL};
-
-struct pm_poisson_fft {
-	struct pm_grid grid;
-	struct pm_planner planner;
-	bool complex, singular, empty; /* complex: periodic or open; empty: a wall axis without inner nodes */
-	struct pm_line line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
-	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
-	size_t chunks;                 /* of L doubles per row of modes */
-	size_t row, plane;             /* [doubles] strides of w */
-	double *w;                     /* nodes[Z] * plane */
-	fftw_plan row_forward, row_backward, backward[3];
-	double *lambda[3];             /* [1/length^2]: X per double of a row, Y and Z per mode */
-	double *green;                 /* open: transform of the Green's function, in the layout of a real solver (next) */
-	size_t green_row, green_plane; /* [doubles] */
-	double h2;                     /* volume of a cell, open; else 1 */
-	int threads;
-	size_t lot;                    /* [doubles] of scratch per thread */
-	double *scratch;
-	double zero;                   /* the mode of constants, after the forward transform */
-};
-
-/* Where rows come from and go to: j, k count the nodes that take part; row holds nodes[X] values. */
-struct rows {
-	const struct pm_poisson_fft *p;
-	const double *s;
-	double *phi;
-	void (*get)(const struct rows *r, size_t j, size_t k, double *row);
-};
 
 int pm_symbol_find(const char *name)
 {
@@ -133,226 +101,6 @@ static void put_row(const struct rows *r, size_t j, size_t k, const double *row)
 	memcpy(phi + at[X], row, p->nodes[X] * sizeof *row);
 }
 
-static double *thread_scratch(const struct pm_poisson_fft *p, int thread)
-{
-	return p->scratch + (size_t)thread * p->lot;
-}
-
-/* n rows of L doubles, stride doubles apart, to and from a block. */
-static void gather(const double *restrict from, size_t stride, size_t n, double *restrict block)
-{
-	for (size_t i = 0; i < n; i++)
-		for (int q = 0; q < L; q++)
-			block[i * L + q] = from[i * stride + q];
-}
-
-static void scatter(const double *restrict block, size_t n, size_t stride, double *restrict to)
-{
-	for (size_t i = 0; i < n; i++)
-		for (int q = 0; q < L; q++)
-			to[i * stride + q] = block[i * L + q];
-}
-
-static void block_forward(const struct pm_poisson_fft *p, int axis, double *block)
-{
-	const struct pm_line *l = &p->line[axis];
-	if (!p->complex) {
-		pm_line_real(l, block);
-	} else if (l->forward) {
-		pm_line_extend(l, false, block);
-		fftw_execute_dft(l->forward, (fftw_complex *)block, (fftw_complex *)block);
-	}
-}
-
-static void block_backward(const struct pm_poisson_fft *p, int axis, double *block)
-{
-	if (!p->complex)
-		pm_line_real(&p->line[axis], block);
-	else if (p->backward[axis])
-		fftw_execute_dft(p->backward[axis], (fftw_complex *)block, (fftw_complex *)block);
-}
-
-/* A slab is what one thread transforms at a time: a plane, or L single rows where planes are that thin. */
-static bool thick(const struct pm_poisson_fft *p)
-{
-	return p->line[Y].length > 1;
-}
-
-static size_t slabs(const struct pm_poisson_fft *p)
-{
-	return thick(p) ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L;
-}
-
-struct slab {
-	size_t j, k, rows, dj, dk; /* row r is row j+r*dj of plane k+r*dk */
-};
-
-/* The part of slab number i from row number start on, most rows at most. */
-static struct slab slab_part(const struct pm_poisson_fft *p, size_t i, size_t start, size_t most)
-{
-	bool plane = thick(p);
-	struct slab s = {.j = plane ? start : 0, .k = plane ? i : i * L + start, .dj = plane, .dk = !plane};
-	size_t left = plane ? p->nodes[Y] - s.j : p->nodes[Z] - s.k;
-	s.rows = left < most ? left : most;
-	return s;
-}
-
-static size_t slab_rows(const struct pm_poisson_fft *p, size_t i)
-{
-	return slab_part(p, i, 0, thick(p) ? p->nodes[Y] : L).rows;
-}
-
-static double *row_at(const struct pm_poisson_fft *p, const struct slab *s, size_t r)
-{
-	return p->w + (s->k + r * s->dk) * p->plane + (s->j + r * s->dj) * p->row;
-}
-
-/* Rows of nodes to rows of modes. Complex: one row at a time; real: L rows as one block. */
-static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct slab *s, double *scratch)
-{
-	size_t n = p->line[X].length, used = p->nodes[X], first = p->line[X].first;
-	if (p->complex) {
-		for (size_t r = 0; r < s->rows; r++) {
-			double *to = row_at(p, s, r);
-			io->get(io, s->j + r * s->dj, s->k + r * s->dk, scratch);
-			memset(scratch + used, 0, (n - used) * sizeof *scratch);
-			if (n > 1)
-				fftw_execute_dft_r2c(p->row_forward, scratch, (fftw_complex *)to);
-			else
-				to[0] = scratch[0], to[1] = 0;
-			memset(to + 2 * p->modes[X], 0, (p->row - 2 * p->modes[X]) * sizeof *to);
-		}
-		return;
-	}
-	double *block = scratch, *row = scratch + n * L;
-	for (size_t r = 0; r < L; r++) {
-		if (r < s->rows)
-			io->get(io, s->j + r * s->dj, s->k + r * s->dk, row);
-		else
-			memset(row, 0, used * sizeof *row);
-		for (size_t i = 0; i < used; i++)
-			block[(first + i) * L + r] = row[i];
-	}
-	pm_line_real(&p->line[X], block);
-	for (size_t r = 0; r < s->rows; r++) {
-		double *to = row_at(p, s, r);
-		for (size_t i = 0; i < used; i++)
-			to[i] = block[(first + i) * L + r];
-		memset(to + used, 0, (p->row - used) * sizeof *to);
-	}
-}
-
-static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct slab *s, double *scratch)
-{
-	size_t n = p->line[X].length, used = p->nodes[X], first = p->line[X].first;
-	if (p->complex) {
-		for (size_t r = 0; r < s->rows; r++) {
-			double *from = row_at(p, s, r);
-			if (n > 1)
-				fftw_execute_dft_c2r(p->row_backward, (fftw_complex *)from, scratch);
-			else
-				scratch[0] = from[0];
-			put_row(io, s->j + r * s->dj, s->k + r * s->dk, scratch);
-		}
-		return;
-	}
-	double *block = scratch, *row = scratch + n * L;
-	if (s->rows < L)
-		memset(block, 0, n * L * sizeof *block);
-	for (size_t r = 0; r < s->rows; r++) {
-		const double *from = row_at(p, s, r);
-		for (size_t i = 0; i < used; i++)
-			block[(first + i) * L + r] = from[i];
-	}
-	pm_line_real(&p->line[X], block);
-	for (size_t r = 0; r < s->rows; r++) {
-		for (size_t i = 0; i < used; i++)
-			row[i] = block[(first + i) * L + r];
-		put_row(io, s->j + r * s->dj, s->k + r * s->dk, row);
-	}
-}
-
-static void plane_columns(const struct pm_poisson_fft *p, double *plane, bool forward, double *block)
-{
-	const struct pm_line *l = &p->line[Y];
-	size_t in = forward ? p->nodes[Y] : p->modes[Y], out = forward ? p->modes[Y] : p->nodes[Y];
-	for (size_t c = 0; c < p->chunks; c++) {
-		gather(plane + c * L, p->row, in, block + l->first * L);
-		if (forward)
-			block_forward(p, Y, block);
-		else
-			block_backward(p, Y, block);
-		scatter(block + l->first * L, out, p->row, plane + c * L);
-	}
-}
-
-static void pass_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
-{
-	size_t n = slabs(p);
-#pragma omp parallel for schedule(dynamic) num_threads(p->threads)
-	for (size_t i = 0; i < n; i++) {
-		double *scratch = thread_scratch(p, omp_get_thread_num());
-		bool columns = thick(p);
-		size_t rows = slab_rows(p, i);
-		if (columns && !forward)
-			plane_columns(p, p->w + i * p->plane, false, scratch);
-		for (size_t r = 0; r < rows; r += L) {
-			struct slab s = slab_part(p, i, r, L);
-			if (forward)
-				rows_forward(p, io, &s, scratch);
-			else
-				rows_backward(p, io, &s, scratch);
-		}
-		if (columns && forward)
-			plane_columns(p, p->w + i * p->plane, true, scratch);
-	}
-}
-
-static void times_symbol(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
-{
-	const double *lx = p->lambda[X] + c * L, *lz = p->lambda[Z];
-	double ly = p->lambda[Y][j];
-	for (size_t k = 0; k < p->modes[Z]; k++)
-		for (int q = 0; q < L; q++)
-			block[k * L + q] *= factor / (lx[q] + (ly + lz[k]));
-}
-
-static void times_green(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
-{
-	size_t ny = p->modes[Y], nz = p->modes[Z];
-	const double *g = p->green + (j <= ny - j ? j : ny - j) * p->green_row + c * (L / 2);
-	for (size_t k = 0; k < nz; k++) {
-		const double *gk = g + (k <= nz - k ? k : nz - k) * p->green_plane;
-		for (int q = 0; q < L; q++)
-			block[k * L + q] *= factor * gk[q / 2];
-	}
-}
-
-/* Forward along z; unless only the spectrum is wanted, times factor/lambda (or the Green's function) and back. */
-static void pass_pencils(struct pm_poisson_fft *p, double factor, bool spectrum)
-{
-	size_t first = p->line[Z].first, n = p->modes[Y] * p->chunks;
-#pragma omp parallel for schedule(static) num_threads(p->threads)
-	for (size_t i = 0; i < n; i++) {
-		size_t j = i / p->chunks, c = i % p->chunks;
-		double *block = thread_scratch(p, omp_get_thread_num()), *at = p->w + j * p->row + c * L, *b = block + first * L;
-		gather(at, p->plane, p->nodes[Z], b);
-		block_forward(p, Z, block);
-		if (i == 0)
-			p->zero = b[0];
-		if (!spectrum) {
-			if (p->green)
-				times_green(p, j, c, factor, b);
-			else
-				times_symbol(p, j, c, factor, b);
-			if (i == 0 && p->singular)
-				b[0] = 0, b[1] = p->complex ? 0 : b[1];
-			block_backward(p, Z, block);
-		}
-		scatter(b, p->nodes[Z], p->plane, at);
-	}
-}
-
 static int scratch_ready(struct pm_poisson_fft *p)
 {
 	int n = pm_threads();
@@ -390,38 +138,39 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	}
 	if (scratch_ready(p))
 		return -PM_DATA;
-	struct rows io = {.p = p, .s = s, .phi = phi, .get = get_source};
+	struct rows io = {.p = p, .s = s, .phi = phi, .get = get_source, .put = put_row};
 	double norm = 1;
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
-	pass_planes(p, &io, true);
-	pass_pencils(p, c * norm * p->h2, false);
-	pass_planes(p, &io, false);
+	pm_poisson_fft_planes(p, &io, true);
+	pm_poisson_fft_pencils(p, c * norm * p->volume, false);
+	pm_poisson_fft_planes(p, &io, false);
 	zero_walls(&p->grid, phi);
 	if (p->singular)
 		*mean = p->zero * norm;
 	return 0;
 }
 
-/* Eigenvalues of the modes of an axis; copies of each for the doubles of a mode, padding -1 so that nothing divides by zero. */
-static double *eigenvalues(const struct pm_line *l, size_t modes, size_t copies, size_t size, enum pm_symbol symbol, double h)
+/* Eigenvalues of the modes of an axis by the row they are in, -1 beyond. */
+static double *eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h)
 {
 	double *lambda = pm_alloc(size, sizeof *lambda);
-	for (size_t i = 0; lambda && i < size; i++) {
-		size_t k = l->first + i / copies;
+	for (size_t i = 0; lambda && i < size; i++)
+		lambda[i] = -1; /* so that nothing divides by zero */
+	for (size_t i = 0; lambda && i < modes; i++) {
+		size_t k = l->first + i;
 		if (l->face == PM_PERIODIC && k > l->n - k)
 			k = l->n - k;
 		double theta = pm_pi * (double)k / (double)l->n * (l->face == PM_PERIODIC ? 2 : 1);
-		lambda[i] = i / copies < modes ? pm_symbol_value(symbol, theta, h) : -1;
+		lambda[in_place ? l->fft->at[i] : i] = pm_symbol_value(symbol, theta, h);
 	}
 	return lambda;
 }
 
-/* Strides that are an odd multiple of a cache line pair, so that pencils do not fall on the same sets of the cache. */
+/* Strides that are an odd number of blocks' rows, so that pencils do not fall on the same sets of the cache. */
 static size_t odd_stride(size_t doubles)
 {
-	size_t lines = (doubles + L - 1) / L;
-	return (lines | 1) * L;
+	return ((doubles + L - 1) / L | 1) * L;
 }
 
 static int layout(struct pm_poisson_fft *p)
@@ -437,21 +186,12 @@ static int layout(struct pm_poisson_fft *p)
 		p->modes[a] = !p->complex ? p->nodes[a] : a == X ? p->line[a].length / 2 + 1 : p->line[a].length;
 		p->empty = p->empty || p->nodes[a] == 0;
 		most = p->line[a].length > most ? p->line[a].length : most;
-		if (p->complex && a != X && p->line[a].length > 1 &&
-		    !(p->backward[a] = pm_plan(&p->planner, PM_BLOCK_BACKWARD, p->line[a].length)))
-			return -PM_DATA;
 	}
-	size_t doubles = p->modes[X] * (p->complex ? 2 : 1);
-	p->chunks = (doubles + L - 1) / L;
-	p->row = odd_stride(doubles);
+	p->chunks = p->complex ? (p->modes[X] + H - 1) / H : (p->modes[X] + L - 1) / L;
+	p->row = odd_stride(p->chunks * L);
 	p->plane = odd_stride(p->modes[Y] * p->row);
-	p->lot = odd_stride((most + 1) * L + p->line[X].length + 2);
-	if (p->complex && p->line[X].length > 1) {
-		p->row_forward = pm_plan(&p->planner, PM_ROW_FORWARD, p->line[X].length);
-		p->row_backward = p->row_forward ? pm_plan(&p->planner, PM_ROW_BACKWARD, p->line[X].length) : NULL;
-		if (!p->row_backward)
-			return -PM_DATA;
-	}
+	p->buffer = (p->nodes[X] + H - 1) / H * H;
+	p->lot = odd_stride((most + 1 + p->buffer) * L);
 	return p->empty || (p->w = pm_alloc(p->nodes[Z] * p->plane, sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
@@ -460,8 +200,8 @@ static int symbols(struct pm_poisson_fft *p, enum pm_symbol symbol)
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
-		size_t copies = a == X && p->complex ? 2 : 1;
-		p->lambda[a] = eigenvalues(&p->line[a], p->modes[a], copies, a == X ? p->chunks * L : p->modes[a], symbol, h[a]);
+		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
+		p->lambda[a] = eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, symbol, h[a]);
 		if (!p->lambda[a])
 			return -PM_DATA;
 	}
@@ -476,16 +216,20 @@ static int green(struct pm_poisson_fft *p, enum pm_symbol symbol)
 		g.face[d][0] = g.face[d][1] = PM_NEUMANN;
 	struct pm_poisson_fft *q = pm_poisson_fft_new(&g, symbol, p->planner.effort);
 	int code = q ? scratch_ready(q) : -PM_DATA;
+	if (!code && !(p->fold = pm_alloc(p->modes[Y], sizeof *p->fold)))
+		code = -PM_DATA;
+	for (size_t k = 0, n = p->modes[Y]; !code && k < n; k++)
+		p->fold[p->line[Y].fft->at[k]] = k <= n - k ? k : n - k;
 	if (!code) {
 		double centre = pm_green_centre(symbol, g.dim, g.h);
 		struct rows io = {.p = q, .s = &centre, .get = get_green};
-		pass_planes(q, &io, true);
-		pass_pencils(q, 1, true);
+		pm_poisson_fft_planes(q, &io, true);
+		pm_poisson_fft_pencils(q, 1, true);
 		p->green = q->w;
 		q->w = NULL;
 		p->green_row = q->row;
 		p->green_plane = q->plane;
-		p->h2 = pm_grid_cell(&g);
+		p->volume = pm_grid_cell(&g);
 	}
 	pm_poisson_fft_free(q);
 	return code;
@@ -502,7 +246,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, enum pm_symbo
 	}
 	p->grid = *g;
 	p->planner.effort = effort;
-	p->h2 = 1;
+	p->volume = 1;
 	p->singular = pm_poisson_fft_singular(g);
 	p->complex = true;
 	for (int d = 0; d < g->dim; d++)
@@ -520,6 +264,7 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
 	pm_planner_clear(&p->planner);
 	pm_free(p->w);
 	pm_free(p->green);
+	pm_free(p->fold);
 	pm_free(p->scratch);
 	for (int a = X; a <= Z; a++)
 		pm_free(p->lambda[a]);

@@ -1,0 +1,38 @@
+/* Complex transforms of eight lines side by side, one per SIMD lane: block is double [length][PM_LANES], 64-byte aligned; row i holds the real parts of
+ * element i of the eight lines, then the imaginary parts. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_LANES_H
+#define PM_LANES_H
+
+#include "mesh/plan.h"
+
+enum { PM_STAGES = 40, PM_PRIME = 13 };
+
+struct pm_fft {
+	size_t n;
+	size_t *at;                /* frequency k comes out in row at[k], and goes in there on the way back */
+	int stages;                /* 0: by FFTW */
+	int radix[PM_STAGES];
+	double *twiddle[PM_STAGES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
+	double cosine[PM_PRIME + 1][PM_PRIME], sine[PM_PRIME + 1][PM_PRIME]; /* of 2 pi i/p */
+	fftw_plan forward, backward;
+};
+
+/* A transform of length n, made once per planner and owned by it. NULL with a message. Never inside a parallel region. */
+const struct pm_fft *pm_fft(struct pm_planner *p, size_t n);
+
+/* In place, not normalised: rows in natural order to rows at[k], with exp(-2 pi i jk/n); and back, with the opposite sign. */
+void pm_fft_forward(const struct pm_fft *f, double *block);
+void pm_fft_backward(const struct pm_fft *f, double *block);
+
+/* Sixteen rows of memory, `stride` doubles apart (a multiple of 8, 64-byte aligned), to and from a block: rows 0-7 become the real, 8-15 the
+ * imaginary lanes. Elements 0 .. count-1 go to block rows first, first+1, ... in; at[first], at[first+1], ... out (at NULL: the rows themselves). */
+void pm_lanes_in(const double *rows, size_t stride, size_t count, double *block);
+void pm_lanes_out(const double *block, const size_t *at, size_t count, size_t stride, double *rows);
+
+/* The same for rows of reals and their spectra. out: the pair transforms in a block (rows q and q+8 as real and imaginary part) to frequencies
+ * 0 .. n/2 of each row q < count, in chunks of eight: real parts, then imaginary parts, the last chunk filled up with zeros. in: the way back; rows
+ * that are missing count as zero, imaginary parts of frequencies 0 and n/2 are ignored. */
+void pm_spectra_out(const struct pm_fft *f, const double *block, int count, double *const row[PM_LANES]);
+void pm_spectra_in(const struct pm_fft *f, int count, const double *const row[PM_LANES], double *block);
+
+#endif

@@ -1,0 +1,43 @@
+/* The state of the transform solver and its passes over memory; private to lib/poisson/fft*.c. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_POISSON_FFT_PASSES_H
+#define PM_POISSON_FFT_PASSES_H
+
+#include "mesh/lines.h"
+#include "poisson/fft.h"
+
+enum { L = PM_LANES, H = PM_LANES / 2, X = 0, Y = 1, Z = 2 };
+
+struct pm_poisson_fft {
+	struct pm_grid grid;
+	struct pm_planner planner;
+	bool complex, singular, empty; /* complex: periodic or open; empty: a wall axis without inner nodes */
+	struct pm_line line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
+	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
+	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */
+	size_t row, plane;             /* [doubles] strides of w */
+	double *w;                     /* nodes[Z] * plane */
+	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
+	double *green;                 /* open: transform of the Green's function, in the layout of a real solver (next) */
+	size_t green_row, green_plane; /* [doubles] */
+	size_t *fold;                  /* open: of each row of a plane of modes the row of green */
+	double volume;                 /* of a cell, open; else 1 */
+	int threads;
+	size_t lot, buffer;            /* [doubles] of scratch per thread: a block, and L rows of this many */
+	double *scratch;
+	double zero;                   /* the mode of constants, after the forward transform */
+};
+
+/* Where rows come from and go to: j, k count the nodes that take part; row holds nodes[X] values. */
+struct rows {
+	const struct pm_poisson_fft *p;
+	const double *s;
+	double *phi;
+	void (*get)(const struct rows *r, size_t j, size_t k, double *row);
+	void (*put)(const struct rows *r, size_t j, size_t k, const double *row);
+};
+
+void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
+/* Forward along z, times factor/lambda or factor*green, and back; or forward only, for the spectrum (real solvers). */
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum);
+
+#endif
