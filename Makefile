@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^\#define PM_VERSION "\(.*\)"/\1/p' lib/base/base.h)
 SOVERSION = 0
 
-WARN = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(WERROR),-Werror)
+WARN = -Wall -Wextra -Wno-psabi -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(WERROR),-Werror)
 ARCH = $(if $(PORTABLE),,-march=native $(if $(findstring gcc,$(CC)),-mprefer-vector-width=512))
 OPT ?= -O3
 CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(ARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fPIC -fopenmp $(WARN) -Ilib -I$(B) -MMD -MP $(CFLAGS)

@@ -26,7 +26,7 @@ static const struct pm_option options[] = {
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the mesh field to make (default: the law's field)", false, offsetof(struct config, target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
 	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
-		"how transforms are chosen, with --order spectral: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
+		"how FFTW's transforms (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
 	{0},
 };
@@ -108,7 +108,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		in[c] = pm_in(t->source, c);
 	for (int c = 0; c < t->operator.out; c++)
 		out[c] = pm_out(t->target, c);
-	if (t->planner.n > PM_PLANS - 3) /* frames of many sizes: start the collection anew */
+	if (t->planner.nmade > PM_PLANS - 3 || t->planner.n > PM_PLANS - 6) /* frames of many sizes: start the collection anew */
 		pm_planner_clear(&t->planner);
 	int status = pm_operator_plan(&t->operator, &t->planner);
 	if (*t->planner.note)

@@ -32,7 +32,7 @@ static const struct pm_option options[] = {
 		offsetof(struct config, target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
 	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
-		"how transforms are chosen: by estimate, the same on every machine of a kind, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
+		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
 	{0},
 };
@@ -132,11 +132,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		if (pm_poisson_fft_singular(&t->grid))
 			pm_report(s, f, key, mean);
 	}
-	char wisdom[32] = "estimate";
-	uint32_t sum = pm_poisson_fft_planner(t->solver)->sum;
-	if (sum)
-		snprintf(wisdom, sizeof wisdom, "%s %08x", pm_effort_names[t->effort], sum);
-	pm_report_text(s, f, "plan", wisdom);
+	const struct pm_planner *p = pm_poisson_fft_planner(t->solver);
+	char plan_text[48] = "own"; /* transforms of our own: the same everywhere */
+	if (p->n)
+		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_effort_names[t->effort], p->sum);
+	pm_report_text(s, f, "plan", plan_text);
 	return 0;
 }
 

@@ -8,14 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/lanes.h"
-
-typedef double v8 __attribute__((vector_size(64)));
-struct c8 {
-	v8 re, im;
-};
-
-#define ALWAYS static inline __attribute__((always_inline))
+#include "mesh/lanes-vector.h"
 
 ALWAYS struct c8 plus(struct c8 a, struct c8 b) { return (struct c8){a.re + b.re, a.im + b.im}; }
 ALWAYS struct c8 minus(struct c8 a, struct c8 b) { return (struct c8){a.re - b.re, a.im - b.im}; }
@@ -34,17 +27,16 @@ ALWAYS void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, boo
 	*a0 = plus(s, t), *a1 = plus(d, e), *a2 = minus(s, t), *a3 = minus(d, e);
 }
 
-ALWAYS void dft8(struct c8 *a, bool back)
+ALWAYS void dft8(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, struct c8 *a4, struct c8 *a5, struct c8 *a6, struct c8 *a7, bool back)
 {
 	const double h = 0.70710678118654752440;
-	dft4(&a[0], &a[2], &a[4], &a[6], back);
-	dft4(&a[1], &a[3], &a[5], &a[7], back);
-	struct c8 u = turn(a[3], back), v = turn(a[7], back), w = turn(a[5], back); /* exp(-+i pi/4) = h (1 -+ i) */
-	u = (struct c8){h * (a[3].re + u.re), h * (a[3].im + u.im)};
-	v = (struct c8){h * (v.re - a[7].re), h * (v.im - a[7].im)};
-	struct c8 e[4] = {a[0], a[2], a[4], a[6]}, o[4] = {a[1], u, w, v};
-	for (int k = 0; k < 4; k++)
-		a[k] = plus(e[k], o[k]), a[k + 4] = minus(e[k], o[k]);
+	dft4(a0, a2, a4, a6, back);
+	dft4(a1, a3, a5, a7, back);
+	struct c8 t = turn(*a3, back), v = turn(*a7, back), o2 = turn(*a5, back); /* exp(-+i pi/4) = h (1 -+ i) */
+	struct c8 o1 = {h * (a3->re + t.re), h * (a3->im + t.im)}, o3 = {h * (v.re - a7->re), h * (v.im - a7->im)}, o0 = *a1;
+	struct c8 e0 = *a0, e1 = *a2, e2 = *a4, e3 = *a6;
+	*a0 = plus(e0, o0), *a1 = plus(e1, o1), *a2 = plus(e2, o2), *a3 = plus(e3, o3);
+	*a4 = minus(e0, o0), *a5 = minus(e1, o1), *a6 = minus(e2, o2), *a7 = minus(e3, o3);
 }
 
 /* Odd p: pairs q and p-q share their products. */
@@ -68,37 +60,86 @@ ALWAYS void dft_odd(int p, const double *cosine, const double *sine, bool back, 
 	}
 }
 
-ALWAYS void dft(int r, const struct pm_fft *f, bool back, struct c8 *a)
+ALWAYS struct c8 take(const struct c8 *x) { return (struct c8){x->re, x->im}; }
+ALWAYS void put(struct c8 *x, struct c8 a) { x->re = a.re, x->im = a.im; }
+
+/* One butterfly of radix 2, 4, 8 in registers: written out, because arrays of them end up in memory. w: twiddles or NULL for ones. */
+ALWAYS void fly2(struct c8 *x, size_t m, const double *w, bool back)
 {
-	if (r == 2) {
-		struct c8 t = a[1];
-		a[1] = minus(a[0], t), a[0] = plus(a[0], t);
-	} else if (r == 4) {
-		dft4(&a[0], &a[1], &a[2], &a[3], back);
-	} else if (r == 8) {
-		dft8(a, back);
-	} else {
-		dft_odd(r, f->cosine[r], f->sine[r], back, a);
+	struct c8 a0 = take(x), a1 = take(x + m);
+	if (w && back)
+		a1 = twist(a1, w, true);
+	struct c8 s = plus(a0, a1), d = minus(a0, a1);
+	put(x, s);
+	put(x + m, w && !back ? twist(d, w, false) : d);
+}
+
+ALWAYS void fly4(struct c8 *x, size_t m, const double *w, bool back)
+{
+	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
+	if (w && back)
+		a1 = twist(a1, w, true), a2 = twist(a2, w + 2, true), a3 = twist(a3, w + 4, true);
+	dft4(&a0, &a1, &a2, &a3, back);
+	if (w && !back)
+		a1 = twist(a1, w, false), a2 = twist(a2, w + 2, false), a3 = twist(a3, w + 4, false);
+	put(x, a0), put(x + m, a1), put(x + 2 * m, a2), put(x + 3 * m, a3);
+}
+
+ALWAYS void fly8(struct c8 *x, size_t m, const double *w, bool back)
+{
+	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
+	struct c8 a4 = take(x + 4 * m), a5 = take(x + 5 * m), a6 = take(x + 6 * m), a7 = take(x + 7 * m);
+	if (w && back) {
+		a1 = twist(a1, w, true), a2 = twist(a2, w + 2, true), a3 = twist(a3, w + 4, true), a4 = twist(a4, w + 6, true);
+		a5 = twist(a5, w + 8, true), a6 = twist(a6, w + 10, true), a7 = twist(a7, w + 12, true);
 	}
+	dft8(&a0, &a1, &a2, &a3, &a4, &a5, &a6, &a7, back);
+	if (w && !back) {
+		a1 = twist(a1, w, false), a2 = twist(a2, w + 2, false), a3 = twist(a3, w + 4, false), a4 = twist(a4, w + 6, false);
+		a5 = twist(a5, w + 8, false), a6 = twist(a6, w + 10, false), a7 = twist(a7, w + 12, false);
+	}
+	put(x, a0), put(x + m, a1), put(x + 2 * m, a2), put(x + 3 * m, a3);
+	put(x + 4 * m, a4), put(x + 5 * m, a5), put(x + 6 * m, a6), put(x + 7 * m, a7);
+}
+
+ALWAYS void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
+{
+	struct c8 a[PM_PRIME];
+	for (int q = 0; q < r; q++)
+		a[q] = take(x + (size_t)q * m);
+	for (int p = 1; p < r && w && back; p++)
+		a[p] = twist(a[p], w + 2 * (p - 1), true);
+	dft_odd(r, f->cosine[r], f->sine[r], back, a);
+	for (int p = 1; p < r && w && !back; p++)
+		a[p] = twist(a[p], w + 2 * (p - 1), false);
+	for (int q = 0; q < r; q++)
+		put(x + (size_t)q * m, a[q]);
+}
+
+ALWAYS void fly(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
+{
+	if (r == 2)
+		fly2(x, m, w, back);
+	else if (r == 4)
+		fly4(x, m, w, back);
+	else if (r == 8)
+		fly8(x, m, w, back);
+	else
+		fly_odd(r, f, x, m, w, back);
 }
 
 ALWAYS void stage(int r, const struct pm_fft *f, size_t length, const double *twiddle, bool back, struct c8 *x)
 {
 	size_t m = length / (size_t)r;
+	if (m == 1) {
+		for (size_t base = 0; base < f->n; base += length)
+			fly(r, f, x + base, 1, NULL, back);
+		return;
+	}
 	for (size_t base = 0; base < f->n; base += length) {
 		const double *w = twiddle;
-		for (size_t j = 0; j < m; j++, w += 2 * (r - 1)) {
-			struct c8 a[PM_PRIME], *at = x + base + j;
-			for (int q = 0; q < r; q++)
-				a[q] = at[(size_t)q * m];
-			for (int p = 1; p < r && back && m > 1; p++)
-				a[p] = twist(a[p], w + 2 * (p - 1), true);
-			dft(r, f, back, a);
-			for (int p = 1; p < r && !back && m > 1; p++)
-				a[p] = twist(a[p], w + 2 * (p - 1), false);
-			for (int q = 0; q < r; q++)
-				at[(size_t)q * m] = a[q];
-		}
+		for (size_t j = 0; j < m; j++, w += 2 * (r - 1))
+			fly(r, f, x + base + j, m, w, back);
 	}
 }
 
@@ -227,102 +268,4 @@ const struct pm_fft *pm_fft(struct pm_planner *p, size_t n)
 		return fft_free(f);
 	p->unmake = fft_free;
 	return p->made[p->nmade++] = f;
-}
-
-ALWAYS void transpose(v8 *r)
-{
-	v8 t[8], u[8];
-	for (int i = 0; i < 8; i += 2) {
-		t[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-		t[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-	}
-	for (int i = 0; i < 8; i += i & 1 ? 3 : 1) {
-		u[i] = __builtin_shufflevector(t[i], t[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-		u[i + 2] = __builtin_shufflevector(t[i], t[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-	}
-	for (int i = 0; i < 4; i++) {
-		r[i] = __builtin_shufflevector(u[i], u[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-		r[i + 4] = __builtin_shufflevector(u[i], u[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-	}
-}
-
-void pm_lanes_in(const double *rows, size_t stride, size_t count, double *block)
-{
-	for (size_t i = 0; i < count; i += 8)
-		for (int half = 0; half < 2; half++) {
-			v8 t[8];
-			for (int q = 0; q < 8; q++)
-				t[q] = *(const v8 *)(rows + (size_t)(8 * half + q) * stride + i);
-			transpose(t);
-			for (size_t q = 0; q < 8 && i + q < count; q++)
-				*(v8 *)(block + (i + q) * PM_LANES + 8 * half) = t[q];
-		}
-}
-
-void pm_lanes_out(const double *block, const size_t *at, size_t count, size_t stride, double *rows)
-{
-	for (size_t i = 0; i < count; i += 8)
-		for (int half = 0; half < 2; half++) {
-			v8 t[8] = {{0}};
-			for (size_t q = 0; q < 8 && i + q < count; q++)
-				t[q] = *(const v8 *)(block + (at ? at[i + q] : i + q) * PM_LANES + 8 * half);
-			transpose(t);
-			for (int q = 0; q < 8; q++)
-				*(v8 *)(rows + (size_t)(8 * half + q) * stride + i) = t[q];
-		}
-}
-
-static void store(v8 *t, int from, int count, size_t at, double *const row[PM_LANES])
-{
-	transpose(t);
-	for (int q = 0; q < 8 && from + q < count; q++)
-		*(v8 *)(row[from + q] + at) = t[q];
-}
-
-void pm_spectra_out(const struct pm_fft *f, const double *block, int count, double *const row[PM_LANES])
-{
-	size_t n = f->n, modes = n / 2 + 1;
-	for (size_t k = 0; k < modes; k += 8) {
-		struct c8 a[8] = {{{0}, {0}}}, b[8] = {{{0}, {0}}};
-		v8 t[8];
-		for (size_t q = 0; q < 8 && k + q < modes; q++) {
-			const struct c8 *z = (const struct c8 *)block + f->at[k + q], *y = (const struct c8 *)block + f->at[(n - k - q) % n];
-			a[q] = (struct c8){0.5 * (z->re + y->re), 0.5 * (z->im - y->im)};
-			b[q] = (struct c8){0.5 * (z->im + y->im), 0.5 * (y->re - z->re)};
-		}
-		for (int part = 0; part < 4; part++) {
-			for (int q = 0; q < 8; q++)
-				t[q] = part == 0 ? a[q].re : part == 1 ? a[q].im : part == 2 ? b[q].re : b[q].im;
-			store(t, part / 2 * 8, count, 2 * k + (size_t)(part % 2) * 8, row);
-		}
-	}
-}
-
-static void load(int from, int count, size_t at, const double *const row[PM_LANES], v8 *t)
-{
-	for (int q = 0; q < 8; q++)
-		t[q] = from + q < count ? *(const v8 *)(row[from + q] + at) : (v8){0};
-	transpose(t);
-}
-
-void pm_spectra_in(const struct pm_fft *f, int count, const double *const row[PM_LANES], double *block)
-{
-	size_t n = f->n, modes = n / 2 + 1;
-	struct c8 *x = (struct c8 *)block;
-	for (size_t k = 0; k < modes; k += 8) {
-		v8 ar[8], ai[8], br[8], bi[8];
-		load(0, count, 2 * k, row, ar);
-		load(0, count, 2 * k + 8, row, ai);
-		load(8, count, 2 * k, row, br);
-		load(8, count, 2 * k + 8, row, bi);
-		for (size_t q = 0; q < 8 && k + q < modes; q++) {
-			size_t i = f->at[k + q], j = f->at[(n - k - q) % n];
-			if (i == j) {
-				x[i] = (struct c8){ar[q], br[q]};
-				continue;
-			}
-			x[i] = (struct c8){ar[q] - bi[q], ai[q] + br[q]};
-			x[j] = (struct c8){ar[q] + bi[q], br[q] - ai[q]};
-		}
-	}
 }

@@ -24,15 +24,19 @@ const struct pm_fft *pm_fft(struct pm_planner *p, size_t n);
 void pm_fft_forward(const struct pm_fft *f, double *block);
 void pm_fft_backward(const struct pm_fft *f, double *block);
 
-/* Sixteen rows of memory, `stride` doubles apart (a multiple of 8, 64-byte aligned), to and from a block: rows 0-7 become the real, 8-15 the
- * imaginary lanes. Elements 0 .. count-1 go to block rows first, first+1, ... in; at[first], at[first+1], ... out (at NULL: the rows themselves). */
-void pm_lanes_in(const double *rows, size_t stride, size_t count, double *block);
-void pm_lanes_out(const double *block, const size_t *at, size_t count, size_t stride, double *rows);
+/* PM_LANES rows of memory, anywhere, to and from a block: rows 0-7 become the real, 8-15 the imaginary lanes; rows from `rows` on are missing and
+ * count as zero. Element i goes to block row i on the way in, and comes from block row at[i] on the way out (at NULL: row i). */
+void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, double *block);
+void pm_lanes_out(const double *block, const size_t *at, size_t n, size_t rows, double *const row[PM_LANES]);
 
 /* The same for rows of reals and their spectra. out: the pair transforms in a block (rows q and q+8 as real and imaginary part) to frequencies
- * 0 .. n/2 of each row q < count, in chunks of eight: real parts, then imaginary parts, the last chunk filled up with zeros. in: the way back; rows
- * that are missing count as zero, imaginary parts of frequencies 0 and n/2 are ignored. */
-void pm_spectra_out(const struct pm_fft *f, const double *block, int count, double *const row[PM_LANES]);
-void pm_spectra_in(const struct pm_fft *f, int count, const double *const row[PM_LANES], double *block);
+ * 0 .. n/2 of each row, in chunks of eight: real parts, then imaginary parts, the last chunk filled up with zeros, 64-byte aligned. in: the way back;
+ * imaginary parts of frequencies 0 and n/2 are ignored. */
+void pm_spectra_out(const struct pm_fft *f, const double *block, size_t rows, double *const row[PM_LANES]);
+void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[PM_LANES], double *block);
+
+/* Copies n doubles past the caches where the processor can and to is 64-byte aligned, else as memcpy does. end: before others read them. */
+void pm_stream(double *to, const double *from, size_t n);
+void pm_stream_end(void);
 
 #endif

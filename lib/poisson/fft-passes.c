@@ -22,9 +22,24 @@ static void scatter(const double *restrict block, size_t n, size_t stride, doubl
 			to[i * stride + q] = block[i * L + q];
 }
 
-static double *thread_scratch(const struct pm_poisson_fft *p)
+/* What leaves for memory: past the caches if the mesh is larger than they are. */
+static void copy_out(const struct pm_poisson_fft *p, double *to, const double *from, size_t n)
 {
-	return p->scratch + (size_t)omp_get_thread_num() * p->lot;
+	if (p->streams)
+		pm_stream(to, from, n);
+	else
+		memcpy(to, from, n * sizeof *to);
+}
+
+/* Scratch of a thread. Memory is read and written in long pieces; the rest happens in cache. */
+struct scratch {
+	double *block, *rows, *modes;
+};
+
+static struct scratch thread_scratch(const struct pm_poisson_fft *p)
+{
+	double *s = p->scratch + (size_t)omp_get_thread_num() * p->lot;
+	return (struct scratch){s, s + p->block, s + p->block + p->rows};
 }
 
 /* A slab is what one thread transforms at a time: a plane, or L single rows where planes are that thin. */
@@ -33,79 +48,84 @@ static bool thick(const struct pm_poisson_fft *p)
 	return p->line[Y].length > 1;
 }
 
-/* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk, at w + r*stride. */
+/* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk. */
 struct group {
-	size_t j, k, rows, dj, dk, stride;
-	double *w;
+	size_t j, k, rows, dj, dk;
 };
 
 static struct group group_of(const struct pm_poisson_fft *p, size_t slab, size_t start)
 {
 	bool plane = thick(p);
-	struct group g = {.j = plane ? start : 0, .k = plane ? slab : slab * L, .dj = plane, .dk = !plane, .stride = plane ? p->row : p->plane};
+	struct group g = {.j = plane ? start : 0, .k = plane ? slab : slab * L, .dj = plane, .dk = !plane};
 	size_t left = plane ? p->nodes[Y] - g.j : p->nodes[Z] - g.k;
 	g.rows = left < L ? left : L;
-	g.w = p->w + g.k * p->plane + g.j * p->row;
 	return g;
 }
 
-static void get_rows(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, double *buffer)
+static double end_weight(const struct pm_line *l, size_t i)
 {
-	for (size_t r = 0; r < L; r++)
-		if (r < g->rows)
-			io->get(io, g->j + r * g->dj, g->k + r * g->dk, buffer + r * p->buffer);
-		else
-			memset(buffer + r * p->buffer, 0, p->buffer * sizeof *buffer);
+	return l->face == PM_OPEN && (i == 0 || i == l->n) ? 0.5 : 1;
 }
 
-static void put_rows(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, const double *buffer)
-{
-	for (size_t r = 0; r < g->rows; r++)
-		io->put(io, g->j + r * g->dj, g->k + r * g->dk, buffer + r * p->buffer);
-}
-
-static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, double *block, double *buffer)
+/* At open faces the end nodes weigh half, as in every sum over a mesh. */
+static void weigh(const struct pm_poisson_fft *p, const struct group *g, double *block)
 {
 	const struct pm_line *l = &p->line[X];
-	get_rows(p, io, g, buffer);
-	pm_lanes_in(buffer, p->buffer, p->nodes[X], block + l->first * L);
+	double weight[L], least = 1;
+	for (size_t r = 0; r < L; r++) {
+		weight[r] = end_weight(&p->line[Y], g->j + r * g->dj) * end_weight(&p->line[Z], g->k + r * g->dk);
+		least = weight[r] < least ? weight[r] : least;
+	}
+	for (size_t i = 0; i <= l->n; i++)
+		for (int q = 0; q < L && (least < 1 || i == 0 || i == l->n); q++)
+			block[i * L + (size_t)q] *= weight[q] * end_weight(l, i);
+}
+
+/* Nodes to modes; to: L rows of modes. */
+static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, double *to)
+{
+	const struct pm_line *l = &p->line[X];
+	const double *in[L];
+	double *out[L];
+	for (size_t r = 0; r < g->rows; r++) {
+		double *row = s.rows + r * p->nodes[X];
+		const double *from = io->from(io, g->j + r * g->dj, g->k + r * g->dk, row);
+		if (from != row)
+			memcpy(row, from, p->nodes[X] * sizeof *row);
+		in[r] = row, out[r] = to + r * p->row;
+	}
+	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
 	if (p->complex) {
-		double *row[L];
-		for (size_t r = 0; r < L; r++)
-			row[r] = g->w + r * g->stride;
-		pm_line_extend(l, false, block);
-		pm_fft_forward(l->fft, block);
-		pm_spectra_out(l->fft, block, (int)g->rows, row);
+		if (l->face == PM_OPEN)
+			weigh(p, g, s.block);
+		pm_line_extend(l, false, s.block);
+		pm_fft_forward(l->fft, s.block);
+		pm_spectra_out(l->fft, s.block, g->rows, out);
 		return;
 	}
-	pm_line_real(l, block);
-	pm_lanes_out(block, l->fft->at + l->first, p->nodes[X], p->buffer, buffer);
-	for (size_t r = 0; r < g->rows; r++) {
-		memcpy(g->w + r * g->stride, buffer + r * p->buffer, p->nodes[X] * sizeof *buffer);
-		memset(g->w + r * g->stride + p->nodes[X], 0, (p->chunks * L - p->nodes[X]) * sizeof *buffer);
-	}
+	pm_line_real(l, s.block);
+	pm_lanes_out(s.block, l->fft->at + l->first, p->nodes[X], g->rows, out);
+	for (size_t r = 0; r < g->rows; r++)
+		memset(out[r] + p->nodes[X], 0, (p->chunks * L - p->nodes[X]) * sizeof *to);
 }
 
-static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, double *block, double *buffer)
+static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
 {
 	const struct pm_line *l = &p->line[X];
+	const double *in[L];
+	double *out[L];
+	for (size_t r = 0; r < g->rows; r++)
+		in[r] = from + r * p->row, out[r] = s.rows + r * p->nodes[X];
 	if (p->complex) {
-		const double *row[L];
-		for (size_t r = 0; r < L; r++)
-			row[r] = g->w + r * g->stride;
-		pm_spectra_in(l->fft, (int)g->rows, row, block);
-		pm_fft_backward(l->fft, block);
-		pm_lanes_out(block, NULL, p->nodes[X], p->buffer, buffer);
+		pm_spectra_in(l->fft, g->rows, in, s.block);
+		pm_fft_backward(l->fft, s.block);
 	} else {
-		for (size_t r = 0; r < g->rows; r++)
-			memcpy(buffer + r * p->buffer, g->w + r * g->stride, p->nodes[X] * sizeof *buffer);
-		for (size_t r = g->rows; r < L; r++)
-			memset(buffer + r * p->buffer, 0, p->nodes[X] * sizeof *buffer);
-		pm_lanes_in(buffer, p->buffer, p->nodes[X], block + l->first * L);
-		pm_line_real(l, block);
-		pm_lanes_out(block, l->fft->at + l->first, p->nodes[X], p->buffer, buffer);
+		pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
+		pm_line_real(l, s.block);
 	}
-	put_rows(p, io, g, buffer);
+	pm_lanes_out(s.block, p->complex ? NULL : l->fft->at + l->first, p->nodes[X], g->rows, out);
+	for (size_t r = 0; r < g->rows; r++)
+		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
 }
 
 /* Columns of a plane: L lanes at a time. Real modes are put in order, complex ones stay as they come. */
@@ -131,24 +151,45 @@ static void columns(const struct pm_poisson_fft *p, double *plane, bool forward,
 	}
 }
 
+static void plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+{
+	for (size_t j = 0; j < p->nodes[Y]; j += L) {
+		struct group g = group_of(p, k, j);
+		rows_forward(p, io, &g, s, s.modes + j * p->row);
+	}
+	columns(p, s.modes, true, s.block);
+	for (size_t j = 0; j < p->modes[Y]; j++)
+		copy_out(p, p->w + (j * p->nodes[Z] + k) * p->row, s.modes + j * p->row, p->chunks * L);
+}
+
+static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+{
+	for (size_t j = 0; j < p->modes[Y]; j++)
+		memcpy(s.modes + j * p->row, p->w + (j * p->nodes[Z] + k) * p->row, p->chunks * L * sizeof *p->w);
+	columns(p, s.modes, false, s.block);
+	for (size_t j = 0; j < p->nodes[Y]; j += L) {
+		struct group g = group_of(p, k, j);
+		rows_backward(p, io, &g, s, s.modes + j * p->row);
+	}
+}
+
 void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
 {
 	bool plane = thick(p);
-	size_t slabs = plane ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L, rows = plane ? p->nodes[Y] : L;
+	size_t slabs = plane ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L;
 #pragma omp parallel for schedule(dynamic) num_threads(p->threads)
 	for (size_t i = 0; i < slabs; i++) {
-		double *buffer = thread_scratch(p), *block = buffer + L * p->buffer;
-		if (plane && !forward)
-			columns(p, p->w + i * p->plane, false, block);
-		for (size_t r = 0; r < rows; r += L) {
-			struct group g = group_of(p, i, r);
-			if (forward)
-				rows_forward(p, io, &g, block, buffer);
-			else
-				rows_backward(p, io, &g, block, buffer);
-		}
+		struct scratch s = thread_scratch(p);
+		struct group g = group_of(p, i, 0);
 		if (plane && forward)
-			columns(p, p->w + i * p->plane, true, block);
+			plane_forward(p, io, i, s);
+		else if (plane)
+			plane_backward(p, io, i, s);
+		else if (forward)
+			rows_forward(p, io, &g, s, p->w + g.k * p->row);
+		else
+			rows_backward(p, io, &g, s, p->w + g.k * p->row);
+		pm_stream_end();
 	}
 }
 
@@ -162,7 +203,7 @@ static void times(const double *u, double *a)
 static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
 {
 	const struct pm_line *l = &p->line[Z];
-	const double *lx = p->lambda[X] + c * H, *green = p->green ? p->green + p->fold[j] * p->green_row + c * H : NULL;
+	const double *lx = p->lambda[X] + c * H, *green = p->green ? p->green + p->fold[j] * p->green_slab + c * H : NULL;
 	size_t n = l->length;
 	pm_line_extend(l, false, block);
 	pm_fft_forward(l->fft, block);
@@ -171,7 +212,7 @@ static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double
 	for (size_t k = 0; k <= n - k; k++) {
 		double u[H], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[(n - k) % n] * L;
 		for (int q = 0; q < H; q++)
-			u[q] = green ? factor * green[k * p->green_plane + (size_t)q] : factor / (lx[q] + (p->lambda[Y][j] + p->lambda[Z][k]));
+			u[q] = green ? factor * green[k * p->green_row + (size_t)q] : factor / (lx[q] + (p->lambda[Y][j] + p->lambda[Z][k]));
 		if (p->singular && j == 0 && c == 0 && k == 0)
 			u[0] = 0;
 		times(u, a);
@@ -191,25 +232,37 @@ static void real_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double fa
 		p->zero = zero;
 }
 
-void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum)
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, bool spectrum, double *block, double *at)
 {
 	const struct pm_line *l = &p->line[Z];
-	size_t n = p->modes[Y] * p->chunks;
+	gather(at, p->row, p->nodes[Z], block + l->first * L);
+	if (spectrum) {
+		pm_line_real(l, block);
+		for (size_t k = 0; k < p->nodes[Z]; k++)
+			memcpy(at + k * p->row, block + l->fft->at[l->first + k] * L, L * sizeof *block);
+		return;
+	}
+	if (p->complex)
+		complex_pencils(p, j, c, factor, block);
+	else
+		real_pencils(p, j, c, factor, block);
+	scatter(block + l->first * L, p->nodes[Z], p->row, at);
+}
+
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum)
+{
+	bool plane = thick(p);
+	size_t slabs = plane ? p->modes[Y] : p->chunks, size = p->nodes[Z] * p->row;
 #pragma omp parallel for schedule(static) num_threads(p->threads)
-	for (size_t i = 0; i < n; i++) {
-		size_t j = i / p->chunks, c = i % p->chunks;
-		double *block = thread_scratch(p), *at = p->w + j * p->row + c * L;
-		gather(at, p->plane, p->nodes[Z], block + l->first * L);
-		if (spectrum) {
-			pm_line_real(l, block);
-			for (size_t k = 0; k < p->nodes[Z]; k++)
-				memcpy(at + k * p->plane, block + l->fft->at[l->first + k] * L, L * sizeof *block);
+	for (size_t i = 0; i < slabs; i++) {
+		struct scratch s = thread_scratch(p);
+		if (!plane) {
+			pencils(p, 0, i, factor, spectrum, s.block, p->w + i * L);
 			continue;
 		}
-		if (p->complex)
-			complex_pencils(p, j, c, factor, block);
-		else
-			real_pencils(p, j, c, factor, block);
-		scatter(block + l->first * L, p->nodes[Z], p->plane, at);
+		memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
+		for (size_t c = 0; c < p->chunks; c++)
+			pencils(p, i, c, factor, spectrum, s.block, s.modes + c * L);
+		memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
 	}
 }

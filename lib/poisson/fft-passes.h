@@ -14,26 +14,27 @@ struct pm_poisson_fft {
 	struct pm_line line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
 	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
 	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */
-	size_t row, plane;             /* [doubles] strides of w */
-	double *w;                     /* nodes[Z] * plane */
+	size_t row;                    /* [doubles] stride of rows */
+	double *w;                     /* [modes[Y]][nodes[Z]][row]: a pencil's slab is in one piece, a plane's rows are not */
 	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
 	double *green;                 /* open: transform of the Green's function, in the layout of a real solver (next) */
-	size_t green_row, green_plane; /* [doubles] */
+	size_t green_row, green_slab;  /* [doubles] green[y][z][x] */
 	size_t *fold;                  /* open: of each row of a plane of modes the row of green */
 	double volume;                 /* of a cell, open; else 1 */
 	int threads;
-	size_t lot, buffer;            /* [doubles] of scratch per thread: a block, and L rows of this many */
+	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
 	double *scratch;
+	bool streams;                  /* w is larger than the caches */
 	double zero;                   /* the mode of constants, after the forward transform */
 };
 
-/* Where rows come from and go to: j, k count the nodes that take part; row holds nodes[X] values. */
+/* Where rows of nodes[X] values come from and go to: j, k count the nodes that take part. from may fill the buffer. */
 struct rows {
 	const struct pm_poisson_fft *p;
 	const double *s;
 	double *phi;
-	void (*get)(const struct rows *r, size_t j, size_t k, double *row);
-	void (*put)(const struct rows *r, size_t j, size_t k, const double *row);
+	const double *(*from)(const struct rows *r, size_t j, size_t k, double *buffer);
+	double *(*to)(const struct rows *r, size_t j, size_t k);
 };
 
 void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);

@@ -2,10 +2,9 @@
  * Faces by axis: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), in any mixture; or open on all axes: the convolution with the
  * free-space Green's function on a domain of doubled length 2n (exactly, for the function is even), padding kept out of memory where it is zero.
  * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4.
- * Three passes over memory: planes (rows, then columns while the plane is in cache); blocks of pencils along the last axis forward, times
- * the symbol, and back; planes back. Periodic and open: complex spectra of real rows; otherwise real transforms (mesh/lines.h).
- * Determinism: serial plans, a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh,
- * open 4 in 3-D and half a copy for the Green's function.
+ * Three passes over memory (fft-passes.c). Periodic and open: complex spectra of real rows; otherwise real transforms (mesh/lines.h).
+ * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and half a
+ * copy for the Green's function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -57,48 +56,37 @@ int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol)
 	return 0;
 }
 
-/* Rows of the mesh. At open faces the end nodes weigh half, as in every sum over a mesh. */
-static void get_source(const struct rows *r, size_t j, size_t k, double *row)
+static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
 {
-	const struct pm_poisson_fft *p = r->p;
 	const struct pm_grid *g = &p->grid;
-	size_t at[3] = {p->line[X].first, p->line[Y].first + j, p->line[Z].first + k};
-	const double *s = r->s + at[X] + g->points[0] * (g->dim == 2 ? at[Z] : at[Y] + g->points[1] * at[Z]);
-	memcpy(row, s, p->nodes[X] * sizeof *row);
-	if (p->line[X].face != PM_OPEN)
-		return;
-	double weight = 1;
-	for (int a = Y; a <= Z; a++)
-		if (p->line[a].face == PM_OPEN && (at[a] == 0 || at[a] == p->line[a].n))
-			weight *= 0.5;
-	if (weight < 1)
-		for (size_t i = 0; i < p->nodes[X]; i++)
-			row[i] *= weight;
-	row[0] *= 0.5;
-	row[p->line[X].n] *= 0.5;
+	size_t y = p->line[Y].first + j, z = p->line[Z].first + k;
+	return g->points[0] * (g->dim == 2 ? z : y + g->points[1] * z);
 }
 
-static void get_green(const struct rows *r, size_t j, size_t k, double *row)
+static const double *source_row(const struct rows *r, size_t j, size_t k, double *buffer)
+{
+	(void)buffer;
+	return r->s + row_offset(r->p, j, k) + r->p->line[X].first;
+}
+
+static const double *green_row(const struct rows *r, size_t j, size_t k, double *buffer)
 {
 	const struct pm_grid *g = &r->p->grid;
-	double y = g->dim == 3 ? (double)j * g->h[1] : 0, z = (double)k * g->h[g->dim == 2 ? 1 : 2];
-	if (g->dim == 1)
-		z = 0;
+	double y = g->dim == 3 ? (double)j * g->h[1] : 0, z = g->dim > 1 ? (double)k * g->h[g->dim - 1] : 0;
 	for (size_t i = 0; i < r->p->nodes[X]; i++) {
 		double x = (double)i * g->h[0], r2 = x * x + y * y + z * z;
-		row[i] = r2 > 0 ? pm_green(g->dim, r2) : r->s[0];
+		buffer[i] = r2 > 0 ? pm_green(g->dim, r2) : r->s[0];
 	}
+	return buffer;
 }
 
-static void put_row(const struct rows *r, size_t j, size_t k, const double *row)
+static double *result_row(const struct rows *r, size_t j, size_t k)
 {
 	const struct pm_poisson_fft *p = r->p;
-	const struct pm_grid *g = &p->grid;
-	size_t at[3] = {p->line[X].first, p->line[Y].first + j, p->line[Z].first + k};
-	double *phi = r->phi + g->points[0] * (g->dim == 2 ? at[Z] : at[Y] + g->points[1] * at[Z]);
-	if (at[X])
-		phi[0] = phi[g->points[0] - 1] = 0;
-	memcpy(phi + at[X], row, p->nodes[X] * sizeof *row);
+	double *phi = r->phi + row_offset(p, j, k);
+	if (p->line[X].first) /* walls */
+		phi[0] = phi[p->line[X].n] = 0;
+	return phi + p->line[X].first;
 }
 
 static int scratch_ready(struct pm_poisson_fft *p)
@@ -138,7 +126,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	}
 	if (scratch_ready(p))
 		return -PM_DATA;
-	struct rows io = {.p = p, .s = s, .phi = phi, .get = get_source, .put = put_row};
+	struct rows io = {.p = p, .s = s, .phi = phi, .from = source_row, .to = result_row};
 	double norm = 1;
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
@@ -189,10 +177,12 @@ static int layout(struct pm_poisson_fft *p)
 	}
 	p->chunks = p->complex ? (p->modes[X] + H - 1) / H : (p->modes[X] + L - 1) / L;
 	p->row = odd_stride(p->chunks * L);
-	p->plane = odd_stride(p->modes[Y] * p->row);
-	p->buffer = (p->nodes[X] + H - 1) / H * H;
-	p->lot = odd_stride((most + 1 + p->buffer) * L);
-	return p->empty || (p->w = pm_alloc(p->nodes[Z] * p->plane, sizeof *p->w)) ? 0 : -PM_DATA;
+	p->streams = p->modes[Y] * p->nodes[Z] * p->row > (size_t)1 << 20; /* 8 MiB */
+	p->block = odd_stride((most + 1) * L);
+	p->rows = odd_stride(p->nodes[X] * L);
+	size_t slab = p->modes[Y] > p->nodes[Z] ? p->modes[Y] : p->nodes[Z];
+	p->lot = p->block + p->rows + (p->line[Y].length > 1 ? odd_stride((slab + L) * p->row) : 0);
+	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
 static int symbols(struct pm_poisson_fft *p, enum pm_symbol symbol)
@@ -222,13 +212,13 @@ static int green(struct pm_poisson_fft *p, enum pm_symbol symbol)
 		p->fold[p->line[Y].fft->at[k]] = k <= n - k ? k : n - k;
 	if (!code) {
 		double centre = pm_green_centre(symbol, g.dim, g.h);
-		struct rows io = {.p = q, .s = &centre, .get = get_green};
+		struct rows io = {.p = q, .s = &centre, .from = green_row};
 		pm_poisson_fft_planes(q, &io, true);
 		pm_poisson_fft_pencils(q, 1, true);
 		p->green = q->w;
 		q->w = NULL;
 		p->green_row = q->row;
-		p->green_plane = q->plane;
+		p->green_slab = q->row * q->nodes[Z];
 		p->volume = pm_grid_cell(&g);
 	}
 	pm_poisson_fft_free(q);
