@@ -4,6 +4,8 @@ bats_require_minimum_version 1.5.0
 top=$(cd "$BATS_TEST_DIRNAME/../.." && pwd)
 PATH=${PM_BIN:-$top/bin}:$PATH
 export LC_ALL=C OMP_NUM_THREADS=${OMP_NUM_THREADS:-2}
+# Test files run side by side: threads that wait for each other must not spin while the others want the core.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 
 setup() {
 	cd "$BATS_TEST_TMPDIR" || return

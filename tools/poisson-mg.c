@@ -28,7 +28,7 @@ static const char *const cycles[] = {"v", "w", "fmg", NULL}; /* in the order of 
 static const struct pm_option options[] = {
 	{"cycle", 0, PM_WORD, "", "fmg", 0, 0, cycles, "V-cycles, W-cycles, or full multigrid and then V-cycles", false, offsetof(struct config, cycle)},
 	{"smooth", 0, PM_VECTOR, "sweeps", "2,2", 0, 20, NULL, "red-black sweeps before and after the coarse grid", false, offsetof(struct config, smooth)},
-	{"relaxation", 0, PM_REAL, "", "1", 0.1, 1.9, NULL, "factor of each sweep, 1 is Gauss-Seidel", false, offsetof(struct config, relaxation)},
+	{"relaxation", 0, PM_REAL, "", "1.15", 0.1, 1.9, NULL, "factor of each sweep, 1 is Gauss-Seidel", false, offsetof(struct config, relaxation)},
 	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
 		offsetof(struct config, tolerance)},
 	{"max-cycles", 0, PM_INTEGER, "", "50", 1, PM_MG_MOST, NULL, "cycles after which it fails", false, offsetof(struct config, most)},
