@@ -5,7 +5,7 @@
 
 #include "mesh/transfer_order.h"
 
-enum { batch = 256 };
+enum { batch = 256, ahead = 16 }; /* ahead: the place of a later record is fetched early */
 
 static size_t chunk_from(const struct pm_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
@@ -84,7 +84,9 @@ static void move_chunk(struct pm_order *o, const struct pm_axis axes[3], int chu
 		size_t m = to - p < batch ? to - p : batch;
 		locate(axes, o->dim, p, m, x, u);
 		for (size_t i = 0; i < m; i++) {
-			double *record = o->records + stride * cursor[o->tile[p + i]]++;
+			uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < to ? p + i + ahead : p + i];
+			double *record = o->records + stride * cursor[tile]++;
+			__builtin_prefetch(o->records + stride * cursor[soon], 1);
 			for (int d = 0; d < o->dim; d++)
 				record[d] = u[d][i];
 			for (int c = 0; c < nvalues; c++)
@@ -168,8 +170,9 @@ void pm_order_return(struct pm_order *o, int nvalues, const double *factor, doub
 	for (int chunk = 0; chunk < o->chunks; chunk++) {
 		size_t *cursor = o->cursor + (size_t)chunk * (o->tiles + 1);
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p++) {
-			uint32_t tile = o->tile[p];
+			uint32_t tile = o->tile[p], soon = o->tile[p + ahead < end ? p + ahead : p];
 			const double *record = o->records + stride * cursor[tile]++;
+			__builtin_prefetch(o->records + stride * cursor[soon]);
 			if (tile == o->tiles)
 				continue;
 			double f = factor ? factor[p] : 1;
