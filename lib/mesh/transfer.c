@@ -8,7 +8,10 @@
 #include "mesh/transfer_order.h"
 #include "mesh/transfer_tile.h"
 
-enum { piece = 16384 }; /* particles per job: a crowded tile is shared out */
+enum {
+	piece = 16384, /* particles per job: a crowded tile is shared out */
+	wave = 32      /* jobs per thread between two meetings */
+};
 
 struct job {
 	size_t tile, from, to; /* records */
@@ -94,14 +97,24 @@ static void add_block(const struct pass *w, const struct job *j, int c, int thre
 		}
 }
 
+/* Threads worth starting for n particles. */
+static int threads_for(size_t n)
+{
+	size_t most = n / 4096 + 1;
+	return (size_t)pm_threads() < most ? pm_threads() : (int)most;
+}
+
+/* One thread adds each block at once, while it is in the cache. */
+static size_t jobs_under_way(int threads) { return threads == 1 ? 1 : wave * (size_t)threads; }
+
 /* Jobs are taken in waves: every thread fills blocks of the wave, then adds the mesh lines that are its own from all of them in order. */
 static void spread_component(const struct pass *w, int value, int threads, double *mesh)
 {
-	size_t wave = threads == 1 ? 1 : 8 * (size_t)threads;
+	size_t under_way = jobs_under_way(threads);
 	pm_tile_loop *loop = pm_tile_spread(w->order.dim, w->t->kernel);
 #pragma omp parallel num_threads(threads)
-	for (size_t from = 0; from < w->jobs; from += wave) {
-		size_t to = w->jobs - from < wave ? w->jobs : from + wave;
+	for (size_t from = 0; from < w->jobs; from += under_way) {
+		size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++) {
 			struct pm_tile t = tile_of(w, &w->job[j], w->blocks + (j - from) * PM_BLOCK_MOST);
@@ -203,10 +216,10 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 {
 	bool done[PM_COMPONENTS] = {false};
 	struct pass w;
-	int status = 0, threads = pm_threads();
+	int status = 0, threads = threads_for(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
-		status = begin_pass(&w, n, x, w.components, strength, threads == 1 ? 1 : 8 * (size_t)threads, 1, strays);
+		status = begin_pass(&w, n, x, w.components, strength, jobs_under_way(threads), 1, strays);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		end_pass(&w);
@@ -219,7 +232,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 {
 	bool done[PM_COMPONENTS] = {false};
 	struct pass w;
-	int status = 0, threads = pm_threads();
+	int status = 0, threads = threads_for(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		double *to[PM_COMPONENTS];

@@ -80,7 +80,7 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 }
 
 @test "m2p honours components that sit half a cell up" {
-	given g periodic derived 2.25 | stab | sed '1s/"kernel":"cic",/&"half":[[1]],/' | stab - >a
+	given g periodic derived 2.25 | stab | sed '1s/"kernel":"cic",/&"half":[[1,0,0]],/' | stab - >a
 	[ "$(m2p <a | of acc)" = 3.25 ] # values 0 1 4 9 at 0.5 1.5 2.5 3.5: a quarter below 2.5
 }
 
