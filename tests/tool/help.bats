@@ -57,7 +57,7 @@ load words
 }
 
 @test "the completion file is bash, and completes options and choices" {
-	bash "$top/lib/stage/completion.sh" $(tools) >completion.bash
+	bash "$top/lib/stage/completion.sh" $(tools | sed "s|^|${PM_BIN:-$top/bin}/|") >completion.bash
 	run -0 bash -c '. ./completion.bash
 		complete -p cycle >/dev/null
 		COMP_WORDS=(cycle --ever) COMP_CWORD=1; _pmpipe; echo "${COMPREPLY[@]}"

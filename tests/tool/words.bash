@@ -11,7 +11,8 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	push) echo "push drift" ;;
-	scalc) echo "scalc 'kinetic = 0.5*(v_0^2 + v_1^2 + v_2^2)'" ;;
+	remesh) echo "remesh --by mass" ;;
+	scalc) echo "scalc 'kinetic = (vx^2 + vy^2 + vz^2) / 2'" ;;
 	scmp) echo "scmp - same.pm" ;;
 	sdraw) echo "sdraw -o picture.png" ;;
 	smod) echo "smod --shift 1,0,0" ;;
