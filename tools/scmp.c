@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "measure/norms.h"
-#include "mesh/grid.h"
+#include "measure/pairs.h"
 #include "stage/stage.h"
 
 enum { L1, L2, MAX, RELATIVE_L2, RELATIVE_MAX };
@@ -26,104 +26,9 @@ static const struct pm_option options[] = {
 	{.name = "by-index", .kind = PM_FLAG, .text = "compare particles in the order in which they come, even where both have an id", .offset = offsetof(struct config, by_index)},
 	{0}};
 
-enum { most_pairs = 256 };
-
-struct pairs { /* what is compared of two frames */
-	struct pm_field *a[most_pairs], *b[most_pairs];
-	int n;
-};
-
-static bool listed(const struct pm_list *list, const char *name)
+static struct pm_pairs_choice choice_of(const struct config *c)
 {
-	for (int i = 0; i < list->n; i++)
-		if (!strcmp(list->item[i], name))
-			return true;
-	return !list->n;
-}
-
-/* Every field asked for is somewhere. */
-static int asked(const struct config *c, const struct pm_frame *f)
-{
-	for (int i = 0; i < c->fields.n + c->on.n; i++) {
-		const char *name = i < c->fields.n ? c->fields.item[i] : c->on.item[i - c->fields.n];
-		bool there = i >= c->fields.n && (pm_frame_set(f, name) || pm_frame_mesh(f, name));
-		for (size_t k = 0; k < f->nfields && i < c->fields.n; k++)
-			there |= !strcmp(f->fields[k]->name, name);
-		if (!there)
-			return pm_fail(PM_DATA, "no %s '%s' in the first stream (sls lists what there is)", i < c->fields.n ? "field" : "set or mesh", name);
-	}
-	return 0;
-}
-
-/* The fields of one frame must be in the other. */
-static int one_sided(const struct config *c, const struct pm_frame *f, const struct pm_frame *other, const char *which)
-{
-	for (size_t i = 0; i < f->nfields; i++) {
-		const struct pm_field *p = f->fields[i];
-		if (listed(&c->fields, p->name) && listed(&c->on, p->on) && !pm_frame_field(other, p->on, p->name))
-			return pm_fail(PM_DATA, "'%s' on '%s' is in the %s stream only (--common passes over it, --field chooses)", p->name, p->on, which);
-	}
-	return 0;
-}
-
-static int same_shape(const struct pm_frame *f, const struct pm_field *a, const struct pm_frame *g, const struct pm_field *b)
-{
-	const struct pm_mesh *m = pm_frame_mesh(f, a->on), *k = pm_frame_mesh(g, b->on);
-	if (a->components != b->components)
-		return pm_fail(PM_DATA, "'%s' on '%s' has %d components in the first stream and %d in the second", a->name, a->on, a->components, b->components);
-	for (int axis = 0; m && k && axis < f->dim; axis++) {
-		if (m->cells[axis] != k->cells[axis])
-			return pm_fail(PM_DATA, "the mesh '%s' has %zu cells along %c in the first stream and %zu in the second", a->on, m->cells[axis], "xyz"[axis], k->cells[axis]);
-		if (fabs(m->lo[axis] - k->lo[axis]) > 1e-9 * m->h[axis] || fabs(m->h[axis] - k->h[axis]) > 1e-9 * m->h[axis])
-			return pm_fail(PM_DATA, "the meshes '%s' do not lie at the same place along %c", a->on, "xyz"[axis]);
-	}
-	if (a->count != b->count)
-		return pm_fail(PM_DATA, "'%s' has %zu values in the first stream and %zu in the second", a->on, a->count, b->count);
-	return memcmp(a->half, b->half, sizeof a->half) ? pm_fail(PM_DATA, "'%s' on '%s' is staggered differently", a->name, a->on) : 0;
-}
-
-static bool both_id(const struct config *c, const struct pm_frame *f, const struct pm_frame *g, const char *on)
-{
-	const struct pm_field *a = pm_frame_field(f, on, "id"), *b = pm_frame_field(g, on, "id");
-	return !c->by_index && a && b && pm_frame_set(f, on) && a->type == PM_I64 && b->type == PM_I64;
-}
-
-static int pair(const struct config *c, struct pm_frame *f, struct pm_frame *g, struct pairs *p)
-{
-	int status = 0;
-	p->n = 0;
-	if (f->dim != g->dim)
-		return pm_fail(PM_DATA, "the first stream has %d dimensions, the second %d", f->dim, g->dim);
-	if ((status = asked(c, f)))
-		return status;
-	if (!c->common && ((status = one_sided(c, f, g, "first")) || (status = one_sided(c, g, f, "second"))))
-		return status;
-	for (size_t i = 0; i < f->nfields && !status; i++) {
-		struct pm_field *a = f->fields[i], *b = pm_frame_field(g, a->on, a->name);
-		if (!b || !listed(&c->fields, a->name) || !listed(&c->on, a->on))
-			continue;
-		if (p->n == most_pairs)
-			return pm_fail(PM_DATA, "more than %d fields (choose some with --field)", most_pairs);
-		status = same_shape(f, a, g, b);
-		p->a[p->n] = a, p->b[p->n++] = b;
-		a->use |= PM_USE_READ, b->use |= PM_USE_READ;
-		if (!status && both_id(c, f, g, a->on))
-			pm_reads(f, a->on, "id"), pm_reads(g, a->on, "id");
-	}
-	if (!status && !p->n)
-		return pm_fail(PM_DATA, "there is nothing to compare (sls lists the fields)");
-	return status;
-}
-
-static double *weights(const struct pm_frame *f, const struct pm_mesh *m)
-{
-	struct pm_grid g = pm_grid_of(f, m);
-	double *w = pm_alloc(pm_grid_size(&g), sizeof *w), *o = w;
-	for (size_t k = 0; w && k < g.points[2]; k++)
-		for (size_t j = 0; j < g.points[1]; j++)
-			for (size_t i = 0; i < g.points[0]; i++)
-				*o++ = pm_grid_weight(&g, i, j, k);
-	return w;
+	return (struct pm_pairs_choice){.fields = c->fields.item, .on = c->on.item, .common = c->common, .by_index = c->by_index};
 }
 
 /* Where the difference is largest, in words. */
@@ -171,13 +76,14 @@ static void row(const struct config *c, struct state *st, const char *on, const 
 static int field_row(const struct config *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b,
 	struct state *st)
 {
+	const struct pm_pairs_choice choice = choice_of(c);
 	char at[64];
 	size_t *match = NULL, *work = NULL;
 	double *weight = NULL;
 	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
-	bool id = both_id(c, f, g, a->on);
+	bool id = pm_pairs_by_id(&choice, f, g, a->on);
 	int status = 0;
-	if (m && !(weight = weights(f, m)))
+	if (m && !(weight = pm_pairs_weights(f, m)))
 		status = -PM_DATA;
 	if (id && a->count) {
 		match = pm_alloc(a->count, sizeof *match), work = pm_alloc(a->count, sizeof *work);
@@ -195,8 +101,9 @@ static int field_row(const struct config *c, const struct pm_frame *f, const str
 
 static int compare(const struct config *c, struct pm_reader *r[2], struct pm_frame *f[2], struct state *st)
 {
-	struct pairs p;
-	int status = pair(c, f[0], f[1], &p);
+	const struct pm_pairs_choice choice = choice_of(c);
+	struct pm_pairs p;
+	int status = pm_pairs_of(&choice, f[0], f[1], &p);
 	for (int i = 0; i < 2 && !status; i++)
 		if (!(status = pm_read_payload(r[i], f[i], false, NULL)))
 			status = pm_frame_ready(f[i]);
@@ -251,8 +158,11 @@ static int streams(struct pm_stage *s, struct pm_reader *r[2])
 
 static int whole(struct pm_stage *s)
 {
+	const struct config *c = s->config;
 	struct pm_reader *r[2] = {NULL, NULL};
 	int status = 0;
+	if (c->fields.n == PM_LIST_MOST || c->on.n == PM_LIST_MOST) /* the lists end in NULL */
+		return pm_fail(PM_USAGE, "--field and --set take at most %d names", PM_LIST_MOST - 1);
 	if (!strcmp(s->args[0], "-") && !strcmp(s->args[1], "-"))
 		return pm_fail(PM_USAGE, "standard input cannot be both streams (name a file)");
 	for (int i = 0; i < 2 && !status; i++)

@@ -3,7 +3,9 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "mesh/move.h"
 #include "stage/attributes.h"
+#include "stream/edit.h"
 #include "stream/join.h"
 
 struct config {
@@ -14,9 +16,8 @@ struct config {
 	int64_t seed, step;
 };
 
-struct state { /* of the options */
-	int turn[2];          /* the axes that turn into each other, -1 none */
-	double cosine, sine;
+struct state {
+	struct pm_turn turn; /* of the options */
 };
 
 static const struct pm_option options[] = {
@@ -49,25 +50,6 @@ static bool listed(const struct pm_list *list, const char *name)
 	return !list->n;
 }
 
-/* "z,30": the angle of a right-handed turn about the axis. */
-static int rotation(const char *text, struct state *st)
-{
-	char *end;
-	st->turn[0] = st->turn[1] = -1;
-	if (!text)
-		return 0;
-	int axis = *text >= 'x' && *text <= 'z' && text[1] == ',' ? *text - 'x' : -1;
-	double degrees = axis < 0 ? 0 : strtod(text + 2, &end);
-	if (axis < 0 || end == text + 2 || *end || !isfinite(degrees))
-		return pm_fail(PM_USAGE, "--rotate '%s' is not AXIS,DEGREES (z,30)", text);
-	double quarter = degrees / 90, whole = floor(quarter + 0.5), rest = (quarter - whole) * pm_pi / 2, s = sin(rest), c = cos(rest);
-	int turns = (int)(whole - 4 * floor(whole / 4)); /* quarter turns are exact */
-	st->turn[0] = (axis + 1) % 3, st->turn[1] = (axis + 2) % 3;
-	st->cosine = turns == 0 ? c : turns == 1 ? 0 - s : turns == 2 ? -c : s; /* 0 - s: not -0 */
-	st->sine = turns == 0 ? s : turns == 1 ? c : turns == 2 ? 0 - s : -c;
-	return 0;
-}
-
 static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
@@ -76,34 +58,10 @@ static int begin(struct pm_stage *s)
 		if (strcmp(type, "f32") && strcmp(type, "f64"))
 			return pm_fail(PM_USAGE, "--store '%s': f32 and f64 are the types to choose from", c->store.item[i]);
 	}
-	return rotation(c->rotate, s->state);
+	return pm_turn_of(c->rotate, &((struct state *)s->state)->turn);
 }
 
 /* ---- the header ---- */
-
-static int rename_one(struct pm_frame *f, const char *old, const char *new)
-{
-	struct pm_set *set = pm_frame_set(f, old);
-	struct pm_mesh *mesh = pm_frame_mesh(f, old);
-	int found = set != NULL || mesh != NULL;
-	if (!*new || strlen(new) >= PM_NAME || pm_frame_set(f, new) || pm_frame_mesh(f, new))
-		return pm_fail(PM_DATA, "--rename: '%s' cannot be the new name of '%s' (it is taken, empty or longer than 63)", new, old);
-	for (size_t i = 0; i < f->nfields; i++) {
-		struct pm_field *p = f->fields[i];
-		if (found && !strcmp(p->on, old))
-			strcpy(p->on, new);
-		else if (!found && !strcmp(p->name, old) && pm_frame_field(f, p->on, new))
-			return pm_fail(PM_DATA, "--rename: '%s' has a field '%s' already", p->on, new);
-	}
-	for (size_t i = 0; i < f->nfields && !set && !mesh; i++)
-		if (!strcmp(f->fields[i]->name, old))
-			strcpy(f->fields[i]->name, new), found = 1;
-	if (set)
-		strcpy(set->name, new);
-	if (mesh)
-		strcpy(mesh->name, new);
-	return found ? 0 : pm_fail(PM_DATA, "--rename: there is no '%s' (sls lists what there is)", old);
-}
 
 static int rename_all(const struct config *c, struct pm_frame *f)
 {
@@ -111,7 +69,7 @@ static int rename_all(const struct config *c, struct pm_frame *f)
 		char old[PM_NAME];
 		const char *new;
 		int status = pm_attributes_words(c->rename.item[i], old, &new);
-		if (status || (status = rename_one(f, old, new)))
+		if (status || (status = pm_frame_rename(f, old, new)))
 			return status;
 	}
 	return 0;
@@ -128,22 +86,13 @@ static int fix(const struct pm_list *list, struct pm_frame *f, bool fixed)
 	return 0;
 }
 
-/* Meshes follow the box and its faces, so what they hold must be such that it can be computed again. */
-static int meshes_free(const struct pm_frame *f)
-{
-	for (size_t i = 0; i < f->nfields; i++)
-		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
-			return pm_fail(PM_DATA, "the mesh field '%s' is state and cannot follow a new box or new faces (sel --drop leaves it out)", f->fields[i]->name);
-	return 0;
-}
-
 static int attributes(const struct config *c, struct pm_frame *f)
 {
 	int status = 0;
 	bool geometry = c->box.n || c->faces.n;
 	if (f->substep && (!isnan(c->dt) || !isnan(c->time) || c->step >= 0))
 		return pm_fail(PM_DATA, "time, dt and step can change only between steps (substep %d here)", f->substep);
-	if ((geometry && (status = meshes_free(f))) || (status = pm_attributes_constants(f, &c->constants)) || (status = pm_attributes_law(f, c->law)) ||
+	if ((geometry && (status = pm_frame_meshes_free(f))) || (status = pm_attributes_constants(f, &c->constants)) || (status = pm_attributes_law(f, c->law)) ||
 		(status = pm_attributes_box(f, &c->box)) || (status = pm_attributes_faces(f, &c->faces)) || (status = pm_attributes_particle_faces(f, &c->particle_faces)))
 		return status;
 	f->dt = isnan(c->dt) ? f->dt : c->dt;
@@ -226,7 +175,7 @@ static int scales_there(const struct config *c, const struct pm_frame *f)
 	return 0;
 }
 
-static int vectors_fit(const struct config *c, const struct state *st, const struct pm_frame *f)
+static int vectors_fit(const struct config *c, const struct pm_turn *t, const struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *v = pm_frame_field(f, f->sets[i]->name, "v");
@@ -237,7 +186,7 @@ static int vectors_fit(const struct config *c, const struct state *st, const str
 		if (c->boost.n && (!v || c->boost.n != v->components))
 			return v ? pm_fail(PM_USAGE, "--boost takes %d numbers here, not %d", v->components, c->boost.n) : pm_fail(PM_DATA, "no field 'v' on '%s' to boost", f->sets[i]->name);
 	}
-	if (st->turn[0] >= 0 && (f->dim == 1 || (f->dim == 2 && (st->turn[0] > 1 || st->turn[1] > 1))))
+	if (t->axis[0] >= 0 && (f->dim == 1 || (f->dim == 2 && (t->axis[0] > 1 || t->axis[1] > 1))))
 		return pm_fail(PM_USAGE, "--rotate: in %d dimensions %s", f->dim, f->dim == 1 ? "nothing turns" : "only z can be the axis");
 	for (int i = 0; i < c->sets.n; i++)
 		if (!pm_frame_set(f, c->sets.item[i]))
@@ -245,52 +194,15 @@ static int vectors_fit(const struct config *c, const struct state *st, const str
 	return 0;
 }
 
-static int store(const struct config *c, struct pm_frame *f)
-{
-	for (int i = 0; i < c->store.n; i++) {
-		const char *sign = strchr(c->store.item[i], '='), *type = sign ? sign + 1 : c->store.item[i];
-		enum pm_type to = !strcmp(type, "f32") ? PM_F32 : PM_F64;
-		bool found = !sign;
-		for (size_t k = 0, n = f->nfields; k < n;) {
-			struct pm_field *p = f->fields[k];
-			bool mine = !sign || (strlen(p->name) == (size_t)(sign - c->store.item[i]) && !strncmp(p->name, c->store.item[i], strlen(p->name)));
-			bool real = p->type == PM_F64 || p->type == PM_F32;
-			found |= mine;
-			if (mine && !real && sign)
-				return pm_fail(PM_DATA, "'%s' holds whole numbers, which --store does not change", p->name);
-			if (mine && real && p->type != to && !p->uniform && !(p->use & PM_USE_CHANGE))
-				pm_changes(f, p->on, p->name), n--;
-			else
-				k++;
-			if (mine && real)
-				p->type = to;
-			for (int j = 0; mine && real && to == PM_F32 && p->uniform && j < p->components; j++)
-				p->value[j] = (float)p->value[j];
-		}
-		if (!found)
-			return pm_fail(PM_DATA, "no field '%.*s' to store (sls lists what there is)", (int)(sign - c->store.item[i]), c->store.item[i]);
-	}
-	return 0;
-}
-
-static void stretch_box(struct pm_frame *f, double by)
-{
-	for (int a = 0; a < f->dim; a++) {
-		f->lo[a] *= by, f->hi[a] *= by;
-		for (size_t i = 0; i < f->nmeshes; i++)
-			f->meshes[i]->lo[a] *= by, f->meshes[i]->h[a] *= by;
-	}
-}
-
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	int status, touched = c->box.n || c->faces.n || c->law || c->constants.n;
 	double box;
-	if ((status = scales_there(c, f)) || (status = factor(c, "box", &box)) || (box != 1 && (status = meshes_free(f))) || (status = vectors_fit(c, s->state, f)) || (status = attributes(c, f)))
+	if ((status = scales_there(c, f)) || (status = factor(c, "box", &box)) || (box != 1 && (status = pm_frame_meshes_free(f))) || (status = vectors_fit(c, &((struct state *)s->state)->turn, f)) || (status = attributes(c, f)))
 		return status;
 	if (box != 1)
-		stretch_box(f, box), touched = 1;
+		pm_frame_stretch(f, box), touched = 1;
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		if (listed(&c->sets, f->sets[i]->name))
 			status = plan_set(c, f, f->sets[i]->name, &touched);
@@ -302,8 +214,9 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		pm_drops_roles(f, f->sets[i]->name, 1u << PM_CHANGE | 1u << PM_DERIVED); /* they belonged to the state that was */
 	if (touched)
 		pm_drops_roles(f, NULL, 1u << PM_CHANGE | 1u << PM_DERIVED);
-	if ((status = store(c, f)))
-		return status;
+	for (int i = 0; i < c->store.n; i++)
+		if ((status = pm_frame_store(f, c->store.item[i])))
+			return status;
 	for (int i = 0; i < c->units.n; i++) {
 		const struct pm_list one = {.item = {c->units.item[i]}, .n = 1};
 		bool done = false;
@@ -316,42 +229,6 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 }
 
 /* ---- the data ---- */
-
-static void turn(const struct state *st, struct pm_field *p)
-{
-	if (st->turn[0] >= p->components || st->turn[1] >= p->components)
-		return;
-	double *a = pm_out(p, st->turn[0]), *b = pm_out(p, st->turn[1]);
-	for (size_t i = 0; i < p->count; i++) {
-		double u = a[i], w = b[i];
-		a[i] = st->cosine * u - st->sine * w;
-		b[i] = st->sine * u + st->cosine * w;
-	}
-}
-
-/* Back into a periodic axis; the upper end is the lower. */
-static double fold(double x, double lo, double hi)
-{
-	double y = x - (hi - lo) * floor((x - lo) / (hi - lo));
-	return y < lo || y >= hi ? lo : y;
-}
-
-static void add(struct pm_field *p, const struct pm_vector *by)
-{
-	for (int c = 0; c < by->n; c++)
-		for (size_t i = 0; i < p->count; i++)
-			pm_out(p, c)[i] += by->x[c];
-}
-
-static void fold_all(const struct pm_frame *f, struct pm_field *x)
-{
-	for (int c = 0; c < f->dim; c++) {
-		double *y = pm_out(x, c);
-		for (size_t i = 0; f->pface[c][0] == PM_PFOLD && i < x->count; i++)
-			if (!(y[i] >= f->lo[c] && y[i] < f->hi[c]))
-				y[i] = fold(y[i], f->lo[c], f->hi[c]);
-	}
-}
 
 /* The name a field had before --rename. */
 static bool was(const struct config *c, const char *now, const char *name)
@@ -368,7 +245,7 @@ static bool was(const struct config *c, const char *now, const char *name)
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
-	const struct state *st = s->state;
+	const struct pm_turn *t = &((struct state *)s->state)->turn;
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
 		bool x = was(c, p->name, "x"), v = was(c, p->name, "v");
@@ -384,14 +261,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		for (int k = 0; by != 1 && k < p->components; k++)
 			for (size_t j = 0; j < p->count; j++)
 				pm_out(p, k)[j] *= by;
-		if (st->turn[0] >= 0 && (x || v))
-			turn(st, p);
+		if (t->axis[0] >= 0 && (x || v))
+			pm_move_turn(t, p);
 		if (x && c->shift.n)
-			add(p, &c->shift);
+			pm_move_add(p, c->shift.n, c->shift.x);
 		if (v && c->boost.n)
-			add(p, &c->boost);
+			pm_move_add(p, c->boost.n, c->boost.x);
 		if (x)
-			fold_all(f, p);
+			pm_move_fold(f, p);
 	}
 	return 0;
 }

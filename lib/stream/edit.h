@@ -1,0 +1,15 @@
+/* Changes to the header of a frame that several fields must follow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_EDIT_H
+#define PM_EDIT_H
+
+#include "stream/frame.h"
+
+int pm_frame_rename(struct pm_frame *f, const char *old, const char *new); /* a set, a mesh, or all fields of that name */
+/* Box and meshes, about the origin. */
+void pm_frame_stretch(struct pm_frame *f, double by);
+/* Meshes follow the box and its faces, so what they hold must be such that it can be computed again: 0, or failure naming a field of state. */
+int pm_frame_meshes_free(const struct pm_frame *f);
+/* For a plan: "f32", or "x=f64". Real fields change their type; those with data are marked as changed, so that they are rounded. */
+int pm_frame_store(struct pm_frame *f, const char *choice);
+
+#endif
