@@ -5,9 +5,11 @@
  * Conserves: centred differences are antisymmetric, so that with equal kernels p2m, mgrad and m2p make no self force; one-sided ones are not.
  * Cost: one pass over memory, all components of a row at a time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
+#include <omp.h>
 
 #include "mesh/gradient.h"
+
+#define ALWAYS static inline __attribute__((always_inline))
 
 struct taps {
 	int n;
@@ -125,35 +127,53 @@ static struct axis axis_of(const struct pm_operator *o, int component, int d, do
 	return a;
 }
 
-/* out[i] (+)= sum_k w[k] from[k][i]; n is a constant where it is called. */
-static inline void combine(int n, const double *const from[], const double *w, bool add, size_t count, double *restrict out)
+/* out[i] (+)= sum_k w[k] from[k][i] */
+static void combine(const struct taps *t, const double *const from[], bool add, size_t count, double *restrict out)
 {
 	for (size_t i = 0; i < count; i++) {
-		double sum = w[0] * from[0][i];
-		for (int k = 1; k < n; k++)
-			sum += w[k] * from[k][i];
+		double sum = add ? out[i] : 0;
+		for (int k = 0; k < t->n; k++)
+			sum += t->w[k] * from[k][i];
+		out[i] = sum;
+	}
+}
+
+/* The same for the regular taps: pairs up and down of weight +-w (first derivative) or w (second, with the middle behind them). */
+ALWAYS void pairs(int n, int derivative, const struct taps *t, const double *const from[], bool add, size_t count, double *restrict out)
+{
+	const double *u0 = from[0], *d0 = from[1], *u1 = n > 1 ? from[2] : u0, *d1 = n > 1 ? from[3] : d0, *u2 = n > 2 ? from[4] : u0,
+		*d2 = n > 2 ? from[5] : d0, *c = derivative == 2 ? from[2 * n] : u0;
+	const double w0 = t->w[0], w1 = n > 1 ? t->w[2] : 0, w2 = n > 2 ? t->w[4] : 0, wc = derivative == 2 ? t->w[2 * n] : 0;
+	const double sign = derivative == 1 ? -1 : 1;
+	for (size_t i = 0; i < count; i++) {
+		double sum = w0 * (u0[i] + sign * d0[i]);
+		if (n > 1)
+			sum += w1 * (u1[i] + sign * d1[i]);
+		if (n > 2)
+			sum += w2 * (u2[i] + sign * d2[i]);
+		if (derivative == 2)
+			sum += wc * c[i];
 		out[i] = add ? out[i] + sum : sum;
 	}
 }
 
-static inline void combine_add(int n, const double *const from[], const double *w, bool add, size_t count, double *restrict out)
+ALWAYS void pairs_add(int n, int derivative, const struct taps *t, const double *const from[], bool add, size_t count, double *out)
 {
 	if (add)
-		combine(n, from, w, true, count, out);
+		pairs(n, derivative, t, from, true, count, out);
 	else
-		combine(n, from, w, false, count, out);
+		pairs(n, derivative, t, from, false, count, out);
 }
 
-static void combine_any(int n, const double *const from[], const double *w, bool add, size_t count, double *restrict out)
+static void regular(const struct taps *t, const double *const from[], bool add, size_t count, double *out)
 {
-	switch (n) {
-	case 2: combine_add(2, from, w, add, count, out); break;
-	case 3: combine_add(3, from, w, add, count, out); break;
-	case 4: combine_add(4, from, w, add, count, out); break;
-	case 5: combine_add(5, from, w, add, count, out); break;
-	case 6: combine_add(6, from, w, add, count, out); break;
-	case 7: combine_add(7, from, w, add, count, out); break;
-	default: combine_add(n, from, w, add, count, out);
+	switch (t->n) {
+	case 2: pairs_add(1, 1, t, from, add, count, out); break;
+	case 3: pairs_add(1, 2, t, from, add, count, out); break;
+	case 4: pairs_add(2, 1, t, from, add, count, out); break;
+	case 5: pairs_add(2, 2, t, from, add, count, out); break;
+	case 6: pairs_add(3, 1, t, from, add, count, out); break;
+	default: pairs_add(3, 2, t, from, add, count, out);
 	}
 }
 
@@ -162,13 +182,16 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 {
 	const double *from[PM_TAPS];
 	const struct taps *t = &a->regular;
-	bool regular = d == 0 || (at >= a->low && at < a->points - a->high);
-	if (!regular)
+	bool inside = d == 0 || (at >= a->low && at < a->points - a->high);
+	if (!inside)
 		t = &a->end[at < a->low ? at : at + a->low + a->high - a->points];
 	if (d > 0) {
 		for (int k = 0; k < t->n; k++)
-			from[k] = in + row + (regular ? t->at[k] : t->at[k] - (ptrdiff_t)at) * a->stride;
-		combine_any(t->n, from, t->w, add, nx, out);
+			from[k] = in + row + (inside ? t->at[k] : t->at[k] - (ptrdiff_t)at) * a->stride;
+		if (inside)
+			regular(t, from, add, nx, out);
+		else
+			combine(t, from, add, nx, out);
 		return;
 	}
 	for (size_t i = 0; i < a->low + a->high; i++) {
@@ -181,22 +204,38 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 	for (int k = 0; k < t->n; k++)
 		from[k] = in + row + (ptrdiff_t)a->low + t->at[k];
 	if (nx > a->low + a->high)
-		combine_any(t->n, from, t->w, add, nx - a->low - a->high, out + a->low);
+		regular(t, from, add, nx - a->low - a->high, out + a->low);
 }
 
+/* Rows are made in cache; where the mesh is larger than the caches they leave past them, which saves reading what is overwritten. */
 int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[])
 {
 	struct axis axis[PM_TERMS_MOST];
 	const size_t *n = o->grid.points, rows = n[1] * n[2];
 	for (int t = 0; t < o->nterms; t++)
 		axis[t] = axis_of(o, o->term[t].in, o->term[t].axis, factor * o->term[t].sign);
-#pragma omp parallel for schedule(static) num_threads(pm_threads())
-	for (size_t r = 0; r < rows; r++) {
-		const size_t at[3] = {0, r % n[1], r / n[1]};
-		for (int t = 0; t < o->nterms; t++) {
-			const struct pm_operator_term *q = &o->term[t];
-			row_along(&axis[t], q->axis, in[q->in], r * n[0], at[q->axis], n[0], t && q->out == q[-1].out, out[q->out] + r * n[0]);
+	bool streams = rows * n[0] > (size_t)1 << 20; /* 8 MiB */
+	size_t lot = (n[0] + 23) / 8 * 8;
+	double *scratch = pm_alloc((size_t)pm_threads() * lot, sizeof *scratch);
+	if (!scratch)
+		return -PM_DATA;
+#pragma omp parallel num_threads(pm_threads())
+	{
+		double *buffer = scratch + (size_t)omp_get_thread_num() * lot;
+#pragma omp for schedule(static)
+		for (size_t r = 0; r < rows; r++) {
+			const size_t at[3] = {0, r % n[1], r / n[1]};
+			for (int t = 0; t < o->nterms; t++) {
+				const struct pm_operator_term *q = &o->term[t];
+				double *to = out[q->out] + r * n[0];
+				bool last = t + 1 == o->nterms || q[1].out != q->out;
+				row_along(&axis[t], q->axis, in[q->in], r * n[0], at[q->axis], n[0], t && q->out == q[-1].out, streams ? buffer : to);
+				if (streams && last)
+					pm_stream(to, buffer, n[0]);
+			}
 		}
+		pm_stream_end();
 	}
+	pm_free(scratch);
 	return 0;
 }

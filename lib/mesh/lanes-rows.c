@@ -149,7 +149,9 @@ void pm_stream(double *to, const double *from, size_t n)
 {
 	size_t i = 0;
 #ifdef __AVX512F__
-	for (; i + 8 <= n && (uintptr_t)to % 64 == 0; i += 8)
+	for (; i < n && (uintptr_t)(to + i) % 64; i++)
+		to[i] = from[i];
+	for (; i + 8 <= n; i += 8)
 		_mm512_stream_pd(to + i, _mm512_loadu_pd(from + i));
 #endif
 	memcpy(to + i, from + i, (n - i) * sizeof *to);

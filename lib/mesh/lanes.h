@@ -35,7 +35,7 @@ void pm_lanes_out(const double *block, const size_t *at, size_t n, size_t rows, 
 void pm_spectra_out(const struct pm_fft *f, const double *block, size_t rows, double *const row[PM_LANES]);
 void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[PM_LANES], double *block);
 
-/* Copies n doubles past the caches where the processor can and to is 64-byte aligned, else as memcpy does. end: before others read them. */
+/* Copies n doubles past the caches where the processor can. end: before others read them. */
 void pm_stream(double *to, const double *from, size_t n);
 void pm_stream_end(void);
 
