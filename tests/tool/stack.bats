@@ -65,3 +65,10 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 	printf 'x mass id\n' | stab - >a; printf 'x mass id\n1 2 3\n' | stab - --box 0,1 >b
 	sh_ok 'stack --merge a b | sls | grep "1 particles"; stack --merge b a | sls | grep "1 particles"; stack --merge a a | sls | grep "0 particles"'
 }
+
+@test "ids that could meet others move up just as far as they must, those above stay" {
+	printf 'x id\n1 5\n2 6\n' | stab - --set a >a; printf 'x id\n1 6\n2 9\n' | stab - --set b >b; printf 'x id\n1 100\n' | stab - --set c >c
+	[ "$(stack a b c | stab --plain --set a | col id)" = "5 6" ]
+	[ "$(stack a b c | stab --plain --set b | col id)" = "7 10" ]
+	[ "$(stack a b c | stab --plain --set c | col id)" = "100" ]
+}
