@@ -22,8 +22,8 @@ static double kernel_at(const struct pm_kernel *k, double x)
 static void check_moments(const struct pm_kernel *k)
 {
 	double worst = 0, next = 0, least = 0;
-	/* A few roundings of the largest terms: at most (width/2)^moments times weights of 1, and 1 at least. */
-	double tolerance = 1e-14 * fmax(1, pow(0.5 * k->width, k->moments) / 64);
+	/* A few roundings of the largest terms: up to (width/2)^moments times weights of a tenth, and 1 at least. */
+	double tolerance = 1e-14 * fmax(1, pow(0.5 * k->width, k->moments) / 10);
 	for (uint64_t p = 0; p < 1000; p++) {
 		double u[2], w[PM_KERNEL_WIDTH];
 		pm_random(1, p, 0, u);
