@@ -72,6 +72,21 @@ force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
 	all_ways "pinit uniform -n 1001 --dispersion 0.3" "" "push drift" 1
 }
 
+# vortices FACES: two blobs of circulation on a lattice of 20 x 22.
+vortices() {
+	awk 'BEGIN { h = 0.1; print "x y circulation volume"; for (j = 0; j < 22; j++) for (i = 0; i < 20; i++) { x = -1 + i * h; y = -1.1 + j * h
+		w = exp(-((x - 0.2)^2 + y * y) / 0.08) - 0.5 * exp(-((x + 0.4)^2 + (y - 0.1)^2) / 0.05)
+		print x, y, w * h * h, h * h } }' | stab - --law vortex --constant nu=1e-3 --dt 0.1 --box -1,-1.1,1,1.1 -n 20x22 --faces periodic --particle-faces periodic "$@"
+}
+
+@test "equal bytes: viscous vortices, three passes a step (lsrk3), remeshed after every step" {
+	all_ways vortices "" "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6" 3
+}
+
+@test "equal bytes: vortices remeshed onto an odd mesh when they are distorted" {
+	all_ways vortices "" "p2m -n 21x23 | poisson-fft | mgrad | diffuse --order 2 | m2p | push rk2 | remesh --when distortion --threshold 1e-3" 2
+}
+
 @test "equal bytes: a scheme with a memory (ab3), over its start" {
 	pinit plummer -n 200 --no-history > start
 	for engine in fused pipes; do

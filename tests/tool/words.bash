@@ -10,6 +10,8 @@ words() {
 	case $1 in
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
+	diffuse) echo "diffuse --nu 0.1" ;;
+	remesh) echo "remesh --by mass" ;;
 	push) echo "push drift" ;;
 	remesh) echo "remesh --by mass" ;;
 	scalc) echo "scalc 'kinetic = (vx^2 + vy^2 + vz^2) / 2'" ;;
@@ -27,7 +29,7 @@ input() {
 	cycle | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad) cloud | p2m | poisson-fft ;;
-	poisson-*) cloud | p2m ;;
+	poisson-* | diffuse) cloud | p2m ;;
 	*) cloud ;;
 	esac
 }

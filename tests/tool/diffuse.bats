@@ -1,0 +1,113 @@
+# diffuse: nu lap omega on the mesh, carried to the particles by m2p, advanced by push within the limits of its schemes.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+export PM_PLAN=estimate
+
+# lattice CELLS EXPRESSION [stab options]: omega(x, y) on the nodes of the periodic box 0..1 of CELLS x CELLS, as particles.
+lattice() {
+	local n=$1 e=$2
+	shift 2
+	awk -v n="$n" 'BEGIN { pi = atan2(0, -1); h = 1 / n; print "x y circulation volume"
+		for (j = 0; j < n; j++) for (i = 0; i < n; i++) { x = i * h; y = j * h; printf "%.17g %.17g %.17g %.17g\n", x, y, h * h * ('"$e"'), h * h } }' |
+		stab - --law vortex --box 0,1 -n "$n" --faces periodic --particle-faces periodic --dt 0.01 "$@"
+}
+mesh() { stab --plain --mesh mesh; }
+step='p2m | poisson-fft | mgrad | diffuse | m2p'
+
+@test "diffuse makes domega = nu lap omega, of the circulation, with each order's eigenvalue of a wave" {
+	lattice 16 'cos(2*pi*(x + 2*y))' --constant nu=0.25 | p2m >a
+	for order in 2 4 6 spectral; do
+		diffuse --order $order <a | mesh >b
+		# -lap of exp(i k x): the sum over axes of s(k h)/h^2, k h = pi/8 and pi/4
+		awk -v order=$order 'function s(t) { if (order == 2) return 2 - 2 * cos(t); if (order == 4) return 5/2 - 8/3 * cos(t) + cos(2 * t)/6
+				if (order == 6) return 49/18 - 3 * cos(t) + 3/10 * cos(2 * t) - cos(3 * t)/45; return t * t }
+			BEGIN { pi = atan2(0, -1); want = -0.25 * (s(pi/8) + s(pi/4)) * 256 }
+			NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+			{ d = $at["domega"] - want * $at["omega"]; if (d < 0) d = -d; if (d > m) m = d }
+			END { print m; exit !(NR == 257 && m < 1e-11) }' b # values of 3e2, 40 roundings
+	done
+	sh_ok 'diffuse <a | sls'
+	[[ $output =~ "domega      1 f64 change value of circulation terms diffusion kernel m4prime" ]]
+}
+
+@test "diffuse converges with its order" {
+	for order in 2 4 6; do
+		points=()
+		for n in 40 56 80; do
+			lattice $n 'exp(sin(2*pi*x) + cos(2*pi*y))' --constant nu=1 | p2m | diffuse --order $order | mesh >b
+			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk 'BEGIN { k = 2 * atan2(0, -1) } NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+				{ x = k * $at["x"]; y = k * $at["y"]; w = exp(sin(x) + cos(y)) * k * k * (cos(x)^2 - sin(x) + sin(y)^2 - cos(y)); d = $at["domega"] - w; if (d < 0) d = -d; if (d > m) m = d }
+				END { print m }' b)")
+		done
+		order $order "${points[@]}"
+	done
+}
+
+@test "where nu is 0 the frame passes untouched, and --verbose says so; a negative one is refused" {
+	lattice 8 'sin(2*pi*x)' | p2m --no-history >a
+	diffuse --no-history <a | cmp a -
+	run -0 bash -o pipefail -c 'diffuse --verbose <a 2>&1 >/dev/null'
+	[[ $output =~ "the viscosity nu is 0: nothing to do" ]]
+	run -1 bash -o pipefail -c "stab <a | sed '1s/\"nu\":0.0/\"nu\":-1.0/' | stab - | diffuse | sls"
+	[[ $output =~ "negative diffusion has no solution" ]]
+	run -2 diffuse --nu -1
+}
+
+@test "diffuse refuses to add twice, --replace computes anew, other terms stay" {
+	lattice 8 'sin(2*pi*x)' --constant nu=0.1 | p2m | diffuse >a
+	run -1 bash -o pipefail -c 'diffuse <a | sls'
+	[[ $output =~ "already holds the term 'diffusion'" ]]
+	same_as <(diffuse --replace <a | mesh) <(mesh <a)
+	# another stage's term, then diffusion on top of it
+	stab <a | sed '1s/"terms":\["diffusion"\]/"terms":["forcing"]/' | stab - | diffuse | mesh | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { print 2 * $at["domega"] }' >unused
+	stab <a | sed '1s/"terms":\["diffusion"\]/"terms":["forcing"]/' | stab - | diffuse | mesh | column domega >twice
+	paste <(mesh <a | column domega) twice | awk '{ d = $2 - 2 * $1; if (d > 1e-15 || d < -1e-15) exit 1 }'
+}
+
+@test "diffuse needs the density: the message says p2m" {
+	lattice 8 1 --constant nu=0.1 >a
+	run -1 bash -o pipefail -c 'diffuse <a | sls'
+	[[ $output =~ "no field 'omega' on mesh 'mesh' (run p2m first)" ]]
+}
+
+@test "m2p carries domega over as dcirculation, times volume, and is refused without one" {
+	lattice 12 'sin(2*pi*x)*cos(4*pi*y)' --constant nu=0.1 >a
+	sh_ok "cat a | $step >b"
+	sh_ok 'sls <b'
+	[[ $output =~ dcirculation\ +1\ f64\ change\ strength\ of\ circulation\ terms\ diffusion ]]
+	# particles on the nodes, an interpolating kernel: each has the value of its node
+	paste <(stab --plain <b | column dcirculation) <(mesh <b | column domega) | awk '{ d = $1 - $2 / 144; if (d > 1e-15 || d < -1e-15) exit 1; n++ } END { exit n != 144 }'
+	run -1 bash -o pipefail -c "sel --drop volume <a | $step | sls"
+	[[ $output =~ "must be multiplied by a 'volume'" ]]
+}
+
+@test "push refuses a change that is still on the mesh, and advances the circulation by one that was carried" {
+	lattice 12 'sin(2*pi*x)' --constant nu=0.1 >a
+	run -1 bash -o pipefail -c 'p2m <a | poisson-fft | mgrad | m2p | p2m | diffuse | push euler | sls'
+	[[ $output =~ "the change 'domega' of 'circulation' is on mesh 'mesh' and not yet on 'matter' (carry it over with m2p)" ]]
+	bash -o pipefail -c "cat a | $step | push euler | stab --plain" | column circulation >after
+	# order 6: sin(2 pi x) decays by s(pi/6) 144
+	paste <(stab --plain <a | column circulation) after | awk 'BEGIN { t = atan2(0, -1) / 6; f = 1 - 0.01 * 0.1 * 144 * (49/18 - 3*cos(t) + 0.3*cos(2*t) - cos(3*t)/45) }
+		{ d = $2 - f * $1; if (d > 1e-15 || d < -1e-15) exit 1 }'
+}
+
+@test "the second moment of a blob grows by 4 nu t and its circulation stays, for every order" {
+	for order in 2 4 6; do
+		lattice 32 'exp(-((x - 0.5)^2 + (y - 0.5)^2) / 0.005)' --constant nu=1e-3 >a
+		cycle -n 5 "p2m | poisson-fft | mgrad | diffuse --order $order | m2p | push rk2 | remesh" <a >b
+		for f in a b; do
+			stab --plain <$f | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+				{ c = $at["circulation"]; s += c; m += c * (($at["x"] - 0.5)^2 + ($at["y"] - 0.5)^2) } END { printf "%.17g %.17g\n", s, m / s }'
+		done >moments
+		# the blob is .05 wide and reaches the edge with exp(-50); the swirl is exact for the second moment up to the particles' overlap
+		awk 'NR == 1 { s = $1; m = $2 } NR == 2 { g = ($2 - m) / (4 * 1e-3 * 0.05); d = ($1 - s) / s; print g, d; exit !(g > 0.998 && g < 1.002 && d < 1e-7 && d > -1e-7) }' moments
+	done
+}
+
+@test "three threads give the same bytes" {
+	lattice 40 'sin(2*pi*x)*cos(6*pi*y)' --constant nu=0.1 | p2m --no-history >a
+	for order in 4 spectral; do
+		OMP_NUM_THREADS=1 diffuse --order $order --no-history <a >b
+		OMP_NUM_THREADS=3 diffuse --order $order --no-history <a | cmp b -
+	done
+}
