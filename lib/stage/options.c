@@ -222,7 +222,9 @@ static void note(struct pm_stage *s, const struct pm_option *o, const char *valu
 	if (o->cosmetic)
 		return;
 	json_t *options = json_object_get(s->entry, "options");
-	json_object_set_new(options, o->name, o->kind == PM_FLAG ? json_true() : json_string(value));
+	const char *before = json_string_value(json_object_get(options, o->name));
+	json_t *now = o->kind == PM_FLAG ? json_true() : o->kind == PM_LIST && before ? json_sprintf("%s,%s", before, value) : json_string(value);
+	json_object_set_new(options, o->name, now);
 }
 
 /* One option at argv[i]; returns how many words it took, or failure. */

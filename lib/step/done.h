@@ -44,10 +44,10 @@ static inline void pm_scheme_set(struct pm_set *s, const char *name, double dt, 
 
 static inline void pm_register_name(char to[PM_NAME], int i, const char *state)
 {
-	char number[16] = "";
 	if (i)
-		snprintf(number, sizeof number, "%d", i + 1);
-	snprintf(to, PM_NAME, "q%s_%.56s", number, state);
+		snprintf(to, PM_NAME, "q%d_%.48s", i + 1, state);
+	else
+		snprintf(to, PM_NAME, "q_%.48s", state);
 }
 
 /* Steps remembered by the registers of a set for this scheme and dt; 0 where anything does not fit, so that the scheme starts anew. */
