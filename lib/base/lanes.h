@@ -10,6 +10,8 @@
 
 #ifdef __AVX512F__
 #include <immintrin.h>
+#else
+#pragma GCC diagnostic ignored "-Wpsabi" /* how vectors are passed to functions: all of ours are inlined */
 #endif
 
 enum { PM_LANES = 8 };
