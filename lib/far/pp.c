@@ -3,104 +3,29 @@
  * Full loop: 32 targets in registers, sources in blocks of 1024 that stay in the first cache; block sums keep the round-off near
  * (1024 + N/1024) units. Half loop: tiles of particles meet in rounds of a tournament, in each of which a tile meets one other, so that no
  * sum depends on the number of threads. 1/r^3 from the 14-bit 1/sqrt(r^2) with a correction of fourth order (6e-16).
- * Conserves momentum: exactly pairwise in the half loop, to round-off in the full one.
+ * Conserves momentum to round-off. Split up: far/pairs.h a vector of pairs, far/pp-plain.c the loop these are tested against.
  * Assumes open space. Pairs below r = 1e-100 without mollifier exert nothing. Cost: 18 vector operations per 8 pairs in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pp.h"
-#include "base/lanes.h"
+#include "far/pairs.h"
 
 enum { GROUP = 4, SOURCES = 1024, ROWS = 2 }; /* vectors of targets per group; sources per block; particles at a time in the half loop */
-enum mode { SQUARE, GUARDED, OTHER }; /* bare at r2 + delta2; the same where that may vanish; any mollifier */
 
-static const double least = 1e-200; /* of r2: see lib/mollifier/bare.h */
 static const double far_away = 1e100; /* where the particles sit that fill up a vector; their strength is 0 */
 
 /* Copies that fill whole vectors, and the sums. */
 struct work {
-	int dim;
 	size_t targets, n, padded, tile;
-	double delta2, near2; /* the first is 0 unless the mollifier is bare(r^2 + delta^2); within sqrt(near2) a mollifier with a reach is evaluated one by one */
 	double *x[3], *q, *g[3], *phi;
-	const struct pm_pp *p;
+	struct pm_pairs how;
 	uint64_t *coincident; /* pairs, per group or tile */
 };
 
-static double unit(int dim) { return dim == 1 ? 2 : dim == 2 ? 2 * pm_pi : 4 * pm_pi; }
-
-/* r^-dim at squared distance d2, from below `least` on 0. */
-PM_LANES_INLINE pm_lanes bare(int dim, pm_lanes d2)
-{
-	if (dim == 2) {
-		pm_lanes y = pm_lanes_reciprocal_start(d2), e = pm_lanes_fnma(d2, y, pm_lanes_all(1)), z = pm_lanes_fma(y, e, y);
-		return pm_lanes_fma(z, e * e, z);
-	}
-	pm_lanes y = pm_lanes_rsqrt_start(d2), y2 = y * y, e = pm_lanes_fnma(d2, y2, pm_lanes_all(1));
-	pm_lanes a = dim == 3 ? y2 * y : y;
-	double c1 = dim == 3 ? 1.5 : 0.5, c2 = dim == 3 ? 1.875 : 0.375, c3 = dim == 3 ? 2.1875 : 0.3125; /* (1-e)^(-3/2), (1-e)^(-1/2) */
-	pm_lanes s = pm_lanes_fma(e, pm_lanes_fma(e, pm_lanes_all(c3), pm_lanes_all(c2)), pm_lanes_all(c1));
-	return pm_lanes_fma(a * e, s, a);
-}
-
-/* Lanes that need the mollifier's own functions. */
-static __attribute__((noinline)) void one_by_one(const struct work *w, bool potential, const pm_lanes *r2, pm_lanes *f, pm_lanes *u)
-{
-	const struct pm_mollifier *m = w->p->mollifier;
-	double c = unit(w->dim);
-	for (int l = 0; l < PM_LANES; l++)
-		if ((*r2)[l] < w->near2) {
-			(*f)[l] = c * m->force((*r2)[l], w->p->delta, w->dim);
-			if (potential)
-				(*u)[l] = c * m->potential((*r2)[l], w->p->delta, w->dim);
-		}
-}
-
-/* ln r, 0 for coincident particles. */
-static __attribute__((noinline)) void logarithm(const pm_lanes *d2, pm_lanes *u)
-{
-	for (int l = 0; l < PM_LANES; l++)
-		(*u)[l] = (*d2)[l] < least ? 0 : 0.5 * log((*d2)[l]);
-}
-
-/* Force factor and potential of a unit strength at r^2 + delta2 = d2, in units of unit(dim). */
-PM_LANES_INLINE void pair(const struct work *w, int dim, enum mode mode, bool potential, pm_lanes d2, pm_lanes *f, pm_lanes *u)
-{
-	*f = bare(dim, d2);
-	if (mode != SQUARE)
-		*f = pm_lanes_where_not_below(d2, pm_lanes_all(least), *f);
-	if (potential && dim != 2)
-		*u = dim == 3 ? -*f * d2 : *f * d2;
-	else if (potential)
-		logarithm(&d2, u);
-	if (mode == OTHER && pm_lanes_any_below(d2, pm_lanes_all(w->near2)))
-		one_by_one(w, potential, &d2, f, u);
-}
-
-/* Lanes whose particle is not i, or comes after i; lane l is particle first + l. */
-PM_LANES_INLINE pm_lanes others(size_t first, size_t i, pm_lanes v)
-{
-	int64_t at = (int64_t)i - (int64_t)first;
-	return (pm_lanes)((pm_lanes_bits)v & ((pm_lanes_bits){0, 1, 2, 3, 4, 5, 6, 7} != at));
-}
-PM_LANES_INLINE pm_lanes after(size_t first, size_t i, pm_lanes v)
-{
-	int64_t at = (int64_t)i - (int64_t)first;
-	return (pm_lanes)((pm_lanes_bits)v & ((pm_lanes_bits){0, 1, 2, 3, 4, 5, 6, 7} > at));
-}
-
-/* How many of the lanes, of which lane l is particle first + l, are in [from, to) and coincide. */
-static __attribute__((noinline)) unsigned count(size_t first, size_t from, size_t to, const pm_lanes *d2)
-{
-	unsigned c = 0;
-	for (size_t l = 0; l < PM_LANES; l++)
-		c += first + l >= from && first + l < to && (*d2)[l] < least;
-	return c;
-}
-
 /* Sources [j0, j1) on the group of targets at i. self: the group may be among the sources. */
-PM_LANES_INLINE void group_block(const struct work *w, int dim, enum mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
+PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
 	unsigned *coincident)
 {
-	pm_lanes x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_lanes_all(w->delta2);
+	pm_lanes x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_lanes_all(w->how.delta2);
 	PM_LANES_UNROLL
 	for (int k = 0; k < GROUP; k++) {
 		PM_LANES_UNROLL
@@ -121,11 +46,11 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum mode mode, 
 				s[d] = x[d][k] - y[d];
 				d2 = pm_lanes_fma(s[d], s[d], d2);
 			}
-			pair(w, dim, mode, potential, d2, &f, &u);
-			if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
-				*coincident += count(i + (size_t)k * PM_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
+			pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
+			if (mode != PM_SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(pm_pairs_least)), 0))
+				*coincident += pm_pairs_count(i + (size_t)k * PM_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
 			if (self)
-				f = others(i + (size_t)k * PM_LANES, j, f), u = others(i + (size_t)k * PM_LANES, j, u);
+				f = pm_pairs_others(i + (size_t)k * PM_LANES, j, f), u = pm_pairs_others(i + (size_t)k * PM_LANES, j, u);
 			f *= q;
 			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++)
@@ -146,7 +71,7 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum mode mode, 
 }
 
 /* All sources on one group of targets; blocks end where the group's own particles begin and end. */
-PM_LANES_INLINE void group(const struct work *w, int dim, enum mode mode, bool potential, size_t i)
+PM_LANES_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t i)
 {
 	size_t width = GROUP * PM_LANES;
 	unsigned coincident = 0;
@@ -162,66 +87,87 @@ PM_LANES_INLINE void group(const struct work *w, int dim, enum mode mode, bool p
 	w->coincident[i / width] = coincident;
 }
 
-/* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. ROWS particles i at a time share what is loaded of j; tiles are
- * multiples of a vector, so none is left over. */
-PM_LANES_INLINE void tiles(const struct work *w, int dim, enum mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
+/* ROWS particles of the half loop, each in all lanes: they share what is loaded of the others. */
+struct rows {
+	pm_lanes x[3][ROWS], g[3][ROWS], q[ROWS], phi[ROWS];
+};
+
+PM_LANES_INLINE struct rows rows_load(const struct work *w, int dim, size_t i)
+{
+	struct rows r;
+	PM_LANES_UNROLL
+	for (size_t k = 0; k < ROWS; k++) {
+		r.q[k] = pm_lanes_all(w->q[i + k]), r.phi[k] = pm_lanes_all(0);
+		PM_LANES_UNROLL
+		for (int d = 0; d < dim; d++)
+			r.x[d][k] = pm_lanes_all(w->x[d][i + k]), r.g[d][k] = pm_lanes_all(0);
+	}
+	return r;
+}
+
+PM_LANES_INLINE void rows_add(const struct work *w, int dim, bool potential, size_t i, const struct rows *r)
+{
+	PM_LANES_UNROLL
+	for (size_t k = 0; k < ROWS; k++) {
+		PM_LANES_UNROLL
+		for (int d = 0; d < dim; d++)
+			w->g[d][i + k] += pm_lanes_sum(r->g[d][k]);
+		if (potential)
+			w->phi[i + k] += pm_lanes_sum(r->phi[k]);
+	}
+}
+
+/* The rows at i with the vector at j, both ways; on the diagonal those of j that come after. */
+PM_LANES_INLINE void rows_meet(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i, size_t j, struct rows *r,
+	uint64_t *coincident)
+{
+	pm_lanes y[3], h[3], zero = {0}, delta2 = pm_lanes_all(w->how.delta2), q = pm_lanes_load(w->q + j), phi = potential ? pm_lanes_load(w->phi + j) : zero;
+	PM_LANES_UNROLL
+	for (int d = 0; d < dim; d++)
+		y[d] = pm_lanes_load(w->x[d] + j), h[d] = pm_lanes_load(w->g[d] + j);
+	PM_LANES_UNROLL
+	for (size_t k = 0; k < ROWS; k++) {
+		pm_lanes s[3], d2 = delta2, f, u = zero;
+		PM_LANES_UNROLL
+		for (int d = 0; d < dim; d++) {
+			s[d] = r->x[d][k] - y[d];
+			d2 = pm_lanes_fma(s[d], s[d], d2);
+		}
+		pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
+		if (mode != PM_SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(pm_pairs_least)), 0))
+			*coincident += pm_pairs_count(j, i + k + 1, i + k < w->targets ? w->n : 0, &d2);
+		if (diagonal && j <= i + k)
+			f = pm_pairs_after(j, i + k, f), u = pm_pairs_after(j, i + k, u);
+		pm_lanes fi = f * q, fj = f * r->q[k];
+		PM_LANES_UNROLL
+		for (int d = 0; d < dim; d++) {
+			r->g[d][k] = pm_lanes_fma(fi, s[d], r->g[d][k]);
+			h[d] = pm_lanes_fnma(fj, s[d], h[d]);
+		}
+		if (potential)
+			r->phi[k] = pm_lanes_fma(q, u, r->phi[k]), phi = pm_lanes_fma(r->q[k], u, phi);
+	}
+	PM_LANES_UNROLL
+	for (int d = 0; d < dim; d++)
+		pm_lanes_store(w->g[d] + j, h[d]);
+	if (potential)
+		pm_lanes_store(w->phi + j, phi);
+}
+
+/* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left over. */
+PM_LANES_INLINE void tiles(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
 	uint64_t *coincident)
 {
 	for (size_t i = i0; i < i1; i += ROWS) {
-		pm_lanes x[3][ROWS], g[3][ROWS], qi[ROWS], phi[ROWS], zero = {0}, delta2 = pm_lanes_all(w->delta2);
-		PM_LANES_UNROLL
-		for (int k = 0; k < ROWS; k++) {
-			qi[k] = pm_lanes_all(w->q[i + (size_t)k]), phi[k] = zero;
-			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++)
-				x[d][k] = pm_lanes_all(w->x[d][i + (size_t)k]), g[d][k] = zero;
-		}
-		for (size_t j = diagonal ? i / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES) {
-			pm_lanes y[3], h[3], qj = pm_lanes_load(w->q + j), phj = potential ? pm_lanes_load(w->phi + j) : zero;
-			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++)
-				y[d] = pm_lanes_load(w->x[d] + j), h[d] = pm_lanes_load(w->g[d] + j);
-			PM_LANES_UNROLL
-			for (int k = 0; k < ROWS; k++) {
-				pm_lanes s[3], d2 = delta2, f, u = zero;
-				PM_LANES_UNROLL
-				for (int d = 0; d < dim; d++) {
-					s[d] = x[d][k] - y[d];
-					d2 = pm_lanes_fma(s[d], s[d], d2);
-				}
-				pair(w, dim, mode, potential, d2, &f, &u);
-				if (mode != SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(least)), 0))
-					*coincident += count(j, i + (size_t)k + 1, i + (size_t)k < w->targets ? w->n : 0, &d2);
-				if (diagonal && j <= i + (size_t)k)
-					f = after(j, i + (size_t)k, f), u = after(j, i + (size_t)k, u);
-				pm_lanes fi = f * qj, fj = f * qi[k];
-				PM_LANES_UNROLL
-				for (int d = 0; d < dim; d++) {
-					g[d][k] = pm_lanes_fma(fi, s[d], g[d][k]);
-					h[d] = pm_lanes_fnma(fj, s[d], h[d]);
-				}
-				if (potential)
-					phi[k] = pm_lanes_fma(qj, u, phi[k]), phj = pm_lanes_fma(qi[k], u, phj);
-			}
-			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++)
-				pm_lanes_store(w->g[d] + j, h[d]);
-			if (potential)
-				pm_lanes_store(w->phi + j, phj);
-		}
-		PM_LANES_UNROLL
-		for (int k = 0; k < ROWS; k++) {
-			PM_LANES_UNROLL
-			for (int d = 0; d < dim; d++)
-				w->g[d][i + (size_t)k] += pm_lanes_sum(g[d][k]);
-			if (potential)
-				w->phi[i + (size_t)k] += pm_lanes_sum(phi[k]);
-		}
+		struct rows r = rows_load(w, dim, i);
+		for (size_t j = diagonal ? i / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES)
+			rows_meet(w, dim, mode, potential, diagonal, i, j, &r, coincident);
+		rows_add(w, dim, potential, i, &r);
 	}
 }
 
 /* Each pair of two tiles once. */
-PM_LANES_INLINE void meeting(const struct work *w, int dim, enum mode mode, bool potential, size_t a, size_t b)
+PM_LANES_INLINE void meeting(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t a, size_t b)
 {
 	size_t a0 = a * w->tile, a1 = a0 + w->tile < w->padded ? a0 + w->tile : w->padded;
 	size_t b0 = b * w->tile, b1 = b0 + w->tile < w->padded ? b0 + w->tile : w->padded;
@@ -245,10 +191,10 @@ struct loops {
 	{{group_1_##mode, meeting_1_##mode}, {group_phi_1_##mode, meeting_phi_1_##mode}}, \
 	{{group_2_##mode, meeting_2_##mode}, {group_phi_2_##mode, meeting_phi_2_##mode}}, \
 	{{group_3_##mode, meeting_3_##mode}, {group_phi_3_##mode, meeting_phi_3_##mode}}}
-LOOPS(1, SQUARE) LOOPS(2, SQUARE) LOOPS(3, SQUARE)
-LOOPS(1, GUARDED) LOOPS(2, GUARDED) LOOPS(3, GUARDED)
-LOOPS(1, OTHER) LOOPS(2, OTHER) LOOPS(3, OTHER)
-static const struct loops table[3][3][2] = {ROW(SQUARE), ROW(GUARDED), ROW(OTHER)};
+LOOPS(1, PM_SQUARE) LOOPS(2, PM_SQUARE) LOOPS(3, PM_SQUARE)
+LOOPS(1, PM_GUARDED) LOOPS(2, PM_GUARDED) LOOPS(3, PM_GUARDED)
+LOOPS(1, PM_OTHER) LOOPS(2, PM_OTHER) LOOPS(3, PM_OTHER)
+static const struct loops table[3][3][2] = {ROW(PM_SQUARE), ROW(PM_GUARDED), ROW(PM_OTHER)};
 
 static void full(const struct work *w, const struct loops *l)
 {
@@ -288,15 +234,12 @@ static void work_free(struct work *w)
 	pm_free(w->q), pm_free(w->phi), pm_free(w->coincident);
 }
 
-static int work_init(struct work *w, const struct pm_pp *p, size_t n, const double *const *x, const double *q, bool potential)
+static int work_init(struct work *w, const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, bool potential)
 {
-	size_t width = GROUP * PM_LANES, tiles_wanted = 16;
-	*w = (struct work){.p = p, .dim = p->dim, .n = n, .padded = (n + width - 1) / width * width};
+	size_t width = GROUP * PM_LANES, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
+	*w = (struct work){.how = pm_pairs_of(p->mollifier, p->delta, p->dim), .targets = targets, .n = n, .padded = (n + width - 1) / width * width};
 	w->tile = (w->padded / tiles_wanted + PM_LANES - 1) / PM_LANES * PM_LANES;
 	w->tile = w->tile < PM_LANES ? PM_LANES : w->tile > 512 ? 512 : w->tile;
-	bool square = p->mollifier->square;
-	w->delta2 = square && !p->mollifier->bare ? p->delta * p->delta : 0;
-	w->near2 = square ? 0 : p->mollifier->reach > 0 ? p->mollifier->reach * p->mollifier->reach * p->delta * p->delta : HUGE_VAL;
 	for (int d = 0; d < p->dim; d++) {
 		w->x[d] = padded(n, w->padded, x[d], far_away);
 		w->g[d] = pm_zalloc(w->padded, sizeof **w->g);
@@ -317,13 +260,11 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 	*coincident = 0;
 	if (!n || !targets)
 		return 0;
-	int status = work_init(&w, p, n, x, q, potential != NULL);
+	int status = work_init(&w, p, targets, n, x, q, potential != NULL);
 	if (!status) {
-		w.targets = targets;
-		enum mode mode = !p->mollifier->square ? OTHER : w.delta2 < least ? GUARDED : SQUARE;
-		const struct loops *l = &table[mode][p->dim - 1][potential != NULL];
+		const struct loops *l = &table[w.how.mode][p->dim - 1][potential != NULL];
 		p->half ? half(&w, l) : full(&w, l);
-		double c = 1 / unit(p->dim);
+		double c = 1 / pm_pairs_unit(p->dim);
 		for (size_t i = 0; i < targets; i++) {
 			for (int d = 0; d < p->dim; d++)
 				gradient[d][i] = c * w.g[d][i];
@@ -335,30 +276,4 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 	}
 	work_free(&w);
 	return status;
-}
-
-int pm_pp_plain(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient,
-	double *potential, uint64_t *coincident)
-{
-	*coincident = 0;
-	for (size_t i = 0; i < targets; i++) {
-		struct pm_sum g[3] = {{0}}, phi = {0};
-		for (size_t j = 0; j < n; j++) {
-			double s[3], r2 = 0;
-			for (int d = 0; d < p->dim; d++)
-				s[d] = x[d][i] - x[d][j], r2 += s[d] * s[d];
-			if (j == i)
-				continue;
-			double f = p->mollifier->force(r2, p->delta, p->dim);
-			for (int d = 0; d < p->dim; d++)
-				pm_sum_add(&g[d], q[j] * f * s[d]);
-			pm_sum_add(&phi, q[j] * p->mollifier->potential(r2, p->delta, p->dim));
-			*coincident += j > i && r2 + (p->mollifier->bare ? 0 : p->delta * p->delta) < least;
-		}
-		for (int d = 0; d < p->dim; d++)
-			gradient[d][i] = pm_sum_total(g[d]);
-		if (potential)
-			potential[i] = pm_sum_total(phi);
-	}
-	return 0;
 }
