@@ -86,8 +86,12 @@ static int begin(struct pm_stage *s)
 		.n = o->n == INT64_MIN ? scene->n : (uint64_t)o->n, .seed = (uint64_t)o->seed};
 	if (!(scene->dims >> state->choice.dim & 1))
 		return pm_fail(PM_USAGE, "the scene %s does not exist in %d-D (take --dim %d)", scene->name, state->choice.dim, scene->dim);
+	if (scene->n_fixed && !scene->n && o->n != INT64_MIN)
+		return pm_fail(PM_USAGE, "the particles of the scene %s are nodes of its mesh (give --cells in place of -n)", scene->name);
 	if (scene->n_fixed && state->choice.n != scene->n)
 		return pm_fail(PM_USAGE, "the scene %s has -n %d, no other", scene->name, (int)scene->n);
+	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
+		return -PM_USAGE;
 	return choose(o, scene, state->choice.value);
 }
 

@@ -17,6 +17,7 @@ struct pm_scene_parameter {
 struct pm_scene_choice { /* what pinit was asked for, defaults filled in and ranges checked */
 	int dim;
 	uint64_t n, seed;
+	size_t cells[3];                   /* of the default mesh as asked for; 0: the scene's own */
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
 };
 
@@ -25,7 +26,7 @@ struct pm_scene {
 	unsigned dims;           /* bit 1u<<dim for each dimension it exists in */
 	int dim;                 /* default */
 	uint64_t n;              /* default, in its default dimension */
-	bool n_fixed;            /* no other n */
+	bool n_fixed;            /* no other n; and n 0: the particles are nodes of the mesh, as many as its cells say */
 	bool random;             /* depends on the seed */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
 	/* Fills a new frame of c->dim: law, constants, box, faces, sets with their data, the mesh "mesh", dt. 0 or failure. */

@@ -1,0 +1,85 @@
+/* What the scenes of vortices share: the plane under the law vortex, and a set of vortices that is a lattice on the nodes of the mesh (so that
+ * the first p2m is exact) or a handful of points. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SCENE_VORTICES_H
+#define PM_SCENE_VORTICES_H
+
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+enum { SCENE_MARGIN = 4 }; /* nodes without vortices along an open face: the widest kernels reach 3 cells */
+
+struct scene_vortices { /* the arrays of the set, n values each */
+	double *x[2], *circulation; /* [length], [length^2/time] */
+};
+
+/* The plane lo..hi squared with the same faces all round, and the default mesh: what was asked for, else so many cells on each axis. */
+static inline int scene_plane(const struct pm_scene_choice *c, struct pm_frame *f, double lo, double hi, enum pm_face face, size_t cells)
+{
+	size_t n[3] = {cells, cells, 1};
+	snprintf(f->law, sizeof f->law, "vortex");
+	for (int d = 0; d < 2; d++) {
+		f->lo[d] = lo, f->hi[d] = hi;
+		n[d] = c->cells[d] ? c->cells[d] : cells;
+		for (int side = 0; side < 2; side++) {
+			f->face[d][side] = face;
+			f->pface[d][side] = face == PM_PERIODIC ? PM_PFOLD : PM_POPEN;
+		}
+	}
+	return pm_frame_mesh_new(f, "mesh", n) ? 0 : -PM_DATA;
+}
+
+/* The set vortices: x, circulation, volume (of each) and id. */
+static inline int scene_vortices(struct pm_frame *f, uint64_t n, double volume, struct scene_vortices *v)
+{
+	const char *on = "vortices";
+	struct pm_set *set = pm_frame_set_new(f, on, n);
+	struct pm_field *x = set ? pm_makes(f, on, "x", 2, PM_STATE) : NULL;
+	struct pm_field *q = x ? pm_makes(f, on, "circulation", 1, PM_STATE) : NULL;
+	struct pm_field *w = q ? pm_makes(f, on, "volume", 1, PM_STATE) : NULL;
+	struct pm_field *id = w ? pm_makes(f, on, "id", 1, PM_STATE) : NULL;
+	if (!id)
+		return -PM_DATA;
+	snprintf(x->unit, sizeof x->unit, "length");
+	snprintf(q->unit, sizeof q->unit, "length^2/time");
+	snprintf(w->unit, sizeof w->unit, "length^2");
+	q->extensive = w->extensive = true;
+	w->uniform = true;
+	w->value[0] = volume;
+	id->type = PM_I64;
+	if (pm_field_ready(x) || pm_field_ready(q) || pm_field_ready(id))
+		return -PM_DATA;
+	*v = (struct scene_vortices){.x = {pm_out(x, 0), pm_out(x, 1)}, .circulation = pm_out(q, 0)};
+	for (uint64_t i = 0; i < n; i++)
+		pm_out_i64(id, 0)[i] = (int64_t)i;
+	return 0;
+}
+
+/* A vortex of circulation omega h_x h_y on every node of the mesh; omega up to `least` in magnitude and the margin along open faces stay empty. */
+static inline int scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene_choice *c, double x, double y),
+	const struct pm_scene_choice *c, double least)
+{
+	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
+	struct scene_vortices v = {0};
+	size_t points[3], n = 0;
+	pm_mesh_points(f, m, points);
+	for (int fill = 0; fill < 2; fill++) {
+		if (fill && scene_vortices(f, n, m->h[0] * m->h[1], &v))
+			return -PM_DATA;
+		const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : SCENE_MARGIN;
+		n = 0;
+		for (size_t j = from; j + from < points[1]; j++)
+			for (size_t i = from; i + from < points[0]; i++) {
+				const double x = m->lo[0] + (double)i * m->h[0], y = m->lo[1] + (double)j * m->h[1], w = omega(c, x, y);
+				if (!(fabs(w) > least))
+					continue;
+				if (fill)
+					v.x[0][n] = x, v.x[1][n] = y, v.circulation[n] = w * (m->h[0] * m->h[1]);
+				n++;
+			}
+	}
+	return 0;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* The scenes of vortices: what every one of them promises, and that a lattice of vortices has the sums of the vorticity it stands for.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "law/law.h"
+#include "mesh/grid.h"
+#include "scene/scene.h"
+#include "check.h"
+
+static struct pm_frame *make(const struct pm_scene *s, size_t cells)
+{
+	struct pm_scene_choice c = {.dim = s->dim, .n = s->n, .seed = 1, .cells = {cells, cells, 1}};
+	struct pm_frame *f = pm_frame_new(s->dim);
+	snprintf(f->scene, sizeof f->scene, "%s", s->name);
+	for (int i = 0; s->parameters[i].name; i++) {
+		c.value[i] = s->parameters[i].otherwise;
+		pm_frame_parameter_set(f, s->parameters[i].name, c.value[i]);
+	}
+	return s->make(&c, f) ? pm_frame_free(f) : f;
+}
+
+static void promises(const struct pm_scene *s, struct pm_frame *f)
+{
+	const char *on = "vortices";
+	const struct pm_field *x = pm_frame_field(f, on, "x"), *q = pm_frame_field(f, on, "circulation"), *w = pm_frame_field(f, on, "volume");
+	const struct pm_field *id = pm_frame_field(f, on, "id");
+	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
+	struct pm_sum sum = {0}, turn = {0};
+	bool good = f->dim == 2 && f->dt > 0 && f->nsets == 1 && !pm_frame_field(f, on, "v") && q->extensive && w->extensive && w->uniform &&
+		w->value[0] > 0 && id->type == PM_I64 && pm_frame_constant(f, "nu", -1) >= 0;
+	check(good, "%s: x, circulation and volume (strengths), id; nu and dt; no velocity", s->name);
+	good = pm_finite(q->count, pm_in(q, 0)) && (s->n_fixed && !s->n ? q->count > 0 : q->count == s->n);
+	for (size_t i = 0; i < q->count; i++) {
+		double r2 = 0;
+		for (int d = 0; d < 2; d++) {
+			const double at = (pm_in(x, d)[i] - m->lo[d]) / m->h[d];
+			r2 += pm_in(x, d)[i] * pm_in(x, d)[i];
+			good = good && (f->face[d][0] == PM_PERIODIC ? at >= 0 && at < (double)m->cells[d] : at >= 3.5 && at <= (double)m->cells[d] - 3.5);
+		}
+		good = good && pm_in_i64(id, 0)[i] == (int64_t)i;
+		pm_sum_add(&sum, pm_in(q, 0)[i]);
+		pm_sum_add(&turn, -0.5 * pm_in(q, 0)[i] * r2);
+	}
+	check(good, "%s: finite, inside its mesh for kernels of width 6, ids in order", s->name);
+	/* lattice sums of smooth functions are exact; the corner of the cone and the kinks of its foot are of order h^2 to h^3: 128 cells, 32 a radius */
+	const double loose = strcmp(s->name, "cone-vortex") ? 1e-9 : 2e-4;
+	const double circulation = s->exact(f, "circulation", f->time), angular = s->exact(f, "angular_impulse", f->time);
+	if (!isnan(circulation))
+		check_near(pm_sum_total(sum), circulation, loose * fmax(1, fabs(circulation)), "and the circulation it says it has");
+	if (!isnan(angular))
+		check_near(pm_sum_total(turn), angular, loose * fmax(1, fabs(angular)), "and the angular impulse");
+	check(isnan(s->exact(f, "no such number", 0)), "%s: what it does not know is not a number", s->name);
+}
+
+int main(void)
+{
+	int scenes = 0;
+	for (int i = 0; pm_scenes[i]; i++) {
+		struct pm_frame *f = make(pm_scenes[i], 0);
+		if (f && !strcmp(f->law, "vortex")) {
+			scenes++;
+			check(!strcmp(pm_scenes[i]->name, pm_scene_names[i]), "%s is named like its file", pm_scene_names[i]);
+			promises(pm_scenes[i], f);
+		}
+		pm_frame_free(f);
+	}
+	check(scenes >= 8, "there are %d scenes of vortices", scenes);
+	struct pm_frame *f = make(pm_scene_find("shear-layer"), 31);
+	check(f && pm_frame_set(f, "vortices")->n == 31 * 31, "the cells asked for decide how many vortices there are, odd ones too");
+	pm_frame_free(f);
+	return check_done();
+}
