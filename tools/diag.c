@@ -42,7 +42,8 @@ static struct pm_measure how_of(const struct config *c, const struct pm_frame *f
 	const struct pm_mollifier *plummer = c->pair ? pm_mollifier_find("plummer") : NULL;
 	return (struct pm_measure){.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
-		.pair = plummer ? plummer->potential : NULL, .nradii = c->radii.n, .fraction = c->radii.x};
+		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = c->radii.n,
+		.fraction = c->radii.x};
 }
 
 static int plan(struct pm_stage *s, struct pm_frame *f)
@@ -90,13 +91,14 @@ static int decide(struct state *state, const struct config *c, const struct pm_f
 {
 	int vdim = 0;
 	char radius[PM_NAME];
+	const bool vortices = how_of(c, f, pm_law_of(f)).vortices;
 	if (c->exact && !scene_of(f))
 		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;
 	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
-		if (pm_column_exists((enum pm_column)k, f->dim, vdim))
+		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, vortices))
 			add(state, c, f, k, pm_column_names[k]);
 	for (int i = 0; i < c->columns.n; i++)
 		for (int k = 0; k < PM_COLUMNS; k++)
@@ -163,17 +165,19 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"The numbers of a star cluster beside the exact ones", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
 	{"Two columns as JSON", "pinit two-body --eccentricity 0.5 | diag --pair --columns energy,angular_momentum_z --format json"},
+	{"A decaying vortex beside its exact numbers", "pinit lamb-oseen | p2m | diag --exact"},
 	{"A table on the way", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
 	{0},
 };
 
 const struct pm_tool tool_diag = {
 	.name = "diag",
-	.summary = "measures energy, momentum, mass, radii of every frame",
+	.summary = "measures energy, momentum, mass, radii, vorticity of every frame",
 	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it holds the self-energy of the smeared particles); of the field at the\n"
 		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
 		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
-		"of threads. Frames inside a step (substep other than 0) give no row.",
+		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum; distortion as in\n"
+		"remesh. Frames inside a step (substep other than 0) give no row.",
 	.kind = PM_SINK,
 	.reads = "x, v, mass, the law's strength and potential, density and potential of the mesh",
 	.config = sizeof(struct config),

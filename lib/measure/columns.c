@@ -10,6 +10,8 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_ANGULAR] = "angular_momentum_x", "angular_momentum_y", "angular_momentum_z",
 	[PM_MASS] = "mass", [PM_PARTICLES] = "particles", [PM_CENTRE] = "centre_x", "centre_y", "centre_z",
 	[PM_SPEED_RMS] = "speed_rms", [PM_DISTANCE_MAX] = "distance_max", [PM_VIRIAL_RATIO] = "virial_ratio",
+	[PM_CIRCULATION] = "circulation", [PM_IMPULSE] = "impulse_x", "impulse_y", [PM_ANGULAR_IMPULSE] = "angular_impulse",
+	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max", [PM_DISTORTION] = "distortion",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)
@@ -22,6 +24,13 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 	if (c >= PM_ANGULAR && c < PM_ANGULAR + 3)
 		return most == 3 ? dim > 1 : most == 2 && c == PM_ANGULAR + 2;
 	return true;
+}
+
+bool pm_column_suits(enum pm_column c, bool vortices)
+{
+	const bool any = c == PM_STEP || c == PM_TIME || c == PM_ENERGY_MESH || c == PM_ENERGY_PAIR || c == PM_ENERGY || c == PM_PARTICLES ||
+		c == PM_DISTANCE_MAX;
+	return any || vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);
 }
 
 void pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field, struct pm_measures *m)

@@ -45,11 +45,14 @@ void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fr
 /* The columns of diag. */
 enum pm_column {
 	PM_STEP, PM_TIME, PM_ENERGY_KINETIC, PM_ENERGY_MESH, PM_ENERGY_PAIR, PM_ENERGY, PM_MOMENTUM, PM_MOMENTUM_SCALE = PM_MOMENTUM + 3, PM_ANGULAR,
-	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO, PM_COLUMNS
+	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
+	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_DISTORTION, PM_COLUMNS
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
+/* Does it mean something for vortices (true) or for bodies with mass and velocity (false)? */
+bool pm_column_suits(enum pm_column c, bool vortices);
 
 struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
@@ -63,11 +66,15 @@ struct pm_measure { /* what to measure of a frame */
 	const char *strength, *density, *potential; /* names under the frame's law; potential NULL: it has no field */
 	double coefficient, softening; /* of the direct sum */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
+	bool vortices;               /* the law is that of vortices */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };
 /* In a plan: declares what is there of the fields that are read. */
 void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
+/* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
+void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);
+void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif
