@@ -4,6 +4,7 @@
 
 #include "law/law.h"
 #include "mesh/carry.h"
+#include "mesh/bfield.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
 
@@ -96,6 +97,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 			status = -PM_DATA;
 		if (!status && !o->field)
 			status = pm_carry_plan(f, set, j.mesh, o->replace);
+		if (!status && !o->field && j.law->magnetic)
+			status = pm_bfield_plan(f, set, j.mesh, j.law->magnetic, o->replace);
 	}
 	return status;
 }
@@ -121,6 +124,8 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	pm_free(ratio);
 	if (!status && !o->field)
 		status = pm_carry(f, set, j->mesh, o->kernel ? j->transfer.kernel : NULL, &j->transfer);
+	if (!status && !o->field && j->law->magnetic)
+		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && strcmp(o->outside, "drop"))
 		return pm_strays_refuse(&strays, set, j->mesh, &j->transfer, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
 	if (!status && strays.count)
@@ -159,7 +164,7 @@ const struct pm_tool tool_m2p = {
 	.summary = "bring mesh fields to the particles and add them to what changes the particles",
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
 		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
-		 "a field that was given counts as the term external, one that was solved for as self. Changes on the mesh (domega of diffuse) are carried over "
+		 "a field that was given counts as the term external, one that was solved for as self; a magnetic field B goes to bfield. Changes on the mesh (domega of diffuse) are carried over "
 		 "to the strengths they belong to (dcirculation), times the volume of the particle. See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,

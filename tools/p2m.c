@@ -104,6 +104,16 @@ static int spread_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	return status;
 }
 
+/* The constant density of the law, once in every density that is made anew. */
+static void add_background(struct pm_frame *f, const struct job *j)
+{
+	const struct pm_law *law = pm_law_of(f);
+	struct pm_field *density = pm_frame_field(f, j->mesh->name, j->density);
+	const double background = law->background ? pm_frame_constant(f, law->background, 0) : 0;
+	for (size_t i = 0; i < density->count && background != 0; i++)
+		pm_out(density, 0)[i] += background;
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -113,6 +123,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		status = grow(o, f, &j);
 	for (size_t i = 0; i < j.sets.n && !status; i++)
 		status = spread_set(s, f, &j, j.sets.name[i]);
+	if (!status && !o->add && !o->strength && !o->field)
+		add_background(f, &j);
 	return status;
 }
 

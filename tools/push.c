@@ -30,7 +30,7 @@ static const struct pm_step *find(const char *name, size_t length)
 static int unknown(const char *word)
 {
 	const char *near = pm_nearest(word, pm_step_names);
-	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], clear, or one of euler, rk2, rk4, lsrk3, ab2, ab3)", word,
+	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of euler, rk2, rk4, lsrk3, ab2, ab3)", word,
 		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
@@ -52,6 +52,11 @@ static int action(struct config *cfg, const char *word)
 		return pm_fail(PM_USAGE, "'%s' (a part of a step is written kick/N or drift/N, N >= 1; schemes have no parts)", word);
 	if (step->kind == PM_KICK && p->drift > 0)
 		return pm_fail(PM_USAGE, "'%s' after drift has no force at the new positions (push drift | force | push kick)", word);
+	if (step->magnetic && n != 2)
+		return pm_fail(PM_USAGE, "'%s' (%s is written %s/2: push %s/2 drift | force | push %s/2)", word, step->name, step->name, step->name, step->name);
+	if (p->magnetic || (step->magnetic && p->actions.actions))
+		if (step->kind != PM_DRIFT)
+			return pm_fail(PM_USAGE, "'%s': no kick stands beside a magnetic one (push boris/2 drift | force | push boris/2)", word);
 	if (p->scheme || (step->kind == PM_SCHEME && p->actions.actions))
 		return pm_fail(PM_USAGE, "'%s': a whole scheme stands alone", word);
 	if (p->actions.actions == PM_ADVANCE_ACTIONS)
@@ -61,6 +66,7 @@ static int action(struct config *cfg, const char *word)
 	p->kick += step->kind == PM_KICK ? 1 / n : 0;
 	p->drift += step->kind == PM_DRIFT ? 1 / n : 0;
 	p->scheme = step->kind == PM_SCHEME ? step : NULL;
+	p->magnetic = step->magnetic ? step : p->magnetic;
 	p->moves = p->moves || step->kind != PM_KICK;
 	return 0;
 }
@@ -137,7 +143,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	for (size_t i = 0; i < state->n; i++) {
 		struct pm_moving *m = &state->moving[i];
 		uint64_t absorbed = 0;
-		pm_moving_run(f, m, &cfg->push);
+		if (pm_moving_run(f, m, &cfg->push))
+			return -PM_DATA;
 		if (cfg->push.moves && pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, m, &absorbed))
 			return -PM_DATA;
 		if (absorbed)
@@ -170,19 +177,19 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_push = {
 	.name = "push",
 	.summary = "advance state by its rates, and time with it",
-	.about = "Actions are kick[/N], drift[/N] and clear, or one whole scheme, which takes one pass of the sentence per stage. A set with v moves by "
+	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also turns v about bfield) and clear, or one whole scheme, which takes one pass of the sentence per stage. A set with v moves by "
 		"x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that names it. A missing rate is an error, never "
 		"zero. Moving particles drops change and derived fields; kick keeps them. A step is complete when drift has reached 1 and kick 0 or 1 in "
 		"every set that moves. Particles are folded, mirrored or absorbed at the faces of the box.",
 	.kind = PM_FILTER,
-	.reads = "v, acc, vel and other change fields",
+	.reads = "v, acc, vel and other change fields; bfield, charge and mass for boris",
 	.changes = "x, v and the states that change fields name; time, step",
 	.adds = "registers q_x, q_v ... between the passes of a scheme",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,
 	.arguments = "ACTION...",
-	.arguments_text = "kick, drift (with /N a part of the step), clear; or euler, rk2, rk4, lsrk3, ab2, ab3",
+	.arguments_text = "kick, drift (with /N a part of the step), boris/2, clear; or euler, rk2, rk4, lsrk3, ab2, ab3",
 	.least = 1,
 	.most = PM_ADVANCE_ACTIONS,
 	.examples = examples,

@@ -16,12 +16,14 @@ struct pm_law {
 	unsigned dims;          /* bit 1u<<dim for each dimension it is defined in */
 	const char *strength;   /* particle field deposited: "mass", "charge", "circulation"; NULL: none (free, passive) */
 	const char *density;    /* mesh field p2m makes of it: "rho", "omega" */
+	const char *background; /* constant of the frame that p2m adds to the density; NULL none */
 	const char *potential;  /* what a solver makes: "phi", "psi" */
 	const char *field;      /* what mgrad makes: "g", "E", "u"; dim components */
 	enum { PM_GRADIENT, PM_CURL } of_potential; /* field = sign * grad(potential), or (d psi/dy, -d psi/dx) */
 	double sign;            /* of the gradient: -1 for g and E */
 	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */
 	const char *per;        /* change = (strength/per) * field: "mass" for (q/m) E; NULL: the field itself */
+	const char *magnetic;   /* mesh field that m2p takes to bfield where the frame has it: "B"; NULL none */
 	double (*coefficient)(const struct pm_frame *f); /* c in lap potential = c * density */
 	const char *kernel;     /* defaults, so that the words work bare */
 	const char *symbol;     /* of poisson-fft: "spectral", "fd2", "fd4" */

@@ -14,12 +14,15 @@ struct pm_push {
 	double part[PM_ADVANCE_ACTIONS]; /* of dt, for each action */
 	double kick, drift;              /* sums of the parts */
 	const struct pm_step *scheme;    /* NULL: kicks and drifts */
+	const struct pm_step *magnetic;  /* the kick that turns v about bfield; NULL none */
 	bool open, moves, unsafe;        /* a kick is still to come after the drift; positions change; any step length */
 };
 
 struct pm_moving {
 	struct pm_set *set;
 	struct pm_field *x, *v; /* v NULL: none, or nobody changes it */
+	struct pm_field *b, *charge, *mass; /* of a magnetic kick */
+	bool closing;           /* the drift is done */
 	int n;
 	struct pm_rate rates[PM_RATES];
 	struct pm_pass pass;
@@ -103,6 +106,27 @@ static inline int pm_moving_fields(struct pm_frame *f, struct pm_moving *m, cons
 	return p->moves && pm_moving_face(f, PM_PABSORB) ? pm_moving_shrinks(f, m) : 0;
 }
 
+/* What a magnetic kick reads besides acc. */
+static inline int pm_moving_magnetic(struct pm_frame *f, struct pm_moving *m)
+{
+	const char *on = m->set->name;
+	m->closing = m->set->drift > 0;
+	if (!m->v || m->v->components < 2 || m->v->components > 3)
+		return pm_fail(PM_DATA, "boris turns velocities of 2 or 3 components, and '%s' has %d (pinit --velocities 3, or push kick/2 without a magnetic "
+			"field)", on, m->v ? m->v->components : 0);
+	if (!pm_frame_field(f, on, "bfield"))
+		return pm_fail(PM_MISSING, "no field 'bfield' on '%s' (m2p makes it of a B on the mesh; without a magnetic field: push kick/2)", on);
+	if (pm_frame_field(f, on, "bfield")->components != 3)
+		return pm_fail(PM_DATA, "'bfield' on '%s' has %d components, not 3", on, pm_frame_field(f, on, "bfield")->components);
+	if (!pm_frame_field(f, on, "charge") || !pm_frame_field(f, on, "mass"))
+		return pm_fail(PM_DATA, "no field '%s' on '%s', which the magnetic force needs (add it with stab --strength)",
+			pm_frame_field(f, on, "charge") ? "mass" : "charge", on);
+	m->b = pm_reads(f, on, "bfield");
+	m->charge = m->b ? pm_reads(f, on, "charge") : NULL;
+	m->mass = m->charge ? pm_reads(f, on, "mass") : NULL;
+	return m->mass ? 0 : -PM_DATA;
+}
+
 /* The header's part: refuses what cannot be, moves the set's clock on, declares the fields. */
 static inline int pm_moving_plan(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m)
 {
@@ -111,8 +135,10 @@ static inline int pm_moving_plan(struct pm_frame *f, struct pm_set *set, const s
 	*m = (struct pm_moving){.set = set, .x = pm_frame_field(f, set->name, "x"), .v = pm_frame_field(f, set->name, "v")};
 	if (!pm_rate_is_state(m->v))
 		m->v = NULL;
+	if (!status && p->magnetic)
+		status = pm_moving_magnetic(f, m);
 	if (!status && kind != PM_DRIFT)
-		status = pm_rates_allowed(f, set, p->scheme ? p->scheme->name : "a plain kick");
+		status = pm_rates_allowed(f, set, p->magnetic ? NULL : p->scheme ? p->scheme->name : "a plain kick");
 	if (!status)
 		status = pm_rates_complete(f, set);
 	if (!status)
@@ -141,6 +167,8 @@ static inline int pm_moving_lines(const struct pm_moving *m, int c, bool motion,
 	for (int r = 0; r < m->n; r++) {
 		const struct pm_rate *rate = &m->rates[r];
 		bool is_motion = rate->state == m->x || rate->state == m->v;
+		if (m->b && rate->state == m->v)
+			continue; /* turned before */
 		if (is_motion == motion && c < pm_moving_components(rate))
 			lines[n++] = pm_moving_line(m, rate, c);
 	}
@@ -153,10 +181,36 @@ static inline struct pm_bounds pm_moving_bounds(const struct pm_frame *f, int ax
 		.mirror = {f->pface[axis][0] == PM_PREFLECT, f->pface[axis][1] == PM_PREFLECT}};
 }
 
+/* Turns and kicks the velocities about bfield, all components of a particle together. */
+static inline int pm_moving_turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
+{
+	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
+	struct pm_magnetic a = {.charge = pm_in(m->charge, 0), .mass = pm_in(m->mass, 0)};
+	size_t n = m->set->n, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	for (int r = 0; r < m->n; r++)
+		acc = m->rates[r].state == m->v ? m->rates[r].rate : acc;
+	for (int c = 0; c < 3; c++) {
+		a.v[c] = c < m->v->components ? pm_out(m->v, c) : NULL;
+		a.acc[c] = c < acc->components ? pm_in(acc, c) : NULL;
+		a.b[c] = pm_in(m->b, c);
+	}
+	for (size_t i = 0; i < n && !a.v[2]; i++)
+		if (a.b[0][i] != 0 || a.b[1][i] != 0)
+			return pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in the plane turns them out of it (give v 3 components)",
+				m->set->name);
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t block = 0; block < blocks; block++) {
+		size_t i = block * PM_ADVANCE_BLOCK;
+		step->magnetic(m->closing, f->dt, i, n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK, &a);
+	}
+	return 0;
+}
+
 /* The data's part, but for absorption. */
-static inline void pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
+static inline int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
 {
 	struct pm_advance a = p->actions;
+	int status = p->magnetic ? pm_moving_turn(f, m, p->magnetic) : 0;
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
 	if (p->scheme) {
@@ -165,7 +219,7 @@ static inline void pm_moving_run(const struct pm_frame *f, const struct pm_movin
 		a.shift = m->pass.shift ? own : 0;
 		a.registers = m->pass.step == p->scheme ? 0 : own;
 	}
-	for (int c = 0; c < PM_COMPONENTS; c++) {
+	for (int c = 0; c < PM_COMPONENTS && !status; c++) {
 		struct pm_line lines[PM_RATES];
 		struct pm_bounds b = pm_moving_bounds(f, c < f->dim ? c : 0);
 		bool faces = p->moves && c < f->dim && c < m->x->components;
@@ -177,6 +231,7 @@ static inline void pm_moving_run(const struct pm_frame *f, const struct pm_movin
 		if (n)
 			pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
 	}
+	return status;
 }
 
 static inline size_t pm_moving_mark(const struct pm_frame *f, const struct pm_moving *m, unsigned char *gone)

@@ -42,11 +42,12 @@ static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set
 	return any && found >= m->nterms;
 }
 
-/* What stands against advancing a set by its change fields: a magnetic field, or a change on a mesh that was not carried to the particles. */
+/* What stands against advancing a set by its change fields: a magnetic field (by: the scheme that does not know it, NULL one that does), or a
+ * change on a mesh that was not carried to the particles. */
 static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by)
 {
-	if (pm_frame_field(f, s->name, "bfield"))
-		return pm_fail(PM_DATA, "'%s' has a magnetic field, which %s would leave out (use a magnetic scheme: push boris)", s->name, by);
+	if (by && pm_frame_field(f, s->name, "bfield"))
+		return pm_fail(PM_DATA, "'%s' has a magnetic field, which %s would leave out (use a magnetic scheme: push boris/2)", s->name, by);
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *m = f->fields[i];
 		if (m->role != PM_CHANGE || !m->of[0] || !pm_frame_mesh(f, m->on) || !pm_rate_is_state(pm_frame_field(f, s->name, m->of)))

@@ -14,6 +14,13 @@ enum pm_step_kind {
 	PM_SCHEME /* advances every state through a whole step, one pass of the sentence per force evaluation */
 };
 
+/* One set as a magnetic step sees it; components that are not there are NULL. */
+struct pm_magnetic {
+	double *v[3];                     /* [length/time] */
+	const double *acc[3], *b[3];      /* [length/time^2] without v x B; [magnetic field] */
+	const double *charge, *mass;
+};
+
 struct pm_step {
 	const char *name, *sentence, *source;
 	enum pm_step_kind kind;
@@ -28,6 +35,8 @@ struct pm_step {
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt */
 	/* One pass over n values: y is advanced, k is its rate now, q the registers. */
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
+	/* Of magnetic kicks, which turn v about B; for particles from..to-1 and half a step of dt; every other state is kicked by pass. NULL: none. */
+	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
 };
 
 extern const struct pm_step *const pm_steps[]; /* generated from lib/step/, NULL ends */

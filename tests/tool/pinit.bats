@@ -5,7 +5,7 @@ load ../helper
 header() { head -c 8192 "$1" | sed -n 2p; }
 field() { header "$1" | tr '\0' ' ' | python3 -c "import json,sys; h=json.loads(sys.stdin.read()); print($2)"; }
 
-scenes="cold-collapse cold-sphere kepler lattice pair plummer two-body uniform"
+scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pair plummer two-body two-stream uniform"
 
 @test "pinit: every scene makes one frame that names the scene and passes the checks of a reader" {
 	for s in $scenes; do

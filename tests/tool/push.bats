@@ -82,3 +82,48 @@ refuses() {
 	stab t --box 0,2 --faces periodic --particle-faces periodic --dt 0.5 | push drift | stab --plain > a
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { exit !($c["x"] == 0 && $c["y"] == 1 && $c["z"] == 0) }' a
 }
+
+@test "boris/2 refuses what it cannot do: no bfield, whole steps, a kick beside it; and a plain kick refuses a bfield" {
+	refuses 1 "no field 'bfield' on 'electrons' (m2p makes it of a B on the mesh" "pinit langmuir -n 16 --velocities 2 | p2m | poisson-fft | mgrad | m2p | push boris/2"
+	refuses 1 "turns velocities of 2 or 3 components, and 'electrons' has 1" "pinit langmuir -n 16 | p2m | poisson-fft | mgrad | m2p | push boris/2"
+	refuses 2 "push boris/2 drift | force | push boris/2" "pinit gyration | m2p | push boris"
+	refuses 2 "no kick stands beside a magnetic one" "pinit gyration | m2p | push kick/2 boris/2"
+	refuses 2 "no kick stands beside a magnetic one" "pinit gyration | m2p | push boris/2 kick/2"
+	refuses 1 "has a magnetic field, which a plain kick would leave out (use a magnetic scheme: push boris/2)" "pinit gyration | m2p | push kick/2"
+	refuses 1 "adds up to 1.5 of a step" "pinit gyration | m2p | push boris/2 | push boris/2 | push boris/2"
+}
+
+@test "boris/2 keeps acc and bfield, counts as half a kick, and two halves about a time turn v by 2 atan(Omega dt/2)" {
+	pinit gyration --dt 0.5 | m2p > a
+	push boris/2 < a > b
+	stab < b | grep -q '"name":"bfield"'
+	stab < b | grep -q '"kick":0.5'
+	push boris/2 drift < a | m2p | push boris/2 > c
+	sls < c | grep -q 'step 1 substep 0'
+	stab < c | grep -q '"name":"bfield"'
+	angle=$(stab --plain --set electrons < c | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { printf "%.17g", atan2($c["vy"], $c["vx"]) }')
+	within "$angle" 0.489957326253728 1e-15 "PIC-12: angle of a step"
+}
+
+@test "a magnetic field in the plane of two velocity components is refused, with three it turns them out of the plane" {
+	pinit gyration > a
+	sed -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' a > b # the same length
+	refuses 1 "a magnetic field in the plane turns them out of it (give v 3 components)" "m2p < b | push boris/2"
+	pinit gyration --velocities 3 | sed -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' > c
+	m2p < c | push boris/2 drift | m2p | push boris/2 | stab --plain --set electrons > t
+	within "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { printf "%.17g", atan2($c["vz"], $c["vx"]) }' t)" -0.0999167914438855 1e-15
+}
+
+@test "the bytes of boris do not depend on the number of threads, nor on the way of running" {
+	pinit langmuir -n 20002 --velocities 3 --no-history | stab > a
+	sed -e '1s/"fields":\[{/"fields":[{"components":3,"kind":"value","name":"B","on":"mesh","role":"state","type":"f64","uniform":[0.3,-0.2,1.0],"unit":""},{/' a > t
+	stab t --no-history > b
+	local words='push boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2'
+	for t in 1 2 3; do
+		OMP_NUM_THREADS=$t cycle --no-history -n 3 "$words" < b > "c$t"
+		OMP_NUM_THREADS=$t cycle --no-history -n 3 --engine pipes "$words" < b > "d$t"
+		same_as c1 "c$t"
+		same_as c1 "d$t"
+	done
+	stab < c1 | grep -q '"name":"bfield"'
+}

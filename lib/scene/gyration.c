@@ -1,0 +1,68 @@
+/* Electrons that circle in a given uniform magnetic field along z: q = -1, m = 1, Omega = B, counter-clockwise, radius v/B about the middle of the
+ * box; several start at equal angles. B and E = 0 are given on the mesh, so `push boris/2 drift | m2p | push boris/2` moves them.
+ * A step of Boris turns by 2 atan(Omega dt/2) on a circle of radius (v/B) sqrt(1 + (Omega dt/2)^2).
+ * Source: Birdsall and Langdon 1985, section 4-3; PIC-12, HC-08 of the reference cases.
+ * Exact: mass, charge, energy_kinetic; of one particle centre_x, centre_y. Cost N.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/plasma.h"
+
+enum { SPEED, MAGNETIC, LENGTH, VELOCITIES };
+
+static const struct pm_scene_parameter rows[] = {
+	{"speed", "length/time", 1, 0, 1e300, "of the gyration"},
+	{"magnetic-field", "", 1, 1e-300, 1e300, "B along z; the gyration frequency"},
+	{"length", "length", 8, 1e-300, 1e300, "side of the box"},
+	{"velocities", "", 2, 2, 3, "components of v"},
+	{0},
+};
+
+static int make(const struct pm_scene_choice *c, struct pm_frame *f)
+{
+	const double b[3] = {0, 0, c->value[MAGNETIC]}, none[3] = {0}, middle = 0.5 * c->value[LENGTH], radius = c->value[SPEED] / b[2];
+	double *x[3], *v[3];
+	if (scene_plasma_whole(1, c->value[VELOCITIES], 2))
+		return -PM_USAGE;
+	scene_plasma_world(f, c->value[LENGTH], 0, 0.1);
+	if (scene_mesh(f, 16) || scene_plasma_given(f, "B", "", 3, b) || scene_plasma_given(f, "E", "", f->dim, none) ||
+		scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -1, 1, x, v))
+		return -PM_DATA;
+	for (uint64_t i = 0; i < c->n; i++) {
+		const double angle = 2 * pm_pi * (double)i / (double)c->n;
+		const double at[3] = {middle + radius * sin(angle), middle - radius * cos(angle), middle};
+		for (int d = 0; d < f->dim; d++)
+			x[d][i] = scene_plasma_fold(at[d], c->value[LENGTH]);
+		v[0][i] = c->value[SPEED] * cos(angle);
+		v[1][i] = c->value[SPEED] * sin(angle);
+	}
+	return 0;
+}
+
+static double exact(const struct pm_frame *f, const char *quantity, double t)
+{
+	const struct pm_set *set = pm_frame_set(f, "electrons");
+	const double n = set ? (double)set->n : NAN, speed = pm_frame_parameter(f, "speed", 1), b = pm_frame_parameter(f, "magnetic-field", 1);
+	const double middle = 0.5 * pm_frame_parameter(f, "length", 8);
+	if (!strcmp(quantity, "mass"))
+		return n;
+	if (!strcmp(quantity, "charge"))
+		return -n;
+	if (!strcmp(quantity, "energy_kinetic"))
+		return 0.5 * n * speed * speed;
+	if (!strcmp(quantity, "centre_x") && n == 1)
+		return middle + speed / b * sin(b * t);
+	if (!strcmp(quantity, "centre_y") && n == 1)
+		return middle - speed / b * cos(b * t);
+	return NAN;
+}
+
+const struct pm_scene scene_gyration = {
+	.name = "gyration",
+	.sentence = "electrons circling in a uniform magnetic field",
+	.source = "Birdsall and Langdon 1985, 4-3",
+	.dims = 1u << 2 | 1u << 3,
+	.dim = 2,
+	.n = 1,
+	.parameters = rows,
+	.make = make,
+	.exact = exact,
+};

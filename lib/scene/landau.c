@@ -1,0 +1,73 @@
+/* A Maxwellian plasma with a small wave, f = (1 + A cos k x) M(v), which Landau damping takes away. vth = 1 and omega_p = 1, so lambda_D = 1 and
+ * the default k = 0.5 is k lambda_D = 0.5: omega = 1.4156619, gamma = -0.1533595; k = 0.3: 1.1598465, -0.01262037.
+ * Quiet start: Hammersley's points, velocities by their quantiles, places by reversed bits through the inverse of x + (A/k) sin k x; every second
+ * particle is the mirror image of the one before, so the momentum is zero.
+ * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
+ * Exact: mass, charge. Cost N.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/plasma.h"
+
+enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES };
+
+static const struct pm_scene_parameter rows[] = {
+	{"amplitude", "", 0.02, 0, 0.999, "k A at the start"},
+	{"mode", "", 1, 1, 1e6, "waves in the box"},
+	{"wavenumber", "1/length", 0.5, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
+	{"vth", "length/time", 1, 0, 1e300, "thermal speed, the standard deviation of the velocity"},
+	{"velocities", "", 1, 1, 3, "components of v"},
+	{0},
+};
+
+/* x with x + (a/k) sin(k x) = q. */
+static double place(double q, double a, double k)
+{
+	double x = q;
+	for (int i = 0; i < 50; i++) {
+		const double step = (x + a / k * sin(k * x) - q) / (1 + a * cos(k * x));
+		x -= step;
+		if (fabs(step) < 1e-15 * q)
+			break;
+	}
+	return x;
+}
+
+static int make(const struct pm_scene_choice *c, struct pm_frame *f)
+{
+	const double length = 2 * pm_pi / c->value[WAVENUMBER], k = c->value[WAVENUMBER] * c->value[MODE], n = (double)c->n, share = c->n ? length / n : 0;
+	double *x[3], *v[3];
+	if (scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
+		return -PM_USAGE;
+	if (c->n % 2)
+		return pm_fail(PM_USAGE, "%llu particles do not make mirror images (take an even -n)", (unsigned long long)c->n);
+	scene_plasma_world(f, length, 1, 0.1);
+	if (scene_mesh(f, 64) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
+		return -PM_DATA;
+#pragma omp parallel for schedule(static) if (c->n > 16384)
+	for (uint64_t i = 0; i < c->n; i++) {
+		const uint64_t j = i / 2;
+		const double at = place((scene_plasma_reverse(j) + 0.5 / n) * length, c->value[AMPLITUDE], k);
+		const double speed = c->value[VTH] * scene_plasma_normal(((double)j + 0.5) / (n / 2));
+		x[0][i] = scene_plasma_fold(i % 2 ? length - at : at, length);
+		v[0][i] = i % 2 ? -speed : speed;
+	}
+	return 0;
+}
+
+static double exact(const struct pm_frame *f, const char *quantity, double t)
+{
+	const double length = 2 * pm_pi / pm_frame_parameter(f, "wavenumber", 0.5);
+	(void)t;
+	return !strcmp(quantity, "mass") ? length : !strcmp(quantity, "charge") ? -length : NAN;
+}
+
+const struct pm_scene scene_landau = {
+	.name = "landau",
+	.sentence = "a wave in a Maxwellian plasma that is damped without collisions",
+	.source = "Landau 1946, J. Phys. USSR 10, 25",
+	.dims = 1u << 1,
+	.dim = 1,
+	.n = 20000,
+	.parameters = rows,
+	.make = make,
+	.exact = exact,
+};

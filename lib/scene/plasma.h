@@ -1,0 +1,88 @@
+/* What the scenes of plasmas share: units in which omega_p = eps0 = 1 and electrons have q = -1, m = 1 per unit of density 1, so that each of n
+ * particles of a box of length L carries the charge -L/n and the mass L/n; ions are a constant background.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SCENE_PLASMA_H
+#define PM_SCENE_PLASMA_H
+
+#include "scene/make.h"
+
+/* The law and a periodic box 0..length. */
+static inline void scene_plasma_world(struct pm_frame *f, double length, double background, double dt)
+{
+	scene_world(f, 0, length, PM_PERIODIC, 0, dt);
+	snprintf(f->law, sizeof f->law, "electrostatic");
+	json_object_del(f->constants, "G");
+	pm_frame_constant_set(f, "eps0", 1);
+	pm_frame_constant_set(f, "background", background);
+}
+
+/* The set "electrons" with x, v of `velocities` components (above dim all 0), mass and charge the same for all. */
+static inline int scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double charge, double mass, double *x[3], double *v[3])
+{
+	struct scene_body b;
+	if (scene_set(f, "electrons", n, true, mass, &b))
+		return -PM_DATA;
+	struct pm_field *old = pm_frame_field(f, "electrons", "v"), *q = pm_makes(f, "electrons", "charge", 1, PM_STATE);
+	struct pm_field *w = velocities > f->dim ? pm_makes(f, "electrons", "v", velocities, PM_STATE) : old;
+	if (!q || !w || pm_field_ready(w))
+		return -PM_DATA;
+	snprintf(q->unit, sizeof q->unit, "charge");
+	snprintf(w->unit, sizeof w->unit, "length/time");
+	q->extensive = q->uniform = true;
+	q->value[0] = charge;
+	for (int c = 0; c < 3; c++) {
+		x[c] = c < f->dim ? b.x[c] : NULL;
+		v[c] = c < w->components ? pm_out(w, c) : NULL;
+	}
+	return 0;
+}
+
+/* A field on the mesh that is given and the same everywhere. */
+static inline int scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value)
+{
+	struct pm_field *field = pm_makes(f, "mesh", name, components, PM_STATE);
+	if (!field)
+		return -PM_DATA;
+	snprintf(field->unit, sizeof field->unit, "%s", unit);
+	field->uniform = true;
+	memcpy(field->value, value, (size_t)components * sizeof *value);
+	return 0;
+}
+
+/* Whole numbers among the parameters. */
+static inline int scene_plasma_whole(double mode, double velocities, int least)
+{
+	if (mode != floor(mode))
+		return pm_fail(PM_USAGE, "--mode %g is not a whole number of waves", mode);
+	if (velocities != floor(velocities) || velocities < least)
+		return pm_fail(PM_USAGE, "--velocities %g is not a number of components from %d to 3", velocities, least);
+	return 0;
+}
+
+/* x in [0, length). */
+static inline double scene_plasma_fold(double x, double length)
+{
+	x -= length * floor(x / length);
+	return x >= length ? 0 : x;
+}
+
+/* Van der Corput's sequence: the bits of i behind the point in reverse order (Hammersley 1960). */
+static inline double scene_plasma_reverse(uint64_t i)
+{
+	double x = 0, bit = 0.5;
+	for (; i; i >>= 1, bit *= 0.5)
+		x += (double)(i & 1) * bit;
+	return x;
+}
+
+/* z with u = (1 + erf(z/sqrt 2))/2, 0 < u < 1: bisection-free, Newton's method from the tail estimate of Abramowitz and Stegun 26.2.23. */
+static inline double scene_plasma_normal(double u)
+{
+	const double p = u < 0.5 ? u : 1 - u, t = sqrt(-2 * log(p));
+	double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+	for (int i = 0; i < 3; i++) /* each step squares the error of 4.5e-4 */
+		z += (0.5 * erfc(z / sqrt(2)) - p) / (exp(-0.5 * z * z) / sqrt(2 * pm_pi));
+	return u < 0.5 ? -z : z;
+}
+
+#endif
