@@ -18,6 +18,7 @@ there() {
 	libjansson-dev) header jansson.h ;;
 	libpng-dev) header png.h ;;
 	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
+	netpbm) command -v pngtopnm >/dev/null 2>&1 ;;
 	bsdutils) command -v script >/dev/null 2>&1 ;;
 	*) command -v "$1" >/dev/null 2>&1 ;;
 	esac
