@@ -2,20 +2,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "law/law.h"
 #include "poisson/fft.h"
+#include "poisson/problem.h"
 #include "stage/stage.h"
 
 struct config {
-	const char *symbol, *source, *target, *mesh, *plan;
-	double coefficient;
+	struct pm_problem_names names;
+	const char *symbol, *plan;
 };
 struct state {
-	const struct pm_field *source;
-	struct pm_field *target;
-	struct pm_grid grid;
+	struct pm_problem problem;
 	enum pm_symbol symbol;
-	double c;
 	enum pm_effort effort;
 	struct pm_poisson_fft *solver; /* for grid_made and symbol_made */
 	struct pm_grid grid_made;
@@ -26,11 +23,11 @@ static const struct pm_option options[] = {
 	{"symbol", 0, PM_WORD, "", NULL, 0, 0, pm_symbol_names,
 		"how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2 or 4 do, which are then inverted exactly (default: the law's)",
 		false, offsetof(struct config, symbol)},
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, coefficient)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, source)},
+	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
+	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
-		offsetof(struct config, target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
+		offsetof(struct config, names.target)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
 	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
 		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
@@ -56,42 +53,17 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
-	const struct pm_law *law = pm_law_of(f);
-	if (!law)
-		return -PM_DATA;
-	const struct pm_mesh *mesh = pm_frame_mesh(f, o->mesh);
-	if (!mesh)
-		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n makes one)", o->mesh ? " named " : "", o->mesh ? o->mesh : "");
-	const char *source = o->source ? o->source : law->density, *target = o->target ? o->target : law->potential;
-	if (!source || !target)
-		return pm_fail(PM_USAGE, "the law %s names no density and potential (give --source and --target)", law->name);
-	if (!strcmp(source, target))
-		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
-	if (isnan(o->coefficient) && !law->coefficient)
-		return pm_fail(PM_USAGE, "the law %s has no coefficient (give --coefficient)", law->name);
-	if (!pm_frame_field(f, mesh->name, source))
-		return pm_fail(PM_DATA, "no field '%s' on '%s' (p2m makes it from particles, or choose --source)", source, mesh->name);
-	const char *symbol = o->symbol ? o->symbol : law->symbol ? law->symbol : "spectral";
-	t->symbol = (enum pm_symbol)pm_symbol_find(symbol);
-	t->grid = pm_grid_of(f, mesh);
-	t->c = isnan(o->coefficient) ? law->coefficient(f) : o->coefficient;
-	int status = pm_poisson_fft_check(&t->grid, t->symbol);
+	int status = pm_problem_find(f, &o->names, &t->problem);
 	if (status)
 		return status;
-	t->source = pm_reads(f, mesh->name, source);
-	if (!t->source)
-		return -PM_DATA;
-	t->target = pm_makes(f, mesh->name, target, t->source->components, PM_DERIVED);
-	if (!t->target)
-		return -PM_DATA;
-	t->target->use |= PM_USE_FILL;
-	memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
-	memcpy(t->target->half, t->source->half, sizeof t->target->half);
-	for (int c = 0; c < t->source->components; c++)
-		for (int d = 0; d < f->dim; d++)
-			if (t->source->half[c][d])
-				return pm_fail(PM_DATA, "'%s' sits between the nodes (poisson-fft works on the nodes; p2m puts densities there)", source);
-	return 0;
+	const char *symbol = o->symbol ? o->symbol : t->problem.law->symbol ? t->problem.law->symbol : "spectral";
+	t->symbol = (enum pm_symbol)pm_symbol_find(symbol);
+	status = pm_poisson_fft_check(&t->problem.grid, t->symbol);
+	if (!status)
+		status = pm_problem_declare(f, &t->problem);
+	if (!status)
+		t->problem.target->use |= PM_USE_FILL;
+	return status;
 }
 
 static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
@@ -102,13 +74,13 @@ static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 
 static int ready(struct pm_stage *s, struct state *t)
 {
-	if (t->solver && t->symbol == t->symbol_made && same_grid(&t->grid, &t->grid_made))
+	if (t->solver && t->symbol == t->symbol_made && same_grid(&t->problem.grid, &t->grid_made))
 		return 0;
 	pm_poisson_fft_free(t->solver);
-	t->solver = pm_poisson_fft_new(&t->grid, t->symbol, t->effort);
+	t->solver = pm_poisson_fft_new(&t->problem.grid, t->symbol, t->effort);
 	if (!t->solver)
 		return -PM_DATA;
-	t->grid_made = t->grid;
+	t->grid_made = t->problem.grid;
 	t->symbol_made = t->symbol;
 	const struct pm_planner *p = pm_poisson_fft_planner(t->solver);
 	if (*p->note)
@@ -122,14 +94,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *t = s->state;
 	if (ready(s, t))
 		return -PM_DATA;
-	for (int c = 0; c < t->source->components; c++) {
+	for (int c = 0; c < t->problem.source->components; c++) {
 		double mean;
-		if (pm_poisson_fft_solve(t->solver, t->c, pm_in(t->source, c), pm_out(t->target, c), &mean))
+		if (pm_poisson_fft_solve(t->solver, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &mean))
 			return -PM_DATA;
 		char key[32] = "mean_removed";
-		if (t->source->components > 1)
+		if (t->problem.source->components > 1)
 			snprintf(key, sizeof key, "mean_removed_%d", c);
-		if (pm_poisson_fft_singular(&t->grid))
+		if (pm_poisson_fft_singular(&t->problem.grid))
 			pm_report(s, f, key, mean);
 	}
 	const struct pm_planner *p = pm_poisson_fft_planner(t->solver);

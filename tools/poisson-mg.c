@@ -2,21 +2,19 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "law/law.h"
 #include "poisson/mg.h"
+#include "poisson/problem.h"
 #include "stage/stage.h"
 
 struct config {
-	const char *cycle, *source, *target, *mesh;
+	struct pm_problem_names names;
+	const char *cycle;
 	struct pm_vector smooth;
-	double relaxation, tolerance, coefficient;
+	double relaxation, tolerance;
 	int64_t most;
 };
 struct state {
-	const struct pm_field *source;
-	struct pm_field *target;
-	struct pm_grid grid;
-	double c;
+	struct pm_problem problem;
 	struct pm_mg *solver; /* the hierarchy, for the grid `made` */
 	struct pm_grid made;
 	struct pm_mg_choice choice;
@@ -32,11 +30,11 @@ static const struct pm_option options[] = {
 	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
 		offsetof(struct config, tolerance)},
 	{"max-cycles", 0, PM_INTEGER, "", "50", 1, PM_MG_MOST, NULL, "cycles after which it fails", false, offsetof(struct config, most)},
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, coefficient)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, source)},
+	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
+	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
-		offsetof(struct config, target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
+		offsetof(struct config, names.target)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
 	{0},
 };
 
@@ -62,54 +60,22 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-/* The field solved for, at the nodes like its source. */
-static int declare(struct state *t, struct pm_frame *f, const char *mesh, const char *source, const char *target)
-{
-	t->source = pm_reads(f, mesh, source);
-	if (!t->source)
-		return -PM_DATA;
-	for (int c = 0; c < t->source->components; c++)
-		for (int d = 0; d < f->dim; d++)
-			if (t->source->half[c][d])
-				return pm_fail(PM_DATA, "'%s' sits between the nodes (poisson-mg works on the nodes; p2m puts densities there)", source);
-	t->target = pm_makes(f, mesh, target, t->source->components, PM_DERIVED);
-	if (!t->target)
-		return -PM_DATA;
-	memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
-	return 0;
-}
-
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
-	const struct pm_law *law = pm_law_of(f);
-	if (!law)
-		return -PM_DATA;
-	const struct pm_mesh *mesh = pm_frame_mesh(f, o->mesh);
-	if (!mesh)
-		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n makes one)", o->mesh ? " named " : "", o->mesh ? o->mesh : "");
-	const char *source = o->source ? o->source : law->density, *target = o->target ? o->target : law->potential;
-	if (!source || !target)
-		return pm_fail(PM_USAGE, "the law %s names no density and potential (give --source and --target)", law->name);
-	if (!strcmp(source, target))
-		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
-	if (isnan(o->coefficient) && !law->coefficient)
-		return pm_fail(PM_USAGE, "the law %s has no coefficient (give --coefficient)", law->name);
-	if (!pm_frame_field(f, mesh->name, source))
-		return pm_fail(PM_DATA, "no field '%s' on '%s' (p2m makes it from particles, or choose --source)", source, mesh->name);
-	t->grid = pm_grid_of(f, mesh);
-	t->c = isnan(o->coefficient) ? law->coefficient(f) : o->coefficient;
-	int status = pm_mg_check(&t->grid);
-	return status ? status : declare(t, f, mesh->name, source, target);
+	int status = pm_problem_find(f, &o->names, &t->problem);
+	if (!status)
+		status = pm_mg_check(&t->problem.grid);
+	return status ? status : pm_problem_declare(f, &t->problem);
 }
 
 static int ready(struct state *t)
 {
-	if (t->solver && pm_mg_fits(t->solver, &t->grid))
+	if (t->solver && pm_mg_fits(t->solver, &t->problem.grid))
 		return 0;
 	pm_mg_free(t->solver);
-	t->solver = pm_mg_new(&t->grid);
+	t->solver = pm_mg_new(&t->problem.grid);
 	return t->solver ? 0 : -PM_DATA;
 }
 
@@ -120,11 +86,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	double taken = 0, residual = 0, contraction = 0;
 	bool roundoff = false;
 	int status = ready(t);
-	for (int c = 0; !status && c < t->source->components; c++) {
+	for (int c = 0; !status && c < t->problem.source->components; c++) {
 		char key[32] = "mean_removed";
-		if (t->source->components > 1)
+		if (t->problem.source->components > 1)
 			snprintf(key, sizeof key, "mean_removed_%d", c);
-		status = pm_mg_solve(t->solver, &t->choice, t->c, pm_in(t->source, c), pm_out(t->target, c), &t->record);
+		status = pm_mg_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &t->record);
 		taken = fmax(taken, r->cycles);
 		residual = fmax(residual, r->after);
 		contraction = fmax(contraction, r->contraction);

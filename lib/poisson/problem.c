@@ -1,0 +1,42 @@
+/* Which problem it is, and every way in which it can be none. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "poisson/problem.h"
+
+int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *names, struct pm_problem *p)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	const struct pm_mesh *mesh = pm_frame_mesh(f, names->mesh);
+	if (!mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n makes one)", names->mesh ? " named " : "", names->mesh ? names->mesh : "");
+	const char *source = names->source ? names->source : law->density, *target = names->target ? names->target : law->potential;
+	if (!source || !target)
+		return pm_fail(PM_USAGE, "the law %s names no density and potential (give --source and --target)", law->name);
+	if (!strcmp(source, target))
+		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
+	if (isnan(names->coefficient) && !law->coefficient)
+		return pm_fail(PM_USAGE, "the law %s has no coefficient (give --coefficient)", law->name);
+	if (!pm_frame_field(f, mesh->name, source))
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (p2m makes it from particles, or choose --source)", source, mesh->name);
+	*p = (struct pm_problem){.law = law, .mesh = mesh, .source_name = source, .target_name = target, .grid = pm_grid_of(f, mesh)};
+	p->c = isnan(names->coefficient) ? law->coefficient(f) : names->coefficient;
+	return 0;
+}
+
+int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
+{
+	p->source = pm_reads(f, p->mesh->name, p->source_name);
+	if (!p->source)
+		return -PM_DATA;
+	for (int c = 0; c < p->source->components; c++)
+		for (int d = 0; d < f->dim; d++)
+			if (p->source->half[c][d])
+				return pm_fail(PM_DATA, "'%s' sits between the nodes, and solvers work on the nodes (p2m puts densities there)", p->source_name);
+	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
+	if (!p->target)
+		return -PM_DATA;
+	memcpy(p->target->kernel, p->source->kernel, sizeof p->target->kernel);
+	return 0;
+}
