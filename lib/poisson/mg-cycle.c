@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/mg-level.h"
 
-size_t mg_unknowns(const struct mg_level *l)
+size_t pm_mg_unknowns(const struct mg_level *l)
 {
 	size_t n = 1;
 	for (int d = 0; d < 3; d++)
@@ -25,48 +25,48 @@ static void smooth(struct pm_mg *mg, int at, double relaxation, enum mg_stage fi
 		stages[m++] = MG_BLACK;
 	}
 	if (m)
-		mg_sweep(mg, at, relaxation, m, stages);
+		pm_mg_sweep(mg, at, relaxation, m, stages);
 }
 
 /* One unknown, or none, or a constant that may be anything. */
-void mg_solve_coarsest(struct pm_mg *mg)
+void pm_mg_solve_coarsest(struct pm_mg *mg)
 {
 	int at = mg->levels - 1;
-	bool any = mg->level[at].fixed && mg_unknowns(&mg->level[at]);
+	bool any = mg->level[at].fixed && pm_mg_unknowns(&mg->level[at]);
 	smooth(mg, at, 1, MG_ZERO, any);
 }
 
 /* The first half of a cycle: relax and restrict the residual; returns its sum of squares on the finest grid. */
-double mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero)
+double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero)
 {
 	smooth(mg, at, o->relaxation, zero ? MG_ZERO : MG_RED, o->pre);
-	return mg_restrict(mg, at);
+	return pm_mg_restrict(mg, at);
 }
 
 /* The second: solve on the coarser grids, correct and relax. */
-void mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o)
+void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o)
 {
 	if (at + 2 == mg->levels)
-		mg_solve_coarsest(mg);
+		pm_mg_solve_coarsest(mg);
 	else
 		for (int i = 0; i < (o->cycle == PM_MG_W ? 2 : 1); i++) {
-			mg_cycle_down(mg, at + 1, o, i == 0);
-			mg_cycle_up(mg, at + 1, o);
+			pm_mg_cycle_down(mg, at + 1, o, i == 0);
+			pm_mg_cycle_up(mg, at + 1, o);
 		}
 	smooth(mg, at, o->relaxation, MG_CORRECT, o->post);
 }
 
 /* From the coarsest grid up, one cycle on each but the finest. */
-void mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
+void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
 	for (int at = 0; at + 1 < mg->levels; at++)
-		mg_restrict_source(mg, at);
-	mg_solve_coarsest(mg);
+		pm_mg_restrict_source(mg, at);
+	pm_mg_solve_coarsest(mg);
 	for (int at = mg->levels - 2; at >= 0; at--) {
 		smooth(mg, at, o->relaxation, MG_INTERPOLATE, 0);
 		if (at) {
-			mg_cycle_down(mg, at, o, false);
-			mg_cycle_up(mg, at, o);
+			pm_mg_cycle_down(mg, at, o, false);
+			pm_mg_cycle_up(mg, at, o);
 		}
 	}
 }

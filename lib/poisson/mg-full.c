@@ -59,7 +59,7 @@ static void restriction(const struct mg_axis *f, const struct mg_axis *c, struct
 					add_entry(reflect(map->parent[i] + m, c), map->a[m][i], map->four[1] + mg_cubic * i, map->cubic[1] + mg_cubic * i);
 }
 
-bool mg_full_tables(const struct mg_axis *f, const struct mg_axis *c, struct mg_map *map)
+bool pm_mg_full_tables(const struct mg_axis *f, const struct mg_axis *c, struct mg_map *map)
 {
 	for (int m = 0; m < 2; m++) {
 		map->four[m] = pm_zalloc(f->points, mg_cubic * sizeof(size_t));
@@ -106,7 +106,7 @@ static void interpolate_half(const struct mg_level *fine, const struct mg_axis *
 	}
 }
 
-void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
+void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
 {
 	const struct mg_axis *x = &fine->axis[0], *y = &fine->axis[1];
 	struct mg_parents pz = parents(&fine->map[2], 0, k);
@@ -114,7 +114,7 @@ void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *co
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents(&fine->map[1], 0, j);
 		double *u = fine->u + k * fine->plane + j * fine->stride;
-		mg_gather(coarse, &py, &pz, t);
+		pm_mg_gather(coarse, &py, &pz, t);
 		if (fine->map[0].half)
 			interpolate_half(fine, &coarse->axis[0], t, u);
 		else
@@ -146,7 +146,7 @@ static void collect(const struct mg_level *fine, const struct mg_level *coarse, 
 	double *t = c + coarse->stride, *w = t + coarse->stride;
 	if (fine->map[0].half) {
 		collect_half(fine, coarse->axis[0].points, f, t, w);
-		mg_fold_row(coarse, t, c);
+		pm_mg_fold_row(coarse, t, c);
 		return;
 	}
 	memset(c, 0, coarse->stride * sizeof *c);
@@ -170,12 +170,12 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 			collect(fine, coarse, fine->f + k * fine->plane + j * fine->stride, c);
 			for (int a = 0; a < pz.n; a++)
 				for (int b = 0; b < py.n && pz.node[a] >= range[0] && pz.node[a] < range[1]; b++)
-					mg_add_row(coarse->stride, pz.w[a] * py.w[b], c, coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
+					pm_mg_add_row(coarse->stride, pz.w[a] * py.w[b], c, coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
 		}
 	}
 }
 
-void mg_restrict_source(struct pm_mg *mg, int at)
+void pm_mg_restrict_source(struct pm_mg *mg, int at)
 {
 	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
 	size_t n = coarse->axis[2].points, parts = (size_t)mg->threads < n / 8 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;

@@ -85,7 +85,7 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 		for (int m = 0; m < 2; m++)
 			map->a[m][i] = map->w[m][i] * axis_weight(f, i) / axis_weight(c, fold((ptrdiff_t)below + m, c));
 	}
-	return mg_full_tables(f, c, map);
+	return pm_mg_full_tables(f, c, map);
 }
 
 static bool level_alloc(struct mg_level *l)
@@ -129,7 +129,7 @@ static bool level_coarse(struct mg_level *fine, struct mg_level *coarse, bool *m
 	return level_alloc(coarse);
 }
 
-bool mg_build(struct pm_mg *mg, const struct pm_grid *g)
+bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g)
 {
 	struct mg_level *l = &mg->level[0];
 	mg->grid = *g;
@@ -153,7 +153,7 @@ bool mg_build(struct pm_mg *mg, const struct pm_grid *g)
 	return mg->scratch && mg->sums;
 }
 
-void mg_demolish(struct pm_mg *mg)
+void pm_mg_demolish(struct pm_mg *mg)
 {
 	for (int i = 0; i < mg_levels_most; i++) {
 		struct mg_level *l = &mg->level[i];

@@ -56,8 +56,8 @@ enum { mg_stages_most = 2 * 64 + 1 };
 static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
 /* mg-level.c */
-bool mg_build(struct pm_mg *mg, const struct pm_grid *g);
-void mg_demolish(struct pm_mg *mg);
+bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g);
+void pm_mg_demolish(struct pm_mg *mg);
 
 static inline size_t mg_below(const struct mg_axis *a, size_t i) /* neighbour of node i, folded at the faces */
 {
@@ -77,9 +77,9 @@ static inline void mg_close_row(const struct mg_level *l, double *u)
 }
 
 /* mg-relax.c */
-void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
-void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
-double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
+void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
+void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
+double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
 
 /* mg-transfer.c */
 struct mg_parents { /* of one node along one axis, without those of weight 0 */
@@ -87,26 +87,26 @@ struct mg_parents { /* of one node along one axis, without those of weight 0 */
 	size_t node[mg_cubic];
 	double w[mg_cubic];
 };
-void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x; n a multiple of mg_lanes */
-void mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row); /* from node after node to a row */
+void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x; n a multiple of mg_lanes */
+void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row); /* from node after node to a row */
 /* A combination of coarse rows, node after node in t, closed at its ends if periodic: t[-1] ... t[n+1]. */
-void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
-void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-double mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
+void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
+void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+double pm_mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
 
 /* mg-full.c */
-bool mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
-void mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-void mg_restrict_source(struct pm_mg *mg, int fine);
+bool pm_mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
+void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+void pm_mg_restrict_source(struct pm_mg *mg, int fine);
 
 /* mg-sweep.c */
-void mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
+void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
 
 /* mg-cycle.c */
-size_t mg_unknowns(const struct mg_level *l);
-void mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
-double mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
-void mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */
-void mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* from the coarsest grid up, one cycle on each but the finest */
+size_t pm_mg_unknowns(const struct mg_level *l);
+void pm_mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
+double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
+void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */
+void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* from the coarsest grid up, one cycle on each but the finest */
 
 #endif

@@ -107,7 +107,7 @@ static inline __attribute__((always_inline)) void relax_pair(const struct mg_lev
 }
 
 /* What a row is made of without vectors or masks: the reference of relax_row, used by the tests. */
-void mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k)
+void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k)
 {
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
 	double factor = relaxation / l->diagonal;
@@ -154,7 +154,7 @@ static void relax_plane(const struct mg_level *l, double factor, int colour, siz
 		relax_rows(3, l, factor, colour, j, k);
 }
 
-void mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k)
+void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k)
 {
 	double factor = relaxation / l->diagonal;
 	if (l->dim == 3)
@@ -189,7 +189,7 @@ static inline __attribute__((always_inline)) double residual_row(const int dim, 
 	return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
 }
 
-double mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
+double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
 {
 	struct rows a = rows_at(l, j, k);
 	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);

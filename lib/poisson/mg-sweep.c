@@ -23,14 +23,14 @@ static void stage_plane(const struct sweep *s, int stage, size_t k, double *w)
 		memset(l->u + k * l->plane, 0, l->axis[1].points * l->stride * sizeof(double));
 		break;
 	case MG_CORRECT:
-		mg_correct_plane(l, l + 1, k, w);
+		pm_mg_correct_plane(l, l + 1, k, w);
 		break;
 	case MG_INTERPOLATE:
-		mg_interpolate_plane(l, l + 1, k, w);
+		pm_mg_interpolate_plane(l, l + 1, k, w);
 		break;
 	case MG_RED:
 	case MG_BLACK:
-		mg_relax_plane(l, s->relaxation, s->stages[stage] == MG_BLACK, k);
+		pm_mg_relax_plane(l, s->relaxation, s->stages[stage] == MG_BLACK, k);
 	}
 }
 
@@ -86,7 +86,7 @@ static void sweep_tiled(const struct sweep *s, int parts)
 	}
 }
 
-void mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages)
+void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages)
 {
 	struct sweep s = {.mg = mg, .level = &mg->level[level], .relaxation = relaxation, .n = n, .stages = stages};
 	const struct mg_axis *z = &s.level->axis[2];

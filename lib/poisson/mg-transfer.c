@@ -27,13 +27,13 @@ static struct mg_parents parents_linear(const struct mg_map *map, const struct m
 	return p;
 }
 
-void mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
+void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
 {
 	for (size_t i = 0; i < n; i += mg_lanes)
 		AT(y + i) += w * CAT(x + i);
 }
 
-void mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
+void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
 {
 	for (size_t i = 0; i < l->half; i += mg_lanes) {
 		vec a = CAT(t + 2 * i), b = CAT(t + 2 * i + mg_lanes);
@@ -56,7 +56,7 @@ static inline __attribute__((always_inline)) void combine(const struct mg_level 
 	}
 }
 
-void mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
+void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
 {
 	const double *row[mg_cubic * mg_cubic];
 	double w[mg_cubic * mg_cubic];
@@ -102,13 +102,13 @@ static void spread_row(const struct mg_level *fine, const double *t, double *u)
 	mg_close_row(fine, u);
 }
 
-void mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
+void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
 {
 	const struct mg_axis *y = &fine->axis[1];
 	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
-		mg_gather(coarse, &py, &pz, w + mg_lanes);
+		pm_mg_gather(coarse, &py, &pz, w + mg_lanes);
 		spread_row(fine, w + mg_lanes, fine->u + k * fine->plane + j * fine->stride);
 	}
 }
@@ -133,7 +133,7 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 		memcpy(c, r, fine->stride * sizeof *c);
 	} else if (map->half) {
 		collect_half(fine, r, w);
-		mg_fold_row(coarse, w, c);
+		pm_mg_fold_row(coarse, w, c);
 	} else {
 		memset(c, 0, coarse->stride * sizeof *c);
 		for (size_t i = 0; i < fine->axis[0].points; i++)
@@ -151,7 +151,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
 	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0;
 	for (size_t j = y->first; j < y->end; j++) {
-		sum += mg_residual_row(fine, j, here, r);
+		sum += pm_mg_residual_row(fine, j, here, r);
 		collect_row(fine, coarse, r, c, t);
 		for (int a = 0; a < 2; a++) {
 			ptrdiff_t up = mz->parent[here] + a - shift;
@@ -160,7 +160,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			for (int b = 0; b < 2; b++) {
 				size_t over = fold(my->parent[j] + b, cy->points);
 				if (my->a[b][j] != 0)
-					mg_add_row(coarse->stride, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+					pm_mg_add_row(coarse->stride, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
 		}
 	}
@@ -202,7 +202,7 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 	}
 }
 
-double mg_restrict(struct pm_mg *mg, int at)
+double pm_mg_restrict(struct pm_mg *mg, int at)
 {
 	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
 	const struct mg_axis *z = &coarse->axis[2];

@@ -26,7 +26,7 @@ int pm_mg_check(const struct pm_grid *g)
 struct pm_mg *pm_mg_new(const struct pm_grid *g)
 {
 	struct pm_mg *mg = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *mg);
-	if (mg && !mg_build(mg, g))
+	if (mg && !pm_mg_build(mg, g))
 		mg = pm_mg_free(mg);
 	return mg;
 }
@@ -40,7 +40,7 @@ bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g)
 struct pm_mg *pm_mg_free(struct pm_mg *mg)
 {
 	if (mg)
-		mg_demolish(mg);
+		pm_mg_demolish(mg);
 	return pm_free(mg);
 }
 
@@ -143,11 +143,11 @@ void pm_mg_start(struct pm_mg *mg, const double *f, const double *u) { load(mg, 
 void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
 	if (mg->levels == 1) {
-		mg_solve_coarsest(mg);
+		pm_mg_solve_coarsest(mg);
 		return;
 	}
-	mg_cycle_down(mg, 0, o, false);
-	mg_cycle_up(mg, 0, o);
+	pm_mg_cycle_down(mg, 0, o, false);
+	pm_mg_cycle_up(mg, 0, o);
 }
 
 double pm_mg_residual(const struct pm_mg *mg)
@@ -156,8 +156,8 @@ double pm_mg_residual(const struct pm_mg *mg)
 	double sum = 0;
 	for (size_t k = l->axis[2].first; k < l->axis[2].end; k++)
 		for (size_t j = l->axis[1].first; j < l->axis[1].end; j++)
-			sum += mg_residual_row(l, j, k, mg->scratch + mg_lanes);
-	return sqrt(sum / fmax(1, (double)mg_unknowns(l)));
+			sum += pm_mg_residual_row(l, j, k, mg->scratch + mg_lanes);
+	return sqrt(sum / fmax(1, (double)pm_mg_unknowns(l)));
 }
 
 void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
@@ -184,7 +184,7 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 {
 	int least = o->cycle == PM_MG_FMG; /* full multigrid includes a cycle on the finest grid */
 	for (;; r->cycles++) {
-		double residual = sqrt(mg_cycle_down(mg, 0, o, false)), now = residual / source;
+		double residual = sqrt(pm_mg_cycle_down(mg, 0, o, false)), now = residual / source;
 		r->history[r->n++] = r->after = now;
 		r->converged = now <= o->tolerance && r->cycles >= least;
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
@@ -192,7 +192,7 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 			r->converged = r->floor = true;
 		if (r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
 			break;
-		mg_cycle_up(mg, 0, o);
+		pm_mg_cycle_up(mg, 0, o);
 	}
 	r->before = r->history[0];
 	int last = r->n - 1 - r->floor;
@@ -210,10 +210,10 @@ int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const 
 	double source = sqrt(squares(mg, l->f));
 	r->converged = source == 0 || mg->levels == 1;
 	if (source != 0 && mg->levels == 1)
-		mg_solve_coarsest(mg);
+		pm_mg_solve_coarsest(mg);
 	if (!r->converged) {
 		if (o->cycle == PM_MG_FMG)
-			mg_start_full(mg, o);
+			pm_mg_start_full(mg, o);
 		iterate(mg, o, source, r);
 	}
 	store(mg, unit, 0, phi);

@@ -71,3 +71,17 @@ install_here() {
 	echo "$bad"
 	[ -z "$bad" ]
 }
+@test "the shared library shows only names that begin with its prefix or a table's" {
+	bad=$(nm -D --defined-only "$top/build/libpmpipe.so" | awk '{ print $3 }' | grep -vE '^(pm|kernel|law|mollifier|scene|step)_' || true)
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
+@test "every method has its page" {
+	missing=$(cd "$top" && for f in lib/kernel/*.c lib/law/*.c lib/scene/*.c lib/step/*.c lib/mollifier/*.c; do
+		n=$(basename "$f" .c)
+		grep -qrw -- "$n" docs/methods || echo "$f"
+	done)
+	echo "$missing"
+	[ -z "$missing" ]
+}

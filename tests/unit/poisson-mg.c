@@ -242,7 +242,7 @@ static void test_full(void)
 	check_near(differences, 5.222570e-07, 1e-3 * 5.22e-7, "PS-10: the error of the differences themselves");
 	struct pm_mg_choice o = {.pre = 1, .post = 1, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 0.9, .most = 5};
 	pm_mg_start(mg, f, NULL);
-	mg_start_full(mg, &o);
+	pm_mg_start_full(mg, &o);
 	pm_mg_once(mg, &o);
 	pm_mg_values(mg, u);
 	check_near(largest(p * p, u, exact) / differences, 1.70, 0.17, "PS-10: one pass of full multigrid with V(1,1) leaves 1.70 times that error");
@@ -402,7 +402,7 @@ static void test_sweeps(void)
 		noise(n, u);
 		struct pm_mg *mg = pm_mg_new(&grids[i]);
 		pm_mg_start(mg, f, u); /* 53^3 and 385^2 are cut into tiles, the others are not */
-		mg_sweep(mg, 0, 1.1, 4, stages);
+		pm_mg_sweep(mg, 0, 1.1, 4, stages);
 		pm_mg_values(mg, fast);
 		pm_mg_start(mg, f, u);
 		const struct mg_axis *z = &mg->level[0].axis[2];
@@ -410,7 +410,7 @@ static void test_sweeps(void)
 			for (size_t k = 0; k < z->points; k++) {
 				size_t plane = z->periodic ? (k + 1) % z->points : k; /* the seam last */
 				if (plane >= z->first && plane < z->end)
-					mg_relax_plain(&mg->level[0], 1.1, s & 1, plane);
+					pm_mg_relax_plain(&mg->level[0], 1.1, s & 1, plane);
 			}
 		pm_mg_values(mg, plain);
 		check(!memcmp(fast, plain, n * sizeof *fast) && memcmp(fast, u, n * sizeof *u), "%d-D, %zu cells: vector sweeps in tiles give the bytes of the plain loop",
@@ -456,7 +456,7 @@ static double constant_lost(struct pm_mg *mg, int level)
 	double most = 0;
 	for (size_t i = 0; i < mg_size(c); i++)
 		c->u[i] = 1;
-	mg_sweep(mg, level, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
+	pm_mg_sweep(mg, level, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
 	for (size_t k = f->axis[2].first; k < f->axis[2].end; k++)
 		for (size_t j = f->axis[1].first; j < f->axis[1].end; j++)
 			for (size_t i = f->axis[0].first; i < f->axis[0].end; i++)
@@ -479,10 +479,10 @@ static void test_adjoint(void)
 			constant = fmax(constant, constant_lost(mg, l));
 			fill(f, f->f, 1);
 			fill(c, c->u, 2);
-			mg_sweep(mg, l, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
+			pm_mg_sweep(mg, l, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
 			double up = weighted(f, f->f, f->u), size = sqrt(weighted(f, f->f, f->f) * weighted(f, f->u, f->u));
-			mg_sweep(mg, l, 1, 1, (enum mg_stage[]){MG_ZERO}); /* the residual is f */
-			mg_restrict(mg, l);
+			pm_mg_sweep(mg, l, 1, 1, (enum mg_stage[]){MG_ZERO}); /* the residual is f */
+			pm_mg_restrict(mg, l);
 			worst = fmax(worst, fabs(up - weighted(c, c->f, c->u)) / fmax(size, 1e-300));
 		}
 		pm_mg_free(mg);
