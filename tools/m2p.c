@@ -103,31 +103,31 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* out[c] += factor * value, with factor 1, strength/per of the law, or the volume. */
-static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const char *set)
+/* out[c] += factor[c] * value, with factor 1, strength/per of the law, or the volume; changes of the mesh are carried along. */
+static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const struct pm_carry *carry, const char *set)
 {
 	const struct config *o = s->config;
 	struct pm_field *target = pm_frame_field(f, set, o->field ? o->field : j->law->change);
-	const double *x[3], *mesh[PM_COMPONENTS], *factor = NULL;
+	struct pm_transfer t = j->transfer;
+	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
 	double *out[PM_COMPONENTS], *ratio = NULL;
 	struct pm_strays strays = {.count = 0};
 	pm_positions(f, set, x);
-	for (int c = 0; c < j->transfer.components; c++) {
+	int status = !o->field && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
+	for (int c = 0; c < t.components; c++) {
 		mesh[c] = pm_in(j->field, c);
 		out[c] = pm_out(target, c);
+		factor[c] = o->field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : ratio;
 	}
-	if (o->field && target->extensive)
-		factor = pm_in(pm_frame_field(f, set, "volume"), 0);
-	int status = !o->field && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
 	if (!status)
-		status = pm_gather(&j->transfer, target->count, x, mesh, ratio ? ratio : factor, out, &strays);
+		status = pm_carry_append(carry, f, set, &t, mesh, factor, out);
+	if (!status)
+		status = pm_gather(&t, target->count, x, mesh, factor, out, &strays);
 	pm_free(ratio);
-	if (!status && !o->field)
-		status = pm_carry(f, set, j->mesh, o->kernel ? j->transfer.kernel : NULL, &j->transfer);
 	if (!status && !o->field && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && strcmp(o->outside, "drop"))
-		return pm_strays_refuse(&strays, set, j->mesh, &j->transfer, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
+		return pm_strays_refuse(&strays, set, j->mesh, &t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
 	if (!status && strays.count)
 		pm_report_count(s, f, "dropped", strays.count);
 	return status;
@@ -135,10 +135,15 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct config *o = s->config;
 	struct job j = {0};
-	int status = job_of(s->config, f, &j);
+	struct pm_carry carry = {.n = 0};
+	int status = job_of(o, f, &j);
+	if (!status && !o->field)
+		status = pm_carry_init(&carry, f, &j.sets, j.mesh, &j.transfer);
 	for (size_t i = 0; i < j.sets.n && !status; i++)
-		status = gather_set(s, f, &j, j.sets.name[i]);
+		status = gather_set(s, f, &j, &carry, j.sets.name[i]);
+	pm_carry_free(&carry);
 	return status;
 }
 

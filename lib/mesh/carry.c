@@ -1,25 +1,19 @@
-/* Carrying changes over: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i; without the volume where the state is a value.
- * The sum over a lattice of particles is that over the mesh; over distorted particles it differs as their overlap differs from 1.
- * Source: Cottet and Koumoutsakos 2000, section 5.5. Cost: a gather per field. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Carrying changes over: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i / D_i, with the overlap of the particles at the
+ * point, D_i = sum over particles of volume_p W((x_p - x_i)/h) / cell, 1 on a lattice; without volume and D where the state is a value.
+ * The sum over the particles is then that over the mesh, however they lie, and several sets share it by their volumes. Where D is below a
+ * half (the rim of a patch; negative lobes) it counts as 1, and what diffuses beyond the particles is lost.
+ * Source: Cottet and Koumoutsakos 2000, section 5.5, for D = 1. Cost: a spread, and the changes ride with the gather of the law's field.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
 #include "mesh/carry.h"
 #include "stream/fastest.h"
 
-enum { MOST = 16 };
-
-/* The change fields of the mesh that concern the set. */
-static int list(const struct pm_frame *f, const char *set, const struct pm_mesh *m, struct pm_field *fields[MOST])
+static bool concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
 {
-	int n = 0;
-	for (size_t i = 0; i < f->nfields && n < MOST; i++) {
-		struct pm_field *c = f->fields[i];
-		const struct pm_field *state = c->role == PM_CHANGE && !strcmp(c->on, m->name) && c->of[0] ? pm_frame_field(f, set, c->of) : NULL;
-		if (state && state->role == PM_STATE)
-			fields[n++] = c;
-	}
-	return n;
+	const struct pm_field *state = c->role == PM_CHANGE && !strcmp(c->on, m->name) && c->of[0] ? pm_frame_field(f, set, c->of) : NULL;
+	return state && state->role == PM_STATE;
 }
 
 static void target_name(const struct pm_field *change, char name[PM_NAME]) { snprintf(name, PM_NAME, "d%.62s", change->of); }
@@ -48,42 +42,116 @@ static int plan_field(struct pm_frame *f, const char *set, struct pm_field *chan
 
 int pm_carry_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m, bool replace)
 {
-	struct pm_field *fields[MOST];
-	int n = list(f, set, m, fields), status = 0;
+	struct pm_field *fields[PM_CARRIED]; /* contributing reorders the frame's list */
+	int n = 0, status = 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (concerns(f, set, m, f->fields[i])) {
+			if (n == PM_CARRIED)
+				return pm_fail(PM_DATA, "more than %d change fields on mesh '%s' to carry over", PM_CARRIED, m->name);
+			fields[n++] = f->fields[i];
+		}
 	for (int i = 0; i < n && !status; i++)
 		status = plan_field(f, set, fields[i], replace);
 	return status;
 }
 
-static int carry_field(struct pm_frame *f, const char *set, const struct pm_field *change, const struct pm_transfer *t)
+/* cell * D on the points. */
+static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_field *change, const struct pm_transfer *t, double *D)
 {
-	char name[PM_NAME];
-	const double *x[3], *mesh[PM_COMPONENTS];
-	double *out[PM_COMPONENTS];
-	struct pm_strays strays;
-	target_name(change, name);
-	struct pm_field *to = pm_frame_field(f, set, name);
-	for (int d = 0; d < f->dim; d++)
-		x[d] = pm_in(pm_frame_field(f, set, "x"), d);
-	for (int c = 0; c < change->components; c++) {
-		mesh[c] = pm_in(change, c);
-		out[c] = pm_out(to, c);
+	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1};
+	int status = 0;
+	memcpy(one.half[0], change->half[0], sizeof one.half[0]);
+	for (int d = 0; d < t->grid.dim; d++)
+		for (int side = 0; side < 2; side++)
+			if (t->grid.face[d][side] == PM_WALL)
+				one.grid.face[d][side] = PM_NEUMANN; /* particles go on beyond a wall, whatever the field does there */
+	for (size_t i = 0; i < sets->n && !status; i++) {
+		const struct pm_field *state = pm_frame_field(f, sets->name[i], change->of);
+		const double *x[3], *volume;
+		struct pm_strays strays;
+		if (!state || state->role != PM_STATE || !state->extensive)
+			continue;
+		pm_positions(f, sets->name[i], x);
+		volume = pm_in(pm_frame_field(f, sets->name[i], "volume"), 0);
+		status = pm_spread(&one, state->count, x, &volume, &D, &strays);
 	}
-	return pm_gather(t, to->count, x, mesh, to->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL, out, &strays);
+	return status;
 }
 
-int pm_carry(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_kernel *kernel, const struct pm_transfer *t)
+static int share(struct pm_carry *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_transfer *t)
 {
-	struct pm_field *fields[MOST];
-	int n = list(f, set, m, fields), status = 0;
-	for (int i = 0; i < n && !status; i++) {
-		struct pm_transfer own = {.grid = t->grid, .kernel = kernel, .components = fields[i]->components};
-		if (!own.kernel)
-			own.kernel = fields[i]->kernel[0] ? pm_kernel_find(fields[i]->kernel) : t->kernel;
-		memcpy(own.half, fields[i]->half, sizeof own.half);
-		for (int c = 0; c < own.components && own.components > 1 && own.components == f->dim; c++)
-			own.flip[c][c] = 1; /* a vector: its normal component has the image of the other sign */
-		status = own.kernel ? carry_field(f, set, fields[i], &own) : -PM_DATA;
+	const struct pm_field *change = c->change[c->n - 1];
+	size_t n = change->count;
+	double *D = pm_zalloc(n, sizeof *D), *to = pm_alloc(n * (size_t)change->components, sizeof *to);
+	int status = D && to ? overlap(f, sets, change, t, D) : -PM_DATA;
+	c->share[c->n - 1] = to;
+	for (int k = 0; k < change->components && !status; k++) {
+		const double *from = pm_in(change, k);
+#pragma omp parallel for schedule(static) if (n > 16384)
+		for (size_t i = 0; i < n; i++)
+			to[(size_t)k * n + i] = D[i] < 0.5 ? from[i] : from[i] / D[i];
+	}
+	pm_free(D);
+	return status;
+}
+
+int pm_carry_init(struct pm_carry *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_mesh *m, const struct pm_transfer *t)
+{
+	int status = 0;
+	*c = (struct pm_carry){.n = 0};
+	for (size_t i = 0; i < f->nfields && !status; i++) {
+		bool any = false, strength = false;
+		for (size_t k = 0; k < sets->n; k++)
+			if (concerns(f, sets->name[k], m, f->fields[i])) {
+				any = true;
+				strength |= pm_frame_field(f, sets->name[k], f->fields[i]->of)->extensive;
+			}
+		if (!any || c->n == PM_CARRIED)
+			continue;
+		c->change[c->n++] = f->fields[i];
+		if (strength)
+			status = share(c, f, sets, t);
+	}
+	return status;
+}
+
+void pm_carry_free(struct pm_carry *c)
+{
+	for (int i = 0; i < c->n; i++)
+		pm_free(c->share[i]);
+	c->n = 0;
+}
+
+static int append(const struct pm_frame *f, const char *set, const struct pm_field *change, const double *values, struct pm_transfer *t,
+	const double *mesh[], const double *factor[], double *out[])
+{
+	char name[PM_NAME];
+	int n = change->components;
+	if (t->components + n > PM_COMPONENTS)
+		return pm_fail(PM_DATA, "more than %d components to bring from '%s' to '%s' at once", PM_COMPONENTS, change->on, set);
+	target_name(change, name);
+	struct pm_field *to = pm_frame_field(f, set, name);
+	for (int c = 0; c < n; c++) {
+		int at = t->components++;
+		mesh[at] = values ? values + (size_t)c * change->count : pm_in(change, c);
+		out[at] = pm_out(to, c);
+		factor[at] = values ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
+		memcpy(t->half[at], change->half[c], sizeof t->half[at]);
+		memset(t->flip[at], 0, sizeof t->flip[at]);
+		if (n > 1 && n == f->dim)
+			t->flip[at][c] = 1; /* a vector: its normal component has the image of the other sign */
+	}
+	return 0;
+}
+
+int pm_carry_append(const struct pm_carry *c, const struct pm_frame *f, const char *set, struct pm_transfer *t, const double *mesh[PM_COMPONENTS],
+	const double *factor[PM_COMPONENTS], double *out[PM_COMPONENTS])
+{
+	int status = 0;
+	for (int i = 0; i < c->n && !status; i++) {
+		const struct pm_field *state = pm_frame_field(f, set, c->change[i]->of);
+		if (state && state->role == PM_STATE)
+			status = append(f, set, c->change[i], state->extensive ? c->share[i] : NULL, t, mesh, factor, out);
 	}
 	return status;
 }

@@ -227,7 +227,7 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	return status;
 }
 
-int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
+int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false};
@@ -236,12 +236,15 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		double *to[PM_COMPONENTS];
-		for (int c = 0; c < w.components; c++)
+		const double *times[PM_COMPONENTS];
+		for (int c = 0; c < w.components; c++) {
 			to[c] = out[w.which[c]];
+			times[c] = factor ? factor[w.which[c]] : NULL;
+		}
 		status = begin_pass(&w, n, x, 0, NULL, (size_t)threads, (size_t)w.components, strays);
 		if (!status) {
 			gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh);
-			pm_order_return(&w.order, w.components, factor, to);
+			pm_order_return(&w.order, w.components, times, to);
 		}
 		end_pass(&w);
 	}

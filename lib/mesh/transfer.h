@@ -29,13 +29,13 @@ struct pm_strays {
  * of walls nothing. 0 or failure (memory). strays is filled in. The same bytes for any number of threads. */
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays);
-/* out[c][p] += factor[p] * value, factor NULL: 1. */
-int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
+/* out[c][p] += factor[c][p] * value; factor NULL or factor[c] NULL: 1. */
+int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays);
 /* The same, particle by particle in the order of the stream: the test of the fast ones. */
 int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays);
-int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
+int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays);
 
 /* How many cells to add below and above each axis so that the kernel of every particle stays inside; only open and absorbing faces move.

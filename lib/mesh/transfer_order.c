@@ -163,7 +163,7 @@ void pm_order_free(struct pm_order *o)
 	*o = (struct pm_order){.n = 0};
 }
 
-void pm_order_return(struct pm_order *o, int nvalues, const double *factor, double *const to[])
+void pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], double *const to[])
 {
 	size_t stride = (size_t)o->stride;
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
@@ -175,9 +175,8 @@ void pm_order_return(struct pm_order *o, int nvalues, const double *factor, doub
 			__builtin_prefetch(o->records + stride * cursor[soon]);
 			if (tile == o->tiles)
 				continue;
-			double f = factor ? factor[p] : 1;
 			for (int c = 0; c < nvalues; c++)
-				to[c][p] += f * record[c];
+				to[c][p] += factor[c] ? factor[c][p] * record[c] : record[c];
 		}
 	}
 }

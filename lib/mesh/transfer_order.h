@@ -24,7 +24,7 @@ struct pm_order {
 int pm_order_init(struct pm_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
 	const double *const values[], int room, struct pm_strays *strays);
 void pm_order_free(struct pm_order *o);
-/* to[c][p] += factor[p] * (double c of the record of p) for every particle that is no stray; factor NULL: 1. */
-void pm_order_return(struct pm_order *o, int nvalues, const double *factor, double *const to[]);
+/* to[c][p] += factor[c][p] * (double c of the record of p) for every particle that is no stray; factor[c] NULL: 1. */
+void pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], double *const to[]);
 
 #endif

@@ -75,7 +75,7 @@ int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x
 	return 0;
 }
 
-int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *factor,
+int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
 	for (int c = 0; c < t->components; c++) {
@@ -87,7 +87,7 @@ int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x
 		for (size_t p = 0; p < n; p++) {
 			struct support s;
 			if (support_of(&s, t, axes, x, p, strays))
-				out[c][p] += (factor ? factor[p] : 1) * visit(&s, &t->grid, axes, t->flip[c], false, 0, (double *)mesh[c]);
+				out[c][p] += (factor && factor[c] ? factor[c][p] : 1) * visit(&s, &t->grid, axes, t->flip[c], false, 0, (double *)mesh[c]);
 		}
 		pm_axes_free(axes);
 	}

@@ -219,14 +219,15 @@ static void check_plain(int dim, const size_t cells[3], size_t n)
 			const int rules[3] = {rule, (rule + 1) % FACES, (rule + 3) % FACES};
 			struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernels[k], dim, n), b = problem_new(a.t.grid, a.t.kernel, dim, n);
 			struct pm_strays strays;
+			const double *const factor[MOST] = {a.q[0], NULL, a.q[1]};
 			for (int c = 1; c < dim; c++)
 				a.t.half[c][0] = b.t.half[c][0] = a.t.flip[c][c] = b.t.flip[c][c] = 1;
 			pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 			pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
 			for (int c = 0; c < dim; c++)
 				worst[0] = fmax(worst[0], difference(a.points, a.mesh[c], b.mesh[c]));
-			pm_gather(&a.t, n, in(a.x), in(b.mesh), a.q[0], a.out, &strays);
-			pm_gather_plain(&a.t, n, in(a.x), in(b.mesh), a.q[0], b.out, &strays);
+			pm_gather(&a.t, n, in(a.x), in(b.mesh), factor, a.out, &strays);
+			pm_gather_plain(&a.t, n, in(a.x), in(b.mesh), factor, b.out, &strays);
 			for (int c = 0; c < dim; c++)
 				worst[1] = fmax(worst[1], difference(n, a.out[c], b.out[c]));
 			problem_free(&a);
