@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "measure/growth.h"
 #include "measure/measure.h"
 #include "mollifier/mollifier.h"
 #include "scene/scene.h"
@@ -12,26 +13,49 @@
 struct config {
 	const char *set, *format, *tee;
 	struct pm_list columns;
-	struct pm_vector radii;
+	struct pm_vector radii, modes;
+	const char *growth, *window;
 	bool pair, exact;
+	int mode;          /* of --growth; 0 none */
+	double from, to;   /* of --window; NAN not given */
 };
-enum { EXACT = -1, MOST = 2 * (PM_LIST_MOST + PM_COMPONENTS) };
+enum { EXACT = -1, MOST = 2 * (PM_LIST_MOST + PM_COLUMNS + 2 * PM_COMPONENTS) };
 struct state {
 	FILE *out;
 	int n; /* columns, decided by the first frame; 0 before */
+	struct pm_series series; /* of --growth */
 	struct column {
 		char name[PM_NAME + 6];
-		int from; /* place among the measures, PM_COLUMNS and above the radii; EXACT: what the scene knows of the name behind exact_ */
+		int from; /* place among the measures, PM_COLUMNS and above the radii, then the modes; EXACT: what the scene knows of the name behind exact_ */
 	} column[MOST];
 };
 
+/* mode:M and T0:T1. */
+static int take_growth(struct config *c)
+{
+	int used = 0;
+	c->from = c->to = NAN;
+	for (int k = 0; k < c->modes.n; k++)
+		if (!(c->modes.x[k] >= 1 && c->modes.x[k] <= 1e6 && c->modes.x[k] == floor(c->modes.x[k])))
+			return pm_fail(PM_USAGE, "--modes %g is not a whole number of waves", c->modes.x[k]);
+	if (c->growth && (sscanf(c->growth, "mode:%d%n", &c->mode, &used) != 1 || c->growth[used] || c->mode < 1))
+		return pm_fail(PM_USAGE, "--growth '%s' (it is written mode:1, waves in the box along x)", c->growth);
+	if (c->growth && c->modes.n == PM_COMPONENTS)
+		return pm_fail(PM_USAGE, "--growth beside %d modes (at most %d)", c->modes.n, PM_COMPONENTS - 1);
+	if (c->window && (!c->growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
+		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
+	return 0;
+}
+
 static int begin(struct pm_stage *s)
 {
-	const struct config *c = s->config;
+	struct config *c = s->config;
 	struct state *state = s->state;
 	for (int k = 0; k < c->radii.n; k++)
 		if (!(c->radii.x[k] > 0 && c->radii.x[k] <= 1))
 			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii.x[k]);
+	if (take_growth(c))
+		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
 	state->out = c->tee ? fopen(c->tee, "w") : stdout;
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
@@ -40,10 +64,26 @@ static int begin(struct pm_stage *s)
 static struct pm_measure how_of(const struct config *c, const struct pm_frame *f, const struct pm_law *law)
 {
 	const struct pm_mollifier *plummer = c->pair ? pm_mollifier_find("plummer") : NULL;
-	return (struct pm_measure){.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
+	struct pm_measure how = {.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
 		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = c->radii.n,
-		.fraction = c->radii.x};
+		.fraction = c->radii.x, .plasma = law->background != NULL, .field = law->field, .nmodes = c->modes.n};
+	for (int k = 0; k < c->modes.n; k++)
+		how.modes[k] = (int)c->modes.x[k];
+	if (c->mode)
+		how.modes[how.nmodes++] = c->mode; /* the last is that of the growth */
+	return how;
+}
+
+/* The mode of --growth needs the field of the law on a mesh that goes round in x. */
+static int has_mode(const struct pm_frame *f, const struct pm_law *law)
+{
+	const struct pm_field *field = NULL;
+	for (size_t i = 0; i < f->nmeshes && law->field && !field; i++)
+		field = pm_frame_field(f, f->meshes[i]->name, law->field);
+	if (f->face[0][0] != PM_PERIODIC)
+		return pm_fail(PM_DATA, "--growth and --modes want a box that is periodic in x (pinit --faces periodic)");
+	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh to take modes of (p2m | poisson-fft | mgrad before diag)", law->field ? law->field : "");
 }
 
 static int plan(struct pm_stage *s, struct pm_frame *f)
@@ -60,6 +100,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		if (f->face[d][0] == PM_PERIODIC)
 			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, and this box is periodic (leave --pair out)");
 	const struct pm_measure how = how_of(c, f, law);
+	if (how.nmodes && has_mode(f, law))
+		return -PM_DATA;
 	pm_measure_reads(&how, f);
 	return 0;
 }
@@ -91,14 +133,14 @@ static int decide(struct state *state, const struct config *c, const struct pm_f
 {
 	int vdim = 0;
 	char radius[PM_NAME];
-	const bool vortices = how_of(c, f, pm_law_of(f)).vortices;
+	const struct pm_measure how = how_of(c, f, pm_law_of(f));
 	if (c->exact && !scene_of(f))
 		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;
 	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
-		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, vortices))
+		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, how.vortices, how.plasma))
 			add(state, c, f, k, pm_column_names[k]);
 	for (int i = 0; i < c->columns.n; i++)
 		for (int k = 0; k < PM_COLUMNS; k++)
@@ -108,6 +150,10 @@ static int decide(struct state *state, const struct config *c, const struct pm_f
 		snprintf(radius, sizeof radius, "radius_%g", c->radii.x[k]);
 		add(state, c, f, PM_COLUMNS + k, radius);
 	}
+	for (int k = 0; k < c->modes.n; k++) {
+		snprintf(radius, sizeof radius, "mode_%d", (int)c->modes.x[k]);
+		add(state, c, f, PM_COLUMNS + PM_COMPONENTS + k, radius);
+	}
 	return 0;
 }
 
@@ -116,6 +162,8 @@ static double value(const struct column *column, const struct pm_measures *m, co
 	const struct pm_scene *scene = column->from == EXACT ? scene_of(f) : NULL;
 	if (column->from == EXACT)
 		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	if (column->from >= PM_COLUMNS + PM_COMPONENTS)
+		return hypot(m->mode[column->from - PM_COLUMNS - PM_COMPONENTS][0], m->mode[column->from - PM_COLUMNS - PM_COMPONENTS][1]);
 	return column->from < PM_COLUMNS ? m->value[column->from] : m->radius[column->from - PM_COLUMNS];
 }
 
@@ -126,7 +174,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_measures m;
 	const bool json = !strcmp(c->format, "json"), first = !state->n;
 	const struct pm_measure how = how_of(c, f, pm_law_of(f));
-	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m))
+	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m) ||
+		(c->mode && pm_series_add(&state->series, f->time, m.mode[how.nmodes - 1])))
 		return -PM_DATA;
 	for (int i = 0; i < state->n && first && !json; i++)
 		fprintf(state->out, "%s%c", state->column[i].name, i + 1 < state->n ? '\t' : '\n');
@@ -140,9 +189,27 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return fflush(state->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 
+/* One line behind the table. */
+static int end(struct pm_stage *s)
+{
+	const struct config *c = s->config;
+	struct state *state = s->state;
+	const bool json = !strcmp(c->format, "json");
+	if (!c->mode)
+		return 0;
+	const struct pm_growth g = pm_growth_of(&state->series, c->from, c->to);
+	if (!isfinite(g.gamma))
+		return pm_fail(PM_DATA, "%zu points of mode %d%s%s are too few for a growth rate (more frames: cycle --every, or another --window)", g.points, c->mode,
+			c->window ? " in the window " : "", c->window ? c->window : "");
+	fprintf(state->out, json ? "{\"growth\":\"mode:%d\",\"gamma\":%.9g,\"omega\":%.9g,\"from\":%.9g,\"to\":%.9g,\"points\":%zu}\n"
+		: "# mode:%d gamma %.9g omega %.9g, from t = %.9g to %.9g, %zu points\n", c->mode, g.gamma, g.omega, g.from, g.to, g.points);
+	return fflush(state->out) ? pm_fail_errno("cannot write the table") : 0;
+}
+
 static void release(struct pm_stage *s)
 {
 	struct state *state = s->state;
+	pm_series_release(&state->series);
 	if (state->out && state->out != stdout)
 		fclose(state->out);
 }
@@ -154,6 +221,12 @@ static const struct pm_option options[] = {
 	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .text = "these columns in this order (default: all)", AT(columns), .cosmetic = true},
 	{.name = "radii", .kind = PM_VECTOR, .text = "add Lagrangian radii about the centre of mass, for these fractions of the mass", AT(radii),
 		.cosmetic = true},
+	{.name = "modes", .kind = PM_VECTOR, .text = "add the amplitudes of these waves along x of the law's field (its first component)", AT(modes),
+		.cosmetic = true},
+	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M", .text = "behind the table a line with the growth rate and frequency of wave M along x", AT(growth),
+		.cosmetic = true},
+	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .text = "fit them between these times (default: where it grows from 1 to 10 % of its largest, else all)",
+		AT(window), .cosmetic = true},
 	{.name = "pair", .kind = PM_FLAG, .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)", AT(pair), .cosmetic = true},
 	{.name = "exact", .kind = PM_FLAG, .text = "beside every column the scene knows exactly, exact_NAME", AT(exact), .cosmetic = true},
 	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .text = "a table with a header line, or one JSON object a line",
@@ -166,6 +239,8 @@ static const struct pm_example examples[] = {
 	{"The numbers of a star cluster beside the exact ones", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
 	{"Two columns as JSON", "pinit two-body --eccentricity 0.5 | diag --pair --columns energy,angular_momentum_z --format json"},
 	{"A decaying vortex beside its exact numbers", "pinit lamb-oseen | p2m | diag --exact"},
+	{"The growth rate of two cold streams", "pinit two-stream -n 2000 --cells 32 | cycle -n 300 --every 4 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' "
+		"| p2m | poisson-fft | mgrad | diag --columns time,energy_field_x --modes 1 --growth mode:1"},
 	{"A table on the way", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
 	{0},
 };
@@ -177,7 +252,7 @@ const struct pm_tool tool_diag = {
 		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
 		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
 		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum; distortion as in\n"
-		"remesh. Frames inside a step (substep other than 0) give no row.",
+		"remesh. Plasmas: the charge and the energy eps0/2 integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",
 	.kind = PM_SINK,
 	.reads = "x, v, mass, the law's strength and potential, density and potential of the mesh",
 	.config = sizeof(struct config),
@@ -187,5 +262,6 @@ const struct pm_tool tool_diag = {
 	.begin = begin,
 	.plan = plan,
 	.frame = frame,
+	.end = end,
 	.free = release,
 };

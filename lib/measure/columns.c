@@ -12,6 +12,7 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_SPEED_RMS] = "speed_rms", [PM_DISTANCE_MAX] = "distance_max", [PM_VIRIAL_RATIO] = "virial_ratio",
 	[PM_CIRCULATION] = "circulation", [PM_IMPULSE] = "impulse_x", "impulse_y", [PM_ANGULAR_IMPULSE] = "angular_impulse",
 	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max", [PM_DISTORTION] = "distortion",
+	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)
@@ -21,15 +22,19 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 		return (int)(c - PM_MOMENTUM) < most;
 	if (c >= PM_CENTRE && c < PM_CENTRE + 3)
 		return (int)(c - PM_CENTRE) < dim;
+	if (c >= PM_ENERGY_COMPONENT && c < PM_ENERGY_COMPONENT + 3)
+		return (int)(c - PM_ENERGY_COMPONENT) < dim;
 	if (c >= PM_ANGULAR && c < PM_ANGULAR + 3)
 		return most == 3 ? dim > 1 : most == 2 && c == PM_ANGULAR + 2;
 	return true;
 }
 
-bool pm_column_suits(enum pm_column c, bool vortices)
+bool pm_column_suits(enum pm_column c, bool vortices, bool plasma)
 {
 	const bool any = c == PM_STEP || c == PM_TIME || c == PM_ENERGY_MESH || c == PM_ENERGY_PAIR || c == PM_ENERGY || c == PM_PARTICLES ||
 		c == PM_DISTANCE_MAX;
+	if (c >= PM_CHARGE)
+		return plasma;
 	return any || vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);
 }
 

@@ -27,6 +27,7 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->potential);
 	}
 	pm_vortex_reads(how, f);
+	pm_plasma_reads(how, f);
 }
 
 static const double *values(const struct pm_frame *f, const char *on, const char *name, int component)
@@ -105,6 +106,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 		pm_bulk_add(&b[i], &bulk);
 	pm_measures_of(f, &bulk, mesh_energy(how, f), pair_energy(how, n, b), how->potential != NULL, m);
 	pm_vortex_of(how, f, m);
+	pm_plasma_of(how, f, m);
 	const int status = how->nradii ? radii(how, n, b, m) : 0;
 	pm_free(b);
 	return status;

@@ -46,17 +46,19 @@ void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fr
 enum pm_column {
 	PM_STEP, PM_TIME, PM_ENERGY_KINETIC, PM_ENERGY_MESH, PM_ENERGY_PAIR, PM_ENERGY, PM_MOMENTUM, PM_MOMENTUM_SCALE = PM_MOMENTUM + 3, PM_ANGULAR,
 	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
-	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_DISTORTION, PM_COLUMNS
+	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_DISTORTION,
+	PM_CHARGE, PM_ENERGY_COMPONENT, PM_COLUMNS = PM_ENERGY_COMPONENT + 3
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
-/* Does it mean something for vortices (true) or for bodies with mass and velocity (false)? */
-bool pm_column_suits(enum pm_column c, bool vortices);
+/* Does it mean something for vortices, or else for bodies with mass and velocity, of a plasma or not? */
+bool pm_column_suits(enum pm_column c, bool vortices, bool plasma);
 
 struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
+	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
 };
 /* All columns from bulk and field energies (NAN: not there); field: the law has one, so that without its energy there is no total. */
 void pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field, struct pm_measures *m);
@@ -67,6 +69,9 @@ struct pm_measure { /* what to measure of a frame */
 	double coefficient, softening; /* of the direct sum */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
 	bool vortices;               /* the law is that of vortices */
+	bool plasma;                 /* or has a background of charge */
+	const char *field;           /* of the law on the mesh; NULL none */
+	int nmodes, modes[PM_COMPONENTS]; /* waves along x of its first component */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };
@@ -75,6 +80,9 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
 /* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
 void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);
 void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+/* Charge, energy of the components of the field, modes. */
+void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
+void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif

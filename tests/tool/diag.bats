@@ -111,3 +111,29 @@ load ../helper
 	run -1 --separate-stderr bash -o pipefail -c 'pinit two-body | diag --tee /no/such/place/t'
 	[[ $stderr == *"/no/such/place/t"* ]]
 }
+
+@test "diag: charge, field energy by component and modes of a plasma; --growth prints one line behind the table" {
+	sh_ok "pinit langmuir -n 1024 --cells 16 --amplitude 1e-3 --dt 0.2 | cycle -n 100 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
+		p2m | poisson-fft | mgrad > a; diag --modes 1,2 --growth mode:1 < a > t"
+	[ "$(wc -l < t)" = 103 ]
+	[[ $(tail -n 1 t) == "# mode:1 gamma "*" omega "*", from t = 0 to "*", 101 points" ]]
+	within "$(sed '$d' t | column charge | tail -n 1)" -6.283185307179586 1e-12
+	# a plane wave of amplitude e has the energy L e^2/4, and mode 2 is not there
+	e=$(sed '$d' t | column mode_1 | head -n 1)
+	within "$(sed '$d' t | column energy_field_x | head -n 1)" "$(awk -v e="$e" 'BEGIN { printf "%.17g", 6.283185307179586 * e * e / 4 }')" 1e-9
+	below "$(sed '$d' t | column mode_2 | head -n 1)" 1e-5
+	sh_ok "diag --growth mode:1 --window 2:15 --format json < a | tail -n 1 | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d[\"growth\"], d[\"points\"])'"
+	[ "$output" = "mode:1 66" ]
+	pinit uniform -n 10 | diag > u
+	run ! grep -q charge u
+}
+
+@test "diag: --growth without a field, with too few frames or a wrong word is refused" {
+	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$3"; [[ $stderr == *"$2"* ]] || { echo "$stderr"; return 1; }; }
+	refused 1 "no field 'E' on a mesh to take modes of (p2m | poisson-fft | mgrad before diag)" "pinit langmuir -n 64 | diag --growth mode:1"
+	refused 1 "1 points of mode 1 are too few for a growth rate" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1"
+	refused 1 "want a box that is periodic in x" "pinit plummer -n 64 | diag --growth mode:1"
+	refused 2 "it is written mode:1" "pinit langmuir -n 64 | diag --growth 1"
+	refused 2 "it is written T0:T1" "pinit langmuir -n 64 | diag --growth mode:1 --window 3:1"
+	refused 2 "not a whole number of waves" "pinit langmuir -n 64 | diag --modes 1.5"
+}

@@ -1,0 +1,51 @@
+/* What diag measures of plasmas besides what it does of all bodies: the charge of the particles, and the energy of each component of the field on the
+ * first mesh that holds it, eps0/2 int E_c^2 (it differs from 1/2 int rho phi by what the differences of the mesh leave out). Modes of the
+ * law's field along x for any law. What is not there is NAN. Source: Birdsall and Langdon 1985, section 2-8 and 4-9.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/growth.h"
+#include "measure/measure.h"
+
+static const struct pm_mesh *filled(const struct pm_measure *how, const struct pm_frame *f)
+{
+	for (size_t i = 0; how->field && i < f->nmeshes; i++)
+		if (pm_frame_field(f, f->meshes[i]->name, how->field))
+			return f->meshes[i];
+	return NULL;
+}
+
+void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
+{
+	const struct pm_mesh *mesh = how->plasma || how->nmodes ? filled(how, f) : NULL;
+	if (mesh)
+		pm_reads(f, mesh->name, how->field);
+}
+
+static double charge(const struct pm_measure *how, const struct pm_frame *f)
+{
+	struct pm_sum sum = {0};
+	size_t sets = 0;
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_field *q = how->set && strcmp(how->set, f->sets[i]->name) ? NULL : pm_frame_field(f, f->sets[i]->name, how->strength);
+		for (size_t p = 0; q && p < q->count; p++)
+			pm_sum_add(&sum, pm_in(q, 0)[p]);
+		sets += q != NULL;
+	}
+	return sets ? pm_sum_total(sum) : NAN;
+}
+
+void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	const struct pm_mesh *mesh = how->plasma || how->nmodes ? filled(how, f) : NULL;
+	const struct pm_field *e = mesh ? pm_frame_field(f, mesh->name, how->field) : NULL;
+	const struct pm_grid g = mesh ? pm_grid_of(f, mesh) : (struct pm_grid){0};
+	m->value[PM_CHARGE] = how->plasma ? charge(how, f) : NAN;
+	for (int c = 0; c < 3; c++) /* eps0 is -1 over the coefficient of the law */
+		m->value[PM_ENERGY_COMPONENT + c] = how->plasma && e && c < e->components ? pm_energy_on_mesh(&g, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
+	for (int k = 0; k < how->nmodes; k++) {
+		m->mode[k][0] = m->mode[k][1] = NAN;
+		if (e && f->face[0][0] == PM_PERIODIC)
+			pm_mode(&g, pm_in(e, 0), how->modes[k], m->mode[k]);
+	}
+}
