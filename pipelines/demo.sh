@@ -5,7 +5,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 . pipelines/set-up.sh
-set_up gcc libc6-dev make libfftw3-dev libgsl-dev libjansson-dev libpng-dev
+set_up gcc libc6-dev make libfftw3-dev libgsl-dev libjansson-dev libpng-dev libhdf5-dev
 mkdir -p build/demo
 cd build/demo || exit 1
 PATH=$PWD/../../bin:$PATH bash ../../pipelines/pm-plummer.sh || stop "pm-plummer failed"

@@ -17,6 +17,8 @@ there() {
 	libgsl-dev) header gsl/gsl_version.h ;;
 	libjansson-dev) header jansson.h ;;
 	libpng-dev) header png.h ;;
+	libhdf5-dev) header hdf5/serial/hdf5.h || header hdf5.h ;;
+	hdf5-tools) command -v h5diff >/dev/null 2>&1 ;;
 	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
 	netpbm) command -v pngtopnm >/dev/null 2>&1 ;;
 	bsdutils) command -v script >/dev/null 2>&1 ;;

@@ -5,5 +5,5 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 . pipelines/set-up.sh
-set_up gcc libc6-dev make libfftw3-dev libgsl-dev libjansson-dev libpng-dev pkg-config bats parallel python3 mandoc bsdutils jq netpbm
+set_up gcc libc6-dev make libfftw3-dev libgsl-dev libjansson-dev libpng-dev libhdf5-dev hdf5-tools pkg-config bats parallel python3 mandoc bsdutils jq netpbm
 exec bash tests/run.sh "$@"

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
-#include <libgen.h>
 #include <limits.h>
 #include <pthread.h>
 #include <signal.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "stage/chain.h"
+#include "stage/rest.h"
 #include "stage/stage.h"
 
 struct pm_chain {
@@ -22,21 +22,10 @@ struct pm_chain {
 	struct pm_reader *from;
 };
 
-/* The directory of this program, where its sisters are. */
-static const char *home(void)
-{
-	static char path[PATH_MAX];
-	ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
-	if (n <= 0)
-		return NULL;
-	path[n] = 0;
-	return dirname(path);
-}
-
 static void child(char **argv, int in, int out)
 {
 	char path[PATH_MAX + 64];
-	const char *dir = pm_tool_find(argv[0]) ? home() : NULL;
+	const char *dir = pm_tool_find(argv[0]) ? pm_home() : NULL;
 	setpgid(0, 0); /* an interrupt from the terminal is for cycle, which ends the step first */
 	signal(SIGPIPE, SIG_DFL);
 	setenv("PM_QUIET", "1", 1); /* its message comes back down the stream, and cycle says it once */

@@ -2,6 +2,7 @@
 #ifndef PM_STAGE_INTERNAL_H
 #define PM_STAGE_INTERNAL_H
 
+#include "stage/rest.h"
 #include "stage/stage.h"
 
 /* Options of the library, the same for every tool. */
@@ -18,6 +19,7 @@ struct pm_run {
 	const char *given[128]; /* long names */
 	struct pm_reader *reader;
 	struct pm_writer *writer;
+	struct pm_rest *rest; /* behind the writer, where the output is HDF5; else NULL */
 	double began; /* clock when the stage was made */
 };
 

@@ -10,14 +10,15 @@
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {
 	if (!s->run->reader)
-		s->run->reader = pm_reader_open(s->run->common.input);
+		s->run->reader = pm_rest_is(s->run->common.input) ? pm_rest_read(s->run->common.input) : pm_reader_open(s->run->common.input);
 	return s->run->reader;
 }
 
 struct pm_writer *pm_stage_writer(struct pm_stage *s)
 {
+	const char *path = s->run->common.output;
 	if (!s->run->writer)
-		s->run->writer = pm_writer_open(s->run->common.output);
+		s->run->writer = pm_rest_is(path) ? pm_rest_write(path, &s->run->rest) : pm_writer_open(path);
 	return s->run->writer;
 }
 
@@ -128,11 +129,9 @@ static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 		fprintf(stderr, passed_on ? "%s: stopped by %s\n" : "%.0s%s\n", tool->name, text);
 	if ((s ? s->kind : tool->kind) == PM_SINK || (isatty(STDOUT_FILENO) && !(s && s->run->common.output)))
 		return;
-	struct pm_writer *w = s && s->run->writer ? s->run->writer : pm_writer_open(s ? s->run->common.output : NULL);
+	struct pm_writer *w = s ? pm_stage_writer(s) : pm_writer_open(NULL);
 	if (w)
 		pm_write_abort(w, pm_exit_code(status), text);
-	if (s)
-		s->run->writer = w;
 }
 
 static int run(struct pm_stage *s)
@@ -140,6 +139,8 @@ static int run(struct pm_stage *s)
 	int status = pm_stage_begin(s);
 	if (status)
 		return status;
+	if (s->kind == PM_SINK && pm_rest_is(s->run->common.output))
+		return pm_fail(PM_USAGE, "'%s': this is for streams, and %s writes text", s->run->common.output, s->tool->name);
 	if (s->kind == PM_SINK && s->run->common.output && !freopen(s->run->common.output, "w", stdout))
 		return pm_fail_errno("cannot write '%s'", s->run->common.output);
 	if (s->tool->whole)
@@ -158,12 +159,19 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	bool printed = s && !status && print_and_go(tool, &s->run->common);
 	if (s && !status && !printed)
 		status = run(s);
+	if (status < 0 && s && s->run->rest)
+		status = pm_rest_reason(s->run->rest, status);
 	if (status < 0)
 		tell(s, tool, status);
 	else if (s && !printed)
 		pm_timing_write(s, s->run->common.timing, -1);
 	if (s && s->run->writer && pm_writer_close(s->run->writer) && !status) {
 		status = -PM_DATA;
+		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
+	}
+	int rest = s ? pm_rest_close(s->run->rest) : 0;
+	if (rest && !status) {
+		status = rest;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}
 	if (fflush(stdout) && !status) {

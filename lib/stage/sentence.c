@@ -109,6 +109,8 @@ static int foreign_check(const char *name)
 		found = access(path, X_OK) == 0;
 	}
 	free(list);
+	if (!strcmp(name, "sh5")) /* a program of its own, which cycle does not know */
+		return pm_fail(PM_USAGE, "sh5 reads or writes a file and cannot stand inside the sentence (put it before or behind cycle: cycle -o FILE.h5)");
 	if (found)
 		return 0;
 	int n = 0;

@@ -17,6 +17,7 @@ words() {
 	scalc) echo "scalc 'kinetic = (vx^2 + vy^2 + vz^2) / 2'" ;;
 	scmp) echo "scmp - same.pm" ;;
 	sdraw) echo "sdraw -o picture.png" ;;
+	sh5) echo "sh5 -o file.h5" ;;
 	smod) echo "smod --shift 1,0,0" ;;
 	stack) echo "stack - same.pm" ;;
 	*) echo "$1" ;;

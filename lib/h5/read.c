@@ -1,0 +1,243 @@
+/* Frames out of an openPMD file that sh5 wrote: the header says what there must be, the datasets are checked against it before memory is asked for.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "h5/node.h"
+#include "stream/header.h"
+
+/* ---- the file ---- */
+
+static herr_t iteration_add(hid_t at, const char *name, const H5L_info_t *info, void *p)
+{
+	struct pm_h5 *h = p;
+	char *end;
+	(void)at, (void)info;
+	errno = 0;
+	uint64_t number = strtoull(name, &end, 10);
+	uint64_t *more = realloc(h->iterations, (h->niterations + 1) * sizeof *more);
+	if (!more || *end || errno || *name == '-')
+		return -1;
+	h->iterations = more;
+	h->iterations[h->niterations++] = number;
+	return 0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+	uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+	return (x > y) - (x < y);
+}
+
+static int check_standard(hid_t file)
+{
+	if (!pm_h5_has(file, "openPMD"))
+		return pm_fail(PM_DATA, "this is HDF5, but not openPMD: no attribute 'openPMD' (h5ls shows what it is)");
+	char *version = pm_h5_get_text(file, "openPMD"), *base = version ? pm_h5_get_text(file, "basePath") : NULL;
+	int status = base ? 0 : -PM_DATA;
+	if (base && strncmp(version, "1.", 2))
+		status = pm_fail(PM_DATA, "openPMD %.20s is not known here (1.0 and 1.1 are)", version);
+	else if (base && strcmp(base, "/data/%T/"))
+		status = pm_fail(PM_DATA, "the basePath is '%.60s', openPMD 1.1 has /data/%%T/", base);
+	free(version), free(base);
+	return status;
+}
+
+/* How many frames each stream had; one stream where nothing is said. */
+static int read_streams(struct pm_h5 *h)
+{
+	double x[8192];
+	uint64_t sum = 0;
+	int n = 8192, status = 0;
+	if (!pm_h5_has(h->file, "pmpipeStreams"))
+		n = 1, x[0] = (double)h->niterations;
+	else
+		status = pm_h5_get_reals(h->file, "pmpipeStreams", &n, x);
+	if (status || !(h->streams = calloc((size_t)n, sizeof *h->streams)))
+		return -PM_DATA;
+	h->nstreams = (size_t)n;
+	for (int i = 0; i < n; i++)
+		sum += h->streams[i] = x[i] >= 0 && x[i] < 0x1p53 ? (uint64_t)x[i] : 0;
+	return sum == h->niterations ? 0 : pm_fail(PM_DATA, "the attribute 'pmpipeStreams' counts %llu iterations, and there are %llu", (unsigned long long)sum, (unsigned long long)h->niterations);
+}
+
+static int open_all(struct pm_h5 *h, const char *path)
+{
+	hsize_t at = 0;
+	if (access(path, R_OK))
+		return pm_fail_errno("cannot open '%s'", path);
+	if (H5Fis_hdf5(path) <= 0)
+		return pm_fail(PM_DATA, "'%s' is not HDF5 (stab reads text)", path);
+	if ((h->file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
+		return pm_h5_fail("cannot open '%s'", path);
+	if (check_standard(h->file))
+		return -PM_DATA;
+	if (H5Lexists(h->file, "data", H5P_DEFAULT) <= 0)
+		return pm_fail(PM_DATA, "there is no group 'data'");
+	hid_t data = H5Gopen2(h->file, "data", H5P_DEFAULT);
+	herr_t bad = H5Literate(data, H5_INDEX_NAME, H5_ITER_INC, &at, iteration_add, h);
+	H5Gclose(data);
+	if (bad < 0)
+		return pm_fail(PM_DATA, "the group 'data' holds something that is not called by a number");
+	if (h->niterations)
+		qsort(h->iterations, h->niterations, sizeof *h->iterations, ascending);
+	return read_streams(h);
+}
+
+struct pm_h5 *pm_h5_open(const char *path)
+{
+	struct pm_h5 *h = calloc(1, sizeof *h);
+	if (!h) {
+		pm_fail(PM_DATA, "out of memory");
+		return NULL;
+	}
+	H5dont_atexit();
+	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+	h->file = -1;
+	return open_all(h, path) ? pm_h5_free(h) : h;
+}
+
+/* ---- a frame ---- */
+
+static json_t *get_json(hid_t at, const char *name)
+{
+	json_error_t why;
+	char *text = pm_h5_get_text(at, name);
+	json_t *j = text ? json_loads(text, JSON_REJECT_DUPLICATES, &why) : NULL;
+	if (text && !j)
+		pm_fail(PM_DATA, "the attribute '%s' is not JSON: %s", name, why.text);
+	free(text);
+	return j;
+}
+
+static int differs(const char *path) { return pm_fail(PM_DATA, "'%s' is not what the header of the frame says (pmpipeHeader; the file was changed)", path); }
+
+static int get_constant(hid_t at, const char *path, double value)
+{
+	double there;
+	int n = 1;
+	hid_t o = H5Oopen(at, path, H5P_DEFAULT);
+	int status = o < 0 || pm_h5_get_reals(o, "value", &n, &there) || memcmp(&there, &value, sizeof value) ? differs(path) : 0;
+	H5Oclose(o);
+	return status;
+}
+
+/* Is the dataset of the field's type, and of its shape? */
+static bool fits(hid_t d, const struct pm_frame *f, const struct pm_field *p)
+{
+	const struct pm_mesh *m = pm_frame_mesh(f, p->on);
+	hid_t space = H5Dget_space(d), type = H5Dget_type(d);
+	hsize_t dims[H5S_MAX_RANK];
+	size_t points[3] = {p->count, 1, 1};
+	int rank = m ? f->dim : 1;
+	bool good = H5Sget_simple_extent_ndims(space) == rank && H5Tequal(type, pm_h5_type(p->type, false)) > 0;
+	if (m)
+		pm_mesh_points(f, m, points);
+	if (good)
+		H5Sget_simple_extent_dims(space, dims, NULL);
+	for (int a = 0; good && a < rank; a++)
+		good = dims[rank - 1 - a] == points[a];
+	H5Sclose(space), H5Tclose(type);
+	return good;
+}
+
+/* What a file promises and has never stored must not become memory. */
+static bool stored(hid_t d, const struct pm_field *p)
+{
+	hid_t how = H5Dget_create_plist(d);
+	bool plain = H5Pget_layout(how) != H5D_CHUNKED;
+	H5Pclose(how);
+	return !plain || H5Dget_storage_size(d) == p->count * pm_type_size(p->type);
+}
+
+static int get_component(hid_t at, const char *path, const struct pm_frame *f, struct pm_field *p, int c)
+{
+	hid_t d = H5Lexists(at, path, H5P_DEFAULT) > 0 ? H5Dopen2(at, path, H5P_DEFAULT) : -1;
+	if (d < 0)
+		return differs(path);
+	int status = fits(d, f, p) && stored(d, p) ? 0 : differs(path);
+	if (!status && c == 0)
+		status = pm_field_hold(p);
+	char *data = pm_field_bytes(p);
+	if (!status && p->count && H5Dread(d, pm_h5_type(p->type, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data + (size_t)c * p->count * pm_field_memory(p)) < 0)
+		status = pm_h5_fail("cannot read '%s'", path);
+	H5Dclose(d);
+	return status;
+}
+
+static int get_field(hid_t at, const char *path, const struct pm_frame *f, struct pm_field *p)
+{
+	char full[PM_H5_PATH + 16], name[8];
+	int status = 0;
+	if (H5Lexists(at, path, H5P_DEFAULT) <= 0)
+		return differs(path);
+	for (int c = 0; c < p->components && !status; c++) {
+		pm_h5_component(p, c, name);
+		snprintf(full, sizeof full, pm_h5_is_vector(p) ? "%s/%s" : "%s", path, name);
+		if (p->uniform)
+			status = H5Lexists(at, full, H5P_DEFAULT) > 0 ? get_constant(at, full, p->value[c]) : differs(full);
+		else
+			status = get_component(at, full, f, p, c);
+	}
+	return status;
+}
+
+/* HDF5 does not look for "a/b" where there is no "a". */
+static bool folder_is_there(hid_t at, const char *path)
+{
+	char folder[PM_H5_PATH];
+	for (const char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+		snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
+		if (H5Lexists(at, folder, H5P_DEFAULT) <= 0)
+			return false;
+	}
+	return true;
+}
+
+static int get_own(hid_t at, struct pm_frame **out)
+{
+	json_t *header = get_json(at, "pmpipeHeader"), *report = header ? get_json(at, "pmpipeReport") : NULL;
+	struct pm_frame *f = NULL;
+	int status = report && !pm_header_frame(header, &f) ? 0 : -PM_DATA;
+	json_decref(header);
+	if (!status && json_is_object(report)) {
+		json_decref(f->report);
+		f->report = json_incref(report);
+	}
+	json_decref(report);
+	char(*path)[PM_H5_PATH] = status ? NULL : calloc(f->nfields + 1, sizeof *path);
+	if (path)
+		pm_h5_paths(f, path);
+	for (size_t i = 0; path && i < f->nfields && !status; i++)
+		status = folder_is_there(at, path[i]) ? get_field(at, path[i], f, f->fields[i]) : differs(path[i]);
+	free(path);
+	*out = status ? pm_frame_free(f) : f;
+	return status;
+}
+
+int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
+{
+	char name[32], why[512];
+	if (h->stream == h->nstreams)
+		return PM_GOT_EOF;
+	if (h->frames == h->streams[h->stream]) {
+		h->stream++;
+		h->frames = 0;
+		return PM_GOT_END;
+	}
+	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->iterations[h->at++]);
+	h->frames++;
+	hid_t at = H5Gopen2(h->file, name, H5P_DEFAULT);
+	if (at < 0)
+		return pm_h5_fail("cannot open '%s'", name);
+	*foreign = !pm_h5_has(at, "pmpipeHeader");
+	int status = *foreign ? pm_h5_get_foreign(at, name + 6, f) : get_own(at, f);
+	H5Gclose(at);
+	if (status) {
+		snprintf(why, sizeof why, "%s", pm_message());
+		return pm_fail(-status, "iteration %s: %s", name + 6, why);
+	}
+	return PM_GOT_FRAME;
+}

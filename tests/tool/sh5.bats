@@ -1,0 +1,252 @@
+# sh5: the stream at rest, in HDF5 as openPMD 1.1 lays it out. Tolerances: none, bytes are equal.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+wire() { python3 "$top/tests/wire.py" "$@"; }
+
+# there_and_back FILE.pm: equal bytes, and nothing said.
+there_and_back() {
+	sh5 -o back.h5 <"$1" && sh5 back.h5 | cmp - "$1"
+}
+
+# attribute FILE PATH: its values as h5dump prints them, one line.
+attribute() { h5dump -a "$2" "$1" | sed -n '/DATA {/,/}/{/DATA {/d; /}/d; s/^ *([0-9,]*): //; p}' | tr -s ' \n' ' ' | sed 's/ $//'; }
+
+mesh() { pinit plummer -n "${1:-50}" --seed 1 --cells 8x7x10 --no-history | p2m --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history; }
+
+@test "stream to HDF5 to stream gives equal bytes: particles, meshes, uniform, history, report" {
+	mesh >a.pm
+	there_and_back a.pm
+	pinit plummer -n 137 --seed 3 --cells 16 | p2m | poisson-fft >b.pm # with history; phi brings a report
+	there_and_back b.pm
+	sh5 --no-history back.h5 | cmp - b.pm
+	for scene in $(pinit --complete | tr ' ' '\n' | grep -xE 'plummer|uniform|lattice|two-body|kepler|two-stream|lamb-oseen'); do
+		pinit "$scene" >s.pm
+		there_and_back s.pm || { echo "$scene"; return 1; }
+	done
+}
+
+@test "stream to HDF5 to stream gives equal bytes: f32, i64, u8, NaN, sixteen components, names that openPMD does not know" {
+	pinit uniform -n 7 --seed 3 --cells 4 >one.pm
+	wire edit one.pm '
+h["colour"] = {"deep": [1, None, "two"]}
+def add(name, type, code, n, components=1, values=None, **more):
+    h["fields"].append({"name": name, "on": "matter", "components": components, "type": type, "role": "state", "kind": "value", "unit": "", **more})
+    data.append(bytearray(struct.pack("<%d%s" % (n, code), *(values or [k % 256 for k in range(n)]))))
+add("temperature", "f32", "f", 7, values=[0.1, -0.0, 1e-45, 3.4e38, 1, float("nan"), float("inf")])
+add("tag", "i64", "q", 7, values=[-2**63, 2**63 - 1, 0, 1, 2, 3, 4])
+add("letters", "u8", "B", 7 * 16, components=16)
+add("a-b", "f64", "d", 7)
+add("a b", "f64", "d", 7)
+add("a/b", "f64", "d", 7)
+add("position", "f64", "d", 7)
+add("positionOffset", "f64", "d", 7)
+add("plane", "f32", "f", 14, components=2)' >odd.pm
+	there_and_back odd.pm
+	h5ls -r back.h5 | grep -q '/matter/letters/c15 '
+	h5dump -H -d /data/0/particles/matter/temperature back.h5 | grep -q H5T_IEEE_F32LE
+	h5dump -H -d /data/0/particles/matter/tag back.h5 | grep -q H5T_STD_I64LE
+	h5dump -H -d /data/0/particles/matter/letters/c0 back.h5 | grep -q H5T_STD_U8LE
+}
+
+@test "stream to HDF5 to stream gives equal bytes: no particles, several sets and meshes, several frames of equal step, two streams, none" {
+	pinit uniform -n 7 --seed 3 --cells 4 | p2m >one.pm
+	wire edit one.pm 'resize("matter", 0)' >nobody.pm
+	there_and_back nobody.pm
+	h5ls -r back.h5 | grep -q 'position/x *Dataset {0}'
+	wire edit one.pm '
+h["sets"] += [{"name": "more matter", "n": 3, "done": {"kick": 0.0, "drift": 0.0}}, {"name": "more_matter", "n": 2, "done": {"kick": 0.0, "drift": 0.0}}]
+h["meshes"].append(dict(h["meshes"][0], name="fine"))
+rho = next(k for k in h["fields"] if k["name"] == "rho")
+h["fields"].append(dict(rho, on="fine")); data.append(bytearray(data[h["fields"].index(rho)]))
+for n, on in ((3, "more matter"), (2, "more_matter")):
+    h["fields"].append({"name": "x", "on": on, "components": 3, "type": "f64", "role": "state", "kind": "value", "unit": ""})
+    data.append(bytearray(struct.pack("<%dd" % (3 * n), *range(3 * n))))' >sets.pm
+	there_and_back sets.pm
+	wire frames one.pm sets.pm nobody.pm one.pm >four.pm
+	there_and_back four.pm
+	[ "$(h5ls back.h5/data | cut -d' ' -f1 | paste -sd,)" = 0,1,2,3 ]
+	cat four.pm one.pm >two.pm
+	there_and_back two.pm
+	printf '%-63s\n' 'PMPIPE/1 end 0' >none.pm
+	there_and_back none.pm
+	cat none.pm one.pm none.pm >mixed.pm
+	there_and_back mixed.pm
+}
+
+@test "iterations are called by their step; where it does not rise, by the next free number" {
+	pinit two-body | cycle -n 12 --every 5 'push kick/2 drift | pp | push kick/2' >a.pm
+	there_and_back a.pm
+	[ "$(h5ls back.h5/data | cut -d' ' -f1 | sort -n | paste -sd,)" = 0,5,10,12 ]
+	cat a.pm a.pm >twice.pm
+	there_and_back twice.pm
+	[ "$(h5ls back.h5/data | cut -d' ' -f1 | sort -n | paste -sd,)" = 0,5,10,12,13,14,15,16 ]
+}
+
+@test "equal runs give equal files, and h5diff agrees; it finds a value that differs" {
+	mesh >a.pm
+	sh5 -o a.h5 <a.pm
+	sh5 -o b.h5 <a.pm
+	cmp a.h5 b.h5
+	h5diff a.h5 b.h5
+	wire edit a.pm 'put("v", 3, 7.25)' | sh5 -o c.h5
+	run -1 h5diff a.h5 c.h5
+	[[ $output == *"velocity"*"1 differences found"* ]]
+}
+
+@test "h5dump shows the numbers that stab shows" {
+	mesh 5 >a.pm
+	sh5 -o a.h5 <a.pm
+	h5dump -y -w 1 -m %.17g -d /data/0/particles/matter/velocity/y a.h5 | awk 'NF == 1 && /}/ { exit } NF == 1 && /[0-9]/ { printf "%.12g\n", $1 }' >one
+	stab --plain <a.pm | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "vy") c = i; next } { printf "%.12g\n", $c }' >two
+	[ "$(wc -l <one)" = 5 ]
+	cmp one two
+}
+
+@test "what openPMD 1.1 requires is there" {
+	mesh >a.pm
+	sh5 -o a.h5 <a.pm
+	is() { [ "$(attribute a.h5 "$1")" = "$2" ] || { echo "$1: got $(attribute a.h5 "$1"), want $2"; return 1; }; }
+	is /openPMD '"1.1.0"'
+	is /openPMDextension 0
+	is /basePath '"/data/%T/"'
+	is /meshesPath '"meshes/"'
+	is /particlesPath '"particles/"'
+	is /iterationEncoding '"groupBased"'
+	is /iterationFormat '"/data/%T/"'
+	is /data/0/time 0
+	is /data/0/dt 0.03125
+	is /data/0/timeUnitSI 1
+	is /data/0/meshes/rho/geometry '"cartesian"'
+	is /data/0/meshes/rho/dataOrder '"C"'
+	is /data/0/meshes/rho/axisLabels '"z", "y", "x"'
+	is /data/0/meshes/rho/gridGlobalOffset '-14, -14, -14'
+	is /data/0/meshes/rho/gridSpacing '2.8, 4, 3.5'
+	is /data/0/meshes/rho/gridUnitSI 1
+	is /data/0/meshes/rho/unitSI 1
+	is /data/0/meshes/rho/timeOffset 0
+	is /data/0/meshes/rho/position '0, 0, 0'
+	is /data/0/meshes/rho/unitDimension '-3, 1, 0, 0, 0, 0, 0'
+	is /data/0/meshes/g/unitDimension '1, 0, -2, 0, 0, 0, 0'
+	is /data/0/meshes/g/x/position '0, 0, 0'
+	is /data/0/particles/matter/position/unitDimension '1, 0, 0, 0, 0, 0, 0'
+	is /data/0/particles/matter/position/x/unitSI 1
+	is /data/0/particles/matter/positionOffset/x/value 0
+	is /data/0/particles/matter/positionOffset/x/shape 50
+	is /data/0/particles/matter/velocity/unitDimension '1, 0, -1, 0, 0, 0, 0'
+	is /data/0/particles/matter/mass/value 0.0197037
+	is /data/0/particles/matter/mass/shape 50
+	is /data/0/particles/matter/mass/macroWeighted 1
+	is /data/0/particles/matter/mass/weightingPower 1
+	is /data/0/particles/matter/velocity/macroWeighted 0
+	h5ls -r a.h5 | grep -q '/data/0/meshes/rho *Dataset {11, 8, 9}' # z, y, x in points: x fastest
+}
+
+@test "a component half a cell up says so" {
+	mesh >a.pm
+	wire edit a.pm 'next(k for k in h["fields"] if k["name"] == "g")["half"] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]' >half.pm
+	there_and_back half.pm
+	[ "$(attribute back.h5 /data/0/meshes/g/x/position)" = "0, 0, 0.5" ]
+	[ "$(attribute back.h5 /data/0/meshes/g/z/position)" = "0.5, 0, 0" ]
+}
+
+@test "openPMD-validator finds no error" {
+	command -v openPMD_check_h5 >/dev/null || skip "openPMD-validator is not there"
+	mesh | sh5 -o a.h5
+	openPMD_check_h5 -i a.h5 | grep -q '0 errors'
+}
+
+@test "yt reads the particles" {
+	python3 -c 'import yt, h5py' 2>/dev/null || skip "yt is not there"
+	mesh | sh5 -o a.h5
+	run -0 python3 -c 'import yt; d = yt.load("a.h5"); print(len(d.all_data()["matter", "particle_position_x"]))'
+	[ "${lines[-1]}" = 50 ]
+}
+
+@test "-i and -o of any tool read and write HDF5" {
+	mesh >a.pm
+	sh5 -o a.h5 <a.pm
+	p2m -i a.h5 | cmp - <(p2m <a.pm)
+	p2m -i a.h5 -o b.h5
+	sh5 b.h5 | cmp - <(p2m <a.pm)
+	pinit plummer -n 20 -o c.h5
+	sh5 c.h5 | cmp - <(pinit plummer -n 20)
+	cycle -n 2 -i c.h5 -o d.h5 'push kick/2 drift | pp | push kick/2'
+	sh5 d.h5 | cmp - <(sh5 c.h5 | cycle -n 2 'push kick/2 drift | pp | push kick/2')
+	diag -i d.h5 | cmp - <(sh5 d.h5 | diag)
+	sh5 -i d.h5 -o e.h5
+	cmp d.h5 e.h5
+}
+
+# says CODE LINE COMMAND...: exit status and the one line on stderr.
+says() {
+	local code=$1 line=$2
+	shift 2
+	run -"$code" --separate-stderr "$@"
+	[[ ${#stderr_lines[@]} = 1 && $stderr == $line ]] || { echo "$*: $stderr"; return 1; }
+}
+
+@test "what cannot be read is refused in one line" {
+	mesh | sh5 -o a.h5
+	says 1 "sh5: cannot open 'no.h5': No such file or directory" sh5 no.h5
+	head -c 5000 "$top/COPYING" >text.h5
+	says 1 "sh5: 'text.h5' is not HDF5*" sh5 text.h5
+	: >empty.h5
+	says 1 "sh5: 'empty.h5' is not HDF5*" sh5 empty.h5
+	head -c 20000 a.h5 >cut.h5
+	says 1 "sh5: cannot open 'cut.h5' (HDF5: truncated file*" sh5 cut.h5
+	sed 's/openPMD\x00/openPMX\x00/' a.h5 >plain.h5
+	says 1 "sh5: this is HDF5, but not openPMD*" sh5 plain.h5
+	sed 's/"n":50/"n":51/' a.h5 >lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/position/x' is not what the header of the frame says*" sh5 lie.h5
+	sed 's/"mass","on"/"mess","on"/' a.h5 >lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/mess' is not what*" sh5 lie.h5
+	sed 's/"type":"i64"/"type":"f64"/' a.h5 >lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/id' is not what*" sh5 lie.h5
+	says 1 "p2m: stopped by sh5: cannot open 'no.h5': No such file or directory" p2m -i no.h5
+	says 1 "diag: stopped by sh5: cannot open 'no.h5'*" diag -i no.h5
+}
+
+@test "what cannot be written leaves nothing behind, and the code of the failure arrives" {
+	mesh >a.pm
+	says 1 "sh5: cannot write '/nosuch/x.h5': No such file or directory" sh5 -i a.pm -o /nosuch/x.h5
+	says 1 "sh5: cannot write '/dev/null': it is not a plain file" sh5 -i a.pm -o /dev/null
+	says 1 "p2m:*cannot write '/nosuch/x.h5': No such file or directory" p2m -i a.pm -o /nosuch/x.h5
+	wire cut a.pm in-field-v1 >cut.pm 2>/dev/null || head -c 3000 a.pm >cut.pm
+	echo old >x.h5
+	says 1 "sh5: frame 1: the input ends in*" sh5 -i cut.pm -o x.h5
+	[ "$(cat x.h5)" = old ]
+	says 1 "p2m: frame 1:*cut*" p2m -i cut.pm -o x.h5
+	[ "$(cat x.h5)" = old ]
+	says 2 "p2m: no option '--nonsense'*" p2m -i a.pm -o x.h5 --nonsense
+	run bash -c 'pinit uniform --nonsense 2>/dev/null | sh5 -o x.h5 2>err'
+	[ "$status" = 2 ]
+	grep -q '^sh5: stopped by pinit: no option' err
+	[ "$(cat x.h5)" = old ]
+	[ -z "$(ls | grep part)" ]
+	says 2 "diag: 'x.h5': this is for streams, and diag writes text" diag -i a.pm -o x.h5
+}
+
+@test "a full disk: exit 1, one line, nothing left" {
+	pinit uniform -n 20000 >a.pm
+	got=0
+	(trap '' XFSZ; ulimit -f 100; sh5 -o x.h5 <a.pm 2>err) || got=$?
+	[ $got = 1 ]
+	[ "$(wc -l <err)" = 1 ]
+	grep -q '^sh5: ' err
+	[ -z "$(ls | grep h5)" ]
+}
+
+@test "wrong options are usage errors; inside a sentence sh5 is refused" {
+	says 2 "sh5: which way?*" sh5
+	says 2 "sh5: sh5 FILE reads*" sh5 a.h5 -o b.h5
+	says 2 "cycle: *sh5 reads or writes a file*" cycle -n 1 'push drift | sh5 -o x.h5'
+}
+
+@test "only sh5 links HDF5" {
+	command -v ldd >/dev/null || skip "no ldd here"
+	for t in "$top"/bin/*; do
+		[ "${t##*/}" = sh5 ] || ! ldd "$t" | grep -q hdf5 || { echo "$t"; return 1; }
+	done
+	ldd "$top/bin/sh5" | grep -q hdf5
+}

@@ -1,0 +1,112 @@
+/* sh5: the stream at rest, an HDF5 file in the layout of openPMD 1.1 (docs/methods/hdf5.md), both ways and to the byte. The only program that links
+ * HDF5, which costs 5 ms to start; -i x.h5 and -o x.h5 of the others run it on a pipe. Cost: that of the disk.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "h5/h5.h"
+#include "stage/stage.h"
+
+struct config {
+	const char *output;
+};
+
+struct state {
+	struct pm_h5 *file;
+};
+
+static const struct pm_option options[] = {
+	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .text = "write the stream on standard input to this HDF5 file, which appears when it is complete", .cosmetic = true,
+		.offset = offsetof(struct config, output)},
+	{0}};
+
+static const struct pm_example examples[] = {
+	{"A cloud at rest, and what is in it", "pinit plummer -n 100 | sh5 -o cloud.h5; h5ls -r cloud.h5; sh5 cloud.h5 | sls"},
+	{"Any tool reads and writes HDF5 through it", "pinit plummer -n 100 -o cloud.h5; p2m -i cloud.h5 -o mesh.h5; sls -i mesh.h5"},
+	{0}};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *c = s->config;
+	if (!s->nargs && !c->output)
+		return pm_fail(PM_USAGE, "which way? (sh5 FILE.h5 reads a file, sh5 -o FILE.h5 writes one)");
+	if (s->nargs && c->output)
+		return pm_fail(PM_USAGE, "sh5 FILE reads, sh5 -o FILE writes: not both (sh5 a.h5 | sh5 -o b.h5)");
+	if (s->nargs)
+		s->kind = PM_SOURCE;
+	return 0;
+}
+
+static int in_frame(const struct pm_reader *r, int status)
+{
+	char why[1024];
+	if (pm_reader_aborted(r))
+		return status;
+	snprintf(why, sizeof why, "%s", pm_message());
+	return pm_fail(-status, "frame %llu: %s", (unsigned long long)pm_reader_frame(r), why);
+}
+
+static int to_file(struct pm_stage *s, struct state *st)
+{
+	const struct config *c = s->config;
+	struct pm_reader *r = pm_stage_reader(s);
+	if (!r || !(st->file = pm_h5_create(c->output)))
+		return pm_failed();
+	for (;;) {
+		struct pm_frame *f = NULL;
+		int got = pm_read_frame(r, &f), status = got < 0 ? got : 0;
+		if (got == PM_GOT_EOF)
+			return pm_h5_finish(st->file);
+		if (got == PM_GOT_FRAME)
+			status = pm_h5_put(st->file, f);
+		else if (got == PM_GOT_END)
+			status = pm_h5_put_end(st->file);
+		pm_frame_free(f);
+		if (status)
+			return in_frame(r, status);
+	}
+}
+
+static int from_file(struct pm_stage *s, struct state *st)
+{
+	struct pm_writer *w = pm_stage_writer(s);
+	if (!w || !(st->file = pm_h5_open(s->args[0])))
+		return pm_failed();
+	for (;;) {
+		struct pm_frame *f = NULL;
+		bool foreign = false;
+		int got = pm_h5_get(st->file, &f, &foreign), status = got < 0 ? got : 0;
+		if (got == PM_GOT_EOF)
+			return 0;
+		if (got == PM_GOT_FRAME && foreign && s->entry) /* what sh5 wrote is at rest as it was: no entry */
+			json_array_append(f->history, s->entry);
+		if (!status)
+			status = got == PM_GOT_END ? pm_write_end(w) : pm_write_frame(w, f);
+		pm_frame_free(f);
+		if (status)
+			return status;
+	}
+}
+
+static int whole(struct pm_stage *s) { return s->kind == PM_SOURCE ? from_file(s, s->state) : to_file(s, s->state); }
+
+static void done(struct pm_stage *s) { pm_h5_free(((struct state *)s->state)->file); }
+
+const struct pm_tool tool_sh5 = {
+	.name = "sh5",
+	.summary = "HDF5 to stream and back, exactly",
+	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1. With -o FILE a sink: writes its input as such a file, which h5ls, h5dump, h5diff, yt and ParaView read. "
+		 "Stream to HDF5 to stream gives equal bytes. Iterations are called by their step, or by the next free number where two frames have the same. "
+		 "-i FILE.h5 and -o FILE.h5 of any other tool run sh5 on a pipe.",
+	.kind = PM_SINK,
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.arguments = "[FILE]",
+	.arguments_text = "The HDF5 file to read; without it the stream on standard input is written to -o FILE.",
+	.most = 1,
+	.examples = examples,
+	.begin = begin,
+	.whole = whole,
+	.free = done,
+};
