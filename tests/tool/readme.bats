@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 6) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 7) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
@@ -37,6 +37,18 @@ block() {
 	block 5 >look.sh
 	run -0 bash -euo pipefail look.sh
 	[ -s cluster.png ]
+}
+
+@test "README: the same words make a vortex step and a plasma step" {
+	block 6 > laws.sh
+	sh_ok 'bash -euo pipefail laws.sh'
+	[[ $output == *circulation* && $output == *energy_kinetic* ]]
+}
+
+@test "README: the table of swapped words is what its command prints" {
+	bash "$top/pipelines/swaps.sh" > table
+	grep -F '| ' "$top/README.md" | grep -vE '^\|---' > want
+	grep -vE '^\|---' table | diff - want
 }
 
 @test "README: the picture is there and small" {
