@@ -2,8 +2,8 @@
 # A vortex spreads by viscosity in open space, t = 1 to 4, Gamma = 1, nu = 0.01: remeshed particles on 120^2 cells (h = sqrt(4 nu t)/6 at the start).
 # Law: vortex, lap psi = -omega, D omega/Dt = nu lap omega.
 # Expected (VM-01): omega = Gamma/(4 pi nu t) exp(-r^2/(4 nu t)), u_theta = Gamma/(2 pi r) (1 - exp(-r^2/(4 nu t))): at t = 1, r = 0.2 2.92749157621596
-# and 0.503025557837881, at t = 4, r = 0.5 0.417008604918078 and 0.251588509396898. Circulation is not kept by construction: where remesh cuts off
-# the smallest strengths, and inside a step, where diffusion is gathered at particles that have moved; it is printed.
+# and 0.503025557837881, at t = 4, r = 0.5 0.417008604918078 and 0.251588509396898. Circulation is not kept to the last digit: remesh cuts off
+# the smallest strengths, and what diffuses beyond the last particle is lost; it is printed.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh

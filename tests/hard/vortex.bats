@@ -67,7 +67,7 @@ radii() {
 	below "${list[7]}" 0.1 # 2 % at dt |grad u| = 2
 }
 
-@test "viscosity without remeshing loses circulation: 90 % of it in 150 steps, and diag shows it" {
+@test "viscosity without remeshing loses circulation in the gaps between particles: 90 % of it in 150 steps, and diag shows it" {
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' | diag > t
 	[ "$(calc "$(column circulation < t) < 0.2")" = 1 ]
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-8' | diag > t

@@ -91,16 +91,12 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	within "$(calc "$(column circulation < t) / $(pinit ellipse --cells 32 | diag | column circulation)")" 1 1e-13
 }
 
-@test "with viscosity the drift of circulation falls with the step, faster than as its square" {
-	# on remeshed particles it comes from diffusion gathered inside a step, at particles that have moved
-	local list=()
+@test "with viscosity too, whatever the step: what diffuses is shared so that nothing is lost" {
+	start=$(pinit ellipse --nu 5e-4 --cells 64 | diag | column circulation)
 	for dt in 0.1 0.05 0.025; do
-		drift=$(pinit ellipse --nu 5e-4 --cells 64 --dt $dt | cycle -t 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' | diag --exact > t
-			calc "$(column circulation < t) / $(column exact_circulation < t) - 1")
-		echo "dt $dt: $drift"
-		list+=("$dt" "${drift#-}")
+		pinit ellipse --nu 5e-4 --cells 64 --dt $dt | cycle -t 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' | diag > t
+		within "$(calc "$(column circulation < t) / $start")" 1 1e-13 "dt $dt"
 	done
-	order 2 "${list[@]}"
 }
 
 @test "VM-17: an elliptical vortex at t = 2: energy, enstrophy and peak as the spectral code has them" {
