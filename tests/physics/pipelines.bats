@@ -37,3 +37,23 @@ pipeline() {
 	PM_BIN=${PM_BIN:-$top/bin} run -1 bash pp-kepler.sh
 	[[ $output == *OFF* ]]
 }
+
+@test "PIC-07: pic-langmuir oscillates at the frequency of its words, one word swapped at another" {
+	pipeline pic-langmuir 5
+}
+
+@test "PIC-02, PIC-03, HC-04: pic-two-stream grows within 2 % of theory, and not beyond the thresholds" {
+	pipeline pic-two-stream 6
+}
+
+@test "PIC-01: pic-landau is damped as Landau found, to 4 %" {
+	pipeline pic-landau 4
+}
+
+@test "PIC-12: pic-gyration turns by 2 atan(Omega dt/2) on the right circle and keeps its speed" {
+	pipeline pic-gyration 7
+}
+
+@test "PIC-12: pic-exb drifts at exactly E x B/B^2" {
+	pipeline pic-exb 12
+}

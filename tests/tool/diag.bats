@@ -122,8 +122,8 @@ load ../helper
 	e=$(sed '$d' t | column mode_1 | head -n 1)
 	within "$(sed '$d' t | column energy_field_x | head -n 1)" "$(awk -v e="$e" 'BEGIN { printf "%.17g", 6.283185307179586 * e * e / 4 }')" 1e-9
 	below "$(sed '$d' t | column mode_2 | head -n 1)" 1e-5
-	sh_ok "diag --growth mode:1 --window 2:15 --format json < a | tail -n 1 | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d[\"growth\"], d[\"points\"])'"
-	[ "$output" = "mode:1 66" ]
+	sh_ok "diag --growth mode:1 --window 2.1:14.9 --format json < a | tail -n 1 | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d[\"growth\"], d[\"points\"])'"
+	[ "$output" = "mode:1 64" ]
 	pinit uniform -n 10 | diag > u
 	run ! grep -q charge u
 }
