@@ -47,8 +47,8 @@ block() {
 
 @test "README: the table of swapped words is what its command prints" {
 	bash "$top/pipelines/swaps.sh" > table
-	grep -F '| ' "$top/README.md" | grep -vE '^\|---' > want
-	grep -vE '^\|---' table | diff - want
+	grep '^| ' "$top/README.md" > want
+	grep '^| ' table | diff - want
 }
 
 @test "README: the picture is there and small" {
