@@ -1,0 +1,62 @@
+# Plasmas by the words: frequencies of the step, magnetic and electric fields together, neutrality, species, walls of a background.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+
+# The frequency of a cold wave on 16 cells, cos(pi/16).
+cells=0.980785280403230
+
+# swing DT [STEPS]: cos(omega dt) from the velocities at whole steps: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), exact for a linear leapfrog.
+swing() {
+	pinit langmuir -n 256 --cells 16 --amplitude 1e-7 --dt "$1" | cycle -n "${2:-12}" --every 1 "$step" | stab --plain --set electrons |
+		awk '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx") c = i; frame++; next } NF == 0 { next } { p[frame]++; if (p[frame] % 256 == 1) v[frame] = $c }
+			END { num = den = 0; for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i] * v[i] } printf "%.17g", num / den }'
+}
+
+@test "PIC-06: a cold wave swings at 2 asin(w dt/2)/dt, for w dt = 0.1 to 1.9" {
+	for wdt in 0.1 0.2 0.5 1 1.9; do
+		# cos(2 asin(a)) = 1 - 2 a^2; amplitude 1e-7 leaves 1e-7 of nonlinearity and 1e-9 of rounding in the velocities
+		within "$(swing "$(awk -v a=$wdt -v c=$cells 'BEGIN { printf "%.17g", a / c }')")" "$(awk -v a=$wdt 'BEGIN { printf "%.17g", 1 - a * a / 2 }')" 1e-6 "w dt = $wdt"
+	done
+}
+
+@test "PIC-06: beyond w dt = 2 it grows at 2 acosh(w dt/2) a step" {
+	for case in "2.01 0.199916760277393" "2.1 0.629849513207696" "2.5 1.38629436111989"; do
+		read -r wdt growth <<<"$case"
+		# v(n+1) + v(n-1) = -2 cosh(g) v(n); 5 steps, so that the wave stays small
+		within "$(swing "$(awk -v a="$wdt" -v c=$cells 'BEGIN { printf "%.17g", a / c }')" 5)" "$(awk -v g="$growth" 'BEGIN { printf "%.17g", -(exp(g) + exp(-g)) / 2 }')" 1e-3 "w dt = $wdt"
+	done
+}
+
+@test "momentum of a plasma stays at rounding, whatever the kernel" {
+	for kernel in ngp cic tsc; do
+		sh_ok "pinit two-stream -n 2000 --cells 32 --vth 0.1 --amplitude 0.1 | cycle -n 50 '${step/p2m/p2m --kernel $kernel}' | diag > t"
+		below "$(awk -v p="$(column momentum_x < t)" -v s="$(column momentum_scale < t)" 'BEGIN { printf "%.17g", p / s }')" 1e-13 "$kernel"
+	done
+}
+
+@test "a neutral plasma with its background has no mean density; without it the force is the same, as the solver takes the mean off" {
+	sh_ok "pinit langmuir -n 500 | p2m | poisson-fft > a"
+	below "$(grep -ao '"mean[^:]*":[-0-9.e+]*' a | tail -n 1 | cut -d: -f2)" 1e-12
+	sh_ok "pinit langmuir -n 500 --no-history | stab > h; sed 's/\"background\":1.0/\"background\":0.0/' h > g; for k in h g; do stab \$k | p2m | poisson-fft | mgrad | m2p | stab --plain --set electrons > \$k.t; done"
+	paste h.t g.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i == "acc") c = i; next } { d = $c - $(c + n); if (d * d > most) most = d * d } END { exit !(c && most < 1e-26) }'
+}
+
+@test "between walls the background acts: a density of 2 alone makes the parabola phi = 1/4 - (x - 1/2)^2" {
+	printf 'x v mass charge\n0.5 0 1 0\n' > t
+	sh_ok "stab t --law electrostatic --box 0,1 --faces wall --particle-faces reflect --dt 0.1 --strength charge > a"
+	stab < a | sed 's/"constants":{[^}]*}/"constants":{"background":2.0,"eps0":1.0}/' > b
+	sh_ok "stab b | p2m -n 16 | poisson-fft | m2p --field phi | stab --plain --set matter > c"
+	within "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "phi") c = i; next } { print $c }' c)" 0.25 1e-12
+}
+
+@test "two species of opposite charge and unequal mass: equal and opposite momentum" {
+	printf 'x v mass charge id\n0.3 0 1 -1 0\n' > e
+	printf 'x v mass charge id\n0.55 0 25 1 1\n' > i
+	for s in e i; do sh_ok "stab $s --law electrostatic --box 0,1 --faces periodic --particle-faces periodic --dt 0.01 --strength mass,charge --set $s > $s.f"; done
+	sh_ok "stack e.f i.f | cycle -n 20 '${step/p2m/p2m -n 16}' | diag > t"
+	below "$(column momentum_x < t)" 1e-15
+	[ "$(column charge < t)" = 0 ]
+	awk -v s="$(column momentum_scale < t)" 'BEGIN { exit !(s > 1e-3) }'
+}
