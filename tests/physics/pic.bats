@@ -60,3 +60,30 @@ swing() {
 	[ "$(column charge < t)" = 0 ]
 	awk -v s="$(column momentum_scale < t)" 'BEGIN { exit !(s > 1e-3) }'
 }
+
+@test "passive particles go with a given velocity, in any scheme" {
+	printf 'x y\n0.25 0.5\n0.9 0.1\n' > t
+	sh_ok "stab t --law passive --box 0,1 --faces periodic --particle-faces periodic --dt 0.1 --cells 8 > a"
+	stab < a | sed '1s/"fields":\[{/"fields":[{"components":2,"kind":"value","name":"u","on":"mesh","role":"state","type":"f64","uniform":[0.5,-0.25],"unit":""},{/' > b
+	for words in rk4 euler; do
+		sh_ok "stab b | cycle -n 4 'm2p | push $words' | stab --plain > c"
+		within "$(awk 'NR == 2 { print $1 }' c)" 0.45 1e-14
+		within "$(awk 'NR == 3 { print $2 }' c)" 0 1e-14
+	done
+	run -1 --separate-stderr m2p -i a
+	[[ $stderr == *"no field 'u'"* ]]
+}
+
+@test "a magnetic field that varies is interpolated to the particles, with the kernel of the transfer" {
+	sh_ok "pinit gyration -n 5 --length 4 --velocities 3 > a; scalc --mesh mesh 'B = 0, 0, 1 + x / 4' < a > b"
+	sh_ok "m2p < b | stab --plain --set electrons > c"
+	awk 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "x") x = i; if ($i ~ /^bfield/) b = i } next } NF { d = $b - 1 - $x / 4; if (d * d > 1e-28) exit 1; n++ } END { exit n != 5 }' c
+}
+
+@test "a given E on another mesh adds to the one that is solved for, as terms of their own" {
+	sh_ok "pinit langmuir -n 64 --cells 16 | p2m | poisson-fft | mgrad | m2p > a; stab --plain --set electrons < a > a.t"
+	stab < a | sed '1s/"fields":\[{/"fields":[{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""},{/; 1s/"meshes":\[/"meshes":[{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"},/' > b
+	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep -q '\"terms\":\[\"self\",\"external\"\]'"
+	# q/m = -1
+	paste a.t c.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i ~ /^acc/) c = i; next } { d = $(c + n) - $c + 0.5; if (d * d > 1e-28) exit 1 } END { exit !c }'
+}
