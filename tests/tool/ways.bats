@@ -108,3 +108,12 @@ vortices() {
 	PM_PLAN=estimate cycle -n 4 --resume c --other-plans "$s" > e
 	XDG_CACHE_HOME=$PWD/a PM_PLAN=measure cycle -n 4 --resume c "$s" > f
 }
+
+@test "a plasma's bytes do not depend on the way of running: leapfrog on an odd mesh" {
+	all_ways "pinit two-stream -n 2000 --vth 0.1 --amplitude 0.1" "p2m -n 33 | poisson-fft | mgrad | m2p" \
+		"push kick/2 drift | p2m -n 33 | poisson-fft | mgrad | m2p | push kick/2" 1
+}
+
+@test "a plasma's bytes do not depend on the way of running: boris in given fields" {
+	all_ways "pinit exb -n 7 --speed 1" "m2p" "push boris/2 drift | m2p | push boris/2" 1
+}
