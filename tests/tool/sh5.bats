@@ -14,6 +14,14 @@ attribute() { h5dump -a "$2" "$1" | sed -n '/DATA {/,/}/{/DATA {/d; /}/d; s/^ *(
 
 mesh() { pinit plummer -n "${1:-50}" --seed 1 --cells 8x7x10 --no-history | p2m --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history; }
 
+# says CODE LINE COMMAND...: exit status and the one line on stderr.
+says() {
+	local code=$1 line=$2
+	shift 2
+	run -"$code" --separate-stderr "$@"
+	[[ ${#stderr_lines[@]} = 1 && $stderr == $line ]] || { echo "$*: $stderr"; return 1; }
+}
+
 @test "stream to HDF5 to stream gives equal bytes: particles, meshes, uniform, history, report" {
 	mesh >a.pm
 	there_and_back a.pm
@@ -150,6 +158,45 @@ for n, on in ((3, "more matter"), (2, "more_matter")):
 	[ "$(attribute back.h5 /data/0/meshes/g/z/position)" = "0.5, 0, 0" ]
 }
 
+# stranger FILE: the same file as if another program had written it: without the attributes that are ours.
+stranger() { sed 's/pmpipeHeader/pmpipeHeadex/; s/pmpipeReport/pmpipeReport/; s/pmpipeStreams/pmpipeStreamx/' "$1"; }
+# columns FILE.pm [--mesh NAME] NAMES: those columns of stab --plain.
+columns() { stab --plain "${@:2:$#-2}" <"$1" | awk -F'\t' -v names="${*: -1}" 'NR == 1 { n = split(names, w, ","); for (i = 1; i <= NF; i++) at[$i] = i; next } { for (k = 1; k <= n; k++) printf "%s ", $at[w[k]]; print "" }'; }
+
+@test "a file of another program is read: particles, weighting, meshes, time" {
+	mesh >a.pm
+	wire edit a.pm 'h["time"] = 1.5; h["step"] = 7
+h["fields"].append({"name": "weighting", "on": "matter", "components": 1, "type": "f64", "role": "state", "kind": "value", "unit": "", "uniform": [2.5]}); data.append(bytearray())' >b.pm
+	sh5 -o b.h5 <b.pm
+	stranger b.h5 >c.h5
+	sh5 c.h5 >c.pm
+	cmp <(columns b.pm x,y,z,vx,vy,vz,id) <(columns c.pm x,y,z,vx,vy,vz,id)
+	cmp <(columns b.pm --mesh mesh x,y,z,rho,phi,g_0,g_1,g_2) <(columns c.pm --mesh mesh x,y,z,rho,phi,g_0,g_1,g_2)
+	wire header c.pm | python3 -c '
+import json, sys
+h = json.load(sys.stdin)
+field = {k["name"]: k for k in h["fields"]}
+assert h["time"] == 1.5 and h["step"] == 7 and h["box"]["lo"] == [-14, -14, -14] and h["box"]["hi"] == [14, 14, 14], h
+assert field["weighting"]["kind"] == field["mass"]["kind"] == "strength" and field["weighting"]["uniform"] == [2.5], field
+assert [e["program"] for e in h["history"]] == ["sh5"], h["history"]'
+}
+
+@test "a file of another program: axes in another order, components at different places, what cannot be read" {
+	mesh >a.pm
+	wire edit a.pm 'next(k for k in h["fields"] if k["name"] == "g")["half"] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]' | sh5 -o a.h5
+	stranger a.h5 >b.h5
+	sh5 b.h5 >b.pm
+	cmp <(columns a.pm --mesh mesh rho) <(columns b.pm --mesh "$(wire header b.pm | python3 -c 'import json, sys; print(next(k["on"] for k in json.load(sys.stdin)["fields"] if k["name"] == "rho"))')" rho)
+	[ "$(wire header b.pm | python3 -c 'import json, sys; h = json.load(sys.stdin); print(len(h["meshes"]), [k["name"] for k in h["fields"] if k["name"][0] == "g"], [m["lo"] for m in h["meshes"]][0])')" = "4 ['g_x', 'g_y', 'g_z'] [-12.25, -14.0, -14.0]" ]
+	sh5 -o c.h5 <a.pm
+	stranger c.h5 | sed 's/zyx/xyz/g' >d.h5
+	sh5 d.h5 >d.pm
+	# The axes change places: sorted by the slowest first, the values are in the order of before.
+	cmp <(columns a.pm --mesh mesh rho) <(columns d.pm --mesh mesh x,y,z,rho | LC_ALL=C sort -g -k1,1 -k2,2 -k3,3 | awk '{ print $4 " " }')
+	stranger c.h5 | sed 's/cartesian/thetaMode/g' >e.h5
+	says 1 "sh5: iteration 0: mesh 'g': only cartesian*" sh5 e.h5
+}
+
 @test "openPMD-validator finds no error" {
 	command -v openPMD_check_h5 >/dev/null || skip "openPMD-validator is not there"
 	mesh | sh5 -o a.h5
@@ -176,14 +223,6 @@ for n, on in ((3, "more matter"), (2, "more_matter")):
 	diag -i d.h5 | cmp - <(sh5 d.h5 | diag)
 	sh5 -i d.h5 -o e.h5
 	cmp d.h5 e.h5
-}
-
-# says CODE LINE COMMAND...: exit status and the one line on stderr.
-says() {
-	local code=$1 line=$2
-	shift 2
-	run -"$code" --separate-stderr "$@"
-	[[ ${#stderr_lines[@]} = 1 && $stderr == $line ]] || { echo "$*: $stderr"; return 1; }
 }
 
 @test "what cannot be read is refused in one line" {
