@@ -17,6 +17,8 @@ struct pm_run {
 	struct pm_common common;
 	int ngiven;
 	const char *given[128]; /* long names */
+	int ncopies;
+	char *copies[PM_LIST_MOST]; /* texts of list options, cut into their items */
 	struct pm_reader *reader;
 	struct pm_writer *writer;
 	struct pm_rest *rest; /* behind the writer, where the output is HDF5; else NULL */

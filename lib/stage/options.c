@@ -132,10 +132,12 @@ static int vector(const struct pm_option *o, const char *text, struct pm_vector 
 	return pm_fail(PM_USAGE, "--%s '%s' has more than %d numbers", o->name, text, PM_COMPONENTS);
 }
 
-/* The copies live as long as the process, like argv. */
-static int list(const struct pm_option *o, const char *text, struct pm_list *out)
+/* The copies live as long as the stage. */
+static int list(struct pm_run *run, const struct pm_option *o, const char *text, struct pm_list *out)
 {
 	char *copy = strdup(text), *next = NULL;
+	if (run->ncopies < PM_LIST_MOST)
+		run->copies[run->ncopies++] = copy;
 	for (char *item = copy ? strtok_r(copy, ",", &next) : NULL; item; item = strtok_r(NULL, ",", &next)) {
 		if (!is_choice(o, item))
 			return not_a_choice(o, item);
@@ -146,7 +148,7 @@ static int list(const struct pm_option *o, const char *text, struct pm_list *out
 	return 0;
 }
 
-static int set_value(const struct pm_option *o, const char *text, char *config)
+static int set_value(struct pm_run *run, const struct pm_option *o, const char *text, char *config)
 {
 	void *at = config + o->offset;
 	switch (o->kind) {
@@ -169,15 +171,15 @@ static int set_value(const struct pm_option *o, const char *text, char *config)
 	case PM_VECTOR:
 		return vector(o, text, at);
 	case PM_LIST:
-		return list(o, text, at);
+		return list(run, o, text, at);
 	}
 	return 0;
 }
 
-static int set_default(const struct pm_option *o, char *config)
+static int set_default(struct pm_run *run, const struct pm_option *o, char *config)
 {
 	if (o->fallback)
-		return set_value(o, o->fallback, config);
+		return set_value(run, o, o->fallback, config);
 	if (o->kind == PM_INTEGER)
 		*(int64_t *)(void *)(config + o->offset) = INT64_MIN;
 	if (o->kind == PM_REAL)
@@ -251,7 +253,7 @@ static int option(struct pm_stage *s, int argc, char **argv, int i)
 		took = 2;
 	}
 	char *config = f.common ? (char *)&s->run->common : s->config;
-	int status = set_value(f.row, value, config);
+	int status = set_value(s->run, f.row, value, config);
 	if (status)
 		return status;
 	note(s, f.row, value);
@@ -284,7 +286,7 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 	pm_option_rows(s->tool, rows);
 	for (int k = 0; k < PM_ROWS; k++)
 		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
-			int status = set_default(o, k == PM_ROWS - 1 ? (char *)&s->run->common : s->config);
+			int status = set_default(s->run, o, k == PM_ROWS - 1 ? (char *)&s->run->common : s->config);
 			if (status)
 				return status;
 		}

@@ -13,8 +13,11 @@ struct pm_stage *pm_stage_free(struct pm_stage *s)
 		return NULL;
 	if (s->tool->free && s->state)
 		s->tool->free(s);
-	if (s->run)
+	if (s->run) {
 		pm_reader_close(s->run->reader);
+		for (int i = 0; i < s->run->ncopies; i++)
+			free(s->run->copies[i]);
+	}
 	json_decref(s->entry);
 	free(s->config), free(s->state), free((void *)s->args), free(s->word), free(s->run), free(s);
 	return NULL;

@@ -291,7 +291,7 @@ static double gaussian(int dim, size_t n, bool oblong, double *middle)
 		g.h[d] = 12.0 / (double)g.cells[d];
 	}
 	size_t total = pm_grid_size(&g);
-	double *s = malloc(total * sizeof *s), *phi = malloc(total * sizeof *phi), error = 0;
+	double *s = calloc(total, sizeof *s), *phi = calloc(total, sizeof *phi), error = 0;
 	const double centre[3] = {6, 6, 6};
 	for (size_t q = 0; q < total; q++)
 		s[q] = exp(-pow(distance(&g, q, centre), 2) / 2) / pow(2 * pm_pi, 0.5 * dim);
