@@ -10,20 +10,22 @@ export PM_BIN=$bin
 export LC_ALL=C OMP_WAIT_POLICY=passive # threads that wait leave the core to the other stages of a pipe
 passed=0 failed=0 skipped=0
 
-# A unit test that dies, or says so by its exit status alone, counts as one failure.
+# As many at a time as there are processors. One that dies, or says so by its exit status alone, counts as one failure.
 unit_tests() {
-	local t out status bad
+	local t out status bad results=$B/unit-results
+	mkdir -p "$results"
+	find tests/unit -name '*.c' | sed 's|.*/||; s|\.c$||' | sort |
+		# shellcheck disable=SC2016 # for the inner shell
+		B=$B results=$results xargs -r -P "$(nproc)" -I{} sh -c '${PM_WRAP:-} "$B/tests/unit/{}" >"$results/{}" 2>&1 </dev/null; echo $? >>"$results/{}"'
 	for t in tests/unit/*.c; do
-		[ -e "$t" ] || continue
-		t=$B/${t%.c}
-		# shellcheck disable=SC2086 # PM_WRAP is a command with options
-		out=$(${PM_WRAP:-} "$t" 2>&1)
-		status=$?
+		t=${t##*/} t=${t%.c}
+		status=$(tail -n 1 "$results/$t")
+		out=$(sed '$d' "$results/$t")
 		bad=$(grep -c '^not ok' <<<"$out")
 		passed=$((passed + $(grep -c '^ok' <<<"$out")))
-		[ $status != 0 ] && [ "$bad" = 0 ] && bad=1 && out+=$'\n'"not ok - exit status $status"
+		[ "$status" != 0 ] && [ "$bad" = 0 ] && bad=1 && out+=$'\n'"not ok - exit status $status"
 		failed=$((failed + bad))
-		[ "$bad" = 0 ] || printf '%s\n' "--- $t" "$(grep -v '^ok' <<<"$out" | head -n 40)"
+		[ "$bad" = 0 ] || printf '%s\n' "--- $B/tests/unit/$t" "$(grep -v '^ok' <<<"$out" | head -n 40)"
 	done
 }
 
