@@ -5,7 +5,8 @@ ifeq ($(origin CC),default)
 CC = gcc
 endif
 B ?= build
-PREFIX ?= /usr/local
+prefix ?= /usr/local
+PREFIX ?= $(prefix)
 VERSION := $(shell sed -n 's/^\#define PM_VERSION "\(.*\)"/\1/p' lib/base/base.h)
 SOVERSION = 0
 

@@ -44,7 +44,7 @@ static const struct pm_option options[] = {
 	{.name = "log", .kind = PM_FLAG, .text = "colours by the logarithm", .offset = offsetof(struct config, log)},
 	{.name = "linear", .kind = PM_FLAG, .text = "colours of a density by the number itself, not its logarithm", .offset = offsetof(struct config, linear)},
 	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", .text = "numbers at the ends of the colours; those of each frame without", .offset = offsetof(struct config, range)},
-	{.name = "window", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", .text = "the part to show; the box without", .offset = offsetof(struct config, window)},
+	{.name = "area", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", .text = "the part to show; the box without", .offset = offsetof(struct config, window)},
 	{.name = "map", .kind = PM_WORD, .choices = maps, .fallback = "auto", .text = "colours; auto: viridis for fields, inferno for densities, coolwarm for numbers of both signs", .offset = offsetof(struct config, map)},
 	{.name = "size", .kind = PM_INTEGER, .unit = "pixels", .fallback = "640", .low = 64, .high = 8192, .text = "the longer side of the data area", .offset = offsetof(struct config, size)},
 	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", .text = "title; scene, field, time and step without", .offset = offsetof(struct config, title)},
@@ -83,7 +83,7 @@ static int begin(struct pm_stage *s)
 	if (c->range.n && (c->range.n != 2 || !(c->range.x[1] > c->range.x[0])))
 		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
 	if (c->window.n && (c->window.n != 4 || !(c->window.x[1] > c->window.x[0]) || !(c->window.x[3] > c->window.x[2])))
-		return pm_fail(PM_USAGE, "--window takes XLO,XHI,YLO,YHI with each LO below its HI");
+		return pm_fail(PM_USAGE, "--area takes XLO,XHI,YLO,YHI with each LO below its HI");
 	if (c->component && component_of(c->component) < 0)
 		return pm_fail(PM_USAGE, "--component '%s' is none of x, y, z or a number from 0 to %d", c->component, PM_COMPONENTS - 1);
 	if (c->project && !isnan(c->slice))

@@ -52,6 +52,7 @@ static int begin(struct pm_stage *s)
 	for (int i = 0; i < c->frames.n; i++)
 		if (!range(c->frames.item[i], &first, &last))
 			return pm_fail(PM_USAGE, "--frames '%s' is neither N nor N:M with N from 1 and not above M", c->frames.item[i]);
+	s->leaves_out = c->frames.n || c->every > 1 || c->last;
 	return 0;
 }
 

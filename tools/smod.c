@@ -146,7 +146,7 @@ static int plan_set(const struct config *c, struct pm_frame *f, const char *on, 
 		if (p->role != PM_STATE)
 			return pm_fail(PM_DATA, "'%s' is a %s field, which is computed again, not scaled", p->name, pm_role_names[p->role]);
 		*touched |= 1;
-		if (p->uniform && !moves(c, p)) { /* stays uniform: no data to load */
+		if (p->uniform && !moves(c, p) && strcmp(p->name, "x")) { /* stays uniform: no data to load; positions are folded */
 			for (int i = 0; i < p->components; i++)
 				p->value[i] *= by;
 			k++;

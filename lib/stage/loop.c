@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "stage/internal.h"
@@ -54,6 +55,23 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	return status;
 }
 
+/* Said before anything is computed: the target can be written, and is not a device that the rename would replace. */
+static int checkpoint_check(const char *name)
+{
+	struct stat st;
+	char temporary[4096];
+	if (!name)
+		return 0;
+	if (!stat(name, &st) && !S_ISREG(st.st_mode))
+		return pm_fail(PM_USAGE, "--checkpoint '%s' is not a file", name);
+	snprintf(temporary, sizeof temporary, "%s.part", name);
+	struct pm_writer *w = pm_writer_open(temporary);
+	if (!w)
+		return pm_failed();
+	unlink(temporary);
+	return pm_writer_close(w);
+}
+
 static int write_out(struct cycle *y, struct pm_frame *f)
 {
 	y->written = f->step;
@@ -74,7 +92,8 @@ static bool done(const struct cycle *y, const struct pm_frame *f)
 {
 	if (f->substep)
 		return false;
-	return (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && f->time >= y->c->time - f->dt / 2);
+	bool late = f->dt < 0 ? f->time <= y->c->time - f->dt / 2 : f->time >= y->c->time - f->dt / 2; /* time may run backwards */
+	return (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && late);
 }
 
 static int prime(struct cycle *y, struct pm_frame **f)
@@ -114,6 +133,11 @@ static int pass(struct cycle *y, struct pm_frame **f)
 		return -PM_DATA;
 	if ((*f)->step == step && (*f)->substep == substep)
 		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
+	if ((*f)->step > step && (*f)->substep)
+		return pm_fail(PM_USAGE, "one pass of the sentence completes a step and begins another (a drift whose kick comes later is written drift --open)");
+	if ((*f)->step > step + 1)
+		return pm_fail(PM_USAGE, "one pass of the sentence completes %lld steps; cycle counts them one at a time (one scheme, or one pair of half kicks)",
+			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);
 	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
@@ -172,6 +196,9 @@ static int frames(struct cycle *y, struct pm_reader *in)
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
 	struct cycle y = {.c = c, .s = s};
+	int bad = checkpoint_check(c->checkpoint);
+	if (bad)
+		return bad;
 	y.words = pm_sentence_new(s->args[0], !strcmp(c->engine, "fused"), &c->moves);
 	if (!y.words)
 		return pm_failed();

@@ -265,6 +265,17 @@ static int option(struct pm_stage *s, int argc, char **argv, int i)
 	return took;
 }
 
+static int utf8_check(int argc, char **argv)
+{
+	for (int i = 1; i < argc; i++) {
+		json_t *j = json_string(argv[i]);
+		json_decref(j);
+		if (!j)
+			return pm_fail(PM_USAGE, "word %d of the command line is not UTF-8", i);
+	}
+	return 0;
+}
+
 static int arguments_check(const struct pm_stage *s)
 {
 	const struct pm_tool *t = s->tool;
@@ -283,6 +294,9 @@ static int arguments_check(const struct pm_stage *s)
 int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 {
 	const struct pm_option *rows[PM_ROWS];
+	int bad = utf8_check(argc, argv);
+	if (bad)
+		return bad;
 	pm_option_rows(s->tool, rows);
 	for (int k = 0; k < PM_ROWS; k++)
 		for (const struct pm_option *o = rows[k]; o && o->name; o++) {

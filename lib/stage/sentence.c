@@ -140,6 +140,11 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		status = pm_stage_begin(w->stage);
 	if (status)
 		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	const struct pm_common *k = &w->stage->run->common;
+	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version)
+		return pm_fail(PM_USAGE, "'%s': files, timing and help belong to cycle itself, not inside a sentence", w->stage->word);
+	if (w->stage->leaves_out)
+		return pm_fail(PM_USAGE, "'%s' leaves frames out: inside a sentence every frame goes on", w->stage->word);
 	if (w->stage->kind == PM_SINK)
 		return pm_fail(PM_USAGE, "'%s' ends a stream and cannot stand inside a sentence (diag --tee FILE can)", w->argv[0]);
 	return 0;

@@ -66,6 +66,7 @@ struct pm_stage {
 	const char **args;   /* what is not an option */
 	char *word;          /* as typed, without the options of the library; keys the report */
 	json_t *entry;       /* for the history; NULL with --no-history */
+	bool leaves_out;     /* set by begin: some frames do not come out again, so it cannot stand inside a sentence */
 	bool verbose, planning; /* planning: this plan is a trial on a bare header (cycle), not to be cached or counted */
 	double setup, seconds;  /* spent in begin and plan; in frame */
 	struct pm_run *run;  /* of the library */

@@ -53,8 +53,10 @@ int pm_frame_store(struct pm_frame *f, const char *choice)
 			k++;
 		if (mine && real)
 			p->type = to;
-		for (int j = 0; mine && real && to == PM_F32 && p->uniform && j < p->components; j++)
+		for (int j = 0; mine && real && to == PM_F32 && p->uniform && j < p->components; j++) {
 			p->value[j] = (float)p->value[j];
+			pm_field_forget(p);
+		}
 	}
 	if (!found)
 		return pm_fail(PM_DATA, "no field '%.*s' to store (sls lists what there is)", (int)(sign - choice), choice);

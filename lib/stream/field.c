@@ -121,7 +121,7 @@ static int not_finite(const struct pm_field *field, int code)
 		for (size_t i = 0; i < field->count; i++)
 			if (!isfinite(pm_in(field, c)[i]))
 				return pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name, field->on, c, i,
-					code == PM_DATA ? "find it with sls --data, take it out with sel --where" : "a smaller dt, or a larger softening");
+					code == PM_DATA ? "made by what came before; sel --drop leaves the field out" : "a smaller dt, or a larger softening");
 	return 0;
 }
 
@@ -162,6 +162,8 @@ int pm_field_resize(struct pm_field *field, size_t count)
 	field->buffer = b;
 	return 0;
 }
+
+void pm_field_forget(struct pm_field *field) { field->buffer = buffer_free(field->buffer); }
 
 void *pm_field_bytes(struct pm_field *field) { return field->buffer ? field->buffer->data : NULL; }
 

@@ -131,6 +131,7 @@ int pm_frame_ready(struct pm_frame *f);
 int pm_frame_settle(struct pm_frame *f);
 int pm_field_ready(struct pm_field *field);
 int pm_field_hold(struct pm_field *field); /* a buffer of its own, contents undefined */
+void pm_field_forget(struct pm_field *field); /* lets the data go, as after a change of the uniform value */
 void *pm_field_bytes(struct pm_field *field); /* the buffer as it is, NULL if none */
 /* Sets that change the number of particles (plan returned PM_HOLD, everything is loaded): every field of the set gets count n and keeps its
  * first values, so one that loses particles compacts first and resizes then. */

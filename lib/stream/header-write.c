@@ -110,10 +110,33 @@ static bool header_finite(const struct pm_frame *f)
 	return good;
 }
 
+static bool is_utf8(const char *name)
+{
+	json_t *j = json_string(name);
+	json_decref(j);
+	return j != NULL;
+}
+
+static bool names_utf8(const struct pm_frame *f)
+{
+	bool good = is_utf8(f->law) && is_utf8(f->scene);
+	for (size_t i = 0; i < f->nsets; i++)
+		good = good && is_utf8(f->sets[i]->name);
+	for (size_t i = 0; i < f->nmeshes; i++)
+		good = good && is_utf8(f->meshes[i]->name);
+	for (size_t i = 0; i < f->nfields; i++)
+		good = good && is_utf8(f->fields[i]->name) && is_utf8(f->fields[i]->on) && is_utf8(f->fields[i]->unit);
+	return good;
+}
+
 json_t *pm_header_json(const struct pm_frame *f)
 {
 	if (!header_finite(f)) {
 		pm_fail(PM_NUMERICS, "a number of the header is not finite (time, dt, box, mesh or a uniform field)");
+		return NULL;
+	}
+	if (!names_utf8(f)) {
+		pm_fail(PM_DATA, "a name or unit is not UTF-8");
 		return NULL;
 	}
 	json_t *j = json_copy(f->more), *sets = json_array(), *meshes = json_array(), *fields = json_array();

@@ -101,7 +101,7 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 {
 	json_t *j = pm_header_json(f);
 	if (!j)
-		return -PM_NUMERICS;
+		return pm_failed();
 	char *text = pm_json_line(j);
 	json_decref(j);
 	if (!text)

@@ -83,7 +83,7 @@ swing() {
 @test "a given E on another mesh adds to the one that is solved for, as terms of their own" {
 	sh_ok "pinit langmuir -n 64 --cells 16 | p2m | poisson-fft | mgrad | m2p > a; stab --plain --set electrons < a > a.t"
 	stab < a | sed '1s/"fields":\[{/"fields":[{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""},{/; 1s/"meshes":\[/"meshes":[{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"},/' > b
-	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep -q '\"terms\":\[\"self\",\"external\"\]'"
+	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep '\"terms\":\[\"self\",\"external\"\]' >/dev/null"
 	# q/m = -1
 	paste a.t c.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i ~ /^acc/) c = i; next } { d = $(c + n) - $c + 0.5; if (d * d > 1e-28) exit 1 } END { exit !c }'
 }

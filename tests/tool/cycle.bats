@@ -160,3 +160,38 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	run -1 bash -c "set -o pipefail; pinit two-body | cycle -n 2 '$leap' | pp > b"
 	[[ $output == *"already holds the term 'self'"* ]]
 }
+
+@test "a sentence that is out of step with itself is refused, not run for ever" {
+	pinit two-body > a
+	run -2 bash -c "timeout 10 cycle -n 3 'push drift | pp | push kick' < a > b"
+	[[ $output == *"drift --open"* ]]
+	sh_ok "cycle -n 3 'push drift --open | pp | push kick' < a | diag"
+	run -2 bash -c "timeout 10 cycle -n 3 'pp | push euler | pp | push euler' < a > b"
+	[[ $output == *"completes 2 steps"* ]]
+}
+
+@test "words that leave frames out, and files inside a sentence, are refused in both engines" {
+	pinit two-body > a
+	for engine in fused pipes; do
+		run -2 bash -c "timeout 10 cycle -n 2 --engine $engine 'sel --every 2 | pp | push rk2' < a > b"
+		[[ $output == *"leaves frames out"* ]]
+		run -2 bash -c "timeout 10 cycle -n 2 --engine $engine 'pp -i a | push rk2' < a > b"
+		[[ $output == *"belong to cycle itself"* ]]
+	done
+}
+
+@test "a checkpoint that cannot be written is refused before anything is computed" {
+	pinit two-body > a
+	run -2 bash -c "cycle -n 2 --checkpoint /dev/null '$leap' < a > b"
+	[[ $output == *"is not a file"* ]]
+	run -1 bash -c "cycle -n 2 --checkpoint nowhere/c '$leap' < a > b"
+	[ -c /dev/null ]
+}
+
+@test "fused and piped agree where a uniform field is stored as f32" {
+	pinit uniform -n 200 --cells 8 --dispersion 0.1 --no-history > a
+	for engine in fused pipes; do
+		cycle --no-history -n 2 --engine $engine 'push drift | p2m -n 16 | smod --store f32' < a | cksum
+	done | sort -u > sums
+	[ "$(wc -l < sums)" -eq 1 ]
+}

@@ -102,7 +102,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	sdraw --size 64 --format ppm <a >p0
 	i=0
 	for o in '--x x --y z' '--y vx' '--colour hypot(vx,vy)' '--field v' '--weight mass' '--style density' '--style density --linear' '--style density --log --map grey' \
-		'--colour x --range 0,1' '--colour x --map magma' '--window -2,2,-2,2' '--title hello' '--size 70' '--colour abs(x)+1 --log' '--set matter --style points --window -3,3,-3,3'; do
+		'--colour x --range 0,1' '--colour x --map magma' '--area -2,2,-2,2' '--title hello' '--size 70' '--colour abs(x)+1 --log' '--set matter --style points --area -3,3,-3,3'; do
 		i=$((i + 1))
 		# shellcheck disable=SC2086
 		sdraw --size 64 --format ppm $o <a >p$i
@@ -127,7 +127,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	run -1 bash -c 'sdraw --field w --component 2 -o p.png <m'
 	run -1 bash -c 'sdraw --set matter -o p.png <m'
 	run -1 bash -c 'sdraw --field w --component x --log --range 1,2 -o p.png <m; sdraw --colour "-1-x^2" --log -o p.png <a'
-	for o in '-o p%s.png' '-o %d%d.png' '--range 2,1' '--range 1' '--window 1,2,3' '--component q' '--project --slice 0' '--log --linear' '--size 5' '--map rainbow' '--format gif' '--style art' '--axis w' '--log --range 0,1 --colour x'; do
+	for o in '-o p%s.png' '-o %d%d.png' '--range 2,1' '--range 1' '--area 1,2,3' '--component q' '--project --slice 0' '--log --linear' '--size 5' '--map rainbow' '--format gif' '--style art' '--axis w' '--log --range 0,1 --colour x'; do
 		run -2 bash -c "sdraw $o <a"
 	done
 	run -1 bash -c 'sdraw -o /nonexistent/p.png <a'
