@@ -17,7 +17,8 @@
 struct pm_chain {
 	int n;
 	bool broken; /* a process failed: the others are told to go */
-	pid_t *pid;
+	pid_t *pid;  /* 0: has been waited for */
+	const char **name;
 	struct pm_writer *to;
 	struct pm_reader *from;
 };
@@ -54,6 +55,9 @@ struct pm_chain *pm_chain_new(char ***words)
 		free(c);
 		return NULL;
 	}
+	c->name = calloc((size_t)n, sizeof *c->name);
+	for (int i = 0; c->name && i < n; i++)
+		c->name[i] = words[i][0]; /* the sentence outlives its chains */
 	c->to = pm_writer_of_fd(in[1]);
 	int next = in[0];
 	for (; c->n < n && !status; c->n++) {
@@ -69,7 +73,7 @@ struct pm_chain *pm_chain_new(char ***words)
 	}
 	if (status) {
 		pm_fail_errno("cannot start '%s'", words[c->n - 1][0]);
-		free(c->pid), free(c);
+		free(c->pid), free(c->name), free(c);
 		return NULL;
 	}
 	c->from = pm_reader_of_fd(next);
@@ -97,6 +101,24 @@ static void *sending_run(void *p)
 	return NULL;
 }
 
+/* A stream that was cut: which process died, and how? It may take a moment until the system tells. */
+static int who_died(struct pm_chain *c, int otherwise)
+{
+	for (int tries = 0; tries < 50; tries++) {
+		for (int i = 0, how; i < c->n; i++) {
+			if (c->pid[i] <= 0 || waitpid(c->pid[i], &how, WNOHANG) <= 0)
+				continue;
+			c->pid[i] = 0;
+			if (WIFSIGNALED(how) && WTERMSIG(how) != SIGPIPE)
+				return pm_fail(PM_DATA, "'%s' was killed by signal %d", c->name[i], WTERMSIG(how));
+			if (WIFEXITED(how) && !pm_tool_find(c->name[i]))
+				return pm_fail(PM_DATA, "'%s' ended with status %d before its input did", c->name[i], WEXITSTATUS(how));
+		}
+		usleep(2000);
+	}
+	return otherwise;
+}
+
 /* Sends, and meanwhile reads what comes back. */
 static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **back)
 {
@@ -110,8 +132,14 @@ static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **bac
 	}
 	if (got < 0) {
 		c->broken = true;
+		char message[1024];
+		snprintf(message, sizeof message, "%s", pm_message());
+		bool cut = !pm_reader_aborted(c->from) || strstr(message, "it was cut") || strstr(message, "zero bytes");
+		int died = cut ? who_died(c, 0) : 0; /* one of ours behind it passes on that its input was cut */
+		got = died ? died : pm_fail(-got, "%s", message);
 		for (int i = 0; i < c->n; i++) /* a writer that waits for one of them sees it go */
-			kill(c->pid[i], SIGTERM);
+			if (c->pid[i] > 0)
+				kill(c->pid[i], SIGTERM);
 	}
 	pthread_join(writer, NULL);
 	return got;
@@ -148,12 +176,13 @@ int pm_chain_close(struct pm_chain *c)
 	pm_writer_close(c->to);
 	pm_reader_close(c->from);
 	for (int i = 0; i < c->n; i++) {
-		bool bad = waitpid(c->pid[i], &how, 0) > 0 && (!WIFEXITED(how) || WEXITSTATUS(how));
+		bool bad = c->pid[i] > 0 && waitpid(c->pid[i], &how, 0) > 0 && (!WIFEXITED(how) || WEXITSTATUS(how));
 		if (bad && !c->broken && !status)
 			status = pm_fail(PM_DATA, "process %d of the sentence ended with status %d", i + 1,
 				WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how));
 	}
 	free(c->pid);
+	free(c->name);
 	free(c);
 	return status;
 }

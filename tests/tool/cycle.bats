@@ -195,3 +195,16 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done | sort -u > sums
 	[ "$(wc -l < sums)" -eq 1 ]
 }
+
+@test "a foreign stage that dies is named, with how it ended, in both engines" {
+	pinit two-body > a
+	printf '#!/bin/sh\nhead -c 300 >/dev/null\nexit 7\n' > seven
+	printf '#!/bin/sh\nkill -9 $$\n' > nine
+	chmod +x seven nine
+	for engine in fused pipes; do
+		run -1 bash -c "timeout 10 cycle -n 2 --engine $engine './seven | pp | push rk2' < a > b"
+		[[ $output == *"'./seven' ended with status 7"* && ${#lines[@]} -eq 1 ]]
+		run -1 bash -c "timeout 10 cycle -n 2 --engine $engine './nine | pp | push rk2' < a > b"
+		[[ $output == *"'./nine' was killed by signal 9"* ]]
+	done
+}
