@@ -11,11 +11,11 @@ export LC_ALL=C OMP_WAIT_POLICY=passive # threads that wait leave the core to th
 passed=0 failed=0 skipped=0
 
 # As many at a time as there are processors. One that dies, or says so by its exit status alone, counts as one failure.
+# shellcheck disable=SC2016 # what is in single quotes is for the inner shell
 unit_tests() {
 	local t out status bad results=$B/unit-results
 	mkdir -p "$results"
 	find tests/unit -name '*.c' | sed 's|.*/||; s|\.c$||' | sort |
-		# shellcheck disable=SC2016 # for the inner shell
 		B=$B results=$results xargs -r -P "$(nproc)" -I{} sh -c '${PM_WRAP:-} "$B/tests/unit/{}" >"$results/{}" 2>&1 </dev/null; echo $? >>"$results/{}"'
 	for t in tests/unit/*.c; do
 		t=${t##*/} t=${t%.c}
