@@ -43,7 +43,7 @@ static void round_of(size_t n, enum pm_face face, fftw_plan there, fftw_plan bac
 	double mean, t[5];
 	if (!solver || made != face || cells != n) {
 		pm_poisson_fft_free(solver);
-		solver = pm_poisson_fft_new(&grid, PM_SPECTRAL, PM_MEASURE);
+		solver = pm_poisson_fft_new(&grid, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_MEASURE);
 		made = face, cells = n;
 		if (!solver || pm_poisson_fft_solve(solver, 1, s, phi, &mean))
 			exit(1);

@@ -8,26 +8,36 @@
 
 struct config {
 	struct pm_problem_names names;
+	double screening;
 	const char *symbol, *plan;
 };
+enum { SOLVERS = 4 }; /* kinds of faces that the components of a vector have: one for each axis as the normal one, and one for others */
 struct state {
 	struct pm_problem problem;
-	enum pm_symbol symbol;
+	struct pm_poisson_fft_choice choice;
 	enum pm_effort effort;
-	struct pm_poisson_fft *solver; /* for grid_made and symbol_made */
-	struct pm_grid grid_made;
-	enum pm_symbol symbol_made;
+	int nmade;
+	struct made {
+		struct pm_poisson_fft *solver;
+		struct pm_grid grid;
+		struct pm_poisson_fft_choice choice;
+	} made[SOLVERS];
 };
 
 static const struct pm_option options[] = {
 	{"symbol", 0, PM_WORD, "", NULL, 0, 0, pm_symbol_names,
-		"how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2 or 4 do, which are then inverted exactly (default: the law's)",
+		"how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2, 4 or 6 do, which are then inverted exactly (default: the law's)",
 		false, offsetof(struct config, symbol)},
+	{"screening", 0, PM_REAL, "1/length", "0", 0, 1e150, NULL, "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length", false,
+		offsetof(struct config, screening)},
 	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
 	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
 		offsetof(struct config, names.target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
+	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
+		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
+		offsetof(struct config, names.wall)},
 	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
 		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
@@ -57,8 +67,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	const char *symbol = o->symbol ? o->symbol : t->problem.law->symbol ? t->problem.law->symbol : "spectral";
-	t->symbol = (enum pm_symbol)pm_symbol_find(symbol);
-	status = pm_poisson_fft_check(&t->problem.grid, t->symbol);
+	t->choice = (struct pm_poisson_fft_choice){.symbol = (enum pm_symbol)pm_symbol_find(symbol), .screening = o->screening};
+	status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
 	if (!status)
@@ -72,41 +82,59 @@ static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 		!memcmp(a->h, b->h, sizeof a->h) && !memcmp(a->face, b->face, sizeof a->face);
 }
 
-static int ready(struct pm_stage *s, struct state *t)
+static void forget(struct state *t)
 {
-	if (t->solver && t->symbol == t->symbol_made && same_grid(&t->problem.grid, &t->grid_made))
-		return 0;
-	pm_poisson_fft_free(t->solver);
-	t->solver = pm_poisson_fft_new(&t->problem.grid, t->symbol, t->effort);
-	if (!t->solver)
-		return -PM_DATA;
-	t->grid_made = t->problem.grid;
-	t->symbol_made = t->symbol;
-	const struct pm_planner *p = pm_poisson_fft_planner(t->solver);
+	while (t->nmade)
+		pm_poisson_fft_free(t->made[--t->nmade].solver);
+}
+
+/* The solver for a grid, made where there is none; NULL with a message. */
+static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const struct pm_grid *g)
+{
+	for (int i = 0; i < t->nmade; i++)
+		if (t->choice.symbol == t->made[i].choice.symbol && t->choice.screening == t->made[i].choice.screening && same_grid(g, &t->made[i].grid))
+			return t->made[i].solver;
+	if (t->nmade == SOLVERS || t->problem.source->components == 1)
+		forget(t);
+	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, &t->choice, t->effort);
+	if (!solver)
+		return NULL;
+	t->made[t->nmade++] = (struct made){solver, *g, t->choice};
+	const struct pm_planner *p = pm_poisson_fft_planner(solver);
 	if (*p->note)
 		pm_say(s, "%s", p->note);
 	pm_say(s, "plans: %d from the cache, %d measured, %d estimated", p->stored, p->measured, p->estimated);
+	return solver;
+}
+
+/* One component, and what was removed from its source. */
+static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_planner **plans)
+{
+	struct state *t = s->state;
+	const struct pm_problem *p = &t->problem;
+	struct pm_grid g = pm_problem_grid(p, c);
+	struct pm_poisson_fft *solver = ready(s, t, &g);
+	double mean;
+	if (!solver || pm_poisson_fft_solve(solver, p->c, pm_in(p->source, c), pm_out(p->target, c), &mean))
+		return -PM_DATA;
+	*plans = pm_poisson_fft_planner(solver);
+	char key[32] = "mean_removed";
+	if (p->source->components > 1)
+		snprintf(key, sizeof key, "mean_removed_%d", c);
+	if (pm_poisson_fft_singular(&g, &t->choice))
+		pm_report(s, f, key, mean);
 	return 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
-	if (ready(s, t))
-		return -PM_DATA;
-	for (int c = 0; c < t->problem.source->components; c++) {
-		double mean;
-		if (pm_poisson_fft_solve(t->solver, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &mean))
+	const struct pm_planner *p = NULL;
+	for (int c = 0; c < t->problem.source->components; c++)
+		if (component(s, f, c, &p))
 			return -PM_DATA;
-		char key[32] = "mean_removed";
-		if (t->problem.source->components > 1)
-			snprintf(key, sizeof key, "mean_removed_%d", c);
-		if (pm_poisson_fft_singular(&t->problem.grid))
-			pm_report(s, f, key, mean);
-	}
-	const struct pm_planner *p = pm_poisson_fft_planner(t->solver);
 	char plan_text[48] = "own"; /* transforms of our own: the same everywhere */
-	if (p->n)
+	if (p && p->n)
 		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_effort_names[t->effort], p->sum);
 	pm_report_text(s, f, "plan", plan_text);
 	return 0;
@@ -114,16 +142,16 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static void release(struct pm_stage *s)
 {
-	struct state *t = s->state;
-	t->solver = pm_poisson_fft_free(t->solver);
+	forget(s->state);
 }
 
 const struct pm_tool tool_poisson_fft = {
 	.name = "poisson-fft",
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
-	.about = "Solves lap phi = c*s with the faces of the box: periodic (Fourier), wall (phi = 0, sines), neumann (no normal gradient, cosines) in any "
-		"mixture, or open on all axes (free space, Hockney and Eastwood's doubled domain). Where no face fixes phi, the mean of s is removed "
-		"and reported, and the mean of phi is zero. In free space phi is that of -1/(4 pi r) in 3-D, ln(r)/(2 pi) in 2-D, |x|/2 in 1-D.",
+	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
+		"neumann (no normal gradient, cosines) in any mixture, a wall opposite a neumann face too; or open on all axes (free space, Hockney and "
+		"Eastwood's doubled domain). Where nothing fixes phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved "
+		"component by component. In free space phi is that of -1/(4 pi r) in 3-D, ln(r)/(2 pi) in 2-D, |x|/2 in 1-D.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

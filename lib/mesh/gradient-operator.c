@@ -35,8 +35,6 @@ static int faces(const struct pm_operator *o)
 			if (g->face[d][side] == PM_OPEN && !o->order)
 				return pm_fail(PM_DATA, "--order spectral needs periodic, wall or neumann faces, axis %c is open (choose --order 2, 4 or 6)", "xyz"[d]);
 		}
-		if (!o->order && g->face[d][0] != g->face[d][1])
-			return pm_fail(PM_DATA, "--order spectral needs the same face at both ends of axis %c (choose --order 2, 4 or 6)", "xyz"[d]);
 	}
 	return 0;
 }
@@ -91,7 +89,7 @@ double pm_operator_fastest(const struct pm_operator *o)
 int pm_operator_plan(struct pm_operator *o, struct pm_planner *p)
 {
 	for (int d = 0; d < o->grid.dim && !o->order; d++)
-		if (pm_line_init(p, o->grid.face[d][0], o->grid.cells[d], &o->line[d]))
+		if (pm_line_init(p, o->grid.face[d], o->grid.cells[d], &o->line[d]))
 			return -PM_DATA;
 	return 0;
 }

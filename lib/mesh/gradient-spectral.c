@@ -11,38 +11,38 @@
 enum { L = PM_LANES };
 
 /* Lines along y or z: L neighbours in x. stride: between nodes of a line; width: lines of this block. */
-static void columns(const struct pm_line *l, double h, bool odd, int derivative, double factor, bool add, size_t nodes, size_t stride, size_t width,
+static void columns(const struct pm_line *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t stride, size_t width,
 	const double *in, double *out, double *block)
 {
 	for (size_t i = 0; i < nodes; i++)
 		for (size_t q = 0; q < L; q++)
 			block[i * L + q] = q < width ? in[i * stride + q] : 0;
 	if (derivative == 1)
-		pm_line_derivative(l, h, odd, block);
+		pm_line_derivative(l, h, flip, block);
 	else
-		pm_line_second(l, h, odd, block);
+		pm_line_second(l, h, flip, block);
 	for (size_t i = 0; i < nodes; i++)
 		for (size_t q = 0; q < width; q++)
 			out[i * stride + q] = factor * block[i * L + q] + (add ? out[i * stride + q] : 0);
 }
 
 /* Lines along x: L rows. */
-static void rows(const struct pm_line *l, double h, bool odd, int derivative, double factor, bool add, size_t nodes, size_t width, const double *in,
+static void rows(const struct pm_line *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t width, const double *in,
 	double *out, double *block)
 {
 	for (size_t q = 0; q < L; q++)
 		for (size_t i = 0; i < nodes; i++)
 			block[i * L + q] = q < width ? in[q * nodes + i] : 0;
 	if (derivative == 1)
-		pm_line_derivative(l, h, odd, block);
+		pm_line_derivative(l, h, flip, block);
 	else
-		pm_line_second(l, h, odd, block);
+		pm_line_second(l, h, flip, block);
 	for (size_t q = 0; q < width; q++)
 		for (size_t i = 0; i < nodes; i++)
 			out[q * nodes + i] = factor * block[i * L + q] + (add ? out[q * nodes + i] : 0);
 }
 
-static void term(const struct pm_operator *o, int d, bool odd, double factor, bool add, const double *in, double *out, double *scratch, size_t lot)
+static void term(const struct pm_operator *o, int d, bool flip, double factor, bool add, const double *in, double *out, double *scratch, size_t lot)
 {
 	const size_t *n = o->grid.points, chunks = (n[0] + L - 1) / L;
 	const size_t across = d == 1 ? n[2] : n[1], stride = d == 1 ? n[0] : n[0] * n[1], other = d == 1 ? n[0] * n[1] : n[0];
@@ -52,11 +52,11 @@ static void term(const struct pm_operator *o, int d, bool odd, double factor, bo
 		double *block = scratch + (size_t)omp_get_thread_num() * lot;
 		if (d == 0) {
 			size_t width = n[1] * n[2] - b * L;
-			rows(&o->line[0], o->grid.h[0], odd, o->derivative, factor, add, n[0], width < L ? width : L, in + b * L * n[0], out + b * L * n[0],
+			rows(&o->line[0], o->grid.h[0], flip, o->derivative, factor, add, n[0], width < L ? width : L, in + b * L * n[0], out + b * L * n[0],
 				block);
 		} else {
 			size_t x = b % chunks * L, width = n[0] - x, at = b / chunks * other + x;
-			columns(&o->line[d], o->grid.h[d], odd, o->derivative, factor, add, n[d], stride, width < L ? width : L, in + at, out + at, block);
+			columns(&o->line[d], o->grid.h[d], flip, o->derivative, factor, add, n[d], stride, width < L ? width : L, in + at, out + at, block);
 		}
 	}
 }
@@ -72,7 +72,8 @@ int pm_operator_spectral(const struct pm_operator *o, double factor, const doubl
 		return -PM_DATA;
 	for (int t = 0; t < o->nterms; t++) {
 		const struct pm_operator_term *q = &o->term[t];
-		term(o, q->axis, pm_operator_odd(o, q->in, q->axis, 0), factor * q->sign, t && q->out == q[-1].out, in[q->in], out[q->out], scratch, lot);
+		bool flip = pm_operator_odd(o, q->in, q->axis, 0) != (o->grid.face[q->axis][0] == PM_WALL);
+		term(o, q->axis, flip, factor * q->sign, t && q->out == q[-1].out, in[q->in], out[q->out], scratch, lot);
 	}
 	pm_free(scratch);
 	return 0;

@@ -243,12 +243,12 @@ static void *fft_free(void *fft)
 	for (int s = 0; f && s < f->stages; s++)
 		pm_free(f->twiddle[s]);
 	if (f)
-		pm_free(f->at);
+		pm_free(f->at), pm_free(f->half);
 	free(f);
 	return NULL;
 }
 
-const struct pm_fft *pm_fft(struct pm_planner *p, size_t n)
+static struct pm_fft *fft_new(struct pm_planner *p, size_t n)
 {
 	for (int i = 0; i < p->nmade; i++)
 		if (((struct pm_fft *)p->made[i])->n == n)
@@ -268,4 +268,20 @@ const struct pm_fft *pm_fft(struct pm_planner *p, size_t n)
 		return fft_free(f);
 	p->unmake = fft_free;
 	return p->made[p->nmade++] = f;
+}
+
+const struct pm_fft *pm_fft(struct pm_planner *p, size_t n)
+{
+	return fft_new(p, n);
+}
+
+const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n)
+{
+	struct pm_fft *f = fft_new(p, n);
+	if (!f || f->half)
+		return f;
+	f->half = pm_alloc(2 * n, sizeof *f->half);
+	for (size_t i = 0; f->half && i < n; i++)
+		circle(i, 2 * n, &f->half[2 * i], &f->half[2 * i + 1]);
+	return f->half ? f : NULL;
 }

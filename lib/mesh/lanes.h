@@ -15,10 +15,13 @@ struct pm_fft {
 	double *twiddle[PM_STAGES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
 	double cosine[PM_PRIME + 1][PM_PRIME], sine[PM_PRIME + 1][PM_PRIME]; /* of 2 pi i/p */
 	fftw_plan forward, backward;
+	double *half;              /* cos, sin of pi i/n for i < n; of pm_fft_shifted only */
 };
 
 /* A transform of length n, made once per planner and owned by it. NULL with a message. Never inside a parallel region. */
 const struct pm_fft *pm_fft(struct pm_planner *p, size_t n);
+/* The same with the table that shifts frequencies by a half. */
+const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n);
 
 /* In place, not normalised: rows in natural order to rows at[k], with exp(-2 pi i jk/n); and back, with the opposite sign. */
 void pm_fft_forward(const struct pm_fft *f, double *block);

@@ -1,8 +1,9 @@
 /* Real transforms and spectral derivatives along an axis, by complex FFTs of pairs of real lines a + i b.
  * With length N = n (periodic) or 2n (images) and F the complex transform of the pair,
- *   Hartley: H_k = (1+i)/2 F_k + (1-i)/2 F_{N-k};  DST-I: odd images, S_k = i F_k;  DCT-I: even images, C_k = F_k;
- *   an even operator with eigenvalues u_k on a and v_k on b: F'_k = (u+v)/2 F_k + (u-v)/2 conj F_{N-k}.
- * Source: Bracewell 1983 (Hartley); Swarztrauber 1977 (sine and cosine transforms by images).
+ *   Hartley: H_k = (1+i)/2 F_k + (1-i)/2 F_{N-k};  DST-I: odd images, S_k = i F_k;  DCT-I: even images, C_k = F_k.
+ * A wall at one end and neumann at the other: images that change sign after 2n, waves of k + 1/2 half turns; times exp(-i pi j/N) they have
+ *   period 2n: F is the transform of that, S_k = i F_k with the wall below, C_k = F_k with the wall above; frequencies k and N-1-k are conjugate.
+ * Source: Bracewell 1983 (Hartley); Swarztrauber 1977 (sine, cosine and quarter-wave transforms by images).
  * Cost: n log n per line, twice that with images.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -11,33 +12,64 @@
 
 enum { L = PM_LANES, H = PM_LANES / 2 };
 
-int pm_line_init(struct pm_planner *p, enum pm_face face, size_t n, struct pm_line *line)
+int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line)
 {
-	*line = (struct pm_line){.face = face, .n = n};
-	line->length = face == PM_PERIODIC ? n : 2 * n;
-	line->first = face == PM_WALL;
-	line->count = face == PM_PERIODIC ? n : face == PM_WALL ? n - 1 : n + 1;
-	line->fft = pm_fft(p, line->length);
+	bool periodic = face[0] == PM_PERIODIC, open = face[0] == PM_OPEN, wall[2] = {face[0] == PM_WALL, face[1] == PM_WALL};
+	*line = (struct pm_line){.face = {face[0], face[1]}, .n = n, .length = periodic ? n : 2 * n};
+	line->shifted = !periodic && !open && wall[0] != wall[1];
+	line->first = wall[0];
+	line->count = periodic ? n : n + 1 - wall[0] - wall[1];
+	line->least = wall[0] && wall[1];
+	line->modes = open ? line->length : line->count;
+	line->fft = line->shifted ? pm_fft_shifted(p, line->length) : pm_fft(p, line->length);
 	return line->fft ? 0 : -PM_DATA;
 }
 
-void pm_line_extend(const struct pm_line *l, bool odd, double *block)
+void pm_line_extend(const struct pm_line *l, bool flip, double *block)
 {
-	if (l->face == PM_PERIODIC)
+	if (l->face[0] == PM_PERIODIC)
 		return;
-	if (l->face == PM_OPEN) {
+	if (l->face[0] == PM_OPEN) {
 		if (l->count < l->length)
 			memset(block + l->count * L, 0, (l->length - l->count) * L * sizeof *block);
 		return;
 	}
-	if (odd) {
+	bool odd[2] = {(l->face[0] == PM_WALL) != flip, (l->face[1] == PM_WALL) != flip};
+	if (odd[0])
 		memset(block, 0, L * sizeof *block);
+	if (odd[1])
 		memset(block + l->n * L, 0, L * sizeof *block);
-	}
-	double sign = odd ? -1 : 1;
+	double sign = odd[1] ? -1 : 1;
 	for (size_t i = 1; i < l->n; i++)
 		for (int q = 0; q < L; q++)
 			block[(l->length - i) * L + q] = sign * block[i * L + q];
+}
+
+/* Rows [from, from+count) of a block times exp(-i pi j/N), or exp(+i pi j/N) back. */
+static void twist(const double *half, size_t from, size_t count, bool back, double *block)
+{
+	for (size_t j = from; j < from + count; j++) {
+		double c = half[2 * j], s = back ? -half[2 * j + 1] : half[2 * j + 1], *a = block + j * L;
+		for (int q = 0; q < H; q++) {
+			double re = a[q], im = a[q + H];
+			a[q] = re * c + im * s, a[q + H] = im * c - re * s;
+		}
+	}
+}
+
+void pm_line_forward(const struct pm_line *l, bool flip, double *block)
+{
+	pm_line_extend(l, flip, block);
+	if (l->shifted)
+		twist(l->fft->half, 0, l->length, false, block);
+	pm_fft_forward(l->fft, block);
+}
+
+void pm_line_backward(const struct pm_line *l, double *block)
+{
+	pm_fft_backward(l->fft, block);
+	if (l->shifted)
+		twist(l->fft->half, 0, l->n + 1, true, block);
 }
 
 static void hartley(const struct pm_line *l, double *block)
@@ -53,13 +85,10 @@ static void hartley(const struct pm_line *l, double *block)
 	}
 }
 
-void pm_line_real(const struct pm_line *l, double *block)
+/* Frequencies or nodes [from, from+count), in their rows, times i. */
+static void turn(const struct pm_line *l, size_t from, size_t count, double *block)
 {
-	pm_line_extend(l, l->face == PM_WALL, block);
-	pm_fft_forward(l->fft, block);
-	if (l->face == PM_PERIODIC)
-		hartley(l, block);
-	for (size_t k = 1; k < l->n && l->face == PM_WALL; k++) {
+	for (size_t k = from; k < from + count; k++) {
 		double *a = block + l->fft->at[k] * L;
 		for (int q = 0; q < H; q++) {
 			double re = a[q];
@@ -69,69 +98,77 @@ void pm_line_real(const struct pm_line *l, double *block)
 	}
 }
 
-/* Frequencies k and N-k of lines whose eigenvalues differ between a and b. */
-static void pair_times(const double *u, double *a, double *b)
+void pm_line_real(const struct pm_line *l, double *block)
 {
-	for (int q = 0; q < H; q++) {
-		double s = 0.5 * (u[q] + u[q + H]), d = 0.5 * (u[q] - u[q + H]);
-		double ar = a[q], ai = a[q + H], br = b[q], bi = b[q + H];
-		a[q] = s * ar + d * br, a[q + H] = s * ai - d * bi;
-		b[q] = s * br + d * ar, b[q + H] = s * bi - d * ai;
-	}
+	pm_line_forward(l, false, block);
+	if (l->face[0] == PM_PERIODIC || l->face[0] == PM_OPEN)
+		hartley(l, block);
+	if (l->face[0] == PM_WALL)
+		turn(l, l->least, l->modes, block);
 }
 
-void pm_line_solve(const struct pm_line *l, double factor, const double *lambda, const double *mine, bool singular, double *zero, double *block)
+/* Quarter waves: mode N-1-k is mode k with the sign of sin (wall below) or cos (wall above); nodes are turned by hand, for they come out in the
+ * rows of frequencies. */
+static void quarter_back(const struct pm_line *l, double *block)
 {
-	pm_line_extend(l, l->face == PM_WALL, block);
+	double sign = l->face[0] == PM_WALL ? -1 : 1;
+	for (size_t k = 0; k < l->n; k++)
+		for (int q = 0; q < L; q++)
+			block[(l->length - 1 - k) * L + q] = sign * block[k * L + q];
 	pm_fft_forward(l->fft, block);
-	*zero = block[0];
-	for (size_t k = l->first; k < l->first + l->count && k <= l->length - k; k++) {
-		double u[L], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[k ? l->length - k : 0] * L;
-		for (int q = 0; q < L; q++)
-			u[q] = factor / (lambda[k - l->first] + mine[q]);
-		if (k == 0 && singular)
-			u[0] = 0;
-		if (a == b) /* F_0 and F_{N/2}: a and b are its real and imaginary parts */
-			for (int q = 0; q < L; q++)
-				a[q] *= u[q];
-		else
-			pair_times(u, a, b);
+	for (size_t i = l->first; i < l->first + l->count; i++) {
+		const double *half = l->fft->half + 2 * i;
+		double *a = block + l->fft->at[i] * L;
+		for (int q = 0; q < H; q++) {
+			double re = a[q], im = a[q + H];
+			a[q] = re * half[0] + im * half[1], a[q + H] = im * half[0] - re * half[1];
+		}
 	}
-	if (l->face == PM_WALL)
-		for (int q = 0; q < L; q++)
-			block[q] = block[l->fft->at[l->n] * L + q] = 0;
-	pm_fft_backward(l->fft, block);
+	if (l->face[0] == PM_WALL)
+		turn(l, l->first, l->count, block);
 }
 
-void pm_line_derivative(const struct pm_line *l, double h, bool odd, double *block)
+void pm_line_real_back(const struct pm_line *l, double *block)
+{
+	if (l->shifted) {
+		quarter_back(l, block);
+	} else if (l->face[0] == PM_OPEN) {
+		pm_fft_forward(l->fft, block);
+		hartley(l, block);
+	} else {
+		pm_line_real(l, block);
+	}
+}
+
+void pm_line_derivative(const struct pm_line *l, double h, bool flip, double *block)
 {
 	size_t n = l->length;
-	pm_line_extend(l, odd, block);
-	pm_fft_forward(l->fft, block);
-	memset(block, 0, L * sizeof *block);
-	if (n % 2 == 0)
+	pm_line_forward(l, flip, block);
+	if (!l->shifted)
+		memset(block, 0, L * sizeof *block);
+	if (!l->shifted && n % 2 == 0)
 		memset(block + l->fft->at[n / 2] * L, 0, L * sizeof *block);
-	for (size_t k = 1; k < n - k; k++) {
-		double w = 2 * pm_pi * (double)k / ((double)n * h) / (double)n;
-		double *a = block + l->fft->at[k] * L, *b = block + l->fft->at[n - k] * L;
+	for (size_t k = !l->shifted; k < pm_line_partner(l, k); k++) {
+		double w = 2 * pm_pi * ((double)k + 0.5 * l->shifted) / ((double)n * h) / (double)n;
+		double *a = block + l->fft->at[k] * L, *b = block + l->fft->at[pm_line_partner(l, k)] * L;
 		for (int q = 0; q < H; q++) {
 			double ar = a[q], br = b[q];
 			a[q] = -w * a[q + H], a[q + H] = w * ar;
 			b[q] = w * b[q + H], b[q + H] = -w * br;
 		}
 	}
-	pm_fft_backward(l->fft, block);
+	pm_line_backward(l, block);
 }
 
-void pm_line_second(const struct pm_line *l, double h, bool odd, double *block)
+void pm_line_second(const struct pm_line *l, double h, bool flip, double *block)
 {
 	size_t n = l->length;
-	pm_line_extend(l, odd, block);
-	pm_fft_forward(l->fft, block);
+	pm_line_forward(l, flip, block);
 	for (size_t k = 0; k < n; k++) {
-		double w = 2 * pm_pi * (double)(k <= n - k ? k : n - k) / ((double)n * h), *a = block + l->fft->at[k] * L;
+		size_t p = pm_line_partner(l, k);
+		double w = 2 * pm_pi * ((double)(k <= p ? k : p) + 0.5 * l->shifted) / ((double)n * h), *a = block + l->fft->at[k] * L;
 		for (int q = 0; q < L; q++)
 			a[q] *= -w * w / (double)n;
 	}
-	pm_fft_backward(l->fft, block);
+	pm_line_backward(l, block);
 }

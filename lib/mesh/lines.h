@@ -7,31 +7,40 @@
 #include "mesh/lanes.h"
 
 struct pm_line {
-	enum pm_face face;   /* periodic; wall: odd images; neumann: even images; open: zeros up to the doubled length */
-	size_t n;            /* cells */
-	size_t first, count; /* nodes that take part: all, without the two ends at a wall; the real transforms keep as many modes, in the same rows */
-	size_t length;       /* of the complex transform: n, or 2n where images or zeros fill it */
+	enum pm_face face[2]; /* periodic; wall: odd images; neumann: even images; open: zeros up to the doubled length */
+	bool shifted;         /* a wall at one end, neumann at the other: frequency k stands for k + 1/2, its partner is length-1-k */
+	size_t n;             /* cells */
+	size_t first, count;  /* nodes that take part: all, without the ends at walls */
+	size_t least, modes;  /* of the real transforms: frequency of the first, and how many */
+	size_t length;        /* of the complex transform: n, or 2n where images or zeros fill it */
 	const struct pm_fft *fft; /* of that length; of the planner */
 };
 
-int pm_line_init(struct pm_planner *p, enum pm_face face, size_t n, struct pm_line *line);
+int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line);
 
-/* Fills the rows that are not nodes: images at a wall or neumann face, zeros at an open one. odd: images change sign. */
-void pm_line_extend(const struct pm_line *l, bool odd, double *block);
+/* The frequency whose waves are the conjugates of those of frequency k. */
+static inline size_t pm_line_partner(const struct pm_line *l, size_t k)
+{
+	return l->shifted ? l->length - 1 - k : k ? l->length - k : 0;
+}
 
-/* The real transform that diagonalises even operators with these faces, in place: Hartley (periodic), DST-I (wall), DCT-I (neumann). Nodes in rows
- * first ... first+count-1, mode k = first ... first+count-1 comes out in row fft->at[k]. It is its own inverse up to the factor pm_line.length.
- * Not for open. */
+/* Fills the rows that are not nodes: images at a wall or neumann face, zeros at an open one. flip: odd and even images are exchanged. */
+void pm_line_extend(const struct pm_line *l, bool flip, double *block);
+
+/* Nodes in rows first ... first+count-1 to the spectra of the pairs, frequency k in row fft->at[k]; and back, not normalised. flip as above;
+ * on the way back it makes no difference. Open: the way there only fills in zeros, the half weight of end nodes is the caller's. */
+void pm_line_forward(const struct pm_line *l, bool flip, double *block);
+void pm_line_backward(const struct pm_line *l, double *block);
+
+/* The real transform that diagonalises even operators with these faces: Hartley (periodic; open: of the doubled line), DST-I (wall), DCT-I (neumann),
+ * quarter-wave sines (wall, neumann) and cosines (neumann, wall). Nodes in rows first ... first+count-1, mode m comes out in row fft->at[least+m].
+ * Back: mode m in row least+m, nodes i in row fft->at[i]; together they multiply by length. */
 void pm_line_real(const struct pm_line *l, double *block);
+void pm_line_real_back(const struct pm_line *l, double *block);
 
-/* phi = factor/(lambda + mine) s along the axis, for operators with an eigenvalue lambda[k] per mode k and mine[q] of each of the lines, as a whole: forward,
- * times, back, in place and not normalised. Images are filled in first. Not for open. */
-void pm_line_solve(const struct pm_line *l, double factor, const double *lambda, const double *mine, bool singular, double *zero, double *block);
-
-/* d/dx by i*k in place; Nyquist is zeroed (its derivative vanishes at the nodes). odd: the image rule of the lines at faces that are not periodic.
- * Not for open. */
-void pm_line_derivative(const struct pm_line *l, double h, bool odd, double *block);
+/* d/dx by i*k in place; Nyquist is zeroed (its derivative vanishes at the nodes). Not for open. */
+void pm_line_derivative(const struct pm_line *l, double h, bool flip, double *block);
 /* d2/dx2 by -k^2, likewise. */
-void pm_line_second(const struct pm_line *l, double h, bool odd, double *block);
+void pm_line_second(const struct pm_line *l, double h, bool flip, double *block);
 
 #endif

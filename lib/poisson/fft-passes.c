@@ -64,7 +64,7 @@ static struct group group_of(const struct pm_poisson_fft *p, size_t slab, size_t
 
 static double end_weight(const struct pm_line *l, size_t i)
 {
-	return l->face == PM_OPEN && (i == 0 || i == l->n) ? 0.5 : 1;
+	return (l->face[0] == PM_OPEN && i == 0) || (l->face[1] == PM_OPEN && i == l->n) ? 0.5 : 1;
 }
 
 /* At open faces the end nodes weigh half, as in every sum over a mesh. */
@@ -73,7 +73,8 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 	const struct pm_line *l = &p->line[X];
 	double weight[L], least = 1;
 	for (size_t r = 0; r < L; r++) {
-		weight[r] = end_weight(&p->line[Y], g->j + r * g->dj) * end_weight(&p->line[Z], g->k + r * g->dk);
+		size_t j = p->line[Y].first + g->j + r * g->dj, k = p->line[Z].first + g->k + r * g->dk;
+		weight[r] = end_weight(&p->line[Y], j) * end_weight(&p->line[Z], k);
 		least = weight[r] < least ? weight[r] : least;
 	}
 	for (size_t i = 0; i <= l->n; i++)
@@ -95,18 +96,17 @@ static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, 
 		in[r] = row, out[r] = to + r * p->row;
 	}
 	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
+	if (p->open)
+		weigh(p, g, s.block);
 	if (p->complex) {
-		if (l->face == PM_OPEN)
-			weigh(p, g, s.block);
-		pm_line_extend(l, false, s.block);
-		pm_fft_forward(l->fft, s.block);
+		pm_line_forward(l, false, s.block);
 		pm_spectra_out(l->fft, s.block, g->rows, out);
 		return;
 	}
 	pm_line_real(l, s.block);
-	pm_lanes_out(s.block, l->fft->at + l->first, p->nodes[X], g->rows, out);
+	pm_lanes_out(s.block, l->fft->at + l->least, p->modes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
-		memset(out[r] + p->nodes[X], 0, (p->chunks * L - p->nodes[X]) * sizeof *to);
+		memset(out[r] + p->modes[X], 0, (p->chunks * L - p->modes[X]) * sizeof *to);
 }
 
 static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
@@ -120,12 +120,19 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 		pm_spectra_in(l->fft, g->rows, in, s.block);
 		pm_fft_backward(l->fft, s.block);
 	} else {
-		pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
-		pm_line_real(l, s.block);
+		pm_lanes_in(in, g->rows, p->modes[X], s.block + l->least * L);
+		pm_line_real_back(l, s.block);
 	}
 	pm_lanes_out(s.block, p->complex ? NULL : l->fft->at + l->first, p->nodes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
 		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
+}
+
+/* n rows of a block, as at[] has them, to memory. */
+static void scatter_real(const double *block, const size_t *at, size_t n, size_t stride, double *to)
+{
+	for (size_t i = 0; i < n; i++)
+		memcpy(to + i * stride, block + at[i] * L, L * sizeof *to);
 }
 
 /* Columns of a plane: L lanes at a time. Real modes are put in order, complex ones stay as they come. */
@@ -133,19 +140,18 @@ static void columns(const struct pm_poisson_fft *p, double *plane, bool forward,
 {
 	const struct pm_line *l = &p->line[Y];
 	for (size_t c = 0; c < p->chunks; c++, plane += L) {
-		if (!p->complex) {
-			gather(plane, p->row, p->nodes[Y], block + l->first * L);
+		gather(plane, p->row, forward ? p->nodes[Y] : p->modes[Y], block + (p->complex ? 0 : forward ? l->first : l->least) * L);
+		if (!p->complex && forward) {
 			pm_line_real(l, block);
-			for (size_t i = 0; i < p->nodes[Y]; i++)
-				memcpy(plane + i * p->row, block + l->fft->at[l->first + i] * L, L * sizeof *block);
+			scatter_real(block, l->fft->at + l->least, p->modes[Y], p->row, plane);
+		} else if (!p->complex) {
+			pm_line_real_back(l, block);
+			scatter_real(block, l->fft->at + l->first, p->nodes[Y], p->row, plane);
 		} else if (forward) {
-			gather(plane, p->row, p->nodes[Y], block);
-			pm_line_extend(l, false, block);
-			pm_fft_forward(l->fft, block);
+			pm_line_forward(l, false, block);
 			scatter(block, p->modes[Y], p->row, plane);
 		} else {
-			gather(plane, p->row, p->modes[Y], block);
-			pm_fft_backward(l->fft, block);
+			pm_line_backward(l, block);
 			scatter(block, p->nodes[Y], p->row, plane);
 		}
 	}
@@ -193,43 +199,61 @@ void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io
 	}
 }
 
+/* What multiplies frequency k of a pencil in row j of a plane: factor over the sum of eigenvalues, or times Green's function. lanes: complex modes
+ * of a chunk have H frequencies along x, real ones L. */
+static inline void multiplier(const struct pm_poisson_fft *p, size_t j, size_t k, size_t c, size_t lanes, double factor, double *u)
+{
+	const double *lx = p->lambda[X] + c * lanes, *green = p->green ? p->green + p->fold[j] * p->green_slab + k * p->green_row + c * lanes : NULL;
+	double rest = green ? 0 : p->lambda[Y][j] + p->lambda[Z][k];
+	for (size_t q = 0; q < lanes; q++)
+		u[q] = green ? factor * green[q] : factor / (lx[q] + rest);
+	if (p->singular && j == 0 && k == 0 && c == 0)
+		u[0] = 0;
+}
+
 static void times(const double *u, double *a)
 {
 	for (int q = 0; q < H; q++)
 		a[q] *= u[q], a[q + H] *= u[q];
 }
 
-/* A block of complex pencils: frequencies k and n-k have the same factor. */
-static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+/* Frequencies k and k' of lines whose multipliers differ between a and b: with u on a and v on b F'_k = (u+v)/2 F_k + (u-v)/2 conj F_k'. */
+static void pair_times(const double *u, double *a, double *b)
+{
+	for (int q = 0; q < H; q++) {
+		double s = 0.5 * (u[q] + u[q + H]), d = 0.5 * (u[q] - u[q + H]);
+		double ar = a[q], ai = a[q + H], br = b[q], bi = b[q + H];
+		a[q] = s * ar + d * br, a[q + H] = s * ai - d * bi;
+		b[q] = s * br + d * ar, b[q + H] = s * bi - d * ai;
+	}
+}
+
+static void complex_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
 {
 	const struct pm_line *l = &p->line[Z];
-	const double *lx = p->lambda[X] + c * H, *green = p->green ? p->green + p->fold[j] * p->green_slab + c * H : NULL;
-	size_t n = l->length;
-	pm_line_extend(l, false, block);
-	pm_fft_forward(l->fft, block);
-	if (j == 0 && c == 0)
-		p->zero = block[0];
-	for (size_t k = 0; k <= n - k; k++) {
-		double u[H], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[(n - k) % n] * L;
-		for (int q = 0; q < H; q++)
-			u[q] = green ? factor * green[k * p->green_row + (size_t)q] : factor / (lx[q] + (p->lambda[Y][j] + p->lambda[Z][k]));
-		if (p->singular && j == 0 && c == 0 && k == 0)
-			u[0] = 0;
+	for (size_t k = 0; k <= l->length - k; k++) {
+		double u[H], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[pm_line_partner(l, k)] * L;
+		multiplier(p, j, k, c, H, factor, u);
 		times(u, a);
 		if (a != b)
 			times(u, b);
 	}
-	pm_fft_backward(l->fft, block);
 }
 
-static void real_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
 {
-	double mine[L], zero;
-	for (int q = 0; q < L; q++)
-		mine[q] = p->lambda[X][c * L + (size_t)q] + p->lambda[Y][j];
-	pm_line_solve(&p->line[Z], factor, p->lambda[Z], mine, p->singular && j == 0 && c == 0, &zero, block);
-	if (j == 0 && c == 0)
-		p->zero = zero;
+	const struct pm_line *l = &p->line[Z];
+	for (size_t m = 0; m < l->modes && l->least + m <= pm_line_partner(l, l->least + m); m++) {
+		double u[L], *a = block + l->fft->at[l->least + m] * L, *b = block + l->fft->at[pm_line_partner(l, l->least + m)] * L;
+		multiplier(p, j, m, c, L, factor, u);
+		if (a == b) /* F_0 and F_{N/2}: a and b are its real and imaginary parts */
+			for (int q = 0; q < L; q++)
+				a[q] *= u[q];
+		else
+			pair_times(u, a, b);
+	}
+	if (l->least) /* walls at both ends: no such modes */
+		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->n] * L, 0, L * sizeof *block);
 }
 
 static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, bool spectrum, double *block, double *at)
@@ -238,14 +262,17 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 	gather(at, p->row, p->nodes[Z], block + l->first * L);
 	if (spectrum) {
 		pm_line_real(l, block);
-		for (size_t k = 0; k < p->nodes[Z]; k++)
-			memcpy(at + k * p->row, block + l->fft->at[l->first + k] * L, L * sizeof *block);
+		scatter_real(block, l->fft->at + l->least, p->modes[Z], p->row, at);
 		return;
 	}
+	pm_line_forward(l, false, block);
+	if (j == 0 && c == 0)
+		p->zero = block[0];
 	if (p->complex)
 		complex_pencils(p, j, c, factor, block);
 	else
 		real_pencils(p, j, c, factor, block);
+	pm_line_backward(l, block);
 	scatter(block + l->first * L, p->nodes[Z], p->row, at);
 }
 

@@ -9,8 +9,10 @@ enum { L = PM_LANES, H = PM_LANES / 2, X = 0, Y = 1, Z = 2 };
 
 struct pm_poisson_fft {
 	struct pm_grid grid;
+	struct pm_poisson_fft_choice choice;
 	struct pm_planner planner;
-	bool complex, singular, empty; /* complex: periodic or open; empty: a wall axis without inner nodes */
+	bool complex, open;            /* every axis periodic or open: complex spectra of real rows; some face open */
+	bool singular, empty;          /* empty: a wall axis without inner nodes */
 	struct pm_line line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
 	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
 	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */

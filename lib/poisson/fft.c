@@ -1,7 +1,7 @@
-/* Poisson's equation lap phi = c*s by fast transforms: phi^ = c s^ / lambda, lambda the sum over axes of the symbol of d2/dx2.
- * Faces by axis: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), in any mixture; or open on all axes: the convolution with the
- * free-space Green's function on a domain of doubled length 2n (exactly, for the function is even), padding kept out of memory where it is zero.
- * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4.
+/* Poisson's equation lap phi - K^2 phi = c*s by fast transforms: phi^ = c s^ / (lambda - K^2), lambda the sum over axes of the symbol of d2/dx2.
+ * Faces: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), in any mixture, a wall opposite a neumann face too (quarter waves); or open
+ * everywhere: the convolution with the free-space Green's function on a domain of doubled length 2n (exactly, for the function is even).
+ * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4, 6.
  * Three passes over memory (fft-passes.c). Periodic and open: complex spectra of real rows; otherwise real transforms (mesh/lines.h).
  * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and half a
  * copy for the Green's function.
@@ -11,14 +11,14 @@
 
 #include "poisson/fft-passes.h"
 
-const char *const pm_symbol_names[] = {"spectral", "fd2", "fd4", NULL};
+const char *const pm_symbol_names[] = {"spectral", "fd2", "fd4", "fd6", NULL};
 
 int pm_symbol_find(const char *name)
 {
 	for (int i = 0; pm_symbol_names[i]; i++)
 		if (!strcmp(pm_symbol_names[i], name))
 			return i;
-	return pm_fail(PM_USAGE, "no symbol '%s' (choose spectral, fd2 or fd4)", name), -1;
+	return pm_fail(PM_USAGE, "no symbol '%s' (choose spectral, fd2, fd4 or fd6)", name), -1;
 }
 
 double pm_symbol_value(enum pm_symbol symbol, double theta, double h)
@@ -26,33 +26,35 @@ double pm_symbol_value(enum pm_symbol symbol, double theta, double h)
 	double s = sin(0.5 * theta), k = 2 * s / h;
 	if (symbol == PM_SPECTRAL)
 		k = theta / h;
-	return symbol == PM_FD4 ? -k * k * (1 + s * s / 3) : -k * k;
+	double more = symbol == PM_FD4 ? 1 + s * s / 3 : symbol == PM_FD6 ? 1 + s * s / 3 * (1 + 8 * s * s / 15) : 1;
+	return -k * k * more;
 }
 
-bool pm_poisson_fft_singular(const struct pm_grid *g)
+bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
+	bool singular = o->screening == 0;
 	for (int d = 0; d < g->dim; d++)
-		if (g->face[d][0] != PM_PERIODIC && g->face[d][0] != PM_NEUMANN)
-			return false;
-	return true;
+		for (int side = 0; side < 2; side++)
+			singular = singular && (g->face[d][side] == PM_PERIODIC || g->face[d][side] == PM_NEUMANN);
+	return singular;
 }
 
-int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol)
+int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
 	int open = 0;
 	for (int d = 0; d < g->dim; d++) {
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
-		if (g->face[d][0] != g->face[d][1])
-			return pm_fail(PM_DATA, "axis %c is %s below and %s above: a transform needs the same on both (poisson-mg takes wall and neumann on one axis)",
-				"xyz"[d], pm_face_names[g->face[d][0]], pm_face_names[g->face[d][1]]);
-		open += g->face[d][0] == PM_OPEN;
+		open += (g->face[d][0] == PM_OPEN) + (g->face[d][1] == PM_OPEN);
 	}
-	if (open && open < g->dim)
-		return pm_fail(PM_DATA, "open faces on %d of %d axes (poisson-fft takes open faces on all axes, or any mixture of periodic, wall and neumann)",
-			open, g->dim);
-	if (open && symbol != PM_SPECTRAL && !(g->dim == 1 && symbol == PM_FD2))
-		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral for open faces)", pm_symbol_names[symbol]);
+	if (open && open < 2 * g->dim)
+		return pm_fail(PM_DATA, "open faces are %d of %d (poisson-fft takes open faces on all axes, or any mixture of periodic, wall and neumann)", open,
+			2 * g->dim);
+	if (open && o->screening > 0)
+		return pm_fail(PM_DATA, "--screening has no free-space Green's function here (it takes periodic, wall and neumann faces)");
+	if (open && o->symbol != PM_SPECTRAL && !(g->dim == 1 && o->symbol == PM_FD2))
+		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral for open faces)",
+			pm_symbol_names[o->symbol]);
 	return 0;
 }
 
@@ -84,8 +86,10 @@ static double *result_row(const struct rows *r, size_t j, size_t k)
 {
 	const struct pm_poisson_fft *p = r->p;
 	double *phi = r->phi + row_offset(p, j, k);
-	if (p->line[X].first) /* walls */
-		phi[0] = phi[p->line[X].n] = 0;
+	if (p->line[X].face[0] == PM_WALL)
+		phi[0] = 0;
+	if (p->line[X].face[1] == PM_WALL)
+		phi[p->line[X].n] = 0;
 	return phi + p->line[X].first;
 }
 
@@ -106,14 +110,11 @@ static int scratch_ready(struct pm_poisson_fft *p)
 static void zero_walls(const struct pm_grid *g, double *phi)
 {
 	size_t nx = g->points[0], ny = g->points[1], nz = g->points[2];
-	if (g->dim > 1 && g->face[1][0] == PM_WALL)
-		for (size_t k = 0; k < nz; k++) {
-			memset(phi + k * ny * nx, 0, nx * sizeof *phi);
-			memset(phi + (k * ny + ny - 1) * nx, 0, nx * sizeof *phi);
-		}
-	if (g->dim > 2 && g->face[2][0] == PM_WALL) {
-		memset(phi, 0, nx * ny * sizeof *phi);
-		memset(phi + (nz - 1) * ny * nx, 0, nx * ny * sizeof *phi);
+	for (int side = 0; side < 2; side++) {
+		for (size_t k = 0; k < nz && g->dim > 1 && g->face[1][side] == PM_WALL; k++)
+			memset(phi + (k * ny + (side ? ny - 1 : 0)) * nx, 0, nx * sizeof *phi);
+		if (g->dim > 2 && g->face[2][side] == PM_WALL)
+			memset(phi + (side ? nz - 1 : 0) * ny * nx, 0, nx * ny * sizeof *phi);
 	}
 }
 
@@ -146,10 +147,10 @@ static double *eigenvalues(const struct pm_line *l, size_t modes, size_t size, b
 	for (size_t i = 0; lambda && i < size; i++)
 		lambda[i] = -1; /* so that nothing divides by zero */
 	for (size_t i = 0; lambda && i < modes; i++) {
-		size_t k = l->first + i;
-		if (l->face == PM_PERIODIC && k > l->n - k)
+		size_t k = l->least + i;
+		if (l->face[0] == PM_PERIODIC && k > l->n - k)
 			k = l->n - k;
-		double theta = pm_pi * (double)k / (double)l->n * (l->face == PM_PERIODIC ? 2 : 1);
+		double theta = 2 * pm_pi * ((double)k + 0.5 * l->shifted) / (double)l->length;
 		lambda[in_place ? l->fft->at[i] : i] = pm_symbol_value(symbol, theta, h);
 	}
 	return lambda;
@@ -167,11 +168,12 @@ static int layout(struct pm_poisson_fft *p)
 	const int axis[3] = {0, g->dim == 3 ? 1 : -1, g->dim == 3 ? 2 : g->dim == 2 ? 1 : -1};
 	size_t most = 0;
 	for (int a = X; a <= Z; a++) {
+		const enum pm_face none[2] = {PM_PERIODIC, PM_PERIODIC};
 		bool used = axis[a] >= 0;
-		if (pm_line_init(&p->planner, used ? g->face[axis[a]][0] : PM_PERIODIC, used ? g->cells[axis[a]] : 1, &p->line[a]))
+		if (pm_line_init(&p->planner, used ? g->face[axis[a]] : none, used ? g->cells[axis[a]] : 1, &p->line[a]))
 			return -PM_DATA;
 		p->nodes[a] = p->line[a].count;
-		p->modes[a] = !p->complex ? p->nodes[a] : a == X ? p->line[a].length / 2 + 1 : p->line[a].length;
+		p->modes[a] = !p->complex ? p->line[a].modes : a == X ? p->line[a].length / 2 + 1 : p->line[a].length;
 		p->empty = p->empty || p->nodes[a] == 0;
 		most = p->line[a].length > most ? p->line[a].length : most;
 	}
@@ -185,33 +187,36 @@ static int layout(struct pm_poisson_fft *p)
 	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
-static int symbols(struct pm_poisson_fft *p, enum pm_symbol symbol)
+static int symbols(struct pm_poisson_fft *p)
 {
+	double screening = p->choice.screening;
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
 		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
-		p->lambda[a] = eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, symbol, h[a]);
+		p->lambda[a] = eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, p->choice.symbol, h[a]);
 		if (!p->lambda[a])
 			return -PM_DATA;
 	}
+	for (size_t k = 0; k < p->modes[Z] && !p->empty; k++)
+		p->lambda[Z][k] -= screening * screening;
 	return 0;
 }
 
 /* The transform of the even, doubled Green's function is the cosine transform of one octant: the spectrum of a neumann solver. */
-static int green(struct pm_poisson_fft *p, enum pm_symbol symbol)
+static int green(struct pm_poisson_fft *p)
 {
 	struct pm_grid g = p->grid;
 	for (int d = 0; d < g.dim; d++)
 		g.face[d][0] = g.face[d][1] = PM_NEUMANN;
-	struct pm_poisson_fft *q = pm_poisson_fft_new(&g, symbol, p->planner.effort);
+	struct pm_poisson_fft *q = pm_poisson_fft_new(&g, &p->choice, p->planner.effort);
 	int code = q ? scratch_ready(q) : -PM_DATA;
 	if (!code && !(p->fold = pm_alloc(p->modes[Y], sizeof *p->fold)))
 		code = -PM_DATA;
 	for (size_t k = 0, n = p->modes[Y]; !code && k < n; k++)
 		p->fold[p->line[Y].fft->at[k]] = k <= n - k ? k : n - k;
 	if (!code) {
-		double centre = pm_green_centre(symbol, g.dim, g.h);
+		double centre = pm_green_centre(p->choice.symbol, g.dim, g.h);
 		struct rows io = {.p = q, .s = &centre, .from = green_row};
 		pm_poisson_fft_planes(q, &io, true);
 		pm_poisson_fft_pencils(q, 1, true);
@@ -225,9 +230,9 @@ static int green(struct pm_poisson_fft *p, enum pm_symbol symbol)
 	return code;
 }
 
-struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, enum pm_symbol symbol, enum pm_effort effort)
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_effort effort)
 {
-	if (pm_poisson_fft_check(g, symbol))
+	if (pm_poisson_fft_check(g, o))
 		return NULL;
 	struct pm_poisson_fft *p = calloc(1, sizeof *p);
 	if (!p) {
@@ -235,14 +240,16 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, enum pm_symbo
 		return NULL;
 	}
 	p->grid = *g;
+	p->choice = *o;
 	p->planner.effort = effort;
 	p->volume = 1;
-	p->singular = pm_poisson_fft_singular(g);
+	p->singular = pm_poisson_fft_singular(g, o);
 	p->complex = true;
-	for (int d = 0; d < g->dim; d++)
+	for (int d = 0; d < g->dim; d++) {
+		p->open = p->open || g->face[d][0] == PM_OPEN;
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || g->face[d][0] == PM_OPEN);
-	bool open = g->face[0][0] == PM_OPEN;
-	if (layout(p) || (open ? green(p, symbol) : symbols(p, symbol)))
+	}
+	if (layout(p) || (p->open ? green(p) : symbols(p)))
 		p = pm_poisson_fft_free(p);
 	return p;
 }

@@ -1,4 +1,4 @@
-/* The Poisson solver by fast transforms: lap phi = c*s with the faces of a grid (docs/methods/poisson-fft.md).
+/* The Poisson solver by fast transforms: lap phi - K^2 phi = c*s with the faces of a grid (docs/methods/poisson-fft.md).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_FFT_H
 #define PM_POISSON_FFT_H
@@ -6,24 +6,31 @@
 #include "mesh/grid.h"
 #include "mesh/plan.h"
 
-enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4 };
+enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4, PM_FD6 };
 extern const char *const pm_symbol_names[]; /* NULL ends */
 int pm_symbol_find(const char *name);       /* -1 and a message if it is none */
 
-/* The eigenvalue [1/length^2] of -k^2, or of the centred second difference of order 2 or 4, on exp(i*theta*x/h). */
+/* The eigenvalue [1/length^2] of -k^2, or of the centred second difference of order 2, 4 or 6, on exp(i*theta*x/h). */
 double pm_symbol_value(enum pm_symbol symbol, double theta, double h);
 
 /* The value at r = 0 of the sampled free-space Green's function of the grid (the head of fft-green.c), and the function at r > 0. */
 double pm_green_centre(enum pm_symbol symbol, int dim, const double h[3]);
 double pm_green(int dim, double r2);
 
+struct pm_poisson_fft_choice {
+	enum pm_symbol symbol;
+	double screening; /* K [1/length] in lap phi - K^2 phi = c*s; 0: Poisson's equation */
+};
+
 struct pm_poisson_fft;
 
 /* 0, or the sentence that says what cannot be done and what can do it; needs no data and plans nothing. */
-int pm_poisson_fft_check(const struct pm_grid *g, enum pm_symbol symbol);
-bool pm_poisson_fft_singular(const struct pm_grid *g); /* only periodic and neumann faces: phi is free by a constant */
+int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
+/* Only periodic and neumann faces and no screening: phi is free by a constant. */
+bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
-struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, enum pm_symbol symbol, enum pm_effort effort); /* NULL with a message */
+/* NULL with a message. */
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_effort effort);
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
 const struct pm_planner *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 

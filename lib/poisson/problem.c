@@ -3,6 +3,8 @@
 
 #include "poisson/problem.h"
 
+const char *const pm_wall_rule_names[] = {"tangential", "normal", "all", NULL};
+
 int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *names, struct pm_problem *p)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -21,6 +23,9 @@ int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *nam
 	if (!pm_frame_field(f, mesh->name, source))
 		return pm_fail(PM_DATA, "no field '%s' on '%s' (p2m makes it from particles, or choose --source)", source, mesh->name);
 	*p = (struct pm_problem){.law = law, .mesh = mesh, .source_name = source, .target_name = target, .grid = pm_grid_of(f, mesh)};
+	for (int i = 0; names->wall && pm_wall_rule_names[i]; i++)
+		if (!strcmp(names->wall, pm_wall_rule_names[i]))
+			p->wall = (enum pm_wall_rule)i;
 	p->c = isnan(names->coefficient) ? law->coefficient(f) : names->coefficient;
 	return 0;
 }
@@ -39,4 +44,14 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 		return -PM_DATA;
 	memcpy(p->target->kernel, p->source->kernel, sizeof p->target->kernel);
 	return 0;
+}
+
+struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
+{
+	struct pm_grid g = p->grid;
+	for (int d = 0; d < g.dim && p->source->components > 1 && p->wall != PM_ZERO_ALL; d++)
+		for (int side = 0; side < 2; side++)
+			if ((c == d) == (p->wall == PM_ZERO_TANGENTIAL) && (g.face[d][side] == PM_WALL || g.face[d][side] == PM_NEUMANN))
+				g.face[d][side] = g.face[d][side] == PM_WALL ? PM_NEUMANN : PM_WALL;
+	return g;
 }

@@ -5,8 +5,13 @@
 
 #include "law/law.h"
 
+/* Which components of a vector are zero at a wall; the others have no normal gradient there, and a neumann face is the other way round.
+ * tangential: E at a conductor, the vector potential of a flow along the wall; normal: a flow along the wall; all: each component is a scalar. */
+enum pm_wall_rule { PM_ZERO_TANGENTIAL, PM_ZERO_NORMAL, PM_ZERO_ALL };
+extern const char *const pm_wall_rule_names[]; /* NULL ends */
+
 struct pm_problem_names { /* NULL and NAN: the law's */
-	const char *source, *target, *mesh;
+	const char *source, *target, *mesh, *wall;
 	double coefficient;
 };
 
@@ -14,7 +19,8 @@ struct pm_problem {
 	const struct pm_law *law;
 	const struct pm_mesh *mesh;
 	const char *source_name, *target_name;
-	struct pm_grid grid;
+	struct pm_grid grid;     /* with the faces of a scalar */
+	enum pm_wall_rule wall;
 	double c;
 	const struct pm_field *source; /* after pm_problem_declare */
 	struct pm_field *target;
@@ -22,5 +28,6 @@ struct pm_problem {
 
 int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *names, struct pm_problem *p);
 int pm_problem_declare(struct pm_frame *f, struct pm_problem *p); /* reads the source, makes the target: derived, with the source's kernel */
+struct pm_grid pm_problem_grid(const struct pm_problem *p, int c); /* after pm_problem_declare: with the faces of component c */
 
 #endif

@@ -27,9 +27,10 @@ refused() {
 	refused 1 "no mesh named fine" "poisson-fft --mesh fine < rho"
 	refused 2 "choose another --target" "poisson-fft --target rho < rho"
 	refused 1 "--symbol spectral" "pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft --symbol fd2"
-	refused 1 "open faces on 1 of 3 axes" "pinit uniform -n 0 --faces open,open,periodic,periodic,wall,wall | p2m -n 8 | poisson-fft"
+	refused 1 "open faces are 2 of 6" "pinit uniform -n 0 --faces open,open,periodic,periodic,wall,wall | p2m -n 8 | poisson-fft"
 	refused 1 "absorbing" "pinit uniform -n 0 --faces absorbing | p2m -n 8 | poisson-fft"
-	refused 1 "poisson-mg takes" "pinit uniform -n 0 --faces wall,neumann,wall,wall,wall,wall | p2m -n 8 | poisson-fft"
+	refused 1 "no free-space Green's function" "pinit uniform -n 0 --faces open | p2m -n 8 | poisson-fft --screening 2"
+	refused 2 "" "poisson-fft --screening -1 < rho"
 	refused 2 "" "poisson-fft --symbol fd3 < rho"
 	refused 2 "PM_PLAN is 'quick'" "PM_PLAN=quick poisson-fft < rho"
 }

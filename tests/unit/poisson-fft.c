@@ -33,37 +33,43 @@ static double *noise(size_t n)
 static double solve(const struct pm_grid *g, enum pm_symbol symbol, double c, const double *s, double *phi)
 {
 	double mean = NAN;
-	struct pm_poisson_fft *p = pm_poisson_fft_new(g, symbol, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(g, &(struct pm_poisson_fft_choice){.symbol = symbol}, PM_ESTIMATE);
 	if (!p || pm_poisson_fft_solve(p, c, s, phi, &mean))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);
 	return mean;
 }
 
+static void between(struct pm_grid *g, int d, enum pm_face below, enum pm_face above)
+{
+	g->face[d][0] = below, g->face[d][1] = above;
+}
+
 /* Orthonormal basis of an axis (rows: modes) in the inner product with half weight at the ends, its weights and eigenvalues. */
 static size_t basis(const struct pm_grid *g, int d, enum pm_symbol symbol, double *b, double *weight, double *lambda)
 {
 	size_t n = g->cells[d], points = g->points[d], modes = 0;
-	enum pm_face face = g->face[d][0];
-	double period = face == PM_PERIODIC ? (double)n : 2.0 * (double)n;
+	enum pm_face below = g->face[d][0], above = g->face[d][1];
+	double period = below == PM_PERIODIC ? (double)n : 2.0 * (double)n, shift = below == above ? 0 : 0.5;
 	for (size_t i = 0; i < points; i++)
-		weight[i] = face == PM_NEUMANN && (i == 0 || i == n) ? 0.5 : 1;
+		weight[i] = (below == PM_NEUMANN && i == 0) || (above == PM_NEUMANN && i == n) ? 0.5 : 1;
 	for (int odd = 0; odd < 2; odd++)
-		for (size_t m = 0; 2.0 * (double)m <= period; m++) {
+		for (size_t m = 0; 2.0 * ((double)m + shift) <= period; m++) {
 			double norm = 0, *row = b + modes * points;
 			for (size_t i = 0; i < points; i++) {
-				double turn = fmod((double)m * (double)i, period) / period; /* reduced, so that the argument is exact */
+				double turn = fmod(((double)m + shift) * (double)i, period) / period; /* reduced, so that the argument is exact */
 				row[i] = odd ? sin(2 * pm_pi * turn) : cos(2 * pm_pi * turn);
 				norm += weight[i] * row[i] * row[i];
 			}
-			if (norm < 1e-10 || (face == PM_WALL && !odd) || (face == PM_NEUMANN && odd))
+			if (norm < 1e-10 || (below == PM_WALL && !odd) || (below == PM_NEUMANN && odd))
 				continue;
 			for (size_t i = 0; i < points; i++)
 				row[i] /= sqrt(norm);
-			double k = 2 * pm_pi * (double)m / (period * g->h[d]), theta = k * g->h[d];
-			lambda[modes++] = symbol == PM_SPECTRAL ? -k * k :
-				symbol == PM_FD2 ? -(2 - 2 * cos(theta)) / (g->h[d] * g->h[d]) :
-				-(30 - 32 * cos(theta) + 2 * cos(2 * theta)) / (12 * g->h[d] * g->h[d]);
+			double k = 2 * pm_pi * ((double)m + shift) / (period * g->h[d]), h2 = g->h[d] * g->h[d], s[4] = {0};
+			for (int q = 1; q <= 3; q++) /* 1 - cos(q t) = 2 sin^2(q t/2), without the cancellation */
+				s[q] = 2 * pow(sin(0.5 * q * k * g->h[d]), 2);
+			lambda[modes++] = symbol == PM_SPECTRAL ? -k * k : symbol == PM_FD2 ? -2 * s[1] / h2 :
+				symbol == PM_FD4 ? -(32 * s[1] - 2 * s[2]) / (12 * h2) : -(540 * s[1] - 54 * s[2] + 4 * s[3]) / (180 * h2);
 		}
 	return modes;
 }
@@ -131,7 +137,7 @@ static void against_direct(struct pm_grid g, const char *what)
 {
 	size_t n = pm_grid_size(&g);
 	double *s = noise(n), *phi = malloc(n * sizeof *phi), *want = malloc(n * sizeof *want), worst = 0;
-	for (int symbol = PM_SPECTRAL; symbol <= PM_FD4; symbol++) {
+	for (int symbol = PM_SPECTRAL; symbol <= PM_FD6; symbol++) {
 		solve(&g, symbol, -2.385, s, phi);
 		direct(&g, symbol, -2.385, s, want);
 		double e = difference(n, phi, want);
@@ -153,7 +159,26 @@ static void sizes(void)
 				continue;
 			snprintf(what, sizeof what, "1-D %s n=%zu", pm_face_names[f], awkward[i]);
 			against_direct(grid(1, awkward[i], 1, 1, f, f, f), what);
+			if (f == PM_PERIODIC)
+				continue;
+			enum pm_face other = f == PM_WALL ? PM_NEUMANN : PM_WALL;
+			struct pm_grid g = grid(1, awkward[i], 1, 1, f, 0, 0);
+			between(&g, 0, f, other);
+			snprintf(what, sizeof what, "1-D %s below, %s above, n=%zu", pm_face_names[f], pm_face_names[other], awkward[i]);
+			against_direct(g, what);
 		}
+	struct pm_grid g = grid(2, 33, 7, 1, PM_WALL, PM_PERIODIC, 0);
+	between(&g, 0, PM_WALL, PM_NEUMANN);
+	against_direct(g, "2-D wall-neumann x periodic 33x7");
+	g = grid(2, 12, 19, 1, PM_WALL, PM_NEUMANN, 0);
+	between(&g, 1, PM_NEUMANN, PM_WALL);
+	against_direct(g, "2-D wall x neumann-wall 12x19");
+	g = grid(3, 16, 17, 9, PM_WALL, PM_WALL, PM_WALL);
+	between(&g, 0, PM_NEUMANN, PM_WALL), between(&g, 1, PM_WALL, PM_NEUMANN), between(&g, 2, PM_NEUMANN, PM_WALL);
+	against_direct(g, "3-D neumann-wall x wall-neumann x neumann-wall 16x17x9");
+	g = grid(3, 9, 6, 17, PM_PERIODIC, PM_NEUMANN, PM_WALL);
+	between(&g, 2, PM_WALL, PM_NEUMANN);
+	against_direct(g, "3-D periodic x neumann x wall-neumann 9x6x17");
 	against_direct(grid(2, 33, 7, 1, PM_PERIODIC, PM_PERIODIC, 0), "2-D periodic 33x7");
 	against_direct(grid(2, 20, 1, 1, PM_PERIODIC, PM_PERIODIC, 0), "2-D periodic 20x1");
 	against_direct(grid(2, 1, 37, 1, PM_PERIODIC, PM_NEUMANN, 0), "2-D periodic x neumann 1x37");
@@ -468,12 +493,12 @@ static void threads(void)
 static void refusals(void)
 {
 	struct pm_grid mixed = grid(2, 8, 8, 1, PM_OPEN, PM_WALL, 0), ends = grid(1, 8, 1, 1, PM_WALL, 0, 0), open = cube(3, 8, 1, PM_OPEN);
-	ends.face[0][1] = PM_NEUMANN;
-	check(pm_poisson_fft_check(&mixed, PM_SPECTRAL) == -PM_DATA && strstr(pm_message(), "any mixture"), "open with other faces: %s", pm_message());
-	check(pm_poisson_fft_check(&ends, PM_SPECTRAL) == -PM_DATA && strstr(pm_message(), "poisson-mg"), "two kinds of ends: %s", pm_message());
-	check(pm_poisson_fft_check(&open, PM_FD2) == -PM_DATA && strstr(pm_message(), "--symbol spectral"), "stencils in free space: %s", pm_message());
+	ends.face[0][1] = PM_OPEN;
+	check(pm_poisson_fft_check(&mixed, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA && strstr(pm_message(), "any mixture"), "open with other faces: %s", pm_message());
+	check(pm_poisson_fft_check(&ends, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA && strstr(pm_message(), "any mixture"), "two kinds of ends: %s", pm_message());
+	check(pm_poisson_fft_check(&open, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}) == -PM_DATA && strstr(pm_message(), "--symbol spectral"), "stencils in free space: %s", pm_message());
 	open.face[1][0] = PM_ABSORBING;
-	check(pm_poisson_fft_check(&open, PM_SPECTRAL) == -PM_DATA, "absorbing: %s", pm_message());
+	check(pm_poisson_fft_check(&open, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA, "absorbing: %s", pm_message());
 }
 
 int main(void)
