@@ -114,15 +114,21 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	const struct pm_problem *p = &t->problem;
 	struct pm_grid g = pm_problem_grid(p, c);
 	struct pm_poisson_fft *solver = ready(s, t, &g);
-	double mean;
-	if (!solver || pm_poisson_fft_solve(solver, p->c, pm_in(p->source, c), pm_out(p->target, c), &mean))
+	struct pm_poisson_fft_record r;
+	if (!solver || pm_poisson_fft_solve(solver, p->c, pm_in(p->source, c), pm_out(p->target, c), &r))
 		return -PM_DATA;
 	*plans = pm_poisson_fft_planner(solver);
-	char key[32] = "mean_removed";
+	if (!pm_poisson_fft_singular(&g, &t->choice))
+		return 0;
+	char key[32], number[16] = "";
 	if (p->source->components > 1)
-		snprintf(key, sizeof key, "mean_removed_%d", c);
-	if (pm_poisson_fft_singular(&g, &t->choice))
-		pm_report(s, f, key, mean);
+		snprintf(number, sizeof number, "_%d", c);
+	snprintf(key, sizeof key, "mean_removed%s", number);
+	pm_report(s, f, key, r.mean);
+	snprintf(key, sizeof key, "incompatible%s", number);
+	pm_report(s, f, key, r.incompatible);
+	if (r.incompatible > 1e-12)
+		pm_say(s, "no phi has this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, r.mean, r.incompatible);
 	return 0;
 }
 

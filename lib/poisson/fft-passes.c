@@ -82,8 +82,20 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 			block[i * L + (size_t)q] *= weight[q] * end_weight(l, i);
 }
 
-/* Nodes to modes; to: L rows of modes. */
-static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, double *to)
+/* Of the nodes of a block; one accumulator per lane. */
+static double largest_of(const double *block, size_t n)
+{
+	double most[L] = {0}, all = 0;
+	for (size_t i = 0; i < n; i++)
+		for (int q = 0; q < L; q++)
+			most[q] = fabs(block[i * L + (size_t)q]) > most[q] ? fabs(block[i * L + (size_t)q]) : most[q];
+	for (int q = 0; q < L; q++)
+		all = most[q] > all ? most[q] : all;
+	return all;
+}
+
+/* Nodes to modes; to: L rows of modes. Returns the largest source of a singular problem. */
+static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, double *to)
 {
 	const struct pm_line *l = &p->line[X];
 	const double *in[L];
@@ -96,17 +108,19 @@ static void rows_forward(const struct pm_poisson_fft *p, const struct rows *io, 
 		in[r] = row, out[r] = to + r * p->row;
 	}
 	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
+	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
 	if (p->open)
 		weigh(p, g, s.block);
 	if (p->complex) {
 		pm_line_forward(l, false, s.block);
 		pm_spectra_out(l->fft, s.block, g->rows, out);
-		return;
+		return largest;
 	}
 	pm_line_real(l, s.block);
 	pm_lanes_out(s.block, l->fft->at + l->least, p->modes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
 		memset(out[r] + p->modes[X], 0, (p->chunks * L - p->modes[X]) * sizeof *to);
+	return largest;
 }
 
 static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
@@ -157,15 +171,17 @@ static void columns(const struct pm_poisson_fft *p, double *plane, bool forward,
 	}
 }
 
-static void plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+static double plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
+	double largest = 0;
 	for (size_t j = 0; j < p->nodes[Y]; j += L) {
 		struct group g = group_of(p, k, j);
-		rows_forward(p, io, &g, s, s.modes + j * p->row);
+		largest = fmax(largest, rows_forward(p, io, &g, s, s.modes + j * p->row));
 	}
 	columns(p, s.modes, true, s.block);
 	for (size_t j = 0; j < p->modes[Y]; j++)
 		copy_out(p, p->w + (j * p->nodes[Z] + k) * p->row, s.modes + j * p->row, p->chunks * L);
+	return largest;
 }
 
 static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
@@ -179,24 +195,26 @@ static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io
 	}
 }
 
-void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
+double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
 {
+	double largest = 0;
 	bool plane = thick(p);
 	size_t slabs = plane ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L;
-#pragma omp parallel for schedule(dynamic) num_threads(p->threads)
+#pragma omp parallel for schedule(dynamic) num_threads(p->threads) reduction(max : largest)
 	for (size_t i = 0; i < slabs; i++) {
 		struct scratch s = thread_scratch(p);
 		struct group g = group_of(p, i, 0);
 		if (plane && forward)
-			plane_forward(p, io, i, s);
+			largest = fmax(largest, plane_forward(p, io, i, s));
 		else if (plane)
 			plane_backward(p, io, i, s);
 		else if (forward)
-			rows_forward(p, io, &g, s, p->w + g.k * p->row);
+			largest = fmax(largest, rows_forward(p, io, &g, s, p->w + g.k * p->row));
 		else
 			rows_backward(p, io, &g, s, p->w + g.k * p->row);
 		pm_stream_end();
 	}
+	return largest;
 }
 
 /* What multiplies frequency k of a pencil in row j of a plane: factor over the sum of eigenvalues, or times Green's function. lanes: complex modes

@@ -39,7 +39,8 @@ struct rows {
 	double *(*to)(const struct rows *r, size_t j, size_t k);
 };
 
-void pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
+/* Forward it returns the largest absolute source of a singular problem. */
+double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
 /* Forward along z, times factor/lambda or factor*green, and back; or forward only, for the spectrum (real solvers). */
 void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum);
 

@@ -118,9 +118,10 @@ static void zero_walls(const struct pm_grid *g, double *phi)
 	}
 }
 
-int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, double *mean)
+int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r)
 {
-	*mean = 0;
+	if (r)
+		*r = (struct pm_poisson_fft_record){0};
 	if (p->empty) {
 		memset(phi, 0, pm_grid_size(&p->grid) * sizeof *phi);
 		return 0;
@@ -131,12 +132,12 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	double norm = 1;
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
-	pm_poisson_fft_planes(p, &io, true);
+	double largest = pm_poisson_fft_planes(p, &io, true);
 	pm_poisson_fft_pencils(p, c * norm * p->volume, false);
 	pm_poisson_fft_planes(p, &io, false);
 	zero_walls(&p->grid, phi);
-	if (p->singular)
-		*mean = p->zero * norm;
+	if (p->singular && r)
+		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
 	return 0;
 }
 

@@ -34,8 +34,13 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
 const struct pm_planner *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 
-/* s and phi: the points of the grid; they may be the same array. Singular problems: the mean of s (end nodes with half weight) is taken out and
- * given in *mean, phi has mean zero; else *mean is 0. c [phi/(s length^2)]. */
-int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, double *mean);
+/* What was done to make a singular problem solvable: 0, 0 for the others. */
+struct pm_poisson_fft_record {
+	double mean;         /* of s, end nodes with half weight: taken out; phi has mean zero */
+	double incompatible; /* |mean| over the largest |s|: round-off where the data fit the faces */
+};
+
+/* s and phi: the points of the grid; they may be the same array. c [phi/(s length^2)]. r may be NULL. */
+int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r);
 
 #endif

@@ -47,10 +47,9 @@ static void pm_delete(struct pm *p)
 static void field(struct pm *p, double c, size_t n, const double *const x[], const double *m, size_t n2, const double *const y[], double *const a[])
 {
 	struct pm_strays strays;
-	double mean;
 	memset(p->rho, 0, pm_grid_size(&p->grid) * sizeof(double));
 	int bad = pm_spread(&p->in, n, x, (const double *[]){m}, (double *[]){p->rho}, &strays);
-	bad |= pm_poisson_fft_solve(p->solver, c, p->rho, p->phi, &mean);
+	bad |= pm_poisson_fft_solve(p->solver, c, p->rho, p->phi, NULL);
 	bad |= pm_operator_apply(&p->grad, -1, (const double *[]){p->phi}, p->g);
 	for (int d = 0; d < p->grid.dim; d++)
 		memset(a[d], 0, n2 * sizeof(double));

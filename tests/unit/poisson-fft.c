@@ -30,14 +30,17 @@ static double *noise(size_t n)
 	return s;
 }
 
+static double removed; /* of the last solve: |mean| over the largest |s| */
+
 static double solve(const struct pm_grid *g, enum pm_symbol symbol, double c, const double *s, double *phi)
 {
-	double mean = NAN;
+	struct pm_poisson_fft_record r = {NAN, NAN};
 	struct pm_poisson_fft *p = pm_poisson_fft_new(g, &(struct pm_poisson_fft_choice){.symbol = symbol}, PM_ESTIMATE);
-	if (!p || pm_poisson_fft_solve(p, c, s, phi, &mean))
+	if (!p || pm_poisson_fft_solve(p, c, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);
-	return mean;
+	removed = r.incompatible;
+	return r.mean;
 }
 
 static void between(struct pm_grid *g, int d, enum pm_face below, enum pm_face above)
@@ -250,6 +253,14 @@ static void means(void)
 		double mean = solve(&g[i], PM_SPECTRAL, 1, s, phi);
 		check_near(mean, weighted_mean(&g[i], s), 1e-14, "HC-23: the mean removed is the mean of s, end nodes with half weight");
 		check_near(weighted_mean(&g[i], phi), 0, 1e-12, "HC-23: the mean of phi is zero");
+		double largest = 0;
+		for (size_t q = 0; q < n; q++)
+			largest = fmax(largest, fabs(s[q]));
+		check_near(removed, fabs(mean) / largest, 1e-15, "HC-23: incompatible data are reported: the mean over the largest value");
+		for (size_t q = 0; q < n; q++)
+			s[q] -= mean;
+		solve(&g[i], PM_SPECTRAL, 1, s, phi);
+		check_near(removed, 0, 1e-15, "HC-23: data that fit the faces are reported as such");
 		free(s), free(phi);
 	}
 	struct pm_grid w = grid(2, 8, 8, 1, PM_WALL, PM_PERIODIC, 0);
