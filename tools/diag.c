@@ -61,13 +61,30 @@ static int begin(struct pm_stage *s)
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
+static const struct pm_scene *scene_of(const struct pm_frame *f)
+{
+	for (int i = 0; pm_scenes[i]; i++)
+		if (!strcmp(pm_scene_names[i], f->scene) && pm_scenes[i]->exact)
+			return pm_scenes[i];
+	return NULL;
+}
+
+/* Where omega_centre is taken: the scene's place, else the middle of the box. */
+static double centre_of(const struct pm_frame *f, int d)
+{
+	const struct pm_scene *scene = scene_of(f);
+	const double x = scene ? scene->exact(f, d ? "place_y" : "place_x", f->time) : NAN;
+	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
+}
+
 static struct pm_measure how_of(const struct config *c, const struct pm_frame *f, const struct pm_law *law)
 {
 	const struct pm_mollifier *plummer = c->pair ? pm_mollifier_find("plummer") : NULL;
 	struct pm_measure how = {.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
 		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = c->radii.n,
-		.fraction = c->radii.x, .plasma = law->background != NULL, .field = law->field, .nmodes = c->modes.n};
+		.fraction = c->radii.x, .plasma = law->background != NULL, .field = law->field, .nmodes = c->modes.n,
+		.centre = {centre_of(f, 0), centre_of(f, 1)}};
 	for (int k = 0; k < c->modes.n; k++)
 		how.modes[k] = (int)c->modes.x[k];
 	if (c->mode)
@@ -104,14 +121,6 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		return -PM_DATA;
 	pm_measure_reads(&how, f);
 	return 0;
-}
-
-static const struct pm_scene *scene_of(const struct pm_frame *f)
-{
-	for (int i = 0; pm_scenes[i]; i++)
-		if (!strcmp(pm_scene_names[i], f->scene) && pm_scenes[i]->exact)
-			return pm_scenes[i];
-	return NULL;
 }
 
 static void add(struct state *state, const struct config *c, const struct pm_frame *f, int from, const char *name)
@@ -251,8 +260,8 @@ const struct pm_tool tool_diag = {
 	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it holds the self-energy of the smeared particles); of the field at the\n"
 		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
 		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
-		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum; distortion as in\n"
-		"remesh. Plasmas: the charge and the energy eps0/2 integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",
+		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum, value at the\n"
+		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",
 	.kind = PM_SINK,
 	.reads = "x, v, mass, the law's strength and potential, density and potential of the mesh",
 	.config = sizeof(struct config),

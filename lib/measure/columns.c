@@ -11,7 +11,8 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_MASS] = "mass", [PM_PARTICLES] = "particles", [PM_CENTRE] = "centre_x", "centre_y", "centre_z",
 	[PM_SPEED_RMS] = "speed_rms", [PM_DISTANCE_MAX] = "distance_max", [PM_VIRIAL_RATIO] = "virial_ratio",
 	[PM_CIRCULATION] = "circulation", [PM_IMPULSE] = "impulse_x", "impulse_y", [PM_ANGULAR_IMPULSE] = "angular_impulse",
-	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max", [PM_DISTORTION] = "distortion",
+	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max",
+	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
 };
 

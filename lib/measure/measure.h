@@ -46,7 +46,8 @@ void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fr
 enum pm_column {
 	PM_STEP, PM_TIME, PM_ENERGY_KINETIC, PM_ENERGY_MESH, PM_ENERGY_PAIR, PM_ENERGY, PM_MOMENTUM, PM_MOMENTUM_SCALE = PM_MOMENTUM + 3, PM_ANGULAR,
 	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
-	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_DISTORTION,
+	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE,
+	PM_DISTORTION,
 	PM_CHARGE, PM_ENERGY_COMPONENT, PM_COLUMNS = PM_ENERGY_COMPONENT + 3
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
@@ -69,6 +70,7 @@ struct pm_measure { /* what to measure of a frame */
 	double coefficient, softening; /* of the direct sum */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
 	bool vortices;               /* the law is that of vortices */
+	double centre[2];            /* [length] where omega is looked at */
 	bool plasma;                 /* or has a background of charge */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x of its first component */

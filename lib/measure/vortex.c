@@ -1,12 +1,13 @@
 /* What vortices in the plane keep or lose: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
- * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega| on the first mesh that holds omega; the
- * largest distortion of the sets. What is not there is NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
+ * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given place (by m6prime,
+ * on a node that of the node) on the first mesh that holds omega; the largest distortion of the sets. What is not there is NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
  * Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/measure.h"
 #include "mesh/distortion.h"
 #include "mesh/gradient.h"
+#include "mesh/transfer.h"
 
 /* A set of vortices that is to be measured: it has positions in the plane and circulations. */
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
@@ -59,7 +60,17 @@ static double palinstrophy(const struct pm_grid *g, const double *omega)
 	return sum;
 }
 
-static void of_mesh(const struct pm_frame *f, const struct pm_mesh *mesh, const double *omega, struct pm_measures *m)
+/* omega at a place; NAN where the mesh does not hold it. */
+static double at_place(const struct pm_grid *g, const double *omega, const double place[2])
+{
+	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m6prime"), .components = 1};
+	struct pm_strays strays;
+	double value = 0, *out = &value;
+	const double *const x[3] = {&place[0], &place[1]};
+	return !pm_gather(&t, 1, x, &omega, NULL, &out, &strays) && !strays.count ? value : NAN;
+}
+
+static void of_mesh(const struct pm_measure *how, const struct pm_frame *f, const struct pm_mesh *mesh, const double *omega, struct pm_measures *m)
 {
 	const struct pm_grid g = pm_grid_of(f, mesh);
 	double most = 0;
@@ -67,6 +78,7 @@ static void of_mesh(const struct pm_frame *f, const struct pm_mesh *mesh, const 
 		most = fmax(most, fabs(omega[i]));
 	m->value[PM_OMEGA_MAX] = most;
 	m->value[PM_ENSTROPHY] = pm_energy_on_mesh(&g, omega, omega);
+	m->value[PM_OMEGA_CENTRE] = at_place(&g, omega, how->centre);
 	m->value[PM_PALINSTROPHY] = palinstrophy(&g, omega);
 }
 
@@ -91,5 +103,5 @@ void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct
 		m->value[PM_CIRCULATION + k] = pm_sum_total(sum[k]);
 	m->value[PM_DISTORTION] = worst;
 	if (mesh)
-		of_mesh(f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
+		of_mesh(how, f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
 }

@@ -42,7 +42,7 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	const struct { const char *name; double value; } known[] = {
 		{"circulation", gamma}, {"impulse_x", 0}, {"impulse_y", 0}, {"angular_impulse", -0.5 * gamma * d2},
 		{"enstrophy", gamma * gamma / (4 * pm_pi * d2)}, {"omega_max", fabs(gamma) / (pm_pi * d2)},
-		{"palinstrophy", gamma * gamma / (2 * pm_pi * d2 * d2)},
+		{"omega_centre", gamma / (pm_pi * d2)}, {"palinstrophy", gamma * gamma / (2 * pm_pi * d2 * d2)},
 	};
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
 		if (!strcmp(quantity, known[i].name))
