@@ -1,5 +1,5 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c become programs, lib/*/ become tables and one library.
-# make, demo, check, check-long, asan, valgrind, bench, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# make, demo, check, check-long, asan, valgrind, bench, gallery, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
@@ -116,6 +116,8 @@ valgrind:
 	+$(MAKE) B=build/valgrind OPT=-O1 PORTABLE=1 unit
 	B=build/valgrind PM_WRAP='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite' bash tests/run.sh unit
 
+gallery: all
+	bash docs/gallery.sh
 bench: all $(bench)
 	bash bench/run.sh
 measure:
@@ -126,7 +128,7 @@ lint: all man
 	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
-	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(wildcard pipelines/*.sh tests/*.sh bench/*.sh),@echo 'lint: no shellcheck here')
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh),@echo 'lint: no shellcheck here')
 
 # Manual pages and completion are printed by the programs.
 man := $(tool_src:tools/%.c=$(B)/man/%.1)
@@ -163,5 +165,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit demo check check-long asan valgrind bench measure lint man install uninstall clean
+.PHONY: all unit demo check check-long asan valgrind bench gallery measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

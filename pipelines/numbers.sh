@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} # threads that spin take a busy machine from each other
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 off=0

@@ -4,7 +4,7 @@
 # Expected: mass 0.98519 (the sphere ends at 10 a), momentum zero to rounding, energy kept to 0.5 %; half-mass radius 1.2875 and 2K/|W| = 1 at the
 # start, up to noise and the mesh. Where the mesh pulls too little the core widens, to a half-mass radius of 1.495, and 2K/|W| falls to 0.914;
 # with 128^3 cells (CELLS=128, eight times the work) it hardly does. PARTICLES, STEPS, CELLS change the run; the numbers are those of the default.
-# Writes pm-plummer.png, the surface density at the end, SIZE pixels wide (320 for docs/plummer.png). SPDX-License-Identifier: GPL-3.0-or-later
+# Writes pm-plummer.png, the surface density at the end, SIZE pixels wide (320 for docs/gallery/plummer.png). SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh
 . "$(dirname "$0")/numbers.sh"

@@ -26,7 +26,7 @@ void pm_picture_blend(struct pm_picture *p, int x, int y, const unsigned char rg
 	if (x < 0 || y < 0 || x >= p->width || y >= p->height || !(cover > 0))
 		return;
 	unsigned char *o = p->rgb + 3 * ((size_t)y * (size_t)p->width + (size_t)x);
-	cover = fmin(cover, 1);
+	cover = floor(16 * fmin(cover, 1) + 0.5) / 16; /* few different colours, so that most files have a palette */
 	for (int k = 0; k < 3; k++)
 		o[k] = (unsigned char)floor(o[k] + cover * (rgb[k] - o[k]) + 0.5);
 }
@@ -119,8 +119,34 @@ int pm_picture_ppm(const struct pm_picture *p, FILE *out)
 	return fwrite(p->rgb, 3, (size_t)p->width * (size_t)p->height, out) == (size_t)p->width * (size_t)p->height ? 0 : pm_fail_errno("cannot write the picture");
 }
 
-int pm_picture_png(const struct pm_picture *p, FILE *out)
+enum { most_colours = 256, places = 4096 };
+
+/* The colours of a picture that has few: their number, 0 if there are more than 256. index: a byte a pixel. */
+static int palette(const struct pm_picture *p, png_color colours[most_colours], unsigned char *index)
 {
+	short at[places]; /* a table of places, open addressing; -1: free */
+	int n = 0;
+	memset(at, -1, sizeof at);
+	for (size_t i = 0; i < (size_t)p->width * (size_t)p->height; i++) {
+		const unsigned char *c = p->rgb + 3 * i;
+		size_t k = (c[0] * 7919u + c[1] * 104729u + c[2] * 1299709u) % places;
+		while (at[k] >= 0 && memcmp(&colours[at[k]], c, 3))
+			k = (k + 1) % places;
+		if (at[k] < 0) {
+			if (n == most_colours)
+				return 0;
+			colours[n] = (png_color){c[0], c[1], c[2]};
+			at[k] = (short)n++;
+		}
+		index[i] = (unsigned char)at[k];
+	}
+	return n;
+}
+
+static int write_png(const struct pm_picture *p, FILE *out, unsigned char *index)
+{
+	png_color colours[most_colours];
+	int n = palette(p, colours, index);
 	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
 	png_infop info = png ? png_create_info_struct(png) : NULL;
 	if (!info || setjmp(png_jmpbuf(png))) { /* libpng comes back here when it fails */
@@ -128,11 +154,23 @@ int pm_picture_png(const struct pm_picture *p, FILE *out)
 		return pm_fail_errno("cannot write the picture");
 	}
 	png_init_io(png, out);
-	png_set_IHDR(png, info, (png_uint_32)p->width, (png_uint_32)p->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+	png_set_compression_level(png, 9);
+	png_set_IHDR(png, info, (png_uint_32)p->width, (png_uint_32)p->height, 8, n ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+		PNG_FILTER_TYPE_DEFAULT);
+	if (n)
+		png_set_PLTE(png, info, colours, n);
 	png_write_info(png, info);
-	for (int y = 0; y < p->height; y++)
-		png_write_row(png, p->rgb + 3 * (size_t)y * (size_t)p->width);
+	for (size_t y = 0; y < (size_t)p->height; y++)
+		png_write_row(png, n ? index + y * (size_t)p->width : p->rgb + 3 * y * (size_t)p->width);
 	png_write_end(png, NULL);
 	png_destroy_write_struct(&png, &info);
 	return 0;
+}
+
+int pm_picture_png(const struct pm_picture *p, FILE *out)
+{
+	unsigned char *index = pm_alloc((size_t)p->width * (size_t)p->height, 1);
+	int status = index ? write_png(p, out, index) : -PM_DATA;
+	pm_free(index);
+	return status;
 }

@@ -31,9 +31,11 @@ double pm_scale_at(const struct pm_scale *s, double value)
 	return (value - s->lo) / (s->hi - s->lo);
 }
 
+/* 193 colours, the middle one of them: with those of the letters few enough for a palette. */
 static void shade(const struct pm_scale *s, double t, unsigned char rgb[3])
 {
-	pm_colour_of(s->map, s->start + (1 - s->start) * fmin(fmax(t, 0), 1), rgb);
+	t = floor(192 * fmin(fmax(t, 0), 1) + 0.5) / 192;
+	pm_colour_of(s->map, s->start + (1 - s->start) * t, rgb);
 }
 
 static void colour(struct pm_scale *s, double value, unsigned char rgb[3])
@@ -114,6 +116,9 @@ static void label(double x, double step, char out[40])
 	}
 }
 
+/* Ticks are whole pixels, like the border. */
+static int pen(const struct pm_plot *p) { return (int)fmax(1, floor(p->letter / 8)); }
+
 static void axis_x(struct pm_plot *p)
 {
 	double at[most_ticks], step, l = p->letter;
@@ -121,7 +126,7 @@ static void axis_x(struct pm_plot *p)
 	for (int i = 0, n = pm_plot_ticks(p->lo[0], p->hi[0], 7, at, &step); i < n; i++) {
 		double x = across(p, at[i]);
 		label(at[i], step, text);
-		pm_picture_line(&p->picture, x, p->y1, x, p->y1 + 0.45 * l, 1.2, ink);
+		pm_picture_fill(&p->picture, (int)x, p->y1, (int)x + pen(p), p->y1 + (int)(0.5 * l), ink);
 		pm_picture_text(&p->picture, x - pm_picture_text(NULL, 0, 0, l, false, text, ink) / 2, p->y1 + 1.9 * l, l, false, text, ink);
 	}
 }
@@ -133,15 +138,18 @@ static void axis_y(struct pm_plot *p)
 	for (int i = 0, n = pm_plot_ticks(p->lo[1], p->hi[1], 7, at, &step); i < n; i++) {
 		double y = up(p, at[i]);
 		label(at[i], step, text);
-		pm_picture_line(&p->picture, p->x0, y, p->x0 - 0.45 * l, y, 1.2, ink);
+		pm_picture_fill(&p->picture, p->x0 - (int)(0.5 * l), (int)y, p->x0, (int)y + pen(p), ink);
 		pm_picture_text(&p->picture, p->x0 - 0.8 * l - pm_picture_text(NULL, 0, 0, l, false, text, ink), y + l / 2, l, false, text, ink);
 	}
 }
 
-static void border(struct pm_picture *q, double x0, double y0, double x1, double y1)
+/* Just outside the area, in whole pixels. */
+static void border(struct pm_plot *p, int x0, int y0, int x1, int y1)
 {
-	pm_picture_line(q, x0, y0, x1, y0, 1.2, ink), pm_picture_line(q, x1, y0, x1, y1, 1.2, ink);
-	pm_picture_line(q, x1, y1, x0, y1, 1.2, ink), pm_picture_line(q, x0, y1, x0, y0, 1.2, ink);
+	struct pm_picture *q = &p->picture;
+	int w = pen(p);
+	pm_picture_fill(q, x0 - w, y0 - w, x1 + w, y0, ink), pm_picture_fill(q, x0 - w, y1, x1 + w, y1 + w, ink);
+	pm_picture_fill(q, x0 - w, y0, x0, y1, ink), pm_picture_fill(q, x1, y0, x1 + w, y1, ink);
 }
 
 void pm_plot_axes(struct pm_plot *p, const char *xlabel, const char *ylabel, const char *title, const char *note)
@@ -149,23 +157,38 @@ void pm_plot_axes(struct pm_plot *p, const char *xlabel, const char *ylabel, con
 	struct pm_picture *q = &p->picture;
 	double l = p->letter, width;
 	axis_x(p), axis_y(p);
-	border(q, p->x0, p->y0, p->x1, p->y1);
+	border(p, p->x0, p->y0, p->x1, p->y1);
 	width = pm_picture_text(NULL, 0, 0, l, false, xlabel, ink);
 	pm_picture_text(q, (p->x0 + p->x1 - width) / 2, p->y1 + 4.1 * l, l, false, xlabel, ink);
+	double free = (p->x0 + p->x1 + width) / 2 + 1.5 * l;
 	width = pm_picture_text(NULL, 0, 0, l, true, ylabel, ink);
 	pm_picture_text(q, 1.6 * l, (p->y0 + p->y1 + width) / 2, l, true, ylabel, ink);
 	pm_picture_text(q, p->x0, p->y0 - 1.1 * l, 1.15 * l, false, title, ink);
 	width = pm_picture_text(NULL, 0, 0, 0.8 * l, false, note, faint);
-	pm_picture_text(q, p->x1 - width, p->y1 + 4.1 * l, 0.8 * l, false, note, faint);
+	pm_picture_text(q, fmax(p->x1 - width, free), p->y1 + 4.1 * l, 0.8 * l, false, note, faint);
 }
 
 static void bar_tick(struct pm_plot *p, double t, const char *text)
 {
-	double l = p->letter, x = p->x1 + 2.2 * l, y = p->y1 - t * (p->y1 - p->y0);
+	double l = p->letter, y = p->y1 - t * (p->y1 - p->y0);
+	int x = (int)(p->x1 + 2.2 * l);
 	if (t < -1e-6 || t > 1 + 1e-6)
 		return;
-	pm_picture_line(&p->picture, x, y, x + 0.4 * l, y, 1.2, ink);
+	pm_picture_fill(&p->picture, x, (int)y, x + (int)(0.5 * l), (int)y + pen(p), ink);
 	pm_picture_text(&p->picture, x + 0.8 * l, y + l / 2, l, false, text, ink);
+}
+
+/* Between the powers of ten, 2 to 9 times the one below. */
+static void bar_between(struct pm_plot *p, double low, double high)
+{
+	int x = (int)(p->x1 + 2.2 * p->letter);
+	for (int decade = (int)floor(low); decade <= high && high - low < 8; decade++)
+		for (int k = 2; k < 10; k++) {
+			double t = (decade + log10(k) - low) / (high - low);
+			int y = (int)(p->y1 - t * (p->y1 - p->y0));
+			if (t > 0 && t < 1)
+				pm_picture_fill(&p->picture, x, y, x + (int)(0.3 * p->letter), y + pen(p), ink);
+		}
 }
 
 static void bar_ticks(struct pm_plot *p, const struct pm_scale *s)
@@ -173,6 +196,8 @@ static void bar_ticks(struct pm_plot *p, const struct pm_scale *s)
 	double at[most_ticks], step, low = s->log ? log10(s->lo) : s->lo, high = s->log ? log10(s->hi) : s->hi;
 	bool decades = s->log && high - low >= 1.5;
 	char text[40];
+	if (decades)
+		bar_between(p, low, high);
 	for (int i = 0, n = pm_plot_ticks(decades || !s->log ? low : s->lo, decades || !s->log ? high : s->hi, 7, at, &step); i < n; i++) {
 		if (decades && at[i] != floor(at[i]))
 			continue;
@@ -203,7 +228,7 @@ void pm_plot_bar(struct pm_plot *p, const struct pm_scale *s)
 		shade(s, (p->y1 - y - 0.5) / (p->y1 - p->y0), rgb);
 		pm_picture_fill(&p->picture, x0, y, x1, y + 1, rgb);
 	}
-	border(&p->picture, x0, p->y0, x1, p->y1);
+	border(p, x0, p->y0, x1, p->y1);
 	shade(s, 0, rgb);
 	if (s->below)
 		bar_point(p, p->y1, 1, rgb);

@@ -130,6 +130,13 @@ static const char *unit_of(const struct pm_expression *e, const struct pm_frame 
 	return p ? p->unit : "";
 }
 
+/* The label of a box axis; its unit is that of the positions, where there are any. */
+static void axis_label(const struct pm_frame *f, const char *name, char out[160])
+{
+	const struct pm_field *x = f->nsets ? pm_frame_field(f, f->sets[0]->name, "x") : NULL;
+	with_unit(name, x ? x->unit : "", out);
+}
+
 static double aspect_of(const double lo[2], const double hi[2]) { return fmin(fmax((hi[0] - lo[0]) / (hi[1] - lo[1]), 0.2), 5); }
 
 /* ---- meshes ---- */
@@ -140,7 +147,7 @@ static int curve(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, const
 	size_t n = field->count + (f->face[0][0] == PM_PERIODIC); /* the first point again at the end of the box */
 	double *x = pm_alloc(2 * n, sizeof *x), *y = x + n, pad = r.max > r.min ? 0.05 * (r.max - r.min) : r.max != 0 ? fabs(r.max) / 2 : 0.5;
 	double lo[2] = {f->lo[0], r.min - pad}, hi[2] = {f->hi[0], r.max + pad};
-	char title[256], label[160];
+	char title[256], label[160], across[160];
 	if (!x)
 		return -PM_DATA;
 	for (size_t i = 0; i < n; i++) {
@@ -153,9 +160,9 @@ static int curve(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, const
 		lo[0] = v->window[0], hi[0] = v->window[1], lo[1] = v->window[2], hi[1] = v->window[3];
 	int status = pm_plot_new(p, v->size, 1.6, lo, hi, false, light);
 	if (!status) {
-		title_of(v, f, "", title), with_unit(name, field->unit, label);
+		title_of(v, f, "", title), with_unit(name, field->unit, label), axis_label(f, "x", across);
 		pm_plot_curve(p, n, x, y);
-		pm_plot_axes(p, "x", label, title, "");
+		pm_plot_axes(p, across, label, title, "");
 	}
 	pm_free(x);
 	return status;
@@ -182,7 +189,7 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 	const struct pm_field *field = pm_frame_field(f, v->on, v->drawn);
 	struct pm_raster r = {.value = NULL};
 	struct pm_scale s = {.label = ""};
-	char name[PM_NAME + 8], what[160], label[160], title[256];
+	char name[PM_NAME + 8], what[160], label[160], title[256], across[160], upwards[160];
 	const char *const axes[] = {"x", "y", "z"};
 	int x = f->dim == 3 && v->axis == 0 ? 1 : 0, y = f->dim == 3 && v->axis != 2 ? 2 : 1, status;
 	if (field->components == 1)
@@ -199,7 +206,8 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 		s.label = label;
 		title_of(v, f, v->project && f->dim == 3 ? name : what, title);
 		pm_plot_raster(p, &r, &s);
-		pm_plot_axes(p, axes[x], axes[y], title, "");
+		axis_label(f, axes[x], across), axis_label(f, axes[y], upwards);
+		pm_plot_axes(p, across, upwards, title, "");
 		pm_plot_bar(p, &s);
 	}
 	pm_raster_free(&r);
@@ -244,6 +252,13 @@ static int draw_density(struct pm_view *v, struct pm_plot *p, size_t n, const do
 	return status;
 }
 
+/* A seventh of the distance that evenly spread points would have, within reason. */
+static double point_radius(int size, size_t n)
+{
+	double unit = size / 640.0;
+	return fmin(fmax(0.14 * size / sqrt((double)n + 1), fmax(0.9, unit)), 4 * fmax(unit, 0.5));
+}
+
 static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, size_t n, const double *x, const double *y, const double *extra)
 {
 	struct pm_scale s = {.label = v->drawn};
@@ -264,7 +279,7 @@ static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, siz
 			status = scale_choose(v, &s, min, max, least, v->log, pm_colour_find("viridis"));
 		s.start = s.map == pm_colour_find("coolwarm") ? 0 : 0.25; /* points must not be as dark as the ground */
 		if (!status)
-			pm_plot_points(p, n, x, y, n ? extra : NULL, &s, v->size / 640.0 * fmin(fmax(7 / pow((double)n + 1, 0.2), 1), 4));
+			pm_plot_points(p, n, x, y, n ? extra : NULL, &s, point_radius(v->size, n));
 	}
 	if (status)
 		return status;

@@ -166,6 +166,17 @@ static int check_density(const struct pm_frame *f, const struct pm_field *old, c
 	return 0;
 }
 
+/* mass: mass/length^3; length^2/time in the plane: 1/time. */
+static void unit_over_volume(const char *unit, int dim, char *out, size_t size)
+{
+	char volume[16];
+	int n = snprintf(volume, sizeof volume, "length^%d", dim);
+	if (!strncmp(unit, volume, (size_t)n) && unit[n] == '/')
+		snprintf(out, size, "1%.40s", unit + n);
+	else if (*unit)
+		snprintf(out, size, dim > 1 ? "%.40s/%s" : "%.40s/length", unit, volume);
+}
+
 int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *name, const struct pm_kernel *k, const struct pm_sets *sets,
 	const char *strength, bool add)
 {
@@ -177,8 +188,8 @@ int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *na
 	if (!density)
 		return -PM_DATA;
 	snprintf(density->kernel, sizeof density->kernel, "%s", k->name);
-	if (q->extensive && q->unit[0])
-		snprintf(density->unit, sizeof density->unit, "%.40s/length^%d", q->unit, f->dim);
+	if (q->extensive)
+		unit_over_volume(q->unit, f->dim, density->unit, sizeof density->unit);
 	return 0;
 }
 
