@@ -421,7 +421,7 @@ static void cube_of_one(void)
 
 static void square_with_walls(void)
 {
-	for (int symbol = PM_SPECTRAL; symbol <= PM_FD4; symbol++) {
+	for (int symbol = PM_SPECTRAL; symbol <= PM_FD6; symbol++) {
 		double h[3], error[3], total[3];
 		for (int l = 0; l < 3; l++) {
 			size_t n = 16u << l;
@@ -453,7 +453,7 @@ static void square_with_walls(void)
 static void orders(void)
 {
 	for (enum pm_face face = PM_PERIODIC; face <= PM_NEUMANN; face++)
-		for (int symbol = PM_SPECTRAL; symbol <= PM_FD4 && face != PM_OPEN; symbol++) {
+		for (int symbol = PM_SPECTRAL; symbol <= PM_FD6 && face != PM_OPEN; symbol++) {
 			double h[3], error[3] = {0};
 			for (int l = 0; l < 3; l++) {
 				size_t n = 24u << l;
@@ -476,7 +476,7 @@ static void orders(void)
 			if (symbol == PM_SPECTRAL)
 				check_near(error[1], 0, 1e-13, name); /* 48 cells resolve it to round-off */
 			else
-				check_order(3, h, error, symbol == PM_FD2 ? 2 : 4, name);
+				check_order(3, h, error, 2 * symbol, name);
 		}
 }
 

@@ -16,7 +16,7 @@ struct problem {
 };
 
 static const enum pm_face faces[][2] = {{PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_NEUMANN, PM_NEUMANN}, {PM_OPEN, PM_OPEN},
-	{PM_ABSORBING, PM_ABSORBING}, {PM_WALL, PM_NEUMANN}, {PM_OPEN, PM_WALL}, {PM_NEUMANN, PM_OPEN}};
+	{PM_ABSORBING, PM_ABSORBING}, {PM_WALL, PM_NEUMANN}, {PM_OPEN, PM_WALL}, {PM_NEUMANN, PM_OPEN}, {PM_NEUMANN, PM_WALL}};
 static const char *const rule_names[] = {"periodic", "wall", "neumann", "open"};
 enum { FACES = sizeof faces / sizeof *faces };
 
