@@ -1,0 +1,41 @@
+/* Jacobi's sweep with a factor, shared by jacobi and weighted-jacobi. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_RELAX_JACOBI_H
+#define PM_RELAX_JACOBI_H
+
+#include <string.h>
+
+#include "relax/relax.h"
+
+/* u + (factor/diagonal) (lap u - f), from old values only: the rows are independent. */
+static inline double pm_jacobi_sweep(struct pm_relax_work *w)
+{
+	const struct pm_laplacian *l = w->lap;
+	size_t nx = l->axis[0].points, ny = l->axis[1].points;
+	const double factor = w->factor / l->diagonal;
+	double *next = w->extra[0];
+	#pragma omp parallel for schedule(static) if (l->size > pm_laplacian_parallel)
+	for (size_t q = 0; q < l->rows; q++) {
+		double *out = next + q * nx;
+		w->sums[q] = 0;
+		if (!pm_laplacian_inside(l, q % ny, q / ny)) {
+			memcpy(out, w->u + q * nx, nx * sizeof *out); /* a wall */
+			continue;
+		}
+		struct pm_laplacian_row a = pm_laplacian_row_at(l, w->u, w->f, q % ny, q / ny);
+		w->sums[q] = pm_laplacian_row_residual(l, &a, out);
+		for (size_t i = 0; i < nx; i++)
+			out[i] = a.u[i] + factor * out[i];
+	}
+	w->extra[0] = w->u;
+	w->u = next;
+	w->fresh = false;
+	return pm_sum_array(l->rows, w->sums);
+}
+
+/* Eigenvalues 1 - factor (1 - mu), mu those of the average over neighbours. */
+static inline double pm_jacobi_radius(const struct pm_laplacian *l, double factor)
+{
+	return fmax(fabs(1 - factor * (1 - l->highest)), fabs(1 - factor * (1 - l->lowest)));
+}
+
+#endif

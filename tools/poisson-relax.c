@@ -1,0 +1,136 @@
+/* poisson-relax: solves lap phi = c*s on a mesh by iterations one can read. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+
+#include "poisson/problem.h"
+#include "poisson/relax.h"
+#include "stage/stage.h"
+
+struct config {
+	struct pm_problem_names names;
+	const char *method;
+	double relaxation, tolerance;
+	int64_t most;
+};
+struct state {
+	struct pm_problem problem;
+	struct pm_relaxation_choice choice;
+	struct pm_relaxation *solver; /* for the grid it was made for */
+};
+
+static const struct pm_option options[] = {
+	{"method", 0, PM_WORD, "", "cg", 0, 0, pm_relax_names, "which iteration", false, offsetof(struct config, method)},
+	{"relaxation", 0, PM_REAL, "", NULL, 0.01, 1.9999, NULL,
+		"factor of each step (default: the method's: 1, the one that smooths best, or Young's best of this mesh and its faces)", false,
+		offsetof(struct config, relaxation)},
+	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
+		offsetof(struct config, tolerance)},
+	{"max-sweeps", 0, PM_INTEGER, "", "100000", 1, 1e9, NULL, "sweeps after which it fails", false, offsetof(struct config, most)},
+	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
+	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
+	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
+		offsetof(struct config, names.target)},
+	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
+	{0},
+};
+
+static const struct pm_example examples[] = {
+	{"the potential in a periodic box by conjugate gradients", "pinit uniform -n 2000 | p2m -n 32 | poisson-relax | sls --report"},
+	{"over-relaxation between walls: the radius measured and Young's", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 64 | poisson-relax --method sor | sls --report"},
+	{"a factor of one's own", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method red-black-sor --relaxation 1.7 | sls --report"},
+	{0},
+};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	struct state *t = s->state;
+	t->choice = (struct pm_relaxation_choice){.method = pm_relax_find(o->method), .factor = o->relaxation, .tolerance = o->tolerance, .most = o->most};
+	if (!t->choice.method)
+		return -PM_USAGE;
+	if (!isnan(o->relaxation) && !t->choice.method->factor)
+		return pm_fail(PM_USAGE, "--method %s has no factor of relaxation (leave --relaxation out, or take --method sor)", o->method);
+	return 0;
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct state *t = s->state;
+	int status = pm_problem_find(f, &o->names, &t->problem);
+	if (!status)
+		status = pm_relaxation_check(&t->problem.grid, t->choice.method, t->choice.factor);
+	if (!status)
+		status = pm_problem_declare(f, &t->problem);
+	if (!status)
+		t->problem.target->use |= PM_USE_FILL;
+	return status;
+}
+
+static int ready(struct state *t)
+{
+	if (t->solver && pm_relaxation_fits(t->solver, &t->problem.grid, t->choice.method))
+		return 0;
+	pm_relaxation_free(t->solver);
+	t->solver = pm_relaxation_new(&t->problem.grid, t->choice.method);
+	return t->solver ? 0 : -PM_DATA;
+}
+
+/* Of the component that took the most sweeps. */
+static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relaxation_record *r)
+{
+	const struct { const char *key; double value; } row[] = {{"sweeps", (double)r->sweeps}, {"residual", r->after}, {"relaxation", r->factor},
+		{"radius", r->radius}, {"radius_expected", r->expected}};
+	for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+		if (!isnan(row[i].value))
+			pm_report(s, f, row[i].key, row[i].value);
+	pm_report_text(s, f, "status", r->floor ? "floor" : "converged");
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct state *t = s->state;
+	struct pm_relaxation_record longest = {.sweeps = -1}, r;
+	int status = ready(t);
+	for (int c = 0; !status && c < t->problem.source->components; c++) {
+		char key[32] = "mean_removed";
+		if (t->problem.source->components > 1)
+			snprintf(key, sizeof key, "mean_removed_%d", c);
+		status = pm_relaxation_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &r);
+		if (r.singular)
+			pm_report(s, f, key, r.mean);
+		if (r.sweeps > longest.sweeps)
+			longest = r;
+	}
+	if (!status)
+		report(s, f, &longest);
+	return status;
+}
+
+static void release(struct pm_stage *s)
+{
+	struct state *t = s->state;
+	t->solver = pm_relaxation_free(t->solver);
+}
+
+const struct pm_tool tool_poisson_relax = {
+	.name = "poisson-relax",
+	.summary = "solve Poisson's equation on a mesh by simple iterations",
+	.about = "Solves lap phi = c*s with differences of order 2 on the nodes, for comparison and for teaching: Jacobi, Gauss-Seidel, over-relaxation, conjugate "
+		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture. Reports the sweeps, the factor by which the residual fell per sweep in "
+		"the long run, and the published formula for it where one holds. Where no face fixes phi, the mean of s is removed and reported, and the mean of phi is "
+		"zero. It stops at the tolerance or where round-off keeps the residual above it (status floor), and fails with exit 3 and the history if it does neither. poisson-mg "
+		"and poisson-fft --symbol fd2 solve the same equation faster.",
+	.kind = PM_FILTER,
+	.makes = true,
+	.reads = "rho (mesh)",
+	.changes = "",
+	.adds = "phi (mesh)",
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+	.free = release,
+};
