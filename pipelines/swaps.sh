@@ -37,6 +37,7 @@ row 'none: cic (m6prime), spectral solver, order 4, leapfrog (lsrk3)' cic "$fft"
 row 'kernel: tsc (m4prime)' tsc "$fft" 4 leapfrog lsrk3 m4prime
 row 'solver: poisson-fft --symbol fd2' cic "$fd2" 4 leapfrog lsrk3 m6prime
 row 'solver: poisson-mg' cic poisson-mg 4 leapfrog lsrk3 m6prime
+row 'solver: poisson-relax' cic poisson-relax 4 leapfrog lsrk3 m6prime
 row 'gradient: order 2' cic "$fft" 2 leapfrog lsrk3 m6prime
 row 'gradient: spectral' cic "$fft" spectral leapfrog lsrk3 m6prime
 row 'scheme: rk4' cic "$fft" 4 rk4 rk4 m6prime

@@ -78,7 +78,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (!strcmp(source, target))
 		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
 	if (!pm_frame_field(f, mesh->name, source))
-		return pm_fail(PM_DATA, "no field '%s' on '%s' (poisson-fft or poisson-mg makes a potential, or choose --source)", source, mesh->name);
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (poisson-fft, poisson-mg or poisson-relax makes a potential, or choose --source)", source, mesh->name);
 	t->source = pm_reads(f, mesh->name, source);
 	if (!t->source)
 		return -PM_DATA;

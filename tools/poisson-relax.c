@@ -76,10 +76,10 @@ static int ready(struct state *t)
 }
 
 /* Of the component that took the most sweeps. */
-static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relaxation_record *r)
+static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relax *method, const struct pm_relaxation_record *r)
 {
 	const struct { const char *key; double value; } row[] = {{"sweeps", (double)r->sweeps}, {"residual", r->after}, {"relaxation", r->factor},
-		{"radius", r->radius}, {"radius_expected", r->expected}};
+		{"radius", r->radius}, {method->bound ? "radius_bound" : "radius_expected", r->expected}};
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++)
 		if (!isnan(row[i].value))
 			pm_report(s, f, row[i].key, row[i].value);
@@ -102,7 +102,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 			longest = r;
 	}
 	if (!status)
-		report(s, f, &longest);
+		report(s, f, t->choice.method, &longest);
 	return status;
 }
 

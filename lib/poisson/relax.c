@@ -126,26 +126,29 @@ static void look(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 		r->converged = r->floor = true;
 }
 
+/* What a sweep met may be far from what it left (over-relaxation), but the ratio of the two is steady: `left` is that of the last look. */
 static void iterate(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double source, struct pm_relaxation_record *r)
 {
-	double met = 1;
+	double met = 1, left = 1;
 	while (!r->converged && r->sweeps < o->most && met < 1e30) {
 		met = sqrt(p->method->sweep(&p->work)) / source;
 		r->sweeps++;
-		if ((r->sweeps & (r->sweeps - 1)) == 0 && r->n < PM_RELAXATION_MARKS) {
-			r->sweep[r->n] = r->sweeps;
-			r->history[r->n++] = met;
-		}
-		bool near = met <= fmax(2 * o->tolerance, DBL_EPSILON);
-		if (near || r->sweeps % 64 == 0)
+		bool mark = (r->sweeps & (r->sweeps - 1)) == 0 && r->n < PM_RELAXATION_MARKS;
+		bool near = met * left <= fmax(2 * o->tolerance, DBL_EPSILON);
+		if (near || mark || r->sweeps % 64 == 0) {
 			look(p, o, source, r);
-		p->work.fresh = near && !r->converged && !p->method->factor;
+			left = fmax(r->after / met, DBL_EPSILON);
+		}
+		if (mark) {
+			r->sweep[r->n] = r->sweeps;
+			r->history[r->n++] = r->after;
+		}
+		p->work.fresh = near && !r->converged && p->method->bound; /* the recursion of conjugate gradients has left the residual */
 	}
-	if (!r->converged)
-		look(p, o, source, r);
+	look(p, o, source, r);
 	int from = r->n > 1 && r->sweep[r->n - 1] > r->sweeps / 2 ? r->n - 2 : r->n - 1;
-	if (r->sweeps >= 4 && r->history[from] > 0 && met > 0)
-		r->radius = pow(met / r->history[from], 1 / (double)(r->sweeps - r->sweep[from]));
+	if (r->sweeps >= 4 && r->history[from] > 0 && r->after > 0)
+		r->radius = pow(r->after / r->history[from], 1 / (double)(r->sweeps - r->sweep[from]));
 }
 
 /* The power of two at the largest |c (s - average)|: squares must neither vanish nor overflow, and it rounds nothing. */
@@ -171,7 +174,8 @@ int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choi
 	p->work.fresh = true;
 	double source = norm(p, p->f);
 	r->converged = source == 0 || l->diagonal == 0 || l->unknowns == 0;
-	iterate(p, o, source, r);
+	if (!r->converged)
+		iterate(p, o, source, r);
 	double mean = l->singular ? pm_laplacian_mean(l, p->work.u, p->work.sums) : 0;
 	for (size_t i = 0; i < l->size; i++)
 		phi[i] = unit * (p->work.u[i] - mean);

@@ -23,7 +23,7 @@ struct pm_relaxation_record {
 	double mean;          /* removed from c*s, as a mean of s; 0 if the problem is not singular */
 	bool singular, converged;
 	bool floor;           /* round-off keeps the residual above the tolerance; counts as converged */
-	int n;                /* relative residuals met in sweep[i] = 1, 2, 4, 8 ... */
+	int n;                /* relative residuals after sweep[i] = 1, 2, 4, 8 ... */
 	int64_t sweep[PM_RELAXATION_MARKS];
 	double history[PM_RELAXATION_MARKS];
 };

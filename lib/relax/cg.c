@@ -17,6 +17,7 @@ const struct pm_relax relax_cg = {
 	.name = "cg",
 	.sentence = "conjugate gradients",
 	.source = "Hestenes and Stiefel 1952",
+	.bound = true,
 	.extra = 3,
 	.radius = radius,
 	.sweep = sweep,

@@ -27,8 +27,9 @@ static inline double pm_colours_relax(struct pm_relax_work *w)
 	const struct pm_laplacian *l = w->lap;
 	const struct pm_laplacian_axis *y = &l->axis[1], *z = &l->axis[2];
 	const double factor = w->factor / l->diagonal;
+	const bool seam = pm_colours_seam(y, y->points - 1) || pm_colours_seam(z, z->points - 1);
 	for (size_t colour = 0; colour < 2; colour++)
-		for (int late = 0; late < 2; late++) {
+		for (int late = 0; late <= seam; late++) {
 			#pragma omp parallel for schedule(static) if (!late && l->size > pm_laplacian_parallel)
 			for (size_t q = 0; q < l->rows; q++) {
 				size_t j = q % y->points, k = q / y->points;

@@ -21,6 +21,7 @@ struct pm_relax_work {
 
 struct pm_relax {
 	const char *name, *sentence, *source;
+	bool bound;                    /* radius is a bound, and the method remembers from sweep to sweep: conjugate gradients */
 	int extra;                     /* meshes it needs besides u and f */
 	double (*factor)(const struct pm_laplacian *l); /* its own relaxation factor; NULL: it has none */
 	/* By how much it shrinks the error per sweep in the long run, the published formula; NAN where that does not hold. 1 or more: it does not converge. */

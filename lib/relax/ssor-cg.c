@@ -28,6 +28,7 @@ const struct pm_relax relax_ssor_cg = {
 	.name = "ssor-cg",
 	.sentence = "conjugate gradients preconditioned by a symmetric sweep of over-relaxation",
 	.source = "Axelsson 1972; Saad 2003, section 10.2",
+	.bound = true,
 	.extra = 4,
 	.factor = factor,
 	.radius = radius,

@@ -38,7 +38,7 @@ refused() {
 @test "mgrad: what it cannot do is refused with what can" {
 	pinit uniform -n 100 | p2m -n 8 > rho
 	pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft > free
-	refused 1 "no field 'phi' on 'mesh' (poisson-fft or poisson-mg makes" "mgrad < rho"
+	refused 1 "no field 'phi' on 'mesh' (poisson-fft, poisson-mg or poisson-relax makes" "mgrad < rho"
 	refused 1 "choose --order 2, 4 or 6" "mgrad --order spectral < free"
 	refused 2 "needs a --target" "mgrad --operator lap < free"
 	refused 1 "grad takes 1" "mgrad < free | mgrad --operator grad --source g --target gg"
