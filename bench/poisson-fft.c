@@ -54,7 +54,7 @@ static void round_of(size_t n, enum pm_face face, fftw_plan there, fftw_plan bac
 	t[1] = pm_seconds();
 	fftw_execute(there), fftw_execute(back);
 	t[2] = pm_seconds();
-	pm_operator_apply(&o, -1, (const double *[]){phi}, g);
+	pm_operator_apply(&o, -1, (const double *[]){phi}, g, NULL);
 	t[3] = pm_seconds();
 	memcpy(g[0], phi, pm_grid_size(&grid) * sizeof(double));
 	t[4] = pm_seconds();

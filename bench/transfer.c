@@ -1,11 +1,12 @@
 /* Speed of spread and gather, million particles per second: every kernel, random and tile-ordered positions, one scalar and (gather) a vector.
- * transfer [cells per axis [particles per cell [dim]]]; the threads are OMP_NUM_THREADS. One thread is timed by the processor's clock, so that
+ * transfer [cells per axis [particles per cell [dim [kernel]]]]; the threads are OMP_NUM_THREADS. One thread is timed by the processor's clock, so that
  * other programs matter less, several by the wall's. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-#include "mesh/transfer.h"
+#include "mesh/transfer_order.h"
 
 enum { repeats = 3 };
 
@@ -15,22 +16,24 @@ struct run {
 	double *x[3], *q, *mesh[3], *out[3];
 };
 
-/* Position p: anywhere, or in the order of tiles of 16^3 (64^2, 4096) cells. */
+/* Position p: anywhere, or in the order of tiles of 32x16x8 (64x64, 4096) cells. */
 static void place(struct run *r, bool ordered, size_t per_cell)
 {
 	int dim = r->t.grid.dim;
-	size_t cells = r->t.grid.cells[0], edge = dim == 1 ? 4096 : dim == 2 ? 64 : 16, n = r->n;
-	if (edge > cells)
-		edge = cells;
-	size_t volume = edge * (dim > 1 ? edge : 1) * (dim > 2 ? edge : 1) * per_cell;
+	size_t cells = r->t.grid.cells[0], n = r->n, volume = per_cell, edge[3];
+	for (int d = 0; d < dim; d++) {
+		edge[d] = (size_t)1 << pm_tile_shift[dim][d];
+		edge[d] = edge[d] < cells ? edge[d] : cells;
+		volume *= edge[d];
+	}
 #pragma omp parallel for
 	for (size_t p = 0; p < n; p++) {
-		size_t tile = p / volume, across = cells / edge;
+		size_t tile = p / volume;
 		for (int d = 0; d < dim; d++) {
 			double u[2];
 			pm_random(1, p, (uint64_t)d, u);
-			r->x[d][p] = ordered ? (double)(tile % across * edge) + u[0] * (double)edge : u[0] * (double)cells;
-			tile /= across;
+			r->x[d][p] = ordered ? (double)(tile % (cells / edge[d]) * edge[d]) + u[0] * (double)edge[d] : u[0] * (double)cells;
+			tile /= cells / edge[d];
 		}
 		r->q[p] = 1;
 	}
@@ -82,7 +85,7 @@ int main(int argc, char **argv)
 	printf("%d-D, %zu cells per axis, %zu particles, %d threads; million particles per second\n", dim, cells, r.n, pm_threads());
 	printf("kernel\torder\tspread\tgather\tgather %d components\n", dim);
 	for (int i = 0; pm_kernels[i]; i++)
-		for (int ordered = 0; ordered < 2; ordered++) {
+		for (int ordered = 0; ordered < 2 && (argc < 5 || !strcmp(argv[4], pm_kernels[i]->name)); ordered++) {
 			place(&r, ordered, per_cell);
 			double spread = rate(&r, pm_kernels[i], 0), gather = rate(&r, pm_kernels[i], 1), vector = rate(&r, pm_kernels[i], dim);
 			printf("%s\t%s\t%.1f\t%.1f\t%.1f\n", pm_kernels[i]->name, ordered ? "tiles" : "random", spread, gather, vector);

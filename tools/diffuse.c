@@ -79,7 +79,7 @@ static int add(struct state *t, double *scratch)
 		in[c] = pm_in(t->density, c);
 		out[c] = scratch ? scratch + (size_t)c * n : pm_out(t->change, c);
 	}
-	int status = pm_operator_apply(&t->operator, t->nu, in, out);
+	int status = pm_operator_apply(&t->operator, t->nu, in, out, NULL);
 	for (int c = 0; c < t->operator.out && scratch; c++)
 		for (size_t i = 0; i < n; i++)
 			pm_out(t->change, c)[i] += out[c][i];

@@ -92,9 +92,12 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		status = pm_reads_positions(f, set);
 		if (!status && !o->field && j.law->per && (!pm_reads(f, set, j.law->strength) || !pm_reads(f, set, j.law->per)))
 			status = -PM_DATA;
-		if (!status && !(o->field ? pm_makes_gathered(f, set, j.field)
-					  : pm_contributes(f, set, j.law->change, j.law->of, j.field->components, term, o->replace)))
-			status = -PM_DATA;
+		struct pm_field *target = status ? NULL : o->field ? pm_makes_gathered(f, set, j.field)
+			: pm_contributes(f, set, j.law->change, j.law->of, j.field->components, term, o->replace);
+		if (target && target->use & PM_USE_NEW)
+			target->use |= PM_USE_FILL;
+		if (!target)
+			status = status ? status : -PM_DATA;
 		if (!status && !o->field)
 			status = pm_carry_plan(f, set, j.mesh, o->replace);
 		if (!status && !o->field && j.law->magnetic)
@@ -110,6 +113,8 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	struct pm_field *target = pm_frame_field(f, set, o->field ? o->field : j->law->change);
 	struct pm_transfer t = j->transfer;
 	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
+	for (int c = 0; c < t.components; c++)
+		t.set[c] = target->use & PM_USE_FILL;
 	double *out[PM_COMPONENTS], *ratio = NULL;
 	struct pm_strays strays = {.count = 0};
 	pm_positions(f, set, x);
@@ -124,6 +129,7 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	if (!status)
 		status = pm_gather(&t, target->count, x, mesh, factor, out, &strays);
 	pm_free(ratio);
+	target->use |= !status && strays.finite && t.components == target->components ? PM_USE_SEEN : 0;
 	if (!status && !o->field && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && strcmp(o->outside, "drop"))

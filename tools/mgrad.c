@@ -113,7 +113,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	int status = pm_operator_plan(&t->operator, &t->planner);
 	if (*t->planner.note)
 		pm_say(s, "%s", t->planner.note);
-	return status ? status : pm_operator_apply(&t->operator, t->factor, in, out);
+	bool seen = false;
+	status = status ? status : pm_operator_apply(&t->operator, t->factor, in, out, &seen);
+	t->target->use |= seen ? PM_USE_SEEN : 0;
+	return status;
 }
 
 static void release(struct pm_stage *s)

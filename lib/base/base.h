@@ -67,5 +67,17 @@ uint32_t pm_crc32c_join(uint32_t first, uint32_t second, size_t bytes);
 
 /* True if all n values are finite. */
 bool pm_finite(size_t n, const double *x);
+/* The same by the calling thread alone, for values that are in the cache already. The largest exponent tells: integers vectorise. */
+static inline bool pm_finite_few(size_t n, const double *x)
+{
+	typedef uint64_t __attribute__((may_alias)) word;
+	const word *bits = (const word *)x, exponent = 0x7ff0000000000000u;
+	word most = 0;
+	for (size_t i = 0; i < n; i++) {
+		word e = bits[i] & exponent;
+		most = e > most ? e : most;
+	}
+	return most != exponent;
+}
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "base/base.h"
 
-enum { large = 1 << 20, huge = 2 << 20, head = 64, shelf_size = 24 };
+enum { kept = 1 << 16, large = 1 << 20, huge = 2 << 20, head = 64, shelf_size = 32 }; /* bytes from which blocks go to the shelf, and have huge pages */
 
 struct block {
 	size_t bytes; /* of the whole block, this head included */
@@ -54,11 +54,9 @@ void *pm_alloc(size_t count, size_t size)
 	}
 	bytes += head;
 	struct block *b = NULL;
-	if (bytes >= large) {
-		bytes = (bytes + huge - 1) / huge * huge;
+	bytes = bytes >= large ? (bytes + huge - 1) / huge * huge : (bytes + 63) / 64 * 64;
+	if (bytes >= kept)
 		b = shelf_take(bytes);
-	} else
-		bytes = (bytes + 63) / 64 * 64;
 	if (!b) {
 		b = aligned_alloc(bytes >= large ? huge : 64, bytes);
 		if (!b) {
@@ -85,6 +83,6 @@ void *pm_free(void *p)
 	if (!p)
 		return NULL;
 	struct block *b = (struct block *)((char *)p - head);
-	free(b->bytes >= large ? shelf_put(b) : b);
+	free(b->bytes >= kept ? shelf_put(b) : b);
 	return NULL;
 }

@@ -54,7 +54,7 @@ static double palinstrophy(const struct pm_grid *g, const double *omega)
 	const size_t n = pm_grid_size(g);
 	double *slope = pm_alloc(2 * n, sizeof *slope), sum = NAN;
 	if (slope && !pm_operator_init(&o, g, PM_OP_GRAD, 6, 1, false) &&
-		!pm_operator_apply(&o, 1, (const double *const[]){omega}, (double *const[]){slope, slope + n}))
+		!pm_operator_apply(&o, 1, (const double *const[]){omega}, (double *const[]){slope, slope + n}, NULL))
 		sum = pm_energy_on_mesh(g, slope, slope) + pm_energy_on_mesh(g, slope + n, slope + n);
 	pm_free(slope);
 	return sum;

@@ -94,7 +94,11 @@ int pm_operator_plan(struct pm_operator *o, struct pm_planner *p)
 	return 0;
 }
 
-int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[])
+int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen)
 {
-	return o->order ? pm_operator_differences(o, factor, in, out) : pm_operator_spectral(o, factor, in, out);
+	bool here = false;
+	int status = o->order ? pm_operator_differences(o, factor, in, out, &here) : pm_operator_spectral(o, factor, in, out);
+	if (seen)
+		*seen = here;
+	return status;
 }

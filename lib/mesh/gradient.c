@@ -208,7 +208,7 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 }
 
 /* Rows are made in cache; where the mesh is larger than the caches they leave past them, which saves reading what is overwritten. */
-int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[])
+int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen)
 {
 	struct axis axis[PM_TERMS_MOST];
 	const size_t *n = o->grid.points, rows = n[1] * n[2];
@@ -217,9 +217,10 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 	bool streams = rows * n[0] > (size_t)1 << 20; /* 8 MiB */
 	size_t lot = (n[0] + 23) / 8 * 8;
 	double *scratch = pm_alloc((size_t)pm_threads() * lot, sizeof *scratch);
+	int bad = 0;
 	if (!scratch)
 		return -PM_DATA;
-#pragma omp parallel num_threads(pm_threads())
+#pragma omp parallel num_threads(pm_threads()) reduction(| : bad)
 	{
 		double *buffer = scratch + (size_t)omp_get_thread_num() * lot;
 #pragma omp for schedule(static)
@@ -230,6 +231,8 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 				double *to = out[q->out] + r * n[0];
 				bool last = t + 1 == o->nterms || q[1].out != q->out;
 				row_along(&axis[t], q->axis, in[q->in], r * n[0], at[q->axis], n[0], t && q->out == q[-1].out, streams ? buffer : to);
+				if (last)
+					bad |= !pm_finite_few(n[0], streams ? buffer : to);
 				if (streams && last)
 					pm_stream(to, buffer, n[0]);
 			}
@@ -237,5 +240,6 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 		pm_stream_end();
 	}
 	pm_free(scratch);
+	*seen = !bad;
 	return 0;
 }

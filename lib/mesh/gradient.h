@@ -33,14 +33,15 @@ struct pm_operator {
 int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_operator_kind kind, int order, int in, bool flow);
 /* The transforms of a spectral operator; nothing to do for differences. */
 int pm_operator_plan(struct pm_operator *o, struct pm_planner *p);
-/* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. */
-int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
+/* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. seen, if not NULL: every value was looked at on its way
+ * and is finite. */
+int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);
 
 /* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2, summed over the axes. */
 double pm_operator_fastest(const struct pm_operator *o);
 
 /* Of gradient.c and gradient-spectral.c: all of out, by differences; one term, added or set. */
-int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
+int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);
 int pm_operator_spectral(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
 /* Do images of a component change sign at a face? */
 bool pm_operator_odd(const struct pm_operator *o, int component, int axis, int side);

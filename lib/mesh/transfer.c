@@ -26,6 +26,7 @@ struct pass {
 	size_t jobs;
 	struct job *job;
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
+	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 
 /* The slots of a tile: first cell, and how many. */
@@ -53,8 +54,9 @@ static int list_jobs(struct pass *w)
 
 static struct pm_tile tile_of(const struct pass *w, const struct job *j, double *block)
 {
-	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->axes[0].shift, .count = j->to - j->from, .stride = w->order.stride,
-		.block = block, .records = w->order.records + j->from * (size_t)w->order.stride};
+	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->axes[0].shift, .count = j->to - j->from, .stride = w->order.stride, .block = block};
+	if (w->order.records)
+		t.records = w->order.records + j->from * (size_t)w->order.stride;
 	for (int d = 0; d < 3; d++)
 		tile_slots(w, j->tile, d, &t.cell[d]);
 	return t;
@@ -107,20 +109,41 @@ static int threads_for(size_t n)
 /* One thread adds each block at once, while it is in the cache. */
 static size_t jobs_under_way(int threads) { return threads == 1 ? 1 : wave * (size_t)threads; }
 
+/* The particles of a job to its block. */
+static void spread_job(const struct pass *w, const struct job *j, int value, double *block)
+{
+	struct pm_tile t = tile_of(w, j, block);
+	bool corners = pm_tile_has_corners(w->order.dim, w->t->kernel, t.count);
+	pm_tile_loop *loop = pm_tile_spread(w->order.dim, w->t->kernel, corners);
+	double packed[PM_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	t.value = w->order.dim + value;
+	t.corners = corners ? w->corners + (size_t)omp_get_thread_num() * PM_TILE_CELLS * PM_CORNERS : NULL;
+	if (t.records)
+		loop(&t);
+	for (size_t p = j->from; p < j->to && !w->order.records; p += t.count) {
+		t.count = j->to - p < PM_ORDER_PACK ? j->to - p : PM_ORDER_PACK;
+		t.records = packed;
+		pm_order_pack(&w->order, p, t.count, packed);
+		loop(&t);
+	}
+	if (corners) {
+		size_t cells[3], first;
+		for (int d = 0; d < 3; d++)
+			cells[d] = tile_slots(w, j->tile, d, &first) - (w->axes[d].slots - w->axes[d].count);
+		pm_tile_fold(&t, cells);
+	}
+}
+
 /* Jobs are taken in waves: every thread fills blocks of the wave, then adds the mesh lines that are its own from all of them in order. */
 static void spread_component(const struct pass *w, int value, int threads, double *mesh)
 {
 	size_t under_way = jobs_under_way(threads);
-	pm_tile_loop *loop = pm_tile_spread(w->order.dim, w->t->kernel);
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
-		for (size_t j = from; j < to; j++) {
-			struct pm_tile t = tile_of(w, &w->job[j], w->blocks + (j - from) * PM_BLOCK_MOST);
-			t.value = w->order.dim + value;
-			loop(&t);
-		}
+		for (size_t j = from; j < to; j++)
+			spread_job(w, &w->job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
 		for (size_t j = from; j < to; j++)
 			add_block(w, &w->job[j], w->which[value], omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
 #pragma omp barrier
@@ -160,18 +183,45 @@ static void load_block(const struct pass *w, const struct job *j, int c, const d
 		}
 }
 
-static void gather_pass(const struct pass *w, int threads, const double *const mesh[])
+/* Where the values of a stream that is in order go; they stay in the records otherwise. */
+struct results {
+	const double *const *factor;
+	const bool *set;
+	double *const *to;
+};
+
+static bool gather_in_order(const struct pass *w, const struct job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
+{
+	double packed[PM_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	bool finite = true;
+	t.records = packed;
+	for (size_t p = j->from; p < j->to; p += t.count) {
+		t.count = j->to - p < PM_ORDER_PACK ? j->to - p : PM_ORDER_PACK;
+		pm_order_pack(&w->order, p, t.count, packed);
+		loop(&t);
+		finite &= pm_order_unpack(p, t.count, t.stride, packed, w->components, r->factor, r->set, r->to);
+	}
+	return finite;
+}
+
+/* True if the values are finite; those in records are looked at later. */
+static bool gather_pass(const struct pass *w, int threads, const double *const mesh[], const struct results *r)
 {
 	pm_tile_loop *loop = pm_tile_gather(w->order.dim, w->t->kernel);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+	int bad = 0;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->jobs; j++) {
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
 		struct pm_tile t = tile_of(w, &w->job[j], block);
 		t.components = w->components;
 		for (int c = 0; c < w->components; c++)
 			load_block(w, &w->job[j], w->which[c], mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
-		loop(&t);
+		if (t.records)
+			loop(&t);
+		else
+			bad |= !gather_in_order(w, &w->job[j], t, loop, r);
 	}
+	return !bad;
 }
 
 /* The next pass: the first component not yet done, and all that sit where it does. False if there is none. */
@@ -203,8 +253,19 @@ static int begin_pass(struct pass *w, size_t n, const double *const x[], int nva
 	return w->blocks ? 0 : -PM_DATA;
 }
 
+static int corners_for(struct pass *w, int threads)
+{
+	bool used = false;
+	for (size_t j = 0; j < w->jobs && !used; j++)
+		used = pm_tile_has_corners(w->order.dim, w->t->kernel, w->job[j].to - w->job[j].from);
+	if (used)
+		w->corners = pm_zalloc((size_t)threads * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
+	return used && !w->corners ? -PM_DATA : 0;
+}
+
 static void end_pass(struct pass *w)
 {
+	pm_free(w->corners);
 	pm_free(w->blocks);
 	pm_free(w->job);
 	pm_order_free(&w->order);
@@ -220,6 +281,7 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		status = begin_pass(&w, n, x, w.components, strength, jobs_under_way(threads), 1, strays);
+		status = status ? status : corners_for(&w, threads);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		end_pass(&w);
@@ -230,24 +292,28 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
-	bool done[PM_COMPONENTS] = {false};
+	bool done[PM_COMPONENTS] = {false}, finite = true;
 	struct pass w;
 	int status = 0, threads = threads_for(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		double *to[PM_COMPONENTS];
 		const double *times[PM_COMPONENTS];
+		bool set[PM_COMPONENTS];
 		for (int c = 0; c < w.components; c++) {
+			set[c] = t->set[w.which[c]];
 			to[c] = out[w.which[c]];
 			times[c] = factor ? factor[w.which[c]] : NULL;
 		}
+		const struct results r = {times, set, to};
 		status = begin_pass(&w, n, x, 0, NULL, (size_t)threads, (size_t)w.components, strays);
-		if (!status) {
-			gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh);
-			pm_order_return(&w.order, w.components, times, to);
-		}
+		if (!status)
+			finite &= gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh, &r);
+		if (!status && w.order.records)
+			finite &= pm_order_return(&w.order, w.components, times, set, to);
 		end_pass(&w);
 	}
+	strays->finite = finite;
 	return status;
 }
 

@@ -15,6 +15,7 @@ struct pm_transfer {
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */
 	unsigned char flip[PM_COMPONENTS][3];
+	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };
 
 /* Particles the mesh does not hold: beyond a wall, or so near an open face that the kernel would reach its end nodes. They take no part. */
@@ -23,6 +24,7 @@ struct pm_strays {
 	size_t first;  /* index of the first of them */
 	double x[3];   /* [length] its position */
 	int axis;      /* the axis along which it is outside */
+	bool finite;   /* gather: every value it left is a finite number */
 };
 
 /* x[d][n] positions; strength[c][n], mesh[c][points] += density. End nodes of neumann faces hold twice what falls on them (half weight in mesh sums),

@@ -1,11 +1,12 @@
 /* A stable counting sort of particles into tiles of cells: count per chunk of the stream, add up, move the records. Stability makes the result
- * independent of the number of chunks, which is the number of threads. Cost: two passes over the positions, one over the rest.
+ * independent of the number of chunks, which is the number of threads. A stream that is in the order of tiles already is left where it is.
+ * Cost: two passes over the positions, one over the rest.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "mesh/transfer_order.h"
 
-enum { batch = 256, ahead = 16 }; /* ahead: the place of a later record is fetched early */
+enum { batch = PM_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later record is fetched early */
 
 static size_t chunk_from(const struct pm_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
@@ -43,8 +44,10 @@ static void find_tiles(const struct pm_order *o, size_t m, double u[3][batch], u
 	}
 }
 
-static void count_chunk(struct pm_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], struct pm_strays *strays)
+/* Counts, and says whether the chunk is in order and without strays. */
+static bool count_chunk(struct pm_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], struct pm_strays *strays)
 {
+	uint32_t falls = 0;
 	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	double u[3][batch];
 	memset(count, 0, (o->tiles + 1) * sizeof *count);
@@ -57,7 +60,10 @@ static void count_chunk(struct pm_order *o, const struct pm_axis axes[3], int ch
 			find_strays(o, p, m, u, x, strays);
 		for (size_t i = 0; i < m; i++)
 			count[o->tile[p + i]]++;
+		for (size_t i = p + (p == chunk_from(o, chunk)); i < p + m; i++)
+			falls |= o->tile[i] < o->tile[i - 1];
 	}
+	return !falls && !strays->count;
 }
 
 /* Counts become the first place of each chunk in each tile. Row 0 is that of chunk 0 for good; row c+1 is used up by chunk c and is then
@@ -76,23 +82,36 @@ static void add_up(struct pm_order *o)
 	o->begin[columns] = at;
 }
 
-static void move_chunk(struct pm_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], int nvalues, const double *const values[])
+static void move_chunk(struct pm_order *o, int chunk)
 {
 	size_t *cursor = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1), stride = (size_t)o->stride;
 	double u[3][batch];
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
-		locate(axes, o->dim, p, m, x, u);
+		locate(o->axes, o->dim, p, m, o->x, u);
 		for (size_t i = 0; i < m; i++) {
 			uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < to ? p + i + ahead : p + i];
 			double *record = o->records + stride * cursor[tile]++;
 			__builtin_prefetch(o->records + stride * cursor[soon], 1);
 			for (int d = 0; d < o->dim; d++)
 				record[d] = u[d][i];
-			for (int c = 0; c < nvalues; c++)
-				record[o->dim + c] = values[c][p + i];
+			for (int c = 0; c < o->nvalues; c++)
+				record[o->dim + c] = o->values[c][p + i];
 		}
 	}
+}
+
+void pm_order_pack(const struct pm_order *o, size_t p, size_t m, double *records)
+{
+	double u[3][batch];
+	const size_t stride = (size_t)o->stride;
+	locate(o->axes, o->dim, p, m, o->x, u);
+	for (int d = 0; d < o->dim; d++)
+		for (size_t i = 0; i < m; i++)
+			records[i * stride + (size_t)d] = u[d][i];
+	for (int c = 0; c < o->nvalues; c++)
+		for (size_t i = 0; i < m; i++)
+			records[i * stride + (size_t)(o->dim + c)] = o->values[c][p + i];
 }
 
 static int allocate(struct pm_order *o)
@@ -101,11 +120,20 @@ static int allocate(struct pm_order *o)
 	o->tile = pm_alloc(o->n, sizeof *o->tile);
 	o->begin = pm_alloc(columns + 1, sizeof *o->begin);
 	o->cursor = pm_alloc((size_t)(o->chunks + 1) * columns, sizeof *o->cursor);
+	return o->tile && o->begin && o->cursor ? 0 : -PM_DATA;
+}
+
+static int move(struct pm_order *o)
+{
 	size_t doubles = o->n * (size_t)o->stride;
 	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
-	if (o->records)
-		memset(o->records + doubles, 0, 4 * sizeof *o->records);
-	return o->tile && o->begin && o->cursor && o->records ? 0 : -PM_DATA;
+	if (!o->records)
+		return -PM_DATA;
+	memset(o->records + doubles, 0, 4 * sizeof *o->records);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
+		move_chunk(o, chunk);
+	return 0;
 }
 
 static int count_tiles(struct pm_order *o, const struct pm_axis axes[3])
@@ -125,9 +153,13 @@ int pm_order_init(struct pm_order *o, const struct pm_axis axes[3], int dim, siz
 	const double *const values[], int room, struct pm_strays *strays)
 {
 	int need = dim + nvalues;
-	*o = (struct pm_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room};
+	*o = (struct pm_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues};
 	*strays = (struct pm_strays){.count = 0};
-	int status = count_tiles(o, axes);
+	for (int d = 0; d < dim; d++)
+		o->x[d] = x[d];
+	for (int c = 0; c < nvalues; c++)
+		o->values[c] = values[c];
+	int status = count_tiles(o, axes), falls = 0;
 	if (status)
 		return status;
 	while (o->chunks > 1 && ((size_t)o->chunks * 4096 > n || (size_t)o->chunks * o->tiles > 4 * n)) /* not worth the rows of the cursors */
@@ -137,13 +169,13 @@ int pm_order_init(struct pm_order *o, const struct pm_axis axes[3], int dim, siz
 	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
 	if (!each)
 		return -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : falls)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		count_chunk(o, axes, chunk, x, &each[chunk]);
+		falls |= !count_chunk(o, axes, chunk, x, &each[chunk]);
+	for (int chunk = 1; chunk < o->chunks; chunk++)
+		falls |= o->tile[chunk_from(o, chunk)] < o->tile[chunk_from(o, chunk) - 1];
 	add_up(o);
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
-	for (int chunk = 0; chunk < o->chunks; chunk++)
-		move_chunk(o, axes, chunk, x, nvalues, values);
+	status = falls ? move(o) : 0;
 	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
 		uint64_t count = strays->count;
 		if (each[chunk].count)
@@ -151,7 +183,7 @@ int pm_order_init(struct pm_order *o, const struct pm_axis axes[3], int dim, siz
 		strays->count = count + each[chunk].count;
 	}
 	pm_free(each);
-	return 0;
+	return status;
 }
 
 void pm_order_free(struct pm_order *o)
@@ -163,20 +195,47 @@ void pm_order_free(struct pm_order *o)
 	*o = (struct pm_order){.n = 0};
 }
 
-void pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], double *const to[])
+bool pm_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[])
+{
+	bool finite = true;
+	for (int c = 0; c < nvalues; c++) {
+		double *restrict y = to[c] + p;
+		const double *f = factor[c] ? factor[c] + p : NULL;
+		for (size_t i = 0; i < m; i++) {
+			double value = records[i * (size_t)stride + (size_t)c];
+			value = f ? f[i] * value : value;
+			y[i] = set[c] ? value : y[i] + value;
+		}
+		finite &= pm_finite_few(m, y);
+	}
+	return finite;
+}
+
+/* The records of a batch side by side, in the order of the stream; a stray's is zero. */
+static void collect(struct pm_order *o, size_t p, size_t m, size_t end, size_t *cursor, int nvalues, double *batch_records)
 {
 	size_t stride = (size_t)o->stride;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (size_t i = 0; i < m; i++) {
+		uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < end ? p + i + ahead : p + i];
+		const double *record = o->records + stride * cursor[tile]++;
+		__builtin_prefetch(o->records + stride * cursor[soon]);
+		for (int c = 0; c < nvalues; c++)
+			batch_records[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
+	}
+}
+
+bool pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], const bool set[], double *const to[])
+{
+	int bad = 0;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : bad)
 	for (int chunk = 0; chunk < o->chunks; chunk++) {
+		double records[batch * PM_COMPONENTS];
 		size_t *cursor = o->cursor + (size_t)chunk * (o->tiles + 1);
-		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p++) {
-			uint32_t tile = o->tile[p], soon = o->tile[p + ahead < end ? p + ahead : p];
-			const double *record = o->records + stride * cursor[tile]++;
-			__builtin_prefetch(o->records + stride * cursor[soon]);
-			if (tile == o->tiles)
-				continue;
-			for (int c = 0; c < nvalues; c++)
-				to[c][p] += factor[c] ? factor[c][p] * record[c] : record[c];
+		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
+			size_t m = end - p < batch ? end - p : batch;
+			collect(o, p, m, end, cursor, nvalues, records);
+			bad |= !pm_order_unpack(p, m, nvalues, records, nvalues, factor, set, to);
 		}
 	}
+	return !bad;
 }

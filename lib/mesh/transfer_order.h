@@ -6,7 +6,7 @@
 #include "mesh/transfer_axis.h"
 
 /* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
-static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {4, 4, 4}};
+static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows: the mesh is met in rows */
 
 struct pm_order {
 	int dim, chunks;
@@ -16,7 +16,11 @@ struct pm_order {
 	size_t *begin;        /* [tiles+2] first record of each tile */
 	size_t *cursor;       /* [chunks+1][tiles+1] */
 	int stride;           /* doubles per record */
-	double *records;      /* [n][stride]: u of each axis, then the values */
+	double *records;      /* [n][stride]: u of each axis, then the values; NULL: the stream is in the order of tiles already */
+	const struct pm_axis *axes;
+	const double *x[3];
+	int nvalues;
+	const double *values[PM_COMPONENTS];
 };
 
 /* Sorts n particles by tile; within a tile they keep the order of the stream. values[nvalues][n] travel along; the records have room for
@@ -24,7 +28,12 @@ struct pm_order {
 int pm_order_init(struct pm_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
 	const double *const values[], int room, struct pm_strays *strays);
 void pm_order_free(struct pm_order *o);
-/* to[c][p] += factor[c][p] * (double c of the record of p) for every particle that is no stray; factor[c] NULL: 1. */
-void pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], double *const to[]);
+/* Records of the m particles of the stream from p on, m <= PM_ORDER_PACK; for a stream that is in order. */
+enum { PM_ORDER_PACK = 256 };
+void pm_order_pack(const struct pm_order *o, size_t p, size_t m, double *records);
+/* to[c][p] = (where set) or += factor[c][p] * (double c of the record of p); factor[c] NULL: 1; nothing for strays. True if every value is finite. */
+bool pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], const bool set[], double *const to[]);
+/* The same for m particles from p on, whose records are given. */
+bool pm_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[]);
 
 #endif

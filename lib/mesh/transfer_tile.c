@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "mesh/transfer_order.h"
 #include "mesh/transfer_tile.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -117,6 +118,69 @@ INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 	}
 }
 
+/* Weights of the corner of a cell at x*4 + y*2 + z. */
+static void spread_corners(const struct pm_tile *t)
+{
+	const int *shift = pm_tile_shift[3];
+	const vec8 one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
+	const vec8 sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
+	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
+	const int4 first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * stride;
+		double distance[4];
+		int32_t cell[4];
+		vec4 u = *(const vec4 *)record;
+		int4 floor_u = __builtin_convertvector(u, int4);
+		*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4);
+		*(int4 *)cell = floor_u - first;
+		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
+		vec8 *corners = (vec8 *)(t->corners + at * PM_CORNERS);
+		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
+	}
+}
+
+bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
+{
+	return dim == 3 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
+}
+
+/* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each. */
+static void fold_row(size_t n, double *restrict corners, double *restrict to)
+{
+	vec4 before = {0};
+	const vec4 zero = {0};
+	for (size_t i = 0; i < n; i++) {
+		vec4 *cell = (vec4 *)(corners + i * PM_CORNERS);
+		*(vec4 *)(to + 4 * i) = cell[0] + before;
+		before = cell[1];
+		cell[0] = cell[1] = zero;
+	}
+	*(vec4 *)(to + 4 * n) = before;
+}
+
+void pm_tile_fold(const struct pm_tile *t, const size_t cells[3])
+{
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
+	double folded[(32 + 1) * 4], before[(32 + 1) * 2];
+	for (size_t z = 0; z < cells[2]; z++) {
+		memset(before, 0, sizeof before);
+		for (size_t y = 0; y <= cells[1]; y++) {
+			double *restrict low = t->block + z * plane + y * row, *restrict high = low + plane;
+			if (y < cells[1])
+				fold_row(cells[0], t->corners + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_CORNERS << pm_tile_shift[3][0]), folded);
+			else
+				memset(folded, 0, sizeof folded);
+			for (size_t x = 0; x <= cells[0]; x++) {
+				low[x] += folded[4 * x] + before[2 * x];
+				high[x] += folded[4 * x + 1] + before[2 * x + 1];
+				before[2 * x] = folded[4 * x + 2];
+				before[2 * x + 1] = folded[4 * x + 3];
+			}
+		}
+	}
+}
+
 /* One function per dimension and width for the degree width-1 (B-splines, M'4 and M'6), and one for any degree. */
 #define LOOPS(dim, width, name, degree) \
 	static void spread_##name##_##dim##_##width(const struct pm_tile *t) { spread(dim, width, degree, t); } \
@@ -138,5 +202,9 @@ DIMS(8)
 static pm_tile_loop *const spreads[2][3][PM_KERNEL_WIDTH] = {TABLE(spread_spline), TABLE(spread_any)};
 static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline), TABLE(gather_any)};
 
-pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k) { return spreads[k->degree != k->width - 1][dim - 1][k->width - 1]; }
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
+{
+	return corners ? spread_corners : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+}
+
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k) { return gathers[k->degree != k->width - 1][dim - 1][k->width - 1]; }

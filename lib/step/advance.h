@@ -70,21 +70,33 @@ static inline void pm_advance_line(size_t i, size_t n, const struct pm_advance *
 		memcpy(q[r], r ? q[r - 1] : l->k + i, n * sizeof *q[r]);
 }
 
+static inline bool pm_advance_finite(size_t i, size_t n, const struct pm_line *l)
+{
+	bool finite = pm_finite_few(n, l->y + i);
+	for (int r = 0; r < PM_REGISTERS; r++)
+		finite &= !l->q[r] || pm_finite_few(n, l->q[r] + i);
+	return finite;
+}
+
 /* Advances n particles along one axis (or, with x NULL, states that belong to none). lines: positions first, because their rate is the velocity
- * before this pass; but kicks go before drifts, and then the velocity is the new one. */
-static inline void pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_line *lines, double *x, double *v,
+ * before this pass; but kicks go before drifts, and then the velocity is the new one. True if everything is finite afterwards. */
+static inline bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_line *lines, double *x, double *v,
 	const struct pm_bounds *b)
 {
 	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;
 	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
-#pragma omp parallel for schedule(static) if (n > 16384)
+	int bad = 0;
+#pragma omp parallel for schedule(static) reduction(| : bad) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
 		size_t i = block * PM_ADVANCE_BLOCK, m = n - i < PM_ADVANCE_BLOCK ? n - i : PM_ADVANCE_BLOCK;
 		for (int l = 0; l < nlines; l++)
 			pm_advance_line(i, m, a, lines + (kick_first ? nlines - 1 - l : l));
 		if (x && b)
 			pm_advance_faces(i, m, b, x, v, nlines, lines);
+		for (int l = 0; l < nlines; l++)
+			bad |= !pm_advance_finite(i, m, lines + l);
 	}
+	return !bad;
 }
 
 /* Moves the values whose gone is 0 to the front, in order; size bytes each. The number left. */

@@ -210,6 +210,7 @@ static inline int pm_moving_turn(const struct pm_frame *f, const struct pm_movin
 static inline int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
 {
 	struct pm_advance a = p->actions;
+	bool finite = true;
 	int status = p->magnetic ? pm_moving_turn(f, m, p->magnetic) : 0;
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
@@ -226,11 +227,18 @@ static inline int pm_moving_run(const struct pm_frame *f, const struct pm_moving
 		int n = pm_moving_lines(m, c, true, lines);
 		double *v = faces && m->v && c < m->v->components && (b.mirror[0] || b.mirror[1]) ? pm_out(m->v, c) : NULL;
 		if (n)
-			pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b);
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b);
 		n = pm_moving_lines(m, c, false, lines);
 		if (n)
-			pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
 	}
+	for (int r = 0; r < m->n && finite; r++) /* else the library looks for the place */
+		if (!m->b || m->rates[r].state != m->v) {
+			m->rates[r].state->use |= PM_USE_SEEN;
+			for (int i = 0; i < PM_REGISTERS; i++)
+				if (m->rates[r].q[i])
+					m->rates[r].q[i]->use |= PM_USE_SEEN;
+		}
 	return status;
 }
 

@@ -143,7 +143,7 @@ int pm_field_settle(struct pm_field *field)
 	if (field->type == PM_F32)
 		for (size_t i = 0, n = values(field); i < n; i++)
 			y[i] = (float)y[i];
-	field->finite = false;
+	field->finite = use & PM_USE_SEEN && field->type == PM_F64;
 	return pm_field_check(field, PM_NUMERICS);
 }
 

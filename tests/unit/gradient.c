@@ -33,7 +33,7 @@ static int apply(const struct pm_grid *g, enum pm_operator_kind kind, int order,
 	if (!status)
 		status = pm_operator_plan(&o, &p);
 	if (!status)
-		status = pm_operator_apply(&o, factor, from, to);
+		status = pm_operator_apply(&o, factor, from, to, NULL);
 	pm_planner_clear(&p);
 	return status;
 }

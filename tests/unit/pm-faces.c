@@ -49,7 +49,7 @@ static bool force(const struct pm_grid *g, const char *kernel, const struct pm_p
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o, PM_ESTIMATE);
 	bool good = solver && pm_spread(&t, p->n, (const double *const *)p->x, (const double *[]){p->m}, (double *[]){rho}, &strays) == 0 &&
 		pm_poisson_fft_solve(solver, 4 * pm_pi, rho, rho, NULL) == 0 && pm_operator_init(&grad, g, PM_OP_GRAD, order, 1, false) == 0 &&
-		pm_operator_plan(&grad, &planner) == 0 && pm_operator_apply(&grad, -1, (const double *[]){rho}, field) == 0 &&
+		pm_operator_plan(&grad, &planner) == 0 && pm_operator_apply(&grad, -1, (const double *[]){rho}, field, NULL) == 0 &&
 		pm_gather(&back, some, (const double *const *)p->x, (const double *const *)field, NULL, p->a, &strays) == 0;
 	pm_poisson_fft_free(solver);
 	pm_planner_clear(&planner);

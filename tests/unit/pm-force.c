@@ -50,7 +50,7 @@ static void field(struct pm *p, double c, size_t n, const double *const x[], con
 	memset(p->rho, 0, pm_grid_size(&p->grid) * sizeof(double));
 	int bad = pm_spread(&p->in, n, x, (const double *[]){m}, (double *[]){p->rho}, &strays);
 	bad |= pm_poisson_fft_solve(p->solver, c, p->rho, p->phi, NULL);
-	bad |= pm_operator_apply(&p->grad, -1, (const double *[]){p->phi}, p->g);
+	bad |= pm_operator_apply(&p->grad, -1, (const double *[]){p->phi}, p->g, NULL);
 	for (int d = 0; d < p->grid.dim; d++)
 		memset(a[d], 0, n2 * sizeof(double));
 	bad |= pm_gather(&p->out, n2, y, (const double *[]){p->g[0], p->g[1], p->g[2]}, NULL, a, &strays);

@@ -185,7 +185,7 @@ static double round_trip(const struct pm_grid *g, const struct pm_poisson_fft_ch
 	struct pm_operator lap;
 	struct pm_planner planner = {.effort = PM_ESTIMATE};
 	if (!pm_operator_init(&lap, g, PM_OP_LAP, 2 * (int)o->symbol, 1, false) && !pm_operator_plan(&lap, &planner) &&
-	    !pm_operator_apply(&lap, 1, (const double *[]){want}, (double *[]){s})) {
+	    !pm_operator_apply(&lap, 1, (const double *[]){want}, (double *[]){s}, NULL)) {
 		for (size_t q = 0; q < n; q++)
 			s[q] -= o->screening * o->screening * want[q];
 		error = error_of(g, o, s, want);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "mesh/transfer.h"
+#include "mesh/transfer_order.h"
 
 enum { MOST = 3 }; /* components */
 
@@ -237,12 +237,92 @@ static void check_plain(int dim, const size_t cells[3], size_t n)
 	check(worst[1] <= 1e-13, "%d-D: gathering by tiles is the plain loop (off by %.2g, tolerance 1e-13)", dim, worst[1]);
 }
 
+static uint64_t tile_of(const struct pm_grid *g, const double *const x[], size_t p)
+{
+	uint64_t tile = 0;
+	for (int d = g->dim - 1; d >= 0; d--)
+		tile = tile * (g->cells[d] + 2) + ((uint64_t)((x[d][p] - g->lo[d]) / g->h[d] + 0.5) >> pm_tile_shift[g->dim][d]);
+	return tile;
+}
+
+static struct problem *sorted;
+static int by_tile(const void *a, const void *b)
+{
+	size_t p = *(const size_t *)a, q = *(const size_t *)b;
+	uint64_t u = tile_of(&sorted->t.grid, in(sorted->x), p), v = tile_of(&sorted->t.grid, in(sorted->x), q);
+	return u < v ? -1 : u > v ? 1 : p < q ? -1 : 1;
+}
+
+/* The particles of a, brought into the order of tiles (of kernels with an odd width), which is done without moving them then. */
+static void put_in_order(struct problem *a)
+{
+	size_t *at = pm_alloc(a->n, sizeof *at);
+	double *copy = pm_alloc(a->n, sizeof *copy);
+	for (size_t p = 0; p < a->n; p++)
+		at[p] = p;
+	sorted = a;
+	qsort(at, a->n, sizeof *at, by_tile);
+	for (int d = 0; d < a->t.grid.dim; d++) {
+		memcpy(copy, a->x[d], a->n * sizeof *copy);
+		for (size_t p = 0; p < a->n; p++)
+			a->x[d][p] = copy[at[p]];
+	}
+	pm_free(at);
+	pm_free(copy);
+}
+
+/* In order: nothing is moved; the sums are those of the plain loop, for 1 to 3 threads alike. Values are set, then added. */
+static void check_order(int dim, const size_t cells[3], size_t n)
+{
+	const int rules[3] = {0, 0, 0};
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n), b;
+	struct pm_strays strays;
+	struct pm_axis axes[3];
+	struct pm_order order;
+	int threads = pm_threads();
+	double worst = 0;
+	put_in_order(&a);
+	b = problem_new(a.t.grid, a.t.kernel, dim, n);
+	for (int d = 0; d < dim; d++)
+		memcpy(b.x[d], a.x[d], n * sizeof(double));
+	pm_axes_init(axes, &a.t, a.t.half[0]);
+	pm_order_init(&order, axes, dim, n, in(a.x), 0, NULL, dim, &strays);
+	check(!order.records && order.tiles > 1, "%d-D: a stream in the order of %zu tiles is not moved", dim, order.tiles);
+	pm_order_free(&order);
+	pm_axes_free(axes);
+	pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
+	pm_gather_plain(&b.t, n, in(b.x), in(b.mesh), NULL, b.out, &strays);
+	for (int count = 1; count <= 3; count++) {
+		pm_threads_use(count);
+		for (int c = 0; c < dim; c++) {
+			memset(a.mesh[c], 0, a.points * sizeof(double));
+			memset(a.out[c], 255, n * sizeof(double));
+			a.t.set[c] = true;
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
+		for (int c = 0; c < dim; c++)
+			worst = fmax(worst, fmax(difference(a.points, a.mesh[c], b.mesh[c]), difference(n, a.out[c], b.out[c])));
+		check(strays.finite, "%d-D: values that are set and finite are known to be", dim);
+	}
+	a.t.set[0] = false;
+	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
+	check(fabs(a.out[0][n / 2] - 2 * b.out[0][n / 2]) <= 1e-13 * fabs(b.out[0][n / 2]), "%d-D: values are added where they are not set", dim);
+	b.mesh[0][0] = INFINITY;
+	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
+	check(!strays.finite, "%d-D: an infinite value is seen", dim);
+	check(worst <= 1e-13, "%d-D: spread and gather in order are the plain loops with 1, 2 and 3 threads (off by %.2g, tolerance 1e-13)", dim, worst);
+	pm_threads_use(threads);
+	problem_free(&a);
+	problem_free(&b);
+}
+
 /* Threads 1, 2, 3; a third of the particles crowd one tile so that it is shared out. */
-static void check_threads(int dim, const size_t cells[3])
+static void check_threads(int dim, const size_t cells[3], const char *kernel)
 {
 	const int rules[3] = {0, 2, 0};
 	const size_t n = 60000;
-	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n);
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find(kernel), dim, n);
 	struct pm_strays strays;
 	double *mesh = pm_alloc(a.points, sizeof *mesh), *out = pm_alloc(n, sizeof *out);
 	int threads = pm_threads();
@@ -264,7 +344,7 @@ static void check_threads(int dim, const size_t cells[3])
 		}
 		same = same && !memcmp(mesh, a.mesh[dim - 1], a.points * sizeof *mesh) && !memcmp(out, a.out[dim - 1], n * sizeof *out);
 	}
-	check(same, "%d-D: 1, 2 and 3 threads give equal bytes, crowded tile included", dim);
+	check(same, "%d-D, %s: 1, 2 and 3 threads give equal bytes, crowded tile included", dim, kernel);
 	pm_threads_use(threads);
 	pm_free(mesh);
 	pm_free(out);
@@ -437,10 +517,15 @@ int main(void)
 	check_plain(1, (const size_t[]){5003, 1, 1}, 3000);
 	check_plain(2, (const size_t[]){131, 70, 1}, 3000);
 	check_plain(3, (const size_t[]){33, 18, 20}, 3000);
+	check_plain(3, (const size_t[]){33, 17, 9}, 6000); /* as many particles as cells: corners */
 	check_plain(3, (const size_t[]){3, 17, 2}, 100);
-	check_threads(1, (const size_t[]){9001, 1, 1});
-	check_threads(2, (const size_t[]){130, 67, 1});
-	check_threads(3, (const size_t[]){35, 20, 33});
+	check_threads(1, (const size_t[]){9001, 1, 1}, "tsc");
+	check_order(1, (const size_t[]){9001, 1, 1}, 4000);
+	check_threads(2, (const size_t[]){130, 67, 1}, "tsc");
+	check_order(2, (const size_t[]){130, 67, 1}, 4000);
+	check_threads(3, (const size_t[]){35, 20, 33}, "tsc");
+	check_order(3, (const size_t[]){35, 20, 33}, 8000);
+	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
 	check_images(1, -1);
 	check_images(2, 1);
 	check_edges();
