@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "mesh/order.h"
+#include "mesh/transfer_tile.h"
 
 enum { bits = 11, digits = 1 << bits };
 
@@ -19,8 +20,14 @@ void pm_keys_of_cells(const struct pm_grid *g, size_t n, const double *const x[]
 #pragma omp parallel for
 	for (size_t i = 0; i < n; i++) {
 		key[i] = 0;
-		for (int a = g->dim - 1; a >= 0; a--)
-			key[i] = key[i] * g->cells[a] + cell_of(g, a, x[a][i]);
+		uint64_t cell[3] = {0}, inside = 0;
+		for (int a = g->dim - 1; a >= 0; a--) {
+			int shift = pm_tile_shift[g->dim][a];
+			cell[a] = cell_of(g, a, x[a][i]);
+			key[i] = key[i] * ((g->cells[a] >> shift) + 1) + (cell[a] >> shift);
+			inside = inside << shift | (cell[a] & ((1u << shift) - 1));
+		}
+		key[i] = key[i] * PM_TILE_CELLS + inside;
 	}
 }
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "mesh/transfer_order.h"
-#include "mesh/transfer_tile.h"
 
 enum {
 	piece = 16384, /* particles per job: a crowded tile is shared out */

@@ -3,10 +3,7 @@
 #ifndef PM_TRANSFER_ORDER_H
 #define PM_TRANSFER_ORDER_H
 
-#include "mesh/transfer_axis.h"
-
-/* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
-static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows: the mesh is met in rows */
+#include "mesh/transfer_tile.h"
 
 struct pm_order {
 	int dim, chunks;

@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "mesh/transfer_order.h"
 #include "mesh/transfer_tile.h"
 
 #define INLINE static inline __attribute__((always_inline))

@@ -5,6 +5,9 @@
 
 #include "mesh/transfer_axis.h"
 
+/* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
+static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows: the mesh is met in rows */
+
 /* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors. Its rows have this many
  * points, its planes this many rows. */
 static const int pm_block_row[4] = {0, 4096 + 8, 64 + 8, 32 + 8};

@@ -69,3 +69,15 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 	run -1 --separate-stderr bash -c 'ssort <b >/dev/null'
 	[[ "$stderr" == *"no mesh to sort by"* ]]
 }
+
+@test "on a mesh of several tiles the order is that of p2m's tiles, and of cells inside a tile" {
+	pinit uniform -n 3000 --cells 40x20x10 --seed 3 | ssort >sorted.pm
+	stab <sorted.pm | grep -v '^#' >rows
+	# box 1 in 40, 20 and 10 cells; tiles of 32, 16 and 8 cells
+	awk -v OFS=' ' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+		{ i = int($at["x"] * 40); j = int($at["y"] * 20); k = int($at["z"] * 10)
+		tile = int(i / 32) + 2 * (int(j / 16) + 2 * int(k / 8)); cell = i % 32 + 32 * (j % 16 + 16 * (k % 8)); key = tile * 4096 + cell
+		if (key < last) { print NR, key, last; exit 1 }
+		last = key }' rows
+	[ "$(wc -l <rows)" -ge 3000 ]
+}

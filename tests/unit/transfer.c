@@ -237,23 +237,27 @@ static void check_plain(int dim, const size_t cells[3], size_t n)
 	check(worst[1] <= 1e-13, "%d-D: gathering by tiles is the plain loop (off by %.2g, tolerance 1e-13)", dim, worst[1]);
 }
 
-static uint64_t tile_of(const struct pm_grid *g, const double *const x[], size_t p)
+static uint64_t tile_of(const struct pm_axis axes[3], int dim, const double *const x[], size_t p)
 {
 	uint64_t tile = 0;
-	for (int d = g->dim - 1; d >= 0; d--)
-		tile = tile * (g->cells[d] + 2) + ((uint64_t)((x[d][p] - g->lo[d]) / g->h[d] + 0.5) >> pm_tile_shift[g->dim][d]);
+	double u;
+	for (int d = dim - 1; d >= 0; d--) {
+		pm_axis_locate(&axes[d], x[d][p], &u);
+		tile = tile * axes[d].count + ((uint64_t)u >> pm_tile_shift[dim][d]);
+	}
 	return tile;
 }
 
 static struct problem *sorted;
+static struct pm_axis sorted_axes[3];
 static int by_tile(const void *a, const void *b)
 {
 	size_t p = *(const size_t *)a, q = *(const size_t *)b;
-	uint64_t u = tile_of(&sorted->t.grid, in(sorted->x), p), v = tile_of(&sorted->t.grid, in(sorted->x), q);
+	uint64_t u = tile_of(sorted_axes, sorted->t.grid.dim, in(sorted->x), p), v = tile_of(sorted_axes, sorted->t.grid.dim, in(sorted->x), q);
 	return u < v ? -1 : u > v ? 1 : p < q ? -1 : 1;
 }
 
-/* The particles of a, brought into the order of tiles (of kernels with an odd width), which is done without moving them then. */
+/* The particles of a, brought into the order of tiles, in which they are not moved any more. */
 static void put_in_order(struct problem *a)
 {
 	size_t *at = pm_alloc(a->n, sizeof *at);
@@ -261,18 +265,20 @@ static void put_in_order(struct problem *a)
 	for (size_t p = 0; p < a->n; p++)
 		at[p] = p;
 	sorted = a;
+	pm_axes_init(sorted_axes, &a->t, a->t.half[0]);
 	qsort(at, a->n, sizeof *at, by_tile);
 	for (int d = 0; d < a->t.grid.dim; d++) {
 		memcpy(copy, a->x[d], a->n * sizeof *copy);
 		for (size_t p = 0; p < a->n; p++)
 			a->x[d][p] = copy[at[p]];
 	}
+	pm_axes_free(sorted_axes);
 	pm_free(at);
 	pm_free(copy);
 }
 
 /* In order: nothing is moved; the sums are those of the plain loop, for 1 to 3 threads alike. Values are set, then added. */
-static void check_order(int dim, const size_t cells[3], size_t n)
+static void check_in_order(int dim, const size_t cells[3], size_t n)
 {
 	const int rules[3] = {0, 0, 0};
 	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n), b;
@@ -520,11 +526,11 @@ int main(void)
 	check_plain(3, (const size_t[]){33, 17, 9}, 6000); /* as many particles as cells: corners */
 	check_plain(3, (const size_t[]){3, 17, 2}, 100);
 	check_threads(1, (const size_t[]){9001, 1, 1}, "tsc");
-	check_order(1, (const size_t[]){9001, 1, 1}, 4000);
+	check_in_order(1, (const size_t[]){9001, 1, 1}, 4000);
 	check_threads(2, (const size_t[]){130, 67, 1}, "tsc");
-	check_order(2, (const size_t[]){130, 67, 1}, 4000);
+	check_in_order(2, (const size_t[]){130, 67, 1}, 4000);
 	check_threads(3, (const size_t[]){35, 20, 33}, "tsc");
-	check_order(3, (const size_t[]){35, 20, 33}, 8000);
+	check_in_order(3, (const size_t[]){35, 20, 33}, 8000);
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
 	check_images(1, -1);
 	check_images(2, 1);
