@@ -1,5 +1,6 @@
 /* m2p: mesh fields at the positions of particles, added to what changes them; the gathering is lib/mesh/transfer.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "law/law.h"
@@ -139,6 +140,17 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	return status;
 }
 
+/* What of the changes no particle took, per time: the drift of the total. */
+static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm_carry *carry)
+{
+	char key[PM_NAME + 16];
+	for (int i = 0; i < carry->n; i++)
+		for (int c = 0; c < carry->change[i]->components && c < 3 && carry->share[i]; c++) {
+			snprintf(key, sizeof key, carry->change[i]->components > 1 ? "lost_d%s_%d" : "lost_d%s", carry->change[i]->of, c);
+			pm_report(s, f, key, carry->lost[i][c]);
+		}
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -149,6 +161,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		status = pm_carry_init(&carry, f, &j.sets, j.mesh, &j.transfer);
 	for (size_t i = 0; i < j.sets.n && !status; i++)
 		status = gather_set(s, f, &j, &carry, j.sets.name[i]);
+	if (!status)
+		report(s, f, &carry);
 	pm_carry_free(&carry);
 	return status;
 }
@@ -176,7 +190,7 @@ const struct pm_tool tool_m2p = {
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
 		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
 		 "a field that was given counts as the term external, one that was solved for as self; a magnetic field B goes to bfield. Changes on the mesh (domega of diffuse) are carried over "
-		 "to the strengths they belong to (dcirculation), times the volume of the particle. See docs/methods/transfer.md.",
+		 "to the strengths they belong to (dcirculation), times the volume of the particle; what goes to none, where particles leave gaps or end, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",

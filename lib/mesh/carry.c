@@ -1,7 +1,7 @@
 /* Carrying changes over: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i / D_i, with the overlap of the particles at the
  * point, D_i = sum over particles of volume_p W((x_p - x_i)/h) / cell, 1 on a lattice; without volume and D where the state is a value.
  * The sum over the particles is then that over the mesh, however they lie, and several sets share it by their volumes. Where D is below a
- * half (the rim of a patch; negative lobes) it counts as 1, and what diffuses beyond the particles is lost.
+ * half (the rim of a patch; gaps; negative lobes) it counts as 1, and what then goes to no particle is summed: cell (1 - D) d(density) over those points.
  * Source: Cottet and Koumoutsakos 2000, section 5.5, for D = 1. Cost: a spread, and the changes ride with the gather of the law's field.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
@@ -78,6 +78,19 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 	return status;
 }
 
+/* What the points with too few particles do not pass on. */
+static double lost(const struct pm_grid *g, const double *D, const double *from)
+{
+	const double cell = pm_grid_cell(g);
+	struct pm_sum sum = {0, 0};
+	for (size_t k = 0, i = 0; k < g->points[2]; k++)
+		for (size_t j = 0; j < g->points[1]; j++)
+			for (size_t l = 0; l < g->points[0]; l++, i++)
+				if (D[i] < 0.5)
+					pm_sum_add(&sum, cell * pm_grid_weight(g, l, j, k) * (1 - D[i]) * from[i]);
+	return pm_sum_total(sum);
+}
+
 static int share(struct pm_carry *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_transfer *t)
 {
 	const struct pm_field *change = c->change[c->n - 1];
@@ -87,6 +100,8 @@ static int share(struct pm_carry *c, const struct pm_frame *f, const struct pm_s
 	c->share[c->n - 1] = to;
 	for (int k = 0; k < change->components && !status; k++) {
 		const double *from = pm_in(change, k);
+		if (k < 3)
+			c->lost[c->n - 1][k] = lost(&t->grid, D, from);
 #pragma omp parallel for schedule(static) if (n > 16384)
 		for (size_t i = 0; i < n; i++)
 			to[(size_t)k * n + i] = D[i] < 0.5 ? from[i] : from[i] / D[i];

@@ -11,6 +11,7 @@ enum { PM_CARRIED = 8 };
 struct pm_carry {
 	int n;
 	struct pm_field *change[PM_CARRIED];
+	double lost[PM_CARRIED][3]; /* per time: what of the change of a strength goes to no particle, by component (3 at most) */
 	double *share[PM_CARRIED]; /* [components][points] change over the volume that the particles bring to the point; NULL: the change itself */
 };
 

@@ -3,6 +3,8 @@ load ../helper
 
 calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }
 
+solved() { p2m --kernel m6prime | poisson-fft; }
+
 # radii: of every frame on standard input, the largest departure of a vortex from the unit circle, one a line.
 radii() {
 	stab --plain --set vortices | awk '/^[a-z]/ { for (i = 1; i <= NF; i++) c[$i] = i; next } NF < 4 { if (n) print m; m = n = 0; next }
@@ -23,6 +25,12 @@ radii() {
 	within "$(calc "log($(sed -n 8p r) / $(sed -n 5p r)) / (120 * $dt) * 4 * pi")" 5.65685424949238 0.0566
 }
 
+@test "VM-07: the pentagon is stable: disturbed by 1e-6 it stays within 2e-6 over 20 turns" {
+	pinit polygon -n 5 --disturbance 1e-6 | cycle -n 4000 --every 100 'pp | push rk4' | radii > r
+	[ "$(wc -l < r)" = 41 ]
+	below "$(sort -g r | tail -1)" 2e-6 # its modes oscillate at 4 and sqrt(12) Gamma/(4 pi R^2); a mode that grew at 1 would be e^20 larger
+}
+
 @test "HC-30: the thin shear layer stays bounded on 128^2, and finite on 64^2 to t = 2" {
 	for k in m4prime m6prime; do
 		pinit shear-layer --cells 128 --dt 0.01 |
@@ -36,18 +44,18 @@ radii() {
 
 @test "HC-32, VM-21: an inviscid ellipse to t = 20: remeshing keeps it, without it the vorticity doubles while the energy shows nothing" {
 	e0=5.5405702810630055 z0=18.853704 # of the start, the mean taken out: circulation over area 0.198944
-	for every in 1 5 never; do
+	for every in 1 5 20 never; do
 		words="p2m | poisson-fft | mgrad | m2p | push lsrk3"
 		[ $every = never ] || words="$words | remesh --every $every"
 		pinit ellipse --nu 0 | cycle -t 20 "$words" | p2m | poisson-fft | diag > t
 		e=$(calc "$(column energy < t) / $e0") z=$(calc "($(column enstrophy < t) - 0.78125) / $z0") w=$(calc "$(column omega_max < t) - 0.198944")
 		echo "every $every: E/E0 $e, Z/Z0 $z, max $w, distortion $(column distortion < t)"
 		within "$e" 0.99875 0.00175 "energy of $every" # 0.997 to 1.0005
-		within "$(calc "$(column circulation < t) / 7.853981631285162")" 1 1e-12
-		if [ $every = never ]; then
-			within "$z" 1.6 0.1
-			within "$w" 24 4
-			[ "$(calc "$(column distortion < t) > 0.1")" = 1 ]
+		within "$(calc "$(column circulation < t) / 7.853981631285162")" 1 1e-13 "circulation of $every" # the case allows 1e-12
+		if [ $every = never ] || [ $every = 20 ]; then
+			# enstrophy + 57 and + 43 %, 21.5 and 20.3 in the reference; particles without overlap make noise, so no nearer
+			[ "$(calc "$z > 1.3 && $z < 1.8 && $w > 1.8 * 9.801 && $w < 3 * 9.801")" = 1 ]
+			[ $every = 20 ] || [ "$(calc "$w > 2 * 9.801 && $(column distortion < t) > 0.1")" = 1 ]
 		else
 			within "$z" 0.955 0.055
 			[ "$(calc "$w < 1.06 * 9.801")" = 1 ]
@@ -56,15 +64,20 @@ radii() {
 	done
 }
 
-@test "HC-34: longer steps, dt |grad u| = 0.25 to 2: the error grows smoothly, as the cube" {
-	local list=()
-	for dt in 0.05 0.1 0.2 0.4; do # |grad u| is 5 in the middle
-		e=$(pinit ellipse --dt $dt | cycle -t 2 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | p2m --kernel m6prime | poisson-fft | diag | column energy)
-		list+=("$dt" "$(calc "5.503255 - $e")")
-		echo "dt $dt: energy lost $(calc "5.503255 - $e")"
+@test "HC-34: longer steps, dt |grad u| = 0.5 to 4: the error grows smoothly, nothing is NaN, and dt counts the steps in which particles may cross" {
+	local list=() last=0
+	for n in 24:0 12:6 6:6 3:3; do # |grad u| (row sums) is 6.5 at the start, 5.1 from the middle on: dt |grad u| = 0.54 to 0.43, 1.1 to 0.85, 2.2 to 1.7, 4.3
+		dt=$(calc "2 / ${n%:*}")
+		pinit ellipse --dt "$dt" | cycle -n ${n%:*} "p2m --kernel m6prime | poisson-fft | mgrad | dt --lcfl 1 --min $dt --max $dt | diffuse | m2p | push lsrk3 | remesh --kernel m6prime" > end
+		e=$(solved < end | diag | column energy)
+		list+=("$dt" "$(calc "5.503255 - $e")") # VM-17 at t = 2, over the box
+		echo "dt $dt: energy lost $(calc "5.503255 - $e"), crossing ${n#*:}"
+		sls --format json --report < end | grep -q "\"crossing\":${n#*:}[,}]"
+		[ "$(calc "5.503255 - $e > $last && 5.503255 - $e < 5.5")" = 1 ]
+		last=$(calc "5.503255 - $e")
 	done
-	order 2.9 "${list[@]}"
-	below "${list[7]}" 0.1 # 2 % at dt |grad u| = 2
+	order 2.9 "${list[@]:0:6}" # as the cube while particles keep apart
+	below "${list[5]}" 0.1 # 2 % at dt |grad u| = 2
 }
 
 @test "viscosity without remeshing loses circulation in the gaps between particles: 90 % of it in 150 steps, and diag shows it" {

@@ -32,29 +32,45 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	within "$(column omega_centre < t)" -26.070867 1
 }
 
-@test "VM-02: Taylor-Green decays by exp(-2 nu t): 1e-5 with m6prime, 3e-4 with m4prime; cic loses 5 % of the energy" {
+@test "VM-02: Taylor-Green decays by exp(-2 nu t) at nu = 0.01 and 0.1: energy to 1e-6 with m6prime, 8e-5 with m4prime; cic loses 5 % of it" {
+	# run_with KERNEL NU T DT: over the exact
 	run_with() {
-		pinit taylor-green-2d | cycle -t 1 "p2m --kernel $1 | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $1" | solved "$1" | diag > t
+		pinit taylor-green-2d --nu "$2" --dt "$4" | cycle -t "$3" "p2m --kernel $1 | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $1" | solved "$1" | diag > t
+		energy=$(calc "$(column energy < t) / ($5 * 4 * pi ^ 2)") most=$(calc "$(column omega_max < t) / $6")
 	}
-	for k in "m6prime 1e-5" "m4prime 3e-4"; do
-		read -r kernel most <<<"$k"
-		run_with $kernel
-		within "$(calc "$(column omega_max < t) / 1.96039734661351")" 1 "$most" $kernel
-		within "$(calc "$(column energy < t) / (0.240197359788081 * 4 * pi ^ 2)")" 1 "$most" $kernel
-		below "$(column circulation < t)" 1e-13
-	done
-	run_with cic
-	within "$(calc "$(column energy < t) / (0.240197359788081 * 4 * pi ^ 2)")" 0.95 0.005
+	while read -r kernel e w; do # of the reference: 7e-5 and 1e-6 of the energy; the largest omega is a node's and lets the kernel's error be seen
+		for case in "0.01 1 0.05 0.240197359788081 1.96039734661351" "0.1 2 0.02 0.112332241029305 1.34064009207128"; do
+			# shellcheck disable=SC2086
+			run_with "$kernel" $case
+			within "$energy" 1 "$e" "$kernel $case"
+			within "$most" 1 "$w" "$kernel $case"
+			below "$(column circulation < t)" 1e-13
+		done
+	done <<-'END'
+		m6prime 1e-6 1e-5
+		m4prime 8e-5 2e-4
+	END
+	run_with cic 0.01 1 0.05 0.240197359788081 1.96039734661351
+	within "$energy" 0.95 0.005
+}
+
+# ellipse A B CELLS: a patch of omega = 1 with half-axes A and B on a lattice of CELLS to the unit; cells that the edge cuts count by their part.
+ellipse() {
+	awk -v a="$1" -v b="$2" -v c="$3" 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation volume"; h = 1 / c
+		for (j = -int(b * c) - 1; j <= b * c + 1; j++) for (i = -int(a * c) - 1; i <= a * c + 1; i++) { n = 0
+			for (k = -7; k <= 7; k += 2) for (l = -7; l <= 7; l += 2) n += ((i + k / 16) * h / a) ^ 2 + ((j + l / 16) * h / b) ^ 2 < 1
+			if (n) print i * h, j * h, h * h * n / 64, h * h } }'
 }
 
 @test "VM-05: a Rankine vortex turns inside as a solid body and outside as a point: 0.25, 0.5, 0.25 at r = 0.5, 1, 2 to 1 %" {
-	# 64 cells a radius (at 32 the edge is 1.2 % low), particles on a lattice, one on the edge with half of its circulation; the last is a probe
-	awk 'BEGIN { print "x y circulation"; h = 1 / 64; for (j = -65; j <= 65; j++) for (i = -65; i <= 65; i++) { r = sqrt(i*i + j*j) * h;
-		print i * h, j * h, r < 1 - h / 2 ? h*h : r < 1 + h / 2 ? h * (1 + h / 2 - r) : 0 } print 2, 0, 0 }' > rankine
-	stab rankine --law vortex --box -2.5,2.5 -n 320 | p2m | poisson-fft | mgrad | m2p | stab --plain > t
-	for r in "0.5 0.25" "1 0.5" "2 0.25"; do
-		read -r at want <<<"$r"
-		within "$(awk -v x="$at" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == x && $c["y"] == 0 { print $c["vel_1"] }' t)" "$want" "$(calc "0.01 * $want")" "r = $at"
+	# inside and outside much closer; at the edge u has a corner, which any mesh rounds off by about 0.4 h/R of it: 1.2 % at 32 cells a radius, 0.6 % at 64
+	for n in 32 64; do
+		{ ellipse 1 1 $n; echo 2 0 0 1; } > rankine # the last is a probe
+		stab rankine --law vortex --box -2.5,2.5 -n $((5 * n)) | p2m | poisson-fft | mgrad | m2p | stab --plain > t
+		for r in "0.5 0.25 0.001" "1 0.5 $(calc "0.48 / $n")" "2 0.25 0.001"; do
+			read -r at want off <<<"$r"
+			within "$(awk -v x="$at" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == x && $c["y"] == 0 { print $c["vel_1"] }' t)" "$want" "$(calc "$off * $want")" "$n cells, r = $at"
+		done
 	done
 }
 
@@ -62,6 +78,8 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	# the rate at the start is exact; rk4 with 200 steps a turn keeps the place to 1e-6 and the distance to 1e-9
 	read -r _ y <<<"$(pinit vortex-pair | pp --mollifier none | velocity 2)"
 	within "$y" "$(calc '1 / (2 * pi)')" 1e-15 # Gamma1/(2 pi d)
+	read -r _ first <<<"$(pinit vortex-pair | pp --mollifier none | velocity 1)"
+	within "$(calc "$y - ($first)")" 0.477464829275686 1e-12 # the rate, for d = 1
 	pinit vortex-pair | cycle -n 200 'pp | push rk4' > a
 	read -r x y <<<"$(place 2 < a)"
 	# the turn is about the centre of circulation at x = 1/6, where the second stays 1/3 away
@@ -104,12 +122,23 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	done
 }
 
-@test "VM-17: an elliptical vortex at t = 2: energy, enstrophy and peak as the spectral code has them" {
-	pinit ellipse | cycle -t 2 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | solved m6prime | diag > t
-	# the reference has the mean of omega taken out, which is circulation over area
-	within "$(calc "$(column energy < t) / (4 * pi ^ 2)")" 0.139399332 1e-5
-	within "$(calc "$(column enstrophy < t) / (4 * pi ^ 2) - 0.5 * ($(column circulation < t) / (4 * pi ^ 2)) ^ 2")" 0.466961964 "$(calc '8e-4 * 0.467')"
-	within "$(calc "$(column omega_max < t) - $(column circulation < t) / (4 * pi ^ 2)")" 9.634597 0.096 # 1 %
+@test "VM-17: an elliptical vortex at t = 2, 5, 10: energy, enstrophy and peak as the spectral code has them" {
+	# 128^2, dt = 0.05. The reference's particles: enstrophy .3 %, peak 2.5 % off with m4prime, .08 % and 1 % with m6prime (the time is not said); 1.5 times that for
+	# enstrophy. It has the mean of omega taken out, which is circulation over area.
+	for case in "m4prime 5e-4 0.0045 0.025" "m6prime 1e-4 0.0012 0.01"; do
+		read -r k e z w <<<"$case"
+		pinit ellipse | cycle -t 10 --every 20 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k" | solved $k |
+			diag --columns time,energy,enstrophy,omega_max,circulation > t
+		while read -r at energy enstrophy peak; do
+			awk -v k=$k -v t="$at" -v e="$energy" -v z="$enstrophy" -v w="$peak" -v te=$e -v tz=$z -v tw=$w 'function off(got, want) { got = got / want - 1; return got < 0 ? -got : got }
+				NR > 1 && ($1 - t) ^ 2 < 1e-12 { n++; A = 4 * atan2(0, -1) ^ 2; m = $5 / A; de = off($2 / A, e); dz = off($3 / A - m * m / 2, z); dw = off($4 - m, w) }
+				END { print k, "t", t, "energy", de, "enstrophy", dz, "peak", dw; exit !(n == 1 && de < te * t / 2 && dz < tz && dw < tw) }' t
+		done <<-'END'
+			2 0.139399332 0.466961964 9.634597
+			5 0.1380284634 0.447443842 9.407279
+			10 0.1358495063 0.425566416 9.050862
+		END
+	done
 }
 
 @test "pp and the mesh agree on the velocity of a smooth vortex, the closer the finer the mesh" {
@@ -166,18 +195,41 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	done
 }
 
-@test "VM-04: Kirchhoff's ellipse a/b = 2 turns at 2/9 omega, and inside u = -omega a y/(a+b), v = omega b x/(a+b)" {
-	# a patch of omega = 1 on a lattice with 32 cells to the long half-axis; cells that the edge cuts count by their part
-	awk 'BEGIN { print "x y circulation volume"; h = 1 / 32; for (j = -20; j <= 20; j++) for (i = -34; i <= 34; i++) { n = 0
-		for (k = -7; k <= 7; k += 2) for (l = -7; l <= 7; l += 2) n += ((i + k / 16) * h) ^ 2 + (2 * (j + l / 16) * h) ^ 2 < 1
-		if (n) print i * h, j * h, h * h * n / 64, h * h } }' > patch
-	stab patch --law vortex --box -2,2 -n 128 --dt 0.1 > a
-	p2m < a | poisson-fft | mgrad | m2p | stab --plain |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == 0.5 && $c["y"] == 0.25 { print $c["vel_0"], $c["vel_1"] }' > t
-	within "$(cut -d' ' -f1 t)" "$(calc '-0.25 * 2 / 3')" 1e-3
-	within "$(cut -d' ' -f2 t)" "$(calc '0.5 / 3')" 1e-3
-	cycle -t 2 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' < a | stab --plain |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; y = $c["y"]; q = $c["circulation"]; d += q * (x*x - y*y); m += 2 * q * x * y }
-			END { printf "%.17g\n", atan2(m, d) / 2 / 2 }' > t
-	within "$(cat t)" "$(calc '2 / 9')" 0.0022 # 1 %
+@test "VM-04: Kirchhoff's ellipses a/b = 2, 1.5 turn at 2/9, 0.24 of omega, and inside u = -omega a y/(a+b), v = omega b x/(a+b)" {
+	for case in "1 0.5 0.222222222222222" "1.2 0.8 0.24"; do
+		read -r a b want <<<"$case"
+		ellipse "$a" "$b" 32 > patch
+		stab patch --law vortex --box -2.5,2.5 -n 160 --dt 0.1 > start
+		p2m < start | poisson-fft | mgrad | m2p | stab --plain |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == 0.5 && $c["y"] == 0.25 { print $c["vel_0"], $c["vel_1"] }' > t
+		within "$(cut -d' ' -f1 t)" "$(calc "-0.25 * $a / ($a + $b)")" 1e-3
+		within "$(cut -d' ' -f2 t)" "$(calc "0.5 * $b / ($a + $b)")" 1e-3
+		cycle -t 2 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' < start | stab --plain |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; y = $c["y"]; q = $c["circulation"]; d += q * (x*x - y*y); m += 2 * q * x * y }
+				END { printf "%.17g\n", atan2(m, d) / 2 / 2 }' > t
+		within "$(cat t)" "$want" "$(calc "0.01 * $want")" "a/b = $a/$b"
+	done
+}
+
+# love A B: cosh of 8 times the growth rate of mode 3 of the ellipse with half-axes A, B. The patch is displaced by the flow of the potential cosh 3(xi + i eta) in
+# elliptic coordinates, conj(4 (z/c)^2 - 1), c^2 = A^2 - B^2. z^3 in the frame of the axes is 0 for every even shape; of first order in the mode it obeys
+# M(0) + M(16) = 2 cosh(8 lambda) M(8), whatever the parts that grow and decay.
+love() {
+	ellipse "$1" "$2" 48 | awk -v a="$1" -v b="$2" 'BEGIN { OFMT = CONVFMT = "%.17g" } NR == 1 { print; next }
+		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' | stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |
+		cycle -t 16 --every 80 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' | stab --plain |
+		awk 'function frame(p) { if (!n) return; X /= Q; Y /= Q
+				for (p = 1; p <= n; p++) { x = at[p] - X; y = up[p] - Y; q = of[p]; d += q * (x*x - y*y); m += 2 * q * x * y; r += q * (x*x*x - 3*x*y*y); s += q * (3*x*x*y - y*y*y) }
+				t = atan2(m, d) / 2; while (t < turned - 0.1) t += atan2(0, -1); turned = t
+				k++; R[k] = r * cos(3*t) + s * sin(3*t); I[k] = s * cos(3*t) - r * sin(3*t); n = Q = X = Y = d = m = r = s = 0 }
+			/^[a-z]/ { frame(); for (i = 1; i <= NF; i++) c[$i] = i; next } NF < 3 { next }
+			{ n++; at[n] = $c["x"]; up[n] = $c["y"]; of[n] = $c["circulation"]; Q += of[n]; X += of[n] * at[n]; Y += of[n] * up[n] }
+			END { frame(); printf "%.9g\n", ((R[1] + R[3]) * R[2] + (I[1] + I[3]) * I[2]) / (2 * (R[2] ^ 2 + I[2] ^ 2)); exit k != 3 }'
+}
+
+@test "VM-04: Love's mode 3 of an ellipse a/b = 4 grows at 0.106132 omega to 5 %, and only oscillates at a/b = 2" {
+	love 2 0.5 > t
+	within "$(awk '{ print log($1 + sqrt($1 * $1 - 1)) / 8 }' t)" 0.106131993291373 0.0053
+	love 1 0.5 > t
+	within "$(cat t)" "$(calc 'cos(8 * sqrt((1 / 9 - 1 / 729) / 4))')" 0.05 # the same formula, with the other sign
 }

@@ -16,6 +16,35 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	within "$(stab t --box 0,2 --cells 4x8x2 --dt 1 | dt --courant 0.3 | step_of)" 0.075 1e-16
 }
 
+@test "the rule of strain gives C/|grad u| of the flow on the mesh, and counts the steps in which particles may cross" {
+	awk 'BEGIN { OFMT = "%.17g"; print "x y circulation"; for (j = 0; j < 16; j++) for (i = 0; i < 24; i++) print i / 24, j / 16, cos(2 * atan2(0, -1) * i / 24) / 384 }' > t
+	# omega = cos(2 pi x): v = sin(2 pi x)/(2 pi), by differences of order 2 dv/dx = cos(2 pi x) sin(a)/a, a = 2 pi/24
+	stab t --law vortex --box 0,1 -n 24x16 --faces periodic --particle-faces periodic --dt 1 | p2m | poisson-fft | mgrad --order spectral > a
+	want=$(awk 'BEGIN { a = 2 * atan2(0, -1) / 24; printf "%.17g", sin(a) / a }')
+	within "$(dt --lcfl 0.3 < a | step_of)" "$(awk -v w="$want" 'BEGIN { printf "%.17g", 0.3 / w }')" 1e-13
+	for c in 0.5:0 0.999:0 1:0 1.01:1 2:1; do
+		dt --lcfl ${c%:*} < a > b
+		sls --format json --report < b | grep -q "\"crossing\":${c#*:}[,}]"
+	done
+	# a step that is held is counted too, and --verbose says what would do
+	run -0 bash -o pipefail -c 'dt --lcfl 0.5 --min 3 --max 3 --verbose < a 2>&1 >b'
+	[[ $output == *"above 1: particles may cross (--lcfl 1, or --max 1.0"* ]]
+	sls --format json --report < b | grep -q '"crossing":1'
+	run -1 bash -o pipefail -c 'stab t --law vortex --box 0,1 -n 24x16 | dt --lcfl 1 | sls'
+	[[ $output == *"no field 'u' on a mesh (put dt behind p2m | poisson-fft | mgrad)"* ]]
+	run -1 bash -o pipefail -c 'pinit two-body | dt --lcfl 1 | sls'
+	[[ $output == *"needs a flow, and the law 'gravity' has none"* ]]
+}
+
+@test "the rule of the plasma frequency gives C/omega_p: several species, weights, eps0" {
+	within "$(pinit two-stream -n 1000 | dt --plasma 0.2 | step_of)" 0.2 1e-12
+	# sum q^2/m = 2 * 9/0.5 + 1/4 = 36.25 in a box of 6, eps0 = 2
+	printf 'x charge mass\n1 3 0.5\n2 -3 0.5\n4 1 4\n' > t
+	within "$(stab t --law electrostatic --constant eps0=2 --box 0,6 --dt 1 | dt --plasma 0.5 --set matter | step_of)" "$(awk 'BEGIN { printf "%.17g", 0.5 / sqrt(36.25 / 12) }')" 1e-15
+	run -1 bash -o pipefail -c 'pinit plummer -n 10 | dt --plasma 0.2 | sls'
+	[[ $output == *"no set with charge and mass under the law 'gravity'"* ]]
+}
+
 @test "--max and --min hold, and what --min overrules is counted; nothing to limit leaves dt alone" {
 	printf 'x y z vx vy vz\n1 1 1 2 -0.5 0\n1 1 1 0 1 -3\n' > t
 	stab t --box 0,2 --cells 4 --dt 1 > a
@@ -40,7 +69,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	run -1 bash -o pipefail -c 'pinit two-body | pp | dt --acceleration 0.1 > /dev/null'
 	[[ $output == *"needs a softening length (--softening LENGTH)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt > /dev/null'
-	[[ $output == *"no rule (--courant C, --acceleration ETA)"* ]]
+	[[ $output == *"no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt --courant 1 --min 2 --max 1 > /dev/null'
 	[[ $output == *"--min 2 is above --max 1"* ]]
 }
