@@ -51,7 +51,7 @@ static int begin(struct pm_stage *s)
 }
 
 /* The operator, its factor and its order: as asked for, else the law's. */
-static int choose(const struct config *o, const struct pm_law *law, const struct pm_grid *g, int components, struct state *t)
+static int choose(const struct config *o, const struct pm_law *law, const struct pm_grid *g, const struct pm_field *source, struct state *t)
 {
 	enum pm_operator_kind kind = law->of_potential == PM_CURL ? PM_OP_CURL : PM_OP_GRAD;
 	t->factor = kind == PM_OP_GRAD ? law->sign : 1;
@@ -59,7 +59,9 @@ static int choose(const struct config *o, const struct pm_law *law, const struct
 		if (!strcmp(o->kind, pm_operator_names[i]))
 			kind = (enum pm_operator_kind)i, t->factor = 1;
 	int order = pm_order_find(o->order ? o->order : law->order ? law->order : "2");
-	return order < 0 ? -PM_USAGE : pm_operator_init(&t->operator, g, kind, order, components, law->of_potential == PM_CURL);
+	/* Where the law's field is a flow, vectors are, but not its potential and its density: those have the images of a gradient. */
+	bool flow = law->of_potential == PM_CURL && strcmp(source->name, law->potential) && strcmp(source->name, law->density);
+	return order < 0 ? -PM_USAGE : pm_operator_init(&t->operator, g, kind, order, source->components, flow);
 }
 
 static int plan(struct pm_stage *s, struct pm_frame *f)
@@ -87,7 +89,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 			if (t->source->half[c][d])
 				return pm_fail(PM_DATA, "'%s' sits between the nodes (mgrad works on the nodes)", source);
 	struct pm_grid g = pm_grid_of(f, mesh);
-	int status = choose(o, law, &g, t->source->components, t);
+	int status = choose(o, law, &g, t->source, t);
 	if (status)
 		return status;
 	t->target = pm_makes(f, mesh->name, target, t->operator.out, PM_DERIVED);
@@ -129,7 +131,8 @@ const struct pm_tool tool_mgrad = {
 	.summary = "take gradients and other derivatives of mesh fields",
 	.about = "Bare, it makes the field of the law from its potential: g = -grad phi for gravity, u = (d psi/dy, -d psi/dx) for 2-D vortices. With "
 		"--operator it applies grad, curl, div or lap as such. Differences are centred; a wall is an odd image and a neumann face an even one; near "
-		"an open face they are one-sided, of the same order. Spectral derivatives need periodic, wall or neumann faces.",
+		"an open face they are one-sided, of the same order. Spectral derivatives need periodic, wall or neumann faces. Of a vector the tangential "
+		"components are odd at a wall and the normal one even; of a flow (u of vortices) the other way round.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "phi (mesh)",

@@ -69,7 +69,10 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job *j)
 {
 	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
-	return (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+	for (int c = 0; c < components && c < f->dim && components > 1; c++)
+		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
+	return t;
 }
 
 static int grow(const struct config *o, struct pm_frame *f, struct job *j)
