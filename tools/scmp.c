@@ -5,6 +5,7 @@
 
 #include "measure/norms.h"
 #include "measure/pairs.h"
+#include "stage/rest.h"
 #include "stage/stage.h"
 
 enum { L1, L2, MAX, RELATIVE_L2, RELATIVE_MAX };
@@ -166,7 +167,7 @@ static int whole(struct pm_stage *s)
 	if (!strcmp(s->args[0], "-") && !strcmp(s->args[1], "-"))
 		return pm_fail(PM_USAGE, "standard input cannot be both streams (name a file)");
 	for (int i = 0; i < 2 && !status; i++)
-		status = (r[i] = pm_reader_open(strcmp(s->args[i], "-") ? s->args[i] : NULL)) ? 0 : -PM_DATA;
+		status = (r[i] = pm_rest_open(s->args[i])) ? 0 : -PM_DATA;
 	if (!status)
 		status = streams(s, r);
 	for (int i = 0; i < 2; i++)

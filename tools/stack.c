@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "stage/attributes.h"
+#include "stage/rest.h"
 #include "stream/join.h"
 
 struct config {
@@ -35,7 +36,7 @@ static int begin(struct pm_stage *s)
 static int open_all(struct pm_stage *s, struct state *st)
 {
 	for (int i = 0; i < s->nargs && !st->reader[i]; i++)
-		if (!(st->reader[i] = pm_reader_open(strcmp(s->args[i], "-") ? s->args[i] : NULL)))
+		if (!(st->reader[i] = pm_rest_open(s->args[i])))
 			return -PM_DATA;
 	return 0;
 }

@@ -28,30 +28,47 @@ static void on_signal(int signal_number)
 	signal(signal_number, SIG_DFL); /* a second one does not wait for the step */
 }
 
-/* A one-frame stream under a temporary name, renamed when it is whole. The step of the beginning travels in it. */
-static int checkpoint(struct cycle *y, const struct pm_frame *f)
+/* A stream of one frame. */
+static int write_alone(struct pm_writer *w, struct pm_frame *f)
 {
-	const char *name = y->c->checkpoint;
-	if (!name)
-		return 0;
+	int status = w ? pm_write_frame(w, f) : pm_failed();
+	status = status || !w ? status : pm_write_end(w);
+	int closed = w ? pm_writer_close(w) : 0;
+	return status ? status : closed;
+}
+
+/* As HDF5: sh5 does the renaming. A pipe that closes while it is written is its failure, one that closes later is not. */
+static int checkpoint_rest(const char *name, struct pm_frame *f)
+{
+	struct pm_rest *rest = NULL;
+	void (*before)(int) = signal(SIGPIPE, SIG_IGN);
+	int status = write_alone(pm_rest_write(name, &rest), f), closed = pm_rest_close(rest);
+	signal(SIGPIPE, before);
+	return closed ? closed : status;
+}
+
+static int checkpoint_stream(const char *name, struct pm_frame *f)
+{
 	char temporary[4096];
 	snprintf(temporary, sizeof temporary, "%s.part", name);
-	struct pm_frame *copy = pm_frame_copy(f);
-	struct pm_writer *w = copy ? pm_writer_open(temporary) : NULL;
-	if (!w) {
-		pm_frame_free(copy);
-		return pm_failed();
-	}
-	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
-	int status = pm_write_frame(w, copy);
-	status = status ? status : pm_write_end(w);
-	int closed = pm_writer_close(w);
-	pm_frame_free(copy);
-	status = status ? status : closed;
+	int status = write_alone(pm_writer_open(temporary), f);
 	if (!status && rename(temporary, name))
 		status = pm_fail_errno("cannot rename '%s' to '%s'", temporary, name);
 	if (status)
 		unlink(temporary);
+	return status;
+}
+
+/* Under a temporary name, renamed when it is whole. The step of the beginning travels in it. */
+static int checkpoint(struct cycle *y, const struct pm_frame *f)
+{
+	const char *name = y->c->checkpoint;
+	struct pm_frame *copy = name ? pm_frame_copy(f) : NULL;
+	if (!copy)
+		return name ? pm_failed() : 0;
+	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
+	int status = pm_rest_is(name) ? checkpoint_rest(name, copy) : checkpoint_stream(name, copy);
+	pm_frame_free(copy);
 	return status;
 }
 
@@ -203,7 +220,7 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	if (!y.words)
 		return pm_failed();
 	if (c->resume)
-		s->run->reader = pm_reader_open(c->resume);
+		s->run->reader = pm_rest_open(c->resume);
 	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
 	y.out = in ? pm_stage_writer(s) : NULL;
 	int status = y.out ? 0 : pm_failed();

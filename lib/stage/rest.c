@@ -61,11 +61,16 @@ struct pm_reader *pm_rest_read(const char *path)
 		become(argv);
 		struct pm_writer *w = pm_writer_of_fd(STDOUT_FILENO);
 		if (w)
-			pm_write_abort(w, PM_DATA, "sh5: it is not here, and .h5 files need it");
+			pm_write_abort(w, PM_DATA, "sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)");
 		_exit(127);
 	}
 	close(out[1]);
 	return pm_reader_of_fd(out[0]);
+}
+
+struct pm_reader *pm_rest_open(const char *path)
+{
+	return pm_rest_is(path) ? pm_rest_read(path) : pm_reader_open(path && strcmp(path, "-") ? path : NULL);
 }
 
 struct pm_writer *pm_rest_write(const char *path, struct pm_rest **rest)
@@ -80,10 +85,11 @@ struct pm_writer *pm_rest_write(const char *path, struct pm_rest **rest)
 	}
 	if (r->pid == 0) {
 		unsetenv("PM_QUIET");
+		signal(SIGINT, SIG_IGN); /* it ends with its input, which says what became of it */
 		dup2(in[0], STDIN_FILENO);
 		dup2(said[1], STDERR_FILENO);
 		become(argv);
-		fprintf(stderr, "sh5: it is not here, and .h5 files need it\n");
+		fprintf(stderr, "sh5: sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)\n");
 		_exit(PM_DATA);
 	}
 	close(in[0]);

@@ -10,7 +10,7 @@
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {
 	if (!s->run->reader)
-		s->run->reader = pm_rest_is(s->run->common.input) ? pm_rest_read(s->run->common.input) : pm_reader_open(s->run->common.input);
+		s->run->reader = pm_rest_open(s->run->common.input);
 	return s->run->reader;
 }
 
