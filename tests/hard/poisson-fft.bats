@@ -14,6 +14,7 @@ load ../helper
 @test "poisson-fft: threads 1, 2, 3 give equal bytes, with an empty cache and with a foreign one" {
 	pinit uniform -n 2000 --seed 3 | p2m -n 34x19x20 > rho
 	pinit plummer -n 500 --seed 3 | p2m -n 17 --outside drop > free
+	pinit uniform -n 500 --seed 3 --faces wall,neumann,neumann,wall,wall,wall | p2m -n 19x17x23 > ends
 	for cache in empty foreign; do
 		mkdir -p $cache/pmpipe
 		export XDG_CACHE_HOME=$PWD/$cache
@@ -27,7 +28,9 @@ load ../helper
 		for n in 1 2 3; do
 			poisson-fft --threads $n --verbose < rho > $cache.$n 2>> said
 			poisson-fft --threads $n < free > $cache.free.$n
+			poisson-fft --threads $n --screening 2 < ends > $cache.ends.$n
 			same_as $cache.1 $cache.$n
+			same_as $cache.ends.1 $cache.ends.$n
 			same_as $cache.free.1 $cache.free.$n
 		done
 	done
