@@ -30,6 +30,9 @@ static const struct pm_option options[] = {
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
 		offsetof(struct config, names.target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
+	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
+		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
+		offsetof(struct config, names.wall)},
 	{0},
 };
 
@@ -66,12 +69,13 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static int ready(struct state *t)
+static int ready(struct state *t, int component)
 {
-	if (t->solver && pm_relaxation_fits(t->solver, &t->problem.grid, t->choice.method))
+	struct pm_grid g = pm_problem_grid(&t->problem, component);
+	if (t->solver && pm_relaxation_fits(t->solver, &g, t->choice.method))
 		return 0;
 	pm_relaxation_free(t->solver);
-	t->solver = pm_relaxation_new(&t->problem.grid, t->choice.method);
+	t->solver = pm_relaxation_new(&g, t->choice.method);
 	return t->solver ? 0 : -PM_DATA;
 }
 
@@ -90,12 +94,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	struct pm_relaxation_record longest = {.sweeps = -1}, r;
-	int status = ready(t);
+	int status = 0;
 	for (int c = 0; !status && c < t->problem.source->components; c++) {
 		char key[32] = "mean_removed";
 		if (t->problem.source->components > 1)
 			snprintf(key, sizeof key, "mean_removed_%d", c);
-		status = pm_relaxation_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &r);
+		if (!(status = ready(t, c)))
+			status = pm_relaxation_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &r);
+		if (status)
+			break;
 		if (r.singular)
 			pm_report(s, f, key, r.mean);
 		if (r.sweeps > longest.sweeps)

@@ -90,6 +90,16 @@ round_trip() {
 	below "$(worst back_1 omega_1 < in)" 1e-12
 }
 
+@test "poisson-relax takes the components of a vector between walls as poisson-fft does" {
+	pinit uniform -n 10 --faces wall,wall,neumann,wall,wall,neumann | p2m -n 9x8x10 | scalc --mesh mesh 'J = 1+x, x*y-1, z^2' > J
+	for wall in tangential normal all; do
+		sh_ok "poisson-fft --wall $wall --symbol fd2 --source J --target A < J | poisson-relax --wall $wall --source J --target B | stab --plain --mesh mesh > AB"
+		for c in 0 1 2; do
+			below "$(worst B_$c A_$c < AB)" 1e-9 "$wall, component $c"
+		done
+	done
+}
+
 @test "poisson-fft --wall all: each component of a vector is a scalar" {
 	sh_ok "pinit uniform -n 10 --faces wall,neumann,neumann,wall,wall,wall | p2m -n 9x8x10 | scalc --mesh mesh 'J = 1+x, x*y, z' 's = z' |
 		poisson-fft --source J --target B --wall all | poisson-fft --source s --target b | stab --plain --mesh mesh > B"
