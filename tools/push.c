@@ -48,8 +48,8 @@ static int action(struct config *cfg, const char *word)
 		return 0;
 	if (!step)
 		return unknown(word);
-	if (*end || (slash && !slash[1]) || !isfinite(n) || n < 1 || (slash && step->kind == PM_SCHEME))
-		return pm_fail(PM_USAGE, "'%s' (a part of a step is written kick/N or drift/N, N >= 1; schemes have no parts)", word);
+	if (*end || (slash && !slash[1]) || !(n >= 1 && n <= 1e9) || (slash && step->kind == PM_SCHEME))
+		return pm_fail(PM_USAGE, "'%s' (a part of a step is written kick/N or drift/N, N from 1 to 1e9; schemes have no parts)", word);
 	if (step->kind == PM_KICK && p->drift > 0)
 		return pm_fail(PM_USAGE, "'%s' after drift has no force at the new positions (push drift | force | push kick)", word);
 	if (step->magnetic && n != 2)

@@ -134,10 +134,12 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 			return status;
 		for (size_t k = 0, n = f->nfields; k < n;) { /* pm_changes moves a field to the end of the list */
 			struct pm_field *p = f->fields[k];
-			if (!strcmp(p->on, on) && !p->uniform && !(p->use & PM_USE_CHANGE))
-				pm_changes(f, on, p->name), n--;
-			else
+			if (strcmp(p->on, on) || p->uniform || p->use & PM_USE_CHANGE) {
 				k++;
+				continue;
+			}
+			p->use |= p->use & PM_USE_READ ? 0 : PM_USE_ANY; /* what the expression does not ask for may be anything */
+			pm_changes(f, on, p->name), n--;
 		}
 	}
 	if (!c->where)

@@ -90,6 +90,8 @@ static int attributes(const struct config *c, struct pm_frame *f)
 {
 	int status = 0;
 	bool geometry = c->box.n || c->faces.n;
+	if (f->substep && (c->fixed.n || c->loose.n))
+		return pm_fail(PM_DATA, "which sets are fixed can change only between steps (substep %d here)", f->substep);
 	if (f->substep && (!isnan(c->dt) || !isnan(c->time) || c->step >= 0))
 		return pm_fail(PM_DATA, "time, dt and step can change only between steps (substep %d here)", f->substep);
 	if ((geometry && (status = pm_frame_meshes_free(f))) || (status = pm_attributes_constants(f, &c->constants)) || (status = pm_attributes_law(f, c->law)) ||

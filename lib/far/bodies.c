@@ -44,8 +44,10 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 		sources += is_source(f, f->sets[i], far), targets += is_target(f, f->sets[i], far);
 	if (!sources)
 		return pm_fail(PM_DATA, "no set with 'x' and '%s' (add it with stab --strength)", far->strength);
+	if (!targets && far->set)
+		return pm_fail(PM_DATA, "no set '%s' that could feel the sum (sls lists the sets)", far->set);
 	if (!targets)
-		return pm_fail(PM_DATA, "no set '%s' that could feel the sum (sls lists the sets)", far->set ? far->set : "");
+		return pm_fail(PM_DATA, "no set could feel the sum: all are fixed or lack what moves (smod --loose, or --potential for the potential alone)");
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		status = plan_set(f, f->sets[i], far, term, replace);
 	return status;

@@ -10,7 +10,7 @@
 
 #include "step/rates.h"
 
-static const double pm_done_tolerance = 1e-12; /* thirds and sevenths add to one only up to round-off */
+static const double pm_done_tolerance = 1e-10; /* parts add to one only up to round-off: a million millionths to 8e-12, and no part is below 1e-9 */
 
 /* What a scheme does with one set in this pass. */
 struct pm_pass {

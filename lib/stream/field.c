@@ -127,7 +127,7 @@ static int not_finite(const struct pm_field *field, int code)
 
 int pm_field_check(struct pm_field *field, int code)
 {
-	if (field->finite || !is_real(field) || !field->buffer)
+	if (field->finite || !is_real(field) || !field->buffer || field->use & PM_USE_ANY)
 		return 0;
 	field->finite = pm_finite(values(field), field->buffer->data);
 	return field->finite ? 0 : not_finite(field, code);
@@ -144,7 +144,7 @@ int pm_field_settle(struct pm_field *field)
 		for (size_t i = 0, n = values(field); i < n; i++)
 			y[i] = (float)y[i];
 	field->finite = use & PM_USE_SEEN && field->type == PM_F64;
-	return pm_field_check(field, PM_NUMERICS);
+	return use & PM_USE_ANY ? 0 : pm_field_check(field, PM_NUMERICS);
 }
 
 int pm_field_resize(struct pm_field *field, size_t count)

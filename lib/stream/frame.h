@@ -20,7 +20,8 @@ size_t pm_type_size(enum pm_type type); /* bytes of a value on the wire */
 
 /* What the running stage does with a field; set while it plans, cleared when it is done. */
 enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* new, and the stage writes every value: no zeros needed */,
-	PM_USE_SEEN = 16 /* the stage has looked at every value it wrote while that was in the cache, and all are finite */ };
+	PM_USE_SEEN = 16 /* the stage has looked at every value it wrote while that was in the cache, and all are finite */,
+	PM_USE_ANY = 32 /* values are carried, not computed with: they need not be finite */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 

@@ -63,6 +63,13 @@ fixture() {
 	same_as a b
 }
 
+@test "where all sets are fixed nothing feels the sum, and it is said so; --potential still gives the potential" {
+	pinit plummer -n 20 | smod --fixed matter > a
+	refuses 1 "no set could feel the sum: all are fixed" "pp < a"
+	pp --potential < a | sls | grep -q 'phi  *1 f64 derived'
+	refuses 1 "no set 'moon' that could feel the sum" "pinit plummer -n 20 | pp --set moon"
+}
+
 @test "the bytes do not depend on the number of threads" {
 	pinit plummer -n 1300 > a
 	for loop in half full; do

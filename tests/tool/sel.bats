@@ -1,5 +1,6 @@
 # sel: selects frames, sets, fields and particles. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
+wire() { python3 "$top/tests/wire.py" "$@"; }
 
 frames() { for i in "$@"; do printf "x y id\n$i 0 1\n0.5 2 2\n" | stab - --box -9,9 --cells 2 | smod --step "$i" --time "$i"; done; }
 steps() { sls --format json | jq -r .step | paste -sd' '; }
@@ -47,6 +48,19 @@ fields() { sls --format json | jq -r '.fields[] | .on + "/" + .name' | paste -sd
 	sh_ok 'sel --where "mass > 0" <a | scmp --tolerance 0 - a'
 	sh_ok 'sel --where "mass < 0" <a | sls | grep "0 particles"'
 	sh_ok 'printf "x\n" | stab - | sel --where "x > 0" | sls | grep "0 particles"'
+}
+
+@test "--where asks only for what the expression needs: what is not finite elsewhere is carried along, or dropped" {
+	pinit plummer -n 4 --no-history > a
+	wire edit a 'put("v", 3, float("nan"))' > b
+	sh_ok 'sel --where "x > -100" --no-history < b > c; sel --where "x > -100" --drop v < b | sls'
+	[ "$(sel --field x --no-history < b | cksum)" = "$(sel --field x --no-history < c | cksum)" ] # all four particles
+	run -1 --separate-stderr bash -c 'sel --where "vx > -100" < b > /dev/null'
+	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
+	run -1 --separate-stderr bash -c 'push drift < c > /dev/null' # whoever computes with it still refuses
+	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
+	run -1 --separate-stderr bash -c "cycle -n 1 'sel --where \"x > -100\" | push drift' < b > /dev/null"
+	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
 }
 
 @test "selected particles are the same as those written, through any number of threads" {

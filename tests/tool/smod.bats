@@ -56,6 +56,14 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	[ "$(t | smod --shift 1,1,1 --rename v=w | row)" = "8 7 4 5 6 2 3 4" ] || [ "$(t | smod --shift 1,1,1 --rename v=w | stab --plain | tail -1 | tr '\t' '\n' | sort -n | paste -sd' ')" = "2 3 4 4 5 6 7 8" ]
 }
 
+@test "which sets are fixed can change between steps only" {
+	pinit kepler | pp | push kick/2 drift > a
+	for o in '--fixed sun' '--loose sun'; do
+		run -1 --separate-stderr bash -c "smod $o < a > /dev/null"
+		[[ $stderr == *"which sets are fixed can change only between steps (substep 1 here)"* ]]
+	done
+}
+
 @test "a uniform field stays uniform when it is scaled" {
 	sh_ok 'pinit plummer -n 10 | smod --scale mass=2 | sls | grep mass'
 	[[ "$output" == *"uniform 0.19"* ]]

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "stage/stage.h"
+#include "step/done.h"
 
 extern const struct pm_tool tool_push;
 
@@ -83,9 +84,9 @@ static void usage(void)
 {
 	struct pm_frame *f = frame(2, 3, true);
 	refused(f, "kcik", PM_USAGE, "did you mean 'kick'");
-	refused(f, "kick/0.5", PM_USAGE, "N >= 1");
-	refused(f, "kick/", PM_USAGE, "N >= 1");
-	refused(f, "kick/two", PM_USAGE, "N >= 1");
+	refused(f, "kick/0.5", PM_USAGE, "N from 1 to 1e9");
+	refused(f, "kick/", PM_USAGE, "N from 1 to 1e9");
+	refused(f, "kick/two", PM_USAGE, "N from 1 to 1e9");
 	refused(f, "rk4/2", PM_USAGE, "schemes have no parts");
 	refused(f, "drift kick", PM_USAGE, "push drift | force | push kick");
 	refused(f, "kick rk4", PM_USAGE, "a whole scheme stands alone");
@@ -204,6 +205,15 @@ static void clock(void)
 	for (int i = 0; i < 3; i++)
 		push(f, "drift/3");
 	clock_is(f, 0.75, 0, 3, "three thirds are one");
+	for (int n = 3; n <= 1000000; n = 10 * n + 7 > 1000000 && n < 1000000 ? 1000000 : 10 * n + 7) {
+		struct pm_set s = {.name = "matter", .kick = 1};
+		int bad = 0;
+		for (int i = 0; i < n && !bad; i++)
+			bad = pm_done_complete(&s) || pm_done_add(&s, 0, 1.0 / n, false);
+		check(!bad && s.drift == 1, "%d parts drift/%d are one, not earlier and not later", n, n);
+		if (n == 1000000)
+			break;
+	}
 	push(f, "drift --open"), clock_is(f, 1, 1, 3, "drift --open: a kick is still to come");
 	force(f, "matter");
 	push(f, "kick"), clock_is(f, 1, 0, 4, "and the kick completes the step");
