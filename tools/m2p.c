@@ -45,9 +45,14 @@ static int choose_field(const struct config *o, const struct pm_frame *f, struct
 	return j->field ? 0 : pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, o->mesh ? o->mesh : j->mesh->name, words);
 }
 
-/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. */
+/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. What is given has
+ * the same values on both sides of any face. */
 static void set_images(const struct job *j, int dim, struct pm_transfer *t)
 {
+	if (j->field->role == PM_STATE) {
+		pm_grid_even(&t->grid);
+		return;
+	}
 	bool law = j->law->field && !strcmp(j->name, j->law->field), curl = law && j->law->of_potential == PM_CURL;
 	for (int c = 0; c < t->components && t->components == dim; c++)
 		if (curl && dim == 2)
@@ -125,9 +130,14 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 		out[c] = pm_out(target, c);
 		factor[c] = o->field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : ratio;
 	}
+	if (!status && j->field->role == PM_STATE) { /* its images are not those of the changes */
+		status = pm_gather(&t, target->count, x, mesh, factor, out, &strays);
+		t.components = 0;
+		t.grid = pm_grid_of(f, j->mesh);
+	}
 	if (!status)
 		status = pm_carry_append(carry, f, set, &t, mesh, factor, out);
-	if (!status)
+	if (!status && t.components)
 		status = pm_gather(&t, target->count, x, mesh, factor, out, &strays);
 	pm_free(ratio);
 	target->use |= !status && strays.finite && t.components == target->components ? PM_USE_SEEN : 0;

@@ -92,6 +92,10 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	int status = choose(o, law, &g, t->source, t);
 	if (status)
 		return status;
+	const struct pm_field *old = pm_frame_field(f, mesh->name, target);
+	if (old && old->role == PM_STATE)
+		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative does not replace it (choose another --target; keep what is given on a mesh of "
+			"its own, m2p --mesh adds it)", target, mesh->name);
 	t->target = pm_makes(f, mesh->name, target, t->operator.out, PM_DERIVED);
 	if (!t->target)
 		return -PM_DATA;

@@ -13,10 +13,6 @@ int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m,
 		return 0;
 	if (given->components != 3)
 		return pm_fail(PM_DATA, "'%s' on mesh '%s' has %d components, and a magnetic field has 3", name, m->name, given->components);
-	for (int d = 0; d < f->dim && !given->uniform; d++)
-		if ((f->face[d][0] == PM_WALL) != (f->face[d][1] == PM_WALL))
-			return pm_fail(PM_DATA, "'%s' varies on mesh '%s' between a wall and a face that is none, where its image is not known (pinit --faces wall)",
-				name, m->name);
 	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, given->role == PM_STATE ? "external" : "self", replace) ? 0 : -PM_DATA;
 }
 
@@ -33,13 +29,12 @@ int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, cons
 		out[c] = pm_out(to, c);
 		for (size_t i = 0; i < to->count && given->uniform; i++)
 			out[c][i] += given->value[c];
-		for (int d = 0; d < f->dim; d++)
-			own.flip[c][d] = f->face[d][0] == PM_WALL;
 	}
 	if (!to || given->uniform)
 		return 0;
 	for (int d = 0; d < f->dim; d++)
 		x[d] = pm_in(pm_frame_field(f, set, "x"), d);
 	memcpy(own.half, given->half, sizeof own.half);
+	pm_grid_even(&own.grid);
 	return pm_gather(&own, to->count, x, mesh, NULL, out, &strays);
 }

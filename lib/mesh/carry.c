@@ -61,10 +61,7 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1};
 	int status = 0;
 	memcpy(one.half[0], change->half[0], sizeof one.half[0]);
-	for (int d = 0; d < t->grid.dim; d++)
-		for (int side = 0; side < 2; side++)
-			if (t->grid.face[d][side] == PM_WALL)
-				one.grid.face[d][side] = PM_NEUMANN; /* particles go on beyond a wall, whatever the field does there */
+	pm_grid_even(&one.grid); /* particles go on beyond a wall, whatever the field does there */
 	for (size_t i = 0; i < sets->n && !status; i++) {
 		const struct pm_field *state = pm_frame_field(f, sets->name[i], change->of);
 		const double *x[3], *volume;

@@ -16,6 +16,13 @@ struct pm_grid {
 
 struct pm_grid pm_grid_of(const struct pm_frame *f, const struct pm_mesh *m);
 static inline size_t pm_grid_size(const struct pm_grid *g) { return g->points[0] * g->points[1] * g->points[2]; }
+/* Walls count as neumann faces: what goes on beyond them as it is on this side. */
+static inline void pm_grid_even(struct pm_grid *g)
+{
+	for (int d = 0; d < g->dim; d++)
+		for (int side = 0; side < 2; side++)
+			g->face[d][side] = g->face[d][side] == PM_WALL ? PM_NEUMANN : g->face[d][side];
+}
 double pm_grid_cell(const struct pm_grid *g); /* volume of a cell, over dim axes */
 /* Quadrature weight of a point: 1, times 1/2 for each non-periodic axis on whose end it sits. */
 double pm_grid_weight(const struct pm_grid *g, size_t i, size_t j, size_t k);

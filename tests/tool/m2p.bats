@@ -79,6 +79,22 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 	[ "$(m2p --field phi --kernel tsc <b | of phi)" = "0.25 2.25" ] # 1(0.28125-0.03125); 9(0.28125-0.03125), the end node is 0
 }
 
+@test "m2p: what is given has the same values on both sides of any face, in one dimension and along a wall in two" {
+	for faces in wall neumann wall,neumann; do
+		given g $faces state 0.25 3.75 >a
+		[ "$(m2p --kernel tsc <a | of acc)" = "0.3125 13.8125" ] # as above: 0 at the wall and 1 on both sides; 16, and 9 on both sides
+	done
+	# a uniform field is itself anywhere, its component along a wall too
+	printf 'x y mass charge\n0.1 0.5 1 1\n0.5 0.01 1 1\n0 0.99 1 1\n0.3 0.4 1 1\n' >t
+	for case in 'wall 4' 'neumann 4' 'open,wall 2'; do # two of them are too near the open face for pcs
+		read -r faces held <<<"$case"
+		stab t --law electrostatic --box 0,1 --faces "$faces" --particle-faces open --strength mass,charge -n 8 | scalc 'v = 0, 0' --role state |
+			scalc --mesh mesh 'E = 0.5, -0.25' --role state | m2p --kernel pcs --outside drop | stab --plain |
+			awk -v held="$held" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["acc_0"] != 0 { n++
+				if (($c["acc_0"] - 0.5)^2 + ($c["acc_1"] + 0.25)^2 > 1e-30) exit 1 } END { exit n != held }'
+	done
+}
+
 @test "m2p honours components that sit half a cell up" {
 	given g periodic derived 2.25 | stab | sed '1s/"kernel":"cic",/&"half":[[1,0,0]],/' | stab - >a
 	[ "$(m2p <a | of acc)" = 3.25 ] # values 0 1 4 9 at 0.5 1.5 2.5 3.5: a quarter below 2.5

@@ -45,6 +45,16 @@ refused() {
 	refused 2 "" "mgrad --order 3 < free"
 }
 
+@test "mgrad: a field that is given is not replaced; on a mesh of its own it stays, and m2p adds both" {
+	pinit langmuir -n 64 --cells 16 > a
+	scalc --mesh mesh 'E = 0.5' --role state < a > b
+	refused 1 "'E' on 'mesh' is given, and a derivative does not replace it (choose another --target; keep what is given on a mesh of its own, m2p --mesh adds it)" \
+		"p2m < b | poisson-fft | mgrad"
+	p2m < b | poisson-fft | mgrad --target mine | sls > list
+	grep -q ' mine  *1 f64 derived' list
+	grep -q ' E  *1 f64 state' list
+}
+
 @test "mgrad: threads 1, 2, 3 give equal bytes" {
 	pinit plummer -n 500 | p2m -n 17 --outside drop | poisson-fft > free
 	pinit uniform -n 500 --faces wall | p2m -n 9x14x10 | poisson-fft > walls
