@@ -1,13 +1,14 @@
 /* A Maxwellian plasma with a small wave, f = (1 + A cos k x) M(v), which Landau damping takes away. vth = 1 and omega_p = 1, so lambda_D = 1 and
  * the default k = 0.5 is k lambda_D = 0.5: omega = 1.4156619, gamma = -0.1533595; k = 0.3: 1.1598465, -0.01262037.
  * Quiet start: Hammersley's points, velocities by their quantiles, places by reversed bits through the inverse of x + (A/k) sin k x; every second
- * particle is the mirror image of the one before, so the momentum is zero.
+ * particle is the mirror image of the one before, so the momentum is zero. Or, without noise, --beams of evenly spaced velocities with the weights
+ * of the Maxwellian; they are in step again after 2 pi/(k dv), dv = 12 vth over their number.
  * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
  * Exact: mass, charge. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/plasma.h"
 
-enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES };
+enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES, BEAMS };
 
 static const struct pm_scene_parameter rows[] = {
 	{"amplitude", "", 0.02, 0, 0.999, "k A at the start"},
@@ -15,6 +16,7 @@ static const struct pm_scene_parameter rows[] = {
 	{"wavenumber", "1/length", 0.5, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
 	{"vth", "length/time", 1, 0, 1e300, "thermal speed, the standard deviation of the velocity"},
 	{"velocities", "", 1, 1, 3, "components of v"},
+	{"beams", "", 0, 0, 1e6, "evenly spaced velocities from -6 to 6 vth, weighted; 0: each particle its own, all of one weight"},
 	{0},
 };
 
@@ -31,17 +33,46 @@ static double place(double q, double a, double k)
 	return x;
 }
 
+/* Beams of even velocities, even places in each, masses as the Maxwellian has it. */
+static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, double length, double k, double *x, double *v)
+{
+	const uint64_t beams = (uint64_t)c->value[BEAMS], each = c->n / beams;
+	double total = 0, *weight[2];
+	if (c->value[BEAMS] != floor(c->value[BEAMS]) || each * beams != c->n)
+		return pm_fail(PM_USAGE, "%llu particles do not make %g beams of the same number (-n a multiple of --beams)", (unsigned long long)c->n, c->value[BEAMS]);
+	for (int i = 0; i < 2; i++) {
+		struct pm_field *field = pm_frame_field(f, "electrons", i ? "mass" : "charge");
+		field->uniform = false;
+		if (pm_field_ready(field))
+			return -PM_DATA;
+		weight[i] = pm_out(field, 0);
+	}
+	for (uint64_t b = 0; b < beams; b++)
+		total += exp(-0.5 * pow(12 * ((double)b + 0.5) / (double)beams - 6, 2));
+	for (uint64_t i = 0; i < c->n; i++) {
+		const double u = 12 * ((double)(i / each) + 0.5) / (double)beams - 6, share = exp(-0.5 * u * u) / total * length / (double)each;
+		/* each lattice begins elsewhere (golden section), or their images on the mesh would be in step again and again */
+		const double first = fmod(0.6180339887498949 * ((double)(i / each) + 1), 1);
+		x[i] = scene_plasma_fold(place(((double)(i % each) + first) / (double)each * length, c->value[AMPLITUDE], k), length);
+		v[i] = c->value[VTH] * u;
+		weight[0][i] = -share, weight[1][i] = share;
+	}
+	return 0;
+}
+
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = 2 * pm_pi / c->value[WAVENUMBER], k = c->value[WAVENUMBER] * c->value[MODE], n = (double)c->n, share = c->n ? length / n : 0;
 	double *x[3], *v[3];
 	if (scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
-	if (c->n % 2)
+	if (c->n % 2 && c->value[BEAMS] == 0)
 		return pm_fail(PM_USAGE, "%llu particles do not make mirror images (take an even -n)", (unsigned long long)c->n);
 	scene_plasma_world(f, length, 1, 0.1);
 	if (scene_mesh(f, 64) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
+	if (c->value[BEAMS] > 0)
+		return make_beams(c, f, length, k, x[0], v[0]);
 #pragma omp parallel for schedule(static) if (c->n > 16384)
 	for (uint64_t i = 0; i < c->n; i++) {
 		const uint64_t j = i / 2;

@@ -1,51 +1,67 @@
 /* A cold plasma oscillation: electrons at rest on a lattice, displaced by x = q + (A/k) sin(k q), before immobile ions; omega_p = 1.
  * Until sheets cross (A < 1: never) each electron swings about its own place, x = q + (A/k) sin(k q) cos t, for any A (Dawson 1959). On a mesh with
- * cic and the 3-point Laplacian the frequency is cos(k dx/2), with the leapfrog sin(omega dt/2) = (dt/2) cos(k dx/2).
+ * cic and the 3-point Laplacian the frequency is cos(k dx/2), with the leapfrog sin(omega dt/2) = (dt/2) cos(k dx/2). In 2-D and 3-D the box is a square
+ * or a cube, and the wave runs along x or, with --axes, along a diagonal.
  * Source: Dawson 1959, Phys. Rev. 113, 383; Birdsall and Langdon 1985, chapter 4; PIC-06, PIC-07, PIC-16 of the reference cases.
  * Exact: mass, charge, kA, speed_rms, energy_kinetic. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/plasma.h"
 
-enum { AMPLITUDE, MODE, WAVENUMBER, VELOCITIES };
+enum { AMPLITUDE, MODE, WAVENUMBER, VELOCITIES, AXES };
 
 static const struct pm_scene_parameter rows[] = {
 	{"amplitude", "", 0.05, 0, 0.999, "k A at the start"},
-	{"mode", "", 1, 1, 1e6, "waves in the box"},
+	{"mode", "", 1, 1, 1e6, "waves in the box, along each axis that the wave vector has"},
 	{"wavenumber", "1/length", 1, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
-	{"velocities", "", 1, 1, 3, "components of v"},
+	{"velocities", "", 1, 1, 3, "components of v (as many as dimensions at least)"},
+	{"axes", "", 1, 1, 3, "of the wave vector: 1 along x, 2 and 3 along the diagonals"},
 	{0},
 };
 
+/* |k| of the wave. */
+static double wavenumber(double k1, double mode, double axes) { return k1 * mode * sqrt(axes); }
+
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const double length = 2 * pm_pi / c->value[WAVENUMBER], k = c->value[WAVENUMBER] * c->value[MODE], n = (double)c->n, share = c->n ? length / n : 0;
+	const double length = 2 * pm_pi / c->value[WAVENUMBER], k1 = c->value[WAVENUMBER] * c->value[MODE], axes = c->value[AXES];
+	const size_t cells[] = {64, 32, 16}, side = c->n ? scene_per_axis(c->n, f->dim) : 1;
+	const double share = c->n ? pow(length / (double)side, f->dim) : 0, swing = c->value[AMPLITUDE] / (k1 * axes);
 	double *x[3], *v[3];
-	if (scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
+	if (!side || scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
+	if (axes != floor(axes) || axes > f->dim)
+		return pm_fail(PM_USAGE, "--axes %g is not a number of axes from 1 to %d", axes, f->dim);
 	scene_plasma_world(f, length, 1, 0.1);
-	if (scene_mesh(f, 64) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
+	if (scene_mesh(f, cells[f->dim - 1]) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
-		const double q = ((double)i + 0.5) / n * length;
-		x[0][i] = scene_plasma_fold(q + c->value[AMPLITUDE] / k * sin(k * q), length);
+		const size_t at[3] = {i % side, i / side % side, i / side / side};
+		double q[3], phase = 0;
+		for (int d = 0; d < f->dim; d++) {
+			q[d] = ((double)at[d] + 0.5) / (double)side * length;
+			phase += d < axes ? k1 * q[d] : 0;
+		}
+		for (int d = 0; d < f->dim; d++)
+			x[d][i] = scene_plasma_fold(d < axes ? q[d] + swing * sin(phase) : q[d], length);
 	}
 	return 0;
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
-	const double k1 = pm_frame_parameter(f, "wavenumber", 1), k = k1 * pm_frame_parameter(f, "mode", 1), length = 2 * pm_pi / k1;
+	const double k1 = pm_frame_parameter(f, "wavenumber", 1), volume = pow(2 * pm_pi / k1, f->dim);
+	const double k = wavenumber(k1, pm_frame_parameter(f, "mode", 1), pm_frame_parameter(f, "axes", 1));
 	const double a = pm_frame_parameter(f, "amplitude", 0.05), speed = a / k * fabs(sin(t)) / sqrt(2);
 	if (!strcmp(quantity, "mass"))
-		return length;
+		return volume;
 	if (!strcmp(quantity, "charge"))
-		return -length;
+		return -volume;
 	if (!strcmp(quantity, "kA"))
 		return a * cos(t);
 	if (!strcmp(quantity, "speed_rms"))
 		return speed;
 	if (!strcmp(quantity, "energy_kinetic"))
-		return 0.5 * length * speed * speed;
+		return 0.5 * volume * speed * speed;
 	return NAN;
 }
 
@@ -53,7 +69,7 @@ const struct pm_scene scene_langmuir = {
 	.name = "langmuir",
 	.sentence = "a cold plasma that oscillates at omega_p = 1",
 	.source = "Dawson 1959, Phys. Rev. 113, 383",
-	.dims = 1u << 1,
+	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.dim = 1,
 	.n = 4096,
 	.parameters = rows,

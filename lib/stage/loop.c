@@ -228,6 +228,8 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	signal(SIGTERM, on_signal);
 	if (!status)
 		status = frames(&y, in);
+	if (!status)
+		status = pm_sentence_end(y.words);
 	pm_sentence_timing(y.words, s->run->common.timing);
 	s->seconds = pm_seconds() - s->run->began;
 	char message[1024];

@@ -254,6 +254,18 @@ int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f) { return run_al
 
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f) { return run_all(s, true, f); }
 
+int pm_sentence_end(struct pm_sentence *s)
+{
+	for (int i = 0; i < s->nsegments; i++)
+		for (int k = 0; k < s->segment[i].count && !s->segment[i].process; k++) {
+			const struct word *w = s->word + s->segment[i].first + k;
+			int status = w->tool->end ? w->tool->end(w->stage) : 0;
+			if (status)
+				return pm_fail(-status, "%s: %s", w->stage->word, pm_message());
+		}
+	return 0;
+}
+
 /* Tried on a bare header: plans say what is missing without computing anything. */
 bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 {

@@ -96,6 +96,14 @@ load ../helper
 	[ "$(column step < t | tr '\n' ' ')" = "1 2 3 4 5 " ]
 }
 
+@test "diag: inside cycle too the line of --growth stands behind the table, whichever the engine" {
+	for engine in fused pipes; do
+		sh_ok "pinit langmuir -n 64 --cells 16 | cycle --engine $engine -n 40 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | diag --growth mode:1 --tee $engine'"
+		[ "$(grep -c '^# mode:1 gamma ' $engine)" = 1 ]
+	done
+	same_as fused pipes
+}
+
 @test "HC-58: the table has the same bytes with 1, 2 and 3 threads" {
 	pinit plummer -n 50000 > a
 	for t in 1 2 3; do
