@@ -4,20 +4,78 @@ load ../helper
 
 step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 
-@test "HC-06: at w dt = 1.9 a cold wave keeps its height for 10000 steps" {
-	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-5 --dt 1.9372232 | cycle -n 10000 --every 1 '$step' | p2m | poisson-fft | mgrad | diag --columns time --modes 1 > t"
-	# the largest of the first and of the last 100 steps
-	first=$(sed 1d t | head -n 100 | cut -f 2 | sort -g | tail -n 1)
-	last=$(tail -n 100 t | cut -f 2 | sort -g | tail -n 1)
-	within "$(awk -v a="$first" -v b="$last" 'BEGIN { printf "%.9g", b / a }')" 1 0.01
+# hot SEED: diag's table at t = 0 and t = 1000 of a thermal plasma, lambda_D = dx = 1.
+hot() {
+	pinit uniform --dim 1 -n 4096 --length 64 --mass 64 --dispersion 1 --cells 64 --dt 0.2 --seed "$1" | scalc 'charge = -mass' --extensive --role state |
+		smod --law electrostatic --constant eps0=1,background=1 | cycle -n 5000 --every 5000 "$step" | p2m | poisson-fft | mgrad | diag
 }
 
-@test "HC-06: at w dt = 2.05 it grows by 0.446 a step, and what is not finite is never written" {
+@test "HC-02: a thermal plasma with cells of a Debye length, 64 particles in each, keeps its energy to 2 % until t = 1000, and its momentum to 1e-12" {
+	export OMP_NUM_THREADS=1
+	sum=0
+	for seed in 1 2 3 4; do
+		hot $seed > t
+		gain=$(column energy < t | awk 'NR == 1 { a = $1 } END { printf "%.9g", $1 / a - 1 }')
+		within "$gain" 0 0.02 "seed $seed"
+		below "$(awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum_scale < t | tail -n 1)" 'BEGIN { printf "%.17g", p / s }')" 1e-12
+		sum=$(awk -v a="$sum" -v b="$gain" 'BEGIN { printf "%.9g", a + b / 4 }')
+	done
+	within "$sum" 0.0097 0.0048 # PIC-21: 1.0097 with a spread of 0.0024 over seeds; the mean of four and the reference's own: two of them
+}
+
+# later FROM: of diag's time and energy_field_x, the largest from that time on over the mean until t = 20.
+later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ } if ($1 >= from && $2 > most) most = $2 } END { printf "%.9g", most * n / sum }'; }
+
+@test "HC-04: two warm beams at v0 = 1.30 vth, below the threshold, do not grow: 1e5 particles, t = 200, at random and with a wave; at 1.6 vth they do" {
+	warm() { cycle -n "$1" --every 10 "${step/p2m/p2m -n 128}" | p2m -n 128 | poisson-fft | mgrad | diag --columns time,energy_field_x; }
+	# beam SEED V SET: half of the electrons, at random
+	beam() {
+		pinit uniform --dim 1 -n 50000 --length 31.415926535897931 --mass 15.707963267948966 --dispersion 1 --dt 0.2 --seed "$1" |
+			scalc 'charge = -mass' --extensive --role state | smod --law electrostatic --constant eps0=1,background=1 --boost="$2" --rename matter="$3"
+	}
+	beam 1 1.3 right > right
+	beam 2 -1.3 left > left
+	stack right left | warm 1000 > noise
+	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.3 --vth 1 --amplitude 0.01 --dt 0.2 | warm 1000 > wave
+	within "$(later 0 < noise)" 1.5 1.5 # less than 3
+	within "$(later 20 < wave)" 1.5 1.5 # it begins at its height and is damped
+	# a growing case fails this by far; at v0 = 1.6 vth the rate is 0.08
+	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.6 --vth 1 --amplitude 0.01 --dt 0.2 | warm 300 > grows
+	[ "$(awk -v a="$(later 20 < grows)" 'BEGIN { print (a > 10) }')" = 1 ]
+}
+
+@test "HC-06: at w dt = 1.9 a cold wave keeps its height for 10000 steps" {
+	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-5 --dt 1.9372232 | cycle -n 10000 --every 1 '$step' | p2m | poisson-fft | mgrad | diag --columns time --modes 1 > t"
+	# the largest of each hundred steps: the smallest of these is within 1 % of the largest
+	within "$(sed 1d t | awk '{ b = int((NR - 1) / 100); if ($2 > m[b]) m[b] = $2 } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
+}
+
+@test "HC-06: at w dt = 2.05 it grows by 0.446 a step, until it is no longer small: electric forces in a box are bounded, and so is the wave" {
 	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-9 --dt 2.0901619 | cycle -n 30 --every 1 '$step' | p2m | poisson-fft | mgrad | diag --columns time --modes 1 > t"
 	# 1/2 of the wave is the growing one; the other is gone after 10 steps
 	within "$(sed 1d t | cut -f 2 | awk 'NR == 11 { a = $1 } NR == 31 { printf "%.9g", log($1 / a) / 20 }')" 0.4463 0.001
-	sh_ok "pinit langmuir -n 64 --cells 16 --dt 2.0901619 | cycle -n 2000 '$step' | stab --plain --set electrons > u"
-	run ! grep -qi nan u
+	# From k A = 1e-3 the energy is above a million times its own after 100 steps (diag shows it), and everything stays finite.
+	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-3 --dt 2.0901619 | cycle -n 2000 --every 100 '$step' > a; p2m < a | poisson-fft | mgrad | diag --columns energy > e; stab --plain --set electrons < a > u"
+	[ "$(sed 1d e | awk 'NR == 1 { a = $1 } NR > 1 && $1 < 1e6 * a { bad = 1 } END { print NR, bad + 0 }')" = "21 0" ]
+	run ! grep -qi 'nan\|inf' u
+}
+
+@test "HC-06: in the field of an ion slab, which is not bounded, it grows by 0.446 a step until it leaves the mesh: exit 1, a name, and nothing after it" {
+	# E = x is the field of ions of density 1 about x = 0: omega_p = 1
+	slab() { printf 'x v mass charge\n1e-3 0 1 -1\n' | stab - --law electrostatic --box=-1000,1000 --faces open --particle-faces open --dt "$1" --strength mass,charge \
+		--set electrons -n 8 | scalc --mesh mesh 'E = x' --role state; }
+	words='push kick/2 drift | m2p | push kick/2'
+	slab 2.05 > a
+	run -1 --separate-stderr bash -c "cycle -n 1000 --every 1 '$words' < a > b"
+	[[ $stderr == "cycle: step 32: m2p: particle 0 of 'electrons' at "*"open face x = 1000"* ]]
+	tail -c 300 b | grep -a 'PMPIPE/1 abort 1 ' > /dev/null
+	run -1 --separate-stderr bash -o pipefail -c "diag --columns centre_x < b > t"
+	[[ $stderr == "diag: stopped by cycle: step 32:"* ]]
+	within "$(sed 1d t | awk '{ x = $1 < 0 ? -$1 : $1 } NR == 20 { a = x } END { printf "%.9g", log(x / a) / (NR - 20) }')" 0.446287 1e-5 # 2 acosh(1.025)
+	run ! grep -qi 'nan\|inf' t
+	slab 1.9 > a
+	sh_ok "cycle -n 10000 --every 1 '$words' < a | diag --columns centre_x > t"
+	within "$(sed 1d t | awk '{ x = $1 < 0 ? -$1 : $1; b = int((NR - 1) / 100); if (x > m[b]) m[b] = x } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
 }
 
 @test "no electrons at all, and all of them in one place, go through a step" {
@@ -27,7 +85,11 @@ step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 	below "$(column energy_kinetic < d)" 1e-28 # no self-force
 }
 
-@test "HC-08: |v| of 20 electrons after 5000 steps of Omega dt = 100 in three dimensions" {
-	sh_ok "pinit gyration --dim 3 --velocities 3 -n 20 --magnetic-field 100 --dt 1 | cycle -n 5000 'push boris/2 drift | m2p | push boris/2' | diag --columns energy_kinetic > t"
-	within "$(column energy_kinetic < t)" 10 1e-11
+@test "HC-08: |v| of electrons after steps of Omega dt = 0.1, 2, 100 in three dimensions, by the words (1e6 steps in check-long; every one of 1e6 in tests/unit/boris.c)" {
+	export OMP_NUM_THREADS=1
+	for omega_dt in 0.1 2 100; do
+		sh_ok "pinit gyration --dim 3 --velocities 3 --magnetic-field $omega_dt --dt 1 | cycle -n $([ -n "$PM_LONG" ] && echo 1000000 || echo 10000) 'push boris/2 drift | m2p | push boris/2' |
+			diag --columns speed_rms > t"
+		within "$(column speed_rms < t)" 1 1e-11 "Omega dt = $omega_dt"
+	done
 }
