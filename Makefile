@@ -25,7 +25,7 @@ h5_libs = $(or $(shell pkg-config --libs hdf5 2>/dev/null),-lhdf5_serial)
 h5_obj := $(patsubst %.c,$(B)/%.o,$(sort $(wildcard lib/h5/*.c)))
 alone := tools/sh5.c
 
-tables := law kernel mollifier relax scene step
+tables := green law kernel mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/%,$(wildcard lib/*/*.c)))
 lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o)
 tool_src := $(sort $(wildcard tools/*.c))

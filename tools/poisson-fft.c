@@ -8,8 +8,8 @@
 
 struct config {
 	struct pm_problem_names names;
-	double screening;
-	const char *symbol, *plan;
+	double screening, softening;
+	const char *symbol, *green, *plan;
 };
 enum { SOLVERS = 4 }; /* kinds of faces that the components of a vector have: one for each axis as the normal one, and one for others */
 struct state {
@@ -20,7 +20,7 @@ struct state {
 	struct made {
 		struct pm_poisson_fft *solver;
 		struct pm_grid grid;
-		struct pm_poisson_fft_choice choice;
+		enum pm_symbol symbol;
 	} made[SOLVERS];
 };
 
@@ -30,6 +30,11 @@ static const struct pm_option options[] = {
 		false, offsetof(struct config, symbol)},
 	{"screening", 0, PM_REAL, "1/length", "0", 0, 1e150, NULL, "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length", false,
 		offsetof(struct config, screening)},
+	{"green", 0, PM_WORD, "", NULL, 0, 0, pm_green_names,
+		"the Green's function where faces are open (default: hockney; with --symbol fd2 lattice)", false, offsetof(struct config, green)},
+	{"softening", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
+		"delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)", false,
+		offsetof(struct config, softening)},
 	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
 	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
@@ -48,6 +53,7 @@ static const struct pm_example examples[] = {
 	{"the potential of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --plan estimate | sls"},
 	{"the exact inverse of the second-order differences, in a periodic box",
 		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 --plan estimate | sls"},
+	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico --plan estimate | sls"},
 	{0},
 };
 
@@ -67,7 +73,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	const char *symbol = o->symbol ? o->symbol : t->problem.law->symbol ? t->problem.law->symbol : "spectral";
-	t->choice = (struct pm_poisson_fft_choice){.symbol = (enum pm_symbol)pm_symbol_find(symbol), .screening = o->screening};
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, o->green ? pm_green_find(o->green) : NULL,
+		o->softening};
 	status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
@@ -92,14 +99,14 @@ static void forget(struct state *t)
 static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const struct pm_grid *g)
 {
 	for (int i = 0; i < t->nmade; i++)
-		if (t->choice.symbol == t->made[i].choice.symbol && t->choice.screening == t->made[i].choice.screening && same_grid(g, &t->made[i].grid))
+		if (t->choice.symbol == t->made[i].symbol && same_grid(g, &t->made[i].grid)) /* the other choices are options: the same for all frames */
 			return t->made[i].solver;
 	if (t->nmade == SOLVERS || t->problem.source->components == 1)
 		forget(t);
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, &t->choice, t->effort);
 	if (!solver)
 		return NULL;
-	t->made[t->nmade++] = (struct made){solver, *g, t->choice};
+	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol};
 	const struct pm_planner *p = pm_poisson_fft_planner(solver);
 	if (*p->note)
 		pm_say(s, "%s", p->note);
@@ -155,9 +162,9 @@ const struct pm_tool tool_poisson_fft = {
 	.name = "poisson-fft",
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
 	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
-		"neumann (no normal gradient, cosines) in any mixture, a wall opposite a neumann face too; or open on all axes (free space, Hockney and "
-		"Eastwood's doubled domain). Where nothing fixes phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved "
-		"component by component. In free space phi is that of -1/(4 pi r) in 3-D, ln(r)/(2 pi) in 2-D, |x|/2 in 1-D.",
+		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any mixture, opposite each other too. Where nothing fixes "
+		"phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes phi is "
+		"that of -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), means taken over the other axes.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

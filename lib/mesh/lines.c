@@ -14,35 +14,54 @@ enum { L = PM_LANES, H = PM_LANES / 2 };
 
 int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line)
 {
-	bool periodic = face[0] == PM_PERIODIC, open = face[0] == PM_OPEN, wall[2] = {face[0] == PM_WALL, face[1] == PM_WALL};
-	*line = (struct pm_line){.face = {face[0], face[1]}, .n = n, .length = periodic ? n : 2 * n};
+	bool periodic = face[0] == PM_PERIODIC, wall[2] = {face[0] == PM_WALL, face[1] == PM_WALL};
+	int open = (face[0] == PM_OPEN) + (face[1] == PM_OPEN);
+	*line = (struct pm_line){.face = {face[0], face[1]}, .n = n, .length = periodic ? n : open == 1 ? 4 * n : 2 * n};
 	line->shifted = !periodic && !open && wall[0] != wall[1];
 	line->first = wall[0];
 	line->count = periodic ? n : n + 1 - wall[0] - wall[1];
-	line->least = wall[0] && wall[1];
-	line->modes = open ? line->length : line->count;
+	line->row = line->first + (open == 1 && face[0] == PM_OPEN ? n : 0);
+	line->least = open == 1 ? wall[0] || wall[1] : wall[0] && wall[1];
+	line->modes = open == 2 ? line->length : open ? 2 * n + 1 - 2 * line->least : line->count;
 	line->fft = line->shifted ? pm_fft_shifted(p, line->length) : pm_fft(p, line->length);
 	return line->fft ? 0 : -PM_DATA;
+}
+
+static bool half_open(const struct pm_line *l)
+{
+	return (l->face[0] == PM_OPEN) != (l->face[1] == PM_OPEN);
+}
+
+/* The second half of a line from the first. */
+static void images(const struct pm_line *l, bool flip, double *block)
+{
+	size_t half = l->length / 2;
+	bool wall[2] = {l->face[0] == PM_WALL, l->face[1] == PM_WALL};
+	if (half_open(l))
+		wall[0] = wall[1] = wall[0] || wall[1];
+	if (wall[0] != flip)
+		memset(block, 0, L * sizeof *block);
+	if (wall[1] != flip)
+		memset(block + half * L, 0, L * sizeof *block);
+	double sign = wall[1] != flip ? -1 : 1;
+	for (size_t i = 1; i < half; i++)
+		for (int q = 0; q < L; q++)
+			block[(l->length - i) * L + q] = sign * block[i * L + q];
 }
 
 void pm_line_extend(const struct pm_line *l, bool flip, double *block)
 {
 	if (l->face[0] == PM_PERIODIC)
 		return;
-	if (l->face[0] == PM_OPEN) {
-		if (l->count < l->length)
-			memset(block + l->count * L, 0, (l->length - l->count) * L * sizeof *block);
-		return;
+	bool both = l->face[0] == PM_OPEN && l->face[1] == PM_OPEN;
+	size_t end = l->row + l->count, space = both ? l->length : l->length / 2 + 1;
+	if (both || half_open(l)) {
+		memset(block, 0, l->row * L * sizeof *block);
+		if (end < space)
+			memset(block + end * L, 0, (space - end) * L * sizeof *block);
 	}
-	bool odd[2] = {(l->face[0] == PM_WALL) != flip, (l->face[1] == PM_WALL) != flip};
-	if (odd[0])
-		memset(block, 0, L * sizeof *block);
-	if (odd[1])
-		memset(block + l->n * L, 0, L * sizeof *block);
-	double sign = odd[1] ? -1 : 1;
-	for (size_t i = 1; i < l->n; i++)
-		for (int q = 0; q < L; q++)
-			block[(l->length - i) * L + q] = sign * block[i * L + q];
+	if (!both)
+		images(l, flip, block);
 }
 
 /* Rows [from, from+count) of a block times exp(-i pi j/N), or exp(+i pi j/N) back. */
@@ -98,12 +117,22 @@ static void turn(const struct pm_line *l, size_t from, size_t count, double *blo
 	}
 }
 
+static bool whole(const struct pm_line *l)
+{
+	return l->face[0] == PM_PERIODIC || (l->face[0] == PM_OPEN && l->face[1] == PM_OPEN);
+}
+
+static bool sines(const struct pm_line *l)
+{
+	return l->face[0] == PM_WALL || (half_open(l) && l->face[1] == PM_WALL);
+}
+
 void pm_line_real(const struct pm_line *l, double *block)
 {
 	pm_line_forward(l, false, block);
-	if (l->face[0] == PM_PERIODIC || l->face[0] == PM_OPEN)
+	if (whole(l))
 		hartley(l, block);
-	if (l->face[0] == PM_WALL)
+	if (sines(l))
 		turn(l, l->least, l->modes, block);
 }
 
@@ -132,9 +161,14 @@ void pm_line_real_back(const struct pm_line *l, double *block)
 {
 	if (l->shifted) {
 		quarter_back(l, block);
-	} else if (l->face[0] == PM_OPEN) {
+	} else if (whole(l)) {
 		pm_fft_forward(l->fft, block);
 		hartley(l, block);
+	} else if (half_open(l)) {
+		images(l, false, block);
+		pm_fft_forward(l->fft, block);
+		if (sines(l))
+			turn(l, l->least, l->modes, block);
 	} else {
 		pm_line_real(l, block);
 	}

@@ -7,12 +7,14 @@
 #include "mesh/lanes.h"
 
 struct pm_line {
-	enum pm_face face[2]; /* periodic; wall: odd images; neumann: even images; open: zeros up to the doubled length */
+	enum pm_face face[2]; /* periodic; wall: odd images; neumann: even images; open: zeros up to the doubled length; open at one end: both,
+	                       * images at the other and as much space again, four times the length */
 	bool shifted;         /* a wall at one end, neumann at the other: frequency k stands for k + 1/2, its partner is length-1-k */
 	size_t n;             /* cells */
 	size_t first, count;  /* nodes that take part: all, without the ends at walls */
+	size_t row;           /* of the block where the first of them is: first, or n more where the face below is open and that above is not */
 	size_t least, modes;  /* of the real transforms: frequency of the first, and how many */
-	size_t length;        /* of the complex transform: n, or 2n where images or zeros fill it */
+	size_t length;        /* of the complex transform: n, or 2n where images or zeros fill it, or 4n where both do */
 	const struct pm_fft *fft; /* of that length; of the planner */
 };
 
@@ -27,14 +29,14 @@ static inline size_t pm_line_partner(const struct pm_line *l, size_t k)
 /* Fills the rows that are not nodes: images at a wall or neumann face, zeros at an open one. flip: odd and even images are exchanged. */
 void pm_line_extend(const struct pm_line *l, bool flip, double *block);
 
-/* Nodes in rows first ... first+count-1 to the spectra of the pairs, frequency k in row fft->at[k]; and back, not normalised. flip as above;
+/* Nodes in rows row ... row+count-1 to the spectra of the pairs, frequency k in row fft->at[k]; and back, not normalised. flip as above;
  * on the way back it makes no difference. Open: the way there only fills in zeros, the half weight of end nodes is the caller's. */
 void pm_line_forward(const struct pm_line *l, bool flip, double *block);
 void pm_line_backward(const struct pm_line *l, double *block);
 
 /* The real transform that diagonalises even operators with these faces: Hartley (periodic; open: of the doubled line), DST-I (wall), DCT-I (neumann),
- * quarter-wave sines (wall, neumann) and cosines (neumann, wall). Nodes in rows first ... first+count-1, mode m comes out in row fft->at[least+m].
- * Back: mode m in row least+m, nodes i in row fft->at[i]; together they multiply by length. */
+ * quarter-wave sines (wall, neumann) and cosines (neumann, wall). Nodes in rows row ... row+count-1, mode m comes out in row fft->at[least+m].
+ * Back: mode m in row least+m, node number i of those that take part in row fft->at[row+i]; together they multiply by length. */
 void pm_line_real(const struct pm_line *l, double *block);
 void pm_line_real_back(const struct pm_line *l, double *block);
 

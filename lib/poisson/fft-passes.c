@@ -77,9 +77,9 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 		weight[r] = end_weight(&p->line[Y], j) * end_weight(&p->line[Z], k);
 		least = weight[r] < least ? weight[r] : least;
 	}
-	for (size_t i = 0; i <= l->n; i++)
-		for (int q = 0; q < L && (least < 1 || i == 0 || i == l->n); q++)
-			block[i * L + (size_t)q] *= weight[q] * end_weight(l, i);
+	for (size_t i = 0; i < l->count; i++)
+		for (int q = 0; q < L && (least < 1 || i == 0 || i == l->count - 1); q++)
+			block[(l->row + i) * L + (size_t)q] *= weight[q] * end_weight(l, l->first + i);
 }
 
 /* Of the nodes of a block; one accumulator per lane. */
@@ -107,7 +107,7 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 			memcpy(row, from, p->nodes[X] * sizeof *row);
 		in[r] = row, out[r] = to + r * p->row;
 	}
-	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->first * L);
+	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->row * L);
 	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
 	if (p->open)
 		weigh(p, g, s.block);
@@ -137,7 +137,7 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 		pm_lanes_in(in, g->rows, p->modes[X], s.block + l->least * L);
 		pm_line_real_back(l, s.block);
 	}
-	pm_lanes_out(s.block, p->complex ? NULL : l->fft->at + l->first, p->nodes[X], g->rows, out);
+	pm_lanes_out(s.block, p->complex ? NULL : l->fft->at + l->row, p->nodes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
 		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
 }
@@ -154,13 +154,13 @@ static void columns(const struct pm_poisson_fft *p, double *plane, bool forward,
 {
 	const struct pm_line *l = &p->line[Y];
 	for (size_t c = 0; c < p->chunks; c++, plane += L) {
-		gather(plane, p->row, forward ? p->nodes[Y] : p->modes[Y], block + (p->complex ? 0 : forward ? l->first : l->least) * L);
+		gather(plane, p->row, forward ? p->nodes[Y] : p->modes[Y], block + (p->complex ? 0 : forward ? l->row : l->least) * L);
 		if (!p->complex && forward) {
 			pm_line_real(l, block);
 			scatter_real(block, l->fft->at + l->least, p->modes[Y], p->row, plane);
 		} else if (!p->complex) {
 			pm_line_real_back(l, block);
-			scatter_real(block, l->fft->at + l->first, p->nodes[Y], p->row, plane);
+			scatter_real(block, l->fft->at + l->row, p->nodes[Y], p->row, plane);
 		} else if (forward) {
 			pm_line_forward(l, false, block);
 			scatter(block, p->modes[Y], p->row, plane);
@@ -221,10 +221,15 @@ double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *
  * of a chunk have H frequencies along x, real ones L. */
 static inline void multiplier(const struct pm_poisson_fft *p, size_t j, size_t k, size_t c, size_t lanes, double factor, double *u)
 {
-	const double *lx = p->lambda[X] + c * lanes, *green = p->green ? p->green + p->fold[j] * p->green_slab + k * p->green_row + c * lanes : NULL;
-	double rest = green ? 0 : p->lambda[Y][j] + p->lambda[Z][k];
+	if (p->green) {
+		const double *green = p->green + p->fold[j] * p->green_slab + (k + p->green_least) * p->green_row + c * lanes;
+		for (size_t q = 0; q < lanes; q++)
+			u[q] = factor * green[q];
+		return;
+	}
+	const double *lx = p->lambda[X] + c * lanes, rest = p->lambda[Y][j] + p->lambda[Z][k];
 	for (size_t q = 0; q < lanes; q++)
-		u[q] = green ? factor * green[q] : factor / (lx[q] + rest);
+		u[q] = factor / (lx[q] + rest);
 	if (p->singular && j == 0 && k == 0 && c == 0)
 		u[0] = 0;
 }
@@ -271,18 +276,13 @@ static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, dou
 			pair_times(u, a, b);
 	}
 	if (l->least) /* walls at both ends: no such modes */
-		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->n] * L, 0, L * sizeof *block);
+		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->length / 2] * L, 0, L * sizeof *block);
 }
 
-static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, bool spectrum, double *block, double *at)
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at)
 {
 	const struct pm_line *l = &p->line[Z];
-	gather(at, p->row, p->nodes[Z], block + l->first * L);
-	if (spectrum) {
-		pm_line_real(l, block);
-		scatter_real(block, l->fft->at + l->least, p->modes[Z], p->row, at);
-		return;
-	}
+	gather(at, p->row, p->nodes[Z], block + l->row * L);
 	pm_line_forward(l, false, block);
 	if (j == 0 && c == 0)
 		p->zero = block[0];
@@ -291,10 +291,10 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 	else
 		real_pencils(p, j, c, factor, block);
 	pm_line_backward(l, block);
-	scatter(block + l->first * L, p->nodes[Z], p->row, at);
+	scatter(block + l->row * L, p->nodes[Z], p->row, at);
 }
 
-void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum)
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor)
 {
 	bool plane = thick(p);
 	size_t slabs = plane ? p->modes[Y] : p->chunks, size = p->nodes[Z] * p->row;
@@ -302,12 +302,12 @@ void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectr
 	for (size_t i = 0; i < slabs; i++) {
 		struct scratch s = thread_scratch(p);
 		if (!plane) {
-			pencils(p, 0, i, factor, spectrum, s.block, p->w + i * L);
+			pencils(p, 0, i, factor, s.block, p->w + i * L);
 			continue;
 		}
 		memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
 		for (size_t c = 0; c < p->chunks; c++)
-			pencils(p, i, c, factor, spectrum, s.block, s.modes + c * L);
+			pencils(p, i, c, factor, s.block, s.modes + c * L);
 		memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
 	}
 }

@@ -19,10 +19,9 @@ struct pm_poisson_fft {
 	size_t row;                    /* [doubles] stride of rows */
 	double *w;                     /* [modes[Y]][nodes[Z]][row]: a pencil's slab is in one piece, a plane's rows are not */
 	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
-	double *green;                 /* open: transform of the Green's function, in the layout of a real solver (next) */
-	size_t green_row, green_slab;  /* [doubles] green[y][z][x] */
-	size_t *fold;                  /* open: of each row of a plane of modes the row of green */
-	double volume;                 /* of a cell, open; else 1 */
+	double *green;                 /* open: transform of the Green's function over open axes (fft-open.c) */
+	size_t green_row, green_slab;  /* [doubles] green[y][z][x], x in the order of the modes */
+	size_t *fold, green_least;     /* open: of each row of a plane of modes the row y of green; the row z of the first mode */
 	int threads;
 	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
 	double *scratch;
@@ -41,7 +40,13 @@ struct rows {
 
 /* Forward it returns the largest absolute source of a singular problem. */
 double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
-/* Forward along z, times factor/lambda or factor*green, and back; or forward only, for the spectrum (real solvers). */
-void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, bool spectrum);
+/* Forward along z, times factor/lambda or factor*green, and back. */
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor);
+
+/* Eigenvalues of the modes of an axis by the row they are in, -1 beyond up to size; NULL with a message. */
+double *pm_poisson_fft_eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h);
+/* Of fft-open.c: fills green, with its strides; what cannot be done with a grid's open faces, 0 if there are none. */
+int pm_poisson_fft_green(struct pm_poisson_fft *p);
+int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
 #endif

@@ -41,21 +41,10 @@ bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_ff
 
 int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
-	int open = 0;
-	for (int d = 0; d < g->dim; d++) {
+	for (int d = 0; d < g->dim; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
-		open += (g->face[d][0] == PM_OPEN) + (g->face[d][1] == PM_OPEN);
-	}
-	if (open && open < 2 * g->dim)
-		return pm_fail(PM_DATA, "open faces are %d of %d (poisson-fft takes open faces on all axes, or any mixture of periodic, wall and neumann)", open,
-			2 * g->dim);
-	if (open && o->screening > 0)
-		return pm_fail(PM_DATA, "--screening has no free-space Green's function here (it takes periodic, wall and neumann faces)");
-	if (open && o->symbol != PM_SPECTRAL && !(g->dim == 1 && o->symbol == PM_FD2))
-		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral for open faces)",
-			pm_symbol_names[o->symbol]);
-	return 0;
+	return pm_poisson_fft_open_check(g, o);
 }
 
 static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
@@ -69,17 +58,6 @@ static const double *source_row(const struct rows *r, size_t j, size_t k, double
 {
 	(void)buffer;
 	return r->s + row_offset(r->p, j, k) + r->p->line[X].first;
-}
-
-static const double *green_row(const struct rows *r, size_t j, size_t k, double *buffer)
-{
-	const struct pm_grid *g = &r->p->grid;
-	double y = g->dim == 3 ? (double)j * g->h[1] : 0, z = g->dim > 1 ? (double)k * g->h[g->dim - 1] : 0;
-	for (size_t i = 0; i < r->p->nodes[X]; i++) {
-		double x = (double)i * g->h[0], r2 = x * x + y * y + z * z;
-		buffer[i] = r2 > 0 ? pm_green(g->dim, r2) : r->s[0];
-	}
-	return buffer;
 }
 
 static double *result_row(const struct rows *r, size_t j, size_t k)
@@ -133,7 +111,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
 	double largest = pm_poisson_fft_planes(p, &io, true);
-	pm_poisson_fft_pencils(p, c * norm * p->volume, false);
+	pm_poisson_fft_pencils(p, c * norm);
 	pm_poisson_fft_planes(p, &io, false);
 	zero_walls(&p->grid, phi);
 	if (p->singular && r)
@@ -141,8 +119,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	return 0;
 }
 
-/* Eigenvalues of the modes of an axis by the row they are in, -1 beyond. */
-static double *eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h)
+double *pm_poisson_fft_eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h)
 {
 	double *lambda = pm_alloc(size, sizeof *lambda);
 	for (size_t i = 0; lambda && i < size; i++)
@@ -195,40 +172,13 @@ static int symbols(struct pm_poisson_fft *p)
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
 		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
-		p->lambda[a] = eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, p->choice.symbol, h[a]);
+		p->lambda[a] = pm_poisson_fft_eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, p->choice.symbol, h[a]);
 		if (!p->lambda[a])
 			return -PM_DATA;
 	}
 	for (size_t k = 0; k < p->modes[Z] && !p->empty; k++)
 		p->lambda[Z][k] -= screening * screening;
 	return 0;
-}
-
-/* The transform of the even, doubled Green's function is the cosine transform of one octant: the spectrum of a neumann solver. */
-static int green(struct pm_poisson_fft *p)
-{
-	struct pm_grid g = p->grid;
-	for (int d = 0; d < g.dim; d++)
-		g.face[d][0] = g.face[d][1] = PM_NEUMANN;
-	struct pm_poisson_fft *q = pm_poisson_fft_new(&g, &p->choice, p->planner.effort);
-	int code = q ? scratch_ready(q) : -PM_DATA;
-	if (!code && !(p->fold = pm_alloc(p->modes[Y], sizeof *p->fold)))
-		code = -PM_DATA;
-	for (size_t k = 0, n = p->modes[Y]; !code && k < n; k++)
-		p->fold[p->line[Y].fft->at[k]] = k <= n - k ? k : n - k;
-	if (!code) {
-		double centre = pm_green_centre(p->choice.symbol, g.dim, g.h);
-		struct rows io = {.p = q, .s = &centre, .from = green_row};
-		pm_poisson_fft_planes(q, &io, true);
-		pm_poisson_fft_pencils(q, 1, true);
-		p->green = q->w;
-		q->w = NULL;
-		p->green_row = q->row;
-		p->green_slab = q->row * q->nodes[Z];
-		p->volume = pm_grid_cell(&g);
-	}
-	pm_poisson_fft_free(q);
-	return code;
 }
 
 struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_effort effort)
@@ -243,14 +193,14 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 	p->grid = *g;
 	p->choice = *o;
 	p->planner.effort = effort;
-	p->volume = 1;
 	p->singular = pm_poisson_fft_singular(g, o);
 	p->complex = true;
 	for (int d = 0; d < g->dim; d++) {
-		p->open = p->open || g->face[d][0] == PM_OPEN;
-		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || g->face[d][0] == PM_OPEN);
+		bool open[2] = {g->face[d][0] == PM_OPEN, g->face[d][1] == PM_OPEN};
+		p->open = p->open || open[0] || open[1];
+		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	if (layout(p) || (p->open ? green(p) : symbols(p)))
+	if (layout(p) || (p->open && !p->empty ? pm_poisson_fft_green(p) : symbols(p)))
 		p = pm_poisson_fft_free(p);
 	return p;
 }

@@ -3,6 +3,7 @@
 #ifndef PM_POISSON_FFT_H
 #define PM_POISSON_FFT_H
 
+#include "green/green.h"
 #include "mesh/grid.h"
 #include "mesh/plan.h"
 
@@ -13,16 +14,16 @@ int pm_symbol_find(const char *name);       /* -1 and a message if it is none */
 /* The eigenvalue [1/length^2] of -k^2, or of the centred second difference of order 2, 4 or 6, on exp(i*theta*x/h). */
 double pm_symbol_value(enum pm_symbol symbol, double theta, double h);
 
-/* The value at r = 0 of the sampled free-space Green's function of the grid (the head of fft-green.c), and the function at r > 0. */
-double pm_green_centre(enum pm_symbol symbol, int dim, const double h[3]);
-double pm_green(int dim, double r2);
-
 struct pm_poisson_fft_choice {
 	enum pm_symbol symbol;
 	double screening; /* K [1/length] in lap phi - K^2 phi = c*s; 0: Poisson's equation */
+	const struct pm_green *green; /* of open faces; NULL: hockney, with differences lattice */
+	double softening;             /* [length] delta of its blobs, where the method has any; 0: 2 sqrt(2) times the largest spacing of an open axis */
 };
 
 struct pm_poisson_fft;
+
+const struct pm_green *pm_poisson_fft_green_of(const struct pm_poisson_fft_choice *o); /* the one taken where faces are open */
 
 /* 0, or the sentence that says what cannot be done and what can do it; needs no data and plans nothing. */
 int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);

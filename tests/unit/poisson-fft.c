@@ -196,41 +196,6 @@ static void sizes(void)
 	against_direct(grid(3, 17, 1, 16, PM_WALL, PM_WALL, PM_PERIODIC), "3-D wall with one cell across: no inner node, phi = 0");
 }
 
-/* Direct sum of Green's function at every node. */
-static void against_sum(struct pm_grid g, enum pm_symbol symbol, const char *what)
-{
-	size_t n = pm_grid_size(&g);
-	double *s = noise(n), *phi = malloc(n * sizeof *phi), *want = calloc(n, sizeof *want), centre = pm_green_centre(symbol, g.dim, g.h);
-	const size_t *p = g.points;
-	for (size_t a = 0; a < n; a++)
-		for (size_t b = 0; b < n; b++) {
-			double r2 = 0;
-			size_t ia[3] = {a % p[0], a / p[0] % p[1], a / p[0] / p[1]}, ib[3] = {b % p[0], b / p[0] % p[1], b / p[0] / p[1]};
-			for (int d = 0; d < g.dim; d++)
-				r2 += pow(g.h[d] * ((double)ia[d] - (double)ib[d]), 2);
-			want[a] += 3.1 * pm_grid_cell(&g) * pm_grid_weight(&g, ib[0], ib[1], ib[2]) * s[b] * (r2 > 0 ? pm_green(g.dim, r2) : centre);
-		}
-	solve(&g, symbol, 3.1, s, phi);
-	char name[120];
-	snprintf(name, sizeof name, "open %s equals the direct sum", what);
-	check_near(difference(n, phi, want), 0, 1e-12, name); /* round-off of sums of 2000 terms */
-	free(s), free(phi), free(want);
-}
-
-static void open_faces(void)
-{
-	against_sum(grid(1, 127, 1, 1, PM_OPEN, 0, 0), PM_SPECTRAL, "1-D n=127");
-	against_sum(grid(1, 1, 1, 1, PM_OPEN, 0, 0), PM_SPECTRAL, "1-D n=1");
-	against_sum(grid(1, 64, 1, 1, PM_OPEN, 0, 0), PM_FD2, "1-D n=64 fd2");
-	against_sum(grid(2, 33, 20, 1, PM_OPEN, PM_OPEN, 0), PM_SPECTRAL, "2-D 33x20");
-	against_sum(grid(2, 1, 7, 1, PM_OPEN, PM_OPEN, 0), PM_SPECTRAL, "2-D 1x7");
-	against_sum(grid(3, 8, 13, 10, PM_OPEN, PM_OPEN, PM_OPEN), PM_SPECTRAL, "3-D 8x13x10");
-	against_sum(grid(3, 1, 2, 3, PM_OPEN, PM_OPEN, PM_OPEN), PM_SPECTRAL, "3-D 1x2x3");
-	double h[3] = {1, 1, 1};
-	check_near(4 * pm_pi * pm_green_centre(PM_SPECTRAL, 3, h), -2.8372974794806195, 1e-13, "3-D: the centre of 1/r on a cube is Wigner's constant (PS-01)");
-	check_near(2 * pm_pi * pm_green_centre(PM_SPECTRAL, 2, h), -1.3105329259115095, 1e-13, "2-D: the centre of ln r on a square as in Duan and Rokhlin 2009");
-}
-
 static double weighted_mean(const struct pm_grid *g, const double *a)
 {
 	double sum = 0, weight = 0;
@@ -503,10 +468,7 @@ static void threads(void)
 
 static void refusals(void)
 {
-	struct pm_grid mixed = grid(2, 8, 8, 1, PM_OPEN, PM_WALL, 0), ends = grid(1, 8, 1, 1, PM_WALL, 0, 0), open = cube(3, 8, 1, PM_OPEN);
-	ends.face[0][1] = PM_OPEN;
-	check(pm_poisson_fft_check(&mixed, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA && strstr(pm_message(), "any mixture"), "open with other faces: %s", pm_message());
-	check(pm_poisson_fft_check(&ends, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA && strstr(pm_message(), "any mixture"), "two kinds of ends: %s", pm_message());
+	struct pm_grid open = cube(3, 8, 1, PM_OPEN);
 	check(pm_poisson_fft_check(&open, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}) == -PM_DATA && strstr(pm_message(), "--symbol spectral"), "stencils in free space: %s", pm_message());
 	open.face[1][0] = PM_ABSORBING;
 	check(pm_poisson_fft_check(&open, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA, "absorbing: %s", pm_message());
@@ -515,7 +477,6 @@ static void refusals(void)
 int main(void)
 {
 	sizes();
-	open_faces();
 	means();
 	ratios();
 	gaussians();

@@ -1,0 +1,346 @@
+/* Open faces of the transform solver: every Green's function against direct sums, exact potentials and itself; mixtures of faces; orders.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_sf_expint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "poisson/fft.h"
+
+extern const struct pm_green green_hockney, green_vico, green_gauss2, green_gauss6, green_gauss10, green_lattice;
+
+static struct pm_grid grid(int dim, size_t nx, size_t ny, size_t nz, const char *faces)
+{
+	struct pm_grid g = {.dim = dim, .cells = {nx, ny, nz}, .h = {0.7, 0.55, 1.3}};
+	for (int d = 0; d < 3; d++) {
+		if (d >= dim)
+			g.cells[d] = 1, g.h[d] = 1;
+		for (int side = 0; side < 2; side++) {
+			char c = d < dim ? faces[2 * d + side] : 'p';
+			g.face[d][side] = c == 'o' ? PM_OPEN : c == 'w' ? PM_WALL : c == 'n' ? PM_NEUMANN : PM_PERIODIC;
+		}
+		g.points[d] = g.cells[d] + (g.face[d][0] != PM_PERIODIC);
+	}
+	return g;
+}
+
+static double *noise(size_t n)
+{
+	double *s = malloc(n * sizeof *s), u[2];
+	for (size_t i = 0; i < n; i++) {
+		pm_random(2385, i, 7, u);
+		s[i] = u[0] - 0.3;
+	}
+	return s;
+}
+
+static void solve(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, double c, const double *s, double *phi)
+{
+	struct pm_poisson_fft_record r;
+	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o, PM_ESTIMATE);
+	if (!p || pm_poisson_fft_solve(p, c, s, phi, &r))
+		check(false, "the solver runs (%s)", pm_message());
+	pm_poisson_fft_free(p);
+}
+
+static double difference(size_t n, const double *a, const double *b)
+{
+	double most = 0, scale = 1e-300;
+	for (size_t i = 0; i < n; i++) {
+		most = fabs(a[i] - b[i]) > most || isnan(a[i]) ? fabs(a[i] - b[i]) : most;
+		scale = fabs(b[i]) > scale ? fabs(b[i]) : scale;
+	}
+	return most / scale;
+}
+
+/* Direct sum of the Green's function at every node. */
+static void against_sum(struct pm_grid g, const struct pm_green *green, double screening)
+{
+	struct pm_poisson_fft_choice o = {.symbol = green->differences ? PM_FD2 : PM_SPECTRAL, .screening = screening, .green = green, .softening = green->regular * 1.9};
+	struct pm_green_case c = {.dim = g.dim, .h = {g.h[0], g.h[1], g.h[2]}, .kappa = screening, .reach = 1, .width = 1.9 / sqrt(2)};
+	if (green->prepare)
+		green->prepare(&c);
+	size_t n = pm_grid_size(&g);
+	double *s = noise(n), *phi = malloc(n * sizeof *phi), *want = calloc(n, sizeof *want);
+	const size_t *p = g.points;
+	for (size_t a = 0; a < n; a++)
+		for (size_t b = 0; b < n; b++) {
+			double r2 = 0;
+			size_t ia[3] = {a % p[0], a / p[0] % p[1], a / p[0] / p[1]}, ib[3] = {b % p[0], b / p[0] % p[1], b / p[0] / p[1]};
+			for (int d = 0; d < g.dim; d++)
+				r2 += pow(g.h[d] * ((double)ia[d] - (double)ib[d]), 2);
+			want[a] += 3.1 * pm_grid_cell(&g) * pm_grid_weight(&g, ib[0], ib[1], ib[2]) * s[b] * green->at(&c, r2);
+		}
+	solve(&g, &o, 3.1, s, phi);
+	char name[160];
+	snprintf(name, sizeof name, "%s, open, %d-D %zux%zux%zu%s: equals the direct sum", green->name, g.dim, g.cells[0], g.cells[1], g.cells[2],
+		screening > 0 ? ", screened" : "");
+	check_near(difference(n, phi, want), 0, 1e-12, name); /* round-off of sums of 2000 terms */
+	free(s), free(phi), free(want);
+}
+
+static void sums(void)
+{
+	for (int i = 0; pm_greens[i]; i++) {
+		const struct pm_green *g = pm_greens[i];
+		for (int screened = 0; screened < 2; screened++) {
+			unsigned dims = screened ? g->screened : g->plain;
+			if (!g->at || (screened && g->transform))
+				continue;
+			double K = screened * 0.83;
+			if (dims & 2) {
+				against_sum(grid(1, 127, 1, 1, "oo"), g, K);
+				against_sum(grid(1, 1, 1, 1, "oo"), g, K);
+				against_sum(grid(1, 64, 1, 1, "oo"), g, K);
+			}
+			if (dims & 4) {
+				against_sum(grid(2, 33, 20, 1, "oooo"), g, K);
+				against_sum(grid(2, 1, 7, 1, "oooo"), g, K);
+			}
+			if (dims & 8) {
+				against_sum(grid(3, 8, 13, 10, "oooooo"), g, K);
+				against_sum(grid(3, 1, 2, 3, "oooooo"), g, K);
+			}
+		}
+	}
+}
+
+/* The blobs' functions by closed form and by their transforms agree as far as the blob is resolved: exp(-(pi sigma/h)^2/2), sigma = 2 h. */
+static void folding(void)
+{
+	for (int i = 0; pm_greens[i]; i++) {
+		if (!pm_greens[i]->at || !pm_greens[i]->transform)
+			continue;
+		struct pm_green folded = *pm_greens[i];
+		folded.at = NULL;
+		struct pm_grid g[] = {grid(1, 40, 1, 1, "oo"), grid(2, 24, 17, 1, "oooo"), grid(3, 12, 9, 11, "oooooo")};
+		for (int d = 0; d < 3; d++) {
+			g[d].h[0] = g[d].h[1] = g[d].h[2] = 0.61;
+			size_t n = pm_grid_size(&g[d]);
+			double *s = noise(n), *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b);
+			solve(&g[d], &(struct pm_poisson_fft_choice){.green = pm_greens[i], .softening = 4.5}, 1, s, a);
+			solve(&g[d], &(struct pm_poisson_fft_choice){.green = &folded, .softening = 4.5}, 1, s, b);
+			char name[120];
+			snprintf(name, sizeof name, "%s, %d-D: the closed form is what its transform gives", folded.name, d + 1);
+			check_near(difference(n, a, b), 0, 1e-12, name);
+			free(s), free(a), free(b);
+		}
+	}
+}
+
+static void constants(void)
+{
+	struct pm_green_case c = {.dim = 3, .h = {1, 1, 1}};
+	green_hockney.prepare(&c);
+	check_near(4 * pm_pi * green_hockney.at(&c, 0), -2.8372974794806195, 1e-13, "PS-01: the centre of 1/r on a cube is Wigner's constant");
+	c.dim = 2;
+	green_hockney.prepare(&c);
+	check_near(2 * pm_pi * green_hockney.at(&c, 0), -1.3105329259115095, 1e-13, "2-D: the centre of ln r on a square as in Duan and Rokhlin 2009");
+	struct pm_green_case q = {.dim = 2, .h = {1, 1, 1}};
+	check_near(2 * pm_pi * pm_green_find("cell")->at(&q, 0), -1.06117542688252, 1e-13, "PS-09: the mean of ln r over a square cell");
+	/* The sum over all nodes, with that centre, is the integral -1/kappa^2. */
+	for (int dim = 1; dim <= 3; dim++)
+		for (int big = 0; big < 2; big++) {
+			struct pm_green_case k = {.dim = dim, .h = {0.7, 0.9, 0.6}, .kappa = big ? 9.3 : 1.7};
+			green_hockney.prepare(&k);
+			struct pm_sum sum = {0, 0};
+			long m = (long)(45 / k.kappa / 0.6), m2 = dim > 1 ? m : 0, m3 = dim > 2 ? m : 0;
+			for (long z = -m3; z <= m3; z++)
+				for (long y = -m2; y <= m2; y++)
+					for (long x = -m; x <= m; x++)
+						pm_sum_add(&sum, green_hockney.at(&k, pow((double)x * 0.7, 2) + pow((double)y * 0.9, 2) + pow((double)z * 0.6, 2)));
+			double cell = dim == 1 ? 0.7 : dim == 2 ? 0.63 : 0.378;
+			char name[100];
+			snprintf(name, sizeof name, "hockney, %d-D, kappa %g: the sum over nodes is the integral", dim, k.kappa);
+			check_near(pm_sum_total(sum) * cell * k.kappa * k.kappa, -1, 1e-13 * dim * dim, name);
+		}
+}
+
+/* Potential of a Gaussian of unit strength and width: lap phi = s. */
+static double blob(int dim, double r)
+{
+	if (dim == 3)
+		return r > 0 ? -erf(r / sqrt(2)) / (4 * pm_pi * r) : -sqrt(2 / pm_pi) / (4 * pm_pi);
+	if (dim == 1)
+		return 0.5 * (r * erf(r / sqrt(2)) + sqrt(2 / pm_pi) * exp(-r * r / 2));
+	return r > 0 ? (log(r * r) + gsl_sf_expint_E1(r * r / 2)) / (4 * pm_pi) : (log(2) - 0.57721566490153286) / (4 * pm_pi);
+}
+
+/* A problem with a known solution in any mixture: on open axes a Gaussian of width 1 (and its image, where one end is a wall or neumann), times waves
+ * along the others. charge: the potential of a Gaussian charge, waves constant; else of lap - K^2 applied to the Gaussian times waves. */
+struct known {
+	int waves; /* number of the wave on the other axes */
+	bool charge;
+	double K;
+};
+
+static double value(const struct pm_grid *g, const struct known *k, const double x[3], double *s)
+{
+	double r2[8] = {0}, sign[8] = {1}, wave = 1, k2 = k->K * k->K, phi = 0;
+	int open = 0, images = 1;
+	*s = 0;
+	for (int d = 0; d < g->dim; d++) {
+		double length = g->h[d] * (double)g->cells[d], at = x[d];
+		enum pm_face below = g->face[d][0], above = g->face[d][1];
+		if (below != PM_OPEN && above != PM_OPEN) {
+			double turn = pm_pi * k->waves / length * (below == PM_PERIODIC ? 2 : 1) + (below != above) * 0.5 * pm_pi / length;
+			wave *= below == PM_WALL ? sin(turn * at) : cos(turn * at + (below == PM_PERIODIC) * 0.4 * (k->waves > 0));
+			k2 += turn * turn;
+			continue;
+		}
+		open++;
+		bool both = below == above;
+		double centre = both ? 0.5 * length + 0.13 : below == PM_OPEN ? length - 1.3 : 1.3, mirror = below == PM_OPEN ? 2 * length - centre : -centre;
+		for (int i = 0; i < images && !both; i++) {
+			r2[images + i] = r2[i] + pow(at - mirror, 2);
+			sign[images + i] = sign[i] * (below == PM_WALL || above == PM_WALL ? -1 : 1);
+		}
+		for (int i = 0; i < images; i++)
+			r2[i] += pow(at - centre, 2);
+		images *= both ? 1 : 2;
+	}
+	for (int i = 0; i < images; i++) {
+		double e = exp(-r2[i] / 2) * sign[i] * wave;
+		phi += k->charge ? sign[i] * blob(open, sqrt(r2[i])) : e;
+		*s += k->charge ? e / pow(2 * pm_pi, 0.5 * open) : (r2[i] - open - k2) * e;
+	}
+	return phi;
+}
+
+static struct pm_grid box(int dim, const char *faces, size_t n, double length)
+{
+	struct pm_grid g = grid(dim, n, n, n, faces);
+	for (int d = 0; d < dim; d++) {
+		bool open = g.face[d][0] == PM_OPEN || g.face[d][1] == PM_OPEN;
+		g.cells[d] = open ? d == 1 ? n + n / 8 : n : 10;
+		g.points[d] = g.cells[d] + (g.face[d][0] != PM_PERIODIC);
+		g.h[d] = (open ? length : 5.0) / (double)g.cells[d];
+	}
+	return g;
+}
+
+/* Largest error over the largest phi; open axes of n cells (the second n/8 more) and that length, the others 10 cells. */
+static double known_error(int dim, const char *faces, size_t n, double length, const struct pm_poisson_fft_choice *o, struct known k)
+{
+	struct pm_grid g = box(dim, faces, n, length);
+	k.K = o->screening;
+	size_t total = pm_grid_size(&g);
+	double *s = malloc(total * sizeof *s), *phi = malloc(total * sizeof *phi), *want = malloc(total * sizeof *want);
+	for (size_t q = 0; q < total; q++) {
+		size_t at[3] = {q % g.points[0], q / g.points[0] % g.points[1], q / g.points[0] / g.points[1]};
+		double x[3];
+		for (int d = 0; d < 3; d++)
+			x[d] = g.h[d] * (double)at[d];
+		want[q] = value(&g, &k, x, &s[q]);
+	}
+	solve(&g, o, 1, s, phi);
+	double e = difference(total, phi, want);
+	free(s), free(phi), free(want);
+	return e;
+}
+
+/* The claimed order, from three resolutions. Blobs of sigma = 2 h show theirs where 40 h and more go into the source; nothing may be cut off by then. */
+static void order_of(int dim, const char *faces, const struct pm_green *green, double screening, struct known k)
+{
+	static const size_t coarse[] = {32, 40, 48}, fine[] = {360, 400, 440};
+	const size_t *n = green->regular ? fine : coarse;
+	struct pm_poisson_fft_choice o = {.screening = screening, .green = green};
+	double h[3], error[3];
+	for (int l = 0; l < 3; l++) {
+		h[l] = 1 / (double)n[l];
+		error[l] = known_error(dim, faces, n[l], green->regular ? 19 : 14, &o, k);
+	}
+	char name[160];
+	snprintf(name, sizeof name, "%s, %d-D %s%s%s (%.2g to %.2g)", green->name, dim, faces, screening > 0 ? " screened" : "", k.charge ? ", charge" : "", error[0],
+		error[2]);
+	if (green->order)
+		check_order(3, h, error, green->order, name);
+	else
+		check(error[2] < 1e-9, "%s: spectral", name); /* what is cut off at 7 sigma */
+}
+
+static void orders(const struct pm_green *g)
+{
+	const struct known charge = {0, true, 0}, wave = {1, false, 0}, plain = {0, false, 0};
+	order_of(1, "oo", g, 0, charge);
+	order_of(2, "oooo", g, 0, charge);
+	if (!g->regular)
+		order_of(3, "oooooo", g, 0, charge);
+	if (!(g->screened & 2))
+		return;
+	order_of(1, "oo", g, 0.7, plain);
+	order_of(1, "wo", g, 0, charge);
+	order_of(2, "oopp", g, 0, wave);
+	if (g->regular && g != &green_gauss6)
+		return;
+	order_of(2, "oooo", g, 0.7, plain);
+	order_of(1, "on", g, 0, charge);
+	order_of(2, "oopp", g, 0, charge);
+	order_of(2, "wwoo", g, 0, wave);
+	order_of(2, "nnwo", g, 0, wave);
+	order_of(2, "owno", g, 0, charge);
+	order_of(3, "oooopp", g, 0, wave);
+	order_of(3, "wnoonn", g, 0, wave);
+	order_of(3, "wowwpp", g, 0, wave);
+	if (g->regular)
+		return;
+	order_of(3, "oooooo", g, 0.7, plain);
+	order_of(3, "ppoooo", g, 0, charge);
+	order_of(3, "ooppow", g, 0, charge);
+	order_of(3, "noonow", g, 0, plain);
+}
+
+/* In 3-D the fine meshes of an order are out of reach. What the solver gives there is the potential of the source convolved with the blob: for a
+ * Gaussian of width 1, W^2 = 1 + sigma^2 and rho = sigma^2/W^2, phi = blob(W) - W^2/2 g_W sum_{0<j<M} rho^j/j L_{j-1}^(1/2)(r^2/2W^2). */
+static double smoothed(int order, double sigma, double r)
+{
+	double W2 = 1 + sigma * sigma, rho = sigma * sigma / W2, x = 0.5 * r * r / W2, sum = 0, power = rho, before = 0, now = 1;
+	for (int j = 1; j < order / 2; j++) {
+		sum += power / j * now;
+		double next = ((2 * (j - 1) + 1.5 - x) * now - (j - 0.5) * before) / j;
+		before = now, now = next, power *= rho;
+	}
+	return blob(3, r / sqrt(W2)) / sqrt(W2) - 0.5 * W2 * exp(-x) * pow(2 * pm_pi * W2, -1.5) * sum;
+}
+
+static void blobs(void)
+{
+	for (int i = 0; pm_greens[i]; i++) {
+		const struct pm_green *green = pm_greens[i];
+		if (!green->regular)
+			continue;
+		struct pm_grid g = box(3, "oooooo", 34, 14);
+		struct pm_poisson_fft_choice o = {.green = green};
+		size_t n = pm_grid_size(&g);
+		double *s = malloc(n * sizeof *s), *phi = malloc(n * sizeof *phi), *want = malloc(n * sizeof *want), h[3], error[3];
+		for (size_t q = 0; q < n; q++) {
+			double x[3] = {g.h[0] * (double)(q % g.points[0]), g.h[1] * (double)(q / g.points[0] % g.points[1]), g.h[2] * (double)(q / g.points[0] / g.points[1])};
+			double r2 = pow(x[0] - 7.13, 2) + pow(x[1] - 7.13, 2) + pow(x[2] - 7.13, 2);
+			s[q] = exp(-r2 / 2) / pow(2 * pm_pi, 1.5);
+			want[q] = smoothed(green->order, 2 * 14.0 / 34, sqrt(r2));
+		}
+		solve(&g, &o, 1, s, phi);
+		char name[120];
+		snprintf(name, sizeof name, "%s, 3-D: the potential of the source convolved with the blob", green->name);
+		check_near(difference(n, phi, want), 0, 2e-8, name); /* the mesh: of a Gaussian at h = 0.41, exp(-(2 pi/0.41 - pi/0.41)^2/2) */
+		for (int l = 0; l < 3; l++) {
+			h[l] = 0.06 + 0.02 * l;
+			error[l] = fabs(smoothed(green->order, h[l], 0) - blob(3, 0));
+		}
+		snprintf(name, sizeof name, "%s, 3-D: and that differs from the source's by", green->name);
+		check_order(3, h, error, green->order, name);
+		free(s), free(phi), free(want);
+	}
+}
+
+int main(void)
+{
+	constants();
+	sums();
+	folding();
+	for (int i = 0; pm_greens[i]; i++)
+		if (!pm_greens[i]->differences)
+			orders(pm_greens[i]);
+	blobs();
+	return check_done();
+}
