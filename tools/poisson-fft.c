@@ -72,9 +72,9 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	int status = pm_problem_find(f, &o->names, &t->problem);
 	if (status)
 		return status;
-	const char *symbol = o->symbol ? o->symbol : t->problem.law->symbol ? t->problem.law->symbol : "spectral";
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, o->green ? pm_green_find(o->green) : NULL,
-		o->softening};
+	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
+	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2" : !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, o->softening};
 	status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);

@@ -162,7 +162,8 @@ static bool cases(struct work *w)
 			longest += pow(o->axis[d].h * (double)o->axis[d].n, 2);
 		}
 	}
-	first.reach = sqrt(longest) + 10 * first.width;
+	/* A fifth more, so that the waves that a cut makes in what the mesh does not resolve die out before they are reached. */
+	first.reach = 1.2 * sqrt(longest) + 10 * first.width;
 	size_t count = size[0] * size[1] * size[2], some = 0;
 	if (!(w->cases = pm_alloc(count, sizeof *w->cases)))
 		return false;

@@ -26,7 +26,7 @@ static const char *able(int open, bool screened, bool differences, char *text, s
 	for (int i = 0; pm_greens[i] && n < size; i++)
 		if (((screened ? pm_greens[i]->screened : pm_greens[i]->plain) >> open & 1) && pm_greens[i]->differences == differences)
 			n += (size_t)snprintf(text + n, size - n, "%s%s", n ? ", " : "", pm_green_names[i]);
-	return n ? text : "--symbol spectral";
+	return text;
 }
 
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
@@ -41,12 +41,13 @@ int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_f
 	if (o->softening > 0 && !green->regular)
 		return pm_fail(PM_DATA, "--green %s has no softening (choose gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
 	bool screened = open < g->dim || o->screening > 0, differences = o->symbol != PM_SPECTRAL;
-	if (green->differences && o->symbol != PM_FD2)
+	if (green->differences && !differences)
+		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, or leave out one of --symbol and --green)", green->name);
+	if (!green->differences && differences)
+		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (leave out one of --symbol and --green)", green->name);
+	if (differences && (o->symbol != PM_FD2 || open > 1))
 		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral%s)", pm_symbol_names[o->symbol],
 			open == 1 ? " or fd2" : "");
-	if (green->differences != differences)
-		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (with --symbol %s: %s)", green->name, pm_symbol_names[o->symbol],
-			able(open, screened, true, text, sizeof text));
 	if (!((screened ? green->screened : green->plain) >> open & 1))
 		return pm_fail(PM_DATA, "--green %s does not take %d open of %d axes%s (choose %s)", green->name, open, g->dim,
 			o->screening > 0 ? " with --screening" : "", able(open, screened, differences, text, sizeof text));
