@@ -1,10 +1,10 @@
 /* Poisson's equation lap phi - K^2 phi = c*s by fast transforms: phi^ = c s^ / (lambda - K^2), lambda the sum over axes of the symbol of d2/dx2.
- * Faces: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), in any mixture, a wall opposite a neumann face too (quarter waves); or open
- * everywhere: the convolution with the free-space Green's function on a domain of doubled length 2n (exactly, for the function is even).
+ * Faces, in any mixture: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), a wall opposite a neumann face (quarter waves), open: the convolution
+ * with a Green's function of the open axes on a domain of doubled length 2n, exact because the function is even (fft-open.c).
  * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4, 6.
  * Three passes over memory (fft-passes.c). Periodic and open: complex spectra of real rows; otherwise real transforms (mesh/lines.h).
- * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and half a
- * copy for the Green's function.
+ * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and one
+ * for the Green's function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
