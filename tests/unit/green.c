@@ -407,7 +407,7 @@ static void values(void)
 	size_t n = pm_grid_size(&g);
 	double *u = malloc(2 * n * sizeof *u), *out[] = {u, u + n};
 	struct pm_operator o;
-	check(!pm_operator_init(&o, &g, PM_OP_CURL, 6, 1, true) && !pm_operator_apply(&o, 1, (const double *[]){psi}, out), "the curl of psi, order 6");
+	check(!pm_operator_init(&o, &g, PM_OP_CURL, 6, 1, true) && !pm_operator_apply(&o, 1, (const double *[]){psi}, out, NULL), "the curl of psi, order 6");
 	for (int i = 0; i < 4; i++) {
 		size_t q = 48 + (size_t)(radius[i] * 8) + 97 * 48;
 		check_near(psi[q], want2[i], 1e-8, "PS-02: 2-D, psi by the truncated kernel");
@@ -427,7 +427,7 @@ static void gradients(void)
 		double *u = malloc(2 * n * sizeof *u), *out[] = {u, u + n};
 		struct pm_operator o;
 		pm_operator_init(&o, &g, PM_OP_CURL, 6, 1, true);
-		pm_operator_apply(&o, 1, (const double *[]){psi}, out);
+		pm_operator_apply(&o, 1, (const double *[]){psi}, out, NULL);
 		for (size_t q = 0; q < n; q++) {
 			double x = g.h[0] * (double)(q % g.points[0]) - 6, y = g.h[1] * (double)(q / g.points[0]) - 6, r2 = x * x + y * y;
 			double turn = r2 > 0 ? -expm1(-r2 / 2) / (2 * pm_pi * r2) : 1 / (4 * pm_pi);
@@ -475,7 +475,7 @@ static void inverse(int dim, const char *faces, double K)
 	solve(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .screening = K}, 2.385, s, phi);
 	struct pm_operator o;
 	pm_operator_init(&o, &g, PM_OP_LAP, 2, 1, false);
-	pm_operator_apply(&o, 1, (const double *[]){phi}, (double *[]){lap});
+	pm_operator_apply(&o, 1, (const double *[]){phi}, (double *[]){lap}, NULL);
 	for (size_t q = 0; q < n; q++) {
 		size_t at[3] = {q % g.points[0], q / g.points[0] % g.points[1], q / g.points[0] / g.points[1]};
 		bool inside = true;

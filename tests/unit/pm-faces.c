@@ -135,7 +135,7 @@ static void images(int dim, const char *kernel)
 {
 	int count = dim == 1 ? KINDS : dim == 2 ? KINDS * KINDS : KINDS * KINDS * KINDS;
 	for (int order = 0; order <= 6; order += 2) {
-		struct pm_poisson_fft_choice o = {(enum pm_symbol)(order / 2), order == 4 ? 0.8 : 0};
+		struct pm_poisson_fft_choice o = {.symbol = (enum pm_symbol)(order / 2), .screening = order == 4 ? 0.8 : 0};
 		double worst = 0;
 		int at = 0;
 		for (int m = 0; m < count; m++) {

@@ -133,7 +133,7 @@ static double slope(const double h[3], const double error[3])
 static void orders(int dim, double screening)
 {
 	for (int symbol = PM_SPECTRAL; symbol <= PM_FD6; symbol++) {
-		struct pm_poisson_fft_choice o = {symbol, screening};
+		struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = screening};
 		double least = INFINITY, worst = 0;
 		char where[120] = "";
 		for (int m = 0; m < mixtures(dim); m++) {
@@ -199,7 +199,7 @@ static void inverses(int dim)
 {
 	for (int symbol = PM_SPECTRAL; symbol <= PM_FD6; symbol++)
 		for (int k = 0; k < 2; k++) {
-			struct pm_poisson_fft_choice o = {symbol, 2.385 * k};
+			struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = 2.385 * k};
 			static const size_t size[] = {3, 9, 12, 17};
 			double worst = 0;
 			for (int m = 0; m < mixtures(dim); m++)
@@ -256,7 +256,7 @@ static void decay(void)
 	double s[N] = {1 / 0.3}, want[N], b = 2 + pow(0.7 * 0.3, 2), r = 0.5 * (b - sqrt(b * b - 4));
 	for (int j = 0; j < N; j++)
 		want[j] = -0.3 / (1 / r - r) * (pow(r, j) + pow(r, N - j)) / (1 - pow(r, N));
-	check_near(error_of(&g, &(struct pm_poisson_fft_choice){PM_FD2, 0.7}, s, want), 0, 1e-14, "screened, 1-D: the second difference decays by its own exponential");
+	check_near(error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .screening = 0.7}, s, want), 0, 1e-14, "screened, 1-D: the second difference decays by its own exponential");
 }
 
 /* lap phi - K^2 phi = -4 pi rho of a Gaussian of width 1 in a box of 16: in free space, by completing the square,
