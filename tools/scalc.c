@@ -39,7 +39,7 @@ static int parse(const char *text, char name[PM_NAME], const char **expression)
 	size_t n = 0, k;
 	while (isspace((unsigned char)*text))
 		text++;
-	while (isalnum((unsigned char)text[n]) || text[n] == '_' || text[n] == '-')
+	while (isalnum((unsigned char)text[n]) || text[n] == '_' || text[n] == '-' || (unsigned char)text[n] >= 0x80)
 		n++;
 	for (k = n; isspace((unsigned char)text[k]);)
 		k++;

@@ -108,9 +108,18 @@ static void attributes(const struct pm_frame *f)
 	putchar('\n');
 }
 
+/* What fills a name up to ten letters, of whatever alphabet. */
+static int missing(const char *name)
+{
+	int n = 10;
+	for (; *name; name++)
+		n -= ((unsigned char)*name & 0xC0) != 0x80;
+	return n > 0 ? n : 0;
+}
+
 static void field_text(const struct config *c, const struct pm_field *p)
 {
-	printf("    %-10s %2d %s %s %s", p->name, p->components, pm_type_names[p->type], pm_role_names[p->role], p->extensive ? "strength" : "value");
+	printf("    %s%*s %2d %s %s %s", p->name, missing(p->name), "", p->components, pm_type_names[p->type], pm_role_names[p->role], p->extensive ? "strength" : "value");
 	if (*p->unit)
 		printf(" [%s]", p->unit);
 	if (*p->of)

@@ -19,11 +19,23 @@ struct parser {
 	int code; /* of the failure */
 };
 
+/* Of a name: any letter of any alphabet. */
+static bool letter(char c) { return isalpha((unsigned char)c) || c == '_' || (unsigned char)c >= 0x80; }
+
+/* Letters, where there are bytes. */
+static int letters(const char *s, const char *end)
+{
+	int n = 0;
+	for (; s < end; s++)
+		n += ((unsigned char)*s & 0xC0) != 0x80;
+	return n;
+}
+
 /* One line: the column, what is wrong, and the text with the place marked. */
 static void wrong(struct parser *p, const char *at, const char *what, const char *name, int length)
 {
 	if (!p->failed)
-		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", (int)(at - p->text) + 1, what, length, name, length ? "'" : "", (int)(at - p->text), p->text, at);
+		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", letters(p->text, at) + 1, what, length, name, length ? "'" : "", (int)(at - p->text), p->text, at);
 	p->failed = true;
 }
 
@@ -200,8 +212,8 @@ static void atom(struct parser *p)
 	} else if ((isdigit((unsigned char)c) || c == '.') && (n = pm_decimal_read(s, &x))) {
 		p->at += n;
 		emit(p, PM_X_NUMBER, 0, x, 1);
-	} else if (isalpha((unsigned char)c) || c == '_') {
-		for (n = 0; isalnum((unsigned char)s[n]) || s[n] == '_' || s[n] == '.';)
+	} else if (letter(c)) {
+		for (n = 0; letter(s[n]) || isdigit((unsigned char)s[n]) || s[n] == '.';)
 			n++;
 		p->at += n;
 		take(p, "(") ? call(p, s, n) : variable(p, s, n);

@@ -3,23 +3,25 @@
 
 #include "stage/internal.h"
 
-/* Edits (insert, delete, replace, swap of neighbours) between two words of at most 63 letters. */
+enum { edit = 4, swap = 3 };
+
+/* Quarters of edits between two words of at most 63 letters: to insert, delete or replace is 4, to swap neighbours 3. */
 static int distance(const char *a, const char *b)
 {
 	int n = (int)strlen(a), m = (int)strlen(b), d[65][65];
 	if (n > 63 || m > 63)
-		return 99;
+		return 999;
 	for (int i = 0; i <= n; i++)
 		for (int j = 0; j <= m; j++) {
 			if (!i || !j) {
-				d[i][j] = i + j;
+				d[i][j] = edit * (i + j);
 				continue;
 			}
-			int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-			best = d[i - 1][j] + 1 < best ? d[i - 1][j] + 1 : best;
-			best = d[i][j - 1] + 1 < best ? d[i][j - 1] + 1 : best;
-			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + 1 < best)
-				best = d[i - 2][j - 2] + 1;
+			int best = d[i - 1][j - 1] + edit * (a[i - 1] != b[j - 1]);
+			best = d[i - 1][j] + edit < best ? d[i - 1][j] + edit : best;
+			best = d[i][j - 1] + edit < best ? d[i][j - 1] + edit : best;
+			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + swap < best)
+				best = d[i - 2][j - 2] + swap;
 			d[i][j] = best;
 		}
 	return d[n][m];
@@ -29,8 +31,8 @@ const char *pm_nearer(const char *word, const char *name, const char *best, int 
 {
 	int far = distance(word, name);
 	if (!strncmp(word, name, strlen(word)) && strlen(word) >= 2)
-		far = far > 1 ? 1 : far; /* a beginning is near */
-	if (far >= *least || far > 1 + (int)strlen(word) / 3)
+		far = far > edit ? edit : far; /* a beginning is near */
+	if (far >= *least || far > edit * (1 + (int)strlen(word) / 3))
 		return best;
 	*least = far;
 	return name;
@@ -39,7 +41,7 @@ const char *pm_nearer(const char *word, const char *name, const char *best, int 
 const char *pm_nearest(const char *word, const char *const *names)
 {
 	const char *best = NULL;
-	int least = 99;
+	int least = 999;
 	for (int i = 0; names && names[i]; i++)
 		best = pm_nearer(word, names[i], best, &least);
 	return best;

@@ -39,6 +39,16 @@ static int text_more(struct pm_text *t, size_t *room)
 	return t->data = data, *room = want, 0;
 }
 
+/* Marks at the beginning that editors leave, and that would be letters of the first name. */
+static int mark_check(const struct pm_text *t, const char *path)
+{
+	if (t->size >= 3 && !memcmp(t->data, "\xEF\xBB\xBF", 3))
+		return pm_fail(PM_DATA, "%s: it begins with a byte order mark, three bytes that are no part of a table (take them off: tail -c +4)", path);
+	if (t->size >= 2 && (!memcmp(t->data, "\xFF\xFE", 2) || !memcmp(t->data, "\xFE\xFF", 2)))
+		return pm_fail(PM_DATA, "%s: it is UTF-16 (make it UTF-8: iconv -f UTF-16 -t UTF-8)", path);
+	return 0;
+}
+
 int pm_text_open(struct pm_text *t, const char *path)
 {
 	int fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
@@ -56,6 +66,8 @@ int pm_text_open(struct pm_text *t, const char *path)
 	int status = got < 0 ? pm_fail_errno("cannot read '%s'", path) : 0;
 	if (fd != STDIN_FILENO)
 		close(fd);
+	if (!status)
+		status = mark_check(t, strcmp(path, "-") ? path : "standard input");
 	if (status)
 		return pm_text_close(t), status;
 	t->data[t->size] = 0;

@@ -49,6 +49,7 @@ usage() {
 
 @test "a wrong choice: exit 2, the choices and the nearest" {
 	usage 'cic.*did you mean cic' 'p2m --kernel cci'
+	usage 'did you mean tsc' 'p2m --kernel tcs' # letters that changed places, not pcs with one replaced
 	usage 'fused.*did you mean fused' "cycle -n 1 --engine fusde 'push drift'"
 	usage 'did you mean plummer' 'pinit plumer'
 	usage 'spectral' 'poisson-fft --symbol special'

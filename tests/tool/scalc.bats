@@ -79,3 +79,12 @@ col() { stab --plain | awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++)
 	head -c 5000 a >cut
 	run -1 bash -c "scalc 'q = 1' <cut >/dev/null"
 }
+
+@test "names may have letters of any alphabet, and the column of an error counts letters" {
+	printf 'x y größe\n0 0 2\n' | stab - >a
+	sh_ok "scalc 'ö = größe + 1' 'π2 = 2 * ö' <a | stab --plain"
+	[ "${lines[0]}" = $'x\ty\tgröße\tö\tπ2' ]
+	[ "${lines[1]}" = $'0\t0\t2\t3\t6' ]
+	run -1 --separate-stderr bash -c "scalc 'a = größe + ü' <a"
+	[[ $stderr == "scalc: frame 1: column 10: no field or number 'ü' "* ]]
+}

@@ -61,3 +61,11 @@ load ../helper
 	run -1 bash -c 'sls <a >/dev/full'
 	run -2 bash -c 'sls --format xml <a'
 }
+
+@test "columns stand below each other whatever the alphabet of the names" {
+	printf 'x y größe name_two αβγδεζηθικλμ\n0 0 2 1 1\n' | stab - >a
+	sh_ok "sls <a | grep ' value'"
+	[ "${lines[1]}" = '    größe       1 f64 state value' ]
+	[ "${lines[2]}" = '    name_two    1 f64 state value' ]
+	[ "${lines[3]}" = '    αβγδεζηθικλμ  1 f64 state value' ]
+}

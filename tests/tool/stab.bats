@@ -182,3 +182,14 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	run -1 bash -c 'head -c 500 /dev/zero | stab'
 	run -1 bash -c 'stab <a >/dev/full'
 }
+
+@test "a byte order mark and UTF-16 are refused in one line that says what takes them off, and that does" {
+	printf '\xef\xbb\xbfx y mass\n0 0 1\n' >bom
+	run -1 --separate-stderr stab bom
+	[ "$stderr" = "stab: bom: it begins with a byte order mark, three bytes that are no part of a table (take them off: tail -c +4)" ]
+	sh_ok 'tail -c +4 bom | stab - | stab --plain'
+	[ "${lines[1]}" = $'0\t0\t1' ]
+	printf 'x\n0\n' | iconv -t UTF-16 >wide
+	run -1 --separate-stderr bash -c 'stab - <wide'
+	[ "$stderr" = "stab: standard input: it is UTF-16 (make it UTF-8: iconv -f UTF-16 -t UTF-8)" ]
+}
