@@ -87,6 +87,14 @@ vortices() {
 	all_ways vortices "" "p2m -n 21x23 | poisson-fft | mgrad | diffuse --order 2 | m2p | push rk2 | remesh --when distortion --threshold 1e-3" 2
 }
 
+@test "equal bytes: point vortices by direct sum, four passes a step (rk4)" {
+	all_ways "pinit polygon -n 7 --disturbance 1e-3" "" "pp | push rk4" 4
+}
+
+@test "equal bytes: vortices whose step follows their strain" {
+	all_ways vortices "" "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-6" 3
+}
+
 @test "equal bytes: a scheme with a memory (ab3), over its start" {
 	pinit plummer -n 200 --no-history > start
 	for engine in fused pipes; do
