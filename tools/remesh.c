@@ -13,7 +13,7 @@ struct config {
 	struct pm_cells cells;
 	struct pm_list drop;
 	double cut_off, threshold;
-	int64_t every;
+	int64_t every, rim;
 };
 
 struct job {
@@ -28,6 +28,8 @@ static int begin(struct pm_stage *s)
 	for (int i = 0; i < o->drop.n; i++)
 		if (!strcmp(o->drop.item[i], "x"))
 			return pm_fail(PM_USAGE, "--drop x would leave no particles");
+	if (o->rim && o->by)
+		return pm_fail(PM_USAGE, "--rim makes empty particles, and a value --by a strength of 0 is not defined (leave one of them out)");
 	if (pm_given(s, "threshold") && strcmp(o->when, "distortion"))
 		return pm_fail(PM_USAGE, "--threshold belongs to --when distortion");
 	return 0;
@@ -38,7 +40,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = {.kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "m4prime"), .cut_off = o->cut_off,
+	*j = (struct job){.choice = {.kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "m4prime"), .cut_off = o->cut_off, .rim = (int)o->rim,
 		.by = o->by, .drop = o->drop.item, .ndrop = o->drop.n, .overlap = !strcmp(o->when, "distortion")}};
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh)
@@ -132,6 +134,8 @@ static const struct pm_option options[] = {
 	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set with a strength that is not fixed)", false, AT(set)},
 	{"cut-off", 0, PM_REAL, "", "0", 0, 1, NULL, "nodes up to this part of the largest strength become no particles; counted, and their strength summed",
 		false, AT(cut_off)},
+	{"rim", 0, PM_INTEGER, "cells", "0", 0, 1000, NULL, "nodes this near to a particle become particles too, however little they hold: room for what diffuses", false,
+		AT(rim)},
 	{"every", 0, PM_INTEGER, "steps", "1", 1, 1e15, NULL, "only where the frame's step is a multiple of this", false, AT(every)},
 	{"when", 0, PM_WORD, "", "always", 0, 0, when, "always, or where the distortion of the particles exceeds --threshold", false, AT(when)},
 	{"threshold", 0, PM_REAL, "", "0.02", 0, 1e9, NULL, "mean relative change of the overlap of particles that is too much", false, AT(threshold)},

@@ -3,6 +3,8 @@
  * Conserves what the kernel's moments promise away from faces, and the total always: at walls and neumann faces what would fall beyond comes
  * back as an even image (odd images of walls would take strength away). A positive kernel diffuses, the others overshoot (kernels.md).
  * Cost: p2m per strength and two passes over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "mesh/remesh.h"
 
 enum { block = 4096 }; /* nodes: fixed, because losses are summed block by block */
@@ -80,54 +82,103 @@ static void thresholds(const struct pm_remesh *r, double cut_off, double least[]
 	}
 }
 
-/* One block: marks, counts, and sums what is cut; the number kept. */
-static size_t keep_block(const struct pm_remesh *r, size_t b, const double least[], size_t *cut, struct pm_sum lost[])
+/* Which nodes are worth a particle. */
+static void mark(const struct pm_remesh *r, const double least[])
+{
+#pragma omp parallel for schedule(static) if (r->points > 16384)
+	for (size_t p = 0; p < r->points; p++) {
+		bool keep = false;
+		for (int i = 0; i < r->n; i++)
+			keep = keep || (r->field[i] >= 0 && fabs(r->node[i][p]) > least[i]);
+		r->keep[p] = keep;
+	}
+}
+
+/* May a node of a rim lie at index k of axis d? Particles there must have room to move before the kernel reaches an open face. */
+static bool has_room(const struct pm_remesh *r, int d, size_t k)
+{
+	const size_t room = (size_t)(r->kernel->width + 1) / 2 + 1;
+	const enum pm_face low = r->grid.face[d][0], high = r->grid.face[d][1];
+	return (low == PM_PERIODIC || low == PM_NEUMANN || k >= room) && (high == PM_PERIODIC || high == PM_NEUMANN || k + room <= r->grid.cells[d]);
+}
+
+/* Every node within `rim` cells of a marked one along each axis is marked as well. */
+static int widen(struct pm_remesh *r, int rim)
+{
+	unsigned char *from = pm_alloc(r->points, 1);
+	size_t stride = 1;
+	for (int d = 0; d < r->grid.dim && from; stride *= r->grid.points[d++]) {
+		const size_t n = r->grid.points[d], reach = (size_t)rim < n ? (size_t)rim : n - 1;
+		const bool round = r->grid.face[d][0] == PM_PERIODIC;
+		memcpy(from, r->keep, r->points);
+#pragma omp parallel for schedule(static) if (r->points > 16384)
+		for (size_t p = 0; p < r->points; p++) {
+			const size_t k = p / stride % n, row = p - k * stride;
+			bool keep = from[p];
+			for (size_t s = 1; s <= reach && !keep && has_room(r, d, k); s++)
+				keep = (k >= s ? from[row + (k - s) * stride] : round && from[row + (k + n - s) * stride]) ||
+					(k + s < n ? from[row + (k + s) * stride] : round && from[row + (k + s - n) * stride]);
+			r->keep[p] = keep;
+		}
+	}
+	pm_free(from);
+	return from ? 0 : -PM_DATA;
+}
+
+/* One block: counts, and sums what is cut; the number kept. */
+static size_t count_block(const struct pm_remesh *r, size_t b, size_t *cut, struct pm_sum lost[])
 {
 	size_t kept = 0;
 	*cut = 0;
 	for (int i = 0; i < r->n; i++)
 		lost[i] = (struct pm_sum){0, 0};
 	for (size_t p = b * block; p < end_of(r, b); p++) {
-		bool keep = false, any = false;
-		for (int i = 0; i < r->n; i++) {
-			keep = keep || (r->field[i] >= 0 && fabs(r->node[i][p]) > least[i]);
+		bool any = false;
+		for (int i = 0; i < r->n; i++)
 			any = any || r->node[i][p] != 0;
-		}
-		r->keep[p] = keep;
-		kept += keep;
-		*cut += any && !keep;
-		for (int i = 0; i < r->n && any && !keep; i++)
+		kept += r->keep[p];
+		*cut += any && !r->keep[p];
+		for (int i = 0; i < r->n && any && !r->keep[p]; i++)
 			pm_sum_add(&lost[i], r->node[i][p]);
 	}
 	return kept;
 }
 
-int pm_remesh_keep(struct pm_remesh *r, double cut_off)
+static void count(struct pm_remesh *r, size_t cut[], struct pm_sum lost[])
 {
-	size_t blocks = blocks_of(r);
+	const size_t blocks = blocks_of(r);
+#pragma omp parallel for schedule(static) if (r->points > 16384)
+	for (size_t b = 0; b < blocks; b++)
+		r->before[b + 1] = count_block(r, b, &cut[b], &lost[b * (size_t)r->n]);
+	r->before[0] = r->cut = 0;
+	for (size_t b = 0; b < blocks; b++) {
+		r->before[b + 1] += r->before[b];
+		r->cut += cut[b];
+		for (int i = 0; i < r->n; i++)
+			r->lost[i] += pm_sum_total(lost[b * (size_t)r->n + (size_t)i]);
+	}
+	r->kept = r->before[blocks];
+}
+
+int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim)
+{
+	const size_t blocks = blocks_of(r);
 	double least[PM_REMESH_VALUES];
 	r->keep = pm_alloc(r->points, 1);
 	r->before = pm_alloc(blocks + 1, sizeof *r->before);
 	size_t *cut = pm_alloc(blocks, sizeof *cut);
 	struct pm_sum *lost = pm_alloc(blocks * (size_t)r->n + 1, sizeof *lost);
-	bool room = r->keep && r->before && cut && lost;
-	if (room) {
+	int status = r->keep && r->before && cut && lost ? 0 : -PM_DATA;
+	if (!status) {
 		thresholds(r, cut_off, least);
-#pragma omp parallel for schedule(static) if (r->points > 16384)
-		for (size_t b = 0; b < blocks; b++)
-			r->before[b + 1] = keep_block(r, b, least, &cut[b], &lost[b * (size_t)r->n]);
-		r->before[0] = r->cut = 0;
-		for (size_t b = 0; b < blocks; b++) {
-			r->before[b + 1] += r->before[b];
-			r->cut += cut[b];
-			for (int i = 0; i < r->n; i++)
-				r->lost[i] += pm_sum_total(lost[b * (size_t)r->n + (size_t)i]);
-		}
-		r->kept = r->before[blocks];
+		mark(r, least);
+		status = rim ? widen(r, rim) : 0;
 	}
+	if (!status)
+		count(r, cut, lost);
 	pm_free(cut);
 	pm_free(lost);
-	return room ? 0 : -PM_DATA;
+	return status;
 }
 
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out)

@@ -25,8 +25,9 @@ struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k
  * in pm_spread. 0 or failure. */
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
 	struct pm_strays *strays);
-/* Keeps the nodes where a deciding strength exceeds cut_off times its largest absolute value over the nodes (cut_off 0: is not 0). */
-int pm_remesh_keep(struct pm_remesh *r, double cut_off);
+/* Keeps the nodes where a deciding strength exceeds cut_off times its largest absolute value over the nodes (cut_off 0: is not 0), and
+ * those within `rim` cells of them, empty ones too, except near open faces. 0 or failure (memory). */
+int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim);
 /* Of the kept nodes, in the order of the mesh: value i, positions along axis d, volume (of the cell, half at the end of an axis). */
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out);
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x);

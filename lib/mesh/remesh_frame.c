@@ -252,7 +252,7 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	if (!status && strays.count)
 		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow, or a --cut-off that keeps particles from spreading");
 	if (!status)
-		status = pm_remesh_keep(&w.r, c->cut_off);
+		status = pm_remesh_keep(&w.r, c->cut_off, c->rim);
 	if (!status) {
 		note_loss(&w, loss);
 		pm_frame_set(f, set)->n = w.r.kept;

@@ -9,6 +9,7 @@
 struct pm_remesh_choice {
 	const struct pm_kernel *kernel;
 	double cut_off;          /* of the largest absolute strength */
+	int rim;                 /* cells around a particle that become particles too */
 	const char *by;          /* values travel as this strength times value and are divided by it again; NULL: values are refused */
 	const char *const *drop; /* fields to leave out */
 	int ndrop;

@@ -87,6 +87,28 @@ patch() {
 	[ "$(of remesh cut <twice)" -gt "$(of remesh cut <once)" ]
 }
 
+@test "remesh --rim makes empty nodes within so many cells of a particle particles too, but near an open face none" {
+	printf 'x y circulation volume\n0.5 0 2 7\n' | stab - --law vortex --box -4,4 -n 16 >a
+	for rim in 0 1 3; do
+		remesh --kernel cic --rim $rim <a | stab --plain >b
+		side=$((2 * rim + 1))
+		[ "$(column circulation <b | wc -l)" = $((side * side)) ]
+		[ "$(total circulation <b)" = 2 ]
+		[ "$(column volume <b | sort -u)" = 0.25 ]
+	done
+	# cic may touch nodes 1 to 15; a rim keeps a cell more away: 2 to 14
+	remesh --kernel cic --rim 100 <a | stab --plain >b
+	[ "$(column x <b | sort -gu | sed -n '1p;$p' | tr '\n' ' ')" = "-3 3 " ]
+	sh_ok 'remesh --kernel cic --rim 100 <a | p2m --kernel cic | sls'
+	# round a periodic box, and what is kept is not cut
+	printf 'x y circulation\n0 0.5 1\n0.01 0.5 1e-9\n' | stab - --law vortex --box 0,1 -n 8 --faces periodic --particle-faces periodic >a
+	remesh --kernel cic --cut-off 1e-3 --rim 1 <a >b
+	[ "$(stab --plain <b | column x | sort -gu | tr '\n' ' ')" = "0 0.125 0.875 " ]
+	sls --format json --report <b | grep -q '"cut":0[,}]'
+	for t in 1 3; do patch | OMP_NUM_THREADS=$t remesh --cut-off 0.01 --rim 2 --no-history >c$t; done
+	same_as c1 c3
+}
+
 @test "remesh carries values by a strength: momentum is kept; alone they are refused, or dropped" {
 	pinit uniform -n 60 --dispersion 1 >a
 	run -1 bash -o pipefail -c 'remesh <a | sls'
@@ -169,6 +191,7 @@ patch() {
 	[[ $output =~ "no mesh fine" ]]
 	run -2 remesh --threshold 0.1
 	run -2 remesh --drop x
+	run -2 remesh --rim 1 --by mass
 }
 
 @test "a vortex in free space keeps circulation to round-off, and what a cut-off takes is what is missing" {

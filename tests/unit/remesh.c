@@ -74,7 +74,7 @@ static struct pm_remesh remeshed(const struct pm_grid *g, const struct pm_kernel
 	struct pm_remesh r = pm_remesh_on(g, k);
 	struct pm_strays strays;
 	const double *q = p->q;
-	if (pm_remesh_add(&r, p->n, in(p->x), 1, &q, true, &strays) || strays.count || pm_remesh_keep(&r, cut_off))
+	if (pm_remesh_add(&r, p->n, in(p->x), 1, &q, true, &strays) || strays.count || pm_remesh_keep(&r, cut_off, 0))
 		check(false, "%s: %s", k->name, pm_message());
 	return r;
 }
