@@ -124,6 +124,7 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	double *out[PM_COMPONENTS], *ratio = NULL;
 	struct pm_strays strays = {.count = 0};
 	pm_positions(f, set, x);
+	t.kept = &pm_frame_field(f, set, "x")->note;
 	int status = !o->field && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
 	for (int c = 0; c < t.components; c++) {
 		mesh[c] = pm_in(j->field, c);

@@ -94,6 +94,7 @@ static int spread_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	double *mesh[PM_COMPONENTS], *made = NULL;
 	struct pm_strays strays = {.count = 0};
 	pm_positions(f, set, x);
+	t.kept = &pm_frame_field(f, set, "x")->note;
 	for (int c = 0; c < t.components; c++)
 		mesh[c] = pm_out(pm_frame_field(f, j->mesh->name, j->density), c);
 	int status = pm_strengths(f, set, j->strength, q, &made);

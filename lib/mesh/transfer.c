@@ -5,7 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
-#include "mesh/transfer_order.h"
+#include "mesh/transfer_kept.h"
 
 enum {
 	piece = 16384, /* particles per job: a crowded tile is shared out */
@@ -20,42 +20,44 @@ struct job {
 struct pass {
 	const struct pm_transfer *t;
 	int components, which[PM_COMPONENTS];
-	struct pm_axis axes[3];
-	struct pm_order order;
+	struct pm_ordering *o;
 	size_t jobs;
 	struct job *job;
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
+	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
 	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 
 /* The slots of a tile: first cell, and how many. */
 static size_t tile_slots(const struct pass *w, size_t tile, int d, size_t *first)
 {
-	const uint32_t *across = w->order.across;
-	size_t edge = (size_t)1 << pm_tile_shift[w->order.dim][d];
+	const uint32_t *across = w->o->order.across;
+	size_t edge = (size_t)1 << pm_tile_shift[w->o->order.dim][d];
 	size_t at = d == 0 ? tile % across[0] : d == 1 ? tile / across[0] % across[1] : tile / across[0] / across[1];
-	const struct pm_axis *a = &w->axes[d];
+	const struct pm_axis *a = &w->o->axes[d];
 	*first = at * edge;
 	return (a->count - *first < edge ? a->count - *first : edge) + (a->slots - a->count);
 }
 
 static int list_jobs(struct pass *w)
 {
-	size_t most = w->order.tiles + w->order.n / piece;
-	w->job = pm_alloc(most < w->order.n ? most : w->order.n, sizeof *w->job);
+	size_t most = w->o->order.tiles + w->o->order.n / piece;
+	w->job = pm_alloc(most < w->o->order.n ? most : w->o->order.n, sizeof *w->job);
 	if (!w->job)
 		return -PM_DATA;
-	for (size_t tile = 0; tile < w->order.tiles; tile++)
-		for (size_t at = w->order.begin[tile], end = w->order.begin[tile + 1]; at < end; at += piece)
+	for (size_t tile = 0; tile < w->o->order.tiles; tile++)
+		for (size_t at = w->o->order.begin[tile], end = w->o->order.begin[tile + 1]; at < end; at += piece)
 			w->job[w->jobs++] = (struct job){tile, at, end - at < piece ? end : at + piece};
 	return 0;
 }
 
 static struct pm_tile tile_of(const struct pass *w, const struct job *j, double *block)
 {
-	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->axes[0].shift, .count = j->to - j->from, .stride = w->order.stride, .block = block};
-	if (w->order.records)
-		t.records = w->order.records + j->from * (size_t)w->order.stride;
+	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->o->axes[0].shift, .count = j->to - j->from, .stride = w->o->order.stride, .block = block};
+	if (w->o->order.records)
+		t.records = w->o->order.records + j->from * (size_t)w->o->order.stride;
+	t.results = w->results ? w->results + j->from * (size_t)w->components : t.records;
+	t.to = w->results ? w->components : t.stride;
 	for (int d = 0; d < 3; d++)
 		tile_slots(w, j->tile, d, &t.cell[d]);
 	return t;
@@ -84,7 +86,7 @@ static void add_block(const struct pass *w, const struct job *j, int c, int thre
 {
 	const struct pm_grid *g = &w->t->grid;
 	const unsigned char *flip = w->t->flip[c];
-	const struct pm_axis *a = w->axes;
+	const struct pm_axis *a = w->o->axes;
 	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
 	double scale = 1 / pm_grid_cell(g);
 	for (int d = 0; d < 3; d++)
@@ -112,23 +114,23 @@ static size_t jobs_under_way(int threads) { return threads == 1 ? 1 : wave * (si
 static void spread_job(const struct pass *w, const struct job *j, int value, double *block)
 {
 	struct pm_tile t = tile_of(w, j, block);
-	bool corners = pm_tile_has_corners(w->order.dim, w->t->kernel, t.count);
-	pm_tile_loop *loop = pm_tile_spread(w->order.dim, w->t->kernel, corners);
+	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
+	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
 	double packed[PM_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
-	t.value = w->order.dim + value;
+	t.value = w->o->order.dim + value;
 	t.corners = corners ? w->corners + (size_t)omp_get_thread_num() * PM_TILE_CELLS * PM_CORNERS : NULL;
 	if (t.records)
 		loop(&t);
-	for (size_t p = j->from; p < j->to && !w->order.records; p += t.count) {
+	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_ORDER_PACK ? j->to - p : PM_ORDER_PACK;
 		t.records = packed;
-		pm_order_pack(&w->order, p, t.count, packed);
+		pm_order_pack(&w->o->order, p, t.count, packed);
 		loop(&t);
 	}
 	if (corners) {
 		size_t cells[3], first;
 		for (int d = 0; d < 3; d++)
-			cells[d] = tile_slots(w, j->tile, d, &first) - (w->axes[d].slots - w->axes[d].count);
+			cells[d] = tile_slots(w, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
 		pm_tile_fold(&t, cells);
 	}
 }
@@ -170,7 +172,7 @@ static void load_block(const struct pass *w, const struct job *j, int c, const d
 {
 	const struct pm_grid *g = &w->t->grid;
 	const unsigned char *flip = w->t->flip[c];
-	const struct pm_axis *a = w->axes;
+	const struct pm_axis *a = w->o->axes;
 	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
 	for (int d = 0; d < 3; d++)
 		n[d] = tile_slots(w, j->tile, d, &first[d]);
@@ -193,10 +195,11 @@ static bool gather_in_order(const struct pass *w, const struct job *j, struct pm
 {
 	double packed[PM_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	bool finite = true;
-	t.records = packed;
+	t.records = t.results = packed;
+	t.to = t.stride;
 	for (size_t p = j->from; p < j->to; p += t.count) {
 		t.count = j->to - p < PM_ORDER_PACK ? j->to - p : PM_ORDER_PACK;
-		pm_order_pack(&w->order, p, t.count, packed);
+		pm_order_pack(&w->o->order, p, t.count, packed);
 		loop(&t);
 		finite &= pm_order_unpack(p, t.count, t.stride, packed, w->components, r->factor, r->set, r->to);
 	}
@@ -206,7 +209,7 @@ static bool gather_in_order(const struct pass *w, const struct job *j, struct pm
 /* True if the values are finite; those in records are looked at later. */
 static bool gather_pass(const struct pass *w, int threads, const double *const mesh[], const struct results *r)
 {
-	pm_tile_loop *loop = pm_tile_gather(w->order.dim, w->t->kernel);
+	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
 	int bad = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->jobs; j++) {
@@ -235,28 +238,43 @@ static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
 	return w->components > 0;
 }
 
-/* Orders the particles with the values that go along; blocks for at most `at_once` jobs of `each` components. */
-static int begin_pass(struct pass *w, size_t n, const double *const x[], int nvalues, const double *const values[], size_t at_once,
-	size_t each, struct pm_strays *strays)
+/* Blocks for at most `at_once` jobs of `each` components. */
+static int begin_pass(struct pass *w, size_t at_once, size_t each)
 {
-	const double *taken[PM_COMPONENTS];
-	int dim = w->t->grid.dim, status = pm_axes_init(w->axes, w->t, w->t->half[w->which[0]]);
-	for (int c = 0; c < nvalues; c++)
-		taken[c] = values[w->which[c]];
-	if (!status)
-		status = pm_order_init(&w->order, w->axes, dim, n, x, nvalues, taken, nvalues ? 0 : w->components, strays);
-	if (!status)
-		status = list_jobs(w);
+	int status = w->o ? list_jobs(w) : -PM_DATA;
 	at_once = at_once < w->jobs ? at_once : w->jobs;
 	w->blocks = status ? NULL : pm_zalloc(at_once * each * PM_BLOCK_MOST, sizeof *w->blocks);
 	return w->blocks ? 0 : -PM_DATA;
+}
+
+/* The particles in order, with the values that go along. */
+static int begin_spread(struct pass *w, size_t n, const double *const x[], const double *const strength[], int threads)
+{
+	const double *values[PM_COMPONENTS];
+	for (int c = 0; c < w->components; c++)
+		values[c] = strength[w->which[c]];
+	w->o = pm_ordering_new(w->t, w->t->half[w->which[0]], n, x, w->components, values, 0);
+	return begin_pass(w, jobs_under_way(threads), 1);
+}
+
+/* An order that was kept stays as it is: the results get a place of their own. */
+static int begin_gather(struct pass *w, size_t n, const double *const x[], int threads)
+{
+	const unsigned char *half = w->t->half[w->which[0]];
+	w->o = pm_ordering_kept(w->t, half, n, x);
+	bool found = w->o && w->o->order.records;
+	if (!w->o)
+		w->o = pm_ordering_new(w->t, half, n, x, 0, NULL, w->components);
+	if (found && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
+		return -PM_DATA;
+	return begin_pass(w, (size_t)threads, (size_t)w->components);
 }
 
 static int corners_for(struct pass *w, int threads)
 {
 	bool used = false;
 	for (size_t j = 0; j < w->jobs && !used; j++)
-		used = pm_tile_has_corners(w->order.dim, w->t->kernel, w->job[j].to - w->job[j].from);
+		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->job[j].to - w->job[j].from);
 	if (used)
 		w->corners = pm_zalloc((size_t)threads * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
 	return used && !w->corners ? -PM_DATA : 0;
@@ -267,8 +285,7 @@ static void end_pass(struct pass *w)
 	pm_free(w->corners);
 	pm_free(w->blocks);
 	pm_free(w->job);
-	pm_order_free(&w->order);
-	pm_axes_free(w->axes);
+	pm_free(w->results);
 }
 
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
@@ -279,11 +296,14 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	int status = 0, threads = threads_for(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
-		status = begin_pass(&w, n, x, w.components, strength, jobs_under_way(threads), 1, strays);
+		status = begin_spread(&w, n, x, strength, threads);
 		status = status ? status : corners_for(&w, threads);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
+		if (!status)
+			*strays = w.o->strays;
 		end_pass(&w);
+		pm_ordering_keep(t, w.o);
 	}
 	return status;
 }
@@ -305,12 +325,18 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 			times[c] = factor ? factor[w.which[c]] : NULL;
 		}
 		const struct results r = {times, set, to};
-		status = begin_pass(&w, n, x, 0, NULL, (size_t)threads, (size_t)w.components, strays);
+		status = begin_gather(&w, n, x, threads);
+		bool seen = !status && gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh, &r);
+		const struct pm_order *o = status ? NULL : &w.o->order;
+		if (o && o->records)
+			status = pm_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set, to, &seen);
+		finite = finite && seen;
 		if (!status)
-			finite &= gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh, &r);
-		if (!status && w.order.records)
-			finite &= pm_order_return(&w.order, w.components, times, set, to);
+			*strays = w.o->strays;
+		bool in_use = t->kept && *t->kept == &w.o->note;
 		end_pass(&w);
+		if (!in_use) /* its records have been overwritten */
+			pm_ordering_free(w.o);
 	}
 	strays->finite = finite;
 	return status;

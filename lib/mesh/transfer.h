@@ -15,6 +15,7 @@ struct pm_transfer {
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */
 	unsigned char flip[PM_COMPONENTS][3];
+	struct pm_note **kept;   /* NULL, or where the order of these positions may be found and left (the note of their field) */
 	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };
 

@@ -212,30 +212,36 @@ bool pm_order_unpack(size_t p, size_t m, int stride, const double *records, int 
 }
 
 /* The records of a batch side by side, in the order of the stream; a stray's is zero. */
-static void collect(struct pm_order *o, size_t p, size_t m, size_t end, size_t *cursor, int nvalues, double *batch_records)
+static void collect(const struct pm_order *o, const double *results, size_t stride, size_t p, size_t m, size_t end, size_t *cursor, int nvalues, double *batch_records)
 {
-	size_t stride = (size_t)o->stride;
 	for (size_t i = 0; i < m; i++) {
 		uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < end ? p + i + ahead : p + i];
-		const double *record = o->records + stride * cursor[tile]++;
-		__builtin_prefetch(o->records + stride * cursor[soon]);
+		const double *record = results + stride * cursor[tile]++;
+		__builtin_prefetch(results + stride * cursor[soon]);
 		for (int c = 0; c < nvalues; c++)
 			batch_records[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
 	}
 }
 
-bool pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], const bool set[], double *const to[])
+int pm_order_return(const struct pm_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
+	double *const to[], bool *finite)
 {
+	size_t columns = o->tiles + 1, *cursors = pm_alloc((size_t)o->chunks * columns, sizeof *cursors);
 	int bad = 0;
+	if (!cursors)
+		return -PM_DATA;
+	memcpy(cursors, o->cursor, (size_t)o->chunks * columns * sizeof *cursors);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : bad)
 	for (int chunk = 0; chunk < o->chunks; chunk++) {
 		double records[batch * PM_COMPONENTS];
-		size_t *cursor = o->cursor + (size_t)chunk * (o->tiles + 1);
+		size_t *cursor = cursors + (size_t)chunk * columns;
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
 			size_t m = end - p < batch ? end - p : batch;
-			collect(o, p, m, end, cursor, nvalues, records);
+			collect(o, results, (size_t)stride, p, m, end, cursor, nvalues, records);
 			bad |= !pm_order_unpack(p, m, nvalues, records, nvalues, factor, set, to);
 		}
 	}
-	return !bad;
+	pm_free(cursors);
+	*finite = !bad;
+	return 0;
 }

@@ -28,8 +28,10 @@ void pm_order_free(struct pm_order *o);
 /* Records of the m particles of the stream from p on, m <= PM_ORDER_PACK; for a stream that is in order. */
 enum { PM_ORDER_PACK = 256 };
 void pm_order_pack(const struct pm_order *o, size_t p, size_t m, double *records);
-/* to[c][p] = (where set) or += factor[c][p] * (double c of the record of p); factor[c] NULL: 1; nothing for strays. True if every value is finite. */
-bool pm_order_return(struct pm_order *o, int nvalues, const double *const factor[], const bool set[], double *const to[]);
+/* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
+ * records. Whether every value is finite; 0 or failure. */
+int pm_order_return(const struct pm_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
+	double *const to[], bool *finite);
 /* The same for m particles from p on, whose records are given. */
 bool pm_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[]);
 

@@ -97,7 +97,8 @@ INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes][lanes], sum[lanes];
 	pad_coefficients(t->kernel, width, degree, coefficients);
 	for (size_t i = 0; i < t->count; i++) {
-		double *record = t->records + i * (size_t)t->stride;
+		const double *record = t->records + i * (size_t)t->stride;
+		double *result = t->results + i * (size_t)t->to;
 		size_t place = find_support(dim, width, degree, t, coefficients, record, w);
 		for (int z = 0; z < (dim > 2 ? width : 1); z++)
 			row_set(dim > 1 ? n : 1, w[2][z], w[1], f[z]);
@@ -112,7 +113,7 @@ INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 						row_add(n, f[z][y], block + z * plane + y * row, sum);
 			for (int x = 0; x < n; x++)
 				total += sum[x] * w[0][x];
-			record[c] = total;
+			result[c] = total;
 		}
 	}
 }

@@ -25,7 +25,9 @@ struct pm_tile {
 	int value;              /* spread: place of the strength in the record */
 	int components;         /* gather */
 	double *block;          /* spread: added to; gather: [components][PM_BLOCK_MOST], read */
-	double *records;        /* [count][stride]; gather leaves the values in 0..components-1 */
+	double *records;        /* [count][stride] */
+	double *results;        /* gather: [count][to], may be the records */
+	int to;
 	double *corners;        /* spread: NULL, or [PM_TILE_CELLS][PM_CORNERS], zero, which pm_tile_fold adds to the block */
 };
 

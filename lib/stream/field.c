@@ -26,6 +26,13 @@ static struct pm_buffer *buffer_free(struct pm_buffer *b)
 	return NULL;
 }
 
+static void forget_note(struct pm_field *field)
+{
+	if (field->note)
+		field->note->free(field->note);
+	field->note = NULL;
+}
+
 static struct pm_buffer *buffer_new(size_t n, size_t size, bool zero)
 {
 	struct pm_buffer *b = malloc(sizeof *b);
@@ -47,6 +54,7 @@ struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
 	*c = *field;
 	c->more = json_deep_copy(field->more);
 	c->use = 0;
+	c->note = NULL;
 	if (!with_data)
 		c->buffer = NULL;
 	else if (c->buffer)
@@ -57,6 +65,7 @@ struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
 struct pm_field *pm_field_free(struct pm_field *field)
 {
 	if (field) {
+		forget_note(field);
 		buffer_free(field->buffer);
 		json_decref(field->more);
 		free(field);
@@ -69,6 +78,7 @@ int pm_field_hold(struct pm_field *field)
 	struct pm_buffer *b = buffer_new(values(field), pm_field_memory(field), false);
 	if (!b)
 		return -PM_DATA;
+	forget_note(field);
 	buffer_free(field->buffer);
 	field->buffer = b;
 	return 0;
@@ -94,6 +104,8 @@ static void fill(struct pm_field *field)
 
 int pm_field_ready(struct pm_field *field)
 {
+	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
+		forget_note(field);
 	if (field->buffer && field->use & PM_USE_CHANGE && atomic_load(&field->buffer->users) > 1) {
 		struct pm_buffer *b = buffer_new(values(field), pm_field_memory(field), false);
 		if (!b)
@@ -151,6 +163,7 @@ int pm_field_resize(struct pm_field *field, size_t count)
 {
 	size_t old = field->count, keep = old < count ? old : count, size = pm_field_memory(field);
 	field->count = count;
+	forget_note(field);
 	if (!field->buffer || count == old)
 		return 0;
 	struct pm_buffer *b = buffer_new(values(field), size, true);
@@ -163,7 +176,11 @@ int pm_field_resize(struct pm_field *field, size_t count)
 	return 0;
 }
 
-void pm_field_forget(struct pm_field *field) { field->buffer = buffer_free(field->buffer); }
+void pm_field_forget(struct pm_field *field)
+{
+	forget_note(field);
+	field->buffer = buffer_free(field->buffer);
+}
 
 void *pm_field_bytes(struct pm_field *field) { return field->buffer ? field->buffer->data : NULL; }
 

@@ -26,6 +26,12 @@ enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* ne
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 
 /* In memory real fields (f64, f32) are always double; an f32 field is rounded to f32 when a stage has changed it. i64 is int64_t, u8 bytes. */
+/* What a stage has computed of a field's values and leaves for the next one in the same process; it goes when they change. Never part of the stream:
+ * results must not depend on whether it is there. */
+struct pm_note {
+	void (*free)(struct pm_note *note);
+};
+
 struct pm_field {
 	char name[PM_NAME];
 	char on[PM_NAME];     /* the set or mesh it belongs to */
@@ -44,6 +50,7 @@ struct pm_field {
 	size_t count;         /* values per component: n of the set, points of the mesh */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */
+	struct pm_note *note; /* NULL: none */
 	struct pm_buffer *buffer; /* NULL: not held (passing by), uniform and not expanded, or a header only */
 	json_t *more;         /* keys we do not know; they travel */
 };

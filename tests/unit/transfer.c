@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "mesh/transfer_order.h"
+#include "mesh/transfer_kept.h"
 
 enum { MOST = 3 }; /* components */
 
@@ -323,6 +323,39 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 	problem_free(&b);
 }
 
+/* A gather that finds the order of a spread has the bytes of one that makes its own, also a second time; with other positions or another width nothing is
+ * found. */
+static void check_kept(int dim, const size_t cells[3], const char *other)
+{
+	const int rules[3] = {0, 2, 0};
+	const size_t n = 5000;
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("cic"), dim, n), b = problem_new(a.t.grid, a.t.kernel, dim, n);
+	struct pm_strays strays;
+	struct pm_note *note = NULL;
+	bool same = true;
+	for (int c = 0; c < dim; c++)
+		a.t.set[c] = b.t.set[c] = true;
+	a.t.kept = &note;
+	pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+	const struct pm_note *left = note;
+	for (int c = 0; c < dim; c++)
+		for (size_t i = 0; i < a.points; i++)
+			a.mesh[c][i] = sin((double)(i + (size_t)c));
+	pm_gather(&b.t, n, in(a.x), in(a.mesh), NULL, b.out, &strays);
+	for (int twice = 0; twice < 2; twice++) {
+		pm_gather(&a.t, n, in(a.x), in(a.mesh), NULL, a.out, &strays);
+		for (int c = 0; c < dim; c++)
+			same = same && !memcmp(a.out[c], b.out[c], n * sizeof(double));
+	}
+	check(left && note == left && pm_ordering_kept(&a.t, a.t.half[0], n, in(a.x)) && same, "%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
+	check(!pm_ordering_kept(&a.t, a.t.half[0], n, in(b.x)), "%d-D: it is not that of other positions", dim);
+	a.t.kernel = pm_kernel_find(other);
+	check(!pm_ordering_kept(&a.t, a.t.half[0], n, in(a.x)), "%d-D: nor that of kernel %s", dim, other);
+	note->free(note);
+	problem_free(&a);
+	problem_free(&b);
+}
+
 /* Threads 1, 2, 3; a third of the particles crowd one tile so that it is shared out. */
 static void check_threads(int dim, const size_t cells[3], const char *kernel)
 {
@@ -532,6 +565,9 @@ int main(void)
 	check_threads(3, (const size_t[]){35, 20, 33}, "tsc");
 	check_in_order(3, (const size_t[]){35, 20, 33}, 8000);
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
+	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
+	check_kept(2, (const size_t[]){130, 67, 1}, "pcs");
+	check_kept(3, (const size_t[]){35, 20, 33}, "tsc");
 	check_images(1, -1);
 	check_images(2, 1);
 	check_edges();
