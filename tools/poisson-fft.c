@@ -53,6 +53,8 @@ static const struct pm_example examples[] = {
 	{"the potential of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --plan estimate | sls"},
 	{"the exact inverse of the second-order differences, in a periodic box",
 		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 --plan estimate | sls"},
+	{"a screened plasma between a grounded plate and a plane of symmetry",
+		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 --plan estimate | sls"},
 	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico --plan estimate | sls"},
 	{0},
 };
