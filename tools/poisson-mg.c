@@ -72,10 +72,10 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 
 static int ready(struct state *t)
 {
-	if (t->solver && pm_mg_fits(t->solver, &t->problem.grid))
+	if (t->solver && pm_mg_fits(t->solver, &t->problem.grid, 2))
 		return 0;
 	pm_mg_free(t->solver);
-	t->solver = pm_mg_new(&t->problem.grid);
+	t->solver = pm_mg_new(&t->problem.grid, 2);
 	return t->solver ? 0 : -PM_DATA;
 }
 

@@ -96,9 +96,9 @@ static bool level_alloc(struct mg_level *l)
 	l->plane = l->stride * l->axis[1].points;
 	if (l->plane % 512 == 0 && l->axis[1].points > 1) /* planes a multiple of 4 KiB apart would share the sets of the cache */
 		l->plane += mg_lanes;
-	l->diagonal = 2 * (l->axis[0].w + l->axis[1].w + l->axis[2].w);
 	for (int d = 0; d < 3; d++)
 		l->fixed |= !axis_free(&l->axis[d]);
+	pm_mg_compact_init(l);
 	l->u = pm_zalloc(mg_size(l), sizeof(double));
 	l->f = pm_zalloc(mg_size(l), sizeof(double));
 	for (int m = 0; m < 2; m++)
@@ -120,6 +120,7 @@ static bool level_coarse(struct mg_level *fine, struct mg_level *coarse, bool *m
 	if (!*more)
 		return true;
 	coarse->dim = fine->dim;
+	coarse->order = fine->order;
 	for (int d = 0; d < 3; d++) {
 		const struct mg_axis *a = &fine->axis[d];
 		coarse->axis[d] = axis_coarsens(a) && a->h < 1.42 * smallest ? axis_coarse(a) : *a;
@@ -129,11 +130,12 @@ static bool level_coarse(struct mg_level *fine, struct mg_level *coarse, bool *m
 	return level_alloc(coarse);
 }
 
-bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g)
+bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order)
 {
 	struct mg_level *l = &mg->level[0];
 	mg->grid = *g;
 	l->dim = g->dim;
+	mg->order = l->order = order;
 	l->axis[0] = axis_of(g, 0);
 	l->axis[1] = g->dim == 3 ? axis_of(g, 1) : axis_flat(1);
 	l->axis[2] = g->dim == 3 ? axis_of(g, 2) : g->dim == 2 ? axis_of(g, 1) : axis_flat(1);
@@ -153,11 +155,19 @@ bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g)
 	return mg->scratch && mg->sums;
 }
 
+bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o)
+{
+	for (int i = 0; i < mg->levels && o->smoother == PM_MG_JACOBI; i++)
+		if (!mg->level[i].v && !(mg->level[i].v = pm_zalloc(mg_size(&mg->level[i]), sizeof(double))))
+			return false;
+	return true;
+}
+
 void pm_mg_demolish(struct pm_mg *mg)
 {
 	for (int i = 0; i < mg_levels_most; i++) {
 		struct mg_level *l = &mg->level[i];
-		pm_free(l->u), pm_free(l->f), pm_free(l->mask[0]), pm_free(l->mask[1]);
+		pm_free(l->u), pm_free(l->f), pm_free(l->v), pm_free(l->mask[0]), pm_free(l->mask[1]);
 		for (int d = 0; d < 3; d++) {
 			struct mg_map *m = &l->map[d];
 			pm_free(m->parent);

@@ -29,11 +29,13 @@ struct mg_map {
 
 struct mg_level {
 	int dim;               /* 1: x; 2: x and planes; 3: all */
+	int order;             /* of the differences: 2 or 4 */
 	struct mg_axis axis[3];
 	size_t half, stride, plane; /* of half a row, of a row, of a plane */
-	double diagonal;       /* 2 (wx + wy + wz) */
+	double diagonal;       /* 2 (wx + wy + wz); order 4: less, see mg-compact.c */
+	double side[3], cross[3]; /* order 4: weights of the neighbours along x, y, z and across the corners in xy, xz, yz */
 	bool fixed;            /* at least one wall: not singular */
-	double *u, *f;
+	double *u, *f, *v;     /* v: room for Jacobi's sweeps, if there were any */
 	int64_t *mask[2];      /* per half: -1 for an unknown, else 0 */
 	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
 };
@@ -42,7 +44,7 @@ enum { mg_levels_most = 96 };
 
 struct pm_mg {
 	struct pm_grid grid;
-	int levels, threads;
+	int levels, threads, order;
 	struct mg_level level[mg_levels_most];
 	double *scratch;       /* per thread: four rows */
 	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
@@ -50,13 +52,14 @@ struct pm_mg {
 };
 
 /* What a sweep does with a plane, in this order. */
-enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK };
-enum { mg_stages_most = 2 * 64 + 1 };
+enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK, MG_JACOBI, MG_KEEP, MG_COLOUR }; /* MG_COLOUR + 0 .. 3 */
+enum { mg_stages_most = 4 * 32 + 1 };
 
 static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
 /* mg-level.c */
-bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g);
+bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order);
+bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o); /* for what the smoother needs */
 void pm_mg_demolish(struct pm_mg *mg);
 
 static inline size_t mg_below(const struct mg_axis *a, size_t i) /* neighbour of node i, folded at the faces */
@@ -76,10 +79,21 @@ static inline void mg_close_row(const struct mg_level *l, double *u)
 	u[mg_slot(l, x->points)] = u[mg_slot(l, mg_above(x, x->points - 1))];
 }
 
+/* Left of node 0, folded at the face. */
+static inline double mg_left_end(const struct mg_level *l, const double *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
+
 /* mg-relax.c */
 void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
 double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
+
+/* mg-compact.c */
+void pm_mg_compact_init(struct mg_level *l); /* the weights, also those of order 2 */
+void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, double *w); /* w: room for a row */
+void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, double *w); /* v from u */
+void pm_mg_keep_plane(const struct mg_level *l, size_t k);                                  /* u from v */
+double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, double *r);     /* as pm_mg_residual_row */
+void pm_mg_compact_source(const struct pm_grid *g, const double *s, double *out);           /* the right-hand side of order 4 for lap u = s */
 
 /* mg-transfer.c */
 struct mg_parents { /* of one node along one axis, without those of weight 0 */
@@ -92,7 +106,7 @@ void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *
 /* A combination of coarse rows, node after node in t, closed at its ends if periodic: t[-1] ... t[n+1]. */
 void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
 void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-double pm_mg_restrict(struct pm_mg *mg, int fine); /* of f - lap u; returns its sum of squares on the finest grid */
+double pm_mg_restrict(struct pm_mg *mg, int fine, bool half_weighting); /* of f - lap u; returns its sum of squares on the finest grid */
 
 /* mg-full.c */
 bool pm_mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);

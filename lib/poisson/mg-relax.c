@@ -29,8 +29,6 @@ static inline __attribute__((always_inline)) struct rows rows_at(const struct mg
 		.back = l->u + mg_below(z, k) * l->plane + row, .front = l->u + mg_above(z, k) * l->plane + row};
 }
 
-static inline double left_end(const struct mg_level *l, const double *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
-
 /* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
 #define LAPLACIAN(result, alongx, alongy, alongz, here) \
 	do { \
@@ -57,7 +55,7 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
 	double *other = a.u + l->half - at;
 	vec last = {0}, next, here, lap, sides, change;
-	last += left_end(l, a.u);
+	last += mg_left_end(l, a.u);
 	if (odd)
 		last = CAT(other);
 	for (size_t i = 0; i < n; i += mg_lanes) {
@@ -84,7 +82,7 @@ static inline __attribute__((always_inline)) void relax_pair(const struct mg_lev
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t half = l->half, n = (l->axis[0].points + 1) / 2, m = l->axis[0].points / 2;
 	vec e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
-	e_last += left_end(l, e.u);
+	e_last += mg_left_end(l, e.u);
 	o_last = CAT(o.u);
 	for (size_t i = 0; i < n; i += mg_lanes) {
 		e_next = CAT(e.u + half + i);
@@ -113,7 +111,7 @@ void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, 
 	double factor = relaxation / l->diagonal;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct rows a = rows_at(l, j, k);
-		double left = left_end(l, a.u);
+		double left = mg_left_end(l, a.u);
 		for (size_t i = x->first; i < x->end; i++) {
 			size_t at = mg_slot(l, i);
 			if (((i + j + k) & 1) != (size_t)colour)
@@ -171,7 +169,7 @@ static inline __attribute__((always_inline)) double residual_row(const int dim, 
 	const size_t half = l->half;
 	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
 	vec before = {0}, even, odd, after, lap, v, w, sum = {0};
-	before += left_end(l, a.u);
+	before += mg_left_end(l, a.u);
 	even = CAT(a.u);
 	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
 		odd = CAT(a.u + half + i);
@@ -191,6 +189,8 @@ static inline __attribute__((always_inline)) double residual_row(const int dim, 
 
 double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
 {
+	if (l->order == 4)
+		return pm_mg_compact_residual(l, j, k, r);
 	struct rows a = rows_at(l, j, k);
 	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);
 	mg_close_row(l, r);

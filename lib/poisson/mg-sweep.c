@@ -31,6 +31,15 @@ static void stage_plane(const struct sweep *s, int stage, size_t k, double *w)
 	case MG_RED:
 	case MG_BLACK:
 		pm_mg_relax_plane(l, s->relaxation, s->stages[stage] == MG_BLACK, k);
+		break;
+	case MG_JACOBI:
+		pm_mg_jacobi_plane(l, s->relaxation, k, w);
+		break;
+	case MG_KEEP:
+		pm_mg_keep_plane(l, k);
+		break;
+	default:
+		pm_mg_colour_plane(l, s->relaxation, (int)(s->stages[stage] - MG_COLOUR), k, w);
 	}
 }
 

@@ -113,14 +113,15 @@ void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coa
 	}
 }
 
-/* c_i = (r_2i-1 + r_2i+1)/4 + r_2i/2, node after node */
-static void collect_half(const struct mg_level *fine, const double *restrict r, double *restrict c)
+/* c_i = side (r_2i-1 + r_2i+1) + middle r_2i, node after node */
+static inline __attribute__((always_inline)) void collect_half(const struct mg_level *fine, const double side, const double middle, const double *restrict r,
+	double *restrict c)
 {
 	vec before = {0};
 	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
 	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
 		vec odd = CAT(r + fine->half + i);
-		AT(c + i) = 0.25 * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + 0.5 * CAT(r + i);
+		AT(c + i) = side * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + middle * CAT(r + i);
 		before = odd;
 	}
 }
@@ -132,7 +133,7 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 	if (map->same) {
 		memcpy(c, r, fine->stride * sizeof *c);
 	} else if (map->half) {
-		collect_half(fine, r, w);
+		collect_half(fine, 0.25, 0.5, r, w);
 		pm_mg_fold_row(coarse, w, c);
 	} else {
 		memset(c, 0, coarse->stride * sizeof *c);
@@ -142,25 +143,57 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 	}
 }
 
+/* Half weighting: 1/2 of the node and 1/(4n) of each of its neighbours along the n axes that are coarsened, instead of the product of (1 2 1)/4. In row j, k: what
+ * collect_row does, and the factor that makes the weights of mg_map those. 0: the row has no part in it. */
+static double collect_half_weighting(const struct mg_level *fine, const struct mg_level *coarse, size_t j, size_t k, const double *r, double *c, double *w)
+{
+	const struct mg_map *x = &fine->map[0], *y = x + 1, *z = x + 2;
+	bool odd[2] = {!y->same && (j & 1), !z->same && (k & 1)};
+	double side = 0.25 / (!x->same + !y->same + !z->same), scale = (y->same ? 1 : odd[0] ? 4 : 2) * (z->same ? 1 : odd[1] ? 4 : 2);
+	if (odd[0] && odd[1])
+		return 0;
+	if (x->same) {
+		memcpy(c, r, fine->stride * sizeof *c);
+		return scale * (odd[0] || odd[1] ? side : 0.5);
+	}
+	if (odd[0] || odd[1])
+		collect_half(fine, 0, side, r, w);
+	else
+		collect_half(fine, side, 0.5, r, w);
+	pm_mg_fold_row(coarse, w, c);
+	return scale;
+}
+
+static bool halves(const struct mg_level *fine)
+{
+	bool all = true;
+	for (int d = 0; d < 3; d++)
+		all &= fine->map[d].same || fine->map[d].half;
+	return all;
+}
+
 /* The rows of fine plane k (unfolded: -n < k < n) are added to coarse planes from <= K < to. Returns the sum of squares. */
-static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, ptrdiff_t k, const size_t range[2], double *w)
+static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, bool half, ptrdiff_t k, const size_t range[2], double *w)
 {
 	const struct mg_axis *y = &fine->axis[1], *cy = &coarse->axis[1];
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
 	size_t here = fold(k, fine->axis[2].points);
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
-	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0;
+	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0, scale = 1;
 	for (size_t j = y->first; j < y->end; j++) {
 		sum += pm_mg_residual_row(fine, j, here, r);
-		collect_row(fine, coarse, r, c, t);
-		for (int a = 0; a < 2; a++) {
+		if (half)
+			scale = collect_half_weighting(fine, coarse, j, here, r, c, t);
+		else
+			collect_row(fine, coarse, r, c, t);
+		for (int a = 0; a < 2 && scale != 0; a++) {
 			ptrdiff_t up = mz->parent[here] + a - shift;
 			if (mz->a[a][here] == 0 || up < (ptrdiff_t)range[0] || up >= (ptrdiff_t)range[1])
 				continue;
 			for (int b = 0; b < 2; b++) {
 				size_t over = fold(my->parent[j] + b, cy->points);
 				if (my->a[b][j] != 0)
-					pm_mg_add_row(coarse->stride, mz->a[a][here] * my->a[b][j], c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
 		}
 	}
@@ -187,7 +220,7 @@ static ptrdiff_t last_child(const struct mg_level *fine, const struct mg_level *
 }
 
 /* Coarse planes range[0] <= K < range[1]. The sums of squares are kept for the fine planes that no other range starts with. */
-static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], double *w, double *sums)
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], double *w, double *sums)
 {
 	const struct mg_axis *z = &coarse->axis[2];
 	ptrdiff_t from = first_child(fine, coarse, range[0]), to = last_child(fine, coarse, range[1] - 1);
@@ -196,13 +229,13 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 	for (size_t K = range[0]; K < range[1]; K++)
 		memset(coarse->f + K * coarse->plane, 0, coarse->axis[1].points * coarse->stride * sizeof(double));
 	for (ptrdiff_t k = from; k <= to || k < mine; k++) {
-		double sum = restrict_plane(fine, coarse, k, range, w);
+		double sum = restrict_plane(fine, coarse, half, k, range, w);
 		if (k < mine && sums)
 			sums[fold(k, fine->axis[2].points)] = sum;
 	}
 }
 
-double pm_mg_restrict(struct pm_mg *mg, int at)
+double pm_mg_restrict(struct pm_mg *mg, int at, bool half_weighting)
 {
 	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
 	const struct mg_axis *z = &coarse->axis[2];
@@ -211,7 +244,7 @@ double pm_mg_restrict(struct pm_mg *mg, int at)
 	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
 	for (size_t p = 0; p < parts; p++) {
 		size_t range[2] = {z->first + n * p / parts, z->first + n * (p + 1) / parts};
-		restrict_range(fine, coarse, range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
+		restrict_range(fine, coarse, half_weighting && halves(fine), range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
 	}
 	if (at == 0)
 		for (size_t k = fine->axis[2].first; k < fine->axis[2].end; k++)

@@ -11,6 +11,15 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *const pm_mg_smoother_names[] = {"red-black", "sor", "jacobi", "four-colour", NULL};
+
+double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim)
+{
+	if (smoother == PM_MG_JACOBI)
+		return dim == 1 ? 2. / 3 : dim == 2 ? 4. / 5 : 6. / 7; /* Trottenberg, Oosterlee, Schueller 2001, sections 1.4.2, 2.1.2 and 2.9.1 */
+	return smoother == PM_MG_SOR ? 1.15 : 1;
+}
+
 int pm_mg_check(const struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim; d++)
@@ -23,17 +32,17 @@ int pm_mg_check(const struct pm_grid *g)
 	return 0;
 }
 
-struct pm_mg *pm_mg_new(const struct pm_grid *g)
+struct pm_mg *pm_mg_new(const struct pm_grid *g, int order)
 {
 	struct pm_mg *mg = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *mg);
-	if (mg && !pm_mg_build(mg, g))
+	if (mg && !pm_mg_build(mg, g, order))
 		mg = pm_mg_free(mg);
 	return mg;
 }
 
-bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g)
+bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g, int order)
 {
-	return mg->threads == pm_threads() && mg->grid.dim == g->dim && !memcmp(mg->grid.points, g->points, sizeof g->points) &&
+	return mg->order == order && mg->threads == pm_threads() && mg->grid.dim == g->dim && !memcmp(mg->grid.points, g->points, sizeof g->points) &&
 		!memcmp(mg->grid.cells, g->cells, sizeof g->cells) && !memcmp(mg->grid.h, g->h, sizeof g->h) && !memcmp(mg->grid.face, g->face, sizeof g->face);
 }
 
@@ -146,8 +155,10 @@ void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o)
 		pm_mg_solve_coarsest(mg);
 		return;
 	}
-	pm_mg_cycle_down(mg, 0, o, false);
-	pm_mg_cycle_up(mg, 0, o);
+	if (pm_mg_room(mg, o)) {
+		pm_mg_cycle_down(mg, 0, o, false);
+		pm_mg_cycle_up(mg, 0, o);
+	}
 }
 
 double pm_mg_residual(const struct pm_mg *mg)
@@ -171,12 +182,13 @@ static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 
 static int not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o)
 {
-	char text[400] = "";
+	char text[640] = "";
 	size_t used = 0;
-	for (int i = r->n > 8 ? r->n - 8 : 0; i < r->n && used < sizeof text; i++)
+	int from = r->n > 60 ? r->n - 60 : 0;
+	for (int i = from; i < r->n && used < sizeof text; i++)
 		used += (size_t)snprintf(text + used, sizeof text - used, " %.2e", r->history[i]);
-	return pm_fail(PM_NUMERICS, "multigrid did not converge: %d cycles left a relative residual of %.3e, tolerance %g; the last residuals:%s "
-		"(allow more with --max-cycles, smooth more with --smooth 3,3, or use poisson-fft)", r->cycles, r->after, o->tolerance, text);
+	return pm_fail(PM_NUMERICS, "multigrid did not converge: %d cycles left a relative residual of %.3e, tolerance %g; the %sresiduals:%s "
+		"(allow more with --max-cycles, smooth more with --smooth 3,3, or use poisson-fft)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text);
 }
 
 /* The cycles until the tolerance, round-off or the last one. */
@@ -200,7 +212,8 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
 }
 
-int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
+/* As pm_mg_solve, for a source that is already that of the differences. */
+static int solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
 	struct mg_level *l = &mg->level[0];
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
@@ -220,4 +233,16 @@ int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const 
 	if (r->singular)
 		store(mg, unit, mean(mg, phi), phi);
 	return r->converged ? 0 : not_converged(r, o);
+}
+
+int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
+{
+	double *compact = mg->order == 4 ? pm_alloc(pm_grid_size(&mg->grid), sizeof *compact) : NULL;
+	int status = (mg->order == 4 && !compact) || !pm_mg_room(mg, o) ? -PM_DATA : 0;
+	if (compact)
+		pm_mg_compact_source(&mg->grid, s, compact);
+	if (!status)
+		status = solve(mg, o, c, compact ? compact : s, phi, r);
+	pm_free(compact);
+	return status;
 }

@@ -6,12 +6,16 @@
 #include "mesh/grid.h"
 
 enum pm_mg_cycle { PM_MG_V, PM_MG_W, PM_MG_FMG }; /* V or W cycles from zero; full multigrid, then V-cycles */
+enum pm_mg_smoother { PM_MG_RED_BLACK, PM_MG_SOR, PM_MG_JACOBI, PM_MG_FOUR_COLOUR }; /* SOR: red-black, over-relaxed */
+extern const char *const pm_mg_smoother_names[]; /* NULL ends */
 enum { PM_MG_MOST = 1000 };
 
 struct pm_mg_choice {
-	int pre, post;        /* red-black sweeps before and after the coarse grid */
+	int pre, post;        /* sweeps before and after the coarse grid */
+	enum pm_mg_smoother smoother;
+	bool half_weighting;  /* of the residual, for comparison: worse than full weighting in every reference */
 	enum pm_mg_cycle cycle;
-	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel */
+	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel; pm_mg_relaxation knows good ones */
 	double tolerance;     /* of the residual, relative to the right-hand side, root of the sum of squares */
 	int most;             /* cycles, up to PM_MG_MOST */
 };
@@ -31,10 +35,11 @@ struct pm_mg; /* the hierarchy of grids, for one pm_grid */
 
 /* 0, or a failure that names what can: faces open and absorbing are refused. */
 int pm_mg_check(const struct pm_grid *g);
-/* Faces periodic, wall (phi = 0) or neumann (no normal gradient), in any mixture. NULL with a message. */
-struct pm_mg *pm_mg_new(const struct pm_grid *g);
+double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim); /* what is usual: 2 dim/(2 dim+1) for Jacobi in 2-D and 3-D, 1, 1.15 for SOR */
+/* Faces periodic, wall (phi = 0) or neumann (no normal gradient), in any mixture; order 2 or 4 (Mehrstellen). NULL with a message. */
+struct pm_mg *pm_mg_new(const struct pm_grid *g, int order);
 struct pm_mg *pm_mg_free(struct pm_mg *mg);
-bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g); /* was it made for this grid? */
+bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g, int order); /* was it made for this grid? */
 int pm_mg_levels(const struct pm_mg *mg);
 
 /* lap phi = c*s; s and phi have the points of the grid and may be the same array. Singular problems: the mean of s is removed and that of phi

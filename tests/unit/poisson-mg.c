@@ -100,7 +100,7 @@ static double error(const struct pm_grid *g, const int m[2][3], bool discrete, c
 	size_t n = pm_grid_size(g);
 	double *s = values(n), *phi = values(n), *exact = values(n), e = NAN;
 	modes(g, m, discrete, s, exact);
-	struct pm_mg *mg = pm_mg_new(g);
+	struct pm_mg *mg = pm_mg_new(g, 2);
 	if (mg && !pm_mg_solve(mg, o, 1, s, phi, r))
 		e = largest(n, phi, exact) / fmax(largest(n, exact, NULL), 1e-6); /* no modes at all: what is left is their round-off */
 	pm_mg_free(mg);
@@ -153,7 +153,7 @@ static void test_square(void)
 		double *s = values(p * p), *u = values(p * p), sum = 0;
 		for (size_t q = 0; q < p * p; q++)
 			s[q] = 1;
-		struct pm_mg *mg = pm_mg_new(&g);
+		struct pm_mg *mg = pm_mg_new(&g, 2);
 		check(pm_mg_solve(mg, &usual, -1, s, u, &r) == 0, "PS-05: %zu^2 converges", n);
 		for (size_t q = 0; q < p * p; q++)
 			sum += u[q] / (double)(n * n);
@@ -179,7 +179,7 @@ static void test_sines(void)
 			double *s = values(n), *u = values(n);
 			for (size_t p = 0; p < n; p++)
 				s[p] = sin(m * g.h[0] * (double)(p % 32));
-			struct pm_mg *mg = pm_mg_new(&g);
+			struct pm_mg *mg = pm_mg_new(&g, 2);
 			pm_mg_solve(mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-14, .most = 50}, -1, s, u, &r);
 			char text[80];
 			snprintf(text, sizeof text, "PS-06: %d-D, sin %dx comes out as large as the second difference says", dim, m);
@@ -194,7 +194,7 @@ static double factor(struct pm_grid g, int pre, int post, enum pm_mg_cycle cycle
 	struct pm_mg_choice o = {.pre = pre, .post = post, .cycle = cycle, .relaxation = relaxation};
 	size_t n = pm_grid_size(&g);
 	double *f = values(n), *u = values(n), first = 1, last = 1;
-	struct pm_mg *mg = pm_mg_new(&g);
+	struct pm_mg *mg = pm_mg_new(&g, 2);
 	noise(n, u);
 	pm_mg_start(mg, f, u);
 	for (int i = 0; i < 60; i++) {
@@ -236,7 +236,7 @@ static void test_full(void)
 		exact[q] = a * b * e;
 		f[q] = e * b * (a + 2 * (1 - 2 * x) - 2) + e * a * (b - 2 * (1 - 2 * y) - 2);
 	}
-	struct pm_mg *mg = pm_mg_new(&g);
+	struct pm_mg *mg = pm_mg_new(&g, 2);
 	pm_mg_solve(mg, &usual, 1, f, u, &r);
 	double differences = largest(p * p, u, exact);
 	check_near(differences, 5.222570e-07, 1e-3 * 5.22e-7, "PS-10: the error of the differences themselves");
@@ -264,7 +264,7 @@ static void test_singular(void)
 		noise(n, s);
 		for (size_t p = 0; p < n; p++)
 			s[p] += 1;
-		struct pm_mg *mg = pm_mg_new(&g);
+		struct pm_mg *mg = pm_mg_new(&g, 2);
 		bool good = pm_mg_solve(mg, &usual, 2.5, s, u, &r) == 0;
 		for (size_t k = 0, p = 0; k < g.points[2]; k++)
 			for (size_t j = 0; j < g.points[1]; j++)
@@ -345,7 +345,7 @@ static void test_scales(void)
 	static struct pm_mg_record r;
 	double *s = values(n), *a = values(n), *b = values(n), most = 0;
 	noise(n, s);
-	struct pm_mg *mg = pm_mg_new(&g);
+	struct pm_mg *mg = pm_mg_new(&g, 2);
 	pm_mg_solve(mg, &usual, 1, s, a, &r);
 	for (int e = -900; e <= 900; e += 300) {
 		pm_mg_solve(mg, &usual, ldexp(1, e), s, b, &r);
@@ -369,7 +369,7 @@ static uint32_t bytes(const struct pm_grid *g, int threads)
 	double *s = values(n);
 	noise(n, s);
 	pm_threads_use(threads);
-	struct pm_mg *mg = pm_mg_new(g);
+	struct pm_mg *mg = pm_mg_new(g, 2);
 	pm_mg_solve(mg, &usual, 1, s, s, &r);
 	uint32_t crc = pm_crc32c(pm_crc32c(0, s, n * sizeof *s), r.history, (size_t)r.n * sizeof(double));
 	pm_mg_free(mg), pm_free(s);
@@ -400,7 +400,7 @@ static void test_sweeps(void)
 		double *f = values(n), *u = values(n), *fast = values(n), *plain = values(n);
 		noise(n, f);
 		noise(n, u);
-		struct pm_mg *mg = pm_mg_new(&grids[i]);
+		struct pm_mg *mg = pm_mg_new(&grids[i], 2);
 		pm_mg_start(mg, f, u); /* 53^3 and 385^2 are cut into tiles, the others are not */
 		pm_mg_sweep(mg, 0, 1.1, 4, stages);
 		pm_mg_values(mg, fast);
@@ -473,7 +473,7 @@ static void test_adjoint(void)
 		char faces[8];
 		snprintf(faces, sizeof faces, "%s%s%s", axis_faces[q % 5], axis_faces[q / 5 % 5], axis_faces[q / 25]);
 		struct pm_grid g = grid(3, (size_t[]){10 + (size_t)q % 7, 11, 8 + (size_t)q % 3}, (double[]){1, 1.5, 1.2}, faces);
-		struct pm_mg *mg = pm_mg_new(&g);
+		struct pm_mg *mg = pm_mg_new(&g, 2);
 		for (int l = 0; l + 1 < mg->levels; l++) {
 			struct mg_level *f = &mg->level[l], *c = f + 1;
 			constant = fmax(constant, constant_lost(mg, l));
@@ -482,7 +482,7 @@ static void test_adjoint(void)
 			pm_mg_sweep(mg, l, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
 			double up = weighted(f, f->f, f->u), size = sqrt(weighted(f, f->f, f->f) * weighted(f, f->u, f->u));
 			pm_mg_sweep(mg, l, 1, 1, (enum mg_stage[]){MG_ZERO}); /* the residual is f */
-			pm_mg_restrict(mg, l);
+			pm_mg_restrict(mg, l, false);
 			worst = fmax(worst, fabs(up - weighted(c, c->f, c->u)) / fmax(size, 1e-300));
 		}
 		pm_mg_free(mg);
