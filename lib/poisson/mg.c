@@ -180,7 +180,7 @@ static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 	return residual <= 2 * DBL_EPSILON * terms;
 }
 
-static int not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o)
+int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o)
 {
 	char text[640] = "";
 	size_t used = 0;
@@ -198,7 +198,7 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 	for (;; r->cycles++) {
 		double residual = sqrt(pm_mg_cycle_down(mg, 0, o, false)), now = residual / source;
 		r->history[r->n++] = r->after = now;
-		r->converged = now <= o->tolerance && r->cycles >= least;
+		r->converged = now == 0 || (now <= o->tolerance && r->cycles >= least);
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
 		if (!r->converged && slow && at_roundoff(mg, residual, source))
 			r->converged = r->floor = true;
@@ -232,7 +232,7 @@ static int solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const
 	store(mg, unit, 0, phi);
 	if (r->singular)
 		store(mg, unit, mean(mg, phi), phi);
-	return r->converged ? 0 : not_converged(r, o);
+	return r->converged ? 0 : pm_mg_not_converged(r, o);
 }
 
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)

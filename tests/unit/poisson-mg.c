@@ -3,50 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check.h"
+#include "mg-problem.h"
 #include "poisson/mg-level.h"
 
 static const struct pm_mg_choice usual = {.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11, .most = 50};
-
-/* faces: two letters per axis, p w n; box of lengths l */
-static struct pm_grid grid(int dim, const size_t *cells, const double *l, const char *faces)
-{
-	struct pm_grid g = {.dim = dim};
-	for (int d = 0; d < 3; d++) {
-		g.cells[d] = d < dim ? cells[d] : 1;
-		g.h[d] = d < dim ? l[d] / (double)cells[d] : 1;
-		for (int s = 0; s < 2; s++) {
-			char c = d < dim ? faces[2 * d + s] : 'p';
-			g.face[d][s] = c == 'p' ? PM_PERIODIC : c == 'w' ? PM_WALL : PM_NEUMANN;
-		}
-		g.points[d] = d < dim ? g.cells[d] + (g.face[d][0] != PM_PERIODIC) : 1;
-	}
-	return g;
-}
-
-static struct pm_grid cube(int dim, size_t n, const char *faces)
-{
-	return grid(dim, (size_t[]){n, n, n}, (double[]){1, 1, 1}, faces);
-}
-
-static double *values(size_t n) { return pm_zalloc(n, sizeof(double)); }
-
-static double largest(size_t n, const double *a, const double *b)
-{
-	double most = 0;
-	for (size_t i = 0; i < n; i++)
-		most = fmax(most, fabs(a[i] - (b ? b[i] : 0)));
-	return most;
-}
-
-static void noise(size_t n, double *a)
-{
-	for (size_t i = 0; i < n; i++) {
-		double u[2];
-		pm_random(7, i, 0, u);
-		a[i] = u[0] - 0.5;
-	}
-}
 
 /* Mode m of an axis: an eigenvector of the second difference with its faces, wave number k. */
 static double wave_number(const struct pm_grid *g, int d, int m)
@@ -188,22 +148,9 @@ static void test_sines(void)
 		}
 }
 
-/* The factor by which a cycle reduces the residual after many: lap u = 0 from noise, no round-off in the way. 60 cycles, as the reference took: V(1,0) is slow to settle. */
 static double factor(struct pm_grid g, int pre, int post, enum pm_mg_cycle cycle, double relaxation)
 {
-	struct pm_mg_choice o = {.pre = pre, .post = post, .cycle = cycle, .relaxation = relaxation};
-	size_t n = pm_grid_size(&g);
-	double *f = values(n), *u = values(n), first = 1, last = 1;
-	struct pm_mg *mg = pm_mg_new(&g, 2);
-	noise(n, u);
-	pm_mg_start(mg, f, u);
-	for (int i = 0; i < 60; i++) {
-		pm_mg_once(mg, &o);
-		first = i == 39 ? pm_mg_residual(mg) : first;
-	}
-	last = pm_mg_residual(mg);
-	pm_mg_free(mg), pm_free(f), pm_free(u);
-	return pow(last / first, 0.05);
+	return factor_of(g, 2, (struct pm_mg_choice){.pre = pre, .post = post, .cycle = cycle, .relaxation = relaxation});
 }
 
 static void test_factors(void)
