@@ -2,31 +2,42 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "poisson/mg.h"
+#include "poisson/multigrid.h"
 #include "poisson/problem.h"
 #include "stage/stage.h"
 
 struct config {
 	struct pm_problem_names names;
-	const char *cycle;
+	const char *cycle, *smoother, *restriction, *permittivity, *mean;
 	struct pm_vector smooth;
 	double relaxation, tolerance;
-	int64_t most;
+	int64_t most, order;
 };
 struct state {
 	struct pm_problem problem;
-	struct pm_mg *solver; /* the hierarchy, for the grid `made` */
-	struct pm_grid made;
-	struct pm_mg_choice choice;
+	const struct pm_field *eps;
+	struct pm_multigrid *solver; /* the hierarchies of grids already seen */
+	struct pm_multigrid_choice choice;
 	struct pm_mg_record record;
 };
 
 static const char *const cycles[] = {"v", "w", "fmg", NULL}; /* in the order of enum pm_mg_cycle */
+static const char *const restrictions[] = {"full", "half", NULL};
 
 static const struct pm_option options[] = {
 	{"cycle", 0, PM_WORD, "", "fmg", 0, 0, cycles, "V-cycles, W-cycles, or full multigrid and then V-cycles", false, offsetof(struct config, cycle)},
-	{"smooth", 0, PM_VECTOR, "sweeps", "2,2", 0, 20, NULL, "red-black sweeps before and after the coarse grid", false, offsetof(struct config, smooth)},
-	{"relaxation", 0, PM_REAL, "", "1.15", 0.1, 1.9, NULL, "factor of each sweep, 1 is Gauss-Seidel", false, offsetof(struct config, relaxation)},
+	{"order", 0, PM_INTEGER, "", "2", 2, 4, NULL, "of the differences: 2, or 4 (compact, Mehrstellen)", false, offsetof(struct config, order)},
+	{"smoother", 0, PM_WORD, "", NULL, 0, 0, pm_mg_smoother_names,
+		"red-black Gauss-Seidel, over-relaxed (sor), weighted Jacobi, or Gauss-Seidel in four colours (default: sor; order 4: four-colour; with --permittivity: red-black)",
+		false, offsetof(struct config, smoother)},
+	{"smooth", 0, PM_VECTOR, "sweeps", "2,2", 0, 20, NULL, "sweeps before and after the coarse grid", false, offsetof(struct config, smooth)},
+	{"relaxation", 0, PM_REAL, "", NULL, 0.1, 1.9, NULL, "factor of each sweep (default: 1; sor: 1.15; jacobi: 2/3, 4/5, 6/7 in 1-D, 2-D, 3-D)", false,
+		offsetof(struct config, relaxation)},
+	{"restriction", 0, PM_WORD, "", "full", 0, 0, restrictions, "weighting of the residual on its way to the coarse grid; half is there to compare", false,
+		offsetof(struct config, restriction)},
+	{"permittivity", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "eps in div(eps grad phi) = c*s, a positive mesh field (default: 1)", false,
+		offsetof(struct config, permittivity)},
+	{"mean", 0, PM_WORD, "", "harmonic", 0, 0, pm_mg_mean_names, "of eps between two nodes", false, offsetof(struct config, mean)},
 	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
 		offsetof(struct config, tolerance)},
 	{"max-cycles", 0, PM_INTEGER, "", "50", 1, PM_MG_MOST, NULL, "cycles after which it fails", false, offsetof(struct config, most)},
@@ -35,13 +46,17 @@ static const struct pm_option options[] = {
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
 		offsetof(struct config, names.target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
+	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
+		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
+		offsetof(struct config, names.wall)},
 	{0},
 };
 
 static const struct pm_example examples[] = {
-	{"the potential in a periodic box", "pinit uniform -n 2000 | p2m -n 32 | poisson-mg | sls"},
-	{"sizes need not be powers of two, and the cells need not be cubes", "pinit uniform -n 2000 | p2m -n 31x20x7 | poisson-mg --smooth 3,3 | sls"},
-	{"one pass of full multigrid, as good as the differences themselves", "pinit uniform -n 2000 | p2m -n 64 | poisson-mg --smooth 1,1 --tolerance 0.9 | sls"},
+	{"the potential in a periodic box", "pinit uniform -n 2000 | p2m -n 32 | poisson-mg | sls --report"},
+	{"order 4, and sizes need not be powers of two nor the cells cubes", "pinit uniform -n 2000 | p2m -n 31x20x7 | poisson-mg --order 4 | sls"},
+	{"a layer of high permittivity",
+		"pinit uniform -n 2000 --dim 2 | p2m -n 64 | scalc --mesh mesh 'eps = x < 0.5 ? 1 : 1e6' | poisson-mg --permittivity eps --tolerance 1e-8 | sls"},
 	{0},
 };
 
@@ -53,11 +68,15 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--smooth takes two whole numbers, sweeps before and after (--smooth 2,2)");
 	if (o->smooth.x[0] + o->smooth.x[1] == 0)
 		return pm_fail(PM_USAGE, "--smooth 0,0 smooths nothing (--smooth 2,2)");
-	t->choice = (struct pm_mg_choice){.pre = (int)o->smooth.x[0], .post = (int)o->smooth.x[1], .relaxation = o->relaxation,
-		.tolerance = o->tolerance, .most = (int)o->most};
-	while (strcmp(cycles[t->choice.cycle], o->cycle))
-		t->choice.cycle++;
-	return 0;
+	if (o->order == 3)
+		return pm_fail(PM_USAGE, "differences of order 3 there are none (--order 2 or 4)");
+	t->choice = (struct pm_multigrid_choice){.order = (int)o->order, .variable = o->permittivity, .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
+		.cycle = {.pre = (int)o->smooth.x[0], .post = (int)o->smooth.x[1], .tolerance = o->tolerance, .most = (int)o->most,
+			.half_weighting = !strcmp(o->restriction, "half")}};
+	while (strcmp(cycles[t->choice.cycle.cycle], o->cycle))
+		t->choice.cycle.cycle++;
+	t->solver = pm_multigrid_new();
+	return t->solver ? pm_multigrid_choose(&t->choice, o->smoother, o->relaxation) : -PM_DATA;
 }
 
 static int plan(struct pm_stage *s, struct pm_frame *f)
@@ -66,17 +85,38 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	struct state *t = s->state;
 	int status = pm_problem_find(f, &o->names, &t->problem);
 	if (!status)
-		status = pm_mg_check(&t->problem.grid);
+		status = pm_multigrid_check(&t->choice, &t->problem.grid);
+	if (!status && o->permittivity)
+		status = pm_problem_coefficient(f, &t->problem, o->permittivity, &t->eps);
 	return status ? status : pm_problem_declare(f, &t->problem);
 }
 
-static int ready(struct state *t)
+/* One component, and what the solver has to say of it. */
+static int component(struct pm_stage *s, struct pm_frame *f, int c)
 {
-	if (t->solver && pm_mg_fits(t->solver, &t->problem.grid, 2))
+	struct state *t = s->state;
+	const struct pm_problem *p = &t->problem;
+	const struct pm_mg_record *r = &t->record;
+	struct pm_grid g = pm_problem_grid(p, c);
+	char number[16] = "", key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
+	int status = pm_multigrid_solve(t->solver, &t->choice, &g, t->choice.variable ? pm_in(t->eps, 0) : NULL, p->c, pm_in(p->source, c), pm_out(p->target, c), &t->record);
+	if (status)
+		return status;
+	if (p->source->components > 1)
+		snprintf(number, sizeof number, "_%d", c);
+	for (int i = 0, n = 0; i < r->n; i++)
+		n += snprintf(residuals + n, sizeof residuals - (size_t)n, "%s%.3e", i ? " " : "", r->history[i]);
+	snprintf(key, sizeof key, "residuals%s", number);
+	pm_report_text(s, f, key, residuals);
+	if (!r->singular)
 		return 0;
-	pm_mg_free(t->solver);
-	t->solver = pm_mg_new(&t->problem.grid, 2);
-	return t->solver ? 0 : -PM_DATA;
+	snprintf(key, sizeof key, "mean_removed%s", number);
+	pm_report(s, f, key, r->mean);
+	snprintf(key, sizeof key, "incompatible%s", number);
+	pm_report(s, f, key, r->incompatible);
+	if (r->incompatible > 1e-12)
+		pm_say(s, "no phi has this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, r->mean, r->incompatible);
+	return 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -85,21 +125,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const struct pm_mg_record *r = &t->record;
 	double taken = 0, residual = 0, contraction = 0;
 	bool roundoff = false;
-	int status = ready(t);
-	for (int c = 0; !status && c < t->problem.source->components; c++) {
-		char key[32] = "mean_removed";
-		if (t->problem.source->components > 1)
-			snprintf(key, sizeof key, "mean_removed_%d", c);
-		status = pm_mg_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &t->record);
+	for (int c = 0; c < t->problem.source->components; c++) {
+		int status = component(s, f, c);
+		if (status)
+			return status;
 		taken = fmax(taken, r->cycles);
 		residual = fmax(residual, r->after);
 		contraction = fmax(contraction, r->contraction);
 		roundoff |= r->floor;
-		if (r->singular)
-			pm_report(s, f, key, r->mean);
 	}
-	if (status)
-		return status;
 	pm_report(s, f, "cycles", taken);
 	pm_report(s, f, "residual", residual);
 	pm_report(s, f, "contraction", contraction);
@@ -110,14 +144,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static void release(struct pm_stage *s)
 {
 	struct state *t = s->state;
-	t->solver = pm_mg_free(t->solver);
+	t->solver = pm_multigrid_free(t->solver);
 }
 
 const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
 	.summary = "solve Poisson's equation on a mesh by multigrid",
-	.about = "Solves lap phi = c*s with differences of order 2 on the nodes; faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture, "
-		"any number of cells per axis, any ratio of the spacings. Red-black Gauss-Seidel, V- and W-cycles, full multigrid with cubic interpolation. Where "
+	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall (phi = 0) or "
+		"neumann (no normal gradient) in any mixture, any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic "
+		"interpolation; where eps varies, transfers made from the operator, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. Where "
 		"no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or where "
 		"round-off keeps the residual above it (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and solves the same "
 		"equation with --symbol fd2.",

@@ -188,9 +188,10 @@ int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o,
 {
 	const struct pm_grid *g = &v->grid;
 	*r = (struct pm_mg_record){.singular = !v->fixed, .mean = v->fixed ? 0 : mean(g, s), .converged = true};
-	double most = 0, shift = 0, *source = v->levels ? pm_zalloc(v->level[0].size, sizeof *source) : NULL;
+	double most = 0, whole = 0, shift = 0, *source = v->levels ? pm_zalloc(v->level[0].size, sizeof *source) : NULL;
 	for (size_t p = 0; p < pm_grid_size(g); p++)
-		most = fmax(most, fabs(c * (s[p] - r->mean)));
+		most = fmax(most, fabs(c * (s[p] - r->mean))), whole = fmax(whole, fabs(s[p]));
+	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow */
 	if (v->levels && !source)
 		return -PM_DATA;

@@ -217,6 +217,8 @@ static int solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const
 {
 	struct mg_level *l = &mg->level[0];
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
+	double whole = l->fixed ? 0 : largest(pm_grid_size(&mg->grid), 1, 0, s);
+	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
 	double most = largest(pm_grid_size(&mg->grid), c, r->mean, s);
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
 	load(mg, c / unit, r->mean, s, NULL);

@@ -25,6 +25,7 @@ struct pm_mg_record {
 	double before, after; /* relative residual at the first look and at the last */
 	double contraction;   /* of the residual per cycle, geometric mean over the cycles above round-off; 0 if there was none */
 	double mean;          /* removed from c*s, as a mean of s; 0 if the problem is not singular */
+	double incompatible;  /* |mean| over the largest |s|: round-off where the data fit the faces */
 	bool singular, converged;
 	bool floor;           /* round-off keeps the residual above the tolerance; counts as converged */
 	int n;                /* entries of history: relative residual after 0, 1, ... cycles */

@@ -46,6 +46,18 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	return 0;
 }
 
+int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field)
+{
+	if (!pm_frame_field(f, p->mesh->name, name))
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (scalc --mesh makes one: scalc --mesh %s '%s = 1 + x')", name, p->mesh->name, p->mesh->name, name);
+	*field = pm_reads(f, p->mesh->name, name);
+	if (!*field)
+		return -PM_DATA;
+	if ((*field)->components != 1 || (*field)->half[0][0] || (*field)->half[0][1] || (*field)->half[0][2])
+		return pm_fail(PM_DATA, "'%s' must have one component, on the nodes (scalc --mesh makes such a field)", name);
+	return 0;
+}
+
 struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
 {
 	struct pm_grid g = p->grid;

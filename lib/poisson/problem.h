@@ -28,6 +28,8 @@ struct pm_problem {
 
 int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *names, struct pm_problem *p);
 int pm_problem_declare(struct pm_frame *f, struct pm_problem *p); /* reads the source, makes the target: derived, with the source's kernel */
+/* A coefficient beside the source: one component on the nodes of the same mesh; read. */
+int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field);
 struct pm_grid pm_problem_grid(const struct pm_problem *p, int c); /* after pm_problem_declare: with the faces of component c */
 
 #endif

@@ -103,3 +103,71 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	run -1 --separate-stderr bash -c 'poisson-mg <m >/dev/full'
 	[[ $stderr == poisson-mg:* ]]
 }
+
+@test "the residual after every cycle travels in the tail, and how far the data of a singular problem are from fitting" {
+	mesh >m
+	poisson-mg <m >a
+	tail -c 2048 a | grep -ao '"residuals":"[^"]*"' | cut -d'"' -f4 | tr ' ' '\n' >history
+	[ "$(wc -l <history)" = $(($(report a cycles | cut -d. -f1) + 1)) ]
+	awk 'NR > 1 && !($1 < before) { exit 1 } { before = $1 } END { exit !($1 <= 1e-11) }' history
+	below "$(report a incompatible)" 1
+	run ! below "$(report a incompatible)" 1e-3 # rho has a mean of 1
+	run -0 --separate-stderr bash -c 'poisson-mg --verbose <m >/dev/null'
+	[[ $stderr == *"no phi has this 'rho' in this box: its mean 1"* ]]
+}
+
+@test "smoothers, cycles and both restrictions end at the same phi; order 4 at another" {
+	differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
+	mesh >m
+	poisson-mg --no-history <m >a
+	for o in "--smoother red-black" "--smoother jacobi" "--smoother four-colour" "--smoother sor --relaxation 1.2" "--restriction half" "--cycle w --smooth 1,2"; do
+		poisson-mg $o <m >b
+		below "$(differ a b)" 1e-9 "$o"
+	done
+	poisson-mg --order 4 <m >b
+	poisson-mg --order 4 --smoother jacobi --smooth 3,3 <m >c
+	below "$(differ b c)" 1e-9
+	run ! below "$(differ a b)" 1e-3
+}
+
+@test "options that do not fit together are exit 2 and say what does" {
+	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:--order 2 or 4" "--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
+		run -2 --separate-stderr poisson-mg ${row%%:*} </dev/null
+		[[ $stderr == poisson-mg:*"${row#*:}"* ]]
+	done
+}
+
+@test "a permittivity of 2 halves phi; one that is missing, not positive or a vector is refused with a remedy" {
+	mesh --faces wall | scalc --mesh mesh 'eps = 2' >m
+	poisson-mg --no-history <m | stab --plain --mesh mesh | awk 'NR > 1 { print $NF }' >whole
+	poisson-mg --permittivity eps <m | stab --plain --mesh mesh | awk 'NR > 1 { print $NF }' | paste - whole >both
+	awk '{ d = 2*$1 - $2; if (d*d > m) m = d*d; if ($2*$2 > b) b = $2*$2 } END { exit !(m < 1e-18*b && b > 0) }' both
+	run -1 --separate-stderr poisson-mg --permittivity kappa <m
+	[[ $stderr == *"no field 'kappa' on 'mesh' (scalc --mesh makes one"* ]]
+	scalc --mesh mesh 'eps = x - 0.5' <m >n
+	run -1 --separate-stderr poisson-mg --permittivity eps <n
+	[[ $stderr == *"the permittivity must be positive everywhere, and at node 0,0,0 it is -0.5"* ]]
+	scalc --mesh mesh 'w = 1, 2, 3' <m >n
+	run -1 --separate-stderr poisson-mg --permittivity w <n
+	[[ $stderr == *"'w' must have one component"* ]]
+}
+
+@test "with a permittivity and with order 4: the same bytes for 1, 2 and 3 threads, and after other frames" {
+	pinit uniform --dim 2 | p2m -n 301x290 | scalc --mesh mesh 'eps = exp(6*sin(9*x)*cos(7*y))' >m
+	pinit uniform --dim 2 --seed 4 | p2m -n 301x290 | scalc --mesh mesh 'eps = 1 + x' >other
+	for o in "--permittivity eps --tolerance 1e-8" "--order 4" "--smoother jacobi --cycle v"; do
+		for t in 1 2 3; do poisson-mg $o --threads $t --no-history <m >out.$t; done
+		same_as out.1 out.2
+		same_as out.1 out.3
+		cat other m | poisson-mg $o --no-history | sel --frames 2 --no-history >second
+		run -0 scmp --tolerance 0 --field phi out.1 second
+	done
+}
+
+@test "a vector is solved component by component, with the faces each has" {
+	pinit uniform -n 300 --faces wall | p2m -n 12x8x10 | scalc --mesh mesh 'A = rho, 2*rho, rho*x' >m
+	poisson-mg --source A --target B <m >a
+	poisson-fft --symbol fd2 --plan estimate --source A --target B <m >b
+	below "$(scmp --norm relative_l2 --field B a b | tail -1 | cut -f8)" 1e-9
+	tail -c 2048 a | grep -aq '"residuals_2"'
+}

@@ -237,7 +237,7 @@ static void against_multigrid(int dim)
 		struct pm_grid g = mixture(dim, m, 9, false);
 		size_t n = pm_grid_size(&g);
 		double *s = noise(n, 5), *a = malloc(n * sizeof *a);
-		struct pm_mg *mg = pm_mg_new(&g);
+		struct pm_mg *mg = pm_mg_new(&g, 2);
 		struct pm_mg_choice choice = {.pre = 2, .post = 2, .cycle = PM_MG_V, .relaxation = 1.15, .tolerance = 1e-12, .most = 100};
 		static struct pm_mg_record record;
 		double error = mg && pm_mg_solve(mg, &choice, 1, s, a, &record) == 0 ? error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}, s, a) : NAN;
