@@ -65,6 +65,23 @@ block() {
 	grep '^| ' table | diff - want
 }
 
+# commands PAGE: its indented lines that begin with a program, without the words that explain them at the right.
+commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | sed 's/   .*//'; }
+
+@test "docs: the commands of the pages on the stream, on HDF5 and on stages in Python run as printed" {
+	ln -s "$top/docs" "$top/tests" .
+	commands stream.md >stream
+	commands methods/hdf5.md >hdf5
+	commands stage-in-python.md >python
+	[ "$(cat stream hdf5 python | wc -l)" = 8 ]
+	while read -r line; do
+		sh_ok "$line 2>&1"
+		[[ $line == *-o* || ${#lines[@]} -ge 2 ]] || { echo "$line: $output"; return 1; }
+	done < <(cat stream python hdf5 | sed 's/; h5diff.*//')
+	run -1 h5diff cloud.h5 mesh.h5 # they differ, and that is found
+	[[ $output == *"differences found"* ]]
+}
+
 @test "README: the picture is there and small" {
 	picture=$(sed -n 's/^!\[.*](\(.*\))$/\1/p' "$top/README.md")
 	[ -s "$top/$picture" ]
