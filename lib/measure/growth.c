@@ -1,5 +1,5 @@
 /* Growth rate gamma and frequency omega of a mode, a(t) ~ exp(gamma t) cos(omega t + phase). A standing wave that oscillates: straight lines through the
- * logarithms and through the times of the peaks of |a| (each the top of a parabola through 3 points), omega = pi over their distance. Otherwise the
+ * logarithms and through the times of the peaks of |a| (the largest of each half wave, by a parabola through 3 points), omega = pi over their distance. Otherwise the
  * straight line through log |a|, and omega from the phase if the wave travels, else 0.
  * Source: Birdsall and Langdon 1985, section 5-15 (what is plotted there). Cost: a few passes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -86,11 +86,25 @@ static double line_slope(const struct line *l)
 	return l->n >= 2 && below > 0 ? (l->n * l->xy - l->x * l->y) / below : NAN;
 }
 
-/* From the peaks of |a| along the axis; false if there are fewer than three. */
+/* The largest of |a| along the axis in the half wave that begins at point i; *end is where the next one begins. */
+static size_t largest(const struct pm_series *s, size_t i, size_t b, const double axis[2], size_t *end)
+{
+	size_t top = i;
+	const bool below = along(s, i, axis) < 0;
+	for (; i < b && (along(s, i, axis) < 0) == below; i++)
+		top = fabs(along(s, i, axis)) > fabs(along(s, top, axis)) ? i : top;
+	*end = i;
+	return top;
+}
+
+/* From the peaks of |a| along the axis, one for each half wave (there may be more by noise); false if there are fewer than three. */
 static bool from_peaks(const struct pm_series *s, size_t a, size_t b, const double axis[2], struct pm_growth *g)
 {
 	struct line height = {0}, time = {0};
-	for (size_t i = a + 1; i + 1 < b; i++) {
+	for (size_t start = a, end; start < b; start = end) {
+		const size_t i = largest(s, start, b, axis, &end);
+		if (i == a || i + 1 >= b)
+			continue;
 		const double sign = along(s, i, axis) < 0 ? -1 : 1;
 		const double l = sign * along(s, i - 1, axis), m = sign * along(s, i, axis), r = sign * along(s, i + 1, axis), bend = l - 2 * m + r;
 		if (!(m > l && m >= r && bend < 0))

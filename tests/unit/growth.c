@@ -4,7 +4,7 @@
 #include "check.h"
 #include "measure/growth.h"
 
-enum { SWINGS, RISES, TRAVELS, SATURATES };
+enum { SWINGS, RISES, TRAVELS, SATURATES, JITTERS };
 
 static struct pm_growth fit(int kind, double gamma, double omega, double from, double to)
 {
@@ -14,6 +14,7 @@ static struct pm_growth fit(int kind, double gamma, double omega, double from, d
 		double complex a = cexp(0.7 * I) * size * cos(omega * t + 0.3);
 		a = kind == RISES ? cexp(0.7 * I) * size : kind == TRAVELS ? size * cexp(-I * omega * t) : a;
 		a = kind == SATURATES ? cexp(0.7 * I) * (1e-4 * exp(gamma * t) + 1e-5 * cos(3 * t)) / (1 + 1e-4 * exp(gamma * t)) : a;
+		a *= kind == JITTERS ? 1 + (i % 2 ? 0.01 : -0.01) : 1; /* several local maxima in each half wave */
 		pm_series_add(&s, t, (double[]){creal(a), cimag(a)});
 	}
 	const struct pm_growth g = pm_growth_of(&s, from, to);
@@ -47,6 +48,9 @@ int main(void)
 	check_near(g.omega, 0.98, 1e-3, "a wave that keeps its height: omega");
 	check_near(g.gamma, 0, 1e-4, "and gamma");
 	check(g.from >= 3 && g.to <= 25 && g.points > 200, "between the times that are asked for");
+	g = fit(JITTERS, -0.02, 0.98, NAN, NAN);
+	check_near(g.omega, 0.98, 5e-3, "a wave with noise on it, one peak for each half wave: omega");
+	check_near(g.gamma, -0.02, 5e-4, "and gamma");
 	g = fit(RISES, 0.35, 0, NAN, NAN);
 	check_near(g.gamma, 0.35, 1e-12, "a wave that only grows: gamma");
 	check_near(g.omega, 0, 0, "and no frequency");
