@@ -51,9 +51,9 @@ pipeline() {
 }
 
 @test "PIC-12: pic-gyration turns by 2 atan(Omega dt/2) on the right circle and keeps its speed" {
-	pipeline pic-gyration 7
+	pipeline pic-gyration 18
 }
 
 @test "PIC-12: pic-exb drifts at exactly E x B/B^2" {
-	pipeline pic-exb 12
+	pipeline pic-exb 16
 }

@@ -32,6 +32,8 @@ all_ways() {
 		export XDG_CACHE_HOME=$PWD/$cache
 		[ $cache = empty ] || foreign
 		want=$(OMP_NUM_THREADS=1 loop "$(quiet "$3")" "$(quiet "$2")" $((steps * $4)) < start | cksum)
+		loop true "" 0 < start | cksum | grep -qvF "$want" # something was computed
+		[ "${want##* }" -gt 1000 ]
 		for threads in 1 2 3; do
 			for engine in fused pipes; do
 				got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --engine $engine "$3" < start | cksum)
@@ -117,11 +119,35 @@ vortices() {
 	XDG_CACHE_HOME=$PWD/a PM_PLAN=measure cycle -n 4 --resume c "$s" > f
 }
 
-@test "a plasma's bytes do not depend on the way of running: leapfrog on an odd mesh" {
+@test "equal bytes: a plasma, leapfrog, an odd mesh" {
 	all_ways "pinit two-stream -n 2000 --vth 0.1 --amplitude 0.1" "p2m -n 33 | poisson-fft | mgrad | m2p" \
 		"push kick/2 drift | p2m -n 33 | poisson-fft | mgrad | m2p | push kick/2" 1
 }
 
-@test "a plasma's bytes do not depend on the way of running: boris in given fields" {
+@test "equal bytes: electrons in given fields, boris" {
 	all_ways "pinit exb -n 7 --speed 1" "m2p" "push boris/2 drift | m2p | push boris/2" 1
+}
+
+@test "equal bytes: a plasma, four passes a step (rk4), an odd mesh, smooth kernel, differences of order 4" {
+	all_ways "pinit two-stream -n 1000 --vth 0.1 --amplitude 0.1" "" "p2m -n 35 --kernel tsc | poisson-fft | mgrad --order 4 | m2p | push rk4" 4
+}
+
+@test "equal bytes: a plasma in two dimensions by multigrid, three passes a step (lsrk3)" {
+	all_ways "pinit langmuir --dim 2 --axes 2 -n 961 --amplitude 0.3" "" "p2m -n 16x24 | poisson-mg | mgrad | m2p | push lsrk3" 3
+}
+
+# magnetised: electrons that circle in a uniform field and repel each other, three velocities.
+magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel --drop E "$@"; }
+
+@test "equal bytes: magnetised electrons in the field of each other, boris, an odd mesh with two different sides" {
+	local force="p2m -n 15x17 | poisson-fft | mgrad | m2p"
+	all_ways magnetised "$force" "push boris/2 drift | $force | push boris/2" 1
+}
+
+@test "equal bytes: electrons and heavy ions, leapfrog" {
+	two() { stack "$@" electrons ions; }
+	pinit two-stream -n 500 --vth 0.1 --amplitude 0.1 --no-history | smod --constant background=0 --no-history > electrons
+	pinit landau -n 300 --wavenumber 1 --vth 0.01 --no-history | smod --rename electrons=ions --scale charge=-1,mass=25 --constant background=0 --no-history |
+		sel --drop mesh --no-history > ions
+	all_ways two "$(force 33)" "push kick/2 drift | $(force 33) | push kick/2" 1
 }
