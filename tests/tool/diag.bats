@@ -136,6 +136,23 @@ load ../helper
 	run ! grep -q charge u
 }
 
+@test "diag: the energy of each component of the field: equal along a diagonal, all of it along x in a wave along x; together 1/2 integral rho phi" {
+	for case in "2 2" "3 3" "3 1"; do
+		read -r dim axes <<<"$case"
+		pinit langmuir --dim "$dim" --axes "$axes" -n $((16 ** dim)) --cells 16 --amplitude 0.1 | p2m | poisson-fft --symbol spectral | mgrad --order spectral | diag --modes 1 > t
+		x=$(column energy_field_x < t) y=$(column energy_field_y < t)
+		if [ "$axes" = 1 ]; then
+			below "$y" 1e-28
+			below "$(column energy_field_z < t)" 1e-28
+			e=$(column mode_1 < t) # of x, averaged over y and z: L^3 e^2/4
+			within "$(awk -v x="$x" -v e="$e" 'BEGIN { printf "%.17g", x / (248.05021344239853 * e * e / 4) }')" 1 1e-2
+		else
+			within "$(awk -v x="$x" -v y="$y" 'BEGIN { printf "%.17g", y / x }')" 1 1e-12
+		fi
+		within "$(awk -v x="$x" -v n="$axes" -v m="$(column energy_field_mesh < t)" 'BEGIN { printf "%.17g", n * x / m }')" 1 1e-9 # nothing at the highest wavenumber
+	done
+}
+
 @test "diag: --growth without a field, with too few frames or a wrong word is refused" {
 	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$3"; [[ $stderr == *"$2"* ]] || { echo "$stderr"; return 1; }; }
 	refused 1 "no field 'E' on a mesh to take modes of (p2m | poisson-fft | mgrad before diag)" "pinit langmuir -n 64 | diag --growth mode:1"
