@@ -110,6 +110,25 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	done
 }
 
+@test "phase space: x against v is what 1-D particles show by themselves; two streams are two bands with nothing between; another velocity or a wrong name is refused" {
+	pinit two-stream -n 40000 --vth 0.1 --amplitude 0 >a
+	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 <a >p
+	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 --x x --y vx --style density <a | cmp - p
+	# the brightest row of a column, above and below the middle, is that of v0 = 0.612
+	w=$(sed -n 2p p | cut -d' ' -f1) h=$(sed -n 2p p | cut -d' ' -f2)
+	tail -c +$((1 + $(head -3 p | wc -c))) p | od -An -v -tu1 -w$((3 * w)) | awk -v c=200 '{ print $(3 * c + 1) + $(3 * c + 2) + $(3 * c + 3) }' >column
+	read -r up down between <<<"$(awk 'NR > 30 && NR < 345 { v[NR] = $1 } END { for (i = 31; i < 345; i++) { if (i < 187 && v[i] > v[a]) a = i; if (i > 187 && v[i] >= v[b]) b = i }
+		for (i = a; i <= b; i++) if (!m || v[i] < v[m]) m = i; print a, b, v[m] }' column)"
+	echo "$w x $h: $up $down $between"
+	[ "$between" -lt 40 ]
+	within "$(awk -v a="$up" -v b="$down" 'BEGIN { print b - a }')" "$(awk -v h=320 'BEGIN { print 0.6124 * h }')" 8
+	refuse() { run -1 --separate-stderr bash -c "sdraw $1 <a"; [[ $stderr == *"$2"* ]]; }
+	refuse '--x x --y vy' "no field or number 'vy' (on 'electrons' there is"
+	refuse '--y vx --colour nothing' "no field or number 'nothing'"
+	pinit langmuir -n 4000 --velocities 3 | sdraw --x vx --y vz -o b.png
+	picture b.png
+}
+
 @test "no particles, one particle and equal numbers make pictures too" {
 	printf 'x y z q\n' | stab - | sdraw -o a.png
 	printf 'x y z q\n1 1 1 0\n' | stab - | sdraw --colour q -o b.png
