@@ -26,7 +26,7 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "matter", .text = "name of the set a plain table becomes; with --plain the set to write", .offset = offsetof(struct config, set)},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "matter", .text = "name of the set a plain table becomes; with --plain the set to write (if there is none of the default, the first)", .offset = offsetof(struct config, set)},
 	{.name = "law", .kind = PM_WORD, .choices = pm_law_names, .fallback = "free", .text = "the law the particles of a plain table obey", .offset = offsetof(struct config, law)},
 	{.name = "constant", .kind = PM_LIST, .unit = "NAME=VALUE", .text = "constants: G=2.95912208286e-4, softening=0", .offset = offsetof(struct config, constants)},
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, .text = "the time step to write into the frame; 0 leaves it to push --dt", .offset = offsetof(struct config, dt)},
@@ -141,10 +141,18 @@ static int source(struct pm_stage *s, struct pm_frame **f)
 
 /* ---- stream to text ---- */
 
+/* The set or mesh that --plain writes. */
+static const char *table_of(const struct pm_stage *s, const struct pm_frame *f)
+{
+	const struct config *c = s->config;
+	bool other = !pm_given(s, "set") && f->nsets && !pm_frame_set(f, c->set);
+	return c->mesh ? c->mesh : other ? f->sets[0]->name : c->set;
+}
+
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
-	const char *on = c->mesh ? c->mesh : c->set;
+	const char *on = table_of(s, f);
 	if (c->plain && !(c->mesh ? (void *)pm_frame_mesh(f, on) : (void *)pm_frame_set(f, on)))
 		return pm_fail(PM_DATA, "no %s '%s' (sls lists what there is)", c->mesh ? "mesh" : "set", on);
 	for (size_t i = 0; i < f->nfields; i++)
@@ -165,10 +173,9 @@ static void coordinates(const struct pm_frame *f, const struct pm_mesh *m, struc
 	}
 }
 
-static int plain_table(const struct config *c, struct pm_frame *f)
+static int plain_table(const struct config *c, struct pm_frame *f, const char *on)
 {
 	struct pm_column column[PM_COLUMNS + 3];
-	const char *on = c->mesh ? c->mesh : c->set;
 	size_t rows = 0;
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->on, on))
@@ -190,7 +197,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (c->plain && st->frames)
 		fputs("\n\n", stdout);
 	st->frames++;
-	return c->plain ? plain_table(c, f) : pm_text_frame_write(stdout, f);
+	return c->plain ? plain_table(c, f, table_of(s, f)) : pm_text_frame_write(stdout, f);
 }
 
 static int end(struct pm_stage *s)

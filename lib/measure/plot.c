@@ -34,7 +34,10 @@ double pm_scale_at(const struct pm_scale *s, double value)
 /* 193 colours, the middle one of them: with those of the letters few enough for a palette. */
 static void shade(const struct pm_scale *s, double t, unsigned char rgb[3])
 {
-	t = floor(192 * fmin(fmax(t, 0), 1) + 0.5) / 192;
+	t = fmin(fmax(t, 0), 1);
+	if (s->centred)
+		t = 0.5 + 0.5 * (s->lo + t * (s->hi - s->lo)) / fmax(fabs(s->lo), fabs(s->hi));
+	t = floor(192 * t + 0.5) / 192;
 	pm_colour_of(s->map, s->start + (1 - s->start) * t, rgb);
 }
 

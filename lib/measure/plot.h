@@ -9,7 +9,8 @@ struct pm_scale { /* from numbers to 0..1 */
 	double lo, hi;
 	bool log;
 	int map;            /* of colours */
-	double start;       /* where on the map 0 is, 0 to 1 */
+	double start;       /* where on the map lo is, 0 to 1 */
+	bool centred;       /* the middle of the map is the number 0, also where lo and hi are not alike */
 	bool below, above;  /* some numbers lie beyond: the bar gets a point there */
 	const char *label;
 };

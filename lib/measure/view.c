@@ -77,11 +77,12 @@ int pm_view_plan(struct pm_view *v, struct pm_frame *f)
 /* Range, logarithm and map of the colours for numbers between min and max, the smallest positive of which is least. */
 static int scale_choose(const struct pm_view *v, struct pm_scale *s, double min, double max, double least, bool log, int map)
 {
-	bool signed_ = min < 0 && max > 0 && !log;
+	bool signed_ = fmin(-min, max) > 0.01 * fmax(-min, max) && !log;
 	s->log = log;
 	s->map = v->map >= 0 ? v->map : signed_ ? pm_colour_find("coolwarm") : map;
 	s->lo = log ? fmax(least, max * 1e-4) : min, s->hi = max;
-	if (signed_ && s->map == pm_colour_find("coolwarm"))
+	s->centred = s->map == pm_colour_find("coolwarm") && !log && (v->nrange ? v->range[0] < 0 && v->range[1] > 0 : min < 0 && max > 0);
+	if (s->centred)
 		s->hi = fmax(-min, max), s->lo = -s->hi;
 	if (log && !(max > 0) && !v->nrange)
 		return pm_fail(PM_DATA, "nothing of '%s' is above 0, which a logarithm needs (leave --log out, or give --range)", v->drawn);

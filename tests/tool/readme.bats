@@ -88,6 +88,14 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 	[ "$(wc -c <"$top/$picture")" -lt 100000 ]
 }
 
-@test "README: every link leads somewhere" {
-	grep -o '](\([^)]*\))' "$top/README.md" | tr -d '()]' | while read -r f; do [ -e "$top/$f" ]; done
+@test "README and the pages of docs/: every link leads somewhere" {
+	for page in "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md; do
+		grep -o '](\([^)]*\))' "$page" | tr -d '()]' | while read -r f; do [[ $f == http* || -e ${page%/*}/$f ]] || { echo "$page: $f"; exit 1; }; done
+	done
+}
+
+@test "the files that pages and heads name by their paths are there" {
+	missing=$(cd "$top" && grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|tsv|awk|bash)\b' README.md docs lib tools pipelines tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
+	echo "$missing"
+	[ -z "$missing" ]
 }

@@ -97,6 +97,15 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	within "$r" 221 6; within "$g" 221 6; within "$b" 221 6 # Moreland's middle is 221 221 221
 }
 
+@test "a range that is not symmetric leaves 0 in the middle of the two colours; a hundredth below 0 is no sign" {
+	mesh 2 >m # w_x runs from -2 to 2
+	sdraw --field w --component x --range -1,4 --format ppm --size 400 <m >p
+	read -r r g b <<<"$(pixel p 244 224)"
+	within "$r" 221 6; within "$g" 221 6; within "$b" 221 6
+	scalc --mesh mesh 'h = w_0 > 0 ? w_0 : w_0 / 201' <m | sdraw --field h --format ppm --size 400 >q
+	read -r r g b <<<"$(pixel q 47 420)"; within "$r" 68 6; within "$g" 1 8; within "$b" 85 6 # viridis
+}
+
 @test "every option of particles draws another picture" {
 	pinit plummer -n 200 >a
 	sdraw --size 64 --format ppm <a >p0
