@@ -8,10 +8,10 @@
 
 struct config {
 	struct pm_problem_names names;
-	const char *cycle, *smoother, *restriction, *permittivity, *mean;
+	const char *cycle, *order, *smoother, *restriction, *permittivity, *mean;
 	struct pm_vector smooth;
 	double relaxation, tolerance;
-	int64_t most, order;
+	int64_t most;
 };
 struct state {
 	struct pm_problem problem;
@@ -22,11 +22,12 @@ struct state {
 };
 
 static const char *const cycles[] = {"v", "w", "fmg", NULL}; /* in the order of enum pm_mg_cycle */
+static const char *const orders[] = {"2", "4", NULL};
 static const char *const restrictions[] = {"full", "half", NULL};
 
 static const struct pm_option options[] = {
 	{"cycle", 0, PM_WORD, "", "fmg", 0, 0, cycles, "V-cycles, W-cycles, or full multigrid and then V-cycles", false, offsetof(struct config, cycle)},
-	{"order", 0, PM_INTEGER, "", "2", 2, 4, NULL, "of the differences: 2, or 4 (compact, Mehrstellen)", false, offsetof(struct config, order)},
+	{"order", 0, PM_WORD, "", "2", 0, 0, orders, "of the differences: 2, or 4 (compact, Mehrstellen)", false, offsetof(struct config, order)},
 	{"smoother", 0, PM_WORD, "", NULL, 0, 0, pm_mg_smoother_names,
 		"red-black Gauss-Seidel, over-relaxed (sor), weighted Jacobi, or Gauss-Seidel in four colours (default: sor; order 4: four-colour; with --permittivity: red-black)",
 		false, offsetof(struct config, smoother)},
@@ -68,9 +69,7 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--smooth takes two whole numbers, sweeps before and after (--smooth 2,2)");
 	if (o->smooth.x[0] + o->smooth.x[1] == 0)
 		return pm_fail(PM_USAGE, "--smooth 0,0 smooths nothing (--smooth 2,2)");
-	if (o->order == 3)
-		return pm_fail(PM_USAGE, "differences of order 3 there are none (--order 2 or 4)");
-	t->choice = (struct pm_multigrid_choice){.order = (int)o->order, .variable = o->permittivity, .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
+	t->choice = (struct pm_multigrid_choice){.order = *o->order - '0', .variable = o->permittivity, .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
 		.cycle = {.pre = (int)o->smooth.x[0], .post = (int)o->smooth.x[1], .tolerance = o->tolerance, .most = (int)o->most,
 			.half_weighting = !strcmp(o->restriction, "half")}};
 	while (strcmp(cycles[t->choice.cycle.cycle], o->cycle))

@@ -131,7 +131,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 }
 
 @test "options that do not fit together are exit 2 and say what does" {
-	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:--order 2 or 4" "--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
+	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:2, 4" "--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
 		run -2 --separate-stderr poisson-mg ${row%%:*} </dev/null
 		[[ $stderr == poisson-mg:*"${row#*:}"* ]]
 	done
