@@ -150,7 +150,7 @@ const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
 	.summary = "solve Poisson's equation on a mesh by multigrid",
 	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall (phi = 0) or "
-		"neumann (no normal gradient) in any mixture, any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic "
+		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as poisson-fft has it); any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic "
 		"interpolation; where eps varies, transfers made from the operator, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. Where "
 		"no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or where "
 		"round-off keeps the residual above it (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and solves the same "

@@ -116,6 +116,10 @@ void pm_mg_restrict_source(struct pm_mg *mg, int fine);
 /* mg-sweep.c */
 void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
 
+/* mg.c */
+int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r); /* as pm_mg_solve, for
+	a source that is already that of the differences */
+
 /* mg-cycle.c */
 size_t pm_mg_unknowns(const struct mg_level *l);
 void pm_mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */

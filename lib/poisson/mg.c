@@ -26,7 +26,7 @@ int pm_mg_check(const struct pm_grid *g)
 		for (int s = 0; s < 2; s++) {
 			enum pm_face face = g->face[d][s];
 			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN)
-				return pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft, which has open faces)",
+				return pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft)",
 					"xyz"[d], pm_face_names[face]);
 		}
 	return 0;
@@ -212,9 +212,10 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
 }
 
-/* As pm_mg_solve, for a source that is already that of the differences. */
-static int solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
+int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
+	if (!pm_mg_room(mg, o))
+		return -PM_DATA;
 	struct mg_level *l = &mg->level[0];
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
 	double whole = l->fixed ? 0 : largest(pm_grid_size(&mg->grid), 1, 0, s);
@@ -240,11 +241,11 @@ static int solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
 	double *compact = mg->order == 4 ? pm_alloc(pm_grid_size(&mg->grid), sizeof *compact) : NULL;
-	int status = (mg->order == 4 && !compact) || !pm_mg_room(mg, o) ? -PM_DATA : 0;
+	int status = mg->order == 4 && !compact ? -PM_DATA : 0;
 	if (compact)
 		pm_mg_compact_source(&mg->grid, s, compact);
 	if (!status)
-		status = solve(mg, o, c, compact ? compact : s, phi, r);
+		status = pm_mg_solve_differences(mg, o, c, compact ? compact : s, phi, r);
 	pm_free(compact);
 	return status;
 }

@@ -1,5 +1,6 @@
-/* Chooses and keeps the multigrid solver of a grid: constant coefficient of order 2 or 4 (mg.c), or variable (mg-variable.c).
+/* Chooses and keeps the multigrid solver of a grid: constant coefficient of order 2 or 4 (mg.c), the same in free space (mg-open.c), or variable (mg-variable.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson/mg-open.h"
 #include "poisson/multigrid.h"
 
 #include <string.h>
@@ -8,6 +9,7 @@ enum { kept = 4 }; /* kinds of faces that the components of a vector have: one f
 
 struct pm_multigrid {
 	struct pm_mg *constant[kept];
+	struct pm_mg_open *open[kept];
 	struct pm_mg_variable *variable[kept];
 	int next; /* to be replaced where nothing fits */
 };
@@ -17,7 +19,7 @@ struct pm_multigrid *pm_multigrid_new(void) { return pm_zalloc(1, sizeof(struct 
 struct pm_multigrid *pm_multigrid_free(struct pm_multigrid *m)
 {
 	for (int i = 0; m && i < kept; i++)
-		pm_mg_free(m->constant[i]), pm_mg_variable_free(m->variable[i]);
+		pm_mg_free(m->constant[i]), pm_mg_open_free(m->open[i]), pm_mg_variable_free(m->variable[i]);
 	return pm_free(m);
 }
 
@@ -37,10 +39,22 @@ int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, dou
 	return 0;
 }
 
+static bool any_open(const struct pm_grid *g)
+{
+	bool any = false;
+	for (int d = 0; d < g->dim; d++)
+		any |= g->face[d][0] == PM_OPEN || g->face[d][1] == PM_OPEN;
+	return any;
+}
+
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g)
 {
-	(void)o;
-	return pm_mg_check(g);
+	if (!any_open(g))
+		return pm_mg_check(g);
+	if (o->variable)
+		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, and these are open (pinit --faces neumann and a box large enough, "
+			"or poisson-fft without a permittivity)");
+	return pm_mg_open_check(g);
 }
 
 static struct pm_mg *constant(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g)
@@ -52,6 +66,17 @@ static struct pm_mg *constant(struct pm_multigrid *m, const struct pm_multigrid_
 	struct pm_mg *mg = m->constant[m->next] = pm_mg_new(g, o->order);
 	m->next = (m->next + 1) % kept;
 	return mg;
+}
+
+static struct pm_mg_open *open_space(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g)
+{
+	for (int i = 0; i < kept; i++)
+		if (m->open[i] && pm_mg_open_fits(m->open[i], g, o->order))
+			return m->open[i];
+	pm_mg_open_free(m->open[m->next]);
+	struct pm_mg_open *open = m->open[m->next] = pm_mg_open_new(g, o->order);
+	m->next = (m->next + 1) % kept;
+	return open;
 }
 
 static struct pm_mg_variable *variable(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps)
@@ -74,6 +99,10 @@ int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice 
 	if (o->variable) {
 		struct pm_mg_variable *v = variable(m, o, g, eps);
 		return v ? pm_mg_variable_solve(v, &cycle, c, s, phi, r) : pm_failed();
+	}
+	if (any_open(g)) {
+		struct pm_mg_open *open = open_space(m, o, g);
+		return open ? pm_mg_open_solve(open, &cycle, c, s, phi, r) : pm_failed();
 	}
 	struct pm_mg *mg = constant(m, o, g);
 	return mg ? pm_mg_solve(mg, &cycle, c, s, phi, r) : pm_failed();

@@ -1,4 +1,4 @@
-/* Multigrid as a user asks for it: one of the solvers of mg.h and mg-variable.h for a grid, made once and kept.
+/* Multigrid as a user asks for it: one of the solvers of mg.h, mg-open.h and mg-variable.h for a grid, made once and kept.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MULTIGRID_H
 #define PM_POISSON_MULTIGRID_H

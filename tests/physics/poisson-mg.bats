@@ -77,3 +77,28 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	echo "$mg $(f 'poisson-fft --plan estimate --symbol spectral' 2) 0.0269507714622 0.00946960886732 0.0254426249975" |
 		awk '{ for (i = 1; i <= 3; i++) { d += ($i - $(i+3))^2; a += ($i - $(i+6))^2; b += ($(i+3) - $(i+6))^2 } print sqrt(d), sqrt(a), sqrt(b); exit !(d < a && d < b) }'
 }
+
+@test "PS-03: the potential of a unit cube in open space, at its centre and its corner; the mesh is half as wide again" {
+	# rho = 1 in the cube, 1/2, 1/4, 1/8 on its faces, edges and corners; phi = 1/(4 pi) int 1/r with coefficient -1
+	pinit plummer -n 10 | p2m -n 48 --outside drop | scalc --mesh mesh 'X = abs(x)/Lx*1.5, abs(y)/Ly*1.5, abs(z)/Lz*1.5' |
+		scalc --mesh mesh 'rho = (X_0 < 0.499 ? 1 : X_0 < 0.501 ? 0.5 : 0)*(X_1 < 0.499 ? 1 : X_1 < 0.501 ? 0.5 : 0)*(X_2 < 0.499 ? 1 : X_2 < 0.501 ? 0.5 : 0)' >m
+	side=$(sls <m | awk '/mesh: / { for (i = 1; i <= NF; i++) if ($i == "h") print 32*$(i+1) }')
+	poisson-mg --coefficient -12.566370614359172 <m | phi >u
+	read -r centre corner < <(awk -v l="$side" 'NR == 24*(1 + 49 + 49*49) + 1 { a = $1 } NR == 40*(1 + 49 + 49*49) + 1 { b = $1 } END { printf "%.10g %.10g\n", a/l/l, b/l/l }' u)
+	within "$centre" 2.38007736397955 1e-3
+	within "$corner" 1.19003868198978 1e-3
+}
+
+@test "open space: multigrid and the transforms agree as their Green's functions do, in 2-D with the logarithm and in 3-D" {
+	for row in "2 64x80" "3 32x28x30"; do
+		read -r dim n <<<"$row"
+		pinit uniform -n 200 --dim $dim --faces open | p2m --kernel m4prime --outside drop -n $n >m
+		poisson-fft --plan estimate <m >f
+		for o in 2 4; do
+			poisson-mg --order $o <m >g
+			differ g f >>orders
+		done
+	done
+	cat orders
+	[ "$(awk '$1 < 0.03' orders | wc -l)" = 4 ]
+}

@@ -45,13 +45,17 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	done
 }
 
-@test "open and absorbing faces are refused in a sentence that names poisson-fft" {
+@test "absorbing faces, open ones on some axes, and open ones around a permittivity are refused in a sentence that names poisson-fft" {
 	source_of() { stab | sed 's/"wall","wall"/"'$1'","'$1'"/g' | stab -; } # the faces of the header, whatever p2m thinks of them
 	mesh --faces wall | source_of absorbing >m
 	run -1 --separate-stderr poisson-mg <m
 	[[ $stderr == *"axis x has absorbing ones (use poisson-fft"* ]]
-	run -1 --separate-stderr bash -c 'pinit plummer -n 10 | p2m -n 16 | poisson-mg'
-	[[ $stderr == *"poisson-mg: frame 1: multigrid knows periodic, wall and neumann faces, and axis x has open ones (use poisson-fft, which has open faces)"* ]]
+	pinit uniform -n 10 --faces wall,wall,open,open,wall,wall | p2m --outside drop -n 8 >m
+	run -1 --separate-stderr poisson-mg <m
+	[[ $stderr == *"poisson-mg: frame 1: multigrid takes open faces on all axes or on none, and axis x has wall ones (use poisson-fft)"* ]]
+	pinit plummer -n 10 | p2m -n 16 | scalc --mesh mesh 'eps = 2' >m
+	run -1 --separate-stderr poisson-mg --permittivity eps <m
+	[[ $stderr == *"and these are open"*"poisson-fft"* ]]
 }
 
 @test "a missing field or mesh is exit 1 and says how to make it" {
