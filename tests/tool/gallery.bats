@@ -16,6 +16,13 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 	done
 }
 
+@test "every page of a method names a source and says where the method ends" {
+	for page in "$top"/docs/methods/*.md; do
+		grep -qiE 'sources?\b' "$page" || { echo "$page: no source"; return 1; }
+		grep -qiE 'limits?\b|weak\b' "$page" || { echo "$page: no limits"; return 1; }
+	done
+}
+
 @test "the pictures that are there are those of the gallery's list, and each has commands that write it" {
 	diff <(listed) <(cd "$top/docs/gallery" && ls -- *.png | sed 's/\.png$//' | sort)
 	for name in $(listed); do

@@ -82,10 +82,13 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 	[[ $output == *"differences found"* ]]
 }
 
-@test "README: the picture is there and small" {
-	picture=$(sed -n 's/^!\[.*](\(.*\))$/\1/p' "$top/README.md")
-	[ -s "$top/$picture" ]
-	[ "$(wc -c <"$top/$picture")" -lt 100000 ]
+@test "README: the pictures are there and small" {
+	sed -n 's/^!\[.*](\(.*\))$/\1/p' "$top/README.md" >pictures
+	[ "$(wc -l <pictures)" = 3 ]
+	while read -r picture; do
+		[ -s "$top/$picture" ]
+		[ "$(wc -c <"$top/$picture")" -le 60000 ]
+	done <pictures
 }
 
 @test "README and the pages of docs/: every link leads somewhere" {
@@ -98,4 +101,12 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 	missing=$(cd "$top" && grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|tsv|awk|bash)\b' README.md docs lib tools pipelines tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
 	echo "$missing"
 	[ -z "$missing" ]
+}
+
+@test "every option that the README or a page names is one of a tool" {
+	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' | sort -u >there
+	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md | sort -u >named
+	comm -23 named there >wrong
+	cat wrong
+	[ ! -s wrong ]
 }
