@@ -17,10 +17,10 @@ struct pm_green_case {
 
 struct pm_green {
 	const char *name, *sentence, *source;
-	int order;                 /* of the potential of a smooth source in the spacing; 0: beyond every power */
+	int order;                 /* of the potential of a smooth source in the spacing; 0: beyond every power; of differences: of fd2 */
 	unsigned plain, screened;  /* bits 1u<<dim: open axes it is for with kappa = 0, with kappa > 0 */
 	bool regular;              /* has a width */
-	bool differences;          /* the inverse of the second difference (--symbol fd2), else of the Laplacian */
+	bool differences;          /* the inverse of the differences of --symbol, else of the Laplacian; its at is for one axis and fd2 */
 	/* At least one of two: at, the value at distance sqrt(r2), at r2 = 0 what the sum over nodes takes there; transform, of the function cut off
 	 * at reach, at wave number sqrt(k2), which is taken where at is missing or some kappa > 0. */
 	double (*at)(const struct pm_green_case *c, double r2);

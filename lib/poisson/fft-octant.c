@@ -8,6 +8,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "poisson/fft-lattice.h"
 #include "poisson/fft-octant.h"
 
 enum { L = PM_LANES };
@@ -24,6 +25,8 @@ struct work {
 	struct pm_octant *o;
 	struct side side[3];
 	struct pm_green_case *cases; /* by modes of the axes that are not open */
+	size_t ncases;
+	struct pm_lattice *lattice;  /* of differences, where no closed form is known */
 	bool fold;
 	size_t block, plane;         /* [doubles] scratch of a thread: two blocks and a plane */
 	double *scratch;
@@ -102,12 +105,46 @@ static void rows(const struct side *s, size_t count, size_t stride, double *at, 
 	pm_lanes_out(other, NULL, s->size, count, row);
 }
 
+/* The same from heat kernels: over the nodes of the integral, the product of the kernels of y and z, and of x where that is open. */
+static void lattice_row(const struct work *w, size_t y, size_t z, const struct pm_green_case *first, double *row)
+{
+	const struct side *s = w->side;
+	const struct pm_lattice *l = w->lattice;
+	const size_t at[3] = {0, y, z};
+	double other[PM_LATTICE_NODES], r2 = 0;
+	for (size_t q = 0; q < l->nodes; q++)
+		other[q] = 1;
+	for (int d = 1, open = s[0].open; d < 3; d++)
+		if (s[d].open) {
+			for (size_t q = 0; q < l->nodes; q++)
+				other[q] *= l->heat[open][q * s[d].samples + at[d]];
+			r2 += pow(s[d].step * (double)at[d], 2);
+			open++;
+		}
+	memset(row, 0, s[0].samples * sizeof *row);
+	for (size_t i = 0; i < s[0].samples; i++) {
+		const struct pm_green_case *c = first + (s[0].open ? 0 : i);
+		const double *weight = l->weight + (size_t)(c - w->cases) * l->nodes, x = s[0].open ? s[0].step * (double)i : 0;
+		for (size_t q = 0; q < l->nodes && !s[0].open; q++)
+			row[i] -= weight[q] * other[q];
+		for (size_t q = 0; q < l->nodes && s[0].open && i == 0; q++)
+			other[q] *= weight[q];
+		if (s[0].open && i == 0)
+			pm_lattice_row(l, s[0].samples - 1, other, row);
+		row[i] += c->kappa > 0 ? 0 : pm_lattice_tail(l, r2 + x * x);
+	}
+}
+
 /* One row of samples: y and z count samples of open axes, modes of others. */
 static void fill_row(const struct work *w, size_t y, size_t z, double *row)
 {
 	const struct side *s = w->side;
 	size_t mode = (s[1].open ? 0 : y) + (s[1].open ? 1 : s[1].samples) * (s[2].open ? 0 : z), along = s[0].open ? 0 : 1;
 	const struct pm_green_case *c = w->cases + mode * (along ? s[0].samples : 1);
+	if (w->lattice) {
+		lattice_row(w, y, z, c, row);
+		return;
+	}
 	double a = s[0].open ? s[0].step : 0, b = s[1].open ? s[1].step * (double)y : 0, d = s[2].open ? s[2].step * (double)z : 0;
 	for (size_t i = 0; i < s[0].samples; i++, c += along) {
 		double x = a * (double)i, r2 = x * x + b * b + d * d;
@@ -165,6 +202,7 @@ static bool cases(struct work *w)
 	/* A fifth more, so that the waves that a cut makes in what the mesh does not resolve die out before they are reached. */
 	first.reach = 1.2 * sqrt(longest) + 10 * first.width;
 	size_t count = size[0] * size[1] * size[2], some = 0;
+	w->ncases = count;
 	if (!(w->cases = pm_alloc(count, sizeof *w->cases)))
 		return false;
 #pragma omp parallel for schedule(dynamic) num_threads(pm_threads()) reduction(+ : some) if (count > 16)
@@ -180,6 +218,20 @@ static bool cases(struct work *w)
 			o->green->prepare(c);
 	}
 	return some > 0;
+}
+
+static int lattice(struct work *w, enum pm_effort effort)
+{
+	const struct pm_octant *o = w->o;
+	size_t n[3] = {0, 0, 0};
+	int open = 0;
+	for (int d = 0; d < 3; d++)
+		if (o->axis[d].open)
+			n[open++] = o->axis[d].n;
+	if (!o->green->differences || (open == 1 && o->symbol == PM_FD2))
+		return 0;
+	w->lattice = pm_lattice_new(open, n, o->symbol, w->ncases, w->cases, effort);
+	return w->lattice ? 0 : -PM_DATA;
 }
 
 static int scratch(struct work *w)
@@ -202,7 +254,7 @@ double *pm_octant_spectrum(struct pm_octant *o, struct pm_planner *planner)
 	double *all = NULL, *out = NULL;
 	bool screened = cases(&w);
 	w.fold = !o->green->at || (screened && o->green->transform);
-	if (!w.cases || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
+	if (!w.cases || lattice(&w, planner->effort) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
 		goto out;
 	size_t slab = w.side[1].size * o->row;
 	if (!(all = pm_alloc(w.side[2].samples * slab, sizeof *all)))
@@ -220,5 +272,6 @@ out:
 	pm_free(all);
 	pm_free(w.scratch);
 	pm_free(w.cases);
+	pm_lattice_free(w.lattice);
 	return out;
 }

@@ -5,9 +5,11 @@
 
 #include "green/green.h"
 #include "mesh/lines.h"
+#include "poisson/fft.h"
 
 struct pm_octant {
 	const struct pm_green *green;
+	enum pm_symbol symbol;   /* of differences, which the lattice's function inverts */
 	double screen2, width;   /* [1/length^2] of the screened equation; [length] of pm_green_case */
 	struct {
 		bool open;

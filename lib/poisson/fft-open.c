@@ -42,12 +42,9 @@ int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_f
 		return pm_fail(PM_DATA, "--green %s has no softening (choose gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
 	bool screened = open < g->dim || o->screening > 0, differences = o->symbol != PM_SPECTRAL;
 	if (green->differences && !differences)
-		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, or leave out one of --symbol and --green)", green->name);
+		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, fd4 or fd6, or leave out one of --symbol and --green)", green->name);
 	if (!green->differences && differences)
 		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (leave out one of --symbol and --green)", green->name);
-	if (differences && (o->symbol != PM_FD2 || open > 1))
-		return pm_fail(PM_DATA, "--symbol %s has no free-space Green's function here (choose --symbol spectral%s)", pm_symbol_names[o->symbol],
-			open == 1 ? " or fd2" : "");
 	if (!((screened ? green->screened : green->plain) >> open & 1))
 		return pm_fail(PM_DATA, "--green %s does not take %d open of %d axes%s (choose %s)", green->name, open, g->dim,
 			o->screening > 0 ? " with --screening" : "", able(open, screened, differences, text, sizeof text));
@@ -78,7 +75,7 @@ int pm_poisson_fft_green(struct pm_poisson_fft *p)
 {
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
-	struct pm_octant o = {.green = pm_poisson_fft_green_of(&p->choice), .screen2 = p->choice.screening * p->choice.screening};
+	struct pm_octant o = {.green = pm_poisson_fft_green_of(&p->choice), .symbol = p->choice.symbol, .screen2 = p->choice.screening * p->choice.screening};
 	double *lambda[3] = {NULL, NULL, NULL};
 	bool fine = true;
 	for (int a = X; a <= Z; a++) {

@@ -85,7 +85,7 @@ static void sums(void)
 	for (int i = 0; pm_greens[i]; i++) {
 		const struct pm_green *g = pm_greens[i];
 		for (int screened = 0; screened < 2; screened++) {
-			unsigned dims = screened ? g->screened : g->plain;
+			unsigned dims = (screened ? g->screened : g->plain) & (g->differences ? 2u : ~0u);
 			if (!g->at || (screened && g->transform))
 				continue;
 			double K = screened * 0.83;
@@ -208,22 +208,22 @@ static double value(const struct pm_grid *g, const struct known *k, const double
 	return phi;
 }
 
-static struct pm_grid box(int dim, const char *faces, size_t n, double length)
+static struct pm_grid box(int dim, const char *faces, size_t n, size_t others, double length)
 {
 	struct pm_grid g = grid(dim, n, n, n, faces);
 	for (int d = 0; d < dim; d++) {
 		bool open = g.face[d][0] == PM_OPEN || g.face[d][1] == PM_OPEN;
-		g.cells[d] = open ? d == 1 ? n + n / 8 : n : 10;
+		g.cells[d] = open ? d == 1 ? n + n / 8 : n : others;
 		g.points[d] = g.cells[d] + (g.face[d][0] != PM_PERIODIC);
 		g.h[d] = (open ? length : 5.0) / (double)g.cells[d];
 	}
 	return g;
 }
 
-/* Largest error over the largest phi; open axes of n cells (the second n/8 more) and that length, the others 10 cells. */
+/* Largest error over the largest phi; open axes of n cells (the second n/8 more) and that length, the others 10, with differences n/2. */
 static double known_error(int dim, const char *faces, size_t n, double length, const struct pm_poisson_fft_choice *o, struct known k)
 {
-	struct pm_grid g = box(dim, faces, n, length);
+	struct pm_grid g = box(dim, faces, n, o->symbol ? n / 2 : 10, length);
 	k.K = o->screening;
 	size_t total = pm_grid_size(&g);
 	double *s = malloc(total * sizeof *s), *phi = malloc(total * sizeof *phi), *want = malloc(total * sizeof *want);
@@ -241,54 +241,54 @@ static double known_error(int dim, const char *faces, size_t n, double length, c
 }
 
 /* The claimed order, from three resolutions. Blobs of sigma = 2 h show theirs where 40 h and more go into the source; nothing may be cut off by then. */
-static void order_of(int dim, const char *faces, const struct pm_green *green, double screening, struct known k)
+static void order_of(int dim, const char *faces, const struct pm_green *green, enum pm_symbol symbol, double screening, struct known k)
 {
-	static const size_t coarse[] = {32, 40, 48}, fine[] = {360, 400, 440};
-	const size_t *n = green->regular ? fine : coarse;
-	struct pm_poisson_fft_choice o = {.screening = screening, .green = green};
+	static const size_t coarse[] = {32, 40, 48}, middle[] = {56, 76, 100}, sixth[] = {120, 150, 180}, fine[] = {360, 400, 440};
+	const size_t *n = green->regular ? fine : symbol == PM_FD6 ? sixth : symbol ? middle : coarse;
+	struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = screening, .green = green};
 	double h[3], error[3];
 	for (int l = 0; l < 3; l++) {
 		h[l] = 1 / (double)n[l];
 		error[l] = known_error(dim, faces, n[l], green->regular ? 19 : 14, &o, k);
 	}
 	char name[160];
-	snprintf(name, sizeof name, "%s, %d-D %s%s%s (%.2g to %.2g)", green->name, dim, faces, screening > 0 ? " screened" : "", k.charge ? ", charge" : "", error[0],
+	snprintf(name, sizeof name, "%s, %s, %d-D %s%s%s (%.2g to %.2g)", green->name, pm_symbol_names[symbol], dim, faces, screening > 0 ? " screened" : "", k.charge ? ", charge" : "", error[0],
 		error[2]);
 	if (green->order)
-		check_order(3, h, error, green->order, name);
+		check_order(3, h, error, symbol ? 2 * (int)symbol : green->order, name);
 	else
 		check(error[2] < 1e-9, "%s: spectral", name); /* what is cut off at 7 sigma */
 }
 
-static void orders(const struct pm_green *g)
+static void orders(const struct pm_green *g, enum pm_symbol symbol)
 {
 	const struct known charge = {0, true, 0}, wave = {1, false, 0}, plain = {0, false, 0};
-	order_of(1, "oo", g, 0, charge);
-	order_of(2, "oooo", g, 0, charge);
-	if (!g->regular)
-		order_of(3, "oooooo", g, 0, charge);
+	order_of(1, "oo", g, symbol, 0, charge);
+	order_of(2, "oooo", g, symbol, 0, charge);
+	if (!g->regular && symbol != PM_FD6)
+		order_of(3, "oooooo", g, symbol, 0, charge);
 	if (!(g->screened & 2))
 		return;
-	order_of(1, "oo", g, 0.7, plain);
-	order_of(1, "wo", g, 0, charge);
-	order_of(2, "oopp", g, 0, wave);
-	if (g->regular && g != &green_gauss6)
+	order_of(1, "oo", g, symbol, 0.7, plain);
+	order_of(1, "wo", g, symbol, 0, charge);
+	order_of(2, "oopp", g, symbol, 0, wave);
+	if ((g->regular && g != &green_gauss6) || symbol == PM_FD2 || symbol == PM_FD6)
 		return;
-	order_of(2, "oooo", g, 0.7, plain);
-	order_of(1, "on", g, 0, charge);
-	order_of(2, "oopp", g, 0, charge);
-	order_of(2, "wwoo", g, 0, wave);
-	order_of(2, "nnwo", g, 0, wave);
-	order_of(2, "owno", g, 0, charge);
-	order_of(3, "oooopp", g, 0, wave);
-	order_of(3, "wnoonn", g, 0, wave);
-	order_of(3, "wowwpp", g, 0, wave);
+	order_of(2, "oooo", g, symbol, 0.7, plain);
+	order_of(1, "on", g, symbol, 0, charge);
+	order_of(2, "oopp", g, symbol, 0, charge);
+	order_of(2, "wwoo", g, symbol, 0, wave);
+	order_of(2, "nnwo", g, symbol, 0, wave);
+	order_of(2, "owno", g, symbol, 0, charge);
+	order_of(3, "oooopp", g, symbol, 0, wave);
+	order_of(3, "wnoonn", g, symbol, 0, wave);
+	order_of(3, "wowwpp", g, symbol, 0, wave);
 	if (g->regular)
 		return;
-	order_of(3, "oooooo", g, 0.7, plain);
-	order_of(3, "ppoooo", g, 0, charge);
-	order_of(3, "ooppow", g, 0, charge);
-	order_of(3, "noonow", g, 0, plain);
+	order_of(3, "oooooo", g, symbol, 0.7, plain);
+	order_of(3, "ppoooo", g, symbol, 0, charge);
+	order_of(3, "ooppow", g, symbol, 0, charge);
+	order_of(3, "noonow", g, symbol, 0, plain);
 }
 
 /* In 3-D the fine meshes of an order are out of reach. What the solver gives there is the potential of the source convolved with the blob: for a
@@ -310,7 +310,7 @@ static void blobs(void)
 		const struct pm_green *green = pm_greens[i];
 		if (!green->regular)
 			continue;
-		struct pm_grid g = box(3, "oooooo", 34, 14);
+		struct pm_grid g = box(3, "oooooo", 34, 0, 14);
 		struct pm_poisson_fft_choice o = {.green = green};
 		size_t n = pm_grid_size(&g);
 		double *s = malloc(n * sizeof *s), *phi = malloc(n * sizeof *phi), *want = malloc(n * sizeof *want), h[3], error[3];
@@ -466,36 +466,77 @@ static void no_wrap(const struct pm_green *green)
 	free(s), free(t), free(phi), free(psi);
 }
 
-/* lap phi - K^2 phi by second differences gives the source back at every node that is on no open face and no wall. */
+/* lap phi - K^2 phi by the differences gives the source back at every node that has all their points (images at walls and neumann faces). */
 static void inverse(int dim, const char *faces, double K)
 {
-	struct pm_grid g = grid(dim, 17, 12, 9, faces);
-	size_t n = pm_grid_size(&g);
-	double *s = noise(n), *phi = malloc(n * sizeof *phi), *lap = malloc(n * sizeof *lap), worst = 0;
-	solve(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .screening = K}, 2.385, s, phi);
-	struct pm_operator o;
-	pm_operator_init(&o, &g, PM_OP_LAP, 2, 1, false);
-	pm_operator_apply(&o, 1, (const double *[]){phi}, (double *[]){lap}, NULL);
-	for (size_t q = 0; q < n; q++) {
-		size_t at[3] = {q % g.points[0], q / g.points[0] % g.points[1], q / g.points[0] / g.points[1]};
-		bool inside = true;
-		for (int d = 0; d < dim; d++)
-			inside = inside && (g.face[d][0] == PM_PERIODIC || g.face[d][0] == PM_NEUMANN || at[d] > 0) &&
-				(g.face[d][1] == PM_PERIODIC || g.face[d][1] == PM_NEUMANN || at[d] < g.cells[d]);
-		if (inside)
-			worst = fmax(worst, fabs(lap[q] - K * K * phi[q] - 2.385 * s[q]));
+	for (int symbol = PM_FD2; symbol <= PM_FD6; symbol++) {
+		struct pm_grid g = grid(dim, 17, 12, 10, faces);
+		size_t n = pm_grid_size(&g), reach = (size_t)symbol;
+		double *s = noise(n), *phi = malloc(n * sizeof *phi), *lap = malloc(n * sizeof *lap), worst = 0, most = 0;
+		solve(&g, &(struct pm_poisson_fft_choice){.symbol = (enum pm_symbol)symbol, .screening = K}, 2.385, s, phi);
+		struct pm_operator o;
+		pm_operator_init(&o, &g, PM_OP_LAP, 2 * symbol, 1, false);
+		pm_operator_apply(&o, 1, (const double *[]){phi}, (double *[]){lap}, NULL);
+		for (size_t q = 0; q < n; q++) {
+			size_t at[3] = {q % g.points[0], q / g.points[0] % g.points[1], q / g.points[0] / g.points[1]};
+			bool inside = true;
+			for (int d = 0; d < dim; d++)
+				for (int side = 0; side < 2; side++) {
+					size_t away = side ? g.cells[d] - at[d] : at[d];
+					inside = inside && (g.face[d][side] == PM_PERIODIC || g.face[d][side] == PM_NEUMANN || away >= (g.face[d][side] == PM_OPEN ? reach : 1));
+				}
+			if (inside)
+				worst = fmax(worst, fabs(lap[q] - K * K * phi[q] - 2.385 * s[q]));
+			most = fmax(most, fabs(phi[q]));
+		}
+		char name[120];
+		snprintf(name, sizeof name, "lattice, %d-D %s%s: the exact inverse of %s", dim, faces, K > 0 ? " screened" : "", pm_symbol_names[symbol]);
+		check_near(worst, 0, 3e-12 * fmax(1, most), name); /* round-off of phi over h^2 */
+		free(s), free(phi), free(lap);
 	}
-	char name[120];
-	snprintf(name, sizeof name, "lattice, %d-D %s%s: the exact inverse of the second difference", dim, faces, K > 0 ? " screened" : "");
-	check_near(worst, 0, 1e-11, name); /* round-off of phi over h^2 */
-	free(s), free(phi), free(lap);
 }
 
 static void inverses(void)
 {
 	inverse(1, "oo", 0), inverse(1, "oo", 0.9), inverse(1, "wo", 0), inverse(1, "on", 0);
+	inverse(2, "oooo", 0), inverse(2, "oooo", 0.4), inverse(2, "wono", 0);
 	inverse(2, "oopp", 0), inverse(2, "ppoo", 0), inverse(2, "wnoo", 0), inverse(2, "owpp", 0.3);
+	inverse(3, "oooooo", 0), inverse(3, "oooooo", 1.1), inverse(3, "oooopp", 0), inverse(3, "wwoooo", 0), inverse(3, "oownnn", 0);
 	inverse(3, "ooppww", 0), inverse(3, "ppnwno", 0), inverse(3, "nnoopp", 0), inverse(3, "ppppoo", 0);
+}
+
+/* One unit of source at a node of an open lattice. */
+static void point(int dim, size_t n, enum pm_symbol symbol, double h, size_t at, double *phi)
+{
+	struct pm_grid g = grid(dim, n, n, n, "oooooo");
+	for (int d = 0; d < dim; d++)
+		g.h[d] = h;
+	double *s = calloc(pm_grid_size(&g), sizeof *s);
+	s[at * (1 + (dim > 1) * g.points[0] + (dim > 2) * g.points[0] * g.points[1])] = 1 / pm_grid_cell(&g);
+	solve(&g, &(struct pm_poisson_fft_choice){.symbol = symbol}, 1, s, phi);
+	free(s);
+}
+
+static void lattice_values(void)
+{
+	static double phi[42 * 42 * 42];
+	point(3, 40, PM_FD2, 1, 20, phi);
+	const size_t m = 20 * (1 + 41 + 41 * 41);
+	check_near(-phi[m], 0.252731009858663, 1e-12, "PS-07: G(0) of the cubic lattice");
+	check_near(phi[m + 1] - phi[m], 1.0 / 6, 1e-12, "PS-07: and that of its neighbour");
+	/* Far away -1/(4 pi r) (1 + (5 sum x^4/r^4 - 3)/(8 r^2)): along an axis, r = 20. */
+	check_near(phi[m + 20] * 4 * pm_pi * 20, -1 - 2.0 / (8 * 400), 2e-5, "lattice, 3-D: far away it is -1/(4 pi r)");
+	point(2, 40, PM_FD2, 1, 20, phi);
+	check_near(phi[20 * 42 + 1] - phi[20 * 42], 0.25, 1e-12, "PS-07: square lattice, G(1,0)");
+	check_near(phi[20 * 42 + 42] - phi[20 * 42], 1 / pm_pi, 1e-12, "PS-07: square lattice, G(1,1)");
+	check_near(2 * pm_pi * phi[20 * 42], -(0.57721566490153286 + 1.5 * log(2)), 1e-10, "square lattice, G(0) in the gauge ln r"); /* T = 1e9 */
+	double at2 = phi[20 * 42];
+	point(2, 40, PM_FD2, 2.5, 20, phi);
+	check_near(phi[20 * 42] - at2, log(2.5) / (2 * pm_pi), 1e-10, "square lattice, spacing 2.5: ln r in the frame's units");
+	for (int symbol = PM_FD4; symbol <= PM_FD6; symbol++) {
+		point(1, 40, (enum pm_symbol)symbol, 0.7, 20, phi);
+		check_near(phi[40], 0.5 * 0.7 * 20, 1e-10, "fd4, fd6 in 1-D: |x|/2 far away"); /* of numbers of 1e4 */
+	}
 }
 
 static void threads(void)
@@ -534,8 +575,9 @@ static void turned(void)
 	for (int i = 0; pm_greens[i]; i++) {
 		if (!(pm_greens[i]->screened & 4))
 			continue;
-		solve(&g, &(struct pm_poisson_fft_choice){.green = pm_greens[i]}, 1, s, a);
-		solve(&t, &(struct pm_poisson_fft_choice){.green = pm_greens[i]}, 1, u, b);
+		struct pm_poisson_fft_choice o = {.symbol = pm_greens[i]->differences ? PM_FD4 : PM_SPECTRAL, .green = pm_greens[i]};
+		solve(&g, &o, 1, s, a);
+		solve(&t, &o, 1, u, b);
 		for (size_t q = 0; q < n; q++)
 			c[q] = b[q / p[0] / p[1] + p[2] * (q % p[0] + p[0] * (q / p[0] % p[1]))];
 		char name[100];
@@ -548,6 +590,7 @@ static void turned(void)
 int main(void)
 {
 	inverses();
+	lattice_values();
 	threads();
 	turned();
 	achieved();
@@ -560,8 +603,9 @@ int main(void)
 	sums();
 	folding();
 	for (int i = 0; pm_greens[i]; i++)
-		if (!pm_greens[i]->differences)
-			orders(pm_greens[i]);
+		for (int symbol = PM_SPECTRAL; symbol <= PM_FD6; symbol++)
+			if (pm_greens[i]->differences == (symbol > 0))
+				orders(pm_greens[i], (enum pm_symbol)symbol);
 	blobs();
 	return check_done();
 }
