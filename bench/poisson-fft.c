@@ -1,26 +1,18 @@
-/* Time of poisson-fft against FFTW's own measured r2c and c2r pair, and of mgrad against a copy, in one run: medians of 7, alternating.
- * bench/poisson-fft [cells per axis ...]; threads as OMP_NUM_THREADS says, the pair on one thread where it is one.
- * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "mesh/gradient.h"
+/* poisson-fft against FFTW's own measured r2c and c2r pair on the same cells, in turn, on one thread and on all (the pair is always serial: on several threads
+ * the rows compare with one thread instead). bench/poisson-fft [cells per axis ...] SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/fft.h"
 
-enum { ROUNDS = 7 };
+#include "bench.h"
 
-static int rising(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
+struct problem {
+	struct pm_poisson_fft *solver;
+	double *s, *phi;
+};
 
-static double median(double *t)
-{
-	qsort(t, ROUNDS, sizeof *t, rising);
-	return t[ROUNDS / 2];
-}
+struct pair {
+	fftw_plan there, back;
+	double *x, *w;
+};
 
 static struct pm_grid cube(size_t n, enum pm_face face)
 {
@@ -32,59 +24,109 @@ static struct pm_grid cube(size_t n, enum pm_face face)
 	return g;
 }
 
-/* One round of a solver, of FFTW's pair, of a gradient, of a copy. */
-static void round_of(size_t n, enum pm_face face, fftw_plan there, fftw_plan back, double *s, double *phi, double *const g[3], double *ms)
+static void solve(void *with)
 {
-	static struct pm_poisson_fft *solver;
-	static enum pm_face made;
-	static size_t cells;
-	struct pm_grid grid = cube(n, face);
-	struct pm_operator o;
-	double t[5];
-	if (!solver || made != face || cells != n) {
-		pm_poisson_fft_free(solver);
-		solver = pm_poisson_fft_new(&grid, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_MEASURE);
-		made = face, cells = n;
-		if (!solver || pm_poisson_fft_solve(solver, 1, s, phi, NULL))
-			exit(1);
+	struct problem *p = with;
+	if (pm_poisson_fft_solve(p->solver, 1, p->s, p->phi, NULL))
+		exit(1);
+}
+
+static void transform(void *with)
+{
+	struct pair *p = with;
+	fftw_execute(p->there), fftw_execute(p->back);
+}
+
+/* Three passes that read and write; walls move and transform as much, open faces eight times the points once of the three. */
+static const double passes[] = {[PM_PERIODIC] = 3, [PM_WALL] = 3, [PM_OPEN] = 2 * 3 + 4};
+static const double transforms[] = {[PM_PERIODIC] = 1, [PM_WALL] = 1, [PM_OPEN] = 14. / 3};
+
+static struct bench_row row_of(size_t n, enum pm_face face, char name[64])
+{
+	snprintf(name, 64, "%s %zu", pm_face_names[face], n);
+	return (struct bench_row){.kernel = "poisson-fft", .name = name, .unit = "M points/s", .per = 1e6, .bytes = 16 * passes[face],
+		.flops = transforms[face] * 5 * log2(pow((double)n, 3)), .stream = "copy-nt"};
+}
+
+/* Time over the time of `other`. */
+static void compare(struct bench_row row, double points, const struct bench_job *j, const char *other, const struct bench_job *with, double most)
+{
+	row.against = other, row.most = most;
+	row.other = points / bench_median(with) / row.per, row.ratio = bench_faster(j, with);
+	bench_rate(row, points, j);
+}
+
+static const enum pm_face faces[] = {PM_PERIODIC, PM_WALL, PM_OPEN};
+enum { FACES = 3 };
+
+static void measure(size_t n, struct problem problems[FACES], struct pair *pair)
+{
+	struct bench_job jobs[FACES + 1] = {{solve, &problems[0], {0}}, {solve, &problems[1], {0}}, {solve, &problems[2], {0}}, {transform, pair, {0}}};
+	const double points = pow((double)n, 3);
+	char name[64];
+	bench_turns(FACES + 1, jobs);
+	struct bench_row row = row_of(n, PM_PERIODIC, name);
+	compare(row, points, &jobs[0], "time of FFTW's pair", &jobs[FACES], n < 128 ? 0 : n < 256 ? 0.8 : 0.5);
+	row = row_of(n, PM_WALL, name);
+	compare(row, points, &jobs[1], "time of periodic", &jobs[0], 2);
+	row = row_of(n, PM_OPEN, name);
+	compare(row, points, &jobs[2], "time of periodic", &jobs[0], 4);
+	row = (struct bench_row){.kernel = "poisson-fft", .name = name, .unit = "M points/s", .per = 1e6};
+	snprintf(name, sizeof name, "FFTW's r2c + c2r %zu", n);
+	bench_rate(row, points, &jobs[FACES]);
+}
+
+/* The same on all threads over one, by the wall's clock. */
+static void threads(size_t n, struct problem problems[FACES], int most)
+{
+	for (int f = 0; f < FACES; f++) {
+		struct bench_job all = {solve, &problems[f], {0}};
+		double quotient[BENCH_ROUNDS];
+		char name[64];
+		for (int r = -1; r < BENCH_ROUNDS; r++) {
+			double began = pm_seconds();
+			pm_threads_use(1), solve(&problems[f]);
+			double one = pm_seconds() - began;
+			pm_threads_use(most), solve(&problems[f]);
+			if (r >= 0)
+				all.seconds[r] = pm_seconds() - began - one, quotient[r] = one / all.seconds[r];
+		}
+		struct bench_row row = row_of(n, faces[f], name);
+		row.against = "one thread", row.other = NAN, row.ratio = bench_middle(quotient).median, row.least = 0.925 * most;
+		bench_rate(row, pow((double)n, 3), &all);
 	}
-	pm_operator_init(&o, &grid, PM_OP_GRAD, 4, 1, false);
-	t[0] = pm_seconds();
-	pm_poisson_fft_solve(solver, 1, s, phi, NULL);
-	t[1] = pm_seconds();
-	fftw_execute(there), fftw_execute(back);
-	t[2] = pm_seconds();
-	pm_operator_apply(&o, -1, (const double *[]){phi}, g, NULL);
-	t[3] = pm_seconds();
-	memcpy(g[0], phi, pm_grid_size(&grid) * sizeof(double));
-	t[4] = pm_seconds();
-	for (int i = 0; i < 4; i++)
-		ms[i * ROUNDS] = 1e3 * (t[i + 1] - t[i]);
 }
 
 int main(int argc, char **argv)
 {
 	static const size_t usual[] = {64, 128, 256};
-	printf("cells\tfaces\tsolve ms\tfftw pair ms\tratio\tmgrad order 4 ms\tmgrad over four copies\n");
+	int most = pm_threads();
 	for (int a = 0; a < (argc > 1 ? argc - 1 : 3); a++) {
 		size_t n = argc > 1 ? strtoul(argv[a + 1], NULL, 10) : usual[a], points = (n + 1) * (n + 1) * (n + 1);
-		double *s = pm_zalloc(points, sizeof *s), *phi = pm_zalloc(points, sizeof *phi), *g[3], *w = pm_zalloc(n * n * (n + 2), sizeof *w);
-		double *x = pm_zalloc(n * n * n, sizeof *x);
-		for (int d = 0; d < 3; d++)
-			g[d] = pm_zalloc(points, sizeof *s);
-		fftw_plan there = fftw_plan_dft_r2c_3d((int)n, (int)n, (int)n, x, (fftw_complex *)w, FFTW_MEASURE);
-		fftw_plan back = fftw_plan_dft_c2r_3d((int)n, (int)n, (int)n, (fftw_complex *)w, x, FFTW_MEASURE);
+		struct problem problems[FACES] = {{.s = pm_zalloc(points, sizeof(double)), .phi = pm_zalloc(points, sizeof(double))}};
+		struct pair pair = {.x = pm_zalloc(n * n * n, sizeof(double)), .w = pm_zalloc(n * n * (n + 2), sizeof(double))};
+		pair.there = fftw_plan_dft_r2c_3d((int)n, (int)n, (int)n, pair.x, (fftw_complex *)pair.w, FFTW_MEASURE);
+		pair.back = fftw_plan_dft_c2r_3d((int)n, (int)n, (int)n, (fftw_complex *)pair.w, pair.x, FFTW_MEASURE);
 		for (size_t i = 0; i < points; i++)
-			s[i] = (double)(i % 17) - 8;
-		static const enum pm_face faces[] = {PM_PERIODIC, PM_WALL, PM_OPEN};
-		for (int f = 0; f < (n > 200 ? 2 : 3); f++) { /* open at 256^3 wants gigabytes */
-			double ms[4][ROUNDS];
-			for (int r = 0; r < ROUNDS; r++)
-				round_of(n, faces[f], there, back, s, phi, g, &ms[0][r]);
-			double solve = median(ms[0]), pair = median(ms[1]), grad = median(ms[2]), copy = median(ms[3]);
-			printf("%zu\t%s\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\n", n, pm_face_names[faces[f]], solve, pair, solve / pair, grad, grad / (4 * copy));
+			problems[0].s[i] = (double)(i % 17) - 8;
+		for (int f = 0; f < FACES; f++) {
+			struct pm_grid grid = cube(n, faces[f]);
+			problems[f].s = problems[0].s, problems[f].phi = problems[0].phi;
+			problems[f].solver = pm_poisson_fft_new(&grid, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_MEASURE);
+			if (!problems[f].solver) {
+				fprintf(stderr, "poisson-fft: %s\n", pm_message());
+				return 1;
+			}
 		}
-		pm_free(s), pm_free(phi), pm_free(w), pm_free(x), pm_free(g[0]), pm_free(g[1]), pm_free(g[2]);
+		pm_threads_use(1);
+		measure(n, problems, &pair);
+		pm_threads_use(most);
+		if (most > 1)
+			threads(n, problems, most);
+		for (int f = 0; f < FACES; f++)
+			pm_poisson_fft_free(problems[f].solver);
+		fftw_destroy_plan(pair.there), fftw_destroy_plan(pair.back);
+		pm_free(problems[0].s), pm_free(problems[0].phi), pm_free(pair.x), pm_free(pair.w);
 	}
 	return 0;
 }

@@ -1,18 +1,38 @@
 #!/usr/bin/env bash
-# Where the seconds go that are not physics: the start of a filter, the rate at which it passes on what it does not need, and the share of a
-# fused cycle that no stage accounts for; then the measuring programs of this directory. Tab-separated: what, case, value.
+# Measures everything of docs/speed.md and ends with a table; `run.sh --markdown` also writes the tables of docs/speed.md anew. Rows are those of bench.h,
+# one after the other in build/bench/rows.tsv. The machine first, then what is not physics (start of a filter, passing on, a cycle's own share), then
+# the kernels. Peers that are not installed are skipped with a line. Names (`run.sh pp mgrad`) limit it to these parts. 6 minutes.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."
 top=$PWD
-export PATH=$top/bin:$PATH LC_ALL=C
-n=${N:-1000000} # particles of the large cases
+b=$top/build/bench
+export PATH=$top/bin:$PATH LC_ALL=C OMP_WAIT_POLICY=passive
+export PM_MACHINE=$b/machine.tsv PM_PEERS=$b/peers.tsv
+markdown=
+[ "${1:-}" != --markdown ] || { markdown=1 && shift; }
+parts=("$@")
+[ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp push mgrad step)
+rows=$b/rows.tsv
+cores=${OMP_NUM_THREADS:-$(nproc)}
 scratch=$(mktemp -d /dev/shm/pm-bench-XXXXXX)
 trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
 
-# median SECONDS...
-median() { printf '%s\n' "$@" | sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+# keep COMMAND...: runs it, shows its rows and adds them to the file.
+keep() { "$@" | tee -a "$rows"; }
+
+# row KERNEL CASE UNIT SIGN TARGET: a row whose value is the median of the seven lines of standard input.
+row() {
+	sort -g | awk -F'\t' -v OFS='\t' -v k="$1" -v c="$2" -v u="$3" -v sign="$4" -v target="$5" -v threads="$cores" '
+		{ v[NR] = $1 }
+		END {
+			m = v[int((NR + 1) / 2)]
+			ok = sign == "-" ? "-" : (sign == ">=" ? m >= target : m <= target) ? "yes" : "no"
+			s = m < 0 ? -m : m
+			print k, c, threads, sprintf("%.4g", m), u, s > 0 ? sprintf("%.0f%%", 100 * (v[NR - 1] - v[2]) / s) : "-", "-", "-", "-", "-", "-", "-", "-", \
+				sign == "-" ? "-" : sign " " target, ok
+		}' | tee -a "$rows"
+}
 
 # seconds COMMAND LINE: wall time.
 seconds() {
@@ -21,35 +41,75 @@ seconds() {
 	awk -v a="$t" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.6f\n", b - a }'
 }
 
-# rate NAME FILE COMMAND LINE: GB/s of the file through it, median of 5.
-rate() {
-	local t=()
-	for _ in 1 2 3 4 5; do t+=("$(seconds "$3")"); done
-	awk -v b="$(wc -c <"$2")" -v t="$(median "${t[@]}")" -v n="$1" 'BEGIN { printf "pass-through\t%s\t%.2f GB/s\n", n, b / t / 1e9 }'
+# poisson-fft reads the density of a small mesh; the particles only pass by.
+through() { [ -s through.pm ] || pinit uniform -n 4000000 --cells 8 | p2m >through.pm; }
+part_start() {
+	through
+	keep "$b/start" through.pm
+}
+part_pass() {
+	through
+	local size i lines=('poisson-fft <through.pm >/dev/null' 'cat through.pm | poisson-fft | cat >/dev/null' 'poisson-fft <through.pm | mgrad | poisson-fft >/dev/null')
+	size=$(wc -c <through.pm)
+	rm -f pass.*
+	for _ in 0 1 2 3 4 5 6 7; do
+		for i in 0 1 2; do seconds "${lines[i]}" | awk -v b="$size" '{ print b / $1 / 1e9 }' >>pass.$i; done
+	done
+	sed 1d pass.0 | row pass-through 'one stage, file to /dev/null' GB/s '>=' 4
+	sed 1d pass.1 | row pass-through 'one stage between two pipes' GB/s - 0
+	sed 1d pass.2 | row pass-through 'three stages' GB/s - 0
+	rm through.pm
 }
 
-"$top/build/bench/start"
-
-# poisson-fft reads the density of a small mesh; the particles only pass by.
-pinit uniform -n $((4 * n)) --cells 8 | p2m >through.pm
-rate "one stage, file to /dev/null" through.pm 'poisson-fft <through.pm >/dev/null'
-rate "one stage, pipe to pipe" through.pm 'cat through.pm | poisson-fft | cat >/dev/null'
-rate "three stages" through.pm 'poisson-fft <through.pm | mgrad | poisson-fft >/dev/null'
-rm through.pm
-
-# A fused cycle: the seconds of its stages, and what is left of the wall clock. The first run makes the plans of the transforms.
-pinit uniform -n "$n" >start.pm
-sentence='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
-cycle -n 1 "$sentence" <start.pm >/dev/null
-for _ in 1 2 3 4 5; do
+# run NAME FILE STEPS ENGINE: cycle once; adds to NAME.stages and NAME.wall the seconds of the stages, without their set-up, and of all.
+run() {
 	rm -f timing.tsv
-	cycle -n 10 --timing timing.tsv "$sentence" <start.pm >/dev/null
-	awk -F'\t' '/^cycle/ { wall = $3; next } { sum += $3 } END { printf "%.4f %.3f %.3f\n", 1 - sum / wall, sum, wall }' timing.tsv
-done | sort -g | sed -n 3p | while read -r share sum wall; do
-	printf 'fused cycle\t%s particles, 10 steps\tframework share %s (stages %s s of %s s)\n' "$n" "$share" "$sum" "$wall"
-done
-awk -F'\t' '!/^cycle/ { printf "fused cycle\t%s\t%.4f s per step\n", $1, $3 / 10 }' timing.tsv
+	cycle -n "$3" --engine "$4" --timing timing.tsv 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' <"$2" >/dev/null
+	awk -F'\t' '/^cycle/ { wall = $3; next } { sum += $3 } END { print sum / '"$3"' >>"'"$1"'.stages"; print wall / '"$3"' >>"'"$1"'.wall" }' timing.tsv
+}
+# A cycle's own share: what no stage accounts for. The first round is not counted, it makes plans.
+part_cycle() {
+	pinit uniform -n 1000000 >large.pm
+	pinit uniform -n 100 --cells 8 >tiny.pm
+	for _ in 0 1 2 3 4 5 6 7; do
+		run large large.pm 40 fused
+		run tiny tiny.pm 5000 fused
+		run piped-large large.pm 5 pipes
+		run piped-tiny tiny.pm 100 pipes
+	done
+	sed -i 1d ./*.stages ./*.wall
+	paste large.stages large.wall | awk '{ print 100 * (1 - $1 / $2) }' | row cycle 'fused, 1e6 particles, 40 steps: own share' % '<=' 2
+	paste large.wall | awk '{ print 1e3 * $1 }' | row cycle 'fused, 1e6 particles: a step' ms - 0
+	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles: a step above the fused stages' ms - 0
+	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: own time a step' us '<=' 20
+	paste tiny.wall | awk '{ print 1e6 * $1 }' | row cycle 'fused, 100 particles: a step' us - 0
+	paste tiny.stages piped-tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'piped, 100 particles: a step above the fused stages' us - 0
+}
 
-for b in "$top"/build/bench/*; do
-	case $b in */start | *.o | *.d) ;; *) "$b" ;; esac
+part_transfer() {
+	python3 "$top/bench/pmesh.py" 192 >>"$PM_PEERS" || true
+	keep "$b/transfer" 192 1
+	keep "$b/transfer" 96 8 3 cic
+	keep "$b/transfer" 1024 1 2 cic pcs
+}
+part_step() {
+	pinit uniform -n 2097152 --cells 128 | OMP_NUM_THREADS=1 keep "$b/step"
+	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it wants 8 GB)' >&2 && return; }
+	pinit uniform -n 16777216 --cells 256 | keep "$b/step"
+}
+
+cd "$scratch"
+: >"$rows" >"$PM_PEERS"
+"$b/machine" >"$PM_MACHINE"
+keep cat "$PM_MACHINE"
+for p in "${parts[@]}"; do
+	if [ "$(type -t "part_$p")" = function ]; then "part_$p"; else keep "$b/$p"; fi
 done
+echo
+awk -f "$top/bench/table.awk" "$rows"
+[ -z "$markdown" ] || {
+	compiler=$(cc --version | sed 1q)
+	model=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed 1q)
+	awk -v markdown=1 -v about="$model, $cores threads, $compiler" -f "$top/bench/table.awk" "$rows" "$top/docs/speed.md" >speed.md
+	cat speed.md >"$top/docs/speed.md"
+}

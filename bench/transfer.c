@@ -1,33 +1,30 @@
-/* Speed of spread and gather, million particles per second: every kernel, random and tile-ordered positions, one scalar and (gather) a vector.
- * transfer [cells per axis [particles per cell [dim [kernel]]]]; the threads are OMP_NUM_THREADS. One thread is timed by the processor's clock, so that
- * other programs matter less, several by the wall's. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
+/* Speed of spread and gather, million particles per second: kernels in random and in tile order, one scalar and (gather) a vector, beside FINUFFT where its
+ * library is found (finufft.h) and pmesh where bench/pmesh.py found it.
+ * transfer [cells per axis [particles per cell [dim [kernel ...]]]], `all` for all kernels; on one thread and, where there are more, on all.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/transfer_order.h"
 
-enum { repeats = 3 };
+#include "finufft.h"
 
 struct run {
 	struct pm_transfer t;
-	size_t n;
+	size_t n, cells, per_cell;
+	int gathered;      /* components; 0: spread */
 	double *x[3], *q, *mesh[3], *out[3];
 };
 
-/* Position p: anywhere, or in the order of tiles of 32x16x8 (64x64, 4096) cells. */
-static void place(struct run *r, bool ordered, size_t per_cell)
+/* Particles at random, or the same in the order of p2m's tiles. */
+static void place(struct run *r, bool ordered)
 {
 	int dim = r->t.grid.dim;
-	size_t cells = r->t.grid.cells[0], n = r->n, volume = per_cell, edge[3];
+	size_t cells = r->t.grid.cells[0], volume = r->per_cell, edge[3];
 	for (int d = 0; d < dim; d++) {
 		edge[d] = (size_t)1 << pm_tile_shift[dim][d];
 		edge[d] = edge[d] < cells ? edge[d] : cells;
 		volume *= edge[d];
 	}
 #pragma omp parallel for
-	for (size_t p = 0; p < n; p++) {
+	for (size_t p = 0; p < r->n; p++) {
 		size_t tile = p / volume;
 		for (int d = 0; d < dim; d++) {
 			double u[2];
@@ -39,38 +36,97 @@ static void place(struct run *r, bool ordered, size_t per_cell)
 	}
 }
 
-static double seconds(void)
+static void pass(void *with)
 {
-	struct timespec t;
-	if (pm_threads() > 1)
-		return pm_seconds();
-	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double rate(struct run *r, const struct pm_kernel *k, int gathered)
-{
-	double best = INFINITY;
+	struct run *r = with;
 	struct pm_strays strays;
-	r->t.kernel = k;
-	r->t.components = gathered ? gathered : 1;
-	for (int i = 0; i < repeats; i++) {
-		double began = seconds();
-		int status = gathered ? pm_gather(&r->t, r->n, (const double *const *)r->x, (const double *const *)r->mesh, NULL, r->out, &strays)
-				      : pm_spread(&r->t, r->n, (const double *const *)r->x, (const double *const *)&r->q, r->mesh, &strays);
-		double took = seconds() - began;
-		if (status)
-			exit(1);
-		best = took < best ? took : best;
-	}
-	return 1e-6 * (double)r->n / best;
+	r->t.components = r->gathered ? r->gathered : 1;
+	int status = r->gathered ? pm_gather(&r->t, r->n, (const double *const *)r->x, (const double *const *)r->mesh, NULL, r->out, &strays)
+				 : pm_spread(&r->t, r->n, (const double *const *)r->x, (const double *const *)&r->q, r->mesh, &strays);
+	if (status)
+		exit(1);
 }
 
-int main(int argc, char **argv)
+/* What the peers reached on the machine of their table, 3-D, one thread; 0 unknown. */
+static double recorded(const struct run *r, bool ordered, int width)
 {
-	size_t cells = argc > 1 ? strtoul(argv[1], NULL, 10) : 128, per_cell = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
-	int dim = argc > 3 ? atoi(argv[3]) : 3;
-	struct run r = {.t.grid = {.dim = dim}, .n = per_cell};
+	static const double finufft[2][7] = {{0, 0, 21, 16.7, 16.8, 0, 10.3}, {0, 0, 9.4, 10.6, 10.2, 0, 5.8}};
+	static const double pmesh[7] = {0, 107, 59.5, 32.4, 14.5, 0, 0};
+	if (r->t.grid.dim != 3 || width > 6)
+		return 0;
+	return ordered ? pmesh[width] : pm_threads() == 1 ? finufft[r->gathered > 0][width] : 0;
+}
+
+static double target(const struct run *r, bool ordered, int width)
+{
+	if (ordered)
+		return r->gathered ? 3 : width > 2 ? 0 : r->per_cell > 1 ? 4 : 2.5;
+	return r->gathered || width == 2 ? 4 : 3;
+}
+
+/* One transfer, FINUFFT in turn with it; vector: a gather of dim components in turn with one of a scalar. */
+static void measure(struct run *r, struct finufft *finufft, bool ordered)
+{
+	struct run vector = *r;
+	const int dim = r->t.grid.dim, width = r->t.kernel->width;
+	double nodes = pow(width, dim), density = (double)r->per_cell;
+	bool peer = finufft && !ordered && finufft_plan(finufft, r->gathered ? 2 : 1, width < 2 ? 2 : width);
+	char name[96];
+	vector.gathered = dim;
+	struct bench_job jobs[3] = {{pass, r, {0}}};
+	int n = 1, at_peer = peer ? n++ : 0, at_vector = r->gathered ? n++ : 0;
+	if (peer)
+		jobs[at_peer] = (struct bench_job){finufft_run, finufft, {0}};
+	if (r->gathered)
+		jobs[at_vector] = (struct bench_job){pass, &vector, {0}};
+	bench_turns(n, jobs);
+	snprintf(name, sizeof name, "%s %s, %d-D %zu, %zu a cell", r->t.kernel->name, ordered ? "in tiles" : "random", dim, r->cells, r->per_cell);
+	/* Random order: positions and strength are read, written in order (with the line read first) and read again. The mesh once a cell. */
+	double record = 8. * (dim + 1), bytes = (ordered ? record : 4 * record) + 16 / density;
+	double live = bench_look("PM_PEERS", r->gathered ? "pmesh gather" : "pmesh spread", r->t.kernel->name, 1);
+	struct bench_row row = {.kernel = r->gathered ? "m2p" : "p2m", .name = name, .unit = "M/s", .per = 1e6, .bytes = bytes,
+		.flops = 2 * nodes + dim * width * 2. * (width - 1), .stream = "triad-nt", .least = target(r, ordered, width)};
+	if (ordered && isfinite(live)) {
+		row.against = "pmesh", row.other = live;
+		bench_rate(row, (double)r->n, &jobs[0]);
+	} else {
+		bench_against(row, (double)r->n, &jobs[0], ordered ? "pmesh" : "FINUFFT", peer ? &jobs[at_peer] : NULL, recorded(r, ordered, width));
+	}
+	if (r->gathered && dim > 1)
+		bench_rate((struct bench_row){.kernel = "m2p", .name = strcat(name, ", vector"), .unit = "M/s", .per = 1e6, .bytes = bytes + 8 * (dim - 1), .stream = "triad-nt",
+			.flops = row.flops + 2 * nodes * (dim - 1), .against = "time of a scalar", .other = (double)r->n / bench_median(&jobs[0]) / 1e6,
+			.ratio = bench_faster(&jobs[at_vector], &jobs[0]), .most = 1.7}, (double)r->n, &jobs[at_vector]);
+	if (peer)
+		finufft->destroy(finufft->plan);
+}
+
+/* Spread and gather on all threads over one, by the wall's clock. */
+static void threads(struct run *r, int most)
+{
+	for (r->gathered = 0; r->gathered < 2; r->gathered++) {
+		double quotient[BENCH_ROUNDS];
+		struct bench_job all = {pass, r, {0}};
+		for (int i = -1; i < BENCH_ROUNDS; i++) {
+			double t[3];
+			for (int k = 0; k < 2; k++) {
+				pm_threads_use(k ? most : 1);
+				t[0] = pm_seconds();
+				pass(r);
+				t[k + 1] = pm_seconds() - t[0];
+			}
+			if (i >= 0)
+				all.seconds[i] = t[2], quotient[i] = t[1] / t[2];
+		}
+		char name[96];
+		snprintf(name, sizeof name, "%s random, %d-D %zu, %d threads", r->t.kernel->name, r->t.grid.dim, r->cells, most);
+		bench_rate((struct bench_row){.kernel = r->gathered ? "m2p" : "p2m", .name = name, .unit = "M/s", .per = 1e6, .against = "one thread", .other = NAN,
+			.ratio = bench_middle(quotient).median, .least = 0.925 * most}, (double)r->n, &all);
+	}
+}
+
+static struct run run_new(size_t cells, size_t per_cell, int dim)
+{
+	struct run r = {.t.grid = {.dim = dim}, .n = per_cell, .cells = cells, .per_cell = per_cell};
 	for (int d = 0; d < 3; d++) {
 		r.t.grid.cells[d] = r.t.grid.points[d] = d < dim ? cells : 1;
 		r.t.grid.h[d] = 1;
@@ -82,14 +138,34 @@ int main(int argc, char **argv)
 		r.out[d] = pm_zalloc(r.n, sizeof(double));
 		r.mesh[d] = pm_zalloc(pm_grid_size(&r.t.grid), sizeof(double));
 	}
-	printf("%d-D, %zu cells per axis, %zu particles, %d threads; million particles per second\n", dim, cells, r.n, pm_threads());
-	printf("kernel\torder\tspread\tgather\tgather %d components\n", dim);
-	for (int i = 0; pm_kernels[i]; i++)
-		for (int ordered = 0; ordered < 2 && (argc < 5 || !strcmp(argv[4], pm_kernels[i]->name)); ordered++) {
-			place(&r, ordered, per_cell);
-			double spread = rate(&r, pm_kernels[i], 0), gather = rate(&r, pm_kernels[i], 1), vector = rate(&r, pm_kernels[i], dim);
-			printf("%s\t%s\t%.1f\t%.1f\t%.1f\n", pm_kernels[i]->name, ordered ? "tiles" : "random", spread, gather, vector);
-			fflush(stdout);
+	return r;
+}
+
+int main(int argc, char **argv)
+{
+	size_t cells = argc > 1 ? strtoul(argv[1], NULL, 10) : 128, per_cell = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
+	int dim = argc > 3 ? atoi(argv[3]) : 3, most = pm_threads();
+	const char *usual[] = {"cic", "tsc", "pcs", "m6prime"}, **names = argc > 4 ? (const char **)argv + 4 : usual;
+	int n = argc > 4 ? argc - 4 : 4;
+	struct run r = run_new(cells, per_cell, dim);
+	struct finufft finufft;
+	if (argc > 4 && !strcmp(argv[4], "all"))
+		for (n = 0, names = (const char **)pm_kernel_names; names[n];)
+			n++;
+	bool peer = finufft_open(&finufft);
+	for (int ordered = 0; ordered < 2; ordered++) {
+		place(&r, ordered);
+		if (peer && !ordered)
+			finufft_fill(&finufft, dim, cells, r.n, r.x);
+		pm_threads_use(1);
+		for (int i = 0; i < n; i++) {
+			r.t.kernel = pm_kernel_find(names[i]);
+			for (r.gathered = 0; r.t.kernel && r.gathered < 2; r.gathered++)
+				measure(&r, peer ? &finufft : NULL, ordered);
 		}
+		pm_threads_use(most);
+		if (most > 1 && !ordered && (r.t.kernel = pm_kernel_find(names[0])))
+			threads(&r, most);
+	}
 	return 0;
 }
