@@ -1,5 +1,5 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c become programs, lib/*/ become tables and one library.
-# make, demo, check, check-long, asan, valgrind, bench, gallery, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
@@ -95,7 +95,9 @@ $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 
 # Unit tests and measuring programs link every tool.
-$(unit) $(bench): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+$(unit) $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+$(B)/bench/counts: $(B)/bench/counts.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 unit: $(unit)
 
@@ -120,6 +122,11 @@ gallery: all
 	bash docs/gallery.sh
 bench: all $(bench)
 	bash bench/run.sh
+
+# Instructions of the hot loops in a build that is the same on every machine of a kind: written to bench/counts.tsv, or compared with it.
+counts counts-check:
+	+$(MAKE) -s B=build/portable PORTABLE=1 build/portable/bench/counts
+	CC=$(CC) bash bench/counts.sh $(if $(findstring check,$@),--check) build/portable/bench/counts
 measure:
 	@bash tests/measure.sh
 
@@ -165,5 +172,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit demo check check-long asan valgrind bench gallery measure lint man install uninstall clean
+.PHONY: all unit demo check check-long asan valgrind bench counts counts-check gallery measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

@@ -1,0 +1,126 @@
+/* The hot loops on small fixed problems, for counting instructions under callgrind (counts.sh): each case runs once to make its plans and once inside
+ * pm_counted. Prints per case: name, what is counted per, how many of them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "far/pp.h"
+#include "mesh/gradient.h"
+#include "mesh/transfer.h"
+#include "poisson/fft.h"
+#include "poisson/mg.h"
+
+#define pm_line pm_advance_line_of /* step/advance.h and mesh/lines.h name two structs alike */
+#include "step/advance.h"
+#undef pm_line
+
+enum { CELLS = 32, POINTS = CELLS * CELLS * CELLS, BODIES = 1024 };
+
+struct work {
+	double *x[3], *v[3], *a[3], *q, *rho, *phi, *g[3];
+	struct pm_transfer transfer;
+	struct pm_poisson_fft *fft;
+	struct pm_mg *mg;
+	struct pm_operator gradient;
+	struct pm_pp pp;
+};
+
+/* What callgrind looks at. */
+void pm_counted(void (*run)(struct work *), struct work *w);
+__attribute__((noinline)) void pm_counted(void (*run)(struct work *), struct work *w)
+{
+	run(w);
+	__asm__ volatile("" ::: "memory"); /* the call must not be the last thing done, or it becomes a jump */
+}
+
+static void must(int status)
+{
+	if (status)
+		fprintf(stderr, "counts: %s\n", pm_message()), exit(1);
+}
+
+static void spread(struct work *w)
+{
+	struct pm_strays strays;
+	w->transfer.components = 1;
+	must(pm_spread(&w->transfer, POINTS, (const double *const *)w->x, (const double *const *)&w->q, &w->rho, &strays));
+}
+
+static void gather(struct work *w)
+{
+	struct pm_strays strays;
+	w->transfer.components = 3;
+	must(pm_gather(&w->transfer, POINTS, (const double *const *)w->x, (const double *const *)w->g, NULL, w->a, &strays));
+}
+
+static void fft(struct work *w) { must(pm_poisson_fft_solve(w->fft, 1, w->rho, w->phi, NULL)); }
+static void cycle(struct work *w) { pm_mg_once(w->mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .relaxation = 1.15}); }
+static void gradient(struct work *w) { must(pm_operator_apply(&w->gradient, -1, (const double *const *)&w->phi, w->g, &(bool){false})); }
+
+static void pairs(struct work *w)
+{
+	uint64_t coincident;
+	must(pm_pp_sum(&w->pp, BODIES, BODIES, (const double *const *)w->x, w->q, w->a, NULL, &coincident));
+}
+
+static void push(struct work *w)
+{
+	struct pm_advance a = {.actions = 2};
+	struct pm_bounds box = {.lo = 0, .hi = CELLS, .fold = true};
+	a.action[0].step = pm_step_find("kick"), a.action[1].step = pm_step_find("drift");
+	for (int d = 0; d < 3; d++) {
+		struct pm_advance_line_of lines[2] = {{.y = w->x[d], .k = w->v[d], .position = true}, {.y = w->v[d], .k = w->a[d]}};
+		pm_advance_axis(POINTS, &a, 2, lines, w->x[d], NULL, &box);
+	}
+}
+
+static void run(struct work *w, const char *name, const char *per, double items, void (*f)(struct work *))
+{
+	f(w);
+	pm_counted(f, w);
+	printf("%s\t%s\t%.0f\n", name, per, items);
+}
+
+static void fill(struct work *w)
+{
+	w->q = pm_zalloc(POINTS, 8), w->rho = pm_zalloc(POINTS, 8), w->phi = pm_zalloc(POINTS, 8);
+	for (int d = 0; d < 3; d++) {
+		w->x[d] = pm_zalloc(POINTS, 8), w->v[d] = pm_zalloc(POINTS, 8), w->a[d] = pm_zalloc(POINTS, 8), w->g[d] = pm_zalloc(POINTS, 8);
+		for (size_t p = 0; p < POINTS; p++) {
+			double u[2];
+			pm_random(1, p, (uint64_t)d, u);
+			w->x[d][p] = u[0] * CELLS, w->v[d][p] = u[1], w->q[p] = 1;
+		}
+	}
+}
+
+int main(void)
+{
+	static const char *const kernels[] = {"cic", "pcs", "m6prime"};
+	struct work w = {.pp = {.dim = 3, .delta = 0.1, .mollifier = pm_mollifier_find("plummer")}};
+	struct pm_grid g = {.dim = 3};
+	char name[32];
+	for (int d = 0; d < 3; d++)
+		g.cells[d] = g.points[d] = CELLS, g.h[d] = 1, g.face[d][0] = g.face[d][1] = PM_PERIODIC;
+	fill(&w);
+	w.transfer.grid = g;
+	w.fft = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_ESTIMATE);
+	w.mg = pm_mg_new(&g);
+	must(!w.fft || !w.mg);
+	for (int k = 0; k < 3; k++) {
+		w.transfer.kernel = pm_kernel_find(kernels[k]);
+		snprintf(name, sizeof name, "p2m %s", kernels[k]), run(&w, name, "particle", POINTS, spread);
+		snprintf(name, sizeof name, "m2p %s, vector", kernels[k]), run(&w, name, "particle", POINTS, gather);
+	}
+	run(&w, "poisson-fft periodic 32^3", "point", POINTS, fft);
+	pm_mg_start(w.mg, w.rho, w.phi);
+	run(&w, "poisson-mg V(2,2) 32^3", "point", POINTS, cycle);
+	for (int order = 2; order < 5; order += 2) {
+		must(pm_operator_init(&w.gradient, &g, PM_OP_GRAD, order, 1, false));
+		snprintf(name, sizeof name, "mgrad order %d", order), run(&w, name, "point", POINTS, gradient);
+	}
+	run(&w, "pp full", "pair", (double)BODIES * BODIES, pairs);
+	w.pp.half = true;
+	run(&w, "pp half", "pair", (double)BODIES * BODIES, pairs);
+	run(&w, "push kick/2 drift", "particle", POINTS, push);
+	return 0;
+}
