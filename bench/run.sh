@@ -27,10 +27,11 @@ row() {
 		{ v[NR] = $1 }
 		END {
 			m = v[int((NR + 1) / 2)]
-			ok = sign == "-" ? "-" : (sign == ">=" ? m >= target : m <= target) ? "yes" : "no"
-			s = m < 0 ? -m : m
-			print k, c, threads, sprintf("%.4g", m), u, s > 0 ? sprintf("%.0f%%", 100 * (v[NR - 1] - v[2]) / s) : "-", "-", "-", "-", "-", "-", "-", "-", \
-				sign == "-" ? "-" : sign " " target, ok
+			ok = (sign == "-") ? "-" : ((sign == ">=" && m >= target + 0) || (sign == "<=" && m <= target + 0)) ? "yes" : "no"
+			s = (m < 0) ? -m : m
+			spread = (s > 0) ? sprintf("%.0f%%", 100 * (v[NR - 1] - v[2]) / s) : "-"
+			wanted = (sign == "-") ? "-" : sign " " target
+			print k, c, threads, sprintf("%.4g", m), u, spread, "-", "-", "-", "-", "-", "-", "-", wanted, ok
 		}' | tee -a "$rows"
 }
 
@@ -99,7 +100,7 @@ part_step() {
 }
 
 cd "$scratch"
-: >"$rows" >"$PM_PEERS"
+true | tee "$rows" >"$PM_PEERS"
 "$b/machine" >"$PM_MACHINE"
 keep cat "$PM_MACHINE"
 for p in "${parts[@]}"; do

@@ -1,0 +1,50 @@
+# The measuring programs of bench/: what they record without a clock, and the tables they make. What they measure is in docs/speed.md.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+@test "counts.sh: 4 % more instructions pass, 6 % more or fewer do not, nor does a case that is not counted any more" {
+	printf '# gcc\nfast\t100\tpoint\nslow\t2000\tparticle\n' >recorded
+	export COUNTS=$PWD/recorded
+	printf '# gcc\nfast\t104\tpoint\nslow\t1920\tparticle\n' >now
+	run -0 bash "$top/bench/counts.sh" --table "$PWD/now"
+	[ "$(grep -c '^ok' <<<"$output")" = 2 ]
+	printf '# gcc\nfast\t106\tpoint\nslow\t2000\tparticle\n' >now
+	run -1 bash "$top/bench/counts.sh" --table "$PWD/now"
+	[[ "$output" == *"not ok - fast: 106 instructions per point, 100 recorded"* ]]
+	printf '# gcc\nfast\t100\tpoint\nslow\t1880\tparticle\n' >now
+	run -1 bash "$top/bench/counts.sh" --table "$PWD/now"
+	printf '# gcc\nfast\t100\tpoint\n' >now
+	run -1 bash "$top/bench/counts.sh" --table "$PWD/now"
+	[[ "$output" == *"slow was not counted"* ]]
+}
+
+@test "the recorded counts name their compiler and have a number for every hot loop" {
+	head -n 1 "$top/bench/counts.tsv" | grep -qE '^# (gcc|clang) [0-9.]+ '
+	for case in 'p2m cic' 'p2m pcs' 'p2m m6prime' 'm2p cic, vector' 'poisson-fft periodic 32^3' 'poisson-mg V(2,2) 32^3' 'pp half' 'push kick/2 drift' 'mgrad order 2'; do
+		[ "$(awk -F'\t' -v c="$case" '$1 == c { print ($2 > 1) }' "$top/bench/counts.tsv")" = 1 ]
+	done
+}
+
+@test "the hot loops take the instructions recorded in bench/counts.tsv, within 5 %" {
+	program=$top/build/portable/bench/counts
+	[ -n "${PM_LONG:-}" ] || [ -x "$program" ] || skip "long: make counts-check"
+	[ -z "${PM_LONG:-}" ] || make -s -C "$top" B=build/portable PORTABLE=1 build/portable/bench/counts
+	run -0 bash "$top/bench/counts.sh" --check "$program"
+	[[ "$output" != *"not ok"* ]]
+	[[ "$output" != counts:\ skipped* ]] || skip "${output#*skipped, }"
+}
+
+@test "the tables of docs/speed.md are made from rows: those of a kernel that was measured, and no other line" {
+	printf 'pp\tfull\t1\t4.1\tGpair/s\t1%%\t-\t30\t4.4\t0.93\tplain loop\t4.2\t0.98\t>= 0.95\tyes\n' >rows.tsv
+	printf 'above\n<!-- rows: pp -->\nold\n<!-- end -->\nbetween\n<!-- rows: push -->\nkept\n<!-- end -->\n' >page.md
+	awk -v markdown=1 -f "$top/bench/table.awk" rows.tsv page.md >new.md
+	[ "$(grep -c 'pp | full | 1 | 4.1 | Gpair/s' new.md)" = 1 ]
+	[ "$(grep -cE '^(above|between|kept)$' new.md)" = 3 ]
+	run ! grep -q '^old$' new.md
+	# Made anew from the same rows it stays as it is.
+	awk -v markdown=1 -f "$top/bench/table.awk" rows.tsv new.md | cmp - new.md
+	# Every program of bench/ that prints rows has its place on the page.
+	for kernel in machine start pass-through cycle p2m m2p poisson-fft poisson-mg pp push mgrad diag step; do
+		grep -qE "^<!-- rows:.* $kernel( .*)? -->$" "$top/docs/speed.md"
+	done
+}
