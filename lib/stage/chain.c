@@ -29,6 +29,7 @@ static void child(char **argv, int in, int out)
 	const char *dir = pm_tool_find(argv[0]) ? pm_home() : NULL;
 	setpgid(0, 0); /* an interrupt from the terminal is for cycle, which ends the step first */
 	signal(SIGPIPE, SIG_DFL);
+	setenv("OMP_WAIT_POLICY", "passive", 0); /* threads that wait leave the cores to the other processes */
 	setenv("PM_QUIET", "1", 1); /* its message comes back down the stream, and cycle says it once */
 	dup2(in, STDIN_FILENO);
 	dup2(out, STDOUT_FILENO);
