@@ -17,7 +17,11 @@ CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(ARCH) -ffp-contract=off -fno-mat
 LDLIBS_ALL = -Wl,--as-needed -lfftw3 -lgsl -lgslcblas -lpng -ljansson -lm $(LDLIBS)
 # Programs take the large libraries as archives where these are there: poisson-fft then starts in half the time (bench/start.c).
 archive = $(or $(wildcard $(shell $(CC) -print-file-name=lib$(1).a)),-l$(1))
-LDLIBS_PROGRAM := $(foreach l,fftw3 gsl gslcblas jansson,$(call archive,$(l))) -Wl,--as-needed -lpng -lm $(LDLIBS)
+# So is libgomp, which reads OMP_WAIT_POLICY before any program of ours has a say, unless it is part of the program: threads that wait must sleep
+# (mains/ below), because those that spin take the cores from the other stages of a pipe (40 times the time on a busy machine).
+gomp := $(if $(findstring gcc,$(CC)),$(wildcard $(shell $(CC) -print-file-name=libgomp.a)))
+openmp := $(if $(gomp),-pthread,-fopenmp)
+LDLIBS_PROGRAM := $(foreach l,fftw3 gsl gslcblas jansson,$(call archive,$(l))) -Wl,--as-needed -lpng $(gomp) -lm $(LDLIBS)
 
 # sh5 alone links HDF5, which costs 5 ms to start: lib/h5/ is no part of the library, and sh5 is no word of a sentence.
 h5_include = $(patsubst -I%,-isystem %,$(or $(shell pkg-config --cflags-only-I hdf5 2>/dev/null),-I/usr/include/hdf5/serial))
@@ -78,21 +82,21 @@ $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 # The main of each program is generated; cycle and the unit tests link every tool that can be a word.
 $(B)/mains/%.c: Makefile
 	@mkdir -p $(@D)
-	@n=$$(echo $* | tr - _); printf '#include "stage/stage.h"\nextern const struct pm_tool tool_%s;\nint main(int argc, char **argv)\n{\n\treturn pm_main(&tool_%s, argc, argv);\n}\n' $$n $$n > $@
+	@n=$$(echo $* | tr - _); printf '#include <stdlib.h>\n#include "stage/stage.h"\nextern const struct pm_tool tool_%s;\n__attribute__((constructor(101))) static void sleepers(void)\n{\n\tsetenv("OMP_WAIT_POLICY", "passive", 0);\n}\nint main(int argc, char **argv)\n{\n\treturn pm_main(&tool_%s, argc, argv);\n}\n' $$n $$n > $@
 $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
 .PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
 
 $(bin_dir)/cycle: $(B)/mains/cycle.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
-	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 $(h5_obj): CFLAGS_ALL += $(h5_include)
 $(bin_dir)/sh5: $(B)/mains/sh5.o $(B)/tools/sh5.o $(h5_obj) $(B)/libpmpipe.a
 	@mkdir -p $(@D)
-	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM) $(h5_libs)
+	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM) $(h5_libs)
 $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
-	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 
 # Unit tests and measuring programs link every tool.
 $(unit) $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a

@@ -47,6 +47,16 @@ install_here() {
 	[ "$(column step <rows)" = 2 ]
 }
 
+@test "threads that wait sleep, and leave the cores to the other stages of a pipe, unless OMP_WAIT_POLICY says otherwise" {
+	! ldd "$(command -v p2m)" | grep -qE 'libgomp|libomp' || skip "the library of threads is not part of the program here"
+	unset OMP_WAIT_POLICY
+	export OMP_DISPLAY_ENV=true
+	run -0 p2m --version
+	[[ $output == *"OMP_WAIT_POLICY = 'PASSIVE'"* ]]
+	OMP_WAIT_POLICY=active run -0 p2m --version
+	[[ $output == *"OMP_WAIT_POLICY = 'ACTIVE'"* ]]
+}
+
 @test "every header of ours compiles alone" {
 	hdf5=$(pkg-config --cflags hdf5)
 	for h in "$top"/lib/*/*.h; do
