@@ -37,11 +37,11 @@ done <<-END
 	1.0 2.04590486569062 -0.851330458692056
 END
 
-echo "k lambda_D = 0.5, one word swapped"
+echo "k lambda_D = 1, one word swapped"
 while IFS=: read -r name sentence; do
-	read -r omega gamma <<<"$(wave 0.5 1.41566188860454 -0.153359466909605 "$sentence")"
-	is "omega, $name" "$omega" 1.41566188860454 0.0043
-	is "gamma, $name" "$gamma" -0.153359466909605 0.0023
+	read -r omega gamma <<<"$(wave 1.0 2.04590486569062 -0.851330458692056 "$sentence")"
+	is "omega, $name" "$omega" 2.04590486569062 0.0061
+	is "gamma, $name" "$gamma" -0.851330458692056 0.0128
 done <<-END
 	kernel pcs:push kick/2 drift | p2m --kernel pcs | poisson-fft | mgrad | m2p | push kick/2
 	poisson-mg:push kick/2 drift | p2m --kernel tsc | poisson-mg | mgrad | m2p | push kick/2
