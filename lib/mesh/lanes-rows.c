@@ -57,7 +57,7 @@ static void part_out(v8 *t, size_t rows, size_t at, size_t count, double *const 
 
 ALWAYS size_t beyond(size_t rows, size_t from) { return rows > from ? rows - from : 0; }
 
-void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, double *block)
+void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, const size_t *at, double *block)
 {
 	for (size_t i = 0; i < n; i += 8)
 		for (size_t from = 0; from < PM_LANES; from += 8) {
@@ -65,12 +65,12 @@ void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, doubl
 			if (n - i >= 8 && rows == PM_LANES) {
 				tile_in(row + from, i, t);
 				for (size_t q = 0; q < 8; q++)
-					*(v8 *)(block + (i + q) * PM_LANES + from) = t[q];
+					*(v8 *)(block + (at ? at[i + q] : i + q) * PM_LANES + from) = t[q];
 				continue;
 			}
 			part_in(row + from, beyond(rows, from), i, n - i < 8 ? n - i : 8, t);
 			for (size_t q = 0; q < 8 && i + q < n; q++)
-				*(v8 *)(block + (i + q) * PM_LANES + from) = t[q];
+				*(v8 *)(block + (at ? at[i + q] : i + q) * PM_LANES + from) = t[q];
 		}
 }
 

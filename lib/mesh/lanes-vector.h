@@ -1,4 +1,4 @@
-/* Eight doubles as one value, and eight complex numbers as two; private to lib/mesh/lanes*.c. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Eight doubles as one value, and eight complex numbers as two; private to lib/mesh/lanes*.c and lines-fold.c. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_LANES_VECTOR_H
 #define PM_LANES_VECTOR_H
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "mesh/lanes-vector.h"
+#include "mesh/lines-fold.h"
 
 ALWAYS struct c8 plus(struct c8 a, struct c8 b) { return (struct c8){a.re + b.re, a.im + b.im}; }
 ALWAYS struct c8 minus(struct c8 a, struct c8 b) { return (struct c8){a.re - b.re, a.im - b.im}; }
@@ -243,7 +244,9 @@ static void *fft_free(void *fft)
 	for (int s = 0; f && s < f->stages; s++)
 		pm_free(f->twiddle[s]);
 	if (f)
-		pm_free(f->at), pm_free(f->half);
+		pm_free(f->at), pm_free(f->half), pm_free(f->quarter);
+	for (int i = 0; f && i < 5; i++)
+		pm_free(f->fold[i]);
 	free(f);
 	return NULL;
 }
@@ -275,7 +278,7 @@ const struct pm_fft *pm_fft(struct pm_planner *p, size_t n)
 	return fft_new(p, n);
 }
 
-const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n)
+static struct pm_fft *shifted(struct pm_planner *p, size_t n)
 {
 	struct pm_fft *f = fft_new(p, n);
 	if (!f || f->half)
@@ -284,4 +287,31 @@ const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n)
 	for (size_t i = 0; f->half && i < n; i++)
 		circle(i, 2 * n, &f->half[2 * i], &f->half[2 * i + 1]);
 	return f->half ? f : NULL;
+}
+
+const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n)
+{
+	return shifted(p, n);
+}
+
+static size_t *rows_of(const struct pm_fft *f, enum pm_fold fold)
+{
+	size_t modes = fold == PM_FOLD_SINE ? f->n - 1 : fold == PM_FOLD_COSINE ? f->n + 1 : f->n, *row = pm_alloc(modes + 1, sizeof *row);
+	for (size_t m = 0; row && m < modes; m++)
+		row[m] = pm_fold_row(fold, f, m);
+	return row;
+}
+
+const struct pm_fft *pm_fft_folded(struct pm_planner *p, size_t n)
+{
+	struct pm_fft *f = shifted(p, n);
+	if (!f || f->quarter)
+		return f;
+	f->quarter = pm_alloc(2 * (n + 1), sizeof *f->quarter);
+	for (size_t i = 0; f->quarter && i <= n; i++)
+		circle(i, 4 * n, &f->quarter[2 * i], &f->quarter[2 * i + 1]);
+	bool good = f->quarter != NULL;
+	for (enum pm_fold fold = PM_FOLD_SINE; fold <= PM_FOLD_QUARTER_COSINE && good; fold++)
+		good = (f->fold[fold] = rows_of(f, fold)) != NULL;
+	return good ? f : NULL;
 }

@@ -15,21 +15,23 @@ struct pm_fft {
 	double *twiddle[PM_STAGES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
 	double cosine[PM_PRIME + 1][PM_PRIME], sine[PM_PRIME + 1][PM_PRIME]; /* of 2 pi i/p */
 	fftw_plan forward, backward;
-	double *half;              /* cos, sin of pi i/n for i < n; of pm_fft_shifted only */
+	double *half, *quarter;    /* cos, sin of pi i/n for i < n (of pm_fft_shifted and pm_fft_folded only), of pi i/2n for i <= n (of pm_fft_folded) */
+	size_t *fold[5];           /* of pm_fft_folded: by enum pm_fold the rows of the modes (mesh/lines-fold.h) */
 };
 
 /* A transform of length n, made once per planner and owned by it. NULL with a message. Never inside a parallel region. */
 const struct pm_fft *pm_fft(struct pm_planner *p, size_t n);
-/* The same with the table that shifts frequencies by a half. */
+/* The same with the tables that shift frequencies by a half, and with those of sine and cosine transforms of n cells. */
 const struct pm_fft *pm_fft_shifted(struct pm_planner *p, size_t n);
+const struct pm_fft *pm_fft_folded(struct pm_planner *p, size_t n);
 
 /* In place, not normalised: rows in natural order to rows at[k], with exp(-2 pi i jk/n); and back, with the opposite sign. */
 void pm_fft_forward(const struct pm_fft *f, double *block);
 void pm_fft_backward(const struct pm_fft *f, double *block);
 
 /* PM_LANES rows of memory, anywhere, to and from a block: rows 0-7 become the real, 8-15 the imaginary lanes; rows from `rows` on are missing and
- * count as zero. Element i goes to block row i on the way in, and comes from block row at[i] on the way out (at NULL: row i). */
-void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, double *block);
+ * count as zero. Element i goes to block row at[i] on the way in, and comes from there on the way out (at NULL: row i). */
+void pm_lanes_in(const double *const row[PM_LANES], size_t rows, size_t n, const size_t *at, double *block);
 void pm_lanes_out(const double *block, const size_t *at, size_t n, size_t rows, double *const row[PM_LANES]);
 
 /* The same for rows of reals and their spectra. out: the pair transforms in a block (rows q and q+8 as real and imaginary part) to frequencies

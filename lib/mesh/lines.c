@@ -12,18 +12,37 @@
 
 enum { L = PM_LANES, H = PM_LANES / 2 };
 
-int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line)
+static struct pm_line line_of(const enum pm_face face[2], size_t n)
 {
 	bool periodic = face[0] == PM_PERIODIC, wall[2] = {face[0] == PM_WALL, face[1] == PM_WALL};
 	int open = (face[0] == PM_OPEN) + (face[1] == PM_OPEN);
-	*line = (struct pm_line){.face = {face[0], face[1]}, .n = n, .length = periodic ? n : open == 1 ? 4 * n : 2 * n};
-	line->shifted = !periodic && !open && wall[0] != wall[1];
-	line->first = wall[0];
-	line->count = periodic ? n : n + 1 - wall[0] - wall[1];
-	line->row = line->first + (open == 1 && face[0] == PM_OPEN ? n : 0);
-	line->least = open == 1 ? wall[0] || wall[1] : wall[0] && wall[1];
-	line->modes = open == 2 ? line->length : open ? 2 * n + 1 - 2 * line->least : line->count;
+	struct pm_line line = {.face = {face[0], face[1]}, .n = n, .length = periodic ? n : open == 1 ? 4 * n : 2 * n};
+	line.shifted = !periodic && !open && wall[0] != wall[1];
+	line.first = wall[0];
+	line.count = periodic ? n : n + 1 - wall[0] - wall[1];
+	line.row = line.first + (open == 1 && face[0] == PM_OPEN ? n : 0);
+	line.least = open == 1 ? wall[0] || wall[1] : wall[0] && wall[1];
+	line.modes = open == 2 ? line.length : open ? 2 * n + 1 - 2 * line.least : line.count;
+	return line;
+}
+
+int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line)
+{
+	*line = line_of(face, n);
 	line->fft = line->shifted ? pm_fft_shifted(p, line->length) : pm_fft(p, line->length);
+	line->map = line->fft ? line->fft->at + line->least : NULL;
+	return line->fft ? 0 : -PM_DATA;
+}
+
+int pm_line_init_real(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line)
+{
+	bool wall[2] = {face[0] == PM_WALL, face[1] == PM_WALL}, neumann[2] = {face[0] == PM_NEUMANN, face[1] == PM_NEUMANN};
+	if (!(wall[0] || neumann[0]) || !(wall[1] || neumann[1]))
+		return pm_line_init(p, face, n, line);
+	*line = line_of(face, n);
+	line->fold = wall[0] ? (wall[1] ? PM_FOLD_SINE : PM_FOLD_QUARTER_SINE) : wall[1] ? PM_FOLD_QUARTER_COSINE : PM_FOLD_COSINE;
+	line->fft = pm_fft_folded(p, n);
+	line->map = line->fft ? line->fft->fold[line->fold] : NULL;
 	return line->fft ? 0 : -PM_DATA;
 }
 
@@ -91,28 +110,17 @@ void pm_line_backward(const struct pm_line *l, double *block)
 		twist(l->fft->half, 0, l->n + 1, true, block);
 }
 
-static void hartley(const struct pm_line *l, double *block)
+/* H_k = (1 + i)/2 F_k + (1 - i)/2 F_{N-k}; back F_k = (1 - i)/2 H_k + (1 + i)/2 H_{N-k}. */
+static void hartley(const struct pm_line *l, bool back, double *block)
 {
+	double turn = back ? -0.5 : 0.5;
 	for (size_t k = 1; k < l->length - k; k++) {
 		double *a = block + l->fft->at[k] * L, *b = block + l->fft->at[l->length - k] * L;
 		for (int q = 0; q < H; q++) {
 			double sr = 0.5 * (a[q] + b[q]), si = 0.5 * (a[q + H] + b[q + H]);
-			double dr = 0.5 * (a[q] - b[q]), di = 0.5 * (a[q + H] - b[q + H]);
+			double dr = turn * (a[q] - b[q]), di = turn * (a[q + H] - b[q + H]);
 			a[q] = sr - di, a[q + H] = si + dr;
 			b[q] = sr + di, b[q + H] = si - dr;
-		}
-	}
-}
-
-/* Frequencies or nodes [from, from+count), in their rows, times i. */
-static void turn(const struct pm_line *l, size_t from, size_t count, double *block)
-{
-	for (size_t k = from; k < from + count; k++) {
-		double *a = block + l->fft->at[k] * L;
-		for (int q = 0; q < H; q++) {
-			double re = a[q];
-			a[q] = -a[q + H];
-			a[q + H] = re;
 		}
 	}
 }
@@ -122,6 +130,19 @@ static bool whole(const struct pm_line *l)
 	return l->face[0] == PM_PERIODIC || (l->face[0] == PM_OPEN && l->face[1] == PM_OPEN);
 }
 
+/* Modes times i. */
+static void turn(const struct pm_line *l, double *block)
+{
+	for (size_t m = 0; m < l->modes; m++) {
+		double *a = block + l->map[m] * L;
+		for (int q = 0; q < H; q++) {
+			double re = a[q];
+			a[q] = -a[q + H];
+			a[q + H] = re;
+		}
+	}
+}
+
 static bool sines(const struct pm_line *l)
 {
 	return l->face[0] == PM_WALL || (half_open(l) && l->face[1] == PM_WALL);
@@ -129,49 +150,47 @@ static bool sines(const struct pm_line *l)
 
 void pm_line_real(const struct pm_line *l, double *block)
 {
+	if (l->fold) {
+		pm_fold(l->fold, l->fft, block);
+		return;
+	}
 	pm_line_forward(l, false, block);
 	if (whole(l))
-		hartley(l, block);
-	if (sines(l))
-		turn(l, l->least, l->modes, block);
+		hartley(l, false, block);
+	else if (sines(l))
+		turn(l, block);
 }
 
-/* Quarter waves: mode N-1-k is mode k with the sign of sin (wall below) or cos (wall above); nodes are turned by hand, for they come out in the
- * rows of frequencies. */
-static void quarter_back(const struct pm_line *l, double *block)
+/* From sines or cosines the frequencies that they are made of: F_k = C_k = F_N-k, F_k = -i S_k = -F_N-k. */
+static void mirror(const struct pm_line *l, double *block)
 {
-	double sign = l->face[0] == PM_WALL ? -1 : 1;
-	for (size_t k = 0; k < l->n; k++)
-		for (int q = 0; q < L; q++)
-			block[(l->length - 1 - k) * L + q] = sign * block[k * L + q];
-	pm_fft_forward(l->fft, block);
-	for (size_t i = l->first; i < l->first + l->count; i++) {
-		const double *half = l->fft->half + 2 * i;
-		double *a = block + l->fft->at[i] * L;
-		for (int q = 0; q < H; q++) {
-			double re = a[q], im = a[q + H];
-			a[q] = re * half[0] + im * half[1], a[q + H] = im * half[0] - re * half[1];
+	double sign = sines(l) ? -1 : 1;
+	if (sign < 0)
+		turn(l, block);
+	if (l->least) {
+		memset(block, 0, L * sizeof *block);
+		memset(block + l->fft->at[l->length / 2] * L, 0, L * sizeof *block);
+	}
+	for (size_t k = l->least; k < l->least + l->modes; k++) {
+		double *a = block + l->fft->at[k] * L, *b = block + l->fft->at[pm_line_partner(l, k)] * L;
+		for (int q = 0; q < L && a != b; q++) {
+			b[q] = a[q];
+			a[q] *= sign;
 		}
 	}
-	if (l->face[0] == PM_WALL)
-		turn(l, l->first, l->count, block);
 }
 
 void pm_line_real_back(const struct pm_line *l, double *block)
 {
-	if (l->shifted) {
-		quarter_back(l, block);
-	} else if (whole(l)) {
-		pm_fft_forward(l->fft, block);
-		hartley(l, block);
-	} else if (half_open(l)) {
-		images(l, false, block);
-		pm_fft_forward(l->fft, block);
-		if (sines(l))
-			turn(l, l->least, l->modes, block);
-	} else {
-		pm_line_real(l, block);
+	if (l->fold) {
+		pm_fold_back(l->fold, l->fft, block);
+		return;
 	}
+	if (whole(l))
+		hartley(l, true, block);
+	else
+		mirror(l, block);
+	pm_line_backward(l, block);
 }
 
 void pm_line_derivative(const struct pm_line *l, double h, bool flip, double *block)

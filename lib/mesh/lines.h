@@ -5,6 +5,7 @@
 
 #include "mesh/grid.h"
 #include "mesh/lanes.h"
+#include "mesh/lines-fold.h"
 
 struct pm_line {
 	enum pm_face face[2]; /* periodic; wall: odd images; neumann: even images; open: zeros up to the doubled length; open at one end: both,
@@ -15,10 +16,14 @@ struct pm_line {
 	size_t row;           /* of the block where the first of them is: first, or n more where the face below is open and that above is not */
 	size_t least, modes;  /* of the real transforms: frequency of the first, and how many */
 	size_t length;        /* of the complex transform: n, or 2n where images or zeros fill it, or 4n where both do */
-	const struct pm_fft *fft; /* of that length; of the planner */
+	const struct pm_fft *fft; /* of that length, folded: n; of the planner */
+	enum pm_fold fold;    /* of pm_line_init_real */
+	const size_t *map;    /* rows of the block in which the modes of the real transforms are */
 };
 
 int pm_line_init(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line);
+/* For pm_line_real and back only, which then take half the time between walls and neumann faces. */
+int pm_line_init_real(struct pm_planner *p, const enum pm_face face[2], size_t n, struct pm_line *line);
 
 /* The frequency whose waves are the conjugates of those of frequency k. */
 static inline size_t pm_line_partner(const struct pm_line *l, size_t k)
@@ -35,8 +40,8 @@ void pm_line_forward(const struct pm_line *l, bool flip, double *block);
 void pm_line_backward(const struct pm_line *l, double *block);
 
 /* The real transform that diagonalises even operators with these faces: Hartley (periodic; open: of the doubled line), DST-I (wall), DCT-I (neumann),
- * quarter-wave sines (wall, neumann) and cosines (neumann, wall). Nodes in rows row ... row+count-1, mode m comes out in row fft->at[least+m].
- * Back: mode m in row least+m, node number i of those that take part in row fft->at[row+i]; together they multiply by length. */
+ * quarter-wave sines (wall, neumann; up to a sign) and cosines (neumann, wall). Nodes in rows row ... row+count-1 to mode m in row map[m] (fft->at[least+m]
+ * unless folded), and back; together they multiply by length. */
 void pm_line_real(const struct pm_line *l, double *block);
 void pm_line_real_back(const struct pm_line *l, double *block);
 

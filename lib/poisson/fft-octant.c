@@ -100,7 +100,7 @@ static void rows(const struct side *s, size_t count, size_t stride, double *at, 
 	double *row[L];
 	for (size_t r = 0; r < count; r++)
 		row[r] = at + r * stride;
-	pm_lanes_in((const double *const *)row, count, s->samples, block);
+	pm_lanes_in((const double *const *)row, count, s->samples, NULL, block);
 	transform(s, block, other);
 	pm_lanes_out(other, NULL, s->size, count, row);
 }

@@ -107,7 +107,7 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 			memcpy(row, from, p->nodes[X] * sizeof *row);
 		in[r] = row, out[r] = to + r * p->row;
 	}
-	pm_lanes_in(in, g->rows, p->nodes[X], s.block + l->row * L);
+	pm_lanes_in(in, g->rows, p->nodes[X], NULL, s.block + l->row * L);
 	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
 	if (p->open)
 		weigh(p, g, s.block);
@@ -117,7 +117,7 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 		return largest;
 	}
 	pm_line_real(l, s.block);
-	pm_lanes_out(s.block, l->fft->at + l->least, p->modes[X], g->rows, out);
+	pm_lanes_out(s.block, l->map, p->modes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
 		memset(out[r] + p->modes[X], 0, (p->chunks * L - p->modes[X]) * sizeof *to);
 	return largest;
@@ -134,15 +134,21 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 		pm_spectra_in(l->fft, g->rows, in, s.block);
 		pm_fft_backward(l->fft, s.block);
 	} else {
-		pm_lanes_in(in, g->rows, p->modes[X], s.block + l->least * L);
+		pm_lanes_in(in, g->rows, p->modes[X], l->map, s.block);
 		pm_line_real_back(l, s.block);
 	}
-	pm_lanes_out(s.block, p->complex ? NULL : l->fft->at + l->row, p->nodes[X], g->rows, out);
+	pm_lanes_out(s.block + l->row * L, NULL, p->nodes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows; r++)
 		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
 }
 
-/* n rows of a block, as at[] has them, to memory. */
+/* n rows of a block, as at[] has them, from and to memory. */
+static void gather_real(const double *from, size_t stride, const size_t *at, size_t n, double *block)
+{
+	for (size_t i = 0; i < n; i++)
+		memcpy(block + at[i] * L, from + i * stride, L * sizeof *block);
+}
+
 static void scatter_real(const double *block, const size_t *at, size_t n, size_t stride, double *to)
 {
 	for (size_t i = 0; i < n; i++)
@@ -154,19 +160,21 @@ static void columns(const struct pm_poisson_fft *p, double *plane, bool forward,
 {
 	const struct pm_line *l = &p->line[Y];
 	for (size_t c = 0; c < p->chunks; c++, plane += L) {
-		gather(plane, p->row, forward ? p->nodes[Y] : p->modes[Y], block + (p->complex ? 0 : forward ? l->row : l->least) * L);
+		if (forward)
+			gather(plane, p->row, p->nodes[Y], block + l->row * L);
+		else if (p->complex)
+			gather(plane, p->row, p->modes[Y], block);
+		else
+			gather_real(plane, p->row, l->map, p->modes[Y], block);
 		if (!p->complex && forward) {
 			pm_line_real(l, block);
-			scatter_real(block, l->fft->at + l->least, p->modes[Y], p->row, plane);
-		} else if (!p->complex) {
-			pm_line_real_back(l, block);
-			scatter_real(block, l->fft->at + l->row, p->nodes[Y], p->row, plane);
+			scatter_real(block, l->map, p->modes[Y], p->row, plane);
 		} else if (forward) {
 			pm_line_forward(l, false, block);
 			scatter(block, p->modes[Y], p->row, plane);
 		} else {
-			pm_line_backward(l, block);
-			scatter(block, p->nodes[Y], p->row, plane);
+			(p->complex ? pm_line_backward : pm_line_real_back)(l, block);
+			scatter(block + l->row * L, p->nodes[Y], p->row, plane);
 		}
 	}
 }
@@ -279,18 +287,36 @@ static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, dou
 		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->length / 2] * L, 0, L * sizeof *block);
 }
 
+static void forward(const struct pm_line *l, double *block)
+{
+	pm_line_forward(l, false, block);
+}
+
+static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+{
+	const struct pm_line *l = &p->line[Z];
+	for (size_t m = 0; m < l->modes; m++) {
+		double u[L], *a = block + l->map[m] * L;
+		multiplier(p, j, m, c, L, factor, u);
+		for (int q = 0; q < L; q++)
+			a[q] *= u[q];
+	}
+}
+
 static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at)
 {
 	const struct pm_line *l = &p->line[Z];
 	gather(at, p->row, p->nodes[Z], block + l->row * L);
-	pm_line_forward(l, false, block);
+	(l->fold ? pm_line_real : forward)(l, block);
 	if (j == 0 && c == 0)
 		p->zero = block[0];
 	if (p->complex)
 		complex_pencils(p, j, c, factor, block);
+	else if (l->fold)
+		folded_pencils(p, j, c, factor, block);
 	else
 		real_pencils(p, j, c, factor, block);
-	pm_line_backward(l, block);
+	(l->fold ? pm_line_real_back : pm_line_backward)(l, block);
 	scatter(block + l->row * L, p->nodes[Z], p->row, at);
 }
 
