@@ -53,7 +53,7 @@ static void gather(struct work *w)
 }
 
 static void fft(struct work *w) { must(pm_poisson_fft_solve(w->fft, 1, w->rho, w->phi, NULL)); }
-static void cycle(struct work *w) { pm_mg_once(w->mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .relaxation = 1.15}); }
+static void cycle(struct work *w) { pm_mg_once(w->mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .smoother = PM_MG_SOR, .relaxation = 1.15}); }
 static void gradient(struct work *w) { must(pm_operator_apply(&w->gradient, -1, (const double *const *)&w->phi, w->g, &(bool){false})); }
 
 static void pairs(struct work *w)
@@ -104,7 +104,7 @@ int main(void)
 	fill(&w);
 	w.transfer.grid = g;
 	w.fft = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_ESTIMATE);
-	w.mg = pm_mg_new(&g);
+	w.mg = pm_mg_new(&g, 2);
 	must(!w.fft || !w.mg);
 	for (int k = 0; k < 3; k++) {
 		w.transfer.kernel = pm_kernel_find(kernels[k]);

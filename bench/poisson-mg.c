@@ -41,7 +41,7 @@ static struct problem problem_new(size_t n)
 	struct pm_grid g = {.dim = 3, .cells = {n, n, n}, .points = {n + 1, n + 1, n + 1}};
 	for (int d = 0; d < 3; d++)
 		g.h[d] = 1 / (double)n, g.face[d][0] = g.face[d][1] = PM_WALL;
-	p.mg = pm_mg_new(&g);
+	p.mg = pm_mg_new(&g, 2);
 	p.s = pm_zalloc(p.points, sizeof(double)), p.phi = pm_zalloc(p.points, sizeof(double));
 	for (size_t i = 0; i < p.points; i++) {
 		double u[2];
@@ -74,7 +74,7 @@ static void rows(struct problem *p, const struct problem *fmg, const struct benc
 static void measure(size_t n)
 {
 	struct problem p = problem_new(n), fmg = p;
-	p.choice = (struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1.15, .tolerance = 1e-10, .most = 50};
+	p.choice = (struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .smoother = PM_MG_SOR, .relaxation = 1.15, .tolerance = 1e-10, .most = 50};
 	fmg.choice = (struct pm_mg_choice){.pre = 1, .post = 1, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 0.9, .most = 50};
 	bool hypre = n <= 128 && pm_threads() == 1 && hypre_new(&p.hypre, n, p.s);
 	struct bench_job jobs[] = {{sweep, &p, {0}}, {solve, &p, {0}}, {solve, &fmg, {0}}, {peer, &p, {0}}};
