@@ -10,7 +10,7 @@ try:
 except ImportError as e:
     sys.exit(f"bench: skipped pmesh ({e})")
 
-cells = int(sys.argv[1]) if len(sys.argv) > 1 else 192
+cells = int(sys.argv[1]) if len(sys.argv) > 1 else 160
 mesh = ParticleMesh(BoxSize=cells, Nmesh=[cells] * 3, dtype="f8")
 nodes = numpy.stack(numpy.meshgrid(*[numpy.arange(cells)] * 3, indexing="ij"), -1).reshape(-1, 3)
 x = nodes + numpy.random.default_rng(1).random(nodes.shape)

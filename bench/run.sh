@@ -88,8 +88,8 @@ part_cycle() {
 }
 
 part_transfer() {
-	python3 "$top/bench/pmesh.py" 192 >>"$PM_PEERS" || true
-	keep "$b/transfer" 192 1
+	python3 "$top/bench/pmesh.py" 160 >>"$PM_PEERS" || true
+	keep "$b/transfer" 160 1
 	keep "$b/transfer" 96 8 3 cic
 	keep "$b/transfer" 1024 1 2 cic pcs
 }

@@ -1,7 +1,8 @@
 /* Bulk quantities of particles: mass, kinetic energy, momentum and its scale sum m|v|, angular momentum, first moment, largest distance.
- * Each is a sum over particles, compensated (Neumaier 1974) in blocks of pm_sum_block particles; the blocks are joined in their order, whatever
- * thread made them. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Each is a sum over particles, compensated (Neumaier 1974), every eighth particle of a block of pm_sum_block together; the eight and the blocks are joined
+ * in their order, whatever thread made them. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
+#include "measure/sums.h"
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
 enum { BATCH = 64 }; /* blocks between two joins; bounds the memory, not the result */
@@ -11,36 +12,74 @@ struct block {
 	double farthest2;
 };
 
-static void add_particle(const struct pm_bodies *b, size_t i, struct block *block)
+/* The same of a block under way, eight particles side by side. */
+struct lanes {
+	struct pm_sums sum[SUMS];
+	pm_lanes farthest2;
+};
+
+PM_LANES_INLINE pm_lanes load(const double *p, size_t n) { return n == PM_LANES ? pm_sums_load(p) : pm_sums_load_few(p, n); }
+
+PM_LANES_INLINE pm_lanes root(pm_lanes v)
 {
-	double x[3] = {0}, v[3] = {0}, x2 = 0, v2 = 0;
-	const double m = b->mass ? b->mass[i] : NAN;
-	for (int d = 0; d < b->dim; d++)
-		x[d] = b->x[d][i], x2 += x[d] * x[d];
-	for (int d = 0; d < b->vdim; d++)
-		v[d] = b->v[d][i], v2 += v[d] * v[d];
-	block->farthest2 = fmax(block->farthest2, x2);
-	pm_sum_add(&block->sum[MASS], m);
+	for (int l = 0; l < PM_LANES; l++)
+		v[l] = sqrt(v[l]);
+	return v;
+}
+
+PM_LANES_INLINE pm_lanes larger(pm_lanes a, pm_lanes b)
+{
+	pm_lanes_bits below = a < b;
+	return (pm_lanes)(((pm_lanes_bits)b & below) | ((pm_lanes_bits)a & ~below));
+}
+
+/* n particles from i on; the others of the eight are 0. */
+PM_LANES_INLINE void add_particles(int dim, int vdim, const struct pm_bodies *b, size_t i, size_t n, struct lanes *s)
+{
+	pm_lanes x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0};
+	const pm_lanes m = b->mass ? load(b->mass + i, n) : pm_lanes_all(NAN);
+	for (int d = 0; d < dim; d++)
+		x[d] = load(b->x[d] + i, n), x2 += x[d] * x[d];
+	for (int d = 0; d < vdim; d++)
+		v[d] = load(b->v[d] + i, n), v2 += v[d] * v[d];
+	s->farthest2 = larger(s->farthest2, x2);
+	pm_sums_add(&s->sum[MASS], m);
 	for (int d = 0; d < 3; d++)
-		pm_sum_add(&block->sum[MOMENT + d], m * x[d]);
-	if (!b->vdim)
+		pm_sums_add(&s->sum[MOMENT + d], m * x[d]);
+	if (!vdim)
 		return;
-	pm_sum_add(&block->sum[KINETIC], 0.5 * m * v2);
-	pm_sum_add(&block->sum[SCALE], m * sqrt(v2));
-	pm_sum_add(&block->sum[SQUARE], v2);
+	pm_sums_add(&s->sum[KINETIC], 0.5 * m * v2);
+	pm_sums_add(&s->sum[SCALE], m * root(v2));
+	pm_sums_add(&s->sum[SQUARE], v2);
 	for (int d = 0; d < 3; d++) {
 		const int e = (d + 1) % 3, g = (d + 2) % 3;
-		pm_sum_add(&block->sum[MOMENTUM + d], m * v[d]);
-		pm_sum_add(&block->sum[ANGULAR + d], m * (x[e] * v[g] - x[g] * v[e]));
+		pm_sums_add(&s->sum[MOMENTUM + d], m * v[d]);
+		pm_sums_add(&s->sum[ANGULAR + d], m * (x[e] * v[g] - x[g] * v[e]));
 	}
+}
+
+PM_LANES_INLINE void add_block(int dim, int vdim, const struct pm_bodies *b, size_t from, size_t to, struct lanes *s)
+{
+	size_t i = from;
+	for (; i + PM_LANES <= to; i += PM_LANES)
+		add_particles(dim, vdim, b, i, PM_LANES, s);
+	if (i < to)
+		add_particles(dim, vdim, b, i, to - i, s);
 }
 
 static struct block block_of(const struct pm_bodies *b, size_t from)
 {
+	struct lanes lanes = {0};
 	struct block block = {0};
 	const size_t to = from + pm_sum_block < b->n ? from + pm_sum_block : b->n;
-	for (size_t i = from; i < to; i++)
-		add_particle(b, i, &block);
+	if (b->dim == 3 && b->vdim == 3)
+		add_block(3, 3, b, from, to, &lanes);
+	else
+		add_block(b->dim, b->vdim, b, from, to, &lanes);
+	for (int s = 0; s < SUMS; s++)
+		pm_sums_join(&block.sum[s], &lanes.sum[s]);
+	for (int l = 0; l < PM_LANES; l++)
+		block.farthest2 = fmax(block.farthest2, lanes.farthest2[l]);
 	return block;
 }
 
