@@ -104,6 +104,7 @@ $(unit) $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/table
 $(B)/bench/counts: $(B)/bench/counts.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 unit: $(unit)
+benches: $(bench)
 
 demo:
 	sh pipelines/demo.sh
@@ -124,7 +125,7 @@ valgrind:
 
 gallery: all
 	bash docs/gallery.sh
-bench: all $(bench)
+bench: all benches
 	bash bench/run.sh
 
 # Instructions of the hot loops in a build that is the same on every machine of a kind: written to bench/counts.tsv, or compared with it.
@@ -136,8 +137,8 @@ measure:
 
 # What compilers, mandoc and shellcheck have to say; all must be silent.
 lint: all man
-	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit
-	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit,@echo 'lint: no clang here')
+	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit benches
+	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
 	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh),@echo 'lint: no shellcheck here')
 
@@ -176,5 +177,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit demo check check-long asan valgrind bench counts counts-check gallery measure lint man install uninstall clean
+.PHONY: all unit benches demo check check-long asan valgrind bench counts counts-check gallery measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

