@@ -32,7 +32,7 @@ static const struct pm_option options[] = {
 		"red-black Gauss-Seidel, over-relaxed (sor), weighted Jacobi, or Gauss-Seidel in four colours (default: sor; order 4: four-colour; with --permittivity: red-black)",
 		false, offsetof(struct config, smoother)},
 	{"smooth", 0, PM_VECTOR, "sweeps", "2,2", 0, 20, NULL, "sweeps before and after the coarse grid", false, offsetof(struct config, smooth)},
-	{"relaxation", 0, PM_REAL, "", NULL, 0.1, 1.9, NULL, "factor of each sweep (default: 1; sor: 1.15; jacobi: 2/3, 4/5, 6/7 in 1-D, 2-D, 3-D)", false,
+	{"relaxation", 0, PM_REAL, "", NULL, 0.1, 1.9, NULL, "factor of each sweep (default: 1; sor: 1.15; jacobi: 2/3, 4/5, 6/7 in 1-D, 2-D, 3-D, and 2/3, 2/3, 4/7 at order 4)", false,
 		offsetof(struct config, relaxation)},
 	{"restriction", 0, PM_WORD, "", "full", 0, 0, restrictions, "weighting of the residual on its way to the coarse grid; half is there to compare", false,
 		offsetof(struct config, restriction)},

@@ -60,11 +60,15 @@ void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o)
 	smooth(mg, at, o, MG_CORRECT, o->post);
 }
 
-/* From the coarsest grid up, one cycle on each but the finest. */
-void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
+void pm_mg_start_sources(struct pm_mg *mg)
 {
 	for (int at = 0; at + 1 < mg->levels; at++)
 		pm_mg_restrict_source(mg, at);
+}
+
+/* From the coarsest grid up, one cycle on each but the finest. */
+void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
+{
 	pm_mg_solve_coarsest(mg);
 	for (int at = mg->levels - 2; at >= 0; at--) {
 		smooth(mg, at, o, MG_INTERPOLATE, 0);

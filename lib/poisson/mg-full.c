@@ -18,8 +18,7 @@ static size_t reflect(ptrdiff_t i, const struct mg_axis *a)
 	return (size_t)i;
 }
 
-/* Lagrange weights of up to four coarse nodes around x [coarse cells]. */
-static void interpolation(const struct mg_axis *c, ptrdiff_t below, double x, size_t *node, double *w)
+void pm_mg_lagrange(const struct mg_axis *c, ptrdiff_t below, double x, size_t *node, double *w)
 {
 	ptrdiff_t n = (ptrdiff_t)c->points, q = c->periodic || n > mg_cubic ? mg_cubic : n, start = below - 1;
 	if (!c->periodic)
@@ -68,7 +67,7 @@ bool pm_mg_full_tables(const struct mg_axis *f, const struct mg_axis *c, struct 
 			return false;
 	}
 	for (size_t i = 0; i < f->points; i++)
-		interpolation(c, map->parent[i], (double)map->parent[i] + map->w[1][i], map->four[0] + mg_cubic * i, map->cubic[0] + mg_cubic * i);
+		pm_mg_lagrange(c, map->parent[i], (double)map->parent[i] + map->w[1][i], map->four[0] + mg_cubic * i, map->cubic[0] + mg_cubic * i);
 	restriction(f, c, map);
 	return true;
 }

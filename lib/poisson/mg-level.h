@@ -108,7 +108,12 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
 double pm_mg_restrict(struct pm_mg *mg, int fine, bool half_weighting); /* of f - lap u; returns its sum of squares on the finest grid */
 
+/* mg-pyramid.c */
+bool pm_mg_pyramid(struct pm_mg *mg, double factor, const double *s); /* order 4: f of every grid but the finest from the source s itself; false: no memory */
+
 /* mg-full.c */
+/* Lagrange weights of up to four nodes of an axis around x [cells]; below = floor(x). */
+void pm_mg_lagrange(const struct mg_axis *a, ptrdiff_t below, double x, size_t *node, double *w);
 bool pm_mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
 void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
 void pm_mg_restrict_source(struct pm_mg *mg, int fine);
@@ -117,14 +122,15 @@ void pm_mg_restrict_source(struct pm_mg *mg, int fine);
 void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
 
 /* mg.c */
-int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r); /* as pm_mg_solve, for
-	a source that is already that of the differences */
+/* As pm_mg_solve, for a source that is already that of the differences; point: the source before it was made compact, NULL where there is none. */
+int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi, struct pm_mg_record *r);
 
 /* mg-cycle.c */
 size_t pm_mg_unknowns(const struct mg_level *l);
 void pm_mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
 double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
 void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */
-void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* from the coarsest grid up, one cycle on each but the finest */
+void pm_mg_start_sources(struct pm_mg *mg); /* the right-hand sides of all grids from the finest, for full multigrid */
+void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* then from the coarsest grid up, one cycle on each but the finest */
 
 #endif

@@ -110,14 +110,14 @@ static int solve_near(const struct pm_grid *n, int order, double *value, double 
 	struct pm_mg_record *r = pm_alloc(1, sizeof *r);
 	struct pm_mg *mg = pm_mg_new(n, order);
 	size_t size = pm_grid_size(n), at[3];
-	o.relaxation = pm_mg_relaxation(o.smoother, n->dim);
+	o.relaxation = pm_mg_relaxation(o.smoother, n->dim, order);
 	for (size_t p = 0; p < size; p++) {
 		at[0] = p % n->points[0], at[1] = p / n->points[0] % n->points[1], at[2] = p / n->points[0] / n->points[1];
 		f[p] = p == 0;
 		value[p] = on_high_face(n, at) ? far(n, order, at) : 0;
 	}
 	pm_mg_lift(n, &a, value, f);
-	int status = mg && r ? pm_mg_solve_differences(mg, &o, 1, f, f, r) : -PM_DATA;
+	int status = mg && r ? pm_mg_solve_differences(mg, &o, 1, f, NULL, f, r) : -PM_DATA;
 	for (size_t p = 0; p < size; p++)
 		value[p] += f[p]; /* 0 on the faces */
 	pm_mg_free(mg), pm_free(r);

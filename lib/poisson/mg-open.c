@@ -140,7 +140,7 @@ int pm_mg_open_solve(struct pm_mg_open *m, const struct pm_mg_choice *o, double 
 	int status = first ? 0 : -PM_DATA;
 	source(m, c, s);
 	if (!status)
-		status = pm_mg_solve_differences(m->mg, o, 1, m->f, phi, r);
+		status = pm_mg_solve_differences(m->mg, o, 1, m->f, NULL, phi, r);
 	if (!status) {
 		*first = *r;
 		induced(m, phi);
@@ -149,7 +149,7 @@ int pm_mg_open_solve(struct pm_mg_open *m, const struct pm_mg_choice *o, double 
 	}
 	if (!status) {
 		pm_mg_lift(&m->walled, &m->stencil, m->wall, m->f);
-		status = pm_mg_solve_differences(m->mg, o, 1, m->f, phi, r);
+		status = pm_mg_solve_differences(m->mg, o, 1, m->f, NULL, phi, r);
 		join(first, r);
 	}
 	for (size_t p = 0; p < n && !status; p++)

@@ -36,7 +36,7 @@ struct pm_mg; /* the hierarchy of grids, for one pm_grid */
 
 /* 0, or a failure that names what can: faces open and absorbing are refused. */
 int pm_mg_check(const struct pm_grid *g);
-double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim); /* what is usual: 2 dim/(2 dim+1) for Jacobi in 2-D and 3-D, 1, 1.15 for SOR */
+double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim, int order); /* what is usual: 1; 1.15 for SOR; 2/3, 4/5, 6/7 for Jacobi, less at order 4 */
 /* Faces periodic, wall (phi = 0) or neumann (no normal gradient), in any mixture; order 2 or 4 (Mehrstellen). NULL with a message. */
 struct pm_mg *pm_mg_new(const struct pm_grid *g, int order);
 struct pm_mg *pm_mg_free(struct pm_mg *mg);

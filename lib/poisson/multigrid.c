@@ -95,7 +95,7 @@ int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice 
 {
 	struct pm_mg_choice cycle = o->cycle;
 	if (isnan(cycle.relaxation))
-		cycle.relaxation = pm_mg_relaxation(cycle.smoother, g->dim);
+		cycle.relaxation = pm_mg_relaxation(cycle.smoother, g->dim, o->order);
 	if (o->variable) {
 		struct pm_mg_variable *v = variable(m, o, g, eps);
 		return v ? pm_mg_variable_solve(v, &cycle, c, s, phi, r) : pm_failed();

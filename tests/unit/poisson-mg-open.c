@@ -7,7 +7,7 @@
 static struct pm_mg_choice usual(int order, int dim)
 {
 	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12, .most = 60};
-	o.relaxation = pm_mg_relaxation(o.smoother, dim);
+	o.relaxation = pm_mg_relaxation(o.smoother, dim, order);
 	return o;
 }
 

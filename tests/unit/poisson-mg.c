@@ -189,6 +189,7 @@ static void test_full(void)
 	check_near(differences, 5.222570e-07, 1e-3 * 5.22e-7, "PS-10: the error of the differences themselves");
 	struct pm_mg_choice o = {.pre = 1, .post = 1, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 0.9, .most = 5};
 	pm_mg_start(mg, f, NULL);
+	pm_mg_start_sources(mg);
 	pm_mg_start_full(mg, &o);
 	pm_mg_once(mg, &o);
 	pm_mg_values(mg, u);
