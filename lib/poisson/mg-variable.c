@@ -209,5 +209,5 @@ int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o,
 	for (size_t p = 0; p < pm_grid_size(g) && r->singular; p++)
 		phi[p] -= shift;
 	pm_free(source);
-	return r->converged ? 0 : pm_mg_not_converged(r, o);
+	return r->converged ? 0 : pm_mg_not_converged(r, o, false);
 }

@@ -182,7 +182,7 @@ static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 	return residual <= 2 * DBL_EPSILON * terms;
 }
 
-int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o)
+int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o, bool transforms)
 {
 	char text[640] = "";
 	size_t used = 0;
@@ -190,7 +190,8 @@ int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice 
 	for (int i = from; i < r->n && used < sizeof text; i++)
 		used += (size_t)snprintf(text + used, sizeof text - used, " %.2e", r->history[i]);
 	return pm_fail(PM_NUMERICS, "multigrid did not converge: %d cycles left a relative residual of %.3e, tolerance %g; the %sresiduals:%s "
-		"(allow more with --max-cycles, smooth more with --smooth 3,3, or use poisson-fft)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text);
+		"(allow more with --max-cycles%s smooth more with --smooth 3,3%s)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text, transforms ? "," : " or",
+		transforms ? ", or use poisson-fft" : "");
 }
 
 /* The cycles until the tolerance, round-off or the last one. */
@@ -240,7 +241,7 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	store(mg, unit, 0, phi);
 	if (r->singular)
 		store(mg, unit, mean(mg, phi), phi);
-	return r->converged ? 0 : pm_mg_not_converged(r, o);
+	return r->converged ? 0 : pm_mg_not_converged(r, o, true);
 }
 
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)

@@ -47,7 +47,7 @@ int pm_mg_levels(const struct pm_mg *mg);
  * is zero. 0, or -PM_NUMERICS where the tolerance is not reached; the record is filled in any case. */
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r);
 
-int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o); /* the failure, with the history */
+int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o, bool transforms); /* the failure, with the history; would poisson-fft do? */
 
 /* For studies of convergence: f and u set by hand, one cycle (V or W), the root of the mean square of f - lap u, u copied out. */
 void pm_mg_start(struct pm_mg *mg, const double *f, const double *u);

@@ -102,3 +102,13 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	cat orders
 	[ "$(awk '$1 < 0.03' orders | wc -l)" = 4 ]
 }
+
+@test "PS-06: Mehrstellen with the compact right-hand side: a product of sines in a periodic square" {
+	# on a box of length 1 the ratio is u (2 pi m)^2 2 / s; at x = y = 1/(4m), where the sines are 1
+	for row in "1 0.999995880816087" "4 0.998986994425862"; do
+		read -r m ratio <<<"$row"
+		source_of 32 "sin(6.283185307179586*$m*(i%32)/32)*sin(6.283185307179586*$m*int(i/32)/32)" --dim 2 | poisson-mg --order 4 --coefficient -1 --tolerance 1e-14 | phi >u
+		got=$(awk -v m=$m 'NR == 33*8/m + 1 { printf "%.16g", 2 * $1 * (6.283185307179586*m)^2 }' u)
+		within "$got" "$ratio" 1e-12 "m = $m"
+	done
+}
