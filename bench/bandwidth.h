@@ -3,60 +3,67 @@
 #ifndef PM_BENCH_BANDWIDTH_H
 #define PM_BENCH_BANDWIDTH_H
 
-#include "base/lanes.h"
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 #include "bench.h"
+
+/* Eight numbers, of our own: lib/base and lib/mesh have each a PM_LANES. */
+enum { BANDWIDTH_LANES = 8 };
+typedef double bandwidth_lanes __attribute__((vector_size(64), may_alias));
 
 enum bandwidth { BANDWIDTH_READ, BANDWIDTH_COPY, BANDWIDTH_COPY_NT, BANDWIDTH_TRIAD, BANDWIDTH_TRIAD_NT, BANDWIDTH_UPDATE, BANDWIDTHS };
 static const char *const bandwidth_names[] = {"read", "copy", "copy-nt", "triad", "triad-nt", "update"};
 static const double bandwidth_bytes[] = {8, 16, 16, 24, 24, 16}; /* per element; the line that a plain store reads first is not counted */
 
 struct bandwidth_arrays {
-	size_t n; /* a multiple of PM_LANES */
+	size_t n; /* a multiple of 32 */
 	double *a, *b, *c;
 	enum bandwidth way;
 	double sum; /* so that nothing is left out */
 };
 
-PM_LANES_INLINE void bandwidth_past(double *p, pm_lanes v)
+static inline bandwidth_lanes bandwidth_at(const double *p) { return *(const bandwidth_lanes *)p; }
+
+static inline __attribute__((always_inline)) void bandwidth_past(double *p, bandwidth_lanes v)
 {
 #if defined __AVX512F__
 	_mm512_stream_pd(p, (__m512d)v);
 #elif defined __SSE2__ && defined __GNUC__
-	for (int l = 0; l < PM_LANES; l += 2)
+	for (int l = 0; l < BANDWIDTH_LANES; l += 2)
 		__builtin_ia32_movntpd(p + l, (__attribute__((vector_size(16))) double){v[l], v[l + 1]});
 #else
-	pm_lanes_store(p, v);
+	*(bandwidth_lanes *)p = v;
 #endif
 }
 
-PM_LANES_INLINE void bandwidth_fence(void)
+static inline __attribute__((always_inline)) void bandwidth_fence(void)
 {
 #ifdef __SSE2__
 	__builtin_ia32_sfence();
 #endif
 }
 
-/* from, to: multiples of 4 PM_LANES. */
-PM_LANES_INLINE void bandwidth_share(enum bandwidth way, size_t from, size_t to, double *a, const double *b, const double *c, pm_lanes sum[4])
+/* from, to: multiples of 32. */
+static inline __attribute__((always_inline)) void bandwidth_share(enum bandwidth way, size_t from, size_t to, double *a, const double *b, const double *c, bandwidth_lanes sum[4])
 {
-	pm_lanes three = pm_lanes_all(3);
-	for (size_t i = from; i < to; i += 4 * PM_LANES)
-		PM_LANES_UNROLL
+	for (size_t i = from; i < to; i += 4 * BANDWIDTH_LANES)
+		_Pragma("GCC unroll 8")
 		for (size_t k = 0; k < 4; k++) {
-			size_t at = i + k * PM_LANES;
+			size_t at = i + k * BANDWIDTH_LANES;
 			if (way == BANDWIDTH_READ)
-				sum[k] += pm_lanes_load(b + at);
+				sum[k] += bandwidth_at(b + at);
 			else if (way == BANDWIDTH_COPY)
-				pm_lanes_store(a + at, pm_lanes_load(b + at));
+				*(bandwidth_lanes *)(a + at) = (bandwidth_at(b + at));
 			else if (way == BANDWIDTH_COPY_NT)
-				bandwidth_past(a + at, pm_lanes_load(b + at));
+				bandwidth_past(a + at, bandwidth_at(b + at));
 			else if (way == BANDWIDTH_TRIAD)
-				pm_lanes_store(a + at, pm_lanes_fma(three, pm_lanes_load(c + at), pm_lanes_load(b + at)));
+				*(bandwidth_lanes *)(a + at) = (bandwidth_at(b + at) + 3 * bandwidth_at(c + at));
 			else if (way == BANDWIDTH_TRIAD_NT)
-				bandwidth_past(a + at, pm_lanes_fma(three, pm_lanes_load(c + at), pm_lanes_load(b + at)));
+				bandwidth_past(a + at, bandwidth_at(b + at) + 3 * bandwidth_at(c + at));
 			else
-				pm_lanes_store(a + at, pm_lanes_load(a + at) * three);
+				*(bandwidth_lanes *)(a + at) = (3 * bandwidth_at(a + at));
 		}
 	bandwidth_fence();
 }
@@ -70,7 +77,7 @@ static inline void bandwidth_pass(void *with)
 #pragma omp parallel for schedule(static) reduction(+ : total)
 	for (size_t i = 0; i < w->n; i += PIECE) {
 		size_t to = i + PIECE < w->n ? i + PIECE : w->n;
-		pm_lanes s[4] = {{0}};
+		bandwidth_lanes s[4] = {{0}};
 		switch (w->way) {
 		case BANDWIDTH_READ: bandwidth_share(BANDWIDTH_READ, i, to, w->a, w->b, w->c, s); break;
 		case BANDWIDTH_COPY: bandwidth_share(BANDWIDTH_COPY, i, to, w->a, w->b, w->c, s); break;
@@ -79,7 +86,9 @@ static inline void bandwidth_pass(void *with)
 		case BANDWIDTH_TRIAD_NT: bandwidth_share(BANDWIDTH_TRIAD_NT, i, to, w->a, w->b, w->c, s); break;
 		default: bandwidth_share(BANDWIDTH_UPDATE, i, to, w->a, w->b, w->c, s);
 		}
-		total += pm_lanes_sum((s[0] + s[1]) + (s[2] + s[3]));
+		s[0] = (s[0] + s[1]) + (s[2] + s[3]);
+		for (int l = 0; l < BANDWIDTH_LANES; l++)
+			total += s[0][l];
 	}
 	w->sum = total;
 }

@@ -1,5 +1,7 @@
 /* What the machine can do, on one thread and on all: bandwidth of plain loops over 64 MiB arrays, and fused multiply-adds per second as the compiler
  * makes them (two operations each). The limits of all other rows. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/lanes.h"
+
 #include "bandwidth.h"
 
 enum { ELEMENTS = 8 << 20, TURNS = 1 << 22 };

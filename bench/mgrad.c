@@ -3,8 +3,6 @@
 #include "bandwidth.h"
 
 #include "measure/measure.h"
-
-struct pm_planner; /* of mesh/plan.h, whose lanes are others */
 #include "mesh/gradient.h"
 
 enum { CELLS = 192 };

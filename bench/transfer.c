@@ -47,6 +47,32 @@ static void pass(void *with)
 		exit(1);
 }
 
+/* What anyone would write: cic in 3-D, periodic, particle by particle. pmesh's painter is of this kind. */
+static void by_hand(void *with)
+{
+	const struct run *r = with;
+	const size_t n = r->cells;
+	const double per = r->t.grid.h[0];
+	for (size_t p = 0; p < r->n; p++) {
+		size_t at[3][2];
+		double w[3][2], sum = 0;
+		for (int d = 0; d < 3; d++) {
+			double u = r->x[d][p] / per, below = floor(u);
+			w[d][1] = u - below, w[d][0] = 1 - w[d][1];
+			at[d][0] = (size_t)below, at[d][1] = at[d][0] + 1 < n ? at[d][0] + 1 : 0;
+		}
+		for (int c = 0; c < 8; c++) {
+			double *node = r->mesh[0] + (at[2][c >> 2] * n + at[1][c >> 1 & 1]) * n + at[0][c & 1], weight = w[2][c >> 2] * w[1][c >> 1 & 1] * w[0][c & 1];
+			if (r->gathered)
+				sum += weight * *node;
+			else
+				*node += weight * r->q[p];
+		}
+		if (r->gathered)
+			r->out[0][p] += sum;
+	}
+}
+
 /* What the peers reached on the machine of their table, 3-D, one thread; 0 unknown. */
 static double recorded(const struct run *r, bool ordered, int width)
 {
@@ -73,12 +99,15 @@ static void measure(struct run *r, struct finufft *finufft, bool ordered)
 	bool peer = finufft && !ordered && finufft_plan(finufft, r->gathered ? 2 : 1, width < 2 ? 2 : width);
 	char name[96];
 	vector.gathered = dim;
-	struct bench_job jobs[3] = {{pass, r, {0}}};
-	int n = 1, at_peer = peer ? n++ : 0, at_vector = r->gathered ? n++ : 0;
+	struct bench_job jobs[4] = {{pass, r, {0}}};
+	const bool plain = ordered && dim == 3 && !strcmp(r->t.kernel->name, "cic");
+	int n = 1, at_peer = peer ? n++ : 0, at_vector = r->gathered ? n++ : 0, at_plain = plain ? n++ : 0;
 	if (peer)
 		jobs[at_peer] = (struct bench_job){finufft_run, finufft, {0}};
 	if (r->gathered)
 		jobs[at_vector] = (struct bench_job){pass, &vector, {0}};
+	if (plain)
+		jobs[at_plain] = (struct bench_job){by_hand, r, {0}};
 	bench_turns(n, jobs);
 	snprintf(name, sizeof name, "%s %s, %d-D %zu, %zu a cell", r->t.kernel->name, ordered ? "in tiles" : "random", dim, r->cells, r->per_cell);
 	/* Random order: positions and strength are read, written in order (with the line read first) and read again. The mesh once a cell. */
@@ -92,6 +121,8 @@ static void measure(struct run *r, struct finufft *finufft, bool ordered)
 	} else {
 		bench_against(row, (double)r->n, &jobs[0], ordered ? "pmesh" : "FINUFFT", peer ? &jobs[at_peer] : NULL, recorded(r, ordered, width));
 	}
+	if (plain)
+		bench_against(row, (double)r->n, &jobs[0], "plain loop", &jobs[at_plain], 0);
 	if (r->gathered && dim > 1)
 		bench_rate((struct bench_row){.kernel = "m2p", .name = strcat(name, ", vector"), .unit = "M/s", .per = 1e6, .bytes = bytes + 8 * (dim - 1), .stream = "triad-nt",
 			.flops = row.flops + 2 * nodes * (dim - 1), .against = "time of a scalar", .other = (double)r->n / bench_median(&jobs[0]) / 1e6,
