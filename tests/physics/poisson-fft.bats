@@ -90,12 +90,14 @@ round_trip() {
 	below "$(worst back_1 omega_1 < in)" 1e-12
 }
 
-@test "poisson-relax takes the components of a vector between walls as poisson-fft does" {
+@test "poisson-relax and poisson-mg take the components of a vector between walls as poisson-fft does" {
 	pinit uniform -n 10 --faces wall,wall,neumann,wall,wall,neumann | p2m -n 9x8x10 | scalc --mesh mesh 'J = 1+x, x*y-1, z^2' > J
 	for wall in tangential normal all; do
-		sh_ok "poisson-fft --wall $wall --symbol fd2 --source J --target A < J | poisson-relax --wall $wall --source J --target B | stab --plain --mesh mesh > AB"
+		sh_ok "poisson-fft --wall $wall --symbol fd2 --source J --target A < J | poisson-relax --wall $wall --source J --target B |
+			poisson-mg --wall $wall --source J --target C | stab --plain --mesh mesh > AB"
 		for c in 0 1 2; do
-			below "$(worst B_$c A_$c < AB)" 1e-9 "$wall, component $c"
+			below "$(worst B_$c A_$c < AB)" 1e-9 "relax, $wall, component $c"
+			below "$(worst C_$c A_$c < AB)" 1e-9 "mg, $wall, component $c"
 		done
 	done
 }
