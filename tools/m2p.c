@@ -6,6 +6,7 @@
 #include "law/law.h"
 #include "mesh/carry.h"
 #include "mesh/bfield.h"
+#include "mesh/interlace.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
 
@@ -22,6 +23,11 @@ struct job {
 	struct pm_mesh *mesh;
 	struct pm_field *field;
 	struct pm_transfer transfer;
+	bool interlaced;
+	struct pm_interlaced both; /* of the field, on two meshes */
+};
+struct state {
+	struct pm_planner planner; /* of interlaced meshes */
 };
 
 /* The mesh that has the field, or the words that make it. */
@@ -77,12 +83,14 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	if (status)
 		return status;
 	const char *kernel = o->kernel ? o->kernel : j->field->kernel[0] ? j->field->kernel : j->law->kernel ? j->law->kernel : "cic";
-	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_find(kernel), .components = j->field->components};
+	const char *inner = pm_interlaced_kernel(kernel);
+	j->interlaced = inner && j->field->role != PM_STATE;
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_find(inner ? inner : kernel), .components = j->field->components};
 	if (!j->transfer.kernel)
 		return -PM_DATA;
 	memcpy(j->transfer.half, j->field->half, sizeof j->transfer.half);
 	set_images(j, f->dim, &j->transfer);
-	return 0;
+	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
 }
 
 static int plan(struct pm_stage *s, struct pm_frame *f)
@@ -138,7 +146,11 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 	}
 	if (!status)
 		status = pm_carry_append(carry, f, set, &t, mesh, factor, out);
-	if (!status && t.components)
+	if (!status && j->interlaced && t.components > j->transfer.components)
+		status = pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
+	if (!status && j->interlaced)
+		status = pm_interlace_gather(&j->both, &t, target->count, x, factor, out, &strays);
+	else if (!status && t.components)
 		status = pm_gather(&t, target->count, x, mesh, factor, out, &strays);
 	pm_free(ratio);
 	target->use |= !status && strays.finite && t.components == target->components ? PM_USE_SEEN : 0;
@@ -162,6 +174,22 @@ static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm
 		}
 }
 
+/* The field on both of its meshes. */
+static int interlace(struct pm_stage *s, struct job *j)
+{
+	struct pm_planner *p = &((struct state *)s->state)->planner;
+	const double *mesh[PM_COMPONENTS];
+	int effort = pm_effort_find(NULL);
+	if (effort < 0)
+		return -PM_USAGE;
+	p->effort = (enum pm_effort)effort;
+	for (int c = 0; c < j->field->components; c++)
+		mesh[c] = pm_in(j->field, c);
+	return pm_interlace_init(&j->both, &j->transfer, p, mesh);
+}
+
+static void release(struct pm_stage *s) { pm_planner_clear(&((struct state *)s->state)->planner); }
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -170,18 +198,21 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	int status = job_of(o, f, &j);
 	if (!status && !o->field)
 		status = pm_carry_init(&carry, f, &j.sets, j.mesh, &j.transfer);
+	if (!status && j.interlaced)
+		status = interlace(s, &j);
 	for (size_t i = 0; i < j.sets.n && !status; i++)
 		status = gather_set(s, f, &j, &carry, j.sets.name[i]);
 	if (!status)
 		report(s, f, &carry);
 	pm_carry_free(&carry);
+	pm_interlace_free(&j.both);
 	return status;
 }
 
 #define AT(member) offsetof(struct config, member)
 static const char *const outside[] = {"error", "drop", NULL};
 static const struct pm_option options[] = {
-	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how mesh points are weighted (default: the kernel the field was made with)", false,
+	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how mesh points are weighted (default: as the field was made, interlaced too)", false,
 		AT(kernel)},
 	{"field", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "gather this mesh field to a particle field of the same name instead", false, AT(field)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first that has the field)", false, AT(mesh)},
@@ -207,8 +238,10 @@ const struct pm_tool tool_m2p = {
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",
 	.adds = "the law's change field (acc, vel) and those of the mesh (dcirculation), or with --field a derived particle field",
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
 	.plan = plan,
 	.frame = frame,
+	.free = release,
 };

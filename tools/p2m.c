@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "mesh/interlace.h"
 #include "mesh/regrid.h"
 #include "mesh/transfer_frame.h"
 #include "stage/stage.h"
@@ -10,7 +11,10 @@
 struct config {
 	const char *kernel, *mesh, *set, *strength, *field, *outside;
 	struct pm_cells cells;
-	bool add;
+	bool add, interlace;
+};
+struct state {
+	struct pm_planner planner; /* of interlaced meshes */
 };
 
 /* What the options and the frame's law ask for. */
@@ -20,6 +24,15 @@ struct job {
 	struct pm_sets sets;
 	struct pm_mesh *mesh;
 };
+
+static int begin(struct pm_stage *s)
+{
+	int effort = ((struct config *)s->config)->interlace ? pm_effort_find(NULL) : 0;
+	((struct state *)s->state)->planner.effort = (enum pm_effort)effort;
+	return effort < 0 ? -PM_USAGE : 0;
+}
+
+static void release(struct pm_stage *s) { pm_planner_clear(&((struct state *)s->state)->planner); }
 
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
 {
@@ -51,6 +64,27 @@ static int regrid(const struct config *o, struct pm_frame *f, struct job *j)
 	return memcmp(cells, j->mesh->cells, sizeof cells) ? pm_mesh_regrid_box(f, j->mesh, cells) : 0;
 }
 
+static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job *j)
+{
+	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
+	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+	for (int c = 0; c < components && c < f->dim && components > 1; c++)
+		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
+	return t;
+}
+
+/* The density, under the kernel's name; interlaced, under that of both. */
+static int makes_density(const struct config *o, struct pm_frame *f, const struct job *j, bool add)
+{
+	struct pm_transfer t = transfer_of(f, j);
+	struct pm_kernel named = *j->kernel;
+	char name[PM_NAME];
+	if (o->interlace)
+		named.name = pm_interlaced_name(j->kernel->name, name);
+	int status = o->interlace ? pm_interlace_check(&t) : 0;
+	return status ? status : pm_makes_density(f, j->mesh, j->density, &named, &j->sets, j->strength, add);
+}
+
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -62,17 +96,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		if (!(status = pm_reads_positions(f, j.sets.name[i])))
 			status = pm_reads_strength(f, j.sets.name[i], j.strength);
 	if (!status)
-		status = pm_makes_density(f, j.mesh, j.density, j.kernel, &j.sets, j.strength, o->add);
+		status = makes_density(o, f, &j, o->add);
 	return status ? status : strcmp(o->outside, "grow") ? 0 : PM_HOLD;
-}
-
-static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job *j)
-{
-	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
-	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
-	for (int c = 0; c < components && c < f->dim && components > 1; c++)
-		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
-	return t;
 }
 
 static int grow(const struct config *o, struct pm_frame *f, struct job *j)
@@ -82,7 +107,7 @@ static int grow(const struct config *o, struct pm_frame *f, struct job *j)
 	if (status == 1 && o->add)
 		return pm_fail(PM_DATA, "mesh '%s' would have to grow under --add (let the first p2m grow it)", j->mesh->name);
 	if (status == 1)
-		status = pm_makes_density(f, j->mesh, j->density, j->kernel, &j->sets, j->strength, false);
+		status = makes_density(o, f, j, false);
 	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
 }
 
@@ -99,7 +124,8 @@ static int spread_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 		mesh[c] = pm_out(pm_frame_field(f, j->mesh->name, j->density), c);
 	int status = pm_strengths(f, set, j->strength, q, &made);
 	if (!status)
-		status = pm_spread(&t, pm_frame_set(f, set)->n, x, q, mesh, &strays);
+		status = o->interlace ? pm_interlace_spread(&t, &((struct state *)s->state)->planner, pm_frame_set(f, set)->n, x, q, mesh, &strays)
+				      : pm_spread(&t, pm_frame_set(f, set)->n, x, q, mesh, &strays);
 	pm_free(made);
 	if (!status && strays.count && strcmp(o->outside, "drop"))
 		return pm_strays_refuse(&strays, set, j->mesh, &t, "a larger box, or --outside grow or drop");
@@ -144,6 +170,8 @@ static const struct pm_option options[] = {
 	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, leave out and count, or enlarge the mesh",
 		false, AT(outside)},
 	{"add", 0, PM_FLAG, "", NULL, 0, 0, NULL, "add to the density that is there instead of replacing it", false, AT(add)},
+	{"interlace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "on two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)", false,
+		AT(interlace)},
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -163,8 +191,11 @@ const struct pm_tool tool_p2m = {
 	.changes = "the geometry of the mesh (-n, --outside grow)",
 	.adds = "the law's density (rho, omega) on the mesh, derived",
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
+	.begin = begin,
 	.plan = plan,
 	.frame = frame,
+	.free = release,
 };
