@@ -2,14 +2,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesh/gradient.h"
+#include "mesh/interlace.h"
 #include "poisson/fft.h"
 #include "poisson/problem.h"
 #include "stage/stage.h"
 
 struct config {
 	struct pm_problem_names names;
-	double screening, softening;
-	const char *symbol, *green, *plan;
+	double screening, softening, cloud;
+	const char *symbol, *green, *influence, *order, *plan;
 };
 enum { SOLVERS = 4 }; /* kinds of faces that the components of a vector have: one for each axis as the normal one, and one for others */
 struct state {
@@ -21,6 +23,7 @@ struct state {
 		struct pm_poisson_fft *solver;
 		struct pm_grid grid;
 		enum pm_symbol symbol;
+		struct pm_influence influence;
 	} made[SOLVERS];
 };
 
@@ -35,6 +38,14 @@ static const struct pm_option options[] = {
 	{"softening", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
 		"delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)", false,
 		offsetof(struct config, softening)},
+	{"influence", 0, PM_WORD, "", "plain", 0, 0, pm_influence_names,
+		"in periodic boxes: the symbol's inverse; divided by the square of the kernel's transform, once for p2m and once for m2p; or that of least error "
+		"of the force (Hockney and Eastwood), of which the symbol is no part", false, offsetof(struct config, influence)},
+	{"order", 0, PM_WORD, "", NULL, 0, 0, pm_order_names, "the order of the mgrad that follows, for --influence optimal (default: the law's)", false,
+		offsetof(struct config, order)},
+	{"cloud", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
+		"diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D", false,
+		offsetof(struct config, cloud)},
 	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
 	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
@@ -67,6 +78,22 @@ static int begin(struct pm_stage *s)
 	return effort < 0 ? -PM_USAGE : 0;
 }
 
+/* The kernel is the one the source was made with, the gradient the one the law's field will be made with. */
+static int influence(const struct config *o, const struct pm_frame *f, const struct pm_problem *p, struct pm_influence *i)
+{
+	const char *kernel = pm_frame_field(f, p->mesh->name, p->source_name)->kernel, *inner = pm_interlaced_kernel(kernel);
+	*i = (struct pm_influence){.cloud = o->cloud, .interlaced = inner};
+	while (strcmp(pm_influence_names[i->kind], o->influence))
+		i->kind++;
+	if (i->kind == PM_PLAIN)
+		return 0;
+	if (i->kind == PM_OPTIMAL && o->symbol)
+		return pm_fail(PM_USAGE, "--influence optimal has no --symbol (leave one of them out)");
+	i->order = pm_order_find(o->order ? o->order : p->law->order ? p->law->order : "2");
+	i->kernel = *kernel ? pm_kernel_find(inner ? inner : kernel) : NULL;
+	return i->order < 0 || (*kernel && !i->kernel) ? -PM_DATA : 0;
+}
+
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -76,8 +103,10 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		return status;
 	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
 	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2" : !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, o->softening};
-	status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, o->softening, {0}};
+	status = influence(o, f, &t->problem, &t->choice.influence);
+	if (!status)
+		status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
 	if (!status)
@@ -101,14 +130,14 @@ static void forget(struct state *t)
 static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const struct pm_grid *g)
 {
 	for (int i = 0; i < t->nmade; i++)
-		if (t->choice.symbol == t->made[i].symbol && same_grid(g, &t->made[i].grid)) /* the other choices are options: the same for all frames */
+		if (t->choice.symbol == t->made[i].symbol && pm_influence_same(&t->choice.influence, &t->made[i].influence) && same_grid(g, &t->made[i].grid)) /* the other choices are options: the same for all frames */
 			return t->made[i].solver;
 	if (t->nmade == SOLVERS || t->problem.source->components == 1)
 		forget(t);
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, &t->choice, t->effort);
 	if (!solver)
 		return NULL;
-	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol};
+	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol, t->choice.influence};
 	const struct pm_planner *p = pm_poisson_fft_planner(solver);
 	if (*p->note)
 		pm_say(s, "%s", p->note);

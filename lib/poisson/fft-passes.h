@@ -47,6 +47,7 @@ void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor);
 double *pm_poisson_fft_eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h);
 /* Of fft-open.c: fills green, with its strides; what cannot be done with a grid's open faces, 0 if there are none. */
 int pm_poisson_fft_green(struct pm_poisson_fft *p);
+int pm_poisson_fft_influence(struct pm_poisson_fft *p); /* of fft-influence.c: fills green for a periodic box */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
 #endif

@@ -44,7 +44,8 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 	for (int d = 0; d < g->dim; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
-	return pm_poisson_fft_open_check(g, o);
+	int status = pm_influence_check(&o->influence, g);
+	return status ? status : pm_poisson_fft_open_check(g, o);
 }
 
 static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
@@ -200,7 +201,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		p->open = p->open || open[0] || open[1];
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	if (layout(p) || (p->open && !p->empty ? pm_poisson_fft_green(p) : symbols(p)))
+	if (layout(p) || (p->open && !p->empty ? pm_poisson_fft_green(p) : pm_influence_any(&o->influence) ? pm_poisson_fft_influence(p) : symbols(p)))
 		p = pm_poisson_fft_free(p);
 	return p;
 }

@@ -6,6 +6,7 @@
 #include "green/green.h"
 #include "mesh/grid.h"
 #include "mesh/plan.h"
+#include "poisson/influence.h"
 
 enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4, PM_FD6 };
 extern const char *const pm_symbol_names[]; /* NULL ends */
@@ -19,6 +20,7 @@ struct pm_poisson_fft_choice {
 	double screening; /* K [1/length] in lap phi - K^2 phi = c*s; 0: Poisson's equation */
 	const struct pm_green *green; /* of open faces; NULL: hockney, with differences lattice */
 	double softening;             /* [length] delta of its blobs, where the method has any; 0: 2 sqrt(2) times the largest spacing of an open axis */
+	struct pm_influence influence; /* of periodic boxes */
 };
 
 struct pm_poisson_fft;
