@@ -147,3 +147,39 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	run -2 bash -c 'p2m --kernel tcs </dev/null'
 	[[ $output =~ tsc ]]
 }
+
+@test "p2m --interlace: the density carries both meshes' name through solver and gradient to m2p, and the total is kept" {
+	pinit uniform -n 300 --dim 2 | p2m -n 9x14 --kernel tsc --interlace >a
+	sh_ok 'poisson-fft --plan estimate <a | mgrad | sls'
+	for field in rho phi g; do [[ $output =~ $field\ .*kernel\ interlaced-tsc ]]; done
+	stab --plain --mesh mesh <a | awk 'NR > 1 { s += $NF } END { print s / 126 }' >sum
+	within "$(cat sum)" 1 1e-14 # mass 1 in a unit box
+	for solver in poisson-mg poisson-relax 'poisson-fft --plan estimate --symbol fd2'; do
+		$solver <a | mgrad | m2p >"out.${solver: -3}"
+	done
+	scmp --tolerance 1e-8 --field acc out.-mg out.fd2
+	scmp --tolerance 1e-8 --field acc out.lax out.fd2
+}
+
+@test "p2m --interlace: the same bytes for 1, 2 and 3 threads, and after other frames" {
+	pinit uniform -n 5000 >a
+	pinit uniform -n 50 --dim 1 >b
+	for t in 1 2 3; do p2m -n 31x34x28 --interlace --threads $t <a | PM_PLAN=estimate poisson-fft | mgrad | m2p --threads $t >out.$t; done
+	same_as out.1 out.2
+	same_as out.1 out.3
+	p2m -n 12 --interlace --no-history <a | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | grep -v '^#' >alone
+	cat b a | p2m -n 12 --interlace --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | awk '/^#pmpipe/ { n++ } n == 2 && !/^#/' >second
+	same_as alone second
+}
+
+@test "p2m --interlace: faces that are not periodic, a density of another kind and changes to carry are refused with what can" {
+	run -1 --separate-stderr bash -c 'pinit plummer -n 50 | p2m --interlace >out'
+	[[ $stderr == *"axis x is open (leave out --interlace"* ]]
+	run -1 --separate-stderr bash -c 'pinit uniform -n 50 | p2m -n 8 | p2m --interlace --add >out'
+	[[ $stderr == *"leave out --add"* ]]
+	run -1 --separate-stderr bash -c 'pinit taylor-green-2d --cells 16 | p2m --kernel tsc --interlace | poisson-fft --plan estimate | mgrad | diffuse | m2p >out'
+	[[ $stderr == *"carried over with one mesh (p2m without --interlace)"* ]]
+	pinit uniform -n 50 | p2m -n 8 --interlace | poisson-fft --plan estimate | mgrad >g
+	m2p --kernel tsc <g >one # as it is, from one mesh
+	run -2 --separate-stderr m2p --kernel interlaced-tsc <g
+}

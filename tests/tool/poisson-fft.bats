@@ -45,3 +45,35 @@ refused() {
 	refused 1 "" "echo garbage | poisson-fft"
 	refused 1 "" "poisson-fft < /dev/null"
 }
+
+@test "poisson-fft: --influence and --cloud refuse what they are not for, with what is" {
+	pinit uniform -n 100 | p2m -n 8 > rho
+	refused 1 "axis x is open (leave them out: --influence plain)" "pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft --influence deconvolved"
+	refused 1 "axis x is wall" "pinit uniform -n 50 --faces wall | p2m -n 16 | poisson-fft --cloud 0.2"
+	refused 1 "for boxes in 3-D" "pinit uniform -n 50 --dim 2 | p2m -n 16 | poisson-fft --cloud 0.2"
+	refused 2 "leave one of them out" "poisson-fft --influence optimal --symbol fd2 < rho"
+	refused 1 "the field carries none" "poisson-fft < rho | mgrad --operator lap --target l | stab | sed 's/\"kernel\":\"cic\",//g' | stab - | poisson-fft --influence optimal"
+	refused 2 "sharp" "poisson-fft --influence sharp < rho"
+}
+
+@test "poisson-fft: the influence function follows the kernel of each frame, and threads leave no trace" {
+	pinit uniform -n 100 --no-history > a
+	for k in cic tsc; do p2m -n 10x7x12 --kernel $k --no-history < a > $k; done
+	p2m -n 10x7x12 --kernel cic --interlace --no-history < a > both
+	options="--influence optimal --order 4 --cloud 0.4 --no-history"
+	for k in cic tsc both; do poisson-fft $options < $k | stab --plain --mesh mesh > $k.t; done
+	cat cic tsc both cic | poisson-fft $options --threads 3 | stab --plain --mesh mesh | grep . > all
+	cat cic.t tsc.t both.t cic.t | diff - all
+	run ! cmp -s cic.t both.t
+	sh_ok "poisson-fft --influence plain --cloud 0 < tsc > p; poisson-fft < tsc > q; scmp --tolerance 0 p q"
+}
+
+@test "poisson-fft: spectral deconvolution of a wave in a box gives the wave of the particles back" {
+	# One particle a node, masses 1 + 0.1 cos(2 pi 3 x): rho has the wave times W, phi of it divided by W^2 is read by m2p times W.
+	awk 'BEGIN { print "x mass"; for (i = 0; i < 4096; i++) printf "%.17g %.17g\n", (i + .5) / 4096, (1 + .1 * cos(6.283185307179586 * 3 * (i + .5) / 4096)) / 4096 }' > t
+	for k in ngp cic tsc pcs; do
+		stab t --law gravity --box 0,1 --faces periodic -n 16 | p2m --kernel $k | poisson-fft --coefficient -1 --influence deconvolved | m2p --field phi | stab --plain |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; s += $c["phi"] * cos(6.283185307179586 * 3 * x) / 2048 } END { printf "%.12g\n", s }' > got
+		within "$(cat got)" "$(awk 'BEGIN { printf "%.15g", .1 / (6.283185307179586 * 3)^2 }')" 1e-9 "$k" # 4096 particles, 16 cells: 256 a cell, the sums are exact to 256^-2 of an alias at most
+	done
+}
