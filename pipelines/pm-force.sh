@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # PM-02: the particle-mesh force of a pair against its distance, in a periodic box of 64^3 cells (or -n): a unit mass at random places, 8 massless
 # particles around it at r = 1, 2 and 4 cells in random directions. Prints a table (markdown): rms error of the force over the force wanted, and the
-# processor seconds of a leapfrog step of 262144 particles on that mesh (one thread, 12 steps less 2, so without what is done once). Wanted: that of points, 1/r^2, or of clouds S2 of
+# processor seconds of a leapfrog step of 262144 particles on that mesh (one thread, 12 steps less 2, median of 5 turns, least and most). Wanted: that of points, 1/r^2, or of clouds S2 of
 # diameter 4 cells (Hockney and Eastwood 1988, equation 8-3 ff.), both less the background. --check N: N places (75), no seconds; --only WORD: rows whose name
 # has it; --seed S. Expected: docs/methods/pm-force.md. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
@@ -57,21 +57,36 @@ errors() {
 
 words() { echo "p2m $1 | poisson-fft $2 | mgrad --order $3 | m2p"; }
 
-# cpu STEPS SENTENCE: processor seconds of so many steps of 262144 particles, the better of two tries.
+# cpu STEPS SENTENCE: processor seconds (user) of so many steps of 262144 particles.
 cpu() {
+	local TIMEFORMAT=%U
 	# shellcheck disable=SC2154 # work is of numbers.sh
-	local TIMEFORMAT='%U %S'
-	for _ in 1 2; do { time cycle -n "$1" "push kick/2 drift | $2 | push kick/2" < "$work/many" > "$work/out"; } 2>&1; done | awk '{ t = $1 + $2; if (NR == 1 || t < m) m = t } END { print m }'
+	{ time cycle -n "$1" "push kick/2 drift | $2 | push kick/2" < "$work/many" > "$work/out"; } 2>&1
 }
 
+lines=() sentences=()
 row() { # NAME P2M SOLVER ORDER CLOUD
-	local e s=
-	[[ $1 == *$only* ]] || return 0
-	e=$(bash -o pipefail -c "$(words "$2" "$3" "$4")" < "$work/places" | stab --plain --set matter | errors "$5")
-	[ -z "$seconds" ] || s=$(awk -v a="$(cpu 2 "$(words "$2" "$3" "$4")")" -v b="$(cpu 12 "$(words "$2" "$3" "$4")")" 'BEGIN { printf " %.3f |", (b - a) / 10 }')
+	local e name=$1 sentence
+	[[ $name == *$only* ]] || return 0
+	sentence=$(words "$2" "$3" "$4")
+	e=$(bash -o pipefail -c "$sentence" < "$work/places" | stab --plain --set matter | errors "$5")
 	# shellcheck disable=SC2086 # nine numbers
-	set -- "$@" $e
-	printf '| %s | %s %s %s | %s %s %s | %s %s %s |%s\n' "$1" "$6" "$7" "$8" "$9" "${10}" "${11}" "${12}" "${13}" "${14}" "$s"
+	set -- $e
+	lines+=("| $name | $1 $2 $3 | $4 $5 $6 | $7 $8 $9 |")
+	sentences+=("$sentence")
+}
+part() { # NAME
+	lines+=("| **$1** | | | |") sentences+=('')
+}
+
+# Seconds of a step of every sentence, in turns: a burst of other work on the machine meets one turn, not one sentence. Median, least and most of 5.
+turns() {
+	for _ in 1 2 3 4 5; do
+		for i in "${!sentences[@]}"; do
+			[ -z "${sentences[i]}" ] || echo "$i $(cpu 2 "${sentences[i]}") $(cpu 12 "${sentences[i]}")"
+		done
+	done | awk '{ printf "%d %.4f\n", $1, ($3 - $2) / 10 }' | sort -k1,1n -k2,2g |
+		awk '{ v[$1] = v[$1] " " $2 } END { for (i in v) { split(v[i], t, " "); printf "%d %.3f (%.3f-%.3f)\n", i, t[3], t[1], t[5] } }'
 }
 
 places > "$work/places"
@@ -80,7 +95,7 @@ if [ -n "$seconds" ]; then
 fi
 echo '| kernel, options, order of mgrad | r = 1: mean, across, error | r = 2 | r = 4 |'"${seconds:+ seconds |}"
 echo '|---|---|---|---|'"${seconds:+---|}"
-echo '| **the force of points** | | | |'"${seconds:+ |}"
+part 'the force of points'
 row 'ngp, fd2, 2' '--kernel ngp' '--symbol fd2' 2 0
 for k in cic tsc; do
 	row "$k, fd2, 2" "--kernel $k" '--symbol fd2' 2 0
@@ -91,7 +106,7 @@ for k in cic tsc; do
 	row "$k --interlace, spectral, spectral" "--kernel $k --interlace" '' spectral 0
 done
 row 'pcs, spectral, spectral' '--kernel pcs' '' spectral 0
-echo '| **the force of clouds, --cloud 4** | | | |'"${seconds:+ |}"
+part 'the force of clouds, --cloud 4'
 for k in cic tsc; do
 	row "$k, plain, 4" "--kernel $k" '--cloud 4' 4 4
 	row "$k, deconvolved, 2" "--kernel $k" '--cloud 4 --influence deconvolved' 2 4
@@ -103,3 +118,7 @@ for k in cic tsc; do
 	row "$k --interlace, optimal, 4" "--kernel $k --interlace" '--cloud 4 --influence optimal --order 4' 4 4
 done
 row 'pcs, optimal, 4' '--kernel pcs' '--cloud 4 --influence optimal --order 4' 4 4
+[ -z "$seconds" ] || turns > "$work/seconds"
+for i in "${!lines[@]}"; do
+	echo "${lines[i]}${seconds:+ $(awk -v i="$i" '$1 == i { print $2, $3 }' "$work/seconds") |}"
+done

@@ -64,6 +64,10 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		status = pm_relaxation_check(&t->problem.grid, t->choice.method, t->choice.factor);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
+	for (int c = 0; !status && c < t->problem.source->components; c++) {
+		struct pm_grid g = pm_problem_grid(&t->problem, c);
+		status = pm_relaxation_check(&g, t->choice.method, t->choice.factor);
+	}
 	if (!status)
 		t->problem.target->use |= PM_USE_FILL;
 	return status;
@@ -123,7 +127,7 @@ const struct pm_tool tool_poisson_relax = {
 	.name = "poisson-relax",
 	.summary = "solve Poisson's equation on a mesh by simple iterations",
 	.about = "Solves lap phi = c*s with differences of order 2 on the nodes, for comparison and for teaching: Jacobi, Gauss-Seidel, over-relaxation, conjugate "
-		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture. Reports the sweeps, the factor by which the residual fell per sweep in "
+		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture, or open on all axes (free space, by two solutions). Reports the sweeps, the factor by which the residual fell per sweep in "
 		"the long run, and the published formula for it where one holds. Where no face fixes phi, the mean of s is removed and reported, and the mean of phi is "
 		"zero. It stops at the tolerance or where round-off keeps the residual above it (status floor), and fails with exit 3 and the history if it does neither. poisson-mg "
 		"and poisson-fft --symbol fd2 solve the same equation faster.",

@@ -1,4 +1,4 @@
-/* The parts of James' method; private to lib/poisson/mg-open*.c. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of James' method; private to lib/poisson/mg-open*.c and relax-open.c. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MG_OPEN_PARTS_H
 #define PM_POISSON_MG_OPEN_PARTS_H
 

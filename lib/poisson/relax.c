@@ -1,8 +1,9 @@
 /* Solves lap phi = c*s by sweeps of a method of lib/relax, from zero to a tolerance of the residual.
  * A sweep tells the residual that it met; when that is near the tolerance, and now and then, the true one is computed, and what it says counts. It ends at
  * the tolerance, or at round-off: the residual is no larger than what the rounding of its own terms makes. Where no face fixes phi the mean of s is removed,
- * and that of phi is zero. Source of the methods: their files. Cost: N per sweep. SPDX-License-Identifier: GPL-3.0-or-later */
+ * and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson/relax.h"
+#include "poisson/relax-open.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@ struct pm_relaxation {
 	struct pm_laplacian lap;
 	struct pm_relax_work work;
 	double *f, *r; /* right-hand side; the residual */
+	struct pm_outer *outer; /* open faces; lap is then that between walls */
 };
 
 static double factor_of(const struct pm_laplacian *l, const struct pm_relax *method, double factor)
@@ -21,15 +23,16 @@ static double factor_of(const struct pm_laplacian *l, const struct pm_relax *met
 	return !method->factor ? NAN : isnan(factor) ? method->factor(l) : factor;
 }
 
-int pm_relaxation_check(const struct pm_grid *g, const struct pm_relax *method, double factor)
+int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *method, double factor)
 {
-	for (int d = 0; d < g->dim; d++)
-		for (int s = 0; s < 2; s++) {
-			enum pm_face face = g->face[d][s];
-			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN)
-				return pm_fail(PM_DATA, "relaxation knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft, which has open faces)",
-					"xyz"[d], pm_face_names[face]);
-		}
+	const struct pm_grid walled = pm_outer_walled(given), *g = pm_outer_wanted(given) ? &walled : given;
+	int status = g == given ? 0 : pm_outer_check(given);
+	for (int d = 0; d < g->dim && !status; d++)
+		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
+			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take periodic, wall, neumann and open ones)",
+				"xyz"[d]);
+	if (status)
+		return status;
 	struct pm_laplacian l = pm_laplacian_of(g);
 	double used = factor_of(&l, method, factor), radius = method->radius(&l, used);
 	if (l.diagonal > 0 && radius >= 1 && l.singular && used <= 1)
@@ -47,7 +50,8 @@ struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm
 		return NULL;
 	p->grid = *g;
 	p->method = method;
-	p->lap = pm_laplacian_of(g);
+	struct pm_grid walled = pm_outer_walled(g);
+	p->lap = pm_laplacian_of(pm_outer_wanted(g) ? &walled : g);
 	size_t size = p->lap.size;
 	p->work.lap = &p->lap;
 	p->work.f = p->f = pm_zalloc(size, sizeof(double));
@@ -57,6 +61,8 @@ struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm
 	bool good = p->f && p->r && p->work.u && p->work.sums;
 	for (int i = 0; i < method->extra; i++)
 		good = (p->work.extra[i] = pm_zalloc(size, sizeof(double))) && good;
+	if (pm_outer_wanted(g))
+		good = (p->outer = pm_outer_new(g)) && good;
 	return good ? p : pm_relaxation_free(p);
 }
 
@@ -67,6 +73,7 @@ struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p)
 	pm_free(p->f), pm_free(p->r), pm_free(p->work.u), pm_free(p->work.sums);
 	for (int i = 0; i < PM_RELAX_EXTRA; i++)
 		pm_free(p->work.extra[i]);
+	pm_outer_free(p->outer);
 	return pm_free(p);
 }
 
@@ -160,8 +167,8 @@ static double unit_of(size_t n, double c, double average, const double *s)
 	return most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1;
 }
 
-int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi,
-	struct pm_relaxation_record *r)
+/* Between the faces of lap. */
+static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi, struct pm_relaxation_record *r)
 {
 	const struct pm_laplacian *l = &p->lap;
 	*r = (struct pm_relaxation_record){.singular = l->singular, .factor = factor_of(l, p->method, o->factor), .radius = NAN};
@@ -180,4 +187,30 @@ int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choi
 	for (size_t i = 0; i < l->size; i++)
 		phi[i] = unit * (p->work.u[i] - mean);
 	return r->converged ? 0 : not_converged(p->method, r, o);
+}
+
+/* Grounded, then with the boundary values of free space; the record is that of the second solution, with the sweeps of both. */
+static int solve_open(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi, struct pm_relaxation_record *r)
+{
+	const double *wall, *f;
+	double *u = pm_alloc(p->lap.size, sizeof *u);
+	int status = u ? solve(p, o, c, s, u, r) : -PM_DATA;
+	int64_t sweeps = status ? 0 : r->sweeps;
+	bool floor = !status && r->floor;
+	if (!status)
+		status = pm_outer_values(p->outer, c, s, u, &wall, &f);
+	if (!status)
+		status = solve(p, o, 1, f, phi, r);
+	for (size_t i = 0; i < p->lap.size && !status; i++)
+		phi[i] += wall[i]; /* phi is 0 there */
+	r->sweeps += sweeps;
+	r->floor |= floor;
+	pm_free(u);
+	return status;
+}
+
+int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi,
+	struct pm_relaxation_record *r)
+{
+	return p->outer ? solve_open(p, o, c, s, phi, r) : solve(p, o, c, s, phi, r);
 }

@@ -30,7 +30,7 @@ struct pm_relaxation_record {
 
 struct pm_relaxation; /* the meshes of a method, for one pm_grid */
 
-/* 0, or a failure that names what can: faces open and absorbing, and a method or factor whose error would not shrink. */
+/* 0, or a failure that names what can: faces absorbing or open on some axes only, and a method or factor whose error would not shrink. */
 int pm_relaxation_check(const struct pm_grid *g, const struct pm_relax *method, double factor);
 struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method); /* NULL with a message */
 struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p);
