@@ -243,7 +243,7 @@ static double known_error(int dim, const char *faces, size_t n, double length, c
 /* The claimed order, from three resolutions. Blobs of sigma = 2 h show theirs where 40 h and more go into the source; nothing may be cut off by then. */
 static void order_of(int dim, const char *faces, const struct pm_green *green, enum pm_symbol symbol, double screening, struct known k)
 {
-	static const size_t coarse[] = {32, 40, 48}, middle[] = {56, 76, 100}, sixth[] = {120, 150, 180}, fine[] = {360, 400, 440};
+	static const size_t coarse[] = {31, 40, 47}, middle[] = {56, 76, 100}, sixth[] = {120, 150, 180}, fine[] = {360, 400, 440};
 	const size_t *n = green->regular ? fine : symbol == PM_FD6 ? sixth : symbol ? middle : coarse;
 	struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = screening, .green = green};
 	double h[3], error[3];
