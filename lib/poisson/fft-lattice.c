@@ -1,7 +1,7 @@
 /* The Green's function of centred differences of order 2, 4, 6 on an infinite lattice, lap_h G - kappa^2 G = delta_i0/V, the time that heat spends
  * at a node: G_i = -int_0^inf exp(-kappa^2 t) K_x(i,t) K_y(j,t) K_z(k,t) dt, K(i,t) = 1/(2 pi h) int exp(-t lambda(theta)/h^2) cos(i theta) dtheta.
  * The integral by Gauss and Legendre's 16 nodes in [0, h^2] and in panels of ratio 4 up to T = 1e9 h^2 (or 50/kappa^2), K by cosine transforms, for s = t/h^2
- * above 1e5 by its expansion g (1 + (2 c4/s) L2(i^2/4s)), lambda = theta^2 - c4 theta^4 + ..., L2(x) = 3/8 - 3x/2 + x^2/2 of Laguerre (alpha = -1/2),
+ * above 1e6 by its expansion g (1 + (2 c4/s) L2(i^2/4s)), lambda = theta^2 - c4 theta^4 + ..., L2(x) = 3/8 - 3x/2 + x^2/2 of Laguerre (alpha = -1/2),
  * g the Gaussian of variance 2t; from T on the continuum's, for kappa = 0 the potential of a Gaussian with delta^2 = 4T, which also fixes the gauge: ln r.
  * Source: the integral of Bessel functions of Katsura et al. 1971, for any stencil; Liska and Colonius 2014 for its use.
  * Cost: 250 products per separation, once. Relative error 1e-12 (case PS-07).
@@ -17,7 +17,7 @@
 extern const struct pm_mollifier mollifier_gaussian;
 
 enum { L = PM_LANES, GAUSS = 16 };
-static const double far_off = 1e5; /* t/h^2 from where K is expanded */
+static const double far_off = 1e6; /* t/h^2 from where K is expanded */
 
 static double expanded(enum pm_symbol symbol, double i, double t, double h)
 {
