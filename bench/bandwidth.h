@@ -3,7 +3,7 @@
 #ifndef PM_BENCH_BANDWIDTH_H
 #define PM_BENCH_BANDWIDTH_H
 
-#ifdef __AVX512F__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
@@ -30,9 +30,9 @@ static inline __attribute__((always_inline)) void bandwidth_past(double *p, band
 {
 #if defined __AVX512F__
 	_mm512_stream_pd(p, (__m512d)v);
-#elif defined __SSE2__ && defined __GNUC__
+#elif defined __SSE2__
 	for (int l = 0; l < BANDWIDTH_LANES; l += 2)
-		__builtin_ia32_movntpd(p + l, (__attribute__((vector_size(16))) double){v[l], v[l + 1]});
+		_mm_stream_pd(p + l, _mm_set_pd(v[l + 1], v[l]));
 #else
 	*(bandwidth_lanes *)p = v;
 #endif
@@ -41,7 +41,7 @@ static inline __attribute__((always_inline)) void bandwidth_past(double *p, band
 static inline __attribute__((always_inline)) void bandwidth_fence(void)
 {
 #ifdef __SSE2__
-	__builtin_ia32_sfence();
+	_mm_sfence();
 #endif
 }
 
