@@ -15,6 +15,7 @@ parts=("$@")
 [ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp push mgrad step)
 rows=$b/rows.tsv
 cores=${OMP_NUM_THREADS:-$(nproc)}
+busy=$(cut -d' ' -f1 /proc/loadavg)
 scratch=$(mktemp -d /dev/shm/pm-bench-XXXXXX)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -109,8 +110,8 @@ done
 echo
 awk -f "$top/bench/table.awk" "$rows"
 [ -z "$markdown" ] || {
-	compiler=$(cc --version | sed 1q)
+	compiler=$("${CC:-gcc}" --version | sed 1q)
 	model=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed 1q)
-	awk -v markdown=1 -v about="$model, $cores threads, $compiler" -f "$top/bench/table.awk" "$rows" "$top/docs/speed.md" >speed.md
+	awk -v markdown=1 -v about="$model, up to $cores threads, $compiler, load average $busy before it began" -f "$top/bench/table.awk" "$rows" "$top/docs/speed.md" >speed.md
 	cat speed.md >"$top/docs/speed.md"
 }
