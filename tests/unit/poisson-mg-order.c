@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mg-problem.h"
+#include "poisson/mg-level.h"
 
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 
@@ -166,6 +167,29 @@ static void test_factors(void)
 			}
 }
 
+/* Half weighting of a constant is that constant, of a checkerboard along one axis the share of the node less that of its neighbours there. */
+static void test_half(void)
+{
+	for (int dim = 1; dim <= 3; dim++)
+		for (int axis = -1; axis < dim; axis++) {
+			struct pm_grid g = cube(dim, 16, "ppppww");
+			size_t n = pm_grid_size(&g);
+			double *f = values(n), want = axis < 0 ? 1 : 1 - 1. / dim, worst = 0;
+			for (size_t p = 0; p < n; p++)
+				f[p] = axis >= 0 && ((axis == 0 ? p : axis == 1 ? p / g.points[0] : p / g.points[0] / g.points[1]) & 1) ? -1 : 1;
+			struct pm_mg *mg = pm_mg_new(&g, 2);
+			pm_mg_start(mg, f, NULL);
+			pm_mg_restrict(mg, 0, true);
+			const struct mg_level *c = &mg->level[1];
+			for (size_t k = c->axis[2].first + (dim > 2); k + (dim > 2) < c->axis[2].end; k++)
+				for (size_t j = 0; j < c->axis[1].points; j++)
+					for (size_t i = 0; i < c->axis[0].points; i++)
+						worst = fmax(worst, fabs(c->f[k * c->plane + j * c->stride + mg_slot(c, i)] - want));
+			check(worst < 1e-15, "half weighting, %d-D: %s comes out as %.3g (error %g)", dim, axis < 0 ? "a constant" : "a checkerboard along one axis", want, worst);
+			pm_mg_free(mg), pm_free(f);
+		}
+}
+
 /* HC-25 with order 4, whose neighbours across may have the other sign on stretched cells; and Jacobi. */
 static void test_stretched(void)
 {
@@ -244,6 +268,7 @@ int main(void)
 	test_orders();
 	test_mehrstellen();
 	test_factors();
+	test_half();
 	test_stretched();
 	test_sizes();
 	test_full();
