@@ -1,4 +1,4 @@
-# pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c become programs, lib/*/ become tables and one library.
+# pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
 # make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
@@ -36,7 +36,8 @@ tool_src := $(sort $(wildcard tools/*.c))
 word_src := $(filter-out $(alone),$(tool_src))
 tool_obj := $(word_src:%.c=$(B)/%.o)
 bin_dir := $(if $(filter build,$(B)),bin,$(B)/bin)
-tools := $(tool_src:tools/%.c=$(bin_dir)/%)
+script_src := $(sort $(wildcard tools/*.sh))
+tools := $(tool_src:tools/%.c=$(bin_dir)/%) $(script_src:tools/%.sh=$(bin_dir)/%)
 unit_src := $(sort $(wildcard tests/unit/*.c))
 unit := $(unit_src:%.c=$(B)/%)
 bench_src := $(sort $(wildcard bench/*.c))
@@ -98,6 +99,12 @@ $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 
+# A tool in shell is one file: what it reads from lib/shell/ is put in.
+$(script_src:tools/%.sh=$(bin_dir)/%): $(bin_dir)/%: tools/%.sh $(wildcard lib/shell/*.sh) lib/base/base.h Makefile
+	@mkdir -p $(@D)
+	awk '/^# shellcheck source=/ { next } /^\. lib\/shell\// { while ((getline line < $$2) > 0) if (line !~ /^# shellcheck shell=/) print line; next } { sub(/@VERSION@/, "$(VERSION)"); print }' $< > $@.part
+	@chmod +x $@.part && mv $@.part $@
+
 # Unit tests and measuring programs link every tool.
 $(unit) $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
@@ -140,10 +147,10 @@ lint: all man
 	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit benches
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
-	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh),@echo 'lint: no shellcheck here')
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh),@echo 'lint: no shellcheck here')
 
 # Manual pages and completion are printed by the programs.
-man := $(tool_src:tools/%.c=$(B)/man/%.1)
+man := $(tools:$(bin_dir)/%=$(B)/man/%.1)
 man: $(man)
 $(B)/man/%.1: $(bin_dir)/%
 	@mkdir -p $(@D)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-tools() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | sort); }
+tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
 
 # Installs into ./root (a test that needs it calls it); what is built already is only copied.
 install_here() {

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 wire() { python3 "$top/tests/wire.py" "$@"; }
-tools() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | sort); }
-readers() { tools | grep -vx pinit; }
+tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
+# Tools in shell run sentences; streams do not pass through them.
+readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vx pinit | sort); }
 
 words() {
 	case $1 in

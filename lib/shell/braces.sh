@@ -1,0 +1,244 @@
+# shellcheck shell=bash
+# Sentences with alternatives: {a,b,c} splits at the commas directly inside, nests, and may hold |; \{ \} \, are the signs themselves;
+# {name} stands for the value of --vary name=a,b,c wherever it is (linked choices). `sentences TEMPLATE VARY...` sets sentence[], and of the choices
+# choice_name[] and chosen[member * choices + choice]. The last choice runs fastest; of equal sentences the first is kept.
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# The escaped signs wait as control characters until everything is expanded.
+hide_escapes() {
+	text=${1//'\{'/$'\001'}
+	text=${text//'\}'/$'\002'}
+	text=${text//'\,'/$'\003'}
+}
+show_escapes() {
+	text=${1//$'\001'/'{'}
+	text=${text//$'\002'/'}'}
+	text=${text//$'\003'/,}
+}
+
+trim() {
+	text=${1#"${1%%[![:space:]]*}"}
+	text=${text%"${text##*[![:space:]]}"}
+}
+
+# group TEXT that begins with {: sets end to the place of its }, pieces to what stands between its commas.
+group() {
+	local i depth=0 from=1
+	pieces=()
+	for ((i = 0; i < ${#1}; i++)); do
+		case ${1:i:1} in
+		'{') depth=$((depth + 1)) ;;
+		'}') depth=$((depth - 1)) ;;
+		,) [ $depth != 1 ] || { trim "${1:from:i-from}"; pieces+=("$text"); from=$((i + 1)); } ;;
+		esac
+		[ $depth != 0 ] || { end=$i; trim "${1:from:i-from}"; pieces+=("$text"); return; }
+	done
+	show_escapes "$1"
+	usage "a brace is not closed: '$text' (\\{ for the sign itself)"
+}
+
+no_stray() {
+	[[ $1 != *'}'* ]] && return
+	show_escapes "$1"
+	usage "a } without its { in '$text' (\\} for the sign itself)"
+}
+
+# known NAME: is it a name of --vary?
+known() {
+	local n
+	for n in "${vary_name[@]}"; do
+		[ "$n" != "$1" ] || return 0
+	done
+	show_escapes "$1"
+	usage "'{$text}' is neither alternatives, which have a comma, nor a name of --vary (\\{ for the sign itself)"
+}
+
+# expand TEXT: sets expanded to all it can be; names stay.
+expand() {
+	local s=$1 before='' head one all=() last=() parts=()
+	while [[ $s == *'{'* ]]; do
+		head=${s%%'{'*}
+		no_stray "$head"
+		before+=$head s=${s:${#head}}
+		group "$s"
+		parts=("${pieces[@]}") head=${s:0:end+1} s=${s:end+1}
+		if [ ${#parts[@]} = 1 ]; then
+			known "${parts[0]}"
+			before+=$head
+			continue
+		fi
+		expand "$s"
+		last=("${expanded[@]}")
+		for head in "${parts[@]}"; do
+			expand "$head"
+			for head in "${expanded[@]}"; do
+				for one in "${last[@]}"; do all+=("$before$head$one"); done
+			done
+		done
+		expanded=("${all[@]}")
+		return
+	done
+	no_stray "$s"
+	expanded=("$before$s")
+}
+
+# add_choice NAME ALTERNATIVES...
+add_choice() {
+	local name=$1 n=1 have
+	shift
+	for have in "${choice_name[@]}"; do
+		[[ $have != "$name" && ! $have =~ ^$name[0-9]+$ ]] || n=$((n + 1))
+	done
+	[ $n = 1 ] || name+=$n
+	choice_name+=("$name") choice_first+=("${#alternative[@]}") choice_count+=($#)
+	alternative+=("$@")
+}
+
+# link_names TEXT: the names in it become choices, once.
+link_names() {
+	local i
+	for i in "${!vary_name[@]}"; do
+		[[ -n ${linked[i]:-} || $1 != *"{${vary_name[i]}}"* ]] && continue
+		linked[i]=${#choice_name[@]}
+		hide_escapes "{${vary_list[i]}}"
+		group "$text"
+		local values=() piece
+		for piece in "${pieces[@]}"; do
+			expand "$piece"
+			values+=("${expanded[@]}")
+		done
+		add_choice "${vary_name[i]}" "${values[@]}"
+	done
+}
+
+# What a choice is called: the option before it, "word" where a word begins, else "choice".
+name_of() {
+	if [[ $1 =~ (^|[[:space:]])--?([A-Za-z][A-Za-z0-9-]*)[=[:space:]]+$ ]]; then
+		name=${BASH_REMATCH[2]}
+	elif [[ $1 =~ (^|\|)[[:space:]]*$ ]]; then
+		name=word
+	else
+		name=choice
+	fi
+}
+
+# parse TEMPLATE: segment[] is the text before each choice without a name, then the rest.
+parse() {
+	local s=$1 head before='' parts
+	segment=() segment_choice=()
+	while [[ $s == *'{'* ]]; do
+		head=${s%%'{'*}
+		no_stray "$head"
+		before+=$head s=${s:${#head}}
+		group "$s"
+		head=${s:0:end+1} s=${s:end+1}
+		parts=("${pieces[@]}")
+		link_names "$head"
+		if [ ${#parts[@]} = 1 ]; then
+			known "${parts[0]}"
+			before+=$head
+			continue
+		fi
+		expand "$head"
+		name_of "${segment_choice:+...}$before"
+		segment+=("$before") segment_choice+=("${#choice_name[@]}")
+		add_choice "$name" "${expanded[@]}"
+		before=
+	done
+	no_stray "$s"
+	segment+=("$before$s")
+}
+
+vary_read() {
+	local v
+	vary_name=() vary_list=() linked=()
+	for v; do
+		[[ $v =~ ^([A-Za-z_][A-Za-z0-9_-]*)=(.*)$ ]] || usage "--vary wants name=value,value,..., not '$v'"
+		vary_name+=("${BASH_REMATCH[1]}") vary_list+=("${BASH_REMATCH[2]}")
+	done
+}
+
+# with_names TEXT: the values of this member in place of the names, the hidden signs shown; sets text.
+with_names() {
+	local i t=$1
+	for i in "${!linked[@]}"; do
+		t=${t//"{${vary_name[i]}}"/"${value[linked[i]]}"}
+	done
+	show_escapes "$t"
+}
+
+# The member whose places among the alternatives are at[]: its sentence, unless it is there already.
+add_member() {
+	local d s=''
+	value=()
+	for d in "${!at[@]}"; do
+		value[d]=${alternative[choice_first[d] + at[d]]}
+	done
+	for d in "${!segment_choice[@]}"; do
+		s+=${segment[d]}${value[segment_choice[d]]}
+	done
+	with_names "$s${segment[-1]}"
+	[ -z "${there[$text]:-}" ] || return 0
+	there[$text]=1
+	sentence+=("$text")
+	for d in "${!at[@]}"; do
+		with_names "${value[d]}"
+		chosen+=("$text")
+	done
+	with_names "$reference_template"
+	reference+=("$text")
+}
+
+# sentences TEMPLATE REFERENCE VARY...: also reference[], the second text with the names of each member in it.
+sentences() {
+	local d at=() value=() reference_template
+	local -A there=()
+	choice_name=() choice_first=() choice_count=() alternative=() sentence=() chosen=() reference=()
+	hide_escapes "$2"
+	reference_template=$text
+	vary_read "${@:3}"
+	hide_escapes "$1"
+	parse "$text"
+	for d in "${!vary_name[@]}"; do
+		[ -n "${linked[d]:-}" ] || usage "'{${vary_name[d]}}' of --vary is nowhere in the sentence"
+	done
+	[ ${#choice_name[@]} != 0 ] || usage "nothing to choose from (write alternatives as {a,b}, or {name} with --vary name=a,b)"
+	for d in "${!choice_name[@]}"; do at[d]=0; done
+	while :; do
+		add_member
+		for ((d = ${#at[@]} - 1; d >= 0; d--)); do
+			at[d]=$((at[d] + 1))
+			[ "${at[d]}" = "${choice_count[d]}" ] || break
+			at[d]=0
+		done
+		[ "$d" -ge 0 ] || return 0
+	done
+}
+
+# words TEXT: sets word[] to what stands between the | outside quotes, braces and parentheses.
+words() {
+	local i c quote='' depth=0 from=0
+	word=()
+	for ((i = 0; i < ${#1}; i++)); do
+		c=${1:i:1}
+		if [ -n "$quote" ]; then
+			[ "$c" != "$quote" ] || quote=
+			[[ $c != '\' || $quote != '"' ]] || i=$((i + 1))
+			continue
+		fi
+		case $c in
+		"'" | '"') quote=$c ;;
+		'\') i=$((i + 1)) ;;
+		'{' | '(') depth=$((depth + 1)) ;;
+		'}' | ')') depth=$((depth - 1)) ;;
+		';') [ $depth != 0 ] || usage "a sentence is words joined by |, without ';'" ;;
+		'|') [ $depth != 0 ] || { trim "${1:from:i-from}"; word+=("$text"); from=$((i + 1)); } ;;
+		esac
+	done
+	[ -z "$quote" ] || usage "a quote is not closed in '$1'"
+	trim "${1:from}"
+	word+=("$text")
+	for c in "${word[@]}"; do
+		[ -n "$c" ] || usage "an empty word in '$1'"
+	done
+}

@@ -1,0 +1,256 @@
+# shellcheck shell=bash
+# Runs the members of a sweep. What many begin with is a node of a tree: a node is run on what the node before it left, one at a time, once in each round,
+# and its seconds are charged to every member behind it. What is known is appended to $state/log, from which a stopped sweep goes on:
+#   time NODE ROUND SETUP SECONDS KB | fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# Can the program append its seconds to a file?
+timed() {
+	local program=$1
+	while [[ $program =~ ^[A-Za-z_][A-Za-z0-9_]*= ]]; do # what is set before it
+		program=${program#* }
+	done
+	program=${program%%[[:space:]]*}
+	if [ -z "${is_timed[$program]:-}" ]; then
+		is_timed[$program]=no
+		[[ -z $bin || ! -x $bin/$program || $program == "$me" ]] || is_timed[$program]=yes
+	fi
+	[ "${is_timed[$program]}" = yes ]
+}
+
+# plant: a number for every node, path[member] "N N N" behind the brace-free beginning, in the order of a walk through the tree.
+plant() {
+	local m w parent key
+	local -A number=()
+	node_word=() path=()
+	for m in "${!sentence[@]}"; do
+		words "${sentence[m]}"
+		parent=
+		for w in "${word[@]:${#beginning[@]}}"; do
+			key="$parent|$w"
+			[ -n "${number[$key]:-}" ] || { number[$key]=${#node_word[@]}; node_word+=("$w"); }
+			parent+=" $(printf %06d "${number[$key]}")"
+		done
+		path[m]=${parent# }
+	done
+	mapfile -t walk < <(for m in "${!path[@]}"; do printf '%s\t%d\n' "${path[m]}" "$m"; done | sort | cut -f2)
+	for m in "${!path[@]}"; do path[m]=$(printf '%s' "${path[m]}" | awk '{ for (i = 1; i <= NF; i++) printf "%s%d", (i > 1 ? " " : ""), $i }'); done
+}
+
+# run COMMAND IN OUT: in a group of its own, so that it can be stopped whole; what it says is in $work/said.
+run() {
+	local status=0 clock=()
+	[ -z "$time_program" ] || clock=("$time_program" -q -o "$work/clock" -f '%M %U %S')
+	: >"$work/clock"
+	: >"$work/timing"
+	set -m
+	PARETO_TIMING=$work/timing "${clock[@]}" bash -o pipefail -c "$1" <"$2" >"$3" 2>"$work/said" &
+	child=$!
+	set +m
+	wait $child || status=$?
+	child=
+	return $status
+}
+
+# Why the last run failed: its first line that does not only pass on what another said.
+why() {
+	local line
+	line=$(grep -v ': stopped by ' "$work/said" | head -n 1 | tr '\t' ' ')
+	line=${line#bash: line 1: }
+	echo "${line:-exit status $1, without a word}"
+}
+
+note() { printf '%s\n' "$1" >>"$state/log"; }
+
+# with_timing WORD: sets text to the command that also writes its seconds.
+with_timing() {
+	text=$1
+	# shellcheck disable=SC2016 # for the shell that runs it
+	! timed "$1" || text+=' --timing "$PARETO_TIMING"'
+}
+
+# Seconds of set-up, of work, and kB of the last run. cycle writes its words' seconds and then its own; a foreign word has only the processor's.
+cost() {
+	awk -F'[\t]' 'FILENAME == ARGV[1] { split($0, c, " "); kb = c[1]; cpu = c[2] + c[3]; next }
+		{ own = $3; set = $2; work += $3; up += $2; n++ }
+		END { if (n > 1) { work -= own; up -= set } printf "%.9f\t%.9f\t%s\n", up, n ? work : cpu, kb + 0 }' "$work/clock" "$work/timing"
+}
+
+# run_node NODE IN ROUND: leaves $work/node.NODE; its seconds count once a round.
+run_node() {
+	local status=0
+	with_timing "${node_word[$1]}"
+	run "$text" "$2" "$work/node.$1" || status=$?
+	if [ $status != 0 ]; then
+		failed[$1]=$(why $status)
+		note "fail"$'\t'"$1"$'\t'"${failed[$1]}"
+		return 1
+	fi
+	[ -z "${clocked[$1,$3]:-}" ] || return 0
+	clocked[$1,$3]=1
+	note "time"$'\t'"$1"$'\t'"$3"$'\t'"$(cost)"
+}
+
+# The rows of scmp, or of diag beside the exact solution, to one: the largest of each norm. Sums go over the frames for the exact one.
+norms_scmp() { awk -F'\t' 'NR > 1 && $2 != "-" { k++; n += $4; for (i = 5; i <= 9; i++) if (k == 1 || $i ~ /nan/ || (v[i] !~ /nan/ && $i + 0 > v[i] + 0)) v[i] = $i }
+	END { if (!k) exit 1; printf "%d", n; for (i = 5; i <= 9; i++) printf "\t%s", v[i]; print "" }'; }
+norms_exact() { awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; for (f in at) if (("exact_" f) in at) want[f] = 1; next } /^#/ { next }
+	{ for (f in want) { a = $at[f]; b = $at["exact_" f]; d = a - b; if (d < 0) d = -d; c = b < 0 ? -b : b
+		n[f]++; s[f] += d; q[f] += d * d; z[f] += c * c; if (d > m[f]) m[f] = d; if (c > t[f]) t[f] = c } }
+	function most(i, x) { if (!(i in v) || x != x || x > v[i]) v[i] = x }
+	END { for (f in n) { k += n[f]; most(1, s[f] / n[f]); most(2, sqrt(q[f] / n[f])); most(3, m[f]); most(4, z[f] ? sqrt(q[f] / z[f]) : q[f] ? "inf" : 0); most(5, t[f] ? m[f] / t[f] : m[f] ? "inf" : 0) }
+		if (!k) exit 1; printf "%d", k; for (i = 1; i <= 5; i++) printf "\t%.10g", v[i]; print "" }'; }
+
+# compare_command MEMBER FILE: sets text to what measures its error.
+compare_command() {
+	if [ "$against" = exact ]; then
+		text="diag --exact${field:+ --columns $field} <'$2'"
+	else
+		text="scmp${field:+ --field $field}${set:+ --set $set} '$2' '$work/reference.${reference_of[$1]}'"
+	fi
+}
+
+# compare MEMBER FILE: prints the line of the log.
+compare() {
+	local row=''
+	compare_command "$1" "$2"
+	if bash -c "$text" </dev/null >"$2.rows" 2>"$2.said"; then
+		if [ "$against" = exact ]; then
+			row=$(norms_exact <"$2.rows") || row=
+		else
+			row=$(norms_scmp <"$2.rows") || row=
+		fi
+		if [ -n "$row" ]; then
+			printf 'error\t%s\t%s\n' "$1" "$row"
+		else
+			printf 'bad\t%s\t%s\n' "$1" "nothing to compare (choose --field)"
+		fi
+	else
+		printf 'bad\t%s\t%s\n' "$1" "$(head -n 1 "$2.said" | sed "s|$work/node\\.[0-9]*|the member|; s|$work/reference\\.[0-9]*|the reference|" | tr '\t' ' ')"
+	fi
+	rm -f "$2.rows" "$2.said"
+}
+
+# Is there nothing left to measure of MEMBER in ROUND?
+is_complete() {
+	local n
+	for n in ${path[$1]}; do
+		[ -z "${failed[$n]:-}" ] || return 0
+		[ -n "${clocked[$n,$2]:-}" ] || return 1
+	done
+	[ -n "${error_known[$1]:-}" ]
+}
+
+# visit MEMBER ROUND: what is missing on its path is run.
+visit() {
+	local n from=$first_input f line
+	for f in "${held[@]}"; do
+		[[ " ${path[$1]} " == *" $f "* ]] || rm -f "$work/node.$f"
+	done
+	held=()
+	for n in ${path[$1]}; do
+		held+=("$n")
+		[ -z "${failed[$n]:-}" ] || return 0
+		[ -f "$work/node.$n" ] || run_node "$n" "$from" "$2" || { rm -f "$work/node.$n"; return 0; }
+		from=$work/node.$n
+	done
+	[ -z "${error_known[$1]:-}" ] || return 0
+	line=$(compare "$1" "$from")
+	error_known[$1]=1
+	note "$line"
+}
+
+progress() {
+	local left=''
+	[ "$1" = 0 ] || left=", about $(((SECONDS - began) * ($2 - $1) / $1)) s left"
+	doing="$1 of $2 measured$3"
+	if [ -t 2 ]; then
+		printf '\r%s: %s%s  \033[K' "$me" "$doing" "$left" >&2
+	elif [ -n "${opt_verbose:-}" ]; then
+		printf '%s: %s%s\n' "$me" "$doing" "$left" >&2
+	fi
+}
+
+# Rounds over all members, so that what disturbs the machine for a while disturbs all alike.
+measure() {
+	local round m done_now=0 to_do=0
+	for ((round = 1; round <= repeat; round++)); do
+		for m in "${walk[@]}"; do is_complete "$m" $round || to_do=$((to_do + 1)); done
+	done
+	began=$SECONDS
+	for ((round = 1; round <= repeat; round++)); do
+		for m in "${walk[@]}"; do
+			is_complete "$m" $round && continue
+			progress $done_now $to_do " (round $round of $repeat: ${sentence[m]})"
+			visit "$m" $round
+			done_now=$((done_now + 1))
+		done
+		rm -f "$work"/node.*
+		held=()
+	done
+}
+
+# One member as one sentence, for errors alone; run by GNU parallel.
+member_error() {
+	local member=$1 out=$work/member.$1 text
+	if bash -o pipefail -c "$(cat "$work/tail.$1")" <"$first_input" >"$out" 2>"$out.err"; then
+		reference_of=()
+		reference_of[member]=$(cat "$work/against.$1")
+		compare "$member" "$out"
+	else
+		printf 'bad\t%s\t%s\n' "$member" "$(grep -v ': stopped by ' "$out.err" | head -n 1 | tr '\t' ' ' | sed 's/^bash: line 1: //')"
+	fi
+	rm -f "$out" "$out.err"
+}
+
+measure_errors() {
+	local m status=0 bar=() list=()
+	for m in "${walk[@]}"; do
+		[ -z "${error_known[$m]:-}" ] || continue
+		list+=("$m")
+		words "${sentence[m]}"
+		join "${word[@]:${#beginning[@]}}"
+		printf '%s\n' "$text" >"$work/tail.$m"
+		echo "${reference_of[m]:-}" >"$work/against.$m"
+	done
+	[ ${#list[@]} != 0 ] || return 0
+	[ ! -t 2 ] || bar=(--bar)
+	export work first_input against field set
+	export -f member_error compare compare_command norms_scmp norms_exact
+	doing="${#list[@]} were to be compared"
+	set -m
+	PARALLEL_SHELL=$(command -v bash) parallel --will-cite "${bar[@]}" -j "$jobs" member_error '{}' ::: "${list[@]}" </dev/null >>"$state/log" 2>"$work/parallel" &
+	child=$!
+	set +m
+	wait $child || status=$?
+	child=
+	[ $status = 0 ] || fail 1 "parallel: $(grep -v '^$' "$work/parallel" | tail -n 1)"
+}
+
+# join WORDS...: sets text to the sentence.
+join() {
+	text=$1
+	shift
+	[ $# = 0 ] || text+=$(printf ' | %s' "$@")
+}
+
+# recall: what the log of an earlier run knows.
+recall() {
+	local what a b rest
+	while IFS=$'\t' read -r what a b rest; do
+		case $what in
+		time) clocked[$a,$b]=1 ;;
+		fail) failed[$a]=$b ;;
+		error | bad) error_known[$a]=1 ;;
+		esac
+	done <"$state/log"
+}
+
+# Stops what runs, says how far it came, leaves the log.
+stop() {
+	trap '' INT TERM
+	[ -z "$child" ] || kill -TERM -- "-$child" 2>/dev/null || true
+	[ ! -t 2 ] || printf '\r\033[K' >&2
+	echo "$me: stopped; ${doing:-nothing measured yet}${keep:+; the same command goes on from here}" >&2
+	exit 130
+}

@@ -1,0 +1,185 @@
+# pareto: the alternatives of a sentence, their errors and seconds, the front, what is kept and gone on with.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+export PM_PLAN=estimate
+list() { pareto "$@" --against pp --list; }
+# sweep ARGUMENTS...: three meshes of a small box against the finest.
+sentence='pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32} | poisson-fft | mgrad | m2p'
+sweep() { pareto "$sentence" --against finest --field acc "$@"; }
+# told PATTERN ARGUMENTS...: one clear line and exit 2.
+told() {
+	run -2 --separate-stderr pareto "${@:2}"
+	[[ -z $output && $stderr == "pareto: "*$1* && $(wc -l <<<"$stderr") = 1 ]] || { echo "${*:2}: $stderr"; return 1; }
+}
+
+@test "braces: every combination, the last choice fastest" {
+	[ "$(list 'a --k {x,y} -n {1,2} | b')" = $'a --k x -n 1 | b\na --k x -n 2 | b\na --k y -n 1 | b\na --k y -n 2 | b' ]
+}
+
+@test "braces: nest, may be empty, may hold |, and the commas inside an inner pair are the inner pair's" {
+	[ "$(list 'a | {p2m | poisson-fft | mgrad --order {2,4} | m2p, tree, pp}')" = $'a | p2m | poisson-fft | mgrad --order 2 | m2p\na | p2m | poisson-fft | mgrad --order 4 | m2p\na | tree\na | pp' ]
+	[ "$(list 'a{1{x,y},,2}')" = $'a1x\na1y\na\na2' ]
+	[ "$(list "cycle -n {5,10} 'push {kick,drift}/2 | pp'")" = "cycle -n 5 'push kick/2 | pp'
+cycle -n 5 'push drift/2 | pp'
+cycle -n 10 'push kick/2 | pp'
+cycle -n 10 'push drift/2 | pp'" ]
+}
+
+@test "braces: \\{ \\} \\, are the signs themselves" {
+	[ "$(list "awk '\\{ print \$1, \$2 \\}' {x\\,y,z}")" = "awk '{ print \$1, \$2 }' x,y
+awk '{ print \$1, \$2 }' z" ]
+}
+
+@test "--vary: one choice in several places, whose values may have braces of their own; equal sentences count once" {
+	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = $'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
+	[ "$(list 'a | {p2m --kernel {k} | m2p --kernel {k}, pp}' --vary 'k=m{4,6}prime,cic' | grep -c .)" = 4 ] # pp once
+}
+
+@test "what is no sentence: one clear line, exit 2" {
+	told 'not closed' 'a {b,c' --against pp
+	told 'neither alternatives' 'a {b}' --against pp
+	told 'without its {' 'a {b,c} d}' --against pp
+	told 'nothing to choose' 'a | b' --against pp
+	told 'nowhere in the sentence' 'a {b,c}' --against pp --vary k=1,2
+	told 'name=value' 'a {b,c}' --against pp --vary 1,2
+	told 'a quote is not closed' "a {b,c} 'd" --against pp
+	told 'an empty word' 'a {b,c} | | d' --against pp
+	told "without ';'" 'a {b,c}; d' --against pp
+	told 'against is missing' 'a {b,c}'
+	told 'alternatives of its own' 'a {b,c}' --against 'p{p,q}'
+	told 'wants --field' 'a {b,c}' --against exact
+	told 'is not a time' 'a {b,c}' --against pp --within soon
+	told 'not a number' 'a {b,c}' --against pp --until-error small
+	told 'did you mean relative_l2' 'a {b,c}' --against pp --norm relative_l
+	told 'SENTENCE is missing' --against pp
+	told 'one SENTENCE' a b --against pp
+}
+
+@test "a sweep: finer meshes have smaller errors and larger costs, and the TSV has the norms of scmp" {
+	sweep --repeat 1 --tsv >table
+	sort -n table >by-member
+	# Each halving of h takes the error down: the finest is the reference, and tells by itself.
+	column error <table | head -n 9 >/dev/null
+	e8=$(awk -F'\t' '$1 == 1 { print $5 }' table) e16=$(awk -F'\t' '$1 == 2 { print $5 }' table)
+	awk -v a="$e8" -v b="$e16" 'BEGIN { exit !(b > 0 && a > 1.1 * b) }'
+	[ "$(awk -F'\t' '$1 == 3 { print $2 }' table)" = reference ]
+	# The same by hand.
+	pinit uniform -n 500 | p2m --kernel tsc -n 8 | poisson-fft | mgrad | m2p >a
+	pinit uniform -n 500 | p2m --kernel tsc -n 32 | poisson-fft | mgrad | m2p >b
+	scmp --field acc a b >norms
+	[ "$(column relative_l2 <norms)" = "$e8" ]
+	[ "$(column l1 <norms)" = "$(awk -F'\t' '$1 == 1 { print $6 }' table)" ]
+	awk -F'\t' 'NR > 1 && !($11 > 0 && $13 > 0 && ($14 == "-" || $14 > 0)) { exit 1 }' table
+}
+
+@test "exact: a leapfrog's error falls by four when the step is halved; a column without an exact one is said" {
+	run -0 pareto "pinit two-body --eccentricity 0.5 --dt {0.1,0.05,0.025} | cycle -t 1 'push kick/2 drift | pp | push kick/2'" --against exact --field energy_kinetic --repeat 1 --tsv
+	mapfile -t e < <(column error <<<"$output" | sort -rg)
+	order 2 0.1 "${e[0]}" 0.05 "${e[1]}" 0.025 "${e[2]}"
+	run -1 pareto "pinit two-body --dt {0.1,0.05} | cycle -n 1 'push drift'" --against exact --field distance_max --repeat 1
+	[[ $output == *"nothing to compare"* ]]
+}
+
+@test "a reference of its own for every value of a name" {
+	pareto 'pinit plummer -n {n} | {pp,pp --softening 1}' --vary n=20,30 --against 'pinit plummer -n {n} | pp' --field acc --repeat 1 --tsv >table
+	[ "$(awk -F'\t' 'NR > 1 { print $15, $16, ($5 == "0" ? "same" : $5 > 0.01 ? "other" : "near") }' table | sort)" = "20 pp --softening 1 other
+20 pp same
+30 pp --softening 1 other
+30 pp same" ]
+}
+
+@test "a combination that fails is reported with its reason, and the others go on" {
+	run -0 pareto 'pinit plummer -n 100 | p2m -n 8 | poisson-fft | mgrad --order {2,spectral} | m2p' --against pp --field acc --repeat 1
+	[[ $output == *"failed: 2: mgrad: frame 1: --order spectral needs periodic"* ]]
+	[[ $output =~ \*[[:space:]]+1[[:space:]] ]]
+	run -1 pareto 'pinit plummer -n 100 | p2m -n {8,8x8} --kernel nosuch' --against pp --repeat 1
+	[[ $output == *"every sentence failed"* ]]
+}
+
+# The seconds and errors of a log written by hand: 1 is dominated by 2, 2 and 4 are on the front, 3 by 4.
+by_hand() {
+	pareto "pinit uniform -n 20 | m2p -{a,b} {1,2}" --against 'p2m -n 4' --field x --repeat 3 -o d >/dev/null 2>&1 || true
+	{
+		for n in 0 1 2 3; do
+			for r in 1 2 3; do printf 'time\t%d\t%d\t0.5\t%s\t2048\n' $n $r "$(awk -v n=$n -v r=$r 'BEGIN { s[0] = 2; s[1] = 1; s[2] = 5; s[3] = 4; print s[n] + (r - 2) * 0.1 + (r == 3 ? 9 : 0) }')"; done
+		done
+		printf 'error\t0\t20\t1\t1\t1\t0.02\t1\nerror\t1\t20\t1\t1\t1\t0.01\t1\nerror\t2\t20\t1\t1\t1\t2e-5\t1\nerror\t3\t20\t1\t1\t1\t1e-5\t1\n'
+	} >d/measured/log
+	pareto "pinit uniform -n 20 | m2p -{a,b} {1,2}" --against 'p2m -n 4' --field x --repeat 3 -o d "$@"
+}
+
+@test "the front, who beats whom, medians and spreads, and the choices that never are on the front" {
+	by_hand --tsv >table
+	[ "$(awk -F'\t' 'NR > 1 { print $1, $3, $4, $11, $12, $13, $14 }' table)" = "2 yes - 1 4.6 0.5 2.0
+1 no 2 2 4.6 0.5 2.0
+4 yes - 4 4.6 0.5 2.0
+3 no 4 5 4.6 0.5 2.0" ]
+	by_hand >text
+	grep -q 'never on the front: choice2 1' text
+}
+
+@test "--until-error prints the cheapest sentence that meets it, --within the most accurate; none is exit 1" {
+	[ "$(by_hand --until-error 1e-2)" = "pinit uniform -n 20 | m2p -a 2" ]
+	[ "$(by_hand --until-error 1e-4)" = "pinit uniform -n 20 | m2p -b 2" ]
+	[ "$(by_hand --within 4500ms)" = "pinit uniform -n 20 | m2p -b 2" ]
+	[ "$(by_hand --within 2.5s)" = "pinit uniform -n 20 | m2p -a 2" ]
+	run -1 by_hand --until-error 1e-9
+	[[ $output == *"the smallest error is 1e-05"* ]]
+	run -1 by_hand --until-error 1e-4 --within 2s
+}
+
+@test "--jobs: the same errors side by side, without seconds; a failing sentence is reported" {
+	sweep --repeat 1 --tsv >alone
+	sweep --jobs 2 --tsv >together
+	[ "$(cut -f1,5-10 alone | sort)" = "$(cut -f1,5-10 together | sort)" ]
+	[ "$(column seconds <together | sort -u)" = - ]
+	run -0 pareto 'pinit plummer -n 100 | p2m -n 8 | poisson-fft | mgrad --order {2,spectral} | m2p' --against pp --field acc --jobs 2
+	[[ $output == *"failed: 2: mgrad: frame 1: --order spectral needs periodic"* ]]
+}
+
+@test "what several sentences begin with is measured once a round and charged to each" {
+	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 2 -o d >/dev/null
+	# p2m and poisson-fft once, mgrad and m2p twice, in each of two rounds: empty alternatives are the same sentence.
+	[ "$(grep -c ^time d/measured/log)" = 12 ]
+	sort -k2,2n d/measured/log | awk -F'\t' '$1 == "time" && $3 == 1 { s[$2] = $5 } END { printf "%.6g %.6g\n", s[0] + s[1] + s[2] + s[3], s[0] + s[1] + s[4] + s[5] }' >want
+	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 1 -o d --tsv >table
+	[ "$(sort -n table | column seconds | tr '\n' ' ')" = "$(cat want) " ]
+}
+
+@test "with -o: TSV, both pictures, and one page that holds everything itself" {
+	sweep --repeat 1 -o d | tail -n 1 >last
+	[ "$(cat last)" = "page: d/index.html" ]
+	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
+	grep -q '</svg>' d/pareto.svg
+	[ "$(wc -l <d/pareto.tsv)" = 4 ]
+	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
+	for what in '<svg' 'pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32}' 'processors' 'pmpipe ' 'poisson-fft --timing' 'scmp --field acc' 'p2m --kernel tsc -n 16 --timing'; do
+		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
+	done
+}
+
+@test "stopped by SIGINT it says how far it came, and the same command goes on from there and measures nothing twice" {
+	mkdir bin
+	# The first time it comes to the mesh of 16 cells, it stops pareto and waits.
+	cat >bin/mesh <<-'SH'
+		#!/bin/sh
+		[ "$1" != 16 ] || [ -e stopped ] || { touch stopped; kill -INT "$(cat pid)"; sleep 20; }
+		exec p2m -n "$1"
+	SH
+	chmod +x bin/mesh
+	PATH=$PWD/bin:$PATH
+	s='pinit uniform -n 50 | mesh {8,16,4} | poisson-fft | mgrad | m2p'
+	# Under GNU parallel signals may come in ignored.
+	run -130 timeout 15 env --default-signal=INT bash -c 'echo $$ >pid; exec pareto "$1" --against "p2m -n 32 | poisson-fft | mgrad | m2p" --field acc --repeat 1 -o d' - "$s"
+	[[ ${lines[-1]} == "pareto: stopped; 0"* || ${lines[-1]} == "pareto: stopped; 1 of 3"* ]]
+	[[ ${lines[-1]} == *"the same command goes on from here" ]]
+	cp d/measured/log before
+	[ "$(grep -c ^error before)" = 1 ]
+	pareto "$s" --against 'p2m -n 32 | poisson-fft | mgrad | m2p' --field acc --repeat 1 -o d >/dev/null
+	cmp -n "$(wc -c <before)" before d/measured/log
+	[ "$(grep -c ^error d/measured/log)" = 3 ]
+	[ "$(grep -c ^time d/measured/log)" = 12 ]
+	run -2 pareto "$s" --against 'p2m -n 16' --field acc -o d
+	[[ $output == *"holds another sweep"* ]]
+}

@@ -1,0 +1,212 @@
+#!/usr/bin/env bash
+# pareto: what accuracy costs in time. Every combination of the alternatives in a sentence is run, its error measured against a reference and its seconds
+# word by word; the Pareto front is what no other combination beats in both. A script, for all it does is to start programs and to wait for them: bash
+# runs the words as the user's shell would, awk sums. The Makefile puts the files it reads from lib/shell/ into bin/pareto.
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -euo pipefail
+export LC_ALL=C
+me=pareto
+version=@VERSION@
+# shellcheck source=lib/shell/help.sh
+. lib/shell/help.sh
+# shellcheck source=lib/shell/braces.sh
+. lib/shell/braces.sh
+# shellcheck source=lib/shell/sweep.sh
+. lib/shell/sweep.sh
+# shellcheck source=lib/shell/front.sh
+. lib/shell/front.sh
+
+summary="what accuracy costs in time: error against seconds of all the alternatives in a sentence"
+kind="runs sentences and writes text"
+arguments=SENTENCE
+arguments_text="Words joined by |, with alternatives in braces, in quotes."
+about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may hold |; \\{ \\} \\, are the signs themselves. --vary kernel=cic,tsc
+gives {kernel} one value for every place it has (linked choices). The words before the first brace are run once, and no sentence is charged
+for them; what several sentences begin with behind them is run once a round and charged to each. One word runs at a time. The seconds are the
+words' own (--timing; the processor's of a word that has no such option), in rounds over all sentences: the median counts, half the range is the spread.
+Set-up, and the largest memory of one word, stand apart. A sentence that fails is reported and does not stop the others.
+
+With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; what was measured is kept there, and the
+same command goes on where it stopped."
+rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
+f|field|NAME||compare these fields, with commas between (default: all)
+|set|NAME||compare what is on these sets or meshes only
+|norm|WORD|l1 l2 max relative_l2 relative_max|the norm of scmp that is the error (default relative_l2); the largest over fields and frames counts
+|vary|TEXT||name=value,value,...: what {name} stands for; may be given several times
+o|output|DIRECTORY||write the results there, and go on from what is there
+|repeat|N||rounds of timing (default 3)
+j|jobs|N||only errors, without seconds: run so many sentences at a time (GNU parallel)
+|until-error|X||print the cheapest sentence with at most this error, and nothing else
+|within|TEXT||print the most accurate sentence of at most this cost, as 2s, 50ms or 1.5min, and nothing else
+|tsv|||print the table as TSV
+|list|||print the sentences, and run nothing
+|fresh|||forget what was measured before in the directory of -o
+|threads|N||threads of every word (OMP_NUM_THREADS)"
+examples="Two kernels and two meshes: errors of the force against the direct sum|pareto 'pinit plummer -n 200 | p2m --kernel {cic,tsc} -n {8,16} | poisson-fft | mgrad | m2p' --against pp --field acc --repeat 1
+The same kernel for the way to the mesh and back; only errors|pareto 'pinit uniform -n 99 | p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p --kernel {k}' --vary k=ngp,tsc --against finest --field acc --repeat 1 --tsv"
+
+seconds_of() {
+	[[ $1 =~ ^([0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?)(us|ms|s|min|h|)$ ]] || usage "option '--within': '$1' is not a time (2s, 50ms, 1.5min)"
+	awk -v x="${BASH_REMATCH[1]}" -v u="${BASH_REMATCH[3]}" 'BEGIN { print x * (u == "us" ? 1e-6 : u == "ms" ? 1e-3 : u == "min" ? 60 : u == "h" ? 3600 : 1) }'
+}
+
+settle() {
+	read_options "$@"
+	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
+	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
+	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} keep=${opt_output:-}
+	until=${opt_until_error:-} within_seconds=
+	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of "$opt_within")
+	[ -n "$against" ] || usage "--against is missing: what is the reference? (a sentence such as 'pp', a file, exact, or finest)"
+	[ "$repeat" -ge 1 ] || usage "--repeat 0 measures nothing (--repeat 1)"
+	[[ -z $jobs || $jobs -ge 1 ]] || usage "--jobs 0 runs nothing (--jobs 1)"
+	[[ -z $jobs || -z $within_seconds ]] || usage "--within wants seconds, which --jobs does not measure (leave --jobs out)"
+	[[ $against != exact || -n $field ]] || usage "--against exact wants --field: columns that diag --exact knows (--field energy_kinetic)"
+	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
+	command_line=$(printf '%q ' "$me" "$@")
+	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
+}
+
+# The sentences, what they begin with, and the tree of what follows.
+understand() {
+	local template=${positional[0]//$'\n'/ } w
+	words "$template"
+	beginning=()
+	for w in "${word[@]}"; do
+		[[ ${w//'\{'/} != *'{'* ]] || break
+		hide_escapes "$w"
+		show_escapes "$text"
+		beginning+=("$text")
+	done
+	sentences "$template" "$against" "${varied[@]}"
+	plant
+	refer
+}
+
+# Which reference each member has; several only where names of --vary are in it.
+refer() {
+	local m
+	local -A number=()
+	reference_text=() reference_of=() reference_member=-1
+	[ "$against" != exact ] || return 0
+	for m in "${!sentence[@]}"; do
+		[[ ${reference[m]} != *'{'*','*'}'* ]] || usage "--against has alternatives of its own (only {name} of --vary may stand there)"
+		[ -n "${number[x${reference[m]}]:-}" ] || { number[x${reference[m]}]=${#reference_text[@]}; reference_text+=("${reference[m]}"); }
+		reference_of[m]=${number[x${reference[m]}]}
+	done
+	if [ "$against" = finest ]; then
+		reference_member=$((${#sentence[@]} - 1))
+		words "${sentence[-1]}"
+		join "${word[@]:${#beginning[@]}}"
+		reference_text=("$text")
+	fi
+}
+
+# open_state: the directory of results and what is known there, or one that goes away again.
+open_state() {
+	work=$(mktemp -d "${TMPDIR:-/tmp}/pareto.XXXXXX")
+	state=$work
+	local key
+	key=$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" "${jobs:+errors}")
+	if [ -n "$keep" ]; then
+		state=$keep/measured
+		mkdir -p "$state" 2>/dev/null || fail 1 "cannot make the directory '$keep'"
+		if [ -n "${opt_fresh:-}" ]; then rm -f "$state/log" "$state/key"; fi
+		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another sweep (choose another -o, or --fresh to forget it)"
+		printf '%s\n' "$key" >"$state/key"
+	fi
+	touch "$state/log"
+}
+
+# What every member begins with, and what they are compared with, once.
+prepare() {
+	local i status
+	first_input=/dev/null
+	if [ ${#beginning[@]} != 0 ]; then
+		join "${beginning[@]}"
+		doing="nothing measured yet"
+		status=0
+		run "$text" /dev/null "$work/beginning" || status=$?
+		[ $status = 0 ] || fail 1 "the beginning '$text' fails: $(why $status)"
+		first_input=$work/beginning
+	fi
+	for i in "${!reference_text[@]}"; do
+		status=0
+		if [[ -f ${reference_text[i]} ]]; then
+			ln -sf "$(realpath "${reference_text[i]}")" "$work/reference.$i"
+			continue
+		fi
+		words "${reference_text[i]}"
+		local w all=()
+		for w in "${word[@]}"; do with_timing "$w"; all+=("$text"); done
+		join "${all[@]}"
+		run "$text" "$first_input" "$work/reference.$i" || status=$?
+		[ $status = 0 ] || fail 1 "the reference '${reference_text[i]}' fails: $(why $status)"
+		cut -f3 "$work/timing" >"$state/reference.$i.seconds"
+	done
+}
+
+all_known() {
+	local m r
+	for m in "${walk[@]}"; do
+		if [ -n "$jobs" ]; then
+			[ -n "${error_known[$m]:-}" ] || return 1
+		else
+			for ((r = 1; r <= repeat; r++)); do is_complete "$m" $r || return 1; done
+		fi
+	done
+}
+
+report() {
+	tsv >"$work/pareto.tsv"
+	[ ! -t 2 ] || printf '\r\033[K' >&2
+	if [ -n "$keep" ]; then
+		cp "$work/pareto.tsv" "$keep/pareto.tsv"
+		if [ -n "$jobs" ]; then
+			:
+		elif command -v gnuplot >/dev/null; then
+			plot "$keep" || true
+		else
+			echo "$me: no gnuplot here: no picture (apt-get install gnuplot-nox)" >&2
+		fi
+		page "$keep"
+	fi
+	if [ -n "$until$within_seconds" ]; then
+		choose "$work/pareto.tsv"
+	elif [ -n "${opt_tsv:-}" ]; then
+		cat "$work/pareto.tsv"
+	else
+		table "$work/pareto.tsv"
+		[ -z "$keep" ] || echo "page: $keep/index.html"
+	fi
+	awk -F'\t' 'NR > 1 && $2 != "failed" { found = 1 } END { exit !found }' "$work/pareto.tsv" || fail 1 "every sentence failed"
+}
+
+main() {
+	declare -A is_timed=() failed=() clocked=() error_known=()
+	held=() child='' doing='' work='' bin=$(cd "$(dirname "$(command -v "$0")")" && pwd)
+	PATH=$PATH:$bin
+	time_program=$(type -P time) || time_program=
+	settle "$@"
+	understand
+	if [ -n "${opt_list:-}" ]; then
+		printf '%s\n' "${sentence[@]}"
+		return
+	fi
+	trap stop INT TERM
+	trap '[ -z "$work" ] || rm -rf "$work"' EXIT
+	open_state
+	recall
+	if ! all_known; then
+		prepare
+		if [ -n "$jobs" ]; then
+			command -v parallel >/dev/null || fail 1 "no GNU parallel here (apt-get install parallel, or leave --jobs out)"
+			measure_errors
+		else
+			measure
+		fi
+	fi
+	report
+}
+
+main "$@"
