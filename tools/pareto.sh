@@ -55,6 +55,7 @@ settle() {
 	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} keep=${opt_output:-}
+	[ "$keep" = / ] || keep=${keep%/}
 	until=${opt_until_error:-} within_seconds=
 	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of "$opt_within")
 	[ -n "$against" ] || usage "--against is missing: what is the reference? (a sentence such as 'pp', a file, exact, or finest)"

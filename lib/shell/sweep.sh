@@ -25,6 +25,8 @@ plant() {
 	node_word=() path=()
 	for m in "${!sentence[@]}"; do
 		words "${sentence[m]}"
+		join "${word[@]}"
+		sentence[m]=$text
 		parent=
 		for w in "${word[@]:${#beginning[@]}}"; do
 			key="$parent|$w"
@@ -174,15 +176,17 @@ progress() {
 # Rounds over all members, so that what disturbs the machine for a while disturbs all alike.
 measure() {
 	local round m done_now=0 to_do=0
+	local -A wanted=()
 	for ((round = 1; round <= repeat; round++)); do
-		for m in "${walk[@]}"; do is_complete "$m" $round || to_do=$((to_do + 1)); done
+		for m in "${walk[@]}"; do is_complete "$m" $round || wanted[$m,$round]=1; done
 	done
+	to_do=${#wanted[@]}
 	began=$SECONDS
 	for ((round = 1; round <= repeat; round++)); do
 		for m in "${walk[@]}"; do
-			is_complete "$m" $round && continue
+			[ -n "${wanted[$m,$round]:-}" ] || continue
 			progress $done_now $to_do " (round $round of $repeat: ${sentence[m]})"
-			visit "$m" $round
+			is_complete "$m" $round || visit "$m" $round
 			done_now=$((done_now + 1))
 		done
 		rm -f "$work"/node.*

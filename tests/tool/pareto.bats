@@ -58,9 +58,6 @@ awk '{ print \$1, \$2 }' z" ]
 
 @test "a sweep: finer meshes have smaller errors and larger costs, and the TSV has the norms of scmp" {
 	sweep --repeat 1 --tsv >table
-	sort -n table >by-member
-	# Each halving of h takes the error down: the finest is the reference, and tells by itself.
-	column error <table | head -n 9 >/dev/null
 	e8=$(awk -F'\t' '$1 == 1 { print $5 }' table) e16=$(awk -F'\t' '$1 == 2 { print $5 }' table)
 	awk -v a="$e8" -v b="$e16" 'BEGIN { exit !(b > 0 && a > 1.1 * b) }'
 	[ "$(awk -F'\t' '$1 == 3 { print $2 }' table)" = reference ]
@@ -150,6 +147,7 @@ by_hand() {
 @test "with -o: TSV, both pictures, and one page that holds everything itself" {
 	sweep --repeat 1 -o d | tail -n 1 >last
 	[ "$(cat last)" = "page: d/index.html" ]
+	command -v gnuplot >/dev/null || skip "no gnuplot here"
 	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
 	grep -q '</svg>' d/pareto.svg
 	[ "$(wc -l <d/pareto.tsv)" = 4 ]

@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 7) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 8) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
@@ -57,6 +57,13 @@ block() {
 	want=$(sed -n 's/.*`# mode:1 gamma \([0-9.]*\) omega 0, \(.*\)`.*/\1 \2/p' "$top/README.md")
 	within "$gamma" "${want%% *}" 5e-5
 	[[ "$(tail -n 1 table)" == *"${want#* }" ]]
+}
+
+@test "README: what accuracy costs: eight sentences, a front, a page" {
+	block 7 >cost.sh
+	sh_ok 'bash -euo pipefail cost.sh'
+	[ "$(grep -cE '^[* ] +[1-8] ' <<<"$output")" = 8 ]
+	[[ $output == *$'\n* '* && -s report/index.html ]]
 }
 
 @test "README: the table of swapped words is what its command prints" {
