@@ -94,21 +94,30 @@ static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relax
 	pm_report_text(s, f, "status", r->floor ? "floor" : "converged");
 }
 
+/* c < 0: of the only component. */
+static void report_mean(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_relaxation_record *r)
+{
+	char key[32], number[16] = "";
+	if (c >= 0)
+		snprintf(number, sizeof number, "_%d", c);
+	snprintf(key, sizeof key, "mean_removed%s", number);
+	pm_report(s, f, key, r->mean);
+	snprintf(key, sizeof key, "incompatible%s", number);
+	pm_report(s, f, key, r->incompatible);
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	struct pm_relaxation_record longest = {.sweeps = -1}, r;
 	int status = 0;
 	for (int c = 0; !status && c < t->problem.source->components; c++) {
-		char key[32] = "mean_removed";
-		if (t->problem.source->components > 1)
-			snprintf(key, sizeof key, "mean_removed_%d", c);
 		if (!(status = ready(t, c)))
 			status = pm_relaxation_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &r);
 		if (status)
 			break;
 		if (r.singular)
-			pm_report(s, f, key, r.mean);
+			report_mean(s, f, t->problem.source->components > 1 ? c : -1, &r);
 		if (r.sweeps > longest.sweeps)
 			longest = r;
 	}

@@ -158,6 +158,14 @@ static void iterate(struct pm_relaxation *p, const struct pm_relaxation_choice *
 		r->radius = pow(r->after / r->history[from], 1 / (double)(r->sweeps - r->sweep[from]));
 }
 
+static double largest(size_t n, const double *s)
+{
+	double most = 0;
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(s[i]));
+	return most;
+}
+
 /* The power of two at the largest |c (s - average)|: squares must neither vanish nor overflow, and it rounds nothing. */
 static double unit_of(size_t n, double c, double average, const double *s)
 {
@@ -173,6 +181,7 @@ static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 	const struct pm_laplacian *l = &p->lap;
 	*r = (struct pm_relaxation_record){.singular = l->singular, .factor = factor_of(l, p->method, o->factor), .radius = NAN};
 	r->mean = l->singular ? pm_laplacian_mean(l, s, p->work.sums) : 0;
+	r->incompatible = r->mean != 0 ? fabs(r->mean) / largest(l->size, s) : 0;
 	r->expected = l->diagonal > 0 ? p->method->radius(l, r->factor) : NAN;
 	double unit = unit_of(l->size, c, r->mean, s);
 	load(l, c / unit, r->mean, s, p->f);

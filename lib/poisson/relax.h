@@ -21,6 +21,7 @@ struct pm_relaxation_record {
 	double radius;        /* residual per sweep, geometric mean over the last half of the sweeps or more; NAN where there were fewer than 4 */
 	double expected;      /* by the formula of the method; NAN: none holds here */
 	double mean;          /* removed from c*s, as a mean of s; 0 if the problem is not singular */
+	double incompatible;  /* |mean| over the largest |s|: round-off where the data fit the faces */
 	bool singular, converged;
 	bool floor;           /* round-off keeps the residual above the tolerance; counts as converged */
 	int n;                /* relative residuals after sweep[i] = 1, 2, 4, 8 ... */

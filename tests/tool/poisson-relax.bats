@@ -110,6 +110,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	[ -z "$(report a mean_removed)" ]
 	mesh | poisson-relax >b
 	within "$(report b mean_removed)" 1 1e-12
+	mesh | poisson-fft >fft
+	within "$(report b incompatible)" "$(tail -c 2048 fft | grep -ao '"incompatible":[^,}]*' | cut -d: -f2)" 1e-14
 	[ -z "$(report b relaxation)" ] # conjugate gradients have none
 	poisson-relax --method sor <a >c
 	within "$(report c relaxation)" 1.82146519078902 1e-13       # 2/(1 + sin(pi/32))
