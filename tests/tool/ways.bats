@@ -66,6 +66,15 @@ force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
 	all_ways "pinit uniform -n 300" "" "p2m -n 12x16x20 | poisson-mg | mgrad | m2p | push lsrk3" 3
 }
 
+@test "equal bytes: gravity on interlaced meshes by relaxation in a periodic box, lsrk3" {
+	all_ways "pinit uniform -n 300" "" "p2m -n 9x12x10 --interlace | poisson-relax --method red-black-sor --tolerance 1e-6 | mgrad | m2p | push lsrk3" 3
+}
+
+@test "equal bytes: the influence function of least error, leapfrog" {
+	f='p2m -n 12 --kernel tsc | poisson-fft --influence optimal --cloud 0.2 | mgrad | m2p'
+	all_ways "pinit uniform -n 300" "$f" "push kick/2 drift | $f | push kick/2" 1
+}
+
 @test "equal bytes: direct sum, leapfrog" {
 	all_ways "pinit plummer -n 300" "pp" "push kick/2 drift | pp | push kick/2" 1
 }
