@@ -9,9 +9,7 @@
 #include "poisson/fft.h"
 #include "poisson/mg.h"
 
-#define pm_line pm_advance_line_of /* step/advance.h and mesh/lines.h name two structs alike */
 #include "step/advance.h"
-#undef pm_line
 
 enum { CELLS = 32, POINTS = CELLS * CELLS * CELLS, BODIES = 1024 };
 
@@ -68,7 +66,7 @@ static void push(struct work *w)
 	struct pm_bounds box = {.lo = 0, .hi = CELLS, .fold = true};
 	a.action[0].step = pm_step_find("kick"), a.action[1].step = pm_step_find("drift");
 	for (int d = 0; d < 3; d++) {
-		struct pm_advance_line_of lines[2] = {{.y = w->x[d], .k = w->v[d], .position = true}, {.y = w->v[d], .k = w->a[d]}};
+		struct pm_advanced lines[2] = {{.y = w->x[d], .k = w->v[d], .position = true}, {.y = w->v[d], .k = w->a[d]}};
 		pm_advance_axis(POINTS, &a, 2, lines, w->x[d], NULL, &box);
 	}
 }

@@ -57,7 +57,7 @@ static void measure(void)
 	bench_turns(BANDWIDTHS + 1, jobs);
 	for (int i = 0; i < BANDWIDTHS; i++)
 		row(bandwidth_names[i], "GB/s", bandwidth_rate(&all[i], &jobs[i]), bench_middle(jobs[i].seconds).spread);
-	row("fma", "GFLOP/s", 2. * PM_LANES * CHAINS * TURNS * pm_threads() / bench_median(&jobs[BANDWIDTHS]) / 1e9,
+	row("fma", "GFLOP/s", 2. * PM_VECTOR_LANES * CHAINS * TURNS * pm_threads() / bench_median(&jobs[BANDWIDTHS]) / 1e9,
 		bench_middle(jobs[BANDWIDTHS].seconds).spread);
 	bandwidth_free(&all[0]);
 }

@@ -34,13 +34,13 @@ static void plain(void *with)
 	const double *const y[3] = {b->x[0], b->x[1], b->x[2]};
 	pm_lanes delta2 = pm_lanes_all(b->how.delta * b->how.delta);
 #pragma omp parallel for schedule(static)
-	for (size_t i = 0; i < N; i += GROUP * PM_LANES) {
+	for (size_t i = 0; i < N; i += GROUP * PM_VECTOR_LANES) {
 		pm_lanes x[GROUP][3], g[GROUP][3] = {{{0}}};
 		PM_LANES_UNROLL
 		for (size_t k = 0; k < GROUP; k++)
 			PM_LANES_UNROLL
 			for (int d = 0; d < 3; d++)
-				x[k][d] = pm_lanes_load(b->x[d] + i + k * PM_LANES);
+				x[k][d] = pm_lanes_load(b->x[d] + i + k * PM_VECTOR_LANES);
 		for (size_t j = 0; j < N; j++)
 			PM_LANES_UNROLL
 			for (size_t k = 0; k < GROUP; k++)
@@ -49,7 +49,7 @@ static void plain(void *with)
 		for (size_t k = 0; k < GROUP; k++)
 			PM_LANES_UNROLL
 			for (int d = 0; d < 3; d++)
-				pm_lanes_store(b->g[d] + i + k * PM_LANES, g[k][d]);
+				pm_lanes_store(b->g[d] + i + k * PM_VECTOR_LANES, g[k][d]);
 	}
 }
 

@@ -19,7 +19,7 @@ static void push(void *with)
 	a.action[0].step = pm_step_find("kick"), a.action[0].dt = 1e-9;
 	a.action[1].step = pm_step_find("drift"), a.action[1].dt = 1e-9;
 	for (int d = 0; d < 3; d++) {
-		struct pm_line lines[2] = {{.y = p->x[d], .k = p->v[d], .position = true}, {.y = p->v[d], .k = p->a[d]}};
+		struct pm_advanced lines[2] = {{.y = p->x[d], .k = p->v[d], .position = true}, {.y = p->v[d], .k = p->a[d]}};
 		if (!pm_advance_axis(N, &a, 2, lines, p->x[d], NULL, &box))
 			exit(1);
 	}
@@ -28,7 +28,7 @@ static void push(void *with)
 static void bulk(void *with)
 {
 	struct particles *p = with;
-	struct pm_bodies b = {.n = N, .dim = 3, .vdim = 3, .x = {p->x[0], p->x[1], p->x[2]}, .v = {p->v[0], p->v[1], p->v[2]}, .mass = p->mass};
+	struct pm_measured b = {.n = N, .dim = 3, .vdim = 3, .x = {p->x[0], p->x[1], p->x[2]}, .v = {p->v[0], p->v[1], p->v[2]}, .mass = p->mass};
 	struct pm_bulk sums = {0};
 	pm_bulk_add(&b, &sums);
 	if (!(sums.mass > 0))

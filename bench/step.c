@@ -7,9 +7,7 @@
 #include "stage/sentence.h"
 #include "stream/wire.h"
 
-#define pm_line pm_advance_line_of /* step/advance.h and mesh/lines.h name two structs alike */
 #include "step/advance.h"
-#undef pm_line
 
 #include "bench.h"
 
@@ -74,7 +72,7 @@ static void push(void *with)
 	open.action[0].step = close.action[0].step = pm_step_find("kick"), open.action[1].step = pm_step_find("drift");
 	for (int d = 0; d < 3; d++) {
 		struct pm_bounds box = {.lo = s->frame->lo[d], .hi = s->frame->hi[d], .fold = true};
-		struct pm_advance_line_of lines[2] = {{.y = s->x[d], .k = s->v[d], .position = true}, {.y = s->v[d], .k = s->a[d]}};
+		struct pm_advanced lines[2] = {{.y = s->x[d], .k = s->v[d], .position = true}, {.y = s->v[d], .k = s->a[d]}};
 		pm_advance_axis(s->n, &open, 2, lines, s->x[d], NULL, &box);
 		pm_advance_axis(s->n, &close, 1, lines + 1, NULL, NULL, NULL);
 	}

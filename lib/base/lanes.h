@@ -14,7 +14,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi" /* how vectors are passed to functions: all of ours are inlined */
 #endif
 
-enum { PM_LANES = 8 };
+enum { PM_VECTOR_LANES = 8 };
 typedef double pm_lanes __attribute__((vector_size(64)));
 typedef int64_t pm_lanes_bits __attribute__((vector_size(64)));
 
@@ -88,7 +88,7 @@ PM_LANES_INLINE pm_lanes pm_lanes_rsqrt_start(pm_lanes x)
 	return (pm_lanes)_mm512_rsqrt14_pd((__m512d)x);
 #else
 	pm_lanes y;
-	for (int l = 0; l < PM_LANES; l++)
+	for (int l = 0; l < PM_VECTOR_LANES; l++)
 		y[l] = 1 / sqrt(x[l]);
 	return y;
 #endif

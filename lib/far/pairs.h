@@ -48,7 +48,7 @@ static __attribute__((noinline, unused)) void pm_pairs_one_by_one(const struct p
 {
 	const struct pm_mollifier *m = p->mollifier;
 	double c = pm_pairs_unit(p->dim);
-	for (int l = 0; l < PM_LANES; l++)
+	for (int l = 0; l < PM_VECTOR_LANES; l++)
 		if ((*r2)[l] < p->near2) {
 			(*f)[l] = c * m->force((*r2)[l], p->delta, p->dim);
 			if (potential)
@@ -59,7 +59,7 @@ static __attribute__((noinline, unused)) void pm_pairs_one_by_one(const struct p
 /* ln r, 0 for coincident particles. */
 static __attribute__((noinline, unused)) void pm_pairs_logarithm(const pm_lanes *d2, pm_lanes *u)
 {
-	for (int l = 0; l < PM_LANES; l++)
+	for (int l = 0; l < PM_VECTOR_LANES; l++)
 		(*u)[l] = (*d2)[l] < pm_pairs_least ? 0 : 0.5 * log((*d2)[l]);
 }
 
@@ -93,7 +93,7 @@ PM_LANES_INLINE pm_lanes pm_pairs_after(size_t first, size_t i, pm_lanes v)
 static __attribute__((noinline, unused)) unsigned pm_pairs_count(size_t first, size_t from, size_t to, const pm_lanes *d2)
 {
 	unsigned c = 0;
-	for (size_t l = 0; l < PM_LANES; l++)
+	for (size_t l = 0; l < PM_VECTOR_LANES; l++)
 		c += first + l >= from && first + l < to && (*d2)[l] < pm_pairs_least;
 	return c;
 }

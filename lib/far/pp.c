@@ -30,7 +30,7 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mo
 	for (int k = 0; k < GROUP; k++) {
 		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
-			x[d][k] = pm_lanes_load(w->x[d] + i + (size_t)k * PM_LANES), g[d][k] = zero;
+			x[d][k] = pm_lanes_load(w->x[d] + i + (size_t)k * PM_VECTOR_LANES), g[d][k] = zero;
 		phi[k] = zero;
 	}
 	for (size_t j = j0; j < j1; j++) {
@@ -48,9 +48,9 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mo
 			}
 			pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
 			if (mode != PM_SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(pm_pairs_least)), 0))
-				*coincident += pm_pairs_count(i + (size_t)k * PM_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
+				*coincident += pm_pairs_count(i + (size_t)k * PM_VECTOR_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
 			if (self)
-				f = pm_pairs_others(i + (size_t)k * PM_LANES, j, f), u = pm_pairs_others(i + (size_t)k * PM_LANES, j, u);
+				f = pm_pairs_others(i + (size_t)k * PM_VECTOR_LANES, j, f), u = pm_pairs_others(i + (size_t)k * PM_VECTOR_LANES, j, u);
 			f *= q;
 			PM_LANES_UNROLL
 			for (int d = 0; d < dim; d++)
@@ -61,7 +61,7 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mo
 	}
 	PM_LANES_UNROLL
 	for (int k = 0; k < GROUP; k++) {
-		size_t at = i + (size_t)k * PM_LANES;
+		size_t at = i + (size_t)k * PM_VECTOR_LANES;
 		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++)
 			pm_lanes_store(w->g[d] + at, pm_lanes_load(w->g[d] + at) + g[d][k]);
@@ -73,7 +73,7 @@ PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mo
 /* All sources on one group of targets; blocks end where the group's own particles begin and end. */
 PM_LANES_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t i)
 {
-	size_t width = GROUP * PM_LANES;
+	size_t width = GROUP * PM_VECTOR_LANES;
 	unsigned coincident = 0;
 	for (size_t j = 0, end; j < w->n; j = end) {
 		end = j + SOURCES < w->n ? j + SOURCES : w->n;
@@ -160,7 +160,7 @@ PM_LANES_INLINE void tiles(const struct work *w, int dim, enum pm_pairs_mode mod
 {
 	for (size_t i = i0; i < i1; i += ROWS) {
 		struct rows r = rows_load(w, dim, i);
-		for (size_t j = diagonal ? i / PM_LANES * PM_LANES : j0; j < j1; j += PM_LANES)
+		for (size_t j = diagonal ? i / PM_VECTOR_LANES * PM_VECTOR_LANES : j0; j < j1; j += PM_VECTOR_LANES)
 			rows_meet(w, dim, mode, potential, diagonal, i, j, &r, coincident);
 		rows_add(w, dim, potential, i, &r);
 	}
@@ -198,7 +198,7 @@ static const struct loops table[3][3][2] = {ROW(PM_SQUARE), ROW(PM_GUARDED), ROW
 
 static void full(const struct work *w, const struct loops *l)
 {
-	size_t width = GROUP * PM_LANES, groups = (w->targets + width - 1) / width;
+	size_t width = GROUP * PM_VECTOR_LANES, groups = (w->targets + width - 1) / width;
 #pragma omp parallel for schedule(static) if (groups > 8)
 	for (size_t i = 0; i < groups; i++)
 		l->group(w, i * width);
@@ -236,10 +236,10 @@ static void work_free(struct work *w)
 
 static int work_init(struct work *w, const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, bool potential)
 {
-	size_t width = GROUP * PM_LANES, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
+	size_t width = GROUP * PM_VECTOR_LANES, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
 	*w = (struct work){.how = pm_pairs_of(p->mollifier, p->delta, p->dim), .targets = targets, .n = n, .padded = (n + width - 1) / width * width};
-	w->tile = (w->padded / tiles_wanted + PM_LANES - 1) / PM_LANES * PM_LANES;
-	w->tile = w->tile < PM_LANES ? PM_LANES : w->tile > 512 ? 512 : w->tile;
+	w->tile = (w->padded / tiles_wanted + PM_VECTOR_LANES - 1) / PM_VECTOR_LANES * PM_VECTOR_LANES;
+	w->tile = w->tile < PM_VECTOR_LANES ? PM_VECTOR_LANES : w->tile > 512 ? 512 : w->tile;
 	for (int d = 0; d < p->dim; d++) {
 		w->x[d] = padded(n, w->padded, x[d], far_away);
 		w->g[d] = pm_zalloc(w->padded, sizeof **w->g);

@@ -18,11 +18,11 @@ struct lanes {
 	pm_lanes farthest2;
 };
 
-PM_LANES_INLINE pm_lanes load(const double *p, size_t n) { return n == PM_LANES ? pm_sums_load(p) : pm_sums_load_few(p, n); }
+PM_LANES_INLINE pm_lanes load(const double *p, size_t n) { return n == PM_VECTOR_LANES ? pm_sums_load(p) : pm_sums_load_few(p, n); }
 
 PM_LANES_INLINE pm_lanes root(pm_lanes v)
 {
-	for (int l = 0; l < PM_LANES; l++)
+	for (int l = 0; l < PM_VECTOR_LANES; l++)
 		v[l] = sqrt(v[l]);
 	return v;
 }
@@ -34,7 +34,7 @@ PM_LANES_INLINE pm_lanes larger(pm_lanes a, pm_lanes b)
 }
 
 /* n particles from i on; the others of the eight are 0. */
-PM_LANES_INLINE void add_particles(int dim, int vdim, const struct pm_bodies *b, size_t i, size_t n, struct lanes *s)
+PM_LANES_INLINE void add_particles(int dim, int vdim, const struct pm_measured *b, size_t i, size_t n, struct lanes *s)
 {
 	pm_lanes x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0};
 	const pm_lanes m = b->mass ? load(b->mass + i, n) : pm_lanes_all(NAN);
@@ -58,16 +58,16 @@ PM_LANES_INLINE void add_particles(int dim, int vdim, const struct pm_bodies *b,
 	}
 }
 
-PM_LANES_INLINE void add_block(int dim, int vdim, const struct pm_bodies *b, size_t from, size_t to, struct lanes *s)
+PM_LANES_INLINE void add_block(int dim, int vdim, const struct pm_measured *b, size_t from, size_t to, struct lanes *s)
 {
 	size_t i = from;
-	for (; i + PM_LANES <= to; i += PM_LANES)
-		add_particles(dim, vdim, b, i, PM_LANES, s);
+	for (; i + PM_VECTOR_LANES <= to; i += PM_VECTOR_LANES)
+		add_particles(dim, vdim, b, i, PM_VECTOR_LANES, s);
 	if (i < to)
 		add_particles(dim, vdim, b, i, to - i, s);
 }
 
-static struct block block_of(const struct pm_bodies *b, size_t from)
+static struct block block_of(const struct pm_measured *b, size_t from)
 {
 	struct lanes lanes = {0};
 	struct block block = {0};
@@ -78,7 +78,7 @@ static struct block block_of(const struct pm_bodies *b, size_t from)
 		add_block(b->dim, b->vdim, b, from, to, &lanes);
 	for (int s = 0; s < SUMS; s++)
 		pm_sums_join(&block.sum[s], &lanes.sum[s]);
-	for (int l = 0; l < PM_LANES; l++)
+	for (int l = 0; l < PM_VECTOR_LANES; l++)
 		block.farthest2 = fmax(block.farthest2, lanes.farthest2[l]);
 	return block;
 }
@@ -92,7 +92,7 @@ static void join(struct block *all, const struct block *block)
 	all->farthest2 = fmax(all->farthest2, block->farthest2);
 }
 
-void pm_bulk_add(const struct pm_bodies *b, struct pm_bulk *bulk)
+void pm_bulk_add(const struct pm_measured *b, struct pm_bulk *bulk)
 {
 	struct block all = {0}, batch[BATCH];
 	const size_t blocks = (b->n + pm_sum_block - 1) / pm_sum_block;

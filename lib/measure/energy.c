@@ -7,7 +7,7 @@
 
 enum { BATCH = 512 }; /* rows between two joins; bounds the memory, not the result */
 
-double pm_energy_at_particles(const struct pm_bodies *b) { return 0.5 * pm_sum_products(b->n, b->strength, b->phi); }
+double pm_energy_at_particles(const struct pm_measured *b) { return 0.5 * pm_sum_products(b->n, b->strength, b->phi); }
 
 /* Weighted sum of rho phi along the row (j, k): its two ends, and what lies between eight at a time. */
 static double row_on_mesh(const struct pm_grid *g, const double *rho, const double *phi, size_t row)
@@ -18,7 +18,7 @@ static double row_on_mesh(const struct pm_grid *g, const double *rho, const doub
 	const double *s = rho + row * n, *p = phi + row * n;
 	size_t i = 1;
 	pm_lanes weight = pm_lanes_all(pm_grid_weight(g, n > 2, j, k));
-	for (; i + PM_LANES < n; i += PM_LANES)
+	for (; i + PM_VECTOR_LANES < n; i += PM_VECTOR_LANES)
 		pm_sums_add(&inner, weight * pm_sums_load(s + i) * pm_sums_load(p + i));
 	if (i + 1 < n)
 		pm_sums_add(&inner, weight * pm_sums_load_few(s + i, n - 1 - i) * pm_sums_load_few(p + i, n - 1 - i));
@@ -46,7 +46,7 @@ double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const doubl
 }
 
 /* Sum over the partners j of particle i of a. */
-static double row_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b, size_t i, double softening,
+static double row_of_pairs(const struct pm_measured *a, const struct pm_measured *b, size_t i, double softening,
 	double (*potential)(double r2, double softening, int dim))
 {
 	struct pm_sum sum = {0};
@@ -59,7 +59,7 @@ static double row_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b,
 	return a->strength[i] * pm_sum_total(sum);
 }
 
-double pm_energy_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b, double coefficient, double softening,
+double pm_energy_of_pairs(const struct pm_measured *a, const struct pm_measured *b, double coefficient, double softening,
 	double (*potential)(double r2, double softening, int dim))
 {
 	struct pm_sum all = {0};

@@ -36,10 +36,10 @@ static const double *values(const struct pm_frame *f, const char *on, const char
 	return field && component < field->components ? pm_in(field, component) : NULL;
 }
 
-static struct pm_bodies bodies(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
+static struct pm_measured bodies(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
 {
 	const char *on = set->name;
-	struct pm_bodies b = {.n = set->n, .mass = values(f, on, "mass", 0), .strength = values(f, on, how->strength, 0),
+	struct pm_measured b = {.n = set->n, .mass = values(f, on, "mass", 0), .strength = values(f, on, how->strength, 0),
 		.phi = values(f, on, how->potential, 0)};
 	while (b.dim < 3 && (b.x[b.dim] = values(f, on, "x", b.dim)))
 		b.dim++;
@@ -57,7 +57,7 @@ static double mesh_energy(const struct pm_measure *how, const struct pm_frame *f
 	return pm_energy_on_mesh(&g, values(f, mesh->name, how->density, 0), values(f, mesh->name, how->potential, 0));
 }
 
-static double pair_energy(const struct pm_measure *how, size_t n, const struct pm_bodies *b)
+static double pair_energy(const struct pm_measure *how, size_t n, const struct pm_measured *b)
 {
 	double sum = how->potential ? 0 : NAN;
 	for (size_t i = 0; i < n && how->potential; i++) {
@@ -72,7 +72,7 @@ static double pair_energy(const struct pm_measure *how, size_t n, const struct p
 	return sum;
 }
 
-static int radii(const struct pm_measure *how, size_t n, const struct pm_bodies *b, struct pm_measures *m)
+static int radii(const struct pm_measure *how, size_t n, const struct pm_measured *b, struct pm_measures *m)
 {
 	size_t total = 0, at = 0;
 	for (size_t i = 0; i < n; i++)
@@ -96,7 +96,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 {
 	size_t n = 0;
 	struct pm_bulk bulk = {0};
-	struct pm_bodies *b = pm_alloc(f->nsets + 1, sizeof *b);
+	struct pm_measured *b = pm_alloc(f->nsets + 1, sizeof *b);
 	if (!b)
 		return -PM_DATA;
 	for (size_t i = 0; i < f->nsets; i++)

@@ -6,7 +6,7 @@
 
 #include "mesh/grid.h"
 
-struct pm_bodies { /* one set; arrays of n values */
+struct pm_measured { /* one set; arrays of n values */
 	size_t n;
 	int dim, vdim;               /* components of x and of v; 0: none */
 	const double *x[3], *v[3];   /* [length], [length/time] */
@@ -25,14 +25,14 @@ struct pm_bulk {
 	double farthest;             /* max |x| */
 };
 /* Of one set, added to *bulk. Without masses what needs them becomes NAN. */
-void pm_bulk_add(const struct pm_bodies *b, struct pm_bulk *bulk);
+void pm_bulk_add(const struct pm_measured *b, struct pm_bulk *bulk);
 
 /* sum q phi/2 over the particles of a set. */
-double pm_energy_at_particles(const struct pm_bodies *b);
+double pm_energy_at_particles(const struct pm_measured *b);
 /* integral of rho phi/2 over a mesh, end nodes with half weight. */
 double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const double *phi);
 /* Direct sum over the pairs of a with b (each once if a == b) of q q' coefficient potential(r^2, softening, dim). Cost n^2. */
-double pm_energy_of_pairs(const struct pm_bodies *a, const struct pm_bodies *b, double coefficient, double softening,
+double pm_energy_of_pairs(const struct pm_measured *a, const struct pm_measured *b, double coefficient, double softening,
 	double (*potential)(double r2, double softening, int dim));
 
 struct pm_shell {

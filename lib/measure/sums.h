@@ -22,7 +22,7 @@ PM_LANES_INLINE void pm_sums_add(struct pm_sums *s, pm_lanes x)
 /* Lane after lane. */
 static inline void pm_sums_join(struct pm_sum *all, const struct pm_sums *s)
 {
-	for (int l = 0; l < PM_LANES; l++) {
+	for (int l = 0; l < PM_VECTOR_LANES; l++) {
 		pm_sum_add(all, s->sum[l]);
 		pm_sum_add(all, s->carry[l]);
 	}

@@ -1,7 +1,7 @@
 /* Complex transforms of eight lines side by side, one per SIMD lane: block is double [length][PM_LANES], 64-byte aligned; row i holds the real parts of
  * element i of the eight lines, then the imaginary parts. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_LANES_H
-#define PM_LANES_H
+#ifndef PM_MESH_LANES_H
+#define PM_MESH_LANES_H
 
 #include "mesh/plan.h"
 

@@ -12,7 +12,7 @@
 enum { PM_ADVANCE_BLOCK = 1024, PM_ADVANCE_ACTIONS = 16 };
 
 /* One component of one state, with its rate and registers; n values each. */
-struct pm_line {
+struct pm_advanced {
 	double *y;
 	const double *k;
 	double *q[PM_REGISTERS]; /* NULL beyond those in use */
@@ -38,7 +38,7 @@ struct pm_bounds {
 };
 
 /* Lines of one axis, which is what a mirror changes together: x, v and their registers. */
-static inline void pm_advance_faces(size_t i, size_t n, const struct pm_bounds *b, double *x, double *v, int nlines, const struct pm_line *lines)
+static inline void pm_advance_faces(size_t i, size_t n, const struct pm_bounds *b, double *x, double *v, int nlines, const struct pm_advanced *lines)
 {
 	if (b->fold)
 		pm_pface_fold(n, b->lo, b->hi, x + i);
@@ -58,7 +58,7 @@ static inline bool pm_advance_applies(const struct pm_step *step, bool position)
 	return step->kind == PM_SCHEME || (step->kind == PM_DRIFT) == position;
 }
 
-static inline void pm_advance_line(size_t i, size_t n, const struct pm_advance *a, const struct pm_line *l)
+static inline void pm_advance_line(size_t i, size_t n, const struct pm_advance *a, const struct pm_advanced *l)
 {
 	double *q[PM_REGISTERS];
 	for (int r = 0; r < PM_REGISTERS; r++)
@@ -70,7 +70,7 @@ static inline void pm_advance_line(size_t i, size_t n, const struct pm_advance *
 		memcpy(q[r], r ? q[r - 1] : l->k + i, n * sizeof *q[r]);
 }
 
-static inline bool pm_advance_finite(size_t i, size_t n, const struct pm_line *l)
+static inline bool pm_advance_finite(size_t i, size_t n, const struct pm_advanced *l)
 {
 	bool finite = pm_finite_few(n, l->y + i);
 	for (int r = 0; r < PM_REGISTERS; r++)
@@ -80,7 +80,7 @@ static inline bool pm_advance_finite(size_t i, size_t n, const struct pm_line *l
 
 /* Advances n particles along one axis (or, with x NULL, states that belong to none). lines: positions first, because their rate is the velocity
  * before this pass; but kicks go before drifts, and then the velocity is the new one. True if everything is finite afterwards. */
-static inline bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_line *lines, double *x, double *v,
+static inline bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
 	const struct pm_bounds *b)
 {
 	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;

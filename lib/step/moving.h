@@ -151,9 +151,9 @@ static inline int pm_moving_plan(struct pm_frame *f, struct pm_set *set, const s
 }
 
 /* Component c of a rate as a line of the loops. */
-static inline struct pm_line pm_moving_line(const struct pm_moving *m, const struct pm_rate *r, int c)
+static inline struct pm_advanced pm_moving_line(const struct pm_moving *m, const struct pm_rate *r, int c)
 {
-	struct pm_line l = {.y = pm_out(r->state, c), .position = r->state == m->x};
+	struct pm_advanced l = {.y = pm_out(r->state, c), .position = r->state == m->x};
 	l.k = r->rate->use & (PM_USE_CHANGE | PM_USE_NEW) ? pm_out(r->rate, c) : pm_in(r->rate, c);
 	for (int i = 0; i < PM_REGISTERS; i++)
 		l.q[i] = r->q[i] ? pm_out(r->q[i], c) : NULL;
@@ -161,7 +161,7 @@ static inline struct pm_line pm_moving_line(const struct pm_moving *m, const str
 }
 
 /* The lines of component c; of: those of x and v (true), or all others. */
-static inline int pm_moving_lines(const struct pm_moving *m, int c, bool motion, struct pm_line lines[PM_RATES])
+static inline int pm_moving_lines(const struct pm_moving *m, int c, bool motion, struct pm_advanced lines[PM_RATES])
 {
 	int n = 0;
 	for (int r = 0; r < m->n; r++) {
@@ -221,7 +221,7 @@ static inline int pm_moving_run(const struct pm_frame *f, const struct pm_moving
 		a.registers = m->pass.step == p->scheme ? 0 : own;
 	}
 	for (int c = 0; c < PM_COMPONENTS && !status; c++) {
-		struct pm_line lines[PM_RATES];
+		struct pm_advanced lines[PM_RATES];
 		struct pm_bounds b = pm_moving_bounds(f, c < f->dim ? c : 0);
 		bool faces = p->moves && c < f->dim && c < m->x->components;
 		int n = pm_moving_lines(m, c, true, lines);
