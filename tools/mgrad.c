@@ -116,7 +116,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		out[c] = pm_out(t->target, c);
 	if (t->planner.nmade > PM_PLANS - 3 || t->planner.n > PM_PLANS - 6) /* frames of many sizes: start the collection anew */
 		pm_planner_clear(&t->planner);
+	double began = pm_seconds();
 	int status = pm_operator_plan(&t->operator, &t->planner);
+	pm_setup_since(s, began);
 	if (*t->planner.note)
 		pm_say(s, "%s", t->planner.note);
 	bool seen = false;

@@ -134,7 +134,9 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 			return t->made[i].solver;
 	if (t->nmade == SOLVERS || t->problem.source->components == 1)
 		forget(t);
+	double began = pm_seconds();
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, &t->choice, t->effort);
+	pm_setup_since(s, began);
 	if (!solver)
 		return NULL;
 	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol, t->choice.influence};

@@ -98,7 +98,12 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	const struct pm_mg_record *r = &t->record;
 	struct pm_grid g = pm_problem_grid(p, c);
 	char number[16] = "", key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
-	int status = pm_multigrid_solve(t->solver, &t->choice, &g, t->choice.variable ? pm_in(t->eps, 0) : NULL, p->c, pm_in(p->source, c), pm_out(p->target, c), &t->record);
+	const double *eps = t->choice.variable ? pm_in(t->eps, 0) : NULL;
+	double began = pm_seconds();
+	int status = pm_multigrid_prepare(t->solver, &t->choice, &g, eps);
+	pm_setup_since(s, began);
+	if (!status)
+		status = pm_multigrid_solve(t->solver, &t->choice, &g, eps, p->c, pm_in(p->source, c), pm_out(p->target, c), &t->record);
 	if (status)
 		return status;
 	if (p->source->components > 1)

@@ -90,6 +90,12 @@ static struct pm_mg_variable *variable(struct pm_multigrid *m, const struct pm_m
 	return v;
 }
 
+int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps)
+{
+	bool there = o->variable ? variable(m, o, g, eps) != NULL : any_open(g) ? open_space(m, o, g) != NULL : constant(m, o, g) != NULL;
+	return there ? 0 : pm_failed();
+}
+
 int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s, double *phi,
 	struct pm_mg_record *r)
 {

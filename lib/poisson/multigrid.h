@@ -20,6 +20,8 @@ struct pm_multigrid *pm_multigrid_free(struct pm_multigrid *m);
 int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, double relaxation);
 /* 0, or a failure that names a method that can. */
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g);
+/* Makes the hierarchy that pm_multigrid_solve would make; for those who want to know what that costs. */
+int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps);
 /* As pm_mg_solve; eps NULL: 1. */
 int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s, double *phi,
 	struct pm_mg_record *r);

@@ -157,6 +157,13 @@ void pm_say(const struct pm_stage *s, const char *format, ...)
 	fputc('\n', stderr);
 }
 
+void pm_setup_since(struct pm_stage *s, double began)
+{
+	double t = pm_seconds() - began;
+	s->setup += t;
+	s->seconds -= t; /* the whole of frame() is added when it ends */
+}
+
 void pm_timing_write(const struct pm_stage *s, const char *file, double wall)
 {
 	FILE *out = file ? fopen(file, "a") : NULL;

@@ -174,6 +174,15 @@ assert "threads" not in h[0]["options"], h'
 	[ "$(wire header b.pm | python3 -c 'import json, sys; print(len(json.load(sys.stdin)["history"]))')" = 0 ]
 }
 
+# Green's functions and hierarchies are made when the first frame comes: a third (poisson-fft) and a fifth of three solves on 32^3 cells; begin and plan alone are a hundredth.
+@test "--timing: what a solver makes once is set-up, not work" {
+	pinit plummer -n 100 --cells 32 | p2m >a.pm
+	for word in poisson-fft poisson-mg; do
+		cat a.pm a.pm a.pm | "$word" --timing t >/dev/null
+	done
+	awk -F'\t' '!($2 > $3 / 30 && $3 > 0) { print; bad = 1 } END { exit bad || NR != 2 }' t
+}
+
 @test "--timing appends the word, its seconds of set-up and of work" {
 	pinit uniform -n 12 --cells 4 | p2m --timing t.tsv >/dev/null
 	pinit uniform -n 12 --cells 4 | p2m --kernel tsc --timing t.tsv >/dev/null
