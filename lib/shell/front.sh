@@ -214,7 +214,8 @@ page() {
 			sed '/^<?xml/d; /^<!DOCTYPE/,/>$/d' "$dir/pareto.svg"
 		fi
 		printf '<h2>The members</h2>\n<p>Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
-		printf 'The reference took %s s.</p>\n<table>\n' "$(awk -F'\t' '{ s += $1 } END { printf "%.3g", s }' "$state"/reference.*.seconds 2>/dev/null)"
+		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END { printf "%.3g", s }')"
+		printf '</p>\n<table>\n'
 		rows_html "$dir/pareto.tsv"
 		printf '</table>\n<h2>In words</h2>\n<pre>%s</pre>\n' "$(table "$dir/pareto.tsv" | escape)"
 		printf '<h2>Machine</h2>\n<pre>%s</pre>\n<h2>Versions</h2>\n<pre>%s</pre>\n' "$(machine | escape)" "$(versions | escape)"

@@ -33,6 +33,7 @@ awk '{ print \$1, \$2 }' z" ]
 
 @test "--vary: one choice in several places, whose values may have braces of their own; equal sentences count once" {
 	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = $'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
+	[ "$(list 'a -n {1,2} | b {k}{k}' --vary k=x,y)" = $'a -n 1 | b xx\na -n 1 | b yy\na -n 2 | b xx\na -n 2 | b yy' ]
 	[ "$(list 'a | {p2m --kernel {k} | m2p --kernel {k}, pp}' --vary 'k=m{4,6}prime,cic' | grep -c .)" = 4 ] # pp once
 }
 
@@ -76,6 +77,12 @@ awk '{ print \$1, \$2 }' z" ]
 	order 2 0.1 "${e[0]}" 0.05 "${e[1]}" 0.025 "${e[2]}"
 	run -1 pareto "pinit two-body --dt {0.1,0.05} | cycle -n 1 'push drift'" --against exact --field distance_max --repeat 1
 	[[ $output == *"nothing to compare"* ]]
+}
+
+@test "of several frames the largest error counts" {
+	run -0 pareto "pinit two-body | cycle -n 3 --every 1 'push drift --dt {0.1,0.2}'" --against "cycle -n 3 --every 1 'push drift --dt 0.15'" --field x --norm max --repeat 1 --tsv
+	# |v| = 1/2, three steps, 0.05 off in each.
+	while read -r e; do within "$e" 0.075 1e-9; done < <(column error <<<"$output")
 }
 
 @test "a reference of its own for every value of a name" {
