@@ -5,8 +5,7 @@
 #include "mesh/gradient.h"
 #include "mesh/interlace.h"
 #include "poisson/fft.h"
-#include "poisson/problem.h"
-#include "stage/stage.h"
+#include "stage/solver.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -46,14 +45,7 @@ static const struct pm_option options[] = {
 	{"cloud", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
 		"diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D", false,
 		offsetof(struct config, cloud)},
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
-	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
-		offsetof(struct config, names.target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
-	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
-		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
-		offsetof(struct config, names.wall)},
+	PM_SOLVER_ROWS(struct config),
 	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
 		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
@@ -158,17 +150,8 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	if (!solver || pm_poisson_fft_solve(solver, p->c, pm_in(p->source, c), pm_out(p->target, c), &r))
 		return -PM_DATA;
 	*plans = pm_poisson_fft_planner(solver);
-	if (!pm_poisson_fft_singular(&g, &t->choice))
-		return 0;
-	char key[32], number[16] = "";
-	if (p->source->components > 1)
-		snprintf(number, sizeof number, "_%d", c);
-	snprintf(key, sizeof key, "mean_removed%s", number);
-	pm_report(s, f, key, r.mean);
-	snprintf(key, sizeof key, "incompatible%s", number);
-	pm_report(s, f, key, r.incompatible);
-	if (r.incompatible > 1e-12)
-		pm_say(s, "no phi has this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, r.mean, r.incompatible);
+	if (pm_poisson_fft_singular(&g, &t->choice))
+		pm_solver_report_removed(s, f, p, c, r.mean, r.incompatible);
 	return 0;
 }
 

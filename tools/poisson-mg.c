@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "poisson/multigrid.h"
-#include "poisson/problem.h"
-#include "stage/stage.h"
+#include "stage/solver.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -42,14 +41,7 @@ static const struct pm_option options[] = {
 	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
 		offsetof(struct config, tolerance)},
 	{"max-cycles", 0, PM_INTEGER, "", "50", 1, PM_MG_MOST, NULL, "cycles after which it fails", false, offsetof(struct config, most)},
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
-	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
-		offsetof(struct config, names.target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
-	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
-		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
-		offsetof(struct config, names.wall)},
+	PM_SOLVER_ROWS(struct config),
 	{0},
 };
 
@@ -97,7 +89,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	const struct pm_problem *p = &t->problem;
 	const struct pm_mg_record *r = &t->record;
 	struct pm_grid g = pm_problem_grid(p, c);
-	char number[16] = "", key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
+	char key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
 	const double *eps = t->choice.variable ? pm_in(t->eps, 0) : NULL;
 	double began = pm_seconds();
 	int status = pm_multigrid_prepare(t->solver, &t->choice, &g, eps);
@@ -106,20 +98,11 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 		status = pm_multigrid_solve(t->solver, &t->choice, &g, eps, p->c, pm_in(p->source, c), pm_out(p->target, c), &t->record);
 	if (status)
 		return status;
-	if (p->source->components > 1)
-		snprintf(number, sizeof number, "_%d", c);
 	for (int i = 0, n = 0; i < r->n; i++)
 		n += snprintf(residuals + n, sizeof residuals - (size_t)n, "%s%.3e", i ? " " : "", r->history[i]);
-	snprintf(key, sizeof key, "residuals%s", number);
-	pm_report_text(s, f, key, residuals);
-	if (!r->singular)
-		return 0;
-	snprintf(key, sizeof key, "mean_removed%s", number);
-	pm_report(s, f, key, r->mean);
-	snprintf(key, sizeof key, "incompatible%s", number);
-	pm_report(s, f, key, r->incompatible);
-	if (r->incompatible > 1e-12)
-		pm_say(s, "no phi has this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, r->mean, r->incompatible);
+	pm_report_text(s, f, pm_solver_key(p, "residuals", c, key), residuals);
+	if (r->singular)
+		pm_solver_report_removed(s, f, p, c, r->mean, r->incompatible);
 	return 0;
 }
 

@@ -1,9 +1,8 @@
 /* poisson-relax: solves lap phi = c*s on a mesh by iterations one can read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
-#include "poisson/problem.h"
 #include "poisson/relax.h"
-#include "stage/stage.h"
+#include "stage/solver.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -25,14 +24,7 @@ static const struct pm_option options[] = {
 	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
 		offsetof(struct config, tolerance)},
 	{"max-sweeps", 0, PM_INTEGER, "", "100000", 1, 1e9, NULL, "sweeps after which it fails", false, offsetof(struct config, most)},
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(struct config, names.coefficient)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(struct config, names.source)},
-	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false,
-		offsetof(struct config, names.target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, names.mesh)},
-	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names,
-		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false,
-		offsetof(struct config, names.wall)},
+	PM_SOLVER_ROWS(struct config),
 	{0},
 };
 
@@ -94,18 +86,6 @@ static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relax
 	pm_report_text(s, f, "status", r->floor ? "floor" : "converged");
 }
 
-/* c < 0: of the only component. */
-static void report_mean(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_relaxation_record *r)
-{
-	char key[32], number[16] = "";
-	if (c >= 0)
-		snprintf(number, sizeof number, "_%d", c);
-	snprintf(key, sizeof key, "mean_removed%s", number);
-	pm_report(s, f, key, r->mean);
-	snprintf(key, sizeof key, "incompatible%s", number);
-	pm_report(s, f, key, r->incompatible);
-}
-
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
@@ -117,7 +97,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		if (status)
 			break;
 		if (r.singular)
-			report_mean(s, f, t->problem.source->components > 1 ? c : -1, &r);
+			pm_solver_report_removed(s, f, &t->problem, c, r.mean, r.incompatible);
 		if (r.sweeps > longest.sweeps)
 			longest = r;
 	}

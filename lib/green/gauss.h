@@ -37,4 +37,12 @@ static inline double pm_gauss_transform(const struct pm_green_case *c, int order
 	return pm_truncated(c, k2) * exp(-s) * sum;
 }
 
+/* The entry of order m. */
+#define PM_GREEN_GAUSS(m, text) \
+	static double at(const struct pm_green_case *c, double r2) { return pm_gauss_at(c, m, r2); } \
+	static double transform(const struct pm_green_case *c, double k2) { return pm_gauss_transform(c, m, k2); } \
+	const struct pm_green green_gauss##m = {.name = "gauss" #m, .sentence = text, .source = "Hejlesen, Rasmussen, Chatelain and Walther 2013", .order = m, \
+		.plain = 1u << 1 | 1u << 2 | 1u << 3, .screened = 1u << 1 | 1u << 2 | 1u << 3, .regular = true, .at = at, .transform = transform, \
+		.prepare = pm_truncated_prepare};
+
 #endif

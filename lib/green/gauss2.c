@@ -4,30 +4,4 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "green/gauss.h"
 
-static void prepare(struct pm_green_case *c)
-{
-	pm_truncated_prepare(c);
-}
-
-static double at(const struct pm_green_case *c, double r2)
-{
-	return pm_gauss_at(c, 2, r2);
-}
-
-static double transform(const struct pm_green_case *c, double k2)
-{
-	return pm_gauss_transform(c, 2, k2);
-}
-
-const struct pm_green green_gauss2 = {
-	.name = "gauss2",
-	.sentence = "regularised by a Gaussian blob: order 2, positive",
-	.source = "Hejlesen, Rasmussen, Chatelain and Walther 2013",
-	.order = 2,
-	.plain = 1u << 1 | 1u << 2 | 1u << 3,
-	.screened = 1u << 1 | 1u << 2 | 1u << 3,
-	.regular = true,
-	.at = at,
-	.transform = transform,
-	.prepare = prepare,
-};
+PM_GREEN_GAUSS(2, "regularised by a Gaussian blob: order 2, positive")

@@ -4,30 +4,4 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "green/gauss.h"
 
-static void prepare(struct pm_green_case *c)
-{
-	pm_truncated_prepare(c);
-}
-
-static double at(const struct pm_green_case *c, double r2)
-{
-	return pm_gauss_at(c, 8, r2);
-}
-
-static double transform(const struct pm_green_case *c, double k2)
-{
-	return pm_gauss_transform(c, 8, k2);
-}
-
-const struct pm_green green_gauss8 = {
-	.name = "gauss8",
-	.sentence = "regularised by a blob of order 8, Gaussian times a polynomial",
-	.source = "Hejlesen, Rasmussen, Chatelain and Walther 2013",
-	.order = 8,
-	.plain = 1u << 1 | 1u << 2 | 1u << 3,
-	.screened = 1u << 1 | 1u << 2 | 1u << 3,
-	.regular = true,
-	.at = at,
-	.transform = transform,
-	.prepare = prepare,
-};
+PM_GREEN_GAUSS(8, "regularised by a blob of order 8, Gaussian times a polynomial")
