@@ -76,6 +76,7 @@ part_cycle() {
 	for _ in 0 1 2 3 4 5 6 7; do
 		run short large.pm 10 fused
 		run large large.pm 60 fused
+		OMP_WAIT_POLICY=active run awake large.pm 60 fused
 		run tiny tiny.pm 5000 fused
 		run piped-large large.pm 5 pipes
 		run piped-tiny tiny.pm 100 pipes
@@ -86,6 +87,7 @@ part_cycle() {
 		row cycle 'fused, 1e6 particles, steps 11 to 60: own share' % '<=' 2
 	paste short.stages short.wall | awk '{ print 1e4 * ($2 - $1) }' | row cycle 'fused, 1e6 particles: reading, writing, first touch' ms - 0
 	paste large.wall | awk '{ print 1e3 * $1 }' | row cycle 'fused, 1e6 particles: a step' ms - 0
+	paste awake.wall large.wall | awk '{ print $2 / $1 }' | row cycle 'fused, 1e6 particles: a step over one with OMP_WAIT_POLICY=active' 'times' - 0
 	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles: a step above the fused stages' ms - 0
 	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: own time a step' us '<=' 20
 	paste tiny.wall | awk '{ print 1e6 * $1 }' | row cycle 'fused, 100 particles: a step' us - 0
