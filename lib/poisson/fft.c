@@ -11,25 +11,6 @@
 
 #include "poisson/fft-passes.h"
 
-const char *const pm_symbol_names[] = {"spectral", "fd2", "fd4", "fd6", NULL};
-
-int pm_symbol_find(const char *name)
-{
-	for (int i = 0; pm_symbol_names[i]; i++)
-		if (!strcmp(pm_symbol_names[i], name))
-			return i;
-	return pm_fail(PM_USAGE, "no symbol '%s' (choose spectral, fd2, fd4 or fd6)", name), -1;
-}
-
-double pm_symbol_value(enum pm_symbol symbol, double theta, double h)
-{
-	double s = sin(0.5 * theta), k = 2 * s / h;
-	if (symbol == PM_SPECTRAL)
-		k = theta / h;
-	double more = symbol == PM_FD4 ? 1 + s * s / 3 : symbol == PM_FD6 ? 1 + s * s / 3 * (1 + 8 * s * s / 15) : 1;
-	return -k * k * more;
-}
-
 bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
 	bool singular = o->screening == 0;
@@ -118,21 +99,6 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	if (p->singular && r)
 		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
 	return 0;
-}
-
-double *pm_poisson_fft_eigenvalues(const struct pm_line *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h)
-{
-	double *lambda = pm_alloc(size, sizeof *lambda);
-	for (size_t i = 0; lambda && i < size; i++)
-		lambda[i] = -1; /* so that nothing divides by zero */
-	for (size_t i = 0; lambda && i < modes; i++) {
-		size_t k = l->least + i;
-		if (l->face[0] == PM_PERIODIC && k > l->n - k)
-			k = l->n - k;
-		double theta = 2 * pm_pi * ((double)k + 0.5 * l->shifted) / (double)l->length;
-		lambda[in_place ? l->fft->at[i] : i] = pm_symbol_value(symbol, theta, h);
-	}
-	return lambda;
 }
 
 /* Strides that are an odd number of blocks' rows, so that pencils do not fall on the same sets of the cache. */
