@@ -1,5 +1,4 @@
 /* scalc: new fields from expressions (docs/methods/expressions.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,29 +32,12 @@ static const struct pm_option options[] = {
 	{.name = "type", .kind = PM_WORD, .choices = types, .fallback = "f64", .text = "how new fields are stored; i64 takes the floor", .offset = offsetof(struct config, type)},
 	{0}};
 
-/* "NAME = EXPRESSION": the name, and where the expression starts. */
-static int parse(const char *text, char name[PM_NAME], const char **expression)
-{
-	size_t n = 0, k;
-	while (isspace((unsigned char)*text))
-		text++;
-	while (isalnum((unsigned char)text[n]) || text[n] == '_' || text[n] == '-' || (unsigned char)text[n] >= 0x80)
-		n++;
-	for (k = n; isspace((unsigned char)text[k]);)
-		k++;
-	if (!n || n >= PM_NAME || isdigit((unsigned char)*text) || text[k] != '=' || text[k + 1] == '=')
-		return pm_fail(PM_USAGE, "'%s' is not NAME = EXPRESSION", text);
-	snprintf(name, PM_NAME, "%.*s", (int)n, text);
-	*expression = text + k + 1;
-	return 0;
-}
-
 static int begin(struct pm_stage *s)
 {
 	char name[PM_NAME];
 	const char *expression;
 	for (int i = 0; i < s->nargs; i++)
-		if (parse(s->args[i], name, &expression))
+		if (pm_expression_named(s->args[i], name, &expression))
 			return -PM_USAGE;
 	return 0;
 }
@@ -112,7 +94,7 @@ static int plan_on(struct pm_stage *s, struct pm_frame *f, const char *on, bool 
 			st->job = more;
 		}
 		struct job *job = st->job + st->njobs;
-		parse(s->args[i], name, &expression);
+		pm_expression_named(s->args[i], name, &expression);
 		int status = pm_expression_compile(&job->e, f, on, expression);
 		if (status)
 			return status;

@@ -351,3 +351,19 @@ int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const cha
 		wrong(&p, p.at, "expected an operator or the end", "", 0);
 	return p.failed ? -p.code : 0;
 }
+
+int pm_expression_named(const char *text, char name[PM_NAME], const char **expression)
+{
+	size_t n = 0, k;
+	while (isspace((unsigned char)*text))
+		text++;
+	while (isalnum((unsigned char)text[n]) || text[n] == '_' || text[n] == '-' || (unsigned char)text[n] >= 0x80)
+		n++;
+	for (k = n; isspace((unsigned char)text[k]);)
+		k++;
+	if (!n || n >= PM_NAME || isdigit((unsigned char)*text) || text[k] != '=' || text[k + 1] == '=')
+		return pm_fail(PM_USAGE, "'%s' is not NAME = EXPRESSION", text);
+	snprintf(name, PM_NAME, "%.*s", (int)n, text);
+	*expression = text + k + 1;
+	return 0;
+}

@@ -26,6 +26,8 @@ struct pm_expression {
 	struct pm_expression_value value[PM_EXPRESSION_VALUES];
 };
 
+/* "NAME = EXPRESSION": the name, and where the expression starts. */
+int pm_expression_named(const char *text, char name[PM_NAME], const char **expression);
 /* Compiles text for the fields of `on` and marks what it reads. 0, or failure naming the column. Names: the components of x are x y z, of v vx vy vz, of any
  * field NAME_0 or NAME.x or NAMEx; a field of one component is NAME. On a mesh x y z are the coordinates of the point. time, dt, step, n, dim, pi, Lx Ly Lz, and
  * the constants of the frame by name. */

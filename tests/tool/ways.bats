@@ -102,6 +102,15 @@ vortices() {
 	all_ways "pinit polygon -n 7 --disturbance 1e-3" "" "pp | push rk4" 4
 }
 
+@test "equal bytes: a cluster in a given tide that turns, leapfrog" {
+	f="pp | field 'acc = 0.1*cos(time)*x, -0.1*cos(time)*y, -0.2*z'"
+	all_ways "pinit plummer -n 300" "$f" "push kick/2 drift | $f | push kick/2" 1
+}
+
+@test "equal bytes: point vortices that fade in a given flow, four passes a step (rk4)" {
+	all_ways "pinit polygon -n 7 --disturbance 1e-3" "" "pp | field 'vel = -y, x + sin(time)' 'dcirculation = -0.1*circulation' | push rk4" 4
+}
+
 @test "equal bytes: vortices whose step follows their strain" {
 	all_ways vortices "" "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-6" 3
 }

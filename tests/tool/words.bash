@@ -12,6 +12,7 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
+	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	remesh) echo "remesh --by mass" ;;
 	push) echo "push drift" ;;
 	remesh) echo "remesh --by mass" ;;

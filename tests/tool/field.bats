@@ -1,0 +1,108 @@
+# field: rates of change from expressions: what they add to, whom they move, what is refused. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+table() { stab --plain; }
+# one VALUES [options of stab]: one particle of x y, and its numbers.
+one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 0.125 "$@"; }
+
+@test "acc, vel and d<state> are what the expression says, of the right state, term external" {
+	pinit plummer -n 50 >a
+	field 'acc = -2*x, y - vx, time + 3' <a >b
+	paste <(table <a | tail -n +2) <(scalc 'acc = -2*x, y - vx, time + 3' <a | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"], $c["acc_1"], $c["acc_2"] }') >want
+	table <b | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"], $c["acc_1"], $c["acc_2"] }' >got
+	[ "$(wc -l <got)" = 50 ]
+	awk '{ print $(NF-2), $(NF-1), $NF }' want | diff - got
+	sls <b >list
+	grep -qE 'acc +3 f64 change value of v terms external' list
+	one '1 2 3 4' | field --term flow 'vel = -y, x' | sls >list
+	grep -qE 'vel +2 f64 change value of x terms flow' list
+	pinit polygon -n 3 | field 'dcirculation = -0.5*circulation' | sls >list
+	grep -qE 'dcirculation +1 f64 change.* of circulation terms external' list
+}
+
+@test "it adds to what is there, in either order, and twice only under two terms or with --replace" {
+	pinit plummer -n 40 >a
+	pp <a | field 'acc = x, 2*y, z' >b
+	field 'acc = x, 2*y, z' <a | pp >c
+	scmp --field acc --tolerance 1e-15 b c
+	! pp <a | scmp --field acc --tolerance 0.1 b - >/dev/null
+	run -1 bash -c 'field "acc = x, y, z" <a | field "acc = x, y, z" | sls'
+	[[ $output == *"already holds the term 'external'"* ]]
+	field 'acc = x, y, z' <a | field --term more 'acc = -x, -y, -z' | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^acc/) c[i] } NR > 1 { for (i in c) if ($i != 0) exit 1 }'
+	field 'acc = x, y, z' <a | field --replace 'acc = 3*x, 0, 0' >d
+	field 'acc = 3*x, 0, 0' <a | scmp --field acc --tolerance 0 d -
+}
+
+@test "a spring under leapfrog keeps v^2 + x^2 (1 - dt^2/4) to round-off (C9)" {
+	printf 'x vx\n1 0\n' | stab - --law free --dt 0.4 | cycle -n 1000 --every 1 "push kick/2 drift | field 'acc = -x' | push kick/2" |
+		scalc 'h = vx^2 + x^2*(1 - 0.04)' | table | awk '$1 == "x" { for (i = 1; i <= NF; i++) if ($i == "h") c = i; next } NF { d = $c - 0.96; if (d < 0) d = -d; if (d > m) m = d; n++ }
+			END { print n, m; exit !(n == 1001 && m < 1e-12) }' # 3000 roundings of 1e-16, that do not drift
+}
+
+@test "an expression of the time sees the time of the stage: orders 1, 2, 4 for x' = cos t" {
+	for case in euler:1 rk2:2 rk4:4; do
+		points=()
+		for n in 10 20 40; do
+			x=$(echo 'x 0' | tr ' ' '\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" | cycle -n $n "field 'vel = cos(time)' | push ${case%:*}" | table | tail -n 1)
+			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk -v x="$x" 'BEGIN { d = x - sin(2); print d < 0 ? -d : d }')")
+		done
+		order "${case#*:}" "${points[@]}"
+	done
+}
+
+@test "a friction is of first order under leapfrog, of second under rk2" {
+	for case in "1|push kick/2 drift | F | push kick/2" "2|F | push rk2"; do
+		s=${case#*|} points=()
+		for n in 10 20 40; do
+			v=$(printf 'x vx\n0 1\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" | cycle -n $n "${s/F/field \'acc = -vx\'}" | table | tr ' ' '\t' | column vx)
+			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk -v v="$v" 'BEGIN { d = v - exp(-2); print d < 0 ? -d : d }')")
+		done
+		order "${case%%|*}" "${points[@]}" 2>said
+		[ "${case%%|*}" = 2 ] || awk '{ exit !($3 < 1.1) }' said
+	done
+}
+
+@test "the test equation: one step of rk4 is 1 + z + z^2/2 + z^3/6 + z^4/24 for every lambda of the set" {
+	printf 'x y a b\n1 0 -1 2\n1 0 3 0\n0.5 0 0 -8\n' | stab - --law free --dt 0.125 | cycle -n 1 "field 'vel = a*x - b*y, b*x + a*y' | push rk4" | table >b
+	awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
+		{ p = $c["a"] / 8; q = $c["b"] / 8; x = 1; y = 0; u = 1; w = 0; for (k = 1; k <= 4; k++) { t = (u * p - w * q) / k; w = (u * q + w * p) / k; u = t; x += u; y += w }
+			f = NR == 4 ? 0.5 : 1; d = ($c["x"] - f * x)^2 + ($c["y"] - f * y)^2; if (d > 1e-30) { print; exit 1 } }' b
+}
+
+@test "of several sets each gets the rate whose state it has, --set names one" {
+	pinit plummer -n 4 >matter
+	printf 'x y z\n1 2 3\n' | stab - --set tracers --law gravity --dt 1 --box -9,9 >tracers
+	stack matter tracers >both
+	field 'vel = 1, 2, 3' 'acc = 0, 0, 1' <both | sls >list
+	[ "$(grep -cE 'vel +3 f64 change' list)" = 1 ] && [ "$(grep -cE 'acc +3 f64 change' list)" = 1 ]
+	run -1 bash -c "field --set matter 'vel = 1, 2, 3' <both | sls"
+	[[ $output == *"'vel' moves nothing: no such set has the state 'x' without a velocity v (acc is the rate"* ]]
+	run -1 bash -c "field --set nobody 'vel = 1, 2, 3' <both | sls"
+	[[ $output == *"no set 'nobody'"* ]]
+}
+
+@test "what is no rate is refused in a sentence with a remedy" {
+	pinit plummer -n 4 >a
+	refused() { run -"$1" bash -c "$2 <a | sls"; [[ ${lines[0]} == *"$3"* ]] || { echo "$2: ${lines[0]}"; return 1; }; }
+	refused 2 "field 'speed = x'" "'speed' is no rate of change (acc of v, vel of x"
+	refused 2 "field 'dv = x, y, z'" "is no rate of change"
+	refused 2 "field 'acc'" "is not NAME = EXPRESSION"
+	refused 1 "field 'acc = x'" "'v' on 'matter' has 3 components, and 'acc' here 1"
+	refused 1 "field 'dcharge = 1'" "'dcharge' moves nothing: no set has the state 'charge'"
+	refused 1 "field 'vel = x, y, z'" "without a velocity v"
+	refused 1 "field 'acc = x, y, w'" "no field or number 'w'"
+	pp <a >f
+	run -1 bash -c "field 'acc = -accx, 0, 0' <f | sls"
+	[[ ${lines[0]} == *"'acc' is what is added to, and cannot be read"* ]]
+	run -1 bash -c "field 'did = 1' <a | sls"
+	[[ ${lines[0]} == *"holds whole numbers"* || ${lines[0]} == *"no set has the state 'id'"* ]]
+	run -3 bash -c "field 'acc = 1/(x-x), 0, 0' <a | sls"
+	[[ $output == *"not finite"* ]]
+}
+
+@test "cycle primes it, and the set without v needs no priming" {
+	pinit plummer -n 30 >a
+	cycle -n 2 "push kick/2 drift | field 'acc = -x, -y, -z' | push kick/2" <a >b
+	field 'acc = -x, -y, -z' <a | cycle -n 2 "push kick/2 drift | field 'acc = -x, -y, -z' | push kick/2" >c
+	scmp --tolerance 0 b c
+}
