@@ -5,8 +5,8 @@
 static int begin(struct pm_stage *s)
 {
 	const struct pm_loop *c = s->config;
-	if (c->steps == INT64_MIN && isnan(c->time))
-		return pm_fail(PM_USAGE, "how long? (-n STEPS or -t TIME)");
+	if (c->steps == INT64_MIN && isnan(c->time) && !c->until)
+		return pm_fail(PM_USAGE, "how long? (-n STEPS, -t TIME or --until EXPRESSION)");
 	return 0;
 }
 
@@ -17,6 +17,8 @@ static const char *const engines[] = {"fused", "pipes", NULL};
 static const struct pm_option options[] = {
 	{"steps", 'n', PM_INTEGER, "steps", NULL, 0, 1e15, NULL, "full steps, counted from the beginning, also after --resume", true, AT(steps)},
 	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "stop at the first step with time >= T - dt/2", true, AT(time)},
+	{"until", 0, PM_TEXT, "EXPRESSION", NULL, 0, 0, NULL,
+		"stop at the first step where this is true of diag's columns; NAME0 is the value at the beginning: 'energy > 10*energy0'", true, AT(until)},
 	{"every", 0, PM_INTEGER, "steps", NULL, 1, 1e15, NULL, "write the beginning, every step that is a multiple of N, and the last", true, AT(every)},
 	{"engine", 0, PM_WORD, "", "fused", 0, 0, engines, "run the words in one process, or as long-lived processes on pipes", true, AT(engine)},
 	{"checkpoint", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "keep the frame last written in FILE, and on SIGINT and SIGTERM", true, AT(checkpoint)},
@@ -29,6 +31,7 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"a star cluster on a mesh, a frame every 10 steps",
 		"pinit plummer -n 1000 | cycle -n 20 --every 10 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2' | diag"},
+	{"until a cold cluster has fallen in", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | push kick/2' | diag --columns step,time,virial_ratio"},
 	{"one orbit by direct summation", "pinit two-body | cycle -n 100 'push kick/2 drift | pp | push kick/2' | diag"},
 	{0},
 };

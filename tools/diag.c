@@ -3,11 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "law/law.h"
 #include "measure/growth.h"
-#include "measure/measure.h"
-#include "mollifier/mollifier.h"
-#include "scene/scene.h"
+#include "stage/gauge.h"
 #include "stage/stage.h"
 
 struct config {
@@ -19,15 +16,13 @@ struct config {
 	int mode;          /* of --growth; 0 none */
 	double from, to;   /* of --window; NAN not given */
 };
-enum { EXACT = -1, MOST = 2 * (PM_LIST_MOST + PM_COLUMNS + 2 * PM_COMPONENTS) };
+enum { MOST = 2 * (PM_LIST_MOST + PM_COLUMNS + 2 * PM_COMPONENTS) };
 struct state {
 	FILE *out;
 	int n; /* columns, decided by the first frame; 0 before */
 	struct pm_series series; /* of --growth */
-	struct column {
-		char name[PM_NAME + 6];
-		int from; /* place among the measures, PM_COLUMNS and above the radii, then the modes; EXACT: what the scene knows of the name behind exact_ */
-	} column[MOST];
+	struct pm_gauged column[MOST];
+	struct pm_gauge gauge;
 };
 
 /* mode:M and T0:T1. */
@@ -47,6 +42,16 @@ static int take_growth(struct config *c)
 	return 0;
 }
 
+static void gauge_make(struct pm_gauge *g, const struct config *c)
+{
+	*g = (struct pm_gauge){.set = c->set, .pair = c->pair, .nradii = c->radii.n, .nmodes = c->modes.n};
+	memcpy(g->fraction, c->radii.x, sizeof g->fraction);
+	for (int k = 0; k < c->modes.n; k++)
+		g->mode[k] = (int)c->modes.x[k];
+	if (c->mode)
+		g->mode[g->nmodes++] = c->mode; /* the last is that of the growth */
+}
+
 static int begin(struct pm_stage *s)
 {
 	struct config *c = s->config;
@@ -56,124 +61,47 @@ static int begin(struct pm_stage *s)
 			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii.x[k]);
 	if (take_growth(c))
 		return -PM_USAGE;
+	gauge_make(&state->gauge, c);
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
 	state->out = c->tee ? fopen(c->tee, "w") : stdout;
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
-static const struct pm_scene *scene_of(const struct pm_frame *f)
-{
-	for (int i = 0; pm_scenes[i]; i++)
-		if (!strcmp(pm_scene_names[i], f->scene) && pm_scenes[i]->exact)
-			return pm_scenes[i];
-	return NULL;
-}
-
-/* Where omega_centre is taken: the scene's place, else the middle of the box. */
-static double centre_of(const struct pm_frame *f, int d)
-{
-	const struct pm_scene *scene = scene_of(f);
-	const double x = scene ? scene->exact(f, d ? "place_y" : "place_x", f->time) : NAN;
-	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
-}
-
-static struct pm_measure how_of(const struct config *c, const struct pm_frame *f, const struct pm_law *law)
-{
-	const struct pm_mollifier *plummer = c->pair ? pm_mollifier_find("plummer") : NULL;
-	struct pm_measure how = {.set = c->set, .strength = law->strength, .density = law->density, .potential = law->potential,
-		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
-		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = c->radii.n,
-		.fraction = c->radii.x, .plasma = law->background != NULL, .field = law->field, .nmodes = c->modes.n,
-		.centre = {centre_of(f, 0), centre_of(f, 1)}};
-	for (int k = 0; k < c->modes.n; k++)
-		how.modes[k] = (int)c->modes.x[k];
-	if (c->mode)
-		how.modes[how.nmodes++] = c->mode; /* the last is that of the growth */
-	return how;
-}
-
-/* The mode of --growth needs the field of the law on a mesh that goes round in x. */
-static int has_mode(const struct pm_frame *f, const struct pm_law *law)
-{
-	const struct pm_field *field = NULL;
-	for (size_t i = 0; i < f->nmeshes && law->field && !field; i++)
-		field = pm_frame_field(f, f->meshes[i]->name, law->field);
-	if (f->face[0][0] != PM_PERIODIC)
-		return pm_fail(PM_DATA, "--growth and --modes want a box that is periodic in x (pinit --faces periodic)");
-	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh to take modes of (p2m | poisson-fft | mgrad before diag)", law->field ? law->field : "");
-}
-
 static int plan(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct config *c = s->config;
-	const struct pm_law *law = pm_law_of(f);
-	if (!law)
-		return -PM_DATA;
-	if (f->substep)
-		return PM_PASS; /* state is not at the header's time */
-	if (c->set && !pm_frame_set(f, c->set))
-		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", c->set);
-	for (int d = 0; d < f->dim && c->pair; d++)
-		if (f->face[d][0] == PM_PERIODIC)
-			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, and this box is periodic (leave --pair out)");
-	const struct pm_measure how = how_of(c, f, law);
-	if (how.nmodes && has_mode(f, law))
-		return -PM_DATA;
-	pm_measure_reads(&how, f);
-	return 0;
+	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_gauge_reads(&((struct state *)s->state)->gauge, f);
 }
 
-static void add(struct state *state, const struct config *c, const struct pm_frame *f, int from, const char *name)
+static void add(struct state *state, const struct config *c, const struct pm_frame *f, struct pm_gauged column)
 {
-	const struct pm_scene *scene = c->exact ? scene_of(f) : NULL;
-	struct column *column = &state->column[state->n];
-	snprintf(column->name, sizeof column->name, "%s", name);
-	column->from = from;
-	state->n++;
-	if (!scene || !isfinite(scene->exact(f, name, f->time)))
-		return;
-	snprintf(column[1].name, sizeof column->name, "exact_%s", name);
-	column[1].from = EXACT;
-	state->n++;
+	const struct pm_scene *scene = c->exact ? pm_gauge_scene(f) : NULL;
+	state->column[state->n++] = column;
+	if (scene && isfinite(scene->exact(f, column.name, f->time)))
+		state->column[state->n++] = pm_gauge_exact(column.name);
 }
 
-/* All columns that exist here, or those asked for in their order; radii last. They stay the same over the stream. */
+/* All columns that exist here, or those asked for in their order; radii and modes last. They stay the same over the stream. */
 static int decide(struct state *state, const struct config *c, const struct pm_frame *f)
 {
 	int vdim = 0;
-	char radius[PM_NAME];
-	const struct pm_measure how = how_of(c, f, pm_law_of(f));
-	if (c->exact && !scene_of(f))
+	const struct pm_measure how = pm_gauge_how(&state->gauge, f);
+	if (c->exact && !pm_gauge_scene(f))
 		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;
 	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
 		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, how.vortices, how.plasma))
-			add(state, c, f, k, pm_column_names[k]);
+			add(state, c, f, pm_gauge_column((enum pm_column)k));
 	for (int i = 0; i < c->columns.n; i++)
 		for (int k = 0; k < PM_COLUMNS; k++)
 			if (!strcmp(c->columns.item[i], pm_column_names[k]))
-				add(state, c, f, k, pm_column_names[k]);
-	for (int k = 0; k < c->radii.n; k++) {
-		snprintf(radius, sizeof radius, "radius_%g", c->radii.x[k]);
-		add(state, c, f, PM_COLUMNS + k, radius);
-	}
-	for (int k = 0; k < c->modes.n; k++) {
-		snprintf(radius, sizeof radius, "mode_%d", (int)c->modes.x[k]);
-		add(state, c, f, PM_COLUMNS + PM_COMPONENTS + k, radius);
-	}
+				add(state, c, f, pm_gauge_column((enum pm_column)k));
+	for (int k = 0; k < c->radii.n; k++)
+		add(state, c, f, pm_gauge_radius(&state->gauge, k));
+	for (int k = 0; k < c->modes.n; k++)
+		add(state, c, f, pm_gauge_mode(&state->gauge, k));
 	return 0;
-}
-
-static double value(const struct column *column, const struct pm_measures *m, const struct pm_frame *f)
-{
-	const struct pm_scene *scene = column->from == EXACT ? scene_of(f) : NULL;
-	if (column->from == EXACT)
-		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
-	if (column->from >= PM_COLUMNS + PM_COMPONENTS)
-		return hypot(m->mode[column->from - PM_COLUMNS - PM_COMPONENTS][0], m->mode[column->from - PM_COLUMNS - PM_COMPONENTS][1]);
-	return column->from < PM_COLUMNS ? m->value[column->from] : m->radius[column->from - PM_COLUMNS];
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -182,14 +110,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *state = s->state;
 	struct pm_measures m;
 	const bool json = !strcmp(c->format, "json"), first = !state->n;
-	const struct pm_measure how = how_of(c, f, pm_law_of(f));
+	const struct pm_measure how = pm_gauge_how(&state->gauge, f);
 	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m) ||
 		(c->mode && pm_series_add(&state->series, f->time, m.mode[how.nmodes - 1])))
 		return -PM_DATA;
 	for (int i = 0; i < state->n && first && !json; i++)
 		fprintf(state->out, "%s%c", state->column[i].name, i + 1 < state->n ? '\t' : '\n');
 	for (int i = 0; i < state->n; i++) {
-		const double x = value(&state->column[i], &m, f);
+		const double x = pm_gauge_value(&state->column[i], &m, f);
 		if (json)
 			fprintf(state->out, "%c\"%s\":", i ? ',' : '{', state->column[i].name);
 		fprintf(state->out, isfinite(x) ? "%.17g" : json ? "null" : "nan", x);

@@ -51,10 +51,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	t->nu = isnan(o->nu) ? pm_frame_constant(f, "nu", 0) : o->nu;
 	if (!(t->nu >= 0))
 		return pm_fail(PM_DATA, "the viscosity nu is %g: negative diffusion has no solution (--nu, or the scene's)", t->nu);
-	if (t->nu == 0) {
-		pm_say(s, "the viscosity nu is 0: nothing to do");
-		return PM_PASS;
-	}
+	if (t->nu == 0)
+		return pm_idle(s, "the viscosity nu is 0");
 	if (!law->density)
 		return pm_fail(PM_DATA, "the law '%s' has no density on a mesh to diffuse", law->name);
 	if (!mesh)

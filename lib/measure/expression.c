@@ -12,7 +12,10 @@
 
 struct parser {
 	struct pm_expression *e;
-	struct pm_frame *f;
+	struct pm_frame *f; /* NULL: names are those of slot */
+	int (*slot)(void *context, const char *name);
+	void *context;
+	const char *what;
 	const char *text, *at;
 	int depth, nesting;
 	bool failed;
@@ -145,23 +148,40 @@ static void unknown(struct parser *p, const char *s, size_t n)
 	wrong(p, s, what, "", 0);
 }
 
+/* What a name means is a value of its own kind; false: it was a number, or unknown. */
+static bool value_named(struct parser *p, const char *s, size_t n, struct pm_expression_value *v)
+{
+	double x;
+	if (!p->f) {
+		char name[2 * PM_NAME], message[3 * PM_NAME];
+		snprintf(name, sizeof name, "%.*s", (int)n, s);
+		*v = (struct pm_expression_value){.axis = -1, .slot = n < sizeof name ? p->slot(p->context, name) : 0};
+		snprintf(message, sizeof message, "no %s '", p->what);
+		if (!v->slot && same("pi", s, n))
+			return emit(p, PM_X_NUMBER, 0, pm_pi, 1), false;
+		if (!v->slot)
+			wrong(p, s, message, s, (int)n);
+		return v->slot;
+	}
+	if (pm_frame_mesh(p->f, p->e->on) && !pm_frame_set(p->f, p->e->on) && n == 1 && axis_of(*s) >= 0 && axis_of(*s) < p->f->dim)
+		return *v = (struct pm_expression_value){.axis = axis_of(*s)}, true;
+	if (as_component(p, s, n, v))
+		return true;
+	if (as_number(p, s, n, &x))
+		emit(p, PM_X_NUMBER, 0, x, 1);
+	else
+		unknown(p, s, n);
+	return false;
+}
+
 static void variable(struct parser *p, const char *s, size_t n)
 {
 	struct pm_expression *e = p->e;
 	struct pm_expression_value v;
-	double x;
-	bool mesh = pm_frame_mesh(p->f, e->on) && !pm_frame_set(p->f, e->on);
-	if (mesh && n == 1 && axis_of(*s) >= 0 && axis_of(*s) < p->f->dim)
-		v = (struct pm_expression_value){.axis = axis_of(*s)};
-	else if (!as_component(p, s, n, &v)) {
-		if (as_number(p, s, n, &x))
-			emit(p, PM_X_NUMBER, 0, x, 1);
-		else
-			unknown(p, s, n);
+	if (!value_named(p, s, n, &v))
 		return;
-	}
 	for (int i = 0; i < e->nvalues; i++)
-		if (!strcmp(e->value[i].field, v.field) && e->value[i].component == v.component && e->value[i].axis == v.axis) {
+		if (!strcmp(e->value[i].field, v.field) && e->value[i].component == v.component && e->value[i].axis == v.axis && e->value[i].slot == v.slot) {
 			emit(p, PM_X_VALUE, i, 0, 1);
 			return;
 		}
@@ -330,6 +350,24 @@ static void choice(struct parser *p)
 	p->nesting--;
 }
 
+static int compile(struct parser *p)
+{
+	struct pm_expression *e = p->e;
+	do {
+		if (e->nparts == PM_EXPRESSION_PARTS)
+			wrong(p, p->at, "too many components", "", 0);
+		else
+			e->part[e->nparts++] = e->nsteps;
+		p->depth = 0;
+		if (!p->failed)
+			choice(p);
+	} while (!p->failed && take(p, ","));
+	e->part[e->nparts] = e->nsteps;
+	if (!p->failed && peek(p))
+		wrong(p, p->at, "expected an operator or the end", "", 0);
+	return p->failed ? -p->code : 0;
+}
+
 int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text)
 {
 	struct parser p = {.e = e, .f = f, .text = text, .at = text, .code = PM_USAGE};
@@ -337,19 +375,15 @@ int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const cha
 	snprintf(e->on, PM_NAME, "%s", on);
 	if (!pm_frame_set(f, on) && !pm_frame_mesh(f, on))
 		return pm_fail(PM_DATA, "no set or mesh '%s' (sls lists what there is)", on);
-	do {
-		if (e->nparts == PM_EXPRESSION_PARTS)
-			wrong(&p, p.at, "too many components", "", 0);
-		else
-			e->part[e->nparts++] = e->nsteps;
-		p.depth = 0;
-		if (!p.failed)
-			choice(&p);
-	} while (!p.failed && take(&p, ","));
-	e->part[e->nparts] = e->nsteps;
-	if (!p.failed && peek(&p))
-		wrong(&p, p.at, "expected an operator or the end", "", 0);
-	return p.failed ? -p.code : 0;
+	return compile(&p);
+}
+
+int pm_expression_compile_numbers(struct pm_expression *e, int (*slot)(void *context, const char *name), void *context, const char *what, const char *text)
+{
+	struct parser p = {.e = e, .slot = slot, .context = context, .what = what, .text = text, .at = text, .code = PM_USAGE};
+	memset(e, 0, sizeof *e);
+	const int status = compile(&p);
+	return status || e->nparts == 1 ? status : pm_fail(PM_USAGE, "one expression, not %d with commas between: %s", e->nparts, text);
 }
 
 int pm_expression_named(const char *text, char name[PM_NAME], const char **expression)

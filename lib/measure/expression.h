@@ -12,7 +12,7 @@ struct pm_expression_value {
 	char field[PM_NAME]; /* "" none */
 	int component;
 	int axis;            /* of the mesh point, -1 none */
-	double number;
+	int slot;            /* a number with a name of its own, from 1; 0 none */
 };
 
 struct pm_expression {
@@ -32,6 +32,9 @@ int pm_expression_named(const char *text, char name[PM_NAME], const char **expre
  * field NAME_0 or NAME.x or NAMEx; a field of one component is NAME. On a mesh x y z are the coordinates of the point. time, dt, step, n, dim, pi, Lx Ly Lz, and
  * the constants of the frame by name. */
 int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text);
+/* Compiles text for numbers with names of their own: slot(context, name) says from 1 which one a name stands for, 0 none of that name (said as "no WHAT 'name'"). */
+int pm_expression_compile_numbers(struct pm_expression *e, int (*slot)(void *context, const char *name), void *context, const char *what, const char *text);
+double pm_expression_number(const struct pm_expression *e, const double *number); /* number[slot - 1] */
 /* Part k for every value of the set or mesh; out must not be an input of it. Constant time a value: the same bytes for any number of threads. */
 void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, double *out);
 /* All parts at once into the components of a field that may be an input. */

@@ -76,8 +76,8 @@ static void unary(enum pm_expression_code code, const struct pm_expression_funct
 	}
 }
 
-/* The result of part k is left in stack[0]. */
-static void block_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t first, size_t n, double (*stack)[block])
+/* The result of part k is left in stack[0]. number: of the slots, n is 1; or NULL. */
+static void block_eval(const struct pm_expression *e, const struct pm_frame *f, const double *number, int k, size_t first, size_t n, double (*stack)[block])
 {
 	int top = -1;
 	for (int s = e->part[k]; s < e->part[k + 1]; s++) {
@@ -87,6 +87,8 @@ static void block_eval(const struct pm_expression *e, const struct pm_frame *f, 
 		if (step->code == PM_X_NUMBER)
 			for (a = stack[++top]; a < stack[top] + n; a++)
 				*a = step->number;
+		else if (step->code == PM_X_VALUE && number)
+			*stack[++top] = number[e->value[step->value].slot - 1];
 		else if (step->code == PM_X_VALUE)
 			load(e->value + step->value, f, e->on, first, n, stack[++top]);
 		else if (step->code == PM_X_CHOOSE) {
@@ -108,7 +110,7 @@ void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f,
 	for (size_t first = 0; first < n; first += block) {
 		double stack[PM_EXPRESSION_DEPTH][block];
 		size_t here = n - first < block ? n - first : block;
-		block_eval(e, f, k, first, here, stack);
+		block_eval(e, f, NULL, k, first, here, stack);
 		memcpy(out + first, stack[0], here * sizeof *out);
 	}
 }
@@ -121,10 +123,17 @@ void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *
 		double stack[PM_EXPRESSION_DEPTH][block], result[PM_EXPRESSION_PARTS][block];
 		size_t here = n - first < block ? n - first : block;
 		for (int k = 0; k < e->nparts; k++) {
-			block_eval(e, f, k, first, here, stack);
+			block_eval(e, f, NULL, k, first, here, stack);
 			memcpy(result[k], stack[0], here * sizeof(double));
 		}
 		for (int k = 0; k < e->nparts; k++)
 			memcpy(pm_out(field, k) + first, result[k], here * sizeof(double));
 	}
+}
+
+double pm_expression_number(const struct pm_expression *e, const double *number)
+{
+	double stack[PM_EXPRESSION_DEPTH][block];
+	block_eval(e, NULL, number, 0, 0, 1, stack);
+	return stack[0][0];
 }

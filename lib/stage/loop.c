@@ -9,12 +9,15 @@
 #include "stage/internal.h"
 #include "stage/loop.h"
 #include "stage/sentence.h"
+#include "stage/until.h"
 
 struct cycle {
 	const struct pm_loop *c;
 	struct pm_stage *s;
 	struct pm_sentence *words;
 	struct pm_writer *out;
+	struct pm_until *until; /* NULL: none */
+	int met;                /* it is true of this frame */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
 	json_t *before;         /* resume: the report of the checkpoint, until the first pass has been compared with it */
@@ -67,6 +70,8 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	if (!copy)
 		return name ? pm_failed() : 0;
 	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
+	if (y->until)
+		json_object_set_new(copy->more, "cycle_until", pm_until_save(y->until));
 	int status = pm_rest_is(name) ? checkpoint_rest(name, copy) : checkpoint_stream(name, copy);
 	pm_frame_free(copy);
 	return status;
@@ -92,6 +97,8 @@ static int checkpoint_check(const char *name)
 static int write_out(struct cycle *y, struct pm_frame *f)
 {
 	y->written = f->step;
+	if (y->until) /* not under the sentence as typed: a resumed run is typed otherwise */
+		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
 	int status = pm_write_frame(y->out, f);
 	return status ? status : checkpoint(y, f);
 }
@@ -110,12 +117,37 @@ static bool done(const struct cycle *y, const struct pm_frame *f)
 	if (f->substep)
 		return false;
 	bool late = f->dt < 0 ? f->time <= y->c->time - f->dt / 2 : f->time >= y->c->time - f->dt / 2; /* time may run backwards */
-	return (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && late);
+	return y->met || (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && late);
 }
 
 static int prime(struct cycle *y, struct pm_frame **f)
 {
 	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
+}
+
+/* 0, or failure; whether the run is to end here. */
+static int look(struct cycle *y, struct pm_frame *f)
+{
+	const int met = y->until ? pm_until_met(y->until, f) : 0;
+	y->met = met > 0;
+	return met < 0 ? met : 0;
+}
+
+/* The beginning of a run that ends by an expression: primed, so that the columns are there. */
+static int look_first(struct cycle *y, struct pm_frame **f)
+{
+	json_t *saved = json_incref(json_object_get((*f)->more, "cycle_until"));
+	json_object_del((*f)->more, "cycle_until");
+	int status = 0;
+	y->met = 0;
+	if (y->until && y->c->resume)
+		status = pm_until_load(y->until, saved);
+	else if (y->until) {
+		status = prime(y, f);
+		status = status ? status : pm_until_begin(y->until, *f);
+	}
+	json_decref(saved);
+	return status ? status : look(y, *f);
 }
 
 /* Stages that plan transforms report which plans they run; a resumed run must have the same ones, or its bytes would differ. */
@@ -157,6 +189,9 @@ static int pass(struct cycle *y, struct pm_frame **f)
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);
+	status = full ? look(y, *f) : 0;
+	if (status)
+		return pm_fail(-status, "step %lld: %s", (long long)(*f)->step, pm_message());
 	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
 }
 
@@ -179,7 +214,8 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
 		pm_history_add(y->s, *f);
-	if (y->c->every > 0 && !y->c->resume) {
+	status = look_first(y, f);
+	if (!status && y->c->every > 0 && !y->c->resume) {
 		status = prime(y, f);
 		status = status ? status : write_out(y, *f);
 	}
@@ -219,6 +255,10 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	y.words = pm_sentence_new(s->args[0], !strcmp(c->engine, "fused"), &c->moves);
 	if (!y.words)
 		return pm_failed();
+	if (c->until && !(y.until = pm_until_new(c->until)))
+		return pm_sentence_free(y.words), pm_failed();
+	if (s->verbose)
+		pm_sentence_verbose(y.words);
 	if (c->resume)
 		s->run->reader = pm_rest_open(c->resume);
 	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
@@ -235,5 +275,6 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());
 	int end = pm_sentence_free(y.words);
+	pm_until_free(y.until);
 	return status ? pm_fail(-status, "%s", message) : end;
 }

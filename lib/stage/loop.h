@@ -7,7 +7,7 @@
 struct pm_loop { /* what the user asked for; the config of cycle */
 	int64_t steps, every; /* INT64_MIN: not asked */
 	double time;          /* NAN: not asked */
-	const char *engine, *checkpoint, *resume;
+	const char *engine, *checkpoint, *resume, *until;
 	struct pm_list moves;
 	bool other_plans;
 };

@@ -11,7 +11,7 @@
 enum { most_words = 64, most_arguments = 64 };
 
 struct word {
-	char *argv[most_arguments + 2]; /* one to spare for --no-history */
+	char *argv[most_arguments + 3]; /* two to spare, for --no-history and --verbose */
 	int argc;
 	const struct pm_tool *tool; /* NULL: a foreign program */
 	struct pm_stage *stage;     /* our own words: planned here even when they run as processes */
@@ -195,6 +195,15 @@ struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct p
 	}
 	segments_make(s, fused);
 	return s;
+}
+
+void pm_sentence_verbose(struct pm_sentence *s)
+{
+	for (int i = 0; i < s->nwords; i++)
+		if (s->word[i].stage) {
+			s->word[i].stage->verbose = true;
+			s->word[i].argv[s->word[i].argc + 1] = "--verbose"; /* of its process */
+		}
 }
 
 /* ---- running ---- */

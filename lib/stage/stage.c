@@ -145,16 +145,31 @@ void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *ke
 	json_object_set_new(own_report(s, f), key, json_string(value));
 }
 
+static void say(const struct pm_stage *s, const char *format, va_list ap, const char *more)
+{
+	fprintf(stderr, "%s: ", s->tool->name);
+	vfprintf(stderr, format, ap);
+	fprintf(stderr, "%s\n", more);
+}
+
 void pm_say(const struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;
-	if (!s->verbose || s->planning)
-		return;
-	fprintf(stderr, "%s: ", s->tool->name);
 	va_start(ap, format);
-	vfprintf(stderr, format, ap);
+	if (s->verbose && !s->planning)
+		say(s, format, ap, "");
 	va_end(ap);
-	fputc('\n', stderr);
+}
+
+int pm_idle(struct pm_stage *s, const char *format, ...)
+{
+	va_list ap;
+	va_start(ap, format);
+	if (s->verbose && !s->planning && !s->idle)
+		say(s, format, ap, ": nothing to do, the frame passes untouched");
+	s->idle |= !s->planning;
+	va_end(ap);
+	return PM_PASS;
 }
 
 void pm_setup_since(struct pm_stage *s, double began)

@@ -68,6 +68,7 @@ struct pm_stage {
 	json_t *entry;       /* for the history; NULL with --no-history */
 	bool leaves_out;     /* set by begin: some frames do not come out again, so it cannot stand inside a sentence */
 	bool verbose, planning; /* planning: this plan is a trial on a bare header (cycle), not to be cached or counted */
+	bool idle;           /* has said that its effect is zero */
 	double setup, seconds;  /* spent in begin, plan and what frame says was set-up; in the rest of frame */
 	struct pm_run *run;  /* of the library */
 };
@@ -101,6 +102,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv);
 bool pm_given(const struct pm_stage *s, const char *option);       /* was it typed? */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
+int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* plan(): the effect is zero here; says why, once, returns PM_PASS */
 void pm_setup_since(struct pm_stage *s, double began);             /* frame(): since pm_seconds() was began it set up (plans, hierarchies); not work */
 struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */

@@ -208,3 +208,58 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		[[ $output == *"'./nine' was killed by signal 9"* ]]
 	done
 }
+
+@test "--until stops at the first step where it is true, in both engines, and says in the tail that it was met" {
+	pinit cold-sphere -n 100 > a
+	words='push kick/2 drift | pp --potential | push kick/2'
+	cycle -n 500 --every 1 "$words" < a | diag --columns step,virial_ratio > table
+	first=$(awk 'NR > 1 && $2 > 1 { print $1; exit }' table)
+	[ "$first" -gt 100 ]
+	cycle -n 500 --until 'virial_ratio > 1' --no-history "$words" < a > b
+	cycle -n 500 --until 'virial_ratio > 1' --no-history --engine pipes "$words" < a > c
+	same_as b c
+	[ "$(sls --report --format json < b | jq -c '[.step, .report.cycle.until]')" = "[$first,1]" ]
+	[ "$(cycle -n 5 --until 'virial_ratio > 1' "$words" < a | sls --report --format json | jq -c '[.step, .report.cycle.until]')" = "[5,0]" ]
+	[ "$(cycle --until 'virial_ratio > 1' --every 100 "$words" < a | steps_of)" = "0 100 $first " ]
+}
+
+@test "--until: NAME0 is the value at the beginning, of radii and modes NAME_0, also after resume" {
+	pinit cold-sphere -n 100 > a
+	words='push kick/2 drift | pp --potential | push kick/2'
+	cycle -n 500 --every 1 "$words" < a | diag --columns step,energy_field_pair --radii 0.5 > table
+	want=$(awk 'NR == 2 { w = $2; r = $3 } NR > 2 && $2 < 1.5*w && $3 < 0.6*r { print $1; exit }' table)
+	until='energy_field_pair < 1.5*energy_field_pair0 && radius_0.5 < 0.6*radius_0.5_0'
+	cycle -n 500 --until "$until" "$words" < a > b
+	[ "$(steps_of < b)" = "$want " ]
+	cycle -n 50 --until "$until" --checkpoint c "$words" < a > d
+	cycle -n 500 --until "$until" --resume c "$words" > e
+	same_as b e
+	[ "$(cycle -n 9 --until 'step == step0' "$words" < a | steps_of)" = "0 " ] # true at the beginning: no step
+	[ "$(cat b | cycle -n 9 --until 'step >= step0 + 3' "$words" | steps_of)" = "$((want + 3)) " ]
+}
+
+@test "--until: a plasma's energy at twice the leapfrog's limit and below" {
+	words='push --dt {} kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+	for dt in 1.95 2.05; do
+		pinit langmuir -n 512 --cells 32 --amplitude 0.001 | cycle -n 200 --until 'energy > 10*energy0' "${words/\{\}/$dt}" | sls --report --format json | jq .report.cycle.until
+	done > met
+	[ "$(tr '\n' ' ' < met)" = "0 1 " ]
+}
+
+@test "--until refuses what it cannot read or measure, in words" {
+	pinit two-body > a
+	fails() { run --separate-stderr cycle -n 3 --until "$2" "${3:-$leap}" < a; [ "$status" = "$1" ] && [[ $stderr == *"$4"* ]]; }
+	fails 2 'energyy > 1' '' "no column 'energyy'"
+	fails 2 'energy >' '' 'the expression stops here'
+	fails 2 'energy, time' '' 'one expression'
+	fails 1 'omega_max > 1' '' "'omega_max' cannot be computed"
+	fails 1 'mode_1 > 1' '' 'periodic in x'
+	cycle -n 1 --checkpoint c "$leap" < a > /dev/null
+	run --separate-stderr cycle -n 3 --resume c --until 'energy > 0' "$leap"
+	[ "$status" = 2 ]
+	[[ $stderr == *"does not know 'energy' at the beginning"* ]]
+	# the energy of a direct sum that leaves no potential behind is summed; in a periodic box it is not there
+	cycle -n 3 --until 'energy > 0' "$leap" < a > /dev/null
+	pinit langmuir -n 64 --cells 8 > a
+	fails 1 'energy > 0' 'p2m | poisson-fft | mgrad | m2p | push rk4' "the column 'energy' cannot be computed"
+}

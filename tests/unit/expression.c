@@ -126,10 +126,27 @@ static void mesh(void)
 	pm_frame_free(f);
 }
 
+/* Names of their own, as cycle --until has them: a is 1, b is 2. */
+static int slot(void *context, const char *name)
+{
+	(void)context;
+	return !strcmp(name, "a") ? 1 : !strcmp(name, "b") ? 2 : 0;
+}
+
+static void numbers(void)
+{
+	struct pm_expression e;
+	const double number[] = {3, -4};
+	check(!pm_expression_compile_numbers(&e, slot, NULL, "column", "hypot(a, b) > 4.9 && a < pi ? a*b^2 : 0"), "an expression of numbers compiles");
+	check_near(pm_expression_number(&e, number), 48, 0, "its value is the one of these numbers");
+	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a + c") == -PM_USAGE && strstr(pm_message(), "column 5: no column 'c'"), "an unknown name is named with its place");
+	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a, b") == -PM_USAGE && strstr(pm_message(), "one expression"), "two expressions are refused");
+}
+
 int main(void)
 {
 	struct pm_frame *f = particles();
-	values(f), names(f), errors(f), threads(f), assign(f), mesh();
+	values(f), names(f), errors(f), threads(f), assign(f), mesh(), numbers();
 	pm_frame_free(f);
 	return check_done();
 }
