@@ -1,5 +1,5 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
-# make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, atlas, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
@@ -132,6 +132,9 @@ valgrind:
 
 gallery: all
 	bash docs/gallery.sh
+# The figures of docs/accuracy/ and the tables of data/atlas/, measured anew: six minutes, on a machine at rest.
+atlas: all
+	bash docs/accuracy/atlas.sh
 bench: all benches
 	bash bench/run.sh
 
@@ -147,7 +150,7 @@ lint: all man
 	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit benches
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
-	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh),@echo 'lint: no shellcheck here')
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
 
 # Manual pages and completion are printed by the programs.
 man := $(tools:$(bin_dir)/%=$(B)/man/%.1)
@@ -184,5 +187,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit benches demo check check-long asan valgrind bench counts counts-check gallery measure lint man install uninstall clean
+.PHONY: all unit benches demo check check-long asan valgrind bench counts counts-check gallery atlas measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)
