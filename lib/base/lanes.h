@@ -17,6 +17,7 @@
 enum { PM_VECTOR_LANES = 8 };
 typedef double pm_lanes __attribute__((vector_size(64)));
 typedef int64_t pm_lanes_bits __attribute__((vector_size(64)));
+typedef uint64_t pm_lanes_words __attribute__((vector_size(64)));
 
 /* Before a short loop over vectors, which must vanish if they are to stay in registers. */
 #ifdef __clang__
@@ -33,6 +34,13 @@ PM_LANES_INLINE pm_lanes pm_lanes_load(const double *p) /* 64-byte aligned */
 {
 	pm_lanes v;
 	memcpy(&v, __builtin_assume_aligned(p, 64), sizeof v);
+	return v;
+}
+
+PM_LANES_INLINE pm_lanes pm_lanes_load_any(const double *p) /* anywhere */
+{
+	pm_lanes v;
+	memcpy(&v, p, sizeof v);
 	return v;
 }
 
@@ -62,6 +70,17 @@ PM_LANES_INLINE pm_lanes pm_lanes_where_not_below(pm_lanes a, pm_lanes b, pm_lan
 #endif
 }
 
+/* v in the first n lanes, else other. */
+PM_LANES_INLINE pm_lanes pm_lanes_first(size_t n, pm_lanes v, pm_lanes other)
+{
+#ifdef __AVX512F__
+	return (pm_lanes)_mm512_mask_mov_pd((__m512d)other, (__mmask8)((1u << (n < 8 ? n : 8)) - 1), (__m512d)v);
+#else
+	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = lane < (int64_t)n;
+	return (pm_lanes)((in & (pm_lanes_bits)v) | (~in & (pm_lanes_bits)other));
+#endif
+}
+
 /* a*b + c and c - a*b, rounded once where the machine can. */
 PM_LANES_INLINE pm_lanes pm_lanes_fma(pm_lanes a, pm_lanes b, pm_lanes c)
 {
@@ -79,6 +98,22 @@ PM_LANES_INLINE pm_lanes pm_lanes_fnma(pm_lanes a, pm_lanes b, pm_lanes c)
 #else
 	return c - a * b;
 #endif
+}
+
+/* exp(x) for |x| <= 700, to 4e-16: 2^n exp(r) with |r| <= ln(2)/2, the polynomial of degree 10 with the least relative error there (2.1e-16; Remez's
+ * exchange). Lanes beyond hold anything. */
+PM_LANES_INLINE pm_lanes pm_lanes_exp(pm_lanes x)
+{
+	const double magic = 0x1.8p52, /* brings the whole number into the last bits */ of[] = {1, 1.0000000000000064426, 0.49999999999997286939,
+		0.16666666666557740923, 0.0416666666684260609, 0.0083333333846659047921, 0.0013888888499128804452, 0.00019841171384084617397,
+		0.000024801917696315434502, 2.7639768308281270114e-6, 2.7488440881408338451e-7};
+	pm_lanes whole = pm_lanes_fma(x, pm_lanes_all(1.4426950408889634), pm_lanes_all(magic)), n = whole - pm_lanes_all(magic);
+	pm_lanes r = pm_lanes_fnma(n, pm_lanes_all(0x1.62e42feep-1), x), p = pm_lanes_all(of[10]);
+	r = pm_lanes_fnma(n, pm_lanes_all(0x1.a39ef35793c76p-33), r); /* ln 2 in two parts, the first of 32 bits */
+	PM_LANES_UNROLL
+	for (int k = 9; k >= 0; k--)
+		p = pm_lanes_fma(p, r, pm_lanes_all(of[k]));
+	return (pm_lanes)((pm_lanes_words)p + ((pm_lanes_words)whole << 52));
 }
 
 /* 1/sqrt(x) and 1/x to a relative error below 2^-14. */

@@ -1,0 +1,35 @@
+/* Particle strength exchange (docs/methods/pse.md). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PSE_H
+#define PM_PSE_H
+
+#include "mesh/cells.h"
+
+/* eta(z) = (4 pi)^(-dim/2) (constant + square z^2) exp(-z^2/4): even, its second moments are 2, those of order 4 .. order vanish. */
+struct pm_pse {
+	int dim, order;          /* 1, 2, 3; 2 or 4 */
+	double eps, cutoff;      /* [length]; in eps, at most 40 */
+	double reach;            /* [length] the cut-off, and a billionth: partners that a lattice has just there belong to it, whatever the round-off */
+	double constant, square;
+	double total;            /* zeroth moment of eta: 1 or 2 */
+	double beyond;           /* integral of |eta| beyond the cut-off, over total */
+};
+
+struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff);
+double pm_pse_cutoff(int order); /* the default, in eps */
+double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-off */
+
+struct pm_pse_found {
+	double fastest; /* no mode decays faster than nu times this [1/length^2] */
+	uint64_t alone; /* particles that see no other, nor an image */
+};
+
+/* rate[p] += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, partners and images within the cut-off, which is the list's
+ * reach. Each pair is antisymmetric to the last bit, so that the sum over p is zero to round-off. The same bytes for any number of threads. */
+int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
+	struct pm_pse_found *found);
+
+/* The same by the plain double loop with the library's exp: what the other is tested against. */
+int pm_pse_plain(const struct pm_pse *p, const struct pm_domain *domain, double nu, size_t n, const double *const x[], const double *volume,
+	const double *strength, double *rate);
+
+#endif

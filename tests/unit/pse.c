@@ -1,0 +1,270 @@
+/* Particle strength exchange and the cell list under it: moments of the kernels, the fast loops against the plain one in every dimension and with every
+ * kind of face, boxes smaller than the reach, conservation, the bound on the fastest decay (DF-01), any number of threads.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/lanes.h"
+#include "check.h"
+#include "near/pse.h"
+
+enum { MOST = 4096 };
+
+struct bodies {
+	struct pm_domain domain;
+	size_t n;
+	double x[3][MOST], volume[MOST], strength[MOST];
+};
+static struct bodies b;
+static double rate[MOST], plain[MOST];
+
+static double uniform(uint64_t id, uint64_t use)
+{
+	double u[2];
+	pm_random(7, id, use, u);
+	return u[0];
+}
+
+static int add(const struct pm_pse *p, double edge, double *to, struct pm_pse_found *found)
+{
+	struct pm_cell_list l;
+	const double *x[3] = {b.x[0], b.x[1], b.x[2]};
+	int status = pm_cell_list_init(&l, &b.domain, b.n, x, p->reach, edge);
+	if (!status)
+		status = pm_pse_add(p, &l, 1, b.volume, b.strength, to, found);
+	pm_cell_list_free(&l);
+	return status;
+}
+
+/* n particles at random in the unit box, unequal volumes and strengths of either sign. */
+static void scatter(int dim, size_t n)
+{
+	b.domain = (struct pm_domain){.dim = dim, .hi = {1, 1, 1}};
+	b.n = n;
+	for (int d = 0; d < 3; d++)
+		b.domain.face[d][0] = b.domain.face[d][1] = PM_OPEN;
+	for (size_t i = 0; i < n; i++) {
+		for (int d = 0; d < dim; d++)
+			b.x[d][i] = uniform(i, (uint64_t)d);
+		b.volume[i] = (0.5 + uniform(i, 8)) / (double)n;
+		b.strength[i] = uniform(i, 9) - 0.4;
+	}
+}
+
+/* A lattice of m^dim points in the unit box, cell-centred. */
+static void lattice(int dim, size_t m)
+{
+	b.domain = (struct pm_domain){.dim = dim, .hi = {1, 1, 1}, .face = {{PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}}};
+	b.n = 1;
+	for (int d = 0; d < dim; d++)
+		b.n *= m;
+	for (size_t i = 0; i < b.n; i++) {
+		size_t at = i;
+		for (int d = 0; d < dim; d++, at /= m)
+			b.x[d][i] = ((double)(at % m) + 0.5) / (double)m;
+		b.volume[i] = 1 / (double)b.n;
+		b.strength[i] = 0;
+	}
+}
+
+static void exponential(void)
+{
+	double worst = 0;
+	for (int i = -700000; i < 700000; i += 8) {
+		pm_lanes x;
+		for (int l = 0; l < 8; l++)
+			x[l] = (i + l) * 1e-3 + 1e-4 * sin(i + l);
+		pm_lanes e = pm_lanes_exp(x);
+		for (int l = 0; l < 8; l++)
+			worst = fmax(worst, fabs(e[l] / exp(x[l]) - 1));
+	}
+	check(worst < 5e-16, "exp, eight at a time, is right to 5e-16 from -700 to 700 (got %.2g)", worst);
+	check(pm_lanes_exp(pm_lanes_all(0))[3] == 1, "and 1 at 0");
+}
+
+/* Sum of x^a y^c eta over a lattice of spacing 1/2, which is the integral but for exp(-4 pi^2). */
+static double moment(const struct pm_pse *p, int a, int c)
+{
+	const double h = 0.5;
+	double sum = 0;
+	int reach[3] = {0};
+	for (int d = 0; d < p->dim; d++)
+		reach[d] = 28;
+	for (int k = -reach[2]; k <= reach[2]; k++)
+		for (int j = -reach[1]; j <= reach[1]; j++)
+			for (int i = -reach[0]; i <= reach[0]; i++)
+				sum += pow(i * h, a) * pow(j * h, c) * pm_pse_value(p, h * h * (i * i + j * j + k * k)) * pow(h, p->dim);
+	return sum;
+}
+
+static void moments(void)
+{
+	for (int dim = 1; dim <= 3; dim++)
+		for (int order = 2; order <= 4; order += 2) {
+			struct pm_pse p = pm_pse_of(dim, order, 1, 8);
+			double fourth = order == 2 ? 12 : 0, mixed = order == 2 ? 4 : 0; /* of exp(-z^2/4): variance 2 */
+			printf("# order %d in %d-D\n", order, dim);
+			check_near(moment(&p, 2, 0), 2, 1e-12, "the second moment is 2");
+			check_near(moment(&p, 0, 0), p.total, 1e-12, "the zeroth is what the entry says");
+			check_near(moment(&p, 4, 0), fourth, 1e-11, "the fourth vanishes for order 4");
+			if (dim > 1)
+				check_near(moment(&p, 2, 2), mixed, 1e-11, "and so does the mixed one");
+			check_near(p.beyond, dim == 1 && order == 2 ? erfc(4) : p.beyond, 1e-3 * erfc(4), "what is beyond the cut-off is erfc(4) in 1-D");
+		}
+}
+
+/* The largest difference of the fast and the plain sum, over the largest rate. */
+static double differs(const struct pm_pse *p, double edge)
+{
+	const double *x[3] = {b.x[0], b.x[1], b.x[2]};
+	struct pm_pse_found found;
+	double worst = 0, most = 0;
+	memset(rate, 0, sizeof rate);
+	memset(plain, 0, sizeof plain);
+	if (add(p, edge, rate, &found) || pm_pse_plain(p, &b.domain, 1, b.n, x, b.volume, b.strength, plain))
+		return NAN;
+	for (size_t i = 0; i < b.n; i++) {
+		worst = fmax(worst, fabs(rate[i] - plain[i]));
+		most = fmax(most, fabs(plain[i]));
+	}
+	return most > 0 ? worst / most : worst;
+}
+
+static void faces(void)
+{
+	static const enum pm_face pairs[][2] = {{PM_OPEN, PM_OPEN}, {PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_WALL, PM_OPEN}, {PM_OPEN, PM_NEUMANN},
+		{PM_NEUMANN, PM_WALL}, {PM_NEUMANN, PM_NEUMANN}};
+	static const double reaches[] = {0.013, 0.11, 0.5, 1.3, 3.1};
+	for (int dim = 1; dim <= 3; dim++)
+		for (int order = 2; order <= 4; order += 2) {
+			double worst = 0;
+			for (int k = 0; k < 7 * 5; k++) {
+				double reach = reaches[k % 5];
+				if (dim == 3 && k % 5 == 4)
+					continue; /* thousands of images in the plain loop */
+				scatter(dim, 61);
+				for (int d = 0; d < dim; d++)
+					memcpy(b.domain.face[d], pairs[(k / 5 + 2 * d) % 7], sizeof pairs[0]);
+				b.x[0][5] = 0, b.x[dim - 1][6] = b.domain.face[dim - 1][0] == PM_PERIODIC ? 0 : 1; /* on faces */
+				struct pm_pse p = pm_pse_of(dim, order, reach / 5, 5);
+				double d = differs(&p, k % 3 ? 0.07 : reach);
+				worst = !(d <= worst) ? d : worst;
+			}
+			check(worst < 1e-12, "order %d in %d-D: fast and plain agree for every kind of face and reaches of 0.013 to 3.1 boxes (%.2g)", order, dim, worst);
+		}
+}
+
+/* Far apart, so that the table of all cells is not made; with clusters. */
+static void sparse(void)
+{
+	for (int dim = 1; dim <= 3; dim++) {
+		scatter(dim, 300);
+		for (size_t i = 0; i < b.n; i++)
+			for (int d = 0; d < dim; d++)
+				b.x[d][i] = (i % 3 ? 1e6 * (double)(i % 7) : -3e6) + 0.5 * b.x[d][i];
+		struct pm_pse p = pm_pse_of(dim, 2, 0.02, 8);
+		double d = differs(&p, 0.04);
+		check(d < 1e-12, "%d-D: clusters a hundred million cells apart (%.2g)", dim, d);
+		for (size_t i = 0; i < b.n; i++)
+			for (int a = 0; a < dim; a++)
+				b.x[a][i] = 0.25;
+		d = differs(&p, 0.04);
+		check(d < 1e-12, "%d-D: all particles in one point (%.2g)", dim, d);
+	}
+}
+
+static void conserves(void)
+{
+	static const enum pm_face kinds[] = {PM_OPEN, PM_PERIODIC, PM_NEUMANN};
+	for (int dim = 1; dim <= 3; dim++)
+		for (int k = 0; k < 3; k++) {
+			scatter(dim, 2000);
+			double all = 0;
+			for (int d = 0; d < dim; d++)
+				b.domain.face[d][0] = b.domain.face[d][1] = kinds[k];
+			struct pm_pse p = pm_pse_of(dim, 4, 0.03, 8.3);
+			struct pm_pse_found found;
+			memset(rate, 0, sizeof rate);
+			add(&p, 0.05, rate, &found);
+			for (size_t i = 0; i < b.n; i++)
+				all += fabs(rate[i]);
+			double drift = fabs(pm_sum_array(b.n, rate)) / all;
+			/* each rate is a sum of up to 2000 terms, rounded: 1e-16 sqrt(2000) of the terms; systematic loss would show as 1e-13 and more */
+			check(drift < 1e-15, "S33: %s faces in %d-D: the rates of 2000 random particles add up to %.2g of their size", pm_face_names[kinds[k]], dim, drift);
+			for (size_t i = 0; i < b.n; i++)
+				b.strength[i] = 3, b.volume[i] = 0.7;
+			memset(rate, 0, sizeof rate);
+			add(&p, 0.05, rate, &found);
+			for (size_t i = 0, zero = 0; i < b.n; i++) {
+				zero += rate[i] == 0;
+				if (i + 1 == b.n)
+					check(zero == b.n, "a constant stays, to the last bit");
+			}
+		}
+}
+
+/* DF-01: the symbol of a wave on a lattice, cut off at 5 eps; and the limit of Euler. */
+static void symbol(void)
+{
+	static const double overlap[] = {0.5, 1, 2}, want[] = {0.976610322395664, 0.925903818630344, 0.745912165774872}, limit[] = {0.60225363683734, 2.00021771891933, 8.00048743916354};
+	for (int k = 0; k < 3; k++) {
+		size_t m = 64;
+		struct pm_pse_found found;
+		lattice(1, m);
+		double h = 1 / (double)m, kh = pm_pi / 8, wave = kh / h;
+		struct pm_pse p = pm_pse_of(1, 2, overlap[k] * h, 5);
+		for (size_t i = 0; i < b.n; i++)
+			b.strength[i] = cos(wave * b.x[0][i]);
+		memset(rate, 0, sizeof rate);
+		add(&p, 2 * h, rate, &found);
+		check_near(rate[3] / b.strength[3] / -(wave * wave), want[k], 1e-10, "DF-01: nu_eff/nu of k h = pi/8");
+		double longest = 2 / found.fastest / (h * h);
+		check(longest <= limit[k] && longest > limit[k] * (overlap[k] < 1 ? 0.8 : 0.998),
+			"DF-01: eps/h = %g: the bound on nu dt/h^2, %.6f, is within the limit %.6f and near it", overlap[k], longest, limit[k]);
+	}
+}
+
+static void few(void)
+{
+	struct pm_pse p = pm_pse_of(2, 2, 0.1, 8);
+	struct pm_pse_found found = {0};
+	scatter(2, 0);
+	check(add(&p, 0.1, rate, &found) == 0, "no particles");
+	scatter(2, 1);
+	rate[0] = 5;
+	check(add(&p, 0.1, rate, &found) == 0 && rate[0] == 5 && found.alone == 1, "one particle is alone");
+	b.domain.face[0][0] = b.domain.face[0][1] = PM_PERIODIC;
+	p = pm_pse_of(2, 2, 1, 8);
+	check(add(&p, 0.1, rate, &found) == 0 && rate[0] == 5 && found.alone == 0, "or with its own images, which are as strong as itself");
+	b.domain.hi[0] = 1e-3;
+	check(add(&p, 0.1, rate, &found) == -PM_DATA, "a reach of thousands of boxes is refused");
+}
+
+static void threads(void)
+{
+	static double one[MOST];
+	struct pm_pse_found found, first = {0};
+	scatter(3, MOST);
+	for (int t = 1; t <= 3; t++) {
+		struct pm_pse p = pm_pse_of(3, 2, 0.03, 8);
+		pm_threads_use(t);
+		memset(rate, 0, sizeof rate);
+		add(&p, 0.06, rate, &found);
+		if (t == 1)
+			memcpy(one, rate, sizeof one), first = found;
+		check(!memcmp(one, rate, sizeof one) && found.fastest == first.fastest, "the same bytes with %d threads", t);
+	}
+}
+
+int main(void)
+{
+	exponential();
+	moments();
+	faces();
+	sparse();
+	conserves();
+	symbol();
+	few();
+	threads();
+	return check_done();
+}

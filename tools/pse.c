@@ -1,0 +1,128 @@
+/* pse: viscosity by exchange of strength between particles (lib/near/pse.c). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "law/law.h"
+#include "mesh/transfer_frame.h"
+#include "near/pse_frame.h"
+#include "stage/stage.h"
+
+struct config {
+	const char *order, *set, *field, *wall;
+	double nu, eps, overlap, cutoff;
+	bool replace;
+};
+
+static int begin(struct pm_stage *s)
+{
+	return pm_given(s, "eps") && pm_given(s, "overlap") ? pm_fail(PM_USAGE, "--eps or --overlap, not both: either is the width") : 0;
+}
+
+/* The sets, and what is the same for all of them; 1 if there is nothing to do. */
+static int choose(const struct config *o, const struct pm_frame *f, struct pm_pse_set *p, struct pm_sets *sets)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	*p = (struct pm_pse_set){.field = o->field ? o->field : law->strength, .nu = isnan(o->nu) ? pm_frame_constant(f, "nu", 0) : o->nu,
+		.order = atoi(o->order), .eps = o->eps, .overlap = o->overlap, .cutoff = o->cutoff, .images = !strcmp(o->wall, "images")};
+	if (!(p->nu >= 0))
+		return pm_fail(PM_DATA, "the viscosity nu is %g: negative diffusion has no solution (--nu, or the scene's)", p->nu);
+	if (p->nu == 0)
+		return 1;
+	if (!p->field)
+		return pm_fail(PM_DATA, "the law '%s' has no strength to diffuse (--field NAME)", law->name);
+	const char *const needs[] = {"x", p->field, NULL};
+	return pm_sets_choose(f, o->set, needs, "stab reads it from a table", sets);
+}
+
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct pm_pse_set p;
+	struct pm_sets sets;
+	int status = choose(o, f, &p, &sets);
+	if (status == 1) {
+		pm_say(s, "the viscosity nu is 0: nothing to do");
+		return PM_PASS;
+	}
+	for (size_t i = 0; !status && i < sets.n; i++) {
+		p.set = sets.name[i];
+		status = pm_reads_positions(f, p.set);
+		if (!status)
+			status = pm_pse_plan(f, &p, o->replace);
+	}
+	return status ? status : PM_HOLD; /* the fastest decay, in the header, depends on where the particles are */
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct pm_pse_set common;
+	struct pm_sets sets;
+	double fastest = 0;
+	int status = choose(s->config, f, &common, &sets);
+	for (size_t i = 0; !status && i < sets.n; i++) {
+		struct pm_pse_set p = common;
+		struct pm_pse_found found;
+		p.set = sets.name[i];
+		if ((status = pm_pse_apply(f, &p, &found)) || !pm_frame_set(f, p.set)->n)
+			continue;
+		fastest = fmax(fastest, p.nu * found.fastest);
+		pm_report(s, f, "eps", p.eps);
+		pm_report(s, f, "cutoff", p.cutoff);
+		if (found.alone)
+			pm_report_count(s, f, "alone", found.alone);
+		if (found.alone)
+			pm_say(s, "%llu particles of '%s' have no partner within %g (a larger --overlap or --eps)", (unsigned long long)found.alone, p.set,
+				p.eps * p.cutoff);
+	}
+	if (!status)
+		pm_report(s, f, "fastest_dt", fastest * f->dt);
+	return status;
+}
+
+#define AT(member) offsetof(struct config, member)
+static const char *const orders[] = {"2", "4", NULL}, *const walls[] = {"images", "none", NULL};
+static const struct pm_option options[] = {
+	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, .offset = AT(order), .text = "error eps^2 with positive weights, or eps^4"},
+	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, .offset = AT(eps),
+		.text = "width of the kernel exp(-(r/eps)^2/4); by default --overlap times the spacing of the particles"},
+	{.name = "overlap", .kind = PM_REAL, .fallback = "1", .low = 1e-3, .high = 1e3, .offset = AT(overlap),
+		.text = "eps over the spacing (mean volume)^(1/dim); quadrature needs 1 on a lattice, and more where particles are distorted"},
+	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, .offset = AT(cutoff),
+		.text = "partners farther than this exchange nothing; by default 8 for order 2, 9 for order 4"},
+	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .low = 0, .high = 1e300, .offset = AT(nu),
+		.text = "the viscosity (default: the frame's constant nu)"},
+	{.name = "field", .kind = PM_TEXT, .unit = "NAME", .offset = AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "only this set; by default every set with the field, each by itself"},
+	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, .offset = AT(wall),
+		.text = "mirror particles at faces that are wall (odd) or neumann (even), or nothing beyond them"},
+	{.name = "replace", .kind = PM_FLAG, .offset = AT(replace), .text = "compute the change anew instead of refusing to add twice"},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"a vortex spreads, its circulation stays",
+		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | pse | push rk2 | remesh' | diag --columns circulation"},
+	{"heat in a rod between cold ends, particles at rest",
+		"awk 'BEGIN { print \"x heat volume\"; for (i = 0; i < 40; i++) print (i + 0.5)/40, (i < 20)/40, 1/40 }' | stab - --law passive --strength heat --box 0,1 "
+		"--faces wall --dt 1e-3 | scalc --mesh mesh --role state 'u = 0' | cycle -n 9 'm2p | pse --field heat --nu 0.1 | push rk2' | sls --report"},
+	{0},
+};
+const struct pm_tool tool_pse = {
+	.name = "pse",
+	.summary = "add viscosity by exchange of strength between particles",
+	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the strengths kept to "
+		 "round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the limit, nu dt/eps^2 <= 2 "
+		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, fastest_dt, and the particles "
+		 "alone without a partner. Where nu is 0 the frame passes. See docs/methods/pse.md.",
+	.kind = PM_FILTER,
+	.makes = true,
+	.reads = "x, volume and the law's strength",
+	.adds = "a change of the strength (dcirculation; term diffusion)",
+	.config = sizeof(struct config),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+};
