@@ -111,6 +111,14 @@ vortices() {
 	all_ways "pinit polygon -n 7 --disturbance 1e-3" "" "pp | field 'vel = -y, x + sin(time)' 'dcirculation = -0.1*circulation' | push rk4" 4
 }
 
+@test "equal bytes: vortices that exchange their strength (pse), two passes a step (rk2), remeshed" {
+	all_ways vortices "" "p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6" 2
+}
+
+@test "equal bytes: vortices that walk at random after the last pass of a step (rk2)" {
+	all_ways "vortices --number" "" "p2m | poisson-fft | mgrad | m2p | push rk2 | walk --nu 0.01" 2
+}
+
 @test "equal bytes: vortices whose step follows their strain" {
 	all_ways vortices "" "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-6" 3
 }

@@ -13,6 +13,8 @@ words() {
 	dt) echo "dt --courant 0.5" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
+	pse) echo "pse --nu 0.1" ;;
+	walk) echo "walk --nu 0.1" ;;
 	remesh) echo "remesh --by mass" ;;
 	push) echo "push drift" ;;
 	remesh) echo "remesh --by mass" ;;
@@ -33,6 +35,8 @@ input() {
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse) cloud | p2m ;;
+	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
+	walk) cloud | smod --dt 0.01 ;;
 	*) cloud ;;
 	esac
 }

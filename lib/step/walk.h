@@ -1,0 +1,43 @@
+/* Random walk: x += N(0, 2 nu dt) per component, the diffusion of the density of particles (Chorin 1973; Cottet and Koumoutsakos 2000, section 5.3).
+ * A step belongs to (seed, set, particle, step) and to nothing else: neither order nor threads change it. Strong error O(1/sqrt N).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STEP_WALK_H
+#define PM_STEP_WALK_H
+
+#include "mesh/pface.h"
+
+/* The key of a set: its name (FNV-1a, Fowler, Noll, Vo 1991) mixed into the seed. */
+static inline uint64_t pm_walk_key(uint64_t seed, const char *set)
+{
+	uint64_t hash = 0xcbf29ce484222325u;
+	for (const char *c = set; *c; c++)
+		hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
+	return seed ^ hash;
+}
+
+/* One walk of n particles; x: components of the positions, dim of them; id: NULL where the index stands for it. */
+static inline void pm_walk_step(uint64_t key, int64_t step, double deviation, size_t n, int dim, const int64_t *id, double *const x[])
+{
+#pragma omp parallel for schedule(static) if (n > 4096)
+	for (size_t i = 0; i < n; i++) {
+		double z[4];
+		for (int k = 0; k < (dim + 1) / 2; k++)
+			pm_random_normal(key, id ? (uint64_t)id[i] : i, (uint64_t)step * 2 + (uint64_t)k, z + 2 * k);
+		for (int d = 0; d < dim; d++)
+			x[d][i] += deviation * z[d];
+	}
+}
+
+/* Folded and mirrored as push does; velocities are not the walk's, and stay. */
+static inline void pm_walk_faces(const struct pm_frame *f, size_t n, double *const x[])
+{
+	for (int d = 0; d < f->dim; d++) {
+		const bool mirror[2] = {f->pface[d][0] == PM_PREFLECT, f->pface[d][1] == PM_PREFLECT};
+		if (f->pface[d][0] == PM_PFOLD)
+			pm_pface_fold(n, f->lo[d], f->hi[d], x[d]);
+		if (mirror[0] || mirror[1])
+			pm_pface_reflect(n, f->lo[d], f->hi[d], mirror, x[d], 0, NULL);
+	}
+}
+
+#endif
