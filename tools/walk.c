@@ -41,8 +41,8 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	if (!(nu >= 0))
 		return pm_fail(PM_DATA, "the viscosity nu is %g: negative diffusion has no solution (--nu, or the scene's)", nu);
 	if (nu == 0)
-		pm_say(s, "the viscosity nu is 0: nothing to do");
-	if (nu == 0 || f->substep)
+		return pm_idle(s, "the viscosity nu is 0");
+	if (f->substep)
 		return PM_PASS;
 	if (!(f->dt > 0))
 		return pm_fail(PM_DATA, "the time step is %g, and a walk takes 2 nu dt > 0 (smod --dt, or the word dt)", f->dt);
