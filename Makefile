@@ -29,7 +29,7 @@ h5_libs = $(or $(shell pkg-config --libs hdf5 2>/dev/null),-lhdf5_serial)
 h5_obj := $(patsubst %.c,$(B)/%.o,$(sort $(wildcard lib/h5/*.c)))
 alone := tools/sh5.c
 
-tables := green law kernel mollifier relax scene step
+tables := effect green law kernel mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/%,$(wildcard lib/*/*.c)))
 lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o)
 tool_src := $(sort $(wildcard tools/*.c))
@@ -80,7 +80,7 @@ $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	@{ echo '#include "stage/stage.h"'; for n in $(basename $(notdir $(word_src))); do echo "extern const struct pm_tool tool_$$n;" | tr - _; done; \
 	echo 'const struct pm_tool *const pm_tools[] = {'; for n in $(basename $(notdir $(word_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
 
-# The main of each program is generated; cycle and the unit tests link every tool that can be a word.
+# The main of each program is generated; cycle, plan and the unit tests link every tool that can be a word.
 $(B)/mains/%.c: Makefile
 	@mkdir -p $(@D)
 	@n=$$(echo $* | tr - _); printf '#include <stdlib.h>\n#include "stage/stage.h"\nextern const struct pm_tool tool_%s;\n__attribute__((constructor(101))) static void sleepers(void)\n{\n\tsetenv("OMP_WAIT_POLICY", "passive", 0);\n}\nint main(int argc, char **argv)\n{\n\treturn pm_main(&tool_%s, argc, argv);\n}\n' $$n $$n > $@
@@ -88,7 +88,7 @@ $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
 .PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
 
-$(bin_dir)/cycle: $(B)/mains/cycle.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+$(bin_dir)/cycle $(bin_dir)/plan: $(bin_dir)/%: $(B)/mains/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 $(h5_obj): CFLAGS_ALL += $(h5_include)

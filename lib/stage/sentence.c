@@ -295,6 +295,8 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 	return needs;
 }
 
+const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
+
 void pm_sentence_timing(const struct pm_sentence *s, const char *file)
 {
 	for (int i = 0; i < s->nwords; i++)

@@ -16,6 +16,7 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */
 int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
 int pm_sentence_end(struct pm_sentence *s); /* the input ended well: what words have to say then (processes do so themselves) */
+const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: behind the last, or a foreign word */
 void pm_sentence_timing(const struct pm_sentence *s, const char *file);
 
 #endif

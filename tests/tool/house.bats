@@ -67,7 +67,7 @@ install_here() {
 # Floors from the ground up; a file may include its own directory and anything below. The header that describes a table's entries
 # (kernel/kernel.h) stands on base alone and may be included from anywhere; the methods behind it never.
 @test "arrows go one way: tools, stage, methods, mesh, stream, base" {
-	bad=$(cd "$top" && grep -HoE '^#include "[a-z0-9]+/[^"]+"' lib/*/*.[ch] | grep -vE '"(green|kernel|law|mollifier|relax|scene|step)/(green|kernel|law|mollifier|relax|scene|step).h"' | sed -E 's|lib/([a-z0-9]+)/[^:]*:#include "([a-z0-9]+)/.*|\1 \2|' | sort -u | awk '
+	bad=$(cd "$top" && grep -HoE '^#include "[a-z0-9]+/[^"]+"' lib/*/*.[ch] | grep -vE '"(effect|green|kernel|law|mollifier|relax|scene|step)/(effect|green|kernel|law|mollifier|relax|scene|step).h"' | sed -E 's|lib/([a-z0-9]+)/[^:]*:#include "([a-z0-9]+)/.*|\1 \2|' | sort -u | awk '
 		BEGIN { f["base"] = 1; f["stream"] = 2; f["mesh"] = 3; f["stage"] = 5 }
 		function floor_of(d) { return d in f ? f[d] : 4 }
 		floor_of($2) > floor_of($1) || (floor_of($1) == 4 && floor_of($2) == 4 && $1 != $2)')
@@ -83,13 +83,13 @@ install_here() {
 	[ -z "$bad" ]
 }
 @test "the shared library shows only names that begin with its prefix or a table's" {
-	bad=$(nm -D --defined-only "$top/build/libpmpipe.so" | awk '{ print $3 }' | grep -vE '^(pm|green|kernel|law|mollifier|relax|scene|step)_' || true)
+	bad=$(nm -D --defined-only "$top/build/libpmpipe.so" | awk '{ print $3 }' | grep -vE '^(pm|effect|green|kernel|law|mollifier|relax|scene|step)_' || true)
 	echo "$bad"
 	[ -z "$bad" ]
 }
 
 @test "every method has its page" {
-	missing=$(cd "$top" && for f in lib/green/*.c lib/kernel/*.c lib/law/*.c lib/scene/*.c lib/step/*.c lib/mollifier/*.c lib/relax/*.c; do
+	missing=$(cd "$top" && for f in lib/effect/*.c lib/green/*.c lib/kernel/*.c lib/law/*.c lib/scene/*.c lib/step/*.c lib/mollifier/*.c lib/relax/*.c; do
 		n=$(basename "$f" .c)
 		grep -qrw -- "$n" docs/methods || echo "$f"
 	done)

@@ -1,0 +1,29 @@
+/* Relativity: momentum grows as gamma v, 1/sqrt(1 - v^2/c^2); left out the error is of order (v/c)^2. c is a constant of the frame; without it light is infinitely
+ * fast. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effect/effect.h"
+
+static void decide(const struct pm_scales *s, struct pm_decision *d)
+{
+	const double beta = s->v_max / s->c;
+	if (!s->second) {
+		effect_off(d, "the particles have no inertia");
+		return;
+	}
+	if (isnan(s->c)) {
+		effect_off(d, "the frame has no speed of light c");
+		return;
+	}
+	effect_by(d, s, beta, beta * beta);
+	if (d->answer == PM_PUT_IN)
+		snprintf(d->text, sizeof d->text, "max v/c = %.2g", beta);
+	else
+		snprintf(d->text, sizeof d->text, "max v/c = %.2g, error below %.1g", beta, pow(10, ceil(log10(fmax(beta * beta, 1e-300)))));
+}
+
+const struct pm_effect effect_relativity = {
+	.name = "relativity",
+	.sentence = "inertia that grows with the speed",
+	.source = "Birdsall and Langdon 1985, section 15-4",
+	.word = "relativity",
+	.decide = decide,
+};

@@ -1,0 +1,19 @@
+/* The numbers of a frame by which effects are decided (effect/effect.h): scales of length, time and speed. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SCALES_H
+#define PM_SCALES_H
+
+#include "effect/effect.h"
+#include "law/law.h"
+
+enum { PM_SCALES_PAIRS = 4096 }; /* up to so many particles the nearest pair is looked for, beyond it is the distance of neighbours on the average */
+
+/* Of the particles and what is given on meshes; time and accuracy are left to the caller, as is what needs the force. All data are held. */
+int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
+/* Of the force: the same frame with the law's change field, and on a mesh density and field, if they were made. */
+int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
+/* Does the set move, and has it got positions? */
+bool pm_scales_moves(const struct pm_frame *f, const struct pm_set *set);
+/* How completely the particles of a set cover the mesh around each (mesh/distortion.h); H has room for the set. */
+int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H);
+
+#endif

@@ -1,0 +1,90 @@
+/* A plan as text: a stage a line with its reason behind it, then what is left out and what is lacking; and as JSON. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "stage/plan.h"
+
+/* The name as people write it. */
+static const char *label(const struct pm_effect *e, char text[64])
+{
+	snprintf(text, 64, "%s", e->name);
+	for (char *c = text; *c; c++)
+		*c = *c == '-' ? ' ' : *c;
+	return text;
+}
+
+static void duration(double seconds, char text[32])
+{
+	const char *unit = seconds < 1e-3 ? "us" : seconds < 1 ? "ms" : "s";
+	snprintf(text, 32, isnan(seconds) ? "-" : "%.3g %s", seconds * (seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1), unit);
+}
+
+static const char *answer(const struct pm_plan_effect *e) { return e->lacking ? "needed" : e->decision.answer == PM_PUT_IN ? "on" : "off"; }
+
+static void stages(FILE *out, const struct pm_plan *p, bool cost)
+{
+	size_t width = 0;
+	double all = 0;
+	char text[32];
+	for (int i = 0; i < p->nstages; i++) {
+		width = strlen(p->stage[i].words) > width ? strlen(p->stage[i].words) : width;
+		all += p->stage[i].seconds;
+	}
+	for (int i = 0; i < p->nstages; i++) {
+		duration(p->stage[i].seconds, text);
+		fprintf(out, "%-*s %c  # ", (int)width, p->stage[i].words, i + 1 < p->nstages ? '|' : ' ');
+		fprintf(out, cost ? "%8s  %s\n" : "%.0s%s\n", text, p->stage[i].reason);
+	}
+	duration(all, text);
+	if (cost)
+		fprintf(out, "%-*s    # %8s  a step\n", (int)width, "", text);
+}
+
+static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *which)
+{
+	char name[64], text[32];
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		if (strcmp(answer(e), which))
+			continue;
+		duration(e->saves, text);
+		fprintf(out, "# %-18s %-6s %s%s%s", label(e->effect, name), answer(e), e->decision.text, e->lacking ? ", no word for it yet: the result lacks it" : "",
+			e->decision.kept ? "; kept" : "");
+		if (cost && !isnan(e->saves))
+			fprintf(out, "; saves %s a step", text);
+		fputc('\n', out);
+	}
+}
+
+void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
+{
+	stages(out, p, cost);
+	fprintf(out, "#\n# effects, for relative changes above %g within T = %g\n", p->scales.accuracy, p->scales.time);
+	effects(out, p, cost, "needed");
+	effects(out, p, cost, "on");
+	effects(out, p, cost, "off");
+}
+
+static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+
+void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
+{
+	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy), "time", number(p->scales.time), "stages",
+		"effects");
+	for (int i = 0; i < p->nstages; i++) {
+		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
+		if (cost)
+			json_object_set_new(s, "seconds", number(p->stage[i].seconds));
+		json_array_append_new(json_object_get(all, "stages"), s);
+	}
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",
+			number(e->decision.number), "share", number(e->decision.share), "by_hand", e->by_hand);
+		if (cost)
+			json_object_set_new(s, "saves", number(e->saves));
+		json_array_append_new(json_object_get(all, "effects"), s);
+	}
+	json_dumpf(all, out, JSON_SORT_KEYS | JSON_COMPACT);
+	fputc('\n', out);
+	json_decref(all);
+}

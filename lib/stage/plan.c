@@ -1,0 +1,147 @@
+/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and where particles carry
+ * a field a few steps without remeshing. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/scales.h"
+#include "stage/plan.h"
+
+static bool in(const struct pm_list *list, const char *name)
+{
+	for (int i = 0; i < list->n; i++)
+		if (!strcmp(list->item[i], name))
+			return true;
+	return false;
+}
+
+/* By hand, if the user did. */
+static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
+{
+	const bool on = in(&c->on, e->effect->name), off = in(&c->off, e->effect->name);
+	char text[sizeof e->decision.text - 16];
+	if (!on && !off)
+		return;
+	snprintf(text, sizeof text, "%s", e->decision.text);
+	snprintf(e->decision.text, sizeof e->decision.text, "%s (by hand)", text);
+	e->decision.answer = on ? PM_PUT_IN : PM_LEFT_OUT;
+	e->decision.every = on && !e->decision.every ? 1 : e->decision.every;
+	e->decision.kept = false;
+	e->by_hand = true;
+}
+
+/* Effects that the words of the far field or push bring need no word of their own. */
+static void decide(struct pm_plan *p, const struct pm_plan_choice *c)
+{
+	p->neffects = 0;
+	for (int i = 0; pm_effects[i] && i < PM_PLAN_EFFECTS; i++) {
+		struct pm_plan_effect *e = &p->effect[p->neffects++];
+		*e = (struct pm_plan_effect){.effect = pm_effects[i], .saves = NAN};
+		pm_effects[i]->decide(&p->scales, &e->decision);
+		overrule(e, c);
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !pm_tool_find(e->effect->word);
+	}
+}
+
+/* Only the self field, to measure it. */
+static int alone(const struct pm_frame *f, const struct pm_plan *p, struct pm_plan *q)
+{
+	*q = *p;
+	for (int i = 0; i < q->neffects; i++)
+		q->effect[i].decision.answer = !strcmp(q->effect[i].effect->name, "self-field") ? PM_PUT_IN : PM_LEFT_OUT;
+	return pm_plan_compose(f, q);
+}
+
+static int measure_force(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_plan q;
+	if (p->scales.kind == PM_NO_FIELD || p->scales.kind == PM_CARRIED || !(p->scales.sources > 0))
+		return 0;
+	int status = alone(f, p, &q);
+	struct pm_frame *g = status ? NULL : pm_plan_prime(f, q.sentence);
+	if (!g)
+		return pm_failed();
+	status = pm_scales_of_force(g, p->law, &p->scales);
+	pm_frame_free(g);
+	return status;
+}
+
+/* Mean |H - H0|/H0 of all sets that move, which have as many particles as before; weighted by their strength, for where there is none nothing is wrong. */
+static double distortion(const struct pm_frame *f, const struct pm_frame *g, const char *strength)
+{
+	double sum = 0, all = 0;
+	for (size_t k = 0; k < f->nsets; k++) {
+		const struct pm_set *set = f->sets[k];
+		if (!pm_scales_moves(f, set) || !set->n)
+			continue;
+		double *H0 = pm_alloc(set->n, sizeof *H0), *H = pm_alloc(set->n, sizeof *H);
+		bool ok = H0 && H && !pm_scales_overlap(f, set->name, f->meshes[0], H0) && !pm_scales_overlap(g, set->name, g->meshes[0], H);
+		const struct pm_field *q = pm_frame_field(f, set->name, strength);
+		for (size_t i = 0; ok && q && i < set->n; i++) {
+			const double weight = q->uniform ? 1 : fabs(pm_in(q, 0)[i]);
+			sum += H0[i] > 0 ? weight * fabs(H[i] - H0[i]) / H0[i] : 0;
+			all += weight;
+		}
+		pm_free(H0), pm_free(H);
+	}
+	return all > 0 ? sum / all : NAN;
+}
+
+/* Steps without remeshing, until it is too much. */
+static int measure_distortion(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_plan q;
+	if (p->scales.kind != PM_VORTICES || p->method.pairs || isnan(p->scales.overlap))
+		return 0;
+	int status = alone(f, p, &q);
+	struct pm_frame *g = status ? NULL : pm_frame_copy(f);
+	for (int i = 0; i < 4 && g; i++) {
+		struct pm_frame *next = pm_plan_run(g, q.sentence, i ? 1 << (i - 1) : 1, NULL);
+		pm_frame_free(g);
+		g = next;
+		p->scales.distortion[i] = g ? distortion(f, g, p->law->strength) : NAN;
+		if (!(p->scales.distortion[i] <= p->scales.accuracy))
+			break;
+	}
+	status = status ? status : g ? 0 : pm_failed();
+	pm_frame_free(g);
+	return status;
+}
+
+static int seconds(const struct pm_frame *f, struct pm_plan *p)
+{
+	double measured[PM_PLAN_STAGES];
+	struct pm_frame *g = pm_plan_run(f, p->sentence, 2, measured);
+	if (!g)
+		return pm_failed();
+	pm_frame_free(g);
+	for (int i = 0; i < p->nstages; i++)
+		p->stage[i].seconds = measured[i];
+	return 0;
+}
+
+int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
+{
+	*p = (struct pm_plan){.law = pm_law_of(f)};
+	if (!p->law)
+		return -PM_DATA;
+	if (f->substep)
+		return pm_fail(PM_DATA, "the frame is inside a step (substep %d): plans begin between steps", f->substep);
+	if (f->dt == 0 && isnan(c->time))
+		return pm_fail(PM_DATA, "the frame has no time step (smod --dt DT)");
+	int status = pm_scales_of(f, p->law, &p->scales);
+	if (status)
+		return status;
+	p->scales.accuracy = c->accuracy;
+	p->scales.time = isnan(c->time) ? 100 * fabs(f->dt) : fabs(c->time);
+	if (!(p->scales.n > 0))
+		return pm_fail(PM_DATA, "no particle that moves: nothing to plan");
+	pm_plan_method(f, p);
+	p->scales.pairs = p->method.pairs;
+	decide(p, c); /* for the names of effects; the numbers of the force come next */
+	status = measure_force(f, p);
+	status = status ? status : measure_distortion(f, p);
+	if (status)
+		return status;
+	decide(p, c);
+	status = pm_plan_compose(f, p);
+	return status || !c->cost ? status : seconds(f, p);
+}

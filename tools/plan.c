@@ -1,0 +1,85 @@
+/* plan: the sentence that a frame calls for, with the reason of every word; what it costs; and with --check the proof (lib/stage/plan.c, lib/effect).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "stage/plan.h"
+
+struct config {
+	struct pm_plan_choice choice;
+	bool check, sentence, no_cost;
+	int64_t steps;
+	const char *format;
+};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	if (pm_given(s, "steps") && !o->check)
+		return pm_fail(PM_USAGE, "-n belongs to --check (how long the run is to last is -t)");
+	for (int i = 0; i < o->choice.on.n; i++)
+		for (int k = 0; k < o->choice.off.n; k++)
+			if (!strcmp(o->choice.on.item[i], o->choice.off.item[k]))
+				return pm_fail(PM_USAGE, "'%s' is both --on and --off", o->choice.on.item[i]);
+	return 0;
+}
+
+/* Everything that is there is looked at. */
+static int plan(struct pm_stage *s, struct pm_frame *f)
+{
+	(void)s;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!pm_reads(f, f->fields[i]->on, f->fields[i]->name))
+			return -PM_DATA;
+	return PM_HOLD;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct config *o = s->config;
+	struct pm_plan p;
+	o->choice.cost = !o->no_cost && !o->sentence && !o->check;
+	int status = pm_plan_frame(f, &o->choice, &p);
+	if (status)
+		return status;
+	if (o->sentence)
+		puts(p.sentence);
+	else if (!strcmp(o->format, "json"))
+		pm_plan_print_json(stdout, &p, o->choice.cost);
+	else
+		pm_plan_print(stdout, &p, o->choice.cost);
+	return 0;
+}
+
+#define AT(member) offsetof(struct config, member)
+static const char *const formats[] = {"text", "json", NULL};
+static const struct pm_option options[] = {
+	{"accuracy", 0, PM_REAL, "", "0.01", 1e-12, 1, NULL, "relative changes below this are negligible; chooses kernel, mesh and step too", false, AT(choice.accuracy)},
+	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "how long the run is to last (default: a hundred steps)", false, AT(choice.time)},
+	{"on", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "put these effects in, whatever the numbers say", false, AT(choice.on)},
+	{"off", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "leave these effects out", false, AT(choice.off)},
+	{"check", 0, PM_FLAG, "", NULL, 0, 0, NULL, "run a few steps with and without every effect; exit 3 if a decision was wrong", false, AT(check)},
+	{"steps", 'n', PM_INTEGER, "steps", "4", 1, 1e9, NULL, "how many steps --check runs", false, AT(steps)},
+	{"sentence", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the sentence alone, for cycle", false, AT(sentence)},
+	{"no-cost", 0, PM_FLAG, "", NULL, 0, 0, NULL, "leave the seconds out, which are measured and so never twice the same", false, AT(no_cost)},
+	{"format", 0, PM_WORD, "", "text", 0, 0, formats, "text, or one JSON object a line", false, AT(format)},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"What a shear layer calls for", "pinit shear-layer --cells 32 --nu 1e-4 | plan"},
+	{"The sentence alone, run", "pinit two-body >start; cycle -n 10 \"$(plan --sentence <start)\" <start | diag"},
+	{0},
+};
+const struct pm_tool tool_plan = {
+	.name = "plan",
+	.summary = "the pipeline a frame calls for, with the reason of every word",
+	.about = "Every effect pmpipe knows is decided from numbers of the frame: it is put in where leaving it out would change the result by more than --accuracy within "
+		 "the time of the run. An effect that is needed and has no word yet is named. `cycle --plan` runs the sentence. See docs/plan.md.",
+	.kind = PM_SINK,
+	.reads = "everything",
+	.config = sizeof(struct config),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.plan = plan,
+	.frame = frame,
+};
