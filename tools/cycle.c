@@ -7,6 +7,12 @@ static int begin(struct pm_stage *s)
 	const struct pm_loop *c = s->config;
 	if (c->steps == INT64_MIN && isnan(c->time) && !c->until)
 		return pm_fail(PM_USAGE, "how long? (-n STEPS, -t TIME or --until EXPRESSION)");
+	if (!s->nargs && !c->plan)
+		return pm_fail(PM_USAGE, "SENTENCE is missing (the stages of one pass, in quotes, joined by |; or --plan)");
+	if (s->nargs && c->plan)
+		return pm_fail(PM_USAGE, "--plan makes the sentence, and here is one (leave out one of them)");
+	if (pm_given(s, "accuracy") && !c->plan)
+		return pm_fail(PM_USAGE, "--accuracy belongs to --plan");
 	return 0;
 }
 
@@ -19,6 +25,8 @@ static const struct pm_option options[] = {
 	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "stop at the first step with time >= T - dt/2", true, AT(time)},
 	{"until", 0, PM_TEXT, "EXPRESSION", NULL, 0, 0, NULL,
 		"stop at the first step where this is true of diag's columns; NAME0 is the value at the beginning: 'energy > 10*energy0'", true, AT(until)},
+	{"plan", 0, PM_FLAG, "", NULL, 0, 0, NULL, "without SENTENCE: run what the first frame calls for (see plan)", true, AT(plan)},
+	{"accuracy", 0, PM_REAL, "", "0.01", 1e-12, 1, NULL, "with --plan: relative changes below this are negligible", true, AT(accuracy)},
 	{"every", 0, PM_INTEGER, "steps", NULL, 1, 1e15, NULL, "write the beginning, every step that is a multiple of N, and the last", true, AT(every)},
 	{"engine", 0, PM_WORD, "", "fused", 0, 0, engines, "run the words in one process, or as long-lived processes on pipes", true, AT(engine)},
 	{"checkpoint", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "keep the frame last written in FILE, and on SIGINT and SIGTERM", true, AT(checkpoint)},
@@ -32,6 +40,7 @@ static const struct pm_example examples[] = {
 	{"a star cluster on a mesh, a frame every 10 steps",
 		"pinit plummer -n 1000 | cycle -n 20 --every 10 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2' | diag"},
 	{"until a cold cluster has fallen in", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | push kick/2' | diag --columns step,time,virial_ratio"},
+	{"what the scene calls for", "pinit taylor-green-2d --cells 16 | cycle -n 5 --plan | p2m | diag"},
 	{"one orbit by direct summation", "pinit two-body | cycle -n 100 'push kick/2 drift | pp | push kick/2' | diag"},
 	{0},
 };
@@ -45,7 +54,7 @@ const struct pm_tool tool_cycle = {
 	.options = options,
 	.arguments = "SENTENCE",
 	.arguments_text = "the stages of one pass, in quotes, joined by |",
-	.least = 1,
+	.least = 0,
 	.most = 1,
 	.examples = examples,
 	.begin = begin,

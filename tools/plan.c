@@ -15,7 +15,7 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
 	if (pm_given(s, "steps") && !o->check)
-		return pm_fail(PM_USAGE, "-n belongs to --check (how long the run is to last is -t)");
+		return pm_fail(PM_USAGE, "-n belongs to --check (when the run is to end is -t)");
 	for (int i = 0; i < o->choice.on.n; i++)
 		for (int k = 0; k < o->choice.off.n; k++)
 			if (!strcmp(o->choice.on.item[i], o->choice.off.item[k]))
@@ -33,6 +33,18 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 	return PM_HOLD;
 }
 
+static int check(const struct pm_frame *f, const struct pm_plan *p, int steps)
+{
+	struct pm_plan_proof proof[PM_PLAN_EFFECTS];
+	int status = pm_plan_check(f, p, steps, proof), wrong = 0;
+	if (status)
+		return status;
+	pm_plan_print_proof(stdout, p, steps, proof);
+	for (int i = 0; i < p->neffects; i++)
+		wrong += proof[i].wrong;
+	return wrong ? pm_fail(PM_NUMERICS, "%d decision%s wrong", wrong, wrong > 1 ? "s were" : " was") : 0;
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct config *o = s->config;
@@ -41,6 +53,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	int status = pm_plan_frame(f, &o->choice, &p);
 	if (status)
 		return status;
+	if (o->check)
+		return check(f, &p, (int)o->steps);
 	if (o->sentence)
 		puts(p.sentence);
 	else if (!strcmp(o->format, "json"))
@@ -54,7 +68,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const formats[] = {"text", "json", NULL};
 static const struct pm_option options[] = {
 	{"accuracy", 0, PM_REAL, "", "0.01", 1e-12, 1, NULL, "relative changes below this are negligible; chooses kernel, mesh and step too", false, AT(choice.accuracy)},
-	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "how long the run is to last (default: a hundred steps)", false, AT(choice.time)},
+	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "when the run is to end, as cycle -t (default: after a hundred steps)", false, AT(choice.time)},
 	{"on", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "put these effects in, whatever the numbers say", false, AT(choice.on)},
 	{"off", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "leave these effects out", false, AT(choice.off)},
 	{"check", 0, PM_FLAG, "", NULL, 0, 0, NULL, "run a few steps with and without every effect; exit 3 if a decision was wrong", false, AT(check)},

@@ -24,7 +24,7 @@ struct pm_scales {
 	double v_max, v_rms, v_thermal; /* [length/time] speeds, and the rms about the mean */
 	double omega;                /* [1/time] of the particles together: omega_p, sqrt(4 pi G rho), largest vorticity */
 	double debye, per_debye;     /* [length] v_thermal/omega; particles in a sphere of that radius, in a stretch of that length in 1-D */
-	double overlap;              /* mean |H - 1| of the particles: 0 a lattice, they carry a field; NAN: no volumes */
+	double overlap, width;       /* mean |H - 1| of the particles: 0 a lattice, they carry a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
 	double given, cyclotron;     /* [length/time^2] largest (q/m) E given on a mesh; [1/time] largest (q/m) B */
 	double self, self_max;       /* rms and largest of what the self field adds to acc [length/time^2] or vel [length/time] */

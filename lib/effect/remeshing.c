@@ -24,7 +24,7 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 	if (s->pairs) {
 		effect_off(d, "");
 		d->number = s->overlap;
-		snprintf(d->text, sizeof d->text, "these are points: they miss a lattice by %.2g", s->overlap);
+		snprintf(d->text, sizeof d->text, "these are points: sqrt(volume)/h = %.2g, they miss a lattice by %.2g", s->width / s->h, s->overlap);
 		return;
 	}
 	effect_by(d, s, end, fmin(1, end));

@@ -16,6 +16,8 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 		effect_off(d, "softening = 0");
 	else {
 		effect_by(d, s, ratio, fmin(1, 1.5 * ratio * ratio));
+		d->kept = d->answer == PM_LEFT_OUT; /* it costs nothing */
+		d->answer = PM_PUT_IN;
 		snprintf(d->text, sizeof d->text, "softening is %.2g of the distance of the nearest pair", ratio);
 	}
 }

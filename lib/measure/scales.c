@@ -178,21 +178,23 @@ int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm
 /* The mean of |H - 1| over sets with a volume. */
 static int coverage(const struct pm_frame *f, struct pm_scales *s)
 {
-	double sum = 0, n = 0;
+	double sum = 0, n = 0, width = 0;
 	for (size_t k = 0; k < f->nsets && f->nmeshes; k++) {
 		const struct pm_set *set = f->sets[k];
-		if (!pm_scales_moves(f, set) || !state(f, set->name, "volume") || !set->n)
+		const struct pm_field *v = state(f, set->name, "volume");
+		if (!pm_scales_moves(f, set) || !v || !set->n)
 			continue;
 		double *H = pm_alloc(set->n, sizeof *H);
 		int status = H ? pm_scales_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
 		for (size_t i = 0; i < set->n && !status; i++)
-			sum += fabs(H[i] - 1);
+			sum += fabs(H[i] - 1), width += pow(fabs(at(v, 0, i)), 1.0 / f->dim);
 		n += (double)set->n;
 		pm_free(H);
 		if (status)
 			return status;
 	}
 	s->overlap = n > 0 ? sum / n : NAN;
+	s->width = n > 0 ? width / n : NAN;
 	return 0;
 }
 
@@ -220,7 +222,7 @@ static void geometry(const struct pm_frame *f, struct pm_scales *s)
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN, .rough = NAN,
-		.length = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN};
+		.length = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN, .width = NAN};
 	s->kind = !law->field ? PM_NO_FIELD : !law->strength ? PM_CARRIED : law->of_potential == PM_CURL ? PM_VORTICES : law->per ? PM_CHARGES : PM_MASSES;
 	s->softening = pm_frame_constant(f, "softening", 0);
 	s->nu = pm_frame_constant(f, "nu", 0);

@@ -8,6 +8,7 @@
 
 #include "stage/internal.h"
 #include "stage/loop.h"
+#include "stage/plan.h"
 #include "stage/sentence.h"
 #include "stage/until.h"
 
@@ -204,9 +205,33 @@ static int interrupted(struct cycle *y, const struct pm_frame *f)
 		y->c->checkpoint ? ", go on with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
 }
 
+/* The sentence, made into stages. */
+static int speak(struct cycle *y, const char *sentence)
+{
+	y->words = pm_sentence_new(sentence, !strcmp(y->c->engine, "fused"), &y->c->moves);
+	if (y->words && y->s->verbose)
+		pm_sentence_verbose(y->words);
+	return y->words ? 0 : pm_failed();
+}
+
+/* --plan: the sentence of the first frame, in the history as if typed; a resumed run goes on with the one it finds there. */
+static int speak_plan(struct cycle *y, const struct pm_frame *f)
+{
+	const double end = !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;
+	char sentence[PM_PLAN_TEXT];
+	int status = y->c->resume ? pm_plan_again(f, sentence) : pm_plan_sentence(f, y->c->accuracy, end, sentence);
+	if (!status && y->s->entry)
+		json_array_append_new(json_object_get(y->s->entry, "arguments"), json_string(sentence));
+	if (!status)
+		pm_say(y->s, "%s", sentence);
+	return status ? status : speak(y, sentence);
+}
+
 static int run_frame(struct cycle *y, struct pm_frame **f)
 {
-	int status = 0;
+	int status = y->words ? 0 : speak_plan(y, *f);
+	if (status)
+		return status;
 	const json_t *start = json_object_get((*f)->more, "cycle_start");
 	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
 	json_object_del((*f)->more, "cycle_start");
@@ -252,13 +277,10 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	int bad = checkpoint_check(c->checkpoint);
 	if (bad)
 		return bad;
-	y.words = pm_sentence_new(s->args[0], !strcmp(c->engine, "fused"), &c->moves);
-	if (!y.words)
-		return pm_failed();
+	if (!c->plan && (bad = speak(&y, s->args[0])))
+		return bad;
 	if (c->until && !(y.until = pm_until_new(c->until)))
 		return pm_sentence_free(y.words), pm_failed();
-	if (s->verbose)
-		pm_sentence_verbose(y.words);
 	if (c->resume)
 		s->run->reader = pm_rest_open(c->resume);
 	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
@@ -268,9 +290,10 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	signal(SIGTERM, on_signal);
 	if (!status)
 		status = frames(&y, in);
-	if (!status)
+	if (!status && y.words)
 		status = pm_sentence_end(y.words);
-	pm_sentence_timing(y.words, s->run->common.timing);
+	if (y.words)
+		pm_sentence_timing(y.words, s->run->common.timing);
 	s->seconds = pm_seconds() - s->run->began;
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());

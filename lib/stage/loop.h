@@ -9,7 +9,8 @@ struct pm_loop { /* what the user asked for; the config of cycle */
 	double time;          /* NAN: not asked */
 	const char *engine, *checkpoint, *resume, *until;
 	struct pm_list moves;
-	bool other_plans;
+	bool other_plans, plan; /* plan: the sentence that the first frame calls for */
+	double accuracy;        /* of that */
 };
 
 /* Runs the sentence s->args[0] on every frame of the input. */

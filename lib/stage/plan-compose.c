@@ -78,7 +78,8 @@ static void on_mesh(const struct pm_frame *f, struct pm_plan *p)
 	const char *own = own_mesh(f, p->law), *default_kernel = p->law->kernel;
 	char words[160], n[64];
 	cells(f, p, n);
-	snprintf(words, sizeof words, "p2m%s%s%s%s", own, n, strcmp(m->kernel, default_kernel) ? " --kernel " : "", strcmp(m->kernel, default_kernel) ? m->kernel : "");
+	snprintf(words, sizeof words, "p2m%s%s%s%s%s", own, n, strcmp(m->kernel, default_kernel) ? " --kernel " : "", strcmp(m->kernel, default_kernel) ? m->kernel : "",
+		m->grow ? " --outside grow" : "");
 	add(p, words, "%s; %s", m->why_far, m->why_mesh);
 	snprintf(words, sizeof words, "poisson-fft%s%s%s", own, m->symbol ? " --symbol " : "", m->symbol ? m->symbol : "");
 	add(p, words, "self field: on, %s", because(p, "self-field"));
@@ -94,7 +95,7 @@ static void forces(const struct pm_frame *f, struct pm_plan *p)
 	const char *own = own_mesh(f, p->law);
 	char words[160];
 	if (self && p->method.pairs)
-		add(p, "pp", "self field: on, %s; %s; smoothing: %s", because(p, "self-field"), p->method.why_far, because(p, "smoothing"));
+		add(p, p->scales.softening > 0 && !pm_plan_has(p, "smoothing") ? "pp --softening 0" : "pp", "self field: on, %s; %s; smoothing: %s", because(p, "self-field"), p->method.why_far, because(p, "smoothing"));
 	else if (self)
 		on_mesh(f, p);
 	if (pm_plan_has(p, "diffusion"))

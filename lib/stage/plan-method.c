@@ -14,7 +14,7 @@ static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points
 static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[160])
 {
 	const struct pm_scales *s = &p->scales;
-	const bool all_open = s->open && !s->periodic && !s->walls, field = s->kind == PM_VORTICES && s->overlap < 0.3;
+	const bool all_open = s->open && !s->periodic && !s->walls, field = s->kind == PM_VORTICES && s->overlap < 0.3 && s->width > 0.7 * s->h && s->width < 1.4 * s->h;
 	const double a = cost_pairs(s), b = f->nmeshes ? cost_mesh(s) : HUGE_VAL;
 	if (!all_open)
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");

@@ -47,8 +47,7 @@ static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *w
 		if (strcmp(answer(e), which))
 			continue;
 		duration(e->saves, text);
-		fprintf(out, "# %-18s %-6s %s%s%s", label(e->effect, name), answer(e), e->decision.text, e->lacking ? ", no word for it yet: the result lacks it" : "",
-			e->decision.kept ? "; kept" : "");
+		fprintf(out, "# %-18s %-6s %s%s", label(e->effect, name), answer(e), e->decision.text, e->lacking ? ", no word for it yet: the result lacks it" : "");
 		if (cost && !isnan(e->saves))
 			fprintf(out, "; saves %s a step", text);
 		fputc('\n', out);
@@ -87,4 +86,18 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 	json_dumpf(all, out, JSON_SORT_KEYS | JSON_COMPACT);
 	fputc('\n', out);
 	json_decref(all);
+}
+
+void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof)
+{
+	char name[64], text[32], of[PM_NAME];
+	fprintf(out, "%-18s %-6s %10s  %-12s %s\n", "effect", "plan", "difference", "of", "verdict");
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		snprintf(text, sizeof text, !proof[i].tried ? "-" : proof[i].difference > 1 ? "> 1" : "%.2g", proof[i].difference);
+		snprintf(of, sizeof of, "%s", proof[i].tried ? proof[i].of : "-");
+		fprintf(out, "%-18s %-6s %10s  %-12s %s\n", label(e->effect, name), answer(e), text, of,
+			proof[i].tried ? proof[i].verdict : e->lacking ? "no word for it yet" : e->effect->word && !pm_tool_find(e->effect->word) ? "no word" : "nothing to compare");
+	}
+	fprintf(out, "# relative to a run of T = %g, from %d steps; above %g it matters\n", p->scales.time, steps, p->scales.accuracy);
 }

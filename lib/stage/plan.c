@@ -115,6 +115,18 @@ static int seconds(const struct pm_frame *f, struct pm_plan *p)
 	pm_frame_free(g);
 	for (int i = 0; i < p->nstages; i++)
 		p->stage[i].seconds = measured[i];
+	return pm_plan_savings(f, p);
+}
+
+/* What no sentence can say: faces and given fields belong to the frame. */
+static int by_hand(const struct pm_plan *p, const struct pm_plan_choice *c)
+{
+	if (in(&c->off, "periodic-images") && p->scales.periodic)
+		return pm_fail(PM_USAGE, "--off periodic-images: they belong to the faces of the frame (smod --faces open)");
+	if (in(&c->off, "magnetic-rotation") && !isnan(p->scales.cyclotron))
+		return pm_fail(PM_USAGE, "--off magnetic-rotation: the field %s is in the frame (sel --drop %s)", p->law->magnetic, p->law->magnetic);
+	if (in(&c->off, "external-field") && p->scales.given > 0 && !isnan(p->scales.cyclotron))
+		return pm_fail(PM_USAGE, "--off external-field: the field %s is in the frame (sel --drop %s)", p->law->field, p->law->field);
 	return 0;
 }
 
@@ -131,17 +143,42 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	if (status)
 		return status;
 	p->scales.accuracy = c->accuracy;
-	p->scales.time = isnan(c->time) ? 100 * fabs(f->dt) : fabs(c->time);
+	p->scales.time = isnan(c->time) || c->time == f->time ? 100 * fabs(f->dt) : fabs(c->time - f->time);
 	if (!(p->scales.n > 0))
 		return pm_fail(PM_DATA, "no particle that moves: nothing to plan");
 	pm_plan_method(f, p);
 	p->scales.pairs = p->method.pairs;
 	decide(p, c); /* for the names of effects; the numbers of the force come next */
-	status = measure_force(f, p);
+	status = by_hand(p, c);
+	status = status ? status : measure_force(f, p);
 	status = status ? status : measure_distortion(f, p);
 	if (status)
 		return status;
 	decide(p, c);
 	status = pm_plan_compose(f, p);
 	return status || !c->cost ? status : seconds(f, p);
+}
+
+int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT])
+{
+	const struct pm_plan_choice c = {.accuracy = accuracy, .time = end};
+	struct pm_plan p;
+	int status = pm_plan_frame(f, &c, &p);
+	snprintf(sentence, PM_PLAN_TEXT, "%s", status ? "" : p.sentence);
+	return status;
+}
+
+int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT])
+{
+	const char *said = NULL;
+	size_t i;
+	json_t *entry;
+	json_array_foreach(f->history, i, entry)
+	{
+		const char *program = json_string_value(json_object_get(entry, "program"));
+		if (program && !strcmp(program, "cycle"))
+			said = json_string_value(json_array_get(json_object_get(entry, "arguments"), 0));
+	}
+	snprintf(sentence, PM_PLAN_TEXT, "%s", said ? said : "");
+	return said ? 0 : pm_fail(PM_DATA, "the history of the checkpoint has no sentence to go on with (type it instead of --plan)");
 }

@@ -10,13 +10,13 @@
 enum { PM_PLAN_STAGES = 16, PM_PLAN_EFFECTS = 24, PM_PLAN_TEXT = 2048 };
 
 struct pm_plan_choice { /* what the user asked for */
-	double accuracy, time;  /* time NAN: a hundred steps of the frame */
+	double accuracy, time;  /* [time] when the run is to end; NAN: after a hundred steps of the frame */
 	struct pm_list on, off; /* effects decided by hand */
 	bool cost;              /* measure seconds */
 };
 
 struct pm_method { /* how the effects that are put in are computed */
-	bool pairs;
+	bool pairs, grow;      /* grow: the mesh follows particles that leave it */
 	const char *kernel, *symbol, *order, *scheme; /* symbol NULL: the law's */
 	size_t cells[3];       /* 0: as the mesh of the frame */
 	double dt;             /* NAN: the frame's */
@@ -47,6 +47,9 @@ struct pm_plan {
 
 /* Of a frame whose data are all held. 0 or failure. */
 int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p);
+/* The sentence alone; and the one that cycle left in the history of a checkpoint. */
+int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);
+int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);
 /* Is an effect, by its entry's name, put in? */
 bool pm_plan_has(const struct pm_plan *p, const char *effect);
 
@@ -72,6 +75,8 @@ struct pm_plan_proof {
 	bool wrong;
 };
 int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_PLAN_EFFECTS]);
+/* What leaving out each effect that could be put in saves, from a step with it; after the stages were measured. */
+int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
 
 /* plan-print.c */
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);

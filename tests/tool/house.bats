@@ -88,8 +88,14 @@ install_here() {
 	[ -z "$bad" ]
 }
 
+@test "every effect has its row in docs/plan.md" {
+	for f in "$top"/lib/effect/*.c; do
+		grep -q "^| $(basename "$f" .c) " "$top/docs/plan.md" || { echo "$f"; return 1; }
+	done
+}
+
 @test "every method has its page" {
-	missing=$(cd "$top" && for f in lib/effect/*.c lib/green/*.c lib/kernel/*.c lib/law/*.c lib/scene/*.c lib/step/*.c lib/mollifier/*.c lib/relax/*.c; do
+	missing=$(cd "$top" && for f in lib/green/*.c lib/kernel/*.c lib/law/*.c lib/scene/*.c lib/step/*.c lib/mollifier/*.c lib/relax/*.c; do
 		n=$(basename "$f" .c)
 		grep -qrw -- "$n" docs/methods || echo "$f"
 	done)

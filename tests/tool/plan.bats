@@ -1,0 +1,171 @@
+# plan: what every effect decides by its number, the sentence, that cycle --plan runs it, and the proof of it for every scene.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+export PM_PLAN=estimate
+# says EFFECT < plan: answer and reason of an effect.
+says() { sed -n "s/^# $1  *//p"; }
+# decide SCENE...: the plan without seconds.
+decide() { pinit "$@" | plan --no-cost; }
+sentence() { pinit "$@" | plan --sentence; }
+scenes() { pinit --help | awk '/^The scenes/ { inside = 1; next } NF == 0 { inside = 0 } inside { print $1 }'; }
+
+# Small ones: what every scene needs to be itself.
+small() {
+	case $1 in
+	cold-collapse | langmuir | landau) echo "$1 -n 512" ;;
+	cold-sphere | plummer | uniform | point-vortices) echo "$1 -n 300 --cells 16" ;;
+	lattice) echo "$1 -n 512 --cells 16" ;;
+	two-stream) echo "$1 -n 1000" ;;
+	cone-vortex | ellipse | lamb-oseen | shear-layer | taylor-green-2d) echo "$1 --cells 32" ;;
+	*) echo "$1" ;;
+	esac
+}
+
+@test "a stage a line with its reason behind it; run as it stands, comments and all" {
+	pinit shear-layer --cells 32 --nu 1e-4 >start
+	plan --no-cost <start >text
+	[ "$(sed -n 1p text | sed 's/ *|.*//')" = "p2m --kernel m6prime" ]
+	grep -qE '^diffuse  *\|  # diffusion: on, nu dt/h\^2 = 0.00051' text # 1e-4 * 0.005 * 32^2
+	grep -q '^# stretching  *off  *2-D$' text
+	cycle -n 2 "$(cat text)" <start >a
+	cycle -n 2 "$(plan --sentence <start)" <start >b
+	scmp a b >/dev/null --tolerance 0
+}
+
+@test "cycle --plan runs the sentence of the first frame: the same bytes as if it had been typed, history too" {
+	pinit taylor-green-2d --cells 16 >start
+	cycle -t 0.4 --every 4 --plan <start >a
+	cycle -t 0.4 --every 4 "$(plan --sentence -t 0.4 <start)" <start >b
+	same_as a b
+	cycle -n 4 --plan <start | cycle -n 4 "$(plan --sentence -t 0.2 <start)" | sls --history >c
+	[ "$(grep -c '"program":"cycle"' c)" = 1 ]
+}
+
+@test "cycle --plan --resume goes on with the sentence of the checkpoint, to the same bytes" {
+	pinit lamb-oseen --cells 32 >start
+	cycle -n 6 --plan <start >a
+	cycle -n 3 "$(plan --sentence -t 1.12 <start)" --checkpoint c <start >/dev/null
+	cycle -n 6 --plan --resume c >b
+	same_as a b
+	pinit lamb-oseen --cells 32 >c
+	run -1 --separate-stderr cycle -n 6 --plan --resume c
+	[[ $stderr == *"has no sentence"* ]]
+}
+
+@test "cycle: SENTENCE and --plan exclude each other, --accuracy belongs to --plan" {
+	pinit two-body >start
+	run -2 cycle -n 1 --plan pp <start
+	run -2 cycle -n 1 --accuracy 0.1 pp <start
+	run -2 cycle -n 1 <start
+}
+
+@test "without seconds the bytes are the same for every number of threads" {
+	pinit shear-layer --cells 48 >start
+	for format in text json; do
+		for n in 1 2 3; do OMP_NUM_THREADS=$n plan --no-cost --format $format <start >$format.$n; done
+		same_as $format.1 $format.2
+		same_as $format.1 $format.3
+	done
+	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 12 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
+}
+
+@test "what a step costs stands beside every stage, and what leaving an effect out saves" {
+	pinit shear-layer --cells 32 --nu 1e-9 | plan >text
+	grep -qE '^p2m .*#  *[0-9.]+ (us|ms|s)  ' text
+	grep -qE '^ +# +[0-9.]+ (us|ms|s)  a step$' text
+	grep -qE '^# diffusion  *off .*; saves [0-9.]+ (us|ms|s) a step$' text
+	pinit shear-layer --cells 32 --nu 1e-9 | plan --format json | python3 -c 'import json, sys; p = json.load(sys.stdin); assert all(s["seconds"] >= 0 for s in p["stages"])'
+}
+
+@test "the sentences are those of the pipelines" {
+	leap='push kick/2 drift | FORCE | push kick/2'
+	[ "$(sentence kepler)" = "${leap/FORCE/pp}" ]
+	[ "$(sentence two-body)" = "${leap/FORCE/pp}" ]
+	for s in cold-collapse langmuir landau two-stream; do
+		[ "$(sentence $s -n 512)" = "${leap/FORCE/p2m | poisson-fft | mgrad | m2p}" ] || { echo $s; return 1; }
+	done
+	for s in exb gyration; do [ "$(sentence $s)" = 'push boris/2 drift | m2p | push boris/2' ]; done
+	for s in polygon vortex-pair point-vortices; do [ "$(sentence $s)" = 'pp | push rk4' ]; done
+	[ "$(sentence shear-layer --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' ]
+	[ "$(sentence cone-vortex --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-06' ]
+	[[ "$(sentence lamb-oseen --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime '*'--cut-off 1e-06 --rim 2' ]]
+}
+
+@test "relativity and currents: by v/c; needed, they are named, and the result lacks them" {
+	pinit two-stream -n 100 --v0 0.4 | smod --constant c=1 | plan --no-cost >fast
+	[ "$(says relativity <fast)" = 'needed max v/c = 0.4, no word for it yet: the result lacks it' ]
+	[[ "$(says currents <fast)" = needed* ]]
+	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost >slow
+	[ "$(says relativity <slow)" = 'off    max v/c = 0.003, error below 1e-05' ]
+	[[ "$(says relativity < <(decide two-stream -n 100))" = *"no speed of light"* ]]
+	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost --accuracy 1e-6 | says relativity | grep -q ^needed
+}
+
+@test "diffusion: nu dt/h^2 is printed, nu T |lap omega|/|omega| decides" {
+	# Taylor-Green: lap omega = -2 omega, so over T = 100 dt = 5 it is 10 nu.
+	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0011 | says diffusion)" = "on "*"changes omega by 0.01" ]]
+	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0009 | says diffusion)" = "off "*"changes omega by 0.009" ]]
+	pinit taylor-green-2d --cells 32 --nu 0.0009 | plan --no-cost -t 10 | says diffusion | grep -q '^on '
+	[ "$(decide taylor-green-2d --cells 32 --nu 0 | says diffusion)" = "off    nu = 0" ]
+}
+
+@test "self field: alone there is none, on a lattice it cancels, weak and short it is left out" {
+	[[ "$(decide exb | says 'self field')" = "off "*"one particle"* ]]
+	[[ "$(decide lattice -n 512 --cells 16 | says 'self field')" = "off "*"cancel"* ]]
+	[ "$(sentence lattice -n 512 --cells 16)" = "push drift" ]
+	pinit uniform -n 300 --cells 8 --dispersion 100 >fast # at the speed 100 a box is crossed in 0.01
+	[[ "$(plan --no-cost -t 1e-3 <fast | says 'self field')" = off* ]]
+	[[ "$(plan --no-cost -t 1 <fast | says 'self field')" = on* ]]
+}
+
+@test "near field: neighbours within a few cells of each other need what no word brings yet" {
+	[[ "$(decide uniform -n 300 --cells 8 | says 'near field')" = needed*"no word for it yet"* ]]
+	[[ "$(decide pair | says 'near field')" = off*"6.4 cells apart"* ]]
+	[[ "$(decide plummer -n 100 | says 'near field')" = off*"every pair is summed"* ]]
+}
+
+@test "collisions: bodies by their relaxation time, charges by their number in a Debye length" {
+	[[ "$(decide landau -n 20000 | says collisions)" = off*"1.6e+03 particles in a Debye length"* ]] # 20000/(4 pi)
+	[[ "$(decide landau -n 40 | says collisions)" = needed* ]]                                      # 3 of them
+	# N/(8 ln N) crossing times of spread/v: 300 of them at v = 100 cross in 0.005.
+	[[ "$(decide uniform -n 300 --cells 8 --dispersion 100 | says collisions)" = needed* ]]
+}
+
+@test "every scene of pinit: plan --check finds no decision wrong" {
+	[ "$(scenes | wc -l)" -ge 21 ]
+	for s in $(scenes); do
+		# shellcheck disable=SC2046 # a scene and its options
+		pinit $(small "$s") >start
+		run -0 plan --check <start
+		[[ $output == *"self field"* ]] || { echo "$s"; return 1; }
+	done
+}
+
+@test "plan --check: a wrong decision shows, and exits 3" {
+	pinit taylor-green-2d --cells 32 >flow
+	run -3 plan --check --off diffusion <flow
+	[[ $output == *"diffusion "*"off "*"wrong: it matters"* && $output == *"1 decision was wrong"* ]]
+	run -3 plan --check --off remeshing <flow
+	[[ $output == *"remeshing "*"wrong: it matters"* ]]
+	pinit taylor-green-2d --cells 32 --nu 1e-6 | plan --check # what is negligible is left out ...
+	pinit taylor-green-2d --cells 32 --nu 1e-6 >still
+	run -3 plan --check --on diffusion <still # ... and put in by hand it is idle
+	[[ $output == *"diffusion "*"on "*"wrong: it is negligible"* ]]
+	pinit plummer -n 200 >cluster
+	run -3 plan --check --off self-field <cluster
+	[[ $output == *"self field "*"off "*"wrong: it matters"* ]]
+	run -3 plan --check --off smoothing <cluster
+	pinit gyration | run -3 plan --check --on self-field
+}
+
+@test "what no sentence can say is refused with the word that says it: faces and given fields" {
+	run -2 plan --off periodic-images < <(pinit uniform -n 20)
+	[[ $output == *"smod --faces open"* ]]
+	run -2 plan --off magnetic-rotation < <(pinit exb)
+	[[ $output == *"sel --drop B"* ]]
+	run -2 plan --on diffusion --off diffusion < <(pinit exb)
+	run -2 plan -n 3 < <(pinit exb)
+	run -1 plan < <(printf 'x\n1\n' | stab - --law free --dt 1)
+	[[ $output == *"nothing moves"* ]]
+}
