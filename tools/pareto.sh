@@ -96,8 +96,8 @@ refer() {
 		reference_of[m]=${number[x${reference[m]}]}
 	done
 	if [ "$against" = finest ]; then
-		reference_member=$((${#sentence[@]} - 1))
-		words "${sentence[-1]}"
+		reference_member=$last_member
+		words "${sentence[last_member]}"
 		join "${word[@]:${#beginning[@]}}"
 		reference_text=("$text")
 	fi
@@ -163,9 +163,7 @@ report() {
 	[ ! -t 2 ] || printf '\r\033[K' >&2
 	if [ -n "$keep" ]; then
 		cp "$work/pareto.tsv" "$keep/pareto.tsv"
-		if [ -n "$jobs" ]; then
-			:
-		elif command -v gnuplot >/dev/null; then
+		if command -v gnuplot >/dev/null; then
 			plot "$keep" || true
 		else
 			echo "$me: no gnuplot here: no picture (apt-get install gnuplot-nox)" >&2

@@ -117,6 +117,46 @@ points() {
 plot() {
 	local dir=$1 png=png
 	! echo 'set terminal pngcairo' | gnuplot >/dev/null 2>&1 || png=pngcairo
+	if [ -n "$jobs" ]; then
+		plot_errors "$dir" || return 1
+	else
+		plot_front "$dir" || return 1
+	fi
+	(cd "$dir" && LC_ALL=C.UTF-8 gnuplot pareto.gp) 2>"$work/gnuplot" || { echo "$me: gnuplot: $(grep -v '^[ ^]*$' "$work/gnuplot" | tail -n 1)" >&2; return 1; }
+}
+
+# Without seconds: a line a member with its choices, the smallest error on top.
+plot_errors() {
+	local rows
+	rows=$(awk -F'\t' -v choices=${#choice_name[@]} 'NR > 1 && $2 == "ok" && $5 > 0 && $5 !~ /inf/ {
+		label = $1; for (i = 1; i <= choices; i++) label = label " " $(14 + i)
+		gsub(/"/, "\047", label); print ++n "\t" $5 "\t" (length(label) > 60 ? substr(label, 1, 57) "..." : label) }' "$1/pareto.tsv")
+	[ -n "$rows" ] || { echo "$me: no member with an error above zero: no picture" >&2; return 1; }
+	cat >"$1/pareto.gp" <<GP
+set datafile separator tab
+\$members << END
+$rows
+END
+set logscale x
+set format x "%g"
+set yrange [$(wc -l <<<"$rows").5:0.5]
+set ytics font ",9" noenhanced
+set grid
+set key off
+set title "Errors, without seconds; numbers are members"
+set xlabel "$norm${field:+ of $field}" noenhanced
+draw = 'plot \$members using 2:1:yticlabels(3) with points pt 7 ps 0.8 lc rgb "#c03030"'
+set terminal svg size 900,$((100 + 18 * $(wc -l <<<"$rows"))) dynamic font "sans,12" background "white"
+set output "pareto.svg"
+@draw
+set terminal $png size 900,$((100 + 18 * $(wc -l <<<"$rows"))) font "sans,11"
+set output "pareto.png"
+@draw
+GP
+}
+
+plot_front() {
+	local dir=$1
 	[ -n "$(points "$dir/pareto.tsv" yes)" ] || { echo "$me: no member with an error and seconds above zero: no picture" >&2; return 1; }
 	cat >"$dir/pareto.gp" <<GP
 set datafile separator tab
@@ -148,7 +188,6 @@ set terminal $png size 900,620 font "sans,11"
 set output "pareto.png"
 @draw
 GP
-	(cd "$dir" && LC_ALL=C.UTF-8 gnuplot pareto.gp) 2>"$work/gnuplot" || { echo "$me: gnuplot: $(grep -v '^[ ^]*$' "$work/gnuplot" | tail -n 1)" >&2; return 1; }
 }
 
 escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g'; }
@@ -167,24 +206,32 @@ versions() {
 	done
 }
 
-# Every command as run; FILEs stand for what lay in a directory that is gone.
+# Every command as run, to be pasted into a shell: what lay in a directory that is gone is written into the one it is pasted in.
 commands() {
 	local m n before start='' i
 	local -A said=()
+	printf '# run in %q\n' "$PWD"
+	for n in OMP_NUM_THREADS OMP_WAIT_POLICY PM_PLAN; do
+		[ -z "${!n:-}" ] || printf 'export %s=%q\n' "$n" "${!n}"
+	done
 	if [ ${#beginning[@]} != 0 ]; then
 		join "${beginning[@]}"
 		echo "$text > beginning"
 		start=beginning
 	fi
 	for i in "${!reference_text[@]}"; do
-		echo "${reference_text[i]}${start:+ < $start} > reference.$i"
+		if [ -f "${reference_text[i]}" ]; then
+			printf 'ln -s %q reference.%d\n' "$(realpath "${reference_text[i]}")" "$i"
+		else
+			echo "{ ${reference_text[i]}; }${start:+ < $start} > reference.$i"
+		fi
 	done
 	for m in "${walk[@]}"; do
 		before=$start
 		if [ -n "$jobs" ]; then
 			words "${sentence[m]}"
 			join "${word[@]:${#beginning[@]}}"
-			echo "$text${start:+ < $start} > member.$((m + 1))"
+			echo "{ $text; }${start:+ < $start} > member.$((m + 1))"
 			before=member.$((m + 1))
 		else
 			for n in ${path[m]}; do
@@ -210,10 +257,12 @@ page() {
 		printf '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>pareto</title>\n<style>body{font:15px/1.45 sans-serif;max-width:72em;margin:2em auto;padding:0 1em}pre{background:#f4f4f4;padding:.7em;overflow-x:auto}table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}td,th{padding:.15em .6em;text-align:left;border-bottom:1px solid #ddd;white-space:nowrap}.front{background:#fbe9e7}svg{max-width:100%%;height:auto}</style></head><body>\n'
 		printf '<h1>What accuracy costs in time</h1>\n<h2>The sentence</h2>\n<pre>%s</pre>\n' "$(escape <<<"$command_line")"
 		if [ -s "$dir/pareto.svg" ]; then
-			printf '<h2>Error against seconds</h2>\n<p>Red: the Pareto front. Numbers are members.</p>\n'
+			[ -n "$jobs" ] || printf '<h2>Error against seconds</h2>\n<p>Red: the Pareto front. Numbers are members.</p>\n'
+			[ -z "$jobs" ] || printf '<h2>Errors</h2>\n'
 			sed '/^<?xml/d; /^<!DOCTYPE/,/>$/d' "$dir/pareto.svg"
 		fi
-		printf '<h2>The members</h2>\n<p>Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
+		printf '<h2>The members</h2>\n<p>'
+		[ -n "$jobs" ] || printf 'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
 		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END { printf "%.3g", s }')"
 		printf '</p>\n<table>\n'
 		rows_html "$dir/pareto.tsv"

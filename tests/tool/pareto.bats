@@ -31,6 +31,11 @@ cycle -n 10 'push drift/2 | pp'" ]
 awk '{ print \$1, \$2 }' z" ]
 }
 
+@test "finest is the last of all alternatives, where a name makes it the same sentence twice, too" {
+	pareto 'pinit plummer -n 50 | {p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p,pp}' --vary k=cic,tsc --against finest --field acc --repeat 1 --tsv >table
+	[ "$(awk -F'\t' '$2 == "reference" { print $(NF - 1) }' table)" = "pinit plummer -n 50 | pp" ]
+}
+
 @test "--vary: one choice in several places, whose values may have braces of their own; equal sentences count once" {
 	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = $'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
 	[ "$(list 'a -n {1,2} | b {k}{k}' --vary k=x,y)" = $'a -n 1 | b xx\na -n 1 | b yy\na -n 2 | b xx\na -n 2 | b yy' ]
@@ -162,6 +167,39 @@ by_hand() {
 	for what in '<svg' 'pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32}' 'processors' 'pmpipe ' 'poisson-fft --timing' 'scmp --field acc' 'p2m --kernel tsc -n 16 --timing'; do
 		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
 	done
+}
+
+# pasted DIRECTORY: the relative_l2 of all members, by the commands of its page, in an empty directory.
+pasted() {
+	sed -n '/Every command as run/,$p' "$1/index.html" | sed -e '1d' -e 's/<[^>]*>//g' -e 's/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g' >commands
+	mkdir "$1.again"
+	(cd "$1.again" && bash ../commands 2>/dev/null) | awk -F'\t' '$3 == "acc" { print $8 }' | sort -g
+}
+errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
+
+@test "every command of the page runs as pasted, and gives the errors of the table: from words, from whole sentences, from a file" {
+	sweep --repeat 1 -o words >/dev/null
+	pasted words >got
+	[ "$(wc -l <got)" = 3 ]
+	errors words | diff - got
+	pareto "$sentence" --against 'p2m -n 32 | poisson-fft | mgrad --order 4 | m2p' --field acc --jobs 2 -o whole >/dev/null
+	errors whole | diff - <(pasted whole)
+	[[ $(head -n 1 commands) == "# run in $PWD" ]]
+	pinit uniform -n 500 | p2m -n 64 | poisson-fft | mgrad | m2p >"the file"
+	pareto "$sentence" --against 'the file' --field acc --threads 1 --repeat 1 -o file >/dev/null
+	errors file | diff - <(pasted file)
+	grep -q '^export OMP_NUM_THREADS=1$' commands
+}
+
+@test "--jobs -o: a picture of the errors alone, and the same command measures nothing twice" {
+	sweep --jobs 2 -o d >/dev/null
+	cp d/measured/log before
+	sweep --jobs 2 -o d >/dev/null
+	cmp before d/measured/log
+	command -v gnuplot >/dev/null || skip "no gnuplot here"
+	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
+	[ "$(grep -c '>[12] [0-9]*</' d/index.html)" = 2 ] # the two that are no reference, by their mesh
+	! grep -q 'median seconds' d/index.html
 }
 
 @test "stopped by SIGINT it says how far it came, and the same command goes on from there and measures nothing twice" {
