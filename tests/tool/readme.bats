@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 8) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 9) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
@@ -64,6 +64,12 @@ block() {
 	sh_ok 'bash -euo pipefail cost.sh'
 	[ "$(grep -cE '^[* ] +[1-8] ' <<<"$output")" = 8 ]
 	[[ $output == *$'\n* '* && -s report/index.html ]]
+}
+
+@test "README: what the scene calls for: a sentence with its reasons, and its run" {
+	block 8 >plan.sh
+	sh_ok 'bash -euo pipefail plan.sh'
+	[[ $output == *"diffusion: on, nu dt/h^2 = "* && $output == *circulation* ]]
 }
 
 @test "README: the table of swapped words is what its command prints" {
