@@ -11,6 +11,10 @@ version=@VERSION@
 . lib/shell/help.sh
 # shellcheck source=lib/shell/braces.sh
 . lib/shell/braces.sh
+# shellcheck source=lib/shell/run.sh
+. lib/shell/run.sh
+# shellcheck source=lib/shell/page.sh
+. lib/shell/page.sh
 # shellcheck source=lib/shell/sweep.sh
 . lib/shell/sweep.sh
 # shellcheck source=lib/shell/front.sh
@@ -182,7 +186,7 @@ report() {
 }
 
 main() {
-	declare -A is_timed=() failed=() clocked=() error_known=()
+	declare -A children=() is_timed=() failed=() clocked=() error_known=()
 	held=() child='' doing='' work='' bin=$(cd "$(dirname "$(command -v "$0")")" && pwd)
 	PATH=$PATH:$bin
 	time_program=$(type -P time) || time_program=

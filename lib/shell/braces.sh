@@ -243,3 +243,10 @@ words() {
 		[ -n "$c" ] || usage "an empty word in '$1'"
 	done
 }
+
+# join WORDS...: sets text to the sentence.
+join() {
+	text=$1
+	shift
+	[ $# = 0 ] || text+=$(printf ' | %s' "$@")
+}

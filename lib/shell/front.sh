@@ -115,14 +115,14 @@ points() {
 }
 
 plot() {
-	local dir=$1 png=png
-	! echo 'set terminal pngcairo' | gnuplot >/dev/null 2>&1 || png=pngcairo
+	local dir=$1
+	terminal
 	if [ -n "$jobs" ]; then
 		plot_errors "$dir" || return 1
 	else
 		plot_front "$dir" || return 1
 	fi
-	(cd "$dir" && LC_ALL=C.UTF-8 gnuplot pareto.gp) 2>"$work/gnuplot" || { echo "$me: gnuplot: $(grep -v '^[ ^]*$' "$work/gnuplot" | tail -n 1)" >&2; return 1; }
+	draw "$dir" pareto.gp
 }
 
 # Without seconds: a line a member with its choices, the smallest error on top.
@@ -190,22 +190,6 @@ set output "pareto.png"
 GP
 }
 
-escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g'; }
-
-machine() {
-	echo "$(uname -srm), $(nproc) processors,$(sed -n 's/^model name[^:]*:/ /p' /proc/cpuinfo 2>/dev/null | head -n 1), $(awk '/^MemTotal/ { printf "%.1f GB", $2 / 1048576 }' /proc/meminfo 2>/dev/null)"
-	echo "threads: ${OMP_NUM_THREADS:-as many as processors}; load when written: $(cut -d' ' -f1-3 /proc/loadavg 2>/dev/null)"
-}
-
-versions() {
-	local p
-	echo "pmpipe $version"
-	echo "bash $BASH_VERSION"
-	for p in gnuplot parallel; do
-		! command -v $p >/dev/null || $p --version </dev/null 2>/dev/null | head -n 1
-	done
-}
-
 # Every command as run, to be pasted into a shell: what lay in a directory that is gone is written into the one it is pasted in.
 commands() {
 	local m n before start='' i
@@ -254,12 +238,12 @@ rows_html() {
 page() {
 	local dir=$1
 	{
-		printf '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>pareto</title>\n<style>body{font:15px/1.45 sans-serif;max-width:72em;margin:2em auto;padding:0 1em}pre{background:#f4f4f4;padding:.7em;overflow-x:auto}table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}td,th{padding:.15em .6em;text-align:left;border-bottom:1px solid #ddd;white-space:nowrap}.front{background:#fbe9e7}svg{max-width:100%%;height:auto}</style></head><body>\n'
+		page_head pareto '.front{background:#fbe9e7}'
 		printf '<h1>What accuracy costs in time</h1>\n<h2>The sentence</h2>\n<pre>%s</pre>\n' "$(escape <<<"$command_line")"
 		if [ -s "$dir/pareto.svg" ]; then
 			[ -n "$jobs" ] || printf '<h2>Error against seconds</h2>\n<p>Red: the Pareto front. Numbers are members.</p>\n'
 			[ -z "$jobs" ] || printf '<h2>Errors</h2>\n'
-			sed '/^<?xml/d; /^<!DOCTYPE/,/>$/d' "$dir/pareto.svg"
+			inline_svg "$dir/pareto.svg"
 		fi
 		printf '<h2>The members</h2>\n<p>'
 		[ -n "$jobs" ] || printf 'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
@@ -267,8 +251,7 @@ page() {
 		printf '</p>\n<table>\n'
 		rows_html "$dir/pareto.tsv"
 		printf '</table>\n<h2>In words</h2>\n<pre>%s</pre>\n' "$(table "$dir/pareto.tsv" | escape)"
-		printf '<h2>Machine</h2>\n<pre>%s</pre>\n<h2>Versions</h2>\n<pre>%s</pre>\n' "$(machine | escape)" "$(versions | escape)"
-		printf '<h2>Every command as run</h2>\n<pre>%s</pre>\n</body></html>\n' "$(commands | escape)"
+		page_foot
 	} >"$dir/index.html"
 }
 

@@ -54,16 +54,6 @@ run() {
 	return $status
 }
 
-# Why the last run failed: its first line that does not only pass on what another said.
-why() {
-	local line
-	line=$(grep -v ': stopped by ' "$work/said" | head -n 1 | tr '\t' ' ')
-	line=${line#bash: line 1: }
-	echo "${line:-exit status $1, without a word}"
-}
-
-note() { printf '%s\n' "$1" >>"$state/log"; }
-
 # with_timing WORD: sets text to the command that also writes its seconds.
 with_timing() {
 	text=$1
@@ -231,13 +221,6 @@ measure_errors() {
 	[ $status = 0 ] || fail 1 "parallel: $(grep -v '^$' "$work/parallel" | tail -n 1)"
 }
 
-# join WORDS...: sets text to the sentence.
-join() {
-	text=$1
-	shift
-	[ $# = 0 ] || text+=$(printf ' | %s' "$@")
-}
-
 # recall: what the log of an earlier run knows.
 recall() {
 	local what a b rest
@@ -248,13 +231,4 @@ recall() {
 		error | bad) error_known[$a]=1 ;;
 		esac
 	done <"$state/log"
-}
-
-# Stops what runs, says how far it came, leaves the log.
-stop() {
-	trap '' INT TERM
-	[ -z "$child" ] || kill -TERM -- "-$child" 2>/dev/null || true
-	[ ! -t 2 ] || printf '\r\033[K' >&2
-	echo "$me: stopped; ${doing:-nothing measured yet}${keep:+; the same command goes on from here}" >&2
-	exit 130
 }

@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 9) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 10) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
@@ -70,6 +70,12 @@ block() {
 	block 8 >plan.sh
 	sh_ok 'bash -euo pipefail plan.sh'
 	[[ $output == *"diffusion: on, nu dt/h^2 = "* && $output == *circulation* ]]
+}
+
+@test "README: how far from the edge: the limit of the leapfrog, 2, and a page" {
+	block 9 >edge.sh
+	sh_ok 'bash -euo pipefail edge.sh'
+	[[ $output == *" yes "* && -s edge/index.html ]]
 }
 
 @test "README: the table of swapped words is what its command prints" {

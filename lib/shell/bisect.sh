@@ -1,0 +1,106 @@
+# shellcheck shell=bash
+# Bisection as a function of the log: what it knows is gone through from the ends again each time, and what it does not know yet is asked for. So a stopped
+# search goes on, and a finer --tolerance begins where the coarser one ended. SPDX-License-Identifier: GPL-3.0-or-later
+
+# look WHAT: from $state/log, lines
+#   ask MEMBER SEED VALUE            what has to be tried next
+#   limit MEMBER SEED LOW HIGH       closed in
+#   none MEMBER SEED WHY             no limit between the ends, and what they do
+# WHAT sample: instead "ask MEMBER SEED VALUE" and "grow MEMBER SEED VALUE STEPS" for a curve of growth on both sides of the first seed's limit.
+look() {
+	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v scale="${axis_scale[0]}" \
+		-v from="$from" -v tolerance="$tolerance" '
+	function size(x) { return x < 0 ? -x : x }
+	function text(x) { return sprintf("%.10g", x) }
+	function between(a, b) { return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
+	function search(m, s,    a, b, good, mid) {
+		a = low; b = high
+		if (!((m, s, a) in is)) print "ask", m, s, a
+		if (!((m, s, b) in is)) print "ask", m, s, b
+		if (!((m, s, a) in is) || !((m, s, b) in is)) return
+		good = from == "below" ? "stable" : "unstable"
+		if (is[m, s, a] == is[m, s, b]) { print "none", m, s, is[m, s, a] " at both ends, " a " and " b; return }
+		if (is[m, s, a] != good) { print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " (from == "below" ? "above" : "below") ")"; return }
+		for (;;) {
+			mid = between(a, b)
+			if ((b - a) / 2 <= tolerance * (size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)) || mid == a || mid == b) break
+			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
+			if (is[m, s, mid] == good) a = mid; else b = mid
+		}
+		if (what == "sample") curve(m, s, a, b); else print "limit", m, s, a, b }
+	function point(m, s, x) {
+		if (x < low + 0 || x > high + 0 || (x in had)) return
+		had[x] = 1; x = text(x)
+		if (!((m, s, x) in is)) print "ask", m, s, x
+		else if (!((m, s, x) in grew)) print "grow", m, s, x, step[m, s, x] }
+	function curve(m, s, a, b,    i, l, near) {
+		if (s != 1) return
+		split("", had); l = between(a, b) + 0
+		for (i = 0; i <= 8; i++) point(m, s, scale == "log" ? low * (high / low) ^ (i / 8) : low + (high - low) * i / 8)
+		split("0.01 0.03 0.06 0.1 0.2 0.35", near, " ")
+		for (i = 1; i <= 6; i++) { point(m, s, l * (1 - near[i])); point(m, s, l * (1 + near[i])) } }
+	{ if ($1 == "trial") { is[$2, $3, $4] = $5; step[$2, $3, $4] = $6 } else if ($1 == "growth") grew[$2, $3, $4] = 1 }
+	END { for (m = 0; m < members; m++) for (s = 1; s <= seeds; s++) search(m, s) }' "$state/log" 3>"$work/brackets"
+}
+
+# Tries what is asked for until nothing is.
+search() {
+	local line lines asked=() a b
+	while :; do
+		mapfile -t lines < <(look "$1")
+		asked=()
+		for line in "${lines[@]}"; do
+			case $line in
+			ask*) asked+=("trial${line#ask}") ;;
+			grow*) asked+=("growth${line#grow}") ;;
+			esac
+		done
+		[ ${#asked[@]} != 0 ] || break
+		IFS=$'\t' read -r _ _ a b <"$work/brackets" || true
+		phase=
+		[ -z "${b:-}" ] || phase="${axis_name[0]} between $a and $b"
+		[ "$1" != sample ] || phase="growth on both sides"
+		batch "${asked[@]}"
+	done
+}
+
+# expected MEMBER: the number that --expect is for it; awk reads the expression.
+expected() {
+	[ -n "${reference[$1]}" ] || return 0
+	awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"${reference[$1]}"') }' 2>/dev/null || usage "--expect: '${reference[$1]}' is not a number (2, 2*sqrt(2), {name}^2/2)"
+}
+
+# The result: a line per member. Uncertainty: half of the bracket, and half of the range over the seeds.
+tsv() {
+	local m d
+	for m in "${!sentence[@]}"; do
+		shown "${sentence[m]}"
+		printf 'member\t%d\t%s\t%s\t' "$m" "$(expected "$m")" "$text"
+		for d in "${choice_shown[@]}"; do printf '\t%s' "${chosen[m * ${#choice_name[@]} + d]}"; done
+		echo
+	done >"$work/members"
+	look limits | awk -F'\t' -v OFS='\t' -v names="$(for d in "${choice_shown[@]}"; do printf '%s\t' "${choice_name[d]}"; done)" -v from="$from" -v axis="${axis_name[0]}" '
+	function median(v, n,    i, j, t) {
+		for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j] < v[j-1]; j--) { t = v[j]; v[j] = v[j-1]; v[j-1] = t }
+		return n % 2 ? v[(n+1)/2] : (v[n/2] + v[n/2+1]) / 2 }
+	# Two digits, upwards: an uncertainty must not be rounded below itself.
+	function up(x,    e, k) { if (x <= 0) return 0; e = 10 ^ (int(log(x) / log(10) + 100) - 101); k = int(x / e); if (k < x / e * (1 - 1e-12)) k++; return sprintf("%.3g", k * e) }
+	FILENAME != "-" && $1 == "member" { want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS; count++; next }
+	FILENAME != "-" { if ($1 == "trial") runs[$2]++; next }
+	$1 == "limit" { n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2; if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
+	$1 == "none" { why[$2] = $4 }
+	END {
+		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", "runs", "sentence", "reason"
+		for (m = 0; m < count; m++) {
+			row = m + 1 OFS rest[m] axis
+			if (why[m] != "" || !n[m]) row = row OFS "-" OFS "-" OFS "-" OFS "-" OFS (want[m] == "" ? "-" : want[m]) OFS "-" OFS "-"
+			else {
+				for (i = 1; i <= n[m]; i++) v[i] = mid[m, i]
+				l = median(v, n[m]); s = (v[n[m]] - v[1]) / 2; u = half[m] + s; d = l - want[m]; if (d < 0) d = -d
+				row = row OFS sprintf("%.8g", l) OFS up(u) OFS up(half[m]) OFS (n[m] > 1 ? sprintf("%.2g", s) : "-")
+				row = row OFS (want[m] == "" ? "-" : want[m]) OFS (want[m] + 0 == 0 ? "-" : sprintf("%.6g", l / want[m])) OFS (want[m] == "" ? "-" : d <= u * (1 + 1e-9) ? "yes" : "no")
+			}
+			print row, from, n[m] + 0, runs[m] + 0, sentence[m], why[m] == "" ? "-" : why[m]
+		}
+	}' "$work/members" "$state/log" -
+}

@@ -1,0 +1,105 @@
+# shellcheck shell=bash
+# What margin found, for people and programs: table, JSON, the picture of growth against the parameter, the page.
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+conditions() {
+	shown "${criterion:-}"
+	echo "limit of ${axis_name[0]} between ${axis_low[0]} and ${axis_high[0]}, stable $from it; unstable is ${criterion:+$criterion, or }exit status 3"
+	if [ -n "$has_seed" ]; then
+		echo "$seeds seeds; the uncertainty is half of the bracket plus half of the range over the seeds"
+	else
+		echo "no {seed} in the sentence: every run is deterministic, and the uncertainty is half of the bracket"
+	fi
+}
+
+table() {
+	conditions
+	awk -F'\t' -v choices=${#choice_shown[@]} '
+	function cell(r, c, text) { t[r, c] = text; if (length(text) > w[c]) w[c] = length(text) }
+	{ r++; for (c = 1; c <= choices; c++) cell(r, c, $(c + 1))
+		k = choices + 2 # parameter; limit uncertainty half spread expected ratio agrees stable seeds runs sentence reason
+		cell(r, c++, NR == 1 ? "limit" : $(k+1) == "-" ? "none" : sprintf("%.6g", $(k+1))); cell(r, c++, NR == 1 ? "+-" : $(k+2))
+		if (NR == 1 || $(k+5) != "-") any = 1
+		cell(r, c++, $(k+5)); cell(r, c++, $(k+6)); cell(r, c++, NR == 1 ? "agrees" : $(k+7)); cell(r, c++, $(k+10)); last = c - 1
+		why[r] = NR > 1 && $(k+12) != "-" ? $(k+12) : "" }
+	END { for (i = 1; i <= r; i++) { s = ""; for (c = 1; c <= last; c++) s = s sprintf(c <= choices ? "%-" w[c] "s  " : "%" w[c] "s  ", t[i, c]); sub(/ +$/, "", s); print s }
+		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " "; print "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
+}
+
+# Any table of tabs as JSON: numbers stay numbers, "-" is null.
+json_rows() {
+	awk -F'\t' 'function quote(s) { gsub(/\\/, "\\\\&", s); gsub(/"/, "\\\"", s); gsub(/[\001-\037]/, " ", s); return "\"" s "\"" }
+	function value(s) { return s == "-" ? "null" : s ~ /^-?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?$/ ? s : quote(s) }
+	NR == 1 { for (i = 1; i <= NF; i++) name[i] = $i; next }
+	{ s = ""; for (i = 1; i <= NF; i++) s = s (i > 1 ? ", " : "") quote(name[i]) ": " value($i); printf "%s  {%s}", (NR > 2 ? ",\n" : ""), s } END { print "" }' "$1"
+}
+quoted() { awk 'BEGIN { s = ARGV[1]; gsub(/\\/, "\\\\&", s); gsub(/"/, "\\\"", s); gsub(/[\001-\037]/, " ", s); printf "\"%s\"", s }' "$1"; }
+
+json() {
+	printf '{"sentence": %s, "unstable_when": %s, "version": "%s", "%s": [\n' "$(quoted "${positional[0]}")" "$([ -z "$criterion" ] && echo null || quoted "$criterion")" "$version" "$2"
+	json_rows "$1"
+	printf ']}\n'
+}
+
+# curve MEMBER: value and growth, sorted.
+curve() { awk -F'\t' -v OFS='\t' -v m="$1" '$1 == "growth" && $2 == m && $3 == 1 && $5 != "-" { print $4, $5 }' "$state/log" | sort -g; }
+
+# name_of_member MEMBER: its choices in words.
+name_of_member() {
+	local d s=''
+	for d in "${choice_shown[@]}"; do s+="${s:+ }${chosen[$1 * ${#choice_name[@]} + d]}"; done
+	printf '%s' "${s:-${axis_name[0]}}"
+}
+
+plot() {
+	local dir=$1 m k=0 draws='' limits=''
+	terminal
+	{
+		echo 'set datafile separator tab'
+		for m in "${!sentence[@]}"; do
+			[ -n "$(curve "$m")" ] || continue
+			printf '$curve%d << END\n%s\nEND\n' "$m" "$(curve "$m")"
+			k=$((k + 1))
+			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title \"$(name_of_member "$m" | tr -d '"\\')\" noenhanced"
+		done
+		limits=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
+		[ -z "$limits" ] || echo "$limits"
+		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
+		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel "growth of ln(%s) per step" noenhanced\nset title "Growth on both sides of the limit (dashed)"\n' "${axis_name[0]}" "$growth"
+		echo "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#444444'"
+		[ -z "$draws" ] || printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
+	} >"$dir/margin.gp"
+	[ -n "$draws" ] || { echo "$me: no growth could be measured: no picture (--column NAME)" >&2; return 1; }
+	draw "$dir" margin.gp
+}
+
+# Every command as run, in the order of the log.
+commands() {
+	local what m s x rest one
+	while IFS=$'\t' read -r what m s x rest; do
+		filled "$m" "$s" "$x"
+		if [ "$what" = trial ]; then
+			while IFS= read -r one; do echo "$one   # ${rest%%$'\t'*}"; done < <(trial_commands "$text")
+		else
+			growth_command "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6; exit }' "$state/log")"
+			echo "$text"
+		fi
+	done <"$state/log"
+}
+
+rows_html() { escape <"$1" | awk -F'\t' '{ tag = NR == 1 ? "<th>" : "<td>"; s = ""; for (i = 1; i <= NF; i++) s = s tag $i; print "<tr>" s }'; }
+
+# page DIRECTORY TITLE TEXT-FILE
+page() {
+	local dir=$1
+	{
+		page_head margin ''
+		printf '<h1>%s</h1>\n<h2>The sentence</h2>\n<pre>%s</pre>\n' "$2" "$(escape <<<"$command_line")"
+		if [ -s "$dir/margin.svg" ]; then inline_svg "$dir/margin.svg"; fi
+		printf '<h2>In words</h2>\n<pre>%s</pre>\n' "$(escape <"$3")"
+		printf '<h2>The numbers</h2>\n<table>\n'
+		rows_html "$dir/margin.tsv"
+		printf '</table>\n'
+		page_foot
+	} >"$dir/index.html"
+}

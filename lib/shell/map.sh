@@ -1,0 +1,108 @@
+# shellcheck shell=bash
+# Two parameters at once: stable or not on a grid of points, then the boundary: wherever two neighbours differ, the place between them by bisection to
+# 1/32 of their distance, joined to lines cell by cell. Again a function of the log. SPDX-License-Identifier: GPL-3.0-or-later
+
+# look_map WHAT: "ask MEMBER SEED X,Y" while something is missing; then of WHAT points "MEMBER X Y OUTCOME STEP", of WHAT lines "MEMBER X1 Y1 X2 Y2".
+look_map() {
+	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v w="$map_width" -v h="$map_height" -v x0="${axis_low[0]}" -v x1="${axis_high[0]}" -v xs="${axis_scale[0]}" \
+		-v y0="${axis_low[1]}" -v y1="${axis_high[1]}" -v ys="${axis_scale[1]}" '
+	function text(x) { x = sprintf("%.10g", x); return x == "-0" ? "0" : x }
+	function place(a, b, scale, i, n) { return text(scale == "log" ? a * (b / a) ^ (i / n) : a + (b - a) * i / n) }
+	function asked(m, x, y) { if ((m, x "," y) in is) return 0; print "ask", m, 1, x "," y; return 1 }
+	# The crossing on an edge, its ends along one axis; at[] is "" where there is none, "?" where something was asked for.
+	function cross(m, a, b, other, along, scale,    k, mid, first, p) {
+		p = along == "x"
+		first = is[m, p ? a "," other : other "," a]
+		if (first == is[m, p ? b "," other : other "," b]) return ""
+		for (k = 0; k < 5; k++) {
+			mid = text(scale == "log" ? sqrt(a * b) : (a + b) / 2)
+			if (asked(m, p ? mid : other, p ? other : mid)) return "?"
+			if (is[m, p ? mid "," other : other "," mid] == first) a = mid; else b = mid
+		}
+		return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
+	{ if ($1 == "trial") { is[$2, $4] = $5; step[$2, $4] = $6 } }
+	END {
+		for (i = 0; i < w; i++) X[i] = place(x0, x1, xs, i, w - 1)
+		for (j = 0; j < h; j++) Y[j] = place(y0, y1, ys, j, h - 1)
+		for (m = 0; m < members; m++) {
+			missing = 0
+			for (j = 0; j < h; j++) for (i = 0; i < w; i++) missing += asked(m, X[i], Y[j])
+			if (missing) continue
+			if (what == "points") { for (j = 0; j < h; j++) for (i = 0; i < w; i++) print m, X[i], Y[j], is[m, X[i] "," Y[j]], step[m, X[i] "," Y[j]]; continue }
+			for (j = 0; j < h; j++) for (i = 0; i + 1 < w; i++) H[i, j] = cross(m, X[i], X[i+1], Y[j], "x", xs)
+			for (j = 0; j + 1 < h; j++) for (i = 0; i < w; i++) V[i, j] = cross(m, Y[j], Y[j+1], X[i], "y", ys)
+			if (what != "lines") continue
+			for (j = 0; j + 1 < h; j++) for (i = 0; i + 1 < w; i++) {
+				n = 0
+				if (H[i, j] != "") { n++; px[n] = H[i, j]; py[n] = Y[j] }
+				if (V[i+1, j] != "") { n++; px[n] = X[i+1]; py[n] = V[i+1, j] }
+				if (H[i, j+1] != "") { n++; px[n] = H[i, j+1]; py[n] = Y[j+1] }
+				if (V[i, j] != "") { n++; px[n] = X[i]; py[n] = V[i, j] }
+				for (k = 1; k < n; k += 2) print m, px[k], py[k], px[k+1], py[k+1]
+			}
+		}
+	}' "$state/log"
+}
+
+search_map() {
+	local lines
+	while :; do
+		mapfile -t lines < <(look_map refine | sed 's/^ask/trial/')
+		[ ${#lines[@]} != 0 ] || break
+		phase="map, ${#lines[@]} to do"
+		batch "${lines[@]}"
+	done
+}
+
+tsv_map() {
+	local d
+	for d in "${choice_shown[@]}"; do printf '%s\t' "${choice_name[d]}"; done
+	printf '%s\t%s\toutcome\tstep\n' "${axis_name[0]}" "${axis_name[1]}"
+	rows_of_members < <(look_map points)
+}
+tsv_boundary() {
+	local d
+	for d in "${choice_shown[@]}"; do printf '%s\t' "${choice_name[d]}"; done
+	printf '%s\t%s\t%s_2\t%s_2\n' "${axis_name[0]}" "${axis_name[1]}" "${axis_name[0]}" "${axis_name[1]}"
+	rows_of_members < <(look_map lines)
+}
+# The number of a member gives way to its choices.
+rows_of_members() {
+	local m d rest
+	while IFS=$'\t' read -r m rest; do
+		for d in "${choice_shown[@]}"; do printf '%s\t' "${chosen[m * ${#choice_name[@]} + d]}"; done
+		printf '%s\n' "$rest"
+	done
+}
+
+# The map in letters, the second axis upwards.
+table_map() {
+	local m
+	echo "o stable, . unstable: ${criterion:+$criterion, or }exit status 3; ${axis_name[0]} from ${axis_low[0]} to ${axis_high[0]} across, ${axis_name[1]} from ${axis_low[1]} to ${axis_high[1]} upwards"
+	for m in "${!sentence[@]}"; do
+		[ ${#sentence[@]} = 1 ] || name_of_member "$m"$'\n'
+		[ ${#sentence[@]} = 1 ] || echo
+		look_map points | awk -F'\t' -v m="$m" -v w="$map_width" '$1 == m { row[int(n / w)] = row[int(n / w)] ($4 == "stable" ? "o" : "."); n++ } END { for (j = int((n - 1) / w); j >= 0; j--) print row[j] }'
+	done
+}
+
+plot_map() {
+	local dir=$1 m draws='' one
+	terminal
+	{
+		echo 'set datafile separator tab'
+		for m in "${!sentence[@]}"; do
+			printf '$stable%d << END\n%s\nEND\n' "$m" "$(look_map points | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m && $4 == "stable" { print $2, $3 }')"
+			printf '$line%d << END\n%s\nEND\n' "$m" "$(look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m { print $2, $3; print $4, $5; print "" }')"
+			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title \"$(name_of_member "$m" | tr -d '"\\')\" noenhanced"
+			[ ${#sentence[@]} != 1 ] || one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", \$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
+			draws+="${draws:+, }$one"
+		done
+		printf 'set xrange [%s:%s]\nset yrange [%s:%s]\n' "${axis_low[0]}" "${axis_high[0]}" "${axis_low[1]}" "${axis_high[1]}"
+		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
+		[ "${axis_scale[1]}" != log ] || echo 'set logscale y'
+		printf 'set format "%%g"\nset grid\nset key outside right top\nset xlabel "%s" noenhanced\nset ylabel "%s" noenhanced\nset title "Where it is stable"\n' "${axis_name[0]}" "${axis_name[1]}"
+		printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
+	} >"$dir/margin.gp"
+	draw "$dir" margin.gp
+}

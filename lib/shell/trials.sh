@@ -1,0 +1,174 @@
+# shellcheck shell=bash
+# Trials: a sentence with its numbers put in is run, and was stable or not: unstable if a cycle met the criterion (cycle --until) or a word exited 3.
+# What is known is a line of $state/log, so nothing is run twice:
+#   trial MEMBER SEED VALUE stable|unstable STEP WHY | growth MEMBER SEED VALUE RATE POINTS (ln of the column per step; - none)
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# Names that stand for numbers wait in the sentences between two of these.
+mark=$'\004'
+
+# filled MEMBER SEED VALUE[,VALUE]: sets text to the member's sentence with its numbers.
+filled() {
+	local i x
+	IFS=, read -r -a x <<<"$3"
+	text=${sentence[$1]//"${mark}seed$mark"/$2}
+	for i in "${!axis_name[@]}"; do text=${text//"$mark${axis_name[i]}$mark"/${x[i]}}; done
+}
+
+# shown TEXT: the names in braces again.
+shown() {
+	local t=$1 n
+	for n in seed "${axis_name[@]}"; do t=${t//"$mark$n$mark"/"{$n}"}; done
+	text=$t
+}
+
+cycle_word='^(([A-Za-z_][A-Za-z0-9_]*=[^[:space:]]*[[:space:]]+)*)cycle([[:space:]].*|)$'
+
+# with_until WORD MORE: sets text; a word that is cycle gets the criterion and MORE (the first option wins nothing: they are other options).
+with_until() {
+	text=$1
+	if [[ $1 =~ $cycle_word ]]; then
+		text="${BASH_REMATCH[1]}cycle${criterion:+ --until $(printf '%q' "$criterion")}$2${BASH_REMATCH[3]}"
+	fi
+}
+
+# parts SENTENCE: sets part[] to the sentence cut behind every cycle but the last, with the criterion in each.
+parts() {
+	local w now=() last=-1 i all
+	words "$1"
+	all=("${word[@]}")
+	for i in "${!all[@]}"; do [[ ! ${all[i]} =~ $cycle_word ]] || last=$i; done
+	part=()
+	for i in "${!all[@]}"; do
+		with_until "${all[i]}" ''
+		now+=("$text")
+		[[ ${all[i]} =~ $cycle_word && $i != "$last" ]] || continue
+		join "${now[@]}"
+		part+=("$text") now=()
+	done
+	join "${now[@]}"
+	part+=("$text")
+}
+
+# The commands of a trial, as they are run one behind the other.
+trial_commands() {
+	local i before=''
+	parts "$1"
+	for i in "${!part[@]}"; do
+		if [ "$i" = $((${#part[@]} - 1)) ]; then
+			echo "${before:+<$before }${part[i]} | sls --report --format json"
+		else
+			echo "${before:+<$before }${part[i]} >part.$i"
+			echo "sls --report --format json <part.$i"
+			before=part.$i
+		fi
+	done
+}
+
+# judge FILE: of what sls says of the last frame, sets outcome and step.
+judge() {
+	local line
+	line=$(tail -n 1 "$1")
+	outcome=stable step=-
+	[[ ! $line =~ .*\"step\":([0-9]+) ]] || step=${BASH_REMATCH[1]}
+	[[ ! $line =~ \"until\":1(\.0+)?[,}] ]] || outcome=unstable
+}
+
+# trial MEMBER SEED VALUE DIRECTORY: appends its line to the log, or leaves why it failed in $work/failure.
+trial() {
+	local dir=$4 commands one status outcome=stable step=- reason=-
+	filled "$1" "$2" "$3"
+	local whole=$text
+	mkdir -p "$dir"
+	mapfile -t commands < <(trial_commands "$whole")
+	for one in "${commands[@]}"; do
+		status=0
+		(cd "$dir" && exec bash -o pipefail -c "cd $(printf '%q' "$here"); ${one//part./$dir/part.}") </dev/null >"$dir/out" 2>"$dir/said" || status=$?
+		if [ $status = 3 ]; then
+			outcome=unstable
+			reason=$(why 3 "$dir/said")
+			[[ ! $reason =~ step\ ([0-9]+) ]] || step=${BASH_REMATCH[1]}
+			break
+		elif [ $status != 0 ]; then
+			printf '%s\t%s\n' "$status" "'$whole' fails: $(why $status "$dir/said")" >"$work/failure.$BASHPID"
+			mv "$work/failure.$BASHPID" "$work/failure"
+			break
+		elif [ -s "$dir/out" ]; then
+			judge "$dir/out"
+			[ $outcome = stable ] || break
+		elif [[ $one == *'| sls --report --format json' ]]; then
+			printf '1\t%s\n' "'$whole' leaves no frame to judge" >"$work/failure"
+		fi
+	done
+	rm -rf "$dir"
+	[ -e "$work/failure" ] || note "trial"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"$outcome"$'\t'"$step"$'\t'"$reason"
+}
+
+# The column of the criterion over the run, about a hundred frames of it.
+growth_command() {
+	local every=1 all=() w
+	filled "$1" "$2" "$3"
+	words "$text"
+	[[ ! $4 =~ ^[0-9]+$ ]] || every=$((1 + $4 / 100))
+	for w in "${word[@]}"; do
+		if [[ $w == *--every* ]]; then with_until "$w" ''; else with_until "$w" " --every $every"; fi
+		all+=("$text")
+	done
+	join "${all[@]}"
+	text+=" | diag --columns step,$growth"
+}
+
+# growth_of MEMBER SEED VALUE STEPS: the slope of ln |column| over the second half of the frames.
+growth_of() {
+	local line
+	growth_command "$1" "$2" "$3" "$4"
+	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | awk -F'\t' 'NR > 1 && !/^#/ && $2 ~ /[0-9]/ && $2 !~ /nan|inf/ && $2 != 0 { n++; x[n] = $1; y[n] = log($2 < 0 ? -$2 : $2) }
+		END { for (i = n > 5 ? int(n / 2) + 1 : 1; i <= n; i++) { k++; sx += x[i]; sy += y[i]; sxx += x[i] * x[i]; sxy += x[i] * y[i] }
+			d = k * sxx - sx * sx; if (k > 1 && d > 0) printf "%.6g\t%d\n", (k * sxy - sx * sy) / d, k; else print "-\t" k + 0 }') || true
+	note "growth"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"${line:--$'\t'0}"
+}
+
+reap() {
+	local gone=
+	wait -n -p gone "${!children[@]}" 2>/dev/null || true
+	[ -z "$gone" ] || unset "children[$gone]"
+	made=$((made + 1))
+	progress
+	[ ! -e "$work/failure" ] || give_up
+}
+
+give_up() {
+	local c status text
+	for c in "${!children[@]}"; do kill -TERM -- "-$c" 2>/dev/null || true; done
+	IFS=$'\t' read -r status text <"$work/failure"
+	[ ! -t 2 ] || printf '\r\033[K' >&2
+	fail "$status" "$text"
+}
+
+progress() {
+	doing="$made runs made${1:+, $1}"
+	if [ -t 2 ]; then
+		printf '\r%s: %s%s  \033[K' "$me" "$made runs" "${phase:+ ($phase)}" >&2
+	elif [ -n "${opt_verbose:-}" ]; then
+		printf '%s: %s runs%s\n' "$me" "$made" "${phase:+ ($phase)}" >&2
+	fi
+}
+
+# batch LINES: "trial MEMBER SEED VALUE" or "growth MEMBER SEED VALUE STEPS", with tabs between; --jobs of them at a time.
+batch() {
+	local line c n=0
+	for line; do
+		IFS=$'\t' read -r -a c <<<"$line"
+		while [ ${#children[@]} -ge "$jobs" ]; do reap; done
+		n=$((n + 1))
+		set -m
+		if [ "${c[0]}" = trial ]; then
+			trial "${c[@]:1}" "$work/trial.$n" &
+		else
+			growth_of "${c[@]:1}" &
+		fi
+		children[$!]=1
+		set +m
+	done
+	while [ ${#children[@]} != 0 ]; do reap; done
+}

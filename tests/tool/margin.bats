@@ -1,0 +1,219 @@
+# margin: bisection between checked ends, choices, seeds, maps, what is kept and gone on with. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+export PM_PLAN=estimate OMP_NUM_THREADS=1
+# A spring: x' = v, v' = -x. Leapfrog is stable up to dt = 2.
+spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 200 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
+leap() { margin "$spring" --vary dt:0.5:4 --unstable-when 'distance_max > 100' "$@"; }
+# A decay of its own: no cycle, stable where a word does not exit 3.
+# gate LIMIT: a word that passes a stream on, or fails as unstable.
+gate() {
+	mkdir -p bin
+	cat >bin/gate <<-'SH'
+		#!/bin/sh
+		echo "$@" >>calls
+		awk -v x="$1" -v l="$2" 'BEGIN { exit !(x < l) }' || exec cycle -n 1 "field acc=1e308*10,0,0 | push --dt 1 euler"
+		exec cat
+	SH
+	chmod +x bin/gate
+	PATH=$PWD/bin:$PATH
+}
+told() {
+	run -2 --separate-stderr margin "${@:2}"
+	[[ -z $output && $stderr == "margin: "*$1* && $(wc -l <<<"$stderr") = 1 ]] || { echo "${*:2}: $stderr"; return 1; }
+}
+number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i } NR == r + 1 { print $c }'; }
+
+@test "the limit of a leapfrog on a spring is 2, within its uncertainty" {
+	leap --expect 2 --format tsv >t
+	within "$(number limit <t)" 2 "$(number uncertainty <t)"
+	within "$(number uncertainty <t)" 0.0015 0.0010 # between half of 1e-3 and 1e-3 of 2
+	[ "$(number agrees <t)" = yes ]
+	within "$(number ratio <t)" 1 1e-3
+	[ "$(number sentence <t)" = "$spring" ]
+}
+
+@test "--tolerance closes the bracket in, and costs one run for each half" {
+	leap --tolerance 0.1 --format tsv >a
+	leap --tolerance 0.00078125 --format tsv >b
+	[ "$(($(number runs <b) - $(number runs <a)))" = 7 ]
+	awk -v u="$(number uncertainty <a)" 'BEGIN { exit !(u <= 0.2 && u > 0.05) }'
+}
+
+@test "ends that do not enclose a limit are said, and no number is made up" {
+	run -1 --separate-stderr margin "$spring" --vary dt:0.5:1 --unstable-when 'distance_max > 100'
+	[[ $output == *"none"*"no limit: stable at both ends, 0.5 and 1"* && $stderr == "margin: no limit: stable at both ends, 0.5 and 1" ]]
+	run -1 margin "$spring" --vary dt:2.5:4 --unstable-when 'distance_max > 100' --format tsv
+	[ "$(number limit <<<"$output")" = - ]
+	[[ $output == *"unstable at both ends, 2.5 and 4"* ]]
+	run -1 margin "$spring" --vary dt:0.5:4 --unstable-when 'distance_max > 100' --from above
+	[[ $output == *"stable at 0.5 and unstable at 4 (--from below)"* ]]
+}
+
+@test "--from above: a limit below which it is unstable" {
+	gate
+	margin 'pinit uniform -n 3 | gate -{a} -7.25' --vary a:1:9 --from above --format tsv >t
+	within "$(number limit <t)" 7.25 "$(number uncertainty <t)"
+	[ "$(number stable <t)" = above ]
+}
+
+@test "exit 3 of any word counts as unstable, without a criterion too" {
+	gate
+	margin 'pinit uniform -n 3 | gate {a} 0.3' --vary a:1e-3:1e2 --format tsv >t
+	within "$(number limit <t)" 0.3 "$(number uncertainty <t)"
+	# from 1e-3 to 1e2 by halving logarithms: 2 ends and log2(ln(1e5)/2e-3) = 12.5 halves
+	within "$(number runs <t)" 15 1
+}
+
+@test "any other failure ends the search with its message and its status" {
+	run -1 --separate-stderr margin 'pinit uniform -n 3 | cycle -n 3 "push --dt {dt} kick"' --vary dt:1:2
+	[[ $stderr == "margin: 'pinit uniform -n 3 | cycle -n 3 \"push --dt 1 kick\"' fails: cycle: "*"no field 'acc'"* && -z $output ]]
+	run -2 --separate-stderr margin 'pinit uniform -n {n} | cycle -n 3 "push drift"' --vary n:1.5:3
+	[[ $stderr == *"not a whole number"* ]]
+	run -1 --separate-stderr margin 'printf "x\n1\n" | stab - --law free | cycle -n 3 "field vel=x | push --dt {dt} euler"' --vary dt:1:2 --unstable-when 'omega_max > 1'
+	[[ $stderr == *"'omega_max' cannot be computed"* ]]
+	run -1 --separate-stderr margin 'true {n}' --vary n:1:3
+	[[ $stderr == *"fails: sls: "*"no input"* ]]
+}
+
+@test "choices: a row each, in braces or by --vary, with an expectation that depends on them" {
+	margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {scheme}"' --vary w:1:4 --vary scheme=lsrk3,rk4 \
+		--expect '"{scheme}" == "rk4" ? 2*sqrt(2) : sqrt(3)' --unstable-when 'distance_max > 2' --tolerance 5e-3 >t
+	grep -qE '^scheme +limit' t
+	grep -qE '^lsrk3 .* 1\.732050808 .* yes' t
+	grep -qE '^rk4 .* 2\.828427125 .* yes' t
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"' --vary w:0.2:3 --vary k=1,2 --expect '2/{k}' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+	[ "$(awk -F'\t' 'NR > 1 { print $2, $3, ($3 == "euler" ? $11 : "") }' t)" = "1 euler yes
+1 rk4 
+2 euler yes
+2 rk4 " ] || { cat t; false; }
+}
+
+@test "a choice without a limit is said in its row, and the others stand" {
+	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when 'distance_max > 2' --tolerance 0.01
+	[[ $output == *"no limit for euler: unstable at both ends, 1 and 4"* ]]
+	grep -qE '^rk4 +2\.8' <<<"$output"
+}
+
+@test "{seed}: every seed has its limit, and their spread is part of the uncertainty; without it the run is said to be deterministic" {
+	gate
+	# A limit that depends on the seed: 0.5, 0.6, 0.7.
+	margin 'pinit uniform -n 3 --seed {seed} | gate {a} 0.$((4 + {seed}))' --vary a:0.1:1 --tolerance 0.01 --format tsv >t
+	within "$(number limit <t)" 0.6 0.006
+	within "$(number spread <t)" 0.1 0.006
+	[ "$(number seeds <t)" = 3 ]
+	awk -v u="$(number uncertainty <t)" -v s="$(number spread <t)" 'BEGIN { exit !(u > s) }'
+	run -0 margin 'pinit uniform -n 3 --seed {seed} | gate {a} 0.$((4 + {seed}))' --vary a:0.1:1 --tolerance 0.01 --seeds 2
+	[[ $output == *"2 seeds; "* ]]
+	run -0 margin 'pinit uniform -n 3 | gate {a} 0.4' --vary a:0.1:1 --tolerance 0.1
+	[[ $output == *"no {seed} in the sentence: every run is deterministic"* ]]
+}
+
+@test "the criterion is put into every cycle, and the first that meets it decides" {
+	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel={a}*x | push euler" | scalc x=1 | cycle -n 5 "field vel=0*x | push euler"'
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --format tsv >t # (1 + a)^5 = 32
+	within "$(number limit <t)" 1 "$(number uncertainty <t)"
+	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel=0*x | push euler" | scalc x=1 | cycle -n 5 "field vel={a}*x | push euler"'
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --format tsv >t
+	within "$(number limit <t)" 1 "$(number uncertainty <t)"
+}
+
+@test "--format json is JSON with numbers; tsv and json hold the same" {
+	leap --expect '1 + {k}' --vary k=1 --format json >j 2>err || true
+	grep -q "nowhere in the sentence" err
+	leap --expect '4/2' --format json >j
+	[ "$(jq -r .sentence <j)" = "$spring" ]
+	[ "$(jq -r .unstable_when <j)" = 'distance_max > 100' ]
+	[ "$(jq '.limits[0] | [.expected, .spread, .seeds]' -c <j)" = "[2,null,1]" ]
+	leap --expect 2 --format tsv >t
+	[ "$(jq '.limits[0].limit' <j)" = "$(number limit <t)" ]
+}
+
+@test "--list prints the sentences with their names and runs nothing" {
+	[ "$(margin 'pinit uniform --seed {seed} | a {x} | {b,c}' --vary x:1:2 --list)" = $'pinit uniform --seed {seed} | a {x} | b\npinit uniform --seed {seed} | a {x} | c' ]
+}
+
+@test "what is no search: one clear line, exit 2" {
+	told 'SENTENCE is missing' --vary a:1:2
+	told '--vary is missing' 'a {b,c}'
+	told 'nowhere in the sentence' 'a' --vary a:1:2
+	told 'not below the second' 'a {a}' --vary a:2:1
+	told 'wants name:low:high or name=value' 'a {a}' --vary a:b:c
+	told 'there is none in the sentence' 'a {a}' --vary a:1:2 --unstable-when 'energy > 1'
+	told 'an --until of its own' 'cycle -n {a} --until x b' --vary a:1:2 --unstable-when 'energy > 1'
+	told 'is not a number' 'cycle -n {a} b' --vary a:1:2 --expect '2*'
+	told 'cannot depend on the number' 'cycle -n {a} b' --vary a:1:2 --expect '2*{a}'
+	told 'dt has two ranges' 'a {dt}' --vary dt:1:2 --vary dt:1:3
+	told '--map wants two ranges' 'a {a}' --vary a:1:2 --map 3x3
+	told 'is not a size' 'a {a}{b}' --vary a:1:2 --vary b:1:2 --map 3
+	told 'belongs to one range' 'a {a}{b}' --vary a:1:2 --vary b:1:2 --expect 2
+	told 'two make a map; here are 3' 'a {a}{b}{c}' --vary a:1:2 --vary b:1:2 --vary c:1:2
+	told '--seeds without {seed}' 'a {a}' --vary a:1:2 --seeds 2
+	told 'did you mean below' 'a {a}' --vary a:1:2 --from belwo
+	told 'not between 1e-9 and 1' 'a {a}' --vary a:1:2 --tolerance 1
+}
+
+@test "with -o: TSV, JSON, a picture of growth on both sides, one page that holds everything itself" {
+	leap --expect 2 -o d | tail -n 1 >last
+	[ "$(cat last)" = "page: d/index.html" ]
+	# Growth per step of ln|x|: ln 7 in the first step of dt = 4, then towards ln(7 + sqrt 48), the larger root; on the other side none.
+	awk -F'\t' '$1 == "growth" && $4 == 4 { found = $5 > log(7) - 1e-3 && $5 < log(7 + sqrt(48)) } END { exit !found }' d/measured/log
+	awk -F'\t' '$1 == "growth" && $4 < 1.9 { n++; if ($5 > 0.01 || $5 < -0.01) exit 1 } END { exit !(n > 5) }' d/measured/log
+	jq . d/margin.json >/dev/null
+	command -v gnuplot >/dev/null || skip "no gnuplot here"
+	[ "$(head -c 4 d/margin.png | tail -c 3)" = PNG ]
+	grep -q '</svg>' d/margin.svg
+	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
+	for what in '<svg' 'cycle --until distance_max' 'processors' 'pmpipe ' 'diag --columns step,distance_max' 'push --dt 4 kick/2'; do
+		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
+	done
+}
+
+@test "a map: where it is stable, and its boundary refined" {
+	# The unit square holds the quarter circle a^2 + b^2 < 1: a and b grow a step.
+	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 1 "field vel={a}*{a}+{b}*{b} | push euler"'
+	margin "$s" --vary a:0:1.5 --vary b:0:1.25 --map 7x6 --unstable-when 'distance_max > 2' -o d >text
+	[ "$(sed -n 2,3p text)" = $'.......\no......' ]
+	[ "$(tail -n 2 text | head -n 1)" = "ooooo.." ]
+	[ "$(wc -l <d/margin.tsv)" = 43 ]
+	awk -F'\t' 'NR > 1 { if (($3 == "stable") != ($1 * $1 + $2 * $2 <= 1)) exit 1 }' d/margin.tsv
+	# the crossings lie on lines of the grid, to 1/64 of 0.25
+	awk -F'\t' 'NR > 1 { n++; for (k = 1; k < 4; k += 2) { r = sqrt($k * $k + $(k+1) * $(k+1)); if (r < 1 - 0.004 || r > 1 + 0.004) { print; exit 1 } } } END { exit !(n >= 7) }' d/boundary.tsv
+	run -0 margin "$s" --vary a:0:1.5 --vary b:0:1.25 --map 7x6 --unstable-when 'distance_max > 2' -o d --format json
+	[ "$(jq '.points | length' <<<"$output")" = 42 ]
+}
+
+@test "--jobs: the same limits from several runs at a time" {
+	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"'
+	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >a
+	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv --jobs 3 >b
+	cmp a b
+}
+
+@test "stopped by SIGINT it says how far it came, and the same command goes on and runs nothing twice" {
+	gate
+	mkdir -p bin
+	cat >bin/halt <<-'SH'
+		#!/bin/sh
+		[ -e stopped ] || [ "$(wc -l <calls)" -lt 4 ] || { touch stopped; kill -INT "$(cat pid)"; sleep 20; }
+		exec cat
+	SH
+	chmod +x bin/halt
+	touch calls
+	s='pinit uniform -n 3 | gate {a} 2.5 | halt'
+	run -130 timeout 15 env --default-signal=INT bash -c 'echo $$ >pid; exec margin "$1" --vary a:1:4 --tolerance 0.01 -o d' - "$s"
+	echo "$output"
+	[[ ${lines[-1]} == "margin: stopped; "[0-9]*" runs made"*"; the same command goes on from here" ]]
+	cp d/measured/log before
+	[ "$(wc -l <before)" -ge 2 ]
+	margin "$s" --vary a:1:4 --tolerance 0.01 -o d --format tsv >t
+	within "$(number limit <t)" 2.5 "$(number uncertainty <t)"
+	cmp -n "$(wc -c <before)" before d/measured/log
+	[ -z "$(cut -f2-4 d/measured/log | sort | uniq -d)" ]
+	# a finer bracket begins where the coarser one ended
+	n=$(wc -l <d/measured/log)
+	margin "$s" --vary a:1:4 --tolerance 0.005 -o d >/dev/null
+	[ "$(wc -l <d/measured/log)" = $((n + 1)) ]
+	run -2 margin "$s | cat" --vary a:1:4 -o d
+	[[ $output == *"holds another search"* ]]
+}

@@ -1,0 +1,203 @@
+#!/usr/bin/env bash
+# margin: how far a run is from the edge. A number in a sentence is bisected until the value is closed in at which the run stops being stable; two numbers make
+# a map. A run is unstable if it meets a criterion over diag's columns (cycle --until) or a word exits 3. A script, for all it does is to start programs and to
+# wait for them. The Makefile puts the files it reads from lib/shell/ into bin/margin.
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -euo pipefail
+export LC_ALL=C
+me=margin
+version=@VERSION@
+# shellcheck source=lib/shell/help.sh
+. lib/shell/help.sh
+# shellcheck source=lib/shell/braces.sh
+. lib/shell/braces.sh
+# shellcheck source=lib/shell/run.sh
+. lib/shell/run.sh
+# shellcheck source=lib/shell/page.sh
+. lib/shell/page.sh
+# shellcheck source=lib/shell/trials.sh
+. lib/shell/trials.sh
+# shellcheck source=lib/shell/bisect.sh
+. lib/shell/bisect.sh
+# shellcheck source=lib/shell/limits.sh
+. lib/shell/limits.sh
+# shellcheck source=lib/shell/map.sh
+. lib/shell/map.sh
+
+summary="how far a run is from the edge: the value of a number at which it stops being stable"
+kind="runs sentences and writes text"
+arguments=SENTENCE
+arguments_text="Words joined by |, in quotes, that leave a stream; {name} stands for the numbers and choices of --vary, {seed} for a seed."
+about="--vary dt:0.1:4 is bisected between its ends, which are tried first: a limit that they do not enclose is not made up, but said. --vary scheme=rk2,rk4, or
+braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag (energy > 10*energy0; NAME0 is the
+value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not finite, not converged). Any other failure ends the search with its
+message. With {seed} in the sentence every limit is found for --seeds seeds. Two ranges make a map: stable or not on a grid of --map points, and the boundary refined.
+
+With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnuplot: growth per step on both sides of the limit, or the map) and index.html, a page of
+one file; what was run is kept there, and the same command goes on where it stopped."
+rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; may be given several times
+u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
+e|expect|EXPRESSION||the limit of theory: a number, or arithmetic with the {name} of choices, sqrt and pi
+|from|WORD|below above|the side of the limit that is stable (default below)
+|tolerance|X||half of the bracket over the limit at which it is good enough (default 1e-3)
+|seeds|N||how many seeds {seed} stands for: 1, 2, ... (default 3)
+|column|NAME||the column of diag whose growth is drawn (default: the first name of --unstable-when)
+|map|SIZE||points across and up of a map (default 24x16)
+o|output|DIRECTORY||write the results there, and go on from what is there
+j|jobs|N||runs at a time (default 1)
+|format|WORD|table tsv json|what is printed (default table)
+|list|||print the sentences, and run nothing
+|fresh|||forget what was run before in the directory of -o
+|threads|N||threads of every word (OMP_NUM_THREADS)"
+examples="The step at which a leapfrog on a spring leaves the orbit; 2 in theory|margin 'printf \"x vx\\n1 0\\n\" | stab - --law free | cycle -n 100 \"push --dt {dt} kick/2 drift | field acc=-x | push kick/2\"' --vary dt:0.5:4 --expect 2 --unstable-when 'distance_max > 100' --tolerance 0.01
+Two schemes on the imaginary axis, each with its own limit|margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 --vary scheme=lsrk3,rk4 --expect '\"{scheme}\" == \"rk4\" ? 2*sqrt(2) : sqrt(3)' --unstable-when 'distance_max > 2' --tolerance 0.02"
+
+number='[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?'
+
+# The ranges apart from the choices.
+axes() {
+	local v
+	axis_name=() axis_low=() axis_high=() axis_scale=() choices=()
+	for v in "${varied[@]}"; do
+		if [[ $v =~ ^([A-Za-z_][A-Za-z0-9_-]*):($number):($number)$ ]]; then
+			axis_name+=("${BASH_REMATCH[1]}") axis_low+=("${BASH_REMATCH[2]}") axis_high+=("${BASH_REMATCH[5]}")
+			axis_scale+=("$(awk -v a="${BASH_REMATCH[2]}" -v b="${BASH_REMATCH[5]}" 'BEGIN { print (a >= b ? "wrong" : a > 0 && b > 10 * a ? "log" : "linear") }')")
+			[ "${axis_scale[-1]}" != wrong ] || usage "--vary '$v': the first number is not below the second"
+		elif [[ $v == *=* ]]; then
+			choices+=("$v")
+		else
+			usage "--vary wants name:low:high or name=value,value,..., not '$v'"
+		fi
+	done
+	[ ${#axis_name[@]} != 0 ] || usage "--vary is missing: which number is searched for? (--vary dt:0.1:4)"
+	[[ ${#axis_name[@]} != 2 || ${axis_name[0]} != "${axis_name[1]}" ]] || usage "--vary ${axis_name[0]} has two ranges"
+	[ ${#axis_name[@]} -le 2 ] || usage "one range is bisected and two make a map; here are ${#axis_name[@]}"
+}
+
+settle() {
+	read_options "$@"
+	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
+	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
+	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} keep=${opt_output:-} format=${opt_format:-table} growth=${opt_column:-}
+	[ "$keep" = / ] || keep=${keep%/}
+	axes
+	map_width=24 map_height=16 seeds=1 has_seed=
+	if [ -n "${opt_map:-}" ]; then
+		[ ${#axis_name[@]} = 2 ] || usage "--map wants two ranges (--vary x:0:1 --vary y:0:1)"
+		[[ $opt_map =~ ^([0-9]{1,4})x([0-9]{1,4})$ && ${BASH_REMATCH[1]} -ge 2 && ${BASH_REMATCH[2]} -ge 2 ]] || usage "--map '$opt_map' is not a size of at least 2x2 (40x30)"
+		map_width=${BASH_REMATCH[1]} map_height=${BASH_REMATCH[2]}
+	fi
+	[[ ${#axis_name[@]} = 1 || -z ${opt_expect:-} ]] || usage "--expect belongs to one range, not to a map"
+	[[ ${positional[0]} != *'{seed}'* ]] || has_seed=1
+	[[ -z ${opt_seeds:-} || -n $has_seed ]] || usage "--seeds without {seed} in the sentence would run the same thing again (pinit ... --seed {seed})"
+	[ -z "$has_seed" ] || seeds=${opt_seeds:-3}
+	[ ${#axis_name[@]} = 1 ] || seeds=1
+	[ "$seeds" -ge 1 ] || usage "--seeds 0 runs nothing (--seeds 1)"
+	[ "$jobs" -ge 1 ] || usage "--jobs 0 runs nothing (--jobs 1)"
+	awk -v x="$tolerance" 'BEGIN { exit !(x >= 1e-9 && x < 1) }' || usage "--tolerance $tolerance is not between 1e-9 and 1"
+	if [ -z "$growth" ] && [[ $criterion =~ [A-Za-z_][A-Za-z0-9_.]* ]]; then growth=${BASH_REMATCH[0]}; fi
+	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
+	command_line=$(printf '%q ' "$me" "$@")
+	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
+}
+
+# The sentences, in which the numbers are still open.
+understand() {
+	local template=${positional[0]//$'\n'/ } n open=() w cycles=0
+	for n in ${has_seed:+seed} "${axis_name[@]}"; do open+=("$n=$mark$n$mark"); done
+	sentences "$template" "${opt_expect:-}" "${open[@]}" "${choices[@]}"
+	choice_shown=()
+	for n in "${!choice_name[@]}"; do [[ ${alternative[choice_first[n]]} == "$mark"* ]] || choice_shown+=("$n"); done
+	[[ ${reference[*]} != *"$mark"* ]] || usage "--expect cannot depend on the number that is searched for"
+	words "${sentence[0]}"
+	for w in "${word[@]}"; do
+		[[ ! $w =~ $cycle_word ]] || cycles=$((cycles + 1))
+		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] || usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
+	done
+	[[ $cycles != 0 || -z $criterion ]] || usage "--unstable-when is looked at by cycle, and there is none in the sentence (without it exit status 3 counts)"
+	for n in "${!sentence[@]}"; do expected "$n" >/dev/null; done
+}
+
+open_state() {
+	work=$(mktemp -d "${TMPDIR:-/tmp}/margin.XXXXXX")
+	state=$work
+	local key
+	key=$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")
+	if [ -n "$keep" ]; then
+		state=$keep/measured
+		mkdir -p "$state" 2>/dev/null || fail 1 "cannot make the directory '$keep'"
+		if [ -n "${opt_fresh:-}" ]; then rm -f "$state/log" "$state/key"; fi
+		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another search (choose another -o, or --fresh to forget it)"
+		printf '%s\n' "$key" >"$state/key"
+	fi
+	touch "$state/log"
+}
+
+# show TABLE-COMMAND TSV NAME: what was asked for, on standard output.
+show() {
+	case $format in
+	tsv) cat "$2" ;;
+	json) json "$2" "$3" ;;
+	*) "$1" "$2" ;;
+	esac
+}
+
+pictures() {
+	if command -v gnuplot >/dev/null; then
+		"$1" "$keep" || true
+	else
+		echo "$me: no gnuplot here: no picture (apt-get install gnuplot-nox)" >&2
+	fi
+}
+
+report() {
+	local title="How far from the edge" table=table name=limits drawn=plot
+	if [ ${#axis_name[@]} = 2 ]; then
+		title="Where it is stable" table=table_map name=points drawn=plot_map
+		tsv_map >"$work/margin.tsv"
+	else
+		tsv >"$work/margin.tsv"
+	fi
+	[ ! -t 2 ] || printf '\r\033[K' >&2
+	if [ -n "$keep" ]; then
+		cp "$work/margin.tsv" "$keep/margin.tsv"
+		[ ${#axis_name[@]} = 1 ] || tsv_boundary >"$keep/boundary.tsv"
+		json "$work/margin.tsv" $name >"$keep/margin.json"
+		pictures $drawn
+		$table "$work/margin.tsv" >"$work/text"
+		page "$keep" "$title" "$work/text"
+	fi
+	show $table "$work/margin.tsv" $name
+	[[ -z $keep || $format != table ]] || echo "page: $keep/index.html"
+	if [ ${#axis_name[@]} = 1 ]; then
+		awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" { found = 1 } END { exit !found }' "$work/margin.tsv" ||
+			fail 1 "no limit: $(awk -F'\t' 'NR == 2 { print $NF }' "$work/margin.tsv")"
+	fi
+}
+
+main() {
+	declare -A children=()
+	child='' doing='' phase='' work='' made=0 here=$PWD
+	PATH=$PATH:$(cd "$(dirname "$(command -v "$0")")" && pwd)
+	settle "$@"
+	understand
+	if [ -n "${opt_list:-}" ]; then
+		for text in "${sentence[@]}"; do
+			shown "$text"
+			printf '%s\n' "$text"
+		done
+		return
+	fi
+	trap stop INT TERM
+	trap '[ -z "$work" ] || rm -rf "$work"' EXIT
+	open_state
+	if [ ${#axis_name[@]} = 2 ]; then
+		search_map
+	else
+		search limits
+		[[ -z $keep || -z $growth ]] || search sample
+	fi
+	report
+}
+
+main "$@"
