@@ -28,7 +28,7 @@ points() {
 	walk --nu 1 <a >b
 	step() { stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { print $at["id"], $at["x"], $at["y"] }' | sort; }
 	same_as <(step <b) <(ssort --by id --reverse <a | walk --nu 1 | step)
-	same_as <(step <b | awk '$1 % 7 == 3') <(sel --where 'id % 7 == 3' <a | walk --nu 1 | step)
+	same_as <(step <b | awk '$1 % 7 == 3') <(sel --where 'mod(id, 7) == 3' <a | walk --nu 1 | step)
 	for t in 1 2 3; do OMP_NUM_THREADS=$t walk --nu 1 --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
 	for other in "smod --seed 2 <a | walk --nu 1" "walk --nu 1 --seed 2 <a" "smod --step 1 <a | walk --nu 1" "smod --rename matter=others <a | walk --nu 1"; do
