@@ -24,7 +24,7 @@ help_rows() {
 	local letter name value choices text
 	while IFS='|' read -r letter name value choices text; do
 		[ -z "$choices" ] || text="$text; one of ${choices// /, }"
-		printf '  %-26s %s\n' "${letter:+-}${letter:- }${letter:+,}${letter:- } --$name${value:+ $value}" "$text"
+		printf '  %-26s %s\n' "$([ -n "$letter" ] && echo "-$letter," || echo '   ') --$name${value:+ $value}" "$text"
 	done
 }
 

@@ -23,6 +23,12 @@ load words
 	done
 }
 
+@test "--help writes options alike in every tool: -x, --name or --name" {
+	for t in $(tools); do
+		! "$t" --help | sed -n '/^options/,/^examples/p' | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' || { echo "$t"; return 1; }
+	done
+}
+
 @test "--help: no letter stands for two options" {
 	for t in $(tools); do
 		[ -z "$("$t" --help | grep -oE '^  -[a-zA-Z],' | sort | uniq -d)" ] || { echo "$t"; return 1; }
