@@ -5,23 +5,51 @@ wire() { python3 "$top/tests/wire.py" "$@"; }
 
 step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 
-# hot SEED: diag's table at t = 0 and t = 1000 of a thermal plasma, lambda_D = dx = 1.
+# hot SEED LENGTH: diag's table at t = 0 and t = 1000 of a thermal plasma of lambda_D = 1 in 64 cells of LENGTH/64, 64 electrons in each: evenly spaced
+# (at random their noise alone is as large as the heat, where cells are three Debye lengths), with random velocities.
 hot() {
-	pinit uniform --dim 1 -n 4096 --length 64 --mass 64 --dispersion 1 --cells 64 --dt 0.2 --seed "$1" | scalc 'charge = -mass' --extensive --role state |
-		smod --law electrostatic --constant eps0=1,background=1 | cycle -n 5000 --every 5000 "$step" | p2m | poisson-fft | mgrad | diag
+	local solve='poisson-fft --symbol fd2 | mgrad --order 2'
+	pinit uniform --dim 1 -n 4096 --length "$2" --mass "$2" --dispersion 1 --cells 64 --dt 0.2 --seed "$1" | scalc "x = (id + 0.5) * $2 / 4096" |
+		scalc 'charge = -mass' --extensive --role state | smod --law electrostatic --constant eps0=1,background=1 |
+		cycle -n 5000 --every 5000 "push kick/2 drift | p2m | $solve | ${gather:-m2p} | push kick/2" | p2m | poisson-fft --symbol fd2 | mgrad --order 2 | diag
+}
+gain() { column energy < t | awk 'NR == 1 { a = $1 } END { printf "%.9g", $1 / a }'; }
+lost() { awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum_scale < t | tail -n 1)" 'BEGIN { printf "%.17g", p / s }'; }
+
+@test "HC-01: a thermal plasma with cells of 3.3 Debye lengths heats by 30 % until t = 1000 as the reference does, and keeps its momentum to 1e-12; with another kernel on the way back it loses that" {
+	export OMP_NUM_THREADS=1
+	sum=0
+	for seed in 1 2 3 4; do
+		hot $seed 213.33333333333333 > t
+		between "$(gain)" 1.15 1.6 "seed $seed"
+		below "$(lost)" 1e-12 "momentum, seed $seed"
+		sum=$(awk -v a="$sum" -v b="$(gain)" 'BEGIN { printf "%.9g", a + b / 4 }')
+	done
+	within "$sum" 1.298 0.04 "mean" # PIC-21 with its spread of 0.02: two of them
+	gather='m2p --kernel ngp' hot 1 213.33333333333333 > t
+	above "$(lost | tr -d -)" 1e-4 "momentum, kernels mixed"
 }
 
 @test "HC-02: a thermal plasma with cells of a Debye length, 64 particles in each, keeps its energy to 2 % until t = 1000, and its momentum to 1e-12" {
 	export OMP_NUM_THREADS=1
 	sum=0
 	for seed in 1 2 3 4; do
-		hot $seed > t
-		gain=$(column energy < t | awk 'NR == 1 { a = $1 } END { printf "%.9g", $1 / a - 1 }')
-		within "$gain" 0 0.02 "seed $seed"
-		below "$(awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum_scale < t | tail -n 1)" 'BEGIN { printf "%.17g", p / s }')" 1e-12
-		sum=$(awk -v a="$sum" -v b="$gain" 'BEGIN { printf "%.9g", a + b / 4 }')
+		hot $seed 64 > t
+		within "$(gain)" 1 0.02 "seed $seed"
+		below "$(lost)" 1e-12 "momentum, seed $seed"
+		sum=$(awk -v a="$sum" -v b="$(gain)" 'BEGIN { printf "%.9g", a + b / 4 }')
 	done
-	within "$sum" 0.0097 0.0048 # PIC-21: 1.0097 with a spread of 0.0024 over seeds; the mean of four and the reference's own: two of them
+	within "$sum" 1.0097 0.0048 "mean" # PIC-21 with its spread of 0.0024 over seeds: two of them
+}
+
+@test "HC-07: a cold wave past breaking, A = 1.05, for 20 plasma periods: energy to 2 %, momentum to 1e-12, everything finite" {
+	pinit langmuir -n 8192 --cells 128 --dt 0.1 --amplitude 0 | scalc 'x = x + 1.05*sin(x)' > a
+	sh_ok "cycle -n 1257 --every 100 '$step' < a | p2m | poisson-fft | mgrad | diag > t"
+	[ "$(wc -l < t)" = 15 ]
+	for e in $(column energy < t); do
+		within "$e" "$(column energy < t | head -n 1)" "$(column energy < t | awk 'NR == 1 { print 0.02 * $1 }')" "energy"
+	done
+	below "$(lost)" 1e-12 "momentum"
 }
 
 # later FROM: of diag's time and energy_field_x, the largest from that time on over the mean until t = 20.
@@ -38,11 +66,11 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	beam 2 -1.3 left > left
 	stack right left | warm 1000 > noise
 	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.3 --vth 1 --amplitude 0.01 --dt 0.2 | warm 1000 > wave
-	within "$(later 0 < noise)" 1.5 1.5 # less than 3
-	within "$(later 20 < wave)" 1.5 1.5 # it begins at its height and is damped
-	# a growing case fails this by far; at v0 = 1.6 vth the rate is 0.08
+	below "$(later 0 < noise)" 3 "noise"
+	below "$(later 20 < wave)" 3 "wave" # it begins at its height and is damped
+	# and a growing case is seen: at v0 = 1.6 vth the rate is 0.08, e^6.4 = 600 in energy from t = 20 to 60, less what noise there was before
 	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.6 --vth 1 --amplitude 0.01 --dt 0.2 | warm 300 > grows
-	[ "$(awk -v a="$(later 20 < grows)" 'BEGIN { print (a > 10) }')" = 1 ]
+	above "$(later 20 < grows)" 10 "v0 = 1.6 vth"
 }
 
 @test "HC-06: at w dt = 1.9 a cold wave keeps its height for 10000 steps" {
@@ -57,7 +85,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	within "$(sed 1d t | cut -f 2 | awk 'NR == 11 { a = $1 } NR == 31 { printf "%.9g", log($1 / a) / 20 }')" 0.4463 0.001
 	# From k A = 1e-3 the energy is above a million times its own after 100 steps (diag shows it), and everything stays finite.
 	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-3 --dt 2.0901619 | cycle -n 2000 --every 100 '$step' > a; p2m < a | poisson-fft | mgrad | diag --columns energy > e; stab --plain --set electrons < a > u"
-	[ "$(sed 1d e | awk 'NR == 1 { a = $1 } NR > 1 && $1 < 1e6 * a { bad = 1 } END { print NR, bad + 0 }')" = "21 0" ]
+	[ "$(wc -l < e)" = 22 ]
+	above "$(sed 1d e | awk 'NR == 1 { a = $1 } NR > 1 { print $1 / a }' | sort -g | head -n 1)" 1e6 "energy"
 	run ! grep -qi 'nan\|inf' u
 }
 

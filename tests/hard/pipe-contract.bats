@@ -26,6 +26,7 @@ refused() {
 		! LC_ALL=C grep -q '[^ -~]' err || { echo "$s on $1: not printable"; cat -A err; return 1; }
 		grep -Eq "^${s%% *}: .*($2)" err || { echo "$s on $1: wanted '$2', got"; cat err; return 1; }
 	done
+	counted 1
 }
 setup() {
 	cd "$BATS_TEST_TMPDIR" || return

@@ -21,3 +21,25 @@ export PM_PLAN=estimate OMP_NUM_THREADS=1
 		done
 	done
 }
+
+@test "the force of a particle that slides over a face of a cell jumps with ngp, has a kink with cic and is smooth with tsc" {
+	# pull X: on the second of two, 7 to X
+	pull() {
+		pinit pair --x1 7 --y1 8 --z1 8 --x2 "$1" --y2 8 --z2 8 | p2m --kernel "$kernel" | poisson-fft | mgrad | m2p | stab --plain --set matter |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == 3 { printf "%.15g", -$c["acc_0"] }'
+	}
+	# jump X: the force just below X over that just above, less 1; kink X: the same of the slopes, over 0.001 on both sides
+	jump() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-6 }")")" -v b="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 + 1e-6 }")")" 'BEGIN { printf "%.9g", a / b - 1 }'; }
+	kink() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-3 }")")" -v o="$(pull "$1")" -v b="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 + 1e-3 }")")" 'BEGIN { printf "%.9g", (a - o) / (o - b) - 1 }'; }
+	# weights of ngp change at 9.5, of cic at 10, of tsc at 9.5
+	kernel=ngp
+	above "$(jump 9.5)" 1 "ngp"
+	kernel=cic
+	below "$(jump 10)" 1e-5 "cic" # 2e-6 times its slope, 0.2, over its value, 0.08
+	above "$(kink 10)" 1 "cic, slope"
+	kernel=tsc
+	for x in 9.5 10; do
+		below "$(jump $x)" 1e-5 "tsc at $x"
+		below "$(kink $x)" 0.01 "tsc at $x, slope" # 1e-3 times its curvature, 0.2, over its slope, 0.1, and as much again where the curvature jumps
+	done
+}

@@ -14,8 +14,9 @@ masses() { stab --plain | column mass; }
 	for kernel in cic m4prime m6prime lambda-6-4 lambda-6-6; do
 		# 33 nodes, 0.377 of a cell a step: the fractions of a cell are all different
 		line 33 2.385 0.011424242424242424 | cycle -n 1000 "push drift | remesh --kernel $kernel" | masses >a
-		awk -v k=$kernel '{ d = $1 / 2.385 - 1; if (d < 0) d = -d; if (d > m) m = d; s += $1 } END { s = s / (33 * 2.385) - 1; if (s < 0) s = -s
-			print k, NR, m, s; exit !(NR == 33 && m < 3.2e-11 && s < 1e-13) }' a
+		[ "$(wc -l <a)" = 33 ]
+		below "$(awk '{ d = $1 / 2.385 - 1; if (d < 0) d = -d; if (d > m) m = d } END { printf "%.9g", m }' a)" 3.2e-11 "$kernel, constant" # 1e-12 sqrt(1000)
+		below "$(awk '{ s += $1 } END { printf "%.9g", s / (33 * 2.385) - 1 }' a)" 1e-13 "$kernel, sum"
 	done
 }
 
@@ -55,7 +56,8 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 		run -3 bash -o pipefail -c "cycle -n 30 '$s --dt $(at 1.02)' <a | sls"
 		[[ $output =~ "is 1.02 times what $scheme can bear: 'dcirculation' decays at up to" ]]
 		cycle -n 250 "$s --unsafe --dt $(at 1.02)" <a | largest >beyond
-		awk -v w="$case" 'NR == 1 { b = $1 } NR == 2 { print w, b, $1; exit !(b < 0.5e-9 && $1 > 10 * 0.5e-9) }' below beyond
+		below "$(cat below)" 0.5e-9 "$case, at 0.98" # the start's; by its smooth waves it decays at once, by the edge's own 0.96^30 = 0.3
+		above "$(cat beyond)" 5e-9 "$case, at 1.02" # 1.04^250 = 18000 of what the wave at the edge has of it, a thousandth or more
 	done
 }
 
@@ -64,4 +66,26 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 	s='p2m | poisson-fft | mgrad | diffuse --order 2 | m2p | push euler --dt'
 	sh_ok "cycle -n 1 '$s $(awk 'BEGIN { printf "%.15g", 0.24999 / 25.6 }')' <a | sls"
 	run -3 bash -o pipefail -c "cycle -n 1 '$s $(awk 'BEGIN { printf "%.15g", 0.25001 / 25.6 }')' <a | sls"
+}
+
+@test "HC-57: a disc in a vortex that winds it up and back (T = 8) on 64^2: its sum is kept to 1e-12; cic and pcs lose all of it, m4prime 31 %, m6prime less" {
+	# LS-02: the signed distance, carried as a strength and remeshed every step; nothing is done to it on the way
+	awk -v n=64 'BEGIN { print "x y level"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, j / n, (0.15 - sqrt((i / n - 0.5)^2 + (j / n - 0.75)^2)) / n / n }' |
+		stab - --law passive --box 0,1 -n 64 --faces periodic --particle-faces periodic --strength level --dt 0.0625 > a
+	flow="scalc --mesh mesh 'u = -sin(pi*x)^2 * sin(2*pi*y) * cos(pi*time/8), sin(pi*y)^2 * sin(2*pi*x) * cos(pi*time/8)' --role state"
+	# area and symmetric difference by the nodes inside, 289 at the start
+	while read -r kernel area tolerance difference; do
+		sh_ok "cycle -t 8 \"$flow | m2p --kernel m6prime | push rk4 | remesh --kernel $kernel\" < a | stab --plain --set matter > b"
+		read -r now off sum < <(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { l = $c["level"]; d = 0.15 - sqrt(($c["x"] - 0.5)^2 + ($c["y"] - 0.75)^2)
+			a += l > 0; b += d > 0; e += (l > 0) != (d > 0); s += l; t += d / 64 / 64 } END { printf "%.9g %.9g %.17g\n", a / b - 1, e / b, s / t - 1 }' b)
+		within "$now" "$area" "$tolerance" "$kernel, area"
+		[ "$difference" = - ] || below "$off" "$difference" "$kernel, symmetric difference"
+		below "$sum" 1e-12 "$kernel, sum"
+	done <<-'END'
+		cic -1 0 -
+		pcs -1 0 -
+		m4prime -0.31448 0.02 0.5703
+		m6prime -0.038228 0.02 0.2885
+	END
+	# the reference's areas, which are no counts of nodes and whose velocity is not interpolated: 2 % is 6 nodes of 289. Its differences times 1.5
 }

@@ -1,13 +1,6 @@
 # Every pipeline prints its numbers, and they are what its head says. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-pipeline() {
-	run -0 bash "$top/pipelines/$1.sh"
-	[[ $output != *OFF* ]]
-	[ "$(grep -c ' ok$' <<<"$output")" = "$2" ]
-	echo "$output"
-}
-
 @test "PM-09: pm-plummer keeps momentum to 1e-12 and energy, and leaves a picture" {
 	pipeline pm-plummer 9
 	[ "$(head -c 8 pm-plummer.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ]

@@ -59,7 +59,7 @@ pp='push kick/2 drift | pp | push kick/2'
 	[ -n "${PM_LONG:-}" ] || skip "long: 2000 direct sums (PM_LONG=1)"
 	# t_cross = R_v/sigma = (16/(3 pi)) / sqrt(3 pi/32) = 3.13
 	sh_ok "pinit plummer -n 10000 --seed 1 | cycle -t 62.6 --every 200 'push kick/2 drift | pp --loop half | push kick/2' | diag --pair --radii 0.1,0.5,0.9 > t"
-	drift() { column "$1" < t | awk -v most="$2" 'NR == 1 { r = $1 } END { d = $1 / r - 1; printf "%.4f\n", d; exit !(d < most && d > -most) }'; }
+	drift() { below "$(column "$1" < t | awk 'NR == 1 { r = $1 } END { printf "%.6f", $1 / r - 1 }')" "$2" "$1"; }
 	drift radius_0.1 0.05
 	drift radius_0.5 0.03
 	drift radius_0.9 0.03

@@ -1,13 +1,6 @@
 # Vortices in the plane against exact solutions and published numbers. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-pipeline() {
-	run -0 bash "$top/pipelines/$1.sh"
-	[[ $output != *OFF* ]]
-	[ "$(grep -c ' ok$' <<<"$output")" = "$2" ]
-	echo "$output"
-}
-
 # solved KERNEL: omega and psi on the mesh, of the frame on standard input.
 solved() { p2m --kernel "$1" | poisson-fft; }
 calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }

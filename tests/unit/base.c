@@ -72,7 +72,7 @@ static void numbers(void)
 	/* four standard errors: 1/sqrt(12 n), sqrt(4/45/n), 1/sqrt(n) */
 	check_near(sum / n, 0.5, 4 / sqrt(12. * n), "uniform numbers have mean 1/2");
 	check_near(square / n, 1 / 3., 4 * sqrt(4 / 45. / n), "and second moment 1/3");
-	check_near(cross / n, 0, 4 / sqrt(n), "HC-56: seeds 1 and 2 are not correlated");
+	check_near(cross / n, 0, 4 / sqrt(n), "HC-56, two seeds: 1 and 2 are not correlated");
 	double m2 = 0, m4 = 0;
 	for (int i = 0; i < n; i++) {
 		pm_random_normal(7, (uint64_t)i, 1, u);

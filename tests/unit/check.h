@@ -3,10 +3,12 @@
 #ifndef PM_CHECK_H
 #define PM_CHECK_H
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static int check_failed, check_count;
 
@@ -23,13 +25,41 @@ __attribute__((format(printf, 2, 3), unused)) static bool check(bool good, const
 	return good;
 }
 
+/* With PM_MEASURED=FILE a line there for docs/hard-cases.sh, as by measured() of tests/helper.bash. b: NAN where the relation has one number only. */
+static void check_measured(const char *sentence, const char *relation, double got, double a, double b)
+{
+	const char *name = getenv("PM_MEASURED");
+	FILE *file = name ? fopen(name, "a") : NULL;
+	if (!file)
+		return;
+	fprintf(file, "unit/%s\t%s\t%s\t%.17g\t%.17g\t", program_invocation_short_name, sentence, relation, got, a);
+	if (isnan(b))
+		fprintf(file, "\t\n");
+	else
+		fprintf(file, "%.17g\t\n", b);
+	fclose(file);
+}
+
 /* |got - want| <= tolerance; not a number never passes. */
 __attribute__((unused)) static bool check_near(double got, double want, double tolerance, const char *sentence)
 {
 	bool good = fabs(got - want) <= tolerance;
+	check_measured(sentence, "within", got, want, tolerance);
 	if (good)
 		return check(true, "%s", sentence);
 	return check(false, "%s (got %.17g, want %.17g, tolerance %g)", sentence, got, want, tolerance);
+}
+
+/* |got| <= bound; the sentence, formatted, is followed by both numbers. */
+__attribute__((format(printf, 3, 4), unused)) static bool check_below(double got, double bound, const char *format, ...)
+{
+	char sentence[300];
+	va_list ap;
+	va_start(ap, format);
+	vsnprintf(sentence, sizeof sentence, format, ap);
+	va_end(ap);
+	check_measured(sentence, "below", got, bound, NAN);
+	return check(fabs(got) <= bound, "%s (%.3g, at most %.3g)", sentence, got, bound);
 }
 
 /* The order of convergence by least squares of log(error) on log(h), from n >= 3 resolutions, is at least claim - 0.1. */
@@ -41,6 +71,7 @@ __attribute__((unused)) static bool check_order(int n, const double *h, const do
 		sx += x, sy += y, sxx += x * x, sxy += x * y;
 	}
 	double order = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+	check_measured(sentence, "above", order, claim - 0.1, NAN);
 	return check(n >= 3 && order >= claim - 0.1, "%s: order %.3f, claimed %g", sentence, order, claim);
 }
 

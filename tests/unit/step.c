@@ -109,9 +109,9 @@ static void limits(const struct pm_step *s, const char *name)
 {
 	char text[128];
 	/* 1e-3: the tolerance of the reference table */
-	snprintf(text, sizeof text, "TI-01: %s: stability limit on the imaginary axis as claimed", name);
+	snprintf(text, sizeof text, "TI-01, limits: %s on the imaginary axis as claimed", name);
 	check_near(limit(s, I), s->imaginary_limit, 1e-3, text);
-	snprintf(text, sizeof text, "TI-01: %s: stability limit on the real axis as claimed", name);
+	snprintf(text, sizeof text, "TI-01, limits: %s on the real axis as claimed", name);
 	if (!isnan(s->real_limit))
 		check_near(limit(s, -1), s->real_limit, 1e-3, text);
 }
