@@ -31,7 +31,7 @@ alone := tools/sh5.c
 
 tables := effect green law kernel mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/%,$(wildcard lib/*/*.c)))
-lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o)
+lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o
 tool_src := $(sort $(wildcard tools/*.c))
 word_src := $(filter-out $(alone),$(tool_src))
 tool_obj := $(word_src:%.c=$(B)/%.o)
@@ -67,6 +67,15 @@ $(B)/tables/$(1).c: $(wildcard lib/$(1)/*.c) lib/$(1) Makefile
 	echo 'pm_fail(PM_DATA, "no $(1) named %s", name); return NULL; }'; } > $$@
 endef
 $(foreach t,$(tables),$(eval $(call table,$(t))))
+
+# The measured atlas, as plan reads it.
+$(B)/tables/atlas.c: data/atlas/force.tsv data/atlas/step.tsv Makefile
+	@mkdir -p $(@D)
+	@awk -F'\t' 'BEGIN { print "#include \"measure/atlas.h\"" } \
+	FNR == 1 { if (open) print "{0}};"; name = FILENAME ~ /force/ ? "force" : "step"; print "const struct pm_atlas_" name " pm_atlas_" name "s[] = {"; open = 1; head = 0 } \
+	/^#/ || NF < 5 { next } !head { head = 1; next } \
+	{ texts = name == "force" ? 4 : 2; printf "{"; for (i = 1; i <= NF; i++) { number = $$i ~ /^[-+0-9.]/ ? $$i : "NAN"; if (i <= texts) printf "\"%s\", ", $$i; else printf "%s, ", number }; print "}," } \
+	END { print "{0}};" }' data/atlas/force.tsv data/atlas/step.tsv > $@
 
 $(B)/libpmpipe.a: $(lib_obj)
 	@rm -f $@

@@ -23,6 +23,8 @@ struct pm_scales {
 	double spread, nearest, spacing; /* [length] rms distance from the centre; of the nearest pair; of neighbours on the average */
 	double v_max, v_rms, v_thermal; /* [length/time] speeds, and the rms about the mean */
 	double omega;                /* [1/time] of the particles together: omega_p, sqrt(4 pi G rho), largest vorticity */
+	double encounter;            /* [1/time] of the nearest pair, softened: the fastest thing there can be between two */
+	double orbit, eccentricity;  /* [1/time] mean motion of the orbit with the fastest pericentre, where there are few bodies; NAN: none */
 	double debye, per_debye;     /* [length] v_thermal/omega; particles in a sphere of that radius, in a stretch of that length in 1-D */
 	double overlap, width;       /* mean |H - 1| of the particles: 0 a lattice, they carry a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */

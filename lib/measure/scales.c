@@ -113,7 +113,7 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 	}
 	s->spread = sqrt(moment);
 	s->spacing = n ? pow(volume(f, s->spread) / (double)n, 1.0 / f->dim) : NAN;
-	s->nearest = n > 1 && n <= PM_SCALES_PAIRS && !status ? nearest(f, n, x) : s->spacing;
+	s->nearest = n > 1 && n <= PM_SCALES_PAIRS && !status ? nearest(f, n, x) : s->spacing * pow(fmax(1, (double)n), -1.0 / f->dim);
 	for (int d = 0; d < f->dim; d++)
 		pm_free(x[d]);
 	return status;
@@ -125,7 +125,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 {
 	const bool squares = law->per != NULL, turns = s->kind == PM_VORTICES;
 	const double V = volume(f, s->spread);
-	double sum = 0, dense = 0;
+	double sum = 0, dense = 0, largest_pull = 0;
 	for (size_t k = 0; k < f->nsets && law->strength; k++) {
 		const char *set = f->sets[k]->name;
 		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL, *v = turns ? state(f, set, "volume") : NULL;
@@ -134,11 +134,14 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 			s->sources += a > 0;
 			sum += squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a;
 			dense = v && at(v, 0, i) > 0 ? fmax(dense, a / at(v, 0, i)) : dense;
+			largest_pull = fmax(largest_pull, squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a);
 			s->ratio = fmax(s->ratio, m && at(m, 0, i) > 0 ? a / at(m, 0, i) : squares ? 0 : 1);
 		}
 	}
 	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
 	s->omega = turns ? fmax(dense, sum / V) : sqrt(c * sum / V);
+	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
+	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
 	const double lambda = s->v_thermal / s->omega, ball[4] = {0, 1, pm_pi, 4 * pm_pi / 3};
 	s->debye = s->omega > 0 ? lambda : NAN;
 	s->per_debye = s->omega > 0 ? s->n / V * ball[f->dim] * pow(lambda, f->dim) : NAN;
@@ -236,6 +239,7 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 	const double field = largest(f, law->field), B = largest(f, law->magnetic);
 	s->given = law->per ? field * s->ratio : field;
 	s->cyclotron = B * s->ratio;
+	pm_scales_orbits(f, law, s);
 	return status || s->kind != PM_VORTICES ? status : coverage(f, s);
 }
 

@@ -5,7 +5,7 @@
 #include "effect/effect.h"
 #include "law/law.h"
 
-enum { PM_SCALES_PAIRS = 4096 }; /* up to so many particles the nearest pair is looked for, beyond it is the distance of neighbours on the average */
+enum { PM_SCALES_PAIRS = 4096, PM_SCALES_FEW = 64 }; /* up to so many particles the nearest pair is looked for, beyond it is that expected of a random cloud. FEW: orbits are looked at one by one */
 
 /* Of the particles and what is given on meshes; time and accuracy are left to the caller, as is what needs the force. All data are held. */
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
@@ -15,5 +15,7 @@ int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struc
 bool pm_scales_moves(const struct pm_frame *f, const struct pm_set *set);
 /* How completely the particles of a set cover the mesh around each (mesh/distortion.h); H has room for the set. */
 int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H);
+/* orbits.c: of few bodies. */
+void pm_scales_orbits(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 
 #endif

@@ -142,8 +142,10 @@ static int other(const struct pm_plan *p, const char *name, bool remesh, struct 
 	put(q, name, !pm_plan_has(p, name));
 	if (!strcmp(name, "magnetic-rotation") && !pm_plan_has(q, name))
 		without_field(f, p->law->magnetic);
-	if (!strcmp(name, "periodic-images"))
+	if (!strcmp(name, "periodic-images")) {
 		open_faces(f);
+		q->method.order = p->law->order, q->method.symbol = NULL; /* between open faces nothing is spectral */
+	}
 	if (!strcmp(name, "external-field") && zero_field(f, p->law->field))
 		return -PM_DATA;
 	q->method.grow = !strcmp(name, "periodic-images");

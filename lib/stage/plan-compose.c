@@ -118,7 +118,7 @@ static void push(struct pm_plan *p, const char *actions, const char *reason)
 	for (int i = 0; i < p->nstages; i++)
 		first = first && strncmp(p->stage[i].words, "push", 4);
 	if (first && !isnan(p->method.dt))
-		snprintf(words, sizeof words, "push --dt %.6g %s", p->method.dt, actions);
+		snprintf(words, sizeof words, "push --dt %.12g %s", p->method.dt, actions);
 	else
 		snprintf(words, sizeof words, "push %s", actions);
 	add(p, words, "%s", reason);
@@ -134,7 +134,7 @@ static void remesh(const struct pm_frame *f, struct pm_plan *p)
 	if (d->every > 1)
 		snprintf(every, sizeof every, " --every %d", d->every);
 	if (open) /* particles only where there is something; those that diffusion will need are kept */
-		snprintf(edge, sizeof edge, " --cut-off %.2g%s", p->scales.accuracy * 1e-4, pm_plan_has(p, "diffusion") ? " --rim 2" : "");
+		snprintf(edge, sizeof edge, " --cut-off %.2g%s", p->scales.accuracy * 1e-3, pm_plan_has(p, "diffusion") ? " --rim 2" : "");
 	snprintf(words, sizeof words, "remesh --kernel %s%s%s", p->method.kernel, every, edge);
 	if (d->every > 1)
 		add(p, words, "remesh: every %d steps, %s", d->every, d->text);
@@ -159,6 +159,7 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p)
 	if (!force && !p->scales.second)
 		return pm_fail(PM_DATA, "nothing moves in this frame: the law '%s' gives its particles no velocity, and they have none", p->law->name);
 	if (!force) {
+		p->method.dt = NAN; /* any step will do */
 		push(p, "drift", "no force: straight lines");
 	} else if (p->scales.second && !strcmp(p->method.scheme, "leapfrog")) {
 		char actions[32], why[400];

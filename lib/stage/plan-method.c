@@ -1,6 +1,7 @@
-/* How the effects of a plan are computed: pairs or a mesh, kernel, order, scheme, step. SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the effects of a plan are computed: pairs or a mesh, and by the measured atlas kernel, gradient and cells. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "measure/atlas.h"
 #include "stage/plan.h"
 
 /* Nanoseconds of one core (docs/speed.md): a pair of pp; a point of the transform's mesh with all that is done there; a particle to the mesh and back. */
@@ -14,7 +15,8 @@ static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points
 static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[160])
 {
 	const struct pm_scales *s = &p->scales;
-	const bool all_open = s->open && !s->periodic && !s->walls, field = s->kind == PM_VORTICES && s->overlap < 0.3 && s->width > 0.7 * s->h && s->width < 1.4 * s->h;
+	const bool all_open = s->open && !s->periodic && !s->walls;
+	const bool field = s->kind == PM_VORTICES && s->overlap < 0.3 && s->width > 0.7 * s->h && s->width < 1.4 * s->h;
 	const double a = cost_pairs(s), b = f->nmeshes ? cost_mesh(s) : HUGE_VAL;
 	if (!all_open)
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
@@ -37,6 +39,93 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 		m->kernel = "m6prime"; /* m4prime makes vortices that are not there (VM-16) */
 		m->scheme = "lsrk3";
 	}
-	snprintf(m->why_mesh, sizeof m->why_mesh, "mesh and kernel %s as the scene has them", m->kernel);
-	snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g as the scene has it", m->scheme, f->dt);
+}
+
+/* ---- the mesh ---- */
+
+struct try {
+	const struct pm_atlas_force *row; /* solver, kernel, gradient */
+	int factor;                       /* of the cells */
+	double error;
+};
+
+static bool can(const struct pm_plan *p, const struct pm_atlas_force *r, const char *scene)
+{
+	return !strcmp(r->scene, scene) && !strncmp(r->solver, "poisson-fft", 11) && (!p->scales.open || strcmp(r->gradient, "spectral"));
+}
+
+/* The cheapest of the atlas that reaches the accuracy with so many times the cells; else the most accurate. */
+static struct try best(const struct pm_plan *p, const char *scene, double h, int factor)
+{
+	struct try found = {NULL, factor, HUGE_VAL};
+	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++) {
+		const double e = can(p, r, scene) ? pm_atlas_force_error(scene, r->solver, r->kernel, r->gradient, h / factor) : NAN;
+		const bool reaches = e <= p->scales.accuracy, reached = found.error <= p->scales.accuracy;
+		if (!(e >= 0))
+			continue;
+		if (!found.row || (reaches && !reached) || (reaches && reached && r->ns < found.row->ns) || (!reaches && !reached && e < found.error))
+			found = (struct try){r, factor, e};
+	}
+	return found;
+}
+
+static double room(const struct pm_scales *s, int factor) { return s->points * pow(factor * (s->open ? 2 : 1), s->dim); }
+
+/* What the law says, if it is good enough; else what the atlas says, on as few cells as do. */
+static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
+{
+	const struct pm_scales *s = &p->scales;
+	char solver[64] = "poisson-fft";
+	struct try least = {NULL, 1, HUGE_VAL};
+	if (strcmp(p->law->symbol, "spectral"))
+		snprintf(solver, sizeof solver, "poisson-fft --symbol %s", p->law->symbol);
+	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
+		if (can(p, r, scene) && !strcmp(r->solver, solver) && !strcmp(r->kernel, p->law->kernel) && !strcmp(r->gradient, p->law->order))
+			least = (struct try){r, 1, pm_atlas_force_error(scene, solver, r->kernel, r->gradient, h)};
+	for (int factor = 1; factor <= 8 && !(least.error <= s->accuracy) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
+		const struct try t = best(p, scene, h, factor);
+		if (t.row && t.error < 0.8 * least.error) /* more cells for something */
+			least = t;
+	}
+	return least;
+}
+
+/* The particles are its nodes, so it stays; m6prime remeshed for a run is wrong by (h k)^5/2 in the largest vorticity, k^2 = |lap omega|/|omega| (docs/plan.md). */
+static void vortex_mesh(struct pm_plan *p)
+{
+	const struct pm_scales *s = &p->scales;
+	const double hk = s->h * sqrt(s->rough), error = fmin(1, 0.5 * pow(hk, 5));
+	char more[80] = "";
+	if (error > s->accuracy) /* what would be good enough */
+		snprintf(more, sizeof more, ", more than asked for (pinit --cells %.0f)", ceil(s->box / s->h * hk / pow(2 * s->accuracy, 0.2)));
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, remeshing is wrong by %.1g%s", hk, error, more);
+}
+
+void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_method *m = &p->method;
+	struct pm_scales *s = &p->scales;
+	const char *scene = s->open ? "clustered" : "smooth";
+	const double h = s->h / s->length;
+	if (m->pairs || !f->nmeshes || !(s->length > 0))
+		return;
+	if (s->kind == PM_VORTICES) {
+		vortex_mesh(p);
+		return;
+	}
+	if (s->n < 32) {
+		snprintf(m->why_mesh, sizeof m->why_mesh, "h = %.2g of the field's length", h);
+		return;
+	}
+	const struct try t = mesh_try(p, scene, h);
+	if (!t.row)
+		return;
+	m->kernel = t.row->kernel, m->order = t.row->gradient;
+	const char *symbol = strstr(t.row->solver, "--symbol ") ? strstr(t.row->solver, "--symbol ") + 9 : "spectral";
+	m->symbol = strcmp(symbol, p->law->symbol) ? symbol : NULL;
+	for (int d = 0; d < f->dim && t.factor > 1; d++)
+		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
+	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
+	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: %.1g of the force is wrong at h = %.2g of its length%s", m->kernel, t.error, s->h / s->length,
+		t.error > s->accuracy ? ", more than asked for" : "");
 }

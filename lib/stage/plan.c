@@ -151,6 +151,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	decide(p, c); /* for the names of effects; the numbers of the force come next */
 	status = by_hand(p, c);
 	status = status ? status : measure_force(f, p);
+	if (!status)
+		pm_plan_mesh(f, p), pm_plan_step(f, p);
 	status = status ? status : measure_distortion(f, p);
 	if (status)
 		return status;

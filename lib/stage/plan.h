@@ -57,8 +57,10 @@ bool pm_plan_has(const struct pm_plan *p, const char *effect);
 int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
 /* The mesh that holds given fields (E, B, u); NULL none. */
 const struct pm_mesh *pm_plan_given(const struct pm_frame *f, const struct pm_law *law);
-/* The choice of far field, mesh, kernel, order, scheme and step. */
+/* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
+void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
+void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 
 /* plan-run.c: runs a sentence for so many full steps on a copy of a frame. seconds, if not NULL: of each word in a step, without set-up. */
 struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds);
