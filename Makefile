@@ -141,7 +141,7 @@ valgrind:
 
 gallery: all
 	bash docs/gallery.sh
-# The figures of docs/accuracy/ and the tables of data/atlas/, measured anew: six minutes, on a machine at rest.
+# The figures of docs/accuracy/ and the tables of data/atlas/, measured anew: four minutes, on a machine at rest.
 atlas: all
 	bash docs/accuracy/atlas.sh
 # The measured column of docs/hard-cases.md.
