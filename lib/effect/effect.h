@@ -32,6 +32,7 @@ struct pm_scales {
 	double self, self_max;       /* rms and largest of what the self field adds to acc [length/time^2] or vel [length/time] */
 	double strain, rough;        /* [1/time] largest |grad u|; [1/length^2] |lap density|/|density| in l2 */
 	double length;               /* [length] of the field: |field|/|its sources| in l2 */
+	double mesh_error;           /* of the force on the mesh, by the atlas; NAN: not known */
 	double distortion[4];        /* after 1, 2, 4, 8 steps without remeshing */
 	double accuracy;             /* what is asked for: relative changes below are negligible */
 };

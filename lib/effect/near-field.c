@@ -1,7 +1,7 @@
 /* Near-field correction: what a mesh smooths away of the pull of near pairs. Pairs summed one by one, and particles that cover their mesh as a field,
  * need none. Bodies: a pair nearer than 2.5 cells feels less than its force; by the neighbours' distance d the part is (h/d)^2/4 where all are apart. Where bodies
  * sample a cloud their neighbours pull as m/d^2 over the mean force, which counts while they are cold; warm ones pass each other, and what stays is
- * the relaxation of collisions.c. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
+ * the relaxation of collisions.c. In open space the atlas knows what a mesh does to a cluster of bodies. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effect/effect.h"
 
@@ -22,6 +22,9 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 	} else if (s->kind == PM_CHARGES || s->dim == 1) {
 		d->number = s->n / s->points;
 		snprintf(d->text, sizeof d->text, "particles sample a cloud, %.2g in a cell, and are as wide as one", d->number);
+	} else if (s->open && s->mesh_error > s->accuracy) {
+		effect_by(d, s, s->mesh_error, s->mesh_error);
+		snprintf(d->text, sizeof d->text, "the mesh is wrong by %.1g where bodies are near", s->mesh_error);
 	} else if (cells > 2.5 || s->n < 32) {
 		effect_by(d, s, cells, apart);
 		snprintf(d->text, sizeof d->text, "nearest pair %.2g cells apart, the mesh is wrong by %.1g there", cells, apart);

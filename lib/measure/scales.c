@@ -225,7 +225,7 @@ static void geometry(const struct pm_frame *f, struct pm_scales *s)
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN, .rough = NAN,
-		.length = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN, .width = NAN};
+		.length = NAN, .mesh_error = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN, .width = NAN};
 	s->kind = !law->field ? PM_NO_FIELD : !law->strength ? PM_CARRIED : law->of_potential == PM_CURL ? PM_VORTICES : law->per ? PM_CHARGES : PM_MASSES;
 	s->softening = pm_frame_constant(f, "softening", 0);
 	s->nu = pm_frame_constant(f, "nu", 0);

@@ -125,7 +125,7 @@ static bool speakable(const struct pm_plan *p, const char *name)
 	if (!strcmp(name, "external-field"))
 		return p->scales.given > 0;
 	if (!strcmp(name, "diffusion"))
-		return vortices && p->scales.nu > 0 && mesh;
+		return vortices && p->scales.nu > 0;
 	if (!strcmp(name, "remeshing"))
 		return vortices && mesh;
 	if (!strcmp(name, "smoothing"))
@@ -190,9 +190,14 @@ static int prove(const struct pm_frame *f, const struct pm_plan *p, const struct
 	struct pm_frame *b = pm_plan_run(f, base.sentence, steps, NULL), *a = b ? run_other(f, p, name, steps, NULL) : NULL;
 	int status = a ? 0 : pm_failed();
 	o->tried = true;
-	o->of = remeshing ? p->law->density : diffusion ? p->law->strength : p->scales.second ? "v" : "x";
-	if (a)
-		o->difference = remeshing ? densities(a, b, p) * on : diffusion || p->scales.second ? relative(a, b, o->of, diffusion ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on : displaced(a, b, f);
+	const bool strength = diffusion && !p->method.pairs;
+	o->of = remeshing ? p->law->density : strength ? p->law->strength : p->scales.second ? "v" : "x";
+	if (a && remeshing)
+		o->difference = densities(a, b, p) * on;
+	else if (a && (strength || p->scales.second))
+		o->difference = relative(a, b, o->of, strength ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on;
+	else if (a) /* a walk goes on as the root of time, the flow as time itself */
+		o->difference = displaced(a, b, f) / (diffusion ? sqrt(on) : 1);
 	pm_frame_free(a), pm_frame_free(b);
 	if (!status)
 		verdict(p, e, o);

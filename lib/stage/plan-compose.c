@@ -98,7 +98,7 @@ static void forces(const struct pm_frame *f, struct pm_plan *p)
 		add(p, p->scales.softening > 0 && !pm_plan_has(p, "smoothing") ? "pp --softening 0" : "pp", "self field: on, %s; %s; smoothing: %s", because(p, "self-field"), p->method.why_far, because(p, "smoothing"));
 	else if (self)
 		on_mesh(f, p);
-	if (pm_plan_has(p, "diffusion"))
+	if (pm_plan_has(p, "diffusion") && !p->method.pairs)
 		add(p, "diffuse", "diffusion: on, %s", because(p, "diffusion"));
 	if (self && !p->method.pairs) {
 		snprintf(words, sizeof words, "m2p%s", own);
@@ -172,6 +172,8 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p)
 		forces(f, p);
 		push(p, p->method.scheme, p->method.why_step);
 	}
+	if (pm_plan_has(p, "diffusion") && p->method.pairs)
+		add(p, "walk", "diffusion: on, %s", because(p, "diffusion"));
 	if (pm_plan_has(p, "remeshing"))
 		remesh(f, p);
 	join(p);

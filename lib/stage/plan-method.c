@@ -4,21 +4,23 @@
 #include "measure/atlas.h"
 #include "stage/plan.h"
 
-/* Nanoseconds of one core (docs/speed.md): a pair of pp; a point of the transform's mesh with all that is done there; a particle to the mesh and back. */
-static const double ns_pair = 0.15, ns_point = 15, ns_particle = 60;
+/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all that is done there, a particle to the
+ * mesh and back (docs/speed.md). */
+static const double ns_pair = 0.39, ns_point = 5, ns_particle = 100;
 
 static double cost_pairs(const struct pm_scales *s) { return ns_pair * s->n * s->sources; }
 
 static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points * (s->open ? pow(2, s->dim) : 1) + ns_particle * s->n; }
 
+static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
+
 /* pp sums in open space only; particles that carry a field need its mesh. */
 static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[160])
 {
 	const struct pm_scales *s = &p->scales;
-	const bool all_open = s->open && !s->periodic && !s->walls;
 	const bool field = s->kind == PM_VORTICES && s->overlap < 0.3 && s->width > 0.7 * s->h && s->width < 1.4 * s->h;
 	const double a = cost_pairs(s), b = f->nmeshes ? cost_mesh(s) : HUGE_VAL;
-	if (!all_open)
+	if (!all_open(s))
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
 	else if (field)
 		snprintf(why, 160, "the particles carry a field: they cover the mesh to %.1g", s->overlap);
@@ -26,7 +28,7 @@ static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[16
 		snprintf(why, 160, "%g bodies, pairs cost %.1g of the mesh", s->sources, a / b);
 	else
 		snprintf(why, 160, "%g bodies, a mesh costs %.1g of the pairs", s->sources, b / a);
-	return all_open && !field && a <= b;
+	return all_open(s) && !field && a <= b;
 }
 
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
@@ -120,6 +122,13 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	const struct try t = mesh_try(p, scene, h);
 	if (!t.row)
 		return;
+	const double dearer = cost_pairs(s) / cost_mesh(s);
+	if (t.error > s->accuracy && all_open(s) && dearer < 20) {
+		m->pairs = s->pairs = true;
+		snprintf(m->why_far, sizeof m->why_far, "%g bodies, a mesh would be wrong by %.1g; pairs cost %.2g times as much", s->sources, t.error, dearer);
+		return;
+	}
+	s->mesh_error = t.error;
 	m->kernel = t.row->kernel, m->order = t.row->gradient;
 	const char *symbol = strstr(t.row->solver, "--symbol ") ? strstr(t.row->solver, "--symbol ") + 9 : "spectral";
 	m->symbol = strcmp(symbol, p->law->symbol) ? symbol : NULL;

@@ -44,7 +44,7 @@ static struct clock clock_of(const struct pm_plan *p)
 		return (struct clock){"kepler", s->orbit, s->eccentricity, true, "the orbit"};
 	if (s->pairs)
 		return (struct clock){"langmuir", fmax(s->omega, sqrt(s->self_max / s->spread)), NAN, false, "orbits"};
-	return (struct clock){"langmuir", s->omega, NAN, s->kind == PM_CHARGES, s->kind == PM_CHARGES ? "omega_p" : "the collapse"};
+	return (struct clock){"langmuir", s->omega, NAN, s->kind == PM_CHARGES, s->kind == PM_CHARGES ? "omega_p" : "orbits"};
 }
 
 /* The cheapest scheme and its longest step. */

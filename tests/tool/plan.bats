@@ -127,6 +127,29 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit langmuir | plan --sentence --accuracy 0.001 | grep -q '^p2m --kernel m4prime | poisson-fft --symbol spectral | mgrad --order spectral | m2p | push --dt 0.25 rk4$'
 }
 
+@test "bodies in open space: pairs where they cost less or a mesh is not good enough, else a mesh, and what it lacks is said" {
+	pinit plummer -n 3000 >cluster
+	[[ "$(plan --sentence <cluster)" = *"| pp |"* ]]
+	plan --no-cost <cluster | grep -q '^pp .*a mesh would be wrong by' || plan --no-cost <cluster | grep -q '^pp .*pairs cost'
+	pinit plummer -n 20000 --cells 32 >cluster
+	plan --no-cost --accuracy 0.3 <cluster | grep -q '^p2m .*a mesh costs'
+	[[ "$(plan --no-cost --accuracy 0.3 <cluster | says 'near field')" = off* ]]
+	pinit plummer -n 100000 --cells 32 >cluster
+	[[ "$(plan --no-cost <cluster | says 'near field')" = needed*"the mesh is wrong by 0."* ]]
+}
+
+@test "points with viscosity walk" {
+	pinit polygon >points
+	smod --constant nu=0.01 <points >thick
+	[[ "$(plan --sentence <thick)" = "pp | push "*" | walk" ]]
+	plan --check <thick
+	smod --constant nu=1e-7 <points >thin # sqrt(2 nu T)/(u T) = 4e-4
+	[[ "$(plan --sentence <thin)" = "pp | push "* && "$(plan --sentence <thin)" != *walk ]]
+	plan --check <thin
+	run -3 plan --check --off diffusion <thick
+	[[ $output == *"diffusion "*"wrong: it matters"* ]]
+}
+
 @test "a mesh that is too coarse for vortices is named, with the cells that would do" {
 	decide shear-layer --cells 64 | grep -q '^p2m .*remeshing is wrong by .*more than asked for (pinit --cells '
 	! decide shear-layer --cells 256 | grep -q 'more than asked for' || false
