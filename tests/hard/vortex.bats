@@ -87,9 +87,9 @@ radii() {
 
 @test "viscosity without remeshing loses circulation in the gaps between particles: 90 % of it in 150 steps, and diag shows it" {
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' | diag > t
-	[ "$(calc "$(column circulation < t) < 0.2")" = 1 ]
+	below "$(column circulation < t)" 0.2 "left alone"
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-8' | diag > t
-	within "$(column circulation < t)" 1 1e-4
+	within "$(column circulation < t)" 1 1e-4 # what the rim of nodes at 1e-8 of the largest loses to no particle, over 150 steps
 }
 
 @test "in open space a cut-off makes viscosity lose circulation, more the more often it cuts; with a rim of two cells the drift is 1e3 times less and falls with dt" {
