@@ -12,7 +12,7 @@ export PM_MACHINE=$b/machine.tsv PM_PEERS=$b/peers.tsv
 markdown=
 [ "${1:-}" != --markdown ] || { markdown=1 && shift; }
 parts=("$@")
-[ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp push mgrad step)
+[ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp pse push mgrad step)
 rows=$b/rows.tsv
 cores=${OMP_NUM_THREADS:-$(nproc)}
 busy=$(cut -d' ' -f1 /proc/loadavg)

@@ -46,6 +46,8 @@ PM_LANES_INLINE pm_lanes pm_lanes_load_any(const double *p) /* anywhere */
 
 PM_LANES_INLINE void pm_lanes_store(double *p, pm_lanes v) { memcpy(__builtin_assume_aligned(p, 64), &v, sizeof v); }
 
+PM_LANES_INLINE void pm_lanes_store_any(double *p, pm_lanes v) { memcpy(p, &v, sizeof v); }
+
 /* Sum of the lanes, in a fixed order. */
 PM_LANES_INLINE double pm_lanes_sum(pm_lanes v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
 
@@ -70,13 +72,13 @@ PM_LANES_INLINE pm_lanes pm_lanes_where_not_below(pm_lanes a, pm_lanes b, pm_lan
 #endif
 }
 
-/* v in the first n lanes, else other. */
-PM_LANES_INLINE pm_lanes pm_lanes_first(size_t n, pm_lanes v, pm_lanes other)
+/* v in lanes from..to-1, else other. */
+PM_LANES_INLINE pm_lanes pm_lanes_between(size_t from, size_t to, pm_lanes v, pm_lanes other)
 {
 #ifdef __AVX512F__
-	return (pm_lanes)_mm512_mask_mov_pd((__m512d)other, (__mmask8)((1u << (n < 8 ? n : 8)) - 1), (__m512d)v);
+	return (pm_lanes)_mm512_mask_mov_pd((__m512d)other, (__mmask8)(((1u << (to < 8 ? to : 8)) - 1) & ~((1u << (from < 8 ? from : 8)) - 1)), (__m512d)v);
 #else
-	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = lane < (int64_t)n;
+	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = lane >= (int64_t)from & lane < (int64_t)to;
 	return (pm_lanes)((in & (pm_lanes_bits)v) | (~in & (pm_lanes_bits)other));
 #endif
 }
@@ -111,8 +113,9 @@ PM_LANES_INLINE pm_lanes pm_lanes_exp(pm_lanes x)
 	pm_lanes r = pm_lanes_fnma(n, pm_lanes_all(0x1.62e42feep-1), x), p = pm_lanes_all(of[10]);
 	r = pm_lanes_fnma(n, pm_lanes_all(0x1.a39ef35793c76p-33), r); /* ln 2 in two parts, the first of 32 bits */
 	PM_LANES_UNROLL
-	for (int k = 9; k >= 0; k--)
+	for (int k = 9; k >= 2; k--)
 		p = pm_lanes_fma(p, r, pm_lanes_all(of[k]));
+	p = pm_lanes_fma(pm_lanes_fma(p, r, pm_lanes_all(of[1])), r, pm_lanes_all(of[0]));
 	return (pm_lanes)((pm_lanes_words)p + ((pm_lanes_words)whole << 52));
 }
 

@@ -3,54 +3,15 @@
  * particles are seen, and the same difference of two positions comes out from both sides to the last bit. Where the cells of the extent are many more
  * than the particles they are looked for in the sorted keys. Cost: N log N to sort (radix), then per cell a look per row.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
-
 #include "mesh/cells.h"
 #include "mesh/order.h"
 
 enum { cells_most = 1 << 20 }; /* along an axis: 63 bits of key, and positions are told apart to 1e-9 of a cell */
 static const double slack = 1e-9; /* of a cell: what rounding may move a position by */
+static const double before = 0.13; /* of a cell: where the first begins before the particles */
 
-struct pm_domain pm_domain_of(const struct pm_frame *f)
-{
-	struct pm_domain d = {.dim = f->dim};
-	memcpy(d.lo, f->lo, sizeof d.lo);
-	memcpy(d.hi, f->hi, sizeof d.hi);
-	memcpy(d.face, f->face, sizeof d.face);
-	return d;
-}
-
-static bool mirrors(enum pm_face face) { return face == PM_WALL || face == PM_NEUMANN; }
-
-static double sign_of(enum pm_face face, int times) { return face == PM_WALL && times % 2 ? -1 : 1; }
-
-/* k boxes (or pairs of mirrors) away, and the mirror image of that. */
-static void images_at(double lo, double hi, const enum pm_face face[2], int k, struct pm_images *m)
-{
-	bool periodic = face[0] == PM_PERIODIC, both = mirrors(face[0]) && mirrors(face[1]);
-	int a = k < 0 ? -k : k, b = k < 1 ? 1 - k : k - 1; /* reflections at the upper and at the lower face of shift - x */
-	if (k && (periodic || both))
-		m->image[m->n++] = (struct pm_image){1, (periodic ? k : 2 * k) * (hi - lo), periodic ? 1 : sign_of(face[0], a) * sign_of(face[1], a)};
-	if (both || (k == 0 && mirrors(face[0])) || (k == 1 && mirrors(face[1])))
-		m->image[m->n++] = (struct pm_image){-1, k == 1 ? 2 * hi : 2 * lo + 2 * k * (hi - lo), sign_of(face[1], a) * sign_of(face[0], b)};
-}
-
-int pm_images_of(double lo, double hi, const enum pm_face face[2], double reach, struct pm_images *m)
-{
-	const double far = ceil(reach / (hi - lo));
-	const int most = (PM_IMAGES_MOST - 6) / 4;
-	*m = (struct pm_images){.n = 1, .image = {{1, 0, 1}}};
-	if (face[0] != PM_PERIODIC && !mirrors(face[0]) && !mirrors(face[1]))
-		return 0;
-	if (!(far <= most))
-		return pm_fail(PM_DATA, "the reach %g is more than %d boxes of %g long: nothing is left to resolve", reach, most, hi - lo);
-	images_at(lo, hi, face, 0, m);
-	for (int k = 1; k <= (int)far + 1; k++) {
-		images_at(lo, hi, face, k, m);
-		images_at(lo, hi, face, -k, m);
-	}
-	return 0;
-}
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
 
 /* The extent of the cells along an axis: the box where it is periodic, else that of the particles. */
 static void extent(const struct pm_domain *d, int axis, size_t n, const double *x, double *lo, double *hi)
@@ -68,17 +29,17 @@ static void extent(const struct pm_domain *d, int axis, size_t n, const double *
 
 static void shape(struct pm_cell_list *l, size_t n, const double *const x[], double edge)
 {
-	edge = fmin(fmax(edge, l->reach / 8), l->reach) * (1 + 2 * slack); /* so that whole numbers of cells reach as far as reach */
+	edge = fmin(fmax(edge, l->reach / 8), l->reach);
 	l->most = 1;
 	for (int d = 0; d < 3; d++) {
 		double lo = 0, hi = 0, rows = 0;
 		if (d < l->domain.dim)
 			extent(&l->domain, d, n, x[d], &lo, &hi);
-		double fit = floor((hi - lo) / edge);
 		bool periodic = d < l->domain.dim && l->domain.face[d][0] == PM_PERIODIC;
-		l->cells[d] = (size_t)fmin(periodic ? fmax(fit, 1) : fit + 1, cells_most);
-		l->lo[d] = lo;
-		l->edge[d] = periodic || l->cells[d] == cells_most ? (hi - lo) / (double)l->cells[d] : edge;
+		double fit = floor((hi - lo) / edge + (periodic ? slack : before)) + !periodic;
+		l->cells[d] = (size_t)fmin(fmax(fit, 1), cells_most);
+		l->edge[d] = periodic ? (hi - lo) / (double)l->cells[d] : l->cells[d] == cells_most ? (hi - lo) / (cells_most - 1) : edge;
+		l->lo[d] = lo - before * l->edge[d];
 		rows = fmin((double)l->cells[d], 2 * ceil(l->reach / l->edge[d]) + 4);
 		l->most *= (size_t)l->images[d].n * (d ? (size_t)rows : 1);
 	}
@@ -86,16 +47,16 @@ static void shape(struct pm_cell_list *l, size_t n, const double *const x[], dou
 
 static size_t cell_at(const struct pm_cell_list *l, int d, double x)
 {
-	double s = floor((x - l->lo[d]) / l->edge[d]);
-	return (size_t)fmin(fmax(s, 0), (double)(l->cells[d] - 1));
+	double s = floor((x - l->lo[d]) / l->edge[d]), last = (double)(l->cells[d] - 1);
+	return (size_t)(s > 0 ? s < last ? s : last : 0);
 }
 
-static double folded(const struct pm_domain *d, int axis, double x)
+static double folded(const struct pm_cell_list *l, int d, double x)
 {
-	double lo = d->lo[axis], hi = d->hi[axis];
-	if (d->face[axis][0] != PM_PERIODIC || (x >= lo && x < hi))
+	double length = l->domain.hi[d] - l->domain.lo[d], lo = l->lo[d], hi = lo + length;
+	if (l->domain.face[d][0] != PM_PERIODIC || (x >= lo && x < hi))
 		return x;
-	double y = x - (hi - lo) * floor((x - lo) / (hi - lo));
+	double y = x - length * floor((x - lo) / length);
 	return y < lo || y >= hi ? lo : y;
 }
 
@@ -105,7 +66,7 @@ static void keys(const struct pm_cell_list *l, const double *const x[], uint64_t
 	for (size_t i = 0; i < l->n; i++) {
 		key[i] = 0;
 		for (int d = l->domain.dim - 1; d >= 0; d--)
-			key[i] = key[i] * l->cells[d] + cell_at(l, d, folded(&l->domain, d, x[d][i]));
+			key[i] = key[i] * l->cells[d] + cell_at(l, d, folded(l, d, x[d][i]));
 	}
 }
 
@@ -153,7 +114,7 @@ static void gather(struct pm_cell_list *l, const double *const x[])
 	for (int d = 0; d < l->domain.dim; d++) {
 #pragma omp parallel for schedule(static) if (l->n > 16384)
 		for (size_t i = 0; i < l->n; i++)
-			l->x[d][i] = folded(&l->domain, d, x[d][l->order[i]]);
+			l->x[d][i] = folded(l, d, x[d][l->order[i]]);
 		for (size_t i = l->n; i < l->n + PM_CELLS_PAD; i++)
 			l->x[d][i] = 0;
 	}
@@ -222,8 +183,8 @@ static struct span span_of(const struct pm_cell_list *l, int d, double lo, doubl
 	reach += 4e-16 * (fabs(s.lo) + fabs(s.hi) + fabs(m->shift)); /* rounding of the shift */
 	double from = floor((s.lo - reach - l->lo[d]) / l->edge[d] - slack), to = floor((s.hi + reach - l->lo[d]) / l->edge[d] + slack) + 1;
 	double cells = (double)l->cells[d];
-	s.from = (size_t)fmin(fmax(from, 0), cells);
-	s.to = (size_t)fmin(fmax(to, 0), cells);
+	s.from = (size_t)smaller(larger(from, 0), cells);
+	s.to = (size_t)smaller(larger(to, 0), cells);
 	return s;
 }
 
@@ -233,20 +194,32 @@ static double gap2(const struct pm_cell_list *l, int d, const struct span *s, si
 	if (d >= l->domain.dim)
 		return 0;
 	double lo = l->lo[d] + l->edge[d] * ((double)cell - slack), hi = l->lo[d] + l->edge[d] * ((double)cell + 1 + slack);
-	double gap = fmax(0, fmax(lo - s->hi, s->lo - hi));
+	double gap = larger(0, larger(lo - s->hi, s->lo - hi));
 	return gap * gap;
 }
 
-/* The rows of one combination of images. */
-static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *m[3], struct pm_stretch *s)
+static enum pm_stretch_kind kind_of(int dim, const struct pm_image *const m[3])
 {
-	struct pm_stretch like = {.sign = m[0]->sign * m[1]->sign * m[2]->sign};
+	enum pm_stretch_kind kind = PM_HERE;
+	for (int d = 0; d < dim; d++) {
+		if (m[d]->side < 0)
+			return PM_MIRRORED;
+		if (m[d]->shift != 0)
+			kind = m[d]->shift > 0 ? PM_AHEAD : PM_BEHIND;
+	}
+	return m[0]->sign * m[1]->sign * m[2]->sign > 0 ? kind : PM_MIRRORED;
+}
+
+/* The rows of one combination of images; none that end at or before the place `after`. */
+static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *const m[3], enum pm_stretch_kind kind, size_t after,
+	struct pm_stretch *s)
+{
+	struct pm_stretch like = {.sign = m[0]->sign * m[1]->sign * m[2]->sign, .kind = kind};
 	struct span span[3];
 	size_t n = 0;
 	for (int d = 0; d < 3; d++) {
 		span[d] = span_of(l, d, lo[d], hi[d], m[d], l->reach);
 		like.side[d] = m[d]->side, like.shift[d] = m[d]->shift;
-		like.moved |= m[d]->side < 0 || m[d]->shift != 0;
 		if (span[d].from >= span[d].to)
 			return 0;
 	}
@@ -261,28 +234,31 @@ static size_t rows(const struct pm_cell_list *l, const double lo[3], const doubl
 			s[n] = like;
 			s[n].from = place(l, key + row.from);
 			s[n].to = place(l, key + row.to);
+			s[n].from = s[n].from < after ? after : s[n].from;
 			n += s[n].from < s[n].to;
 		}
 	}
 	return n;
 }
 
-size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, struct pm_stretch *s)
+size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, struct pm_stretch *s)
 {
 	double lo[3] = {0}, hi[3] = {0};
 	size_t n = 0;
 	for (int d = 0; d < l->domain.dim; d++) {
 		lo[d] = hi[d] = l->x[d][l->start[c]];
 		for (size_t i = l->start[c] + 1; i < l->start[c + 1]; i++) {
-			lo[d] = fmin(lo[d], l->x[d][i]);
-			hi[d] = fmax(hi[d], l->x[d][i]);
+			lo[d] = smaller(lo[d], l->x[d][i]);
+			hi[d] = larger(hi[d], l->x[d][i]);
 		}
 	}
 	for (int z = 0; z < l->images[2].n; z++)
 		for (int y = 0; y < l->images[1].n; y++)
 			for (int x = 0; x < l->images[0].n; x++) {
-				const struct pm_image *m[3] = {&l->images[0].image[x], &l->images[1].image[y], &l->images[2].image[z]};
-				n += rows(l, lo, hi, m, s + n);
+				const struct pm_image *const m[3] = {&l->images[0].image[x], &l->images[1].image[y], &l->images[2].image[z]};
+				enum pm_stretch_kind kind = kind_of(l->domain.dim, m);
+				if (!half || kind != PM_BEHIND)
+					n += rows(l, lo, hi, m, kind, half && kind == PM_HERE ? l->start[c] : 0, s + n);
 			}
 	return n;
 }

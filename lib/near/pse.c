@@ -3,8 +3,8 @@
  * exp(-k^2) and (2 + k^2) exp(-k^2), which are positive: so the largest rate of decay is at most the largest sum_q V_q eta_eps(x_p - x_q),
  * which a lattice with eps >= h reaches but for exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not
  * distorted. Conserves the sum of G where no wall is. Order 4 has negative weights beyond z^2 = 8 + 2 dim: no maximum principle.
- * Partners come from a cell list, eight at a time; every target sums its own row. Cost: N times the particles within the cut-off, about 30
- * operations for 8 of them. Weak: particles of one cell that see all others cost N^2. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
+ * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weak: where all see all that is N^2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
 #include "base/lanes.h"
 
@@ -27,109 +27,195 @@ double pm_pse_value(const struct pm_pse *p, double z2)
 	return pow(4 * pm_pi, -0.5 * p->dim) * (p->constant + p->square * z2) * exp(-z2 / 4);
 }
 
+enum { ROWS = 2, CHUNKS = 64, CHUNK = 1024 }; /* targets at a time; pieces of the work, of this many particles at least */
+
 /* By place in the cell list, padded; and the kernel in terms of r^2. */
 struct work {
 	const struct pm_cell_list *list;
 	double *volume, *strength;
+	double *exchange, *weight; /* sums over partners of (V_p G_q - V_q G_p) eta and of V_q eta, without the factor */
 	double reach2, exponent, constant, square, factor; /* eta/eps^2 = factor (constant + square r^2) exp(exponent r^2) */
 };
 
-/* One particle as one stretch sees it, and its sums over partners: of (V_p G_q - V_q G_p) eta and of V_q eta, without the factor. */
-struct row {
-	pm_lanes x[3], shift[3], volume, strength, exchange, weight;
+/* What a piece of the work adds to the sums, all of which lies at the places low..high-1; zero between pieces. */
+struct sums {
+	size_t low, high;
+	double *exchange, *weight;
 };
 
-/* Eight partners at j; those from the count-th on are not meant. */
-PM_LANES_INLINE void meet(const struct work *w, int dim, int order, bool moved, size_t j, size_t count, bool whole, struct row *r)
+/* Particles of one cell as one stretch sees them, and their sums. */
+struct rows {
+	pm_lanes x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
+};
+
+/* Partners at j..j+7 of n rows, those outside of from..to-1 left out; half: both ways, with the partners' sums at own. */
+PM_LANES_INLINE void meet(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t j, bool whole, const size_t from[ROWS], size_t to,
+	struct sums *own, struct rows *r)
 {
-	pm_lanes r2 = {0}, eta, q = pm_lanes_load_any(w->volume + j), g = pm_lanes_load_any(w->strength + j);
+	pm_lanes y[3], q = pm_lanes_load_any(w->volume + j), g = pm_lanes_load_any(w->strength + j), exchange = {0}, weight = {0};
 	PM_LANES_UNROLL
-	for (int d = 0; d < dim; d++) {
-		pm_lanes s = r->x[d] - pm_lanes_load_any(w->list->x[d] + j);
-		if (moved)
-			s += r->shift[d];
-		r2 = pm_lanes_fma(s, s, r2);
-	}
-	if (!whole)
-		r2 = pm_lanes_first(count, r2, pm_lanes_all(HUGE_VAL));
-	eta = pm_lanes_exp(r2 * pm_lanes_all(w->exponent));
-	if (order == 4)
-		eta *= pm_lanes_fma(r2, pm_lanes_all(w->square), pm_lanes_all(w->constant));
-	eta = pm_lanes_where_not_below(pm_lanes_all(w->reach2), r2, eta);
-	r->exchange = pm_lanes_fma(r->volume * g - q * r->strength, eta, r->exchange); /* antisymmetric: no fma within */
-	r->weight = pm_lanes_fma(q, eta, r->weight);
-}
-
-PM_LANES_INLINE void stretch(const struct work *w, int dim, int order, bool moved, const struct pm_stretch *s, struct row *r)
-{
-	size_t j = s->from;
-	for (; j + PM_VECTOR_LANES <= s->to; j += PM_VECTOR_LANES)
-		meet(w, dim, order, moved, j, PM_VECTOR_LANES, true, r);
-	if (j < s->to)
-		meet(w, dim, order, moved, j, s->to - j, false, r);
-}
-
-/* The row of the particle at place i: its sums. */
-PM_LANES_INLINE void row(const struct work *w, int dim, int order, size_t i, size_t n, const struct pm_stretch *s, double *exchange, double *weight)
-{
-	struct row r = {.strength = pm_lanes_all(w->strength[i])};
-	for (size_t k = 0; k < n; k++) {
-		r.volume = pm_lanes_all(s[k].sign * w->volume[i]); /* instead of the strengths of the images */
+	for (int d = 0; d < dim; d++)
+		y[d] = pm_lanes_load_any(w->list->x[d] + j);
+	if (half)
+		exchange = pm_lanes_load_any(own->exchange + j), weight = pm_lanes_load_any(own->weight + j);
+	PM_LANES_UNROLL
+	for (int k = 0; k < n; k++) {
+		pm_lanes r2 = {0}, eta, traded;
 		PM_LANES_UNROLL
 		for (int d = 0; d < dim; d++) {
-			r.x[d] = pm_lanes_all(s[k].side[d] * w->list->x[d][i]);
-			r.shift[d] = pm_lanes_all(s[k].shift[d]);
+			pm_lanes s = r->x[d][k] - y[d];
+			if (moved)
+				s += r->shift[d];
+			r2 = pm_lanes_fma(s, s, r2);
 		}
-		if (s[k].moved)
-			stretch(w, dim, order, true, s + k, &r);
+		if (!whole)
+			r2 = pm_lanes_between(from[k], to, r2, pm_lanes_all(HUGE_VAL));
+		eta = pm_lanes_exp(r2 * pm_lanes_all(w->exponent));
+		if (order == 4)
+			eta *= pm_lanes_fma(r2, pm_lanes_all(w->square), pm_lanes_all(w->constant));
+		eta = pm_lanes_where_not_below(pm_lanes_all(w->reach2), r2, eta);
+		traded = r->volume[k] * g - q * r->strength[k]; /* antisymmetric: no fma within */
+		r->exchange[k] = pm_lanes_fma(traded, eta, r->exchange[k]);
+		r->weight[k] = pm_lanes_fma(q, eta, r->weight[k]);
+		if (half)
+			exchange = pm_lanes_fnma(traded, eta, exchange), weight = pm_lanes_fma(r->volume[k], eta, weight);
+	}
+	if (half)
+		pm_lanes_store_any(own->exchange + j, exchange), pm_lanes_store_any(own->weight + j, weight);
+}
+
+/* The partners at from..to-1; first: how many of them each row leaves out. */
+PM_LANES_INLINE void stretch(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t from, size_t to, const size_t first[ROWS],
+	struct sums *own, struct rows *r)
+{
+	static const size_t none[ROWS] = {0};
+	size_t j = from;
+	if (half && first[n - 1] && j < to) {
+		meet(w, dim, order, n, half, moved, j, false, first, to - j, own, r);
+		j += PM_VECTOR_LANES;
+	}
+	for (; j + PM_VECTOR_LANES <= to; j += PM_VECTOR_LANES)
+		meet(w, dim, order, n, half, moved, j, true, none, PM_VECTOR_LANES, own, r);
+	if (j < to)
+		meet(w, dim, order, n, half, moved, j, false, none, to - j, own, r);
+}
+
+PM_LANES_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_stretch *s, struct rows *r)
+{
+	PM_LANES_UNROLL
+	for (int t = 0; t < n; t++) {
+		PM_LANES_UNROLL
+		for (int d = 0; d < dim; d++)
+			r->x[d][t] = pm_lanes_all(s->side[d] * w->list->x[d][i + (size_t)t]);
+		r->volume[t] = pm_lanes_all(s->sign * w->volume[i + (size_t)t]); /* instead of the strengths of the images */
+		r->strength[t] = pm_lanes_all(w->strength[i + (size_t)t]);
+	}
+	PM_LANES_UNROLL
+	for (int d = 0; d < dim; d++)
+		r->shift[d] = pm_lanes_all(s->shift[d]);
+}
+
+/* The n particles at place i: pairs with those that come later and with images ahead, both ways; what they get from mirror images. */
+PM_LANES_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t stretches, const struct pm_stretch *s, struct sums *own)
+{
+	struct rows r = {.exchange = {{0}}};
+	static const size_t none[ROWS] = {0}, later[ROWS] = {0, 1};
+	for (size_t k = 0; k < stretches; k++) {
+		bool here = s[k].kind == PM_HERE;
+		size_t from = here && s[k].from < i + 1 ? i + 1 : s[k].from;
+		if (from >= s[k].to)
+			continue;
+		rows_see(w, dim, n, i, s + k, &r);
+		if (here)
+			stretch(w, dim, order, n, true, false, from, s[k].to, from == i + 1 ? later : none, own, &r);
+		else if (s[k].kind == PM_AHEAD)
+			stretch(w, dim, order, n, true, true, from, s[k].to, none, own, &r);
 		else
-			stretch(w, dim, order, false, s + k, &r);
+			stretch(w, dim, order, n, false, true, from, s[k].to, none, own, &r);
 	}
-	*exchange = w->factor * pm_lanes_sum(r.exchange);
-	*weight = w->factor * pm_lanes_sum(r.weight);
+	PM_LANES_UNROLL
+	for (int t = 0; t < n; t++) {
+		own->exchange[i + (size_t)t] += pm_lanes_sum(r.exchange[t]);
+		own->weight[i + (size_t)t] += pm_lanes_sum(r.weight[t]);
+	}
 }
 
-#define ROW(dim, order) \
-	static void row_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, double *exchange, double *weight) \
+#define LOOPS(dim, order) \
+	static void one_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own) \
 	{ \
-		row(w, dim, order, i, n, s, exchange, weight); \
+		rows(w, dim, order, 1, i, n, s, own); \
+	} \
+	static void two_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own) \
+	{ \
+		rows(w, dim, order, 2, i, n, s, own); \
 	}
-ROW(1, 2) ROW(2, 2) ROW(3, 2) ROW(1, 4) ROW(2, 4) ROW(3, 4)
-typedef void row_of(const struct work *, size_t, size_t, const struct pm_stretch *, double *, double *);
-static row_of *const table[2][3] = {{row_1_2, row_2_2, row_3_2}, {row_1_4, row_2_4, row_3_4}};
+LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4)
+struct loops {
+	void (*one)(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own);
+	void (*two)(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own);
+};
+static const struct loops table[2][3] = {
+	{{one_1_2, two_1_2}, {one_2_2, two_2_2}, {one_3_2, two_3_2}}, {{one_1_4, two_1_4}, {one_2_4, two_2_4}, {one_3_4, two_3_4}}};
 
-/* One cell: rates of its particles, the largest weight, and who is alone. */
-static void cell(const struct work *w, row_of *sum, double nu, size_t c, struct pm_stretch *s, double *rate, double *most, uint64_t *alone)
+/* The occupied cell in which a place is. */
+static size_t cell_of(const struct pm_cell_list *l, size_t place)
+{
+	size_t from = 0, to = l->occupied;
+	while (to - from > 1) {
+		size_t middle = from + (to - from) / 2;
+		if (l->start[middle] <= place)
+			from = middle;
+		else
+			to = middle;
+	}
+	return from;
+}
+
+/* The pairs of which the first is at a place from..to-1, with their sums. */
+static void piece(const struct work *w, const struct loops *loops, size_t from, size_t to, struct pm_stretch *s, struct sums *own)
 {
 	const struct pm_cell_list *l = w->list;
-	size_t n = pm_cell_list_around(l, c, s);
-	for (size_t i = l->start[c]; i < l->start[c + 1]; i++) {
-		double exchange, weight;
-		sum(w, i, n, s, &exchange, &weight);
-		rate[l->order[i]] += nu * exchange;
-		*most = fmax(*most, weight);
-		*alone += weight == w->factor * (w->constant * w->volume[i]);
+	own->low = from, own->high = to;
+	for (size_t c = from < to ? cell_of(l, from) : l->occupied; c < l->occupied && l->start[c] < to; c++) {
+		size_t n = pm_cell_list_around(l, c, true, s), end = l->start[c + 1] < to ? l->start[c + 1] : to;
+		for (size_t k = 0; k < n; k++) {
+			own->low = s[k].from < own->low ? s[k].from : own->low;
+			own->high = s[k].to > own->high ? s[k].to : own->high;
+		}
+		for (size_t i = l->start[c] < from ? from : l->start[c]; i < end; i += ROWS)
+			(i + 1 < end ? loops->two : loops->one)(w, i, n, s, own);
 	}
 }
 
-/* The largest of a number and a count, over the threads: neither depends on the order. */
-static int cells(const struct work *w, row_of *sum, double nu, double *rate, double *most, uint64_t *alone)
+static void take(const struct work *w, struct sums *own)
+{
+	for (size_t i = own->low; i < own->high; i++) {
+		w->exchange[i] += own->exchange[i], own->exchange[i] = 0;
+		w->weight[i] += own->weight[i], own->weight[i] = 0;
+	}
+}
+
+/* Pieces of equal numbers of particles, whatever the threads; their sums are added in order. */
+static int pieces(const struct work *w, const struct loops *loops)
 {
 	const struct pm_cell_list *l = w->list;
+	size_t wanted = l->n / CHUNK, m = wanted < 1 ? 1 : wanted > CHUNKS ? CHUNKS : wanted;
 	int bad = 0;
-	double largest = 0;
-	uint64_t count = 0;
-#pragma omp parallel if (l->n > 256) reduction(max : largest) reduction(+ : count) reduction(| : bad)
+#pragma omp parallel if (m > 1) reduction(| : bad)
 	{
 		struct pm_stretch *s = pm_alloc(l->most, sizeof *s);
-		bad = !s;
-#pragma omp for schedule(dynamic, 16)
-		for (size_t c = 0; c < l->occupied; c++)
-			if (s)
-				cell(w, sum, nu, c, s, rate, &largest, &count);
-		pm_free(s);
+		struct sums own = {.exchange = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double)), .weight = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double))};
+		bad = !s || !own.exchange || !own.weight;
+#pragma omp for ordered schedule(dynamic, 1)
+		for (size_t c = 0; c < m; c++) {
+			if (!bad)
+				piece(w, loops, l->n * c / m, l->n * (c + 1) / m, s, &own);
+#pragma omp ordered
+			if (!bad)
+				take(w, &own);
+		}
+		pm_free(s), pm_free(own.exchange), pm_free(own.weight);
 	}
-	*most = largest, *alone = count;
 	return bad ? pm_fail(PM_DATA, "out of memory") : 0;
 }
 
@@ -141,15 +227,31 @@ static double *by_place(const struct pm_cell_list *l, const double *values)
 	return to;
 }
 
+/* The sums by place, to the particles; the largest weight, and who has none but its own. */
+static void found_by(const struct work *w, double nu, double *rate, struct pm_pse_found *found)
+{
+	double most = 0;
+	for (size_t i = 0; i < w->list->n; i++) {
+		rate[w->list->order[i]] += nu * w->factor * w->exchange[i];
+		most = fmax(most, w->constant * w->volume[i] + w->weight[i]);
+		found->alone += w->weight[i] == 0;
+	}
+	found->fastest = w->factor * most;
+}
+
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found)
 {
-	double most = 0, eps2 = p->eps * p->eps;
+	double eps2 = p->eps * p->eps;
 	struct work w = {.list = l, .volume = by_place(l, volume), .strength = by_place(l, strength), .reach2 = l->reach * l->reach,
 		.exponent = -0.25 / eps2, .constant = p->constant, .square = p->square / eps2,
 		.factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
-	int status = w.volume && w.strength ? cells(&w, table[p->order == 4][p->dim - 1], nu, rate, &most, &found->alone) : -PM_DATA;
-	found->fastest = most * (1 + p->beyond);
-	pm_free(w.volume), pm_free(w.strength);
+	w.exchange = pm_zalloc(l->n + 1, sizeof *w.exchange), w.weight = pm_zalloc(l->n + 1, sizeof *w.weight);
+	int status = w.volume && w.strength && w.exchange && w.weight ? pieces(&w, &table[p->order == 4][p->dim - 1]) : -PM_DATA;
+	*found = (struct pm_pse_found){0};
+	if (!status)
+		found_by(&w, nu, rate, found);
+	found->fastest *= 1 + p->beyond;
+	pm_free(w.volume), pm_free(w.strength), pm_free(w.exchange), pm_free(w.weight);
 	return status;
 }

@@ -44,7 +44,7 @@ load ../helper
 	# Made anew from the same rows it stays as it is.
 	awk -v markdown=1 -f "$top/bench/table.awk" rows.tsv new.md | cmp - new.md
 	# Every program of bench/ that prints rows has its place on the page.
-	for kernel in machine start pass-through cycle p2m m2p poisson-fft poisson-mg pp push mgrad diag step; do
+	for kernel in machine start pass-through cycle p2m m2p poisson-fft poisson-mg pp pse push mgrad diag step; do
 		grep -qE "^<!-- rows:.* $kernel( .*)? -->$" "$top/docs/speed.md"
 	done
 }
