@@ -11,6 +11,10 @@ struct config {
 	const char *format;
 };
 
+struct state {
+	uint64_t frames; /* printed */
+};
+
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
@@ -48,11 +52,14 @@ static int check(const struct pm_frame *f, const struct pm_plan *p, int steps)
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct config *o = s->config;
+	struct state *state = s->state;
 	struct pm_plan p;
 	o->choice.cost = !o->no_cost && !o->sentence && !o->check;
 	int status = pm_plan_frame(f, &o->choice, &p);
 	if (status)
 		return status;
+	if (state->frames++ && !o->sentence && strcmp(o->format, "json"))
+		putchar('\n');
 	if (o->check)
 		return check(f, &p, (int)o->steps);
 	if (o->sentence)
@@ -91,6 +98,7 @@ const struct pm_tool tool_plan = {
 	.kind = PM_SINK,
 	.reads = "everything",
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
 	.begin = begin,

@@ -80,7 +80,7 @@ static void on_mesh(const struct pm_frame *f, struct pm_plan *p)
 	cells(f, p, n);
 	snprintf(words, sizeof words, "p2m%s%s%s%s%s", own, n, strcmp(m->kernel, default_kernel) ? " --kernel " : "", strcmp(m->kernel, default_kernel) ? m->kernel : "",
 		m->grow ? " --outside grow" : "");
-	add(p, words, "%s; %s", m->why_far, m->why_mesh);
+	add(p, words, "on a mesh: %s; %s", m->why_far, m->why_mesh);
 	snprintf(words, sizeof words, "poisson-fft%s%s%s", own, m->symbol ? " --symbol " : "", m->symbol ? m->symbol : "");
 	add(p, words, "self field: on, %s", because(p, "self-field"));
 	snprintf(words, sizeof words, "mgrad%s%s%s", own, strcmp(m->order, p->law->order) ? " --order " : "", strcmp(m->order, p->law->order) ? m->order : "");
@@ -95,7 +95,7 @@ static void forces(const struct pm_frame *f, struct pm_plan *p)
 	const char *own = own_mesh(f, p->law);
 	char words[160];
 	if (self && p->method.pairs)
-		add(p, p->scales.softening > 0 && !pm_plan_has(p, "smoothing") ? "pp --softening 0" : "pp", "self field: on, %s; %s; smoothing: %s", because(p, "self-field"), p->method.why_far, because(p, "smoothing"));
+		add(p, p->scales.softening > 0 && !pm_plan_has(p, "smoothing") ? "pp --softening 0" : "pp", "self field: on, %s; pair by pair: %s; smoothing: %s", because(p, "self-field"), p->method.why_far, because(p, "smoothing"));
 	else if (self)
 		on_mesh(f, p);
 	if (pm_plan_has(p, "diffusion") && !p->method.pairs)

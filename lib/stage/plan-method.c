@@ -45,6 +45,9 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 
 /* ---- the mesh ---- */
 
+/* A force wrong by d shifts frequencies by d/2, phases by d omega T/2 in the time of the run: so much less is allowed. */
+static double allowed(const struct pm_scales *s) { return s->accuracy / fmax(1, 0.5 * s->omega * s->time); }
+
 struct try {
 	const struct pm_atlas_force *row; /* solver, kernel, gradient */
 	int factor;                       /* of the cells */
@@ -62,7 +65,7 @@ static struct try best(const struct pm_plan *p, const char *scene, double h, int
 	struct try found = {NULL, factor, HUGE_VAL};
 	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++) {
 		const double e = can(p, r, scene) ? pm_atlas_force_error(scene, r->solver, r->kernel, r->gradient, h / factor) : NAN;
-		const bool reaches = e <= p->scales.accuracy, reached = found.error <= p->scales.accuracy;
+		const bool reaches = e <= allowed(&p->scales), reached = found.error <= allowed(&p->scales);
 		if (!(e >= 0))
 			continue;
 		if (!found.row || (reaches && !reached) || (reaches && reached && r->ns < found.row->ns) || (!reaches && !reached && e < found.error))
@@ -84,7 +87,7 @@ static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
 		if (can(p, r, scene) && !strcmp(r->solver, solver) && !strcmp(r->kernel, p->law->kernel) && !strcmp(r->gradient, p->law->order))
 			least = (struct try){r, 1, pm_atlas_force_error(scene, solver, r->kernel, r->gradient, h)};
-	for (int factor = 1; factor <= 8 && !(least.error <= s->accuracy) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
+	for (int factor = 1; factor <= 8 && !(least.error <= allowed(s)) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
 		const struct try t = best(p, scene, h, factor);
 		if (t.row && t.error < 0.8 * least.error) /* more cells for something */
 			least = t;
@@ -123,7 +126,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	if (!t.row)
 		return;
 	const double dearer = cost_pairs(s) / cost_mesh(s);
-	if (t.error > s->accuracy && all_open(s) && dearer < 20) {
+	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
 		m->pairs = s->pairs = true;
 		snprintf(m->why_far, sizeof m->why_far, "%g bodies, a mesh would be wrong by %.1g; pairs cost %.2g times as much", s->sources, t.error, dearer);
 		return;
@@ -136,5 +139,5 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
 	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
 	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: %.1g of the force is wrong at h = %.2g of its length%s", m->kernel, t.error, s->h / s->length,
-		t.error > s->accuracy ? ", more than asked for" : "");
+		t.error > allowed(s) ? ", more than asked for" : "");
 }

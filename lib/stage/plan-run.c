@@ -14,14 +14,23 @@ struct pm_frame *pm_plan_bare(const struct pm_frame *f)
 	return pm_frame_settle(copy) ? pm_frame_free(copy) : copy;
 }
 
+static int prime(struct pm_sentence *s, struct pm_frame **f) { return pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0; }
+
 /* A step, which may be several passes. */
 static int step(struct pm_sentence *s, struct pm_frame **f)
 {
 	const int64_t before = (*f)->step;
-	int status = pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0;
+	int status = prime(s, f);
 	for (int pass = 0; pass < 16 && !status && (*f)->step == before; pass++)
 		status = pm_sentence_pass(s, f);
 	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence completes no step");
+}
+
+/* Adds sign times the seconds of each word so far. */
+static void clock_words(const struct pm_sentence *s, double sign, double *seconds)
+{
+	for (int k = 0; seconds && k < PM_PLAN_STAGES && pm_sentence_stage(s, k); k++)
+		seconds[k] += sign * pm_sentence_stage(s, k)->seconds;
 }
 
 /* The failure again, after what frees things, with the sentence. */
@@ -39,15 +48,16 @@ struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int
 {
 	struct pm_sentence *s = pm_sentence_new(sentence, true, NULL);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	double warm[PM_PLAN_STAGES] = {0};
-	int status = g ? 0 : pm_failed();
+	int status = g ? prime(s, &g) : pm_failed();
+	for (int k = 0; k < PM_PLAN_STAGES && seconds; k++)
+		seconds[k] = 0;
 	for (int i = 0; i < steps && !status; i++) {
+		if (i + 1 == steps)
+			clock_words(s, -1, seconds);
 		status = step(s, &g);
-		for (int k = 0; k < PM_PLAN_STAGES && !i && steps > 1 && pm_sentence_stage(s, k); k++)
-			warm[k] = pm_sentence_stage(s, k)->seconds;
 	}
-	for (int k = 0; k < PM_PLAN_STAGES && seconds && !status && pm_sentence_stage(s, k); k++)
-		seconds[k] = (pm_sentence_stage(s, k)->seconds - warm[k]) / (steps > 1 ? steps - 1 : 1);
+	if (!status)
+		clock_words(s, 1, seconds);
 	if (status)
 		return failed(g, s, sentence, status);
 	pm_sentence_free(s);

@@ -56,7 +56,9 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p)
 	if (p->scales.kind == PM_NO_FIELD || p->scales.kind == PM_CARRIED || !(p->scales.sources > 0))
 		return 0;
 	int status = alone(f, p, &q);
+	const double began = pm_seconds();
 	struct pm_frame *g = status ? NULL : pm_plan_prime(f, q.sentence);
+	p->force = pm_seconds() - began;
 	if (!g)
 		return pm_failed();
 	status = pm_scales_of_force(g, p->law, &p->scales);
@@ -106,10 +108,11 @@ static int measure_distortion(const struct pm_frame *f, struct pm_plan *p)
 	return status;
 }
 
-static int seconds(const struct pm_frame *f, struct pm_plan *p)
+/* Of every stage in a step: the second step, or the first where steps are long. */
+static int cost(const struct pm_frame *f, struct pm_plan *p)
 {
 	double measured[PM_PLAN_STAGES];
-	struct pm_frame *g = pm_plan_run(f, p->sentence, 2, measured);
+	struct pm_frame *g = pm_plan_run(f, p->sentence, p->force > 0.5 ? 1 : 2, measured);
 	if (!g)
 		return pm_failed();
 	pm_frame_free(g);
@@ -158,7 +161,7 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		return status;
 	decide(p, c);
 	status = pm_plan_compose(f, p);
-	return status || !c->cost ? status : seconds(f, p);
+	return status || !c->cost ? status : cost(f, p);
 }
 
 int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT])

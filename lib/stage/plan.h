@@ -43,6 +43,7 @@ struct pm_plan {
 	struct pm_plan_effect effect[PM_PLAN_EFFECTS];
 	struct pm_plan_stage stage[PM_PLAN_STAGES];
 	char sentence[PM_PLAN_TEXT];
+	double force; /* seconds that the force of the frame took */
 };
 
 /* Of a frame whose data are all held. 0 or failure. */
@@ -62,7 +63,7 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 
-/* plan-run.c: runs a sentence for so many full steps on a copy of a frame. seconds, if not NULL: of each word in a step, without set-up. */
+/* plan-run.c: runs a sentence for so many full steps on a copy of a frame. seconds, if not NULL: of each word in the last step, without set-up. */
 struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds);
 /* The words that make fields from state, once. */
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence);

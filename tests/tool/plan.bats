@@ -83,8 +83,11 @@ small() {
 	leap='push kick/2 drift | FORCE | push kick/2'
 	[ "$(sentence kepler)" = "${leap/FORCE/pp}" ]
 	[ "$(sentence two-body)" = "${leap/FORCE/pp}" ]
-	for s in cold-collapse langmuir landau two-stream; do
+	for s in cold-collapse two-stream; do
 		[ "$(sentence $s -n 512)" = "${leap/FORCE/p2m | poisson-fft | mgrad | m2p}" ] || { echo $s; return 1; }
+	done
+	for s in landau langmuir; do # the accuracy asks for more of the mesh than the law's defaults have
+		[ "$(sentence $s -n 512 | sed 's/ --[a-z]* [^ ]*//g')" = "${leap/FORCE/p2m | poisson-fft | mgrad | m2p}" ] || { echo $s; return 1; }
 	done
 	for s in exb gyration; do [ "$(sentence $s)" = 'push boris/2 drift | m2p | push boris/2' ]; done
 	for s in polygon vortex-pair point-vortices; do [[ "$(sentence $s)" = 'pp | push '@(lsrk3|rk4) ]]; done
@@ -101,15 +104,15 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit langmuir >wave
 	pinit plummer -n 300 >cluster
 	pinit lamb-oseen --cells 64 >vortex
-	# references: a turn ends where it began; sentences that are finer in everything
-	cycle -t 10 'p2m -n 256 --kernel pcs | poisson-fft --symbol spectral | mgrad --order spectral | m2p | push --dt 0.05 rk4' <wave >wave.right
+	# references: a turn ends where it began; sheets that do not cross swing each by itself; a sentence that is finer in everything; diag --exact
 	cycle -t 1 'pp | push --dt 0.001 rk4' <cluster >cluster.right
 	for a in 0.1 0.01 0.001; do
-		most=$(awk "BEGIN { print 2 * $a }")
+		most=$(awk "BEGIN { print 1.5 * $a }")
 		cycle -t 6.283185307179586 --plan --accuracy $a <ellipse >ellipse.end
 		below "$(error x matter ellipse.end ellipse)" "$most" "ellipse, $a"          # measured 0.112, 0.0108, 0.00100
 		cycle -t 10 --plan --accuracy $a <wave >wave.end
-		below "$(error v electrons wave.end wave.right)" "$most" "wave, $a"          # measured 0.039, 0.0133, 0.00108
+		scalc 'v = -0.05*sin(2*pi*(id + 0.5)/4096)*sin(time)' <wave.end >wave.right
+		below "$(error v electrons wave.end wave.right)" "$most" "wave, $a"          # measured 0.037, 0.0085, 0.00058
 		cycle -t 1 --plan --accuracy $a <cluster >cluster.end
 		below "$(error x matter cluster.end cluster.right)" "$most" "cluster, $a"
 		cycle -t 2 --plan --accuracy $a <vortex | p2m --kernel m6prime | diag --exact >vortex.table
