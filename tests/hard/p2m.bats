@@ -26,6 +26,17 @@ mesh() { stab --plain --mesh mesh | awk 'NR > 1 { printf "%s%s", (NR > 2 ? " " :
 	[ "$(awk 'NR == 2 { print ($2 >= 7) }' <<<"$output")" = 1 ] # all but 1e300, whose place is an accident of rounding, sit at lo
 }
 
+@test "HC-59: a particle 2^40 periods away, up or down, falls where it belongs" {
+	# 4 * 2^40 + 1.25 and 1.25 - 4 * 2^40, both exact
+	printf 'x mass\n4398046511105.25 1\n-4398046511102.75 2\n1.25 4\n' | stab - --law gravity --box 0,4 --faces periodic -n 4 >a
+	printf 'x mass\n1.25 7\n' | stab - --law gravity --box 0,4 --faces periodic -n 4 >b
+	for kernel in ngp cic tsc pcs m4prime; do
+		paste <(p2m --kernel $kernel <a | stab --plain --mesh mesh | sed 1d) <(p2m --kernel $kernel <b | stab --plain --mesh mesh | sed 1d) >c
+		[ "$(wc -l <c)" = 4 ]
+		below "$(awk '{ d = $2 - $4; d = d < 0 ? -d : d; m = d > m ? d : m } END { print m + 0 }' c)" 1e-14 "$kernel" # sums of three and of one
+	done
+}
+
 @test "HC-59: m2p finds a value for the same positions" {
 	printf 'x vx mass\n-1e-17 0 1\n4 0 2\n3.9999999999999996 0 4\n1e300 0 8\n' | stab - --law gravity --box 0,4 --faces periodic -n 4 | p2m >a
 	sh_ok 'm2p --field rho <a | stab --plain'

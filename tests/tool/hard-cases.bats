@@ -16,6 +16,14 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 	done
 }
 
+@test "every hard case of tests/reference/cases.md is in docs/hard-cases.md" {
+	grep -oE '^\| HC-[0-9]+ ' "$top/tests/reference/cases.md" | tr -d '| ' >cases
+	[ "$(wc -l <cases)" -ge 40 ]
+	while read -r case; do
+		page | grep -qE "^\|.*\b$case\b" || { echo "no row for $case"; return 1; }
+	done <cases
+}
+
 @test "every row of docs/hard-cases.md has five cells and names tests that are there, or a word that is not" {
 	page | awk -F'|' '/^\|/ && NF != 7 { print NR ": " NF - 2 " cells"; bad = 1 } END { exit bad }'
 	rows | cut -f2,3 >rows
