@@ -1,5 +1,5 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
-# make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, atlas, hard-cases, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# make, demo, check, check-long, asan, valgrind, bench, counts, counts-check, gallery, stability, atlas, hard-cases, measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
@@ -141,6 +141,9 @@ valgrind:
 
 gallery: all
 	bash docs/gallery.sh
+# The tables of docs/stability.md: three minutes.
+stability: all
+	bash docs/stability.sh
 # The figures of docs/accuracy/ and the tables of data/atlas/, measured anew: four minutes, on a machine at rest.
 atlas: all
 	bash docs/accuracy/atlas.sh
@@ -199,5 +202,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit benches demo check check-long asan valgrind bench counts counts-check gallery atlas hard-cases measure lint man install uninstall clean
+.PHONY: all unit benches demo check check-long asan valgrind bench counts counts-check gallery stability atlas hard-cases measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

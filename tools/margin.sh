@@ -37,7 +37,7 @@ With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnupl
 one file; what was run is kept there, and the same command goes on where it stopped."
 rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; may be given several times
 u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
-e|expect|EXPRESSION||the limit of theory: a number, or arithmetic with the {name} of choices, sqrt and pi
+e|expect|EXPRESSION||the limit of theory: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
 |from|WORD|below above|the side of the limit that is stable (default below)
 |tolerance|X||half of the bracket over the limit at which it is good enough (default 1e-3)
 |seeds|N||how many seeds {seed} stands for: 1, 2, ... (default 3)
@@ -50,7 +50,7 @@ j|jobs|N||runs at a time (default 1)
 |fresh|||forget what was run before in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
 examples="The step at which a leapfrog on a spring leaves the orbit; 2 in theory|margin 'printf \"x vx\\n1 0\\n\" | stab - --law free | cycle -n 100 \"push --dt {dt} kick/2 drift | field acc=-x | push kick/2\"' --vary dt:0.5:4 --expect 2 --unstable-when 'distance_max > 100' --tolerance 0.01
-Two schemes on the imaginary axis, each with its own limit|margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 --vary scheme=lsrk3,rk4 --expect '\"{scheme}\" == \"rk4\" ? 2*sqrt(2) : sqrt(3)' --unstable-when 'distance_max > 2' --tolerance 0.02"
+Two schemes on the imaginary axis, each with its own limit|margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 --vary scheme=lsrk3,rk4 --expect 'lsrk3=sqrt(3),rk4=2*sqrt(2)' --unstable-when 'distance_max > 2' --tolerance 0.02"
 
 number='[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?'
 

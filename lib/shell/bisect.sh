@@ -64,10 +64,20 @@ search() {
 	done
 }
 
-# expected MEMBER: the number that --expect is for it; awk reads the expression.
+# expected MEMBER: the number that --expect is for it, which awk reads; of a list name=number,name=number the one whose name is a choice of the member.
 expected() {
-	[ -n "${reference[$1]}" ] || return 0
-	awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"${reference[$1]}"') }' 2>/dev/null || usage "--expect: '${reference[$1]}' is not a number (2, 2*sqrt(2), {name}^2/2)"
+	local e=${reference[$1]} one=() d
+	if [[ $e =~ ^[[:space:]]*[A-Za-z0-9_.-]+[[:space:]]*=[^=] ]]; then
+		IFS=, read -r -a one <<<"$e"
+		e=
+		for one in "${one[@]}"; do
+			[[ $one == *=* ]] || usage "--expect: '$one' is not name=number"
+			trim "${one%%=*}"
+			for d in "${choice_shown[@]}"; do [ "$text" != "${chosen[$1 * ${#choice_name[@]} + d]}" ] || e=${one#*=}; done
+		done
+	fi
+	[ -n "$e" ] || return 0
+	awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"$e"') }' 2>/dev/null || usage "--expect: '$e' is not a number (2, 2*sqrt(2), {name}^2/2, or rk2=2,rk4=2.785 for choices)"
 }
 
 # The result: a line per member. Uncertainty: half of the bracket, and half of the range over the seeds.

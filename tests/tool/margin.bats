@@ -82,6 +82,11 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	grep -qE '^scheme +limit' t
 	grep -qE '^lsrk3 .* 1\.732050808 .* yes' t
 	grep -qE '^rk4 .* 2\.828427125 .* yes' t
+	grep -qE '^rk4 .* 2\.828427125 .* yes' t
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*x | push {euler,rk4,rk2}"' --vary w:0.2:3 --expect 'rk4=2.8, euler=1+1' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+	[ "$(awk -F'\t' 'NR > 1 { print $2, $8, $10 }' t)" = "euler 2 yes
+rk4 2.8 yes
+rk2 - -" ] || { cat t; false; }
 	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"' --vary w:0.2:3 --vary k=1,2 --expect '2/{k}' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
 	[ "$(awk -F'\t' 'NR > 1 { print $2, $3, ($3 == "euler" ? $11 : "") }' t)" = "1 euler yes
 1 rk4 
