@@ -57,14 +57,16 @@ awk -F'\t' -v OFS='\t' '
 		if (relation[i] == "above") return a[i] > 0 ? got[i] / a[i] : 1e300
 		d = size(2 * got[i] - a[i] - b[i]); return d > 0 ? (b[i] - a[i]) / d : 1e300
 	}
-	function said(i, m) {
+	function said(i, m, of) {
 		m = margin(i)
 		m = m < 1.995 ? sprintf("%.3f", m) : m < 9.95 ? sprintf("%.2f", m) : m < 999.5 ? sprintf("%.0f", m) : sprintf("%.0e", m)
 		sub(/e\+0*/, "e", m)
-		if (relation[i] == "within") return sprintf("%s (off by %.2g, %.4g allowed)", m, size(got[i] - a[i]), b[i])
-		if (relation[i] == "below") return sprintf("%s (%.4g, at most %.4g)", m, size(got[i]), a[i])
-		if (relation[i] == "above") return sprintf("%s (%.4g, at least %.4g)", m, got[i], a[i])
-		return sprintf("%s (%.4g, from %.4g to %.4g)", m, got[i], a[i], b[i])
+		of = what[i] == "" ? "" : what[i] ": "
+		gsub(/ *\| */, " / ", of)
+		if (relation[i] == "within") return sprintf("%s (%soff by %.2g, %.4g allowed)", m, of, size(got[i] - a[i]), b[i])
+		if (relation[i] == "below") return sprintf("%s (%s%.4g, at most %.4g)", m, of, size(got[i]), a[i])
+		if (relation[i] == "above") return sprintf("%s (%s%.4g, at least %.4g)", m, of, got[i], a[i])
+		return sprintf("%s (%s%.4g, from %.4g to %.4g)", m, of, got[i], a[i], b[i])
 	}
 	{
 		if (!($1 in lines)) { lines[$1]; best[$1] = 0; least[$1] = 1e301; old[$1] = $4 }
