@@ -63,7 +63,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 			pinit uniform -n 1000 --dim $dim | p2m -n $n | poisson-mg --tolerance 1e-18 --cycle $cycle >a
 			[ "$(report a status)" = floor ]
 			below "$(report a cycles)" 49 "$row $cycle, cycles"
-			[ "$(report a cycles)" -gt 0 ]
+			[ "$(report a cycles)" != 0.0 ]
 			below "$(report a residual)" 1e-12 "$row $cycle"
 		done
 	done
@@ -120,13 +120,13 @@ falls() { # the residual is at least halved in every five iterations
 		poisson-mg --tolerance 1e-18 $o <m >a
 		[ "$(report a status)" = floor ]
 		below "$(report a cycles)" 49 "$o, cycles"
-		[ "$(report a cycles)" -gt 0 ]
+		[ "$(report a cycles)" != 0.0 ]
 		below "$(report a residual)" 1e-11 "$o"
 	done
 	pinit plummer -n 100 | p2m -n 20 --outside drop | poisson-mg --tolerance 1e-18 >a
 	[ "$(report a status)" = floor ]
 	below "$(report a cycles)" 98 "open, cycles" # of two solutions
-	[ "$(report a cycles)" -gt 0 ]
+	[ "$(report a cycles)" != 0.0 ]
 }
 
 @test "HC-25: order 4 and a permittivity on cells stretched 100 times converge faster than 0.5 per cycle" {
