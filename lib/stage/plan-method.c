@@ -127,6 +127,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	const struct try t = mesh_try(p, scene, h);
 	if (!t.row)
 		return;
+	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
 	const double dearer = cost_pairs(s) / cost_mesh(s);
 	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
 		m->pairs = s->pairs = true;
@@ -139,7 +140,6 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	m->symbol = strcmp(symbol, p->law->symbol) ? symbol : NULL;
 	for (int d = 0; d < f->dim && t.factor > 1; d++)
 		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
-	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
 	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: %.1g of the force is wrong at h = %.2g of its length%s", m->kernel, t.error, s->h / s->length,
 		t.error > allowed(s) ? ", more than asked for" : "");
 }
