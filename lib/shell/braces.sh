@@ -21,17 +21,25 @@ trim() {
 	text=${text%"${text##*[![:space:]]}"}
 }
 
-# group TEXT that begins with {: sets end to the place of its }, pieces to what stands between its commas.
+piece() {
+	trim "$1"
+	[[ -z $behind_word || $1 != [[:space:]]* || $text != -[[:alpha:]-]* ]] || text=" $text"
+	pieces+=("$text")
+}
+
+# group TEXT BEFORE: of a text that begins with { sets end to the place of its }, pieces to what stands between its commas. Blanks around them do not count, but
+# the one that parts an option from the word before the brace does: a{, --b}.
 group() {
-	local i depth=0 from=1
+	local i depth=0 from=1 behind_word=
 	pieces=()
+	[[ ${2:-} != *[[:alnum:]] ]] || behind_word=1
 	for ((i = 0; i < ${#1}; i++)); do
 		case ${1:i:1} in
 		'{') depth=$((depth + 1)) ;;
 		'}') depth=$((depth - 1)) ;;
-		,) [ $depth != 1 ] || { trim "${1:from:i-from}"; pieces+=("$text"); from=$((i + 1)); } ;;
+		,) [ $depth != 1 ] || { piece "${1:from:i-from}"; from=$((i + 1)); } ;;
 		esac
-		[ $depth != 0 ] || { end=$i; trim "${1:from:i-from}"; pieces+=("$text"); return; }
+		[ $depth != 0 ] || { end=$i; piece "${1:from:i-from}"; return; }
 	done
 	show_escapes "$1"
 	usage "a brace is not closed: '$text' (\\{ for the sign itself)"
@@ -53,14 +61,14 @@ known() {
 	usage "'{$text}' is neither alternatives, which have a comma, nor a name of --vary (\\{ for the sign itself)"
 }
 
-# expand TEXT: sets expanded to all it can be; names stay.
+# expand TEXT [BEFORE]: sets expanded to all it can be; names stay.
 expand() {
 	local s=$1 before='' head one all=() last=() parts=()
 	while [[ $s == *'{'* ]]; do
 		head=${s%%'{'*}
 		no_stray "$head"
 		before+=$head s=${s:${#head}}
-		group "$s"
+		group "$s" "${before:-${2:-}}"
 		parts=("${pieces[@]}") head=${s:0:end+1} s=${s:end+1}
 		if [ ${#parts[@]} = 1 ]; then
 			known "${parts[0]}"
@@ -130,7 +138,7 @@ parse() {
 		head=${s%%'{'*}
 		no_stray "$head"
 		before+=$head s=${s:${#head}}
-		group "$s"
+		group "$s" "$before"
 		head=${s:0:end+1} s=${s:end+1}
 		parts=("${pieces[@]}")
 		link_names "$head"
@@ -139,7 +147,7 @@ parse() {
 			before+=$head
 			continue
 		fi
-		expand "$head"
+		expand "$head" "$before"
 		name_of "${segment_choice:+...}$before"
 		segment+=("$before") segment_choice+=("${#choice_name[@]}")
 		add_choice "$name" "${expanded[@]}"
@@ -184,6 +192,7 @@ add_member() {
 	sentence+=("$text")
 	for d in "${!at[@]}"; do
 		with_names "${value[d]}"
+		trim "$text"
 		chosen+=("$text")
 	done
 	with_names "$reference_template"

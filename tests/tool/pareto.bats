@@ -20,6 +20,7 @@ told() {
 @test "braces: nest, may be empty, may hold |, and the commas inside an inner pair are the inner pair's" {
 	[ "$(list 'a | {p2m | poisson-fft | mgrad --order {2,4} | m2p, tree, pp}')" = $'a | p2m | poisson-fft | mgrad --order 2 | m2p\na | p2m | poisson-fft | mgrad --order 4 | m2p\na | tree\na | pp' ]
 	[ "$(list 'a{1{x,y},,2}')" = $'a1x\na1y\na\na2' ]
+	[ "$(list 'a {x, y} --k={1, -2} b{, --o,-p, -q {3, 4}}' | sed -n '1,4p;15,16p')" = $'a x --k=1 b\na x --k=1 b --o\na x --k=1 b-p\na x --k=1 b -q 3\na y --k=1 b -q 4\na y --k=-2 b' ]
 	[ "$(list "cycle -n {5,10} 'push {kick,drift}/2 | pp'")" = "cycle -n 5 'push kick/2 | pp'
 cycle -n 5 'push drift/2 | pp'
 cycle -n 10 'push kick/2 | pp'
