@@ -18,7 +18,7 @@ struct pm_scales {
 	double n, sources;           /* particles that move; those with a strength, fixed ones too */
 	double dt, time;             /* [time] the step, and how long the run is to last */
 	double h, box;               /* [length] largest spacing of the mesh, shortest side of the box */
-	double points;               /* of the mesh */
+	double points, edge;         /* of the mesh; [length] of the particle nearest to an open face from it, HUGE_VAL: there is none */
 	double softening, nu, c;     /* [length], [length^2/time], [length/time] constants of the frame; c NAN: infinite */
 	double spread, nearest, spacing; /* [length] rms distance from the centre; of the nearest pair; of neighbours on the average */
 	double v_max, v_rms, v_thermal; /* [length/time] speeds, and the rms about the mean */

@@ -22,7 +22,7 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 	} else if (s->kind == PM_CHARGES || s->dim == 1) {
 		d->number = s->n / s->points;
 		snprintf(d->text, sizeof d->text, "particles sample a cloud, %.2g in a cell, and are as wide as one", d->number);
-	} else if (s->open && s->mesh_error > s->accuracy) {
+	} else if (s->open && !s->periodic && !s->walls && s->mesh_error > s->accuracy) {
 		effect_by(d, s, s->mesh_error, s->mesh_error);
 		snprintf(d->text, sizeof d->text, "the mesh is wrong by %.1g where bodies are near", s->mesh_error);
 	} else if (cells > 2.5) {

@@ -111,6 +111,10 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 			pm_sum_add(&square, (x[d][i] - mean) * (x[d][i] - mean));
 		moment += pm_sum_total(square) / (double)n;
 	}
+	s->edge = HUGE_VAL;
+	for (int k = 0; k < 2 * f->dim; k++)
+		for (size_t i = 0; i < n && f->face[k / 2][k % 2] == PM_OPEN; i++)
+			s->edge = fmin(s->edge, k % 2 ? f->hi[k / 2] - x[k / 2][i] : x[k / 2][i] - f->lo[k / 2]);
 	s->spread = sqrt(moment);
 	s->spacing = n ? pow(volume(f, s->spread) / (double)n, 1.0 / f->dim) : NAN;
 	s->nearest = n > 1 && n <= PM_SCALES_PAIRS && !status ? nearest(f, n, x) : s->spacing * pow(fmax(1, (double)n), -1.0 / f->dim);

@@ -119,7 +119,7 @@ static bool speakable(const struct pm_plan *p, const char *name)
 {
 	const bool in = pm_plan_has(p, name), mesh = !p->method.pairs, vortices = p->scales.kind == PM_VORTICES;
 	if (!strcmp(name, "self-field"))
-		return p->law->strength && (in || p->scales.sources > 0);
+		return p->law->strength && (in || p->scales.sources > 0) && (isnan(p->scales.cyclotron) || !isnan(p->scales.given));
 	if (!strcmp(name, "magnetic-rotation"))
 		return !isnan(p->scales.cyclotron);
 	if (!strcmp(name, "external-field"))
@@ -148,7 +148,7 @@ static int other(const struct pm_plan *p, const char *name, bool remesh, struct 
 	}
 	if (!strcmp(name, "external-field") && zero_field(f, p->law->field))
 		return -PM_DATA;
-	q->method.grow = !strcmp(name, "periodic-images");
+	q->method.grow |= !strcmp(name, "periodic-images");
 	int status = pm_frame_settle(f);
 	return status ? status : pm_plan_compose(f, q);
 }

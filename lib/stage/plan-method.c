@@ -37,6 +37,7 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	const struct pm_scales *s = &p->scales;
 	*m = (struct pm_method){.dt = NAN, .kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
 	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
+	m->grow = s->edge < 4 * s->h; /* half the widest kernel */
 	if (s->kind == PM_VORTICES && !m->pairs) {
 		m->kernel = "m6prime"; /* m4prime makes vortices that are not there (VM-16) */
 		m->scheme = "lsrk3";
@@ -112,7 +113,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_method *m = &p->method;
 	struct pm_scales *s = &p->scales;
-	const char *scene = s->open ? "clustered" : "smooth";
+	const char *scene = all_open(s) ? "clustered" : "smooth";
 	const double h = s->h / s->length;
 	if (m->pairs || !f->nmeshes || !(s->length > 0))
 		return;

@@ -18,6 +18,15 @@ static void duration(double seconds, char text[32])
 	snprintf(text, 32, isnan(seconds) ? "-" : "%.3g %s", seconds * (seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1), unit);
 }
 
+/* What a needed effect without a word, or whose word plan does not place, leaves to say. */
+static void lacking(FILE *out, const struct pm_plan_effect *e)
+{
+	if (e->lacking && pm_tool_find(e->effect->word))
+		fprintf(out, ", the word %s does it, which plan does not place: the result lacks it", e->effect->word);
+	else if (e->lacking)
+		fputs(", no word for it yet: the result lacks it", out);
+}
+
 static const char *answer(const struct pm_plan_effect *e) { return e->lacking ? "needed" : e->decision.answer == PM_PUT_IN ? "on" : "off"; }
 
 static void stages(FILE *out, const struct pm_plan *p, bool cost)
@@ -47,7 +56,8 @@ static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *w
 		if (strcmp(answer(e), which))
 			continue;
 		duration(e->saves, text);
-		fprintf(out, "# %-18s %-6s %s%s", label(e->effect, name), answer(e), e->decision.text, e->lacking ? ", no word for it yet: the result lacks it" : "");
+		fprintf(out, "# %-18s %-6s %s", label(e->effect, name), answer(e), e->decision.text);
+		lacking(out, e);
 		if (cost && !isnan(e->saves))
 			fprintf(out, "; saves %s a step", text);
 		fputc('\n', out);

@@ -28,6 +28,25 @@ static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 	e->by_hand = true;
 }
 
+/* Words that plan-compose.c places; the others are named where they are needed. */
+static bool places(const char *word) { return !strcmp(word, "diffuse") || !strcmp(word, "remesh"); }
+
+/* A magnetic field is brought by m2p, which wants the law's field beside it. */
+static void field_beside(struct pm_plan *p)
+{
+	struct pm_plan_effect *self = NULL, *magnetic = NULL;
+	for (int i = 0; i < p->neffects; i++) {
+		self = !strcmp(p->effect[i].effect->name, "self-field") ? &p->effect[i] : self;
+		magnetic = !strcmp(p->effect[i].effect->name, "magnetic-rotation") ? &p->effect[i] : magnetic;
+	}
+	if (!self || !magnetic || magnetic->decision.answer != PM_PUT_IN || self->decision.answer == PM_PUT_IN || !isnan(p->scales.given))
+		return;
+	self->decision.answer = PM_PUT_IN;
+	self->decision.kept = true;
+	snprintf(self->decision.text + strlen(self->decision.text), sizeof self->decision.text - strlen(self->decision.text), ", but m2p wants %s beside %s", p->law->field,
+		p->law->magnetic);
+}
+
 /* Effects that the words of the far field or push bring need no word of their own. */
 static void decide(struct pm_plan *p, const struct pm_plan_choice *c)
 {
@@ -37,8 +56,9 @@ static void decide(struct pm_plan *p, const struct pm_plan_choice *c)
 		*e = (struct pm_plan_effect){.effect = pm_effects[i], .saves = NAN};
 		pm_effects[i]->decide(&p->scales, &e->decision);
 		overrule(e, c);
-		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !pm_tool_find(e->effect->word);
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !places(e->effect->word);
 	}
+	field_beside(p);
 }
 
 /* Only the self field, to measure it. */
@@ -140,7 +160,7 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		return -PM_DATA;
 	if (f->substep)
 		return pm_fail(PM_DATA, "the frame is inside a step (substep %d): plans begin between steps", f->substep);
-	if (f->dt == 0 && isnan(c->time))
+	if (f->dt == 0 && (isnan(c->time) || c->time == f->time))
 		return pm_fail(PM_DATA, "the frame has no time step (smod --dt DT)");
 	int status = pm_scales_of(f, p->law, &p->scales);
 	if (status)

@@ -237,6 +237,20 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit gyration | run -3 plan --check --on self-field
 }
 
+@test "frames as people have them: particles at an open face, a magnetic field alone, walls, no step" {
+	pinit uniform -n 300 --cells 16 --faces periodic,periodic,open >edge
+	[[ "$(plan --sentence <edge)" = *"p2m "*"--outside grow"* ]]
+	plan --check <edge
+	pinit exb | sel --drop E >magnet
+	[[ "$(plan --sentence <magnet)" = "push --dt "*" boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2" ]]
+	plan --check <magnet
+	pinit uniform --dim 2 -n 300 --faces wall --particle-faces reflect | plan --check
+	pinit lamb-oseen --cells 32 | smod --dt 0 >still
+	run -1 plan <still
+	[[ $output == *"no time step"* ]]
+	cycle -t 1.5 --plan <still | sls | grep -q 'time 1.5 '
+}
+
 @test "what no sentence can say is refused with the word that says it: faces and given fields" {
 	run -2 plan --off periodic-images < <(pinit uniform -n 20)
 	[[ $output == *"smod --faces open"* ]]
