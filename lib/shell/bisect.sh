@@ -96,9 +96,15 @@ tsv() {
 	# Two digits, upwards: an uncertainty must not be rounded below itself.
 	function up(x,    e, k) { if (x <= 0) return 0; e = 10 ^ (int(log(x) / log(10) + 100) - 101); k = int(x / e); if (k < x / e * (1 - 1e-12)) k++; return sprintf("%.3g", k * e) }
 	FILENAME != "-" && $1 == "member" { want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS; count++; next }
-	FILENAME != "-" { if ($1 == "trial") runs[$2]++; next }
+	FILENAME != "-" { if ($1 == "trial") { k = ++runs[$2]; seed[$2, k] = $3; at[$2, k] = $4; was[$2, k] = $5 } next }
 	$1 == "limit" { n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2; if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
 	$1 == "none" { why[$2] = $4 }
+	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
+	function astray(m,    k, below) {
+		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1) {
+			below = at[m, k] <= low[m, 1]
+			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable")) return was[m, k] " again at " at[m, k] ": there is more than one limit" }
+		return "" }
 	END {
 		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", "runs", "sentence", "reason"
 		for (m = 0; m < count; m++) {
@@ -110,6 +116,7 @@ tsv() {
 				row = row OFS sprintf("%.8g", l) OFS up(u) OFS up(half[m]) OFS (n[m] > 1 ? sprintf("%.2g", s) : "-")
 				row = row OFS (want[m] == "" ? "-" : want[m]) OFS (want[m] + 0 == 0 ? "-" : sprintf("%.6g", l / want[m])) OFS (want[m] == "" ? "-" : d <= u * (1 + 1e-9) ? "yes" : "no")
 			}
+			if (n[m]) why[m] = astray(m)
 			print row, from, n[m] + 0, runs[m] + 0, sentence[m], why[m] == "" ? "-" : why[m]
 		}
 	}' "$work/members" "$state/log" -

@@ -21,9 +21,9 @@ table() {
 		cell(r, c++, NR == 1 ? "limit" : $(k+1) == "-" ? "none" : sprintf("%.6g", $(k+1))); cell(r, c++, NR == 1 ? "+-" : $(k+2))
 		if (NR == 1 || $(k+5) != "-") any = 1
 		cell(r, c++, $(k+5)); cell(r, c++, $(k+6)); cell(r, c++, NR == 1 ? "agrees" : $(k+7)); cell(r, c++, $(k+10)); last = c - 1
-		why[r] = NR > 1 && $(k+12) != "-" ? $(k+12) : "" }
+		found[r] = $(k+1) != "-"; why[r] = NR > 1 && $(k+12) != "-" ? $(k+12) : "" }
 	END { for (i = 1; i <= r; i++) { s = ""; for (c = 1; c <= last; c++) s = s sprintf(c <= choices ? "%-" w[c] "s  " : "%" w[c] "s  ", t[i, c]); sub(/ +$/, "", s); print s }
-		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " "; print "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
+		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " "; print found[i] ? s why[i] : "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
 }
 
 # Any table of tabs as JSON: numbers stay numbers, "-" is null.

@@ -22,14 +22,16 @@ shown() {
 	text=$t
 }
 
-cycle_word='^(([A-Za-z_][A-Za-z0-9_]*=[^[:space:]]*[[:space:]]+)*)cycle([[:space:]].*|)$'
+# cycle, with what is set for it and the way to it before the name.
+cycle_word='^(([A-Za-z_][A-Za-z0-9_]*=[^[:space:]]*[[:space:]]+)*([^[:space:]|]*/)?cycle)([[:space:]].*|)$'
 
-# with_until WORD MORE: sets text; a word that is cycle gets the criterion and MORE (the first option wins nothing: they are other options).
+# with_until WORD MORE: sets text; a word that is cycle gets the criterion and MORE.
 with_until() {
+	local until=$criterion
 	text=$1
-	if [[ $1 =~ $cycle_word ]]; then
-		text="${BASH_REMATCH[1]}cycle${criterion:+ --until $(printf '%q' "$criterion")}$2${BASH_REMATCH[3]}"
-	fi
+	[[ $1 =~ $cycle_word ]] || return 0
+	if [[ $until == *"'"* ]]; then until=$(printf '%q' "$until"); else until="'$until'"; fi
+	text="${BASH_REMATCH[1]}${criterion:+ --until $until}$2${BASH_REMATCH[4]}"
 }
 
 # parts SENTENCE: sets part[] to the sentence cut behind every cycle but the last, with the criterion in each.

@@ -169,9 +169,23 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(head -c 4 d/margin.png | tail -c 3)" = PNG ]
 	grep -q '</svg>' d/margin.svg
 	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
-	for what in '<svg' 'cycle --until distance_max' 'processors' 'pmpipe ' 'diag --columns step,distance_max' 'push --dt 4 kick/2'; do
+	for what in '<svg' "cycle --until 'distance_max" 'processors' 'pmpipe ' 'diag --columns step,distance_max' 'push --dt 4 kick/2'; do
 		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
 	done
+}
+
+@test "more than one limit between the ends is said, where a run shows it" {
+	gate
+	# stable below 2, and from 5.5 to 6.5.
+	cat >bin/window <<-'SH'
+		#!/bin/sh
+		if awk -v x="$1" 'BEGIN { exit !(x < 2 || (x > 5.5 && x < 6.5)) }'; then exec cat; else exec gate 1 0; fi
+	SH
+	chmod +x bin/window
+	run -0 margin 'pinit uniform -n 3 | window {a} | cycle -n 1 "push drift"' --vary a:1:9 --tolerance 0.01 --unstable-when 'particles > 3' -o d
+	[[ $output == *"again at "*": there is more than one limit"* ]]
+	! grep -q "for" <<<"$(grep again <<<"$output")"
+	jq -r '.limits[0].reason' d/margin.json | grep -q 'more than one limit'
 }
 
 @test "a map: where it is stable, and its boundary refined" {
