@@ -245,14 +245,18 @@ static void threads(void)
 	static double one[MOST];
 	struct pm_pse_found found, first = {0};
 	scatter(3, MOST);
-	for (int t = 1; t <= 3; t++) {
-		struct pm_pse p = pm_pse_of(3, 2, 0.03, 8);
+	for (int t = 1; t <= 4; t++) {
+		struct pm_pse p = pm_pse_of(3, 2, 0.06, 8); /* four pieces, of which some particles get from three or more */
+		bool same = true;
 		pm_threads_use(t);
-		memset(rate, 0, sizeof rate);
-		add(&p, 0.06, rate, &found);
-		if (t == 1)
-			memcpy(one, rate, sizeof one), first = found;
-		check(!memcmp(one, rate, sizeof one) && found.fastest == first.fastest, "the same bytes with %d threads", t);
+		for (int k = 0; k < 9; k++) { /* so that threads meet in more than one way */
+			memset(rate, 0, sizeof rate);
+			add(&p, 0.12, rate, &found);
+			if (t == 1 && k == 0)
+				memcpy(one, rate, sizeof one), first = found;
+			same &= !memcmp(one, rate, sizeof one) && found.fastest == first.fastest;
+		}
+		check(same, "the same bytes with %d threads, 9 times", t);
 	}
 }
 
