@@ -10,7 +10,7 @@
 
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 {
-	struct pm_pse p = {.dim = dim, .order = order, .eps = eps, .cutoff = cutoff, .reach = eps * cutoff * (1 + 1e-9), .constant = 1, .total = 1};
+	struct pm_pse p = {.dim = dim, .order = order, .eps = eps, .cutoff = cutoff, .reach = pm_pse_reach(eps, cutoff), .constant = 1, .total = 1};
 	if (order == 4)
 		p.constant = 2 + 0.5 * dim, p.square = -0.25, p.total = 2;
 	/* sphere * integral of r^(dim-1) |eta| from the cut-off, by the midpoint rule */

@@ -8,12 +8,14 @@
 struct pm_pse {
 	int dim, order;          /* 1, 2, 3; 2 or 4 */
 	double eps, cutoff;      /* [length]; in eps, at most 40 */
-	double reach;            /* [length] the cut-off, and a billionth: partners that a lattice has just there belong to it, whatever the round-off */
+	double reach;            /* [length] */
 	double constant, square;
 	double total;            /* zeroth moment of eta: 1 or 2 */
 	double beyond;           /* integral of |eta| beyond the cut-off, over total */
 };
 
+/* The cut-off as a length, and a billionth: partners that a lattice has just there belong to it, whatever the round-off. */
+static inline double pm_pse_reach(double eps, double cutoff) { return eps * cutoff * (1 + 1e-9); }
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff);
 double pm_pse_cutoff(int order); /* the default, in eps */
 double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-off */
@@ -21,6 +23,7 @@ double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-
 struct pm_pse_found {
 	double fastest; /* no mode decays faster than nu times this [1/length^2] */
 	uint64_t alone; /* particles that see no other, nor an image */
+	uint64_t widened; /* of the corrected form: particles that needed partners from beyond the cut-off */
 };
 
 /* rate[p] += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, partners and images within the cut-off, which is the list's

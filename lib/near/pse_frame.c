@@ -30,7 +30,7 @@ static int check_volumes(const struct pm_pse_set *s, size_t n, const double *vol
 	for (size_t i = 0; i < n; i++)
 		if (!(volume[i] >= 0) || (value && volume[i] == 0))
 			return pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g, and %s", i, s->set, volume[i],
-				volume[i] < 0 ? "negative ones grow what they should damp" : "a value needs some");
+				volume[i] < 0 ? "negative ones grow what they should damp" : "its value is strength over volume");
 	return 0;
 }
 
@@ -52,7 +52,7 @@ static int width(struct pm_pse_set *s, int dim, size_t n, const double *volume, 
 	if (isnan(s->eps))
 		s->eps = s->overlap * *spacing;
 	if (isnan(s->cutoff))
-		s->cutoff = pm_pse_cutoff(s->order);
+		s->cutoff = s->corrected ? pm_dc_cutoff(s->order) : pm_pse_cutoff(s->order);
 	return s->eps >= 1e-60 && s->eps <= 1e60 ? 0 : pm_fail(PM_DATA, "the volumes on '%s' make a width of %g (--eps LENGTH)", s->set, s->eps);
 }
 
@@ -75,6 +75,47 @@ static int component(struct pm_pse_set *s, const struct pm_pse *p, const struct 
 	return status;
 }
 
+static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const double *volume, struct pm_field *change,
+	struct pm_pse_found *found)
+{
+	struct pm_pse p = pm_pse_of(dim, s->order, s->eps, s->cutoff);
+	int status = 0;
+	for (int c = 0; c < g->components && !status; c++)
+		status = component(s, &p, l, g, c, volume, pm_out(change, c), found);
+	return status;
+}
+
+static int stuck(const struct pm_pse_set *s, const struct pm_dc_found *found, double reach)
+{
+	return pm_fail(PM_DATA, "particle %zu of '%s' has %zu partners within %g, which do not determine the Laplacian (rank %d of %d; a larger --cutoff or --overlap, "
+		"remesh, or --method exchange)", found->stuck, s->set, found->partners, reach, found->rank, found->wanted);
+}
+
+/* All components at once: the weights are the same. A strength is its value times volume. */
+static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const double *volume, struct pm_field *change,
+	struct pm_pse_found *found)
+{
+	const size_t n = l->n, fields = (size_t)g->components;
+	struct pm_dc o = {.dim = dim, .order = s->order, .eps = s->eps, .reach = l->reach / pm_dc_widest};
+	struct pm_dc_found dc;
+	double *value = pm_alloc(n * fields, sizeof *value), *sum = pm_zalloc(n * fields, sizeof *sum), *rates[PM_DC_FIELDS];
+	const double *values[PM_DC_FIELDS];
+	int status = value && sum ? 0 : -PM_DATA;
+	for (size_t c = 0; c < fields && !status; c++) {
+		values[c] = value + c * n, rates[c] = sum + c * n;
+		for (size_t i = 0; i < n; i++)
+			value[c * n + i] = pm_in(g, (int)c)[i] / (g->extensive ? volume[i] : 1);
+	}
+	if (!status && (status = pm_dc_add(&o, l, s->nu, g->components, values, rates, &dc)) == -PM_NUMERICS)
+		status = stuck(s, &dc, l->reach);
+	for (size_t c = 0; c < fields && !status; c++)
+		for (size_t i = 0; i < n; i++)
+			pm_out(change, (int)c)[i] += sum[c * n + i] * (g->extensive ? volume[i] : 1);
+	found->fastest = status ? 0 : dc.fastest, found->widened = status ? 0 : dc.widened;
+	pm_free(value), pm_free(sum);
+	return status;
+}
+
 int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *found)
 {
 	char name[PM_NAME];
@@ -92,19 +133,19 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	}
 	if (!g->count)
 		return 0;
-	int status = check_volumes(s, g->count, volume, !g->extensive);
+	int status = check_volumes(s, g->count, volume, s->corrected || !g->extensive);
 	if (!status)
 		status = check_faces(s, &domain, g->count, x);
 	if (!status)
 		status = width(s, f->dim, g->count, volume, &spacing);
 	if (status)
 		return status;
-	struct pm_pse p = pm_pse_of(f->dim, s->order, s->eps, s->cutoff);
-	status = pm_cell_list_init(&list, &domain, g->count, x, p.reach, 2 * spacing);
+	status = pm_cell_list_init(&list, &domain, g->count, x, pm_pse_reach(s->eps, s->cutoff) * (s->corrected ? pm_dc_widest : 1),
+		(s->corrected ? 1 : 2) * spacing);
 	change_name(s, name);
 	struct pm_field *change = pm_frame_field(f, s->set, name);
-	for (int c = 0; c < g->components && !status; c++)
-		status = component(s, &p, &list, g, c, volume, pm_out(change, c), found);
+	if (!status)
+		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, volume, change, found);
 	if (!status)
 		pm_fastest_add(change, s->nu * found->fastest);
 	pm_cell_list_free(&list);

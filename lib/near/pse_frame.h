@@ -1,12 +1,14 @@
-/* Particle strength exchange of a set of a frame: what its width is, what it needs, its change field. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particle strength exchange of a set of a frame, or its corrected form: what its width is, what it needs, its change field. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_PSE_FRAME_H
 #define PM_PSE_FRAME_H
 
+#include "near/dcpse.h"
 #include "near/pse.h"
 
 struct pm_pse_set {
 	const char *set, *field; /* what is diffused: a strength, or a value of particles with volumes */
 	double nu;               /* [length^2/time] */
+	bool corrected;          /* dcpse.h; else pse.h */
 	int order;
 	double eps;              /* [length]; NAN: overlap times the spacing of the particles */
 	double overlap;          /* eps over that spacing, (mean volume)^(1/dim) */

@@ -125,3 +125,33 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	run -3 bash -o pipefail -c 'printf "x\n1e308\n" | stab - --box -1,1 --dt 1e300 | walk --nu 1e300 | sls'
 	[[ $output == *"not finite"* ]]
 }
+
+@test "S36, HC-45: --method dc on lines, twins and few points: refused in words, never a number that is not one" {
+	scatter() { awk -v how="$1" 'BEGIN { srand(5); print "x y heat volume"; for (i = 0; i < 60; i++) { x = rand(); y = how == "line" ? 2 * x - 0.3 : how == "almost" ? x + 1e-12 * rand() : rand()
+		for (k = 0; k < (how == "twins" ? 2 : 1); k++) printf "%.17g %.17g %.17g %.17g\n", x, y, rand(), 1/60 } }' | stab - --strength heat --box -1,2; }
+	for how in line almost; do
+		scatter $how >a
+		run -1 bash -o pipefail -c 'pse --field heat --nu 1 --method dc <a | sls'
+		[[ $output == *"which do not determine the Laplacian (rank 3 of 9"* ]] || { echo "$output"; return 1; }
+	done
+	scatter twins | pse --field heat --nu 1 --method dc | stab --plain >b
+	[ "$(wc -l <b)" = 121 ]
+	for n in 0 1 2 8; do
+		printf 'x heat volume\n' >c
+		for i in $(seq $n); do echo "0.$i $i 0.1" >>c; done
+		run bash -o pipefail -c 'stab c --strength heat --box 0,1 | pse --field heat --nu 1 --method dc --eps 0.1 | sls'
+		[ "$status" = $((n == 1 || n == 2)) ]
+	done
+}
+
+@test "--method dc on a lattice and on distorted points: noise does not grow just below the bound, and push refuses what is beyond" {
+	for jitter in 0 0.5; do
+		awk -v j=$jitter 'BEGIN { srand(7); print "x y heat volume"; for (i = 0; i < 16; i++) for (k = 0; k < 16; k++) printf "%.17g %.17g %.17g %.17g\n", (i + j * rand()) / 16, (k + j * rand()) / 16, (2 * rand() - 1) / 256, 1/256 }' |
+			stab - --strength heat --box 0,1 --faces periodic >a
+		fastest=$(pse --field heat --nu 1 --method dc <a | stab | head -n 1 | grep -o '"fastest":[0-9.e+]*' | cut -d: -f2)
+		before=$(largest <a)
+		cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk "BEGIN { printf \"%.17g\", 1.999 / $fastest }")" <a | largest >after
+		awk -v b="$before" '{ print b, $1; exit !($1 < b) }' after
+		run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk "BEGIN { printf \"%.17g\", 2.001 / $fastest }")\" <a | sls"
+	done
+}

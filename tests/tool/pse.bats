@@ -46,7 +46,7 @@ rest="field 'vel = 0'"
 	run -0 bash -o pipefail -c 'pse --field temperature --nu 1 <a | sls'
 	[[ $output =~ dtemperature\ +1\ f64\ change\ value\ of\ temperature ]]
 	run -1 bash -o pipefail -c "scalc --role state 'volume = x < 0.5 ? 0 : 1' <a | pse --field temperature --nu 1 | sls"
-	[[ $output == *"has the volume 0, and a value needs some"* ]]
+	[[ $output == *"has the volume 0, and its value is strength over volume"* ]]
 }
 
 @test "where nu is 0 the frame passes untouched, once said with --verbose; a negative one is refused" {
@@ -158,4 +158,28 @@ rest="field 'vel = 0'"
 	awk 'BEGIN { srand(5); print "x y z heat volume"; for (i = 0; i < 3000; i++) print rand(), rand(), rand(), rand(), 1 / 3000 }' | stab - --strength heat --box 0,1 --faces periodic >a
 	for t in 1 2 3; do OMP_NUM_THREADS=$t pse --field heat --nu 1 --cutoff 6 --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
+}
+
+@test "--method dc: no volumes needed but for the width, refuses points that do not determine it, reports who looked farther" {
+	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 20; i++) for (k = 0; k < 20; k++) print (i + rand() * 0.6) / 20, (k + rand() * 0.6) / 20, (i + rand() * 0.6)^2 / 400, 1/400 }' | stab - --strength heat >a
+	pse --field heat --nu 1 --method dc <a >b
+	run -0 bash -o pipefail -c 'sls --report <b'
+	[[ $output =~ \"widened\":[1-9] && $output == *'"cutoff":3.1'* && $output == *'"eps":0.05'* ]]
+	pse --field heat --nu 1 --method dc --order 4 <a | sls --report >c
+	grep -q '"cutoff":4.0999999' c
+	# a field of degree 3 exactly, whatever the volumes
+	scalc --role state 'T = x^3 - 2*x*y + y^2' 'volume = 0.001 + x' <a | pse --field T --nu 0.5 --method dc --eps 0.05 | stab --plain |
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { e = $at["dT"] - 0.5 * (6 * $at["x"] + 2); if (e * e > 1e-20) exit 1; n++ } END { exit n != 400 }'
+	run -1 bash -o pipefail -c "scalc --role state 'x = x, 0.5' <a | pse --field heat --nu 1 --method dc | sls"
+	[[ $output == *"which do not determine the Laplacian (rank 3 of 9; a larger --cutoff or --overlap, remesh, or --method exchange)"* ]]
+	run -1 bash -o pipefail -c "sel --where 'x < 0.2 && y < 0.1' <a | pse --field heat --nu 1 --method dc --cutoff 40 | sls"
+	[[ $output == *"particle 0 of 'matter' has 7 partners"* ]]
+}
+
+@test "--method dc: the same bytes with three threads; push refuses a step beyond its bound" {
+	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 30; i++) for (k = 0; k < 30; k++) print (i + rand() * 0.6) / 30, (k + rand() * 0.6) / 30, rand(), 1/900 }' | stab - --strength heat --dt 1e-2 >a
+	for t in 1 2 3; do OMP_NUM_THREADS=$t pse --field heat --nu 1 --method dc --no-history <a | cksum; done | sort -u >sums
+	[ "$(wc -l <sums)" -eq 1 ]
+	run -3 bash -o pipefail -c "field 'vel = 0, 0' <a | pse --field heat --nu 1 --method dc | push euler | sls"
+	[[ $output == *"times what euler can bear"* ]]
 }
