@@ -78,7 +78,7 @@ PM_LANES_INLINE pm_lanes pm_lanes_between(size_t from, size_t to, pm_lanes v, pm
 #ifdef __AVX512F__
 	return (pm_lanes)_mm512_mask_mov_pd((__m512d)other, (__mmask8)(((1u << (to < 8 ? to : 8)) - 1) & ~((1u << (from < 8 ? from : 8)) - 1)), (__m512d)v);
 #else
-	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = lane >= (int64_t)from & lane < (int64_t)to;
+	pm_lanes_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = (lane >= (int64_t)from) & (lane < (int64_t)to);
 	return (pm_lanes)((in & (pm_lanes_bits)v) | (~in & (pm_lanes_bits)other));
 #endif
 }
