@@ -19,6 +19,7 @@ look() {
 		if (!((m, s, b) in is)) print "ask", m, s, b
 		if (!((m, s, a) in is) || !((m, s, b) in is)) return
 		good = from == "below" ? "stable" : "unstable"
+		if (what == "sample" && is[m, s, a] == is[m, s, b]) { curve(m, s, 0); return }
 		if (is[m, s, a] == is[m, s, b]) { print "none", m, s, is[m, s, a] " at both ends, " a " and " b; return }
 		if (is[m, s, a] != good) { print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " (from == "below" ? "above" : "below") ")"; return }
 		for (;;) {
@@ -27,18 +28,19 @@ look() {
 			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
 			if (is[m, s, mid] == good) a = mid; else b = mid
 		}
-		if (what == "sample") curve(m, s, a, b); else print "limit", m, s, a, b }
+		if (what == "sample") curve(m, s, between(a, b) + 0); else print "limit", m, s, a, b }
 	function point(m, s, x) {
 		if (x < low + 0 || x > high + 0 || (x in had)) return
 		had[x] = 1; x = text(x)
 		if (!((m, s, x) in is)) print "ask", m, s, x
 		else if (!((m, s, x) in grew)) print "grow", m, s, x, step[m, s, x] }
-	function curve(m, s, a, b,    i, l, near) {
+	# All over the range, and close to the limit l.
+	function curve(m, s, l,    i, near) {
 		if (s != 1) return
-		split("", had); l = between(a, b) + 0
+		split("", had)
 		for (i = 0; i <= 8; i++) point(m, s, scale == "log" ? low * (high / low) ^ (i / 8) : low + (high - low) * i / 8)
 		split("0.01 0.03 0.06 0.1 0.2 0.35", near, " ")
-		for (i = 1; i <= 6; i++) { point(m, s, l * (1 - near[i])); point(m, s, l * (1 + near[i])) } }
+		for (i = 1; i <= 6 && l != 0; i++) { point(m, s, l * (1 - near[i])); point(m, s, l * (1 + near[i])) } }
 	{ if ($1 == "trial") { is[$2, $3, $4] = $5; step[$2, $3, $4] = $6 } else if ($1 == "growth") grew[$2, $3, $4] = 1 }
 	END { for (m = 0; m < members; m++) for (s = 1; s <= seeds; s++) search(m, s) }' "$state/log" 3>"$work/brackets"
 }

@@ -95,9 +95,11 @@ rk2 - -" ] || { cat t; false; }
 }
 
 @test "a choice without a limit is said in its row, and the others stand" {
-	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when 'distance_max > 2' --tolerance 0.01
+	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when 'distance_max > 2' --tolerance 0.01 -o d
 	[[ $output == *"no limit for euler: unstable at both ends, 1 and 4"* ]]
 	grep -qE '^rk4 +2\.8' <<<"$output"
+	# and its growth is drawn, ln(1 + w^2)/2 a step
+	[ "$(awk -F'\t' '$1 == "growth" && $2 == 0 && $4 == 1 { d = $5 - log(2)/2; if (d < 0) d = -d; print d < 1e-4 }' d/measured/log)" = 1 ]
 }
 
 @test "{seed}: every seed has its limit, and their spread is part of the uncertainty; without it the run is said to be deterministic" {
