@@ -261,3 +261,9 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	run -1 plan < <(printf 'x\n1\n' | stab - --law free --dt 1)
 	[[ $output == *"nothing moves"* ]]
 }
+
+@test "the table of docs/plan.md is what its command prints" {
+	[ "${PM_LONG:-}" ] || skip "long: make check-long"
+	bash "$top/docs/plan.sh" >table
+	sed -n '/^| run /,/^$/p' "$top/docs/plan.md" | grep '^|' | diff - table
+}
