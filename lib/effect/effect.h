@@ -70,7 +70,7 @@ static inline bool effect_alone(const struct pm_scales *s)
 	return s->kind == PM_NO_FIELD || s->kind == PM_CARRIED || s->sources < 1 || (s->sources < 2 && !s->walls) || effect_cancels(s);
 }
 
-/* For the entries: a decision that needs no number, and one that a share decides. */
+/* For the entries: a decision that needs no number, and one that a share decides; shares are estimates, so it must be below half the accuracy. */
 static inline void effect_off(struct pm_decision *d, const char *text)
 {
 	*d = (struct pm_decision){.answer = PM_LEFT_OUT, .number = NAN, .share = 0};
@@ -78,7 +78,7 @@ static inline void effect_off(struct pm_decision *d, const char *text)
 }
 static inline void effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share)
 {
-	*d = (struct pm_decision){.answer = share > s->accuracy ? PM_PUT_IN : PM_LEFT_OUT, .number = number, .share = share};
+	*d = (struct pm_decision){.answer = share > 0.5 * s->accuracy ? PM_PUT_IN : PM_LEFT_OUT, .number = number, .share = share};
 }
 
 #endif

@@ -5,14 +5,17 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effect/effect.h"
 
-/* After so many steps: the longest of the measured times below, and t^2 from there on. */
-static double distortion(const struct pm_scales *s, double steps)
+/* As measured, after so many steps: the longest of the times below, and t^2 from there on. */
+static double measured(const struct pm_scales *s, double steps)
 {
 	double known = 0;
 	for (int i = 0; i < 4 && !isnan(s->distortion[i]); i++)
 		known = 1 << i <= steps || !i ? s->distortion[i] * pow(steps / (1 << i), 2) : known;
-	return fmax(known, pow(0.25 * s->strain * fabs(s->dt) * steps, 2));
+	return known;
 }
+
+/* And by the strain. */
+static double distortion(const struct pm_scales *s, double steps) { return fmax(measured(s, steps), pow(0.25 * s->strain * fabs(s->dt) * steps, 2)); }
 
 static void decide(const struct pm_scales *s, struct pm_decision *d)
 {
@@ -32,6 +35,7 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 		snprintf(d->text, sizeof d->text, "distortion reaches %.1g in the time T", end);
 		return;
 	}
+	d->kept = measured(s, s->time / fabs(s->dt)) <= s->accuracy; /* not seen in the first steps */
 	for (d->every = 1; d->every < 16 && distortion(s, d->every + 1) <= s->accuracy;)
 		d->every++;
 	d->number = distortion(s, d->every);

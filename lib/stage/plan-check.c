@@ -1,5 +1,5 @@
 /* The proof of a plan: each effect is left out or put in against the decision, both sentences run for a few steps from the frame, and what differs is put in
- * relation. Velocities: |v - v'|/|v|, strengths alike, carried on to the time T of the run (times T/(n dt)); where there is no inertia displacements,
+ * relation. Velocities: |v - v'|/|v|, strengths after one step alike, carried on to the time T of the run (times T/(n dt)); where there is no inertia displacements,
  * |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, carried on. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -184,7 +184,9 @@ static int prove(const struct pm_frame *f, const struct pm_plan *p, const struct
 		steps = steps < 2 * e->decision.every ? 2 * e->decision.every : steps;
 	else if (!remeshing)
 		put(&base, "remeshing", false);
-	const double on = p->scales.time / (steps * fabs(f->dt));
+	if (diffusion && !p->method.pairs) /* before particles are distorted, whose roughness would diffuse too */
+		steps = 1;
+	const double on = p->scales.time / (steps * fabs(p->scales.dt)); /* the step of the plan */
 	if (pm_plan_compose(f, &base))
 		return -PM_DATA;
 	struct pm_frame *b = pm_plan_run(f, base.sentence, steps, NULL), *a = b ? run_other(f, p, name, steps, NULL) : NULL;

@@ -109,6 +109,19 @@ static void vortex_mesh(struct pm_plan *p)
 	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, remeshing is wrong by %.1g%s", hk, error, more);
 }
 
+/* As many cells as bring the nearest pair far enough apart (lib/effect/near-field.c). */
+static void few_bodies(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_scales *s = &p->scales;
+	int factor = 1;
+	while (factor < 8 && 0.25 * pow(s->h / (factor * s->nearest), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < 3e7)
+		factor *= 2;
+	for (int d = 0; d < f->dim && factor > 1; d++)
+		p->method.cells[d] = (size_t)factor * f->meshes[0]->cells[d];
+	s->h /= factor, s->points *= pow(factor, s->dim);
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "the nearest pair is %.2g cells apart", s->nearest / s->h);
+}
+
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_method *m = &p->method;
@@ -122,7 +135,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 		return;
 	}
 	if (s->n < 32) {
-		snprintf(m->why_mesh, sizeof m->why_mesh, "h = %.2g of the field's length", h);
+		few_bodies(f, p);
 		return;
 	}
 	const struct try t = mesh_try(p, scene, h);

@@ -181,10 +181,10 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 }
 
 @test "diffusion: nu dt/h^2 is printed, nu T |lap omega|/|omega| decides" {
-	# Taylor-Green: lap omega = -2 omega, so over T = 100 dt = 5 it is 10 nu.
-	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0011 | says diffusion)" = "on "*"changes omega by 0.01" ]]
-	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0009 | says diffusion)" = "off "*"changes omega by 0.009" ]]
-	pinit taylor-green-2d --cells 32 --nu 0.0009 | plan --no-cost -t 10 | says diffusion | grep -q '^on '
+	# Taylor-Green: lap omega = -2 omega, so over T = 100 dt = 5 it is 10 nu; half the accuracy is the limit.
+	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0006 | says diffusion)" = "on "*"changes omega by 0.006" ]]
+	[[ "$(decide taylor-green-2d --cells 32 --nu 0.0004 | says diffusion)" = "off "*"changes omega by 0.004" ]]
+	pinit taylor-green-2d --cells 32 --nu 0.0004 | plan --no-cost -t 10 | says diffusion | grep -q '^on '
 	[ "$(decide taylor-green-2d --cells 32 --nu 0 | says diffusion)" = "off    nu = 0" ]
 }
 
@@ -199,7 +199,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 
 @test "near field: neighbours within a few cells of each other need what no word brings yet" {
 	[[ "$(decide uniform -n 300 --cells 8 | says 'near field')" = needed*"no word for it yet"* ]]
-	[[ "$(decide pair | says 'near field')" = off*"6.4 cells apart"* ]]
+	[[ "$(decide pair | says 'near field')" = off*"nearest pair 13 cells apart"* ]] # 6.4 of the scene's own, too few for 0.005
 	[[ "$(decide plummer -n 100 | says 'near field')" = off*"every pair is summed"* ]]
 }
 
