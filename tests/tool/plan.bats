@@ -224,6 +224,9 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit taylor-green-2d --cells 32 >flow
 	run -3 plan --check --off diffusion <flow
 	[[ $output == *"diffusion "*"off "*"wrong: it matters"* && $output == *"1 decision was wrong"* ]]
+	pinit taylor-green-2d | plan --check --off diffusion >table || true # |lap omega| = 2 |omega|: 2 nu T = 0.1, whatever the step
+	within "$(awk '/^diffusion/ { print $3 }' table)" 0.1 0.011 "what diffusion changes"
+	[[ "$(pinit shear-layer --cells 128 | plan --check --accuracy 0.1)" = *"remeshing "*"on "*"small, and kept"* ]] # it shows only when the layer rolls up
 	run -3 plan --check --off remeshing <flow
 	[[ $output == *"remeshing "*"wrong: it matters"* ]]
 	pinit taylor-green-2d --cells 32 --nu 1e-6 | plan --check # what is negligible is left out ...
