@@ -142,7 +142,7 @@ static int look_first(struct cycle *y, struct pm_frame **f)
 	int status = 0;
 	y->met = 0;
 	if (y->until && y->c->resume)
-		status = pm_until_load(y->until, saved);
+		status = pm_until_load(y->until, *f, saved);
 	else if (y->until) {
 		status = prime(y, f);
 		status = status ? status : pm_until_begin(y->until, *f);

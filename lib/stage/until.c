@@ -14,6 +14,7 @@ struct pm_until {
 	int n;
 	struct pm_gauged column[most];
 	double number[2 * most]; /* of column k now, at 2k; at the beginning, at 2k + 1 */
+	bool first[most], known[most]; /* whether the expression asks for column k at the beginning, and whether that number is of this run's beginning */
 };
 
 static int place(struct pm_until *u, const char *name)
@@ -27,17 +28,21 @@ static int place(struct pm_until *u, const char *name)
 /* NAME, else NAME0 (or NAME_0, where NAME ends in a digit): from 1, 0 unknown. */
 static int slot(void *context, const char *name)
 {
+	struct pm_until *u = context;
 	char shorter[2 * PM_NAME];
 	size_t n = strlen(name);
-	int k = place(context, name);
+	int k = place(u, name);
 	if (k >= 0)
 		return 2 * k + 1;
 	if (n < 2 || name[n - 1] != '0')
 		return 0;
 	n -= name[n - 2] == '_' ? 2 : 1;
 	snprintf(shorter, sizeof shorter, "%.*s", (int)n, name);
-	k = place(context, shorter);
-	return k >= 0 ? 2 * k + 2 : 0;
+	k = place(u, shorter);
+	if (k < 0)
+		return 0;
+	u->first[k] = true;
+	return 2 * k + 2;
 }
 
 struct pm_until *pm_until_new(const char *text)
@@ -112,7 +117,7 @@ static bool may_sum(const struct pm_until *u, const struct pm_frame *f, int miss
 	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || from == PM_VIRIAL_RATIO) && n <= most_pairs && !u->gauge.pair;
 }
 
-int pm_until_begin(struct pm_until *u, struct pm_frame *f)
+static int measure_first(struct pm_until *u, struct pm_frame *f)
 {
 	u->gauge.pair = false;
 	int missing = measure(u, f, 1);
@@ -121,6 +126,13 @@ int pm_until_begin(struct pm_until *u, struct pm_frame *f)
 		missing = measure(u, f, 1);
 	}
 	return missing == -1 ? 0 : missing < 0 ? pm_failed() : cannot(u, missing);
+}
+
+int pm_until_begin(struct pm_until *u, struct pm_frame *f)
+{
+	for (int k = 0; k < u->n; k++)
+		u->known[k] = true;
+	return measure_first(u, f);
 }
 
 int pm_until_met(struct pm_until *u, struct pm_frame *f)
@@ -133,18 +145,27 @@ json_t *pm_until_save(const struct pm_until *u)
 {
 	json_t *columns = json_object();
 	for (int k = 0; k < u->n; k++)
-		json_object_set_new(columns, u->column[k].name, json_real(u->number[2 * k + 1]));
+		if (u->known[k])
+			json_object_set_new(columns, u->column[k].name, json_real(u->number[2 * k + 1]));
 	return json_pack("{s:o,s:b}", "first", columns, "pair", u->gauge.pair);
 }
 
-int pm_until_load(struct pm_until *u, const json_t *saved)
+int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved)
 {
+	const json_t *columns = json_object_get(saved, "first");
+	bool all = saved != NULL;
 	for (int k = 0; k < u->n; k++) {
-		const json_t *x = json_object_get(json_object_get(saved, "first"), u->column[k].name);
-		if (!json_is_number(x))
+		u->known[k] = json_is_number(json_object_get(columns, u->column[k].name));
+		if (u->first[k] && !u->known[k])
 			return pm_fail(PM_USAGE, "--until: the checkpoint does not know '%s' at the beginning of its run (it was made with another --until, or none)", u->column[k].name);
-		u->number[2 * k + 1] = json_number_value(x);
+		all = all && u->known[k];
 	}
-	u->gauge.pair = json_is_true(json_object_get(saved, "pair"));
+	if (!all && measure_first(u, f))
+		return pm_failed();
+	for (int k = 0; k < u->n; k++)
+		if (u->known[k])
+			u->number[2 * k + 1] = json_number_value(json_object_get(columns, u->column[k].name));
+	if (all)
+		u->gauge.pair = json_is_true(json_object_get(saved, "pair"));
 	return 0;
 }

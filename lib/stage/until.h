@@ -11,9 +11,9 @@ struct pm_until *pm_until_new(const char *text); /* NULL: failure, with the colu
 struct pm_until *pm_until_free(struct pm_until *u);
 /* At the beginning of a run: takes the values that NAME0 stands for. */
 int pm_until_begin(struct pm_until *u, struct pm_frame *f);
-/* Those values as JSON, for a checkpoint, and back. */
+/* Those values as JSON, for a checkpoint, and back into the run that goes on with frame f; failure if the expression asks for one that is not there. */
 json_t *pm_until_save(const struct pm_until *u);
-int pm_until_load(struct pm_until *u, const json_t *saved);
+int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved);
 /* Is it true of this frame? 1, 0, or failure. Cost: one pass over what the columns need. */
 int pm_until_met(struct pm_until *u, struct pm_frame *f);
 
