@@ -149,6 +149,9 @@ rk2 - -" ] || { cat t; false; }
 	told 'there is none in the sentence' 'a {a}' --vary a:1:2 --unstable-when 'energy > 1'
 	told 'an --until of its own' 'cycle -n {a} --until x b' --vary a:1:2 --unstable-when 'energy > 1'
 	told 'is not a number' 'cycle -n {a} b' --vary a:1:2 --expect '2*'
+	told 'is not a number' 'cycle -n {a} b' --vary a:1:2 --expect 'omega/2'
+	told 'is not a number' 'cycle -n {a} b' --vary a:1:2 --expect '2/0'
+	told 'is not a number' 'cycle -n {a} b' --vary a:1:2 --expect 'log(-1)'
 	told 'cannot depend on the number' 'cycle -n {a} b' --vary a:1:2 --expect '2*{a}'
 	told 'dt has two ranges' 'a {dt}' --vary dt:1:2 --vary dt:1:3
 	told '--map wants two ranges' 'a {a}' --vary a:1:2 --map 3x3
