@@ -55,6 +55,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *state = s->state;
 	struct pm_plan p;
 	o->choice.cost = !o->no_cost && !o->sentence && !o->check;
+	if ((o->choice.time - f->time) * (f->dt < 0 ? -1 : 1) < 0)
+		return pm_fail(PM_DATA, "-t %g is before the time of the frame, %g (-t is when the run ends, not how long it is)", o->choice.time, f->time);
 	int status = pm_plan_frame(f, &o->choice, &p);
 	if (status)
 		return status;

@@ -42,7 +42,7 @@ static int method(const struct pm_stage *s, const struct pm_frame *f, const stru
 		return 0;
 	p->delta = pm_given(s, "softening") ? cfg->softening : pm_frame_constant(f, "softening", NAN);
 	if (!(p->delta >= 0))
-		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, 0 if you mean it; or --mollifier none)");
+		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, 0 if you mean it; smod --constant softening=LENGTH for the frame; or --mollifier none)");
 	return 0;
 }
 

@@ -251,6 +251,10 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit lamb-oseen --cells 32 | smod --dt 0 >still
 	run -1 plan <still
 	[[ $output == *"no time step"* ]]
+	# a table has no softening, and plan no option for it: the message says which word has
+	run -1 plan < <(printf 'x y z vx vy vz mass\n1 0 0 0 1 0 1\n2 0 0 0 0 0 1\n' | stab - --law gravity --dt 0.01)
+	[[ $output == *"smod --constant softening="* ]]
+	printf 'x y z vx vy vz mass\n1 0 0 0 1 0 1\n2 0 0 0 0 0 1\n' | stab - --law gravity --dt 0.01 | smod --constant softening=0 | plan --sentence
 	cycle -t 1.5 --plan <still | sls | grep -q 'time 1.5 '
 }
 
@@ -261,6 +265,8 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ $output == *"sel --drop B"* ]]
 	run -2 plan --on diffusion --off diffusion < <(pinit exb)
 	run -2 plan -n 3 < <(pinit exb)
+	run -1 plan -t -1 < <(pinit exb)
+	[[ $output == *"-t -1 is before the time of the frame, 0"* ]]
 	run -1 plan < <(printf 'x\n1\n' | stab - --law free --dt 1)
 	[[ $output == *"nothing moves"* ]]
 }
