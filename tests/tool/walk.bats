@@ -99,3 +99,17 @@ points() {
 	stab --plain <a >b
 	! cmp -s b <(walk --nu 1 <a | stab --plain)
 }
+
+@test "what a particle does in one step says nothing of the next, of its neighbour, of another seed or set" {
+	points 20000 2 --number --no-history >a
+	# the steps 0 and 1, seeds 1 and 2, two sets; seven series of which every pair must be uncorrelated, and neighbours too
+	walk --nu 0.5 <a | stab --plain >s0
+	smod --step 1 <a | walk --nu 0.5 | stab --plain >s1
+	walk --nu 0.5 --seed 2 <a | stab --plain >s2
+	smod --rename matter=other <a | walk --nu 0.5 | stab --plain >s3
+	for f in s0 s1 s2 s3; do paste <(column x <$f) <(column y <$f) >$f.xy; done
+	paste s?.xy | awk '{ for (i = 1; i <= 8; i++) { z = $i / 0.1; v[i] += z*z; l[i] += z * old[i]; q[i] += z^4; if (z > 3 || z < -3) far++; for (k = 1; k < i; k++) c[i, k] += z * $k / 0.1; now[i] = z } for (i = 1; i <= 8; i++) old[i] = now[i] }
+		END { w = 4 / sqrt(NR); for (i = 1; i <= 8; i++) { print v[i] / NR, q[i] / NR, l[i] / NR; if (l[i] / NR > w || l[i] / NR < -w || q[i] / NR > 3 + w * sqrt(96) || q[i] / NR < 3 - w * sqrt(96)) bad++
+			for (k = 1; k < i; k++) if (c[i, k] / NR > w || c[i, k] / NR < -w) { print i, k, c[i, k] / NR; bad++ } }
+			print far / NR / 8; exit bad || far / NR / 8 > 0.0027 * 1.2 || far / NR / 8 < 0.0027 / 1.2 }' # of a normal distribution 0.0027 lie beyond three deviations
+}
