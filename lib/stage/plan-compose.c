@@ -127,14 +127,14 @@ static void push(struct pm_plan *p, const char *actions, const char *reason)
 static void remesh(const struct pm_frame *f, struct pm_plan *p)
 {
 	const struct pm_decision *d = &effect(p, "remeshing")->decision;
-	char words[160], every[32] = "", edge[64] = "";
+	char words[160], every[32] = "", edge[96] = "";
 	bool open = false;
 	for (int k = 0; k < 2 * f->dim; k++)
 		open = open || f->face[k / 2][k % 2] != PM_PERIODIC;
 	if (d->every > 1)
 		snprintf(every, sizeof every, " --every %d", d->every);
-	if (open) /* particles only where there is something; those that diffusion will need are kept */
-		snprintf(edge, sizeof edge, " --cut-off %.2g%s", p->scales.accuracy * 1e-3, pm_plan_has(p, "diffusion") ? " --rim 2" : "");
+	if (open) /* particles only where there is something; those that diffusion will need are kept, and what spreads takes its mesh along */
+		snprintf(edge, sizeof edge, " --cut-off %.2g%s%s", p->scales.accuracy * 1e-3, pm_plan_has(p, "diffusion") ? " --rim 2" : "", p->method.grow ? " --outside grow" : "");
 	snprintf(words, sizeof words, "remesh --kernel %s%s%s", p->method.kernel, every, edge);
 	if (d->every > 1)
 		add(p, words, "remesh: every %d steps, %s", d->every, d->text);
@@ -156,6 +156,7 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p)
 	const bool magnetic = pm_plan_has(p, "magnetic-rotation");
 	const char *half = magnetic ? "boris/2" : "kick/2";
 	p->nstages = 0;
+	p->method.grow = p->method.grow || (p->scales.open && pm_plan_has(p, "remeshing")); /* every remeshing sets a rim around */
 	if (!force && !p->scales.second)
 		return pm_fail(PM_DATA, "nothing moves in this frame: the law '%s' gives its particles no velocity, and they have none", p->law->name);
 	if (!force) {
