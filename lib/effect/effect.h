@@ -58,11 +58,11 @@ extern const struct pm_effect *const pm_effects[]; /* generated from lib/effect/
 extern const char *const pm_effect_names[];
 const struct pm_effect *pm_effect_find(const char *name); /* NULL with a message */
 
-/* Forces that cancel to rounding: a lattice, one particle. */
+/* Forces that cancel to rounding and stay so: a lattice that moves as one and meets no wall. */
 static inline bool effect_cancels(const struct pm_scales *s)
 {
 	const double rest = s->self / (s->omega * s->omega * s->spacing);
-	return s->second && rest < 1e-9 && rest * cosh(fmin(s->omega * s->time, 700)) < s->accuracy;
+	return s->second && !s->walls && s->v_thermal <= 1e-7 * s->v_rms && rest < 1e-9 && rest * cosh(fmin(s->omega * s->time, 700)) < s->accuracy;
 }
 /* Is there no force between particles? */
 static inline bool effect_alone(const struct pm_scales *s)

@@ -258,6 +258,17 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	cycle -t 1.5 --plan <still | sls | grep -q 'time 1.5 '
 }
 
+@test "forces that cancel at the start are left out only where all move as one: not between two beams of one particle each, not before a wall" {
+	[[ "$(sentence exb -n 400)" != *poisson-fft* ]] # a lattice that drifts as one
+	for scene in 'two-stream -n 2' 'exb -n 400 --faces wall --particle-faces reflect'; do
+		[[ "$(sentence $scene)" = *poisson-fft* ]]
+		plan --check < <(pinit $scene)
+	done
+	# two charges in one place, softening 0: no step of 0, but a sentence
+	run -1 plan < <(pinit two-stream -n 400 --faces open)
+	[[ $output == *"in one place"*"smod --constant softening="* ]]
+}
+
 @test "what spreads to an open face takes its mesh along: coarse vortices run to the end of their plan" {
 	for scene in 'lamb-oseen --cells 32' 'cone-vortex --cells 24' 'shear-layer --cells 24 --faces open'; do
 		pinit $scene >start
