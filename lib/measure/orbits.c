@@ -17,7 +17,7 @@ static size_t bodies(const struct pm_frame *f, const struct pm_law *law, struct 
 		const char *set = f->sets[k]->name;
 		const struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *m = pm_frame_field(f, set, law->strength);
 		for (size_t i = 0; x && m && i < x->count && n < PM_SCALES_FEW; i++, n++) {
-			b[n] = (struct body){.mass = at(m, 0, i), .fixed = !pm_scales_moves(f, f->sets[k])};
+			b[n] = (struct body){.mass = at(m, 0, i), .fixed = !pm_set_moves(f, f->sets[k])};
 			for (int c = 0; c < 3; c++)
 				b[n].x[c] = at(x, c, i), b[n].v[c] = b[n].fixed ? 0 : at(v, c, i);
 		}

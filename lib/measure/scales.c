@@ -17,11 +17,9 @@ static const struct pm_field *state(const struct pm_frame *f, const char *on, co
 	return field && field->role == PM_STATE && (field->type == PM_F64 || field->type == PM_F32) ? field : NULL;
 }
 
-bool pm_scales_moves(const struct pm_frame *f, const struct pm_set *set) { return !set->fixed && state(f, set->name, "x"); }
-
 static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const struct pm_set *set)
 {
-	return state(f, set->name, "x") && (pm_scales_moves(f, set) || state(f, set->name, law->strength));
+	return state(f, set->name, "x") && (pm_set_moves(f, set) || state(f, set->name, law->strength));
 }
 
 /* ---- speeds ---- */
@@ -31,7 +29,7 @@ static void speeds(const struct pm_frame *f, struct pm_scales *s)
 	struct pm_sum sum[3] = {{0, 0}}, square = {0, 0};
 	double n = 0, mean = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
-		const struct pm_field *v = pm_scales_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
+		const struct pm_field *v = pm_set_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
 		for (size_t i = 0; v && i < v->count; i++) {
 			double v2 = 0;
 			for (int c = 0; c < v->components && c < 3; c++) {
@@ -189,7 +187,7 @@ static int coverage(const struct pm_frame *f, struct pm_scales *s)
 	for (size_t k = 0; k < f->nsets && f->nmeshes; k++) {
 		const struct pm_set *set = f->sets[k];
 		const struct pm_field *v = state(f, set->name, "volume");
-		if (!pm_scales_moves(f, set) || !v || !set->n)
+		if (!pm_set_moves(f, set) || !v || !set->n)
 			continue;
 		double *H = pm_alloc(set->n, sizeof *H);
 		int status = H ? pm_scales_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
@@ -235,7 +233,7 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 	s->nu = pm_frame_constant(f, "nu", 0);
 	s->c = pm_frame_constant(f, "c", NAN);
 	for (size_t k = 0; k < f->nsets; k++)
-		s->n += pm_scales_moves(f, f->sets[k]) ? (double)f->sets[k]->n : 0;
+		s->n += pm_set_moves(f, f->sets[k]) ? (double)f->sets[k]->n : 0;
 	geometry(f, s);
 	speeds(f, s);
 	int status = distances(f, law, s);
@@ -292,7 +290,7 @@ int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struc
 	struct pm_sum square = {0, 0};
 	double n = 0, most = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
-		const struct pm_field *a = pm_scales_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
+		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
 		for (size_t i = 0; a && i < a->count; i++)
 			for (int c = 0; c < a->components; c++)
 				pm_sum_add(&square, at(a, c, i) * at(a, c, i));

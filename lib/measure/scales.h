@@ -11,8 +11,6 @@ enum { PM_SCALES_PAIRS = 4096, PM_SCALES_FEW = 64 }; /* up to so many particles 
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* Of the force: the same frame with the law's change field, and on a mesh density and field, if they were made. */
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
-/* Does the set move, and has it got positions? */
-bool pm_scales_moves(const struct pm_frame *f, const struct pm_set *set);
 /* How completely the particles of a set cover the mesh around each (mesh/distortion.h); H has room for the set. */
 int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H);
 /* orbits.c: of few bodies. */

@@ -23,7 +23,7 @@ static double relative(const struct pm_frame *a, const struct pm_frame *b, const
 	double d2 = 0, r2 = 0;
 	for (size_t k = 0; k < b->nsets; k++) {
 		struct pm_field *p = pm_frame_field(a, b->sets[k]->name, name), *q = pm_frame_field(b, b->sets[k]->name, name);
-		if (!p || !q || !pm_scales_moves(b, b->sets[k]) || p->count != q->count || !p->buffer || !q->buffer)
+		if (!p || !q || !pm_set_moves(b, b->sets[k]) || p->count != q->count || !p->buffer || !q->buffer)
 			continue;
 		const double d = pm_norms_of(p, q, NULL, NULL).l2;
 		d2 += d > floor ? (double)q->count * d * d : 0;
@@ -46,7 +46,7 @@ static double displaced(const struct pm_frame *a, const struct pm_frame *b, cons
 	for (size_t k = 0; k < b->nsets; k++) {
 		const char *set = b->sets[k]->name;
 		const struct pm_field *p = pm_frame_field(a, set, "x"), *q = pm_frame_field(b, set, "x"), *o = pm_frame_field(start, set, "x");
-		for (int d = 0; pm_scales_moves(b, b->sets[k]) && d < b->dim; d++)
+		for (int d = 0; pm_set_moves(b, b->sets[k]) && d < b->dim; d++)
 			for (size_t i = 0; p->count == q->count && i < q->count; i++) {
 				pm_sum_add(&d2, pow(apart(start, d, pm_in(p, d)[i], pm_in(q, d)[i]), 2));
 				pm_sum_add(&r2, pow(apart(start, d, pm_in(q, d)[i], pm_in(o, d)[i]), 2));

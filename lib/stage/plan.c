@@ -92,7 +92,7 @@ static double distortion(const struct pm_frame *f, const struct pm_frame *g, con
 	double sum = 0, all = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_set *set = f->sets[k];
-		if (!pm_scales_moves(f, set) || !set->n)
+		if (!pm_set_moves(f, set) || !set->n)
 			continue;
 		double *H0 = pm_alloc(set->n, sizeof *H0), *H = pm_alloc(set->n, sizeof *H);
 		bool ok = H0 && H && !pm_scales_overlap(f, set->name, f->meshes[0], H0) && !pm_scales_overlap(g, set->name, g->meshes[0], H);

@@ -19,12 +19,6 @@ static const char *const pm_rate_remedy = "compute it first: p2m | poisson-fft |
 
 static inline bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
 
-/* True if the set is one that push moves. */
-static inline bool pm_set_moves(const struct pm_frame *f, const struct pm_set *s)
-{
-	return !s->fixed && pm_rate_is_state(pm_frame_field(f, s->name, "x"));
-}
-
 /* Does the set hold every term of a change on a mesh? */
 static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
 {

@@ -106,6 +106,12 @@ struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name)
 	return NULL;
 }
 
+bool pm_set_moves(const struct pm_frame *f, const struct pm_set *set)
+{
+	const struct pm_field *x = pm_frame_field(f, set->name, "x");
+	return !set->fixed && x && x->role == PM_STATE;
+}
+
 struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name)
 {
 	for (size_t i = 0; i < f->nmeshes; i++)

@@ -103,6 +103,7 @@ struct pm_frame *pm_frame_copy(const struct pm_frame *f);   /* shares the buffer
 struct pm_frame *pm_frame_header(const struct pm_frame *f); /* a copy without data, to try a plan on */
 
 struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name);   /* NULL if not there */
+bool pm_set_moves(const struct pm_frame *f, const struct pm_set *set);      /* push moves it: it has positions and is not fixed */
 struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NULL if not there; name NULL: the first */
 struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
 struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
