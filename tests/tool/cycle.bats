@@ -277,3 +277,24 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	pinit langmuir -n 64 --cells 8 > a
 	fails 1 'energy > 0' 'p2m | poisson-fft | mgrad | m2p | push rk4' "the column 'energy' cannot be computed"
 }
+
+@test "--until ends where diag's table of every step first says so: two sets of bodies, a plasma, vortices that walk or diffuse; in both engines, with --every" {
+	stack <(pinit plummer -n 40 | smod --rename matter=stars) <(pinit plummer -n 30 --seed 4 | smod --rename matter=gas --shift 3,0,0) >bodies
+	pinit langmuir -n 256 --cells 32 --dt 0.02 >plasma
+	pinit lamb-oseen --cells 24 >vortex
+	# scene, sentence, column, factor of the beginning, and what is added
+	for row in "bodies|push --dt 0.02 kick/2 drift | pp | push kick/2|energy_kinetic|1.02|0" "plasma|push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2|speed_rms|1|0.02" \
+		"vortex|pp --softening 0.1 | push rk2 | walk|distance_max|1.2|0" "vortex|p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3|angular_impulse|0.5|-0.02"; do
+		read -r name factor add < <(awk -F'|' '{ print $(NF - 2), $(NF - 1), $NF }' <<<"$row")
+		scene=${row%%|*} words=${row#*|} words=${words%|"$name"|*}
+		sign=$(awk "BEGIN { print $factor < 1 ? \"<\" : \">\" }")
+		cycle -n 60 --every 1 "$words" <$scene | diag --columns step,$name >table
+		want=$(awk -v f=$factor -v a=$add 'NR == 2 { edge = f * $2 + a } NR > 1 && (f < 1 ? $2 < edge : $2 > edge) { print $1; exit }' table)
+		for how in '' '--engine pipes' '--every 7'; do
+			got=$(cycle -n 60 $how --until "$name $sign $factor*${name}0 + $add" "$words" <$scene | sls --format json | jq -s '.[-1].step')
+			echo "$scene, $name: $got, in the table '$want' ($how)"
+			[ "$want" -gt 3 ] && [ "$want" -lt 60 ]
+			[ "$got" = "$want" ]
+		done
+	done
+}
