@@ -295,3 +295,8 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	bash "$top/docs/plan.sh" >table
 	sed -n '/^| run /,/^$/p' "$top/docs/plan.md" | grep '^|' | diff - table
 }
+
+@test "plan --check compares what remeshing does where the mesh has grown beyond open faces" {
+	pinit taylor-green-2d --cells 24 --faces open | plan --check > proof
+	awk '$1 == "remeshing" { print; exit !($3 > 0.01 && $4 == "omega" && $5 == "right") }' proof
+}
