@@ -77,7 +77,7 @@ static void keeps_the_speed(void)
 			const double v0 = length(v);
 			for (int n = 0; n < 1000000; n++) {
 				half(true, omega_dt[i], v, NULL, b, plane ? 2 : 3), half(false, omega_dt[i], v, NULL, b, plane ? 2 : 3);
-				worst = fmax(worst, fabs(length(v) / v0 - 1));
+				check_worst(&worst, fabs(length(v) / v0 - 1));
 			}
 			check_below(worst, 1e-11, "HC-08: 1e6 steps of Omega dt = %g keep |v|, %d components", omega_dt[i], plane ? 2 : 3);
 			check_below(worst, 1e-12, "PIC-12: and to 1e-12");

@@ -25,6 +25,23 @@ __attribute__((format(printf, 2, 3), unused)) static bool check(bool good, const
 	return good;
 }
 
+/* The largest value so far; true if this one is. A NaN stays to the end, where fmax() drops it and !(value <= worst) forgets it,
+ * and fails the check that follows if that is of the form worst <= tolerance. */
+__attribute__((unused)) static bool check_worst(double *worst, double value)
+{
+	bool more = value > *worst || (isnan(value) && !isnan(*worst));
+	*worst = more ? value : *worst;
+	return more;
+}
+
+/* The smallest value so far, likewise. */
+__attribute__((unused)) static bool check_least(double *least, double value)
+{
+	bool less = value < *least || (isnan(value) && !isnan(*least));
+	*least = less ? value : *least;
+	return less;
+}
+
 /* With PM_MEASURED=FILE a line there for docs/hard-cases.sh, as by measured() of tests/helper.bash. b: NAN where the relation has one number only. */
 static void check_measured(const char *sentence, const char *relation, double got, double a, double b)
 {

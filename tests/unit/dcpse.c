@@ -70,7 +70,7 @@ static void polynomials(void)
 					double s = 0.5;
 					for (int d = 0; d < dim; d++)
 						s += a[d] * x[d][i];
-					worst = fmax(worst, fabs(rate[i] - (k < 2 ? 0 : k * (k - 1) * a2 * pow(s, k - 2))));
+					check_worst(&worst, fabs(rate[i] - (k < 2 ? 0 : k * (k - 1) * a2 * pow(s, k - 2))));
 				}
 				worst = status ? NAN : worst;
 			}
@@ -118,7 +118,7 @@ static void images(void)
 			value[i] = kinds[k] == PM_WALL ? sin(wave * x[0][i]) * sin(wave * x[1][i]) : cos(wave * x[0][i]) * cos(wave * x[1][i]);
 		int status = add(&o, &found);
 		for (size_t i = 0; i < n; i++)
-			worst = fmax(worst, fabs(rate[i] + 2 * wave * wave * value[i]));
+			check_worst(&worst, fabs(rate[i] + 2 * wave * wave * value[i]));
 		check(!status && found.widened == 0 && worst < (kinds[k] == PM_PERIODIC ? 0.02 : 0.001), "%s faces: right up to them, no particle looks farther (%.2g)",
 			pm_face_names[kinds[k]], worst);
 	}

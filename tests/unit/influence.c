@@ -15,7 +15,7 @@ static void test_windows(void)
 	for (int p = 0; p < 4; p++) {
 		double worst = 0;
 		for (double theta = 0; theta < 9 * pm_pi; theta += 0.37)
-			worst = fmax(worst, fabs(pm_kernel_wave(pm_kernel_find(name[p]), theta) - pow(sinc(theta / 2), p + 1)));
+			check_worst(&worst, fabs(pm_kernel_wave(pm_kernel_find(name[p]), theta) - pow(sinc(theta / 2), p + 1)));
 		char text[100];
 		snprintf(text, sizeof text, "the transform of %s is sinc^%d", name[p], p + 1);
 		check_near(worst, 0, 1e-14, text); /* quadrature of 16 points on half cells, waves of up to 4.5 turns a cell */
@@ -30,7 +30,7 @@ static void test_windows(void)
 			double r = (i + 0.5) / 2000;
 			sum += 4 * pm_pi * r * r * 6 / pm_pi * (1 - r) / 2 * sinc(u * r) / 2000;
 		}
-		worst = fmax(worst, fabs(sum - pm_cloud_wave(u)));
+		check_worst(&worst, fabs(sum - pm_cloud_wave(u)));
 	}
 	check_near(worst, 0, 1e-5, "the transform of the cloud S2 is 12/u^4 (2 - 2 cos u - u sin u)"); /* the rule's (1/2000)^2 times u^2/24 */
 	check_near(pm_cloud_wave(0.2), pm_cloud_wave(nextafter(0.2, 0)), 1e-12, "its series meets its closed form");
@@ -53,10 +53,10 @@ static void test_sums(void)
 		double worst = 0, sign = 0;
 		for (size_t m = 0; m < a.count; m++) {
 			double theta = 2 * pm_pi * (double)m / 14, s2 = pow(sin(theta / 2), 2), even = 0;
-			worst = fmax(worst, fabs(a.all[m] - (q ? 1 - s2 + 2.0 / 15 * s2 * s2 : 1 - 2.0 / 3 * s2)));
+			check_worst(&worst, fabs(a.all[m] - (q ? 1 - s2 + 2.0 / 15 * s2 * s2 : 1 - 2.0 / 3 * s2)));
 			for (int n = -2000; n <= 2000; n++)
 				even += pow(sinc(theta / 2 + pm_pi * n), 4 + 2 * q) * (n % 2 ? -1 : 1);
-			sign = fmax(sign, fabs(a.even[m] - even));
+			check_worst(&sign, fabs(a.even[m] - even));
 		}
 		char text[100];
 		snprintf(text, sizeof text, "%s: the sum of W^2 over aliases has its closed form", kernel[q]->name);
@@ -176,7 +176,7 @@ static void test_interlaced(void)
 						pm_kernel_weights(t.kernel, u - fl, w);
 						want += 0.5 * s[i] * (w[0] * cexp(-I * theta * (fl + 0.5 * half)) + w[1] * cexp(-I * theta * (fl + 1 + 0.5 * half)));
 					}
-				worst = fmax(worst, cabs(got - want));
+				check_worst(&worst, cabs(got - want));
 			}
 			check_near(worst, 0, 1e-13, "its waves are the mean of those of the two meshes");
 		}

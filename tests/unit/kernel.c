@@ -34,12 +34,12 @@ static void check_moments(const struct pm_kernel *k)
 			for (int i = 0; i < k->width; i++)
 				sum += w[i] * pow(first_point(k) + i - t, order);
 			if (order <= k->moments)
-				worst = fmax(worst, fabs(sum));
+				check_worst(&worst, fabs(sum));
 			else
-				next = fmax(next, fabs(sum));
+				check_worst(&next, fabs(sum));
 		}
 		for (int i = 0; i < k->width; i++)
-			least = fmin(least, w[i]);
+			check_least(&least, w[i]);
 	}
 	check(worst <= tolerance, "%s: moments 0..%d at 1000 random offsets are exact (worst %.2g, tolerance %.2g)", k->name, k->moments, worst,
 		tolerance);
@@ -58,7 +58,7 @@ static double derivative(const struct pm_kernel *k, int i, int d, double t, doub
 		for (int m = 0; m < d; m++)
 			factor *= power - m;
 		sum = sum * t + factor * k->coefficients[power * k->width + i];
-		*size = fmax(*size, fabs(factor * k->coefficients[power * k->width + i]));
+		check_worst(size, fabs(factor * k->coefficients[power * k->width + i]));
 	}
 	return sum;
 }
@@ -70,9 +70,9 @@ static void check_smooth(const struct pm_kernel *k)
 	for (int d = 0; d <= k->smooth + 1; d++)
 		for (int i = 0; i <= k->width; i++) {
 			double after = i > 0 ? derivative(k, i - 1, d, low, &size) : 0, before = i < k->width ? derivative(k, i, d, high, &size) : 0;
-			jump[d] = fmax(jump[d], fabs(before - after));
+			check_worst(&jump[d], fabs(before - after));
 			if (d <= k->smooth)
-				relative = fmax(relative, fabs(before - after) / size);
+				check_worst(&relative, fabs(before - after) / size);
 		}
 	/* 1e-14: some ten roundings of terms that cancel. */
 	check(relative <= 1e-14, "%s: derivatives up to %d are continuous (jump %.2g of their largest term)", k->name, k->smooth, relative);
@@ -88,7 +88,7 @@ static void check_unity(const struct pm_kernel *k)
 		pm_kernel_weights(k, s / 500. + t_low(k), w);
 		for (int i = 0; i < k->width; i++)
 			sum += w[i];
-		worst = fmax(worst, fabs(sum));
+		check_worst(&worst, fabs(sum));
 	}
 	/* The case asks for 1e-13; about the nearest node all kernels need but a few roundings. */
 	check(worst <= 1e-15, "RM-02: the weights of %s add to 1 within %.2g (tolerance 1e-15)", k->name, worst);
@@ -117,7 +117,7 @@ static void check_von_neumann(const struct pm_kernel *k)
 			pm_kernel_weights(k, s / 100. + t_low(k), w);
 			for (int i = 0; i < k->width; i++)
 				sum += w[i] * cexp(-I * pm_pi * m / 200 * i);
-			most = fmax(most, cabs(sum));
+			check_worst(&most, cabs(sum));
 		}
 	check(most <= 1 + 1e-9, "RM-01: no shift and no wave makes a remesh with %s grow (largest factor 1 %+.2g)", k->name, most - 1);
 }
@@ -132,8 +132,8 @@ static void check_overshoot(const char *name, double want, double tolerance)
 		pm_kernel_weights(k, s / 60000. + t_low(k), w);
 		for (int i = 0; i < k->width; i++) {
 			sum += w[i];
-			over = fmax(over, sum - 1);
-			under = fmin(under, sum);
+			check_worst(&over, sum - 1);
+			check_least(&under, sum);
 		}
 	}
 	check(fabs(over - want) <= tolerance && fabs(under + want) <= tolerance,
@@ -187,7 +187,7 @@ static double remesh_error(const struct pm_kernel *k, int n)
 		double sum = 0, x = -1 + j * h;
 		for (int i = 0; i < k->width; i++)
 			sum += w[i] * bump(x - (first_point(k) + i) * h);
-		worst = fmax(worst, fabs(sum - bump(x - 0.3 * h)));
+		check_worst(&worst, fabs(sum - bump(x - 0.3 * h)));
 	}
 	return worst;
 }
@@ -208,7 +208,7 @@ static void check_rm01(const struct rm01 *r)
 	double worst = 0, moment = 0, w[PM_KERNEL_WIDTH], error[4];
 	for (int i = 0; i < RM01_VALUES; i++)
 		if (r->w[i] != -1)
-			worst = fmax(worst, fmax(fabs(kernel_at(k, i / 4.) - r->w[i]), fabs(kernel_at(k, -i / 4.) - r->w[i])));
+			check_worst(&worst, fabs(kernel_at(k, i / 4.) - r->w[i])), check_worst(&worst, fabs(kernel_at(k, -i / 4.) - r->w[i]));
 	check(worst <= 1e-14, "RM-01: %s has the rational values at multiples of 1/4 (worst %.2g, tolerance 1e-14)", k->name, worst);
 	pm_kernel_weights(k, 0.3, w);
 	for (int i = 0; i < k->width; i++)

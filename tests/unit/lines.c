@@ -34,8 +34,8 @@ static double same_modes(const struct pm_line *a, const struct pm_line *b)
 	for (size_t m = 0; m < a->modes; m++)
 		for (size_t q = 0; q < L; q++) {
 			double sign = b->fold == PM_FOLD_QUARTER_SINE && m % 2 ? -1 : 1, v = x[a->map[m] * L + q], e = fabs(v - sign * y[b->map[m] * L + q]);
-			worst = !(e <= worst) ? e : worst;
-			most = fmax(most, fabs(v));
+			check_worst(&worst, e);
+			check_worst(&most, fabs(v));
 		}
 	pm_free(x), pm_free(y);
 	return a->modes != b->modes ? NAN : most > 0 ? worst / most : worst;
@@ -47,7 +47,7 @@ static double there_and_back(const struct pm_line *l)
 	pm_line_real(l, x);
 	pm_line_real_back(l, x);
 	for (size_t i = l->row * L; i < (l->row + l->count) * L; i++)
-		worst = !(fabs(x[i] / (double)l->length - y[i]) <= worst) ? fabs(x[i] / (double)l->length - y[i]) : worst;
+		check_worst(&worst, fabs(x[i] / (double)l->length - y[i]));
 	pm_free(x), pm_free(y);
 	return worst;
 }
@@ -62,9 +62,8 @@ int main(void)
 			struct pm_line a, b;
 			if (pm_line_init(&planner, kind[k].face, size[i], &a) || pm_line_init_real(&planner, kind[k].face, size[i], &b))
 				return check(false, "lines are made: %s", pm_message()), check_done();
-			double e = same_modes(&a, &b), r = fmax(there_and_back(&a), there_and_back(&b));
-			worst = !(e <= worst) ? e : worst;
-			back = !(r <= back) ? r : back;
+			check_worst(&worst, same_modes(&a, &b));
+			check_worst(&back, there_and_back(&a)), check_worst(&back, there_and_back(&b));
 			pm_planner_clear(&planner);
 		}
 		/* round-off of a sum of 1024 terms; back, of running sums: 4e-17 n measured for n = 64 to 4096, times 2 */

@@ -71,7 +71,7 @@ static void any_number(void)
 				w[d] = v[d][p], v2 += w[d] * w[d], want.momentum[d] += m[p] * w[d];
 			want.mass += m[p], want.kinetic += 0.5 * m[p] * v2, want.square += v2;
 			want.angular[2] += m[p] * (y[0] * w[1] - y[1] * w[0]);
-			want.farthest = fmax(want.farthest, sqrt(x2));
+			check_worst(&want.farthest, sqrt(x2));
 		}
 		bad += got.mass != want.mass || got.kinetic != want.kinetic || got.square != want.square || got.angular[2] != want.angular[2] ||
 			got.farthest != want.farthest || memcmp(got.momentum, want.momentum, sizeof want.momentum) || memcmp(got.moment, want.moment, sizeof want.moment);

@@ -32,7 +32,7 @@ __attribute__((unused)) static double largest(size_t n, const double *a, const d
 {
 	double most = 0;
 	for (size_t i = 0; i < n; i++)
-		most = fmax(most, fabs(a[i] - (b ? b[i] : 0)));
+		check_worst(&most, fabs(a[i] - (b ? b[i] : 0)));
 	return most;
 }
 
@@ -59,7 +59,7 @@ __attribute__((unused)) static double factor_of(struct pm_grid g, int order, str
 	}
 	last = pm_mg_residual(mg);
 	pm_mg_free(mg), pm_free(f), pm_free(u);
-	return pow(last / first, 0.05);
+	return first == 0 ? 0 : pow(last / first, 0.05); /* 0: 1e-300 is reached within 40 cycles */
 }
 
 #endif

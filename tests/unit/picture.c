@@ -25,7 +25,7 @@ static void maps(void)
 			double s = 0;
 			for (int k = 0; k < 8; k++)
 				s += step[i + k - 4] / 8;
-			worst = fmax(worst, diverging ? (i < 116 && s < 0) || (i > 140 && s > 0) : fabs(s / mean - 1));
+			check_worst(&worst, diverging ? (i < 116 && s < 0) || (i > 140 && s > 0) : fabs(s / mean - 1));
 		}
 		/* the published tables are even to about 0.3; a rainbow is off by 3 and changes sign */
 		check(worst < 0.75 && mean > 0.1, "%s: lightness changes evenly (worst step off by %.2f of the mean)", pm_colour_names[m], worst);

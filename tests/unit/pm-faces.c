@@ -124,8 +124,8 @@ static double mixture(int dim, int m, const char *kernel, const struct pm_poisso
 	for (int d = 0; d < dim; d++)
 		for (size_t i = 0; i < N; i++) {
 			double e = fabs(p.a[d][i] - all.a[d][i]);
-			worst = !(e <= worst) ? e : worst;
-			scale = fmax(scale, fabs(all.a[d][i]));
+			check_worst(&worst, e);
+			check_worst(&scale, fabs(all.a[d][i]));
 		}
 	particles_free(&p), particles_free(&all);
 	return worst / scale;
@@ -140,8 +140,8 @@ static void images(int dim, const char *kernel)
 		int at = 0;
 		for (int m = 0; m < count; m++) {
 			double error = mixture(dim, m, kernel, &o, order);
-			if (!(error <= worst))
-				worst = error, at = m;
+			if (check_worst(&worst, error))
+				at = m;
 		}
 		/* sums of some hundred images, a few thousand nodes: some hundred roundings of 1e-16 */
 		check(worst < 2e-13, "%s, %d-D, %s and mgrad --order %s%s: the force is that of the images in all %d mixtures of faces (error %.1e, mixture %d)",

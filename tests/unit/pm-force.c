@@ -91,7 +91,7 @@ static void self_force(void)
 				const double *at[] = {&x[0], &x[1], &x[2]};
 				field(&p, 4 * pm_pi, 1, at, &m, 1, at, (double *[]){&a[0], &a[1], &a[2]});
 				for (int d = 0; d < 3; d++)
-					worst = fmax(worst, fabs(a[d]));
+					check_worst(&worst, fabs(a[d]));
 			}
 			pm_delete(&p);
 			char name[100], number[8];
@@ -113,7 +113,7 @@ static void unequal(void)
 		for (int i = 0; i < 3200; i++) {
 			double x = 0.01 * i + 0.001, a;
 			field(&p, 1, 1, (const double *[]){&x}, &m, 1, (const double *[]){&x}, (double *[]){&a});
-			worst = fmax(worst, fabs(a));
+			check_worst(&worst, fabs(a));
 		}
 		char name[100];
 		snprintf(name, sizeof name, "H25: self force in 1-D, %s to the mesh and %s back", row[k].in, row[k].out);

@@ -101,8 +101,8 @@ static double error_of(const struct pm_grid *g, const struct pm_poisson_fft_choi
 	if (pm_poisson_fft_singular(g, o))
 		take_mean(g, want);
 	for (size_t q = 0; q < n; q++) {
-		most = isnan(phi[q]) ? NAN : fmax(most, fabs(phi[q] - want[q]));
-		scale = fmax(scale, fabs(want[q]));
+		check_worst(&most, fabs(phi[q] - want[q]));
+		check_worst(&scale, fabs(want[q]));
 	}
 	pm_poisson_fft_free(p);
 	free(phi);
@@ -145,11 +145,9 @@ static void orders(int dim, double screening)
 				error[l] = manufactured(&g, &o);
 			}
 			double order = slope(h, error);
-			worst = !(error[0] <= worst) ? error[0] : worst;
-			if (!(order >= least)) {
-				least = order;
+			check_worst(&worst, error[0]);
+			if (check_least(&least, order))
 				snprintf(where, sizeof where, "%s", name_of(&g));
-			}
 		}
 		const char *which = screening > 0 ? ", screened" : "";
 		if (symbol == PM_SPECTRAL) /* 24, 32, 24 cells; sinh(sin x) has 1e-17 left of its waves after 15; round-off of sums over 1e4 nodes */
@@ -206,7 +204,7 @@ static void inverses(int dim)
 				for (int i = 0; i < 4; i++) {
 					struct pm_grid g = mixture(dim, m, size[i], false);
 					double error = round_trip(&g, &o);
-					worst = !(error <= worst) ? error : worst;
+					check_worst(&worst, error);
 				}
 			/* lap is up to 1e3 times what it is taken of, with round-off of 1e-16 of that, on these meshes */
 			check(worst < 1e-12, "%d-D, all %d mixtures of faces, %s%s: undoes lap of mgrad to round-off (error %.1e)", dim, mixtures(dim),
@@ -223,7 +221,7 @@ static void flat(void)
 			struct pm_grid g = mixture(2, m, 33, false);
 			g.h[0] = 1, g.h[1] = 0.01;
 			double error = round_trip(&g, &(struct pm_poisson_fft_choice){.symbol = symbol});
-			worst = !(error <= worst) ? error : worst;
+			check_worst(&worst, error);
 		}
 	/* round-off of 1/hy^2 against the smallest eigenvalue, 1e4 (33/pi)^2 of it */
 	check(worst < 1e-9, "HC-25: dx/dy = 100, all mixtures in 2-D: every stencil is undone (error %.1e)", worst);
@@ -241,7 +239,7 @@ static void against_multigrid(int dim)
 		struct pm_mg_choice choice = {.pre = 2, .post = 2, .cycle = PM_MG_V, .relaxation = 1.15, .tolerance = 1e-12, .most = 100};
 		static struct pm_mg_record record;
 		double error = mg && pm_mg_solve(mg, &choice, 1, s, a, &record) == 0 ? error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}, s, a) : NAN;
-		worst = !(error <= worst) ? error : worst;
+		check_worst(&worst, error);
 		pm_mg_free(mg);
 		free(s), free(a);
 	}
@@ -279,7 +277,7 @@ static void yukawa(void)
 		if (r[q] > 0.1 && r[q] < 4) {
 			double e = exp(0.5 * K * K) / (2 * r[q]);
 			double want = e * (exp(-K * r[q]) * erfc((K - r[q]) / sqrt(2)) - exp(K * r[q]) * erfc((K + r[q]) / sqrt(2)));
-			worst = fmax(worst, fabs(s[q] - want));
+			check_worst(&worst, fabs(s[q] - want));
 		}
 	check(worst < 1e-12, "screened, 3-D: the Yukawa potential of a Gaussian (error %.1e of 0.2)", worst);
 	pm_poisson_fft_free(p);

@@ -130,8 +130,8 @@ static double difference(size_t n, const double *a, const double *b)
 {
 	double most = 0, scale = 1e-300;
 	for (size_t i = 0; i < n; i++) {
-		most = fabs(a[i] - b[i]) > most || isnan(a[i]) ? fabs(a[i] - b[i]) : most;
-		scale = fabs(b[i]) > scale ? fabs(b[i]) : scale;
+		check_worst(&most, fabs(a[i] - b[i]));
+		check_worst(&scale, fabs(b[i]));
 	}
 	return most / scale;
 }
@@ -144,7 +144,7 @@ static void against_direct(struct pm_grid g, const char *what)
 		solve(&g, symbol, -2.385, s, phi);
 		direct(&g, symbol, -2.385, s, want);
 		double e = difference(n, phi, want);
-		worst = e > worst || isnan(e) ? e : worst;
+		check_worst(&worst, e);
 	}
 	char name[160];
 	snprintf(name, sizeof name, "HC-24: %s equals a direct solve, every symbol", what);
@@ -220,7 +220,7 @@ static void means(void)
 		check_near(weighted_mean(&g[i], phi), 0, 1e-12, "HC-23: the mean of phi is zero");
 		double largest = 0;
 		for (size_t q = 0; q < n; q++)
-			largest = fmax(largest, fabs(s[q]));
+			check_worst(&largest, fabs(s[q]));
 		check_near(removed, fabs(mean) / largest, 1e-15, "HC-23: incompatible data are reported: the mean over the largest value");
 		for (size_t q = 0; q < n; q++)
 			s[q] -= mean;
@@ -299,7 +299,7 @@ static double gaussian(int dim, size_t n, bool oblong, double *middle)
 	solve(&g, PM_SPECTRAL, dim == 3 ? -4 * pm_pi : dim == 2 ? -1 : 1, s, phi);
 	for (size_t q = 0; q < total; q++) {
 		double r = distance(&g, q, centre);
-		error = fmax(error, fabs(phi[q] - exact(dim, r)));
+		check_worst(&error, fabs(phi[q] - exact(dim, r)));
 		if (r == 0)
 			*middle = phi[q];
 	}
@@ -354,7 +354,7 @@ static void no_wrap(void)
 	solve(&g, PM_SPECTRAL, -4 * pm_pi, s, phi);
 	solve(&wide, PM_SPECTRAL, -4 * pm_pi, t, psi);
 	for (size_t q = 0; q < n; q++)
-		worst = fmax(worst, fabs(phi[q] - psi[q % 33 + 71 * (q / 33)]));
+		check_worst(&worst, fabs(phi[q] - psi[q % 33 + 71 * (q / 33)]));
 	check_near(worst, 0, 1e-13, "HC-29: a source near an end, free space: nothing wraps around, anywhere");
 	/* 1.35e-3 of the mass lies outside the box; at the far corner, r = 12.4, that is 1.1e-4 of phi. */
 	check_near(phi[n - 1] / exact(3, distance(&g, n - 1, centre)), 1 - 1.35e-3, 2e-4, "HC-29: the far corner sees the mass in the box");
@@ -434,7 +434,7 @@ static void orders(void)
 				mean = face == PM_WALL ? 0 : weighted_mean(&g, want);
 				h[l] = g.h[0];
 				for (size_t i = 0; i < g.points[0]; i++)
-					error[l] = fmax(error[l], fabs(phi[i] - (want[i] - mean)));
+					check_worst(&error[l], fabs(phi[i] - (want[i] - mean)));
 			}
 			char name[100];
 			snprintf(name, sizeof name, "%s with %s faces", pm_symbol_names[symbol], pm_face_names[face]);

@@ -88,7 +88,7 @@ static void test_node(void)
 					}
 				if (isnan(mine[p]))
 					continue; /* the table ends one node earlier than the sum needs */
-				most = fmax(most, fabs(mine[p])), worst = fmax(worst, fabs(phi[p] - mine[p]));
+				check_worst(&most, fabs(mine[p])), check_worst(&worst, fabs(phi[p] - mine[p]));
 			}
 			check(good && worst < 3e-7 * most, "order %d, %d-D, %zu x %zu x %zu, spacings %g %g %g: a charged node has the lattice's potential (relative error %.1e, tolerance 3e-7)", order,
 				g.dim, g.cells[0], g.cells[1], g.cells[2], g.h[0], g.h[1], g.h[2], worst / most);
@@ -139,7 +139,7 @@ static double gaussian(int dim, int order, size_t n)
 		double r2 = 0;
 		for (int d = 0; d < dim; d++)
 			r2 += pow((double)at[d] * g.h[d] - centre[d], 2);
-		most = fmax(most, fabs(blob(dim, sqrt(r2)))), worst = fmax(worst, fabs(phi[p] - blob(dim, sqrt(r2))));
+		check_worst(&most, fabs(blob(dim, sqrt(r2)))), check_worst(&worst, fabs(phi[p] - blob(dim, sqrt(r2))));
 	}
 	pm_free(s), pm_free(phi);
 	return status ? NAN : worst / most;

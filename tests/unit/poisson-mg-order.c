@@ -52,8 +52,8 @@ static double error(int dim, const int face[3], int order, size_t n, const doubl
 		weight += w, mean[0] += w * u[p], mean[1] += w * exact[p];
 	}
 	for (size_t p = 0; p < size; p++) {
-		most = fmax(most, fabs(exact[p]));
-		e = fmax(e, fabs(u[p] - exact[p] - (r.singular ? (mean[0] - mean[1]) / weight : 0)));
+		check_worst(&most, fabs(exact[p]));
+		check_worst(&e, fabs(u[p] - exact[p] - (r.singular ? (mean[0] - mean[1]) / weight : 0)));
 	}
 	pm_mg_free(mg), pm_free(s), pm_free(u), pm_free(exact);
 	return good ? e / most : NAN;
@@ -101,8 +101,8 @@ static void test_orders(void)
 				struct found f = fit(dim, face, order, grids[dim == 3]);
 				if (dim == 3 && f.order < order - 0.1) /* 20 cells are few for two of the mixtures */
 					f = fit(dim, face, order, grids[2]);
-				least = fmin(least, f.order);
-				worst = fmax(worst, f.error);
+				check_least(&least, f.order);
+				check_worst(&worst, f.error);
 				most = f.cycles > most ? f.cycles : most;
 			}
 			check(least >= order - 0.1, "order %d, %d-D: %s mixture of faces, orders fitted over three grids are at least %.2f, errors on the finest at most %.1e", order,
@@ -184,7 +184,7 @@ static void test_half(void)
 			for (size_t k = c->axis[2].first + (dim > 2); k + (dim > 2) < c->axis[2].end; k++)
 				for (size_t j = 0; j < c->axis[1].points; j++)
 					for (size_t i = 0; i < c->axis[0].points; i++)
-						worst = fmax(worst, fabs(c->f[k * c->plane + j * c->stride + mg_slot(c, i)] - want));
+						check_worst(&worst, fabs(c->f[k * c->plane + j * c->stride + mg_slot(c, i)] - want));
 			check(worst < 1e-15, "half weighting, %d-D: %s comes out as %.3g (error %g)", dim, axis < 0 ? "a constant" : "a checkerboard along one axis", want, worst);
 			pm_mg_free(mg), pm_free(f);
 		}
@@ -199,10 +199,10 @@ static void test_stretched(void)
 		for (int q = 0; q < 5; q++) {
 			double ratio = (double[]){1.4, 1.45, 3, 100, 1000}[q];
 			o.relaxation = pm_mg_relaxation(o.smoother, 2, 4);
-			worst = fmax(worst, factor_of(grid(2, (size_t[]){64, 48}, (double[]){64 * ratio, 48}, "wwww"), 4, o));
-			worst = fmax(worst, factor_of(grid(2, (size_t[]){63, 64}, (double[]){63, 64 * ratio}, "wwnw"), 4, o));
+			check_worst(&worst, factor_of(grid(2, (size_t[]){64, 48}, (double[]){64 * ratio, 48}, "wwww"), 4, o));
+			check_worst(&worst, factor_of(grid(2, (size_t[]){63, 64}, (double[]){63, 64 * ratio}, "wwnw"), 4, o));
 			o.relaxation = pm_mg_relaxation(o.smoother, 3, 4);
-			worst = fmax(worst, factor_of(grid(3, (size_t[]){24, 20, 31}, (double[]){24, 20 * ratio, 31 * sqrt(ratio)}, "ppwwnn"), 4, o));
+			check_worst(&worst, factor_of(grid(3, (size_t[]){24, 20, 31}, (double[]){24, 20 * ratio, 31 * sqrt(ratio)}, "ppwwnn"), 4, o));
 		}
 		check(worst < 0.5, "HC-25: order 4, %s, spacings in ratios from 1.4 to 1000: faster than 0.5 per cycle (got %.3f)", pm_mg_smoother_names[o.smoother], worst);
 	}

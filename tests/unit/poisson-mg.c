@@ -84,7 +84,7 @@ static void test_mixtures(void)
 			snprintf(faces, sizeof faces, "%s%s%s", axis_faces[q % 5], axis_faces[q / 5 % 5], axis_faces[q / 25]);
 			struct pm_grid g = grid(dim, (size_t[]){12, 18, 10}, (double[]){1.1, 1.3, 0.9}, faces);
 			double e = error(&g, low_modes, true, &usual, &r);
-			worst = e <= worst ? worst : e;
+			check_worst(&worst, e);
 			most = r.cycles > most ? r.cycles : most;
 			double x[3], y[3];
 			for (int i = 0; i < 3 && q % (dim == 3 ? 7 : 1) == 0; i++) {
@@ -93,7 +93,7 @@ static void test_mixtures(void)
 				x[i] = log(1 / (double)n), y[i] = log(error(&finer, lowest_modes, false, &usual, &r));
 			}
 			if (q % (dim == 3 ? 7 : 1) == 0) /* in 3-D every seventh, to be quick: each pair of faces is met on each axis */
-				slope = fmin(slope, fmin((y[2] - y[1]) / (x[2] - x[1]), (y[1] - y[0]) / (x[1] - x[0])));
+				check_least(&slope, (y[2] - y[1]) / (x[2] - x[1])), check_least(&slope, (y[1] - y[0]) / (x[1] - x[0]));
 		}
 		check(worst < 1e-9, "%d-D: the differences are solved exactly in every mixture of periodic, wall and neumann faces (got %g, want 0, tolerance 1e-9)", dim, worst);
 		check(most <= 15, "%d-D: at most 15 cycles in every mixture (got %d)", dim, most);
@@ -241,7 +241,7 @@ static void test_sizes(void)
 				snprintf(faces, sizeof faces, "%s%s%s", axis_faces[q], axis_faces[q], axis_faces[(q + 1) % 5]);
 				struct pm_grid g = cube(dim, sizes[i], faces);
 				double e = error(&g, low_modes, true, &usual, &r);
-				worst = e <= worst ? worst : e;
+				check_worst(&worst, e);
 				most = r.cycles > most ? r.cycles : most;
 			}
 		check(worst < 1e-9, "HC-24: %d-D, sizes 1 to 129, odd and even: the differences are solved (got %g, tolerance 1e-9)", dim, worst);
@@ -260,9 +260,9 @@ static void test_stretched(void)
 	double worst = 0;
 	for (int q = 0; q < 6; q++) {
 		double ratio = (double[]){1.2, 1.4, 1.45, 3, 100, 1000}[q];
-		worst = fmax(worst, factor(grid(2, (size_t[]){64, 48}, (double[]){64 * ratio, 48}, "wwww"), 2, 2, PM_MG_V, 1));
-		worst = fmax(worst, factor(grid(2, (size_t[]){63, 64}, (double[]){63, 64 * ratio}, "wwnw"), 2, 2, PM_MG_V, 1));
-		worst = fmax(worst, factor(grid(3, (size_t[]){24, 20, 31}, (double[]){24, 20 * ratio, 31 * sqrt(ratio)}, "ppwwnn"), 2, 2, PM_MG_V, 1));
+		check_worst(&worst, factor(grid(2, (size_t[]){64, 48}, (double[]){64 * ratio, 48}, "wwww"), 2, 2, PM_MG_V, 1));
+		check_worst(&worst, factor(grid(2, (size_t[]){63, 64}, (double[]){63, 64 * ratio}, "wwnw"), 2, 2, PM_MG_V, 1));
+		check_worst(&worst, factor(grid(3, (size_t[]){24, 20, 31}, (double[]){24, 20 * ratio, 31 * sqrt(ratio)}, "ppwwnn"), 2, 2, PM_MG_V, 1));
 	}
 	check(worst < 0.25, "HC-25: spacings in ratios from 1.2 to 1000 converge faster than 0.25 per cycle (got %.3f, demanded 0.5)", worst);
 }
@@ -298,7 +298,7 @@ static void test_scales(void)
 	for (int e = -900; e <= 900; e += 300) {
 		pm_mg_solve(mg, &usual, ldexp(1, e), s, b, &r);
 		for (size_t i = 0; i < n; i++)
-			most = fmax(most, fabs(ldexp(b[i], -e) - a[i]));
+			check_worst(&most, fabs(ldexp(b[i], -e) - a[i]));
 	}
 	check(most == 0, "a factor of 2^-900 to 2^900 changes nothing but the factor (got %g)", most);
 	memset(s, 0, n * sizeof *s);
@@ -408,7 +408,7 @@ static double constant_lost(struct pm_mg *mg, int level)
 	for (size_t k = f->axis[2].first; k < f->axis[2].end; k++)
 		for (size_t j = f->axis[1].first; j < f->axis[1].end; j++)
 			for (size_t i = f->axis[0].first; i < f->axis[0].end; i++)
-				most = fmax(most, fabs(f->u[k * f->plane + j * f->stride + mg_slot(f, i)] - 1));
+				check_worst(&most, fabs(f->u[k * f->plane + j * f->stride + mg_slot(f, i)] - 1));
 	memset(c->u, 0, mg_size(c) * sizeof *c->u);
 	return most;
 }
@@ -424,14 +424,14 @@ static void test_adjoint(void)
 		struct pm_mg *mg = pm_mg_new(&g, 2);
 		for (int l = 0; l + 1 < mg->levels; l++) {
 			struct mg_level *f = &mg->level[l], *c = f + 1;
-			constant = fmax(constant, constant_lost(mg, l));
+			check_worst(&constant, constant_lost(mg, l));
 			fill(f, f->f, 1);
 			fill(c, c->u, 2);
 			pm_mg_sweep(mg, l, 1, 2, (enum mg_stage[]){MG_ZERO, MG_CORRECT});
 			double up = weighted(f, f->f, f->u), size = sqrt(weighted(f, f->f, f->f) * weighted(f, f->u, f->u));
 			pm_mg_sweep(mg, l, 1, 1, (enum mg_stage[]){MG_ZERO}); /* the residual is f */
 			pm_mg_restrict(mg, l, false);
-			worst = fmax(worst, fabs(up - weighted(c, c->f, c->u)) / fmax(size, 1e-300));
+			check_worst(&worst, fabs(up - weighted(c, c->f, c->u)) / fmax(size, 1e-300));
 		}
 		pm_mg_free(mg);
 	}

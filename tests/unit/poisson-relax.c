@@ -133,9 +133,9 @@ static void test_modes(void)
 			method->sweep(pm_relaxation_work(p));
 			double s = sin(k * pm_pi / (2 * N)), want = 1 - 2 * weight[q] * s * s;
 			for (int i = 1; i < N; i++)
-				worst = fmax(worst, fabs(pm_relaxation_work(p)->u[i] - want * u[i]));
+				check_worst(&worst, fabs(pm_relaxation_work(p)->u[i] - want * u[i]));
 			if (k == 1)
-				lowest = fmax(lowest, fabs(want - (1 - weight[q] * pm_pi * pm_pi / (2.0 * N * N))));
+				check_worst(&lowest, fabs(want - (1 - weight[q] * pm_pi * pm_pi / (2.0 * N * N))));
 		}
 	check_near(worst, 0, 1e-14, "N12: a sine shrinks by 1 - 2 w sin^2(k pi/2N) per sweep, every k, w = 1/3, 1/2, 2/3, 1");
 	check_near(lowest, 0, pow(pm_pi / N, 4) / 24 * 1.01, "N12: the lowest by 1 - w pi^2 h^2/2, to order h^4");
@@ -162,14 +162,14 @@ static void test_coarse(void)
 			bool high = false;
 			for (int d = 0; d < dim; d++)
 				mu += cos(2 * pm_pi * m[d] / 8) / dim, high = high || (m[d] >= 2 && m[d] <= 6);
-			worst = high ? fmax(worst, fabs(1 - w * (1 - mu))) : worst;
+			check_worst(&worst, high ? fabs(1 - w * (1 - mu)) : 0);
 		}
 		check_near(worst, smooth[dim - 1], 1e-14, "PS-10: it shrinks short waves by 1/3, 3/5, 5/7");
 	}
 	double same = 0, alias = 0;
 	for (int j = 0; j <= 6; j++) {
-		same = fmax(same, fabs(sin(4 * (2 * j) * pm_pi / 12) - sin(4 * j * pm_pi / 6)));
-		alias = fmax(alias, fabs(sin(8 * (2 * j) * pm_pi / 12) + sin(4 * (2 * j) * pm_pi / 12)));
+		check_worst(&same, fabs(sin(4 * (2 * j) * pm_pi / 12) - sin(4 * j * pm_pi / 6)));
+		check_worst(&alias, fabs(sin(8 * (2 * j) * pm_pi / 12) + sin(4 * (2 * j) * pm_pi / 12)));
 	}
 	check_near(same, 0, 1e-14, "N14: mode 4 of 12 cells is mode 4 of 6 on every second node");
 	check_near(alias, 0, 1e-14, "N14: mode 8 of 12 looks like minus mode 4 there");
@@ -210,8 +210,8 @@ static void test_formulas(void)
 				continue;
 			double length = fmin(4000, 25 / (1 - want)), got = measured(&g, method, factor, (int)(length / 3), (int)length);
 			double off = fabs(got - want) / (1 - want) / (method->factor(&l) > 1 && share[q % 3] >= 1 ? 0.15 : 1e-3);
-			if (!(off <= worst))
-				worst = off, where = q;
+			if (check_worst(&worst, off))
+				where = q;
 			compared++;
 		}
 		if (!method->bound)
@@ -247,7 +247,7 @@ static double solved(const struct pm_grid *g, const struct pm_relax *method, dou
 	struct pm_relaxation *solver = pm_relaxation_new(g, method);
 	int status = pm_relaxation_solve(solver, &o, 1, s, s, r);
 	for (size_t i = 0; i < n; i++)
-		worst = fmax(worst, fabs(s[i] / scale - u[i]));
+		check_worst(&worst, fabs(s[i] / scale - u[i]));
 	pm_relaxation_free(solver);
 	pm_free(s), pm_free(u);
 	return status ? NAN : worst;
@@ -270,8 +270,8 @@ static void test_mixtures(void)
 					continue;
 				}
 				double e = solved(&g, pm_relaxs[m], 1, &r);
-				worst = e <= worst ? worst : e;
-				mean = r.singular ? fmax(mean, fabs(r.mean - 0.3)) : mean;
+				check_worst(&worst, e);
+				check_worst(&mean, r.singular ? fabs(r.mean - 0.3) : 0);
 				done++;
 			}
 		check(worst < 1e-9 && done + refused == 72, "%s: solves the differences in every mixture of faces, 1-D to 3-D (worst error %g of %d, tolerance 1e-9)", pm_relaxs[m]->name, worst, done);
@@ -339,12 +339,12 @@ static void test_ends(void)
 				if (pm_relaxation_check(&small, o.method, NAN))
 					continue;
 				struct pm_relaxation *p = pm_relaxation_new(&small, o.method);
-				worst = fmax(worst, fabs((double)pm_relaxation_solve(p, &o, 1, f, u, &r)));
+				check_worst(&worst, fabs((double)pm_relaxation_solve(p, &o, 1, f, u, &r)));
 				struct pm_laplacian l = pm_laplacian_of(&small);
 				double h2 = small.h[0] * small.h[0];
 				for (size_t i = l.axis[0].first; i < l.axis[0].end; i++) {
 					double lap = l.axis[0].w * (u[pm_laplacian_below(&l.axis[0], i)] + u[pm_laplacian_above(&l.axis[0], i)] - 2 * u[i]);
-					worst = fmax(worst, h2 * fabs(lap - (f[i] - r.mean)));
+					check_worst(&worst, h2 * fabs(lap - (f[i] - r.mean)));
 				}
 				pm_relaxation_free(p);
 			}

@@ -85,11 +85,12 @@ static double difference(size_t n, const struct sums *a, const struct sums *b, i
 	double most = 0, scale = 0, most_phi = 0, scale_phi = 0;
 	for (size_t i = 0; i < n; i++) {
 		for (int d = 0; d < dim; d++)
-			most = isfinite(a->g[d][i] + b->g[d][i]) ? fmax(most, fabs(a->g[d][i] - b->g[d][i])) : INFINITY, scale = fmax(scale, fabs(b->g[d][i]));
-		most_phi = isnan(a->phi[i] + b->phi[i]) ? INFINITY : fmax(most_phi, fabs(a->phi[i] - b->phi[i])), scale_phi = fmax(scale_phi, fabs(b->phi[i]));
+			check_worst(&most, fabs(a->g[d][i] - b->g[d][i])), check_worst(&scale, fabs(b->g[d][i]));
+		check_worst(&most_phi, fabs(a->phi[i] - b->phi[i])), check_worst(&scale_phi, fabs(b->phi[i]));
 	}
 	most = scale > 0 ? most / scale : most;
-	return potential && scale_phi > 0 ? fmax(most, most_phi / scale_phi) : most;
+	check_worst(&most, potential && scale_phi > 0 ? most_phi / scale_phi : 0);
+	return most;
 }
 
 static void loops(const struct pm_mollifier *m, int dim)
@@ -105,7 +106,7 @@ static void loops(const struct pm_mollifier *m, int dim)
 			size_t targets = v & 4 ? (b.n + 1) / 2 : b.n;
 			struct pm_pp p = {.dim = dim, .delta = m->bare ? 0 : 0.0385, .mollifier = m, .half = v & 1};
 			struct sums fast = sum(&p, &b, targets, false, v & 2), plain = sum(&p, &b, targets, true, v & 2);
-			worst = fmax(worst, difference(targets, &fast, &plain, dim, v & 2));
+			check_worst(&worst, difference(targets, &fast, &plain, dim, v & 2));
 			if (fast.coincident || plain.coincident)
 				worst = INFINITY;
 		}
@@ -158,7 +159,7 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 	check(!strcmp(m->name, name), "%s: the entry carries the name of its file", name);
 	for (int i = 0; i < 8; i++) {
 		double r = at[i] * delta, f = m->force(r * r, delta, dim);
-		worst = fmax(worst, fabs(slope(m, r, delta, dim) / (f * r) - 1));
+		check_worst(&worst, fabs(slope(m, r, delta, dim) / (f * r) - 1));
 	}
 	snprintf(text, sizeof text, "%s in %d-D: the force is the slope of the potential", name, dim);
 	check_near(worst, 0, 1e-9, text); /* differences of fourth order with step 1e-3 leave 1e-11, round-off 1e-12 */
@@ -179,8 +180,8 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 		check_order(3, h, e, m->order, text);
 	for (double s = m->reach > 0 ? m->reach : 1; s < 40 && !m->order; s *= 1.7) {
 		double r = s * delta;
-		far = fmax(far, fabs(m->force(r * r, delta, dim) / bare_force(r, dim) - 1));
-		far = fmax(far, fabs(m->potential(r * r, delta, dim) - bare_potential(r, dim)));
+		check_worst(&far, fabs(m->force(r * r, delta, dim) / bare_force(r, dim) - 1));
+		check_worst(&far, fabs(m->potential(r * r, delta, dim) - bare_potential(r, dim)));
 	}
 	snprintf(text, sizeof text, "%s in %d-D: bare beyond its reach", name, dim);
 	if (!m->order)

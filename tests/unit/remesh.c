@@ -106,7 +106,7 @@ static void check_totals(int dim, const size_t cells[3])
 			struct particles p = scattered(&g, pm_kernels[k], 400);
 			struct pm_remesh r = remeshed(&g, pm_kernels[k], &p, 0);
 			struct particles q = taken(&r);
-			worst = fmax(worst, fabs(pm_sum_array(q.n, q.q) - pm_sum_array(p.n, p.q)) / size_of(&p));
+			check_worst(&worst, fabs(pm_sum_array(q.n, q.q) - pm_sum_array(p.n, p.q)) / size_of(&p));
 			particles_free(&p), particles_free(&q), pm_remesh_free(&r);
 		}
 		check(worst <= 1e-15, "%s, %d-D: the total strength is kept at periodic, wall, neumann and open faces (off by %.2g of the sum of absolute "
@@ -142,7 +142,7 @@ static void check_moments(void)
 		for (int a = 0; a <= m; a++)
 			for (int b = 0; b <= m; b++) {
 				double before = moment(&g, &p, (const int[]){a, b}, &size), after = moment(&g, &q, (const int[]){a, b}, &size);
-				worst = fmax(worst, fabs(after - before) / size);
+				check_worst(&worst, fabs(after - before) / size);
 			}
 		double before = moment(&g, &p, (const int[]){(int)m + 1, 0}, &size), after = moment(&g, &q, (const int[]){(int)m + 1, 0}, &size);
 		check(worst <= 1e-13 && fabs(after - before) > 1e-9 * size, "%s keeps the moments up to %g along each axis (off by %.2g, tolerance 1e-13), not the "
@@ -194,7 +194,7 @@ static void check_thousand(int dim, const size_t cells[3])
 			pm_remesh_free(&r);
 		}
 		for (size_t i = 0; i < p.n; i++)
-			worst = fmax(worst, fabs(p.q[i] / value - 1));
+			check_worst(&worst, fabs(p.q[i] / value - 1));
 		double drift = fabs(pm_sum_array(p.n, p.q) / total - 1);
 		/* The case's bounds: roundings walk. */
 		check(p.n == n, "HC-41: %s, %d-D: as many particles after 1000 remeshes", pm_kernels[k]->name, dim);
@@ -256,7 +256,7 @@ static void check_rm01(const struct rm01 *c)
 			remesh_line(k, N, 0.3, q);
 		for (int i = 0; i < N; i++)
 			re += q[i] * cos(2 * pm_pi * mode * i / N) * 2 / N, im += q[i] * sin(2 * pm_pi * mode * i / N) * 2 / N;
-		off = fmax(off, fabs(hypot(re, im) - c->shifts[m]));
+		check_worst(&off, fabs(hypot(re, im) - c->shifts[m]));
 	}
 	check(off <= 1e-9, "RM-01: waves remeshed 100 times at shifts of 0.3 h by %s keep the amplitudes of the reference (off by %.2g, tolerance 1e-9)",
 		c->name, off);
@@ -268,8 +268,8 @@ static void check_rm01(const struct rm01 *c)
 			q[i] = bump(-1 + 2. * i / n);
 		remesh_line(k, (size_t)n, 0.3, q);
 		for (int i = 0; i < n; i++)
-			worst = fmax(worst, fabs(q[i] - bump(-1 + 2. * (i - 0.3) / n)));
-		off = fmax(off, fabs(worst / c->error[j] - 1));
+			check_worst(&worst, fabs(q[i] - bump(-1 + 2. * (i - 0.3) / n)));
+		check_worst(&off, fabs(worst / c->error[j] - 1));
 	}
 	check(off <= 1e-3, "RM-01: one remesh of a Gaussian by %s is off by what the reference says (relative %.2g, tolerance 1e-3)", c->name, off);
 }
@@ -285,7 +285,7 @@ static void check_step(const char *name, double want, double tolerance)
 			q[i] = i >= N / 2;
 		remesh_line(pm_kernel_find(name), N, s / (double)SHIFTS, q);
 		for (int i = 0; i < N; i++)
-			over = fmax(over, q[i] - 1), under = fmax(under, -q[i]);
+			check_worst(&over, q[i] - 1), check_worst(&under, -q[i]);
 	}
 	check_below(over - want, tolerance, "HC-43: a unit step remeshed once by %s at its worst shift goes %.6g above (want %.6g)", name, over, want);
 	check_below(under - want, tolerance, "HC-43: a unit step remeshed once by %s at its worst shift goes %.6g below (want %.6g)", name, under, want);
@@ -299,9 +299,9 @@ static void check_cut(void)
 	struct particles q = taken(&r);
 	double most = 0, least = HUGE_VAL;
 	for (size_t i = 0; i < all.points; i++)
-		most = fmax(most, fabs(all.node[0][i]));
+		check_worst(&most, fabs(all.node[0][i]));
 	for (size_t i = 0; i < q.n; i++)
-		least = fmin(least, fabs(q.q[i]));
+		check_least(&least, fabs(q.q[i]));
 	check(least > 0.01 * most && r.cut > 0 && r.kept + r.cut == all.kept, "a cut-off of 0.01 keeps nodes above a hundredth of the largest strength (%zu of %zu)", r.kept,
 		all.kept);
 	double off = fabs(pm_sum_array(q.n, q.q) + r.lost[0] - pm_sum_array(p.n, p.q));
@@ -380,7 +380,7 @@ static void check_distortion(void)
 	check(shifted <= 1e-14, "a shifted lattice is not distorted (%.2g, tolerance 1e-14)", shifted);
 	for (int angle = 5; angle <= 45; angle += 5) {
 		double t = angle * pm_pi / 180;
-		turned = fmax(turned, distorted(cos(t), -sin(t), sin(t), cos(t)));
+		check_worst(&turned, distorted(cos(t), -sin(t), sin(t), cos(t)));
 	}
 	/* A turned lattice is seen through the spline's transform at its first reciprocal vectors, four times .358^8 = 2.7e-4 at 45
 	 * degrees. */

@@ -42,12 +42,12 @@ static bool centred(const struct pm_frame *f, const char *name)
 {
 	double scale;
 	for (int d = 0; d < f->dim; d++)
-		if (fabs(mean_of(f, name, d, &scale)) > 1e-15 * scale) /* rounding of one subtraction, averaged over the particles */
+		if (!(fabs(mean_of(f, name, d, &scale)) <= 1e-15 * scale)) /* rounding of one subtraction, averaged over the particles */
 			return false;
 	return true;
 }
 
-/* Kernels of width 4 touch floor-1 .. floor+2; on an open mesh of n cells that lies in 1..n-1 (DESIGN 3). */
+/* Kernels of width 4 touch floor-1 .. floor+2; on an open mesh of n cells that lies in 1..n-1. */
 static bool inside(const struct pm_frame *f, size_t cells)
 {
 	for (size_t s = 0; s < f->nsets; s++) {
@@ -126,7 +126,7 @@ static void uncorrelated(const struct pm_scene *s)
 		double ab = 0, aa = 0, bb = 0;
 		for (size_t i = 0; i < n; i++)
 			ab += (a[i] - ma) * (b[i] - mb), aa += (a[i] - ma) * (a[i] - ma), bb += (b[i] - mb) * (b[i] - mb);
-		worst = fmax(worst, fabs(ab) / sqrt(aa * bb));
+		check_worst(&worst, fabs(ab) / sqrt(aa * bb));
 	}
 	check_below(worst, 4 / sqrt((double)n), "HC-56, two seeds: %s of 1 and 2 are uncorrelated", s->name);
 	pm_frame_free(f), pm_frame_free(g);
@@ -167,7 +167,7 @@ static void orbits(void)
 		const struct scene_orbit o = {2.385, 1.7, 0.9};
 		scene_orbit_at(o, 0.0573 * k * scene_orbit_period(o), x, v);
 		const double energy = 0.5 * (v[0] * v[0] + v[1] * v[1]) - o.gm / hypot(x[0], x[1]), turn = x[0] * v[1] - x[1] * v[0];
-		worst = fmax(worst, fabs(energy + o.gm / (2 * o.axis)) + fabs(turn - sqrt(o.gm * o.axis * (1 - o.e * o.e))));
+		check_worst(&worst, fabs(energy + o.gm / (2 * o.axis)) + fabs(turn - sqrt(o.gm * o.axis * (1 - o.e * o.e))));
 	}
 	double moved = 0;
 	for (int k = 0; k <= 40; k++) { /* v is the rate of x: centred differences over 1e-5 are good to 1e-9, rounding to 1e-10 */
@@ -177,7 +177,7 @@ static void orbits(void)
 		scene_orbit_at(o, t, x, v);
 		scene_orbit_at(o, t - h, x1, (double[2]){0});
 		scene_orbit_at(o, t + h, x2, (double[2]){0});
-		moved = fmax(moved, hypot((x2[0] - x1[0]) / (2 * h) - v[0], (x2[1] - x1[1]) / (2 * h) - v[1]));
+		check_worst(&moved, hypot((x2[0] - x1[0]) / (2 * h) - v[0], (x2[1] - x1[1]) / (2 * h) - v[1]));
 	}
 	check_near(moved, 0, 1e-7, "the velocity on the Kepler orbit is the rate of the position");
 	check_near(worst, 0, 1e-12, "the Kepler orbit keeps energy and angular momentum all the way round");

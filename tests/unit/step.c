@@ -86,7 +86,7 @@ static double amplification(const struct pm_step *step, double complex z)
 	gsl_eigen_nonsymm(&view.matrix, values, w);
 	for (int i = 0; i < m; i++) {
 		gsl_complex v = gsl_vector_complex_get(values, (size_t)i);
-		radius = fmax(radius, hypot(GSL_REAL(v), GSL_IMAG(v)));
+		check_worst(&radius, hypot(GSL_REAL(v), GSL_IMAG(v)));
 	}
 	gsl_eigen_nonsymm_free(w), gsl_vector_complex_free(values);
 	return radius;
@@ -165,7 +165,7 @@ static void verlet(double dt, double phase)
 		double angle = atan2(-y[1] / a, y[0]), step = angle - last;
 		turned += step - 2 * pm_pi * floor(step / (2 * pm_pi) + 0.5);
 		last = angle;
-		shadow = fmax(shadow, fabs(0.5 * (y[1] * y[1] + a * a * y[0] * y[0]) - 0.5 * a * a));
+		check_worst(&shadow, fabs(0.5 * (y[1] * y[1] + a * a * y[0] * y[0]) - 0.5 * a * a));
 	}
 	char text[128];
 	snprintf(text, sizeof text, "TI-02: leapfrog at w dt = %g turns by the reference angle per step", dt);
@@ -196,7 +196,7 @@ static void long_orbit(void)
 		if (rv > 0 && now <= 0) { /* just past the apocentre */
 			double angle = apsis(y), de = energy(y) / e0 - 1, d = angle - last;
 			turned += d - 2 * pm_pi * floor(d / (2 * pm_pi) + 0.5);
-			last = angle, worst = fmax(worst, fabs(de)), orbits++;
+			last = angle, check_worst(&worst, fabs(de)), orbits++;
 			sn++, st += orbits, stt += (double)orbits * orbits, se += de, ste += orbits * de;
 		}
 		rv = now;

@@ -145,7 +145,7 @@ static double adjoint_error(struct problem *a)
 			on_particles += a->q[c][p] * a->out[c][p];
 			size += fabs(a->q[c][p] * a->out[c][p]);
 		}
-		worst = fmax(worst, fabs(on_mesh - on_particles) / size);
+		check_worst(&worst, fabs(on_mesh - on_particles) / size);
 		pm_free(field[c]);
 	}
 	return worst;
@@ -167,10 +167,8 @@ static void check_adjoint(int dim, const size_t cells[3])
 					a.t.half[c][(c + 1) % dim] = vector == 2;
 				}
 				double error = adjoint_error(&a);
-				if (!(error <= worst)) {
-					worst = error;
+				if (check_worst(&worst, error))
 					memcpy(at, (const int[]){rules[0], rules[1], rules[2], vector}, sizeof at);
-				}
 				problem_free(&a);
 			}
 		check(worst <= 1e-13, "%s, %d-D: spread and gather are adjoint at every face rule (%d cases; worst %.2g at faces %d %d %d kind %d)",
@@ -204,8 +202,8 @@ static double difference(size_t n, const double *a, const double *b)
 {
 	double most = 0, size = 0;
 	for (size_t i = 0; i < n; i++) {
-		most = fmax(most, fabs(a[i] - b[i]));
-		size = fmax(size, fabs(b[i]));
+		check_worst(&most, fabs(a[i] - b[i]));
+		check_worst(&size, fabs(b[i]));
 	}
 	return size > 0 ? most / size : most;
 }
@@ -225,11 +223,11 @@ static void check_plain(int dim, const size_t cells[3], size_t n)
 			pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 			pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
 			for (int c = 0; c < dim; c++)
-				worst[0] = fmax(worst[0], difference(a.points, a.mesh[c], b.mesh[c]));
+				check_worst(&worst[0], difference(a.points, a.mesh[c], b.mesh[c]));
 			pm_gather(&a.t, n, in(a.x), in(b.mesh), factor, a.out, &strays);
 			pm_gather_plain(&a.t, n, in(a.x), in(b.mesh), factor, b.out, &strays);
 			for (int c = 0; c < dim; c++)
-				worst[1] = fmax(worst[1], difference(n, a.out[c], b.out[c]));
+				check_worst(&worst[1], difference(n, a.out[c], b.out[c]));
 			problem_free(&a);
 			problem_free(&b);
 		}
@@ -308,7 +306,7 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 		for (int c = 0; c < dim; c++)
-			worst = fmax(worst, fmax(difference(a.points, a.mesh[c], b.mesh[c]), difference(n, a.out[c], b.out[c])));
+			check_worst(&worst, difference(a.points, a.mesh[c], b.mesh[c])), check_worst(&worst, difference(n, a.out[c], b.out[c]));
 		check(strays.finite, "%d-D: values that are set and finite are known to be", dim);
 	}
 	a.t.set[0] = false;
@@ -410,7 +408,7 @@ static void check_images(int rule, double sign)
 		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 		pm_spread(&b.t, 2 * n, in(b.x), in(b.q), b.mesh, &strays);
 		for (int i = 0; i <= cells; i++)
-			worst = fmax(worst, fabs(a.mesh[0][i] - b.mesh[0][i]));
+			check_worst(&worst, fabs(a.mesh[0][i] - b.mesh[0][i]));
 		check(worst <= 1e-13, "%s at a %s face: the image has %s sign (off by %.2g, tolerance 1e-13)", pm_kernels[k]->name, rule_names[rule],
 			sign > 0 ? "the same" : "the opposite", worst);
 		if (sign < 0)
@@ -536,7 +534,7 @@ static void check_exact(void)
 				s[d] = (a.x[d][p] - g->lo[d]) / g->h[d];
 			double want = 1 + (a.t.kernel->moments > 0 ? s[0] - 2 * s[1] + s[2] * s[0] : 0) +
 				      (a.t.kernel->moments > 1 ? s[0] * s[0] - s[1] * s[1] * s[2] : 0);
-			worst = fmax(worst, fabs(a.out[0][p] - want));
+			check_worst(&worst, fabs(a.out[0][p] - want));
 		}
 		check(worst <= 1e-11, "%s gathers polynomials of degree %d per axis exactly (off by %.2g of 1000)", a.t.kernel->name, a.t.kernel->moments,
 			worst);
