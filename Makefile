@@ -71,7 +71,7 @@ $(foreach t,$(tables),$(eval $(call table,$(t))))
 # The measured atlas, as plan reads it.
 $(B)/tables/atlas.c: data/atlas/force.tsv data/atlas/step.tsv Makefile
 	@mkdir -p $(@D)
-	@awk -F'\t' 'BEGIN { print "#include \"measure/atlas.h\"" } \
+	@awk -F'\t' 'BEGIN { print "#include \"planner/atlas.h\"" } \
 	FNR == 1 { if (open) print "{0}};"; name = FILENAME ~ /force/ ? "force" : "step"; print "const struct pm_atlas_" name " pm_atlas_" name "s[] = {"; open = 1; head = 0 } \
 	/^#/ || NF < 5 { next } !head { head = 1; next } \
 	{ texts = name == "force" ? 4 : 2; printf "{"; for (i = 1; i <= NF; i++) { number = $$i ~ /^[-+0-9.]/ ? $$i : "NAN"; if (i <= texts) printf "\"%s\", ", $$i; else printf "%s, ", number }; print "}," } \

@@ -9,7 +9,7 @@
 
 #include "bench.h"
 
-/* Eight numbers, of our own: lib/base and lib/mesh have each a PM_LANES. */
+/* Eight numbers, of our own: lib/base and lib/mesh have each a PM_FFT_LINES. */
 enum { BANDWIDTH_LANES = 8 };
 typedef double bandwidth_lanes __attribute__((vector_size(64), may_alias));
 

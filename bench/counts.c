@@ -5,9 +5,9 @@
 
 #include "far/pp.h"
 #include "mesh/gradient.h"
-#include "mesh/transfer.h"
-#include "poisson/fft.h"
-#include "poisson/mg.h"
+#include "transfer/transfer.h"
+#include "poisson-fft/poisson-fft.h"
+#include "poisson-mg/mg.h"
 
 #include "step/advance.h"
 

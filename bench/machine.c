@@ -1,6 +1,6 @@
 /* What the machine can do, on one thread and on all: bandwidth of plain loops over 64 MiB arrays, and fused multiply-adds per second as the compiler
  * makes them (two operations each). The limits of all other rows. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/lanes.h"
+#include "base/simd.h"
 
 #include "bandwidth.h"
 
@@ -14,17 +14,17 @@ enum { CHAINS = 4 }; /* of eight numbers each: what stays in sixteen registers *
 /* Independent chains, enough to hide the latency. */
 static double chains(double x)
 {
-	pm_lanes s[CHAINS], a = pm_lanes_all(1 - 1e-9 * x), b = pm_lanes_all(1e-9);
-	PM_LANES_UNROLL
+	pm_simd s[CHAINS], a = pm_simd_all(1 - 1e-9 * x), b = pm_simd_all(1e-9);
+	PM_SIMD_UNROLL
 	for (int k = 0; k < CHAINS; k++)
-		s[k] = pm_lanes_all(x + k);
+		s[k] = pm_simd_all(x + k);
 	for (int i = 0; i < TURNS; i++)
-		PM_LANES_UNROLL
+		PM_SIMD_UNROLL
 		for (int k = 0; k < CHAINS; k++)
-			s[k] = pm_lanes_fma(s[k], a, b);
+			s[k] = pm_simd_fma(s[k], a, b);
 	for (int k = 1; k < CHAINS; k++)
 		s[0] += s[k];
-	return pm_lanes_sum(s[0]);
+	return pm_simd_sum(s[0]);
 }
 
 static void multiply_add(void *with)
@@ -57,7 +57,7 @@ static void measure(void)
 	bench_turns(BANDWIDTHS + 1, jobs);
 	for (int i = 0; i < BANDWIDTHS; i++)
 		row(bandwidth_names[i], "GB/s", bandwidth_rate(&all[i], &jobs[i]), bench_middle(jobs[i].seconds).spread);
-	row("fma", "GFLOP/s", 2. * PM_VECTOR_LANES * CHAINS * TURNS * pm_threads() / bench_median(&jobs[BANDWIDTHS]) / 1e9,
+	row("fma", "GFLOP/s", 2. * PM_SIMD_WIDTH * CHAINS * TURNS * pm_threads() / bench_median(&jobs[BANDWIDTHS]) / 1e9,
 		bench_middle(jobs[BANDWIDTHS].seconds).spread);
 	bandwidth_free(&all[0]);
 }

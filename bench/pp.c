@@ -2,7 +2,7 @@
  * registers, sources one by one, 1/r^3 from the approximate root with one correction of third order. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pp.h"
 
-#include "base/lanes.h"
+#include "base/simd.h"
 #include "bench.h"
 
 enum { N = 16384, GROUP = 4 };
@@ -12,44 +12,44 @@ struct bodies {
 	double *x[3], *q, *g[3], *phi;
 };
 
-PM_LANES_INLINE void meet(pm_lanes x[3], const double *const y[3], const double *q, size_t j, pm_lanes delta2, pm_lanes g[3])
+PM_SIMD_INLINE void meet(pm_simd x[3], const double *const y[3], const double *q, size_t j, pm_simd delta2, pm_simd g[3])
 {
-	pm_lanes s[3], d2 = delta2;
-	PM_LANES_UNROLL
+	pm_simd s[3], d2 = delta2;
+	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++) {
-		s[d] = x[d] - pm_lanes_all(y[d][j]);
-		d2 = pm_lanes_fma(s[d], s[d], d2);
+		s[d] = x[d] - pm_simd_all(y[d][j]);
+		d2 = pm_simd_fma(s[d], s[d], d2);
 	}
-	pm_lanes r = pm_lanes_rsqrt_start(d2), e = pm_lanes_fnma(d2, r * r, pm_lanes_all(1));
-	r = pm_lanes_fma(r * e, pm_lanes_fma(e, pm_lanes_all(0.375), pm_lanes_all(0.5)), r);
-	pm_lanes f = r * r * (r * pm_lanes_all(q[j]));
-	PM_LANES_UNROLL
+	pm_simd r = pm_simd_rsqrt_start(d2), e = pm_simd_fnma(d2, r * r, pm_simd_all(1));
+	r = pm_simd_fma(r * e, pm_simd_fma(e, pm_simd_all(0.375), pm_simd_all(0.5)), r);
+	pm_simd f = r * r * (r * pm_simd_all(q[j]));
+	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++)
-		g[d] = pm_lanes_fma(f, s[d], g[d]);
+		g[d] = pm_simd_fma(f, s[d], g[d]);
 }
 
 static void plain(void *with)
 {
 	struct bodies *b = with;
 	const double *const y[3] = {b->x[0], b->x[1], b->x[2]};
-	pm_lanes delta2 = pm_lanes_all(b->how.delta * b->how.delta);
+	pm_simd delta2 = pm_simd_all(b->how.delta * b->how.delta);
 #pragma omp parallel for schedule(static)
-	for (size_t i = 0; i < N; i += GROUP * PM_VECTOR_LANES) {
-		pm_lanes x[GROUP][3], g[GROUP][3] = {{{0}}};
-		PM_LANES_UNROLL
+	for (size_t i = 0; i < N; i += GROUP * PM_SIMD_WIDTH) {
+		pm_simd x[GROUP][3], g[GROUP][3] = {{{0}}};
+		PM_SIMD_UNROLL
 		for (size_t k = 0; k < GROUP; k++)
-			PM_LANES_UNROLL
+			PM_SIMD_UNROLL
 			for (int d = 0; d < 3; d++)
-				x[k][d] = pm_lanes_load(b->x[d] + i + k * PM_VECTOR_LANES);
+				x[k][d] = pm_simd_load(b->x[d] + i + k * PM_SIMD_WIDTH);
 		for (size_t j = 0; j < N; j++)
-			PM_LANES_UNROLL
+			PM_SIMD_UNROLL
 			for (size_t k = 0; k < GROUP; k++)
 				meet(x[k], y, b->q, j, delta2, g[k]);
-		PM_LANES_UNROLL
+		PM_SIMD_UNROLL
 		for (size_t k = 0; k < GROUP; k++)
-			PM_LANES_UNROLL
+			PM_SIMD_UNROLL
 			for (int d = 0; d < 3; d++)
-				pm_lanes_store(b->g[d] + i + k * PM_VECTOR_LANES, g[k][d]);
+				pm_simd_store(b->g[d] + i + k * PM_SIMD_WIDTH, g[k][d]);
 	}
 }
 

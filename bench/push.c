@@ -29,8 +29,8 @@ static void bulk(void *with)
 {
 	struct particles *p = with;
 	struct pm_measured b = {.n = N, .dim = 3, .vdim = 3, .x = {p->x[0], p->x[1], p->x[2]}, .v = {p->v[0], p->v[1], p->v[2]}, .mass = p->mass};
-	struct pm_bulk sums = {0};
-	pm_bulk_add(&b, &sums);
+	struct pm_particle_sums sums = {0};
+	pm_particle_sums_add(&b, &sums);
 	if (!(sums.mass > 0))
 		exit(1);
 }

@@ -2,9 +2,9 @@
  * pinit uniform -n N --cells C | step. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "mesh/gradient.h"
-#include "mesh/transfer.h"
-#include "poisson/fft.h"
-#include "stage/sentence.h"
+#include "transfer/transfer.h"
+#include "poisson-fft/poisson-fft.h"
+#include "sentence/sentence.h"
 #include "stream/wire.h"
 
 #include "step/advance.h"

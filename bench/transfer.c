@@ -2,7 +2,7 @@
  * library is found (finufft.h) and pmesh where bench/pmesh.py found it.
  * transfer [cells per axis [particles per cell [dim [kernel ...]]]], `all` for all kernels; on one thread and, where there are more, on all.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mesh/transfer_order.h"
+#include "transfer/tile-order.h"
 
 #include "finufft.h"
 

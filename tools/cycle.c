@@ -1,6 +1,6 @@
-/* cycle: runs a sentence again and again on a frame, one step after the other (lib/stage/loop.c).
+/* cycle: runs a sentence again and again on a frame, one step after the other (lib/cycle/loop.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "stage/loop.h"
+#include "cycle/loop.h"
 
 static int begin(struct pm_stage *s)
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "measure/growth.h"
-#include "stage/gauge.h"
+#include "measure/diag-column.h"
 #include "stage/stage.h"
 
 struct config {
@@ -21,8 +21,8 @@ struct state {
 	FILE *out;
 	int n; /* columns, decided by the first frame; 0 before */
 	struct pm_series series; /* of --growth */
-	struct pm_gauged column[MOST];
-	struct pm_gauge gauge;
+	struct pm_diag_column column[MOST];
+	struct pm_diag_request gauge;
 };
 
 /* mode:M and T0:T1. */
@@ -42,9 +42,9 @@ static int take_growth(struct config *c)
 	return 0;
 }
 
-static void gauge_make(struct pm_gauge *g, const struct config *c)
+static void gauge_make(struct pm_diag_request *g, const struct config *c)
 {
-	*g = (struct pm_gauge){.set = c->set, .pair = c->pair, .nradii = c->radii.n, .nmodes = c->modes.n};
+	*g = (struct pm_diag_request){.set = c->set, .pair = c->pair, .nradii = c->radii.n, .nmodes = c->modes.n};
 	memcpy(g->fraction, c->radii.x, sizeof g->fraction);
 	for (int k = 0; k < c->modes.n; k++)
 		g->mode[k] = (int)c->modes.x[k];
@@ -67,40 +67,40 @@ static int begin(struct pm_stage *s)
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_gauge_reads(&((struct state *)s->state)->gauge, f);
+	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&((struct state *)s->state)->gauge, f);
 }
 
-static void add(struct state *state, const struct config *c, const struct pm_frame *f, struct pm_gauged column)
+static void add(struct state *state, const struct config *c, const struct pm_frame *f, struct pm_diag_column column)
 {
-	const struct pm_scene *scene = c->exact ? pm_gauge_scene(f) : NULL;
+	const struct pm_scene *scene = c->exact ? pm_diag_scene(f) : NULL;
 	state->column[state->n++] = column;
 	if (scene && isfinite(scene->exact(f, column.name, f->time)))
-		state->column[state->n++] = pm_gauge_exact(column.name);
+		state->column[state->n++] = pm_diag_exact(column.name);
 }
 
 /* All columns that exist here, or those asked for in their order; radii and modes last. They stay the same over the stream. */
 static int decide(struct state *state, const struct config *c, const struct pm_frame *f)
 {
 	int vdim = 0;
-	const struct pm_measure how = pm_gauge_how(&state->gauge, f);
-	if (c->exact && !pm_gauge_scene(f))
+	const struct pm_measure how = pm_diag_how(&state->gauge, f);
+	if (c->exact && !pm_diag_scene(f))
 		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;
 	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
 		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, how.vortices, how.plasma))
-			add(state, c, f, pm_gauge_column((enum pm_column)k));
+			add(state, c, f, pm_diag_column((enum pm_column)k));
 	for (int i = 0; i < c->columns.n; i++)
 		for (int k = 0; k < PM_COLUMNS; k++)
 			if (!strcmp(c->columns.item[i], pm_column_names[k]))
-				add(state, c, f, pm_gauge_column((enum pm_column)k));
+				add(state, c, f, pm_diag_column((enum pm_column)k));
 	for (int k = 0; k < c->radii.n; k++)
-		add(state, c, f, pm_gauge_radius(&state->gauge, k));
+		add(state, c, f, pm_diag_radius(&state->gauge, k));
 	for (int k = 0; k < c->modes.n; k++)
-		add(state, c, f, pm_gauge_mode(&state->gauge, k));
+		add(state, c, f, pm_diag_mode(&state->gauge, k));
 	return 0;
 }
 
@@ -110,14 +110,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *state = s->state;
 	struct pm_measures m;
 	const bool json = !strcmp(c->format, "json"), first = !state->n;
-	const struct pm_measure how = pm_gauge_how(&state->gauge, f);
+	const struct pm_measure how = pm_diag_how(&state->gauge, f);
 	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m) ||
 		(c->mode && pm_series_add(&state->series, f->time, m.mode[how.nmodes - 1])))
 		return -PM_DATA;
 	for (int i = 0; i < state->n && first && !json; i++)
 		fprintf(state->out, "%s%c", state->column[i].name, i + 1 < state->n ? '\t' : '\n');
 	for (int i = 0; i < state->n; i++) {
-		const double x = pm_gauge_value(&state->column[i], &m, f);
+		const double x = pm_diag_value(&state->column[i], &m, f);
 		if (json)
 			fprintf(state->out, "%c\"%s\":", i ? ',' : '{', state->column[i].name);
 		fprintf(state->out, isfinite(x) ? "%.17g" : json ? "null" : "nan", x);
@@ -197,7 +197,7 @@ const struct pm_tool tool_diag = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.end = end,
 	.free = release,

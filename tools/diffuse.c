@@ -13,7 +13,7 @@ struct config {
 	bool replace;
 };
 struct state {
-	struct pm_planner planner;
+	struct pm_fft_plans planner;
 	struct pm_operator operator;
 	const struct pm_field *density;
 	struct pm_field *change;
@@ -22,8 +22,8 @@ struct state {
 
 static int begin(struct pm_stage *s)
 {
-	int effort = pm_effort_find(((const struct config *)s->config)->plan);
-	((struct state *)s->state)->planner.effort = (enum pm_effort)effort;
+	int effort = pm_fft_effort_find(((const struct config *)s->config)->plan);
+	((struct state *)s->state)->planner.effort = (enum pm_fft_effort)effort;
 	return effort < 0 ? -PM_USAGE : 0;
 }
 
@@ -40,7 +40,7 @@ static int contribute(const struct config *o, struct pm_frame *f, const struct p
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
@@ -90,8 +90,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	double *scratch = t->change->nterms > 1 ? pm_alloc(t->change->count * (size_t)t->operator.out, sizeof *scratch) : NULL;
 	if (t->change->nterms > 1 && !scratch)
 		return -PM_DATA;
-	if (t->planner.n > PM_PLANS - 3) /* frames of many sizes: start the collection anew */
-		pm_planner_clear(&t->planner);
+	if (t->planner.n > PM_FFT_PLANS - 3) /* frames of many sizes: start the collection anew */
+		pm_fft_plans_clear(&t->planner);
 	int status = pm_operator_plan(&t->operator, &t->planner);
 	if (!status)
 		status = add(t, scratch);
@@ -100,7 +100,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static void release(struct pm_stage *s) { pm_planner_clear(&((struct state *)s->state)->planner); }
+static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 #define AT(member) offsetof(struct config, member)
 static const struct pm_option options[] = {
@@ -108,7 +108,7 @@ static const struct pm_option options[] = {
 	{"nu", 0, PM_REAL, "length^2/time", NULL, 0, 1e300, NULL, "the viscosity (default: the frame's constant nu)", false, AT(nu)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
 	{"replace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "compute the change anew instead of refusing to add twice", false, AT(replace)},
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
+	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
 		"how transforms are chosen, with --order spectral: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, AT(plan)},
 	{0},
@@ -135,7 +135,7 @@ const struct pm_tool tool_diffuse = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

@@ -1,10 +1,10 @@
-/* dt: writes the time step that the state of a frame allows, the smallest over the rules asked for (lib/measure/limits.c) and the sets that move.
+/* dt: writes the time step that the state of a frame allows, the smallest over the rules asked for (lib/measure/timestep.c) and the sets that move.
  * Courant, Friedrichs and Lewy 1928 (cells crossed in a step); Springel 2005, MNRAS 364, 1105, eq. 34 (softening over acceleration); Cottet and
  * Koumoutsakos 2000, section 7.1 (strain); Birdsall and Langdon 1985, section 4-2 (plasma frequency). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "law/law.h"
-#include "measure/limits.h"
+#include "measure/timestep.h"
 #include "stage/stage.h"
 
 struct config {
@@ -79,7 +79,7 @@ static double softening(const struct pm_stage *s, const struct pm_frame *f)
 	return pm_given(s, "softening") ? ((const struct config *)s->config)->softening : pm_frame_constant(f, "softening", NAN);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
 	int status = 0, sets = 0;
@@ -203,6 +203,6 @@ const struct pm_tool tool_dt = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

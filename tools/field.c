@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/expression.h"
+#include "expression/expression.h"
 #include "stage/stage.h"
 
 struct config {
@@ -107,7 +107,7 @@ static int plan_one(struct pm_stage *s, struct pm_frame *f, const char *argument
 	return status;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	int status = 0;
 	((struct state *)s->state)->njobs = 0;
@@ -178,7 +178,7 @@ const struct pm_tool tool_field = {
 	.most = 16,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = done,
 };

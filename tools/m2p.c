@@ -1,13 +1,13 @@
-/* m2p: mesh fields at the positions of particles, added to what changes them; the gathering is lib/mesh/transfer.c.
+/* m2p: mesh fields at the positions of particles, added to what changes them; the gathering is lib/transfer/transfer.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
 #include "law/law.h"
-#include "mesh/carry.h"
-#include "mesh/bfield.h"
-#include "mesh/interlace.h"
-#include "mesh/transfer_frame.h"
+#include "transfer/mesh-changes.h"
+#include "transfer/magnetic-field.h"
+#include "transfer/interlace.h"
+#include "transfer/transfer-frame.h"
 #include "stage/stage.h"
 
 struct config {
@@ -27,7 +27,7 @@ struct job {
 	struct pm_interlaced both; /* of the field, on two meshes */
 };
 struct state {
-	struct pm_planner planner; /* of interlaced meshes */
+	struct pm_fft_plans planner; /* of interlaced meshes */
 };
 
 /* The mesh that has the field, or the words that make it. */
@@ -88,12 +88,12 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_find(inner ? inner : kernel), .components = j->field->components};
 	if (!j->transfer.kernel)
 		return -PM_DATA;
-	memcpy(j->transfer.half, j->field->half, sizeof j->transfer.half);
+	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
 	set_images(j, f->dim, &j->transfer);
 	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct job j = {0};
@@ -113,7 +113,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		if (!target)
 			status = status ? status : -PM_DATA;
 		if (!status && !o->field)
-			status = pm_carry_plan(f, set, j.mesh, o->replace);
+			status = pm_mesh_changes_declare(f, set, j.mesh, o->replace);
 		if (!status && !o->field && j.law->magnetic)
 			status = pm_bfield_plan(f, set, j.mesh, j.law->magnetic, o->replace);
 	}
@@ -121,7 +121,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 }
 
 /* out[c] += factor[c] * value, with factor 1, strength/per of the law, or the volume; changes of the mesh are carried along. */
-static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const struct pm_carry *carry, const char *set)
+static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *j, const struct pm_mesh_changes *carry, const char *set)
 {
 	const struct config *o = s->config;
 	struct pm_field *target = pm_frame_field(f, set, o->field ? o->field : j->law->change);
@@ -145,7 +145,7 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 		t.grid = pm_grid_of(f, j->mesh);
 	}
 	if (!status)
-		status = pm_carry_append(carry, f, set, &t, mesh, factor, out);
+		status = pm_mesh_changes_append(carry, f, set, &t, mesh, factor, out);
 	if (!status && j->interlaced && t.components > j->transfer.components)
 		status = pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
 	if (!status && j->interlaced)
@@ -164,7 +164,7 @@ static int gather_set(struct pm_stage *s, struct pm_frame *f, const struct job *
 }
 
 /* What of the changes no particle took, per time: the drift of the total. */
-static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm_carry *carry)
+static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm_mesh_changes *carry)
 {
 	char key[PM_NAME + 16];
 	for (int i = 0; i < carry->n; i++)
@@ -177,34 +177,34 @@ static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm
 /* The field on both of its meshes. */
 static int interlace(struct pm_stage *s, struct job *j)
 {
-	struct pm_planner *p = &((struct state *)s->state)->planner;
+	struct pm_fft_plans *p = &((struct state *)s->state)->planner;
 	const double *mesh[PM_COMPONENTS];
-	int effort = pm_effort_find(NULL);
+	int effort = pm_fft_effort_find(NULL);
 	if (effort < 0)
 		return -PM_USAGE;
-	p->effort = (enum pm_effort)effort;
+	p->effort = (enum pm_fft_effort)effort;
 	for (int c = 0; c < j->field->components; c++)
 		mesh[c] = pm_in(j->field, c);
 	return pm_interlace_init(&j->both, &j->transfer, p, mesh);
 }
 
-static void release(struct pm_stage *s) { pm_planner_clear(&((struct state *)s->state)->planner); }
+static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct job j = {0};
-	struct pm_carry carry = {.n = 0};
+	struct pm_mesh_changes carry = {.n = 0};
 	int status = job_of(o, f, &j);
 	if (!status && !o->field)
-		status = pm_carry_init(&carry, f, &j.sets, j.mesh, &j.transfer);
+		status = pm_mesh_changes_init(&carry, f, &j.sets, j.mesh, &j.transfer);
 	if (!status && j.interlaced)
 		status = interlace(s, &j);
 	for (size_t i = 0; i < j.sets.n && !status; i++)
 		status = gather_set(s, f, &j, &carry, j.sets.name[i]);
 	if (!status)
 		report(s, f, &carry);
-	pm_carry_free(&carry);
+	pm_mesh_changes_free(&carry);
 	pm_interlace_free(&j.both);
 	return status;
 }
@@ -241,7 +241,7 @@ const struct pm_tool tool_m2p = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

@@ -9,7 +9,7 @@ struct config {
 	const char *kind, *order, *source, *target, *mesh, *plan;
 };
 struct state {
-	struct pm_planner planner;
+	struct pm_fft_plans planner;
 	const struct pm_field *source;
 	struct pm_field *target;
 	struct pm_operator operator;
@@ -25,7 +25,7 @@ static const struct pm_option options[] = {
 		offsetof(struct config, source)},
 	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the mesh field to make (default: the law's field)", false, offsetof(struct config, target)},
 	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
+	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
 		"how FFTW's transforms (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
 	{0},
@@ -41,8 +41,8 @@ static const struct pm_example examples[] = {
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
-	int effort = pm_effort_find(o->plan);
-	((struct state *)s->state)->planner.effort = (enum pm_effort)effort;
+	int effort = pm_fft_effort_find(o->plan);
+	((struct state *)s->state)->planner.effort = (enum pm_fft_effort)effort;
 	if (effort < 0)
 		return -PM_USAGE;
 	if (o->kind && !o->target)
@@ -64,7 +64,7 @@ static int choose(const struct config *o, const struct pm_law *law, const struct
 	return order < 0 ? -PM_USAGE : pm_operator_init(&t->operator, g, kind, order, source->components, flow);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
@@ -86,7 +86,7 @@ static int plan(struct pm_stage *s, struct pm_frame *f)
 		return -PM_DATA;
 	for (int c = 0; c < t->source->components; c++)
 		for (int d = 0; d < f->dim; d++)
-			if (t->source->half[c][d])
+			if (t->source->staggered[c][d])
 				return pm_fail(PM_DATA, "'%s' sits between the nodes (mgrad works on the nodes)", source);
 	struct pm_grid g = pm_grid_of(f, mesh);
 	int status = choose(o, law, &g, t->source, t);
@@ -114,8 +114,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		in[c] = pm_in(t->source, c);
 	for (int c = 0; c < t->operator.out; c++)
 		out[c] = pm_out(t->target, c);
-	if (t->planner.nmade > PM_PLANS - 3 || t->planner.n > PM_PLANS - 6) /* frames of many sizes: start the collection anew */
-		pm_planner_clear(&t->planner);
+	if (t->planner.nmade > PM_FFT_PLANS - 3 || t->planner.n > PM_FFT_PLANS - 6) /* frames of many sizes: start the collection anew */
+		pm_fft_plans_clear(&t->planner);
 	double began = pm_seconds();
 	int status = pm_operator_plan(&t->operator, &t->planner);
 	pm_setup_since(s, began);
@@ -129,7 +129,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static void release(struct pm_stage *s)
 {
-	pm_planner_clear(&((struct state *)s->state)->planner);
+	pm_fft_plans_clear(&((struct state *)s->state)->planner);
 }
 
 const struct pm_tool tool_mgrad = {
@@ -149,7 +149,7 @@ const struct pm_tool tool_mgrad = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

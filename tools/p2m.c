@@ -1,11 +1,11 @@
-/* p2m: strengths of particles to a density on a mesh; the spreading is lib/mesh/transfer.c.
+/* p2m: strengths of particles to a density on a mesh; the spreading is lib/transfer/transfer.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "law/law.h"
-#include "mesh/interlace.h"
+#include "transfer/interlace.h"
 #include "mesh/regrid.h"
-#include "mesh/transfer_frame.h"
+#include "transfer/transfer-frame.h"
 #include "stage/stage.h"
 
 struct config {
@@ -14,7 +14,7 @@ struct config {
 	bool add, interlace;
 };
 struct state {
-	struct pm_planner planner; /* of interlaced meshes */
+	struct pm_fft_plans planner; /* of interlaced meshes */
 };
 
 /* What the options and the frame's law ask for. */
@@ -27,12 +27,12 @@ struct job {
 
 static int begin(struct pm_stage *s)
 {
-	int effort = ((struct config *)s->config)->interlace ? pm_effort_find(NULL) : 0;
-	((struct state *)s->state)->planner.effort = (enum pm_effort)effort;
+	int effort = ((struct config *)s->config)->interlace ? pm_fft_effort_find(NULL) : 0;
+	((struct state *)s->state)->planner.effort = (enum pm_fft_effort)effort;
 	return effort < 0 ? -PM_USAGE : 0;
 }
 
-static void release(struct pm_stage *s) { pm_planner_clear(&((struct state *)s->state)->planner); }
+static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
 {
@@ -85,7 +85,7 @@ static int makes_density(const struct config *o, struct pm_frame *f, const struc
 	return status ? status : pm_makes_density(f, j->mesh, j->density, &named, &j->sets, j->strength, add);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct job j = {0};
@@ -195,7 +195,7 @@ const struct pm_tool tool_p2m = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

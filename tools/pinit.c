@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "scene/rows.h"
-#include "stage/attributes.h"
+#include "stage/attribute-options.h"
 
 struct config {
 	int64_t n, seed, dim;

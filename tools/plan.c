@@ -1,8 +1,8 @@
-/* plan: the sentence that a frame calls for, with the reason of every word; what it costs; and with --check the proof (lib/stage/plan.c, lib/effect).
+/* plan: the sentence that a frame calls for, with the reason of every word; what it costs; and with --check the proof (lib/planner/plan.c, lib/effect).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "stage/plan.h"
+#include "planner/plan.h"
 
 struct config {
 	struct pm_plan_choice choice;
@@ -28,7 +28,7 @@ static int begin(struct pm_stage *s)
 }
 
 /* Everything that is there is looked at. */
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	(void)s;
 	for (size_t i = 0; i < f->nfields; i++)
@@ -104,6 +104,6 @@ const struct pm_tool tool_plan = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "mesh/gradient.h"
-#include "mesh/interlace.h"
-#include "poisson/fft.h"
-#include "stage/solver.h"
+#include "transfer/interlace.h"
+#include "poisson-fft/poisson-fft.h"
+#include "stage/solver-options.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -16,7 +16,7 @@ enum { SOLVERS = 4 }; /* kinds of faces that the components of a vector have: on
 struct state {
 	struct pm_problem problem;
 	struct pm_poisson_fft_choice choice;
-	enum pm_effort effort;
+	enum pm_fft_effort effort;
 	int nmade;
 	struct made {
 		struct pm_poisson_fft *solver;
@@ -46,7 +46,7 @@ static const struct pm_option options[] = {
 		"diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D", false,
 		offsetof(struct config, cloud)},
 	PM_SOLVER_ROWS(struct config),
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_effort_names,
+	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
 		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
 		false, offsetof(struct config, plan)},
 	{0},
@@ -65,8 +65,8 @@ static const struct pm_example examples[] = {
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
-	int effort = pm_effort_find(o->plan);
-	((struct state *)s->state)->effort = (enum pm_effort)effort;
+	int effort = pm_fft_effort_find(o->plan);
+	((struct state *)s->state)->effort = (enum pm_fft_effort)effort;
 	return effort < 0 ? -PM_USAGE : 0;
 }
 
@@ -86,7 +86,7 @@ static int influence(const struct config *o, const struct pm_frame *f, const str
 	return i->order < 0 || (*kernel && !i->kernel) ? -PM_DATA : 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
@@ -132,7 +132,7 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 	if (!solver)
 		return NULL;
 	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol, t->choice.influence};
-	const struct pm_planner *p = pm_poisson_fft_planner(solver);
+	const struct pm_fft_plans *p = pm_poisson_fft_planner(solver);
 	if (*p->note)
 		pm_say(s, "%s", p->note);
 	pm_say(s, "plans: %d from the cache, %d measured, %d estimated", p->stored, p->measured, p->estimated);
@@ -140,7 +140,7 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 }
 
 /* One component, and what was removed from its source. */
-static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_planner **plans)
+static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_fft_plans **plans)
 {
 	struct state *t = s->state;
 	const struct pm_problem *p = &t->problem;
@@ -158,13 +158,13 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
-	const struct pm_planner *p = NULL;
+	const struct pm_fft_plans *p = NULL;
 	for (int c = 0; c < t->problem.source->components; c++)
 		if (component(s, f, c, &p))
 			return -PM_DATA;
 	char plan_text[48] = "own"; /* transforms of our own: the same everywhere */
 	if (p && p->n)
-		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_effort_names[t->effort], p->sum);
+		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_fft_effort_names[t->effort], p->sum);
 	pm_report_text(s, f, "plan", plan_text);
 	return 0;
 }
@@ -191,7 +191,7 @@ const struct pm_tool tool_poisson_fft = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

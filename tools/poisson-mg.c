@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "poisson/multigrid.h"
-#include "stage/solver.h"
+#include "poisson-mg/multigrid.h"
+#include "stage/solver-options.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -70,7 +70,7 @@ static int begin(struct pm_stage *s)
 	return t->solver ? pm_multigrid_choose(&t->choice, o->smoother, o->relaxation) : -PM_DATA;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
@@ -153,7 +153,7 @@ const struct pm_tool tool_poisson_mg = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

@@ -1,8 +1,8 @@
 /* poisson-relax: solves lap phi = c*s on a mesh by iterations one can read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
-#include "poisson/relax.h"
-#include "stage/solver.h"
+#include "poisson-relax/relaxation.h"
+#include "stage/solver-options.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -47,7 +47,7 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
@@ -130,7 +130,7 @@ const struct pm_tool tool_poisson_relax = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

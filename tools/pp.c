@@ -46,7 +46,7 @@ static int method(const struct pm_stage *s, const struct pm_frame *f, const stru
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
 	const struct pm_law *law = pm_law_of(f);
@@ -115,6 +115,6 @@ const struct pm_tool tool_pp = {
 	.config = sizeof(struct config),
 	.options = options,
 	.examples = examples,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

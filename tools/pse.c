@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "law/law.h"
-#include "mesh/transfer_frame.h"
-#include "near/pse_frame.h"
+#include "transfer/transfer-frame.h"
+#include "near/pse-frame.h"
 #include "stage/stage.h"
 
 struct config {
@@ -36,7 +36,7 @@ static int choose(const struct config *o, const struct pm_frame *f, struct pm_ps
 	return pm_sets_choose(f, o->set, needs, "stab reads it from a table", sets);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct pm_pse_set p;
@@ -127,6 +127,6 @@ const struct pm_tool tool_pse = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

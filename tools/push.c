@@ -106,7 +106,7 @@ static void drop(struct pm_frame *f, const struct config *cfg)
 			pm_drops_roles(f, f->sets[i]->name, roles);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
 	struct state *state = s->state;
@@ -194,7 +194,7 @@ const struct pm_tool tool_push = {
 	.most = PM_ADVANCE_ACTIONS,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = release,
 };

@@ -1,11 +1,11 @@
-/* remesh: particles back onto the nodes of a mesh; the sharing is lib/mesh/remesh.c, the distortion lib/mesh/distortion.c.
+/* remesh: particles back onto the nodes of a mesh; the sharing is lib/remesh/remesh.c, the distortion lib/remesh/distortion.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "law/law.h"
-#include "mesh/distortion.h"
+#include "remesh/distortion.h"
 #include "mesh/regrid.h"
-#include "mesh/remesh_frame.h"
+#include "remesh/remesh-frame.h"
 #include "stage/stage.h"
 
 struct config {
@@ -48,7 +48,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	return j->choice.kernel ? pm_remesh_choose(f, o->set, &j->choice, &j->sets) : -PM_DATA;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct job j;
@@ -166,6 +166,6 @@ const struct pm_tool tool_remesh = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/expression.h"
+#include "expression/expression.h"
 #include "stage/stage.h"
 
 static const char *const roles[] = {"auto", "state", "derived", NULL}, *const types[] = {"f64", "f32", "i64", NULL};
@@ -108,7 +108,7 @@ static int plan_on(struct pm_stage *s, struct pm_frame *f, const char *on, bool 
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
@@ -189,7 +189,7 @@ const struct pm_tool tool_scalc = {
 	.most = 32,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.free = done,
 };

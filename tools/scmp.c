@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "measure/norms.h"
-#include "measure/pairs.h"
-#include "stage/rest.h"
+#include "measure/field-pairs.h"
+#include "stage/h5-pipe.h"
 #include "stage/stage.h"
 
 enum { L1, L2, MAX, RELATIVE_L2, RELATIVE_MAX };
@@ -27,9 +27,9 @@ static const struct pm_option options[] = {
 	{.name = "by-index", .kind = PM_FLAG, .text = "compare particles in the order in which they come, even where both have an id", .offset = offsetof(struct config, by_index)},
 	{0}};
 
-static struct pm_pairs_choice choice_of(const struct config *c)
+static struct pm_field_pairs_choice choice_of(const struct config *c)
 {
-	return (struct pm_pairs_choice){.fields = c->fields.item, .on = c->on.item, .common = c->common, .by_index = c->by_index};
+	return (struct pm_field_pairs_choice){.fields = c->fields.item, .on = c->on.item, .common = c->common, .by_index = c->by_index};
 }
 
 /* Where the difference is largest, in words. */
@@ -77,14 +77,14 @@ static void row(const struct config *c, struct state *st, const char *on, const 
 static int field_row(const struct config *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b,
 	struct state *st)
 {
-	const struct pm_pairs_choice choice = choice_of(c);
+	const struct pm_field_pairs_choice choice = choice_of(c);
 	char at[64];
 	size_t *match = NULL, *work = NULL;
 	double *weight = NULL;
 	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
-	bool id = pm_pairs_by_id(&choice, f, g, a->on);
+	bool id = pm_field_pairs_by_id(&choice, f, g, a->on);
 	int status = 0;
-	if (m && !(weight = pm_pairs_weights(f, m)))
+	if (m && !(weight = pm_field_pairs_weights(f, m)))
 		status = -PM_DATA;
 	if (id && a->count) {
 		match = pm_alloc(a->count, sizeof *match), work = pm_alloc(a->count, sizeof *work);
@@ -102,9 +102,9 @@ static int field_row(const struct config *c, const struct pm_frame *f, const str
 
 static int compare(const struct config *c, struct pm_reader *r[2], struct pm_frame *f[2], struct state *st)
 {
-	const struct pm_pairs_choice choice = choice_of(c);
-	struct pm_pairs p;
-	int status = pm_pairs_of(&choice, f[0], f[1], &p);
+	const struct pm_field_pairs_choice choice = choice_of(c);
+	struct pm_field_pairs p;
+	int status = pm_field_pairs_of(&choice, f[0], f[1], &p);
 	for (int i = 0; i < 2 && !status; i++)
 		if (!(status = pm_read_payload(r[i], f[i], false, NULL)))
 			status = pm_frame_ready(f[i]);
@@ -167,7 +167,7 @@ static int whole(struct pm_stage *s)
 	if (!strcmp(s->args[0], "-") && !strcmp(s->args[1], "-"))
 		return pm_fail(PM_USAGE, "standard input cannot be both streams (name a file)");
 	for (int i = 0; i < 2 && !status; i++)
-		status = (r[i] = pm_rest_open(s->args[i])) ? 0 : -PM_DATA;
+		status = (r[i] = pm_h5_pipe_open(s->args[i])) ? 0 : -PM_DATA;
 	if (!status)
 		status = streams(s, r);
 	for (int i = 0; i < 2; i++)

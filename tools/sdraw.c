@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "measure/colour.h"
-#include "measure/view.h"
+#include "picture/colour.h"
+#include "picture/view.h"
 #include "stage/stage.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL}, *const formats[] = {"png", "ppm", NULL}, *const styles[] = {"auto", "points", "density", NULL};
@@ -100,7 +100,7 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	return pm_view_plan(&((struct state *)s->state)->view, f);
 }
@@ -188,7 +188,7 @@ const struct pm_tool tool_sdraw = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.end = end,
 	.free = done,

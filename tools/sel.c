@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/expression.h"
+#include "expression/expression.h"
 #include "stage/stage.h"
 #include "stream/join.h"
 
@@ -112,14 +112,14 @@ static void leave_out(const struct config *c, struct pm_frame *f)
 			pm_drops(f, f->fields[i]);
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
 	struct pm_expression e;
 	int status;
-	st->frame += !s->planning;
-	if (!frame_chosen(c, f, st->frame + s->planning))
+	st->frame += !s->trial;
+	if (!frame_chosen(c, f, st->frame + s->trial))
 		return PM_SKIP;
 	if ((status = all_there(f, &c->sets, "set", true, false, false)) || (status = all_there(f, &c->meshes, "mesh", false, true, false)) ||
 		(status = all_there(f, &c->fields, "field", false, false, true)) || (status = all_there(f, &c->drop, "drop", true, true, true)))
@@ -214,7 +214,7 @@ const struct pm_tool tool_sel = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.flush = flush,
 	.free = done,

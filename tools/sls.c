@@ -32,7 +32,7 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	for (size_t i = 0; ((const struct config *)s->config)->data && i < f->nfields; i++)
 		f->fields[i]->use |= PM_USE_READ;
@@ -131,8 +131,8 @@ static void field_text(const struct config *c, const struct pm_field *p)
 	for (int i = 0; p->uniform && i < p->components; i++)
 		printf("%s%.10g", i ? "," : " uniform ", p->value[i]);
 	for (int i = 0; i < p->components; i++)
-		if (p->half[i][0] | p->half[i][1] | p->half[i][2])
-			printf(" half_%d %d%d%d", i, p->half[i][0], p->half[i][1], p->half[i][2]);
+		if (p->staggered[i][0] | p->staggered[i][1] | p->staggered[i][2])
+			printf(" half_%d %d%d%d", i, p->staggered[i][0], p->staggered[i][1], p->staggered[i][2]);
 	putchar('\n');
 	for (int i = 0; c->data && i < p->components; i++) {
 		struct pm_range r = pm_range_of(p, i);
@@ -152,7 +152,7 @@ static void owners_text(const struct config *c, const struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_set *s = f->sets[i];
 		printf("  set %s: %llu particles%s", s->name, (unsigned long long)s->n, s->fixed ? ", fixed" : "");
-		s->kick != 0 || s->drift != 0 || s->stage ? printf(", done kick %g drift %g stage %d\n", s->kick, s->drift, s->stage) : putchar('\n');
+		s->kick != 0 || s->drift != 0 || s->pass ? printf(", done kick %g drift %g pass %d\n", s->kick, s->drift, s->pass) : putchar('\n');
 		fields_text(c, f, s->name);
 	}
 	for (size_t i = 0; i < f->nmeshes; i++) {
@@ -231,7 +231,7 @@ const struct pm_tool tool_sls = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.end = end,
 };

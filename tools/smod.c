@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "law/law.h"
-#include "mesh/move.h"
-#include "stage/attributes.h"
+#include "mesh/rigid-motion.h"
+#include "stage/attribute-options.h"
 #include "stream/edit.h"
 #include "stream/join.h"
 
@@ -196,7 +196,7 @@ static int vectors_fit(const struct config *c, const struct pm_turn *t, const st
 	return 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	int status, touched = c->box.n || c->faces.n || c->law || c->constants.n;
@@ -294,6 +294,6 @@ const struct pm_tool tool_smod = {
 	.options = options,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "measure/expression.h"
-#include "mesh/order.h"
+#include "expression/expression.h"
+#include "cell/radix-sort.h"
 #include "stage/stage.h"
 
 struct config {
@@ -22,7 +22,7 @@ static const struct pm_option options[] = {
 
 static bool chosen(const struct config *c, const struct pm_set *set) { return !c->set || !strcmp(c->set, set->name); }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct pm_expression e;
@@ -121,6 +121,6 @@ const struct pm_tool tool_ssort = {
 	.config = sizeof(struct config),
 	.options = options,
 	.examples = examples,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

@@ -5,7 +5,7 @@
 
 #include "law/law.h"
 #include "mesh/grid.h"
-#include "stage/attributes.h"
+#include "stage/attribute-options.h"
 #include "stream/columns.h"
 #include "stream/text.h"
 
@@ -149,7 +149,7 @@ static const char *table_of(const struct pm_stage *s, const struct pm_frame *f)
 	return c->mesh ? c->mesh : other ? f->sets[0]->name : c->set;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	const char *on = table_of(s, f);
@@ -239,7 +239,7 @@ const struct pm_tool tool_stab = {
 	.most = 1,
 	.examples = examples,
 	.begin = begin,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 	.end = end,
 	.free = done,

@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "stage/attributes.h"
-#include "stage/rest.h"
+#include "stage/attribute-options.h"
+#include "stage/h5-pipe.h"
 #include "stream/join.h"
 
 struct config {
@@ -36,7 +36,7 @@ static int begin(struct pm_stage *s)
 static int open_all(struct pm_stage *s, struct state *st)
 {
 	for (int i = 0; i < s->nargs && !st->reader[i]; i++)
-		if (!(st->reader[i] = pm_rest_open(s->args[i])))
+		if (!(st->reader[i] = pm_h5_pipe_open(s->args[i])))
 			return -PM_DATA;
 	return 0;
 }

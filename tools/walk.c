@@ -33,7 +33,7 @@ static int plan_set(struct pm_frame *f, struct pm_set *set)
 	return pm_moving_face(f, PM_PABSORB) ? pm_moving_shrinks(f, &m) : 0;
 }
 
-static int plan(struct pm_stage *s, struct pm_frame *f)
+static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	double nu = viscosity(o, f);
@@ -111,6 +111,6 @@ const struct pm_tool tool_walk = {
 	.config = sizeof(struct config),
 	.options = options,
 	.examples = examples,
-	.plan = plan,
+	.declare = declare,
 	.frame = frame,
 };

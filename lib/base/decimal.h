@@ -1,7 +1,7 @@
 /* Decimal text to double and back, exactly and fast: what is read is the nearest double, what is written reads back to the same bits.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_DECIMAL_H
-#define PM_DECIMAL_H
+#ifndef PM_BASE_DECIMAL_H
+#define PM_BASE_DECIMAL_H
 
 #include "base/base.h"
 

@@ -1,4 +1,4 @@
-/* Effects: what physics a frame may call for. Each decides from numbers of the frame, measured once (lib/measure/scales.c), whether leaving it out
+/* Effects: what physics a frame may call for. Each decides from numbers of the frame, measured once (lib/planner/scales.c), whether leaving it out
  * would change the result by more than the accuracy asked for. One file per effect. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_EFFECT_H
 #define PM_EFFECT_H

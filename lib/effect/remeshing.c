@@ -1,5 +1,5 @@
 /* Remeshing: particles that carry a field go back on the lattice before they stop covering space. The distortion |H - H0|/H0 is how wrong they represent a
- * constant (lib/mesh/distortion.c) and is held against the accuracy itself: measured after 1, 2, 4, 8 steps without remeshing, it goes on as t^2. Shear
+ * constant (lib/remesh/distortion.c) and is held against the accuracy itself: measured after 1, 2, 4, 8 steps without remeshing, it goes on as t^2. Shear
  * along the mesh has none by that measure, so strains e = |grad u| t count too, as (e/4)^2: a lattice stretched 1.25, 1.5, 1.75 times has 0.0032, 0.0106, 0.0336
  * (docs/methods/remesh.md). Points, which cover nothing, have no lattice to go back to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
  * SPDX-License-Identifier: GPL-3.0-or-later */

@@ -1,7 +1,7 @@
 /* What every far field that works on particles directly shares: which sets are sources and which feel the sum, the particles in one array, and
  * the sums back on the sets. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_BODIES_H
-#define PM_BODIES_H
+#ifndef PM_FAR_BODIES_H
+#define PM_FAR_BODIES_H
 
 #include "stream/frame.h"
 

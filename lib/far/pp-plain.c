@@ -1,6 +1,6 @@
 /* Direct summation by the plain double loop: what the fast loops of pp.c are tested against. Compensated sums, one pair at a time through the
  * functions of the mollifier. Cost: N^2, 50 times that of the fast loops. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "far/pairs.h"
+#include "far/pair-forces.h"
 #include "far/pp.h"
 
 int pm_pp_plain(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient,

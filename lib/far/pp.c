@@ -3,11 +3,11 @@
  * Full loop: 32 targets in registers, sources in blocks of 1024 that stay in the first cache; block sums keep the round-off near
  * (1024 + N/1024) units. Half loop: tiles of particles meet in rounds of a tournament, in each of which a tile meets one other, so that no
  * sum depends on the number of threads. 1/r^3 from the 14-bit 1/sqrt(r^2) with a correction of fourth order (6e-16).
- * Conserves momentum to round-off. Split up: far/pairs.h a vector of pairs, far/pp-plain.c the loop these are tested against.
+ * Conserves momentum to round-off. Split up: far/pair-forces.h a vector of pairs, far/pp-plain.c the loop these are tested against.
  * Assumes open space. Pairs below r = 1e-100 without mollifier exert nothing. Cost: 18 vector operations per 8 pairs in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pp.h"
-#include "far/pairs.h"
+#include "far/pair-forces.h"
 
 enum { GROUP = 4, SOURCES = 1024, ROWS = 2 }; /* vectors of targets per group; sources per block; particles at a time in the half loop */
 
@@ -17,63 +17,63 @@ static const double far_away = 1e100; /* where the particles sit that fill up a 
 struct work {
 	size_t targets, n, padded, tile;
 	double *x[3], *q, *g[3], *phi;
-	struct pm_pairs how;
+	struct pm_field_pairs how;
 	uint64_t *coincident; /* pairs, per group or tile */
 };
 
 /* Sources [j0, j1) on the group of targets at i. self: the group may be among the sources. */
-PM_LANES_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
+PM_SIMD_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
 	unsigned *coincident)
 {
-	pm_lanes x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_lanes_all(w->how.delta2);
-	PM_LANES_UNROLL
+	pm_simd x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_simd_all(w->how.delta2);
+	PM_SIMD_UNROLL
 	for (int k = 0; k < GROUP; k++) {
-		PM_LANES_UNROLL
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			x[d][k] = pm_lanes_load(w->x[d] + i + (size_t)k * PM_VECTOR_LANES), g[d][k] = zero;
+			x[d][k] = pm_simd_load(w->x[d] + i + (size_t)k * PM_SIMD_WIDTH), g[d][k] = zero;
 		phi[k] = zero;
 	}
 	for (size_t j = j0; j < j1; j++) {
-		pm_lanes q = pm_lanes_all(w->q[j]), y[3];
-		PM_LANES_UNROLL
+		pm_simd q = pm_simd_all(w->q[j]), y[3];
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			y[d] = pm_lanes_all(w->x[d][j]);
-		PM_LANES_UNROLL
+			y[d] = pm_simd_all(w->x[d][j]);
+		PM_SIMD_UNROLL
 		for (int k = 0; k < GROUP; k++) {
-			pm_lanes s[3], d2 = delta2, f, u = zero;
-			PM_LANES_UNROLL
+			pm_simd s[3], d2 = delta2, f, u = zero;
+			PM_SIMD_UNROLL
 			for (int d = 0; d < dim; d++) {
 				s[d] = x[d][k] - y[d];
-				d2 = pm_lanes_fma(s[d], s[d], d2);
+				d2 = pm_simd_fma(s[d], s[d], d2);
 			}
 			pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
-			if (mode != PM_SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(pm_pairs_least)), 0))
-				*coincident += pm_pairs_count(i + (size_t)k * PM_VECTOR_LANES, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
+			if (mode != PM_SQUARE && __builtin_expect(pm_simd_any_below(d2, pm_simd_all(pm_pairs_least)), 0))
+				*coincident += pm_pairs_count(i + (size_t)k * PM_SIMD_WIDTH, 0, j < w->targets ? j : w->targets, &d2); /* each pair once */
 			if (self)
-				f = pm_pairs_others(i + (size_t)k * PM_VECTOR_LANES, j, f), u = pm_pairs_others(i + (size_t)k * PM_VECTOR_LANES, j, u);
+				f = pm_pairs_others(i + (size_t)k * PM_SIMD_WIDTH, j, f), u = pm_pairs_others(i + (size_t)k * PM_SIMD_WIDTH, j, u);
 			f *= q;
-			PM_LANES_UNROLL
+			PM_SIMD_UNROLL
 			for (int d = 0; d < dim; d++)
-				g[d][k] = pm_lanes_fma(f, s[d], g[d][k]);
+				g[d][k] = pm_simd_fma(f, s[d], g[d][k]);
 			if (potential)
-				phi[k] = pm_lanes_fma(q, u, phi[k]);
+				phi[k] = pm_simd_fma(q, u, phi[k]);
 		}
 	}
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (int k = 0; k < GROUP; k++) {
-		size_t at = i + (size_t)k * PM_VECTOR_LANES;
-		PM_LANES_UNROLL
+		size_t at = i + (size_t)k * PM_SIMD_WIDTH;
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			pm_lanes_store(w->g[d] + at, pm_lanes_load(w->g[d] + at) + g[d][k]);
+			pm_simd_store(w->g[d] + at, pm_simd_load(w->g[d] + at) + g[d][k]);
 		if (potential)
-			pm_lanes_store(w->phi + at, pm_lanes_load(w->phi + at) + phi[k]);
+			pm_simd_store(w->phi + at, pm_simd_load(w->phi + at) + phi[k]);
 	}
 }
 
 /* All sources on one group of targets; blocks end where the group's own particles begin and end. */
-PM_LANES_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t i)
+PM_SIMD_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t i)
 {
-	size_t width = GROUP * PM_VECTOR_LANES;
+	size_t width = GROUP * PM_SIMD_WIDTH;
 	unsigned coincident = 0;
 	for (size_t j = 0, end; j < w->n; j = end) {
 		end = j + SOURCES < w->n ? j + SOURCES : w->n;
@@ -89,85 +89,85 @@ PM_LANES_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mod
 
 /* ROWS particles of the half loop, each in all lanes: they share what is loaded of the others. */
 struct rows {
-	pm_lanes x[3][ROWS], g[3][ROWS], q[ROWS], phi[ROWS];
+	pm_simd x[3][ROWS], g[3][ROWS], q[ROWS], phi[ROWS];
 };
 
-PM_LANES_INLINE struct rows rows_load(const struct work *w, int dim, size_t i)
+PM_SIMD_INLINE struct rows rows_load(const struct work *w, int dim, size_t i)
 {
 	struct rows r;
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (size_t k = 0; k < ROWS; k++) {
-		r.q[k] = pm_lanes_all(w->q[i + k]), r.phi[k] = pm_lanes_all(0);
-		PM_LANES_UNROLL
+		r.q[k] = pm_simd_all(w->q[i + k]), r.phi[k] = pm_simd_all(0);
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			r.x[d][k] = pm_lanes_all(w->x[d][i + k]), r.g[d][k] = pm_lanes_all(0);
+			r.x[d][k] = pm_simd_all(w->x[d][i + k]), r.g[d][k] = pm_simd_all(0);
 	}
 	return r;
 }
 
-PM_LANES_INLINE void rows_add(const struct work *w, int dim, bool potential, size_t i, const struct rows *r)
+PM_SIMD_INLINE void rows_add(const struct work *w, int dim, bool potential, size_t i, const struct rows *r)
 {
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (size_t k = 0; k < ROWS; k++) {
-		PM_LANES_UNROLL
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			w->g[d][i + k] += pm_lanes_sum(r->g[d][k]);
+			w->g[d][i + k] += pm_simd_sum(r->g[d][k]);
 		if (potential)
-			w->phi[i + k] += pm_lanes_sum(r->phi[k]);
+			w->phi[i + k] += pm_simd_sum(r->phi[k]);
 	}
 }
 
 /* The rows at i with the vector at j, both ways; on the diagonal those of j that come after. */
-PM_LANES_INLINE void rows_meet(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i, size_t j, struct rows *r,
+PM_SIMD_INLINE void rows_meet(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i, size_t j, struct rows *r,
 	uint64_t *coincident)
 {
-	pm_lanes y[3], h[3], zero = {0}, delta2 = pm_lanes_all(w->how.delta2), q = pm_lanes_load(w->q + j), phi = potential ? pm_lanes_load(w->phi + j) : zero;
-	PM_LANES_UNROLL
+	pm_simd y[3], h[3], zero = {0}, delta2 = pm_simd_all(w->how.delta2), q = pm_simd_load(w->q + j), phi = potential ? pm_simd_load(w->phi + j) : zero;
+	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		y[d] = pm_lanes_load(w->x[d] + j), h[d] = pm_lanes_load(w->g[d] + j);
-	PM_LANES_UNROLL
+		y[d] = pm_simd_load(w->x[d] + j), h[d] = pm_simd_load(w->g[d] + j);
+	PM_SIMD_UNROLL
 	for (size_t k = 0; k < ROWS; k++) {
-		pm_lanes s[3], d2 = delta2, f, u = zero;
-		PM_LANES_UNROLL
+		pm_simd s[3], d2 = delta2, f, u = zero;
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
 			s[d] = r->x[d][k] - y[d];
-			d2 = pm_lanes_fma(s[d], s[d], d2);
+			d2 = pm_simd_fma(s[d], s[d], d2);
 		}
 		pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
-		if (mode != PM_SQUARE && __builtin_expect(pm_lanes_any_below(d2, pm_lanes_all(pm_pairs_least)), 0))
+		if (mode != PM_SQUARE && __builtin_expect(pm_simd_any_below(d2, pm_simd_all(pm_pairs_least)), 0))
 			*coincident += pm_pairs_count(j, i + k + 1, i + k < w->targets ? w->n : 0, &d2);
 		if (diagonal && j <= i + k)
 			f = pm_pairs_after(j, i + k, f), u = pm_pairs_after(j, i + k, u);
-		pm_lanes fi = f * q, fj = f * r->q[k];
-		PM_LANES_UNROLL
+		pm_simd fi = f * q, fj = f * r->q[k];
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
-			r->g[d][k] = pm_lanes_fma(fi, s[d], r->g[d][k]);
-			h[d] = pm_lanes_fnma(fj, s[d], h[d]);
+			r->g[d][k] = pm_simd_fma(fi, s[d], r->g[d][k]);
+			h[d] = pm_simd_fnma(fj, s[d], h[d]);
 		}
 		if (potential)
-			r->phi[k] = pm_lanes_fma(q, u, r->phi[k]), phi = pm_lanes_fma(r->q[k], u, phi);
+			r->phi[k] = pm_simd_fma(q, u, r->phi[k]), phi = pm_simd_fma(r->q[k], u, phi);
 	}
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		pm_lanes_store(w->g[d] + j, h[d]);
+		pm_simd_store(w->g[d] + j, h[d]);
 	if (potential)
-		pm_lanes_store(w->phi + j, phi);
+		pm_simd_store(w->phi + j, phi);
 }
 
 /* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left over. */
-PM_LANES_INLINE void tiles(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
+PM_SIMD_INLINE void tiles(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
 	uint64_t *coincident)
 {
 	for (size_t i = i0; i < i1; i += ROWS) {
 		struct rows r = rows_load(w, dim, i);
-		for (size_t j = diagonal ? i / PM_VECTOR_LANES * PM_VECTOR_LANES : j0; j < j1; j += PM_VECTOR_LANES)
+		for (size_t j = diagonal ? i / PM_SIMD_WIDTH * PM_SIMD_WIDTH : j0; j < j1; j += PM_SIMD_WIDTH)
 			rows_meet(w, dim, mode, potential, diagonal, i, j, &r, coincident);
 		rows_add(w, dim, potential, i, &r);
 	}
 }
 
 /* Each pair of two tiles once. */
-PM_LANES_INLINE void meeting(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t a, size_t b)
+PM_SIMD_INLINE void meeting(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t a, size_t b)
 {
 	size_t a0 = a * w->tile, a1 = a0 + w->tile < w->padded ? a0 + w->tile : w->padded;
 	size_t b0 = b * w->tile, b1 = b0 + w->tile < w->padded ? b0 + w->tile : w->padded;
@@ -198,7 +198,7 @@ static const struct loops table[3][3][2] = {ROW(PM_SQUARE), ROW(PM_GUARDED), ROW
 
 static void full(const struct work *w, const struct loops *l)
 {
-	size_t width = GROUP * PM_VECTOR_LANES, groups = (w->targets + width - 1) / width;
+	size_t width = GROUP * PM_SIMD_WIDTH, groups = (w->targets + width - 1) / width;
 #pragma omp parallel for schedule(static) if (groups > 8)
 	for (size_t i = 0; i < groups; i++)
 		l->group(w, i * width);
@@ -236,10 +236,10 @@ static void work_free(struct work *w)
 
 static int work_init(struct work *w, const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, bool potential)
 {
-	size_t width = GROUP * PM_VECTOR_LANES, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
-	*w = (struct work){.how = pm_pairs_of(p->mollifier, p->delta, p->dim), .targets = targets, .n = n, .padded = (n + width - 1) / width * width};
-	w->tile = (w->padded / tiles_wanted + PM_VECTOR_LANES - 1) / PM_VECTOR_LANES * PM_VECTOR_LANES;
-	w->tile = w->tile < PM_VECTOR_LANES ? PM_VECTOR_LANES : w->tile > 512 ? 512 : w->tile;
+	size_t width = GROUP * PM_SIMD_WIDTH, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
+	*w = (struct work){.how = pm_field_pairs_of(p->mollifier, p->delta, p->dim), .targets = targets, .n = n, .padded = (n + width - 1) / width * width};
+	w->tile = (w->padded / tiles_wanted + PM_SIMD_WIDTH - 1) / PM_SIMD_WIDTH * PM_SIMD_WIDTH;
+	w->tile = w->tile < PM_SIMD_WIDTH ? PM_SIMD_WIDTH : w->tile > 512 ? 512 : w->tile;
 	for (int d = 0; d < p->dim; d++) {
 		w->x[d] = padded(n, w->padded, x[d], far_away);
 		w->g[d] = pm_zalloc(w->padded, sizeof **w->g);

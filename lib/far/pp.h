@@ -1,6 +1,6 @@
 /* Direct summation over all pairs (docs/methods/pp.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PP_H
-#define PM_PP_H
+#ifndef PM_FAR_PP_H
+#define PM_FAR_PP_H
 
 #include "mollifier/mollifier.h"
 

@@ -98,7 +98,7 @@ static hid_t put_component(hid_t at, const char *name, const struct pm_frame *f,
 		return -1;
 	status = pm_h5_put_reals(o, "unitSI", 0, &one);
 	for (int a = 0; a < f->dim; a++)
-		place[f->dim - 1 - a] = p->half[c][a] / 2.;
+		place[f->dim - 1 - a] = p->staggered[c][a] / 2.;
 	if (!status && pm_frame_mesh(f, p->on))
 		status = pm_h5_put_reals(o, "position", f->dim, place);
 	return status ? -1 : o;

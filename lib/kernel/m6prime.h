@@ -1,8 +1,8 @@
 /* The weights of M'6, which is also Lambda 4,2. Sums stand for -1/24, 7/24 and 13/24, rounded so that the weights of each power add to 0 exactly:
  * a thousand remeshes would drift by 1e-13.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_M6PRIME_H
-#define PM_M6PRIME_H
+#ifndef PM_KERNEL_M6PRIME_H
+#define PM_KERNEL_M6PRIME_H
 
 static const double pm_m6prime[] = { /* [power of t][point] */
 	0, 0, 1, 0, 0, 0,

@@ -3,7 +3,7 @@
  * Rows are summed with compensation and joined in their order. Cost N, mesh points, N^2/2. Source: Hockney, Eastwood 1988, section 5-5.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
-#include "measure/sums.h"
+#include "base/simd-sum.h"
 
 enum { BATCH = 512 }; /* rows between two joins; bounds the memory, not the result */
 
@@ -14,15 +14,15 @@ static double row_on_mesh(const struct pm_grid *g, const double *rho, const doub
 {
 	const size_t n = g->points[0], j = row % g->points[1], k = row / g->points[1];
 	struct pm_sum sum = {0};
-	struct pm_sums inner = {0};
+	struct pm_simd_sum inner = {0};
 	const double *s = rho + row * n, *p = phi + row * n;
 	size_t i = 1;
-	pm_lanes weight = pm_lanes_all(pm_grid_weight(g, n > 2, j, k));
-	for (; i + PM_VECTOR_LANES < n; i += PM_VECTOR_LANES)
-		pm_sums_add(&inner, weight * pm_sums_load(s + i) * pm_sums_load(p + i));
+	pm_simd weight = pm_simd_all(pm_grid_weight(g, n > 2, j, k));
+	for (; i + PM_SIMD_WIDTH < n; i += PM_SIMD_WIDTH)
+		pm_simd_sum_add(&inner, weight * pm_simd_load_any(s + i) * pm_simd_load_any(p + i));
 	if (i + 1 < n)
-		pm_sums_add(&inner, weight * pm_sums_load_few(s + i, n - 1 - i) * pm_sums_load_few(p + i, n - 1 - i));
-	pm_sums_join(&sum, &inner);
+		pm_simd_sum_add(&inner, weight * pm_simd_load_few(s + i, n - 1 - i) * pm_simd_load_few(p + i, n - 1 - i));
+	pm_simd_sum_join(&sum, &inner);
 	pm_sum_add(&sum, pm_grid_weight(g, 0, j, k) * s[0] * p[0]);
 	if (n > 1)
 		pm_sum_add(&sum, pm_grid_weight(g, n - 1, j, k) * s[n - 1] * p[n - 1]);

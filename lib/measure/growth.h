@@ -1,6 +1,6 @@
 /* Growth rate and frequency of a mode from its amplitude in time. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_GROWTH_H
-#define PM_GROWTH_H
+#ifndef PM_MEASURE_GROWTH_H
+#define PM_MEASURE_GROWTH_H
 
 #include "mesh/grid.h"
 

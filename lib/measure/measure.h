@@ -15,7 +15,7 @@ struct pm_measured { /* one set; arrays of n values */
 	const double *phi;           /* potential at the particles; NULL none */
 };
 
-struct pm_bulk {
+struct pm_particle_sums {
 	double n, mass;              /* [1], [mass] */
 	double kinetic;              /* sum m v^2/2 */
 	double momentum[3], scale;   /* sum m v; sum m |v| */
@@ -25,7 +25,7 @@ struct pm_bulk {
 	double farthest;             /* max |x| */
 };
 /* Of one set, added to *bulk. Without masses what needs them becomes NAN. */
-void pm_bulk_add(const struct pm_measured *b, struct pm_bulk *bulk);
+void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *bulk);
 
 /* sum q phi/2 over the particles of a set. */
 double pm_energy_at_particles(const struct pm_measured *b);
@@ -62,7 +62,7 @@ struct pm_measures {
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
 };
 /* All columns from bulk and field energies (NAN: not there); field: the law has one, so that without its energy there is no total. */
-void pm_measures_of(const struct pm_frame *f, const struct pm_bulk *bulk, double mesh, double pair, bool field, struct pm_measures *m);
+void pm_measures_of(const struct pm_frame *f, const struct pm_particle_sums *bulk, double mesh, double pair, bool field, struct pm_measures *m);
 
 struct pm_measure { /* what to measure of a frame */
 	const char *set;             /* only this one; NULL all */
@@ -77,7 +77,7 @@ struct pm_measure { /* what to measure of a frame */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };
-/* In a plan: declares what is there of the fields that are read. */
+/* In declare(): declares what is there of the fields that are read. */
 void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
 /* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
 void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);

@@ -1,6 +1,6 @@
 /* Norms of the difference of two fields. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_NORMS_H
-#define PM_NORMS_H
+#ifndef PM_MEASURE_NORMS_H
+#define PM_MEASURE_NORMS_H
 
 #include "stream/frame.h"
 

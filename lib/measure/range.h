@@ -1,6 +1,6 @@
 /* Smallest, largest and mean value of a field. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_RANGE_H
-#define PM_RANGE_H
+#ifndef PM_MEASURE_RANGE_H
+#define PM_MEASURE_RANGE_H
 
 #include "stream/frame.h"
 

@@ -86,10 +86,10 @@ double pm_operator_fastest(const struct pm_operator *o)
 	return sum;
 }
 
-int pm_operator_plan(struct pm_operator *o, struct pm_planner *p)
+int pm_operator_plan(struct pm_operator *o, struct pm_fft_plans *p)
 {
 	for (int d = 0; d < o->grid.dim && !o->order; d++)
-		if (pm_line_init(p, o->grid.face[d], o->grid.cells[d], &o->line[d]))
+		if (pm_transform_init(p, o->grid.face[d], o->grid.cells[d], &o->line[d]))
 			return -PM_DATA;
 	return 0;
 }

@@ -8,35 +8,35 @@
 
 #include "mesh/gradient.h"
 
-enum { L = PM_LANES };
+enum { L = PM_FFT_LINES };
 
 /* Lines along y or z: L neighbours in x. stride: between nodes of a line; width: lines of this block. */
-static void columns(const struct pm_line *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t stride, size_t width,
+static void columns(const struct pm_transform *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t stride, size_t width,
 	const double *in, double *out, double *block)
 {
 	for (size_t i = 0; i < nodes; i++)
 		for (size_t q = 0; q < L; q++)
 			block[i * L + q] = q < width ? in[i * stride + q] : 0;
 	if (derivative == 1)
-		pm_line_derivative(l, h, flip, block);
+		pm_transform_derivative(l, h, flip, block);
 	else
-		pm_line_second(l, h, flip, block);
+		pm_transform_second(l, h, flip, block);
 	for (size_t i = 0; i < nodes; i++)
 		for (size_t q = 0; q < width; q++)
 			out[i * stride + q] = factor * block[i * L + q] + (add ? out[i * stride + q] : 0);
 }
 
 /* Lines along x: L rows. */
-static void rows(const struct pm_line *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t width, const double *in,
+static void rows(const struct pm_transform *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t width, const double *in,
 	double *out, double *block)
 {
 	for (size_t q = 0; q < L; q++)
 		for (size_t i = 0; i < nodes; i++)
 			block[i * L + q] = q < width ? in[q * nodes + i] : 0;
 	if (derivative == 1)
-		pm_line_derivative(l, h, flip, block);
+		pm_transform_derivative(l, h, flip, block);
 	else
-		pm_line_second(l, h, flip, block);
+		pm_transform_second(l, h, flip, block);
 	for (size_t q = 0; q < width; q++)
 		for (size_t i = 0; i < nodes; i++)
 			out[q * nodes + i] = factor * block[i * L + q] + (add ? out[q * nodes + i] : 0);

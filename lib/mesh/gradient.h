@@ -1,9 +1,10 @@
 /* Operators on mesh fields: grad, curl, div and lap by centred differences of order 2, 4, 6 or spectrally (docs/methods/mgrad.md).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_GRADIENT_H
-#define PM_GRADIENT_H
+#ifndef PM_MESH_GRADIENT_H
+#define PM_MESH_GRADIENT_H
 
-#include "mesh/lines.h"
+#include "fft/axis-transform.h"
+#include "mesh/grid.h"
 
 enum pm_operator_kind { PM_OP_GRAD, PM_OP_CURL, PM_OP_DIV, PM_OP_LAP };
 extern const char *const pm_operator_names[], *const pm_order_names[]; /* NULL ends; orders 2, 4, 6, spectral */
@@ -26,13 +27,13 @@ struct pm_operator {
 	int derivative; /* 1; lap: 2 */
 	int nterms;     /* in order of out */
 	struct pm_operator_term term[PM_TERMS_MOST];
-	struct pm_line line[3]; /* spectral: after pm_operator_plan */
+	struct pm_transform line[3]; /* spectral: after pm_operator_plan */
 };
 
 /* Which operator on a field of `in` components: 0, or the sentence that says what cannot be done. Plans nothing. */
 int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_operator_kind kind, int order, int in, bool flow);
 /* The transforms of a spectral operator; nothing to do for differences. */
-int pm_operator_plan(struct pm_operator *o, struct pm_planner *p);
+int pm_operator_plan(struct pm_operator *o, struct pm_fft_plans *p);
 /* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. seen, if not NULL: every value was looked at on its way
  * and is finite. */
 int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);

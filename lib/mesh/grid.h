@@ -1,7 +1,7 @@
 /* The geometry of a mesh with the faces of its box: what numerics take instead of a frame.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_GRID_H
-#define PM_GRID_H
+#ifndef PM_MESH_GRID_H
+#define PM_MESH_GRID_H
 
 #include "stream/frame.h"
 

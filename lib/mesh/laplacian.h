@@ -1,8 +1,8 @@
 /* The Laplacian of order 2 on the nodes of a mesh, row by row, with neighbours folded at the faces: periodic wraps, a neumann face mirrors, the nodes of
  * a wall are no unknowns and keep what they hold. Every sum is over rows in order, with the weights of quadrature, in which the operator is symmetric.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_LAPLACIAN_H
-#define PM_LAPLACIAN_H
+#ifndef PM_MESH_LAPLACIAN_H
+#define PM_MESH_LAPLACIAN_H
 
 #include "mesh/grid.h"
 

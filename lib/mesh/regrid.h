@@ -1,7 +1,7 @@
 /* Another geometry for a mesh of a frame.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_REGRID_H
-#define PM_REGRID_H
+#ifndef PM_MESH_REGRID_H
+#define PM_MESH_REGRID_H
 
 #include "stream/frame.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/lanes.h"
+#include "base/simd.h"
 #include "near/dcpse.h"
 
 static const double poor_pivot = 1e-2, least_pivot = 1e-9; /* over the first: smaller ones ask for more partners; are what rounding left of a lost rank */
@@ -97,13 +97,13 @@ static void fill(const struct moments *m, int dim, struct partners *p)
 
 static double dot(size_t n, const double *a, const double *b)
 {
-	pm_lanes one = {0}, two = {0};
+	pm_simd one = {0}, two = {0};
 	size_t i = 0;
-	for (; i + 2 * PM_VECTOR_LANES <= n; i += 2 * PM_VECTOR_LANES) {
-		one = pm_lanes_fma(pm_lanes_load_any(a + i), pm_lanes_load_any(b + i), one);
-		two = pm_lanes_fma(pm_lanes_load_any(a + i + PM_VECTOR_LANES), pm_lanes_load_any(b + i + PM_VECTOR_LANES), two);
+	for (; i + 2 * PM_SIMD_WIDTH <= n; i += 2 * PM_SIMD_WIDTH) {
+		one = pm_simd_fma(pm_simd_load_any(a + i), pm_simd_load_any(b + i), one);
+		two = pm_simd_fma(pm_simd_load_any(a + i + PM_SIMD_WIDTH), pm_simd_load_any(b + i + PM_SIMD_WIDTH), two);
 	}
-	double sum = pm_lanes_sum(one + two);
+	double sum = pm_simd_sum(one + two);
 	for (; i < n; i++)
 		sum += a[i] * b[i];
 	return sum;

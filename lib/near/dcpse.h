@@ -1,8 +1,8 @@
 /* Discretisation-corrected particle strength exchange (docs/methods/pse.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_DCPSE_H
-#define PM_DCPSE_H
+#ifndef PM_NEAR_DCPSE_H
+#define PM_NEAR_DCPSE_H
 
-#include "mesh/cells.h"
+#include "cell/cell-list.h"
 
 enum { PM_DC_MOMENTS = 55, PM_DC_FIELDS = 16 }; /* monomials of degree 1..5 in 3-D; fields at a time */
 

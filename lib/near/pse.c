@@ -6,7 +6,7 @@
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
  * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weak: where all see all that is N^2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
-#include "base/lanes.h"
+#include "base/simd.h"
 
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 {
@@ -45,78 +45,78 @@ struct sums {
 
 /* Particles of one cell as one stretch sees them, and their sums. */
 struct rows {
-	pm_lanes x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
+	pm_simd x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
 };
 
 /* Partners at j..j+7 of n rows, those outside of from..to-1 left out; half: both ways, with the partners' sums at own. */
-PM_LANES_INLINE void meet(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t j, bool whole, const size_t from[ROWS], size_t to,
+PM_SIMD_INLINE void meet(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t j, bool whole, const size_t from[ROWS], size_t to,
 	struct sums *own, struct rows *r)
 {
-	pm_lanes y[3], q = pm_lanes_load_any(w->volume + j), g = pm_lanes_load_any(w->strength + j), exchange = {0}, weight = {0};
-	PM_LANES_UNROLL
+	pm_simd y[3], q = pm_simd_load_any(w->volume + j), g = pm_simd_load_any(w->strength + j), exchange = {0}, weight = {0};
+	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		y[d] = pm_lanes_load_any(w->list->x[d] + j);
+		y[d] = pm_simd_load_any(w->list->x[d] + j);
 	if (half)
-		exchange = pm_lanes_load_any(own->exchange + j), weight = pm_lanes_load_any(own->weight + j);
-	PM_LANES_UNROLL
+		exchange = pm_simd_load_any(own->exchange + j), weight = pm_simd_load_any(own->weight + j);
+	PM_SIMD_UNROLL
 	for (int k = 0; k < n; k++) {
-		pm_lanes r2 = {0}, eta, traded;
-		PM_LANES_UNROLL
+		pm_simd r2 = {0}, eta, traded;
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
-			pm_lanes s = r->x[d][k] - y[d];
+			pm_simd s = r->x[d][k] - y[d];
 			if (moved)
 				s += r->shift[d];
-			r2 = pm_lanes_fma(s, s, r2);
+			r2 = pm_simd_fma(s, s, r2);
 		}
 		if (!whole)
-			r2 = pm_lanes_between(from[k], to, r2, pm_lanes_all(HUGE_VAL));
-		eta = pm_lanes_exp(r2 * pm_lanes_all(w->exponent));
+			r2 = pm_simd_between(from[k], to, r2, pm_simd_all(HUGE_VAL));
+		eta = pm_simd_exp(r2 * pm_simd_all(w->exponent));
 		if (order == 4)
-			eta *= pm_lanes_fma(r2, pm_lanes_all(w->square), pm_lanes_all(w->constant));
-		eta = pm_lanes_where_not_below(pm_lanes_all(w->reach2), r2, eta);
+			eta *= pm_simd_fma(r2, pm_simd_all(w->square), pm_simd_all(w->constant));
+		eta = pm_simd_where_not_below(pm_simd_all(w->reach2), r2, eta);
 		traded = r->volume[k] * g - q * r->strength[k]; /* antisymmetric: no fma within */
-		r->exchange[k] = pm_lanes_fma(traded, eta, r->exchange[k]);
-		r->weight[k] = pm_lanes_fma(q, eta, r->weight[k]);
+		r->exchange[k] = pm_simd_fma(traded, eta, r->exchange[k]);
+		r->weight[k] = pm_simd_fma(q, eta, r->weight[k]);
 		if (half)
-			exchange = pm_lanes_fnma(traded, eta, exchange), weight = pm_lanes_fma(r->volume[k], eta, weight);
+			exchange = pm_simd_fnma(traded, eta, exchange), weight = pm_simd_fma(r->volume[k], eta, weight);
 	}
 	if (half)
-		pm_lanes_store_any(own->exchange + j, exchange), pm_lanes_store_any(own->weight + j, weight);
+		pm_simd_store_any(own->exchange + j, exchange), pm_simd_store_any(own->weight + j, weight);
 }
 
 /* The partners at from..to-1; first: how many of them each row leaves out. */
-PM_LANES_INLINE void stretch(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t from, size_t to, const size_t first[ROWS],
+PM_SIMD_INLINE void stretch(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t from, size_t to, const size_t first[ROWS],
 	struct sums *own, struct rows *r)
 {
 	static const size_t none[ROWS] = {0};
 	size_t j = from;
 	if (half && first[n - 1] && j < to) {
 		meet(w, dim, order, n, half, moved, j, false, first, to - j, own, r);
-		j += PM_VECTOR_LANES;
+		j += PM_SIMD_WIDTH;
 	}
-	for (; j + PM_VECTOR_LANES <= to; j += PM_VECTOR_LANES)
-		meet(w, dim, order, n, half, moved, j, true, none, PM_VECTOR_LANES, own, r);
+	for (; j + PM_SIMD_WIDTH <= to; j += PM_SIMD_WIDTH)
+		meet(w, dim, order, n, half, moved, j, true, none, PM_SIMD_WIDTH, own, r);
 	if (j < to)
 		meet(w, dim, order, n, half, moved, j, false, none, to - j, own, r);
 }
 
-PM_LANES_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_stretch *s, struct rows *r)
+PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_stretch *s, struct rows *r)
 {
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
-		PM_LANES_UNROLL
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			r->x[d][t] = pm_lanes_all(s->side[d] * w->list->x[d][i + (size_t)t]);
-		r->volume[t] = pm_lanes_all(s->sign * w->volume[i + (size_t)t]); /* instead of the strengths of the images */
-		r->strength[t] = pm_lanes_all(w->strength[i + (size_t)t]);
+			r->x[d][t] = pm_simd_all(s->side[d] * w->list->x[d][i + (size_t)t]);
+		r->volume[t] = pm_simd_all(s->sign * w->volume[i + (size_t)t]); /* instead of the strengths of the images */
+		r->strength[t] = pm_simd_all(w->strength[i + (size_t)t]);
 	}
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		r->shift[d] = pm_lanes_all(s->shift[d]);
+		r->shift[d] = pm_simd_all(s->shift[d]);
 }
 
 /* The n particles at place i: pairs with those that come later and with images ahead, both ways; what they get from mirror images. */
-PM_LANES_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t stretches, const struct pm_stretch *s, struct sums *own)
+PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t stretches, const struct pm_stretch *s, struct sums *own)
 {
 	struct rows r = {.exchange = {{0}}};
 	static const size_t none[ROWS] = {0}, later[ROWS] = {0, 1};
@@ -133,10 +133,10 @@ PM_LANES_INLINE void rows(const struct work *w, int dim, int order, int n, size_
 		else
 			stretch(w, dim, order, n, false, true, from, s[k].to, none, own, &r);
 	}
-	PM_LANES_UNROLL
+	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
-		own->exchange[i + (size_t)t] += pm_lanes_sum(r.exchange[t]);
-		own->weight[i + (size_t)t] += pm_lanes_sum(r.weight[t]);
+		own->exchange[i + (size_t)t] += pm_simd_sum(r.exchange[t]);
+		own->weight[i + (size_t)t] += pm_simd_sum(r.weight[t]);
 	}
 }
 

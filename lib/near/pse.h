@@ -1,8 +1,8 @@
 /* Particle strength exchange (docs/methods/pse.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PSE_H
-#define PM_PSE_H
+#ifndef PM_NEAR_PSE_H
+#define PM_NEAR_PSE_H
 
-#include "mesh/cells.h"
+#include "cell/cell-list.h"
 
 /* eta(z) = (4 pi)^(-dim/2) (constant + square z^2) exp(-z^2/4): even, its second moments are 2, those of order 4 .. order vanish. */
 struct pm_pse {

@@ -37,7 +37,7 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 		return -PM_DATA;
 	for (int c = 0; c < p->source->components; c++)
 		for (int d = 0; d < f->dim; d++)
-			if (p->source->half[c][d])
+			if (p->source->staggered[c][d])
 				return pm_fail(PM_DATA, "'%s' sits between the nodes, and solvers work on the nodes (p2m puts densities there)", p->source_name);
 	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
 	if (!p->target)
@@ -53,7 +53,7 @@ int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const
 	*field = pm_reads(f, p->mesh->name, name);
 	if (!*field)
 		return -PM_DATA;
-	if ((*field)->components != 1 || (*field)->half[0][0] || (*field)->half[0][1] || (*field)->half[0][2])
+	if ((*field)->components != 1 || (*field)->staggered[0][0] || (*field)->staggered[0][1] || (*field)->staggered[0][2])
 		return pm_fail(PM_DATA, "'%s' must have one component, on the nodes (scalc --mesh makes such a field)", name);
 	return 0;
 }

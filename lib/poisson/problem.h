@@ -1,7 +1,7 @@
 /* The problem a solver is given in a frame: lap target = c * source on a mesh, named by the law or by the user. The same for every solver, which is
  * what makes them interchangeable. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PROBLEM_H
-#define PM_PROBLEM_H
+#ifndef PM_POISSON_PROBLEM_H
+#define PM_POISSON_PROBLEM_H
 
 #include "law/law.h"
 

@@ -7,7 +7,7 @@
 
 enum { PM_RELAX_EXTRA = 4 };
 
-/* What a method works on; the driver (lib/poisson/relax.c) owns it. */
+/* What a method works on; the driver (lib/poisson-relax/relaxation.c) owns it. */
 struct pm_relax_work {
 	const struct pm_laplacian *lap;
 	double *u;                     /* the iterate; a method may exchange it with a mesh of its own */

@@ -2,7 +2,7 @@
 #ifndef PM_STAGE_INTERNAL_H
 #define PM_STAGE_INTERNAL_H
 
-#include "stage/rest.h"
+#include "stage/h5-pipe.h"
 #include "stage/stage.h"
 
 /* Options of the library, the same for every tool. */
@@ -21,7 +21,7 @@ struct pm_run {
 	char *copies[PM_LIST_MOST]; /* texts of list options, cut into their items */
 	struct pm_reader *reader;
 	struct pm_writer *writer;
-	struct pm_rest *rest; /* behind the writer, where the output is HDF5; else NULL */
+	struct pm_h5_pipe *rest; /* behind the writer, where the output is HDF5; else NULL */
 	double began; /* clock when the stage was made */
 };
 

@@ -10,7 +10,7 @@
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {
 	if (!s->run->reader)
-		s->run->reader = pm_rest_open(s->run->common.input);
+		s->run->reader = pm_h5_pipe_open(s->run->common.input);
 	return s->run->reader;
 }
 
@@ -18,14 +18,14 @@ struct pm_writer *pm_stage_writer(struct pm_stage *s)
 {
 	const char *path = s->run->common.output;
 	if (!s->run->writer)
-		s->run->writer = pm_rest_is(path) ? pm_rest_write(path, &s->run->rest) : pm_writer_open(path);
+		s->run->writer = pm_h5_pipe_is(path) ? pm_h5_pipe_write(path, &s->run->rest) : pm_writer_open(path);
 	return s->run->writer;
 }
 
 /* One frame through a filter. The header goes out before the data are read, unless it depends on them. */
 static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_writer *w, struct pm_frame *f)
 {
-	int plan = pm_stage_plan(s, f), status = plan < 0 ? plan : 0;
+	int plan = pm_stage_declare(s, f), status = plan < 0 ? plan : 0;
 	bool hold = plan == PM_HOLD, emit = w && plan != PM_SKIP;
 	if (status)
 		return status;
@@ -139,7 +139,7 @@ static int run(struct pm_stage *s)
 	int status = pm_stage_begin(s);
 	if (status)
 		return status;
-	if (s->kind == PM_SINK && pm_rest_is(s->run->common.output))
+	if (s->kind == PM_SINK && pm_h5_pipe_is(s->run->common.output))
 		return pm_fail(PM_USAGE, "'%s': this is for streams, and %s writes text", s->run->common.output, s->tool->name);
 	if (s->kind == PM_SINK && s->run->common.output && !freopen(s->run->common.output, "w", stdout))
 		return pm_fail_errno("cannot write '%s'", s->run->common.output);
@@ -160,7 +160,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	if (s && !status && !printed)
 		status = run(s);
 	if (status < 0 && s && s->run->rest)
-		status = pm_rest_reason(s->run->rest, status);
+		status = pm_h5_pipe_reason(s->run->rest, status);
 	if (status < 0)
 		tell(s, tool, status);
 	else if (s && !printed)
@@ -169,7 +169,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 		status = -PM_DATA;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}
-	int rest = s ? pm_rest_close(s->run->rest) : 0;
+	int rest = s ? pm_h5_pipe_close(s->run->rest) : 0;
 	if (rest && !status) {
 		status = rest;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());

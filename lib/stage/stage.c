@@ -69,10 +69,10 @@ struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv)
 	return status ? pm_stage_free(s) : s;
 }
 
-int pm_stage_plan(struct pm_stage *s, struct pm_frame *f)
+int pm_stage_declare(struct pm_stage *s, struct pm_frame *f)
 {
 	double t = pm_seconds();
-	int status = s->tool->plan ? s->tool->plan(s, f) : 0;
+	int status = s->tool->declare ? s->tool->declare(s, f) : 0;
 	s->setup += pm_seconds() - t;
 	return status;
 }
@@ -93,7 +93,7 @@ static int check_input(struct pm_frame *f)
 
 int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
 {
-	int plan = pm_stage_plan(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
+	int plan = pm_stage_declare(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
 	if (!status)
 		status = check_input(f);
 	if (!status)
@@ -156,7 +156,7 @@ void pm_say(const struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;
 	va_start(ap, format);
-	if (s->verbose && !s->planning)
+	if (s->verbose && !s->trial)
 		say(s, format, ap, "");
 	va_end(ap);
 }
@@ -165,9 +165,9 @@ int pm_idle(struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;
 	va_start(ap, format);
-	if (s->verbose && !s->planning && !s->idle)
+	if (s->verbose && !s->trial && !s->idle)
 		say(s, format, ap, ": nothing to do, the frame passes untouched");
-	s->idle |= !s->planning;
+	s->idle |= !s->trial;
 	va_end(ap);
 	return PM_PASS;
 }

@@ -67,7 +67,7 @@ struct pm_stage {
 	char *word;          /* as typed, without the options of the library; keys the report */
 	json_t *entry;       /* for the history; NULL with --no-history */
 	bool leaves_out;     /* set by begin: some frames do not come out again, so it cannot stand inside a sentence */
-	bool verbose, planning; /* planning: this plan is a trial on a bare header (cycle), not to be cached or counted */
+	bool verbose, trial; /* trial: declare() is tried on a bare header (cycle): nothing is to be cached or counted */
 	bool idle;           /* has said that its effect is zero */
 	double setup, seconds;  /* spent in begin, plan and what frame says was set-up; in the rest of frame */
 	struct pm_run *run;  /* of the library */
@@ -86,7 +86,7 @@ struct pm_tool {
 	int least, most;                   /* how many of them */
 	const struct pm_example *examples; /* {0} ends */
 	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */
-	int (*plan)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
+	int (*declare)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
 	int (*frame)(struct pm_stage *s, struct pm_frame *f);  /* the data are there: compute */
 	int (*flush)(struct pm_stage *s, struct pm_writer *w); /* filters: before an end marker goes out; may write frames held back */
 	int (*end)(struct pm_stage *s);    /* the input ended well */
@@ -102,7 +102,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv);
 bool pm_given(const struct pm_stage *s, const char *option);       /* was it typed? */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
-int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* plan(): the effect is zero here; says why, once, returns PM_PASS */
+int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* declare(): the effect is zero here; says why, once, returns PM_PASS */
 void pm_setup_since(struct pm_stage *s, double began);             /* frame(): since pm_seconds() was began it set up (plans, hierarchies); not work */
 struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */
@@ -115,7 +115,7 @@ const char *pm_nearest(const char *word, const char *const *names); /* NULL if n
 /* For cycle and the tests: a stage made from words, run on a frame in memory. */
 struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv); /* parsed and begun */
 struct pm_stage *pm_stage_free(struct pm_stage *s);
-int pm_stage_plan(struct pm_stage *s, struct pm_frame *f);  /* plan alone */
+int pm_stage_declare(struct pm_stage *s, struct pm_frame *f);  /* plan alone */
 int pm_stage_apply(struct pm_stage *s, struct pm_frame *f); /* plan, ready, frame, settle; 0, PM_SKIP or failure */
 extern const struct pm_tool *const pm_tools[] __attribute__((weak)); /* all of tools/, NULL ends; linked into cycle and the tests only */
 const struct pm_tool *pm_tool_find(const char *name);

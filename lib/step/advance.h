@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "mesh/pface.h"
+#include "mesh/particle-faces.h"
 #include "step/step.h"
 
 enum { PM_ADVANCE_BLOCK = 1024, PM_ADVANCE_ACTIONS = 16 };
@@ -41,7 +41,7 @@ struct pm_bounds {
 static inline void pm_advance_faces(size_t i, size_t n, const struct pm_bounds *b, double *x, double *v, int nlines, const struct pm_advanced *lines)
 {
 	if (b->fold)
-		pm_pface_fold(n, b->lo, b->hi, x + i);
+		pm_particle_faces_fold(n, b->lo, b->hi, x + i);
 	if (!b->mirror[0] && !b->mirror[1])
 		return;
 	double *w[1 + 2 * PM_REGISTERS] = {v ? v + i : NULL};
@@ -50,7 +50,7 @@ static inline void pm_advance_faces(size_t i, size_t n, const struct pm_bounds *
 		for (int r = 0; r < PM_REGISTERS; r++)
 			if (lines[l].q[r] && nw < (int)(sizeof w / sizeof *w))
 				w[nw++] = lines[l].q[r] + i;
-	pm_pface_reflect(n, b->lo, b->hi, b->mirror, x + i, nw, w);
+	pm_particle_faces_reflect(n, b->lo, b->hi, b->mirror, x + i, nw, w);
 }
 
 static inline bool pm_advance_applies(const struct pm_step *step, bool position)

@@ -26,7 +26,7 @@ static inline bool pm_done_open(const struct pm_set *s) { return json_is_true(js
 
 static inline bool pm_done_complete(const struct pm_set *s)
 {
-	return s->stage == 0 && s->drift == 1 && (s->kick == 0 || s->kick == 1) && !pm_done_open(s);
+	return s->pass == 0 && s->drift == 1 && (s->kick == 0 || s->kick == 1) && !pm_done_open(s);
 }
 
 static inline const char *pm_scheme_name(const struct pm_set *s)
@@ -72,13 +72,13 @@ static inline int pm_scheme_memory(const struct pm_frame *f, const struct pm_set
 static inline int pm_done_allows(const struct pm_set *s, const struct pm_step *scheme, double kick, double drift)
 {
 	const char *what = scheme ? scheme->name : kick > 0 && drift > 0 ? "kick and drift" : kick > 0 ? "kick" : "drift";
-	if (s->stage && (!scheme || strcmp(pm_scheme_name(s), scheme->name)))
+	if (s->pass && (!scheme || strcmp(pm_scheme_name(s), scheme->name)))
 		return pm_fail(PM_DATA, "%s on '%s' while %s is under way (%d passes done; finish its step first)", what, s->name, pm_scheme_name(s),
-			s->stage);
+			s->pass);
 	if (pm_done_complete(s))
 		return pm_fail(PM_DATA, "%s on '%s', which has completed its step and waits for the other sets (--set to move those; drift --open where a "
 			"kick is still to come)", what, s->name);
-	if (scheme && !s->stage && (s->kick > 0 || s->drift > 0))
+	if (scheme && !s->pass && (s->kick > 0 || s->drift > 0))
 		return pm_fail(PM_DATA, "%s on '%s' in the middle of a step (kick %.6g, drift %.6g are done; complete them first)", what, s->name, s->kick,
 			s->drift);
 	return 0;
@@ -112,18 +112,18 @@ static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const
 	const struct pm_step *step = memory < asked->rates ? pm_step_find(asked->start) : asked;
 	if (!step)
 		return -PM_DATA;
-	if (s->stage >= step->passes)
-		return pm_fail(PM_DATA, "'%s' claims %d passes of %s, which has %d", s->name, s->stage, step->name, step->passes);
-	bool last = s->stage + 1 == step->passes;
-	*p = (struct pm_pass){.step = step, .pass = s->stage, .registers = asked->rates + step->registers,
-		.known = s->stage ? PM_REGISTERS : memory ? asked->rates : 0, .shift = s->stage == 0};
+	if (s->pass >= step->passes)
+		return pm_fail(PM_DATA, "'%s' claims %d passes of %s, which has %d", s->name, s->pass, step->name, step->passes);
+	bool last = s->pass + 1 == step->passes;
+	*p = (struct pm_pass){.step = step, .pass = s->pass, .registers = asked->rates + step->registers,
+		.known = s->pass ? PM_REGISTERS : memory ? asked->rates : 0, .shift = s->pass == 0};
 	p->kept = last ? asked->rates : p->registers;
 	if (last)
 		memory = memory < asked->rates ? memory + 1 : memory;
 	pm_scheme_set(s, asked->name, f->dt, memory);
 	if (last && !asked->rates)
 		json_object_del(s->more, "scheme");
-	s->stage = last ? 0 : s->stage + 1;
+	s->pass = last ? 0 : s->pass + 1;
 	s->drift = last ? 1 : step->at[p->pass];
 	s->kick = last;
 	return 0;

@@ -247,7 +247,7 @@ static inline size_t pm_moving_mark(const struct pm_frame *f, const struct pm_mo
 	size_t n = m->set->n, count = 0;
 	for (int a = 0; a < f->dim && a < m->x->components; a++)
 		if (f->pface[a][0] == PM_PABSORB || f->pface[a][1] == PM_PABSORB)
-			pm_pface_absorb(n, f->lo[a], f->hi[a], (bool[]){f->pface[a][0] == PM_PABSORB, f->pface[a][1] == PM_PABSORB}, pm_in(m->x, a), gone);
+			pm_particle_faces_absorb(n, f->lo[a], f->hi[a], (bool[]){f->pface[a][0] == PM_PABSORB, f->pface[a][1] == PM_PABSORB}, pm_in(m->x, a), gone);
 	for (size_t i = 0; i < n; i++)
 		count += gone[i];
 	return count;

@@ -4,7 +4,7 @@
 #ifndef PM_STEP_WALK_H
 #define PM_STEP_WALK_H
 
-#include "mesh/pface.h"
+#include "mesh/particle-faces.h"
 
 /* The key of a set: its name (FNV-1a, Fowler, Noll, Vo 1991) mixed into the seed. */
 static inline uint64_t pm_walk_key(uint64_t seed, const char *set)
@@ -34,9 +34,9 @@ static inline void pm_walk_faces(const struct pm_frame *f, size_t n, double *con
 	for (int d = 0; d < f->dim; d++) {
 		const bool mirror[2] = {f->pface[d][0] == PM_PREFLECT, f->pface[d][1] == PM_PREFLECT};
 		if (f->pface[d][0] == PM_PFOLD)
-			pm_pface_fold(n, f->lo[d], f->hi[d], x[d]);
+			pm_particle_faces_fold(n, f->lo[d], f->hi[d], x[d]);
 		if (mirror[0] || mirror[1])
-			pm_pface_reflect(n, f->lo[d], f->hi[d], mirror, x[d], 0, NULL);
+			pm_particle_faces_reflect(n, f->lo[d], f->hi[d], mirror, x[d], 0, NULL);
 	}
 }
 

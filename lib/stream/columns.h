@@ -1,6 +1,6 @@
 /* A plain table as a frame: what its columns mean is read from their names. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_COLUMNS_H
-#define PM_COLUMNS_H
+#ifndef PM_STREAM_COLUMNS_H
+#define PM_STREAM_COLUMNS_H
 
 #include "stream/table.h"
 

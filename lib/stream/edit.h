@@ -1,6 +1,6 @@
 /* Changes to the header of a frame that several fields must follow. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_EDIT_H
-#define PM_EDIT_H
+#ifndef PM_STREAM_EDIT_H
+#define PM_STREAM_EDIT_H
 
 #include "stream/frame.h"
 

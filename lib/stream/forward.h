@@ -1,6 +1,6 @@
 /* What the reader asks of the writer while a field passes by. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_FORWARD_H
-#define PM_FORWARD_H
+#ifndef PM_STREAM_FORWARD_H
+#define PM_STREAM_FORWARD_H
 
 #include "stream/wire.h"
 

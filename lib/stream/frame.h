@@ -1,8 +1,8 @@
 /* A frame: one instant of one simulation (docs/stream.md). Attributes, particle sets, meshes, and one flat list of fields in the order in
  * which they travel. Planar everywhere: component c of a field is one contiguous array.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_FRAME_H
-#define PM_FRAME_H
+#ifndef PM_STREAM_FRAME_H
+#define PM_STREAM_FRAME_H
 
 #include <jansson.h>
 
@@ -44,7 +44,7 @@ struct pm_field {
 	bool extensive;       /* a strength (true) or a value (false) */
 	bool uniform;         /* all values of a component are equal: value[c], and no data on the wire */
 	double value[PM_COMPONENTS];
-	unsigned char half[PM_COMPONENTS][3]; /* meshes: 1 where the component sits half a cell up that axis */
+	unsigned char staggered[PM_COMPONENTS][3]; /* meshes: 1 where the component sits half a cell up that axis */
 	char terms[PM_TERMS][PM_NAME];        /* change fields: who has added to it (self, near, external, ...) */
 	int nterms;
 	size_t count;         /* values per component: n of the set, points of the mesh */
@@ -59,7 +59,7 @@ struct pm_set {
 	char name[PM_NAME];
 	uint64_t n;          /* particles, 0 is legal */
 	double kick, drift;  /* done fractions of the step under way, 0..1 */
-	int stage;           /* passes done of a multi-stage scheme, 0 outside */
+	int pass;            /* passes done of a multi-stage scheme, 0 outside */
 	bool fixed;          /* never pushed (a fixed background of bodies) */
 	json_t *more;
 };
@@ -114,7 +114,7 @@ void pm_frame_constant_set(struct pm_frame *f, const char *name, double value);
 double pm_frame_parameter(const struct pm_frame *f, const char *name, double otherwise);
 void pm_frame_parameter_set(struct pm_frame *f, const char *name, double value);
 
-/* For the plan of a stage. Fields that nobody touches keep their order and go first; changed and new ones follow in the order of these calls.
+/* For declare() of a stage. Fields that nobody touches keep their order and go first; changed and new ones follow in the order of these calls.
  * NULL means failure with a message. */
 struct pm_field *pm_reads(struct pm_frame *f, const char *on, const char *name);   /* its data will be there, not to be written */
 struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name); /* read and rewritten in place */

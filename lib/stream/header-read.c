@@ -181,7 +181,7 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 	s->drift = json_number_value(drift);
 	if ((done && !(json_is_number(kick) && json_is_number(drift))) || !(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
 		complain(&l, "done", "is not a fraction");
-	s->stage = (int)take_integer(&l, "stage", 0, 64, false, 0);
+	s->pass = (int)take_integer(&l, "stage", 0, 64, false, 0);
 	const json_t *fixed = take(&l, "fixed", false); /* json_is_true would evaluate the call twice */
 	s->fixed = json_is_true(fixed);
 	return look_done(&l, &s->more);
@@ -235,7 +235,7 @@ static void read_field_lists(struct look *l, struct pm_field *p)
 			const json_t *one = json_array_get(e, a);
 			if (!json_is_integer(one) || json_integer_value(one) < 0 || json_integer_value(one) > 1)
 				complain(l, "half", "is not three times 0 or 1 per component");
-			p->half[i][a] = json_integer_value(one) == 1;
+			p->staggered[i][a] = json_integer_value(one) == 1;
 		}
 }
 

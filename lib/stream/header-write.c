@@ -41,13 +41,13 @@ static json_t *field_json(const struct pm_field *p)
 			json_array_append_new(terms, json_string(p->terms[i]));
 		json_object_set_new(j, "terms", terms);
 	}
-	bool staggered = false;
+	bool any = false;
 	json_t *half = json_array();
 	for (int c = 0; c < p->components; c++) {
-		json_array_append_new(half, json_pack("[i,i,i]", p->half[c][0], p->half[c][1], p->half[c][2]));
-		staggered |= p->half[c][0] | p->half[c][1] | p->half[c][2];
+		json_array_append_new(half, json_pack("[i,i,i]", p->staggered[c][0], p->staggered[c][1], p->staggered[c][2]));
+		any |= p->staggered[c][0] | p->staggered[c][1] | p->staggered[c][2];
 	}
-	if (staggered)
+	if (any)
 		json_object_set(j, "half", half);
 	json_decref(half);
 	return j;
@@ -59,8 +59,8 @@ static json_t *set_json(const struct pm_set *s)
 	json_object_set_new(j, "name", json_string(s->name));
 	json_object_set_new(j, "n", json_integer((json_int_t)s->n));
 	json_object_set_new(j, "done", json_pack("{s:f,s:f}", "kick", s->kick, "drift", s->drift));
-	if (s->stage)
-		json_object_set_new(j, "stage", json_integer(s->stage));
+	if (s->pass)
+		json_object_set_new(j, "stage", json_integer(s->pass));
 	if (s->fixed)
 		json_object_set_new(j, "fixed", json_true());
 	return j;

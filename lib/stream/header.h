@@ -1,6 +1,6 @@
 /* A frame's header as JSON, both ways (docs/stream.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_HEADER_H
-#define PM_HEADER_H
+#ifndef PM_STREAM_HEADER_H
+#define PM_STREAM_HEADER_H
 
 #include "stream/frame.h"
 

@@ -1,6 +1,6 @@
 /* Frames made of others: without a set or mesh, fewer particles, several frames in one. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_JOIN_H
-#define PM_JOIN_H
+#ifndef PM_STREAM_JOIN_H
+#define PM_STREAM_JOIN_H
 
 #include "stream/frame.h"
 

@@ -1,6 +1,6 @@
 /* Lists of pointers inside a frame. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_LIST_H
-#define PM_LIST_H
+#ifndef PM_STREAM_LIST_H
+#define PM_STREAM_LIST_H
 
 #include "stream/frame.h"
 

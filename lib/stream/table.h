@@ -1,7 +1,7 @@
 /* Tables of text: a line of column names, then a row a line, blanks or tabs between; lines that are empty or start with '#' are passed over.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TABLE_H
-#define PM_TABLE_H
+#ifndef PM_STREAM_TABLE_H
+#define PM_STREAM_TABLE_H
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* Frames as text, exactly (docs/methods/text.md): the header as a line of JSON, then the fields that are not uniform as tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_FRAME_TEXT_H
-#define PM_FRAME_TEXT_H
+#ifndef PM_STREAM_TEXT_H
+#define PM_STREAM_TEXT_H
 
 #include "stream/table.h"
 

@@ -1,7 +1,7 @@
 /* The stream on the wire (docs/stream.md): header, data, tail, end, abort. One reader and one writer serve every engine.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_WIRE_H
-#define PM_WIRE_H
+#ifndef PM_STREAM_WIRE_H
+#define PM_STREAM_WIRE_H
 
 #include "stream/frame.h"
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "measure/expression.h"
+#include "expression/expression.h"
 
 enum { n = 2500 }; /* three blocks, the last not full */
 

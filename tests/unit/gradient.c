@@ -28,13 +28,13 @@ static int apply(const struct pm_grid *g, enum pm_operator_kind kind, int order,
 	double *const to[])
 {
 	struct pm_operator o;
-	struct pm_planner p = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans p = {.effort = PM_ESTIMATE};
 	int status = pm_operator_init(&o, g, kind, order, in, flow);
 	if (!status)
 		status = pm_operator_plan(&o, &p);
 	if (!status)
 		status = pm_operator_apply(&o, factor, from, to, NULL);
-	pm_planner_clear(&p);
+	pm_fft_plans_clear(&p);
 	return status;
 }
 

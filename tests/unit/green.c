@@ -6,7 +6,7 @@
 
 #include "check.h"
 #include "mesh/gradient.h"
-#include "poisson/fft.h"
+#include "poisson-fft/poisson-fft.h"
 
 extern const struct pm_green green_hockney, green_vico, green_gauss2, green_gauss6, green_gauss10, green_lattice;
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "mesh/interlace.h"
-#include "poisson/fft.h"
+#include "transfer/interlace.h"
+#include "poisson-fft/poisson-fft.h"
 
 static double sinc(double x) { return x == 0 ? 1 : sin(x) / x; }
 
@@ -136,7 +136,7 @@ static void test_interlaced(void)
 			g.cells[d] = g.points[d] = row[q].n[d], g.h[d] = 0.7 + 0.2 * d;
 		size_t size = pm_grid_size(&g);
 		struct pm_transfer t = {.grid = g, .kernel = pm_kernel_find(row[q].kernel), .components = 1};
-		struct pm_planner planner = {.effort = PM_ESTIMATE};
+		struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
 		double x[3][N], s[N], out[N] = {0}, *rho = pm_zalloc(size, sizeof *rho), *f = pm_zalloc(size, sizeof *f), left = 0, right = 0, total = 0, sum = 0;
 		for (size_t i = 0; i < N; i++)
 			for (int d = 0; d < 3; d++) {
@@ -181,7 +181,7 @@ static void test_interlaced(void)
 			check_near(worst, 0, 1e-13, "its waves are the mean of those of the two meshes");
 		}
 		pm_interlace_free(&both);
-		pm_planner_clear(&planner);
+		pm_fft_plans_clear(&planner);
 		pm_free(rho), pm_free(f);
 	}
 }

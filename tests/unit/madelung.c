@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "poisson/fft.h"
+#include "poisson-fft/poisson-fft.h"
 
 extern const struct pm_green green_vico, green_hockney;
 

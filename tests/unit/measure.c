@@ -18,12 +18,12 @@ static void sums(void)
 	for (size_t i = 0; i < n; i++)
 		m[i] = 0.1;
 	struct pm_measured b = {.n = n, .dim = 1, .vdim = 1, .x = {m}, .v = {m}, .mass = m};
-	struct pm_bulk bulk = {0};
-	pm_bulk_add(&b, &bulk);
+	struct pm_particle_sums bulk = {0};
+	pm_particle_sums_add(&b, &bulk);
 	check_near(bulk.mass, 1000000, 0, "HC-58: the mass of ten million particles of 0.1 is 1000000 to the last bit");
-	bulk = (struct pm_bulk){0};
+	bulk = (struct pm_particle_sums){0};
 	b = (struct pm_measured){.n = 4, .dim = 1, .vdim = 1, .x = {one}, .v = {hard}, .mass = one, .strength = hard, .phi = one};
-	pm_bulk_add(&b, &bulk);
+	pm_particle_sums_add(&b, &bulk);
 	check_near(bulk.momentum[0], 2, 0, "HC-58: the momentum of 1, 1e100, 1, -1e100 is 2");
 	check_near(pm_energy_at_particles(&b), 1, 0, "HC-58: the energy at the particles too is compensated");
 	pm_free(m);
@@ -33,8 +33,8 @@ static void by_hand(void)
 {
 	const double x[3][2] = {{1, 2}, {-1, 3}, {0.5, 0}}, v[3][2] = {{0, 2}, {1, 0}, {4, -1}}, m[2] = {2, 3}, q[2] = {2, -3};
 	const struct pm_measured b = {.n = 2, .dim = 3, .vdim = 3, .x = {x[0], x[1], x[2]}, .v = {v[0], v[1], v[2]}, .mass = m, .strength = q};
-	struct pm_bulk bulk = {0};
-	pm_bulk_add(&b, &bulk);
+	struct pm_particle_sums bulk = {0};
+	pm_particle_sums_add(&b, &bulk);
 	check(bulk.n == 2 && bulk.mass == 5 && bulk.kinetic == 24.5, "mass and kinetic energy of two bodies");
 	check(bulk.momentum[0] == 6 && bulk.momentum[1] == 2 && bulk.momentum[2] == 5, "their momentum");
 	/* 2 (-4.5, -4, 1) + 3 (-3, 2, -6) */
@@ -43,8 +43,8 @@ static void by_hand(void)
 	check_near(bulk.scale, 2 * sqrt(17) + 3 * sqrt(5), 1e-14, "the scale of their momentum");
 	check_near(pm_energy_of_pairs(&b, &b, 4 * pm_pi, 0.5, plummer), 6 / sqrt(17.25 + 0.25), 1e-15, "their pair energy with softening");
 	const struct pm_measured still = {.n = 2, .dim = 3, .x = {x[0], x[1], x[2]}};
-	bulk = (struct pm_bulk){0};
-	pm_bulk_add(&still, &bulk);
+	bulk = (struct pm_particle_sums){0};
+	pm_particle_sums_add(&still, &bulk);
 	check(isnan(bulk.mass) && bulk.movers == 0, "without masses the mass is not a number");
 }
 
@@ -61,8 +61,8 @@ static void any_number(void)
 	for (int k = 0; k < 10 * 4; k++) {
 		struct pm_measured b = {.n = sizes[k / 4], .dim = k % 4 < 3 ? k % 4 + 1 : 2, .vdim = k % 4 < 3 ? k % 4 + 1 : 3,
 			.x = {x[0], x[1], x[2]}, .v = {v[0], v[1], v[2]}, .mass = m};
-		struct pm_bulk got = {0}, want = {0};
-		pm_bulk_add(&b, &got);
+		struct pm_particle_sums got = {0}, want = {0};
+		pm_particle_sums_add(&b, &got);
 		for (size_t p = 0; p < b.n; p++) {
 			double v2 = 0, x2 = 0, y[3] = {0}, w[3] = {0};
 			for (int d = 0; d < b.dim; d++)
@@ -136,10 +136,10 @@ static void bulk_threads(void)
 			a[k][i] = sin((double)i * (k + 1)) * exp(20 * cos(0.3 * (double)i));
 	}
 	const struct pm_measured b = {.n = n, .dim = 3, .vdim = 3, .x = {a[0], a[1], a[2]}, .v = {a[3], a[4], a[5]}, .mass = a[6]};
-	struct pm_bulk bulk[3] = {0};
+	struct pm_particle_sums bulk[3] = {0};
 	for (int t = 0; t < 3; t++) {
 		pm_threads_use(t + 1);
-		pm_bulk_add(&b, &bulk[t]);
+		pm_particle_sums_add(&b, &bulk[t]);
 	}
 	check(!memcmp(bulk, bulk + 1, sizeof *bulk) && !memcmp(bulk, bulk + 2, sizeof *bulk), "HC-58: all bulk quantities have the same bytes with 1, 2 and 3 threads");
 	for (int k = 0; k < 7; k++)

@@ -3,7 +3,7 @@
 #define PM_TEST_MG_PROBLEM_H
 
 #include "check.h"
-#include "poisson/mg.h"
+#include "poisson-mg/mg.h"
 
 /* faces: two letters per axis, p w n; box of lengths l */
 __attribute__((unused)) static struct pm_grid grid(int dim, const size_t *cells, const double *l, const char *faces)

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "check.h"
-#include "measure/colour.h"
-#include "measure/lettering.h"
-#include "measure/plot.h"
+#include "picture/colour.h"
+#include "picture/lettering.h"
+#include "picture/plot.h"
 
 static void maps(void)
 {

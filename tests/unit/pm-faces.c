@@ -7,8 +7,8 @@
 
 #include "check.h"
 #include "mesh/gradient.h"
-#include "mesh/transfer.h"
-#include "poisson/fft.h"
+#include "transfer/transfer.h"
+#include "poisson-fft/poisson-fft.h"
 
 static const enum pm_face ends[][2] = {{PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_NEUMANN, PM_NEUMANN}, {PM_WALL, PM_NEUMANN},
 	{PM_NEUMANN, PM_WALL}};
@@ -42,7 +42,7 @@ static bool force(const struct pm_grid *g, const char *kernel, const struct pm_p
 	struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find(kernel), .components = 1}, back = t;
 	struct pm_strays strays;
 	struct pm_operator grad;
-	struct pm_planner planner = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
 	back.components = g->dim;
 	for (int d = 0; d < 3; d++)
 		back.flip[d][d] = 1; /* the normal component of a gradient, as m2p does */
@@ -52,7 +52,7 @@ static bool force(const struct pm_grid *g, const char *kernel, const struct pm_p
 		pm_operator_plan(&grad, &planner) == 0 && pm_operator_apply(&grad, -1, (const double *[]){rho}, field, NULL) == 0 &&
 		pm_gather(&back, some, (const double *const *)p->x, (const double *const *)field, NULL, p->a, &strays) == 0;
 	pm_poisson_fft_free(solver);
-	pm_planner_clear(&planner);
+	pm_fft_plans_clear(&planner);
 	free(rho);
 	for (int d = 0; d < 3; d++)
 		free(field[d]);

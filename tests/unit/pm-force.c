@@ -5,15 +5,15 @@
 
 #include "check.h"
 #include "mesh/gradient.h"
-#include "mesh/transfer.h"
-#include "poisson/fft.h"
+#include "transfer/transfer.h"
+#include "poisson-fft/poisson-fft.h"
 
 struct pm {
 	struct pm_grid grid;
 	struct pm_transfer in, out;
 	struct pm_poisson_fft *solver;
 	struct pm_operator grad;
-	struct pm_planner planner;
+	struct pm_fft_plans planner;
 	double *rho, *phi, *g[3];
 };
 
@@ -37,7 +37,7 @@ static void pm_new(struct pm *p, struct pm_grid g, const char *in, const char *o
 static void pm_delete(struct pm *p)
 {
 	pm_poisson_fft_free(p->solver);
-	pm_planner_clear(&p->planner);
+	pm_fft_plans_clear(&p->planner);
 	free(p->rho), free(p->phi);
 	for (int d = 0; d < 3; d++)
 		free(p->g[d]);

@@ -6,8 +6,8 @@
 
 #include "check.h"
 #include "mesh/gradient.h"
-#include "poisson/fft.h"
-#include "poisson/mg.h"
+#include "poisson-fft/poisson-fft.h"
+#include "poisson-mg/mg.h"
 
 static const enum pm_face ends[][2] = {{PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_NEUMANN, PM_NEUMANN}, {PM_WALL, PM_NEUMANN},
 	{PM_NEUMANN, PM_WALL}};
@@ -181,14 +181,14 @@ static double round_trip(const struct pm_grid *g, const struct pm_poisson_fft_ch
 				want[q] = 0;
 	}
 	struct pm_operator lap;
-	struct pm_planner planner = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
 	if (!pm_operator_init(&lap, g, PM_OP_LAP, 2 * (int)o->symbol, 1, false) && !pm_operator_plan(&lap, &planner) &&
 	    !pm_operator_apply(&lap, 1, (const double *[]){want}, (double *[]){s}, NULL)) {
 		for (size_t q = 0; q < n; q++)
 			s[q] -= o->screening * o->screening * want[q];
 		error = error_of(g, o, s, want);
 	}
-	pm_planner_clear(&planner);
+	pm_fft_plans_clear(&planner);
 	free(want), free(s);
 	return error;
 }

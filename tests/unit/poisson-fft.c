@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "poisson/fft.h"
+#include "poisson-fft/poisson-fft.h"
 
 static struct pm_grid grid(int dim, size_t nx, size_t ny, size_t nz, enum pm_face fx, enum pm_face fy, enum pm_face fz)
 {

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "mg-problem.h"
-#include "poisson/mg-open-parts.h"
+#include "poisson-mg/mg-open-parts.h"
 
 static struct pm_mg_choice usual(int order, int dim)
 {

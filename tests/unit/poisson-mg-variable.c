@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "mg-problem.h"
-#include "poisson/mg-variable.h"
+#include "poisson-mg/mg-variable.h"
 
 static const struct pm_mg_choice usual = {.pre = 1, .post = 1, .smoother = PM_MG_RED_BLACK, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11, .most = 60};
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "poisson/relax.h"
+#include "poisson-relax/relaxation.h"
 
 /* faces: two letters per axis, p w n; box of lengths l */
 static struct pm_grid grid(int dim, const size_t *cells, const double *l, const char *faces)

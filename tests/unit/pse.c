@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/lanes.h"
+#include "base/simd.h"
 #include "check.h"
 #include "near/pse.h"
 
@@ -71,15 +71,15 @@ static void exponential(void)
 {
 	double worst = 0;
 	for (int i = -700000; i < 700000; i += 8) {
-		pm_lanes x;
+		pm_simd x;
 		for (int l = 0; l < 8; l++)
 			x[l] = (i + l) * 1e-3 + 1e-4 * sin(i + l);
-		pm_lanes e = pm_lanes_exp(x);
+		pm_simd e = pm_simd_exp(x);
 		for (int l = 0; l < 8; l++)
 			check_worst(&worst, fabs(e[l] / exp(x[l]) - 1));
 	}
 	check(worst < 5e-16, "exp, eight at a time, is right to 5e-16 from -700 to 700 (got %.2g)", worst);
-	check(pm_lanes_exp(pm_lanes_all(0))[3] == 1, "and 1 at 0");
+	check(pm_simd_exp(pm_simd_all(0))[3] == 1, "and 1 at 0");
 }
 
 /* Sum of x^a y^c eta over a lattice of spacing 1/2, which is the integral but for exp(-4 pi^2). */

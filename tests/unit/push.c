@@ -313,7 +313,7 @@ static void schemes(void)
 		struct pm_frame *f = frame(2, 3, true);
 		for (int p = 0; p + 1 < all[k].passes; p++) {
 			force(f, "matter"), push(f, name);
-			check(f->substep == p + 1 && f->sets[0]->stage == p + 1 && fabs(f->time - 0.25 * all[k].at[p]) < 1e-16 && !f->step && registers(f) > 0,
+			check(f->substep == p + 1 && f->sets[0]->pass == p + 1 && fabs(f->time - 0.25 * all[k].at[p]) < 1e-16 && !f->step && registers(f) > 0,
 				"%s: after pass %d the time is that of the stage", name, p + 1);
 			check(!pm_frame_field(f, "matter", "acc"), "%s: every pass drops the rates", name);
 		}

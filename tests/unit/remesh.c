@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "mesh/distortion.h"
-#include "mesh/remesh.h"
+#include "remesh/distortion.h"
+#include "remesh/remesh.h"
 
 static const enum pm_face faces[][2] = {{PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_NEUMANN, PM_WALL}, {PM_OPEN, PM_OPEN}};
 enum { RULES = sizeof faces / sizeof *faces };

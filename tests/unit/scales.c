@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "measure/atlas.h"
-#include "measure/scales.h"
+#include "planner/atlas.h"
+#include "planner/scales.h"
 #include "scene/scene.h"
 
 /* A scene with its defaults but n particles (0: its own) and one parameter. */

@@ -24,7 +24,7 @@ static struct pm_frame *sample(void)
 	struct pm_field *u = pm_makes(f, "matter", "flag", 1, PM_STATE);
 	m->uniform = true, m->value[0] = 0.1, m->extensive = true;
 	id->type = PM_I64, low->type = PM_F32, u->type = PM_U8;
-	rho->half[0][1] = 1;
+	rho->staggered[0][1] = 1;
 	(void)e;
 	pm_frame_ready(f);
 	for (int i = 0; i < 14; i++)

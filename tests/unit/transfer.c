@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "mesh/transfer_kept.h"
+#include "transfer/order-cache.h"
 
 enum { MOST = 3 }; /* components */
 
@@ -107,7 +107,7 @@ static void fill_mesh(const struct problem *a, int c, double *mesh)
 		pm_random(9, i, (uint64_t)c, u);
 		mesh[i] = u[0] - 0.5;
 		for (int d = 0; d < g->dim; d++)
-			if (a->t.half[c][d] && g->face[d][0] != PM_PERIODIC && at[d] == g->cells[d])
+			if (a->t.staggered[c][d] && g->face[d][0] != PM_PERIODIC && at[d] == g->cells[d])
 				mesh[i] = 0;
 	}
 }
@@ -118,10 +118,10 @@ static double weight(const struct problem *a, int c, size_t i)
 	const struct pm_grid *g = &a->t.grid;
 	size_t at[3] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
 	for (int d = 0; d < g->dim; d++)
-		if (a->t.half[c][d])
+		if (a->t.staggered[c][d])
 			at[d] = 1;
 	for (int d = 0; d < g->dim; d++)
-		if (a->t.half[c][d] && g->cells[d] == 1)
+		if (a->t.staggered[c][d] && g->cells[d] == 1)
 			return NAN; /* not used */
 	return pm_grid_weight(g, at[0], at[1], at[2]);
 }
@@ -164,7 +164,7 @@ static void check_adjoint(int dim, const size_t cells[3])
 				struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernels[k], vector ? dim : 1, 300);
 				for (int c = 0; c < a.t.components && vector; c++) {
 					a.t.flip[c][c] = 1;
-					a.t.half[c][(c + 1) % dim] = vector == 2;
+					a.t.staggered[c][(c + 1) % dim] = vector == 2;
 				}
 				double error = adjoint_error(&a);
 				if (check_worst(&worst, error))
@@ -219,7 +219,7 @@ static void check_plain(int dim, const size_t cells[3], size_t n)
 			struct pm_strays strays;
 			const double *const factor[MOST] = {a.q[0], NULL, a.q[1]};
 			for (int c = 1; c < dim; c++)
-				a.t.half[c][0] = b.t.half[c][0] = a.t.flip[c][c] = b.t.flip[c][c] = 1;
+				a.t.staggered[c][0] = b.t.staggered[c][0] = a.t.flip[c][c] = b.t.flip[c][c] = 1;
 			pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 			pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
 			for (int c = 0; c < dim; c++)
@@ -263,7 +263,7 @@ static void put_in_order(struct problem *a)
 	for (size_t p = 0; p < a->n; p++)
 		at[p] = p;
 	sorted = a;
-	pm_axes_init(sorted_axes, &a->t, a->t.half[0]);
+	pm_axes_init(sorted_axes, &a->t, a->t.staggered[0]);
 	qsort(at, a->n, sizeof *at, by_tile);
 	for (int d = 0; d < a->t.grid.dim; d++) {
 		memcpy(copy, a->x[d], a->n * sizeof *copy);
@@ -282,17 +282,17 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n), b;
 	struct pm_strays strays;
 	struct pm_axis axes[3];
-	struct pm_order order;
+	struct pm_tile_order order;
 	int threads = pm_threads();
 	double worst = 0;
 	put_in_order(&a);
 	b = problem_new(a.t.grid, a.t.kernel, dim, n);
 	for (int d = 0; d < dim; d++)
 		memcpy(b.x[d], a.x[d], n * sizeof(double));
-	pm_axes_init(axes, &a.t, a.t.half[0]);
-	pm_order_init(&order, axes, dim, n, in(a.x), 0, NULL, dim, &strays);
+	pm_axes_init(axes, &a.t, a.t.staggered[0]);
+	pm_tile_order_init(&order, axes, dim, n, in(a.x), 0, NULL, dim, &strays);
 	check(!order.records && order.tiles > 1, "%d-D: a stream in the order of %zu tiles is not moved", dim, order.tiles);
-	pm_order_free(&order);
+	pm_tile_order_free(&order);
 	pm_axes_free(axes);
 	pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
 	pm_gather_plain(&b.t, n, in(b.x), in(b.mesh), NULL, b.out, &strays);
@@ -345,10 +345,10 @@ static void check_kept(int dim, const size_t cells[3], const char *other)
 		for (int c = 0; c < dim; c++)
 			same = same && !memcmp(a.out[c], b.out[c], n * sizeof(double));
 	}
-	check(left && note == left && pm_ordering_kept(&a.t, a.t.half[0], n, in(a.x)) && same, "%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
-	check(!pm_ordering_kept(&a.t, a.t.half[0], n, in(b.x)), "%d-D: it is not that of other positions", dim);
+	check(left && note == left && pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)) && same, "%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
+	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(b.x)), "%d-D: it is not that of other positions", dim);
 	a.t.kernel = pm_kernel_find(other);
-	check(!pm_ordering_kept(&a.t, a.t.half[0], n, in(a.x)), "%d-D: nor that of kernel %s", dim, other);
+	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)), "%d-D: nor that of kernel %s", dim, other);
 	note->free(note);
 	problem_free(&a);
 	problem_free(&b);

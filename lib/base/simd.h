@@ -1,0 +1,144 @@
+/* Eight doubles at a time, for loops over pairs: the vector extension of gcc and clang, with the approximate reciprocals of AVX-512 where there
+ * are any (14 bits, to be corrected by the caller) and exact ones elsewhere. The only place where the platform shows.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_BASE_SIMD_H
+#define PM_BASE_SIMD_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#else
+#pragma GCC diagnostic ignored "-Wpsabi" /* how vectors are passed to functions: all of ours are inlined */
+#endif
+
+enum { PM_SIMD_WIDTH = 8 };
+typedef double pm_simd __attribute__((vector_size(64)));
+typedef int64_t pm_simd_bits __attribute__((vector_size(64)));
+typedef uint64_t pm_simd_words __attribute__((vector_size(64)));
+
+/* Before a short loop over vectors, which must vanish if they are to stay in registers. */
+#ifdef __clang__
+#define PM_SIMD_UNROLL _Pragma("unroll")
+#else
+#define PM_SIMD_UNROLL _Pragma("GCC unroll 8")
+#endif
+
+#define PM_SIMD_INLINE static inline __attribute__((always_inline, unused))
+
+PM_SIMD_INLINE pm_simd pm_simd_all(double x) { return (pm_simd){x, x, x, x, x, x, x, x}; }
+
+PM_SIMD_INLINE pm_simd pm_simd_load(const double *p) /* 64-byte aligned */
+{
+	pm_simd v;
+	memcpy(&v, __builtin_assume_aligned(p, 64), sizeof v);
+	return v;
+}
+
+PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
+{
+	pm_simd v;
+	memcpy(&v, p, sizeof v);
+	return v;
+}
+
+PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { memcpy(__builtin_assume_aligned(p, 64), &v, sizeof v); }
+
+PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
+
+/* Sum of the lanes, in a fixed order. */
+PM_SIMD_INLINE double pm_simd_sum(pm_simd v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
+
+/* True if a < b in any lane. */
+PM_SIMD_INLINE int pm_simd_any_below(pm_simd a, pm_simd b)
+{
+#ifdef __AVX512F__
+	return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0;
+#else
+	pm_simd_bits m = a < b;
+	return ((m[0] | m[1]) | (m[2] | m[3]) | (m[4] | m[5]) | (m[6] | m[7])) != 0;
+#endif
+}
+
+/* v where a >= b, else 0. */
+PM_SIMD_INLINE pm_simd pm_simd_where_not_below(pm_simd a, pm_simd b, pm_simd v)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_maskz_mov_pd(_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_GE_OQ), (__m512d)v);
+#else
+	return (pm_simd)((pm_simd_bits)(a >= b) & (pm_simd_bits)v);
+#endif
+}
+
+/* v in lanes from..to-1, else other. */
+PM_SIMD_INLINE pm_simd pm_simd_between(size_t from, size_t to, pm_simd v, pm_simd other)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_mask_mov_pd((__m512d)other, (__mmask8)(((1u << (to < 8 ? to : 8)) - 1) & ~((1u << (from < 8 ? from : 8)) - 1)), (__m512d)v);
+#else
+	pm_simd_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = (lane >= (int64_t)from) & (lane < (int64_t)to);
+	return (pm_simd)((in & (pm_simd_bits)v) | (~in & (pm_simd_bits)other));
+#endif
+}
+
+/* a*b + c and c - a*b, rounded once where the machine can. */
+PM_SIMD_INLINE pm_simd pm_simd_fma(pm_simd a, pm_simd b, pm_simd c)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#else
+	return a * b + c;
+#endif
+}
+
+PM_SIMD_INLINE pm_simd pm_simd_fnma(pm_simd a, pm_simd b, pm_simd c)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_fnmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#else
+	return c - a * b;
+#endif
+}
+
+/* exp(x) for |x| <= 700, to 4e-16: 2^n exp(r) with |r| <= ln(2)/2, the polynomial of degree 10 with the least relative error there (2.1e-16; Remez's
+ * exchange). Lanes beyond hold anything. */
+PM_SIMD_INLINE pm_simd pm_simd_exp(pm_simd x)
+{
+	const double magic = 0x1.8p52, /* brings the whole number into the last bits */ of[] = {1, 1.0000000000000064426, 0.49999999999997286939,
+		0.16666666666557740923, 0.0416666666684260609, 0.0083333333846659047921, 0.0013888888499128804452, 0.00019841171384084617397,
+		0.000024801917696315434502, 2.7639768308281270114e-6, 2.7488440881408338451e-7};
+	pm_simd whole = pm_simd_fma(x, pm_simd_all(1.4426950408889634), pm_simd_all(magic)), n = whole - pm_simd_all(magic);
+	pm_simd r = pm_simd_fnma(n, pm_simd_all(0x1.62e42feep-1), x), p = pm_simd_all(of[10]);
+	r = pm_simd_fnma(n, pm_simd_all(0x1.a39ef35793c76p-33), r); /* ln 2 in two parts, the first of 32 bits */
+	PM_SIMD_UNROLL
+	for (int k = 9; k >= 2; k--)
+		p = pm_simd_fma(p, r, pm_simd_all(of[k]));
+	p = pm_simd_fma(pm_simd_fma(p, r, pm_simd_all(of[1])), r, pm_simd_all(of[0]));
+	return (pm_simd)((pm_simd_words)p + ((pm_simd_words)whole << 52));
+}
+
+/* 1/sqrt(x) and 1/x to a relative error below 2^-14. */
+PM_SIMD_INLINE pm_simd pm_simd_rsqrt_start(pm_simd x)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_rsqrt14_pd((__m512d)x);
+#else
+	pm_simd y;
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		y[l] = 1 / sqrt(x[l]);
+	return y;
+#endif
+}
+
+PM_SIMD_INLINE pm_simd pm_simd_reciprocal_start(pm_simd x)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_rcp14_pd((__m512d)x);
+#else
+	return 1 / x;
+#endif
+}
+
+#endif

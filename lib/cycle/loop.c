@@ -1,0 +1,303 @@
+/* The loop of cycle. Everything is decided between steps, from the frame alone, so that every engine and a resumed run do the same.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "stage/internal.h"
+#include "cycle/loop.h"
+#include "planner/plan.h"
+#include "sentence/sentence.h"
+#include "cycle/until.h"
+
+struct cycle {
+	const struct pm_loop *c;
+	struct pm_stage *s;
+	struct pm_sentence *words;
+	struct pm_writer *out;
+	struct pm_until *until; /* NULL: none */
+	int met;                /* it is true of this frame */
+	int64_t start, written; /* step at the beginning of the run; step last written */
+	double told;            /* clock of the last progress line */
+	json_t *before;         /* resume: the report of the checkpoint, until the first pass has been compared with it */
+};
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int signal_number)
+{
+	stop = signal_number;
+	signal(signal_number, SIG_DFL); /* a second one does not wait for the step */
+}
+
+/* A stream of one frame. */
+static int write_alone(struct pm_writer *w, struct pm_frame *f)
+{
+	int status = w ? pm_write_frame(w, f) : pm_failed();
+	status = status || !w ? status : pm_write_end(w);
+	int closed = w ? pm_writer_close(w) : 0;
+	return status ? status : closed;
+}
+
+/* As HDF5: sh5 does the renaming. A pipe that closes while it is written is its failure, one that closes later is not. */
+static int checkpoint_rest(const char *name, struct pm_frame *f)
+{
+	struct pm_h5_pipe *rest = NULL;
+	void (*before)(int) = signal(SIGPIPE, SIG_IGN);
+	int status = write_alone(pm_h5_pipe_write(name, &rest), f), closed = pm_h5_pipe_close(rest);
+	signal(SIGPIPE, before);
+	return closed ? closed : status;
+}
+
+static int checkpoint_stream(const char *name, struct pm_frame *f)
+{
+	char temporary[4096];
+	snprintf(temporary, sizeof temporary, "%s.part", name);
+	int status = write_alone(pm_writer_open(temporary), f);
+	if (!status && rename(temporary, name))
+		status = pm_fail_errno("cannot rename '%s' to '%s'", temporary, name);
+	if (status)
+		unlink(temporary);
+	return status;
+}
+
+/* Under a temporary name, renamed when it is whole. The step of the beginning travels in it. */
+static int checkpoint(struct cycle *y, const struct pm_frame *f)
+{
+	const char *name = y->c->checkpoint;
+	struct pm_frame *copy = name ? pm_frame_copy(f) : NULL;
+	if (!copy)
+		return name ? pm_failed() : 0;
+	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
+	if (y->until)
+		json_object_set_new(copy->more, "cycle_until", pm_until_save(y->until));
+	int status = pm_h5_pipe_is(name) ? checkpoint_rest(name, copy) : checkpoint_stream(name, copy);
+	pm_frame_free(copy);
+	return status;
+}
+
+/* Said before anything is computed: the target can be written, and is not a device that the rename would replace. */
+static int checkpoint_check(const char *name)
+{
+	struct stat st;
+	char temporary[4096];
+	if (!name)
+		return 0;
+	if (!stat(name, &st) && !S_ISREG(st.st_mode))
+		return pm_fail(PM_USAGE, "--checkpoint '%s' is not a file", name);
+	snprintf(temporary, sizeof temporary, "%s.part", name);
+	struct pm_writer *w = pm_writer_open(temporary);
+	if (!w)
+		return pm_failed();
+	unlink(temporary);
+	return pm_writer_close(w);
+}
+
+static int write_out(struct cycle *y, struct pm_frame *f)
+{
+	y->written = f->step;
+	if (y->until) /* not under the sentence as typed: a resumed run is typed otherwise */
+		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
+	int status = pm_write_frame(y->out, f);
+	return status ? status : checkpoint(y, f);
+}
+
+static void progress(struct cycle *y, const struct pm_frame *f, bool last)
+{
+	double now = pm_seconds();
+	if (!isatty(STDERR_FILENO) || (!last && now - y->told < 0.2))
+		return;
+	y->told = now;
+	fprintf(stderr, "\rcycle: step %lld, time %g%s", (long long)f->step, f->time, last ? "\n" : "   ");
+}
+
+static bool done(const struct cycle *y, const struct pm_frame *f)
+{
+	if (f->substep)
+		return false;
+	bool late = f->dt < 0 ? f->time <= y->c->time - f->dt / 2 : f->time >= y->c->time - f->dt / 2; /* time may run backwards */
+	return y->met || (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && late);
+}
+
+static int prime(struct cycle *y, struct pm_frame **f)
+{
+	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
+}
+
+/* 0, or failure; whether the run is to end here. */
+static int look(struct cycle *y, struct pm_frame *f)
+{
+	const int met = y->until ? pm_until_met(y->until, f) : 0;
+	y->met = met > 0;
+	return met < 0 ? met : 0;
+}
+
+/* The beginning of a run that ends by an expression: primed, so that the columns are there. */
+static int look_first(struct cycle *y, struct pm_frame **f)
+{
+	json_t *saved = json_incref(json_object_get((*f)->more, "cycle_until"));
+	json_object_del((*f)->more, "cycle_until");
+	int status = 0;
+	y->met = 0;
+	if (y->until && y->c->resume)
+		status = pm_until_load(y->until, *f, saved);
+	else if (y->until) {
+		status = prime(y, f);
+		status = status ? status : pm_until_begin(y->until, *f);
+	}
+	json_decref(saved);
+	return status ? status : look(y, *f);
+}
+
+/* Stages that plan transforms report which plans they run; a resumed run must have the same ones, or its bytes would differ. */
+static int same_plans(struct cycle *y, const struct pm_frame *f)
+{
+	const char *word;
+	json_t *entry;
+	int status = 0;
+	json_object_foreach(y->before, word, entry)
+	{
+		const char *old = json_string_value(json_object_get(entry, "plan"));
+		const char *now = json_string_value(json_object_get(json_object_get(f->report, word), "plan"));
+		if (old && now && strcmp(old, now) && !y->c->other_plans && !status)
+			status = pm_fail(PM_DATA, "'%s' runs with the plans '%s', the checkpoint was made with '%s': the bytes would differ (--other-plans goes on, "
+						  "PM_PLAN=estimate runs alike everywhere)", word, now, old);
+	}
+	json_decref(y->before);
+	y->before = NULL;
+	return status;
+}
+
+/* One pass of the sentence; a frame is written where a step that counts was completed. */
+static int pass(struct cycle *y, struct pm_frame **f)
+{
+	int64_t step = (*f)->step;
+	int substep = (*f)->substep, status = prime(y, f);
+	if (!status)
+		status = pm_sentence_pass(y->words, f);
+	if (status)
+		return pm_fail(-status, "step %lld: %s", (long long)step + 1, pm_message());
+	if (y->before && same_plans(y, *f))
+		return -PM_DATA;
+	if ((*f)->step == step && (*f)->substep == substep)
+		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
+	if ((*f)->step > step && (*f)->substep)
+		return pm_fail(PM_USAGE, "one pass of the sentence completes a step and begins another (a drift whose kick comes later is written drift --open)");
+	if ((*f)->step > step + 1)
+		return pm_fail(PM_USAGE, "one pass of the sentence completes %lld steps; cycle counts them one at a time (one scheme, or one pair of half kicks)",
+			(long long)((*f)->step - step));
+	bool full = (*f)->substep == 0 && (*f)->step > step;
+	progress(y, *f, false);
+	status = full ? look(y, *f) : 0;
+	if (status)
+		return pm_fail(-status, "step %lld: %s", (long long)(*f)->step, pm_message());
+	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
+}
+
+static int interrupted(struct cycle *y, const struct pm_frame *f)
+{
+	int status = checkpoint(y, f);
+	if (status)
+		return status;
+	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
+		y->c->checkpoint ? ", go on with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
+}
+
+/* The sentence, made into stages. */
+static int speak(struct cycle *y, const char *sentence)
+{
+	y->words = pm_sentence_new(sentence, !strcmp(y->c->engine, "fused"), &y->c->moves);
+	if (y->words && y->s->verbose)
+		pm_sentence_verbose(y->words);
+	return y->words ? 0 : pm_failed();
+}
+
+/* --plan: the sentence of the first frame, in the history as if typed; a resumed run goes on with the one it finds there. */
+static int speak_plan(struct cycle *y, const struct pm_frame *f)
+{
+	const double end = !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;
+	char sentence[PM_PLAN_TEXT];
+	int status = y->c->resume ? pm_plan_again(f, sentence) : pm_plan_sentence(f, y->c->accuracy, end, sentence);
+	if (!status && y->s->entry)
+		json_array_append_new(json_object_get(y->s->entry, "arguments"), json_string(sentence));
+	if (!status)
+		pm_say(y->s, "%s", sentence);
+	return status ? status : speak(y, sentence);
+}
+
+static int run_frame(struct cycle *y, struct pm_frame **f)
+{
+	int status = y->words ? 0 : speak_plan(y, *f);
+	if (status)
+		return status;
+	const json_t *start = json_object_get((*f)->more, "cycle_start");
+	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
+	json_object_del((*f)->more, "cycle_start");
+	y->written = -1;
+	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
+	if (!y->c->resume)
+		pm_history_add(y->s, *f);
+	status = look_first(y, f);
+	if (!status && y->c->every > 0 && !y->c->resume) {
+		status = prime(y, f);
+		status = status ? status : write_out(y, *f);
+	}
+	while (!status && !done(y, *f)) {
+		status = pass(y, f);
+		if (!status && stop && (*f)->substep == 0)
+			status = interrupted(y, *f);
+	}
+	progress(y, *f, true);
+	json_decref(y->before);
+	y->before = NULL;
+	return !status && y->written != (*f)->step ? write_out(y, *f) : status;
+}
+
+static int frames(struct cycle *y, struct pm_reader *in)
+{
+	for (;;) {
+		struct pm_frame *f = NULL;
+		int got = pm_read_frame(in, &f);
+		if (got == PM_GOT_EOF || (got < 0 && pm_reader_aborted(in)))
+			return got;
+		if (got < 0)
+			return pm_fail(-got, "frame %llu: %s", (unsigned long long)pm_reader_frame(in), pm_message());
+		int status = got == PM_GOT_END ? pm_write_end(y->out) : run_frame(y, &f);
+		pm_frame_free(f);
+		if (status)
+			return status;
+	}
+}
+
+int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
+{
+	struct cycle y = {.c = c, .s = s};
+	int bad = checkpoint_check(c->checkpoint);
+	if (bad)
+		return bad;
+	if (!c->plan && (bad = speak(&y, s->args[0])))
+		return bad;
+	if (c->until && !(y.until = pm_until_new(c->until)))
+		return pm_sentence_free(y.words), pm_failed();
+	if (c->resume)
+		s->run->reader = pm_h5_pipe_open(c->resume);
+	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
+	y.out = in ? pm_stage_writer(s) : NULL;
+	int status = y.out ? 0 : pm_failed();
+	signal(SIGINT, on_signal);
+	signal(SIGTERM, on_signal);
+	if (!status)
+		status = frames(&y, in);
+	if (!status && y.words)
+		status = pm_sentence_end(y.words);
+	if (y.words)
+		pm_sentence_timing(y.words, s->run->common.timing);
+	s->seconds = pm_seconds() - s->run->began;
+	char message[1024];
+	snprintf(message, sizeof message, "%s", pm_message());
+	int end = pm_sentence_free(y.words);
+	pm_until_free(y.until);
+	return status ? pm_fail(-status, "%s", message) : end;
+}

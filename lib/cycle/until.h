@@ -1,0 +1,20 @@
+/* cycle --until: an expression over the columns of diag that ends a run when it becomes true. NAME0 is a column's value at the beginning of the run.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_CYCLE_UNTIL_H
+#define PM_CYCLE_UNTIL_H
+
+#include "stream/frame.h"
+
+struct pm_until;
+
+struct pm_until *pm_until_new(const char *text); /* NULL: failure, with the column of the text */
+struct pm_until *pm_until_free(struct pm_until *u);
+/* At the beginning of a run: takes the values that NAME0 stands for. */
+int pm_until_begin(struct pm_until *u, struct pm_frame *f);
+/* Those values as JSON, for a checkpoint, and back into the run that goes on with frame f; failure if the expression asks for one that is not there. */
+json_t *pm_until_save(const struct pm_until *u);
+int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved);
+/* Is it true of this frame? 1, 0, or failure. Cost: one pass over what the columns need. */
+int pm_until_met(struct pm_until *u, struct pm_frame *f);
+
+#endif

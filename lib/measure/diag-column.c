@@ -1,0 +1,134 @@
+/* The columns of diag by name. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/decimal.h"
+#include "law/law.h"
+#include "mollifier/mollifier.h"
+#include "measure/diag-column.h"
+
+enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS };
+
+const struct pm_scene *pm_diag_scene(const struct pm_frame *f)
+{
+	for (int i = 0; pm_scenes[i]; i++)
+		if (!strcmp(pm_scene_names[i], f->scene) && pm_scenes[i]->exact)
+			return pm_scenes[i];
+	return NULL;
+}
+
+/* Where omega_centre is taken: the scene's place, else the middle of the box. */
+static double centre_of(const struct pm_frame *f, int d)
+{
+	const struct pm_scene *scene = pm_diag_scene(f);
+	const double x = scene ? scene->exact(f, d ? "place_y" : "place_x", f->time) : NAN;
+	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
+}
+
+struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_of(f);
+	const struct pm_mollifier *plummer = g->pair ? pm_mollifier_find("plummer") : NULL;
+	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
+		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
+		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = g->nradii,
+		.fraction = g->fraction, .plasma = law->background != NULL, .field = law->field, .nmodes = g->nmodes,
+		.centre = {centre_of(f, 0), centre_of(f, 1)}};
+	memcpy(how.modes, g->mode, sizeof how.modes);
+	return how;
+}
+
+/* Modes need the field of the law on a mesh that goes round in x. */
+static int has_mode(const struct pm_frame *f, const struct pm_law *law)
+{
+	const struct pm_field *field = NULL;
+	for (size_t i = 0; i < f->nmeshes && law->field && !field; i++)
+		field = pm_frame_field(f, f->meshes[i]->name, law->field);
+	if (f->face[0][0] != PM_PERIODIC)
+		return pm_fail(PM_DATA, "modes want a box that is periodic in x (pinit --faces periodic)");
+	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh to take modes of (p2m | poisson-fft | mgrad makes one)", law->field ? law->field : "");
+}
+
+int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	if (g->set && !pm_frame_set(f, g->set))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", g->set);
+	for (int d = 0; d < f->dim && g->pair; d++)
+		if (f->face[d][0] == PM_PERIODIC)
+			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, and this box is periodic (leave --pair out)");
+	if (g->nmodes && has_mode(f, law))
+		return -PM_DATA;
+	const struct pm_measure how = pm_diag_how(g, f);
+	pm_measure_reads(&how, f);
+	return 0;
+}
+
+static struct pm_diag_column named(int from, const char *name)
+{
+	struct pm_diag_column column = {.from = from};
+	snprintf(column.name, sizeof column.name, "%s", name);
+	return column;
+}
+
+struct pm_diag_column pm_diag_column(enum pm_column c) { return named((int)c, pm_column_names[c]); }
+
+struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k)
+{
+	char name[PM_NAME];
+	snprintf(name, sizeof name, "radius_%g", g->fraction[k]);
+	return named(PM_COLUMNS + k, name);
+}
+
+struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k)
+{
+	char name[PM_NAME];
+	snprintf(name, sizeof name, "mode_%d", g->mode[k]);
+	return named(first_mode + k, name);
+}
+
+struct pm_diag_column pm_diag_exact(const char *name)
+{
+	struct pm_diag_column column = {.from = exact};
+	snprintf(column.name, sizeof column.name, "exact_%.*s", PM_NAME - 1, name);
+	return column;
+}
+
+/* prefix and a number, to the end of the name. */
+static bool numbered(const char *name, const char *prefix, double *x)
+{
+	const size_t n = strlen(prefix);
+	const size_t digits = strncmp(name, prefix, n) ? 0 : pm_decimal_read(name + n, x);
+	return digits && !name[n + digits];
+}
+
+bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_column *column)
+{
+	double x = 0;
+	for (int c = 0; c < PM_COLUMNS; c++)
+		if (!strcmp(name, pm_column_names[c]))
+			return *column = pm_diag_column((enum pm_column)c), true;
+	if (!strncmp(name, "exact_", strlen("exact_")))
+		return *column = pm_diag_exact(name + strlen("exact_")), true;
+	if (numbered(name, "radius_", &x) && x > 0 && x <= 1 && g->nradii < PM_COMPONENTS) {
+		g->fraction[g->nradii] = x;
+		return *column = pm_diag_radius(g, g->nradii++), true;
+	}
+	if (numbered(name, "mode_", &x) && x >= 1 && x <= 1e6 && x == floor(x) && g->nmodes < PM_COMPONENTS) {
+		g->mode[g->nmodes] = (int)x;
+		return *column = pm_diag_mode(g, g->nmodes++), true;
+	}
+	return false;
+}
+
+double pm_diag_value(const struct pm_diag_column *column, const struct pm_measures *m, const struct pm_frame *f)
+{
+	const struct pm_scene *scene = column->from == exact ? pm_diag_scene(f) : NULL;
+	if (column->from == exact)
+		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	if (column->from >= first_mode)
+		return hypot(m->mode[column->from - first_mode][0], m->mode[column->from - first_mode][1]);
+	return column->from < PM_COLUMNS ? m->value[column->from] : m->radius[column->from - PM_COLUMNS];
+}

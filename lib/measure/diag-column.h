@@ -1,0 +1,38 @@
+/* What is read off a frame by name: the columns of diag, for diag itself and for cycle --until. The law says which fields, the scene what is known exactly.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MEASURE_DIAG_COLUMN_H
+#define PM_MEASURE_DIAG_COLUMN_H
+
+#include "measure/measure.h"
+#include "scene/scene.h"
+
+struct pm_diag_request { /* what is asked of a frame besides the columns that cost nothing more */
+	const char *set;                         /* this set alone; NULL all */
+	bool pair;                               /* the pair energy by direct summation */
+	int nradii, nmodes;
+	double fraction[PM_COMPONENTS];          /* of the mass, of each Lagrangian radius */
+	int mode[PM_COMPONENTS];                 /* waves along x of the law's field */
+};
+
+enum { PM_DIAG_NAME = PM_NAME + 8 };
+struct pm_diag_column { /* one column */
+	char name[PM_DIAG_NAME];
+	int from; /* place among the measures, PM_COLUMNS and above the radii, then the modes; -1: what the scene knows of the name behind exact_ */
+};
+
+/* The scene of the frame if it has exact numbers, else NULL. */
+const struct pm_scene *pm_diag_scene(const struct pm_frame *f);
+/* How to measure it; *g must outlive it. */
+struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_frame *f);
+/* In declare(): declares what is read; 0, or failure in words. */
+int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f);
+struct pm_diag_column pm_diag_column(enum pm_column c);
+struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k);
+struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k);
+struct pm_diag_column pm_diag_exact(const char *name);
+/* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M (the latter two are added to *g). False: there is none. */
+bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_column *column);
+/* NAN where it cannot be computed. */
+double pm_diag_value(const struct pm_diag_column *column, const struct pm_measures *m, const struct pm_frame *f);
+
+#endif

@@ -1,0 +1,62 @@
+/* The columns of diag, from bulk quantities and field energies. The total energy takes the pair energy where it is known (it is that of
+ * the particles themselves), else that of the mesh; the virial ratio is 2 K/|W| with the same W.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "measure/measure.h"
+
+const char *const pm_column_names[PM_COLUMNS + 1] = {
+	[PM_STEP] = "step", [PM_TIME] = "time", [PM_ENERGY_KINETIC] = "energy_kinetic", [PM_ENERGY_MESH] = "energy_field_mesh",
+	[PM_ENERGY_PAIR] = "energy_field_pair", [PM_ENERGY] = "energy",
+	[PM_MOMENTUM] = "momentum_x", "momentum_y", "momentum_z", [PM_MOMENTUM_SCALE] = "momentum_scale",
+	[PM_ANGULAR] = "angular_momentum_x", "angular_momentum_y", "angular_momentum_z",
+	[PM_MASS] = "mass", [PM_PARTICLES] = "particles", [PM_CENTRE] = "centre_x", "centre_y", "centre_z",
+	[PM_SPEED_RMS] = "speed_rms", [PM_DISTANCE_MAX] = "distance_max", [PM_VIRIAL_RATIO] = "virial_ratio",
+	[PM_CIRCULATION] = "circulation", [PM_IMPULSE] = "impulse_x", "impulse_y", [PM_ANGULAR_IMPULSE] = "angular_impulse",
+	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max",
+	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISTORTION] = "distortion",
+	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
+};
+
+bool pm_column_exists(enum pm_column c, int dim, int vdim)
+{
+	const int most = vdim > dim ? vdim : dim;
+	if (c >= PM_MOMENTUM && c < PM_MOMENTUM + 3)
+		return (int)(c - PM_MOMENTUM) < most;
+	if (c >= PM_CENTRE && c < PM_CENTRE + 3)
+		return (int)(c - PM_CENTRE) < dim;
+	if (c >= PM_ENERGY_COMPONENT && c < PM_ENERGY_COMPONENT + 3)
+		return (int)(c - PM_ENERGY_COMPONENT) < dim;
+	if (c >= PM_ANGULAR && c < PM_ANGULAR + 3)
+		return most == 3 ? dim > 1 : most == 2 && c == PM_ANGULAR + 2;
+	return true;
+}
+
+bool pm_column_suits(enum pm_column c, bool vortices, bool plasma)
+{
+	const bool any = c == PM_STEP || c == PM_TIME || c == PM_ENERGY_MESH || c == PM_ENERGY_PAIR || c == PM_ENERGY || c == PM_PARTICLES ||
+		c == PM_DISTANCE_MAX;
+	if (c >= PM_CHARGE)
+		return plasma;
+	return any || vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);
+}
+
+void pm_measures_of(const struct pm_frame *f, const struct pm_particle_sums *bulk, double mesh, double pair, bool field, struct pm_measures *m)
+{
+	const double w = isnan(pair) ? mesh : pair;
+	m->value[PM_STEP] = (double)f->step;
+	m->value[PM_TIME] = f->time;
+	m->value[PM_ENERGY_KINETIC] = bulk->kinetic;
+	m->value[PM_ENERGY_MESH] = mesh;
+	m->value[PM_ENERGY_PAIR] = pair;
+	m->value[PM_ENERGY] = bulk->kinetic + (field ? w : 0);
+	for (int d = 0; d < 3; d++) {
+		m->value[PM_MOMENTUM + d] = bulk->momentum[d];
+		m->value[PM_ANGULAR + d] = bulk->angular[d];
+		m->value[PM_CENTRE + d] = bulk->moment[d] / bulk->mass; /* NAN without particles */
+	}
+	m->value[PM_MOMENTUM_SCALE] = bulk->scale;
+	m->value[PM_MASS] = bulk->mass;
+	m->value[PM_PARTICLES] = bulk->n;
+	m->value[PM_SPEED_RMS] = sqrt(bulk->square / bulk->movers);
+	m->value[PM_DISTANCE_MAX] = bulk->farthest;
+	m->value[PM_VIRIAL_RATIO] = 2 * bulk->kinetic / fabs(w);
+}

@@ -1,0 +1,107 @@
+/* What vortices in the plane keep or lose: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
+ * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given place (by m6prime,
+ * on a node that of the node) on the first mesh that holds omega; the largest distortion of the sets. What is not there is NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
+ * Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/measure.h"
+#include "remesh/distortion.h"
+#include "mesh/gradient.h"
+#include "transfer/transfer.h"
+
+/* A set of vortices that is to be measured: it has positions in the plane and circulations. */
+static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
+{
+	const struct pm_field *x = pm_frame_field(f, set->name, "x"), *q = pm_frame_field(f, set->name, how->strength);
+	return (!how->set || !strcmp(how->set, set->name)) && q && x && x->components == 2;
+}
+
+static const struct pm_mesh *covered(const struct pm_measure *how, const struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nmeshes; i++)
+		if (pm_frame_field(f, f->meshes[i]->name, how->density))
+			return f->meshes[i];
+	return NULL;
+}
+
+void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f)
+{
+	const char *const names[] = {"volume", "overlap"};
+	for (size_t i = 0; i < f->nsets && how->vortices; i++)
+		for (int k = 0; k < 2; k++)
+			if (counts(how, f, f->sets[i]) && pm_frame_field(f, f->sets[i]->name, names[k]))
+				pm_reads(f, f->sets[i]->name, names[k]);
+	const struct pm_mesh *mesh = how->vortices ? covered(how, f) : NULL;
+	if (mesh)
+		pm_reads(f, mesh->name, how->density);
+}
+
+static void of_particles(const struct pm_field *at, const struct pm_field *circulation, struct pm_sum sum[4])
+{
+	const double *x = pm_in(at, 0), *y = pm_in(at, 1), *q = pm_in(circulation, 0);
+	for (size_t i = 0; i < at->count; i++) {
+		pm_sum_add(&sum[0], q[i]);
+		pm_sum_add(&sum[1], q[i] * y[i]);
+		pm_sum_add(&sum[2], -q[i] * x[i]);
+		pm_sum_add(&sum[3], -0.5 * q[i] * (x[i] * x[i] + y[i] * y[i]));
+	}
+}
+
+/* 1/2 int |grad omega|^2; NAN where the mesh is too small for the differences, or memory. */
+static double palinstrophy(const struct pm_grid *g, const double *omega)
+{
+	struct pm_operator o;
+	const size_t n = pm_grid_size(g);
+	double *slope = pm_alloc(2 * n, sizeof *slope), sum = NAN;
+	if (slope && !pm_operator_init(&o, g, PM_OP_GRAD, 6, 1, false) &&
+		!pm_operator_apply(&o, 1, (const double *const[]){omega}, (double *const[]){slope, slope + n}, NULL))
+		sum = pm_energy_on_mesh(g, slope, slope) + pm_energy_on_mesh(g, slope + n, slope + n);
+	pm_free(slope);
+	return sum;
+}
+
+/* omega at a place; NAN where the mesh does not hold it. */
+static double at_place(const struct pm_grid *g, const double *omega, const double place[2])
+{
+	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m6prime"), .components = 1};
+	struct pm_strays strays;
+	double value = 0, *out = &value;
+	const double *const x[3] = {&place[0], &place[1]};
+	return !pm_gather(&t, 1, x, &omega, NULL, &out, &strays) && !strays.count ? value : NAN;
+}
+
+static void of_mesh(const struct pm_measure *how, const struct pm_frame *f, const struct pm_mesh *mesh, const double *omega, struct pm_measures *m)
+{
+	const struct pm_grid g = pm_grid_of(f, mesh);
+	double most = 0;
+	for (size_t i = 0; i < pm_grid_size(&g); i++)
+		most = fmax(most, fabs(omega[i]));
+	m->value[PM_OMEGA_MAX] = most;
+	m->value[PM_ENSTROPHY] = pm_energy_on_mesh(&g, omega, omega);
+	m->value[PM_OMEGA_CENTRE] = at_place(&g, omega, how->centre);
+	m->value[PM_PALINSTROPHY] = palinstrophy(&g, omega);
+}
+
+void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	struct pm_sum sum[4] = {0};
+	const struct pm_mesh *mesh = how->vortices ? covered(how, f) : NULL, *first = pm_frame_mesh(f, NULL);
+	double worst = NAN, here;
+	for (int k = PM_CIRCULATION; k <= PM_DISTORTION; k++)
+		m->value[k] = NAN;
+	if (!how->vortices)
+		return;
+	for (size_t i = 0; i < f->nsets; i++) {
+		const char *set = f->sets[i]->name;
+		if (!counts(how, f, f->sets[i]))
+			continue;
+		of_particles(pm_frame_field(f, set, "x"), pm_frame_field(f, set, how->strength), sum);
+		if (first && !pm_distortion(f, set, first, &here))
+			worst = fmax(worst, here);
+	}
+	for (int k = 0; k < 4; k++)
+		m->value[PM_CIRCULATION + k] = pm_sum_total(sum[k]);
+	m->value[PM_DISTORTION] = worst;
+	if (mesh)
+		of_mesh(how, f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
+}

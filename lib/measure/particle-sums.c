@@ -1,0 +1,119 @@
+/* Bulk quantities of particles: mass, kinetic energy, momentum and its scale sum m|v|, angular momentum, first moment, largest distance.
+ * Each is a sum over particles, compensated (Neumaier 1974), every eighth particle of a block of pm_sum_block together; the eight and the blocks are joined
+ * in their order, whatever thread made them. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "measure/measure.h"
+#include "base/simd-sum.h"
+
+enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
+enum { BATCH = 64 }; /* blocks between two joins; bounds the memory, not the result */
+
+struct block {
+	struct pm_sum sum[SUMS];
+	double farthest2;
+};
+
+/* The same of a block under way, eight particles side by side. */
+struct lanes {
+	struct pm_simd_sum sum[SUMS];
+	pm_simd farthest2;
+};
+
+PM_SIMD_INLINE pm_simd load(const double *p, size_t n) { return n == PM_SIMD_WIDTH ? pm_simd_load_any(p) : pm_simd_load_few(p, n); }
+
+PM_SIMD_INLINE pm_simd root(pm_simd v)
+{
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		v[l] = sqrt(v[l]);
+	return v;
+}
+
+PM_SIMD_INLINE pm_simd larger(pm_simd a, pm_simd b)
+{
+	pm_simd_bits below = a < b;
+	return (pm_simd)(((pm_simd_bits)b & below) | ((pm_simd_bits)a & ~below));
+}
+
+/* n particles from i on; the others of the eight are 0. */
+PM_SIMD_INLINE void add_particles(int dim, int vdim, const struct pm_measured *b, size_t i, size_t n, struct lanes *s)
+{
+	pm_simd x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0};
+	const pm_simd m = b->mass ? load(b->mass + i, n) : pm_simd_all(NAN);
+	for (int d = 0; d < dim; d++)
+		x[d] = load(b->x[d] + i, n), x2 += x[d] * x[d];
+	for (int d = 0; d < vdim; d++)
+		v[d] = load(b->v[d] + i, n), v2 += v[d] * v[d];
+	s->farthest2 = larger(s->farthest2, x2);
+	pm_simd_sum_add(&s->sum[MASS], m);
+	for (int d = 0; d < 3; d++)
+		pm_simd_sum_add(&s->sum[MOMENT + d], m * x[d]);
+	if (!vdim)
+		return;
+	pm_simd_sum_add(&s->sum[KINETIC], 0.5 * m * v2);
+	pm_simd_sum_add(&s->sum[SCALE], m * root(v2));
+	pm_simd_sum_add(&s->sum[SQUARE], v2);
+	for (int d = 0; d < 3; d++) {
+		const int e = (d + 1) % 3, g = (d + 2) % 3;
+		pm_simd_sum_add(&s->sum[MOMENTUM + d], m * v[d]);
+		pm_simd_sum_add(&s->sum[ANGULAR + d], m * (x[e] * v[g] - x[g] * v[e]));
+	}
+}
+
+PM_SIMD_INLINE void add_block(int dim, int vdim, const struct pm_measured *b, size_t from, size_t to, struct lanes *s)
+{
+	size_t i = from;
+	for (; i + PM_SIMD_WIDTH <= to; i += PM_SIMD_WIDTH)
+		add_particles(dim, vdim, b, i, PM_SIMD_WIDTH, s);
+	if (i < to)
+		add_particles(dim, vdim, b, i, to - i, s);
+}
+
+static struct block block_of(const struct pm_measured *b, size_t from)
+{
+	struct lanes lanes = {0};
+	struct block block = {0};
+	const size_t to = from + pm_sum_block < b->n ? from + pm_sum_block : b->n;
+	if (b->dim == 3 && b->vdim == 3)
+		add_block(3, 3, b, from, to, &lanes);
+	else
+		add_block(b->dim, b->vdim, b, from, to, &lanes);
+	for (int s = 0; s < SUMS; s++)
+		pm_simd_sum_join(&block.sum[s], &lanes.sum[s]);
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		block.farthest2 = fmax(block.farthest2, lanes.farthest2[l]);
+	return block;
+}
+
+static void join(struct block *all, const struct block *block)
+{
+	for (int s = 0; s < SUMS; s++) {
+		pm_sum_add(&all->sum[s], block->sum[s].sum);
+		pm_sum_add(&all->sum[s], block->sum[s].carry);
+	}
+	all->farthest2 = fmax(all->farthest2, block->farthest2);
+}
+
+void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *bulk)
+{
+	struct block all = {0}, batch[BATCH];
+	const size_t blocks = (b->n + pm_sum_block - 1) / pm_sum_block;
+	for (size_t first = 0; first < blocks; first += BATCH) {
+		const size_t n = blocks - first < BATCH ? blocks - first : BATCH;
+#pragma omp parallel for schedule(static) if (n > 1)
+		for (size_t k = 0; k < n; k++)
+			batch[k] = block_of(b, (first + k) * pm_sum_block);
+		for (size_t k = 0; k < n; k++)
+			join(&all, &batch[k]);
+	}
+	bulk->n += (double)b->n;
+	bulk->movers += b->vdim ? (double)b->n : 0;
+	bulk->mass += pm_sum_total(all.sum[MASS]);
+	bulk->kinetic += pm_sum_total(all.sum[KINETIC]);
+	bulk->scale += pm_sum_total(all.sum[SCALE]);
+	bulk->square += pm_sum_total(all.sum[SQUARE]);
+	for (int d = 0; d < 3; d++) {
+		bulk->momentum[d] += pm_sum_total(all.sum[MOMENTUM + d]);
+		bulk->angular[d] += pm_sum_total(all.sum[ANGULAR + d]);
+		bulk->moment[d] += pm_sum_total(all.sum[MOMENT + d]);
+	}
+	bulk->farthest = fmax(bulk->farthest, sqrt(all.farthest2));
+}

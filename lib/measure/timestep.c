@@ -1,0 +1,59 @@
+/* What limits the time step. The strain: two particles d apart are dt |grad u| d at most closer after a step, so that particles cannot cross where dt |grad u|
+ * < 1 in a norm of matrices; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
+ * Lagrangian CFL). Plasma frequency: omega_p^2 = sum q^2/m/(eps0 V), with V the box (Birdsall and Langdon 1985, section 1-2). Cost N, points.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "measure/timestep.h"
+
+enum { BLOCK = 4096 };
+
+double pm_most(const struct pm_field *y, const double *h)
+{
+	double most = 0;
+	int m = y->components < 3 || !h ? y->components : 3;
+#pragma omp parallel for schedule(static) reduction(max : most) if (y->count > 16384)
+	for (size_t b = 0; b < y->count; b += BLOCK)
+		for (size_t i = b; i < y->count && i < b + BLOCK; i++) {
+			double here = 0;
+			for (int d = 0; d < m; d++) {
+				double v = pm_in(y, d)[i];
+				here = h ? fmax(here, fabs(v) / h[d]) : here + v * v;
+			}
+			most = fmax(most, here);
+		}
+	return most;
+}
+
+/* |du/dx_d| at point i, the k-th of `points` along axis d. */
+static double slope(const struct pm_grid *g, int d, const double *u, size_t i, size_t stride)
+{
+	const size_t points = g->points[d], k = i / stride % points;
+	const bool round = g->face[d][0] == PM_PERIODIC;
+	const size_t below = k ? i - stride : round ? i + (points - 1) * stride : i;
+	const size_t above = k + 1 < points ? i + stride : round ? i - (points - 1) * stride : i;
+	const double apart = round || (k && k + 1 < points) ? 2 : 1;
+	return points > 1 ? fabs(u[above] - u[below]) / (apart * g->h[d]) : 0;
+}
+
+double pm_strain(const struct pm_grid *g, int components, const double *const u[])
+{
+	const size_t n = pm_grid_size(g);
+	double most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
+	for (size_t i = 0; i < n; i++)
+		for (int c = 0; c < components; c++) {
+			double row = 0;
+			size_t stride = 1;
+			for (int d = 0; d < g->dim; stride *= g->points[d++])
+				row += slope(g, d, u[c], i, stride);
+			most = fmax(most, row);
+		}
+	return most;
+}
+
+double pm_charge_over_mass(size_t n, const double *q, const double *m)
+{
+	struct pm_sum sum = {0, 0};
+	for (size_t p = 0; p < n; p++)
+		pm_sum_add(&sum, q[p] * q[p] / m[p]);
+	return pm_sum_total(sum);
+}

@@ -1,0 +1,24 @@
+/* Particle strength exchange of a set of a frame, or its corrected form: what its width is, what it needs, its change field. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_NEAR_PSE_FRAME_H
+#define PM_NEAR_PSE_FRAME_H
+
+#include "near/dcpse.h"
+#include "near/pse.h"
+
+struct pm_pse_set {
+	const char *set, *field; /* what is diffused: a strength, or a value of particles with volumes */
+	double nu;               /* [length^2/time] */
+	bool corrected;          /* dcpse.h; else pse.h */
+	int order;
+	double eps;              /* [length]; NAN: overlap times the spacing of the particles */
+	double overlap;          /* eps over that spacing, (mean volume)^(1/dim) */
+	double cutoff;           /* in eps; NAN: that of the order */
+	bool images;             /* mirror images at walls */
+};
+
+/* Declares what is read and the change field d<field>, which takes the term diffusion. */
+int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace);
+/* Adds the exchange to the change field and its fastest decay; s->eps and s->cutoff hold what was taken. Nothing is done with no particles. */
+int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *found);
+
+#endif

@@ -1,0 +1,28 @@
+/* The measured atlas: errors of forces and of steps (data/atlas, docs/accuracy/README.md), built into the library by the Makefile.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PLANNER_ATLAS_H
+#define PM_PLANNER_ATLAS_H
+
+#include "base/base.h"
+
+struct pm_atlas_force {
+	const char *scene;                      /* smooth, clustered */
+	const char *solver, *kernel, *gradient; /* as words and options; "-" for pp */
+	double h, error, ns;                    /* spacing over the scene's length; relative l2 (NAN: failed); per particle and evaluation */
+};
+struct pm_atlas_step {
+	const char *problem, *scheme; /* kepler, kepler-circle, langmuir, vortex-patch, gyration; kdk, rk4 ... */
+	double dt, error, evaluations; /* in units of 1/omega; relative after the problem's time; of the force in that time */
+};
+extern const struct pm_atlas_force pm_atlas_forces[]; /* generated; scene NULL ends */
+extern const struct pm_atlas_step pm_atlas_steps[];   /* problem NULL ends */
+
+/* Error of a force at spacing h, straight lines through the logarithms; beyond the ends the line goes on, below not steeper than its order allows.
+ * NAN: such words were not measured. */
+double pm_atlas_force_error(const char *scene, const char *solver, const char *kernel, const char *gradient, double h);
+/* Longest step, in units of 1/omega, whose error is at most this; NAN: not measured. */
+double pm_atlas_longest(const char *problem, const char *scheme, double error);
+/* The time after which those errors were taken, in units of 1/omega; NAN: no such problem. */
+double pm_atlas_time(const char *problem);
+
+#endif

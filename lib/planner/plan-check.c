@@ -1,0 +1,269 @@
+/* The proof of a plan: each effect is left out or put in against the decision, both sentences run for a few steps from the frame, and what differs is put in
+ * relation. Velocities: |v - v'|/|v|, strengths after one step alike, carried on to the time T of the run (times T/(n dt)); where there is no inertia displacements,
+ * |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, carried on. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/norms.h"
+#include "planner/scales.h"
+#include "planner/plan.h"
+
+/* ---- what differs ---- */
+
+static double size(const struct pm_field *f)
+{
+	double s = 0;
+	for (int c = 0; c < f->components; c++)
+		s += pm_sum_products(f->count, pm_in(f, c), pm_in(f, c));
+	return s;
+}
+
+/* |a - b|/|b| of a field of every set that moves, in l2; differences of floor and less are rounding. */
+static double relative(const struct pm_frame *a, const struct pm_frame *b, const char *name, double floor)
+{
+	double d2 = 0, r2 = 0;
+	for (size_t k = 0; k < b->nsets; k++) {
+		struct pm_field *p = pm_frame_field(a, b->sets[k]->name, name), *q = pm_frame_field(b, b->sets[k]->name, name);
+		if (!p || !q || !pm_set_moves(b, b->sets[k]) || p->count != q->count || !p->buffer || !q->buffer)
+			continue;
+		const double d = pm_norms_of(p, q, NULL, NULL).l2;
+		d2 += d > floor ? (double)q->count * d * d : 0;
+		r2 += size(q);
+	}
+	return d2 == 0 ? 0 : sqrt(d2 / r2);
+}
+
+/* The shorter way in a periodic box. */
+static double apart(const struct pm_frame *f, int d, double x, double y)
+{
+	const double side = f->hi[d] - f->lo[d], z = x - y;
+	return f->pface[d][0] == PM_PFOLD ? z - side * floor(z / side + 0.5) : z;
+}
+
+/* |a - b|/|b - start| of the places, in l2. */
+static double displaced(const struct pm_frame *a, const struct pm_frame *b, const struct pm_frame *start)
+{
+	struct pm_sum d2 = {0, 0}, r2 = {0, 0};
+	for (size_t k = 0; k < b->nsets; k++) {
+		const char *set = b->sets[k]->name;
+		const struct pm_field *p = pm_frame_field(a, set, "x"), *q = pm_frame_field(b, set, "x"), *o = pm_frame_field(start, set, "x");
+		for (int d = 0; pm_set_moves(b, b->sets[k]) && d < b->dim; d++)
+			for (size_t i = 0; p->count == q->count && i < q->count; i++) {
+				pm_sum_add(&d2, pow(apart(start, d, pm_in(p, d)[i], pm_in(q, d)[i]), 2));
+				pm_sum_add(&r2, pow(apart(start, d, pm_in(q, d)[i], pm_in(o, d)[i]), 2));
+			}
+	}
+	return pm_sum_total(d2) == 0 ? 0 : sqrt(pm_sum_total(d2) / pm_sum_total(r2));
+}
+
+/* The value of a mesh field at the node of another mesh of the same spacing; NAN where it does not reach. */
+static double at_node(const struct pm_mesh *m, const size_t points[3], const double *values, const struct pm_mesh *other, const size_t node[3])
+{
+	size_t place = 0;
+	for (int d = 2; d >= 0; d--) {
+		const double i = (double)node[d] + (points[d] > 1 ? floor((other->lo[d] - m->lo[d]) / m->h[d] + 0.5) : 0);
+		if (i < 0 || i >= (double)points[d])
+			return NAN;
+		place = place * points[d] + (size_t)i;
+	}
+	return values[place];
+}
+
+/* Sums over the nodes of a of a^2 and of (a - b)^2; outside: over those alone that b does not reach. */
+static void node_sums(const struct pm_frame *x, const struct pm_frame *y, const char *density, struct pm_sum *square, struct pm_sum *difference, bool outside)
+{
+	const struct pm_mesh *m = x->meshes[0], *n = y->meshes[0];
+	const double *a = pm_in(pm_frame_field(x, m->name, density), 0), *b = pm_in(pm_frame_field(y, n->name, density), 0);
+	size_t mp[3], np[3], node[3];
+	const size_t all = pm_mesh_points(x, m, mp);
+	pm_mesh_points(y, n, np);
+	for (size_t i = 0; i < all; i++) {
+		node[0] = i % mp[0], node[1] = i / mp[0] % mp[1], node[2] = i / mp[0] / mp[1];
+		const double other = at_node(n, np, b, m, node);
+		pm_sum_add(square, a[i] * a[i]);
+		if (!outside || isnan(other))
+			pm_sum_add(difference, pow(a[i] - (isnan(other) ? 0 : other), 2));
+	}
+}
+
+/* |a - b|/|b| of the densities on the mesh, which may have grown with the particles of one of them. */
+static double densities(const struct pm_frame *a, const struct pm_frame *b, const struct pm_plan *p)
+{
+	char words[80];
+	snprintf(words, sizeof words, "p2m --kernel %s%s", p->method.kernel, p->method.grow ? " --outside grow" : "");
+	struct pm_frame *x = pm_plan_prime(a, words), *y = x ? pm_plan_prime(b, words) : NULL;
+	struct pm_sum square = {0, 0}, difference = {0, 0}, rest = {0, 0};
+	if (y) {
+		node_sums(y, x, p->law->density, &square, &difference, false);
+		node_sums(x, y, p->law->density, &rest, &difference, true);
+	}
+	pm_frame_free(x), pm_frame_free(y);
+	return y ? sqrt(pm_sum_total(difference) / pm_sum_total(square)) : NAN;
+}
+
+/* ---- the other way ---- */
+
+static void put(struct pm_plan *p, const char *name, bool in)
+{
+	for (int i = 0; i < p->neffects; i++) {
+		struct pm_decision *d = &p->effect[i].decision;
+		if (strcmp(p->effect[i].effect->name, name))
+			continue;
+		d->answer = in ? PM_PUT_IN : PM_LEFT_OUT;
+		d->every = in && !d->every ? 1 : d->every;
+	}
+}
+
+static void without_field(struct pm_frame *f, const char *name)
+{
+	for (size_t i = 0; i < f->nmeshes; i++) {
+		struct pm_field *field = pm_frame_field(f, f->meshes[i]->name, name);
+		if (field)
+			pm_drops(f, field);
+	}
+}
+
+/* A given field of zeros: m2p wants it where the magnetic field is. */
+static int zero_field(struct pm_frame *f, const char *name)
+{
+	for (size_t i = 0; i < f->nmeshes; i++) {
+		const struct pm_field *old = pm_frame_field(f, f->meshes[i]->name, name);
+		struct pm_field *zero = old ? pm_makes(f, f->meshes[i]->name, name, old->components, PM_STATE) : NULL;
+		if (old && !zero)
+			return -PM_DATA;
+		if (zero)
+			zero->uniform = true;
+	}
+	return 0;
+}
+
+static void open_faces(struct pm_frame *f)
+{
+	for (int k = 0; k < 2 * f->dim; k++) {
+		f->face[k / 2][k % 2] = PM_OPEN;
+		f->pface[k / 2][k % 2] = PM_POPEN;
+	}
+}
+
+/* Can the other way be said in words? */
+static bool speakable(const struct pm_plan *p, const char *name)
+{
+	const bool in = pm_plan_has(p, name), mesh = !p->method.pairs, vortices = p->scales.kind == PM_VORTICES;
+	if (!strcmp(name, "self-field"))
+		return p->law->strength && (in || p->scales.sources > 0) && (isnan(p->scales.cyclotron) || !isnan(p->scales.given));
+	if (!strcmp(name, "magnetic-rotation"))
+		return !isnan(p->scales.cyclotron);
+	if (!strcmp(name, "external-field"))
+		return p->scales.given > 0;
+	if (!strcmp(name, "diffusion"))
+		return vortices && p->scales.nu > 0;
+	if (!strcmp(name, "remeshing"))
+		return vortices && mesh;
+	if (!strcmp(name, "smoothing"))
+		return !mesh && p->scales.softening > 0;
+	return !strcmp(name, "periodic-images") && p->scales.periodic && mesh && pm_plan_has(p, "self-field");
+}
+
+/* Frame and sentence with one effect the other way. */
+static int other(const struct pm_plan *p, const char *name, bool remesh, struct pm_frame *f, struct pm_plan *q)
+{
+	*q = *p;
+	if (!remesh)
+		put(q, "remeshing", false);
+	put(q, name, !pm_plan_has(p, name));
+	if (!strcmp(name, "magnetic-rotation") && !pm_plan_has(q, name))
+		without_field(f, p->law->magnetic);
+	if (!strcmp(name, "periodic-images")) {
+		open_faces(f);
+		q->method.order = p->law->order, q->method.symbol = NULL; /* between open faces nothing is spectral */
+	}
+	if (!strcmp(name, "external-field") && zero_field(f, p->law->field))
+		return -PM_DATA;
+	q->method.grow |= !strcmp(name, "periodic-images");
+	int status = pm_frame_settle(f);
+	return status ? status : pm_plan_compose(f, q);
+}
+
+static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan *p, const char *name, int steps, double *seconds)
+{
+	struct pm_frame *g = pm_plan_bare(f), *end = NULL;
+	struct pm_plan q;
+	if (!g)
+		return NULL;
+	if (!strcmp(name, "self-field") && pm_plan_has(p, name) && !p->scales.second && !pm_plan_has(p, "external-field"))
+		return g; /* without it nothing moves */
+	if (!other(p, name, seconds != NULL, g, &q)) /* what is compared has the same particles, what is timed is as it would run */
+		end = pm_plan_run(g, q.sentence, steps, seconds);
+	pm_frame_free(g);
+	return end;
+}
+
+static void verdict(const struct pm_plan *p, const struct pm_plan_effect *e, struct pm_plan_proof *o)
+{
+	const bool in = e->decision.answer == PM_PUT_IN, matters = o->difference > p->scales.accuracy;
+	o->wrong = isnan(o->difference) || (!in && matters) || (in && !e->decision.kept && o->difference < 0.1 * p->scales.accuracy);
+	o->verdict = isnan(o->difference) ? "wrong: it cannot be compared" : o->wrong ? matters ? "wrong: it matters" : "wrong: it is negligible" : matters ? "right"
+		: in ? e->decision.kept ? "small, and kept" : "small" : "right: negligible";
+}
+
+static int prove(const struct pm_frame *f, const struct pm_plan *p, const struct pm_plan_effect *e, int steps, struct pm_plan_proof *o)
+{
+	const char *name = e->effect->name;
+	const bool remeshing = !strcmp(name, "remeshing"), diffusion = !strcmp(name, "diffusion");
+	struct pm_plan base = *p;
+	if (remeshing && e->decision.every > 0) /* it must happen within the steps */
+		steps = steps < 2 * e->decision.every ? 2 * e->decision.every : steps;
+	else if (!remeshing)
+		put(&base, "remeshing", false);
+	if (diffusion && !p->method.pairs) /* before particles are distorted, whose roughness would diffuse too */
+		steps = 1;
+	const double on = p->scales.time / (steps * fabs(p->scales.dt)); /* the step of the plan */
+	if (pm_plan_compose(f, &base))
+		return -PM_DATA;
+	struct pm_frame *b = pm_plan_run(f, base.sentence, steps, NULL), *a = b ? run_other(f, p, name, steps, NULL) : NULL;
+	int status = a ? 0 : pm_failed();
+	o->tried = true;
+	const bool strength = diffusion && !p->method.pairs;
+	o->of = remeshing ? p->law->density : strength ? p->law->strength : p->scales.second ? "v" : "x";
+	if (a && remeshing)
+		o->difference = densities(a, b, p) * on;
+	else if (a && (strength || p->scales.second))
+		o->difference = relative(a, b, o->of, strength ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on;
+	else if (a) /* a walk goes on as the root of time, the flow as time itself */
+		o->difference = displaced(a, b, f) / (diffusion ? sqrt(on) : 1);
+	pm_frame_free(a), pm_frame_free(b);
+	if (!status)
+		verdict(p, e, o);
+	return status;
+}
+
+int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_PLAN_EFFECTS])
+{
+	int status = 0;
+	for (int i = 0; i < p->neffects && !status; i++) {
+		proof[i] = (struct pm_plan_proof){.difference = NAN};
+		if (speakable(p, p->effect[i].effect->name))
+			status = prove(f, p, &p->effect[i], steps, &proof[i]);
+	}
+	return status;
+}
+
+int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p)
+{
+	double now = 0;
+	for (int i = 0; i < p->nstages; i++)
+		now += p->stage[i].seconds;
+	for (int i = 0; i < p->neffects; i++) {
+		struct pm_plan_effect *e = &p->effect[i];
+		double seconds[PM_PLAN_WORDS] = {0}, then = 0;
+		if (e->decision.answer == PM_PUT_IN || !speakable(p, e->effect->name))
+			continue;
+		struct pm_frame *g = run_other(f, p, e->effect->name, 2, seconds);
+		if (!g)
+			return pm_failed();
+		pm_frame_free(g);
+		for (int k = 0; k < PM_PLAN_WORDS; k++)
+			then += seconds[k];
+		e->saves = fmax(0, then - now);
+	}
+	return 0;
+}

@@ -1,0 +1,159 @@
+/* How the effects of a plan are computed: pairs or a mesh, and by the measured atlas kernel, gradient and cells. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "planner/atlas.h"
+#include "planner/plan.h"
+
+/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all that is done there, a particle to the
+ * mesh and back (docs/speed.md). */
+static const double ns_pair = 0.39, ns_point = 5, ns_particle = 100;
+
+static double cost_pairs(const struct pm_scales *s) { return ns_pair * s->n * s->sources; }
+
+static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points * (s->open ? pow(2, s->dim) : 1) + ns_particle * s->n; }
+
+static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
+
+/* pp sums in open space only; particles that carry a field need its mesh. */
+static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[160])
+{
+	const struct pm_scales *s = &p->scales;
+	const bool field = s->kind == PM_VORTICES && s->overlap < 0.3 && s->width > 0.7 * s->h && s->width < 1.4 * s->h;
+	const double a = cost_pairs(s), b = f->nmeshes ? cost_mesh(s) : HUGE_VAL;
+	if (!all_open(s))
+		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
+	else if (field)
+		snprintf(why, 160, "the particles carry a field: they cover the mesh to %.1g", s->overlap);
+	else if (a <= b)
+		snprintf(why, 160, "%g bodies, pairs cost %.1g of the mesh", s->sources, a / b);
+	else
+		snprintf(why, 160, "%g bodies, a mesh costs %.1g of the pairs", s->sources, b / a);
+	return all_open(s) && !field && a <= b;
+}
+
+void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_method *m = &p->method;
+	const struct pm_scales *s = &p->scales;
+	*m = (struct pm_method){.dt = NAN, .kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
+	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
+	m->grow = s->edge < 4 * s->h; /* half the widest kernel */
+	if (s->kind == PM_VORTICES && !m->pairs) {
+		m->kernel = "m6prime"; /* m4prime makes vortices that are not there (VM-16) */
+		m->scheme = "lsrk3";
+	}
+}
+
+/* ---- the mesh ---- */
+
+/* A force wrong by d shifts frequencies by d/2, phases by d omega T/2 in the time of the run: so much less is allowed. */
+static double allowed(const struct pm_scales *s) { return s->accuracy / fmax(1, 0.5 * s->omega * s->time); }
+
+struct try {
+	const struct pm_atlas_force *row; /* solver, kernel, gradient */
+	int factor;                       /* of the cells */
+	double error;
+};
+
+static bool can(const struct pm_plan *p, const struct pm_atlas_force *r, const char *scene)
+{
+	return !strcmp(r->scene, scene) && !strncmp(r->solver, "poisson-fft", 11) && (!p->scales.open || strcmp(r->gradient, "spectral"));
+}
+
+/* Of those of the atlas that reach the accuracy with so many times the cells, and cost at most half more than the cheapest of them, the most accurate: what differs by less is
+ * how the machine was when it was measured. If none does, the most accurate of all. */
+static struct try best(const struct pm_plan *p, const char *scene, double h, int factor)
+{
+	struct try found = {NULL, factor, HUGE_VAL};
+	double least = HUGE_VAL;
+	for (int pass = 0; pass < 2; pass++)
+		for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++) {
+			const double e = can(p, r, scene) ? pm_atlas_force_error(scene, r->solver, r->kernel, r->gradient, h / factor) : NAN;
+			if (!pass && e <= allowed(&p->scales))
+				least = fmin(least, r->ns);
+			else if (pass && e < found.error && (least == HUGE_VAL || (e <= allowed(&p->scales) && r->ns <= 1.5 * least)))
+				found = (struct try){r, factor, e};
+		}
+	return found;
+}
+
+static double room(const struct pm_scales *s, int factor) { return s->points * pow(factor * (s->open ? 2 : 1), s->dim); }
+
+/* What the law says, if it is good enough; else what the atlas says, on as few cells as do. */
+static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
+{
+	const struct pm_scales *s = &p->scales;
+	char solver[64] = "poisson-fft";
+	struct try least = {NULL, 1, HUGE_VAL};
+	if (strcmp(p->law->symbol, "spectral"))
+		snprintf(solver, sizeof solver, "poisson-fft --symbol %s", p->law->symbol);
+	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
+		if (can(p, r, scene) && !strcmp(r->solver, solver) && !strcmp(r->kernel, p->law->kernel) && !strcmp(r->gradient, p->law->order))
+			least = (struct try){r, 1, pm_atlas_force_error(scene, solver, r->kernel, r->gradient, h)};
+	for (int factor = 1; factor <= 8 && !(least.error <= allowed(s)) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
+		const struct try t = best(p, scene, h, factor);
+		if (t.row && t.error < 0.8 * least.error) /* more cells for something */
+			least = t;
+	}
+	return least;
+}
+
+/* The particles are its nodes, so it stays; m6prime remeshed for a run is wrong by (h k)^5/2 in the largest vorticity, k^2 = |lap omega|/|omega| (docs/plan.md). */
+static void vortex_mesh(struct pm_plan *p)
+{
+	const struct pm_scales *s = &p->scales;
+	const double hk = s->h * sqrt(s->rough), error = fmin(1, 0.5 * pow(hk, 5));
+	char more[80] = "";
+	if (error > s->accuracy) /* what would be good enough */
+		snprintf(more, sizeof more, ", more than asked for (pinit --cells %.0f)", ceil(s->box / s->h * hk / pow(2 * s->accuracy, 0.2)));
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, remeshing is wrong by %.1g%s", hk, error, more);
+}
+
+/* As many cells as bring the nearest pair far enough apart (lib/effect/near-field.c). */
+static void few_bodies(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_scales *s = &p->scales;
+	int factor = 1;
+	while (factor < 8 && 0.25 * pow(s->h / (factor * s->nearest), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < 3e7)
+		factor *= 2;
+	for (int d = 0; d < f->dim && factor > 1; d++)
+		p->method.cells[d] = (size_t)factor * f->meshes[0]->cells[d];
+	s->h /= factor, s->points *= pow(factor, s->dim);
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "the nearest pair is %.2g cells apart", s->nearest / s->h);
+}
+
+void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_method *m = &p->method;
+	struct pm_scales *s = &p->scales;
+	const char *scene = all_open(s) ? "clustered" : "smooth";
+	const double h = s->h / s->length;
+	if (m->pairs || !f->nmeshes || !(s->length > 0))
+		return;
+	if (s->kind == PM_VORTICES) {
+		vortex_mesh(p);
+		return;
+	}
+	if (s->n < 32) {
+		few_bodies(f, p);
+		return;
+	}
+	const struct try t = mesh_try(p, scene, h);
+	if (!t.row)
+		return;
+	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
+	const double dearer = cost_pairs(s) / cost_mesh(s);
+	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
+		m->pairs = s->pairs = true;
+		snprintf(m->why_far, sizeof m->why_far, "%g bodies, a mesh would be wrong by %.1g; pairs cost %.2g times as much", s->sources, t.error, dearer);
+		return;
+	}
+	s->mesh_error = t.error;
+	m->kernel = t.row->kernel, m->order = t.row->gradient;
+	const char *symbol = strstr(t.row->solver, "--symbol ") ? strstr(t.row->solver, "--symbol ") + 9 : "spectral";
+	m->symbol = strcmp(symbol, p->law->symbol) ? symbol : NULL;
+	for (int d = 0; d < f->dim && t.factor > 1; d++)
+		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
+	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: %.1g of the force is wrong at h = %.2g of its length%s", m->kernel, t.error, s->h / s->length,
+		t.error > allowed(s) ? ", more than asked for" : "");
+}

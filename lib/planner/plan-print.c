@@ -1,0 +1,113 @@
+/* A plan as text: a stage a line with its reason behind it, then what is left out and what is lacking; and as JSON. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "planner/plan.h"
+
+/* The name as people write it. */
+static const char *label(const struct pm_effect *e, char text[64])
+{
+	snprintf(text, 64, "%s", e->name);
+	for (char *c = text; *c; c++)
+		*c = *c == '-' ? ' ' : *c;
+	return text;
+}
+
+static void duration(double seconds, char text[32])
+{
+	const char *unit = seconds < 1e-3 ? "us" : seconds < 1 ? "ms" : "s";
+	snprintf(text, 32, isnan(seconds) ? "-" : "%.3g %s", seconds * (seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1), unit);
+}
+
+/* What a needed effect without a word, or whose word plan does not place, leaves to say. */
+static void lacking(FILE *out, const struct pm_plan_effect *e)
+{
+	if (e->lacking && pm_tool_find(e->effect->word))
+		fprintf(out, ", the word %s does it, which plan does not place: the result lacks it", e->effect->word);
+	else if (e->lacking)
+		fputs(", no word for it yet: the result lacks it", out);
+}
+
+static const char *answer(const struct pm_plan_effect *e) { return e->lacking ? "needed" : e->decision.answer == PM_PUT_IN ? "on" : "off"; }
+
+static void stages(FILE *out, const struct pm_plan *p, bool cost)
+{
+	size_t width = 0;
+	double all = 0;
+	char text[32];
+	for (int i = 0; i < p->nstages; i++) {
+		width = strlen(p->stage[i].words) > width ? strlen(p->stage[i].words) : width;
+		all += p->stage[i].seconds;
+	}
+	for (int i = 0; i < p->nstages; i++) {
+		duration(p->stage[i].seconds, text);
+		fprintf(out, "%-*s %c  # ", (int)width, p->stage[i].words, i + 1 < p->nstages ? '|' : ' ');
+		fprintf(out, cost ? "%8s  %s\n" : "%.0s%s\n", text, p->stage[i].reason);
+	}
+	duration(all, text);
+	if (cost)
+		fprintf(out, "%-*s    # %8s  a step\n", (int)width, "", text);
+}
+
+static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *which)
+{
+	char name[64], text[32];
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		if (strcmp(answer(e), which))
+			continue;
+		duration(e->saves, text);
+		fprintf(out, "# %-18s %-6s %s", label(e->effect, name), answer(e), e->decision.text);
+		lacking(out, e);
+		if (cost && !isnan(e->saves))
+			fprintf(out, "; saves %s a step", text);
+		fputc('\n', out);
+	}
+}
+
+void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
+{
+	stages(out, p, cost);
+	fprintf(out, "#\n# effects, for relative changes above %g within T = %g\n", p->scales.accuracy, p->scales.time);
+	effects(out, p, cost, "needed");
+	effects(out, p, cost, "on");
+	effects(out, p, cost, "off");
+}
+
+static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+
+void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
+{
+	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy), "time", number(p->scales.time), "stages",
+		"effects");
+	for (int i = 0; i < p->nstages; i++) {
+		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
+		if (cost)
+			json_object_set_new(s, "seconds", number(p->stage[i].seconds));
+		json_array_append_new(json_object_get(all, "stages"), s);
+	}
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",
+			number(e->decision.number), "share", number(e->decision.share), "by_hand", e->by_hand);
+		if (cost)
+			json_object_set_new(s, "saves", number(e->saves));
+		json_array_append_new(json_object_get(all, "effects"), s);
+	}
+	json_dumpf(all, out, JSON_SORT_KEYS | JSON_COMPACT);
+	fputc('\n', out);
+	json_decref(all);
+}
+
+void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof)
+{
+	char name[64], text[32], of[PM_NAME];
+	fprintf(out, "%-18s %-6s %10s  %-12s %s\n", "effect", "plan", "difference", "of", "verdict");
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		snprintf(text, sizeof text, !proof[i].tried ? "-" : proof[i].difference > 1 ? "> 1" : "%.2g", proof[i].difference);
+		snprintf(of, sizeof of, "%s", proof[i].tried ? proof[i].of : "-");
+		fprintf(out, "%-18s %-6s %10s  %-12s %s\n", label(e->effect, name), answer(e), text, of,
+			proof[i].tried ? proof[i].verdict : e->lacking ? "no word for it yet" : e->effect->word && !pm_tool_find(e->effect->word) ? "no word" : "nothing to compare");
+	}
+	fprintf(out, "# relative to a run of T = %g, from %d steps; above %g it matters\n", p->scales.time, steps, p->scales.accuracy);
+}

@@ -1,0 +1,116 @@
+/* Scheme and step of a plan, by the measured atlas: what is fastest in the frame (an orbit, the plasma frequency, vorticity, an encounter) is put in the place of the
+ * problem that was measured. Errors are taken to grow in proportion to time,
+ * on orbits by its square where the scheme does not keep energy. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "planner/atlas.h"
+#include "mesh/gradient.h"
+#include "planner/plan.h"
+#include "step/step.h"
+
+struct clock {
+	const char *problem;
+	double omega;        /* [1/time] */
+	double eccentricity; /* kepler: between the circle and 0.9; else NAN */
+	bool steady;         /* it stays what it is, so that steps may be longer than the frame's */
+	const char *what;
+};
+
+static double at_error(const char *problem, const char *scheme, const struct clock *c, const struct pm_scales *s)
+{
+	double grown = fmax(1, c->omega * s->time / pm_atlas_time(problem));
+	if (!strncmp(problem, "kepler", 6) && strcmp(scheme, "kdk"))
+		grown *= grown; /* what loses energy on an orbit runs ahead ever faster */
+	return pm_atlas_longest(problem, scheme, s->accuracy / grown);
+}
+
+/* [time] longest step of a scheme. Orbits: by the frequency at the pericentre, log dt between those of the circle and of e = 0.9. */
+static double longest(const struct clock *c, const char *scheme, const struct pm_scales *s)
+{
+	if (isnan(c->eccentricity))
+		return at_error(c->problem, scheme, c, s) / c->omega;
+	const double e = c->eccentricity, w = log((1 + e) / pow(1 - e, 3)) / log(1.9 / 0.001);
+	const double circle = at_error("kepler-circle", scheme, c, s), ellipse = at_error("kepler", scheme, c, s);
+	return circle * pow(ellipse / circle, w) / c->omega;
+}
+
+static struct clock clock_of(const struct pm_plan *p)
+{
+	const struct pm_scales *s = &p->scales;
+	if (s->kind == PM_VORTICES && s->pairs)
+		return (struct clock){"kepler-circle", fmax(s->encounter, s->self_max / s->spread), NAN, s->n < 64, "the nearest pair"};
+	if (s->kind == PM_VORTICES)
+		return (struct clock){"vortex-patch", s->omega, NAN, true, "the vorticity"};
+	if (s->kind == PM_CHARGES && s->cyclotron * s->time > s->accuracy && (s->cyclotron > s->omega || s->sources < 2))
+		return (struct clock){"gyration", s->cyclotron, NAN, true, "the gyration"};
+	if (s->pairs && !isnan(s->orbit))
+		return (struct clock){"kepler", s->orbit, s->eccentricity, true, "the orbit"};
+	if (s->pairs)
+		return (struct clock){"langmuir", fmax(s->omega, sqrt(s->self_max / s->spread)), NAN, false, "orbits"};
+	return (struct clock){"langmuir", s->omega, NAN, s->kind == PM_CHARGES, s->kind == PM_CHARGES ? "omega_p" : "orbits"};
+}
+
+/* The cheapest scheme and its longest step. */
+static double cheapest(struct pm_plan *p, const struct clock *c)
+{
+	static const char *const second[] = {"kdk", "rk4", "lsrk3", NULL}, *const first[] = {"lsrk3", "rk4", NULL}, *const magnetic[] = {"boris", NULL};
+	const struct pm_scales *s = &p->scales;
+	const bool turns = s->cyclotron * s->time > s->accuracy, field = s->kind == PM_VORTICES && !s->pairs;
+	double least = HUGE_VAL, dt = NAN;
+	for (const char *const *name = turns ? magnetic : s->second ? second : first; *name; name++) {
+		const char *word = !strcmp(*name, "kdk") || !strcmp(*name, "boris") ? "leapfrog" : *name;
+		const struct pm_step *step = strcmp(word, "leapfrog") ? pm_step_find(word) : NULL;
+		const double here = longest(c, turns && strcmp(c->problem, "gyration") ? "kdk" : *name, s), cost = (step ? step->passes : 1) / here;
+		const bool steady = c->steady || !strcmp(word, "leapfrog") || !s->second;
+		if (here > 0 && steady && cost < (least < HUGE_VAL ? 0.8 : 1) * least && (!field || !strcmp(word, "lsrk3")))
+			least = cost, dt = here, p->method.scheme = word;
+	}
+	return dt;
+}
+
+/* Of vortices on a mesh: particles must not cross, and viscosity must be stable. */
+static double bounded(const struct pm_frame *f, const struct pm_plan *p, double dt, const char **what)
+{
+	const struct pm_scales *s = &p->scales;
+	const double strain = 4 * sqrt(s->accuracy) / s->strain;
+	double viscous = HUGE_VAL;
+	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
+		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
+	if (s->pairs && s->second && isnan(s->orbit) && dt > 0.5 / s->encounter) /* a quarter of where leapfrog is unstable */
+		*what = "encounters", dt = 0.5 / s->encounter;
+	if (s->kind != PM_VORTICES || s->pairs)
+		return dt;
+	for (double fastest = 0; s->nu > 0 && fastest == 0;) {
+		struct pm_operator lap;
+		const struct pm_grid g = pm_grid_of(f, f->meshes[0]);
+		if (pm_operator_init(&lap, &g, PM_OP_LAP, pm_order_find(p->law->order), 1, false))
+			break;
+		fastest = pm_operator_fastest(&lap);
+		viscous = 0.9 * pm_step_find(p->method.scheme)->real_limit / (s->nu * fastest);
+	}
+	if (strain < dt)
+		*what = "the strain";
+	if (viscous < fmin(dt, strain))
+		*what = "stable diffusion";
+	return fmin(dt, fmin(strain, viscous));
+}
+
+void pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
+{
+	struct pm_method *m = &p->method;
+	struct pm_scales *s = &p->scales;
+	struct clock c = clock_of(p);
+	const char *what = c.what;
+	double allowed = c.omega > 0 ? cheapest(p, &c) : NAN;
+	allowed = bounded(f, p, isnan(allowed) ? HUGE_VAL : allowed, &what);
+	const double dt = fabs(f->dt), back = f->dt < 0 ? -1 : 1;
+	if (!isfinite(allowed)) {
+		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame", m->scheme, f->dt);
+	} else if (dt > 0 && allowed > 0.9 * dt && (allowed < 1.25 * dt || !c.steady)) {
+		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g would do for %.1g by %s", m->scheme, f->dt, allowed, s->accuracy, what);
+	} else {
+		m->dt = back * s->time / ceil(s->time / allowed - 1e-9);
+		s->dt = m->dt;
+		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g: for %.1g by %s", m->scheme, m->dt, s->accuracy, what);
+	}
+}

@@ -1,0 +1,89 @@
+/* Plans: the sentence that a frame calls for, word by word with its reason; what it costs; and the proof that no effect was left out or put in wrongly.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PLANNER_PLAN_H
+#define PM_PLANNER_PLAN_H
+
+#include "effect/effect.h"
+#include "law/law.h"
+#include "stage/stage.h"
+
+enum { PM_PLAN_WORDS = 16, PM_PLAN_EFFECTS = 24, PM_PLAN_TEXT = 2048 };
+
+struct pm_plan_choice { /* what the user asked for */
+	double accuracy, time;  /* [time] when the run is to end; NAN: after a hundred steps of the frame */
+	struct pm_list on, off; /* effects decided by hand */
+	bool cost;              /* measure seconds */
+};
+
+struct pm_method { /* how the effects that are put in are computed */
+	bool pairs, grow;      /* grow: the mesh follows particles that leave it */
+	const char *kernel, *symbol, *order, *scheme; /* symbol NULL: the law's */
+	size_t cells[3];       /* 0: as the mesh of the frame */
+	double dt;             /* NAN: the frame's */
+	char why_far[160], why_mesh[160], why_step[160];
+};
+
+struct pm_plan_word {
+	char words[160], reason[320];
+	double seconds; /* of a step; NAN: not measured */
+};
+
+struct pm_plan_effect {
+	const struct pm_effect *effect;
+	struct pm_decision decision;
+	bool by_hand, lacking; /* lacking: needed, and there is no word for it yet */
+	double saves;          /* seconds of a step that leaving it out saves; NAN: not measured */
+};
+
+struct pm_plan {
+	const struct pm_law *law;
+	struct pm_scales scales;
+	struct pm_method method;
+	int neffects, nstages;
+	struct pm_plan_effect effect[PM_PLAN_EFFECTS];
+	struct pm_plan_word stage[PM_PLAN_WORDS];
+	char sentence[PM_PLAN_TEXT];
+	double force; /* seconds that the force of the frame took */
+};
+
+/* Of a frame whose data are all held. 0 or failure. */
+int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p);
+/* The sentence alone; and the one that cycle left in the history of a checkpoint. */
+int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);
+int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);
+/* Is an effect, by its entry's name, put in? */
+bool pm_plan_has(const struct pm_plan *p, const char *effect);
+
+/* plan-compose.c: stages and sentence from the decisions and the method. */
+int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
+/* The mesh that holds given fields (E, B, u); NULL none. */
+const struct pm_mesh *pm_plan_given(const struct pm_frame *f, const struct pm_law *law);
+/* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
+void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
+void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
+void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
+
+/* plan-run.c: runs a sentence for so many full steps on a copy of a frame. seconds, if not NULL: of each word in the last step, without set-up. */
+struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds);
+/* The words that make fields from state, once. */
+struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence);
+struct pm_frame *pm_plan_bare(const struct pm_frame *f); /* a copy without change and derived fields */
+
+/* plan-check.c: every effect that can be left out or put in, for so many steps. */
+struct pm_plan_proof {
+	bool tried;        /* it could be expressed */
+	double difference; /* relative, of a run of scales.time */
+	const char *of;    /* what differs: "x", "v", "circulation", "omega" */
+	const char *verdict;
+	bool wrong;
+};
+int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_PLAN_EFFECTS]);
+/* What leaving out each effect that could be put in saves, from a step with it; after the stages were measured. */
+int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
+
+/* plan-print.c */
+void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);
+void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost);
+void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof);
+
+#endif

@@ -1,0 +1,306 @@
+/* Scales of a frame: speeds and their spread, the frequency of the particles together, Debye length, distances, what is given on meshes, strain and roughness of
+ * the field. omega^2 = |c| sum q^2/m over the volume V, c that of lap phi = c rho (masses: |c| M/V); V is the box where it is periodic, else the ball that has
+ * the same rms radius. Source: Birdsall and Langdon 1985, section 1-2; the definitions. Cost N, and N^2/2 below PM_SCALES_PAIRS particles; no clock,
+ * sums in a fixed order. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/timestep.h"
+#include "planner/scales.h"
+#include "remesh/distortion.h"
+#include "mesh/gradient.h"
+
+static double at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
+
+static const struct pm_field *state(const struct pm_frame *f, const char *on, const char *name)
+{
+	const struct pm_field *field = name ? pm_frame_field(f, on, name) : NULL;
+	return field && field->role == PM_STATE && (field->type == PM_F64 || field->type == PM_F32) ? field : NULL;
+}
+
+static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const struct pm_set *set)
+{
+	return state(f, set->name, "x") && (pm_set_moves(f, set) || state(f, set->name, law->strength));
+}
+
+/* ---- speeds ---- */
+
+static void speeds(const struct pm_frame *f, struct pm_scales *s)
+{
+	struct pm_sum sum[3] = {{0, 0}}, square = {0, 0};
+	double n = 0, mean = 0;
+	for (size_t k = 0; k < f->nsets; k++) {
+		const struct pm_field *v = pm_set_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
+		for (size_t i = 0; v && i < v->count; i++) {
+			double v2 = 0;
+			for (int c = 0; c < v->components && c < 3; c++) {
+				v2 += at(v, c, i) * at(v, c, i);
+				pm_sum_add(&sum[c], at(v, c, i));
+			}
+			s->v_max = fmax(s->v_max, sqrt(v2));
+			pm_sum_add(&square, v2);
+		}
+		n += v ? (double)v->count : 0;
+		s->second = s->second || v;
+	}
+	for (int c = 0; c < 3 && n > 0; c++)
+		mean += pow(pm_sum_total(sum[c]) / n, 2);
+	s->v_rms = n > 0 ? sqrt(pm_sum_total(square) / n) : 0;
+	s->v_thermal = sqrt(fmax(0, s->v_rms * s->v_rms - mean));
+}
+
+/* ---- distances ---- */
+
+/* Of the particles that take part, in one array. */
+static size_t places(const struct pm_frame *f, const struct pm_law *law, size_t most, double *x[3])
+{
+	size_t n = 0;
+	for (size_t k = 0; k < f->nsets; k++) {
+		const struct pm_field *p = takes_part(f, law, f->sets[k]) ? state(f, f->sets[k]->name, "x") : NULL;
+		for (size_t i = 0; p && i < p->count && n < most; i++, n++)
+			for (int d = 0; d < f->dim; d++)
+				x[d][n] = at(p, d, i);
+	}
+	return n;
+}
+
+static double wrapped(const struct pm_frame *f, int d, double x)
+{
+	const double side = f->hi[d] - f->lo[d];
+	return f->face[d][0] == PM_PERIODIC ? x - side * floor(x / side + 0.5) : x;
+}
+
+static double nearest(const struct pm_frame *f, size_t n, double *const x[3])
+{
+	double least = HUGE_VAL;
+#pragma omp parallel for schedule(static) reduction(min : least) if (n > 200)
+	for (size_t i = 0; i < n; i++)
+		for (size_t j = 0; j < i; j++) {
+			double r2 = 0;
+			for (int d = 0; d < f->dim; d++)
+				r2 += pow(wrapped(f, d, x[d][i] - x[d][j]), 2);
+			least = fmin(least, r2);
+		}
+	return sqrt(least);
+}
+
+static double volume(const struct pm_frame *f, double spread)
+{
+	const double radius = spread * sqrt((f->dim + 2.0) / f->dim), ball[4] = {0, 2, pm_pi, 4 * pm_pi / 3};
+	double box = 1;
+	for (int d = 0; d < f->dim; d++)
+		box *= f->hi[d] - f->lo[d];
+	return f->face[0][0] == PM_PERIODIC || !(spread > 0) ? box : fmin(box, ball[f->dim] * pow(radius, f->dim));
+}
+
+static int distances(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
+{
+	double *x[3] = {NULL}, moment = 0;
+	size_t most = 0;
+	for (size_t k = 0; k < f->nsets; k++)
+		most += takes_part(f, law, f->sets[k]) ? (size_t)f->sets[k]->n : 0;
+	int status = 0;
+	for (int d = 0; d < f->dim && !status; d++)
+		status = (x[d] = pm_alloc(most + 1, sizeof *x[d])) ? 0 : -PM_DATA;
+	const size_t n = status ? 0 : places(f, law, most, x);
+	for (int d = 0; d < f->dim && n; d++) {
+		struct pm_sum square = {0, 0};
+		const double mean = pm_sum_array(n, x[d]) / (double)n;
+		for (size_t i = 0; i < n; i++)
+			pm_sum_add(&square, (x[d][i] - mean) * (x[d][i] - mean));
+		moment += pm_sum_total(square) / (double)n;
+	}
+	s->edge = HUGE_VAL;
+	for (int k = 0; k < 2 * f->dim; k++)
+		for (size_t i = 0; i < n && f->face[k / 2][k % 2] == PM_OPEN; i++)
+			s->edge = fmin(s->edge, k % 2 ? f->hi[k / 2] - x[k / 2][i] : x[k / 2][i] - f->lo[k / 2]);
+	s->spread = sqrt(moment);
+	s->spacing = n ? pow(volume(f, s->spread) / (double)n, 1.0 / f->dim) : NAN;
+	s->nearest = n > 1 && n <= PM_SCALES_PAIRS && !status ? nearest(f, n, x) : s->spacing * pow(fmax(1, (double)n), -1.0 / f->dim);
+	for (int d = 0; d < f->dim; d++)
+		pm_free(x[d]);
+	return status;
+}
+
+/* ---- what they do together ---- */
+
+static void strengths(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
+{
+	const bool squares = law->per != NULL, turns = s->kind == PM_VORTICES;
+	const double V = volume(f, s->spread);
+	double sum = 0, dense = 0, largest_pull = 0;
+	for (size_t k = 0; k < f->nsets && law->strength; k++) {
+		const char *set = f->sets[k]->name;
+		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL, *v = turns ? state(f, set, "volume") : NULL;
+		for (size_t i = 0; q && i < q->count; i++) {
+			const double a = fabs(at(q, 0, i));
+			s->sources += a > 0;
+			sum += squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a;
+			dense = v && at(v, 0, i) > 0 ? fmax(dense, a / at(v, 0, i)) : dense;
+			largest_pull = fmax(largest_pull, squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a);
+			s->ratio = fmax(s->ratio, m && at(m, 0, i) > 0 ? a / at(m, 0, i) : squares ? 0 : 1);
+		}
+	}
+	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	s->omega = turns ? fmax(dense, sum / V) : sqrt(c * sum / V);
+	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
+	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
+	const double lambda = s->v_thermal / s->omega, ball[4] = {0, 1, pm_pi, 4 * pm_pi / 3};
+	s->debye = s->omega > 0 ? lambda : NAN;
+	s->per_debye = s->omega > 0 ? s->n / V * ball[f->dim] * pow(lambda, f->dim) : NAN;
+}
+
+/* Largest length of a field of state on a mesh; NAN if there is none. */
+static double largest(const struct pm_frame *f, const char *name)
+{
+	double most = NAN;
+	for (size_t k = 0; k < f->nmeshes; k++) {
+		const struct pm_field *y = state(f, f->meshes[k]->name, name);
+		for (size_t i = 0; y && i < (y->uniform ? 1 : y->count); i++) {
+			double here = 0;
+			for (int c = 0; c < y->components; c++)
+				here += at(y, c, i) * at(y, c, i);
+			most = fmax(most, sqrt(here));
+		}
+	}
+	return most;
+}
+
+int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H)
+{
+	const struct pm_field *x = state(f, set, "x"), *v = state(f, set, "volume");
+	const struct pm_grid g = pm_grid_of(f, m);
+	const double *place[3] = {NULL};
+	double *volumes = pm_alloc(x->count + 1, sizeof *volumes);
+	for (int d = 0; d < f->dim; d++)
+		place[d] = pm_in(x, d);
+	for (size_t i = 0; volumes && i < x->count; i++)
+		volumes[i] = v ? at(v, 0, i) : pm_grid_cell(&g);
+	int status = volumes ? pm_overlap(&g, x->count, place, volumes, H) : -PM_DATA;
+	pm_free(volumes);
+	return status;
+}
+
+/* The mean of |H - 1| over sets with a volume. */
+static int coverage(const struct pm_frame *f, struct pm_scales *s)
+{
+	double sum = 0, n = 0, width = 0;
+	for (size_t k = 0; k < f->nsets && f->nmeshes; k++) {
+		const struct pm_set *set = f->sets[k];
+		const struct pm_field *v = state(f, set->name, "volume");
+		if (!pm_set_moves(f, set) || !v || !set->n)
+			continue;
+		double *H = pm_alloc(set->n, sizeof *H);
+		int status = H ? pm_scales_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
+		for (size_t i = 0; i < set->n && !status; i++)
+			sum += fabs(H[i] - 1), width += pow(fabs(at(v, 0, i)), 1.0 / f->dim);
+		n += (double)set->n;
+		pm_free(H);
+		if (status)
+			return status;
+	}
+	s->overlap = n > 0 ? sum / n : NAN;
+	s->width = n > 0 ? width / n : NAN;
+	return 0;
+}
+
+static void geometry(const struct pm_frame *f, struct pm_scales *s)
+{
+	s->h = s->points = NAN;
+	s->box = HUGE_VAL;
+	for (int d = 0; d < f->dim; d++) {
+		s->box = fmin(s->box, f->hi[d] - f->lo[d]);
+		for (int side = 0; side < 2; side++) {
+			s->periodic = s->periodic || f->face[d][side] == PM_PERIODIC;
+			s->open = s->open || f->face[d][side] == PM_OPEN;
+			s->walls = s->walls || (f->face[d][side] != PM_PERIODIC && f->face[d][side] != PM_OPEN);
+		}
+	}
+	if (!f->nmeshes)
+		return;
+	size_t points[3];
+	s->points = (double)pm_mesh_points(f, f->meshes[0], points);
+	s->h = 0;
+	for (int d = 0; d < f->dim; d++)
+		s->h = fmax(s->h, f->meshes[0]->h[d]);
+}
+
+int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
+{
+	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN, .rough = NAN,
+		.length = NAN, .mesh_error = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN, .width = NAN};
+	s->kind = !law->field ? PM_NO_FIELD : !law->strength ? PM_CARRIED : law->of_potential == PM_CURL ? PM_VORTICES : law->per ? PM_CHARGES : PM_MASSES;
+	s->softening = pm_frame_constant(f, "softening", 0);
+	s->nu = pm_frame_constant(f, "nu", 0);
+	s->c = pm_frame_constant(f, "c", NAN);
+	for (size_t k = 0; k < f->nsets; k++)
+		s->n += pm_set_moves(f, f->sets[k]) ? (double)f->sets[k]->n : 0;
+	geometry(f, s);
+	speeds(f, s);
+	int status = distances(f, law, s);
+	strengths(f, law, s);
+	const double field = largest(f, law->field), B = largest(f, law->magnetic);
+	s->given = law->per ? field * s->ratio : field;
+	s->cyclotron = B * s->ratio;
+	pm_scales_orbits(f, law, s);
+	return status || s->kind != PM_VORTICES ? status : coverage(f, s);
+}
+
+/* ---- of the force ---- */
+
+static double length_of(const struct pm_grid *g, int components, const double *const y[], double mean)
+{
+	struct pm_sum sum = {0, 0};
+	for (int c = 0; c < components; c++)
+		for (size_t i = 0; i < pm_grid_size(g); i++)
+			pm_sum_add(&sum, (y[c][i] - mean) * (y[c][i] - mean));
+	return sqrt(pm_sum_total(sum));
+}
+
+static int roughness(const struct pm_grid *g, const double *density, double size, double *rough)
+{
+	struct pm_operator lap;
+	double *out = pm_alloc(pm_grid_size(g), sizeof *out);
+	int status = out ? pm_operator_init(&lap, g, PM_OP_LAP, 4, 1, false) : -PM_DATA;
+	if (!status)
+		status = pm_operator_apply(&lap, 1, &density, &out, NULL);
+	*rough = status ? NAN : length_of(g, 1, (const double *const *)&out, 0) / size;
+	pm_free(out);
+	return status;
+}
+
+static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const struct pm_mesh *m, struct pm_scales *s)
+{
+	const struct pm_field *rho = pm_frame_field(f, m->name, law->density), *field = pm_frame_field(f, m->name, law->field);
+	const struct pm_grid g = pm_grid_of(f, m);
+	const double *y[PM_COMPONENTS], *r = rho ? pm_in(rho, 0) : NULL, c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	if (!rho || !field || field->role != PM_DERIVED)
+		return 0;
+	for (int k = 0; k < field->components; k++)
+		y[k] = pm_in(field, k);
+	const double mean = s->periodic ? pm_sum_array(rho->count, r) / (double)rho->count : 0, size = length_of(&g, 1, &r, mean);
+	s->length = length_of(&g, field->components, y, 0) / (c * size);
+	if (s->kind != PM_VORTICES)
+		return 0;
+	s->strain = pm_strain(&g, field->components, y);
+	return size > 0 ? roughness(&g, r, size, &s->rough) : 0;
+}
+
+int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
+{
+	struct pm_sum square = {0, 0};
+	double n = 0, most = 0;
+	for (size_t k = 0; k < f->nsets; k++) {
+		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
+		for (size_t i = 0; a && i < a->count; i++)
+			for (int c = 0; c < a->components; c++)
+				pm_sum_add(&square, at(a, c, i) * at(a, c, i));
+		most = a ? fmax(most, sqrt(pm_most(a, NULL))) : most;
+		n += a ? (double)a->count : 0;
+	}
+	s->self = n > 0 ? sqrt(pm_sum_total(square) / n) : 0;
+	s->self_max = most;
+	int status = 0;
+	for (size_t k = 0; k < f->nmeshes && !status; k++)
+		status = mesh_scales(f, law, f->meshes[k], s);
+	return status;
+}

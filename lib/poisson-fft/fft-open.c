@@ -1,0 +1,107 @@
+/* Open faces of the transform solver: which Green's function, what it cannot do, and its transform in the order of the solver's modes
+ * (fft-octant.c). An axis open at both ends is doubled; one open at one end has its images at the other first (odd at a wall, even at a neumann
+ * face), so sources reach over 2n cells and the length is 4n. Other axes keep their waves: to each the Green's function of lap - kappa^2 in the open
+ * ones. Source: Hockney and Eastwood 1988, 6-5-4; Chatelain and Koumoutsakos 2010 for mixtures.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "poisson-fft/fft-octant.h"
+#include "poisson-fft/fft-passes.h"
+
+extern const struct pm_green green_hockney, green_lattice;
+
+static bool open_line(const enum pm_face face[2]) { return face[0] == PM_OPEN || face[1] == PM_OPEN; }
+
+const struct pm_green *pm_poisson_fft_green_of(const struct pm_poisson_fft_choice *o)
+{
+	return o->green ? o->green : o->symbol == PM_SPECTRAL ? &green_hockney : &green_lattice;
+}
+
+/* The names of the methods that can, for a message. */
+static const char *able(int open, bool screened, bool differences, char *text, size_t size)
+{
+	size_t n = 0;
+	*text = 0;
+	for (int i = 0; pm_greens[i] && n < size; i++)
+		if (((screened ? pm_greens[i]->screened : pm_greens[i]->plain) >> open & 1) && pm_greens[i]->differences == differences)
+			n += (size_t)snprintf(text + n, size - n, "%s%s", n ? ", " : "", pm_green_names[i]);
+	return text;
+}
+
+int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
+{
+	const struct pm_green *green = pm_poisson_fft_green_of(o);
+	int open = 0;
+	char text[200];
+	for (int d = 0; d < g->dim; d++)
+		open += open_line(g->face[d]);
+	if (!open)
+		return o->green ? pm_fail(PM_DATA, "--green %s is for open faces, and there are none (leave it out)", o->green->name) : 0;
+	if (o->softening > 0 && !green->regular)
+		return pm_fail(PM_DATA, "--green %s has no softening (choose gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
+	bool screened = open < g->dim || o->screening > 0, differences = o->symbol != PM_SPECTRAL;
+	if (green->differences && !differences)
+		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, fd4 or fd6, or leave out one of --symbol and --green)", green->name);
+	if (!green->differences && differences)
+		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (leave out one of --symbol and --green)", green->name);
+	if (!((screened ? green->screened : green->plain) >> open & 1))
+		return pm_fail(PM_DATA, "--green %s does not take %d open of %d axes%s (choose %s)", green->name, open, g->dim,
+			o->screening > 0 ? " with --screening" : "", able(open, screened, differences, text, sizeof text));
+	return 0;
+}
+
+/* Row of frequencies in the octant for row number i of modes, in order. */
+static size_t row_of(const struct pm_transform *l, size_t i)
+{
+	bool whole = l->face[0] == PM_PERIODIC || (l->face[0] == PM_OPEN && l->face[1] == PM_OPEN);
+	return whole && i > l->length - i ? l->length - i : open_line(l->face) ? l->least + i : i;
+}
+
+static void axis(const struct pm_poisson_fft *p, int a, double h, struct pm_octant *o, double **lambda)
+{
+	const struct pm_transform *l = &p->line[a];
+	bool open = open_line(l->face);
+	int at = a == X ? 0 : a == Z ? 1 : 2; /* memory: y, z, x */
+	size_t n = open ? l->length / 2 : l->face[0] == PM_PERIODIC ? l->length / 2 + 1 : l->modes;
+	lambda[a] = open ? NULL : pm_poisson_fft_eigenvalues(l, n, n, false, p->choice.symbol, h);
+	o->axis[at].open = open;
+	o->axis[at].n = n;
+	o->axis[at].h = h;
+	o->axis[at].lambda = lambda[a];
+}
+
+int pm_poisson_fft_green(struct pm_poisson_fft *p)
+{
+	const struct pm_grid *g = &p->grid;
+	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
+	struct pm_octant o = {.green = pm_poisson_fft_green_of(&p->choice), .symbol = p->choice.symbol, .screen2 = p->choice.screening * p->choice.screening};
+	double *lambda[3] = {NULL, NULL, NULL};
+	bool fine = true;
+	for (int a = X; a <= Z; a++) {
+		axis(p, a, h[a], &o, lambda);
+		fine = fine && (lambda[a] || open_line(p->line[a].face));
+	}
+	for (int d = 0; d < g->dim; d++)
+		o.width = fmax(o.width, open_line(g->face[d]) ? 2 * g->h[d] : 0); /* Hejlesen et al. 2013 */
+	if (p->choice.softening > 0)
+		o.width = p->choice.softening / sqrt(2);
+	o.rows = p->chunks * (p->complex ? H : L);
+	o.row = (o.rows + L - 1) / L * L;
+	o.map = pm_alloc(o.rows, sizeof *o.map);
+	p->fold = pm_alloc(p->modes[Y], sizeof *p->fold);
+	fine = fine && o.map && p->fold;
+	for (size_t i = 0; fine && i < o.rows; i++)
+		o.map[i] = i < p->modes[X] ? row_of(&p->line[X], i) : (size_t)-1;
+	for (size_t i = 0; fine && i < p->modes[Y]; i++)
+		p->fold[p->complex ? p->line[Y].fft->at[i] : i] = row_of(&p->line[Y], i);
+	if (fine && (p->green = pm_octant_spectrum(&o, &p->planner))) {
+		p->green_row = o.row;
+		p->green_slab = o.row * o.axis[1].size;
+		p->green_least = row_of(&p->line[Z], 0);
+	}
+	pm_free(o.map);
+	for (int a = X; a <= Z; a++)
+		pm_free(lambda[a]);
+	return p->green ? 0 : -PM_DATA;
+}

@@ -1,0 +1,339 @@
+/* The passes of the transform solver over its work array: planes forward (rows, then columns while the plane is in cache), pencils forward, times the
+ * symbol, and back, planes back. A block of L lines at a time is transformed in cache (fft/fft-block.h); the modes of complex axes stay in the
+ * order in which the transform leaves them. The partition does not depend on threads.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include <string.h>
+
+#include "poisson-fft/fft-passes.h"
+
+/* n rows of L doubles, stride doubles apart, to and from a block. */
+static void gather(const double *restrict from, size_t stride, size_t n, double *restrict block)
+{
+	for (size_t i = 0; i < n; i++)
+		for (int q = 0; q < L; q++)
+			block[i * L + q] = from[i * stride + q];
+}
+
+static void scatter(const double *restrict block, size_t n, size_t stride, double *restrict to)
+{
+	for (size_t i = 0; i < n; i++)
+		for (int q = 0; q < L; q++)
+			to[i * stride + q] = block[i * L + q];
+}
+
+/* What leaves for memory: past the caches if the mesh is larger than they are. */
+static void copy_out(const struct pm_poisson_fft *p, double *to, const double *from, size_t n)
+{
+	if (p->streams)
+		pm_stream(to, from, n);
+	else
+		memcpy(to, from, n * sizeof *to);
+}
+
+/* Scratch of a thread. Memory is read and written in long pieces; the rest happens in cache. */
+struct scratch {
+	double *block, *rows, *modes;
+};
+
+static struct scratch thread_scratch(const struct pm_poisson_fft *p)
+{
+	double *s = p->scratch + (size_t)omp_get_thread_num() * p->lot;
+	return (struct scratch){s, s + p->block, s + p->block + p->rows};
+}
+
+/* A slab is what one thread transforms at a time: a plane, or L single rows where planes are that thin. */
+static bool thick(const struct pm_poisson_fft *p)
+{
+	return p->line[Y].length > 1;
+}
+
+/* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk. */
+struct group {
+	size_t j, k, rows, dj, dk;
+};
+
+static struct group group_of(const struct pm_poisson_fft *p, size_t slab, size_t start)
+{
+	bool plane = thick(p);
+	struct group g = {.j = plane ? start : 0, .k = plane ? slab : slab * L, .dj = plane, .dk = !plane};
+	size_t left = plane ? p->nodes[Y] - g.j : p->nodes[Z] - g.k;
+	g.rows = left < L ? left : L;
+	return g;
+}
+
+static double end_weight(const struct pm_transform *l, size_t i)
+{
+	return (l->face[0] == PM_OPEN && i == 0) || (l->face[1] == PM_OPEN && i == l->n) ? 0.5 : 1;
+}
+
+/* At open faces the end nodes weigh half, as in every sum over a mesh. */
+static void weigh(const struct pm_poisson_fft *p, const struct group *g, double *block)
+{
+	const struct pm_transform *l = &p->line[X];
+	double weight[L], least = 1;
+	for (size_t r = 0; r < L; r++) {
+		size_t j = p->line[Y].first + g->j + r * g->dj, k = p->line[Z].first + g->k + r * g->dk;
+		weight[r] = end_weight(&p->line[Y], j) * end_weight(&p->line[Z], k);
+		least = weight[r] < least ? weight[r] : least;
+	}
+	for (size_t i = 0; i < l->count; i++)
+		for (int q = 0; q < L && (least < 1 || i == 0 || i == l->count - 1); q++)
+			block[(l->row + i) * L + (size_t)q] *= weight[q] * end_weight(l, l->first + i);
+}
+
+/* Of the nodes of a block; one accumulator per lane. */
+static double largest_of(const double *block, size_t n)
+{
+	double most[L] = {0}, all = 0;
+	for (size_t i = 0; i < n; i++)
+		for (int q = 0; q < L; q++)
+			most[q] = fabs(block[i * L + (size_t)q]) > most[q] ? fabs(block[i * L + (size_t)q]) : most[q];
+	for (int q = 0; q < L; q++)
+		all = most[q] > all ? most[q] : all;
+	return all;
+}
+
+/* Nodes to modes; to: L rows of modes. Returns the largest source of a singular problem. */
+static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, double *to)
+{
+	const struct pm_transform *l = &p->line[X];
+	const double *in[L];
+	double *out[L];
+	for (size_t r = 0; r < g->rows; r++) {
+		double *row = s.rows + r * p->nodes[X];
+		const double *from = io->from(io, g->j + r * g->dj, g->k + r * g->dk, row);
+		if (from != row)
+			memcpy(row, from, p->nodes[X] * sizeof *row);
+		in[r] = row, out[r] = to + r * p->row;
+	}
+	pm_fft_rows_in(in, g->rows, p->nodes[X], NULL, s.block + l->row * L);
+	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
+	if (p->open)
+		weigh(p, g, s.block);
+	if (p->complex) {
+		pm_transform_forward(l, false, s.block);
+		pm_spectra_out(l->fft, s.block, g->rows, out);
+		return largest;
+	}
+	pm_transform_real(l, s.block);
+	pm_fft_rows_out(s.block, l->map, p->modes[X], g->rows, out);
+	for (size_t r = 0; r < g->rows; r++)
+		memset(out[r] + p->modes[X], 0, (p->chunks * L - p->modes[X]) * sizeof *to);
+	return largest;
+}
+
+static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
+{
+	const struct pm_transform *l = &p->line[X];
+	const double *in[L];
+	double *out[L];
+	for (size_t r = 0; r < g->rows; r++)
+		in[r] = from + r * p->row, out[r] = s.rows + r * p->nodes[X];
+	if (p->complex) {
+		pm_spectra_in(l->fft, g->rows, in, s.block);
+		pm_fft_backward(l->fft, s.block);
+	} else {
+		pm_fft_rows_in(in, g->rows, p->modes[X], l->map, s.block);
+		pm_transform_real_back(l, s.block);
+	}
+	pm_fft_rows_out(s.block + l->row * L, NULL, p->nodes[X], g->rows, out);
+	for (size_t r = 0; r < g->rows; r++)
+		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
+}
+
+/* n rows of a block, as at[] has them, from and to memory. */
+static void gather_real(const double *from, size_t stride, const size_t *at, size_t n, double *block)
+{
+	for (size_t i = 0; i < n; i++)
+		memcpy(block + at[i] * L, from + i * stride, L * sizeof *block);
+}
+
+static void scatter_real(const double *block, const size_t *at, size_t n, size_t stride, double *to)
+{
+	for (size_t i = 0; i < n; i++)
+		memcpy(to + i * stride, block + at[i] * L, L * sizeof *to);
+}
+
+/* Columns of a plane: L lanes at a time. Real modes are put in order, complex ones stay as they come. */
+static void columns(const struct pm_poisson_fft *p, double *plane, bool forward, double *block)
+{
+	const struct pm_transform *l = &p->line[Y];
+	for (size_t c = 0; c < p->chunks; c++, plane += L) {
+		if (forward)
+			gather(plane, p->row, p->nodes[Y], block + l->row * L);
+		else if (p->complex)
+			gather(plane, p->row, p->modes[Y], block);
+		else
+			gather_real(plane, p->row, l->map, p->modes[Y], block);
+		if (!p->complex && forward) {
+			pm_transform_real(l, block);
+			scatter_real(block, l->map, p->modes[Y], p->row, plane);
+		} else if (forward) {
+			pm_transform_forward(l, false, block);
+			scatter(block, p->modes[Y], p->row, plane);
+		} else {
+			(p->complex ? pm_transform_backward : pm_transform_real_back)(l, block);
+			scatter(block + l->row * L, p->nodes[Y], p->row, plane);
+		}
+	}
+}
+
+static double plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+{
+	double largest = 0;
+	for (size_t j = 0; j < p->nodes[Y]; j += L) {
+		struct group g = group_of(p, k, j);
+		largest = fmax(largest, rows_forward(p, io, &g, s, s.modes + j * p->row));
+	}
+	columns(p, s.modes, true, s.block);
+	for (size_t j = 0; j < p->modes[Y]; j++)
+		copy_out(p, p->w + (j * p->nodes[Z] + k) * p->row, s.modes + j * p->row, p->chunks * L);
+	return largest;
+}
+
+static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+{
+	for (size_t j = 0; j < p->modes[Y]; j++)
+		memcpy(s.modes + j * p->row, p->w + (j * p->nodes[Z] + k) * p->row, p->chunks * L * sizeof *p->w);
+	columns(p, s.modes, false, s.block);
+	for (size_t j = 0; j < p->nodes[Y]; j += L) {
+		struct group g = group_of(p, k, j);
+		rows_backward(p, io, &g, s, s.modes + j * p->row);
+	}
+}
+
+double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
+{
+	double largest = 0;
+	bool plane = thick(p);
+	size_t slabs = plane ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L;
+#pragma omp parallel for schedule(dynamic) num_threads(p->threads) reduction(max : largest)
+	for (size_t i = 0; i < slabs; i++) {
+		struct scratch s = thread_scratch(p);
+		struct group g = group_of(p, i, 0);
+		if (plane && forward)
+			largest = fmax(largest, plane_forward(p, io, i, s));
+		else if (plane)
+			plane_backward(p, io, i, s);
+		else if (forward)
+			largest = fmax(largest, rows_forward(p, io, &g, s, p->w + g.k * p->row));
+		else
+			rows_backward(p, io, &g, s, p->w + g.k * p->row);
+		pm_stream_end();
+	}
+	return largest;
+}
+
+/* What multiplies frequency k of a pencil in row j of a plane: factor over the sum of eigenvalues, or times Green's function. lanes: complex modes
+ * of a chunk have H frequencies along x, real ones L. */
+static inline void multiplier(const struct pm_poisson_fft *p, size_t j, size_t k, size_t c, size_t lanes, double factor, double *u)
+{
+	if (p->green) {
+		const double *green = p->green + p->fold[j] * p->green_slab + (k + p->green_least) * p->green_row + c * lanes;
+		for (size_t q = 0; q < lanes; q++)
+			u[q] = factor * green[q];
+		return;
+	}
+	const double *lx = p->lambda[X] + c * lanes, rest = p->lambda[Y][j] + p->lambda[Z][k];
+	for (size_t q = 0; q < lanes; q++)
+		u[q] = factor / (lx[q] + rest);
+	if (p->singular && j == 0 && k == 0 && c == 0)
+		u[0] = 0;
+}
+
+static void times(const double *u, double *a)
+{
+	for (int q = 0; q < H; q++)
+		a[q] *= u[q], a[q + H] *= u[q];
+}
+
+/* Frequencies k and k' of lines whose multipliers differ between a and b: with u on a and v on b F'_k = (u+v)/2 F_k + (u-v)/2 conj F_k'. */
+static void pair_times(const double *u, double *a, double *b)
+{
+	for (int q = 0; q < H; q++) {
+		double s = 0.5 * (u[q] + u[q + H]), d = 0.5 * (u[q] - u[q + H]);
+		double ar = a[q], ai = a[q + H], br = b[q], bi = b[q + H];
+		a[q] = s * ar + d * br, a[q + H] = s * ai - d * bi;
+		b[q] = s * br + d * ar, b[q + H] = s * bi - d * ai;
+	}
+}
+
+static void complex_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+{
+	const struct pm_transform *l = &p->line[Z];
+	for (size_t k = 0; k <= l->length - k; k++) {
+		double u[H], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[pm_transform_partner(l, k)] * L;
+		multiplier(p, j, k, c, H, factor, u);
+		times(u, a);
+		if (a != b)
+			times(u, b);
+	}
+}
+
+static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+{
+	const struct pm_transform *l = &p->line[Z];
+	for (size_t m = 0; m < l->modes && l->least + m <= pm_transform_partner(l, l->least + m); m++) {
+		double u[L], *a = block + l->fft->at[l->least + m] * L, *b = block + l->fft->at[pm_transform_partner(l, l->least + m)] * L;
+		multiplier(p, j, m, c, L, factor, u);
+		if (a == b) /* F_0 and F_{N/2}: a and b are its real and imaginary parts */
+			for (int q = 0; q < L; q++)
+				a[q] *= u[q];
+		else
+			pair_times(u, a, b);
+	}
+	if (l->least) /* walls at both ends: no such modes */
+		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->length / 2] * L, 0, L * sizeof *block);
+}
+
+static void forward(const struct pm_transform *l, double *block)
+{
+	pm_transform_forward(l, false, block);
+}
+
+static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+{
+	const struct pm_transform *l = &p->line[Z];
+	for (size_t m = 0; m < l->modes; m++) {
+		double u[L], *a = block + l->map[m] * L;
+		multiplier(p, j, m, c, L, factor, u);
+		for (int q = 0; q < L; q++)
+			a[q] *= u[q];
+	}
+}
+
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at)
+{
+	const struct pm_transform *l = &p->line[Z];
+	gather(at, p->row, p->nodes[Z], block + l->row * L);
+	(l->fold ? pm_transform_real : forward)(l, block);
+	if (j == 0 && c == 0)
+		p->zero = block[0];
+	if (p->complex)
+		complex_pencils(p, j, c, factor, block);
+	else if (l->fold)
+		folded_pencils(p, j, c, factor, block);
+	else
+		real_pencils(p, j, c, factor, block);
+	(l->fold ? pm_transform_real_back : pm_transform_backward)(l, block);
+	scatter(block + l->row * L, p->nodes[Z], p->row, at);
+}
+
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor)
+{
+	bool plane = thick(p);
+	size_t slabs = plane ? p->modes[Y] : p->chunks, size = p->nodes[Z] * p->row;
+#pragma omp parallel for schedule(static) num_threads(p->threads)
+	for (size_t i = 0; i < slabs; i++) {
+		struct scratch s = thread_scratch(p);
+		if (!plane) {
+			pencils(p, 0, i, factor, s.block, p->w + i * L);
+			continue;
+		}
+		memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
+		for (size_t c = 0; c < p->chunks; c++)
+			pencils(p, i, c, factor, s.block, s.modes + c * L);
+		memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
+	}
+}

@@ -1,0 +1,54 @@
+/* The state of the transform solver and its passes over memory; private to lib/poisson-fft. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_POISSON_FFT_FFT_PASSES_H
+#define PM_POISSON_FFT_FFT_PASSES_H
+
+#include "fft/axis-transform.h"
+#include "mesh/grid.h"
+#include "poisson-fft/poisson-fft.h"
+
+enum { L = PM_FFT_LINES, H = PM_FFT_LINES / 2, X = 0, Y = 1, Z = 2 };
+
+struct pm_poisson_fft {
+	struct pm_grid grid;
+	struct pm_poisson_fft_choice choice;
+	struct pm_fft_plans planner;
+	bool complex, open;            /* every axis periodic or open: complex spectra of real rows; some face open */
+	bool singular, empty;          /* empty: a wall axis without inner nodes */
+	struct pm_transform line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
+	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
+	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */
+	size_t row;                    /* [doubles] stride of rows */
+	double *w;                     /* [modes[Y]][nodes[Z]][row]: a pencil's slab is in one piece, a plane's rows are not */
+	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
+	double *green;                 /* open: transform of the Green's function over open axes (fft-open.c) */
+	size_t green_row, green_slab;  /* [doubles] green[y][z][x], x in the order of the modes */
+	size_t *fold, green_least;     /* open: of each row of a plane of modes the row y of green; the row z of the first mode */
+	int threads;
+	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
+	double *scratch;
+	bool streams;                  /* w is larger than the caches */
+	double zero;                   /* the mode of constants, after the forward transform */
+};
+
+/* Where rows of nodes[X] values come from and go to: j, k count the nodes that take part. from may fill the buffer. */
+struct rows {
+	const struct pm_poisson_fft *p;
+	const double *s;
+	double *phi;
+	const double *(*from)(const struct rows *r, size_t j, size_t k, double *buffer);
+	double *(*to)(const struct rows *r, size_t j, size_t k);
+};
+
+/* Forward it returns the largest absolute source of a singular problem. */
+double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
+/* Forward along z, times factor/lambda or factor*green, and back. */
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor);
+
+/* Eigenvalues of the modes of an axis by the row they are in, -1 beyond up to size; NULL with a message. */
+double *pm_poisson_fft_eigenvalues(const struct pm_transform *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h);
+/* Of fft-open.c: fills green, with its strides; what cannot be done with a grid's open faces, 0 if there are none. */
+int pm_poisson_fft_green(struct pm_poisson_fft *p);
+int pm_poisson_fft_influence(struct pm_poisson_fft *p); /* of fft-influence.c: fills green for a periodic box */
+int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
+
+#endif

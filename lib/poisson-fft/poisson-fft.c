@@ -1,0 +1,193 @@
+/* Poisson's equation lap phi - K^2 phi = c*s by fast transforms: phi^ = c s^ / (lambda - K^2), lambda the sum over axes of the symbol of d2/dx2.
+ * Faces, in any mixture: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), a wall opposite a neumann face (quarter waves), open: the convolution
+ * with a Green's function of the open axes on a domain of doubled length 2n, exact because the function is even (fft-open.c).
+ * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4, 6.
+ * Three passes over memory (fft-passes.c). Periodic and open: complex spectra of real rows; otherwise real transforms (fft/axis-transform.h).
+ * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and one
+ * for the Green's function.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "poisson-fft/fft-passes.h"
+
+bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
+{
+	bool singular = o->screening == 0;
+	for (int d = 0; d < g->dim; d++)
+		for (int side = 0; side < 2; side++)
+			singular = singular && (g->face[d][side] == PM_PERIODIC || g->face[d][side] == PM_NEUMANN);
+	return singular;
+}
+
+int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
+{
+	for (int d = 0; d < g->dim; d++)
+		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
+			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
+	int status = pm_influence_check(&o->influence, g);
+	return status ? status : pm_poisson_fft_open_check(g, o);
+}
+
+static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
+{
+	const struct pm_grid *g = &p->grid;
+	size_t y = p->line[Y].first + j, z = p->line[Z].first + k;
+	return g->points[0] * (g->dim == 2 ? z : y + g->points[1] * z);
+}
+
+static const double *source_row(const struct rows *r, size_t j, size_t k, double *buffer)
+{
+	(void)buffer;
+	return r->s + row_offset(r->p, j, k) + r->p->line[X].first;
+}
+
+static double *result_row(const struct rows *r, size_t j, size_t k)
+{
+	const struct pm_poisson_fft *p = r->p;
+	double *phi = r->phi + row_offset(p, j, k);
+	if (p->line[X].face[0] == PM_WALL)
+		phi[0] = 0;
+	if (p->line[X].face[1] == PM_WALL)
+		phi[p->line[X].n] = 0;
+	return phi + p->line[X].first;
+}
+
+static int scratch_ready(struct pm_poisson_fft *p)
+{
+	int n = pm_threads();
+	if (n <= p->threads)
+		return p->threads = n, 0;
+	p->scratch = pm_free(p->scratch);
+	p->threads = 0;
+	if (!(p->scratch = pm_alloc((size_t)n * p->lot, sizeof *p->scratch)))
+		return -PM_DATA;
+	p->threads = n;
+	return 0;
+}
+
+/* The nodes on the wall faces that no row covers. */
+static void zero_walls(const struct pm_grid *g, double *phi)
+{
+	size_t nx = g->points[0], ny = g->points[1], nz = g->points[2];
+	for (int side = 0; side < 2; side++) {
+		for (size_t k = 0; k < nz && g->dim > 1 && g->face[1][side] == PM_WALL; k++)
+			memset(phi + (k * ny + (side ? ny - 1 : 0)) * nx, 0, nx * sizeof *phi);
+		if (g->dim > 2 && g->face[2][side] == PM_WALL)
+			memset(phi + (side ? nz - 1 : 0) * ny * nx, 0, nx * ny * sizeof *phi);
+	}
+}
+
+int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r)
+{
+	if (r)
+		*r = (struct pm_poisson_fft_record){0};
+	if (p->empty) {
+		memset(phi, 0, pm_grid_size(&p->grid) * sizeof *phi);
+		return 0;
+	}
+	if (scratch_ready(p))
+		return -PM_DATA;
+	struct rows io = {.p = p, .s = s, .phi = phi, .from = source_row, .to = result_row};
+	double norm = 1;
+	for (int a = X; a <= Z; a++)
+		norm /= (double)p->line[a].length;
+	double largest = pm_poisson_fft_planes(p, &io, true);
+	pm_poisson_fft_pencils(p, c * norm);
+	pm_poisson_fft_planes(p, &io, false);
+	zero_walls(&p->grid, phi);
+	if (p->singular && r)
+		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
+	return 0;
+}
+
+/* Strides that are an odd number of blocks' rows, so that pencils do not fall on the same sets of the cache. */
+static size_t odd_stride(size_t doubles)
+{
+	return ((doubles + L - 1) / L | 1) * L;
+}
+
+static int layout(struct pm_poisson_fft *p)
+{
+	const struct pm_grid *g = &p->grid;
+	const int axis[3] = {0, g->dim == 3 ? 1 : -1, g->dim == 3 ? 2 : g->dim == 2 ? 1 : -1};
+	size_t most = 0;
+	for (int a = X; a <= Z; a++) {
+		const enum pm_face none[2] = {PM_PERIODIC, PM_PERIODIC};
+		bool used = axis[a] >= 0;
+		if ((p->complex ? pm_transform_init : pm_transform_init_real)(&p->planner, used ? g->face[axis[a]] : none, used ? g->cells[axis[a]] : 1, &p->line[a]))
+			return -PM_DATA;
+		p->nodes[a] = p->line[a].count;
+		p->modes[a] = !p->complex ? p->line[a].modes : a == X ? p->line[a].length / 2 + 1 : p->line[a].length;
+		p->empty = p->empty || p->nodes[a] == 0;
+		most = p->line[a].length > most ? p->line[a].length : most;
+	}
+	p->chunks = p->complex ? (p->modes[X] + H - 1) / H : (p->modes[X] + L - 1) / L;
+	p->row = odd_stride(p->chunks * L);
+	p->streams = p->modes[Y] * p->nodes[Z] * p->row > (size_t)1 << 20; /* 8 MiB */
+	p->block = odd_stride((most + 1) * L);
+	p->rows = odd_stride(p->nodes[X] * L);
+	size_t slab = p->modes[Y] > p->nodes[Z] ? p->modes[Y] : p->nodes[Z];
+	p->lot = p->block + p->rows + (p->line[Y].length > 1 ? odd_stride((slab + L) * p->row) : 0);
+	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
+}
+
+static int symbols(struct pm_poisson_fft *p)
+{
+	double screening = p->choice.screening;
+	const struct pm_grid *g = &p->grid;
+	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
+	for (int a = X; a <= Z && !p->empty; a++) {
+		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
+		p->lambda[a] = pm_poisson_fft_eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, p->choice.symbol, h[a]);
+		if (!p->lambda[a])
+			return -PM_DATA;
+	}
+	for (size_t k = 0; k < p->modes[Z] && !p->empty; k++)
+		p->lambda[Z][k] -= screening * screening;
+	return 0;
+}
+
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort)
+{
+	if (pm_poisson_fft_check(g, o))
+		return NULL;
+	struct pm_poisson_fft *p = calloc(1, sizeof *p);
+	if (!p) {
+		pm_fail(PM_DATA, "out of memory");
+		return NULL;
+	}
+	p->grid = *g;
+	p->choice = *o;
+	p->planner.effort = effort;
+	p->singular = pm_poisson_fft_singular(g, o);
+	p->complex = true;
+	for (int d = 0; d < g->dim; d++) {
+		bool open[2] = {g->face[d][0] == PM_OPEN, g->face[d][1] == PM_OPEN};
+		p->open = p->open || open[0] || open[1];
+		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
+	}
+	if (layout(p) || (p->open && !p->empty ? pm_poisson_fft_green(p) : pm_influence_any(&o->influence) ? pm_poisson_fft_influence(p) : symbols(p)))
+		p = pm_poisson_fft_free(p);
+	return p;
+}
+
+struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
+{
+	if (!p)
+		return NULL;
+	pm_fft_plans_clear(&p->planner);
+	pm_free(p->w);
+	pm_free(p->green);
+	pm_free(p->fold);
+	pm_free(p->scratch);
+	for (int a = X; a <= Z; a++)
+		pm_free(p->lambda[a]);
+	free(p);
+	return NULL;
+}
+
+const struct pm_fft_plans *pm_poisson_fft_planner(const struct pm_poisson_fft *p)
+{
+	return &p->planner;
+}

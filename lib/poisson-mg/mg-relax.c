@@ -1,0 +1,198 @@
+/* Red-black Gauss-Seidel and the residual, row by row, for the 3-, 5- and 7-point Laplacian.
+ *   u += (omega/D) (lap u - f) on the nodes of one colour, D = 2 (1/hx^2 + 1/hy^2 + 1/hz^2); r = f - lap u
+ * (Trottenberg, Oosterlee, Schueller 2001, section 2.1.2). Colours are the parity of i+j+k, so the nodes of one colour are the even or the odd half of
+ * each row (mg-level.h) and nothing is computed in vain. Where an odd number of nodes is periodic, two nodes of one colour meet: along x each sees
+ * the old value of the other, along y and z the order of the sweep decides, always the same.
+ * Cost: 13 operations per node and sweep. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg-level.h"
+
+typedef double vec __attribute__((vector_size(8 * mg_lanes), may_alias));
+typedef int64_t vmask __attribute__((vector_size(8 * mg_lanes), may_alias));
+
+#define AT(p) (*(vec *)(p))
+#define CAT(p) (*(const vec *)(p))
+#define SHIFT_UP(before, here) __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14)
+#define SHIFT_DOWN(here, after) __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8)
+
+struct rows {
+	double *u;
+	const double *f, *south, *north, *back, *front; /* neighbours along y and z */
+};
+
+static inline __attribute__((always_inline)) struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
+{
+	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
+	double *plane = l->u + k * l->plane;
+	size_t row = j * l->stride;
+	return (struct rows){.u = plane + row, .f = l->f + k * l->plane + row,
+		.south = plane + mg_below(y, j) * l->stride, .north = plane + mg_above(y, j) * l->stride,
+		.back = l->u + mg_below(z, k) * l->plane + row, .front = l->u + mg_above(z, k) * l->plane + row};
+}
+
+/* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
+#define LAPLACIAN(result, alongx, alongy, alongz, here) \
+	do { \
+		result = wx * (alongx); \
+		if (dim == 3) \
+			result += wy * (alongy); \
+		if (dim >= 2) \
+			result += wz * (alongz); \
+		result -= diagonal * (here); \
+	} while (0)
+
+/* u += change at p, only where there is an unknown; walls and padding are in the first and the last vector of half a row. */
+#define CHANGE(p, here, change, mask, i, n) \
+	do { \
+		if ((i) == 0 || (i) + mg_lanes >= (n)) \
+			change = (vec)((vmask)change & *(const vmask *)((mask) + (i))); \
+		AT(p) = (here) + change; \
+	} while (0)
+
+/* Relaxes the even (odd = 0) or the odd half of a row. */
+static inline __attribute__((always_inline)) void relax_row(const int dim, const struct mg_level *l, double factor, struct rows a, const int odd)
+{
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
+	double *other = a.u + l->half - at;
+	vec last = {0}, next, here, lap, sides, change;
+	last += mg_left_end(l, a.u);
+	if (odd)
+		last = CAT(other);
+	for (size_t i = 0; i < n; i += mg_lanes) {
+		next = CAT(other + i + (odd ? mg_lanes : 0));
+		here = CAT(a.u + at + i);
+		if (odd)
+			sides = last + SHIFT_DOWN(last, next);
+		else
+			sides = SHIFT_UP(last, next) + next;
+		LAPLACIAN(lap, sides, CAT(a.south + at + i) + CAT(a.north + at + i), CAT(a.back + at + i) + CAT(a.front + at + i), here);
+		change = factor * (lap - CAT(a.f + at + i));
+		CHANGE(a.u + at + i, here, change, l->mask[odd], i, n);
+		last = next;
+	}
+	mg_close_row(l, a.u);
+}
+
+/* Relaxes the even half of row e and the odd half of row o, which are neighbours: what one has beside it along x, the other has along y, so that two
+ * of five loads are saved. beyond_e and beyond_o are their outer neighbours along y. The bytes are those of relax_row. */
+static inline __attribute__((always_inline)) void relax_pair(const struct mg_level *l, double factor, struct rows e, struct rows o, const double *beyond_e,
+	const double *beyond_o)
+{
+	enum { dim = 3 };
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t half = l->half, n = (l->axis[0].points + 1) / 2, m = l->axis[0].points / 2;
+	vec e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
+	e_last += mg_left_end(l, e.u);
+	o_last = CAT(o.u);
+	for (size_t i = 0; i < n; i += mg_lanes) {
+		e_next = CAT(e.u + half + i);
+		o_next = CAT(o.u + i + mg_lanes);
+		here = CAT(e.u + i);
+		sides = SHIFT_UP(e_last, e_next) + e_next;
+		LAPLACIAN(lap, sides, CAT(beyond_e + i) + o_last, CAT(e.back + i) + CAT(e.front + i), here);
+		change = factor * (lap - CAT(e.f + i));
+		CHANGE(e.u + i, here, change, l->mask[0], i, n);
+		here = CAT(o.u + half + i);
+		sides = o_last + SHIFT_DOWN(o_last, o_next);
+		LAPLACIAN(lap, sides, CAT(beyond_o + half + i) + e_next, CAT(o.back + half + i) + CAT(o.front + half + i), here);
+		change = factor * (lap - CAT(o.f + half + i));
+		CHANGE(o.u + half + i, here, change, l->mask[1], i, m);
+		e_last = e_next;
+		o_last = o_next;
+	}
+	mg_close_row(l, e.u);
+	mg_close_row(l, o.u);
+}
+
+/* What a row is made of without vectors or masks: the reference of relax_row, used by the tests. */
+void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k)
+{
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	double factor = relaxation / l->diagonal;
+	for (size_t j = y->first; j < y->end; j++) {
+		struct rows a = rows_at(l, j, k);
+		double left = mg_left_end(l, a.u);
+		for (size_t i = x->first; i < x->end; i++) {
+			size_t at = mg_slot(l, i);
+			if (((i + j + k) & 1) != (size_t)colour)
+				continue;
+			double lap = x->w * ((i ? a.u[mg_slot(l, i - 1)] : left) + a.u[mg_slot(l, i + 1)]);
+			if (l->dim == 3)
+				lap += y->w * (a.south[at] + a.north[at]);
+			if (l->dim >= 2)
+				lap += l->axis[2].w * (a.back[at] + a.front[at]);
+			lap -= l->diagonal * a.u[at];
+			a.u[at] = a.u[at] + factor * (lap - a.f[at]);
+		}
+		mg_close_row(l, a.u);
+	}
+}
+
+static inline __attribute__((always_inline)) void relax_rows(const int dim, const struct mg_level *l, double factor, int colour, size_t j, size_t k)
+{
+	if ((j + k + (size_t)colour) & 1)
+		relax_row(dim, l, factor, rows_at(l, j, k), 1);
+	else
+		relax_row(dim, l, factor, rows_at(l, j, k), 0);
+}
+
+/* Two rows at a time, unless they meet across the seam of a periodic axis too. */
+static void relax_plane(const struct mg_level *l, double factor, int colour, size_t k)
+{
+	const struct mg_axis *y = &l->axis[1];
+	size_t j = y->first;
+	for (; j + 1 < y->end && y->points > 2; j += 2) {
+		struct rows a = rows_at(l, j, k), b = rows_at(l, j + 1, k);
+		if ((j + k + (size_t)colour) & 1)
+			relax_pair(l, factor, b, a, b.north, a.south);
+		else
+			relax_pair(l, factor, a, b, a.south, b.north);
+	}
+	for (; j < y->end; j++)
+		relax_rows(3, l, factor, colour, j, k);
+}
+
+void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k)
+{
+	double factor = relaxation / l->diagonal;
+	if (l->dim == 3)
+		relax_plane(l, factor, colour, k);
+	else if (l->dim == 2)
+		relax_rows(2, l, factor, colour, 0, k);
+	else
+		relax_rows(1, l, factor, colour, 0, k);
+}
+
+static inline __attribute__((always_inline)) double residual_row(const int dim, const struct mg_level *l, struct rows a, double *restrict r)
+{
+	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
+	const size_t half = l->half;
+	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
+	vec before = {0}, even, odd, after, lap, v, w, sum = {0};
+	before += mg_left_end(l, a.u);
+	even = CAT(a.u);
+	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
+		odd = CAT(a.u + half + i);
+		after = CAT(a.u + i + mg_lanes);
+		LAPLACIAN(lap, SHIFT_UP(before, odd) + odd, CAT(a.south + i) + CAT(a.north + i), CAT(a.back + i) + CAT(a.front + i), even);
+		v = (vec)((vmask)(CAT(a.f + i) - lap) & *(const vmask *)(mask[0] + i));
+		LAPLACIAN(lap, even + SHIFT_DOWN(even, after), CAT(a.south + half + i) + CAT(a.north + half + i), CAT(a.back + half + i) + CAT(a.front + half + i), odd);
+		w = (vec)((vmask)(CAT(a.f + half + i) - lap) & *(const vmask *)(mask[1] + i));
+		sum += v * v + w * w;
+		AT(r + i) = v;
+		AT(r + half + i) = w;
+		before = odd;
+		even = after;
+	}
+	return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
+double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)
+{
+	if (l->order == 4)
+		return pm_mg_compact_residual(l, j, k, r);
+	struct rows a = rows_at(l, j, k);
+	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);
+	mg_close_row(l, r);
+	return sum;
+}

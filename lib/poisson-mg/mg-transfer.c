@@ -1,0 +1,253 @@
+/* Between the grids of a multigrid hierarchy: u += P e (linear), f_coarse = R (f - lap u).
+ * P is the tensor product of linear interpolations; R = W_c^-1 P^T W with the quadrature weights W, which is full weighting
+ * (1 2 1)/4 per axis where n is even and faces are folded, keeps the integral of the residual (so singular problems stay solvable) and serves any
+ * ratio n/n_c. With 1/h^2 kept in the operator nothing is left to scale (the factor 4 missing in texts that multiply by h^2).
+ * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
+ * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg-level.h"
+
+#include <string.h>
+
+typedef double vec __attribute__((vector_size(8 * mg_lanes), may_alias));
+
+#define AT(p) (*(vec *)(p))
+#define CAT(p) (*(const vec *)(p))
+
+static inline size_t fold(ptrdiff_t i, size_t n)
+{
+	return (size_t)(i < 0 ? i + (ptrdiff_t)n : i < (ptrdiff_t)n ? i : i - (ptrdiff_t)n);
+}
+
+static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
+{
+	struct mg_parents p = {0};
+	for (int m = 0; m < 2; m++)
+		if (map->w[m][i] != 0)
+			p.node[p.n] = fold(map->parent[i] + m, coarse->points), p.w[p.n++] = map->w[m][i];
+	return p;
+}
+
+void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
+{
+	for (size_t i = 0; i < n; i += mg_lanes)
+		AT(y + i) += w * CAT(x + i);
+}
+
+void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
+{
+	for (size_t i = 0; i < l->half; i += mg_lanes) {
+		vec a = CAT(t + 2 * i), b = CAT(t + 2 * i + mg_lanes);
+		AT(row + i) = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+		AT(row + l->half + i) = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+	}
+}
+
+/* n rows with weights w, from rows to node after node. */
+static inline __attribute__((always_inline)) void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
+{
+	for (size_t i = 0; i < c->half; i += mg_lanes) {
+		vec even = w[0] * CAT(row[0] + i), odd = w[0] * CAT(row[0] + c->half + i);
+		for (int m = 1; m < n; m++) {
+			even += w[m] * CAT(row[m] + i);
+			odd += w[m] * CAT(row[m] + c->half + i);
+		}
+		AT(t + 2 * i) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+		AT(t + 2 * i + mg_lanes) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+	}
+}
+
+void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
+{
+	const double *row[mg_cubic * mg_cubic];
+	double w[mg_cubic * mg_cubic];
+	size_t points = c->axis[0].points;
+	int n = 0;
+	for (int a = 0; a < z->n; a++)
+		for (int b = 0; b < y->n; b++, n++) {
+			w[n] = z->w[a] * y->w[b];
+			row[n] = c->u + z->node[a] * c->plane + y->node[b] * c->stride;
+		}
+	if (n == 1)
+		combine(c, 1, row, w, t);
+	else if (n == 2)
+		combine(c, 2, row, w, t);
+	else if (n == 4)
+		combine(c, 4, row, w, t);
+	else
+		combine(c, n, row, w, t);
+	bool periodic = c->axis[0].periodic;
+	t[-1] = periodic ? t[points - 1] : 0;
+	t[points] = periodic ? t[0] : 0;
+	t[points + 1] = periodic ? t[points > 1] : 0;
+}
+
+/* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, with values behind the end that nobody reads. */
+static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
+{
+	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
+		vec a = CAT(t + i), b = CAT(t + i + mg_lanes);
+		AT(u + i) += a;
+		AT(u + fine->half + i) += 0.5 * (a + __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8));
+	}
+}
+
+static void spread_row(const struct mg_level *fine, const double *t, double *u)
+{
+	const struct mg_map *x = &fine->map[0];
+	if (x->half)
+		spread_half(fine, t, u);
+	else
+		for (size_t i = 0; i < fine->axis[0].points; i++)
+			u[mg_slot(fine, i)] += x->w[0][i] * t[x->parent[i]] + x->w[1][i] * t[x->parent[i] + 1];
+	mg_close_row(fine, u);
+}
+
+void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
+{
+	const struct mg_axis *y = &fine->axis[1];
+	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
+	for (size_t j = y->first; j < y->end; j++) {
+		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
+		pm_mg_gather(coarse, &py, &pz, w + mg_lanes);
+		spread_row(fine, w + mg_lanes, fine->u + k * fine->plane + j * fine->stride);
+	}
+}
+
+/* c_i = side (r_2i-1 + r_2i+1) + middle r_2i, node after node */
+static inline __attribute__((always_inline)) void collect_half(const struct mg_level *fine, const double side, const double middle, const double *restrict r,
+	double *restrict c)
+{
+	vec before = {0};
+	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
+	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
+		vec odd = CAT(r + fine->half + i);
+		AT(c + i) = side * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + middle * CAT(r + i);
+		before = odd;
+	}
+}
+
+/* A fine row r onto a coarse row c; w: room for one. */
+static void collect_row(const struct mg_level *fine, const struct mg_level *coarse, const double *r, double *c, double *w)
+{
+	const struct mg_map *map = &fine->map[0];
+	if (map->same) {
+		memcpy(c, r, fine->stride * sizeof *c);
+	} else if (map->half) {
+		collect_half(fine, 0.25, 0.5, r, w);
+		pm_mg_fold_row(coarse, w, c);
+	} else {
+		memset(c, 0, coarse->stride * sizeof *c);
+		for (size_t i = 0; i < fine->axis[0].points; i++)
+			for (int m = 0; m < 2; m++)
+				c[mg_slot(coarse, fold(map->parent[i] + m, coarse->axis[0].points))] += map->a[m][i] * r[mg_slot(fine, i)];
+	}
+}
+
+/* Half weighting: 1/2 of the node and 1/(4n) of each of its neighbours along the n axes that are coarsened, instead of the product of (1 2 1)/4. In row j, k: what
+ * collect_row does, and the factor that makes the weights of mg_map those. 0: the row has no part in it. */
+static double collect_half_weighting(const struct mg_level *fine, const struct mg_level *coarse, size_t j, size_t k, const double *r, double *c, double *w)
+{
+	const struct mg_map *x = &fine->map[0], *y = x + 1, *z = x + 2;
+	bool odd[2] = {!y->same && (j & 1), !z->same && (k & 1)};
+	double side = 0.25 / (!x->same + !y->same + !z->same), scale = (y->same ? 1 : odd[0] ? 4 : 2) * (z->same ? 1 : odd[1] ? 4 : 2);
+	if (odd[0] && odd[1])
+		return 0;
+	if (x->same) {
+		memcpy(c, r, fine->stride * sizeof *c);
+		return scale * (odd[0] || odd[1] ? side : 0.5);
+	}
+	if (odd[0] || odd[1])
+		collect_half(fine, 0, side, r, w);
+	else
+		collect_half(fine, side, 0.5, r, w);
+	pm_mg_fold_row(coarse, w, c);
+	return scale;
+}
+
+static bool halves(const struct mg_level *fine)
+{
+	bool all = true;
+	for (int d = 0; d < 3; d++)
+		all &= fine->map[d].same || fine->map[d].half;
+	return all;
+}
+
+/* The rows of fine plane k (unfolded: -n < k < n) are added to coarse planes from <= K < to. Returns the sum of squares. */
+static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, bool half, ptrdiff_t k, const size_t range[2], double *w)
+{
+	const struct mg_axis *y = &fine->axis[1], *cy = &coarse->axis[1];
+	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
+	size_t here = fold(k, fine->axis[2].points);
+	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
+	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0, scale = 1;
+	for (size_t j = y->first; j < y->end; j++) {
+		sum += pm_mg_residual_row(fine, j, here, r);
+		if (half)
+			scale = collect_half_weighting(fine, coarse, j, here, r, c, t);
+		else
+			collect_row(fine, coarse, r, c, t);
+		for (int a = 0; a < 2 && scale != 0; a++) {
+			ptrdiff_t up = mz->parent[here] + a - shift;
+			if (mz->a[a][here] == 0 || up < (ptrdiff_t)range[0] || up >= (ptrdiff_t)range[1])
+				continue;
+			for (int b = 0; b < 2; b++) {
+				size_t over = fold(my->parent[j] + b, cy->points);
+				if (my->a[b][j] != 0)
+					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+			}
+		}
+	}
+	return sum;
+}
+
+/* First fine plane below coarse plane K, unfolded. */
+static ptrdiff_t first_child(const struct mg_level *fine, const struct mg_level *coarse, size_t K)
+{
+	const struct mg_axis *f = &fine->axis[2], *c = &coarse->axis[2];
+	ptrdiff_t n = (ptrdiff_t)f->cells, m = (ptrdiff_t)c->cells, x = n * ((ptrdiff_t)K - 1);
+	if (!f->periodic && K <= c->first)
+		return (ptrdiff_t)f->first;
+	return (x >= 0 ? x / m : -((-x + m - 1) / m)) + 1;
+}
+
+static ptrdiff_t last_child(const struct mg_level *fine, const struct mg_level *coarse, size_t K)
+{
+	const struct mg_axis *f = &fine->axis[2], *c = &coarse->axis[2];
+	ptrdiff_t n = (ptrdiff_t)f->cells, m = (ptrdiff_t)c->cells;
+	if (!f->periodic && K + 1 >= c->end)
+		return (ptrdiff_t)f->end - 1;
+	return (n * ((ptrdiff_t)K + 1) + m - 1) / m - 1;
+}
+
+/* Coarse planes range[0] <= K < range[1]. The sums of squares are kept for the fine planes that no other range starts with. */
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], double *w, double *sums)
+{
+	const struct mg_axis *z = &coarse->axis[2];
+	ptrdiff_t from = first_child(fine, coarse, range[0]), to = last_child(fine, coarse, range[1] - 1);
+	ptrdiff_t mine = range[1] < z->end ? first_child(fine, coarse, range[1])
+		: fine->axis[2].periodic ? first_child(fine, coarse, 0) + (ptrdiff_t)fine->axis[2].points : to + 1;
+	for (size_t K = range[0]; K < range[1]; K++)
+		memset(coarse->f + K * coarse->plane, 0, coarse->axis[1].points * coarse->stride * sizeof(double));
+	for (ptrdiff_t k = from; k <= to || k < mine; k++) {
+		double sum = restrict_plane(fine, coarse, half, k, range, w);
+		if (k < mine && sums)
+			sums[fold(k, fine->axis[2].points)] = sum;
+	}
+}
+
+double pm_mg_restrict(struct pm_mg *mg, int at, bool half_weighting)
+{
+	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
+	const struct mg_axis *z = &coarse->axis[2];
+	size_t n = z->end - z->first, parts = (size_t)mg->threads < n / 4 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
+	double total = 0;
+	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
+	for (size_t p = 0; p < parts; p++) {
+		size_t range[2] = {z->first + n * p / parts, z->first + n * (p + 1) / parts};
+		restrict_range(fine, coarse, half_weighting && halves(fine), range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
+	}
+	if (at == 0)
+		for (size_t k = fine->axis[2].first; k < fine->axis[2].end; k++)
+			total += mg->sums[k];
+	return total;
+}

@@ -1,0 +1,213 @@
+/* div(eps grad phi) = f with eps that varies and jumps: conjugate gradients preconditioned with a multigrid cycle.
+ *   z = cycle(r), beta = z.(r - r_before)/(z.r)_before, d = z + beta d, alpha = d.r/d.Md, x += alpha d, r = f - M x
+ * (flexible form, Notay 2000, which forgives a cycle that is not quite symmetric). The cycles are those of mg-variable-cycle.c over operator-dependent transfers and
+ * Galerkin matrices, which bear jumps; what is left to conjugate gradients is the few modes that jumps crossing at a corner make slow (Kettler 1982). The
+ * residual is computed anew each time, so round-off is seen, not hidden. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values per node in 3-D.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg-variable-level.h"
+
+#include <float.h>
+#include <string.h>
+
+struct pm_mg_variable *pm_mg_variable_free(struct pm_mg_variable *v)
+{
+	for (int i = 0; v && i < mgv_levels; i++)
+		pm_mgv_free(&v->level[i]);
+	if (v)
+		pm_free(v->eps), pm_free(v->x), pm_free(v->d), pm_free(v->q), pm_free(v->before), pm_free(v->best), pm_free(v->sums);
+	return pm_free(v);
+}
+
+static int check_positive(const struct pm_grid *g, const double *eps)
+{
+	for (size_t p = 0; p < pm_grid_size(g); p++)
+		if (!(eps[p] > 0) || !isfinite(eps[p]))
+			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large value, not infinity)",
+				p % g->points[0], p / g->points[0] % g->points[1], p / g->points[0] / g->points[1], eps[p]);
+	return 0;
+}
+
+static bool build(struct pm_mg_variable *v, const struct pm_grid *g, const double *eps)
+{
+	size_t n = pm_grid_size(g);
+	bool more = true;
+	v->grid = *g;
+	if (!(v->eps = pm_alloc(n, sizeof *eps)))
+		return false;
+	memcpy(v->eps, eps, n * sizeof *eps);
+	if (pm_mgv_finest(v))
+		return false;
+	if (!mgv_unknowns(&v->level[0]))
+		return true;
+	for (v->levels = 1; more && v->levels < mgv_levels; v->levels += more)
+		if (!pm_mgv_coarser(&v->level[v->levels - 1], &v->level[v->levels], &more))
+			return false;
+	size_t size = v->level[0].size;
+	v->x = pm_zalloc(size, sizeof(double));
+	v->d = pm_zalloc(size, sizeof(double));
+	v->q = pm_zalloc(size, sizeof(double));
+	v->before = pm_zalloc(size, sizeof(double));
+	v->best = pm_zalloc(size, sizeof(double));
+	v->sums = pm_zalloc(mgv_rows(&v->level[0]), sizeof(double));
+	return v->x && v->d && v->q && v->before && v->best && v->sums;
+}
+
+struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
+{
+	struct pm_mg_variable *v = pm_mg_check(g) || check_positive(g, eps) ? NULL : pm_zalloc(1, sizeof *v);
+	if (!v)
+		return NULL;
+	v->mean = mean;
+	return build(v, g, eps) ? v : pm_mg_variable_free(v);
+}
+
+bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
+{
+	const struct pm_grid *a = &v->grid;
+	return v->mean == mean && a->dim == g->dim && !memcmp(a->points, g->points, sizeof g->points) && !memcmp(a->cells, g->cells, sizeof g->cells) &&
+		!memcmp(a->h, g->h, sizeof g->h) && !memcmp(a->face, g->face, sizeof g->face) && !memcmp(v->eps, eps, pm_grid_size(g) * sizeof *eps);
+}
+
+/* The sum of a (b - c) over the unknowns, c NULL: of a b; rows in order. */
+static double product(const struct pm_mg_variable *v, const double *a, const double *b, const double *c)
+{
+	const struct mgv_level *l = &v->level[0];
+	double total = 0;
+	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
+	for (size_t row = 0; row < mgv_rows(l); row++) {
+		double sum = 0;
+		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
+			sum += a[p] * (c ? b[p] - c[p] : b[p]);
+		v->sums[row] = sum;
+	}
+	for (size_t row = 0; row < mgv_rows(l); row++)
+		total += v->sums[row];
+	return total;
+}
+
+/* y = x + a y, or y += a x: one of the two factors is 1. */
+static void combine(const struct pm_mg_variable *v, double mine, double a, const double *x, double *y)
+{
+	size_t size = v->level[0].size;
+	#pragma omp parallel for num_threads(pm_threads()) if (size > mgv_parallel)
+	for (size_t p = 0; p < size; p++)
+		y[p] = mine * y[p] + a * x[p];
+}
+
+static double mean(const struct pm_grid *g, const double *values)
+{
+	struct pm_sum total = {0};
+	double cells = (double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2];
+	for (size_t k = 0, p = 0; k < g->points[2]; k++)
+		for (size_t j = 0; j < g->points[1]; j++)
+			for (size_t i = 0; i < g->points[0]; i++, p++)
+				pm_sum_add(&total, pm_grid_weight(g, i, j, k) * values[p]);
+	return pm_sum_total(total) / cells;
+}
+
+/* Is the residual what the rounding of its terms makes? */
+static bool at_roundoff(const struct pm_mg_variable *v, double residual, double source)
+{
+	const struct mgv_level *l = &v->level[0];
+	double sum = 0;
+	for (size_t row = 0; row < mgv_rows(l); row++)
+		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
+			sum += l->w[0][p] * v->x[p] * (l->w[0][p] * v->x[p]);
+	return residual <= 4 * DBL_EPSILON * (sqrt(sum) + source);
+}
+
+/* f - M x into f of the finest level; its sum, which must vanish in a singular problem, is taken out before round-off in it grows. */
+static void residual(struct pm_mg_variable *v, const double *source)
+{
+	struct mgv_level *l = &v->level[0];
+	pm_mgv_residual(l, v->x, source, l->f);
+	if (v->fixed)
+		return;
+	double total = 0;
+	for (size_t row = 0; row < mgv_rows(l); row++)
+		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
+			total += l->f[p];
+	for (size_t row = 0; row < mgv_rows(l); row++)
+		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
+			l->f[p] -= total / (double)mgv_unknowns(l);
+}
+
+/* One iteration: from the residual in f of the finest level to the next; before: z.r of the last one, 0 at first. Returns z.r. */
+static double iteration(struct pm_mg_variable *v, const struct pm_mg_choice *o, const double *source, double before)
+{
+	struct mgv_level *l = &v->level[0];
+	pm_mgv_cycle(v, 0, o, true);
+	double now = product(v, l->u, l->f, NULL), beta = before != 0 ? product(v, l->u, l->f, v->before) / before : 0;
+	combine(v, beta, 1, l->u, v->d);
+	memset(l->r, 0, l->size * sizeof(double));
+	pm_mgv_residual(l, v->d, l->r, v->q); /* -M d */
+	double curvature = -product(v, v->d, v->q, NULL);
+	combine(v, 1, curvature > 0 ? product(v, v->d, l->f, NULL) / curvature : 0, v->d, v->x);
+	memcpy(v->before, l->f, l->size * sizeof(double));
+	residual(v, source);
+	return now;
+}
+
+/* source: the right-hand side, padded; norm: its own. */
+static void iterate(struct pm_mg_variable *v, const struct pm_mg_choice *o, const double *source, double norm, struct pm_mg_record *r)
+{
+	struct mgv_level *l = &v->level[0];
+	double before = 0;
+	int first = o->cycle == PM_MG_FMG, slow = 0; /* iterations since the residual was halved */
+	double best = INFINITY;
+	memset(v->x, 0, l->size * sizeof(double));
+	memset(v->d, 0, l->size * sizeof(double));
+	memcpy(l->f, source, l->size * sizeof(double));
+	if (first) {
+		pm_mgv_full(v, o);
+		memcpy(v->x, l->u, l->size * sizeof(double));
+		residual(v, source);
+	}
+	for (;; r->cycles++) {
+		double now = sqrt(product(v, l->f, l->f, NULL)) / norm;
+		r->history[r->n++] = r->after = now;
+		r->converged = now == 0 || (now <= o->tolerance && r->cycles >= first);
+		slow = now < 0.5 * best ? 0 : slow + 1;
+		if (now < best)
+			memcpy(v->best, v->x, l->size * sizeof(double)), best = now;
+		if (!r->converged && slow > 2 && at_roundoff(v, now * norm, norm))
+			r->converged = r->floor = true;
+		if (r->converged || r->cycles == o->most || !isfinite(now))
+			break;
+		before = iteration(v, o, source, before);
+	}
+	if (r->after > best)
+		memcpy(v->x, v->best, l->size * sizeof(double)), r->after = best;
+	r->before = r->history[0];
+	int last = r->n - 1 - r->floor;
+	if (last > 0 && r->history[0] > 0)
+		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
+}
+
+int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
+{
+	const struct pm_grid *g = &v->grid;
+	*r = (struct pm_mg_record){.singular = !v->fixed, .mean = v->fixed ? 0 : mean(g, s), .converged = true};
+	double most = 0, whole = 0, shift = 0, *source = v->levels ? pm_zalloc(v->level[0].size, sizeof *source) : NULL;
+	for (size_t p = 0; p < pm_grid_size(g); p++)
+		most = fmax(most, fabs(c * (s[p] - r->mean))), whole = fmax(whole, fabs(s[p]));
+	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
+	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow */
+	if (v->levels && !source)
+		return -PM_DATA;
+	if (source) {
+		pm_mgv_load(v, c / unit, r->mean, s, source);
+		double norm = sqrt(product(v, source, source, NULL));
+		memset(v->x, 0, v->level[0].size * sizeof(double));
+		if (norm > 0)
+			iterate(v, o, source, norm, r);
+		pm_mgv_store(v, unit, v->x, phi);
+	} else {
+		memset(phi, 0, pm_grid_size(g) * sizeof *phi);
+	}
+	shift = r->singular ? mean(g, phi) : 0;
+	for (size_t p = 0; p < pm_grid_size(g) && r->singular; p++)
+		phi[p] -= shift;
+	pm_free(source);
+	return r->converged ? 0 : pm_mg_not_converged(r, o, false);
+}

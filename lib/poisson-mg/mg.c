@@ -1,0 +1,257 @@
+/* Multigrid for lap phi = f: red-black Gauss-Seidel, full weighting, linear correction, V- and W-cycles, full multigrid with cubic interpolation.
+ *   V(nu1, nu2): relax nu1 times; solve for the restricted residual on the coarser grid by the same cycle from zero; add; relax nu2 times
+ * (Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, sections 2.4 and 2.6). Vertex-centred, second order. The residual is looked at where it is
+ * computed anyway, after the pre-smoothing of each cycle. It ends at the tolerance, or at round-off: the residual has stopped falling and is no
+ * larger than what the rounding of its own terms makes. Singular problems (no wall): the mean of f is removed, the mean of phi is zero.
+ * Cost: O(N) per cycle, 3-D V(2,2) about 6 passes over u and f. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg.h"
+#include "poisson-mg/mg-level.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *const pm_mg_smoother_names[] = {"red-black", "sor", "jacobi", "four-colour", NULL};
+
+double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim, int order)
+{
+	if (smoother == PM_MG_JACOBI && dim > 1 && order == 4)
+		return dim == 2 ? 2. / 3 : 4. / 7; /* the diagonal is 5/6 and 2/3 of that of order 2, and the largest eigenvalue on stretched cells the same */
+	if (smoother == PM_MG_JACOBI)
+		return dim == 1 ? 2. / 3 : dim == 2 ? 4. / 5 : 6. / 7; /* Trottenberg, Oosterlee, Schueller 2001, sections 1.4.2, 2.1.2 and 2.9.1 */
+	return smoother == PM_MG_SOR ? 1.15 : 1;
+}
+
+int pm_mg_check(const struct pm_grid *g)
+{
+	for (int d = 0; d < g->dim; d++)
+		for (int s = 0; s < 2; s++) {
+			enum pm_face face = g->face[d][s];
+			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN)
+				return pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft)",
+					"xyz"[d], pm_face_names[face]);
+		}
+	return 0;
+}
+
+struct pm_mg *pm_mg_new(const struct pm_grid *g, int order)
+{
+	struct pm_mg *mg = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *mg);
+	if (mg && !pm_mg_build(mg, g, order))
+		mg = pm_mg_free(mg);
+	return mg;
+}
+
+bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g, int order)
+{
+	return mg->order == order && mg->threads == pm_threads() && mg->grid.dim == g->dim && !memcmp(mg->grid.points, g->points, sizeof g->points) &&
+		!memcmp(mg->grid.cells, g->cells, sizeof g->cells) && !memcmp(mg->grid.h, g->h, sizeof g->h) && !memcmp(mg->grid.face, g->face, sizeof g->face);
+}
+
+struct pm_mg *pm_mg_free(struct pm_mg *mg)
+{
+	if (mg)
+		pm_mg_demolish(mg);
+	return pm_free(mg);
+}
+
+int pm_mg_levels(const struct pm_mg *mg) { return mg->levels; }
+
+static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (i == 0 || i + 1 == a->points) ? 0.5 : 1; }
+
+/* With the weights of quadrature; rows and planes are added in order. */
+static double mean(struct pm_mg *mg, const double *values)
+{
+	const struct mg_axis *x = &mg->level[0].axis[0], *y = x + 1, *z = x + 2;
+	struct pm_sum total = {0};
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(&mg->level[0]) > mg_parallel)
+	for (size_t k = 0; k < z->points; k++) {
+		struct pm_sum plane = {0};
+		for (size_t j = 0; j < y->points; j++) {
+			const double *v = values + (k * y->points + j) * x->points;
+			double sum = x->periodic ? 0 : -0.5 * (v[0] + v[x->points - 1]);
+			for (size_t i = 0; i < x->points; i++)
+				sum += v[i];
+			pm_sum_add(&plane, half(y, j) * sum);
+		}
+		mg->sums[k] = half(z, k) * pm_sum_total(plane);
+	}
+	for (size_t k = 0; k < z->points; k++)
+		pm_sum_add(&total, mg->sums[k]);
+	return pm_sum_total(total) / ((double)x->cells * (double)y->cells * (double)z->cells);
+}
+
+/* Sum of squares over the unknowns of u or f. */
+static double squares(struct pm_mg *mg, const double *values)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
+	double total = 0;
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
+	for (size_t k = z->first; k < z->end; k++) {
+		mg->sums[k] = 0;
+		for (size_t j = y->first; j < y->end; j++)
+			for (int odd = 0; odd < 2; odd++) {
+				const double *v = values + k * l->plane + j * l->stride + (size_t)odd * l->half;
+				double sum = 0;
+				for (size_t i = 0; i < l->half; i++)
+					sum += l->mask[odd][i] ? v[i] * v[i] : 0;
+				mg->sums[k] += sum;
+			}
+	}
+	for (size_t k = z->first; k < z->end; k++)
+		total += mg->sums[k];
+	return total;
+}
+
+/* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
+static void load(struct pm_mg *mg, double c, double average, const double *s, const double *u)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
+	for (size_t k = 0; k < z->points; k++)
+		for (size_t j = 0; j < y->points; j++) {
+			for (size_t odd = 0; odd < 2; odd++) {
+				bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
+				size_t from = (k * y->points + j) * x->points + odd, to = k * l->plane + j * l->stride + odd * l->half;
+				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++) {
+					bool unknown = inside && l->mask[odd][i];
+					l->f[to + i] = unknown ? c * (s[from + 2 * i] - average) : 0;
+					l->u[to + i] = unknown && u ? u[from + 2 * i] : 0;
+				}
+			}
+			mg_close_row(l, l->u + k * l->plane + j * l->stride);
+		}
+}
+
+/* phi = factor u - average */
+static void store(const struct pm_mg *mg, double factor, double average, double *phi)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
+	for (size_t k = 0; k < l->axis[2].points; k++)
+		for (size_t j = 0; j < y->points; j++)
+			for (size_t odd = 0; odd < 2; odd++)
+				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++)
+					phi[(k * y->points + j) * x->points + 2 * i + odd] = factor * l->u[k * l->plane + j * l->stride + odd * l->half + i] - average;
+}
+
+/* The largest |c (s - average)|. */
+static double largest(size_t n, double c, double average, const double *s)
+{
+	double most = 0;
+	for (size_t i = 0; i < n; i++) {
+		double v = fabs(c * (s[i] - average));
+		most = v > most ? v : most;
+	}
+	return most;
+}
+
+void pm_mg_start(struct pm_mg *mg, const double *f, const double *u) { load(mg, 1, 0, f, u); }
+
+void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o)
+{
+	if (mg->levels == 1) {
+		pm_mg_solve_coarsest(mg);
+		return;
+	}
+	if (pm_mg_room(mg, o)) {
+		pm_mg_cycle_down(mg, 0, o, false);
+		pm_mg_cycle_up(mg, 0, o);
+	}
+}
+
+double pm_mg_residual(const struct pm_mg *mg)
+{
+	const struct mg_level *l = &mg->level[0];
+	double sum = 0;
+	for (size_t k = l->axis[2].first; k < l->axis[2].end; k++)
+		for (size_t j = l->axis[1].first; j < l->axis[1].end; j++)
+			sum += pm_mg_residual_row(l, j, k, mg->scratch + mg_lanes);
+	return sqrt(sum / fmax(1, (double)pm_mg_unknowns(l)));
+}
+
+void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
+
+/* Is the residual (root of the sum of squares, as the source) what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to half a unit. */
+static bool at_roundoff(struct pm_mg *mg, double residual, double source)
+{
+	double terms = mg->level[0].diagonal * sqrt(squares(mg, mg->level[0].u)) + source;
+	return residual <= 2 * DBL_EPSILON * terms;
+}
+
+int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o, bool transforms)
+{
+	char text[640] = "";
+	size_t used = 0;
+	int from = r->n > 60 ? r->n - 60 : 0;
+	for (int i = from; i < r->n && used < sizeof text; i++)
+		used += (size_t)snprintf(text + used, sizeof text - used, " %.2e", r->history[i]);
+	return pm_fail(PM_NUMERICS, "multigrid did not converge: %d cycles left a relative residual of %.3e, tolerance %g; the %sresiduals:%s "
+		"(allow more with --max-cycles%s smooth more with --smooth 3,3%s)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text, transforms ? "," : " or",
+		transforms ? ", or use poisson-fft" : "");
+}
+
+/* The cycles until the tolerance, round-off or the last one. */
+static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r)
+{
+	int least = o->cycle == PM_MG_FMG; /* full multigrid includes a cycle on the finest grid */
+	for (;; r->cycles++) {
+		double residual = sqrt(pm_mg_cycle_down(mg, 0, o, false)), now = residual / source;
+		r->history[r->n++] = r->after = now;
+		r->converged = now == 0 || (now <= o->tolerance && r->cycles >= least);
+		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
+		if (!r->converged && slow && at_roundoff(mg, residual, source))
+			r->converged = r->floor = true;
+		if (r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
+			break;
+		pm_mg_cycle_up(mg, 0, o);
+	}
+	r->before = r->history[0];
+	int last = r->n - 1 - r->floor;
+	if (last > 0)
+		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
+}
+
+int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi,
+	struct pm_mg_record *r)
+{
+	if (!pm_mg_room(mg, o))
+		return -PM_DATA;
+	struct mg_level *l = &mg->level[0];
+	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
+	double whole = l->fixed ? 0 : largest(pm_grid_size(&mg->grid), 1, 0, s);
+	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
+	double most = largest(pm_grid_size(&mg->grid), c, r->mean, s);
+	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
+	load(mg, c / unit, r->mean, s, NULL);
+	double source = sqrt(squares(mg, l->f));
+	r->converged = source == 0 || mg->levels == 1;
+	if (source != 0 && mg->levels == 1)
+		pm_mg_solve_coarsest(mg);
+	if (!r->converged) {
+		if (o->cycle == PM_MG_FMG && (!point || !pm_mg_pyramid(mg, c / unit, point)))
+			pm_mg_start_sources(mg);
+		if (o->cycle == PM_MG_FMG)
+			pm_mg_start_full(mg, o);
+		iterate(mg, o, source, r);
+	}
+	store(mg, unit, 0, phi);
+	if (r->singular)
+		store(mg, unit, mean(mg, phi), phi);
+	return r->converged ? 0 : pm_mg_not_converged(r, o, true);
+}
+
+int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
+{
+	double *compact = mg->order == 4 ? pm_alloc(pm_grid_size(&mg->grid), sizeof *compact) : NULL;
+	int status = mg->order == 4 && !compact ? -PM_DATA : 0;
+	if (compact)
+		pm_mg_compact_source(&mg->grid, s, compact);
+	if (!status)
+		status = pm_mg_solve_differences(mg, o, c, compact ? compact : s, compact ? s : NULL, phi, r);
+	pm_free(compact);
+	return status;
+}

@@ -1,0 +1,266 @@
+/* Remeshing a set: every strength is shared among the nodes, a volume becomes that of the nodes, uniform values stay, other values are refused,
+ * dropped, or carried as strength times value (momentum for a velocity), whose total is then conserved like that of a strength.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "remesh/distortion.h"
+#include "remesh/remesh-frame.h"
+
+/* What becomes of a field. */
+enum part { GONE, POSITION, STRENGTH, VALUE, VOLUME, UNIFORM, REFUSED };
+
+struct entry {
+	struct pm_field *old;
+	enum part part;
+	int first; /* value of the remesh */
+};
+
+/* One set on its way. */
+struct work {
+	struct pm_remesh r;
+	int n;
+	struct entry entry[PM_REMESH_VALUES];
+	size_t particles;
+	const double *x[3], *by;
+};
+
+static bool is_real(const struct pm_field *field) { return field->type == PM_F64 || field->type == PM_F32; }
+
+static bool is_dropped(const struct pm_field *field, const struct pm_remesh_choice *c)
+{
+	for (int i = 0; i < c->ndrop; i++)
+		if (!strcmp(c->drop[i], field->name))
+			return true;
+	return false;
+}
+
+static enum part part_of(const struct pm_field *field, const struct pm_remesh_choice *c)
+{
+	if (field->role != PM_STATE || !strcmp(field->name, "id") || !strcmp(field->name, "overlap"))
+		return GONE;
+	if (!strcmp(field->name, "x"))
+		return POSITION;
+	if (is_dropped(field, c))
+		return GONE;
+	if (!strcmp(field->name, "volume"))
+		return VOLUME;
+	if (field->extensive && is_real(field))
+		return STRENGTH;
+	if (field->uniform)
+		return field->extensive ? REFUSED : UNIFORM;
+	return c->by && is_real(field) ? VALUE : REFUSED;
+}
+
+static bool qualifies(const struct pm_frame *f, const char *set, const struct pm_remesh_choice *c)
+{
+	bool position = false, strength = false;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, set)) {
+			enum part part = part_of(f->fields[i], c);
+			position |= part == POSITION;
+			strength |= part == STRENGTH;
+		}
+	return position && strength;
+}
+
+int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets)
+{
+	sets->n = 0;
+	if (only && !pm_frame_set(f, only))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", only);
+	for (size_t i = 0; i < f->nsets && sets->n < PM_SETS_MOST; i++) {
+		const struct pm_set *set = f->sets[i];
+		if ((only ? !strcmp(only, set->name) : !set->fixed) && qualifies(f, set->name, c))
+			sets->name[sets->n++] = set->name;
+	}
+	if (sets->n)
+		return 0;
+	return pm_fail(PM_DATA, "no set%s%s%s has positions 'x' and a strength (mass, charge, circulation; stab --strength)", only ? " '" : "",
+		only ? only : "", only ? "'" : "");
+}
+
+static int refuse(const struct pm_field *field)
+{
+	if (!is_real(field))
+		return pm_fail(PM_DATA, "'%s' on '%s' is of type %s, which cannot be shared among nodes (--drop %s leaves it out)", field->name, field->on,
+			pm_type_names[field->type], field->name);
+	return pm_fail(PM_DATA, "'%s' on '%s' is a value, which cannot be shared among nodes (--by mass carries it as mass times %s, --drop %s leaves it out)",
+		field->name, field->on, field->name, field->name);
+}
+
+int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x"), *by = c->by ? pm_frame_field(f, set, c->by) : NULL;
+	if (x->components != f->dim)
+		return pm_fail(PM_DATA, "'x' on '%s' has %d components in %d-D", set, x->components, f->dim);
+	if (c->by && (!by || part_of(by, c) != STRENGTH || by->components != 1))
+		return pm_fail(PM_DATA, "--by %s: no strength of that name and one component on '%s'", c->by, set);
+	for (size_t i = 0; i < f->nfields; i++) {
+		struct pm_field *field = f->fields[i];
+		enum part part = strcmp(field->on, set) ? GONE : part_of(field, c);
+		if (part == REFUSED)
+			return refuse(field);
+		if (part == POSITION || part == STRENGTH || part == VALUE || part == VOLUME)
+			field->use |= PM_USE_READ;
+		if (!strcmp(field->on, set) && !strcmp(field->name, "overlap") && field->role == PM_STATE)
+			field->use |= PM_USE_READ;
+	}
+	return 0;
+}
+
+void pm_remesh_drops(struct pm_frame *f, const char *set)
+{
+	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
+	pm_drops_roles(f, set, roles | 1u << PM_REGISTER);
+	pm_drops_roles(f, NULL, roles);
+	json_object_del(pm_frame_set(f, set)->more, "scheme"); /* the memory of a scheme of several steps */
+}
+
+/* strength times value, one component. */
+static double *product(size_t n, const double *q, const double *value)
+{
+	double *p = pm_alloc(n, sizeof *p);
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t i = 0; i < (p ? n : 0); i++)
+		p[i] = q[i] * value[i];
+	return p;
+}
+
+static int add(struct work *w, struct entry *e, struct pm_strays *strays)
+{
+	const double *q[PM_COMPONENTS] = {0};
+	double *made[PM_COMPONENTS] = {0};
+	bool room = true;
+	for (int c = 0; c < e->old->components; c++) {
+		q[c] = pm_in(e->old, c);
+		if (e->part == VALUE) {
+			q[c] = made[c] = product(w->particles, w->by, q[c]);
+			room = room && made[c];
+		}
+	}
+	e->first = w->r.n;
+	int status = room ? pm_remesh_add(&w->r, w->particles, w->x, e->old->components, q, e->part == STRENGTH, strays) : -PM_DATA;
+	for (int c = 0; c < e->old->components; c++)
+		pm_free(made[c]);
+	return status;
+}
+
+/* The fields of the set, in the order in which they travel; strengths and values are shared among the nodes. */
+static int collect(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, struct work *w, struct pm_strays *strays)
+{
+	int status = 0;
+	w->particles = pm_frame_set(f, set)->n;
+	w->by = c->by ? pm_in(pm_frame_field(f, set, c->by), 0) : NULL;
+	pm_positions(f, set, w->x);
+	for (size_t i = 0; i < f->nfields && !status; i++) {
+		struct entry e = {.old = f->fields[i]};
+		if (strcmp(e.old->on, set))
+			continue;
+		if (w->n == PM_REMESH_VALUES)
+			return pm_fail(PM_DATA, "more than %d fields on '%s' to remesh (leave some out with --drop)", PM_REMESH_VALUES, set);
+		e.part = part_of(e.old, c);
+		if (e.part == STRENGTH || e.part == VALUE)
+			status = add(w, &e, strays);
+		w->entry[w->n++] = e;
+	}
+	return status;
+}
+
+static int divide(const struct work *w, const struct pm_remesh_choice *c, struct pm_field *made)
+{
+	double *by = pm_alloc(made->count, sizeof *by);
+	int status = by ? 0 : -PM_DATA;
+	for (int i = 0; i < w->n && by; i++)
+		if (!strcmp(w->entry[i].old->name, c->by))
+			pm_remesh_value(&w->r, w->entry[i].first, by);
+	for (size_t p = 0; p < made->count && !status; p++)
+		if (by[p] == 0)
+			status = pm_fail(PM_DATA, "a node has no '%s' but another strength: '%s' is not defined there (--drop %s, or a positive kernel)", c->by,
+				made->name, made->name);
+	for (int k = 0; k < made->components && !status; k++)
+		for (size_t p = 0; p < made->count; p++)
+			pm_out(made, k)[p] /= by[p];
+	pm_free(by);
+	return status;
+}
+
+static int renew(struct pm_frame *f, const char *set, const struct work *w, const struct pm_remesh_choice *c, const struct entry *e)
+{
+	const struct pm_field *old = e->old;
+	if (e->part == GONE) {
+		pm_drops(f, e->old);
+		return 0;
+	}
+	struct pm_field *made = pm_makes(f, set, old->name, old->components, PM_STATE);
+	if (!made)
+		return -PM_DATA;
+	json_decref(made->more);
+	made->more = json_deep_copy(old->more);
+	made->extensive = old->extensive;
+	made->type = old->type;
+	made->uniform = e->part == UNIFORM;
+	made->use |= PM_USE_FILL;
+	memcpy(made->unit, old->unit, sizeof made->unit);
+	memcpy(made->value, old->value, sizeof made->value);
+	if (pm_field_ready(made))
+		return -PM_DATA;
+	for (int k = 0; k < made->components; k++)
+		if (e->part == POSITION)
+			pm_remesh_position(&w->r, k, pm_out(made, k));
+		else if (e->part == VOLUME)
+			pm_remesh_volume(&w->r, pm_out(made, k));
+		else if (e->part != UNIFORM)
+			pm_remesh_value(&w->r, e->first + k, pm_out(made, k));
+	return e->part == VALUE ? divide(w, c, made) : 0;
+}
+
+static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mesh *m)
+{
+	const struct pm_field *volume = pm_frame_field(f, set, "volume");
+	const struct pm_grid g = pm_grid_of(f, m);
+	const double *x[3];
+	struct pm_field *made = pm_makes(f, set, "overlap", 1, PM_STATE);
+	if (!made || pm_field_ready(made))
+		return -PM_DATA;
+	pm_positions(f, set, x);
+	return pm_overlap(&g, made->count, x, volume ? pm_in(volume, 0) : NULL, pm_out(made, 0));
+}
+
+static void note_loss(const struct work *w, struct pm_remesh_loss *loss)
+{
+	*loss = (struct pm_remesh_loss){.cut = w->r.cut};
+	for (int i = 0; i < w->n; i++)
+		for (int c = 0; c < w->entry[i].old->components && w->entry[i].part == STRENGTH; c++) {
+			const struct pm_field *old = w->entry[i].old;
+			char *name = loss->of[loss->n].name;
+			if (old->components > 1)
+				snprintf(name, sizeof loss->of->name, "%.60s_%d", old->name, c);
+			else
+				snprintf(name, sizeof loss->of->name, "%s", old->name);
+			loss->of[loss->n++].sum = w->r.lost[w->entry[i].first + c];
+		}
+}
+
+int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss)
+{
+	const struct pm_grid g = pm_grid_of(f, m);
+	struct work w = {.r = pm_remesh_on(&g, c->kernel)};
+	struct pm_strays strays = {.count = 0};
+	int status = collect(f, set, c, &w, &strays);
+	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
+	if (!status && strays.count)
+		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow, or a --cut-off that keeps particles from spreading");
+	if (!status)
+		status = pm_remesh_keep(&w.r, c->cut_off, c->rim);
+	if (!status) {
+		note_loss(&w, loss);
+		pm_frame_set(f, set)->n = w.r.kept;
+	}
+	for (int i = 0; i < w.n && !status; i++)
+		status = renew(f, set, &w, c, &w.entry[i]);
+	if (!status && c->overlap)
+		status = keep_overlap(f, set, m);
+	pm_remesh_free(&w.r);
+	return status;
+}

@@ -1,0 +1,37 @@
+/* Remeshing a set of a frame: which fields are strengths, which are carried by one, which go.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_REMESH_FRAME_H
+#define PM_REMESH_FRAME_H
+
+#include "remesh/remesh.h"
+#include "transfer/transfer-frame.h"
+
+struct pm_remesh_choice {
+	const struct pm_kernel *kernel;
+	double cut_off;          /* of the largest absolute strength */
+	int rim;                 /* cells around a particle that become particles too */
+	const char *by;          /* values travel as this strength times value and are divided by it again; NULL: values are refused */
+	const char *const *drop; /* fields to leave out */
+	int ndrop;
+	bool overlap;            /* keep the overlap of the new particles (distortion.h) in the state field overlap */
+};
+
+struct pm_remesh_loss {
+	size_t cut; /* nodes below the cut-off */
+	int n;
+	struct {
+		char name[PM_NAME + 16]; /* of the strength, _0 _1 ... of its components */
+		double sum;
+	} of[PM_REMESH_VALUES];
+};
+
+/* The sets that have positions and a strength and are not fixed, or the one named only; fails with a sentence if there is none. */
+int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
+/* For declare(): refuses fields that nobody can share among nodes, declares the others as read. */
+int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c);
+/* Drops what is worth nothing once the particles of the set are others: its change and derived fields and registers, and those of the meshes. */
+void pm_remesh_drops(struct pm_frame *f, const char *set);
+/* For frame() of a stage that holds: the particles of the set are now the nodes of the mesh. */
+int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss);
+
+#endif

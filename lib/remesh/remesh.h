@@ -1,0 +1,37 @@
+/* Particles back onto the nodes of a mesh (docs/methods/remesh.md): what each node receives, which nodes become particles.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_REMESH_H
+#define PM_REMESH_H
+
+#include "transfer/transfer.h"
+
+enum { PM_REMESH_VALUES = 32 };
+
+struct pm_remesh {
+	struct pm_grid grid;            /* walls count as neumann: what would go beyond a face comes back */
+	const struct pm_kernel *kernel;
+	size_t points;
+	int n;                          /* values per node, every component of every strength added so far */
+	double *node[PM_REMESH_VALUES]; /* [points] the strength of each node, not its density */
+	int field[PM_REMESH_VALUES];    /* the first value of the strength this one is a component of; -1: does not decide which nodes are kept */
+	unsigned char *keep;            /* [points] does the node become a particle? */
+	size_t *before;                 /* kept nodes before each block of nodes */
+	size_t kept, cut;               /* nodes that become particles; nodes that are not 0 and do not */
+	double lost[PM_REMESH_VALUES];  /* sum of each value over the nodes cut */
+};
+
+struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k);
+/* Shares a strength q[components][n] of particles at x[d][n] among the nodes; decides: a node where it is not 0 is worth a particle. strays as
+ * in pm_spread. 0 or failure. */
+int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
+	struct pm_strays *strays);
+/* Keeps the nodes where a deciding strength exceeds cut_off times its largest absolute value over the nodes (cut_off 0: is not 0), and
+ * those within `rim` cells of them, empty ones too, except near open faces. 0 or failure (memory). */
+int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim);
+/* Of the kept nodes, in the order of the mesh: value i, positions along axis d, volume (of the cell, half at the end of an axis). */
+void pm_remesh_value(const struct pm_remesh *r, int i, double *out);
+void pm_remesh_position(const struct pm_remesh *r, int d, double *x);
+void pm_remesh_volume(const struct pm_remesh *r, double *volume);
+void pm_remesh_free(struct pm_remesh *r);
+
+#endif

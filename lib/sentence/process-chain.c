@@ -1,0 +1,189 @@
+/* Processes joined by pipes. A thread writes while this one reads, so that a frame larger than all the pipes together cannot lock up.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "sentence/process-chain.h"
+#include "stage/h5-pipe.h"
+#include "stage/stage.h"
+
+struct pm_chain {
+	int n;
+	bool broken; /* a process failed: the others are told to go */
+	pid_t *pid;  /* 0: has been waited for */
+	const char **name;
+	struct pm_writer *to;
+	struct pm_reader *from;
+};
+
+static void child(char **argv, int in, int out)
+{
+	char path[PATH_MAX + 64];
+	const char *dir = pm_tool_find(argv[0]) ? pm_home() : NULL;
+	setpgid(0, 0); /* an interrupt from the terminal is for cycle, which ends the step first */
+	signal(SIGPIPE, SIG_DFL);
+	setenv("OMP_WAIT_POLICY", "passive", 0); /* threads that wait leave the cores to the other processes */
+	setenv("PM_QUIET", "1", 1); /* its message comes back down the stream, and cycle says it once */
+	dup2(in, STDIN_FILENO);
+	dup2(out, STDOUT_FILENO);
+	if (dir) {
+		snprintf(path, sizeof path, "%s/%s", dir, argv[0]);
+		execv(path, argv);
+	}
+	execvp(argv[0], argv);
+	snprintf(path, sizeof path, "cannot run '%s': %s", argv[0], strerror(errno));
+	struct pm_writer *w = pm_writer_of_fd(STDOUT_FILENO);
+	if (w)
+		pm_write_abort(w, PM_DATA, path);
+	_exit(127);
+}
+
+struct pm_chain *pm_chain_new(char ***words)
+{
+	struct pm_chain *c = calloc(1, sizeof *c);
+	int in[2], out[2], n = 0, status = 0;
+	while (words[n])
+		n++;
+	if (!c || !(c->pid = calloc((size_t)n, sizeof *c->pid)) || pipe2(in, O_CLOEXEC)) {
+		pm_fail_errno("cannot make a pipe");
+		free(c);
+		return NULL;
+	}
+	c->name = calloc((size_t)n, sizeof *c->name);
+	for (int i = 0; c->name && i < n; i++)
+		c->name[i] = words[i][0]; /* the sentence outlives its chains */
+	c->to = pm_writer_of_fd(in[1]);
+	int next = in[0];
+	for (; c->n < n && !status; c->n++) {
+		status = pipe2(out, O_CLOEXEC);
+		c->pid[c->n] = status ? -1 : fork();
+		if (!status && c->pid[c->n] == 0)
+			child(words[c->n], next, out[1]);
+		close(next);
+		if (!status)
+			close(out[1]);
+		next = out[0];
+		status = status || c->pid[c->n] < 0;
+	}
+	if (status) {
+		pm_fail_errno("cannot start '%s'", words[c->n - 1][0]);
+		free(c->pid), free(c->name), free(c);
+		return NULL;
+	}
+	c->from = pm_reader_of_fd(next);
+	return c;
+}
+
+struct sending {
+	struct pm_writer *to;
+	struct pm_frame *f; /* NULL: the end marker */
+	int status;
+	char message[512];
+};
+
+/* A thread of its own, in which a process that is gone is an error (EPIPE) and not a signal. */
+static void *sending_run(void *p)
+{
+	struct sending *s = p;
+	sigset_t set;
+	sigemptyset(&set);
+	sigaddset(&set, SIGPIPE);
+	pthread_sigmask(SIG_BLOCK, &set, NULL);
+	s->status = s->f ? pm_write_frame(s->to, s->f) : pm_write_end(s->to);
+	if (s->status)
+		snprintf(s->message, sizeof s->message, "%s", pm_message()); /* messages belong to a thread */
+	return NULL;
+}
+
+/* A stream that was cut: which process died, and how? It may take a moment until the system tells. */
+static int who_died(struct pm_chain *c, int otherwise)
+{
+	for (int tries = 0; tries < 50; tries++) {
+		for (int i = 0, how; i < c->n; i++) {
+			if (c->pid[i] <= 0 || waitpid(c->pid[i], &how, WNOHANG) <= 0)
+				continue;
+			c->pid[i] = 0;
+			if (WIFSIGNALED(how) && WTERMSIG(how) != SIGPIPE)
+				return pm_fail(PM_DATA, "'%s' was killed by signal %d", c->name[i], WTERMSIG(how));
+			if (WIFEXITED(how) && !pm_tool_find(c->name[i]))
+				return pm_fail(PM_DATA, "'%s' ended with status %d before its input did", c->name[i], WEXITSTATUS(how));
+		}
+		usleep(2000);
+	}
+	return otherwise;
+}
+
+/* Sends, and meanwhile reads what comes back. */
+static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **back)
+{
+	pthread_t writer;
+	if (pthread_create(&writer, NULL, sending_run, s))
+		return pm_fail_errno("cannot start a thread");
+	int got = pm_read_header(c->from, back);
+	if (got == PM_GOT_FRAME) {
+		int status = pm_read_payload(c->from, *back, true, NULL);
+		got = status ? status : got;
+	}
+	if (got < 0) {
+		c->broken = true;
+		char message[1024];
+		snprintf(message, sizeof message, "%s", pm_message());
+		bool cut = !pm_reader_aborted(c->from) || strstr(message, "it was cut") || strstr(message, "zero bytes");
+		int died = cut ? who_died(c, 0) : 0; /* one of ours behind it passes on that its input was cut */
+		got = died ? died : pm_fail(-got, "%s", message);
+		for (int i = 0; i < c->n; i++) /* a writer that waits for one of them sees it go */
+			if (c->pid[i] > 0)
+				kill(c->pid[i], SIGTERM);
+	}
+	pthread_join(writer, NULL);
+	return got;
+}
+
+int pm_chain_apply(struct pm_chain *c, struct pm_frame **f)
+{
+	struct sending s = {c->to, *f, 0, ""};
+	struct pm_frame *back = NULL;
+	int got = exchange(c, &s, &back);
+	if (got != PM_GOT_FRAME) {
+		pm_frame_free(back);
+		return got < 0 ? got : pm_fail(PM_DATA, "a stage ended its output before its input ended");
+	}
+	pm_frame_free(*f);
+	*f = back;
+	return s.status ? pm_fail(PM_DATA, "%s", s.message) : 0;
+}
+
+static int last_words(struct pm_chain *c)
+{
+	struct sending s = {c->to, NULL, 0, ""};
+	struct pm_frame *f = NULL;
+	int got = exchange(c, &s, &f);
+	pm_frame_free(f);
+	return got == PM_GOT_END || got < 0 ? (got < 0 ? got : 0) : pm_fail(PM_DATA, "a stage sent a frame too many");
+}
+
+int pm_chain_close(struct pm_chain *c)
+{
+	if (!c)
+		return 0;
+	int status = c->broken ? 0 : last_words(c), how;
+	pm_writer_close(c->to);
+	pm_reader_close(c->from);
+	for (int i = 0; i < c->n; i++) {
+		bool bad = c->pid[i] > 0 && waitpid(c->pid[i], &how, 0) > 0 && (!WIFEXITED(how) || WEXITSTATUS(how));
+		if (bad && !c->broken && !status)
+			status = pm_fail(PM_DATA, "process %d of the sentence ended with status %d", i + 1,
+				WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how));
+	}
+	free(c->pid);
+	free(c->name);
+	free(c);
+	return status;
+}

@@ -1,0 +1,16 @@
+/* A chain: words run as long-lived processes joined by pipes. A frame goes in at one end and comes out at the other.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SENTENCE_PROCESS_CHAIN_H
+#define PM_SENTENCE_PROCESS_CHAIN_H
+
+#include "stream/wire.h"
+
+struct pm_chain;
+
+/* words: argv of each process, NULL ends each and all; programs of ours are found beside this one, others on PATH. */
+struct pm_chain *pm_chain_new(char ***words);
+/* Sends the frame and returns what came back in its place. */
+int pm_chain_apply(struct pm_chain *c, struct pm_frame **f);
+int pm_chain_close(struct pm_chain *c); /* sends the end, waits for the processes; frees in any case */
+
+#endif

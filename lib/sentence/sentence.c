@@ -1,0 +1,305 @@
+/* Words and quotes as POSIX has them, without expansion; then segments: runs of our own words (fused), and chains of processes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "sentence/process-chain.h"
+#include "stage/internal.h"
+#include "sentence/sentence.h"
+
+enum { most_words = 64, most_arguments = 64 };
+
+struct word {
+	char *argv[most_arguments + 3]; /* two to spare, for --no-history and --verbose */
+	int argc;
+	const struct pm_tool *tool; /* NULL: a foreign program */
+	struct pm_stage *stage;     /* our own words: planned here even when they run as processes */
+	bool makes;                 /* runs when priming */
+};
+
+struct segment {
+	int first, count;        /* words */
+	bool process;
+	struct pm_chain *chain[2]; /* all its words; those that make fields (priming) */
+};
+
+struct pm_sentence {
+	int nwords, nsegments;
+	struct word word[most_words];
+	struct segment segment[most_words];
+};
+
+/* ---- text to words ---- */
+
+static int word_end(struct pm_sentence *s, char *buffer, size_t *n, bool *open)
+{
+	struct word *w = s->word + s->nwords;
+	if (!*open)
+		return 0;
+	if (w->argc == most_arguments)
+		return pm_fail(PM_USAGE, "more than %d words between two bars", most_arguments);
+	buffer[*n] = 0;
+	w->argv[w->argc++] = strdup(buffer);
+	*n = 0;
+	*open = false;
+	return 0;
+}
+
+static int stage_end(struct pm_sentence *s)
+{
+	if (!s->word[s->nwords].argc)
+		return pm_fail(PM_USAGE, "there is no word before a bar, or after the last one");
+	return ++s->nwords < most_words ? 0 : pm_fail(PM_USAGE, "more than %d stages", most_words - 1);
+}
+
+static int split(struct pm_sentence *s, const char *text, char *buffer)
+{
+	size_t n = 0;
+	bool open = false;
+	int status = 0;
+	for (const char *c = text; *c && !status; c++) {
+		if (*c == '\'' || *c == '"') {
+			char quote = *c;
+			open = true;
+			for (c++; *c && *c != quote; c++) {
+				if (quote == '"' && *c == '\\' && (c[1] == '"' || c[1] == '\\'))
+					c++;
+				buffer[n++] = *c;
+			}
+			if (!*c)
+				return pm_fail(PM_USAGE, "a quote is not closed in the sentence");
+		} else if (*c == '|') {
+			status = word_end(s, buffer, &n, &open);
+			status = status ? status : stage_end(s);
+		} else if (*c == ' ' || *c == '\t' || *c == '\n') {
+			status = word_end(s, buffer, &n, &open);
+		} else if (*c == '#' && !open) {
+			while (c[1] && c[1] != '\n')
+				c++;
+		} else {
+			if (*c == '\\' && c[1])
+				c++;
+			open = true;
+			buffer[n++] = *c;
+		}
+	}
+	status = status ? status : word_end(s, buffer, &n, &open);
+	return status ? status : stage_end(s);
+}
+
+/* ---- words to stages and segments ---- */
+
+static bool in_list(const struct pm_list *list, const char *name)
+{
+	for (int i = 0; i < list->n; i++)
+		if (!strcmp(list->item[i], name))
+			return true;
+	return false;
+}
+
+/* A foreign word must be a program that can be run: said before any input is read. */
+static int foreign_check(const char *name)
+{
+	const char *names[256], *near;
+	char path[4096], *list = strdup(getenv("PATH") ? getenv("PATH") : "/bin:/usr/bin"), *next = NULL;
+	bool found = strchr(name, '/') ? access(name, X_OK) == 0 : false;
+	for (char *dir = strchr(name, '/') || !list ? NULL : strtok_r(list, ":", &next); dir && !found; dir = strtok_r(NULL, ":", &next)) {
+		snprintf(path, sizeof path, "%s/%s", dir, name);
+		found = access(path, X_OK) == 0;
+	}
+	free(list);
+	if (!strcmp(name, "sh5")) /* a program of its own, which cycle does not know */
+		return pm_fail(PM_USAGE, "sh5 reads or writes a file and cannot stand inside the sentence (put it before or behind cycle: cycle -o FILE.h5)");
+	if (found)
+		return 0;
+	int n = 0;
+	for (; n < 255 && pm_tools[n]; n++)
+		names[n] = pm_tools[n]->name;
+	names[n] = NULL;
+	near = pm_nearest(name, names);
+	if (near)
+		return pm_fail(PM_USAGE, "no word '%s' (did you mean %s?)", name, near);
+	return pm_fail(PM_USAGE, "no word '%s': neither a tool of pmpipe nor a program on PATH", name);
+}
+
+static int word_make(struct word *w, const struct pm_list *moves)
+{
+	w->tool = pm_tool_find(w->argv[0]);
+	if (!w->tool) {
+		w->makes = !in_list(moves, w->argv[0]);
+		return foreign_check(w->argv[0]);
+	}
+	w->makes = w->tool->makes;
+	w->argv[w->argc] = "--no-history"; /* ends up last, also for the process; cycle's own entry says it all */
+	if (!strcmp(w->tool->name, "cycle") || w->tool->kind == PM_SOURCE)
+		return pm_fail(PM_USAGE, "'%s' cannot stand inside a sentence", w->argv[0]);
+	int status = 0;
+	w->stage = pm_stage_make(w->tool, w->argc, w->argv, &status);
+	if (w->stage && !status)
+		status = pm_stage_begin(w->stage);
+	if (status)
+		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	const struct pm_common *k = &w->stage->run->common;
+	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version)
+		return pm_fail(PM_USAGE, "'%s': files, timing and help belong to cycle itself, not inside a sentence", w->stage->word);
+	if (w->stage->leaves_out)
+		return pm_fail(PM_USAGE, "'%s' leaves frames out: inside a sentence every frame goes on", w->stage->word);
+	if (w->stage->kind == PM_SINK)
+		return pm_fail(PM_USAGE, "'%s' ends a stream and cannot stand inside a sentence (diag --tee FILE can)", w->argv[0]);
+	return 0;
+}
+
+static void segments_make(struct pm_sentence *s, bool fused)
+{
+	for (int i = 0; i < s->nwords; i++) {
+		bool process = !fused || !s->word[i].tool;
+		struct segment *last = s->nsegments ? s->segment + s->nsegments - 1 : NULL;
+		if (last && last->process == process)
+			last->count++;
+		else
+			s->segment[s->nsegments++] = (struct segment){i, 1, process, {NULL, NULL}};
+	}
+}
+
+int pm_sentence_free(struct pm_sentence *s)
+{
+	int status = 0;
+	if (!s)
+		return 0;
+	for (int i = 0; i < s->nsegments; i++)
+		for (int k = 0; k < 2; k++) {
+			int end = pm_chain_close(s->segment[i].chain[k]);
+			status = status ? status : end;
+		}
+	for (int i = 0; i <= s->nwords && i < most_words; i++) {
+		pm_stage_free(s->word[i].stage);
+		for (int k = 0; k < s->word[i].argc; k++)
+			free(s->word[i].argv[k]);
+	}
+	free(s);
+	return status;
+}
+
+struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves)
+{
+	struct pm_sentence *s = calloc(1, sizeof *s);
+	char *buffer = malloc(strlen(text) + 1);
+	int status = s && buffer ? split(s, text, buffer) : pm_fail(PM_DATA, "out of memory");
+	free(buffer);
+	for (int i = 0; s && i < s->nwords && !status; i++)
+		status = word_make(s->word + i, moves);
+	if (status) {
+		pm_sentence_free(s);
+		return NULL;
+	}
+	segments_make(s, fused);
+	return s;
+}
+
+void pm_sentence_verbose(struct pm_sentence *s)
+{
+	for (int i = 0; i < s->nwords; i++)
+		if (s->word[i].stage) {
+			s->word[i].stage->verbose = true;
+			s->word[i].argv[s->word[i].argc + 1] = "--verbose"; /* of its process */
+		}
+}
+
+/* ---- running ---- */
+
+/* The argv lists of a segment, all its words or those that make fields. */
+static struct pm_chain *chain_start(struct pm_sentence *s, const struct segment *g, bool priming)
+{
+	char **list[most_words + 1];
+	int n = 0;
+	for (int i = g->first; i < g->first + g->count; i++)
+		if (!priming || s->word[i].makes)
+			list[n++] = s->word[i].argv;
+	list[n] = NULL;
+	return n ? pm_chain_new(list) : NULL;
+}
+
+static int run_processes(struct pm_sentence *s, struct segment *g, bool priming, struct pm_frame **f)
+{
+	bool any = !priming;
+	for (int i = g->first; i < g->first + g->count; i++)
+		any |= s->word[i].makes;
+	if (!any)
+		return 0;
+	if (!g->chain[priming])
+		g->chain[priming] = chain_start(s, g, priming);
+	if (!g->chain[priming])
+		return -PM_DATA;
+	return pm_chain_apply(g->chain[priming], f);
+}
+
+static int run_fused(struct pm_sentence *s, const struct segment *g, bool priming, struct pm_frame *f)
+{
+	for (int i = g->first; i < g->first + g->count; i++) {
+		struct word *w = s->word + i;
+		if (priming && !w->makes)
+			continue;
+		int status = pm_stage_apply(w->stage, f);
+		if (status == PM_SKIP)
+			return pm_fail(PM_USAGE, "'%s' left the frame out: inside a sentence every frame goes on", w->stage->word);
+		if (status < 0)
+			return pm_fail(-status, "%s: %s", w->stage->word, pm_message());
+	}
+	return 0;
+}
+
+static int run_all(struct pm_sentence *s, bool priming, struct pm_frame **f)
+{
+	int status = 0;
+	for (int i = 0; i < s->nsegments && !status; i++) {
+		struct segment *g = s->segment + i;
+		status = g->process ? run_processes(s, g, priming, f) : run_fused(s, g, priming, *f);
+	}
+	return status;
+}
+
+int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f) { return run_all(s, false, f); }
+
+int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f) { return run_all(s, true, f); }
+
+int pm_sentence_end(struct pm_sentence *s)
+{
+	for (int i = 0; i < s->nsegments; i++)
+		for (int k = 0; k < s->segment[i].count && !s->segment[i].process; k++) {
+			const struct word *w = s->word + s->segment[i].first + k;
+			int status = w->tool->end ? w->tool->end(w->stage) : 0;
+			if (status)
+				return pm_fail(-status, "%s: %s", w->stage->word, pm_message());
+		}
+	return 0;
+}
+
+/* Tried on a bare header: plans say what is missing without computing anything. */
+bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
+{
+	struct pm_frame *h = pm_frame_header(f);
+	bool needs = false, known = h != NULL;
+	for (int i = 0; i < s->nwords && known && !needs; i++) {
+		struct word *w = s->word + i;
+		if (!w->stage)
+			break; /* what a foreign word adds or moves is not known before it runs */
+		w->stage->trial = true;
+		int status = pm_stage_declare(w->stage, h);
+		w->stage->trial = false;
+		needs = status == -PM_MISSING && !w->makes;
+		known = status >= 0;
+		pm_frame_settle(h);
+	}
+	pm_frame_free(h);
+	return needs;
+}
+
+const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
+
+void pm_sentence_timing(const struct pm_sentence *s, const char *file)
+{
+	for (int i = 0; i < s->nwords; i++)
+		if (s->word[i].stage)
+			pm_timing_write(s->word[i].stage, file, -1);
+}

@@ -1,0 +1,19 @@
+/* Options that set attributes of a frame, the same in every tool that has them. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STAGE_ATTRIBUTE_OPTIONS_H
+#define PM_STAGE_ATTRIBUTE_OPTIONS_H
+
+#include "stage/stage.h"
+
+/* "G=1.5" into a name and a number, or a name and a text. */
+int pm_attributes_pair(const char *text, char name[PM_NAME], double *value);
+int pm_attributes_words(const char *text, char name[PM_NAME], const char **value);
+/* Each returns 0 or failure; a list or vector that was not given (n = 0) changes nothing. */
+int pm_attributes_law(struct pm_frame *f, const char *law);                  /* and the constants it is at home with, unless they are there */
+int pm_attributes_constants(struct pm_frame *f, const struct pm_list *list); /* NAME=VALUE */
+int pm_attributes_units(struct pm_frame *f, const char *on, const struct pm_list *list); /* FIELD=UNIT */
+int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box);      /* lo,hi of every axis, or all lo, then all hi */
+/* One word for all faces, one per axis, or low,high per axis. Where the fields become periodic, or cease to be, the particles follow. */
+int pm_attributes_faces(struct pm_frame *f, const struct pm_list *list);
+int pm_attributes_particle_faces(struct pm_frame *f, const struct pm_list *list);
+
+#endif

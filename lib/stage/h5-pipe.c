@@ -1,0 +1,142 @@
+/* sh5 on a pipe. What it reads needs no watching: a stream that ends well has an end marker. What it writes is watched through its standard
+ * error, where it says in one line why it failed. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "stage/h5-pipe.h"
+
+struct pm_h5_pipe {
+	pid_t pid;
+	int said; /* its standard error */
+};
+
+const char *pm_home(void)
+{
+	static char path[PATH_MAX];
+	ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+	if (n <= 0)
+		return NULL;
+	path[n] = 0;
+	return dirname(path);
+}
+
+bool pm_h5_pipe_is(const char *path)
+{
+	size_t n = path ? strlen(path) : 0;
+	return n > 3 && !strcmp(path + n - 3, ".h5");
+}
+
+static void become(const char *const argv[])
+{
+	char beside[PATH_MAX + 8];
+	const char *dir = pm_home();
+	signal(SIGPIPE, SIG_DFL);
+	if (dir) {
+		snprintf(beside, sizeof beside, "%s/sh5", dir);
+		execv(beside, (char *const *)(uintptr_t)argv);
+	}
+	execvp("sh5", (char *const *)(uintptr_t)argv);
+}
+
+struct pm_reader *pm_h5_pipe_read(const char *path)
+{
+	const char *const argv[] = {"sh5", "--", path, NULL};
+	int out[2];
+	pid_t pid = pipe2(out, O_CLOEXEC) ? -1 : fork();
+	if (pid < 0) {
+		pm_fail_errno("cannot start sh5");
+		return NULL;
+	}
+	if (pid == 0) {
+		setenv("PM_QUIET", "1", 1); /* its message comes down the stream */
+		dup2(out[1], STDOUT_FILENO);
+		become(argv);
+		struct pm_writer *w = pm_writer_of_fd(STDOUT_FILENO);
+		if (w)
+			pm_write_abort(w, PM_DATA, "sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)");
+		_exit(127);
+	}
+	close(out[1]);
+	return pm_reader_of_fd(out[0]);
+}
+
+struct pm_reader *pm_h5_pipe_open(const char *path)
+{
+	return pm_h5_pipe_is(path) ? pm_h5_pipe_read(path) : pm_reader_open(path && strcmp(path, "-") ? path : NULL);
+}
+
+struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest)
+{
+	const char *const argv[] = {"sh5", "-o", path, NULL};
+	int in[2], said[2];
+	struct pm_h5_pipe *r = calloc(1, sizeof *r);
+	if (!r || pipe2(in, O_CLOEXEC) || pipe2(said, O_CLOEXEC) || (r->pid = fork()) < 0) {
+		pm_fail_errno("cannot start sh5");
+		free(r);
+		return NULL;
+	}
+	if (r->pid == 0) {
+		unsetenv("PM_QUIET");
+		signal(SIGINT, SIG_IGN); /* it ends with its input, which says what became of it */
+		dup2(in[0], STDIN_FILENO);
+		dup2(said[1], STDERR_FILENO);
+		become(argv);
+		fprintf(stderr, "sh5: sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)\n");
+		_exit(PM_DATA);
+	}
+	close(in[0]);
+	close(said[1]);
+	signal(SIGPIPE, SIG_IGN); /* if it fails, its own words are the message */
+	r->said = said[0];
+	*rest = r;
+	return pm_writer_of_fd(in[1]);
+}
+
+/* What it said, as our message; 0 if nothing. */
+static int complaint(struct pm_h5_pipe *r, int code)
+{
+	char text[2048];
+	ssize_t n = read(r->said, text, sizeof text - 1);
+	if (n <= 0)
+		return 0;
+	text[n] = 0;
+	text[strcspn(text, "\n")] = 0;
+	return pm_fail(code, "%s", text + (strncmp(text, "sh5: ", 5) ? 0 : 5));
+}
+
+static int wait_code(struct pm_h5_pipe *r)
+{
+	int how = 0;
+	while (waitpid(r->pid, &how, 0) < 0 && errno == EINTR)
+		;
+	r->pid = 0;
+	return WIFEXITED(how) ? WEXITSTATUS(how) : PM_DATA;
+}
+
+int pm_h5_pipe_reason(struct pm_h5_pipe *r, int status)
+{
+	fcntl(r->said, F_SETFL, O_NONBLOCK); /* it speaks before it goes, so its words are here if it went first */
+	int said = complaint(r, PM_DATA);
+	fcntl(r->said, F_SETFL, 0);
+	return said ? -wait_code(r) : status;
+}
+
+int pm_h5_pipe_close(struct pm_h5_pipe *r)
+{
+	if (!r)
+		return 0;
+	int status = r->pid ? complaint(r, PM_DATA) : 0, code = r->pid ? wait_code(r) : 0;
+	if (code && !status)
+		status = pm_fail(PM_DATA, "sh5 ended with status %d", code);
+	close(r->said);
+	free(r);
+	return status ? -(code ? code : PM_DATA) : 0;
+}

@@ -1,0 +1,40 @@
+/* bfield_p += sum over points of W((x_p - x_i)/h) B_i, or B where it is uniform. B is given, so no image is taken at walls: its values count as
+ * they are on both sides. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "transfer/magnetic-field.h"
+
+static const char *const target = "bfield";
+
+int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, bool replace)
+{
+	const struct pm_field *given = pm_frame_field(f, m->name, name);
+	if (!given)
+		return 0;
+	if (given->components != 3)
+		return pm_fail(PM_DATA, "'%s' on mesh '%s' has %d components, and a magnetic field has 3", name, m->name, given->components);
+	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, given->role == PM_STATE ? "external" : "self", replace) ? 0 : -PM_DATA;
+}
+
+int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, const struct pm_transfer *t)
+{
+	const struct pm_field *given = pm_frame_field(f, m->name, name);
+	struct pm_field *to = given ? pm_frame_field(f, set, target) : NULL;
+	struct pm_transfer own = {.grid = t->grid, .kernel = t->kernel, .components = 3};
+	const double *x[3] = {0}, *mesh[3];
+	double *out[3];
+	struct pm_strays strays;
+	for (int c = 0; c < 3 && to; c++) {
+		mesh[c] = pm_in(given, c);
+		out[c] = pm_out(to, c);
+		for (size_t i = 0; i < to->count && given->uniform; i++)
+			out[c][i] += given->value[c];
+	}
+	if (!to || given->uniform)
+		return 0;
+	for (int d = 0; d < f->dim; d++)
+		x[d] = pm_in(pm_frame_field(f, set, "x"), d);
+	memcpy(own.staggered, given->staggered, sizeof own.staggered);
+	pm_grid_even(&own.grid);
+	return pm_gather(&own, to->count, x, mesh, NULL, out, &strays);
+}

@@ -1,0 +1,169 @@
+/* Carrying changes over: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i / D_i, with the overlap of the particles at the
+ * point, D_i = sum over particles of volume_p W((x_p - x_i)/h) / cell, 1 on a lattice; without volume and D where the state is a value.
+ * The sum over the particles is then that over the mesh, however they lie, and several sets share it by their volumes. Where D is below a
+ * half (the rim of a patch; gaps; negative lobes) it counts as 1, and what then goes to no particle is summed: cell (1 - D) d(density) over those points.
+ * Source: Cottet and Koumoutsakos 2000, section 5.5, for D = 1. Cost: a spread, and the changes ride with the gather of the law's field.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "transfer/mesh-changes.h"
+#include "stream/fastest.h"
+
+static bool concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
+{
+	const struct pm_field *state = c->role == PM_CHANGE && !strcmp(c->on, m->name) && c->of[0] ? pm_frame_field(f, set, c->of) : NULL;
+	return state && state->role == PM_STATE;
+}
+
+static void target_name(const struct pm_field *change, char name[PM_NAME]) { snprintf(name, PM_NAME, "d%.62s", change->of); }
+
+static int plan_field(struct pm_frame *f, const char *set, struct pm_field *change, bool replace)
+{
+	char name[PM_NAME];
+	struct pm_field *to = NULL;
+	bool strength = pm_frame_field(f, set, change->of)->extensive;
+	if (strength && !pm_frame_field(f, set, "volume"))
+		return pm_fail(PM_DATA, "'%s' on '%s' is a strength: its change '%s' on the mesh must be multiplied by a 'volume', and there is none (scalc "
+			"makes one, or a column volume in the table)", change->of, set, change->name);
+	if (strength && !pm_reads(f, set, "volume"))
+		return -PM_DATA;
+	target_name(change, name);
+	change->use |= PM_USE_READ;
+	for (int t = 0; t < change->nterms; t++, replace = false)
+		if (!(to = pm_contributes(f, set, name, change->of, change->components, change->terms[t], replace)))
+			return -PM_DATA;
+	if (to) {
+		to->extensive = strength;
+		pm_fastest_add(to, pm_fastest(change));
+	}
+	return 0;
+}
+
+int pm_mesh_changes_declare(struct pm_frame *f, const char *set, const struct pm_mesh *m, bool replace)
+{
+	struct pm_field *fields[PM_MESH_CHANGES]; /* contributing reorders the frame's list */
+	int n = 0, status = 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (concerns(f, set, m, f->fields[i])) {
+			if (n == PM_MESH_CHANGES)
+				return pm_fail(PM_DATA, "more than %d change fields on mesh '%s' to carry over", PM_MESH_CHANGES, m->name);
+			fields[n++] = f->fields[i];
+		}
+	for (int i = 0; i < n && !status; i++)
+		status = plan_field(f, set, fields[i], replace);
+	return status;
+}
+
+/* cell * D on the points. */
+static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_field *change, const struct pm_transfer *t, double *D)
+{
+	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1};
+	int status = 0;
+	memcpy(one.staggered[0], change->staggered[0], sizeof one.staggered[0]);
+	pm_grid_even(&one.grid); /* particles go on beyond a wall, whatever the field does there */
+	for (size_t i = 0; i < sets->n && !status; i++) {
+		const struct pm_field *state = pm_frame_field(f, sets->name[i], change->of);
+		const double *x[3], *volume;
+		struct pm_strays strays;
+		if (!state || state->role != PM_STATE || !state->extensive)
+			continue;
+		pm_positions(f, sets->name[i], x);
+		volume = pm_in(pm_frame_field(f, sets->name[i], "volume"), 0);
+		status = pm_spread(&one, state->count, x, &volume, &D, &strays);
+	}
+	return status;
+}
+
+/* What the points with too few particles do not pass on. */
+static double lost(const struct pm_grid *g, const double *D, const double *from)
+{
+	const double cell = pm_grid_cell(g);
+	struct pm_sum sum = {0, 0};
+	for (size_t k = 0, i = 0; k < g->points[2]; k++)
+		for (size_t j = 0; j < g->points[1]; j++)
+			for (size_t l = 0; l < g->points[0]; l++, i++)
+				if (D[i] < 0.5)
+					pm_sum_add(&sum, cell * pm_grid_weight(g, l, j, k) * (1 - D[i]) * from[i]);
+	return pm_sum_total(sum);
+}
+
+static int share(struct pm_mesh_changes *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_transfer *t)
+{
+	const struct pm_field *change = c->change[c->n - 1];
+	size_t n = change->count;
+	double *D = pm_zalloc(n, sizeof *D), *to = pm_alloc(n * (size_t)change->components, sizeof *to);
+	int status = D && to ? overlap(f, sets, change, t, D) : -PM_DATA;
+	c->share[c->n - 1] = to;
+	for (int k = 0; k < change->components && !status; k++) {
+		const double *from = pm_in(change, k);
+		if (k < 3)
+			c->lost[c->n - 1][k] = lost(&t->grid, D, from);
+#pragma omp parallel for schedule(static) if (n > 16384)
+		for (size_t i = 0; i < n; i++)
+			to[(size_t)k * n + i] = D[i] < 0.5 ? from[i] : from[i] / D[i];
+	}
+	pm_free(D);
+	return status;
+}
+
+int pm_mesh_changes_init(struct pm_mesh_changes *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_mesh *m, const struct pm_transfer *t)
+{
+	int status = 0;
+	*c = (struct pm_mesh_changes){.n = 0};
+	for (size_t i = 0; i < f->nfields && !status; i++) {
+		bool any = false, strength = false;
+		for (size_t k = 0; k < sets->n; k++)
+			if (concerns(f, sets->name[k], m, f->fields[i])) {
+				any = true;
+				strength |= pm_frame_field(f, sets->name[k], f->fields[i]->of)->extensive;
+			}
+		if (!any || c->n == PM_MESH_CHANGES)
+			continue;
+		c->change[c->n++] = f->fields[i];
+		if (strength)
+			status = share(c, f, sets, t);
+	}
+	return status;
+}
+
+void pm_mesh_changes_free(struct pm_mesh_changes *c)
+{
+	for (int i = 0; i < c->n; i++)
+		pm_free(c->share[i]);
+	c->n = 0;
+}
+
+static int append(const struct pm_frame *f, const char *set, const struct pm_field *change, const double *values, struct pm_transfer *t,
+	const double *mesh[], const double *factor[], double *out[])
+{
+	char name[PM_NAME];
+	int n = change->components;
+	if (t->components + n > PM_COMPONENTS)
+		return pm_fail(PM_DATA, "more than %d components to bring from '%s' to '%s' at once", PM_COMPONENTS, change->on, set);
+	target_name(change, name);
+	struct pm_field *to = pm_frame_field(f, set, name);
+	for (int c = 0; c < n; c++) {
+		int at = t->components++;
+		mesh[at] = values ? values + (size_t)c * change->count : pm_in(change, c);
+		out[at] = pm_out(to, c);
+		factor[at] = values ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
+		memcpy(t->staggered[at], change->staggered[c], sizeof t->staggered[at]);
+		memset(t->flip[at], 0, sizeof t->flip[at]);
+		if (n > 1 && n == f->dim)
+			t->flip[at][c] = 1; /* a vector: its normal component has the image of the other sign */
+	}
+	return 0;
+}
+
+int pm_mesh_changes_append(const struct pm_mesh_changes *c, const struct pm_frame *f, const char *set, struct pm_transfer *t, const double *mesh[PM_COMPONENTS],
+	const double *factor[PM_COMPONENTS], double *out[PM_COMPONENTS])
+{
+	int status = 0;
+	for (int i = 0; i < c->n && !status; i++) {
+		const struct pm_field *state = pm_frame_field(f, set, c->change[i]->of);
+		if (state && state->role == PM_STATE)
+			status = append(f, set, c->change[i], state->extensive ? c->share[i] : NULL, t, mesh, factor, out);
+	}
+	return status;
+}

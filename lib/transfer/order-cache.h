@@ -1,0 +1,30 @@
+/* The order of particles in one transfer, kept for the next one at the same positions: m2p finds that of p2m. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_ORDER_CACHE_H
+#define PM_TRANSFER_ORDER_CACHE_H
+
+#include "transfer/tile-order.h"
+#include "stream/frame.h"
+
+struct pm_order_cache {
+	struct pm_note note;     /* first: it may hang on the field of the positions */
+	struct pm_grid grid;     /* what the order depends on, with n and the positions */
+	int width;
+	unsigned char staggered[3];
+	size_t n;
+	const double *x[3];
+	struct pm_axis axes[3];
+	struct pm_tile_order order;
+	struct pm_strays strays;
+};
+
+/* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. */
+struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[], int nvalues,
+	const double *const values[], int room);
+struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o);
+/* The one that hangs there, if it is that of these positions; NULL if none. */
+struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[]);
+/* Leaves it there, or frees it where there is no place. */
+void pm_order_cache_leave(const struct pm_transfer *t, struct pm_order_cache *o);
+
+#endif

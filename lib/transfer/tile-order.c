@@ -1,0 +1,247 @@
+/* A stable counting sort of particles into tiles of cells: count per chunk of the stream, add up, move the records. Stability makes the result
+ * independent of the number of chunks, which is the number of threads. A stream that is in the order of tiles already is left where it is.
+ * Cost: two passes over the positions, one over the rest.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "transfer/tile-order.h"
+
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later record is fetched early */
+
+static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
+static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
+
+/* u[d][0..m-1] of the particles from p on; false if there are strays (-1). */
+static bool locate(const struct pm_axis axes[3], int dim, size_t p, size_t m, const double *const x[], double u[3][batch])
+{
+	bool all = true;
+	for (int d = 0; d < dim; d++)
+		all &= pm_axis_locate_many(&axes[d], m, x[d] + p, u[d]);
+	return all;
+}
+
+static void find_strays(struct pm_tile_order *o, size_t p, size_t m, double u[3][batch], const double *const x[], struct pm_strays *strays)
+{
+	for (size_t i = 0; i < m; i++)
+		for (int d = 0; d < o->dim; d++)
+			if (u[d][i] < 0) {
+				o->tile[p + i] = (uint32_t)o->tiles;
+				pm_strays_note(strays, p + i, o->dim, x, d);
+				break;
+			}
+}
+
+/* u is not negative (strays are seen to afterwards), so that the cast is floor. */
+static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batch], uint32_t *restrict tile)
+{
+	const int *shift = pm_tile_shift[o->dim];
+	for (size_t i = 0; i < m; i++)
+		tile[i] = (uint32_t)((int32_t)u[0][i] >> shift[0]);
+	for (int d = 1; d < o->dim; d++) {
+		uint32_t step = d == 1 ? o->across[0] : o->across[0] * o->across[1];
+		for (size_t i = 0; i < m; i++)
+			tile[i] += step * (uint32_t)((int32_t)u[d][i] >> shift[d]);
+	}
+}
+
+/* Counts, and says whether the chunk is in order and without strays. */
+static bool count_chunk(struct pm_tile_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], struct pm_strays *strays)
+{
+	uint32_t falls = 0;
+	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
+	double u[3][batch];
+	memset(count, 0, (o->tiles + 1) * sizeof *count);
+	*strays = (struct pm_strays){.count = 0};
+	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
+		size_t m = to - p < batch ? to - p : batch;
+		bool all = locate(axes, o->dim, p, m, x, u);
+		find_tiles(o, m, u, o->tile + p);
+		if (!all)
+			find_strays(o, p, m, u, x, strays);
+		for (size_t i = 0; i < m; i++)
+			count[o->tile[p + i]]++;
+		for (size_t i = p + (p == chunk_from(o, chunk)); i < p + m; i++)
+			falls |= o->tile[i] < o->tile[i - 1];
+	}
+	return !falls && !strays->count;
+}
+
+/* Counts become the first place of each chunk in each tile. Row 0 is that of chunk 0 for good; row c+1 is used up by chunk c and is then
+ * what chunk c+1 began with. */
+static void add_up(struct pm_tile_order *o)
+{
+	size_t at = 0, columns = o->tiles + 1;
+	for (size_t t = 0; t < columns; t++) {
+		o->begin[t] = o->cursor[t] = at;
+		for (int chunk = 0; chunk < o->chunks; chunk++) {
+			size_t *cell = &o->cursor[(size_t)(chunk + 1) * columns + t], count = *cell;
+			*cell = at;
+			at += count;
+		}
+	}
+	o->begin[columns] = at;
+}
+
+static void move_chunk(struct pm_tile_order *o, int chunk)
+{
+	size_t *cursor = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1), stride = (size_t)o->stride;
+	double u[3][batch];
+	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
+		size_t m = to - p < batch ? to - p : batch;
+		locate(o->axes, o->dim, p, m, o->x, u);
+		for (size_t i = 0; i < m; i++) {
+			uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < to ? p + i + ahead : p + i];
+			double *record = o->records + stride * cursor[tile]++;
+			__builtin_prefetch(o->records + stride * cursor[soon], 1);
+			for (int d = 0; d < o->dim; d++)
+				record[d] = u[d][i];
+			for (int c = 0; c < o->nvalues; c++)
+				record[o->dim + c] = o->values[c][p + i];
+		}
+	}
+}
+
+void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, double *records)
+{
+	double u[3][batch];
+	const size_t stride = (size_t)o->stride;
+	locate(o->axes, o->dim, p, m, o->x, u);
+	for (int d = 0; d < o->dim; d++)
+		for (size_t i = 0; i < m; i++)
+			records[i * stride + (size_t)d] = u[d][i];
+	for (int c = 0; c < o->nvalues; c++)
+		for (size_t i = 0; i < m; i++)
+			records[i * stride + (size_t)(o->dim + c)] = o->values[c][p + i];
+}
+
+static int allocate(struct pm_tile_order *o)
+{
+	size_t columns = o->tiles + 1;
+	o->tile = pm_alloc(o->n, sizeof *o->tile);
+	o->begin = pm_alloc(columns + 1, sizeof *o->begin);
+	o->cursor = pm_alloc((size_t)(o->chunks + 1) * columns, sizeof *o->cursor);
+	return o->tile && o->begin && o->cursor ? 0 : -PM_DATA;
+}
+
+static int move(struct pm_tile_order *o)
+{
+	size_t doubles = o->n * (size_t)o->stride;
+	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
+	if (!o->records)
+		return -PM_DATA;
+	memset(o->records + doubles, 0, 4 * sizeof *o->records);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
+		move_chunk(o, chunk);
+	return 0;
+}
+
+static int count_tiles(struct pm_tile_order *o, const struct pm_axis axes[3])
+{
+	o->tiles = 1;
+	for (int d = 0; d < 3; d++) {
+		int shift = pm_tile_shift[o->dim][d];
+		o->across[d] = (uint32_t)((axes[d].count - 1) >> shift) + 1;
+		o->tiles *= o->across[d];
+		if (axes[d].count > INT32_MAX || o->tiles >= UINT32_MAX)
+			return pm_fail(PM_DATA, "a mesh of %zu cells along %c is too large for p2m and m2p", axes[d].count, "xyz"[d]);
+	}
+	return 0;
+}
+
+int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
+	const double *const values[], int room, struct pm_strays *strays)
+{
+	int need = dim + nvalues;
+	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues};
+	*strays = (struct pm_strays){.count = 0};
+	for (int d = 0; d < dim; d++)
+		o->x[d] = x[d];
+	for (int c = 0; c < nvalues; c++)
+		o->values[c] = values[c];
+	int status = count_tiles(o, axes), falls = 0;
+	if (status)
+		return status;
+	while (o->chunks > 1 && ((size_t)o->chunks * 4096 > n || (size_t)o->chunks * o->tiles > 4 * n)) /* not worth the rows of the cursors */
+		o->chunks--;
+	if ((status = allocate(o)))
+		return status;
+	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
+	if (!each)
+		return -PM_DATA;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : falls)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
+		falls |= !count_chunk(o, axes, chunk, x, &each[chunk]);
+	for (int chunk = 1; chunk < o->chunks; chunk++)
+		falls |= o->tile[chunk_from(o, chunk)] < o->tile[chunk_from(o, chunk) - 1];
+	add_up(o);
+	status = falls ? move(o) : 0;
+	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
+		uint64_t count = strays->count;
+		if (each[chunk].count)
+			*strays = each[chunk];
+		strays->count = count + each[chunk].count;
+	}
+	pm_free(each);
+	return status;
+}
+
+void pm_tile_order_free(struct pm_tile_order *o)
+{
+	pm_free(o->tile);
+	pm_free(o->begin);
+	pm_free(o->cursor);
+	pm_free(o->records);
+	*o = (struct pm_tile_order){.n = 0};
+}
+
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[])
+{
+	bool finite = true;
+	for (int c = 0; c < nvalues; c++) {
+		double *restrict y = to[c] + p;
+		const double *f = factor[c] ? factor[c] + p : NULL;
+		for (size_t i = 0; i < m; i++) {
+			double value = records[i * (size_t)stride + (size_t)c];
+			value = f ? f[i] * value : value;
+			y[i] = set[c] ? value : y[i] + value;
+		}
+		finite &= pm_finite_few(m, y);
+	}
+	return finite;
+}
+
+/* The records of a batch side by side, in the order of the stream; a stray's is zero. */
+static void collect(const struct pm_tile_order *o, const double *results, size_t stride, size_t p, size_t m, size_t end, size_t *cursor, int nvalues, double *batch_records)
+{
+	for (size_t i = 0; i < m; i++) {
+		uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < end ? p + i + ahead : p + i];
+		const double *record = results + stride * cursor[tile]++;
+		__builtin_prefetch(results + stride * cursor[soon]);
+		for (int c = 0; c < nvalues; c++)
+			batch_records[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
+	}
+}
+
+int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
+	double *const to[], bool *finite)
+{
+	size_t columns = o->tiles + 1, *cursors = pm_alloc((size_t)o->chunks * columns, sizeof *cursors);
+	int bad = 0;
+	if (!cursors)
+		return -PM_DATA;
+	memcpy(cursors, o->cursor, (size_t)o->chunks * columns * sizeof *cursors);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : bad)
+	for (int chunk = 0; chunk < o->chunks; chunk++) {
+		double records[batch * PM_COMPONENTS];
+		size_t *cursor = cursors + (size_t)chunk * columns;
+		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
+			size_t m = end - p < batch ? end - p : batch;
+			collect(o, results, (size_t)stride, p, m, end, cursor, nvalues, records);
+			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, factor, set, to);
+		}
+	}
+	pm_free(cursors);
+	*finite = !bad;
+	return 0;
+}

@@ -1,0 +1,38 @@
+/* Particles in the order of tiles of cells. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_TILE_ORDER_H
+#define PM_TRANSFER_TILE_ORDER_H
+
+#include "transfer/transfer-tile.h"
+
+struct pm_tile_order {
+	int dim, chunks;
+	size_t n, tiles;
+	uint32_t across[3];   /* tiles per axis; x runs fastest */
+	uint32_t *tile;       /* [n] of each particle; `tiles` for strays */
+	size_t *begin;        /* [tiles+2] first record of each tile */
+	size_t *cursor;       /* [chunks+1][tiles+1] */
+	int stride;           /* doubles per record */
+	double *records;      /* [n][stride]: u of each axis, then the values; NULL: the stream is in the order of tiles already */
+	const struct pm_axis *axes;
+	const double *x[3];
+	int nvalues;
+	const double *values[PM_COMPONENTS];
+};
+
+/* Sorts n particles by tile; within a tile they keep the order of the stream. values[nvalues][n] travel along; the records have room for
+ * at least `room` doubles. 0 or failure; free in any case. */
+int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
+	const double *const values[], int room, struct pm_strays *strays);
+void pm_tile_order_free(struct pm_tile_order *o);
+/* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. */
+enum { PM_TILE_ORDER_PACK = 256 };
+void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, double *records);
+/* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
+ * records. Whether every value is finite; 0 or failure. */
+int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
+	double *const to[], bool *finite);
+/* The same for m particles from p on, whose records are given. */
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[]);
+
+#endif

@@ -1,0 +1,189 @@
+/* Positions and faces along one axis. Beyond a wall the mesh goes on as its odd image, beyond a neumann face as its even image, both about the
+ * end node; on a periodic axis it repeats. With half weight of the end nodes in mesh sums this makes spread and gather adjoint, and
+ * the total strength of a neumann mesh exact: an end node receives its share once, as density twice.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <float.h>
+
+#include "transfer/transfer-axis.h"
+
+/* The mesh point that virtual point i (below 0 and above n too) is the image of, and the sign of the image. */
+static size_t fold_point(ptrdiff_t i, ptrdiff_t n, bool periodic, bool half, const int image[2], int *sign)
+{
+	*sign = 1;
+	if (periodic)
+		return (size_t)((i % n + n) % n);
+	ptrdiff_t last = half ? n - 1 : n;
+	while (i < 0 || i > last) {
+		*sign *= image[i > last];
+		i = i < 0 ? -i - half : 2 * n - half - i;
+	}
+	return (size_t)i;
+}
+
+/* +1, -1 or 0 (the kernel never gets there with weight). */
+static int image_sign(enum pm_face face, bool flip)
+{
+	if (face == PM_WALL || face == PM_NEUMANN)
+		return (face == PM_WALL) != flip ? -1 : 1;
+	return 0;
+}
+
+static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, bool half, ptrdiff_t first)
+{
+	ptrdiff_t n = (ptrdiff_t)g->cells[d];
+	for (int flip = 0; flip < 2; flip++) {
+		const int image[2] = {image_sign(g->face[d][0], flip), image_sign(g->face[d][1], flip)};
+		for (size_t slot = 0; slot < a->slots; slot++) {
+			int sign;
+			size_t at = fold_point(first + (ptrdiff_t)slot, n, a->periodic, half, image, &sign);
+			double weight = 1;
+			if (!a->periodic && !half && (at == 0 || at == (size_t)n)) {
+				int end = image[at != 0];
+				weight = end > 0 ? 0.5 : 1;
+				sign = end < 0 ? 0 : sign; /* an odd function is 0 here */
+			}
+			a->at[slot] = at;
+			a->put[flip][slot] = sign / weight;
+			a->get[flip][slot] = sign;
+		}
+	}
+	a->from = a->slots;
+	a->to = 0;
+	for (size_t slot = 0; slot < a->slots; slot++) {
+		ptrdiff_t point = first + (ptrdiff_t)slot;
+		if (point >= !a->periodic && point < n && slot < a->from)
+			a->from = slot;
+		if (point >= !a->periodic && point < n)
+			a->to = slot + 1;
+	}
+	if (a->to < a->from)
+		a->from = a->to = a->slots;
+}
+
+/* Open and absorbing faces keep the kernel inside the points 1..n-1; at walls and neumann faces a particle may sit on the face itself. */
+static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int width)
+{
+	double r = 0.5 * width, rounding = 4 * DBL_EPSILON * (a->n + fabs(a->lo) / a->h);
+	bool closed[2];
+	for (int side = 0; side < 2; side++)
+		closed[side] = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
+	a->low = closed[0] ? 0 : r;
+	a->high = closed[1] ? a->n + rounding : a->n - r;
+	if (width == 1 && !closed[1])
+		a->high = nextafter(a->high, 0); /* ngp jumps: ties go up */
+}
+
+static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int width, bool half)
+{
+	bool odd = width % 2, lift;
+	a->periodic = g->face[d][0] == PM_PERIODIC;
+	a->lo = g->lo[d];
+	a->h = g->h[d];
+	a->n = (double)g->cells[d];
+	a->shift = odd ? 0.5 : 0;
+	lift = !a->periodic && half && !odd; /* keeps u >= 0 */
+	a->add = a->shift - (half ? 0.5 : 0) + lift;
+	a->count = g->cells[d] + !a->periodic;
+	a->slots = a->count + (size_t)width - 1;
+	set_range(a, g, d, width);
+	a->at = pm_alloc(a->slots, sizeof *a->at);
+	double *factor = pm_alloc(a->slots, 4 * sizeof *factor);
+	a->put[0] = factor;
+	if (!a->at || !factor)
+		return -PM_DATA;
+	a->put[1] = factor + a->slots;
+	a->get[0] = factor + 2 * a->slots;
+	a->get[1] = factor + 3 * a->slots;
+	fill_slots(a, g, d, half, -((width - 1) / 2) - lift);
+	return 0;
+}
+
+int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3])
+{
+	for (int d = 0; d < 3; d++)
+		axes[d] = (struct pm_axis){.count = 0};
+	for (int d = 0; d < 3; d++) {
+		bool used = d < t->grid.dim;
+		int status = axis_init(&axes[d], &t->grid, d, used ? t->kernel->width : 1, used && staggered[d]);
+		if (status) {
+			pm_axes_free(axes);
+			return status;
+		}
+	}
+	return 0;
+}
+
+void pm_axes_free(struct pm_axis axes[3])
+{
+	for (int d = 0; d < 3; d++) {
+		pm_free(axes[d].at);
+		pm_free(axes[d].put[0]);
+		axes[d] = (struct pm_axis){.count = 0};
+	}
+}
+
+/* One period up or down, without a branch; what is still outside, or sits at n by rounding, goes the slow way. */
+static inline double wrap_near(const struct pm_axis *a, double x)
+{
+	double u = (x - a->lo) / a->h + a->add;
+	u = u >= a->n ? u - a->n : u;
+	return u < 0 ? u + a->n : u;
+}
+
+static bool wrap_far(const struct pm_axis *a, double x, double *u)
+{
+	double r = fmod(x - a->lo, a->n * a->h);
+	*u = r / a->h + a->add;
+	if (*u < 0)
+		*u += a->n;
+	if (*u >= a->n)
+		*u -= a->n;
+	return isfinite(r);
+}
+
+bool pm_axis_locate(const struct pm_axis *a, double x, double *u)
+{
+	if (a->periodic) {
+		*u = wrap_near(a, x);
+		return (*u >= 0 && *u < a->n) || wrap_far(a, x, u);
+	}
+	double s = (x - a->lo) / a->h;
+	*u = (s > a->n ? a->n : s) + a->add;
+	return s >= a->low && s <= a->high;
+}
+
+bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *restrict x, double *restrict u)
+{
+	int bad = 0;
+	if (a->periodic)
+		for (size_t i = 0; i < n; i++) {
+			u[i] = wrap_near(a, x[i]);
+			bad |= !(u[i] >= 0 && u[i] < a->n);
+		}
+	else
+		for (size_t i = 0; i < n; i++) {
+			double s = (x[i] - a->lo) / a->h;
+			u[i] = (s > a->n ? a->n : s) + a->add;
+			bad |= !(s >= a->low && s <= a->high);
+		}
+	if (!bad)
+		return true;
+	bool all = true;
+	for (size_t i = 0; i < n; i++)
+		if (!pm_axis_locate(a, x[i], &u[i])) {
+			u[i] = -1;
+			all = false;
+		}
+	return all;
+}
+
+void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis)
+{
+	if (!s->count || index < s->first) {
+		s->first = index;
+		s->axis = axis;
+		for (int d = 0; d < 3; d++)
+			s->x[d] = d < dim ? x[d][index] : 0;
+	}
+	s->count++;
+}

@@ -1,0 +1,35 @@
+/* One axis of a transfer: where a particle is on it, and to which mesh points the points around it belong. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_AXIS_H
+#define PM_TRANSFER_AXIS_H
+
+#include "transfer/transfer.h"
+
+/* A particle at x has u = (x - lo)/h + add, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
+ * cell..cell+width-1, and slot i is mesh point at[i]. */
+struct pm_axis {
+	bool periodic;
+	double lo, h;      /* [length] */
+	double n;          /* cells of the mesh */
+	double low, high;  /* non-periodic: where (x-lo)/h may be, inclusive */
+	double add, shift; /* [cells] */
+	size_t count, slots;
+	size_t *at;        /* [slots] */
+	double *put[2];    /* [flip][slots] factor of what is spread to the slot: sign of the image, 1/weight of the point */
+	double *get[2];    /* [flip][slots] factor of what is gathered from it */
+	size_t from, to;   /* slots from..to-1 are consecutive points with factors 1 */
+};
+
+/* For components that sit at staggered[]; axes above dim have one cell. */
+int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3]);
+void pm_axes_free(struct pm_axis axes[3]);
+
+/* u of a particle anywhere: periodic axes fold (lo+L is lo; -1e-17 and 1e300 too); false if the axis does not hold it. */
+bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
+/* The same for n particles; u is -1 where the axis does not hold it. False if there is one such. */
+bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, double *u);
+
+/* Notes a stray; the one with the least index is kept. */
+void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis);
+
+#endif

@@ -1,0 +1,218 @@
+/* Transfers between the sets and the meshes of a frame: who takes part, what is read and made, how a mesh grows, how strays are refused.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "mesh/regrid.h"
+#include "transfer/transfer-frame.h"
+
+enum { grow_block = 8 }; /* cells */
+
+static bool is_real(const struct pm_field *field) { return field->type == PM_F64 || field->type == PM_F32; }
+
+/* The first field of needs[] that the set has not, or only as a change or register; NULL if it has all. */
+static const char *lacks(const struct pm_frame *f, const char *set, const char *const needs[])
+{
+	for (int i = 0; needs[i]; i++) {
+		const struct pm_field *field = pm_frame_field(f, set, needs[i]);
+		if (!field || field->role == PM_CHANGE || field->role == PM_REGISTER)
+			return needs[i];
+	}
+	return NULL;
+}
+
+int pm_sets_choose(const struct pm_frame *f, const char *only, const char *const needs[], const char *remedy, struct pm_sets *sets)
+{
+	sets->n = 0;
+	for (size_t i = 0; i < f->nsets && sets->n < PM_SETS_MOST; i++) {
+		const char *name = f->sets[i]->name, *missing = lacks(f, name, needs);
+		if (only && !strcmp(name, only) && missing)
+			return pm_fail(PM_DATA, "no field '%s' on '%s' (%s)", missing, name, remedy);
+		if (!missing && (!only || !strcmp(name, only)))
+			sets->name[sets->n++] = name;
+	}
+	if (sets->n)
+		return 0;
+	if (only)
+		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", only);
+	const char *missing = f->nsets == 1 ? lacks(f, f->sets[0]->name, needs) : needs[0];
+	if (f->nsets == 1)
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (%s)", missing, f->sets[0]->name, remedy);
+	char list[PM_NAME * 4] = "";
+	for (size_t i = 0, used = 0; needs[i] && used < sizeof list; i++)
+		used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", i ? ", " : "", needs[i]);
+	return pm_fail(PM_DATA, "no set has %s (%s)", list, remedy);
+}
+
+int pm_reads_positions(struct pm_frame *f, const char *set)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x");
+	if (!x || x->components < f->dim || !is_real(x))
+		return pm_fail(PM_DATA, "no positions 'x' of %d real components on '%s' (stab reads them from a table)", f->dim, set);
+	return pm_reads(f, set, "x") ? 0 : -PM_DATA;
+}
+
+void pm_positions(const struct pm_frame *f, const char *set, const double *x[3])
+{
+	for (int d = 0; d < f->dim; d++)
+		x[d] = pm_in(pm_frame_field(f, set, "x"), d);
+}
+
+int pm_reads_strength(struct pm_frame *f, const char *set, const char *name)
+{
+	const struct pm_field *q = pm_frame_field(f, set, name), *volume = pm_frame_field(f, set, "volume");
+	if (!q)
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (add it with stab --strength, or choose another with --strength FIELD)", name, set);
+	if (!is_real(q))
+		return pm_fail(PM_DATA, "'%s' on '%s' is of type %s, not real (scalc makes a real field of it)", name, set, pm_type_names[q->type]);
+	if (!q->extensive && (!volume || !is_real(volume)))
+		return pm_fail(PM_DATA, "'%s' on '%s' is a value, not a strength, and there is no 'volume' to multiply it by (scalc makes one)", name, set);
+	if (!pm_reads(f, set, name) || (!q->extensive && !pm_reads(f, set, "volume")))
+		return -PM_DATA;
+	return 0;
+}
+
+int pm_strengths(const struct pm_frame *f, const char *set, const char *name, const double *q[], double **made)
+{
+	const struct pm_field *strength = pm_frame_field(f, set, name);
+	size_t n = strength->count;
+	*made = NULL;
+	for (int c = 0; c < strength->components; c++)
+		q[c] = pm_in(strength, c);
+	if (strength->extensive)
+		return 0;
+	const double *volume = pm_in(pm_frame_field(f, set, "volume"), 0);
+	*made = pm_alloc(n * (size_t)strength->components, sizeof **made);
+	if (!*made)
+		return -PM_DATA;
+	for (int c = 0; c < strength->components; c++) {
+		double *to = *made + (size_t)c * n;
+		for (size_t p = 0; p < n; p++)
+			to[p] = q[c][p] * volume[p];
+		q[c] = to;
+	}
+	return 0;
+}
+
+int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, double **ratio)
+{
+	const struct pm_field *top = pm_frame_field(f, set, strength);
+	const double *q = pm_in(top, 0), *m = pm_in(pm_frame_field(f, set, per), 0);
+	*ratio = pm_alloc(top->count, sizeof **ratio);
+	if (!*ratio)
+		return -PM_DATA;
+	for (size_t p = 0; p < top->count; p++) {
+		if (m[p] == 0)
+			return pm_fail(PM_DATA, "'%s' of particle %zu of '%s' is 0: %s/%s is not defined", per, p, set, strength, per);
+		(*ratio)[p] = q[p] / m[p];
+	}
+	return 0;
+}
+
+int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy)
+{
+	char at[96] = "";
+	int d = s->axis, dim = t->grid.dim;
+	double low = m->lo[d], high = m->lo[d] + (double)m->cells[d] * m->h[d];
+	for (int c = 0, used = 0; c < dim; c++)
+		used += snprintf(at + used, sizeof at - (size_t)used, "%s%.6g", c ? ", " : "", s->x[c]);
+	if (s->x[d] >= low && s->x[d] <= high)
+		return pm_fail(PM_DATA, "particle %zu of '%s' at (%s) is too near the open face %c = %g of mesh '%s': the support of %s must stay inside (%s)",
+			s->first, set, at, "xyz"[d], s->x[d] - low < high - s->x[d] ? low : high, m->name, t->kernel->name, remedy);
+	return pm_fail(PM_DATA, "particle %zu of '%s' at (%s) is outside mesh '%s', %g <= %c <= %g (%s)", s->first, set, at, m->name, low, "xyz"[d],
+		high, remedy);
+}
+
+int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer *t, const struct pm_sets *sets)
+{
+	size_t need[2][3] = {{0}}, cells[3] = {1, 1, 1};
+	double lo[3];
+	bool grown = false;
+	for (size_t i = 0; i < sets->n; i++) {
+		const double *x[3];
+		size_t here[2][3];
+		pm_positions(f, sets->name[i], x);
+		int status = pm_transfer_grow(t, pm_frame_set(f, sets->name[i])->n, x, here[0], here[1]);
+		if (status)
+			return status;
+		for (int side = 0; side < 2; side++)
+			for (int d = 0; d < f->dim; d++)
+				need[side][d] = here[side][d] > need[side][d] ? here[side][d] : need[side][d];
+	}
+	for (int d = 0; d < f->dim; d++) {
+		size_t below = (need[0][d] + grow_block - 1) / grow_block * grow_block, above = (need[1][d] + grow_block - 1) / grow_block * grow_block;
+		cells[d] = m->cells[d] + below + above;
+		lo[d] = m->lo[d] - (double)below * m->h[d];
+		grown = grown || below || above;
+	}
+	int status = grown ? pm_mesh_regrid(f, m, cells, lo, m->h) : 0;
+	return status ? status : grown;
+}
+
+/* Fails if the strength has not the same shape on every set, or the old density cannot be replaced or added to. */
+static int check_density(const struct pm_frame *f, const struct pm_field *old, const char *kernel, const struct pm_sets *sets, const char *strength, bool add)
+{
+	int components = pm_frame_field(f, sets->name[0], strength)->components;
+	for (size_t i = 1; i < sets->n; i++)
+		if (pm_frame_field(f, sets->name[i], strength)->components != components)
+			return pm_fail(PM_DATA, "'%s' has not the same number of components on '%s' and '%s' (choose one with --set)", strength,
+				sets->name[0], sets->name[i]);
+	if (old && old->role != PM_DERIVED)
+		return pm_fail(PM_DATA, "'%s' on '%s' is %s, which a density does not replace (choose another name with --field)", old->name, old->on,
+			pm_role_names[old->role]);
+	if (old && add && (old->components != components || strcmp(old->kernel, kernel)))
+		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and the kernel '%s'; %d of '%s' cannot be added to it (leave out --add)", old->name,
+			old->on, old->components, old->kernel, components, kernel);
+	return 0;
+}
+
+/* mass: mass/length^3; length^2/time in the plane: 1/time. */
+static void unit_over_volume(const char *unit, int dim, char *out, size_t size)
+{
+	char volume[16];
+	int n = snprintf(volume, sizeof volume, "length^%d", dim);
+	if (!strncmp(unit, volume, (size_t)n) && unit[n] == '/')
+		snprintf(out, size, "1%.40s", unit + n);
+	else if (*unit)
+		snprintf(out, size, dim > 1 ? "%.40s/%s" : "%.40s/length", unit, volume);
+}
+
+int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *name, const struct pm_kernel *k, const struct pm_sets *sets,
+	const char *strength, bool add)
+{
+	const struct pm_field *q = pm_frame_field(f, sets->name[0], strength), *old = pm_frame_field(f, m->name, name);
+	int status = check_density(f, old, k->name, sets, strength, add);
+	if (status)
+		return status;
+	struct pm_field *density = old && add ? pm_changes(f, m->name, name) : pm_makes(f, m->name, name, q->components, PM_DERIVED);
+	if (!density)
+		return -PM_DATA;
+	snprintf(density->kernel, sizeof density->kernel, "%s", k->name);
+	if (q->extensive)
+		unit_over_volume(q->unit, f->dim, density->unit, sizeof density->unit);
+	return 0;
+}
+
+struct pm_field *pm_makes_gathered(struct pm_frame *f, const char *set, const struct pm_field *from)
+{
+	const struct pm_field *old = pm_frame_field(f, set, from->name);
+	bool strength = old && old->extensive;
+	enum pm_role role = old ? old->role : PM_DERIVED;
+	if (strength && !pm_frame_field(f, set, "volume")) {
+		pm_fail(PM_DATA, "'%s' on '%s' is a strength: the mesh value must be multiplied by a 'volume', and there is none (scalc makes one)",
+			old->name, set);
+		return NULL;
+	}
+	if (old && !strength && role != PM_DERIVED) {
+		pm_fail(PM_DATA, "'%s' on '%s' is %s, which mesh values do not replace", old->name, set, pm_role_names[role]);
+		return NULL;
+	}
+	if (strength && !pm_reads(f, set, "volume"))
+		return NULL;
+	struct pm_field *made = pm_makes(f, set, from->name, from->components, role);
+	if (made) {
+		made->extensive = strength;
+		snprintf(made->unit, sizeof made->unit, "%s", strength ? "" : from->unit);
+	}
+	return made;
+}

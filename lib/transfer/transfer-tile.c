@@ -1,0 +1,210 @@
+/* The loops over the particles of one tile. Dimension, width and degree of the kernel are constants of inline functions; the weights of all points
+ * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the
+ * faces are seen to when blocks and mesh meet (transfer.c). Cost: width^dim products per particle.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "transfer/transfer-tile.h"
+
+#define INLINE static inline __attribute__((always_inline))
+enum { lanes = PM_KERNEL_WIDTH };
+
+/* Vectors of the compiler (gcc, clang), at any address. Only pointers to doubles go through functions. */
+typedef double vec2 __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int32_t int4 __attribute__((vector_size(16), aligned(4), may_alias));
+
+/* Vector length for a width. */
+INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
+
+/* y = a * x, y += a * x, y = y * a + x, for n lanes. */
+#define LANES(n, y, x, statement) \
+	switch (n) { \
+	case 2: { typedef vec2 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 4: { typedef vec4 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 8: { typedef vec8 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	default: { double *v = (y); const double *u = (x); statement; } \
+	}
+INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
+INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
+INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
+
+/* coefficients[power][lane], lanes beyond the width are 0. */
+INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
+{
+	for (int power = 0; power <= degree; power++)
+		for (int i = 0; i < padded(width); i++)
+			to[power * padded(width) + i] = i < width ? k->coefficients[power * width + i] : 0;
+}
+
+INLINE void find_weights(int width, int degree, const double *coefficients, double t, double *w)
+{
+	const int n = padded(width);
+	const bool fold = pm_kernel_folds(width, degree, t);
+	double v[lanes];
+	row_set(n, 1, coefficients + degree * n, v);
+	for (int power = degree - 1; power >= 0; power--)
+		row_horner(n, fold ? 1 - t : t, coefficients + power * n, v);
+	row_set(n, 1, v, w);
+	if (fold)
+		for (int i = 0; i < width; i++)
+			w[i] = v[width - 1 - i];
+}
+
+/* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
+INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record, double w[3][lanes])
+{
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	double distance[4];
+	int32_t cell[4];
+	vec4 u = *(const vec4 *)record; /* lanes from dim on hold something else */
+	int4 floor_u = __builtin_convertvector(u, int4); /* u >= 0 */
+	*(int4 *)cell = floor_u;
+	*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4) - t->shift;
+	for (int d = 0; d < 3; d++)
+		if (d < dim)
+			find_weights(width, degree, coefficients, distance[d], w[d]);
+		else
+			w[d][0] = 1;
+	size_t place = (size_t)cell[0] - t->cell[0];
+	if (dim > 1)
+		place += ((size_t)cell[1] - t->cell[1]) * (size_t)row;
+	if (dim > 2)
+		place += ((size_t)cell[2] - t->cell[2]) * (size_t)plane;
+	return place;
+}
+
+INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
+{
+	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes];
+	pad_coefficients(t->kernel, width, degree, coefficients);
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		double *block = t->block + find_support(dim, width, degree, t, coefficients, record, w), q = record[t->value];
+		for (int z = 0; z < (dim > 2 ? width : 1); z++) {
+			row_set(dim > 1 ? n : 1, q * w[2][z], w[1], f);
+			for (int y = 0; y < (dim > 1 ? width : 1); y++)
+				row_add(n, f[y], w[0], block + z * plane + y * row);
+		}
+	}
+}
+
+INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
+{
+	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes][lanes], sum[lanes];
+	pad_coefficients(t->kernel, width, degree, coefficients);
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		double *result = t->results + i * (size_t)t->to;
+		size_t place = find_support(dim, width, degree, t, coefficients, record, w);
+		for (int z = 0; z < (dim > 2 ? width : 1); z++)
+			row_set(dim > 1 ? n : 1, w[2][z], w[1], f[z]);
+		for (int c = 0; c < t->components; c++) {
+			const double *block = t->block + (size_t)c * PM_BLOCK_MOST + place;
+			double total = 0;
+			for (int z = 0; z < (dim > 2 ? width : 1); z++)
+				for (int y = 0; y < (dim > 1 ? width : 1); y++)
+					if (z + y == 0)
+						row_set(n, f[z][y], block, sum);
+					else
+						row_add(n, f[z][y], block + z * plane + y * row, sum);
+			for (int x = 0; x < n; x++)
+				total += sum[x] * w[0][x];
+			result[c] = total;
+		}
+	}
+}
+
+/* Weights of the corner of a cell at x*4 + y*2 + z. */
+static void spread_corners(const struct pm_tile *t)
+{
+	const int *shift = pm_tile_shift[3];
+	const vec8 one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
+	const vec8 sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
+	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
+	const int4 first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * stride;
+		double distance[4];
+		int32_t cell[4];
+		vec4 u = *(const vec4 *)record;
+		int4 floor_u = __builtin_convertvector(u, int4);
+		*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4);
+		*(int4 *)cell = floor_u - first;
+		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
+		vec8 *corners = (vec8 *)(t->corners + at * PM_CORNERS);
+		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
+	}
+}
+
+bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
+{
+	return dim == 3 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
+}
+
+/* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each. */
+static void fold_row(size_t n, double *restrict corners, double *restrict to)
+{
+	vec4 before = {0};
+	const vec4 zero = {0};
+	for (size_t i = 0; i < n; i++) {
+		vec4 *cell = (vec4 *)(corners + i * PM_CORNERS);
+		*(vec4 *)(to + 4 * i) = cell[0] + before;
+		before = cell[1];
+		cell[0] = cell[1] = zero;
+	}
+	*(vec4 *)(to + 4 * n) = before;
+}
+
+void pm_tile_fold(const struct pm_tile *t, const size_t cells[3])
+{
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
+	double folded[(32 + 1) * 4], before[(32 + 1) * 2];
+	for (size_t z = 0; z < cells[2]; z++) {
+		memset(before, 0, sizeof before);
+		for (size_t y = 0; y <= cells[1]; y++) {
+			double *restrict low = t->block + z * plane + y * row, *restrict high = low + plane;
+			if (y < cells[1])
+				fold_row(cells[0], t->corners + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_CORNERS << pm_tile_shift[3][0]), folded);
+			else
+				memset(folded, 0, sizeof folded);
+			for (size_t x = 0; x <= cells[0]; x++) {
+				low[x] += folded[4 * x] + before[2 * x];
+				high[x] += folded[4 * x + 1] + before[2 * x + 1];
+				before[2 * x] = folded[4 * x + 2];
+				before[2 * x + 1] = folded[4 * x + 3];
+			}
+		}
+	}
+}
+
+/* One function per dimension and width for the degree width-1 (B-splines, M'4 and M'6), and one for any degree. */
+#define LOOPS(dim, width, name, degree) \
+	static void spread_##name##_##dim##_##width(const struct pm_tile *t) { spread(dim, width, degree, t); } \
+	static void gather_##name##_##dim##_##width(const struct pm_tile *t) { gather(dim, width, degree, t); }
+#define DIMS(width) \
+	LOOPS(1, width, spline, width - 1) LOOPS(2, width, spline, width - 1) LOOPS(3, width, spline, width - 1) \
+	LOOPS(1, width, any, t->kernel->degree) LOOPS(2, width, any, t->kernel->degree) LOOPS(3, width, any, t->kernel->degree)
+DIMS(1)
+DIMS(2)
+DIMS(3)
+DIMS(4)
+DIMS(5)
+DIMS(6)
+DIMS(7)
+DIMS(8)
+#define ROW(name, dim) {name##_##dim##_1, name##_##dim##_2, name##_##dim##_3, name##_##dim##_4, name##_##dim##_5, name##_##dim##_6, name##_##dim##_7, \
+	name##_##dim##_8}
+#define TABLE(name) {ROW(name, 1), ROW(name, 2), ROW(name, 3)}
+static pm_tile_loop *const spreads[2][3][PM_KERNEL_WIDTH] = {TABLE(spread_spline), TABLE(spread_any)};
+static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline), TABLE(gather_any)};
+
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
+{
+	return corners ? spread_corners : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+}
+
+pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k) { return gathers[k->degree != k->width - 1][dim - 1][k->width - 1]; }

@@ -1,0 +1,44 @@
+/* The work on one tile: particles to a block of mesh points and back. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_TILE_H
+#define PM_TRANSFER_TILE_H
+
+#include "transfer/transfer-axis.h"
+
+/* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
+static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows: the mesh is met in rows */
+
+/* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors. Its rows have this many
+ * points, its planes this many rows. */
+static const int pm_block_row[4] = {0, 4096 + 8, 64 + 8, 32 + 8};
+static const int pm_block_rows[4] = {0, 1, 64 + 8, 16 + 8};
+static const int pm_block_planes[4] = {0, 1, 1, 8 + 8};
+enum { PM_BLOCK_MOST = 40 * 24 * 16, PM_TILE_CELLS = 4096, PM_CORNERS = 8 };
+
+/* What the loops over particles need. */
+struct pm_tile {
+	const struct pm_kernel *kernel;
+	double shift;           /* of the axes: t = u - cell - shift */
+	size_t cell[3];         /* the first of the tile */
+	size_t count;           /* particles */
+	int stride;             /* doubles per record */
+	int value;              /* spread: place of the strength in the record */
+	int components;         /* gather */
+	double *block;          /* spread: added to; gather: [components][PM_BLOCK_MOST], read */
+	double *records;        /* [count][stride] */
+	double *results;        /* gather: [count][to], may be the records */
+	int to;
+	double *corners;        /* spread: NULL, or [PM_TILE_CELLS][PM_CORNERS], zero, which pm_tile_fold adds to the block */
+};
+
+/* Chosen by dim and the kernel's width and degree. */
+typedef void pm_tile_loop(const struct pm_tile *t);
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners);
+pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
+
+/* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), a particle is
+ * one addition of eight numbers to its cell, and the corners are added up once. */
+bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count);
+void pm_tile_fold(const struct pm_tile *t, const size_t cells[3]); /* of the tile; leaves corners zero */
+
+#endif
