@@ -143,6 +143,59 @@ static void cutoffs(void)
 			}
 }
 
+/* The images along an axis by reflecting the box at one face after the other, which is how the method of images is defined: each that comes within reach is there once,
+ * with the product of the signs of its mirrors, and no other is. */
+struct mirrored {
+	double side, shift, sign;
+};
+
+static int reflected(double lo, double hi, const enum pm_face face[2], struct mirrored *m)
+{
+	int n = 0;
+	m[n++] = (struct mirrored){1, 0, 1};
+	for (int k = 1; k <= 20 && face[0] == PM_PERIODIC; k++)
+		m[n++] = (struct mirrored){1, k * (hi - lo), 1}, m[n++] = (struct mirrored){1, -k * (hi - lo), 1};
+	for (int first = 0; first < 2; first++) {
+		struct mirrored now = m[0];
+		for (int k = 0; k < 20; k++) {
+			int side = (first + k) % 2;
+			if (face[side] != PM_WALL && face[side] != PM_NEUMANN)
+				break;
+			now = (struct mirrored){-now.side, 2 * (side ? hi : lo) - now.shift, face[side] == PM_WALL ? -now.sign : now.sign};
+			m[n++] = now;
+		}
+	}
+	return n;
+}
+
+static void images(void)
+{
+	static const enum pm_face face[][2] = {{PM_OPEN, PM_OPEN}, {PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_WALL, PM_OPEN}, {PM_OPEN, PM_WALL}, {PM_OPEN, PM_NEUMANN},
+		{PM_NEUMANN, PM_OPEN}, {PM_NEUMANN, PM_WALL}, {PM_WALL, PM_NEUMANN}, {PM_NEUMANN, PM_NEUMANN}};
+	const double lo = -0.37, hi = 1.21;
+	for (size_t f = 0; f < sizeof face / sizeof *face; f++) {
+		int wrong = 0;
+		for (int r = 0; r < 4; r++) {
+			double reach = (const double[]){0.01, 0.9, 1.7, 4.1}[r];
+			struct mirrored want[90];
+			struct pm_images m;
+			int n = reflected(lo, hi, face[f], want), known = 0;
+			wrong += pm_images_of(lo, hi, face[f], reach, &m) != 0;
+			for (int i = 0; i < n; i++) {
+				double one = want[i].side * lo + want[i].shift, other = want[i].side * hi + want[i].shift;
+				bool near = fmin(one, other) - hi <= reach && lo - fmax(one, other) <= reach;
+				int found = 0;
+				for (int k = 0; k < m.n; k++)
+					found += m.image[k].side == want[i].side && fabs(m.image[k].shift - want[i].shift) < 1e-12 && m.image[k].sign == want[i].sign;
+				wrong += near ? found != 1 : found > 1;
+				known += found;
+			}
+			wrong += known != m.n || m.image[0].side != 1 || m.image[0].shift != 0;
+		}
+		check(!wrong, "%s-%s: the images are those of repeated reflection, signs included (%d are not)", pm_face_names[face[f][0]], pm_face_names[face[f][1]], wrong);
+	}
+}
+
 /* The largest difference of the fast and the plain sum, over the largest rate. */
 static double differs(const struct pm_pse *p, double edge)
 {
@@ -295,6 +348,7 @@ int main(void)
 	exponential();
 	moments();
 	cutoffs();
+	images();
 	faces();
 	sparse();
 	conserves();

@@ -418,6 +418,183 @@ static void check_images(int rule, double sign)
 	}
 }
 
+/* W at distance s [cells] from a particle. */
+static double kernel_at(const struct pm_kernel *k, double s)
+{
+	double low = k->width % 2 ? -0.5 : 0, base = floor(-s - low), w[PM_KERNEL_WIDTH]; /* the particle at -s, the point at 0 */
+	int i = (int)(-base) + (k->width - 1) / 2;
+	pm_kernel_weights(k, -s - base, w);
+	return i < 0 || i >= k->width ? 0 : w[i];
+}
+
+/* One axis by formula: n cells from 0 on, points at i or i + 1/2; a particle at s, its periodic images or its mirror images made by reflecting it at one face
+ * after the other, each time with the sign of that face. */
+struct formula {
+	const struct pm_kernel *kernel;
+	double n, offset; /* [cells] */
+	bool periodic;
+	int sign[2]; /* of the image in the face: 1, -1; 0: none */
+};
+
+static struct formula formula_of(const struct problem *a, int c, int d)
+{
+	const struct pm_grid *g = &a->t.grid;
+	struct formula f = {.kernel = a->t.kernel, .n = (double)g->cells[d], .offset = a->t.staggered[c][d] ? 0.5 : 0, .periodic = g->face[d][0] == PM_PERIODIC};
+	for (int side = 0; side < 2; side++) {
+		f.sign[side] = g->face[d][side] == PM_WALL ? -1 : g->face[d][side] == PM_NEUMANN ? 1 : 0;
+		f.sign[side] *= a->t.flip[c][d] ? -1 : 1;
+	}
+	return f;
+}
+
+/* What point i receives of a particle of strength 1. */
+static double received(const struct formula *f, double s, size_t i)
+{
+	double at = (double)i + f->offset, sum = kernel_at(f->kernel, at - s);
+	for (int k = 1; k <= 8 && f->periodic; k++)
+		sum += kernel_at(f->kernel, at - s - k * f->n) + kernel_at(f->kernel, at - s + k * f->n);
+	for (int first = 0; first < 2 && !f->periodic; first++) { /* the face that reflects first */
+		double image = s, strength = 1;
+		for (int k = 0; k < 8; k++) {
+			int side = (first + k) % 2;
+			image = side ? 2 * f->n - image : -image, strength *= f->sign[side];
+			sum += strength * kernel_at(f->kernel, at - image);
+		}
+	}
+	return sum;
+}
+
+/* A function with the symmetries of the faces, on the whole axis. */
+static double symmetric(const struct formula *f, double s)
+{
+	if (f->periodic)
+		return cos(2 * pm_pi * s / f->n + 0.4) + 0.3;
+	if (!f->sign[0] && !f->sign[1])
+		return cos(0.7 * s + 0.4);
+	if (!f->sign[0])
+		return f->sign[1] > 0 ? cos(0.7 * (s - f->n)) : sin(0.7 * (s - f->n));
+	double k = f->sign[1] ? pm_pi * (f->sign[0] == f->sign[1] ? 2 : 1.5) / f->n : 0.7;
+	return f->sign[0] > 0 ? cos(k * s) : sin(k * s);
+}
+
+/* What a particle gathers of it: a sum over a row of points without faces. */
+static double gathered(const struct formula *f, double s)
+{
+	double sum = 0;
+	for (double i = floor(s) - 6; i <= floor(s) + 6; i++)
+		sum += kernel_at(f->kernel, i + f->offset - s) * symmetric(f, i + f->offset);
+	return sum;
+}
+
+static void by_formula(struct problem *a, int c, double worst[2])
+{
+	const struct pm_grid *g = &a->t.grid;
+	double most = 0, far[2] = {0}, *want = pm_zalloc(a->points, sizeof *want), *field = pm_zalloc(a->points, sizeof *field);
+	double *share[3]; /* of the particles, by points of each axis */
+	struct formula f[3];
+	struct pm_strays strays;
+	for (int d = 0; d < g->dim; d++) {
+		f[d] = formula_of(a, c, d);
+		share[d] = pm_alloc(g->points[d] * a->n, sizeof **share);
+		for (size_t i = 0; i < g->points[d]; i++)
+			for (size_t p = 0; p < a->n; p++)
+				share[d][i * a->n + p] = received(&f[d], (a->x[d][p] - g->lo[d]) / g->h[d], i);
+	}
+	for (size_t i = 0; i < a->points; i++) {
+		const size_t at[3] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
+		bool used = true; /* the last point of a staggered axis is not */
+		field[i] = 1;
+		for (int d = 0; d < g->dim; d++)
+			used = used && (f[d].periodic || !f[d].offset || at[d] < g->cells[d]), field[i] *= symmetric(&f[d], (double)at[d] + f[d].offset);
+		field[i] *= used;
+		for (size_t p = 0; p < a->n && used; p++) {
+			double product = a->q[c][p] / pm_grid_cell(g);
+			for (int d = 0; d < g->dim; d++)
+				product *= share[d][at[d] * a->n + p];
+			want[i] += product;
+		}
+	}
+	const double *fields[MOST] = {field, field, field};
+	if (pm_spread(&a->t, a->n, in(a->x), in(a->q), a->mesh, &strays) || strays.count || pm_gather(&a->t, a->n, in(a->x), fields, NULL, a->out, &strays) || strays.count)
+		worst[0] = NAN;
+	for (size_t i = 0; i < a->points; i++)
+		check_worst(&far[0], fabs(a->mesh[c][i] - want[i])), check_worst(&most, fabs(want[i]));
+	check_worst(&worst[0], far[0] / most);
+	for (size_t p = 0; p < a->n; p++) {
+		double product = 1;
+		for (int d = 0; d < g->dim; d++)
+			product *= gathered(&f[d], (a->x[d][p] - g->lo[d]) / g->h[d]);
+		check_worst(&worst[1], fabs(a->out[c][p] - product));
+	}
+	for (int d = 0; d < g->dim; d++)
+		pm_free(share[d]);
+	pm_free(want), pm_free(field);
+}
+
+/* Spread and gather against that formula, which shares nothing with the folding of indices at faces: every kernel, every pair of faces, points on nodes and half a cell
+ * up, both signs, axes shorter than the kernel too. 2e-13: sums of some ten products of size 1, densities over one cell. */
+static void check_formula(int dim, const size_t cells[3], size_t n)
+{
+	for (int k = 0; pm_kernels[k]; k++) {
+		double worst[2] = {0};
+		for (int q = 0; q < FACES * 4; q++) {
+			const int rules[3] = {q / 4, (q / 4 + 1) % FACES, (q / 4 + 4) % FACES};
+			struct pm_grid g = grid_of(dim, cells, rules);
+			bool room = true;
+			for (int d = 0; d < dim; d++)
+				room = room && (g.cells[d] > PM_KERNEL_WIDTH || (!is_open(g.face[d][0]) && !is_open(g.face[d][1])));
+			if (!room)
+				continue;
+			struct problem a = problem_new(g, pm_kernels[k], 1, n);
+			for (int d = 0; d < dim; d++) {
+				a.t.staggered[0][d] = (unsigned char)(d ? !(q & 1) : q & 1), a.t.flip[0][d] = (unsigned char)(q >> 1 & 1);
+				for (size_t p = 0; p < n; p++) { /* not beside a tie of ngp */
+					double r = is_open(g.face[d][0]) || is_open(g.face[d][1]) ? 0.5 * a.t.kernel->width : 0, u[2];
+					pm_random(11, p, (uint64_t)d, u);
+					a.x[d][p] = g.lo[d] + g.h[d] * (r + u[0] * ((double)g.cells[d] - 2 * r));
+				}
+			}
+			by_formula(&a, 0, worst);
+			problem_free(&a);
+		}
+		check(worst[0] <= 2e-13, "%s, %d-D, %zu cells: densities are sums over reflected particles at every pair of faces, on nodes and half nodes (off by %.2g)",
+			pm_kernels[k]->name, dim, cells[0], worst[0]);
+		check(worst[1] <= 2e-13, "%s, %d-D, %zu cells: and what is gathered is a sum over the function beyond the faces (off by %.2g)", pm_kernels[k]->name, dim, cells[0],
+			worst[1]);
+	}
+}
+
+/* Three jobs of 16384 particles and five more in one tile, in the order of the tiles and not. */
+static void check_crowd(int dim, const char *kernel, bool in_order)
+{
+	const size_t n = 3 * 16384 + 5;
+	struct problem a = problem_new(grid_of(dim, (const size_t[]){40, 36, 20}, (const int[]){0, 0, 0}), pm_kernel_find(kernel), 1, n);
+	struct problem b = problem_new(a.t.grid, a.t.kernel, 1, n);
+	struct pm_strays strays;
+	for (size_t p = 0; p < n; p++)
+		for (int d = 0; d < dim; d++) {
+			double u[2];
+			pm_random(12, p, (uint64_t)d, u);
+			a.x[d][p] = b.x[d][p] = a.t.grid.lo[d] + a.t.grid.h[d] * (p == 1 && !in_order ? 30 : 1 + u[0]);
+			a.q[0][p] = b.q[0][p] = 1;
+		}
+	int bad = pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays) | pm_spread_plain(&b.t, n, in(b.x), in(b.q), b.mesh, &strays);
+	double total = 0, off = difference(a.points, a.mesh[0], b.mesh[0]);
+	for (size_t i = 0; i < a.points; i++)
+		total += a.mesh[0][i] * pm_grid_cell(&a.t.grid);
+	/* 1e-10: 5e4 roundings of 1e-16 that may add up, times ten; a particle is 2e-5 of the sum */
+	check(!bad && off <= 1e-10 && fabs(total - (double)n) <= 1e-10 * (double)n, "%s, %d-D: %zu particles in one tile%s are all spread (sum off by %.2g)", kernel, dim, n,
+		in_order ? ", in order," : "", total - (double)n);
+	a.t.set[0] = true;
+	for (size_t p = 0; p < n; p++)
+		a.out[0][p] = NAN;
+	bad = pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays) | pm_gather_plain(&b.t, n, in(b.x), in(b.mesh), NULL, b.out, &strays);
+	off = difference(n, a.out[0], b.out[0]);
+	check(!bad && off <= 1e-13, "%s, %d-D: and each of them gathers its value (off by %.2g)", kernel, dim, off);
+	problem_free(&a);
+	problem_free(&b);
+}
+
 /* FP-04, HC-59: positions that a cast or x - L floor(x/L) would put out of range. */
 static void check_edges(void)
 {
@@ -566,6 +743,12 @@ int main(void)
 	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
 	check_kept(2, (const size_t[]){130, 67, 1}, "pcs");
 	check_kept(3, (const size_t[]){35, 20, 33}, "tsc");
+	check_formula(1, (const size_t[]){13, 1, 1}, 40);
+	check_formula(1, (const size_t[]){2, 1, 1}, 20);
+	check_formula(2, (const size_t[]){9, 12, 1}, 20);
+	check_formula(3, (const size_t[]){9, 10, 11}, 4);
+	for (int dim = 1; dim <= 3; dim++)
+		check_crowd(dim, "cic", true), check_crowd(dim, "m4prime", false);
 	check_images(1, -1);
 	check_images(2, 1);
 	check_edges();
