@@ -18,22 +18,27 @@ static int begin(struct pm_stage *s)
 
 static int whole(struct pm_stage *s) { return pm_loop_run(s, s->config); }
 
-#define AT(member) offsetof(struct pm_loop, member)
 static const char *const engines[] = {"fused", "pipes", NULL};
+#define AT(member) .offset = offsetof(struct pm_loop, member)
 static const struct pm_option options[] = {
-	{"steps", 'n', PM_INTEGER, "steps", NULL, 0, 1e15, NULL, "full steps, counted from the beginning, also after --resume", true, AT(steps)},
-	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "stop at the first step with time >= T - dt/2", true, AT(time)},
-	{"until", 0, PM_TEXT, "EXPRESSION", NULL, 0, 0, NULL,
-		"stop at the first step where this is true of diag's columns; NAME0 is the value at the beginning: 'energy > 10*energy0'", true, AT(until)},
-	{"plan", 0, PM_FLAG, "", NULL, 0, 0, NULL, "without SENTENCE: run what the first frame calls for (see plan)", true, AT(plan)},
-	{"accuracy", 0, PM_REAL, "", "0.01", 1e-12, 1, NULL, "with --plan: relative changes below this are negligible", true, AT(accuracy)},
-	{"every", 0, PM_INTEGER, "steps", NULL, 1, 1e15, NULL, "write the beginning, every step that is a multiple of N, and the last", true, AT(every)},
-	{"engine", 0, PM_WORD, "", "fused", 0, 0, engines, "run the words in one process, or as long-lived processes on pipes", true, AT(engine)},
-	{"checkpoint", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "keep the frame last written in FILE, and on SIGINT and SIGTERM", true, AT(checkpoint)},
-	{"resume", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "go on from a checkpoint instead of standard input", true, AT(resume)},
-	{"other-plans", 0, PM_FLAG, "", NULL, 0, 0, NULL, "let --resume go on where transforms are planned otherwise than before (the bytes may differ)", true,
-		AT(other_plans)},
-	{"moves", 0, PM_LIST, "", NULL, 0, 0, NULL, "foreign words that change state and are left out of priming", true, AT(moves)},
+	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .high = 1e15, .cosmetic = true, AT(steps),
+		.text = "full steps, counted from the beginning, also after --resume"},
+	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", .cosmetic = true, AT(time), .text = "stop at the first step with time >= T - dt/2"},
+	{.name = "until", .kind = PM_TEXT, .unit = "EXPRESSION", .cosmetic = true, AT(until),
+		.text = "stop at the first step where this is true of diag's columns; NAME0 is the value at the beginning: 'energy > 10*energy0'"},
+	{.name = "plan", .kind = PM_FLAG, .cosmetic = true, AT(plan), .text = "without SENTENCE: run what the first frame calls for (see plan)"},
+	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, .cosmetic = true, AT(accuracy),
+		.text = "with --plan: relative changes below this are negligible"},
+	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(every),
+		.text = "write the beginning, every step that is a multiple of N, and the last"},
+	{.name = "engine", .kind = PM_WORD, .fallback = "fused", .choices = engines, .cosmetic = true, AT(engine),
+		.text = "run the words in one process, or as long-lived processes on pipes"},
+	{.name = "checkpoint", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(checkpoint),
+		.text = "keep the frame last written in FILE, and on SIGINT and SIGTERM"},
+	{.name = "resume", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(resume), .text = "go on from a checkpoint instead of standard input"},
+	{.name = "other-plans", .kind = PM_FLAG, .cosmetic = true, AT(other_plans),
+		.text = "let --resume go on where transforms are planned otherwise than before (the bytes may differ)"},
+	{.name = "moves", .kind = PM_LIST, .cosmetic = true, AT(moves), .text = "foreign words that change state and are left out of priming"},
 	{0},
 };
 static const struct pm_example examples[] = {

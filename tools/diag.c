@@ -151,24 +151,24 @@ static void release(struct pm_stage *s)
 		fclose(state->out);
 }
 
-#define AT(member) .offset = offsetof(struct config, member)
 static const char *const formats[] = {"tsv", "json", NULL};
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .text = "measure this set alone (default: all)", AT(set), .cosmetic = true},
-	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .text = "these columns in this order (default: all)", AT(columns), .cosmetic = true},
-	{.name = "radii", .kind = PM_VECTOR, .text = "add Lagrangian radii about the centre of mass, for these fractions of the mass", AT(radii),
-		.cosmetic = true},
-	{.name = "modes", .kind = PM_VECTOR, .text = "add the amplitudes of these waves along x of the law's field (its first component)", AT(modes),
-		.cosmetic = true},
-	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M", .text = "behind the table a line with the growth rate and frequency of wave M along x", AT(growth),
-		.cosmetic = true},
-	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .text = "fit them between these times (default: where it grows from 1 to 10 % of its largest, else all)",
-		AT(window), .cosmetic = true},
-	{.name = "pair", .kind = PM_FLAG, .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)", AT(pair), .cosmetic = true},
-	{.name = "exact", .kind = PM_FLAG, .text = "beside every column the scene knows exactly, exact_NAME", AT(exact), .cosmetic = true},
-	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .text = "a table with a header line, or one JSON object a line",
-		AT(format), .cosmetic = true},
-	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .text = "write to FILE and pass the frames on", AT(tee), .cosmetic = true},
+	{.name = "set", .kind = PM_TEXT, .cosmetic = true, PM_AT(set), .text = "measure this set alone (default: all)"},
+	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .cosmetic = true, PM_AT(columns),
+		.text = "these columns in this order (default: all)"},
+	{.name = "radii", .kind = PM_VECTOR, .cosmetic = true, PM_AT(radii),
+		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
+	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
+		.text = "add the amplitudes of these waves along x of the law's field (its first component)"},
+	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M", .cosmetic = true, PM_AT(growth),
+		.text = "behind the table a line with the growth rate and frequency of wave M along x"},
+	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),
+		.text = "fit them between these times (default: where it grows from 1 to 10 % of its largest, else all)"},
+	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair), .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)"},
+	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "beside every column the scene knows exactly, exact_NAME"},
+	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .cosmetic = true, PM_AT(format),
+		.text = "a table with a header line, or one JSON object a line"},
+	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, PM_AT(tee), .text = "write to FILE and pass the frames on"},
 	{0},
 };
 

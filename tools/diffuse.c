@@ -102,15 +102,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
-#define AT(member) offsetof(struct config, member)
 static const struct pm_option options[] = {
-	{"order", 0, PM_WORD, "", NULL, 0, 0, pm_order_names, "order of the differences, or spectral (default: that of the law's gradients)", false, AT(order)},
-	{"nu", 0, PM_REAL, "length^2/time", NULL, 0, 1e300, NULL, "the viscosity (default: the frame's constant nu)", false, AT(nu)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
-	{"replace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "compute the change anew instead of refusing to add twice", false, AT(replace)},
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
-		"how transforms are chosen, with --order spectral: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
-		false, AT(plan)},
+	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
+		.text = "order of the differences, or spectral (default: that of the law's gradients)"},
+	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .high = 1e300, PM_AT(nu), .text = "the viscosity (default: the frame's constant nu)"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change anew instead of refusing to add twice"},
+	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
+		.text = "how transforms are chosen, with --order spectral: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or "
+			"measure)"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -165,22 +165,21 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const struct pm_option options[] = {
-	{.name = "courant", .kind = PM_REAL, .unit = "cells", .low = 1e-9, .high = 1e9, .offset = AT(courant),
+	{.name = "courant", .kind = PM_REAL, .unit = "cells", .low = 1e-9, .high = 1e9, PM_AT(courant),
 		.text = "no particle crosses more than this part of a cell of the first mesh, along any axis"},
-	{.name = "acceleration", .kind = PM_REAL, .low = 1e-12, .high = 1e6, .offset = AT(acceleration),
+	{.name = "acceleration", .kind = PM_REAL, .low = 1e-12, .high = 1e6, PM_AT(acceleration),
 		.text = "ETA of dt = sqrt(ETA softening/|acc|), 0.01 to 0.1 for leapfrog"},
-	{.name = "lcfl", .kind = PM_REAL, .low = 1e-9, .high = 1e9, .offset = AT(strain),
+	{.name = "lcfl", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(strain),
 		.text = "dt = C/|grad u| of the flow on the mesh; above 1 particles may cross, and such steps are counted"},
-	{.name = "plasma", .kind = PM_REAL, .low = 1e-9, .high = 1e9, .offset = AT(plasma),
+	{.name = "plasma", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(plasma),
 		.text = "dt = C/omega_p, of the mean densities in the box; leapfrog is stable below 2, 0.2 is usual"},
-	{.name = "softening", .kind = PM_REAL, .unit = "length", .low = 0, .high = 1e300, .offset = AT(softening),
+	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(softening),
 		.text = "the length in that rule; by default the frame's constant softening"},
-	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, .offset = AT(most), .text = "never longer"},
-	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .low = 0, .high = 1e300, .offset = AT(least),
+	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "never longer"},
+	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(least),
 		.text = "never shorter; counted as below_min where a rule asked for less"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "looks at this set only"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "looks at this set only"},
 	{0},
 };
 static const struct pm_example examples[] = {

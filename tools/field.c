@@ -148,10 +148,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static void done(struct pm_stage *s) { free(((struct state *)s->state)->job); }
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "this set only (default: every set with the state whose rate is given)", .offset = offsetof(struct config, set)},
-	{.name = "term", .kind = PM_TEXT, .unit = "NAME", .fallback = "external", .text = "the name under which it is added", .offset = offsetof(struct config, term)},
-	{.name = "replace", .kind = PM_FLAG, .text = "computes the rate anew instead of refusing to add the same term twice", .offset = offsetof(struct config, replace)},
-	{0}};
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "this set only (default: every set with the state whose rate is given)"},
+	{.name = "term", .kind = PM_TEXT, .unit = "NAME", .fallback = "external", PM_AT(term), .text = "the name under which it is added"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "computes the rate anew instead of refusing to add the same term twice"},
+	{0},
+};
 
 static const struct pm_example examples[] = {
 	{"a cluster in the tide of a distant galaxy", "pinit plummer -n 100 | cycle -n 3 \"push kick/2 drift | pp | field 'acc = 0.02*x, -0.01*y, -0.01*z' | push kick/2\" | diag"},

@@ -209,16 +209,16 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const outside[] = {"error", "drop", NULL};
 static const struct pm_option options[] = {
-	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how mesh points are weighted (default: as the field was made, interlaced too)", false,
-		AT(kernel)},
-	{"field", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "gather this mesh field to a particle field of the same name instead", false, AT(field)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first that has the field)", false, AT(mesh)},
-	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set with the state that the law moves)", false, AT(set)},
-	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, or leave out and count", false, AT(outside)},
-	{"replace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "compute the change field anew instead of refusing to add twice", false, AT(replace)},
+	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
+		.text = "how mesh points are weighted (default: as the field was made, interlaced too)"},
+	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "gather this mesh field to a particle field of the same name instead"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first that has the field)"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with the state that the law moves)"},
+	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
+		.text = "particles that an open mesh does not hold: refuse, or leave out and count"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change field anew instead of refusing to add twice"},
 	{0},
 };
 static const struct pm_example examples[] = {

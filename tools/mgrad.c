@@ -17,17 +17,15 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{"operator", 0, PM_WORD, "", NULL, 0, 0, pm_operator_names,
-		"what to apply to --source (default: what the law makes of its potential, with the law's sign)", false, offsetof(struct config, kind)},
-	{"order", 0, PM_WORD, "", NULL, 0, 0, pm_order_names, "order of the differences, or spectral (default: the law's)", false,
-		offsetof(struct config, order)},
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the mesh field to take derivatives of (default: the law's potential)", false,
-		offsetof(struct config, source)},
-	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the mesh field to make (default: the law's field)", false, offsetof(struct config, target)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(struct config, mesh)},
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
-		"how FFTW's transforms (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
-		false, offsetof(struct config, plan)},
+	{.name = "operator", .kind = PM_WORD, .choices = pm_operator_names, PM_AT(kind),
+		.text = "what to apply to --source (default: what the law makes of its potential, with the law's sign)"},
+	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order), .text = "order of the differences, or spectral (default: the law's)"},
+	{.name = "source", .kind = PM_TEXT, .unit = "FIELD", PM_AT(source), .text = "the mesh field to take derivatives of (default: the law's potential)"},
+	{.name = "target", .kind = PM_TEXT, .unit = "FIELD", PM_AT(target), .text = "the mesh field to make (default: the law's field)"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
+		.text = "how FFTW's transforms (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept "
+			"in the user's cache (default: PM_PLAN or measure)"},
 	{0},
 };
 

@@ -158,20 +158,22 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const outside[] = {"error", "drop", "grow", NULL};
 static const struct pm_option options[] = {
-	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how a strength is shared among mesh points (default: the law's)", false, AT(kernel)},
-	{"cells", 'n', PM_CELLS, "cells", NULL, 1, 1 << 24, NULL, "give the mesh this many cells over the box, 64 or 64x32x32", false, AT(cells)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
-	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set that has the strength)", false, AT(set)},
-	{"strength", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "the particle field (default: the law's); a value is multiplied by volume", false, AT(strength)},
-	{"field", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh field made (default: the law's density)", false, AT(field)},
-	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, leave out and count, or enlarge the mesh",
-		false, AT(outside)},
-	{"add", 0, PM_FLAG, "", NULL, 0, 0, NULL, "add to the density that is there instead of replacing it", false, AT(add)},
-	{"interlace", 0, PM_FLAG, "", NULL, 0, 0, NULL, "on two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)", false,
-		AT(interlace)},
+	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
+		.text = "how a strength is shared among mesh points (default: the law's)"},
+	{.name = "cells", .letter = 'n', .kind = PM_CELLS, .unit = "cells", .low = 1, .high = 1 << 24, PM_AT(cells),
+		.text = "give the mesh this many cells over the box, 64 or 64x32x32"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set that has the strength)"},
+	{.name = "strength", .kind = PM_TEXT, .unit = "FIELD", PM_AT(strength),
+		.text = "the particle field (default: the law's); a value is multiplied by volume"},
+	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "the mesh field made (default: the law's density)"},
+	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
+		.text = "particles that an open mesh does not hold: refuse, leave out and count, or enlarge the mesh"},
+	{.name = "add", .kind = PM_FLAG, PM_AT(add), .text = "add to the density that is there instead of replacing it"},
+	{.name = "interlace", .kind = PM_FLAG, PM_AT(interlace),
+		.text = "on two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -129,17 +129,16 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 	return status ? status : 1;
 }
 
-#define AT(member) .offset = offsetof(struct config, member)
 static const struct pm_option options[] = {
-	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, .text = "how many (default: the scene's)", AT(n)},
-	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, .text = "of the random numbers", AT(seed)},
-	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, .text = "dimensions (default: the scene's)", AT(dim)},
-	{.name = "cells", .kind = PM_CELLS, .unit = "cells", .text = "of the default mesh, as 64 or 64x32x32 (default: the scene's)", AT(cells)},
-	{.name = "box", .kind = PM_VECTOR, .unit = "length", .text = "lo,hi of all axes, or all lo and then all hi (default: the scene's)", AT(box)},
-	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, .text = "step (default: the scene's)", AT(dt)},
-	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, AT(faces),
+	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, PM_AT(n), .text = "how many (default: the scene's)"},
+	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, PM_AT(seed), .text = "of the random numbers"},
+	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, PM_AT(dim), .text = "dimensions (default: the scene's)"},
+	{.name = "cells", .kind = PM_CELLS, .unit = "cells", PM_AT(cells), .text = "of the default mesh, as 64 or 64x32x32 (default: the scene's)"},
+	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box), .text = "lo,hi of all axes, or all lo and then all hi (default: the scene's)"},
+	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(dt), .text = "step (default: the scene's)"},
+	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, PM_AT(faces),
 		.text = "of the fields: one word, one per axis, or low,high per axis (default: the scene's)"},
-	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names, AT(particle_faces),
+	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names, PM_AT(particle_faces),
 		.text = "of the particles: one word, one per axis, or low,high per axis (default: periodic where the fields are, else open)"},
 	{0},
 };

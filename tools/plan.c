@@ -73,18 +73,21 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const formats[] = {"text", "json", NULL};
 static const struct pm_option options[] = {
-	{"accuracy", 0, PM_REAL, "", "0.01", 1e-12, 1, NULL, "relative changes below this are negligible; chooses kernel, mesh and step too", false, AT(choice.accuracy)},
-	{"time", 't', PM_REAL, "time", NULL, 0, 0, NULL, "when the run is to end, as cycle -t (default: after a hundred steps)", false, AT(choice.time)},
-	{"on", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "put these effects in, whatever the numbers say", false, AT(choice.on)},
-	{"off", 0, PM_LIST, "EFFECT", NULL, 0, 0, pm_effect_names, "leave these effects out", false, AT(choice.off)},
-	{"check", 0, PM_FLAG, "", NULL, 0, 0, NULL, "run a few steps with and without every effect; exit 3 if a decision was wrong", false, AT(check)},
-	{"steps", 'n', PM_INTEGER, "steps", "4", 1, 1e9, NULL, "how many steps --check runs", false, AT(steps)},
-	{"sentence", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the sentence alone, for cycle", false, AT(sentence)},
-	{"no-cost", 0, PM_FLAG, "", NULL, 0, 0, NULL, "leave the seconds out, which are measured and so never twice the same", false, AT(no_cost)},
-	{"format", 0, PM_WORD, "", "text", 0, 0, formats, "text, or one JSON object a line", false, AT(format)},
+	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, PM_AT(choice.accuracy),
+		.text = "relative changes below this are negligible; chooses kernel, mesh and step too"},
+	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", PM_AT(choice.time),
+		.text = "when the run is to end, as cycle -t (default: after a hundred steps)"},
+	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on),
+		.text = "put these effects in, whatever the numbers say"},
+	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "leave these effects out"},
+	{.name = "check", .kind = PM_FLAG, PM_AT(check), .text = "run a few steps with and without every effect; exit 3 if a decision was wrong"},
+	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .fallback = "4", .low = 1, .high = 1e9, PM_AT(steps),
+		.text = "how many steps --check runs"},
+	{.name = "sentence", .kind = PM_FLAG, PM_AT(sentence), .text = "print the sentence alone, for cycle"},
+	{.name = "no-cost", .kind = PM_FLAG, PM_AT(no_cost), .text = "leave the seconds out, which are measured and so never twice the same"},
+	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format), .text = "text, or one JSON object a line"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -27,28 +27,26 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{"symbol", 0, PM_WORD, "", NULL, 0, 0, pm_symbol_names,
-		"how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2, 4 or 6 do, which are then inverted exactly (default: the law's)",
-		false, offsetof(struct config, symbol)},
-	{"screening", 0, PM_REAL, "1/length", "0", 0, 1e150, NULL, "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length", false,
-		offsetof(struct config, screening)},
-	{"green", 0, PM_WORD, "", NULL, 0, 0, pm_green_names,
-		"the Green's function where faces are open (default: hockney; with --symbol fd2 lattice)", false, offsetof(struct config, green)},
-	{"softening", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
-		"delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)", false,
-		offsetof(struct config, softening)},
-	{"influence", 0, PM_WORD, "", "plain", 0, 0, pm_influence_names,
-		"in periodic boxes: the symbol's inverse; divided by the square of the kernel's transform, once for p2m and once for m2p; or that of least error "
-		"of the force (Hockney and Eastwood), of which the symbol is no part", false, offsetof(struct config, influence)},
-	{"order", 0, PM_WORD, "", NULL, 0, 0, pm_order_names, "the order of the mgrad that follows, for --influence optimal (default: the law's)", false,
-		offsetof(struct config, order)},
-	{"cloud", 0, PM_REAL, "length", "0", 0, 1e150, NULL,
-		"diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D", false,
-		offsetof(struct config, cloud)},
-	PM_SOLVER_ROWS(struct config),
-	{"plan", 0, PM_WORD, "", NULL, 0, 0, pm_fft_effort_names,
-		"how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or measure)",
-		false, offsetof(struct config, plan)},
+	{.name = "symbol", .kind = PM_WORD, .choices = pm_symbol_names, PM_AT(symbol),
+		.text = "how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2, 4 or 6 do, which are then inverted exactly "
+			"(default: the law's)"},
+	{.name = "screening", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(screening),
+		.text = "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length"},
+	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green),
+		.text = "the Green's function where faces are open (default: hockney; with --symbol fd2 lattice)"},
+	{.name = "softening", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(softening),
+		.text = "delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)"},
+	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
+		.text = "in periodic boxes: the symbol's inverse; divided by the square of the kernel's transform, once for p2m and once for m2p; or that of "
+			"least error of the force (Hockney and Eastwood), of which the symbol is no part"},
+	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
+		.text = "the order of the mgrad that follows, for --influence optimal (default: the law's)"},
+	{.name = "cloud", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(cloud),
+		.text = "diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D"},
+	PM_SOLVER_ROWS,
+	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
+		.text = "how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache "
+			"(default: PM_PLAN or measure)"},
 	{0},
 };
 

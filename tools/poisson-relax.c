@@ -17,14 +17,13 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{"method", 0, PM_WORD, "", "cg", 0, 0, pm_relax_names, "which iteration", false, offsetof(struct config, method)},
-	{"relaxation", 0, PM_REAL, "", NULL, 0.01, 1.9999, NULL,
-		"factor of each step (default: the method's: 1, the one that smooths best, or Young's best of this mesh and its faces)", false,
-		offsetof(struct config, relaxation)},
-	{"tolerance", 0, PM_REAL, "", "1e-11", 0, 1, NULL, "of the residual, relative to c*s, both as root of the mean square", false,
-		offsetof(struct config, tolerance)},
-	{"max-sweeps", 0, PM_INTEGER, "", "100000", 1, 1e9, NULL, "sweeps after which it fails", false, offsetof(struct config, most)},
-	PM_SOLVER_ROWS(struct config),
+	{.name = "method", .kind = PM_WORD, .fallback = "cg", .choices = pm_relax_names, PM_AT(method), .text = "which iteration"},
+	{.name = "relaxation", .kind = PM_REAL, .low = 0.01, .high = 1.9999, PM_AT(relaxation),
+		.text = "factor of each step (default: the method's: 1, the one that smooths best, or Young's best of this mesh and its faces)"},
+	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
+		.text = "of the residual, relative to c*s, both as root of the mean square"},
+	{.name = "max-sweeps", .kind = PM_INTEGER, .fallback = "100000", .low = 1, .high = 1e9, PM_AT(most), .text = "sweeps after which it fails"},
+	PM_SOLVER_ROWS,
 	{0},
 };
 

@@ -83,18 +83,17 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const loops[] = {"half", "full", NULL};
 static const struct pm_option options[] = {
-	{.name = "softening", .kind = PM_REAL, .unit = "length", .low = 0, .high = 1e300, .offset = AT(softening),
+	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(softening),
 		.text = "length over which a point is smoothed; by default the frame's constant softening"},
-	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, .offset = AT(mollifier),
+	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, PM_AT(mollifier),
 		.text = "how a point is smoothed; by default what the law names"},
-	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, .offset = AT(loop),
+	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, PM_AT(loop),
 		.text = "each pair once by symmetry, or each target over all sources; equal to round-off"},
-	{.name = "potential", .kind = PM_FLAG, .offset = AT(potential), .text = "also the potential at each particle, without its own"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "acts on this set only; every set with the strength remains a source"},
-	{.name = "replace", .kind = PM_FLAG, .offset = AT(replace), .text = "computes the term self anew where it is there already"},
+	{.name = "potential", .kind = PM_FLAG, PM_AT(potential), .text = "also the potential at each particle, without its own"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "acts on this set only; every set with the strength remains a source"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "computes the term self anew where it is there already"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -81,25 +81,23 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
-	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, .offset = AT(method),
+	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, PM_AT(method),
 		.text = "exchange: conserving, for particles that are not distorted; dc: corrected for where the partners are (DC-PSE), not conserving"},
-	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, .offset = AT(order), .text = "error eps^2 with positive weights, or eps^4"},
-	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, .offset = AT(eps),
+	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, PM_AT(order), .text = "error eps^2 with positive weights, or eps^4"},
+	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, PM_AT(eps),
 		.text = "width of the kernel exp(-(r/eps)^2/4); by default --overlap times the spacing of the particles"},
-	{.name = "overlap", .kind = PM_REAL, .fallback = "1", .low = 1e-3, .high = 1e3, .offset = AT(overlap),
+	{.name = "overlap", .kind = PM_REAL, .fallback = "1", .low = 1e-3, .high = 1e3, PM_AT(overlap),
 		.text = "eps over the spacing (mean volume)^(1/dim); quadrature needs 1 on a lattice, and more where particles are distorted"},
-	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, .offset = AT(cutoff),
+	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, PM_AT(cutoff),
 		.text = "partners farther than this exchange nothing; by default 8 for order 2, 9 for order 4; of dc 3.1 and 4.1"},
-	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .low = 0, .high = 1e300, .offset = AT(nu),
-		.text = "the viscosity (default: the frame's constant nu)"},
-	{.name = "field", .kind = PM_TEXT, .unit = "NAME", .offset = AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "only this set; by default every set with the field, each by itself"},
-	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, .offset = AT(wall),
+	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .high = 1e300, PM_AT(nu), .text = "the viscosity (default: the frame's constant nu)"},
+	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each by itself"},
+	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, PM_AT(wall),
 		.text = "mirror particles at faces that are wall (odd) or neumann (even), or nothing beyond them"},
-	{.name = "replace", .kind = PM_FLAG, .offset = AT(replace), .text = "compute the change anew instead of refusing to add twice"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change anew instead of refusing to add twice"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -159,11 +159,10 @@ static void release(struct pm_stage *s)
 }
 
 static const struct pm_option options[] = {
-	{.name = "dt", .kind = PM_REAL, .unit = "time", .text = "overrides the frame's time step and records it; only at substep 0",
-		.offset = offsetof(struct config, dt)},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "moves this set only; time waits for the others", .offset = offsetof(struct config, set)},
-	{.name = "open", .kind = PM_FLAG, .text = "the drift does not complete the step: a kick is still to come", .offset = offsetof(struct config, open)},
-	{.name = "unsafe", .kind = PM_FLAG, .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)", .offset = offsetof(struct config, unsafe)},
+	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time waits for the others"},
+	{.name = "open", .kind = PM_FLAG, PM_AT(open), .text = "the drift does not complete the step: a kick is still to come"},
+	{.name = "unsafe", .kind = PM_FLAG, PM_AT(unsafe), .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)"},
 	{0},
 };
 

@@ -125,23 +125,28 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "grow", NULL};
 static const struct pm_option options[] = {
-	{"kernel", 'k', PM_WORD, "", NULL, 0, 0, pm_kernel_names, "how a strength is shared among nodes (default: the law's, else m4prime)", false, AT(kernel)},
-	{"cells", 'n', PM_CELLS, "cells", NULL, 1, 1 << 24, NULL, "give the mesh this many cells over the box, 64 or 64x32x32", false, AT(cells)},
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, AT(mesh)},
-	{"set", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "only this set (default: every set with a strength that is not fixed)", false, AT(set)},
-	{"cut-off", 0, PM_REAL, "", "0", 0, 1, NULL, "nodes up to this part of the largest strength become no particles; counted, and their strength summed",
-		false, AT(cut_off)},
-	{"rim", 0, PM_INTEGER, "cells", "0", 0, 1000, NULL, "nodes this near to a particle become particles too, however little they hold: room for what diffuses", false,
-		AT(rim)},
-	{"every", 0, PM_INTEGER, "steps", "1", 1, 1e15, NULL, "only where the frame's step is a multiple of this", false, AT(every)},
-	{"when", 0, PM_WORD, "", "always", 0, 0, when, "always, or where the distortion of the particles exceeds --threshold", false, AT(when)},
-	{"threshold", 0, PM_REAL, "", "0.02", 0, 1e9, NULL, "mean relative change of the overlap of particles that is too much", false, AT(threshold)},
-	{"by", 0, PM_TEXT, "STRENGTH", NULL, 0, 0, NULL, "carry values (v) as this strength times value: momentum by mass", false, AT(by)},
-	{"drop", 0, PM_LIST, "FIELD", NULL, 0, 0, NULL, "fields that the new particles do without", false, AT(drop)},
-	{"outside", 0, PM_WORD, "", "error", 0, 0, outside, "particles that an open mesh does not hold: refuse, or enlarge the mesh", false, AT(outside)},
+	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
+		.text = "how a strength is shared among nodes (default: the law's, else m4prime)"},
+	{.name = "cells", .letter = 'n', .kind = PM_CELLS, .unit = "cells", .low = 1, .high = 1 << 24, PM_AT(cells),
+		.text = "give the mesh this many cells over the box, 64 or 64x32x32"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with a strength that is not fixed)"},
+	{.name = "cut-off", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(cut_off),
+		.text = "nodes up to this part of the largest strength become no particles; counted, and their strength summed"},
+	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .fallback = "0", .high = 1000, PM_AT(rim),
+		.text = "nodes this near to a particle become particles too, however little they hold: room for what diffuses"},
+	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
+		.text = "only where the frame's step is a multiple of this"},
+	{.name = "when", .kind = PM_WORD, .fallback = "always", .choices = when, PM_AT(when),
+		.text = "always, or where the distortion of the particles exceeds --threshold"},
+	{.name = "threshold", .kind = PM_REAL, .fallback = "0.02", .high = 1e9, PM_AT(threshold),
+		.text = "mean relative change of the overlap of particles that is too much"},
+	{.name = "by", .kind = PM_TEXT, .unit = "STRENGTH", PM_AT(by), .text = "carry values (v) as this strength times value: momentum by mass"},
+	{.name = "drop", .kind = PM_LIST, .unit = "FIELD", PM_AT(drop), .text = "fields that the new particles do without"},
+	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
+		.text = "particles that an open mesh does not hold: refuse, or enlarge the mesh"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -24,13 +24,15 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", .text = "sets to compute on (every set without, unless --mesh is given)", .offset = offsetof(struct config, sets)},
-	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", .text = "meshes to compute on", .offset = offsetof(struct config, meshes)},
-	{.name = "role", .kind = PM_WORD, .choices = roles, .fallback = "auto", .text = "role of a new field: state survives when particles move, derived does not; auto: state with --extensive, else derived", .offset = offsetof(struct config, role)},
-	{.name = "extensive", .kind = PM_FLAG, .text = "new fields are strengths (extensive)", .offset = offsetof(struct config, strength)},
-	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", .text = "unit to write beside the fields", .offset = offsetof(struct config, unit)},
-	{.name = "type", .kind = PM_WORD, .choices = types, .fallback = "f64", .text = "how new fields are stored; i64 takes the floor", .offset = offsetof(struct config, type)},
-	{0}};
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "sets to compute on (every set without, unless --mesh is given)"},
+	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "meshes to compute on"},
+	{.name = "role", .kind = PM_WORD, .fallback = "auto", .choices = roles, PM_AT(role),
+		.text = "role of a new field: state survives when particles move, derived does not; auto: state with --extensive, else derived"},
+	{.name = "extensive", .kind = PM_FLAG, PM_AT(strength), .text = "new fields are strengths (extensive)"},
+	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", PM_AT(unit), .text = "unit to write beside the fields"},
+	{.name = "type", .kind = PM_WORD, .fallback = "f64", .choices = types, PM_AT(type), .text = "how new fields are stored; i64 takes the floor"},
+	{0},
+};
 
 static int begin(struct pm_stage *s)
 {

@@ -19,13 +19,15 @@ struct config {
 };
 
 static const struct pm_option options[] = {
-	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME", .text = "compare these fields only, wherever they are", .offset = offsetof(struct config, fields)},
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", .text = "compare what is on these sets or meshes only", .offset = offsetof(struct config, on)},
-	{.name = "tolerance", .letter = 't', .kind = PM_REAL, .high = 1e300, .text = "exit 1 if the norm of any field is larger (or not a number)", .offset = offsetof(struct config, tolerance)},
-	{.name = "norm", .kind = PM_WORD, .choices = norms, .fallback = "relative_l2", .text = "the norm that --tolerance is held against", .offset = offsetof(struct config, norm)},
-	{.name = "common", .kind = PM_FLAG, .text = "pass over fields that only one of the two has (an error without it)", .offset = offsetof(struct config, common)},
-	{.name = "by-index", .kind = PM_FLAG, .text = "compare particles in the order in which they come, even where both have an id", .offset = offsetof(struct config, by_index)},
-	{0}};
+	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME", PM_AT(fields), .text = "compare these fields only, wherever they are"},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(on), .text = "compare what is on these sets or meshes only"},
+	{.name = "tolerance", .letter = 't', .kind = PM_REAL, .high = 1e300, PM_AT(tolerance),
+		.text = "exit 1 if the norm of any field is larger (or not a number)"},
+	{.name = "norm", .kind = PM_WORD, .fallback = "relative_l2", .choices = norms, PM_AT(norm), .text = "the norm that --tolerance is held against"},
+	{.name = "common", .kind = PM_FLAG, PM_AT(common), .text = "pass over fields that only one of the two has (an error without it)"},
+	{.name = "by-index", .kind = PM_FLAG, PM_AT(by_index), .text = "compare particles in the order in which they come, even where both have an id"},
+	{0},
+};
 
 static struct pm_field_pairs_choice choice_of(const struct config *c)
 {

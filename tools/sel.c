@@ -20,15 +20,18 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "frames", .kind = PM_LIST, .unit = "N|N:M", .text = "frames by number, counted from 1: 1,3,5:10 or 7: for all from the seventh", .offset = offsetof(struct config, frames)},
-	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, .text = "frames whose step is a multiple of this", .offset = offsetof(struct config, every)},
-	{.name = "last", .kind = PM_FLAG, .text = "the last frame of each stream only, of those that are left", .offset = offsetof(struct config, last)},
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", .text = "keep these sets, no others", .offset = offsetof(struct config, sets)},
-	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", .text = "keep these meshes, no others", .offset = offsetof(struct config, meshes)},
-	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME|ON/NAME", .text = "keep these fields, no others", .offset = offsetof(struct config, fields)},
-	{.name = "drop", .kind = PM_LIST, .unit = "NAME|ON/NAME", .text = "leave these fields, sets or meshes out", .offset = offsetof(struct config, drop)},
-	{.name = "where", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "keep the particles for which this is true: 'x < 0.5 && mass > 0'", .offset = offsetof(struct config, where)},
-	{0}};
+	{.name = "frames", .kind = PM_LIST, .unit = "N|N:M", PM_AT(frames),
+		.text = "frames by number, counted from 1: 1,3,5:10 or 7: for all from the seventh"},
+	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
+		.text = "frames whose step is a multiple of this"},
+	{.name = "last", .kind = PM_FLAG, PM_AT(last), .text = "the last frame of each stream only, of those that are left"},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "keep these sets, no others"},
+	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "keep these meshes, no others"},
+	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(fields), .text = "keep these fields, no others"},
+	{.name = "drop", .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(drop), .text = "leave these fields, sets or meshes out"},
+	{.name = "where", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(where), .text = "keep the particles for which this is true: 'x < 0.5 && mass > 0'"},
+	{0},
+};
 
 /* "3" or "3:5" or "3:" as first and last. */
 static bool range(const char *text, uint64_t *first, uint64_t *last)

@@ -16,9 +16,10 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .text = "write the stream on standard input to this HDF5 file, which appears when it is complete", .cosmetic = true,
-		.offset = offsetof(struct config, output)},
-	{0}};
+	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, PM_AT(output),
+		.text = "write the stream on standard input to this HDF5 file, which appears when it is complete"},
+	{0},
+};
 
 static const struct pm_example examples[] = {
 	{"A cloud at rest, and what is in it", "pinit plummer -n 100 | sh5 -o cloud.h5; h5ls -r cloud.h5; sh5 cloud.h5 | sls"},

@@ -19,11 +19,13 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "data", .letter = 'd', .kind = PM_FLAG, .text = "read the data too: smallest, largest and mean value of every component", .offset = offsetof(struct config, data)},
-	{.name = "history", .kind = PM_FLAG, .text = "which programs with which options made the frame", .offset = offsetof(struct config, history)},
-	{.name = "report", .kind = PM_FLAG, .text = "what the stages have reported: iterations, means removed, counts", .offset = offsetof(struct config, report)},
-	{.name = "format", .kind = PM_WORD, .choices = formats, .fallback = "text", .text = "text for people, json (one line a frame) for programs", .offset = offsetof(struct config, format)},
-	{0}};
+	{.name = "data", .letter = 'd', .kind = PM_FLAG, PM_AT(data), .text = "read the data too: smallest, largest and mean value of every component"},
+	{.name = "history", .kind = PM_FLAG, PM_AT(history), .text = "which programs with which options made the frame"},
+	{.name = "report", .kind = PM_FLAG, PM_AT(report), .text = "what the stages have reported: iterations, means removed, counts"},
+	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format),
+		.text = "text for people, json (one line a frame) for programs"},
+	{0},
+};
 
 static int begin(struct pm_stage *s)
 {

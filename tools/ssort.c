@@ -13,12 +13,14 @@ struct config {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .text = "sort this set only (every set without)", .offset = offsetof(struct config, set)},
-	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", .text = "sort by this, ascending, instead of by cell: id, mass, 'hypot(x,y)'", .offset = offsetof(struct config, by)},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", .text = "sort by the cells of this mesh (the first without)", .offset = offsetof(struct config, mesh)},
-	{.name = "reverse", .kind = PM_FLAG, .text = "largest first", .offset = offsetof(struct config, reverse)},
-	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, .text = "sort only frames whose step is a multiple of this", .offset = offsetof(struct config, every)},
-	{0}};
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "sort this set only (every set without)"},
+	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(by), .text = "sort by this, ascending, instead of by cell: id, mass, 'hypot(x,y)'"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "sort by the cells of this mesh (the first without)"},
+	{.name = "reverse", .kind = PM_FLAG, PM_AT(reverse), .text = "largest first"},
+	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
+		.text = "sort only frames whose step is a multiple of this"},
+	{0},
+};
 
 static bool chosen(const struct config *c, const struct pm_set *set) { return !c->set || !strcmp(c->set, set->name); }
 

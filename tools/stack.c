@@ -20,10 +20,13 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "as", .kind = PM_LIST, .unit = "NAME", .text = "names for the sets, one per stream (without: their own, the second of a name becomes NAME-2)", .offset = offsetof(struct config, names)},
-	{.name = "merge", .kind = PM_FLAG, .text = "sets of the same name become one set", .offset = offsetof(struct config, merge)},
-	{.name = "box", .kind = PM_VECTOR, .unit = "length", .text = "lo,hi of every axis, or all lo and then all hi (without: the smallest box that holds all boxes)", .offset = offsetof(struct config, box)},
-	{0}};
+	{.name = "as", .kind = PM_LIST, .unit = "NAME", PM_AT(names),
+		.text = "names for the sets, one per stream (without: their own, the second of a name becomes NAME-2)"},
+	{.name = "merge", .kind = PM_FLAG, PM_AT(merge), .text = "sets of the same name become one set"},
+	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box),
+		.text = "lo,hi of every axis, or all lo and then all hi (without: the smallest box that holds all boxes)"},
+	{0},
+};
 
 static int begin(struct pm_stage *s)
 {

@@ -83,12 +83,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-#define AT(member) offsetof(struct config, member)
 static const struct pm_option options[] = {
-	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .low = 0, .high = 1e300, .offset = AT(nu),
-		.text = "the viscosity (default: the frame's constant nu)"},
-	{.name = "seed", .kind = PM_INTEGER, .low = 0, .high = 9e15, .offset = AT(seed), .text = "of the random numbers; by default the frame's"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .offset = AT(set), .text = "only this set; by default every set that moves"},
+	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .high = 1e300, PM_AT(nu), .text = "the viscosity (default: the frame's constant nu)"},
+	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "of the random numbers; by default the frame's"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set that moves"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -11,7 +11,7 @@ static double coefficient(const struct pm_frame *f)
 }
 
 static const struct pm_law_constant constants[] = {
-	{"G", "length^dim/(mass time^2)", 1, "constant of gravity"},
+	{.name = "G", .unit = "length^dim/(mass time^2)", .otherwise = 1, .text = "constant of gravity"},
 	{0},
 };
 

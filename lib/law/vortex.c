@@ -14,7 +14,7 @@ static double coefficient(const struct pm_frame *f)
 }
 
 static const struct pm_law_constant constants[] = {
-	{"nu", "length^2/time", 0, "kinematic viscosity"},
+	{.name = "nu", .unit = "length^2/time", .text = "kinematic viscosity"},
 	{0},
 };
 

@@ -9,11 +9,12 @@
 enum { AMPLITUDE, MODE, LENGTH, DENSITY, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"amplitude", "", 0.05, 0, 0.999, "k A at the start"},
-	{"mode", "", 1, 1, 1e6, "waves in the box"},
-	{"length", "length", 1, 1e-300, 1e300, "side of the box"},
-	{"density", "mass/length^dim", 0.25 / 3.14159265358979323846, 0, 1e300, "mean density; 1/(4 pi) makes the growth rate 1"},
-	{"softening", "length", 0.001, 0, 1e6, "softening length of direct sums"},
+	{.name = "amplitude", .otherwise = 0.05, .high = 0.999, .text = "k A at the start"},
+	{.name = "mode", .otherwise = 1, .low = 1, .high = 1e6, .text = "waves in the box"},
+	{.name = "length", .unit = "length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "side of the box"},
+	{.name = "density", .unit = "mass/length^dim", .otherwise = 0.25 / 3.14159265358979323846, .high = 1e300,
+		.text = "mean density; 1/(4 pi) makes the growth rate 1"},
+	{.name = "softening", .unit = "length", .otherwise = 0.001, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

@@ -8,7 +8,7 @@
 enum { SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"softening", "length", 0.02, 0, 1e6, "softening length of direct sums"},
+	{.name = "softening", .unit = "length", .otherwise = 0.02, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

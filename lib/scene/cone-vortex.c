@@ -8,10 +8,10 @@
 enum { PEAK, RADIUS, NU, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"peak", "1/time", 100, -1e300, 1e300, "largest vorticity"},
-	{"radius", "length", 0.5, 1e-300, 1e300, "radius of the vortex"},
-	{"nu", "length^2/time", 0, 0, 1e300, "kinematic viscosity"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{.name = "peak", .unit = "1/time", .otherwise = 100, .low = -1e300, .high = 1e300, .text = "largest vorticity"},
+	{.name = "radius", .unit = "length", .otherwise = 0.5, .low = 1e-300, .high = 1e300, .text = "radius of the vortex"},
+	{.name = "nu", .unit = "length^2/time", .high = 1e300, .text = "kinematic viscosity"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

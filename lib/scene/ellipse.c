@@ -8,10 +8,10 @@
 enum { PEAK, A, B, NU };
 
 static const struct pm_scene_parameter rows[] = {
-	{"peak", "1/time", 10, -1e300, 1e300, "largest vorticity"},
-	{"a", "length", 0.5, 1e-300, 1e300, "standard deviation along x"},
-	{"b", "length", 0.25, 1e-300, 1e300, "standard deviation along y"},
-	{"nu", "length^2/time", 5e-4, 0, 1e300, "kinematic viscosity"},
+	{.name = "peak", .unit = "1/time", .otherwise = 10, .low = -1e300, .high = 1e300, .text = "largest vorticity"},
+	{.name = "a", .unit = "length", .otherwise = 0.5, .low = 1e-300, .high = 1e300, .text = "standard deviation along x"},
+	{.name = "b", .unit = "length", .otherwise = 0.25, .low = 1e-300, .high = 1e300, .text = "standard deviation along y"},
+	{.name = "nu", .unit = "length^2/time", .otherwise = 5e-4, .high = 1e300, .text = "kinematic viscosity"},
 	{0},
 };
 

@@ -9,10 +9,10 @@
 enum { SPEED, MAGNETIC, LENGTH, VELOCITIES };
 
 static const struct pm_scene_parameter rows[] = {
-	{"speed", "length/time", 1, 0, 1e300, "of the gyration"},
-	{"magnetic-field", "", 1, 1e-300, 1e300, "B along z; the gyration frequency"},
-	{"length", "length", 8, 1e-300, 1e300, "side of the box"},
-	{"velocities", "", 2, 2, 3, "components of v"},
+	{.name = "speed", .unit = "length/time", .otherwise = 1, .high = 1e300, .text = "of the gyration"},
+	{.name = "magnetic-field", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "B along z; the gyration frequency"},
+	{.name = "length", .unit = "length", .otherwise = 8, .low = 1e-300, .high = 1e300, .text = "side of the box"},
+	{.name = "velocities", .otherwise = 2, .low = 2, .high = 3, .text = "components of v"},
 	{0},
 };
 

@@ -9,10 +9,10 @@
 enum { GAMMA, NU, START, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"circulation", "length^2/time", 1, -1e300, 1e300, "circulation of the vortex"},
-	{"nu", "length^2/time", 0.01, 0, 1e300, "kinematic viscosity"},
-	{"start", "time", 1, 1e-300, 1e300, "age of the vortex at the start"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{.name = "circulation", .unit = "length^2/time", .otherwise = 1, .low = -1e300, .high = 1e300, .text = "circulation of the vortex"},
+	{.name = "nu", .unit = "length^2/time", .otherwise = 0.01, .high = 1e300, .text = "kinematic viscosity"},
+	{.name = "start", .unit = "time", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "age of the vortex at the start"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

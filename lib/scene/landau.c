@@ -11,12 +11,12 @@
 enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES, BEAMS };
 
 static const struct pm_scene_parameter rows[] = {
-	{"amplitude", "", 0.02, 0, 0.999, "k A at the start"},
-	{"mode", "", 1, 1, 1e6, "waves in the box"},
-	{"wavenumber", "1/length", 0.5, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
-	{"vth", "length/time", 1, 0, 1e300, "thermal speed, the standard deviation of the velocity"},
-	{"velocities", "", 1, 1, 3, "components of v"},
-	{"beams", "", 0, 0, 1e6, "evenly spaced velocities from -6 to 6 vth, weighted; 0: each particle its own, all of one weight"},
+	{.name = "amplitude", .otherwise = 0.02, .high = 0.999, .text = "k A at the start"},
+	{.name = "mode", .otherwise = 1, .low = 1, .high = 1e6, .text = "waves in the box"},
+	{.name = "wavenumber", .unit = "1/length", .otherwise = 0.5, .low = 1e-300, .high = 1e300, .text = "k of mode 1; the box is 2 pi/k long"},
+	{.name = "vth", .unit = "length/time", .otherwise = 1, .high = 1e300, .text = "thermal speed, the standard deviation of the velocity"},
+	{.name = "velocities", .otherwise = 1, .low = 1, .high = 3, .text = "components of v"},
+	{.name = "beams", .high = 1e6, .text = "evenly spaced velocities from -6 to 6 vth, weighted; 0: each particle its own, all of one weight"},
 	{0},
 };
 

@@ -10,11 +10,11 @@
 enum { AMPLITUDE, MODE, WAVENUMBER, VELOCITIES, AXES };
 
 static const struct pm_scene_parameter rows[] = {
-	{"amplitude", "", 0.05, 0, 0.999, "k A at the start"},
-	{"mode", "", 1, 1, 1e6, "waves in the box, along each axis that the wave vector has"},
-	{"wavenumber", "1/length", 1, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
-	{"velocities", "", 1, 1, 3, "components of v (as many as dimensions at least)"},
-	{"axes", "", 1, 1, 3, "of the wave vector: 1 along x, 2 and 3 along the diagonals"},
+	{.name = "amplitude", .otherwise = 0.05, .high = 0.999, .text = "k A at the start"},
+	{.name = "mode", .otherwise = 1, .low = 1, .high = 1e6, .text = "waves in the box, along each axis that the wave vector has"},
+	{.name = "wavenumber", .unit = "1/length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "k of mode 1; the box is 2 pi/k long"},
+	{.name = "velocities", .otherwise = 1, .low = 1, .high = 3, .text = "components of v (as many as dimensions at least)"},
+	{.name = "axes", .otherwise = 1, .low = 1, .high = 3, .text = "of the wave vector: 1 along x, 2 and 3 along the diagonals"},
 	{0},
 };
 

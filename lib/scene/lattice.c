@@ -8,10 +8,11 @@
 enum { SPACING, OFFSET, DENSITY, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"spacing", "cells", 2, 0.01, 1e6, "distance of neighbours in cells of the default mesh (the cell is 1 long)"},
-	{"offset", "cells", 0.3, 0, 1e6, "distance of the first particle from the first mesh point, on every axis"},
-	{"density", "mass/length^dim", 1, 0, 1e300, "mean density"},
-	{"softening", "length", 0.1, 0, 1e6, "softening length of direct sums"},
+	{.name = "spacing", .unit = "cells", .otherwise = 2, .low = 0.01, .high = 1e6,
+		.text = "distance of neighbours in cells of the default mesh (the cell is 1 long)"},
+	{.name = "offset", .unit = "cells", .otherwise = 0.3, .high = 1e6, .text = "distance of the first particle from the first mesh point, on every axis"},
+	{.name = "density", .unit = "mass/length^dim", .otherwise = 1, .high = 1e300, .text = "mean density"},
+	{.name = "softening", .unit = "length", .otherwise = 0.1, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

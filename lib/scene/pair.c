@@ -7,16 +7,16 @@
 enum { LENGTH, X1, Y1, Z1, X2, Y2, Z2, M1, M2, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"length", "cells", 16, 1, 4096, "side of the box, and the number of cells on each axis"},
-	{"x1", "length", 3.3, 0, 4096, "first particle, x"},
-	{"y1", "length", 4.7, 0, 4096, "first particle, y"},
-	{"z1", "length", 5.2, 0, 4096, "first particle, z"},
-	{"x2", "length", 7.9, 0, 4096, "second particle, x"},
-	{"y2", "length", 6.1, 0, 4096, "second particle, y"},
-	{"z2", "length", 9.4, 0, 4096, "second particle, z"},
-	{"m1", "mass", 1, 0, 1e300, "first particle, mass"},
-	{"m2", "mass", 2, 0, 1e300, "second particle, mass"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{.name = "length", .unit = "cells", .otherwise = 16, .low = 1, .high = 4096, .text = "side of the box, and the number of cells on each axis"},
+	{.name = "x1", .unit = "length", .otherwise = 3.3, .high = 4096, .text = "first particle, x"},
+	{.name = "y1", .unit = "length", .otherwise = 4.7, .high = 4096, .text = "first particle, y"},
+	{.name = "z1", .unit = "length", .otherwise = 5.2, .high = 4096, .text = "first particle, z"},
+	{.name = "x2", .unit = "length", .otherwise = 7.9, .high = 4096, .text = "second particle, x"},
+	{.name = "y2", .unit = "length", .otherwise = 6.1, .high = 4096, .text = "second particle, y"},
+	{.name = "z2", .unit = "length", .otherwise = 9.4, .high = 4096, .text = "second particle, z"},
+	{.name = "m1", .unit = "mass", .otherwise = 1, .high = 1e300, .text = "first particle, mass"},
+	{.name = "m2", .unit = "mass", .otherwise = 2, .high = 1e300, .text = "second particle, mass"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

@@ -11,8 +11,9 @@
 enum { TRUNCATION, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"truncation", "length", 10, 0.1, 1e6, "no particle starts outside this radius (the scale radius is 1)"},
-	{"softening", "length", 0.02, 0, 1e6, "softening length of direct sums"},
+	{.name = "truncation", .unit = "length", .otherwise = 10, .low = 0.1, .high = 1e6,
+		.text = "no particle starts outside this radius (the scale radius is 1)"},
+	{.name = "softening", .unit = "length", .otherwise = 0.02, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

@@ -7,9 +7,9 @@
 enum { GAMMA, MIXED, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"circulation", "length^2/time", 1, -1e300, 1e300, "circulation of all, in magnitude"},
-	{"mixed", "", 1, 0, 1, "1: of either sign by chance; 0: all of one sign"},
-	{"softening", "length", 0.02, 0, 1e6, "softening length of direct sums"},
+	{.name = "circulation", .unit = "length^2/time", .otherwise = 1, .low = -1e300, .high = 1e300, .text = "circulation of all, in magnitude"},
+	{.name = "mixed", .otherwise = 1, .high = 1, .text = "1: of either sign by chance; 0: all of one sign"},
+	{.name = "softening", .unit = "length", .otherwise = 0.02, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

@@ -8,10 +8,10 @@
 enum { GAMMA, RADIUS, DISTURBANCE, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"circulation", "length^2/time", 1, -1e300, 1e300, "circulation of each"},
-	{"radius", "length", 1, 1e-300, 1e300, "of the circle"},
-	{"disturbance", "", 0, -0.5, 0.5, "outward, as part of the radius"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{.name = "circulation", .unit = "length^2/time", .otherwise = 1, .low = -1e300, .high = 1e300, .text = "circulation of each"},
+	{.name = "radius", .unit = "length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "of the circle"},
+	{.name = "disturbance", .low = -0.5, .high = 0.5, .text = "outward, as part of the radius"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

@@ -9,9 +9,9 @@
 enum { RHO, DELTA, NU };
 
 static const struct pm_scene_parameter rows[] = {
-	{"rho", "1/length", 80, 1e-300, 1e300, "steepness of the layers: 80 thin, 30 thick"},
-	{"delta", "length/time", 0.05, -1e300, 1e300, "speed of the disturbance"},
-	{"nu", "length^2/time", 1e-4, 0, 1e300, "kinematic viscosity"},
+	{.name = "rho", .unit = "1/length", .otherwise = 80, .low = 1e-300, .high = 1e300, .text = "steepness of the layers: 80 thin, 30 thick"},
+	{.name = "delta", .unit = "length/time", .otherwise = 0.05, .low = -1e300, .high = 1e300, .text = "speed of the disturbance"},
+	{.name = "nu", .unit = "length^2/time", .otherwise = 1e-4, .high = 1e300, .text = "kinematic viscosity"},
 	{0},
 };
 

@@ -8,9 +8,9 @@
 enum { SPEED, LENGTH, NU };
 
 static const struct pm_scene_parameter rows[] = {
-	{"speed", "length/time", 1, 0, 1e300, "largest speed"},
-	{"length", "length", 2 * 3.14159265358979323846, 1e-300, 1e300, "side of the box"},
-	{"nu", "length^2/time", 0.01, 0, 1e300, "kinematic viscosity"},
+	{.name = "speed", .unit = "length/time", .otherwise = 1, .high = 1e300, .text = "largest speed"},
+	{.name = "length", .unit = "length", .otherwise = 2 * 3.14159265358979323846, .low = 1e-300, .high = 1e300, .text = "side of the box"},
+	{.name = "nu", .unit = "length^2/time", .otherwise = 0.01, .high = 1e300, .text = "kinematic viscosity"},
 	{0},
 };
 

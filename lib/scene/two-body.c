@@ -8,11 +8,11 @@
 enum { MASS, RATIO, AXIS, ECCENTRICITY, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"mass", "mass", 1, 1e-300, 1e300, "total mass"},
-	{"ratio", "", 1, 1e-12, 1e12, "mass of the second body over that of the first"},
-	{"semi-major", "length", 1, 1e-100, 1e100, "semi-major axis of the relative orbit"},
-	{"eccentricity", "", 0, 0, 0.999, "0 a circle"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums; 0 is stated, so that the orbit is Kepler's"},
+	{.name = "mass", .unit = "mass", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "total mass"},
+	{.name = "ratio", .otherwise = 1, .low = 1e-12, .high = 1e12, .text = "mass of the second body over that of the first"},
+	{.name = "semi-major", .unit = "length", .otherwise = 1, .low = 1e-100, .high = 1e100, .text = "semi-major axis of the relative orbit"},
+	{.name = "eccentricity", .high = 0.999, .text = "0 a circle"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums; 0 is stated, so that the orbit is Kepler's"},
 	{0},
 };
 

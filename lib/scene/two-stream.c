@@ -10,12 +10,12 @@
 enum { V0, VTH, AMPLITUDE, MODE, WAVENUMBER, VELOCITIES };
 
 static const struct pm_scene_parameter rows[] = {
-	{"v0", "length/time", 0.6123724356957945, 0, 1e300, "speed of each beam"},
-	{"vth", "length/time", 0, 0, 1e300, "thermal speed, the standard deviation of the velocity"},
-	{"amplitude", "", 1e-4, 0, 0.999, "k A at the start"},
-	{"mode", "", 1, 1, 1e6, "waves in the box"},
-	{"wavenumber", "1/length", 1, 1e-300, 1e300, "k of mode 1; the box is 2 pi/k long"},
-	{"velocities", "", 1, 1, 3, "components of v"},
+	{.name = "v0", .unit = "length/time", .otherwise = 0.6123724356957945, .high = 1e300, .text = "speed of each beam"},
+	{.name = "vth", .unit = "length/time", .high = 1e300, .text = "thermal speed, the standard deviation of the velocity"},
+	{.name = "amplitude", .otherwise = 1e-4, .high = 0.999, .text = "k A at the start"},
+	{.name = "mode", .otherwise = 1, .low = 1, .high = 1e6, .text = "waves in the box"},
+	{.name = "wavenumber", .unit = "1/length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "k of mode 1; the box is 2 pi/k long"},
+	{.name = "velocities", .otherwise = 1, .low = 1, .high = 3, .text = "components of v"},
 	{0},
 };
 

@@ -9,11 +9,11 @@
 enum { MASS, LENGTH, DISPERSION, SPREAD, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"mass", "mass", 1, 0, 1e300, "total mass"},
-	{"length", "length", 1, 1e-300, 1e300, "side of the box"},
-	{"dispersion", "velocity", 0, 0, 1e300, "standard deviation of each velocity component"},
-	{"mass-spread", "decades", 0, 0, 100, "masses log-uniform over so many decades"},
-	{"softening", "length", 0.001, 0, 1e6, "softening length of direct sums"},
+	{.name = "mass", .unit = "mass", .otherwise = 1, .high = 1e300, .text = "total mass"},
+	{.name = "length", .unit = "length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "side of the box"},
+	{.name = "dispersion", .unit = "velocity", .high = 1e300, .text = "standard deviation of each velocity component"},
+	{.name = "mass-spread", .unit = "decades", .high = 100, .text = "masses log-uniform over so many decades"},
+	{.name = "softening", .unit = "length", .otherwise = 0.001, .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

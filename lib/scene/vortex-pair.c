@@ -7,10 +7,10 @@
 enum { GAMMA1, GAMMA2, DISTANCE, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
-	{"circulation1", "length^2/time", 1, -1e300, 1e300, "circulation of the left one"},
-	{"circulation2", "length^2/time", 2, -1e300, 1e300, "circulation of the right one"},
-	{"distance", "length", 1, 1e-300, 1e300, "between the two"},
-	{"softening", "length", 0, 0, 1e6, "softening length of direct sums"},
+	{.name = "circulation1", .unit = "length^2/time", .otherwise = 1, .low = -1e300, .high = 1e300, .text = "circulation of the left one"},
+	{.name = "circulation2", .unit = "length^2/time", .otherwise = 2, .low = -1e300, .high = 1e300, .text = "circulation of the right one"},
+	{.name = "distance", .unit = "length", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "between the two"},
+	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums"},
 	{0},
 };
 

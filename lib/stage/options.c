@@ -5,19 +5,21 @@
 
 #include "stage/internal.h"
 
-#define AT(member) offsetof(struct pm_common, member)
+#define AT(member) .offset = offsetof(struct pm_common, member)
 const struct pm_option pm_common_options[] = {
-	{"input", 'i', PM_TEXT, "FILE", NULL, 0, 0, NULL, "read FILE instead of standard input", true, AT(input)},
-	{"output", 'o', PM_TEXT, "FILE", NULL, 0, 0, NULL, "write FILE instead of standard output", true, AT(output)},
-	{"threads", 0, PM_INTEGER, "1", NULL, 1, 4096, NULL, "threads; results do not depend on it (also OMP_NUM_THREADS)", true, AT(threads)},
-	{"timing", 0, PM_TEXT, "FILE", NULL, 0, 0, NULL, "append a line to FILE: word, seconds of set-up, seconds of work", true, AT(timing)},
-	{"no-history", 0, PM_FLAG, "", NULL, 0, 0, NULL, "add no entry to the history of the stream", true, AT(no_history)},
-	{"verbose", 0, PM_FLAG, "", NULL, 0, 0, NULL, "say on standard error what was decided", true, AT(verbose)},
-	{"help", 'h', PM_FLAG, "", NULL, 0, 0, NULL, "print this help", true, AT(help)},
-	{"man", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the manual page (troff)", true, AT(man)},
-	{"examples", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the examples, one command a line", true, AT(examples)},
-	{"complete", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the options with their choices, for completion", true, AT(complete)},
-	{"version", 0, PM_FLAG, "", NULL, 0, 0, NULL, "print the version", true, AT(version)},
+	{.name = "input", .letter = 'i', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(input), .text = "read FILE instead of standard input"},
+	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(output), .text = "write FILE instead of standard output"},
+	{.name = "threads", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = 4096, .cosmetic = true, AT(threads),
+		.text = "threads; results do not depend on it (also OMP_NUM_THREADS)"},
+	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
+		.text = "append a line to FILE: word, seconds of set-up, seconds of work"},
+	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},
+	{.name = "verbose", .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "say on standard error what was decided"},
+	{.name = "help", .letter = 'h', .kind = PM_FLAG, .cosmetic = true, AT(help), .text = "print this help"},
+	{.name = "man", .kind = PM_FLAG, .cosmetic = true, AT(man), .text = "print the manual page (troff)"},
+	{.name = "examples", .kind = PM_FLAG, .cosmetic = true, AT(examples), .text = "print the examples, one command a line"},
+	{.name = "complete", .kind = PM_FLAG, .cosmetic = true, AT(complete), .text = "print the options with their choices, for completion"},
+	{.name = "version", .kind = PM_FLAG, .cosmetic = true, AT(version), .text = "print the version"},
 	{0},
 };
 #undef AT

@@ -6,15 +6,14 @@
 #include "poisson/problem.h"
 #include "stage/stage.h"
 
-/* Rows of options, for a config struct with the member `names` of type struct pm_problem_names. */
-#define PM_SOLVER_ROWS(config) \
-	{"coefficient", 0, PM_REAL, "", NULL, 0, 0, NULL, "c in lap phi = c*s (default: the law's)", false, offsetof(config, names.coefficient)}, \
-	{"source", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "s, a mesh field (default: the law's density)", false, offsetof(config, names.source)}, \
-	{"target", 0, PM_TEXT, "FIELD", NULL, 0, 0, NULL, "phi, the mesh field to make (default: the law's potential)", false, offsetof(config, names.target)}, \
-	{"mesh", 0, PM_TEXT, "NAME", NULL, 0, 0, NULL, "the mesh (default: the first)", false, offsetof(config, names.mesh)}, \
-	{"wall", 0, PM_WORD, "", "tangential", 0, 0, pm_wall_rule_names, \
-		"which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round", false, \
-		offsetof(config, names.wall)}
+/* Rows of options, for a struct config with the member `names` of type struct pm_problem_names. */
+#define PM_SOLVER_ROWS \
+	{.name = "coefficient", .kind = PM_REAL, PM_AT(names.coefficient), .text = "c in lap phi = c*s (default: the law's)"}, \
+	{.name = "source", .kind = PM_TEXT, .unit = "FIELD", PM_AT(names.source), .text = "s, a mesh field (default: the law's density)"}, \
+	{.name = "target", .kind = PM_TEXT, .unit = "FIELD", PM_AT(names.target), .text = "phi, the mesh field to make (default: the law's potential)"}, \
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(names.mesh), .text = "the mesh (default: the first)"}, \
+	{.name = "wall", .kind = PM_WORD, .fallback = "tangential", .choices = pm_wall_rule_names, PM_AT(names.wall), \
+		.text = "which components of a vector are zero at a wall, the others having no normal gradient; a neumann face is the other way round"}
 
 /* key, or of component c of a vector key_c, with room for 32 letters. */
 const char *pm_solver_key(const struct pm_problem *p, const char *key, int c, char text[32]);

@@ -44,6 +44,9 @@ struct pm_option {
 	size_t offset;        /* in the config struct */
 };
 
+/* .offset of a member, in the rows of a tool that keeps its options in a struct config. */
+#define PM_AT(member) .offset = offsetof(struct config, member)
+
 struct pm_example {
 	const char *text, *command; /* a command line that runs as printed, in an empty directory, in less than a second */
 };
