@@ -47,7 +47,10 @@ count() {
 	done <"$scratch/cases"
 }
 
-[ "$1" != --table ] || { compare "$2" && exit; }
+if [ "$1" = --table ]; then
+	compare "$2"
+	exit
+fi
 command -v valgrind >/dev/null || skip "no valgrind"
 if [ "$1" = --check ]; then
 	[ "$(sed -n '1s/^# //p' "$file")" = "$compiler" ] || skip "counts.tsv is of $(sed -n '1s/^# //p' "$file"), this is $compiler"

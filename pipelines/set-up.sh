@@ -1,6 +1,6 @@
 # shellcheck shell=sh
 # What demo.sh and tests/check.sh share; plain sh, sourced from the top of the tree.
-# set_up PACKAGE...: installs what of these Debian packages is missing, then builds everything with make.
+# set_up PACKAGE...: installs what of these Debian packages is missing, then builds everything with make and says how far it is.
 # SPDX-License-Identifier: GPL-3.0-or-later
 me=$(basename "$0" .sh)
 
@@ -17,6 +17,7 @@ there() {
 	libgsl-dev) header gsl/gsl_version.h ;;
 	libjansson-dev) header jansson.h ;;
 	libpng-dev) header png.h ;;
+	libomp-dev) echo 'int main(void) { return 0; }' | clang -fopenmp -x c - -o /dev/null 2>/dev/null ;;
 	libhdf5-dev) header hdf5/serial/hdf5.h || header hdf5.h ;;
 	hdf5-tools) command -v h5diff >/dev/null 2>&1 ;;
 	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
@@ -54,12 +55,34 @@ install_packages() {
 	rm -f "$log"
 }
 
-set_up() {
+# install_missing PACKAGE...: afterwards all of them are there.
+install_missing() {
 	wanted=$(missing "$@")
 	# shellcheck disable=SC2086 # a list of words
 	[ -z "$wanted" ] || install_packages $wanted
 	wanted=$(missing "$@")
 	[ -z "$wanted" ] || stop "still missing after installing: $wanted"
-	echo "$me: building"
-	make -s -j "$(nproc)" all unit || stop "the build failed"
+}
+
+# Reads the commands of make and says every few seconds how many of $1 files are made.
+progress() {
+	made=0 said=$(date +%s)
+	while read -r line; do
+		case $line in *' -o '*) made=$((made + 1)) ;; esac
+		now=$(date +%s)
+		[ $((now - said)) -ge 3 ] && said=$now && echo "$me: building: $made of $1 files"
+	done
+}
+
+# build: everything there is to build; quiet if that is nothing. make's exit status comes by descriptor 3, as plain sh has no pipefail.
+build() {
+	to_do=$(make -n all unit 2>/dev/null | grep -c ' -o ')
+	[ "$to_do" = 0 ] || echo "$me: building $to_do files"
+	{ status=$({ { make -j "$(nproc)" all unit; echo $? >&3; } | progress "$to_do" >&4; } 3>&1); } 4>&1
+	[ "$status" = 0 ] || stop "the build failed"
+}
+
+set_up() {
+	install_missing "$@"
+	build
 }

@@ -55,6 +55,17 @@ same_as() { cmp "$1" "$2"; }
 # sh_ok COMMAND LINE: runs it under bash -o pipefail and demands exit status 0.
 sh_ok() { run -0 bash -o pipefail -c "$1"; }
 
+# without PROGRAM...: a PATH on which these are not to be found. few/ holds links to the programs of the machine: never write into it.
+without() {
+	local dir p
+	mkdir -p few
+	while IFS= read -r -d : dir; do
+		find "$dir" -maxdepth 1 ! -type d -exec ln -s -t few {} + 2>/dev/null || true # the first of a name stays
+	done <<<"$PATH:"
+	for p; do rm -f "few/$p"; done
+	PATH=$PWD/few
+}
+
 # column NAME: reads diag's TSV and prints that column, one row a line.
 column() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; if (!c) exit 1; next } { print $c }'; }
 

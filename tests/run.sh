@@ -1,62 +1,102 @@
 #!/usr/bin/env bash
-# Runs what is built: the unit tests and the bats files (all, or those named; `unit` names the unit tests). What fails is shown with its
-# reasons; the last line counts. B: where it was built; PM_WRAP: a command put before each unit test (valgrind).
+# Runs what is built: the unit tests and the bats files (all, or those named; `unit` names the unit tests), as many at a time as there are processors. Says every ten
+# seconds how far it is, shows what fails with its reasons, names what was skipped, and counts in the last line. The reports stay in $B/check/, with the time of every
+# test. B: where it was built; REPORTS: another place for them; PM_WRAP: a command put before each unit test (valgrind).
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
 cd "$(dirname "$0")/.." || exit 1
-B=${B:-build}
-[ "$B" = build ] && bin=$PWD/bin || bin=$PWD/$B/bin
-export PM_BIN=$bin
+export B=${B:-build}
+reports=${REPORTS:-$B/check}
+[ "$B" = build ] && PM_BIN=$PWD/bin || PM_BIN=$PWD/$B/bin
+export PM_BIN reports
 export LC_ALL=C OMP_WAIT_POLICY=passive # threads that wait leave the core to the other stages of a pipe
-passed=0 failed=0 skipped=0
 
-# As many at a time as there are processors. One that dies, or says so by its exit status alone, counts as one failure.
-# shellcheck disable=SC2016 # what is in single quotes is for the inner shell
-unit_tests() {
-	local t out status bad results=$B/unit-results
-	mkdir -p "$results"
-	find tests/unit -name '*.c' | sed 's|.*/||; s|\.c$||' | sort |
-		B=$B results=$results xargs -r -P "$(nproc)" -I{} sh -c '${PM_WRAP:-} "$B/tests/unit/{}" >"$results/{}" 2>&1 </dev/null; echo $? >>"$results/{}"'
-	for t in tests/unit/*.c; do
-		t=${t##*/} t=${t%.c}
-		status=$(tail -n 1 "$results/$t")
-		out=$(sed '$d' "$results/$t")
-		bad=$(grep -c '^not ok' <<<"$out")
-		passed=$((passed + $(grep -c '^ok' <<<"$out")))
-		[ "$status" != 0 ] && [ "$bad" = 0 ] && bad=1 && out+=$'\n'"not ok - exit status $status"
-		failed=$((failed + bad))
-		[ "$bad" = 0 ] || printf '%s\n' "--- $B/tests/unit/$t" "$(grep -v '^ok' <<<"$out" | head -n 40)"
+# suites [FILE...]: the files of tests, one a line. The long ones come first, so that no core is idle at the end.
+suites() {
+	local f
+	if [ $# = 0 ]; then
+		ls -S tests/hard/*.bats tests/physics/*.bats
+		ls -S tests/tool/*.bats
+	fi
+	for f; do
+		[ "$f" = unit ] && continue
+		[ -d "$f" ] && find "$f" -name '*.bats' | sort || echo "$f"
+	done
+	if [ $# = 0 ] || [[ " $* " == *" unit "* ]] || [ "$B" != build ]; then ls -S tests/unit/*.c; fi
+}
+
+# suite FILE: its report, then what failed in it. A file that does not parse, a run cut short and a program that dies count as failures.
+suite() {
+	local name=${1#tests/} report status planned seen
+	name=${name%.*}
+	report=$reports/${name//\//-}
+	if [[ $1 == *.c ]]; then
+		${PM_WRAP:-} "$B/tests/$name"
+	else
+		bats --formatter tap --timing "$1"
+	fi >"$report.tap" 2>&1 </dev/null
+	status=$?
+	planned=$(sed -n '1s/^1\.\.//p' "$report.tap")
+	seen=$(grep -cE '^(not )?ok' "$report.tap")
+	if [ "${planned:-0}" -gt "$seen" ]; then
+		echo "not ok - $((planned - seen)) tests did not report" >>"$report.tap"
+	elif { [ $status != 0 ] || [ "$seen" = 0 ]; } && ! grep -q '^not ok' "$report.tap"; then
+		echo "not ok - exit status $status" >>"$report.tap"
+	fi
+	touch "$report.done"
+	grep -q '^not ok' "$report.tap" || return 0
+	printf '%s\n' "--- $1" "$(awk '/^ok/ { bad = 0 } /^not ok/ { bad = 1 } bad || !/^(ok|1\.\.)/' "$report.tap" | head -n 60)"
+}
+export -f suite
+
+# count PATTERN: the lines of all reports that match it.
+count() { cat "$reports"/*.tap 2>/dev/null | grep -cE "$1"; }
+
+# Until its standard input is closed: a line every ten seconds.
+signs_of_life() {
+	local finished
+	while read -r -t 10; [ $? -gt 128 ]; do
+		finished=("$reports"/*.done)
+		[ -e "${finished[0]}" ] || finished=()
+		echo "check: ${#finished[@]} of $1 files, $(count '^(not )?ok') tests, $(count '^not ok') failed, $SECONDS s"
 	done
 }
 
-# A test that never reported (a bats file that does not parse, a run cut short) counts as failed.
-bats_tests() {
-	local jobs=() tap=$B/check.tap
-	parallel --version 2>/dev/null </dev/null | grep -q 'GNU parallel' && jobs=(-j "$(nproc)")
-	bats "${jobs[@]}" --formatter tap "$@" 2>&1 | tee "$tap" | awk '/^not ok/ { bad = 1 } /^ok/ { bad = 0 } bad || !/^(ok|#|1\.\.)/ { print; fflush() }'
-	[ -s "$tap" ] || echo "not ok bats did not run" >"$tap"
-	local planned seen skips bad
-	planned=$(sed -n '1s/^1\.\.//p' "$tap")
-	seen=$(grep -cE '^(not )?ok' "$tap")
-	bad=$(grep -c '^not ok' "$tap")
-	skips=$(grep -cE '^ok .*# skip' "$tap")
-	[ "${planned:-0}" -gt "$seen" ] && echo "not ok: $((planned - seen)) tests did not report" && bad=$((bad + planned - seen))
-	passed=$((passed + seen - $(grep -c '^not ok' "$tap") - skips))
-	failed=$((failed + bad))
-	skipped=$((skipped + skips))
+# What git finds besides the commit, build/ and bin/ apart.
+tree() { git status --porcelain --ignored --untracked-files=all 2>&1 | grep -vE '^!! (build|bin)/'; }
+
+# The tests leave the tree as it was. $1: the tree before.
+tree_test() {
+	local now
+	if ! git rev-parse --git-dir >/dev/null 2>&1; then
+		echo "ok 1 the tests leave the tree as it was # skip no git, or no repository of it, here"
+	elif now=$(tree); [ "$now" = "$1" ]; then
+		echo "ok 1 the tests leave the tree as it was"
+	else
+		echo "not ok 1 the tests leave the tree as it was: besides the commit there are now, or no longer,"
+		diff <(echo "$1") <(echo "$now") | sed -n 's/^[<>]/#&/p'
+	fi
 }
 
-files=()
-for f in "$@"; do
-	[ "$f" = unit ] || files+=("$f")
+rm -rf "$reports"
+mkdir -p "$reports"
+mapfile -t all < <(suites "$@")
+before=$(tree)
+exec {life}> >(signs_of_life ${#all[@]})
+ticker=$!
+# shellcheck disable=SC2016 # for the inner shell
+printf '%s\n' "${all[@]}" | xargs -r -d '\n' -P "$(nproc)" -I{} bash -c 'suite "$1"' _ {} {life}>&-
+exec {life}>&-
+wait "$ticker"
+tree_test "$before" | tee "$reports/tree.tap" | grep -v '^ok'
+
+skipped=$(count '^ok .*# skip')
+[ "$skipped" = 0 ] || echo "skipped:"
+for report in "$reports"/*.tap; do
+	name=${report##*/}
+	sed -nE "s|^ok [0-9]+ (.*) # skip ?(.*)|    ${name%.tap}: \1: \2|p" "$report" | sed -E 's/ in [0-9]+ms: /: /'
 done
-[ $# = 0 ] && files=(tests/tool tests/physics tests/hard)
-wanted=()
-for f in "${files[@]}"; do
-	[ -f "$f" ] && wanted+=("$f")
-	[ -d "$f" ] && while IFS= read -r g; do wanted+=("$g"); done < <(find "$f" -name '*.bats' | sort)
-done
-if [ $# = 0 ] || [[ " $* " == *" unit "* ]] || [ "$B" != build ]; then unit_tests; fi
-[ ${#wanted[@]} = 0 ] || bats_tests "${wanted[@]}"
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ] && [ $((passed + skipped)) != 0 ]
+echo "check: $SECONDS s"
+failed=$(count '^not ok')
+echo "$(($(count '^ok') - skipped)) passed, $failed failed, $skipped skipped"
+[ "$failed" = 0 ]

@@ -203,7 +203,9 @@ rk2 - -" ] || { cat t; false; }
 	awk -F'\t' 'NR > 1 { if (($3 == "stable") != ($1 * $1 + $2 * $2 <= 1)) exit 1 }' d/margin.tsv
 	# the crossings lie on lines of the grid, to 1/64 of 0.25
 	awk -F'\t' 'NR > 1 { n++; for (k = 1; k < 4; k += 2) { r = sqrt($k * $k + $(k+1) * $(k+1)); if (r < 1 - 0.004 || r > 1 + 0.004) { print; exit 1 } } } END { exit !(n >= 7) }' d/boundary.tsv
-	run -0 margin "$s" --vary a:0:1.5 --vary b:0:1.25 --map 7x6 --unstable-when 'distance_max > 2' -o d --format json
+	without gnuplot # a hint on stderr, and no word of it in the JSON
+	run -0 --separate-stderr margin "$s" --vary a:0:1.5 --vary b:0:1.25 --map 7x6 --unstable-when 'distance_max > 2' -o d --format json
+	[[ $stderr == *"no gnuplot here"* ]]
 	[ "$(jq '.points | length' <<<"$output")" = 42 ]
 }
 

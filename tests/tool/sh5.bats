@@ -234,10 +234,10 @@ sys.stdout.buffer.write(b)' "$1" "$2"
 	for f in *.h5; do openPMD_check_h5 -i "$f" | grep -q '^Result: 0 Errors' || { echo "$f"; return 1; }; done
 }
 
-# The Python that has yt: that of Debian is not always the first on PATH.
+# The Python that has yt, or nothing: that of Debian is not always the first on PATH.
 yt_python() {
 	for p in python3 /usr/bin/python3; do
-		"$p" -c 'import yt, h5py' 2>/dev/null && echo "$p" && return
+		if "$p" -c 'import yt, h5py' 2>/dev/null; then echo "$p" && return; fi
 	done
 }
 
