@@ -35,7 +35,7 @@ static int contribute(const struct config *o, struct pm_frame *f, const struct p
 	t->change = pm_contributes(f, t->density->on, name, law->strength, t->density->components, "diffusion", o->replace);
 	if (!t->change)
 		return -PM_DATA;
-	memcpy(t->change->kernel, t->density->kernel, sizeof t->change->kernel);
+	pm_field_inherit(t->change, t->density);
 	pm_fastest_add(t->change, t->nu * pm_operator_fastest(&t->operator));
 	return 0;
 }

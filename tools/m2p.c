@@ -82,10 +82,9 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 		status = pm_sets_choose(f, o->set, o->field ? any : law, "stab reads it from a table", &j->sets);
 	if (status)
 		return status;
-	const char *kernel = o->kernel ? o->kernel : j->field->kernel[0] ? j->field->kernel : j->law->kernel ? j->law->kernel : "cic";
-	const char *inner = pm_interlaced_kernel(kernel);
-	j->interlaced = inner && j->field->role != PM_STATE;
-	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_find(inner ? inner : kernel), .components = j->field->components};
+	j->interlaced = j->field->interlaced && !o->kernel && j->field->role != PM_STATE;
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_choose(o->kernel, j->field, j->law, "cic"),
+		.components = j->field->components};
 	if (!j->transfer.kernel)
 		return -PM_DATA;
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);

@@ -98,7 +98,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (!t->target)
 		return -PM_DATA;
 	t->target->use |= PM_USE_FILL;
-	memcpy(t->target->kernel, t->source->kernel, sizeof t->target->kernel);
+	pm_field_inherit(t->target, t->source);
 	return 0;
 }
 

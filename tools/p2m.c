@@ -41,7 +41,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 		return -PM_DATA;
 	j->strength = o->strength ? o->strength : law->strength;
 	j->density = o->field ? o->field : law->density ? law->density : "rho";
-	j->kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "cic");
+	j->kernel = pm_kernel_choose(o->kernel, NULL, law, "cic");
 	if (!j->kernel)
 		return -PM_DATA;
 	if (!j->strength)
@@ -73,16 +73,11 @@ static struct pm_transfer transfer_of(const struct pm_frame *f, const struct job
 	return t;
 }
 
-/* The density, under the kernel's name; interlaced, under that of both. */
 static int makes_density(const struct config *o, struct pm_frame *f, const struct job *j, bool add)
 {
 	struct pm_transfer t = transfer_of(f, j);
-	struct pm_kernel named = *j->kernel;
-	char name[PM_NAME];
-	if (o->interlace)
-		named.name = pm_interlaced_name(j->kernel->name, name);
 	int status = o->interlace ? pm_interlace_check(&t) : 0;
-	return status ? status : pm_makes_density(f, j->mesh, j->density, &named, &j->sets, j->strength, add);
+	return status ? status : pm_makes_density(f, j->mesh, &(struct pm_density){j->density, j->kernel, o->interlace, &j->sets, j->strength}, add);
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)

@@ -71,8 +71,8 @@ static int begin(struct pm_stage *s)
 /* The kernel is the one the source was made with, the gradient the one the law's field will be made with. */
 static int influence(const struct config *o, const struct pm_frame *f, const struct pm_problem *p, struct pm_influence *i)
 {
-	const char *kernel = pm_frame_field(f, p->mesh->name, p->source_name)->kernel, *inner = pm_interlaced_kernel(kernel);
-	*i = (struct pm_influence){.cloud = o->cloud, .interlaced = inner};
+	const struct pm_field *source = pm_frame_field(f, p->mesh->name, p->source_name);
+	*i = (struct pm_influence){.cloud = o->cloud, .interlaced = source->interlaced};
 	while (strcmp(pm_influence_names[i->kind], o->influence))
 		i->kind++;
 	if (i->kind == PM_PLAIN)
@@ -80,8 +80,8 @@ static int influence(const struct config *o, const struct pm_frame *f, const str
 	if (i->kind == PM_OPTIMAL && o->symbol)
 		return pm_fail(PM_USAGE, "--influence optimal has no --symbol (leave one of them out)");
 	i->order = pm_order_find(o->order ? o->order : p->law->order ? p->law->order : "2");
-	i->kernel = *kernel ? pm_kernel_find(inner ? inner : kernel) : NULL;
-	return i->order < 0 || (*kernel && !i->kernel) ? -PM_DATA : 0;
+	i->kernel = *source->kernel ? pm_kernel_find(source->kernel) : NULL;
+	return i->order < 0 || (*source->kernel && !i->kernel) ? -PM_DATA : 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)

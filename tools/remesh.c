@@ -40,7 +40,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = {.kernel = pm_kernel_find(o->kernel ? o->kernel : law->kernel ? law->kernel : "m4prime"), .cut_off = o->cut_off, .rim = (int)o->rim,
+	*j = (struct job){.choice = {.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off, .rim = (int)o->rim,
 		.by = o->by, .drop = o->drop.item, .ndrop = o->drop.n, .overlap = !strcmp(o->when, "distortion")}};
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh)

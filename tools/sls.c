@@ -129,7 +129,7 @@ static void field_text(const struct config *c, const struct pm_field *p)
 	for (int i = 0; i < p->nterms; i++)
 		printf("%s%s", i ? "," : " terms ", p->terms[i]);
 	if (*p->kernel)
-		printf(" kernel %s", p->kernel);
+		printf(" kernel %s%s", p->kernel, p->interlaced ? " interlaced" : "");
 	for (int i = 0; p->uniform && i < p->components; i++)
 		printf("%s%.10g", i ? "," : " uniform ", p->value[i]);
 	for (int i = 0; i < p->components; i++)

@@ -42,7 +42,7 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
 	if (!p->target)
 		return -PM_DATA;
-	memcpy(p->target->kernel, p->source->kernel, sizeof p->target->kernel);
+	pm_field_inherit(p->target, p->source);
 	return 0;
 }
 

@@ -150,6 +150,12 @@ struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const si
 	return m;
 }
 
+void pm_field_inherit(struct pm_field *field, const struct pm_field *from)
+{
+	memcpy(field->kernel, from->kernel, sizeof field->kernel);
+	field->interlaced = from->interlaced;
+}
+
 struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name)
 {
 	for (size_t i = 0; i < f->nfields; i++)

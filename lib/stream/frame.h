@@ -38,6 +38,7 @@ struct pm_field {
 	char unit[PM_NAME];   /* free text, "" unknown */
 	char of[PM_NAME];     /* change fields: the state it is the rate of, "" none (bfield) */
 	char kernel[PM_NAME]; /* mesh fields made by p2m, and what was derived from them: the kernel's name, else "" */
+	bool interlaced;      /* made with that kernel on two meshes half a cell apart */
 	int components;       /* 1..PM_COMPONENTS */
 	enum pm_type type;
 	enum pm_role role;
@@ -108,6 +109,7 @@ struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NU
 struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
 struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
 struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name); /* NULL if not there */
+void pm_field_inherit(struct pm_field *field, const struct pm_field *from); /* derived from it: the same kernel, interlaced or not */
 size_t pm_mesh_points(const struct pm_frame *f, const struct pm_mesh *m, size_t points[3]); /* cells (periodic) or cells+1; their product */
 double pm_frame_constant(const struct pm_frame *f, const char *name, double otherwise);
 void pm_frame_constant_set(struct pm_frame *f, const char *name, double value);

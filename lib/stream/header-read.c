@@ -239,6 +239,24 @@ static void read_field_lists(struct look *l, struct pm_field *p)
 		}
 }
 
+/* Streams written before `interlaced` was a key of its own have it in front of the kernel's name. */
+static void read_kernel(struct look *l, struct pm_field *p)
+{
+	static const char old[] = "interlaced-";
+	const size_t n = sizeof old - 1;
+	take_name(l, "kernel", false, true, p->kernel);
+	const json_t *interlaced = take(l, "interlaced", false);
+	p->interlaced = json_is_true(interlaced);
+	if (interlaced && !json_is_boolean(interlaced))
+		complain(l, "interlaced", "is neither true nor false");
+	if (!strncmp(p->kernel, old, n)) {
+		memmove(p->kernel, p->kernel + n, strlen(p->kernel + n) + 1);
+		p->interlaced = true;
+	}
+	if (p->interlaced && !*p->kernel)
+		complain(l, "interlaced", "is without a kernel");
+}
+
 static bool read_field(const json_t *j, struct pm_frame *f)
 {
 	struct look l = look_at(j, "field");
@@ -263,7 +281,7 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	p->extensive = take_choice(&l, "kind", pm_kind_names) == 1;
 	take_name(&l, "unit", false, true, p->unit);
 	take_name(&l, "of", false, true, p->of);
-	take_name(&l, "kernel", false, true, p->kernel);
+	read_kernel(&l, p);
 	p->uniform = json_object_get(l.j, "uniform") != NULL;
 	if (p->uniform)
 		take_reals(&l, "uniform", components, p->value);

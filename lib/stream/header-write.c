@@ -33,6 +33,8 @@ static json_t *field_json(const struct pm_field *p)
 		json_object_set_new(j, "of", json_string(p->of));
 	if (*p->kernel)
 		json_object_set_new(j, "kernel", json_string(p->kernel));
+	if (p->interlaced)
+		json_object_set_new(j, "interlaced", json_true());
 	if (p->uniform)
 		json_object_set_new(j, "uniform", reals(p->value, p->components));
 	if (p->nterms) {

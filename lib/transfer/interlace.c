@@ -12,18 +12,6 @@
 
 enum { L = PM_FFT_LINES, H = PM_FFT_LINES / 2 };
 
-const char *pm_interlaced_name(const char *kernel, char name[PM_NAME])
-{
-	snprintf(name, PM_NAME, PM_INTERLACED "%.48s", kernel);
-	return name;
-}
-
-const char *pm_interlaced_kernel(const char *name)
-{
-	size_t n = strlen(PM_INTERLACED);
-	return strncmp(name, PM_INTERLACED, n) ? NULL : name + n;
-}
-
 int pm_interlace_check(const struct pm_transfer *t)
 {
 	for (int d = 0; d < t->grid.dim; d++)

@@ -7,11 +7,6 @@
 #include "mesh/grid.h"
 #include "transfer/transfer.h"
 
-/* A mesh field that was made so carries the kernel's name behind this prefix, through solvers and gradients to m2p. */
-#define PM_INTERLACED "interlaced-"
-const char *pm_interlaced_name(const char *kernel, char name[PM_NAME]); /* of the kernel, with the prefix */
-const char *pm_interlaced_kernel(const char *name);                      /* without the prefix; NULL if there is none */
-
 /* 0, or the sentence that says what can: every axis periodic, components on the nodes, at most half of PM_COMPONENTS. */
 int pm_interlace_check(const struct pm_transfer *t);
 

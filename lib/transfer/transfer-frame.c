@@ -149,20 +149,26 @@ int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer
 	return status ? status : grown;
 }
 
-/* Fails if the strength has not the same shape on every set, or the old density cannot be replaced or added to. */
-static int check_density(const struct pm_frame *f, const struct pm_field *old, const char *kernel, const struct pm_sets *sets, const char *strength, bool add)
+const struct pm_kernel *pm_kernel_choose(const char *option, const struct pm_field *field, const struct pm_law *law, const char *otherwise)
 {
-	int components = pm_frame_field(f, sets->name[0], strength)->components;
+	return pm_kernel_find(option ? option : field && *field->kernel ? field->kernel : law->kernel ? law->kernel : otherwise);
+}
+
+/* Fails if the strength has not the same shape on every set, or the old density cannot be replaced or added to. */
+static int check_density(const struct pm_frame *f, const struct pm_field *old, const struct pm_density *d, bool add)
+{
+	const struct pm_sets *sets = d->sets;
+	int components = pm_frame_field(f, sets->name[0], d->strength)->components;
 	for (size_t i = 1; i < sets->n; i++)
-		if (pm_frame_field(f, sets->name[i], strength)->components != components)
-			return pm_fail(PM_DATA, "'%s' has not the same number of components on '%s' and '%s' (choose one with --set)", strength,
+		if (pm_frame_field(f, sets->name[i], d->strength)->components != components)
+			return pm_fail(PM_DATA, "'%s' has not the same number of components on '%s' and '%s' (choose one with --set)", d->strength,
 				sets->name[0], sets->name[i]);
 	if (old && old->role != PM_DERIVED)
 		return pm_fail(PM_DATA, "'%s' on '%s' is %s, which a density does not replace (choose another name with --field)", old->name, old->on,
 			pm_role_names[old->role]);
-	if (old && add && (old->components != components || strcmp(old->kernel, kernel)))
-		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and the kernel '%s'; %d of '%s' cannot be added to it (leave out --add)", old->name,
-			old->on, old->components, old->kernel, components, kernel);
+	if (old && add && (old->components != components || strcmp(old->kernel, d->kernel->name) || old->interlaced != d->interlaced))
+		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and the kernel '%s'%s; %d of '%s'%s cannot be added to it (leave out --add)", old->name,
+			old->on, old->components, old->kernel, old->interlaced ? " interlaced" : "", components, d->kernel->name, d->interlaced ? " interlaced" : "");
 	return 0;
 }
 
@@ -177,17 +183,17 @@ static void unit_over_volume(const char *unit, int dim, char *out, size_t size)
 		snprintf(out, size, dim > 1 ? "%.40s/%s" : "%.40s/length", unit, volume);
 }
 
-int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *name, const struct pm_kernel *k, const struct pm_sets *sets,
-	const char *strength, bool add)
+int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct pm_density *d, bool add)
 {
-	const struct pm_field *q = pm_frame_field(f, sets->name[0], strength), *old = pm_frame_field(f, m->name, name);
-	int status = check_density(f, old, k->name, sets, strength, add);
+	const struct pm_field *q = pm_frame_field(f, d->sets->name[0], d->strength), *old = pm_frame_field(f, m->name, d->name);
+	int status = check_density(f, old, d, add);
 	if (status)
 		return status;
-	struct pm_field *density = old && add ? pm_changes(f, m->name, name) : pm_makes(f, m->name, name, q->components, PM_DERIVED);
+	struct pm_field *density = old && add ? pm_changes(f, m->name, d->name) : pm_makes(f, m->name, d->name, q->components, PM_DERIVED);
 	if (!density)
 		return -PM_DATA;
-	snprintf(density->kernel, sizeof density->kernel, "%s", k->name);
+	snprintf(density->kernel, sizeof density->kernel, "%s", d->kernel->name);
+	density->interlaced = d->interlaced;
 	if (q->extensive)
 		unit_over_volume(q->unit, f->dim, density->unit, sizeof density->unit);
 	return 0;

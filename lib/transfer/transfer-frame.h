@@ -3,6 +3,7 @@
 #ifndef PM_TRANSFER_FRAME_H
 #define PM_TRANSFER_FRAME_H
 
+#include "law/law.h"
 #include "transfer/transfer.h"
 
 /* The sets that take part: those that have every field of needs[] (NULL ends) as state or derived, or the one named only. Fails with a sentence if there is none
@@ -33,9 +34,18 @@ int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm
  * step. 1 if it had to, 0 if not, or failure. */
 int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer *t, const struct pm_sets *sets);
 
+/* The kernel between particles and a mesh: the option's, else the one that `field` (NULL: none yet) was made with, else the law's, else `otherwise`. */
+const struct pm_kernel *pm_kernel_choose(const char *option, const struct pm_field *field, const struct pm_law *law, const char *otherwise);
+
 /* Makes the mesh field `name` for the density of field `strength` of the sets, or with add changes the one that is there. */
-int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const char *name, const struct pm_kernel *k, const struct pm_sets *sets,
-	const char *strength, bool add);
+struct pm_density {
+	const char *name;
+	const struct pm_kernel *kernel;
+	bool interlaced;
+	const struct pm_sets *sets;
+	const char *strength;
+};
+int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct pm_density *density, bool add);
 
 /* Makes the particle field that takes the values of a mesh field of the same name: new and derived, or a strength that is there (values times
  * volume, which is then read); NULL with a message if it has no volume or is other state. */

@@ -1,6 +1,7 @@
 # p2m: what is deposited, on which mesh, from which sets, and what is refused.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
+load words
 
 # line FACES CELLS: the particles of the table on standard input in the box 0..4 of one axis.
 line() { stab - --law gravity --box 0,4 --faces "$1" --particle-faces open -n "$2"; }
@@ -148,10 +149,10 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[[ $output =~ tsc ]]
 }
 
-@test "p2m --interlace: the density carries both meshes' name through solver and gradient to m2p, and the total is kept" {
+@test "p2m --interlace: the mark of both meshes goes with the kernel through solver and gradient to m2p, and the total is kept" {
 	pinit uniform -n 300 --dim 2 | p2m -n 9x14 --kernel tsc --interlace >a
 	sh_ok 'poisson-fft --plan estimate <a | mgrad | sls'
-	for field in rho phi g; do [[ $output =~ $field\ .*kernel\ interlaced-tsc ]]; done
+	for field in rho phi g; do [[ $output =~ $field\ .*kernel\ tsc\ interlaced ]]; done
 	stab --plain --mesh mesh <a | awk 'NR > 1 { s += $NF } END { printf "%.17g\n", s / 126 }' >sum
 	within "$(cat sum)" 1 1e-14 # mass 1 in a unit box
 	for solver in poisson-mg poisson-relax 'poisson-fft --plan estimate --symbol fd2'; do
@@ -159,6 +160,27 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	done
 	scmp --tolerance 1e-8 --field acc out.-mg out.fd2
 	scmp --tolerance 1e-8 --field acc out.lax out.fd2
+}
+
+@test "p2m --interlace: streams that name the kernel interlaced-tsc, as they once did, read as tsc, interlaced" {
+	pinit uniform -n 300 | p2m -n 9 --kernel tsc --interlace | PM_PLAN=estimate poisson-fft | mgrad >new
+	wire edit new '
+for f in h["fields"]:
+    if f.pop("interlaced", False): f["kernel"] = "interlaced-" + f["kernel"]' >old
+	[ "$(wire header old | grep -c 'interlaced-tsc')" = 3 ]
+	m2p <new >a
+	m2p <old >b
+	same_as a b
+	wire header b | python3 -c '
+import json, sys
+f = {k["name"]: k for k in json.load(sys.stdin)["fields"]}
+assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho", "phi", "g")), f'
+	wire edit new 'h["fields"][-1]["interlaced"] = 1' >bad
+	run -1 --separate-stderr m2p <bad
+	[[ $stderr == *"'interlaced' is neither true nor false"* ]]
+	wire edit new 'h["fields"][-1]["kernel"] = ""' >bad
+	run -1 --separate-stderr m2p <bad
+	[[ $stderr == *"'interlaced' is without a kernel"* ]]
 }
 
 @test "p2m --interlace: the same bytes for 1, 2 and 3 threads, and after other frames" {
