@@ -4,6 +4,12 @@
 ifeq ($(origin CC),default)
 CC = gcc
 endif
+# gcc brings its OpenMP along, clang does not.
+ifeq ($(findstring gcc,$(CC))$(filter clean uninstall,$(MAKECMDGOALS)),)
+ifneq ($(shell printf '\043include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' | $(CC) -fopenmp $(CFLAGS) -x c -o /dev/null - $(LDLIBS) >/dev/null 2>&1 || echo no),)
+$(error $(CC) -fopenmp does not link: install libomp-dev (for clang-19: libomp-19-dev), or use CC=gcc)
+endif
+endif
 B ?= build
 prefix ?= /usr/local
 PREFIX ?= $(prefix)

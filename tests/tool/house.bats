@@ -4,6 +4,54 @@ load ../helper
 
 tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
 
+# The files of the repository, one a line; where there is none (an archive, a copy without .git) the test is skipped.
+tracked() { git -C "$top" ls-files; }
+in_git() { tracked >/dev/null 2>&1 || skip "no git, or no repository of it, here"; }
+
+@test "the root holds what it should, and nothing else" {
+	in_git
+	diff <(printf '%s\n' .ci .gitignore COPYING Makefile NEWS README.md bench data docs lib pipelines tests tools) <(tracked | sed 's|/.*||' | sort -u)
+}
+
+# `_` only where a language wants it: modules of Python, completions of zsh (_name).
+@test "names of files are letters, digits, dots and dashes inside, with a letter among them" {
+	in_git
+	bad=$(tracked | tr / '\n' | sort -u | grep -vE '^\.?[A-Za-z0-9]([A-Za-z0-9.-]*[A-Za-z0-9])?$|^[a-z][a-z0-9_]*\.py$|^_[a-z][a-z0-9-]*$' || true
+		tracked | tr / '\n' | sort -u | grep -v '[A-Za-z]' || true)
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
+# awk's print x > y writes to a file that is called y (1050 of them once). What follows > must be a name in quotes or in parentheses, and a comparison
+# must stand in parentheses. Here S is a string and P a parenthesis; shell's printf has no comma behind its format.
+outside_parentheses() {
+	awk '{ line = $0; gsub(/\\+"/, "\"", line); gsub(/"([^"\\]|\\.)*"/, "S", line); while (gsub(/\([^()]*\)/, "P", line)); }
+		line ~ /(^|[^A-Za-z_])(print[ SP]|printf S,)[^;}|]*>[ >]*[^=SP> ]/ { print FILENAME ":" FNR ": " $0 }' "$@"
+}
+
+@test "no awk compares with > inside a print that has no parentheses" {
+	printf '%s\n' "awk '{ print \$1 > 0 }'" "awk '{ printf \"%s\", i > n ? 1 : 2 }'" 'print "a" b > c' >wrong
+	printf '%s\n' "awk '{ print (\$1 > 0) }'" "awk '{ print x > \"/dev/stderr\" }'" "awk '{ print } x > 0'" "printf 'a' >b" 'printf "%s, " "$a" >b' "print a >= b" >right
+	[ "$(outside_parentheses wrong | wc -l)" = 3 ]
+	[ -z "$(outside_parentheses right)" ]
+	bad=$(cd "$top" && outside_parentheses Makefile .ci/run $(find bench docs lib pipelines tests tools -name '*.sh' -o -name '*.bats' -o -name '*.bash' -o -name '*.awk' -o -name '*.md' | grep -v house.bats))
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
+@test "a clang that has no OpenMP is told what to install before anything compiles" {
+	printf '#!/bin/sh\necho "ld: cannot find -lomp" >&2\nexit 1\n' >clang
+	chmod +x clang
+	run -2 --separate-stderr make -s -C "$top" B="$PWD/b" CC="$PWD/clang" all
+	[[ ${#stderr_lines[@]} = 1 && $stderr == *"-fopenmp does not link: install libomp-dev"*"or use CC=gcc"* && ! -e b ]]
+	make -n -C "$top" B="$PWD/b" CC="$PWD/clang" clean
+}
+
+@test "continuous integration runs the README's test command" {
+	command=$(grep -x 'sh tests/check\.sh' "$top/README.md")
+	grep -qF " $command" "$top/.ci/run"
+}
+
 # Installs into ./root (a test that needs it calls it); what is built already is only copied.
 install_here() {
 	# One at a time: tests run side by side.
