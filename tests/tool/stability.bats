@@ -11,7 +11,7 @@ rows() { awk '/^## /{ on = !/^## No word/ } on && /^\|/ && !/^\|---/ && !/^\| ca
 	[ "$output" = "leapfrog: 6 rows
 flow: 2 rows
 relaxation: 3 rows
-misprints, as what they do: 4 rows" ]
+misprints and their effect: 4 rows" ]
 }
 
 @test "a number on the page that is not what is measured, and a row that nothing measures, are found" {
