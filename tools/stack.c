@@ -118,7 +118,7 @@ static void done(struct pm_stage *s)
 
 static const struct pm_example examples[] = {
 	{"Two clusters that fall towards each other, as one set.",
-		"pinit plummer -n 500 --seed 1 | smod --shift 5,0,0 --boost -0.3,0,0 > a; pinit plummer -n 300 --seed 2 | smod --shift -5,0,0 --boost 0.3,0,0 > b; stack --merge a b | sls"},
+		"pinit plummer -n 500 --seed 1 | smove --shift 5,0,0 --boost -0.3,0,0 > a; pinit plummer -n 300 --seed 2 | smove --shift -5,0,0 --boost 0.3,0,0 > b; stack --merge a b | sls"},
 	{"The same as two sets.", "pinit plummer -n 50 > a; stack --as bulge,halo a a | sls"},
 	{0}};
 

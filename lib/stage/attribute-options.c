@@ -4,6 +4,7 @@
 
 #include "law/law.h"
 #include "stage/attribute-options.h"
+#include "stream/edit.h"
 
 int pm_attributes_words(const char *text, char name[PM_NAME], const char **value)
 {
@@ -66,6 +67,42 @@ int pm_attributes_units(struct pm_frame *f, const char *on, const struct pm_list
 		if (!field)
 			return pm_fail(PM_DATA, "no field '%s' on '%s' to give the unit '%s'", name, on, unit);
 		snprintf(field->unit, PM_NAME, "%.63s", unit);
+	}
+	return 0;
+}
+
+int pm_attributes_units_anywhere(struct pm_frame *f, const struct pm_list *list)
+{
+	for (int i = 0; i < list->n; i++) {
+		const struct pm_list one = {.item = {list->item[i]}, .n = 1};
+		bool done = false;
+		for (size_t k = 0; k < f->nsets + f->nmeshes; k++)
+			done |= !pm_attributes_units(f, k < f->nsets ? f->sets[k]->name : f->meshes[k - f->nsets]->name, &one);
+		if (!done)
+			return -PM_DATA;
+	}
+	return 0;
+}
+
+int pm_attributes_fixed(struct pm_frame *f, const struct pm_list *list, bool fixed)
+{
+	for (int i = 0; i < list->n; i++) {
+		struct pm_set *set = pm_frame_set(f, list->item[i]);
+		if (!set)
+			return pm_fail(PM_DATA, "no set '%s' (sls lists what there is)", list->item[i]);
+		set->fixed = fixed;
+	}
+	return 0;
+}
+
+int pm_attributes_rename(struct pm_frame *f, const struct pm_list *list)
+{
+	for (int i = 0; i < list->n; i++) {
+		char old[PM_NAME];
+		const char *new;
+		int status = pm_attributes_words(list->item[i], old, &new);
+		if (status || (status = pm_frame_rename(f, old, new)))
+			return status;
 	}
 	return 0;
 }

@@ -35,6 +35,17 @@ int pm_frame_meshes_free(const struct pm_frame *f)
 	return 0;
 }
 
+int pm_frame_outdate(struct pm_frame *f)
+{
+	const unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
+	if (f->substep)
+		return pm_fail(PM_DATA, "particles, box and law can change only between steps (substep %d here)", f->substep);
+	for (size_t i = 0; i < f->nsets; i++)
+		pm_drops_roles(f, f->sets[i]->name, roles);
+	pm_drops_roles(f, NULL, roles);
+	return 0;
+}
+
 int pm_frame_store(struct pm_frame *f, const char *choice)
 {
 	const char *sign = strchr(choice, '='), *type = sign ? sign + 1 : choice;

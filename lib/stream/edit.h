@@ -9,7 +9,9 @@ int pm_frame_rename(struct pm_frame *f, const char *old, const char *new); /* a 
 void pm_frame_stretch(struct pm_frame *f, double by);
 /* Meshes follow the box and its faces, so what they hold must be such that it can be computed again: 0, or failure naming a field of state. */
 int pm_frame_meshes_free(const struct pm_frame *f);
-/* For a plan: "f32", or "x=f64". Real fields change their type; those with data are marked as changed, so that they are rounded. */
+/* The state is about to change: change and derived fields of all sets and meshes are dropped. 0, or failure inside a step. */
+int pm_frame_outdate(struct pm_frame *f);
+/* In declare(): "f32", or "x=f64". Real fields change their type; those with data are marked as changed, so that they are rounded. */
 int pm_frame_store(struct pm_frame *f, const char *choice);
 
 #endif

@@ -60,7 +60,7 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	# beam SEED V SET: half of the electrons, at random
 	beam() {
 		pinit uniform --dim 1 -n 50000 --length 31.415926535897931 --mass 15.707963267948966 --dispersion 1 --dt 0.2 --seed "$1" |
-			scalc 'charge = -mass' --extensive --role state | smod --law electrostatic --constant eps0=1,background=1 --boost="$2" --rename matter="$3"
+			scalc 'charge = -mass' --extensive --role state | smove --boost="$2" | smod --law electrostatic --constant eps0=1,background=1 --rename matter="$3"
 	}
 	beam 1 1.3 right > right
 	beam 2 -1.3 left > left

@@ -41,8 +41,8 @@ pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at
 }
 
 @test "a cluster a million lengths from the origin feels the forces it feels at the origin, to the last bit of its rounded places" {
-	pinit plummer -n 500 | smod --shift 1048576,-2097152,524288 > far
-	smod --shift -1048576,2097152,-524288 < far > near # exact: what was rounded stays rounded
+	pinit plummer -n 500 | smove --shift 1048576,-2097152,524288 > far
+	smove --shift -1048576,2097152,-524288 < far > near # exact: what was rounded stays rounded
 	for loop in half full; do
 		pp --loop $loop < far | stab --plain | awk '{ print $NF, $(NF-1), $(NF-2) }' > a
 		pp --loop $loop < near | stab --plain | awk '{ print $NF, $(NF-1), $(NF-2) }' > b

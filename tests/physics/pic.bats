@@ -93,7 +93,7 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 
 @test "two species swing together: electrons and ions of mass 4, omega^2 = 1 + 1/4 times that of the mesh; the same ions as a background, 1" {
 	pinit langmuir -n 256 --cells 16 --amplitude 1e-5 --dt 0.02 | smod --constant background=0 > electrons
-	pinit langmuir -n 256 --cells 16 --amplitude 0 --dt 0.02 | smod --rename electrons=ions --scale charge=-1,mass=4 --constant background=0 | sel --drop mesh > ions
+	pinit langmuir -n 256 --cells 16 --amplitude 0 --dt 0.02 | smove --scale charge=-1,mass=4 | smod --rename electrons=ions --constant background=0 | sel --drop mesh > ions
 	for order in 'electrons ions' 'ions electrons'; do
 		# shellcheck disable=SC2086 # two files
 		stack $order | cycle -n 40 --every 1 "${step/p2m/p2m -n 16}" > a

@@ -81,8 +81,8 @@ patch() {
 	[ "$(of remesh cut <a)" -gt 0 ]
 	# smallest kept over largest
 	awk 'NR > 1 { c = $1 < 0 ? -$1 : $1; if (c > m) m = c; if (!l || c < l) l = c } END { exit !(l > 0.01 * m) }' <(cut -f 1 after)
-	patch | smod --shift 0.1,0.03 | remesh --cut-off 0.01 >once
-	smod --shift 0.1,0.03 <once | remesh --cut-off 0.01 >twice
+	patch | smove --shift 0.1,0.03 | remesh --cut-off 0.01 >once
+	smove --shift 0.1,0.03 <once | remesh --cut-off 0.01 >twice
 	[ "$(of remesh remeshings <twice)" = 2 ]
 	[ "$(of remesh cut <twice)" -gt "$(of remesh cut <once)" ]
 }

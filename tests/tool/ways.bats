@@ -173,7 +173,7 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 @test "equal bytes: electrons and heavy ions, leapfrog" {
 	two() { stack "$@" electrons ions; }
 	pinit two-stream -n 500 --vth 0.1 --amplitude 0.1 --no-history | smod --constant background=0 --no-history > electrons
-	pinit landau -n 300 --wavenumber 1 --vth 0.01 --no-history | smod --rename electrons=ions --scale charge=-1,mass=25 --constant background=0 --no-history |
+	pinit landau -n 300 --wavenumber 1 --vth 0.01 --no-history | smove --scale charge=-1,mass=25 --no-history | smod --rename electrons=ions --constant background=0 --no-history |
 		sel --drop mesh --no-history > ions
 	all_ways two "$(force 33)" "push kick/2 drift | $(force 33) | push kick/2" 1
 }

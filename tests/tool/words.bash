@@ -22,7 +22,8 @@ words() {
 	scmp) echo "scmp - same.pm" ;;
 	sdraw) echo "sdraw -o picture.png" ;;
 	sh5) echo "sh5 -o file.h5" ;;
-	smod) echo "smod --shift 1,0,0" ;;
+	smod) echo "smod --dt 0.5" ;;
+	smove) echo "smove --shift 1,0,0" ;;
 	stack) echo "stack - same.pm" ;;
 	*) echo "$1" ;;
 	esac
