@@ -3,7 +3,7 @@
  * CRC-32C of the rest. A plan is always made from the wisdom in its file and from nothing else (what is in memory is forgotten first), by
  * the process that measured it too, so it does not depend on who measured, nor on what else was planned before. Measuring and writing
  * happen under a lock and end in a rename: the first writer wins, everyone reads back what is stored. Where nothing can be stored the plan
- * is estimated, which depends on no clock. Source: Frigo and Johnson 2005 (FFTW 3); the rules of DESIGN 8.
+ * is estimated, which depends on no clock. Source: Frigo and Johnson 2005 (FFTW 3); when plans are made and kept: docs/methods/poisson-fft.md, Plans.
  * Assumes a file system with flock and rename; without flock the cache counts as one that cannot be written.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>

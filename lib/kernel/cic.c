@@ -1,5 +1,5 @@
 /* Cloud in cell: W(x) = 1 - |x| for |x| < 1, the linear B-spline. With t = x - floor: 1-t, t.
- * Hockney and Eastwood (1988) 5-2; the weights of the seed's (5.5) belong to t, not to the mass. Conserves total and centre. 2 points per axis.
+ * Hockney and Eastwood (1988) 5-2; t is the distance to the node below. Conserves total and centre. 2 points per axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel/kernel.h"
 
