@@ -108,8 +108,7 @@ static int compare(const struct config *c, struct pm_reader *r[2], struct pm_fra
 	struct pm_field_pairs p;
 	int status = pm_field_pairs_of(&choice, f[0], f[1], &p);
 	for (int i = 0; i < 2 && !status; i++)
-		if (!(status = pm_read_payload(r[i], f[i], false, NULL)))
-			status = pm_frame_ready(f[i]);
+		status = pm_read_declared(r[i], f[i]);
 	if (!status && !c->fields.n && !c->on.n) {
 		double dt = fabs(f[0]->time - f[1]->time), relative = dt == 0 ? 0 : dt / fabs(f[1]->time);
 		struct pm_norms d = {dt, dt, dt, relative, relative, 0};

@@ -5,6 +5,7 @@
 #include "expression/expression.h"
 #include "measure/diag-column.h"
 #include "cycle/until.h"
+#include "stream/run.h"
 
 enum { most = PM_EXPRESSION_VALUES, most_pairs = 4096 };
 

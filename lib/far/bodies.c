@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "far/bodies.h"
+#include "stream/declare.h"
 
 static const struct pm_field *state_of(const struct pm_frame *f, const struct pm_set *s, const char *name)
 {

@@ -8,6 +8,7 @@
 #include "h5/node.h"
 #include "stream/columns.h"
 #include "stream/list.h"
+#include "stream/run.h"
 
 struct names {
 	int n;

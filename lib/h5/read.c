@@ -7,6 +7,7 @@
 
 #include "h5/node.h"
 #include "stream/header.h"
+#include "stream/run.h"
 
 /* ---- the file ---- */
 

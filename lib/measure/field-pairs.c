@@ -3,6 +3,7 @@
 
 #include "measure/field-pairs.h"
 #include "mesh/grid.h"
+#include "stream/declare.h"
 
 static bool listed(const char *const *list, const char *name)
 {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "measure/measure.h"
+#include "stream/declare.h"
 
 static bool chosen(const struct pm_measure *how, const struct pm_set *set) { return !how->set || !strcmp(how->set, set->name); }
 

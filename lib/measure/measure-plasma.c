@@ -6,6 +6,7 @@
 
 #include "measure/growth.h"
 #include "measure/measure.h"
+#include "stream/declare.h"
 
 static const struct pm_mesh *filled(const struct pm_measure *how, const struct pm_frame *f)
 {

@@ -8,6 +8,7 @@
 #include "remesh/distortion.h"
 #include "mesh/gradient.h"
 #include "transfer/transfer.h"
+#include "stream/declare.h"
 
 /* A set of vortices that is to be measured: it has positions in the plane and circulations. */
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)

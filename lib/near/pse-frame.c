@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "near/pse-frame.h"
+#include "stream/declare.h"
 #include "stream/fastest.h"
 
 static void change_name(const struct pm_pse_set *s, char name[PM_NAME]) { snprintf(name, PM_NAME, "d%.62s", s->field); }

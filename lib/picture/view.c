@@ -6,6 +6,7 @@
 #include "measure/range.h"
 #include "picture/view.h"
 #include "mesh/grid.h"
+#include "stream/declare.h"
 
 enum { many = 4000 };
 static const unsigned char dark[3] = {17, 18, 28}, light[3] = {250, 250, 252};

@@ -6,6 +6,7 @@
 #include "measure/norms.h"
 #include "planner/scales.h"
 #include "planner/plan.h"
+#include "stream/run.h"
 
 /* ---- what differs ---- */
 

@@ -1,6 +1,7 @@
 /* Sentences run on copies of a frame, for what a plan measures. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "planner/plan.h"
 #include "sentence/sentence.h"
+#include "stream/run.h"
 
 struct pm_frame *pm_plan_bare(const struct pm_frame *f)
 {

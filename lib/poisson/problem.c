@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "poisson/problem.h"
+#include "stream/declare.h"
 
 const char *const pm_wall_rule_names[] = {"tangential", "normal", "all", NULL};
 

@@ -6,6 +6,7 @@
 
 #include "remesh/distortion.h"
 #include "remesh/remesh-frame.h"
+#include "stream/declare.h"
 
 /* What becomes of a field. */
 enum part { GONE, POSITION, STRENGTH, VALUE, VOLUME, UNIFORM, REFUSED };

@@ -7,6 +7,7 @@
  * Exact: mass, charge. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/plasma.h"
+#include "stream/declare.h"
 
 enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES, BEAMS };
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/scene.h"
+#include "stream/declare.h"
 
 struct scene_body { /* the arrays of a set, n values per component */
 	double *x[3], *v[3]; /* [length], [length/time]; v all NULL for a set that never moves */

@@ -5,6 +5,7 @@
 #define PM_SCENE_PLASMA_H
 
 #include "scene/make.h"
+#include "stream/declare.h"
 
 /* The law and a periodic box 0..length. */
 static inline void scene_plasma_world(struct pm_frame *f, double length, double background, double dt)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/scene.h"
+#include "stream/declare.h"
 
 enum { SCENE_MARGIN = 4 }; /* nodes without vortices along an open face: the widest kernels reach 3 cells */
 

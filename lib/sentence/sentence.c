@@ -7,6 +7,7 @@
 #include "sentence/process-chain.h"
 #include "stage/internal.h"
 #include "sentence/sentence.h"
+#include "stream/run.h"
 
 enum { most_words = 64, most_arguments = 64 };
 

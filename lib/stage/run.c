@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "stage/internal.h"
+#include "stream/run.h"
 
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {

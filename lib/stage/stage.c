@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "stage/internal.h"
+#include "stream/run.h"
 
 struct pm_stage *pm_stage_free(struct pm_stage *s)
 {

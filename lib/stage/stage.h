@@ -4,6 +4,7 @@
 #ifndef PM_STAGE_H
 #define PM_STAGE_H
 
+#include "stream/declare.h"
 #include "stream/wire.h"
 
 /* The type of the variable an option fills in the tool's config struct. Not given and no default: false, INT64_MIN, NAN, NULL, n = 0. */

@@ -7,6 +7,7 @@
 
 #include "step/advance.h"
 #include "step/done.h"
+#include "stream/declare.h"
 
 /* What is asked of every set. */
 struct pm_push {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "stream/columns.h"
+#include "stream/run.h"
 
 static bool among(const char *name, const char *const *list)
 {

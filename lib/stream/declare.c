@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/declare.h"
 #include "stream/list.h"
 
 struct pm_field *pm_reads(struct pm_frame *f, const char *on, const char *name)

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "stream/edit.h"
+#include "stream/run.h"
 
 int pm_frame_rename(struct pm_frame *f, const char *old, const char *new)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "stream/frame.h"
+#include "stream/run.h"
 
 struct pm_buffer {
 	atomic_int users;
@@ -173,6 +173,8 @@ int pm_field_resize(struct pm_field *field, size_t count)
 		memcpy((char *)b->data + (size_t)c * count * size, (char *)field->buffer->data + (size_t)c * old * size, keep * size);
 	buffer_free(field->buffer);
 	field->buffer = b;
+	if (field->uniform)
+		fill(field);
 	return 0;
 }
 

@@ -1,10 +1,11 @@
-/* Frames in memory: making, copying, looking up, and the declarations by which a stage says what it does with the fields.
+/* Frames in memory: making, copying, looking up, changing their size.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
 #include "stream/header.h"
 #include "stream/list.h"
+#include "stream/run.h"
 
 const char *const pm_kind_names[] = {"value", "strength", NULL};
 const char *const pm_type_names[] = {"f64", "f32", "i64", "u8", NULL};
@@ -220,5 +221,22 @@ int pm_frame_set_resize(struct pm_frame *f, struct pm_set *set, uint64_t n)
 			if (status)
 				return status;
 		}
+	return 0;
+}
+
+int pm_frame_mesh_resize(struct pm_frame *f, const struct pm_mesh *m)
+{
+	size_t points[3], n = pm_mesh_points(f, m, points);
+	for (size_t i = 0; i < f->nfields; i++) {
+		struct pm_field *field = f->fields[i];
+		if (strcmp(field->on, m->name))
+			continue;
+		if (!field->uniform)
+			return pm_fail(PM_DATA, "mesh '%s' carries the %s '%s', which cannot be put on other points (only uniform fields can; drop it with sel)",
+				m->name, pm_role_names[field->role], field->name);
+		int status = pm_field_resize(field, n);
+		if (status)
+			return status;
+	}
 	return 0;
 }

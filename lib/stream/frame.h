@@ -1,5 +1,6 @@
 /* A frame: one instant of one simulation (docs/stream.md). Attributes, particle sets, meshes, and one flat list of fields in the order in
- * which they travel. Planar everywhere: component c of a field is one contiguous array.
+ * which they travel. Planar everywhere: component c of a field is one contiguous array. This header is what a method and a word's computing
+ * function see; declare.h is for a stage that makes and changes fields, run.h for the layer that runs stages.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_FRAME_H
 #define PM_STREAM_FRAME_H
@@ -18,7 +19,7 @@ enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };          
 extern const char *const pm_type_names[], *const pm_role_names[], *const pm_face_names[], *const pm_particle_face_names[]; /* NULL ends */
 size_t pm_type_size(enum pm_type type); /* bytes of a value on the wire */
 
-/* What the running stage does with a field; set while it plans, cleared when it is done. */
+/* What the running stage does with a field; set while it declares, cleared when it is done. */
 enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* new, and the stage writes every value: no zeros needed */,
 	PM_USE_SEEN = 16 /* the stage has looked at every value it wrote while that was in the cache, and all are finite */,
 	PM_USE_ANY = 32 /* values are carried, not computed with: they need not be finite */ };
@@ -98,36 +99,19 @@ struct pm_frame {
 	struct pm_field **dropped;      /* dropped by the running stage; gone when it settles */
 };
 
-struct pm_frame *pm_frame_new(int dim); /* law free, unit box [0,1], all faces open, no sets, no meshes */
+struct pm_frame *pm_frame_new(int dim);                     /* law free, unit box [0,1], all faces open, no sets, no meshes */
 struct pm_frame *pm_frame_free(struct pm_frame *f);
-struct pm_frame *pm_frame_copy(const struct pm_frame *f);   /* shares the buffers */
-struct pm_frame *pm_frame_header(const struct pm_frame *f); /* a copy without data, to try a plan on */
+struct pm_frame *pm_frame_copy(const struct pm_frame *f);  /* shares the buffers */
 
 struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name);   /* NULL if not there */
 bool pm_set_moves(const struct pm_frame *f, const struct pm_set *set);      /* push moves it: it has positions and is not fixed */
 struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NULL if not there; name NULL: the first */
-struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
-struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
 struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name); /* NULL if not there */
-void pm_field_inherit(struct pm_field *field, const struct pm_field *from); /* derived from it: the same kernel, interlaced or not */
 size_t pm_mesh_points(const struct pm_frame *f, const struct pm_mesh *m, size_t points[3]); /* cells (periodic) or cells+1; their product */
 double pm_frame_constant(const struct pm_frame *f, const char *name, double otherwise);
 void pm_frame_constant_set(struct pm_frame *f, const char *name, double value);
 double pm_frame_parameter(const struct pm_frame *f, const char *name, double otherwise);
 void pm_frame_parameter_set(struct pm_frame *f, const char *name, double value);
-
-/* For declare() of a stage. Fields that nobody touches keep their order and go first; changed and new ones follow in the order of these calls.
- * NULL means failure with a message. */
-struct pm_field *pm_reads(struct pm_frame *f, const char *on, const char *name);   /* its data will be there, not to be written */
-struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name); /* read and rewritten in place */
-struct pm_field *pm_makes(struct pm_frame *f, const char *on, const char *name, int components, enum pm_role role); /* new, zero; replaces one of
-	that name; f64, a value, unit "": set the rest on what is returned */
-/* Adds to the change field `name` of set `on` (rate of state `of`), made at zero where missing. A term already there is refused, unless
- * replace, which starts the field anew and is refused if other terms would be lost. */
-struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *name, const char *of, int components, const char *term,
-	bool replace);
-void pm_drops(struct pm_frame *f, struct pm_field *field);
-void pm_drops_roles(struct pm_frame *f, const char *on, unsigned roles); /* roles: bits 1u << enum pm_role; on NULL: every mesh */
 
 /* For the computing function of a stage: the data of component c (double, int64_t or bytes), count values long. */
 const double *pm_in(const struct pm_field *field, int c);
@@ -136,23 +120,7 @@ const int64_t *pm_in_i64(const struct pm_field *field, int c);
 int64_t *pm_out_i64(struct pm_field *field, int c);
 const unsigned char *pm_in_u8(const struct pm_field *field, int c);
 unsigned char *pm_out_u8(struct pm_field *field, int c);
-
-/* For the layer that runs stages. ready: uniform fields that are read are filled in, new ones are zero, changed ones are ours to write.
- * settle: what was changed is finite (else -PM_NUMERICS naming it), f32 is rounded, the use bits are cleared. */
-int pm_frame_ready(struct pm_frame *f);
-int pm_frame_settle(struct pm_frame *f);
-int pm_field_ready(struct pm_field *field);
-int pm_field_hold(struct pm_field *field); /* a buffer of its own, contents undefined */
-void pm_field_forget(struct pm_field *field); /* lets the data go, as after a change of the uniform value */
-void *pm_field_bytes(struct pm_field *field); /* the buffer as it is, NULL if none */
-/* Sets that change the number of particles (plan returned PM_HOLD, everything is loaded): every field of the set gets count n and keeps its
- * first values, so one that loses particles compacts first and resizes then. */
-int pm_frame_set_resize(struct pm_frame *f, struct pm_set *set, uint64_t n);
-int pm_field_resize(struct pm_field *field, size_t count);
-int pm_field_settle(struct pm_field *field);
-int pm_field_check(struct pm_field *field, int code); /* finite, or failure with that code naming the place; reals only */
-struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data);
-struct pm_field *pm_field_free(struct pm_field *field);
-size_t pm_field_memory(const struct pm_field *field); /* bytes of a value in memory */
+void *pm_field_bytes(struct pm_field *field);         /* all components, whatever the type; NULL if the data are not held */
+size_t pm_field_memory(const struct pm_field *field); /* bytes of one value there: 8, or 1 of u8 */
 
 #endif

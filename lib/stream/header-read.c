@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/declare.h"
 #include "stream/header.h"
 
 static const int64_t most_particles = (int64_t)1 << 48, most_cells = (int64_t)1 << 31;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "stream/join.h"
+#include "stream/run.h"
 
 /* ---- less ---- */
 

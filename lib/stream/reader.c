@@ -7,6 +7,7 @@
 
 #include "stream/forward.h"
 #include "stream/header.h"
+#include "stream/run.h"
 #include "stream/wire.h"
 
 enum { most_text = 16 << 20 }; /* bytes of a header, tail or message */
@@ -362,6 +363,12 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 			status = pm_field_check(r->items[i].field, PM_DATA);
 	r->whole = !status;
 	return status;
+}
+
+int pm_read_declared(struct pm_reader *r, struct pm_frame *f)
+{
+	int status = pm_read_payload(r, f, false, NULL);
+	return status ? status : pm_frame_ready(f);
 }
 
 int pm_read_frame(struct pm_reader *r, struct pm_frame **f)

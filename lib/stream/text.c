@@ -6,6 +6,7 @@
 
 #include "base/decimal.h"
 #include "stream/header.h"
+#include "stream/run.h"
 #include "stream/text.h"
 
 static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", end_mark[] = "#end ";

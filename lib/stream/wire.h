@@ -24,6 +24,8 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f);
 /* The data and the tail of that frame, after a stage has planned on it: loads what is in use (everything if hold), forwards what stays to the
  * writer if there is one, discards the rest. Checks every checksum; values of fields in use must be finite. */
 int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w);
+/* The same for a program that declares what it reads and runs no stage: those fields are there when this returns, the rest is discarded. */
+int pm_read_declared(struct pm_reader *r, struct pm_frame *f);
 /* A whole frame, everything loaded: header and payload in one call. */
 int pm_read_frame(struct pm_reader *r, struct pm_frame **f);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "transfer/magnetic-field.h"
+#include "stream/declare.h"
 
 static const char *const target = "bfield";
 

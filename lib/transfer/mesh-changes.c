@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "transfer/mesh-changes.h"
+#include "stream/declare.h"
 #include "stream/fastest.h"
 
 static bool concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)

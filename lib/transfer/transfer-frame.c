@@ -5,6 +5,7 @@
 
 #include "mesh/regrid.h"
 #include "transfer/transfer-frame.h"
+#include "stream/declare.h"
 
 enum { grow_block = 8 }; /* cells */
 

@@ -125,6 +125,14 @@ install_here() {
 	[ -z "$bad" ]
 }
 
+# A method or a word that held, settled or resized fields behind the runner's back would leave a frame that is not what was declared. No header includes
+# it, so nobody has it through another.
+@test "only the layer that runs stages, and readers and writers of frames, include stream/run.h" {
+	bad=$(cd "$top" && grep -l '"stream/run.h"' lib/*/*.[ch] tools/*.c | grep -vE '^lib/(stream|stage|sentence|cycle|planner|h5)/[^/]*\.c$' || true)
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
 @test "every source names its licence in its head" {
 	bad=$(cd "$top" && find lib tools tests bench pipelines docs .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | while read -r f; do
 		head -n 25 "$f" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$f"

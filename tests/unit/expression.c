@@ -3,6 +3,7 @@
 
 #include "check.h"
 #include "expression/expression.h"
+#include "stream/run.h"
 
 enum { n = 2500 }; /* three blocks, the last not full */
 

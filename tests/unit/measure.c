@@ -4,6 +4,7 @@
 
 #include "measure/measure.h"
 #include "check.h"
+#include "stream/declare.h"
 
 static double plummer(double r2, double softening, int dim)
 {

@@ -6,6 +6,7 @@
 #include "picture/colour.h"
 #include "picture/lettering.h"
 #include "picture/plot.h"
+#include "stream/run.h"
 
 static void maps(void)
 {

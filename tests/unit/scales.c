@@ -6,6 +6,7 @@
 #include "planner/atlas.h"
 #include "planner/scales.h"
 #include "scene/scene.h"
+#include "stream/run.h"
 
 /* A scene with its defaults but n particles (0: its own) and one parameter. */
 static struct pm_frame *scene(const char *name, uint64_t n, const char *parameter, double value)

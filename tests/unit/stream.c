@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "stream/header.h"
+#include "stream/run.h"
 #include "stream/wire.h"
 
 static struct pm_frame *sample(void)
