@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mesh/set-motion.h"
+#include "stream/declare.h"
 #include "stream/edit.h"
 
 struct pm_motion_job {
