@@ -15,7 +15,7 @@
   wire.py messages FILE             the aborts in a stream, one `code message` a line
   wire.py closed COMMAND...         runs it with a standard output that nobody reads; prints its exit status, 141 for SIGPIPE
 SPDX-License-Identifier: GPL-3.0-or-later"""
-import json, os, struct, subprocess, sys
+import json, struct, sys
 
 SIZE = {"f64": 8, "f32": 4, "i64": 8, "u8": 1}
 CODE = {"f64": "d", "f32": "f", "i64": "q", "u8": "B"}
@@ -179,6 +179,7 @@ def literal(s):
 
 
 def closed(command):
+    import os, subprocess  # not for the others, which start a hundred times a minute
     r, w = os.pipe()
     os.close(r)
     code = subprocess.run(command, stdout=w).returncode

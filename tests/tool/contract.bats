@@ -5,14 +5,15 @@ load words
 
 # usage PATTERN COMMAND LINE: exit 2 before the input is read (it never comes), one line, and an abort alone for those behind.
 usage() {
-	local got=0 tool=${2%% *}
+	local got=0 tool=${2%% *} word='' length=0
 	timeout 5 bash -c "exec $2" < <(sleep 6) >out 2>err || got=$?
 	[ $got = 2 ] || { echo "$2: exit status $got"; cat err; return 1; }
 	[ "$(wc -l <err)" = 1 ] && grep -Eq -- "^$tool: .*($1)" err || { echo "$2: wanted '$1', got"; cat err; return 1; }
 	if "$tool" --help | grep -q 'writes text'; then
 		[ ! -s out ]
 	else
-		[ "$(wire places out | tr '\n' ' ')" = "before-abort-line in-abort-line before-abort in-abort " ] && [ "$(wire messages out)" = "2 $(cat err)" ]
+		read -r word length < <(head -n 1 out | sed -nE 's|^PMPIPE/1 abort 2 ([0-9]+) *$|abort \1|p') || true
+		[ "$word" = abort ] && [ "$(wc -c <out)" = $((64 + length)) ] && [ "$(tail -c "$length" out | sed 's/ *$//')" = "$(cat err)" ]
 	fi || { echo "$2: on standard output"; cat out; return 1; }
 }
 

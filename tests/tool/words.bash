@@ -2,7 +2,7 @@
 # `words TOOL` prints a command line that reads standard input. A tool that is not here fails the test that looks for it.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-wire() { python3 "$top/tests/wire.py" "$@"; }
+wire() { python3 -I -S "$top/tests/wire.py" "$@"; }
 tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
 # Tools in shell run sentences; streams do not pass through them.
 readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vx pinit | sort); }
