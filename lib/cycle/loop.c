@@ -162,8 +162,8 @@ static int same_plans(struct cycle *y, const struct pm_frame *f)
 		const char *old = json_string_value(json_object_get(entry, "plan"));
 		const char *now = json_string_value(json_object_get(json_object_get(f->report, word), "plan"));
 		if (old && now && strcmp(old, now) && !y->c->other_plans && !status)
-			status = pm_fail(PM_DATA, "'%s' runs with the plans '%s', the checkpoint was made with '%s': the bytes would differ (--other-plans goes on, "
-						  "PM_PLAN=estimate runs alike everywhere)", word, now, old);
+			status = pm_fail(PM_DATA, "'%s' runs with the plans '%s', the checkpoint was made with '%s': the bytes would differ "
+				"(--other-plans goes on, PM_PLAN=estimate runs alike everywhere)", word, now, old);
 	}
 	json_decref(y->before);
 	y->before = NULL;
@@ -184,9 +184,11 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	if ((*f)->step == step && (*f)->substep == substep)
 		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
 	if ((*f)->step > step && (*f)->substep)
-		return pm_fail(PM_USAGE, "one pass of the sentence completes a step and begins another (a drift whose kick comes later is written drift --open)");
+		return pm_fail(PM_USAGE,
+			"one pass of the sentence completes a step and begins another (a drift whose kick comes later is written drift --open)");
 	if ((*f)->step > step + 1)
-		return pm_fail(PM_USAGE, "one pass of the sentence completes %lld steps; cycle counts them one at a time (one scheme, or one pair of half kicks)",
+		return pm_fail(PM_USAGE,
+			"one pass of the sentence completes %lld steps; cycle counts them one at a time (one scheme, or one pair of half kicks)",
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);

@@ -101,8 +101,9 @@ static int measure(struct pm_until *u, struct pm_frame *f, int at)
 
 static int cannot(const struct pm_until *u, int k)
 {
-	return pm_fail(PM_DATA, "--until: the column '%s' cannot be computed from this frame (what it needs is gone when particles have moved: let the words that make it "
-				"stand behind the last push, or name another column)", u->column[k].name);
+	return pm_fail(PM_DATA, "--until: the column '%s' cannot be computed from this frame "
+		"(what it needs is gone when particles have moved: let the words that make it stand behind the last push, or name another column)",
+		u->column[k].name);
 }
 
 /* A direct sum stands in for a potential that the frame never has, where that is possible and cheap. */
@@ -158,7 +159,9 @@ int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved)
 	for (int k = 0; k < u->n; k++) {
 		u->known[k] = json_is_number(json_object_get(columns, u->column[k].name));
 		if (u->first[k] && !u->known[k])
-			return pm_fail(PM_USAGE, "--until: the checkpoint does not know '%s' at the beginning of its run (it was made with another --until, or none)", u->column[k].name);
+			return pm_fail(PM_USAGE, "--until: the checkpoint does not know '%s' at the beginning of its run "
+				"(it was made with another --until, or none)",
+				u->column[k].name);
 		all = all && u->known[k];
 	}
 	if (!all && measure_first(u, f))

@@ -39,7 +39,8 @@ static int children(hid_t at, const char *path, struct names *all)
 	hsize_t from = 0;
 	all->n = 0;
 	hid_t g = H5Gopen2(at, path, H5P_DEFAULT);
-	int status = g < 0 || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, &from, name_add, all) < 0 ? pm_fail(PM_DATA, "'%s' is no group, or holds too much, or longer names than 63 bytes", path) : 0;
+	int status = g < 0 || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, &from, name_add, all) < 0
+		? pm_fail(PM_DATA, "'%s' is no group, or holds too much, or longer names than 63 bytes", path) : 0;
 	H5Gclose(g);
 	return status;
 }
@@ -113,7 +114,8 @@ static int load(hid_t at, const char *path, const struct part *c, struct pm_fiel
 	hid_t d = H5Dopen2(at, path, H5P_DEFAULT);
 	bool whole = p->type == PM_I64;
 	void *to = whole ? (void *)pm_out_i64(p, k) : (void *)pm_out(p, k);
-	int status = p->count && H5Dread(d, whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0 ? pm_h5_fail("cannot read '%s'", path) : 0;
+	int status = p->count && H5Dread(d, whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0
+		? pm_h5_fail("cannot read '%s'", path) : 0;
 	H5Dclose(d);
 	for (size_t i = 0; c->unit != 1 && !whole && i < p->count; i++)
 		((double *)to)[i] *= c->unit;
@@ -210,7 +212,8 @@ static int species(hid_t at, const char *folder, const char *name, struct pm_fra
 	snprintf(path, sizeof path, "%s/position", folder);
 	if (!status && !(status = children(at, path, parts))) {
 		snprintf(path, sizeof path, "%s/position/%s", folder, parts->name[0]);
-		status = parts->n == f->dim ? look(at, path, &first) : pm_fail(PM_DATA, "the positions of '%s' have %d components in %d dimensions", name, parts->n, f->dim);
+		status = parts->n == f->dim ? look(at, path, &first)
+			: pm_fail(PM_DATA, "the positions of '%s' have %d components in %d dimensions", name, parts->n, f->dim);
 	}
 	if (!status && (pm_frame_set(f, name) || !pm_frame_set_new(f, name, first.dims[0])))
 		status = -PM_DATA;
@@ -245,13 +248,15 @@ struct lattice { /* by dataset axis */
 
 static int lattice_look(hid_t o, const char *name, int dim, struct lattice *l)
 {
-	char letters[3], *geometry = pm_h5_has(o, "geometry") ? pm_h5_get_text(o, "geometry") : NULL, *order = pm_h5_has(o, "dataOrder") ? pm_h5_get_text(o, "dataOrder") : NULL;
+	char letters[3], *geometry = pm_h5_has(o, "geometry") ? pm_h5_get_text(o, "geometry") : NULL;
+	char *order = pm_h5_has(o, "dataOrder") ? pm_h5_get_text(o, "dataOrder") : NULL;
 	bool good = (!geometry || !strcmp(geometry, "cartesian")) && (!order || *order == 'C');
 	int nh = 3, nlo = 3;
 	free(geometry), free(order);
 	if (!good)
 		return pm_fail(PM_DATA, "mesh '%s': only cartesian meshes in C order are read", name);
-	if (pm_h5_get_letters(o, "axisLabels", 3, letters) != dim || pm_h5_get_reals(o, "gridSpacing", &nh, l->h) || pm_h5_get_reals(o, "gridGlobalOffset", &nlo, l->lo) || nh != dim || nlo != dim)
+	if (pm_h5_get_letters(o, "axisLabels", 3, letters) != dim || pm_h5_get_reals(o, "gridSpacing", &nh, l->h) ||
+		pm_h5_get_reals(o, "gridGlobalOffset", &nlo, l->lo) || nh != dim || nlo != dim)
 		return pm_fail(PM_DATA, "mesh '%s': axisLabels, gridSpacing and gridGlobalOffset do not name %d axes", name, dim);
 	double unit = number(o, "gridUnitSI", 1);
 	for (int k = 0; k < dim; k++) {

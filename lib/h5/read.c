@@ -61,7 +61,9 @@ static int read_streams(struct pm_h5 *h)
 	h->nstreams = (size_t)n;
 	for (int i = 0; i < n; i++)
 		sum += h->streams[i] = x[i] >= 0 && x[i] < 0x1p53 ? (uint64_t)x[i] : 0;
-	return sum == h->niterations ? 0 : pm_fail(PM_DATA, "the attribute 'pmpipeStreams' counts %llu iterations, and there are %llu", (unsigned long long)sum, (unsigned long long)h->niterations);
+	return sum == h->niterations ? 0
+		: pm_fail(PM_DATA, "the attribute 'pmpipeStreams' counts %llu iterations, and there are %llu",
+			(unsigned long long)sum, (unsigned long long)h->niterations);
 }
 
 static int open_all(struct pm_h5 *h, const char *path)

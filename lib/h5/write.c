@@ -68,8 +68,8 @@ static hid_t put_data(hid_t at, const char *name, struct pm_field *p, int c, int
 	H5Pset_obj_track_times(how, false);
 	H5Pset_fill_time(how, H5D_FILL_TIME_NEVER);
 	hid_t d = H5Dcreate2(at, name, pm_h5_type(p->type, false), space, H5P_DEFAULT, how, H5P_DEFAULT);
-	const char *data = pm_field_bytes(p);
-	if (d < 0 || (p->count && H5Dwrite(d, pm_h5_type(p->type, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data + (size_t)c * p->count * pm_field_memory(p)) < 0)) {
+	const char *data = (char *)pm_field_bytes(p) + (size_t)c * p->count * pm_field_memory(p);
+	if (d < 0 || (p->count && H5Dwrite(d, pm_h5_type(p->type, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) {
 		pm_h5_fail("cannot write '%s' of '%s'", p->name, p->on);
 		H5Dclose(d);
 		d = -1;

@@ -6,7 +6,8 @@ bool pm_motion_given(const struct pm_motion_options *o) { return o->scale.n || o
 
 int pm_motion_begin(const struct pm_motion_options *o, struct pm_set_motion *m)
 {
-	*m = (struct pm_set_motion){.set = o->sets.item, .nsets = o->sets.n, .shift = o->shift.x, .nshift = o->shift.n, .boost = o->boost.x, .nboost = o->boost.n};
+	*m = (struct pm_set_motion){.set = o->sets.item, .nsets = o->sets.n, .shift = o->shift.x, .nshift = o->shift.n,
+		.boost = o->boost.x, .nboost = o->boost.n};
 	return pm_turn_of(o->rotate, &m->turn);
 }
 

@@ -106,7 +106,8 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv);
 bool pm_given(const struct pm_stage *s, const char *option);       /* was it typed? */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
-int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* declare(): the effect is zero here; says why, once, returns PM_PASS */
+/* declare(): the effect is zero here; says why, once, and returns PM_PASS. */
+int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void pm_setup_since(struct pm_stage *s, double began);             /* frame(): since pm_seconds() was began it set up (plans, hierarchies); not work */
 struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */

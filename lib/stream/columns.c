@@ -68,9 +68,10 @@ static int group(int n, const struct pm_column *column, const struct pm_columns_
 		for (int k = i; k < n; k++)
 			if (plan[k].first == i && plan[k].component < PM_COMPONENTS)
 				seen |= 1u << plan[k].component;
+		const bool x = !strcmp(plan[i].field, "x"), v = !strcmp(plan[i].field, "v");
 		if (plan[i].components > PM_COMPONENTS || seen != (1u << plan[i].components) - 1)
 			return pm_fail(PM_DATA, "the columns of '%s' are not its components one by one, from the first (%s%s)", plan[i].field,
-				strcmp(plan[i].field, "x") && strcmp(plan[i].field, "v") ? plan[i].field : "", strcmp(plan[i].field, "x") ? strcmp(plan[i].field, "v") ? "_0 ..." : "vx vy vz" : "x y z");
+				x || v ? "" : plan[i].field, x ? "x y z" : v ? "vx vy vz" : "_0 ...");
 	}
 	return 0;
 }

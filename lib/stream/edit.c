@@ -32,7 +32,8 @@ int pm_frame_meshes_free(const struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields; i++)
 		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
-			return pm_fail(PM_DATA, "the mesh field '%s' is state and cannot follow a new box or new faces (sel --drop leaves it out)", f->fields[i]->name);
+			return pm_fail(PM_DATA, "the mesh field '%s' is state and cannot follow a new box or new faces (sel --drop leaves it out)",
+				f->fields[i]->name);
 	return 0;
 }
 

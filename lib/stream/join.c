@@ -68,7 +68,8 @@ static int same_constants(const struct pm_frame *a, const struct pm_frame *b)
 		if (!here)
 			json_object_set(a->constants, key, value);
 		else if (json_is_number(here) && json_is_number(value) ? json_number_value(here) != json_number_value(value) : !json_equal(here, value))
-			return pm_fail(PM_DATA, "the constant %s is %.10g in one scene and %.10g in another (smod --constant %s=...)", key, json_number_value(here),
+			return pm_fail(PM_DATA, "the constant %s is %.10g in one scene and %.10g in another (smod --constant %s=...)",
+				key, json_number_value(here),
 				json_number_value(value), key);
 	}
 	return 0;
@@ -94,7 +95,8 @@ static int at_rest(const struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields; i++)
 		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
-			return pm_fail(PM_DATA, "the mesh field '%s' is state, which cannot be put together (leave it out with sel --drop)", f->fields[i]->name);
+			return pm_fail(PM_DATA, "the mesh field '%s' is state, which cannot be put together (leave it out with sel --drop)",
+				f->fields[i]->name);
 	return f->substep ? pm_fail(PM_DATA, "a scene is inside a step (substep %d), where scenes cannot be put together", f->substep) : 0;
 }
 
@@ -195,7 +197,8 @@ static int set_merge(struct pm_frame *a, struct pm_set *into, const struct pm_fr
 			status = field_append(a, into->name, b->fields[i], before, strcmp(b->fields[i]->name, "id") ? 0 : offset);
 			nfields++;
 		}
-	return status ? status : nfields == expected ? 0 : pm_fail(PM_DATA, "'%s' has fields that are not in all scenes (--merge needs the same fields; sel --drop)", into->name);
+	return status ? status : nfields == expected ? 0
+		: pm_fail(PM_DATA, "'%s' has fields that are not in all scenes (--merge needs the same fields; sel --drop)", into->name);
 }
 
 static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *b, const struct pm_set *set, int64_t offset)

@@ -17,8 +17,8 @@ struct pm_join {
 	size_t frames;            /* joined so far; updated */
 };
 
-/* Puts the sets of b into a, whose box grows to hold that of b; ids of b that a set of a could have are moved up. Both hold their data. Dimensions, law, constants, time
- * and faces must agree. Change, derived and register fields of both, and the meshes of b, are left out. */
+/* Puts the sets of b into a, whose box grows to hold that of b; ids of b that a set of a could have are moved up. Both hold their data. Dimensions,
+ * law, constants, time and faces must agree. Change, derived and register fields of both, and the meshes of b, are left out. */
 int pm_frame_join(struct pm_frame *a, const struct pm_frame *b, struct pm_join *join);
 /* The same for the first: its meshes span the box again, its sets are renamed as asked. */
 int pm_frame_join_first(struct pm_frame *a, struct pm_join *join);

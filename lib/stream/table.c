@@ -119,7 +119,8 @@ int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
 			const char *stop_name = token_end(s, e);
 			size_t length = (size_t)(stop_name - s);
 			if (n == PM_COLUMNS || length >= PM_NAME || memchr(s, 0, length))
-				return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)", (unsigned long)t->line - 1, n + 1, PM_COLUMNS);
+				return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)",
+					(unsigned long)t->line - 1, n + 1, PM_COLUMNS);
 			column[n] = (struct pm_column){.component = 0};
 			memcpy(column[n++].name, s, length);
 			s = stop_name;

@@ -98,7 +98,8 @@ static int match(const struct pm_text *t, int n, struct pm_column *column, int n
 		for (int j = 0; j < i; j++)
 			k = strcmp(column[j].name, column[i].name) ? k : nwant;
 		if (k == nwant)
-			return pm_fail(PM_DATA, "line %lu: column '%s' is not in the header of its frame, or is there twice", (unsigned long)t->line - 1, column[i].name);
+			return pm_fail(PM_DATA, "line %lu: column '%s' is not in the header of its frame, or is there twice",
+				(unsigned long)t->line - 1, column[i].name);
 		column[i] = want[k];
 	}
 	return n == nwant ? 0 : pm_fail(PM_DATA, "line %lu: %d columns, where the header of the frame asks for %d", (unsigned long)t->line - 1, n, nwant);
@@ -166,7 +167,8 @@ int pm_text_frame_read(struct pm_text *t, struct pm_frame **f, uint64_t *frames)
 	while (starts(t, end_mark)) { /* several texts may follow each other */
 		int64_t count;
 		if (!pm_integer_read(t->data + t->at + strlen(end_mark), &count) || (uint64_t)count != *frames)
-			return pm_fail(PM_DATA, "line %lu: the end line does not count the %lu frames before it", (unsigned long)t->line, (unsigned long)*frames);
+			return pm_fail(PM_DATA, "line %lu: the end line does not count the %lu frames before it",
+				(unsigned long)t->line, (unsigned long)*frames);
 		size_t end = pm_text_line_end(t, t->at);
 		t->at = end < t->size ? end + 1 : end, t->line++;
 		*frames = 0;
