@@ -22,6 +22,11 @@ static void sums(void)
 	double hard[] = {1, 1e100, 1, -1e100}, ones[] = {1, 1, 1, 1};
 	check_near(pm_sum_array(4, hard), 2, 0, "FP-01: 1, 1e100, 1, -1e100 sum to 2");
 	check_near(pm_sum_products(4, hard, ones), 2, 0, "so does their product with ones");
+	double *y = pm_alloc(n, sizeof *y);
+	for (size_t i = 0; i < n; i++)
+		x[i] = (double)(i % 1000), y[i] = (double)(i / 1000);
+	check_near(pm_sum_products(n, x, y), 499500. * 49995000, 0, "the products of ten million pairs of whole numbers sum exactly"); /* below 2^53 */
+	pm_free(y);
 	for (size_t i = 0; i < n; i++)
 		x[i] = sin((double)i) * exp(30 * cos(0.7 * (double)i));
 	double s[3];
@@ -64,6 +69,11 @@ static void numbers(void)
 	double u[2], v[2], sum = 0, square = 0, cross = 0;
 	pm_random(1, 2, 3, u), pm_random(1, 2, 3, v);
 	check(!memcmp(u, v, sizeof u), "a random number depends on seed, id and counter only");
+	/* kat_vectors of Random123 (Salmon et al. 2011), philox4x32 of 10 rounds: words 6627e8d5 e169c58d bc57ac4c 9b00dbd8, d16cfe09 94fdcceb 5001e420 24126ea1 */
+	pm_random(0, 0, 0, u), pm_random(0x299f31d0a4093822u, 0x85a308d3243f6a88u, 0x0370734413198a2eu, v);
+	check(u[0] == ((double)(0x6627e8d5e169c58du >> 12) + 0.5) * 0x1p-52 && u[1] == ((double)(0xbc57ac4c9b00dbd8u >> 12) + 0.5) * 0x1p-52 &&
+		v[0] == ((double)(0xd16cfe0994fdccebu >> 12) + 0.5) * 0x1p-52 && v[1] == ((double)(0x5001e42024126ea1u >> 12) + 0.5) * 0x1p-52,
+		"the words are those published for Philox4x32-10");
 	int n = 100000;
 	for (int i = 0; i < n; i++) {
 		pm_random(1, (uint64_t)i, 0, u), pm_random(2, (uint64_t)i, 0, v);
@@ -73,13 +83,14 @@ static void numbers(void)
 	check_near(sum / n, 0.5, 4 / sqrt(12. * n), "uniform numbers have mean 1/2");
 	check_near(square / n, 1 / 3., 4 * sqrt(4 / 45. / n), "and second moment 1/3");
 	check_near(cross / n, 0, 4 / sqrt(n), "HC-56, two seeds: 1 and 2 are not correlated");
-	double m2 = 0, m4 = 0;
+	double m2 = 0, m4 = 0, m11 = 0;
 	for (int i = 0; i < n; i++) {
 		pm_random_normal(7, (uint64_t)i, 1, u);
-		m2 += u[0] * u[0], m4 += pow(u[1], 4);
+		m2 += u[0] * u[0], m4 += pow(u[1], 4), m11 += u[0] * u[1];
 	}
 	check_near(m2 / n, 1, 4 * sqrt(2. / n), "normal numbers have variance 1");
 	check_near(m4 / n, 3, 4 * sqrt(96. / n), "and fourth moment 3");
+	check_near(m11 / n, 0, 4 / sqrt(n), "and the two of a pair are not correlated");
 }
 
 static void traps(void)

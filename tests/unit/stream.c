@@ -49,6 +49,33 @@ static struct pm_reader *written(struct pm_frame *f, int n, const char *path)
 	return pm_reader_open(path);
 }
 
+/* More than one piece of 256 KiB, of each type. */
+static void long_fields(void)
+{
+	struct pm_frame *f = pm_frame_new(1), *g = NULL;
+	enum { n = 200001 };
+	char path[] = "/tmp/pm-stream-XXXXXX";
+	close(mkstemp(path));
+	f->hi[0] = 1, f->dt = 1;
+	pm_frame_set_new(f, "matter", n);
+	struct pm_field *x = pm_makes(f, "matter", "x", 1, PM_STATE), *low = pm_makes(f, "matter", "low", 1, PM_STATE), *id = pm_makes(f, "matter", "id", 1, PM_STATE);
+	low->type = PM_F32, id->type = PM_I64;
+	pm_frame_ready(f);
+	for (int i = 0; i < n; i++)
+		pm_out(x, 0)[i] = sin(i), pm_out(low, 0)[i] = i + 0.5, pm_out_i64(id, 0)[i] = 7 * i; /* i + 1/2 fits in f32 */
+	pm_frame_settle(f);
+	struct pm_reader *r = written(f, 1, path);
+	int wrong = 0;
+	check(pm_read_frame(r, &g) == PM_GOT_FRAME, "a frame with fields of several pieces is read (%s)", pm_message());
+	for (int i = 0; i < n && g; i++)
+		wrong += pm_in(pm_frame_field(g, "matter", "x"), 0)[i] != sin(i) || pm_in(pm_frame_field(g, "matter", "low"), 0)[i] != i + 0.5 ||
+			pm_in_i64(pm_frame_field(g, "matter", "id"), 0)[i] != 7 * i;
+	check(!wrong, "f64, f32 and i64 hold what was written, each value in its place (%d do not)", wrong);
+	pm_frame_free(f), pm_frame_free(g);
+	pm_reader_close(r);
+	unlink(path);
+}
+
 static void round_trip(void)
 {
 	struct pm_frame *f = sample(), *g = NULL;
@@ -146,6 +173,7 @@ static void hostile(void)
 int main(void)
 {
 	round_trip();
+	long_fields();
 	declarations();
 	hostile();
 	return check_done();
