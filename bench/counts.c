@@ -9,7 +9,7 @@
 #include "poisson-fft/poisson-fft.h"
 #include "poisson-mg/mg.h"
 
-#include "step/advance.h"
+#include "push/state-advance.h"
 
 enum { CELLS = 32, POINTS = CELLS * CELLS * CELLS, BODIES = 1024 };
 

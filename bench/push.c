@@ -3,7 +3,7 @@
 #include "bandwidth.h"
 
 #include "measure/measure.h"
-#include "step/advance.h"
+#include "push/state-advance.h"
 
 enum { N = 4 << 20 };
 

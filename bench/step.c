@@ -7,7 +7,7 @@
 #include "sentence/sentence.h"
 #include "stream/wire.h"
 
-#include "step/advance.h"
+#include "push/state-advance.h"
 
 #include "bench.h"
 

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/rows.h"
+#include "scene-parts/scene-parameters.h"
 #include "stage/attribute-options.h"
 
 struct config {
@@ -12,7 +12,7 @@ struct config {
 	struct pm_vector box;
 	double dt;
 	struct pm_list faces, particle_faces;
-	double parameter[SCENE_ROWS];
+	double parameter[PM_SCENE_ROWS];
 };
 struct state {
 	const struct pm_scene *scene;
@@ -32,13 +32,13 @@ static void list_scenes(void)
 
 static const struct pm_option *parameters(void)
 {
-	static struct pm_option options[SCENE_ROWS + 1];
-	static char text[SCENE_ROWS][512];
-	const struct pm_scene_parameter *rows[SCENE_ROWS];
-	const int n = scene_rows(rows);
+	static struct pm_option options[PM_SCENE_ROWS + 1];
+	static char text[PM_SCENE_ROWS][512];
+	const struct pm_scene_parameter *rows[PM_SCENE_ROWS];
+	const int n = pm_scene_rows(rows);
 	list_scenes();
 	for (int i = 0; i < n; i++) {
-		scene_row_text(rows[i], text[i], sizeof text[i]);
+		pm_scene_row_text(rows[i], text[i], sizeof text[i]);
 		options[i] = (struct pm_option){.name = rows[i]->name, .kind = PM_REAL, .unit = rows[i]->unit, .text = text[i],
 			.offset = offsetof(struct config, parameter) + (size_t)i * sizeof(double)};
 	}
@@ -48,12 +48,12 @@ static const struct pm_option *parameters(void)
 /* The scene's parameters as typed or by default; what it does not have is refused. */
 static int choose(const struct config *o, const struct pm_scene *scene, double *value)
 {
-	const struct pm_scene_parameter *rows[SCENE_ROWS], *own = scene->parameters;
+	const struct pm_scene_parameter *rows[PM_SCENE_ROWS], *own = scene->parameters;
 	const char *names[PM_SCENE_PARAMETERS + 1] = {0};
-	const int n = scene_rows(rows);
-	bool mine[SCENE_ROWS] = {0};
+	const int n = pm_scene_rows(rows);
+	bool mine[PM_SCENE_ROWS] = {0};
 	for (int i = 0; own[i].name; i++) {
-		const int k = scene_row_at(rows, n, names[i] = own[i].name);
+		const int k = pm_scene_row_at(rows, n, names[i] = own[i].name);
 		mine[k] = true;
 		value[i] = isnan(o->parameter[k]) ? own[i].otherwise : o->parameter[k];
 		if ((own[i].low != 0 || own[i].high != 0) && !(value[i] >= own[i].low && value[i] <= own[i].high))

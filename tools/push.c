@@ -1,11 +1,11 @@
 /* push: the only word that moves particles and advances time. It knows no law: x' = v (or vel), v' = acc, any other state by the change field
- * that names it. Actions and schemes are files of lib/step; rates.h, done.h and advance.h there hold the rules, the clock and the loops.
+ * that names it. Actions and schemes are files of lib/step; lib/push holds the rules, the clock and the loops.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
 #include "stage/stage.h"
-#include "step/moving.h"
+#include "push/push-set.h"
 
 struct config {
 	double dt;
@@ -14,7 +14,7 @@ struct config {
 	struct pm_push push;
 };
 
-struct state { /* what plan leaves for frame */
+struct state { /* what declare leaves for frame */
 	struct pm_moving *moving;
 	size_t n;
 };
@@ -124,7 +124,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	state->n = 0;
 	for (size_t i = 0; i < f->nsets && steps && !status; i++)
 		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
-			status = pm_moving_plan(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
+			status = pm_moving_declare(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
 	if (!status && steps && !state->n)
 		return pm_fail(PM_DATA, "no set that moves (a set with positions 'x' that is not fixed)");
 	if (status)
@@ -132,7 +132,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (cfg->clear || cfg->push.moves)
 		drop(f, cfg);
 	if (steps)
-		pm_done_close(f);
+		pm_clock_close(f);
 	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
 }
 

@@ -1,9 +1,9 @@
-/* walk: diffusion by random steps (lib/step/walk.h). SPDX-License-Identifier: GPL-3.0-or-later */
+/* walk: diffusion by random steps (lib/push/random-walk.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "stage/stage.h"
-#include "step/moving.h"
-#include "step/walk.h"
+#include "push/push-set.h"
+#include "push/random-walk.h"
 
 struct config {
 	const char *set;

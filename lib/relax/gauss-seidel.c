@@ -2,7 +2,7 @@
  * Source: Seidel 1874; Varga 1962, section 3.1. Radius: the square of Jacobi's, 1 - pi^2/n^2, half the sweeps, with the order of memory between walls and
  * neumann faces; round a periodic axis no formula is claimed. Converges also where Jacobi's does not.
  * In 3-D by diagonals of rows on any number of threads, else serial. Cost: N per sweep, of order n^2 sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/lexicographic.h"
+#include "relax-parts/lexicographic-sweep.h"
 
 static double factor(const struct pm_laplacian *l)
 {

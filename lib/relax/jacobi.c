@@ -3,7 +3,7 @@
  * Source: Jacobi 1845; Varga 1962, section 3.1. Radius max |sum w cos(k h)/sum w|: (cos(pi/M) + cos(pi/N))/2 on a square with walls, 1 - pi^2/(2 n^2) in 1-D.
  * Where no face fixes u and the nodes can alternate in sign, that wave changes sign for ever: no convergence. Any number of threads.
  * Cost: N per sweep, of order n^2 sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/jacobi.h"
+#include "relax-parts/jacobi-sweep.h"
 
 static double factor(const struct pm_laplacian *l)
 {

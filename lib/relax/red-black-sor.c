@@ -1,13 +1,14 @@
 /* Successive over-relaxation of red and black nodes in turn: the steps of red-black times omega, by default Young's best factor (lib/relax/sor.c).
  * The radius is that of sor, omega - 1, also round periodic axes of even length, where it holds for the order of memory only roughly; all rows of a colour
  * go to the threads. Source: Young 1954. Cost: N per sweep, of order n sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/colours.h"
+#include "relax-parts/red-black-sweep.h"
+#include "relax-parts/young-theory.h"
 
 const struct pm_relax relax_red_black_sor = {
 	.name = "red-black-sor",
 	.sentence = "over-relaxation of every second node, then of the others, by default with Young's best factor",
 	.source = "Young 1954",
 	.factor = pm_young_best,
-	.radius = pm_colours_radius,
-	.sweep = pm_colours_relax,
+	.radius = pm_red_black_radius,
+	.sweep = pm_red_black_sweep,
 };

@@ -2,7 +2,7 @@
  * Source: Young 1954; Varga 1962, section 4.1. Radius: the square of Jacobi's, as in the order of memory, also round periodic axes of even length; a sweep is
  * independent of the direction and of the threads. It smooths better than the plain order (poisson-mg). Cost: N per sweep, of order n^2 sweeps.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/colours.h"
+#include "relax-parts/red-black-sweep.h"
 
 static double factor(const struct pm_laplacian *l)
 {
@@ -15,6 +15,6 @@ const struct pm_relax relax_red_black = {
 	.sentence = "Gauss-Seidel on every second node, then on the others",
 	.source = "Young 1954; Varga 1962, section 4.1",
 	.factor = factor,
-	.radius = pm_colours_radius,
-	.sweep = pm_colours_relax,
+	.radius = pm_red_black_radius,
+	.sweep = pm_red_black_sweep,
 };

@@ -26,7 +26,7 @@ struct pm_relax {
 	double (*factor)(const struct pm_laplacian *l); /* its own relaxation factor; NULL: it has none */
 	/* By how much it shrinks the error per sweep in the long run, the published formula; NAN where that does not hold. 1 or more: it does not converge. */
 	double (*radius)(const struct pm_laplacian *l, double factor);
-	/* One sweep. Returns the weighted sum of squares of the residual it met: of the old u, or of each node when its turn came; conjugate gradients give that
+	/* One sweep. Returns the weighted sum of squares of the residual: of the old u, or of each node when its turn came; conjugate gradients return that
 	 * of the new u. */
 	double (*sweep)(struct pm_relax_work *w);
 };

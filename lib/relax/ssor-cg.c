@@ -1,9 +1,12 @@
 /* Conjugate gradients preconditioned by symmetric successive over-relaxation: z from one sweep of sor forward and one back on -lap z = r, from zero.
  * Source: Axelsson 1972; Saad 2003, section 10.2. With a factor near 2/(1 + 2 sin(pi/(2n))) the number of sweeps is of order sqrt(n) instead of n; each
- * costs about three of cg. factor 1: symmetric Gauss-Seidel. No formula of the radius is claimed. In 3-D on any number of threads, else the two sweeps are serial.
- * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/gradients.h"
-#include "relax/lexicographic.h"
+ * costs about three of cg. factor 1: symmetric Gauss-Seidel. No formula of the radius is claimed. In 3-D on any number of threads, else the two sweeps are
+ * serial. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "relax-parts/conjugate-gradients.h"
+#include "relax-parts/lexicographic-sweep.h"
+#include "relax-parts/young-theory.h"
 
 /* Axelsson's: 2/(1 + sqrt(2 (1 - mu))), a little below Young's. */
 static double factor(const struct pm_laplacian *l) { return 2 / (1 + sqrt(2 * (1 - pm_young_mu(l)))); }

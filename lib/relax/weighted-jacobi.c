@@ -3,7 +3,7 @@
  * fare worse than with Jacobi: 1 - factor pi^2 h^2/2 in 1-D whatever the factor. Converges for 0 < factor <= 1, also where Jacobi's does not.
  * Source: Briggs, Henson, McCormick 2000, chapter 2; Trottenberg, Oosterlee, Schueller 2001, section 2.1. Any number of threads.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "relax/jacobi.h"
+#include "relax-parts/jacobi-sweep.h"
 
 /* d/(d + 1/2): makes the eigenvalues at the two ends of the short waves, 1 - factor/d and 1 - 2 factor, opposite. */
 static double factor(const struct pm_laplacian *l) { return l->dim / (l->dim + 0.5); }

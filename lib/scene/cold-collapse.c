@@ -4,7 +4,9 @@
  * sinh(g dt/2) = w dt/2. Source: Zel'dovich 1970; PM-06 of the reference cases.
  * Exact: mass, kA, speed_rms, energy_kinetic, crossing (the time when k A = 1). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { AMPLITUDE, MODE, LENGTH, DENSITY, SOFTENING };
 
@@ -21,15 +23,15 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	static const size_t cells[4] = {0, 128, 64, 16};
-	const size_t side = scene_per_axis(c->n ? c->n : 1, c->dim);
+	const size_t side = pm_scene_per_axis(c->n ? c->n : 1, c->dim);
 	const double length = c->value[LENGTH], k = 2 * pm_pi * c->value[MODE] / length, volume = pow(length, c->dim);
-	struct scene_body b;
+	struct pm_scene_body b;
 	if (!side)
 		return -PM_USAGE;
 	if (c->value[MODE] != floor(c->value[MODE]))
 		return pm_fail(PM_USAGE, "--mode %g is not a whole number of waves", c->value[MODE]);
-	scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
-	if (scene_mesh(f, cells[c->dim]) || scene_set(f, "matter", c->n, true, c->n ? c->value[DENSITY] * volume / (double)c->n : 0, &b))
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
+	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->n ? c->value[DENSITY] * volume / (double)c->n : 0, &b))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const size_t at[3] = {i % side, i / side % side, i / side / side};

@@ -3,7 +3,9 @@
  * Source: Peebles 1980, section 19; PM-08 of the reference cases. Noise seeds fragments: follow it to 0.75 t_ff, not beyond.
  * Exact: mass, radius_F, energy_field_pair and energy at t = 0 (-3/5), free_fall. Centre of mass zero. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { SOFTENING };
 
@@ -16,9 +18,9 @@ static double free_fall(void) { return 0.5 * pm_pi / sqrt(2); }
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	struct scene_body b;
-	scene_world(f, -1.5, 1.5, PM_OPEN, c->value[SOFTENING], free_fall() / 200);
-	if (scene_mesh(f, 64) || scene_set(f, "matter", c->n, true, c->n ? 1 / (double)c->n : 0, &b))
+	struct pm_scene_body b;
+	pm_scene_world(f, -1.5, 1.5, PM_OPEN, c->value[SOFTENING], free_fall() / 200);
+	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", c->n, true, c->n ? 1 / (double)c->n : 0, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)
 	for (uint64_t i = 0; i < c->n; i++) {
@@ -31,7 +33,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 			b.x[d][i] = x[d], b.v[d][i] = 0;
 	}
 	for (int d = 0; d < 3; d++)
-		scene_centre(c->n, NULL, b.x[d]);
+		pm_scene_centre(c->n, NULL, b.x[d]);
 	return 0;
 }
 

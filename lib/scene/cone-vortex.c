@@ -3,7 +3,9 @@
  * the largest 3 W R/16 at r = 3R/4. Source: Koumoutsakos 1997, J. Comput. Phys. 138, 821; scene A of the notes (W = 100, R = 0.5, dt = 5e-3).
  * Exact at any time (nu = 0): circulation, impulses, enstrophy, omega_max, speed_max. Cost: nodes of the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { PEAK, RADIUS, NU, SOFTENING };
 
@@ -25,9 +27,9 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	f->dt = 0.5 / fmax(fabs(c->value[PEAK]), 1e-300);
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
-	if (scene_plane(c, f, -2 * c->value[RADIUS], 2 * c->value[RADIUS], PM_OPEN, 128))
+	if (pm_scene_plane(c, f, -2 * c->value[RADIUS], 2 * c->value[RADIUS], PM_OPEN, 128))
 		return -PM_DATA;
-	return scene_vorticity(f, omega, c, 0);
+	return pm_scene_vorticity(f, omega, c, 0);
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

@@ -3,7 +3,9 @@
  * may never exceed its start. The mean of omega is not removed here but by the solver. Source: Melander, McWilliams, Zabusky 1987, J. Fluid Mech. 178, 137.
  * Exact: circulation (the tails reach 3e-9 of the peak at the edge), with nu = 0 also omega_max and enstrophy. Cost: nodes of the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { PEAK, A, B, NU };
 
@@ -25,7 +27,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	f->dt = 0.05;
 	pm_frame_constant_set(f, "nu", c->value[NU]);
-	return scene_plane(c, f, 0, 2 * pm_pi, PM_PERIODIC, 128) ? -PM_DATA : scene_vorticity(f, omega, c, -1);
+	return pm_scene_plane(c, f, 0, 2 * pm_pi, PM_PERIODIC, 128) ? -PM_DATA : pm_scene_vorticity(f, omega, c, -1);
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

@@ -4,7 +4,9 @@
  * Source: Birdsall and Langdon 1985, section 4-3; PIC-12 of the reference cases.
  * Exact: mass, charge, drift (E/B); without gyration energy_kinetic, momentum_x, momentum_y. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/plasma.h"
+#include <string.h>
+
+#include "scene-parts/scene-plasma.h"
 
 enum { SPEED, MAGNETIC, ELECTRIC, LENGTH, VELOCITIES };
 
@@ -22,17 +24,17 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	const double b[3] = {0, 0, c->value[MAGNETIC]}, e[3] = {0, c->value[ELECTRIC], 0}, middle = 0.5 * c->value[LENGTH];
 	const double radius = c->value[SPEED] / b[2];
 	double *x[3], *v[3];
-	if (scene_plasma_whole(1, c->value[VELOCITIES], 2))
+	if (pm_scene_plasma_whole(1, c->value[VELOCITIES], 2))
 		return -PM_USAGE;
-	scene_plasma_world(f, c->value[LENGTH], 0, 0.1);
-	if (scene_mesh(f, 16) || scene_plasma_given(f, "B", "", 3, b) || scene_plasma_given(f, "E", "", f->dim, e) ||
-		scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -1, 1, x, v))
+	pm_scene_plasma_world(f, c->value[LENGTH], 0, 0.1);
+	if (pm_scene_mesh(f, 16) || pm_scene_plasma_given(f, "B", "", 3, b) || pm_scene_plasma_given(f, "E", "", f->dim, e) ||
+		pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -1, 1, x, v))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const double angle = 2 * pm_pi * (double)i / (double)c->n;
 		const double at[3] = {middle + radius * sin(angle), middle - radius * cos(angle), middle};
 		for (int d = 0; d < f->dim; d++)
-			x[d][i] = scene_plasma_fold(at[d], c->value[LENGTH]);
+			x[d][i] = pm_scene_fold(at[d], c->value[LENGTH]);
 		v[0][i] = c->value[SPEED] * cos(angle) + e[1] / b[2];
 		v[1][i] = c->value[SPEED] * sin(angle);
 	}

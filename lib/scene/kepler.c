@@ -4,8 +4,10 @@
  * Source: PM-10 of the reference cases (e = 0.9, a = 1); Springel 2005, MNRAS 364, 1105, section 4.
  * Exact: energy, energy_kinetic, energy_field_pair, angular_momentum_z, period, x, y (of the body), mass.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
-#include "scene/orbit.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
+#include "scene-parts/kepler-orbit.h"
 
 enum { AXIS, ECCENTRICITY, SOFTENING };
 
@@ -18,14 +20,14 @@ static const struct pm_scene_parameter rows[] = {
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const struct scene_orbit o = {1, c->value[AXIS], c->value[ECCENTRICITY]};
+	const struct pm_scene_orbit o = {1, c->value[AXIS], c->value[ECCENTRICITY]};
 	const double side = 2 * o.axis * (1 + o.e);
 	double x[2], v[2];
-	struct scene_body b, sun;
-	scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], scene_orbit_period(o) / 1000);
-	if (scene_mesh(f, 64) || scene_set(f, "matter", 1, true, 1, &b) || scene_set(f, "sun", 1, false, 1, &sun))
+	struct pm_scene_body b, sun;
+	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pm_scene_orbit_period(o) / 1000);
+	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", 1, true, 1, &b) || pm_scene_set(f, "sun", 1, false, 1, &sun))
 		return -PM_DATA;
-	scene_orbit_at(o, 0, x, v);
+	pm_scene_orbit_at(o, 0, x, v);
 	for (int d = 0; d < 3; d++) {
 		b.x[d][0] = d < 2 ? x[d] : 0;
 		b.v[d][0] = d < 2 ? v[d] : 0;
@@ -36,13 +38,13 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
-	const struct scene_orbit o = {1, pm_frame_parameter(f, "semi-major", 1), pm_frame_parameter(f, "eccentricity", 0.9)};
+	const struct pm_scene_orbit o = {1, pm_frame_parameter(f, "semi-major", 1), pm_frame_parameter(f, "eccentricity", 0.9)};
 	double x[2], v[2];
-	scene_orbit_at(o, t, x, v);
+	pm_scene_orbit_at(o, t, x, v);
 	const double field = -1 / hypot(x[0], x[1]), energy = -1 / (2 * o.axis);
 	const struct { const char *name; double value; } known[] = {
 		{"mass", 2}, {"energy", energy}, {"energy_field_pair", field}, {"energy_kinetic", energy - field},
-		{"angular_momentum_z", sqrt(o.axis * (1 - o.e * o.e))}, {"period", scene_orbit_period(o)}, {"x", x[0]}, {"y", x[1]},
+		{"angular_momentum_z", sqrt(o.axis * (1 - o.e * o.e))}, {"period", pm_scene_orbit_period(o)}, {"x", x[0]}, {"y", x[1]},
 	};
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
 		if (!strcmp(quantity, known[i].name))

@@ -4,7 +4,9 @@
  * Source: Lamb 1932, section 334a; Saffman 1992, section 13.1; VM-01 of the reference cases.
  * Exact: circulation, impulses, enstrophy, omega_max, palinstrophy. Cost: nodes of the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { GAMMA, NU, START, SOFTENING };
 
@@ -31,9 +33,9 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	f->dt = 0.02 * c->value[START]; /* what lsrk3 bears with 128 cells and differences of order 6 is 0.0203 */
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
-	if (scene_plane(c, f, -10 * radius, 10 * radius, PM_OPEN, 128))
+	if (pm_scene_plane(c, f, -10 * radius, 10 * radius, PM_OPEN, 128))
 		return -PM_DATA;
-	return scene_vorticity(f, omega, c, 1e-12 * fabs(omega(c, 0, 0)));
+	return pm_scene_vorticity(f, omega, c, 1e-12 * fabs(omega(c, 0, 0)));
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

@@ -6,7 +6,9 @@
  * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
  * Exact: mass, charge. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/plasma.h"
+#include <string.h>
+
+#include "scene-parts/scene-plasma.h"
 #include "stream/declare.h"
 
 enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES, BEAMS };
@@ -40,7 +42,8 @@ static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, doubl
 	const uint64_t beams = (uint64_t)c->value[BEAMS], each = c->n / beams;
 	double total = 0, *weight[2];
 	if (c->value[BEAMS] != floor(c->value[BEAMS]) || each * beams != c->n)
-		return pm_fail(PM_USAGE, "%llu particles do not make %g beams of the same number (-n a multiple of --beams)", (unsigned long long)c->n, c->value[BEAMS]);
+		return pm_fail(PM_USAGE, "%llu particles do not make %g beams of the same number (-n a multiple of --beams)",
+			(unsigned long long)c->n, c->value[BEAMS]);
 	for (int i = 0; i < 2; i++) {
 		struct pm_field *field = pm_frame_field(f, "electrons", i ? "mass" : "charge");
 		field->uniform = false;
@@ -54,7 +57,7 @@ static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, doubl
 		const double u = 12 * ((double)(i / each) + 0.5) / (double)beams - 6, share = exp(-0.5 * u * u) / total * length / (double)each;
 		/* each lattice begins elsewhere (golden section), or their images on the mesh would be in step again and again */
 		const double first = fmod(0.6180339887498949 * ((double)(i / each) + 1), 1);
-		x[i] = scene_plasma_fold(place(((double)(i % each) + first) / (double)each * length, c->value[AMPLITUDE], k), length);
+		x[i] = pm_scene_fold(place(((double)(i % each) + first) / (double)each * length, c->value[AMPLITUDE], k), length);
 		v[i] = c->value[VTH] * u;
 		weight[0][i] = -share, weight[1][i] = share;
 	}
@@ -65,21 +68,21 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = 2 * pm_pi / c->value[WAVENUMBER], k = c->value[WAVENUMBER] * c->value[MODE], n = (double)c->n, share = c->n ? length / n : 0;
 	double *x[3], *v[3];
-	if (scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
+	if (pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
 	if (c->n % 2 && c->value[BEAMS] == 0)
 		return pm_fail(PM_USAGE, "%llu particles do not make mirror images (take an even -n)", (unsigned long long)c->n);
-	scene_plasma_world(f, length, 1, 0.1);
-	if (scene_mesh(f, 64) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
+	pm_scene_plasma_world(f, length, 1, 0.1);
+	if (pm_scene_mesh(f, 64) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 	if (c->value[BEAMS] > 0)
 		return make_beams(c, f, length, k, x[0], v[0]);
 #pragma omp parallel for schedule(static) if (c->n > 16384)
 	for (uint64_t i = 0; i < c->n; i++) {
 		const uint64_t j = i / 2;
-		const double at = place((scene_plasma_reverse(j) + 0.5 / n) * length, c->value[AMPLITUDE], k);
-		const double speed = c->value[VTH] * scene_plasma_normal(((double)j + 0.5) / (n / 2));
-		x[0][i] = scene_plasma_fold(i % 2 ? length - at : at, length);
+		const double at = place((pm_scene_bits_reversed(j) + 0.5 / n) * length, c->value[AMPLITUDE], k);
+		const double speed = c->value[VTH] * pm_scene_normal_of(((double)j + 0.5) / (n / 2));
+		x[0][i] = pm_scene_fold(i % 2 ? length - at : at, length);
 		v[0][i] = i % 2 ? -speed : speed;
 	}
 	return 0;

@@ -5,7 +5,9 @@
  * Source: Dawson 1959, Phys. Rev. 113, 383; Birdsall and Langdon 1985, chapter 4; PIC-06, PIC-07, PIC-16 of the reference cases.
  * Exact: mass, charge, kA, speed_rms, energy_kinetic. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/plasma.h"
+#include <string.h>
+
+#include "scene-parts/scene-plasma.h"
 
 enum { AMPLITUDE, MODE, WAVENUMBER, VELOCITIES, AXES };
 
@@ -24,15 +26,15 @@ static double wavenumber(double k1, double mode, double axes) { return k1 * mode
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = 2 * pm_pi / c->value[WAVENUMBER], k1 = c->value[WAVENUMBER] * c->value[MODE], axes = c->value[AXES];
-	const size_t cells[] = {64, 32, 16}, side = c->n ? scene_per_axis(c->n, f->dim) : 1;
+	const size_t cells[] = {64, 32, 16}, side = c->n ? pm_scene_per_axis(c->n, f->dim) : 1;
 	const double share = c->n ? pow(length / (double)side, f->dim) : 0, swing = c->value[AMPLITUDE] / (k1 * axes);
 	double *x[3], *v[3];
-	if (!side || scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
+	if (!side || pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
 	if (axes != floor(axes) || axes > f->dim)
 		return pm_fail(PM_USAGE, "--axes %g is not a number of axes from 1 to %d", axes, f->dim);
-	scene_plasma_world(f, length, 1, 0.1);
-	if (scene_mesh(f, cells[f->dim - 1]) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
+	pm_scene_plasma_world(f, length, 1, 0.1);
+	if (pm_scene_mesh(f, cells[f->dim - 1]) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const size_t at[3] = {i % side, i / side % side, i / side / side};
@@ -42,7 +44,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 			phase += d < axes ? k1 * q[d] : 0;
 		}
 		for (int d = 0; d < f->dim; d++)
-			x[d][i] = scene_plasma_fold(d < axes ? q[d] + swing * sin(phase) : q[d], length);
+			x[d][i] = pm_scene_fold(d < axes ? q[d] + swing * sin(phase) : q[d], length);
 	}
 	return 0;
 }

@@ -3,7 +3,9 @@
  * spacing 1.5 has a largest force component of 0.945 G rho dx with cic and 0.478 with tsc (fd2 Laplacian, 4-point gradient).
  * Source: PM-13 and HC-15 of the reference cases. Exact: mass, speed_rms = 0, energy_kinetic = 0. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { SPACING, OFFSET, DENSITY, SOFTENING };
 
@@ -18,16 +20,16 @@ static const struct pm_scene_parameter rows[] = {
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const size_t side = scene_per_axis(c->n ? c->n : 1, c->dim);
+	const size_t side = pm_scene_per_axis(c->n ? c->n : 1, c->dim);
 	const double spacing = c->value[SPACING], length = spacing * (double)side;
-	struct scene_body b;
+	struct pm_scene_body b;
 	if (!side)
 		return -PM_USAGE;
 	if (length != floor(length) || c->value[OFFSET] >= spacing)
 		return pm_fail(PM_USAGE, "%zu particles per axis, %g cells apart, %g from the edge, do not fill whole cells (change --spacing, --offset or -n)",
 			side, spacing, c->value[OFFSET]);
-	scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
-	if (scene_mesh(f, (size_t)length) || scene_set(f, "matter", c->n, true, c->value[DENSITY] * pow(spacing, c->dim), &b))
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
+	if (pm_scene_mesh(f, (size_t)length) || pm_scene_set(f, "matter", c->n, true, c->value[DENSITY] * pow(spacing, c->dim), &b))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const size_t at[3] = {i % side, i / side % side, i / side / side};

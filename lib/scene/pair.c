@@ -2,7 +2,9 @@
  * The defaults are PM-01 of the reference cases: 16^3 cells, m = 1 at (3.3, 4.7, 5.2) and m = 2 at (7.9, 6.1, 9.4), G = 1, lap phi =
  * 4 pi G (rho - mean); with them the field of the neutralised periodic system at the first particle is acc_x, acc_y, acc_z of `exact`
  * (Ewald sums, two splittings agree to 1e-13). Exact: mass, energy_kinetic = 0 (at t = 0). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { LENGTH, X1, Y1, Z1, X2, Y2, Z2, M1, M2, SOFTENING };
 
@@ -23,14 +25,14 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = c->value[LENGTH];
-	struct scene_body b;
+	struct pm_scene_body b;
 	if (length != floor(length))
 		return pm_fail(PM_USAGE, "--length %g is not a whole number of cells", length);
 	for (int d = 0; d < c->dim; d++)
 		if (c->value[X1 + d] >= length || c->value[X2 + d] >= length)
 			return pm_fail(PM_USAGE, "a particle lies outside the box 0..%g (change --length or the positions)", length);
-	scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.1);
-	if (scene_mesh(f, (size_t)length) || scene_set(f, "matter", 2, true, c->value[M1] == c->value[M2] ? c->value[M1] : NAN, &b))
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.1);
+	if (pm_scene_mesh(f, (size_t)length) || pm_scene_set(f, "matter", 2, true, c->value[M1] == c->value[M2] ? c->value[M1] : NAN, &b))
 		return -PM_DATA;
 	for (int i = 0; i < 2; i++) {
 		for (int d = 0; d < c->dim; d++) {

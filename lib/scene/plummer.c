@@ -6,7 +6,9 @@
  * K = 3/32 (theta - sin(4 theta)/4) and W = -3 (theta/16 - sin(4 theta)/64 - sin(2 theta)^3/48); -3 pi/64 in all without an end.
  * Exact: mass, energy_kinetic, energy_field_pair, energy, virial_ratio, radius_F (fraction F of the mass kept), dispersion_centre. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { TRUNCATION, SOFTENING };
 
@@ -53,9 +55,9 @@ static void particle(uint64_t seed, uint64_t id, double kept, double x[3], doubl
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double kept = mass_within(c->value[TRUNCATION]), side = 14 * fmax(1, c->value[TRUNCATION] / 10);
-	struct scene_body b;
-	scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], 1.0 / 32);
-	if (scene_mesh(f, 64) || scene_set(f, "matter", c->n, true, c->n ? kept / (double)c->n : 0, &b))
+	struct pm_scene_body b;
+	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], 1.0 / 32);
+	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", c->n, true, c->n ? kept / (double)c->n : 0, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)
 	for (uint64_t i = 0; i < c->n; i++) {
@@ -65,8 +67,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 			b.x[d][i] = x[d], b.v[d][i] = v[d];
 	}
 	for (int d = 0; d < 3; d++) {
-		scene_centre(c->n, NULL, b.x[d]);
-		scene_centre(c->n, NULL, b.v[d]);
+		pm_scene_centre(c->n, NULL, b.x[d]);
+		pm_scene_centre(c->n, NULL, b.v[d]);
 	}
 	return 0;
 }

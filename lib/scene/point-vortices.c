@@ -2,7 +2,9 @@
  * circulation --circulation over n in magnitude. Invariants: circulation, impulse, angular impulse, and the energy of the pairs.
  * Source: Aref 1983, Annu. Rev. Fluid Mech. 15, 345. Exact: none of the sums, they depend on the seed. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { GAMMA, MIXED, SOFTENING };
 
@@ -15,11 +17,11 @@ static const struct pm_scene_parameter rows[] = {
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	struct scene_vortices v;
+	struct pm_scene_vortices v;
 	f->dt = 0.01;
 	pm_frame_constant_set(f, "nu", 0);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
-	if (scene_plane(c, f, -2, 2, PM_OPEN, 128) || scene_vortices(f, c->n, c->n ? pm_pi / (double)c->n : 0, &v))
+	if (pm_scene_plane(c, f, -2, 2, PM_OPEN, 128) || pm_scene_vortices(f, c->n, c->n ? pm_pi / (double)c->n : 0, &v))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static) if (c->n > 16384)
 	for (uint64_t i = 0; i < c->n; i++) {

@@ -3,7 +3,9 @@
  * = 5.65685 for N = 8. --disturbance moves vortex i outwards by that part of R times cos(2 pi m i/N), m = N/2.
  * Source: Thomson 1883; Havelock 1931, Phil. Mag. 11, 617; VM-07 of the reference cases. Exact: circulation, angular_impulse, rate, growth. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { GAMMA, RADIUS, DISTURBANCE, SOFTENING };
 
@@ -18,13 +20,13 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double gamma = c->value[GAMMA], r = c->value[RADIUS], n = (double)c->n;
-	struct scene_vortices v;
+	struct pm_scene_vortices v;
 	if (c->n < 2)
 		return pm_fail(PM_USAGE, "a polygon has at least 2 vortices (-n 2)");
 	f->dt = 8 * pm_pi * pm_pi * r * r / ((n - 1) * fmax(fabs(gamma), 1e-300)) / 200;
 	pm_frame_constant_set(f, "nu", 0);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
-	if (scene_plane(c, f, -2 * r, 2 * r, PM_OPEN, 128) || scene_vortices(f, c->n, pm_pi * r * r / n, &v))
+	if (pm_scene_plane(c, f, -2 * r, 2 * r, PM_OPEN, 128) || pm_scene_vortices(f, c->n, pm_pi * r * r / n, &v))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const double angle = 2 * pm_pi * (double)i / n, at = r * (1 + c->value[DISTURBANCE] * cos((double)(c->n / 2) * angle));

@@ -4,7 +4,9 @@
  * Source: Bell, Colella, Glaz 1989, J. Comput. Phys. 85, 257; Brown, Minion 1995, J. Comput. Phys. 122, 165.
  * Exact: circulation; of the defaults omega_centre at (0, 1/4), energy, enstrophy, omega_max at t = 0.4, 0.8, 1 (pseudo-spectral, 1024^2). Cost: nodes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { RHO, DELTA, NU };
 
@@ -25,7 +27,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	f->dt = 0.005;
 	pm_frame_constant_set(f, "nu", c->value[NU]);
-	return scene_plane(c, f, 0, 1, PM_PERIODIC, 256) ? -PM_DATA : scene_vorticity(f, omega, c, -1);
+	return pm_scene_plane(c, f, 0, 1, PM_PERIODIC, 256) ? -PM_DATA : pm_scene_vorticity(f, omega, c, -1);
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

@@ -3,7 +3,9 @@
  * Source: Taylor 1923, Phil. Mag. 46, 671; Taylor, Green 1937. Exact: circulation, impulses, energy, enstrophy, omega_max, palinstrophy.
  * Cost: nodes of the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { SPEED, LENGTH, NU };
 
@@ -24,7 +26,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	f->dt = 0.05 * c->value[LENGTH] / (2 * pm_pi) / fmax(c->value[SPEED], 1e-300);
 	pm_frame_constant_set(f, "nu", c->value[NU]);
-	return scene_plane(c, f, 0, c->value[LENGTH], PM_PERIODIC, 64) ? -PM_DATA : scene_vorticity(f, omega, c, -1);
+	return pm_scene_plane(c, f, 0, c->value[LENGTH], PM_PERIODIC, 64) ? -PM_DATA : pm_scene_vorticity(f, omega, c, -1);
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

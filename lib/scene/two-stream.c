@@ -5,7 +5,9 @@
  * Source: Birdsall and Langdon 1985, sections 5-6 to 5-9; PIC-02, PIC-03, HC-04 of the reference cases.
  * Exact: mass, charge, gamma (cold). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/plasma.h"
+#include <string.h>
+
+#include "scene-parts/scene-plasma.h"
 
 enum { V0, VTH, AMPLITUDE, MODE, WAVENUMBER, VELOCITIES };
 
@@ -24,20 +26,20 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	const double length = 2 * pm_pi / c->value[WAVENUMBER], k = c->value[WAVENUMBER] * c->value[MODE], n = (double)c->n,
 		share = c->n ? length / n : 0, vth = c->value[VTH];
 	double *x[3], *v[3];
-	if (scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
+	if (pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
 	if (c->n % 2)
 		return pm_fail(PM_USAGE, "%llu particles do not make two equal beams (take an even -n)", (unsigned long long)c->n);
-	scene_plasma_world(f, length, 1, 0.1);
-	if (scene_mesh(f, 128) || scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
+	pm_scene_plasma_world(f, length, 1, 0.1);
+	if (pm_scene_mesh(f, 128) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static) if (c->n > 16384)
 	for (uint64_t i = 0; i < c->n; i++) {
 		const uint64_t j = i / 2;
 		const double quantile = ((double)j + 0.5) / (n / 2), sign = i % 2 ? -1 : 1;
-		const double place = vth > 0 ? scene_plasma_reverse(j) : quantile, q = (place + 0.5 / n) * length;
-		x[0][i] = scene_plasma_fold(q + c->value[AMPLITUDE] / k * sin(k * q), length);
-		v[0][i] = sign * (c->value[V0] + (vth > 0 ? vth * scene_plasma_normal(quantile) : 0));
+		const double place = vth > 0 ? pm_scene_bits_reversed(j) : quantile, q = (place + 0.5 / n) * length;
+		x[0][i] = pm_scene_fold(q + c->value[AMPLITUDE] / k * sin(k * q), length);
+		v[0][i] = sign * (c->value[V0] + (vth > 0 ? vth * pm_scene_normal_of(quantile) : 0));
 	}
 	return 0;
 }

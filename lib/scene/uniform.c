@@ -4,7 +4,9 @@
  * Source: Hockney, Eastwood 1988, section 9; HC-14 of the reference cases for the spread of masses.
  * Exact: mass (equal masses), energy_kinetic (mean over seeds; dim/2 M sigma^2 (1 - 1/n)). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/make.h"
+#include <string.h>
+
+#include "scene-parts/scene-bodies.h"
 
 enum { MASS, LENGTH, DISPERSION, SPREAD, SOFTENING };
 
@@ -17,7 +19,7 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
-static void particle(const struct pm_scene_choice *c, uint64_t i, const struct scene_body *b)
+static void particle(const struct pm_scene_choice *c, uint64_t i, const struct pm_scene_body *b)
 {
 	double u[2], w[2], z[2], z2[2];
 	pm_random(c->seed, i, 0, u);
@@ -39,15 +41,15 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	static const size_t cells[4] = {0, 128, 64, 32};
 	const double mass = c->n ? c->value[MASS] / (double)c->n : 0;
-	struct scene_body b;
-	scene_world(f, 0, c->value[LENGTH], PM_PERIODIC, c->value[SOFTENING], 0.01);
-	if (scene_mesh(f, cells[c->dim]) || scene_set(f, "matter", c->n, true, c->value[SPREAD] > 0 ? NAN : mass, &b))
+	struct pm_scene_body b;
+	pm_scene_world(f, 0, c->value[LENGTH], PM_PERIODIC, c->value[SOFTENING], 0.01);
+	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->value[SPREAD] > 0 ? NAN : mass, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)
 	for (uint64_t i = 0; i < c->n; i++)
 		particle(c, i, &b);
 	for (int d = 0; d < c->dim && c->value[DISPERSION] > 0; d++)
-		scene_centre(c->n, b.mass, b.v[d]);
+		pm_scene_centre(c->n, b.mass, b.v[d]);
 	return 0;
 }
 

@@ -2,7 +2,9 @@
  * their centre of circulation at (Gamma1 + Gamma2)/(2 pi d^2). Source: Saffman 1992, section 7.2; VM-08 of the reference cases.
  * Exact: circulation, impulses, angular_impulse, rate or speed, energy_field_pair. 
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/vortices.h"
+#include <string.h>
+
+#include "scene-parts/scene-vortices.h"
 
 enum { GAMMA1, GAMMA2, DISTANCE, SOFTENING };
 
@@ -17,11 +19,11 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double g[2] = {c->value[GAMMA1], c->value[GAMMA2]}, d = c->value[DISTANCE], sum = fabs(g[0]) + fabs(g[1]);
-	struct scene_vortices v;
+	struct pm_scene_vortices v;
 	f->dt = 4 * pm_pi * pm_pi * d * d / fmax(sum, 1e-300) / 200;
 	pm_frame_constant_set(f, "nu", 0);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
-	if (scene_plane(c, f, -4 * d, 4 * d, PM_OPEN, 128) || scene_vortices(f, 2, d * d, &v))
+	if (pm_scene_plane(c, f, -4 * d, 4 * d, PM_OPEN, 128) || pm_scene_vortices(f, 2, d * d, &v))
 		return -PM_DATA;
 	for (int i = 0; i < 2; i++) {
 		v.x[0][i] = i ? d / 2 : -d / 2;

@@ -1,5 +1,5 @@
 /* Steps: how push advances state by its rates. push knows no law: x' = v (or vel), v' = acc, s' = its change field.
- * One file per action or scheme; what push does around them is in rates.h, done.h and advance.h.
+ * One file per action or scheme; what push does around them is in lib/push.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STEP_H
 #define PM_STEP_H

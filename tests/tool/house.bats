@@ -133,6 +133,19 @@ install_here() {
 	[ -z "$bad" ]
 }
 
+# So the directory is the list of choices: what methods share stands in a room beside it. Formulas of up to 50 lines that need nothing but tables may stay.
+@test "a table's room holds methods, its header and short formulas alone" {
+	for t in $(sed -n 's/^| `lib\/\([a-z0-9-]*\)\/` | table: .*/\1/p' "$top/docs/architecture.md"); do
+		for h in "$top/lib/$t"/*.h; do
+			[ "${h##*/}" != "$t.h" ] || continue
+			if [ "$(wc -l <"$h")" -gt 50 ] || grep '^#include "' "$h" | grep -qvE '"(effect|green|kernel|law|mollifier|relax|scene|step)/'; then
+				echo "$h is an engine: it belongs beside lib/$t"
+				return 1
+			fi
+		done
+	done
+}
+
 @test "every source names its licence in its head" {
 	bad=$(cd "$top" && find lib tools tests bench pipelines docs .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | while read -r f; do
 		head -n 25 "$f" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$f"

@@ -5,7 +5,7 @@
 
 #include "check.h"
 #include "stage/stage.h"
-#include "step/done.h"
+#include "push/step-clock.h"
 
 extern const struct pm_tool tool_push;
 
@@ -209,7 +209,7 @@ static void clock(void)
 		struct pm_set s = {.name = "matter", .kick = 1};
 		int bad = 0;
 		for (int i = 0; i < n && !bad; i++)
-			bad = pm_done_complete(&s) || pm_done_add(&s, 0, 1.0 / n, false);
+			bad = pm_clock_complete(&s) || pm_clock_add(&s, 0, 1.0 / n, false);
 		check(!bad && s.drift == 1, "%d parts drift/%d are one, not earlier and not later", n, n);
 		if (n == 1000000)
 			break;

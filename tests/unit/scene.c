@@ -4,7 +4,7 @@
 
 #include "law/law.h"
 #include "mesh/grid.h"
-#include "scene/orbit.h"
+#include "scene-parts/kepler-orbit.h"
 #include "scene/scene.h"
 #include "check.h"
 
@@ -164,24 +164,24 @@ static void orbits(void)
 {
 	double x[2], v[2], worst = 0;
 	for (int k = 0; k <= 40; k++) {
-		const struct scene_orbit o = {2.385, 1.7, 0.9};
-		scene_orbit_at(o, 0.0573 * k * scene_orbit_period(o), x, v);
+		const struct pm_scene_orbit o = {2.385, 1.7, 0.9};
+		pm_scene_orbit_at(o, 0.0573 * k * pm_scene_orbit_period(o), x, v);
 		const double energy = 0.5 * (v[0] * v[0] + v[1] * v[1]) - o.gm / hypot(x[0], x[1]), turn = x[0] * v[1] - x[1] * v[0];
 		check_worst(&worst, fabs(energy + o.gm / (2 * o.axis)) + fabs(turn - sqrt(o.gm * o.axis * (1 - o.e * o.e))));
 	}
 	double moved = 0;
 	for (int k = 0; k <= 40; k++) { /* v is the rate of x: centred differences over 1e-5 are good to 1e-9, rounding to 1e-10 */
-		const struct scene_orbit o = {2.385, 1.7, 0.6};
+		const struct pm_scene_orbit o = {2.385, 1.7, 0.6};
 		double x1[2], x2[2];
 		const double t = 0.173 * k, h = 1e-5;
-		scene_orbit_at(o, t, x, v);
-		scene_orbit_at(o, t - h, x1, (double[2]){0});
-		scene_orbit_at(o, t + h, x2, (double[2]){0});
+		pm_scene_orbit_at(o, t, x, v);
+		pm_scene_orbit_at(o, t - h, x1, (double[2]){0});
+		pm_scene_orbit_at(o, t + h, x2, (double[2]){0});
 		check_worst(&moved, hypot((x2[0] - x1[0]) / (2 * h) - v[0], (x2[1] - x1[1]) / (2 * h) - v[1]));
 	}
 	check_near(moved, 0, 1e-7, "the velocity on the Kepler orbit is the rate of the position");
 	check_near(worst, 0, 1e-12, "the Kepler orbit keeps energy and angular momentum all the way round");
-	scene_orbit_at((struct scene_orbit){1, 1, 0.9}, 0, x, v);
+	pm_scene_orbit_at((struct pm_scene_orbit){1, 1, 0.9}, 0, x, v);
 	check(x[0] == -1.9 && fabs(x[1]) < 1e-15 && fabs(v[0]) < 1e-15, "PM-10: it starts at (-1.9, 0)");
 	check_near(v[1], -sqrt(0.1 / 1.9), 1e-15, "PM-10: with v = (0, -sqrt(0.1/1.9))");
 }

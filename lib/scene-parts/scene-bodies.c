@@ -1,22 +1,11 @@
-/* What the scenes share: box and faces, the default mesh, a set with x, v, mass and id, and a centre of mass at rest.
+/* A box, its mesh and a set of bodies, as most scenes begin.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_SCENE_MAKE_H
-#define PM_SCENE_MAKE_H
-
 #include <stdio.h>
-#include <string.h>
 
-#include "scene/scene.h"
+#include "scene-parts/scene-bodies.h"
 #include "stream/declare.h"
 
-struct scene_body { /* the arrays of a set, n values per component */
-	double *x[3], *v[3]; /* [length], [length/time]; v all NULL for a set that never moves */
-	double *mass;        /* [mass]; NULL where all are equal */
-	int64_t *id;
-};
-
-/* Gravity with G = 1 in a cube lo..hi with the same faces all round; dt as given. */
-static inline void scene_world(struct pm_frame *f, double lo, double hi, enum pm_face face, double softening, double dt)
+void pm_scene_world(struct pm_frame *f, double lo, double hi, enum pm_face face, double softening, double dt)
 {
 	snprintf(f->law, sizeof f->law, "gravity");
 	pm_frame_constant_set(f, "G", 1);
@@ -31,15 +20,13 @@ static inline void scene_world(struct pm_frame *f, double lo, double hi, enum pm
 	f->dt = dt;
 }
 
-/* The default mesh: so many cells on every axis of the box. */
-static inline int scene_mesh(struct pm_frame *f, size_t cells)
+int pm_scene_mesh(struct pm_frame *f, size_t cells)
 {
 	const size_t c[3] = {cells, f->dim > 1 ? cells : 1, f->dim > 2 ? cells : 1};
 	return pm_frame_mesh_new(f, "mesh", c) ? 0 : -PM_DATA;
 }
 
-/* A set with x, mass, id, and v if it moves; mass is that of each particle, NAN if they differ and the caller fills b->mass. */
-static inline int scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, double mass, struct scene_body *b)
+int pm_scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, double mass, struct pm_scene_body *b)
 {
 	struct pm_set *set = pm_frame_set_new(f, name, n);
 	struct pm_field *x = set ? pm_makes(f, name, "x", f->dim, PM_STATE) : NULL;
@@ -57,7 +44,7 @@ static inline int scene_set(struct pm_frame *f, const char *name, uint64_t n, bo
 	m->value[0] = m->uniform ? mass : 0;
 	if (pm_field_ready(x) || pm_field_ready(id) || (v && pm_field_ready(v)) || (!m->uniform && pm_field_ready(m)))
 		return -PM_DATA;
-	*b = (struct scene_body){.mass = m->uniform ? NULL : pm_out(m, 0), .id = pm_out_i64(id, 0)};
+	*b = (struct pm_scene_body){.mass = m->uniform ? NULL : pm_out(m, 0), .id = pm_out_i64(id, 0)};
 	for (int d = 0; d < f->dim; d++) {
 		b->x[d] = pm_out(x, d);
 		b->v[d] = v ? pm_out(v, d) : NULL;
@@ -69,8 +56,7 @@ static inline int scene_set(struct pm_frame *f, const char *name, uint64_t n, bo
 	return 0;
 }
 
-/* Takes the weighted mean (weights all equal if NULL) of n values away; twice, so that what is left is rounding alone. */
-static inline void scene_centre(uint64_t n, const double *weight, double *a)
+void pm_scene_centre(uint64_t n, const double *weight, double *a)
 {
 	if (!n)
 		return;
@@ -83,8 +69,7 @@ static inline void scene_centre(uint64_t n, const double *weight, double *a)
 	}
 }
 
-/* Particles per axis of a regular arrangement of n in dim dimensions; 0 with a message if n is not such a power. */
-static inline size_t scene_per_axis(uint64_t n, int dim)
+size_t pm_scene_per_axis(uint64_t n, int dim)
 {
 	const uint64_t side = (uint64_t)llround(pow((double)n, 1.0 / dim));
 	uint64_t full = 1, below = 1, above = 1;
@@ -99,5 +84,3 @@ static inline size_t scene_per_axis(uint64_t n, int dim)
 		(unsigned long long)below, (unsigned long long)above);
 	return 0;
 }
-
-#endif

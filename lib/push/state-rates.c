@@ -1,26 +1,16 @@
-/* Which state fields of a set move, and by which rates: x' = v, or vel for a set without v; v' = acc; any other state by the change field that
- * names it. Reads headers only. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_STEP_RATES_H
-#define PM_STEP_RATES_H
-
+/* The rates of a set's states, found by the names and roles of its fields. Cost: the number of fields squared, no data.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "step/step.h"
+#include "push/state-rates.h"
 #include "stream/fastest.h"
 
-enum { PM_RATES = 16 };
+static const char *const remedy = "compute it first: p2m | poisson-fft | mgrad | m2p, or pp";
 
-struct pm_rate {
-	struct pm_field *state, *rate;
-	struct pm_field *q[PM_REGISTERS]; /* registers of a scheme; NULL outside */
-};
-
-static const char *const pm_rate_remedy = "compute it first: p2m | poisson-fft | mgrad | m2p, or pp";
-
-static inline bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
+bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
 
 /* Does the set hold every term of a change on a mesh? */
-static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
+static bool carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
 {
 	int found = 0;
 	bool any = false;
@@ -36,9 +26,7 @@ static inline bool pm_rate_carried(const struct pm_frame *f, const struct pm_set
 	return any && found >= m->nterms;
 }
 
-/* What stands against advancing a set by its change fields: a magnetic field (by: the scheme that does not know it, NULL one that does), or a
- * change on a mesh that was not carried to the particles. */
-static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by)
+int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by)
 {
 	if (by && pm_frame_field(f, s->name, "bfield"))
 		return pm_fail(PM_DATA, "'%s' has a magnetic field, which %s would leave out (use a magnetic scheme: push boris/2)", s->name, by);
@@ -46,7 +34,7 @@ static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set
 		const struct pm_field *m = f->fields[i];
 		if (m->role != PM_CHANGE || !m->of[0] || !pm_frame_mesh(f, m->on) || !pm_rate_is_state(pm_frame_field(f, s->name, m->of)))
 			continue;
-		if (!pm_rate_carried(f, s, m))
+		if (!carried(f, s, m))
 			return pm_fail(PM_DATA, "the change '%s' of '%s' is on mesh '%s' and not yet on '%s' (carry it over with m2p)", m->name, m->of,
 				m->on, s->name);
 	}
@@ -54,7 +42,7 @@ static inline int pm_rates_allowed(const struct pm_frame *f, const struct pm_set
 }
 
 /* The rate of one state: *rate NULL if it has none and needs none. */
-static inline int pm_rate_of(const struct pm_frame *f, const struct pm_set *s, const char *state, struct pm_field **rate)
+static int rate_of(const struct pm_frame *f, const struct pm_set *s, const char *state, struct pm_field **rate)
 {
 	bool x = !strcmp(state, "x"), v = !strcmp(state, "v");
 	struct pm_field *velocity = pm_frame_field(f, s->name, "v");
@@ -70,12 +58,11 @@ static inline int pm_rate_of(const struct pm_frame *f, const struct pm_set *s, c
 			*rate = c;
 	}
 	if (named && !*rate)
-		return pm_fail(PM_MISSING, "no field '%s' on '%s' (%s)", named, s->name, pm_rate_remedy);
+		return pm_fail(PM_MISSING, "no field '%s' on '%s' (%s)", named, s->name, remedy);
 	return 0;
 }
 
-/* Every change field must have found its state, or a contribution would be lost without a word. */
-static inline int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s)
+int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s)
 {
 	bool v = pm_rate_is_state(pm_frame_field(f, s->name, "v"));
 	for (size_t i = 0; i < f->nfields; i++) {
@@ -92,8 +79,7 @@ static inline int pm_rates_complete(const struct pm_frame *f, const struct pm_se
 	return 0;
 }
 
-/* The rates of a set, positions first; which of them: those a kick, a drift or a scheme advances. The number of them, or failure. */
-static inline int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES])
+int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES])
 {
 	static const char *const first[] = {"x", "v"};
 	int n = 0, status = 0;
@@ -102,13 +88,13 @@ static inline int pm_rates(const struct pm_frame *f, const struct pm_set *s, enu
 		if (!pm_rate_is_state(state))
 			continue;
 		rates[n] = (struct pm_rate){.state = state};
-		status = pm_rate_of(f, s, first[i], &rates[n++].rate);
+		status = rate_of(f, s, first[i], &rates[n++].rate);
 	}
 	for (size_t i = 0; i < f->nfields && kind != PM_DRIFT && !status; i++) {
 		struct pm_field *state = f->fields[i], *rate = NULL;
 		if (state->role != PM_STATE || strcmp(state->on, s->name) || !strcmp(state->name, "x") || !strcmp(state->name, "v"))
 			continue;
-		status = pm_rate_of(f, s, state->name, &rate);
+		status = rate_of(f, s, state->name, &rate);
 		if (rate && n == PM_RATES)
 			return pm_fail(PM_DATA, "more than %d fields of '%s' change", PM_RATES, s->name);
 		if (rate)
@@ -117,18 +103,15 @@ static inline int pm_rates(const struct pm_frame *f, const struct pm_set *s, enu
 	return status ? status : n;
 }
 
-/* Refuses a step beyond the limit of the scheme on the negative real axis (kicks: Euler's, 2) for a rate that says how fast it decays. */
-static inline int pm_rates_stable(const struct pm_frame *f, const struct pm_rate *rates, int n, const struct pm_step *scheme)
+int pm_rates_stable(const struct pm_frame *f, const struct pm_rate *rates, int n, const struct pm_step *scheme)
 {
 	double limit = scheme && !isnan(scheme->real_limit) ? scheme->real_limit : 2;
 	for (int r = 0; r < n; r++) {
 		double fastest = pm_fastest(rates[r].rate);
 		if (fabs(f->dt) * fastest > limit * (1 + 1e-12))
-			return pm_fail(PM_NUMERICS, "dt %g is %.4g times what %s can bear: '%s' decays at up to %g per time, and the step would grow without bound "
-				"(dt up to %.6g, or --unsafe)", f->dt, fabs(f->dt) * fastest / limit, scheme ? scheme->name : "a kick", rates[r].rate->name, fastest,
-				limit / fastest);
+			return pm_fail(PM_NUMERICS, "dt %g is %.4g times what %s can bear: '%s' decays at up to %g per time, and the step would grow "
+				"without bound (dt up to %.6g, or --unsafe)", f->dt, fabs(f->dt) * fastest / limit, scheme ? scheme->name : "a kick",
+				rates[r].rate->name, fastest, limit / fastest);
 	}
 	return 0;
 }
-
-#endif

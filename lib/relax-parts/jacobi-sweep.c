@@ -1,13 +1,10 @@
-/* Jacobi's sweep with a factor, shared by jacobi and weighted-jacobi. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_RELAX_JACOBI_H
-#define PM_RELAX_JACOBI_H
-
+/* Jacobi's sweep; rows are independent, any number of threads. Cost: N per sweep.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "relax/relax.h"
+#include "relax-parts/jacobi-sweep.h"
 
-/* u + (factor/diagonal) (lap u - f), from old values only: the rows are independent. */
-static inline double pm_jacobi_sweep(struct pm_relax_work *w)
+double pm_jacobi_sweep(struct pm_relax_work *w)
 {
 	const struct pm_laplacian *l = w->lap;
 	size_t nx = l->axis[0].points, ny = l->axis[1].points;
@@ -32,10 +29,7 @@ static inline double pm_jacobi_sweep(struct pm_relax_work *w)
 	return pm_sum_array(l->rows, w->sums);
 }
 
-/* Eigenvalues 1 - factor (1 - mu), mu those of the average over neighbours. */
-static inline double pm_jacobi_radius(const struct pm_laplacian *l, double factor)
+double pm_jacobi_radius(const struct pm_laplacian *l, double factor)
 {
 	return fmax(fabs(1 - factor * (1 - l->highest)), fabs(1 - factor * (1 - l->lowest)));
 }
-
-#endif

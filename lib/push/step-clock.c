@@ -1,48 +1,33 @@
-/* The clock: what part of the step each set has done, which pass of which scheme is under way, and when the step is complete.
- * All of it is arithmetic on the header. Beside kick, drift and stage a set carries, under the key "scheme", {name, dt, rates} of the
- * scheme that owns its registers (rates: how many steps they remember), and "open": true after drift --open.
+/* The clock of a step, kept in the header of the frame. Cost: a few words per set and push.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_STEP_DONE_H
-#define PM_STEP_DONE_H
-
 #include <stdio.h>
 #include <string.h>
 
-#include "step/rates.h"
+#include "push/step-clock.h"
 
-static const double pm_done_tolerance = 1e-10; /* parts add to one only up to round-off: a million millionths to 8e-12, and no part is below 1e-9 */
+static const double tolerance = 1e-10; /* parts add to one only up to round-off: a million millionths to 8e-12, and no part is below 1e-9 */
 
-/* What a scheme does with one set in this pass. */
-struct pm_pass {
-	const struct pm_step *step; /* the scheme, or the one that starts it */
-	int pass;                   /* of step */
-	int registers;              /* in use: those the asked scheme keeps first, then those of step */
-	int known;                  /* kept registers that are there already */
-	int kept;                   /* registers that stay when the pass is done */
-	bool shift;                 /* the rate enters the kept registers */
-};
+static bool is_open(const struct pm_set *s) { return json_is_true(json_object_get(s->more, "open")); }
 
-static inline bool pm_done_open(const struct pm_set *s) { return json_is_true(json_object_get(s->more, "open")); }
-
-static inline bool pm_done_complete(const struct pm_set *s)
+bool pm_clock_complete(const struct pm_set *s)
 {
-	return s->pass == 0 && s->drift == 1 && (s->kick == 0 || s->kick == 1) && !pm_done_open(s);
+	return s->pass == 0 && s->drift == 1 && (s->kick == 0 || s->kick == 1) && !is_open(s);
 }
 
-static inline const char *pm_scheme_name(const struct pm_set *s)
+static const char *scheme_name(const struct pm_set *s)
 {
 	const char *name = json_string_value(json_object_get(json_object_get(s->more, "scheme"), "name"));
 	return name ? name : "a scheme";
 }
 
-static inline void pm_scheme_set(struct pm_set *s, const char *name, double dt, int rates)
+static void set_scheme(struct pm_set *s, const char *name, double dt, int rates)
 {
 	if (!s->more)
 		s->more = json_object();
 	json_object_set_new(s->more, "scheme", json_pack("{s:s,s:f,s:i}", "name", name, "dt", dt, "rates", rates));
 }
 
-static inline void pm_register_name(char to[PM_NAME], int i, const char *state)
+void pm_register_name(char to[PM_NAME], int i, const char *state)
 {
 	if (i)
 		snprintf(to, PM_NAME, "q%d_%.48s", i + 1, state);
@@ -51,11 +36,11 @@ static inline void pm_register_name(char to[PM_NAME], int i, const char *state)
 }
 
 /* Steps remembered by the registers of a set for this scheme and dt; 0 where anything does not fit, so that the scheme starts anew. */
-static inline int pm_scheme_memory(const struct pm_frame *f, const struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates)
+static int remembered(const struct pm_frame *f, const struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates)
 {
 	const json_t *scheme = json_object_get(s->more, "scheme"), *count = json_object_get(scheme, "rates");
 	json_int_t most = json_is_integer(count) ? json_integer_value(count) : 0;
-	if (strcmp(pm_scheme_name(s), asked->name) || json_number_value(json_object_get(scheme, "dt")) != f->dt || most < 0 || most > asked->rates)
+	if (strcmp(scheme_name(s), asked->name) || json_number_value(json_object_get(scheme, "dt")) != f->dt || most < 0 || most > asked->rates)
 		return 0;
 	for (int r = 0; r < n; r++)
 		for (int i = 0; i < asked->rates; i++) {
@@ -68,14 +53,13 @@ static inline int pm_scheme_memory(const struct pm_frame *f, const struct pm_set
 	return (int)most;
 }
 
-/* Whether a set may be pushed at all: by a scheme (NULL: kicks and drifts), with this kick and drift. */
-static inline int pm_done_allows(const struct pm_set *s, const struct pm_step *scheme, double kick, double drift)
+int pm_clock_allows(const struct pm_set *s, const struct pm_step *scheme, double kick, double drift)
 {
 	const char *what = scheme ? scheme->name : kick > 0 && drift > 0 ? "kick and drift" : kick > 0 ? "kick" : "drift";
-	if (s->pass && (!scheme || strcmp(pm_scheme_name(s), scheme->name)))
-		return pm_fail(PM_DATA, "%s on '%s' while %s is under way (%d passes done; finish its step first)", what, s->name, pm_scheme_name(s),
+	if (s->pass && (!scheme || strcmp(scheme_name(s), scheme->name)))
+		return pm_fail(PM_DATA, "%s on '%s' while %s is under way (%d passes done; finish its step first)", what, s->name, scheme_name(s),
 			s->pass);
-	if (pm_done_complete(s))
+	if (pm_clock_complete(s))
 		return pm_fail(PM_DATA, "%s on '%s', which has completed its step and waits for the other sets (--set to move those; drift --open where a "
 			"kick is still to come)", what, s->name);
 	if (scheme && !s->pass && (s->kick > 0 || s->drift > 0))
@@ -84,16 +68,15 @@ static inline int pm_done_allows(const struct pm_set *s, const struct pm_step *s
 	return 0;
 }
 
-/* Adds the fractions of one push to a set. */
-static inline int pm_done_add(struct pm_set *s, double kick, double drift, bool open)
+int pm_clock_add(struct pm_set *s, double kick, double drift, bool open)
 {
 	double *done[] = {&s->kick, &s->drift}, more[] = {kick, drift};
 	for (int i = 0; i < 2; i++) {
 		double sum = *done[i] + more[i];
-		if (sum > 1 + pm_done_tolerance)
+		if (sum > 1 + tolerance)
 			return pm_fail(PM_DATA, "%s on '%s' adds up to %.6g of a step (kick %.6g, drift %.6g were done before this push; each may reach 1)",
 				i ? "drift" : "kick", s->name, sum, s->kick, s->drift);
-		more[i] = fabs(sum - 1) <= pm_done_tolerance ? 1 : sum;
+		more[i] = fabs(sum - 1) <= tolerance ? 1 : sum;
 	}
 	s->kick = more[0], s->drift = more[1];
 	if (open && s->drift == 1 && s->kick == 0)
@@ -104,11 +87,10 @@ static inline int pm_done_add(struct pm_set *s, double kick, double drift, bool 
 	return 0;
 }
 
-/* The next pass of a scheme on a set; moves the set's clock on. */
-static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates,
+int pm_clock_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates,
 	struct pm_pass *p)
 {
-	int memory = pm_scheme_memory(f, s, asked, n, rates);
+	int memory = remembered(f, s, asked, n, rates);
 	const struct pm_step *step = memory < asked->rates ? pm_step_find(asked->start) : asked;
 	if (!step)
 		return -PM_DATA;
@@ -120,7 +102,7 @@ static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const
 	p->kept = last ? asked->rates : p->registers;
 	if (last)
 		memory = memory < asked->rates ? memory + 1 : memory;
-	pm_scheme_set(s, asked->name, f->dt, memory);
+	set_scheme(s, asked->name, f->dt, memory);
 	if (last && !asked->rates)
 		json_object_del(s->more, "scheme");
 	s->pass = last ? 0 : s->pass + 1;
@@ -129,8 +111,7 @@ static inline int pm_done_pass(const struct pm_frame *f, struct pm_set *s, const
 	return 0;
 }
 
-/* After a push: time follows the slowest set that moves; when all have completed the step, it is done. */
-static inline void pm_done_close(struct pm_frame *f)
+void pm_clock_close(struct pm_frame *f)
 {
 	double slowest = 1;
 	bool complete = true;
@@ -139,7 +120,7 @@ static inline void pm_done_close(struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets; i++)
 		if (pm_set_moves(f, f->sets[i])) {
 			slowest = fmin(slowest, f->sets[i]->drift);
-			complete = complete && pm_done_complete(f->sets[i]);
+			complete = complete && pm_clock_complete(f->sets[i]);
 		}
 	f->time = f->start + f->dt * slowest;
 	f->substep++;
@@ -151,5 +132,3 @@ static inline void pm_done_close(struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets; i++)
 		f->sets[i]->kick = f->sets[i]->drift = 0;
 }
-
-#endif

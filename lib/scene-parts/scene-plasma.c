@@ -1,27 +1,24 @@
-/* What the scenes of plasmas share: units in which omega_p = eps0 = 1 and electrons have q = -1, m = 1 per unit of density 1, so that each of n
- * particles of a box of length L carries the charge -L/n and the mass L/n; ions are a constant background.
+/* A plasma in a periodic box, and the numbers of quiet starts.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_SCENE_PLASMA_H
-#define PM_SCENE_PLASMA_H
+#include <stdio.h>
+#include <string.h>
 
-#include "scene/make.h"
+#include "scene-parts/scene-plasma.h"
 #include "stream/declare.h"
 
-/* The law and a periodic box 0..length. */
-static inline void scene_plasma_world(struct pm_frame *f, double length, double background, double dt)
+void pm_scene_plasma_world(struct pm_frame *f, double length, double background, double dt)
 {
-	scene_world(f, 0, length, PM_PERIODIC, 0, dt);
+	pm_scene_world(f, 0, length, PM_PERIODIC, 0, dt);
 	snprintf(f->law, sizeof f->law, "electrostatic");
 	json_object_del(f->constants, "G");
 	pm_frame_constant_set(f, "eps0", 1);
 	pm_frame_constant_set(f, "background", background);
 }
 
-/* The set "electrons" with x, v of `velocities` components (above dim all 0), mass and charge the same for all. */
-static inline int scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double charge, double mass, double *x[3], double *v[3])
+int pm_scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double charge, double mass, double *x[3], double *v[3])
 {
-	struct scene_body b;
-	if (scene_set(f, "electrons", n, true, mass, &b))
+	struct pm_scene_body b;
+	if (pm_scene_set(f, "electrons", n, true, mass, &b))
 		return -PM_DATA;
 	struct pm_field *old = pm_frame_field(f, "electrons", "v"), *q = pm_makes(f, "electrons", "charge", 1, PM_STATE);
 	struct pm_field *w = velocities > f->dim ? pm_makes(f, "electrons", "v", velocities, PM_STATE) : old;
@@ -38,8 +35,7 @@ static inline int scene_plasma_set(struct pm_frame *f, uint64_t n, int velocitie
 	return 0;
 }
 
-/* A field on the mesh that is given and the same everywhere. */
-static inline int scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value)
+int pm_scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value)
 {
 	struct pm_field *field = pm_makes(f, "mesh", name, components, PM_STATE);
 	if (!field)
@@ -50,8 +46,7 @@ static inline int scene_plasma_given(struct pm_frame *f, const char *name, const
 	return 0;
 }
 
-/* Whole numbers among the parameters. */
-static inline int scene_plasma_whole(double mode, double velocities, int least)
+int pm_scene_plasma_whole(double mode, double velocities, int least)
 {
 	if (mode != floor(mode))
 		return pm_fail(PM_USAGE, "--mode %g is not a whole number of waves", mode);
@@ -60,15 +55,13 @@ static inline int scene_plasma_whole(double mode, double velocities, int least)
 	return 0;
 }
 
-/* x in [0, length). */
-static inline double scene_plasma_fold(double x, double length)
+double pm_scene_fold(double x, double length)
 {
 	x -= length * floor(x / length);
 	return x >= length ? 0 : x;
 }
 
-/* Van der Corput's sequence: the bits of i behind the point in reverse order (Hammersley 1960). */
-static inline double scene_plasma_reverse(uint64_t i)
+double pm_scene_bits_reversed(uint64_t i)
 {
 	double x = 0, bit = 0.5;
 	for (; i; i >>= 1, bit *= 0.5)
@@ -76,8 +69,7 @@ static inline double scene_plasma_reverse(uint64_t i)
 	return x;
 }
 
-/* z with u = (1 + erf(z/sqrt 2))/2, 0 < u < 1: bisection-free, Newton's method from the tail estimate of Abramowitz and Stegun 26.2.23. */
-static inline double scene_plasma_normal(double u)
+double pm_scene_normal_of(double u)
 {
 	const double p = u < 0.5 ? u : 1 - u, t = sqrt(-2 * log(p));
 	double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
@@ -85,5 +77,3 @@ static inline double scene_plasma_normal(double u)
 		z += (0.5 * erfc(z / sqrt(2)) - p) / (exp(-0.5 * z * z) / sqrt(2 * pm_pi));
 	return u < 0.5 ? -z : z;
 }
-
-#endif

@@ -1,22 +1,11 @@
-/* What the scenes of vortices share: the plane under the law vortex, and a set of vortices that is a lattice on the nodes of the mesh (so that
- * the first p2m is exact) or a handful of points. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_SCENE_VORTICES_H
-#define PM_SCENE_VORTICES_H
-
+/* A plane of vortices: points, or a lattice on the nodes of the mesh that carries a vorticity.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
-#include <string.h>
 
-#include "scene/scene.h"
+#include "scene-parts/scene-vortices.h"
 #include "stream/declare.h"
 
-enum { SCENE_MARGIN = 4 }; /* nodes without vortices along an open face: the widest kernels reach 3 cells */
-
-struct scene_vortices { /* the arrays of the set, n values each */
-	double *x[2], *circulation; /* [length], [length^2/time] */
-};
-
-/* The plane lo..hi squared with the same faces all round, and the default mesh: what was asked for, else so many cells on each axis. */
-static inline int scene_plane(const struct pm_scene_choice *c, struct pm_frame *f, double lo, double hi, enum pm_face face, size_t cells)
+int pm_scene_plane(const struct pm_scene_choice *c, struct pm_frame *f, double lo, double hi, enum pm_face face, size_t cells)
 {
 	size_t n[3] = {cells, cells, 1};
 	snprintf(f->law, sizeof f->law, "vortex");
@@ -31,8 +20,7 @@ static inline int scene_plane(const struct pm_scene_choice *c, struct pm_frame *
 	return pm_frame_mesh_new(f, "mesh", n) ? 0 : -PM_DATA;
 }
 
-/* The set vortices: x, circulation, volume (of each) and id. */
-static inline int scene_vortices(struct pm_frame *f, uint64_t n, double volume, struct scene_vortices *v)
+int pm_scene_vortices(struct pm_frame *f, uint64_t n, double volume, struct pm_scene_vortices *v)
 {
 	const char *on = "vortices";
 	struct pm_set *set = pm_frame_set_new(f, on, n);
@@ -51,24 +39,23 @@ static inline int scene_vortices(struct pm_frame *f, uint64_t n, double volume, 
 	id->type = PM_I64;
 	if (pm_field_ready(x) || pm_field_ready(q) || pm_field_ready(id))
 		return -PM_DATA;
-	*v = (struct scene_vortices){.x = {pm_out(x, 0), pm_out(x, 1)}, .circulation = pm_out(q, 0)};
+	*v = (struct pm_scene_vortices){.x = {pm_out(x, 0), pm_out(x, 1)}, .circulation = pm_out(q, 0)};
 	for (uint64_t i = 0; i < n; i++)
 		pm_out_i64(id, 0)[i] = (int64_t)i;
 	return 0;
 }
 
-/* A vortex of circulation omega h_x h_y on every node of the mesh; omega up to `least` in magnitude and the margin along open faces stay empty. */
-static inline int scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene_choice *c, double x, double y),
+int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene_choice *c, double x, double y),
 	const struct pm_scene_choice *c, double least)
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
-	struct scene_vortices v = {0};
+	struct pm_scene_vortices v = {0};
 	size_t points[3], n = 0;
 	pm_mesh_points(f, m, points);
 	for (int fill = 0; fill < 2; fill++) {
-		if (fill && scene_vortices(f, n, m->h[0] * m->h[1], &v))
+		if (fill && pm_scene_vortices(f, n, m->h[0] * m->h[1], &v))
 			return -PM_DATA;
-		const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : SCENE_MARGIN;
+		const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 		n = 0;
 		for (size_t j = from; j + from < points[1]; j++)
 			for (size_t i = from; i + from < points[0]; i++) {
@@ -82,5 +69,3 @@ static inline int scene_vorticity(struct pm_frame *f, double (*omega)(const stru
 	}
 	return 0;
 }
-
-#endif

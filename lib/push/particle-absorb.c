@@ -1,0 +1,73 @@
+/* Particles that have crossed an absorbing face leave their set. Order is kept. Cost: one pass over every field of the set, and only where one has left.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "mesh/particle-faces.h"
+#include "push/push-set.h"
+#include "stream/declare.h"
+
+bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face)
+{
+	for (int a = 0; a < f->dim; a++)
+		if (f->pface[a][0] == face || f->pface[a][1] == face)
+			return true;
+	return false;
+}
+
+int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m)
+{
+	for (size_t i = 0, n = f->nfields; i < n; i++) {
+		struct pm_field *field = f->fields[i]; /* pm_changes moves a field to the end: look at the same place again */
+		if (strcmp(field->on, m->set->name) || field->uniform || field->use & (PM_USE_CHANGE | PM_USE_NEW))
+			continue;
+		if (!pm_changes(f, field->on, field->name))
+			return -PM_DATA;
+		i--, n--;
+	}
+	return 0;
+}
+
+static size_t mark(const struct pm_frame *f, const struct pm_moving *m, unsigned char *gone)
+{
+	size_t n = m->set->n, count = 0;
+	for (int a = 0; a < f->dim && a < m->x->components; a++) {
+		const bool side[2] = {f->pface[a][0] == PM_PABSORB, f->pface[a][1] == PM_PABSORB};
+		if (side[0] || side[1])
+			pm_particle_faces_absorb(n, f->lo[a], f->hi[a], side, pm_in(m->x, a), gone);
+	}
+	for (size_t i = 0; i < n; i++)
+		count += gone[i];
+	return count;
+}
+
+/* Moves the values whose gone is 0 to the front, in order; size bytes each. The number left. */
+static size_t compact(size_t n, const unsigned char *gone, size_t size, void *values)
+{
+	unsigned char *p = values;
+	size_t left = 0;
+	for (size_t i = 0; i < n; i++)
+		if (!gone[i]) {
+			if (left != i)
+				memcpy(p + left * size, p + i * size, size);
+			left++;
+		}
+	return left;
+}
+
+int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed)
+{
+	size_t n = m->set->n;
+	unsigned char *gone = pm_zalloc(n ? n : 1, 1);
+	if (!gone)
+		return -PM_DATA;
+	*absorbed = mark(f, m, gone);
+	for (size_t i = 0; i < f->nfields && *absorbed; i++) {
+		struct pm_field *field = f->fields[i];
+		unsigned char *bytes = strcmp(field->on, m->set->name) ? NULL : pm_field_bytes(field);
+		size_t size = field->type == PM_U8 ? 1 : 8;
+		for (int c = 0; bytes && c < field->components; c++)
+			compact(n, gone, size, bytes + (size_t)c * n * size);
+	}
+	pm_free(gone);
+	return *absorbed ? pm_frame_set_resize(f, m->set, n - *absorbed) : 0; /* which keeps the first values of every component */
+}

@@ -1,0 +1,105 @@
+/* The header's part of a push of one set: what is refused, the clock, the fields declared.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "push/push-set.h"
+#include "stream/declare.h"
+
+int pm_moving_components(const struct pm_rate *r)
+{
+	return r->rate->components < r->state->components ? r->rate->components : r->state->components;
+}
+
+static int declare_register(struct pm_frame *f, struct pm_moving *m, struct pm_rate *rate, int i)
+{
+	char name[PM_NAME];
+	pm_register_name(name, i, rate->state->name);
+	const struct pm_field *there = pm_frame_field(f, m->set->name, name);
+	bool known = i < m->pass.known;
+	if (known && !there)
+		return pm_fail(PM_DATA, "no register '%s' on '%s' after %d passes of %s (it is lost; start the step anew from a frame at substep 0)",
+			name, m->set->name, m->pass.pass, m->pass.step->name);
+	if (there && there->role != PM_REGISTER)
+		return pm_fail(PM_DATA, "'%s' on '%s' is in the way of the register of %s (rename it)", name, m->set->name, m->pass.step->name);
+	rate->q[i] = known ? pm_changes(f, m->set->name, name) : pm_makes(f, m->set->name, name, pm_moving_components(rate), PM_REGISTER);
+	if (rate->q[i] && rate->q[i]->components != pm_moving_components(rate))
+		return pm_fail(PM_DATA, "the register '%s' on '%s' has %d components, its rate %d", name, m->set->name, rate->q[i]->components,
+			pm_moving_components(rate));
+	return rate->q[i] ? 0 : -PM_DATA;
+}
+
+/* Registers of the set that this pass leaves behind: all but the first `kept` of each rate. */
+static void forget_registers(struct pm_frame *f, const struct pm_moving *m, int kept)
+{
+	for (size_t i = f->nfields; i-- > 0;) {
+		struct pm_field *q = f->fields[i];
+		bool keep = q->role != PM_REGISTER || strcmp(q->on, m->set->name);
+		for (int r = 0; r < m->n && !keep; r++)
+			for (int k = 0; k < kept && !keep; k++)
+				keep = m->rates[r].q[k] == q;
+		if (!keep)
+			pm_drops(f, q);
+	}
+}
+
+static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct pm_push *p)
+{
+	for (int r = 0; r < m->n; r++) {
+		if (!pm_changes(f, m->set->name, m->rates[r].state->name))
+			return -PM_DATA;
+		m->rates[r].rate->use |= PM_USE_READ;
+	}
+	if (m->v && p->moves && pm_moving_face(f, PM_PREFLECT) && !pm_changes(f, m->set->name, "v"))
+		return -PM_DATA;
+	for (int r = 0; r < m->n && p->scheme; r++)
+		for (int i = 0; i < m->pass.registers; i++)
+			if (declare_register(f, m, &m->rates[r], i))
+				return -PM_DATA;
+	forget_registers(f, m, p->scheme ? m->pass.kept : 0);
+	if (p->moves)
+		pm_drops_roles(f, m->set->name, 1u << PM_CHANGE | 1u << PM_DERIVED);
+	return p->moves && pm_moving_face(f, PM_PABSORB) ? pm_moving_shrinks(f, m) : 0;
+}
+
+/* What a magnetic kick reads besides acc. */
+static int declare_magnetic(struct pm_frame *f, struct pm_moving *m)
+{
+	const char *on = m->set->name;
+	m->closing = m->set->drift > 0;
+	if (!m->v || m->v->components < 2 || m->v->components > 3)
+		return pm_fail(PM_DATA, "boris turns velocities of 2 or 3 components, and '%s' has %d (pinit --velocities 3, or push kick/2 without a magnetic "
+			"field)", on, m->v ? m->v->components : 0);
+	if (!pm_frame_field(f, on, "bfield"))
+		return pm_fail(PM_MISSING, "no field 'bfield' on '%s' (m2p makes it of a B on the mesh; without a magnetic field: push kick/2)", on);
+	if (pm_frame_field(f, on, "bfield")->components != 3)
+		return pm_fail(PM_DATA, "'bfield' on '%s' has %d components, not 3", on, pm_frame_field(f, on, "bfield")->components);
+	if (!pm_frame_field(f, on, "charge") || !pm_frame_field(f, on, "mass"))
+		return pm_fail(PM_DATA, "no field '%s' on '%s', which the magnetic force needs (add it with stab --strength)",
+			pm_frame_field(f, on, "charge") ? "mass" : "charge", on);
+	m->b = pm_reads(f, on, "bfield");
+	m->charge = m->b ? pm_reads(f, on, "charge") : NULL;
+	m->mass = m->charge ? pm_reads(f, on, "mass") : NULL;
+	return m->mass ? 0 : -PM_DATA;
+}
+
+int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m)
+{
+	enum pm_step_kind kind = p->scheme || (p->kick > 0 && p->drift > 0) ? PM_SCHEME : p->kick > 0 ? PM_KICK : PM_DRIFT;
+	int status = pm_clock_allows(set, p->scheme, p->kick, p->drift);
+	*m = (struct pm_moving){.set = set, .x = pm_frame_field(f, set->name, "x"), .v = pm_frame_field(f, set->name, "v")};
+	if (!pm_rate_is_state(m->v))
+		m->v = NULL;
+	if (!status && p->magnetic)
+		status = declare_magnetic(f, m);
+	if (!status && kind != PM_DRIFT)
+		status = pm_rates_allowed(f, set, p->magnetic ? NULL : p->scheme ? p->scheme->name : "a plain kick");
+	if (!status)
+		status = pm_rates_complete(f, set);
+	if (!status)
+		status = m->n = pm_rates(f, set, kind, m->rates);
+	if (status >= 0 && kind != PM_DRIFT && !p->unsafe)
+		status = pm_rates_stable(f, m->rates, m->n, p->scheme);
+	if (status >= 0)
+		status = p->scheme ? pm_clock_pass(f, set, p->scheme, m->n, m->rates, &m->pass) : pm_clock_add(set, p->kick, p->drift, p->open);
+	return status < 0 ? status : declare_fields(f, m, p);
+}

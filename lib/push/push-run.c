@@ -1,0 +1,94 @@
+/* The data's part of a push of one set: velocities turned about a magnetic field, then every component advanced (state-advance.h).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "push/push-set.h"
+
+/* Component c of a rate as a line of the loops. */
+static struct pm_advanced line(const struct pm_moving *m, const struct pm_rate *r, int c)
+{
+	struct pm_advanced l = {.y = pm_out(r->state, c), .position = r->state == m->x};
+	l.k = r->rate->use & (PM_USE_CHANGE | PM_USE_NEW) ? pm_out(r->rate, c) : pm_in(r->rate, c);
+	for (int i = 0; i < PM_REGISTERS; i++)
+		l.q[i] = r->q[i] ? pm_out(r->q[i], c) : NULL;
+	return l;
+}
+
+/* The lines of component c; of: those of x and v (true), or all others. */
+static int lines_of(const struct pm_moving *m, int c, bool motion, struct pm_advanced lines[PM_RATES])
+{
+	int n = 0;
+	for (int r = 0; r < m->n; r++) {
+		const struct pm_rate *rate = &m->rates[r];
+		bool is_motion = rate->state == m->x || rate->state == m->v;
+		if (m->b && rate->state == m->v)
+			continue; /* turned before */
+		if (is_motion == motion && c < pm_moving_components(rate))
+			lines[n++] = line(m, rate, c);
+	}
+	return n;
+}
+
+static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
+{
+	return (struct pm_bounds){.lo = f->lo[axis], .hi = f->hi[axis], .fold = f->pface[axis][0] == PM_PFOLD,
+		.mirror = {f->pface[axis][0] == PM_PREFLECT, f->pface[axis][1] == PM_PREFLECT}};
+}
+
+/* Turns and kicks the velocities about bfield, all components of a particle together. */
+static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
+{
+	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
+	struct pm_magnetic a = {.charge = pm_in(m->charge, 0), .mass = pm_in(m->mass, 0)};
+	size_t n = m->set->n, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	for (int r = 0; r < m->n; r++)
+		acc = m->rates[r].state == m->v ? m->rates[r].rate : acc;
+	for (int c = 0; c < 3; c++) {
+		a.v[c] = c < m->v->components ? pm_out(m->v, c) : NULL;
+		a.acc[c] = c < acc->components ? pm_in(acc, c) : NULL;
+		a.b[c] = pm_in(m->b, c);
+	}
+	for (size_t i = 0; i < n && !a.v[2]; i++)
+		if (a.b[0][i] != 0 || a.b[1][i] != 0)
+			return pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in the plane turns them out of it "
+				"(give v 3 components)", m->set->name);
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t block = 0; block < blocks; block++) {
+		size_t i = block * PM_ADVANCE_BLOCK;
+		step->magnetic(m->closing, f->dt, i, n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK, &a);
+	}
+	return 0;
+}
+
+int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
+{
+	struct pm_advance a = p->actions;
+	bool finite = true;
+	int status = p->magnetic ? turn(f, m, p->magnetic) : 0;
+	for (int t = 0; t < a.actions; t++)
+		a.action[t].dt = f->dt * p->part[t];
+	if (p->scheme) {
+		int own = m->pass.registers - m->pass.step->registers; /* those the asked scheme keeps come first */
+		a.action[0].step = m->pass.step, a.action[0].pass = m->pass.pass;
+		a.shift = m->pass.shift ? own : 0;
+		a.registers = m->pass.step == p->scheme ? 0 : own;
+	}
+	for (int c = 0; c < PM_COMPONENTS && !status; c++) {
+		struct pm_advanced lines[PM_RATES];
+		struct pm_bounds b = bounds_of(f, c < f->dim ? c : 0);
+		bool faces = p->moves && c < f->dim && c < m->x->components;
+		int n = lines_of(m, c, true, lines);
+		double *v = faces && m->v && c < m->v->components && (b.mirror[0] || b.mirror[1]) ? pm_out(m->v, c) : NULL;
+		if (n)
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b);
+		n = lines_of(m, c, false, lines);
+		if (n)
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
+	}
+	for (int r = 0; r < m->n && finite; r++) /* else the library looks for the place */
+		if (!m->b || m->rates[r].state != m->v) {
+			m->rates[r].state->use |= PM_USE_SEEN;
+			for (int i = 0; i < PM_REGISTERS; i++)
+				if (m->rates[r].q[i])
+					m->rates[r].q[i]->use |= PM_USE_SEEN;
+		}
+	return status;
+}

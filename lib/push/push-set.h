@@ -1,0 +1,40 @@
+/* One set in one push: the fields it reads, changes, makes and drops (header), the run through the data, and absorption at the faces.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PUSH_SET_H
+#define PM_PUSH_SET_H
+
+#include "push/state-advance.h"
+#include "push/step-clock.h"
+
+/* What is asked of every set. */
+struct pm_push {
+	struct pm_advance actions;
+	double part[PM_ADVANCE_ACTIONS]; /* of dt, for each action */
+	double kick, drift;              /* sums of the parts */
+	const struct pm_step *scheme;    /* NULL: kicks and drifts */
+	const struct pm_step *magnetic;  /* the kick that turns v about bfield; NULL none */
+	bool open, moves, unsafe;        /* a kick is still to come after the drift; positions change; any step length */
+};
+
+struct pm_moving {
+	struct pm_set *set;
+	struct pm_field *x, *v; /* v NULL: none, or nobody changes it */
+	struct pm_field *b, *charge, *mass; /* of a magnetic kick */
+	bool closing;           /* the drift is done */
+	int n;
+	struct pm_rate rates[PM_RATES];
+	struct pm_pass pass;
+};
+
+bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face);
+int pm_moving_components(const struct pm_rate *r);
+/* Where particles may be absorbed every field that stays is rewritten, shorter. */
+int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
+/* The header's part: refuses what cannot be, moves the set's clock on, declares the fields. */
+int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
+/* The data's part, but for absorption. */
+int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
+/* Takes out the particles that have crossed an absorbing face; *absorbed of them. */
+int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed);
+
+#endif

@@ -1,0 +1,66 @@
+/* The loops of push, block by block (state-advance.h). Cost: the states, rates and registers once through memory.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "mesh/particle-faces.h"
+#include "push/state-advance.h"
+
+/* Lines of one axis, which is what a mirror changes together: x, v and their registers. */
+static void take_through_faces(size_t i, size_t n, const struct pm_bounds *b, double *x, double *v, int nlines, const struct pm_advanced *lines)
+{
+	if (b->fold)
+		pm_particle_faces_fold(n, b->lo, b->hi, x + i);
+	if (!b->mirror[0] && !b->mirror[1])
+		return;
+	double *w[1 + 2 * PM_REGISTERS] = {v ? v + i : NULL};
+	int nw = 1;
+	for (int l = 0; l < nlines; l++)
+		for (int r = 0; r < PM_REGISTERS; r++)
+			if (lines[l].q[r] && nw < (int)(sizeof w / sizeof *w))
+				w[nw++] = lines[l].q[r] + i;
+	pm_particle_faces_reflect(n, b->lo, b->hi, b->mirror, x + i, nw, w);
+}
+
+static bool applies(const struct pm_step *step, bool position)
+{
+	return step->kind == PM_SCHEME || (step->kind == PM_DRIFT) == position;
+}
+
+static void advance(size_t i, size_t n, const struct pm_advance *a, const struct pm_advanced *l)
+{
+	double *q[PM_REGISTERS];
+	for (int r = 0; r < PM_REGISTERS; r++)
+		q[r] = l->q[r] ? l->q[r] + i : NULL;
+	for (int t = 0; t < a->actions; t++)
+		if (applies(a->action[t].step, l->position))
+			a->action[t].step->pass(a->action[t].pass, a->action[t].dt, n, l->y + i, l->k + i, q + a->registers);
+	for (int r = a->shift - 1; r >= 0; r--)
+		memcpy(q[r], r ? q[r - 1] : l->k + i, n * sizeof *q[r]);
+}
+
+static bool all_finite(size_t i, size_t n, const struct pm_advanced *l)
+{
+	bool finite = pm_finite_few(n, l->y + i);
+	for (int r = 0; r < PM_REGISTERS; r++)
+		finite &= !l->q[r] || pm_finite_few(n, l->q[r] + i);
+	return finite;
+}
+
+bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
+	const struct pm_bounds *b)
+{
+	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;
+	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	int bad = 0;
+#pragma omp parallel for schedule(static) reduction(| : bad) if (n > 16384)
+	for (size_t block = 0; block < blocks; block++) {
+		size_t i = block * PM_ADVANCE_BLOCK, m = n - i < PM_ADVANCE_BLOCK ? n - i : PM_ADVANCE_BLOCK;
+		for (int l = 0; l < nlines; l++)
+			advance(i, m, a, lines + (kick_first ? nlines - 1 - l : l));
+		if (x && b)
+			take_through_faces(i, m, b, x, v, nlines, lines);
+		for (int l = 0; l < nlines; l++)
+			bad |= !all_finite(i, m, lines + l);
+	}
+	return !bad;
+}

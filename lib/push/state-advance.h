@@ -1,0 +1,42 @@
+/* The loops of push: blocks of particles that stay in cache, each advanced by every action of the push and then taken through the faces of the
+ * box, so that a push costs one pass through memory. Elementwise: the same bytes for any number of threads.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PUSH_STATE_ADVANCE_H
+#define PM_PUSH_STATE_ADVANCE_H
+
+#include "step/step.h"
+
+enum { PM_ADVANCE_BLOCK = 1024, PM_ADVANCE_ACTIONS = 16 };
+
+/* One component of one state, with its rate and registers; n values each. */
+struct pm_advanced {
+	double *y;
+	const double *k;
+	double *q[PM_REGISTERS]; /* NULL beyond those in use */
+	bool position;
+};
+
+/* What one push does to one group of lines. */
+struct pm_advance {
+	int actions;
+	struct {
+		const struct pm_step *step;
+		int pass;
+		double dt;
+	} action[PM_ADVANCE_ACTIONS];
+	int shift;     /* registers that remember rates: the newest goes to q[0]; 0 none */
+	int registers; /* of the scheme itself begin behind this many */
+};
+
+/* The faces an axis has for one set. */
+struct pm_bounds {
+	double lo, hi; /* [length] */
+	bool fold, mirror[2];
+};
+
+/* Advances n particles along one axis (or, with x NULL, states that belong to none). lines: positions first, because their rate is the velocity
+ * before this pass; but kicks go before drifts, and then the velocity is the new one. True if everything is finite afterwards. */
+bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
+	const struct pm_bounds *b);
+
+#endif

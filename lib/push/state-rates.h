@@ -1,0 +1,27 @@
+/* Which state fields of a set push advances, and by which rates: x' = v, or vel for a set without v; v' = acc; any other state by the change field
+ * that names it. Reads headers only. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_PUSH_STATE_RATES_H
+#define PM_PUSH_STATE_RATES_H
+
+#include "step/step.h"
+#include "stream/frame.h"
+
+enum { PM_RATES = 16 };
+
+struct pm_rate {
+	struct pm_field *state, *rate;
+	struct pm_field *q[PM_REGISTERS]; /* registers of a scheme; NULL outside */
+};
+
+bool pm_rate_is_state(const struct pm_field *field);
+/* What stands against advancing a set by its change fields: a magnetic field (by: the scheme that does not know it, NULL one that does), or a
+ * change on a mesh that was not carried to the particles. */
+int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by);
+/* Every change field must have found its state, or a contribution would be lost without a word. */
+int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s);
+/* The rates of a set, positions first; which of them: those a kick, a drift or a scheme advances. The number of them, or failure. */
+int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES]);
+/* Refuses a step beyond the limit of the scheme on the negative real axis (kicks: Euler's, 2) for a rate that says how fast it decays. */
+int pm_rates_stable(const struct pm_frame *f, const struct pm_rate *rates, int n, const struct pm_step *scheme);
+
+#endif

@@ -1,0 +1,17 @@
+/* The parameters of all scenes as one list, each name once: what pinit offers as options.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_SCENE_PARAMETERS_H
+#define PM_SCENE_PARAMETERS_H
+
+#include "scene/scene.h"
+
+enum { PM_SCENE_ROWS = 64 };
+
+/* Place of a name in rows[0..n-1], n if it is not there. */
+int pm_scene_row_at(const struct pm_scene_parameter *const *rows, int n, const char *name);
+/* The first row of every name, in the order of the table; how many. */
+int pm_scene_rows(const struct pm_scene_parameter *rows[PM_SCENE_ROWS]);
+/* "text (default: plummer 0.02, uniform 0.001)": which scenes have a parameter, with their defaults. */
+void pm_scene_row_text(const struct pm_scene_parameter *row, char *text, size_t bytes);
+
+#endif
