@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "measure/growth.h"
-#include "measure/diag-column.h"
+#include "measure/diag-table.h"
 #include "stage/stage.h"
 
 struct config {
@@ -16,14 +15,11 @@ struct config {
 	int mode;          /* of --growth; 0 none */
 	double from, to;   /* of --window; NAN not given */
 };
-enum { MOST = 2 * (PM_LIST_MOST + PM_COLUMNS + 2 * PM_COMPONENTS) };
 struct state {
 	FILE *out;
-	int n; /* columns, decided by the first frame; 0 before */
-	struct pm_series series; /* of --growth */
-	struct pm_diag_column column[MOST];
-	struct pm_diag_request gauge;
+	struct pm_diag_table table;
 };
+_Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
 
 /* mode:M and T0:T1. */
 static int take_growth(struct config *c)
@@ -42,16 +38,6 @@ static int take_growth(struct config *c)
 	return 0;
 }
 
-static void gauge_make(struct pm_diag_request *g, const struct config *c)
-{
-	*g = (struct pm_diag_request){.set = c->set, .pair = c->pair, .nradii = c->radii.n, .nmodes = c->modes.n};
-	memcpy(g->fraction, c->radii.x, sizeof g->fraction);
-	for (int k = 0; k < c->modes.n; k++)
-		g->mode[k] = (int)c->modes.x[k];
-	if (c->mode)
-		g->mode[g->nmodes++] = c->mode; /* the last is that of the growth */
-}
-
 static int begin(struct pm_stage *s)
 {
 	struct config *c = s->config;
@@ -61,92 +47,28 @@ static int begin(struct pm_stage *s)
 			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii.x[k]);
 	if (take_growth(c))
 		return -PM_USAGE;
-	gauge_make(&state->gauge, c);
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
 	state->out = c->tee ? fopen(c->tee, "w") : stdout;
+	const struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
+		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->mode, .window = c->window, .from = c->from, .to = c->to, .pair = c->pair, .exact = c->exact,
+		.json = !strcmp(c->format, "json")};
+	pm_diag_table_init(&state->table, &choice, state->out);
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&((struct state *)s->state)->gauge, f);
+	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&((struct state *)s->state)->table.request, f);
 }
 
-static void add(struct state *state, const struct config *c, const struct pm_frame *f, struct pm_diag_column column)
-{
-	const struct pm_scene *scene = c->exact ? pm_diag_scene(f) : NULL;
-	state->column[state->n++] = column;
-	if (scene && isfinite(scene->exact(f, column.name, f->time)))
-		state->column[state->n++] = pm_diag_exact(column.name);
-}
+static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_diag_table_row(&((struct state *)s->state)->table, f); }
 
-/* All columns that exist here, or those asked for in their order; radii and modes last. They stay the same over the stream. */
-static int decide(struct state *state, const struct config *c, const struct pm_frame *f)
-{
-	int vdim = 0;
-	const struct pm_measure how = pm_diag_how(&state->gauge, f);
-	if (c->exact && !pm_diag_scene(f))
-		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
-	for (size_t i = 0; i < f->nfields; i++)
-		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
-			vdim = f->fields[i]->components;
-	for (int k = 0; k < PM_COLUMNS && !c->columns.n; k++)
-		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, how.vortices, how.plasma))
-			add(state, c, f, pm_diag_column((enum pm_column)k));
-	for (int i = 0; i < c->columns.n; i++)
-		for (int k = 0; k < PM_COLUMNS; k++)
-			if (!strcmp(c->columns.item[i], pm_column_names[k]))
-				add(state, c, f, pm_diag_column((enum pm_column)k));
-	for (int k = 0; k < c->radii.n; k++)
-		add(state, c, f, pm_diag_radius(&state->gauge, k));
-	for (int k = 0; k < c->modes.n; k++)
-		add(state, c, f, pm_diag_mode(&state->gauge, k));
-	return 0;
-}
-
-static int frame(struct pm_stage *s, struct pm_frame *f)
-{
-	const struct config *c = s->config;
-	struct state *state = s->state;
-	struct pm_measures m;
-	const bool json = !strcmp(c->format, "json"), first = !state->n;
-	const struct pm_measure how = pm_diag_how(&state->gauge, f);
-	if ((first && decide(state, c, f)) || pm_measure_frame(&how, f, &m) ||
-		(c->mode && pm_series_add(&state->series, f->time, m.mode[how.nmodes - 1])))
-		return -PM_DATA;
-	for (int i = 0; i < state->n && first && !json; i++)
-		fprintf(state->out, "%s%c", state->column[i].name, i + 1 < state->n ? '\t' : '\n');
-	for (int i = 0; i < state->n; i++) {
-		const double x = pm_diag_value(&state->column[i], &m, f);
-		if (json)
-			fprintf(state->out, "%c\"%s\":", i ? ',' : '{', state->column[i].name);
-		fprintf(state->out, isfinite(x) ? "%.17g" : json ? "null" : "nan", x);
-		fputs(i + 1 < state->n ? json ? "" : "\t" : json ? "}\n" : "\n", state->out);
-	}
-	return fflush(state->out) ? pm_fail_errno("cannot write the table") : 0;
-}
-
-/* One line behind the table. */
-static int end(struct pm_stage *s)
-{
-	const struct config *c = s->config;
-	struct state *state = s->state;
-	const bool json = !strcmp(c->format, "json");
-	if (!c->mode)
-		return 0;
-	const struct pm_growth g = pm_growth_of(&state->series, c->from, c->to);
-	if (!isfinite(g.gamma))
-		return pm_fail(PM_DATA, "%zu points of mode %d%s%s are too few for a growth rate (more frames: cycle --every, or another --window)", g.points, c->mode,
-			c->window ? " in the window " : "", c->window ? c->window : "");
-	fprintf(state->out, json ? "{\"growth\":\"mode:%d\",\"gamma\":%.9g,\"omega\":%.9g,\"from\":%.9g,\"to\":%.9g,\"points\":%zu}\n"
-		: "# mode:%d gamma %.9g omega %.9g, from t = %.9g to %.9g, %zu points\n", c->mode, g.gamma, g.omega, g.from, g.to, g.points);
-	return fflush(state->out) ? pm_fail_errno("cannot write the table") : 0;
-}
+static int end(struct pm_stage *s) { return pm_diag_table_end(&((struct state *)s->state)->table); }
 
 static void release(struct pm_stage *s)
 {
 	struct state *state = s->state;
-	pm_series_release(&state->series);
+	pm_diag_table_clear(&state->table);
 	if (state->out && state->out != stdout)
 		fclose(state->out);
 }

@@ -1,11 +1,9 @@
-/* sel: selects frames, sets, meshes, fields, and particles by an expression. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
+/* sel: selects frames, sets, meshes, fields, and particles by an expression (lib/expression/selection.c).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include <string.h>
 
-#include "expression/expression.h"
+#include "expression/selection.h"
 #include "stage/stage.h"
-#include "stream/join.h"
 
 struct config {
 	struct pm_list frames, sets, meshes, fields, drop;
@@ -69,120 +67,30 @@ static bool frame_chosen(const struct config *c, const struct pm_frame *f, uint6
 	return in && f->step % c->every == 0;
 }
 
-static bool listed(const struct pm_list *list, const struct pm_field *p)
+static struct pm_selection selection_of(const struct config *c)
 {
-	char full[2 * PM_NAME];
-	snprintf(full, sizeof full, "%s/%s", p->on, p->name);
-	for (int i = 0; i < list->n; i++)
-		if (!strcmp(list->item[i], p->name) || !strcmp(list->item[i], full))
-			return true;
-	return false;
-}
-
-static bool named(const struct pm_list *list, const char *name)
-{
-	for (int i = 0; i < list->n; i++)
-		if (!strcmp(list->item[i], name))
-			return true;
-	return false;
-}
-
-/* Every word of a list stands for something that is there. */
-static int all_there(const struct pm_frame *f, const struct pm_list *list, const char *option, bool sets, bool meshes, bool fields)
-{
-	for (int i = 0; i < list->n; i++) {
-		const struct pm_list one = {.item = {list->item[i]}, .n = 1};
-		bool there = (sets && pm_frame_set(f, list->item[i])) || (meshes && pm_frame_mesh(f, list->item[i]));
-		for (size_t k = 0; fields && k < f->nfields; k++)
-			there |= listed(&one, f->fields[k]);
-		if (!there)
-			return pm_fail(PM_DATA, "--%s: there is no '%s' (sls lists what there is)", option, list->item[i]);
-	}
-	return 0;
-}
-
-/* Sets, meshes and fields that were not chosen go. */
-static void leave_out(const struct config *c, struct pm_frame *f)
-{
-	for (size_t i = f->nsets; i-- > 0;)
-		if ((c->sets.n && !named(&c->sets, f->sets[i]->name)) || named(&c->drop, f->sets[i]->name))
-			pm_frame_remove(f, f->sets[i]->name);
-	for (size_t i = f->nmeshes; i-- > 0;)
-		if ((c->meshes.n && !named(&c->meshes, f->meshes[i]->name)) || named(&c->drop, f->meshes[i]->name))
-			pm_frame_remove(f, f->meshes[i]->name);
-	for (size_t i = f->nfields; i-- > 0;)
-		if ((c->fields.n && !listed(&c->fields, f->fields[i])) || listed(&c->drop, f->fields[i]))
-			pm_drops(f, f->fields[i]);
+	return (struct pm_selection){.sets = {c->sets.item, c->sets.n}, .meshes = {c->meshes.item, c->meshes.n}, .fields = {c->fields.item, c->fields.n},
+		.drop = {c->drop.item, c->drop.n}, .where = c->where};
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
-	struct pm_expression e;
-	int status;
+	const struct pm_selection selection = selection_of(c);
 	st->frame += !s->trial;
 	if (!frame_chosen(c, f, st->frame + s->trial))
 		return PM_SKIP;
-	if ((status = all_there(f, &c->sets, "set", true, false, false)) || (status = all_there(f, &c->meshes, "mesh", false, true, false)) ||
-		(status = all_there(f, &c->fields, "field", false, false, true)) || (status = all_there(f, &c->drop, "drop", true, true, true)))
-		return status;
-	if (c->where && !f->nsets)
-		return pm_fail(PM_DATA, "no particles for --where to choose from");
-	for (size_t i = 0; c->where && i < f->nsets; i++) {
-		const char *on = f->sets[i]->name;
-		if ((c->sets.n && !named(&c->sets, on)) || named(&c->drop, on))
-			continue;
-		if ((status = pm_expression_compile(&e, f, on, c->where)))
-			return status;
-		for (size_t k = 0, n = f->nfields; k < n;) { /* pm_changes moves a field to the end of the list */
-			struct pm_field *p = f->fields[k];
-			if (strcmp(p->on, on) || p->uniform || p->use & PM_USE_CHANGE) {
-				k++;
-				continue;
-			}
-			p->use |= p->use & PM_USE_READ ? 0 : PM_USE_ANY; /* what the expression does not ask for may be anything */
-			pm_changes(f, on, p->name), n--;
-		}
-	}
-	if (!c->where)
-		leave_out(c, f);
-	return c->where || c->last ? PM_HOLD : 0;
-}
-
-static int select_particles(const struct config *c, struct pm_frame *f, struct pm_set *set)
-{
-	struct pm_expression e;
-	size_t n = set->n;
-	double *y = pm_alloc(n ? n : 1, sizeof *y);
-	unsigned char *keep = (unsigned char *)y;
-	int status = y ? pm_expression_compile(&e, f, set->name, c->where) : -PM_DATA;
-	if (!status) {
-		pm_expression_eval(&e, f, 0, n, y);
-		for (size_t i = 0; i < n && !status; i++) {
-			double v = y[i]; /* the byte overwrites numbers that have been looked at */
-			keep[i] = v != 0;
-			if (isnan(v))
-				status = pm_fail(PM_NUMERICS, "--where is not a number for the particle at index %zu of '%s'", i, set->name);
-		}
-	}
-	if (!status)
-		status = pm_frame_select(f, set, keep);
-	pm_free(y);
-	return status;
+	int status = pm_selection_declare(&selection, f);
+	return status ? status : c->where || c->last ? PM_HOLD : 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
-	int status = 0;
-	if (c->where) {
-		for (size_t i = 0; i < f->nsets && !status; i++)
-			if ((!c->sets.n || named(&c->sets, f->sets[i]->name)) && !named(&c->drop, f->sets[i]->name))
-				status = select_particles(c, f, f->sets[i]);
-		leave_out(c, f);
-	}
+	const struct pm_selection selection = selection_of(c);
+	int status = c->where ? pm_selection_apply(&selection, f) : 0;
 	if (status || !c->last)
 		return status;
 	pm_frame_free(st->kept);

@@ -1,0 +1,122 @@
+/* A frame without the sets, meshes, fields and particles that were not chosen. Cost: with an expression one evaluation and one copy of the particles.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "expression/expression.h"
+#include "expression/selection.h"
+#include "stream/declare.h"
+#include "stream/join.h"
+
+static bool listed(const struct pm_names *list, const struct pm_field *p)
+{
+	char full[2 * PM_NAME];
+	snprintf(full, sizeof full, "%s/%s", p->on, p->name);
+	for (int i = 0; i < list->n; i++)
+		if (!strcmp(list->name[i], p->name) || !strcmp(list->name[i], full))
+			return true;
+	return false;
+}
+
+static bool named(const struct pm_names *list, const char *name)
+{
+	for (int i = 0; i < list->n; i++)
+		if (!strcmp(list->name[i], name))
+			return true;
+	return false;
+}
+
+/* Every word of a list stands for something that is there. */
+static int all_there(const struct pm_frame *f, const struct pm_names *list, const char *option, bool sets, bool meshes, bool fields)
+{
+	for (int i = 0; i < list->n; i++) {
+		const struct pm_names one = {.name = &list->name[i], .n = 1};
+		bool there = (sets && pm_frame_set(f, list->name[i])) || (meshes && pm_frame_mesh(f, list->name[i]));
+		for (size_t k = 0; fields && k < f->nfields; k++)
+			there |= listed(&one, f->fields[k]);
+		if (!there)
+			return pm_fail(PM_DATA, "--%s: there is no '%s' (sls lists what there is)", option, list->name[i]);
+	}
+	return 0;
+}
+
+/* Sets, meshes and fields that were not chosen go. */
+static void leave_out(const struct pm_selection *s, struct pm_frame *f)
+{
+	for (size_t i = f->nsets; i-- > 0;)
+		if ((s->sets.n && !named(&s->sets, f->sets[i]->name)) || named(&s->drop, f->sets[i]->name))
+			pm_frame_remove(f, f->sets[i]->name);
+	for (size_t i = f->nmeshes; i-- > 0;)
+		if ((s->meshes.n && !named(&s->meshes, f->meshes[i]->name)) || named(&s->drop, f->meshes[i]->name))
+			pm_frame_remove(f, f->meshes[i]->name);
+	for (size_t i = f->nfields; i-- > 0;)
+		if ((s->fields.n && !listed(&s->fields, f->fields[i])) || listed(&s->drop, f->fields[i]))
+			pm_drops(f, f->fields[i]);
+}
+
+static bool takes_part(const struct pm_selection *s, const char *set) { return (!s->sets.n || named(&s->sets, set)) && !named(&s->drop, set); }
+
+/* All fields of the set follow; what the expression does not ask for may be anything. */
+static int declare_where(const struct pm_selection *s, struct pm_frame *f, const char *on)
+{
+	struct pm_expression e;
+	int status = pm_expression_compile(&e, f, on, s->where);
+	for (size_t k = 0, n = f->nfields; k < n && !status;) { /* pm_changes moves a field to the end of the list */
+		struct pm_field *p = f->fields[k];
+		if (strcmp(p->on, on) || p->uniform || p->use & PM_USE_CHANGE) {
+			k++;
+			continue;
+		}
+		p->use |= p->use & PM_USE_READ ? 0 : PM_USE_ANY;
+		pm_changes(f, on, p->name), n--;
+	}
+	return status;
+}
+
+int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
+{
+	int status;
+	if ((status = all_there(f, &s->sets, "set", true, false, false)) || (status = all_there(f, &s->meshes, "mesh", false, true, false)) ||
+		(status = all_there(f, &s->fields, "field", false, false, true)) || (status = all_there(f, &s->drop, "drop", true, true, true)))
+		return status;
+	if (s->where && !f->nsets)
+		return pm_fail(PM_DATA, "no particles for --where to choose from");
+	for (size_t i = 0; s->where && i < f->nsets && !status; i++)
+		if (takes_part(s, f->sets[i]->name))
+			status = declare_where(s, f, f->sets[i]->name);
+	if (!s->where)
+		leave_out(s, f);
+	return status;
+}
+
+static int select_particles(const struct pm_selection *s, struct pm_frame *f, struct pm_set *set)
+{
+	struct pm_expression e;
+	size_t n = set->n;
+	double *y = pm_alloc(n ? n : 1, sizeof *y);
+	unsigned char *keep = (unsigned char *)y;
+	int status = y ? pm_expression_compile(&e, f, set->name, s->where) : -PM_DATA;
+	if (!status) {
+		pm_expression_eval(&e, f, 0, n, y);
+		for (size_t i = 0; i < n && !status; i++) {
+			double v = y[i]; /* the byte overwrites numbers that have been looked at */
+			keep[i] = v != 0;
+			if (isnan(v))
+				status = pm_fail(PM_NUMERICS, "--where is not a number for the particle at index %zu of '%s'", i, set->name);
+		}
+	}
+	if (!status)
+		status = pm_frame_select(f, set, keep);
+	pm_free(y);
+	return status;
+}
+
+int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t i = 0; i < f->nsets && !status; i++)
+		if (takes_part(s, f->sets[i]->name))
+			status = select_particles(s, f, f->sets[i]);
+	leave_out(s, f);
+	return status;
+}

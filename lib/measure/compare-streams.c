@@ -1,0 +1,122 @@
+/* Two streams compared frame by frame and field by field: norms of the difference as a table, particles matched by id. Holds one frame of each.
+ * Cost: one pass over the data, and a sort of the ids. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "measure/compare-streams.h"
+#include "measure/norms.h"
+
+const char *const pm_norm_names[] = {"l1", "l2", "max", "relative_l2", "relative_max", NULL};
+
+/* Where the difference is largest, in words. */
+static void place(const struct pm_frame *f, const struct pm_field *a, bool id, size_t worst, char out[64])
+{
+	size_t points[3];
+	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
+	if (m) {
+		pm_mesh_points(f, m, points);
+		snprintf(out, 64, "%zu,%zu,%zu", worst % points[0], worst / points[0] % points[1], worst / points[0] / points[1]);
+	} else if (id && a->count)
+		snprintf(out, 64, "%lld", (long long)pm_in_i64(pm_frame_field(f, a->on, "id"), 0)[worst]);
+	else
+		snprintf(out, 64, "%zu", worst);
+}
+
+static void words(struct pm_comparison *c)
+{
+	if (!c->begun)
+		fputs("frame\ton\tfield\tn\tl1\tl2\tmax\trelative_l2\trelative_max\tworst\n", c->out);
+	c->begun = true;
+}
+
+static void row(struct pm_comparison *c, const char *on, const char *name, size_t n, const struct pm_norms *d, const char *at)
+{
+	const double all[] = {d->l1, d->l2, d->max, d->relative_l2, d->relative_max};
+	words(c);
+	fprintf(c->out, "%llu\t%s\t%s\t%zu", (unsigned long long)c->frame, on, name, n);
+	for (int i = 0; pm_norm_names[i]; i++) {
+		fprintf(c->out, "\t%.10g", all[i]);
+		if (i == c->norm && !(all[i] <= c->tolerance) && !isnan(c->tolerance) && !c->over) {
+			pm_fail(PM_DATA, "frame %llu: '%s' on '%s': %s is %.4g, above %g", (unsigned long long)c->frame, name, on, pm_norm_names[i], all[i], c->tolerance);
+			c->over = true;
+		}
+	}
+	fprintf(c->out, "\t%s\n", at);
+}
+
+static int field_row(struct pm_comparison *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b)
+{
+	char at[64];
+	size_t *match = NULL, *work = NULL;
+	double *weight = NULL;
+	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
+	bool id = pm_field_pairs_by_id(&c->choice, f, g, a->on);
+	int status = 0;
+	if (m && !(weight = pm_field_pairs_weights(f, m)))
+		status = -PM_DATA;
+	if (id && a->count) {
+		match = pm_alloc(a->count, sizeof *match), work = pm_alloc(a->count, sizeof *work);
+		status = match && work ? pm_norms_match(a->count, pm_in_i64(pm_frame_field(f, a->on, "id"), 0), pm_in_i64(pm_frame_field(g, a->on, "id"), 0), match, work)
+				       : -PM_DATA;
+	}
+	if (!status) {
+		struct pm_norms d = pm_norms_of(a, b, match, weight);
+		place(f, a, id, d.worst, at);
+		row(c, a->on, a->name, a->count, &d, at);
+	}
+	pm_free(match), pm_free(work), pm_free(weight);
+	return status;
+}
+
+static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *f[2])
+{
+	struct pm_field_pairs p;
+	int status = pm_field_pairs_of(&c->choice, f[0], f[1], &p);
+	for (int i = 0; i < 2 && !status; i++)
+		status = pm_read_declared(r[i], f[i]);
+	if (!status && !c->choice.fields[0] && !c->choice.on[0]) {
+		double dt = fabs(f[0]->time - f[1]->time), relative = dt == 0 ? 0 : dt / fabs(f[1]->time);
+		struct pm_norms d = {dt, dt, dt, relative, relative, 0};
+		row(c, "-", "time", 1, &d, "-");
+	}
+	for (int i = 0; i < p.n && !status; i++)
+		status = field_row(c, f[0], f[1], p.a[i], p.b[i]);
+	return status;
+}
+
+/* The next frame, over the ends of streams that follow each other; 0 at the end of the input. */
+static int next(struct pm_reader *r, struct pm_frame **f)
+{
+	int got;
+	do
+		got = pm_read_header(r, f);
+	while (got == PM_GOT_END);
+	return got;
+}
+
+/* The failure again, with the place in front. */
+static int at_frame(const struct pm_comparison *c, const char *stream, int status)
+{
+	char why[1024];
+	snprintf(why, sizeof why, "%s", pm_message());
+	return pm_fail(-status, "frame %llu%s%s: %s", (unsigned long long)c->frame, *stream ? " of " : "", stream, why);
+}
+
+int pm_compare_streams(struct pm_comparison *c, struct pm_reader *const r[2], const char *const name[2])
+{
+	int status = 0, got[2] = {1, 1};
+	while (!status && got[0] && got[1]) {
+		struct pm_frame *f[2] = {NULL, NULL};
+		c->frame++;
+		for (int i = 0; i < 2 && !status; i++)
+			if ((got[i] = next(r[i], &f[i])) < 0)
+				status = at_frame(c, name[i], got[i]);
+		if (!status && got[0] != got[1])
+			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", name[got[0] != 0], (unsigned long long)c->frame - 1, name[got[0] == 0]);
+		if (!status && got[0] && (status = compare(c, r, f)))
+			status = at_frame(c, "", status);
+		pm_frame_free(f[0]), pm_frame_free(f[1]);
+	}
+	if (!status)
+		words(c);
+	return status ? status : c->over ? -PM_DATA : 0;
+}

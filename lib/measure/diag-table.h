@@ -1,0 +1,39 @@
+/* The table that diag prints: a row of numbers a frame. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MEASURE_DIAG_TABLE_H
+#define PM_MEASURE_DIAG_TABLE_H
+
+#include <stdio.h>
+
+#include "measure/diag-column.h"
+#include "measure/growth.h"
+
+enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS) };
+
+struct pm_diag_choice {
+	const char *set;                                /* this set alone; NULL all */
+	const char *const *columns;                     /* names, PM_DIAG_ASKED at most */
+	int ncolumns;                                   /* 0: all that exist here */
+	const double *radii, *modes;                    /* fractions of the mass; waves along x */
+	int nradii, nmodes;                             /* PM_COMPONENTS at most, the mode of the growth included */
+	int growth;                                     /* the mode whose growth is fitted; 0 none */
+	const char *window;                             /* as typed, for messages; NULL none */
+	double from, to;                                /* [time] of the fit; NAN: chosen */
+	bool pair, exact, json;
+};
+
+struct pm_diag_table {
+	struct pm_diag_choice choice;
+	FILE *out;
+	int n; /* columns, decided by the first frame; 0 before */
+	struct pm_diag_column column[PM_DIAG_WIDEST];
+	struct pm_diag_request request;
+	struct pm_series series; /* of the growth */
+};
+
+void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
+/* 0 or failure. The first row brings the line of names; end brings the line of the growth. */
+int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
+int pm_diag_table_end(struct pm_diag_table *t);
+void pm_diag_table_clear(struct pm_diag_table *t);
+
+#endif

@@ -1,0 +1,193 @@
+/* out_p += factor_p sum over points of W((x_p - x_i)/h) field_i for the sets of a frame, the transpose of the spread. The factor is 1, strength/per of the
+ * law (charge/mass), or the volume where the target is a strength. Four things go along: images at walls by what the field is (a gradient, a
+ * curl, given), changes of the mesh carried over (mesh-changes.c), a field on two interlaced meshes, a magnetic field (magnetic-field.c).
+ * Cost: one gather of all components. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "stream/declare.h"
+#include "transfer/gather-frame.h"
+#include "transfer/magnetic-field.h"
+
+/* The mesh that has the field, or the words that make it. */
+static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_gather_job *j)
+{
+	const struct pm_law *law = j->law;
+	const char *words = "";
+	for (size_t i = 0; i < f->nmeshes && !j->field; i++)
+		if (!mesh || !strcmp(mesh, f->meshes[i]->name)) {
+			j->mesh = f->meshes[i];
+			j->field = pm_frame_field(f, j->mesh->name, j->name);
+		}
+	if (!j->mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", mesh ? " " : "", mesh ? mesh : "");
+	if (law->field && !strcmp(j->name, law->field))
+		words = " (run p2m | poisson-fft | mgrad first)";
+	else if (law->potential && !strcmp(j->name, law->potential))
+		words = " (run p2m | poisson-fft first)";
+	else if (law->density && !strcmp(j->name, law->density))
+		words = " (run p2m first)";
+	return j->field ? 0 : pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, mesh ? mesh : j->mesh->name, words);
+}
+
+/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. What is given has
+ * the same values on both sides of any face. */
+static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfer *t)
+{
+	if (j->field->role == PM_STATE) {
+		pm_grid_even(&t->grid);
+		return;
+	}
+	bool law = j->law->field && !strcmp(j->name, j->law->field), curl = law && j->law->of_potential == PM_CURL;
+	for (int c = 0; c < t->components && t->components == dim; c++)
+		if (curl && dim == 2)
+			t->flip[c][1 - c] = 1;
+		else if (!curl && (law || dim > 1))
+			t->flip[c][c] = 1;
+}
+
+int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
+{
+	*j = (struct pm_gather_job){.choice = *choice, .law = pm_law_of(f)};
+	if (!j->law)
+		return -PM_DATA;
+	j->name = choice->field ? choice->field : j->law->field;
+	if (!j->name)
+		return pm_fail(PM_DATA, "the law '%s' takes nothing from a mesh (choose a field with --field NAME)", f->law);
+	int status = choose_field(choice->mesh, f, j);
+	/* A set takes the law's field if it has what that moves, any other field if it has positions. */
+	const char *const law[] = {"x", j->law->of, j->law->per, j->law->per ? j->law->strength : NULL, NULL}, *const any[] = {"x", NULL};
+	if (!status)
+		status = pm_sets_choose(f, choice->set, choice->field ? any : law, "stab reads it from a table", &j->sets);
+	if (status)
+		return status;
+	j->interlaced = j->field->interlaced && !choice->kernel && j->field->role != PM_STATE;
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_choose(choice->kernel, j->field, j->law, "cic"),
+		.components = j->field->components};
+	if (!j->transfer.kernel)
+		return -PM_DATA;
+	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
+	set_images(j, f->dim, &j->transfer);
+	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
+}
+
+/* A set takes the law's field, and with it the changes on the mesh and the magnetic field. */
+static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const char *set)
+{
+	const bool replace = j->choice.replace;
+	if (j->law->per && (!pm_reads(f, set, j->law->strength) || !pm_reads(f, set, j->law->per)))
+		return -PM_DATA;
+	struct pm_field *target = pm_contributes(f, set, j->law->change, j->law->of, j->field->components,
+		j->field->role == PM_STATE ? "external" : "self", replace);
+	if (!target)
+		return -PM_DATA;
+	if (target->use & PM_USE_NEW)
+		target->use |= PM_USE_FILL;
+	int status = pm_mesh_changes_declare(f, set, j->mesh, replace);
+	return status || !j->law->magnetic ? status : pm_bfield_plan(f, set, j->mesh, j->law->magnetic, replace);
+}
+
+static int declare_field(const struct pm_gather_job *j, struct pm_frame *f, const char *set)
+{
+	struct pm_field *target = pm_makes_gathered(f, set, j->field);
+	if (target && target->use & PM_USE_NEW)
+		target->use |= PM_USE_FILL;
+	return target ? 0 : -PM_DATA;
+}
+
+int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
+{
+	int status = pm_reads(f, j->mesh->name, j->name) ? 0 : -PM_DATA;
+	for (size_t i = 0; i < j->sets.n && !status; i++) {
+		status = pm_reads_positions(f, j->sets.name[i]);
+		if (!status)
+			status = j->choice.field ? declare_field(j, f, j->sets.name[i]) : declare_law(j, f, j->sets.name[i]);
+	}
+	return status;
+}
+
+/* The field on both of its meshes. */
+static int interlace(struct pm_gather_job *j, struct pm_fft_plans *plans)
+{
+	const double *mesh[PM_COMPONENTS];
+	int effort = pm_fft_effort_find(NULL);
+	if (effort < 0)
+		return -PM_USAGE;
+	plans->effort = (enum pm_fft_effort)effort;
+	for (int c = 0; c < j->field->components; c++)
+		mesh[c] = pm_in(j->field, c);
+	return pm_interlace_init(&j->both, &j->transfer, plans, mesh);
+}
+
+int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans)
+{
+	int status = j->choice.field ? 0 : pm_mesh_changes_init(&j->changes, f, &j->sets, j->mesh, &j->transfer);
+	return status || !j->interlaced ? status : interlace(j, plans);
+}
+
+/* What is gathered to one set. */
+struct arrays {
+	struct pm_transfer t;
+	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
+	double *out[PM_COMPONENTS];
+	size_t n;
+};
+
+static struct arrays arrays_of(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_field *target, const double *ratio)
+{
+	struct arrays a = {.t = j->transfer, .n = target->count};
+	const double *volume = j->choice.field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
+	pm_positions(f, set, a.x);
+	a.t.kept = &pm_frame_field(f, set, "x")->note;
+	for (int c = 0; c < a.t.components; c++) {
+		a.t.set[c] = target->use & PM_USE_FILL;
+		a.mesh[c] = pm_in(j->field, c);
+		a.out[c] = pm_out(target, c);
+		a.factor[c] = volume ? volume : ratio;
+	}
+	return a;
+}
+
+/* The field and the changes in one gather; a field that is given before them, because its images are not theirs. */
+static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct arrays *a, struct pm_strays *strays)
+{
+	int status = 0;
+	if (j->field->role == PM_STATE) {
+		status = pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+		a->t.components = 0;
+		a->t.grid = pm_grid_of(f, j->mesh);
+	}
+	if (!status)
+		status = pm_mesh_changes_append(&j->changes, f, set, &a->t, a->mesh, a->factor, a->out);
+	if (status || !a->t.components)
+		return status;
+	if (j->interlaced && a->t.components > j->transfer.components)
+		return pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
+	return j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
+			     : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+}
+
+int pm_gather_set(const struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)
+{
+	const bool law = !j->choice.field;
+	struct pm_field *target = pm_frame_field(f, set, law ? j->law->change : j->choice.field);
+	struct pm_strays strays = {.count = 0};
+	double *ratio = NULL;
+	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
+	struct arrays a = arrays_of(j, f, set, target, ratio);
+	if (!status)
+		status = gather(j, f, set, &a, &strays);
+	pm_free(ratio);
+	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
+	if (!status && law && j->law->magnetic)
+		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
+	if (!status && strays.count && !j->choice.drop)
+		status = pm_strays_refuse(&strays, set, j->mesh, &a.t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
+	*dropped = strays.count;
+	return status;
+}
+
+void pm_gather_free(struct pm_gather_job *j)
+{
+	pm_mesh_changes_free(&j->changes);
+	pm_interlace_free(&j->both);
+}

@@ -1,0 +1,89 @@
+/* density_i = sum over the sets and their particles of strength_p W((x_p - x_i)/h) / (volume of a cell), on one mesh or on two interlaced ones, plus the law's
+ * uniform background (the ions of a plasma of electrons). Cost: one spread a set. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "stream/declare.h"
+#include "transfer/spread-frame.h"
+
+int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_frame *f, struct pm_spread_job *j)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	*j = (struct pm_spread_job){.choice = *choice, .law = law, .kernel = pm_kernel_choose(choice->kernel, NULL, law, "cic"),
+		.strength = choice->strength ? choice->strength : law->strength,
+		.density = choice->field ? choice->field : law->density ? law->density : "rho", .mesh = pm_frame_mesh(f, choice->mesh)};
+	if (!j->kernel)
+		return -PM_DATA;
+	if (!j->strength)
+		return pm_fail(PM_DATA, "the law '%s' puts nothing on a mesh (choose a field with --strength FIELD)", f->law);
+	if (!j->mesh && !choice->cells)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
+	return pm_sets_choose(f, choice->set, (const char *const[]){j->strength, NULL},
+		"add it with stab --strength, or choose another with --strength FIELD", &j->sets);
+}
+
+static struct pm_transfer transfer_of(const struct pm_spread_job *j, const struct pm_frame *f)
+{
+	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
+	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+	for (int c = 0; c < components && c < f->dim && components > 1; c++)
+		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
+	return t;
+}
+
+static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool add)
+{
+	struct pm_transfer t = transfer_of(j, f);
+	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets, .strength = j->strength};
+	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
+	return status ? status : pm_makes_density(f, j->mesh, &density, add);
+}
+
+int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t i = 0; i < j->sets.n && !status; i++)
+		if (!(status = pm_reads_positions(f, j->sets.name[i])))
+			status = pm_reads_strength(f, j->sets.name[i], j->strength);
+	return status ? status : makes_density(j, f, j->choice.add);
+}
+
+int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f)
+{
+	struct pm_transfer t = transfer_of(j, f);
+	int status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
+	if (status == 1 && j->choice.add)
+		return pm_fail(PM_DATA, "mesh '%s' would have to grow under --add (let the first p2m grow it)", j->mesh->name);
+	if (status == 1)
+		status = makes_density(j, f, false);
+	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
+}
+
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *dropped)
+{
+	struct pm_transfer t = transfer_of(j, f);
+	const size_t n = pm_frame_set(f, set)->n;
+	const double *x[3], *q[PM_COMPONENTS];
+	double *mesh[PM_COMPONENTS], *made = NULL;
+	struct pm_strays strays = {.count = 0};
+	pm_positions(f, set, x);
+	t.kept = &pm_frame_field(f, set, "x")->note;
+	for (int c = 0; c < t.components; c++)
+		mesh[c] = pm_out(pm_frame_field(f, j->mesh->name, j->density), c);
+	int status = pm_strengths(f, set, j->strength, q, &made);
+	if (!status)
+		status = j->choice.interlace ? pm_interlace_spread(&t, plans, n, x, q, mesh, &strays) : pm_spread(&t, n, x, q, mesh, &strays);
+	pm_free(made);
+	if (!status && strays.count && !j->choice.drop)
+		status = pm_strays_refuse(&strays, set, j->mesh, &t, "a larger box, or --outside grow or drop");
+	*dropped = strays.count;
+	return status;
+}
+
+void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)
+{
+	struct pm_field *density = pm_frame_field(f, j->mesh->name, j->density);
+	const bool own = !j->choice.add && !j->choice.strength && !j->choice.field; /* once in every density that is made anew */
+	const double background = own && j->law->background ? pm_frame_constant(f, j->law->background, 0) : 0;
+	for (size_t i = 0; i < density->count && background != 0; i++)
+		pm_out(density, 0)[i] += background;
+}

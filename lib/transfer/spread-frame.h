@@ -1,0 +1,34 @@
+/* The strengths of a frame's sets spread to a density on a mesh: what p2m does. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_SPREAD_FRAME_H
+#define PM_TRANSFER_SPREAD_FRAME_H
+
+#include "transfer/interlace.h"
+#include "transfer/transfer-frame.h"
+
+struct pm_spread_choice {
+	const char *kernel, *mesh, *set, *strength, *field; /* NULL: the law's, the first mesh, every set that has the strength */
+	bool cells;              /* a mesh that is not there will be made */
+	bool add;                /* to the density that is there */
+	bool interlace;
+	bool drop, grow;         /* particles that the mesh does not hold are left out and counted, or the mesh grows */
+};
+
+/* What the choice means in a frame. */
+struct pm_spread_job {
+	struct pm_spread_choice choice;
+	const struct pm_law *law;
+	const struct pm_kernel *kernel;
+	const char *strength, *density;
+	struct pm_sets sets;
+	struct pm_mesh *mesh; /* NULL: to be made before pm_spread_declare */
+};
+
+/* Each 0 or failure. In declare(): */
+int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_frame *f, struct pm_spread_job *j);
+int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f);
+/* With the data: the mesh grows if asked to, then set by set (*dropped counts the particles left out), then what the law adds to its own density. */
+int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f);
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *dropped);
+void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f);
+
+#endif
