@@ -69,7 +69,7 @@ static struct bodies bodies(int dim, size_t side, bool random, int order)
 
 int main(void)
 {
-	static const char *const names[] = {"all see each other", "a lattice, 2-D", "at random, 2-D", "a lattice, 3-D", "at random, 3-D", "a lattice, 3-D, order 4"};
+	static const char *const names[] = {"all pairs", "a lattice, 2-D", "at random, 2-D", "a lattice, 3-D", "at random, 3-D", "a lattice, 3-D, order 4"};
 	struct bodies b[] = {bodies(3, 16, true, 2), bodies(2, 256, false, 2), bodies(2, 256, true, 2), bodies(3, 40, false, 2), bodies(3, 40, true, 2), bodies(3, 40, false, 4)};
 	struct bench_job jobs[6];
 	b[0].how = pm_pse_of(3, 2, 1, 8), b[0].partners = (double)SEEN * SEEN;
@@ -82,7 +82,7 @@ int main(void)
 		bench_turns(6, jobs);
 		for (int i = 0; i < 6; i++) {
 			/* Multiplications: 23 instructions for 8 pairs, which are 16 partners, two flops each. */
-			struct bench_row row = {.kernel = "pse", .name = names[i], .unit = "Mpartner/s", .per = 1e6, .flops = 23};
+			struct bench_row row = {.kernel = "pse", .name = names[i], .unit = "Mneighbour/s", .per = 1e6, .flops = 23};
 			if (i)
 				row.against = names[0], row.other = b[0].partners / bench_median(&jobs[0]) / row.per, row.ratio = NAN;
 			bench_rate(row, b[i].partners, &jobs[i]);

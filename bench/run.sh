@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures everything of docs/speed.md and ends with a table; `run.sh --markdown` also writes the tables of docs/speed.md anew. Rows are those of bench.h,
-# one after the other in build/bench/rows.tsv. The machine first, then what is not physics (start of a filter, passing on, a cycle's own share), then
+# one after the other in build/bench/rows.tsv. The machine first, then what is not physics (start of a filter, pass-through, overhead of cycle), then
 # the kernels. Peers that are not installed are skipped with a line. Names (`run.sh pp mgrad`) limit it to these parts. 6 minutes.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
@@ -69,7 +69,7 @@ run() {
 	cycle -n "$3" --engine "$4" --timing timing.tsv 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' <"$2" >/dev/null
 	awk -F'\t' '/^cycle/ { wall = $3; next } { sum += $3 } END { print sum / '"$3"' >>"'"$1"'.stages"; print wall / '"$3"' >>"'"$1"'.wall" }' timing.tsv
 }
-# A cycle's own share: what no stage accounts for. The first round is not counted, it makes plans.
+# Overhead of cycle: time outside the stages. The first round is not counted, because it makes the FFT plans.
 part_cycle() {
 	pinit uniform -n 1000000 >large.pm
 	pinit uniform -n 100 --cells 8 >tiny.pm
@@ -84,12 +84,12 @@ part_cycle() {
 	sed -i 1d ./*.stages ./*.wall
 	# steps 11 to 60; what the first ten take besides is reading and writing 56 MB and the first touch of memory
 	paste short.stages short.wall large.stages large.wall | awk '{ print 100 * (1 - (60 * $3 - 10 * $1) / (60 * $4 - 10 * $2)) }' |
-		row cycle 'fused, 1e6 particles, steps 11 to 60: own share' % '<=' 2
+		row cycle 'fused, 1e6 particles, steps 11 to 60: overhead' % '<=' 2
 	paste short.stages short.wall | awk '{ print 1e4 * ($2 - $1) }' | row cycle 'fused, 1e6 particles: reading, writing, first touch' ms - 0
 	paste large.wall | awk '{ print 1e3 * $1 }' | row cycle 'fused, 1e6 particles: a step' ms - 0
 	paste awake.wall large.wall | awk '{ print $2 / $1 }' | row cycle 'fused, 1e6 particles: a step over one with OMP_WAIT_POLICY=active' 'times' - 0
 	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles: a step above the fused stages' ms - 0
-	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: own time a step' us '<=' 20
+	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: overhead per step' us '<=' 20
 	paste tiny.wall | awk '{ print 1e6 * $1 }' | row cycle 'fused, 100 particles: a step' us - 0
 	paste tiny.stages piped-tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'piped, 100 particles: a step above the fused stages' us - 0
 }
