@@ -3,10 +3,10 @@ load ../helper
 
 period=6.283185307179586477
 
-# orbit STEPS ORBITS SENTENCE: x y of the body at the end.
+# orbit STEPS ORBITS SENTENCE: x y of the body at the end; the last frame stays in ./end.
 orbit() {
 	pinit kepler --dt "$(awk -v n="$1" -v p=$period 'BEGIN { printf "%.17g", p / n }')" |
-		cycle -n $(($1 * $2)) "$3" | stab --plain --set matter |
+		OMP_NUM_THREADS=1 cycle -n $(($1 * $2)) "$3" | tee end | stab --plain --set matter |
 		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { printf "%.17g %.17g\n", $c["x"], $c["y"] }'
 }
 
@@ -30,8 +30,10 @@ kdk='push kick/2 drift | pp | push kick/2'
 	reaches "-1.889329315 -0.03909421541" "$(orbit 1000 10 'pp | push rk4')" 1e-6
 }
 
-@test "PM-10: rk4, 4000 steps per orbit, 10 orbits, is the fourth order of it" {
+@test "PM-10: rk4, 4000 steps per orbit, 10 orbits, is the fourth order of it, in its place and its energy" {
 	reaches "-1.899993061 -4.399275757e-05" "$(orbit 4000 10 'pp | push rk4')" 1e-6
+	diag --pair --exact <end >t
+	within "$(awk -v e="$(column energy <t)" -v exact="$(column exact_energy <t)" 'BEGIN { printf "%.9g", e / exact - 1 }')" 3.465699e-6 3.5e-8 "energy"
 }
 
 @test "PM-10: energy at the end and at its worst, and the turn of the pericentre, leapfrog with 1000 steps per orbit" {

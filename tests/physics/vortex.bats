@@ -20,9 +20,12 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	pipeline vortex-shear-layer "$([ "${PM_LONG:-}" ] && echo 32 || echo 18)"
 }
 
-@test "VM-16: the printed sentence of the shear layer: diag's omega_centre is within 1 of -26.07" {
-	pinit shear-layer --cells 256x256 --nu 1e-4 | cycle -t 1 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | p2m | diag > t
-	within "$(column omega_centre < t)" -26.070867 1
+# The pipeline takes omega from the nodes; diag has it as a column. -60.65 is the value of 128^2 with dt = 0.005 (VM-16), as in the pipeline, at a fifth of the cost.
+@test "VM-16: the printed sentence of the shear layer: diag's omega_centre is within 1.5 of -60.65 on 128^2 (in check-long within 1 of -26.07 on 256^2)" {
+	read -r cells want tolerance <<<"128x128 -60.65 1.5"
+	[ -z "${PM_LONG:-}" ] || read -r cells want tolerance <<<"256x256 -26.070867 1"
+	pinit shear-layer --cells $cells --nu 1e-4 --dt 0.005 | cycle -t 1 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | p2m | diag > t
+	within "$(column omega_centre < t)" $want $tolerance
 }
 
 @test "VM-02: Taylor-Green decays by exp(-2 nu t) at nu = 0.01 and 0.1: energy to 1e-6 with m6prime, 8e-5 with m4prime; cic loses 5 % of it" {

@@ -34,7 +34,7 @@ all_ways() {
 		want=$(OMP_NUM_THREADS=1 loop "$(quiet "$3")" "$(quiet "$2")" $((steps * $4)) < start | cksum)
 		loop true "" 0 < start | cksum | grep -qvF "$want" # something was computed
 		[ "${want##* }" -gt 1000 ]
-		for threads in 1 2 3; do
+		for threads in $([ $cache = empty ] && echo 1 2 3 || echo 2); do # a cache and the number of threads have nothing to do with each other
 			for engine in fused pipes; do
 				got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --engine $engine "$3" < start | cksum)
 				[ "$got" = "$want" ] || { echo "$engine, $threads threads, $cache cache: $got, the shell loop: $want"; return 1; }
@@ -45,7 +45,7 @@ all_ways() {
 			done
 		done
 	done
-	[ $ways -eq 24 ]
+	[ $ways -eq 16 ]
 }
 
 force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
