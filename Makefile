@@ -92,7 +92,7 @@ $(B)/libpmpipe.so: $(lib_obj)
 
 $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
-	@{ echo '#include "stage/stage.h"'; for n in $(basename $(notdir $(word_src))); do echo "extern const struct pm_tool tool_$$n;" | tr - _; done; \
+	@{ echo '#include "stage/apply.h"'; for n in $(basename $(notdir $(word_src))); do echo "extern const struct pm_tool tool_$$n;" | tr - _; done; \
 	echo 'const struct pm_tool *const pm_tools[] = {'; for n in $(basename $(notdir $(word_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
 
 # The main of each program is generated; cycle, plan and the unit tests link every tool that can be a word.

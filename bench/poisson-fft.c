@@ -1,5 +1,7 @@
 /* poisson-fft against FFTW's own measured r2c and c2r pair on the same cells, in turn, on one thread and on all (the pair is always serial: on several threads
  * the rows compare with one thread instead). bench/poisson-fft [cells per axis ...] SPDX-License-Identifier: GPL-3.0-or-later */
+#include <fftw3.h>
+
 #include "poisson-fft/poisson-fft.h"
 
 #include "bench.h"

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "fft/axis-transform.h"
 #include "mesh/gradient.h"
 #include "stage/stage.h"
 #include "stream/fastest.h"

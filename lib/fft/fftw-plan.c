@@ -228,3 +228,18 @@ void pm_fft_plans_clear(struct pm_fft_plans *p)
 		fftw_destroy_plan(p->entry[i].plan);
 	*p = (struct pm_fft_plans){.effort = p->effort};
 }
+
+struct pm_fft_plans *pm_fft_plans_new(enum pm_fft_effort effort)
+{
+	struct pm_fft_plans *p = pm_zalloc(1, sizeof *p);
+	if (p)
+		p->effort = effort;
+	return p;
+}
+
+struct pm_fft_plans *pm_fft_plans_free(struct pm_fft_plans *p)
+{
+	if (p)
+		pm_fft_plans_clear(p);
+	return pm_free(p);
+}

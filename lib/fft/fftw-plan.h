@@ -5,11 +5,9 @@
 
 #include <fftw3.h>
 
-#include "base/base.h"
+#include "fft/fft-effort.h"
 
 enum { PM_FFT_LINES = 16, PM_FFT_PLANS = 16 };
-enum pm_fft_effort { PM_ESTIMATE, PM_MEASURE, PM_PATIENT };
-extern const char *const pm_fft_effort_names[]; /* NULL ends */
 
 /* Of blocks: double [n][PM_FFT_LINES], PM_FFT_LINES/2 complex lines side by side, real parts first (fft/fft-block.h), in place, not normalised. */
 enum pm_fft_direction { PM_BLOCK_FORWARD, PM_BLOCK_BACKWARD };
@@ -28,9 +26,6 @@ struct pm_fft_plans {
 	int nmade;                       /* transforms made with it (fft/fft-block.c) */
 	void *made[PM_FFT_PLANS], *(*unmake)(void *);
 };
-
-/* Effort by name; NULL: of the environment variable PM_PLAN, else measure. -1 and a message if the name is none. */
-int pm_fft_effort_find(const char *name);
 
 /* A plan, owned by the planner. The planner of FFTW is not thread-safe: never inside a parallel region. NULL with a message. */
 fftw_plan pm_plan(struct pm_fft_plans *p, enum pm_fft_direction transform, size_t n);

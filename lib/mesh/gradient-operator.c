@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "mesh/gradient.h"
+#include "fft/axis-transform.h"
+#include "mesh/gradient-parts.h"
 
 const char *const pm_operator_names[] = {"grad", "curl", "div", "lap", NULL};
 const char *const pm_order_names[] = {"2", "4", "6", "spectral", NULL};
@@ -88,8 +89,10 @@ double pm_operator_fastest(const struct pm_operator *o)
 
 int pm_operator_plan(struct pm_operator *o, struct pm_fft_plans *p)
 {
+	struct pm_transform line;
+	o->plans = p;
 	for (int d = 0; d < o->grid.dim && !o->order; d++)
-		if (pm_transform_init(p, o->grid.face[d], o->grid.cells[d], &o->line[d]))
+		if (pm_transform_init(p, o->grid.face[d], o->grid.cells[d], &line))
 			return -PM_DATA;
 	return 0;
 }

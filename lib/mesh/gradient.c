@@ -7,7 +7,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 
-#include "mesh/gradient.h"
+#include "fft/fft-block.h"
+#include "mesh/gradient-parts.h"
 
 #define ALWAYS static inline __attribute__((always_inline))
 

@@ -3,7 +3,7 @@
 #ifndef PM_MESH_GRADIENT_H
 #define PM_MESH_GRADIENT_H
 
-#include "fft/axis-transform.h"
+#include "fft/fft-effort.h"
 #include "mesh/grid.h"
 
 enum pm_operator_kind { PM_OP_GRAD, PM_OP_CURL, PM_OP_DIV, PM_OP_LAP };
@@ -27,7 +27,7 @@ struct pm_operator {
 	int derivative; /* 1; lap: 2 */
 	int nterms;     /* in order of out */
 	struct pm_operator_term term[PM_TERMS_MOST];
-	struct pm_transform line[3]; /* spectral: after pm_operator_plan */
+	struct pm_fft_plans *plans; /* spectral: of pm_operator_plan, to be there as long as the operator */
 };
 
 /* Which operator on a field of `in` components: 0, or the sentence that says what cannot be done. Plans nothing. */
@@ -40,11 +40,5 @@ int pm_operator_apply(const struct pm_operator *o, double factor, const double *
 
 /* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2, summed over the axes. */
 double pm_operator_fastest(const struct pm_operator *o);
-
-/* Of gradient.c and gradient-spectral.c: all of out, by differences; one term, added or set. */
-int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);
-int pm_operator_spectral(const struct pm_operator *o, double factor, const double *const in[], double *const out[]);
-/* Do images of a component change sign at a face? */
-bool pm_operator_odd(const struct pm_operator *o, int component, int axis, int side);
 
 #endif

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "planner/plan.h"
+#include "stage/apply.h"
 
 /* The name as people write it. */
 static const char *label(const struct pm_effect *e, char text[64])

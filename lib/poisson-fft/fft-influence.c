@@ -1,6 +1,7 @@
 /* An influence function (influence.c) laid out as the transform solver takes its multipliers: by frequency, one octant, as a Green's function of open
  * faces. Cost: a table of an eighth of the mesh, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
+#include "poisson-fft/influence-table.h"
 
 static double symbol(const void *choice, double theta, double h)
 {

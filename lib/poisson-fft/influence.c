@@ -6,7 +6,7 @@
  * optimal makes the mean square error of the force least, over all places of two clouds in their cells. Interlaced: sums over n1 + n2 + n3 even.
  * Source: Hockney and Eastwood 1988, equations 8-22 and 8-3 ff.; sums of W^2 by Poisson's formula from the autocorrelation of the kernel.
  * Assumes p2m and m2p with the same kernel. Cost: the optimal one (2 reach + 1)^dim terms a mode, once per mesh. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-fft/influence.h"
+#include "poisson-fft/influence-table.h"
 
 #include <gsl/gsl_integration.h>
 #include <string.h>

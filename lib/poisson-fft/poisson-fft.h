@@ -5,7 +5,7 @@
 
 #include "green/green.h"
 #include "mesh/grid.h"
-#include "fft/fftw-plan.h"
+#include "fft/fft-effort.h"
 #include "poisson-fft/influence.h"
 
 enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4, PM_FD6 };

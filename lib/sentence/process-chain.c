@@ -12,7 +12,7 @@
 
 #include "sentence/process-chain.h"
 #include "stage/h5-pipe.h"
-#include "stage/stage.h"
+#include "stage/apply.h"
 
 struct pm_chain {
 	int n;

@@ -8,6 +8,7 @@
 #include "stage/internal.h"
 #include "sentence/sentence.h"
 #include "stream/run.h"
+#include "stage/apply.h"
 
 enum { most_words = 64, most_arguments = 64 };
 

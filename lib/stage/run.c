@@ -7,6 +7,7 @@
 
 #include "stage/internal.h"
 #include "stream/run.h"
+#include "stage/apply.h"
 
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {

@@ -7,6 +7,7 @@
 
 #include "stage/internal.h"
 #include "stream/run.h"
+#include "stage/apply.h"
 
 struct pm_stage *pm_stage_free(struct pm_stage *s)
 {

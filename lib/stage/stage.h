@@ -117,12 +117,4 @@ void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *k
 void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);
 const char *pm_nearest(const char *word, const char *const *names); /* NULL if none is near */
 
-/* For cycle and the tests: a stage made from words, run on a frame in memory. */
-struct pm_stage *pm_stage_new(const struct pm_tool *tool, int argc, char **argv); /* parsed and begun */
-struct pm_stage *pm_stage_free(struct pm_stage *s);
-int pm_stage_declare(struct pm_stage *s, struct pm_frame *f);  /* plan alone */
-int pm_stage_apply(struct pm_stage *s, struct pm_frame *f); /* plan, ready, frame, settle; 0, PM_SKIP or failure */
-extern const struct pm_tool *const pm_tools[] __attribute__((weak)); /* all of tools/, NULL ends; linked into cycle and the tests only */
-const struct pm_tool *pm_tool_find(const char *name);
-
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "fft/axis-transform.h"
 #include "mesh/gradient.h"
 
 static struct pm_grid grid(int dim, const size_t cells[3], const enum pm_face face[3][2])

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "transfer/interlace.h"
+#include "poisson-fft/influence-table.h"
 #include "poisson-fft/poisson-fft.h"
 
 static double sinc(double x) { return x == 0 ? 1 : sin(x) / x; }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "fft/axis-transform.h"
 #include "mesh/gradient.h"
 #include "transfer/transfer.h"
 #include "poisson-fft/poisson-fft.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "fft/axis-transform.h"
 #include "mesh/gradient.h"
 #include "poisson-fft/poisson-fft.h"
 #include "poisson-mg/mg.h"

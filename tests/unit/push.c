@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "stage/stage.h"
+#include "stage/apply.h"
 #include "push/step-clock.h"
 
 extern const struct pm_tool tool_push;
