@@ -78,6 +78,7 @@ while read -r n heading; do
 	measure "$n"
 	echo "$heading: $(wc -l <"$work/numbers") rows"
 done < <(sections)
-for picture in "$work"/run/*.png; do
-	[ ! -e "$picture" ] || mv "$picture" "${OUT:-$top/docs}/"
+# Its pictures, and no other file that a block may leave.
+sed -n 's|^!\[.*](\([A-Za-z0-9-]*\.png\))$|\1|p' "$page" | while read -r picture; do
+	[ ! -e "$work/run/$picture" ] || mv "$work/run/$picture" "${OUT:-$top/docs}/"
 done

@@ -52,10 +52,10 @@ export -f suite
 # count PATTERN: the lines of all reports that match it.
 count() { cat "$reports"/*.tap 2>/dev/null | grep -cE "$1"; }
 
-# Until its standard input is closed: a line every ten seconds.
+# Until its standard input is closed: a line every ten seconds (EVERY).
 signs_of_life() {
 	local finished
-	while read -r -t 10; [ $? -gt 128 ]; do
+	while read -r -t "${EVERY:-10}"; [ $? -gt 128 ]; do
 		finished=("$reports"/*.done)
 		[ -e "${finished[0]}" ] || finished=()
 		echo "check: ${#finished[@]} of $1 files, $(count '^(not )?ok') tests, $(count '^not ok') failed, $SECONDS s"

@@ -47,6 +47,20 @@ outside_parentheses() {
 	make -n -C "$top" B="$PWD/b" CC="$PWD/clang" clean
 }
 
+@test "check shows how far it is, names what failed and what was skipped and why, and counts a file that dies or is not there as failed" {
+	sed 's/^%/@/' >a.bats <<-'END'
+		%test "good" { sleep 0.5; }
+		%test "bad" { echo because; false; }
+		%test "long" { skip "no time"; }
+	END
+	printf '%stest "open" {\n' @ >b.bats
+	# bats within bats: without what the outer one exports
+	run -1 env -i PATH="$(tr : '\n' <<<"$PATH" | grep -v bats-core | paste -sd:)" HOME="$HOME" REPORTS="$PWD/reports" EVERY=0.1 bash "$top/tests/run.sh" "$PWD"/{a,b,c}.bats
+	echo "$output"
+	[[ $output == *"check: "[0-3]" of 3 files, "*" tests, "*" failed, "* && $output == *"--- $PWD/a.bats"*"not ok 2 bad"*"# because"* && $output == *": long: no time"* ]]
+	[[ ${lines[-1]} =~ ^[12]\ passed,\ 3\ failed,\ [12]\ skipped$ ]]
+}
+
 @test "continuous integration runs the README's test command" {
 	command=$(grep -x 'sh tests/check\.sh' "$top/README.md")
 	grep -qF " $command" "$top/.ci/run"
