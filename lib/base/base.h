@@ -32,6 +32,7 @@ int pm_exit_code(int status);
 void *pm_alloc(size_t count, size_t size);
 void *pm_zalloc(size_t count, size_t size);  /* the same, zeroed */
 void *pm_free(void *block);                  /* accepts NULL, returns NULL */
+size_t pm_memory_idle(void);                 /* bytes of freed blocks kept: never more than were in use at a time lately (in the last 256 to 512 requests) */
 
 /* Threads: OMP_NUM_THREADS, PM_THREADS or --threads. Results never depend on the number. */
 int pm_threads(void);

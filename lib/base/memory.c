@@ -1,5 +1,6 @@
 /* Aligned memory with huge pages for large blocks, and a small shelf of freed large blocks: a time step asks for the same sizes again and
- * again, and the first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). SPDX-License-Identifier: GPL-3.0-or-later */
+ * again, and the first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The shelf holds no more bytes than were lately in use
+ * at a time, so that a run whose sizes change, as one that loses particles, takes at most twice what it needs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,42 +8,85 @@
 
 #include "base/base.h"
 
-enum { kept = 1 << 16, large = 1 << 20, huge = 2 << 20, head = 64, shelf_size = 32 }; /* bytes from which blocks go to the shelf, and have huge pages */
+enum { kept = 1 << 16, large = 1 << 20, huge = 2 << 20, head = 64 }; /* bytes from which blocks go to the shelf, and have huge pages */
+enum { shelf_size = 32, spell = 256 };                              /* blocks; requests */
 
 struct block {
 	size_t bytes; /* of the whole block, this head included */
 };
 
+/* Freed blocks, the one freed last in front, and the bytes of all blocks from `kept` on: in use, on the shelf. */
 static struct block *shelf[shelf_size];
+static int shelved;
+static size_t alive, idle;
 static pthread_mutex_t shelf_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* The most bytes in use at a time, in this spell of `spell` requests and in the one before: what a run needs, which may shrink. */
+static size_t most[2];
+static int requests;
+
+static void note_use(void)
+{
+	if (++requests == spell) {
+		requests = 0;
+		most[1] = most[0];
+		most[0] = 0;
+	}
+	if (alive > most[0])
+		most[0] = alive;
+}
+
+static struct block *off_shelf(int place)
+{
+	struct block *b = shelf[place];
+	shelved--;
+	memmove(shelf + place, shelf + place + 1, (size_t)(shelved - place) * sizeof *shelf);
+	idle -= b->bytes;
+	return b;
+}
+
+/* Takes off the shelf the blocks freed longest ago until it has room and no more bytes than were lately in use; their number, in out[]. */
+static int shelf_trim(struct block *out[shelf_size])
+{
+	size_t bound = most[0] > most[1] ? most[0] : most[1];
+	int n = 0;
+	while (shelved && (shelved == shelf_size || idle > bound))
+		out[n++] = off_shelf(shelved - 1);
+	return n;
+}
 
 static struct block *shelf_take(size_t bytes)
 {
 	struct block *found = NULL;
 	pthread_mutex_lock(&shelf_lock);
-	for (int i = 0; i < shelf_size && !found; i++)
-		if (shelf[i] && shelf[i]->bytes == bytes) {
-			found = shelf[i];
-			shelf[i] = NULL;
-		}
+	for (int i = 0; i < shelved && !found; i++)
+		if (shelf[i]->bytes == bytes)
+			found = off_shelf(i);
+	alive += bytes;
+	note_use();
 	pthread_mutex_unlock(&shelf_lock);
 	return found;
 }
 
-/* Puts a block on the shelf; returns the block that has to leave for it (or the block itself), NULL if there was room. */
-static struct block *shelf_put(struct block *b)
+static void not_alive(size_t bytes)
 {
-	static int oldest;
 	pthread_mutex_lock(&shelf_lock);
-	int place = 0;
-	while (place < shelf_size && shelf[place])
-		place++;
-	if (place == shelf_size)
-		place = oldest++ % shelf_size;
-	struct block *out = shelf[place];
-	shelf[place] = b;
+	alive -= bytes;
 	pthread_mutex_unlock(&shelf_lock);
-	return out;
+}
+
+static void shelf_put(struct block *b)
+{
+	struct block *out[shelf_size];
+	pthread_mutex_lock(&shelf_lock);
+	alive -= b->bytes;
+	idle += b->bytes;
+	memmove(shelf + 1, shelf, (size_t)shelved++ * sizeof *shelf);
+	shelf[0] = b;
+	int n = shelf_trim(out);
+	pthread_mutex_unlock(&shelf_lock);
+	for (int i = 0; i < n; i++)
+		free(out[i]);
 }
 
 void *pm_alloc(size_t count, size_t size)
@@ -60,6 +104,8 @@ void *pm_alloc(size_t count, size_t size)
 	if (!b) {
 		b = aligned_alloc(bytes >= large ? huge : 64, bytes);
 		if (!b) {
+			if (bytes >= kept)
+				not_alive(bytes);
 			pm_fail(PM_DATA, "out of memory: %zu bytes wanted", bytes);
 			return NULL;
 		}
@@ -83,6 +129,17 @@ void *pm_free(void *p)
 	if (!p)
 		return NULL;
 	struct block *b = (struct block *)((char *)p - head);
-	free(b->bytes >= kept ? shelf_put(b) : b);
+	if (b->bytes >= kept)
+		shelf_put(b);
+	else
+		free(b);
 	return NULL;
+}
+
+size_t pm_memory_idle(void)
+{
+	pthread_mutex_lock(&shelf_lock);
+	size_t bytes = idle;
+	pthread_mutex_unlock(&shelf_lock);
+	return bytes;
 }

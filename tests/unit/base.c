@@ -43,6 +43,27 @@ static void sums(void)
 	pm_free(x);
 }
 
+/* Blocks of n MiB, one after the other, until `times` of them have come and gone. */
+static void come_and_go(int times, size_t n, size_t step)
+{
+	for (int i = 0; i < times; i++, n -= step)
+		pm_free(pm_alloc(n << 20, 1));
+}
+
+static void memory(void)
+{
+	const size_t head = 2 << 20; /* of a block and its rounding up to huge pages */
+	come_and_go(600, 1, 0);
+	check(pm_memory_idle() <= (1 << 20) + head, "freed blocks larger than what a program has lately used go back to the system");
+	come_and_go(20, 64, 3);
+	check(pm_memory_idle() <= (64 << 20) + head, "freed blocks of many sizes: no more bytes are kept than were in use at a time");
+	void *a = pm_alloc(7 << 20, 1), *b = pm_alloc(9 << 20, 1), *was = a;
+	pm_free(a), pm_free(b);
+	a = pm_alloc(7 << 20, 1);
+	check(a == was, "a freed block is given to the next who asks for its size");
+	pm_free(a);
+}
+
 static void checksums(void)
 {
 	check(pm_crc32c(0, "123456789", 9) == 0xE3069283u, "CRC-32C of 123456789 is E3069283 (RFC 3720)");
@@ -128,6 +149,7 @@ static void traps(void)
 int main(void)
 {
 	sums();
+	memory();
 	checksums();
 	numbers();
 	traps();
