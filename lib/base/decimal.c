@@ -41,7 +41,8 @@ static bool quick(uint64_t m, int power, double *x)
 
 static size_t word(const char *s, double *x)
 {
-	static const char *const words[] = {"nan", "NaN", "NAN", "inf", "Inf", "INF", "-nan", "-NaN", "-inf", "-Inf", "-INF", "+inf", "infinity", "Infinity", "-infinity", NULL};
+	static const char *const words[] = {"nan", "NaN", "NAN", "inf", "Inf", "INF", "-nan", "-NaN", "-inf", "-Inf", "-INF", "+inf", "infinity", "Infinity",
+		"-infinity", NULL};
 	for (int i = 0; words[i]; i++) {
 		size_t n = strlen(words[i]);
 		if (!strncmp(s, words[i], n) && (unsigned char)s[n] <= ' ')

@@ -1,5 +1,5 @@
-/* Eight doubles at a time, for loops over pairs: the vector extension of gcc and clang, with the approximate reciprocals of AVX-512 where there
- * are any (14 bits, to be corrected by the caller) and exact ones elsewhere. The only place where the platform shows.
+/* Eight doubles at a time: the vector extension of gcc and clang, with the approximate reciprocals of AVX-512 where there are any (14 bits, to be corrected
+ * by the caller) and exact ones elsewhere. The only place where the platform shows; no other file declares a vector type.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BASE_SIMD_H
 #define PM_BASE_SIMD_H
@@ -18,6 +18,12 @@ enum { PM_SIMD_WIDTH = 8 };
 typedef double pm_simd __attribute__((vector_size(64)));
 typedef int64_t pm_simd_bits __attribute__((vector_size(64)));
 typedef uint64_t pm_simd_words __attribute__((vector_size(64)));
+
+/* Two, four and eight doubles and four whole numbers at any address: what a pointer into an array of doubles (or int32_t) may be turned into. */
+typedef double pm_simd2_at __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
 
 /* Before a short loop over vectors, which must vanish if they are to stay in registers. */
 #ifdef __clang__
@@ -47,6 +53,24 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { memcpy(__builtin_assume_aligned(p, 64), &v, sizeof v); }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
+
+/* The vector one lane on: the last of `before`, then seven of `here`; and one lane back: seven of `here`, then the first of `after`. */
+PM_SIMD_INLINE pm_simd pm_simd_shift_up(pm_simd before, pm_simd here) { return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14); }
+PM_SIMD_INLINE pm_simd pm_simd_shift_down(pm_simd here, pm_simd after) { return __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8); }
+
+/* Sixteen values in order to those of even and of odd number, and back. */
+PM_SIMD_INLINE pm_simd pm_simd_even(pm_simd low, pm_simd high) { return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14); }
+PM_SIMD_INLINE pm_simd pm_simd_odd(pm_simd low, pm_simd high) { return __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15); }
+PM_SIMD_INLINE pm_simd pm_simd_zip_low(pm_simd even, pm_simd odd) { return __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11); }
+PM_SIMD_INLINE pm_simd pm_simd_zip_high(pm_simd even, pm_simd odd) { return __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15); }
+
+/* v where the mask, 64-byte aligned, is -1, and 0 where it is 0. */
+PM_SIMD_INLINE pm_simd pm_simd_masked(pm_simd v, const int64_t *mask)
+{
+	pm_simd_bits m;
+	memcpy(&m, __builtin_assume_aligned(mask, 64), sizeof m);
+	return (pm_simd)((pm_simd_bits)v & m);
+}
 
 /* Sum of the lanes, in a fixed order. */
 PM_SIMD_INLINE double pm_simd_sum(pm_simd v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }

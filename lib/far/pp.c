@@ -21,10 +21,19 @@ struct work {
 	uint64_t *coincident; /* pairs, per group or tile */
 };
 
+/* What the compiler makes a loop of its own for. */
+struct how {
+	int dim;
+	enum pm_pairs_mode mode;
+	bool potential;
+};
+
 /* Sources [j0, j1) on the group of targets at i. self: the group may be among the sources. */
-PM_SIMD_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool self, size_t i, size_t j0, size_t j1,
-	unsigned *coincident)
+PM_SIMD_INLINE void group_block(const struct work *w, const struct how how, bool self, size_t i, size_t j0, size_t j1, unsigned *coincident)
 {
+	const int dim = how.dim;
+	const enum pm_pairs_mode mode = how.mode;
+	const bool potential = how.potential;
 	pm_simd x[3][GROUP], g[3][GROUP], phi[GROUP], zero = {0}, delta2 = pm_simd_all(w->how.delta2);
 	PM_SIMD_UNROLL
 	for (int k = 0; k < GROUP; k++) {
@@ -71,7 +80,7 @@ PM_SIMD_INLINE void group_block(const struct work *w, int dim, enum pm_pairs_mod
 }
 
 /* All sources on one group of targets; blocks end where the group's own particles begin and end. */
-PM_SIMD_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t i)
+PM_SIMD_INLINE void group(const struct work *w, const struct how how, size_t i)
 {
 	size_t width = GROUP * PM_SIMD_WIDTH;
 	unsigned coincident = 0;
@@ -80,9 +89,9 @@ PM_SIMD_INLINE void group(const struct work *w, int dim, enum pm_pairs_mode mode
 		bool self = j >= i && j < i + width;
 		end = self && end > i + width ? i + width : !self && j < i && end > i ? i : end;
 		if (self)
-			group_block(w, dim, mode, potential, true, i, j, end, &coincident);
+			group_block(w, how, true, i, j, end, &coincident);
 		else
-			group_block(w, dim, mode, potential, false, i, j, end, &coincident);
+			group_block(w, how, false, i, j, end, &coincident);
 	}
 	w->coincident[i / width] = coincident;
 }
@@ -118,9 +127,11 @@ PM_SIMD_INLINE void rows_add(const struct work *w, int dim, bool potential, size
 }
 
 /* The rows at i with the vector at j, both ways; on the diagonal those of j that come after. */
-PM_SIMD_INLINE void rows_meet(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i, size_t j, struct rows *r,
-	uint64_t *coincident)
+PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool diagonal, size_t i, size_t j, struct rows *r, uint64_t *coincident)
 {
+	const int dim = how.dim;
+	const enum pm_pairs_mode mode = how.mode;
+	const bool potential = how.potential;
 	pm_simd y[3], h[3], zero = {0}, delta2 = pm_simd_all(w->how.delta2), q = pm_simd_load(w->q + j), phi = potential ? pm_simd_load(w->phi + j) : zero;
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
@@ -154,27 +165,26 @@ PM_SIMD_INLINE void rows_meet(const struct work *w, int dim, enum pm_pairs_mode 
 		pm_simd_store(w->phi + j, phi);
 }
 
-/* All pairs i in [i0, i1), j in [j0, j1) once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left over. */
-PM_SIMD_INLINE void tiles(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, bool diagonal, size_t i0, size_t i1, size_t j0, size_t j1,
-	uint64_t *coincident)
+/* All pairs of one in i[0] <= i < i[1] and one in j[0] <= j < j[1] once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left over. */
+PM_SIMD_INLINE void tiles(const struct work *w, const struct how how, bool diagonal, const size_t i[2], const size_t j[2], uint64_t *coincident)
 {
-	for (size_t i = i0; i < i1; i += ROWS) {
-		struct rows r = rows_load(w, dim, i);
-		for (size_t j = diagonal ? i / PM_SIMD_WIDTH * PM_SIMD_WIDTH : j0; j < j1; j += PM_SIMD_WIDTH)
-			rows_meet(w, dim, mode, potential, diagonal, i, j, &r, coincident);
-		rows_add(w, dim, potential, i, &r);
+	for (size_t p = i[0]; p < i[1]; p += ROWS) {
+		struct rows r = rows_load(w, how.dim, p);
+		for (size_t q = diagonal ? p / PM_SIMD_WIDTH * PM_SIMD_WIDTH : j[0]; q < j[1]; q += PM_SIMD_WIDTH)
+			rows_meet(w, how, diagonal, p, q, &r, coincident);
+		rows_add(w, how.dim, how.potential, p, &r);
 	}
 }
 
 /* Each pair of two tiles once. */
-PM_SIMD_INLINE void meeting(const struct work *w, int dim, enum pm_pairs_mode mode, bool potential, size_t a, size_t b)
+PM_SIMD_INLINE void meeting(const struct work *w, const struct how how, size_t a, size_t b)
 {
-	size_t a0 = a * w->tile, a1 = a0 + w->tile < w->padded ? a0 + w->tile : w->padded;
-	size_t b0 = b * w->tile, b1 = b0 + w->tile < w->padded ? b0 + w->tile : w->padded;
+	const size_t i[2] = {a * w->tile, (a + 1) * w->tile < w->padded ? (a + 1) * w->tile : w->padded};
+	const size_t j[2] = {b * w->tile, (b + 1) * w->tile < w->padded ? (b + 1) * w->tile : w->padded};
 	if (a == b)
-		tiles(w, dim, mode, potential, true, a0, a1, b0, b1, w->coincident + a);
+		tiles(w, how, true, i, j, w->coincident + a);
 	else
-		tiles(w, dim, mode, potential, false, a0, a1, b0, b1, w->coincident + a);
+		tiles(w, how, false, i, j, w->coincident + a);
 }
 
 /* One loop compiled for each dimension, mode and kind of result. */
@@ -183,10 +193,10 @@ struct loops {
 	void (*meeting)(const struct work *w, size_t a, size_t b);
 };
 #define LOOPS(dim, mode) \
-	static void group_##dim##_##mode(const struct work *w, size_t i) { group(w, dim, mode, false, i); } \
-	static void group_phi_##dim##_##mode(const struct work *w, size_t i) { group(w, dim, mode, true, i); } \
-	static void meeting_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, dim, mode, false, a, b); } \
-	static void meeting_phi_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, dim, mode, true, a, b); }
+	static void group_##dim##_##mode(const struct work *w, size_t i) { group(w, (struct how){dim, mode, false}, i); } \
+	static void group_phi_##dim##_##mode(const struct work *w, size_t i) { group(w, (struct how){dim, mode, true}, i); } \
+	static void meeting_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, (struct how){dim, mode, false}, a, b); } \
+	static void meeting_phi_##dim##_##mode(const struct work *w, size_t a, size_t b) { meeting(w, (struct how){dim, mode, true}, a, b); }
 #define ROW(mode) { \
 	{{group_1_##mode, meeting_1_##mode}, {group_phi_1_##mode, meeting_phi_1_##mode}}, \
 	{{group_2_##mode, meeting_2_##mode}, {group_phi_2_##mode, meeting_phi_2_##mode}}, \

@@ -8,40 +8,42 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fft/fft-block.h"
 #include "fft/fft-vector.h"
-#include "fft/sine-cosine.h"
 
-ALWAYS struct c8 plus(struct c8 a, struct c8 b) { return (struct c8){a.re + b.re, a.im + b.im}; }
-ALWAYS struct c8 minus(struct c8 a, struct c8 b) { return (struct c8){a.re - b.re, a.im - b.im}; }
 /* -i*a forward, +i*a back */
-ALWAYS struct c8 turn(struct c8 a, bool back) { return back ? (struct c8){-a.im, a.re} : (struct c8){a.im, -a.re}; }
+PM_SIMD_INLINE struct c8 turn(struct c8 a, bool back) { return back ? (struct c8){-a.im, a.re} : (struct c8){a.im, -a.re}; }
 /* times exp(-i x) forward, exp(+i x) back; w = cos x, sin x */
-ALWAYS struct c8 twist(struct c8 a, const double *w, bool back)
+PM_SIMD_INLINE struct c8 twist(struct c8 a, const double *w, bool back)
 {
 	return back ? (struct c8){a.re * w[0] - a.im * w[1], a.im * w[0] + a.re * w[1]} :
 		(struct c8){a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]};
 }
 
-ALWAYS void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, bool back)
+PM_SIMD_INLINE void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, bool back)
 {
 	struct c8 s = plus(*a0, *a2), d = minus(*a0, *a2), t = plus(*a1, *a3), e = turn(minus(*a1, *a3), back);
 	*a0 = plus(s, t), *a1 = plus(d, e), *a2 = minus(s, t), *a3 = minus(d, e);
 }
 
-ALWAYS void dft8(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, struct c8 *a4, struct c8 *a5, struct c8 *a6, struct c8 *a7, bool back)
+struct eight {
+	struct c8 a0, a1, a2, a3, a4, a5, a6, a7; /* by name: an array ends up in memory */
+};
+
+PM_SIMD_INLINE void dft8(struct eight *x, bool back)
 {
 	const double h = 0.70710678118654752440;
-	dft4(a0, a2, a4, a6, back);
-	dft4(a1, a3, a5, a7, back);
-	struct c8 t = turn(*a3, back), v = turn(*a7, back), o2 = turn(*a5, back); /* exp(-+i pi/4) = h (1 -+ i) */
-	struct c8 o1 = {h * (a3->re + t.re), h * (a3->im + t.im)}, o3 = {h * (v.re - a7->re), h * (v.im - a7->im)}, o0 = *a1;
-	struct c8 e0 = *a0, e1 = *a2, e2 = *a4, e3 = *a6;
-	*a0 = plus(e0, o0), *a1 = plus(e1, o1), *a2 = plus(e2, o2), *a3 = plus(e3, o3);
-	*a4 = minus(e0, o0), *a5 = minus(e1, o1), *a6 = minus(e2, o2), *a7 = minus(e3, o3);
+	dft4(&x->a0, &x->a2, &x->a4, &x->a6, back);
+	dft4(&x->a1, &x->a3, &x->a5, &x->a7, back);
+	struct c8 t = turn(x->a3, back), v = turn(x->a7, back), o2 = turn(x->a5, back); /* exp(-+i pi/4) = h (1 -+ i) */
+	struct c8 o1 = {h * (x->a3.re + t.re), h * (x->a3.im + t.im)}, o3 = {h * (v.re - x->a7.re), h * (v.im - x->a7.im)}, o0 = x->a1;
+	struct c8 e0 = x->a0, e1 = x->a2, e2 = x->a4, e3 = x->a6;
+	x->a0 = plus(e0, o0), x->a1 = plus(e1, o1), x->a2 = plus(e2, o2), x->a3 = plus(e3, o3);
+	x->a4 = minus(e0, o0), x->a5 = minus(e1, o1), x->a6 = minus(e2, o2), x->a7 = minus(e3, o3);
 }
 
 /* Odd p: pairs q and p-q share their products. */
-ALWAYS void dft_odd(int p, const double *cosine, const double *sine, bool back, struct c8 *a)
+PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, bool back, struct c8 *a)
 {
 	struct c8 s[PM_PRIME / 2], d[PM_PRIME / 2], sum = a[0], first = a[0];
 	for (int q = 1; q <= p / 2; q++) {
@@ -61,11 +63,11 @@ ALWAYS void dft_odd(int p, const double *cosine, const double *sine, bool back, 
 	}
 }
 
-ALWAYS struct c8 take(const struct c8 *x) { return (struct c8){x->re, x->im}; }
-ALWAYS void put(struct c8 *x, struct c8 a) { x->re = a.re, x->im = a.im; }
+PM_SIMD_INLINE struct c8 take(const struct c8 *x) { return (struct c8){x->re, x->im}; }
+PM_SIMD_INLINE void put(struct c8 *x, struct c8 a) { x->re = a.re, x->im = a.im; }
 
 /* One butterfly of radix 2, 4, 8 in registers: written out, because arrays of them end up in memory. w: twiddles or NULL for ones. */
-ALWAYS void fly2(struct c8 *x, size_t m, const double *w, bool back)
+PM_SIMD_INLINE void fly2(struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a0 = take(x), a1 = take(x + m);
 	if (w && back)
@@ -75,7 +77,7 @@ ALWAYS void fly2(struct c8 *x, size_t m, const double *w, bool back)
 	put(x + m, w && !back ? twist(d, w, false) : d);
 }
 
-ALWAYS void fly4(struct c8 *x, size_t m, const double *w, bool back)
+PM_SIMD_INLINE void fly4(struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
 	if (w && back)
@@ -86,24 +88,25 @@ ALWAYS void fly4(struct c8 *x, size_t m, const double *w, bool back)
 	put(x, a0), put(x + m, a1), put(x + 2 * m, a2), put(x + 3 * m, a3);
 }
 
-ALWAYS void fly8(struct c8 *x, size_t m, const double *w, bool back)
+PM_SIMD_INLINE void twist8(struct eight *a, const double *w, bool back)
 {
-	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
-	struct c8 a4 = take(x + 4 * m), a5 = take(x + 5 * m), a6 = take(x + 6 * m), a7 = take(x + 7 * m);
-	if (w && back) {
-		a1 = twist(a1, w, true), a2 = twist(a2, w + 2, true), a3 = twist(a3, w + 4, true), a4 = twist(a4, w + 6, true);
-		a5 = twist(a5, w + 8, true), a6 = twist(a6, w + 10, true), a7 = twist(a7, w + 12, true);
-	}
-	dft8(&a0, &a1, &a2, &a3, &a4, &a5, &a6, &a7, back);
-	if (w && !back) {
-		a1 = twist(a1, w, false), a2 = twist(a2, w + 2, false), a3 = twist(a3, w + 4, false), a4 = twist(a4, w + 6, false);
-		a5 = twist(a5, w + 8, false), a6 = twist(a6, w + 10, false), a7 = twist(a7, w + 12, false);
-	}
-	put(x, a0), put(x + m, a1), put(x + 2 * m, a2), put(x + 3 * m, a3);
-	put(x + 4 * m, a4), put(x + 5 * m, a5), put(x + 6 * m, a6), put(x + 7 * m, a7);
+	a->a1 = twist(a->a1, w, back), a->a2 = twist(a->a2, w + 2, back), a->a3 = twist(a->a3, w + 4, back), a->a4 = twist(a->a4, w + 6, back);
+	a->a5 = twist(a->a5, w + 8, back), a->a6 = twist(a->a6, w + 10, back), a->a7 = twist(a->a7, w + 12, back);
 }
 
-ALWAYS void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
+PM_SIMD_INLINE void fly8(struct c8 *x, size_t m, const double *w, bool back)
+{
+	struct eight a = {take(x), take(x + m), take(x + 2 * m), take(x + 3 * m), take(x + 4 * m), take(x + 5 * m), take(x + 6 * m), take(x + 7 * m)};
+	if (w && back)
+		twist8(&a, w, true);
+	dft8(&a, back);
+	if (w && !back)
+		twist8(&a, w, false);
+	put(x, a.a0), put(x + m, a.a1), put(x + 2 * m, a.a2), put(x + 3 * m, a.a3);
+	put(x + 4 * m, a.a4), put(x + 5 * m, a.a5), put(x + 6 * m, a.a6), put(x + 7 * m, a.a7);
+}
+
+PM_SIMD_INLINE void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a[PM_PRIME];
 	for (int q = 0; q < r; q++)
@@ -117,7 +120,7 @@ ALWAYS void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t m, const
 		put(x + (size_t)q * m, a[q]);
 }
 
-ALWAYS void fly(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
+PM_SIMD_INLINE void fly(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
 {
 	if (r == 2)
 		fly2(x, m, w, back);
@@ -129,7 +132,7 @@ ALWAYS void fly(int r, const struct pm_fft *f, struct c8 *x, size_t m, const dou
 		fly_odd(r, f, x, m, w, back);
 }
 
-ALWAYS void stage(int r, const struct pm_fft *f, size_t length, const double *twiddle, bool back, struct c8 *x)
+PM_SIMD_INLINE void stage(int r, const struct pm_fft *f, size_t length, const double *twiddle, bool back, struct c8 *x)
 {
 	size_t m = length / (size_t)r;
 	if (m == 1) {
@@ -180,8 +183,7 @@ void pm_fft_backward(const struct pm_fft *f, double *block)
 		stage_true(f, s, length *= (size_t)f->radix[s], (struct c8 *)block);
 }
 
-/* cos and sin of 2 pi i/n from an eighth of the circle, so that they are good to the last bit. */
-static void circle(size_t i, size_t n, double *c, double *s)
+void pm_fft_circle(size_t i, size_t n, double *c, double *s)
 {
 	size_t quarter = 4 * (i % n) / n, r = 4 * (i % n) - quarter * n;
 	bool far = 2 * r > n;
@@ -221,9 +223,9 @@ static int tables(struct pm_fft *f)
 			return -PM_DATA;
 		for (size_t j = 0; j < m; j++)
 			for (size_t p = 1; p < r; p++, w += 2)
-				circle(j * p, length, &w[0], &w[1]);
+				pm_fft_circle(j * p, length, &w[0], &w[1]);
 		for (size_t i = 0; i < r && r != 8; i++)
-			circle(i, r, &f->cosine[r][i], &f->sine[r][i]);
+			pm_fft_circle(i, r, &f->cosine[r][i], &f->sine[r][i]);
 		length = m;
 	}
 	for (size_t k = 0; k < f->n; k++) {
@@ -251,7 +253,7 @@ static void *fft_free(void *fft)
 	return NULL;
 }
 
-static struct pm_fft *fft_new(struct pm_fft_plans *p, size_t n)
+struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n)
 {
 	for (int i = 0; i < p->nmade; i++)
 		if (((struct pm_fft *)p->made[i])->n == n)
@@ -273,45 +275,13 @@ static struct pm_fft *fft_new(struct pm_fft_plans *p, size_t n)
 	return p->made[p->nmade++] = f;
 }
 
-const struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n)
+struct pm_fft *pm_fft_shifted(struct pm_fft_plans *p, size_t n)
 {
-	return fft_new(p, n);
-}
-
-static struct pm_fft *shifted(struct pm_fft_plans *p, size_t n)
-{
-	struct pm_fft *f = fft_new(p, n);
+	struct pm_fft *f = pm_fft(p, n);
 	if (!f || f->half)
 		return f;
 	f->half = pm_alloc(2 * n, sizeof *f->half);
 	for (size_t i = 0; f->half && i < n; i++)
-		circle(i, 2 * n, &f->half[2 * i], &f->half[2 * i + 1]);
+		pm_fft_circle(i, 2 * n, &f->half[2 * i], &f->half[2 * i + 1]);
 	return f->half ? f : NULL;
-}
-
-const struct pm_fft *pm_fft_shifted(struct pm_fft_plans *p, size_t n)
-{
-	return shifted(p, n);
-}
-
-static size_t *rows_of(const struct pm_fft *f, enum pm_waves fold)
-{
-	size_t modes = fold == PM_WAVES_SINE ? f->n - 1 : fold == PM_WAVES_COSINE ? f->n + 1 : f->n, *row = pm_alloc(modes + 1, sizeof *row);
-	for (size_t m = 0; row && m < modes; m++)
-		row[m] = pm_sine_cosine_row(fold, f, m);
-	return row;
-}
-
-const struct pm_fft *pm_fft_sine_cosine(struct pm_fft_plans *p, size_t n)
-{
-	struct pm_fft *f = shifted(p, n);
-	if (!f || f->quarter)
-		return f;
-	f->quarter = pm_alloc(2 * (n + 1), sizeof *f->quarter);
-	for (size_t i = 0; f->quarter && i <= n; i++)
-		circle(i, 4 * n, &f->quarter[2 * i], &f->quarter[2 * i + 1]);
-	bool good = f->quarter != NULL;
-	for (enum pm_waves fold = PM_WAVES_SINE; fold <= PM_WAVES_QUARTER_COSINE && good; fold++)
-		good = (f->fold[fold] = rows_of(f, fold)) != NULL;
-	return good ? f : NULL;
 }

@@ -20,10 +20,11 @@ struct pm_fft {
 };
 
 /* A transform of length n, made once per planner and owned by it. NULL with a message. Never inside a parallel region. */
-const struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n);
-/* The same with the tables that shift frequencies by a half, and with those of sine and cosine transforms of n cells. */
-const struct pm_fft *pm_fft_shifted(struct pm_fft_plans *p, size_t n);
-const struct pm_fft *pm_fft_sine_cosine(struct pm_fft_plans *p, size_t n);
+struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n);
+/* The same with the table that shifts frequencies by a half. */
+struct pm_fft *pm_fft_shifted(struct pm_fft_plans *p, size_t n);
+/* cos and sin of 2 pi i/n from an eighth of the circle, so that they are good to the last bit. */
+void pm_fft_circle(size_t i, size_t n, double *c, double *s);
 
 /* In place, not normalised: rows in natural order to rows at[k], with exp(-2 pi i jk/n); and back, with the opposite sign. */
 void pm_fft_forward(const struct pm_fft *f, double *block);

@@ -2,15 +2,13 @@
  * where they are complex: rows a and b, Z = F(a + i b), A_k = (Z_k + conj Z_{n-k})/2, B_k = (Z_k - conj Z_{n-k})/(2 i).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#ifdef __AVX512F__
-#include <immintrin.h>
-#endif
 
+#include "fft/fft-block.h"
 #include "fft/fft-vector.h"
 
-ALWAYS void transpose(v8 *r)
+PM_SIMD_INLINE void transpose(pm_simd *r)
 {
-	v8 t[8], u[8];
+	pm_simd t[8], u[8];
 	for (int i = 0; i < 8; i += 2) {
 		t[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
 		t[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
@@ -26,21 +24,21 @@ ALWAYS void transpose(v8 *r)
 }
 
 /* Eight rows, eight elements of each, turned; fewer at the ends. */
-ALWAYS void tile_in(const double *const *row, size_t at, v8 *t)
+PM_SIMD_INLINE void tile_in(const double *const *row, size_t at, pm_simd *t)
 {
 	for (int q = 0; q < 8; q++)
-		t[q] = *(const v8_anywhere *)(row[q] + at);
+		t[q] = pm_simd_load_any(row[q] + at);
 	transpose(t);
 }
 
-ALWAYS void tile_out(v8 *t, size_t at, double *const *row)
+PM_SIMD_INLINE void tile_out(pm_simd *t, size_t at, double *const *row)
 {
 	transpose(t);
 	for (int q = 0; q < 8; q++)
-		*(v8_anywhere *)(row[q] + at) = t[q];
+		pm_simd_store_any(row[q] + at, t[q]);
 }
 
-static void part_in(const double *const *row, size_t rows, size_t at, size_t count, v8 *t)
+static void part_in(const double *const *row, size_t rows, size_t at, size_t count, pm_simd *t)
 {
 	memset(t, 0, 8 * sizeof *t);
 	for (size_t q = 0; q < 8 && q < rows; q++)
@@ -48,29 +46,29 @@ static void part_in(const double *const *row, size_t rows, size_t at, size_t cou
 	transpose(t);
 }
 
-static void part_out(v8 *t, size_t rows, size_t at, size_t count, double *const *row)
+static void part_out(pm_simd *t, size_t rows, size_t at, size_t count, double *const *row)
 {
 	transpose(t);
 	for (size_t q = 0; q < 8 && q < rows; q++)
 		memcpy(row[q] + at, &t[q], count * sizeof(double));
 }
 
-ALWAYS size_t beyond(size_t rows, size_t from) { return rows > from ? rows - from : 0; }
+PM_SIMD_INLINE size_t beyond(size_t rows, size_t from) { return rows > from ? rows - from : 0; }
 
 void pm_fft_rows_in(const double *const row[PM_FFT_LINES], size_t rows, size_t n, const size_t *at, double *block)
 {
 	for (size_t i = 0; i < n; i += 8)
 		for (size_t from = 0; from < PM_FFT_LINES; from += 8) {
-			v8 t[8];
+			pm_simd t[8];
 			if (n - i >= 8 && rows == PM_FFT_LINES) {
 				tile_in(row + from, i, t);
 				for (size_t q = 0; q < 8; q++)
-					*(v8 *)(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from) = t[q];
+					pm_simd_store(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from, t[q]);
 				continue;
 			}
 			part_in(row + from, beyond(rows, from), i, n - i < 8 ? n - i : 8, t);
 			for (size_t q = 0; q < 8 && i + q < n; q++)
-				*(v8 *)(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from) = t[q];
+				pm_simd_store(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from, t[q]);
 		}
 }
 
@@ -78,21 +76,21 @@ void pm_fft_rows_out(const double *block, const size_t *at, size_t n, size_t row
 {
 	for (size_t i = 0; i < n; i += 8)
 		for (size_t from = 0; from < PM_FFT_LINES; from += 8) {
-			v8 t[8];
+			pm_simd t[8];
 			if (n - i >= 8 && rows == PM_FFT_LINES) {
 				for (size_t q = 0; q < 8; q++)
-					t[q] = *(const v8 *)(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from);
+					t[q] = pm_simd_load(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from);
 				tile_out(t, i, row + from);
 				continue;
 			}
 			for (size_t q = 0; q < 8; q++)
-				t[q] = i + q < n ? *(const v8 *)(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from) : (v8){0};
+				t[q] = i + q < n ? pm_simd_load(block + (at ? at[i + q] : i + q) * PM_FFT_LINES + from) : (pm_simd){0};
 			part_out(t, beyond(rows, from), i, n - i < 8 ? n - i : 8, row + from);
 		}
 }
 
 /* Frequencies k .. k+7 of the rows in the real lanes, or in the imaginary ones. */
-ALWAYS void unpack(const struct pm_fft *f, const struct c8 *x, size_t k, bool second, v8 *re, v8 *im)
+PM_SIMD_INLINE void unpack(const struct pm_fft *f, const struct c8 *x, size_t k, bool second, pm_simd *re, pm_simd *im)
 {
 	size_t n = f->n, modes = n / 2 + 1;
 	for (size_t q = 0; q < 8; q++) {
@@ -108,7 +106,7 @@ void pm_spectra_out(const struct pm_fft *f, const double *block, size_t rows, do
 {
 	for (size_t k = 0; k < f->n / 2 + 1; k += 8)
 		for (size_t from = 0; from < PM_FFT_LINES; from += 8) {
-			v8 re[8], im[8];
+			pm_simd re[8], im[8];
 			unpack(f, (const struct c8 *)block, k, from > 0, re, im);
 			if (rows == PM_FFT_LINES) {
 				tile_out(re, 2 * k, row + from);
@@ -125,7 +123,7 @@ void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[
 	size_t n = f->n, modes = n / 2 + 1;
 	struct c8 *x = (struct c8 *)block;
 	for (size_t k = 0; k < modes; k += 8) {
-		v8 ar[8], ai[8], br[8], bi[8];
+		pm_simd ar[8], ai[8], br[8], bi[8];
 		if (rows == PM_FFT_LINES) {
 			tile_in(row, 2 * k, ar);
 			tile_in(row, 2 * k + 8, ai);

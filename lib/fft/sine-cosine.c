@@ -9,25 +9,13 @@
 #include "fft/fft-vector.h"
 #include "fft/sine-cosine.h"
 
-size_t pm_sine_cosine_row(enum pm_waves fold, const struct pm_fft *f, size_t mode)
-{
-	size_t n = f->n;
-	if (fold == PM_WAVES_SINE)
-		return f->at[mode == 0 ? 0 : (mode + 1) % 2 ? n - mode / 2 : (mode + 1) / 2]; /* mode 0 is S_1 */
-	if (fold == PM_WAVES_COSINE)
-		return mode == 1 ? n : f->at[mode % 2 ? n - mode / 2 : mode / 2];
-	return f->at[mode % 2 ? n - (mode + 1) / 2 : mode / 2];
-}
-
-ALWAYS struct c8 plus(struct c8 a, struct c8 b) { return (struct c8){a.re + b.re, a.im + b.im}; }
-ALWAYS struct c8 minus(struct c8 a, struct c8 b) { return (struct c8){a.re - b.re, a.im - b.im}; }
-ALWAYS struct c8 times(double p, struct c8 a) { return (struct c8){p * a.re, p * a.im}; }
-ALWAYS struct c8 times_i(struct c8 a) { return (struct c8){-a.im, a.re}; }
+PM_SIMD_INLINE struct c8 times(double p, struct c8 a) { return (struct c8){p * a.re, p * a.im}; }
+PM_SIMD_INLINE struct c8 times_i(struct c8 a) { return (struct c8){-a.im, a.re}; }
 /* times exp(-i x), w = cos x, sin x */
-ALWAYS struct c8 twist(const double *w, struct c8 a) { return (struct c8){a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]}; }
+PM_SIMD_INLINE struct c8 twist(const double *w, struct c8 a) { return (struct c8){a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]}; }
 
 /* Nodes a and b to p*(a + b) + q*(a - b) and p*(a + b) - q*(a - b). */
-ALWAYS void turn(double p, double q, struct c8 *x, struct c8 *y)
+PM_SIMD_INLINE void turn(double p, double q, struct c8 *x, struct c8 *y)
 {
 	struct c8 e = times(p, plus(*x, *y)), o = times(q, minus(*x, *y));
 	*x = plus(e, o), *y = minus(e, o);
@@ -123,7 +111,7 @@ static void quarters(const struct pm_fft *f, bool wall_below, struct c8 *x)
 }
 
 /* exp(i t/2) a + exp(-i t/2) b */
-ALWAYS struct c8 untwist(const double *w, struct c8 a, struct c8 b)
+PM_SIMD_INLINE struct c8 untwist(const double *w, struct c8 a, struct c8 b)
 {
 	const double back[2] = {w[0], -w[1]};
 	return plus(twist(back, a), twist(w, b));
@@ -163,4 +151,37 @@ void pm_sine_cosine_back(enum pm_waves fold, const struct pm_fft *f, double *blo
 		cosines_back(f, x);
 	else
 		quarters_back(f, fold == PM_WAVES_QUARTER_SINE, x);
+}
+
+/* The row of mode number `mode` (0: the lowest), on both ways. */
+static size_t row_of(enum pm_waves fold, const struct pm_fft *f, size_t mode)
+{
+	size_t n = f->n;
+	if (fold == PM_WAVES_SINE)
+		return f->at[mode == 0 ? 0 : (mode + 1) % 2 ? n - mode / 2 : (mode + 1) / 2]; /* mode 0 is S_1 */
+	if (fold == PM_WAVES_COSINE)
+		return mode == 1 ? n : f->at[mode % 2 ? n - mode / 2 : mode / 2];
+	return f->at[mode % 2 ? n - (mode + 1) / 2 : mode / 2];
+}
+
+static size_t *rows_of(enum pm_waves fold, const struct pm_fft *f)
+{
+	size_t modes = fold == PM_WAVES_SINE ? f->n - 1 : fold == PM_WAVES_COSINE ? f->n + 1 : f->n, *row = pm_alloc(modes + 1, sizeof *row);
+	for (size_t m = 0; row && m < modes; m++)
+		row[m] = row_of(fold, f, m);
+	return row;
+}
+
+const struct pm_fft *pm_fft_sine_cosine(struct pm_fft_plans *p, size_t n)
+{
+	struct pm_fft *f = pm_fft_shifted(p, n);
+	if (!f || f->quarter)
+		return f;
+	f->quarter = pm_alloc(2 * (n + 1), sizeof *f->quarter);
+	for (size_t i = 0; f->quarter && i <= n; i++)
+		pm_fft_circle(i, 4 * n, &f->quarter[2 * i], &f->quarter[2 * i + 1]);
+	bool good = f->quarter != NULL;
+	for (enum pm_waves fold = PM_WAVES_SINE; fold <= PM_WAVES_QUARTER_COSINE && good; fold++)
+		good = (f->fold[fold] = rows_of(fold, f)) != NULL;
+	return good ? f : NULL;
 }

@@ -11,81 +11,65 @@
 
 enum { L = PM_FFT_LINES };
 
-/* Lines along y or z: L neighbours in x. stride: between nodes of a line; width: lines of this block. */
-static void columns(const struct pm_transform *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t stride, size_t width,
-	const double *in, double *out, double *block)
-{
-	for (size_t i = 0; i < nodes; i++)
-		for (size_t q = 0; q < L; q++)
-			block[i * L + q] = q < width ? in[i * stride + q] : 0;
-	if (derivative == 1)
-		pm_transform_derivative(l, h, flip, block);
-	else
-		pm_transform_second(l, h, flip, block);
-	for (size_t i = 0; i < nodes; i++)
-		for (size_t q = 0; q < width; q++)
-			out[i * stride + q] = factor * block[i * L + q] + (add ? out[i * stride + q] : 0);
-}
-
-/* Lines along x: L rows. */
-static void rows(const struct pm_transform *l, double h, bool flip, int derivative, double factor, bool add, size_t nodes, size_t width, const double *in,
-	double *out, double *block)
-{
-	for (size_t q = 0; q < L; q++)
-		for (size_t i = 0; i < nodes; i++)
-			block[i * L + q] = q < width ? in[q * nodes + i] : 0;
-	if (derivative == 1)
-		pm_transform_derivative(l, h, flip, block);
-	else
-		pm_transform_second(l, h, flip, block);
-	for (size_t q = 0; q < width; q++)
-		for (size_t i = 0; i < nodes; i++)
-			out[q * nodes + i] = factor * block[i * L + q] + (add ? out[q * nodes + i] : 0);
-}
-
-struct work { /* of all terms */
-	struct pm_transform line[3];
-	double *scratch; /* lot values for each thread */
-	size_t lot;
+/* A derivative along lines side by side, L at a time. */
+struct lines {
+	const struct pm_transform *line;
+	double h, factor;
+	bool flip, add; /* odd and even images exchanged; added to what is there */
+	int derivative;
+	size_t nodes, step, across; /* of a line; between its nodes; from one line to the next. One of the two is 1. */
 };
 
-static void term(const struct pm_operator *o, const struct work *w, int d, bool flip, double factor, bool add, const double *in, double *out)
+static void transform(const struct lines *l, size_t width, const double *in, double *out, double *block)
 {
-	const size_t *n = o->grid.points, chunks = (n[0] + L - 1) / L;
-	const size_t across = d == 1 ? n[2] : n[1], stride = d == 1 ? n[0] : n[0] * n[1], other = d == 1 ? n[0] * n[1] : n[0];
+	for (size_t i = 0; i < l->nodes; i++)
+		for (size_t q = 0; q < L; q++)
+			block[i * L + q] = q < width ? in[i * l->step + q * l->across] : 0;
+	if (l->derivative == 1)
+		pm_transform_derivative(l->line, l->h, l->flip, block);
+	else
+		pm_transform_second(l->line, l->h, l->flip, block);
+	for (size_t i = 0; i < l->nodes; i++)
+		for (size_t q = 0; q < width; q++) {
+			double *to = out + i * l->step + q * l->across;
+			*to = l->factor * block[i * L + q] + (l->add ? *to : 0);
+		}
+}
+
+/* Along x L rows at a time, along y and z L neighbours in x. */
+static void term(const struct pm_operator *o, int d, const struct lines *l, const double *in, double *out, double *scratch, size_t lot)
+{
+	const size_t *n = o->grid.points, chunks = (n[0] + L - 1) / L, across = d == 1 ? n[2] : n[1], other = d == 1 ? n[0] * n[1] : n[0];
 	const size_t blocks = d == 0 ? (n[1] * n[2] + L - 1) / L : across * chunks;
 #pragma omp parallel for schedule(static) num_threads(pm_threads())
 	for (size_t b = 0; b < blocks; b++) {
-		double *block = w->scratch + (size_t)omp_get_thread_num() * w->lot;
-		if (d == 0) {
-			size_t width = n[1] * n[2] - b * L;
-			rows(&w->line[0], o->grid.h[0], flip, o->derivative, factor, add, n[0], width < L ? width : L, in + b * L * n[0], out + b * L * n[0],
-				block);
-		} else {
-			size_t x = b % chunks * L, width = n[0] - x, at = b / chunks * other + x;
-			columns(&w->line[d], o->grid.h[d], flip, o->derivative, factor, add, n[d], stride, width < L ? width : L, in + at, out + at, block);
-		}
+		size_t x = b % chunks * L, left = d == 0 ? n[1] * n[2] - b * L : n[0] - x, at = d == 0 ? b * L * n[0] : b / chunks * other + x;
+		transform(l, left < L ? left : L, in + at, out + at, scratch + (size_t)omp_get_thread_num() * lot);
 	}
 }
 
 int pm_operator_spectral(const struct pm_operator *o, double factor, const double *const in[], double *const out[])
 {
-	struct work w;
+	const size_t *n = o->grid.points;
+	struct pm_transform line[3];
 	size_t most = 2;
 	for (int d = 0; d < o->grid.dim; d++) { /* the transforms are there since pm_operator_plan */
-		if (pm_transform_init(o->plans, o->grid.face[d], o->grid.cells[d], &w.line[d]))
+		if (pm_transform_init(o->plans, o->grid.face[d], o->grid.cells[d], &line[d]))
 			return -PM_DATA;
-		most = w.line[d].length > most ? w.line[d].length : most;
+		most = line[d].length > most ? line[d].length : most;
 	}
-	w.lot = (most + 1) * L;
-	w.scratch = pm_alloc((size_t)pm_threads() * w.lot, sizeof *w.scratch);
-	if (!w.scratch)
+	size_t lot = (most + 1) * L;
+	double *scratch = pm_alloc((size_t)pm_threads() * lot, sizeof *scratch);
+	if (!scratch)
 		return -PM_DATA;
 	for (int t = 0; t < o->nterms; t++) {
 		const struct pm_operator_term *q = &o->term[t];
 		bool flip = pm_operator_odd(o, q->in, q->axis, 0) != (o->grid.face[q->axis][0] == PM_WALL);
-		term(o, &w, q->axis, flip, factor * q->sign, t && q->out == q[-1].out, in[q->in], out[q->out]);
+		const struct lines l = {.line = &line[q->axis], .h = o->grid.h[q->axis], .factor = factor * q->sign, .flip = flip,
+			.add = t && q->out == q[-1].out, .derivative = o->derivative, .nodes = n[q->axis],
+			.step = q->axis == 0 ? 1 : q->axis == 1 ? n[0] : n[0] * n[1], .across = q->axis == 0 ? n[0] : 1};
+		term(o, q->axis, &l, in[q->in], out[q->out], scratch, lot);
 	}
-	pm_free(w.scratch);
+	pm_free(scratch);
 	return 0;
 }

@@ -9,6 +9,7 @@
 
 #include "fft/fft-block.h"
 #include "mesh/gradient-parts.h"
+#include "mesh/index-fold.h"
 
 #define ALWAYS static inline __attribute__((always_inline))
 
@@ -68,31 +69,25 @@ static void fornberg(int derivative, double x, int n, double *w)
 		w[i] = c[i][derivative];
 }
 
-/* The node at which the value at q is found, its sign; false: beyond an open face. */
-static bool image(const struct pm_operator *o, int component, int d, ptrdiff_t *q, double *sign)
+static struct pm_index_axis images(const struct pm_operator *o, int component, int d)
 {
-	ptrdiff_t n = (ptrdiff_t)o->grid.cells[d];
-	if (o->grid.face[d][0] == PM_PERIODIC) {
-		*q = (*q % n + n) % n;
-		return true;
-	}
-	while (*q < 0 || *q > n) {
-		int side = *q > n;
-		if (o->grid.face[d][side] != PM_WALL && o->grid.face[d][side] != PM_NEUMANN)
-			return false;
-		*q = side ? 2 * n - *q : -*q;
-		*sign *= pm_operator_odd(o, component, d, side) ? -1 : 1;
-	}
-	return true;
+	struct pm_index_axis a = {.points = o->grid.points[d], .periodic = o->grid.face[d][0] == PM_PERIODIC};
+	for (int side = 0; side < 2; side++)
+		if (o->grid.face[d][side] == PM_WALL || o->grid.face[d][side] == PM_NEUMANN)
+			a.image[side] = pm_operator_odd(o, component, d, side) ? -1 : 1;
+	return a;
 }
 
 static struct taps at_end(const struct pm_operator *o, int component, int d, ptrdiff_t i)
 {
 	struct taps t = centred(o->derivative, o->order);
+	const struct pm_index_axis axis = images(o, component, d);
 	bool inside = true;
 	for (int k = 0; k < PM_TAPS; k++) { /* the unused ones have weight 0 */
-		t.at[k] += i;
-		inside = image(o, component, d, &t.at[k], &t.w[k]) && inside;
+		int factor;
+		t.at[k] = (ptrdiff_t)pm_index_image(i + t.at[k], &axis, &factor);
+		t.w[k] *= factor;
+		inside = inside && factor;
 	}
 	if (inside)
 		return t;

@@ -5,6 +5,7 @@
 #define PM_MESH_LAPLACIAN_H
 
 #include "mesh/grid.h"
+#include "mesh/index-fold.h"
 
 struct pm_laplacian_axis {
 	size_t cells, points, first, end; /* unknowns first <= i < end */
@@ -37,11 +38,11 @@ struct pm_laplacian pm_laplacian_of(const struct pm_grid *g); /* faces periodic,
 
 static inline size_t pm_laplacian_below(const struct pm_laplacian_axis *a, size_t i)
 {
-	return i ? i - 1 : a->periodic ? a->points - 1 : a->points > 1;
+	return pm_index_fold((ptrdiff_t)i - 1, a->points, a->periodic);
 }
 static inline size_t pm_laplacian_above(const struct pm_laplacian_axis *a, size_t i)
 {
-	return i + 1 < a->points ? i + 1 : a->periodic ? 0 : i - (a->points > 1);
+	return pm_index_fold((ptrdiff_t)i + 1, a->points, a->periodic);
 }
 static inline double pm_laplacian_weight(const struct pm_laplacian_axis *a, size_t i)
 {

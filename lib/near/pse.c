@@ -4,7 +4,8 @@
  * which a lattice with eps >= h reaches but for exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not
  * distorted. Conserves the sum of G where no wall is. Order 4 has negative weights beyond z^2 = 8 + 2 dim: no maximum principle.
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
- * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weak: where all see all that is N^2. SPDX-License-Identifier: GPL-3.0-or-later */
+ * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weak: where all see all that is N^2.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
 #include "base/simd.h"
 
@@ -48,10 +49,17 @@ struct rows {
 	pm_simd x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
 };
 
+/* What the compiler makes a loop of its own for: rows n at a time; both ways; images, which are shifted. */
+struct how {
+	int dim, order, n;
+	bool half, moved;
+};
+
 /* Partners at j..j+7 of n rows, those outside of from..to-1 left out; half: both ways, with the partners' sums at own. */
-PM_SIMD_INLINE void meet(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t j, bool whole, const size_t from[ROWS], size_t to,
-	struct sums *own, struct rows *r)
+PM_SIMD_INLINE void meet(const struct work *w, const struct how how, size_t j, bool whole, const size_t from[ROWS], size_t to, struct sums *own, struct rows *r)
 {
+	const int dim = how.dim, n = how.n;
+	const bool half = how.half;
 	pm_simd y[3], q = pm_simd_load_any(w->volume + j), g = pm_simd_load_any(w->strength + j), exchange = {0}, weight = {0};
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
@@ -64,14 +72,14 @@ PM_SIMD_INLINE void meet(const struct work *w, int dim, int order, int n, bool h
 		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
 			pm_simd s = r->x[d][k] - y[d];
-			if (moved)
+			if (how.moved)
 				s += r->shift[d];
 			r2 = pm_simd_fma(s, s, r2);
 		}
 		if (!whole)
 			r2 = pm_simd_between(from[k], to, r2, pm_simd_all(HUGE_VAL));
 		eta = pm_simd_exp(r2 * pm_simd_all(w->exponent));
-		if (order == 4)
+		if (how.order == 4)
 			eta *= pm_simd_fma(r2, pm_simd_all(w->square), pm_simd_all(w->constant));
 		eta = pm_simd_where_not_below(pm_simd_all(w->reach2), r2, eta);
 		traded = r->volume[k] * g - q * r->strength[k]; /* antisymmetric: no fma within */
@@ -85,19 +93,18 @@ PM_SIMD_INLINE void meet(const struct work *w, int dim, int order, int n, bool h
 }
 
 /* The partners at from..to-1; first: how many of them each row leaves out. */
-PM_SIMD_INLINE void stretch(const struct work *w, int dim, int order, int n, bool half, bool moved, size_t from, size_t to, const size_t first[ROWS],
-	struct sums *own, struct rows *r)
+PM_SIMD_INLINE void stretch(const struct work *w, const struct how how, size_t from, size_t to, const size_t first[ROWS], struct sums *own, struct rows *r)
 {
 	static const size_t none[ROWS] = {0};
 	size_t j = from;
-	if (half && first[n - 1] && j < to) {
-		meet(w, dim, order, n, half, moved, j, false, first, to - j, own, r);
+	if (how.half && first[how.n - 1] && j < to) {
+		meet(w, how, j, false, first, to - j, own, r);
 		j += PM_SIMD_WIDTH;
 	}
 	for (; j + PM_SIMD_WIDTH <= to; j += PM_SIMD_WIDTH)
-		meet(w, dim, order, n, half, moved, j, true, none, PM_SIMD_WIDTH, own, r);
+		meet(w, how, j, true, none, PM_SIMD_WIDTH, own, r);
 	if (j < to)
-		meet(w, dim, order, n, half, moved, j, false, none, to - j, own, r);
+		meet(w, how, j, false, none, to - j, own, r);
 }
 
 PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_stretch *s, struct rows *r)
@@ -127,11 +134,11 @@ PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t
 			continue;
 		rows_see(w, dim, n, i, s + k, &r);
 		if (here)
-			stretch(w, dim, order, n, true, false, from, s[k].to, from == i + 1 ? later : none, own, &r);
+			stretch(w, (struct how){dim, order, n, true, false}, from, s[k].to, from == i + 1 ? later : none, own, &r);
 		else if (s[k].kind == PM_AHEAD)
-			stretch(w, dim, order, n, true, true, from, s[k].to, none, own, &r);
+			stretch(w, (struct how){dim, order, n, true, true}, from, s[k].to, none, own, &r);
 		else
-			stretch(w, dim, order, n, false, true, from, s[k].to, none, own, &r);
+			stretch(w, (struct how){dim, order, n, false, true}, from, s[k].to, none, own, &r);
 	}
 	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {

@@ -2,6 +2,7 @@
 #include "measure/range.h"
 #include "picture/raster.h"
 #include "mesh/grid.h"
+#include "mesh/index-fold.h"
 
 void pm_raster_free(struct pm_raster *r) { r->value = pm_free(r->value); }
 
@@ -44,7 +45,7 @@ int pm_raster_slice(struct pm_raster *r, const struct pm_frame *f, const struct 
 		s = periodic ? s - (last + 1) * floor(s / (last + 1)) : fmin(fmax(s, 0), last);
 		low = (size_t)s < g.points[axis] ? (size_t)s : 0; /* s >= 0 */
 		t = s - floor(s);
-		high = low + 1 < g.points[axis] ? low + 1 : periodic ? 0 : low;
+		high = pm_index_fold((ptrdiff_t)low + 1, g.points[axis], periodic);
 	}
 	for (size_t j = 0; j < r->n[1]; j++)
 		for (size_t i = 0; i < r->n[0]; i++) {
@@ -75,9 +76,9 @@ int pm_raster_project(struct pm_raster *r, const struct pm_frame *f, const struc
 	return 0;
 }
 
-int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], size_t n, const double *x, const double *y, const double *w,
-	size_t *outside)
+int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points, size_t *outside)
 {
+	const double *x = points->x, *y = points->y, *w = points->w;
 	*outside = 0;
 	for (int k = 0; k < 2; k++) {
 		r->n[k] = bins[k], r->h[k] = (hi[k] - lo[k]) / (double)bins[k];
@@ -86,7 +87,7 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 	r->value = pm_zalloc(bins[0] * bins[1], sizeof *r->value);
 	if (!r->value)
 		return -PM_DATA;
-	for (size_t p = 0; p < n; p++) {
+	for (size_t p = 0; p < points->n; p++) {
 		double s[2] = {(x[p] - r->lo[0]) / r->h[0], (y[p] - r->lo[1]) / r->h[1]}, value = (w ? w[p] : 1) / (r->h[0] * r->h[1]);
 		if (!(x[p] >= lo[0] && x[p] <= hi[0] && y[p] >= lo[1] && y[p] <= hi[1])) {
 			++*outside;
@@ -145,5 +146,6 @@ double pm_raster_at(const struct pm_raster *r, double x, double y)
 	size_t i[2], j[2];
 	double s = nodes(r, 0, x, i), t = nodes(r, 1, y, j);
 	const double *v = r->value;
-	return (1 - t) * ((1 - s) * v[i[0] + j[0] * r->n[0]] + s * v[i[1] + j[0] * r->n[0]]) + t * ((1 - s) * v[i[0] + j[1] * r->n[0]] + s * v[i[1] + j[1] * r->n[0]]);
+	return (1 - t) * ((1 - s) * v[i[0] + j[0] * r->n[0]] + s * v[i[1] + j[0] * r->n[0]]) +
+		t * ((1 - s) * v[i[0] + j[1] * r->n[0]] + s * v[i[1] + j[1] * r->n[0]]);
 }

@@ -16,8 +16,11 @@ int pm_raster_slice(struct pm_raster *r, const struct pm_frame *f, const struct 
 /* Its integral along the axis; points on a face count half. */
 int pm_raster_project(struct pm_raster *r, const struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *field, int component, int axis);
 /* Points of weight w (NULL: 1) per area, spread linearly over bins[2] bins between lo and hi; *outside counts those left out. */
-int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], size_t n, const double *x, const double *y, const double *w,
-	size_t *outside);
+struct pm_raster_points {
+	size_t n;
+	const double *x, *y, *w;
+};
+int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points, size_t *outside);
 /* One pass of 1-2-1 along both axes; the sum stays. */
 int pm_raster_smooth(struct pm_raster *r);
 /* Linear between the nodes, constant beyond the last. */

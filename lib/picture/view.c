@@ -1,5 +1,5 @@
-/* A view of a frame. A mesh field is a slice or an integral along an axis (3-D), as it is (2-D), or a curve (1-D); particles are points, or, where they are many,
- * their density over the plane of two expressions. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A view of a frame. A mesh field is a slice or an integral along an axis (3-D), as it is (2-D), or a curve (1-D); particles are points, or, where they are
+ * many, their density over the plane of two expressions. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "picture/colour.h"
@@ -50,7 +50,8 @@ static int plan_set(struct pm_view *v, struct pm_frame *f, const char *set)
 	}
 	if ((status = pm_expression_compile(&v->ex, f, set, x)) || (status = pm_expression_compile(&v->ey, f, set, y)))
 		return status;
-	if ((colour && (status = pm_expression_compile(&v->ecolour, f, set, colour))) || (v->weight && (status = pm_expression_compile(&v->eweight, f, set, v->weight))))
+	if ((colour && (status = pm_expression_compile(&v->ecolour, f, set, colour))) ||
+		(v->weight && (status = pm_expression_compile(&v->eweight, f, set, v->weight))))
 		return status;
 	snprintf(v->drawn, PM_NAME, "%.63s", colour ? colour : "");
 	return 0;
@@ -118,7 +119,10 @@ static void title_of(const struct pm_view *v, const struct pm_frame *f, const ch
 		snprintf(out, 256, "%s%s%s   t = %.6g   step %lld", *f->scene ? f->scene : f->law, *what ? "   " : "", what, f->time, (long long)f->step);
 }
 
-static void with_unit(const char *name, const char *unit, char out[160]) { snprintf(out, 160, "%.80s%s%s%s", name, *unit ? "  [" : "", unit, *unit ? "]" : ""); }
+static void with_unit(const char *name, const char *unit, char out[160])
+{
+	snprintf(out, 160, "%.80s%s%s%s", name, *unit ? "  [" : "", unit, *unit ? "]" : "");
+}
 
 /* The field an expression is nothing but a component of; NULL if it is more. */
 static const struct pm_field *plain(const struct pm_expression *e, const struct pm_frame *f)
@@ -170,7 +174,8 @@ static int curve(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, const
 	return status;
 }
 
-static int mesh_raster(struct pm_view *v, struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *field, struct pm_raster *r, char what[160], const char *name)
+static int mesh_raster(struct pm_view *v, struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *field, struct pm_raster *r, char what[160],
+	const char *name)
 {
 	double at = isnan(v->slice) ? (f->lo[v->axis] + f->hi[v->axis]) / 2 : v->slice;
 	char axis = "xyz"[v->axis];
@@ -196,7 +201,8 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 	int x = f->dim == 3 && v->axis == 0 ? 1 : 0, y = f->dim == 3 && v->axis != 2 ? 2 : 1, status;
 	if (field->components == 1)
 		v->component = 0;
-	snprintf(name, sizeof name, field->components == 1 ? "%s" : v->component < 0 ? "|%s|" : "%s_%.0d%c", v->drawn, 0, v->component < 3 ? "xyz"[v->component < 0 ? 0 : v->component] : '0' + v->component % 10);
+	snprintf(name, sizeof name, field->components == 1 ? "%s" : v->component < 0 ? "|%s|" : "%s_%.0d%c", v->drawn, 0,
+		v->component < 3 ? "xyz"[v->component < 0 ? 0 : v->component] : '0' + v->component % 10);
 	if (f->dim == 1)
 		return curve(v, f, p, m, field, name);
 	double lo[2] = {f->lo[x], f->lo[y]}, hi[2] = {f->hi[x], f->hi[y]};
@@ -240,7 +246,7 @@ static int draw_density(struct pm_view *v, struct pm_plot *p, size_t n, const do
 	struct pm_raster r = {.value = NULL};
 	double longer = fmin(fmax(2 * sqrt((double)n), 64), v->size), aspect = (double)(p->x1 - p->x0) / (p->y1 - p->y0), total = 0;
 	const size_t bins[2] = {(size_t)fmax(longer * fmin(aspect, 1), 8), (size_t)fmax(longer / fmax(aspect, 1), 8)};
-	int status = pm_raster_density(&r, bins, p->lo, p->hi, n, x, y, w, outside);
+	int status = pm_raster_density(&r, bins, p->lo, p->hi, &(struct pm_raster_points){n, x, y, w}, outside);
 	for (size_t i = 0; !status && i < bins[0] * bins[1]; i++)
 		total += r.value[i];
 	double one = n > *outside ? total / (double)(n - *outside) : 1; /* what a single particle makes of a bin */
@@ -267,7 +273,8 @@ static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, siz
 	char note[96], title[256], labels[3][160];
 	size_t outside = 0;
 	bool density = v->density || (!v->points && !*v->drawn && (n > many || v->weight));
-	double aspect = plain(&v->ex, f) && plain(&v->ex, f) == plain(&v->ey, f) ? aspect_of(p->lo, p->hi) : 1.25, lo[2] = {p->lo[0], p->lo[1]}, hi[2] = {p->hi[0], p->hi[1]};
+	double aspect = plain(&v->ex, f) && plain(&v->ex, f) == plain(&v->ey, f) ? aspect_of(p->lo, p->hi) : 1.25;
+	double lo[2] = {p->lo[0], p->lo[1]}, hi[2] = {p->hi[0], p->hi[1]};
 	int status = pm_plot_new(p, v->size, aspect, lo, hi, density || *v->drawn, dark);
 	for (size_t i = 0; !density && i < n; i++)
 		outside += !(x[i] >= lo[0] && x[i] <= hi[0] && y[i] >= lo[1] && y[i] <= hi[1]);

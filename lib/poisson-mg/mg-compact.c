@@ -5,7 +5,7 @@
  * (7 f_0 + 6 f_1 - f_2)/12, whose sum over the nodes is Gregory's quadrature (3/8, 7/6, 23/24, 1 ...), which the mean removed then follows.
  * Colours are ((i+k) mod 2, (j+k) mod 2), in 2-D (i mod 2, k mod 2): no two nodes of one colour see each other. Cost: 40 operations per node in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 #include <string.h>
 
@@ -65,7 +65,8 @@ static inline __attribute__((always_inline)) double defect(const int dim, const 
 	return f[i] - (sum - l->diagonal * s[0][i]);
 }
 
-static inline __attribute__((always_inline)) void defects(const int dim, const struct mg_level *l, const struct around *a, const double *f, size_t from, size_t to,
+static inline __attribute__((always_inline)) void defects(const int dim, const struct mg_level *l, const struct around *a, const double *f, size_t from,
+	size_t to,
 	double *restrict d)
 {
 	const double *left[rows_beside];
@@ -172,8 +173,8 @@ static double along(const struct pm_grid *g, int d, size_t i, size_t step, const
 			return 0;
 		return n < 3 ? (s[in] - s[0]) / 3 : (-5 * s[0] + 6 * s[in] - s[2 * in]) / 12;
 	}
-	const double *below = i ? s - step : s + (n - 1) * step, *above = i + 1 < n ? s + step : s - i * step;
-	return (*below - 2 * s[0] + *above) / 12;
+	const double *line = s - i * step;
+	return (line[pm_index_fold((ptrdiff_t)i - 1, n, periodic) * step] - 2 * s[0] + line[pm_index_fold((ptrdiff_t)i + 1, n, periodic) * step]) / 12;
 }
 
 void pm_mg_compact_source(const struct pm_grid *g, const double *s, double *out)

@@ -3,7 +3,7 @@
  * W: the coarser grid is visited twice. Full multigrid: the right-hand side on every grid, solved from the coarsest up, cubic interpolation and one
  * cycle on each (Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, sections 2.4 and 2.6).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 size_t pm_mg_unknowns(const struct mg_level *l)
 {

@@ -4,19 +4,9 @@
  * the error of the differences, this one 1.7, as injection does, but injection does not see a point source on an odd node. Linear instead of cubic
  * interpolation leaves 4 times (case PS-10). On axes of any other ratio f goes as in mg-transfer.c. Interpolation is one-sided at walls.
  * Source: Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, section 2.6. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 #include <string.h>
-
-static size_t reflect(ptrdiff_t i, const struct mg_axis *a)
-{
-	ptrdiff_t n = (ptrdiff_t)a->cells;
-	if (a->periodic)
-		return (size_t)((i % n + n) % n);
-	while (i < 0 || i > n)
-		i = i < 0 ? -i : 2 * n - i;
-	return (size_t)i;
-}
 
 void pm_mg_lagrange(const struct mg_axis *c, ptrdiff_t below, double x, size_t *node, double *w)
 {
@@ -24,7 +14,7 @@ void pm_mg_lagrange(const struct mg_axis *c, ptrdiff_t below, double x, size_t *
 	if (!c->periodic)
 		start = start < 0 ? 0 : start > n - q ? n - q : start;
 	for (ptrdiff_t m = 0; m < q; m++) {
-		node[m] = (size_t)(((start + m) % n + n) % n);
+		node[m] = mg_fold(start + m, c);
 		w[m] = 1;
 		for (ptrdiff_t o = 0; o < q; o++)
 			if (o != m)
@@ -47,7 +37,7 @@ static void restriction(const struct mg_axis *f, const struct mg_axis *c, struct
 	if (map->half)
 		for (size_t i = 0; i < c->points; i++)
 			for (ptrdiff_t o = -3; o <= 3; o++) {
-				size_t at = mg_cubic * reflect(2 * (ptrdiff_t)i + o, f);
+				size_t at = mg_cubic * mg_fold(2 * (ptrdiff_t)i + o, f);
 				if (stencil[o + 3] != 0)
 					add_entry(i, stencil[o + 3], map->four[1] + at, map->cubic[1] + at);
 			}
@@ -55,7 +45,7 @@ static void restriction(const struct mg_axis *f, const struct mg_axis *c, struct
 		for (size_t i = 0; i < f->points; i++)
 			for (int m = 0; m < 2; m++)
 				if (map->a[m][i] != 0)
-					add_entry(reflect(map->parent[i] + m, c), map->a[m][i], map->four[1] + mg_cubic * i, map->cubic[1] + mg_cubic * i);
+					add_entry(mg_fold(map->parent[i] + m, c), map->a[m][i], map->four[1] + mg_cubic * i, map->cubic[1] + mg_cubic * i);
 }
 
 bool pm_mg_full_tables(const struct mg_axis *f, const struct mg_axis *c, struct mg_map *map)
@@ -132,7 +122,7 @@ static void collect_half(const struct mg_level *fine, size_t points, const doubl
 	memcpy(odd, f + fine->half, n * sizeof *odd);
 	for (ptrdiff_t o = -2; o <= 2; o++) { /* -3, -1 on the left; on the right the next two */
 		ptrdiff_t i = o < 0 ? o : (ptrdiff_t)n + o;
-		odd[i] = f[mg_slot(fine, reflect(2 * i + 1, x))];
+		odd[i] = f[mg_slot(fine, mg_fold(2 * i + 1, x))];
 	}
 	for (size_t i = 0; i < points; i++)
 		c[i] = 0.03125 * (16 * f[i] + 9 * (odd[i - 1] + odd[i]) - (odd[i - 2] + odd[i + 1]));

@@ -1,4 +1,4 @@
-/* Builds the grids of a multigrid hierarchy and the tables of the transfers between them.
+/* Builds one grid of a multigrid hierarchy after the other, with the tables of linear interpolation between them.
  * An axis with an even number n of cells goes to n/2, an odd one to (n+1)/2 cells of the same length, so the grids are no longer nested there but
  * linear interpolation and its transpose still are second order. Only axes whose spacing is within sqrt 2 of the smallest are coarsened (semi-
  * coarsening, Trottenberg, Oosterlee, Schueller 2001, section 5.1.1), so that point relaxation stays a smoother on stretched cells. Axes without a wall end
@@ -58,12 +58,6 @@ static double axis_weight(const struct mg_axis *a, size_t i) /* of quadrature [l
 	return !a->periodic && (i == 0 || i + 1 == a->points) ? a->h / 2 : a->h;
 }
 
-static size_t fold(ptrdiff_t i, const struct mg_axis *a)
-{
-	ptrdiff_t n = (ptrdiff_t)a->points;
-	return (size_t)(i < 0 ? i + n : i < n ? i : a->periodic ? i - n : n - 1);
-}
-
 static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct mg_map *map)
 {
 	map->same = f->cells == c->cells && f->points == c->points;
@@ -83,9 +77,9 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 		map->w[0][i] = 1 - t;
 		map->w[1][i] = t;
 		for (int m = 0; m < 2; m++)
-			map->a[m][i] = map->w[m][i] * axis_weight(f, i) / axis_weight(c, fold((ptrdiff_t)below + m, c));
+			map->a[m][i] = map->w[m][i] * axis_weight(f, i) / axis_weight(c, mg_fold((ptrdiff_t)below + m, c));
 	}
-	return pm_mg_full_tables(f, c, map);
+	return true;
 }
 
 static bool level_alloc(struct mg_level *l)
@@ -98,7 +92,6 @@ static bool level_alloc(struct mg_level *l)
 		l->plane += mg_lanes;
 	for (int d = 0; d < 3; d++)
 		l->fixed |= !axis_free(&l->axis[d]);
-	pm_mg_compact_init(l);
 	l->u = pm_zalloc(mg_size(l), sizeof(double));
 	l->f = pm_zalloc(mg_size(l), sizeof(double));
 	for (int m = 0; m < 2; m++)
@@ -109,8 +102,7 @@ static bool level_alloc(struct mg_level *l)
 	return l->u && l->f;
 }
 
-/* The next coarser grid; false in *more if there is none. */
-static bool level_coarse(struct mg_level *fine, struct mg_level *coarse, bool *more)
+bool pm_mg_level_coarser(struct mg_level *fine, struct mg_level *coarse, bool *more)
 {
 	double smallest = INFINITY;
 	*more = false;
@@ -130,50 +122,23 @@ static bool level_coarse(struct mg_level *fine, struct mg_level *coarse, bool *m
 	return level_alloc(coarse);
 }
 
-bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order)
+bool pm_mg_level_finest(struct mg_level *l, const struct pm_grid *g, int order)
 {
-	struct mg_level *l = &mg->level[0];
-	mg->grid = *g;
 	l->dim = g->dim;
-	mg->order = l->order = order;
+	l->order = order;
 	l->axis[0] = axis_of(g, 0);
 	l->axis[1] = g->dim == 3 ? axis_of(g, 1) : axis_flat(1);
 	l->axis[2] = g->dim == 3 ? axis_of(g, 2) : g->dim == 2 ? axis_of(g, 1) : axis_flat(1);
-	if (!level_alloc(l))
-		return false;
-	bool more = true;
-	for (mg->levels = 1; mg->levels < mg_levels_most; mg->levels++, l++) {
-		if (!level_coarse(l, l + 1, &more))
-			return false;
-		if (!more)
-			break;
-	}
-	mg->threads = pm_threads();
-	mg->room = 4 * (mg->level[0].stride + 4 * mg_lanes);
-	mg->scratch = pm_zalloc(mg->room * (size_t)mg->threads, sizeof(double));
-	mg->sums = pm_zalloc(mg->level[0].axis[2].points, sizeof(double));
-	return mg->scratch && mg->sums;
+	return level_alloc(l);
 }
 
-bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o)
+void pm_mg_level_free(struct mg_level *l)
 {
-	for (int i = 0; i < mg->levels && o->smoother == PM_MG_JACOBI; i++)
-		if (!mg->level[i].v && !(mg->level[i].v = pm_zalloc(mg_size(&mg->level[i]), sizeof(double))))
-			return false;
-	return true;
-}
-
-void pm_mg_demolish(struct pm_mg *mg)
-{
-	for (int i = 0; i < mg_levels_most; i++) {
-		struct mg_level *l = &mg->level[i];
-		pm_free(l->u), pm_free(l->f), pm_free(l->v), pm_free(l->mask[0]), pm_free(l->mask[1]);
-		for (int d = 0; d < 3; d++) {
-			struct mg_map *m = &l->map[d];
-			pm_free(m->parent);
-			for (int p = 0; p < 2; p++)
-				pm_free(m->w[p]), pm_free(m->a[p]), pm_free(m->four[p]), pm_free(m->cubic[p]);
-		}
+	pm_free(l->u), pm_free(l->f), pm_free(l->v), pm_free(l->mask[0]), pm_free(l->mask[1]);
+	for (int d = 0; d < 3; d++) {
+		struct mg_map *m = &l->map[d];
+		pm_free(m->parent);
+		for (int p = 0; p < 2; p++)
+			pm_free(m->w[p]), pm_free(m->a[p]), pm_free(m->four[p]), pm_free(m->cubic[p]);
 	}
-	pm_free(mg->scratch), pm_free(mg->sums);
 }

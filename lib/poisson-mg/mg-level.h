@@ -1,4 +1,4 @@
-/* The grids of a multigrid hierarchy and what is done on them; private to lib/poisson-mg.
+/* A grid of a multigrid hierarchy; private to lib/poisson-mg.
  * Axes are those of memory: axis 0 is x; a 2-D mesh has its y as axis 2, so that axis 2 always counts what threads share out ("planes").
  * A row holds its even nodes first, then its odd ones (mg_slot): the nodes of one colour are one half of a row, all their neighbours along x are the other
  * half of it, and their neighbours along y and z lie at the same place of the same half of other rows. Each half is padded to whole vectors of
@@ -6,7 +6,8 @@
 #ifndef PM_POISSON_MG_MG_LEVEL_H
 #define PM_POISSON_MG_MG_LEVEL_H
 
-#include "poisson-mg/mg.h"
+#include "mesh/grid.h"
+#include "mesh/index-fold.h"
 
 enum { mg_lanes = 8, mg_cubic = 4, mg_parallel = 131072 }; /* values below which a grid is not worth the barriers of threads */
 
@@ -23,7 +24,7 @@ struct mg_map {
 	bool same, half;       /* not coarsened; every second node */
 	ptrdiff_t *parent;
 	double *w[2], *a[2];
-	size_t *four[2];       /* to start full multigrid: mg_cubic parents per node, folded, */
+	size_t *four[2];       /* of mg-full.c: to start full multigrid: mg_cubic parents per node, folded, */
 	double *cubic[2];      /* and their weights in [0] interpolation, [1] restriction of the right-hand side */
 };
 
@@ -40,36 +41,11 @@ struct mg_level {
 	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
 };
 
-enum { mg_levels_most = 96 };
-
-struct pm_mg {
-	struct pm_grid grid;
-	int levels, threads, order;
-	struct mg_level level[mg_levels_most];
-	double *scratch;       /* per thread: four rows */
-	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
-	double *sums;          /* per plane of the finest grid */
-};
-
-/* What a sweep does with a plane, in this order. */
-enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK, MG_JACOBI, MG_KEEP, MG_COLOUR }; /* MG_COLOUR + 0 .. 3 */
-enum { mg_stages_most = 4 * 32 + 1 };
-
 static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
-/* mg-level.c */
-bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order);
-bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o); /* for what the smoother needs */
-void pm_mg_demolish(struct pm_mg *mg);
-
-static inline size_t mg_below(const struct mg_axis *a, size_t i) /* neighbour of node i, folded at the faces */
-{
-	return i ? i - 1 : a->periodic ? a->points - 1 : a->points > 1;
-}
-static inline size_t mg_above(const struct mg_axis *a, size_t i)
-{
-	return i + 1 < a->points ? i + 1 : a->periodic ? 0 : i - (a->points > 1);
-}
+static inline size_t mg_fold(ptrdiff_t i, const struct mg_axis *a) { return pm_index_fold(i, a->points, a->periodic); }
+static inline size_t mg_below(const struct mg_axis *a, size_t i) { return mg_fold((ptrdiff_t)i - 1, a); }
+static inline size_t mg_above(const struct mg_axis *a, size_t i) { return mg_fold((ptrdiff_t)i + 1, a); }
 static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].points * l->plane; }
 
 /* Every row of u is kept closed by who changes it: behind its last node stands the right neighbour of that, folded at the face. */
@@ -82,55 +58,9 @@ static inline void mg_close_row(const struct mg_level *l, double *u)
 /* Left of node 0, folded at the face. */
 static inline double mg_left_end(const struct mg_level *l, const double *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
 
-/* mg-relax.c */
-void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
-void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
-double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
-
-/* mg-compact.c */
-void pm_mg_compact_init(struct mg_level *l); /* the weights, also those of order 2 */
-void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, double *w); /* w: room for a row */
-void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, double *w); /* v from u */
-void pm_mg_keep_plane(const struct mg_level *l, size_t k);                                  /* u from v */
-double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, double *r);     /* as pm_mg_residual_row */
-void pm_mg_compact_source(const struct pm_grid *g, const double *s, double *out);           /* the right-hand side of order 4 for lap u = s */
-
-/* mg-transfer.c */
-struct mg_parents { /* of one node along one axis, without those of weight 0 */
-	int n;
-	size_t node[mg_cubic];
-	double w[mg_cubic];
-};
-void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x; n a multiple of mg_lanes */
-void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row); /* from node after node to a row */
-/* A combination of coarse rows, node after node in t, closed at its ends if periodic: t[-1] ... t[n+1]. */
-void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
-void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-double pm_mg_restrict(struct pm_mg *mg, int fine, bool half_weighting); /* of f - lap u; returns its sum of squares on the finest grid */
-
-/* mg-pyramid.c */
-bool pm_mg_pyramid(struct pm_mg *mg, double factor, const double *s); /* order 4: f of every grid but the finest from the source s itself; false: no memory */
-
-/* mg-full.c */
-/* Lagrange weights of up to four nodes of an axis around x [cells]; below = floor(x). */
-void pm_mg_lagrange(const struct mg_axis *a, ptrdiff_t below, double x, size_t *node, double *w);
-bool pm_mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
-void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
-void pm_mg_restrict_source(struct pm_mg *mg, int fine);
-
-/* mg-sweep.c */
-void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages);
-
-/* mg.c */
-/* As pm_mg_solve, for a source that is already that of the differences; point: the source before it was made compact, NULL where there is none. */
-int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi, struct pm_mg_record *r);
-
-/* mg-cycle.c */
-size_t pm_mg_unknowns(const struct mg_level *l);
-void pm_mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
-double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
-void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */
-void pm_mg_start_sources(struct pm_mg *mg); /* the right-hand sides of all grids from the finest, for full multigrid */
-void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* then from the coarsest grid up, one cycle on each but the finest */
+/* The finest grid of a mesh; the next coarser one with fine->map[].parent, w and a, *more false if there is none. False: no memory. */
+bool pm_mg_level_finest(struct mg_level *l, const struct pm_grid *g, int order);
+bool pm_mg_level_coarser(struct mg_level *fine, struct mg_level *coarse, bool *more);
+void pm_mg_level_free(struct mg_level *l); /* with its map */
 
 #endif

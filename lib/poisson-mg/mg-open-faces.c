@@ -1,8 +1,8 @@
 /* The potential of charges on the surface of a box at the nodes of its surface: a convolution with a table of the lattice Green's function.
  *   phi(x) = sum over the nodes y of the surface of G(|x - y|) q(y)
  * Two faces always share an axis (two opposite ones two): along it the sum is a convolution, done mode by mode of a cosine and sine sum over twice the length,
- * where G, being even, has a real transform; across it the sum is done as it stands. A node on an edge belongs to the face of the lowest axis. An axis above dim
- * has one node and one mode, which makes the same code serve 2-D, where it is the plain double sum, and 1-D.
+ * where G, being even, has a real transform; across it the sum is done as it stands. A node on an edge belongs to the face of the lowest axis. An axis above
+ * dim has one node and one mode, which makes the same code serve 2-D, where it is the plain double sum, and 1-D.
  * Cost: 100 N^3 operations in 3-D, 32 N^2 in 2-D; memory: three tables of N^3. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open-parts.h"
 
@@ -154,7 +154,8 @@ static void multiply(const struct mg_faces *s, const struct face *a, const struc
 	for (size_t t = 0; t < to; t++) {
 		double re = 0, im = 0;
 		for (size_t q = 0; q < from; q++) {
-			size_t along = a->axis == b->axis ? gap(a->at, b->at) : gap(a->at, t), across = a->axis == b->axis ? gap(q, t) : gap(q, b->at); /* a's normal; the other */
+			size_t along = a->axis == b->axis ? gap(a->at, b->at) : gap(a->at, t); /* a's normal */
+			size_t across = a->axis == b->axis ? gap(q, t) : gap(q, b->at);
 			double g = hat[a->axis == lower(c) ? along * wide + across : across * wide + along];
 			re += g * source[0][k * from + q], im += g * source[1][k * from + q];
 		}

@@ -2,7 +2,7 @@
 #ifndef PM_POISSON_MG_MG_OPEN_PARTS_H
 #define PM_POISSON_MG_MG_OPEN_PARTS_H
 
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 #include "poisson-mg/mg-open.h"
 
 /* The differences A as a list. */

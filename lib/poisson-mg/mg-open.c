@@ -1,8 +1,8 @@
 /* Free space by James' method: the boundary values of a box from the charge that a grounded box would carry.
  *   A u = f with u = 0 on the walls; q = A u - f on the walls and f = A u beyond them; phi = -G * q on the walls; A phi = f with these
- * With G of the infinite lattice (mg-open-kernel.c) this is the solution of the differences on the infinite lattice, so its error is theirs alone, of order 2 or 4, and
- * no domain is doubled. The source must vanish outside, at order 4 on the walls too. Sources: James 1977; Trottenberg, Oosterlee, Schueller 2001 for the solver.
- * Cost: two solutions, and 100 N^3 operations for the walls; memory: four more grids in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
+ * With G of the infinite lattice (mg-open-kernel.c) this is the solution of the differences on the infinite lattice, so its error is theirs alone, of order 2
+ * or 4, and no domain is doubled. The source must vanish outside, at order 4 on the walls too. Sources: James 1977; Trottenberg, Oosterlee, Schueller 2001
+ * for the solver. Cost: two solutions, and 100 N^3 operations for the walls; memory: four more grids in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open-parts.h"
 
 #include <string.h>
@@ -28,7 +28,8 @@ int pm_mg_open_check(const struct pm_grid *g)
 				pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
 	}
 	if (most > most_stretched * least * (1 + 1e-9))
-		return pm_fail(PM_DATA, "multigrid in open space takes cells stretched up to %d times, and these are %.3g times longer than wide (choose p2m -n so that they are nearly cubes, "
+		return pm_fail(PM_DATA, "multigrid in open space takes cells stretched up to %d times, and these are %.3g times longer than wide (choose p2m -n so "
+			"that they are nearly cubes, "
 			"or use poisson-fft)", most_stretched, most / least);
 	return 0;
 }

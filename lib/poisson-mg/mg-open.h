@@ -12,8 +12,8 @@ struct pm_mg_open *pm_mg_open_new(const struct pm_grid *g, int order); /* NULL w
 struct pm_mg_open *pm_mg_open_free(struct pm_mg_open *m);
 bool pm_mg_open_fits(const struct pm_mg_open *m, const struct pm_grid *g, int order);
 
-/* As pm_mg_solve, with phi = -1/(4 pi r), ln(r)/(2 pi) or |x|/2 of a unit point source. The record counts the cycles of both solutions, and its history is theirs one
- * after the other. */
+/* As pm_mg_solve, with phi = -1/(4 pi r), ln(r)/(2 pi) or |x|/2 of a unit point source. The record counts the cycles of both solutions, and its history is
+ * theirs one after the other. */
 int pm_mg_open_solve(struct pm_mg_open *m, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r);
 
 #endif

@@ -4,22 +4,15 @@
  * each row (mg-level.h) and nothing is computed in vain. Where an odd number of nodes is periodic, two nodes of one colour meet: along x each sees
  * the old value of the other, along y and z the order of the sweep decides, always the same.
  * Cost: 13 operations per node and sweep. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
-
-typedef double vec __attribute__((vector_size(8 * mg_lanes), may_alias));
-typedef int64_t vmask __attribute__((vector_size(8 * mg_lanes), may_alias));
-
-#define AT(p) (*(vec *)(p))
-#define CAT(p) (*(const vec *)(p))
-#define SHIFT_UP(before, here) __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14)
-#define SHIFT_DOWN(here, after) __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8)
+#include "base/simd.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 struct rows {
 	double *u;
 	const double *f, *south, *north, *back, *front; /* neighbours along y and z */
 };
 
-static inline __attribute__((always_inline)) struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
+PM_SIMD_INLINE struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
 	double *plane = l->u + k * l->plane;
@@ -28,6 +21,9 @@ static inline __attribute__((always_inline)) struct rows rows_at(const struct mg
 		.south = plane + mg_below(y, j) * l->stride, .north = plane + mg_above(y, j) * l->stride,
 		.back = l->u + mg_below(z, k) * l->plane + row, .front = l->u + mg_above(z, k) * l->plane + row};
 }
+
+PM_SIMD_INLINE pm_simd along_y(const struct rows *a, size_t i) { return pm_simd_load(a->south + i) + pm_simd_load(a->north + i); }
+PM_SIMD_INLINE pm_simd along_z(const struct rows *a, size_t i) { return pm_simd_load(a->back + i) + pm_simd_load(a->front + i); }
 
 /* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
 #define LAPLACIAN(result, alongx, alongy, alongz, here) \
@@ -44,29 +40,29 @@ static inline __attribute__((always_inline)) struct rows rows_at(const struct mg
 #define CHANGE(p, here, change, mask, i, n) \
 	do { \
 		if ((i) == 0 || (i) + mg_lanes >= (n)) \
-			change = (vec)((vmask)change & *(const vmask *)((mask) + (i))); \
-		AT(p) = (here) + change; \
+			change = pm_simd_masked(change, (mask) + (i)); \
+		pm_simd_store(p, (here) + change); \
 	} while (0)
 
 /* Relaxes the even (odd = 0) or the odd half of a row. */
-static inline __attribute__((always_inline)) void relax_row(const int dim, const struct mg_level *l, double factor, struct rows a, const int odd)
+PM_SIMD_INLINE void relax_row(const int dim, const struct mg_level *l, double factor, struct rows a, const int odd)
 {
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
 	double *other = a.u + l->half - at;
-	vec last = {0}, next, here, lap, sides, change;
+	pm_simd last = {0}, next, here, lap, sides, change;
 	last += mg_left_end(l, a.u);
 	if (odd)
-		last = CAT(other);
+		last = pm_simd_load(other);
 	for (size_t i = 0; i < n; i += mg_lanes) {
-		next = CAT(other + i + (odd ? mg_lanes : 0));
-		here = CAT(a.u + at + i);
+		next = pm_simd_load(other + i + (odd ? mg_lanes : 0));
+		here = pm_simd_load(a.u + at + i);
 		if (odd)
-			sides = last + SHIFT_DOWN(last, next);
+			sides = last + pm_simd_shift_down(last, next);
 		else
-			sides = SHIFT_UP(last, next) + next;
-		LAPLACIAN(lap, sides, CAT(a.south + at + i) + CAT(a.north + at + i), CAT(a.back + at + i) + CAT(a.front + at + i), here);
-		change = factor * (lap - CAT(a.f + at + i));
+			sides = pm_simd_shift_up(last, next) + next;
+		LAPLACIAN(lap, sides, along_y(&a, at + i), along_z(&a, at + i), here);
+		change = factor * (lap - pm_simd_load(a.f + at + i));
 		CHANGE(a.u + at + i, here, change, l->mask[odd], i, n);
 		last = next;
 	}
@@ -75,27 +71,27 @@ static inline __attribute__((always_inline)) void relax_row(const int dim, const
 
 /* Relaxes the even half of row e and the odd half of row o, which are neighbours: what one has beside it along x, the other has along y, so that two
  * of five loads are saved. beyond_e and beyond_o are their outer neighbours along y. The bytes are those of relax_row. */
-static inline __attribute__((always_inline)) void relax_pair(const struct mg_level *l, double factor, struct rows e, struct rows o, const double *beyond_e,
+PM_SIMD_INLINE void relax_pair(const struct mg_level *l, double factor, struct rows e, struct rows o, const double *beyond_e,
 	const double *beyond_o)
 {
 	enum { dim = 3 };
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t half = l->half, n = (l->axis[0].points + 1) / 2, m = l->axis[0].points / 2;
-	vec e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
+	pm_simd e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
 	e_last += mg_left_end(l, e.u);
-	o_last = CAT(o.u);
+	o_last = pm_simd_load(o.u);
 	for (size_t i = 0; i < n; i += mg_lanes) {
-		e_next = CAT(e.u + half + i);
-		o_next = CAT(o.u + i + mg_lanes);
-		here = CAT(e.u + i);
-		sides = SHIFT_UP(e_last, e_next) + e_next;
-		LAPLACIAN(lap, sides, CAT(beyond_e + i) + o_last, CAT(e.back + i) + CAT(e.front + i), here);
-		change = factor * (lap - CAT(e.f + i));
+		e_next = pm_simd_load(e.u + half + i);
+		o_next = pm_simd_load(o.u + i + mg_lanes);
+		here = pm_simd_load(e.u + i);
+		sides = pm_simd_shift_up(e_last, e_next) + e_next;
+		LAPLACIAN(lap, sides, pm_simd_load(beyond_e + i) + o_last, along_z(&e, i), here);
+		change = factor * (lap - pm_simd_load(e.f + i));
 		CHANGE(e.u + i, here, change, l->mask[0], i, n);
-		here = CAT(o.u + half + i);
-		sides = o_last + SHIFT_DOWN(o_last, o_next);
-		LAPLACIAN(lap, sides, CAT(beyond_o + half + i) + e_next, CAT(o.back + half + i) + CAT(o.front + half + i), here);
-		change = factor * (lap - CAT(o.f + half + i));
+		here = pm_simd_load(o.u + half + i);
+		sides = o_last + pm_simd_shift_down(o_last, o_next);
+		LAPLACIAN(lap, sides, pm_simd_load(beyond_o + half + i) + e_next, along_z(&o, half + i), here);
+		change = factor * (lap - pm_simd_load(o.f + half + i));
 		CHANGE(o.u + half + i, here, change, l->mask[1], i, m);
 		e_last = e_next;
 		o_last = o_next;
@@ -128,7 +124,7 @@ void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, 
 	}
 }
 
-static inline __attribute__((always_inline)) void relax_rows(const int dim, const struct mg_level *l, double factor, int colour, size_t j, size_t k)
+PM_SIMD_INLINE void relax_rows(const int dim, const struct mg_level *l, double factor, int colour, size_t j, size_t k)
 {
 	if ((j + k + (size_t)colour) & 1)
 		relax_row(dim, l, factor, rows_at(l, j, k), 1);
@@ -163,24 +159,24 @@ void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, 
 		relax_rows(1, l, factor, colour, 0, k);
 }
 
-static inline __attribute__((always_inline)) double residual_row(const int dim, const struct mg_level *l, struct rows a, double *restrict r)
+PM_SIMD_INLINE double residual_row(const int dim, const struct mg_level *l, struct rows a, double *restrict r)
 {
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t half = l->half;
 	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
-	vec before = {0}, even, odd, after, lap, v, w, sum = {0};
+	pm_simd before = {0}, even, odd, after, lap, v, w, sum = {0};
 	before += mg_left_end(l, a.u);
-	even = CAT(a.u);
+	even = pm_simd_load(a.u);
 	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
-		odd = CAT(a.u + half + i);
-		after = CAT(a.u + i + mg_lanes);
-		LAPLACIAN(lap, SHIFT_UP(before, odd) + odd, CAT(a.south + i) + CAT(a.north + i), CAT(a.back + i) + CAT(a.front + i), even);
-		v = (vec)((vmask)(CAT(a.f + i) - lap) & *(const vmask *)(mask[0] + i));
-		LAPLACIAN(lap, even + SHIFT_DOWN(even, after), CAT(a.south + half + i) + CAT(a.north + half + i), CAT(a.back + half + i) + CAT(a.front + half + i), odd);
-		w = (vec)((vmask)(CAT(a.f + half + i) - lap) & *(const vmask *)(mask[1] + i));
+		odd = pm_simd_load(a.u + half + i);
+		after = pm_simd_load(a.u + i + mg_lanes);
+		LAPLACIAN(lap, pm_simd_shift_up(before, odd) + odd, along_y(&a, i), along_z(&a, i), even);
+		v = pm_simd_masked(pm_simd_load(a.f + i) - lap, mask[0] + i);
+		LAPLACIAN(lap, even + pm_simd_shift_down(even, after), along_y(&a, half + i), along_z(&a, half + i), odd);
+		w = pm_simd_masked(pm_simd_load(a.f + half + i) - lap, mask[1] + i);
 		sum += v * v + w * w;
-		AT(r + i) = v;
-		AT(r + half + i) = w;
+		pm_simd_store(r + i, v);
+		pm_simd_store(r + half + i, w);
 		before = odd;
 		even = after;
 	}

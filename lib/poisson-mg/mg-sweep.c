@@ -3,7 +3,7 @@
  * take slabs that narrow by one plane per stage at each cut, and after a barrier the wedges left at the cuts (split tiling, as in
  * Wellein et al. 2009). Every plane goes through the same stages with the same neighbours whatever the cuts, so the bytes do not depend on threads.
  * The seam of a periodic axis is a cut at which plane 0 comes after plane n-1 in every stage. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 #include <string.h>
 

@@ -4,55 +4,44 @@
  * ratio n/n_c. With 1/h^2 kept in the operator nothing is left to scale (the factor 4 missing in texts that multiply by h^2).
  * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-level.h"
-
-#include <string.h>
-
-typedef double vec __attribute__((vector_size(8 * mg_lanes), may_alias));
-
-#define AT(p) (*(vec *)(p))
-#define CAT(p) (*(const vec *)(p))
-
-static inline size_t fold(ptrdiff_t i, size_t n)
-{
-	return (size_t)(i < 0 ? i + (ptrdiff_t)n : i < (ptrdiff_t)n ? i : i - (ptrdiff_t)n);
-}
+#include "base/simd.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
 {
 	struct mg_parents p = {0};
 	for (int m = 0; m < 2; m++)
 		if (map->w[m][i] != 0)
-			p.node[p.n] = fold(map->parent[i] + m, coarse->points), p.w[p.n++] = map->w[m][i];
+			p.node[p.n] = mg_fold(map->parent[i] + m, coarse), p.w[p.n++] = map->w[m][i];
 	return p;
 }
 
 void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
 {
 	for (size_t i = 0; i < n; i += mg_lanes)
-		AT(y + i) += w * CAT(x + i);
+		pm_simd_store(y + i, pm_simd_load(y + i) + w * pm_simd_load(x + i));
 }
 
 void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
 {
 	for (size_t i = 0; i < l->half; i += mg_lanes) {
-		vec a = CAT(t + 2 * i), b = CAT(t + 2 * i + mg_lanes);
-		AT(row + i) = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
-		AT(row + l->half + i) = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+		pm_simd a = pm_simd_load(t + 2 * i), b = pm_simd_load(t + 2 * i + mg_lanes);
+		pm_simd_store(row + i, pm_simd_even(a, b));
+		pm_simd_store(row + l->half + i, pm_simd_odd(a, b));
 	}
 }
 
 /* n rows with weights w, from rows to node after node. */
-static inline __attribute__((always_inline)) void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
+PM_SIMD_INLINE void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
 {
 	for (size_t i = 0; i < c->half; i += mg_lanes) {
-		vec even = w[0] * CAT(row[0] + i), odd = w[0] * CAT(row[0] + c->half + i);
+		pm_simd even = w[0] * pm_simd_load(row[0] + i), odd = w[0] * pm_simd_load(row[0] + c->half + i);
 		for (int m = 1; m < n; m++) {
-			even += w[m] * CAT(row[m] + i);
-			odd += w[m] * CAT(row[m] + c->half + i);
+			even += w[m] * pm_simd_load(row[m] + i);
+			odd += w[m] * pm_simd_load(row[m] + c->half + i);
 		}
-		AT(t + 2 * i) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
-		AT(t + 2 * i + mg_lanes) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+		pm_simd_store(t + 2 * i, pm_simd_zip_low(even, odd));
+		pm_simd_store(t + 2 * i + mg_lanes, pm_simd_zip_high(even, odd));
 	}
 }
 
@@ -84,10 +73,11 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 /* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, with values behind the end that nobody reads. */
 static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
 {
+	double *restrict odd = u + fine->half;
 	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
-		vec a = CAT(t + i), b = CAT(t + i + mg_lanes);
-		AT(u + i) += a;
-		AT(u + fine->half + i) += 0.5 * (a + __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8));
+		pm_simd a = pm_simd_load(t + i), b = pm_simd_load(t + i + mg_lanes);
+		pm_simd_store(u + i, pm_simd_load(u + i) + a);
+		pm_simd_store(odd + i, pm_simd_load(odd + i) + 0.5 * (a + pm_simd_shift_down(a, b)));
 	}
 }
 
@@ -114,14 +104,14 @@ void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coa
 }
 
 /* c_i = side (r_2i-1 + r_2i+1) + middle r_2i, node after node */
-static inline __attribute__((always_inline)) void collect_half(const struct mg_level *fine, const double side, const double middle, const double *restrict r,
+PM_SIMD_INLINE void collect_half(const struct mg_level *fine, const double side, const double middle, const double *restrict r,
 	double *restrict c)
 {
-	vec before = {0};
+	pm_simd before = {0};
 	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
 	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
-		vec odd = CAT(r + fine->half + i);
-		AT(c + i) = side * (__builtin_shufflevector(before, odd, 7, 8, 9, 10, 11, 12, 13, 14) + odd) + middle * CAT(r + i);
+		pm_simd odd = pm_simd_load(r + fine->half + i);
+		pm_simd_store(c + i, side * (pm_simd_shift_up(before, odd) + odd) + middle * pm_simd_load(r + i));
 		before = odd;
 	}
 }
@@ -139,12 +129,12 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 		memset(c, 0, coarse->stride * sizeof *c);
 		for (size_t i = 0; i < fine->axis[0].points; i++)
 			for (int m = 0; m < 2; m++)
-				c[mg_slot(coarse, fold(map->parent[i] + m, coarse->axis[0].points))] += map->a[m][i] * r[mg_slot(fine, i)];
+				c[mg_slot(coarse, mg_fold(map->parent[i] + m, &coarse->axis[0]))] += map->a[m][i] * r[mg_slot(fine, i)];
 	}
 }
 
-/* Half weighting: 1/2 of the node and 1/(4n) of each of its neighbours along the n axes that are coarsened, instead of the product of (1 2 1)/4. In row j, k: what
- * collect_row does, and the factor that makes the weights of mg_map those. 0: the row has no part in it. */
+/* Half weighting: 1/2 of the node and 1/(4n) of each of its neighbours along the n axes that are coarsened, instead of the product of (1 2 1)/4. In row j, k:
+ * what collect_row does, and the factor that makes the weights of mg_map those. 0: the row has no part in it. */
 static double collect_half_weighting(const struct mg_level *fine, const struct mg_level *coarse, size_t j, size_t k, const double *r, double *c, double *w)
 {
 	const struct mg_map *x = &fine->map[0], *y = x + 1, *z = x + 2;
@@ -177,7 +167,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 {
 	const struct mg_axis *y = &fine->axis[1], *cy = &coarse->axis[1];
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
-	size_t here = fold(k, fine->axis[2].points);
+	size_t here = mg_fold(k, &fine->axis[2]);
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
 	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0, scale = 1;
 	for (size_t j = y->first; j < y->end; j++) {
@@ -191,7 +181,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			if (mz->a[a][here] == 0 || up < (ptrdiff_t)range[0] || up >= (ptrdiff_t)range[1])
 				continue;
 			for (int b = 0; b < 2; b++) {
-				size_t over = fold(my->parent[j] + b, cy->points);
+				size_t over = mg_fold(my->parent[j] + b, cy);
 				if (my->a[b][j] != 0)
 					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
@@ -231,7 +221,7 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 	for (ptrdiff_t k = from; k <= to || k < mine; k++) {
 		double sum = restrict_plane(fine, coarse, half, k, range, w);
 		if (k < mine && sums)
-			sums[fold(k, fine->axis[2].points)] = sum;
+			sums[mg_fold(k, &fine->axis[2])] = sum;
 	}
 }
 

@@ -1,10 +1,10 @@
 /* Coarser grids for a variable coefficient: interpolation that follows the operator, and Galerkin matrices.
  *   a node between coarse ones takes the value that satisfies its own equation, the weights of the axes on which it is coarse summed up;
  *   nodes on edges first, then on faces, then in the middle of coarse cells; A_c = P^T A P
- * so that eps grad u, not grad u, is carried across a jump (Alcouffe, Brandt, Dendy, Painter 1981; Dendy 1982; Trottenberg, Oosterlee, Schueller 2001, section 7.7.3). Coarse nodes
- * are every second unknown, the first behind a wall or the one on a neumann face; what is left at the end of an odd axis has one parent. Axes
- * are coarsened where their spacing is within sqrt 2 of the smallest. Constants are interpolated exactly. Cost: 4000 operations per coarse node in 3-D, once.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * so that eps grad u, not grad u, is carried across a jump (Alcouffe, Brandt, Dendy, Painter 1981; Dendy 1982; Trottenberg, Oosterlee, Schueller 2001,
+ * section 7.7.3). Coarse nodes are every second unknown, the first behind a wall or the one on a neumann face; what is left at the end of an odd axis has one
+ * parent. Axes are coarsened where their spacing is within sqrt 2 of the smallest. Constants are interpolated exactly. Cost: 4000 operations per coarse node
+ * in 3-D, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 
 #include <string.h>

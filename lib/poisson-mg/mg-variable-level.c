@@ -1,7 +1,8 @@
 /* The finest grid of multigrid with a variable coefficient: finite volumes around the nodes.
  *   -sum over faces of e_face (u_neighbour - u)/h^2 = -f,   e_face the harmonic or arithmetic mean of the nodes on its two sides
- * The harmonic mean is exact where eps jumps across a face in a plane layer (Trottenberg, Oosterlee, Schueller 2001, section 7.7). A node on a neumann face has half a volume and
- * half the faces across, which makes the matrix symmetric. Walls are left out: phi = 0 there. SPDX-License-Identifier: GPL-3.0-or-later */
+ * The harmonic mean is exact where eps jumps across a face in a plane layer (Trottenberg, Oosterlee, Schueller 2001, section 7.7). A node on a neumann face
+ * has half a volume and half the faces across, which makes the matrix symmetric. Walls are left out: phi = 0 there. SPDX-License-Identifier: GPL-3.0-or-later
+ * */
 #include "poisson-mg/mg-variable-level.h"
 
 #include <string.h>
@@ -151,6 +152,8 @@ void pm_mgv_store(const struct pm_mg_variable *v, double factor, const double *u
 	memset(phi, 0, pm_grid_size(g) * sizeof *phi);
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(l); row++)
-		for (size_t i = 0; i < l->m[0]; i++)
-			phi[i + first(g, 0) + g->points[0] * (row % l->m[1] + first(g, 1) + g->points[1] * (row / l->m[1] + first(g, 2)))] = factor * u[mgv_row(l, row) + i];
+		for (size_t i = 0; i < l->m[0]; i++) {
+			size_t j = row % l->m[1] + first(g, 1), k = row / l->m[1] + first(g, 2);
+			phi[i + first(g, 0) + g->points[0] * (j + g->points[1] * k)] = factor * u[mgv_row(l, row) + i];
+		}
 }

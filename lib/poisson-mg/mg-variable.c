@@ -1,9 +1,9 @@
 /* div(eps grad phi) = f with eps that varies and jumps: conjugate gradients preconditioned with a multigrid cycle.
  *   z = cycle(r), beta = z.(r - r_before)/(z.r)_before, d = z + beta d, alpha = d.r/d.Md, x += alpha d, r = f - M x
- * (flexible form, Notay 2000, which forgives a cycle that is not quite symmetric). The cycles are those of mg-variable-cycle.c over operator-dependent transfers and
- * Galerkin matrices, which bear jumps; what is left to conjugate gradients is the few modes that jumps crossing at a corner make slow (Kettler 1982). The
- * residual is computed anew each time, so round-off is seen, not hidden. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values per node in 3-D.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * (flexible form, Notay 2000, which forgives a cycle that is not quite symmetric). The cycles are those of mg-variable-cycle.c over operator-dependent
+ * transfers and Galerkin matrices, which bear jumps; what is left to conjugate gradients is the few modes that jumps crossing at a corner make slow (Kettler
+ * 1982). The residual is computed anew each time, so round-off is seen, not hidden. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values
+ * per node in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 
 #include <float.h>
@@ -22,7 +22,8 @@ static int check_positive(const struct pm_grid *g, const double *eps)
 {
 	for (size_t p = 0; p < pm_grid_size(g); p++)
 		if (!(eps[p] > 0) || !isfinite(eps[p]))
-			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large value, not infinity)",
+			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large value, not "
+				"infinity)",
 				p % g->points[0], p / g->points[0] % g->points[1], p / g->points[0] / g->points[1], eps[p]);
 	return 0;
 }

@@ -5,7 +5,7 @@
  * larger than what the rounding of its own terms makes. Singular problems (no wall): the mean of f is removed, the mean of phi is zero.
  * Cost: O(N) per cycle, 3-D V(2,2) about 6 passes over u and f. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg.h"
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -175,7 +175,8 @@ double pm_mg_residual(const struct pm_mg *mg)
 
 void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
 
-/* Is the residual (root of the sum of squares, as the source) what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to half a unit. */
+/* Is the residual (root of the sum of squares, as the source) what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to
+ * half a unit. */
 static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 {
 	double terms = mg->level[0].diagonal * sqrt(squares(mg, mg->level[0].u)) + source;
@@ -190,7 +191,8 @@ int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice 
 	for (int i = from; i < r->n && used < sizeof text; i++)
 		used += (size_t)snprintf(text + used, sizeof text - used, " %.2e", r->history[i]);
 	return pm_fail(PM_NUMERICS, "multigrid did not converge: %d cycles left a relative residual of %.3e, tolerance %g; the %sresiduals:%s "
-		"(allow more with --max-cycles%s smooth more with --smooth 3,3%s)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text, transforms ? "," : " or",
+		"(allow more with --max-cycles%s smooth more with --smooth 3,3%s)", r->cycles, r->after, o->tolerance, from ? "last 60 " : "", text,
+		transforms ? "," : " or",
 		transforms ? ", or use poisson-fft" : "");
 }
 

@@ -1,5 +1,5 @@
-/* Chooses and keeps the multigrid solver of a grid: constant coefficient of order 2 or 4 (mg.c), the same in free space (mg-open.c), or variable (mg-variable.c).
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chooses and keeps the multigrid solver of a grid: constant coefficient of order 2 or 4 (mg.c), the same in free space (mg-open.c), or variable
+ * (mg-variable.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open.h"
 #include "poisson-mg/multigrid.h"
 
@@ -52,7 +52,8 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 	if (!any_open(g))
 		return pm_mg_check(g);
 	if (o->variable)
-		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, and these are open (pinit --faces neumann and a box large enough, "
+		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, and these are open (pinit --faces neumann and "
+			"a box large enough, "
 			"or poisson-fft without a permittivity)");
 	return pm_mg_open_check(g);
 }
@@ -96,7 +97,8 @@ int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choic
 	return there ? 0 : pm_failed();
 }
 
-int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s, double *phi,
+int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s,
+	double *phi,
 	struct pm_mg_record *r)
 {
 	struct pm_mg_choice cycle = o->cycle;

@@ -23,7 +23,8 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 /* Makes the hierarchy that pm_multigrid_solve would make; for those who want to know what that costs. */
 int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps);
 /* As pm_mg_solve; eps NULL: 1. */
-int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s, double *phi,
+int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s,
+	double *phi,
 	struct pm_mg_record *r);
 
 #endif

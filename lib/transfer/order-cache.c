@@ -32,7 +32,8 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 	memcpy(o->staggered, staggered, sizeof o->staggered);
 	for (int d = 0; d < t->grid.dim; d++)
 		o->x[d] = x[d];
-	if (pm_axes_init(o->axes, t, staggered) || pm_tile_order_init(&o->order, o->axes, t->grid.dim, n, x, nvalues, values, room, &o->strays))
+	const struct pm_tile_particles particles = {.dim = t->grid.dim, .nvalues = nvalues, .n = n, .x = x, .values = values};
+	if (pm_axes_init(o->axes, t, staggered) || pm_tile_order_init(&o->order, o->axes, &particles, room, &o->strays))
 		return pm_order_cache_free(o);
 	return o;
 }

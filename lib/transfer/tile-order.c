@@ -149,16 +149,16 @@ static int count_tiles(struct pm_tile_order *o, const struct pm_axis axes[3])
 	return 0;
 }
 
-int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
-	const double *const values[], int room, struct pm_strays *strays)
+int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], const struct pm_tile_particles *p, int room, struct pm_strays *strays)
 {
-	int need = dim + nvalues;
+	int dim = p->dim, nvalues = p->nvalues, need = dim + nvalues;
+	size_t n = p->n;
 	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues};
 	*strays = (struct pm_strays){.count = 0};
 	for (int d = 0; d < dim; d++)
-		o->x[d] = x[d];
+		o->x[d] = p->x[d];
 	for (int c = 0; c < nvalues; c++)
-		o->values[c] = values[c];
+		o->values[c] = p->values[c];
 	int status = count_tiles(o, axes), falls = 0;
 	if (status)
 		return status;
@@ -171,7 +171,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], in
 		return -PM_DATA;
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : falls)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		falls |= !count_chunk(o, axes, chunk, x, &each[chunk]);
+		falls |= !count_chunk(o, axes, chunk, p->x, &each[chunk]);
 	for (int chunk = 1; chunk < o->chunks; chunk++)
 		falls |= o->tile[chunk_from(o, chunk)] < o->tile[chunk_from(o, chunk) - 1];
 	add_up(o);
@@ -195,7 +195,8 @@ void pm_tile_order_free(struct pm_tile_order *o)
 	*o = (struct pm_tile_order){.n = 0};
 }
 
-bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[])
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],
+	double *const to[])
 {
 	bool finite = true;
 	for (int c = 0; c < nvalues; c++) {
@@ -211,15 +212,20 @@ bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records,
 	return finite;
 }
 
+/* Particles p..p+m-1 of a chunk that ends at `end`. */
+struct batch {
+	size_t p, m, end;
+};
+
 /* The records of a batch side by side, in the order of the stream; a stray's is zero. */
-static void collect(const struct pm_tile_order *o, const double *results, size_t stride, size_t p, size_t m, size_t end, size_t *cursor, int nvalues, double *batch_records)
+static void collect(const struct pm_tile_order *o, const double *results, size_t stride, const struct batch *b, size_t *cursor, int nvalues, double *to)
 {
-	for (size_t i = 0; i < m; i++) {
-		uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < end ? p + i + ahead : p + i];
+	for (size_t i = 0; i < b->m; i++) {
+		uint32_t tile = o->tile[b->p + i], soon = o->tile[b->p + i + ahead < b->end ? b->p + i + ahead : b->p + i];
 		const double *record = results + stride * cursor[tile]++;
 		__builtin_prefetch(results + stride * cursor[soon]);
 		for (int c = 0; c < nvalues; c++)
-			batch_records[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
+			to[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
 	}
 }
 
@@ -237,7 +243,7 @@ int pm_tile_order_return(const struct pm_tile_order *o, const double *results, i
 		size_t *cursor = cursors + (size_t)chunk * columns;
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
 			size_t m = end - p < batch ? end - p : batch;
-			collect(o, results, (size_t)stride, p, m, end, cursor, nvalues, records);
+			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, records);
 			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, factor, set, to);
 		}
 	}

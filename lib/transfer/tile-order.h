@@ -20,10 +20,16 @@ struct pm_tile_order {
 	const double *values[PM_COMPONENTS];
 };
 
-/* Sorts n particles by tile; within a tile they keep the order of the stream. values[nvalues][n] travel along; the records have room for
- * at least `room` doubles. 0 or failure; free in any case. */
-int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], int dim, size_t n, const double *const x[], int nvalues,
-	const double *const values[], int room, struct pm_strays *strays);
+/* Particles: n positions x[dim][n], and values[nvalues][n] that travel along. */
+struct pm_tile_particles {
+	int dim, nvalues;
+	size_t n;
+	const double *const *x, *const *values;
+};
+
+/* Sorts particles by tile; within a tile they keep the order of the stream. The records have room for at least `room` doubles. 0 or failure; free in
+ * any case. */
+int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], const struct pm_tile_particles *p, int room, struct pm_strays *strays);
 void pm_tile_order_free(struct pm_tile_order *o);
 /* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. */
 enum { PM_TILE_ORDER_PACK = 256 };
@@ -33,6 +39,7 @@ void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, doubl
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
 	double *const to[], bool *finite);
 /* The same for m particles from p on, whose records are given. */
-bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[], double *const to[]);
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],
+	double *const to[]);
 
 #endif

@@ -4,21 +4,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 
+#include "mesh/index-fold.h"
 #include "transfer/transfer-axis.h"
-
-/* The mesh point that virtual point i (below 0 and above n too) is the image of, and the sign of the image. */
-static size_t fold_point(ptrdiff_t i, ptrdiff_t n, bool periodic, bool half, const int image[2], int *sign)
-{
-	*sign = 1;
-	if (periodic)
-		return (size_t)((i % n + n) % n);
-	ptrdiff_t last = half ? n - 1 : n;
-	while (i < 0 || i > last) {
-		*sign *= image[i > last];
-		i = i < 0 ? -i - half : 2 * n - half - i;
-	}
-	return (size_t)i;
-}
 
 /* +1, -1 or 0 (the kernel never gets there with weight). */
 static int image_sign(enum pm_face face, bool flip)
@@ -32,13 +19,14 @@ static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, bool h
 {
 	ptrdiff_t n = (ptrdiff_t)g->cells[d];
 	for (int flip = 0; flip < 2; flip++) {
-		const int image[2] = {image_sign(g->face[d][0], flip), image_sign(g->face[d][1], flip)};
+		const struct pm_index_axis axis = {.points = g->cells[d] + (!a->periodic && !half), .periodic = a->periodic, .staggered = half,
+			.image = {image_sign(g->face[d][0], flip), image_sign(g->face[d][1], flip)}};
 		for (size_t slot = 0; slot < a->slots; slot++) {
 			int sign;
-			size_t at = fold_point(first + (ptrdiff_t)slot, n, a->periodic, half, image, &sign);
+			size_t at = pm_index_image(first + (ptrdiff_t)slot, &axis, &sign);
 			double weight = 1;
 			if (!a->periodic && !half && (at == 0 || at == (size_t)n)) {
-				int end = image[at != 0];
+				int end = axis.image[at != 0];
 				weight = end > 0 ? 0.5 : 1;
 				sign = end < 0 ? 0 : sign; /* an odd function is 0 here */
 			}

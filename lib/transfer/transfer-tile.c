@@ -2,43 +2,35 @@
  * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the
  * faces are seen to when blocks and mesh meet (transfer.c). Cost: width^dim products per particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
-
+#include "base/simd.h"
 #include "transfer/transfer-tile.h"
 
-#define INLINE static inline __attribute__((always_inline))
 enum { lanes = PM_KERNEL_WIDTH };
 
-/* Vectors of the compiler (gcc, clang), at any address. Only pointers to doubles go through functions. */
-typedef double vec2 __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
-typedef int32_t int4 __attribute__((vector_size(16), aligned(4), may_alias));
-
 /* Vector length for a width. */
-INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
+PM_SIMD_INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
 
 /* y = a * x, y += a * x, y = y * a + x, for n lanes. */
 #define LANES(n, y, x, statement) \
 	switch (n) { \
-	case 2: { typedef vec2 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 4: { typedef vec4 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 8: { typedef vec8 vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 2: { typedef pm_simd2_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 4: { typedef pm_simd4_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 8: { typedef pm_simd8_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
 	default: { double *v = (y); const double *u = (x); statement; } \
 	}
-INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
-INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
-INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
+PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
+PM_SIMD_INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
+PM_SIMD_INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
 
 /* coefficients[power][lane], lanes beyond the width are 0. */
-INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
+PM_SIMD_INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
 {
 	for (int power = 0; power <= degree; power++)
 		for (int i = 0; i < padded(width); i++)
 			to[power * padded(width) + i] = i < width ? k->coefficients[power * width + i] : 0;
 }
 
-INLINE void find_weights(int width, int degree, const double *coefficients, double t, double *w)
+PM_SIMD_INLINE void find_weights(int width, int degree, const double *coefficients, double t, double *w)
 {
 	const int n = padded(width);
 	const bool fold = pm_kernel_folds(width, degree, t);
@@ -53,15 +45,16 @@ INLINE void find_weights(int width, int degree, const double *coefficients, doub
 }
 
 /* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
-INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record, double w[3][lanes])
+PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record,
+	double w[3][lanes])
 {
 	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
 	double distance[4];
 	int32_t cell[4];
-	vec4 u = *(const vec4 *)record; /* lanes from dim on hold something else */
-	int4 floor_u = __builtin_convertvector(u, int4); /* u >= 0 */
-	*(int4 *)cell = floor_u;
-	*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4) - t->shift;
+	pm_simd4_at u = *(const pm_simd4_at *)record; /* lanes from dim on hold something else */
+	pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at); /* u >= 0 */
+	*(pm_simd4_int_at *)cell = floor_u;
+	*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at) - t->shift;
 	for (int d = 0; d < 3; d++)
 		if (d < dim)
 			find_weights(width, degree, coefficients, distance[d], w[d]);
@@ -75,7 +68,7 @@ INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile 
 	return place;
 }
 
-INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
+PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
 	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes];
@@ -91,7 +84,7 @@ INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 	}
 }
 
-INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
+PM_SIMD_INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
 	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes][lanes], sum[lanes];
@@ -122,20 +115,20 @@ INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 static void spread_corners(const struct pm_tile *t)
 {
 	const int *shift = pm_tile_shift[3];
-	const vec8 one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
-	const vec8 sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
+	const pm_simd8_at one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
+	const pm_simd8_at sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
 	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
-	const int4 first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
+	const pm_simd4_int_at first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
 	for (size_t i = 0; i < t->count; i++) {
 		const double *record = t->records + i * stride;
 		double distance[4];
 		int32_t cell[4];
-		vec4 u = *(const vec4 *)record;
-		int4 floor_u = __builtin_convertvector(u, int4);
-		*(vec4 *)distance = u - __builtin_convertvector(floor_u, vec4);
-		*(int4 *)cell = floor_u - first;
+		pm_simd4_at u = *(const pm_simd4_at *)record;
+		pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at);
+		*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at);
+		*(pm_simd4_int_at *)cell = floor_u - first;
 		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
-		vec8 *corners = (vec8 *)(t->corners + at * PM_CORNERS);
+		pm_simd8_at *corners = (pm_simd8_at *)(t->corners + at * PM_CORNERS);
 		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
 	}
 }
@@ -148,15 +141,15 @@ bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
 /* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each. */
 static void fold_row(size_t n, double *restrict corners, double *restrict to)
 {
-	vec4 before = {0};
-	const vec4 zero = {0};
+	pm_simd4_at before = {0};
+	const pm_simd4_at zero = {0};
 	for (size_t i = 0; i < n; i++) {
-		vec4 *cell = (vec4 *)(corners + i * PM_CORNERS);
-		*(vec4 *)(to + 4 * i) = cell[0] + before;
+		pm_simd4_at *cell = (pm_simd4_at *)(corners + i * PM_CORNERS);
+		*(pm_simd4_at *)(to + 4 * i) = cell[0] + before;
 		before = cell[1];
 		cell[0] = cell[1] = zero;
 	}
-	*(vec4 *)(to + 4 * n) = before;
+	*(pm_simd4_at *)(to + 4 * n) = before;
 }
 
 void pm_tile_fold(const struct pm_tile *t, const size_t cells[3])

@@ -78,7 +78,7 @@ static void planes(void)
 	check_near(pm_raster_at(&r, 1, 1), 2 * 11 + 200, 1e-12, "an integral counts end points half");
 	pm_raster_free(&r);
 	double x[4] = {0, 4, 1.3, 5}, y[4] = {0, 3, 2.9, 1}, w[4] = {1, 2, 4, 8}, lo[2] = {0, 0}, hi[2] = {4, 3}, sum = 0;
-	pm_raster_density(&r, bins, lo, hi, 4, x, y, w, &outside);
+	pm_raster_density(&r, bins, lo, hi, &(struct pm_raster_points){4, x, y, w}, &outside);
 	pm_raster_smooth(&r);
 	for (size_t i = 0; i < 20; i++)
 		sum += r.value[i] * 4 * 3 / 20;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "mg-problem.h"
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "mg-problem.h"
-#include "poisson-mg/mg-level.h"
+#include "poisson-mg/mg-hierarchy.h"
 
 static const struct pm_mg_choice usual = {.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11, .most = 50};
 

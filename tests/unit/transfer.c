@@ -290,7 +290,7 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 	for (int d = 0; d < dim; d++)
 		memcpy(b.x[d], a.x[d], n * sizeof(double));
 	pm_axes_init(axes, &a.t, a.t.staggered[0]);
-	pm_tile_order_init(&order, axes, dim, n, in(a.x), 0, NULL, dim, &strays);
+	pm_tile_order_init(&order, axes, &(struct pm_tile_particles){.dim = dim, .n = n, .x = in(a.x)}, dim, &strays);
 	check(!order.records && order.tiles > 1, "%d-D: a stream in the order of %zu tiles is not moved", dim, order.tiles);
 	pm_tile_order_free(&order);
 	pm_axes_free(axes);

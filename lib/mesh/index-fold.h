@@ -1,0 +1,42 @@
+/* An axis of a mesh goes on beyond its ends: it repeats if periodic; else it is mirrored, even (a scalar at a neumann face) or odd (at a wall), about the
+ * end node, or about the face itself for values half a cell off the nodes. Which point is point i of that, and with what sign. Cost: a comparison for
+ * points of the mesh itself. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MESH_INDEX_FOLD_H
+#define PM_MESH_INDEX_FOLD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct pm_index_axis {
+	size_t points; /* 0 <= i < points are the mesh's own */
+	bool periodic;
+	bool staggered; /* half a cell off the nodes */
+	int image[2];  /* factor of the image at the low and the high end: 1 even, -1 odd, 0 none */
+};
+
+/* The point of the mesh at which the value of point i stands, and its factor; on an axis of one node nothing varies. */
+static inline size_t pm_index_image(ptrdiff_t i, const struct pm_index_axis *a, int *factor)
+{
+	const ptrdiff_t last = (ptrdiff_t)a->points - 1;
+	*factor = 1;
+	if (i >= 0 && i <= last)
+		return (size_t)i;
+	if (a->periodic)
+		return (size_t)((i % (last + 1) + last + 1) % (last + 1));
+	if (last == 0 && !a->staggered)
+		return 0;
+	while (i < 0 || i > last) {
+		*factor *= a->image[i > last];
+		i = i < 0 ? -i - a->staggered : 2 * last + a->staggered - i;
+	}
+	return (size_t)i;
+}
+
+/* The same for nodes with even images. */
+static inline size_t pm_index_fold(ptrdiff_t i, size_t points, bool periodic)
+{
+	int factor;
+	return pm_index_image(i, &(struct pm_index_axis){.points = points, .periodic = periodic, .image = {1, 1}}, &factor);
+}
+
+#endif
