@@ -46,7 +46,8 @@ static inline __attribute__((always_inline)) void bandwidth_fence(void)
 }
 
 /* from, to: multiples of 32. */
-static inline __attribute__((always_inline)) void bandwidth_share(enum bandwidth way, size_t from, size_t to, double *a, const double *b, const double *c, bandwidth_lanes sum[4])
+static inline __attribute__((always_inline)) void bandwidth_share(enum bandwidth way, size_t from, size_t to, double *a, const double *b, const double *c,
+	bandwidth_lanes sum[4])
 {
 	for (size_t i = from; i < to; i += 4 * BANDWIDTH_LANES)
 		_Pragma("GCC unroll 8")

@@ -45,7 +45,8 @@ static struct mesh mesh_new(void)
 
 static void measure(struct mesh m[2], struct bandwidth_arrays w[2])
 {
-	struct bench_job jobs[] = {{bandwidth_pass, &w[0], {0}}, {bandwidth_pass, &w[1], {0}}, {gradient, &m[0], {0}}, {gradient, &m[1], {0}}, {energy, &m[0], {0}}};
+	struct bench_job jobs[] = {{bandwidth_pass, &w[0], {0}}, {bandwidth_pass, &w[1], {0}}, {gradient, &m[0], {0}}, {gradient, &m[1], {0}},
+		{energy, &m[0], {0}}};
 	const double points = (double)pm_grid_size(&m[0].o.grid);
 	bench_turns(5, jobs);
 	bandwidth_row("mgrad", "order 2", 32, 6, points, &jobs[2], &w[0], &jobs[0]);

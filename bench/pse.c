@@ -1,5 +1,5 @@
-/* Particle strength exchange in millions of partners per second (those within the cut-off, either way): a lattice and particles at random in the plane and in space,
- * beside all pairs of particles that see each other, where the cell list costs nothing. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particle strength exchange in millions of partners per second (those within the cut-off, either way): a lattice and particles at random in the plane and in
+ * space, beside all pairs of particles that see each other, where the cell list costs nothing. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
 
 #include "bench.h"
@@ -70,7 +70,8 @@ static struct bodies bodies(int dim, size_t side, bool random, int order)
 int main(void)
 {
 	static const char *const names[] = {"all pairs", "a lattice, 2-D", "at random, 2-D", "a lattice, 3-D", "at random, 3-D", "a lattice, 3-D, order 4"};
-	struct bodies b[] = {bodies(3, 16, true, 2), bodies(2, 256, false, 2), bodies(2, 256, true, 2), bodies(3, 40, false, 2), bodies(3, 40, true, 2), bodies(3, 40, false, 4)};
+	struct bodies b[] = {bodies(3, 16, true, 2), bodies(2, 256, false, 2), bodies(2, 256, true, 2), bodies(3, 40, false, 2), bodies(3, 40, true, 2),
+		bodies(3, 40, false, 4)};
 	struct bench_job jobs[6];
 	b[0].how = pm_pse_of(3, 2, 1, 8), b[0].partners = (double)SEEN * SEEN;
 	for (int d = 0; d < 3; d++)

@@ -124,7 +124,8 @@ static void measure(struct run *r, struct finufft *finufft, bool ordered)
 	if (plain)
 		bench_against(row, (double)r->n, &jobs[0], "plain loop", &jobs[at_plain], 0);
 	if (r->gathered && dim > 1)
-		bench_rate((struct bench_row){.kernel = "m2p", .name = strcat(name, ", vector"), .unit = "M/s", .per = 1e6, .bytes = bytes + 8 * (dim - 1), .stream = "triad-nt",
+		bench_rate((struct bench_row){.kernel = "m2p", .name = strcat(name, ", vector"), .unit = "M/s", .per = 1e6, .bytes = bytes + 8 * (dim - 1),
+			.stream = "triad-nt",
 			.flops = row.flops + 2 * nodes * (dim - 1), .against = "time of a scalar", .other = (double)r->n / bench_median(&jobs[0]) / 1e6,
 			.ratio = bench_faster(&jobs[at_vector], &jobs[0]), .most = 1.7}, (double)r->n, &jobs[at_vector]);
 	if (peer)

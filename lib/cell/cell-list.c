@@ -211,7 +211,8 @@ static enum pm_stretch_kind kind_of(int dim, const struct pm_image *const m[3])
 }
 
 /* The rows of one combination of images; none that end at or before the place `after`. */
-static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *const m[3], enum pm_stretch_kind kind, size_t after,
+static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *const m[3], enum pm_stretch_kind kind,
+	size_t after,
 	struct pm_stretch *s)
 {
 	struct pm_stretch like = {.sign = m[0]->sign * m[1]->sign * m[2]->sign, .kind = kind};

@@ -1,7 +1,8 @@
 /* Arithmetic over the values of fields. The text is compiled by recursive descent into steps for a stack machine (expression_eval.c).
  *   choice := or ['?' choice ':' choice]; or := and {'||' and}; and := compare {'&&' compare}; compare := sum [('<' | '<=' | '>' | '>=' | '==' | '!=') sum]
  *   sum := product {('+' | '-') product}; product := sign {('*' | '/') sign}; sign := ['-' | '+' | '!'] sign | power; power := atom ['^' sign]
- * Truth is 1, falsehood 0; both sides of && || ?: are computed. -x^2 is -(x^2), 2^3^2 is 2^(3^2), a < b < c is refused. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Truth is 1, falsehood 0; both sides of && || ?: are computed. -x^2 is -(x^2), 2^3^2 is 2^(3^2), a < b < c is refused. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +39,8 @@ static int letters(const char *s, const char *end)
 static void wrong(struct parser *p, const char *at, const char *what, const char *name, int length)
 {
 	if (!p->failed)
-		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", letters(p->text, at) + 1, what, length, name, length ? "'" : "", (int)(at - p->text), p->text, at);
+		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", letters(p->text, at) + 1, what, length, name, length ? "'" : "", (int)(at - p->text), p->text,
+			at);
 	p->failed = true;
 }
 
@@ -297,7 +299,10 @@ static void sum(struct parser *p)
 
 static int comparison(struct parser *p)
 {
-	static const struct { const char *sign; enum pm_expression_code code; } signs[] = {{"<=", PM_X_LESS_EQUAL}, {">=", PM_X_GREATER_EQUAL}, {"==", PM_X_EQUAL}, {"!=", PM_X_UNEQUAL}, {"<", PM_X_LESS}, {">", PM_X_GREATER}};
+	static const struct {
+		const char *sign;
+		enum pm_expression_code code;
+	} signs[] = {{"<=", PM_X_LESS_EQUAL}, {">=", PM_X_GREATER_EQUAL}, {"==", PM_X_EQUAL}, {"!=", PM_X_UNEQUAL}, {"<", PM_X_LESS}, {">", PM_X_GREATER}};
 	for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
 		if (take(p, signs[i].sign))
 			return signs[i].code;

@@ -1,6 +1,6 @@
 /* Growth rate gamma and frequency omega of a mode, a(t) ~ exp(gamma t) cos(omega t + phase). A standing wave that oscillates: straight lines through the
- * logarithms and through the times of the peaks of |a| (the largest of each half wave, by a parabola through 3 points), omega = pi over their distance. Otherwise the
- * straight line through log |a|, and omega from the phase if the wave travels, else 0.
+ * logarithms and through the times of the peaks of |a| (the largest of each half wave, by a parabola through 3 points), omega = pi over their distance.
+ * Otherwise the straight line through log |a|, and omega from the phase if the wave travels, else 0.
  * Source: Birdsall and Langdon 1985, section 5-15 (what is plotted there). Cost: a few passes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* What vortices in the plane keep or lose: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
  * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given place (by m6prime,
- * on a node that of the node) on the first mesh that holds omega; the largest distortion of the sets. What is not there is NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
- * Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
+ * on a node that of the node) on the first mesh that holds omega; the largest distortion of the sets. What is not there is NAN. Sums are compensated and
+ * serial, so that threads do not matter. Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/measure.h"

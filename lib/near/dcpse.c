@@ -1,9 +1,10 @@
-/* Discretisation-corrected PSE: lap f(x_p) = eps^-2 sum_q (f_q - f_p) eta_p(z_q), z_q = (x_p - x_q)/eps, eta_p = polynomial times exp(-z^2), with the polynomial
- * of each particle such that the moments over its own partners are exact: 2 for z_i^2, 0 for all others of degree 1 .. order + 1.
+/* Discretisation-corrected PSE: lap f(x_p) = eps^-2 sum_q (f_q - f_p) eta_p(z_q), z_q = (x_p - x_q)/eps, eta_p = polynomial times exp(-z^2), with the
+ * polynomial of each particle such that the moments over its own partners are exact: 2 for z_i^2, 0 for all others of degree 1 .. order + 1.
  * Source: Schrader, Reboux, Sbalzarini 2010, J. Comput. Phys. 229, 4159. Error O(eps^order) for any points that determine the moments, at boundaries too. Not
  * conserving, no volumes. The smallest weights in the window's norm, by Householder's QR with pivots (Golub and Van Loan 2013, 5.4) of the window times
  * the monomials, not of its square. Points that do not determine them (on a line, too few) are found by the rank and refused.
- * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 

@@ -88,7 +88,8 @@ static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l,
 
 static int stuck(const struct pm_pse_set *s, const struct pm_dc_found *found, double reach)
 {
-	return pm_fail(PM_DATA, "particle %zu of '%s' has %zu partners within %g, which do not determine the Laplacian (rank %d of %d; a larger --cutoff or --overlap, "
+	return pm_fail(PM_DATA, "particle %zu of '%s' has %zu partners within %g, which do not determine the Laplacian (rank %d of %d; a larger --cutoff or "
+		"--overlap, "
 		"remesh, or --method exchange)", found->stuck, s->set, found->partners, reach, found->rank, found->wanted);
 }
 

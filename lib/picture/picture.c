@@ -155,7 +155,8 @@ static int write_png(const struct pm_picture *p, FILE *out, unsigned char *index
 	}
 	png_init_io(png, out);
 	png_set_compression_level(png, 9);
-	png_set_IHDR(png, info, (png_uint_32)p->width, (png_uint_32)p->height, 8, n ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+	png_set_IHDR(png, info, (png_uint_32)p->width, (png_uint_32)p->height, 8, n ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+		PNG_COMPRESSION_TYPE_DEFAULT,
 		PNG_FILTER_TYPE_DEFAULT);
 	if (n)
 		png_set_PLTE(png, info, colours, n);

@@ -57,7 +57,8 @@ void pm_plot_raster(struct pm_plot *p, const struct pm_raster *r, struct pm_scal
 	for (int y = p->y0; y < p->y1; y++)
 		for (int x = p->x0; x < p->x1; x++) {
 			unsigned char rgb[3];
-			double u = p->lo[0] + (x + 0.5 - p->x0) / (p->x1 - p->x0) * (p->hi[0] - p->lo[0]), v = p->hi[1] - (y + 0.5 - p->y0) / (p->y1 - p->y0) * (p->hi[1] - p->lo[1]);
+			double u = p->lo[0] + (x + 0.5 - p->x0) / (p->x1 - p->x0) * (p->hi[0] - p->lo[0]), v = p->hi[1] - (y +
+				0.5 - p->y0) / (p->y1 - p->y0) * (p->hi[1] - p->lo[1]);
 			colour(s, pm_raster_at(r, u, v), rgb);
 			pm_picture_blend(&p->picture, x, y, rgb, 1);
 		}

@@ -25,7 +25,8 @@ struct pm_plot {
 /* The longer side of the data area has `size` pixels; aspect is its width over its height; bar leaves room for one. */
 int pm_plot_new(struct pm_plot *p, int size, double aspect, const double lo[2], const double hi[2], bool bar, const unsigned char ground[3]);
 void pm_plot_raster(struct pm_plot *p, const struct pm_raster *r, struct pm_scale *s); /* sets below and above */
-void pm_plot_points(struct pm_plot *p, size_t n, const double *x, const double *y, const double *value, struct pm_scale *s, double radius); /* value NULL: one colour */
+/* value NULL: one colour */
+void pm_plot_points(struct pm_plot *p, size_t n, const double *x, const double *y, const double *value, struct pm_scale *s, double radius);
 void pm_plot_curve(struct pm_plot *p, size_t n, const double *x, const double *y);
 void pm_plot_axes(struct pm_plot *p, const char *xlabel, const char *ylabel, const char *title, const char *note);
 void pm_plot_bar(struct pm_plot *p, const struct pm_scale *s);

@@ -99,7 +99,8 @@ static int weights(struct pm_lattice *l, size_t ncases, const struct pm_green_ca
 	return 0;
 }
 
-struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases, enum pm_fft_effort effort)
+struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases,
+	enum pm_fft_effort effort)
 {
 	struct pm_lattice *l = calloc(1, sizeof *l);
 	double first, last;
@@ -114,7 +115,8 @@ struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol sym
 	if (!l->t || !l->w)
 		return pm_lattice_free(l);
 	nodes(l, first, last);
-	int code = l->last < last ? pm_fail(PM_DATA, "the spacings, or they and the screening length, are too far apart for --green lattice (choose --symbol spectral)") :
+	int code = l->last < last ? pm_fail(PM_DATA, "the spacings, or they and the screening length, are too far apart for --green lattice (choose --symbol "
+		"spectral)") :
 		weights(l, ncases, cases);
 	for (int d = 0; d < dim && !code; d++) {
 		struct pm_fft_plans planner = {.effort = effort};

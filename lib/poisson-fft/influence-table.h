@@ -17,8 +17,8 @@ struct pm_influence_axis {
 	double *all, *even;           /* [count] sum over aliases of W^2, and with the sign of the alias */
 	double *k, *window;           /* [count][aliases] wave number, W^2 */
 };
-int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influence *f, size_t n, double h, double (*lambda)(const void *c, double theta, double h),
-	const void *context);
+int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influence *f, size_t n, double h,
+	double (*lambda)(const void *c, double theta, double h), const void *context);
 void pm_influence_axis_free(struct pm_influence_axis *a);
 
 /* For all modes of x at modes j of y and k of z, what is to stand in place of 1/(lambda - screening2). */

@@ -97,8 +97,8 @@ static void sums(const struct pm_kernel *kernel, const double *whole, const doub
 		*sign += 2 * half[j] * cos((j + 0.5) * theta);
 }
 
-int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influence *f, size_t n, double h, double (*lambda)(const void *c, double theta, double h),
-	const void *context)
+int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influence *f, size_t n, double h,
+	double (*lambda)(const void *c, double theta, double h), const void *context)
 {
 	const int reach = n > 1 ? reach_of(f) : 0;
 	double whole[PM_KERNEL_WIDTH], half[PM_KERNEL_WIDTH];

@@ -1,5 +1,5 @@
-/* Free space for the iterative solvers by James' method, as multigrid has it (mg-open.c): the box is solved grounded, the charge on its walls gives the potential there,
- * and it is solved again with that:
+/* Free space for the iterative solvers by James' method, as multigrid has it (mg-open.c): the box is solved grounded, the charge on its walls gives the
+ * potential there, and it is solved again with that:
  *   A u = f, u = 0 on the walls; q = A u - f on them; phi = -G*q on them; A phi = f inside
  * G is that of the infinite lattice, so the answer is the solution of the differences on all of it: the error is of order 2, whatever the size of the box.
  * Source: James 1977. The source vanishes outside. Cost: two solutions, and 100 N^3 operations for the walls. SPDX-License-Identifier: GPL-3.0-or-later */

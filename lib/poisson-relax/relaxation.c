@@ -1,7 +1,8 @@
 /* Solves lap phi = c*s by sweeps of a method of lib/relax, from zero to a tolerance of the residual.
  * A sweep tells the residual that it met; when that is near the tolerance, and now and then, the true one is computed, and what it says counts. It ends at
  * the tolerance, or at round-off: the residual is no larger than what the rounding of its own terms makes. Where no face fixes phi the mean of s is removed,
- * and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep. SPDX-License-Identifier: GPL-3.0-or-later */
+ * and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "poisson-relax/relaxation.h"
 #include "poisson-relax/relax-open.h"
 
@@ -29,17 +30,20 @@ int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *meth
 	int status = g == given ? 0 : pm_outer_check(given);
 	for (int d = 0; d < g->dim && !status; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
-			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take periodic, wall, neumann and open ones)",
+			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take periodic, wall, "
+				"neumann and open ones)",
 				"xyz"[d]);
 	if (status)
 		return status;
 	struct pm_laplacian l = pm_laplacian_of(g);
 	double used = factor_of(&l, method, factor), radius = method->radius(&l, used);
 	if (l.diagonal > 0 && radius >= 1 && l.singular && used <= 1)
-		return pm_fail(PM_DATA, "%s does not converge where no face fixes phi: the wave that alternates from node to node stays (use weighted-jacobi, red-black or "
+		return pm_fail(PM_DATA, "%s does not converge where no face fixes phi: the wave that alternates from node to node stays (use weighted-jacobi, "
+			"red-black or "
 			"cg, or poisson-fft --symbol fd2)", method->name);
 	if (l.diagonal > 0 && radius >= 1)
-		return pm_fail(PM_USAGE, "%s with --relaxation %g makes the error grow %.3f times a sweep (take 1 or less, or leave the option out)", method->name, used, radius);
+		return pm_fail(PM_USAGE, "%s with --relaxation %g makes the error grow %.3f times a sweep (take 1 or less, or leave the option out)", method->name,
+			used, radius);
 	return 0;
 }
 
@@ -120,7 +124,8 @@ static int not_converged(const struct pm_relax *method, const struct pm_relaxati
 	for (int i = 0; i < r->n && used < sizeof text; i++)
 		used += (size_t)snprintf(text + used, sizeof text - used, " %lld: %.2e", (long long)r->sweep[i], r->history[i]);
 	return pm_fail(PM_NUMERICS, "%s did not converge: %lld sweeps left a relative residual of %.3e, tolerance %g; residual by sweep:%s "
-		"(allow more with --max-sweeps, or use --method cg, poisson-mg or poisson-fft --symbol fd2)", method->name, (long long)r->sweeps, r->after, o->tolerance, text);
+		"(allow more with --max-sweeps, or use --method cg, poisson-mg or poisson-fft --symbol fd2)", method->name, (long long)r->sweeps, r->after,
+		o->tolerance, text);
 }
 
 /* The true residual decides; what a method remembers is given up where it says otherwise. */
