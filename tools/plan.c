@@ -39,7 +39,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 
 static int check(const struct pm_frame *f, const struct pm_plan *p, int steps)
 {
-	struct pm_plan_proof proof[PM_PLAN_EFFECTS];
+	struct pm_plan_proof proof[PM_EFFECTS];
 	int status = pm_plan_check(f, p, steps, proof), wrong = 0;
 	if (status)
 		return status;

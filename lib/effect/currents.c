@@ -1,19 +1,22 @@
 /* Currents: moving charges make a magnetic field, whose force on others is (v/c)^2 of the electric one. c is a constant of the frame; without it the
  * law is electrostatic by choice. Source: Birdsall and Langdon 1985, section 15-1. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+#include <stdio.h>
 
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+#include "effect-parts/effect-decision.h"
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
+	const struct pm_scales *s = c->scales;
 	const double beta = s->v_max / s->c;
 	if (s->kind != PM_CHARGES) {
-		effect_off(d, "no charges");
+		pm_effect_off(d, "no charges");
 		return;
 	}
 	if (isnan(s->c)) {
-		effect_off(d, "electrostatic: the frame has no speed of light c");
+		pm_effect_off(d, "electrostatic: the frame has no speed of light c");
 		return;
 	}
-	effect_by(d, s, beta, beta * beta);
+	pm_effect_by(d, s, beta, beta * beta);
 	snprintf(d->text, sizeof d->text, "(v/c)^2 = %.1g of the electric force", beta * beta);
 }
 

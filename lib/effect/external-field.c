@@ -1,30 +1,76 @@
 /* External field: a field given on a mesh (E, or u for particles that are carried). It matters by what it makes of the velocity, (q/m) E T over the largest
  * speed that there is or comes of it. A given field of zeros is none. Source: the definition. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+#include <stdio.h>
 
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+#include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "law/law.h"
+#include "stream/declare.h"
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
+	const struct pm_scales *s = c->scales;
 	const double gain = s->given * s->time, share = gain / (gain + s->v_rms);
 	if (isnan(s->given)) {
-		effect_off(d, "none is given");
+		pm_effect_off(d, "none is given");
 		return;
 	}
 	if (s->given == 0) {
-		effect_off(d, "the given field is 0");
+		pm_effect_off(d, "the given field is 0");
 		return;
 	}
 	if (s->kind == PM_CARRIED) {
-		effect_by(d, s, s->given, 1);
+		pm_effect_by(d, s, s->given, 1);
 		snprintf(d->text, sizeof d->text, "largest u = %.2g", s->given);
 		return;
 	}
-	effect_by(d, s, gain, share);
+	pm_effect_by(d, s, gain, share);
 	snprintf(d->text, sizeof d->text, "(q/m) E T = %.2g, the part %.1g of the speeds", gain, share);
+}
+
+/* A magnetic field, which m2p brings too, is given on the same mesh. */
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	const bool in = c->decision->answer == PM_PUT_IN, self = pm_effect_in(c, "self-field");
+	const struct pm_mesh *m = pm_effect_given_mesh(c->frame, c->law);
+	char words[160];
+	if ((!in && !pm_effect_in(c, "magnetic-rotation")) || !m || (self && !*pm_effect_own_mesh(c->frame, c->law)))
+		return;
+	snprintf(words, sizeof words, c->frame->nmeshes > 1 || self ? "m2p --mesh %s" : "m2p", m->name);
+	pm_words_add(w, PM_SLOT_FORCES, words, "external field: %s, %s", in ? "on" : "off", c->decision->text);
+}
+
+static void stays(const struct pm_effect_case *c, char why[160])
+{
+	if (c->scales->given > 0 && !isnan(c->scales->cyclotron))
+		snprintf(why, 160, "the field %s is in the frame (sel --drop %s)", c->law->field, c->law->field);
+}
+
+static bool reversible(const struct pm_effect_case *c) { return c->scales->given > 0; }
+
+/* A given field of zeros: m2p wants it where the magnetic field is. */
+static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)
+{
+	(void)in, (void)m;
+	for (size_t i = 0; i < f->nmeshes; i++) {
+		const struct pm_field *old = pm_frame_field(f, f->meshes[i]->name, c->law->field);
+		struct pm_field *zero = old ? pm_makes(f, f->meshes[i]->name, c->law->field, old->components, PM_STATE) : NULL;
+		if (old && !zero)
+			return -PM_DATA;
+		if (zero)
+			zero->uniform = true;
+	}
+	return 0;
 }
 
 const struct pm_effect effect_external_field = {
 	.name = "external-field",
 	.sentence = "a field given on a mesh",
 	.source = "Birdsall and Langdon 1985, section 4-3",
+	.force = true,
 	.decide = decide,
+	.stays = stays,
+	.words = words,
+	.reversible = reversible,
+	.reverse = reverse,
 };

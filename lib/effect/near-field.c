@@ -1,16 +1,20 @@
 /* Near-field correction: what a mesh smooths away of the pull of near pairs. Pairs summed one by one, and particles that cover their mesh as a field,
  * need none. A pair d apart feels (h/d)^2/4 too little on the whole, and within 2.5 cells it feels hardly anything: the part of the bodies that has such a
- * neighbour, times his pull, m/d^2 by the distance of neighbours, over the mesh force; warm bodies pass their neighbours, and only the root of their number adds up.
+ * neighbour, times his pull, m/d^2 by the distance of neighbours, over the mesh force; warm bodies pass their neighbours, and only the root of their number
+ * adds up.
  * In open space the atlas knows what a mesh does to a cluster of bodies. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+#include <stdio.h>
 
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+#include "effect-parts/effect-decision.h"
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
+	const struct pm_scales *s = c->scales;
 	const double cells = s->nearest / s->h, apart = fmin(1, 0.25 / (cells * cells));
-	effect_off(d, "every pair is summed");
-	if (effect_alone(s))
-		effect_off(d, "no self field");
+	pm_effect_off(d, "every pair is summed");
+	if (pm_effect_alone(s))
+		pm_effect_off(d, "no self field");
 	else if (s->pairs)
 		return;
 	else if (s->kind == PM_VORTICES) {
@@ -23,15 +27,15 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 		d->number = s->n / s->points;
 		snprintf(d->text, sizeof d->text, "particles sample a cloud, %.2g in a cell, and are as wide as one", d->number);
 	} else if (s->open && !s->periodic && !s->walls && s->mesh_error > s->accuracy) {
-		effect_by(d, s, s->mesh_error, s->mesh_error);
+		pm_effect_by(d, s, s->mesh_error, s->mesh_error);
 		snprintf(d->text, sizeof d->text, "the mesh is wrong by %.1g where bodies are near", s->mesh_error);
 	} else if (cells > 2.5) {
-		effect_by(d, s, cells, apart);
+		pm_effect_by(d, s, cells, apart);
 		snprintf(d->text, sizeof d->text, "nearest pair %.2g cells apart, the mesh is wrong by %.1g there", cells, apart);
 	} else {
 		const double ball[4] = {0, 2, pm_pi, 4 * pm_pi / 3}, part = fmin(1, ball[s->dim] * pow(2.5 * s->h / s->spacing, s->dim));
 		const double pull = part * s->omega * s->omega * s->spacing / (4 * pm_pi * s->self), passing = s->v_thermal * s->time / s->spacing;
-		effect_by(d, s, pull, passing > 1 ? pull / sqrt(passing) : pull);
+		pm_effect_by(d, s, pull, passing > 1 ? pull / sqrt(passing) : pull);
 		snprintf(d->text, sizeof d->text, "%.2g of the bodies have neighbours within 2.5 cells; left out is %.2g of the force", part, d->share);
 	}
 }

@@ -1,19 +1,22 @@
-/* Relativity: momentum grows as gamma v, 1/sqrt(1 - v^2/c^2); left out the error is of order (v/c)^2. c is a constant of the frame; without it light is infinitely
- * fast. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+/* Relativity: momentum grows as gamma v, gamma = 1/sqrt(1 - v^2/c^2); left out the error is of order (v/c)^2. c is a constant of the frame; without it light
+ * is infinitely fast. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+#include "effect-parts/effect-decision.h"
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
+	const struct pm_scales *s = c->scales;
 	const double beta = s->v_max / s->c;
 	if (!s->second) {
-		effect_off(d, "the particles have no inertia");
+		pm_effect_off(d, "the particles have no inertia");
 		return;
 	}
 	if (isnan(s->c)) {
-		effect_off(d, "the frame has no speed of light c");
+		pm_effect_off(d, "the frame has no speed of light c");
 		return;
 	}
-	effect_by(d, s, beta, beta * beta);
+	pm_effect_by(d, s, beta, beta * beta);
 	if (d->answer == PM_PUT_IN)
 		snprintf(d->text, sizeof d->text, "max v/c = %.2g", beta);
 	else

@@ -1,45 +1,136 @@
 /* Remeshing: particles that carry a field go back on the lattice before they stop covering space. The distortion |H - H0|/H0 is how wrong they represent a
  * constant (lib/remesh/distortion.c) and is held against the accuracy itself: measured after 1, 2, 4, 8 steps without remeshing, it goes on as t^2. Shear
- * along the mesh has none by that measure, so strains e = |grad u| t count too, as (e/4)^2: a lattice stretched 1.25, 1.5, 1.75 times has 0.0032, 0.0106, 0.0336
- * (docs/methods/remesh.md). Points, which cover nothing, have no lattice to go back to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
+ * along the mesh has none by that measure, so strains e = |grad u| t count too, as (e/4)^2: a lattice stretched 1.25, 1.5, 1.75 times has 0.0032, 0.0106,
+ * 0.0336 (docs/methods/remesh.md). Points, which cover nothing, have no lattice to go back to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+#include <stdio.h>
+
+#include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "effect-parts/set-overlap.h"
+#include "law/law.h"
+#include "stream/frame.h"
+
+/* After 1, 2, 4, 8 steps; own[0..3]. */
+enum { MEASURED = 4 };
+
+/* Mean |H - H0|/H0 of all sets that move, which have as many particles as before; weighted by their strength, for where there is none nothing is wrong. */
+static double change(const struct pm_frame *f, const struct pm_frame *g, const char *strength)
+{
+	double sum = 0, all = 0;
+	for (size_t k = 0; k < f->nsets; k++) {
+		const struct pm_set *set = f->sets[k];
+		if (!pm_set_moves(f, set) || !set->n)
+			continue;
+		double *H0 = pm_alloc(set->n, sizeof *H0), *H = pm_alloc(set->n, sizeof *H);
+		bool ok = H0 && H && !pm_set_overlap(f, set->name, f->meshes[0], H0) && !pm_set_overlap(g, set->name, g->meshes[0], H);
+		const struct pm_field *q = pm_frame_field(f, set->name, strength);
+		for (size_t i = 0; ok && q && i < set->n; i++) {
+			const double weight = q->uniform ? 1 : fabs(pm_in(q, 0)[i]);
+			sum += H0[i] > 0 ? weight * fabs(H[i] - H0[i]) / H0[i] : 0;
+			all += weight;
+		}
+		pm_free(H0), pm_free(H);
+	}
+	return all > 0 ? sum / all : NAN;
+}
+
+/* Steps without remeshing, until the distortion is too much. */
+static int measure(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN])
+{
+	const struct pm_scales *s = c->scales;
+	if (s->kind != PM_VORTICES || c->method->pairs || isnan(s->overlap))
+		return 0;
+	struct pm_frame *g = pm_frame_copy(c->frame);
+	for (int i = 0; i < MEASURED && g; i++) {
+		struct pm_frame *next = run->steps(run, g, i ? 1 << (i - 1) : 1);
+		pm_frame_free(g);
+		g = next;
+		own[i] = g ? change(c->frame, g, c->law->strength) : NAN;
+		if (!(own[i] <= s->accuracy))
+			break;
+	}
+	int status = g ? 0 : pm_failed();
+	pm_frame_free(g);
+	return status;
+}
 
 /* As measured, after so many steps: the longest of the times below, and t^2 from there on. */
-static double measured(const struct pm_scales *s, double steps)
+static double measured(const struct pm_effect_case *c, double steps)
 {
 	double known = 0;
-	for (int i = 0; i < 4 && !isnan(s->distortion[i]); i++)
-		known = 1 << i <= steps || !i ? s->distortion[i] * pow(steps / (1 << i), 2) : known;
+	for (int i = 0; i < MEASURED && !isnan(c->own[i]); i++)
+		known = 1 << i <= steps || !i ? c->own[i] * pow(steps / (1 << i), 2) : known;
 	return known;
 }
 
 /* And by the strain. */
-static double distortion(const struct pm_scales *s, double steps) { return fmax(measured(s, steps), pow(0.25 * s->strain * fabs(s->dt) * steps, 2)); }
-
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+static double distortion(const struct pm_effect_case *c, double steps)
 {
-	const double end = distortion(s, s->time / fabs(s->dt));
+	return fmax(measured(c, steps), pow(0.25 * c->scales->strain * fabs(c->scales->dt) * steps, 2));
+}
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
+{
+	const struct pm_scales *s = c->scales;
+	const double end = distortion(c, s->time / fabs(s->dt));
 	if (s->kind != PM_VORTICES || isnan(s->overlap)) {
-		effect_off(d, "the particles do not carry a field on a lattice");
+		pm_effect_off(d, "the particles do not carry a field on a lattice");
 		return;
 	}
 	if (s->pairs) {
-		effect_off(d, "");
+		pm_effect_off(d, "");
 		d->number = s->overlap;
 		snprintf(d->text, sizeof d->text, "these are points: sqrt(volume)/h = %.2g, they miss a lattice by %.2g", s->width / s->h, s->overlap);
 		return;
 	}
-	effect_by(d, s, end, fmin(1, end));
+	pm_effect_by(d, s, end, fmin(1, end));
 	if (d->answer == PM_LEFT_OUT) {
 		snprintf(d->text, sizeof d->text, "distortion reaches %.1g in the time T", end);
 		return;
 	}
-	d->kept = measured(s, s->time / fabs(s->dt)) <= s->accuracy; /* not seen in the first steps */
-	for (d->every = 1; d->every < 16 && distortion(s, d->every + 1) <= s->accuracy;)
+	d->kept = measured(c, s->time / fabs(s->dt)) <= s->accuracy; /* not seen in the first steps */
+	for (d->every = 1; d->every < 16 && distortion(c, d->every + 1) <= s->accuracy;)
 		d->every++;
-	d->number = distortion(s, d->every);
+	d->number = distortion(c, d->every);
 	snprintf(d->text, sizeof d->text, "distortion reaches %.2g", d->number);
+}
+
+/* Every remeshing sets a rim of nodes around the particles. */
+static void ask(const struct pm_effect_case *c, struct pm_method *m)
+{
+	m->grow = m->grow || (c->scales->open && c->decision->answer == PM_PUT_IN);
+}
+
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	const struct pm_decision *d = c->decision;
+	const struct pm_frame *f = c->frame;
+	char words[160], every[32] = "", edge[96] = "";
+	bool open = false;
+	if (d->answer != PM_PUT_IN)
+		return;
+	for (int k = 0; k < 2 * f->dim; k++)
+		open = open || f->face[k / 2][k % 2] != PM_PERIODIC;
+	if (d->every > 1)
+		snprintf(every, sizeof every, " --every %d", d->every);
+	if (open) /* particles only where there is something; those that diffusion will need are kept, and what spreads takes its mesh along */
+		snprintf(edge, sizeof edge, " --cut-off %.2g%s%s", c->scales->accuracy * 1e-3, pm_effect_in(c, "diffusion") ? " --rim 2" : "",
+			c->method->grow ? " --outside grow" : "");
+	snprintf(words, sizeof words, "remesh --kernel %s%s%s", c->method->kernel, every, edge);
+	if (d->every > 1)
+		pm_words_add(w, PM_SLOT_AFTER, words, "remesh: every %d steps, %s", d->every, d->text);
+	else
+		pm_words_add(w, PM_SLOT_AFTER, words, "remesh: every step, %s", d->text);
+}
+
+static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && !c->method->pairs; }
+
+/* It must happen within the steps. */
+static void test(const struct pm_effect_case *c, struct pm_effect_test *t)
+{
+	t->of = PM_TEST_DENSITY;
+	t->steps = t->steps < 2 * c->decision->every ? 2 * c->decision->every : t->steps;
 }
 
 const struct pm_effect effect_remeshing = {
@@ -47,5 +138,11 @@ const struct pm_effect effect_remeshing = {
 	.sentence = "particles back on the lattice",
 	.source = "Hieber and Koumoutsakos 2005",
 	.word = "remesh",
+	.replaces = true,
+	.measure = measure,
 	.decide = decide,
+	.ask = ask,
+	.words = words,
+	.reversible = reversible,
+	.test = test,
 };

@@ -2,24 +2,30 @@
  * may grow, at most at the frequency omega of all of them together (plasma, Jeans), so it may be left out only where (omega T)^2/2 is small too. Vortices have
  * no inertia: u T over their distance. Forces that cancel to rounding (a lattice) may grow as cosh(omega T) at most. Assumes that the force of the frame was
  * measured. Source: Birdsall and Langdon 1985, section 4-2; Binney and Tremaine 2008, section 5.2. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effect/effect.h"
+#include <stdio.h>
+#include <string.h>
+
+#include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "law/law.h"
 
 static const char *symbol(const struct pm_scales *s) { return s->kind == PM_CHARGES ? "omega_p" : "sqrt(4 pi G rho)"; }
 
 static void vortices(const struct pm_scales *s, struct pm_decision *d)
 {
 	const double moved = s->self * s->time / s->spacing;
-	effect_by(d, s, moved, moved);
+	pm_effect_by(d, s, moved, moved);
 	snprintf(d->text, sizeof d->text, "u T is %.2g distances of neighbours", moved);
 	d->kept = d->answer == PM_LEFT_OUT; /* nothing else moves them */
 	d->answer = PM_PUT_IN;
 }
 
-static void decide(const struct pm_scales *s, struct pm_decision *d)
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
+	const struct pm_scales *s = c->scales;
 	const double phase = s->omega * s->time;
 	if (s->kind == PM_NO_FIELD || s->kind == PM_CARRIED) {
-		effect_off(d, "the law has none");
+		pm_effect_off(d, "the law has none");
 		return;
 	}
 	if (s->kind == PM_VORTICES && !s->second) {
@@ -27,23 +33,96 @@ static void decide(const struct pm_scales *s, struct pm_decision *d)
 		return;
 	}
 	if (s->sources < 2 && !s->walls) {
-		effect_off(d, s->sources < 1 ? "no particle has a strength" : "one particle, and no particle moves itself");
+		pm_effect_off(d, s->sources < 1 ? "no particle has a strength" : "one particle, and no particle moves itself");
 		return;
 	}
 	const double gain = s->self * s->time, part = gain / (gain + s->v_rms);
-	effect_by(d, s, phase, fmax(0.5 * phase * phase, part));
+	pm_effect_by(d, s, phase, fmax(0.5 * phase * phase, part));
 	d->kept = d->answer == PM_PUT_IN && part <= s->accuracy;
 	snprintf(d->text, sizeof d->text, "%s T = %.2g, changes speeds by %.1g%s", symbol(s), phase, part, d->kept ? " and may grow" : "");
-	if (effect_cancels(s)) {
-		effect_off(d, "");
+	if (pm_effect_cancels(s)) {
+		pm_effect_off(d, "");
 		d->number = s->self / (s->omega * s->omega * s->spacing);
 		snprintf(d->text, sizeof d->text, "forces cancel to %.1g, and grow by cosh(%s T) = %.1g at most", d->number, symbol(s), cosh(fmin(phase, 700)));
 	}
+}
+
+/* A magnetic field is brought by m2p, which wants the law's field beside it. */
+static void reconsider(const struct pm_effect_case *c, struct pm_decision *d)
+{
+	const size_t at = strlen(d->text);
+	if (d->answer == PM_PUT_IN || !pm_effect_in(c, "magnetic-rotation") || !isnan(c->scales->given))
+		return;
+	d->answer = PM_PUT_IN;
+	d->kept = true;
+	snprintf(d->text + at, sizeof d->text - at, ", but m2p wants %s beside %s", c->law->field, c->law->magnetic);
+}
+
+/* The option of p2m for more cells, or for a mesh of its own. */
+static void cells(const struct pm_effect_case *c, const char *own, char text[64])
+{
+	const struct pm_frame *f = c->frame;
+	const bool asked = c->method->cells[0] > 0;
+	const size_t *n = asked || !f->nmeshes ? c->method->cells : f->meshes[0]->cells;
+	bool cube = true;
+	text[0] = 0;
+	if (!n[0] || (!asked && !*own))
+		return;
+	for (int d = 1; d < f->dim; d++)
+		cube = cube && n[d] == n[0];
+	int at = snprintf(text, 64, " -n %zu", n[0]);
+	for (int d = 1; d < f->dim && !cube; d++)
+		at += snprintf(text + at, 64 - (size_t)at, "x%zu", n[d]);
+}
+
+/* " --kernel tsc", or nothing where it is the law's. */
+static const char *option(const char *name, const char *value, const char *law, char text[64])
+{
+	text[0] = 0;
+	if (value && (!law || strcmp(value, law)))
+		snprintf(text, 64, " --%s %s", name, value);
+	return text;
+}
+
+static void on_mesh(const struct pm_effect_case *c, struct pm_words *w)
+{
+	const struct pm_method *m = c->method;
+	const char *own = pm_effect_own_mesh(c->frame, c->law);
+	char words[160], n[64], text[64];
+	cells(c, own, n);
+	snprintf(words, sizeof words, "p2m%s%s%s%s", own, n, option("kernel", m->kernel, c->law->kernel, text), m->grow ? " --outside grow" : "");
+	pm_words_add(w, PM_SLOT_DENSITY, words, "on a mesh: %s; %s", m->why_far, m->why_mesh);
+	snprintf(words, sizeof words, "poisson-fft%s%s", own, option("symbol", m->symbol, NULL, text));
+	pm_words_add(w, PM_SLOT_POTENTIAL, words, "self field: on, %s", c->decision->text);
+	snprintf(words, sizeof words, "mgrad%s%s", own, option("order", m->order, c->law->order, text));
+	pm_words_add(w, PM_SLOT_FIELD, words, "%s, order %s", c->law->of_potential == PM_CURL ? "the curl" : "the gradient", m->order);
+	snprintf(words, sizeof words, "m2p%s", own);
+	pm_words_add(w, PM_SLOT_PARTICLES, words, "%s at the particles", c->law->field);
+}
+
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	if (c->decision->answer != PM_PUT_IN)
+		return;
+	if (c->method->pairs)
+		pm_words_add(w, PM_SLOT_PARTICLES, "pp", "self field: on, %s; pair by pair: %s", c->decision->text, c->method->why_far);
+	else
+		on_mesh(c, w);
+}
+
+static bool reversible(const struct pm_effect_case *c)
+{
+	const struct pm_scales *s = c->scales;
+	return c->law->strength && (c->decision->answer == PM_PUT_IN || s->sources > 0) && (isnan(s->cyclotron) || !isnan(s->given));
 }
 
 const struct pm_effect effect_self_field = {
 	.name = "self-field",
 	.sentence = "the field that the particles make together",
 	.source = "Birdsall and Langdon 1985, section 4-2",
+	.force = true,
 	.decide = decide,
+	.reconsider = reconsider,
+	.words = words,
+	.reversible = reversible,
 };

@@ -103,96 +103,58 @@ static double densities(const struct pm_frame *a, const struct pm_frame *b, cons
 
 /* ---- the other way ---- */
 
-static void put(struct pm_plan *p, const char *name, bool in)
+static void put(struct pm_plan *p, int i, bool in)
 {
-	for (int i = 0; i < p->neffects; i++) {
-		struct pm_decision *d = &p->effect[i].decision;
-		if (strcmp(p->effect[i].effect->name, name))
-			continue;
-		d->answer = in ? PM_PUT_IN : PM_LEFT_OUT;
-		d->every = in && !d->every ? 1 : d->every;
-	}
+	struct pm_decision *d = &p->effect[i].decision;
+	d->answer = in ? PM_PUT_IN : PM_LEFT_OUT;
+	d->every = in && !d->every ? 1 : d->every;
 }
 
-static void without_field(struct pm_frame *f, const char *name)
+/* What is compared has the same particles. */
+static void keep_particles(struct pm_plan *p)
 {
-	for (size_t i = 0; i < f->nmeshes; i++) {
-		struct pm_field *field = pm_frame_field(f, f->meshes[i]->name, name);
-		if (field)
-			pm_drops(f, field);
-	}
+	for (int i = 0; i < p->neffects; i++)
+		if (p->effect[i].effect->replaces)
+			put(p, i, false);
 }
 
-/* A given field of zeros: m2p wants it where the magnetic field is. */
-static int zero_field(struct pm_frame *f, const char *name)
-{
-	for (size_t i = 0; i < f->nmeshes; i++) {
-		const struct pm_field *old = pm_frame_field(f, f->meshes[i]->name, name);
-		struct pm_field *zero = old ? pm_makes(f, f->meshes[i]->name, name, old->components, PM_STATE) : NULL;
-		if (old && !zero)
-			return -PM_DATA;
-		if (zero)
-			zero->uniform = true;
-	}
-	return 0;
-}
-
-static void open_faces(struct pm_frame *f)
-{
-	for (int k = 0; k < 2 * f->dim; k++) {
-		f->face[k / 2][k % 2] = PM_OPEN;
-		f->pface[k / 2][k % 2] = PM_POPEN;
-	}
-}
+static bool is_in(const struct pm_plan *p, int i) { return p->effect[i].decision.answer == PM_PUT_IN && !p->effect[i].lacking; }
 
 /* Can the other way be said in words? */
-static bool speakable(const struct pm_plan *p, const char *name)
+static bool reversible(const struct pm_frame *f, const struct pm_plan *p, int i)
 {
-	const bool in = pm_plan_has(p, name), mesh = !p->method.pairs, vortices = p->scales.kind == PM_VORTICES;
-	if (!strcmp(name, "self-field"))
-		return p->law->strength && (in || p->scales.sources > 0) && (isnan(p->scales.cyclotron) || !isnan(p->scales.given));
-	if (!strcmp(name, "magnetic-rotation"))
-		return !isnan(p->scales.cyclotron);
-	if (!strcmp(name, "external-field"))
-		return p->scales.given > 0;
-	if (!strcmp(name, "diffusion"))
-		return vortices && p->scales.nu > 0;
-	if (!strcmp(name, "remeshing"))
-		return vortices && mesh;
-	if (!strcmp(name, "smoothing"))
-		return !mesh && p->scales.softening > 0;
-	return !strcmp(name, "periodic-images") && p->scales.periodic && mesh && pm_plan_has(p, "self-field");
+	struct pm_effect_case c;
+	if (!p->effect[i].effect->reversible)
+		return false;
+	pm_plan_case(f, p, i, &c);
+	return p->effect[i].effect->reversible(&c);
 }
 
-/* Frame and sentence with one effect the other way. */
-static int other(const struct pm_plan *p, const char *name, bool remesh, struct pm_frame *f, struct pm_plan *q)
+/* Frame and sentence with one effect, put in already, the other way. */
+static int other(const struct pm_plan *p, int i, struct pm_frame *f, struct pm_plan *q)
 {
-	*q = *p;
-	if (!remesh)
-		put(q, "remeshing", false);
-	put(q, name, !pm_plan_has(p, name));
-	if (!strcmp(name, "magnetic-rotation") && !pm_plan_has(q, name))
-		without_field(f, p->law->magnetic);
-	if (!strcmp(name, "periodic-images")) {
-		open_faces(f);
-		q->method.order = p->law->order, q->method.symbol = NULL; /* between open faces nothing is spectral */
-	}
-	if (!strcmp(name, "external-field") && zero_field(f, p->law->field))
-		return -PM_DATA;
-	q->method.grow |= !strcmp(name, "periodic-images");
-	int status = pm_frame_settle(f);
+	const struct pm_effect *e = p->effect[i].effect;
+	struct pm_effect_case c;
+	int status = 0;
+	pm_plan_case(f, q, i, &c);
+	if (e->reverse)
+		status = e->reverse(&c, is_in(q, i), f, &q->method);
+	status = status ? status : pm_frame_settle(f);
 	return status ? status : pm_plan_compose(f, q);
 }
 
-static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan *p, const char *name, int steps, double *seconds)
+static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan *p, int i, int steps, double *seconds)
 {
 	struct pm_frame *g = pm_plan_bare(f), *end = NULL;
-	struct pm_plan q;
+	struct pm_plan q = *p;
 	if (!g)
 		return NULL;
-	if (!strcmp(name, "self-field") && pm_plan_has(p, name) && !p->scales.second && !pm_plan_has(p, "external-field"))
+	if (!seconds) /* what is timed is as it would run */
+		keep_particles(&q);
+	put(&q, i, !is_in(p, i));
+	if (!q.scales.second && !pm_plan_forced(&q))
 		return g; /* without it nothing moves */
-	if (!other(p, name, seconds != NULL, g, &q)) /* what is compared has the same particles, what is timed is as it would run */
+	if (!other(p, i, g, &q))
 		end = pm_plan_run(g, q.sentence, steps, seconds);
 	pm_frame_free(g);
 	return end;
@@ -206,44 +168,50 @@ static void verdict(const struct pm_plan *p, const struct pm_plan_effect *e, str
 		: in ? e->decision.kept ? "small, and kept" : "small" : "right: negligible";
 }
 
-static int prove(const struct pm_frame *f, const struct pm_plan *p, const struct pm_plan_effect *e, int steps, struct pm_plan_proof *o)
+/* What differs between a run the other way, a, and as planned, b; on: steps of the run over those that were run. */
+static double difference(const struct pm_frame *a, const struct pm_frame *b, const struct pm_frame *start, const struct pm_plan *p,
+	const struct pm_effect_test *t, double on, const char *of)
 {
-	const char *name = e->effect->name;
-	const bool remeshing = !strcmp(name, "remeshing"), diffusion = !strcmp(name, "diffusion");
+	if (t->of == PM_TEST_DENSITY)
+		return densities(a, b, p) * on;
+	if (t->of == PM_TEST_STRENGTH || p->scales.second)
+		return relative(a, b, of, t->of == PM_TEST_STRENGTH ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on;
+	return displaced(a, b, start) / (t->of == PM_TEST_WALK ? sqrt(on) : 1); /* a walk goes on as the root of time, the flow as time itself */
+}
+
+static int prove(const struct pm_frame *f, const struct pm_plan *p, int i, int steps, struct pm_plan_proof *o)
+{
+	const struct pm_effect *e = p->effect[i].effect;
+	struct pm_effect_test t = {.of = PM_TEST_MOTION, .steps = steps};
+	struct pm_effect_case c;
 	struct pm_plan base = *p;
-	if (remeshing && e->decision.every > 0) /* it must happen within the steps */
-		steps = steps < 2 * e->decision.every ? 2 * e->decision.every : steps;
-	else if (!remeshing)
-		put(&base, "remeshing", false);
-	if (diffusion && !p->method.pairs) /* before particles are distorted, whose roughness would diffuse too */
-		steps = 1;
-	const double on = p->scales.time / (steps * fabs(p->scales.dt)); /* the step of the plan */
+	pm_plan_case(f, p, i, &c);
+	if (e->test)
+		e->test(&c, &t);
+	if (!e->replaces)
+		keep_particles(&base);
+	const double on = p->scales.time / (t.steps * fabs(p->scales.dt)); /* the step of the plan */
 	if (pm_plan_compose(f, &base))
 		return -PM_DATA;
-	struct pm_frame *b = pm_plan_run(f, base.sentence, steps, NULL), *a = b ? run_other(f, p, name, steps, NULL) : NULL;
+	struct pm_frame *b = pm_plan_run(f, base.sentence, t.steps, NULL), *a = b ? run_other(f, p, i, t.steps, NULL) : NULL;
 	int status = a ? 0 : pm_failed();
 	o->tried = true;
-	const bool strength = diffusion && !p->method.pairs;
-	o->of = remeshing ? p->law->density : strength ? p->law->strength : p->scales.second ? "v" : "x";
-	if (a && remeshing)
-		o->difference = densities(a, b, p) * on;
-	else if (a && (strength || p->scales.second))
-		o->difference = relative(a, b, o->of, strength ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on;
-	else if (a) /* a walk goes on as the root of time, the flow as time itself */
-		o->difference = displaced(a, b, f) / (diffusion ? sqrt(on) : 1);
+	o->of = t.of == PM_TEST_DENSITY ? p->law->density : t.of == PM_TEST_STRENGTH ? p->law->strength : p->scales.second ? "v" : "x";
+	if (a)
+		o->difference = difference(a, b, f, p, &t, on, o->of);
 	pm_frame_free(a), pm_frame_free(b);
 	if (!status)
-		verdict(p, e, o);
+		verdict(p, &p->effect[i], o);
 	return status;
 }
 
-int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_PLAN_EFFECTS])
+int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_EFFECTS])
 {
 	int status = 0;
 	for (int i = 0; i < p->neffects && !status; i++) {
 		proof[i] = (struct pm_plan_proof){.difference = NAN};
-		if (speakable(p, p->effect[i].effect->name))
-			status = prove(f, p, &p->effect[i], steps, &proof[i]);
+		if (reversible(f, p, i))
+			status = prove(f, p, i, steps, &proof[i]);
 	}
 	return status;
 }
@@ -256,9 +224,9 @@ int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p)
 	for (int i = 0; i < p->neffects; i++) {
 		struct pm_plan_effect *e = &p->effect[i];
 		double seconds[PM_PLAN_WORDS] = {0}, then = 0;
-		if (e->decision.answer == PM_PUT_IN || !speakable(p, e->effect->name))
+		if (e->decision.answer == PM_PUT_IN || !reversible(f, p, i))
 			continue;
-		struct pm_frame *g = run_other(f, p, e->effect->name, 2, seconds);
+		struct pm_frame *g = run_other(f, p, i, 2, seconds);
 		if (!g)
 			return pm_failed();
 		pm_frame_free(g);

@@ -1,5 +1,5 @@
-/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and where particles carry
- * a field a few steps without remeshing. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and where an effect asks for
+ * them a few steps. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/scales.h"
@@ -28,37 +28,33 @@ static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 	e->by_hand = true;
 }
 
-/* Words that plan-compose.c places; the others are named where they are needed. */
-static bool places(const char *word) { return !strcmp(word, "diffuse") || !strcmp(word, "remesh"); }
-
-/* A magnetic field is brought by m2p, which wants the law's field beside it. */
-static void field_beside(struct pm_plan *p)
+/* In two rounds: some decide again when all have. */
+static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_plan_choice *choice)
 {
-	struct pm_plan_effect *self = NULL, *magnetic = NULL;
+	struct pm_effect_case c;
 	for (int i = 0; i < p->neffects; i++) {
-		self = !strcmp(p->effect[i].effect->name, "self-field") ? &p->effect[i] : self;
-		magnetic = !strcmp(p->effect[i].effect->name, "magnetic-rotation") ? &p->effect[i] : magnetic;
+		struct pm_plan_effect *e = &p->effect[i];
+		pm_plan_case(f, p, i, &c);
+		e->decision = (struct pm_decision){.answer = PM_LEFT_OUT};
+		e->effect->decide(&c, &e->decision);
+		overrule(e, choice);
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words;
 	}
-	if (!self || !magnetic || magnetic->decision.answer != PM_PUT_IN || self->decision.answer == PM_PUT_IN || !isnan(p->scales.given))
-		return;
-	self->decision.answer = PM_PUT_IN;
-	self->decision.kept = true;
-	snprintf(self->decision.text + strlen(self->decision.text), sizeof self->decision.text - strlen(self->decision.text), ", but m2p wants %s beside %s", p->law->field,
-		p->law->magnetic);
+	for (int i = 0; i < p->neffects; i++)
+		if (p->effect[i].effect->reconsider) {
+			pm_plan_case(f, p, i, &c);
+			p->effect[i].effect->reconsider(&c, &p->effect[i].decision);
+		}
 }
 
-/* Effects that the words of the far field or push bring need no word of their own. */
-static void decide(struct pm_plan *p, const struct pm_plan_choice *c)
+static void know_effects(struct pm_plan *p)
 {
-	p->neffects = 0;
-	for (int i = 0; pm_effects[i] && i < PM_PLAN_EFFECTS; i++) {
-		struct pm_plan_effect *e = &p->effect[p->neffects++];
-		*e = (struct pm_plan_effect){.effect = pm_effects[i], .saves = NAN};
-		pm_effects[i]->decide(&p->scales, &e->decision);
-		overrule(e, c);
-		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !places(e->effect->word);
+	for (p->neffects = 0; pm_effects[p->neffects] && p->neffects < PM_EFFECTS; p->neffects++) {
+		struct pm_plan_effect *e = &p->effect[p->neffects];
+		*e = (struct pm_plan_effect){.effect = pm_effects[p->neffects], .saves = NAN};
+		for (int k = 0; k < PM_EFFECT_OWN; k++)
+			e->own[k] = NAN;
 	}
-	field_beside(p);
 }
 
 /* Only the self field, to measure it. */
@@ -86,45 +82,20 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p)
 	return status;
 }
 
-/* Mean |H - H0|/H0 of all sets that move, which have as many particles as before; weighted by their strength, for where there is none nothing is wrong. */
-static double distortion(const struct pm_frame *f, const struct pm_frame *g, const char *strength)
-{
-	double sum = 0, all = 0;
-	for (size_t k = 0; k < f->nsets; k++) {
-		const struct pm_set *set = f->sets[k];
-		if (!pm_set_moves(f, set) || !set->n)
-			continue;
-		double *H0 = pm_alloc(set->n, sizeof *H0), *H = pm_alloc(set->n, sizeof *H);
-		bool ok = H0 && H && !pm_scales_overlap(f, set->name, f->meshes[0], H0) && !pm_scales_overlap(g, set->name, g->meshes[0], H);
-		const struct pm_field *q = pm_frame_field(f, set->name, strength);
-		for (size_t i = 0; ok && q && i < set->n; i++) {
-			const double weight = q->uniform ? 1 : fabs(pm_in(q, 0)[i]);
-			sum += H0[i] > 0 ? weight * fabs(H[i] - H0[i]) / H0[i] : 0;
-			all += weight;
-		}
-		pm_free(H0), pm_free(H);
-	}
-	return all > 0 ? sum / all : NAN;
-}
+static struct pm_frame *run_steps(const struct pm_effect_run *r, const struct pm_frame *f, int steps) { return pm_plan_run(f, r->sentence, steps, NULL); }
 
-/* Steps without remeshing, until it is too much. */
-static int measure_distortion(const struct pm_frame *f, struct pm_plan *p)
+/* The numbers that an effect alone needs. */
+static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 {
+	struct pm_effect_case c;
 	struct pm_plan q;
-	if (p->scales.kind != PM_VORTICES || p->method.pairs || isnan(p->scales.overlap))
-		return 0;
 	int status = alone(f, p, &q);
-	struct pm_frame *g = status ? NULL : pm_frame_copy(f);
-	for (int i = 0; i < 4 && g; i++) {
-		struct pm_frame *next = pm_plan_run(g, q.sentence, i ? 1 << (i - 1) : 1, NULL);
-		pm_frame_free(g);
-		g = next;
-		p->scales.distortion[i] = g ? distortion(f, g, p->law->strength) : NAN;
-		if (!(p->scales.distortion[i] <= p->scales.accuracy))
-			break;
-	}
-	status = status ? status : g ? 0 : pm_failed();
-	pm_frame_free(g);
+	const struct pm_effect_run run = {.steps = run_steps, .sentence = q.sentence};
+	for (int i = 0; i < p->neffects && !status; i++)
+		if (p->effect[i].effect->measure) {
+			pm_plan_case(f, p, i, &c);
+			status = p->effect[i].effect->measure(&c, &run, p->effect[i].own);
+		}
 	return status;
 }
 
@@ -142,14 +113,17 @@ static int cost(const struct pm_frame *f, struct pm_plan *p)
 }
 
 /* What no sentence can say: faces and given fields belong to the frame. */
-static int by_hand(const struct pm_plan *p, const struct pm_plan_choice *c)
+static int by_hand(const struct pm_frame *f, const struct pm_plan *p, const struct pm_plan_choice *choice)
 {
-	if (in(&c->off, "periodic-images") && p->scales.periodic)
-		return pm_fail(PM_USAGE, "--off periodic-images: they belong to the faces of the frame (smod --faces open)");
-	if (in(&c->off, "magnetic-rotation") && !isnan(p->scales.cyclotron))
-		return pm_fail(PM_USAGE, "--off magnetic-rotation: the field %s is in the frame (sel --drop %s)", p->law->magnetic, p->law->magnetic);
-	if (in(&c->off, "external-field") && p->scales.given > 0 && !isnan(p->scales.cyclotron))
-		return pm_fail(PM_USAGE, "--off external-field: the field %s is in the frame (sel --drop %s)", p->law->field, p->law->field);
+	struct pm_effect_case c;
+	char why[160] = "";
+	for (int i = 0; i < p->neffects; i++)
+		if (p->effect[i].effect->stays && in(&choice->off, p->effect[i].effect->name)) {
+			pm_plan_case(f, p, i, &c);
+			p->effect[i].effect->stays(&c, why);
+			if (*why)
+				return pm_fail(PM_USAGE, "--off %s: %s", p->effect[i].effect->name, why);
+		}
 	return 0;
 }
 
@@ -171,17 +145,17 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		return pm_fail(PM_DATA, "no particle that moves: nothing to plan");
 	pm_plan_method(f, p);
 	p->scales.pairs = p->method.pairs;
-	decide(p, c); /* for the names of effects; the numbers of the force come next */
-	status = by_hand(p, c);
+	know_effects(p);
+	status = by_hand(f, p, c);
 	status = status ? status : measure_force(f, p);
 	if (!status)
 		pm_plan_mesh(f, p), pm_plan_step(f, p);
 	if (!status && p->method.dt == 0)
 		return pm_fail(PM_DATA, "two particles in one place have forces without bound, and no step is short enough (smod --constant softening=LENGTH)");
-	status = status ? status : measure_distortion(f, p);
+	status = status ? status : measure_own(f, p);
 	if (status)
 		return status;
-	decide(p, c);
+	decide(f, p, c);
 	status = pm_plan_compose(f, p);
 	return status || !c->cost ? status : cost(f, p);
 }

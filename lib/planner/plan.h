@@ -7,20 +7,12 @@
 #include "law/law.h"
 #include "stage/stage.h"
 
-enum { PM_PLAN_WORDS = 16, PM_PLAN_EFFECTS = 24, PM_PLAN_TEXT = 2048 };
+enum { PM_PLAN_WORDS = PM_EFFECT_WORDS, PM_PLAN_TEXT = 2048 };
 
 struct pm_plan_choice { /* what the user asked for */
 	double accuracy, time;  /* [time] when the run is to end; NAN: after a hundred steps of the frame */
 	struct pm_list on, off; /* effects decided by hand */
 	bool cost;              /* measure seconds */
-};
-
-struct pm_method { /* how the effects that are put in are computed */
-	bool pairs, grow;      /* grow: the mesh follows particles that leave it */
-	const char *kernel, *symbol, *order, *scheme; /* symbol NULL: the law's */
-	size_t cells[3];       /* 0: as the mesh of the frame */
-	double dt;             /* NAN: the frame's */
-	char why_far[160], why_mesh[160], why_step[160];
 };
 
 struct pm_plan_word {
@@ -32,6 +24,7 @@ struct pm_plan_effect {
 	const struct pm_effect *effect;
 	struct pm_decision decision;
 	bool by_hand, lacking; /* lacking: needed, and there is no word for it yet */
+	double own[PM_EFFECT_OWN]; /* what its measure found */
 	double saves;          /* seconds of a step that leaving it out saves; NAN: not measured */
 };
 
@@ -40,7 +33,7 @@ struct pm_plan {
 	struct pm_scales scales;
 	struct pm_method method;
 	int neffects, nstages;
-	struct pm_plan_effect effect[PM_PLAN_EFFECTS];
+	struct pm_plan_effect effect[PM_EFFECTS];
 	struct pm_plan_word stage[PM_PLAN_WORDS];
 	char sentence[PM_PLAN_TEXT];
 	double force; /* seconds that the force of the frame took */
@@ -51,13 +44,13 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 /* The sentence alone; and the one that cycle left in the history of a checkpoint. */
 int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);
 int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);
-/* Is an effect, by its entry's name, put in? */
-bool pm_plan_has(const struct pm_plan *p, const char *effect);
 
-/* plan-compose.c: stages and sentence from the decisions and the method. */
+/* plan-compose.c: what effect i is asked with; */
+void pm_plan_case(const struct pm_frame *f, const struct pm_plan *p, int i, struct pm_effect_case *c);
+/* is any effect put in that moves particles; */
+bool pm_plan_forced(const struct pm_plan *p);
+/* stages and sentence from the decisions and the method. */
 int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
-/* The mesh that holds given fields (E, B, u); NULL none. */
-const struct pm_mesh *pm_plan_given(const struct pm_frame *f, const struct pm_law *law);
 /* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
@@ -77,7 +70,7 @@ struct pm_plan_proof {
 	const char *verdict;
 	bool wrong;
 };
-int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_PLAN_EFFECTS]);
+int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, struct pm_plan_proof proof[PM_EFFECTS]);
 /* What leaving out each effect that could be put in saves, from a step with it; after the stages were measured. */
 int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
 

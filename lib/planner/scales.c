@@ -4,10 +4,10 @@
  * sums in a fixed order. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "effect-parts/set-overlap.h"
 #include "measure/timestep.h"
-#include "planner/scales.h"
-#include "remesh/distortion.h"
 #include "mesh/gradient.h"
+#include "planner/scales.h"
 
 static double at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
 
@@ -114,7 +114,8 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 		for (size_t i = 0; i < n && f->face[k / 2][k % 2] == PM_OPEN; i++)
 			s->edge = fmin(s->edge, k % 2 ? f->hi[k / 2] - x[k / 2][i] : x[k / 2][i] - f->lo[k / 2]);
 	s->spread = sqrt(moment);
-	s->spacing = n ? pow(volume(f, s->spread) / (double)n, 1.0 / f->dim) : NAN;
+	s->volume = volume(f, s->spread);
+	s->spacing = n ? pow(s->volume / (double)n, 1.0 / f->dim) : NAN;
 	s->nearest = n > 1 && n <= PM_SCALES_PAIRS && !status ? nearest(f, n, x) : s->spacing * pow(fmax(1, (double)n), -1.0 / f->dim);
 	for (int d = 0; d < f->dim; d++)
 		pm_free(x[d]);
@@ -126,11 +127,11 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 static void strengths(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	const bool squares = law->per != NULL, turns = s->kind == PM_VORTICES;
-	const double V = volume(f, s->spread);
 	double sum = 0, dense = 0, largest_pull = 0;
 	for (size_t k = 0; k < f->nsets && law->strength; k++) {
 		const char *set = f->sets[k]->name;
-		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL, *v = turns ? state(f, set, "volume") : NULL;
+		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL;
+		const struct pm_field *v = turns ? state(f, set, "volume") : NULL;
 		for (size_t i = 0; q && i < q->count; i++) {
 			const double a = fabs(at(q, 0, i));
 			s->sources += a > 0;
@@ -141,12 +142,10 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 		}
 	}
 	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
-	s->omega = turns ? fmax(dense, sum / V) : sqrt(c * sum / V);
+	s->omega = turns ? fmax(dense, sum / s->volume) : sqrt(c * sum / s->volume);
 	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
 	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
-	const double lambda = s->v_thermal / s->omega, ball[4] = {0, 1, pm_pi, 4 * pm_pi / 3};
-	s->debye = s->omega > 0 ? lambda : NAN;
-	s->per_debye = s->omega > 0 ? s->n / V * ball[f->dim] * pow(lambda, f->dim) : NAN;
+	s->debye = s->omega > 0 ? s->v_thermal / s->omega : NAN;
 }
 
 /* Largest length of a field of state on a mesh; NAN if there is none. */
@@ -165,21 +164,6 @@ static double largest(const struct pm_frame *f, const char *name)
 	return most;
 }
 
-int pm_scales_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H)
-{
-	const struct pm_field *x = state(f, set, "x"), *v = state(f, set, "volume");
-	const struct pm_grid g = pm_grid_of(f, m);
-	const double *place[3] = {NULL};
-	double *volumes = pm_alloc(x->count + 1, sizeof *volumes);
-	for (int d = 0; d < f->dim; d++)
-		place[d] = pm_in(x, d);
-	for (size_t i = 0; volumes && i < x->count; i++)
-		volumes[i] = v ? at(v, 0, i) : pm_grid_cell(&g);
-	int status = volumes ? pm_overlap(&g, x->count, place, volumes, H) : -PM_DATA;
-	pm_free(volumes);
-	return status;
-}
-
 /* The mean of |H - 1| over sets with a volume. */
 static int coverage(const struct pm_frame *f, struct pm_scales *s)
 {
@@ -190,7 +174,7 @@ static int coverage(const struct pm_frame *f, struct pm_scales *s)
 		if (!pm_set_moves(f, set) || !v || !set->n)
 			continue;
 		double *H = pm_alloc(set->n, sizeof *H);
-		int status = H ? pm_scales_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
+		int status = H ? pm_set_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
 		for (size_t i = 0; i < set->n && !status; i++)
 			sum += fabs(H[i] - 1), width += pow(fabs(at(v, 0, i)), 1.0 / f->dim);
 		n += (double)set->n;
@@ -226,8 +210,8 @@ static void geometry(const struct pm_frame *f, struct pm_scales *s)
 
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
-	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN, .rough = NAN,
-		.length = NAN, .mesh_error = NAN, .distortion = {NAN, NAN, NAN, NAN}, .overlap = NAN, .width = NAN};
+	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN,
+		.rough = NAN, .length = NAN, .mesh_error = NAN, .overlap = NAN, .width = NAN};
 	s->kind = !law->field ? PM_NO_FIELD : !law->strength ? PM_CARRIED : law->of_potential == PM_CURL ? PM_VORTICES : law->per ? PM_CHARGES : PM_MASSES;
 	s->softening = pm_frame_constant(f, "softening", 0);
 	s->nu = pm_frame_constant(f, "nu", 0);

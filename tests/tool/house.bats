@@ -173,6 +173,73 @@ install_here() {
 	[ -z "$bad" ]
 }
 
+# The tree again, of links, but for the rooms of lib/effect; then the same link as the Makefile's.
+@test "a new effect is one file: plan prints its words in their slot with their reasons, and --check tests its decision" {
+	mkdir -p tree/lib/effect
+	ln -s "$top"/{Makefile,bench,data,tests,tools} tree
+	for room in "$top"/lib/*; do [ "${room##*/}" = effect ] || ln -s "$room" tree/lib; done
+	cp "$top"/lib/effect/* tree/lib/effect
+	cat >tree/lib/effect/drag.c <<'END'
+/* Drag: friction acc += -gamma v, gamma the constant drag of the frame; in the time T it changes v by gamma T. Source: Stokes 1851. */
+#include <stdio.h>
+
+#include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "stream/frame.h"
+
+static int measure(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN])
+{
+	(void)run;
+	own[0] = pm_frame_constant(c->frame, "drag", 0);
+	return 0;
+}
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
+{
+	pm_effect_by(d, c->scales, c->own[0] * c->scales->time, c->own[0] * c->scales->time);
+	snprintf(d->text, sizeof d->text, "gamma T = %.2g", d->number);
+}
+
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	if (c->decision->answer != PM_PUT_IN)
+		return;
+	pm_words_add(w, PM_SLOT_FORCES, "field acc=-drag*vx,-drag*vy,-drag*vz", "drag: on, %s", c->decision->text);
+	pm_words_amend(w, PM_SLOT_CLOSING, "push", "", ", with drag");
+}
+
+static bool reversible(const struct pm_effect_case *c) { return c->own[0] > 0; }
+
+const struct pm_effect effect_drag = {
+	.name = "drag",
+	.sentence = "friction",
+	.source = "Stokes 1851",
+	.word = "field",
+	.force = true,
+	.measure = measure,
+	.decide = decide,
+	.words = words,
+	.reversible = reversible,
+};
+END
+	env -u MAKEFLAGS make -s -C tree B=build build/tables/effect.o build/lib/effect/drag.o
+	mapfile -t words < <(cd "$top/build/tools" && ls -- *.o | grep -vx sh5.o)
+	gcc -fopenmp -o new-plan tree/build/tables/effect.o tree/build/lib/effect/drag.o "$top/build/mains/plan.o" "${words[@]/#/$top/build/tools/}" \
+		"$top/build/tables/tools.o" "$top/build/libpmpipe.a" -lfftw3 -lgsl -lgslcblas -lpng -ljansson -lm
+	pinit two-body --eccentricity 0.3 >free
+	smod --constant drag=0.02 <free >dragged
+	./new-plan --no-cost <dragged >text
+	[ "$(./new-plan --sentence <dragged | sed 's/ --dt [^ ]*//')" = 'push kick/2 drift | pp | field acc=-drag*vx,-drag*vy,-drag*vz | push kick/2' ]
+	grep -qE '^field acc=.*# drag: on, gamma T = ' text
+	grep -qE '^push kick/2 .*# the second half of the kick, with drag$' text
+	grep -qE '^# drag  *on  *gamma T = ' text
+	./new-plan --check <dragged >proof
+	grep -qE '^drag +on .* right$' proof
+	./new-plan --no-cost <free | grep -v '^# drag  *off' >text
+	plan --no-cost <free | diff - text
+	cycle -n 2 "$(./new-plan --sentence <dragged)" <dragged >/dev/null
+}
+
 @test "every effect has its row in docs/plan.md" {
 	for f in "$top"/lib/effect/*.c; do
 		grep -q "^| $(basename "$f" .c) " "$top/docs/plan.md" || { echo "$f"; return 1; }

@@ -47,7 +47,7 @@ static void plasmas(void)
 	struct pm_scales s = scales("landau", 20000, NULL, 0);
 	check_near(s.omega, 1, 1e-12, "landau: omega_p = 1");
 	check_near(s.debye, 1, 0.02, "landau: the Debye length 1, of 20000 random velocities");  /* 3/sqrt(2 n) = 0.015 */
-	check_near(s.per_debye, 20000 / (4 * pm_pi) * s.debye, 1e-6, "landau: n/L particles in it"); /* box 2 pi/0.5 */
+	check_near(s.volume, 4 * pm_pi, 1e-12, "landau: the length of the box, 2 pi/0.5");
 	check(s.kind == PM_CHARGES && s.second && s.periodic && !s.open && !s.walls, "landau: charges with velocities in a periodic box");
 	s = scales("gyration", 0, "magnetic-field", 2.385);
 	check_near(s.cyclotron, 2.385, 1e-12, "gyration: (q/m) B");
