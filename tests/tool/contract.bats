@@ -44,6 +44,8 @@ usage() {
 @test "a value out of its range: exit 2, the range" {
 	usage 'outside its range, 1 to 4096' 'diag --threads 0'
 	usage 'outside its range' "cycle -n -1 'push drift'"
+	usage 'outside its range, 1e-09 to 1e' 'dt --courant 0'
+	usage 'outside its range, 1e-09 to 1e' 'dt --courant 1e10'
 	usage 'outside its range' 'pinit plummer -n -5'
 	usage 'outside its range' "cycle -n 5 --every 0 'push drift'"
 }

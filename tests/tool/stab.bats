@@ -28,6 +28,12 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	[ "$output" = "name,sun,jupiter,saturn,uranus,neptune,pluto" ]
 }
 
+@test "letters that would break a table travel as % and their number: blanks, #, %, none" {
+	printf 'name x y mass\n%%23a%%20b%%25 1 2 3\n%% 4 5 6\nc 7 8 9\n' >t
+	sh_ok 'stab --text name t | stab | stab - | stab --plain | cut -f1 | paste -sd,'
+	[ "$output" = "name,%23a%20b%25,%,c" ]
+}
+
 @test "text that stab wrote is read with rows taken out" {
 	sh_ok 'pinit plummer -n 10 | stab | awk -F"\t" "/^#/ || NF != 7 || \$7 != 4" | stab - | stab --plain | cut -f8 | paste -sd,'
 	[ "$output" = "id,0,1,2,3,5,6,7,8,9" ]
@@ -160,6 +166,13 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	sed 's/^x\ty/x\tq/' t >u
 	run -1 --separate-stderr stab u
 	[[ "$stderr" == *"column 'q'"* ]]
+	pinit uniform -n 5 --dim 1 | p2m -n 4 | stab >m
+	sed '/^#mesh/{n;n;p;}' m >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"5 rows, where the mesh 'mesh' has 4 points"* ]]
+	sed '/^#mesh/{n;n;d;}' m >u
+	run -1 --separate-stderr stab u
+	[[ "$stderr" == *"3 rows, where the mesh 'mesh' has 4 points"* ]]
 	sed '/^#set/d' t >u
 	run -1 --separate-stderr stab u
 	[[ "$stderr" == *"the table of set 'matter' is not here"* ]]

@@ -151,13 +151,16 @@ static int header(const char *text)
 }
 
 #define HEAD "\"law\":{\"name\":\"free\"},\"scene\":{\"name\":\"\"},\"time\":0,\"dt\":1,\"step\":0,\"substep\":0,\"meshes\":[],"
+#define FACES(low, high, first, last) "\"box\":{\"lo\":[0],\"hi\":[1],\"fields\":[[\"" low "\",\"" high "\"]],\"particles\":[[\"" first "\",\"" last "\"]]},"
 #define BOX "\"box\":{\"lo\":[0],\"hi\":[1],\"fields\":[[\"open\",\"open\"]],\"particles\":[[\"open\",\"open\"]]},"
 #define SETS "\"sets\":[{\"name\":\"a\",\"n\":3}],"
 static void hostile(void)
 {
 	check(header("{\"dim\":1," HEAD BOX SETS "\"fields\":[]}") == 0, "the smallest header is read (%s)", pm_message());
+	check(header("{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "periodic") SETS "\"fields\":[]}") == 0, "so is a periodic one (%s)", pm_message());
 	const char *bad[] = {"[]", "{}", "{\"dim\":4," HEAD BOX SETS "\"fields\":[]}", "{\"dim\":1," HEAD SETS "\"fields\":[]}", "{\"dim\":2," HEAD BOX SETS "\"fields\":[]}",
 		"{\"byte_order\":\"big\",\"dim\":1," HEAD BOX SETS "\"fields\":[]}",
+		"{\"dim\":1," HEAD FACES("periodic", "open", "periodic", "periodic") SETS "\"fields\":[]}", "{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "open") SETS "\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":-1}],\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":9007199254740993000}],\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":1},{\"name\":\"a\",\"n\":1}],\"fields\":[]}",
