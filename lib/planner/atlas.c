@@ -1,5 +1,5 @@
-/* Reads between the rows of the atlas: log error is a straight line in log h and log dt between two rows. Rows stand in any order; an error that is not a number was a
- * run that failed. Assumes that the error falls with h and dt where it is below 1. Source: docs/accuracy/README.md. Cost: rows.
+/* Reads between the rows of the atlas: log error is a straight line in log h and log dt between two rows. Rows stand in any order; an error that is not a
+ * number was a run that failed. Assumes that the error falls with h and dt where it is below 1. Source: docs/accuracy/README.md. Cost: rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

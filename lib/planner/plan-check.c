@@ -1,6 +1,8 @@
-/* The proof of a plan: each effect is left out or put in against the decision, both sentences run for a few steps from the frame, and what differs is put in
- * relation. Velocities: |v - v'|/|v|, strengths after one step alike, carried on to the time T of the run (times T/(n dt)); where there is no inertia displacements,
- * |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, carried on. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The proof of a plan: each effect is left out or put in against the decision, both sentences run for a few steps from the frame, and the difference is
+ * compared with the accuracy. Velocities: |v - v'|/|v|, strengths after one step alike, extrapolated to the time T of the run (times T/(n dt)); where
+ * there is no inertia displacements, |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, extrapolated. Which of
+ * these, the effect says.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/norms.h"
@@ -164,8 +166,12 @@ static void verdict(const struct pm_plan *p, const struct pm_plan_effect *e, str
 {
 	const bool in = e->decision.answer == PM_PUT_IN, matters = o->difference > p->scales.accuracy;
 	o->wrong = isnan(o->difference) || (!in && matters) || (in && !e->decision.kept && o->difference < 0.1 * p->scales.accuracy);
-	o->verdict = isnan(o->difference) ? "wrong: it cannot be compared" : o->wrong ? matters ? "wrong: it matters" : "wrong: it is negligible" : matters ? "right"
-		: in ? e->decision.kept ? "small, and kept" : "small" : "right: negligible";
+	if (isnan(o->difference))
+		o->verdict = "wrong: it cannot be compared";
+	else if (o->wrong)
+		o->verdict = matters ? "wrong: it matters" : "wrong: it is negligible";
+	else
+		o->verdict = matters ? "right" : !in ? "right: negligible" : e->decision.kept ? "small, and kept" : "small";
 }
 
 /* What differs between a run the other way, a, and as planned, b; on: steps of the run over those that were run. */

@@ -4,8 +4,8 @@
 #include "planner/atlas.h"
 #include "planner/plan.h"
 
-/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all that is done there, a particle to the
- * mesh and back (docs/speed.md). */
+/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all that is done there, a particle
+ * to the mesh and back (docs/speed.md). */
 static const double ns_pair = 0.39, ns_point = 5, ns_particle = 100;
 
 static double cost_pairs(const struct pm_scales *s) { return ns_pair * s->n * s->sources; }
@@ -60,8 +60,8 @@ static bool can(const struct pm_plan *p, const struct pm_atlas_force *r, const c
 	return !strcmp(r->scene, scene) && !strncmp(r->solver, "poisson-fft", 11) && (!p->scales.open || strcmp(r->gradient, "spectral"));
 }
 
-/* Of those of the atlas that reach the accuracy with so many times the cells, and cost at most half more than the cheapest of them, the most accurate: what differs by less is
- * how the machine was when it was measured. If none does, the most accurate of all. */
+/* Of the rows that reach the accuracy with so many times the cells and cost at most 1.5 times the cheapest of them, the most accurate: smaller differences
+ * are timing noise of the atlas. If none reaches it, the most accurate of all. */
 static struct try best(const struct pm_plan *p, const char *scene, double h, int factor)
 {
 	struct try found = {NULL, factor, HUGE_VAL};
@@ -98,7 +98,8 @@ static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 	return least;
 }
 
-/* The particles are its nodes, so it stays; m6prime remeshed for a run is wrong by (h k)^5/2 in the largest vorticity, k^2 = |lap omega|/|omega| (docs/plan.md). */
+/* The particles are its nodes, so it stays; m6prime remeshed for a run is wrong by (h k)^5/2 in the largest vorticity, k^2 = |lap omega|/|omega|
+ * (docs/plan.md). */
 static void vortex_mesh(struct pm_plan *p)
 {
 	const struct pm_scales *s = &p->scales;

@@ -1,4 +1,5 @@
-/* A plan as text: a stage a line with its reason behind it, then what is left out and what is lacking; and as JSON. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A plan as text: a stage a line with its reason behind it, then what is left out and what is lacking; and as JSON.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/plan.h"
@@ -78,8 +79,8 @@ static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(
 
 void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 {
-	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy), "time", number(p->scales.time), "stages",
-		"effects");
+	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy),
+		"time", number(p->scales.time), "stages", "effects");
 	for (int i = 0; i < p->nstages; i++) {
 		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
 		if (cost)
@@ -99,6 +100,11 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 	json_decref(all);
 }
 
+static const char *untried(const struct pm_plan_effect *e)
+{
+	return e->lacking ? "no word for it yet" : e->effect->word && !pm_tool_find(e->effect->word) ? "no word" : "nothing to compare";
+}
+
 void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof)
 {
 	char name[64], text[32], of[PM_NAME];
@@ -107,8 +113,7 @@ void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const st
 		const struct pm_plan_effect *e = &p->effect[i];
 		snprintf(text, sizeof text, !proof[i].tried ? "-" : proof[i].difference > 1 ? "> 1" : "%.2g", proof[i].difference);
 		snprintf(of, sizeof of, "%s", proof[i].tried ? proof[i].of : "-");
-		fprintf(out, "%-18s %-6s %10s  %-12s %s\n", label(e->effect, name), answer(e), text, of,
-			proof[i].tried ? proof[i].verdict : e->lacking ? "no word for it yet" : e->effect->word && !pm_tool_find(e->effect->word) ? "no word" : "nothing to compare");
+		fprintf(out, "%-18s %-6s %10s  %-12s %s\n", label(e->effect, name), answer(e), text, of, proof[i].tried ? proof[i].verdict : untried(e));
 	}
 	fprintf(out, "# relative to a run of T = %g, from %d steps; above %g it matters\n", p->scales.time, steps, p->scales.accuracy);
 }

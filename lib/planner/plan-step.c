@@ -1,6 +1,6 @@
-/* Scheme and step of a plan, by the measured atlas: what is fastest in the frame (an orbit, the plasma frequency, vorticity, an encounter) is put in the place of the
- * problem that was measured. Errors are taken to grow in proportion to time,
- * on orbits by its square where the scheme does not keep energy. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scheme and step of a plan, by the measured atlas: what is fastest in the frame (an orbit, the plasma frequency, vorticity, an encounter) takes the place of
+ * the problem that was measured. Errors are taken to grow in proportion to time, on orbits by its square where the scheme does not keep energy.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/atlas.h"
@@ -37,17 +37,21 @@ static double longest(const struct clock *c, const char *scheme, const struct pm
 static struct clock clock_of(const struct pm_plan *p)
 {
 	const struct pm_scales *s = &p->scales;
+	struct clock c = {.problem = "langmuir", .omega = s->omega, .eccentricity = NAN, .steady = s->kind == PM_CHARGES,
+		.what = s->kind == PM_CHARGES ? "omega_p" : "orbits"};
 	if (s->kind == PM_VORTICES && s->pairs)
-		return (struct clock){"kepler-circle", fmax(s->encounter, s->self_max / s->spread), NAN, s->n < 64, "the nearest pair"};
-	if (s->kind == PM_VORTICES)
-		return (struct clock){"vortex-patch", s->omega, NAN, true, "the vorticity"};
-	if (s->kind == PM_CHARGES && s->cyclotron * s->time > s->accuracy && (s->cyclotron > s->omega || s->sources < 2))
-		return (struct clock){"gyration", s->cyclotron, NAN, true, "the gyration"};
-	if (s->pairs && !isnan(s->orbit))
-		return (struct clock){"kepler", s->orbit, s->eccentricity, true, "the orbit"};
-	if (s->pairs)
-		return (struct clock){"langmuir", fmax(s->omega, sqrt(s->self_max / s->spread)), NAN, false, "orbits"};
-	return (struct clock){"langmuir", s->omega, NAN, s->kind == PM_CHARGES, s->kind == PM_CHARGES ? "omega_p" : "orbits"};
+		c = (struct clock){.problem = "kepler-circle", .omega = fmax(s->encounter, s->self_max / s->spread), .eccentricity = NAN, .steady = s->n < 64,
+			.what = "the nearest pair"};
+	else if (s->kind == PM_VORTICES)
+		c = (struct clock){.problem = "vortex-patch", .omega = s->omega, .eccentricity = NAN, .steady = true, .what = "the vorticity"};
+	else if (s->kind == PM_CHARGES && s->cyclotron * s->time > s->accuracy && (s->cyclotron > s->omega || s->sources < 2))
+		c = (struct clock){.problem = "gyration", .omega = s->cyclotron, .eccentricity = NAN, .steady = true, .what = "the gyration"};
+	else if (s->pairs && !isnan(s->orbit))
+		c = (struct clock){.problem = "kepler", .omega = s->orbit, .eccentricity = s->eccentricity, .steady = true, .what = "the orbit"};
+	else if (s->pairs)
+		c = (struct clock){.problem = "langmuir", .omega = fmax(s->omega, sqrt(s->self_max / s->spread)), .eccentricity = NAN, .steady = false,
+			.what = "orbits"};
+	return c;
 }
 
 /* The cheapest scheme and its longest step. */
@@ -107,7 +111,8 @@ void pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 	if (!isfinite(allowed)) {
 		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame", m->scheme, f->dt);
 	} else if (dt > 0 && allowed > 0.9 * dt && (allowed < 1.25 * dt || !c.steady)) {
-		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g would do for %.1g by %s", m->scheme, f->dt, allowed, s->accuracy, what);
+		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g would do for %.1g by %s", m->scheme, f->dt, allowed, s->accuracy,
+			what);
 	} else {
 		m->dt = back * s->time / ceil(s->time / allowed - 1e-9);
 		s->dt = m->dt;

@@ -1,5 +1,5 @@
-/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and where an effect asks for
- * them a few steps. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and a few steps where an
+ * effect asks for them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/scales.h"

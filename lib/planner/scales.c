@@ -1,7 +1,8 @@
-/* Scales of a frame: speeds and their spread, the frequency of the particles together, Debye length, distances, what is given on meshes, strain and roughness of
- * the field. omega^2 = |c| sum q^2/m over the volume V, c that of lap phi = c rho (masses: |c| M/V); V is the box where it is periodic, else the ball that has
- * the same rms radius. Source: Birdsall and Langdon 1985, section 1-2; the definitions. Cost N, and N^2/2 below PM_SCALES_PAIRS particles; no clock,
- * sums in a fixed order. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scales of a frame: speeds and their spread, the frequency of the particles together, Debye length, distances, what is given on meshes, strain and
+ * roughness of the field. omega^2 = |c| sum q^2/m over the volume V, c that of lap phi = c rho (masses: |c| M/V); V is the box where it is periodic, else
+ * the ball that has the same rms radius. Source: Birdsall and Langdon 1985, section 1-2; the definitions. Cost N, and N^2/2 below PM_SCALES_PAIRS
+ * particles; no clock, sums in a fixed order.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "effect-parts/set-overlap.h"
