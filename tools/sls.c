@@ -27,8 +27,7 @@ static const struct pm_option options[] = {
 
 static int begin(struct pm_stage *s)
 {
-	json_decref(s->entry); /* looking leaves no trace */
-	s->entry = NULL;
+	pm_stage_no_entry(s); /* looking leaves no trace */
 	return 0;
 }
 

@@ -154,6 +154,12 @@ static void say(const struct pm_stage *s, const char *format, va_list ap, const 
 	fprintf(stderr, "%s\n", more);
 }
 
+void pm_stage_no_entry(struct pm_stage *s)
+{
+	json_decref(s->entry);
+	s->entry = NULL;
+}
+
 void pm_say(const struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;

@@ -104,6 +104,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv);
 
 /* For tools. */
 bool pm_given(const struct pm_stage *s, const char *option);       /* was it typed? */
+void pm_stage_no_entry(struct pm_stage *s);                        /* begin(), source(): it leaves no entry in the history (looking, text of whole frames) */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
 /* declare(): the effect is zero here; says why, once, and returns PM_PASS. */

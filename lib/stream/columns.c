@@ -116,6 +116,20 @@ static int frame_make(int n, struct pm_column *column, const struct plan *plan, 
 	return pm_frame_ready(f);
 }
 
+static int number_rows(struct pm_frame *f, const char *set)
+{
+	struct pm_field *id = pm_frame_field(f, set, "id") ? NULL : pm_makes(f, set, "id", 1, PM_STATE);
+	if (!id)
+		return pm_fail(PM_DATA, "the table has a column id already (leave --number out)");
+	id->type = PM_I64;
+	if (pm_field_ready(id))
+		return -PM_DATA;
+	for (size_t i = 0; i < id->count; i++)
+		pm_out_i64(id, 0)[i] = (int64_t)i;
+	id->use = 0;
+	return 0;
+}
+
 int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, struct pm_frame **f)
 {
 	struct pm_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
@@ -131,6 +145,8 @@ int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, 
 		status = -PM_DATA;
 	if (!status && !(status = frame_make(n, column, plan, choice, rows, *f)) && !(status = pm_table_read(t, t->size, n, column)))
 		status = pm_frame_settle(*f);
+	if (!status && choice->number)
+		status = number_rows(*f, choice->set);
 	if (status)
 		*f = pm_frame_free(*f);
 	pm_free(column), pm_free(plan);

@@ -8,6 +8,7 @@ struct pm_columns_choice {
 	const char *set;                       /* name of the set made */
 	int dim;                               /* 0: as many as there are position columns */
 	const char *const *skip, *const *text, *const *strength; /* names of columns, each list ended by NULL */
+	bool number;                           /* a field id that counts the rows from 0 */
 };
 
 /* x y z are the positions x, vx vy vz the velocity v, NAME_0 NAME_1 ... one field, id a field of whole numbers, name (and what `text` lists) letters,

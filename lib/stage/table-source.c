@@ -1,0 +1,82 @@
+/* A text made into frames: a plain table into one, with the attributes that were typed; text that stab wrote into those it was made from.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "stage/attribute-options.h"
+#include "stage/table-source.h"
+#include "stream/columns.h"
+#include "stream/declare.h"
+#include "stream/text.h"
+
+const char *pm_table_option_given(const struct pm_stage *s)
+{
+	static const char *const reading[] = {"law", "constant", "dt", "time", "dim", "box", "faces", "particle-faces", "cells", "strength", "unit", "text",
+		"skip", "number", NULL};
+	int i = 0;
+	while (reading[i] && !pm_given(s, reading[i]))
+		i++;
+	return reading[i];
+}
+
+/* The list as names that end in NULL. */
+static const char *const *names(struct pm_list *list)
+{
+	list->item[list->n < PM_LIST_MOST ? list->n : PM_LIST_MOST - 1] = NULL;
+	return list->item;
+}
+
+static int table(struct pm_stage *s, struct pm_text *text, struct pm_table_options *c, struct pm_frame **f)
+{
+	const struct pm_columns_choice choice = {.set = c->set, .dim = c->dim > 0 ? (int)c->dim : 0, .skip = names(&c->skip), .text = names(&c->text),
+		.strength = names(&c->strength), .number = c->number};
+	size_t cells[3];
+	int status = pm_columns_frame(text, &choice, f);
+	if (status)
+		return status;
+	struct pm_frame *g = *f;
+	g->dt = c->dt, g->time = g->start = c->time;
+	pm_columns_box(g, c->set);
+	if ((status = pm_attributes_constants(g, &c->constants)) || (status = pm_attributes_law(g, c->law)) || (status = pm_attributes_box(g, &c->box)) ||
+		(status = pm_attributes_faces(g, &c->faces)) || (status = pm_attributes_particle_faces(g, &c->particle_faces)) ||
+		(status = pm_attributes_units(g, c->set, &c->units)) || (status = pm_cells_for(&c->cells, g->dim, cells)))
+		return status;
+	if (!c->box.n)
+		pm_report_text(s, g, "box", "automatic");
+	return pm_frame_mesh_new(g, "mesh", cells) ? 0 : -PM_DATA;
+}
+
+static int frames(struct pm_stage *s, struct pm_table_source *st, struct pm_frame **f)
+{
+	const char *only = pm_table_option_given(s);
+	if (only || pm_given(s, "set"))
+		return pm_fail(PM_USAGE, "--%s is for plain tables, and this text holds whole frames (change them with smod)", only ? only : "set");
+	pm_stage_no_entry(s);
+	return pm_text_frame_read(&st->text, f, &st->frames);
+}
+
+int pm_table_source_next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+{
+	char why[512];
+	int status = st->open ? 0 : pm_text_open(&st->text, s->args[0]);
+	if (status || st->over)
+		return status;
+	*f = NULL;
+	st->over = !st->open && !pm_text_is_frames(&st->text);
+	st->open = true;
+	status = st->over ? table(s, &st->text, options, f) : frames(s, st, f);
+	if (st->over && !status)
+		return 1;
+	if (status < 0) {
+		*f = pm_frame_free(*f);
+		snprintf(why, sizeof why, "%s", pm_message());
+		return pm_fail(-status, "%s: %s", strcmp(s->args[0], "-") ? s->args[0] : "standard input", why);
+	}
+	return status;
+}
+
+void pm_table_source_close(struct pm_table_source *t)
+{
+	if (t->open)
+		pm_text_close(&t->text);
+}

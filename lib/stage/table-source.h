@@ -1,0 +1,31 @@
+/* A text as a source of frames: the reading half of stab. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STAGE_TABLE_SOURCE_H
+#define PM_STAGE_TABLE_SOURCE_H
+
+#include "stage/stage.h"
+#include "stream/table.h"
+
+/* What is typed for a plain table. */
+struct pm_table_options {
+	const char *set, *law;
+	int64_t dim;     /* not positive: as many as there are position columns */
+	double dt, time;
+	struct pm_vector box;
+	struct pm_cells cells;
+	struct pm_list constants, faces, particle_faces, units, skip, text, strength;
+	bool number;     /* the rows, as a field id */
+};
+
+struct pm_table_source {
+	struct pm_text text;
+	bool open, over;
+	uint64_t frames; /* read */
+};
+
+/* The name of the first option that was typed of those for reading a plain table; NULL none. */
+const char *pm_table_option_given(const struct pm_stage *s);
+/* source(): opens the text at the first call; 1 and a frame, 0 at the end, or failure that names the file. */
+int pm_table_source_next(struct pm_stage *s, struct pm_table_source *t, struct pm_table_options *o, struct pm_frame **f);
+void pm_table_source_close(struct pm_table_source *t);
+
+#endif
