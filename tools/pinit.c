@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest-name.h"
 #include "scene-parts/scene-parameters.h"
 #include "stage/attribute-options.h"
 
@@ -45,29 +46,6 @@ static const struct pm_option *parameters(void)
 	return options;
 }
 
-/* The scene's parameters as typed or by default; what it does not have is refused. */
-static int choose(const struct config *o, const struct pm_scene *scene, double *value)
-{
-	const struct pm_scene_parameter *rows[PM_SCENE_ROWS], *own = scene->parameters;
-	const char *names[PM_SCENE_PARAMETERS + 1] = {0};
-	const int n = pm_scene_rows(rows);
-	bool mine[PM_SCENE_ROWS] = {0};
-	for (int i = 0; own[i].name; i++) {
-		const int k = pm_scene_row_at(rows, n, names[i] = own[i].name);
-		mine[k] = true;
-		value[i] = isnan(o->parameter[k]) ? own[i].otherwise : o->parameter[k];
-		if ((own[i].low != 0 || own[i].high != 0) && !(value[i] >= own[i].low && value[i] <= own[i].high))
-			return pm_fail(PM_USAGE, "--%s %g is not in %g..%g", own[i].name, value[i], own[i].low, own[i].high);
-	}
-	for (int k = 0; k < n; k++)
-		if (!mine[k] && !isnan(o->parameter[k])) {
-			const char *near = pm_nearest(rows[k]->name, names);
-			return pm_fail(PM_USAGE, "the scene %s has no --%s (%s --%s)", scene->name, rows[k]->name, near ? "did you mean" : "it has",
-				near ? near : names[0]);
-		}
-	return 0;
-}
-
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
@@ -92,7 +70,7 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "the scene %s has -n %d, no other", scene->name, (int)scene->n);
 	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
 		return -PM_USAGE;
-	return choose(o, scene, state->choice.value);
+	return pm_scene_parameters_choose(scene, o->parameter, state->choice.value);
 }
 
 /* What the user typed, over the scene's own box, faces, mesh and step. */

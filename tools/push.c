@@ -10,7 +10,6 @@
 struct config {
 	double dt;
 	const char *set;
-	bool open, clear, unsafe;
 	struct pm_push push;
 };
 
@@ -19,69 +18,15 @@ struct state { /* what declare leaves for frame */
 	size_t n;
 };
 
-static const struct pm_step *find(const char *name, size_t length)
-{
-	for (int i = 0; pm_steps[i]; i++)
-		if (strlen(pm_step_names[i]) == length && !strncmp(pm_step_names[i], name, length))
-			return pm_steps[i];
-	return NULL;
-}
-
-static int unknown(const char *word)
-{
-	const char *near = pm_nearest(word, pm_step_names);
-	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of euler, rk2, rk4, lsrk3, ab2, ab3)", word,
-		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
-}
-
-/* One word: clear, NAME or NAME/N. */
-static int action(struct config *cfg, const char *word)
-{
-	struct pm_push *p = &cfg->push;
-	const char *slash = strchr(word, '/');
-	const struct pm_step *step = find(word, slash ? (size_t)(slash - word) : strlen(word));
-	char *end = "";
-	double n = slash ? strtod(slash + 1, &end) : 1;
-	if (cfg->clear)
-		return pm_fail(PM_USAGE, "'%s' after clear (put clear last: it takes the rates away)", word);
-	if ((cfg->clear = !strcmp(word, "clear")))
-		return 0;
-	if (!step)
-		return unknown(word);
-	if (*end || (slash && !slash[1]) || !(n >= 1 && n <= 1e9) || (slash && step->kind == PM_SCHEME))
-		return pm_fail(PM_USAGE, "'%s' (a part of a step is written kick/N or drift/N, N from 1 to 1e9; schemes have no parts)", word);
-	if (step->kind == PM_KICK && p->drift > 0)
-		return pm_fail(PM_USAGE, "'%s' after drift has no force at the new positions (push drift | force | push kick)", word);
-	if (step->magnetic && n != 2)
-		return pm_fail(PM_USAGE, "'%s' (%s is written %s/2: push %s/2 drift | force | push %s/2)", word, step->name, step->name, step->name, step->name);
-	if (p->magnetic || (step->magnetic && p->actions.actions))
-		if (step->kind != PM_DRIFT)
-			return pm_fail(PM_USAGE, "'%s': no kick stands beside a magnetic one (push boris/2 drift | force | push boris/2)", word);
-	if (p->scheme || (step->kind == PM_SCHEME && p->actions.actions))
-		return pm_fail(PM_USAGE, "'%s': a whole scheme stands alone", word);
-	if (p->actions.actions == PM_ADVANCE_ACTIONS)
-		return pm_fail(PM_USAGE, "more than %d actions", PM_ADVANCE_ACTIONS);
-	p->part[p->actions.actions] = 1 / n;
-	p->actions.action[p->actions.actions++].step = step;
-	p->kick += step->kind == PM_KICK ? 1 / n : 0;
-	p->drift += step->kind == PM_DRIFT ? 1 / n : 0;
-	p->scheme = step->kind == PM_SCHEME ? step : NULL;
-	p->magnetic = step->magnetic ? step : p->magnetic;
-	p->moves = p->moves || step->kind != PM_KICK;
-	return 0;
-}
-
 static int begin(struct pm_stage *s)
 {
 	struct config *cfg = s->config;
 	for (int i = 0; i < s->nargs; i++) {
-		int status = action(cfg, s->args[i]);
+		int status = pm_push_action(&cfg->push, s->args[i]);
 		if (status)
 			return status;
 	}
-	cfg->push.open = cfg->open;
-	cfg->push.unsafe = cfg->unsafe;
-	if (cfg->open && !(cfg->push.drift > 0))
+	if (cfg->push.open && !(cfg->push.drift > 0))
 		return pm_fail(PM_USAGE, "--open belongs to drift (push drift --open | force | push kick)");
 	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt 0 moves nothing") : 0;
 }
@@ -102,7 +47,7 @@ static void drop(struct pm_frame *f, const struct config *cfg)
 	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
 	pm_drops_roles(f, NULL, roles);
 	for (size_t i = 0; i < f->nsets; i++)
-		if (f->sets[i]->fixed || (cfg->clear && (!cfg->set || !strcmp(cfg->set, f->sets[i]->name))))
+		if (f->sets[i]->fixed || (cfg->push.clear && (!cfg->set || !strcmp(cfg->set, f->sets[i]->name))))
 			pm_drops_roles(f, f->sets[i]->name, roles);
 }
 
@@ -129,7 +74,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return pm_fail(PM_DATA, "no set that moves (a set with positions 'x' that is not fixed)");
 	if (status)
 		return status;
-	if (cfg->clear || cfg->push.moves)
+	if (cfg->push.clear || cfg->push.moves)
 		drop(f, cfg);
 	if (steps)
 		pm_clock_close(f);
@@ -161,8 +106,8 @@ static void release(struct pm_stage *s)
 static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time waits for the others"},
-	{.name = "open", .kind = PM_FLAG, PM_AT(open), .text = "the drift does not complete the step: a kick is still to come"},
-	{.name = "unsafe", .kind = PM_FLAG, PM_AT(unsafe), .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)"},
+	{.name = "open", .kind = PM_FLAG, PM_AT(push.open), .text = "the drift does not complete the step: a kick is still to come"},
+	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe), .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)"},
 	{0},
 };
 

@@ -14,7 +14,11 @@ struct pm_push {
 	const struct pm_step *scheme;    /* NULL: kicks and drifts */
 	const struct pm_step *magnetic;  /* the kick that turns v about bfield; NULL none */
 	bool open, moves, unsafe;        /* a kick is still to come after the drift; positions change; any step length */
+	bool clear;                      /* change and derived fields go afterwards */
 };
+
+/* One word as typed: clear, NAME or NAME/N, behind those before it. 0, or failure in words. */
+int pm_push_action(struct pm_push *p, const char *word);
 
 struct pm_moving {
 	struct pm_set *set;

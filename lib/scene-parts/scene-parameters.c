@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest-name.h"
 #include "scene-parts/scene-parameters.h"
 
 int pm_scene_row_at(const struct pm_scene_parameter *const *rows, int n, const char *name)
@@ -38,4 +39,26 @@ void pm_scene_row_text(const struct pm_scene_parameter *row, char *text, size_t 
 			}
 	fprintf(out, ")");
 	fclose(out);
+}
+
+int pm_scene_parameters_choose(const struct pm_scene *scene, const double typed[PM_SCENE_ROWS], double *value)
+{
+	const struct pm_scene_parameter *rows[PM_SCENE_ROWS], *own = scene->parameters;
+	const char *names[PM_SCENE_PARAMETERS + 1] = {0};
+	const int n = pm_scene_rows(rows);
+	bool mine[PM_SCENE_ROWS] = {0};
+	for (int i = 0; own[i].name; i++) {
+		const int k = pm_scene_row_at(rows, n, names[i] = own[i].name);
+		mine[k] = true;
+		value[i] = isnan(typed[k]) ? own[i].otherwise : typed[k];
+		if ((own[i].low != 0 || own[i].high != 0) && !(value[i] >= own[i].low && value[i] <= own[i].high))
+			return pm_fail(PM_USAGE, "--%s %g is not in %g..%g", own[i].name, value[i], own[i].low, own[i].high);
+	}
+	for (int k = 0; k < n; k++)
+		if (!mine[k] && !isnan(typed[k])) {
+			const char *near = pm_nearest(rows[k]->name, names);
+			return pm_fail(PM_USAGE, "the scene %s has no --%s (%s --%s)", scene->name, rows[k]->name, near ? "did you mean" : "it has",
+				near ? near : names[0]);
+		}
+	return 0;
 }

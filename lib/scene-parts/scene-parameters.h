@@ -13,5 +13,7 @@ int pm_scene_row_at(const struct pm_scene_parameter *const *rows, int n, const c
 int pm_scene_rows(const struct pm_scene_parameter *rows[PM_SCENE_ROWS]);
 /* "text (default: plummer 0.02, uniform 0.001)": which scenes have a parameter, with their defaults. */
 void pm_scene_row_text(const struct pm_scene_parameter *row, char *text, size_t bytes);
+/* The parameters of a scene: typed[row of the list], NAN where the default counts. What the scene does not have, or out of its range, is refused. */
+int pm_scene_parameters_choose(const struct pm_scene *scene, const double typed[PM_SCENE_ROWS], double *value);
 
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/nearest-name.h"
 #include "sentence/process-chain.h"
 #include "stage/internal.h"
 #include "sentence/sentence.h"

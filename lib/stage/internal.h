@@ -28,7 +28,6 @@ struct pm_run {
 enum { PM_ROWS = 3 };
 /* The rows of a tool: its own, those computed, those of the library; any may be NULL. */
 void pm_option_rows(const struct pm_tool *tool, const struct pm_option *rows[PM_ROWS]);
-const char *pm_nearer(const char *word, const char *name, const char *best, int *least); /* name, if it is nearer to word than best */
 int pm_options_parse(struct pm_stage *s, int argc, char **argv);
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
 int pm_stage_begin(struct pm_stage *s);

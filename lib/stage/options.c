@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/nearest-name.h"
 #include "stage/internal.h"
 
 #define AT(member) .offset = offsetof(struct pm_common, member)

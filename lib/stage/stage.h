@@ -116,6 +116,5 @@ struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): t
 void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value);
 void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count);
 void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);
-const char *pm_nearest(const char *word, const char *const *names); /* NULL if none is near */
 
 #endif

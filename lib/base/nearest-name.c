@@ -1,7 +1,7 @@
 /* The nearest name to a slip of the pen. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "stage/internal.h"
+#include "base/nearest-name.h"
 
 enum { edit = 4, swap = 3 };
 
