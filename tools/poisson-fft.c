@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fft/fftw-plan.h"
 #include "mesh/gradient.h"
-#include "transfer/interlace.h"
-#include "poisson-fft/poisson-fft.h"
+#include "poisson-fft/fft-solvers.h"
 #include "stage/solver-options.h"
 
 struct config {
@@ -12,18 +12,11 @@ struct config {
 	double screening, softening, cloud;
 	const char *symbol, *green, *influence, *order, *plan;
 };
-enum { SOLVERS = 4 }; /* kinds of faces that the components of a vector have: one for each axis as the normal one, and one for others */
 struct state {
 	struct pm_problem problem;
 	struct pm_poisson_fft_choice choice;
 	enum pm_fft_effort effort;
-	int nmade;
-	struct made {
-		struct pm_poisson_fft *solver;
-		struct pm_grid grid;
-		enum pm_symbol symbol;
-		struct pm_influence influence;
-	} made[SOLVERS];
+	struct pm_fft_solvers solvers;
 };
 
 static const struct pm_option options[] = {
@@ -104,32 +97,17 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
-{
-	return a->dim == b->dim && !memcmp(a->points, b->points, sizeof a->points) && !memcmp(a->cells, b->cells, sizeof a->cells) &&
-		!memcmp(a->h, b->h, sizeof a->h) && !memcmp(a->face, b->face, sizeof a->face);
-}
-
-static void forget(struct state *t)
-{
-	while (t->nmade)
-		pm_poisson_fft_free(t->made[--t->nmade].solver);
-}
-
 /* The solver for a grid, made where there is none; NULL with a message. */
 static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const struct pm_grid *g)
 {
-	for (int i = 0; i < t->nmade; i++)
-		if (t->choice.symbol == t->made[i].symbol && pm_influence_same(&t->choice.influence, &t->made[i].influence) && same_grid(g, &t->made[i].grid)) /* the other choices are options: the same for all frames */
-			return t->made[i].solver;
-	if (t->nmade == SOLVERS || t->problem.source->components == 1)
-		forget(t);
+	struct pm_poisson_fft *solver = pm_fft_solvers_find(&t->solvers, g, &t->choice);
+	if (solver)
+		return solver;
 	double began = pm_seconds();
-	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, &t->choice, t->effort);
+	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->effort, t->problem.source->components == 1);
 	pm_setup_since(s, began);
 	if (!solver)
 		return NULL;
-	t->made[t->nmade++] = (struct made){solver, *g, t->choice.symbol, t->choice.influence};
 	const struct pm_fft_plans *p = pm_poisson_fft_planner(solver);
 	if (*p->note)
 		pm_say(s, "%s", p->note);
@@ -167,10 +145,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-static void release(struct pm_stage *s)
-{
-	forget(s->state);
-}
+static void release(struct pm_stage *s) { pm_fft_solvers_clear(&((struct state *)s->state)->solvers); }
 
 const struct pm_tool tool_poisson_fft = {
 	.name = "poisson-fft",

@@ -1,0 +1,35 @@
+/* A few solvers by transforms kept ready for the grids of a stream. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "poisson-fft/fft-solvers.h"
+
+static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
+{
+	return a->dim == b->dim && !memcmp(a->points, b->points, sizeof a->points) && !memcmp(a->cells, b->cells, sizeof a->cells) &&
+		!memcmp(a->h, b->h, sizeof a->h) && !memcmp(a->face, b->face, sizeof a->face);
+}
+
+struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
+{
+	for (const struct pm_fft_made *m = s->made; m < s->made + s->n; m++)
+		if (o->symbol == m->symbol && pm_influence_same(&o->influence, &m->influence) && same_grid(g, &m->grid))
+			return m->solver;
+	return NULL;
+}
+
+struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort,
+	bool alone)
+{
+	if (s->n == PM_FFT_SOLVERS || alone)
+		pm_fft_solvers_clear(s);
+	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o, effort);
+	if (solver)
+		s->made[s->n++] = (struct pm_fft_made){.solver = solver, .grid = *g, .symbol = o->symbol, .influence = o->influence};
+	return solver;
+}
+
+void pm_fft_solvers_clear(struct pm_fft_solvers *s)
+{
+	while (s->n)
+		pm_poisson_fft_free(s->made[--s->n].solver);
+}
