@@ -1,0 +1,95 @@
+/* Fields computed from expressions, NAME = EXPRESSION on a set or mesh. Cost: one evaluation a value. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "expression/computed-fields.h"
+#include "stream/declare.h"
+
+/* The field to compute: an old one is rewritten, a new one made. */
+static struct pm_field *target(const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *name, const struct pm_expression *e)
+{
+	struct pm_field *p = pm_frame_field(f, on, name);
+	if (p && (p->components != e->nparts || p->role == PM_CHANGE || p->role == PM_REGISTER)) {
+		if (p->components != e->nparts)
+			pm_fail(PM_DATA, "'%s' on '%s' has %d components, here are %d (one expression each, commas between)", name, on, p->components, e->nparts);
+		else
+			pm_fail(PM_DATA, "'%s' on '%s' is a %s field, which only the stages that add to it may change", name, on, pm_role_names[p->role]);
+		return NULL;
+	}
+	if (p)
+		return pm_changes(f, on, name);
+	if (!(p = pm_makes(f, on, name, e->nparts, c->role)))
+		return NULL;
+	p->extensive = c->extensive;
+	p->type = c->type;
+	return p;
+}
+
+int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text, bool *changed)
+{
+	char name[PM_NAME];
+	const char *expression;
+	struct pm_expression_job *job = pm_expression_jobs_next(jobs);
+	int status = job ? pm_expression_named(text, name, &expression) : -PM_DATA;
+	if (!status)
+		status = pm_expression_compile(&job->e, f, on, expression);
+	if (status)
+		return status;
+	const struct pm_field *old = pm_frame_field(f, on, name);
+	*changed |= old && old->role == PM_STATE;
+	if (!(job->field = target(c, f, on, name, &job->e)))
+		return -PM_DATA;
+	if (c->unit)
+		snprintf(job->field->unit, PM_NAME, "%.63s", c->unit);
+	jobs->n++;
+	return 0;
+}
+
+int pm_computed_outdate(const struct pm_expression_jobs *jobs, struct pm_frame *f)
+{
+	for (size_t i = f->nfields; i-- > 0;) {
+		struct pm_field *p = f->fields[i];
+		bool ours = false;
+		for (size_t k = 0; k < jobs->n; k++)
+			ours |= jobs->job[k].field == p;
+		if (ours || (p->role != PM_DERIVED && p->role != PM_CHANGE))
+			continue;
+		if (p->use & PM_USE_READ)
+			return pm_fail(PM_DATA, "'%s' was computed from state that is changed here (one scalc to read it, then another to change the state)", p->name);
+		pm_drops(f, p);
+	}
+	return 0;
+}
+
+static int integers(struct pm_frame *f, const struct pm_expression_job *job)
+{
+	size_t n = job->field->count;
+	double *y = pm_alloc(n ? n : 1, sizeof *y);
+	int status = y ? 0 : -PM_DATA;
+	for (int c = 0; c < job->e.nparts && !status; c++) {
+		pm_expression_eval(&job->e, f, c, n, y);
+		for (size_t i = 0; i < n && !status; i++) {
+			double v = floor(y[i]);
+			if (!(v >= -0x1p63 && v < 0x1p63))
+				status = pm_fail(PM_NUMERICS, "'%s' is no whole number that fits at index %zu", job->field->name, i);
+			else
+				pm_out_i64(job->field, c)[i] = (int64_t)v;
+		}
+	}
+	pm_free(y);
+	return status;
+}
+
+int pm_computed_apply(const struct pm_expression_jobs *jobs, struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t k = 0; k < jobs->n && !status; k++) {
+		const struct pm_expression_job *job = jobs->job + k;
+		if (job->field->type == PM_U8)
+			status = pm_fail(PM_DATA, "'%s' holds bytes, which scalc does not compute", job->field->name);
+		else if (job->field->type == PM_I64)
+			status = integers(f, job);
+		else
+			pm_expression_assign(&job->e, f, job->field);
+	}
+	return status;
+}
