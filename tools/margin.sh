@@ -80,6 +80,7 @@ settle() {
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} keep=${opt_output:-} format=${opt_format:-table} growth=${opt_column:-}
 	[ "$keep" = / ] || keep=${keep%/}
+	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
 	axes
 	map_width=24 map_height=16 seeds=1 has_seed=
 	if [ -n "${opt_map:-}" ]; then
@@ -119,7 +120,7 @@ understand() {
 }
 
 open_state() {
-	work=$(mktemp -d "${TMPDIR:-/tmp}/margin.XXXXXX")
+	work_directory
 	state=$work
 	local key
 	key=$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")
@@ -130,7 +131,8 @@ open_state() {
 		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another search (choose another -o, or --fresh to forget it)"
 		printf '%s\n' "$key" >"$state/key"
 	fi
-	touch "$state/log"
+	local x='[-+0-9.eE,]+'
+	checked_log "^(trial"$'\t'"[0-9]+"$'\t'"[0-9]+"$'\t'"$x"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth"$'\t'"[0-9]+"$'\t'"[0-9]+"$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
 }
 
 # show TABLE-COMMAND TSV NAME: what was asked for, on standard output.
@@ -177,7 +179,7 @@ report() {
 
 main() {
 	declare -A children=()
-	child='' doing='' phase='' work='' made=0 here=$PWD
+	child='' doing='' phase='' work='' made=0
 	PATH=$PATH:$(cd "$(dirname "$(command -v "$0")")" && pwd)
 	settle "$@"
 	understand

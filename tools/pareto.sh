@@ -60,6 +60,7 @@ settle() {
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} keep=${opt_output:-}
 	[ "$keep" = / ] || keep=${keep%/}
+	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
 	until=${opt_until_error:-} within_seconds=
 	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of "$opt_within")
 	[ -n "$against" ] || usage "--against is missing: what is the reference? (a sentence such as 'pp', a file, exact, or finest)"
@@ -109,7 +110,7 @@ refer() {
 
 # open_state: the directory of results and what is known there, or one that goes away again.
 open_state() {
-	work=$(mktemp -d "${TMPDIR:-/tmp}/pareto.XXXXXX")
+	work_directory
 	state=$work
 	local key
 	key=$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" "${jobs:+errors}")
@@ -120,7 +121,8 @@ open_state() {
 		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another sweep (choose another -o, or --fresh to forget it)"
 		printf '%s\n' "$key" >"$state/key"
 	fi
-	touch "$state/log"
+	local x='[^[:space:]]+'
+	checked_log "^(time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
 }
 
 # What every member begins with, and what they are compared with, once.
@@ -138,7 +140,7 @@ prepare() {
 	for i in "${!reference_text[@]}"; do
 		status=0
 		if [[ -f ${reference_text[i]} ]]; then
-			ln -sf "$(realpath "${reference_text[i]}")" "$work/reference.$i"
+			ln -sf "$(realpath -- "${reference_text[i]}")" "$work/reference.$i"
 			continue
 		fi
 		words "${reference_text[i]}"

@@ -68,7 +68,7 @@ search() {
 
 # expected MEMBER: the number that --expect is for it, which awk reads; of a list name=number,name=number the one whose name is a choice of the member.
 expected() {
-	local e=${reference[$1]} one=() d
+	local e=${reference[$1]} one=() d arithmetic='^[A-Za-z0-9_.+*/^%() ,?:=!-]*$'
 	if [[ $e =~ ^[[:space:]]*[A-Za-z0-9_.-]+[[:space:]]*=[^=] ]]; then
 		IFS=, read -r -a one <<<"$e"
 		e=
@@ -79,6 +79,8 @@ expected() {
 		done
 	fi
 	[ -n "$e" ] || return 0
+	# awk could write files and run programs: of its signs only those of arithmetic go there
+	[[ $(sed 's/"[A-Za-z0-9_. -]*"//g' <<<"$e") =~ $arithmetic ]] || usage "--expect: '$e' has signs that are none of arithmetic"
 	# awk takes a name that it does not know for 0, and writes what is not finite as inf or nan
 	one=$(! grep -oE '[0-9.]+([eE][-+]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*' <<<"$(sed 's/"[^"]*"//g' <<<"$e")" | grep -E '^[A-Za-z_]' | grep -qvxE 'pi|sqrt|exp|log|sin|cos|atan2' &&
 		awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"$e"') }' 2>/dev/null) && [[ $one =~ ^-?[0-9] ]] ||

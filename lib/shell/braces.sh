@@ -175,6 +175,48 @@ with_names() {
 	show_escapes "$t"
 }
 
+# quoting TEXT: sets quote to the quote that is open behind TEXT.
+quoting() {
+	local i
+	quote=
+	for ((i = 0; i < ${#1}; i++)); do
+		case $quote${1:i:1} in
+		"'" | '"') quote=${1:i:1} ;;
+		"''" | '""') quote= ;;
+		'\' | '"\') i=$((i + 1)) ;;
+		esac
+	done
+}
+
+# with_data TEXT: as with_names, for a sentence, which a shell parses: there a value is one word, whatever its signs.
+with_data() {
+	local i t=$1 name v before done quote q="'" plain='^[A-Za-z0-9_./:+,@%^-]*$'
+	for i in "${!linked[@]}"; do
+		name="{${vary_name[i]}}"
+		show_escapes "${value[linked[i]]}"
+		v=$text
+		if [[ ${v//$'\004'/} =~ $plain ]]; then # margin's marks are plain, too
+			t=${t//"$name"/"$v"}
+			continue
+		fi
+		done=
+		while [[ $t == *"$name"* ]]; do
+			before=$done${t%%"$name"*}
+			t=${t#*"$name"}
+			quoting "$before"
+			# shellcheck disable=SC2016 # signs of the shell that runs the sentence
+			if [[ $before == *'`'* || $before == *'$('* || $before == *'<('* || $before == *'>('* || $before == *'${'* ]]; then
+				usage "--vary ${vary_name[i]}: '$v' cannot stand behind a \$( ) of the sentence (write the alternatives into the sentence, in braces)"
+			elif [[ -n $quote && $v == *[\'\"\\\$\`\|]* ]]; then
+				usage "--vary ${vary_name[i]}: '$v' stands between quotes in the sentence, where it can have none of ' \" \\ \$ \` | (write the alternatives into the sentence, in braces)"
+			fi
+			if [ -n "$quote" ]; then done=$before$v; else done="$before'${v//"$q"/"'\\''"}'"; fi
+		done
+		t=$done$t
+	done
+	show_escapes "$t"
+}
+
 # The member whose places among the alternatives are at[]: its sentence, unless it is there already.
 add_member() {
 	local d s=''
@@ -185,7 +227,7 @@ add_member() {
 	for d in "${!segment_choice[@]}"; do
 		s+=${segment[d]}${value[segment_choice[d]]}
 	done
-	with_names "$s${segment[-1]}"
+	with_data "$s${segment[-1]}"
 	[ -n "${there[$text]:-}" ] && { last_member=${there[$text]}; return; }
 	last_member=${#sentence[@]}
 	there[$text]=$last_member
@@ -195,7 +237,7 @@ add_member() {
 		trim "$text"
 		chosen+=("$text")
 	done
-	with_names "$reference_template"
+	if [ "$me" = margin ]; then with_names "$reference_template"; else with_data "$reference_template"; fi # --expect is arithmetic, --against a sentence
 	reference+=("$text")
 }
 

@@ -16,7 +16,7 @@ members() {
 tsv() {
 	local names d
 	names=$(for d in "${choice_name[@]}"; do printf '%s\t' "$d"; done)
-	members | NAMES=$names awk -F'\t' -v log_file="$state/log" -v rounds="$repeat" -v norm="$norm" -v reference_member="$reference_member" '
+	members | NAMES=$names LOG=$state/log awk -F'\t' -v rounds="$repeat" -v norm="$norm" -v reference_member="$reference_member" '
 	function median(v, n,    i, j, t) {
 		for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j] < v[j-1]; j--) { t = v[j]; v[j] = v[j-1]; v[j-1] = t }
 		return n % 2 ? v[(n+1)/2] : (v[n/2] + v[n/2+1]) / 2 }
@@ -24,7 +24,7 @@ tsv() {
 		OFS = "\t"
 		split("n l1 l2 max relative_l2 relative_max", name, " ")
 		for (i = 1; i <= 6; i++) if (name[i] == norm) pick = i
-		while ((getline line < log_file) > 0) {
+		while ((getline line < ENVIRON["LOG"]) > 0) {
 			split(line, c, "\t")
 			if (c[1] == "time") { up[c[2], c[3]] = c[4]; work[c[2], c[3]] = c[5]; if (c[6] > kb[c[2]]) kb[c[2]] = c[6] }
 			else if (c[1] == "fail") dead[c[2]] = c[3]
@@ -144,7 +144,7 @@ set ytics font ",9" noenhanced
 set grid
 set key off
 set title "Errors, without seconds; numbers are members"
-set xlabel "$norm${field:+ of $field}" noenhanced
+set xlabel $(gnuplot_text "$norm${field:+ of $field}") noenhanced
 draw = 'plot \$members using 2:1:yticlabels(3) with points pt 7 ps 0.8 lc rgb "#c03030"'
 set terminal svg size 900,$((100 + 18 * $(wc -l <<<"$rows"))) dynamic font "sans,12" background "white"
 set output "pareto.svg"
@@ -175,7 +175,7 @@ set grid
 set key off
 set title "Error against seconds; red: the Pareto front; numbers are members"
 set xlabel "seconds"
-set ylabel "$norm${field:+ of $field}" noenhanced
+set ylabel $(gnuplot_text "$norm${field:+ of $field}") noenhanced
 draw = 'plot \$front using 1:2 with steps lw 2 lc rgb "#c03030", '
 draw = draw . '\$front using 1:2 with points pt 7 ps 1 lc rgb "#c03030", '
 draw = draw . '\$front using 1:2:3 with labels noenhanced left offset 0.8,0.5 font ",10"'
@@ -192,7 +192,7 @@ GP
 
 # Every command as run, to be pasted into a shell: what lay in a directory that is gone is written into the one it is pasted in.
 commands() {
-	local m n before start='' i
+	local m n before start='' i argument
 	local -A said=()
 	printf '# run in %q\n' "$PWD"
 	for n in OMP_NUM_THREADS OMP_WAIT_POLICY PM_PLAN; do
@@ -205,7 +205,7 @@ commands() {
 	fi
 	for i in "${!reference_text[@]}"; do
 		if [ -f "${reference_text[i]}" ]; then
-			printf 'ln -s %q reference.%d\n' "$(realpath "${reference_text[i]}")" "$i"
+			printf 'ln -s %q reference.%d\n' "$(realpath -- "${reference_text[i]}")" "$i"
 		else
 			echo "{ ${reference_text[i]}; }${start:+ < $start} > reference.$i"
 		fi
@@ -225,8 +225,15 @@ commands() {
 				said[$n]=1 before=word.$n
 			done
 		fi
-		compare_command "$m" "$before"
-		echo "${text//"$work/"/}"
+		if [ "$against" = exact ]; then
+			compare_words "$m" ''
+			plain_words "${argument[@]}"
+			echo "$text <$before"
+		else
+			compare_words "$m" "$before"
+			plain_words "${argument[@]/#"$work/"/}"
+			echo "$text"
+		fi
 	done
 }
 

@@ -103,6 +103,7 @@ unknown() {
 # take NAME VALUE KIND CHOICES: keeps the value, if it is one.
 take() {
 	local name=$1 value=$2 var=opt_${1//-/_} near
+	[[ $value != *[[:cntrl:]]* ]] || usage "option '--$name': a line break, a tab or another control character does not belong there"
 	case $3 in
 	N) [[ $value =~ ^[0-9]{1,9}$ ]] || usage "option '--$name': '$value' is not a whole number" ;;
 	X) [[ $value =~ ^[+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$ ]] || usage "option '--$name': '$value' is not a number from 0 up" ;;

@@ -60,12 +60,12 @@ plot() {
 			[ -n "$(curve "$m")" ] || continue
 			printf '$curve%d << END\n%s\nEND\n' "$m" "$(curve "$m")"
 			k=$((k + 1))
-			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title \"$(name_of_member "$m" | tr -d '"\\')\" noenhanced"
+			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
 		done
 		limits=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
 		[ -z "$limits" ] || echo "$limits"
 		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
-		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel "growth of ln(%s) per step" noenhanced\nset title "Growth on both sides of the limit (dashed)"\n' "${axis_name[0]}" "$growth"
+		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel %s noenhanced\nset title "Growth on both sides of the limit (dashed)"\n' "${axis_name[0]}" "$(gnuplot_text "growth of ln($growth) per step")"
 		echo "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#444444'"
 		[ -z "$draws" ] || printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
 	} >"$dir/margin.gp"
@@ -81,8 +81,10 @@ commands() {
 		if [ "$what" = trial ]; then
 			while IFS= read -r one; do echo "$one   # ${rest%%$'\t'*}"; done < <(trial_commands "$text")
 		else
-			growth_command "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6; exit }' "$state/log")"
-			echo "$text"
+			growth_sentence "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6; exit }' "$state/log")"
+			one=$text
+			plain_words diag --columns "step,$growth"
+			echo "$one | $text"
 		fi
 	done <"$state/log"
 }

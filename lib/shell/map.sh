@@ -94,7 +94,7 @@ plot_map() {
 		for m in "${!sentence[@]}"; do
 			printf '$stable%d << END\n%s\nEND\n' "$m" "$(look_map points | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m && $4 == "stable" { print $2, $3 }')"
 			printf '$line%d << END\n%s\nEND\n' "$m" "$(look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m { print $2, $3; print $4, $5; print "" }')"
-			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title \"$(name_of_member "$m" | tr -d '"\\')\" noenhanced"
+			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
 			[ ${#sentence[@]} != 1 ] || one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", \$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
 			draws+="${draws:+, }$one"
 		done

@@ -93,20 +93,21 @@ norms_exact() { awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; for 
 	END { for (f in n) { k += n[f]; most(1, s[f] / n[f]); most(2, sqrt(q[f] / n[f])); most(3, m[f]); most(4, z[f] ? sqrt(q[f] / z[f]) : q[f] ? "inf" : 0); most(5, t[f] ? m[f] / t[f] : m[f] ? "inf" : 0) }
 		if (!k) exit 1; printf "%d", k; for (i = 1; i <= 5; i++) printf "\t%.10g", v[i]; print "" }'; }
 
-# compare_command MEMBER FILE: sets text to what measures its error.
-compare_command() {
+# compare_words MEMBER FILE: sets argument to the words that measure its error; for the exact numbers FILE is the input.
+compare_words() {
 	if [ "$against" = exact ]; then
-		text="diag --exact${field:+ --columns $field} <'$2'"
+		argument=(diag --exact ${field:+--columns "$field"})
 	else
-		text="scmp${field:+ --field $field}${set:+ --set $set} '$2' '$work/reference.${reference_of[$1]}'"
+		argument=(scmp ${field:+--field "$field"} ${set:+--set "$set"} "$2" "$work/reference.${reference_of[$1]}")
 	fi
 }
 
 # compare MEMBER FILE: prints the line of the log.
 compare() {
-	local row=''
-	compare_command "$1" "$2"
-	if bash -c "$text" </dev/null >"$2.rows" 2>"$2.said"; then
+	local row='' input=/dev/null argument line
+	compare_words "$1" "$2"
+	[ "$against" != exact ] || input=$2
+	if "${argument[@]}" <"$input" >"$2.rows" 2>"$2.said"; then
 		if [ "$against" = exact ]; then
 			row=$(norms_exact <"$2.rows") || row=
 		else
@@ -118,7 +119,10 @@ compare() {
 			printf 'bad\t%s\t%s\n' "$1" "nothing to compare (choose --field)"
 		fi
 	else
-		printf 'bad\t%s\t%s\n' "$1" "$(head -n 1 "$2.said" | sed "s|$work/node\\.[0-9]*|the member|; s|$work/reference\\.[0-9]*|the reference|" | tr '\t' ' ')"
+		line=$(head -n 1 "$2.said" | tr '\t' ' ')
+		line=${line//"$2"/the member}
+		line=${line//"$work/reference.${reference_of[$1]:-}"/the reference}
+		printf 'bad\t%s\t%s\n' "$1" "$line"
 	fi
 	rm -f "$2.rows" "$2.said"
 }
@@ -210,7 +214,7 @@ measure_errors() {
 	[ ${#list[@]} != 0 ] || return 0
 	[ ! -t 2 ] || bar=(--bar)
 	export work first_input against field set
-	export -f member_error compare compare_command norms_scmp norms_exact
+	export -f member_error compare compare_words norms_scmp norms_exact
 	doing="${#list[@]} were to be compared"
 	set -m
 	PARALLEL_SHELL=$(command -v bash) parallel --will-cite "${bar[@]}" -j "$jobs" member_error '{}' ::: "${list[@]}" </dev/null >>"$state/log" 2>"$work/parallel" &

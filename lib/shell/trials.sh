@@ -52,7 +52,7 @@ parts() {
 	part+=("$text")
 }
 
-# The commands of a trial, as they are run one behind the other.
+# The commands of a trial, as they would be typed one behind the other; trial runs the same.
 trial_commands() {
 	local i before=''
 	parts "$1"
@@ -78,14 +78,21 @@ judge() {
 
 # trial MEMBER SEED VALUE DIRECTORY: appends its line to the log, or leaves why it failed in $work/failure.
 trial() {
-	local dir=$4 commands one status outcome=stable step=- reason=-
+	local dir=$4 i last before=/dev/null status outcome=stable step=- reason=-
 	filled "$1" "$2" "$3"
 	local whole=$text
 	mkdir -p "$dir"
-	mapfile -t commands < <(trial_commands "$whole")
-	for one in "${commands[@]}"; do
+	parts "$whole"
+	last=$((${#part[@]} - 1))
+	for i in "${!part[@]}"; do
 		status=0
-		(cd "$dir" && exec bash -o pipefail -c "cd $(printf '%q' "$here"); ${one//part./$dir/part.}") </dev/null >"$dir/out" 2>"$dir/said" || status=$?
+		if [ "$i" = $last ]; then
+			bash -o pipefail -c "${part[i]} | sls --report --format json" <"$before" >"$dir/out" 2>"$dir/said" || status=$?
+		else
+			bash -o pipefail -c "${part[i]}" <"$before" >"$dir/part.$i" 2>"$dir/said" || status=$?
+			before=$dir/part.$i
+			[ $status != 0 ] || sls --report --format json <"$before" >"$dir/out" 2>"$dir/said" || status=$?
+		fi
 		if [ $status = 3 ]; then
 			outcome=unstable
 			reason=$(why 3 "$dir/said")
@@ -98,7 +105,7 @@ trial() {
 		elif [ -s "$dir/out" ]; then
 			judge "$dir/out"
 			[ $outcome = stable ] || break
-		elif [[ $one == *'| sls --report --format json' ]]; then
+		elif [ "$i" = $last ]; then
 			printf '1\t%s\n' "'$whole' leaves no frame to judge" >"$work/failure"
 		fi
 	done
@@ -106,8 +113,8 @@ trial() {
 	[ -e "$work/failure" ] || note "trial"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"$outcome"$'\t'"$step"$'\t'"$reason"
 }
 
-# The column of the criterion over the run, about a hundred frames of it.
-growth_command() {
+# growth_sentence MEMBER SEED VALUE STEPS: sets text to the member's sentence with about a hundred frames of the run, whose column is drawn.
+growth_sentence() {
 	local every=1 all=() w
 	filled "$1" "$2" "$3"
 	words "$text"
@@ -117,14 +124,13 @@ growth_command() {
 		all+=("$text")
 	done
 	join "${all[@]}"
-	text+=" | diag --columns step,$growth"
 }
 
 # growth_of MEMBER SEED VALUE STEPS: the slope of ln |column| over the second half of the frames.
 growth_of() {
 	local line
-	growth_command "$1" "$2" "$3" "$4"
-	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | awk -F'\t' 'NR > 1 && !/^#/ && $2 ~ /[0-9]/ && $2 !~ /nan|inf/ && $2 != 0 { n++; x[n] = $1; y[n] = log($2 < 0 ? -$2 : $2) }
+	growth_sentence "$1" "$2" "$3" "$4"
+	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | diag --columns "step,$growth" 2>/dev/null | awk -F'\t' 'NR > 1 && !/^#/ && $2 ~ /[0-9]/ && $2 !~ /nan|inf/ && $2 != 0 { n++; x[n] = $1; y[n] = log($2 < 0 ? -$2 : $2) }
 		END { for (i = n > 5 ? int(n / 2) + 1 : 1; i <= n; i++) { k++; sx += x[i]; sy += y[i]; sxx += x[i] * x[i]; sxy += x[i] * y[i] }
 			d = k * sxx - sx * sx; if (k > 1 && d > 0) printf "%.6g\t%d\n", (k * sxy - sx * sy) / d, k; else print "-\t" k + 0 }') || true
 	note "growth"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"${line:--$'\t'0}"
