@@ -1,8 +1,8 @@
 /* Arithmetic over the values of fields. The text is compiled by recursive descent into steps for a stack machine (expression_eval.c).
  *   choice := or ['?' choice ':' choice]; or := and {'||' and}; and := compare {'&&' compare}; compare := sum [('<' | '<=' | '>' | '>=' | '==' | '!=') sum]
  *   sum := product {('+' | '-') product}; product := sign {('*' | '/') sign}; sign := ['-' | '+' | '!'] sign | power; power := atom ['^' sign]
- * Truth is 1, falsehood 0; both sides of && || ?: are computed. -x^2 is -(x^2), 2^3^2 is 2^(3^2), a < b < c is refused. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+ * Truth is 1, falsehood 0; both sides of && || ?: are computed. -x^2 is -(x^2), 2^3^2 is 2^(3^2), a < b < c is refused.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>

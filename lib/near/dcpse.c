@@ -3,8 +3,8 @@
  * Source: Schrader, Reboux, Sbalzarini 2010, J. Comput. Phys. 229, 4159. Error O(eps^order) for any points that determine the moments, at boundaries too. Not
  * conserving, no volumes. The smallest weights in the window's norm, by Householder's QR with pivots (Golub and Van Loan 2013, 5.4) of the window times
  * the monomials, not of its square. Points that do not determine them (on a line, too few) are found by the rank and refused.
- * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+ * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* Particle strength exchange of a set of a frame, or its corrected form: what its width is, what it needs, its change field. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Particle strength exchange of a set of a frame, or its corrected form: what its width is, what it needs, its change field.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_NEAR_PSE_FRAME_H
 #define PM_NEAR_PSE_FRAME_H
 

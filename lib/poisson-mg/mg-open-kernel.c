@@ -3,8 +3,8 @@
  *   G1 = sum_d h_d^2 (r^2 - x_d^2)(5 x_d^2 - r^2)/(32 pi r^7) in 3-D, -sum_d h_d^2 (3/r^2 - 12 x_d^2/r^4 + 8 x_d^4/r^6)/(48 pi) in 2-D
  * (lap G1 = -sum_d h_d^2/12 d^4 G0/dx_d^4; Duffin 1953 for the cubic lattice); compact differences of order 4 have no such term. What is left is (h/r)^4 of G0.
  * near: the differences themselves solved by multigrid in one octant of a box of `reach` cells to each side, with the far values on its faces. So the error
- * is that of the far form at its edge, 1e-8 of G at the origin in 3-D, and G at the origin needs no special treatment. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+ * is that of the far form at its edge, 1e-8 of G at the origin in 3-D, and G at the origin needs no special treatment.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open-parts.h"
 
 #include <string.h>

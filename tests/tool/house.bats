@@ -161,9 +161,10 @@ install_here() {
 }
 
 @test "every source names its licence in its head" {
-	bad=$(cd "$top" && find lib tools tests bench pipelines docs .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | while read -r f; do
-		head -n 25 "$f" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$f"
-	done)
+	bad=$(cd "$top" && find lib tools tests bench pipelines docs .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | xargs awk '
+		FNR == 1 { if (NR > 1 && !named) print file; file = FILENAME; named = 0 }
+		FNR <= 25 && /SPDX-License-Identifier: GPL-3.0-or-later/ { named = 1 }
+		END { if (!named) print file }')
 	echo "$bad"
 	[ -z "$bad" ]
 }
