@@ -132,6 +132,10 @@ static void refusals(void)
 	refused(f, "kick", PM_DATA, "the change 'domega' of 'strength' is on mesh 'mesh' and not yet on 'matter' (carry it over with m2p)");
 	refused(f, "rk2", PM_DATA, "carry it over with m2p");
 	change(f, "matter", "dstrength", "strength", 1, 1);
+	struct pm_field *there = pm_frame_field(f, "mesh", "domega"), *here = pm_frame_field(f, "matter", "dstrength");
+	snprintf(there->terms[there->nterms++], PM_NAME, "diffusion");
+	refused(f, "kick", PM_DATA, "carry it over with m2p"); /* one term of it is not yet there */
+	snprintf(here->terms[here->nterms++], PM_NAME, "diffusion");
 	check(push(f, "kick") == 0, "a change on a mesh that has been carried over is no obstacle");
 	pm_frame_free(f), pm_frame_free(g);
 }
