@@ -1,11 +1,11 @@
 /* sdraw: pictures of a mesh field or of particles, a PNG per frame or PPM for a movie (docs/methods/pictures.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "picture/colour.h"
+#include "picture/picture-file.h"
 #include "picture/view.h"
 #include "stage/stage.h"
 
@@ -23,7 +23,7 @@ struct config {
 struct state {
 	uint64_t frame;
 	struct pm_view view;
-	FILE *movie;
+	struct pm_picture_files files;
 };
 
 static const struct pm_option options[] = {
@@ -57,19 +57,6 @@ static const struct pm_option options[] = {
 	{0},
 };
 
-/* Where the number of the frame goes: %d or %0Nd once. *width is N. 0 none, 1 there, -1 wrong. */
-static int number_place(const char *name, const char **place, const char **behind, int *width)
-{
-	const char *p = strchr(name, '%');
-	if (!p)
-		return 0;
-	*place = p++;
-	*width = *p == '0' && isdigit((unsigned char)p[1]) ? p[1] - '0' : 0;
-	p += *width ? 2 : 0;
-	*behind = p + 1;
-	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
-}
-
 static int component_of(const char *word)
 {
 	if (strlen(word) == 1 && *word >= 'x' && *word <= 'z')
@@ -83,10 +70,9 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
-	const char *place, *behind;
-	int width;
-	if (number_place(c->output, &place, &behind, &width) < 0)
-		return pm_fail(PM_USAGE, "--output '%s': only %%d or %%04d can stand for the number of the frame, once", c->output);
+	const bool ppm = !strcmp(c->format, "ppm");
+	if (pm_picture_files_check(c->output))
+		return -PM_USAGE;
 	if (c->range.n && (c->range.n != 2 || !(c->range.x[1] > c->range.x[0])))
 		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
 	if (c->window.n && (c->window.n != 4 || !(c->window.x[1] > c->window.x[0]) || !(c->window.x[3] > c->window.x[2])))
@@ -97,8 +83,9 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--project and --slice exclude each other");
 	if (c->log && c->linear)
 		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
-	if (!strcmp(c->format, "ppm") && !pm_given(s, "output") && isatty(STDOUT_FILENO))
+	if (ppm && !pm_given(s, "output") && isatty(STDOUT_FILENO))
 		return pm_fail(PM_USAGE, "a picture does not go to a terminal (give --output FILE, or a pipe)");
+	st->files = (struct pm_picture_files){.name = c->output, .ppm = ppm, .standard = ppm && (!pm_given(s, "output") || !strcmp(c->output, "-"))};
 	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight, .title = c->title,
 		.component = c->component ? component_of(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,
 		.points = !strcmp(c->style, "points"), .density = !strcmp(c->style, "density"), .log = c->log, .linear = c->linear, .map = pm_colour_find(c->map),
@@ -112,44 +99,6 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return pm_view_plan(&((struct state *)s->state)->view, f);
 }
 
-/* The name of the picture of this frame. */
-static int name_of(const struct config *c, uint64_t frame, bool movie, char out[4096])
-{
-	const char *place, *behind;
-	int width, there = number_place(c->output, &place, &behind, &width);
-	if (!there && frame > 1 && !movie)
-		return pm_fail(PM_USAGE, "'%s' would be overwritten (give --output a name with %%04d, or choose a frame with sel)", c->output);
-	if (there)
-		snprintf(out, 4096, "%.*s%0*llu%s", (int)(place - c->output), c->output, width, (unsigned long long)frame, behind);
-	else
-		snprintf(out, 4096, "%s", c->output);
-	return 0;
-}
-
-static int write_picture(struct pm_stage *s, const struct pm_picture *p)
-{
-	const struct config *c = s->config;
-	struct state *st = s->state;
-	bool ppm = !strcmp(c->format, "ppm"), movie = ppm && !strchr(c->output, '%');
-	char name[4096];
-	int status = name_of(c, st->frame, movie, name);
-	if (status)
-		return status;
-	if (ppm && (!pm_given(s, "output") || !strcmp(c->output, "-")))
-		return pm_picture_ppm(p, stdout);
-	FILE *out = movie && st->movie ? st->movie : fopen(name, "wb");
-	if (!out)
-		return pm_fail_errno("cannot write '%s'", name);
-	status = ppm ? pm_picture_ppm(p, out) : pm_picture_png(p, out);
-	if (movie)
-		st->movie = out;
-	else if (fclose(out) && !status)
-		status = pm_fail_errno("cannot write '%s'", name);
-	if (!status && !(movie && st->frame > 1))
-		puts(name);
-	return status;
-}
-
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *st = s->state;
@@ -157,25 +106,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	st->frame++;
 	int status = pm_view_draw(&st->view, f, &plot);
 	if (!status)
-		status = write_picture(s, &plot.picture);
+		status = pm_picture_files_write(&st->files, &plot.picture, st->frame);
 	pm_plot_free(&plot);
 	return status;
 }
 
-static int end(struct pm_stage *s)
-{
-	struct state *st = s->state;
-	FILE *movie = st->movie;
-	st->movie = NULL;
-	return movie && fclose(movie) ? pm_fail_errno("cannot write '%s'", ((const struct config *)s->config)->output) : 0;
-}
+static int end(struct pm_stage *s) { return pm_picture_files_close(&((struct state *)s->state)->files); }
 
-static void done(struct pm_stage *s)
-{
-	struct state *st = s->state;
-	if (st->movie)
-		fclose(st->movie);
-}
+static void done(struct pm_stage *s) { pm_picture_files_close(&((struct state *)s->state)->files); }
 
 static const struct pm_example examples[] = {
 	{"The particles of a scene seen along z.", "pinit plummer -n 20000 | sdraw -o plummer.png"},

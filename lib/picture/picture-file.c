@@ -1,0 +1,70 @@
+/* Pictures written to files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <string.h>
+
+#include "picture/picture-file.h"
+
+/* Where the number of the frame goes: %d or %0Nd once. *width is N. 0 none, 1 there, -1 wrong. */
+static int number_place(const char *name, const char **place, const char **behind, int *width)
+{
+	const char *p = strchr(name, '%');
+	if (!p)
+		return 0;
+	*place = p++;
+	*width = *p == '0' && isdigit((unsigned char)p[1]) ? p[1] - '0' : 0;
+	p += *width ? 2 : 0;
+	*behind = p + 1;
+	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
+}
+
+int pm_picture_files_check(const char *name)
+{
+	const char *place, *behind;
+	int width;
+	if (number_place(name, &place, &behind, &width) < 0)
+		return pm_fail(PM_USAGE, "--output '%s': only %%d or %%04d can stand for the number of the frame, once", name);
+	return 0;
+}
+
+/* The name of the picture of this frame. */
+static int name_of(const struct pm_picture_files *c, uint64_t frame, bool movie, char out[4096])
+{
+	const char *place, *behind;
+	int width, there = number_place(c->name, &place, &behind, &width);
+	if (!there && frame > 1 && !movie)
+		return pm_fail(PM_USAGE, "'%s' would be overwritten (give --output a name with %%04d, or choose a frame with sel)", c->name);
+	if (there)
+		snprintf(out, 4096, "%.*s%0*llu%s", (int)(place - c->name), c->name, width, (unsigned long long)frame, behind);
+	else
+		snprintf(out, 4096, "%s", c->name);
+	return 0;
+}
+
+int pm_picture_files_write(struct pm_picture_files *c, const struct pm_picture *p, uint64_t frame)
+{
+	const bool ppm = c->ppm, movie = ppm && !strchr(c->name, '%');
+	char name[4096];
+	int status = name_of(c, frame, movie, name);
+	if (status)
+		return status;
+	if (c->standard)
+		return pm_picture_ppm(p, stdout);
+	FILE *out = movie && c->movie ? c->movie : fopen(name, "wb");
+	if (!out)
+		return pm_fail_errno("cannot write '%s'", name);
+	status = ppm ? pm_picture_ppm(p, out) : pm_picture_png(p, out);
+	if (movie)
+		c->movie = out;
+	else if (fclose(out) && !status)
+		status = pm_fail_errno("cannot write '%s'", name);
+	if (!status && !(movie && frame > 1))
+		puts(name);
+	return status;
+}
+
+int pm_picture_files_close(struct pm_picture_files *c)
+{
+	FILE *movie = c->movie;
+	c->movie = NULL;
+	return movie && fclose(movie) ? pm_fail_errno("cannot write '%s'", c->name) : 0;
+}
