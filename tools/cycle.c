@@ -44,7 +44,8 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"a star cluster on a mesh, a frame every 10 steps",
 		"pinit plummer -n 1000 | cycle -n 20 --every 10 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2' | diag"},
-	{"until a cold cluster has fallen in", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | push kick/2' | diag --columns step,time,virial_ratio"},
+	{"until a cold cluster has fallen in", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | "
+		"push kick/2' | diag --columns step,time,virial_ratio"},
 	{"what the scene calls for", "pinit taylor-green-2d --cells 16 | cycle -n 5 --plan | p2m | diag"},
 	{"one orbit by direct summation", "pinit two-body | cycle -n 100 'push kick/2 drift | pp | push kick/2' | diag"},
 	{0},
@@ -52,7 +53,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_cycle = {
 	.name = "cycle",
 	.summary = "run a sentence of stages again and again, one step after the other",
-	.about = "The sentence is a pipeline in quotes: words and quotes as in the shell, without expansion. If its first push needs a force that the frame does "
+	.about = "The sentence is a pipeline in quotes: words and quotes as in the shell, without expansion. If its first push needs a force that the frame "
+		"does "
 		 "not have, the words that make fields run once first (priming). A word that is not of pmpipe runs as a process; see docs/stage.md.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct pm_loop),

@@ -98,7 +98,8 @@ static const struct pm_example examples[] = {
 	{"The numbers of a star cluster beside the exact ones", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
 	{"Two columns as JSON", "pinit two-body --eccentricity 0.5 | diag --pair --columns energy,angular_momentum_z --format json"},
 	{"A decaying vortex beside its exact numbers", "pinit lamb-oseen | p2m | diag --exact"},
-	{"The growth rate of two cold streams", "pinit two-stream -n 2000 --cells 32 | cycle -n 300 --every 4 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' "
+	{"The growth rate of two cold streams", "pinit two-stream -n 2000 --cells 32 | cycle -n 300 --every 4 'push kick/2 drift | p2m | poisson-fft | mgrad "
+		"| m2p | push kick/2' "
 		"| p2m | poisson-fft | mgrad | diag --columns time,energy_field_x --modes 1 --growth mode:1"},
 	{"A table on the way", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
 	{0},
@@ -111,7 +112,8 @@ const struct pm_tool tool_diag = {
 		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
 		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
 		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum, value at the\n"
-		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",
+		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 "
+		"integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",
 	.kind = PM_SINK,
 	.reads = "x, v, mass, the law's strength and potential, density and potential of the mesh",
 	.config = sizeof(struct config),

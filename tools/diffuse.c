@@ -116,15 +116,18 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"a vortex spreads at rest: its circulation stays, its peak falls",
-		"awk 'BEGIN { print \"x y circulation volume\"; for (i = -9; i < 10; i++) for (j = -9; j < 10; j++) print i/8, j/8, exp(-(i*i + j*j)/16)/64, 1/64 }' | "
+		"awk 'BEGIN { print \"x y circulation volume\"; for (i = -9; i < 10; i++) for (j = -9; j < 10; j++) print i/8, j/8, exp(-(i*i + j*j)/16)/64, "
+		"1/64 }' | "
 		"stab - --law vortex --constant nu=0.02 --box -2,2 --dt 0.05 | p2m | diffuse | m2p --field domega | sls"},
 	{0},
 };
 const struct pm_tool tool_diffuse = {
 	.name = "diffuse",
 	.summary = "add viscosity: the Laplacian of the density to its rate of change",
-	.about = "d(density) += nu lap density on the mesh, as the term diffusion; m2p carries it to the particles, push advances their strengths. Differences of "
-		 "order 2, 4, 6 or spectral, faces as in mgrad. Explicit: a step is stable while nu dt times the largest eigenvalue of -lap (4, 16/3, 272/45, pi^2 "
+	.about = "d(density) += nu lap density on the mesh, as the term diffusion; m2p carries it to the particles, push advances their strengths. "
+		"Differences of "
+		 "order 2, 4, 6 or spectral, faces as in mgrad. Explicit: a step is stable while nu dt times the largest eigenvalue of -lap (4, 16/3, "
+		 "272/45, pi^2 "
 		 "over h^2 per axis) is within the scheme's limit (2 for euler, 2.51 for lsrk3, 2.79 for rk4); push refuses longer ones. "
 		 "Reports that product as fastest_dt. Where nu is 0 the frame passes. See docs/methods/diffuse.md.",
 	.kind = PM_FILTER,

@@ -67,16 +67,19 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"the step of a star cluster from its accelerations", "pinit plummer -n 500 | pp | dt --acceleration 0.05 | sls"},
-	{"a vortex whose particles never cross", "pinit ellipse --cells 32 | cycle -n 5 'p2m | poisson-fft | mgrad | dt --lcfl 0.5 | diffuse | m2p | push lsrk3 | remesh' | sls --report"},
+	{"a vortex whose particles never cross", "pinit ellipse --cells 32 | cycle -n 5 'p2m | poisson-fft | mgrad | dt --lcfl 0.5 | diffuse | m2p | push "
+		"lsrk3 | remesh' | sls --report"},
 	{"an eccentric orbit with a step that follows it",
-		"pinit two-body --eccentricity 0.5 | cycle -n 50 'dt --acceleration 0.01 --softening 0.1 --max 0.1 | push kick/2 drift | pp | push kick/2' | sls"},
+		"pinit two-body --eccentricity 0.5 | cycle -n 50 'dt --acceleration 0.01 --softening 0.1 --max 0.1 | push kick/2 drift | pp | push kick/2' | "
+		"sls"},
 	{0},
 };
 const struct pm_tool tool_dt = {
 	.name = "dt",
 	.summary = "write the time step that the state allows",
 	.about = "The smallest step over the rules and over the particles of every set that moves: C h/|v_d| (--courant), sqrt(ETA softening/|acc|) "
-		"(--acceleration), C/|grad u| (--lcfl, where a flow is on the mesh), C/omega_p (--plasma). Written at substep 0; in the middle of a step the frame passes. A step that varies costs leapfrog its reversibility "
+		"(--acceleration), C/|grad u| (--lcfl, where a flow is on the mesh), C/omega_p (--plasma). Written at substep 0; in the middle of a step the "
+		"frame passes. A step that varies costs leapfrog its reversibility "
 		"and with it the bound on the energy error.",
 	.kind = PM_FILTER,
 	.reads = "v or vel, acc; the flow u of the mesh; charge and mass",

@@ -41,16 +41,21 @@ static const struct pm_option options[] = {
 };
 
 static const struct pm_example examples[] = {
-	{"a cluster in the tide of a distant galaxy", "pinit plummer -n 100 | cycle -n 3 \"push kick/2 drift | pp | field 'acc = 0.02*x, -0.01*y, -0.01*z' | push kick/2\" | diag"},
-	{"the test equation x' = i x, as two components, through a step of Runge-Kutta", "printf 'x y\\n1 0\\n' | stab - --law free --dt 0.1 | cycle -n 1 \"field 'vel = -y, x' | push rk4\" | stab --plain"},
-	{"vortices that fade while they turn", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push rk2\" | diag --columns time,circulation"},
+	{"a cluster in the tide of a distant galaxy", "pinit plummer -n 100 | cycle -n 3 \"push kick/2 drift | pp | field 'acc = 0.02*x, -0.01*y, -0.01*z' | "
+		"push kick/2\" | diag"},
+	{"the test equation x' = i x, as two components, through a step of Runge-Kutta", "printf 'x y\\n1 0\\n' | stab - --law free --dt 0.1 | cycle -n 1 "
+		"\"field 'vel = -y, x' | push rk4\" | stab --plain"},
+	{"vortices that fade while they turn", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push rk2\" | diag --columns "
+		"time,circulation"},
 	{0}};
 
 const struct pm_tool tool_field = {
 	.name = "field",
 	.summary = "add a given rate of change from an expression",
-	.about = "acc (of v), vel (of x, for sets without v) or d and the name of any other state, dcirculation, plus the expression for every particle; commas make components: "
-		 "'acc = -x, -y'. It counts as the term external and stands beside what other words add. Names and functions as in scalc: x y z, vx vy vz, NAME, time, constants "
+	.about = "acc (of v), vel (of x, for sets without v) or d and the name of any other state, dcirculation, plus the expression for every particle; "
+		"commas make components: "
+		 "'acc = -x, -y'. It counts as the term external and stands beside what other words add. Names and functions as in scalc: x y z, vx vy vz, "
+		 "NAME, time, constants "
 		 "of the frame. See docs/methods/field.md.",
 	.kind = PM_FILTER,
 	.makes = true,

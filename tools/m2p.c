@@ -81,8 +81,10 @@ const struct pm_tool tool_m2p = {
 	.summary = "bring mesh fields to the particles and add them to what changes the particles",
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
 		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
-		 "a field that was given counts as the term external, one that was solved for as self; a magnetic field B goes to bfield. Changes on the mesh (domega of diffuse) are carried over "
-		 "to the strengths they belong to (dcirculation), times the volume of the particle; what goes to none, where particles leave gaps or end, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
+		 "a field that was given counts as the term external, one that was solved for as self; a magnetic field B goes to bfield. Changes on the "
+		 "mesh (domega of diffuse) are carried over "
+		 "to the strengths they belong to (dcirculation), times the volume of the particle; what goes to none, where particles leave gaps or end, is "
+		 "reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",

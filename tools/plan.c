@@ -98,7 +98,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_plan = {
 	.name = "plan",
 	.summary = "the pipeline a frame calls for, with the reason of every word",
-	.about = "Every effect pmpipe knows is decided from numbers of the frame: it is put in where leaving it out would change the result by more than --accuracy within "
+	.about = "Every effect pmpipe knows is decided from numbers of the frame: it is put in where leaving it out would change the result by more than "
+		"--accuracy within "
 		 "the time of the run. An effect that is needed and has no word yet is named. `cycle --plan` runs the sentence. See docs/plan.md.",
 	.kind = PM_SINK,
 	.reads = "everything",

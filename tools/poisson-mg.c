@@ -51,7 +51,8 @@ static const struct pm_example examples[] = {
 	{"the potential in a periodic box", "pinit uniform -n 2000 | p2m -n 32 | poisson-mg | sls --report"},
 	{"order 4, and sizes need not be powers of two nor the cells cubes", "pinit uniform -n 2000 | p2m -n 31x20x7 | poisson-mg --order 4 | sls"},
 	{"a layer of high permittivity",
-		"pinit uniform -n 2000 --dim 2 | p2m -n 64 | scalc --mesh mesh 'eps = x < 0.5 ? 1 : 1e6' | poisson-mg --permittivity eps --tolerance 1e-8 | sls"},
+		"pinit uniform -n 2000 --dim 2 | p2m -n 64 | scalc --mesh mesh 'eps = x < 0.5 ? 1 : 1e6' | poisson-mg --permittivity eps --tolerance 1e-8 | "
+		"sls"},
 	{0},
 };
 
@@ -139,11 +140,15 @@ static void release(struct pm_stage *s)
 const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
 	.summary = "solve Poisson's equation on a mesh by multigrid",
-	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall (phi = 0) or "
-		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as poisson-fft has it); any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic "
-		"interpolation; where eps varies, transfers made from the operator, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. Where "
+	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall "
+		"(phi = 0) or "
+		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as poisson-fft has it); any number of cells per axis, any "
+		"ratio of the spacings. V- and W-cycles, full multigrid with cubic "
+		"interpolation; where eps varies, transfers made from the operator, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
+		"Where "
 		"no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or where "
-		"round-off keeps the residual above it (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and solves the same "
+		"round-off keeps the residual above it (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
+		"solves the same "
 		"equation with --symbol fd2.",
 	.kind = PM_FILTER,
 	.makes = true,

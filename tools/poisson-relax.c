@@ -29,8 +29,10 @@ static const struct pm_option options[] = {
 
 static const struct pm_example examples[] = {
 	{"the potential in a periodic box by conjugate gradients", "pinit uniform -n 2000 | p2m -n 32 | poisson-relax | sls --report"},
-	{"over-relaxation between walls: the radius measured and Young's", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 64 | poisson-relax --method sor | sls --report"},
-	{"a factor of one's own", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method red-black-sor --relaxation 1.7 | sls --report"},
+	{"over-relaxation between walls: the radius measured and Young's", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 64 | poisson-relax --method "
+		"sor | sls --report"},
+	{"a factor of one's own", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method red-black-sor --relaxation 1.7 | sls "
+		"--report"},
 	{0},
 };
 
@@ -114,10 +116,14 @@ static void release(struct pm_stage *s)
 const struct pm_tool tool_poisson_relax = {
 	.name = "poisson-relax",
 	.summary = "solve Poisson's equation on a mesh by simple iterations",
-	.about = "Solves lap phi = c*s with differences of order 2 on the nodes, for comparison and for teaching: Jacobi, Gauss-Seidel, over-relaxation, conjugate "
-		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture, or open on all axes (free space, by two solutions). Reports the sweeps, the factor by which the residual fell per sweep in "
-		"the long run, and the published formula for it where one holds. Where no face fixes phi, the mean of s is removed and reported, and the mean of phi is "
-		"zero. It stops at the tolerance or where round-off keeps the residual above it (status floor), and fails with exit 3 and the history if it does neither. poisson-mg "
+	.about = "Solves lap phi = c*s with differences of order 2 on the nodes, for comparison and for teaching: Jacobi, Gauss-Seidel, over-relaxation, "
+		"conjugate "
+		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture, or open on all axes (free space, by two "
+		"solutions). Reports the sweeps, the factor by which the residual fell per sweep in "
+		"the long run, and the published formula for it where one holds. Where no face fixes phi, the mean of s is removed and reported, and the "
+		"mean of phi is "
+		"zero. It stops at the tolerance or where round-off keeps the residual above it (status floor), and fails with exit 3 and the history if it "
+		"does neither. poisson-mg "
 		"and poisson-fft --symbol fd2 solve the same equation faster.",
 	.kind = PM_FILTER,
 	.makes = true,

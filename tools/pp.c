@@ -23,7 +23,8 @@ static int open_space(const struct pm_frame *f)
 {
 	for (int a = 0; a < 2 * f->dim; a++)
 		if (f->face[a / 2][a % 2] != PM_OPEN)
-			return pm_fail(PM_DATA, "the box is %s along %c and pp sums in open space (p2m | poisson-fft | mgrad | m2p does such boxes; for periodic "
+			return pm_fail(PM_DATA, "the box is %s along %c and pp sums in open space (p2m | poisson-fft | mgrad | m2p does such boxes; for "
+				"periodic "
 				"ones also the word ewald)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
 	return 0;
 }
@@ -42,7 +43,8 @@ static int method(const struct pm_stage *s, const struct pm_frame *f, const stru
 		return 0;
 	p->delta = pm_given(s, "softening") ? cfg->softening : pm_frame_constant(f, "softening", NAN);
 	if (!(p->delta >= 0))
-		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, 0 if you mean it; smod --constant softening=LENGTH for the frame; or --mollifier none)");
+		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, 0 if you mean it; smod --constant softening=LENGTH for the frame; or "
+			"--mollifier none)");
 	return 0;
 }
 

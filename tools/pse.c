@@ -113,10 +113,14 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_pse = {
 	.name = "pse",
 	.summary = "add viscosity by exchange of strength between particles",
-	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the strengths kept to "
-		 "round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the limit, nu dt/eps^2 <= 2 "
-		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, fastest_dt, and the particles "
-		 "alone without a partner. --method dc solves for the weights of each particle: order 2 or 4 on distorted particles and at rims too. Where nu is 0 the frame passes. See docs/methods/pse.md.",
+	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the "
+		"strengths kept to "
+		 "round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the "
+		 "limit, nu dt/eps^2 <= 2 "
+		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, "
+		 "fastest_dt, and the particles "
+		 "alone without a partner. --method dc solves for the weights of each particle: order 2 or 4 on distorted particles and at rims too. Where "
+		 "nu is 0 the frame passes. See docs/methods/pse.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x, volume and the law's strength",

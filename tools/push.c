@@ -121,7 +121,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_push = {
 	.name = "push",
 	.summary = "advance state by its rates, and time with it",
-	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also turns v about bfield) and clear, or one whole scheme, which takes one pass of the sentence per stage. A set with v moves by "
+	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also turns v about bfield) and clear, or one whole scheme, which takes one pass of "
+		"the sentence per stage. A set with v moves by "
 		"x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that names it. A missing rate is an error, never "
 		"zero. Moving particles drops change and derived fields; kick keeps them. A step is complete when drift has reached 1 and kick 0 or 1 in "
 		"every set that moves. Particles are folded, mirrored or absorbed at the faces of the box.",

@@ -74,17 +74,22 @@ static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *
 
 static const struct pm_example examples[] = {
 	{"The speed of every particle.", "pinit plummer -n 100 | scalc 'speed = sqrt(vx^2 + vy^2 + vz^2)' | sls --data"},
-	{"Two groups by position, and a charge for each.", "pinit plummer -n 100 | scalc --role state --type i64 'side = x > 0' | scalc --extensive 'charge = side ? 1 : -1' | sls"},
+	{"Two groups by position, and a charge for each.", "pinit plummer -n 100 | scalc --role state --type i64 'side = x > 0' | scalc --extensive 'charge "
+		"= side ? 1 : -1' | sls"},
 	{"A mesh field from another.", "pinit plummer -n 1000 | p2m | scalc --mesh mesh 'logrho = log10(rho + 1e-6)' | sls --data"},
 	{0}};
 
 const struct pm_tool tool_scalc = {
 	.name = "scalc",
 	.summary = "new fields from expressions",
-	.about = "Computes NAME = EXPRESSION for every particle of a set or point of a mesh, in the order given; commas make the components of a vector: 'w = -y, x'. A field that is "
-		 "there already is rewritten; if it is state, everything that was derived from the state is dropped. Names: x y z, vx vy vz, NAME, NAME_0, NAME.x; "
-		 "on a mesh x y z are the coordinates of the point; time dt step n dim pi Lx Ly Lz and the constants of the law (G, softening). Operators ^ * / + - < <= > >= == != && || ! ?:. "
-		 "Functions: sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh abs sign floor ceil round mod min max hypot pow erf erfc gamma. "
+	.about = "Computes NAME = EXPRESSION for every particle of a set or point of a mesh, in the order given; commas make the components of a vector: 'w "
+		"= -y, x'. A field that is "
+		 "there already is rewritten; if it is state, everything that was derived from the state is dropped. Names: x y z, vx vy vz, NAME, NAME_0, "
+		 "NAME.x; "
+		 "on a mesh x y z are the coordinates of the point; time dt step n dim pi Lx Ly Lz and the constants of the law (G, softening). Operators ^ "
+		 "* / + - < <= > >= == != && || ! ?:. "
+		 "Functions: sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh abs sign floor ceil round mod min max hypot pow erf "
+		 "erfc gamma. "
 		 "A result that is not finite is exit 3.",
 	.kind = PM_FILTER,
 	.reads = "what the expressions name",

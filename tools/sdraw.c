@@ -118,13 +118,15 @@ static void done(struct pm_stage *s) { pm_picture_files_close(&((struct state *)
 static const struct pm_example examples[] = {
 	{"The particles of a scene seen along z.", "pinit plummer -n 20000 | sdraw -o plummer.png"},
 	{"A slice of the density, coloured by its logarithm.", "pinit plummer -n 20000 | p2m -n 64 | sdraw --field rho --project --log -o rho.png"},
-	{"Radius against radial velocity, coloured by the speed.", "pinit plummer -n 1000 | sdraw --x 'sqrt(x^2+y^2+z^2)' --y '(x*vx+y*vy+z*vz)/sqrt(x^2+y^2+z^2)' --colour 'hypot(vx,vy,vz)' -o phase.png"},
+	{"Radius against radial velocity, coloured by the speed.", "pinit plummer -n 1000 | sdraw --x 'sqrt(x^2+y^2+z^2)' --y "
+		"'(x*vx+y*vy+z*vz)/sqrt(x^2+y^2+z^2)' --colour 'hypot(vx,vy,vz)' -o phase.png"},
 	{0}};
 
 const struct pm_tool tool_sdraw = {
 	.name = "sdraw",
 	.summary = "pictures of a mesh field or of particles",
-	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as density; with --field a mesh "
+	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as "
+		"density; with --field a mesh "
 		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A point at an end of the bar says that numbers lie beyond it. "
 		 "A movie: sdraw --format ppm --range LO,HI | ffmpeg -f image2pipe -i - movie.mp4.",
 	.kind = PM_SINK,

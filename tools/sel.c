@@ -111,14 +111,17 @@ static void done(struct pm_stage *s) { pm_frame_free(((struct state *)s->state)-
 static const struct pm_example examples[] = {
 	{"The particles within a distance, without their velocities.", "pinit plummer -n 1000 | sel --where 'x^2+y^2+z^2 < 1' --drop v | sls"},
 	{"The first and the third frame.", "pinit plummer -n 10 > a; cat a a a | sel --frames 1,3 | sls"},
-	{"The last frame, positions only.", "pinit plummer -n 10 | cycle -n 3 --every 1 'push kick/2 drift | pp | push kick/2' | sel --last --field x,id | sls"},
+	{"The last frame, positions only.", "pinit plummer -n 10 | cycle -n 3 --every 1 'push kick/2 drift | pp | push kick/2' | sel --last --field x,id | "
+		"sls"},
 	{0}};
 
 const struct pm_tool tool_sel = {
 	.name = "sel",
 	.summary = "selects frames, sets, fields and particles",
-	.about = "What is not named stays. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles for which an expression is not 0 (see "
-		 "scalc); their derived fields and changes stay what they were when all particles were there. What --set, --field or --drop names must be in every frame.",
+	.about = "What is not named stays. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles for which an "
+		"expression is not 0 (see "
+		 "scalc); their derived fields and changes stay what they were when all particles were there. What --set, --field or --drop names must be in "
+		 "every frame.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

@@ -96,7 +96,8 @@ static void done(struct pm_stage *s) { pm_h5_free(((struct state *)s->state)->fi
 const struct pm_tool tool_sh5 = {
 	.name = "sh5",
 	.summary = "HDF5 to stream and back, exactly",
-	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1. With -o FILE a sink: writes its input as such a file, which h5ls, h5dump, h5diff, yt and ParaView read. "
+	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1. With -o FILE a sink: writes its input as such a file, which "
+		"h5ls, h5dump, h5diff, yt and ParaView read. "
 		 "Stream to HDF5 to stream gives equal bytes. Iterations are called by their step, or by the next free number where two frames have the same. "
 		 "-i FILE.h5 and -o FILE.h5 of any other tool run sh5 on a pipe.",
 	.kind = PM_SINK,

@@ -65,9 +65,11 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_sls = {
 	.name = "sls",
 	.summary = "lists what a stream holds",
-	.about = "Prints the attributes of every frame, its particle sets and meshes, and of every field the name, the number of components, the type, the role, whether it is a "
+	.about = "Prints the attributes of every frame, its particle sets and meshes, and of every field the name, the number of components, the type, the "
+		"role, whether it is a "
 		 "strength or a value, unit, what it is the change of, the terms it holds, and its value where all are equal. No data are kept unless --data "
-		 "asks for smallest, largest and mean values. With --format json every frame is one line: the header of the stream, with report and data added.",
+		 "asks for smallest, largest and mean values. With --format json every frame is one line: the header of the stream, with report and data "
+		 "added.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

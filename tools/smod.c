@@ -120,7 +120,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_smod = {
 	.name = "smod",
 	.summary = "sets attributes: time step, law, constants, box and faces, units, types, names",
-	.about = "In this order: attributes, --store, --rename. What changes the law, its constants or the box drops derived and change fields: they belonged to what was "
+	.about = "In this order: attributes, --store, --rename. What changes the law, its constants or the box drops derived and change fields: they "
+		"belonged to what was "
 		"before. Particles are moved by smove; its options --set, --scale, --rotate, --shift and --boost still work here, behind the attributes.",
 	.kind = PM_FILTER,
 	.changes = "attributes, what --store names",

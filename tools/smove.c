@@ -53,8 +53,10 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_smove = {
 	.name = "smove",
 	.summary = "shifts, rotates, scales and boosts particles",
-	.about = "In this order: --scale, --rotate, --shift, --boost. Derived and change fields are dropped: they belonged to where the particles were. --scale multiplies the "
-		"fields that are named and nothing else: whoever shrinks the lengths of a scene says what becomes of velocities, masses and the box. Positions are "
+	.about = "In this order: --scale, --rotate, --shift, --boost. Derived and change fields are dropped: they belonged to where the particles were. "
+		"--scale multiplies the "
+		"fields that are named and nothing else: whoever shrinks the lengths of a scene says what becomes of velocities, masses and the box. "
+		"Positions are "
 		"not checked against an open box: p2m will name a particle outside. See docs/methods/smove.md.",
 	.kind = PM_FILTER,
 	.changes = "x, v, what --scale names",

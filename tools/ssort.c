@@ -114,8 +114,10 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_ssort = {
 	.name = "ssort",
 	.summary = "reorders particles by cell or by an expression",
-	.about = "Permutes every field of the set, so that particles that are near each other are so in memory and p2m, m2p and pair find them in the cache. By default by "
-		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Only at substep 0: other frames pass as they are. "
+	.about = "Permutes every field of the set, so that particles that are near each other are so in memory and p2m, m2p and pair find them in the cache. "
+		"By default by "
+		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Only at "
+		 "substep 0: other frames pass as they are. "
 		 "No number changes; sums over particles may differ in the last digit, because they add in another order.",
 	.kind = PM_FILTER,
 	.reads = "x, or what --by names",

@@ -106,7 +106,8 @@ static int end(struct pm_stage *s)
 static void done(struct pm_stage *s) { pm_table_source_close(&((struct state *)s->state)->source); }
 
 static const struct pm_example examples[] = {
-	{"Three bodies from a table, and back.", "printf 'x y z mass\\n0 0 0 1\\n1 0 0 1e-3\\n0 5.2 0 2e-4\\n' | stab - --law gravity --constant G=39.478 | stab"},
+	{"Three bodies from a table, and back.", "printf 'x y z mass\\n0 0 0 1\\n1 0 0 1e-3\\n0 5.2 0 2e-4\\n' | stab - --law gravity --constant G=39.478 | "
+		"stab"},
 	{"A scene as a plain table for gnuplot.", "pinit plummer -n 5 | stab --plain"},
 	{"Text and stream are the same thing twice.", "pinit plummer -n 100 > a; stab < a | stab - > b; cmp a b"},
 	{0}};
@@ -114,8 +115,10 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_stab = {
 	.name = "stab",
 	.summary = "text to stream and back, exactly",
-	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then a row a line, blanks or tabs between; empty lines and "
-		 "lines that start with # are passed over. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id whole "
+	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then a row a line, blanks or tabs between; empty "
+		"lines and "
+		 "lines that start with # are passed over. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id "
+		 "whole "
 		 "numbers, name letters (kept as a field of bytes with the unit text), any other column a field. A value that is no number or not finite, "
 		 "and a row with too few or too many columns, is an error that names its line. No rows are legal: a set of 0 particles.\n"
 		 "Without FILE a sink: every frame as a line of JSON (the header of the stream) and a table per set and mesh, numbers with as many digits as "

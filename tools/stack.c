@@ -118,17 +118,22 @@ static void done(struct pm_stage *s)
 
 static const struct pm_example examples[] = {
 	{"Two clusters that fall towards each other, as one set.",
-		"pinit plummer -n 500 --seed 1 | smove --shift 5,0,0 --boost -0.3,0,0 > a; pinit plummer -n 300 --seed 2 | smove --shift -5,0,0 --boost 0.3,0,0 > b; stack --merge a b | sls"},
+		"pinit plummer -n 500 --seed 1 | smove --shift 5,0,0 --boost -0.3,0,0 > a; pinit plummer -n 300 --seed 2 | smove --shift -5,0,0 --boost "
+		"0.3,0,0 > b; stack --merge a b | sls"},
 	{"The same as two sets.", "pinit plummer -n 50 > a; stack --as bulge,halo a a | sls"},
 	{0}};
 
 const struct pm_tool tool_stack = {
 	.name = "stack",
 	.summary = "puts scenes together",
-	.about = "Reads a frame of every stream and writes one frame with the sets of all. Dimensions, law, time and faces must agree, and the constants that more than one of them has; the "
-		 "box is the smallest that holds all boxes, the time step the smallest, the default mesh that of the first, spanning the new box. A set whose name "
-		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: where those of a later stream could meet those before it, they "
-		 "are moved up by one number for the whole stream, so that the smallest becomes the first that is free. Fields that were derived, and changes, are left out: they belong to each scene alone.",
+	.about = "Reads a frame of every stream and writes one frame with the sets of all. Dimensions, law, time and faces must agree, and the constants "
+		"that more than one of them has; the "
+		 "box is the smallest that holds all boxes, the time step the smallest, the default mesh that of the first, spanning the new box. A set "
+		 "whose name "
+		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: where those of a later stream could meet those before "
+		 "it, they "
+		 "are moved up by one number for the whole stream, so that the smallest becomes the first that is free. Fields that were derived, and "
+		 "changes, are left out: they belong to each scene alone.",
 	.kind = PM_SOURCE,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

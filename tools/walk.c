@@ -52,7 +52,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 			sets++;
 		}
 	if (!status && !sets)
-		return pm_fail(PM_DATA, "no set that moves%s%s (a set with positions 'x' that is not fixed)", o->set ? " is called " : "", o->set ? o->set : "");
+		return pm_fail(PM_DATA, "no set that moves%s%s (a set with positions 'x' that is not "
+			"fixed)", o->set ? " is called " : "", o->set ? o->set : "");
 	pm_drops_roles(f, NULL, 1u << PM_CHANGE | 1u << PM_DERIVED);
 	return status ? status : pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
 }
@@ -93,15 +94,19 @@ static const struct pm_example examples[] = {
 	{"a vortex of 2000 blobs spreads, its circulation stays",
 		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | push rk2 | walk' | diag --columns circulation"},
 	{"particles that start at random walk in a box with mirrors",
-		"pinit uniform --dim 2 -n 500 --faces wall --particle-faces reflect --dt 0.01 | smod --law free | cycle -n 20 'push drift | walk --nu 0.1' | sls"},
+		"pinit uniform --dim 2 -n 500 --faces wall --particle-faces reflect --dt 0.01 | smod --law free | cycle -n 20 'push drift | walk --nu 0.1' | "
+		"sls"},
 	{0},
 };
 const struct pm_tool tool_walk = {
 	.name = "walk",
 	.summary = "add diffusion by random steps of the particles",
-	.about = "x += N(0, 2 nu dt) per component, once per step (in the middle of one the frame passes): put it behind the last push. Strengths do not change. The numbers "
-		 "depend on seed, set, id (or index, where there is none) and step, not on order or threads; two walks in one sentence need two seeds. Moving drops what was "
-		 "derived from the positions. Faces as in push. Error 1/sqrt(N): pse and diffuse are more exact, and need volumes and overlap, which this does not. Reports the standard "
+	.about = "x += N(0, 2 nu dt) per component, once per step (in the middle of one the frame passes): put it behind the last push. Strengths do not "
+		"change. The numbers "
+		 "depend on seed, set, id (or index, where there is none) and step, not on order or threads; two walks in one sentence need two seeds. "
+		 "Moving drops what was "
+		 "derived from the positions. Faces as in push. Error 1/sqrt(N): pse and diffuse are more exact, and need volumes and overlap, which this "
+		 "does not. Reports the standard "
 		 "deviation of a step and what is absorbed. Where nu is 0 the frame passes. See docs/methods/walk.md.",
 	.kind = PM_FILTER,
 	.reads = "id",
