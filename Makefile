@@ -88,8 +88,11 @@ $(B)/libpmpipe.a: $(lib_obj)
 	@rm -f $@
 	ar rcs $@ $^
 
-$(B)/libpmpipe.so: $(lib_obj)
-	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.$(SOVERSION) -o $@ $^ $(LDLIBS_ALL)
+$(B)/exports.map: lib/exports.txt
+	@mkdir -p $(@D)
+	@{ echo '{ global:'; sed 's/$$/;/' $<; echo 'local: *; };'; } > $@
+$(B)/libpmpipe.so: $(lib_obj) $(B)/exports.map
+	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.$(SOVERSION) -Wl,--version-script=$(B)/exports.map -o $@ $(lib_obj) $(LDLIBS_ALL)
 
 $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
@@ -189,7 +192,13 @@ $(B)/pmpipe.pc: lib/pmpipe.pc.in Makefile lib/base/base.h
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' $< > $@
 
 D = $(DESTDIR)$(PREFIX)
-headers := $(sort $(wildcard lib/*/*.h))
+# What a word or a program outside may include (docs/library.md): complete, so that each of these includes no other of ours. lib/exports.txt lists what
+# the shared library exports: every function and table declared in them, and no more.
+public := $(addprefix lib/,base/base.h stream/frame.h stream/declare.h stream/run.h stream/wire.h stage/stage.h \
+	kernel/kernel.h law/law.h mollifier/mollifier.h green/green.h mesh/grid.h mesh/gradient.h transfer/transfer.h \
+	fft/fft-effort.h poisson-fft/poisson-fft.h poisson-fft/influence.h poisson-mg/multigrid.h poisson-mg/mg.h poisson-mg/mg-variable.h far/pp.h)
+public:
+	@echo $(public)
 install: all man $(B)/libpmpipe.a $(B)/completion.bash $(B)/pmpipe.pc
 	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/share/man/man1 $(D)/share/bash-completion/completions $(D)/share/doc/pmpipe
 	install $(tools) $(D)/bin
@@ -200,9 +209,9 @@ install: all man $(B)/libpmpipe.a $(B)/completion.bash $(B)/pmpipe.pc
 	install $(B)/libpmpipe.so $(D)/lib/libpmpipe.so.$(VERSION)
 	ln -sf libpmpipe.so.$(VERSION) $(D)/lib/libpmpipe.so.$(SOVERSION)
 	ln -sf libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so
-	for h in $(headers); do install -D -m 644 $$h $(D)/include/pmpipe/$${h#lib/} || exit 1; done
+	for h in $(public); do install -D -m 644 $$h $(D)/include/pmpipe/$${h#lib/} || exit 1; done
 	install -m 644 $(B)/pmpipe.pc $(D)/lib/pkgconfig
-	install -m 644 README.md NEWS COPYING docs/stream.md docs/stage.md docs/read.py $(D)/share/doc/pmpipe
+	install -m 644 README.md NEWS COPYING docs/stream.md docs/stage.md docs/library.md docs/read.py $(D)/share/doc/pmpipe
 uninstall:
 	rm -f $(tools:$(bin_dir)/%=$(D)/bin/%) $(man:$(B)/man/%=$(D)/share/man/man1/%)
 	rm -f $(D)/share/bash-completion/completions/pmpipe $(addprefix $(D)/share/bash-completion/completions/,$(notdir $(tools)))
@@ -212,5 +221,5 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all unit benches demo check check-long mutants asan valgrind bench counts counts-check gallery stability atlas hard-cases measure lint man install uninstall clean
+.PHONY: all public unit benches demo check check-long mutants asan valgrind bench counts counts-check gallery stability atlas hard-cases measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

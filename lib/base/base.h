@@ -8,6 +8,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Around the declarations of every header that is installed, so that a C++ program links with them. */
+#ifdef __cplusplus
+#define PM_C_BEGIN extern "C" {
+#define PM_C_END }
+#else
+#define PM_C_BEGIN
+#define PM_C_END
+#endif
+
+PM_C_BEGIN
+
 #define PM_VERSION "0.1.0"
 
 static const double pm_pi = 3.14159265358979323846;
@@ -80,5 +91,7 @@ static inline bool pm_finite_few(size_t n, const double *x)
 	}
 	return most != exponent;
 }
+
+PM_C_END
 
 #endif

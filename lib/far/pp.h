@@ -4,6 +4,8 @@
 
 #include "mollifier/mollifier.h"
 
+PM_C_BEGIN
+
 struct pm_pp {
 	int dim;      /* 1, 2, 3 */
 	double delta; /* [length] of the mollifier, >= 0 */
@@ -20,5 +22,7 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 /* The same by the plain double loop, each pair through the mollifier's functions: what the other two are tested against. */
 int pm_pp_plain(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient,
 	double *potential, uint64_t *coincident);
+
+PM_C_END
 
 #endif

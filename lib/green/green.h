@@ -5,6 +5,8 @@
 
 #include "base/base.h"
 
+PM_C_BEGIN
+
 struct pm_green_case {
 	int dim;              /* open axes, 1 to 3 */
 	double h[3];          /* [length] spacing of the open axes */
@@ -31,5 +33,7 @@ struct pm_green {
 extern const struct pm_green *const pm_greens[]; /* generated from lib/green/, NULL ends */
 extern const char *const pm_green_names[];
 const struct pm_green *pm_green_find(const char *name); /* NULL with a message */
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "base/base.h"
 
+PM_C_BEGIN
+
 enum { PM_KERNEL_WIDTH = 8, PM_KERNEL_DEGREE = 15 }; /* the most */
 
 struct pm_kernel {
@@ -40,5 +42,7 @@ static inline void pm_kernel_weights(const struct pm_kernel *k, double t, double
 		w[fold ? k->width - 1 - i : i] = sum;
 	}
 }
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "mesh/grid.h"
 
+PM_C_BEGIN
+
 struct pm_law_constant {
 	const char *name, *unit;
 	double otherwise; /* default */
@@ -39,5 +41,7 @@ static inline const struct pm_law *pm_law_of(const struct pm_frame *f) /* NULL w
 {
 	return pm_law_find(f->law);
 }
+
+PM_C_END
 
 #endif

@@ -6,6 +6,8 @@
 #include "fft/fft-effort.h"
 #include "mesh/grid.h"
 
+PM_C_BEGIN
+
 enum pm_operator_kind { PM_OP_GRAD, PM_OP_CURL, PM_OP_DIV, PM_OP_LAP };
 extern const char *const pm_operator_names[], *const pm_order_names[]; /* NULL ends; orders 2, 4, 6, spectral */
 int pm_order_find(const char *name);                                   /* 2, 4, 6; 0 spectral; -1 and a message */
@@ -40,5 +42,7 @@ int pm_operator_apply(const struct pm_operator *o, double factor, const double *
 
 /* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2, summed over the axes. */
 double pm_operator_fastest(const struct pm_operator *o);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "stream/frame.h"
 
+PM_C_BEGIN
+
 struct pm_grid {
 	int dim;
 	size_t cells[3];  /* 1 above dim */
@@ -26,5 +28,7 @@ static inline void pm_grid_even(struct pm_grid *g)
 double pm_grid_cell(const struct pm_grid *g); /* volume of a cell, over dim axes */
 /* Quadrature weight of a point: 1, times 1/2 for each non-periodic axis on whose end it sits. */
 double pm_grid_weight(const struct pm_grid *g, size_t i, size_t j, size_t k);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "base/base.h"
 
+PM_C_BEGIN
+
 struct pm_mollifier {
 	const char *name, *sentence, *source;
 	unsigned dims; /* bit 1u<<dim */
@@ -22,5 +24,7 @@ struct pm_mollifier {
 extern const struct pm_mollifier *const pm_mollifiers[]; /* generated from lib/mollifier/, NULL ends */
 extern const char *const pm_mollifier_names[];
 const struct pm_mollifier *pm_mollifier_find(const char *name); /* NULL with a message */
+
+PM_C_END
 
 #endif

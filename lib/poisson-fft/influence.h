@@ -6,6 +6,8 @@
 #include "kernel/kernel.h"
 #include "mesh/grid.h"
 
+PM_C_BEGIN
+
 enum pm_influence_kind { PM_PLAIN, PM_DECONVOLVED, PM_OPTIMAL };
 extern const char *const pm_influence_names[]; /* NULL ends */
 
@@ -20,5 +22,7 @@ struct pm_influence {
 static inline bool pm_influence_any(const struct pm_influence *f) { return f->kind != PM_PLAIN || f->cloud > 0; }
 bool pm_influence_same(const struct pm_influence *a, const struct pm_influence *b);
 int pm_influence_check(const struct pm_influence *f, const struct pm_grid *g); /* 0, or the sentence that says what can */
+
+PM_C_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "fft/fft-effort.h"
 #include "poisson-fft/influence.h"
 
+PM_C_BEGIN
+
 enum pm_symbol { PM_SPECTRAL, PM_FD2, PM_FD4, PM_FD6 };
 extern const char *const pm_symbol_names[]; /* NULL ends */
 int pm_symbol_find(const char *name);       /* -1 and a message if it is none */
@@ -45,5 +47,7 @@ struct pm_poisson_fft_record {
 
 /* s and phi: the points of the grid; they may be the same array. c [phi/(s length^2)]. r may be NULL. */
 int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "poisson-mg/mg.h"
 
+PM_C_BEGIN
+
 enum pm_mg_mean { PM_MG_HARMONIC, PM_MG_ARITHMETIC }; /* eps on a face from the nodes on its two sides */
 extern const char *const pm_mg_mean_names[];          /* NULL ends */
 
@@ -21,5 +23,7 @@ int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o,
 
 /* eps on the face between two nodes. */
 double pm_mg_face(enum pm_mg_mean mean, double a, double b);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "mesh/grid.h"
 
+PM_C_BEGIN
+
 enum pm_mg_cycle { PM_MG_V, PM_MG_W, PM_MG_FMG }; /* V or W cycles from zero; full multigrid, then V-cycles */
 enum pm_mg_smoother { PM_MG_RED_BLACK, PM_MG_SOR, PM_MG_JACOBI, PM_MG_FOUR_COLOUR }; /* SOR: red-black, over-relaxed */
 extern const char *const pm_mg_smoother_names[]; /* NULL ends */
@@ -54,5 +56,7 @@ void pm_mg_start(struct pm_mg *mg, const double *f, const double *u);
 void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o);
 double pm_mg_residual(const struct pm_mg *mg);
 void pm_mg_values(const struct pm_mg *mg, double *u);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "poisson-mg/mg-variable.h"
 
+PM_C_BEGIN
+
 struct pm_multigrid_choice {
 	struct pm_mg_choice cycle;
 	int order;            /* of the differences, 2 or 4 */
@@ -26,5 +28,7 @@ int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choic
 int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s,
 	double *phi,
 	struct pm_mg_record *r);
+
+PM_C_END
 
 #endif

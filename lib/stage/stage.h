@@ -7,6 +7,8 @@
 #include "stream/declare.h"
 #include "stream/wire.h"
 
+PM_C_BEGIN
+
 /* The type of the variable an option fills in the tool's config struct. Not given and no default: false, INT64_MIN, NAN, NULL, n = 0. */
 enum pm_option_kind {
 	PM_FLAG,    /* bool */
@@ -116,5 +118,7 @@ struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): t
 void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value);
 void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count);
 void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);
+
+PM_C_END
 
 #endif

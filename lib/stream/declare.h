@@ -5,6 +5,8 @@
 
 #include "stream/frame.h"
 
+PM_C_BEGIN
+
 struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
 struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
 
@@ -28,5 +30,7 @@ int pm_field_ready(struct pm_field *field);
  * count n and keeps its first values, so one that loses particles compacts first; a field of the mesh must be uniform, others are refused. */
 int pm_frame_set_resize(struct pm_frame *f, struct pm_set *set, uint64_t n);
 int pm_frame_mesh_resize(struct pm_frame *f, const struct pm_mesh *m);
+
+PM_C_END
 
 #endif

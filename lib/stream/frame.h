@@ -9,6 +9,8 @@
 
 #include "base/base.h"
 
+PM_C_BEGIN
+
 enum { PM_NAME = 64, PM_COMPONENTS = 16, PM_TERMS = 16 };
 
 enum pm_type { PM_F64, PM_F32, PM_I64, PM_U8 };
@@ -122,5 +124,7 @@ const unsigned char *pm_in_u8(const struct pm_field *field, int c);
 unsigned char *pm_out_u8(struct pm_field *field, int c);
 void *pm_field_bytes(struct pm_field *field);         /* all components, whatever the type; NULL if the data are not held */
 size_t pm_field_memory(const struct pm_field *field); /* bytes of one value there: 8, or 1 of u8 */
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "stream/declare.h"
 
+PM_C_BEGIN
+
 struct pm_frame *pm_frame_header(const struct pm_frame *f); /* a copy without data, to try declare() on */
 
 /* Between declare() and frame(): uniform fields that are read are filled in, new ones are zero, changed ones are ours to write. */
@@ -19,5 +21,7 @@ int pm_field_resize(struct pm_field *field, size_t count);
 int pm_field_check(struct pm_field *field, int code); /* finite, or failure with that code naming the place; reals only */
 struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data);
 struct pm_field *pm_field_free(struct pm_field *field);
+
+PM_C_END
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "stream/frame.h"
 
+PM_C_BEGIN
+
 enum { PM_LINE = 64, PM_PIECE = 256 * 1024 };
 
 /* What pm_read_header found; negative is a failure, an abort that came down the stream included (its code and message). */
@@ -40,5 +42,7 @@ int pm_write_frame(struct pm_writer *w, struct pm_frame *f);   /* header, all fi
 int pm_write_end(struct pm_writer *w);
 /* Ends the stream badly: fills the bytes promised with zeros and says why. */
 int pm_write_abort(struct pm_writer *w, int code, const char *message);
+
+PM_C_END
 
 #endif

@@ -7,6 +7,8 @@
 #include "kernel/kernel.h"
 #include "mesh/grid.h"
 
+PM_C_BEGIN
+
 struct pm_transfer {
 	struct pm_grid grid;
 	const struct pm_kernel *kernel;
@@ -45,5 +47,7 @@ int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x
  * -PM_DATA with a message if a wall is in the way or the mesh would have more than PM_TRANSFER_POINTS points. */
 #define PM_TRANSFER_POINTS 4294967296.0 /* 32 GiB a component */
 int pm_transfer_grow(const struct pm_transfer *t, size_t n, const double *const x[], size_t below[3], size_t above[3]);
+
+PM_C_END
 
 #endif
