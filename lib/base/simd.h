@@ -20,6 +20,8 @@ typedef int64_t pm_simd_bits __attribute__((vector_size(64)));
 typedef uint64_t pm_simd_words __attribute__((vector_size(64)));
 
 /* Two, four and eight doubles and four whole numbers at any address: what a pointer into an array of doubles (or int32_t) may be turned into. */
+typedef double pm_simd_at __attribute__((vector_size(64), may_alias)); /* 64-byte aligned */
+typedef int64_t pm_simd_bits_at __attribute__((vector_size(64), may_alias));
 typedef double pm_simd2_at __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
@@ -36,12 +38,7 @@ typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_
 
 PM_SIMD_INLINE pm_simd pm_simd_all(double x) { return (pm_simd){x, x, x, x, x, x, x, x}; }
 
-PM_SIMD_INLINE pm_simd pm_simd_load(const double *p) /* 64-byte aligned */
-{
-	pm_simd v;
-	memcpy(&v, __builtin_assume_aligned(p, 64), sizeof v);
-	return v;
-}
+PM_SIMD_INLINE pm_simd pm_simd_load(const double *p) { return *(const pm_simd_at *)p; } /* 64-byte aligned */
 
 PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 {
@@ -50,7 +47,7 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 	return v;
 }
 
-PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { memcpy(__builtin_assume_aligned(p, 64), &v, sizeof v); }
+PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { *(pm_simd_at *)p = v; }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
 
@@ -67,9 +64,7 @@ PM_SIMD_INLINE pm_simd pm_simd_zip_high(pm_simd even, pm_simd odd) { return __bu
 /* v where the mask, 64-byte aligned, is -1, and 0 where it is 0. */
 PM_SIMD_INLINE pm_simd pm_simd_masked(pm_simd v, const int64_t *mask)
 {
-	pm_simd_bits m;
-	memcpy(&m, __builtin_assume_aligned(mask, 64), sizeof m);
-	return (pm_simd)((pm_simd_bits)v & m);
+	return (pm_simd)((pm_simd_bits)v & *(const pm_simd_bits_at *)mask);
 }
 
 /* Sum of the lanes, in a fixed order. */

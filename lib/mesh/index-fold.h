@@ -14,29 +14,25 @@ struct pm_index_axis {
 	int image[2];  /* factor of the image at the low and the high end: 1 even, -1 odd, 0 none */
 };
 
+/* The same for any i: index-fold.c. */
+size_t pm_index_beyond(ptrdiff_t i, const struct pm_index_axis *a, int *factor);
+
 /* The point of the mesh at which the value of point i stands, and its factor; on an axis of one node nothing varies. */
 static inline size_t pm_index_image(ptrdiff_t i, const struct pm_index_axis *a, int *factor)
 {
-	const ptrdiff_t last = (ptrdiff_t)a->points - 1;
 	*factor = 1;
-	if (i >= 0 && i <= last)
-		return (size_t)i;
-	if (a->periodic)
-		return (size_t)((i % (last + 1) + last + 1) % (last + 1));
-	if (last == 0 && !a->staggered)
-		return 0;
-	while (i < 0 || i > last) {
-		*factor *= a->image[i > last];
-		i = i < 0 ? -i - a->staggered : 2 * last + a->staggered - i;
-	}
-	return (size_t)i;
+	return (size_t)i < a->points ? (size_t)i : pm_index_beyond(i, a, factor);
 }
 
 /* The same for nodes with even images. */
 static inline size_t pm_index_fold(ptrdiff_t i, size_t points, bool periodic)
 {
 	int factor;
-	return pm_index_image(i, &(struct pm_index_axis){.points = points, .periodic = periodic, .image = {1, 1}}, &factor);
+	return (size_t)i < points ? (size_t)i : pm_index_beyond(i, &(struct pm_index_axis){.points = points, .periodic = periodic, .image = {1, 1}}, &factor);
 }
+
+/* The neighbours of node i of the mesh, likewise: a formula without a call, for loops over short rows. */
+static inline size_t pm_index_below(size_t i, size_t points, bool periodic) { return i ? i - 1 : periodic ? points - 1 : points > 1; }
+static inline size_t pm_index_above(size_t i, size_t points, bool periodic) { return i + 1 < points ? i + 1 : periodic ? 0 : i - (points > 1); }
 
 #endif

@@ -38,11 +38,11 @@ struct pm_laplacian pm_laplacian_of(const struct pm_grid *g); /* faces periodic,
 
 static inline size_t pm_laplacian_below(const struct pm_laplacian_axis *a, size_t i)
 {
-	return pm_index_fold((ptrdiff_t)i - 1, a->points, a->periodic);
+	return pm_index_below(i, a->points, a->periodic);
 }
 static inline size_t pm_laplacian_above(const struct pm_laplacian_axis *a, size_t i)
 {
-	return pm_index_fold((ptrdiff_t)i + 1, a->points, a->periodic);
+	return pm_index_above(i, a->points, a->periodic);
 }
 static inline double pm_laplacian_weight(const struct pm_laplacian_axis *a, size_t i)
 {

@@ -44,8 +44,8 @@ struct mg_level {
 static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
 static inline size_t mg_fold(ptrdiff_t i, const struct mg_axis *a) { return pm_index_fold(i, a->points, a->periodic); }
-static inline size_t mg_below(const struct mg_axis *a, size_t i) { return mg_fold((ptrdiff_t)i - 1, a); }
-static inline size_t mg_above(const struct mg_axis *a, size_t i) { return mg_fold((ptrdiff_t)i + 1, a); }
+static inline size_t mg_below(const struct mg_axis *a, size_t i) { return pm_index_below(i, a->points, a->periodic); }
+static inline size_t mg_above(const struct mg_axis *a, size_t i) { return pm_index_above(i, a->points, a->periodic); }
 static inline size_t mg_size(const struct mg_level *l) { return l->axis[2].points * l->plane; }
 
 /* Every row of u is kept closed by who changes it: behind its last node stands the right neighbour of that, folded at the face. */
