@@ -16,6 +16,16 @@ rows() {
 		if [ $# = 0 ]; then cat; else grep -E "^($(IFS='|'; echo "$*"))"; fi
 }
 
+# programs FILE: those that a bats file names, cycle and plan, which hold every word, and sh5; all where it goes through lists of them.
+programs() {
+	local t
+	grep -qE 'load words|pipelines/|README' "tests/$1" && echo all && return
+	for t in tools/*.c tools/*.sh; do
+		t=${t##*/} t=${t%.*}
+		[[ $t =~ ^(cycle|plan|sh5)$ ]] || grep -qw -- "$t" "tests/$1" && echo "bin/$t"
+	done
+}
+
 # sight WHAT: builds and runs it in this directory; 0: the test passes, 1: it fails, 2: it does not build, 3: there is no such test, 4: it took too long.
 # A unit test is left at its first failure.
 sight() {
@@ -26,7 +36,8 @@ sight() {
 		timeout $limit stdbuf -oL "build/tests/unit/$name" 2>&1 | tee "$log" | grep -q '^not ok' && return 1
 		status=${PIPESTATUS[0]}
 	else
-		make -s OPT=-O1 all >"$log" 2>&1 || return 2
+		# shellcheck disable=SC2046 # names without blanks
+		make -s OPT=-O1 $(programs "$name") >"$log" 2>&1 || return 2
 		PM_BIN=$PWD/bin timeout $limit bats -f "$filter" "tests/$name" >"$log" 2>&1 </dev/null
 		status=$?
 		grep -q '^not ok' "$log" && return 1
