@@ -285,6 +285,14 @@ static void test_mixtures(void)
 	}
 }
 
+/* Axelsson's factor, 2/(1 + sqrt(2 (1 - mu))) with mu = cos(pi/n) between walls; the optimum is flat, so that sweeps do not tell. */
+static void test_ssor_factor(void)
+{
+	struct pm_grid g = cube(2, 48, "wwww");
+	struct pm_laplacian l = pm_laplacian_of(&g);
+	check_near(pm_relax_find("ssor-cg")->factor(&l), 2 / (1 + 2 * sin(pm_pi / 96)), 1e-14, "ssor-cg: the factor is Axelsson's");
+}
+
 static void test_threads(void)
 {
 	static const char *const faces[] = {"pppppp", "wnppnn"};
@@ -360,6 +368,7 @@ int main(void)
 	test_coarse();
 	test_formulas();
 	test_mixtures();
+	test_ssor_factor();
 	test_threads();
 	test_ends();
 	return check_done();

@@ -309,6 +309,18 @@ static void check_cut(void)
 	particles_free(&p), particles_free(&q), pm_remesh_free(&r), pm_remesh_free(&all);
 }
 
+/* Components of one strength share the largest: what is small beside the other component is cut. */
+static void check_components(void)
+{
+	struct pm_grid g = grid_of(1, (const size_t[]){12, 1, 1}, 0);
+	struct pm_remesh r = pm_remesh_on(&g, pm_kernel_find("cic"));
+	struct pm_strays strays;
+	const double at[2] = {g.lo[0] + 3 * g.h[0], g.lo[0] + 7 * g.h[0]}, one[2] = {1, 0}, two[2] = {0, 1e-3};
+	int bad = pm_remesh_add(&r, 2, (const double *const[]){at, NULL, NULL}, 2, (const double *const[]){one, two}, true, &strays) || strays.count || pm_remesh_keep(&r, 0.01, 0);
+	check(!bad && r.kept == 1, "a cut-off is of the largest component (%zu nodes kept, %zu cut)", r.kept, r.cut);
+	pm_remesh_free(&r);
+}
+
 static void check_threads(void)
 {
 	bool same = true;
@@ -411,6 +423,7 @@ int main(void)
 	check_step("m4prime", 2. / 27, 1e-14);
 	check_step("m6prime", 0.10156766, 1e-5); /* the worst of 270 shifts */
 	check_cut();
+	check_components();
 	check_threads();
 	check_volume();
 	check_distortion();
