@@ -206,8 +206,8 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 @test "collisions: bodies by their relaxation time, charges by their number in a Debye length" {
 	[[ "$(decide landau -n 20000 | says collisions)" = off*"1.6e+03 particles in a Debye length"* ]] # 20000/(4 pi)
 	[[ "$(decide landau -n 40 | says collisions)" = needed* ]]                                      # 3 of them
-	# N/(8 ln N) crossing times of spread/v: 300 of them at v = 100 cross in 0.005.
-	[[ "$(decide uniform -n 300 --cells 8 --dispersion 100 | says collisions)" = needed* ]]
+	# N/(8 ln N) crossing times of spread/v: 300 of them at 172 within 0.5 cross 343 times in T = 1 and need 6.6 times for it.
+	[[ "$(decide uniform -n 300 --cells 8 --dispersion 100 | says collisions)" = needed*"T is 5e+01 of the relaxation time"* ]]
 }
 
 @test "every scene of pinit: plan --check finds no decision wrong" {
