@@ -1,10 +1,7 @@
 /* sh5: the stream at rest, an HDF5 file in the layout of openPMD 1.1 (docs/methods/hdf5.md), both ways and to the byte. The only program that links
  * HDF5, which costs 5 ms to start; -i x.h5 and -o x.h5 of the others run it on a pipe. Cost: that of the disk.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
-#include <string.h>
-
-#include "h5/h5.h"
+#include "h5/stream-copy.h"
 #include "stage/stage.h"
 
 struct config {
@@ -38,34 +35,12 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-static int in_frame(const struct pm_reader *r, int status)
-{
-	char why[1024];
-	if (pm_reader_aborted(r))
-		return status;
-	snprintf(why, sizeof why, "%s", pm_message());
-	return pm_fail(-status, "frame %llu: %s", (unsigned long long)pm_reader_frame(r), why);
-}
-
 static int to_file(struct pm_stage *s, struct state *st)
 {
-	const struct config *c = s->config;
 	struct pm_reader *r = pm_stage_reader(s);
-	if (!r || !(st->file = pm_h5_create(c->output)))
+	if (!r || !(st->file = pm_h5_create(((const struct config *)s->config)->output)))
 		return pm_failed();
-	for (;;) {
-		struct pm_frame *f = NULL;
-		int got = pm_read_frame(r, &f), status = got < 0 ? got : 0;
-		if (got == PM_GOT_EOF)
-			return pm_h5_finish(st->file);
-		if (got == PM_GOT_FRAME)
-			status = pm_h5_put(st->file, f);
-		else if (got == PM_GOT_END)
-			status = pm_h5_put_end(st->file);
-		pm_frame_free(f);
-		if (status)
-			return in_frame(r, status);
-	}
+	return pm_h5_from_stream(st->file, r);
 }
 
 static int from_file(struct pm_stage *s, struct state *st)
@@ -73,20 +48,7 @@ static int from_file(struct pm_stage *s, struct state *st)
 	struct pm_writer *w = pm_stage_writer(s);
 	if (!w || !(st->file = pm_h5_open(s->args[0])))
 		return pm_failed();
-	for (;;) {
-		struct pm_frame *f = NULL;
-		bool foreign = false;
-		int got = pm_h5_get(st->file, &f, &foreign), status = got < 0 ? got : 0;
-		if (got == PM_GOT_EOF)
-			return 0;
-		if (got == PM_GOT_FRAME && foreign && s->entry) /* what sh5 wrote is at rest as it was: no entry */
-			json_array_append(f->history, s->entry);
-		if (!status)
-			status = got == PM_GOT_END ? pm_write_end(w) : pm_write_frame(w, f);
-		pm_frame_free(f);
-		if (status)
-			return status;
-	}
+	return pm_h5_to_stream(st->file, w, s->entry);
 }
 
 static int whole(struct pm_stage *s) { return s->kind == PM_SOURCE ? from_file(s, s->state) : to_file(s, s->state); }
