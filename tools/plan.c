@@ -37,18 +37,6 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return PM_HOLD;
 }
 
-static int check(const struct pm_frame *f, const struct pm_plan *p, int steps)
-{
-	struct pm_plan_proof proof[PM_EFFECTS];
-	int status = pm_plan_check(f, p, steps, proof), wrong = 0;
-	if (status)
-		return status;
-	pm_plan_print_proof(stdout, p, steps, proof);
-	for (int i = 0; i < p->neffects; i++)
-		wrong += proof[i].wrong;
-	return wrong ? pm_fail(PM_NUMERICS, "%d decision%s wrong", wrong, wrong > 1 ? "s were" : " was") : 0;
-}
-
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct config *o = s->config;
@@ -63,7 +51,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (state->frames++ && !o->sentence && strcmp(o->format, "json"))
 		putchar('\n');
 	if (o->check)
-		return check(f, &p, (int)o->steps);
+		return pm_plan_prove(stdout, f, &p, (int)o->steps);
 	if (o->sentence)
 		puts(p.sentence);
 	else if (!strcmp(o->format, "json"))

@@ -117,3 +117,15 @@ void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const st
 	}
 	fprintf(out, "# relative to a run of T = %g, from %d steps; above %g it matters\n", p->scales.time, steps, p->scales.accuracy);
 }
+
+int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int steps)
+{
+	struct pm_plan_proof proof[PM_EFFECTS];
+	int status = pm_plan_check(f, p, steps, proof), wrong = 0;
+	if (status)
+		return status;
+	pm_plan_print_proof(out, p, steps, proof);
+	for (int i = 0; i < p->neffects; i++)
+		wrong += proof[i].wrong;
+	return wrong ? pm_fail(PM_NUMERICS, "%d decision%s wrong", wrong, wrong > 1 ? "s were" : " was") : 0;
+}

@@ -75,6 +75,8 @@ int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, 
 int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
 
 /* plan-print.c */
+/* Runs the check and prints it; PM_NUMERICS where a decision was wrong. */
+int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int steps);
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);
 void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost);
 void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof);
