@@ -1,0 +1,98 @@
+/* Keys of the particles, a stable radix sort of them, and the permutation of the fields. Cost N per set and pass of the sort.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cell/radix-sort.h"
+#include "expression/expression.h"
+#include "expression/particle-order.h"
+#include "stream/declare.h"
+
+static bool chosen(const struct pm_particle_order *o, const struct pm_set *set) { return !o->set || !strcmp(o->set, set->name); }
+
+int pm_particle_order_check(const struct pm_particle_order *o, const struct pm_frame *f)
+{
+	if (o->set && !pm_frame_set(f, o->set))
+		return pm_fail(PM_DATA, "no set '%s' (sls lists what there is)", o->set);
+	if (!o->by && !pm_frame_mesh(f, o->mesh))
+		return pm_fail(PM_DATA, o->mesh ? "no mesh '%s' (sls lists what there is)" : "no mesh to sort by the cells of (use --by)", o->mesh);
+	return 0;
+}
+
+static void change_all(struct pm_frame *f, const char *on)
+{
+	for (size_t k = 0, n = f->nfields; k < n;) { /* pm_changes moves a field to the end of the list */
+		struct pm_field *p = f->fields[k];
+		bool mine = !strcmp(p->on, on) && !p->uniform && !(p->use & PM_USE_CHANGE);
+		if (mine)
+			pm_changes(f, on, p->name), n--;
+		else
+			k++;
+	}
+}
+
+int pm_particle_order_declare(const struct pm_particle_order *o, struct pm_frame *f)
+{
+	struct pm_expression e;
+	int status = 0;
+	for (size_t i = 0; i < f->nsets && !status; i++) {
+		const char *on = f->sets[i]->name;
+		if (!chosen(o, f->sets[i]))
+			continue;
+		status = o->by ? pm_expression_compile(&e, f, on, o->by) : pm_reads(f, on, "x") ? 0 : -PM_DATA;
+		if (!status)
+			change_all(f, on);
+	}
+	return status;
+}
+
+static int keys(const struct pm_particle_order *o, struct pm_frame *f, const char *on, size_t n, uint64_t *key, double *work)
+{
+	struct pm_expression e;
+	if (!o->by) {
+		struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, o->mesh));
+		const struct pm_field *x = pm_frame_field(f, on, "x");
+		const double *at[3] = {pm_in(x, 0), f->dim > 1 ? pm_in(x, 1) : NULL, f->dim > 2 ? pm_in(x, 2) : NULL};
+		pm_keys_of_cells(&g, n, at, key);
+		return 0;
+	}
+	const struct pm_field *p = pm_frame_field(f, on, o->by);
+	if (p && p->type == PM_I64 && p->components == 1) { /* ids beyond 2^53 are told apart */
+		pm_keys_of_integers(n, pm_in_i64(p, 0), key);
+		return 0;
+	}
+	int status = pm_expression_compile(&e, f, on, o->by);
+	if (status)
+		return status;
+	pm_expression_eval(&e, f, 0, n, work);
+	if (!pm_finite(n, work))
+		return pm_fail(PM_NUMERICS, "'%s' is not finite for every particle of '%s'", o->by, on);
+	pm_keys_of_reals(n, work, key);
+	return 0;
+}
+
+static int sort_set(const struct pm_particle_order *o, struct pm_frame *f, const struct pm_set *set)
+{
+	size_t n = set->n;
+	uint64_t *key = pm_alloc(n ? 4 * n : 1, sizeof *key);
+	size_t *order = (size_t *)(key + 2 * n);
+	int status = key ? keys(o, f, set->name, n, key, (double *)(key + n)) : -PM_DATA;
+	if (!status) {
+		for (size_t i = 0; o->reverse && i < n; i++)
+			key[i] = ~key[i];
+		pm_keys_order(n, key, key + n, order, order + n);
+	}
+	for (size_t i = 0; i < f->nfields && !status; i++)
+		if (!strcmp(f->fields[i]->on, set->name) && f->fields[i]->use & PM_USE_CHANGE)
+			status = pm_field_permute(f->fields[i], order);
+	pm_free(key);
+	return status;
+}
+
+int pm_particle_order_apply(const struct pm_particle_order *o, struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t i = 0; i < f->nsets && !status; i++)
+		if (chosen(o, f->sets[i]))
+			status = sort_set(o, f, f->sets[i]);
+	return status;
+}
