@@ -5,7 +5,7 @@
 #include "law/law.h"
 #include "transfer/transfer-frame.h"
 #include "near/pse-frame.h"
-#include "stage/stage.h"
+#include "stage/viscosity-options.h"
 
 struct config {
 	const char *method, *order, *set, *field, *wall;
@@ -18,21 +18,13 @@ static int begin(struct pm_stage *s)
 	return pm_given(s, "eps") && pm_given(s, "overlap") ? pm_fail(PM_USAGE, "--eps or --overlap, not both: either is the width") : 0;
 }
 
-/* The sets, and what is the same for all of them; 1 if there is nothing to do. */
+/* The sets, and what is the same for all of them. */
 static int choose(const struct config *o, const struct pm_frame *f, struct pm_pse_set *p, struct pm_sets *sets)
 {
-	const struct pm_law *law = pm_law_of(f);
-	if (!law)
-		return -PM_DATA;
-	*p = (struct pm_pse_set){.field = o->field ? o->field : law->strength, .nu = isnan(o->nu) ? pm_frame_constant(f, "nu", 0) : o->nu,
-		.corrected = !strcmp(o->method, "dc"), .order = atoi(o->order), .eps = o->eps, .overlap = o->overlap, .cutoff = o->cutoff, .images = !strcmp(o->wall, "images")};
-	if (!(p->nu >= 0))
-		return pm_fail(PM_DATA, "the viscosity nu is %g: negative diffusion has no solution (--nu, or the scene's)", p->nu);
-	if (p->nu == 0)
-		return 1;
-	if (!p->field)
-		return pm_fail(PM_DATA, "the law '%s' has no strength to diffuse (--field NAME)", law->name);
-	const char *const needs[] = {"x", p->field, NULL};
+	const char *field = o->field ? o->field : pm_law_of(f)->strength;
+	*p = (struct pm_pse_set){.field = field, .nu = pm_viscosity(f, o->nu), .corrected = !strcmp(o->method, "dc"), .order = atoi(o->order),
+		.eps = o->eps, .overlap = o->overlap, .cutoff = o->cutoff, .images = !strcmp(o->wall, "images")};
+	const char *const needs[] = {"x", field, NULL};
 	return pm_sets_choose(f, o->set, needs, "stab reads it from a table", sets);
 }
 
@@ -41,9 +33,12 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	const struct config *o = s->config;
 	struct pm_pse_set p;
 	struct pm_sets sets;
-	int status = choose(o, f, &p, &sets);
-	if (status == 1)
-		return pm_idle(s, "the viscosity nu is 0");
+	const struct pm_law *law = pm_law_of(f);
+	int status = law ? pm_viscosity_check(s, pm_viscosity(f, o->nu)) : -PM_DATA;
+	if (!status && !o->field && !law->strength)
+		return pm_fail(PM_DATA, "the law '%s' has no strength to diffuse (--field NAME)", law->name);
+	if (!status)
+		status = choose(o, f, &p, &sets);
 	for (size_t i = 0; !status && i < sets.n; i++) {
 		p.set = sets.name[i];
 		status = pm_reads_positions(f, p.set);
@@ -92,7 +87,7 @@ static const struct pm_option options[] = {
 		.text = "eps over the spacing (mean volume)^(1/dim); quadrature needs 1 on a lattice, and more where particles are distorted"},
 	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, PM_AT(cutoff),
 		.text = "partners farther than this exchange nothing; by default 8 for order 2, 9 for order 4; of dc 3.1 and 4.1"},
-	{.name = "nu", .kind = PM_REAL, .unit = "length^2/time", .high = 1e300, PM_AT(nu), .text = "the viscosity (default: the frame's constant nu)"},
+	PM_VISCOSITY_ROW,
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each by itself"},
 	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, PM_AT(wall),

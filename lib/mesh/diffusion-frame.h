@@ -1,0 +1,26 @@
+/* Viscosity on the mesh of a frame, d(density)/dt += nu lap density: what diffuse does. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MESH_DIFFUSION_FRAME_H
+#define PM_MESH_DIFFUSION_FRAME_H
+
+#include "mesh/gradient.h"
+
+struct pm_diffusion_choice {
+	const char *mesh, *order; /* NULL: the first; the law's */
+	double nu;                /* [length^2/time], positive */
+	bool replace;             /* the term anew, instead of refused a second time */
+};
+
+/* From the header to the data. */
+struct pm_diffusion {
+	struct pm_operator operator;
+	const struct pm_field *density;
+	struct pm_field *change;
+	double nu;
+};
+
+/* Each 0 or failure. Header: the change field d<density> of the law's strength, with its fastest decay. */
+int pm_diffusion_declare(const struct pm_diffusion_choice *c, struct pm_frame *f, struct pm_diffusion *t);
+/* Data. plans: of spectral operators, started anew where full. */
+int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans);
+
+#endif
