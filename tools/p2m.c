@@ -1,8 +1,7 @@
 /* p2m: strengths of particles to a density on a mesh (lib/transfer/spread-frame.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "mesh/regrid.h"
-#include "stage/stage.h"
+#include "stage/mesh-options.h"
 #include "transfer/spread-frame.h"
 
 struct config {
@@ -30,23 +29,13 @@ static int choose(const struct config *o, const struct pm_frame *f, struct pm_sp
 	return pm_spread_choose(&choice, f, j);
 }
 
-static int regrid(const struct config *o, struct pm_frame *f, struct pm_spread_job *j)
-{
-	size_t cells[3] = {1, 1, 1};
-	int status = o->cells.n ? pm_cells_for(&o->cells, f->dim, cells) : 0;
-	if (status || !o->cells.n)
-		return status;
-	if (!j->mesh)
-		return (j->mesh = pm_frame_mesh_new(f, o->mesh ? o->mesh : "mesh", cells)) ? 0 : -PM_DATA;
-	return memcmp(cells, j->mesh->cells, sizeof cells) ? pm_mesh_regrid_box(f, j->mesh, cells) : 0;
-}
-
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct config *o = s->config;
 	struct pm_spread_job j;
-	int status = choose(s->config, f, &j);
+	int status = choose(o, f, &j);
 	if (!status)
-		status = regrid(s->config, f, &j);
+		status = pm_mesh_take_or_make(f, &j.mesh, &o->cells, o->mesh);
 	if (!status)
 		status = pm_spread_declare(&j, f);
 	return status ? status : j.choice.grow ? PM_HOLD : 0;
@@ -73,9 +62,7 @@ static const char *const outside[] = {"error", "drop", "grow", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
 		.text = "how a strength is shared among mesh points (default: the law's)"},
-	{.name = "cells", .letter = 'n', .kind = PM_CELLS, .unit = "cells", .low = 1, .high = 1 << 24, PM_AT(cells),
-		.text = "give the mesh this many cells over the box, 64 or 64x32x32"},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set that has the strength)"},
 	{.name = "strength", .kind = PM_TEXT, .unit = "FIELD", PM_AT(strength),
 		.text = "the particle field (default: the law's); a value is multiplied by volume"},

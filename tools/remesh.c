@@ -4,9 +4,8 @@
 
 #include "law/law.h"
 #include "remesh/distortion.h"
-#include "mesh/regrid.h"
 #include "remesh/remesh-frame.h"
-#include "stage/stage.h"
+#include "stage/mesh-options.h"
 
 struct config {
 	const char *kernel, *mesh, *set, *when, *by, *outside;
@@ -82,11 +81,8 @@ static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 {
 	const struct pm_grid g = pm_grid_of(f, j->mesh);
 	const struct pm_transfer t = {.grid = g, .kernel = j->choice.kernel};
-	size_t cells[3] = {1, 1, 1};
-	int status = o->cells.n ? pm_cells_for(&o->cells, f->dim, cells) : 0;
-	if (!status && o->cells.n && memcmp(cells, j->mesh->cells, sizeof cells))
-		status = pm_mesh_regrid_box(f, j->mesh, cells);
-	else if (!status && !strcmp(o->outside, "grow"))
+	int status = pm_mesh_take_cells(f, j->mesh, &o->cells);
+	if (!status && !strcmp(o->outside, "grow"))
 		status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
 	return status < 0 ? status : 0;
 }
@@ -129,9 +125,7 @@ static const char *const when[] = {"always", "distortion", NULL}, *const outside
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
 		.text = "how a strength is shared among nodes (default: the law's, else m4prime)"},
-	{.name = "cells", .letter = 'n', .kind = PM_CELLS, .unit = "cells", .low = 1, .high = 1 << 24, PM_AT(cells),
-		.text = "give the mesh this many cells over the box, 64 or 64x32x32"},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with a strength that is not fixed)"},
 	{.name = "cut-off", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(cut_off),
 		.text = "nodes up to this part of the largest strength become no particles; counted, and their strength summed"},
