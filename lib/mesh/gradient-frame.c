@@ -1,0 +1,86 @@
+/* Source and target of a derivative in a frame, and what is asked for that cannot be. The differences are gradient.c's.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "fft/axis-transform.h"
+#include "law/law.h"
+#include "mesh/gradient-frame.h"
+#include "stream/declare.h"
+
+/* The operator, its factor and its order: as asked for, else the law's. */
+static int choose(const struct pm_gradient_choice *o, const struct pm_law *law, const struct pm_grid *g, const struct pm_field *source, struct pm_gradient *t)
+{
+	enum pm_operator_kind kind = law->of_potential == PM_CURL ? PM_OP_CURL : PM_OP_GRAD;
+	t->factor = kind == PM_OP_GRAD ? law->sign : 1;
+	for (int i = 0; o->kind && pm_operator_names[i]; i++)
+		if (!strcmp(o->kind, pm_operator_names[i]))
+			kind = (enum pm_operator_kind)i, t->factor = 1;
+	int order = pm_order_find(o->order ? o->order : law->order ? law->order : "2");
+	/* Where the law's field is a flow, vectors are, but not its potential and its density: those have the images of a gradient. */
+	bool flow = law->of_potential == PM_CURL && strcmp(source->name, law->potential) && strcmp(source->name, law->density);
+	return order < 0 ? -PM_USAGE : pm_operator_init(&t->operator, g, kind, order, source->components, flow);
+}
+
+/* The target beside the source, in place of what was derived before. */
+static int make(struct pm_frame *f, const char *on, const char *target, struct pm_gradient *t)
+{
+	const struct pm_field *old = pm_frame_field(f, on, target);
+	if (old && old->role == PM_STATE)
+		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative does not replace it (choose another --target; keep what is given on a mesh of "
+			"its own, m2p --mesh adds it)", target, on);
+	t->target = pm_makes(f, on, target, t->operator.out, PM_DERIVED);
+	if (!t->target)
+		return -PM_DATA;
+	t->target->use |= PM_USE_FILL;
+	pm_field_inherit(t->target, t->source);
+	return 0;
+}
+
+int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, struct pm_gradient *t)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	const struct pm_mesh *mesh = pm_frame_mesh(f, o->mesh);
+	if (!mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n makes one)", o->mesh ? " named " : "", o->mesh ? o->mesh : "");
+	const char *source = o->source ? o->source : law->potential, *target = o->target ? o->target : law->field;
+	if (!source || !target || (!o->kind && !law->field))
+		return pm_fail(PM_USAGE, "the law %s names no potential and field (give --operator, --source and --target)", law->name);
+	if (!strcmp(source, target))
+		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
+	if (!pm_frame_field(f, mesh->name, source))
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (poisson-fft, poisson-mg or poisson-relax makes a potential, or choose --source)", source,
+			mesh->name);
+	t->source = pm_reads(f, mesh->name, source);
+	if (!t->source)
+		return -PM_DATA;
+	for (int c = 0; c < t->source->components; c++)
+		for (int d = 0; d < f->dim; d++)
+			if (t->source->staggered[c][d])
+				return pm_fail(PM_DATA, "'%s' sits between the nodes (mgrad works on the nodes)", source);
+	struct pm_grid g = pm_grid_of(f, mesh);
+	int status = choose(o, law, &g, t->source, t);
+	return status ? status : make(f, mesh->name, target, t);
+}
+
+int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans)
+{
+	if (plans->nmade > PM_FFT_PLANS - 3 || plans->n > PM_FFT_PLANS - 6) /* frames of many sizes: start the collection anew */
+		pm_fft_plans_clear(plans);
+	return pm_operator_plan(&t->operator, plans);
+}
+
+int pm_gradient_apply(struct pm_gradient *t)
+{
+	const double *in[PM_COMPONENTS];
+	double *out[PM_COMPONENTS];
+	bool seen = false;
+	for (int c = 0; c < t->operator.in; c++)
+		in[c] = pm_in(t->source, c);
+	for (int c = 0; c < t->operator.out; c++)
+		out[c] = pm_out(t->target, c);
+	int status = pm_operator_apply(&t->operator, t->factor, in, out, &seen);
+	t->target->use |= seen ? PM_USE_SEEN : 0;
+	return status;
+}
