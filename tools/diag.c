@@ -12,8 +12,6 @@ struct config {
 	struct pm_vector radii, modes;
 	const char *growth, *window;
 	bool pair, exact;
-	int mode;          /* of --growth; 0 none */
-	double from, to;   /* of --window; NAN not given */
 };
 struct state {
 	FILE *out;
@@ -21,37 +19,16 @@ struct state {
 };
 _Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
 
-/* mode:M and T0:T1. */
-static int take_growth(struct config *c)
-{
-	int used = 0;
-	c->from = c->to = NAN;
-	for (int k = 0; k < c->modes.n; k++)
-		if (!(c->modes.x[k] >= 1 && c->modes.x[k] <= 1e6 && c->modes.x[k] == floor(c->modes.x[k])))
-			return pm_fail(PM_USAGE, "--modes %g is not a whole number of waves", c->modes.x[k]);
-	if (c->growth && (sscanf(c->growth, "mode:%d%n", &c->mode, &used) != 1 || c->growth[used] || c->mode < 1))
-		return pm_fail(PM_USAGE, "--growth '%s' (it is written mode:1, waves in the box along x)", c->growth);
-	if (c->growth && c->modes.n == PM_COMPONENTS)
-		return pm_fail(PM_USAGE, "--growth beside %d modes (at most %d)", c->modes.n, PM_COMPONENTS - 1);
-	if (c->window && (!c->growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
-		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
-	return 0;
-}
-
 static int begin(struct pm_stage *s)
 {
 	struct config *c = s->config;
 	struct state *state = s->state;
-	for (int k = 0; k < c->radii.n; k++)
-		if (!(c->radii.x[k] > 0 && c->radii.x[k] <= 1))
-			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii.x[k]);
-	if (take_growth(c))
+	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
+		.modes = c->modes.x, .nmodes = c->modes.n, .window = c->window, .pair = c->pair, .exact = c->exact, .json = !strcmp(c->format, "json")};
+	if (pm_diag_choice_check(&choice, c->growth))
 		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
 	state->out = c->tee ? fopen(c->tee, "w") : stdout;
-	const struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
-		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->mode, .window = c->window, .from = c->from, .to = c->to, .pair = c->pair, .exact = c->exact,
-		.json = !strcmp(c->format, "json")};
 	pm_diag_table_init(&state->table, &choice, state->out);
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }

@@ -1,7 +1,5 @@
 /* sel: selects frames, sets, meshes, fields, and particles by an expression (lib/expression/selection.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdlib.h>
-
 #include "expression/selection.h"
 #include "stage/stage.h"
 
@@ -31,40 +29,12 @@ static const struct pm_option options[] = {
 	{0},
 };
 
-/* "3" or "3:5" or "3:" as first and last. */
-static bool range(const char *text, uint64_t *first, uint64_t *last)
-{
-	char *end;
-	if (*text < '0' || *text > '9')
-		return false;
-	*first = *last = strtoull(text, &end, 10);
-	if (*end == ':') {
-		const char *second = end + 1;
-		*last = *second ? strtoull(second, &end, 10) : UINT64_MAX;
-		end = *second ? (*second < '0' || *second > '9' ? "bad" : end) : "";
-	}
-	return !*end && *first >= 1 && *last >= *first;
-}
-
 static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
-	uint64_t first, last;
-	for (int i = 0; i < c->frames.n; i++)
-		if (!range(c->frames.item[i], &first, &last))
-			return pm_fail(PM_USAGE, "--frames '%s' is neither N nor N:M with N from 1 and not above M", c->frames.item[i]);
+	const struct pm_names frames = {c->frames.item, c->frames.n};
 	s->leaves_out = c->frames.n || c->every > 1 || c->last;
-	return 0;
-}
-
-static bool frame_chosen(const struct config *c, const struct pm_frame *f, uint64_t number)
-{
-	bool in = !c->frames.n;
-	for (int i = 0; i < c->frames.n && !in; i++) {
-		uint64_t first, last;
-		in = range(c->frames.item[i], &first, &last) && number >= first && number <= last;
-	}
-	return in && f->step % c->every == 0;
+	return pm_frame_numbers_check(&frames);
 }
 
 static struct pm_selection selection_of(const struct config *c)
@@ -77,9 +47,10 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
+	const struct pm_names frames = {c->frames.item, c->frames.n};
 	const struct pm_selection selection = selection_of(c);
 	st->frame += !s->trial;
-	if (!frame_chosen(c, f, st->frame + s->trial))
+	if (f->step % c->every || !pm_frame_numbers_contain(&frames, st->frame + s->trial))
 		return PM_SKIP;
 	int status = pm_selection_declare(&selection, f);
 	return status ? status : c->where || c->last ? PM_HOLD : 0;

@@ -1,6 +1,7 @@
 /* A frame without the sets, meshes, fields and particles that were not chosen. Cost: with an expression one evaluation and one copy of the particles.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "expression/expression.h"
@@ -119,4 +120,38 @@ int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f)
 			status = select_particles(s, f, f->sets[i]);
 	leave_out(s, f);
 	return status;
+}
+
+/* "3" or "3:5" or "3:" as first and last. */
+static bool range(const char *text, uint64_t *first, uint64_t *last)
+{
+	char *end;
+	if (*text < '0' || *text > '9')
+		return false;
+	*first = *last = strtoull(text, &end, 10);
+	if (*end == ':') {
+		const char *second = end + 1;
+		*last = *second ? strtoull(second, &end, 10) : UINT64_MAX;
+		end = *second ? (*second < '0' || *second > '9' ? "bad" : end) : "";
+	}
+	return !*end && *first >= 1 && *last >= *first;
+}
+
+int pm_frame_numbers_check(const struct pm_names *ranges)
+{
+	uint64_t first, last;
+	for (int i = 0; i < ranges->n; i++)
+		if (!range(ranges->name[i], &first, &last))
+			return pm_fail(PM_USAGE, "--frames '%s' is neither N nor N:M with N from 1 and not above M", ranges->name[i]);
+	return 0;
+}
+
+bool pm_frame_numbers_contain(const struct pm_names *ranges, uint64_t number)
+{
+	bool in = !ranges->n;
+	for (int i = 0; i < ranges->n && !in; i++) {
+		uint64_t first, last;
+		in = range(ranges->name[i], &first, &last) && number >= first && number <= last;
+	}
+	return in;
 }

@@ -1,20 +1,26 @@
-/* Which sets, meshes, fields and particles of a frame stay: what sel does inside a frame. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which sets, meshes, fields and particles of a frame stay: and which frames of a stream: what sel does. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_EXPRESSION_SELECTION_H
 #define PM_EXPRESSION_SELECTION_H
 
 #include "stream/frame.h"
 
+struct pm_names {
+	const char *const *name;
+	int n;
+};
+
 struct pm_selection {
-	struct pm_names {
-		const char *const *name;
-		int n;
-	} sets, meshes, fields, drop; /* kept; n = 0: all. Fields as NAME or ON/NAME; drop names any of the three */
-	const char *where;                /* expression over the particles of a set; NULL: all stay */
+	struct pm_names sets, meshes, fields, drop; /* kept; n = 0: all. Fields as NAME or ON/NAME; drop names any of the three */
+	const char *where;                          /* expression over the particles of a set; NULL: all stay */
 };
 
 /* Header: everything named must be there; without `where` what was not chosen goes at once. 0 or failure. */
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f);
 /* Data, with `where` only: keeps the particles for which it is not 0, then leaves out what was not chosen. 0 or failure. */
 int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f);
+
+/* Frames by number, counted from 1: N, N:M or N: as typed. Is each of these? 0 or failure. Is this frame one of them (n = 0: all are)? */
+int pm_frame_numbers_check(const struct pm_names *ranges);
+bool pm_frame_numbers_contain(const struct pm_names *ranges, uint64_t number);
 
 #endif

@@ -4,6 +4,32 @@
 
 #include "measure/diag-table.h"
 
+/* mode:M and T0:T1. */
+static int take_growth(struct pm_diag_choice *c, const char *growth)
+{
+	int used = 0;
+	if (growth && (sscanf(growth, "mode:%d%n", &c->growth, &used) != 1 || growth[used] || c->growth < 1))
+		return pm_fail(PM_USAGE, "--growth '%s' (it is written mode:1, waves in the box along x)", growth);
+	if (growth && c->nmodes == PM_COMPONENTS)
+		return pm_fail(PM_USAGE, "--growth beside %d modes (at most %d)", c->nmodes, PM_COMPONENTS - 1);
+	if (c->window && (!growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
+		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
+	return 0;
+}
+
+int pm_diag_choice_check(struct pm_diag_choice *c, const char *growth)
+{
+	c->growth = 0;
+	c->from = c->to = NAN;
+	for (int k = 0; k < c->nradii; k++)
+		if (!(c->radii[k] > 0 && c->radii[k] <= 1))
+			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii[k]);
+	for (int k = 0; k < c->nmodes; k++)
+		if (!(c->modes[k] >= 1 && c->modes[k] <= 1e6 && c->modes[k] == floor(c->modes[k])))
+			return pm_fail(PM_USAGE, "--modes %g is not a whole number of waves", c->modes[k]);
+	return take_growth(c, growth);
+}
+
 void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out)
 {
 	struct pm_diag_request *g = &t->request;
@@ -77,8 +103,8 @@ int pm_diag_table_end(struct pm_diag_table *t)
 		return 0;
 	const struct pm_growth g = pm_growth_of(&t->series, c->from, c->to);
 	if (!isfinite(g.gamma))
-		return pm_fail(PM_DATA, "%zu points of mode %d%s%s are too few for a growth rate (more frames: cycle --every, or another --window)", g.points, c->growth,
-			c->window ? " in the window " : "", c->window ? c->window : "");
+		return pm_fail(PM_DATA, "%zu points of mode %d%s%s are too few for a growth rate (more frames: cycle --every, or another --window)", g.points,
+			c->growth, c->window ? " in the window " : "", c->window ? c->window : "");
 	fprintf(t->out, json ? "{\"growth\":\"mode:%d\",\"gamma\":%.9g,\"omega\":%.9g,\"from\":%.9g,\"to\":%.9g,\"points\":%zu}\n"
 		: "# mode:%d gamma %.9g omega %.9g, from t = %.9g to %.9g, %zu points\n", c->growth, g.gamma, g.omega, g.from, g.to, g.points);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;

@@ -30,6 +30,9 @@ struct pm_diag_table {
 	struct pm_series series; /* of the growth */
 };
 
+/* Radii, modes, the growth as typed (mode:M, NULL none) and the window (T0:T1) of a choice otherwise filled: checked, growth, from and to set.
+ * 0 or failure. */
+int pm_diag_choice_check(struct pm_diag_choice *c, const char *growth);
 void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
 /* 0 or failure. The first row brings the line of names; end brings the line of the growth. */
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
