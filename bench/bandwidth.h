@@ -1,4 +1,4 @@
-/* The plain ways of moving memory that set the limits (McCalpin's STREAM, with and without stores that pass the caches by), and a chain of fused
+/* Plain memory loops that set the limits (McCalpin's STREAM, with and without stores that bypass the caches), and a chain of fused
  * multiply-adds. Fixed shares per thread. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BENCH_BANDWIDTH_H
 #define PM_BENCH_BANDWIDTH_H
@@ -9,19 +9,19 @@
 
 #include "bench.h"
 
-/* Eight numbers, of our own: lib/base and lib/mesh have each a PM_FFT_LINES. */
+/* Eight numbers. */
 enum { BANDWIDTH_LANES = 8 };
 typedef double bandwidth_lanes __attribute__((vector_size(64), may_alias));
 
 enum bandwidth { BANDWIDTH_READ, BANDWIDTH_COPY, BANDWIDTH_COPY_NT, BANDWIDTH_TRIAD, BANDWIDTH_TRIAD_NT, BANDWIDTH_UPDATE, BANDWIDTHS };
 static const char *const bandwidth_names[] = {"read", "copy", "copy-nt", "triad", "triad-nt", "update"};
-static const double bandwidth_bytes[] = {8, 16, 16, 24, 24, 16}; /* per element; the line that a plain store reads first is not counted */
+static const double bandwidth_bytes[] = {8, 16, 16, 24, 24, 16}; /* per element, without the cache line that a plain store reads first */
 
 struct bandwidth_arrays {
 	size_t n; /* a multiple of 32 */
 	double *a, *b, *c;
 	enum bandwidth way;
-	double sum; /* so that nothing is left out */
+	double sum; /* so that no work is optimised away */
 };
 
 static inline bandwidth_lanes bandwidth_at(const double *p) { return *(const bandwidth_lanes *)p; }
@@ -69,7 +69,7 @@ static inline __attribute__((always_inline)) void bandwidth_share(enum bandwidth
 	bandwidth_fence();
 }
 
-/* One pass, in the way of the arrays. */
+/* One pass over the arrays of this kind. */
 static inline void bandwidth_pass(void *with)
 {
 	struct bandwidth_arrays *w = with;
@@ -99,7 +99,7 @@ static inline double bandwidth_rate(const struct bandwidth_arrays *w, const stru
 	return bandwidth_bytes[w->way] * (double)w->n / bench_median(j) / 1e9;
 }
 
-/* A kernel that only moves memory: its rate beside the bandwidth of a plain loop in the same rounds. */
+/* A kernel limited by memory: its rate and, in the same rounds, the bandwidth of a plain loop. */
 static inline void bandwidth_row(const char *kernel, const char *name, double bytes, double flops, double items, const struct bench_job *j,
 	const struct bandwidth_arrays *w, const struct bench_job *plain)
 {

@@ -1,7 +1,7 @@
-/* What the measuring programs share: jobs that take turns, medians of seven with their spread, what the machine can do, and a row of the table.
- * A row, tab-separated: kernel, case, threads, measured, unit, spread, bytes and operations an item must cost, limit of the machine, fraction of it,
- * what it is compared with and its value, the ratio, the target, whether it is reached. "-": not known or not meant; "~": against a recorded
- * number of another machine. PM_MACHINE and PM_PEERS name files of rows `what, case, threads, value` of the same run.
+/* Shared by the benchmark programs: jobs run in turn, medians of seven with their spread, the limits of the machine, and a row of the table.
+ * A row, tab-separated: kernel, case, threads, measured, unit, spread, bytes and operations needed per item, limit of the machine, fraction of it,
+ * what it is compared with and its value, the ratio, the target, whether it is reached. "-": unknown or not applicable; "~": compared with a number recorded
+ * on another machine. PM_MACHINE and PM_PEERS name files of rows `what, case, threads, value` of the same run.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BENCH_H
 #define PM_BENCH_H
@@ -21,7 +21,7 @@ struct bench_job {
 	double seconds[BENCH_ROUNDS]; /* after bench_turns */
 };
 
-/* One thread is timed by its processor's clock, so that other programs matter less, several by the wall's. */
+/* One thread is timed by processor time, so that other programs matter less; several threads by wall time. */
 static inline double bench_clock(void)
 {
 	struct timespec t;
@@ -31,7 +31,7 @@ static inline double bench_clock(void)
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Each job once untimed, then seven rounds in which they take turns, so that a change of the machine's mood meets all of them. */
+/* Each job once untimed, then seven rounds in which they run in turn, so that a change of the machine's speed affects all of them. */
 static inline void bench_turns(int n, struct bench_job *jobs)
 {
 	for (int r = -1; r < BENCH_ROUNDS; r++)
@@ -95,9 +95,9 @@ struct bench_row {
 	const char *kernel, *name, *unit;
 	double measured, spread;  /* [unit], relative */
 	double bytes, flops;      /* an item moves, computes; 0: not counted */
-	const char *stream;       /* the way the bytes go: a row of the machine, which with bytes and flops makes the limit */
+	const char *stream;       /* the kind of memory traffic: a row of the machine, which with bytes and flops gives the limit */
 	double per;               /* items/s of one unit (1e6: million items per second) */
-	double limit;             /* [unit] if it is known otherwise; else 0 */
+	double limit;             /* [unit] if known from elsewhere; else 0 */
 	const char *against;      /* NULL: nothing */
 	double other;             /* its value in the same unit */
 	bool recorded;            /* on another machine */
@@ -105,7 +105,7 @@ struct bench_row {
 	double least, most;       /* target of the ratio, of the fraction if there is none, or of the value itself; 0: none */
 };
 
-/* What holds an item: its bytes at the machine's bandwidth or its operations, whichever takes longer. */
+/* The limit of an item: its bytes at the machine's bandwidth or its operations, whichever takes longer. */
 static inline double bench_limit(const struct bench_row *r)
 {
 	double memory = r->bytes > 0 && r->stream ? r->bytes / (1e9 * bench_machine(r->stream)) : 0;
@@ -159,7 +159,7 @@ static inline void bench_rate(struct bench_row row, double items, const struct b
 	bench_print(&row);
 }
 
-/* A peer measured in turn with ours (seconds of both), else its recorded rate, else nothing. */
+/* Another code measured in turn with ours (seconds of both), else its recorded rate, else nothing. */
 static inline void bench_against(struct bench_row row, double items, const struct bench_job *ours, const char *peer, const struct bench_job *theirs,
 	double recorded)
 {

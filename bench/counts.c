@@ -22,7 +22,7 @@ struct work {
 	struct pm_pp pp;
 };
 
-/* What callgrind looks at. */
+/* The function that callgrind counts. */
 void pm_counted(void (*run)(struct work *), struct work *w);
 __attribute__((noinline)) void pm_counted(void (*run)(struct work *), struct work *w)
 {

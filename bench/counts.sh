@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Instructions of the hot loops per particle, point or pair, counted by callgrind on one thread in a build without -march=native: a regression is seen without
-# a clock. counts.sh PROGRAM writes bench/counts.tsv; counts.sh --check PROGRAM compares with it and fails beyond 5 %; --table does not run anything: it
-# compares the file given with counts.tsv. Says "skipped" where valgrind is not there or the compiler is another one than that of the file.
+# Instructions of the hot loops per particle, point or pair, counted by callgrind on one thread in a build without -march=native: a regression shows without
+# timing. counts.sh PROGRAM writes bench/counts.tsv; counts.sh --check PROGRAM compares with it and fails beyond 5 %; --table runs nothing and compares the
+# given file with counts.tsv. Prints "skipped" if valgrind is missing or the compiler differs from that of the file.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -35,7 +35,7 @@ compare() {
 count() {
 	local scratch names
 	scratch=$(mktemp -d)
-	# shellcheck disable=SC2064 # the directory of now
+	# shellcheck disable=SC2064 # expand the directory now
 	trap "rm -rf '$scratch'" EXIT
 	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --toggle-collect=pm_counted --dump-after=pm_counted --callgrind-out-file="$scratch/out" "$1" >"$scratch/cases"
 	echo "# $compiler"

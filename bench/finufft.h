@@ -26,7 +26,7 @@ struct finufft {
 	double complex *c, *mesh;
 };
 
-/* False, with a line that says so, where there is none. */
+/* False, with a message, if it is not installed. */
 static inline bool finufft_open(struct finufft *f)
 {
 	const char *file = getenv("PM_FINUFFT");

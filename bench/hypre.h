@@ -14,7 +14,7 @@ struct hypre {
 	int lo[3], hi[3];
 };
 
-/* Of a function of the library its name is known and not its prototype; all arguments but those of two setters are pointers and ints. */
+/* Functions are looked up by name without a prototype; all arguments except those of two setters are pointers and ints. */
 #pragma GCC diagnostic ignored "-Wstrict-prototypes"
 #define HYPRE_CALL(h, name, ...) (((int (*)())hypre_function((h)->library, name))(__VA_ARGS__))
 
@@ -29,7 +29,7 @@ static inline void (*hypre_function(void *library, const char *name))(void)
 	return f;
 }
 
-/* The values of the matrix: -lap times h^2, couplings beyond a wall left out; entries centre, -x, -y, -z (symmetric). */
+/* The values of the matrix: -lap times h^2, without the couplings across a wall; entries centre, -x, -y, -z (symmetric). */
 static inline void hypre_matrix(struct hypre *h)
 {
 	static int offsets[4][3] = {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, entries[4] = {0, 1, 2, 3};
@@ -78,7 +78,7 @@ static inline void hypre_solver(struct hypre *h)
 	HYPRE_CALL(h, "HYPRE_StructPCGSetup", h->solver, h->matrix, h->b, h->x);
 }
 
-/* False, with a line that says so, where there is no hypre with Open MPI. s: [cells+1]^3, its inner nodes are taken. */
+/* False, with a message, if there is no hypre with Open MPI. s: [cells+1]^3, its inner nodes are used. */
 static inline bool hypre_new(struct hypre *h, size_t cells, const double *s)
 {
 	const size_t n = cells - 1;

@@ -8,7 +8,7 @@ enum { ELEMENTS = 8 << 20, TURNS = 1 << 22 };
 #ifdef __AVX512F__
 enum { CHAINS = 8 };
 #else
-enum { CHAINS = 4 }; /* of eight numbers each: what stays in sixteen registers */
+enum { CHAINS = 4 }; /* of eight numbers each: as many as fit into sixteen registers */
 #endif
 
 /* Independent chains, enough to hide the latency. */

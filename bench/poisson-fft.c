@@ -50,7 +50,7 @@ static struct bench_row row_of(size_t n, enum pm_face face, char name[64])
 		.flops = transforms[face] * 5 * log2(pow((double)n, 3)), .stream = "copy-nt"};
 }
 
-/* Time over the time of `other`. */
+/* Time divided by the time of `other`. */
 static void compare(struct bench_row row, double points, const struct bench_job *j, const char *other, const struct bench_job *with, double most)
 {
 	row.against = other, row.most = most;
@@ -78,7 +78,7 @@ static void measure(size_t n, struct problem problems[FACES], struct pair *pair)
 	bench_rate(row, points, &jobs[FACES]);
 }
 
-/* The same on all threads over one, by the wall's clock. */
+/* Speed-up on all threads, by wall time. */
 static void threads(size_t n, struct problem problems[FACES], int most)
 {
 	for (int f = 0; f < FACES; f++) {

@@ -1,5 +1,5 @@
 /* Multigrid with walls: a red-black sweep, a solve to 1e-10 and one pass of full multigrid in million points or unknowns per second, the residual at which
- * round-off ends it; hypre's conjugate gradients with its multigrid beside the solve where its library is found. poisson-mg [cells per axis ...]
+ * round-off stops it; hypre's conjugate gradients with its multigrid for comparison if its library is found. poisson-mg [cells per axis ...]
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-hierarchy.h"
 

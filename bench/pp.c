@@ -1,4 +1,5 @@
-/* Direct summation in billions of pairs per second (N^2 counted), beside a plain loop that no method can beat without symmetry: four vectors of targets in
+/* Direct summation in billions of pairs per second (N^2 counted), compared with a plain loop that no method without symmetry can beat: four vectors of
+ * targets in
  * registers, sources one by one, 1/r^3 from the approximate root with one correction of third order. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pp.h"
 

@@ -1,4 +1,4 @@
-/* push (a half kick and a drift) and the bulk sums of diag, as a fraction of what a plain loop of the same kind moves in the same rounds.
+/* push (a half kick and a drift) and the bulk sums of diag, as a fraction of the bandwidth of a plain loop of the same kind in the same rounds.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bandwidth.h"
 

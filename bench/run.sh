@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures everything of docs/speed.md and ends with a table; `run.sh --markdown` also writes the tables of docs/speed.md anew. Rows are those of bench.h,
-# one after the other in build/bench/rows.tsv. The machine first, then what is not physics (start of a filter, pass-through, overhead of cycle), then
-# the kernels. Peers that are not installed are skipped with a line. Names (`run.sh pp mgrad`) limit it to these parts. 6 minutes.
+# Measures everything of docs/speed.md and ends with a table; `run.sh --markdown` also rewrites the tables of docs/speed.md. Rows are those of bench.h,
+# one after the other in build/bench/rows.tsv. First the machine, then overheads (start of a filter, pass-through, cycle), then the kernels. Other codes that
+# are not installed are skipped with a message. Names (`run.sh pp mgrad`) select parts. 6 minutes.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -43,7 +43,7 @@ seconds() {
 	awk -v a="$t" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.6f\n", b - a }'
 }
 
-# poisson-fft reads the density of a small mesh; the particles only pass by.
+# poisson-fft reads the density of a small mesh; the particles are only copied.
 through() { [ -s through.pm ] || pinit uniform -n 4000000 --cells 8 | p2m >through.pm; }
 part_start() {
 	through
@@ -82,7 +82,7 @@ part_cycle() {
 		run piped-tiny tiny.pm 100 pipes
 	done
 	sed -i 1d ./*.stages ./*.wall
-	# steps 11 to 60; what the first ten take besides is reading and writing 56 MB and the first touch of memory
+	# steps 11 to 60; the first ten include reading and writing 56 MB and the first touch of memory
 	paste short.stages short.wall large.stages large.wall | awk '{ print 100 * (1 - (60 * $3 - 10 * $1) / (60 * $4 - 10 * $2)) }' |
 		row cycle 'fused, 1e6 particles, steps 11 to 60: overhead' % '<=' 2
 	paste short.stages short.wall | awk '{ print 1e4 * ($2 - $1) }' | row cycle 'fused, 1e6 particles: reading, writing, first touch' ms - 0
@@ -102,7 +102,7 @@ part_transfer() {
 }
 part_step() {
 	pinit uniform -n 2097152 --cells 128 | OMP_NUM_THREADS=1 keep "$b/step"
-	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it wants 8 GB)' >&2 && return; }
+	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it needs 8 GB)' >&2 && return; }
 	pinit uniform -n 16777216 --cells 256 | keep "$b/step"
 }
 

@@ -1,5 +1,5 @@
-/* What it costs to start a filter: wall time of a process that reads a stream of no frames and writes one, beside that of /bin/true.
- * The commands take turns, so that a change of the machine's mood meets all of them; medians of 200 rounds.
+/* The cost of starting a filter: wall time of a process that reads and writes a stream without frames, compared with /bin/true.
+ * The commands run in turn, so that a change of the machine's speed affects all of them; medians of 200 rounds.
  * start [FILE]: FILE is a stream with many particles and a small mesh, which poisson-fft then reads.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <fcntl.h>
@@ -59,7 +59,7 @@ int main(int argc, char **argv)
 			.spread = (seconds[i][rounds * 7 / 8] - seconds[i][rounds / 8]) / seconds[i][rounds / 2], .most = 1});
 	if (argc > 1 && (input = open(argv[1], O_RDONLY)) >= 0) {
 		run(input, commands[5], &megabytes);
-		bench_print(&(struct bench_row){.kernel = "start", .name = "memory of poisson-fft while particles pass by", .unit = "MB", .measured = megabytes,
+		bench_print(&(struct bench_row){.kernel = "start", .name = "memory of poisson-fft while particles are copied", .unit = "MB", .measured = megabytes,
 			.most = 8});
 	}
 	return 0;

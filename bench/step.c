@@ -1,4 +1,5 @@
-/* A whole step of a particle-mesh sentence, fused as in cycle, beside the sum of its kernels measured alone on the same particles, in turn. Reads one frame:
+/* A whole step of a particle-mesh sentence, fused as in cycle, compared with the sum of its kernels measured alone on the same particles, in turn. Reads one
+ * frame:
  * pinit uniform -n N --cells C | step. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "mesh/gradient.h"

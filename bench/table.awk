@@ -1,5 +1,5 @@
-# The rows of bench.h as one aligned table, or, with -v markdown=1, a page whose tables between "<!-- rows: KERNEL ... -->" and "<!-- end -->" are made
-# anew: awk -f table.awk rows.tsv; awk -v markdown=1 -f table.awk rows.tsv docs/speed.md. A table none of whose rows was measured stays.
+# The rows of bench.h as one aligned table, or, with -v markdown=1, a page whose tables between "<!-- rows: KERNEL ... -->" and "<!-- end -->" are rewritten:
+# awk -f table.awk rows.tsv; awk -v markdown=1 -f table.awk rows.tsv docs/speed.md. A table without new rows is kept.
 # SPDX-License-Identifier: GPL-3.0-or-later
 BEGIN {
 	FS = "\t"

@@ -47,7 +47,7 @@ static void pass(void *with)
 		exit(1);
 }
 
-/* What anyone would write: cic in 3-D, periodic, particle by particle. pmesh's painter is of this kind. */
+/* The obvious loop: cic in 3-D, periodic, particle by particle, like the painter of pmesh. */
 static void by_hand(void *with)
 {
 	const struct run *r = with;
@@ -73,7 +73,7 @@ static void by_hand(void *with)
 	}
 }
 
-/* What the peers reached on the machine of their table, 3-D, one thread; 0 unknown. */
+/* Published rates of other codes on their own machines, 3-D, one thread; 0 unknown. */
 static double recorded(const struct run *r, bool ordered, int width)
 {
 	static const double finufft[2][7] = {{0, 0, 21, 16.7, 16.8, 0, 10.3}, {0, 0, 9.4, 10.6, 10.2, 0, 5.8}};
@@ -110,7 +110,7 @@ static void measure(struct run *r, struct finufft *finufft, bool ordered)
 		jobs[at_plain] = (struct bench_job){by_hand, r, {0}};
 	bench_turns(n, jobs);
 	snprintf(name, sizeof name, "%s %s, %d-D %zu, %zu a cell", r->t.kernel->name, ordered ? "in tiles" : "random", dim, r->cells, r->per_cell);
-	/* Random order: positions and strength are read, written in order (with the line read first) and read again. The mesh once a cell. */
+	/* Random order: positions and strength are read, written in order (with the line read first) and read again. The mesh once per cell. */
 	double record = 8. * (dim + 1), bytes = (ordered ? record : 4 * record) + 16 / density;
 	double live = bench_look("PM_PEERS", r->gathered ? "pmesh gather" : "pmesh spread", r->t.kernel->name, 1);
 	struct bench_row row = {.kernel = r->gathered ? "m2p" : "p2m", .name = name, .unit = "M/s", .per = 1e6, .bytes = bytes,
@@ -132,7 +132,7 @@ static void measure(struct run *r, struct finufft *finufft, bool ordered)
 		finufft->destroy(finufft->plan);
 }
 
-/* Spread and gather on all threads over one, by the wall's clock. */
+/* Speed-up of spread and gather on all threads, by wall time. */
 static void threads(struct run *r, int most)
 {
 	for (r->gathered = 0; r->gathered < 2; r->gathered++) {

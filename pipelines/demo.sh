@@ -1,5 +1,5 @@
 #!/bin/sh
-# From a bare Debian machine to a first result: installs what is missing (as root or with sudo), builds, runs the first pipeline, a
+# From a bare Debian machine to a first result: installs missing packages (as root or with sudo), builds, runs the first pipeline, a
 # Plummer sphere under particle-mesh gravity, and ends with its numbers and the name of a picture.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u

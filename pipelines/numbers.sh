@@ -1,9 +1,9 @@
 # shellcheck shell=bash
-# What the pipelines share: bin/ on PATH, a directory for files that goes away, and numbers that are printed and checked.
+# Shared by the pipelines: bin/ on PATH, a temporary directory, and functions that print and check numbers.
 # SPDX-License-Identifier: GPL-3.0-or-later
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C
-export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} # threads that spin take a busy machine from each other
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} # spinning threads slow each other down on a busy machine
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 off=0

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# An electron circles in a uniform magnetic field: the angle and the radius of Boris' steps, and its speed for ever.
+# An electron circles in a uniform magnetic field: the angle and the radius of Boris' steps, and the constancy of its speed.
 # Law: electrostatic with a given B = 1 along z (Omega = 1) and E = 0, 2-D, push boris/2.
 # Expected (PIC-12): a step turns by 2 atan(Omega dt/2): 0.0999167914438855, 0.489957326253728, pi/2 for Omega dt = 0.1, 0.5, 2, to 1e-13, on a
 # circle of radius sqrt(1 + (Omega dt/2)^2): 1.00124921972504 at 0.1; |v| stays 1 to 1e-12 over 20000 steps (HC-08: 1e6 in tests/unit/boris.c).
 # Words swapped: with the field of the electron itself, by any kernel, solver and gradient, it ends at the same place after 25 steps, to 1e-11, since no
-# particle moves itself; and the schemes that know no magnetic field refuse it (exit 1).
+# particle moves itself; and schemes without a magnetic force refuse it (exit 1).
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Landau damping: a wave in a Maxwellian plasma gives its energy to the particles that keep pace with it.
+# Landau damping: a wave in a Maxwellian plasma loses its energy to the particles that move at its phase speed.
 # Law: electrostatic, 1-D, lambda_D = omega_p = 1, k A = 1e-3, 64 cells, tsc, leapfrog, dt = 0.1; 160 beams of 256 particles with the weights of the
 # Maxwellian, so there is no noise, and no recurrence before 2 pi/(k dv) = 84/k.
-# Window, the same rule for all k: from 5 pi/(2 omega) on, when the second root is gone (the exact solution of the linear problem, fitted alike, then has
-# gamma to 1 %); to pi/sqrt(k A) = 99, half a bounce of trapped electrons, but not beyond ln(1e4)/|gamma|, where 1e-4 of the wave is left.
+# Window, the same rule for all k: from 5 pi/(2 omega) on, when the second root has decayed (the same fit to the exact linear solution then gives gamma to 1
+# %); to pi/sqrt(k A) = 99, half a bounce of trapped electrons, but not beyond ln(1e4)/|gamma|, when 1e-4 of the wave is left.
 # Expected (PIC-01): omega and gamma for k = 0.1: 1.01519752554410, 0; 0.3: 1.15984648059191, -0.0126203684211172; 0.5: 1.41566188860454,
 # -0.153359466909605; 1.0: 2.04590486569062, -0.851330458692056. Within 0.3 % in omega and 1.5 % in gamma; the mesh (k dx = 0.1), the leapfrog and the
 # second root each leave tenths of a per cent.

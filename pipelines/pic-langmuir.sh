@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# A cold plasma oscillates at omega_p = 1; on a mesh at the frequency of the kernel, the solver and the gradient, and one word swapped is another frequency.
+# A cold plasma oscillates at omega_p = 1; on a mesh at a frequency that depends on kernel, solver and gradient, so swapping one word changes it.
 # Law: electrostatic, 1-D, 1024 electrons, one wave in the periodic box, k A = 1e-3, leapfrog, dt = 0.2, 300 steps.
 # Expected (PIC-07): sin(omega dt/2) = (dt/2) w with w = cos(k dx/2) for cic, the 3-point Laplacian and 2-point differences: 0.980785280403230
 # on 16 cells, so 0.982364553517455; 0.995184726672197 on 32, 0.923879532511287 on 8; tsc 0.974543935458231; cic with spectral solver and gradient
-# 0.987165314627917; with 4-point differences the alias sum gives cos(k dx/2) sqrt((4 - cos(k dx))/3). Runge-Kutta 4 leaves the frequency w itself, less
-# (w dt)^4/120. (ngp is in tests/physics/pic.bats.)
+# 0.987165314627917; with 4-point differences the alias sum gives cos(k dx/2) sqrt((4 - cos(k dx))/3). Runge-Kutta 4 has the frequency w itself, less (w
+# dt)^4/120. (ngp is in tests/physics/pic.bats.)
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh
@@ -14,7 +14,7 @@ dt=0.2
 
 leap='push kick/2 drift | P2M | POISSON | MGRAD | m2p | push kick/2' whole='P2M | POISSON | MGRAD | m2p | push rk4'
 
-# omega CELLS P2M POISSON MGRAD [SENTENCE]: from the peaks of the first mode of E.
+# omega CELLS P2M POISSON MGRAD [SENTENCE]: frequency from the peaks of the first mode of E.
 omega() {
 	local sentence=${5:-$leap}
 	sentence=${sentence/P2M/$2} sentence=${sentence/POISSON/$3} sentence=${sentence/MGRAD/$4}
@@ -25,7 +25,7 @@ omega() {
 		sed -n 's/^# .* omega \([^,]*\),.*/\1/p'
 }
 
-# leapfrog W: what the step makes of the frequency W of the mesh.
+# leapfrog W: the frequency of the leapfrog for the frequency W of the mesh.
 leapfrog() { calc "2 / $dt * atan2($1 * $dt / 2, sqrt(1 - ($1 * $dt / 2)^2))"; }
 
 echo "a cold wave, dt = $dt"

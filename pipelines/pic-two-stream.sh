@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Two beams of electrons through each other grow a wave: cold beams at three wavenumbers and beyond the threshold, warm beams above and below theirs.
+# Two electron beams through each other amplify a wave: cold beams at three wavenumbers and beyond the threshold, warm beams above and below theirs.
 # Law: electrostatic, 1-D, omega_p = 1 together, k = 1 (cold) and k = 0.2 (warm, vth = 1), seeded by k A = 1e-4, leapfrog.
 # Expected (PIC-02, cold): gamma = 1/sqrt 8 = 0.353553390593274 at k v0 = sqrt(3/8), 0.256405640402469 at 0.3, 0.239748687416082 at 0.9, within 2 %;
 # none at 1.1, where the wave is the sum of two cosines: c cos(w t) + (1 - c) cos(W t), w^2, W^2 = a + 1/2 +- sqrt(2 a + 1/4), a = (k v0)^2, c from
 # -E" = (1 + a) E at the start, followed within 1 % of the first height until t = 40. (Cold beams do grow at scales of the mesh, from rounding, after 45.)
 # (PIC-03, warm): 0.28450968620496 at v0 = 3, within 3 %; none at v0 = 1.3, below the threshold of 1.3069: until t = 200 the field has at most 3 times
-# its first energy (HC-04 with 1e5 particles: tests/hard/pic.bats). The rates are fitted where diag's own rule says: from 1 to 10 % of the first top.
+# its first energy (HC-04 with 1e5 particles: tests/hard/pic.bats). The rates are fitted in the window that diag chooses: from 1 to 10 % of the first maximum.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # PM-02: the particle-mesh force of a pair against its distance, in a periodic box of 64^3 cells (or -n): a unit mass at random places, 8 massless
-# particles around it at r = 1, 2 and 4 cells in random directions. Prints a table (markdown): rms error of the force over the force wanted, and the
-# processor seconds of a leapfrog step of 262144 particles on that mesh (one thread, 12 steps less 2, median of 5 turns, least and most). Wanted: that of points, 1/r^2, or of clouds S2 of
-# diameter 4 cells (Hockney and Eastwood 1988, equation 8-3 ff.), both less the background. --check N: N places (75), no seconds; --only WORD: rows whose name
+# particles around it at r = 1, 2 and 4 cells in random directions. Prints a table (markdown): rms error of the force relative to the exact force, and the
+# processor seconds of a leapfrog step of 262144 particles on that mesh (one thread, 12 steps less 2, median of 5 turns, least and most). Exact force: that
+# of points, 1/r^2, or of clouds S2 of diameter 4 cells (Hockney and Eastwood 1988, equation 8-3 ff.), both less the background. --check N: N places (75), no
+# seconds; --only WORD: rows whose name
 # has it; --seed S. Expected: docs/methods/pm-force.md. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 . "$(dirname "$0")/numbers.sh"
@@ -38,7 +39,7 @@ places() {
 		print "#end " places }' | stab -
 }
 
-# errors CLOUD < text of the forces: for r = 1, 2, 4 mean radial force, rms transverse force, rms error, over the force wanted.
+# errors CLOUD < text of the forces: for r = 1, 2, 4 mean radial force, rms transverse force, rms error, relative to the exact force.
 errors() {
 	awk -v n="$n" -v a="$1" '
 		function wanted(r,  x, f) {
@@ -79,7 +80,8 @@ part() { # NAME
 	lines+=("| **$1** | | | |") sentences+=('')
 }
 
-# Seconds of a step of every sentence, in turns: a burst of other work on the machine meets one turn, not one sentence. Median, least and most of 5.
+# Seconds of a step of every sentence, in turns: a burst of other work on the machine affects one turn of all sentences, not one sentence. Median, least and
+# most of 5.
 turns() {
 	for _ in 1 2 3 4 5; do
 		for i in "${!sentences[@]}"; do

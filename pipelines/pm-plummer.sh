@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # A Plummer sphere under particle-mesh gravity: 10000 particles, open space, 64^3 cells of 0.44 a, leapfrog, 200 steps of 1/32.
-# Law: gravity, lap phi = 4 pi G rho, x'' = -grad phi, G = M = a = 1. It is an equilibrium, up to what the mesh smooths away: the core is 2 cells wide.
-# Expected: mass 0.98519 (the sphere ends at 10 a), momentum zero to rounding, energy kept to 0.5 %; half-mass radius 1.2875 and 2K/|W| = 1 at the
-# start, up to noise and the mesh. Where the mesh pulls too little the core widens, to a half-mass radius of 1.495, and 2K/|W| falls to 0.914;
-# with 128^3 cells (CELLS=128, eight times the work) it hardly does. PARTICLES, STEPS, CELLS change the run; the numbers are those of the default.
+# Law: gravity, lap phi = 4 pi G rho, x'' = -grad phi, G = M = a = 1. It is an equilibrium except for the smoothing by the mesh: the core is 2 cells wide.
+# Expected: mass 0.98519 (the sphere ends at 10 a), momentum zero to rounding, energy conserved to 0.5 %; half-mass radius 1.2875 and 2K/|W| = 1 at the
+# start, up to noise and the mesh. The force of the mesh is too weak in the core, so the core widens, to a half-mass radius of 1.495, and 2K/|W| falls to 0.914;
+# with 128^3 cells (CELLS=128, eight times the work) it hardly changes. PARTICLES, STEPS, CELLS change the run; the numbers are those of the default.
 # Writes pm-plummer.png, the surface density at the end, SIZE pixels wide (320 for docs/gallery/plummer.png). SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # An ellipse of eccentricity 0.9 around a fixed sun by direct summation, 10 orbits of 1000 steps, leapfrog and Runge-Kutta.
 # Law: gravity, G M = a = 1, start at the apocentre (-1.9, 0), v = (0, -sqrt(0.1/1.9)); softening 0.
-# Expected (PM-10, the same schemes to 1e-8): leapfrog ends at (-1.889015833, 0.2040059636), its energy error swings to 9.08 % and comes back
-# to 6e-11, the pericentre turns by -0.10773086; rk4 ends at (-1.889329315, -0.0390942154), has lost 0.347 % for good, turns by 0.00082.
+# Expected (PM-10, the same schemes to 1e-8): leapfrog ends at (-1.889015833, 0.2040059636), its energy error reaches 9.08 % and returns to 6e-11, the
+# pericentre turns by -0.10773086; rk4 ends at (-1.889329315, -0.0390942154), has lost 0.347 % for good, turns by 0.00082.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh

@@ -1,6 +1,6 @@
 # shellcheck shell=sh
-# What demo.sh and tests/check.sh share; plain sh, sourced from the top of the tree.
-# set_up PACKAGE...: installs what of these Debian packages is missing, then builds everything with make and says how far it is.
+# Shared by demo.sh and tests/check.sh; plain sh, sourced from the top of the tree.
+# set_up PACKAGE...: installs the missing ones of these Debian packages, then builds everything with make and prints its progress.
 # SPDX-License-Identifier: GPL-3.0-or-later
 me=$(basename "$0" .sh)
 
@@ -9,7 +9,7 @@ stop() {
 	exit 1
 }
 
-# Is it there already? Asked of the thing itself, so that machines without dpkg are judged fairly too.
+# Is it installed? Tests the program or header itself, so that it works on machines without dpkg.
 there() {
 	case $1 in
 	libc6-dev) header stdio.h ;;
@@ -46,7 +46,7 @@ install_packages() {
 	echo "$me: installing $*"
 	log=$(mktemp)
 	$root apt-get -qq -o Acquire::Retries=1 -o Acquire::http::Timeout=30 update >"$log" 2>&1
-	# shellcheck disable=SC2086 # no quotes: $root may be nothing
+	# shellcheck disable=SC2086 # no quotes: $root may be empty
 	if ! $root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install "$@" >>"$log" 2>&1; then
 		[ -z "${SHOW_LOG:-}" ] || cat "$log" >&2
 		rm -f "$log"
@@ -55,7 +55,7 @@ install_packages() {
 	rm -f "$log"
 }
 
-# install_missing PACKAGE...: afterwards all of them are there.
+# install_missing PACKAGE...: installs those that are missing.
 install_missing() {
 	wanted=$(missing "$@")
 	# shellcheck disable=SC2086 # a list of words
@@ -64,7 +64,7 @@ install_missing() {
 	[ -z "$wanted" ] || stop "still missing after installing: $wanted"
 }
 
-# Reads the commands of make and says every few seconds how many of $1 files are made.
+# Reads the commands of make and prints every few seconds how many of $1 files are made.
 progress() {
 	made=0 said=$(date +%s)
 	while read -r line; do
@@ -74,7 +74,7 @@ progress() {
 	done
 }
 
-# build: everything there is to build; quiet if that is nothing. make's exit status comes by descriptor 3, as plain sh has no pipefail.
+# build: builds everything; silent if nothing is to be done. make's exit status comes through descriptor 3, as plain sh has no pipefail.
 build() {
 	to_do=$(make -n all unit 2>/dev/null | grep -c ' -o ')
 	[ "$to_do" = 0 ] || echo "$me: building $to_do files"

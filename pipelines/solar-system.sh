@@ -2,8 +2,8 @@
 # The outer solar system over 1000 years from real positions (data/solar-system.tsv), by direct summation; leapfrog, then one word swapped for rk4.
 # Law: gravity, G = 0.01720209895^2 AU^3/(solar mass day^2), no softening, steps of 50 days.
 # Expected: sidereal periods of 11.862, 29.457, 84.01, 164.79 and 247.94 years (NASA planetary fact sheets, in Julian years; the planets'
-# pull on each other moves the mean over 1000 years by up to 0.5 %). Leapfrog's energy error swings, to 2e-4, and its phases lag by (w dt)^2/3, 0.18 % for
-# Jupiter; rk4's adds up, to 3e-5 in 1000 years.
+# pull on each other moves the mean over 1000 years by up to 0.5 %). Leapfrog's energy error oscillates, up to 2e-4, and its phases lag by (w dt)^2/3, 0.18 %
+# for Jupiter; that of rk4 accumulates, to 3e-5 in 1000 years.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh
@@ -17,7 +17,7 @@ gauss=$(calc "0.01720209895 ^ 2")
 
 stab "$top/data/solar-system.tsv" --law gravity --constant "G=$gauss,softening=0" --dt $dt >"$work/start"
 
-# Mean time of a turn about the sun for each planet, over whole turns; one row a planet and frame comes in.
+# Mean orbital period of each planet over complete orbits; the input has one row per planet and frame.
 periods() {
 	stab --plain |
 		awk -F'\t' -v dt=$((every * dt)) 'BEGIN { pi = atan2(0, -1) }

@@ -3,8 +3,8 @@
 # Law: vortex, lap psi = -omega, D omega/Dt = nu lap omega.
 # Expected (VM-01): omega = Gamma/(4 pi nu t) exp(-r^2/(4 nu t)), u_theta = Gamma/(2 pi r) (1 - exp(-r^2/(4 nu t))): at t = 1, r = 0.2 2.92749157621596
 # and 0.503025557837881, at t = 4, r = 0.5 0.417008604918078 and 0.251588509396898; u_theta is largest at 1.1209
-# sqrt(4 nu t), 0.10157 Gamma/sqrt(4 nu t). Circulation is kept to 3e-8, not to the last digit: remesh cuts
-# off the smallest strengths, and what diffuses beyond the two cells of its rim is lost (2.8e-5 without the rim). Both are reported and printed here.
+# sqrt(4 nu t), 0.10157 Gamma/sqrt(4 nu t). Circulation is conserved to 3e-8, not to the last digit: remesh removes the smallest strengths, and circulation
+# that diffuses beyond its rim of two cells is lost (2.8e-5 without the rim). Both are reported and printed here.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh
@@ -23,7 +23,7 @@ at() {
 	awk -v x="$2" -v n="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; next } ($1 - x) ^ 2 + $2 ^ 2 < 1e-16 { print $c }' "$work/$1.text"
 }
 
-# fastest FILE: where u_theta is largest along x > 0 and how large it is, by a parabola through the largest value and its neighbours.
+# fastest FILE: place and value of the maximum of u_theta along x > 0, by a parabola through the largest value and its neighbours.
 fastest() {
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "u_1") c = i; next } $1 > 0 && $2 ^ 2 < 1e-16 { n++; x[n] = $1; u[n] = $c; if (u[n] > u[k]) k = n }
 		END { a = u[k + 1] - u[k - 1]; b = u[k + 1] - 2 * u[k] + u[k - 1]; printf "%.17g %.17g\n", x[k] - a / b / 2 * (x[k + 1] - x[k]), u[k] - a * a / b / 8 }' "$work/$1.text"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# A thin double shear layer rolls up (rho = 80, delta = 0.05, nu = 1e-4, unit box, t = 1): a vortex method with too coarse a mesh or too low a kernel makes a vortex
-# that is not there, in the braid between the two that are. One number tells: omega at (0, 1/4) is -26.070867 (VM-16).
+# A thin double shear layer rolls up (rho = 80, delta = 0.05, nu = 1e-4, unit box, t = 1): a vortex method with too coarse a mesh or a kernel of too low
+# order produces a spurious vortex in the braid between the two real ones. One number shows it: omega at (0, 1/4) is -26.070867 (VM-16).
 # Law: vortex, lap psi = -omega, D omega/Dt = nu lap omega.
-# Expected, of particles remeshed every step: m4prime with dt = 0.01, 0.005, 0.005 on 128^2, 256^2, 512^2 cells -66, -55, -36 (a spurious vortex on all three; the step
-# belongs to the number, because every step remeshes), m6prime -60 on 128^2, on 256^2 within 1 of the exact -26.07, on 512^2 within 0.1; energy, enstrophy
-# and the largest omega at t = 0.4, 0.8, 1 and samples of omega of a spectral code on 1024^2. PM_LONG=1 adds 512^2 (minutes).
+# Expected, of particles remeshed every step: m4prime with dt = 0.01, 0.005, 0.005 on 128^2, 256^2, 512^2 cells -66, -55, -36 (a spurious vortex on all
+# three; the number depends on the step, because every step remeshes), m6prime -60 on 128^2, on 256^2 within 1 of the exact -26.07, on 512^2 within 0.1;
+# energy, enstrophy and the largest omega at t = 0.4, 0.8, 1 and samples of omega of a spectral code on 1024^2. PM_LONG=1 adds 512^2 (minutes).
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 # shellcheck source=pipelines/numbers.sh
@@ -25,7 +25,7 @@ run() {
 	is "$2 on $1^2: circulation" "$(column circulation last "$work/table")" 0 1e-13
 }
 
-# against NAME TOLERANCE: a column of the last run beside the exact one at t = 0.4, 0.8, 1, relative.
+# against NAME TOLERANCE: a column of the last run compared with the exact one at t = 0.4, 0.8, 1, relative.
 against() {
 	for row in 1 2 3; do
 		is "  $1 over the exact, t = $(printf %.3g "$(column time $row "$work/table")")" "$(calc "$(column "$1" $row "$work/table") / $(column "exact_$1" $row "$work/table")")" 1 "$2"
@@ -57,7 +57,7 @@ against omega_max 0.02
 samples 1
 [ "${PM_LONG:-}" ] || finish
 run 512 m4prime 0.005 -35.73 1.5
-run 512 m6prime 0.0025 -26.070867 0.1 # three times what is left of 256^2 where the error falls as h^5
+run 512 m6prime 0.0025 -26.070867 0.1 # three times the error of 256^2, scaled by h^5
 against energy 1e-5
 against enstrophy 1e-3
 against omega_max 2e-3

@@ -54,7 +54,7 @@ while True:
     for p in range(len(a)):
         a[p] += -k * v[p]
     if acc:
-        j["fields"].remove(acc)  # what a stage changes travels last
+        j["fields"].remove(acc)  # fields that a stage changes come last
     else:
         acc = {"name": "acc", "on": "matter", "components": 3, "type": "f64", "role": "change", "kind": "value", "unit": "", "of": "v"}
     acc["terms"] = acc.get("terms", []) + ["drag"]

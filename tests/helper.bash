@@ -4,7 +4,7 @@ bats_require_minimum_version 1.5.0
 top=$(cd "$BATS_TEST_DIRNAME/../.." && pwd)
 PATH=${PM_BIN:-$top/bin}:$PATH
 export LC_ALL=C OMP_NUM_THREADS=${OMP_NUM_THREADS:-2}
-# Test files run side by side: threads that wait for each other must not spin while the others want the core.
+# Test files run side by side: waiting threads must not spin while others need the core.
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 
 setup() {
@@ -31,13 +31,13 @@ within() { holds within "$1" "$2" "$3" "${4:-}" || { echo "${4:-within}: got $1,
 # below GOT BOUND [sentence]: |got| <= bound.
 below() { holds below "$1" "$2" "" "${3:-}" || { echo "${3:-below}: got $1, want at most $2" >&2; return 1; }; }
 
-# above GOT BOUND [sentence]: got >= bound. What must grow, must grow by this much.
+# above GOT BOUND [sentence]: got >= bound.
 above() { holds above "$1" "$2" "" "${3:-}" || { echo "${3:-above}: got $1, want at least $2" >&2; return 1; }; }
 
 # between GOT LOW HIGH [sentence]: low <= got <= high.
 between() { holds between "$1" "$2" "$3" "${4:-}" || { echo "${4:-between}: got $1, want $2 to $3" >&2; return 1; }; }
 
-# counted N: N things that had to be so, and were (refusals).
+# counted N: N checks that have no number (refusals) passed.
 counted() { measured counted "$1" "" ""; }
 
 # order CLAIM h1 e1 h2 e2 h3 e3 ...: the least-squares slope of log e on log h is at least CLAIM - 0.1.
@@ -55,21 +55,21 @@ same_as() { cmp "$1" "$2"; }
 # sh_ok COMMAND LINE: runs it under bash -o pipefail and demands exit status 0.
 sh_ok() { run -0 bash -o pipefail -c "$1"; }
 
-# without PROGRAM...: a PATH on which these are not to be found. few/ holds links to the programs of the machine: never write into it.
+# without PROGRAM...: a PATH without these programs. few/ holds links to the programs of the machine: never write into it.
 without() {
 	local dir p
 	mkdir -p few
 	while IFS= read -r -d : dir; do
-		find "$dir" -maxdepth 1 ! -type d -exec ln -s -t few {} + 2>/dev/null || true # the first of a name stays
+		find "$dir" -maxdepth 1 ! -type d -exec ln -s -t few {} + 2>/dev/null || true # the first of a name is kept
 	done <<<"$PATH:"
 	for p; do rm -f "few/$p"; done
 	PATH=$PWD/few
 }
 
-# column NAME: reads diag's TSV and prints that column, one row a line.
+# column NAME: reads diag's TSV and prints that column, one row per line.
 column() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; if (!c) exit 1; next } { print $c }'; }
 
-# pipeline NAME N: pipelines/NAME.sh ends well, with N numbers that are what they must be.
+# pipeline NAME N: pipelines/NAME.sh ends with status 0 and N correct numbers.
 pipeline() {
 	run -0 bash "$top/pipelines/$1.sh"
 	[[ $output != *OFF* ]]

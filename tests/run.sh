@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs what is built: the unit tests and the bats files (all, or those named; `unit` names the unit tests), as many at a time as there are processors. Says every ten
-# seconds how far it is, shows what fails with its reasons, names what was skipped, and counts in the last line. The reports stay in $B/check/, with the time of every
-# test. B: where it was built; REPORTS: another place for them; PM_WRAP: a command put before each unit test (valgrind).
+# Runs the built tests: the unit tests and the bats files (all, or those named; `unit` names the unit tests), as many at a time as there are processors.
+# Prints its progress every ten seconds, failures with their reasons, skipped tests by name, and the counts in the last line. The reports stay in $B/check/,
+# with the time of every test. B: where it was built; REPORTS: another place for them; PM_WRAP: a command put before each unit test (valgrind).
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -9,7 +9,7 @@ export B=${B:-build}
 reports=${REPORTS:-$B/check}
 [ "$B" = build ] && PM_BIN=$PWD/bin || PM_BIN=$PWD/$B/bin
 export PM_BIN reports
-export LC_ALL=C OMP_WAIT_POLICY=passive # threads that wait leave the core to the other stages of a pipe
+export LC_ALL=C OMP_WAIT_POLICY=passive # waiting threads must not occupy the cores of the other stages of a pipe
 
 # suites [FILE...]: the files of tests, one a line. The long ones come first, so that no core is idle at the end.
 suites() {
@@ -25,7 +25,7 @@ suites() {
 	if [ $# = 0 ] || [[ " $* " == *" unit "* ]] || [ "$B" != build ]; then ls -S tests/unit/*.c; fi
 }
 
-# suite FILE: its report, then what failed in it. A file that does not parse, a run cut short and a program that dies count as failures.
+# suite FILE: its report, then its failures. A file that does not parse, a run cut short and a program that dies count as failures.
 suite() {
 	local name=${1#tests/} report status planned seen
 	name=${name%.*}
@@ -62,7 +62,7 @@ signs_of_life() {
 	done
 }
 
-# What git finds besides the commit, build/ and bin/ apart.
+# The files that differ from the commit, except build/ and bin/.
 tree() { git status --porcelain --ignored --untracked-files=all 2>&1 | grep -vE '^!! (build|bin)/'; }
 
 # The tests leave the tree as it was. $1: the tree before.
@@ -80,7 +80,7 @@ tree_test() {
 
 rm -rf "$reports"
 mkdir -p "$reports"
-# Where python3 is a script that looks for one (pyenv: 0.1 s), the tests, which start it a thousand times, get what it finds.
+# Where python3 is a script that looks for one (pyenv: 0.1 s), the tests, which start it a thousand times, use the real python3.
 python=$(python3 -c 'import sys; print(sys.executable)' 2>/dev/null)
 if [ -n "$python" ] && ! [ "$python" -ef "$(command -v python3)" ]; then
 	mkdir "$reports/bin"

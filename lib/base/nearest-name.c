@@ -1,11 +1,11 @@
-/* The nearest name to a slip of the pen. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The name nearest to a misspelt one. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "base/nearest-name.h"
 
 enum { edit = 4, swap = 3 };
 
-/* Quarters of edits between two words of at most 63 letters: to insert, delete or replace is 4, to swap neighbours 3. */
+/* Edit distance of two words of at most 63 letters, in quarters: insert, delete, replace cost 4, swapping neighbours 3. */
 static int distance(const char *a, const char *b)
 {
 	int n = (int)strlen(a), m = (int)strlen(b), d[65][65];
@@ -31,7 +31,7 @@ const char *pm_nearer(const char *word, const char *name, const char *best, int 
 {
 	int far = distance(word, name);
 	if (!strncmp(word, name, strlen(word)) && strlen(word) >= 2)
-		far = far > edit ? edit : far; /* a beginning is near */
+		far = far > edit ? edit : far; /* an unfinished word is near */
 	if (far >= *least || far > edit * (1 + (int)strlen(word) / 3))
 		return best;
 	*least = far;

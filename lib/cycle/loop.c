@@ -1,4 +1,4 @@
-/* The loop of cycle. Everything is decided between steps, from the frame alone, so that every engine and a resumed run do the same.
+/* The loop of cycle. All decisions are made between steps and from the frame alone, so that every engine and a resumed run do the same.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <signal.h>
 #include <stdio.h>
@@ -18,10 +18,10 @@ struct cycle {
 	struct pm_sentence *words;
 	struct pm_writer *out;
 	struct pm_until *until; /* NULL: none */
-	int met;                /* it is true of this frame */
+	int met;                /* the expression is true for this frame */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
-	json_t *before;         /* resume: the report of the checkpoint, until the first pass has been compared with it */
+	json_t *before;         /* resume: the report of the checkpoint, kept until the first pass has been compared with it */
 };
 
 static volatile sig_atomic_t stop;
@@ -29,7 +29,7 @@ static volatile sig_atomic_t stop;
 static void on_signal(int signal_number)
 {
 	stop = signal_number;
-	signal(signal_number, SIG_DFL); /* a second one does not wait for the step */
+	signal(signal_number, SIG_DFL); /* a second signal ends the program at once */
 }
 
 /* A stream of one frame. */
@@ -41,7 +41,7 @@ static int write_alone(struct pm_writer *w, struct pm_frame *f)
 	return status ? status : closed;
 }
 
-/* As HDF5: sh5 does the renaming. A pipe that closes while it is written is its failure, one that closes later is not. */
+/* As HDF5: sh5 does the renaming. If its pipe closes during writing, sh5 has failed; a later close is normal. */
 static int checkpoint_rest(const char *name, struct pm_frame *f)
 {
 	struct pm_h5_pipe *rest = NULL;
@@ -63,7 +63,7 @@ static int checkpoint_stream(const char *name, struct pm_frame *f)
 	return status;
 }
 
-/* Under a temporary name, renamed when it is whole. The step of the beginning travels in it. */
+/* Written under a temporary name and renamed when complete. It contains the step at the beginning of the run. */
 static int checkpoint(struct cycle *y, const struct pm_frame *f)
 {
 	const char *name = y->c->checkpoint;
@@ -78,7 +78,7 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	return status;
 }
 
-/* Said before anything is computed: the target can be written, and is not a device that the rename would replace. */
+/* Checked before anything is computed: the target is writable, and is not a device that the rename would replace. */
 static int checkpoint_check(const char *name)
 {
 	struct stat st;
@@ -98,7 +98,7 @@ static int checkpoint_check(const char *name)
 static int write_out(struct cycle *y, struct pm_frame *f)
 {
 	y->written = f->step;
-	if (y->until) /* not under the sentence as typed: a resumed run is typed otherwise */
+	if (y->until) /* not under the command line as typed: a resumed run is typed differently */
 		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
 	int status = pm_write_frame(y->out, f);
 	return status ? status : checkpoint(y, f);
@@ -126,7 +126,7 @@ static int prime(struct cycle *y, struct pm_frame **f)
 	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
 }
 
-/* 0, or failure; whether the run is to end here. */
+/* 0 or failure; sets whether the run ends here. */
 static int look(struct cycle *y, struct pm_frame *f)
 {
 	const int met = y->until ? pm_until_met(y->until, f) : 0;
@@ -134,7 +134,7 @@ static int look(struct cycle *y, struct pm_frame *f)
 	return met < 0 ? met : 0;
 }
 
-/* The beginning of a run that ends by an expression: primed, so that the columns are there. */
+/* The beginning of a run with --until: the sentence is primed, so that the columns can be computed. */
 static int look_first(struct cycle *y, struct pm_frame **f)
 {
 	json_t *saved = json_incref(json_object_get((*f)->more, "cycle_until"));
@@ -151,7 +151,7 @@ static int look_first(struct cycle *y, struct pm_frame **f)
 	return status ? status : look(y, *f);
 }
 
-/* Stages that plan transforms report which plans they run; a resumed run must have the same ones, or its bytes would differ. */
+/* Stages with FFTW transforms report the FFTW plans used; a resumed run must use the same ones, or its bytes would differ. */
 static int same_plans(struct cycle *y, const struct pm_frame *f)
 {
 	const char *word;
@@ -162,15 +162,15 @@ static int same_plans(struct cycle *y, const struct pm_frame *f)
 		const char *old = json_string_value(json_object_get(entry, "plan"));
 		const char *now = json_string_value(json_object_get(json_object_get(f->report, word), "plan"));
 		if (old && now && strcmp(old, now) && !y->c->other_plans && !status)
-			status = pm_fail(PM_DATA, "'%s' runs with the plans '%s', the checkpoint was made with '%s': the bytes would differ "
-				"(--other-plans goes on, PM_PLAN=estimate runs alike everywhere)", word, now, old);
+			status = pm_fail(PM_DATA, "'%s' uses the FFTW plans '%s', but the checkpoint was made with '%s': the bytes would differ (--other-plans continues, "
+				"PM_PLAN=estimate gives the same plans everywhere)", word, now, old);
 	}
 	json_decref(y->before);
 	y->before = NULL;
 	return status;
 }
 
-/* One pass of the sentence; a frame is written where a step that counts was completed. */
+/* One pass of the sentence; writes a frame if the completed step is one to be written. */
 static int pass(struct cycle *y, struct pm_frame **f)
 {
 	int64_t step = (*f)->step;
@@ -182,13 +182,13 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	if (y->before && same_plans(y, *f))
 		return -PM_DATA;
 	if ((*f)->step == step && (*f)->substep == substep)
-		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (push does)");
+		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (add push)");
 	if ((*f)->step > step && (*f)->substep)
 		return pm_fail(PM_USAGE,
-			"one pass of the sentence completes a step and begins another (a drift whose kick comes later is written drift --open)");
+			"one pass of the sentence completes a step and begins another (write drift --open for a drift whose kick comes later)");
 	if ((*f)->step > step + 1)
 		return pm_fail(PM_USAGE,
-			"one pass of the sentence completes %lld steps; cycle counts them one at a time (one scheme, or one pair of half kicks)",
+			"one pass of the sentence completes %lld steps, but cycle needs one step per pass (one scheme, or one pair of half kicks)",
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);
@@ -204,7 +204,7 @@ static int interrupted(struct cycle *y, const struct pm_frame *f)
 	if (status)
 		return status;
 	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
-		y->c->checkpoint ? ", go on with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
+		y->c->checkpoint ? ", continue with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
 }
 
 /* The sentence, made into stages. */
@@ -216,7 +216,7 @@ static int speak(struct cycle *y, const char *sentence)
 	return y->words ? 0 : pm_failed();
 }
 
-/* --plan: the sentence of the first frame, in the history as if typed; a resumed run goes on with the one it finds there. */
+/* --plan: the sentence chosen for the first frame, recorded in the history as if typed; a resumed run uses the one recorded there. */
 static int speak_plan(struct cycle *y, const struct pm_frame *f)
 {
 	const double end = !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;

@@ -4,12 +4,12 @@
 
 #include "stage/stage.h"
 
-struct pm_loop { /* what the user asked for; the config of cycle */
-	int64_t steps, every; /* INT64_MIN: not asked */
-	double time;          /* NAN: not asked */
+struct pm_loop { /* the options; the config of cycle */
+	int64_t steps, every; /* INT64_MIN: not given */
+	double time;          /* NAN: not given */
 	const char *engine, *checkpoint, *resume, *until;
 	struct pm_list moves;
-	bool other_plans, plan; /* plan: the sentence that the first frame calls for */
+	bool other_plans, plan; /* plan: use the sentence that plan chooses for the first frame */
 	double accuracy;        /* of that */
 };
 

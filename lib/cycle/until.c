@@ -1,4 +1,4 @@
-/* When a run ends: the columns an expression names are measured after every step, and only what they need. SPDX-License-Identifier: GPL-3.0-or-later */
+/* When a run ends: the columns in an expression are measured after every step, reading only the fields they need. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,8 +14,8 @@ struct pm_until {
 	struct pm_diag_request gauge;
 	int n;
 	struct pm_diag_column column[most];
-	double number[2 * most]; /* of column k now, at 2k; at the beginning, at 2k + 1 */
-	bool first[most], known[most]; /* whether the expression asks for column k at the beginning, and whether that number is of this run's beginning */
+	double number[2 * most]; /* of column k: at 2k now, at 2k + 1 at the beginning of the run */
+	bool first[most], known[most]; /* does the expression use column k at the beginning; is that number from the beginning of this run */
 };
 
 static int place(struct pm_until *u, const char *name)
@@ -26,7 +26,7 @@ static int place(struct pm_until *u, const char *name)
 	return u->n < most && pm_diag_find(&u->gauge, name, &u->column[u->n]) ? u->n++ : -1;
 }
 
-/* NAME, else NAME0 (or NAME_0, where NAME ends in a digit): from 1, 0 unknown. */
+/* Index of NAME, else NAME0 (or NAME_0 if NAME ends in a digit), from 1; 0 unknown. */
 static int slot(void *context, const char *name)
 {
 	struct pm_until *u = context;
@@ -83,7 +83,7 @@ static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame 
 	return how;
 }
 
-/* The columns of this frame into number[2k + at]; the first that cannot be computed, else -1, or failure below. */
+/* Computes the columns of this frame into number[2k + at]. Returns the first that cannot be computed, -1 if there is none, or failure (below -1). */
 static int measure(struct pm_until *u, struct pm_frame *f, int at)
 {
 	struct pm_measures m;
@@ -102,11 +102,11 @@ static int measure(struct pm_until *u, struct pm_frame *f, int at)
 static int cannot(const struct pm_until *u, int k)
 {
 	return pm_fail(PM_DATA, "--until: the column '%s' cannot be computed from this frame "
-		"(what it needs is gone when particles have moved: let the words that make it stand behind the last push, or name another column)",
+		"(derived fields are dropped when particles move: put the words that make them after the last push, or use another column)",
 		u->column[k].name);
 }
 
-/* A direct sum stands in for a potential that the frame never has, where that is possible and cheap. */
+/* Uses a direct sum if the frame has no potential, where that is possible and cheap. */
 static bool may_sum(const struct pm_until *u, const struct pm_frame *f, int missing)
 {
 	uint64_t n = 0;
@@ -159,8 +159,7 @@ int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved)
 	for (int k = 0; k < u->n; k++) {
 		u->known[k] = json_is_number(json_object_get(columns, u->column[k].name));
 		if (u->first[k] && !u->known[k])
-			return pm_fail(PM_USAGE, "--until: the checkpoint does not know '%s' at the beginning of its run "
-				"(it was made with another --until, or none)",
+			return pm_fail(PM_USAGE, "--until: the checkpoint has no value of '%s' at the beginning of its run (it was made with another --until, or without)",
 				u->column[k].name);
 		all = all && u->known[k];
 	}

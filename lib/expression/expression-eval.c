@@ -1,5 +1,5 @@
-/* Evaluates a compiled expression: a stack machine whose stack holds blocks of 1024 values, so that the cost of a step is shared by a block and the loops are
- * vectorised. Blocks are independent: threads do not change the result. Cost: about 1 ns a value for arithmetic, 5 to 20 for a function.
+/* Evaluates a compiled expression: a stack machine whose stack holds blocks of 1024 values, so that decoding a step is paid once per block and the loops are
+ * vectorised. Blocks are independent, so threads do not change the result. Cost: about 1 ns a value for arithmetic, 5 to 20 for a function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -77,7 +77,7 @@ static void unary(enum pm_expression_code code, const struct pm_expression_funct
 	}
 }
 
-/* The result of part k is left in stack[0]. number: of the slots, n is 1; or NULL. */
+/* Leaves the result of part k in stack[0]. number: the values of the slots (n is 1), or NULL. */
 static void block_eval(const struct pm_expression *e, const struct pm_frame *f, const double *number, int k, size_t first, size_t n, double (*stack)[block])
 {
 	int top = -1;

@@ -1,4 +1,4 @@
-/* Arithmetic over the values of fields. The text is compiled by recursive descent into steps for a stack machine (expression_eval.c).
+/* Arithmetic over the values of fields. The text is compiled by recursive descent into steps for a stack machine (expression-eval.c).
  *   choice := or ['?' choice ':' choice]; or := and {'||' and}; and := compare {'&&' compare}; compare := sum [('<' | '<=' | '>' | '>=' | '==' | '!=') sum]
  *   sum := product {('+' | '-') product}; product := sign {('*' | '/') sign}; sign := ['-' | '+' | '!'] sign | power; power := atom ['^' sign]
  * Truth is 1, falsehood 0; both sides of && || ?: are computed. -x^2 is -(x^2), 2^3^2 is 2^(3^2), a < b < c is refused.
@@ -20,13 +20,13 @@ struct parser {
 	const char *text, *at;
 	int depth, nesting;
 	bool failed;
-	int code; /* of the failure */
+	int code; /* code of the failure */
 };
 
-/* Of a name: any letter of any alphabet. */
+/* A byte that a name may contain: letters of all alphabets are allowed. */
 static bool letter(char c) { return isalpha((unsigned char)c) || c == '_' || (unsigned char)c >= 0x80; }
 
-/* Letters, where there are bytes. */
+/* Number of characters in n bytes of UTF-8. */
 static int letters(const char *s, const char *end)
 {
 	int n = 0;
@@ -150,7 +150,7 @@ static void unknown(struct parser *p, const char *s, size_t n)
 	wrong(p, s, what, "", 0);
 }
 
-/* What a name means is a value of its own kind; false: it was a number, or unknown. */
+/* Compiles a name of a slot, a coordinate or a field; false: it was a number, or unknown. */
 static bool value_named(struct parser *p, const char *s, size_t n, struct pm_expression_value *v)
 {
 	double x;
@@ -214,9 +214,9 @@ static void call(struct parser *p, const char *s, size_t n)
 	if (!p->failed && !take(p, ")"))
 		wrong(p, p->at, "expected ')' or ',' in the call of '", s, (int)n);
 	if (pm_expression_functions[k].arguments > 0 && arguments != pm_expression_functions[k].arguments)
-		wrong(p, s, pm_expression_functions[k].arguments == 1 ? "one argument belongs in '" : "two arguments belong in '", s, (int)n);
+		wrong(p, s, pm_expression_functions[k].arguments == 1 ? "one argument is needed in '" : "two arguments are needed in '", s, (int)n);
 	if (pm_expression_functions[k].arguments < 0 && arguments < 2)
-		wrong(p, s, "two arguments or more belong in '", s, (int)n);
+		wrong(p, s, "two arguments or more are needed in '", s, (int)n);
 	if (pm_expression_functions[k].arguments > 0)
 		emit(p, PM_X_FUNCTION, k, 0, 1 - arguments);
 }
@@ -254,7 +254,7 @@ static void power(struct parser *p)
 	sign(p);
 	struct pm_expression_step *last = p->e->step + p->e->nsteps - 1;
 	if (!p->failed && p->e->nsteps == first + 1 && last->code == PM_X_NUMBER && last->number == 2) {
-		p->e->nsteps--, p->depth--; /* a square is a product, exactly what pow gives and ten times faster */
+		p->e->nsteps--, p->depth--; /* a square as a product: the same result as pow, ten times faster */
 		emit(p, PM_X_SQUARE, 0, 0, 0);
 	} else
 		emit(p, PM_X_POWER, 0, 0, -1);
@@ -319,7 +319,7 @@ static void compare(struct parser *p)
 	emit(p, (enum pm_expression_code)code, 0, 0, -1);
 	const char *at = p->at;
 	if (!p->failed && comparison(p) >= 0)
-		wrong(p, at, "one comparison after another (write a < b && b < c)", "", 0);
+		wrong(p, at, "comparisons cannot be chained (write a < b && b < c)", "", 0);
 }
 
 static void both(struct parser *p)
@@ -388,7 +388,7 @@ int pm_expression_compile_numbers(struct pm_expression *e, int (*slot)(void *con
 	struct parser p = {.e = e, .slot = slot, .context = context, .what = what, .text = text, .at = text, .code = PM_USAGE};
 	memset(e, 0, sizeof *e);
 	const int status = compile(&p);
-	return status || e->nparts == 1 ? status : pm_fail(PM_USAGE, "one expression, not %d with commas between: %s", e->nparts, text);
+	return status || e->nparts == 1 ? status : pm_fail(PM_USAGE, "one expression is needed, not %d separated by commas: %s", e->nparts, text);
 }
 
 int pm_expression_named(const char *text, char name[PM_NAME], const char **expression)

@@ -12,7 +12,7 @@ struct pm_expression_value {
 	char field[PM_NAME]; /* "" none */
 	int component;
 	int axis;            /* of the mesh point, -1 none */
-	int slot;            /* a number with a name of its own, from 1; 0 none */
+	int slot;            /* from 1: index of a number supplied by the caller; 0 none */
 };
 
 struct pm_expression {
@@ -28,15 +28,15 @@ struct pm_expression {
 
 /* "NAME = EXPRESSION": the name, and where the expression starts. */
 int pm_expression_named(const char *text, char name[PM_NAME], const char **expression);
-/* Compiles text for the fields of `on` and marks what it reads. 0, or failure naming the column. Names: the components of x are x y z, of v vx vy vz, of any
- * field NAME_0 or NAME.x or NAMEx; a field of one component is NAME. On a mesh x y z are the coordinates of the point. time, dt, step, n, dim, pi, Lx Ly Lz,
- * and the constants of the frame by name. */
+/* Compiles text for the fields of `on` and marks the fields that it reads. 0, or failure with the column in the message. Names: the components of x are x y
+ * z, of v vx vy vz, of any field NAME_0 or NAME.x or NAMEx; a field of one component is NAME. On a mesh x y z are the coordinates of the point. time, dt,
+ * step, n, dim, pi, Lx Ly Lz, and the constants of the frame by name. */
 int pm_expression_compile(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text);
-/* Compiles text for numbers with names of their own: slot(context, name) says from 1 which one a name stands for, 0 none of that name (said as "no WHAT
+/* Compiles text for numbers supplied by the caller: slot(context, name) returns the index of a name from 1, or 0 if there is no such name (message "no WHAT
  * 'name'"). */
 int pm_expression_compile_numbers(struct pm_expression *e, int (*slot)(void *context, const char *name), void *context, const char *what, const char *text);
 double pm_expression_number(const struct pm_expression *e, const double *number); /* number[slot - 1] */
-/* Part k for every value of the set or mesh; out must not be an input of it. Constant time a value: the same bytes for any number of threads. */
+/* Part k for every value of the set or mesh; out must not be an input of it. Cost: constant per value; the same bytes for any number of threads. */
 void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, double *out);
 /* All parts at once into the components of a field that may be an input. */
 void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *f, struct pm_field *field);

@@ -27,7 +27,7 @@ static bool named(const struct pm_names *list, const char *name)
 	return false;
 }
 
-/* Every word of a list stands for something that is there. */
+/* Checks that every name in a list exists in the frame. */
 static int all_there(const struct pm_frame *f, const struct pm_names *list, const char *option, bool sets, bool meshes, bool fields)
 {
 	for (int i = 0; i < list->n; i++) {
@@ -41,7 +41,7 @@ static int all_there(const struct pm_frame *f, const struct pm_names *list, cons
 	return 0;
 }
 
-/* Sets, meshes and fields that were not chosen go. */
+/* Removes the sets, meshes and fields that were not chosen. */
 static void leave_out(const struct pm_selection *s, struct pm_frame *f)
 {
 	for (size_t i = f->nsets; i-- > 0;)
@@ -57,7 +57,7 @@ static void leave_out(const struct pm_selection *s, struct pm_frame *f)
 
 static bool takes_part(const struct pm_selection *s, const char *set) { return (!s->sets.n || named(&s->sets, set)) && !named(&s->drop, set); }
 
-/* All fields of the set follow; what the expression does not ask for may be anything. */
+/* Declares all fields of the set, because each is filtered; those the expression does not use may be of any type. */
 static int declare_where(const struct pm_selection *s, struct pm_frame *f, const char *on)
 {
 	struct pm_expression e;
@@ -100,7 +100,7 @@ static int select_particles(const struct pm_selection *s, struct pm_frame *f, st
 	if (!status) {
 		pm_expression_eval(&e, f, 0, n, y);
 		for (size_t i = 0; i < n && !status; i++) {
-			double v = y[i]; /* the byte overwrites numbers that have been looked at */
+			double v = y[i]; /* the bytes overwrite numbers that were already tested */
 			keep[i] = v != 0;
 			if (isnan(v))
 				status = pm_fail(PM_NUMERICS, "--where is not a number for the particle at index %zu of '%s'", i, set->name);

@@ -10,13 +10,13 @@ struct pm_names {
 };
 
 struct pm_selection {
-	struct pm_names sets, meshes, fields, drop; /* kept; n = 0: all. Fields as NAME or ON/NAME; drop names any of the three */
-	const char *where;                          /* expression over the particles of a set; NULL: all stay */
+	struct pm_names sets, meshes, fields, drop; /* to keep; n = 0: all. Fields as NAME or ON/NAME; drop may name a set, a mesh or a field */
+	const char *where;                          /* expression over the particles of a set; NULL: keep all */
 };
 
-/* Header: everything named must be there; without `where` what was not chosen goes at once. 0 or failure. */
+/* Header: every name must exist; without `where` everything not chosen is removed at once. 0 or failure. */
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f);
-/* Data, with `where` only: keeps the particles for which it is not 0, then leaves out what was not chosen. 0 or failure. */
+/* Data, only with `where`: keeps the particles for which it is not 0, then removes everything that was not chosen. 0 or failure. */
 int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f);
 
 /* Frames by number, counted from 1: N, N:M or N: as typed. Is each of these? 0 or failure. Is this frame one of them (n = 0: all are)? */

@@ -1,5 +1,5 @@
-/* The free-space Green's function sampled at the nodes with a value at 0 from the cell alone, as in the books: 3-D -1/(4 pi h), h^3 the cell; 2-D the
- * mean of ln r over the cell; 1-D the mean of |x|/2, h/8. For comparison: it leaves O(h^2), which hockney.c takes away.
+/* The free-space Green's function sampled at the nodes, with the textbook value at 0 that is computed from one cell: 3-D -1/(4 pi h), h^3 the cell; 2-D the
+ * mean of ln r over the cell; 1-D the mean of |x|/2, h/8. For comparison: it leaves an error O(h^2), which hockney.c removes.
  * Source: Hockney and Eastwood 1988, 6-5-4 (1/h); the mean over a rectangle of sides a, b is
  *   (ln((a^2 + b^2)/4) - 3 + (a/b) atan(b/a) + (b/a) atan(a/b))/2. Cost: none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -22,7 +22,7 @@ static double at(const struct pm_green_case *c, double r2)
 
 const struct pm_green green_cell = {
 	.name = "cell",
-	.sentence = "sampled at the nodes, at 0 the value 1/h of the books or the mean over a cell",
+	.sentence = "sampled at the nodes, at 0 the textbook value 1/h or the mean over a cell",
 	.source = "Hockney and Eastwood 1988",
 	.order = 2,
 	.plain = 1u << 1 | 1u << 2 | 1u << 3,

@@ -2,7 +2,8 @@
  * a smooth source is smoothed by O(sigma^m) only, and the function is smooth at 0. With rho = r/sigma, g = exp(-rho^2/2)/(2 pi sigma^2)^(d/2), G2
  * the Green's function of g (the mollifier `gaussian` with delta = sqrt(2) sigma), and Laguerre's polynomials,
  *   G = G2 - (sigma^2/2) g sum_{j<M-1} L_j^(d/2-1)(rho^2/2)/(j+1).
- * Along other axes zeta takes their waves too; then, and if screened, the transform of the cut function times zeta is used.
+ * If other axes are not open, k^2 in zeta includes their wave numbers; then, and if screened, the product of zeta and the transform of the truncated
+ * function is used.
  * Source: Hejlesen, Rasmussen, Chatelain and Walther 2013 (the same polynomials by recursion); Hejlesen, Winckelmans and Walther 2019.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_GREEN_GAUSS_H

@@ -1,5 +1,5 @@
-/* The free-space Green's function sampled at the nodes, and at r = 0 the value with which the sum over nodes agrees with the integral for a
- * constant source: sum_j h^d G(x-x_j) s_j then differs from it by O(h^4) for smooth sources. By Ewald's splitting, exact for any ratio of spacings
+/* The free-space Green's function sampled at the nodes, with the value at r = 0 that makes the sum over nodes equal to the integral for a
+ * constant source: sum_j h^d G(x-x_j) s_j then differs from the integral by O(h^4) for smooth sources. By Ewald's splitting, exact for any ratio of spacings
  * (V, A, h the cell, q its reciprocal lattice, t = 1/4a^2); G(0) is, for kappa > 0 and in the limit 0,
  *   3-D Z/4 pi: Z = sum' near3 + (4 pi/V)(sum' exp(-(q^2+kappa^2)t)/(q^2+kappa^2) + (exp(-kappa^2 t)-1)/kappa^2) - far part at 0; cube -2.83729748/h
  *   2-D Z/2 pi likewise, of K0(kappa r) or -ln r: near2 = sum_j (-kappa^2 t)^j/j! E_{j+1}(a^2 r^2)/2;   square, kappa = 0: ln h - 1.3105329259
@@ -16,7 +16,7 @@ struct ewald {
 	double a, kappa;
 };
 
-/* Sum over a lattice without its origin, up to where the term is below 1e-17 of the whole. */
+/* Sum over a lattice without its origin, until a term is below 1e-17 of the sum. */
 static double lattice(const struct ewald *e, const double step[3], double reach, double (*term)(const struct ewald *e, double r2))
 {
 	long most[3] = {0, 0, 0};
@@ -56,7 +56,7 @@ static double far(const struct ewald *e, double q2)
 	return exp(-k2 / (4 * e->a * e->a)) / k2;
 }
 
-/* The value of the far part at r = 0, less the constant that K0 has more than -ln r where kappa = 0. */
+/* The value of the far part at r = 0, minus (for kappa = 0) the constant by which K0 exceeds -ln r. */
 static double self(const struct ewald *e)
 {
 	const double gamma = 0.57721566490153286;
@@ -70,7 +70,7 @@ static double centre(const struct pm_green_case *c)
 {
 	double x = c->kappa * c->h[0], q[3] = {0, 0, 0}, cell = 1;
 	if (c->dim == 1) {
-		if (x < 1e-2) /* by the series: what diverges cancels */
+		if (x < 1e-2) /* by the series: the divergent terms cancel */
 			return (c->kappa > 0 ? -0.5 / c->kappa : 0) + c->h[0] * (1.0 / 12 - x * x / 720 + x * x * x * x / 30240);
 		return 0.5 / (c->kappa * tanh(0.5 * x)) - 1 / (x * c->kappa) - 0.5 / c->kappa;
 	}

@@ -1,5 +1,5 @@
-/* Transforms over the open axes of the free-space Green's functions cut off at distance R: entire functions of k, so a mesh of frequencies
- * that is fine enough (period of R and the box together) has them exactly. With K^2 = k^2 + kappa^2, kappa > 0 and kappa = 0:
+/* Transforms over the open axes of the free-space Green's functions cut off at distance R: entire functions of k, so sampling them on
+ * a mesh of frequencies that is fine enough (period = R + box) is exact. With K^2 = k^2 + kappa^2, kappa > 0 and kappa = 0:
  *   3-D -(1 - exp(-kappa R)(cos kR + kappa sin(kR)/k))/K^2              -2 sin^2(kR/2)/k^2
  *   2-D -(1 + R (k J1(kR) K0(kappa R) - kappa J0(kR) K1(kappa R)))/K^2  R ln(R) J1(kR)/k - (1 - J0(kR))/k^2
  *   1-D -(1 - exp(-kappa R)(cos kR - k sin(kR)/kappa))/K^2              (kR sin kR - 2 sin^2(kR/2))/k^2

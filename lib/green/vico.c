@@ -1,6 +1,6 @@
-/* The truncated-kernel spectral Green's function: cut off beyond the longest separation in the box, its transform is known and smooth, and is
- * sampled on frequencies fine enough for the box and that distance together (about 4n per axis); brought back to separations it serves a doubled
- * domain like any other. No value at 0, no sampling error: as exact as the source is resolved and vanishes at the faces.
+/* The truncated-kernel spectral Green's function: Green's function truncated beyond the longest separation in the box has a known, smooth transform,
+ * which is sampled on frequencies fine enough for box + that distance (about 4n per axis). Transformed back to separations it is used on a doubled domain
+ * like any other. No special value at 0 and no sampling error: the result is as accurate as the source is resolved and small at the faces.
  * Source: Vico, Greengard and Ferrando 2016, chapters 2 and 3. Cost: transforms of twice the octant per axis, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "green/truncated.h"

@@ -1,6 +1,6 @@
 /* An iteration that other programs wrote, as far as the base standard of openPMD 1.0 and 1.1 goes: species become sets (position + positionOffset
  * is x, velocity is v), cartesian mesh records become fields on meshes, everything in SI. Strengths are those of the whole particle: mass and charge are
- * multiplied by weighting^weightingPower where they are not macroWeighted. What cannot be read is refused, nothing is passed over.
+ * multiplied by weighting^weightingPower if they are not macroWeighted. Anything that cannot be read is an error; nothing is skipped silently.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -33,14 +33,14 @@ static herr_t name_add(hid_t at, const char *name, const H5L_info_t *info, void 
 	return 0;
 }
 
-/* What is in a group, in the order of names. */
+/* The members of a group, sorted by name. */
 static int children(hid_t at, const char *path, struct names *all)
 {
 	hsize_t from = 0;
 	all->n = 0;
 	hid_t g = H5Gopen2(at, path, H5P_DEFAULT);
 	int status = g < 0 || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, &from, name_add, all) < 0
-		? pm_fail(PM_DATA, "'%s' is no group, or holds too much, or longer names than 63 bytes", path) : 0;
+		? pm_fail(PM_DATA, "'%s' is not a group, or has too many members, or names longer than 63 bytes", path) : 0;
 	H5Gclose(g);
 	return status;
 }
@@ -105,7 +105,7 @@ static int look(hid_t at, const char *path, struct part *c)
 		status = c->dims[a] < (hsize_t)1 << 31 || c->rank == 1 ? 0 : -1;
 	if (c->unit != 1)
 		c->type = PM_F64, c->value *= c->unit;
-	return status ? pm_fail(PM_DATA, "'%s' is no array of 1 to 3 axes of numbers, and no constant component", path) : 0;
+	return status ? pm_fail(PM_DATA, "'%s' is neither an array of numbers with 1 to 3 axes nor a constant component", path) : 0;
 }
 
 /* Values of a component, times unitSI. */
@@ -137,7 +137,7 @@ static int record(hid_t at, const char *path, const struct names *parts, struct 
 		status = look(at, full, c + k);
 		hsize_t count = status ? 0 : c[k].dims[0] * (c[k].rank > 1 ? c[k].dims[1] : 1) * (c[k].rank > 2 ? c[k].dims[2] : 1);
 		if (!status && count != p->count)
-			status = pm_fail(PM_DATA, "'%s' has %llu values, where %zu are wanted", full, (unsigned long long)count, p->count);
+			status = pm_fail(PM_DATA, "'%s' has %llu values, but %zu are needed", full, (unsigned long long)count, p->count);
 		p->type = k == 0 || c[k].type == p->type ? c[k].type : PM_F64;
 		constant = constant && c[k].constant;
 		p->value[k] = c[k].value;
@@ -242,7 +242,7 @@ static int species(hid_t at, const char *folder, const char *name, struct pm_fra
 /* ---- meshes ---- */
 
 struct lattice { /* by dataset axis */
-	int axis[3]; /* which of ours it is */
+	int axis[3]; /* the axis of the frame that it is */
 	double h[3], lo[3];
 };
 
@@ -267,10 +267,10 @@ static int lattice_look(hid_t o, const char *name, int dim, struct lattice *l)
 			good = good && letters[j] != letters[k];
 		good = good && l->h[k] > 0;
 	}
-	return good ? 0 : pm_fail(PM_DATA, "mesh '%s': an axis is named twice, or has a spacing that cannot be", name);
+	return good ? 0 : pm_fail(PM_DATA, "mesh '%s': an axis is named twice, or has an invalid spacing", name);
 }
 
-/* The mesh of such points, which is made unless it is there. */
+/* The mesh with these points, made if it does not exist. */
 static struct pm_mesh *mesh_of(struct pm_frame *f, const struct lattice *l, const struct part *c, const char *name)
 {
 	size_t cells[3] = {1, 1, 1};
@@ -295,7 +295,7 @@ static struct pm_mesh *mesh_of(struct pm_frame *f, const struct lattice *l, cons
 	return m;
 }
 
-/* Into our order: axis 0 fastest. Every value has 8 bytes. */
+/* Transposes to the order of the frame: axis 0 fastest. Every value has 8 bytes. */
 static int reorder(const struct pm_frame *f, struct pm_field *p, const struct lattice *l, const hsize_t *dims)
 {
 	size_t stride[3] = {1, 1, 1};
@@ -328,7 +328,7 @@ static int mesh_part(hid_t at, const char *path, const struct names *parts, cons
 	return status ? status : reorder(f, pm_frame_field(f, m->name, name), l, c->dims);
 }
 
-/* Components that sit at different places of a cell become fields of their own, NAME_x, on meshes of their own. */
+/* Components at different positions in a cell become fields NAME_x on separate meshes. */
 static int mesh_record(hid_t at, const char *folder, const char *name, struct pm_frame *f)
 {
 	struct names *parts = malloc(2 * sizeof *parts), *none = parts + 1;
@@ -348,7 +348,7 @@ static int mesh_record(hid_t at, const char *folder, const char *name, struct pm
 		snprintf(full, sizeof full, parts->n ? "%s/%s" : "%s", path, parts->n ? parts->name[k] : "");
 		status = k == PM_COMPONENTS ? pm_fail(PM_DATA, "mesh '%s' has too many components", name) : look(at, full, c + k);
 		if (!status && (c[k].rank != f->dim || memcmp(c[k].dims, c[0].dims, (size_t)f->dim * sizeof(hsize_t))))
-			status = pm_fail(PM_DATA, "'%s' has another shape than the rest", full);
+			status = pm_fail(PM_DATA, "'%s' has a different shape from the others", full);
 		together = status || (together && !memcmp(c[k].place, c[0].place, sizeof c[0].place));
 	}
 	if (!status && together)
@@ -379,7 +379,7 @@ static void folder_of(hid_t at, const char *attribute, const char *otherwise, ch
 	H5Gclose(root), H5Fclose(file);
 }
 
-/* As many as the positions of the first species have, or the axes of the first mesh. */
+/* The number of dimensions: that of the positions of the first species, or of the axes of the first mesh. */
 static int dimensions(hid_t at, const char *sets, const struct names *set, const char *meshes, const struct names *mesh)
 {
 	struct names *parts = malloc(sizeof *parts);
@@ -396,10 +396,10 @@ static int dimensions(hid_t at, const char *sets, const struct names *set, const
 	} else
 		pm_fail(PM_DATA, "there are neither particles nor meshes");
 	free(parts);
-	return dim >= 1 && dim <= 3 ? dim : dim < 0 ? -PM_DATA : pm_fail(PM_DATA, "%d dimensions cannot be", dim);
+	return dim >= 1 && dim <= 3 ? dim : dim < 0 ? -PM_DATA : pm_fail(PM_DATA, "%d dimensions are not supported", dim);
 }
 
-/* About the meshes; without any, about the particles. */
+/* The box: that of the meshes, or without any a box around the particles. */
 static void box_about(struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nmeshes; i++)

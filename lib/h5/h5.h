@@ -1,4 +1,4 @@
-/* The stream at rest: frames in an HDF5 file, laid out as openPMD 1.1 asks (docs/methods/hdf5.md). Linked into sh5 only.
+/* A stream in a file: frames in HDF5 in the layout of openPMD 1.1 (docs/methods/hdf5.md). Linked into sh5 only.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_H5_H
 #define PM_H5_H
@@ -14,9 +14,9 @@ int pm_h5_put_end(struct pm_h5 *h);                 /* an end marker stood here 
 int pm_h5_finish(struct pm_h5 *h);
 
 struct pm_h5 *pm_h5_open(const char *path);
-/* PM_GOT_FRAME, PM_GOT_END, PM_GOT_EOF or failure. foreign: the file does not say what it was as a stream. */
+/* PM_GOT_FRAME, PM_GOT_END, PM_GOT_EOF or failure. foreign: the file was not written by sh5. */
 int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign);
 
-struct pm_h5 *pm_h5_free(struct pm_h5 *h); /* a file not finished is taken away */
+struct pm_h5 *pm_h5_free(struct pm_h5 *h); /* deletes an unfinished file */
 
 #endif

@@ -62,7 +62,7 @@ int pm_h5_put_text(hid_t at, const char *name, const char *text) { return put_te
 
 int pm_h5_put_letters(hid_t at, const char *name, int n, const char *letters) { return put_texts(at, name, 1, n, letters); }
 
-/* Attributes of fixed length end at 64 KiB; those of variable length are kept elsewhere in the file. */
+/* Attributes of fixed length are limited to 64 KiB; those of variable length are stored elsewhere in the file. */
 int pm_h5_put_long_text(hid_t at, const char *name, const char *text)
 {
 	hid_t type = H5Tcopy(H5T_C_S1);
@@ -73,7 +73,7 @@ int pm_h5_put_long_text(hid_t at, const char *name, const char *text)
 	return status;
 }
 
-/* Without times, so that equal runs give equal files. */
+/* No time stamps, so that equal runs give equal files. */
 hid_t pm_h5_group(hid_t at, const char *name)
 {
 	hid_t how = H5Pcreate(H5P_GROUP_CREATE), links = H5Pcreate(H5P_LINK_CREATE);
@@ -217,7 +217,7 @@ static void set_folder(const struct pm_frame *f, const char *set, char out[PM_H5
 		clean(other);
 		same += !strcmp(other, name);
 	}
-	/* With the place in the frame behind it the name is unlike all that end in no number like it. */
+	/* The index in the frame, appended, makes the name unique. */
 	snprintf(out, PM_H5_PATH, same ? "particles/%s__%zu/" : "particles/%s/", name, i);
 }
 
@@ -231,7 +231,7 @@ void pm_h5_paths(const struct pm_frame *f, char (*path)[PM_H5_PATH])
 			set_folder(f, p->on, folder);
 		snprintf(name, sizeof name, "%s%s%s", other ? p->on : "", other ? "_" : "", standard(p, particles));
 		if (particles && (!strcmp(p->name, "position") || !strcmp(p->name, "positionOffset")))
-			strcat(name, "_"); /* these words are taken */
+			strcat(name, "_"); /* reserved words */
 		clean(name);
 		unlike(path, i, folder, name);
 	}

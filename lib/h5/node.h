@@ -3,7 +3,7 @@
 #define PM_H5_NODE_H
 
 #if !__has_include(<hdf5.h>)
-#error "HDF5 is not here: install libhdf5-dev, or give its place: make CFLAGS=-I..."
+#error "HDF5 was not found: install libhdf5-dev, or give its place: make CFLAGS=-I..."
 #endif
 #include <hdf5.h>
 
@@ -15,14 +15,14 @@ struct pm_h5 {
 	hid_t file;
 	char *path, *part;       /* part: NULL when reading, or when finished */
 	uint64_t last;           /* name of the last iteration written */
-	uint64_t frames;         /* of the stream under way; all so far when reading */
-	size_t nstreams, stream; /* end markers; the one to come when reading */
+	uint64_t frames;         /* writing: of the current stream; reading: all so far */
+	size_t nstreams, stream; /* writing: end markers; reading: the next one */
 	uint64_t *streams;       /* frames of each stream */
 	size_t niterations, at;  /* reading: names of the iterations, ascending */
 	uint64_t *iterations;
 };
 
-/* pm_fail with the innermost complaint of the HDF5 library behind the message. */
+/* pm_fail with the innermost error of the HDF5 library appended to the message. */
 int pm_h5_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Each returns 0 or failure. n = 0: a scalar, else an array of n. */
@@ -41,12 +41,12 @@ char *pm_h5_get_text(hid_t at, const char *name); /* free() it; NULL with a mess
 int pm_h5_get_letters(hid_t at, const char *name, int most, char *letters); /* first letters of an array of texts; how many, or failure */
 hid_t pm_h5_type(enum pm_type type, bool memory);
 
-/* Where the fields of a frame are: "particles/matter/position", "meshes/rho". room for f->nfields. */
+/* The paths of the fields of a frame: "particles/matter/position", "meshes/rho". room for f->nfields. */
 void pm_h5_paths(const struct pm_frame *f, char (*path)[PM_H5_PATH]);
 bool pm_h5_is_vector(const struct pm_field *p);
 void pm_h5_component(const struct pm_field *p, int c, char name[8]); /* x, y, z, or c0, c1, ... */
 
-/* An iteration without a header of ours. */
+/* An iteration without our header, written by another program. */
 int pm_h5_get_foreign(hid_t iteration, const char *name, struct pm_frame **f);
 
 #endif

@@ -1,4 +1,4 @@
-/* Frames out of an openPMD file that sh5 wrote: the header says what there must be, the datasets are checked against it before memory is asked for.
+/* Frames out of an openPMD file that sh5 wrote: the header defines what must be there, and the datasets are checked against it before memory is allocated.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <stdlib.h>
@@ -35,18 +35,18 @@ static int ascending(const void *a, const void *b)
 static int check_standard(hid_t file)
 {
 	if (!pm_h5_has(file, "openPMD"))
-		return pm_fail(PM_DATA, "this is HDF5, but not openPMD: no attribute 'openPMD' (h5ls shows what it is)");
+		return pm_fail(PM_DATA, "this is HDF5, but not openPMD: it has no attribute 'openPMD' (h5ls shows what it holds)");
 	char *version = pm_h5_get_text(file, "openPMD"), *base = version ? pm_h5_get_text(file, "basePath") : NULL;
 	int status = base ? 0 : -PM_DATA;
 	if (base && strncmp(version, "1.", 2))
-		status = pm_fail(PM_DATA, "openPMD %.20s is not known here (1.0 and 1.1 are)", version);
+		status = pm_fail(PM_DATA, "openPMD %.20s is not supported (1.0 and 1.1 are)", version);
 	else if (base && strcmp(base, "/data/%T/"))
-		status = pm_fail(PM_DATA, "the basePath is '%.60s', openPMD 1.1 has /data/%%T/", base);
+		status = pm_fail(PM_DATA, "the basePath is '%.60s', but openPMD 1.1 has /data/%%T/", base);
 	free(version), free(base);
 	return status;
 }
 
-/* How many frames each stream had; one stream where nothing is said. */
+/* The number of frames of each stream; one stream if the file does not say. */
 static int read_streams(struct pm_h5 *h)
 {
 	double x[8192];
@@ -62,7 +62,7 @@ static int read_streams(struct pm_h5 *h)
 	for (int i = 0; i < n; i++)
 		sum += h->streams[i] = x[i] >= 0 && x[i] < 0x1p53 ? (uint64_t)x[i] : 0;
 	return sum == h->niterations ? 0
-		: pm_fail(PM_DATA, "the attribute 'pmpipeStreams' counts %llu iterations, and there are %llu",
+		: pm_fail(PM_DATA, "the attribute 'pmpipeStreams' counts %llu iterations, but there are %llu",
 			(unsigned long long)sum, (unsigned long long)h->niterations);
 }
 
@@ -83,7 +83,7 @@ static int open_all(struct pm_h5 *h, const char *path)
 	herr_t bad = H5Literate(data, H5_INDEX_NAME, H5_ITER_INC, &at, iteration_add, h);
 	H5Gclose(data);
 	if (bad < 0)
-		return pm_fail(PM_DATA, "the group 'data' holds something that is not called by a number");
+		return pm_fail(PM_DATA, "the group 'data' has a member whose name is not a number");
 	if (h->niterations)
 		qsort(h->iterations, h->niterations, sizeof *h->iterations, ascending);
 	return read_streams(h);
@@ -115,7 +115,7 @@ static json_t *get_json(hid_t at, const char *name)
 	return j;
 }
 
-static int differs(const char *path) { return pm_fail(PM_DATA, "'%s' is not what the header of the frame says (pmpipeHeader; the file was changed)", path); }
+static int differs(const char *path) { return pm_fail(PM_DATA, "'%s' does not agree with the header of the frame (pmpipeHeader; the file was changed)", path); }
 
 static int get_constant(hid_t at, const char *path, double value)
 {
@@ -127,7 +127,7 @@ static int get_constant(hid_t at, const char *path, double value)
 	return status;
 }
 
-/* Is the dataset of the field's type, and of its shape? */
+/* Has the dataset the type and shape of the field? */
 static bool fits(hid_t d, const struct pm_frame *f, const struct pm_field *p)
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, p->on);
@@ -146,7 +146,7 @@ static bool fits(hid_t d, const struct pm_frame *f, const struct pm_field *p)
 	return good;
 }
 
-/* What a file promises and has never stored must not become memory. */
+/* Allocates no memory for a dataset that was declared but never written. */
 static bool stored(hid_t d, const struct pm_field *p)
 {
 	hid_t how = H5Dget_create_plist(d);
@@ -187,7 +187,7 @@ static int get_field(hid_t at, const char *path, const struct pm_frame *f, struc
 	return status;
 }
 
-/* HDF5 does not look for "a/b" where there is no "a". */
+/* HDF5 reports an error for "a/b" if there is no "a". */
 static bool folder_is_there(hid_t at, const char *path)
 {
 	char folder[PM_H5_PATH];

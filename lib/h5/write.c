@@ -1,5 +1,5 @@
 /* Frames into an openPMD 1.1 file (https://github.com/openPMD/openPMD-standard/blob/1.1.0/STANDARD.md): particles, meshes, constant components,
- * and beside them the header of the stream, word for word, from which sh5 makes the same bytes again. Every unit is 1: ours are the user's.
+ * and in addition the header of the stream, verbatim, from which sh5 reproduces the same bytes. Every unitSI is 1, because the units are the user's.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "h5/node.h"
 #include "stream/header.h"
 
-/* Powers of length, mass, time, current, temperature, amount, luminous intensity. A density has one length per dimension more below. */
+/* Powers of length, mass, time, current, temperature, amount, luminous intensity. A density is divided by a length per dimension. */
 static const struct dimension {
 	const char *law, *name;
 	double power[7];
@@ -119,7 +119,7 @@ static int put_mesh_record(hid_t at, const struct pm_frame *f, const struct pm_m
 		: 0;
 }
 
-/* A strength is that of the whole (macro)particle, a value that of each body in it (ED-PIC words, useful without the extension too). */
+/* A strength belongs to the whole (macro)particle, a value to each body in it (terms of the ED-PIC extension, useful without it too). */
 static int put_record(hid_t at, const struct pm_frame *f, const struct pm_field *p)
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, p->on);
@@ -139,7 +139,7 @@ static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field 
 	char name[8];
 	hid_t g, o;
 	int status = 0;
-	if (!pm_h5_is_vector(p)) { /* the folder was made before */
+	if (!pm_h5_is_vector(p)) { /* the group was made before */
 		if ((o = put_component(iteration, path, f, p, 0)) < 0)
 			return -PM_DATA;
 		status = put_record(o, f, p);
@@ -159,7 +159,7 @@ static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field 
 	return status;
 }
 
-/* Positions are whole: the offset that openPMD wants beside them is 0. path: that of x. */
+/* Positions are absolute, so the positionOffset required by openPMD is 0. path: that of x. */
 static int put_offset(hid_t iteration, const struct pm_frame *f, struct pm_field *x, const char *path)
 {
 	struct pm_field offset = *x;
@@ -170,7 +170,7 @@ static int put_offset(hid_t iteration, const struct pm_frame *f, struct pm_field
 	return put_field(iteration, f, &offset, longer);
 }
 
-/* The folder of a path, made unless it is there. */
+/* The group of a path, made if it does not exist. */
 static int put_folder(hid_t iteration, const char *path)
 {
 	char folder[PM_H5_PATH];
@@ -225,7 +225,7 @@ static int put_header(hid_t at, const struct pm_frame *f)
 	return status;
 }
 
-/* Iterations are called by their step; where that is not above the one before, by the next free number, so that the order of names is that of the frames. */
+/* An iteration is named by its step, or by the next free number if the step does not increase, so that names sort in the order of the frames. */
 int pm_h5_put(struct pm_h5 *h, struct pm_frame *f)
 {
 	char name[64];
@@ -274,9 +274,9 @@ struct pm_h5 *pm_h5_create(const char *path)
 	H5dont_atexit();
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	bool odd = !stat(path, &there) && !S_ISREG(there.st_mode);
-	FILE *try = odd ? NULL : fopen(h->part, "w"); /* its reason is plainer than that of HDF5 */
+	FILE *try = odd ? NULL : fopen(h->part, "w"); /* its message is clearer than that of HDF5 */
 	if (!try) {
-		odd ? pm_fail(PM_DATA, "cannot write '%s': it is not a plain file", path) : pm_fail_errno("cannot write '%s'", path);
+		odd ? pm_fail(PM_DATA, "cannot write '%s': it is not a regular file", path) : pm_fail_errno("cannot write '%s'", path);
 		h->part = (free(h->part), NULL);
 		return pm_h5_free(h);
 	}

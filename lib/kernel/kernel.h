@@ -1,4 +1,4 @@
-/* Interpolation kernels between particles and meshes. One file per kernel; each states its promises and tests/unit checks every one.
+/* Interpolation kernels between particles and meshes. One file per kernel; each states its properties, and tests/unit checks all of them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_KERNEL_H
 #define PM_KERNEL_H
@@ -7,7 +7,7 @@
 
 PM_C_BEGIN
 
-enum { PM_KERNEL_WIDTH = 8, PM_KERNEL_DEGREE = 15 }; /* the most */
+enum { PM_KERNEL_WIDTH = 8, PM_KERNEL_DEGREE = 15 }; /* the largest width */
 
 struct pm_kernel {
 	const char *name, *sentence, *source;
@@ -17,8 +17,8 @@ struct pm_kernel {
 	bool positive;
 	/* The weights of the `width` points around a particle, polynomials in t: coefficients[power][point], powers 0..degree.
 	 * odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
-	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Of degree >= width they are found about the nearest node:
-	 * above t = 1/2 those of 1 - t in the opposite order (kernels are even). In powers of t up to 1 the high orders lose digits. */
+	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Where the degree is >= width, t is measured from the nearest node:
+	 * for t > 1/2 the weights are those of 1 - t in the opposite order (kernels are even). Powers of t up to 1 would lose digits at high order. */
 	int degree;
 	const double *coefficients;
 };
@@ -27,7 +27,7 @@ extern const struct pm_kernel *const pm_kernels[]; /* generated from lib/kernel/
 extern const char *const pm_kernel_names[];
 const struct pm_kernel *pm_kernel_find(const char *name); /* NULL with a message */
 
-/* Is t to be taken from the point above? */
+/* Must t be measured from the point above? */
 static inline bool pm_kernel_folds(int width, int degree, double t) { return width % 2 == 0 && degree >= width && t > 0.5; }
 
 /* w[0..width-1] at t, by Horner. */

@@ -1,7 +1,7 @@
-/* Lambda 2,2: interpolates, exact for polynomials of degree 2, 2 continuous derivatives: on every cell the polynomial of degree 5 whose first
+/* Lambda 2,2: interpolates, exact for polynomials of degree 2, with 2 continuous derivatives. On every cell it is the polynomial of degree 5 whose first
  * 2 derivatives at the nodes are the centred differences of order 2. Cottet, Etancelin, Perignon and Picard (2014), ESAIM: M2AN 48, 1029.
- * Conserves total, centre and second moment; negative lobes. Above t = 1/2 the weights are found from the other side (kernel.h): in powers of |x|
- * more digits are lost. 4 points per axis.
+ * Conserves total, centre and second moment; negative lobes. For t > 1/2 the weights are computed from the point above (kernel.h): powers of |x| would lose
+ * more digits. 4 points per axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel/kernel.h"
 

@@ -1,7 +1,7 @@
-/* Lambda 4,4: interpolates, exact for polynomials of degree 4, 4 continuous derivatives: on every cell the polynomial of degree 9 whose first
+/* Lambda 4,4: interpolates, exact for polynomials of degree 4, with 4 continuous derivatives. On every cell it is the polynomial of degree 9 whose first
  * 4 derivatives at the nodes are the centred differences of order 4. Cottet, Etancelin, Perignon and Picard (2014), ESAIM: M2AN 48, 1029.
- * Conserves moments up to the fourth; negative lobes. Above t = 1/2 the weights are found from the other side (kernel.h): in powers of |x|
- * high orders lose up to nine digits. 6 points per axis.
+ * Conserves moments up to the fourth; negative lobes. For t > 1/2 the weights are computed from the point above (kernel.h): powers of |x| would lose up to
+ * nine digits. 6 points per axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel/kernel.h"
 

@@ -1,7 +1,7 @@
-/* Lambda 6,6: interpolates, exact for polynomials of degree 6, 6 continuous derivatives: on every cell the polynomial of degree 13 whose first
+/* Lambda 6,6: interpolates, exact for polynomials of degree 6, with 6 continuous derivatives. On every cell it is the polynomial of degree 13 whose first
  * 6 derivatives at the nodes are the centred differences of order 6. Cottet, Etancelin, Perignon and Picard (2014), ESAIM: M2AN 48, 1029.
- * Conserves moments up to the sixth; negative lobes. Above t = 1/2 the weights are found from the other side (kernel.h): in powers of |x|
- * high orders lose up to nine digits. 8 points per axis.
+ * Conserves moments up to the sixth; negative lobes. For t > 1/2 the weights are computed from the point above (kernel.h): powers of |x| would lose up to
+ * nine digits. 8 points per axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel/kernel.h"
 

@@ -1,5 +1,5 @@
-/* The weights of M'6, which is also Lambda 4,2. Sums stand for -1/24, 7/24 and 13/24, rounded so that the weights of each power add to 0 exactly:
- * a thousand remeshes would drift by 1e-13.
+/* The weights of M'6, which is also Lambda 4,2. -1/24, 7/24 and 13/24 are written as sums, rounded so that the weights of
+ * each power add to 0 exactly; otherwise the total would drift by 1e-13 in a thousand remeshings.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_KERNEL_M6PRIME_H
 #define PM_KERNEL_M6PRIME_H

@@ -5,7 +5,7 @@
 #include "kernel/kernel.h"
 
 static const double coefficients[] = { /* [power of t][point] */
-	(1 - 2. / 3) / 2, 2. / 3, (1 - 2. / 3) / 2, 0, /* 1/6, rounded so that they add to 1 exactly: a thousand remeshes would drift by 1e-13 */
+	(1 - 2. / 3) / 2, 2. / 3, (1 - 2. / 3) / 2, 0, /* 1/6, so rounded that the weights add to 1 exactly (a drift of 1e-13 in 1000 remeshings) */
 	-0.5, 0, 0.5, 0,
 	0.5, -1, 0.5, 0,
 	-1. / 6, 0.5, -0.5, 1. / 6,

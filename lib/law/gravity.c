@@ -1,7 +1,7 @@
 /* Newtonian gravity: lap phi = 4 pi G rho, g = -grad phi, acc += g; in 3-D phi = -G m / r, in 2-D (infinite lines of mass per length)
  * phi = 2 G m ln r, in 1-D (infinite sheets of mass per area) phi = 2 pi G m |x|.
  * Source: Hockney and Eastwood 1988, section 1-5 and chapter 6; notes in docs/methods/gravity.md.
- * Defaults: cic with differences of order 4, because the spectral gradient of a cic mesh rings along the axes (case PM-02).
+ * Defaults: cic with differences of order 4, because the spectral gradient of a density made with cic oscillates along the axes (case PM-02).
  * Periodic boxes lose the mean of rho (the solver reports it). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 
@@ -17,7 +17,7 @@ static const struct pm_law_constant constants[] = {
 
 const struct pm_law law_gravity = {
 	.name = "gravity",
-	.sentence = "masses attract: lap phi = 4 pi G rho, acceleration -grad phi",
+	.sentence = "masses attract each other: lap phi = 4 pi G rho, acceleration -grad phi",
 	.source = "Hockney and Eastwood 1988",
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.strength = "mass",

@@ -25,9 +25,9 @@ struct pm_law {
 	double sign;            /* of the gradient: -1 for g and E */
 	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */
 	const char *per;        /* change = (strength/per) * field: "mass" for (q/m) E; NULL: the field itself */
-	const char *magnetic;   /* mesh field that m2p takes to bfield where the frame has it: "B"; NULL none */
+	const char *magnetic;   /* mesh field that m2p interpolates to bfield if the frame has it: "B"; NULL none */
 	double (*coefficient)(const struct pm_frame *f); /* c in lap potential = c * density */
-	const char *kernel;     /* defaults, so that the words work bare */
+	const char *kernel;     /* defaults of the words' options */
 	const char *symbol;     /* of poisson-fft: "spectral", "fd2", "fd4" */
 	const char *order;      /* of mgrad: "2", "4", "6", "spectral" */
 	const char *mollifier;  /* of pp: "plummer", "krasny" */

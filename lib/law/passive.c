@@ -1,5 +1,5 @@
 /* Particles carried by a velocity that is given on a mesh: vel += u, x' = vel. They make no field.
- * Source: none needed (the definition of a passive tracer). Assumes that u is there: a field of the mesh, of role state where it is given.
+ * Source: none needed (the definition of a passive tracer). Assumes that the mesh has the field u (role state where the input prescribes it).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 

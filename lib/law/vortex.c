@@ -3,7 +3,7 @@
  * its surroundings at u_theta = Gamma/(2 pi r), counter-clockwise for Gamma > 0.
  * Source: Cottet and Koumoutsakos 2000, sections 2.1 and 8.2.
  * Defaults: m4prime, which keeps circulation and both impulses where particles are remeshed; spectral inverse and differences of order 6,
- * because the velocity is smoother than the vorticity. Periodic boxes lose the mean of omega (the solver reports it).
+ * because the velocity is smoother than the vorticity. In periodic boxes the solver removes the mean of omega and reports it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 
@@ -20,7 +20,7 @@ static const struct pm_law_constant constants[] = {
 
 const struct pm_law law_vortex = {
 	.name = "vortex",
-	.sentence = "vortices carry each other: lap psi = -omega, velocity (d psi/dy, -d psi/dx)",
+	.sentence = "vortices advect each other: lap psi = -omega, velocity (d psi/dy, -d psi/dx)",
 	.source = "Cottet and Koumoutsakos 2000",
 	.dims = 1u << 2,
 	.strength = "circulation",

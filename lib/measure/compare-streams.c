@@ -83,7 +83,7 @@ static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct
 	return status;
 }
 
-/* The next frame, over the ends of streams that follow each other; 0 at the end of the input. */
+/* The next frame, across the end markers of concatenated streams; 0 at the end of the input. */
 static int next(struct pm_reader *r, struct pm_frame **f)
 {
 	int got;
@@ -93,7 +93,7 @@ static int next(struct pm_reader *r, struct pm_frame **f)
 	return got;
 }
 
-/* The failure again, with the place in front. */
+/* Puts the file and frame in front of the message of the failure. */
 static int at_frame(const struct pm_comparison *c, const char *stream, int status)
 {
 	char why[1024];

@@ -11,14 +11,14 @@ extern const char *const pm_norm_names[]; /* NULL ends */
 
 struct pm_comparison {
 	struct pm_field_pairs_choice choice;
-	int norm;         /* in pm_norm_names: the one held against the tolerance */
+	int norm;         /* index in pm_norm_names: the norm compared with the tolerance */
 	double tolerance; /* NAN: none */
 	FILE *out;        /* gets the table */
 	uint64_t frame;   /* under way, from 1 */
-	bool begun, over; /* the line of column names is out; a norm was beyond the tolerance */
+	bool begun, over; /* the line of column names has been printed; a norm exceeded the tolerance */
 };
 
-/* Every frame of both to the end. 0, or failure: they cannot be compared, one is shorter, a norm is beyond the tolerance. */
+/* Compares all frames of both. 0, or failure: they cannot be compared, one is shorter, or a norm exceeds the tolerance. */
 int pm_compare_streams(struct pm_comparison *c, struct pm_reader *const r[2], const char *const name[2]);
 
 #endif

@@ -17,7 +17,7 @@ const struct pm_scene *pm_diag_scene(const struct pm_frame *f)
 	return NULL;
 }
 
-/* Where omega_centre is taken: the scene's place, else the middle of the box. */
+/* The point of omega_centre: given by the scene, else the middle of the box. */
 static double centre_of(const struct pm_frame *f, int d)
 {
 	const struct pm_scene *scene = pm_diag_scene(f);
@@ -38,15 +38,15 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 	return how;
 }
 
-/* Modes need the field of the law on a mesh that goes round in x. */
+/* Modes need the field of the law on a mesh that is periodic in x. */
 static int has_mode(const struct pm_frame *f, const struct pm_law *law)
 {
 	const struct pm_field *field = NULL;
 	for (size_t i = 0; i < f->nmeshes && law->field && !field; i++)
 		field = pm_frame_field(f, f->meshes[i]->name, law->field);
 	if (f->face[0][0] != PM_PERIODIC)
-		return pm_fail(PM_DATA, "modes want a box that is periodic in x (pinit --faces periodic)");
-	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh to take modes of (p2m | poisson-fft | mgrad makes one)", law->field ? law->field : "");
+		return pm_fail(PM_DATA, "modes need a box that is periodic in x (pinit --faces periodic)");
+	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)", law->field ? law->field : "");
 }
 
 int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
@@ -58,7 +58,7 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
 		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", g->set);
 	for (int d = 0; d < f->dim && g->pair; d++)
 		if (f->face[d][0] == PM_PERIODIC)
-			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, and this box is periodic (leave --pair out)");
+			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, but this box is periodic (leave --pair out)");
 	if (g->nmodes && has_mode(f, law))
 		return -PM_DATA;
 	const struct pm_measure how = pm_diag_how(g, f);

@@ -1,4 +1,4 @@
-/* What is read off a frame by name: the columns of diag, for diag itself and for cycle --until. The law says which fields, the scene what is known exactly.
+/* Measures of a frame by name: the columns of diag, for diag itself and for cycle --until. The law determines the fields, the scene the exact values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MEASURE_DIAG_COLUMN_H
 #define PM_MEASURE_DIAG_COLUMN_H
@@ -6,7 +6,7 @@
 #include "measure/measure.h"
 #include "scene/scene.h"
 
-struct pm_diag_request { /* what is asked of a frame besides the columns that cost nothing more */
+struct pm_diag_request { /* the options that add columns or cost */
 	const char *set;                         /* this set alone; NULL all */
 	bool pair;                               /* the pair energy by direct summation */
 	int nradii, nmodes;
@@ -17,14 +17,14 @@ struct pm_diag_request { /* what is asked of a frame besides the columns that co
 enum { PM_DIAG_NAME = PM_NAME + 8 };
 struct pm_diag_column { /* one column */
 	char name[PM_DIAG_NAME];
-	int from; /* place among the measures, PM_COLUMNS and above the radii, then the modes; -1: what the scene knows of the name behind exact_ */
+	int from; /* index among the measures; from PM_COLUMNS on the radii, then the modes; -1: the scene's exact value of this name (exact_NAME) */
 };
 
-/* The scene of the frame if it has exact numbers, else NULL. */
+/* The scene of the frame if it has exact values, else NULL. */
 const struct pm_scene *pm_diag_scene(const struct pm_frame *f);
 /* How to measure it; *g must outlive it. */
 struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_frame *f);
-/* In declare(): declares what is read; 0, or failure in words. */
+/* In declare(): declares the fields that are read; 0 or failure. */
 int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f);
 struct pm_diag_column pm_diag_column(enum pm_column c);
 struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k);

@@ -1,5 +1,6 @@
-/* The table of diag: the columns that a frame can give or that were asked for, decided by the first frame, a row a frame, and the growth of a mode behind them.
- * Cost: that of the measures, and with growth two numbers kept a frame. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of diag: the columns that a frame can give or that were asked for, decided by the first frame, one row per frame, and the growth rate of a mode
+ * after the last row.
+ * Cost: that of the measures, and with growth two numbers kept per frame. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/diag-table.h"
@@ -39,7 +40,7 @@ void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c,
 	for (int k = 0; k < c->nmodes; k++)
 		g->mode[k] = (int)c->modes[k];
 	if (c->growth)
-		g->mode[g->nmodes++] = c->growth; /* the last is that of the growth */
+		g->mode[g->nmodes++] = c->growth; /* the last is the mode whose growth is fitted */
 }
 
 static void add(struct pm_diag_table *t, const struct pm_frame *f, struct pm_diag_column column)
@@ -50,14 +51,14 @@ static void add(struct pm_diag_table *t, const struct pm_frame *f, struct pm_dia
 		t->column[t->n++] = pm_diag_exact(column.name);
 }
 
-/* All columns that exist here, or those asked for in their order; radii and modes last. They stay the same over the stream. */
+/* All columns that exist here, or those given by --column in their order; radii and modes last. They stay the same over the stream. */
 static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_diag_choice *c = &t->choice;
 	int vdim = 0;
 	const struct pm_measure how = pm_diag_how(&t->request, f);
 	if (c->exact && !pm_diag_scene(f))
-		return pm_fail(PM_DATA, "the scene '%s' has no exact numbers (leave --exact out)", f->scene);
+		return pm_fail(PM_DATA, "the scene '%s' has no exact values (leave --exact out)", f->scene);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;

@@ -1,4 +1,4 @@
-/* The table that diag prints: a row of numbers a frame. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table that diag prints: one row per frame. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MEASURE_DIAG_TABLE_H
 #define PM_MEASURE_DIAG_TABLE_H
 
@@ -34,7 +34,7 @@ struct pm_diag_table {
  * 0 or failure. */
 int pm_diag_choice_check(struct pm_diag_choice *c, const char *growth);
 void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
-/* 0 or failure. The first row brings the line of names; end brings the line of the growth. */
+/* 0 or failure. The first row is preceded by the line of names; end prints the line of the growth rate. */
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
 int pm_diag_table_end(struct pm_diag_table *t);
 void pm_diag_table_clear(struct pm_diag_table *t);

@@ -1,15 +1,15 @@
-/* The energy of the field of a law lap phi = c s, three ways: W = 1/2 sum q phi at the particles, 1/2 integral s phi on a mesh (it holds
- * the self-energy of the smeared particles too), and the direct sum over pairs W = sum_{i<j} q_i q_j c Phi(r_ij), lap Phi = delta function.
- * Rows are summed with compensation and joined in their order. Cost N, mesh points, N^2/2. Source: Hockney, Eastwood 1988, section 5-5.
+/* The energy of the field of a law lap phi = c s, three ways: W = 1/2 sum q phi at the particles, 1/2 integral s phi on a mesh (which includes the
+ * self-energy of the smoothed particles), and the direct sum over pairs W = sum_{i<j} q_i q_j c Phi(r_ij), lap Phi = delta function.
+ * Rows are summed with compensation and added in a fixed order. Cost N, mesh points, N^2/2. Source: Hockney, Eastwood 1988, section 5-5.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 #include "base/simd-sum.h"
 
-enum { BATCH = 512 }; /* rows between two joins; bounds the memory, not the result */
+enum { BATCH = 512 }; /* rows summed before their results are added; limits the memory, does not change the result */
 
 double pm_energy_at_particles(const struct pm_measured *b) { return 0.5 * pm_sum_products(b->n, b->strength, b->phi); }
 
-/* Weighted sum of rho phi along the row (j, k): its two ends, and what lies between eight at a time. */
+/* Weighted sum of rho phi along the row (j, k): its two ends, and the points between them eight at a time. */
 static double row_on_mesh(const struct pm_grid *g, const double *rho, const double *phi, size_t row)
 {
 	const size_t n = g->points[0], j = row % g->points[1], k = row / g->points[1];

@@ -1,4 +1,4 @@
-/* Which fields of two frames are compared with which. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairs of fields to compare in two frames. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/field-pairs.h"
@@ -13,7 +13,7 @@ static bool listed(const char *const *list, const char *name)
 	return !list[0];
 }
 
-/* Every field, set or mesh asked for is there. */
+/* Checks that every field, set and mesh named in the options exists. */
 static int asked(const struct pm_field_pairs_choice *c, const struct pm_frame *f)
 {
 	for (int i = 0; c->fields[i]; i++) {
@@ -35,7 +35,7 @@ static int one_sided(const struct pm_field_pairs_choice *c, const struct pm_fram
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *p = f->fields[i];
 		if (listed(c->fields, p->name) && listed(c->on, p->on) && !pm_frame_field(other, p->on, p->name))
-			return pm_fail(PM_DATA, "'%s' on '%s' is in the %s stream only (--common passes over it, --field chooses)", p->name, p->on, which);
+			return pm_fail(PM_DATA, "'%s' on '%s' is in the %s stream only (--common skips it, --field chooses)", p->name, p->on, which);
 	}
 	return 0;
 }
@@ -50,7 +50,7 @@ static int same_shape(const struct pm_frame *f, const struct pm_field *a, const 
 			return pm_fail(PM_DATA, "the mesh '%s' has %zu cells along %c in the first stream and %zu in the second", a->on, m->cells[axis], "xyz"[axis],
 				k->cells[axis]);
 		if (fabs(m->lo[axis] - k->lo[axis]) > 1e-9 * m->h[axis] || fabs(m->h[axis] - k->h[axis]) > 1e-9 * m->h[axis])
-			return pm_fail(PM_DATA, "the meshes '%s' do not lie at the same place along %c", a->on, "xyz"[axis]);
+			return pm_fail(PM_DATA, "the meshes '%s' have different origins along %c", a->on, "xyz"[axis]);
 	}
 	if (a->count != b->count)
 		return pm_fail(PM_DATA, "'%s' has %zu values in the first stream and %zu in the second", a->on, a->count, b->count);

@@ -72,7 +72,7 @@ static void attributes(FILE *out, const struct pm_frame *f)
 	putc('\n', out);
 }
 
-/* What fills a name up to ten letters, of whatever alphabet. */
+/* The blanks that pad a name to ten characters of UTF-8. */
 static int missing(const char *name)
 {
 	int n = 10;

@@ -1,7 +1,7 @@
-/* Growth rate gamma and frequency omega of a mode, a(t) ~ exp(gamma t) cos(omega t + phase). A standing wave that oscillates: straight lines through the
- * logarithms and through the times of the peaks of |a| (the largest of each half wave, by a parabola through 3 points), omega = pi over their distance.
- * Otherwise the straight line through log |a|, and omega from the phase if the wave travels, else 0.
- * Source: Birdsall and Langdon 1985, section 5-15 (what is plotted there). Cost: a few passes.
+/* Growth rate gamma and frequency omega of a mode, a(t) ~ exp(gamma t) cos(omega t + phase). For a standing wave that oscillates: straight lines are fitted
+ * to the logarithms and to the times of the peaks of |a| (the largest value of each half wave, by a parabola through 3 points), omega = pi over their distance.
+ * Otherwise a straight line is fitted to log |a|, and omega comes from the phase if the wave travels, else it is 0.
+ * Source: Birdsall and Langdon 1985, section 5-15 (the quantity plotted there). Cost: a few passes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 
@@ -52,14 +52,14 @@ void pm_series_release(struct pm_series *s)
 
 static double size(const struct pm_series *s, size_t i) { return hypot(s->re[i], s->im[i]); }
 
-/* The part of point i along the direction (c, d) of the complex plane. */
+/* The projection of point i on the direction (c, d) of the complex plane. */
 static double along(const struct pm_series *s, size_t i, const double axis[2]) { return s->re[i] * axis[0] + s->im[i] * axis[1]; }
 
-/* The direction in which a standing wave swings, and the share of what lies across it. */
+/* The direction in which a standing wave oscillates, and the fraction of the amplitude across it. */
 static double axis_of(const struct pm_series *s, size_t a, size_t b, double axis[2])
 {
 	double re = 0, im = 0, all = 0, across = 0;
-	for (size_t i = a; i < b; i++) { /* each point counts alike, or the largest would hide how the others swing */
+	for (size_t i = a; i < b; i++) { /* every point has the same weight, or the largest would dominate the direction */
 		const double square = s->re[i] * s->re[i] + s->im[i] * s->im[i];
 		re += square > 0 ? (s->re[i] * s->re[i] - s->im[i] * s->im[i]) / sqrt(square) : 0;
 		im += square > 0 ? 2 * s->re[i] * s->im[i] / sqrt(square) : 0;
@@ -137,8 +137,7 @@ static void from_size(const struct pm_series *s, size_t a, size_t b, bool travel
 	g->omega = travels ? fabs(line_slope(&phase)) : 0;
 }
 
-/* Where |a| climbs from 1 % to 10 % of its first top (the first local one above half of the largest), if it does so without swinging; else
- * everything. */
+/* Where |a| climbs from 1 % to 10 % of its first top (the first local one above half of the largest), if it does so without oscillating; else all points. */
 static void choose(const struct pm_series *s, size_t *a, size_t *b)
 {
 	size_t most = 0, top = 0, from, to, falls = 0;

@@ -16,7 +16,7 @@ int pm_series_add(struct pm_series *s, double t, const double amplitude[2]); /* 
 void pm_series_release(struct pm_series *s);
 
 struct pm_growth {
-	double gamma, omega; /* [1/time]; NAN if it cannot be said */
+	double gamma, omega; /* [1/time]; NAN if it cannot be determined */
 	double from, to;     /* [time] of the first and last point used */
 	size_t points;
 };

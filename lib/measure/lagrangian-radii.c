@@ -19,7 +19,7 @@ void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fr
 		pm_sum_add(&total, shell[i].mass);
 	qsort(shell, n, sizeof *shell, nearer);
 	for (int k = 0; k < nfractions; k++) {
-		/* a few units of rounding below, so that fraction 1 and counts that divide n are met */
+		/* a few units of rounding below, so that fraction 1 and fractions that are multiples of 1/n give the expected particle */
 		const double want = fraction[k] * pm_sum_total(total) * (1 - 1e-14);
 		struct pm_sum within = {0};
 		radius[k] = NAN;

@@ -1,5 +1,5 @@
-/* The columns of diag, from bulk quantities and field energies. The total energy takes the pair energy where it is known (it is that of
- * the particles themselves), else that of the mesh; the virial ratio is 2 K/|W| with the same W.
+/* The columns of diag, from bulk quantities and field energies. The total energy includes the pair energy if it is known (the energy of the particles
+ * themselves), else the energy of the mesh; the virial ratio is 2 K/|W| with the same W.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 

@@ -1,4 +1,4 @@
-/* Measures of a whole frame: every set (or one), the first mesh that holds both density and potential. What the frame does not hold is
+/* Measures of a whole frame: every set (or one), the first mesh that holds both density and potential. Quantities that the frame does not hold are
  * NAN, never zero. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

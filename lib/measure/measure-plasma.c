@@ -1,6 +1,6 @@
-/* What diag measures of plasmas besides what it does of all bodies: the charge of the particles, and the energy of each component of the field on the
- * first mesh that holds it, eps0/2 int E_c^2 (it differs from 1/2 int rho phi by what the differences of the mesh leave out). Modes of the
- * law's field along x for any law. What is not there is NAN. Source: Birdsall and Langdon 1985, section 2-8 and 4-9.
+/* What diag measures of plasmas in addition to the quantities of all bodies: the charge of the particles, and the energy of each component of the field on the
+ * first mesh that holds it, eps0/2 int E_c^2 (it differs from 1/2 int rho phi by the error of the finite differences). Modes of the
+ * law's field along x for any law. Missing quantities are NAN. Source: Birdsall and Langdon 1985, section 2-8 and 4-9.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* What vortices in the plane keep or lose: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
- * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given place (by m6prime,
- * on a node that of the node) on the first mesh that holds omega; the largest distortion of the sets. What is not there is NAN. Sums are compensated and
+/* Integrals of vortices in the plane: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
+ * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given point (by m6prime, exact at a
+ * node) on the first mesh that holds omega; the largest distortion of the sets. Missing quantities are NAN. Sums are compensated and
  * serial, so that threads do not matter. Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -48,7 +48,7 @@ static void of_particles(const struct pm_field *at, const struct pm_field *circu
 	}
 }
 
-/* 1/2 int |grad omega|^2; NAN where the mesh is too small for the differences, or memory. */
+/* 1/2 int |grad omega|^2; NAN if the mesh is too small for the differences, or without memory. */
 static double palinstrophy(const struct pm_grid *g, const double *omega)
 {
 	struct pm_operator o;
@@ -61,7 +61,7 @@ static double palinstrophy(const struct pm_grid *g, const double *omega)
 	return sum;
 }
 
-/* omega at a place; NAN where the mesh does not hold it. */
+/* omega at a point; NAN if the point is outside the mesh. */
 static double at_place(const struct pm_grid *g, const double *omega, const double place[2])
 {
 	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m6prime"), .components = 1};

@@ -24,7 +24,7 @@ struct pm_particle_sums {
 	double movers, square;       /* particles with a velocity; sum v^2 over them */
 	double farthest;             /* max |x| */
 };
-/* Of one set, added to *bulk. Without masses what needs them becomes NAN. */
+/* Adds the sums of one set to *bulk. Without masses the quantities that need them become NAN. */
 void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *bulk);
 
 /* sum q phi/2 over the particles of a set. */
@@ -53,7 +53,7 @@ enum pm_column {
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
-/* Does it mean something for vortices, or else for bodies with mass and velocity, of a plasma or not? */
+/* Is it defined for vortices; or for bodies with mass and velocity, in a plasma or not? */
 bool pm_column_suits(enum pm_column c, bool vortices, bool plasma);
 
 struct pm_measures {
@@ -61,7 +61,7 @@ struct pm_measures {
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
 };
-/* All columns from bulk and field energies (NAN: not there); field: the law has one, so that without its energy there is no total. */
+/* All columns from bulk and field energies (NAN: unknown); field: the law has a field, so the total energy is unknown without the field's energy. */
 void pm_measures_of(const struct pm_frame *f, const struct pm_particle_sums *bulk, double mesh, double pair, bool field, struct pm_measures *m);
 
 struct pm_measure { /* what to measure of a frame */
@@ -71,13 +71,13 @@ struct pm_measure { /* what to measure of a frame */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
 	bool vortices;               /* the law is that of vortices */
 	double centre[2];            /* [length] where omega is looked at */
-	bool plasma;                 /* or has a background of charge */
+	bool plasma;                 /* the law is electrostatic, or has a background of charge */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x of its first component */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };
-/* In declare(): declares what is there of the fields that are read. */
+/* In declare(): declares the reads of those fields that exist. */
 void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
 /* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
 void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);

@@ -1,5 +1,5 @@
 /* Norms of the difference of two fields. Sums are compensated in blocks of fixed size that are added in order (Neumaier 1974), so they do not depend on
- * the number of threads; matching sorts the ids of both and walks along. Cost: O(N), matching O(N log N).
+ * the number of threads; matching sorts the ids of both and merges them. Cost: O(N), matching O(N log N).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 
@@ -18,7 +18,7 @@ static double value(const struct pm_field *f, int c, size_t i)
 	return f->type == PM_I64 ? (double)pm_in_i64(f, c)[i] : f->type == PM_U8 ? (double)pm_in_u8(f, c)[i] : pm_in(f, c)[i];
 }
 
-/* Whole numbers are subtracted as such: beyond 2^53 their doubles could agree where they do not. */
+/* Integers are subtracted as integers: beyond 2^53 different ones can have the same double. */
 static double difference(const struct pm_field *a, const struct pm_field *b, int c, size_t i, size_t j)
 {
 	if (a->type == PM_I64 && b->type == PM_I64) {
@@ -82,7 +82,7 @@ static struct part all_of(const struct pm_field *a, const struct pm_field *b, co
 	return all;
 }
 
-/* A power of two that brings x to about 1, so that its square neither overflows nor vanishes; 1 where it would not anyway. */
+/* A power of two that scales x to about 1, so that its square neither overflows nor underflows; 1 if there is no such risk. */
 static double scale_of(double x) { return x > 1e-140 && x < 1e140 ? 1 : x > 0 ? ldexp(1, -ilogb(x) < 1000 ? -ilogb(x) : 1000) : 1; }
 
 struct pm_norms pm_norms_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight)
@@ -132,9 +132,9 @@ int pm_norms_match(size_t n, const int64_t *a, const int64_t *b, size_t *match, 
 	for (size_t k = 0; k < n && !status; k++) {
 		int64_t p = a[first[k]], q = b[order[k]];
 		if (k && (p == a[first[k - 1]] || q == b[order[k - 1]]))
-			status = pm_fail(PM_DATA, "the id %lld is there twice", (long long)(p == a[first[k - 1]] ? p : q));
+			status = pm_fail(PM_DATA, "the id %lld occurs twice", (long long)(p == a[first[k - 1]] ? p : q));
 		else if (p != q)
-			status = pm_fail(PM_DATA, "the id %lld is in the %s only", (long long)(p < q ? p : q), p < q ? "first" : "second");
+			status = pm_fail(PM_DATA, "the id %lld occurs only in the %s", (long long)(p < q ? p : q), p < q ? "first" : "second");
 		match[first[k]] = order[k];
 	}
 	pm_free(first);

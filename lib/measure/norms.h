@@ -6,15 +6,15 @@
 
 struct pm_norms {
 	double l1, l2, max;                 /* mean |a-b|, root mean |a-b|^2, largest |a-b|; |.| is the length over the components */
-	double relative_l2, relative_max;   /* the same divided by those of b; 0 where both are 0, infinite where only b is */
-	size_t worst;                       /* where |a-b| is largest: the first such index of a */
+	double relative_l2, relative_max;   /* the same divided by the norms of b; 0 if both are 0, infinite if only b is 0 */
+	size_t worst;                       /* the first index at which |a-b| is largest */
 };
 
 /* a and b have the same components and count. match: value i of a is compared with value match[i] of b, NULL: with i. weight: of value i in the means,
  * NULL: 1. Exact zeros stay exact: equal fields give 0 in every norm. */
 struct pm_norms pm_norms_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight);
 
-/* match[i] is where b holds the id a[i]; order is workspace of n. 0, or failure naming an id that one of them lacks or has twice. */
+/* match[i] is where b holds the id a[i]; order is workspace of n. 0, or failure that names an id which is missing or occurs twice. */
 int pm_norms_match(size_t n, const int64_t *a, const int64_t *b, size_t *match, size_t *order);
 
 #endif

@@ -1,18 +1,18 @@
 /* Bulk quantities of particles: mass, kinetic energy, momentum and its scale sum m|v|, angular momentum, first moment, largest distance.
- * Each is a sum over particles, compensated (Neumaier 1974), every eighth particle of a block of pm_sum_block together; the eight and the blocks are joined
- * in their order, whatever thread made them. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Each is a sum over particles, compensated (Neumaier 1974), with eight partial sums per block of pm_sum_block particles; partial sums and blocks are added
+ * in a fixed order, so the number of threads does not matter. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 #include "base/simd-sum.h"
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
-enum { BATCH = 64 }; /* blocks between two joins; bounds the memory, not the result */
+enum { BATCH = 64 }; /* blocks summed before their results are added; limits the memory, does not change the result */
 
 struct block {
 	struct pm_sum sum[SUMS];
 	double farthest2;
 };
 
-/* The same of a block under way, eight particles side by side. */
+/* The running sums of a block, for eight particles side by side. */
 struct lanes {
 	struct pm_simd_sum sum[SUMS];
 	pm_simd farthest2;
@@ -33,7 +33,7 @@ PM_SIMD_INLINE pm_simd larger(pm_simd a, pm_simd b)
 	return (pm_simd)(((pm_simd_bits)b & below) | ((pm_simd_bits)a & ~below));
 }
 
-/* n particles from i on; the others of the eight are 0. */
+/* Loads n particles from i on; the rest of the eight are 0. */
 PM_SIMD_INLINE void add_particles(int dim, int vdim, const struct pm_measured *b, size_t i, size_t n, struct lanes *s)
 {
 	pm_simd x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0};

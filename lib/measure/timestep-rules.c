@@ -29,17 +29,17 @@ static int needs(const struct pm_timestep_rules *r, struct pm_frame *f, const st
 	return 0;
 }
 
-/* The mesh field that carries particles. */
+/* The mesh field that advects particles. */
 static int needs_flow(struct pm_frame *f, const struct pm_law *law)
 {
 	const struct pm_mesh *mesh = NULL;
 	if (!law->field || strcmp(law->of, "x"))
-		return pm_fail(PM_DATA, "the rule of strain needs a flow, and the law '%s' has none (laws vortex and passive)", law->name);
+		return pm_fail(PM_DATA, "the strain rule needs a flow, but the law '%s' has none (laws vortex and passive)", law->name);
 	for (size_t i = 0; i < f->nmeshes && !mesh; i++)
 		if (pm_frame_field(f, f->meshes[i]->name, law->field))
 			mesh = f->meshes[i];
 	if (!mesh)
-		return pm_fail(PM_MISSING, "no field '%s' on a mesh (put dt behind p2m | poisson-fft | mgrad)", law->field);
+		return pm_fail(PM_MISSING, "no field '%s' on a mesh (put dt after p2m | poisson-fft | mgrad)", law->field);
 	return pm_reads(f, mesh->name, law->field) ? 0 : -PM_DATA;
 }
 
@@ -57,7 +57,7 @@ static int needs_charges(struct pm_frame *f, const struct pm_law *law)
 				return -PM_DATA;
 			sets++;
 		}
-	return sets ? 0 : pm_fail(PM_DATA, "no set with charge and mass under the law '%s' for the rule of the plasma frequency", law->name);
+	return sets ? 0 : pm_fail(PM_DATA, "no set with charge and mass under the law '%s' for the plasma frequency rule", law->name);
 }
 
 static double softening(const struct pm_timestep_rules *r, const struct pm_frame *f)
@@ -69,9 +69,9 @@ int pm_timestep_declare(const struct pm_timestep_rules *r, struct pm_frame *f)
 {
 	int status = 0, sets = 0;
 	if (!isnan(r->courant) && !f->nmeshes)
-		return pm_fail(PM_DATA, "no mesh whose cells --courant could count (p2m -n makes one)");
+		return pm_fail(PM_DATA, "no mesh, but --courant counts its cells (p2m -n makes one)");
 	if (!isnan(r->acceleration) && !(softening(r, f) > 0))
-		return pm_fail(PM_DATA, "the rule of acceleration needs a softening length (--softening LENGTH)");
+		return pm_fail(PM_DATA, "the acceleration rule needs a softening length (--softening LENGTH)");
 	const struct pm_law *law = pm_law_of(f);
 	if (!law || (!isnan(r->strain) && (status = needs_flow(f, law))) || (!isnan(r->plasma) && (status = needs_charges(f, law))))
 		return status ? status : -PM_DATA;
@@ -81,7 +81,7 @@ int pm_timestep_declare(const struct pm_timestep_rules *r, struct pm_frame *f)
 			sets++;
 		}
 	if (!status && !sets)
-		return pm_fail(PM_DATA, "no set that moves%s%s", r->set ? " is called " : "", r->set ? r->set : "");
+		return pm_fail(PM_DATA, "no particle set with a velocity%s%s", r->set ? " is called " : "", r->set ? r->set : "");
 	return status;
 }
 

@@ -1,4 +1,4 @@
-/* The rules by which the state of a frame limits its time step: what dt asks for. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rules by which the state of a frame limits its time step, for the word dt. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MEASURE_TIMESTEP_RULES_H
 #define PM_MEASURE_TIMESTEP_RULES_H
 
@@ -6,7 +6,7 @@
 
 /* NAN: the rule is not asked for. */
 struct pm_timestep_rules {
-	double courant;      /* part of a cell of the first mesh crossed in a step */
+	double courant;      /* Courant number: largest displacement per step in cells of the first mesh */
 	double acceleration; /* ETA of sqrt(ETA softening/|acc|) */
 	double strain;       /* C of C/|grad u|, of the flow on a mesh */
 	double plasma;       /* C of C/omega_p */
@@ -14,9 +14,9 @@ struct pm_timestep_rules {
 	const char *set;     /* this set alone; NULL: every set that moves */
 };
 
-/* Header: declares what the rules read, and fails where one of them has no meaning. */
+/* Header: declares the fields that the rules read; fails if a rule is not defined here. */
 int pm_timestep_declare(const struct pm_timestep_rules *r, struct pm_frame *f);
-/* Data: the longest step, infinite where nothing limits it; *rate is |grad u| [1/time], 0 without that rule. */
+/* Data: the longest step allowed, infinite if nothing limits it; *rate is |grad u| [1/time], 0 without that rule. */
 double pm_timestep_allowed(const struct pm_timestep_rules *r, const struct pm_frame *f, double *rate);
 
 #endif

@@ -1,5 +1,5 @@
-/* What limits the time step. The strain: two particles d apart are dt |grad u| d at most closer after a step, so that particles cannot cross where dt |grad u|
- * < 1 in a norm of matrices; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
+/* What limits the time step. The strain: in a step two particles at distance d approach each other by at most dt |grad u| d, so particles cannot cross
+ * if dt |grad u| < 1 in a matrix norm; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
  * Lagrangian CFL). Plasma frequency: omega_p^2 = sum q^2/m/(eps0 V), with V the box (Birdsall and Langdon 1985, section 1-2). Cost N, points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/timestep.h"

@@ -1,4 +1,5 @@
-/* What limits the time step: speeds and changes of particles, the strain of a flow on a mesh, the plasma frequency. All without signs, and the same for any
+/* What limits the time step: speeds and changes of particles, the strain of a flow on a mesh, the plasma frequency. All are absolute values, and the same
+ * for any
  * number of threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MEASURE_TIMESTEP_H
 #define PM_MEASURE_TIMESTEP_H

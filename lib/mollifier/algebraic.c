@@ -1,5 +1,5 @@
 /* Algebraic blob of high order, 2 (2 - s^2)/(pi (1 + s^2)^4)/delta^2: f = (s^4 + 3 s^2 + 4)/(2 pi delta^2 (1 + s^2)^3),
- * phi = (ln(r^2 + delta^2) - 1/(1+s^2) - 1/(1+s^2)^2)/(4 pi). Its second moment vanishes, so a smooth field is smoothed with error delta^4.
+ * phi = (ln(r^2 + delta^2) - 1/(1+s^2) - 1/(1+s^2)^2)/(4 pi). Its second moment vanishes, so a smooth field is changed by O(delta^4) only.
  * Source: Koumoutsakos, notes on particle methods, section 2.2 (S06). 2-D only; negative beyond s = sqrt(2); force/bare - 1 = -(delta/r)^4.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mollifier/bare.h"

@@ -1,4 +1,4 @@
-/* The bare kernels of lap phi = delta function in open space, which every mollifier takes on far away; at r2 = 0 they are 0, because a
+/* The bare (unsmoothed) kernels of lap phi = delta function in open space, which every mollifier approaches at large distance; at r2 = 0 they are 0, because a
  * particle does not act on itself. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MOLLIFIER_BARE_H
 #define PM_MOLLIFIER_BARE_H

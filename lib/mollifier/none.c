@@ -1,4 +1,4 @@
-/* No mollifier: the bare kernel of a point, f = 1/(2r), 1/(2 pi r^2), 1/(4 pi r^3). Unbounded as r -> 0; coincident particles exert nothing.
+/* No mollifier: the bare kernel of a point, f = 1/(2r), 1/(2 pi r^2), 1/(4 pi r^3). Unbounded as r -> 0; coincident particles exert no force.
  * Source: notes on particle methods, S4-3 (Biot-Savart, Newton, Coulomb). Needs no softening length.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mollifier/bare.h"

@@ -1,6 +1,6 @@
 /* Rankine core: a slab, disc or ball of constant density and radius delta; f = 1/(2 delta), 1/(2 pi delta^2), 1/(4 pi delta^3) inside, the bare
  * kernel outside. In 2-D solid rotation inside, potential flow outside. In 2-D phi = (ln delta + (s^2 - 1)/2)/(2 pi) inside.
- * Source: Rankine 1858; notes on particle methods, S4-5. Exact beyond delta; the force has a kink there.
+ * Source: Rankine 1858; notes on particle methods, S4-5. Equal to the bare kernel beyond delta; the force has a kink there.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mollifier/bare.h"
 

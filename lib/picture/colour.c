@@ -1,5 +1,6 @@
-/* Colour maps. viridis, magma and inferno (Smith and van der Walt 2015, CC0) as the polynomials of degree six fitted by Zucker (2019, CC0), within five
- * levels of 255 of the tables; grey is even in L*; coolwarm is Moreland (2009), Diverging color maps for scientific visualization, eqs. 1-4: straight in
+/* Colour maps. viridis, magma and inferno (Smith and van der Walt 2015, CC0) as the polynomials of degree six fitted by Zucker (2019, CC0), which differ
+ * from the tables by at most 5 of 255 levels; grey is even in L*; coolwarm is Moreland (2009), Diverging color maps for scientific visualization, eqs. 1-4:
+ * straight in
  * the polar form Msh of CIELAB from blue through an unsaturated middle to red, for numbers with a sign. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -45,7 +46,7 @@ double pm_colour_lightness(const unsigned char rgb[3])
 
 static void coolwarm(double t, double rgb[3])
 {
-	/* Moreland's table 1: blue (59,76,192), red (180,4,38), and the middle M = 88; the hue turns by his eq. 4 on the way to it */
+	/* Moreland's table 1: blue (59,76,192), red (180,4,38), and the middle M = 88; the hue turns by his eq. 4 towards it */
 	double end = t < 0.5 ? 0 : 1, w = fabs(2 * t - 1), saturation = 1.08, hue = end == 0 ? -1.1 : 0.5, turned = end == 0 ? -1.661 : 1.061;
 	double m = (1 - w) * 88 + w * 80, s = w * saturation, h = (1 - w) * turned + w * hue;
 	double lab[3] = {m * cos(s), m * sin(s) * cos(h), m * sin(s) * sin(h)};

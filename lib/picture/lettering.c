@@ -1,5 +1,5 @@
-/* Letters as strokes of a round pen, drawn for this program. A letter is its width, then strokes separated by blanks; a stroke is a list of points, two signs
- * each: x from '0' upwards in units, y from 'a' = -4 (e: base line, o: height of a small letter, s: capital). A stroke that starts with ~ is smooth:
+/* Letters as strokes of a round pen, designed for this program. A letter is its width, then strokes separated by blanks; a stroke is a list of points of two
+ * characters: x from '0' upwards in units, y from 'a' = -4 (e: base line, o: height of a small letter, s: capital). A stroke that starts with ~ is smooth:
  * Catmull-Rom through its points, closed where it ends as it starts. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdbool.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* A picture: pixels and what is drawn on them. Lines, discs and letters are smoothed by their distance to the centre of each pixel. Rows of the PNG are
+/* A picture: pixels and what is drawn on them. Lines, discs and letters are antialiased by their distance to the centre of each pixel. Rows of the PNG are
  * filtered and packed the same way every time and carry no date: equal pictures are equal bytes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <png.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static double distance(double x, double y, const double s[4])
 	return hypot(x - s[0] - t * dx, y - s[1] - t * dy);
 }
 
-/* A set of segments as one stroke of a round pen, so that joints are not drawn twice. */
+/* A set of segments as one stroke of a round pen, so that joints are not darker. */
 static void stroke(struct pm_picture *p, int n, double (*s)[4], double width, const unsigned char rgb[3])
 {
 	double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL}, r = width / 2;
@@ -107,7 +107,7 @@ double pm_picture_text(struct pm_picture *p, double x, double y, double height, 
 			continue;
 		}
 		if ((*text & 0xc0) == 0x80)
-			continue; /* the second byte of a letter we do not have */
+			continue; /* the second byte of a letter that is not in the table */
 		along += glyph(p, turned ? x - lift : x + along, turned ? y - along : y - lift, height / PM_CAPITAL * scale, turned, *text, rgb);
 	}
 	return along;

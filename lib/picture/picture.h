@@ -18,8 +18,8 @@ void pm_picture_blend(struct pm_picture *p, int x, int y, const unsigned char rg
 void pm_picture_fill(struct pm_picture *p, int x0, int y0, int x1, int y1, const unsigned char rgb[3]);
 void pm_picture_line(struct pm_picture *p, double x0, double y0, double x1, double y1, double width, const unsigned char rgb[3]);
 void pm_picture_disc(struct pm_picture *p, double x, double y, double radius, const unsigned char rgb[3], double cover);
-/* Letters of the given cap height: the base line starts at x, y; turned: upwards. ^{...} raises what it holds. Returns the width, which NULL for p
- * computes without drawing. */
+/* Text of the given cap height: the base line starts at x, y; turned: it runs upwards. ^{...} is a superscript. Returns the width; with p = NULL nothing is
+ * drawn. */
 double pm_picture_text(struct pm_picture *p, double x, double y, double height, bool turned, const char *text, const unsigned char rgb[3]);
 int pm_picture_png(const struct pm_picture *p, FILE *out);
 int pm_picture_ppm(const struct pm_picture *p, FILE *out);

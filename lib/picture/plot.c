@@ -16,7 +16,7 @@ int pm_plot_new(struct pm_plot *p, int size, double aspect, const double lo[2], 
 	p->x1 = p->x0 + w, p->y1 = p->y0 + h;
 	memcpy(p->lo, lo, sizeof p->lo), memcpy(p->hi, hi, sizeof p->hi);
 	int width = p->x1 + (int)((bar ? 9.5 : 2) * letter), height = p->y1 + (int)(5.2 * letter);
-	if (pm_picture_new(&p->picture, width + (width & 1), height + (height & 1), paper)) /* even sides: video coders ask for them */
+	if (pm_picture_new(&p->picture, width + (width & 1), height + (height & 1), paper)) /* even sides, because video encoders need them */
 		return -PM_DATA;
 	pm_picture_fill(&p->picture, p->x0, p->y0, p->x1, p->y1, ground);
 	return 0;
@@ -31,7 +31,7 @@ double pm_scale_at(const struct pm_scale *s, double value)
 	return (value - s->lo) / (s->hi - s->lo);
 }
 
-/* 193 colours, the middle one of them: with those of the letters few enough for a palette. */
+/* 193 colours, an odd number so that the middle is one of them; together with those of the letters few enough for a palette. */
 static void shade(const struct pm_scale *s, double t, unsigned char rgb[3])
 {
 	t = fmin(fmax(t, 0), 1);
@@ -64,7 +64,7 @@ void pm_plot_raster(struct pm_plot *p, const struct pm_raster *r, struct pm_scal
 		}
 }
 
-/* What was drawn over the rim of the data area is covered again. */
+/* Paints over everything that was drawn beyond the data area. */
 static void trim(struct pm_plot *p)
 {
 	struct pm_picture *q = &p->picture;
@@ -103,7 +103,7 @@ int pm_plot_ticks(double lo, double hi, int most, double *at, double *step)
 	return n;
 }
 
-/* The number as a label: as many digits as the distance of the ticks asks for. */
+/* The number as a label: with as many digits as the distance of the ticks needs. */
 static void label(double x, double step, char out[40])
 {
 	double most = fmax(fabs(x), step);
@@ -213,7 +213,7 @@ static void bar_ticks(struct pm_plot *p, const struct pm_scale *s)
 	}
 }
 
-/* A point at an end of the bar: there are numbers beyond. */
+/* A triangle at an end of the bar: some numbers lie beyond the scale. */
 static void bar_point(struct pm_plot *p, int y, int direction, const unsigned char rgb[3])
 {
 	double x0 = p->x1 + p->letter, x1 = p->x1 + 2.2 * p->letter;

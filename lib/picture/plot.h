@@ -5,13 +5,13 @@
 #include "picture/picture.h"
 #include "picture/raster.h"
 
-struct pm_scale { /* from numbers to 0..1 */
+struct pm_scale { /* maps numbers to 0..1 */
 	double lo, hi;
 	bool log;
 	int map;            /* of colours */
 	double start;       /* where on the map lo is, 0 to 1 */
-	bool centred;       /* the middle of the map is the number 0, also where lo and hi are not alike */
-	bool below, above;  /* some numbers lie beyond: the bar gets a point there */
+	bool centred;       /* the middle of the map is the number 0, even if lo and hi are not symmetric */
+	bool below, above;  /* some numbers lie beyond lo or hi: the bar has a triangle at that end */
 	const char *label;
 };
 
@@ -33,6 +33,6 @@ void pm_plot_bar(struct pm_plot *p, const struct pm_scale *s);
 void pm_plot_free(struct pm_plot *p);
 /* Round numbers from lo to hi: 1, 2 or 5 times a power of ten apart, at most `most`; their number. *step is the distance. */
 int pm_plot_ticks(double lo, double hi, int most, double *at, double *step);
-double pm_scale_at(const struct pm_scale *s, double value); /* 0 at lo, 1 at hi, not cut */
+double pm_scale_at(const struct pm_scale *s, double value); /* 0 at lo, 1 at hi, not clamped */
 
 #endif

@@ -96,14 +96,14 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 		for (int b = 0; b < 2; b++)
 			for (int a = 0; a < 2; a++) {
 				double i = floor(s[0]) + a, j = floor(s[1]) + b, share = (1 - fabs(s[0] - i)) * (1 - fabs(s[1] - j));
-				i = fmin(fmax(i, 0), (double)bins[0] - 1), j = fmin(fmax(j, 0), (double)bins[1] - 1); /* nothing is lost at the rim */
+				i = fmin(fmax(i, 0), (double)bins[0] - 1), j = fmin(fmax(j, 0), (double)bins[1] - 1); /* a point at the edge goes fully into the last bin */
 				r->value[(size_t)i + (size_t)j * bins[0]] += share * value;
 			}
 	}
 	return 0;
 }
 
-/* 1-2-1 along a line of n values; what would leave an end comes back to it. */
+/* 1-2-1 filter along a line of n values; at the ends the outer weight is added to the end value, so the sum is kept. */
 static void smooth_line(size_t n, size_t stride, double *v, double *line)
 {
 	for (size_t i = 0; i < n; i++)
@@ -125,7 +125,7 @@ int pm_raster_smooth(struct pm_raster *r)
 	return 0;
 }
 
-/* The two nodes around x along axis k, and the share of the second. */
+/* The two nodes around x along axis k, and the weight of the second. */
 static double nodes(const struct pm_raster *r, int k, double x, size_t at[2])
 {
 	double s = (x - r->lo[k]) / r->h[k], n = (double)r->n[k];

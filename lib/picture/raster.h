@@ -7,7 +7,7 @@
 struct pm_raster {
 	size_t n[2];        /* nodes */
 	double lo[2], h[2]; /* of the nodes */
-	bool wrap[2];       /* the node behind the last is the first */
+	bool wrap[2];       /* periodic: the node after the last is the first */
 	double *value;      /* first axis fastest */
 };
 
@@ -21,7 +21,7 @@ struct pm_raster_points {
 	const double *x, *y, *w;
 };
 int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points, size_t *outside);
-/* One pass of 1-2-1 along both axes; the sum stays. */
+/* One pass of the 1-2-1 filter along both axes; the sum is unchanged. */
 int pm_raster_smooth(struct pm_raster *r);
 /* Linear between the nodes, constant beyond the last. */
 double pm_raster_at(const struct pm_raster *r, double x, double y);

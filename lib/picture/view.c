@@ -19,7 +19,7 @@ static int plan_mesh(struct pm_view *v, struct pm_frame *f, const char *mesh, co
 	if (!p)
 		return -PM_DATA;
 	if (v->component >= p->components)
-		return pm_fail(PM_DATA, "'%s' on '%s' has %d components, --component asks for number %d", field, mesh, p->components, v->component);
+		return pm_fail(PM_DATA, "'%s' on '%s' has %d components, --component is %d", field, mesh, p->components, v->component);
 	v->on_mesh = true;
 	snprintf(v->on, PM_NAME, "%s", mesh), snprintf(v->drawn, PM_NAME, "%s", field);
 	return 0;
@@ -76,7 +76,7 @@ int pm_view_plan(struct pm_view *v, struct pm_frame *f)
 
 /* ---- scales ---- */
 
-/* Range, logarithm and map of the colours for numbers between min and max, the smallest positive of which is least. */
+/* Range, logarithm and map of the colours for numbers between min and max; least is the smallest positive one. */
 static int scale_choose(const struct pm_view *v, struct pm_scale *s, double min, double max, double least, bool log, int map)
 {
 	bool signed_ = fmin(-min, max) > 0.01 * fmax(-min, max) && !log;
@@ -87,12 +87,12 @@ static int scale_choose(const struct pm_view *v, struct pm_scale *s, double min,
 	if (s->centred)
 		s->hi = fmax(-min, max), s->lo = -s->hi;
 	if (log && !(max > 0) && !v->nrange)
-		return pm_fail(PM_DATA, "nothing of '%s' is above 0, which a logarithm needs (leave --log out, or give --range)", v->drawn);
+		return pm_fail(PM_DATA, "no value of '%s' is above 0, as a logarithm needs (leave --log out, or give --range)", v->drawn);
 	if (v->nrange)
 		s->lo = v->range[0], s->hi = v->range[1];
 	if (log && !(s->lo > 0))
-		return pm_fail(PM_USAGE, "--range starts at %g, where a logarithm needs more than 0", s->lo);
-	if (!(s->hi > s->lo)) { /* all equal, or nothing at all */
+		return pm_fail(PM_USAGE, "--range starts at %g, but a logarithm needs values above 0", s->lo);
+	if (!(s->hi > s->lo)) { /* all values are equal, or there are none */
 		double half = s->lo != 0 ? fabs(s->lo) / 2 : 0.5;
 		s->lo = log ? s->hi / 10 : isfinite(half) ? s->hi - half : 0, s->hi = isfinite(half) ? s->hi + half : 1;
 	}
@@ -124,7 +124,7 @@ static void with_unit(const char *name, const char *unit, char out[160])
 	snprintf(out, 160, "%.80s%s%s%s", name, *unit ? "  [" : "", unit, *unit ? "]" : "");
 }
 
-/* The field an expression is nothing but a component of; NULL if it is more. */
+/* The field, if the expression is just one component of a field; else NULL. */
 static const struct pm_field *plain(const struct pm_expression *e, const struct pm_frame *f)
 {
 	return e->nsteps == 1 && e->nvalues == 1 && *e->value[0].field ? pm_frame_field(f, e->on, e->value[0].field) : NULL;
@@ -224,7 +224,7 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 
 /* ---- particles ---- */
 
-/* The range of an axis: the box for a position, else that of the numbers and a little more. */
+/* The range of an axis: the box for a position, else the range of the numbers and a small margin. */
 static void window(const struct pm_expression *e, const struct pm_frame *f, size_t n, const double *y, double *lo, double *hi)
 {
 	const struct pm_field *p = plain(e, f);
@@ -249,7 +249,7 @@ static int draw_density(struct pm_view *v, struct pm_plot *p, size_t n, const do
 	int status = pm_raster_density(&r, bins, p->lo, p->hi, &(struct pm_raster_points){n, x, y, w}, outside);
 	for (size_t i = 0; !status && i < bins[0] * bins[1]; i++)
 		total += r.value[i];
-	double one = n > *outside ? total / (double)(n - *outside) : 1; /* what a single particle makes of a bin */
+	double one = n > *outside ? total / (double)(n - *outside) : 1; /* the density of one particle in one bin */
 	for (int k = 0; k < 2 && !status; k++)
 		status = pm_raster_smooth(&r); /* a particle becomes a small round spot */
 	if (!status && !(status = scale_raster(v, &r, one / 12, v->log || !v->linear, pm_colour_find("inferno"), s))) {
@@ -260,7 +260,7 @@ static int draw_density(struct pm_view *v, struct pm_plot *p, size_t n, const do
 	return status;
 }
 
-/* A seventh of the distance that evenly spread points would have, within reason. */
+/* Radius of a point: a seventh of the mean distance of the points, within limits. */
 static double point_radius(int size, size_t n)
 {
 	double unit = size / 640.0;
@@ -286,7 +286,7 @@ static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, siz
 			min = fmin(min, extra[i]), max = fmax(max, extra[i]), least = extra[i] > 0 ? fmin(least, extra[i]) : least;
 		if (extra && n)
 			status = scale_choose(v, &s, min, max, least, v->log, pm_colour_find("viridis"));
-		s.start = s.map == pm_colour_find("coolwarm") ? 0 : 0.25; /* points must not be as dark as the ground */
+		s.start = s.map == pm_colour_find("coolwarm") ? 0 : 0.25; /* points must not be as dark as the background */
 		if (!status)
 			pm_plot_points(p, n, x, y, n ? extra : NULL, &s, point_radius(v->size, n));
 	}

@@ -6,23 +6,23 @@
 #include "picture/plot.h"
 
 struct pm_view {
-	/* what was asked for; NULL, NAN and n = 0 leave it to the frame */
+	/* the options; NULL, NAN and n = 0: chosen from the frame */
 	const char *field, *mesh, *set, *x, *y, *colour, *weight, *title;
 	int component;         /* of a mesh field, -1: the length of a vector */
-	int axis;              /* that a slice or projection is across, 0 to 2 */
+	int axis;              /* normal of the slice, or direction of the projection, 0 to 2 */
 	double slice;          /* [length] where; NAN: the middle of the box */
 	bool project, points, density, log, linear;
 	int map;               /* -1: viridis, inferno, or coolwarm for numbers of both signs */
 	int nrange, nwindow;
 	double range[2], window[4];
 	int size;              /* pixels of the longer side of the data */
-	/* what pm_view_plan found */
+	/* set by pm_view_plan */
 	bool on_mesh;
 	char on[PM_NAME], drawn[PM_NAME];
 	struct pm_expression ex, ey, ecolour, eweight;
 };
 
-int pm_view_plan(struct pm_view *v, struct pm_frame *f);                    /* decides, and marks what is read */
+int pm_view_plan(struct pm_view *v, struct pm_frame *f);                    /* decides what to draw, and marks the fields to be read */
 int pm_view_draw(struct pm_view *v, struct pm_frame *f, struct pm_plot *p); /* free the plot in any case */
 
 #endif

@@ -1,4 +1,4 @@
-/* Processes joined by pipes. A thread writes while this one reads, so that a frame larger than all the pipes together cannot lock up.
+/* Processes joined by pipes. A second thread writes while this one reads, so that a frame larger than the pipe buffers causes no deadlock.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
@@ -16,8 +16,8 @@
 
 struct pm_chain {
 	int n;
-	bool broken; /* a process failed: the others are told to go */
-	pid_t *pid;  /* 0: has been waited for */
+	bool broken; /* a process failed: the others must end */
+	pid_t *pid;  /* 0: already waited for */
 	const char **name;
 	struct pm_writer *to;
 	struct pm_reader *from;
@@ -27,10 +27,10 @@ static void child(char **argv, int in, int out)
 {
 	char path[PATH_MAX + 64];
 	const char *dir = pm_tool_find(argv[0]) ? pm_home() : NULL;
-	setpgid(0, 0); /* an interrupt from the terminal is for cycle, which ends the step first */
+	setpgid(0, 0); /* only cycle handles an interrupt from the terminal: it completes the step first */
 	signal(SIGPIPE, SIG_DFL);
-	setenv("OMP_WAIT_POLICY", "passive", 0); /* threads that wait leave the cores to the other processes */
-	setenv("PM_QUIET", "1", 1); /* its message comes back down the stream, and cycle says it once */
+	setenv("OMP_WAIT_POLICY", "passive", 0); /* waiting threads must not occupy the cores of the other processes */
+	setenv("PM_QUIET", "1", 1); /* its message arrives in the stream as an abort, and cycle prints it once */
 	dup2(in, STDIN_FILENO);
 	dup2(out, STDOUT_FILENO);
 	if (dir) {
@@ -88,7 +88,7 @@ struct sending {
 	char message[512];
 };
 
-/* A thread of its own, in which a process that is gone is an error (EPIPE) and not a signal. */
+/* The writing thread; a process that has ended gives an error here (EPIPE), not a signal. */
 static void *sending_run(void *p)
 {
 	struct sending *s = p;
@@ -98,11 +98,11 @@ static void *sending_run(void *p)
 	pthread_sigmask(SIG_BLOCK, &set, NULL);
 	s->status = s->f ? pm_write_frame(s->to, s->f) : pm_write_end(s->to);
 	if (s->status)
-		snprintf(s->message, sizeof s->message, "%s", pm_message()); /* messages belong to a thread */
+		snprintf(s->message, sizeof s->message, "%s", pm_message()); /* error messages are per thread */
 	return NULL;
 }
 
-/* A stream that was cut: which process died, and how? It may take a moment until the system tells. */
+/* For a stream that was cut: finds which process ended and how. The system may need a moment to report it. */
 static int who_died(struct pm_chain *c, int otherwise)
 {
 	for (int tries = 0; tries < 50; tries++) {
@@ -120,7 +120,7 @@ static int who_died(struct pm_chain *c, int otherwise)
 	return otherwise;
 }
 
-/* Sends, and meanwhile reads what comes back. */
+/* Sends a frame while reading the result. */
 static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **back)
 {
 	pthread_t writer;
@@ -136,9 +136,9 @@ static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **bac
 		char message[1024];
 		snprintf(message, sizeof message, "%s", pm_message());
 		bool cut = !pm_reader_aborted(c->from) || strstr(message, "it was cut") || strstr(message, "zero bytes");
-		int died = cut ? who_died(c, 0) : 0; /* one of ours behind it passes on that its input was cut */
+		int died = cut ? who_died(c, 0) : 0; /* a later word of ours reports only that its input was cut */
 		got = died ? died : pm_fail(-got, "%s", message);
-		for (int i = 0; i < c->n; i++) /* a writer that waits for one of them sees it go */
+		for (int i = 0; i < c->n; i++) /* a writer blocked on one of them then fails */
 			if (c->pid[i] > 0)
 				kill(c->pid[i], SIGTERM);
 	}

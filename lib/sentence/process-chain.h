@@ -7,9 +7,9 @@
 
 struct pm_chain;
 
-/* words: argv of each process, NULL ends each and all; programs of ours are found beside this one, others on PATH. */
+/* words: the argv of each process, NULL ends each and all; words of pmpipe are found beside this program, others on PATH. */
 struct pm_chain *pm_chain_new(char ***words);
-/* Sends the frame and returns what came back in its place. */
+/* Sends the frame through the chain and replaces it by the result. */
 int pm_chain_apply(struct pm_chain *c, struct pm_frame **f);
 int pm_chain_close(struct pm_chain *c); /* sends the end, waits for the processes; frees in any case */
 

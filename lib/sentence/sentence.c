@@ -1,4 +1,4 @@
-/* Words and quotes as POSIX has them, without expansion; then segments: runs of our own words (fused), and chains of processes.
+/* Splits into words with the quoting rules of POSIX, without expansion; then into segments: runs of pmpipe words (fused), and chains of processes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -14,17 +14,17 @@
 enum { most_words = 64, most_arguments = 64 };
 
 struct word {
-	char *argv[most_arguments + 3]; /* two to spare, for --no-history and --verbose */
+	char *argv[most_arguments + 3]; /* two spare, for --no-history and --verbose */
 	int argc;
 	const struct pm_tool *tool; /* NULL: a foreign program */
-	struct pm_stage *stage;     /* our own words: planned here even when they run as processes */
+	struct pm_stage *stage;     /* pmpipe words: declared here even when they run as processes */
 	bool makes;                 /* runs when priming */
 };
 
 struct segment {
 	int first, count;        /* words */
 	bool process;
-	struct pm_chain *chain[2]; /* all its words; those that make fields (priming) */
+	struct pm_chain *chain[2]; /* all its words; only those that make fields (priming) */
 };
 
 struct pm_sentence {
@@ -101,7 +101,7 @@ static bool in_list(const struct pm_list *list, const char *name)
 	return false;
 }
 
-/* A foreign word must be a program that can be run: said before any input is read. */
+/* A foreign word must be an executable program; checked before any input is read. */
 static int foreign_check(const char *name)
 {
 	const char *names[256], *near;
@@ -113,7 +113,7 @@ static int foreign_check(const char *name)
 	}
 	free(list);
 	if (!strcmp(name, "sh5")) /* a program of its own, which cycle does not know */
-		return pm_fail(PM_USAGE, "sh5 reads or writes a file and cannot stand inside the sentence (put it before or behind cycle: cycle -o FILE.h5)");
+		return pm_fail(PM_USAGE, "sh5 reads or writes a file and cannot be part of the sentence (put it before or after cycle: cycle -o FILE.h5)");
 	if (found)
 		return 0;
 	int n = 0;
@@ -134,9 +134,9 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		return foreign_check(w->argv[0]);
 	}
 	w->makes = w->tool->makes;
-	w->argv[w->argc] = "--no-history"; /* ends up last, also for the process; cycle's own entry says it all */
+	w->argv[w->argc] = "--no-history"; /* appended last, also for the process; the history entry of cycle contains the whole sentence */
 	if (!strcmp(w->tool->name, "cycle") || w->tool->kind == PM_SOURCE)
-		return pm_fail(PM_USAGE, "'%s' cannot stand inside a sentence", w->argv[0]);
+		return pm_fail(PM_USAGE, "'%s' cannot be part of a sentence", w->argv[0]);
 	int status = 0;
 	w->stage = pm_stage_make(w->tool, w->argc, w->argv, &status);
 	if (w->stage && !status)
@@ -145,11 +145,11 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
 	const struct pm_common *k = &w->stage->run->common;
 	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version)
-		return pm_fail(PM_USAGE, "'%s': files, timing and help belong to cycle itself, not inside a sentence", w->stage->word);
+		return pm_fail(PM_USAGE, "'%s': options for files, timing and help belong to cycle itself, not inside the sentence", w->stage->word);
 	if (w->stage->leaves_out)
-		return pm_fail(PM_USAGE, "'%s' leaves frames out: inside a sentence every frame goes on", w->stage->word);
+		return pm_fail(PM_USAGE, "'%s' leaves frames out, but inside a sentence every frame must be passed on", w->stage->word);
 	if (w->stage->kind == PM_SINK)
-		return pm_fail(PM_USAGE, "'%s' ends a stream and cannot stand inside a sentence (diag --tee FILE can)", w->argv[0]);
+		return pm_fail(PM_USAGE, "'%s' ends a stream and cannot be part of a sentence (diag --tee FILE can)", w->argv[0]);
 	return 0;
 }
 
@@ -245,7 +245,7 @@ static int run_fused(struct pm_sentence *s, const struct segment *g, bool primin
 			continue;
 		int status = pm_stage_apply(w->stage, f);
 		if (status == PM_SKIP)
-			return pm_fail(PM_USAGE, "'%s' left the frame out: inside a sentence every frame goes on", w->stage->word);
+			return pm_fail(PM_USAGE, "'%s' left the frame out, but inside a sentence every frame must be passed on", w->stage->word);
 		if (status < 0)
 			return pm_fail(-status, "%s: %s", w->stage->word, pm_message());
 	}
@@ -278,7 +278,7 @@ int pm_sentence_end(struct pm_sentence *s)
 	return 0;
 }
 
-/* Tried on a bare header: plans say what is missing without computing anything. */
+/* Tries declare() on a header without data: it reports missing fields without computing anything. */
 bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 {
 	struct pm_frame *h = pm_frame_header(f);
@@ -286,7 +286,7 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 	for (int i = 0; i < s->nwords && known && !needs; i++) {
 		struct word *w = s->word + i;
 		if (!w->stage)
-			break; /* what a foreign word adds or moves is not known before it runs */
+			break; /* the fields that a foreign word adds or changes are unknown before it runs */
 		w->stage->trial = true;
 		int status = pm_stage_declare(w->stage, h);
 		w->stage->trial = false;

@@ -9,14 +9,14 @@ struct pm_sentence;
 
 /* moves: foreign words that change state (the others are taken to make change or derived fields). fused: our own words run in this process. */
 struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves);
-void pm_sentence_verbose(struct pm_sentence *s); /* before the first pass: its words say what they decide */
-int pm_sentence_free(struct pm_sentence *s); /* 0, or how a process ended badly */
+void pm_sentence_verbose(struct pm_sentence *s); /* before the first pass: its words report their decisions */
+int pm_sentence_free(struct pm_sentence *s); /* 0, or failure with the way a process ended */
 /* True if a word that changes state needs a change field that neither the frame nor an earlier word supplies. */
 bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */
 int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
-int pm_sentence_end(struct pm_sentence *s); /* the input ended well: what words have to say then (processes do so themselves) */
-const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: behind the last, or a foreign word */
+int pm_sentence_end(struct pm_sentence *s); /* the input ended well: calls end() of the words (processes do so themselves) */
+const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: after the last, or a foreign word */
 void pm_sentence_timing(const struct pm_sentence *s, const char *file);
 
 #endif

@@ -1,4 +1,4 @@
-/* Stages made from words and run on a frame in memory: for cycle, plan and the tests, which have the words linked in.
+/* Stages made from words and run on a frame in memory: for cycle, plan and the tests, which are linked with all words.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STAGE_APPLY_H
 #define PM_STAGE_APPLY_H

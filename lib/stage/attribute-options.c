@@ -112,7 +112,7 @@ int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box)
 	if (!box->n)
 		return 0;
 	if (box->n != 2 && box->n != 2 * f->dim)
-		return pm_fail(PM_USAGE, "--box takes lo,hi or all %d lo and then all %d hi, not %d numbers", f->dim, f->dim, box->n);
+		return pm_fail(PM_USAGE, "--box needs lo,hi or all %d lo and then all %d hi, not %d numbers", f->dim, f->dim, box->n);
 	for (int a = 0; a < f->dim; a++) {
 		double lo = box->n == 2 ? box->x[0] : box->x[a], hi = box->n == 2 ? box->x[1] : box->x[a + f->dim];
 		if (!(hi > lo))
@@ -122,11 +122,11 @@ int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box)
 	return 0;
 }
 
-/* The words of a list for every face; out[axis][side] are positions in names. */
+/* The words of a list for every face; out[axis][side] are indices into names. */
 static int words(const struct pm_list *list, int dim, const char *const *names, const char *option, int out[3][2])
 {
 	if (list->n != 1 && list->n != dim && list->n != 2 * dim)
-		return pm_fail(PM_USAGE, "--%s takes 1 word, %d (one per axis) or %d (low,high per axis), not %d", option, dim, 2 * dim, list->n);
+		return pm_fail(PM_USAGE, "--%s needs 1 word, %d (one per axis) or %d (low,high per axis), not %d", option, dim, 2 * dim, list->n);
 	for (int a = 0; a < dim; a++)
 		for (int side = 0; side < 2; side++) {
 			const char *word = list->item[list->n == 1 ? 0 : list->n == dim ? a : 2 * a + side];
@@ -134,7 +134,7 @@ static int words(const struct pm_list *list, int dim, const char *const *names, 
 			while (names[k] && strcmp(names[k], word))
 				k++;
 			if (!names[k])
-				return pm_fail(PM_USAGE, "--%s: no face is called '%s'", option, word);
+				return pm_fail(PM_USAGE, "--%s: '%s' is not a kind of face", option, word);
 			out[a][side] = k;
 		}
 	for (int a = 0; a < dim; a++)

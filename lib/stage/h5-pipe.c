@@ -1,5 +1,5 @@
-/* sh5 on a pipe. What it reads needs no watching: a stream that ends well has an end marker. What it writes is watched through its standard
- * error, where it says in one line why it failed. SPDX-License-Identifier: GPL-3.0-or-later */
+/* sh5 on a pipe. A stream read from sh5 is complete if it has an end marker. A failure of an sh5 that writes is recognised by its standard error, one line
+ * with the reason. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
@@ -56,12 +56,12 @@ struct pm_reader *pm_h5_pipe_read(const char *path)
 		return NULL;
 	}
 	if (pid == 0) {
-		setenv("PM_QUIET", "1", 1); /* its message comes down the stream */
+		setenv("PM_QUIET", "1", 1); /* its message arrives in the stream as an abort */
 		dup2(out[1], STDOUT_FILENO);
 		become(argv);
 		struct pm_writer *w = pm_writer_of_fd(STDOUT_FILENO);
 		if (w)
-			pm_write_abort(w, PM_DATA, "sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)");
+			pm_write_abort(w, PM_DATA, "no program sh5, which .h5 files need (install it beside this program, or on PATH)");
 		_exit(127);
 	}
 	close(out[1]);
@@ -85,22 +85,22 @@ struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest)
 	}
 	if (r->pid == 0) {
 		unsetenv("PM_QUIET");
-		signal(SIGINT, SIG_IGN); /* it ends with its input, which says what became of it */
+		signal(SIGINT, SIG_IGN); /* it ends with its input; the stream contains its result */
 		dup2(in[0], STDIN_FILENO);
 		dup2(said[1], STDERR_FILENO);
 		become(argv);
-		fprintf(stderr, "sh5: sh5 is not here, and .h5 files need it (install it beside this program, or on PATH)\n");
+		fprintf(stderr, "sh5: no program sh5, which .h5 files need (install it beside this program, or on PATH)\n");
 		_exit(PM_DATA);
 	}
 	close(in[0]);
 	close(said[1]);
-	signal(SIGPIPE, SIG_IGN); /* if it fails, its own words are the message */
+	signal(SIGPIPE, SIG_IGN); /* if it fails, its message is used */
 	r->said = said[0];
 	*rest = r;
 	return pm_writer_of_fd(in[1]);
 }
 
-/* What it said, as our message; 0 if nothing. */
+/* Makes the line on its standard error our message; 0 if there is none. */
 static int complaint(struct pm_h5_pipe *r, int code)
 {
 	char text[2048];
@@ -123,7 +123,7 @@ static int wait_code(struct pm_h5_pipe *r)
 
 int pm_h5_pipe_reason(struct pm_h5_pipe *r, int status)
 {
-	fcntl(r->said, F_SETFL, O_NONBLOCK); /* it speaks before it goes, so its words are here if it went first */
+	fcntl(r->said, F_SETFL, O_NONBLOCK); /* it prints before it exits, so the line is complete if it exited first */
 	int said = complaint(r, PM_DATA);
 	fcntl(r->said, F_SETFL, 0);
 	return said ? -wait_code(r) : status;

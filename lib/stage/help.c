@@ -25,7 +25,7 @@ __attribute__((format(printf, 3, 4))) static void add(char *out, size_t size, co
 	va_end(ap);
 }
 
-/* What is known of the value: unit, range, default, choices. */
+/* The unit, range, default and choices of an option. */
 static void option_facts(const struct pm_option *o, char *out, size_t size)
 {
 	*out = 0;
@@ -39,7 +39,7 @@ static void option_facts(const struct pm_option *o, char *out, size_t size)
 		add(out, size, "; default %s", o->fallback);
 }
 
-/* A row of the library whose name the tool gives a meaning of its own. */
+/* A row of the library whose name the tool uses for an option of its own. */
 static bool hidden(const struct pm_option *const rows[PM_ROWS], const struct pm_option *row)
 {
 	for (int k = 0; k < PM_ROWS; k++)

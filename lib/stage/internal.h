@@ -18,10 +18,10 @@ struct pm_run {
 	int ngiven;
 	const char *given[128]; /* long names */
 	int ncopies;
-	char *copies[PM_LIST_MOST]; /* texts of list options, cut into their items */
+	char *copies[PM_LIST_MOST]; /* texts of list options, split into their items */
 	struct pm_reader *reader;
 	struct pm_writer *writer;
-	struct pm_h5_pipe *rest; /* behind the writer, where the output is HDF5; else NULL */
+	struct pm_h5_pipe *rest; /* the sh5 process after the writer if the output is HDF5; else NULL */
 	double began; /* clock when the stage was made */
 };
 

@@ -1,4 +1,4 @@
-/* Options that scale, turn, shift and boost particles, made into a motion of sets. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options that scale, rotate, shift and boost particles, converted into a motion of sets. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage/attribute-options.h"
 #include "stage/motion-options.h"
 

@@ -1,4 +1,4 @@
-/* Option rows drive the command line: types, ranges, defaults, choices, the nearest name for a slip. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Option rows drive the command line: types, ranges, defaults, choices, and the nearest name if one is misspelt. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,11 +11,11 @@ const struct pm_option pm_common_options[] = {
 	{.name = "input", .letter = 'i', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(input), .text = "read FILE instead of standard input"},
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(output), .text = "write FILE instead of standard output"},
 	{.name = "threads", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = 4096, .cosmetic = true, AT(threads),
-		.text = "threads; results do not depend on it (also OMP_NUM_THREADS)"},
+		.text = "number of threads; results do not depend on it (also OMP_NUM_THREADS)"},
 	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
 		.text = "append a line to FILE: word, seconds of set-up, seconds of work"},
 	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},
-	{.name = "verbose", .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "say on standard error what was decided"},
+	{.name = "verbose", .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "print decisions on standard error"},
 	{.name = "help", .letter = 'h', .kind = PM_FLAG, .cosmetic = true, AT(help), .text = "print this help"},
 	{.name = "man", .kind = PM_FLAG, .cosmetic = true, AT(man), .text = "print the manual page (troff)"},
 	{.name = "examples", .kind = PM_FLAG, .cosmetic = true, AT(examples), .text = "print the examples, one command a line"},
@@ -85,7 +85,7 @@ static int integer(const struct pm_option *o, const char *text, int64_t *out)
 	char *end;
 	errno = 0;
 	long long x = strtoll(text, &end, 10);
-	if (*end == 'e' || *end == '.') { /* 1e6 is how people write a million */
+	if (*end == 'e' || *end == '.') { /* 1e6 is accepted for a million */
 		double d;
 		if (!number(o, text, "", &d) && d == floor(d) && fabs(d) < 0x1p53) {
 			x = (long long)d;
@@ -232,7 +232,7 @@ static void note(struct pm_stage *s, const struct pm_option *o, const char *valu
 	json_object_set_new(options, o->name, now);
 }
 
-/* One option at argv[i]; returns how many words it took, or failure. */
+/* One option at argv[i]; returns the number of words used, or failure. */
 static int option(struct pm_stage *s, int argc, char **argv, int i)
 {
 	char *typed = argv[i], *value = NULL;
@@ -251,7 +251,7 @@ static int option(struct pm_stage *s, int argc, char **argv, int i)
 		return pm_fail(PM_USAGE, "option '%s' takes no value", typed);
 	if (f.row->kind != PM_FLAG && !value) {
 		if (i + 1 >= argc)
-			return pm_fail(PM_USAGE, "option '%s' wants a value", typed);
+			return pm_fail(PM_USAGE, "option '%s' needs a value", typed);
 		value = argv[i + 1];
 		took = 2;
 	}
@@ -286,9 +286,9 @@ static int arguments_check(const struct pm_stage *s)
 	if (c->help || c->man || c->complete || c->examples || c->version)
 		return 0;
 	if (s->nargs > t->most && !t->arguments)
-		return pm_fail(PM_USAGE, "'%s' is one word too many (%s takes options only)", s->args[0], t->name);
+		return pm_fail(PM_USAGE, "unexpected argument '%s' (%s has options only)", s->args[0], t->name);
 	if (s->nargs > t->most)
-		return pm_fail(PM_USAGE, "'%s' is one word too many (wanted: %s)", s->args[t->most], t->arguments);
+		return pm_fail(PM_USAGE, "unexpected argument '%s' (expected: %s)", s->args[t->most], t->arguments);
 	if (s->nargs < t->least)
 		return pm_fail(PM_USAGE, "%s is missing (%s)", t->arguments, t->arguments_text);
 	return 0;

@@ -1,4 +1,4 @@
-/* A stage as a process in a pipe: reads a stream, writes one, says what went wrong in one line, and tells those behind it.
+/* A stage as a process in a pipe: reads a stream, writes one, prints an error in one line, and passes it on to the following words.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 		if (!status && s->tool->frame)
 			status = s->tool->frame(s, f);
 		s->seconds += pm_seconds() - t;
-		if (status == PM_SKIP) /* only where the header has not gone out */
+		if (status == PM_SKIP) /* only if the header has not been written yet */
 			return 0;
 	}
 	if (status >= 0)
@@ -115,7 +115,7 @@ static bool print_and_go(const struct pm_tool *tool, const struct pm_common *c)
 	return true;
 }
 
-/* The line on stderr, and the same line down the stream for those behind. */
+/* Prints the message on stderr, and writes it to the stream as an abort for the following words. */
 static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 {
 	char text[2048];
@@ -142,7 +142,7 @@ static int run(struct pm_stage *s)
 	if (status)
 		return status;
 	if (s->kind == PM_SINK && pm_h5_pipe_is(s->run->common.output))
-		return pm_fail(PM_USAGE, "'%s': this is for streams, and %s writes text", s->run->common.output, s->tool->name);
+		return pm_fail(PM_USAGE, "'%s': .h5 files hold streams, but %s writes text", s->run->common.output, s->tool->name);
 	if (s->kind == PM_SINK && s->run->common.output && !freopen(s->run->common.output, "w", stdout))
 		return pm_fail_errno("cannot write '%s'", s->run->common.output);
 	if (s->tool->whole)

@@ -1,4 +1,4 @@
-/* A stage made from words, and run on a frame in memory: the part of the contract that every engine shares.
+/* A stage made from words, and run on a frame in memory: the part of a run that is the same in every engine.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdarg.h>
 #include <stdio.h>
@@ -79,7 +79,7 @@ int pm_stage_declare(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* The input of a stage is finite; only fields that came from outside are looked at, the rest is known. */
+/* The input of a stage must be finite; only fields that came from outside are checked, the others were checked when computed. */
 static int check_input(struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields + f->ndropped; i++) {
@@ -174,7 +174,7 @@ int pm_idle(struct pm_stage *s, const char *format, ...)
 	va_list ap;
 	va_start(ap, format);
 	if (s->verbose && !s->trial && !s->idle)
-		say(s, format, ap, ": nothing to do, the frame passes untouched");
+		say(s, format, ap, ": nothing to do, the frame is passed on unchanged");
 	s->idle |= !s->trial;
 	va_end(ap);
 	return PM_PASS;
@@ -184,7 +184,7 @@ void pm_setup_since(struct pm_stage *s, double began)
 {
 	double t = pm_seconds() - began;
 	s->setup += t;
-	s->seconds -= t; /* the whole of frame() is added when it ends */
+	s->seconds -= t; /* the total time of frame() is added when it ends */
 }
 
 void pm_timing_write(const struct pm_stage *s, const char *file, double wall)

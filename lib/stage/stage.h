@@ -1,4 +1,4 @@
-/* A stage: what a tool is, and the one contract under which it runs as a process, fused inside cycle, or piped inside cycle (docs/stage.md).
+/* A stage: the definition of a tool, which runs in the same way as a process, fused inside cycle, or piped inside cycle (docs/stage.md).
  * A tool is one constant struct of this type named tool_<name>; the library does the rest.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STAGE_H
@@ -56,9 +56,9 @@ struct pm_example {
 
 enum pm_kind { PM_SOURCE, PM_FILTER, PM_SINK };
 
-/* What plan returns besides 0 and failure. */
+/* What declare returns besides 0 and failure. */
 enum {
-	PM_PASS = 1, /* nothing to do in this frame: it passes untouched, frame() is not called */
+	PM_PASS = 1, /* nothing to do in this frame: it is passed on unchanged, frame() is not called */
 	PM_SKIP = 2, /* the frame is left out of the output */
 	PM_HOLD = 3  /* the header of the result depends on data: everything is loaded first, and frame() may still change the header */
 };
@@ -69,13 +69,13 @@ struct pm_stage {
 	void *config;        /* tool->config bytes, filled from the options */
 	void *state;         /* tool->state bytes, zero at begin: only a cache (plans, hierarchies, orders) */
 	int nargs;
-	const char **args;   /* what is not an option */
-	char *word;          /* as typed, without the options of the library; keys the report */
+	const char **args;   /* arguments that are not options */
+	char *word;          /* as typed, without the options of the library; the key of its report */
 	json_t *entry;       /* for the history; NULL with --no-history */
-	bool leaves_out;     /* set by begin: some frames do not come out again, so it cannot stand inside a sentence */
-	bool verbose, trial; /* trial: declare() is tried on a bare header (cycle): nothing is to be cached or counted */
-	bool idle;           /* has said that its effect is zero */
-	double setup, seconds;  /* spent in begin, plan and what frame says was set-up; in the rest of frame */
+	bool leaves_out;     /* set by begin: some frames are not written, so it cannot be part of a sentence */
+	bool verbose, trial; /* cycle tries declare() on a header without data: it must not cache or count anything */
+	bool idle;           /* it has reported that its effect is zero */
+	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup; work: the rest of frame */
 	struct pm_run *run;  /* of the library */
 };
 
@@ -88,7 +88,7 @@ struct pm_tool {
 	size_t config, state;
 	const struct pm_option *options;   /* rows; may be NULL */
 	const struct pm_option *(*more)(void); /* further rows computed from a table; may be NULL */
-	const char *arguments, *arguments_text; /* synopsis of what is not an option ("ACTION..."), and a sentence; NULL none */
+	const char *arguments, *arguments_text; /* synopsis of the arguments that are not options ("ACTION..."), and a sentence; NULL none */
 	int least, most;                   /* how many of them */
 	const struct pm_example *examples; /* {0} ends */
 	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */
@@ -98,7 +98,7 @@ struct pm_tool {
 	int (*end)(struct pm_stage *s);    /* the input ended well */
 	void (*free)(struct pm_stage *s);
 	int (*source)(struct pm_stage *s, struct pm_frame **f); /* sources: 1 and a frame, 0 no more */
-	int (*whole)(struct pm_stage *s);  /* replaces the loop over frames altogether (cycle, scmp) */
+	int (*whole)(struct pm_stage *s);  /* replaces the whole loop over frames (cycle, scmp) */
 };
 
 /* main of every tool. */
@@ -109,12 +109,12 @@ bool pm_given(const struct pm_stage *s, const char *option);       /* was it typ
 void pm_stage_no_entry(struct pm_stage *s);                        /* begin(), source(): it leaves no entry in the history (looking, text of whole frames) */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
-/* declare(): the effect is zero here; says why, once, and returns PM_PASS. */
+/* declare(): the effect is zero here; prints the reason once (--verbose) and returns PM_PASS. */
 int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void pm_setup_since(struct pm_stage *s, double began);             /* frame(): since pm_seconds() was began it set up (plans, hierarchies); not work */
+void pm_setup_since(struct pm_stage *s, double began);             /* frame(): counts the time since `began` as set-up, not as work */
 struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */
-/* Reports travel in the tail under the stage's word; counts add up over steps, the rest is replaced. */
+/* Reports travel in the tail under the stage's word; counts are added over steps, other values are replaced. */
 void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value);
 void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count);
 void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);

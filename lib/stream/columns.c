@@ -19,7 +19,7 @@ static bool is_strength(const char *name)
 	return among(name, names);
 }
 
-/* The field and component a column stands for; component -1: a field of one component. */
+/* The field and component of a column; component -1: a field with one component. */
 static int meaning(const char *name, char field[PM_NAME])
 {
 	size_t n = strlen(name), k = n;
@@ -61,7 +61,7 @@ static int group(int n, const struct pm_column *column, const struct pm_columns_
 		if (plan[i].first >= 0)
 			plan[plan[i].first].components++;
 	}
-	for (int i = 0; i < n; i++) { /* every component once */
+	for (int i = 0; i < n; i++) { /* each component exactly once */
 		unsigned seen = 0;
 		if (plan[i].first != i || plan[i].component < 0)
 			continue;
@@ -70,7 +70,7 @@ static int group(int n, const struct pm_column *column, const struct pm_columns_
 				seen |= 1u << plan[k].component;
 		const bool x = !strcmp(plan[i].field, "x"), v = !strcmp(plan[i].field, "v");
 		if (plan[i].components > PM_COMPONENTS || seen != (1u << plan[i].components) - 1)
-			return pm_fail(PM_DATA, "the columns of '%s' are not its components one by one, from the first (%s%s)", plan[i].field,
+			return pm_fail(PM_DATA, "the columns of '%s' must be all its components in order (%s%s)", plan[i].field,
 				x || v ? "" : plan[i].field, x ? "x y z" : v ? "vx vy vz" : "_0 ...");
 	}
 	return 0;
@@ -81,7 +81,7 @@ static int positions(int n, const struct plan *plan, int dim)
 	for (int i = 0; i < n; i++)
 		if (plan[i].first == i && !strcmp(plan[i].field, "x")) {
 			if (dim && dim != plan[i].components)
-				return pm_fail(PM_DATA, "%d position columns, where --dim asks for %d", plan[i].components, dim);
+				return pm_fail(PM_DATA, "%d position columns, but --dim is %d", plan[i].components, dim);
 			return plan[i].components;
 		}
 	return pm_fail(PM_DATA, "no column 'x' (the first line of the table names its columns: x y z vx vy vz mass ...)");

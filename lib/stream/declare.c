@@ -1,4 +1,4 @@
-/* The declarations by which a stage says in its plan what it does with the fields; the order of the stream follows from them.
+/* The functions with which a stage declares what it does with the fields; the order of the fields in the stream follows from them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name
 	struct pm_field *field = pm_reads(f, on, name);
 	if (!field)
 		return NULL;
-	if (!(field->use & (PM_USE_CHANGE | PM_USE_NEW))) { /* to the end of the list: what a stage touches travels last */
+	if (!(field->use & (PM_USE_CHANGE | PM_USE_NEW))) { /* to the end of the list: fields that a stage changes are written last */
 		pm_list_remove((void **)f->fields, &f->nfields, field);
 		f->fields[f->nfields++] = field;
 	}
@@ -77,7 +77,7 @@ struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *
 {
 	struct pm_field *field = pm_frame_field(f, on, name);
 	if (field && has_term(field, term) && !replace) {
-		pm_fail(PM_DATA, "'%s' on '%s' already holds the term '%s' (--replace computes it anew, push clear drops it)", name, on, term);
+		pm_fail(PM_DATA, "'%s' on '%s' already holds the term '%s' (--replace computes it again, push clear drops it)", name, on, term);
 		return NULL;
 	}
 	if (field && replace && field->nterms > has_term(field, term)) {

@@ -1,4 +1,4 @@
-/* Changes to the header of a frame that several fields must follow. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes to the header of a frame that affect several fields. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "stream/edit.h"
@@ -10,7 +10,7 @@ int pm_frame_rename(struct pm_frame *f, const char *old, const char *new)
 	struct pm_mesh *mesh = pm_frame_mesh(f, old);
 	int found = set != NULL || mesh != NULL;
 	if (!*new || strlen(new) >= PM_NAME || pm_frame_set(f, new) || pm_frame_mesh(f, new))
-		return pm_fail(PM_DATA, "--rename: '%s' cannot be the new name of '%s' (it is taken, empty or longer than 63)", new, old);
+		return pm_fail(PM_DATA, "--rename: '%s' cannot be the new name of '%s' (it is in use, empty or longer than 63 bytes)", new, old);
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
 		if (found && !strcmp(p->on, old))
@@ -32,7 +32,7 @@ int pm_frame_meshes_free(const struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields; i++)
 		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
-			return pm_fail(PM_DATA, "the mesh field '%s' is state and cannot follow a new box or new faces (sel --drop leaves it out)",
+			return pm_fail(PM_DATA, "the mesh field '%s' is state and cannot be kept in a new box or with new faces (sel --drop leaves it out)",
 				f->fields[i]->name);
 	return 0;
 }
@@ -59,7 +59,7 @@ int pm_frame_store(struct pm_frame *f, const char *choice)
 		bool real = p->type == PM_F64 || p->type == PM_F32;
 		found |= mine;
 		if (mine && !real && sign)
-			return pm_fail(PM_DATA, "'%s' holds whole numbers, which --store does not change", p->name);
+			return pm_fail(PM_DATA, "'%s' holds integers, which --store cannot change", p->name);
 		if (mine && real && p->type != to && !p->uniform && !(p->use & PM_USE_CHANGE))
 			pm_changes(f, p->on, p->name), n--;
 		else

@@ -1,6 +1,6 @@
-/* What push must know of a change field to refuse a step that is too long: `fastest`, a key of its header, is the largest rate at which the change
- * makes its state decay [1/time], the largest eigenvalue of the linear operator behind it. Added up over contributions. It travels with the
- * field. SPDX-License-Identifier: GPL-3.0-or-later */
+/* How push recognises a step that is too long for a change field: `fastest`, a key of its header, is the largest rate at which the change
+ * makes its state decay [1/time], the largest eigenvalue of the linear operator behind it. Contributions are added. It is part of the field's header.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_FASTEST_H
 #define PM_STREAM_FASTEST_H
 

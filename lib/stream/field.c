@@ -1,4 +1,4 @@
-/* Field data: reference-counted buffers, copied on write; uniform values filled in when somebody reads them.
+/* Field data: reference-counted buffers, copied on write; uniform values are expanded when they are read.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -126,14 +126,14 @@ int pm_field_ready(struct pm_field *field)
 	return 0;
 }
 
-/* Where the first value is that is not finite; called only when there is one. */
+/* The place of the first value that is not finite; called only if there is one. */
 static int not_finite(const struct pm_field *field, int code)
 {
 	for (int c = 0; c < field->components; c++)
 		for (size_t i = 0; i < field->count; i++)
 			if (!isfinite(pm_in(field, c)[i]))
 				return pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name, field->on, c, i,
-					code == PM_DATA ? "made by what came before; sel --drop leaves the field out" : "a smaller dt, or a larger softening");
+					code == PM_DATA ? "made by an earlier word; sel --drop removes the field" : "a smaller dt, or a larger softening");
 	return 0;
 }
 

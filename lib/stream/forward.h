@@ -1,4 +1,4 @@
-/* What the reader asks of the writer while a field passes by. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Calls from the reader to the writer while a field is passed on. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_FORWARD_H
 #define PM_STREAM_FORWARD_H
 

@@ -1,6 +1,6 @@
-/* A frame: one instant of one simulation (docs/stream.md). Attributes, particle sets, meshes, and one flat list of fields in the order in
- * which they travel. Planar everywhere: component c of a field is one contiguous array. This header is what a method and a word's computing
- * function see; declare.h is for a stage that makes and changes fields, run.h for the layer that runs stages.
+/* A frame: one instant of one simulation (docs/stream.md). Attributes, particle sets, meshes, and one flat list of fields in the order of the stream. Planar
+ * everywhere: component c of a field is one contiguous array. This header is for methods and for the frame() functions of words; declare.h is for stages
+ * that make and change fields, run.h for the layer that runs stages.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_FRAME_H
 #define PM_STREAM_FRAME_H
@@ -19,18 +19,18 @@ enum pm_face { PM_PERIODIC, PM_OPEN, PM_WALL, PM_NEUMANN, PM_ABSORBING };       
 enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };             /* of the particles: periodic, reflect, absorb, open */
 
 extern const char *const pm_type_names[], *const pm_role_names[], *const pm_face_names[], *const pm_particle_face_names[]; /* NULL ends */
-size_t pm_type_size(enum pm_type type); /* bytes of a value on the wire */
+size_t pm_type_size(enum pm_type type); /* bytes of a value in the stream */
 
-/* What the running stage does with a field; set while it declares, cleared when it is done. */
+/* What the running stage does with a field; set in declare(), cleared after frame(). */
 enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* new, and the stage writes every value: no zeros needed */,
-	PM_USE_SEEN = 16 /* the stage has looked at every value it wrote while that was in the cache, and all are finite */,
-	PM_USE_ANY = 32 /* values are carried, not computed with: they need not be finite */ };
+	PM_USE_SEEN = 16 /* the stage has checked every value in its own loop, and all are finite */,
+	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 
 /* In memory real fields (f64, f32) are always double; an f32 field is rounded to f32 when a stage has changed it. i64 is int64_t, u8 bytes. */
-/* What a stage has computed of a field's values and leaves for the next one in the same process; it goes when they change. Never part of the stream:
- * results must not depend on whether it is there. */
+/* Something computed from a field's values and kept for the next stage in the same process; dropped when the values change. Never part of the stream:
+ * results must not depend on it. */
 struct pm_note {
 	void (*free)(struct pm_note *note);
 };
@@ -40,30 +40,30 @@ struct pm_field {
 	char on[PM_NAME];     /* the set or mesh it belongs to */
 	char unit[PM_NAME];   /* free text, "" unknown */
 	char of[PM_NAME];     /* change fields: the state it is the rate of, "" none (bfield) */
-	char kernel[PM_NAME]; /* mesh fields made by p2m, and what was derived from them: the kernel's name, else "" */
+	char kernel[PM_NAME]; /* mesh fields made by p2m, and fields derived from them: the kernel's name; else "" */
 	bool interlaced;      /* made with that kernel on two meshes half a cell apart */
 	int components;       /* 1..PM_COMPONENTS */
 	enum pm_type type;
 	enum pm_role role;
 	bool extensive;       /* a strength (true) or a value (false) */
-	bool uniform;         /* all values of a component are equal: value[c], and no data on the wire */
+	bool uniform;         /* all values of a component are equal: value[c], and no data in the stream */
 	double value[PM_COMPONENTS];
 	unsigned char staggered[PM_COMPONENTS][3]; /* meshes: 1 where the component sits half a cell up that axis */
-	char terms[PM_TERMS][PM_NAME];        /* change fields: who has added to it (self, near, external, ...) */
+	char terms[PM_TERMS][PM_NAME];        /* change fields: the names of the contributions (self, near, external, ...) */
 	int nterms;
 	size_t count;         /* values per component: n of the set, points of the mesh */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */
 	struct pm_note *note; /* NULL: none */
-	struct pm_buffer *buffer; /* NULL: not held (passing by), uniform and not expanded, or a header only */
-	json_t *more;         /* keys we do not know; they travel */
+	struct pm_buffer *buffer; /* NULL: not loaded (passed on), uniform and not expanded, or a header only */
+	json_t *more;         /* unknown keys; passed on */
 };
 
 struct pm_set {
 	char name[PM_NAME];
 	uint64_t n;          /* particles, 0 is legal */
-	double kick, drift;  /* done fractions of the step under way, 0..1 */
-	int pass;            /* passes done of a multi-stage scheme, 0 outside */
+	double kick, drift;  /* completed fractions of the current step, 0..1 */
+	int pass;            /* completed passes of a multi-stage scheme, else 0 */
 	bool fixed;          /* never pushed (a fixed background of bodies) */
 	json_t *more;
 };
@@ -82,33 +82,33 @@ struct pm_frame {
 	char scene[PM_NAME];
 	json_t *parameters;             /* object: parameters of the scene */
 	double time, dt;                /* [time] */
-	double start;                   /* [time] at substep 0 of the step under way; equal to time when substep is 0 */
+	double start;                   /* [time] at substep 0 of the current step; equal to time when substep is 0 */
 	int64_t step;                   /* full steps done */
-	int substep;                    /* pushes done in the step under way, 0 between steps */
+	int substep;                    /* pushes done in the current step, 0 between steps */
 	double lo[3], hi[3];            /* the box [length] */
 	enum pm_face face[3][2];        /* of the fields: [axis][low, high] */
 	enum pm_particle_face pface[3][2];
 	uint64_t seed;
 	json_t *history;                /* array of objects, one per stage */
-	json_t *report;                 /* object: what the stages report, keyed by the word as typed; travels in the tail */
-	json_t *more;                   /* attributes we do not know; they travel */
+	json_t *report;                 /* object: the reports of the stages, keyed by the word as typed; written in the tail */
+	json_t *more;                   /* unknown attributes; passed on */
 	json_t *inside;                 /* the same inside "box", "law" and "scene", keyed by these */
 	size_t nsets, nmeshes, nfields;
 	struct pm_set **sets;
 	struct pm_mesh **meshes;
-	struct pm_field **fields;       /* in the order in which they travel */
+	struct pm_field **fields;       /* in the order of the stream */
 	size_t ndropped;
-	struct pm_field **dropped;      /* dropped by the running stage; gone when it settles */
+	struct pm_field **dropped;      /* dropped by the running stage; freed after frame() */
 };
 
 struct pm_frame *pm_frame_new(int dim);                     /* law free, unit box [0,1], all faces open, no sets, no meshes */
 struct pm_frame *pm_frame_free(struct pm_frame *f);
 struct pm_frame *pm_frame_copy(const struct pm_frame *f);  /* shares the buffers */
 
-struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name);   /* NULL if not there */
+struct pm_set *pm_frame_set(const struct pm_frame *f, const char *name);   /* NULL if missing */
 bool pm_set_moves(const struct pm_frame *f, const struct pm_set *set);      /* push moves it: it has positions and is not fixed */
-struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NULL if not there; name NULL: the first */
-struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name); /* NULL if not there */
+struct pm_mesh *pm_frame_mesh(const struct pm_frame *f, const char *name); /* NULL if missing; name NULL: the first */
+struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name); /* NULL if missing */
 size_t pm_mesh_points(const struct pm_frame *f, const struct pm_mesh *m, size_t points[3]); /* cells (periodic) or cells+1; their product */
 double pm_frame_constant(const struct pm_frame *f, const char *name, double otherwise);
 void pm_frame_constant_set(struct pm_frame *f, const char *name, double value);

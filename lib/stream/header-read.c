@@ -1,5 +1,5 @@
-/* Reading the JSON header of a frame: nothing is believed. Every number has a limit, every name a length, every reference an object. The first
- * complaint is kept, later ones do not matter. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the JSON header of a frame and checks everything: the range of every number, the length of every name, the target of every reference. Only the first
+ * error is kept. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ static const int64_t most_particles = (int64_t)1 << 48, most_cells = (int64_t)1 
 enum { most_objects = 4096 };
 
 struct look {
-	json_t *j;        /* a shallow copy, from which known keys are taken away */
+	json_t *j;        /* a shallow copy, from which known keys are removed */
 	const char *what; /* for messages */
 	bool bad;
 };
@@ -22,7 +22,7 @@ static void complain(struct look *l, const char *key, const char *why)
 	l->bad = true;
 }
 
-/* Takes a key away; the value lives on in the original object. */
+/* Removes a key; the value stays in the original object. */
 static const json_t *take(struct look *l, const char *key, bool must)
 {
 	const json_t *v = json_object_get(l->j, key);
@@ -75,7 +75,7 @@ static int take_choice(struct look *l, const char *key, const char *const *names
 	const json_t *v = take(l, key, true);
 	int i = which(json_string_value(v), names);
 	if (v && i < 0)
-		complain(l, key, "is not one of the words it can be");
+		complain(l, key, "is not one of the words allowed");
 	return i < 0 ? 0 : i;
 }
 
@@ -96,7 +96,7 @@ static void take_reals(struct look *l, const char *key, int n, double *out)
 	}
 }
 
-/* An object to keep as it is. */
+/* An object that is kept unchanged. */
 static void take_object(struct look *l, const char *key, json_t **out)
 {
 	const json_t *v = take(l, key, false);
@@ -116,7 +116,7 @@ static struct look look_at(const json_t *j, const char *what)
 	return l;
 }
 
-/* Keeps what is left of an object inside the frame; true if all was well. */
+/* Keeps the unknown keys of an object in the frame; true if there was no error. */
 static bool look_done_inside(struct look *l, struct pm_frame *f, const char *key)
 {
 	if (json_object_size(l->j))
@@ -125,7 +125,7 @@ static bool look_done_inside(struct look *l, struct pm_frame *f, const char *key
 	return !l->bad;
 }
 
-/* Hands what is left to the owner; true if all was well. */
+/* Stores the unknown keys with their owner; true if there was no error. */
 static bool look_done(struct look *l, json_t **more)
 {
 	json_decref(*more);
@@ -140,7 +140,7 @@ static void read_faces(struct look *l, const char *key, int dim, const char *con
 		for (int s = 0; s < 2; s++) {
 			int i = which(json_string_value(json_array_get(json_array_get(v, (size_t)a), (size_t)s)), names);
 			if (i < 0)
-				complain(l, key, "is not a pair of boundary words per axis");
+				complain(l, key, "is not a pair of face words per axis");
 			out[a][s] = i < 0 ? 0 : i;
 		}
 }
@@ -174,7 +174,7 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 		return false;
 	take_name(&l, "name", true, false, name);
 	if (pm_frame_set(f, name) || pm_frame_mesh(f, name))
-		complain(&l, name, "is there twice");
+		complain(&l, name, "occurs twice");
 	struct pm_set *s = pm_frame_set_new(f, name, (uint64_t)take_integer(&l, "n", 0, most_particles, true, 0));
 	const json_t *done = take(&l, "done", false);
 	const json_t *kick = json_object_get(done, "kick"), *drift = json_object_get(done, "drift");
@@ -198,7 +198,7 @@ static bool read_mesh(const json_t *j, struct pm_frame *f)
 		return false;
 	take_name(&l, "name", true, false, name);
 	if (pm_frame_set(f, name) || pm_frame_mesh(f, name))
-		complain(&l, name, "is there twice");
+		complain(&l, name, "occurs twice");
 	take_reals(&l, "cells", f->dim, cells);
 	take_reals(&l, "lo", f->dim, lo);
 	take_reals(&l, "h", f->dim, h);
@@ -206,13 +206,13 @@ static bool read_mesh(const json_t *j, struct pm_frame *f)
 	double points = 1;
 	for (int a = 0; a < f->dim && !l.bad; a++) {
 		if (!(cells[a] >= 1 && cells[a] <= (double)most_cells && cells[a] == floor(cells[a])) || !(h[a] > 0))
-			complain(&l, name, "has a number of cells or a spacing that cannot be");
+			complain(&l, name, "has an invalid number of cells or spacing");
 		else
 			m->cells[a] = (size_t)cells[a], m->lo[a] = lo[a], m->h[a] = h[a];
 		points *= cells[a] + 1;
 	}
 	if (!l.bad && points > 0x1p48)
-		complain(&l, name, "has more points than there can be");
+		complain(&l, name, "has too many points");
 	return look_done(&l, &m->more);
 }
 
@@ -221,7 +221,7 @@ static void read_field_lists(struct look *l, struct pm_field *p)
 	const json_t *terms = take(l, "terms", false), *half = take(l, "half", false), *e;
 	size_t i;
 	if ((terms && !json_is_array(terms)) || json_array_size(terms) > PM_TERMS)
-		complain(l, "terms", "are no array, or a very long one");
+		complain(l, "terms", "are not an array, or too many");
 	else
 		json_array_foreach(terms, i, e) {
 			if (!json_is_string(e) || json_string_length(e) >= PM_NAME)
@@ -255,7 +255,7 @@ static void read_kernel(struct look *l, struct pm_field *p)
 		p->interlaced = true;
 	}
 	if (p->interlaced && !*p->kernel)
-		complain(l, "interlaced", "is without a kernel");
+		complain(l, "interlaced", "has no kernel");
 }
 
 static bool read_field(const json_t *j, struct pm_frame *f)
@@ -267,12 +267,12 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	take_name(&l, "name", true, false, name);
 	take_name(&l, "on", true, false, on);
 	if (!l.bad && pm_frame_field(f, on, name))
-		complain(&l, name, "is there twice");
+		complain(&l, name, "occurs twice");
 	int components = (int)take_integer(&l, "components", 1, PM_COMPONENTS, true, 1);
 	struct pm_field *p = l.bad ? NULL : pm_makes(f, on, name, components, PM_STATE);
 	if (!p) {
 		if (!l.bad)
-			complain(&l, on, "is the owner of a field, but neither a set nor a mesh");
+			complain(&l, on, "owns a field, but is neither a set nor a mesh");
 		json_decref(l.j);
 		return false;
 	}
@@ -295,7 +295,7 @@ static bool read_list(struct look *l, const char *key, struct pm_frame *f, bool 
 	const json_t *list = take(l, key, true), *e;
 	size_t i;
 	if (!json_is_array(list) || json_array_size(list) > most_objects) {
-		complain(l, key, "is not an array, or a very long one");
+		complain(l, key, "is not an array, or too long");
 		return false;
 	}
 	json_array_foreach(list, i, e) if (!one(e, f))
@@ -346,7 +346,7 @@ int pm_header_frame(const json_t *header, struct pm_frame **out)
 		return -PM_DATA;
 	const json_t *order = take(&l, "byte_order", false);
 	if (order && (!json_is_string(order) || strcmp(json_string_value(order), "little")))
-		complain(&l, "byte_order", "is not little (data are little-endian, always; swap them where they are made)");
+		complain(&l, "byte_order", "is not little (data must be little-endian; swap the bytes where they are written)");
 	int dim = (int)take_integer(&l, "dim", 1, 3, true, 1);
 	struct pm_frame *f = pm_frame_new(dim);
 	bool good = f && read_all(&l, f);

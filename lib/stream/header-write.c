@@ -1,4 +1,4 @@
-/* Writing the JSON header of a frame; what is at its default is left out. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the JSON header of a frame; values equal to their default are omitted. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static json_t *reals(const double *x, int n)
 {
 	json_t *a = json_array();
 	for (int i = 0; i < n; i++)
-		json_array_append_new(a, json_real(x[i])); /* NULL for NaN and infinities: the array comes out short */
+		json_array_append_new(a, json_real(x[i])); /* NULL for NaN and infinities, so the array is too short, which is detected */
 	return a;
 }
 
@@ -91,7 +91,7 @@ static json_t *box_json(const struct pm_frame *f)
 	return json_pack("{s:o,s:o,s:o,s:o}", "lo", reals(f->lo, f->dim), "hi", reals(f->hi, f->dim), "fields", faces, "particles", particles);
 }
 
-/* Puts an object under its key, together with what we did not know in it. */
+/* Stores an object under its key, together with its unknown keys. */
 static void put_named(json_t *j, const struct pm_frame *f, const char *key, json_t *object)
 {
 	json_object_update(object, json_object_get(f->inside, key));

@@ -6,8 +6,8 @@
 
 extern const char *const pm_kind_names[]; /* value, strength */
 json_t *pm_header_json(const struct pm_frame *f);                 /* NULL if a number is not finite, with a message */
-int pm_header_frame(const json_t *header, struct pm_frame **f);   /* everything checked; keys we do not know are kept */
-size_t pm_field_wire(const struct pm_field *field);               /* bytes on the wire without padding; 0 if uniform */
+int pm_header_frame(const json_t *header, struct pm_frame **f);   /* everything checked; unknown keys are kept */
+size_t pm_field_wire(const struct pm_field *field);               /* bytes in the stream without padding; 0 if uniform */
 char *pm_json_line(const json_t *j);                              /* canonical text: sorted keys, compact, %.17g; free() it */
 
 #endif

@@ -1,4 +1,4 @@
-/* Frames made of others. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames made from other frames. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,9 +95,9 @@ static int at_rest(const struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields; i++)
 		if (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_STATE)
-			return pm_fail(PM_DATA, "the mesh field '%s' is state, which cannot be put together (leave it out with sel --drop)",
+			return pm_fail(PM_DATA, "the mesh field '%s' is state, which cannot be combined (remove it with sel --drop)",
 				f->fields[i]->name);
-	return f->substep ? pm_fail(PM_DATA, "a scene is inside a step (substep %d), where scenes cannot be put together", f->substep) : 0;
+	return f->substep ? pm_fail(PM_DATA, "a scene is inside a step (substep %d); scenes can be combined only between steps", f->substep) : 0;
 }
 
 void pm_frame_meshes_span(struct pm_frame *f)
@@ -133,7 +133,7 @@ static void next_id(const struct pm_frame *f, struct pm_join *join)
 	}
 }
 
-/* Fills values at.. of `to` with those of `from`; ids move up by offset. */
+/* Copies the values of `from` to `to` from index `at` on; adds offset to ids. */
 static void values_copy(struct pm_field *to, size_t at, const struct pm_field *from, int64_t offset)
 {
 	size_t size = pm_field_memory(to);
@@ -162,12 +162,12 @@ static bool same_value(const struct pm_field *p, const struct pm_field *q)
 	return p->uniform && q->uniform && !memcmp(p->value, q->value, (size_t)p->components * sizeof *p->value);
 }
 
-/* The values of b's field behind those of a's; where not all are equal any more, both are spelt out. */
+/* Appends the values of b's field to a's; if the result is not uniform, both are expanded. */
 static int field_append(struct pm_frame *a, const char *on, const struct pm_field *q, size_t before, int64_t offset)
 {
 	struct pm_field *p = pm_frame_field(a, on, q->name), *spelt;
 	if (!p || p->components != q->components || p->type != q->type || p->extensive != q->extensive)
-		return pm_fail(PM_DATA, "'%s' on '%s' is not in all scenes, or not of the same kind (--merge needs the same fields; sel --drop)", q->name, on);
+		return pm_fail(PM_DATA, "'%s' on '%s' is missing in some scene, or differs in kind (--merge needs the same fields; sel --drop)", q->name, on);
 	if (same_value(p, q))
 		return 0;
 	if (p->uniform) { /* ready fills the values in */
@@ -198,7 +198,7 @@ static int set_merge(struct pm_frame *a, struct pm_set *into, const struct pm_fr
 			nfields++;
 		}
 	return status ? status : nfields == expected ? 0
-		: pm_fail(PM_DATA, "'%s' has fields that are not in all scenes (--merge needs the same fields; sel --drop)", into->name);
+		: pm_fail(PM_DATA, "'%s' has fields that are missing in some scene (--merge needs the same fields; sel --drop)", into->name);
 }
 
 static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *b, const struct pm_set *set, int64_t offset)
@@ -220,7 +220,7 @@ static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *
 	return 0;
 }
 
-/* How far the ids of b must move so that none is below next_id; 0 where they are all above. */
+/* The number to add to the ids of b so that none is below next_id; 0 if none is. */
 static int64_t id_offset(const struct pm_frame *b, const struct pm_join *join)
 {
 	int64_t least = INT64_MAX;

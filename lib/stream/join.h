@@ -1,10 +1,10 @@
-/* Frames made of others: without a set or mesh, fewer particles, several frames in one. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames made from others: without a set or mesh, with fewer particles, several frames in one. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_JOIN_H
 #define PM_STREAM_JOIN_H
 
 #include "stream/frame.h"
 
-/* Takes a set or mesh away with its fields; nothing if there is none of that name. */
+/* Removes a set or mesh with its fields, if it exists. */
 void pm_frame_remove(struct pm_frame *f, const char *name);
 /* Keeps the particles where keep[i] is not 0; every field of the set must be loaded or uniform. 0 or failure. */
 int pm_frame_select(struct pm_frame *f, struct pm_set *set, const unsigned char *keep);
@@ -17,10 +17,10 @@ struct pm_join {
 	size_t frames;            /* joined so far; updated */
 };
 
-/* Puts the sets of b into a, whose box grows to hold that of b; ids of b that a set of a could have are moved up. Both hold their data. Dimensions,
- * law, constants, time and faces must agree. Change, derived and register fields of both, and the meshes of b, are left out. */
+/* Adds the sets of b to a, whose box grows to include that of b; ids of b that may occur in a are increased. Both hold their data. Dimensions,
+ * law, constants, time and faces must agree. Change, derived and register fields of both, and the meshes of b, are dropped. */
 int pm_frame_join(struct pm_frame *a, const struct pm_frame *b, struct pm_join *join);
-/* The same for the first: its meshes span the box again, its sets are renamed as asked. */
+/* The same for the first frame: its meshes span the box again, its sets are renamed. */
 int pm_frame_join_first(struct pm_frame *a, struct pm_join *join);
 
 void pm_frame_meshes_span(struct pm_frame *f); /* every mesh spans the box again, its number of cells unchanged */

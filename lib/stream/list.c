@@ -32,5 +32,5 @@ void pm_list_remove(void **list, size_t *n, const void *item)
 		return;
 	memmove(list + i, list + i + 1, (*n - i - 1) * sizeof *list);
 	--*n;
-	/* pm_list_add doubles at powers of two; shrinking below one and growing again only reallocates to a size at least as large as needed */
+	/* pm_list_add reallocates at powers of two only, so after shrinking there is always enough room */
 }

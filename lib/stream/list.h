@@ -4,7 +4,7 @@
 
 #include "stream/frame.h"
 
-void pm_name_copy(char to[PM_NAME], const char *from);        /* cut, never overrun; readers refuse longer ones before they get here */
+void pm_name_copy(char to[PM_NAME], const char *from);        /* truncated, never overrun; readers reject longer names before */
 void *pm_list_add(void ***list, size_t *n, void *item);       /* the item, or NULL without memory */
 void pm_list_remove(void **list, size_t *n, const void *item);
 

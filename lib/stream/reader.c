@@ -1,4 +1,4 @@
-/* The reading half of the stream. Nothing it reads is believed before it is checked. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the stream. Everything is checked before it is used. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { most_text = 16 << 20 }; /* bytes of a header, tail or message */
 
-struct item { /* one field of the frame under way, as it was when its header was read */
+struct item { /* one field of the current frame, as it was when its header was read */
 	struct pm_field *field;
 	size_t bytes, count;
 	enum pm_type type;
@@ -22,8 +22,8 @@ struct item { /* one field of the frame under way, as it was when its header was
 struct pm_reader {
 	int fd;
 	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
-	bool whole;                /* the frame under way has been read to its tail; it stays the one under way until the next begins */
-	uint64_t frame, frames;    /* number under way, from 1; frames of this stream */
+	bool whole;                /* the current frame has been read to its tail; it stays current until the next begins */
+	uint64_t frame, frames;    /* number of the current frame, from 1; frames of this stream */
 	size_t nitems;
 	struct item *items;
 	size_t at, have;
@@ -40,7 +40,7 @@ struct pm_reader *pm_reader_of_fd(int fd)
 	memset(r, 0, offsetof(struct pm_reader, piece));
 	r->fd = fd;
 	r->frame = 1;
-	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* no pipe, or not allowed: as well */
+	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* harmless if it is not a pipe or not permitted */
 	return r;
 }
 
@@ -178,7 +178,7 @@ static int get_abort(struct pm_reader *r, const struct line *l)
 	size_t n = strlen(text);
 	while (n && (text[n - 1] == '\n' || text[n - 1] == ' '))
 		text[--n] = 0;
-	for (char *c = text; *c; c++) /* one line, and nothing a terminal would act on */
+	for (char *c = text; *c; c++) /* one line, without control characters that a terminal would execute */
 		if ((unsigned char)*c < ' ' || *c == 0x7f)
 			*c = ' ';
 	status = pm_fail(code, "%s", text);
@@ -188,7 +188,7 @@ static int get_abort(struct pm_reader *r, const struct line *l)
 
 static size_t padded(size_t bytes) { return (bytes + PM_LINE - 1) / PM_LINE * PM_LINE; }
 
-/* Remembers what will come, and checks it against the payload promised by the line. */
+/* Stores the expected fields, and compares their size with the payload announced in the line. */
 static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t payload)
 {
 	struct item *items = realloc(r->items, (f->nfields + 1) * sizeof *items);
@@ -201,10 +201,10 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 		struct pm_field *p = f->fields[i];
 		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0};
 		if (__builtin_add_overflow(total, padded(items[i].bytes), &total))
-			return pm_fail(PM_DATA, "the fields of the header are larger than can be");
+			return pm_fail(PM_DATA, "the fields of the header are too large");
 	}
 	return total == payload ? 0
-				: pm_fail(PM_DATA, "the header describes %llu bytes of data, its line promises %llu", (unsigned long long)total,
+				: pm_fail(PM_DATA, "the header describes %llu bytes of data, its line announces %llu", (unsigned long long)total,
 					  (unsigned long long)payload);
 }
 
@@ -256,15 +256,15 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 	if (!strcmp(l.word, "abort"))
 		return get_abort(r, &l);
 	if (strcmp(l.word, "end"))
-		return pm_fail(PM_DATA, "'%s' where a frame or the end should be", l.word);
+		return pm_fail(PM_DATA, "'%s' instead of a frame or the end", l.word);
 	if (l.numbers != 1 || l.number[0] != r->frames)
-		return pm_fail(PM_DATA, "the end marker counts other frames than the %llu that came", (unsigned long long)r->frames);
+		return pm_fail(PM_DATA, "the end marker does not count the %llu frames received", (unsigned long long)r->frames);
 	r->frames = 0;
 	r->stream = false;
 	return PM_GOT_END;
 }
 
-/* f32 is widened to double on the way in; everything else lies in memory as it travels. */
+/* f32 is widened to double on the way in; other types are the same in memory and in the stream. */
 static void store(struct item *it, size_t offset, const char *piece, size_t n)
 {
 	char *base = pm_field_bytes(it->field);
@@ -316,7 +316,7 @@ static int get_tail(struct pm_reader *r, struct pm_frame *f)
 	if (!status && !strcmp(l.word, "abort"))
 		return get_abort(r, &l);
 	if (!status && (strcmp(l.word, "tail") || l.numbers != 1))
-		status = pm_fail(PM_DATA, "'%s' where the tail of the frame should be", l.word);
+		status = pm_fail(PM_DATA, "'%s' instead of the tail of the frame", l.word);
 	if (!status)
 		status = get_json(r, l.number[0], "a tail", &tail);
 	if (status)
@@ -326,7 +326,7 @@ static int get_tail(struct pm_reader *r, struct pm_frame *f)
 		status = pm_fail(PM_DATA, "the tail does not fit the fields of the frame");
 	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (json_integer_value(json_array_get(crcs, i)) != (json_int_t)r->items[i].crc)
-			status = pm_fail(PM_DATA, "the checksum of field %zu of %zu is wrong: the data were damaged on the way", i + 1, r->nitems);
+			status = pm_fail(PM_DATA, "the checksum of field %zu of %zu is wrong: the data are damaged", i + 1, r->nitems);
 	if (!status && report) {
 		json_decref(f->report);
 		f->report = json_deep_copy(report);

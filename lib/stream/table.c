@@ -1,5 +1,5 @@
-/* Tables of text. Reading cuts the text into pieces of about a MiB at line ends; one pass counts the rows of each, the next reads them, every piece
- * knowing its first row and line, so that any number of threads gives the same fields and the same complaint: that of the first wrong line.
+/* Tables of text. The text is split into pieces of about a MiB at line ends; one pass counts the rows of each, the next reads them, with the first row and line
+ * of every piece known, so that any number of threads gives the same fields and the same error: that of the first wrong line.
  * Cost: 20 to 200 ns a number, see lib/base/decimal.c. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
 #include <errno.h>
@@ -20,7 +20,7 @@ struct complaint {
 };
 
 struct piece {
-	size_t begin, end, rows; /* rows: before the sum its own, after it of all before */
+	size_t begin, end, rows; /* rows: of the piece, after the prefix sum of all pieces before it */
 	uint64_t lines;
 	struct complaint wrong;
 };
@@ -39,13 +39,13 @@ static int text_more(struct pm_text *t, size_t *room)
 	return t->data = data, *room = want, 0;
 }
 
-/* Marks at the beginning that editors leave, and that would be letters of the first name. */
+/* Byte order marks that editors write, and that would become part of the first name. */
 static int mark_check(const struct pm_text *t, const char *path)
 {
 	if (t->size >= 3 && !memcmp(t->data, "\xEF\xBB\xBF", 3))
-		return pm_fail(PM_DATA, "%s: it begins with a byte order mark, three bytes that are no part of a table (take them off: tail -c +4)", path);
+		return pm_fail(PM_DATA, "%s: it begins with a byte order mark, three bytes that do not belong to the table (remove them: tail -c +4)", path);
 	if (t->size >= 2 && (!memcmp(t->data, "\xFF\xFE", 2) || !memcmp(t->data, "\xFE\xFF", 2)))
-		return pm_fail(PM_DATA, "%s: it is UTF-16 (make it UTF-8: iconv -f UTF-16 -t UTF-8)", path);
+		return pm_fail(PM_DATA, "%s: it is UTF-16 (convert it to UTF-8: iconv -f UTF-16 -t UTF-8)", path);
 	return 0;
 }
 
@@ -156,7 +156,7 @@ static void piece_count(const struct pm_text *t, struct piece *p)
 	}
 }
 
-/* Counts all pieces and turns the counts into what comes before each. */
+/* Counts the rows and lines of all pieces and computes the prefix sums. */
 static struct piece *pieces_counted(const struct pm_text *t, size_t end, size_t *n, size_t *rows, uint64_t *lines)
 {
 	struct piece *p = pieces_new(t, end, n);
@@ -186,7 +186,7 @@ int pm_table_count(const struct pm_text *t, size_t end, size_t *rows)
 	return 0;
 }
 
-/* Letters into the components of a row. %41 stands for one that could not stand in a table (a blank, # or %), a lone % for none at all. */
+/* Stores letters in the components of a row. %41 encodes a letter that a table cannot contain (a blank, # or %), a single % is the empty name. */
 static bool letters(const struct pm_field *field, size_t row, const char *s, const char *e)
 {
 	unsigned char *y = pm_out_u8((struct pm_field *)(uintptr_t)field, 0), one;
@@ -267,9 +267,9 @@ static void piece_read(const struct pm_text *t, int n, const struct pm_column *c
 
 static int complain(const struct complaint *w, int n, const struct pm_column *column)
 {
-	static const char *const why[] = {"", "is not a number", "is not finite", "is not a whole number that fits", "has too many letters"};
+	static const char *const why[] = {"", "is not a number", "is not finite", "is not an integer of 64 bits", "has too many letters"};
 	if (w->what == COUNT)
-		return pm_fail(PM_DATA, "line %lu: %d columns, where the line of names has %d", (unsigned long)w->line, w->count, n);
+		return pm_fail(PM_DATA, "line %lu: %d columns, but the line of names has %d", (unsigned long)w->line, w->count, n);
 	return pm_fail(PM_DATA, "line %lu, column %d '%s': '%s' %s", (unsigned long)w->line, w->column + 1, column[w->column].name, w->token, why[w->what]);
 }
 
@@ -327,7 +327,7 @@ int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column 
 			else
 				column_name(f, field, c, column[n].name);
 			for (int k = 0, again = 0; k < n; k++)
-				if (!strcmp(column[k].name, column[n].name)) /* 'y' beside the second component of x: a number behind it */
+				if (!strcmp(column[k].name, column[n].name)) /* 'y' besides the second component of x: a number is appended */
 					snprintf(column[n].name, PM_NAME, "%.40s_%d_%d", field->name, c, again++), k = -1;
 		}
 	}

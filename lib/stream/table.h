@@ -1,4 +1,4 @@
-/* Tables of text: a line of column names, then a row a line, blanks or tabs between; lines that are empty or start with '#' are passed over.
+/* Tables of text: a line of column names, then one row per line, separated by blanks or tabs; lines that are empty or start with '#' are skipped.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_TABLE_H
 #define PM_STREAM_TABLE_H
@@ -11,14 +11,14 @@ enum { PM_COLUMNS = 256 };
 
 struct pm_column {
 	char name[PM_NAME];
-	struct pm_field *field; /* NULL: read over */
+	struct pm_field *field; /* NULL: skip the column */
 	int component;
 	bool text;   /* a u8 field whose components are the letters, ended by 0 if shorter */
 };
 
-/* A text in memory and the place reached. */
+/* A text in memory and the current position. */
 struct pm_text {
-	char *data;    /* ends in a 0 that does not count */
+	char *data;    /* followed by a 0 that is not counted */
 	size_t size, at;
 	uint64_t line; /* of `at`, from 1 */
 };
@@ -28,12 +28,12 @@ void pm_text_close(struct pm_text *t);
 /* The next line that is neither empty nor a comment, split into names; 0 at the end of the text. */
 int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column);
 size_t pm_text_line_end(const struct pm_text *t, size_t at); /* the newline, or the end of the text */
-/* Rows between the place reached and end. */
+/* Rows between the current position and end. */
 int pm_table_count(const struct pm_text *t, size_t end, size_t *rows);
-/* Reads them; the fields hold data and have as many values. What is wrong is named by line and column. */
+/* Reads them into fields that hold data and have as many values. Errors are reported with line and column. */
 int pm_table_read(struct pm_text *t, size_t end, int ncolumns, const struct pm_column *column);
 
-/* The columns of what `on` holds, uniform fields left out: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; no two alike. Their number. */
+/* The columns of the fields of `on` without uniform ones: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; all different. Returns their number. */
 int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column);
 int pm_table_write(FILE *out, size_t rows, int ncolumns, const struct pm_column *column);
 

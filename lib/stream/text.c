@@ -1,5 +1,5 @@
-/* Frames as text. The header is the JSON of the wire, so that whatever travels in a stream travels here; the number of rows decides how many
- * particles a set has (rows may be taken out or put in with any text tool), a mesh must have all its points.
+/* Frames as text. The header is the JSON of the stream, so nothing is lost; the number of rows is the number
+ * of particles of a set (any text tool may delete or insert rows), a mesh must have all its points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 
 static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", end_mark[] = "#end ";
 
-/* The n-th owner of fields: sets first, then meshes. NULL behind the last. */
+/* The n-th owner of fields: sets first, then meshes. NULL after the last. */
 static const char *owner(const struct pm_frame *f, size_t n, const char **kind)
 {
 	*kind = n < f->nsets ? "set" : "mesh";
@@ -64,20 +64,20 @@ static bool starts(const struct pm_text *t, const char *mark)
 
 bool pm_text_is_frames(const struct pm_text *t) { return starts(t, frame_mark) || starts(t, end_mark); }
 
-/* The JSON behind the mark of this line, which is passed. */
+/* Parses the JSON after the mark of this line, and goes to the next line. */
 static json_t *json_read(struct pm_text *t, const char *mark)
 {
 	json_error_t why;
 	size_t end = pm_text_line_end(t, t->at), at = t->at + strlen(mark);
 	json_t *j = json_loadb(t->data + at, end - at, JSON_REJECT_DUPLICATES, &why);
 	if (!j)
-		pm_fail(PM_DATA, "line %lu: the JSON behind %sis wrong: %s", (unsigned long)t->line, mark, why.text);
+		pm_fail(PM_DATA, "line %lu: the JSON after %sis wrong: %s", (unsigned long)t->line, mark, why.text);
 	t->at = end < t->size ? end + 1 : end;
 	t->line++;
 	return j;
 }
 
-/* Where the next line is that starts with one of our marks. */
+/* The next line that starts with one of our marks. */
 static size_t table_end(const struct pm_text *t)
 {
 	static const char *const marks[] = {"\n#pmpipe ", "\n#report ", "\n#set ", "\n#mesh ", "\n#end ", NULL};
@@ -88,7 +88,7 @@ static size_t table_end(const struct pm_text *t)
 	return t->size;
 }
 
-/* Gives each column read its field; all that the header promises must be there, and nothing else. */
+/* Assigns a field to each column; the columns must be exactly those of the header. */
 static int match(const struct pm_text *t, int n, struct pm_column *column, int nwant, const struct pm_column *want)
 {
 	for (int i = 0; i < n; i++) {
@@ -98,11 +98,11 @@ static int match(const struct pm_text *t, int n, struct pm_column *column, int n
 		for (int j = 0; j < i; j++)
 			k = strcmp(column[j].name, column[i].name) ? k : nwant;
 		if (k == nwant)
-			return pm_fail(PM_DATA, "line %lu: column '%s' is not in the header of its frame, or is there twice",
+			return pm_fail(PM_DATA, "line %lu: column '%s' is not in the header of its frame, or occurs twice",
 				(unsigned long)t->line - 1, column[i].name);
 		column[i] = want[k];
 	}
-	return n == nwant ? 0 : pm_fail(PM_DATA, "line %lu: %d columns, where the header of the frame asks for %d", (unsigned long)t->line - 1, n, nwant);
+	return n == nwant ? 0 : pm_fail(PM_DATA, "line %lu: %d columns, but the header of the frame needs %d", (unsigned long)t->line - 1, n, nwant);
 }
 
 static int rows_hold(struct pm_frame *f, const char *on, size_t rows, uint64_t line)
@@ -118,7 +118,7 @@ static int rows_hold(struct pm_frame *f, const char *on, size_t rows, uint64_t l
 		if (strcmp(field->on, on) || field->uniform)
 			continue;
 		if (field->count != rows)
-			return pm_fail(PM_DATA, "line %lu: %zu rows, where the mesh '%s' has %zu points", (unsigned long)line, rows, on, field->count);
+			return pm_fail(PM_DATA, "line %lu: %zu rows, but the mesh '%s' has %zu points", (unsigned long)line, rows, on, field->count);
 		if (pm_field_hold(field))
 			return -PM_DATA;
 	}
@@ -137,7 +137,7 @@ static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, con
 		return nwant;
 	size_t length = (size_t)snprintf(mark, sizeof mark, "#%s %s\n", kind, on);
 	if (t->size - t->at < length || memcmp(t->data + t->at, mark, length))
-		return pm_fail(PM_DATA, "line %lu: the table of %s '%s' is not here, where the header of the frame asks for it", (unsigned long)line, kind, on);
+		return pm_fail(PM_DATA, "line %lu: no table of %s '%s', which the header of the frame needs", (unsigned long)line, kind, on);
 	t->at += length, t->line++;
 	end = table_end(t);
 	if ((n = pm_text_names(t, end, column)) < 0 || match(t, n, column, nwant, want) || pm_table_count(t, end, &rows) || rows_hold(f, on, rows, line))

@@ -1,4 +1,4 @@
-/* The stream on the wire (docs/stream.md): header, data, tail, end, abort. One reader and one writer serve every engine.
+/* Reading and writing the stream (docs/stream.md): header, data, tail, end, abort. One reader and one writer for every engine.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_WIRE_H
 #define PM_STREAM_WIRE_H
@@ -9,7 +9,7 @@ PM_C_BEGIN
 
 enum { PM_LINE = 64, PM_PIECE = 256 * 1024 };
 
-/* What pm_read_header found; negative is a failure, an abort that came down the stream included (its code and message). */
+/* Result of pm_read_header; negative: a failure, or an abort in the stream (with its code and message). */
 enum { PM_GOT_EOF = 0, PM_GOT_FRAME = 1, PM_GOT_END = 2 };
 
 struct pm_reader;
@@ -23,10 +23,10 @@ bool pm_reader_aborted(const struct pm_reader *r);    /* the failure was an abor
 
 /* Next header. Fields of the frame hold no data yet (uniform ones their values). */
 int pm_read_header(struct pm_reader *r, struct pm_frame **f);
-/* The data and the tail of that frame, after a stage has planned on it: loads what is in use (everything if hold), forwards what stays to the
+/* The data and the tail of that frame, after a stage has declared its fields: loads the fields in use (all if hold), passes unchanged ones to the
  * writer if there is one, discards the rest. Checks every checksum; values of fields in use must be finite. */
 int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w);
-/* The same for a program that declares what it reads and runs no stage: those fields are there when this returns, the rest is discarded. */
+/* The same for a program that declares its reads but runs no stage: loads those fields, discards the rest. */
 int pm_read_declared(struct pm_reader *r, struct pm_frame *f);
 /* A whole frame, everything loaded: header and payload in one call. */
 int pm_read_frame(struct pm_reader *r, struct pm_frame **f);
@@ -40,7 +40,7 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f);
 int pm_write_payload(struct pm_writer *w, struct pm_frame *f); /* the fields not forwarded by pm_read_payload, and the tail */
 int pm_write_frame(struct pm_writer *w, struct pm_frame *f);   /* header, all fields, tail */
 int pm_write_end(struct pm_writer *w);
-/* Ends the stream badly: fills the bytes promised with zeros and says why. */
+/* Ends the stream with an abort: fills the bytes announced with zeros and writes the reason. */
 int pm_write_abort(struct pm_writer *w, int code, const char *message);
 
 PM_C_END

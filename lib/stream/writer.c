@@ -1,4 +1,4 @@
-/* The writing half of the stream. It knows at any time how many bytes it has promised, so that a failure can be told in place.
+/* Writes the stream. It always knows how many announced bytes are still missing, so that an abort can be written at any time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
@@ -12,8 +12,8 @@
 struct pm_writer {
 	int fd;
 	bool dirty;
-	uint64_t frames, left; /* of this stream; bytes of the frame's payload still promised */
-	size_t next, ncrc;     /* field under way; room in crc */
+	uint64_t frames, left; /* of this stream; bytes of the frame's payload announced but not yet written */
+	size_t next, ncrc;     /* current field; room in crc */
 	uint32_t *crc;
 };
 
@@ -32,7 +32,7 @@ struct pm_writer *pm_writer_of_fd(int fd)
 struct pm_writer *pm_writer_open(const char *path)
 {
 	if (!path && isatty(STDOUT_FILENO)) {
-		pm_fail(PM_USAGE, "standard output is a terminal, and a stream is not text (send it on: | sls, | stab, or > FILE)");
+		pm_fail(PM_USAGE, "standard output is a terminal, but a stream is not text (add | sls, | stab, or > FILE)");
 		return NULL;
 	}
 	int fd = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : STDOUT_FILENO;
@@ -81,7 +81,7 @@ static void line(char out[PM_LINE], const char *format, unsigned long long a, un
 	out[PM_LINE - 1] = '\n';
 }
 
-/* A line and the text it announces in one write: the text padded with spaces to a multiple of 64, a newline last. */
+/* Writes a line and the text it announces at once: the text padded with spaces to a multiple of 64, a newline last. */
 static int put_text(struct pm_writer *w, const char *format, unsigned long long a, bool size_first, const char *text)
 {
 	size_t n = strlen(text), bytes = padded(n + 1);
@@ -198,7 +198,7 @@ int pm_write_end(struct pm_writer *w)
 	return put(w, text, PM_LINE);
 }
 
-/* A header may have lied about what comes: beyond this, the stream just ends, and the next stage says that it was cut. */
+/* A wrong header may announce too much: beyond this limit the stream just ends, and the next stage reports that it was cut. */
 static const uint64_t most_fill = (uint64_t)1 << 36;
 
 int pm_write_abort(struct pm_writer *w, int code, const char *message)

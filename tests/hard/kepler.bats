@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-# watch: |dE/E| and the turn of the apsis at every passage of the apocentre.
+# watch: |dE/E| and the rotation of the apsis at every passage of the apocentre.
 watch() {
 	awk '/vx/ { for (i = 1; i <= NF; i++) c[$i] = i; next } NF > 6 {
 		x = $c["x"]; y = $c["y"]; u = $c["vx"]; v = $c["vy"]; r = sqrt(x*x + y*y); e = 0.5 * (u*u + v*v) - 1/r; l = x * v - y * u
@@ -19,14 +19,14 @@ watch() {
 	within "$(tail -n 1 out | cut -d' ' -f3)" -1.0773e-2 1.08e-4
 }
 
-@test "HC-17: a kick and a drift that are out of step cannot pass: the second drift of a step exits 1" {
+@test "HC-17: a kick and a drift that are out of step are an error: the second drift of a step exits 1" {
 	run -1 bash -o pipefail -c "pinit kepler | cycle -n 3 'push kick/2 drift | pp' > /dev/null"
 	[[ $output == *"drift on 'matter' adds up to 2 of a step"* ]]
 	run -1 bash -o pipefail -c "pinit kepler | cycle -n 3 'pp | push kick/2 drift | pp | push kick' > /dev/null"
 	[[ $output == *"kick on 'matter' adds up to 1.5 of a step"* ]]
 }
 
-@test "HC-18: three bodies of Pythagoras through their closest approach, 4e-4 at t = 15.83, with a step that adapts: energy to 1e-6 at t = 20 (and 70 in check-long), places to 1e-4; a fixed step loses it" {
+@test "HC-18: three bodies of Pythagoras through their closest approach, 4e-4 at t = 15.83, with an adaptive step: energy to 1e-6 at t = 20 (and 70 in check-long), positions to 1e-4; a fixed step fails" {
 	printf 'x y z vx vy vz mass\n1 3 0 0 0 0 3\n-2 -1 0 0 0 0 4\n1 -1 0 0 0 0 5\n' > t
 	stab t --law gravity --constant G=1 --dt 1e-3 > a
 	energy() { pp --softening 0 --replace --potential | diag --columns energy | tail -n 1; }

@@ -1,4 +1,4 @@
-# Plasmas at the edges: near and beyond the limit of the step, no particles, a cell for all, long runs in a magnetic field.
+# Plasmas at the edges: near and beyond the limit of the step, no particles, a single cell, long runs in a magnetic field.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 export OMP_NUM_THREADS=1 # small meshes, many steps: a second thread would cost more than it does
@@ -17,7 +17,7 @@ hot() {
 gain() { column energy < t | awk 'NR == 1 { a = $1 } END { printf "%.9g", $1 / a }'; }
 lost() { awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum_scale < t | tail -n 1)" 'BEGIN { printf "%.17g", p / s }'; }
 
-@test "HC-01: a thermal plasma with cells of 3.3 Debye lengths heats by 30 % until t = 1000 as the reference does, and keeps its momentum to 1e-12; with another kernel on the way back it loses that" {
+@test "HC-01: a thermal plasma with cells of 3.3 Debye lengths heats by 30 % until t = 1000 as the reference does, and conserves momentum to 1e-12; with another kernel in m2p it does not" {
 	sum=0
 	for seed in 1 2 3 4; do
 		hot $seed 213.33333333333333 > t
@@ -30,7 +30,7 @@ lost() { awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum
 	above "$(lost | tr -d -)" 1e-4 "momentum, kernels mixed"
 }
 
-@test "HC-02: a thermal plasma with cells of a Debye length, 64 particles in each, keeps its energy to 2 % until t = 1000, and its momentum to 1e-12" {
+@test "HC-02: a thermal plasma with cells of a Debye length, 64 particles in each, conserves energy to 2 % until t = 1000, and momentum to 1e-12" {
 	sum=0
 	for seed in 1 2 3 4; do
 		hot $seed 64 > t
@@ -67,13 +67,13 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	stack right left | warm 1000 > noise
 	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.3 --vth 1 --amplitude 0.01 --dt 0.2 | warm 1000 > wave
 	below "$(later 0 < noise)" 3 "noise"
-	below "$(later 20 < wave)" 3 "wave" # it begins at its height and is damped
-	# and a growing case is seen: at v0 = 1.6 vth the rate is 0.08, e^6.4 = 600 in energy from t = 20 to 60, less what noise there was before
+	below "$(later 20 < wave)" 3 "wave" # it starts at its maximum and is damped
+	# and a growing case is detected: at v0 = 1.6 vth the rate is 0.08, e^6.4 = 600 in energy from t = 20 to 60, less what noise there was before
 	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.6 --vth 1 --amplitude 0.01 --dt 0.2 | warm 300 > grows
 	above "$(later 20 < grows)" 10 "v0 = 1.6 vth"
 }
 
-@test "HC-06: at w dt = 1.9 a cold wave keeps its height for 10000 steps" {
+@test "HC-06: at w dt = 1.9 a cold wave keeps its amplitude for 10000 steps" {
 	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-5 --dt 1.9372232 | cycle -n 10000 --every 1 '$step' | diag --columns time --modes 1 > t"
 	# the largest of each hundred steps: the smallest of these is within 1 % of the largest
 	within "$(sed 1d t | awk '{ b = int((NR - 1) / 100); if ($2 > m[b]) m[b] = $2 } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
@@ -90,7 +90,7 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	run ! grep -qi 'nan\|inf' u
 }
 
-@test "HC-06: in the field of an ion slab, which is not bounded, it grows by 0.446 a step until it leaves the mesh: exit 1, a name, and nothing after it" {
+@test "HC-06: in the field of an ion slab, which is not bounded, it grows by 0.446 a step until it leaves the mesh: exit 1, the particle is named, and no frame follows" {
 	# E = x is the field of ions of density 1 about x = 0: omega_p = 1
 	slab() { printf 'x v mass charge\n1e-3 0 1 -1\n' | stab - --law electrostatic --box=-1000,1000 --faces open --particle-faces open --dt "$1" --strength mass,charge \
 		--set electrons -n 8 | scalc --mesh mesh 'E = x' --role state; }
@@ -108,7 +108,7 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	within "$(sed 1d t | awk '{ x = $1 < 0 ? -$1 : $1; b = int((NR - 1) / 100); if (x > m[b]) m[b] = x } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
 }
 
-@test "no electrons at all, and all of them in one place, go through a step" {
+@test "a step works with no electrons at all, and with all of them in one place" {
 	sh_ok "pinit langmuir -n 0 | cycle -n 2 '$step' | sls"
 	printf 'x v mass charge\n0.5 0 1 -1\n0.5 0 1 -1\n0.5 0 1 -1\n' > t
 	sh_ok "stab t --law electrostatic --box 0,1 --faces periodic --particle-faces periodic --dt 0.1 --strength mass,charge | cycle -n 5 '${step/p2m/p2m -n 7}' | diag > d"

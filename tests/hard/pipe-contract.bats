@@ -1,4 +1,4 @@
-# HC-60: what a filter is given may be anything. Hostile headers cost an error message, not memory.
+# HC-60: the input of a filter may be anything. Hostile headers give an error message and use no memory.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 load ../tool/words
@@ -38,12 +38,12 @@ text() { wire text one.pm "$1" "$2" >hostile.pm; }
 @test "HC-60: sizes that are huge, negative, no integers or do not fit the payload are refused" {
 	for n in 13 1000000000000 281474976710656 9223372036854775807 -1 -12 12.5 1e3 18446744073709551615 99999999999999999999999 '"12"' null true '[12]'; do
 		text '"n":12' "\"n\":$n"
-		refused hostile.pm "header|JSON|checksum" # 13 need as many padded bytes as 12: the sums tell
+		refused hostile.pm "header|JSON|checksum" # 13 need as many padded bytes as 12: only the checksums show the difference
 	done
 }
 
-@test "HC-60: a payload as huge as the header says is not believed before it comes" {
-	# 2^40 particles, the line promising what they need.
+@test "HC-60: no memory is allocated for a huge payload before it arrives" {
+	# 2^40 particles, and a line that announces their size.
 	wire text one.pm '"n":12' '"n":1099511627776' >big.pm
 	promised=$(wire header one.pm | python3 -c 'import json,sys; h=json.load(sys.stdin); print(sum(-(-f["components"]*2**40*8//64)*64 for f in h["fields"] if "uniform" not in f))')
 	old=$(head -c 64 big.pm | tr -s ' ' | cut -d' ' -f4)
@@ -71,10 +71,10 @@ text() { wire text one.pm "$1" "$2" >hostile.pm; }
 for s in h["sets"]: s["n"] = 1 << 48
 h["fields"] = [{"name": "f%d" % i, "on": "matter", "components": 16, "type": "f64", "role": "state", "kind": "value", "unit": ""} for i in range(600)]
 data[:] = [bytearray() for f in h["fields"]]'
-	refused hostile.pm "larger than can be|describes"
+	refused hostile.pm "are too large|describes"
 }
 
-@test "HC-60: JSON that is deep, cut, doubled, not UTF-8, or holds what JSON has not" {
+@test "HC-60: JSON that is deep, cut, has duplicate keys, is not UTF-8, or has invalid syntax" {
 	text '"dim":3' "\"deep\":$(printf '[%.0s' {1..5000})$(printf ']%.0s' {1..5000}),\"dim\":3"
 	refused hostile.pm "JSON"
 	for t in '"dim":NaN' '"dim":Infinity' '"dim":-Infinity' '"dim":1e999' '"dim":03' '"dim":3,' '"dim":3,"dim":3' '"dim":0x3' "'dim':3" '"dim":3,"a":"\xff\xfe"' '"dim":3,"a":"\xc0\x80"' '"dim":3,"a":"\xed\xa0\x80"' '"dim":3,"a":"\x00"' '"dim":3,"a":"\x1b[2J"' '"dim":3}{'; do
@@ -85,7 +85,7 @@ data[:] = [bytearray() for f in h["fields"]]'
 	refused hostile.pm "JSON"
 }
 
-@test "HC-60: a header that is another kind of thing altogether is refused" {
+@test "HC-60: a header that is not an object is refused" {
 	for code in 'h.clear()' 'h["fields"] = {}' 'h["fields"] = [[]]' 'h["sets"] = 3' 'h["sets"].append(None)' 'h["meshes"] = None' 'h["box"] = []' 'h["law"] = "gravity"' \
 		'h["history"] = {}' 'h["time"] = "now"' 'h["step"] = -1' 'h["step"] = 1.5' 'h["substep"] = -1' 'h["box"]["lo"] = [0, 0]' 'h["box"]["hi"] = h["box"]["lo"]' \
 		'h["box"]["fields"][0] = ["periodic", "open"]' 'h["box"]["fields"] = "periodic"' 'h["box"]["particles"][1][1] = "elastic"' 'h["sets"][0]["done"] = {"kick": -1, "drift": 0}' \
@@ -98,7 +98,7 @@ $code" >hostile.pm 2>err || true
 	done
 }
 
-@test "HC-60: names that are empty, too long, doubled, of nobody, or no names are refused" {
+@test "HC-60: names that are empty, too long, duplicate, without owner, or no text are refused" {
 	long=$(printf 'n%.0s' {1..64})
 	for code in 'h["fields"][0]["name"] = ""' "h['fields'][0]['name'] = '$long'" 'h["fields"][0]["name"] = 7' 'h["fields"][0]["name"] = "v"' 'h["fields"][0]["on"] = "nobody"' \
 		'h["fields"][0]["type"] = "f16"' 'h["fields"][0]["role"] = "king"' 'h["fields"][0]["kind"] = "odd"' 'h["fields"][0]["half"] = [[1]]' 'h["fields"][0]["half"] = [["a", 0, 0], [0, 0, 2], [0, 0, 0]]' 'h["fields"][0]["terms"] = 3' \
@@ -109,7 +109,7 @@ $code" >hostile.pm 2>err || true
 	done
 }
 
-@test "HC-60: lines that promise too much, or lie, are refused" {
+@test "HC-60: lines that announce too much, or wrong numbers, are refused" {
 	for size in 18446744073709551615 99999999999999999999 17000000 -64 63 0 x '' '64 64 64 64'; do
 		old=$(head -c 64 one.pm | tr -s ' ' | cut -d' ' -f3)
 		wire line one.pm "frame $old " "frame $size " >hostile.pm
@@ -122,10 +122,10 @@ $code" >hostile.pm 2>err || true
 	printf '%-63s\n' 'PMPIPE/1 tail 64' >hostile.pm
 	refused hostile.pm "tail"
 	printf '%-62s\n\n' 'PMPIPE/1' >hostile.pm
-	refused hostile.pm "line|where a frame"
+	refused hostile.pm "line|instead of a frame"
 }
 
-@test "HC-60: what an abort says is shown as one printable line, its code kept only if it is one" {
+@test "HC-60: the text of an abort is printed as one line, its code is kept only if valid" {
 	{ printf '%-63s\n' 'PMPIPE/1 abort 3 64'; printf '%-63s\n' $'p2m: \e[31mred\e[0m\ttab'; } >abort.pm
 	got=0
 	sls <abort.pm 2>err || got=$?
@@ -136,7 +136,7 @@ $code" >hostile.pm 2>err || true
 	run -1 sls -i abort.pm
 }
 
-@test "HC-60: a tail that lies is refused: checksums missing, too many, of the wrong kind" {
+@test "HC-60: a wrong tail is refused: checksums missing, too many, of the wrong kind" {
 	for t in '"crc32d":[' '"crc32c":[1,' '"crc32c":[null,1,' '"crc32c":{"a":1},"b":['; do
 		wire tail-text one.pm '"crc32c":[' "$t" >hostile.pm
 		refused hostile.pm "tail"

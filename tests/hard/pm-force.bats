@@ -5,7 +5,7 @@ export PM_PLAN=estimate OMP_NUM_THREADS=1
 @test "HC-15: a cold lattice stays cold for 1000 steps, kinetic energy below 1e-24 G M^2/L" {
 	pinit lattice -n 64 --spacing 2 --offset 0.3 --dt 0.002 |
 		cycle -n 1000 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' --every 100 | diag > out.tsv
-	# Round-off grows as exp(wJ t), wJ = sqrt(4 pi) = 3.5: 1000 steps of 0.002 let it grow by 1e3, of 0.05 by 1e77.
+	# Round-off grows as exp(wJ t), wJ = sqrt(4 pi) = 3.5: by 1e3 in 1000 steps of 0.002, by 1e77 in steps of 0.05.
 	# M = 512, L = 8: G M^2/L = 32768
 	energy=$(column energy_kinetic < out.tsv | sort -g | tail -1)
 	[ "$(wc -l < out.tsv)" -ge 11 ]
@@ -22,7 +22,7 @@ export PM_PLAN=estimate OMP_NUM_THREADS=1
 	done
 }
 
-@test "the force of a particle that slides over a face of a cell jumps with ngp, has a kink with cic and is smooth with tsc" {
+@test "the force on a particle that crosses a cell face jumps with ngp, has a kink with cic and is smooth with tsc" {
 	# pull X: on the second of two, 7 to X
 	pull() {
 		pinit pair --x1 7 --y1 8 --z1 8 --x2 "$1" --y2 8 --z2 8 | p2m --kernel "$kernel" | poisson-fft | mgrad | m2p | stab --plain --set matter |

@@ -6,19 +6,19 @@ load ../helper
 	mean=$(tr '\0' '\n' < out | grep -ao '"mean_removed":[0-9.e+-]*' | cut -d: -f2)
 	within "$mean" 1 1e-14 # mass 1 in a box of volume 1
 	run -0 --separate-stderr bash -c "pinit uniform -n 500 | p2m -n 12x8x9 | poisson-fft --verbose | sls --report"
-	[[ $output == *incompatible* && $stderr == *"no phi has this 'rho' in this box: its mean 1"* ]]
+	[[ $output == *incompatible* && $stderr == *"no solution exists for this 'rho' in this box: its mean 1"* ]]
 	phi=$(stab --plain --mesh mesh < out | awk 'NR > 1 { s += $5; n++ } END { print s/n }')
 	below "$phi" 1e-12
 }
 
-@test "poisson-fft: threads 1, 2, 3 give equal bytes, with an empty cache and with a foreign one" {
+@test "poisson-fft: threads 1, 2, 3 give equal bytes, with an empty cache and with a file of another program in it" {
 	pinit uniform -n 2000 --seed 3 | p2m -n 34x19x20 > rho
 	pinit plummer -n 500 --seed 3 | p2m -n 17 --outside drop > free
 	pinit uniform -n 500 --seed 3 --faces wall,neumann,neumann,wall,wall,wall | p2m -n 19x17x23 > ends
 	for cache in empty foreign; do
 		mkdir -p $cache/pmpipe
 		export XDG_CACHE_HOME=$PWD/$cache
-		if [ $cache = foreign ]; then # what is there is garbage, truncated, or somebody else's
+		if [ $cache = foreign ]; then # the file there is garbage, truncated, or of another program
 			for f in empty/pmpipe/fftw-*; do
 				echo garbage > "foreign/pmpipe/${f##*/}"
 			done
@@ -58,10 +58,10 @@ load ../helper
 	for i in 2 3 4 5 6; do
 		same_as out.1 out.$i
 	done
-	[ -z "$(find cache -name '*.[0-9]*')" ] # nothing half written is left
+	[ -z "$(find cache -name '*.[0-9]*')" ] # no incomplete file is left
 }
 
-@test "poisson-fft: without a cache to write to, plans are estimated, say so, and give equal bytes" {
+@test "poisson-fft: if the cache is not writable, plans are estimated, a message says so, and bytes are equal" {
 	pinit uniform -n 500 | p2m -n 19 > rho
 	touch file # not a directory: nothing can be made below it, not even by root
 	XDG_CACHE_HOME=$PWD/file run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > a'
@@ -73,10 +73,10 @@ load ../helper
 	stab --plain --mesh mesh < c > c.txt
 	stab --plain --mesh mesh < d > d.txt
 	worst=$(paste c.txt d.txt | awk 'NR > 1 { d = $5 - $10; if (d < 0) d = -d; if (d > m) m = d } END { print m + 0 }')
-	below "$worst" 1e-12 # rounding by another plan: 1e-16 of the largest, ten thousand times
+	below "$worst" 1e-12 # rounding by another plan: 1e-16 of the largest, times ten thousand operations
 }
 
-@test "poisson-fft: a foreign cache file is named with --verbose, replaced, and used from then on" {
+@test "poisson-fft: a foreign cache file is reported with --verbose, replaced, and the new one is used" {
 	pinit uniform -n 500 | p2m -n 19 > rho
 	export XDG_CACHE_HOME=$PWD/cache
 	poisson-fft < rho > a

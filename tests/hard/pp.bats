@@ -9,7 +9,7 @@ pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at
 		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { a = $c["acc_0"] } END { printf "%.17g\n", a }'
 }
 
-@test "HC-19: r = 1e-12, 1e-200 and 0 with softening 0: finite, the force of Newton or none, and the coincident pair is counted and told" {
+@test "HC-19: r = 1e-12, 1e-200 and 0 with softening 0: finite, the force of Newton or none, and the coincident pair is counted and reported" {
 	for loop in half full; do
 		within "$(pair 1e-12 0 --loop $loop)" -1e24 1e10
 		run ! grep -aq coincident a
@@ -22,7 +22,7 @@ pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at
 	done
 }
 
-@test "HC-19: the same with softening 0.01: a force that vanishes with r, nothing to tell" {
+@test "HC-19: the same with softening 0.01: a force that vanishes with r, nothing to report" {
 	for loop in half full; do
 		within "$(pair 1e-12 0.01 --loop $loop)" -1e-6 1e-20
 		within "$(pair 1e-200 0.01 --loop $loop)" 0 1e-190
@@ -31,7 +31,7 @@ pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at
 	done
 }
 
-@test "a hundred coincident particles exert nothing on each other and their sum on a far one" {
+@test "a hundred coincident particles exert no force on each other and their sum on a far one" {
 	{ echo 'x y z mass'; for i in $(seq 100); do echo '1 1 1 0.01'; done; echo '3 1 1 1'; } > t
 	stab t --law gravity --constant G=1 | pp --softening 0 > a
 	grep -aq '"coincident":4950' a
@@ -40,27 +40,27 @@ pair() { # pair R SOFTENING [options]: acc_x of the second of two unit masses at
 	within "$(head -n 1 out)" 0.25 1e-15
 }
 
-@test "a cluster a million lengths from the origin feels the forces it feels at the origin, to the last bit of its rounded places" {
+@test "a cluster a million lengths from the origin has the same forces as at the origin, to the last bit for its rounded positions" {
 	pinit plummer -n 500 | smove --shift 1048576,-2097152,524288 > far
-	smove --shift -1048576,2097152,-524288 < far > near # exact: what was rounded stays rounded
+	smove --shift -1048576,2097152,-524288 < far > near # exact: the positions are already rounded
 	for loop in half full; do
 		pp --loop $loop < far | stab --plain | awk '{ print $NF, $(NF-1), $(NF-2) }' > a
 		pp --loop $loop < near | stab --plain | awk '{ print $NF, $(NF-1), $(NF-2) }' > b
 		same_as a b
 	done
-	# and that is the force of the places before, which were rounded by 2^-32 there: 1e-10 over a softening of 0.02
+	# it is the force at the original positions, which were rounded by 2^-32: 1e-10 over a softening of 0.02
 	pinit plummer -n 500 | pp > c
 	pp < near > d
 	below "$(scmp --norm relative_l2 --field acc c d | tail -n 1 | cut -f8)" 1e-7
 }
 
-@test "the order of the particles in the stream changes no force by more than round-off, on the mesh and directly" {
+@test "the order of the particles in the stream changes forces by round-off only, on the mesh and directly" {
 	pinit uniform -n 3000 --mass-spread 4 --softening 0.01 > a
 	ssort --by 'sin(1000*x)+y' < a > b
 	run ! cmp a b
 	for words in 'p2m | poisson-fft | mgrad | m2p' 'smod --faces open --particle-faces open | pp'; do
 		bash -o pipefail -c "$words" < a > c
-		bash -o pipefail -c "$words" < b > d # scmp goes by id
+		bash -o pipefail -c "$words" < b > d # scmp matches particles by id
 		below "$(scmp --norm relative_l2 --set matter --field acc c d | tail -n 1 | cut -f8)" 1e-13 "$words" # of 3000 summands
 	done
 }

@@ -38,7 +38,7 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	done
 }
 
-@test "the bound holds where particles lie at random: just below it nothing grows" {
+@test "the bound holds for random positions: just below it nothing grows" {
 	awk 'BEGIN { srand(9); print "x y heat volume"; for (i = 0; i < 300; i++) printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), (2 * rand() - 1) / 300, (rand() + 0.1) / 300 }' |
 		stab - --strength heat --box 0,1 --faces wall,open,periodic,periodic >a
 	fastest=$(pse --field heat --nu 1 <a | stab | head -n 1 | grep -o '"fastest":[0-9.e+]*' | cut -d: -f2)
@@ -49,7 +49,7 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 | push euler --dt $(awk "BEGIN { printf \"%.17g\", 2.00001 / $fastest }")\" <a | sls"
 }
 
-@test "widths of a thousandth and of a thousand spacings: nothing happens and is said, or everything is spread alike" {
+@test "widths of a thousandth and of a thousand spacings: no exchange, with a message, or complete mixing" {
 	noise 64 open >a
 	pse --field heat --nu 1 --overlap 1e-3 <a >b
 	run -0 bash -o pipefail -c 'sls --report <b'
@@ -84,17 +84,17 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	done
 }
 
-@test "particles on faces and beyond periodic ones are where they belong: at 0, at the box's length, outside" {
+@test "particles on faces and beyond periodic ones are treated correctly: at 0, at the box's length, outside" {
 	for at in 0 1 -1 2; do
 		printf 'x heat volume\n%s 1 0.1\n0.1 2 0.1\n0.9 4 0.2\n' $at | stab - --strength heat --box 0,1 --faces periodic | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >$at
 	done
 	for at in 1 -1 2; do paste 0 ./$at | awk '{ d = $1 - $2; if (d * d > 1e-24 * $1 * $1) exit 1; n++ } END { exit n != 3 }'; done
-	# on a wall the image cancels, and half a cell is this side of it
+	# on a wall the image cancels, and only half of the cell is inside
 	awk 'BEGIN { print "x heat volume"; for (i = 0; i <= 20; i++) print i / 20, i / 20, i ? 0.05 : 0.025 }' | stab - --strength heat --box 0,1 --faces wall,open | pse --field heat --nu 1 | stab --plain | column dheat | head -n 9 |
 		awk '{ if ($1^2 > 1e-20) exit 1; n++ } END { exit n != 9 }' # linear: no diffusion, but near the open end
 }
 
-@test "a box much smaller than the reach is the same as many boxes side by side" {
+@test "a box much smaller than the cut-off gives the same as many boxes side by side" {
 	cell() { # COPIES: three particles a box of 0.3
 		awk -v c=$1 'BEGIN { print "x y heat volume"; for (i = 0; i < c; i++) for (j = 0; j < c; j++) { print 0.3 * i, 0.3 * j, 1, 0.03; print 0.3 * i + 0.1, 0.3 * j + 0.2, 2, 0.05; print 0.3 * i + 0.25, 0.3 * j + 0.1, -1, 0.01 } }' |
 			stab - --strength heat --box 0,$(awk "BEGIN { print 0.3 * $1 }") --faces periodic | pse --field heat --nu 1 --eps 0.15 | stab --plain | column dheat | head -n 3
@@ -110,14 +110,14 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	paste corner both | awk '{ if (($1 - $2)^2 > 1e-22 * $1^2) { print; exit 1 } n++ } END { exit n != 60 }'
 }
 
-@test "volumes over six decades: conserved, and a value that is the same everywhere stays" {
+@test "volumes over six decades: the sum is conserved, and a constant value stays constant" {
 	awk 'BEGIN { srand(6); print "x y heat volume"; for (i = 0; i < 200; i++) { v = exp(-13.8 * rand()) / 50; printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), 3 * v, v } }' | stab - --strength heat --box 0,1 --faces periodic >a
 	pse --field heat --nu 1 --eps 0.1 <a | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { s += $at["dheat"]; d = $at["dheat"] / $at["heat"]; if (d > m) m = d; if (-d > m) m = -d } END { print m, s }' >off
 	below "$(cut -d' ' -f1 off)" 1e-12 "the value"
 	below "$(cut -d' ' -f2 off)" 1e-14 "the sum"
 }
 
-@test "walk: a step of a thousand boxes ends inside, on faces too; noise in the seed does not matter to the others" {
+@test "walk: a step of a thousand boxes ends inside, on faces too; the seed does not affect the other fields" {
 	printf 'x y\n0 0\n1 1\n0.5 0\n' | stab - --box 0,1 --dt 1 --faces periodic,wall --particle-faces periodic,reflect >a
 	for seed in 1 2 3; do
 		walk --nu 1e6 --seed $seed <a | stab --plain | awk 'NR > 1 && !($1 >= 0 && $1 < 1 && $2 >= 0 && $2 <= 1) { exit 1 } END { exit NR != 4 }'
@@ -126,7 +126,7 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	[[ $output == *"not finite"* ]]
 }
 
-@test "S36, HC-45: --method dc on lines, twins and few points: refused in words, never a number that is not one" {
+@test "S36, HC-45: --method dc on lines, coincident and few points: refused with a message, never NaN" {
 	scatter() { awk -v how="$1" 'BEGIN { srand(5); print "x y heat volume"; for (i = 0; i < 60; i++) { x = rand(); y = how == "line" ? 2 * x - 0.3 : how == "almost" ? x + 1e-12 * rand() : rand()
 		for (k = 0; k < (how == "twins" ? 2 : 1); k++) printf "%.17g %.17g %.17g %.17g\n", x, y, rand(), 1/60 } }' | stab - --strength heat --box -1,2; }
 	for how in line almost; do
@@ -144,7 +144,7 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	done
 }
 
-@test "--method dc on a lattice and on distorted points: noise does not grow just below the bound, and push refuses what is beyond" {
+@test "--method dc on a lattice and on distorted points: noise does not grow just below the bound, and push refuses steps beyond it" {
 	for jitter in 0 0.5; do
 		awk -v j=$jitter 'BEGIN { srand(7); print "x y heat volume"; for (i = 0; i < 16; i++) for (k = 0; k < 16; k++) printf "%.17g %.17g %.17g %.17g\n", (i + j * rand()) / 16, (k + j * rand()) / 16, (2 * rand() - 1) / 256, 1/256 }' |
 			stab - --strength heat --box 0,1 --faces periodic >a

@@ -12,7 +12,7 @@ masses() { stab --plain | column mass; }
 
 @test "HC-41: a constant remeshed 1000 times stays constant, and so does its sum" {
 	for kernel in cic m4prime m6prime lambda-6-4 lambda-6-6; do
-		# 33 nodes, 0.377 of a cell a step: the fractions of a cell are all different
+		# 33 nodes, 0.377 of a cell per step: all fractions of a cell differ
 		line 33 2.385 0.011424242424242424 | cycle -n 1000 "push drift | remesh --kernel $kernel" | masses >a
 		[ "$(wc -l <a)" = 33 ]
 		below "$(awk '{ d = $1 / 2.385 - 1; if (d < 0) d = -d; if (d > m) m = d } END { printf "%.9g", m }' a)" 3.2e-11 "$kernel, constant" # 1e-12 sqrt(1000)
@@ -20,7 +20,7 @@ masses() { stab --plain | column mass; }
 	done
 }
 
-@test "HC-43: a unit step remeshed at its worst shift: 2/27 for m4prime, 0.10157 for m6prime, nothing for cic, tsc, pcs" {
+@test "HC-43: a unit step remeshed at its worst shift overshoots by 2/27 for m4prime, 0.10157 for m6prime, 0 for cic, tsc, pcs" {
 	# the worst shifts: 1/3 (exact for M'4) and .342154 (of M6*, from its weights)
 	for case in "m4prime 0.33333333333333333 0.074074074074 1e-10" "m6prime 0.342154 0.10156766 1e-6" "cic 0.37 0 1e-14" "tsc 0.37 0 1e-14" "pcs 0.37 0 1e-14"; do
 		read -r kernel shift want tolerance <<<"$case"
@@ -30,7 +30,7 @@ masses() { stab --plain | column mass; }
 	done
 }
 
-@test "RM-01: what is left of a wave of 16 cells after 100 remeshes at shifts of 0.3 h" {
+@test "RM-01: the amplitude of a wave of 16 cells after 100 remeshings at shifts of 0.3 h" {
 	for case in cic:0.1969824138 pcs:0.07618229684 m4prime:0.9619883394 lambda-2-2:0.9660087992 m6prime:0.9988947768 lambda-6-4:0.9999672286; do
 		line 32 'cos(4 * pi * i / n)' 0.009375 | cycle -n 100 "push drift | remesh --kernel ${case%:*}" | masses |
 			awk 'BEGIN { k = 4 * atan2(0, -1) / 32 } { c += $1 * cos(k * (NR - 1)) / 16; s += $1 * sin(k * (NR - 1)) / 16 } END { printf "%.12g\n", sqrt(c * c + s * s) }' >a
@@ -38,7 +38,7 @@ masses() { stab --plain | column mass; }
 	done
 }
 
-# noise CELLS: weak white noise (it hardly moves anything) on a periodic lattice with nu = 0.1.
+# noise CELLS: white noise (too weak to move anything) on a periodic lattice with nu = 0.1.
 noise() {
 	awk -v n="$1" 'BEGIN { srand(3); print "x y circulation volume"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g %.17g\n", i / n, j / n, 1e-9 * (rand() - 0.5), 1 / n / n }' |
 		stab - --law vortex --box 0,1 -n "$1" --faces periodic --particle-faces periodic --constant nu=0.1
@@ -56,8 +56,8 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 		run -3 bash -o pipefail -c "cycle -n 30 '$s --dt $(at 1.02)' <a | sls"
 		[[ $output =~ "is 1.02 times what $scheme can bear: 'dcirculation' decays at up to" ]]
 		cycle -n 250 "$s --unsafe --dt $(at 1.02)" <a | largest >beyond
-		below "$(cat below)" 0.5e-9 "$case, at 0.98" # the start's; by its smooth waves it decays at once, by the edge's own 0.96^30 = 0.3
-		above "$(cat beyond)" 5e-9 "$case, at 1.02" # 1.04^250 = 18000 of what the wave at the edge has of it, a thousandth or more
+		below "$(cat below)" 0.5e-9 "$case, at 0.98" # relative to the start; its smooth waves decay at once, those at the edge of the spectrum by 0.96^30 = 0.3
+		above "$(cat beyond)" 5e-9 "$case, at 1.02" # 1.04^250 = 18000 times the part at the edge of the spectrum, a thousandth or more
 	done
 }
 
@@ -68,8 +68,8 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 	run -3 bash -o pipefail -c "cycle -n 1 '$s $(awk 'BEGIN { printf "%.15g", 0.25001 / 25.6 }')' <a | sls"
 }
 
-@test "HC-57: a disc in a vortex that winds it up and back (T = 8) on 64^2: its sum is kept to 1e-12; cic and pcs lose all of it, m4prime 31 %, m6prime less" {
-	# LS-02: the signed distance, carried as a strength and remeshed every step; nothing is done to it on the way
+@test "HC-57: a disc wound up and unwound by a vortex (T = 8) on 64^2: the sum is conserved to 1e-12; the area shrinks by 100 % with cic and pcs, 31 % with m4prime, less with m6prime" {
+	# LS-02: the signed distance, carried as a strength and remeshed every step; without reinitialisation
 	awk -v n=64 'BEGIN { print "x y level"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, j / n, (0.15 - sqrt((i / n - 0.5)^2 + (j / n - 0.75)^2)) / n / n }' |
 		stab - --law passive --box 0,1 -n 64 --faces periodic --particle-faces periodic --strength level --dt 0.0625 > a
 	flow="scalc --mesh mesh 'u = -sin(pi*x)^2 * sin(2*pi*y) * cos(pi*time/8), sin(pi*y)^2 * sin(2*pi*x) * cos(pi*time/8)' --role state"

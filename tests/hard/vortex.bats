@@ -11,13 +11,13 @@ radii() {
 		{ d = sqrt($c["x"] ^ 2 + $c["y"] ^ 2) - 1; d = d < 0 ? -d : d; m = d > m ? d : m; n++ } END { if (n) print m }' OFMT=%.17g
 }
 
-@test "HC-35: the heptagon is neutral: disturbed by 1e-6 it stays within 1.2e-6 over 100 turns" {
+@test "HC-35: the heptagon is neutral: perturbed by 1e-6 it stays within 1.2e-6 over 100 turns" {
 	pinit polygon -n 7 --disturbance 1e-6 | cycle -n 20000 --every 2000 'pp | push rk4' | radii > r
 	[ "$(wc -l < r)" = 11 ]
 	below "$(sort -g r | tail -1)" 1.2e-6 # the case allows 1e-3; rk4 adds 3e-12 a step
 }
 
-@test "HC-35: the octagon is not: its disturbance grows at 5.65685 Gamma/(4 pi R^2) to 1 %" {
+@test "HC-35: the octagon is not: its perturbation grows at 5.65685 Gamma/(4 pi R^2) to 1 %" {
 	pinit polygon -n 8 --disturbance 1e-6 > a
 	dt=$(python3 -c 'import math; print(repr(8 * math.pi ** 2 / 7 / 200))')
 	cycle -n 320 --every 40 'pp | push rk4' < a | radii > r
@@ -25,7 +25,7 @@ radii() {
 	within "$(calc "log($(sed -n 8p r) / $(sed -n 5p r)) / (120 * $dt) * 4 * pi")" 5.65685424949238 0.0566
 }
 
-@test "VM-07: the pentagon is stable: disturbed by 1e-6 it stays within 2e-6 over 20 turns" {
+@test "VM-07: the pentagon is stable: perturbed by 1e-6 it stays within 2e-6 over 20 turns" {
 	pinit polygon -n 5 --disturbance 1e-6 | cycle -n 4000 --every 100 'pp | push rk4' | radii > r
 	[ "$(wc -l < r)" = 41 ]
 	below "$(sort -g r | tail -1)" 2e-6 # its modes oscillate at 4 and sqrt(12) Gamma/(4 pi R^2); a mode that grew at 1 would be e^20 larger
@@ -39,10 +39,10 @@ radii() {
 		below "$(column circulation < t | tail -1)" 1e-12
 	done
 	pinit shear-layer --cells 64 --dt 0.01 | cycle -t 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' | p2m | diag > t
-	between "$(column enstrophy < t)" 23 46.05 # no more than the exact flow has at t = 1.2, as it can only fall, and half of that
+	between "$(column enstrophy < t)" 23 46.05 # at most the value of the exact flow at t = 1.2, because it can only fall, and half of that
 }
 
-@test "HC-32, VM-21: an inviscid ellipse to t = 20: remeshing keeps it, without it the vorticity doubles while the energy shows nothing" {
+@test "HC-32, VM-21: an inviscid ellipse to t = 20: remeshing preserves it; without remeshing the vorticity doubles while the energy stays constant" {
 	e0=5.5405702810630055 z0=18.853704 # of the start, the mean taken out: circulation over area 0.198944
 	for every in 1 5 20 never; do
 		words="p2m | poisson-fft | mgrad | m2p | push lsrk3"
@@ -53,7 +53,7 @@ radii() {
 		between "$e" 0.997 1.0005 "energy of $every"
 		within "$(calc "$(column circulation < t) / 7.853981631285162")" 1 1e-13 "circulation of $every" # the case allows 1e-12
 		if [ $every = never ] || [ $every = 20 ]; then
-			# enstrophy + 57 and + 43 %, 21.5 and 20.3 in the reference; particles without overlap make noise, so no nearer
+			# enstrophy + 57 and + 43 %, 21.5 and 20.3 in the reference; particles without overlap are noisy, so the tolerance cannot be smaller
 			between "$z" 1.3 1.8 "enstrophy of $every"
 			between "$(calc "$w / 9.801")" 1.8 3 "peak of $every"
 			if [ $every = never ]; then
@@ -81,7 +81,7 @@ radii() {
 		[ $last = 0 ] || above "$(calc "(5.503255 - $e) / $last")" 1 "energy lost at dt $dt over that before"
 		last=$(calc "5.503255 - $e")
 	done
-	order 2.9 "${list[@]:0:6}" # as the cube while particles keep apart
+	order 2.9 "${list[@]:0:6}" # as dt^3 while particles do not cross
 	below "${list[5]}" 0.1 # 2 % at dt |grad u| = 2
 }
 
@@ -89,11 +89,11 @@ radii() {
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' | diag > t
 	below "$(column circulation < t)" 0.2 "left alone"
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-8' | diag > t
-	within "$(column circulation < t)" 1 1e-4 # what the rim of nodes at 1e-8 of the largest loses to no particle, over 150 steps
+	within "$(column circulation < t)" 1 1e-4 # the loss over 150 steps at the rim of nodes at 1e-8 of the largest, beyond which there is no particle
 }
 
-@test "in open space a cut-off makes viscosity lose circulation, more the more often it cuts; with a rim of two cells the drift is 1e3 times less and falls with dt" {
-	# what diffuses past the last particle is lost. Without a rim that is next to the cut, where omega is 1e-6 of its largest; 150, 300, 600 cuts
+@test "in open space viscosity with a cut-off loses circulation, more with more frequent remeshing; with a rim of two cells the loss is 1e3 times smaller and falls with dt" {
+	# circulation that diffuses beyond the last particle is lost. Without a rim this happens at the cut-off, where omega is 1e-6 of its largest; 150, 300, 600 cuts
 	for rim in 0 2; do
 		for dt in 0.02 0.01 0.005; do
 			pinit lamb-oseen --cells 120 --dt $dt | cycle -t 4 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6 --rim $rim" |
@@ -112,16 +112,16 @@ radii() {
 	between "$(calc "$fine / $middle")" 0 1 "rim, a quarter of it"
 }
 
-@test "a step too long for the viscosity is refused with the one that would do" {
+@test "a step too long for the viscosity is refused with the longest stable one" {
 	pinit lamb-oseen --dt 0.1 > a
 	run -3 cycle -n 1 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' < a
 	[[ $output == *"dt up to 0.0202984"* ]]
 }
 
-@test "explicit Euler on two vortices: the distance grows by sqrt(1 + (dt Gamma/(2 pi d^2))^2) a step and never comes back; rk4 keeps it" {
+@test "explicit Euler on two vortices: the distance grows by sqrt(1 + (dt Gamma/(2 pi d^2))^2) a step; rk4 preserves it" {
 	pinit vortex-pair --circulation1 1.5 --circulation2 1.5 > a
 	apart() { stab --plain --set vortices | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x[NR] = $c["x"]; y[NR] = $c["y"] } END { printf "%.17g", sqrt((x[2] - x[3])^2 + (y[2] - y[3])^2) }'; }
 	want=$(awk 'BEGIN { pi = atan2(0, -1); d = 1; for (i = 0; i < 200; i++) d *= sqrt(1 + (0.05 * 3 / (2 * pi * d * d))^2); printf "%.17g", d }')
 	within "$(cycle -n 200 'pp | push euler --dt 0.05' < a | apart)" "$want" 1e-12 "euler" # 200 roundings; 5 % farther apart after less than a turn
-	within "$(cycle -n 200 'pp | push rk4 --dt 0.05' < a | apart)" 1 1e-9 "rk4" # four times (w dt)^6/144 a step, 2.6e-10 in 200, as rk4 has it on an oscillator; w dt = 0.024
+	within "$(cycle -n 200 'pp | push rk4 --dt 0.05' < a | apart)" 1 1e-9 "rk4" # four times (w dt)^6/144 a step, 2.6e-10 in 200, as for rk4 on an oscillator; w dt = 0.024
 }

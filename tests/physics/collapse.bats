@@ -34,13 +34,13 @@ rate() {
 		kA "$c" 0.1 2 --amplitude 1e-4 > a
 		within "$(rate 0.1 < a)" "$(awk -v c=$c 'BEGIN { print cos(atan2(0, -1) / c) }' OFMT=%.15g)" 1e-4 "$c cells"
 	done
-	# and the case's own number
+	# and the number of the case
 	kA 16 0.1 2 --amplitude 1e-4 > a
 	within "$(rate 0.1 < a)" 0.98078528040323 1e-4
 }
 
 @test "PM-06: the leapfrog's growth obeys sinh(g dt/2) = w dt/2: 0.999584 of w at w dt = 0.1" {
-	# w of this mesh from a step ten times smaller; both are read at the same time, where the wave has settled on the lattice
+	# w of this mesh from a step ten times smaller; both at the same time, when the growing mode dominates
 	kA 64 0.1 2 --amplitude 1e-4 > a
 	kA 64 0.01 1.1 --amplitude 1e-4 | awk 'NR >= 92' > b
 	w=$(rate 0.01 < b)
@@ -49,7 +49,7 @@ rate() {
 }
 
 @test "PM-06: the same wave in 2-D and 3-D" {
-	# one particle in the middle of a cell is where cic smooths most: 1/64 and 1/32 of a wave cost 0.2 % and 0.7 % of the growth
+	# cic smooths most for one particle in the middle of a cell: 1/64 and 1/32 of a wave reduce the growth by 0.2 % and 0.7 %
 	for d in "2 4096 64 0.002" "3 32768 32 0.01"; do
 		read -r dim n cells most <<<"$d"
 		sh_ok "pinit cold-collapse --dim $dim -n $n --cells $cells --dt 0.1 | cycle -t 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' | diag --exact > t"
@@ -62,7 +62,7 @@ rate() {
 		diag --exact --radii 0.5,0.9 > t"
 	within "$(sed -n 4p t | cut -f 2)" 0.5553603672697958 1e-9
 	for r in radius_0.5 radius_0.9; do
-		# 20000 particles place the radii to 0.3 %, the mesh of 1/16 R adds as much; 1 % of the case
+		# 20000 particles determine the radii to 0.3 %, the mesh of 1/16 R adds as much; the case allows 1 %
 		within "$(column $r < t | tail -n1)" "$(column exact_$r < t | tail -n1)" 0.01
 	done
 }

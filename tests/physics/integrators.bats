@@ -1,7 +1,7 @@
 # Orders and invariants of the integrators by the words, on two bodies with softening 0. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-# miss SENTENCE STEPS: distance of the second body from the exact place after a quarter of an eccentric orbit, T = 2 pi.
+# miss SENTENCE STEPS: distance of the second body from the exact position after a quarter of an eccentric orbit, T = 2 pi.
 miss() {
 	pinit two-body --eccentricity 0.3 --dt "$(awk -v n="$2" 'BEGIN { printf "%.17g", atan2(0, -1) / 2 / n }')" |
 		cycle -n "$2" "$1" | stab --plain |
@@ -30,7 +30,7 @@ has_order() {
 	has_order 3 'pp | push ab3'
 }
 
-@test "leapfrog is reversible: 200 steps, the same back with dt < 0, and the start again to round-off" {
+@test "leapfrog is reversible: 200 steps forward and 200 back with dt < 0 return to the start to round-off" {
 	pinit plummer -n 100 > a
 	cycle -n 200 "push kick/2 drift | pp --softening 0.1 | push kick/2" < a > b
 	dt=$(stab < a | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2)

@@ -17,7 +17,7 @@ reaches() {
 
 kdk='push kick/2 drift | pp | push kick/2'
 
-@test "PM-10: leapfrog, 1000 steps per orbit: the place after 1 and 10 orbits (same scheme, 1e-8 and 1e-6)" {
+@test "PM-10: leapfrog, 1000 steps per orbit: the position after 1 and 10 orbits (reference with the same scheme, 1e-8 and 1e-6)" {
 	reaches "-1.899890053 0.02043960759" "$(orbit 1000 1 "$kdk")" 1e-8
 	reaches "-1.889015833 0.2040059636" "$(orbit 1000 10 "$kdk")" 1e-6
 }
@@ -30,13 +30,13 @@ kdk='push kick/2 drift | pp | push kick/2'
 	reaches "-1.889329315 -0.03909421541" "$(orbit 1000 10 'pp | push rk4')" 1e-6
 }
 
-@test "PM-10: rk4, 4000 steps per orbit, 10 orbits, is the fourth order of it, in its place and its energy" {
+@test "PM-10: rk4, 4000 steps per orbit, 10 orbits, has fourth order in position and energy" {
 	reaches "-1.899993061 -4.399275757e-05" "$(orbit 4000 10 'pp | push rk4')" 1e-6
 	diag --pair --exact <end >t
 	within "$(awk -v e="$(column energy <t)" -v exact="$(column exact_energy <t)" 'BEGIN { printf "%.9g", e / exact - 1 }')" 3.465699e-6 3.5e-8 "energy"
 }
 
-@test "PM-10: energy at the end and at its worst, and the turn of the pericentre, leapfrog with 1000 steps per orbit" {
+@test "PM-10: energy error at the end and its maximum, and the rotation of the pericentre, leapfrog with 1000 steps per orbit" {
 	pinit kepler | cycle -n 10000 --every 5 "$kdk" | stab --plain --set matter | awk '
 		/vx/ { for (i = 1; i <= NF; i++) c[$i] = i; next } NF > 6 {
 			x = $c["x"]; y = $c["y"]; u = $c["vx"]; v = $c["vy"]; r = sqrt(x*x + y*y); e = 0.5 * (u*u + v*v) - 1/r

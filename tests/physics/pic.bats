@@ -14,7 +14,7 @@ swing() {
 			END { num = den = 0; for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i] * v[i] } printf "%.17g", num / den }'
 }
 
-@test "PIC-06: a cold wave swings at 2 asin(w dt/2)/dt, for w dt = 0.1 to 1.9" {
+@test "PIC-06: a cold wave oscillates at 2 asin(w dt/2)/dt, for w dt = 0.1 to 1.9" {
 	for wdt in 0.1 0.2 0.5 1 1.9; do
 		# cos(2 asin(a)) = 1 - 2 a^2; amplitude 1e-7 leaves 1e-7 of nonlinearity and 1e-9 of rounding in the velocities
 		within "$(swing "$(awk -v a=$wdt -v c=$cells 'BEGIN { printf "%.17g", a / c }')")" "$(awk -v a=$wdt 'BEGIN { printf "%.17g", 1 - a * a / 2 }')" 1e-6 "w dt = $wdt"
@@ -30,9 +30,9 @@ swing() {
 }
 
 @test "PIC-07: with ngp the frequency tends to cos(k dx/2) as the square of the cell: 0.2 % below it on 16 cells" {
-	# 262144 electrons and displacements of 800 of them. The alias sum is for displacements that are smooth over a cell, and ngp moves all of a cell alike,
-	# so that the sheets that cross its face are those of the side they come from.
-	ngp() { # CELLS: relative difference, the leapfrog taken out: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), sin(omega dt/2) = w dt/2
+	# 262144 electrons, displaced by up to 800 of their spacings. The alias sum assumes displacements that vary within a cell, but ngp moves all
+	 * electrons of a cell together, so that those crossing a face all come from one side.
+	ngp() { # CELLS: relative difference, corrected for the leapfrog: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), sin(omega dt/2) = w dt/2
 		pinit langmuir -n 262144 --cells "$1" --amplitude 0.02 --dt 0.05 | cycle -n 24 --every 1 "${step/p2m/p2m --kernel ngp}" | diag --columns energy_kinetic |
 			sed 1d | awk -v cells="$1" '{ a[NR] = sqrt($1) } END { for (i = 2; i < NR; i++) { num += (a[i-1] + a[i+1]) * a[i]; den += 2 * a[i]^2 }
 				printf "%.9g", 1 - 2 / 0.05 * sqrt((1 - num / den) / 2) / cos(3.14159265358979 / cells) }'
@@ -42,7 +42,7 @@ swing() {
 	order 1.8 8 "$e32" 16 "$e16" 32 "$e8" # the cells in units of the smallest
 }
 
-# wave DIM AXES: the frequency w of a wave along x or a diagonal on 8 cells an axis, the leapfrog taken out, from the velocity of one electron.
+# wave DIM AXES: the frequency w of a wave along x or a diagonal on 8 cells an axis, corrected for the leapfrog, from the velocity of one electron.
 wave() {
 	pinit langmuir --dim "$1" --axes "$2" -n $((32 ** $1)) --cells 8 --amplitude 1e-5 --dt 0.1 | cycle -n 8 --every 1 "$step" | stab --plain --set electrons |
 		awk '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx") c = i; frame++; n = 0; next } ++n == 3 { v[frame] = $c }
@@ -66,7 +66,7 @@ wave() {
 	done
 }
 
-@test "momentum of a plasma is kept by the same kernel on both ways, and not by two different ones" {
+@test "momentum of a plasma is conserved with the same kernel in p2m and m2p, and not with two different ones" {
 	sh_ok "pinit two-stream -n 2000 --cells 32 --vth 0.1 --amplitude 0.1 | cycle -n 50 '${step/m2p/m2p --kernel tsc}' | diag > t"
 	above "$(awk -v p="$(column momentum_x < t)" -v s="$(column momentum_scale < t)" 'BEGIN { printf "%.9g", p < 0 ? -p / s : p / s }')" 1e-8
 }
@@ -75,7 +75,7 @@ wave() {
 turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx" || $i == "v_0") c = i; frame++; n = 0; next } ++n == 3 { v[frame] = $c }
 	END { for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i]^2 } q = num / den; printf "%.9g", atan2(sqrt(1 - q * q), q) / dt }'; }
 
-@test "one to three velocities in one dimension; with a magnetic field across the wave swings at the upper hybrid frequency (PIC-15)" {
+@test "one to three velocities in one dimension; across a magnetic field the wave oscillates at the upper hybrid frequency (PIC-15)" {
 	for n in 1 2 3; do
 		within "$(pinit langmuir -n 256 --cells 16 --velocities $n --amplitude 1e-5 --dt 0.02 | cycle -n 40 --every 1 "$step" | turning 0.02)" 0.980785 1e-4 "$n velocities"
 	done
@@ -86,12 +86,12 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 			cycle -n 40 --every 1 "${step//kick/boris}" > a
 		within "$(turning 0.02 < a)" "$(awk 'BEGIN { print sqrt(1 + 0.980785280403230^2) }')" 1e-4 "B = $b, $n velocities" # 1e-5 (omega dt)^2/24
 	done
-	# along the wave it does nothing
+	# a field along the wave has no effect
 	within "$(pinit langmuir -n 256 --cells 16 --velocities 3 --amplitude 1e-5 --dt 0.02 | scalc --mesh mesh "B = 1, 0, 0" --role state |
 		cycle -n 40 --every 1 "${step//kick/boris}" | turning 0.02)" 0.980785 1e-4
 }
 
-@test "two species swing together: electrons and ions of mass 4, omega^2 = 1 + 1/4 times that of the mesh; the same ions as a background, 1" {
+@test "two species oscillate together: electrons and ions of mass 4, omega^2 = 1 + 1/4 times that of the mesh; the same ions as a background, 1" {
 	pinit langmuir -n 256 --cells 16 --amplitude 1e-5 --dt 0.02 | smod --constant background=0 > electrons
 	pinit langmuir -n 256 --cells 16 --amplitude 0 --dt 0.02 | smove --scale charge=-1,mass=4 | smod --rename electrons=ions --constant background=0 | sel --drop mesh > ions
 	for order in 'electrons ions' 'ions electrons'; do
@@ -104,10 +104,10 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	below "$(sel --last < a | p2m | poisson-fft | grep -ao '"mean[^:]*":[-0-9.e+]*' | tail -n 1 | cut -d: -f2)" 1e-12
 }
 
-@test "PIC-01: a quiet start of 1e4 particles a cell is damped within 4 % and swings within 0.3 % (k = 0.3 and 0.5)" {
+@test "PIC-01: a quiet start of 1e4 particles a cell has the right damping to 4 % and frequency to 0.3 % (k = 0.3 and 0.5)" {
 	[ -n "$PM_LONG" ] || skip "long: make check-long"
-	# k A = 0.02 and 64 cells, as the case has it. Window: from 5 pi/(2 omega), when the second root is gone, to pi/sqrt(k A), half a bounce of the electrons
-	# that the wave traps. The case's own run: 4 % at 0.3 and 1.5 % at 0.5.
+	# k A = 0.02 and 64 cells, as the case has it. Window: from 5 pi/(2 omega), when the second root is gone, to pi/sqrt(k A), half a bounce of the trapped
+	# electrons. The run of the case: 4 % at 0.3 and 1.5 % at 0.5.
 	for case in "0.3 1.15984648059191 -0.0126203684211172" "0.5 1.41566188860454 -0.153359466909605"; do
 		read -r k omega gamma <<<"$case"
 		pinit landau --wavenumber "$k" -n 640000 | cycle -t 22.3 "$step | diag --columns time --growth mode:1 --tee t --window $(awk -v w="$omega" 'BEGIN { printf "%g:22.2", 7.853981634 / w }')" > last
@@ -116,7 +116,7 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	done
 }
 
-@test "a neutral plasma with its background has no mean density; without it the force is the same, as the solver takes the mean off" {
+@test "a neutral plasma with its background has no mean density; without it the force is the same, because the solver removes the mean" {
 	sh_ok "pinit langmuir -n 500 | p2m | poisson-fft > a"
 	below "$(grep -ao '"mean[^:]*":[-0-9.e+]*' a | tail -n 1 | cut -d: -f2)" 1e-12
 	sh_ok "pinit langmuir -n 500 --no-history | stab > h; sed 's/\"background\":1.0/\"background\":0.0/' h > g; for k in h g; do stab \$k | p2m | poisson-fft | mgrad | m2p | stab --plain --set electrons > \$k.t; done"
@@ -141,7 +141,7 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	awk -v s="$(column momentum_scale < t)" 'BEGIN { exit !(s > 1e-3) }'
 }
 
-@test "passive particles go with a given velocity, in any scheme" {
+@test "passive particles move with a given velocity, in any scheme" {
 	printf 'x y\n0.25 0.5\n0.9 0.1\n' > t
 	sh_ok "stab t --law passive --box 0,1 --faces periodic --particle-faces periodic --dt 0.1 --cells 8 > a"
 	stab < a | sed '1s/"fields":\[{/"fields":[{"components":2,"kind":"value","name":"u","on":"mesh","role":"state","type":"f64","uniform":[0.5,-0.25],"unit":""},{/' > b
@@ -160,7 +160,7 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "x") x = i; if ($i ~ /^bfield/) b = i } next } NF { d = $b - 1 - $x / 4; if (d * d > 1e-28) exit 1; n++ } END { exit n != 5 }' c
 }
 
-@test "a given E on another mesh adds to the one that is solved for, as terms of their own" {
+@test "a given E on another mesh is added to the computed one, as a separate term" {
 	sh_ok "pinit langmuir -n 64 --cells 16 | p2m | poisson-fft | mgrad | m2p > a; stab --plain --set electrons < a > a.t"
 	stab < a | sed '1s/"fields":\[{/"fields":[{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""},{/; 1s/"meshes":\[/"meshes":[{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"},/' > b
 	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep '\"terms\":\[\"self\",\"external\"\]' >/dev/null"

@@ -24,7 +24,7 @@ load ../helper
 	pipeline solar-system 14
 }
 
-@test "a pipeline whose number is off says so and exits 1" {
+@test "a pipeline with a wrong number reports it and exits 1" {
 	sed 's/-1.889015833 1e-6/-1.889016833 1e-7/' "$top/pipelines/pp-kepler.sh" > pp-kepler.sh
 	cp "$top/pipelines/numbers.sh" .
 	PM_BIN=${PM_BIN:-$top/bin} run -1 bash pp-kepler.sh

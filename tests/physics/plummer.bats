@@ -1,4 +1,4 @@
-# A Plummer sphere on a mesh and by direct summation: what is conserved, and how the errors go with the step.
+# A Plummer sphere on a mesh and by direct summation: conserved quantities, and the order of the errors in dt.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -13,8 +13,8 @@ pp='push kick/2 drift | pp | push kick/2'
 	! grep -q nan <(column energy < t)
 }
 
-@test "PM-09: on a mesh the energy error goes as dt^2" {
-	# E(dt) - E(dt/2) at the same time: what the mesh itself does to the energy does not depend on dt and drops out
+@test "PM-09: on a mesh the energy error falls as dt^2" {
+	# E(dt) - E(dt/2) at the same time: the effect of the mesh on the energy does not depend on dt and cancels
 	errors=() before=
 	for k in 4 8 16 32; do
 		sh_ok "pinit plummer -n 2000 --cells 32 --dt $(awk "BEGIN { print 1 / $k }") | cycle -t 2 '$pm' | diag --columns time,energy > t"
@@ -26,7 +26,7 @@ pp='push kick/2 drift | pp | push kick/2'
 	order 2 "${errors[@]}"
 }
 
-@test "by direct summation the energy error goes as dt^2, and the momentum stays" {
+@test "by direct summation the energy error falls as dt^2, and momentum is conserved" {
 	# softening 0.2: with 200 particles the closest pairs are then resolved by every step
 	errors=()
 	for k in 8 16 32; do
@@ -38,7 +38,7 @@ pp='push kick/2 drift | pp | push kick/2'
 	order 2 "${errors[@]}"
 }
 
-@test "a force computed by cycle is not doubled by a pp behind it: refused, exit 1, with the remedies" {
+@test "a force computed by cycle is not added again by a later pp: refused, exit 1, with the remedies" {
 	run -1 --separate-stderr bash -o pipefail -c "pinit plummer -n 100 | cycle -n 1 '$pm' | pp"
 	[[ $stderr == *"already holds the term 'self'"* && $stderr == *"--replace"* && $stderr == *"push clear"* ]]
 }

@@ -10,7 +10,7 @@ pm() {
 	stab --plain --mesh mesh < potential | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $1 == 5 && $2 == 5 && $3 == 6 { print $c["phi"] }'
 }
 
-# pm01 KERNEL SYMBOL ORDER Fx Fy Fz PHI: 1e-12 as the case asks for; F_A + F_B < 1e-15, ngp 2e-15: its potential, 5 at the particle, has steps of 9e-16.
+# pm01 KERNEL SYMBOL ORDER Fx Fy Fz PHI: 1e-12 as in the case; F_A + F_B < 1e-15, ngp 2e-15: its potential, 5 at the particle, is rounded to 9e-16.
 pm01() {
 	pm "$1" "$2" "$3" > out
 	read -r ax ay az < out
@@ -60,12 +60,12 @@ force() {
 		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (d = 0; d < 3; d++) { a = $c["acc_" d]; if (a < 0) a = -a; if (a > m) m = a } } END { print m + 0 }'
 }
 
-@test "PM-13: a cold lattice of spacing 2 dx feels no force" {
+@test "PM-13: a cold lattice of spacing 2 dx has no force" {
 	below "$(force cic 2 729)" 1e-12 cic # the case's bound for commensurate lattices; its own numbers are 9e-15
 	below "$(force tsc 2 729)" 1e-12 tsc
 }
 
-@test "PM-13: a cold lattice of spacing 1.5 dx feels the mesh: 0.945 with cic, 0.478 with tsc" {
+@test "PM-13: a cold lattice of spacing 1.5 dx has a force from the mesh: 0.945 with cic, 0.478 with tsc" {
 	within "$(force cic 1.5 1728)" 0.9450 0.04725 cic # 5 % as the case says
 	within "$(force tsc 1.5 1728)" 0.4776 0.02388 tsc
 }
@@ -91,25 +91,25 @@ smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g
 	done
 }
 
-@test "PM-02: interlacing takes away the ring of spectral gradients: cic below two fifths of the error at r = 2, half at r = 4; three tenths of the scatter across at r = 1" {
+@test "PM-02: interlacing removes the oscillation of spectral gradients: cic below two fifths of the error at r = 2, half at r = 4; three tenths of the transverse scatter at r = 1" {
 	smaller "$(error 'cic --interlace, spectral, spectral' 2)" "$(error 'cic, spectral, spectral' 2)" 0.4
 	smaller "$(error 'cic --interlace, spectral, spectral' 4)" "$(error 'cic, spectral, spectral' 4)" 0.5
 	smaller "$(error 'cic --interlace, spectral, spectral' 1 2)" "$(error 'cic, spectral, spectral' 1 2)" 0.3
 	smaller "$(error 'tsc --interlace, spectral, spectral' 1 2)" "$(error 'tsc, spectral, spectral' 1 2)" 0.3
 }
 
-@test "PM-02: with the window divided out or the influence function of least error the mean force at r = 1 is right within 20 %, not half; what it costs at r = 2 shows" {
+@test "PM-02: with deconvolution or the optimal influence function the mean force at r = 1 is right within 20 % instead of half; the larger error at r = 2 is confirmed" {
 	for kernel in cic tsc; do
 		for influence in deconvolved optimal; do
 			within "$(error "$kernel, --influence $influence, 4" 1 1)" 1 0.2 "$kernel $influence"
-			smaller "$(error "$kernel, spectral, 4" 2)" "$(error "$kernel, --influence $influence, 4" 2)" 0.6 # points cannot be had on a mesh
+			smaller "$(error "$kernel, spectral, 4" 2)" "$(error "$kernel, --influence $influence, 4" 2)" 0.6 # a mesh cannot represent point particles
 		done
 		smaller "$(error "$kernel, spectral, 4" 1 1)" 0.5
 		smaller "$(error "$kernel, --influence optimal, 4" 1)" "$(error "$kernel, spectral, 4" 1)" 0.8
 	done
 }
 
-@test "PM-02: clouds of 4 cells: deconvolved beats plain, optimal corrects the gradient too, interlacing takes what is left, down to 0.2 %" {
+@test "PM-02: clouds of 4 cells: deconvolved is better than plain, optimal also corrects the gradient, interlacing removes the rest, down to 0.2 %" {
 	for kernel in cic tsc; do
 		for r in 1 2; do
 			smaller "$(error "cloud $kernel, deconvolved, 4" $r)" "$(error "cloud $kernel, plain, 4" $r)" 0.4

@@ -1,4 +1,5 @@
-# The transform solver through the words: unlike ends, screening, vectors. Every mixture of faces is in tests/unit/poisson-faces.c and pm-faces.c.
+# The transform solver through the words: different faces at the two ends, screening, vectors. Every mixture of faces is in tests/unit/poisson-faces.c and
+# pm-faces.c.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 export PM_PLAN=estimate
@@ -24,7 +25,7 @@ worst() {
 	done
 }
 
-@test "poisson-fft --symbol fd2 and poisson-mg agree to 1e-9 where the ends of each axis are unlike" {
+@test "poisson-fft --symbol fd2 and poisson-mg agree to 1e-9 if the two faces of each axis differ" {
 	pinit uniform -n 2000 --seed 5 --faces wall,neumann,neumann,wall,periodic,periodic | p2m -n 18x21x16 > rho
 	sh_ok "poisson-fft --symbol fd2 --target a < rho | poisson-mg --tolerance 1e-11 --target b | stab --plain --mesh mesh > both"
 	below "$(worst a b < both)" 1e-9
@@ -58,7 +59,7 @@ round_trip() {
 	done
 }
 
-@test "poisson-fft --wall normal: a flow slips along a wall; mgrad agrees for vortices" {
+@test "poisson-fft --wall normal: free slip at a wall; mgrad agrees for vortices" {
 	printf 'x y circulation\n0.3 0.4 1\n' > table
 	for order in 2 4 6 spectral; do
 		round_trip "stab table --law vortex --box 0,1 --faces wall,wall,wall,neumann --particle-faces reflect -n 12 |
@@ -85,7 +86,7 @@ round_trip() {
 	sh_ok "stab table --law vortex --box 0,1 --faces wall,wall,wall,neumann --particle-faces reflect -n 12 |
 		scalc --mesh mesh 'omega = (1+x)*y, x*(1-x)*(1-y)' | poisson-fft --symbol fd4 --coefficient 1 | mgrad --operator lap --order 4 --source psi --target back |
 		stab --plain --mesh mesh > ob"
-	# the omega of nodes where psi is zero is not seen
+	# omega on nodes where psi is zero has no effect
 	below "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; print; next } $1 > 0.01 && $1 < 0.99 && $2 > 0.01 && $2 < 0.99' ob > in; worst back_0 omega_0 < in)" 1e-12
 	below "$(worst back_1 omega_1 < in)" 1e-12
 }

@@ -23,7 +23,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	within "${c[5]}" 1.417e-5 0.02e-5 # 0.0580 h^2, tests/unit/poisson-mg
 }
 
-@test "PS-06: a sine in a periodic box is amplified as the second difference says" {
+@test "PS-06: a sine in a periodic box is amplified by the inverse of the second difference" {
 	# 1.0032189644401 and 1.0530292875455 are the ratios for N = 32, m = 1, 4 on [0, 2 pi); on a box of length 1 u = s/(2 pi m)^2
 	for row in "1 1.0032189644401" "4 1.0530292875455"; do
 		read -r m ratio <<<"$row"
@@ -73,12 +73,12 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	within $x 0.02663957298003 1e-11
 	within $y 0.009361482740412 1e-11
 	within $z 0.02494476327532 1e-11
-	# with the same second-order gradient, spectral and multigrid differ by less (3.3e-4) than either is wrong (5.9e-4, 6.3e-4)
+	# with the same second-order gradient, spectral and multigrid differ by less (3.3e-4) than the error of either (5.9e-4, 6.3e-4)
 	echo "$mg $(f 'poisson-fft --plan estimate --symbol spectral' 2) 0.0269507714622 0.00946960886732 0.0254426249975" |
 		awk '{ for (i = 1; i <= 3; i++) { d += ($i - $(i+3))^2; a += ($i - $(i+6))^2; b += ($(i+3) - $(i+6))^2 } print sqrt(d), sqrt(a), sqrt(b); exit !(d < a && d < b) }'
 }
 
-@test "PS-03: the potential of a unit cube in open space, at its centre and its corner; the mesh is half as wide again" {
+@test "PS-03: the potential of a unit cube in open space, at its centre and its corner; the mesh is 1.5 times as wide" {
 	# rho = 1 in the cube, 1/2, 1/4, 1/8 on its faces, edges and corners; phi = 1/(4 pi) int 1/r with coefficient -1
 	pinit plummer -n 10 | p2m -n 48 --outside drop | scalc --mesh mesh 'X = abs(x)/Lx*1.5, abs(y)/Ly*1.5, abs(z)/Lz*1.5' |
 		scalc --mesh mesh 'rho = (X_0 < 0.499 ? 1 : X_0 < 0.501 ? 0.5 : 0)*(X_1 < 0.499 ? 1 : X_1 < 0.501 ? 0.5 : 0)*(X_2 < 0.499 ? 1 : X_2 < 0.501 ? 0.5 : 0)' >m
@@ -89,7 +89,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	within "$corner" 1.19003868198978 1e-3
 }
 
-@test "open space: multigrid is the transforms with the lattice's Green's function, in 2-D with the logarithm and in 3-D; order 4 is near it" {
+@test "open space: multigrid is the transforms with the lattice's Green's function, in 2-D with the logarithm and in 3-D; order 4 is close to it" {
 	for row in "2 64x80 1e-8" "3 32x28x30 1e-7"; do # the far form of the lattice's function where multigrid begins to use it, at 128 and 32 cells
 		read -r dim n tolerance <<<"$row"
 		pinit uniform -n 200 --dim $dim --faces open | p2m --kernel m4prime --outside drop -n $n >m

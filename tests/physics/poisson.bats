@@ -17,7 +17,7 @@ pair_force() {
 }
 
 # With differences of order 2 the gradient is the error (6e-4 either way; 3.3e-4 between them). With order 4 the two solvers err to opposite sides
-# (2.1e-4 and 3.0e-4, 3.8e-4 between them), so the sentence is about order 2.
+# (2.1e-4 and 3.0e-4, 3.8e-4 between them), so this test is for order 2.
 @test "PM-01: spectral and multigrid differ by less than their error against the Ewald force" {
 	read -r sx sy sz < <(pair_force poisson-fft --symbol spectral)
 	read -r mx my mz < <(pair_force poisson-mg)
@@ -35,7 +35,7 @@ pair_force() {
 	within "$u" 0.0736713532815138 6e-5 # 0.058/1024 = 5.7e-5
 }
 
-# Masses on nodes, and bodies without mass on others that feel them: phi of the mesh there against that of the direct sum.
+# Masses on nodes, and massless bodies on other nodes: phi of the mesh there compared with the direct sum.
 against_pp() { # DIM GREEN SOFTENING BOX CELLS: the largest difference over the largest phi
 	awk -v dim="$1" 'BEGIN { print (dim > 2 ? "x y z mass" : "x y mass"); for (p = 0; p < 60; p++) { s = ""
 		for (d = 0; d < dim; d++) { r = (r*16807 + 7) % 2147483647; s = s (2 + r % (12 + d))/16 " " }
@@ -50,7 +50,7 @@ against_pp() { # DIM GREEN SOFTENING BOX CELLS: the largest difference over the 
 		END { if (n < 30) exit 1; print m/s }' direct mesh
 }
 
-@test "poisson-fft --green gauss2 is pp --mollifier gaussian where the particles are on nodes, in 2-D and 3-D" {
+@test "poisson-fft --green gauss2 equals pp --mollifier gaussian for particles on nodes, in 2-D and 3-D" {
 	worst=$(against_pp 3 gauss2 0.15 0,0,0,1,1.0625,1.125 16x17x18)
 	below "$worst" 1e-12
 	worst=$(against_pp 2 gauss2 0.2 0,0,1,1.0625 16x17)
@@ -65,7 +65,7 @@ acc_first() {
 		stab --plain --set matter | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == 2 { printf "%.17g\n", $c["acc_0"] }'
 }
 
-@test "a mass in half a space is pushed off a wall by its image, and drawn to a neumann face, at either end" {
+@test "a mass in a half space is repelled from a wall by its image, and attracted to a neumann face, at either end" {
 	# G m/(2 d)^2, d = 6.2 h at h = 1/32: tsc and differences of order 4 are in error by 2e-3 at 12 h
 	want=$(awk 'BEGIN { d = 6.2/32; print 2.385/(4*d*d) }')
 	printf 'x y z vx vy vz mass\n%s .51 .53 0 0 0 2.385\n' "$(awk 'BEGIN { print 6.2/32 }')" > bodies
@@ -75,7 +75,7 @@ acc_first() {
 	within "$(acc_first open,wall,open,open,open,open 32)" "-$want" "$(awk "BEGIN { print 2e-3*$want }")"
 }
 
-@test "sheets of mass, open across and periodic along, draw each other with 2 pi G sigma, whatever the distance" {
+@test "sheets of mass, open across and periodic along, attract each other with 2 pi G sigma at any distance" {
 	for x in 0.3 0.8; do
 		awk -v x=$x 'BEGIN { print "x y z vx vy vz mass"; for (j = 0; j < 8; j++) for (k = 0; k < 6; k++) {
 			printf "0.12 %.17g %.17g 0 0 0 0.01\n", j/8, k/6; printf "%g %.17g %.17g 0 0 0 0.05\n", x, j/8, k/6 } }' > bodies

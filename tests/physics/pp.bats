@@ -32,19 +32,19 @@ two() { # two DIM R: masses 2 and 3 at distance R along x
 	within "$(force 3 4 gaussian)" "$(want '1.7 * 3 / 16')" 1e-15
 }
 
-@test "the potential leaves out the particle's own and adds to the energy of the pair" {
+@test "the potential excludes the particle's own, and sums to the energy of the pair" {
 	within "$(two 3 2.385 | pp --softening 0.5 --potential | value phi 1)" "$(awk 'BEGIN { printf "%.17g", -1.7 * 3 / sqrt(2.385^2 + 0.25) }')" 1e-15
 	within "$(two 2 2.385 | pp --mollifier none --potential | value phi 2)" "$(awk 'BEGIN { printf "%.17g", 2 * 1.7 * 2 * log(2.385) }')" 1e-14
 }
 
-@test "a test particle feels and does not act; a fixed set acts and is not moved" {
+@test "a test particle is accelerated and exerts no force; a fixed set exerts a force and is not moved" {
 	pinit kepler | pp --potential > a
 	within "$(value acc_0 1 < a)" "$(awk 'BEGIN { printf "%.17g", 1 / 1.9^2 }')" 1e-15
 	run ! value acc_0 1 sun < a
 	within "$(value phi 1 sun < a)" "$(awk 'BEGIN { printf "%.17g", -1 / 1.9 }')" 1e-15
 }
 
-@test "half loop and full loop agree to round-off, momentum is kept to round-off by both" {
+@test "half loop and full loop agree to round-off, and both conserve momentum to round-off" {
 	pinit plummer -n 1500 > a
 	for loop in half full; do
 		pp --loop $loop < a > $loop

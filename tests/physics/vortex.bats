@@ -12,7 +12,7 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	pipeline vortex-lamb-oseen 17
 }
 
-@test "scene A: vortex-cone stays a cone where it is remeshed, and does not where it is left alone" {
+@test "scene A: vortex-cone stays a cone with remeshing, and does not without" {
 	pipeline vortex-cone 21
 }
 
@@ -34,7 +34,7 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 		pinit taylor-green-2d --nu "$2" --dt "$4" | cycle -t "$3" "p2m --kernel $1 | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $1" | solved "$1" | diag > t
 		energy=$(calc "$(column energy < t) / ($5 * 4 * pi ^ 2)") most=$(calc "$(column omega_max < t) / $6")
 	}
-	while read -r kernel e w; do # of the reference: 7e-5 and 1e-6 of the energy; the largest omega is a node's and lets the kernel's error be seen
+	while read -r kernel e w; do # of the reference: 7e-5 and 1e-6 of the energy; the largest omega is measured on a node and so includes the error of the kernel
 		for case in "0.01 1 0.05 0.240197359788081 1.96039734661351" "0.1 2 0.02 0.112332241029305 1.34064009207128"; do
 			# shellcheck disable=SC2086
 			run_with "$kernel" $case
@@ -50,7 +50,7 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	within "$energy" 0.95 0.005
 }
 
-# ellipse A B CELLS: a patch of omega = 1 with half-axes A and B on a lattice of CELLS to the unit; cells that the edge cuts count by their part.
+# ellipse A B CELLS: a patch of omega = 1 with half-axes A and B on a lattice of CELLS to the unit; cells cut by the edge have the fraction inside.
 ellipse() {
 	awk -v a="$1" -v b="$2" -v c="$3" 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation volume"; h = 1 / c
 		for (j = -int(b * c) - 1; j <= b * c + 1; j++) for (i = -int(a * c) - 1; i <= a * c + 1; i++) { n = 0
@@ -59,7 +59,7 @@ ellipse() {
 }
 
 @test "VM-05: a Rankine vortex turns inside as a solid body and outside as a point: 0.25, 0.5, 0.25 at r = 0.5, 1, 2 to 1 %" {
-	# inside and outside much closer; at the edge u has a corner, which any mesh rounds off by about 0.4 h/R of it: 1.2 % at 32 cells a radius, 0.6 % at 64
+	# inside and outside much closer; at the edge u has a kink, which any mesh smooths by about 0.4 h/R: 1.2 % at 32 cells a radius, 0.6 % at 64
 	for n in 32 64; do
 		{ ellipse 1 1 $n; echo 2 0 0 1; } > rankine # the last is a probe
 		stab rankine --law vortex --box -2.5,2.5 -n $((5 * n)) | p2m | poisson-fft | mgrad | m2p | stab --plain > t
@@ -70,8 +70,8 @@ ellipse() {
 	done
 }
 
-@test "VM-08: two vortices turn about each other at 3/(2 pi), and of unlike sign go straight at 1/pi" {
-	# the rate at the start is exact; rk4 with 200 steps a turn keeps the place to 1e-6 and the distance to 1e-9
+@test "VM-08: two vortices rotate about each other at 3/(2 pi), and move straight at 1/pi if they have opposite sign" {
+	# the rate at the start is exact; rk4 with 200 steps per turn has the position to 1e-6 and the distance to 1e-9
 	read -r _ y <<<"$(pinit vortex-pair | pp --mollifier none | velocity 2)"
 	within "$y" "$(calc '1 / (2 * pi)')" 1e-15 # Gamma1/(2 pi d)
 	read -r _ first <<<"$(pinit vortex-pair | pp --mollifier none | velocity 1)"
@@ -95,7 +95,7 @@ ellipse() {
 	order 4 "${list[@]}"
 }
 
-@test "VM-07: Thomson's polygons turn at (N - 1) Gamma/(4 pi R^2): 5, 7 and 8 vortices come back after a turn" {
+@test "VM-07: Thomson's polygons rotate at (N - 1) Gamma/(4 pi R^2): 5, 7 and 8 vortices return after a turn" {
 	for n in 5 7 8; do
 		pinit polygon -n $n > a
 		within "$(pp --mollifier none < a | velocity 1 | cut -d' ' -f2)" "$(calc "($n - 1) / (4 * pi)")" 1e-14 "N = $n"
@@ -110,7 +110,7 @@ ellipse() {
 	within "$(calc "$(column circulation < t) / $(pinit ellipse --cells 32 | diag | column circulation)")" 1 1e-13
 }
 
-@test "with viscosity too, whatever the step: what diffuses is shared so that nothing is lost" {
+@test "with viscosity too, for any step: the diffused amount is distributed so that nothing is lost" {
 	start=$(pinit ellipse --nu 5e-4 --cells 64 | diag | column circulation)
 	for dt in 0.1 0.05 0.025; do
 		pinit ellipse --nu 5e-4 --cells 64 --dt $dt | cycle -t 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' | diag > t
@@ -118,9 +118,9 @@ ellipse() {
 	done
 }
 
-@test "VM-17: an elliptical vortex at t = 2, 5, 10: energy, enstrophy and peak as the spectral code has them" {
-	# 128^2, dt = 0.05. The reference's particles: enstrophy .3 %, peak 2.5 % off with m4prime, .08 % and 1 % with m6prime (the time is not said); 1.5 times that for
-	# enstrophy. It has the mean of omega taken out, which is circulation over area.
+@test "VM-17: an elliptical vortex at t = 2, 5, 10: energy, enstrophy and peak as in the spectral code" {
+	# 128^2, dt = 0.05. The reference's particles: enstrophy .3 %, peak 2.5 % off with m4prime, .08 % and 1 % with m6prime (at an unspecified time); 1.5 times
+	# that for enstrophy. Its omega has the mean (circulation over area) removed.
 	for case in "m4prime 5e-4 0.0045 0.025" "m6prime 1e-4 0.0012 0.01"; do
 		read -r k e z w <<<"$case"
 		pinit ellipse | cycle -t 10 --every 20 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k" | solved $k |
@@ -137,7 +137,7 @@ ellipse() {
 	done
 }
 
-@test "pp and the mesh agree on the velocity of a smooth vortex, the closer the finer the mesh" {
+@test "pp and the mesh agree on the velocity of a smooth vortex, better on finer meshes" {
 	local list=()
 	for c in 32 64 128; do
 		pinit lamb-oseen --cells $c > a
@@ -150,11 +150,11 @@ ellipse() {
 	within "${list[5]}" 0 5e-3
 }
 
-# probes: places off the nodes, x y circulation volume, that feel and do not pull.
+# probes: points off the nodes, x y circulation volume, with zero circulation.
 probes() { printf '%s 0 1\n' '0.31 0.12' '-0.47 0.22' '0.153 -0.61' '-1.21 -0.33' '0.77 1.58' '2.41 -0.93'; }
 
-# blob MOLLIFIER H: the vorticity that a mollifier of delta = 1 gives a vortex of circulation 1, on a lattice: a Gaussian; a disc, cells on its edge by their part; and
-# 1/(pi (r^2 + 1)^2) out to r = 4, since what is further out, in rings, moves nothing inside.
+# blob MOLLIFIER H: the vorticity that a mollifier of delta = 1 gives a vortex of circulation 1, on a lattice: a Gaussian; a disc, cells on its edge with the
+# fraction inside; and 1/(pi (r^2 + 1)^2) out to r = 4, since rings further out induce no velocity inside.
 blob() {
 	awk -v m="$1" -v h="$2" 'BEGIN { OFMT = CONVFMT = "%.17g"; pi = atan2(0, -1); far = m == "rankine" ? 1 : m == "krasny" ? 4 : 6.2; n = int(far / h) + 1
 		print "x y circulation volume"
@@ -170,8 +170,9 @@ apart() {
 		awk '{ d = sqrt(($1 - $3) ^ 2 + ($2 - $4) ^ 2); v = sqrt($3 * $3 + $4 * $4); if (d > e) e = d; if (v > m) m = v } END { printf "%.9g", e / m; exit NR != 6 }'
 }
 
-@test "pp and the mesh agree in open space: one vortex with a Rankine, denominator or Gaussian core is that core's vorticity in cells" {
-	# cells smooth the edge of the disc over h, which what is around it feels as h^2 (1/32^2 = 1e-3); smooth cores are as good as the differences of order 6 and the kernel
+@test "pp and the mesh agree in open space: one vortex with a Rankine, denominator or Gaussian core gives the velocity of that core's vorticity in cells" {
+	# cells smooth the edge of the disc over h, which changes the velocity outside by h^2 (1/32^2 = 1e-3); for smooth cores the error is that of the differences
+	# of order 6 and of the kernel
 	for case in rankine:1.8:2e-4 krasny:3.2:1e-6 gaussian:3.5:1e-6; do
 		IFS=: read -r m least most <<<"$case"
 		{ echo x y circulation volume; echo 0 0 1 1; probes; } | stab - --law vortex --box -8,8 -n 8 | pp --mollifier $m --softening 1 > pp
@@ -186,9 +187,10 @@ apart() {
 	done
 }
 
-@test "pp and the mesh agree in open space on the same particles up to what the core adds: h^2, by its second moment" {
-	# pp sees vortices with cores, the mesh (m6prime keeps moments 0 to 4) points spread over nodes. Lamb-Oseen, sigma^2 = 0.04; the Gaussian core makes it the same vortex with sigma^2 + delta^2, so the difference is known; the core of Rankine has half its second
-	# moment and so half the difference; the denominator has none (it diverges like a logarithm), its difference falls more slowly
+@test "pp and the mesh agree in open space on the same particles except for the effect of the core: h^2, by its second moment" {
+	# pp uses vortices with cores, the mesh (m6prime conserves moments 0 to 4) points distributed to nodes. Lamb-Oseen, sigma^2 = 0.04; the Gaussian core makes
+	# it the same vortex with sigma^2 + delta^2, so the difference is known; the core of Rankine has half its second moment and so half the difference; the
+	# denominator has none (it diverges like a logarithm), its difference falls more slowly
 	for m in gaussian rankine krasny; do
 		list=()
 		for c in 48 64 96; do
@@ -232,16 +234,16 @@ apart() {
 	done
 }
 
-# pair CELLS: two smooth vortices of unlike size and strength in open space, neither on the axes, CELLS to the unit.
+# pair CELLS: two smooth vortices of different size and strength in open space, neither on the axes, CELLS to the unit.
 pair() {
 	awk -v c="$1" 'BEGIN { OFMT = CONVFMT = "%.17g"; h = 1 / c; print "x y circulation volume"; for (j = -2 * c; j <= 2 * c; j++) for (i = -2 * c; i <= 2 * c; i++) { x = i * h; y = j * h
 		w = 10 * exp(-((x - 0.4) ^ 2 + (y - 0.1) ^ 2) / 0.06) - 4 * exp(-((x + 0.5) ^ 2 + (y + 0.3) ^ 2) / 0.1); if (w * w > 1e-16) print x, y, w * h * h, h * h } }' |
 		stab - --law vortex --box -4,4 -n $((8 * $1)) --dt 0.04
 }
 
-@test "impulse is kept to round-off by every kernel with a first moment, remeshed or not; angular impulse only as the mesh gets finer" {
-	# sum Gamma u = 0, because m2p is the transpose of p2m and the gradient centred: the flow moves no impulse, in any pass of any scheme. remesh keeps the moments of
-	# its kernel: cic and pcs 1, m4prime 2, m6prime 4; ngp 0. Terms of size 1, 1e3 of them.
+@test "impulse is conserved to round-off by every kernel that conserves the first moment, with and without remeshing; angular impulse only in the limit of fine meshes" {
+	# sum Gamma u = 0, because m2p is the transpose of p2m and the gradient centred: the flow changes no impulse, in any pass of any scheme. remesh conserves
+	# the moments of its kernel: cic and pcs 1, m4prime 2, m6prime 4; ngp 0. Terms of size 1, 1e3 of them.
 	start=$(pair 16 | diag --columns circulation,impulse_x,impulse_y | tail -1)
 	for words in cic pcs m4prime m6prime ngp alone; do
 		[ $words = alone ] && last='' k=m4prime || last="| remesh --kernel $words" k=$words
@@ -251,7 +253,7 @@ pair() {
 		if [ $words = ngp ]; then [ "$(calc "$off > 1e-6")" = 1 ]; else below "$off" 1e-13 $words; fi
 		below "$(paste <(echo "$start") t | awk '{ printf "%.3g", $1 - $4 }')" 1e-13 "circulation, $words"
 	done
-	# angular impulse: the pull between two vortices on a mesh is not quite along their normal, the less the finer the mesh
+	# angular impulse: the velocity of two vortices on a mesh is not exactly normal to their separation; the error falls with h
 	list=()
 	for c in 8 12 16; do
 		first=$(pair $c | diag --columns angular_impulse | tail -1)
@@ -262,7 +264,7 @@ pair() {
 	below "${list[5]}" 1e-5
 }
 
-@test "a wall is where psi is 0: a vortex near it moves as beside its image" {
+@test "a wall is where psi is 0: a vortex near it moves as if with its image" {
 	printf 'x y circulation\n8 1 1\n' > one
 	printf 'x y circulation\n8 1 1\n8 31 -1\n' > two
 	four='p2m | poisson-fft | mgrad | m2p'
@@ -295,8 +297,8 @@ near() {
 	pinit shear-layer --rho 30 --nu 1e-3 --cells 64x66 --dt 0.01 > start
 	sentence='p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime'
 	cycle -t 0.2 "$sentence" < start | solved m6prime | diag --columns energy,enstrophy,omega_max | tail -1 > base
-	# two cells a layer (h = 1/64, 1/rho = 1/30): tolerances by order, of the energy (u), the enstrophy and one node. A word that is
-	# not heard would give 0; ab3 does because its memory goes with the particles that remesh replaces, and it starts with the passes of lsrk3
+	# two cells a layer (h = 1/64, 1/rho = 1/30): tolerances by order, of the energy (u), the enstrophy and one node. A word without effect would give 0; so
+	# does ab3, because remesh replaces the particles and with them its old rates, and it restarts with the passes of lsrk3
 	while IFS=: read -r old new energy enstrophy most; do
 		words=${sentence//$old/$new}
 		[ "$words" != "$sentence" ]
@@ -321,7 +323,7 @@ near() {
 		lsrk3:ab3:1e-4:1e-4:1e-3
 		lsrk3:euler:1e-3:1e-2:3e-2
 	END
-	# what does not fit says what would
+	# an error names the alternatives
 	run -2 cycle -t 0.2 "${sentence/lsrk3/lsrk4}" < start
 	[[ $output == *"lsrk3"* ]]
 }
@@ -360,7 +362,7 @@ near() {
 	done
 }
 
-@test "VM-04: Kirchhoff's ellipses a/b = 2, 1.5 turn at 2/9, 0.24 of omega, and inside u = -omega a y/(a+b), v = omega b x/(a+b)" {
+@test "VM-04: Kirchhoff's ellipses a/b = 2, 1.5 rotate at 2/9, 0.24 of omega, and inside u = -omega a y/(a+b), v = omega b x/(a+b)" {
 	for case in "1 0.5 0.222222222222222" "1.2 0.8 0.24"; do
 		read -r a b want <<<"$case"
 		ellipse "$a" "$b" 32 > patch
@@ -378,7 +380,7 @@ near() {
 
 # love A B: cosh of 8 times the growth rate of mode 3 of the ellipse with half-axes A, B. The patch is displaced by the flow of the potential cosh 3(xi + i eta) in
 # elliptic coordinates, conj(4 (z/c)^2 - 1), c^2 = A^2 - B^2. z^3 in the frame of the axes is 0 for every even shape; of first order in the mode it obeys
-# M(0) + M(16) = 2 cosh(8 lambda) M(8), whatever the parts that grow and decay.
+# M(0) + M(16) = 2 cosh(8 lambda) M(8), for any growing and decaying parts.
 love() {
 	ellipse "$1" "$2" 48 | awk -v a="$1" -v b="$2" 'BEGIN { OFMT = CONVFMT = "%.17g" } NR == 1 { print; next }
 		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' | stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |

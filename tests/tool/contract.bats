@@ -29,7 +29,7 @@ usage() {
 }
 
 @test "a missing value, a value that is none, a value too many: exit 2" {
-	usage 'wants a value' 'p2m --kernel'
+	usage 'needs a value' 'p2m --kernel'
 	usage 'not a number' 'push kick --dt fast'
 	usage 'not a number' 'push kick --dt nan'
 	usage 'not a number' 'push kick --dt inf'
@@ -62,8 +62,8 @@ usage() {
 	usage 'SENTENCE is missing' 'cycle -n 1'
 	usage 'missing' pinit
 	usage 'missing' push
-	usage 'one word too many' 'p2m p2m'
-	usage 'one word too many' "cycle -n 1 'push drift' again"
+	usage 'unexpected argument' 'p2m p2m'
+	usage 'unexpected argument' "cycle -n 1 'push drift' again"
 	usage 'how long' "cycle 'push drift'"
 }
 

@@ -104,7 +104,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	[[ $output == *"no word that completes a step"* ]]
 }
 
-@test "what cannot stand inside a sentence is refused before input is read" {
+@test "what cannot be part of a sentence is refused before input is read" {
 	for word in 'sls' 'pinit plummer' 'cycle -n 1 pp' '' 'pp | | push kick' "pp 'open" 'pp --sofening 1'; do
 		run -2 bash -c "cycle -n 1 \"$word\" < /dev/null > b"
 		[ "${#lines[@]}" -eq 1 ]
@@ -134,7 +134,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done
 }
 
-@test "SIGTERM: the step is ended, a checkpoint written, the stream aborted; resume goes on to the same bytes" {
+@test "SIGTERM: the step is completed, a checkpoint written, the stream aborted; --resume ends in the same bytes" {
 	pinit plummer -n 4000 --no-history > a
 	cycle --no-history -n 300 --checkpoint c "$leap" < a > b 2> err &
 	pid=$!
@@ -249,7 +249,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	# at step 20 the ratio is not that of the beginning, and nobody may take it for it
 	run --separate-stderr cycle --no-history --resume d --until 'virial_ratio > virial_ratio0 + 0.5' "$words"
 	[ "$status" = 2 ]
-	[[ $stderr == *"does not know 'virial_ratio' at the beginning"* ]]
+	[[ $stderr == *"has no value of 'virial_ratio' at the beginning"* ]]
 }
 
 @test "--until: a plasma's energy at twice the leapfrog's limit and below" {
@@ -271,7 +271,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	cycle -n 1 --checkpoint c "$leap" < a > /dev/null
 	run --separate-stderr cycle -n 3 --resume c --until 'energy > energy0' "$leap"
 	[ "$status" = 2 ]
-	[[ $stderr == *"does not know 'energy' at the beginning"* ]]
+	[[ $stderr == *"has no value of 'energy' at the beginning"* ]]
 	# the energy of a direct sum that leaves no potential behind is summed; in a periodic box it is not there
 	cycle -n 3 --until 'energy > 0' "$leap" < a > /dev/null
 	pinit langmuir -n 64 --cells 8 > a

@@ -43,11 +43,11 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	done
 }
 
-@test "where nu is 0 the frame passes untouched, and --verbose says so; a negative one is refused" {
+@test "if nu is 0 the frame is passed on unchanged, which --verbose reports; a negative one is refused" {
 	lattice 8 'sin(2*pi*x)' | p2m --no-history >a
 	diffuse --no-history <a | cmp a -
 	run -0 bash -o pipefail -c 'diffuse --verbose <a 2>&1 >/dev/null'
-	[[ $output =~ "diffuse: the viscosity nu is 0: nothing to do, the frame passes untouched" ]]
+	[[ $output =~ "diffuse: the viscosity nu is 0: nothing to do, the frame is passed on unchanged" ]]
 	for engine in fused pipes; do # once, whatever the number of steps
 		run -0 bash -o pipefail -c "pinit shear-layer --cells 16 --nu 0 | cycle -n 3 --verbose --engine $engine 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' 2>&1 >/dev/null | grep -c 'nu is 0'"
 		[ "$output" = 1 ]

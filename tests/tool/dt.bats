@@ -3,7 +3,7 @@ load ../helper
 
 step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 
-@test "the rule of acceleration gives sqrt(eta softening/|a|) of the fastest change" {
+@test "the acceleration rule gives sqrt(eta softening/|a|) of the fastest change" {
 	printf 'x y z vx vy vz mass\n0 0 0 0 0 0 2\n2 0 0 0 0 0 3\n' > t
 	# a = 3/4 on the first, 1/2 on the second
 	within "$(stab t --law gravity --constant G=1 --dt 1 | pp --softening 0 | dt --acceleration 0.02 --softening 0.5 | step_of)" \
@@ -16,7 +16,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	within "$(stab t --box 0,2 --cells 4x8x2 --dt 1 | dt --courant 0.3 | step_of)" 0.075 1e-16
 }
 
-@test "the rule of strain gives C/|grad u| of the flow on the mesh, and counts the steps in which particles may cross" {
+@test "the strain rule gives C/|grad u| of the flow on the mesh, and counts the steps in which particles may cross" {
 	awk 'BEGIN { OFMT = "%.17g"; print "x y circulation"; for (j = 0; j < 16; j++) for (i = 0; i < 24; i++) print i / 24, j / 16, cos(2 * atan2(0, -1) * i / 24) / 384 }' > t
 	# omega = cos(2 pi x): v = sin(2 pi x)/(2 pi), by differences of order 2 dv/dx = cos(2 pi x) sin(a)/a, a = 2 pi/24
 	stab t --law vortex --box 0,1 -n 24x16 --faces periodic --particle-faces periodic --dt 1 | p2m | poisson-fft | mgrad --order spectral > a
@@ -31,12 +31,12 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	[[ $output == *"above 1: particles may cross (--lcfl 1, or --max 1.0"* ]]
 	sls --format json --report < b | grep -q '"crossing":1'
 	run -1 bash -o pipefail -c 'stab t --law vortex --box 0,1 -n 24x16 | dt --lcfl 1 | sls'
-	[[ $output == *"no field 'u' on a mesh (put dt behind p2m | poisson-fft | mgrad)"* ]]
+	[[ $output == *"no field 'u' on a mesh (put dt after p2m | poisson-fft | mgrad)"* ]]
 	run -1 bash -o pipefail -c 'pinit two-body | dt --lcfl 1 | sls'
-	[[ $output == *"needs a flow, and the law 'gravity' has none"* ]]
+	[[ $output == *"needs a flow, but the law 'gravity' has none"* ]]
 }
 
-@test "the rule of the plasma frequency gives C/omega_p: several species, weights, eps0" {
+@test "the plasma frequency rule gives C/omega_p: several species, weights, eps0" {
 	within "$(pinit two-stream -n 1000 | dt --plasma 0.2 | step_of)" 0.2 1e-12
 	# sum q^2/m = 2 * 9/0.5 + 1/4 = 36.25 in a box of 6, eps0 = 2
 	printf 'x charge mass\n1 3 0.5\n2 -3 0.5\n4 1 4\n' > t

@@ -180,7 +180,7 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 	[[ $stderr == *"'interlaced' is neither true nor false"* ]]
 	wire edit new 'h["fields"][-1]["kernel"] = ""' >bad
 	run -1 --separate-stderr m2p <bad
-	[[ $stderr == *"'interlaced' is without a kernel"* ]]
+	[[ $stderr == *"'interlaced' has no kernel"* ]]
 }
 
 @test "p2m --interlace: the same bytes for 1, 2 and 3 threads, and after other frames" {

@@ -43,7 +43,7 @@ small() {
 	[ "$(grep -c '"program":"cycle"' c)" = 1 ]
 }
 
-@test "cycle --plan --resume goes on with the sentence of the checkpoint, to the same bytes" {
+@test "cycle --plan --resume continues with the sentence of the checkpoint and ends in the same bytes" {
 	pinit lamb-oseen --cells 32 >start
 	cycle -n 6 --plan <start >a
 	cycle -n 3 "$(plan --sentence -t 1.12 <start)" --checkpoint c <start >/dev/null

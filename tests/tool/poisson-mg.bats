@@ -117,7 +117,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	below "$(report a incompatible)" 1
 	run ! below "$(report a incompatible)" 1e-3 # rho has a mean of 1
 	run -0 --separate-stderr bash -c 'poisson-mg --verbose <m >/dev/null'
-	[[ $stderr == *"no phi has this 'rho' in this box: its mean 1"* ]]
+	[[ $stderr == *"no solution exists for this 'rho' in this box: its mean 1"* ]]
 }
 
 @test "smoothers, cycles and both restrictions end at the same phi; order 4 at another" {

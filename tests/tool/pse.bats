@@ -49,7 +49,7 @@ rest="field 'vel = 0'"
 	[[ $output == *"has the volume 0, and its value is strength over volume"* ]]
 }
 
-@test "where nu is 0 the frame passes untouched, once said with --verbose; a negative one is refused" {
+@test "if nu is 0 the frame is passed on unchanged, which --verbose reports once; a negative one is refused" {
 	rod 10 1 --no-history >a
 	pse --field heat --no-history <a | cmp a -
 	run -0 bash -o pipefail -c 'pse --field heat --verbose <a 2>&1 >/dev/null'

@@ -67,7 +67,7 @@ refuses() {
 	done
 }
 
-@test "particles that leave through an absorbing face are taken out, counted, and N = 0 goes on" {
+@test "particles that leave through an absorbing face are removed and counted, and a run with no particle left continues" {
 	printf 'x y z vx vy vz id\n1 1 1 -9 0 0 1\n1 1 1 0 0 0 2\n1 1 1 0 9 0 3\n' > t
 	stab t --box 0,2 --particle-faces absorb --dt 0.5 | push drift > a
 	stab --plain < a | cut -f1 > ids

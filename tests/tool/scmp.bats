@@ -55,7 +55,7 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 	printf 'x k id\n0 1 9007199254740993\n' | stab - >a
 	printf 'x k id\n0 1 9007199254740992\n' | stab - >b
 	run -1 --separate-stderr scmp a b
-	[[ "$stderr" == *"is in the second only"* ]]
+	[[ "$stderr" == *"occurs only in the second"* ]]
 	sh_ok 'scmp --by-index --field id a b | tail -1 | cut -f7'
 	[ "$output" = 1 ]
 }
@@ -67,9 +67,9 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 	run -1 scmp --set matter --by-index -t 0 a b
 	printf 'x mass id\n3 7 12\n1 5 12\n2 6 -4\n' | stab - >b
 	run -1 --separate-stderr scmp b b
-	[[ "$stderr" == *"the id 12 is there twice"* ]]
+	[[ "$stderr" == *"the id 12 occurs twice"* ]]
 	run -1 --separate-stderr scmp a b
-	[[ "$stderr" == *"the id 10 is in the first only"* ]]
+	[[ "$stderr" == *"the id 10 occurs only in the first"* ]]
 }
 
 @test "a mesh is compared with end points at half weight" {
@@ -92,7 +92,7 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 @test "a field that only one of them has is refused, or passed over with --common" {
 	printf 'x q\n0 1\n' | stab - >a; printf 'x\n0\n' | stab - >b
 	run -1 --separate-stderr scmp a b
-	[ "$stderr" = "scmp: frame 1: 'q' on 'matter' is in the first stream only (--common passes over it, --field chooses)" ]
+	[ "$stderr" = "scmp: frame 1: 'q' on 'matter' is in the first stream only (--common skips it, --field chooses)" ]
 	run -1 --separate-stderr scmp b a
 	[[ "$stderr" == *"second stream only"* ]]
 	run -0 scmp --common -t 0 a b

@@ -34,7 +34,7 @@ says() {
 	done
 }
 
-@test "stream to HDF5 to stream gives equal bytes: f32, i64, u8, NaN, sixteen components, names that openPMD does not know" {
+@test "stream to HDF5 to stream gives equal bytes: f32, i64, u8, NaN, sixteen components, names that openPMD does not allow" {
 	pinit uniform -n 7 --seed 3 --cells 4 >one.pm
 	wire edit one.pm '
 h["colour"] = {"deep": [1, None, "two"]}
@@ -313,11 +313,11 @@ END
 	sed 's/openPMD\x00/openPMX\x00/' a.h5 >plain.h5
 	says 1 "sh5: this is HDF5, but not openPMD*" sh5 plain.h5
 	sed 's/"n":50/"n":51/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/position/x' is not what the header of the frame says*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/position/x' does not agree with the header of the frame*" sh5 lie.h5
 	sed 's/"mass","on"/"mess","on"/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/mess' is not what*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/mess' does not agree*" sh5 lie.h5
 	sed 's/"type":"i64"/"type":"f64"/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/id' is not what*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/id' does not agree*" sh5 lie.h5
 	says 1 "p2m: stopped by sh5: cannot open 'no.h5': No such file or directory" p2m -i no.h5
 	says 1 "diag: stopped by sh5: cannot open 'no.h5'*" diag -i no.h5
 }
@@ -325,7 +325,7 @@ END
 @test "what cannot be written leaves nothing behind, and the code of the failure arrives" {
 	mesh >a.pm
 	says 1 "sh5: cannot write '/nosuch/x.h5': No such file or directory" sh5 -i a.pm -o /nosuch/x.h5
-	says 1 "sh5: cannot write '/dev/null': it is not a plain file" sh5 -i a.pm -o /dev/null
+	says 1 "sh5: cannot write '/dev/null': it is not a regular file" sh5 -i a.pm -o /dev/null
 	says 1 "p2m:*cannot write '/nosuch/x.h5': No such file or directory" p2m -i a.pm -o /nosuch/x.h5
 	wire cut a.pm in-field-v1 >cut.pm 2>/dev/null || head -c 3000 a.pm >cut.pm
 	echo old >x.h5
@@ -339,7 +339,7 @@ END
 	grep -q '^sh5: stopped by pinit: no option' err
 	[ "$(cat x.h5)" = old ]
 	[ -z "$(ls | grep part)" ]
-	says 2 "diag: 'x.h5': this is for streams, and diag writes text" diag -i a.pm -o x.h5
+	says 2 "diag: 'x.h5': .h5 files hold streams, but diag writes text" diag -i a.pm -o x.h5
 }
 
 @test "a full disk: exit 1, one line, nothing left" {

@@ -63,10 +63,10 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 @test "HC-60: a row with too few or too many columns is refused with its line" {
 	printf 'x y z\n1 2 3\n\n1 2\n1 2 3 4\n' >t
 	run -1 --separate-stderr stab t
-	[ "$stderr" = "stab: t: line 4: 2 columns, where the line of names has 3" ]
+	[ "$stderr" = "stab: t: line 4: 2 columns, but the line of names has 3" ]
 	printf 'x y z\n1 2 3\n1 2 3 4\n' >t
 	run -1 --separate-stderr stab t
-	[ "$stderr" = "stab: t: line 3: 4 columns, where the line of names has 3" ]
+	[ "$stderr" = "stab: t: line 3: 4 columns, but the line of names has 3" ]
 }
 
 @test "HC-59: the first wrong line is named in a text of many pieces, whatever the number of threads" {
@@ -83,7 +83,7 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	[ "$stderr" = "stab: t: line 2, column 2 'label': 'sun' is not a number" ]
 	printf 'x id\n1 1.5\n' >t
 	run -1 --separate-stderr stab t
-	[ "$stderr" = "stab: t: line 2, column 2 'id': '1.5' is not a whole number that fits" ]
+	[ "$stderr" = "stab: t: line 2, column 2 'id': '1.5' is not an integer of 64 bits" ]
 	printf 'x name\n1 abcdefghijklmnopq\n' >t
 	run -1 --separate-stderr stab t
 	[ "$stderr" = "stab: t: line 2, column 2 'name': 'abcdefghijklmnopq' has too many letters" ]
@@ -169,13 +169,13 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	pinit uniform -n 5 --dim 1 | p2m -n 4 | stab >m
 	sed '/^#mesh/{n;n;p;}' m >u
 	run -1 --separate-stderr stab u
-	[[ "$stderr" == *"5 rows, where the mesh 'mesh' has 4 points"* ]]
+	[[ "$stderr" == *"5 rows, but the mesh 'mesh' has 4 points"* ]]
 	sed '/^#mesh/{n;n;d;}' m >u
 	run -1 --separate-stderr stab u
-	[[ "$stderr" == *"3 rows, where the mesh 'mesh' has 4 points"* ]]
+	[[ "$stderr" == *"3 rows, but the mesh 'mesh' has 4 points"* ]]
 	sed '/^#set/d' t >u
 	run -1 --separate-stderr stab u
-	[[ "$stderr" == *"the table of set 'matter' is not here"* ]]
+	[[ "$stderr" == *"no table of set 'matter'"* ]]
 }
 
 @test "several frames and a stream of none come back" {
@@ -199,12 +199,12 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 @test "a byte order mark and UTF-16 are refused in one line that says what takes them off, and that does" {
 	printf '\xef\xbb\xbfx y mass\n0 0 1\n' >bom
 	run -1 --separate-stderr stab bom
-	[ "$stderr" = "stab: bom: it begins with a byte order mark, three bytes that are no part of a table (take them off: tail -c +4)" ]
+	[ "$stderr" = "stab: bom: it begins with a byte order mark, three bytes that do not belong to the table (remove them: tail -c +4)" ]
 	sh_ok 'tail -c +4 bom | stab - | stab --plain'
 	[ "${lines[1]}" = $'0\t0\t1' ]
 	printf 'x\n0\n' | iconv -t UTF-16 >wide
 	run -1 --separate-stderr bash -c 'stab - <wide'
-	[ "$stderr" = "stab: standard input: it is UTF-16 (make it UTF-8: iconv -f UTF-16 -t UTF-8)" ]
+	[ "$stderr" = "stab: standard input: it is UTF-16 (convert it to UTF-8: iconv -f UTF-16 -t UTF-8)" ]
 }
 
 @test "--plain writes the set matter, or where there is none the first one; a name that is given must be there" {

@@ -54,7 +54,7 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 	smod --law gravity <a >b; refused "obeys the law free"
 	smod --faces periodic <a >b; refused "different faces"
 	printf 'x\n1\n' | stab - >b; refused "2 dimensions"
-	printf 'x y id\n1 1 1\n' | stab - --constant G=1 >b; refused "has fields that are not in all scenes" --merge
+	printf 'x y id\n1 1 1\n' | stab - --constant G=1 >b; refused "has fields that are missing in some scene" --merge
 	scene 1 -2,2 | scalc --mesh mesh --role state 'f = x' >b; refused "is state"
 	: >b; refused "no input"
 	head -c -200 a >b; refused "cut"

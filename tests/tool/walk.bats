@@ -60,7 +60,7 @@ points() {
 	[[ $output == *acc* && $output == *rho* ]]
 }
 
-@test "where nu is 0 the frame passes untouched, once said with --verbose; a negative one, a frame without a step, a set that is not there are refused" {
+@test "if nu is 0 the frame is passed on unchanged, which --verbose reports once; a negative nu, a frame without a time step and a missing set are errors" {
 	points 10 2 --no-history >a
 	walk --no-history <a | cmp a -
 	run -0 bash -o pipefail -c 'walk --verbose <a 2>&1 >/dev/null'

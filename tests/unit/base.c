@@ -21,11 +21,11 @@ static void sums(void)
 	check_near(pm_sum_array(n, x), 1000000, 0, "HC-58: compensated they give 1000000 to the last bit");
 	double hard[] = {1, 1e100, 1, -1e100}, ones[] = {1, 1, 1, 1};
 	check_near(pm_sum_array(4, hard), 2, 0, "FP-01: 1, 1e100, 1, -1e100 sum to 2");
-	check_near(pm_sum_products(4, hard, ones), 2, 0, "so does their product with ones");
+	check_near(pm_sum_products(4, hard, ones), 2, 0, "and so do their products with ones");
 	double *y = pm_alloc(n, sizeof *y);
 	for (size_t i = 0; i < n; i++)
 		x[i] = (double)(i % 1000), y[i] = (double)(i / 1000);
-	check_near(pm_sum_products(n, x, y), 499500. * 49995000, 0, "the products of ten million pairs of whole numbers sum exactly"); /* below 2^53 */
+	check_near(pm_sum_products(n, x, y), 499500. * 49995000, 0, "the sum of ten million products of integers is exact"); /* below 2^53 */
 	pm_free(y);
 	for (size_t i = 0; i < n; i++)
 		x[i] = sin((double)i) * exp(30 * cos(0.7 * (double)i));
@@ -37,7 +37,7 @@ static void sums(void)
 	check(!memcmp(s, s + 1, sizeof *s) && !memcmp(s, s + 2, sizeof *s), "a sum has the same bytes with 1, 2 and 3 threads");
 	check(pm_finite(n, x), "a finite array is finite");
 	x[n - 1] = NAN;
-	check(!pm_finite(n, x) && pm_finite(n - 1, x), "a NaN in the last place is seen");
+	check(!pm_finite(n, x) && pm_finite(n - 1, x), "a NaN in the last place is detected");
 	x[n - 1] = -INFINITY;
 	check(!pm_finite(n, x), "so is an infinity");
 	pm_free(x);
@@ -143,7 +143,7 @@ static void traps(void)
 	check(1 - erf(6) == 0 && fabs(erfc(6) / 2.151973671249892e-17 - 1) < 1e-14, "FP-05: erfc(6), where 1 - erf(6) is 0");
 	check_near(-expm1(-1e-12) / 1e-12, 0.9999999999995, 1e-15, "FP-05: (1 - exp(-x))/x by expm1");
 	volatile double denormal = 1e-310, other = 2e-310;
-	check(denormal != other && other - denormal != 0, "denormals are kept: x != y means x - y != 0");
+	check(denormal != other && other - denormal != 0, "denormal numbers are not flushed to zero: x != y means x - y != 0");
 }
 
 int main(void)

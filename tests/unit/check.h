@@ -25,8 +25,8 @@ __attribute__((format(printf, 2, 3), unused)) static bool check(bool good, const
 	return good;
 }
 
-/* The largest value so far; true if this one is. A NaN stays to the end, where fmax() drops it and !(value <= worst) forgets it,
- * and fails the check that follows if that is of the form worst <= tolerance. */
+/* Keeps the largest value so far in *worst; true if this one is. A NaN is kept to the end, unlike with fmax(), so that a later check of the form
+ * worst <= tolerance fails. */
 __attribute__((unused)) static bool check_worst(double *worst, double value)
 {
 	bool more = value > *worst || (isnan(value) && !isnan(*worst));
@@ -34,7 +34,7 @@ __attribute__((unused)) static bool check_worst(double *worst, double value)
 	return more;
 }
 
-/* The smallest value so far, likewise. */
+/* The same for the smallest value. */
 __attribute__((unused)) static bool check_least(double *least, double value)
 {
 	bool less = value < *least || (isnan(value) && !isnan(*least));

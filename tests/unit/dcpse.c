@@ -103,7 +103,7 @@ static void differences(void)
 	}
 }
 
-/* An odd field between walls, an even one between neumann faces, as if they went on. */
+/* An odd field between walls, an even one between neumann faces, continued beyond the faces. */
 static void images(void)
 {
 	static const enum pm_face kinds[] = {PM_WALL, PM_NEUMANN, PM_PERIODIC};
@@ -119,7 +119,7 @@ static void images(void)
 		int status = add(&o, &found);
 		for (size_t i = 0; i < n; i++)
 			check_worst(&worst, fabs(rate[i] + 2 * wave * wave * value[i]));
-		check(!status && found.widened == 0 && worst < (kinds[k] == PM_PERIODIC ? 0.02 : 0.001), "%s faces: right up to them, no particle looks farther (%.2g)",
+		check(!status && found.widened == 0 && worst < (kinds[k] == PM_PERIODIC ? 0.02 : 0.001), "%s faces: right up to them, no particle reaches farther (%.2g)",
 			pm_face_names[kinds[k]], worst);
 	}
 }
@@ -147,7 +147,7 @@ static void stuck(void)
 	n *= 2;
 	o = method(2, 2, 1. / 12);
 	int status = add(&o, &found);
-	check(!status && fabs(rate[30] - 2) < 1e-9 && rate[30 + 144] == rate[30], "HC-45: every point twice is no loss");
+	check(!status && fabs(rate[30] - 2) < 1e-9 && rate[30 + 144] == rate[30], "HC-45: points that occur twice do not change the result");
 }
 
 static void threads(void)

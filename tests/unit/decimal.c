@@ -57,7 +57,7 @@ int main(void)
 	wrong = 0;
 	for (uint64_t i = 0; i < 200000; i++)
 		wrong += !returns(any_double(i)) + !returns((double)(i % 1000) / 8) + !returns((double)i * 0.1);
-	check(!wrong, "what is written reads back to the same bits (%d wrong)", wrong);
+	check(!wrong, "numbers written and read again have the same bits (%d wrong)", wrong);
 	static const struct { double x; const char *want; } shown[] = {{0.1, "0.1"}, {-2.385, "-2.385"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"},
 		{100, "100"}, {1e-5, "1e-05"}, {0.0001, "0.0001"}, {123456.75, "123456.75"}, {-0.0, "-0"}, {0.1 + 0.2, "0.30000000000000004"}, {9.9999999999999995e22, "1e+23"}};
 	for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
@@ -74,14 +74,15 @@ int main(void)
 		size_t n = pm_decimal_write(text, x, true);
 		wrong += n > 20 || !pm_decimal_read(text, &back) || (float)back != x;
 	}
-	check(!wrong, "single precision needs nine digits and comes back (%d wrong)", wrong);
+	check(!wrong, "single precision written with nine digits is read back exactly (%d wrong)", wrong);
 	int64_t k;
 	check(pm_integer_read("-9223372036854775808", &k) == 20 && k == INT64_MIN, "the smallest integer is read");
 	check(pm_integer_read("9223372036854775807", &k) == 19 && k == INT64_MAX, "the largest integer is read");
 	check(!pm_integer_read("9223372036854775808", &k) && !pm_integer_read("x", &k), "an integer that does not fit is refused");
 	double x;
 	check(pm_decimal_read("nan ", &x) == 3 && isnan(x) && pm_decimal_read("-inf\t", &x) == 4 && isinf(x), "nan and inf are recognised");
-	check(pm_decimal_read("1e999", &x) == 5 && isinf(x), "what is too large is not finite");
-	check(!pm_decimal_read("--1", &x) && !pm_decimal_read("e5", &x) && !pm_decimal_read("1e", &x) && !pm_decimal_read(".", &x), "what is no number is refused");
+	check(pm_decimal_read("1e999", &x) == 5 && isinf(x), "a number that is too large is not finite");
+	check(!pm_decimal_read("--1", &x) && !pm_decimal_read("e5", &x) && !pm_decimal_read("1e", &x) && !pm_decimal_read(".", &x), "a text that is not a "
+		"number is an error");
 	return check_done();
 }

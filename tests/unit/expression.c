@@ -77,18 +77,19 @@ static void errors(struct pm_frame *f)
 	check(refused(f, "1 +", "column 4: the expression stops here"), "what stops too early is refused at its end");
 	check(refused(f, "sqrt(vx^2 + vq)", "column 13: no field or number 'vq'"), "an unknown name is refused at its column");
 	check(refused(f, "v + 1", "'v' has 3 components"), "a vector without component is refused");
-	check(refused(f, "acc_2", "no field or number"), "a component too many is refused");
+	check(refused(f, "acc_2", "no field or number"), "a component that does not exist is an error");
 	check(refused(f, "sqr(2)", "column 1: no function 'sqr'"), "an unknown function is refused");
 	check(refused(f, "atan2(1)", "two arguments") && refused(f, "min(1)", "two arguments") && refused(f, "sin(1, 2)", "one argument"), "wrong numbers of arguments are refused");
 	check(refused(f, "(1 + 2", "column 7: expected ')'") && refused(f, "1 + 2)", "column 6: expected an operator"), "brackets must match");
-	check(refused(f, "1 < 2 < 3", "one comparison after another"), "a < b < c is refused");
-	check(refused(f, "1 $ 2", "column 3: expected an operator") && refused(f, "", "stops here") && refused(f, "1 2", "expected an operator"), "what is no expression is refused");
+	check(refused(f, "1 < 2 < 3", "comparisons cannot be chained"), "a < b < c is refused");
+	check(refused(f, "1 $ 2", "column 3: expected an operator") && refused(f, "", "stops here") && refused(f, "1 2", "expected an operator"), "invalid "
+		"expressions are errors");
 	char deep[600] = "", wide[2000] = "1";
 	memset(deep, '(', 500);
 	for (int i = 0; i < 300; i++)
 		strcat(wide, "+1");
-	check(refused(f, deep, "too deep") && refused(f, wide, "too long"), "what is too deep or too long is refused");
-	check(refused(f, "1+(2+(3+(4+(5+(6+(7+(8+(9+(1+(2+(3+(4+(5+(6+(7+8)))))))))))))))", "too deep"), "a stack that is too small is noticed");
+	check(refused(f, deep, "too deep") && refused(f, wide, "too long"), "expressions that are too deep or too long are errors");
+	check(refused(f, "1+(2+(3+(4+(5+(6+(7+(8+(9+(1+(2+(3+(4+(5+(6+(7+8)))))))))))))))", "too deep"), "a stack that is too small is detected");
 }
 
 static void threads(struct pm_frame *f)
@@ -127,7 +128,7 @@ static void mesh(void)
 	pm_frame_free(f);
 }
 
-/* Names of their own, as cycle --until has them: a is 1, b is 2. */
+/* Numbers supplied by the caller, as in cycle --until: a is 1, b is 2. */
 static int slot(void *context, const char *name)
 {
 	(void)context;
@@ -139,8 +140,9 @@ static void numbers(void)
 	struct pm_expression e;
 	const double number[] = {3, -4};
 	check(!pm_expression_compile_numbers(&e, slot, NULL, "column", "hypot(a, b) > 4.9 && a < pi ? a*b^2 : 0"), "an expression of numbers compiles");
-	check_near(pm_expression_number(&e, number), 48, 0, "its value is the one of these numbers");
-	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a + c") == -PM_USAGE && strstr(pm_message(), "column 5: no column 'c'"), "an unknown name is named with its place");
+	check_near(pm_expression_number(&e, number), 48, 0, "its value is computed from these numbers");
+	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a + c") == -PM_USAGE && strstr(pm_message(), "column 5: no column 'c'"), "an unknown "
+		"name is reported with its column");
 	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a, b") == -PM_USAGE && strstr(pm_message(), "one expression"), "two expressions are refused");
 }
 

@@ -51,7 +51,7 @@ static double *noise(size_t n, uint64_t seed)
 	return s;
 }
 
-/* The wave number [1/h] that a stencil of the first derivative sees, and the eigenvalue of the second. */
+/* The modified wave number [1/h] of a stencil of the first derivative, and the eigenvalue of the second. */
 static double seen(int order, double t)
 {
 	double s = sin(t), c = 1 - cos(t);
@@ -64,7 +64,7 @@ static double seen_second(int order, double t)
 	return order == 2 ? -c : order == 4 ? -c * (1 + c / 12) : order == 6 ? -c * (1 + c / 12 + c * c / 90) : -t * t;
 }
 
-/* A wave along axis d that the faces allow: value and derivative with the wave number `seen`. */
+/* A wave along axis d that the faces allow: value and derivative with the modified wave number `seen`. */
 static void waves(size_t n, const enum pm_face ends[2], int order, double *worst)
 {
 	double period = ends[0] == PM_PERIODIC ? (double)n : 2.0 * (double)n, half = ends[0] == ends[1] ? 0 : 0.5;
@@ -105,7 +105,7 @@ static void all_waves(void)
 			for (size_t i = 0; i < sizeof n / sizeof *n; i++)
 				waves(n[i], ends[kind], order, &worst);
 			char name[120];
-			snprintf(name, sizeof name, "order %d, %s-%s: grad and lap of every wave are those of the stencil, n = 1 to 33, every axis", order,
+			snprintf(name, sizeof name, "order %d, %s-%s: grad and lap of every wave have the eigenvalues of the stencil, n = 1 to 33, every axis", order,
 				pm_face_names[ends[kind][0]], pm_face_names[ends[kind][1]]);
 			/* round-off of k up to pi/0.55 over 33 nodes, some ten operations; images reach a wave's phase through 33*pi */
 			check_near(worst, 0, order ? 2e-13 : 1e-12, name);
@@ -136,7 +136,7 @@ static void polynomials(void)
 			free(s), free(out[0]), free(out[1]);
 		}
 		char name[100];
-		snprintf(name, sizeof name, "order %d, open: exact on polynomials of degree %d up to the ends", order, order);
+		snprintf(name, sizeof name, "order %d, open: exact for polynomials of degree %d up to the ends", order, order);
 		check_near(worst, 0, 1e-12, name); /* one-sided weights of order 6 add up to some hundred times 1/h */
 		snprintf(name, sizeof name, "order %d, open: lap exact on degree %d", order, order + 1);
 		check_near(worst2, 0, 1e-11, name);
@@ -243,7 +243,7 @@ static void orders(void)
 			}
 }
 
-/* Meshes above 2^20 points, whose rows leave past the caches: a product of waves that the faces allow, against what the stencils make of it. */
+/* Meshes above 2^20 points, whose rows are written past the caches: a product of waves that the faces allow, compared with the eigenvalues of the stencils. */
 static void large(int dim, size_t nx, size_t ny, size_t nz)
 {
 	struct pm_grid g = box(dim, nx, ny, nz, PM_PERIODIC, PM_WALL, dim > 2 ? PM_NEUMANN : PM_PERIODIC);

@@ -106,7 +106,7 @@ static void sums(void)
 	}
 }
 
-/* The blobs' functions by closed form and by their transforms agree as far as the blob is resolved: exp(-(pi sigma/h)^2/2), sigma = 2 h. */
+/* The blobs' functions by closed form and by their transforms agree to the accuracy with which the blob is resolved: exp(-(pi sigma/h)^2/2), sigma = 2 h. */
 static void folding(void)
 {
 	for (int i = 0; pm_greens[i]; i++) {
@@ -122,7 +122,7 @@ static void folding(void)
 			solve(&g[d], &(struct pm_poisson_fft_choice){.green = pm_greens[i], .softening = 4.5}, 1, s, a);
 			solve(&g[d], &(struct pm_poisson_fft_choice){.green = &folded, .softening = 4.5}, 1, s, b);
 			char name[120];
-			snprintf(name, sizeof name, "%s, %d-D: the closed form is what its transform gives", folded.name, d + 1);
+			snprintf(name, sizeof name, "%s, %d-D: the closed form agrees with the transform", folded.name, d + 1);
 			check_near(difference(n, a, b), 0, 1e-12, name);
 			free(s), free(a), free(b);
 		}
@@ -167,7 +167,7 @@ static double blob(int dim, double r)
 	return r > 0 ? (log(r * r) + gsl_sf_expint_E1(r * r / 2)) / (4 * pm_pi) : (log(2) - 0.57721566490153286) / (4 * pm_pi);
 }
 
-/* A problem with a known solution in any mixture: on open axes a Gaussian of width 1 (and its image, where one end is a wall or neumann), times waves
+/* A problem with a known solution for any mixture of faces: on open axes a Gaussian of width 1 (and its image, where one end is a wall or neumann), times waves
  * along the others. charge: the potential of a Gaussian charge, waves constant; else of lap - K^2 applied to the Gaussian times waves. */
 struct known {
 	int waves; /* number of the wave on the other axes */
@@ -240,7 +240,7 @@ static double known_error(int dim, const char *faces, size_t n, double length, c
 	return e;
 }
 
-/* The claimed order, from three resolutions. Blobs of sigma = 2 h show theirs where 40 h and more go into the source; nothing may be cut off by then. */
+/* The claimed order, from three resolutions. Blobs of sigma = 2 h show their order if the source is wider than 40 h; it must not be cut off at the faces. */
 static void order_of(int dim, const char *faces, const struct pm_green *green, enum pm_symbol symbol, double screening, struct known k)
 {
 	static const size_t coarse[] = {31, 40, 47}, middle[] = {56, 76, 100}, sixth[] = {120, 150, 180}, fine[] = {360, 400, 440};
@@ -257,7 +257,7 @@ static void order_of(int dim, const char *faces, const struct pm_green *green, e
 	if (green->order)
 		check_order(3, h, error, symbol ? 2 * (int)symbol : green->order, name);
 	else
-		check(error[2] < 1e-9, "%s: spectral", name); /* what is cut off at 7 sigma */
+		check(error[2] < 1e-9, "%s: spectral", name); /* the part cut off at 7 sigma */
 }
 
 static void orders(const struct pm_green *g, enum pm_symbol symbol)
@@ -291,7 +291,7 @@ static void orders(const struct pm_green *g, enum pm_symbol symbol)
 	order_of(3, "noonow", g, symbol, 0, plain);
 }
 
-/* Blobs are round in mixtures too: a Gaussian times a wave comes out as that of the source smoothed along all axes. */
+/* Blobs are round in mixtures too: the result for a Gaussian times a wave is that of the source smoothed along all axes. */
 static void round_blobs(void)
 {
 	const double delta = 0.9, sigma2 = 0.5 * delta * delta;
@@ -309,7 +309,7 @@ static void round_blobs(void)
 	free(s), free(smooth), free(a), free(b);
 }
 
-/* In 3-D the fine meshes of an order are out of reach. What the solver gives there is the potential of the source convolved with the blob: for a
+/* In 3-D the meshes that show the order are too large. Instead, the result must be the potential of the source convolved with the blob: for a
  * Gaussian of width 1, W^2 = 1 + sigma^2 and rho = sigma^2/W^2, phi = blob(W) - W^2/2 g_W sum_{0<j<M} rho^j/j L_{j-1}^(1/2)(r^2/2W^2). */
 static double smoothed(int order, double sigma, double r)
 {
@@ -346,7 +346,7 @@ static void blobs(void)
 			h[l] = 0.06 + 0.02 * l;
 			error[l] = fabs(smoothed(green->order, h[l], 0) - blob(3, 0));
 		}
-		snprintf(name, sizeof name, "%s, 3-D: and that differs from the source's by", green->name);
+		snprintf(name, sizeof name, "%s, 3-D: its difference from the potential of the source", green->name);
 		check_order(3, h, error, green->order, name);
 		free(s), free(phi), free(want);
 	}
@@ -372,7 +372,7 @@ static double *gaussian(struct pm_grid *g, int dim, size_t n, const struct pm_gr
 	return phi;
 }
 
-/* Largest error; of the maximum of phi in 3-D, as PS-09 has it. */
+/* Largest error; relative to the maximum of phi in 3-D, as in PS-09. */
 static double ps09(int dim, size_t n, const struct pm_green *green)
 {
 	struct pm_grid g;
@@ -401,9 +401,9 @@ static void achieved(void)
 		double e = ps09(row[i].dim, row[i].n, pm_green_find(row[i].green));
 		check(e < 1.2 * row[i].error, "PS-09: %s, %d-D, %zu cells: error %.3e, reference %.3e, factor 1.2", row[i].green, row[i].dim, row[i].n, e, row[i].error);
 		if (!strcmp(row[i].green, "cell")) /* the same method, so the same error */
-			check_near(e / row[i].error, 1, 0.02, "PS-09: and no less than that");
+			check_near(e / row[i].error, 1, 0.02, "PS-09: and it is not smaller");
 	}
-	/* Others, with the same source: what docs/methods/poisson-fft.md prints. */
+	/* Others, with the same source: the table of docs/methods/poisson-fft.md. */
 	for (int i = 0; pm_greens[i]; i++)
 		for (int dim = 2; dim <= 3 && !pm_greens[i]->differences; dim++)
 			for (size_t n = 32; n <= 64; n *= 2)
@@ -434,7 +434,7 @@ static void values(void)
 	free(psi), free(u);
 }
 
-/* What limits the field in open space is mgrad's differences. */
+/* The error of the field in open space is that of mgrad's differences. */
 static void gradients(void)
 {
 	double h[3], error[3] = {0};
@@ -459,7 +459,7 @@ static void gradients(void)
 	check_order(3, h, error, 6, name);
 }
 
-/* A Gaussian 3 sigma from one end of the box: a longer box must change nothing, which it would if anything wrapped around. */
+/* A Gaussian 3 sigma from one end of the box: a longer box must change nothing; periodic images would show as a difference. */
 static void no_wrap(const struct pm_green *green)
 {
 	struct pm_grid g = grid(3, 24, 24, 27, "oooooo"), wide = g;
@@ -480,7 +480,7 @@ static void no_wrap(const struct pm_green *green)
 		check_worst(&worst, fabs(phi[q] - psi[q % 25 + 52 * (q / 25)]));
 	char name[120];
 	snprintf(name, sizeof name, "HC-29: %s: a source 3 sigma from an end: nothing wraps around, anywhere (%.1e)", green->name, worst);
-	check_near(worst, 0, green->at ? 1e-13 : 1e-6, name); /* 1e-6: the case. vico sees the jump at the face, which no mesh resolves. */
+	check_near(worst, 0, green->at ? 1e-13 : 1e-6, name); /* 1e-6: the case. for vico the jump at the face matters, which no mesh resolves. */
 	free(s), free(t), free(phi), free(psi);
 }
 
@@ -579,7 +579,7 @@ static void threads(void)
 	}
 }
 
-/* A mixture does not care which axis is which: the same problem with its axes turned. */
+/* A mixture of faces does not depend on the order of the axes: the same problem with its axes permuted. */
 static void turned(void)
 {
 	struct pm_grid g = grid(3, 12, 9, 7, "owppoo"), t = grid(3, 7, 12, 9, "ooowpp");
@@ -599,7 +599,7 @@ static void turned(void)
 		for (size_t q = 0; q < n; q++)
 			c[q] = b[q / p[0] / p[1] + p[2] * (q % p[0] + p[0] * (q / p[0] % p[1]))];
 		char name[100];
-		snprintf(name, sizeof name, "%s: a mixture with its axes turned", pm_greens[i]->name);
+		snprintf(name, sizeof name, "%s: a mixture with its axes permuted", pm_greens[i]->name);
 		check_near(difference(n, c, a), 0, 1e-12, name);
 	}
 	free(s), free(u), free(a), free(b), free(c);

@@ -31,23 +31,23 @@ static void modes(void)
 		for (int i = 0; i < 48; i++)
 			values[48 * j + i] = 2.385 * cos(2 * pm_pi * 3 * i / 48.0 - 0.4) + 7 + sin(2 * pm_pi * i / 48.0);
 	pm_mode(&g, values, 3, a);
-	check_near(hypot(a[0], a[1]), 2.385, 1e-13, "the amplitude of a mode, among others and a mean");
+	check_near(hypot(a[0], a[1]), 2.385, 1e-13, "the amplitude of a mode among others and a mean");
 	check_near(atan2(a[1], a[0]), -0.4, 1e-13, "and its phase");
 	pm_mode(&g, values, 2, a);
-	check_near(hypot(a[0], a[1]), 0, 1e-13, "a mode that is not there is 0");
+	check_near(hypot(a[0], a[1]), 0, 1e-13, "an absent mode is 0");
 }
 
 int main(void)
 {
-	/* the tops of parabolas through points 0.1 apart are good to (omega h)^4/100 */
+	/* the maxima of parabolas through points 0.1 apart are accurate to (omega h)^4/100 */
 	struct pm_growth g = fit(SWINGS, -0.153, 1.416, NAN, NAN);
 	check_near(g.gamma, -0.153, 1e-4, "a damped standing wave: gamma");
 	check_near(g.omega, 1.416, 1e-3, "and omega");
-	check(g.points == 300, "of all points, where no window is given");
+	check(g.points == 300, "from all points if no window is given");
 	g = fit(SWINGS, 0, 0.98, 3, 25);
-	check_near(g.omega, 0.98, 1e-3, "a wave that keeps its height: omega");
+	check_near(g.omega, 0.98, 1e-3, "a wave of constant amplitude: omega");
 	check_near(g.gamma, 0, 1e-4, "and gamma");
-	check(g.from >= 3 && g.to <= 25 && g.points > 200, "between the times that are asked for");
+	check(g.from >= 3 && g.to <= 25 && g.points > 200, "in the window given");
 	g = fit(JITTERS, -0.02, 0.98, NAN, NAN);
 	check_near(g.omega, 0.98, 5e-3, "a wave with noise on it, one peak for each half wave: omega");
 	check_near(g.gamma, -0.02, 5e-4, "and gamma");
@@ -58,10 +58,10 @@ int main(void)
 	check_near(g.gamma, -0.1, 1e-12, "a travelling wave: gamma");
 	check_near(g.omega, 2.1, 1e-12, "and omega from the phase");
 	g = fit(SATURATES, 0.5, 0, NAN, NAN);
-	check_near(g.gamma, 0.475, 0.03, "growth that saturates: between 1 and 10 % of the top"); /* 1/(1 + 0.1) of it at the upper end */
+	check_near(g.gamma, 0.475, 0.03, "growth that saturates: between 1 and 10 % of the maximum"); /* 1/(1 + 0.1) of it at the upper end */
 	check(g.from > 7 && g.to < 20, "and not before or after (%g to %g)", g.from, g.to);
 	g = fit(SWINGS, 0, 1, 5, 5.05);
-	check(isnan(g.gamma) && g.points < 2, "one point is no growth rate");
+	check(isnan(g.gamma) && g.points < 2, "one point gives no growth rate");
 	modes();
 	return check_done();
 }

@@ -34,7 +34,7 @@ static void test_windows(void)
 		check_worst(&worst, fabs(sum - pm_cloud_wave(u)));
 	}
 	check_near(worst, 0, 1e-5, "the transform of the cloud S2 is 12/u^4 (2 - 2 cos u - u sin u)"); /* the rule's (1/2000)^2 times u^2/24 */
-	check_near(pm_cloud_wave(0.2), pm_cloud_wave(nextafter(0.2, 0)), 1e-12, "its series meets its closed form");
+	check_near(pm_cloud_wave(0.2), pm_cloud_wave(nextafter(0.2, 0)), 1e-12, "its series agrees with its closed form");
 }
 
 static double symbol(const void *c, double theta, double h)
@@ -68,8 +68,8 @@ static void test_sums(void)
 	}
 }
 
-/* 1-D, n cells: mean over places of source and test particle of (force - wanted)^2, when mode m of the influence function is scaled by 1 + change. The force is
- * spread, modes, slope and gather by hand; wanted is the force of a point, x/L - sign(x)/2, as a series of 200 waves. */
+/* 1-D, n cells: mean over the positions of source and test particle of (force - exact)^2, when mode m of the influence function is scaled by 1 + change.
+ * The force is computed by spread, modes, slope and gather written out here; exact is the force of a point, x/L - sign(x)/2, as a series of 200 waves. */
 static double mean_square(const struct pm_influence *f, size_t n, size_t mode, double change)
 {
 	enum { fine = 12 };
@@ -163,7 +163,7 @@ static void test_interlaced(void)
 		for (size_t i = 0; i < size; i++)
 			right += rho[i] * f[i] * pm_grid_cell(&g), sum += rho[i] * pm_grid_cell(&g);
 		check(!bad && fabs(left - right) < 1e-13 * N, "%s, %d-D: the interlaced gather is the transpose of the spread (difference %g)", row[q].kernel, g.dim, left - right);
-		check_near(sum, total, 1e-13 * N, "and what is on the mesh is what the particles have");
+		check_near(sum, total, 1e-13 * N, "and the total on the mesh is that of the particles");
 		if (g.dim == 1) { /* every mode by definition */
 			double worst = 0;
 			for (size_t m = 0; 2 * m < g.cells[0]; m++) {

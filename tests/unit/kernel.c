@@ -1,4 +1,4 @@
-/* Every promise of the kernels' table, and the numbers of RM-01, RM-02 and RM-03.
+/* Every property in the kernels' table, and the numbers of RM-01, RM-02 and RM-03.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <complex.h>
 #include <string.h>
@@ -63,7 +63,7 @@ static double derivative(const struct pm_kernel *k, int i, int d, double t, doub
 	return sum;
 }
 
-/* A point's weight when the particle leaves its cell upwards is the weight it has as the point below in the next cell. */
+/* When a particle crosses into the next cell, the weight of a point must be continuous. */
 static void check_smooth(const struct pm_kernel *k)
 {
 	double jump[PM_KERNEL_WIDTH] = {0}, low = t_low(k), high = low + 1, relative = 0, size = 1;
@@ -90,11 +90,11 @@ static void check_unity(const struct pm_kernel *k)
 			sum += w[i];
 		check_worst(&worst, fabs(sum));
 	}
-	/* The case asks for 1e-13; about the nearest node all kernels need but a few roundings. */
+	/* The case allows 1e-13; with t from the nearest node all kernels have only a few rounding errors. */
 	check(worst <= 1e-15, "RM-02: the weights of %s add to 1 within %.2g (tolerance 1e-15)", k->name, worst);
 }
 
-/* At a node an interpolating kernel is that node alone, without dust beside it. */
+/* For a particle on a node an interpolating kernel gives exactly 0 at all other nodes. */
 static void check_node(const struct pm_kernel *k)
 {
 	double w[PM_KERNEL_WIDTH], beside = 0;
@@ -104,10 +104,10 @@ static void check_node(const struct pm_kernel *k)
 	pm_kernel_weights(k, 0, w);
 	for (int i = 0; i < k->width; i++)
 		beside += i == node ? 0 : fabs(w[i]);
-	check(w[node] == 1 && beside == 0, "%s: a particle at a node gives all to that node, exactly", k->name);
+	check(w[node] == 1 && beside == 0, "%s: a particle at a node gives everything to that node, exactly", k->name);
 }
 
-/* RM-01: no wave grows, whatever the shift: |sum_i W(i - t) exp(-i kh)| <= 1. 1e-9 as the reference. */
+/* RM-01: no wave grows, for any shift: |sum_i W(i - t) exp(-i kh)| <= 1. 1e-9 as the reference. */
 static void check_von_neumann(const struct pm_kernel *k)
 {
 	double most = 0, w[PM_KERNEL_WIDTH];
@@ -119,7 +119,7 @@ static void check_von_neumann(const struct pm_kernel *k)
 				sum += w[i] * cexp(-I * pm_pi * m / 200 * i);
 			check_worst(&most, cabs(sum));
 		}
-	check(most <= 1 + 1e-9, "RM-01: no shift and no wave makes a remesh with %s grow (largest factor 1 %+.2g)", k->name, most - 1);
+	check(most <= 1 + 1e-9, "RM-01: no wave grows in a remeshing with %s, at any shift (largest factor 1 %+.2g)", k->name, most - 1);
 }
 
 /* RM-03: the largest and least value after one remesh of a unit step are partial sums of the weights. */

@@ -11,7 +11,7 @@ static const struct { enum pm_face face[2]; const char *name; } kind[] = {{{PM_P
 	{{PM_NEUMANN, PM_NEUMANN}, "neumann"}, {{PM_WALL, PM_NEUMANN}, "wall below neumann"}, {{PM_NEUMANN, PM_WALL}, "neumann below wall"},
 	{{PM_OPEN, PM_OPEN}, "open"}, {{PM_OPEN, PM_WALL}, "open below wall"}, {{PM_NEUMANN, PM_OPEN}, "neumann below open"}};
 
-/* A block whose rows that are no nodes hold what must not be read. */
+/* A block whose rows that are not nodes hold values that must not be read. */
 static double *block_of(const struct pm_transform *l)
 {
 	double *b = pm_alloc((l->length + 1) * L, sizeof *b);
@@ -61,14 +61,14 @@ int main(void)
 		for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
 			struct pm_transform a, b;
 			if (pm_transform_init(&planner, kind[k].face, size[i], &a) || pm_transform_init_real(&planner, kind[k].face, size[i], &b))
-				return check(false, "lines are made: %s", pm_message()), check_done();
+				return check(false, "transforms of lines are set up: %s", pm_message()), check_done();
 			check_worst(&worst, same_modes(&a, &b));
 			check_worst(&back, there_and_back(&a)), check_worst(&back, there_and_back(&b));
 			pm_fft_plans_clear(&planner);
 		}
 		/* round-off of a sum of 1024 terms; back, of running sums: 4e-17 n measured for n = 64 to 4096, times 2 */
 		check(worst < 2e-14, "%s: the transform of n cells is that of the images, n = 1 to 512 (difference %.1e)", kind[k].name, worst);
-		check(back < 4e-14, "%s: there and back is the length of the transform times the nodes (error %.1e)", kind[k].name, back);
+		check(back < 4e-14, "%s: forward and back gives the nodes times the length of the transform (error %.1e)", kind[k].name, back);
 	}
 	return check_done();
 }

@@ -54,7 +54,7 @@ static double energy(const struct ions *ions, const char *faces, const struct pm
 	struct pm_poisson_fft *s = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.green = green}, PM_ESTIMATE);
 	check(s && !pm_poisson_fft_solve(s, -4 * pm_pi, rho, phi, NULL), "%s: solved", faces);
 	pm_poisson_fft_free(s);
-	for (size_t q = 0; q < n; q++) /* rho is nothing at open ends, where weights would be half */
+	for (size_t q = 0; q < n; q++) /* rho is 0 at open ends, where weights would be half */
 		sum += 0.5 * volume * rho[q] * phi[q];
 	for (int d = 0; d < 3 && force; d++) {
 		force[d] = 0;
@@ -90,7 +90,7 @@ static double energy(const struct ions *ions, const char *faces, const struct pm
 	return sum;
 }
 
-/* Face-centred places for one kind of ion, the other shifted by (s, s, s) or along x. */
+/* Face-centred positions for one kind of ion, the other shifted by (s, s, s) or along x. */
 static struct ions faces_centred(double sx, double sy, double sz)
 {
 	struct ions a = {.n = 8};

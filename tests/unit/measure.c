@@ -26,7 +26,7 @@ static void sums(void)
 	b = (struct pm_measured){.n = 4, .dim = 1, .vdim = 1, .x = {one}, .v = {hard}, .mass = one, .strength = hard, .phi = one};
 	pm_particle_sums_add(&b, &bulk);
 	check_near(bulk.momentum[0], 2, 0, "HC-58: the momentum of 1, 1e100, 1, -1e100 is 2");
-	check_near(pm_energy_at_particles(&b), 1, 0, "HC-58: the energy at the particles too is compensated");
+	check_near(pm_energy_at_particles(&b), 1, 0, "HC-58: the energy at the particles is compensated too");
 	pm_free(m);
 }
 
@@ -50,7 +50,7 @@ static void by_hand(void)
 }
 
 /* Two sets in one sum, one set in halves: the pair energy is the same. */
-/* Whole numbers, whose sums are exact: numbers of particles that do not fill eights, every number of dimensions. */
+/* Whole numbers, whose sums are exact: numbers of particles that are not multiples of eight, every number of dimensions. */
 static void any_number(void)
 {
 	static const size_t sizes[] = {1, 2, 7, 8, 9, 15, 16, 17, 4096, 4099};
@@ -180,7 +180,7 @@ static void radii(void)
 	pm_radii(n, shell, 4, fraction, r);
 	check(r[0] == 100 && r[1] == 500 && r[2] == 1000 && r[3] == 1, "Lagrangian radii of a thousand equal shells");
 	pm_radii(0, shell, 1, fraction, r);
-	check(isnan(r[0]), "of none there is none");
+	check(isnan(r[0]), "no shells have no radius");
 }
 
 int main(void)

@@ -45,7 +45,8 @@ __attribute__((unused)) static void noise(size_t n, double *a)
 	}
 }
 
-/* The factor by which a cycle reduces the residual after many: lap u = 0 from noise, no round-off in the way. 60 cycles, as the reference took: V(1,0) is slow to settle. */
+/* The factor by which a cycle reduces the residual after many: lap u = 0 from noise, no round-off. 60 cycles, as the reference took: V(1,0) converges slowly
+ * to its asymptotic factor. */
 __attribute__((unused)) static double factor_of(struct pm_grid g, int order, struct pm_mg_choice o)
 {
 	size_t n = pm_grid_size(&g);

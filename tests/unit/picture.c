@@ -82,8 +82,8 @@ static void planes(void)
 	pm_raster_smooth(&r);
 	for (size_t i = 0; i < 20; i++)
 		sum += r.value[i] * 4 * 3 / 20;
-	check_near(sum, 7, 1e-13, "a density keeps the weight of what is inside, at the rim too");
-	check(outside == 1, "what is outside is counted");
+	check_near(sum, 7, 1e-13, "a density has the weight of the points inside, at the edge too");
+	check(outside == 1, "points outside are counted");
 	pm_raster_free(&r);
 	pm_frame_free(f);
 }
@@ -99,9 +99,9 @@ static void letters(void)
 			for (int k = 0; k < 4; k++)
 				wild += !(s[i][k] > -6 && s[i][k] < 17) || (!(k & 1) && s[i][k] > width);
 	}
-	check(!empty && !wild, "every letter has strokes, none leaves its space");
+	check(!empty && !wild, "every letter has strokes and stays within its width");
 	check(pm_lettering(' ', s, &width) == 0 && width > 4, "a blank is only space");
-	check(pm_picture_text(NULL, 0, 0, 14, false, "10^{-3}", NULL) < pm_picture_text(NULL, 0, 0, 14, false, "10-3", NULL), "what is raised is smaller");
+	check(pm_picture_text(NULL, 0, 0, 14, false, "10^{-3}", NULL) < pm_picture_text(NULL, 0, 0, 14, false, "10-3", NULL), "superscripts are smaller");
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* The whole particle-mesh force, p2m, poisson, mgrad, m2p, in every mixture of periodic, wall and neumann faces, against the same force in a periodic
  * box of four times the length that holds the images: of a particle at x between faces at 0 and L those at -x, 2L - x and x - 2L, with the sign
- * of each reflection (odd in a wall, even in a neumann face). To round-off, so every word treats every end of an axis for itself.
+ * of each reflection (odd in a wall, even in a neumann face). Agreement to round-off shows that every word treats each end of an axis separately.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ static void particles_free(struct particles *p)
 		free(p->x[d]), free(p->a[d]);
 }
 
-/* Accelerations of p by itself, but those of the first `some` only. */
+/* Accelerations of the particles p due to themselves, for the first `some` only. */
 static bool force(const struct pm_grid *g, const char *kernel, const struct pm_poisson_fft_choice *o, int order, struct particles *p, size_t some)
 {
 	size_t n = pm_grid_size(g);
@@ -60,7 +60,7 @@ static bool force(const struct pm_grid *g, const char *kernel, const struct pm_p
 	return good;
 }
 
-/* The box with the images, and them: image 0 of each particle first. */
+/* The box with the images, and the images: image 0 of each particle first. */
 static struct particles unfold(const struct pm_grid *g, const struct particles *p, struct pm_grid *wide)
 {
 	int count = 1;

@@ -102,7 +102,7 @@ static void self_force(void)
 		}
 }
 
-/* Unequal kernels in 1-D, 32 cells, unit mass with a field of 1/2 on either side: they must show their self force. */
+/* Unequal kernels in 1-D, 32 cells, unit mass with a field of 1/2 on either side: they have a self-force that the test must find. */
 static void unequal(void)
 {
 	static const struct { const char *in, *out; double want, tolerance; } row[] = {{"cic", "cic", 0, 1e-14}, {"ngp", "cic", 0.23, 0.01},
@@ -123,7 +123,7 @@ static void unequal(void)
 	}
 }
 
-/* 1e5 particles with masses over twelve decades: the forces add up to nothing. */
+/* 1e5 particles with masses over twelve decades: the forces add up to 0. */
 static void momentum(void)
 {
 	enum { N = 100000 };

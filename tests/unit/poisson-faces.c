@@ -207,13 +207,13 @@ static void inverses(int dim)
 					double error = round_trip(&g, &o);
 					check_worst(&worst, error);
 				}
-			/* lap is up to 1e3 times what it is taken of, with round-off of 1e-16 of that, on these meshes */
-			check(worst < 1e-12, "%d-D, all %d mixtures of faces, %s%s: undoes lap of mgrad to round-off (error %.1e)", dim, mixtures(dim),
+			/* on these meshes lap is up to 1e3 times its argument, with a round-off of 1e-16 of that */
+			check(worst < 1e-12, "%d-D, all %d mixtures of faces, %s%s: inverts lap of mgrad to round-off (error %.1e)", dim, mixtures(dim),
 				pm_symbol_names[symbol], k ? ", screened" : "", worst);
 		}
 }
 
-/* Cells a hundred times longer than wide: nothing converges here, so nothing can stall. */
+/* Cells a hundred times longer than wide: a direct solver cannot stall. */
 static void flat(void)
 {
 	double worst = 0;
@@ -225,7 +225,7 @@ static void flat(void)
 			check_worst(&worst, error);
 		}
 	/* round-off of 1/hy^2 against the smallest eigenvalue, 1e4 (33/pi)^2 of it */
-	check(worst < 1e-9, "HC-25: dx/dy = 100, all mixtures in 2-D: every stencil is undone (error %.1e)", worst);
+	check(worst < 1e-9, "HC-25: dx/dy = 100, all mixtures in 2-D: every stencil is inverted (error %.1e)", worst);
 }
 
 static void against_multigrid(int dim)
@@ -300,7 +300,7 @@ static double lattice(int dim, size_t n, double differences[2])
 	return centre;
 }
 
-/* The infinite lattice from three periodic ones: what is left falls as n^-a and n^-b. */
+/* The infinite lattice from three periodic ones: the remainders fall as n^-a and n^-b. */
 static double limit(const double value[3], double a, double b)
 {
 	double p = pow(2, a), q = pow(2, b), low = (p * value[1] - value[0]) / (p - 1), high = (p * value[2] - value[1]) / (p - 1);

@@ -1,4 +1,4 @@
-/* The transform solver against direct solves that share nothing with it: dense sine and cosine bases, direct sums, the stencils themselves.
+/* The transform solver against independent direct solves: dense sine and cosine bases, direct sums, the stencils themselves.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <gsl/gsl_sf_expint.h>
 #include <stdlib.h>
@@ -148,7 +148,7 @@ static void against_direct(struct pm_grid g, const char *what)
 	}
 	char name[160];
 	snprintf(name, sizeof name, "HC-24: %s equals a direct solve, every symbol", what);
-	check_near(worst, 0, 1e-12, name); /* case HC-24 asks for 1e-12 */
+	check_near(worst, 0, 1e-12, name); /* case HC-24 needs 1e-12 */
 	free(s), free(phi), free(want);
 }
 
@@ -338,7 +338,7 @@ static void gaussians(void)
 	}
 }
 
-/* A Gaussian 3 sigma from one end of the box: a longer box must change nothing, which it would if anything wrapped around. */
+/* A Gaussian 3 sigma from one end of the box: a longer box must change nothing; periodic images would show as a difference. */
 static void no_wrap(void)
 {
 	struct pm_grid g = cube(3, 32, 0.375, PM_OPEN), wide = g;
@@ -357,7 +357,7 @@ static void no_wrap(void)
 		check_worst(&worst, fabs(phi[q] - psi[q % 33 + 71 * (q / 33)]));
 	check_near(worst, 0, 1e-13, "HC-29: a source near an end, free space: nothing wraps around, anywhere");
 	/* 1.35e-3 of the mass lies outside the box; at the far corner, r = 12.4, that is 1.1e-4 of phi. */
-	check_near(phi[n - 1] / exact(3, distance(&g, n - 1, centre)), 1 - 1.35e-3, 2e-4, "HC-29: the far corner sees the mass in the box");
+	check_near(phi[n - 1] / exact(3, distance(&g, n - 1, centre)), 1 - 1.35e-3, 2e-4, "HC-29: the potential at the far corner is that of the mass in the box");
 	free(s), free(t), free(phi), free(psi);
 }
 
@@ -377,7 +377,7 @@ static void cube_of_one(void)
 			check_near(phi[0], 1.1900386819897768, 1e-3, "PS-03: potential at the corner of the unit cube");
 		else
 			check_near(phi[n / 2], 2.3800773639795535, 1e-3, "PS-03: potential at the centre of the unit cube");
-		/* What is left is the sum over a cube's nodes against the integral: 4 pi h^2/12 on faces, 4 pi h^2/24 the other way with middles. */
+		/* The remaining error is that of the sum over a cube's nodes instead of the integral: 4 pi h^2/12 on faces, 4 pi h^2/24 the other way with middles. */
 		double want = on_face ? -4 * pm_pi / 12 : 4 * pm_pi / 24;
 		check_near((phi[n / 2] - 2.3800773639795535) / (g.h[0] * g.h[0]), want, 0.05 * fabs(want), "PS-03: the error at the centre is that of the sum over nodes");
 		free(s), free(phi);

@@ -44,7 +44,8 @@ static void test_lattice(void)
 	check(pm_mg_lattice(&g, 2, t) == 0, "PS-07: the table of the cubic lattice is made");
 	check_near(-t[0], 0.252731009858663, 1e-8, "PS-07: 3-D lattice Green's function at 0"); /* 1e-8: the far form at 32 cells */
 	check_near(-t[1], 0.252731009858663 - 1. / 6, 1e-8, "PS-07: 3-D, one step away");
-	check_near(t[33] / t[32] / ((1 / 33. * (1 + 0.25 / 33 / 33)) / (1 / 32. * (1 + 0.25 / 32 / 32))), 1, 1e-6, "3-D: the near and the far form meet");
+	check_near(t[33] / t[32] / ((1 / 33. * (1 + 0.25 / 33 / 33)) / (1 / 32. * (1 + 0.25 / 32 / 32))), 1, 1e-6, "3-D: the near and the far form agree where "
+		"they join");
 	pm_free(t);
 	g = box(2, (size_t[]){5, 4}, (double[]){5, 4});
 	t = values(pm_grid_size(&g));

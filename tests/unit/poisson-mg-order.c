@@ -8,7 +8,7 @@
 
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 
-/* X(x) of an axis [0,1] and its second derivative, with X''' != 0 at neumann faces so that nothing is even by luck. */
+/* X(x) of an axis [0,1] and its second derivative, with X''' != 0 at neumann faces, so that the solution is not even by chance. */
 static void profile(int face, double x, double v[2])
 {
 	double y = face == 4 ? 1 - x : x, e = exp(y), a = 2 * pm_pi;
@@ -167,7 +167,7 @@ static void test_factors(void)
 			}
 }
 
-/* Half weighting of a constant is that constant, of a checkerboard along one axis the share of the node less that of its neighbours there. */
+/* Half weighting of a constant is that constant, of a checkerboard along one axis the weight of the node minus that of its neighbours. */
 static void test_half(void)
 {
 	for (int dim = 1; dim <= 3; dim++)
@@ -231,7 +231,7 @@ static void test_sizes(void)
 	check(!failed && most <= 18, "HC-24: order 4, sizes 1 to 129 in 1-D to 3-D: at most 18 cycles (got %d, %d failed)", most, failed);
 }
 
-/* PS-10: u = x(1-x) y(1-y) exp(x-y): one pass of full multigrid against the differences, with what poisson-mg does by default. */
+/* PS-10: u = x(1-x) y(1-y) exp(x-y): one pass of full multigrid against the differences, with the defaults of poisson-mg. */
 static void test_full(void)
 {
 	static struct pm_mg_record r, short_;
@@ -248,7 +248,7 @@ static void test_full(void)
 				f[i] = z * b * (a + 2 * (1 - 2 * x) - 2) + z * a * (b - 2 * (1 - 2 * y) - 2);
 			}
 			struct pm_mg *mg = pm_mg_new(&g, order);
-			for (int cycles = 0; cycles < 3; cycles++) { /* 0: to the end; then as many */
+			for (int cycles = 0; cycles < 3; cycles++) { /* 0: until converged; then that many cycles */
 				o.tolerance = cycles ? sqrt(r.history[cycles] * r.history[cycles - 1]) : 1e-13;
 				struct pm_mg_record *record = cycles ? &short_ : &r;
 				pm_mg_solve(mg, &o, 1, f, u, record);

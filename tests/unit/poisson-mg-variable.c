@@ -48,7 +48,7 @@ static void test_media(void)
 		size_t n;
 		enum pm_mg_mean mean;
 		double same, within; /* the reference's value of the same scheme, 1e-3 of it */
-		double exact, part;  /* and how near to the exact one it must be; 0: not asked */
+		double exact, part;  /* and its allowed distance from the exact value; 0: not tested */
 	} row[] = {{"discs of contrast 10", 10, 64, PM_MG_HARMONIC, 2.4104, 1e-3, 2.41546738018724, 0},
 		{"discs of contrast 10", 10, 256, PM_MG_HARMONIC, 2.4154, 1e-3, 2.41546738018724, 0.01},
 		{"discs of contrast 10", 10, 256, PM_MG_ARITHMETIC, 2.4339, 1e-3, 2.41546738018724, 0.04},
@@ -109,7 +109,8 @@ static void test_constant(void)
 			most = r.cycles > most ? r.cycles : most;
 			pm_mg_free(mg), pm_mg_variable_free(v), pm_free(s), pm_free(a), pm_free(b), pm_free(eps);
 		}
-		check(worst < 1e-8, "%d-D: a constant coefficient gives what poisson-mg gives without, every mixture of faces, odd, prime and tiny sizes (got %g, tolerance 1e-8)", dim, worst);
+		check(worst < 1e-8, "%d-D: a constant coefficient gives the result of poisson-mg without one, every mixture of faces, odd, prime and tiny sizes (got "
+			"%g, tolerance 1e-8)", dim, worst);
 		check(most <= 15, "%d-D: in at most 15 iterations (got %d)", dim, most);
 	}
 }
@@ -177,7 +178,7 @@ static void test_orders(void)
 				sx += x, sy += y, sxx += x * x, sxy += x * y;
 			}
 			double order = (3 * sxy - sx * sy) / (3 * sxx - sx * sx);
-			check_least(&least, order); /* a failure to solve is NaN, and stays */
+			check_least(&least, order); /* a failure to solve is NaN, and is kept */
 		}
 		check(least >= 1.9, "%d-D: a coefficient that varies smoothly by exp(%d), %s mixture of faces: orders fitted over three grids are at least %.2f", dim, dim * (dim + 1) / 2,
 			dim == 3 && !getenv("PM_LONG") ? "every seventh" : "every", least);
@@ -247,7 +248,7 @@ static void test_hard(void)
 	}
 }
 
-/* HC-23, HC-28, and what is refused. */
+/* HC-23, HC-28, and errors. */
 static void test_ends(void)
 {
 	static struct pm_mg_record r;

@@ -29,8 +29,8 @@ static double lambda(const struct pm_grid *g, int d, int m) /* of the second dif
 	return g->points[d] == 1 ? 0 : -s * s;
 }
 
-/* s: sum of two product modes; phi: the exact solution of the differences (discrete) or of the equation. A mode that the differences or the nodes do not
- * see is left out. */
+/* s: sum of two product modes; phi: the exact solution of the differences (discrete) or of the equation. A mode that is zero on the nodes or for the
+ * differences is left out. */
 static void modes(const struct pm_grid *g, const int m[2][3], bool discrete, double *s, double *phi)
 {
 	memset(s, 0, pm_grid_size(g) * sizeof *s);
@@ -92,7 +92,7 @@ static void test_mixtures(void)
 				struct pm_grid finer = grid(dim, (size_t[]){n, n, n}, (double[]){1.1, 1.3, 0.9}, faces);
 				x[i] = log(1 / (double)n), y[i] = log(error(&finer, lowest_modes, false, &usual, &r));
 			}
-			if (q % (dim == 3 ? 7 : 1) == 0) /* in 3-D every seventh, to be quick: each pair of faces is met on each axis */
+			if (q % (dim == 3 ? 7 : 1) == 0) /* in 3-D every seventh, to be quick: each pair of faces occurs on each axis */
 				check_least(&slope, (y[2] - y[1]) / (x[2] - x[1])), check_least(&slope, (y[1] - y[0]) / (x[1] - x[0]));
 		}
 		check(worst < 1e-9, "%d-D: the differences are solved exactly in every mixture of periodic, wall and neumann faces (got %g, want 0, tolerance 1e-9)", dim, worst);
@@ -142,7 +142,7 @@ static void test_sines(void)
 			struct pm_mg *mg = pm_mg_new(&g, 2);
 			pm_mg_solve(mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-14, .most = 50}, -1, s, u, &r);
 			char text[80];
-			snprintf(text, sizeof text, "PS-06: %d-D, sin %dx comes out as large as the second difference says", dim, m);
+			snprintf(text, sizeof text, "PS-06: %d-D, sin %dx is amplified by the inverse of the second difference", dim, m);
 			check_near(u[at] * m * m, ratio[q], 1e-12, text);
 			pm_mg_free(mg), pm_free(s), pm_free(u);
 		}
@@ -267,7 +267,7 @@ static void test_stretched(void)
 	check(worst < 0.25, "HC-25: spacings in ratios from 1.2 to 1000 converge faster than 0.25 per cycle (got %.3f, demanded 0.5)", worst);
 }
 
-/* HC-28, and what does not converge. */
+/* HC-28, and failures to converge. */
 static void test_floor(void)
 {
 	static struct pm_mg_record r;
@@ -282,8 +282,8 @@ static void test_floor(void)
 		}
 	struct pm_grid g = cube(2, 64, "wwww");
 	o.most = 2, o.tolerance = 1e-10;
-	check(isnan(error(&g, low_modes, true, &o, &r)) && r.cycles == 2 && !r.converged, "two cycles that are not enough are a failure");
-	check(strstr(pm_message(), "did not converge: 2 cycles") && strstr(pm_message(), "--max-cycles"), "and the message says what to do: %s", pm_message());
+	check(isnan(error(&g, low_modes, true, &o, &r)) && r.cycles == 2 && !r.converged, "two cycles are not enough, which is a failure");
+	check(strstr(pm_message(), "did not converge: 2 cycles") && strstr(pm_message(), "--max-cycles"), "and the message has the remedy: %s", pm_message());
 }
 
 static void test_scales(void)
@@ -305,7 +305,7 @@ static void test_scales(void)
 	check(pm_mg_solve(mg, &usual, 1, s, b, &r) == 0 && largest(n, b, NULL) == 0 && r.cycles == 0, "no source, no potential, no cycles");
 	noise(n, s);
 	pm_mg_solve(mg, &usual, 1, s, s, &r);
-	check(!memcmp(s, a, n * sizeof *s), "the solution may replace its source, and earlier solves leave no trace");
+	check(!memcmp(s, a, n * sizeof *s), "the solution may replace its source, and does not depend on earlier solves");
 	pm_mg_free(mg), pm_free(s), pm_free(a), pm_free(b);
 }
 

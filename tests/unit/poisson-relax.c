@@ -191,8 +191,8 @@ static void test_coarse(void)
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 
 /* Every method whose formula holds, every mixture of faces in 2-D, unequal spacings; differences in units of 1 - radius. From L/3 to L = 25/(1 - radius) sweeps the
- * residual falls by e^-17, the next modes much more. Over-relaxed from the best factor on it falls as n rho^n or swings round rho^n, a factor of 3 or so over the
- * range: 0.15 is log(3)/17 doubled. */
+ * residual falls by e^-17, the next modes much more. From the optimal over-relaxation factor on it falls as n rho^n or oscillates about rho^n, by a factor
+ * of about 3 over the range: 0.15 is log(3)/17 doubled. */
 static void test_formulas(void)
 {
 	static const double share[] = {1, 0.8, 1.03}; /* of the method's own factor */
@@ -281,7 +281,7 @@ static void test_mixtures(void)
 	struct pm_grid g = grid(2, (size_t[]){9, 12}, (double[]){1, 2}, "wwnw");
 	for (int q = 0; q < 2; q++) {
 		struct pm_relaxation_record r;
-		check_near(solved(&g, pm_relax_find("cg"), q ? 1e300 : 1e-300, &r), 0, 1e-9, "sources of 1e300 and 1e-300 neither overflow nor vanish");
+		check_near(solved(&g, pm_relax_find("cg"), q ? 1e300 : 1e-300, &r), 0, 1e-9, "sources of 1e300 and 1e-300 neither overflow nor underflow");
 	}
 }
 
@@ -320,7 +320,7 @@ static void test_threads(void)
 	pm_threads_use(1);
 }
 
-/* HC-28: a tolerance that cannot be reached ends at round-off, whatever the method. HC-24: sizes down to 1. */
+/* HC-28: a tolerance that cannot be reached ends at round-off, with every method. HC-24: sizes down to 1. */
 static void test_ends(void)
 {
 	struct pm_grid g = cube(2, 12, "wwnn");

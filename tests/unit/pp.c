@@ -1,4 +1,4 @@
-/* Direct sums: the fixture PM-04, both fast loops against the plain one, every mollifier against its promises, any number of threads, close and
+/* Direct sums: the fixture PM-04, both fast loops against the plain one, every mollifier against its stated properties, any number of threads, close and
  * coincident pairs (HC-19). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -161,7 +161,7 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 		double r = at[i] * delta, f = m->force(r * r, delta, dim);
 		check_worst(&worst, fabs(slope(m, r, delta, dim) / (f * r) - 1));
 	}
-	snprintf(text, sizeof text, "%s in %d-D: the force is the slope of the potential", name, dim);
+	snprintf(text, sizeof text, "%s in %d-D: the force is the derivative of the potential", name, dim);
 	check_near(worst, 0, 1e-9, text); /* differences of fourth order with step 1e-3 leave 1e-11, round-off 1e-12 */
 	double edge = (m->reach > 0 ? m->reach : 1) * delta, below = m->potential(edge * edge * (1 - 1e-10), delta, dim);
 	snprintf(text, sizeof text, "%s in %d-D: the potential is continuous", name, dim);
@@ -188,7 +188,7 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 		check_near(far, 0, 4e-16, text);
 }
 
-/* HC-19: a pair at r, and what it does to itself and to a third particle. */
+/* HC-19: a pair at distance r: its own forces and the force on a third particle. */
 static void close_pair(double r, double eps, bool half)
 {
 	struct bodies b = {.n = 3, .q = {1, 1, 1}};

@@ -113,15 +113,17 @@ static void moments(void)
 			double fourth = order == 2 ? 12 : 0, mixed = order == 2 ? 4 : 0; /* of exp(-z^2/4): variance 2 */
 			printf("# order %d in %d-D\n", order, dim);
 			check_near(moment(&p, 2, 0), 2, 1e-12, "the second moment is 2");
-			check_near(moment(&p, 0, 0), p.total, 1e-12, "the zeroth is what the entry says");
+			check_near(moment(&p, 0, 0), p.total, 1e-12, "the zeroth moment is that of the entry");
 			check_near(moment(&p, 4, 0), fourth, 1e-11, "the fourth vanishes for order 4");
 			if (dim > 1)
 				check_near(moment(&p, 2, 2), mixed, 1e-11, "and so does the mixed one");
-			check_near(p.beyond / beyond(dim, order, 8), 1, 1e-3, "what is beyond the cut-off is what incomplete gamma functions say (midpoints: 4^2/(24 64^2) = 1.6e-4)");
+			check_near(p.beyond / beyond(dim, order, 8), 1, 1e-3, "the part beyond the cut-off is given by incomplete gamma functions (midpoints: 4^2/(24 64^2) "
+				"= 1.6e-4)");
 		}
 }
 
-/* What a lattice with eps = h loses of its second moment at the cut-offs 5 to 9, and the partners in reach: the tables of docs/methods/pse.md, to the digits printed there. */
+/* The loss of the second moment of a lattice with eps = h at the cut-offs 5 to 9, and the number of partners: the tables of docs/methods/pse.md, to the
+ * digits printed there. */
 static void cutoffs(void)
 {
 	static const double lost[2][3][5] = {{{-1.3e-3, -6.8e-5, -2.1e-6, -3.7e-8, -3.9e-10}, {-1.3e-2, -1.3e-3, -8.8e-5, -2.7e-6, -3.9e-8}, {-3.0e-2, -2.6e-3, -1.9e-4, -6.7e-6, -1.1e-7}},
@@ -143,8 +145,8 @@ static void cutoffs(void)
 			}
 }
 
-/* The images along an axis by reflecting the box at one face after the other, which is how the method of images is defined: each that comes within reach is there once,
- * with the product of the signs of its mirrors, and no other is. */
+/* The images along an axis by reflecting the box at one face after the other, which is how the method of images is defined: each image within reach must
+ * occur once, with the product of the signs of its reflections, and no others. */
 struct mirrored {
 	double side, shift, sign;
 };
@@ -281,7 +283,7 @@ static void conserves(void)
 			for (size_t i = 0, zero = 0; i < b.n; i++) {
 				zero += rate[i] == 0;
 				if (i + 1 == b.n)
-					check(zero == b.n, "a constant stays, to the last bit");
+					check(zero == b.n, "a constant stays constant, to the last bit");
 			}
 		}
 }
@@ -332,7 +334,7 @@ static void threads(void)
 		struct pm_pse p = pm_pse_of(3, 2, 0.06, 8); /* four pieces, of which some particles get from three or more */
 		bool same = true;
 		pm_threads_use(t);
-		for (int k = 0; k < 9; k++) { /* so that threads meet in more than one way */
+		for (int k = 0; k < 9; k++) { /* so that threads overlap in more than one order */
 			memset(rate, 0, sizeof rate);
 			add(&p, 0.12, rate, &found);
 			if (t == 1 && k == 0)

@@ -1,4 +1,4 @@
-/* push on frames in memory: what it refuses and in which words, the clock, registers, several sets, faces of the box, what is dropped.
+/* push on frames in memory: errors and their messages, the clock, registers, several sets, faces of the box, what is dropped.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 extern const struct pm_tool tool_push;
 
-/* push with the words of a line; 0, or the failure. */
+/* push with the arguments of a line; 0, or the failure. */
 static int push(struct pm_frame *f, const char *line)
 {
 	char words[256], *argv[16] = {"push"};
@@ -70,7 +70,7 @@ static void set(struct pm_frame *f, const char *on, const char *name, double val
 			pm_out(y, c)[i] = value;
 }
 
-/* The push fails with this code and these words in its message. */
+/* The push fails with this code, and its message contains this text. */
 static void refused(struct pm_frame *f, const char *line, int code, const char *words)
 {
 	struct pm_frame *c = pm_frame_copy(f);
@@ -166,16 +166,16 @@ static void motion(void)
 	field(f, "matter", "v", 3, PM_STATE);
 	change(f, "matter", "acc", "v", 1, 1);
 	check(push(f, "kick drift") == 0, "one dimension with three velocities and one component of acc");
-	check_near(at(f, "matter", "v", 0, 2), 0.25, 0, "the component acc has is kicked");
-	check_near(at(f, "matter", "v", 2, 2), 0, 0, "those it lacks are zero");
-	check_near(at(f, "matter", "x", 0, 2), 2.25 + 0.0625, 0, "kick and drift in one push: the drift takes the new velocity");
+	check_near(at(f, "matter", "v", 0, 2), 0.25, 0, "the component that acc has is kicked");
+	check_near(at(f, "matter", "v", 2, 2), 0, 0, "the missing ones count as zero");
+	check_near(at(f, "matter", "x", 0, 2), 2.25 + 0.0625, 0, "kick and drift in one push: the drift uses the new velocity");
 	pm_frame_free(f);
 
 	f = frame(2, 5, false);
 	change(f, "matter", "vel", "x", 2, 3);
 	check(push(f, "drift") == 0 && f->step == 1, "a set without v moves by vel and completes its step with drift alone");
 	check_near(at(f, "matter", "x", 1, 2), 2.25 + 0.75, 0, "x += vel dt");
-	check(push(f, "clear") == 0 && f->substep == 0 && f->step == 1, "clear is no part of a step");
+	check(push(f, "clear") == 0 && f->substep == 0 && f->step == 1, "clear does not count as part of a step");
 	pm_frame_free(f);
 }
 
@@ -198,17 +198,17 @@ static void clock(void)
 {
 	struct pm_frame *f = frame(2, 3, true);
 	force(f, "matter");
-	push(f, "kick/2"), clock_is(f, 0, 1, 0, "kick/2 alone leaves the time");
+	push(f, "kick/2"), clock_is(f, 0, 1, 0, "kick/2 alone does not change the time");
 	push(f, "drift"), clock_is(f, 0.25, 2, 0, "time moves with drift");
 	force(f, "matter");
 	push(f, "kick/2"), clock_is(f, 0.25, 0, 1, "drift 1 and kick 1 complete the step");
-	check(f->start == 0.25 && f->sets[0]->kick == 0 && f->sets[0]->drift == 0, "and both fractions start anew");
+	check(f->start == 0.25 && f->sets[0]->kick == 0 && f->sets[0]->drift == 0, "and both fractions are reset");
 	push(f, "drift/2"), clock_is(f, 0.375, 1, 1, "half a drift is half of dt");
 	force(f, "matter");
 	push(f, "kick drift/2"), clock_is(f, 0.5, 0, 2, "drift/2, kick, drift/2 is a step");
 	for (int i = 0; i < 3; i++)
 		push(f, "drift/3");
-	clock_is(f, 0.75, 0, 3, "three thirds are one");
+	clock_is(f, 0.75, 0, 3, "three thirds are a step");
 	for (int n = 3; n <= 1000000; n = 10 * n + 7 > 1000000 && n < 1000000 ? 1000000 : 10 * n + 7) {
 		struct pm_set s = {.name = "matter", .kick = 1};
 		int bad = 0;
@@ -226,7 +226,7 @@ static void clock(void)
 	refused(f, "kick/2", PM_DATA, "kick on 'matter' adds up to 1.5 of a step");
 	refused(f, "drift --dt 0.5", PM_DATA, "may change only at substep 0");
 	refused(f, "rk4", PM_DATA, "in the middle of a step");
-	check(push(f, "drift --dt 0.25") == 0, "push --dt that does not differ is no change");
+	check(push(f, "drift --dt 0.25") == 0, "push --dt with the same value is allowed");
 	check(push(f, "drift --dt 0.5") == 0 && f->dt == 0.5, "push --dt at substep 0 is recorded");
 	pm_frame_free(f);
 
@@ -234,7 +234,7 @@ static void clock(void)
 	force(f, "matter"), push(f, "kick/2 drift");
 	force(f, "matter");
 	refused(f, "kick/2 drift", PM_DATA, "drift on 'matter' adds up to 2 of a step");
-	check(push(f, "kick/2") == 0, "HC-17: misaligned: the closing kick is wanted first");
+	check(push(f, "kick/2") == 0, "HC-17: misaligned: the closing kick must come first");
 	pm_frame_free(f);
 }
 
@@ -259,7 +259,7 @@ static void several_sets(void)
 	push(f, "drift/2 --set dust"), clock_is(f, 0.125, 2, 0, "half of the slowest");
 	push(f, "drift/2 --set dust"), clock_is(f, 0.25, 0, 1, "when all are complete the step is done");
 	check(at(f, "wall", "x", 0, 0) == 0 && at(f, "wall", "v", 0, 0) == 1, "a fixed set is left alone");
-	check(!pm_frame_field(f, "wall", "acc"), "but for change fields, which belong to the positions of the others");
+	check(!pm_frame_field(f, "wall", "acc"), "except for its change fields, which depend on the positions of the others");
 	check(push(f, "drift") == 0, "both at once");
 	clock_is(f, 0.5, 0, 2, "is a step of both");
 	force(f, "matter"), set(f, "dust", "v", 0);
@@ -347,15 +347,15 @@ static void restarts(void)
 	struct pm_frame *f = frame(2, 3, true);
 	step(f, "ab3"), step(f, "ab3");
 	check(step(f, "ab3") == 1, "ab3 is running");
-	check(step(f, "ab3 --dt 0.125") == 3, "ab3 starts anew when dt has changed");
+	check(step(f, "ab3 --dt 0.125") == 3, "ab3 restarts when dt has changed");
 	step(f, "ab3"), check(step(f, "ab3") == 1, "and runs again");
 	pm_drops(f, pm_frame_field(f, "matter", "q2_v"));
-	check(step(f, "ab3") == 3, "ab3 starts anew when a register is missing");
+	check(step(f, "ab3") == 3, "ab3 restarts when a register is missing");
 	step(f, "ab3"), step(f, "ab3"), step(f, "drift");
 	check(registers(f) == 0, "drift drops the old rates, which no longer belong to the step before");
-	check(step(f, "ab3") == 3, "ab3 starts anew after another way of moving");
+	check(step(f, "ab3") == 3, "ab3 restarts after another scheme has moved the particles");
 	check(step(f, "ab2") == 2 && registers(f) == 2, "ab2 does not take the old rates of ab3");
-	check(step(f, "rk4") == 4 && registers(f) == 0, "nor leaves any to rk4");
+	check(step(f, "rk4") == 4 && registers(f) == 0, "and leaves none to rk4");
 	force(f, "matter"), push(f, "rk4");
 	pm_drops(f, pm_frame_field(f, "matter", "q_x"));
 	force(f, "matter");
@@ -388,20 +388,20 @@ static void faces(void)
 	check_near(at(before, "matter", "v", 0, 0), 2, 0, "reflect: a frame that shares the buffers keeps its velocities");
 	pm_frame_free(before);
 	check_near(at(f, "matter", "x", 0, 0), 9.75, 0, "reflect: mirrored at the top");
-	check_near(at(f, "matter", "v", 0, 0), -2, 0, "reflect: and turned round");
+	check_near(at(f, "matter", "v", 0, 0), -2, 0, "reflect: and its velocity is reversed");
 	check_near(at(f, "matter", "x", 0, 1), 0.125, 0, "reflect: mirrored at the bottom");
-	check_near(at(f, "matter", "v", 0, 1), 1, 0, "reflect: and turned round there");
+	check_near(at(f, "matter", "v", 0, 1), 1, 0, "reflect: and its velocity is reversed there");
 	check_near(at(f, "matter", "x", 0, 2), 10, 0, "reflect: a particle on the face stays");
 	check_near(at(f, "matter", "x", 0, 3), 3, 1e-10, "reflect: 250000 lengths are an even number of mirrors");
 	check_near(at(f, "matter", "v", 0, 3), 1e6, 0, "reflect: and the velocity is as before");
 	check_near(at(f, "matter", "x", 0, 4), 9, 0, "reflect: twice in a step");
-	check_near(at(f, "matter", "v", 0, 4), -44, 0, "reflect: and twice turned is not turned");
+	check_near(at(f, "matter", "v", 0, 4), -44, 0, "reflect: and reversed twice is the original velocity");
 	check_near(at(f, "matter", "v", 1, 0), 0, 0, "reflect: other components are kept");
 	for (int s = 0; s < 2; s++)
 		f->pface[0][s] = PM_POPEN;
 	set(f, "matter", "v", 100);
 	push(f, "drift");
-	check_near(at(f, "matter", "x", 0, 0), 34.75, 0, "open: nothing happens");
+	check_near(at(f, "matter", "x", 0, 0), 34.75, 0, "open: positions are not changed");
 	pm_frame_free(f);
 }
 
@@ -417,7 +417,7 @@ static void mirrors_in_schemes(void)
 		for (int i = 0; i < 12; i++) {
 			for (int other = 0; other < 2; other++) {
 				struct pm_frame *h = other ? g : f;
-				do { /* a force that the mirror turns round, too: 0.3 away from the wall's image */
+				do { /* a force that the mirror reverses too: 0.3 away from the wall's image */
 					double x = at(h, "matter", "x", 0, 0);
 					bool image = other ? x > 10 : at(f, "matter", "v", 0, 0) < 0;
 					change(h, "matter", "acc", "v", 1, !other && image ? -0.3 : 0.3);
@@ -456,14 +456,14 @@ static void absorb(void)
 		good = good && pm_in_i64(pm_frame_field(f, "matter", "id"), 0)[i] == want[i]
 			&& pm_in_u8(pm_frame_field(f, "matter", "tag"), 1)[i] == 2 * (want[i] - 100)
 			&& at(f, "matter", "x", 1, (size_t)i) == 0.25 + (double)(want[i] - 100);
-	check(good, "absorb: all fields of those that stay are theirs, in order");
+	check(good, "absorb: the remaining particles keep all their fields, in order");
 	check(pm_frame_field(f, "matter", "mass")->uniform && pm_frame_field(f, "matter", "mass")->count == 6, "absorb: a uniform field stays uniform");
 	json_t *report = json_object_get(f->report, "push drift");
 	check(json_integer_value(json_object_get(report, "absorbed")) == 3, "absorb: and they are counted");
 	f->pface[0][1] = PM_PABSORB;
 	set(f, "matter", "v", 1e3);
 	check(push(f, "drift") == 0 && f->sets[0]->n == 0, "absorb: all of them");
-	check(push(f, "drift") == 0 && f->step == 3, "N = 0: an empty set still takes its steps");
+	check(push(f, "drift") == 0 && f->step == 3, "N = 0: an empty set still completes its steps");
 	pm_frame_free(f);
 }
 

@@ -1,4 +1,4 @@
-/* Remeshing on plain arrays: totals at every face, moments, a thousand remeshes (HC-41), what is left of waves (RM-01), overshoots (HC-43), the
+/* Remeshing on plain arrays: totals at every face, moments, a thousand remeshes (HC-41), the damping of waves (RM-01), overshoots (HC-43), the
  * cut-off, any number of threads; and the distortion of lattices. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -52,7 +52,7 @@ static double uniform(uint64_t id, int what)
 	return u[0];
 }
 
-/* Anywhere the mesh holds them, at faces too where these are closed; strengths of both signs. */
+/* Random positions inside the mesh, also at closed faces; strengths of both signs. */
 static struct particles scattered(const struct pm_grid *g, const struct pm_kernel *k, size_t n)
 {
 	struct particles p = particles_new(n);
@@ -79,7 +79,7 @@ static struct pm_remesh remeshed(const struct pm_grid *g, const struct pm_kernel
 	return r;
 }
 
-/* The particles that the nodes are. */
+/* One particle on every node. */
 static struct particles taken(const struct pm_remesh *r)
 {
 	struct particles p = particles_new(r->kept);
@@ -129,7 +129,7 @@ static double moment(const struct pm_grid *g, const struct particles *p, const i
 	return pm_sum_total(sum);
 }
 
-/* Tensor products: every power up to the kernel's along each axis at once. The next one is not kept. */
+/* Tensor products: every power up to the kernel's along each axis at once. The next one is not conserved. */
 static void check_moments(void)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
@@ -196,7 +196,7 @@ static void check_thousand(int dim, const size_t cells[3])
 		for (size_t i = 0; i < p.n; i++)
 			check_worst(&worst, fabs(p.q[i] / value - 1));
 		double drift = fabs(pm_sum_array(p.n, p.q) / total - 1);
-		/* The case's bounds: roundings walk. */
+		/* The bounds of the case: rounding errors add up as a random walk. */
 		check(p.n == n, "HC-41: %s, %d-D: as many particles after 1000 remeshes", pm_kernels[k]->name, dim);
 		check_below(worst, 1e-12 * sqrt(1000), "HC-41: a constant remeshed 1000 times at random shifts by %s, %d-D, stays constant", pm_kernels[k]->name, dim);
 		check_below(drift, 1e-13, "HC-41: and so does its sum, %s, %d-D", pm_kernels[k]->name, dim);
@@ -271,7 +271,7 @@ static void check_rm01(const struct rm01 *c)
 			check_worst(&worst, fabs(q[i] - bump(-1 + 2. * (i - 0.3) / n)));
 		check_worst(&off, fabs(worst / c->error[j] - 1));
 	}
-	check(off <= 1e-3, "RM-01: one remesh of a Gaussian by %s is off by what the reference says (relative %.2g, tolerance 1e-3)", c->name, off);
+	check(off <= 1e-3, "RM-01: one remesh of a Gaussian by %s has the error of the reference (relative %.2g, tolerance 1e-3)", c->name, off);
 }
 
 /* HC-43: the worst shift of a unit step; 270 shifts hit the worst of M'4, 1/3 and 2/3. */
@@ -305,7 +305,7 @@ static void check_cut(void)
 	check(least > 0.01 * most && r.cut > 0 && r.kept + r.cut == all.kept, "a cut-off of 0.01 keeps nodes above a hundredth of the largest strength (%zu of %zu)", r.kept,
 		all.kept);
 	double off = fabs(pm_sum_array(q.n, q.q) + r.lost[0] - pm_sum_array(p.n, p.q));
-	check(off <= 1e-15 * size_of(&p), "what is cut is counted: kept and lost strength add up to the total (off by %.2g, lost %.3g)", off, r.lost[0]);
+	check(off <= 1e-15 * size_of(&p), "the strength removed is counted: kept and removed strength add up to the total (off by %.2g, lost %.3g)", off, r.lost[0]);
 	particles_free(&p), particles_free(&q), pm_remesh_free(&r), pm_remesh_free(&all);
 }
 
@@ -339,7 +339,7 @@ static void check_threads(void)
 		first = q;
 	}
 	pm_threads_use(1);
-	check(same, "1, 2 and 3 threads give the same bytes, what is lost included");
+	check(same, "1, 2 and 3 threads give the same bytes, also of the loss");
 	particles_free(&p), particles_free(&first);
 }
 
@@ -350,7 +350,7 @@ static void check_volume(void)
 		struct particles p = lattice(&g, 1);
 		for (int d = 0; d < 3; d++)
 			if (g.face[d][0] == PM_OPEN)
-				g.face[d][0] = g.face[d][1] = PM_NEUMANN; /* so that the end nodes are held */
+				g.face[d][0] = g.face[d][1] = PM_NEUMANN; /* so that the end nodes are inside */
 		struct pm_remesh r = remeshed(&g, pm_kernel_find("ngp"), &p, 0);
 		double *volume = pm_zalloc(r.kept, sizeof *volume), box = 1;
 		pm_remesh_volume(&r, volume);
@@ -394,9 +394,8 @@ static void check_distortion(void)
 		double t = angle * pm_pi / 180;
 		check_worst(&turned, distorted(cos(t), -sin(t), sin(t), cos(t)));
 	}
-	/* A turned lattice is seen through the spline's transform at its first reciprocal vectors, four times .358^8 = 2.7e-4 at 45
-	 * degrees. */
-	check(turned <= 2e-3, "a turned lattice is hardly distorted (at most %.2g over 5 to 45 degrees, tolerance 2e-3)", turned);
+	/* For a rotated lattice the measure is the spline's transform at its first reciprocal vectors, four times .358^8 = 2.7e-4 at 45 degrees. */
+	check(turned <= 2e-3, "a rotated lattice is hardly distorted (at most %.2g over 5 to 45 degrees, tolerance 2e-3)", turned);
 	double strain[3];
 	for (int i = 0; i < 3; i++) {
 		double e = 1.25 + 0.25 * i;

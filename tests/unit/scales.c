@@ -1,4 +1,4 @@
-/* Scales of a frame against numbers known beforehand: orbits, plasma frequency, Debye length, distances, overlap; and the atlas read between its rows.
+/* Scales of a frame against numbers known beforehand: orbits, plasma frequency, Debye length, distances, overlap; and the atlas interpolated between its rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -75,11 +75,12 @@ static void atlas(void)
 			check_near(pm_atlas_longest("kepler", "kdk", r->error) / r->dt, 1, 1e-9, "atlas: a row gives its own step");
 	const double a = pm_atlas_longest("kepler", "kdk", 1e-6), b = pm_atlas_longest("kepler", "kdk", 1e-8);
 	check_near(log(1e-6 / 1e-8) / log(a / b), 2, 0.01, "atlas: beyond its rows leapfrog has order 2");
-	check_near(pm_atlas_time("kepler"), 2 * pm_pi, 1e-4, "atlas: kepler lasts a turn");
+	check_near(pm_atlas_time("kepler"), 2 * pm_pi, 1e-4, "atlas: kepler lasts one orbit");
 	check_near(pm_atlas_time("gyration"), 2 * pm_pi, 1e-4, "atlas: so does gyration");
 	check_near(pm_atlas_time("langmuir"), 6.25 * pm_pi, 1e-3, "atlas: langmuir lasts 3.125 periods");
-	check_near(pm_atlas_time("vortex-patch"), 20, 1e-3, "atlas: the patch turns for 20/omega");
-	check(isnan(pm_atlas_longest("kepler", "boris", 0.1)) && isnan(pm_atlas_force_error("smooth", "tree", "cic", "2", 1)), "atlas: what was not measured is not a number");
+	check_near(pm_atlas_time("vortex-patch"), 20, 1e-3, "atlas: the patch rotates for 20/omega");
+	check(isnan(pm_atlas_longest("kepler", "boris", 0.1)) && isnan(pm_atlas_force_error("smooth", "tree", "cic", "2", 1)), "atlas: cases that were not "
+		"measured give NaN");
 	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
 		if (!strcmp(r->scene, "smooth") && !strcmp(r->kernel, "tsc") && !strcmp(r->gradient, "4"))
 			check_near(pm_atlas_force_error(r->scene, r->solver, r->kernel, r->gradient, r->h) / r->error, 1, 1e-9, "atlas: a row gives its own error");

@@ -1,4 +1,4 @@
-/* The scenes of vortices: what every one of them promises, and that a lattice of vortices has the sums of the vorticity it stands for.
+/* The scenes of vortices: the properties of each, and that a lattice of vortices has the integrals of the vorticity it represents.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -46,10 +46,10 @@ static void promises(const struct pm_scene *s, struct pm_frame *f)
 	const double loose = strcmp(s->name, "cone-vortex") ? 1e-9 : 2e-4;
 	const double circulation = s->exact(f, "circulation", f->time), angular = s->exact(f, "angular_impulse", f->time);
 	if (!isnan(circulation))
-		check_near(pm_sum_total(sum), circulation, loose * fmax(1, fabs(circulation)), "and the circulation it says it has");
+		check_near(pm_sum_total(sum), circulation, loose * fmax(1, fabs(circulation)), "and the circulation of its exact value");
 	if (!isnan(angular))
 		check_near(pm_sum_total(turn), angular, loose * fmax(1, fabs(angular)), "and the angular impulse");
-	check(isnan(s->exact(f, "no such number", 0)), "%s: what it does not know is not a number", s->name);
+	check(isnan(s->exact(f, "no such number", 0)), "%s: unknown quantities are NaN", s->name);
 }
 
 int main(void)
@@ -66,7 +66,7 @@ int main(void)
 	}
 	check(scenes >= 8, "there are %d scenes of vortices", scenes);
 	struct pm_frame *f = make(pm_scene_find("shear-layer"), 31);
-	check(f && pm_frame_set(f, "vortices")->n == 31 * 31, "the cells asked for decide how many vortices there are, odd ones too");
+	check(f && pm_frame_set(f, "vortices")->n == 31 * 31, "the number of cells determines the number of vortices, also if odd");
 	pm_frame_free(f);
 	return check_done();
 }

@@ -90,8 +90,8 @@ static void promises(const struct pm_scene *s, int dim)
 	for (size_t k = 0; k < f->nsets; k++)
 		for (size_t i = 0; i < f->sets[k]->n; i++)
 			total += mass_of(pm_frame_field(f, f->sets[k]->name, "mass"), i);
-	check_near(total, s->exact(f, "mass", 0), 1e-11 * fmax(1, total), "and the mass it says it has");
-	check(isnan(s->exact(f, "no such number", 0)), "%s: what it does not know is not a number", s->name);
+	check_near(total, s->exact(f, "mass", 0), 1e-11 * fmax(1, total), "and the mass of its exact value");
+	check(isnan(s->exact(f, "no such number", 0)), "%s: unknown quantities are NaN", s->name);
 	pm_frame_free(f);
 }
 
@@ -211,7 +211,7 @@ static bool of_vortices(const struct pm_scene *s)
 	return is;
 }
 
-/* Quiet starts: no momentum, the moments of the Maxwellian, the wave that was asked for; and the charge of the background. */
+/* Quiet starts: no momentum, the moments of the Maxwellian, the wave of the options; and the charge of the background. */
 static void plasma(void)
 {
 	const char *const names[] = {"langmuir", "two-stream", "landau"};
@@ -220,8 +220,8 @@ static void plasma(void)
 		struct pm_frame *f = make(s, 1, s->n, 1);
 		const struct pm_field *q = pm_frame_field(f, "electrons", "charge");
 		check(q->extensive && q->uniform && q->value[0] < 0, "%s: electrons have a negative charge, the same for all", s->name);
-		check_near(q->value[0] * (double)s->n / (f->hi[0] - f->lo[0]), -pm_frame_constant(f, "background", NAN), 1e-14, "and the background takes it up");
-		check_near(s->exact(f, "charge", 0), q->value[0] * (double)s->n, 1e-13, "and it is the charge the scene says");
+		check_near(q->value[0] * (double)s->n / (f->hi[0] - f->lo[0]), -pm_frame_constant(f, "background", NAN), 1e-14, "and the background neutralises it");
+		check_near(s->exact(f, "charge", 0), q->value[0] * (double)s->n, 1e-13, "and it is the charge of the scene's parameters");
 		pm_frame_free(f);
 	}
 	struct pm_frame *f = make(pm_scene_find("landau"), 1, 20000, 1);
@@ -232,7 +232,7 @@ static void plasma(void)
 	/* the quantiles of 10000 velocities end at 3.9 vth: 4e-4 of the variance is beyond, 8e-3 of the fourth moment */
 	check_near(v2, 1, 1e-3, "landau: the variance of the velocities is vth^2");
 	check_near(v4, 3, 0.03, "landau: their fourth moment is that of a Maxwellian");
-	check_near(c, 0.01, 2e-4 /* discrepancy of 20000 points, log(n)/n */, "landau: the density has the wave that was asked for");
+	check_near(c, 0.01, 2e-4 /* discrepancy of 20000 points, log(n)/n */, "landau: the density has the wave of the options");
 	pm_frame_free(f);
 	f = pm_frame_new(1);
 	pm_frame_parameter_set(f, "v0", 0.3);

@@ -1,4 +1,4 @@
-/* The table of steps against its promises: stability limits on both axes, orders, registers (TI-01); leapfrog on the oscillator (TI-02) and on an
+/* The table of steps against its stated properties: stability limits on both axes, orders, registers (TI-01); leapfrog on the oscillator (TI-02) and on an
  * eccentric Kepler orbit (HC-17, PM-10). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <complex.h>
 #include <gsl/gsl_eigen.h>
@@ -151,7 +151,7 @@ static void promises(const struct pm_step *s, const char *name)
 	check(s->passes <= PM_STEP_PASSES && s->at[s->passes - 1] == 1, "%s: the last pass ends at the end of the step", name);
 	const struct pm_step *start = s->start ? pm_step_find(s->start) : NULL;
 	check(!s->rates == !start && s->rates + (start ? start->registers : s->registers) <= PM_REGISTERS,
-		"%s: what it keeps and what its start needs fit into the registers", name);
+		"%s: its old rates and its starting scheme fit into the registers", name);
 }
 
 /* TI-02: cos(theta) = 1 - (w dt)^2/2, and (v^2 + w^2 (1 - w^2 dt^2/4) x^2)/2 is constant. */

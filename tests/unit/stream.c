@@ -70,7 +70,7 @@ static void long_fields(void)
 	for (int i = 0; i < n && g; i++)
 		wrong += pm_in(pm_frame_field(g, "matter", "x"), 0)[i] != sin(i) || pm_in(pm_frame_field(g, "matter", "low"), 0)[i] != i + 0.5 ||
 			pm_in_i64(pm_frame_field(g, "matter", "id"), 0)[i] != 7 * i;
-	check(!wrong, "f64, f32 and i64 hold what was written, each value in its place (%d do not)", wrong);
+	check(!wrong, "f64, f32 and i64 have the values written, in order (%d do not)", wrong);
 	pm_frame_free(f), pm_frame_free(g);
 	pm_reader_close(r);
 	unlink(path);
@@ -94,7 +94,7 @@ static void round_trip(void)
 		size_t bytes = p->count * (size_t)p->components * pm_field_memory(p);
 		check(p->uniform ? q->uniform && q->value[0] == p->value[0] : !bytes || !memcmp(pm_field_bytes(p), pm_field_bytes(q), bytes), "field %s holds the same bytes", p->name);
 	}
-	check(pm_in(pm_frame_field(f, "matter", "low"), 0)[0] == (double)(float)(1 / 3.), "f32 is rounded when a stage settles");
+	check(pm_in(pm_frame_field(f, "matter", "low"), 0)[0] == (double)(float)(1 / 3.), "f32 is rounded after a stage");
 	g = pm_frame_free(g);
 	check(pm_read_frame(r, &g) == PM_GOT_FRAME, "so is the second");
 	pm_frame_free(g);
@@ -119,24 +119,24 @@ static void declarations(void)
 	check(!strcmp(list, "x mass id rho low x flag"), "fields stand in the order in which they were made (%s)", list);
 	check(pm_reads(f, "matter", "x") && pm_changes(f, "matter", "mass") && pm_changes(f, "matter", "x") && pm_changes(f, "matter", "mass"), "fields are declared");
 	names(f, list);
-	check(!strcmp(list, "id rho low x flag mass x"), "changed ones go last, in the order of the declarations (%s)", list);
-	check(!pm_frame_ready(f) && pm_in(pm_frame_field(f, "matter", "mass"), 0)[6] == 0.1, "a uniform field that is changed is filled in");
-	check(!pm_reads(f, "matter", "charge") && strstr(pm_message(), "no field 'charge' on 'matter'"), "a missing one is named");
+	check(!strcmp(list, "id rho low x flag mass x"), "changed ones come last, in the order of the declarations (%s)", list);
+	check(!pm_frame_ready(f) && pm_in(pm_frame_field(f, "matter", "mass"), 0)[6] == 0.1, "a uniform field that is changed is expanded");
+	check(!pm_reads(f, "matter", "charge") && strstr(pm_message(), "no field 'charge' on 'matter'"), "a missing one is reported by name");
 	struct pm_field *acc = pm_contributes(f, "matter", "acc", "v", 2, "self", false);
-	check(acc && acc->nterms == 1 && acc->role == PM_CHANGE, "a change field is made by the first who adds");
+	check(acc && acc->nterms == 1 && acc->role == PM_CHANGE, "a change field is made by the first stage that adds to it");
 	check(pm_contributes(f, "matter", "acc", "v", 2, "near", false) == acc, "the second adds to it");
 	check(!pm_contributes(f, "matter", "acc", "v", 2, "near", false) && strstr(pm_message(), "already holds"), "the same term twice is refused");
 	check(!pm_contributes(f, "matter", "acc", "v", 2, "near", true) && strstr(pm_message(), "would lose"), "replace does not lose other terms");
 	pm_drops_roles(f, NULL, 1u << PM_DERIVED);
 	check(!pm_frame_field(f, "mesh", "rho") && f->ndropped == 1, "derived mesh fields are dropped");
-	check(!pm_frame_settle(f) && f->ndropped == 0, "and gone when the stage settles");
+	check(!pm_frame_settle(f) && f->ndropped == 0, "and freed after the stage");
 	h = pm_frame_copy(f);
 	struct pm_field *x = pm_changes(h, "matter", "x");
 	pm_frame_ready(h);
 	pm_out(x, 0)[0] = 77;
 	check(pm_in(pm_frame_field(f, "matter", "x"), 0)[0] != 77, "a copy shares data until it is written");
 	pm_out(x, 1)[3] = NAN;
-	check(pm_frame_settle(h) == -PM_NUMERICS && strstr(pm_message(), "component 1, index 3"), "a NaN in what a stage made is named: %s", pm_message());
+	check(pm_frame_settle(h) == -PM_NUMERICS && strstr(pm_message(), "component 1, index 3"), "a NaN computed by a stage is reported: %s", pm_message());
 	pm_frame_free(h), pm_frame_free(f);
 }
 

@@ -38,7 +38,7 @@ static struct pm_grid grid_of(int dim, const size_t cells[3], const int rule[3])
 
 static bool is_open(enum pm_face face) { return face == PM_OPEN || face == PM_ABSORBING; }
 
-/* A position in [0,n] cells: random, and every eighth on a special place: a node, a half node, a face, an ulp beside one. */
+/* A position in [0,n] cells: random, and every eighth on a special place: a node, a half node, a face, one ulp away from one. */
 static double place(const struct pm_transfer *t, int d, uint64_t p, double low, double high)
 {
 	double u[2];
@@ -176,7 +176,7 @@ static void check_adjoint(int dim, const size_t cells[3])
 	}
 }
 
-/* Total strength with half weights: exact at periodic, neumann and open faces; moments where nothing is near a face. */
+/* Total strength with half weights: exact at periodic, neumann and open faces; moments if no particle is near a face. */
 static void check_total(int dim, const size_t cells[3], int rule)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
@@ -255,7 +255,7 @@ static int by_tile(const void *a, const void *b)
 	return u < v ? -1 : u > v ? 1 : p < q ? -1 : 1;
 }
 
-/* The particles of a, brought into the order of tiles, in which they are not moved any more. */
+/* The particles of a, sorted in the order of tiles, in which they are not moved again. */
 static void put_in_order(struct problem *a)
 {
 	size_t *at = pm_alloc(a->n, sizeof *at);
@@ -275,7 +275,7 @@ static void put_in_order(struct problem *a)
 	pm_free(copy);
 }
 
-/* In order: nothing is moved; the sums are those of the plain loop, for 1 to 3 threads alike. Values are set, then added. */
+/* In order: nothing is moved; the sums are those of the plain loop for 1 to 3 threads. Values are set, then added. */
 static void check_in_order(int dim, const size_t cells[3], size_t n)
 {
 	const int rules[3] = {0, 0, 0};
@@ -307,22 +307,22 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 		for (int c = 0; c < dim; c++)
 			check_worst(&worst, difference(a.points, a.mesh[c], b.mesh[c])), check_worst(&worst, difference(n, a.out[c], b.out[c]));
-		check(strays.finite, "%d-D: values that are set and finite are known to be", dim);
+		check(strays.finite, "%d-D: values that are set and finite are marked as finite", dim);
 	}
 	a.t.set[0] = false;
 	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 	check(fabs(a.out[0][n / 2] - 2 * b.out[0][n / 2]) <= 1e-13 * fabs(b.out[0][n / 2]), "%d-D: values are added where they are not set", dim);
 	b.mesh[0][0] = INFINITY;
 	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
-	check(!strays.finite, "%d-D: an infinite value is seen", dim);
+	check(!strays.finite, "%d-D: an infinite value is detected", dim);
 	check(worst <= 1e-13, "%d-D: spread and gather in order are the plain loops with 1, 2 and 3 threads (off by %.2g, tolerance 1e-13)", dim, worst);
 	pm_threads_use(threads);
 	problem_free(&a);
 	problem_free(&b);
 }
 
-/* A gather that finds the order of a spread has the bytes of one that makes its own, also a second time; with other positions or another width nothing is
- * found. */
+/* A gather that reuses the order of a spread gives the same bytes as one that sorts itself, also a second time; for other positions or another width the
+ * order is not reused. */
 static void check_kept(int dim, const size_t cells[3], const char *other)
 {
 	const int rules[3] = {0, 2, 0};
@@ -354,7 +354,7 @@ static void check_kept(int dim, const size_t cells[3], const char *other)
 	problem_free(&b);
 }
 
-/* Threads 1, 2, 3; a third of the particles crowd one tile so that it is shared out. */
+/* Threads 1, 2, 3; a third of the particles are in one tile, so that it is divided among threads. */
 static void check_threads(int dim, const size_t cells[3], const char *kernel)
 {
 	const int rules[3] = {0, 2, 0};
@@ -388,7 +388,7 @@ static void check_threads(int dim, const size_t cells[3], const char *kernel)
 	problem_free(&a);
 }
 
-/* The images, made by hand: a mesh with walls is half of a periodic mesh of twice the length that holds the mirrored particles as well. */
+/* Explicit images: a mesh with walls is half of a periodic mesh of twice the length that holds the mirrored particles as well. */
 static void check_images(int rule, double sign)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
@@ -447,7 +447,7 @@ static struct formula formula_of(const struct problem *a, int c, int d)
 	return f;
 }
 
-/* What point i receives of a particle of strength 1. */
+/* The contribution of a particle of strength 1 to point i. */
 static double received(const struct formula *f, double s, size_t i)
 {
 	double at = (double)i + f->offset, sum = kernel_at(f->kernel, at - s);
@@ -477,7 +477,7 @@ static double symmetric(const struct formula *f, double s)
 	return f->sign[0] > 0 ? cos(k * s) : sin(k * s);
 }
 
-/* What a particle gathers of it: a sum over a row of points without faces. */
+/* The value that a particle gathers from it: a sum over a row of points without faces. */
 static double gathered(const struct formula *f, double s)
 {
 	double sum = 0;
@@ -531,8 +531,8 @@ static void by_formula(struct problem *a, int c, double worst[2])
 	pm_free(want), pm_free(field);
 }
 
-/* Spread and gather against that formula, which shares nothing with the folding of indices at faces: every kernel, every pair of faces, points on nodes and half a cell
- * up, both signs, axes shorter than the kernel too. 2e-13: sums of some ten products of size 1, densities over one cell. */
+/* Spread and gather against that formula, which does not use the folding of indices at faces: every kernel, every pair of faces, points on nodes and half a
+ * cell up, both signs, axes shorter than the kernel too. 2e-13: sums of some ten products of size 1, densities over one cell. */
 static void check_formula(int dim, const size_t cells[3], size_t n)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
@@ -559,7 +559,7 @@ static void check_formula(int dim, const size_t cells[3], size_t n)
 		}
 		check(worst[0] <= 2e-13, "%s, %d-D, %zu cells: densities are sums over reflected particles at every pair of faces, on nodes and half nodes (off by %.2g)",
 			pm_kernels[k]->name, dim, cells[0], worst[0]);
-		check(worst[1] <= 2e-13, "%s, %d-D, %zu cells: and what is gathered is a sum over the function beyond the faces (off by %.2g)", pm_kernels[k]->name, dim, cells[0],
+		check(worst[1] <= 2e-13, "%s, %d-D, %zu cells: and gathered values are sums over the function continued beyond the faces (off by %.2g)", pm_kernels[k]->name, dim, cells[0],
 			worst[1]);
 	}
 }
@@ -652,12 +652,12 @@ static void check_open(void)
 		for (int i = 1; i < cells; i++)
 			sum += a.mesh[0][i];
 		check(strays.count == 0 && a.mesh[0][0] == 0 && a.mesh[0][cells] == 0 && fabs(sum - a.q[0][0] - a.q[0][1] - a.q[0][2]) <= 1e-14,
-			"%s may come within %g cells of an open face and leaves the end nodes 0", kernel->name, r);
+			"%s: particles may come within %g cells of an open face, and the end nodes stay 0", kernel->name, r);
 		a.x[0][1] = nextafter(r, 0);
 		a.x[0][2] = nextafter(cells - r + 1e-15, 99);
 		pm_spread(&a.t, 3, in(a.x), in(a.q), a.mesh, &strays);
 		check(strays.count == 2 && strays.first == 1 && strays.x[0] == a.x[0][1] && strays.axis == 0,
-			"%s nearer than that is a stray, counted, the first one named", kernel->name);
+			"%s: a particle nearer than that is a stray, counted, and the first is reported", kernel->name);
 		size_t below[3], above[3];
 		a.x[0][1] = -4.25;
 		a.x[0][2] = cells + 0.5;
@@ -688,11 +688,11 @@ static void check_few(void)
 	pm_spread(&a.t, 1, in(a.x), in(a.q), a.mesh, &strays);
 	for (size_t i = 0; i < a.points; i++)
 		after += weight(&a, 0, i) * a.mesh[0][i];
-	check_near((after - before) * pm_grid_cell(&a.t.grid), a.q[0][0], 1e-14, "one particle adds its strength to what is there");
+	check_near((after - before) * pm_grid_cell(&a.t.grid), a.q[0][0], 1e-14, "one particle adds its strength to the mesh");
 	problem_free(&a);
 }
 
-/* A field of low degree is gathered exactly, as the kernel's moments promise. */
+/* A field of low degree is gathered exactly, as follows from the kernel's moments. */
 static void check_exact(void)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
