@@ -15,8 +15,10 @@ struct state {
 static const struct pm_option options[] = {
 	{.name = "operator", .kind = PM_WORD, .choices = pm_operator_names, PM_AT(choice.kind),
 		.text = "what to apply to --source (default: what the law makes of its potential, with the law's sign)"},
-	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(choice.order), .text = "order of the differences, or spectral (default: the law's)"},
-	{.name = "source", .kind = PM_TEXT, .unit = "FIELD", PM_AT(choice.source), .text = "the mesh field to take derivatives of (default: the law's potential)"},
+	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(choice.order),
+		.text = "order of the differences, or spectral (default: the law's)"},
+	{.name = "source", .kind = PM_TEXT, .unit = "FIELD", PM_AT(choice.source),
+		.text = "the mesh field to take derivatives of (default: the law's potential)"},
 	{.name = "target", .kind = PM_TEXT, .unit = "FIELD", PM_AT(choice.target), .text = "the mesh field to make (default: the law's field)"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.mesh), .text = "the mesh (default: the first)"},
 	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),

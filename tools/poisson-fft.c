@@ -85,7 +85,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
-	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2" : !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
+	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2"
+		: !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
 	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, o->softening, {0}};
 	status = influence(o, f, &t->problem, &t->choice.influence);
 	if (!status)

@@ -58,9 +58,11 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	int status = 0;
 	st->jobs.n = 0;
 	for (int i = 0; i < c->sets.n && !status; i++)
-		status = pm_frame_set(f, c->sets.item[i]) ? declare_on(s, f, c->sets.item[i], &changed) : pm_fail(PM_DATA, "no set '%s' (sls lists what there is)", c->sets.item[i]);
+		status = pm_frame_set(f, c->sets.item[i]) ? declare_on(s, f, c->sets.item[i], &changed)
+			: pm_fail(PM_DATA, "no set '%s' (sls lists what there is)", c->sets.item[i]);
 	for (int i = 0; i < c->meshes.n && !status; i++)
-		status = pm_frame_mesh(f, c->meshes.item[i]) ? declare_on(s, f, c->meshes.item[i], &changed) : pm_fail(PM_DATA, "no mesh '%s' (sls lists what there is)", c->meshes.item[i]);
+		status = pm_frame_mesh(f, c->meshes.item[i]) ? declare_on(s, f, c->meshes.item[i], &changed)
+			: pm_fail(PM_DATA, "no mesh '%s' (sls lists what there is)", c->meshes.item[i]);
 	for (size_t i = 0; !c->sets.n && !c->meshes.n && i < f->nsets && !status; i++)
 		status = declare_on(s, f, f->sets[i]->name, &changed);
 	if (!status && !st->jobs.n)

@@ -86,10 +86,11 @@ static int begin(struct pm_stage *s)
 	if (ppm && !pm_given(s, "output") && isatty(STDOUT_FILENO))
 		return pm_fail(PM_USAGE, "a picture does not go to a terminal (give --output FILE, or a pipe)");
 	st->files = (struct pm_picture_files){.name = c->output, .ppm = ppm, .standard = ppm && (!pm_given(s, "output") || !strcmp(c->output, "-"))};
-	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight, .title = c->title,
+	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight,
+		.title = c->title,
 		.component = c->component ? component_of(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,
-		.points = !strcmp(c->style, "points"), .density = !strcmp(c->style, "density"), .log = c->log, .linear = c->linear, .map = pm_colour_find(c->map),
-		.nrange = c->range.n, .range = {c->range.x[0], c->range.x[1]}, .nwindow = c->window.n,
+		.points = !strcmp(c->style, "points"), .density = !strcmp(c->style, "density"), .log = c->log, .linear = c->linear,
+		.map = pm_colour_find(c->map), .nrange = c->range.n, .range = {c->range.x[0], c->range.x[1]}, .nwindow = c->window.n,
 		.window = {c->window.x[0], c->window.x[1], c->window.x[2], c->window.x[3]}, .size = (int)c->size};
 	return 0;
 }

@@ -63,8 +63,9 @@ static int attributes(const struct config *c, struct pm_frame *f)
 		return pm_fail(PM_DATA, "which sets are fixed can change only between steps (substep %d here)", f->substep);
 	if (f->substep && (!isnan(c->dt) || !isnan(c->time) || c->step >= 0))
 		return pm_fail(PM_DATA, "time, dt and step can change only between steps (substep %d here)", f->substep);
-	if ((geometry && (status = pm_frame_meshes_free(f))) || (status = pm_attributes_constants(f, &c->constants)) || (status = pm_attributes_law(f, c->law)) ||
-		(status = pm_attributes_box(f, &c->box)) || (status = pm_attributes_faces(f, &c->faces)) || (status = pm_attributes_particle_faces(f, &c->particle_faces)))
+	if ((geometry && (status = pm_frame_meshes_free(f))) || (status = pm_attributes_constants(f, &c->constants)) ||
+		(status = pm_attributes_law(f, c->law)) || (status = pm_attributes_box(f, &c->box)) || (status = pm_attributes_faces(f, &c->faces)) ||
+		(status = pm_attributes_particle_faces(f, &c->particle_faces)))
 		return status;
 	f->dt = isnan(c->dt) ? f->dt : c->dt;
 	f->step = c->step >= 0 ? c->step : f->step;

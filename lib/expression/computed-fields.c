@@ -10,7 +10,8 @@ static struct pm_field *target(const struct pm_computed_choice *c, struct pm_fra
 	struct pm_field *p = pm_frame_field(f, on, name);
 	if (p && (p->components != e->nparts || p->role == PM_CHANGE || p->role == PM_REGISTER)) {
 		if (p->components != e->nparts)
-			pm_fail(PM_DATA, "'%s' on '%s' has %d components, here are %d (one expression each, commas between)", name, on, p->components, e->nparts);
+			pm_fail(PM_DATA, "'%s' on '%s' has %d components, here are %d (one expression each, commas between)", name, on, p->components,
+				e->nparts);
 		else
 			pm_fail(PM_DATA, "'%s' on '%s' is a %s field, which only the stages that add to it may change", name, on, pm_role_names[p->role]);
 		return NULL;
@@ -24,7 +25,8 @@ static struct pm_field *target(const struct pm_computed_choice *c, struct pm_fra
 	return p;
 }
 
-int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text, bool *changed)
+int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text,
+	bool *changed)
 {
 	char name[PM_NAME];
 	const char *expression;
@@ -54,7 +56,8 @@ int pm_computed_outdate(const struct pm_expression_jobs *jobs, struct pm_frame *
 		if (ours || (p->role != PM_DERIVED && p->role != PM_CHANGE))
 			continue;
 		if (p->use & PM_USE_READ)
-			return pm_fail(PM_DATA, "'%s' was computed from state that is changed here (one scalc to read it, then another to change the state)", p->name);
+			return pm_fail(PM_DATA, "'%s' was computed from state that is changed here (one scalc to read it, then another to change the state)",
+				p->name);
 		pm_drops(f, p);
 	}
 	return 0;

@@ -12,7 +12,8 @@ struct pm_computed_choice { /* of new fields; one that is there keeps its own */
 };
 
 /* Header: "NAME = EXPRESSION" on a set or mesh. *changed is set if the field is state. 0 or failure. */
-int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text, bool *changed);
+int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text,
+	bool *changed);
 /* Header, where state is changed: what others computed from it is dropped. 0, or failure where it is read. */
 int pm_computed_outdate(const struct pm_expression_jobs *jobs, struct pm_frame *f);
 /* Data. 0, or failure where a whole number does not fit. */

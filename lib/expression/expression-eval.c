@@ -14,7 +14,8 @@ static double modulo(double a, double b) { return a - b * floor(a / b); }
 const struct pm_expression_function pm_expression_functions[] = {
 	{"sqrt", 1, sqrt, NULL}, {"cbrt", 1, cbrt, NULL}, {"exp", 1, exp, NULL}, {"log", 1, log, NULL}, {"log10", 1, log10, NULL}, {"sin", 1, sin, NULL},
 	{"cos", 1, cos, NULL}, {"tan", 1, tan, NULL}, {"asin", 1, asin, NULL}, {"acos", 1, acos, NULL}, {"atan", 1, atan, NULL}, {"sinh", 1, sinh, NULL},
-	{"cosh", 1, cosh, NULL}, {"tanh", 1, tanh, NULL}, {"abs", 1, fabs, NULL}, {"sign", 1, sign_of, NULL}, {"floor", 1, floor, NULL}, {"ceil", 1, ceil, NULL},
+	{"cosh", 1, cosh, NULL}, {"tanh", 1, tanh, NULL}, {"abs", 1, fabs, NULL}, {"sign", 1, sign_of, NULL}, {"floor", 1, floor, NULL},
+	{"ceil", 1, ceil, NULL},
 	{"round", 1, round, NULL}, {"erf", 1, erf, NULL}, {"erfc", 1, erfc, NULL}, {"gamma", 1, tgamma, NULL}, {"atan2", 2, NULL, atan2}, {"pow", 2, NULL, pow},
 	{"mod", 2, NULL, modulo}, {"hypot", -1, NULL, hypot}, {"min", -1, NULL, fmin}, {"max", -1, NULL, fmax}, {0}};
 

@@ -39,8 +39,8 @@ static int letters(const char *s, const char *end)
 static void wrong(struct parser *p, const char *at, const char *what, const char *name, int length)
 {
 	if (!p->failed)
-		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", letters(p->text, at) + 1, what, length, name, length ? "'" : "", (int)(at - p->text), p->text,
-			at);
+		pm_fail(p->code, "column %d: %s%.*s%s: %.*s <here> %s", letters(p->text, at) + 1, what, length, name, length ? "'" : "", (int)(at - p->text),
+			p->text, at);
 	p->failed = true;
 }
 

@@ -165,7 +165,8 @@ PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool d
 		pm_simd_store(w->phi + j, phi);
 }
 
-/* All pairs of one in i[0] <= i < i[1] and one in j[0] <= j < j[1] once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left over. */
+/* All pairs of one in i[0] <= i < i[1] and one in j[0] <= j < j[1] once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left
+ * over. */
 PM_SIMD_INLINE void tiles(const struct work *w, const struct how how, bool diagonal, const size_t i[2], const size_t j[2], uint64_t *coincident)
 {
 	for (size_t p = i[0]; p < i[1]; p += ROWS) {

@@ -15,7 +15,8 @@ struct pm_fft {
 	double *twiddle[PM_FFT_PASSES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
 	double cosine[PM_PRIME + 1][PM_PRIME], sine[PM_PRIME + 1][PM_PRIME]; /* of 2 pi i/p */
 	fftw_plan forward, backward;
-	double *half, *quarter;    /* cos, sin of pi i/n for i < n (of pm_fft_shifted and pm_fft_sine_cosine only), of pi i/2n for i <= n (of pm_fft_sine_cosine) */
+	/* cos, sin of pi i/n for i < n (of pm_fft_shifted and pm_fft_sine_cosine only), of pi i/2n for i <= n (of pm_fft_sine_cosine) */
+	double *half, *quarter;
 	size_t *fold[5];           /* of pm_fft_sine_cosine: by enum pm_waves the rows of the modes (fft/sine-cosine.h) */
 };
 

@@ -183,7 +183,8 @@ static fftw_plan find(struct pm_fft_plans *p, enum pm_fft_direction transform, s
 	if (p->effort != PM_ESTIMATE)
 		cache_directory(directory);
 	if (*directory) {
-		snprintf(path, sizeof path, "%.800s/fftw-%08x-%s-%s-%zu", directory, signature(), pm_fft_effort_names[p->effort], transform_names[transform], n);
+		snprintf(path, sizeof path, "%.800s/fftw-%08x-%s-%s-%zu", directory, signature(), pm_fft_effort_names[p->effort], transform_names[transform],
+			n);
 		plan = stored(p, path, transform, n, block);
 		if (plan)
 			p->stored++;

@@ -36,7 +36,8 @@ static void row(struct pm_comparison *c, const char *on, const char *name, size_
 	for (int i = 0; pm_norm_names[i]; i++) {
 		fprintf(c->out, "\t%.10g", all[i]);
 		if (i == c->norm && !(all[i] <= c->tolerance) && !isnan(c->tolerance) && !c->over) {
-			pm_fail(PM_DATA, "frame %llu: '%s' on '%s': %s is %.4g, above %g", (unsigned long long)c->frame, name, on, pm_norm_names[i], all[i], c->tolerance);
+			pm_fail(PM_DATA, "frame %llu: '%s' on '%s': %s is %.4g, above %g", (unsigned long long)c->frame, name, on, pm_norm_names[i], all[i],
+				c->tolerance);
 			c->over = true;
 		}
 	}
@@ -55,8 +56,8 @@ static int field_row(struct pm_comparison *c, const struct pm_frame *f, const st
 		status = -PM_DATA;
 	if (id && a->count) {
 		match = pm_alloc(a->count, sizeof *match), work = pm_alloc(a->count, sizeof *work);
-		status = match && work ? pm_norms_match(a->count, pm_in_i64(pm_frame_field(f, a->on, "id"), 0), pm_in_i64(pm_frame_field(g, a->on, "id"), 0), match, work)
-				       : -PM_DATA;
+		const int64_t *from = pm_in_i64(pm_frame_field(f, a->on, "id"), 0), *to = pm_in_i64(pm_frame_field(g, a->on, "id"), 0);
+		status = match && work ? pm_norms_match(a->count, from, to, match, work) : -PM_DATA;
 	}
 	if (!status) {
 		struct pm_norms d = pm_norms_of(a, b, match, weight);
@@ -111,7 +112,8 @@ int pm_compare_streams(struct pm_comparison *c, struct pm_reader *const r[2], co
 			if ((got[i] = next(r[i], &f[i])) < 0)
 				status = at_frame(c, name[i], got[i]);
 		if (!status && got[0] != got[1])
-			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", name[got[0] != 0], (unsigned long long)c->frame - 1, name[got[0] == 0]);
+			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", name[got[0] != 0], (unsigned long long)c->frame - 1,
+				name[got[0] == 0]);
 		if (!status && got[0] && (status = compare(c, r, f)))
 			status = at_frame(c, "", status);
 		pm_frame_free(f[0]), pm_frame_free(f[1]);

@@ -44,11 +44,12 @@ static int same_shape(const struct pm_frame *f, const struct pm_field *a, const 
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, a->on), *k = pm_frame_mesh(g, b->on);
 	if (a->components != b->components)
-		return pm_fail(PM_DATA, "'%s' on '%s' has %d components in the first stream and %d in the second", a->name, a->on, a->components, b->components);
+		return pm_fail(PM_DATA, "'%s' on '%s' has %d components in the first stream and %d in the second", a->name, a->on, a->components,
+			b->components);
 	for (int axis = 0; m && k && axis < f->dim; axis++) {
 		if (m->cells[axis] != k->cells[axis])
-			return pm_fail(PM_DATA, "the mesh '%s' has %zu cells along %c in the first stream and %zu in the second", a->on, m->cells[axis], "xyz"[axis],
-				k->cells[axis]);
+			return pm_fail(PM_DATA, "the mesh '%s' has %zu cells along %c in the first stream and %zu in the second", a->on, m->cells[axis],
+				"xyz"[axis], k->cells[axis]);
 		if (fabs(m->lo[axis] - k->lo[axis]) > 1e-9 * m->h[axis] || fabs(m->h[axis] - k->h[axis]) > 1e-9 * m->h[axis])
 			return pm_fail(PM_DATA, "the meshes '%s' have different origins along %c", a->on, "xyz"[axis]);
 	}

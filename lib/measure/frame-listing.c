@@ -18,7 +18,8 @@ static json_t *data_json(const struct pm_frame *f)
 			struct pm_range r = pm_range_of(f->fields[i], c);
 			json_array_append_new(min, number(r.min)), json_array_append_new(max, number(r.max)), json_array_append_new(mean, number(r.mean));
 		}
-		json_array_append_new(all, json_pack("{s:s,s:s,s:o,s:o,s:o}", "name", f->fields[i]->name, "on", f->fields[i]->on, "min", min, "max", max, "mean", mean));
+		json_array_append_new(all, json_pack("{s:s,s:s,s:o,s:o,s:o}", "name", f->fields[i]->name, "on", f->fields[i]->on, "min", min, "max", max,
+			"mean", mean));
 	}
 	return all;
 }
@@ -83,7 +84,8 @@ static int missing(const char *name)
 
 static void field_text(FILE *out, const struct pm_listing *c, const struct pm_field *p)
 {
-	fprintf(out, "    %s%*s %2d %s %s %s", p->name, missing(p->name), "", p->components, pm_type_names[p->type], pm_role_names[p->role], p->extensive ? "strength" : "value");
+	fprintf(out, "    %s%*s %2d %s %s %s", p->name, missing(p->name), "", p->components, pm_type_names[p->type], pm_role_names[p->role],
+		p->extensive ? "strength" : "value");
 	if (*p->unit)
 		fprintf(out, " [%s]", p->unit);
 	if (*p->of)

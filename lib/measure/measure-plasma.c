@@ -43,7 +43,8 @@ void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct
 	const struct pm_grid g = mesh ? pm_grid_of(f, mesh) : (struct pm_grid){0};
 	m->value[PM_CHARGE] = how->plasma ? charge(how, f) : NAN;
 	for (int c = 0; c < 3; c++) /* eps0 is -1 over the coefficient of the law */
-		m->value[PM_ENERGY_COMPONENT + c] = how->plasma && e && c < e->components ? pm_energy_on_mesh(&g, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
+		m->value[PM_ENERGY_COMPONENT + c] = how->plasma && e && c < e->components
+			? pm_energy_on_mesh(&g, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
 	for (int k = 0; k < how->nmodes; k++) {
 		m->mode[k][0] = m->mode[k][1] = NAN;
 		if (e && f->face[0][0] == PM_PERIODIC)

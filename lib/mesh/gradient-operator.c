@@ -31,10 +31,11 @@ static int faces(const struct pm_operator *o)
 			if (g->face[d][side] == PM_ABSORBING)
 				return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (mgrad takes periodic, wall, neumann or open faces)");
 			if (g->face[d][side] == PM_OPEN && o->order && g->points[d] < need)
-				return pm_fail(PM_DATA, "order %d at an open face needs %zu nodes, axis %c has %zu (choose a lower --order or more cells)", o->order,
-					need, "xyz"[d], g->points[d]);
+				return pm_fail(PM_DATA, "order %d at an open face needs %zu nodes, axis %c has %zu (choose a lower --order or more cells)",
+					o->order, need, "xyz"[d], g->points[d]);
 			if (g->face[d][side] == PM_OPEN && !o->order)
-				return pm_fail(PM_DATA, "--order spectral needs periodic, wall or neumann faces, axis %c is open (choose --order 2, 4 or 6)", "xyz"[d]);
+				return pm_fail(PM_DATA, "--order spectral needs periodic, wall or neumann faces, axis %c is open (choose --order 2, 4 or 6)",
+					"xyz"[d]);
 		}
 	}
 	return 0;

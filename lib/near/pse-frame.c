@@ -15,8 +15,8 @@ int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace)
 	if (g->role != PM_STATE || (g->type != PM_F64 && g->type != PM_F32))
 		return pm_fail(PM_DATA, "'%s' on '%s' is not state of real numbers: nothing would advance it", s->field, s->set);
 	if (!pm_frame_field(f, s->set, "volume"))
-		return pm_fail(PM_DATA, "no field 'volume' on '%s', and particles exchange strength by their volumes (remesh gives them volumes; or scalc, or a column "
-			"volume in the table)", s->set);
+		return pm_fail(PM_DATA, "no field 'volume' on '%s', and particles exchange strength by their volumes (remesh gives them volumes; or scalc, "
+			"or a column volume in the table)", s->set);
 	if (!pm_reads(f, s->set, s->field) || !pm_reads(f, s->set, "volume"))
 		return -PM_DATA;
 	change_name(s, name);
@@ -42,8 +42,9 @@ static int check_faces(const struct pm_pse_set *s, const struct pm_domain *d, si
 		for (int side = 0; side < 2; side++)
 			for (size_t i = 0; i < n && (d->face[a][side] == PM_WALL || d->face[a][side] == PM_NEUMANN); i++)
 				if (side ? x[a][i] > d->hi[a] : x[a][i] < d->lo[a])
-					return pm_fail(PM_DATA, "particle %zu of '%s' is at %c = %g, behind a face that mirrors it (reflect particles there, or --wall none)", i,
-						s->set, "xyz"[a], x[a][i]);
+					return pm_fail(PM_DATA,
+						"particle %zu of '%s' is at %c = %g, behind a face that mirrors it (reflect particles there, or --wall none)",
+						i, s->set, "xyz"[a], x[a][i]);
 	return 0;
 }
 

@@ -29,8 +29,8 @@ static const char *const letters[95] = {
 	"< 0e0o ~0l2o4o6l 6l6e ~6l8o:o<l <l<e",
 	"8 0e0o ~0l2n5o7m8j 8j8e", "8 ~4o7n8j7f4e1f0j1n4o", "8 0o0a ~0m3o5o8m8g5e2e0h", "8 8o8a ~8m5o3o0m0g3e5e8h", "5 0e0o ~0l2n5o", "7 ~6m4o2o0m3j6i6f4e2e0f",
 	"6 2s2g ~2g3e5e 0o5o",
-	"8 8o8e 0o0h ~0h1f3e6f8h", "7 0o4e8o", ": 0o3e5o8e:o", "7 0o7e 7o0e", "8 0o4e 8o4e2b0a", "7 0o7o0e7e", "5 ~5t3s3o1k3h3d5b", "2 1t1b", "5 ~0t2s2o4k2h2d0b",
-	"8 ~0j2l5i8k"};
+	"8 8o8e 0o0h ~0h1f3e6f8h", "7 0o4e8o", ": 0o3e5o8e:o", "7 0o7e 7o0e", "8 0o4e 8o4e2b0a", "7 0o7o0e7e", "5 ~5t3s3o1k3h3d5b", "2 1t1b",
+	"5 ~0t2s2o4k2h2d0b", "8 ~0j2l5i8k"};
 
 struct pen {
 	double (*segment)[4];

@@ -116,7 +116,8 @@ double pm_picture_text(struct pm_picture *p, double x, double y, double height, 
 int pm_picture_ppm(const struct pm_picture *p, FILE *out)
 {
 	fprintf(out, "P6\n%d %d\n255\n", p->width, p->height);
-	return fwrite(p->rgb, 3, (size_t)p->width * (size_t)p->height, out) == (size_t)p->width * (size_t)p->height ? 0 : pm_fail_errno("cannot write the picture");
+	return fwrite(p->rgb, 3, (size_t)p->width * (size_t)p->height, out) == (size_t)p->width * (size_t)p->height ? 0
+		: pm_fail_errno("cannot write the picture");
 }
 
 enum { most_colours = 256, places = 4096 };

@@ -50,7 +50,8 @@ int pm_raster_slice(struct pm_raster *r, const struct pm_frame *f, const struct 
 	for (size_t j = 0; j < r->n[1]; j++)
 		for (size_t i = 0; i < r->n[0]; i++) {
 			size_t p = i * stride[0] + j * stride[1];
-			double a = pm_field_value(field, component, p + low * stride[2]), b = t > 0 ? pm_field_value(field, component, p + high * stride[2]) : a;
+			double a = pm_field_value(field, component, p + low * stride[2]),
+				b = t > 0 ? pm_field_value(field, component, p + high * stride[2]) : a;
 			r->value[i + j * r->n[0]] = (1 - t) * a + t * b;
 		}
 	return 0;

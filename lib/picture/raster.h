@@ -20,7 +20,8 @@ struct pm_raster_points {
 	size_t n;
 	const double *x, *y, *w;
 };
-int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points, size_t *outside);
+int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points,
+	size_t *outside);
 /* One pass of the 1-2-1 filter along both axes; the sum is unchanged. */
 int pm_raster_smooth(struct pm_raster *r);
 /* Linear between the nodes, constant beyond the last. */

@@ -69,7 +69,8 @@ int pm_view_plan(struct pm_view *v, struct pm_frame *f)
 		if (find_mesh(v, f, &mesh, &field))
 			return plan_mesh(v, f, mesh, field);
 		if (v->mesh || !set || !pm_frame_field(f, set, v->field))
-			return pm_fail(PM_DATA, "no mesh field%s%s to draw (sls lists what there is; p2m makes rho)", v->field ? " " : "", v->field ? v->field : "");
+			return pm_fail(PM_DATA, "no mesh field%s%s to draw (sls lists what there is; p2m makes rho)", v->field ? " " : "",
+				v->field ? v->field : "");
 	}
 	return set ? plan_set(v, f, set) : pm_fail(PM_DATA, "no particles to draw");
 }

@@ -42,7 +42,8 @@ int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_f
 		return pm_fail(PM_DATA, "--green %s has no softening (choose gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
 	bool screened = open < g->dim || o->screening > 0, differences = o->symbol != PM_SPECTRAL;
 	if (green->differences && !differences)
-		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, fd4 or fd6, or leave out one of --symbol and --green)", green->name);
+		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, fd4 or fd6, or leave out one of --symbol and --green)",
+			green->name);
 	if (!green->differences && differences)
 		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (leave out one of --symbol and --green)", green->name);
 	if (!((screened ? green->screened : green->plain) >> open & 1))

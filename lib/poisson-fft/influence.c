@@ -23,11 +23,11 @@ int pm_influence_check(const struct pm_influence *f, const struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim && pm_influence_any(f); d++)
 		if (g->face[d][0] != PM_PERIODIC || g->face[d][1] != PM_PERIODIC)
-			return pm_fail(PM_DATA, "--influence and --cloud are for boxes periodic along every axis, and axis %c is %s (leave them out: --influence plain)",
-				"xyz"[d], pm_face_names[g->face[d][0]]);
+			return pm_fail(PM_DATA, "--influence and --cloud are for boxes periodic along every axis, and axis %c is %s (leave them out: "
+				"--influence plain)", "xyz"[d], pm_face_names[g->face[d][0]]);
 	if (f->kind != PM_PLAIN && !f->kernel)
-		return pm_fail(PM_DATA, "--influence %s needs the kernel that made the density, and the field carries none (p2m makes one, or --influence plain)",
-			pm_influence_names[f->kind]);
+		return pm_fail(PM_DATA, "--influence %s needs the kernel that made the density, and the field carries none (p2m makes one, or --influence "
+			"plain)", pm_influence_names[f->kind]);
 	if (f->cloud > 0 && g->dim < 3)
 		return pm_fail(PM_DATA, "--cloud is a ball, for boxes in 3-D (leave it out: points)");
 	return 0;
@@ -122,8 +122,8 @@ int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influenc
 			a->k[at] = wave / h;
 			a->window[at] = w * w;
 			if (f->kind == PM_DECONVOLVED && fabs(w) < 1e-3)
-				return pm_fail(PM_DATA, "kernel %s hides wave %zu of %zu cells from the mesh: it cannot be divided by (--influence optimal, or --kernel tsc)",
-					f->kernel->name, m, n);
+				return pm_fail(PM_DATA, "kernel %s hides wave %zu of %zu cells from the mesh: it cannot be divided by (--influence optimal, "
+					"or --kernel tsc)", f->kernel->name, m, n);
 		}
 	}
 	return 0;

@@ -115,7 +115,8 @@ static int layout(struct pm_poisson_fft *p)
 	for (int a = X; a <= Z; a++) {
 		const enum pm_face none[2] = {PM_PERIODIC, PM_PERIODIC};
 		bool used = axis[a] >= 0;
-		if ((p->complex ? pm_transform_init : pm_transform_init_real)(&p->planner, used ? g->face[axis[a]] : none, used ? g->cells[axis[a]] : 1, &p->line[a]))
+		if ((p->complex ? pm_transform_init : pm_transform_init_real)(&p->planner, used ? g->face[axis[a]] : none, used ? g->cells[axis[a]] : 1,
+			&p->line[a]))
 			return -PM_DATA;
 		p->nodes[a] = p->line[a].count;
 		p->modes[a] = !p->complex ? p->line[a].modes : a == X ? p->line[a].length / 2 + 1 : p->line[a].length;

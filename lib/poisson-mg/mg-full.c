@@ -159,7 +159,8 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 			collect(fine, coarse, fine->f + k * fine->plane + j * fine->stride, c);
 			for (int a = 0; a < pz.n; a++)
 				for (int b = 0; b < py.n && pz.node[a] >= range[0] && pz.node[a] < range[1]; b++)
-					pm_mg_add_row(coarse->stride, pz.w[a] * py.w[b], c, coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
+					pm_mg_add_row(coarse->stride, pz.w[a] * py.w[b], c,
+						coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
 		}
 	}
 }

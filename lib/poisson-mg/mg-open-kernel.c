@@ -107,7 +107,8 @@ static bool on_high_face(const struct pm_grid *g, const size_t at[3])
 static int solve_near(const struct pm_grid *n, int order, double *value, double *f)
 {
 	struct mg_stencil a = pm_mg_stencil(n, order);
-	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-13, .most = 60};
+	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-13,
+		.most = 60};
 	struct pm_mg_record *r = pm_alloc(1, sizeof *r);
 	struct pm_mg *mg = pm_mg_new(n, order);
 	size_t size = pm_grid_size(n), at[3];

@@ -28,8 +28,8 @@ int pm_mg_open_check(const struct pm_grid *g)
 				pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
 	}
 	if (most > most_stretched * least * (1 + 1e-9))
-		return pm_fail(PM_DATA, "multigrid in open space takes cells stretched up to %d times, and these are %.3g times longer than wide (choose p2m -n so "
-			"that they are nearly cubes, "
+		return pm_fail(PM_DATA, "multigrid in open space takes cells stretched up to %d times, and these are %.3g times longer than wide (choose "
+			"p2m -n so that they are nearly cubes, "
 			"or use poisson-fft)", most_stretched, most / least);
 	return 0;
 }

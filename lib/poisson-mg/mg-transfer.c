@@ -183,7 +183,8 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			for (int b = 0; b < 2; b++) {
 				size_t over = mg_fold(my->parent[j] + b, cy);
 				if (my->a[b][j] != 0)
-					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c, coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c,
+						coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
 			}
 		}
 	}

@@ -169,7 +169,8 @@ static void correct(const struct mgv_level *f, const struct mgv_level *c)
 			double sum = 0;
 			for (int e = 0; e < mgv_parents; e++)
 				if (!(e & ~kind))
-					sum += f->p[e][at + i] * base[x + (e & 1) + (e >> 1 & 1) * (ptrdiff_t)c->stride[1] + (e >> 2) * (ptrdiff_t)c->stride[2]];
+					sum += f->p[e][at + i] *
+						base[x + (e & 1) + (e >> 1 & 1) * (ptrdiff_t)c->stride[1] + (e >> 2) * (ptrdiff_t)c->stride[2]];
 			f->u[at + i] += sum;
 		}
 	}

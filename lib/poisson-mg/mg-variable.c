@@ -22,8 +22,8 @@ static int check_positive(const struct pm_grid *g, const double *eps)
 {
 	for (size_t p = 0; p < pm_grid_size(g); p++)
 		if (!(eps[p] > 0) || !isfinite(eps[p]))
-			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large value, not "
-				"infinity)",
+			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large "
+				"value, not infinity)",
 				p % g->points[0], p / g->points[0] % g->points[1], p / g->points[0] / g->points[1], eps[p]);
 	return 0;
 }

@@ -135,7 +135,8 @@ static void store(const struct pm_mg *mg, double factor, double average, double 
 		for (size_t j = 0; j < y->points; j++)
 			for (size_t odd = 0; odd < 2; odd++)
 				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++)
-					phi[(k * y->points + j) * x->points + 2 * i + odd] = factor * l->u[k * l->plane + j * l->stride + odd * l->half + i] - average;
+					phi[(k * y->points + j) * x->points + 2 * i + odd] =
+						factor * l->u[k * l->plane + j * l->stride + odd * l->half + i] - average;
 }
 
 /* The largest |c (s - average)|. */

@@ -30,8 +30,8 @@ int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *meth
 	int status = g == given ? 0 : pm_outer_check(given);
 	for (int d = 0; d < g->dim && !status; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
-			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take periodic, wall, "
-				"neumann and open ones)",
+			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take "
+				"periodic, wall, neumann and open ones)",
 				"xyz"[d]);
 	if (status)
 		return status;
@@ -42,8 +42,8 @@ int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *meth
 			"red-black or "
 			"cg, or poisson-fft --symbol fd2)", method->name);
 	if (l.diagonal > 0 && radius >= 1)
-		return pm_fail(PM_USAGE, "%s with --relaxation %g makes the error grow %.3f times a sweep (take 1 or less, or leave the option out)", method->name,
-			used, radius);
+		return pm_fail(PM_USAGE, "%s with --relaxation %g makes the error grow %.3f times a sweep (take 1 or less, or leave the option out)",
+			method->name, used, radius);
 	return 0;
 }
 

@@ -39,7 +39,8 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	for (int c = 0; c < p->source->components; c++)
 		for (int d = 0; d < f->dim; d++)
 			if (p->source->staggered[c][d])
-				return pm_fail(PM_DATA, "'%s' sits between the nodes, and solvers work on the nodes (p2m puts densities there)", p->source_name);
+				return pm_fail(PM_DATA, "'%s' sits between the nodes, and solvers work on the nodes (p2m puts densities there)",
+					p->source_name);
 	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
 	if (!p->target)
 		return -PM_DATA;
@@ -50,7 +51,8 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field)
 {
 	if (!pm_frame_field(f, p->mesh->name, name))
-		return pm_fail(PM_DATA, "no field '%s' on '%s' (scalc --mesh makes one: scalc --mesh %s '%s = 1 + x')", name, p->mesh->name, p->mesh->name, name);
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (scalc --mesh makes one: scalc --mesh %s '%s = 1 + x')", name, p->mesh->name, p->mesh->name,
+			name);
 	*field = pm_reads(f, p->mesh->name, name);
 	if (!*field)
 		return -PM_DATA;

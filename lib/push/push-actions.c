@@ -27,7 +27,8 @@ static int allowed(const struct pm_push *p, const struct pm_step *step, const ch
 	if (step->kind == PM_KICK && p->drift > 0)
 		return pm_fail(PM_USAGE, "'%s' after drift has no force at the new positions (push drift | force | push kick)", word);
 	if (step->magnetic && n != 2)
-		return pm_fail(PM_USAGE, "'%s' (%s is written %s/2: push %s/2 drift | force | push %s/2)", word, step->name, step->name, step->name, step->name);
+		return pm_fail(PM_USAGE, "'%s' (%s is written %s/2: push %s/2 drift | force | push %s/2)", word, step->name, step->name, step->name,
+			step->name);
 	if (p->magnetic || (step->magnetic && p->actions.actions))
 		if (step->kind != PM_DRIFT)
 			return pm_fail(PM_USAGE, "'%s': no kick stands beside a magnetic one (push boris/2 drift | force | push boris/2)", word);

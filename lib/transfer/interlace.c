@@ -1,6 +1,7 @@
 /* Interlacing: half of every strength goes to the mesh, half to one whose nodes sit at the centres of its cells; the second density, as a sum of waves, is read
- * at the nodes: s^(k) = (s1^(k) + exp(-i k.h/2) s2^(k))/2. A wave k + 2 pi n/h that the mesh takes for k comes with opposite signs from the two where n1 + n2 + n3
- * is odd, so the largest of these aliases vanish. The gather is the transpose (both meshes, half each), so that no particle acts on itself and momentum is kept.
+ * at the nodes: s^(k) = (s1^(k) + exp(-i k.h/2) s2^(k))/2. A wave k + 2 pi n/h that the mesh takes for k comes with opposite signs from the two where
+ * n1 + n2 + n3 is odd, so the largest of these aliases vanish. The gather is the transpose (both meshes, half each), so that no particle acts on itself and
+ * momentum is kept.
  * Source: Chen, Langdon and Birdsall 1974; Hockney and Eastwood 1988, sections 5-5 and 7-7; combination in k space: Sefusatti et al. 2016.
  * The Nyquist wave has no phase at the centres and is left out of the second mesh. Determinism: by lines, each by one thread.
  * Cost: twice the transfer, and a pass of transforms back and forth per axis and component. SPDX-License-Identifier: GPL-3.0-or-later */
@@ -16,8 +17,8 @@ int pm_interlace_check(const struct pm_transfer *t)
 {
 	for (int d = 0; d < t->grid.dim; d++)
 		if (t->grid.face[d][0] != PM_PERIODIC)
-			return pm_fail(PM_DATA, "interlaced meshes go round a box that is periodic along every axis, and axis %c is %s (leave out --interlace, or take a wider "
-				"kernel: --kernel tsc or pcs)", "xyz"[d], pm_face_names[t->grid.face[d][0]]);
+			return pm_fail(PM_DATA, "interlaced meshes go round a box that is periodic along every axis, and axis %c is %s (leave out "
+				"--interlace, or take a wider kernel: --kernel tsc or pcs)", "xyz"[d], pm_face_names[t->grid.face[d][0]]);
 	for (int c = 0; c < t->components; c++)
 		if (t->staggered[c][0] || t->staggered[c][1] || t->staggered[c][2])
 			return pm_fail(PM_DATA, "interlaced fields sit on the nodes (m2p --kernel takes it as it is)");

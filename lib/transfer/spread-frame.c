@@ -33,7 +33,8 @@ static struct pm_transfer transfer_of(const struct pm_spread_job *j, const struc
 static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool add)
 {
 	struct pm_transfer t = transfer_of(j, f);
-	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets, .strength = j->strength};
+	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets,
+		.strength = j->strength};
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	return status ? status : pm_makes_density(f, j->mesh, &density, add);
 }

@@ -169,7 +169,8 @@ static int check_density(const struct pm_frame *f, const struct pm_field *old, c
 			pm_role_names[old->role]);
 	if (old && add && (old->components != components || strcmp(old->kernel, d->kernel->name) || old->interlaced != d->interlaced))
 		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and the kernel '%s'%s; %d of '%s'%s cannot be added to it (leave out --add)", old->name,
-			old->on, old->components, old->kernel, old->interlaced ? " interlaced" : "", components, d->kernel->name, d->interlaced ? " interlaced" : "");
+			old->on, old->components, old->kernel, old->interlaced ? " interlaced" : "", components, d->kernel->name,
+			d->interlaced ? " interlaced" : "");
 	return 0;
 }
 

@@ -6,8 +6,8 @@
 #include "law/law.h"
 #include "transfer/transfer.h"
 
-/* The sets that take part: those that have every field of needs[] (NULL ends) as state or derived, or the one named only. Fails with a sentence if there is none
- * (remedy in brackets). */
+/* The sets that take part: those that have every field of needs[] (NULL ends) as state or derived, or the one named only. Fails with a sentence if there is
+ * none (remedy in brackets). */
 enum { PM_SETS_MOST = 64 };
 struct pm_sets {
 	size_t n;

@@ -329,7 +329,8 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 		bool seen = !status && gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
 		if (o && o->records)
-			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set, to, &seen);
+			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set,
+				to, &seen);
 		finite = finite && seen;
 		if (!status)
 			*strays = w.o->strays;
@@ -356,8 +357,8 @@ static int grow_axis(const struct pm_grid *g, int d, double r, size_t n, const d
 	for (int side = 0; side < 2; side++) {
 		bool closed = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
 		if (closed && (side ? most > cells : least < 0))
-			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, and only open faces can be moved (push them back, or --outside drop)",
-				pm_face_names[g->face[d][side]], "xyz"[d]);
+			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, and only open faces can be moved (push them back, or "
+				"--outside drop)", pm_face_names[g->face[d][side]], "xyz"[d]);
 		if (closed)
 			*(side ? above : below) = 0;
 	}
