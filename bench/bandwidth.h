@@ -109,8 +109,8 @@ static inline void bandwidth_row(const char *kernel, const char *name, double by
 	double itself[BENCH_ROUNDS], others = bandwidth_bytes[w->way] * (double)w->n;
 	for (int r = 0; r < BENCH_ROUNDS; r++)
 		itself[r] = bytes * items / j->seconds[r] / (others / plain->seconds[r]);
-	bench_rate((struct bench_row){.kernel = kernel, .name = name, .unit = "M/s", .per = 1e6, .bytes = bytes, .flops = flops, .limit = limit, .against = against,
-		.other = limit, .ratio = bench_middle(itself).median, .least = 0.8}, items, j);
+	bench_rate((struct bench_row){.kernel = kernel, .name = name, .unit = "M/s", .per = 1e6, .bytes = bytes, .flops = flops, .limit = limit,
+		.against = against, .other = limit, .ratio = bench_middle(itself).median, .least = 0.8}, items, j);
 }
 
 static inline struct bandwidth_arrays bandwidth_new(size_t n)

@@ -42,7 +42,8 @@ static inline bool finufft_open(struct finufft *f)
 	int options[FINUFFT_OPTIONS];
 	if (f->defaults)
 		f->defaults(options);
-	if (!f->make || !f->points || !f->execute || !f->destroy || !f->defaults || options[FINUFFT_ONLY] || options[FINUFFT_WARN] != 1 || options[FINUFFT_THREADS])
+	if (!f->make || !f->points || !f->execute || !f->destroy || !f->defaults || options[FINUFFT_ONLY] || options[FINUFFT_WARN] != 1 ||
+		options[FINUFFT_THREADS])
 		return fprintf(stderr, "bench: skipped FINUFFT (its options are not those of version 2.4 and later)\n"), false;
 	return true;
 }

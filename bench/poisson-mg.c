@@ -63,7 +63,8 @@ static void rows(struct problem *p, const struct problem *fmg, const struct benc
 		.against = "our sketch", .other = p->cells > 200 ? 709 : 920, .recorded = true, .least = 1}, inner, &jobs[0]);
 	/* a V(2,2) cycle: four sweeps, a residual and a correction, 8/7 for the coarser grids */
 	snprintf(name, sizeof name, "to 1e-10, %zu, %d cycles", p->cells, p->record.cycles);
-	bench_against((struct bench_row){.kernel = "poisson-mg", .name = name, .unit = "M unknowns/s", .per = 1e6, .bytes = 8. / 7 * 144 * (p->record.cycles + 1),
+	bench_against((struct bench_row){.kernel = "poisson-mg", .name = name, .unit = "M unknowns/s", .per = 1e6,
+		.bytes = 8. / 7 * 144 * (p->record.cycles + 1),
 		.flops = 8. / 7 * 60 * (p->record.cycles + 1), .stream = "triad-nt", .least = 8}, inner, &jobs[1], "hypre PCG-PFMG", hypre ? &jobs[3] : NULL,
 		p->cells > 200 ? 2.9 : 3.3);
 	snprintf(name, sizeof name, "full multigrid, %zu, residual %.1e", p->cells, fmg->record.after);

@@ -62,7 +62,8 @@ static void by_hand(void *with)
 			at[d][0] = (size_t)below, at[d][1] = at[d][0] + 1 < n ? at[d][0] + 1 : 0;
 		}
 		for (int c = 0; c < 8; c++) {
-			double *node = r->mesh[0] + (at[2][c >> 2] * n + at[1][c >> 1 & 1]) * n + at[0][c & 1], weight = w[2][c >> 2] * w[1][c >> 1 & 1] * w[0][c & 1];
+			double *node = r->mesh[0] + (at[2][c >> 2] * n + at[1][c >> 1 & 1]) * n + at[0][c & 1],
+				weight = w[2][c >> 2] * w[1][c >> 1 & 1] * w[0][c & 1];
 			if (r->gathered)
 				sum += weight * *node;
 			else
@@ -151,8 +152,8 @@ static void threads(struct run *r, int most)
 		}
 		char name[96];
 		snprintf(name, sizeof name, "%s random, %d-D %zu, %d threads", r->t.kernel->name, r->t.grid.dim, r->cells, most);
-		bench_rate((struct bench_row){.kernel = r->gathered ? "m2p" : "p2m", .name = name, .unit = "M/s", .per = 1e6, .against = "one thread", .other = NAN,
-			.ratio = bench_middle(quotient).median, .least = 0.925 * most}, (double)r->n, &all);
+		bench_rate((struct bench_row){.kernel = r->gathered ? "m2p" : "p2m", .name = name, .unit = "M/s", .per = 1e6, .against = "one thread",
+			.other = NAN, .ratio = bench_middle(quotient).median, .least = 0.925 * most}, (double)r->n, &all);
 	}
 }
 

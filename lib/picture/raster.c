@@ -97,7 +97,8 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 		for (int b = 0; b < 2; b++)
 			for (int a = 0; a < 2; a++) {
 				double i = floor(s[0]) + a, j = floor(s[1]) + b, share = (1 - fabs(s[0] - i)) * (1 - fabs(s[1] - j));
-				i = fmin(fmax(i, 0), (double)bins[0] - 1), j = fmin(fmax(j, 0), (double)bins[1] - 1); /* a point at the edge goes fully into the last bin */
+				/* A point at the edge goes fully into the last bin. */
+				i = fmin(fmax(i, 0), (double)bins[0] - 1), j = fmin(fmax(j, 0), (double)bins[1] - 1);
 				r->value[(size_t)i + (size_t)j * bins[0]] += share * value;
 			}
 	}

@@ -90,7 +90,8 @@ static void numbers(void)
 	double u[2], v[2], sum = 0, square = 0, cross = 0;
 	pm_random(1, 2, 3, u), pm_random(1, 2, 3, v);
 	check(!memcmp(u, v, sizeof u), "a random number depends on seed, id and counter only");
-	/* kat_vectors of Random123 (Salmon et al. 2011), philox4x32 of 10 rounds: words 6627e8d5 e169c58d bc57ac4c 9b00dbd8, d16cfe09 94fdcceb 5001e420 24126ea1 */
+	/* kat_vectors of Random123 (Salmon et al. 2011), philox4x32 of 10 rounds: words 6627e8d5 e169c58d bc57ac4c 9b00dbd8, d16cfe09 94fdcceb 5001e420
+	 * 24126ea1 */
 	pm_random(0, 0, 0, u), pm_random(0x299f31d0a4093822u, 0x85a308d3243f6a88u, 0x0370734413198a2eu, v);
 	check(u[0] == ((double)(0x6627e8d5e169c58du >> 12) + 0.5) * 0x1p-52 && u[1] == ((double)(0xbc57ac4c9b00dbd8u >> 12) + 0.5) * 0x1p-52 &&
 		v[0] == ((double)(0xd16cfe0994fdccebu >> 12) + 0.5) * 0x1p-52 && v[1] == ((double)(0x5001e42024126ea1u >> 12) + 0.5) * 0x1p-52,
@@ -154,6 +155,7 @@ int main(void)
 	numbers();
 	traps();
 	check(!pm_alloc(SIZE_MAX / 2, 16) && strstr(pm_message(), "more than memory"), "a size that overflows is refused, not wrapped");
-	check(pm_fail(PM_NUMERICS, "%d bad", 3) == -3 && !strcmp(pm_message(), "3 bad") && pm_exit_code(-PM_MISSING) == 1, "a failure carries code and message");
+	check(pm_fail(PM_NUMERICS, "%d bad", 3) == -3 && !strcmp(pm_message(), "3 bad") && pm_exit_code(-PM_MISSING) == 1,
+		"a failure carries code and message");
 	return check_done();
 }

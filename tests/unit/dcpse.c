@@ -75,8 +75,8 @@ static void polynomials(void)
 				worst = status ? NAN : worst;
 			}
 			/* rounding of values of 1 over eps^2 (1600 in 1-D), times weights of up to 1e3 at the rim */
-			check(worst < 1e-8, "order %d in %d-D is exact for polynomials of degree 0 to %d on points moved by 0.3 h, rims included (%.2g; %llu of %zu widened)", order, dim,
-				order + 1, worst, (unsigned long long)found.widened, n);
+			check(worst < 1e-8, "order %d in %d-D is exact for polynomials of degree 0 to %d on points moved by 0.3 h, rims included (%.2g; "
+				"%llu of %zu widened)", order, dim, order + 1, worst, (unsigned long long)found.widened, n);
 		}
 }
 
@@ -119,8 +119,8 @@ static void images(void)
 		int status = add(&o, &found);
 		for (size_t i = 0; i < n; i++)
 			check_worst(&worst, fabs(rate[i] + 2 * wave * wave * value[i]));
-		check(!status && found.widened == 0 && worst < (kinds[k] == PM_PERIODIC ? 0.02 : 0.001), "%s faces: right up to them, no particle reaches farther (%.2g)",
-			pm_face_names[kinds[k]], worst);
+		check(!status && found.widened == 0 && worst < (kinds[k] == PM_PERIODIC ? 0.02 : 0.001),
+			"%s faces: right up to them, no particle reaches farther (%.2g)", pm_face_names[kinds[k]], worst);
 	}
 }
 
@@ -132,8 +132,8 @@ static void stuck(void)
 	for (size_t i = 0; i < n; i++)
 		x[1][i] = 0.5 * x[0][i];
 	int lost = add(&o, &found);
-	check(lost == -PM_NUMERICS && found.stuck == 0 && found.rank == 3 && found.wanted == 9, "S36: points on a line in the plane have rank 3 of 9 (%d of %d)", found.rank,
-		found.wanted);
+	check(lost == -PM_NUMERICS && found.stuck == 0 && found.rank == 3 && found.wanted == 9,
+		"S36: points on a line in the plane have rank 3 of 9 (%d of %d)", found.rank, found.wanted);
 	n = 7;
 	check(add(&o, &found) == -PM_NUMERICS && found.rank <= 6, "too few points");
 	n = 1;

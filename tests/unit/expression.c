@@ -13,7 +13,8 @@ static struct pm_frame *particles(void)
 	pm_frame_constant_set(f, "G", 2.385);
 	f->time = 1.5;
 	pm_frame_set_new(f, "matter", n);
-	struct pm_field *x = pm_makes(f, "matter", "x", 3, PM_STATE), *v = pm_makes(f, "matter", "v", 3, PM_STATE), *m = pm_makes(f, "matter", "mass", 1, PM_STATE),
+	struct pm_field *x = pm_makes(f, "matter", "x", 3, PM_STATE), *v = pm_makes(f, "matter", "v", 3, PM_STATE),
+		*m = pm_makes(f, "matter", "mass", 1, PM_STATE),
 			*acc = pm_makes(f, "matter", "acc", 2, PM_CHANGE), *id = pm_makes(f, "matter", "id", 1, PM_STATE);
 	id->type = PM_I64;
 	pm_frame_ready(f);
@@ -51,10 +52,14 @@ static bool refused(struct pm_frame *f, const char *text, const char *why)
 
 static void values(struct pm_frame *f)
 {
-	const struct { const char *text; double want; } cases[] = {{"1 + 2 * 3 ^ 2", 19}, {"-2 ^ 2", -4}, {"2 ^ 3 ^ 2", 512}, {"2 ^ -1", 0.5}, {"10 - 4 - 3", 3}, {"24 / 4 / 3", 2},
-		{"1 < 2 && 2 < 1 || 1", 1}, {"1 || 0 && 0", 1}, {"!0 + !3", 1}, {"1 ? 2 : 0 ? 3 : 4", 2}, {"0 ? 2 : 0 ? 3 : 4", 4}, {"(1, 2)", NAN}, {"min(3, 1, 2)", 1},
-		{"max(3, 1, 2) + hypot(3, 4, 12)", 16}, {"mod(-1, 3)", 2}, {"atan2(1, 1) * 4 / pi", 1}, {"abs(-2.5) + sign(-3) + floor(-0.5)", 0.5}, {"erf(0.5)", erf(0.5)},
-		{"1e3 + .5", 1000.5}, {"3 >= 3 == 1", NAN}, {"(3 >= 3) == 1", 1}, {"2 != 2", 0}, {"log(exp(2)) + cbrt(8)", 4}, {"pow(2, 10)", 1024}, {"--3", 3}, {"gamma(5)", 24}};
+	const struct { const char *text; double want; } cases[] = {{"1 + 2 * 3 ^ 2", 19}, {"-2 ^ 2", -4}, {"2 ^ 3 ^ 2", 512}, {"2 ^ -1", 0.5},
+		{"10 - 4 - 3", 3}, {"24 / 4 / 3", 2},
+		{"1 < 2 && 2 < 1 || 1", 1}, {"1 || 0 && 0", 1}, {"!0 + !3", 1}, {"1 ? 2 : 0 ? 3 : 4", 2}, {"0 ? 2 : 0 ? 3 : 4", 4}, {"(1, 2)", NAN},
+		{"min(3, 1, 2)", 1},
+		{"max(3, 1, 2) + hypot(3, 4, 12)", 16}, {"mod(-1, 3)", 2}, {"atan2(1, 1) * 4 / pi", 1}, {"abs(-2.5) + sign(-3) + floor(-0.5)", 0.5},
+		{"erf(0.5)", erf(0.5)},
+		{"1e3 + .5", 1000.5}, {"3 >= 3 == 1", NAN}, {"(3 >= 3) == 1", 1}, {"2 != 2", 0}, {"log(exp(2)) + cbrt(8)", 4}, {"pow(2, 10)", 1024},
+		{"--3", 3}, {"gamma(5)", 24}};
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
 		if (!isnan(cases[i].want))
 			check_near(at(f, cases[i].text, n - 1), cases[i].want, 4e-15 * fabs(cases[i].want), cases[i].text); /* a few roundings of libm */
@@ -65,10 +70,12 @@ static void names(struct pm_frame *f)
 	size_t i = 1717;
 	double x = 0.25 * (double)i, vx = 1.0 / (double)(i + 1);
 	check(at(f, "x", i) == x && at(f, "y", i) == x + 1 && at(f, "z", i) == x + 2, "x y z are the components of x");
-	check(at(f, "vx", i) == vx && at(f, "v.y", i) == vx - 1 && at(f, "v_2", i) == vx - 2 && at(f, "v_z", i) == vx - 2 && at(f, "v.0", i) == vx, "vx, v.y, v_2, v_z name components of v");
+	check(at(f, "vx", i) == vx && at(f, "v.y", i) == vx - 1 && at(f, "v_2", i) == vx - 2 && at(f, "v_z", i) == vx - 2 && at(f, "v.0", i) == vx,
+		"vx, v.y, v_2, v_z name components of v");
 	check(at(f, "accx + acc_1", i) == -1, "accx and acc_1 name components of acc");
 	check(at(f, "mass", i) == 1 + (double)(i % 7) && at(f, "id", i) == (double)i - 5, "mass and id are fields of one component");
-	check(at(f, "time", 0) == 1.5 && at(f, "G", 0) == 2.385 && at(f, "n", 0) == n && at(f, "dim", 0) == 3 && at(f, "Lx", 0) == 1, "time, G, n, dim and Lx are numbers of the frame");
+	check(at(f, "time", 0) == 1.5 && at(f, "G", 0) == 2.385 && at(f, "n", 0) == n && at(f, "dim", 0) == 3 && at(f, "Lx", 0) == 1,
+		"time, G, n, dim and Lx are numbers of the frame");
 	check_near(at(f, "sqrt(vx^2 + vy^2 + vz^2)", i), sqrt(vx * vx + (vx - 1) * (vx - 1) + (vx - 2) * (vx - 2)), 1e-15, "a speed");
 }
 
@@ -79,7 +86,8 @@ static void errors(struct pm_frame *f)
 	check(refused(f, "v + 1", "'v' has 3 components"), "a vector without component is refused");
 	check(refused(f, "acc_2", "no field or number"), "a component that does not exist is an error");
 	check(refused(f, "sqr(2)", "column 1: no function 'sqr'"), "an unknown function is refused");
-	check(refused(f, "atan2(1)", "two arguments") && refused(f, "min(1)", "two arguments") && refused(f, "sin(1, 2)", "one argument"), "wrong numbers of arguments are refused");
+	check(refused(f, "atan2(1)", "two arguments") && refused(f, "min(1)", "two arguments") && refused(f, "sin(1, 2)", "one argument"),
+		"wrong numbers of arguments are refused");
 	check(refused(f, "(1 + 2", "column 7: expected ')'") && refused(f, "1 + 2)", "column 6: expected an operator"), "brackets must match");
 	check(refused(f, "1 < 2 < 3", "comparisons cannot be chained"), "a < b < c is refused");
 	check(refused(f, "1 $ 2", "column 3: expected an operator") && refused(f, "", "stops here") && refused(f, "1 2", "expected an operator"), "invalid "
@@ -143,7 +151,8 @@ static void numbers(void)
 	check_near(pm_expression_number(&e, number), 48, 0, "its value is computed from these numbers");
 	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a + c") == -PM_USAGE && strstr(pm_message(), "column 5: no column 'c'"), "an unknown "
 		"name is reported with its column");
-	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a, b") == -PM_USAGE && strstr(pm_message(), "one expression"), "two expressions are refused");
+	check(pm_expression_compile_numbers(&e, slot, NULL, "column", "a, b") == -PM_USAGE && strstr(pm_message(), "one expression"),
+		"two expressions are refused");
 }
 
 int main(void)

@@ -277,7 +277,8 @@ static void large(int dim, size_t nx, size_t ny, size_t nz)
 		for (size_t i = 0; i < n; i++)
 			check_worst(&worst[1], fabs(out[0][i] - second * s[i]));
 		/* phases up to 45, known to 7e-15, and ten operations of size 1/h^2 = 3 */
-		check(!bad && worst[0] <= 2e-13 && worst[1] <= 2e-13, "order %d, %zux%zux%zu: grad and lap are those of the stencil (off by %.2g, %.2g, tolerance 2e-13)", order, nx, ny, nz,
+		check(!bad && worst[0] <= 2e-13 && worst[1] <= 2e-13,
+			"order %d, %zux%zux%zu: grad and lap are those of the stencil (off by %.2g, %.2g, tolerance 2e-13)", order, nx, ny, nz,
 			worst[0], worst[1]);
 	}
 	free(s);
@@ -308,8 +309,10 @@ static void refusals(void)
 {
 	struct pm_operator o;
 	struct pm_grid g = box(2, 4, 9, 1, PM_OPEN, PM_OPEN, 0), m = box(1, 9, 1, 1, PM_WALL, 0, 0);
-	check(pm_operator_init(&o, &g, PM_OP_GRAD, 6, 1, false) == -PM_DATA && strstr(pm_message(), "lower --order"), "too few nodes at an open face: %s", pm_message());
-	check(pm_operator_init(&o, &g, PM_OP_GRAD, 0, 1, false) == -PM_DATA && strstr(pm_message(), "--order 2, 4 or 6"), "spectral at an open face: %s", pm_message());
+	check(pm_operator_init(&o, &g, PM_OP_GRAD, 6, 1, false) == -PM_DATA && strstr(pm_message(), "lower --order"), "too few nodes at an open face: %s",
+		pm_message());
+	check(pm_operator_init(&o, &g, PM_OP_GRAD, 0, 1, false) == -PM_DATA && strstr(pm_message(), "--order 2, 4 or 6"), "spectral at an open face: %s",
+		pm_message());
 	check(pm_operator_init(&o, &m, PM_OP_CURL, 2, 1, false) == -PM_DATA, "curl in 1-D: %s", pm_message());
 }
 

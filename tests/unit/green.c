@@ -57,7 +57,8 @@ static double difference(size_t n, const double *a, const double *b)
 /* Direct sum of the Green's function at every node. */
 static void against_sum(struct pm_grid g, const struct pm_green *green, double screening)
 {
-	struct pm_poisson_fft_choice o = {.symbol = green->differences ? PM_FD2 : PM_SPECTRAL, .screening = screening, .green = green, .softening = green->regular * 1.9};
+	struct pm_poisson_fft_choice o = {.symbol = green->differences ? PM_FD2 : PM_SPECTRAL, .screening = screening, .green = green,
+		.softening = green->regular * 1.9};
 	struct pm_green_case c = {.dim = g.dim, .h = {g.h[0], g.h[1], g.h[2]}, .kappa = screening, .reach = 1, .width = 1.9 / sqrt(2)};
 	if (green->prepare)
 		green->prepare(&c);
@@ -149,7 +150,8 @@ static void constants(void)
 			for (long z = -m3; z <= m3; z++)
 				for (long y = -m2; y <= m2; y++)
 					for (long x = -m; x <= m; x++)
-						pm_sum_add(&sum, green_hockney.at(&k, pow((double)x * 0.7, 2) + pow((double)y * 0.9, 2) + pow((double)z * 0.6, 2)));
+						pm_sum_add(&sum,
+							green_hockney.at(&k, pow((double)x * 0.7, 2) + pow((double)y * 0.9, 2) + pow((double)z * 0.6, 2)));
 			double cell = dim == 1 ? 0.7 : dim == 2 ? 0.63 : 0.378;
 			char name[100];
 			snprintf(name, sizeof name, "hockney, %d-D, kappa %g: the sum over nodes is the integral", dim, k.kappa);
@@ -252,8 +254,8 @@ static void order_of(int dim, const char *faces, const struct pm_green *green, e
 		error[l] = known_error(dim, faces, n[l], green->regular ? 19 : 14, &o, k);
 	}
 	char name[160];
-	snprintf(name, sizeof name, "%s, %s, %d-D %s%s%s (%.2g to %.2g)", green->name, pm_symbol_names[symbol], dim, faces, screening > 0 ? " screened" : "", k.charge ? ", charge" : "", error[0],
-		error[2]);
+	snprintf(name, sizeof name, "%s, %s, %d-D %s%s%s (%.2g to %.2g)", green->name, pm_symbol_names[symbol], dim, faces, screening > 0 ? " screened" : "",
+		k.charge ? ", charge" : "", error[0], error[2]);
 	if (green->order)
 		check_order(3, h, error, symbol ? 2 * (int)symbol : green->order, name);
 	else
@@ -333,7 +335,8 @@ static void blobs(void)
 		size_t n = pm_grid_size(&g);
 		double *s = malloc(n * sizeof *s), *phi = malloc(n * sizeof *phi), *want = malloc(n * sizeof *want), h[3], error[3];
 		for (size_t q = 0; q < n; q++) {
-			double x[3] = {g.h[0] * (double)(q % g.points[0]), g.h[1] * (double)(q / g.points[0] % g.points[1]), g.h[2] * (double)(q / g.points[0] / g.points[1])};
+			double x[3] = {g.h[0] * (double)(q % g.points[0]), g.h[1] * (double)(q / g.points[0] % g.points[1]),
+				g.h[2] * (double)(q / g.points[0] / g.points[1])};
 			double r2 = pow(x[0] - 7.13, 2) + pow(x[1] - 7.13, 2) + pow(x[2] - 7.13, 2);
 			s[q] = exp(-r2 / 2) / pow(2 * pm_pi, 1.5);
 			want[q] = smoothed(green->order, 2 * 14.0 / 34, sqrt(r2));
@@ -399,7 +402,8 @@ static void achieved(void)
 		{"cell", 2, 32, 8.636e-4}, {"cell", 2, 64, 2.205e-4}, {"cell", 2, 128, 5.542e-5}};
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
 		double e = ps09(row[i].dim, row[i].n, pm_green_find(row[i].green));
-		check(e < 1.2 * row[i].error, "PS-09: %s, %d-D, %zu cells: error %.3e, reference %.3e, factor 1.2", row[i].green, row[i].dim, row[i].n, e, row[i].error);
+		check(e < 1.2 * row[i].error, "PS-09: %s, %d-D, %zu cells: error %.3e, reference %.3e, factor 1.2", row[i].green, row[i].dim, row[i].n, e,
+			row[i].error);
 		if (!strcmp(row[i].green, "cell")) /* the same method, so the same error */
 			check_near(e / row[i].error, 1, 0.02, "PS-09: and it is not smaller");
 	}
@@ -501,7 +505,8 @@ static void inverse(int dim, const char *faces, double K)
 			for (int d = 0; d < dim; d++)
 				for (int side = 0; side < 2; side++) {
 					size_t away = side ? g.cells[d] - at[d] : at[d];
-					inside = inside && (g.face[d][side] == PM_PERIODIC || g.face[d][side] == PM_NEUMANN || away >= (g.face[d][side] == PM_OPEN ? reach : 1));
+					inside = inside && (g.face[d][side] == PM_PERIODIC || g.face[d][side] == PM_NEUMANN ||
+						away >= (g.face[d][side] == PM_OPEN ? reach : 1));
 				}
 			if (inside)
 				check_worst(&worst, fabs(lap[q] - K * K * phi[q] - 2.385 * s[q]));

@@ -110,10 +110,11 @@ static double mean_square(const struct pm_influence *f, size_t n, size_t mode, d
 /* By 2 % either way the error is larger. */
 static void test_least(void)
 {
-	static const struct { const char *kernel; int order; bool interlaced; } row[] = {{"ngp", 2, false}, {"cic", 2, false}, {"cic", 4, false}, {"tsc", 4, false},
-		{"tsc", 0, false}, {"cic", 2, true}, {"tsc", 6, true}};
+	static const struct { const char *kernel; int order; bool interlaced; } row[] = {{"ngp", 2, false}, {"cic", 2, false}, {"cic", 4, false},
+		{"tsc", 4, false}, {"tsc", 0, false}, {"cic", 2, true}, {"tsc", 6, true}};
 	for (size_t q = 0; q < sizeof row / sizeof *row; q++) {
-		struct pm_influence f = {.kind = PM_OPTIMAL, .kernel = pm_kernel_find(row[q].kernel), .order = row[q].order, .interlaced = row[q].interlaced}, g = f;
+		struct pm_influence f = {.kind = PM_OPTIMAL, .kernel = pm_kernel_find(row[q].kernel), .order = row[q].order, .interlaced = row[q].interlaced},
+			g = f;
 		bool least = true;
 		for (size_t m = 1; m < 4; m++) {
 			double here = mean_square(&f, 8, m, 0);
@@ -121,15 +122,16 @@ static void test_least(void)
 		}
 		g.kind = PM_PLAIN;
 		double plain = mean_square(&g, 8, 1, 0), best = mean_square(&f, 8, 1, 0);
-		check(least && best < plain, "%s, order %d%s: no other value of any mode makes the mean square error of the force smaller (%.4f, the symbol alone %.4f)",
-			row[q].kernel, row[q].order, row[q].interlaced ? ", interlaced" : "", best, plain);
+		check(least && best < plain, "%s, order %d%s: no other value of any mode makes the mean square error of the force smaller (%.4f, the symbol "
+			"alone %.4f)", row[q].kernel, row[q].order, row[q].interlaced ? ", interlaced" : "", best, plain);
 	}
 }
 
 /* The spread on two meshes against its definition, and the gather against the spread: <gather f, q> = h^d <f, spread q>. */
 static void test_interlaced(void)
 {
-	static const struct { int dim; size_t n[3]; const char *kernel; } row[] = {{1, {16, 1, 1}, "cic"}, {2, {10, 7, 1}, "tsc"}, {3, {6, 9, 34}, "ngp"}, {3, {12, 5, 8}, "pcs"}};
+	static const struct { int dim; size_t n[3]; const char *kernel; } row[] = {{1, {16, 1, 1}, "cic"}, {2, {10, 7, 1}, "tsc"}, {3, {6, 9, 34}, "ngp"},
+		{3, {12, 5, 8}, "pcs"}};
 	for (size_t q = 0; q < sizeof row / sizeof *row; q++) {
 		enum { N = 50 };
 		struct pm_grid g = {.dim = row[q].dim, .cells = {1, 1, 1}, .points = {1, 1, 1}, .lo = {0.3, -2, 5}, .h = {1, 1, 1}};
@@ -138,7 +140,8 @@ static void test_interlaced(void)
 		size_t size = pm_grid_size(&g);
 		struct pm_transfer t = {.grid = g, .kernel = pm_kernel_find(row[q].kernel), .components = 1};
 		struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
-		double x[3][N], s[N], out[N] = {0}, *rho = pm_zalloc(size, sizeof *rho), *f = pm_zalloc(size, sizeof *f), left = 0, right = 0, total = 0, sum = 0;
+		double x[3][N], s[N], out[N] = {0}, *rho = pm_zalloc(size, sizeof *rho), *f = pm_zalloc(size, sizeof *f), left = 0, right = 0, total = 0,
+			sum = 0;
 		for (size_t i = 0; i < N; i++)
 			for (int d = 0; d < 3; d++) {
 				double u[2];
@@ -162,7 +165,8 @@ static void test_interlaced(void)
 			left += out[i] * s[i], total += s[i];
 		for (size_t i = 0; i < size; i++)
 			right += rho[i] * f[i] * pm_grid_cell(&g), sum += rho[i] * pm_grid_cell(&g);
-		check(!bad && fabs(left - right) < 1e-13 * N, "%s, %d-D: the interlaced gather is the transpose of the spread (difference %g)", row[q].kernel, g.dim, left - right);
+		check(!bad && fabs(left - right) < 1e-13 * N, "%s, %d-D: the interlaced gather is the transpose of the spread (difference %g)", row[q].kernel,
+			g.dim, left - right);
 		check_near(sum, total, 1e-13 * N, "and the total on the mesh is that of the particles");
 		if (g.dim == 1) { /* every mode by definition */
 			double worst = 0;
@@ -175,7 +179,8 @@ static void test_interlaced(void)
 					for (int half = 0; half < 2; half++) {
 						double u = (x[0][i] - g.lo[0]) / g.h[0] - 0.5 * half, fl = floor(u), w[PM_KERNEL_WIDTH];
 						pm_kernel_weights(t.kernel, u - fl, w);
-						want += 0.5 * s[i] * (w[0] * cexp(-I * theta * (fl + 0.5 * half)) + w[1] * cexp(-I * theta * (fl + 1 + 0.5 * half)));
+						want += 0.5 * s[i] *
+						(w[0] * cexp(-I * theta * (fl + 0.5 * half)) + w[1] * cexp(-I * theta * (fl + 1 + 0.5 * half)));
 					}
 				check_worst(&worst, cabs(got - want));
 			}

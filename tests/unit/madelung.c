@@ -49,7 +49,8 @@ static double energy(const struct ions *ions, const char *faces, const struct pm
 	double *rho = calloc(n, sizeof *rho), *phi = calloc(n, sizeof *phi), sum = 0;
 	for (size_t q = 0; q < n; q++)
 		for (int i = 0; i < ions->n; i++)
-			rho[q] += factor * ions->q[i] * bell(&g, 0, q % p[0], ions->x[i][0], sigma, false) * bell(&g, 1, q / p[0] % p[1], ions->x[i][1], sigma, false) *
+			rho[q] += factor * ions->q[i] * bell(&g, 0, q % p[0], ions->x[i][0], sigma, false) * bell(&g, 1, q / p[0] % p[1], ions->x[i][1],
+				sigma, false) *
 				bell(&g, 2, q / p[0] / p[1], ions->x[i][2], sigma, false);
 	struct pm_poisson_fft *s = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.green = green}, PM_ESTIMATE);
 	check(s && !pm_poisson_fft_solve(s, -4 * pm_pi, rho, phi, NULL), "%s: solved", faces);

@@ -75,7 +75,8 @@ static void any_number(void)
 			check_worst(&want.farthest, sqrt(x2));
 		}
 		bad += got.mass != want.mass || got.kinetic != want.kinetic || got.square != want.square || got.angular[2] != want.angular[2] ||
-			got.farthest != want.farthest || memcmp(got.momentum, want.momentum, sizeof want.momentum) || memcmp(got.moment, want.moment, sizeof want.moment);
+			got.farthest != want.farthest || memcmp(got.momentum, want.momentum, sizeof want.momentum) ||
+			memcmp(got.moment, want.moment, sizeof want.moment);
 	}
 	check(bad == 0, "bulk sums of 1 to 4099 particles of whole numbers in 1 to 3 dimensions are exact (%d of 40 are not)", bad);
 }
@@ -117,7 +118,8 @@ static void pairs(void)
 	for (int d = 0; d < 3; d++)
 		b.x[d] += cut;
 	const double whole = pm_energy_of_pairs(&all, &all, 1, 0.1, plummer);
-	const double parts = pm_energy_of_pairs(&a, &a, 1, 0.1, plummer) + pm_energy_of_pairs(&b, &b, 1, 0.1, plummer) + pm_energy_of_pairs(&a, &b, 1, 0.1, plummer);
+	const double parts = pm_energy_of_pairs(&a, &a, 1, 0.1, plummer) + pm_energy_of_pairs(&b, &b, 1, 0.1, plummer) + pm_energy_of_pairs(&a, &b, 1, 0.1,
+		plummer);
 	check_near(parts, whole, 1e-13 * fabs(whole), "the pair energy of two sets is that of their union");
 	double again[2];
 	for (int t = 0; t < 2; t++) {
@@ -142,7 +144,8 @@ static void bulk_threads(void)
 		pm_threads_use(t + 1);
 		pm_particle_sums_add(&b, &bulk[t]);
 	}
-	check(!memcmp(bulk, bulk + 1, sizeof *bulk) && !memcmp(bulk, bulk + 2, sizeof *bulk), "HC-58: all bulk quantities have the same bytes with 1, 2 and 3 threads");
+	check(!memcmp(bulk, bulk + 1, sizeof *bulk) && !memcmp(bulk, bulk + 2, sizeof *bulk),
+		"HC-58: all bulk quantities have the same bytes with 1, 2 and 3 threads");
 	for (int k = 0; k < 7; k++)
 		pm_free(a[k]);
 }
@@ -164,7 +167,8 @@ static void on_mesh(void)
 			rho[p] = cos(2 * pm_pi * (double)(p % g.points[0]) / 12);
 			phi[p] = -rho[p];
 		}
-		check_near(pm_energy_on_mesh(&g, rho, phi), -0.25 * 2.385 * 3, 1e-14, periodic ? "the energy of a wave on a periodic mesh" : "the same between faces, whose points count half");
+		check_near(pm_energy_on_mesh(&g, rho, phi), -0.25 * 2.385 * 3, 1e-14,
+			periodic ? "the energy of a wave on a periodic mesh" : "the same between faces, whose points count half");
 		pm_frame_free(f);
 	}
 }

@@ -33,8 +33,10 @@ static void maps(void)
 		if (diverging)
 			check_near(middle, 88, 1, "coolwarm is lightest in the middle");
 	}
-	static const struct { const char *map; double t; int rgb[3]; } published[] = {{"viridis", 0, {68, 1, 84}}, {"viridis", 0.5, {33, 145, 140}}, {"viridis", 1, {253, 231, 37}},
-		{"magma", 0.5, {183, 55, 121}}, {"inferno", 0.5, {188, 55, 84}}, {"coolwarm", 0, {59, 76, 192}}, {"coolwarm", 0.5, {221, 221, 221}}, {"coolwarm", 1, {180, 4, 38}}};
+	static const struct { const char *map; double t; int rgb[3]; } published[] = {{"viridis", 0, {68, 1, 84}}, {"viridis", 0.5, {33, 145, 140}},
+		{"viridis", 1, {253, 231, 37}},
+		{"magma", 0.5, {183, 55, 121}}, {"inferno", 0.5, {188, 55, 84}}, {"coolwarm", 0, {59, 76, 192}}, {"coolwarm", 0.5, {221, 221, 221}},
+		{"coolwarm", 1, {180, 4, 38}}};
 	for (size_t i = 0; i < sizeof published / sizeof *published; i++) {
 		unsigned char rgb[3];
 		int worst = 0;

@@ -145,7 +145,8 @@ static void images(int dim, const char *kernel)
 				at = m;
 		}
 		/* sums of some hundred images, a few thousand nodes: some hundred roundings of 1e-16 */
-		check(worst < 2e-13, "%s, %d-D, %s and mgrad --order %s%s: the force is that of the images in all %d mixtures of faces (error %.1e, mixture %d)",
+		check(worst < 2e-13, "%s, %d-D, %s and mgrad --order %s%s: the force is that of the images in all %d mixtures of faces (error %.1e, mixture "
+			"%d)",
 			kernel, dim, pm_symbol_names[o.symbol], pm_order_names[order ? order / 2 - 1 : 3], o.screening > 0 ? ", screened" : "", count, worst,
 			at);
 	}

@@ -138,7 +138,8 @@ static void momentum(void)
 	}
 	for (int order = 0; order <= 6; order += 2) {
 		struct pm p;
-		pm_new(&p, periodic(3, 24, 1), order == 2 ? "ngp" : order == 4 ? "cic" : "tsc", order == 2 ? "ngp" : order == 4 ? "cic" : "tsc", PM_SPECTRAL, order);
+		pm_new(&p, periodic(3, 24, 1), order == 2 ? "ngp" : order == 4 ? "cic" : "tsc", order == 2 ? "ngp" : order == 4 ? "cic" : "tsc", PM_SPECTRAL,
+			order);
 		field(&p, 4 * pm_pi, N, (const double *const *)x, m, N, (const double *const *)x, a);
 		struct pm_sum sum[3] = {{0}}, size = {0};
 		for (size_t i = 0; i < N; i++) {
@@ -189,7 +190,8 @@ static void pair_force(void)
 					y[d][q] -= N * floor(y[d][q] / N);
 				}
 			}
-			field(&p, 4 * pm_pi, 1, (const double *[]){&x[0], &x[1], &x[2]}, &m, 3, (const double *[]){y[0], y[1], y[2]}, (double *[]){a[0], a[1], a[2]});
+			field(&p, 4 * pm_pi, 1, (const double *[]){&x[0], &x[1], &x[2]}, &m, 3, (const double *[]){y[0], y[1], y[2]},
+				(double *[]){a[0], a[1], a[2]});
 			for (int q = 0; q < 3; q++) {
 				double r = row[k].r[q], force = 1 / (r * r) - 4 * pm_pi / 3 * r / (N * N * N), radial = 0, all = 0;
 				for (int d = 0; d < 3; d++)
@@ -201,7 +203,8 @@ static void pair_force(void)
 		}
 		for (int q = 0; q < 3; q++) {
 			char name[140];
-			snprintf(name, sizeof name, "PM-02: %s %s order %d, r = %g: ", row[k].kernel, pm_symbol_names[row[k].symbol], row[k].order, row[k].r[q]);
+			snprintf(name, sizeof name, "PM-02: %s %s order %d, r = %g: ", row[k].kernel, pm_symbol_names[row[k].symbol], row[k].order,
+				row[k].r[q]);
 			char *end = name + strlen(name);
 			double t = row[k].tolerance;
 			strcpy(end, "mean radial force");

@@ -39,7 +39,8 @@ static const char *name_of(const struct pm_grid *g)
 	static char text[120];
 	int used = 0;
 	for (int d = 0; d < g->dim; d++)
-		used += snprintf(text + used, sizeof text - (size_t)used, "%s%s-%s", d ? " x " : "", pm_face_names[g->face[d][0]], pm_face_names[g->face[d][1]]);
+		used += snprintf(text + used, sizeof text - (size_t)used, "%s%s-%s", d ? " x " : "", pm_face_names[g->face[d][0]],
+			pm_face_names[g->face[d][1]]);
 	return text;
 }
 
@@ -239,7 +240,8 @@ static void against_multigrid(int dim)
 		struct pm_mg *mg = pm_mg_new(&g, 2);
 		struct pm_mg_choice choice = {.pre = 2, .post = 2, .cycle = PM_MG_V, .relaxation = 1.15, .tolerance = 1e-12, .most = 100};
 		static struct pm_mg_record record;
-		double error = mg && pm_mg_solve(mg, &choice, 1, s, a, &record) == 0 ? error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}, s, a) : NAN;
+		double error = mg && pm_mg_solve(mg, &choice, 1, s, a, &record) == 0 ? error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}, s, a)
+			: NAN;
 		check_worst(&worst, error);
 		pm_mg_free(mg);
 		free(s), free(a);
@@ -255,7 +257,8 @@ static void decay(void)
 	double s[N] = {1 / 0.3}, want[N], b = 2 + pow(0.7 * 0.3, 2), r = 0.5 * (b - sqrt(b * b - 4));
 	for (int j = 0; j < N; j++)
 		want[j] = -0.3 / (1 / r - r) * (pow(r, j) + pow(r, N - j)) / (1 - pow(r, N));
-	check_near(error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .screening = 0.7}, s, want), 0, 1e-14, "screened, 1-D: the second difference decays by its own exponential");
+	check_near(error_of(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .screening = 0.7}, s, want), 0, 1e-14,
+		"screened, 1-D: the second difference decays by its own exponential");
 }
 
 /* lap phi - K^2 phi = -4 pi rho of a Gaussian of width 1 in a box of 16: in free space, by completing the square,

@@ -379,7 +379,8 @@ static void cube_of_one(void)
 			check_near(phi[n / 2], 2.3800773639795535, 1e-3, "PS-03: potential at the centre of the unit cube");
 		/* The remaining error is that of the sum over a cube's nodes instead of the integral: 4 pi h^2/12 on faces, 4 pi h^2/24 the other way with middles. */
 		double want = on_face ? -4 * pm_pi / 12 : 4 * pm_pi / 24;
-		check_near((phi[n / 2] - 2.3800773639795535) / (g.h[0] * g.h[0]), want, 0.05 * fabs(want), "PS-03: the error at the centre is that of the sum over nodes");
+		check_near((phi[n / 2] - 2.3800773639795535) / (g.h[0] * g.h[0]), want, 0.05 * fabs(want),
+			"PS-03: the error at the centre is that of the sum over nodes");
 		free(s), free(phi);
 	}
 }

@@ -6,7 +6,8 @@
 
 static struct pm_mg_choice usual(int order, int dim)
 {
-	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12, .most = 60};
+	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12,
+		.most = 60};
 	o.relaxation = pm_mg_relaxation(o.smoother, dim, order);
 	return o;
 }
@@ -63,7 +64,8 @@ static void test_node(void)
 		int dim;
 		size_t cells[3], at[3];
 		double h[3];
-	} row[] = {{1, {9, 1, 1}, {3, 0, 0}, {0.7, 1, 1}}, {2, {16, 16, 1}, {8, 8, 0}, {1, 1, 1}}, {2, {13, 30, 1}, {1, 29, 0}, {1, 0.4, 1}}, {2, {7, 97, 1}, {2, 50, 0}, {0.3, 0.1, 1}},
+	} row[] = {{1, {9, 1, 1}, {3, 0, 0}, {0.7, 1, 1}}, {2, {16, 16, 1}, {8, 8, 0}, {1, 1, 1}}, {2, {13, 30, 1}, {1, 29, 0}, {1, 0.4, 1}},
+		{2, {7, 97, 1}, {2, 50, 0}, {0.3, 0.1, 1}},
 		{3, {16, 16, 16}, {8, 8, 8}, {1, 1, 1}}, {3, {9, 13, 20}, {1, 12, 19}, {0.5, 0.7, 0.45}}, {3, {40, 5, 7}, {1, 1, 1}, {0.1, 0.3, 0.2}}};
 	for (int order = 2; order <= 4; order += 2)
 		for (size_t q = 0; q < sizeof row / sizeof *row; q++) {
@@ -85,13 +87,15 @@ static void test_node(void)
 						if (d < 0 && o)
 							continue;
 						bool inside = off[0] < g.points[0] && off[1] < g.points[1] && off[2] < g.points[2];
-						mine[p] += !inside ? NAN : (d < 0 ? 1 : o ? 1. / 12 : -2. / 12) * t[off[0] + g.points[0] * (off[1] + g.points[1] * off[2])];
+						mine[p] += !inside ? NAN
+							: (d < 0 ? 1 : o ? 1. / 12 : -2. / 12) * t[off[0] + g.points[0] * (off[1] + g.points[1] * off[2])];
 					}
 				if (isnan(mine[p]))
 					continue; /* the table ends one node earlier than the sum needs */
 				check_worst(&most, fabs(mine[p])), check_worst(&worst, fabs(phi[p] - mine[p]));
 			}
-			check(good && worst < 3e-7 * most, "order %d, %d-D, %zu x %zu x %zu, spacings %g %g %g: a charged node has the lattice's potential (relative error %.1e, tolerance 3e-7)", order,
+			check(good && worst < 3e-7 * most, "order %d, %d-D, %zu x %zu x %zu, spacings %g %g %g: a charged node has the lattice's potential "
+				"(relative error %.1e, tolerance 3e-7)", order,
 				g.dim, g.cells[0], g.cells[1], g.cells[2], g.h[0], g.h[1], g.h[2], worst / most);
 			pm_free(s), pm_free(phi), pm_free(t), pm_free(mine);
 		}
@@ -160,7 +164,8 @@ static void test_gaussians(void)
 				e[i] = gaussian(dim, order, n);
 			}
 			char text[120];
-			snprintf(text, sizeof text, "PS-09: %d-D, a Gaussian in free space by differences of order %d (relative error %.1e at h = %.2g)", dim, order, e[2], h[2]);
+			snprintf(text, sizeof text, "PS-09: %d-D, a Gaussian in free space by differences of order %d (relative error %.1e at h = %.2g)", dim,
+				order, e[2], h[2]);
 			check_order(3, h, e, order, text);
 		}
 }
@@ -188,7 +193,8 @@ static void test_ends(void)
 	check(bytes(&g, 1) == bytes(&g, 2), "open, 400 x 391: the same bytes for 1 and 2 threads");
 	pm_threads_use(1);
 	g = box(3, (size_t[]){8, 8, 80}, (double[]){1, 1, 1});
-	check(pm_mg_open_check(&g) < 0 && strstr(pm_message(), "10 times longer than wide") && strstr(pm_message(), "poisson-fft"), "cells too long are refused: %s", pm_message());
+	check(pm_mg_open_check(&g) < 0 && strstr(pm_message(), "10 times longer than wide") && strstr(pm_message(), "poisson-fft"),
+		"cells too long are refused: %s", pm_message());
 	g.face[1][0] = g.face[1][1] = PM_WALL;
 	check(pm_mg_open_check(&g) < 0 && strstr(pm_message(), "axis y has wall ones (use poisson-fft)"), "mixed with walls it is refused: %s", pm_message());
 }

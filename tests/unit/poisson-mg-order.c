@@ -30,7 +30,8 @@ static double error(int dim, const int face[3], int order, size_t n, const doubl
 	char faces[8];
 	snprintf(faces, sizeof faces, "%s%s%s", axis_faces[face[0]], axis_faces[face[1]], axis_faces[face[2]]);
 	struct pm_grid g = grid(dim, (size_t[]){(size_t)(n * extra[0]), (size_t)(n * extra[1]), (size_t)(n * extra[2])}, length, faces);
-	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12, .most = 60};
+	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12,
+		.most = 60};
 	o.relaxation = pm_mg_relaxation(o.smoother, dim, order);
 	size_t size = pm_grid_size(&g);
 	double *s = values(size), *u = values(size), *exact = values(size), mean[2] = {0}, weight = 0, most = 0, e = 0;
@@ -95,7 +96,8 @@ static void test_orders(void)
 	for (int order = 2; order <= 4; order += 2)
 		for (int dim = 1; dim <= 3; dim++) {
 			double least = 9, worst = 0;
-			int most = 0, step = dim == 3 && !getenv("PM_LONG") ? 4 : 1; /* in 3-D a quarter of the mixtures, each pair of faces on each axis; all with PM_LONG=1 */
+			/* In 3-D a quarter of the mixtures, each pair of faces on each axis; all with PM_LONG=1. */
+			int most = 0, step = dim == 3 && !getenv("PM_LONG") ? 4 : 1;
 			for (int q = 0; q < (dim == 3 ? 125 : dim == 2 ? 25 : 5); q += step) {
 				int face[3] = {q % 5, q / 5 % 5, q / 25};
 				struct found f = fit(dim, face, order, grids[dim == 3]);
@@ -105,8 +107,8 @@ static void test_orders(void)
 				check_worst(&worst, f.error);
 				most = f.cycles > most ? f.cycles : most;
 			}
-			check(least >= order - 0.1, "order %d, %d-D: %s mixture of faces, orders fitted over three grids are at least %.2f, errors on the finest at most %.1e", order,
-				dim, step > 1 ? "every fourth" : "every", least, worst);
+			check(least >= order - 0.1, "order %d, %d-D: %s mixture of faces, orders fitted over three grids are at least %.2f, errors on the "
+				"finest at most %.1e", order, dim, step > 1 ? "every fourth" : "every", least, worst);
 			check(most <= 15, "order %d, %d-D: in at most 15 cycles (got %d)", order, dim, most);
 		}
 }
@@ -142,20 +144,23 @@ static void test_factors(void)
 		enum pm_mg_smoother smoother;
 		double want, tolerance;
 		bool half;
-	} row[] = {{"PS-10: Jacobi 4/5", 256, 2, 1, 0, PM_MG_JACOBI, 0.595, 0.01, false}, {"PS-10: Jacobi 4/5", 256, 2, 1, 1, PM_MG_JACOBI, 0.3582, 0.01, false},
+	} row[] = {{"PS-10: Jacobi 4/5", 256, 2, 1, 0, PM_MG_JACOBI, 0.595, 0.01, false},
+		{"PS-10: Jacobi 4/5", 256, 2, 1, 1, PM_MG_JACOBI, 0.3582, 0.01, false},
 		{"PS-10: Jacobi 4/5", 256, 2, 2, 1, PM_MG_JACOBI, 0.237, 0.01, false}, {"PS-10: Jacobi 4/5", 256, 2, 2, 2, PM_MG_JACOBI, 0.1853, 0.01, false},
 		{"N13: Jacobi 2/3", 1024, 1, 1, 0, PM_MG_JACOBI, 0.33, 0.033, false}, {"N13: Jacobi 2/3", 1024, 1, 1, 1, PM_MG_JACOBI, 0.19, 0.019, false},
 		{"N13: Jacobi 2/3", 1024, 1, 2, 1, PM_MG_JACOBI, 0.11, 0.011, false}, {"N13: Jacobi 4/5", 128, 2, 1, 1, PM_MG_JACOBI, 0.34, 0.034, false},
 		{"N13: Jacobi 4/5", 128, 2, 2, 1, PM_MG_JACOBI, 0.22, 0.022, false},
-		{"PS-10: half weighting", 256, 2, 1, 0, PM_MG_RED_BLACK, 0.8702, 0.01, true}, {"PS-10: half weighting", 256, 2, 1, 1, PM_MG_RED_BLACK, 0.1826, 0.01, true},
-		{"PS-10: half weighting", 256, 2, 2, 2, PM_MG_RED_BLACK, 0.0384, 0.01, true}, {"PS-10: half weighting", 64, 3, 1, 1, PM_MG_RED_BLACK, 0.6044, 0.02, true},
+		{"PS-10: half weighting", 256, 2, 1, 0, PM_MG_RED_BLACK, 0.8702, 0.01, true},
+		{"PS-10: half weighting", 256, 2, 1, 1, PM_MG_RED_BLACK, 0.1826, 0.01, true},
+		{"PS-10: half weighting", 256, 2, 2, 2, PM_MG_RED_BLACK, 0.0384, 0.01, true},
+		{"PS-10: half weighting", 64, 3, 1, 1, PM_MG_RED_BLACK, 0.6044, 0.02, true},
 		{"PS-10: half weighting", 64, 3, 2, 2, PM_MG_RED_BLACK, 0.0686, 0.02, true}};
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
 		struct pm_mg_choice o = {.pre = row[i].pre, .post = row[i].post, .smoother = row[i].smoother, .half_weighting = row[i].half};
 		o.relaxation = pm_mg_relaxation(o.smoother, row[i].dim, 2);
 		double got = factor_of(cube(row[i].dim, row[i].n, "wwwwww"), 2, o);
-		check(fabs(got - row[i].want) <= row[i].tolerance, "%s, %zu^%d, V(%d,%d): %g per cycle (got %.4f, tolerance %g)", row[i].what, row[i].n, row[i].dim, row[i].pre,
-			row[i].post, row[i].want, got, row[i].tolerance);
+		check(fabs(got - row[i].want) <= row[i].tolerance, "%s, %zu^%d, V(%d,%d): %g per cycle (got %.4f, tolerance %g)", row[i].what, row[i].n,
+			row[i].dim, row[i].pre, row[i].post, row[i].want, got, row[i].tolerance);
 	}
 	static const double colours[2][2][2] = {{{0.12, 0.065}, {0.24, 0.12}}, {{0.08, 0.03}, {0.12, 0.045}}}; /* measured and a margin of 5 to 15 % */
 	for (int order = 2; order <= 4; order += 2)
@@ -185,7 +190,8 @@ static void test_half(void)
 				for (size_t j = 0; j < c->axis[1].points; j++)
 					for (size_t i = 0; i < c->axis[0].points; i++)
 						check_worst(&worst, fabs(c->f[k * c->plane + j * c->stride + mg_slot(c, i)] - want));
-			check(worst < 1e-15, "half weighting, %d-D: %s comes out as %.3g (error %g)", dim, axis < 0 ? "a constant" : "a checkerboard along one axis", want, worst);
+			check(worst < 1e-15, "half weighting, %d-D: %s comes out as %.3g (error %g)", dim,
+				axis < 0 ? "a constant" : "a checkerboard along one axis", want, worst);
 			pm_mg_free(mg), pm_free(f);
 		}
 }
@@ -204,7 +210,8 @@ static void test_stretched(void)
 			o.relaxation = pm_mg_relaxation(o.smoother, 3, 4);
 			check_worst(&worst, factor_of(grid(3, (size_t[]){24, 20, 31}, (double[]){24, 20 * ratio, 31 * sqrt(ratio)}, "ppwwnn"), 4, o));
 		}
-		check(worst < 0.5, "HC-25: order 4, %s, spacings in ratios from 1.4 to 1000: faster than 0.5 per cycle (got %.3f)", pm_mg_smoother_names[o.smoother], worst);
+		check(worst < 0.5, "HC-25: order 4, %s, spacings in ratios from 1.4 to 1000: faster than 0.5 per cycle (got %.3f)",
+			pm_mg_smoother_names[o.smoother], worst);
 	}
 }
 
@@ -220,7 +227,8 @@ static void test_sizes(void)
 				char faces[8];
 				snprintf(faces, sizeof faces, "%s%s%s", axis_faces[q], axis_faces[(q + 2) % 5], axis_faces[(q + 1) % 5]);
 				struct pm_grid g = cube(dim, sizes[i], faces);
-				struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = PM_MG_FOUR_COLOUR, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11, .most = 60};
+				struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = PM_MG_FOUR_COLOUR, .cycle = PM_MG_FMG, .relaxation = 1,
+					.tolerance = 1e-11, .most = 60};
 				double *s = values(pm_grid_size(&g));
 				noise(pm_grid_size(&g), s);
 				struct pm_mg *mg = pm_mg_new(&g, 4);
@@ -239,7 +247,8 @@ static void test_full(void)
 		for (int q = 0; q < 3; q++) {
 			size_t n = (size_t[]){64, 97, 256}[q], p = n + 1;
 			struct pm_grid g = cube(2, n, "wwww");
-			struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-12, .most = 60};
+			struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG,
+				.tolerance = 1e-12, .most = 60};
 			o.relaxation = pm_mg_relaxation(o.smoother, 2, order);
 			double *f = values(p * p), *exact = values(p * p), *u = values(p * p), e[3];
 			for (size_t i = 0; i < p * p; i++) {
@@ -255,10 +264,12 @@ static void test_full(void)
 				e[cycles] = cycles && record->cycles != cycles ? NAN : largest(p * p, u, exact);
 			}
 			if (order == 2)
-				check(e[1] / e[0] <= 1.7, "PS-10: %zu^2: one pass of full multigrid leaves %.3f times the error of the differences, at most 1.7", n, e[1] / e[0]);
+				check(e[1] / e[0] <= 1.7, "PS-10: %zu^2: one pass of full multigrid leaves %.3f times the error of the differences, at most "
+					"1.7", n, e[1] / e[0]);
 			else /* cubic interpolation is of the order of the differences, so its own error shows; measured 4.2, on axes that do not halve 16 */
-				check(e[1] / e[0] <= 17 && e[2] / e[0] <= (n == 97 ? 2 : 1.7), "order 4, %zu^2: one pass of full multigrid leaves %.3f times the error of the differences, and a V-cycle more %.3f times",
-					n, e[1] / e[0], e[2] / e[0]);
+				check(e[1] / e[0] <= 17 && e[2] / e[0] <= (n == 97 ? 2 : 1.7),
+					"order 4, %zu^2: one pass of full multigrid leaves %.3f times the error of the differences, and a V-cycle more %.3f "
+					"times", n, e[1] / e[0], e[2] / e[0]);
 			pm_mg_free(mg), pm_free(f), pm_free(exact), pm_free(u);
 		}
 }

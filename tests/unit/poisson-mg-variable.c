@@ -1,11 +1,13 @@
-/* Multigrid with a coefficient that varies: effective conductivities, manufactured solutions, jumps, sizes, threads. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Multigrid with a coefficient that varies: effective conductivities, manufactured solutions, jumps, sizes, threads.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
 #include "mg-problem.h"
 #include "poisson-mg/mg-variable.h"
 
-static const struct pm_mg_choice usual = {.pre = 1, .post = 1, .smoother = PM_MG_RED_BLACK, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11, .most = 60};
+static const struct pm_mg_choice usual = {.pre = 1, .post = 1, .smoother = PM_MG_RED_BLACK, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-11,
+	.most = 60};
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 
 /* The conductivity of a periodic unit square of eps under a mean gradient along x: chi from div(eps (grad chi + e_x)) = 0, then the mean flux. */
@@ -67,21 +69,23 @@ static void test_media(void)
 		o.tolerance = 1e-8;
 		double got = effective(row[q].n, eps, row[q].mean, &o, &r);
 		const char *mean = pm_mg_mean_names[row[q].mean];
-		check(fabs(got - row[q].same) <= row[q].within * row[q].same, "PS-08: %s, %zu^2, %s means conduct %.5g (got %.6g, tolerance 0.1 %%)", row[q].what, row[q].n, mean,
-			row[q].same, got);
+		check(fabs(got - row[q].same) <= row[q].within * row[q].same, "PS-08: %s, %zu^2, %s means conduct %.5g (got %.6g, tolerance 0.1 %%)",
+			row[q].what, row[q].n, mean, row[q].same, got);
 		if (row[q].part > 0)
-			check(fabs(got - row[q].exact) <= row[q].part * row[q].exact, "HC-26: %s, %s means: within %g %% of the exact %.6g (got %.6g)", row[q].what, mean,
-				100 * row[q].part, row[q].exact, got);
+			check(fabs(got - row[q].exact) <= row[q].part * row[q].exact, "HC-26: %s, %s means: within %g %% of the exact %.6g (got %.6g)",
+				row[q].what, mean, 100 * row[q].part, row[q].exact, got);
 		check(r.cycles < 60, "HC-26: %s, %s means: fewer than 60 iterations to 1e-8 (got %d)", row[q].what, mean, r.cycles);
 		double worst = 0; /* over five iterations: the residual of conjugate gradients need not fall in each */
 		for (int i = 5; i < r.n; i++)
 			check_worst(&worst, r.history[i] / r.history[i - 5]);
-		check(worst < 0.5, "HC-26: %s, %s means: the residual never stagnates (over five iterations it falls to %.2g at most)", row[q].what, mean, worst);
+		check(worst < 0.5, "HC-26: %s, %s means: the residual never stagnates (over five iterations it falls to %.2g at most)", row[q].what, mean,
+			worst);
 		if (row[q].contrast == -1e4)
 			checker[row[q].mean] = got;
 		pm_free(eps);
 	}
-	check(checker[0] < 100 && checker[1] > 100, "HC-26: harmonic and arithmetic means bracket the exact 100 of the checkerboard 1:1e4 (%.4g, %.5g)", checker[0], checker[1]);
+	check(checker[0] < 100 && checker[1] > 100, "HC-26: harmonic and arithmetic means bracket the exact 100 of the checkerboard 1:1e4 (%.4g, %.5g)",
+		checker[0], checker[1]);
 }
 
 /* With eps = 3 it is Poisson's equation, for every mixture of faces and sizes that do not halve. */
@@ -109,8 +113,8 @@ static void test_constant(void)
 			most = r.cycles > most ? r.cycles : most;
 			pm_mg_free(mg), pm_mg_variable_free(v), pm_free(s), pm_free(a), pm_free(b), pm_free(eps);
 		}
-		check(worst < 1e-8, "%d-D: a constant coefficient gives the result of poisson-mg without one, every mixture of faces, odd, prime and tiny sizes (got "
-			"%g, tolerance 1e-8)", dim, worst);
+		check(worst < 1e-8, "%d-D: a constant coefficient gives the result of poisson-mg without one, every mixture of faces, odd, prime and tiny "
+			"sizes (got %g, tolerance 1e-8)", dim, worst);
 		check(most <= 15, "%d-D: in at most 15 iterations (got %d)", dim, most);
 	}
 }
@@ -180,8 +184,8 @@ static void test_orders(void)
 			double order = (3 * sxy - sx * sy) / (3 * sxx - sx * sx);
 			check_least(&least, order); /* a failure to solve is NaN, and is kept */
 		}
-		check(least >= 1.9, "%d-D: a coefficient that varies smoothly by exp(%d), %s mixture of faces: orders fitted over three grids are at least %.2f", dim, dim * (dim + 1) / 2,
-			dim == 3 && !getenv("PM_LONG") ? "every seventh" : "every", least);
+		check(least >= 1.9, "%d-D: a coefficient that varies smoothly by exp(%d), %s mixture of faces: orders fitted over three grids are at least "
+			"%.2f", dim, dim * (dim + 1) / 2, dim == 3 && !getenv("PM_LONG") ? "every seventh" : "every", least);
 	}
 }
 
@@ -212,8 +216,8 @@ static void test_hard(void)
 		int dim;
 		size_t cells[3];
 		double ratio[3];
-	} row[] = {{2, {64, 64, 1}, {1, 1, 1}}, {2, {97, 127, 1}, {1, 1, 1}}, {2, {65, 33, 1}, {1, 1000, 1}}, {2, {60, 64, 1}, {1000, 1, 1}}, {3, {32, 32, 32}, {1, 1, 1}},
-		{3, {31, 20, 7}, {1, 1, 1}}, {3, {17, 24, 19}, {1, 100, 1000}}};
+	} row[] = {{2, {64, 64, 1}, {1, 1, 1}}, {2, {97, 127, 1}, {1, 1, 1}}, {2, {65, 33, 1}, {1, 1000, 1}}, {2, {60, 64, 1}, {1000, 1, 1}},
+		{3, {32, 32, 32}, {1, 1, 1}}, {3, {31, 20, 7}, {1, 1, 1}}, {3, {17, 24, 19}, {1, 100, 1000}}};
 	struct pm_mg_choice o = usual;
 	o.tolerance = 1e-8, o.cycle = PM_MG_V, o.pre = o.post = 2, o.most = 100;
 	for (size_t q = 0; q < sizeof row / sizeof *row; q++) {
@@ -242,8 +246,10 @@ static void test_hard(void)
 				most[kind] = r.cycles > most[kind] ? r.cycles : most[kind];
 				pm_mg_variable_free(v), pm_free(s), pm_free(u), pm_free(eps);
 			}
-		check(!failed && most[0] <= 20 && most[1] < 100, "HC-26: %zu x %zu x %zu, spacings 1:%g:%g, three kinds of faces: balls of contrast 1e6 take at most 20 iterations, noise "
-			"of contrast 1e6 fewer than 100, to 1e-8 or round-off (got %d, %d, %d failed)", row[q].cells[0], row[q].cells[1], row[q].cells[2], row[q].ratio[1] / row[q].ratio[0],
+		check(!failed && most[0] <= 20 && most[1] < 100,
+			"HC-26: %zu x %zu x %zu, spacings 1:%g:%g, three kinds of faces: balls of contrast 1e6 take at most 20 iterations, noise "
+			"of contrast 1e6 fewer than 100, to 1e-8 or round-off (got %d, %d, %d failed)", row[q].cells[0], row[q].cells[1], row[q].cells[2],
+				row[q].ratio[1] / row[q].ratio[0],
 			row[q].ratio[2] / row[q].ratio[0], most[0], most[1], failed);
 	}
 }
@@ -261,14 +267,17 @@ static void test_ends(void)
 		s[p] += 1;
 	struct pm_mg_variable *v = pm_mg_variable_new(&g, eps, PM_MG_HARMONIC);
 	int status = pm_mg_variable_solve(v, &o, 1, s, u, &r);
-	check(!status && r.singular && fabs(r.mean - pm_sum_array(n * n, s) / (n * n)) < 1e-13, "HC-23: variable coefficient: the mean of s is removed and reported");
+	check(!status && r.singular && fabs(r.mean - pm_sum_array(n * n, s) / (n * n)) < 1e-13,
+		"HC-23: variable coefficient: the mean of s is removed and reported");
 	check(fabs(pm_sum_array(n * n, u)) / (n * n) < 1e-12 * largest(n * n, u, NULL), "HC-23: variable coefficient: the mean of phi is zero");
 	o.tolerance = 1e-18;
 	status = pm_mg_variable_solve(v, &o, 1, s, u, &r);
-	check(!status && r.floor && r.cycles < 50 && r.after < 1e-11, "HC-28: variable coefficient: tolerance 1e-18 stops at round-off (after %d iterations, residual %.1e)", r.cycles, r.after);
+	check(!status && r.floor && r.cycles < 50 && r.after < 1e-11,
+		"HC-28: variable coefficient: tolerance 1e-18 stops at round-off (after %d iterations, residual %.1e)", r.cycles, r.after);
 	o.tolerance = 1e-10, o.most = 2;
 	status = pm_mg_variable_solve(v, &o, 1, s, u, &r);
-	check(status == -PM_NUMERICS && strstr(pm_message(), "did not converge: 2 cycles"), "too few iterations are a failure with the history: %s", pm_message());
+	check(status == -PM_NUMERICS && strstr(pm_message(), "did not converge: 2 cycles"), "too few iterations are a failure with the history: %s",
+		pm_message());
 	pm_mg_variable_free(v);
 	eps[77] = 0;
 	v = pm_mg_variable_new(&g, eps, PM_MG_HARMONIC);

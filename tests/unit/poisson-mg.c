@@ -95,9 +95,11 @@ static void test_mixtures(void)
 			if (q % (dim == 3 ? 7 : 1) == 0) /* in 3-D every seventh, to be quick: each pair of faces occurs on each axis */
 				check_least(&slope, (y[2] - y[1]) / (x[2] - x[1])), check_least(&slope, (y[1] - y[0]) / (x[1] - x[0]));
 		}
-		check(worst < 1e-9, "%d-D: the differences are solved exactly in every mixture of periodic, wall and neumann faces (got %g, want 0, tolerance 1e-9)", dim, worst);
+		check(worst < 1e-9, "%d-D: the differences are solved exactly in every mixture of periodic, wall and neumann faces (got %g, want 0, "
+			"tolerance 1e-9)", dim, worst);
 		check(most <= 15, "%d-D: at most 15 cycles in every mixture (got %d)", dim, most);
-		check(slope >= 1.9, "%d-D: smooth solutions converge with order 2 in every mixture: lowest order between neighbours of three grids %.3f", dim, slope);
+		check(slope >= 1.9, "%d-D: smooth solutions converge with order 2 in every mixture: lowest order between neighbours of three grids %.3f", dim,
+			slope);
 	}
 }
 
@@ -140,7 +142,8 @@ static void test_sines(void)
 			for (size_t p = 0; p < n; p++)
 				s[p] = sin(m * g.h[0] * (double)(p % 32));
 			struct pm_mg *mg = pm_mg_new(&g, 2);
-			pm_mg_solve(mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-14, .most = 50}, -1, s, u, &r);
+			pm_mg_solve(mg, &(struct pm_mg_choice){.pre = 2, .post = 2, .cycle = PM_MG_FMG, .relaxation = 1, .tolerance = 1e-14, .most = 50}, -1,
+				s, u, &r);
 			char text[80];
 			snprintf(text, sizeof text, "PS-06: %d-D, sin %dx is amplified by the inverse of the second difference", dim, m);
 			check_near(u[at] * m * m, ratio[q], 1e-12, text);
@@ -165,8 +168,8 @@ static void test_factors(void)
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
 		struct pm_grid g = row[i].dim == 2 ? cube(2, 256, "wwww") : cube(3, 64, "wwwwww");
 		char text[120];
-		snprintf(text, sizeof text, "PS-10: %s, %c(%d,%d), relaxation %g: %g per cycle", row[i].dim == 2 ? "256^2" : "64^3", "VW"[row[i].cycle], row[i].pre,
-			row[i].post, row[i].relaxation, row[i].want);
+		snprintf(text, sizeof text, "PS-10: %s, %c(%d,%d), relaxation %g: %g per cycle", row[i].dim == 2 ? "256^2" : "64^3", "VW"[row[i].cycle],
+			row[i].pre, row[i].post, row[i].relaxation, row[i].want);
 		check_near(factor(g, row[i].pre, row[i].post, row[i].cycle, row[i].relaxation), row[i].want, 0.01, text); /* the reference's own +-0.01 */
 	}
 }
@@ -341,7 +344,8 @@ static void test_threads(void)
 /* The vector sweep in tiles against one node at a time, stage by stage. */
 static void test_sweeps(void)
 {
-	const struct pm_grid grids[] = {cube(1, 100, "wn"), cube(2, 385, "pppp"), cube(2, 370, "nwwn"), cube(3, 53, "pppppp"), cube(3, 35, "pppppp"), cube(3, 54, "wnppnw")};
+	const struct pm_grid grids[] = {cube(1, 100, "wn"), cube(2, 385, "pppp"), cube(2, 370, "nwwn"), cube(3, 53, "pppppp"), cube(3, 35, "pppppp"),
+		cube(3, 54, "wnppnw")};
 	static const enum mg_stage stages[4] = {MG_RED, MG_BLACK, MG_RED, MG_BLACK};
 	for (size_t i = 0; i < sizeof grids / sizeof *grids; i++) {
 		size_t n = pm_grid_size(&grids[i]);
@@ -361,8 +365,8 @@ static void test_sweeps(void)
 					pm_mg_relax_plain(&mg->level[0], 1.1, s & 1, plane);
 			}
 		pm_mg_values(mg, plain);
-		check(!memcmp(fast, plain, n * sizeof *fast) && memcmp(fast, u, n * sizeof *u), "%d-D, %zu cells: vector sweeps in tiles give the bytes of the plain loop",
-			grids[i].dim, grids[i].cells[0]);
+		check(!memcmp(fast, plain, n * sizeof *fast) && memcmp(fast, u, n * sizeof *u),
+			"%d-D, %zu cells: vector sweeps in tiles give the bytes of the plain loop", grids[i].dim, grids[i].cells[0]);
 		pm_mg_free(mg), pm_free(f), pm_free(u), pm_free(fast), pm_free(plain);
 	}
 }

@@ -87,8 +87,8 @@ static void test_sweeps(void)
 		for (int m = 0; m < 3; m++) {
 			const struct pm_relax *method = pm_relax_find(name[m]);
 			double factor = method->factor(&l), sweeps = ceil(log(1e-6) / log(method->radius(&l, factor)));
-			check(fabs(sweeps - row[q].want[m]) <= 1, "N11: %s on %zu^2 takes %d sweeps to 1e-6 by its radius (got %g, tolerance 1)", name[m], row[q].n,
-				row[q].want[m], sweeps);
+			check(fabs(sweeps - row[q].want[m]) <= 1, "N11: %s on %zu^2 takes %d sweeps to 1e-6 by its radius (got %g, tolerance 1)", name[m],
+				row[q].n, row[q].want[m], sweeps);
 			if (m == 2)
 				check_near(factor, row[q].best, 5e-5, "N11: Young's best factor");
 		}
@@ -110,7 +110,8 @@ static void test_sweeps(void)
 			method->sweep(w);
 		/* Gauss-Seidel's lowest mode is a sine times 1 - O(h) across the square; at the best factor errors grow by a factor of order n first */
 		int low = m == 2 ? 71 : row[0].want[m] * 99 / 100, high = m == 2 ? 2 * 71 : row[0].want[m] * 101 / 100;
-		check(sweeps >= low && sweeps <= high, "N11: counted from the lowest mode on 32^2, %s takes %d sweeps (between %d and %d)", name[m], sweeps, low, high);
+		check(sweeps >= low && sweeps <= high, "N11: counted from the lowest mode on 32^2, %s takes %d sweeps (between %d and %d)", name[m], sweeps,
+			low, high);
 		pm_relaxation_free(p);
 	}
 	pm_free(u), pm_free(f);
@@ -190,9 +191,9 @@ static void test_coarse(void)
 
 static const char *const axis_faces[5] = {"pp", "ww", "nn", "wn", "nw"};
 
-/* Every method whose formula holds, every mixture of faces in 2-D, unequal spacings; differences in units of 1 - radius. From L/3 to L = 25/(1 - radius) sweeps the
- * residual falls by e^-17, the next modes much more. From the optimal over-relaxation factor on it falls as n rho^n or oscillates about rho^n, by a factor
- * of about 3 over the range: 0.15 is log(3)/17 doubled. */
+/* Every method whose formula holds, every mixture of faces in 2-D, unequal spacings; differences in units of 1 - radius. From L/3 to L = 25/(1 - radius)
+ * sweeps the residual falls by e^-17, the next modes much more. From the optimal over-relaxation factor on it falls as n rho^n or oscillates about rho^n, by
+ * a factor of about 3 over the range: 0.15 is log(3)/17 doubled. */
 static void test_formulas(void)
 {
 	static const double share[] = {1, 0.8, 1.03}; /* of the method's own factor */
@@ -215,7 +216,8 @@ static void test_formulas(void)
 			compared++;
 		}
 		if (!method->bound)
-			check(compared >= 16 && worst < 1, "%s: the radius measured is that of the formula, in %d mixtures of faces and factors (worst %.2g of the tolerance, at %g)", method->name, compared, worst, where);
+			check(compared >= 16 && worst < 1, "%s: the radius measured is that of the formula, in %d mixtures of faces and factors (worst %.2g "
+				"of the tolerance, at %g)", method->name, compared, worst, where);
 	}
 }
 
@@ -274,9 +276,11 @@ static void test_mixtures(void)
 				check_worst(&mean, r.singular ? fabs(r.mean - 0.3) : 0);
 				done++;
 			}
-		check(worst < 1e-9 && done + refused == 72, "%s: solves the differences in every mixture of faces, 1-D to 3-D (worst error %g of %d, tolerance 1e-9)", pm_relaxs[m]->name, worst, done);
+		check(worst < 1e-9 && done + refused == 72, "%s: solves the differences in every mixture of faces, 1-D to 3-D (worst error %g of %d, "
+			"tolerance 1e-9)", pm_relaxs[m]->name, worst, done);
 		check(mean < 1e-13, "%s: the mean removed is that of the source (worst difference %g)", pm_relaxs[m]->name, mean);
-		check((refused > 0) == !strcmp(pm_relaxs[m]->name, "jacobi"), "%s: %d mixtures refused, only Jacobi's where the nodes can alternate", pm_relaxs[m]->name, refused);
+		check((refused > 0) == !strcmp(pm_relaxs[m]->name, "jacobi"), "%s: %d mixtures refused, only Jacobi's where the nodes can alternate",
+			pm_relaxs[m]->name, refused);
 	}
 	struct pm_grid g = grid(2, (size_t[]){9, 12}, (double[]){1, 2}, "wwnw");
 	for (int q = 0; q < 2; q++) {
@@ -333,7 +337,8 @@ static void test_ends(void)
 		struct pm_relaxation_record r;
 		struct pm_relaxation *p = pm_relaxation_new(&g, pm_relaxs[m]);
 		int status = pm_relaxation_solve(p, &o, 1, s, phi, &r);
-		check(!status && r.floor && r.after < 1e-12, "HC-28: %s stops at round-off (%lld sweeps, residual %g)", pm_relaxs[m]->name, (long long)r.sweeps, r.after);
+		check(!status && r.floor && r.after < 1e-12, "HC-28: %s stops at round-off (%lld sweeps, residual %g)", pm_relaxs[m]->name,
+			(long long)r.sweeps, r.after);
 		pm_relaxation_free(p);
 	}
 	double worst = 0;

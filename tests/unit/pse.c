@@ -54,7 +54,8 @@ static void scatter(int dim, size_t n)
 /* A lattice of m^dim points in the unit box, cell-centred. */
 static void lattice(int dim, size_t m)
 {
-	b.domain = (struct pm_domain){.dim = dim, .hi = {1, 1, 1}, .face = {{PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}}};
+	b.domain = (struct pm_domain){.dim = dim, .hi = {1, 1, 1},
+		.face = {{PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}, {PM_PERIODIC, PM_PERIODIC}}};
 	b.n = 1;
 	for (int d = 0; d < dim; d++)
 		b.n *= m;
@@ -97,7 +98,8 @@ static double moment(const struct pm_pse *p, int a, int c)
 	return sum;
 }
 
-/* The integral of |eta| beyond z = c over the whole, c^2 > 8 + 2 dim: with a = c/2, J0 = Gamma(dim/2, a^2)/Gamma(dim/2) and the recursion of Gamma(s + 1, x). */
+/* The integral of |eta| beyond z = c over the whole, c^2 > 8 + 2 dim: with a = c/2, J0 = Gamma(dim/2, a^2)/Gamma(dim/2) and the recursion of Gamma(s + 1, x).
+ * */
 static double beyond(int dim, int order, double c)
 {
 	const double a = c / 2, e = exp(-a * a), J0 = dim == 2 ? e : erfc(a) + (dim == 3 ? 2 * a * e / sqrt(pm_pi) : 0);
@@ -117,7 +119,8 @@ static void moments(void)
 			check_near(moment(&p, 4, 0), fourth, 1e-11, "the fourth vanishes for order 4");
 			if (dim > 1)
 				check_near(moment(&p, 2, 2), mixed, 1e-11, "and so does the mixed one");
-			check_near(p.beyond / beyond(dim, order, 8), 1, 1e-3, "the part beyond the cut-off is given by incomplete gamma functions (midpoints: 4^2/(24 64^2) "
+			check_near(p.beyond / beyond(dim, order, 8), 1, 1e-3,
+				"the part beyond the cut-off is given by incomplete gamma functions (midpoints: 4^2/(24 64^2) "
 				"= 1.6e-4)");
 		}
 }
@@ -126,7 +129,8 @@ static void moments(void)
  * digits printed there. */
 static void cutoffs(void)
 {
-	static const double lost[2][3][5] = {{{-1.3e-3, -6.8e-5, -2.1e-6, -3.7e-8, -3.9e-10}, {-1.3e-2, -1.3e-3, -8.8e-5, -2.7e-6, -3.9e-8}, {-3.0e-2, -2.6e-3, -1.9e-4, -6.7e-6, -1.1e-7}},
+	static const double lost[2][3][5] = {{{-1.3e-3, -6.8e-5, -2.1e-6, -3.7e-8, -3.9e-10}, {-1.3e-2, -1.3e-3, -8.8e-5, -2.7e-6, -3.9e-8},
+		{-3.0e-2, -2.6e-3, -1.9e-4, -6.7e-6, -1.1e-7}},
 		{{8.8e-3, 6.7e-4, 2.8e-5, 6.6e-7, 8.9e-9}, {5.7e-2, 9.1e-3, 8.9e-4, 3.7e-5, 7.1e-7}, {1.2e-1, 1.8e-2, 1.8e-3, 9.1e-5, 1.9e-6}}};
 	static const int partners[2][5] = {{81, 113, 149, 197, 253}, {515, 925, 1419, 2109, 3071}};
 	for (int dim = 1; dim <= 3; dim++)
@@ -140,7 +144,8 @@ static void cutoffs(void)
 						for (int i = -cut; i <= cut; i++)
 							if (i * i + j * j + k * k <= p.reach * p.reach)
 								sum += i * i * pm_pse_value(&p, i * i + j * j + k * k), count++;
-				check(fabs((sum / 2 - 1) / want - 1) < 0.05, "order %d in %d-D, cut at %d: %.3g of the second moment (page: %.2g)", order, dim, cut, sum / 2 - 1, want);
+				check(fabs((sum / 2 - 1) / want - 1) < 0.05, "order %d in %d-D, cut at %d: %.3g of the second moment (page: %.2g)", order,
+					dim, cut, sum / 2 - 1, want);
 				check(dim == 1 || count == partners[dim - 2][cut - 5], "and %d partners", count);
 			}
 }
@@ -172,8 +177,8 @@ static int reflected(double lo, double hi, const enum pm_face face[2], struct mi
 
 static void images(void)
 {
-	static const enum pm_face face[][2] = {{PM_OPEN, PM_OPEN}, {PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_WALL, PM_OPEN}, {PM_OPEN, PM_WALL}, {PM_OPEN, PM_NEUMANN},
-		{PM_NEUMANN, PM_OPEN}, {PM_NEUMANN, PM_WALL}, {PM_WALL, PM_NEUMANN}, {PM_NEUMANN, PM_NEUMANN}};
+	static const enum pm_face face[][2] = {{PM_OPEN, PM_OPEN}, {PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_WALL, PM_OPEN}, {PM_OPEN, PM_WALL},
+		{PM_OPEN, PM_NEUMANN}, {PM_NEUMANN, PM_OPEN}, {PM_NEUMANN, PM_WALL}, {PM_WALL, PM_NEUMANN}, {PM_NEUMANN, PM_NEUMANN}};
 	const double lo = -0.37, hi = 1.21;
 	for (size_t f = 0; f < sizeof face / sizeof *face; f++) {
 		int wrong = 0;
@@ -188,13 +193,15 @@ static void images(void)
 				bool near = fmin(one, other) - hi <= reach && lo - fmax(one, other) <= reach;
 				int found = 0;
 				for (int k = 0; k < m.n; k++)
-					found += m.image[k].side == want[i].side && fabs(m.image[k].shift - want[i].shift) < 1e-12 && m.image[k].sign == want[i].sign;
+					found += m.image[k].side == want[i].side && fabs(m.image[k].shift - want[i].shift) < 1e-12 &&
+						m.image[k].sign == want[i].sign;
 				wrong += near ? found != 1 : found > 1;
 				known += found;
 			}
 			wrong += known != m.n || m.image[0].side != 1 || m.image[0].shift != 0;
 		}
-		check(!wrong, "%s-%s: the images are those of repeated reflection, signs included (%d are not)", pm_face_names[face[f][0]], pm_face_names[face[f][1]], wrong);
+		check(!wrong, "%s-%s: the images are those of repeated reflection, signs included (%d are not)", pm_face_names[face[f][0]],
+			pm_face_names[face[f][1]], wrong);
 	}
 }
 
@@ -235,7 +242,8 @@ static void faces(void)
 				double d = differs(&p, k % 3 ? 0.07 : reach);
 				check_worst(&worst, d);
 			}
-			check(worst < 1e-12, "order %d in %d-D: fast and plain agree for every kind of face and reaches of 0.013 to 3.1 boxes (%.2g)", order, dim, worst);
+			check(worst < 1e-12, "order %d in %d-D: fast and plain agree for every kind of face and reaches of 0.013 to 3.1 boxes (%.2g)", order,
+				dim, worst);
 		}
 }
 
@@ -275,7 +283,8 @@ static void conserves(void)
 				all += fabs(rate[i]);
 			double drift = fabs(pm_sum_array(b.n, rate)) / all;
 			/* each rate is a sum of up to 2000 terms, rounded: 1e-16 sqrt(2000) of the terms; systematic loss would show as 1e-13 and more */
-			check(drift < 1e-15, "S33: %s faces in %d-D: the rates of 2000 random particles add up to %.2g of their size", pm_face_names[kinds[k]], dim, drift);
+			check(drift < 1e-15, "S33: %s faces in %d-D: the rates of 2000 random particles add up to %.2g of their size",
+				pm_face_names[kinds[k]], dim, drift);
 			for (size_t i = 0; i < b.n; i++)
 				b.strength[i] = 3, b.volume[i] = 0.7;
 			memset(rate, 0, sizeof rate);
@@ -291,7 +300,8 @@ static void conserves(void)
 /* DF-01: the symbol of a wave on a lattice, cut off at 5 eps; and the limit of Euler. */
 static void symbol(void)
 {
-	static const double overlap[] = {0.5, 1, 2}, want[] = {0.976610322395664, 0.925903818630344, 0.745912165774872}, limit[] = {0.60225363683734, 2.00021771891933, 8.00048743916354};
+	static const double overlap[] = {0.5, 1, 2}, want[] = {0.976610322395664, 0.925903818630344, 0.745912165774872},
+		limit[] = {0.60225363683734, 2.00021771891933, 8.00048743916354};
 	for (int k = 0; k < 3; k++) {
 		size_t m = 64;
 		struct pm_pse_found found;

@@ -145,7 +145,8 @@ static void check_moments(void)
 				check_worst(&worst, fabs(after - before) / size);
 			}
 		double before = moment(&g, &p, (const int[]){(int)m + 1, 0}, &size), after = moment(&g, &q, (const int[]){(int)m + 1, 0}, &size);
-		check(worst <= 1e-13 && fabs(after - before) > 1e-9 * size, "%s keeps the moments up to %g along each axis (off by %.2g, tolerance 1e-13), not the "
+		check(worst <= 1e-13 && fabs(after - before) > 1e-9 * size,
+			"%s keeps the moments up to %g along each axis (off by %.2g, tolerance 1e-13), not the "
 			"next (off by %.2g)", pm_kernels[k]->name, m, worst, fabs(after - before) / size);
 		particles_free(&p), particles_free(&q), pm_remesh_free(&r);
 	}
@@ -198,7 +199,8 @@ static void check_thousand(int dim, const size_t cells[3])
 		double drift = fabs(pm_sum_array(p.n, p.q) / total - 1);
 		/* The bounds of the case: rounding errors add up as a random walk. */
 		check(p.n == n, "HC-41: %s, %d-D: as many particles after 1000 remeshes", pm_kernels[k]->name, dim);
-		check_below(worst, 1e-12 * sqrt(1000), "HC-41: a constant remeshed 1000 times at random shifts by %s, %d-D, stays constant", pm_kernels[k]->name, dim);
+		check_below(worst, 1e-12 * sqrt(1000), "HC-41: a constant remeshed 1000 times at random shifts by %s, %d-D, stays constant",
+			pm_kernels[k]->name, dim);
 		check_below(drift, 1e-13, "HC-41: and so does its sum, %s, %d-D", pm_kernels[k]->name, dim);
 		particles_free(&p);
 	}
@@ -302,8 +304,8 @@ static void check_cut(void)
 		check_worst(&most, fabs(all.node[0][i]));
 	for (size_t i = 0; i < q.n; i++)
 		check_least(&least, fabs(q.q[i]));
-	check(least > 0.01 * most && r.cut > 0 && r.kept + r.cut == all.kept, "a cut-off of 0.01 keeps nodes above a hundredth of the largest strength (%zu of %zu)", r.kept,
-		all.kept);
+	check(least > 0.01 * most && r.cut > 0 && r.kept + r.cut == all.kept,
+		"a cut-off of 0.01 keeps nodes above a hundredth of the largest strength (%zu of %zu)", r.kept, all.kept);
 	double off = fabs(pm_sum_array(q.n, q.q) + r.lost[0] - pm_sum_array(p.n, p.q));
 	check(off <= 1e-15 * size_of(&p), "the strength removed is counted: kept and removed strength add up to the total (off by %.2g, lost %.3g)", off, r.lost[0]);
 	particles_free(&p), particles_free(&q), pm_remesh_free(&r), pm_remesh_free(&all);
@@ -316,7 +318,8 @@ static void check_components(void)
 	struct pm_remesh r = pm_remesh_on(&g, pm_kernel_find("cic"));
 	struct pm_strays strays;
 	const double at[2] = {g.lo[0] + 3 * g.h[0], g.lo[0] + 7 * g.h[0]}, one[2] = {1, 0}, two[2] = {0, 1e-3};
-	int bad = pm_remesh_add(&r, 2, (const double *const[]){at, NULL, NULL}, 2, (const double *const[]){one, two}, true, &strays) || strays.count || pm_remesh_keep(&r, 0.01, 0);
+	int bad = pm_remesh_add(&r, 2, (const double *const[]){at, NULL, NULL}, 2, (const double *const[]){one, two}, true, &strays) || strays.count ||
+		pm_remesh_keep(&r, 0.01, 0);
 	check(!bad && r.kept == 1, "a cut-off is of the largest component (%zu nodes kept, %zu cut)", r.kept, r.cut);
 	pm_remesh_free(&r);
 }
@@ -334,7 +337,8 @@ static void check_threads(void)
 		if (threads == 1)
 			lost = r.lost[0];
 		else
-			same = same && q.n == first.n && !memcmp(q.q, first.q, q.n * sizeof *q.q) && !memcmp(q.x[2], first.x[2], q.n * sizeof *q.q) && lost == r.lost[0];
+			same = same && q.n == first.n && !memcmp(q.q, first.q, q.n * sizeof *q.q) && !memcmp(q.x[2], first.x[2], q.n * sizeof *q.q) &&
+				lost == r.lost[0];
 		particles_free(&first), pm_remesh_free(&r);
 		first = q;
 	}
@@ -401,8 +405,8 @@ static void check_distortion(void)
 		double e = 1.25 + 0.25 * i;
 		strain[i] = distorted(e, 0, 0, 1 / e);
 	}
-	check(strain[0] > 1e-3 && strain[1] > 2 * strain[0] && strain[2] > 2 * strain[1], "pure strain distorts: stretched 1.25, 1.5, 1.75 times %.3g, %.3g, %.3g",
-		strain[0], strain[1], strain[2]);
+	check(strain[0] > 1e-3 && strain[1] > 2 * strain[0] && strain[2] > 2 * strain[1],
+		"pure strain distorts: stretched 1.25, 1.5, 1.75 times %.3g, %.3g, %.3g", strain[0], strain[1], strain[2]);
 }
 
 int main(void)

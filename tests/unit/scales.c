@@ -83,7 +83,8 @@ static void atlas(void)
 		"measured give NaN");
 	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
 		if (!strcmp(r->scene, "smooth") && !strcmp(r->kernel, "tsc") && !strcmp(r->gradient, "4"))
-			check_near(pm_atlas_force_error(r->scene, r->solver, r->kernel, r->gradient, r->h) / r->error, 1, 1e-9, "atlas: a row gives its own error");
+			check_near(pm_atlas_force_error(r->scene, r->solver, r->kernel, r->gradient, r->h) / r->error, 1, 1e-9,
+				"atlas: a row gives its own error");
 }
 
 int main(void)

@@ -73,7 +73,8 @@ static void promises(const struct pm_scene *s, int dim)
 	bool good = f->dim == dim && pm_law_of(f) && f->dt > 0 && mesh && x->count == s->n && x->components == dim && v->components >= dim;
 	check(good && m->extensive && id->type == PM_I64, "%s in %d-D: dim, law, dt, mesh, x, v, mass (a strength), id (i64)", s->name, dim);
 	if (!strcmp(f->law, "gravity"))
-		check(pm_frame_constant(f, "G", NAN) == 1 && pm_frame_constant(f, "softening", NAN) >= 0, "%s in %d-D states G = 1 and its softening", s->name, dim);
+		check(pm_frame_constant(f, "G", NAN) == 1 && pm_frame_constant(f, "softening", NAN) >= 0, "%s in %d-D states G = 1 and its softening",
+			s->name, dim);
 	for (int d = 0; d < dim; d++)
 		good = good && pm_finite(x->count, pm_in(x, d)) && pm_finite(v->count, pm_in(v, d)) && mesh->lo[d] == f->lo[d] &&
 			fabs(mesh->lo[d] + mesh->h[d] * (double)mesh->cells[d] - f->hi[d]) < 1e-14 * (f->hi[d] - f->lo[d]);
@@ -106,7 +107,8 @@ static void same_for_any_threads(const struct pm_scene *s)
 	for (int d = 0; d < s->dim; d++)
 		for (int t = 1; t < 3; t++)
 			for (int k = 0; k < 2; k++) {
-				const struct pm_field *a = pm_frame_field(f[0], moving(f[0]), k ? "v" : "x"), *b = pm_frame_field(f[t], moving(f[t]), k ? "v" : "x");
+				const struct pm_field *a = pm_frame_field(f[0], moving(f[0]), k ? "v" : "x"),
+					*b = pm_frame_field(f[t], moving(f[t]), k ? "v" : "x");
 				good = good && !memcmp(pm_in(a, d), pm_in(b, d), a->count * sizeof(double));
 			}
 	check(good, "HC-56: %s has the same bytes with 1, 2 and 3 threads", s->name);
@@ -155,7 +157,8 @@ static void plummer(void)
 				near += pm_in(v, d)[i] * pm_in(v, d)[i] * sqrt(1 + r * r), n++;
 		}
 	/* K sums 1e5 speeds of relative spread about 1: 0.4 % is over one standard deviation; four of them */
-	check_near(0.5 * s->exact(f, "mass", 0) / 1e5 * square, s->exact(f, "energy_kinetic", 0), 0.0025, "the kinetic energy of 1e5 particles is the exact one");
+	check_near(0.5 * s->exact(f, "mass", 0) / 1e5 * square, s->exact(f, "energy_kinetic", 0), 0.0025,
+		"the kinetic energy of 1e5 particles is the exact one");
 	check_near(near / n, 1.0 / 6, 4 * sqrt(2 / n) / 6, "PM-09: the dispersion of 1e5 particles within 0.2 a is GM/(6a)");
 	pm_frame_free(f);
 }
@@ -220,7 +223,8 @@ static void plasma(void)
 		struct pm_frame *f = make(s, 1, s->n, 1);
 		const struct pm_field *q = pm_frame_field(f, "electrons", "charge");
 		check(q->extensive && q->uniform && q->value[0] < 0, "%s: electrons have a negative charge, the same for all", s->name);
-		check_near(q->value[0] * (double)s->n / (f->hi[0] - f->lo[0]), -pm_frame_constant(f, "background", NAN), 1e-14, "and the background neutralises it");
+		check_near(q->value[0] * (double)s->n / (f->hi[0] - f->lo[0]), -pm_frame_constant(f, "background", NAN), 1e-14,
+			"and the background neutralises it");
 		check_near(s->exact(f, "charge", 0), q->value[0] * (double)s->n, 1e-13, "and it is the charge of the scene's parameters");
 		pm_frame_free(f);
 	}

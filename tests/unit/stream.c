@@ -58,7 +58,8 @@ static void long_fields(void)
 	close(mkstemp(path));
 	f->hi[0] = 1, f->dt = 1;
 	pm_frame_set_new(f, "matter", n);
-	struct pm_field *x = pm_makes(f, "matter", "x", 1, PM_STATE), *low = pm_makes(f, "matter", "low", 1, PM_STATE), *id = pm_makes(f, "matter", "id", 1, PM_STATE);
+	struct pm_field *x = pm_makes(f, "matter", "x", 1, PM_STATE), *low = pm_makes(f, "matter", "low", 1, PM_STATE),
+		*id = pm_makes(f, "matter", "id", 1, PM_STATE);
 	low->type = PM_F32, id->type = PM_I64;
 	pm_frame_ready(f);
 	for (int i = 0; i < n; i++)
@@ -92,7 +93,8 @@ static void round_trip(void)
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i], *q = g->fields[i];
 		size_t bytes = p->count * (size_t)p->components * pm_field_memory(p);
-		check(p->uniform ? q->uniform && q->value[0] == p->value[0] : !bytes || !memcmp(pm_field_bytes(p), pm_field_bytes(q), bytes), "field %s holds the same bytes", p->name);
+		check(p->uniform ? q->uniform && q->value[0] == p->value[0] : !bytes || !memcmp(pm_field_bytes(p), pm_field_bytes(q), bytes),
+			"field %s holds the same bytes", p->name);
 	}
 	check(pm_in(pm_frame_field(f, "matter", "low"), 0)[0] == (double)(float)(1 / 3.), "f32 is rounded after a stage");
 	g = pm_frame_free(g);
@@ -117,7 +119,8 @@ static void declarations(void)
 	char list[200];
 	names(f, list);
 	check(!strcmp(list, "x mass id rho low x flag"), "fields stand in the order in which they were made (%s)", list);
-	check(pm_reads(f, "matter", "x") && pm_changes(f, "matter", "mass") && pm_changes(f, "matter", "x") && pm_changes(f, "matter", "mass"), "fields are declared");
+	check(pm_reads(f, "matter", "x") && pm_changes(f, "matter", "mass") && pm_changes(f, "matter", "x") && pm_changes(f, "matter", "mass"),
+		"fields are declared");
 	names(f, list);
 	check(!strcmp(list, "id rho low x flag mass x"), "changed ones come last, in the order of the declarations (%s)", list);
 	check(!pm_frame_ready(f) && pm_in(pm_frame_field(f, "matter", "mass"), 0)[6] == 0.1, "a uniform field that is changed is expanded");
@@ -157,18 +160,24 @@ static int header(const char *text)
 static void hostile(void)
 {
 	check(header("{\"dim\":1," HEAD BOX SETS "\"fields\":[]}") == 0, "the smallest header is read (%s)", pm_message());
-	check(header("{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "periodic") SETS "\"fields\":[]}") == 0, "so is a periodic one (%s)", pm_message());
-	const char *bad[] = {"[]", "{}", "{\"dim\":4," HEAD BOX SETS "\"fields\":[]}", "{\"dim\":1," HEAD SETS "\"fields\":[]}", "{\"dim\":2," HEAD BOX SETS "\"fields\":[]}",
-		"{\"byte_order\":\"big\",\"dim\":1," HEAD BOX SETS "\"fields\":[]}",
-		"{\"dim\":1," HEAD FACES("periodic", "open", "periodic", "periodic") SETS "\"fields\":[]}", "{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "open") SETS "\"fields\":[]}",
+	check(header("{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "periodic") SETS "\"fields\":[]}") == 0, "so is a periodic one (%s)",
+		pm_message());
+	const char *bad[] = {"[]", "{}", "{\"dim\":4," HEAD BOX SETS "\"fields\":[]}", "{\"dim\":1," HEAD SETS "\"fields\":[]}",
+		"{\"dim\":2," HEAD BOX SETS "\"fields\":[]}", "{\"byte_order\":\"big\",\"dim\":1," HEAD BOX SETS "\"fields\":[]}",
+		"{\"dim\":1," HEAD FACES("periodic", "open", "periodic", "periodic") SETS "\"fields\":[]}",
+		"{\"dim\":1," HEAD FACES("periodic", "periodic", "periodic", "open") SETS "\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":-1}],\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":9007199254740993000}],\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX "\"sets\":[{\"name\":\"a\",\"n\":1},{\"name\":\"a\",\"n\":1}],\"fields\":[]}",
 		"{\"dim\":1," HEAD BOX SETS "\"fields\":[{\"name\":\"x\"}]}",
-		"{\"dim\":1," HEAD BOX SETS "\"fields\":[{\"name\":\"x\",\"on\":\"b\",\"components\":1,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\"}]}",
-		"{\"dim\":1," HEAD BOX SETS "\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":17,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\"}]}",
-		"{\"dim\":1," HEAD BOX SETS "\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":1,\"type\":\"f16\",\"role\":\"state\",\"kind\":\"value\"}]}",
-		"{\"dim\":1," HEAD BOX SETS "\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":2,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\",\"uniform\":[1]}]}"};
+		"{\"dim\":1," HEAD BOX SETS
+			"\"fields\":[{\"name\":\"x\",\"on\":\"b\",\"components\":1,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\"}]}",
+		"{\"dim\":1," HEAD BOX SETS
+			"\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":17,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\"}]}",
+		"{\"dim\":1," HEAD BOX SETS
+			"\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":1,\"type\":\"f16\",\"role\":\"state\",\"kind\":\"value\"}]}",
+		"{\"dim\":1," HEAD BOX SETS
+			"\"fields\":[{\"name\":\"x\",\"on\":\"a\",\"components\":2,\"type\":\"f64\",\"role\":\"state\",\"kind\":\"value\",\"uniform\":[1]}]}"};
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
 		check(header(bad[i]) == -PM_DATA, "hostile header %zu is refused: %s", i, pm_message());
 }

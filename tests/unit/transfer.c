@@ -345,7 +345,8 @@ static void check_kept(int dim, const size_t cells[3], const char *other)
 		for (int c = 0; c < dim; c++)
 			same = same && !memcmp(a.out[c], b.out[c], n * sizeof(double));
 	}
-	check(left && note == left && pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)) && same, "%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
+	check(left && note == left && pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)) && same,
+		"%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
 	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(b.x)), "%d-D: it is not that of other positions", dim);
 	a.t.kernel = pm_kernel_find(other);
 	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)), "%d-D: nor that of kernel %s", dim, other);
@@ -439,7 +440,8 @@ struct formula {
 static struct formula formula_of(const struct problem *a, int c, int d)
 {
 	const struct pm_grid *g = &a->t.grid;
-	struct formula f = {.kernel = a->t.kernel, .n = (double)g->cells[d], .offset = a->t.staggered[c][d] ? 0.5 : 0, .periodic = g->face[d][0] == PM_PERIODIC};
+	struct formula f = {.kernel = a->t.kernel, .n = (double)g->cells[d], .offset = a->t.staggered[c][d] ? 0.5 : 0,
+		.periodic = g->face[d][0] == PM_PERIODIC};
 	for (int side = 0; side < 2; side++) {
 		f.sign[side] = g->face[d][side] == PM_WALL ? -1 : g->face[d][side] == PM_NEUMANN ? 1 : 0;
 		f.sign[side] *= a->t.flip[c][d] ? -1 : 1;
@@ -515,7 +517,8 @@ static void by_formula(struct problem *a, int c, double worst[2])
 		}
 	}
 	const double *fields[MOST] = {field, field, field};
-	if (pm_spread(&a->t, a->n, in(a->x), in(a->q), a->mesh, &strays) || strays.count || pm_gather(&a->t, a->n, in(a->x), fields, NULL, a->out, &strays) || strays.count)
+	if (pm_spread(&a->t, a->n, in(a->x), in(a->q), a->mesh, &strays) || strays.count || pm_gather(&a->t, a->n, in(a->x), fields, NULL, a->out, &strays) ||
+		strays.count)
 		worst[0] = NAN;
 	for (size_t i = 0; i < a->points; i++)
 		check_worst(&far[0], fabs(a->mesh[c][i] - want[i])), check_worst(&most, fabs(want[i]));
@@ -557,10 +560,10 @@ static void check_formula(int dim, const size_t cells[3], size_t n)
 			by_formula(&a, 0, worst);
 			problem_free(&a);
 		}
-		check(worst[0] <= 2e-13, "%s, %d-D, %zu cells: densities are sums over reflected particles at every pair of faces, on nodes and half nodes (off by %.2g)",
-			pm_kernels[k]->name, dim, cells[0], worst[0]);
-		check(worst[1] <= 2e-13, "%s, %d-D, %zu cells: and gathered values are sums over the function continued beyond the faces (off by %.2g)", pm_kernels[k]->name, dim, cells[0],
-			worst[1]);
+		check(worst[0] <= 2e-13, "%s, %d-D, %zu cells: densities are sums over reflected particles at every pair of faces, on nodes and half nodes "
+			"(off by %.2g)", pm_kernels[k]->name, dim, cells[0], worst[0]);
+		check(worst[1] <= 2e-13, "%s, %d-D, %zu cells: and gathered values are sums over the function continued beyond the faces (off by %.2g)",
+			pm_kernels[k]->name, dim, cells[0], worst[1]);
 	}
 }
 
@@ -583,8 +586,8 @@ static void check_crowd(int dim, const char *kernel, bool in_order)
 	for (size_t i = 0; i < a.points; i++)
 		total += a.mesh[0][i] * pm_grid_cell(&a.t.grid);
 	/* 1e-10: 5e4 roundings of 1e-16 that may add up, times ten; a particle is 2e-5 of the sum */
-	check(!bad && off <= 1e-10 && fabs(total - (double)n) <= 1e-10 * (double)n, "%s, %d-D: %zu particles in one tile%s are all spread (sum off by %.2g)", kernel, dim, n,
-		in_order ? ", in order," : "", total - (double)n);
+	check(!bad && off <= 1e-10 && fabs(total - (double)n) <= 1e-10 * (double)n, "%s, %d-D: %zu particles in one tile%s are all spread (sum off by %.2g)",
+		kernel, dim, n, in_order ? ", in order," : "", total - (double)n);
 	a.t.set[0] = true;
 	for (size_t p = 0; p < n; p++)
 		a.out[0][p] = NAN;
@@ -668,8 +671,8 @@ static void check_open(void)
 		pm_gather(&a.t, 0, in(a.x), in(a.mesh), NULL, a.out, &strays);
 		double *bigger = pm_zalloc(a.t.grid.points[0], sizeof *bigger);
 		pm_spread(&a.t, 3, in(a.x), in(a.q), &bigger, &strays);
-		check(!status && strays.count == 0 && (double)below[0] <= 6 + r && (double)above[0] <= 4 + r, "%s: the mesh grows by %zu and %zu cells and holds all", kernel->name,
-			below[0], above[0]);
+		check(!status && strays.count == 0 && (double)below[0] <= 6 + r && (double)above[0] <= 4 + r,
+			"%s: the mesh grows by %zu and %zu cells and holds all", kernel->name, below[0], above[0]);
 		pm_free(bigger);
 		problem_free(&a);
 	}
