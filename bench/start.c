@@ -59,8 +59,8 @@ int main(int argc, char **argv)
 			.spread = (seconds[i][rounds * 7 / 8] - seconds[i][rounds / 8]) / seconds[i][rounds / 2], .most = 1});
 	if (argc > 1 && (input = open(argv[1], O_RDONLY)) >= 0) {
 		run(input, commands[5], &megabytes);
-		bench_print(&(struct bench_row){.kernel = "start", .name = "memory of poisson-fft while particles are copied", .unit = "MB", .measured = megabytes,
-			.most = 8});
+		bench_print(&(struct bench_row){.kernel = "start", .name = "memory of poisson-fft while particles are copied", .unit = "MB",
+			.measured = megabytes, .most = 8});
 	}
 	return 0;
 }

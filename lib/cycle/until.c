@@ -159,8 +159,8 @@ int pm_until_load(struct pm_until *u, struct pm_frame *f, const json_t *saved)
 	for (int k = 0; k < u->n; k++) {
 		u->known[k] = json_is_number(json_object_get(columns, u->column[k].name));
 		if (u->first[k] && !u->known[k])
-			return pm_fail(PM_USAGE, "--until: the checkpoint has no value of '%s' at the beginning of its run (it was made with another --until, or without)",
-				u->column[k].name);
+			return pm_fail(PM_USAGE, "--until: the checkpoint has no value of '%s' at the beginning of its run (it was made with another "
+				"--until, or without)", u->column[k].name);
 		all = all && u->known[k];
 	}
 	if (!all && measure_first(u, f))

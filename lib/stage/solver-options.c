@@ -15,5 +15,6 @@ void pm_solver_report_removed(const struct pm_stage *s, struct pm_frame *f, cons
 	pm_report(s, f, pm_solver_key(p, "mean_removed", c, key), mean);
 	pm_report(s, f, pm_solver_key(p, "incompatible", c, key), incompatible);
 	if (incompatible > 1e-12)
-		pm_say(s, "no solution exists for this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, mean, incompatible);
+		pm_say(s, "no solution exists for this '%s' in this box: its mean %g, %.2g of its largest value, was removed", p->source_name, mean,
+			incompatible);
 }

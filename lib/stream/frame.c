@@ -232,7 +232,8 @@ int pm_frame_mesh_resize(struct pm_frame *f, const struct pm_mesh *m)
 		if (strcmp(field->on, m->name))
 			continue;
 		if (!field->uniform)
-			return pm_fail(PM_DATA, "mesh '%s' has the %s field '%s', which cannot be moved to other points (only uniform fields can; drop it with sel)", m->name, pm_role_names[field->role], field->name);
+			return pm_fail(PM_DATA, "mesh '%s' has the %s field '%s', which cannot be moved to other points (only uniform fields can; drop it "
+				"with sel)", m->name, pm_role_names[field->role], field->name);
 		int status = pm_field_resize(field, n);
 		if (status)
 			return status;

@@ -105,8 +105,8 @@ static void all_waves(void)
 			for (size_t i = 0; i < sizeof n / sizeof *n; i++)
 				waves(n[i], ends[kind], order, &worst);
 			char name[120];
-			snprintf(name, sizeof name, "order %d, %s-%s: grad and lap of every wave have the eigenvalues of the stencil, n = 1 to 33, every axis", order,
-				pm_face_names[ends[kind][0]], pm_face_names[ends[kind][1]]);
+			snprintf(name, sizeof name, "order %d, %s-%s: grad and lap of every wave have the eigenvalues of the stencil, n = 1 to 33, every "
+				"axis", order, pm_face_names[ends[kind][0]], pm_face_names[ends[kind][1]]);
 			/* round-off of k up to pi/0.55 over 33 nodes, some ten operations; images reach a wave's phase through 33*pi */
 			check_near(worst, 0, order ? 2e-13 : 1e-12, name);
 		}

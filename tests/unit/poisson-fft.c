@@ -357,7 +357,8 @@ static void no_wrap(void)
 		check_worst(&worst, fabs(phi[q] - psi[q % 33 + 71 * (q / 33)]));
 	check_near(worst, 0, 1e-13, "HC-29: a source near an end, free space: nothing wraps around, anywhere");
 	/* 1.35e-3 of the mass lies outside the box; at the far corner, r = 12.4, that is 1.1e-4 of phi. */
-	check_near(phi[n - 1] / exact(3, distance(&g, n - 1, centre)), 1 - 1.35e-3, 2e-4, "HC-29: the potential at the far corner is that of the mass in the box");
+	check_near(phi[n - 1] / exact(3, distance(&g, n - 1, centre)), 1 - 1.35e-3, 2e-4,
+		"HC-29: the potential at the far corner is that of the mass in the box");
 	free(s), free(t), free(phi), free(psi);
 }
 
@@ -377,7 +378,8 @@ static void cube_of_one(void)
 			check_near(phi[0], 1.1900386819897768, 1e-3, "PS-03: potential at the corner of the unit cube");
 		else
 			check_near(phi[n / 2], 2.3800773639795535, 1e-3, "PS-03: potential at the centre of the unit cube");
-		/* The remaining error is that of the sum over a cube's nodes instead of the integral: 4 pi h^2/12 on faces, 4 pi h^2/24 the other way with middles. */
+		/* The remaining error is that of the sum over a cube's nodes instead of the integral: 4 pi h^2/12 on faces, 4 pi h^2/24 the other way with
+		 * middles. */
 		double want = on_face ? -4 * pm_pi / 12 : 4 * pm_pi / 24;
 		check_near((phi[n / 2] - 2.3800773639795535) / (g.h[0] * g.h[0]), want, 0.05 * fabs(want),
 			"PS-03: the error at the centre is that of the sum over nodes");

@@ -307,7 +307,8 @@ static void check_cut(void)
 	check(least > 0.01 * most && r.cut > 0 && r.kept + r.cut == all.kept,
 		"a cut-off of 0.01 keeps nodes above a hundredth of the largest strength (%zu of %zu)", r.kept, all.kept);
 	double off = fabs(pm_sum_array(q.n, q.q) + r.lost[0] - pm_sum_array(p.n, p.q));
-	check(off <= 1e-15 * size_of(&p), "the strength removed is counted: kept and removed strength add up to the total (off by %.2g, lost %.3g)", off, r.lost[0]);
+	check(off <= 1e-15 * size_of(&p), "the strength removed is counted: kept and removed strength add up to the total (off by %.2g, lost %.3g)", off,
+		r.lost[0]);
 	particles_free(&p), particles_free(&q), pm_remesh_free(&r), pm_remesh_free(&all);
 }
 
