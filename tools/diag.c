@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/replace.h"
 #include "measure/diag-table.h"
 #include "stage/stage.h"
 
@@ -15,6 +16,7 @@ struct config {
 };
 struct state {
 	FILE *out;
+	struct pm_replace tee;
 	struct pm_diag_table table;
 };
 _Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
@@ -28,7 +30,13 @@ static int begin(struct pm_stage *s)
 	if (pm_diag_choice_check(&choice, c->growth))
 		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
-	state->out = c->tee ? fopen(c->tee, "w") : stdout;
+	state->out = stdout;
+	if (c->tee && !strcmp(c->tee, "-"))
+		return pm_fail(PM_USAGE, "--tee -: the frames go to standard output, and a table is none (--tee FILE)");
+	if (c->tee && pm_replace_open(&state->tee, c->tee, false))
+		return pm_failed();
+	if (c->tee)
+		state->out = fdopen(state->tee.fd, "w");
 	pm_diag_table_init(&state->table, &choice, state->out);
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
@@ -40,7 +48,12 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 
 static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_diag_table_row(&((struct state *)s->state)->table, f); }
 
-static int end(struct pm_stage *s) { return pm_diag_table_end(&((struct state *)s->state)->table); }
+static int end(struct pm_stage *s)
+{
+	struct state *state = s->state;
+	int status = pm_diag_table_end(&state->table);
+	return status || state->out == stdout ? status : fflush(state->out) ? pm_fail_errno("cannot write the table") : pm_replace_commit(&state->tee, false);
+}
 
 static void release(struct pm_stage *s)
 {
@@ -48,6 +61,7 @@ static void release(struct pm_stage *s)
 	pm_diag_table_clear(&state->table);
 	if (state->out && state->out != stdout)
 		fclose(state->out);
+	pm_replace_drop(&state->tee);
 }
 
 static const char *const formats[] = {"tsv", "json", NULL};

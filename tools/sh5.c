@@ -30,6 +30,8 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "which way? (sh5 FILE.h5 reads a file, sh5 -o FILE.h5 writes one)");
 	if (s->nargs && c->output)
 		return pm_fail(PM_USAGE, "sh5 FILE reads, sh5 -o FILE writes: not both (sh5 a.h5 | sh5 -o b.h5)");
+	if (c->output && !strcmp(c->output, "-"))
+		return pm_fail(PM_USAGE, "-o -: HDF5 cannot be written to a pipe (-o FILE.h5)");
 	if (s->nargs)
 		s->kind = PM_SOURCE;
 	return 0;

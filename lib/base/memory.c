@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include "base/base.h"
 
@@ -89,11 +90,22 @@ static void shelf_put(struct block *b)
 		free(out[i]);
 }
 
+/* Bytes of memory that the machine has; the system grants more than that, and ends the process when they are used. */
+static size_t most_memory(void)
+{
+	const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+	return pages > 0 && page > 0 ? (size_t)pages * (size_t)page : SIZE_MAX;
+}
+
 void *pm_alloc(size_t count, size_t size)
 {
 	size_t bytes;
 	if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 2) {
 		pm_fail(PM_DATA, "%zu values of %zu bytes are more than memory can hold", count, size);
+		return NULL;
+	}
+	if (bytes > large && bytes > most_memory()) {
+		pm_fail(PM_DATA, "%.1f GB wanted at once, and the machine has %.1f GB", (double)bytes / 1e9, (double)most_memory() / 1e9);
 		return NULL;
 	}
 	bytes += head;

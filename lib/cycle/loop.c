@@ -1,14 +1,18 @@
 /* The loop of cycle. All decisions are made between steps and from the frame alone, so that every engine and a resumed run do the same.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/replace.h"
 #include "stage/internal.h"
 #include "cycle/loop.h"
 #include "planner/plan.h"
+#include "sentence/process-chain.h"
 #include "sentence/sentence.h"
 #include "cycle/until.h"
 
@@ -21,15 +25,36 @@ struct cycle {
 	int met;                /* the expression is true for this frame */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
+	int lock;               /* the checkpoint, open and locked; -1: none yet */
+	struct pm_frame *last;  /* the beginning of the step under way, where the sentence has processes, which may never answer; else NULL */
 	json_t *before;         /* resume: the report of the checkpoint, kept until the first pass has been compared with it */
 };
 
-static volatile sig_atomic_t stop;
+static volatile sig_atomic_t stop, stops, waits;
+enum { most_wait = 10 }; /* seconds for which a process may answer after a signal */
 
+/* The first one waits for the end of the step; a second one does not. With processes it gives up the step and keeps the one before. */
 static void on_signal(int signal_number)
 {
 	stop = signal_number;
-	signal(signal_number, SIG_DFL); /* a second signal ends the program at once */
+	if (++stops > (waits ? 1 : 0))
+		signal(signal_number, SIG_DFL);
+}
+
+static bool give_up(void)
+{
+	static double since;
+	if (stop && since == 0) {
+		since = pm_seconds();
+		fprintf(stderr, "cycle: signal %d: waits for the processes of this step, %d s at most (a second signal does not wait)\n", (int)stop, most_wait);
+	}
+	return stops > 1 || (stop && pm_seconds() - since > most_wait);
+}
+
+static void listen_to(int signal_number)
+{
+	if (signal(signal_number, on_signal) == SIG_IGN && signal_number == SIGHUP)
+		signal(signal_number, SIG_IGN); /* nohup */
 }
 
 /* A stream of one frame. */
@@ -51,15 +76,49 @@ static int checkpoint_rest(const char *name, struct pm_frame *f)
 	return closed ? closed : status;
 }
 
-static int checkpoint_stream(const char *name, struct pm_frame *f)
+/* Takes the lock of the file that has the name now, unless it is ours already. One cycle writes a checkpoint: the file in place is always locked by it. */
+static int checkpoint_lock(struct cycle *y)
 {
-	char temporary[4096];
-	snprintf(temporary, sizeof temporary, "%s.part", name);
-	int status = write_alone(pm_writer_open(temporary), f);
-	if (!status && rename(temporary, name))
-		status = pm_fail_errno("cannot rename '%s' to '%s'", temporary, name);
-	if (status)
-		unlink(temporary);
+	const char *name = y->c->checkpoint;
+	for (int tries = 0; tries < 100; tries++) {
+		struct stat mine, now;
+		int fd = open(name, O_RDWR | O_CLOEXEC);
+		if (fd < 0) /* none there; or one that cannot be written, which is said when it is */
+			return 0;
+		bool ours = y->lock >= 0 && !fstat(y->lock, &mine) && !fstat(fd, &now) && mine.st_dev == now.st_dev && mine.st_ino == now.st_ino;
+		int got = ours ? -1 : pm_lock_file(fd);
+		if (!got) {
+			close(fd);
+			return pm_fail(PM_DATA, "'%s' is the checkpoint of another cycle that runs (--checkpoint with a name of its own)", name);
+		}
+		if (got < 0) { /* ours, or a file system without locks */
+			close(fd);
+			return 0;
+		}
+		bool same = !fstat(fd, &mine) && !stat(name, &now) && mine.st_dev == now.st_dev && mine.st_ino == now.st_ino;
+		if (same && y->lock >= 0)
+			close(y->lock);
+		if (same) {
+			y->lock = fd;
+			return 0;
+		}
+		close(fd); /* another took its place meanwhile */
+	}
+	return 0;
+}
+
+static int checkpoint_stream(struct cycle *y, struct pm_frame *f)
+{
+	struct pm_writer *w = pm_writer_lasting(y->c->checkpoint);
+	int fd = w ? fcntl(pm_writer_file(w), F_DUPFD_CLOEXEC, 0) : -1;
+	if (fd >= 0)
+		pm_lock_file(fd);
+	int status = write_alone(w, f);
+	if (status && fd >= 0)
+		close(fd);
+	if (!status && y->lock >= 0)
+		close(y->lock);
+	y->lock = status ? y->lock : fd;
 	return status;
 }
 
@@ -73,26 +132,30 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
 	if (y->until)
 		json_object_set_new(copy->more, "cycle_until", pm_until_save(y->until));
-	int status = pm_h5_pipe_is(name) ? checkpoint_rest(name, copy) : checkpoint_stream(name, copy);
+	const bool hdf = pm_h5_pipe_is(name);
+	int status = checkpoint_lock(y);
+	status = status ? status : hdf ? checkpoint_rest(name, copy) : checkpoint_stream(y, copy);
+	status = status || !hdf ? status : checkpoint_lock(y);
 	pm_frame_free(copy);
-	return status;
+	return status && !strstr(pm_message(), name) ? pm_fail(-status, "checkpoint '%s': %s", name, pm_message()) : status;
 }
 
 /* Checked before anything is computed: the target is writable, and is not a device that the rename would replace. */
-static int checkpoint_check(const char *name)
+static int checkpoint_check(struct cycle *y)
 {
 	struct stat st;
-	char temporary[4096];
+	struct pm_replace try;
+	const char *name = y->c->checkpoint;
 	if (!name)
 		return 0;
-	if (!stat(name, &st) && !S_ISREG(st.st_mode))
+	if (!strcmp(name, "-") || (!stat(name, &st) && !S_ISREG(st.st_mode)))
 		return pm_fail(PM_USAGE, "--checkpoint '%s' is not a file", name);
-	snprintf(temporary, sizeof temporary, "%s.part", name);
-	struct pm_writer *w = pm_writer_open(temporary);
-	if (!w)
-		return pm_failed();
-	unlink(temporary);
-	return pm_writer_close(w);
+	int status = checkpoint_lock(y);
+	if (status || (status = pm_replace_open(&try, name, true)))
+		return status;
+	close(try.fd);
+	pm_replace_drop(&try);
+	return 0;
 }
 
 static int write_out(struct cycle *y, struct pm_frame *f)
@@ -170,13 +233,30 @@ static int same_plans(struct cycle *y, const struct pm_frame *f)
 	return status;
 }
 
+static int interrupted(struct cycle *y, const struct pm_frame *f)
+{
+	int status = checkpoint(y, f);
+	if (status)
+		return status;
+	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
+		y->c->checkpoint ? ", continue with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
+}
+
 /* One pass of the sentence; writes a frame if the completed step is one to be written. */
 static int pass(struct cycle *y, struct pm_frame **f)
 {
 	int64_t step = (*f)->step;
-	int substep = (*f)->substep, status = prime(y, f);
+	int substep = (*f)->substep;
+	if (waits && !substep) {
+		pm_frame_free(y->last);
+		if (!(y->last = pm_frame_copy(*f)))
+			return pm_failed();
+	}
+	int status = prime(y, f);
 	if (!status)
 		status = pm_sentence_pass(y->words, f);
+	if (status && waits && give_up() && y->last)
+		return interrupted(y, y->last);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)step + 1, pm_message());
 	if (y->before && same_plans(y, *f))
@@ -198,21 +278,13 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
 }
 
-static int interrupted(struct cycle *y, const struct pm_frame *f)
-{
-	int status = checkpoint(y, f);
-	if (status)
-		return status;
-	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
-		y->c->checkpoint ? ", continue with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
-}
-
 /* The sentence, made into stages. */
 static int speak(struct cycle *y, const char *sentence)
 {
 	y->words = pm_sentence_new(sentence, !strcmp(y->c->engine, "fused"), &y->c->moves);
 	if (y->words && y->s->verbose)
 		pm_sentence_verbose(y->words);
+	waits = y->words && pm_sentence_waits(y->words);
 	return y->words ? 0 : pm_failed();
 }
 
@@ -226,6 +298,8 @@ static int speak_plan(struct cycle *y, const struct pm_frame *f)
 		json_array_append_new(json_object_get(y->s->entry, "arguments"), json_string(sentence));
 	if (!status)
 		pm_say(y->s, "%s", sentence);
+	if (!status && y->c->resume)
+		status = pm_sentence_safe(sentence);
 	return status ? status : speak(y, sentence);
 }
 
@@ -275,8 +349,8 @@ static int frames(struct cycle *y, struct pm_reader *in)
 
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
-	struct cycle y = {.c = c, .s = s};
-	int bad = checkpoint_check(c->checkpoint);
+	struct cycle y = {.c = c, .s = s, .lock = -1};
+	int bad = checkpoint_check(&y);
 	if (bad)
 		return bad;
 	if (!c->plan && (bad = speak(&y, s->args[0])))
@@ -288,18 +362,23 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
 	y.out = in ? pm_stage_writer(s) : NULL;
 	int status = y.out ? 0 : pm_failed();
-	signal(SIGINT, on_signal);
-	signal(SIGTERM, on_signal);
+	pm_chain_give_up = give_up;
+	listen_to(SIGINT);
+	listen_to(SIGTERM);
+	listen_to(SIGHUP);
 	if (!status)
 		status = frames(&y, in);
 	if (!status && y.words)
 		status = pm_sentence_end(y.words);
-	if (y.words)
-		pm_sentence_timing(y.words, s->run->common.timing);
+	if (!status && y.words)
+		status = pm_sentence_timing(y.words, s->run->common.timing);
 	s->seconds = pm_seconds() - s->run->began;
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());
 	int end = pm_sentence_free(y.words);
 	pm_until_free(y.until);
+	pm_frame_free(y.last);
+	if (y.lock >= 0)
+		close(y.lock);
 	return status ? pm_fail(-status, "%s", message) : end;
 }

@@ -85,10 +85,15 @@ static void note(struct pm_fft_plans *p, const char *path, const char *what)
 /* The wisdom in a file whose first line vouches for the rest; NULL if there is none (nothing noted) or it is not ours (noted). */
 static char *wisdom_read(struct pm_fft_plans *p, const char *path)
 {
-	FILE *f = fopen(path, "re");
+	int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe of that name must not be waited for */
+	struct stat st;
+	bool plain = fd >= 0 && !fstat(fd, &st) && S_ISREG(st.st_mode);
+	FILE *f = plain ? fdopen(fd, "r") : NULL;
 	if (!f) {
-		if (errno != ENOENT)
-			note(p, path, strerror(errno));
+		if (fd >= 0 || errno != ENOENT)
+			note(p, path, fd >= 0 ? "not a plain file" : strerror(errno));
+		if (fd >= 0)
+			close(fd);
 		return NULL;
 	}
 	char *text = malloc(FILE_MOST + 1);
@@ -114,7 +119,10 @@ static int wisdom_write(const char *path, const char *wisdom)
 {
 	char aside[PATH + 32];
 	snprintf(aside, sizeof aside, "%s.%ld", path, (long)getpid());
-	FILE *f = fopen(aside, "we");
+	int fd = open(aside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+	if (fd < 0 && errno == EEXIST && !unlink(aside)) /* of a process that is gone and had our number */
+		fd = open(aside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+	FILE *f = fd < 0 ? NULL : fdopen(fd, "w");
 	if (!f)
 		return -1;
 	int bad = fprintf(f, "pmpipe plan 1 %08x\n%s", pm_crc32c(0, wisdom, strlen(wisdom)), wisdom) < 0;
@@ -148,9 +156,11 @@ static fftw_plan measured(struct pm_fft_plans *p, const char *directory, const c
 {
 	char name[PATH];
 	snprintf(name, sizeof name, "%.990s/lock", directory);
-	int lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-	if (lock < 0 || flock(lock, LOCK_EX)) {
-		note(p, name, strerror(errno));
+	int lock = open(name, O_RDWR | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
+	struct stat st;
+	bool plain = lock >= 0 && !fstat(lock, &st) && S_ISREG(st.st_mode);
+	if (!plain || flock(lock, LOCK_EX)) {
+		note(p, name, lock >= 0 && !plain ? "not a plain file" : strerror(errno));
 		if (lock >= 0)
 			close(lock);
 		return NULL;

@@ -2,12 +2,14 @@
  * and in addition the header of the stream, verbatim, from which sh5 reproduces the same bytes. Every unitSI is 1, because the units are the user's.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/replace.h"
 #include "h5/node.h"
 #include "stream/header.h"
 
@@ -266,21 +268,19 @@ struct pm_h5 *pm_h5_create(const char *path)
 {
 	struct pm_h5 *h = calloc(1, sizeof *h);
 	struct stat there;
-	if (!h || !(h->path = strdup(path)) || asprintf(&h->part, "%s.part", path) < 0) {
+	if (!h) {
 		pm_fail(PM_DATA, "out of memory");
-		return pm_h5_free(h);
+		return NULL;
 	}
 	h->file = -1;
 	H5dont_atexit();
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	bool odd = !stat(path, &there) && !S_ISREG(there.st_mode);
-	FILE *try = odd ? NULL : fopen(h->part, "w"); /* its message is clearer than that of HDF5 */
-	if (!try) {
-		odd ? pm_fail(PM_DATA, "cannot write '%s': it is not a regular file", path) : pm_fail_errno("cannot write '%s'", path);
-		h->part = (free(h->part), NULL);
+	if (odd || !(h->part = pm_replace_name(path, &h->path))) {
+		if (odd)
+			pm_fail(PM_DATA, "cannot write '%s': it is not a regular file", path);
 		return pm_h5_free(h);
 	}
-	fclose(try);
 	hid_t how = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
 	H5Pset_obj_track_times(how, false);
 	H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -303,8 +303,13 @@ int pm_h5_finish(struct pm_h5 *h)
 	if (status)
 		return status;
 	h->file = -1;
-	if (rename(h->part, h->path))
-		return pm_fail_errno("cannot write '%s'", h->path);
+	int fd = open(h->part, O_WRONLY | O_CLOEXEC); /* lasting, for it may be a checkpoint */
+	if (fd < 0 || (fsync(fd) && errno != EINVAL))
+		status = pm_fail_errno("cannot write '%s'", h->path);
+	if (fd >= 0)
+		close(fd);
+	if (status || (status = pm_replace_rename(h->part, h->path, true)))
+		return status;
 	h->part = (free(h->part), NULL);
 	return 0;
 }

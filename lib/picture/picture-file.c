@@ -49,6 +49,8 @@ int pm_picture_files_write(struct pm_picture_files *c, const struct pm_picture *
 		return status;
 	if (c->standard)
 		return pm_picture_ppm(p, stdout);
+	if (!strcmp(c->name, "-"))
+		return pm_picture_png(p, stdout);
 	FILE *out = movie && c->movie ? c->movie : fopen(name, "wb");
 	if (!out)
 		return pm_fail_errno("cannot write '%s'", name);

@@ -84,14 +84,14 @@ static void interpolate_half(const struct mg_level *fine, const struct mg_axis *
 {
 	const struct mg_axis *x = &fine->axis[0];
 	double *odd = u + fine->half;
-	size_t n = x->points / 2;
+	ptrdiff_t n = (ptrdiff_t)(x->points / 2); /* signed, for i - 1 is below zero in the first one */
 	for (size_t i = 0; i < coarse->points; i++)
 		u[i] = t[i];
-	for (size_t i = 0; i < n; i++)
+	for (ptrdiff_t i = 0; i < n; i++)
 		odd[i] = 0.0625 * (9 * (t[i] + t[i + 1]) - (t[i - 1] + t[i + 2]));
 	if (!x->periodic) {
 		odd[0] = interpolated(&fine->map[0], 1, t);
-		odd[n - 1] = interpolated(&fine->map[0], 2 * n - 1, t);
+		odd[n - 1] = interpolated(&fine->map[0], 2 * (size_t)n - 1, t);
 	}
 }
 
@@ -124,7 +124,7 @@ static void collect_half(const struct mg_level *fine, size_t points, const doubl
 		ptrdiff_t i = o < 0 ? o : (ptrdiff_t)n + o;
 		odd[i] = f[mg_slot(fine, mg_fold(2 * i + 1, x))];
 	}
-	for (size_t i = 0; i < points; i++)
+	for (ptrdiff_t i = 0; i < (ptrdiff_t)points; i++)
 		c[i] = 0.03125 * (16 * f[i] + 9 * (odd[i - 1] + odd[i]) - (odd[i - 2] + odd[i + 1]));
 }
 

@@ -23,6 +23,8 @@ struct pm_chain {
 	struct pm_reader *from;
 };
 
+bool (*pm_chain_give_up)(void);
+
 static void child(char **argv, int in, int out)
 {
 	char path[PATH_MAX + 64];
@@ -78,6 +80,8 @@ struct pm_chain *pm_chain_new(char ***words)
 		return NULL;
 	}
 	c->from = pm_reader_of_fd(next);
+	if (c->from)
+		pm_reader_give_up(c->from, pm_chain_give_up);
 	return c;
 }
 
@@ -132,15 +136,19 @@ static int exchange(struct pm_chain *c, struct sending *s, struct pm_frame **bac
 		got = status ? status : got;
 	}
 	if (got < 0) {
+		bool gave_up = pm_chain_give_up && pm_chain_give_up();
 		c->broken = true;
 		char message[1024];
 		snprintf(message, sizeof message, "%s", pm_message());
-		bool cut = !pm_reader_aborted(c->from) || strstr(message, "it was cut") || strstr(message, "zero bytes");
+		bool cut = !gave_up && (!pm_reader_aborted(c->from) || strstr(message, "it was cut") || strstr(message, "zero bytes"));
 		int died = cut ? who_died(c, 0) : 0; /* a later word of ours reports only that its input was cut */
 		got = died ? died : pm_fail(-got, "%s", message);
 		for (int i = 0; i < c->n; i++) /* a writer blocked on one of them then fails */
 			if (c->pid[i] > 0)
 				kill(c->pid[i], SIGTERM);
+		for (int i = 0; i < c->n && gave_up; i++) /* with what it may have started */
+			if (c->pid[i] > 0)
+				kill(-c->pid[i], SIGKILL);
 	}
 	pthread_join(writer, NULL);
 	return got;

@@ -7,6 +7,7 @@
 
 struct pm_chain;
 
+extern bool (*pm_chain_give_up)(void); /* cycle's: a process that does not answer is not waited for any longer; NULL: it is */
 /* words: the argv of each process, NULL ends each and all; words of pmpipe are found beside this program, others on PATH. */
 struct pm_chain *pm_chain_new(char ***words);
 /* Sends the frame through the chain and replaces it by the result. */

@@ -300,9 +300,45 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
 
-void pm_sentence_timing(const struct pm_sentence *s, const char *file)
+bool pm_sentence_waits(const struct pm_sentence *s)
 {
-	for (int i = 0; i < s->nwords; i++)
+	for (int i = 0; i < s->nsegments; i++)
+		if (s->segment[i].process)
+			return true;
+	return false;
+}
+
+static bool writes_files(const struct pm_stage *s)
+{
+	for (const struct pm_option *o = s->tool->options; o && o->name; o++)
+		if (o->unit && !strcmp(o->unit, "FILE") && pm_given(s, o->name))
+			return true;
+	return false;
+}
+
+int pm_sentence_safe(const char *text)
+{
+	struct pm_sentence *s = calloc(1, sizeof *s);
+	char *buffer = malloc(strlen(text) + 1);
+	int status = s && buffer ? split(s, text, buffer) : pm_fail(PM_DATA, "out of memory");
+	free(buffer);
+	for (int i = 0; s && i < s->nwords && !status; i++) {
+		struct word *w = s->word + i;
+		w->tool = pm_tool_find(w->argv[0]);
+		w->stage = w->tool ? pm_stage_make(w->tool, w->argc, w->argv, &status) : NULL;
+		if (!w->tool || (w->stage && !status && writes_files(w->stage)))
+			status = pm_fail(PM_DATA, "the sentence in the history of the checkpoint is none of plan's: '%s' %s (type the sentence instead of --plan)", w->argv[0],
+				w->tool ? "writes a file" : "is no word of pmpipe");
+	}
+	pm_sentence_free(s);
+	return status;
+}
+
+int pm_sentence_timing(const struct pm_sentence *s, const char *file)
+{
+	int status = 0;
+	for (int i = 0; i < s->nwords && !status; i++)
 		if (s->word[i].stage)
-			pm_timing_write(s->word[i].stage, file, -1);
+			status = pm_timing_write(s->word[i].stage, file, -1);
+	return status;
 }

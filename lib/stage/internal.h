@@ -2,6 +2,7 @@
 #ifndef PM_STAGE_INTERNAL_H
 #define PM_STAGE_INTERNAL_H
 
+#include "base/replace.h"
 #include "stage/h5-pipe.h"
 #include "stage/stage.h"
 
@@ -21,6 +22,7 @@ struct pm_run {
 	char *copies[PM_LIST_MOST]; /* texts of list options, split into their items */
 	struct pm_reader *reader;
 	struct pm_writer *writer;
+	struct pm_replace text;     /* the file of a sink's text; path NULL: none, or one that is new */
 	struct pm_h5_pipe *rest; /* the sh5 process after the writer if the output is HDF5; else NULL */
 	double began; /* clock when the stage was made */
 };
@@ -32,7 +34,7 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv);
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
 int pm_stage_begin(struct pm_stage *s);
 void pm_history_add(struct pm_stage *s, struct pm_frame *f);
-void pm_timing_write(const struct pm_stage *s, const char *file, double wall);
+int pm_timing_write(const struct pm_stage *s, const char *file, double wall); /* file NULL: nothing; -: standard error */
 
 void pm_help(const struct pm_tool *tool);
 void pm_man(const struct pm_tool *tool);

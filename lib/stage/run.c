@@ -32,7 +32,8 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 	if (status)
 		return status;
 	pm_history_add(s, f);
-	if (emit && !hold)
+	status = pm_frame_affordable(f);
+	if (!status && emit && !hold)
 		status = pm_write_header(w, f);
 	if (!status)
 		status = pm_read_payload(r, f, hold, emit && !hold ? w : NULL);
@@ -136,6 +137,28 @@ static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 		pm_write_abort(w, pm_exit_code(status), text);
 }
 
+/* What goes to standard output goes to a file. */
+static int text_to(struct pm_run *run, const char *path)
+{
+	int status = pm_replace_open(&run->text, path, false);
+	if (!status && dup2(run->text.fd, STDOUT_FILENO) < 0)
+		status = pm_fail_errno("cannot write '%s'", path);
+	return status;
+}
+
+/* A library ends the process by itself (libgomp, where no thread can be started): said under our name and down the stream. */
+static struct pm_stage *running;
+
+static void left_early(void)
+{
+	struct pm_stage *s = running;
+	running = NULL;
+	if (!s)
+		return;
+	pm_fail(PM_DATA, "ended by a library before it was done, its reason is above (fewer threads: --threads, OMP_NUM_THREADS; OMP_STACKSIZE)");
+	tell(s, s->tool, -PM_DATA);
+}
+
 static int run(struct pm_stage *s)
 {
 	int status = pm_stage_begin(s);
@@ -143,8 +166,8 @@ static int run(struct pm_stage *s)
 		return status;
 	if (s->kind == PM_SINK && pm_h5_pipe_is(s->run->common.output))
 		return pm_fail(PM_USAGE, "'%s': .h5 files hold streams, but %s writes text", s->run->common.output, s->tool->name);
-	if (s->kind == PM_SINK && s->run->common.output && !freopen(s->run->common.output, "w", stdout))
-		return pm_fail_errno("cannot write '%s'", s->run->common.output);
+	if (s->kind == PM_SINK && s->run->common.output && strcmp(s->run->common.output, "-") && (status = text_to(s->run, s->run->common.output)))
+		return status;
 	if (s->tool->whole)
 		status = s->tool->whole(s);
 	else
@@ -159,14 +182,20 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	int status = 0;
 	struct pm_stage *s = pm_stage_make(tool, argc, argv, &status);
 	bool printed = s && !status && print_and_go(tool, &s->run->common);
-	if (s && !status && !printed)
+	if (s && !status && !printed) {
+		running = s;
+		atexit(left_early);
 		status = run(s);
+		running = NULL;
+	}
 	if (status < 0 && s && s->run->rest)
 		status = pm_h5_pipe_reason(s->run->rest, status);
 	if (status < 0)
 		tell(s, tool, status);
-	else if (s && !printed)
-		pm_timing_write(s, s->run->common.timing, -1);
+	else if (s && !printed && pm_timing_write(s, s->run->common.timing, -1)) {
+		status = -PM_DATA;
+		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
+	}
 	if (s && s->run->writer && pm_writer_close(s->run->writer) && !status) {
 		status = -PM_DATA;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
@@ -176,8 +205,13 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 		status = rest;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}
-	if (fflush(stdout) && !status) {
-		status = pm_fail_errno("cannot write the output");
+	int flushed = fflush(stdout) ? pm_fail_errno("cannot write the output") : 0;
+	if (s && !status && !flushed)
+		flushed = pm_replace_commit(&s->run->text, false);
+	if (s)
+		pm_replace_drop(&s->run->text);
+	if (flushed && !status) {
+		status = flushed;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}
 	pm_stage_free(s);

@@ -97,6 +97,8 @@ int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
 {
 	int plan = pm_stage_declare(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
 	if (!status)
+		status = pm_frame_affordable(f);
+	if (!status)
 		status = check_input(f);
 	if (!status)
 		status = pm_frame_ready(f);
@@ -187,16 +189,20 @@ void pm_setup_since(struct pm_stage *s, double began)
 	s->seconds -= t; /* the total time of frame() is added when it ends */
 }
 
-void pm_timing_write(const struct pm_stage *s, const char *file, double wall)
+int pm_timing_write(const struct pm_stage *s, const char *file, double wall)
 {
-	FILE *out = file ? fopen(file, "a") : NULL;
+	if (!file)
+		return 0;
+	bool standard = !strcmp(file, "-");
+	FILE *out = standard ? stderr : fopen(file, "a");
 	if (!out)
-		return;
+		return pm_fail_errno("cannot write the timing to '%s'", file);
 	fprintf(out, "%s\t%.9f\t%.9f", s->word, s->setup, s->seconds);
 	if (wall >= 0)
 		fprintf(out, "\t%.9f", wall);
-	fputc('\n', out);
-	fclose(out);
+	bool bad = fputc('\n', out) == EOF || fflush(out);
+	bad |= !standard && fclose(out);
+	return bad ? pm_fail_errno("cannot write the timing to '%s'", file) : 0;
 }
 
 const struct pm_tool *pm_tool_find(const char *name)

@@ -27,6 +27,7 @@ struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name
 		f->fields[f->nfields++] = field;
 	}
 	field->use |= PM_USE_CHANGE;
+	field->use |= field->uniform ? PM_USE_FROM_VALUE : 0;
 	field->uniform = false;
 	return field;
 }

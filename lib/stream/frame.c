@@ -186,6 +186,43 @@ void pm_frame_constant_set(struct pm_frame *f, const char *name, double value) {
 
 void pm_frame_parameter_set(struct pm_frame *f, const char *name, double value) { json_object_set_new(f->parameters, name, json_real(value)); }
 
+/* What a header of a few hundred bytes may become: particles or points of which nothing but uniform values came along. */
+static double most_from_nothing(void)
+{
+	const char *given = getenv("PM_EXPAND_GB");
+	double gigabytes = given ? strtod(given, NULL) : 0;
+	return gigabytes > 0 ? gigabytes * 1e9 : 4e9;
+}
+
+static int affordable_on(const struct pm_frame *f, const char *on)
+{
+	double bytes = 0;
+	bool any = false;
+	for (size_t i = 0; i < f->nfields + f->ndropped; i++) {
+		const struct pm_field *p = i < f->nfields ? f->fields[i] : f->dropped[i - f->nfields];
+		if (strcmp(p->on, on))
+			continue;
+		bool from_value = p->use & PM_USE_FROM_VALUE || (p->uniform && !(p->use & PM_USE_NEW));
+		any |= from_value;
+		if (!from_value && !(p->use & PM_USE_NEW))
+			return 0; /* its data came along */
+		if (!p->buffer && p->use & (PM_USE_READ | PM_USE_CHANGE | PM_USE_NEW) && !(p->use & PM_USE_NEW && p->uniform))
+			bytes += (double)p->count * p->components * (double)pm_field_memory(p);
+	}
+	return !any || bytes <= most_from_nothing() ? 0
+		: pm_fail(PM_DATA, "'%s' has uniform values only, and %.1f GB would be made of them (PM_EXPAND_GB=%.0f in the environment allows it)", on, bytes / 1e9, ceil(bytes / 1e9));
+}
+
+int pm_frame_affordable(const struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t i = 0; i < f->nsets && !status; i++)
+		status = affordable_on(f, f->sets[i]->name);
+	for (size_t i = 0; i < f->nmeshes && !status; i++)
+		status = affordable_on(f, f->meshes[i]->name);
+	return status;
+}
+
 int pm_frame_ready(struct pm_frame *f)
 {
 	for (size_t i = 0; i < f->nfields; i++)

@@ -24,7 +24,8 @@ size_t pm_type_size(enum pm_type type); /* bytes of a value in the stream */
 /* What the running stage does with a field; set in declare(), cleared after frame(). */
 enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* new, and the stage writes every value: no zeros needed */,
 	PM_USE_SEEN = 16 /* the stage has checked every value in its own loop, and all are finite */,
-	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */ };
+	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */,
+	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 

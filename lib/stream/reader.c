@@ -1,6 +1,7 @@
 /* Reads the stream. Everything is checked before it is used. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -21,6 +22,7 @@ struct item { /* one field of the current frame, as it was when its header was r
 
 struct pm_reader {
 	int fd;
+	bool (*give_up)(void);     /* NULL: it waits for ever */
 	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
 	bool whole;                /* the current frame has been read to its tail; it stays current until the next begins */
 	uint64_t frame, frames;    /* number of the current frame, from 1; frames of this stream */
@@ -65,9 +67,24 @@ struct pm_reader *pm_reader_close(struct pm_reader *r)
 	return NULL;
 }
 
+void pm_reader_give_up(struct pm_reader *r, bool (*when)(void)) { r->give_up = when; }
+
 uint64_t pm_reader_frame(const struct pm_reader *r) { return r->frame; }
 
 bool pm_reader_aborted(const struct pm_reader *r) { return r->aborted; }
+
+/* True if it is not worth waiting any longer. */
+static bool waits_in_vain(const struct pm_reader *r)
+{
+	struct pollfd p = {.fd = r->fd, .events = POLLIN};
+	while (r->give_up) {
+		if (r->give_up())
+			return true;
+		if (poll(&p, 1, 200) > 0)
+			return false;
+	}
+	return false;
+}
 
 /* Reads exactly n bytes; -1 and errno on failure, otherwise the bytes there were (fewer only at end of file). Large reads go past the buffer. */
 static ssize_t get(struct pm_reader *r, void *to, size_t n)
@@ -76,6 +93,10 @@ static ssize_t get(struct pm_reader *r, void *to, size_t n)
 	while (done < n) {
 		if (r->have == r->at) {
 			bool direct = n - done >= sizeof r->piece;
+			if (waits_in_vain(r)) {
+				errno = EINTR;
+				return -1;
+			}
 			ssize_t k = read(r->fd, direct ? (char *)to + done : r->piece, direct ? n - done : sizeof r->piece);
 			if (k < 0 && errno == EINTR)
 				continue;

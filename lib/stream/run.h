@@ -9,6 +9,7 @@ PM_C_BEGIN
 
 struct pm_frame *pm_frame_header(const struct pm_frame *f); /* a copy without data, to try declare() on */
 
+int pm_frame_affordable(const struct pm_frame *f); /* fails where a few bytes of header would become gigabytes */
 /* Between declare() and frame(): expands uniform fields that are read, zeroes new ones, makes changed ones writable. */
 int pm_frame_ready(struct pm_frame *f);
 /* After frame(): checks that changed values are finite (else -PM_NUMERICS with the place), rounds f32, clears the use bits, frees dropped fields. */

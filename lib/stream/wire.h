@@ -30,8 +30,13 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 int pm_read_declared(struct pm_reader *r, struct pm_frame *f);
 /* A whole frame, everything loaded: header and payload in one call. */
 int pm_read_frame(struct pm_reader *r, struct pm_frame **f);
+void pm_reader_give_up(struct pm_reader *r, bool (*when)(void)); /* asked five times a second while it waits */
 
-struct pm_writer *pm_writer_open(const char *path); /* NULL: standard output (refused on a terminal) */
+/* NULL or -: standard output (refused on a terminal). A file that is there is replaced when a whole stream has been written and the writer is closed; until
+ * then, and where the stream is cut, it stays as it was. */
+struct pm_writer *pm_writer_open(const char *path);
+struct pm_writer *pm_writer_lasting(const char *path); /* also where no file is there yet, and on the disk before it counts as written */
+int pm_writer_file(const struct pm_writer *w);         /* its descriptor */
 struct pm_writer *pm_writer_of_fd(int fd);
 int pm_writer_close(struct pm_writer *w);           /* 0 or failure; frees in any case */
 bool pm_writer_dirty(const struct pm_writer *w);    /* something has been written */

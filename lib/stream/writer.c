@@ -6,12 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/replace.h"
 #include "stream/forward.h"
 #include "stream/header.h"
 
 struct pm_writer {
 	int fd;
-	bool dirty;
+	bool dirty, whole;     /* whole: what was written last is an end marker */
+	bool lasting;
+	struct pm_replace file;
 	uint64_t frames, left; /* of this stream; bytes of the frame's payload announced but not yet written */
 	size_t next, ncrc;     /* current field; room in crc */
 	uint32_t *crc;
@@ -25,29 +28,52 @@ struct pm_writer *pm_writer_of_fd(int fd)
 		return NULL;
 	}
 	w->fd = fd;
+	w->file.fd = -1;
 	fcntl(fd, F_SETPIPE_SZ, 1 << 20);
+	return w;
+}
+
+static struct pm_writer *writer_of_file(const char *path, bool lasting)
+{
+	struct pm_replace file;
+	if (pm_replace_open(&file, path, lasting))
+		return NULL;
+	struct pm_writer *w = pm_writer_of_fd(file.fd);
+	if (!w) {
+		close(file.fd);
+		pm_replace_drop(&file);
+		return NULL;
+	}
+	w->file = file;
+	w->lasting = lasting;
 	return w;
 }
 
 struct pm_writer *pm_writer_open(const char *path)
 {
+	if (path && !strcmp(path, "-"))
+		path = NULL;
 	if (!path && isatty(STDOUT_FILENO)) {
 		pm_fail(PM_USAGE, "standard output is a terminal, but a stream is not text (add | sls, | stab, or > FILE)");
 		return NULL;
 	}
-	int fd = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : STDOUT_FILENO;
-	if (fd < 0) {
-		pm_fail_errno("cannot write '%s'", path);
-		return NULL;
-	}
-	return pm_writer_of_fd(fd);
+	if (!path)
+		return pm_writer_of_fd(STDOUT_FILENO);
+	return writer_of_file(path, false);
 }
+
+struct pm_writer *pm_writer_lasting(const char *path) { return writer_of_file(path, true); }
+
+int pm_writer_file(const struct pm_writer *w) { return w->fd; }
 
 int pm_writer_close(struct pm_writer *w)
 {
 	if (!w)
 		return 0;
-	int status = close(w->fd) ? pm_fail_errno("cannot close the output") : 0;
+	int status = w->whole ? pm_replace_commit(&w->file, w->lasting) : 0; /* a stream that was cut replaces nothing */
+	pm_replace_drop(&w->file);
+	if (close(w->fd) && !status)
+		status = pm_fail_errno("cannot close the output");
 	free(w->crc);
 	free(w);
 	return status;
@@ -59,6 +85,7 @@ static int put(struct pm_writer *w, const void *data, size_t n)
 {
 	const char *p = data;
 	w->dirty = w->dirty || n;
+	w->whole = false;
 	while (n) {
 		ssize_t k = write(w->fd, p, n);
 		if (k < 0 && errno == EINTR)
@@ -195,7 +222,9 @@ int pm_write_end(struct pm_writer *w)
 	char text[PM_LINE];
 	line(text, "PMPIPE/1 end %llu", w->frames, 0);
 	w->frames = 0;
-	return put(w, text, PM_LINE);
+	int status = put(w, text, PM_LINE);
+	w->whole = !status;
+	return status;
 }
 
 /* A wrong header may announce too much: beyond this limit the stream just ends, and the next stage reports that it was cut. */

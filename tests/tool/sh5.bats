@@ -283,7 +283,7 @@ END
 	cycle -n 6 --resume c.h5 "$leapfrog" | cmp - <(sel --last --no-history <whole.pm)
 	[ -z "$(ls | grep part)" ]
 	says 1 "cycle: stopped by sh5: cannot open 'no.h5'*" cycle -n 6 --resume no.h5 "$leapfrog"
-	says 1 "cycle: cannot write '/nosuch/c.h5.part'*" cycle -n 6 --checkpoint /nosuch/c.h5 -i b.pm -o /dev/null "$leapfrog"
+	says 1 "cycle: cannot write '/nosuch/c.h5'*" cycle -n 6 --checkpoint /nosuch/c.h5 -i b.pm -o /dev/null "$leapfrog"
 }
 
 @test "-i and -o of any tool read and write HDF5" {
