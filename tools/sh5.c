@@ -1,6 +1,8 @@
 /* sh5: the stream at rest, an HDF5 file in the layout of openPMD 1.1 (docs/methods/hdf5.md), both ways and to the byte. The only program that links
  * HDF5, which costs 5 ms to start; -i x.h5 and -o x.h5 of the others run it on a pipe. Cost: that of the disk.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "h5/stream-copy.h"
 #include "stage/stage.h"
 
