@@ -6,22 +6,25 @@
 #include "step/step.h"
 
 /* The next pass starts at y0 + a dt k; this one at y0 + b dt (last rate); the rate enters the sum with weight w. */
-static void stage(double a, double b, double w, double dt, size_t n, double *restrict y, const double *restrict k, double *restrict last,
-	double *restrict sum)
+struct row {
+	double a, b, w;
+};
+
+static void between(struct row r, double dt, size_t n, double *restrict y, const double *restrict k, double *restrict last, double *restrict sum)
 {
 	for (size_t i = 0; i < n; i++) {
-		y[i] += dt * (a * k[i] - b * last[i]);
+		y[i] += dt * (r.a * k[i] - r.b * last[i]);
 		last[i] = k[i];
-		sum[i] += w * k[i];
+		sum[i] += r.w * k[i];
 	}
 }
 
 static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
 {
-	static const double a[] = {0.5, 0.5, 1}, b[] = {0, 0.5, 0.5}, w[] = {1, 2, 2};
+	static const struct row rows[] = {{0.5, 0, 1}, {0.5, 0.5, 2}, {1, 0.5, 2}};
 	double *restrict last = q[0], *restrict sum = q[1];
 	if (p < 3)
-		stage(a[p], b[p], w[p], dt, n, y, k, last, sum);
+		between(rows[p], dt, n, y, k, last, sum);
 	else
 		for (size_t i = 0; i < n; i++)
 			y[i] += dt * ((sum[i] + k[i]) / 6 - last[i]);

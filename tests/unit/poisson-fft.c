@@ -77,9 +77,10 @@ static size_t basis(const struct pm_grid *g, int d, enum pm_symbol symbol, doubl
 	return modes;
 }
 
-/* out[m] = sum_i b[m][i] weight[i] in[i] along axis d, or the transpose without weights. */
-static void along(const size_t size[3], int d, size_t modes, size_t points, const double *b, const double *weight, bool back, const double *in, double *out)
+/* out[m] = sum_i b[m][i] weight[i] in[i] along axis d, or the transpose where there are no weights (NULL). */
+static void along(const size_t size[3], int d, size_t modes, size_t points, const double *b, const double *weight, const double *in, double *out)
 {
+	const bool back = !weight;
 	size_t from = back ? modes : points, to = back ? points : modes, stride = 1, outer = 1;
 	for (int e = 0; e < 3; e++)
 		*(e < d ? &stride : &outer) *= e == d ? 1 : size[e];
@@ -106,7 +107,7 @@ static void direct(const struct pm_grid *g, enum pm_symbol symbol, double c, con
 		w[d] = malloc(p * sizeof(double));
 		lambda[d] = malloc((p + 2) * sizeof(double));
 		modes[d] = basis(g, d, symbol, b[d], w[d], lambda[d]);
-		along(size, d, modes[d], p, b[d], w[d], false, a, t);
+		along(size, d, modes[d], p, b[d], w[d], a, t);
 		size[d] = modes[d];
 		memcpy(a, t, total * sizeof *a);
 	}
@@ -117,7 +118,7 @@ static void direct(const struct pm_grid *g, enum pm_symbol symbol, double c, con
 				a[i] = l < 0 ? c * a[i] / l : 0;
 			}
 	for (int d = 0; d < 3; d++) {
-		along(size, d, modes[d], g->points[d], b[d], w[d], true, a, t);
+		along(size, d, modes[d], g->points[d], b[d], NULL, a, t);
 		size[d] = g->points[d];
 		memcpy(a, t, total * sizeof *a);
 		free(b[d]), free(w[d]), free(lambda[d]);
