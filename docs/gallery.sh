@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/gallery.md into docs/gallery/: every block of that page is run as printed and makes the picture above it. Names as arguments: those alone.
+# Makes the pictures of docs/gallery.md into docs/gallery/: every block of that page is run as printed and makes the picture above it. Names as arguments:
+# those alone.
 # Needs bin/, gnuplot for the plots of columns, netpbm for pictures side by side. Equal bytes in every run. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Fills the last column of the tables of docs/hard-cases.md: runs the tests that a row names (`hard/pic HC-02: a thermal`: all of tests/hard/pic.bats whose name begins so;
-# `unit/pp HC-19`: the checks of that program) and writes how far the tightest of their comparisons is from its bound. The rest of the page is left alone.
-# hard-cases.sh [hard/pic ...]: only the rows that name these files. --rows: prints line, file, beginning and number of every row. PM_LONG=1: with the long tests.
+# Fills the last column of the tables of docs/hard-cases.md: runs the tests that a row names (`hard/pic HC-02: a thermal`: all of tests/hard/pic.bats whose
+# name begins so; `unit/pp HC-19`: the checks of that program) and writes how far the tightest of their comparisons is from its bound. The rest of the page is
+# left alone.
+# hard-cases.sh [hard/pic ...]: only the rows that name these files. --rows: prints line, file, beginning and number of every row. PM_LONG=1: with the long
+# tests.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)

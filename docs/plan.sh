@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The table of docs/plan.md: runs of `cycle --plan` at three accuracies, each with its error against what is known of its end. Expected: errors of the order of the
-# accuracy or below, but where the mesh of the scene is too coarse, which plan says. PM_LONG=1 adds the shear layer on 256^2.
+# The table of docs/plan.md: runs of `cycle --plan` at three accuracies, each with its error against what is known of its end. Expected: errors of the order
+# of the accuracy or below, but where the mesh of the scene is too coarse, which plan says. PM_LONG=1 adds the shear layer on 256^2.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Measures the limits of docs/stability.md: runs the blocks of that page as printed and writes measured value, uncertainty and ratio into the table behind each, in
-# the order of the rows. Words as arguments: the sections whose headings begin so, alone. --check: compares with the page instead, and fails where they differ by
+# Measures the limits of docs/stability.md: runs the blocks of that page as printed and writes measured value, uncertainty and ratio into the table behind
+# each, in the order of the rows. Words as arguments: the sections whose headings begin so, alone. --check: compares with the page instead, and fails where
+# they differ by
 # more than both uncertainties. Pictures go to docs/. Needs bin/; gnuplot and netpbm for the pictures. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)

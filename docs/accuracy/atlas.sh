@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the figures of docs/accuracy/README.md: every block of that page is run as printed in an empty directory and leaves NAME.tsv, the numbers, and NAME.png, the
-# picture. Then data/atlas/ from the numbers. Names as arguments: those alone. Errors are the same in every run; seconds are this machine's, of one thread.
+# Makes the figures of docs/accuracy/README.md: every block of that page is run as printed in an empty directory and leaves NAME.tsv, the numbers,
+# and NAME.png, the picture. Then data/atlas/ from the numbers. Names as arguments: those alone. Errors are the same in every run; seconds are this
+# machine's, of one thread.
 # Needs bin/ and gnuplot. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)

@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # Sentences with alternatives: {a,b,c} splits at the commas directly inside, nests, and may hold |; \{ \} \, are the signs themselves;
 # {name} stands for the value of --vary name=a,b,c wherever it is (linked choices). `sentences TEMPLATE VARY...` sets sentence[], and of the choices
-# choice_name[] and chosen[member * choices + choice]. The last choice runs fastest; of equal sentences the first is kept. last_member is that of the last choices.
+# choice_name[] and chosen[member * choices + choice]. The last choice runs fastest; of equal sentences the first is kept. last_member is that of the last
+# choices.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # The escaped signs wait as control characters until everything is expanded.

@@ -36,7 +36,8 @@ watch() {
 	words='pp --softening 0 | dt --acceleration 70 --softening 1e-9 | push rk4'
 	sh_ok "cycle -t 20 '$words' < a > b"
 	below "$(off < b)" 1e-6 "energy"
-	# PM-11, in quadruple precision; the last step ends up to dt/2 = 5e-5 from t = 20. An error of 1e-6 in the energy of the pair has its phase off by 1e-5 or so
+	# PM-11, in quadruple precision; the last step ends up to dt/2 = 5e-5 from t = 20. An error of 1e-6 in the energy of the pair has its phase off by
+	# 1e-5 or so
 	late=$(sls < b | sed -n 's/^frame 1: time \([0-9.]*\) .*/\1/p')
 	stab --plain < b | awk -v late="$late" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["x"] - $c["vx"] * (late - 20); print $c["y"] - $c["vy"] * (late - 20) }' OFMT=%.12g > places
 	for want in 3.0042926367 0.5119252350 -1.3886265375 -0.4704760503 -0.6916743520 0.0692256992; do

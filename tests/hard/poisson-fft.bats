@@ -1,4 +1,5 @@
-# Means, plans, caches. Lengths with a prime factor above 13 are planned by FFTW, so the meshes here have such. HC-24 and HC-29 are in tests/unit/poisson-fft.c. SPDX-License-Identifier: GPL-3.0-or-later
+# Means, plans, caches. Lengths with a prime factor above 13 are planned by FFTW, so the meshes here have such. HC-24 and HC-29 are in
+# tests/unit/poisson-fft.c. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 @test "HC-23: a mean density of 1 in a periodic box is removed and reported, phi has mean zero" {

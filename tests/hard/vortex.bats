@@ -93,7 +93,8 @@ radii() {
 }
 
 @test "in open space viscosity with a cut-off loses circulation, more with more frequent remeshing; with a rim of two cells the loss is 1e3 times smaller and falls with dt" {
-	# circulation that diffuses beyond the last particle is lost. Without a rim this happens at the cut-off, where omega is 1e-6 of its largest; 150, 300, 600 cuts
+	# circulation that diffuses beyond the last particle is lost. Without a rim this happens at the cut-off, where omega is 1e-6 of its largest; 150, 300,
+	# 600 cuts
 	for rim in 0 2; do
 		for dt in 0.02 0.01 0.005; do
 			pinit lamb-oseen --cells 120 --dt $dt | cycle -t 4 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6 --rim $rim" |

@@ -51,7 +51,8 @@ wave() {
 
 @test "PIC-07 in two and three dimensions: along x cos(k dx/2), along the diagonals less by the kernel's sums over the other axes" {
 	# w^2 = cos(k dx/2)^2 B^(axes - 1) with B, for each other axis, the mean over the electrons of (1-t)^2 + t^2 + 2 t (1-t) cos(k dx), t their place in the
-	# cell: 1 - (1/3 + 1/(6 p^2)) (1 - cos(k dx)) for p electrons in the middle of as many parts of a cell (p to infinity: sum of sinc^4). k dx = pi/4, p = 4.
+	# cell: 1 - (1/3 + 1/(6 p^2)) (1 - cos(k dx)) for p electrons in the middle of as many parts of a cell (p to infinity: sum of sinc^4). k dx = pi/4,
+	# p = 4.
 	for case in "1 1" "2 1" "2 2" "3 1" "3 3"; do
 		read -r dim axes <<<"$case"
 		want=$(awk -v a="$axes" 'BEGIN { printf "%.9g", cos(0.39269908169872415) * (1 - (1 / 3 + 1 / 96) * (1 - cos(0.78539816339744831)))^((a - 1) / 2) }')

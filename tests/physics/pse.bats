@@ -31,8 +31,8 @@ lattice() {
 }
 
 @test "N64, DF-02: heat in a half line: the numbers of the benchmark, cut off at 5 and at 10 eps, at 25 to 1600 particles" {
-	# 25 to 400 at 5 eps: DF-02; the others as remeasured for tests/reference/cases.md, to their three digits. Beyond 400 the error of euler matters: not tested
-	# at 10 eps.
+	# 25 to 400 at 5 eps: DF-02; the others as remeasured for tests/reference/cases.md, to their three digits. Beyond 400 the error of euler matters: not
+	# tested at 10 eps.
 	for row in 25:7.09e-5:7.05e-5 50:1.9545e-5:1.88e-5 100:5.6265e-6:4.76e-6 200:2.1036e-6:1.17e-6 400:1.2492e-6:2.7e-7 800:1.05e-6: 1600:1.00e-6:; do
 		IFS=: read -r n five ten <<<"$row"
 		within "$(error $n 5)" $five "$(awk "BEGIN { print 5e-3 * $five }")" "$n particles, cut off at 5 eps"
@@ -119,8 +119,8 @@ lattice() {
 	within "$(column circulation <t)" 1 1e-6
 }
 
-# largest M JITTER INTERIOR OPTIONS: the largest error of the Laplacian of f = sin 2 pi x cos 2 pi y + x^2 on M x M points of the unit square, moved by JITTER h,
-# at least INTERIOR h from its rim.
+# largest M JITTER INTERIOR OPTIONS: the largest error of the Laplacian of f = sin 2 pi x cos 2 pi y + x^2 on M x M points of the unit square, moved by JITTER
+# h, at least INTERIOR h from its rim.
 largest() {
 	awk -v m="$1" -v j="$2" 'BEGIN { srand(4); p = 8 * atan2(1, 1); h = 1 / m; print "x y f volume"
 		for (i = 0; i < m; i++) for (k = 0; k < m; k++) { x = (i + 0.5 + j * (2 * rand() - 1)) * h; y = (k + 0.5 + j * (2 * rand() - 1)) * h

@@ -20,7 +20,8 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 	pipeline vortex-shear-layer "$([ "${PM_LONG:-}" ] && echo 32 || echo 18)"
 }
 
-# The pipeline takes omega from the nodes; diag has it as a column. -60.65 is the value of 128^2 with dt = 0.005 (VM-16), as in the pipeline, at a fifth of the cost.
+# The pipeline takes omega from the nodes; diag has it as a column. -60.65 is the value of 128^2 with dt = 0.005 (VM-16), as in the pipeline, at a fifth of
+# the cost.
 @test "VM-16: the printed sentence of the shear layer: diag's omega_centre is within 1.5 of -60.65 on 128^2 (in check-long within 1 of -26.07 on 256^2)" {
 	read -r cells want tolerance <<<"128x128 -60.65 1.5"
 	[ -z "${PM_LONG:-}" ] || read -r cells want tolerance <<<"256x256 -26.070867 1"
@@ -119,8 +120,8 @@ ellipse() {
 }
 
 @test "VM-17: an elliptical vortex at t = 2, 5, 10: energy, enstrophy and peak as in the spectral code" {
-	# 128^2, dt = 0.05. The reference's particles: enstrophy .3 %, peak 2.5 % off with m4prime, .08 % and 1 % with m6prime (at an unspecified time); 1.5 times
-	# that for enstrophy. Its omega has the mean (circulation over area) removed.
+	# 128^2, dt = 0.05. The reference's particles: enstrophy .3 %, peak 2.5 % off with m4prime, .08 % and 1 % with m6prime (at an unspecified time); 1.5
+	# times that for enstrophy. Its omega has the mean (circulation over area) removed.
 	for case in "m4prime 5e-4 0.0045 0.025" "m6prime 1e-4 0.0012 0.01"; do
 		read -r k e z w <<<"$case"
 		pinit ellipse | cycle -t 10 --every 20 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k" | solved $k |
@@ -171,8 +172,8 @@ apart() {
 }
 
 @test "pp and the mesh agree in open space: one vortex with a Rankine, denominator or Gaussian core gives the velocity of that core's vorticity in cells" {
-	# cells smooth the edge of the disc over h, which changes the velocity outside by h^2 (1/32^2 = 1e-3); for smooth cores the error is that of the differences
-	# of order 6 and of the kernel
+	# cells smooth the edge of the disc over h, which changes the velocity outside by h^2 (1/32^2 = 1e-3); for smooth cores the error is that of the
+	# differences of order 6 and of the kernel
 	for case in rankine:1.8:2e-4 krasny:3.2:1e-6 gaussian:3.5:1e-6; do
 		IFS=: read -r m least most <<<"$case"
 		{ echo x y circulation volume; echo 0 0 1 1; probes; } | stab - --law vortex --box -8,8 -n 8 | pp --mollifier $m --softening 1 > pp
@@ -188,9 +189,9 @@ apart() {
 }
 
 @test "pp and the mesh agree in open space on the same particles except for the effect of the core: h^2, by its second moment" {
-	# pp uses vortices with cores, the mesh (m6prime conserves moments 0 to 4) points distributed to nodes. Lamb-Oseen, sigma^2 = 0.04; the Gaussian core makes
-	# it the same vortex with sigma^2 + delta^2, so the difference is known; the core of Rankine has half its second moment and so half the difference; the
-	# denominator has none (it diverges like a logarithm), its difference falls more slowly
+	# pp uses vortices with cores, the mesh (m6prime conserves moments 0 to 4) points distributed to nodes. Lamb-Oseen, sigma^2 = 0.04; the Gaussian core
+	# makes it the same vortex with sigma^2 + delta^2, so the difference is known; the core of Rankine has half its second moment and so half the
+	# difference; the denominator has none (it diverges like a logarithm), its difference falls more slowly
 	for m in gaussian rankine krasny; do
 		list=()
 		for c in 48 64 96; do
@@ -242,8 +243,8 @@ pair() {
 }
 
 @test "impulse is conserved to round-off by every kernel that conserves the first moment, with and without remeshing; angular impulse only in the limit of fine meshes" {
-	# sum Gamma u = 0, because m2p is the transpose of p2m and the gradient centred: the flow changes no impulse, in any pass of any scheme. remesh conserves
-	# the moments of its kernel: cic and pcs 1, m4prime 2, m6prime 4; ngp 0. Terms of size 1, 1e3 of them.
+	# sum Gamma u = 0, because m2p is the transpose of p2m and the gradient centred: the flow changes no impulse, in any pass of any scheme. remesh
+	# conserves the moments of its kernel: cic and pcs 1, m4prime 2, m6prime 4; ngp 0. Terms of size 1, 1e3 of them.
 	start=$(pair 16 | diag --columns circulation,impulse_x,impulse_y | tail -1)
 	for words in cic pcs m4prime m6prime ngp alone; do
 		[ $words = alone ] && last='' k=m4prime || last="| remesh --kernel $words" k=$words
@@ -378,9 +379,9 @@ near() {
 	done
 }
 
-# love A B: cosh of 8 times the growth rate of mode 3 of the ellipse with half-axes A, B. The patch is displaced by the flow of the potential cosh 3(xi + i eta) in
-# elliptic coordinates, conj(4 (z/c)^2 - 1), c^2 = A^2 - B^2. z^3 in the frame of the axes is 0 for every even shape; of first order in the mode it obeys
-# M(0) + M(16) = 2 cosh(8 lambda) M(8), for any growing and decaying parts.
+# love A B: cosh of 8 times the growth rate of mode 3 of the ellipse with half-axes A, B. The patch is displaced by the flow of the potential cosh 3(xi + i
+# eta) in elliptic coordinates, conj(4 (z/c)^2 - 1), c^2 = A^2 - B^2. z^3 in the frame of the axes is 0 for every even shape; of first order in the mode it
+# obeys M(0) + M(16) = 2 cosh(8 lambda) M(8), for any growing and decaying parts.
 love() {
 	ellipse "$1" "$2" 48 | awk -v a="$1" -v b="$2" 'BEGIN { OFMT = CONVFMT = "%.17g" } NR == 1 { print; next }
 		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' | stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |

@@ -177,7 +177,8 @@ assert "threads" not in h[0]["options"], h'
 	[ "$(wire header b.pm | python3 -c 'import json, sys; print(len(json.load(sys.stdin)["history"]))')" = 0 ]
 }
 
-# Green's functions and hierarchies are made when the first frame comes: a third (poisson-fft) and a fifth of three solves on 32^3 cells; begin and plan alone are a hundredth.
+# Green's functions and hierarchies are made when the first frame comes: a third (poisson-fft) and a fifth of three solves on 32^3 cells; begin and plan alone
+# are a hundredth.
 @test "--timing: what a solver makes once is set-up, not work" {
 	pinit plummer -n 100 --cells 32 | p2m >a.pm
 	for word in poisson-fft poisson-mg; do

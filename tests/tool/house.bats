@@ -39,6 +39,44 @@ outside_parentheses() {
 	[ -z "$bad" ]
 }
 
+# long_lines FILE...: lines of more than 160 columns, a tab being eight. Of shell the comments alone: a command, a sentence, an awk program and the name of a
+# test are one text, as they are run. Comments that docs/accuracy/atlas.sh writes into its tables are lines of a table.
+long_lines() {
+	for f in "$@"; do
+		expand -t 8 "$f" | awk -v f="$f" 'length > 160 && (f !~ /(sh|bats)$/ || /^ *#/ && !(f ~ /atlas\.sh$/ && /^ /)) { print f ":" NR ": " length " columns" }'
+	done
+}
+
+@test "no line of C, Python or awk, and no comment of the shell, has more than 160 columns" {
+	printf '\t%0152d\n' 0 | tee a.c b.py >c.awk
+	printf '\t%0153d\n' 0 | tee d.c e.py >f.sh
+	printf '\t# %0151d\n' 0 >g.bats
+	[ "$(long_lines ?.*)" = $'d.c:1: 161 columns\ne.py:1: 161 columns\ng.bats:1: 161 columns' ]
+	bad=$(cd "$top" && long_lines $(find lib tools tests bench pipelines docs .ci -type f | grep -E '\.([ch]|sh|bats|bash|awk|py)$'))
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
+# many_arguments FILE...: functions whose head, in column 1, has more than eight arguments; what is in brackets inside them is one of them.
+many_arguments() {
+	awk '/^[a-z][A-Za-z0-9_ *]*\(/ {
+		name = $0; sub(/\(.*/, "", name); sub(/.*[ *]/, "", name)
+		for (head = $0; gsub(/\(/, "(", head) > gsub(/\)/, ")", head) && (getline line) > 0;) head = head " " line
+		sub(/^[^(]*\(/, "", head); gsub(/\/\*[^*]*\*\//, "", head)
+		while (gsub(/\([^()]*\)/, "", head));
+		sub(/\).*/, "", head)
+		if (gsub(/,/, "", head) > 7) print FILENAME ": " name }' "$@"
+}
+
+@test "no function has more than 8 arguments: those take a struct" {
+	printf '%s\n' 'int nine(int a, int b, int c, int d, int (*e)(int, int),' $'\tint f[2], int g, int h, int i)' '{' '}' >wrong.c
+	printf '%s\n' 'int eight(int a, int b, int c, int d, int (*e)(int, int), int f, int g, int h) __attribute__((format(printf, 2, 3)));' >right.h
+	[ "$(many_arguments wrong.c right.h)" = "wrong.c: nine" ]
+	bad=$(cd "$top" && many_arguments lib/*/*.[ch] tools/*.c tests/unit/*.[ch] bench/*.[ch])
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
 @test "a clang that has no OpenMP is told what to install before anything compiles" {
 	printf '#!/bin/sh\necho "ld: cannot find -lomp" >&2\nexit 1\n' >clang
 	chmod +x clang
