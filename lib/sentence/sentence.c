@@ -327,8 +327,8 @@ int pm_sentence_safe(const char *text)
 		w->tool = pm_tool_find(w->argv[0]);
 		w->stage = w->tool ? pm_stage_make(w->tool, w->argc, w->argv, &status) : NULL;
 		if (!w->tool || (w->stage && !status && writes_files(w->stage)))
-			status = pm_fail(PM_DATA, "the sentence in the history of the checkpoint is none of plan's: '%s' %s (type the sentence instead of --plan)", w->argv[0],
-				w->tool ? "writes a file" : "is no word of pmpipe");
+			status = pm_fail(PM_DATA, "the sentence in the history of the checkpoint is none of plan's: '%s' %s (type the sentence instead of "
+				"--plan)", w->argv[0], w->tool ? "writes a file" : "is no word of pmpipe");
 	}
 	pm_sentence_free(s);
 	return status;

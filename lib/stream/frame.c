@@ -210,7 +210,8 @@ static int affordable_on(const struct pm_frame *f, const char *on)
 			bytes += (double)p->count * p->components * (double)pm_field_memory(p);
 	}
 	return !any || bytes <= most_from_nothing() ? 0
-		: pm_fail(PM_DATA, "'%s' has uniform values only, and %.1f GB would be made of them (PM_EXPAND_GB=%.0f in the environment allows it)", on, bytes / 1e9, ceil(bytes / 1e9));
+		: pm_fail(PM_DATA, "'%s' has uniform values only, and %.1f GB would be made of them (PM_EXPAND_GB=%.0f in the environment allows it)", on,
+			bytes / 1e9, ceil(bytes / 1e9));
 }
 
 int pm_frame_affordable(const struct pm_frame *f)
