@@ -1,4 +1,4 @@
-/* cycle: runs a sentence again and again on a frame, one step after the other (lib/cycle/loop.c).
+/* cycle: runs a sentence repeatedly on a frame, once per time step (lib/cycle/loop.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cycle/loop.h"
 
@@ -10,7 +10,7 @@ static int begin(struct pm_stage *s)
 	if (!s->nargs && !c->plan)
 		return pm_fail(PM_USAGE, "SENTENCE is missing (the stages of one pass, in quotes, joined by |; or --plan)");
 	if (s->nargs && c->plan)
-		return pm_fail(PM_USAGE, "--plan makes the sentence, and here is one (leave out one of them)");
+		return pm_fail(PM_USAGE, "--plan makes the sentence, but a SENTENCE is given too (leave out one of them)");
 	if (pm_given(s, "accuracy") && !c->plan)
 		return pm_fail(PM_USAGE, "--accuracy belongs to --plan");
 	return 0;
@@ -25,37 +25,37 @@ static const struct pm_option options[] = {
 		.text = "full steps, counted from the beginning, also after --resume"},
 	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", .cosmetic = true, AT(time), .text = "stop at the first step with time >= T - dt/2"},
 	{.name = "until", .kind = PM_TEXT, .unit = "EXPRESSION", .cosmetic = true, AT(until),
-		.text = "stop at the first step where this is true of diag's columns; NAME0 is the value at the beginning: 'energy > 10*energy0'"},
-	{.name = "plan", .kind = PM_FLAG, .cosmetic = true, AT(plan), .text = "without SENTENCE: run what the first frame calls for (see plan)"},
+		.text = "stop at the first step at which this expression in the columns of diag is true; NAME0 is the value at the beginning: 'energy > 10*energy0'"},
+	{.name = "plan", .kind = PM_FLAG, .cosmetic = true, AT(plan), .text = "without SENTENCE: run the sentence that plan chooses for the first frame"},
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, .cosmetic = true, AT(accuracy),
-		.text = "with --plan: relative changes below this are negligible"},
+		.text = "with --plan: effects that change the result by less than this (relative) are left out"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(every),
-		.text = "write the beginning, every step that is a multiple of N, and the last"},
+		.text = "write the initial frame, every step that is a multiple of N, and the last"},
 	{.name = "engine", .kind = PM_WORD, .fallback = "fused", .choices = engines, .cosmetic = true, AT(engine),
 		.text = "run the words in one process, or as long-lived processes on pipes"},
 	{.name = "checkpoint", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(checkpoint),
 		.text = "keep the frame last written in FILE, and on SIGINT and SIGTERM"},
-	{.name = "resume", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(resume), .text = "go on from a checkpoint instead of standard input"},
+	{.name = "resume", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(resume), .text = "continue from a checkpoint instead of standard input"},
 	{.name = "other-plans", .kind = PM_FLAG, .cosmetic = true, AT(other_plans),
-		.text = "let --resume go on where transforms are planned otherwise than before (the bytes may differ)"},
-	{.name = "moves", .kind = PM_LIST, .cosmetic = true, AT(moves), .text = "foreign words that change state and are left out of priming"},
+		.text = "allow --resume with other FFTW plans than in the checkpoint (results may differ by round-off)"},
+	{.name = "moves", .kind = PM_LIST, .cosmetic = true, AT(moves), .text = "foreign words that change state; they do not run when the sentence is primed"},
 	{0},
 };
 static const struct pm_example examples[] = {
 	{"a star cluster on a mesh, a frame every 10 steps",
 		"pinit plummer -n 1000 | cycle -n 20 --every 10 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2' | diag"},
-	{"until a cold cluster has fallen in", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | "
+	{"until a cold cluster has collapsed", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | "
 		"push kick/2' | diag --columns step,time,virial_ratio"},
-	{"what the scene calls for", "pinit taylor-green-2d --cells 16 | cycle -n 5 --plan | p2m | diag"},
+	{"the sentence that plan chooses", "pinit taylor-green-2d --cells 16 | cycle -n 5 --plan | p2m | diag"},
 	{"one orbit by direct summation", "pinit two-body | cycle -n 100 'push kick/2 drift | pp | push kick/2' | diag"},
 	{0},
 };
 const struct pm_tool tool_cycle = {
 	.name = "cycle",
-	.summary = "run a sentence of stages again and again, one step after the other",
+	.summary = "run a sentence repeatedly, once per time step",
 	.about = "The sentence is a pipeline in quotes: words and quotes as in the shell, without expansion. If its first push needs a force that the frame "
 		"does "
-		 "not have, the words that make fields run once first (priming). A word that is not of pmpipe runs as a process; see docs/stage.md.",
+		 "not have, the words that make fields run once first (priming). A word that does not belong to pmpipe runs as a process; see docs/stage.md.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct pm_loop),
 	.options = options,

@@ -66,42 +66,42 @@ static void release(struct pm_stage *s)
 
 static const char *const formats[] = {"tsv", "json", NULL};
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .cosmetic = true, PM_AT(set), .text = "measure this set alone (default: all)"},
+	{.name = "set", .kind = PM_TEXT, .cosmetic = true, PM_AT(set), .text = "measure only this set (default: all)"},
 	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .cosmetic = true, PM_AT(columns),
-		.text = "these columns in this order (default: all)"},
+		.text = "print these columns in this order (default: all)"},
 	{.name = "radii", .kind = PM_VECTOR, .cosmetic = true, PM_AT(radii),
 		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
 	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
 		.text = "add the amplitudes of these waves along x of the law's field (its first component)"},
 	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M", .cosmetic = true, PM_AT(growth),
-		.text = "behind the table a line with the growth rate and frequency of wave M along x"},
+		.text = "after the table print a line with the growth rate and frequency of wave M along x"},
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),
-		.text = "fit them between these times (default: where it grows from 1 to 10 % of its largest, else all)"},
+		.text = "fit them between these times (default: growth from 1 to 10 % of the maximum, else all)"},
 	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair), .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)"},
-	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "beside every column the scene knows exactly, exact_NAME"},
+	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene provides"},
 	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .cosmetic = true, PM_AT(format),
-		.text = "a table with a header line, or one JSON object a line"},
+		.text = "a table with a header line, or one JSON object per line"},
 	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, PM_AT(tee), .text = "write to FILE and pass the frames on"},
 	{0},
 };
 
 static const struct pm_example examples[] = {
-	{"The numbers of a star cluster beside the exact ones", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
+	{"A star cluster compared with the exact values", "pinit plummer -n 1000 | diag --pair --exact --radii 0.1,0.5,0.9"},
 	{"Two columns as JSON", "pinit two-body --eccentricity 0.5 | diag --pair --columns energy,angular_momentum_z --format json"},
-	{"A decaying vortex beside its exact numbers", "pinit lamb-oseen | p2m | diag --exact"},
+	{"A decaying vortex compared with the exact values", "pinit lamb-oseen | p2m | diag --exact"},
 	{"The growth rate of two cold streams", "pinit two-stream -n 2000 --cells 32 | cycle -n 300 --every 4 'push kick/2 drift | p2m | poisson-fft | mgrad "
 		"| m2p | push kick/2' "
 		"| p2m | poisson-fft | mgrad | diag --columns time,energy_field_x --modes 1 --growth mode:1"},
-	{"A table on the way", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
+	{"A table written while the stream is passed on", "pinit uniform -n 100 --dispersion 1 | diag --tee start.tsv | sls"},
 	{0},
 };
 
 const struct pm_tool tool_diag = {
 	.name = "diag",
 	.summary = "measures energy, momentum, mass, radii, vorticity of every frame",
-	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it holds the self-energy of the smeared particles); of the field at the\n"
-		"particles, 1/2 sum m phi, where they carry a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
-		"particles' where it is known, else the mesh's. What cannot be computed is nan. All sums are compensated and do not depend on the number\n"
+	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it includes the self-energy of the smoothed particles); of the field at the\n"
+		"particles, 1/2 sum m phi, if they have a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
+		"particles' energy if known, else that of the mesh. Quantities that cannot be computed are nan. All sums are compensated and do not depend on the number\n"
 		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum, value at the\n"
 		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 "
 		"integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",

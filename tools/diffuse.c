@@ -44,14 +44,14 @@ static const struct pm_option options[] = {
 		.text = "order of the differences, or spectral (default: that of the law's gradients)"},
 	PM_VISCOSITY_ROW,
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
-	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change anew instead of refusing to add twice"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change instead of refusing to add it twice"},
 	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "how transforms are chosen, with --order spectral: by estimate, or measured once and kept in the user's cache (default: PM_PLAN or "
+		.text = "with --order spectral, how FFTW plans are chosen: by estimate, or by measurement, kept in the user's cache (default: PM_PLAN or "
 			"measure)"},
 	{0},
 };
 static const struct pm_example examples[] = {
-	{"a vortex spreads at rest: its circulation stays, its peak falls",
+	{"a vortex spreads at rest: its circulation is conserved, its peak falls",
 		"awk 'BEGIN { print \"x y circulation volume\"; for (i = -9; i < 10; i++) for (j = -9; j < 10; j++) print i/8, j/8, exp(-(i*i + j*j)/16)/64, "
 		"1/64 }' | "
 		"stab - --law vortex --constant nu=0.02 --box -2,2 --dt 0.05 | p2m | diffuse | m2p --field domega | sls"},
@@ -62,10 +62,10 @@ const struct pm_tool tool_diffuse = {
 	.summary = "add viscosity: the Laplacian of the density to its rate of change",
 	.about = "d(density) += nu lap density on the mesh, as the term diffusion; m2p carries it to the particles, push advances their strengths. "
 		"Differences of "
-		 "order 2, 4, 6 or spectral, faces as in mgrad. Explicit: a step is stable while nu dt times the largest eigenvalue of -lap (4, 16/3, "
+		 "order 2, 4, 6 or spectral, faces as in mgrad. Explicit: a step is stable if nu dt times the largest eigenvalue of -lap (4, 16/3, "
 		 "272/45, pi^2 "
-		 "over h^2 per axis) is within the scheme's limit (2 for euler, 2.51 for lsrk3, 2.79 for rk4); push refuses longer ones. "
-		 "Reports that product as fastest_dt. Where nu is 0 the frame passes. See docs/methods/diffuse.md.",
+		 "over h^2 per axis) is below the scheme's limit (2 for euler, 2.51 for lsrk3, 2.79 for rk4); push refuses longer ones. "
+		 "Reports that product as fastest_dt. If nu is 0 the frame is passed on unchanged. See docs/methods/diffuse.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "the law's density (omega) on the mesh",

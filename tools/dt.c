@@ -30,12 +30,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const struct config *cfg = s->config;
 	double rate, dt = pm_timestep_allowed(&cfg->rules, f, &rate);
 	pm_report(s, f, "allowed", isfinite(dt) ? dt : 0);
-	dt = fmin(dt, cfg->most); /* not a number where not typed, which fmin passes over */
+	dt = fmin(dt, cfg->most); /* NaN if not given, which fmin ignores */
 	if (dt < cfg->least) {
 		dt = cfg->least;
 		pm_report_count(s, f, "below_min", 1);
 	}
-	if (!isfinite(dt)) /* nothing moves and nothing pulls */
+	if (!isfinite(dt)) /* no velocity and no acceleration */
 		pm_say(s, "no rule limits the step, dt stays %g", f->dt);
 	else
 		f->dt = dt;
@@ -50,7 +50,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const struct pm_option options[] = {
 	{.name = "courant", .kind = PM_REAL, .unit = "cells", .low = 1e-9, .high = 1e9, PM_AT(rules.courant),
-		.text = "no particle crosses more than this part of a cell of the first mesh, along any axis"},
+		.text = "no particle crosses more than this fraction of a cell of the first mesh, along any axis"},
 	{.name = "acceleration", .kind = PM_REAL, .low = 1e-12, .high = 1e6, PM_AT(rules.acceleration),
 		.text = "ETA of dt = sqrt(ETA softening/|acc|), 0.01 to 0.1 for leapfrog"},
 	{.name = "lcfl", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(rules.strain),
@@ -58,11 +58,11 @@ static const struct pm_option options[] = {
 	{.name = "plasma", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(rules.plasma),
 		.text = "dt = C/omega_p, of the mean densities in the box; leapfrog is stable below 2, 0.2 is usual"},
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(rules.softening),
-		.text = "the length in that rule; by default the frame's constant softening"},
-	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "never longer"},
+		.text = "the softening in that rule (default: the frame's constant softening)"},
+	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "upper limit of the step"},
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(least),
-		.text = "never shorter; counted as below_min where a rule asked for less"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(rules.set), .text = "looks at this set only"},
+		.text = "lower limit of the step; frames whose rules need a shorter one are counted as below_min"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(rules.set), .text = "use only this set"},
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -78,9 +78,8 @@ const struct pm_tool tool_dt = {
 	.name = "dt",
 	.summary = "write the time step that the state allows",
 	.about = "The smallest step over the rules and over the particles of every set that moves: C h/|v_d| (--courant), sqrt(ETA softening/|acc|) "
-		"(--acceleration), C/|grad u| (--lcfl, where a flow is on the mesh), C/omega_p (--plasma). Written at substep 0; in the middle of a step the "
-		"frame passes. A step that varies costs leapfrog its reversibility "
-		"and with it the bound on the energy error.",
+		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma). Written at substep 0; inside a step the frame is passed on "
+		"unchanged. With a variable step leapfrog is not reversible, and its energy error is not bounded.",
 	.kind = PM_FILTER,
 	.reads = "v or vel, acc; the flow u of the mesh; charge and mass",
 	.changes = "the attribute dt",

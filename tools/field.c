@@ -34,9 +34,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_given_rates
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.set), .text = "this set only (default: every set with the state whose rate is given)"},
-	{.name = "term", .kind = PM_TEXT, .unit = "NAME", .fallback = "external", PM_AT(choice.term), .text = "the name under which it is added"},
-	{.name = "replace", .kind = PM_FLAG, PM_AT(choice.replace), .text = "computes the rate anew instead of refusing to add the same term twice"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.set), .text = "only this set (default: every set that has the state)"},
+	{.name = "term", .kind = PM_TEXT, .unit = "NAME", .fallback = "external", PM_AT(choice.term), .text = "the name of the term that is added"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(choice.replace), .text = "replaces the rate instead of refusing to add the same term twice"},
 	{0},
 };
 
@@ -45,7 +45,7 @@ static const struct pm_example examples[] = {
 		"push kick/2\" | diag"},
 	{"the test equation x' = i x, as two components, through a step of Runge-Kutta", "printf 'x y\\n1 0\\n' | stab - --law free --dt 0.1 | cycle -n 1 "
 		"\"field 'vel = -y, x' | push rk4\" | stab --plain"},
-	{"vortices that fade while they turn", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push rk2\" | diag --columns "
+	{"vortices that decay while they rotate", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push rk2\" | diag --columns "
 		"time,circulation"},
 	{0}};
 
@@ -54,12 +54,12 @@ const struct pm_tool tool_field = {
 	.summary = "add a given rate of change from an expression",
 	.about = "acc (of v), vel (of x, for sets without v) or d and the name of any other state, dcirculation, plus the expression for every particle; "
 		"commas make components: "
-		 "'acc = -x, -y'. It counts as the term external and stands beside what other words add. Names and functions as in scalc: x y z, vx vy vz, "
+		 "'acc = -x, -y'. It is the term external, added to the terms of other words. Names and functions as in scalc: x y z, vx vy vz, "
 		 "NAME, time, constants "
 		 "of the frame. See docs/methods/field.md.",
 	.kind = PM_FILTER,
 	.makes = true,
-	.reads = "what the expressions name",
+	.reads = "the fields in the expressions",
 	.adds = "acc, vel or d<state> (term external)",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

@@ -1,4 +1,4 @@
-/* m2p: mesh fields at the positions of particles, added to what changes them (lib/transfer/gather-frame.c).
+/* m2p: mesh fields at the positions of particles, added to their rates of change (lib/transfer/gather-frame.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status ? status : pm_gather_declare(&j, f);
 }
 
-/* The part of the changes that no particle took, per time: the drift of the total. */
+/* The part of the changes that no particle received, per time: the drift of the total. */
 static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm_mesh_changes *carry)
 {
 	char key[PM_NAME + 16];
@@ -62,13 +62,13 @@ static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s
 static const char *const outside[] = {"error", "drop", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
-		.text = "how mesh points are weighted (default: as the field was made, interlaced too)"},
+		.text = "the interpolation kernel (default: the kernel of the field, interlaced if the field is)"},
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "gather this mesh field to a particle field of the same name instead"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first that has the field)"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with the state that the law moves)"},
 	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
-		.text = "particles that an open mesh does not hold: refuse, or leave out and count"},
-	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change field anew instead of refusing to add twice"},
+		.text = "particles outside an open mesh: fail, or leave out and count"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -78,13 +78,12 @@ static const struct pm_example examples[] = {
 };
 const struct pm_tool tool_m2p = {
 	.name = "m2p",
-	.summary = "bring mesh fields to the particles and add them to what changes the particles",
-	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with: that is what "
-		 "keeps momentum and makes a particle exert no force on itself. The law says which field is gathered (g, E, u) and what it adds to (acc, vel); "
-		 "a field that was given counts as the term external, one that was solved for as self; a magnetic field B goes to bfield. Changes on the "
-		 "mesh (domega of diffuse) are carried over "
-		 "to the strengths they belong to (dcirculation), times the volume of the particle; what goes to none, where particles leave gaps or end, is "
-		 "reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
+	.summary = "interpolate mesh fields to the particles and add them to their rates of change",
+	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with, so that momentum "
+		"is conserved and a particle exerts no force on itself. The law determines the field that is gathered (g, E, u) and the rate it is added to (acc, vel); "
+		 "a given field is the term external, a computed one the term self; a magnetic field B goes to bfield. Changes on the "
+		 "mesh (domega of diffuse) are interpolated to the rates of the strengths (dcirculation), times the volume of the particle; the part that no particle "
+		 "receives, in gaps or beyond the particles, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",

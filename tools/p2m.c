@@ -61,17 +61,17 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const outside[] = {"error", "drop", "grow", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
-		.text = "how a strength is shared among mesh points (default: the law's)"},
+		.text = "the interpolation kernel (default: the law's)"},
 	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set that has the strength)"},
 	{.name = "strength", .kind = PM_TEXT, .unit = "FIELD", PM_AT(strength),
 		.text = "the particle field (default: the law's); a value is multiplied by volume"},
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "the mesh field made (default: the law's density)"},
 	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
-		.text = "particles that an open mesh does not hold: refuse, leave out and count, or enlarge the mesh"},
-	{.name = "add", .kind = PM_FLAG, PM_AT(add), .text = "add to the density that is there instead of replacing it"},
+		.text = "particles outside an open mesh: fail, leave out and count, or enlarge the mesh"},
+	{.name = "add", .kind = PM_FLAG, PM_AT(add), .text = "add to the existing density instead of replacing it"},
 	{.name = "interlace", .kind = PM_FLAG, PM_AT(interlace),
-		.text = "on two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)"},
+		.text = "use two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)"},
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -81,10 +81,10 @@ static const struct pm_example examples[] = {
 };
 const struct pm_tool tool_p2m = {
 	.name = "p2m",
-	.summary = "put the strengths of particles on a mesh as a density",
+	.summary = "deposit the strengths of particles on a mesh as a density",
 	.about = "density(i) = sum over particles of strength * W((x - x_i)/h) / (volume of a cell), W a product of one-dimensional kernels (Hockney and "
 		"Eastwood "
-		 "1988, chapter 5). The mesh goes on beyond a wall as its odd image, beyond a neumann face as its even image; at open faces the support of "
+		 "1988, chapter 5). Beyond a wall the mesh is continued as its odd image, beyond a neumann face as its even image; at open faces the support of "
 		 "every kernel must stay inside the mesh. End nodes of faces that are not periodic have half weight in mesh sums. See "
 		 "docs/methods/transfer.md.",
 	.kind = PM_FILTER,

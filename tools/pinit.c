@@ -1,5 +1,5 @@
-/* pinit: makes a scene. The scenes are the files of lib/scene; their parameters become options here, one row per name, and one that the
- * chosen scene does not have is refused. SPDX-License-Identifier: GPL-3.0-or-later */
+/* pinit: makes a scene. The scenes are the files of lib/scene; their parameters become options here, one row per name, and one that the chosen scene does
+ * not have is an error. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
@@ -67,13 +67,13 @@ static int begin(struct pm_stage *s)
 	if (scene->n_fixed && !scene->n && o->n != INT64_MIN)
 		return pm_fail(PM_USAGE, "the particles of the scene %s are nodes of its mesh (give --cells in place of -n)", scene->name);
 	if (scene->n_fixed && state->choice.n != scene->n)
-		return pm_fail(PM_USAGE, "the scene %s has -n %d, no other", scene->name, (int)scene->n);
+		return pm_fail(PM_USAGE, "the scene %s always has -n %d", scene->name, (int)scene->n);
 	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
 		return -PM_USAGE;
 	return pm_scene_parameters_choose(scene, o->parameter, state->choice.value);
 }
 
-/* What the user typed, over the scene's own box, faces, mesh and step. */
+/* Options replace the scene's own box, faces, mesh and step. */
 static int adjust(const struct config *o, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
@@ -108,16 +108,16 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 }
 
 static const struct pm_option options[] = {
-	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, PM_AT(n), .text = "how many (default: the scene's)"},
-	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, PM_AT(seed), .text = "of the random numbers"},
-	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, PM_AT(dim), .text = "dimensions (default: the scene's)"},
-	{.name = "cells", .kind = PM_CELLS, .unit = "cells", PM_AT(cells), .text = "of the default mesh, as 64 or 64x32x32 (default: the scene's)"},
+	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, PM_AT(n), .text = "number of particles (default: the scene's)"},
+	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, PM_AT(seed), .text = "seed of the random numbers"},
+	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, PM_AT(dim), .text = "number of dimensions (default: the scene's)"},
+	{.name = "cells", .kind = PM_CELLS, .unit = "cells", PM_AT(cells), .text = "cells of the default mesh, as 64 or 64x32x32 (default: the scene's)"},
 	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box), .text = "lo,hi of all axes, or all lo and then all hi (default: the scene's)"},
-	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(dt), .text = "step (default: the scene's)"},
+	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(dt), .text = "time step (default: the scene's)"},
 	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, PM_AT(faces),
-		.text = "of the fields: one word, one per axis, or low,high per axis (default: the scene's)"},
+		.text = "faces of the fields: one word, one per axis, or low,high per axis (default: the scene's)"},
 	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names, PM_AT(particle_faces),
-		.text = "of the particles: one word, one per axis, or low,high per axis (default: periodic where the fields are, else open)"},
+		.text = "faces of the particles: one word, one per axis, or low,high per axis (default: periodic where the fields are, else open)"},
 	{0},
 };
 

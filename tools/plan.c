@@ -1,4 +1,4 @@
-/* plan: the sentence that a frame calls for, with the reason of every word; what it costs; and with --check the proof (lib/planner/plan.c, lib/effect).
+/* plan: the sentence for a frame, with the reason of every word; its cost; and with --check a test of each decision (lib/planner/plan.c, lib/effect).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -19,7 +19,7 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
 	if (pm_given(s, "steps") && !o->check)
-		return pm_fail(PM_USAGE, "-n belongs to --check (when the run is to end is -t)");
+		return pm_fail(PM_USAGE, "-n belongs to --check (the end of the run is -t)");
 	for (int i = 0; i < o->choice.on.n; i++)
 		for (int k = 0; k < o->choice.off.n; k++)
 			if (!strcmp(o->choice.on.item[i], o->choice.off.item[k]))
@@ -27,7 +27,7 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-/* Everything that is there is looked at. */
+/* Reads all data. */
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	(void)s;
@@ -64,29 +64,29 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const formats[] = {"text", "json", NULL};
 static const struct pm_option options[] = {
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, PM_AT(choice.accuracy),
-		.text = "relative changes below this are negligible; chooses kernel, mesh and step too"},
+		.text = "relative changes below this are negligible; determines kernel, mesh and step too"},
 	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", PM_AT(choice.time),
-		.text = "when the run is to end, as cycle -t (default: after a hundred steps)"},
+		.text = "the end time of the run, as in cycle -t (default: after a hundred steps)"},
 	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on),
-		.text = "put these effects in, whatever the numbers say"},
-	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "leave these effects out"},
+		.text = "always include these effects"},
+	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "never include these effects"},
 	{.name = "check", .kind = PM_FLAG, PM_AT(check), .text = "run a few steps with and without every effect; exit 3 if a decision was wrong"},
 	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .fallback = "4", .low = 1, .high = 1e9, PM_AT(steps),
-		.text = "how many steps --check runs"},
-	{.name = "sentence", .kind = PM_FLAG, PM_AT(sentence), .text = "print the sentence alone, for cycle"},
-	{.name = "no-cost", .kind = PM_FLAG, PM_AT(no_cost), .text = "leave the seconds out, which are measured and so never twice the same"},
-	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format), .text = "text, or one JSON object a line"},
+		.text = "number of steps of --check"},
+	{.name = "sentence", .kind = PM_FLAG, PM_AT(sentence), .text = "print only the sentence, for cycle"},
+	{.name = "no-cost", .kind = PM_FLAG, PM_AT(no_cost), .text = "omit measured seconds, so that the output is reproducible"},
+	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format), .text = "text, or one JSON object per line"},
 	{0},
 };
 static const struct pm_example examples[] = {
-	{"What a shear layer calls for", "pinit shear-layer --cells 32 --nu 1e-4 | plan"},
-	{"The sentence alone, run", "pinit two-body >start; cycle -n 10 \"$(plan --sentence <start)\" <start | diag"},
+	{"The sentence for a shear layer", "pinit shear-layer --cells 32 --nu 1e-4 | plan"},
+	{"Run the sentence", "pinit two-body >start; cycle -n 10 \"$(plan --sentence <start)\" <start | diag"},
 	{0},
 };
 const struct pm_tool tool_plan = {
 	.name = "plan",
-	.summary = "the pipeline a frame calls for, with the reason of every word",
-	.about = "Every effect pmpipe knows is decided from numbers of the frame: it is put in where leaving it out would change the result by more than "
+	.summary = "choose a sentence for a frame and give the reason of every word",
+	.about = "Every effect is decided from numbers of the frame: it is included if leaving it out would change the result by more than "
 		"--accuracy within "
 		 "the time of the run. An effect that is needed and has no word yet is named. `cycle --plan` runs the sentence. See docs/plan.md.",
 	.kind = PM_SINK,

@@ -21,24 +21,24 @@ struct state {
 
 static const struct pm_option options[] = {
 	{.name = "symbol", .kind = PM_WORD, .choices = pm_symbol_names, PM_AT(symbol),
-		.text = "how the Laplacian acts on a wave: -k^2, or as the centred differences of order 2, 4 or 6 do, which are then inverted exactly "
+		.text = "the Laplacian of a wave: -k^2, or the symbol of the centred differences of order 2, 4 or 6, which are then inverted exactly "
 			"(default: the law's)"},
 	{.name = "screening", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(screening),
 		.text = "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length"},
 	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green),
-		.text = "the Green's function where faces are open (default: hockney; with --symbol fd2 lattice)"},
+		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice)"},
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(softening),
 		.text = "delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
-		.text = "in periodic boxes: the symbol's inverse; divided by the square of the kernel's transform, once for p2m and once for m2p; or that of "
-			"least error of the force (Hockney and Eastwood), of which the symbol is no part"},
+		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence function "
+			"of least force error (Hockney and Eastwood), which has no symbol"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
 		.text = "the order of the mgrad that follows, for --influence optimal (default: the law's)"},
 	{.name = "cloud", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(cloud),
-		.text = "diameter of the balls (density falling linearly to 0) whose force is wanted instead of points', in periodic boxes in 3-D"},
+		.text = "compute the force of balls of this diameter (density falling linearly to 0) instead of points; periodic boxes in 3-D"},
 	PM_SOLVER_ROWS,
 	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "how FFTW's transforms (lengths with a prime factor above 13) are chosen: by estimate, or measured once and kept in the user's cache "
+		.text = "how FFTW plans (lengths with a prime factor above 13) are chosen: by estimate, or by measurement, kept in the user's cache "
 			"(default: PM_PLAN or measure)"},
 	{0},
 };
@@ -61,7 +61,7 @@ static int begin(struct pm_stage *s)
 	return effort < 0 ? -PM_USAGE : 0;
 }
 
-/* The kernel is the one the source was made with, the gradient the one the law's field will be made with. */
+/* The kernel of the source, and the order of the gradient that will compute the law's field. */
 static int influence(const struct config *o, const struct pm_frame *f, const struct pm_problem *p, struct pm_influence *i)
 {
 	const struct pm_field *source = pm_frame_field(f, p->mesh->name, p->source_name);
@@ -98,7 +98,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* The solver for a grid, made where there is none; NULL with a message. */
+/* The solver for a grid, made if there is none; NULL with a message. */
 static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const struct pm_grid *g)
 {
 	struct pm_poisson_fft *solver = pm_fft_solvers_find(&t->solvers, g, &t->choice);
@@ -139,7 +139,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	for (int c = 0; c < t->problem.source->components; c++)
 		if (component(s, f, c, &p))
 			return -PM_DATA;
-	char plan_text[48] = "own"; /* transforms of our own: the same everywhere */
+	char plan_text[48] = "own"; /* our own transforms: the same on all machines */
 	if (p && p->n)
 		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_fft_effort_names[t->effort], p->sum);
 	pm_report_text(s, f, "plan", plan_text);
@@ -152,9 +152,9 @@ const struct pm_tool tool_poisson_fft = {
 	.name = "poisson-fft",
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
 	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
-		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any mixture, opposite each other too. Where nothing fixes "
-		"phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes phi is "
-		"that of -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), means taken over the other axes.",
+		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any combination, also on opposite faces. If no face fixes phi, "
+		"the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the Green's function "
+		"is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

@@ -36,13 +36,13 @@ static const struct pm_option options[] = {
 	{.name = "relaxation", .kind = PM_REAL, .low = 0.1, .high = 1.9, PM_AT(relaxation),
 		.text = "factor of each sweep (default: 1; sor: 1.15; jacobi: 2/3, 4/5, 6/7 in 1-D, 2-D, 3-D, and 2/3, 2/3, 4/7 at order 4)"},
 	{.name = "restriction", .kind = PM_WORD, .fallback = "full", .choices = restrictions, PM_AT(restriction),
-		.text = "weighting of the residual on its way to the coarse grid; half is there to compare"},
+		.text = "restriction of the residual to the coarse grid; half weighting is for comparison"},
 	{.name = "permittivity", .kind = PM_TEXT, .unit = "FIELD", PM_AT(permittivity),
 		.text = "eps in div(eps grad phi) = c*s, a positive mesh field (default: 1)"},
-	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "of eps between two nodes"},
+	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "mean of eps between two nodes"},
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
-		.text = "of the residual, relative to c*s, both as root of the mean square"},
-	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "cycles after which it fails"},
+		.text = "tolerance of the residual relative to c*s, both as root mean square"},
+	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles; then it fails"},
 	PM_SOLVER_ROWS,
 	{0},
 };
@@ -61,7 +61,7 @@ static int begin(struct pm_stage *s)
 	const struct config *o = s->config;
 	struct state *t = s->state;
 	if (o->smooth.n != 2 || floor(o->smooth.x[0]) != o->smooth.x[0] || floor(o->smooth.x[1]) != o->smooth.x[1])
-		return pm_fail(PM_USAGE, "--smooth takes two whole numbers, sweeps before and after (--smooth 2,2)");
+		return pm_fail(PM_USAGE, "--smooth needs two integers, the sweeps before and after (--smooth 2,2)");
 	if (o->smooth.x[0] + o->smooth.x[1] == 0)
 		return pm_fail(PM_USAGE, "--smooth 0,0 smooths nothing (--smooth 2,2)");
 	t->choice = (struct pm_multigrid_choice){.order = *o->order - '0', .variable = o->permittivity, .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
@@ -85,7 +85,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status ? status : pm_problem_declare(f, &t->problem);
 }
 
-/* One component, and what the solver has to say of it. */
+/* One component, and its report. */
 static int component(struct pm_stage *s, struct pm_frame *f, int c)
 {
 	struct state *t = s->state;
@@ -142,12 +142,11 @@ const struct pm_tool tool_poisson_mg = {
 	.summary = "solve Poisson's equation on a mesh by multigrid",
 	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall "
 		"(phi = 0) or "
-		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as poisson-fft has it); any number of cells per axis, any "
+		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as in poisson-fft); any number of cells per axis, any "
 		"ratio of the spacings. V- and W-cycles, full multigrid with cubic "
-		"interpolation; where eps varies, transfers made from the operator, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
-		"Where "
-		"no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or where "
-		"round-off keeps the residual above it (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
+		"interpolation; for a variable eps, operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
+		"If no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or when "
+		"round-off prevents further reduction (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
 		"solves the same "
 		"equation with --symbol fd2.",
 	.kind = PM_FILTER,

@@ -1,4 +1,4 @@
-/* poisson-relax: solves lap phi = c*s on a mesh by iterations one can read. SPDX-License-Identifier: GPL-3.0-or-later */
+/* poisson-relax: solves lap phi = c*s on a mesh by simple iterations. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
 #include "poisson-relax/relaxation.h"
@@ -13,16 +13,16 @@ struct config {
 struct state {
 	struct pm_problem problem;
 	struct pm_relaxation_choice choice;
-	struct pm_relaxation *solver; /* for the grid it was made for */
+	struct pm_relaxation *solver; /* for one grid */
 };
 
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "cg", .choices = pm_relax_names, PM_AT(method), .text = "which iteration"},
 	{.name = "relaxation", .kind = PM_REAL, .low = 0.01, .high = 1.9999, PM_AT(relaxation),
-		.text = "factor of each step (default: the method's: 1, the one that smooths best, or Young's best of this mesh and its faces)"},
+		.text = "factor of each step (default: the method's: 1, the best smoother, or Young's optimum for this mesh and its faces)"},
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
-		.text = "of the residual, relative to c*s, both as root of the mean square"},
-	{.name = "max-sweeps", .kind = PM_INTEGER, .fallback = "100000", .low = 1, .high = 1e9, PM_AT(most), .text = "sweeps after which it fails"},
+		.text = "tolerance of the residual relative to c*s, both as root mean square"},
+	{.name = "max-sweeps", .kind = PM_INTEGER, .fallback = "100000", .low = 1, .high = 1e9, PM_AT(most), .text = "largest number of sweeps; then it fails"},
 	PM_SOLVER_ROWS,
 	{0},
 };
@@ -31,7 +31,7 @@ static const struct pm_example examples[] = {
 	{"the potential in a periodic box by conjugate gradients", "pinit uniform -n 2000 | p2m -n 32 | poisson-relax | sls --report"},
 	{"over-relaxation between walls: the radius measured and Young's", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 64 | poisson-relax --method "
 		"sor | sls --report"},
-	{"a factor of one's own", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method red-black-sor --relaxation 1.7 | sls "
+	{"a given relaxation factor", "pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method red-black-sor --relaxation 1.7 | sls "
 		"--report"},
 	{0},
 };
@@ -119,10 +119,10 @@ const struct pm_tool tool_poisson_relax = {
 	.about = "Solves lap phi = c*s with differences of order 2 on the nodes, for comparison and for teaching: Jacobi, Gauss-Seidel, over-relaxation, "
 		"conjugate "
 		"gradients. Faces periodic, wall (phi = 0) or neumann (no normal gradient) in any mixture, or open on all axes (free space, by two "
-		"solutions). Reports the sweeps, the factor by which the residual fell per sweep in "
-		"the long run, and the published formula for it where one holds. Where no face fixes phi, the mean of s is removed and reported, and the "
+		"solutions). Reports the sweeps, the asymptotic factor by which the residual fell per sweep, and the published formula for it if there is one. If no "
+		"face fixes phi, the mean of s is removed and reported, and the "
 		"mean of phi is "
-		"zero. It stops at the tolerance or where round-off keeps the residual above it (status floor), and fails with exit 3 and the history if it "
+		"zero. It stops at the tolerance or when round-off prevents further reduction (status floor), and fails with exit 3 and the history if it "
 		"does neither. poisson-mg "
 		"and poisson-fft --symbol fd2 solve the same equation faster.",
 	.kind = PM_FILTER,

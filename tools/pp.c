@@ -26,7 +26,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	int status = pm_pp_apply(&((const struct config *)s->config)->pp, f, &coincident);
 	if (!status && coincident) {
 		pm_report_count(s, f, "coincident", coincident);
-		pm_say(s, "%llu pairs coincide and exert nothing on each other (give them a --softening)", (unsigned long long)coincident);
+		pm_say(s, "%llu pairs coincide and exert no force on each other (give them a --softening)", (unsigned long long)coincident);
 	}
 	return status;
 }
@@ -34,14 +34,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const loops[] = {"half", "full", NULL};
 static const struct pm_option options[] = {
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(pp.softening),
-		.text = "length over which a point is smoothed; by default the frame's constant softening"},
+		.text = "length over which a point is smoothed (default: the frame's constant softening)"},
 	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, PM_AT(pp.mollifier),
-		.text = "how a point is smoothed; by default what the law names"},
+		.text = "how a point is smoothed (default: the law's)"},
 	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, PM_AT(loop),
 		.text = "each pair once by symmetry, or each target over all sources; equal to round-off"},
-	{.name = "potential", .kind = PM_FLAG, PM_AT(pp.potential), .text = "also the potential at each particle, without its own"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(pp.set), .text = "acts on this set only; every set with the strength remains a source"},
-	{.name = "replace", .kind = PM_FLAG, PM_AT(pp.replace), .text = "computes the term self anew where it is there already"},
+	{.name = "potential", .kind = PM_FLAG, PM_AT(pp.potential), .text = "also compute the potential at each particle, without its own"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(pp.set), .text = "add to this set only; every set with the strength remains a source"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(pp.replace), .text = "replaces the term self if it is already there"},
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -54,7 +54,7 @@ const struct pm_tool tool_pp = {
 	.summary = "far field by direct summation over all pairs",
 	.about = "Adds the law's field of every particle at every other (gravity: acc = -G sum m_j (x_i - x_j)/(r^2 + softening^2)^(3/2) in 3-D, "
 		"2 G m/r in 2-D, 2 pi G m in 1-D). Open space only. Cost N^2: 4 billion pairs per second and core on AVX-512. The bytes do not depend on "
-		"the number of threads. Coincident particles without softening exert nothing on each other and are counted.",
+		"the number of threads. Coincident particles without softening exert no force on each other and are counted.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x and the law's strength",

@@ -45,7 +45,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		if (!status)
 			status = pm_pse_plan(f, &p, o->replace);
 	}
-	return status ? status : PM_HOLD; /* the fastest decay, in the header, depends on where the particles are */
+	return status ? status : PM_HOLD; /* the fastest decay rate in the header depends on the positions */
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -79,24 +79,24 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, PM_AT(method),
-		.text = "exchange: conserving, for particles that are not distorted; dc: corrected for where the partners are (DC-PSE), not conserving"},
+		.text = "exchange: conserves the sum, for particles without distortion; dc: corrected for the positions of the partners (DC-PSE), does not conserve"},
 	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, PM_AT(order), .text = "error eps^2 with positive weights, or eps^4"},
 	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, PM_AT(eps),
 		.text = "width of the kernel exp(-(r/eps)^2/4); by default --overlap times the spacing of the particles"},
 	{.name = "overlap", .kind = PM_REAL, .fallback = "1", .low = 1e-3, .high = 1e3, PM_AT(overlap),
-		.text = "eps over the spacing (mean volume)^(1/dim); quadrature needs 1 on a lattice, and more where particles are distorted"},
+		.text = "eps over the spacing (mean volume)^(1/dim); must be at least 1 on a lattice, and more for distorted particles"},
 	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, PM_AT(cutoff),
-		.text = "partners farther than this exchange nothing; by default 8 for order 2, 9 for order 4; of dc 3.1 and 4.1"},
+		.text = "partners farther apart than this do not exchange; by default 8 for order 2, 9 for order 4; of dc 3.1 and 4.1"},
 	PM_VISCOSITY_ROW,
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each by itself"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each separately"},
 	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, PM_AT(wall),
 		.text = "mirror particles at faces that are wall (odd) or neumann (even), or nothing beyond them"},
-	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "compute the change anew instead of refusing to add twice"},
+	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change instead of refusing to add it twice"},
 	{0},
 };
 static const struct pm_example examples[] = {
-	{"a vortex spreads, its circulation stays",
+	{"a vortex spreads, its circulation is conserved",
 		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | pse | push rk2 | remesh' | diag --columns circulation"},
 	{"heat in a rod between cold ends, particles at rest",
 		"awk 'BEGIN { print \"x heat volume\"; for (i = 0; i < 40; i++) print (i + 0.5)/40, (i < 20)/40, 1/40 }' | stab - --strength heat --box 0,1 "
@@ -109,13 +109,11 @@ const struct pm_tool tool_pse = {
 	.name = "pse",
 	.summary = "add viscosity by exchange of strength between particles",
 	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the "
-		"strengths kept to "
-		 "round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the "
+		"strengths conserved to round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the "
 		 "limit, nu dt/eps^2 <= 2 "
 		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, "
-		 "fastest_dt, and the particles "
-		 "alone without a partner. --method dc solves for the weights of each particle: order 2 or 4 on distorted particles and at rims too. Where "
-		 "nu is 0 the frame passes. See docs/methods/pse.md.",
+		 "fastest_dt, and the number of particles without a partner (alone). --method dc solves for the weights of each particle: order 2 or 4 also for "
+		 "distorted particles and at boundaries. If nu is 0 the frame is passed on unchanged. See docs/methods/pse.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x, volume and the law's strength",

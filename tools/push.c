@@ -1,4 +1,4 @@
-/* push: the only word that moves particles and advances time. It knows no law: x' = v (or vel), v' = acc, any other state by the change field
+/* push: the only word that moves particles and advances time. It is independent of the law: x' = v (or vel), v' = acc, any other state by the change field
  * that names it. Actions and schemes are files of lib/step; lib/push holds the rules, the clock and the loops.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
@@ -13,7 +13,7 @@ struct config {
 	struct pm_push push;
 };
 
-struct state { /* what declare leaves for frame */
+struct state { /* set by declare for frame */
 	struct pm_moving *moving;
 	size_t n;
 };
@@ -28,7 +28,7 @@ static int begin(struct pm_stage *s)
 	}
 	if (cfg->push.open && !(cfg->push.drift > 0))
 		return pm_fail(PM_USAGE, "--open belongs to drift (push drift --open | force | push kick)");
-	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt 0 moves nothing") : 0;
+	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt must not be 0") : 0;
 }
 
 static int take_dt(const struct pm_stage *s, struct pm_frame *f)
@@ -41,7 +41,7 @@ static int take_dt(const struct pm_stage *s, struct pm_frame *f)
 	return f->dt != 0 && isfinite(f->dt) ? 0 : pm_fail(PM_DATA, "the frame has no time step (push --dt, or the word dt)");
 }
 
-/* Change and derived fields of the meshes, of fixed sets and, where clear asks for it, of the sets themselves. */
+/* Change and derived fields of the meshes, of fixed sets and, with clear, of the sets themselves. */
 static void drop(struct pm_frame *f, const struct config *cfg)
 {
 	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
@@ -105,9 +105,9 @@ static void release(struct pm_stage *s)
 
 static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time waits for the others"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time advances when the others have moved too"},
 	{.name = "open", .kind = PM_FLAG, PM_AT(push.open), .text = "the drift does not complete the step: a kick is still to come"},
-	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe), .text = "takes steps beyond the scheme's limit of stability for what decays (diffusion)"},
+	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe), .text = "allow steps beyond the stability limit of the scheme for decay (diffusion)"},
 	{0},
 };
 
@@ -121,7 +121,7 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_push = {
 	.name = "push",
 	.summary = "advance state by its rates, and time with it",
-	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also turns v about bfield) and clear, or one whole scheme, which takes one pass of "
+	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also rotates v about bfield) and clear, or one whole scheme, which takes one pass of "
 		"the sentence per stage. A set with v moves by "
 		"x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that names it. A missing rate is an error, never "
 		"zero. Moving particles drops change and derived fields; kick keeps them. A step is complete when drift has reached 1 and kick 0 or 1 in "

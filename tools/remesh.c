@@ -1,4 +1,4 @@
-/* remesh: particles back onto the nodes of a mesh; the sharing is lib/remesh/remesh.c, the distortion lib/remesh/distortion.c.
+/* remesh: particles put back onto the nodes of a mesh; the distribution of strengths is lib/remesh/remesh.c, the distortion lib/remesh/distortion.c.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -28,7 +28,7 @@ static int begin(struct pm_stage *s)
 		if (!strcmp(o->drop.item[i], "x"))
 			return pm_fail(PM_USAGE, "--drop x would leave no particles");
 	if (o->rim && o->by)
-		return pm_fail(PM_USAGE, "--rim makes empty particles, and a value --by a strength of 0 is not defined (leave one of them out)");
+		return pm_fail(PM_USAGE, "--rim makes particles of strength 0, for which a value --by strength is undefined (leave one of them out)");
 	if (pm_given(s, "threshold") && strcmp(o->when, "distortion"))
 		return pm_fail(PM_USAGE, "--threshold belongs to --when distortion");
 	return 0;
@@ -76,7 +76,7 @@ static int measure(struct pm_stage *s, struct pm_frame *f, const struct job *j, 
 	return status;
 }
 
-/* The mesh as asked for: other cells, or enlarged until every particle fits. */
+/* The mesh of the options: other cells, or enlarged until it contains every particle. */
 static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 {
 	const struct pm_grid g = pm_grid_of(f, j->mesh);
@@ -87,7 +87,7 @@ static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 	return status < 0 ? status : 0;
 }
 
-/* Sums of what was cut add up over frames. */
+/* Sums of removed strengths are added over frames. */
 static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_remesh_loss *loss)
 {
 	for (int i = 0; i < loss->n && loss->cut; i++) {
@@ -124,28 +124,28 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "grow", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
-		.text = "how a strength is shared among nodes (default: the law's, else m4prime)"},
+		.text = "the interpolation kernel (default: the law's, else m4prime)"},
 	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with a strength that is not fixed)"},
 	{.name = "cut-off", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(cut_off),
-		.text = "nodes up to this part of the largest strength become no particles; counted, and their strength summed"},
+		.text = "drop nodes with at most this fraction of the largest strength; they are counted and their strength summed"},
 	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .fallback = "0", .high = 1000, PM_AT(rim),
-		.text = "nodes this near to a particle become particles too, however little they hold: room for what diffuses"},
+		.text = "also keep all nodes within this distance of a particle, so that diffusion has room"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
-		.text = "only where the frame's step is a multiple of this"},
+		.text = "act only if the step number is a multiple of this"},
 	{.name = "when", .kind = PM_WORD, .fallback = "always", .choices = when, PM_AT(when),
-		.text = "always, or where the distortion of the particles exceeds --threshold"},
+		.text = "act always, or if the distortion of the particles exceeds --threshold"},
 	{.name = "threshold", .kind = PM_REAL, .fallback = "0.02", .high = 1e9, PM_AT(threshold),
-		.text = "mean relative change of the overlap of particles that is too much"},
-	{.name = "by", .kind = PM_TEXT, .unit = "STRENGTH", PM_AT(by), .text = "carry values (v) as this strength times value: momentum by mass"},
-	{.name = "drop", .kind = PM_LIST, .unit = "FIELD", PM_AT(drop), .text = "fields that the new particles do without"},
+		.text = "the largest distortion allowed: mean relative change of the overlap of particles"},
+	{.name = "by", .kind = PM_TEXT, .unit = "STRENGTH", PM_AT(by), .text = "conserve the product of this strength and the values (v): momentum with mass"},
+	{.name = "drop", .kind = PM_LIST, .unit = "FIELD", PM_AT(drop), .text = "fields that the new particles do not have"},
 	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
-		.text = "particles that an open mesh does not hold: refuse, or enlarge the mesh"},
+		.text = "particles outside an open mesh: fail, or enlarge the mesh"},
 	{0},
 };
 static const struct pm_example examples[] = {
-	{"a cloud of masses becomes a lattice of masses, their momentum kept", "pinit uniform -n 1000 | remesh -n 16 --kernel tsc --by mass | sls"},
-	{"three vortices carry each other; the smallest strengths are left out",
+	{"a cloud of masses becomes a lattice of masses with the same momentum", "pinit uniform -n 1000 | remesh -n 16 --kernel tsc --by mass | sls"},
+	{"three vortices advect each other; the smallest strengths are dropped",
 		"printf 'x y circulation\\n0 0 1\\n1 0 1\\n0 1 1\\n' | stab - --law vortex --box -8,8 --dt 0.5 | cycle -n 5 "
 		"'p2m | poisson-fft --plan estimate | mgrad | m2p | push rk2 | remesh --cut-off 1e-4' | sls"},
 	{0},
@@ -155,9 +155,9 @@ const struct pm_tool tool_remesh = {
 	.summary = "put the strengths of particles back onto the nodes of a mesh, which become the particles",
 	.about = "strength(i) = sum over particles of strength * W((x - x_i)/h): nodes that are not 0, or above --cut-off, are the new particles, in the "
 		"order of the "
-		 "mesh. The total is conserved to round-off, moments as the kernel promises (docs/methods/kernels.md). Acts between steps only; inside a "
-		 "step the frame "
-		 "passes. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean of |H - H0|/H0 over the "
+		 "mesh. The total is conserved to round-off, moments as far as the kernel does (docs/methods/kernels.md). Acts between steps only; inside a step the "
+		 "frame is passed on unchanged. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean of |H - "
+		 "H0|/H0 over the "
 		 "particles, H = sum of volume * zeta(distance), H0 that after the last remesh. See docs/methods/remesh.md.",
 	.kind = PM_FILTER,
 	.reads = "x and every strength (mass, charge, circulation); with --by values; volume",

@@ -18,12 +18,12 @@ struct state {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "sets to compute on (every set without, unless --mesh is given)"},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "sets to compute on (default: every set, unless --mesh is given)"},
 	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "meshes to compute on"},
 	{.name = "role", .kind = PM_WORD, .fallback = "auto", .choices = roles, PM_AT(role),
 		.text = "role of a new field: state survives when particles move, derived does not; auto: state with --extensive, else derived"},
 	{.name = "extensive", .kind = PM_FLAG, PM_AT(strength), .text = "new fields are strengths (extensive)"},
-	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", PM_AT(unit), .text = "unit to write beside the fields"},
+	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", PM_AT(unit), .text = "unit of the fields"},
 	{.name = "type", .kind = PM_WORD, .fallback = "f64", .choices = types, PM_AT(type), .text = "how new fields are stored; i64 takes the floor"},
 	{0},
 };
@@ -85,8 +85,7 @@ const struct pm_tool tool_scalc = {
 	.name = "scalc",
 	.summary = "new fields from expressions",
 	.about = "Computes NAME = EXPRESSION for every particle of a set or point of a mesh, in the order given; commas make the components of a vector: 'w "
-		"= -y, x'. A field that is "
-		 "there already is rewritten; if it is state, everything that was derived from the state is dropped. Names: x y z, vx vy vz, NAME, NAME_0, "
+		"= -y, x'. An existing field is overwritten; if it is state, everything derived from the state is dropped. Names: x y z, vx vy vz, NAME, NAME_0, "
 		 "NAME.x; "
 		 "on a mesh x y z are the coordinates of the point; time dt step n dim pi Lx Ly Lz and the constants of the law (G, softening). Operators ^ "
 		 "* / + - < <= > >= == != && || ! ?:. "
@@ -94,8 +93,8 @@ const struct pm_tool tool_scalc = {
 		 "erfc gamma. "
 		 "A result that is not finite is exit 3.",
 	.kind = PM_FILTER,
-	.reads = "what the expressions name",
-	.adds = "what they define",
+	.reads = "the fields in the expressions",
+	.adds = "the fields they define",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,

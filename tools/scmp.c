@@ -14,14 +14,13 @@ struct config {
 };
 
 static const struct pm_option options[] = {
-	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME", PM_AT(fields), .text = "compare these fields only, wherever they are"},
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(on), .text = "compare what is on these sets or meshes only"},
+	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME", PM_AT(fields), .text = "compare only these fields, on any set or mesh"},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(on), .text = "compare only fields on these sets or meshes"},
 	{.name = "tolerance", .letter = 't', .kind = PM_REAL, .high = 1e300, PM_AT(tolerance),
 		.text = "exit 1 if the norm of any field is larger (or not a number)"},
-	{.name = "norm", .kind = PM_WORD, .fallback = "relative_l2", .choices = pm_norm_names, PM_AT(norm), .text = "the norm that --tolerance is held "
-		"against"},
-	{.name = "common", .kind = PM_FLAG, PM_AT(common), .text = "pass over fields that only one of the two has (an error without it)"},
-	{.name = "by-index", .kind = PM_FLAG, PM_AT(by_index), .text = "compare particles in the order in which they come, even where both have an id"},
+	{.name = "norm", .kind = PM_WORD, .fallback = "relative_l2", .choices = pm_norm_names, PM_AT(norm), .text = "the norm compared with --tolerance"},
+	{.name = "common", .kind = PM_FLAG, PM_AT(common), .text = "skip fields that only one of the two has (otherwise an error)"},
+	{.name = "by-index", .kind = PM_FLAG, PM_AT(by_index), .text = "compare particles by position in the stream, even if both have an id"},
 	{0},
 };
 
@@ -33,7 +32,7 @@ static int whole(struct pm_stage *s)
 		.tolerance = c->tolerance, .out = stdout};
 	int status = 0;
 	if (c->fields.n == PM_LIST_MOST || c->on.n == PM_LIST_MOST) /* the lists end in NULL */
-		return pm_fail(PM_USAGE, "--field and --set take at most %d names", PM_LIST_MOST - 1);
+		return pm_fail(PM_USAGE, "--field and --set allow at most %d names", PM_LIST_MOST - 1);
 	if (!strcmp(s->args[0], "-") && !strcmp(s->args[1], "-"))
 		return pm_fail(PM_USAGE, "standard input cannot be both streams (name a file)");
 	while (strcmp(pm_norm_names[compare.norm], c->norm))
@@ -49,7 +48,7 @@ static int whole(struct pm_stage *s)
 }
 
 static const struct pm_example examples[] = {
-	{"Two ways to the same force; the second is the reference.", "pinit plummer -n 200 | p2m | poisson-fft | mgrad | m2p > a; pinit plummer -n 200 | pp "
+	{"The same force computed in two ways; the second is the reference.", "pinit plummer -n 200 | p2m | poisson-fft | mgrad | m2p > a; pinit plummer -n 200 | pp "
 		"> b; scmp --field acc a b"},
 	{"Exit 1 unless two files hold the same numbers.", "pinit plummer -n 50 > a; cp a b; scmp --tolerance 0 a b"},
 	{0}};
@@ -57,13 +56,12 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_scmp = {
 	.name = "scmp",
 	.summary = "norms of the difference of two streams, field by field",
-	.about = "Prints for every field of every frame l1 = mean |a-b|, l2 = root mean |a-b|^2, max |a-b|, the last two also divided by those of b, and "
+	.about = "Prints for every field of every frame l1 = mean |a-b|, l2 = root mean |a-b|^2, max |a-b|, the last two also divided by the norms of b, and "
 		"where the "
 		 "difference is largest (an id, an index, or a mesh point). |.| is the length over the components; means over a mesh count points on its "
 		 "faces half. "
-		 "Particles are matched by id where both streams have one, by index otherwise. What has another shape is refused; a stream that is shorter "
-		 "than "
-		 "the other is exit 1. Without --field and --set the times are compared too.",
+		 "Particles are matched by id where both streams have one, by index otherwise. Fields of different shapes are an error; streams of different lengths "
+		 "are exit 1. Without --field and --set the times are compared too.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
 	.options = options,

@@ -30,30 +30,30 @@ static const struct pm_option options[] = {
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .fallback = "frame-%04d.png", .cosmetic = true, PM_AT(output),
 		.text = "the file to write; %d or %04d stands for the number of the frame"},
 	{.name = "format", .kind = PM_WORD, .fallback = "png", .choices = formats, PM_AT(format),
-		.text = "png: a file a frame; ppm: all frames one behind the other, to standard output unless --output is given"},
+		.text = "png: one file per frame; ppm: all frames in sequence, to standard output unless --output is given"},
 	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", PM_AT(field),
 		.text = "draw this mesh field; if only the particles have it, colour them by it"},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "draw a field of this mesh (the last one without --field)"},
-	{.name = "component", .kind = PM_TEXT, .unit = "x|y|z|NUMBER", PM_AT(component), .text = "component of a vector field; its length without"},
-	{.name = "axis", .kind = PM_WORD, .fallback = "z", .choices = axes, PM_AT(axis), .text = "the axis a slice or projection is across (3-D)"},
-	{.name = "slice", .kind = PM_REAL, .unit = "length", PM_AT(slice), .text = "where the slice is; the middle of the box without"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "draw a field of this mesh (the last field if --field is missing)"},
+	{.name = "component", .kind = PM_TEXT, .unit = "x|y|z|NUMBER", PM_AT(component), .text = "component of a vector field (default: its length)"},
+	{.name = "axis", .kind = PM_WORD, .fallback = "z", .choices = axes, PM_AT(axis), .text = "the axis normal to the slice or along the projection (3-D)"},
+	{.name = "slice", .kind = PM_REAL, .unit = "length", PM_AT(slice), .text = "position of the slice (default: the middle of the box)"},
 	{.name = "project", .kind = PM_FLAG, PM_AT(project), .text = "the integral along the axis instead of a slice"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "draw the particles of this set"},
-	{.name = "x", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(x), .text = "what goes across (x), for particles"},
-	{.name = "y", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(y), .text = "what goes up (y; vx in 1-D), for particles"},
-	{.name = "colour", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(colour), .text = "what colours the points"},
-	{.name = "weight", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(weight), .text = "what the density is of, 1 a particle without"},
+	{.name = "x", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(x), .text = "horizontal coordinate for particles (default: x)"},
+	{.name = "y", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(y), .text = "vertical coordinate for particles (default: y; vx in 1-D)"},
+	{.name = "colour", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(colour), .text = "expression that colours the points"},
+	{.name = "weight", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(weight), .text = "weight of a particle in the density (default: 1)"},
 	{.name = "style", .kind = PM_WORD, .fallback = "auto", .choices = styles, PM_AT(style),
-		.text = "points, or density; auto takes density from 4000 particles on unless they are coloured"},
-	{.name = "log", .kind = PM_FLAG, PM_AT(log), .text = "colours by the logarithm"},
-	{.name = "linear", .kind = PM_FLAG, PM_AT(linear), .text = "colours of a density by the number itself, not its logarithm"},
-	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "numbers at the ends of the colours; those of each frame without"},
-	{.name = "area", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", PM_AT(window), .text = "the part to show; the box without"},
+		.text = "points, or density; auto: density from 4000 particles on unless they are coloured"},
+	{.name = "log", .kind = PM_FLAG, PM_AT(log), .text = "logarithmic colour scale"},
+	{.name = "linear", .kind = PM_FLAG, PM_AT(linear), .text = "linear colour scale for a density, not logarithmic"},
+	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "values at the ends of the colour scale (default: the range of each frame)"},
+	{.name = "area", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", PM_AT(window), .text = "the area to show (default: the box)"},
 	{.name = "map", .kind = PM_WORD, .fallback = "auto", .choices = maps, PM_AT(map),
 		.text = "colours; auto: viridis for fields, inferno for densities, coolwarm for numbers of both signs"},
 	{.name = "size", .kind = PM_INTEGER, .unit = "pixels", .fallback = "640", .low = 64, .high = 8192, PM_AT(size),
 		.text = "the longer side of the data area"},
-	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", PM_AT(title), .text = "title; scene, field, time and step without"},
+	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", PM_AT(title), .text = "title (default: scene, field, time and step)"},
 	{0},
 };
 
@@ -84,7 +84,7 @@ static int begin(struct pm_stage *s)
 	if (c->log && c->linear)
 		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
 	if (ppm && !pm_given(s, "output") && isatty(STDOUT_FILENO))
-		return pm_fail(PM_USAGE, "a picture does not go to a terminal (give --output FILE, or a pipe)");
+		return pm_fail(PM_USAGE, "a picture cannot be written to a terminal (give --output FILE, or a pipe)");
 	st->files = (struct pm_picture_files){.name = c->output, .ppm = ppm, .standard = ppm && (!pm_given(s, "output") || !strcmp(c->output, "-"))};
 	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight,
 		.title = c->title,
@@ -128,7 +128,7 @@ const struct pm_tool tool_sdraw = {
 	.summary = "pictures of a mesh field or of particles",
 	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as "
 		"density; with --field a mesh "
-		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A point at an end of the bar says that numbers lie beyond it. "
+		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values lie beyond it. "
 		 "A movie: sdraw --format ppm --range LO,HI | ffmpeg -f image2pipe -i - movie.mp4.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

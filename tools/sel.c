@@ -19,12 +19,12 @@ static const struct pm_option options[] = {
 	{.name = "frames", .kind = PM_LIST, .unit = "N|N:M", PM_AT(frames),
 		.text = "frames by number, counted from 1: 1,3,5:10 or 7: for all from the seventh"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
-		.text = "frames whose step is a multiple of this"},
-	{.name = "last", .kind = PM_FLAG, PM_AT(last), .text = "the last frame of each stream only, of those that are left"},
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "keep these sets, no others"},
-	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "keep these meshes, no others"},
-	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(fields), .text = "keep these fields, no others"},
-	{.name = "drop", .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(drop), .text = "leave these fields, sets or meshes out"},
+		.text = "frames whose step number is a multiple of this"},
+	{.name = "last", .kind = PM_FLAG, PM_AT(last), .text = "only the last frame of each stream, after the other selections"},
+	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "keep only these sets"},
+	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "keep only these meshes"},
+	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(fields), .text = "keep only these fields"},
+	{.name = "drop", .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(drop), .text = "remove these fields, sets or meshes"},
 	{.name = "where", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(where), .text = "keep the particles for which this is true: 'x < 0.5 && mass > 0'"},
 	{0},
 };
@@ -89,9 +89,9 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_sel = {
 	.name = "sel",
 	.summary = "selects frames, sets, fields and particles",
-	.about = "What is not named stays. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles for which an "
+	.about = "Kinds for which nothing is named are kept. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles for which an "
 		"expression is not 0 (see "
-		 "scalc); their derived fields and changes stay what they were when all particles were there. What --set, --field or --drop names must be in "
+		 "scalc); their derived fields and changes keep the values computed with all particles. The names in --set, --field or --drop must exist in "
 		 "every frame.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct config),

@@ -1,4 +1,4 @@
-/* sh5: the stream at rest, an HDF5 file in the layout of openPMD 1.1 (docs/methods/hdf5.md), both ways and to the byte. The only program that links
+/* sh5: a stream in an HDF5 file, in the layout of openPMD 1.1 (docs/methods/hdf5.md), in both directions and exact to the byte. The only program that links
  * HDF5, which costs 5 ms to start; -i x.h5 and -o x.h5 of the others run it on a pipe. Cost: that of the disk.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -21,7 +21,7 @@ static const struct pm_option options[] = {
 };
 
 static const struct pm_example examples[] = {
-	{"A cloud at rest, and what is in it", "pinit plummer -n 100 | sh5 -o cloud.h5; h5ls -r cloud.h5; sh5 cloud.h5 | sls"},
+	{"A cloud in a file, and a listing of the file", "pinit plummer -n 100 | sh5 -o cloud.h5; h5ls -r cloud.h5; sh5 cloud.h5 | sls"},
 	{"Any tool reads and writes HDF5 through it", "pinit plummer -n 100 -o cloud.h5; p2m -i cloud.h5 -o mesh.h5; sls -i mesh.h5"},
 	{0}};
 
@@ -64,7 +64,7 @@ const struct pm_tool tool_sh5 = {
 	.summary = "HDF5 to stream and back, exactly",
 	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1. With -o FILE a sink: writes its input as such a file, which "
 		"h5ls, h5dump, h5diff, yt and ParaView read. "
-		 "Stream to HDF5 to stream gives equal bytes. Iterations are called by their step, or by the next free number where two frames have the same. "
+		 "Stream to HDF5 to stream gives equal bytes. Iterations are named by their step, or by the next free number if two frames have the same step. "
 		 "-i FILE.h5 and -o FILE.h5 of any other tool run sh5 on a pipe.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

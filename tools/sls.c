@@ -1,4 +1,4 @@
-/* sls: what a stream holds: attributes, sets, meshes, fields; reads no data unless asked. SPDX-License-Identifier: GPL-3.0-or-later */
+/* sls: lists attributes, sets, meshes and fields of a stream; reads data only with --data. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
@@ -18,16 +18,16 @@ struct state {
 
 static const struct pm_option options[] = {
 	{.name = "data", .letter = 'd', .kind = PM_FLAG, PM_AT(listing.data), .text = "read the data too: smallest, largest and mean value of every component"},
-	{.name = "history", .kind = PM_FLAG, PM_AT(listing.history), .text = "which programs with which options made the frame"},
-	{.name = "report", .kind = PM_FLAG, PM_AT(listing.report), .text = "what the stages have reported: iterations, means removed, counts"},
+	{.name = "history", .kind = PM_FLAG, PM_AT(listing.history), .text = "print the programs and options that made the frame"},
+	{.name = "report", .kind = PM_FLAG, PM_AT(listing.report), .text = "print the reports of the stages: iterations, means removed, counts"},
 	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format),
-		.text = "text for people, json (one line a frame) for programs"},
+		.text = "text for people, json (one line per frame) for programs"},
 	{0},
 };
 
 static int begin(struct pm_stage *s)
 {
-	pm_stage_no_entry(s); /* looking leaves no trace */
+	pm_stage_no_entry(s); /* listing adds no entry to the history */
 	return 0;
 }
 
@@ -67,8 +67,8 @@ const struct pm_tool tool_sls = {
 	.summary = "lists what a stream holds",
 	.about = "Prints the attributes of every frame, its particle sets and meshes, and of every field the name, the number of components, the type, the "
 		"role, whether it is a "
-		 "strength or a value, unit, what it is the change of, the terms it holds, and its value where all are equal. No data are kept unless --data "
-		 "asks for smallest, largest and mean values. With --format json every frame is one line: the header of the stream, with report and data "
+		 "strength or a value, unit, the state it is the change of, its terms, and its value if uniform. Data are read only with --data, which prints "
+		 "smallest, largest and mean values. With --format json every frame is one line: the header of the stream, with report and data "
 		 "added.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

@@ -1,4 +1,4 @@
-/* smod: sets attributes of the frame, stores and renames its fields; moving particles is smove's, and smod still takes its options.
+/* smod: sets attributes of the frame, stores and renames its fields; particles are moved by smove, whose options smod still accepts.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -27,20 +27,20 @@ static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .high = 1e300, PM_AT(dt), .text = "the time step"},
 	{.name = "time", .kind = PM_REAL, .unit = "time", PM_AT(time), .text = "the time"},
 	{.name = "step", .kind = PM_INTEGER, .high = 1e15, PM_AT(step), .text = "the number of steps done"},
-	{.name = "seed", .kind = PM_INTEGER, .high = 0x1p62, PM_AT(seed), .text = "the seed of what is random"},
-	{.name = "law", .kind = PM_WORD, .choices = pm_law_names, PM_AT(law), .text = "the law the particles obey"},
+	{.name = "seed", .kind = PM_INTEGER, .high = 0x1p62, PM_AT(seed), .text = "the seed of random numbers"},
+	{.name = "law", .kind = PM_WORD, .choices = pm_law_names, PM_AT(law), .text = "the law of the particles"},
 	{.name = "constant", .kind = PM_LIST, .unit = "NAME=VALUE", PM_AT(constants), .text = "constants: G=1,softening=0.05"},
 	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box), .text = "lo,hi of every axis, or all lo and then all hi; meshes span the new box"},
 	{.name = "faces", .kind = PM_LIST, .unit = "WORD", PM_AT(faces),
 		.text = "boundary of the fields: periodic, open, wall, neumann or absorbing; one word, one per axis, or low,high per axis"},
 	{.name = "particle-faces", .kind = PM_LIST, .unit = "WORD", PM_AT(particle_faces),
 		.text = "boundary of the particles: periodic, reflect, absorb or open"},
-	{.name = "unit", .kind = PM_LIST, .unit = "FIELD=UNIT", PM_AT(units), .text = "units to write beside the fields"},
+	{.name = "unit", .kind = PM_LIST, .unit = "FIELD=UNIT", PM_AT(units), .text = "units of the fields"},
 	{.name = "store", .kind = PM_LIST, .unit = "TYPE|FIELD=TYPE", PM_AT(store),
-		.text = "store fields as f32 or f64: f32 for all that are real, or x=f32,v=f32"},
+		.text = "store fields as f32 or f64: f32 alone for all real fields, or x=f32,v=f32"},
 	{.name = "rename", .kind = PM_LIST, .unit = "OLD=NEW", PM_AT(rename), .text = "new names for fields, sets or meshes"},
-	{.name = "fixed", .kind = PM_LIST, .unit = "SET", PM_AT(fixed), .text = "sets that are not pushed from here on"},
-	{.name = "loose", .kind = PM_LIST, .unit = "SET", PM_AT(loose), .text = "sets that are pushed again"},
+	{.name = "fixed", .kind = PM_LIST, .unit = "SET", PM_AT(fixed), .text = "sets that push must not move from now on"},
+	{.name = "loose", .kind = PM_LIST, .unit = "SET", PM_AT(loose), .text = "sets that push moves again"},
 	{0},
 };
 
@@ -102,30 +102,29 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-/* Behind the work, so that a failure stays one line. */
+/* After the work, so that a failure is one line. */
 static int end(struct pm_stage *s)
 {
 	if (pm_motion_given(&((const struct config *)s->config)->motion))
-		fputs("smod: --scale, --rotate, --shift and --boost are options of smove now (smod still takes them)\n", stderr);
+		fputs("smod: --scale, --rotate, --shift and --boost are now options of smove (smod still accepts them)\n", stderr);
 	return 0;
 }
 
 static void release(struct pm_stage *s) { pm_set_motion_clear(&((struct state *)s->state)->motion); }
 
 static const struct pm_example examples[] = {
-	{"Another time step and softening, single precision on the way.", "pinit plummer -n 100 | smod --dt 0.01 --constant softening=0.1 --store f32 | sls"},
-	{"A set under another name, and from here on pushed like others.", "pinit kepler | smod --loose sun --rename sun=centre | sls"},
+	{"Change the time step and softening, and store in single precision.", "pinit plummer -n 100 | smod --dt 0.01 --constant softening=0.1 --store f32 | sls"},
+	{"Rename a set, and let push move it from now on.", "pinit kepler | smod --loose sun --rename sun=centre | sls"},
 	{0},
 };
 
 const struct pm_tool tool_smod = {
 	.name = "smod",
 	.summary = "sets attributes: time step, law, constants, box and faces, units, types, names",
-	.about = "In this order: attributes, --store, --rename. What changes the law, its constants or the box drops derived and change fields: they "
-		"belonged to what was "
-		"before. Particles are moved by smove; its options --set, --scale, --rotate, --shift and --boost still work here, behind the attributes.",
+	.about = "In this order: attributes, --store, --rename. A change of the law, its constants or the box drops derived and change fields, because they "
+		"are no longer valid. Particles are moved by smove; its options --set, --scale, --rotate, --shift and --boost still work here, after the attributes.",
 	.kind = PM_FILTER,
-	.changes = "attributes, what --store names",
+	.changes = "attributes, the fields of --store",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,

@@ -1,4 +1,4 @@
-/* smove: scales, turns, shifts and boosts the particles of a scene (lib/mesh/set-motion.c). SPDX-License-Identifier: GPL-3.0-or-later */
+/* smove: scales, rotates, shifts and boosts the particles of a scene (lib/mesh/set-motion.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage/motion-options.h"
 #include "stream/edit.h"
 
@@ -53,13 +53,13 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_smove = {
 	.name = "smove",
 	.summary = "shifts, rotates, scales and boosts particles",
-	.about = "In this order: --scale, --rotate, --shift, --boost. Derived and change fields are dropped: they belonged to where the particles were. "
+	.about = "In this order: --scale, --rotate, --shift, --boost. Derived and change fields are dropped, because they were computed at the old positions. "
 		"--scale multiplies the "
-		"fields that are named and nothing else: whoever shrinks the lengths of a scene says what becomes of velocities, masses and the box. "
+		"named fields only: to change the lengths of a scene consistently, also scale velocities, masses and the box as needed. "
 		"Positions are "
-		"not checked against an open box: p2m will name a particle outside. See docs/methods/smove.md.",
+		"not checked against an open box: p2m reports particles outside. See docs/methods/smove.md.",
 	.kind = PM_FILTER,
-	.changes = "x, v, what --scale names",
+	.changes = "x, v, the fields of --scale",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,

@@ -9,12 +9,13 @@ struct config {
 };
 
 static const struct pm_option options[] = {
-	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(order.set), .text = "sort this set only (every set without)"},
-	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(order.by), .text = "sort by this, ascending, instead of by cell: id, mass, 'hypot(x,y)'"},
-	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(order.mesh), .text = "sort by the cells of this mesh (the first without)"},
+	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(order.set), .text = "sort only this set (default: every set)"},
+	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(order.by), .text = "sort by this expression, ascending, instead of by cell: id, mass, "
+		"'hypot(x,y)'"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(order.mesh), .text = "sort by the cells of this mesh (default: the first)"},
 	{.name = "reverse", .kind = PM_FLAG, PM_AT(order.reverse), .text = "largest first"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
-		.text = "sort only frames whose step is a multiple of this"},
+		.text = "sort only frames whose step number is a multiple of this"},
 	{0},
 };
 
@@ -36,13 +37,12 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_ssort = {
 	.name = "ssort",
 	.summary = "reorders particles by cell or by an expression",
-	.about = "Permutes every field of the set, so that particles that are near each other are so in memory and p2m, m2p and pair find them in the cache. "
+	.about = "Permutes every field of the set, so that neighbours in space are neighbours in memory, and p2m, m2p and pse find them in the cache. "
 		"By default by "
-		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Only at "
-		 "substep 0: other frames pass as they are. "
-		 "No number changes; sums over particles may differ in the last digit, because they add in another order.",
+		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Acts only at "
+		 "substep 0; other frames are passed on unchanged. No value changes, but sums over particles may differ in the last digit because of the other order.",
 	.kind = PM_FILTER,
-	.reads = "x, or what --by names",
+	.reads = "x, or the fields in --by",
 	.changes = "the order of all fields of the set",
 	.config = sizeof(struct config),
 	.options = options,

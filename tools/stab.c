@@ -1,5 +1,5 @@
 /* stab: text to stream and back, exactly. With FILE a source: a plain table becomes a frame, text that stab wrote becomes the frames it was made
- * from; without, a sink that writes its input as text (docs/methods/text.md). Cost: about 1 us a row of seven columns.
+ * from; without, a sink that writes its input as text (docs/methods/text.md). Cost: about 1 us per row of seven columns.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "stage/table-source.h"
@@ -19,27 +19,27 @@ struct state {
 
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "matter", PM_AT(table.set),
-		.text = "name of the set a plain table becomes; with --plain the set to write (if there is none of the default, the first)"},
-	{.name = "law", .kind = PM_WORD, .fallback = "free", .choices = pm_law_names, PM_AT(table.law), .text = "the law the particles of a plain table obey"},
+		.text = "name of the set made from a plain table; with --plain the set to write (if the default does not exist, the first)"},
+	{.name = "law", .kind = PM_WORD, .fallback = "free", .choices = pm_law_names, PM_AT(table.law), .text = "the law of the particles of a plain table"},
 	{.name = "constant", .kind = PM_LIST, .unit = "NAME=VALUE", PM_AT(table.constants), .text = "constants: G=2.95912208286e-4, softening=0"},
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(table.dt),
-		.text = "the time step to write into the frame; 0 leaves it to push --dt"},
+		.text = "the time step of the frame; 0 leaves it to push --dt"},
 	{.name = "time", .kind = PM_REAL, .unit = "time", .fallback = "0", PM_AT(table.time), .text = "the time of the frame"},
 	{.name = "dim", .kind = PM_INTEGER, .low = 1, .high = 3, PM_AT(table.dim),
-		.text = "dimensions; the position columns must be as many (they decide without it)"},
+		.text = "number of dimensions, equal to the number of position columns (default: that number)"},
 	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(table.box),
-		.text = "lo,hi of every axis, or all lo and then all hi; without it a cube of twice the extent about the particles"},
+		.text = "lo,hi of every axis, or all lo and then all hi (default: a cube of twice the extent about the particles)"},
 	{.name = "faces", .kind = PM_LIST, .unit = "WORD", PM_AT(table.faces),
-		.text = "boundary of the fields: periodic, open, wall, neumann or absorbing; one word, one per axis, or low,high per axis (open without it)"},
+		.text = "boundary of the fields: periodic, open, wall, neumann or absorbing; one word, one per axis, or low,high per axis (default: open)"},
 	{.name = "particle-faces", .kind = PM_LIST, .unit = "WORD", PM_AT(table.particle_faces),
 		.text = "boundary of the particles: periodic, reflect, absorb or open"},
 	{.name = "cells", .letter = 'n', .kind = PM_CELLS, .unit = "cells", .fallback = "32", PM_AT(table.cells),
 		.text = "cells of the default mesh, which spans the box"},
 	{.name = "strength", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.strength),
 		.text = "columns that are strengths (extensive) besides mass, charge and circulation"},
-	{.name = "unit", .kind = PM_LIST, .unit = "FIELD=UNIT", PM_AT(table.units), .text = "units to write beside the fields"},
-	{.name = "text", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.text), .text = "columns of letters (at most 16) to keep, besides name"},
-	{.name = "skip", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.skip), .text = "columns to leave out"},
+	{.name = "unit", .kind = PM_LIST, .unit = "FIELD=UNIT", PM_AT(table.units), .text = "units of the fields"},
+	{.name = "text", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.text), .text = "text columns (at most 16 letters) to keep, besides name"},
+	{.name = "skip", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.skip), .text = "columns to skip"},
 	{.name = "number", .kind = PM_FLAG, PM_AT(table.number), .text = "add a field id that counts the rows from 0"},
 	{.name = "plain", .kind = PM_FLAG, PM_AT(plain), .text = "write one table without headers; further frames follow after two empty lines"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "with --plain: write this mesh, the coordinates of its points first"},
@@ -58,8 +58,8 @@ static int begin(struct pm_stage *s)
 			return pm_fail(PM_USAGE, "--%s is for reading a table (name its file, or - for standard input)", only);
 	}
 	if (s->nargs && (c->plain || c->mesh))
-		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text; reading '%s' needs neither", s->args[0]);
-	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh goes with --plain") : 0;
+		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text, not for reading '%s'", s->args[0]);
+	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh needs --plain") : 0;
 }
 
 static int source(struct pm_stage *s, struct pm_frame **f)
@@ -109,20 +109,20 @@ static const struct pm_example examples[] = {
 	{"Three bodies from a table, and back.", "printf 'x y z mass\\n0 0 0 1\\n1 0 0 1e-3\\n0 5.2 0 2e-4\\n' | stab - --law gravity --constant G=39.478 | "
 		"stab"},
 	{"A scene as a plain table for gnuplot.", "pinit plummer -n 5 | stab --plain"},
-	{"Text and stream are the same thing twice.", "pinit plummer -n 100 > a; stab < a | stab - > b; cmp a b"},
+	{"From stream to text and back.", "pinit plummer -n 100 > a; stab < a | stab - > b; cmp a b"},
 	{0}};
 
 const struct pm_tool tool_stab = {
 	.name = "stab",
 	.summary = "text to stream and back, exactly",
-	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then a row a line, blanks or tabs between; empty "
+	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then one row per line, separated by blanks or tabs; empty "
 		"lines and "
-		 "lines that start with # are passed over. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id "
+		 "lines that start with # are skipped. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id "
 		 "whole "
-		 "numbers, name letters (kept as a field of bytes with the unit text), any other column a field. A value that is no number or not finite, "
-		 "and a row with too few or too many columns, is an error that names its line. No rows are legal: a set of 0 particles.\n"
-		 "Without FILE a sink: every frame as a line of JSON (the header of the stream) and a table per set and mesh, numbers with as many digits as "
-		 "bring back the same bits. stab reads this text again, rows added or removed included.",
+		 "numbers, name a text (stored as a field of bytes with the unit text), any other column a field. Values that are not finite numbers, and rows with "
+		 "too few or too many columns, are errors reported with the line. A table without rows is a set of 0 particles.\n"
+		 "Without FILE a sink: every frame as a line of JSON (the header of the stream) and a table per set and mesh, numbers with enough digits to restore "
+		 "the same bits. stab reads this text again, also with rows added or removed.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

@@ -1,4 +1,4 @@
-/* stack: puts scenes together, frame by frame: the particles of several streams in one box. SPDX-License-Identifier: GPL-3.0-or-later */
+/* stack: combines scenes frame by frame: the particles of several streams in one box. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
@@ -21,10 +21,10 @@ struct state {
 
 static const struct pm_option options[] = {
 	{.name = "as", .kind = PM_LIST, .unit = "NAME", PM_AT(names),
-		.text = "names for the sets, one per stream (without: their own, the second of a name becomes NAME-2)"},
+		.text = "names for the sets, one per stream (default: their own; a repeated name becomes NAME-2)"},
 	{.name = "merge", .kind = PM_FLAG, PM_AT(merge), .text = "sets of the same name become one set"},
 	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box),
-		.text = "lo,hi of every axis, or all lo and then all hi (without: the smallest box that holds all boxes)"},
+		.text = "lo,hi of every axis, or all lo and then all hi (default: the smallest box that contains all boxes)"},
 	{0},
 };
 
@@ -44,7 +44,7 @@ static int open_all(struct pm_stage *s, struct state *st)
 	return 0;
 }
 
-/* The failure again, with the stream and the frame in front. */
+/* Puts the stream and the frame in front of the message of the failure. */
 static int blame(const struct pm_stage *s, int i, int status)
 {
 	char why[1024];
@@ -52,7 +52,7 @@ static int blame(const struct pm_stage *s, int i, int status)
 	return pm_fail(-status, "%s: frame %llu: %s", s->args[i], (unsigned long long)((struct state *)s->state)->frames, why);
 }
 
-/* The next frame of stream i, over the ends of streams that follow each other. */
+/* The next frame of stream i, across the end markers of concatenated streams. */
 static int next(struct pm_stage *s, int i, struct pm_frame **f)
 {
 	int got;
@@ -125,15 +125,14 @@ static const struct pm_example examples[] = {
 
 const struct pm_tool tool_stack = {
 	.name = "stack",
-	.summary = "puts scenes together",
+	.summary = "combines scenes into one",
 	.about = "Reads a frame of every stream and writes one frame with the sets of all. Dimensions, law, time and faces must agree, and the constants "
-		"that more than one of them has; the "
-		 "box is the smallest that holds all boxes, the time step the smallest, the default mesh that of the first, spanning the new box. A set "
+		"that several of them have; the box is the smallest that contains all boxes, the time step the smallest, the default mesh that of the first, spanning "
+		"the new box. A set "
 		 "whose name "
-		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: where those of a later stream could meet those before "
-		 "it, they "
-		 "are moved up by one number for the whole stream, so that the smallest becomes the first that is free. Fields that were derived, and "
-		 "changes, are left out: they belong to each scene alone.",
+		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: if ids of a later stream could coincide with earlier ones, the "
+		 "same number is added to all ids of that stream, so that its smallest becomes the first free id. Derived fields and changes are dropped, because "
+		 "they are those of the separate scenes.",
 	.kind = PM_SOURCE,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

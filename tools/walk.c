@@ -37,12 +37,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const struct pm_option options[] = {
 	PM_VISCOSITY_ROW,
-	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "of the random numbers; by default the frame's"},
+	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "seed of the random numbers; by default the frame's"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set that moves"},
 	{0},
 };
 static const struct pm_example examples[] = {
-	{"a vortex of 2000 blobs spreads, its circulation stays",
+	{"a vortex of 2000 blobs spreads, its circulation is conserved",
 		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | push rk2 | walk' | diag --columns circulation"},
 	{"particles that start at random walk in a box with mirrors",
 		"pinit uniform --dim 2 -n 500 --faces wall --particle-faces reflect --dt 0.01 | smod --law free | cycle -n 20 'push drift | walk --nu 0.1' | "
@@ -52,13 +52,12 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_walk = {
 	.name = "walk",
 	.summary = "add diffusion by random steps of the particles",
-	.about = "x += N(0, 2 nu dt) per component, once per step (in the middle of one the frame passes): put it behind the last push. Strengths do not "
+	.about = "x += N(0, 2 nu dt) per component, once per step (inside a step the frame is passed on unchanged): put it after the last push. Strengths do not "
 		"change. The numbers "
 		 "depend on seed, set, id (or index, where there is none) and step, not on order or threads; two walks in one sentence need two seeds. "
-		 "Moving drops what was "
-		 "derived from the positions. Faces as in push. Error 1/sqrt(N): pse and diffuse are more exact, and need volumes and overlap, which this "
-		 "does not. Reports the standard "
-		 "deviation of a step and what is absorbed. Where nu is 0 the frame passes. See docs/methods/walk.md.",
+		 "Fields derived from the positions are dropped. Faces as in push. Error 1/sqrt(N): pse and diffuse are more accurate, but need volumes and "
+		 "overlapping particles. Reports the standard deviation of a step and the number of absorbed particles. If nu is 0 the frame is passed on unchanged. "
+		 "See docs/methods/walk.md.",
 	.kind = PM_FILTER,
 	.reads = "id",
 	.changes = "x",

@@ -56,7 +56,7 @@ static int keys(const struct pm_particle_order *o, struct pm_frame *f, const cha
 		return 0;
 	}
 	const struct pm_field *p = pm_frame_field(f, on, o->by);
-	if (p && p->type == PM_I64 && p->components == 1) { /* ids beyond 2^53 are told apart */
+	if (p && p->type == PM_I64 && p->components == 1) { /* ids beyond 2^53 are distinguished */
 		pm_keys_of_integers(n, pm_in_i64(p, 0), key);
 		return 0;
 	}

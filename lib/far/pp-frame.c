@@ -15,7 +15,7 @@ static int open_space(const struct pm_frame *f)
 {
 	for (int a = 0; a < 2 * f->dim; a++)
 		if (f->face[a / 2][a % 2] != PM_OPEN)
-			return pm_fail(PM_DATA, "the box is %s along %c and pp sums in open space (p2m | poisson-fft | mgrad | m2p does such boxes; for "
+			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space (use p2m | poisson-fft | mgrad | m2p; for "
 				"periodic ones also the word ewald)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
 	return 0;
 }
@@ -33,7 +33,7 @@ static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const 
 		return 0;
 	p->delta = isnan(c->softening) ? pm_frame_constant(f, "softening", NAN) : c->softening;
 	if (!(p->delta >= 0))
-		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, 0 if you mean it; smod --constant softening=LENGTH for the frame; or "
+		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, which may be 0; smod --constant softening=LENGTH for the frame; or "
 			"--mollifier none)");
 	return 0;
 }

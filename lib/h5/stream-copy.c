@@ -39,7 +39,7 @@ int pm_h5_to_stream(struct pm_h5 *h, struct pm_writer *w, json_t *entry)
 		int got = pm_h5_get(h, &f, &foreign), status = got < 0 ? got : 0;
 		if (got == PM_GOT_EOF)
 			return 0;
-		if (got == PM_GOT_FRAME && foreign && entry) /* what sh5 wrote is at rest as it was: no entry */
+		if (got == PM_GOT_FRAME && foreign && entry) /* sh5 changes nothing, so it adds no entry */
 			json_array_append(f->history, entry);
 		if (!status)
 			status = got == PM_GOT_END ? pm_write_end(w) : pm_write_frame(w, f);

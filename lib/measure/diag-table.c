@@ -12,7 +12,7 @@ static int take_growth(struct pm_diag_choice *c, const char *growth)
 	if (growth && (sscanf(growth, "mode:%d%n", &c->growth, &used) != 1 || growth[used] || c->growth < 1))
 		return pm_fail(PM_USAGE, "--growth '%s' (it is written mode:1, waves in the box along x)", growth);
 	if (growth && c->nmodes == PM_COMPONENTS)
-		return pm_fail(PM_USAGE, "--growth beside %d modes (at most %d)", c->nmodes, PM_COMPONENTS - 1);
+		return pm_fail(PM_USAGE, "--growth with %d modes (at most %d)", c->nmodes, PM_COMPONENTS - 1);
 	if (c->window && (!growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
 		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
 	return 0;

@@ -42,7 +42,7 @@ int pm_diffusion_declare(const struct pm_diffusion_choice *o, struct pm_frame *f
 	return status ? status : contribute(o, f, law, t);
 }
 
-/* change += nu lap density; scratch where there is something already. */
+/* change += nu lap density; scratch is used if the change is not empty. */
 static int add(struct pm_diffusion *t, double *scratch)
 {
 	const double *in[PM_COMPONENTS];
@@ -64,7 +64,7 @@ int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans)
 	double *scratch = t->change->nterms > 1 ? pm_alloc(t->change->count * (size_t)t->operator.out, sizeof *scratch) : NULL;
 	if (t->change->nterms > 1 && !scratch)
 		return -PM_DATA;
-	if (plans->n > PM_FFT_PLANS - 3) /* frames of many sizes: start the collection anew */
+	if (plans->n > PM_FFT_PLANS - 3) /* frames of many sizes: empty the collection */
 		pm_fft_plans_clear(plans);
 	int status = pm_operator_plan(&t->operator, plans);
 	if (!status)

@@ -7,7 +7,7 @@
 #include "mesh/gradient-frame.h"
 #include "stream/declare.h"
 
-/* The operator, its factor and its order: as asked for, else the law's. */
+/* The operator, its factor and its order: from the options, else the law's. */
 static int choose(const struct pm_gradient_choice *o, const struct pm_law *law, const struct pm_grid *g, const struct pm_field *source, struct pm_gradient *t)
 {
 	enum pm_operator_kind kind = law->of_potential == PM_CURL ? PM_OP_CURL : PM_OP_GRAD;
@@ -16,7 +16,7 @@ static int choose(const struct pm_gradient_choice *o, const struct pm_law *law, 
 		if (!strcmp(o->kind, pm_operator_names[i]))
 			kind = (enum pm_operator_kind)i, t->factor = 1;
 	int order = pm_order_find(o->order ? o->order : law->order ? law->order : "2");
-	/* Where the law's field is a flow, vectors are, but not its potential and its density: those have the images of a gradient. */
+	/* If the law's field is a flow, vectors have the images of a flow, except its potential and its density, which have those of a gradient. */
 	bool flow = law->of_potential == PM_CURL && strcmp(source->name, law->potential) && strcmp(source->name, law->density);
 	return order < 0 ? -PM_USAGE : pm_operator_init(&t->operator, g, kind, order, source->components, flow);
 }
@@ -26,8 +26,8 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 {
 	const struct pm_field *old = pm_frame_field(f, on, target);
 	if (old && old->role == PM_STATE)
-		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative does not replace it (choose another --target; keep what is given on a mesh of "
-			"its own, m2p --mesh adds it)", target, on);
+		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative must not replace it (choose another --target; keep the given field on a separate "
+			"mesh, m2p --mesh adds it)", target, on);
 	t->target = pm_makes(f, on, target, t->operator.out, PM_DERIVED);
 	if (!t->target)
 		return -PM_DATA;
@@ -58,7 +58,7 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 	for (int c = 0; c < t->source->components; c++)
 		for (int d = 0; d < f->dim; d++)
 			if (t->source->staggered[c][d])
-				return pm_fail(PM_DATA, "'%s' sits between the nodes (mgrad works on the nodes)", source);
+				return pm_fail(PM_DATA, "'%s' is staggered (mgrad works on the nodes)", source);
 	struct pm_grid g = pm_grid_of(f, mesh);
 	int status = choose(o, law, &g, t->source, t);
 	return status ? status : make(f, mesh->name, target, t);
@@ -66,7 +66,7 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 
 int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans)
 {
-	if (plans->nmade > PM_FFT_PLANS - 3 || plans->n > PM_FFT_PLANS - 6) /* frames of many sizes: start the collection anew */
+	if (plans->nmade > PM_FFT_PLANS - 3 || plans->n > PM_FFT_PLANS - 6) /* frames of many sizes: empty the collection */
 		pm_fft_plans_clear(plans);
 	return pm_operator_plan(&t->operator, plans);
 }

@@ -17,7 +17,7 @@ static int declare_set(struct pm_frame *f, struct pm_set *set)
 	if (x->components < f->dim)
 		return pm_fail(PM_DATA, "the positions of '%s' have %d components in %d-D", set->name, x->components, f->dim);
 	if (id && id->type != PM_I64)
-		return pm_fail(PM_DATA, "'id' on '%s' is not i64, and whose step is which depends on it (smod --rename id=NAME)", set->name);
+		return pm_fail(PM_DATA, "'id' on '%s' is not i64, but the random numbers depend on it (smod --rename id=NAME)", set->name);
 	if (!pm_changes(f, set->name, "x") || (id && !pm_reads(f, set->name, "id")))
 		return -PM_DATA;
 	pm_drops_roles(f, set->name, 1u << PM_CHANGE | 1u << PM_DERIVED);
@@ -28,7 +28,7 @@ int pm_walk_declare(const struct pm_walk *w, struct pm_frame *f)
 {
 	int sets = 0, status = 0;
 	if (!(f->dt > 0))
-		return pm_fail(PM_DATA, "the time step is %g, and a walk takes 2 nu dt > 0 (smod --dt, or the word dt)", f->dt);
+		return pm_fail(PM_DATA, "the time step is %g, but a walk needs 2 nu dt > 0 (smod --dt, or the word dt)", f->dt);
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		if (pm_walk_takes(w, f, f->sets[i])) {
 			status = declare_set(f, f->sets[i]);

@@ -126,7 +126,7 @@ int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box)
 static int words(const struct pm_list *list, int dim, const char *const *names, const char *option, int out[3][2])
 {
 	if (list->n != 1 && list->n != dim && list->n != 2 * dim)
-		return pm_fail(PM_USAGE, "--%s needs 1 word, %d (one per axis) or %d (low,high per axis), not %d", option, dim, 2 * dim, list->n);
+		return pm_fail(PM_USAGE, "--%s takes 1 word, %d (one per axis) or %d (low,high per axis), not %d", option, dim, 2 * dim, list->n);
 	for (int a = 0; a < dim; a++)
 		for (int side = 0; side < 2; side++) {
 			const char *word = list->item[list->n == 1 ? 0 : list->n == dim ? a : 2 * a + side];

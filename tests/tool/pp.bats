@@ -32,7 +32,7 @@ fixture() {
 
 @test "no softening length is an error, never a silent 0" {
 	fixture > t
-	refuses 1 "no softening length (--softening LENGTH, 0 if you mean it; smod --constant softening=LENGTH for the frame; or --mollifier none)" "stab t --law gravity | pp"
+	refuses 1 "no softening length (--softening LENGTH, which may be 0; smod --constant softening=LENGTH for the frame; or --mollifier none)" "stab t --law gravity | pp"
 	sh_ok "stab t --law gravity | pp --mollifier none | stab --plain > a"
 	sh_ok "stab t --law gravity | pp --softening 0 | stab --plain > b"
 	same_as a b

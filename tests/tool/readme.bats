@@ -66,7 +66,7 @@ block() {
 	[[ $output == *$'\n* '* && -s report/index.html ]]
 }
 
-@test "README: what the scene calls for: a sentence with its reasons, and its run" {
+@test "README: the sentence that plan chooses: a sentence with its reasons, and its run" {
 	block 8 >plan.sh
 	sh_ok 'bash -euo pipefail plan.sh'
 	[[ $output == *"diffusion: on, nu dt/h^2 = "* && $output == *circulation* ]]
