@@ -1,4 +1,4 @@
-/* Ground floor: errors, memory, threads, random numbers, sums, checksums. Everything else stands on this; it includes nothing of ours.
+/* The lowest room: errors, memory, threads, random numbers, sums, checksums. All others use it; it includes nothing of pmpipe.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BASE_H
 #define PM_BASE_H
@@ -79,7 +79,7 @@ uint32_t pm_crc32c_join(uint32_t first, uint32_t second, size_t bytes);
 
 /* True if all n values are finite. */
 bool pm_finite(size_t n, const double *x);
-/* The same by the calling thread alone, for values that are in the cache already. The largest exponent tells: integers vectorise. */
+/* The same by the calling thread alone, for values that are in the cache already. It compares exponents as integers, which vectorises. */
 static inline bool pm_finite_few(size_t n, const double *x)
 {
 	typedef uint64_t __attribute__((may_alias)) word;

@@ -27,7 +27,7 @@ static const char *digits(const char *s, uint64_t *m, int *kept, int *skipped, b
 	return s;
 }
 
-/* m * 10^power, correctly rounded, or false where this way cannot tell. */
+/* m * 10^power, correctly rounded, or false if this method cannot decide. */
 static bool quick(uint64_t m, int power, double *x)
 {
 	if (LDBL_MANT_DIG != 64 || power > most_power || power < -most_power)

@@ -1,6 +1,6 @@
-/* Aligned memory with huge pages for large blocks, and a small shelf of freed large blocks: a time step asks for the same sizes again and
- * again, and the first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The shelf holds no more bytes than were lately in use
- * at a time, so that a run whose sizes change, as one that loses particles, takes at most twice what it needs. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Aligned memory with huge pages for large blocks, and a small cache of freed large blocks: a time step allocates the same sizes again and again, and the
+ * first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The cache holds no more bytes than were recently in use at a time, so
+ * that a run with changing sizes (one that loses particles) uses at most twice the memory it needs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static int shelved;
 static size_t alive, idle;
 static pthread_mutex_t shelf_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* The most bytes in use at a time, in this spell of `spell` requests and in the one before: what a run needs, which may shrink. */
+/* The most bytes in use at a time, in this period of `spell` requests and in the one before: the need of the run, which may shrink. */
 static size_t most[2];
 static int requests;
 
@@ -46,7 +46,7 @@ static struct block *off_shelf(int place)
 	return b;
 }
 
-/* Takes off the shelf the blocks freed longest ago until it has room and no more bytes than were lately in use; their number, in out[]. */
+/* Removes the oldest blocks from the cache until it has room and holds no more bytes than were recently in use; returns them in out[], and their number. */
 static int shelf_trim(struct block *out[shelf_size])
 {
 	size_t bound = most[0] > most[1] ? most[0] : most[1];

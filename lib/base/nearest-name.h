@@ -1,4 +1,4 @@
-/* The nearest name to a slip of the pen, for messages. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The name nearest to a misspelt one, for messages. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BASE_NEAREST_NAME_H
 #define PM_BASE_NEAREST_NAME_H
 

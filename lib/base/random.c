@@ -1,5 +1,5 @@
 /* Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"): four 32-bit words from a key and a counter.
- * The key is the seed, the counter is (id, counter): a number belongs to a particle and a use, never to a thread or to an order.
+ * The key is the seed, the counter is (id, counter): a number depends on the particle and its use, not on threads or the order of particles.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/base.h"
 

@@ -1,5 +1,5 @@
 /* Eight doubles at a time: the vector extension of gcc and clang, with the approximate reciprocals of AVX-512 where there are any (14 bits, to be corrected
- * by the caller) and exact ones elsewhere. The only place where the platform shows; no other file declares a vector type.
+ * by the caller) and exact ones elsewhere. The only file that depends on the processor; no other file declares a vector type.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_BASE_SIMD_H
 #define PM_BASE_SIMD_H

@@ -1,13 +1,13 @@
-/* Cell lists (Hockney and Eastwood 1988, section 8-4): particles sorted by cell, x fastest, so that the cells in reach along x are one stretch of
- * the order. Rows of cells are cut to the sphere about the particles that are really in a cell. Images are not made: a stretch says how its
- * particles are seen, and the same difference of two positions comes out from both sides to the last bit. Where the cells of the extent are many more
- * than the particles they are looked for in the sorted keys. Cost: N log N to sort (radix), then per cell a look per row.
+/* Cell lists (Hockney and Eastwood 1988, section 8-4): particles sorted by cell, x fastest, so that the cells in reach along x are one contiguous range of
+ * the order. Rows of cells are limited to the sphere around the particles in a cell. Images are not stored: a range contains the shift of its particles,
+ * chosen so that the difference of two positions is the same from both sides to the last bit. If there are many more cells than particles, cells are
+ * searched in the sorted keys. Cost: N log N to sort (radix), then one search per cell and row.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cell/cell-list.h"
 #include "cell/radix-sort.h"
 
-enum { cells_most = 1 << 20 }; /* along an axis: 63 bits of key, and positions are told apart to 1e-9 of a cell */
-static const double slack = 1e-9; /* of a cell: what rounding may move a position by */
+enum { cells_most = 1 << 20 }; /* along an axis: 63 bits of key, and a resolution of 1e-9 of a cell */
+static const double slack = 1e-9; /* of a cell: bound on the rounding of a position */
 static const double before = 0.13; /* of a cell: where the first begins before the particles */
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
@@ -167,7 +167,7 @@ static size_t place(const struct pm_cell_list *l, uint64_t key)
 	return l->start[from];
 }
 
-/* What a cell's particles span on an axis as one of its images sees it, and the cells within reach of that. */
+/* The extent of a cell's particles along an axis, relative to one image, and the cells within its reach. */
 struct span {
 	double lo, hi;    /* [length] */
 	size_t from, to;  /* cells from..to-1 */
@@ -198,9 +198,9 @@ static double gap2(const struct pm_cell_list *l, int d, const struct span *s, si
 	return gap * gap;
 }
 
-static enum pm_stretch_kind kind_of(int dim, const struct pm_image *const m[3])
+static enum pm_range_kind kind_of(int dim, const struct pm_image *const m[3])
 {
-	enum pm_stretch_kind kind = PM_HERE;
+	enum pm_range_kind kind = PM_HERE;
 	for (int d = 0; d < dim; d++) {
 		if (m[d]->side < 0)
 			return PM_MIRRORED;
@@ -211,11 +211,11 @@ static enum pm_stretch_kind kind_of(int dim, const struct pm_image *const m[3])
 }
 
 /* The rows of one combination of images; none that end at or before the place `after`. */
-static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *const m[3], enum pm_stretch_kind kind,
+static size_t rows(const struct pm_cell_list *l, const double lo[3], const double hi[3], const struct pm_image *const m[3], enum pm_range_kind kind,
 	size_t after,
-	struct pm_stretch *s)
+	struct pm_neighbour_range *s)
 {
-	struct pm_stretch like = {.sign = m[0]->sign * m[1]->sign * m[2]->sign, .kind = kind};
+	struct pm_neighbour_range like = {.sign = m[0]->sign * m[1]->sign * m[2]->sign, .kind = kind};
 	struct span span[3];
 	size_t n = 0;
 	for (int d = 0; d < 3; d++) {
@@ -242,7 +242,7 @@ static size_t rows(const struct pm_cell_list *l, const double lo[3], const doubl
 	return n;
 }
 
-size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, struct pm_stretch *s)
+size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, struct pm_neighbour_range *s)
 {
 	double lo[3] = {0}, hi[3] = {0};
 	size_t n = 0;
@@ -257,7 +257,7 @@ size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, st
 		for (int y = 0; y < l->images[1].n; y++)
 			for (int x = 0; x < l->images[0].n; x++) {
 				const struct pm_image *const m[3] = {&l->images[0].image[x], &l->images[1].image[y], &l->images[2].image[z]};
-				enum pm_stretch_kind kind = kind_of(l->domain.dim, m);
+				enum pm_range_kind kind = kind_of(l->domain.dim, m);
 				if (!half || kind != PM_BEHIND)
 					n += rows(l, lo, hi, m, kind, half && kind == PM_HERE ? l->start[c] : 0, s + n);
 			}

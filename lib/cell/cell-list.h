@@ -1,5 +1,5 @@
-/* Cell list: particles in the order of the cells they lie in, and for each cell the stretches of that order in which every partner within reach
- * is found; with their periodic images and mirror images at faces. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cell list: particles in the order of the cells they lie in, and for each cell the ranges of that order that contain every neighbour within reach; with
+ * their periodic images and mirror images at faces. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_CELL_LIST_H
 #define PM_CELL_LIST_H
 
@@ -7,7 +7,7 @@
 
 enum { PM_IMAGES_MOST = 65, PM_CELLS_PAD = 8 };
 
-/* A particle seen again along an axis: at side*x + shift. */
+/* An image of a particle along an axis: at side*x + shift. */
 struct pm_image {
 	double side;  /* 1, or -1 mirrored */
 	double shift; /* [length] */
@@ -18,7 +18,7 @@ struct pm_images {
 	struct pm_image image[PM_IMAGES_MOST]; /* the first is the particle itself */
 };
 
-/* Where particles live: the box, and what its faces mean. */
+/* The box of the particles, and its faces. */
 struct pm_domain {
 	int dim;
 	double lo[3], hi[3];     /* [length] */
@@ -39,19 +39,20 @@ struct pm_cell_list {
 	uint64_t *key;          /* of these, ascending; x fastest */
 	size_t *start;          /* first place of each, and n */
 	size_t *first;          /* of every cell: first place at or behind it; NULL where there are too many cells */
-	size_t most;            /* stretches around a cell are no more than this */
+	size_t most;            /* upper bound of the number of ranges around a cell */
 };
 
-/* Whom a stretch holds: the particles themselves; images shifted ahead (the last axis shifted at all is shifted up) or behind; images that are mirrored, or
- * whose sign is changed by two mirrors. p sees q ahead as q sees p behind, so a method that treats pairs both ways at once leaves one of the two out. */
-enum pm_stretch_kind { PM_HERE, PM_AHEAD, PM_BEHIND, PM_MIRRORED };
+/* The kind of particles in a neighbour range: the particles themselves; periodic images shifted up (along the last axis with a shift) or down; mirror
+ * images, also those of two mirrors that change the sign. If an image of q shifted up is a neighbour of p, an image of p shifted down is a neighbour of q,
+ * so a method that treats pairs in both directions uses only one of the two. */
+enum pm_range_kind { PM_HERE, PM_AHEAD, PM_BEHIND, PM_MIRRORED };
 
-/* Places from..to-1, seen by a particle at x as side*x + shift - their position. */
-struct pm_stretch {
+/* Places from..to-1; the separation from a particle at x is side*x + shift - their position. */
+struct pm_neighbour_range {
 	size_t from, to;
 	double side[3], shift[3]; /* [length] */
 	double sign;              /* of the strengths there */
-	enum pm_stretch_kind kind;
+	enum pm_range_kind kind;
 };
 
 /* The images along one axis that lie within reach of the box; failure if there are more than PM_IMAGES_MOST. */
@@ -60,8 +61,8 @@ int pm_images_of(double lo, double hi, const enum pm_face face[2], double reach,
 /* n positions; cells have about the given edge, no less than an eighth of reach. Free in any case. */
 int pm_cell_list_init(struct pm_cell_list *l, const struct pm_domain *domain, size_t n, const double *const x[], double reach, double edge);
 void pm_cell_list_free(struct pm_cell_list *l);
-/* The stretches in which all partners of the particles of the c-th occupied cell are (and others); themselves among them. half: each pair once, so none
- * that are behind, and no places before the cell's. Their number; s has room for l->most. */
-size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, struct pm_stretch *s);
+/* The ranges that contain all neighbours of the particles of the c-th occupied cell (and others), including themselves. half: each pair once, so no images
+ * shifted down, and no places before the cell's. Returns their number; s has room for l->most. */
+size_t pm_cell_list_around(const struct pm_cell_list *l, size_t c, bool half, struct pm_neighbour_range *s);
 
 #endif

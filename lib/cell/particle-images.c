@@ -1,4 +1,4 @@
-/* Images of particles: a box apart on periodic axes; at faces that mirror, and at both of two, the whole row of them (method of images).
+/* Images of particles: a box apart on periodic axes; mirror images at walls and neumann faces, with two such faces an infinite row (method of images).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -36,7 +36,7 @@ int pm_images_of(double lo, double hi, const enum pm_face face[2], double reach,
 	if (face[0] != PM_PERIODIC && !mirrors(face[0]) && !mirrors(face[1]))
 		return 0;
 	if (!(far <= most))
-		return pm_fail(PM_DATA, "the reach %g is more than %d boxes of %g long: nothing is left to resolve", reach, most, hi - lo);
+		return pm_fail(PM_DATA, "the reach %g is more than %d boxes of %g, too long to resolve anything", reach, most, hi - lo);
 	images_at(lo, hi, face, 0, m);
 	for (int k = 1; k <= (int)far + 1; k++) {
 		images_at(lo, hi, face, k, m);

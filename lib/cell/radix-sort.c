@@ -1,4 +1,4 @@
-/* A stable order by radix sort, least digit first, 11 bits a pass; digits in which all keys agree cost one look. A stable order is unique, so it is
+/* A stable order by radix sort, least digit first, 11 bits a pass; digits that are equal in all keys are skipped. A stable order is unique, so it is
  * the same for any number of threads. Cost: N per pass, 3 passes for 2^33 cells. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

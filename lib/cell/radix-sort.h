@@ -9,9 +9,9 @@
 void pm_keys_of_cells(const struct pm_grid *g, size_t n, const double *const x[], uint64_t *key);
 void pm_keys_of_reals(size_t n, const double *y, uint64_t *key); /* ascending; -0 is 0 */
 void pm_keys_of_integers(size_t n, const int64_t *y, uint64_t *key);
-/* order[i] is which particle comes i-th; equal keys keep their order. work: n values of each; key is used up. */
+/* order[i] is the index of the i-th particle; equal keys keep their order. work: n values of each; key is overwritten. */
 void pm_keys_order(size_t n, uint64_t *key, uint64_t *key_work, size_t *order, size_t *order_work);
-/* Value i of every component becomes what value order[i] was. 0 or failure. */
+/* Value i of every component becomes the old value order[i]. 0 or failure. */
 int pm_field_permute(struct pm_field *field, const size_t *order);
 
 #endif

@@ -1,6 +1,6 @@
-/* Near-field correction: what a mesh smooths away of the pull of near pairs. Pairs summed one by one, and particles that cover their mesh as a field,
- * need none. A pair d apart feels (h/d)^2/4 too little on the whole, and within 2.5 cells it feels hardly anything: the part of the bodies that has such a
- * neighbour, times his pull, m/d^2 by the distance of neighbours, over the mesh force; warm bodies pass their neighbours, and only the root of their number
+/* Near-field correction: the part of the force of near pairs that a mesh smooths away. Pairs summed one by one, and particles that cover their mesh as a field,
+ * need none. The force of a pair at distance d is too small by (h/d)^2/4, and almost zero within 2.5 cells: the fraction of bodies with such a neighbour,
+ * times its force, m/d^2 at the distance of neighbours, relative to the mesh force; warm bodies pass their neighbours, and only the root of their number
  * adds up.
  * In open space the atlas knows what a mesh does to a cluster of bodies. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
  * SPDX-License-Identifier: GPL-3.0-or-later */

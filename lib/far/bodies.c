@@ -1,6 +1,6 @@
 /* Sources and targets of far fields, between the sets of a frame and plain arrays.
- * Every set with positions and the strength is a source. Every set with positions feels the sum (test particles too); a fixed one is given
- * its potential only. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Every set with positions and the strength is a source. Every set with positions is accelerated (test particles too); a fixed one gets only the potential.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "far/bodies.h"
@@ -46,9 +46,9 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 	if (!sources)
 		return pm_fail(PM_DATA, "no set with 'x' and '%s' (add it with stab --strength)", far->strength);
 	if (!targets && far->set)
-		return pm_fail(PM_DATA, "no set '%s' that could feel the sum (sls lists the sets)", far->set);
+		return pm_fail(PM_DATA, "no set '%s' that could be accelerated (sls lists the sets)", far->set);
 	if (!targets)
-		return pm_fail(PM_DATA, "no set could feel the sum: all are fixed or lack what moves (smod --loose, or --potential for the potential alone)");
+		return pm_fail(PM_DATA, "no set can be accelerated: all are fixed or have no state that moves (smod --loose, or --potential for the potential alone)");
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		status = plan_set(f, f->sets[i], far, term, replace);
 	return status;

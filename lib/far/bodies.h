@@ -1,11 +1,11 @@
-/* What every far field that works on particles directly shares: which sets are sources and which feel the sum, the particles in one array, and
+/* Shared by all far fields that work on particles directly: the sets that are sources and those that are targets, the particles in one array, and
  * the sums back on the sets. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FAR_BODIES_H
 #define PM_FAR_BODIES_H
 
 #include "stream/frame.h"
 
-/* What is summed, in the words of a law. */
+/* The sum, as the law defines it. */
 struct pm_far {
 	const char *strength;     /* field of the sources */
 	const char *change, *of;  /* what is added to, and the state it is the rate of */

@@ -1,4 +1,4 @@
-/* Direct summation by the plain double loop: what the fast loops of pp.c are tested against. Compensated sums, one pair at a time through the
+/* Direct summation by the plain double loop: the reference for the fast loops of pp.c. Compensated sums, one pair at a time through the
  * functions of the mollifier. Cost: N^2, 50 times that of the fast loops. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pair-forces.h"
 #include "far/pp.h"

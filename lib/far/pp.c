@@ -1,17 +1,17 @@
 /* Direct summation: grad phi_i = sum_j q_j f(|x_i - x_j|) (x_i - x_j) over all pairs, O(N^2), the reference for every other far field.
  * Source: Hockney and Eastwood 1988, section 1-4-1 (particle-particle method); mollifiers as in lib/mollifier.
  * Full loop: 32 targets in registers, sources in blocks of 1024 that stay in the first cache; block sums keep the round-off near
- * (1024 + N/1024) units. Half loop: tiles of particles meet in rounds of a tournament, in each of which a tile meets one other, so that no
+ * (1024 + N/1024) units. Half loop: pairs of tiles are scheduled as the rounds of a tournament, in each of which a tile is paired with one other, so that no
  * sum depends on the number of threads. 1/r^3 from the 14-bit 1/sqrt(r^2) with a correction of fourth order (6e-16).
  * Conserves momentum to round-off. Split up: far/pair-forces.h a vector of pairs, far/pp-plain.c the loop these are tested against.
- * Assumes open space. Pairs below r = 1e-100 without mollifier exert nothing. Cost: 18 vector operations per 8 pairs in 3-D.
+ * Assumes open space. Pairs below r = 1e-100 without mollifier exert no force. Cost: 18 vector operations per 8 pairs in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "far/pp.h"
 #include "far/pair-forces.h"
 
 enum { GROUP = 4, SOURCES = 1024, ROWS = 2 }; /* vectors of targets per group; sources per block; particles at a time in the half loop */
 
-static const double far_away = 1e100; /* where the particles sit that fill up a vector; their strength is 0 */
+static const double far_away = 1e100; /* position of the particles that fill up a vector; their strength is 0 */
 
 /* Copies that fill whole vectors, and the sums. */
 struct work {
@@ -21,7 +21,7 @@ struct work {
 	uint64_t *coincident; /* pairs, per group or tile */
 };
 
-/* What the compiler makes a loop of its own for. */
+/* Constants for which the compiler makes a separate loop. */
 struct how {
 	int dim;
 	enum pm_pairs_mode mode;

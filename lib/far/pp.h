@@ -15,7 +15,7 @@ struct pm_pp {
 
 /* For each of the first `targets` of n particles: gradient[c][i] = sum over j != i of q[j] d(phi1)/dx_c (x_i - x_j), and
  * potential[i] = the same sum of phi1, where lap phi1 = delta function, mollified. potential may be NULL. Pairs closer than 1e-100 and not mollified
- * exert nothing; *coincident of them are counted. The same bytes for any number of threads. 0 or failure. */
+ * exert no force; *coincident of them are counted. The same bytes for any number of threads. 0 or failure. */
 int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, double *const *gradient, double *potential,
 	uint64_t *coincident);
 

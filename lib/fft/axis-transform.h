@@ -1,5 +1,5 @@
 /* Transforms along one axis of a mesh, a block of PM_FFT_LINES real lines at a time: block is double [length][PM_FFT_LINES], 64-byte aligned, row i
- * holds node i of every line; lines q and q + PM_FFT_LINES/2 travel as one complex line. SPDX-License-Identifier: GPL-3.0-or-later */
+ * holds node i of every line; lines q and q + PM_FFT_LINES/2 are transformed as one complex line. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FFT_AXIS_TRANSFORM_H
 #define PM_FFT_AXIS_TRANSFORM_H
 
@@ -12,7 +12,7 @@ struct pm_transform {
 	                       * images at the other and as much space again, four times the length */
 	bool shifted;         /* a wall at one end, neumann at the other: frequency k stands for k + 1/2, its partner is length-1-k */
 	size_t n;             /* cells */
-	size_t first, count;  /* nodes that take part: all, without the ends at walls */
+	size_t first, count;  /* number of nodes transformed: all, except the end nodes at walls */
 	size_t row;           /* of the block where the first of them is: first, or n more where the face below is open and that above is not */
 	size_t least, modes;  /* of the real transforms: frequency of the first, and how many */
 	size_t length;        /* of the complex transform: n, or 2n where images or zeros fill it, or 4n where both do */

@@ -27,7 +27,7 @@ PM_SIMD_INLINE void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 
 }
 
 struct eight {
-	struct c8 a0, a1, a2, a3, a4, a5, a6, a7; /* by name: an array ends up in memory */
+	struct c8 a0, a1, a2, a3, a4, a5, a6, a7; /* named variables, because the compiler would put an array into memory */
 };
 
 PM_SIMD_INLINE void dft8(struct eight *x, bool back)
@@ -66,7 +66,7 @@ PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, boo
 PM_SIMD_INLINE struct c8 take(const struct c8 *x) { return (struct c8){x->re, x->im}; }
 PM_SIMD_INLINE void put(struct c8 *x, struct c8 a) { x->re = a.re, x->im = a.im; }
 
-/* One butterfly of radix 2, 4, 8 in registers: written out, because arrays of them end up in memory. w: twiddles or NULL for ones. */
+/* One butterfly of radix 2, 4, 8 in registers: written out, because the compiler would put arrays of them into memory. w: twiddles or NULL for ones. */
 PM_SIMD_INLINE void fly2(struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a0 = take(x), a1 = take(x + m);

@@ -24,7 +24,7 @@ struct pm_fft {
 struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n);
 /* The same with the table that shifts frequencies by a half. */
 struct pm_fft *pm_fft_shifted(struct pm_fft_plans *p, size_t n);
-/* cos and sin of 2 pi i/n from an eighth of the circle, so that they are good to the last bit. */
+/* cos and sin of 2 pi i/n from an eighth of the circle, so that they are exact to the last bit. */
 void pm_fft_circle(size_t i, size_t n, double *c, double *s);
 
 /* In place, not normalised: rows in natural order to rows at[k], with exp(-2 pi i jk/n); and back, with the opposite sign. */

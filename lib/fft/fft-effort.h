@@ -1,4 +1,4 @@
-/* How the plans of FFTW are chosen, and a collection of them: what a caller of the solvers by transforms needs to know of FFTW.
+/* How the plans of FFTW are chosen, and a collection of them: the part of FFTW that callers of the transform solvers need.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FFT_EFFORT_H
 #define PM_FFT_EFFORT_H

@@ -1,4 +1,4 @@
-/* Between rows in memory and lanes in a block: 8 x 8 tiles turned in registers, with the split of a pair transform into the spectra of its two rows
+/* Between rows in memory and lanes in a block: 8 x 8 tiles transposed in registers, with the split of a pair transform into the spectra of its two rows
  * where they are complex: rows a and b, Z = F(a + i b), A_k = (Z_k + conj Z_{n-k})/2, B_k = (Z_k - conj Z_{n-k})/(2 i).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -23,7 +23,7 @@ PM_SIMD_INLINE void transpose(pm_simd *r)
 	}
 }
 
-/* Eight rows, eight elements of each, turned; fewer at the ends. */
+/* Eight rows, eight elements of each, transposed; fewer at the ends. */
 PM_SIMD_INLINE void tile_in(const double *const *row, size_t at, pm_simd *t)
 {
 	for (int q = 0; q < 8; q++)

@@ -1,9 +1,9 @@
 /* Plans of the transforms, one file of FFTW wisdom per plan in $XDG_CACHE_HOME/pmpipe or ~/.cache/pmpipe.
  * The name of a file holds the transform, its length, the effort and the signature of this FFTW on this processor; its first line holds a
  * CRC-32C of the rest. A plan is always made from the wisdom in its file and from nothing else (what is in memory is forgotten first), by
- * the process that measured it too, so it does not depend on who measured, nor on what else was planned before. Measuring and writing
- * happen under a lock and end in a rename: the first writer wins, everyone reads back what is stored. Where nothing can be stored the plan
- * is estimated, which depends on no clock. Source: Frigo and Johnson 2005 (FFTW 3); when plans are made and kept: docs/methods/poisson-fft.md, Plans.
+ * the process that measured it too, so it does not depend on which process measured it, nor on earlier plans. Measuring and writing
+ * happen under a lock and end in a rename: the first writer wins, and every process reads back the stored file. If nothing can be stored, the plan is
+ * estimated, which involves no timing. Source: Frigo and Johnson 2005 (FFTW 3); when plans are made and kept: docs/methods/poisson-fft.md, Plans.
  * Assumes a file system with flock and rename; without flock the cache counts as one that cannot be written.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
@@ -72,7 +72,7 @@ static void cache_directory(char path[PATH])
 		*path = 0;
 		return;
 	}
-	mkdir(path, 0700); /* if it fails, what follows fails too and says so */
+	mkdir(path, 0700); /* if it fails, the following calls fail too and report it */
 	strcat(path, "/pmpipe");
 	mkdir(path, 0700);
 }
@@ -82,7 +82,7 @@ static void note(struct pm_fft_plans *p, const char *path, const char *what)
 	snprintf(p->note, sizeof p->note, "%.200s: %s", path, what);
 }
 
-/* The wisdom in a file whose first line vouches for the rest; NULL if there is none (nothing noted) or it is not ours (noted). */
+/* The wisdom in a file with a correct checksum in its first line; NULL if there is no file (no note) or it is not ours (noted). */
 static char *wisdom_read(struct pm_fft_plans *p, const char *path)
 {
 	int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe of that name must not be waited for */
@@ -109,7 +109,7 @@ static char *wisdom_read(struct pm_fft_plans *p, const char *path)
 			return text;
 		}
 	}
-	note(p, path, "not a plan of ours");
+	note(p, path, "not a plan file of pmpipe");
 	free(text);
 	return NULL;
 }
@@ -151,7 +151,7 @@ static fftw_plan stored(struct pm_fft_plans *p, const char *path, enum pm_fft_di
 	return plan;
 }
 
-/* Measures and stores under the lock; what comes back was read from the file. NULL: nothing can be stored. */
+/* Measures and stores under the lock; the plan returned was read from the file. NULL: nothing can be stored. */
 static fftw_plan measured(struct pm_fft_plans *p, const char *directory, const char *path, enum pm_fft_direction transform, size_t n, double *block)
 {
 	char name[PATH];

@@ -1,4 +1,4 @@
-/* Which derivatives make grad, curl, div and lap: the list of terms, and what is refused.
+/* The derivatives in grad, curl, div and lap as a list of terms, and the cases that are errors.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Spectral derivatives on a mesh: each line along an axis to wave numbers, times i*k (Nyquist zeroed) or -k^2, and back; odd images at a wall, even
- * ones at a neumann face. Exact for what the mesh resolves. A first derivative is antisymmetric, so it makes no self force.
- * Source: Trefethen 2000, chapter 3. Rings where the field is not smooth on the mesh (case PM-02: cic).
+ * ones at a neumann face. Exact for all waves that the mesh resolves. The first derivative is antisymmetric, so there is no self-force.
+ * Source: Trefethen 2000, chapter 3. Oscillates where the field is not smooth on the mesh (case PM-02: cic).
  * Cost: n log n per line, one pass over memory per term.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
@@ -15,7 +15,7 @@ enum { L = PM_FFT_LINES };
 struct lines {
 	const struct pm_transform *line;
 	double h, factor;
-	bool flip, add; /* odd and even images exchanged; added to what is there */
+	bool flip, add; /* odd and even images exchanged; added to the output */
 	int derivative;
 	size_t nodes, step, across; /* of a line; between its nodes; from one line to the next. One of the two is 1. */
 };

@@ -203,8 +203,8 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 		regular(t, from, add, nx - a->low - a->high, out + a->low);
 }
 
-/* Asks for what the row after the next two will read first: its neighbour farthest up the slowest axis, which is too far from what was read before for the
- * processor to foresee. A quarter of the time on meshes larger than the caches. */
+/* Prefetches the neighbour farthest up the slowest axis, for the third row ahead: the hardware prefetcher does not recognise this access.
+ * Saves a quarter of the time on meshes larger than the caches. */
 static void fetch(const struct pm_operator *o, const double *const in[], size_t row)
 {
 	const size_t *n = o->grid.points, far = o->grid.dim == 3 ? n[1] : 1, ahead = row + far * (size_t)(o->order / 2) + 3;
@@ -213,7 +213,7 @@ static void fetch(const struct pm_operator *o, const double *const in[], size_t 
 			__builtin_prefetch(in[c] + ahead * n[0] + i);
 }
 
-/* Rows are made in cache; where the mesh is larger than the caches they leave past them, which saves reading what is overwritten. */
+/* Rows are computed in cache; on meshes larger than the caches they are written with streaming stores, which avoids reading the old values. */
 int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen)
 {
 	struct axis axis[PM_TERMS_MOST];

@@ -32,12 +32,12 @@ struct pm_operator {
 	struct pm_fft_plans *plans; /* spectral: of pm_operator_plan, to be there as long as the operator */
 };
 
-/* Which operator on a field of `in` components: 0, or the sentence that says what cannot be done. Plans nothing. */
+/* The terms of an operator on a field of `in` components: 0, or failure with the reason. Makes no FFT plans. */
 int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_operator_kind kind, int order, int in, bool flow);
 /* The transforms of a spectral operator; nothing to do for differences. */
 int pm_operator_plan(struct pm_operator *o, struct pm_fft_plans *p);
-/* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. seen, if not NULL: every value was looked at on its way
- * and is finite. */
+/* out[c] = factor * operator(in); arrays of the grid's points; out and in must not overlap. seen, if not NULL: every value was checked in the same loop and
+ * is finite. */
 int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);
 
 /* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2, summed over the axes. */

@@ -1,4 +1,4 @@
-/* The geometry of a mesh with the faces of its box: what numerics take instead of a frame.
+/* The geometry of a mesh with the faces of its box: the arguments of the numerical rooms, which do not use frames.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MESH_GRID_H
 #define PM_MESH_GRID_H
@@ -18,7 +18,7 @@ struct pm_grid {
 
 struct pm_grid pm_grid_of(const struct pm_frame *f, const struct pm_mesh *m);
 static inline size_t pm_grid_size(const struct pm_grid *g) { return g->points[0] * g->points[1] * g->points[2]; }
-/* Walls count as neumann faces: what goes on beyond them as it is on this side. */
+/* Walls count as neumann faces: values are continued evenly beyond them. */
 static inline void pm_grid_even(struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim; d++)

@@ -1,6 +1,6 @@
 /* The Laplacian of order 2 on the nodes of a mesh: [1 -2 1]/h^2 per axis (laplacian.h), its weighted sums, and the ends of its spectrum.
  * With W the quadrature weights, 1/2 at the ends of a neumann axis, W lap is symmetric: sums with these weights are the inner product in which conjugate
- * gradients work, and the weighted mean is what a singular right-hand side must not have. SPDX-License-Identifier: GPL-3.0-or-later */
+ * gradients work, and a singular problem is solvable if the weighted mean of its right-hand side is 0. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/laplacian.h"
 
 #include <string.h>
@@ -71,7 +71,7 @@ static double row_product(const struct pm_laplacian_axis *x, const double *restr
 	return (((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]))) + ends;
 }
 
-/* lap u of a row, 0 where nothing is unknown. */
+/* lap u of a row, 0 on nodes that are not unknowns. */
 static void row_values(const struct pm_laplacian *l, const struct pm_laplacian_row *a, double *restrict r)
 {
 	const struct pm_laplacian_axis *x = &l->axis[0];

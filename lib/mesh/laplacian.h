@@ -1,5 +1,5 @@
-/* The Laplacian of order 2 on the nodes of a mesh, row by row, with neighbours folded at the faces: periodic wraps, a neumann face mirrors, the nodes of
- * a wall are no unknowns and keep what they hold. Every sum is over rows in order, with the weights of quadrature, in which the operator is symmetric.
+/* The Laplacian of order 2 on the nodes of a mesh, row by row, with neighbours folded at the faces: periodic wraps, a neumann face mirrors, the nodes of a
+ * wall are not unknowns and keep their values. Every sum is over rows in order, with the weights of quadrature, in which the operator is symmetric.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MESH_LAPLACIAN_H
 #define PM_MESH_LAPLACIAN_H
@@ -10,7 +10,7 @@
 struct pm_laplacian_axis {
 	size_t cells, points, first, end; /* unknowns first <= i < end */
 	bool periodic;
-	double w;            /* 1/h^2; 0 on an axis of one point, where nothing varies */
+	double w;            /* 1/h^2; 0 on an axis of one point */
 	double above, below; /* largest and smallest cosine cos(k h) of its modes, so that an eigenvalue is -2 w (1 - cosine) */
 	double next;         /* the largest cosine below 1 where `above` is 1 (a constant), -1 if there is none */
 };
@@ -71,7 +71,7 @@ static inline double pm_laplacian_node(const struct pm_laplacian *l, const struc
 	return x->w * (left + right) + l->axis[1].w * (a->y[0][i] + a->y[1][i]) + l->axis[2].w * (a->z[0][i] + a->z[1][i]) - l->diagonal * a->u[i];
 }
 
-/* r = lap u - f on a row, 0 where nothing is unknown; returns the weighted sum of squares. */
+/* r = lap u - f on a row, 0 on nodes that are not unknowns; returns the weighted sum of squares. */
 double pm_laplacian_row_residual(const struct pm_laplacian *l, const struct pm_laplacian_row *a, double *restrict r);
 
 /* The same on all rows, inside only; r: size values, sums: rows values, u is only read. */

@@ -1,5 +1,5 @@
 /* Faces of the box for particles: fold, mirror, absorb.
- * Assumes nothing about how far a particle has gone: whole boxes are taken off at once. A value that is not a number stays what it is.
+ * A particle may have moved any distance: whole boxes are subtracted at once. NaN stays NaN.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/particle-faces.h"
 
@@ -14,7 +14,7 @@ static inline bool any_outside(size_t n, double lo, double hi, bool closed, cons
 
 void pm_particle_faces_fold(size_t n, double lo, double hi, double *x)
 {
-	enum { FEW = 128 }; /* most particles stay inside, and a look is cheaper than the fold */
+	enum { FEW = 128 }; /* most particles stay inside, and the test is cheaper than folding */
 	double length = hi - lo;
 	for (size_t b = 0; b < n; b += FEW) {
 		size_t m = n - b < FEW ? n - b : FEW;
@@ -35,7 +35,7 @@ static bool mirror_one(double lo, double hi, const bool mirror[2], double *x)
 	bool flip = false;
 	if (mirror[0] && mirror[1] && (y < lo - length || y > hi + length)) /* two mirrors: the motion repeats after two lengths */
 		y -= 2 * length * floor((y - lo) / (2 * length));
-	for (int i = 0; i < 2; i++) { /* no more are needed: after the first it is within a length */
+	for (int i = 0; i < 2; i++) { /* no more are needed: after the first it is within one length */
 		if (mirror[0] && y < lo)
 			y = lo + (lo - y), flip = !flip;
 		if (mirror[1] && y > hi)

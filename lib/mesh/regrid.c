@@ -1,4 +1,5 @@
-/* Another geometry for a mesh: derived and change fields go, uniform fields stay, other state is refused because nobody said how to carry it over.
+/* Another geometry for a mesh: derived and change fields are dropped, uniform fields are kept, other state is an error, because there is no rule to
+ * interpolate it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/regrid.h"
 #include "stream/declare.h"

@@ -1,4 +1,4 @@
-/* Positions and velocities turned, shifted and taken back into the box. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Positions and velocities rotated, shifted and wrapped into the box. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ void pm_move_turn(const struct pm_turn *t, struct pm_field *p)
 	}
 }
 
-/* Back into a periodic axis; the upper end is the lower. */
+/* Wraps into a periodic axis; the upper end becomes the lower. */
 static double fold(double x, double lo, double hi)
 {
 	double y = x - (hi - lo) * floor((x - lo) / (hi - lo));

@@ -1,4 +1,4 @@
-/* Sets of particles scaled, turned, shifted and boosted, in this order. The header says which fields change, the data follow by rigid-motion.c; a field
+/* Sets of particles scaled, rotated, shifted and boosted, in this order. The header determines the fields that change, rigid-motion.c changes the data; a field
  * that is uniform and only scaled stays uniform. Cost: one pass over each field named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static int factors_fit(const struct pm_set_motion *m, const struct pm_frame *f)
 		if (!there)
 			return pm_fail(PM_DATA, "no field '%s' to scale (sls lists what there is)", field);
 		if (box && !(m->factor[i].by > 0))
-			return pm_fail(PM_USAGE, "the box can be scaled by what is above 0 only");
+			return pm_fail(PM_USAGE, "the box can be scaled only by a factor above 0");
 	}
 	return factor(m, "box") != 1 ? pm_frame_meshes_free(f) : 0;
 }
@@ -97,7 +97,7 @@ static int declare_field(struct pm_set_motion *m, struct pm_frame *f, struct pm_
 	if (!moves && job.by == 1)
 		return 0;
 	if (p->type == PM_I64 || p->type == PM_U8)
-		return pm_fail(PM_DATA, "'%s' holds whole numbers, which --scale does not multiply", p->name);
+		return pm_fail(PM_DATA, "'%s' holds integers, which --scale cannot multiply", p->name);
 	if (p->role != PM_STATE)
 		return pm_fail(PM_DATA, "'%s' is a %s field, which is computed again, not scaled", p->name, pm_role_names[p->role]);
 	*touched = true;

@@ -1,4 +1,4 @@
-/* The particles of a frame's sets scaled, turned, shifted and boosted: what smove does. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scales, rotates, shifts and boosts the particles of a frame's sets; used by smove. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MESH_SET_MOTION_H
 #define PM_MESH_SET_MOTION_H
 
@@ -21,11 +21,11 @@ struct pm_set_motion {
 	size_t njobs, room;
 };
 
-/* Header: does the frame have what the motion names, in the right number of components? 0 or failure. */
+/* Header: checks that the frame has the sets and fields named, with the right number of components. 0 or failure. */
 int pm_set_motion_check(const struct pm_set_motion *m, const struct pm_frame *f);
-/* Header: stretches the box, scales what is uniform, marks the rest as changed. *touched is set if there is anything to do. 0 or failure. */
+/* Header: stretches the box, scales uniform fields, marks the others as changed. *touched is set if there is anything to do. 0 or failure. */
 int pm_set_motion_declare(struct pm_set_motion *m, struct pm_frame *f, bool *touched);
-/* Data: factors, then the turn, then shift and boost; positions go back into periodic axes. */
+/* Data: factors, then rotation, shift and boost; positions are wrapped on periodic axes. */
 void pm_set_motion_apply(const struct pm_set_motion *m, const struct pm_frame *f);
 void pm_set_motion_clear(struct pm_set_motion *m);
 

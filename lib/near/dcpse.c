@@ -11,7 +11,8 @@
 #include "base/simd.h"
 #include "near/dcpse.h"
 
-static const double poor_pivot = 1e-2, least_pivot = 1e-9; /* over the first: smaller ones ask for more partners; are what rounding left of a lost rank */
+/* Pivots relative to the first: below poor_pivot more partners are used, below least_pivot the matrix is numerically rank-deficient. */
+static const double poor_pivot = 1e-2, least_pivot = 1e-9;
 static const double wider = 1.19; /* four steps to twice the reach */
 
 double pm_dc_cutoff(int order) { return order == 4 ? 4.1 : 3.1; }
@@ -65,11 +66,11 @@ static void partners_free(struct partners *s)
 		pm_free(s->z[d]);
 }
 
-static void partners_of(const struct pm_dc *o, const struct pm_cell_list *l, double reach, size_t i, size_t stretches, const struct pm_stretch *s,
+static void partners_of(const struct pm_dc *o, const struct pm_cell_list *l, double reach, size_t i, size_t ranges, const struct pm_neighbour_range *s,
 	struct partners *p)
 {
 	p->n = 0;
-	for (size_t k = 0; k < stretches; k++)
+	for (size_t k = 0; k < ranges; k++)
 		for (size_t j = s[k].from; j < s[k].to; j++) {
 			double r2 = 0;
 			for (int d = 0; d < o->dim; d++) {
@@ -175,13 +176,13 @@ struct work {
 };
 
 /* The particle at place i; the row sum. */
-static double particle(const struct work *w, size_t i, size_t stretches, const struct pm_stretch *s, struct partners *p, int *rank, bool *widened)
+static double particle(const struct work *w, size_t i, size_t ranges, const struct pm_neighbour_range *s, struct partners *p, int *rank, bool *widened)
 {
 	int which[PM_DC_MOMENTS];
 	double diagonal[PM_DC_MOMENTS], scale[PM_DC_MOMENTS], sum = 0, size = 0;
 	size_t me = w->l->order[i];
 	for (double reach = w->o->reach;; reach = fmin(reach * wider, w->l->reach)) {
-		partners_of(w->o, w->l, reach, i, stretches, s, p);
+		partners_of(w->o, w->l, reach, i, ranges, s, p);
 		fill(&w->m, w->o->dim, p);
 		*rank = decompose(p->n, w->m.n, p->b, which, diagonal, scale);
 		if (reach >= w->l->reach || (*rank == w->m.n && fabs(diagonal[*rank - 1]) > poor_pivot * fabs(diagonal[0])))
@@ -203,7 +204,7 @@ static double particle(const struct work *w, size_t i, size_t stretches, const s
 }
 
 /* One cell; in *found the largest row sum, and of those stuck the first in the stream. */
-static bool cell(const struct work *w, size_t c, struct pm_stretch *s, struct partners *p, struct pm_dc_found *found)
+static bool cell(const struct work *w, size_t c, struct pm_neighbour_range *s, struct partners *p, struct pm_dc_found *found)
 {
 	size_t n = pm_cell_list_around(w->l, c, false, s), room = 0;
 	for (size_t k = 0; k < n; k++)
@@ -229,7 +230,7 @@ int pm_dc_add(const struct pm_dc *o, const struct pm_cell_list *l, double nu, in
 	*found = (struct pm_dc_found){.stuck = SIZE_MAX};
 #pragma omp parallel if (l->n > 64)
 	{
-		struct pm_stretch *s = pm_alloc(l->most, sizeof *s);
+		struct pm_neighbour_range *s = pm_alloc(l->most, sizeof *s);
 		struct partners p = {.n = 0};
 		struct pm_dc_found own = {.stuck = SIZE_MAX};
 		bool good = s != NULL;

@@ -14,7 +14,7 @@ struct pm_dc {
 
 struct pm_dc_found {
 	double fastest;  /* no mode of the operator is larger [1/length^2]: its largest row sum */
-	uint64_t widened; /* particles that needed partners from farther away */
+	uint64_t widened; /* particles that needed partners beyond the cut-off */
 	size_t stuck;    /* the first particle whose partners do not determine the Laplacian; SIZE_MAX none */
 	size_t partners; /* of it */
 	int rank, wanted;

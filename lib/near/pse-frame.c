@@ -13,7 +13,7 @@ int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace)
 	char name[PM_NAME];
 	const struct pm_field *g = pm_frame_field(f, s->set, s->field);
 	if (g->role != PM_STATE || (g->type != PM_F64 && g->type != PM_F32))
-		return pm_fail(PM_DATA, "'%s' on '%s' is not state of real numbers: nothing would advance it", s->field, s->set);
+		return pm_fail(PM_DATA, "'%s' on '%s' is not state of real numbers: no word would advance it", s->field, s->set);
 	if (!pm_frame_field(f, s->set, "volume"))
 		return pm_fail(PM_DATA, "no field 'volume' on '%s', and particles exchange strength by their volumes (remesh gives them volumes; or scalc, "
 			"or a column volume in the table)", s->set);
@@ -31,11 +31,11 @@ static int check_volumes(const struct pm_pse_set *s, size_t n, const double *vol
 	for (size_t i = 0; i < n; i++)
 		if (!(volume[i] >= 0) || (value && volume[i] == 0))
 			return pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g, and %s", i, s->set, volume[i],
-				volume[i] < 0 ? "negative ones grow what they should damp" : "its value is strength over volume");
+				volume[i] < 0 ? "negative volumes amplify instead of damping" : "its value is strength over volume");
 	return 0;
 }
 
-/* A particle behind a wall would be its own image's neighbour. */
+/* A particle beyond a wall would be a neighbour of its own image. */
 static int check_faces(const struct pm_pse_set *s, const struct pm_domain *d, size_t n, const double *const x[])
 {
 	for (int a = 0; a < d->dim; a++)
@@ -94,7 +94,7 @@ static int stuck(const struct pm_pse_set *s, const struct pm_dc_found *found, do
 		"remesh, or --method exchange)", found->stuck, s->set, found->partners, reach, found->rank, found->wanted);
 }
 
-/* All components at once: the weights are the same. A strength is its value times volume. */
+/* All components at once, because the weights are the same. A strength is its value times volume. */
 static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const double *volume, struct pm_field *change,
 	struct pm_pse_found *found)
 {

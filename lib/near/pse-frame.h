@@ -1,4 +1,4 @@
-/* Particle strength exchange of a set of a frame, or its corrected form: what its width is, what it needs, its change field.
+/* Particle strength exchange of a set of a frame, or its corrected form: its width, the fields it needs, its change field.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_NEAR_PSE_FRAME_H
 #define PM_NEAR_PSE_FRAME_H
@@ -19,7 +19,7 @@ struct pm_pse_set {
 
 /* Declares what is read and the change field d<field>, which takes the term diffusion. */
 int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace);
-/* Adds the exchange to the change field and its fastest decay; s->eps and s->cutoff hold what was taken. Nothing is done with no particles. */
+/* Adds the exchange to the change field and its fastest decay; s->eps and s->cutoff hold what was taken. Does nothing if there are no particles. */
 int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *found);
 
 #endif

@@ -1,10 +1,11 @@
 /* Particle strength exchange: dG_p/dt = (nu/eps^2) sum_q (V_p G_q - V_q G_p) eta_eps(x_p - x_q), the Laplacian as an exchange between particles.
  * Source: Degond and Mas-Gallic 1989; Eldredge, Leonard, Colonius 2002; the Gaussians of order 2 and 4 have the width exp(-z^2/4) and the transforms
  * exp(-k^2) and (2 + k^2) exp(-k^2), which are positive: so the largest rate of decay is at most the largest sum_q V_q eta_eps(x_p - x_q),
- * which a lattice with eps >= h reaches but for exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not
- * distorted. Conserves the sum of G where no wall is. Order 4 has negative weights beyond z^2 = 8 + 2 dim: no maximum principle.
+ * which a lattice with eps >= h reaches up to exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not
+ * distorted. Conserves the sum of G without walls. Order 4 has negative weights beyond z^2 = 8 + 2 dim: no maximum principle.
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
- * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weak: where all see all that is N^2.
+ * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weakness: N^2 if all particles are within the cut-off
+ * of each other.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
 #include "base/simd.h"
@@ -38,18 +39,18 @@ struct work {
 	double reach2, exponent, constant, square, factor; /* eta/eps^2 = factor (constant + square r^2) exp(exponent r^2) */
 };
 
-/* What a piece of the work adds to the sums, all of which lies at the places low..high-1; zero between pieces. */
+/* The contribution of a piece of the work to the sums, nonzero only at the places low..high-1; zero between pieces. */
 struct sums {
 	size_t low, high;
 	double *exchange, *weight;
 };
 
-/* Particles of one cell as one stretch sees them, and their sums. */
+/* The particles of one cell, shifted for one neighbour range, and their sums. */
 struct rows {
 	pm_simd x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
 };
 
-/* What the compiler makes a loop of its own for: rows n at a time; both ways; images, which are shifted. */
+/* Constants for which the compiler makes a separate loop: rows n at a time; both directions; shifted images. */
 struct how {
 	int dim, order, n;
 	bool half, moved;
@@ -93,7 +94,7 @@ PM_SIMD_INLINE void meet(const struct work *w, const struct how how, size_t j, b
 }
 
 /* The partners at from..to-1; first: how many of them each row leaves out. */
-PM_SIMD_INLINE void stretch(const struct work *w, const struct how how, size_t from, size_t to, const size_t first[ROWS], struct sums *own, struct rows *r)
+PM_SIMD_INLINE void range_sums(const struct work *w, const struct how how, size_t from, size_t to, const size_t first[ROWS], struct sums *own, struct rows *r)
 {
 	static const size_t none[ROWS] = {0};
 	size_t j = from;
@@ -107,7 +108,7 @@ PM_SIMD_INLINE void stretch(const struct work *w, const struct how how, size_t f
 		meet(w, how, j, false, none, to - j, own, r);
 }
 
-PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_stretch *s, struct rows *r)
+PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_neighbour_range *s, struct rows *r)
 {
 	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
@@ -122,23 +123,23 @@ PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, con
 		r->shift[d] = pm_simd_all(s->shift[d]);
 }
 
-/* The n particles at place i: pairs with those that come later and with images ahead, both ways; what they get from mirror images. */
-PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t stretches, const struct pm_stretch *s, struct sums *own)
+/* The n particles at place i: pairs with later ones and with images shifted up, in both directions; and contributions of mirror images. */
+PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t ranges, const struct pm_neighbour_range *s, struct sums *own)
 {
 	struct rows r = {.exchange = {{0}}};
 	static const size_t none[ROWS] = {0}, later[ROWS] = {0, 1};
-	for (size_t k = 0; k < stretches; k++) {
+	for (size_t k = 0; k < ranges; k++) {
 		bool here = s[k].kind == PM_HERE;
 		size_t from = here && s[k].from < i + 1 ? i + 1 : s[k].from;
 		if (from >= s[k].to)
 			continue;
 		rows_see(w, dim, n, i, s + k, &r);
 		if (here)
-			stretch(w, (struct how){dim, order, n, true, false}, from, s[k].to, from == i + 1 ? later : none, own, &r);
+			range_sums(w, (struct how){dim, order, n, true, false}, from, s[k].to, from == i + 1 ? later : none, own, &r);
 		else if (s[k].kind == PM_AHEAD)
-			stretch(w, (struct how){dim, order, n, true, true}, from, s[k].to, none, own, &r);
+			range_sums(w, (struct how){dim, order, n, true, true}, from, s[k].to, none, own, &r);
 		else
-			stretch(w, (struct how){dim, order, n, false, true}, from, s[k].to, none, own, &r);
+			range_sums(w, (struct how){dim, order, n, false, true}, from, s[k].to, none, own, &r);
 	}
 	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
@@ -148,18 +149,18 @@ PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t
 }
 
 #define LOOPS(dim, order) \
-	static void one_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own) \
+	static void one_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own) \
 	{ \
 		rows(w, dim, order, 1, i, n, s, own); \
 	} \
-	static void two_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own) \
+	static void two_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own) \
 	{ \
 		rows(w, dim, order, 2, i, n, s, own); \
 	}
 LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4)
 struct loops {
-	void (*one)(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own);
-	void (*two)(const struct work *w, size_t i, size_t n, const struct pm_stretch *s, struct sums *own);
+	void (*one)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
+	void (*two)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
 };
 static const struct loops table[2][3] = {
 	{{one_1_2, two_1_2}, {one_2_2, two_2_2}, {one_3_2, two_3_2}}, {{one_1_4, two_1_4}, {one_2_4, two_2_4}, {one_3_4, two_3_4}}};
@@ -179,7 +180,7 @@ static size_t cell_of(const struct pm_cell_list *l, size_t place)
 }
 
 /* The pairs of which the first is at a place from..to-1, with their sums. */
-static void piece(const struct work *w, const struct loops *loops, size_t from, size_t to, struct pm_stretch *s, struct sums *own)
+static void piece(const struct work *w, const struct loops *loops, size_t from, size_t to, struct pm_neighbour_range *s, struct sums *own)
 {
 	const struct pm_cell_list *l = w->list;
 	own->low = from, own->high = to;
@@ -210,7 +211,7 @@ static int pieces(const struct work *w, const struct loops *loops)
 	int bad = 0;
 #pragma omp parallel if (m > 1) reduction(| : bad)
 	{
-		struct pm_stretch *s = pm_alloc(l->most, sizeof *s);
+		struct pm_neighbour_range *s = pm_alloc(l->most, sizeof *s);
 		struct sums own = {.exchange = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double)), .weight = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double))};
 		bad = !s || !own.exchange || !own.weight;
 #pragma omp for ordered schedule(dynamic, 1)
@@ -234,7 +235,7 @@ static double *by_place(const struct pm_cell_list *l, const double *values)
 	return to;
 }
 
-/* The sums by place, to the particles; the largest weight, and who has none but its own. */
+/* Copies the sums to the particles; finds the largest weight, and the particles without a partner. */
 static void found_by(const struct work *w, double nu, double *rate, struct pm_pse_found *found)
 {
 	double most = 0;

@@ -14,7 +14,7 @@ struct pm_pse {
 	double beyond;           /* integral of |eta| beyond the cut-off, over total */
 };
 
-/* The cut-off as a length, and a billionth: partners that a lattice has just there belong to it, whatever the round-off. */
+/* The cut-off as a length, plus 1e-9 of it, so that lattice neighbours exactly at the cut-off are included despite round-off. */
 static inline double pm_pse_reach(double eps, double cutoff) { return eps * cutoff * (1 + 1e-9); }
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff);
 double pm_pse_cutoff(int order); /* the default, in eps */
@@ -22,7 +22,7 @@ double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-
 
 struct pm_pse_found {
 	double fastest; /* no mode decays faster than nu times this [1/length^2] */
-	uint64_t alone; /* particles that see no other, nor an image */
+	uint64_t alone; /* particles without any neighbour or image */
 	uint64_t widened; /* of the corrected form: particles that needed partners from beyond the cut-off */
 };
 
@@ -31,7 +31,7 @@ struct pm_pse_found {
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found);
 
-/* The same by the plain double loop with the library's exp: what the other is tested against. */
+/* The same by the plain double loop with the library's exp: the reference in tests. */
 int pm_pse_plain(const struct pm_pse *p, const struct pm_domain *domain, double nu, size_t n, const double *const x[], const double *volume,
 	const double *strength, double *rate);
 

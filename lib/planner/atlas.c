@@ -36,7 +36,7 @@ double pm_atlas_force_error(const char *scene, const char *solver, const char *k
 	while (i < n - 1 && r[i].x < h)
 		i++;
 	const double p = fmax(0, slope(&r[i - 1], &r[i]));
-	return r[i - 1].error * pow(h / r[i - 1].x, h < r[0].x ? fmin(p, 2) : p); /* what no row has seen falls as h^2 at most */
+	return r[i - 1].error * pow(h / r[i - 1].x, h < r[0].x ? fmin(p, 2) : p); /* below the measured range an error falls at most as h^2 */
 }
 
 double pm_atlas_longest(const char *problem, const char *scheme, double error)
@@ -48,7 +48,7 @@ double pm_atlas_longest(const char *problem, const char *scheme, double error)
 			insert(r, &n, s->dt, s->error);
 	if (n < 2)
 		return NAN;
-	while (i < n && r[i].error <= error) /* from the short ones on: long steps may be right by chance */
+	while (i < n && r[i].error <= error) /* from short steps upwards, because a long step may have a small error by chance */
 		i++;
 	if (i == n)
 		return r[n - 1].x;

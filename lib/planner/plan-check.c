@@ -1,5 +1,5 @@
-/* The proof of a plan: each effect is left out or put in against the decision, both sentences run for a few steps from the frame, and the difference is
- * compared with the accuracy. Velocities: |v - v'|/|v|, strengths after one step alike, extrapolated to the time T of the run (times T/(n dt)); where
+/* Tests a plan: each decision about an effect is reversed, both sentences are run for a few steps from the frame, and the difference is compared
+ * with the accuracy. Velocities: |v - v'|/|v|, strengths after one step alike, extrapolated to the time T of the run (times T/(n dt)); where
  * there is no inertia displacements, |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, extrapolated. Which of
  * these, the effect says.
  * SPDX-License-Identifier: GPL-3.0-or-later */

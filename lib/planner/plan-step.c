@@ -1,5 +1,5 @@
-/* Scheme and step of a plan, by the measured atlas: what is fastest in the frame (an orbit, the plasma frequency, vorticity, an encounter) takes the place of
- * the problem that was measured. Errors are taken to grow in proportion to time, on orbits by its square where the scheme does not keep energy.
+/* Scheme and step of a plan, by the measured atlas: the fastest process in the frame (an orbit, the plasma frequency, vorticity, an encounter) is compared
+ * with the measured problem. Errors are taken to grow in proportion to time, on orbits by its square where the scheme does not keep energy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -20,7 +20,7 @@ static double at_error(const char *problem, const char *scheme, const struct clo
 {
 	double grown = fmax(1, c->omega * s->time / pm_atlas_time(problem));
 	if (!strncmp(problem, "kepler", 6) && strcmp(scheme, "kdk"))
-		grown *= grown; /* what loses energy on an orbit runs ahead ever faster */
+		grown *= grown; /* on an orbit that loses energy the phase error grows quadratically */
 	return pm_atlas_longest(problem, scheme, s->accuracy / grown);
 }
 

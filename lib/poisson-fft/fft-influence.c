@@ -1,4 +1,4 @@
-/* An influence function (influence.c) laid out as the transform solver takes its multipliers: by frequency, one octant, as a Green's function of open
+/* An influence function (influence.c) in the layout of the multipliers of the transform solver: by frequency, one octant, as a Green's function of open
  * faces. Cost: a table of an eighth of the mesh, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
 #include "poisson-fft/influence-table.h"

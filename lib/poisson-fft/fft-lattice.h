@@ -24,7 +24,7 @@ struct pm_lattice *pm_lattice_free(struct pm_lattice *l);
 
 /* row[i] -= weighted sum over the nodes of other[node] heat_0[node][i] for i = 0 ... n, the tail not yet added. */
 void pm_lattice_row(const struct pm_lattice *l, size_t n, const double *other, double *row);
-/* What is missing from the end of the nodes on, at distance sqrt(r2), for kappa = 0. */
+/* The remainder of the integral after the last node, at distance sqrt(r2), for kappa = 0. */
 double pm_lattice_tail(const struct pm_lattice *l, double r2);
 
 #endif

@@ -199,7 +199,7 @@ static bool cases(struct work *w)
 			longest += pow(o->axis[d].h * (double)o->axis[d].n, 2);
 		}
 	}
-	/* A fifth more, so that the waves that a cut makes in what the mesh does not resolve die out before they are reached. */
+	/* A fifth more, so that the oscillations of the truncation, which the mesh does not resolve, have decayed within the box. */
 	first.reach = 1.2 * sqrt(longest) + 10 * first.width;
 	size_t count = size[0] * size[1] * size[2], some = 0;
 	w->ncases = count;

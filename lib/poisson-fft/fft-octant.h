@@ -1,4 +1,4 @@
-/* What multiplies the spectrum where faces are open: the transform of the Green's function over the open axes, for every wave along the others.
+/* The multiplier of the spectrum for open faces: the transform of the Green's function over the open axes, for every wave along the others.
  * Private to lib/poisson-fft. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_FFT_FFT_OCTANT_H
 #define PM_POISSON_FFT_FFT_OCTANT_H

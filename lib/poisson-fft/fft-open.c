@@ -1,4 +1,4 @@
-/* Open faces of the transform solver: which Green's function, what it cannot do, and its transform in the order of the solver's modes
+/* Open faces of the transform solver: the choice of Green's function, its limits, and its transform in the order of the solver's modes
  * (fft-octant.c). An axis open at both ends is doubled; one open at one end has its images at the other first (odd at a wall, even at a neumann
  * face), so sources reach over 2n cells and the length is 4n. Other axes keep their waves: to each the Green's function of lap - kappa^2 in the open
  * ones. Source: Hockney and Eastwood 1988, 6-5-4; Chatelain and Koumoutsakos 2010 for mixtures.
@@ -18,7 +18,7 @@ const struct pm_green *pm_poisson_fft_green_of(const struct pm_poisson_fft_choic
 	return o->green ? o->green : o->symbol == PM_SPECTRAL ? &green_hockney : &green_lattice;
 }
 
-/* The names of the methods that can, for a message. */
+/* The names of the suitable methods, for a message. */
 static const char *able(int open, bool screened, bool differences, char *text, size_t size)
 {
 	size_t n = 0;

@@ -22,7 +22,7 @@ static void scatter(const double *restrict block, size_t n, size_t stride, doubl
 			to[i * stride + q] = block[i * L + q];
 }
 
-/* What leaves for memory: past the caches if the mesh is larger than they are. */
+/* Stores to memory, which bypass the caches if the mesh is larger than they are. */
 static void copy_out(const struct pm_poisson_fft *p, double *to, const double *from, size_t n)
 {
 	if (p->streams)
@@ -67,7 +67,7 @@ static double end_weight(const struct pm_transform *l, size_t i)
 	return (l->face[0] == PM_OPEN && i == 0) || (l->face[1] == PM_OPEN && i == l->n) ? 0.5 : 1;
 }
 
-/* At open faces the end nodes weigh half, as in every sum over a mesh. */
+/* At open faces the end nodes have half weight, as in every sum over a mesh. */
 static void weigh(const struct pm_poisson_fft *p, const struct group *g, double *block)
 {
 	const struct pm_transform *l = &p->line[X];

@@ -1,4 +1,4 @@
-/* How the Laplacian acts on a wave, axis by axis: -k^2, or as the centred second differences of order 2, 4 or 6 do (with s = sin(theta/2):
+/* The symbol of the Laplacian, axis by axis: -k^2, or that of the centred second differences of order 2, 4 or 6 (with s = sin(theta/2):
  * -(4/h^2) s^2 (1 + s^2/3 (1 + 8 s^2/15)), cut off at the order). Source: Fornberg 1988. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

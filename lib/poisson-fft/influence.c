@@ -3,7 +3,7 @@
  *   plain        S(k)^2 / lambda(k)
  *   deconvolved  S(k)^2 / (lambda(k) W(k)^2): one W for the way to the mesh, one for the way back
  *   optimal      - sum_n D.k_n/k_n^2 S(k_n)^2 W(k_n)^2 / (|D|^2 (sum_n W(k_n)^2)^2)
- * optimal makes the mean square error of the force least, over all places of two clouds in their cells. Interlaced: sums over n1 + n2 + n3 even.
+ * optimal minimises the mean square error of the force over all positions of two clouds in their cells. Interlaced: sums over n1 + n2 + n3 even.
  * Source: Hockney and Eastwood 1988, equations 8-22 and 8-3 ff.; sums of W^2 by Poisson's formula from the autocorrelation of the kernel.
  * Assumes p2m and m2p with the same kernel. Cost: the optimal one (2 reach + 1)^dim terms a mode, once per mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/influence-table.h"
@@ -78,7 +78,7 @@ static double slope(int order, double theta)
 	return order == 6 ? (45 * sin(theta) - 9 * sin(2 * theta) + sin(3 * theta)) / 30 : theta;
 }
 
-/* W^2 falls as theta^-2, -4, -6 ...: what is left out is below 1e-3 of a sum. */
+/* W^2 falls as theta^-2, -4, -6 ...: the terms left out are below 1e-3 of a sum. */
 static int reach_of(const struct pm_influence *f)
 {
 	if (f->kind != PM_OPTIMAL)
@@ -122,8 +122,8 @@ int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influenc
 			a->k[at] = wave / h;
 			a->window[at] = w * w;
 			if (f->kind == PM_DECONVOLVED && fabs(w) < 1e-3)
-				return pm_fail(PM_DATA, "kernel %s hides wave %zu of %zu cells from the mesh: it cannot be divided by (--influence optimal, "
-					"or --kernel tsc)", f->kernel->name, m, n);
+				return pm_fail(PM_DATA, "kernel %s has a zero transform at wave %zu of %zu cells, so that division is impossible (--influence optimal, or --kernel tsc)",
+					f->kernel->name, m, n);
 		}
 	}
 	return 0;
@@ -168,7 +168,7 @@ static double optimal(const struct pm_influence *f, const struct pm_influence_ax
 		even *= a->even[mode[d]];
 	}
 	double sum = f->interlaced ? 0.5 * (all + even) : all;
-	return slope2 > 0 ? -numerator(f, axis, screening2, mode) / (slope2 * sum * sum) : 0; /* what no gradient sees makes no force */
+	return slope2 > 0 ? -numerator(f, axis, screening2, mode) / (slope2 * sum * sum) : 0; /* a mode on which the gradient is 0 gives no force */
 }
 
 void pm_influence_row(const struct pm_influence *f, const struct pm_influence_axis axis[3], double screening2, size_t j, size_t k, double *row)

@@ -1,5 +1,5 @@
-/* Influence functions: what the solver by transforms multiplies a wave of the density by, when it knows which kernel brought the density to the mesh
- * and which gradient will take the force from it (influence.c; docs/methods/pm-force.md). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Influence functions: the multiplier of each wave of the density in the transform solver, given the kernel of p2m and m2p and the gradient (influence.c;
+ * docs/methods/pm-force.md). SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_FFT_INFLUENCE_H
 #define PM_POISSON_FFT_INFLUENCE_H
 
@@ -16,12 +16,12 @@ struct pm_influence {
 	const struct pm_kernel *kernel; /* of p2m and m2p; not needed for plain */
 	bool interlaced;                /* both on two meshes */
 	int order;                      /* of the differences that make the field; 0 spectral; of optimal */
-	double cloud;                   /* [length] diameter of the clouds S2 whose force is wanted; 0: points */
+	double cloud;                   /* [length] diameter of the clouds S2 whose force is computed; 0: points */
 };
 
 static inline bool pm_influence_any(const struct pm_influence *f) { return f->kind != PM_PLAIN || f->cloud > 0; }
 bool pm_influence_same(const struct pm_influence *a, const struct pm_influence *b);
-int pm_influence_check(const struct pm_influence *f, const struct pm_grid *g); /* 0, or the sentence that says what can */
+int pm_influence_check(const struct pm_influence *f, const struct pm_grid *g); /* 0, or failure that names an alternative */
 
 PM_C_END
 

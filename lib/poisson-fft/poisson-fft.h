@@ -39,7 +39,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
 const struct pm_fft_plans *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 
-/* What was done to make a singular problem solvable: 0, 0 for the others. */
+/* The mean removed from a singular problem; 0, 0 for others. */
 struct pm_poisson_fft_record {
 	double mean;         /* of s, end nodes with half weight: taken out; phi has mean zero */
 	double incompatible; /* |mean| over the largest |s|: round-off where the data fit the faces */

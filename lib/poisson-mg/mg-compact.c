@@ -1,9 +1,9 @@
-/* Compact differences of order 4 (Mehrstellen), and the smoothers that know no colours or four: weighted Jacobi, four-colour Gauss-Seidel.
+/* Compact differences of order 4 (Mehrstellen), and the smoothers without colours or with four: weighted Jacobi, four-colour Gauss-Seidel.
  *   A u = sum_d D_d u + sum_(d<e) (h_d^2 + h_e^2)/12 D_d D_e u = f + sum_d h_d^2/12 D_d f,   D_d the second difference along axis d
  * 3, 9 or 19 points; for equal spacings in 2-D (1 4 1; 4 -20 4; 1 4 1)/6h^2 (Collatz 1960; Trottenberg, Oosterlee, Schueller 2001, section 5.4.1). Without the
  * second term it is order 2. Images are even at a neumann face, where u_xxx = f_x does not vanish, so the source there gets h/3 f_x + h^2/12 f_xx one-sided:
  * (7 f_0 + 6 f_1 - f_2)/12, whose sum over the nodes is Gregory's quadrature (3/8, 7/6, 23/24, 1 ...), which the mean removed then follows.
- * Colours are ((i+k) mod 2, (j+k) mod 2), in 2-D (i mod 2, k mod 2): no two nodes of one colour see each other. Cost: 40 operations per node in 3-D.
+ * Colours are ((i+k) mod 2, (j+k) mod 2), in 2-D (i mod 2, k mod 2): no two nodes of one colour are coupled. Cost: 40 operations per node in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-hierarchy.h"
 

@@ -1,7 +1,7 @@
 /* The transfers that start full multigrid: cubic interpolation of the solution, and a restriction of the right-hand side that keeps cubics too.
  *   u_fine = P3 u;  f_coarse = (-1 0 9 16 9 0 -1)/32 f per axis where every second node is kept, the transpose of cubic interpolation
  * Full weighting would add h^2/4 f'' to f on the coarse grids, an error as large as that of the differences: one pass with V(1,1) then leaves 2.2 times
- * the error of the differences, this one 1.7, as injection does, but injection does not see a point source on an odd node. Linear instead of cubic
+ * the error of the differences, this one 1.7, as injection does, but injection misses a point source on an odd node. Linear instead of cubic
  * interpolation leaves 4 times (case PS-10). On axes of any other ratio f goes as in mg-transfer.c. Interpolation is one-sided at walls.
  * Source: Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, section 2.6. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-hierarchy.h"

@@ -16,7 +16,7 @@ static void axis_fill(struct mg_axis *a)
 	a->w = a->points == 1 ? 0 : 1 / (a->h * a->h);
 }
 
-/* An axis of one point on which nothing varies. */
+/* An axis of one point. */
 static struct mg_axis axis_flat(double length)
 {
 	struct mg_axis a = {.cells = 1, .periodic = true, .length = length};

@@ -1,5 +1,5 @@
 /* A grid of a multigrid hierarchy; private to lib/poisson-mg.
- * Axes are those of memory: axis 0 is x; a 2-D mesh has its y as axis 2, so that axis 2 always counts what threads share out ("planes").
+ * Axes are those of memory: axis 0 is x; a 2-D mesh has its y as axis 2, so that axis 2 always counts the planes divided among threads.
  * A row holds its even nodes first, then its odd ones (mg_slot): the nodes of one colour are one half of a row, all their neighbours along x are the other
  * half of it, and their neighbours along y and z lie at the same place of the same half of other rows. Each half is padded to whole vectors of
  * mg_lanes values and one more. SPDX-License-Identifier: GPL-3.0-or-later */

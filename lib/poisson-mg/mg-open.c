@@ -24,7 +24,7 @@ int pm_mg_open_check(const struct pm_grid *g)
 	for (int d = 0; d < g->dim; d++) {
 		least = fmin(least, g->h[d]), most = fmax(most, g->h[d]);
 		if (g->face[d][0] != PM_OPEN || g->face[d][1] != PM_OPEN)
-			return pm_fail(PM_DATA, "multigrid takes open faces on all axes or on none, and axis %c has %s ones (use poisson-fft)", "xyz"[d],
+			return pm_fail(PM_DATA, "multigrid needs open faces on all axes or on none, but axis %c has %s ones (use poisson-fft)", "xyz"[d],
 				pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
 	}
 	if (most > most_stretched * least * (1 + 1e-9))
@@ -96,7 +96,7 @@ static void source(struct pm_mg_open *m, double c, const double *s)
 		}
 }
 
-/* What the grounded box carries: A u - f on its walls; u is zero there. */
+/* The charge on the grounded box: A u - f on its walls; u is zero there. */
 static void induced(struct pm_mg_open *m, const double *u)
 {
 	const struct pm_grid *g = &m->grid;

@@ -1,8 +1,8 @@
 /* The right-hand sides with which full multigrid of order 4 starts: the source itself on every grid by cubic interpolation, made compact there.
  *   s_c(x) = cubic through the four fine nodes around x (the fine node where they coincide);  f_c = s_c + sum_d H_d^2/12 D_d s_c
  * To restrict the compact source of the fine grid instead would leave (H^2 - h^2)/12 lap s on the coarse one, an error of order 2, and full weighting one of
- * order 1 beside a wall where s does not vanish. The means of singular problems are taken out grid by grid. It does not see a source on a single odd node,
- * which the cycles after it do. Source: Brandt 1977 (the order of transfers in full multigrid). Cost: 20 operations per node, once.
+ * order 1 beside a wall where s does not vanish. The means of singular problems are removed grid by grid. It misses a source on a single odd node, which the
+ * later cycles correct. Source: Brandt 1977 (the order of transfers in full multigrid). Cost: 20 operations per node, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-hierarchy.h"
 

@@ -1,8 +1,8 @@
 /* Red-black Gauss-Seidel and the residual, row by row, for the 3-, 5- and 7-point Laplacian.
  *   u += (omega/D) (lap u - f) on the nodes of one colour, D = 2 (1/hx^2 + 1/hy^2 + 1/hz^2); r = f - lap u
  * (Trottenberg, Oosterlee, Schueller 2001, section 2.1.2). Colours are the parity of i+j+k, so the nodes of one colour are the even or the odd half of
- * each row (mg-level.h) and nothing is computed in vain. Where an odd number of nodes is periodic, two nodes of one colour meet: along x each sees
- * the old value of the other, along y and z the order of the sweep decides, always the same.
+ * each row (mg-level.h) and every value computed is used. On a periodic axis with an odd number of nodes two nodes of one colour are neighbours: along x
+ * each uses the old value of the other, along y and z the order of the sweep decides, always the same.
  * Cost: 13 operations per node and sweep. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
 #include "poisson-mg/mg-hierarchy.h"
@@ -100,7 +100,7 @@ PM_SIMD_INLINE void relax_pair(const struct mg_level *l, double factor, struct r
 	mg_close_row(l, o.u);
 }
 
-/* What a row is made of without vectors or masks: the reference of relax_row, used by the tests. */
+/* A row without vectors or masks: the reference for relax_row in tests. */
 void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k)
 {
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];

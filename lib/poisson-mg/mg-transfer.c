@@ -1,7 +1,7 @@
 /* Between the grids of a multigrid hierarchy: u += P e (linear), f_coarse = R (f - lap u).
  * P is the tensor product of linear interpolations; R = W_c^-1 P^T W with the quadrature weights W, which is full weighting
  * (1 2 1)/4 per axis where n is even and faces are folded, keeps the integral of the residual (so singular problems stay solvable) and serves any
- * ratio n/n_c. With 1/h^2 kept in the operator nothing is left to scale (the factor 4 missing in texts that multiply by h^2).
+ * ratio n/n_c. As 1/h^2 stays in the operator, no scaling is needed (texts that multiply by h^2 omit a factor of 4).
  * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
@@ -70,7 +70,7 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 	t[points + 1] = periodic ? t[points > 1] : 0;
 }
 
-/* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, with values behind the end that nobody reads. */
+/* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, also past the end of the row, where the values are not used. */
 static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
 {
 	double *restrict odd = u + fine->half;

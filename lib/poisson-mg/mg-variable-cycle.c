@@ -1,8 +1,8 @@
 /* Cycles of multigrid with a variable coefficient: relaxation by colours, transfers by the weights of the operator.
  *   u += omega (f - M u)/D node by node of a colour;  f_c = P^T r;  u += P u_c
- * Colours: the parity of i+j+k (red-black) on the finest grid, where a node sees six others; elsewhere, and with four colours, the parities of i, j, k one by
- * one: four in 2-D, eight in 3-D. Where an odd number of nodes is periodic, the last one is a colour of its own. After the coarse grid the colours come in
- * reverse, which makes the cycle a symmetric preconditioner. Cost: about 30 operations per node, sweep and neighbour of ten.
+ * Colours: the parity of i+j+k (red-black) on the finest grid, where a node has six neighbours; elsewhere, and with four colours, the parities of i, j, k
+ * one by one: four in 2-D, eight in 3-D. Where an odd number of nodes is periodic, the last one is a colour of its own. After the coarse grid the colours
+ * come in reverse, which makes the cycle a symmetric preconditioner. Cost: about 30 operations per node, sweep and neighbour of ten.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 

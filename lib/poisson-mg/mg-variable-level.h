@@ -1,6 +1,6 @@
 /* The grids and matrices of multigrid with a variable coefficient; private to lib/poisson-mg/mg-variable*.c.
  * Only unknowns are stored, with a layer of ghosts around them along each axis below dim: copies on a periodic axis, zeros elsewhere, where the
- * weights that would see them are zero too. Axes are x, y, z. SPDX-License-Identifier: GPL-3.0-or-later */
+ * weights that would multiply them are zero too. Axes are x, y, z. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MG_MG_VARIABLE_LEVEL_H
 #define PM_POISSON_MG_MG_VARIABLE_LEVEL_H
 

@@ -1,8 +1,8 @@
 /* div(eps grad phi) = f with eps that varies and jumps: conjugate gradients preconditioned with a multigrid cycle.
  *   z = cycle(r), beta = z.(r - r_before)/(z.r)_before, d = z + beta d, alpha = d.r/d.Md, x += alpha d, r = f - M x
- * (flexible form, Notay 2000, which forgives a cycle that is not quite symmetric). The cycles are those of mg-variable-cycle.c over operator-dependent
- * transfers and Galerkin matrices, which bear jumps; what is left to conjugate gradients is the few modes that jumps crossing at a corner make slow (Kettler
- * 1982). The residual is computed anew each time, so round-off is seen, not hidden. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values
+ * (flexible form, Notay 2000, which tolerates a cycle that is not exactly symmetric). The cycles are those of mg-variable-cycle.c over operator-dependent
+ * transfers and Galerkin matrices, which are robust to jumps; conjugate gradients remove the few slow modes of jumps that cross at a corner (Kettler 1982).
+ * The residual is recomputed each time, so that round-off is detected. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values
  * per node in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 
@@ -106,7 +106,7 @@ static double mean(const struct pm_grid *g, const double *values)
 	return pm_sum_total(total) / cells;
 }
 
-/* Is the residual what the rounding of its terms makes? */
+/* Is the residual at the level of rounding errors of its terms? */
 static bool at_roundoff(const struct pm_mg_variable *v, double residual, double source)
 {
 	const struct mgv_level *l = &v->level[0];

@@ -1,8 +1,8 @@
 /* Multigrid for lap phi = f: red-black Gauss-Seidel, full weighting, linear correction, V- and W-cycles, full multigrid with cubic interpolation.
  *   V(nu1, nu2): relax nu1 times; solve for the restricted residual on the coarser grid by the same cycle from zero; add; relax nu2 times
- * (Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, sections 2.4 and 2.6). Vertex-centred, second order. The residual is looked at where it is
- * computed anyway, after the pre-smoothing of each cycle. It ends at the tolerance, or at round-off: the residual has stopped falling and is no
- * larger than what the rounding of its own terms makes. Singular problems (no wall): the mean of f is removed, the mean of phi is zero.
+ * (Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, sections 2.4 and 2.6). Vertex-centred, second order. The residual is tested where it is computed
+ * anyway, after the pre-smoothing of each cycle. It ends at the tolerance, or at round-off: the residual has stopped falling and is no larger than the
+ * rounding errors of its own terms. Singular problems (no wall): the mean of f is removed, the mean of phi is zero.
  * Cost: O(N) per cycle, 3-D V(2,2) about 6 passes over u and f. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg.h"
 #include "poisson-mg/mg-hierarchy.h"
@@ -28,7 +28,7 @@ int pm_mg_check(const struct pm_grid *g)
 		for (int s = 0; s < 2; s++) {
 			enum pm_face face = g->face[d][s];
 			if (face != PM_PERIODIC && face != PM_WALL && face != PM_NEUMANN)
-				return pm_fail(PM_DATA, "multigrid knows periodic, wall and neumann faces, and axis %c has %s ones (use poisson-fft)",
+				return pm_fail(PM_DATA, "multigrid handles periodic, wall and neumann faces, but axis %c has %s ones (use poisson-fft)",
 					"xyz"[d], pm_face_names[face]);
 		}
 	return 0;
@@ -176,8 +176,8 @@ double pm_mg_residual(const struct pm_mg *mg)
 
 void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
 
-/* Is the residual (root of the sum of squares, as the source) what the rounding of its terms makes? Each of the 2 dim + 2 terms of f - lap u is rounded to
- * half a unit. */
+/* Is the residual (root of the sum of squares, as the source) at the level of rounding errors of its terms? Each of the 2 dim + 2 terms of f - lap u is
+ * rounded to half a unit. */
 static bool at_roundoff(struct pm_mg *mg, double residual, double source)
 {
 	double terms = mg->level[0].diagonal * sqrt(squares(mg, mg->level[0].u)) + source;

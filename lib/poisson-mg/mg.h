@@ -17,14 +17,14 @@ struct pm_mg_choice {
 	enum pm_mg_smoother smoother;
 	bool half_weighting;  /* of the residual, for comparison: worse than full weighting in every reference */
 	enum pm_mg_cycle cycle;
-	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel; pm_mg_relaxation knows good ones */
+	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel; pm_mg_relaxation returns good ones */
 	double tolerance;     /* of the residual, relative to the right-hand side, root of the sum of squares */
 	int most;             /* cycles, up to PM_MG_MOST */
 };
 
 struct pm_mg_record {
 	int cycles;           /* whole ones; the pre-smoothing in which the end was noticed is not counted */
-	double before, after; /* relative residual at the first look and at the last */
+	double before, after; /* relative residual at the first test and at the last */
 	double contraction;   /* of the residual per cycle, geometric mean over the cycles above round-off; 0 if there was none */
 	double mean;          /* removed from c*s, as a mean of s; 0 if the problem is not singular */
 	double incompatible;  /* |mean| over the largest |s|: round-off where the data fit the faces */
@@ -38,7 +38,7 @@ struct pm_mg; /* the hierarchy of grids, for one pm_grid */
 
 /* 0, or a failure that names what can: faces open and absorbing are refused. */
 int pm_mg_check(const struct pm_grid *g);
-double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim, int order); /* what is usual: 1; 1.15 for SOR; 2/3, 4/5, 6/7 for Jacobi, less at order 4 */
+double pm_mg_relaxation(enum pm_mg_smoother smoother, int dim, int order); /* defaults: 1; 1.15 for SOR; 2/3, 4/5, 6/7 for Jacobi, less at order 4 */
 /* Faces periodic, wall (phi = 0) or neumann (no normal gradient), in any mixture; order 2 or 4 (Mehrstellen). NULL with a message. */
 struct pm_mg *pm_mg_new(const struct pm_grid *g, int order);
 struct pm_mg *pm_mg_free(struct pm_mg *mg);
@@ -49,7 +49,8 @@ int pm_mg_levels(const struct pm_mg *mg);
  * is zero. 0, or -PM_NUMERICS where the tolerance is not reached; the record is filled in any case. */
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r);
 
-int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o, bool transforms); /* the failure, with the history; would poisson-fft do? */
+/* The failure, with the history; transforms: could poisson-fft solve it? */
+int pm_mg_not_converged(const struct pm_mg_record *r, const struct pm_mg_choice *o, bool transforms);
 
 /* For studies of convergence: f and u set by hand, one cycle (V or W), the root of the mean square of f - lap u, u copied out. */
 void pm_mg_start(struct pm_mg *mg, const double *f, const double *u);

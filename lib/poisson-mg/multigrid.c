@@ -11,7 +11,7 @@ struct pm_multigrid {
 	struct pm_mg *constant[kept];
 	struct pm_mg_open *open[kept];
 	struct pm_mg_variable *variable[kept];
-	int next; /* to be replaced where nothing fits */
+	int next; /* the one to be replaced next */
 };
 
 struct pm_multigrid *pm_multigrid_new(void) { return pm_zalloc(1, sizeof(struct pm_multigrid)); }
@@ -31,7 +31,7 @@ int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, dou
 			o->cycle.smoother = (enum pm_mg_smoother)i;
 	o->cycle.relaxation = relaxation; /* NAN: of the dimension, known with the grid */
 	if (o->order == 4 && (o->cycle.smoother == PM_MG_RED_BLACK || o->cycle.smoother == PM_MG_SOR))
-		return pm_fail(PM_USAGE, "two colours do not part the nodes of differences of order 4 (use --smoother four-colour or jacobi)");
+		return pm_fail(PM_USAGE, "two colours do not decouple the nodes of differences of order 4 (use --smoother four-colour or jacobi)");
 	if (o->order == 4 && o->variable)
 		return pm_fail(PM_USAGE, "differences of order 4 need a constant coefficient (leave out --order 4, or --permittivity)");
 	if (o->variable && o->cycle.half_weighting)
@@ -52,8 +52,8 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 	if (!any_open(g))
 		return pm_mg_check(g);
 	if (o->variable)
-		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, and these are open (pinit --faces "
-			"neumann and a box large enough, "
+		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, but these are open (pinit --faces neumann and "
+			"a box large enough, "
 			"or poisson-fft without a permittivity)");
 	return pm_mg_open_check(g);
 }

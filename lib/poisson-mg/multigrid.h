@@ -1,4 +1,4 @@
-/* Multigrid as a user asks for it: one of the solvers of mg.h, mg-open.h and mg-variable.h for a grid, made once and kept.
+/* Multigrid by options: one of the solvers of mg.h, mg-open.h and mg-variable.h for a grid, made once and kept.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MG_MULTIGRID_H
 #define PM_POISSON_MG_MULTIGRID_H
@@ -18,11 +18,11 @@ struct pm_multigrid; /* a few solvers, for the grids of the components of a vect
 
 struct pm_multigrid *pm_multigrid_new(void);
 struct pm_multigrid *pm_multigrid_free(struct pm_multigrid *m);
-/* What is usual where smoother (NULL) or relaxation (NAN) are not given, and 0; or a failure that says what fits together. */
+/* Fills in defaults for smoother (NULL) and relaxation (NAN), returns 0; or a failure if the options do not fit together. */
 int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, double relaxation);
 /* 0, or a failure that names a method that can. */
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g);
-/* Makes the hierarchy that pm_multigrid_solve would make; for those who want to know what that costs. */
+/* Makes the hierarchy that pm_multigrid_solve would make; for measuring its cost. */
 int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps);
 /* As pm_mg_solve; eps NULL: 1. */
 int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s,

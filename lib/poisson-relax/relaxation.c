@@ -1,7 +1,7 @@
 /* Solves lap phi = c*s by sweeps of a method of lib/relax, from zero to a tolerance of the residual.
- * A sweep tells the residual that it met; when that is near the tolerance, and now and then, the true one is computed, and what it says counts. It ends at
- * the tolerance, or at round-off: the residual is no larger than what the rounding of its own terms makes. Where no face fixes phi the mean of s is removed,
- * and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep.
+ * A sweep returns the residual before its updates; when that is near the tolerance, and from time to time, the true residual is computed, which decides. It
+ * ends at the tolerance, or at round-off: the residual is no larger than the rounding errors of its own terms. Where no face fixes phi the mean of s is
+ * removed, and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-relax/relaxation.h"
 #include "poisson-relax/relax-open.h"

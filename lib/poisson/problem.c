@@ -1,4 +1,4 @@
-/* Which problem it is, and every way in which it can be none. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Determines the problem from options and law, and checks it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "poisson/problem.h"
@@ -39,8 +39,7 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	for (int c = 0; c < p->source->components; c++)
 		for (int d = 0; d < f->dim; d++)
 			if (p->source->staggered[c][d])
-				return pm_fail(PM_DATA, "'%s' sits between the nodes, and solvers work on the nodes (p2m puts densities there)",
-					p->source_name);
+				return pm_fail(PM_DATA, "'%s' is staggered, but solvers work on the nodes (where p2m puts densities)", p->source_name);
 	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
 	if (!p->target)
 		return -PM_DATA;

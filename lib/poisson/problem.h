@@ -1,11 +1,11 @@
-/* The problem a solver is given in a frame: lap target = c * source on a mesh, named by the law or by the user. The same for every solver, which is
- * what makes them interchangeable. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The problem a solver is given in a frame: lap target = c * source on a mesh, named by the law or by the user. The same for every solver, so that solvers
+ * are interchangeable. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_PROBLEM_H
 #define PM_POISSON_PROBLEM_H
 
 #include "law/law.h"
 
-/* Which components of a vector are zero at a wall; the others have no normal gradient there, and a neumann face is the other way round.
+/* Which components of a vector are zero at a wall; the others have no normal gradient there, at a neumann face it is the other way round.
  * tangential: E at a conductor, the vector potential of a flow along the wall; normal: a flow along the wall; all: each component is a scalar. */
 enum pm_wall_rule { PM_ZERO_TANGENTIAL, PM_ZERO_NORMAL, PM_ZERO_ALL };
 extern const char *const pm_wall_rule_names[]; /* NULL ends */

@@ -13,7 +13,7 @@ struct pm_relax_work {
 	double *u;                     /* the iterate; a method may exchange it with a mesh of its own */
 	const double *f;
 	double factor;                 /* of relaxation */
-	bool fresh;                    /* u is not what the method left: what it remembers is worthless; the method sets it to false */
+	bool fresh;                    /* u was changed outside, so that the method's stored vectors are invalid; the method sets it to false */
 	double *extra[PM_RELAX_EXTRA]; /* meshes, zero at the start; nothing but 0 is written where u is no unknown */
 	double *sums;                  /* per row */
 	double memory;                 /* one number kept from sweep to sweep */

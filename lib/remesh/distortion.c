@@ -27,7 +27,7 @@ int pm_overlap(const struct pm_grid *g, size_t n, const double *const x[], const
 		return -PM_DATA;
 	for (int d = 0; d < g->dim; d++)
 		for (int side = 0; side < 2 && g->face[d][0] != PM_PERIODIC; side++)
-			t.grid.face[d][side] = PM_NEUMANN; /* the lattice goes on beyond a face */
+			t.grid.face[d][side] = PM_NEUMANN; /* the lattice is continued beyond a face */
 	for (size_t p = 0; p < n && cells; p++)
 		cells[p] = pm_grid_cell(g);
 	int status = overlap(&t, n, x, volume ? volume : cells, H);

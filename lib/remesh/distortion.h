@@ -4,11 +4,11 @@
 
 #include "mesh/grid.h"
 
-/* H[p] = sum over particles j of volume_j zeta(x_p - x_j): how completely the particles around p cover the space there, 1 on a lattice. volume
- * NULL: each has a cell. Particles that the mesh does not hold have 0. 0 or failure (memory). */
+/* H[p] = sum over particles j of volume_j zeta(x_p - x_j): the overlap of the particles around p, 1 on a lattice. volume
+ * NULL: each has a cell. Particles outside the mesh have 0. 0 or failure (memory). */
 int pm_overlap(const struct pm_grid *g, size_t n, const double *const x[], const double *volume, double *H);
 
-/* (1/N) sum |H - H0|/H0 over a set that has x, of its state volume and overlap (H0, kept by remesh) where it has them, else a cell and 1. The fields
+/* (1/N) sum |H - H0|/H0 over a set that has x, of its state volume and overlap (H0, stored by remesh) if it has them, else one cell and 1. The fields
  * are held. 0 particles: 0. Negative: failure. */
 int pm_distortion(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *distortion);
 

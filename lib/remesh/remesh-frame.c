@@ -1,5 +1,5 @@
-/* Remeshing a set: every strength is shared among the nodes, a volume becomes that of the nodes, uniform values stay, other values are refused,
- * dropped, or carried as strength times value (momentum for a velocity), whose total is then conserved like that of a strength.
+/* Remeshing a set: every strength is distributed to the nodes, the volume becomes that of the nodes, uniform values are kept, other values are an error,
+ * dropped, or remeshed as strength times value (momentum for a velocity), whose total is then conserved like that of a strength.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "remesh/remesh-frame.h"
 #include "stream/declare.h"
 
-/* What becomes of a field. */
+/* The treatment of a field. */
 enum part { GONE, POSITION, STRENGTH, VALUE, VOLUME, UNIFORM, REFUSED };
 
 struct entry {
@@ -84,9 +84,9 @@ int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm
 static int refuse(const struct pm_field *field)
 {
 	if (!is_real(field))
-		return pm_fail(PM_DATA, "'%s' on '%s' is of type %s, which cannot be shared among nodes (--drop %s leaves it out)", field->name, field->on,
+		return pm_fail(PM_DATA, "'%s' on '%s' is of type %s, which cannot be distributed to nodes (--drop %s removes it)", field->name, field->on,
 			pm_type_names[field->type], field->name);
-	return pm_fail(PM_DATA, "'%s' on '%s' is a value, which cannot be shared among nodes (--by mass carries it as mass times %s, --drop %s leaves it out)",
+	return pm_fail(PM_DATA, "'%s' on '%s' is a value, which cannot be distributed to nodes (--by mass remeshes mass times %s, --drop %s removes it)",
 		field->name, field->on, field->name, field->name);
 }
 
@@ -115,7 +115,7 @@ void pm_remesh_drops(struct pm_frame *f, const char *set)
 	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
 	pm_drops_roles(f, set, roles | 1u << PM_REGISTER);
 	pm_drops_roles(f, NULL, roles);
-	json_object_del(pm_frame_set(f, set)->more, "scheme"); /* the memory of a scheme of several steps */
+	json_object_del(pm_frame_set(f, set)->more, "scheme"); /* old rates of a multi-step scheme */
 }
 
 /* strength times value, one component. */
@@ -147,7 +147,7 @@ static int add(struct work *w, struct entry *e, struct pm_strays *strays)
 	return status;
 }
 
-/* The fields of the set, in the order in which they travel; strengths and values are shared among the nodes. */
+/* The fields of the set, in the order of the stream; strengths and values are distributed to the nodes. */
 static int collect(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, struct work *w, struct pm_strays *strays)
 {
 	int status = 0;

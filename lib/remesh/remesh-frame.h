@@ -1,4 +1,4 @@
-/* Remeshing a set of a frame: which fields are strengths, which are carried by one, which go.
+/* Remeshing a set of a frame: which fields are strengths, which are remeshed with a strength, which are dropped.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_REMESH_FRAME_H
 #define PM_REMESH_FRAME_H
@@ -9,8 +9,8 @@
 struct pm_remesh_choice {
 	const struct pm_kernel *kernel;
 	double cut_off;          /* of the largest absolute strength */
-	int rim;                 /* cells around a particle that become particles too */
-	const char *by;          /* values travel as this strength times value and are divided by it again; NULL: values are refused */
+	int rim;                 /* cells around a particle whose nodes become particles too */
+	const char *by;          /* values are remeshed as this strength times value, then divided by it; NULL: values are an error */
 	const char *const *drop; /* fields to leave out */
 	int ndrop;
 	bool overlap;            /* keep the overlap of the new particles (distortion.h) in the state field overlap */
@@ -27,9 +27,9 @@ struct pm_remesh_loss {
 
 /* The sets that have positions and a strength and are not fixed, or the one named only; fails with a sentence if there is none. */
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
-/* For declare(): refuses fields that nobody can share among nodes, declares the others as read. */
+/* For declare(): fails for fields that cannot be distributed to nodes, declares the others as read. */
 int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c);
-/* Drops what is worth nothing once the particles of the set are others: its change and derived fields and registers, and those of the meshes. */
+/* Drops the fields that are invalid after the particles of the set are replaced: its change and derived fields and registers, and those of the meshes. */
 void pm_remesh_drops(struct pm_frame *f, const char *set);
 /* For frame() of a stage that holds: the particles of the set are now the nodes of the mesh. */
 int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss);

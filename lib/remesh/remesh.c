@@ -1,7 +1,7 @@
 /* Remeshing: node i receives sum over particles of strength * W((x - x_i)/h), the density of p2m times the node's cell, and the nodes that
  * are not 0 are the new particles. Source: Cottet and Koumoutsakos 2000, section 7.2; Koumoutsakos 1997, J. Comput. Phys. 138, 821.
- * Conserves what the kernel's moments promise away from faces, and the total always: at walls and neumann faces what would fall beyond comes
- * back as an even image (odd images of walls would take strength away). A positive kernel diffuses, the others overshoot (kernels.md).
+ * Conserves the kernel's moments away from faces, and the total always: at walls and neumann faces strength beyond the face is folded
+ * back as an even image (odd images at walls would remove strength). A positive kernel diffuses, the others overshoot (kernels.md).
  * Cost: p2m per strength and two passes over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -82,7 +82,7 @@ static void thresholds(const struct pm_remesh *r, double cut_off, double least[]
 	}
 }
 
-/* Which nodes are worth a particle. */
+/* Marks the nodes that become particles. */
 static void mark(const struct pm_remesh *r, const double least[])
 {
 #pragma omp parallel for schedule(static) if (r->points > 16384)

@@ -1,4 +1,4 @@
-/* Particles back onto the nodes of a mesh (docs/methods/remesh.md): what each node receives, which nodes become particles.
+/* Particles back onto the nodes of a mesh (docs/methods/remesh.md): the strength of each node, and the nodes that become particles.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_REMESH_H
 #define PM_REMESH_H
@@ -8,7 +8,7 @@
 enum { PM_REMESH_VALUES = 32 };
 
 struct pm_remesh {
-	struct pm_grid grid;            /* walls count as neumann: what would go beyond a face comes back */
+	struct pm_grid grid;            /* walls count as neumann faces: strength beyond a face is folded back */
 	const struct pm_kernel *kernel;
 	size_t points;
 	int n;                          /* values per node, every component of every strength added so far */
@@ -21,7 +21,7 @@ struct pm_remesh {
 };
 
 struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k);
-/* Shares a strength q[components][n] of particles at x[d][n] among the nodes; decides: a node where it is not 0 is worth a particle. strays as
+/* Shares a strength q[components][n] of particles at x[d][n] among the nodes; decides: a node where it is not 0 becomes a particle. strays as
  * in pm_spread. 0 or failure. */
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
 	struct pm_strays *strays);

@@ -1,6 +1,6 @@
 /* out_p += factor_p sum over points of W((x_p - x_i)/h) field_i for the sets of a frame, the transpose of the spread. The factor is 1, strength/per of the
- * law (charge/mass), or the volume where the target is a strength. Four things go along: images at walls by what the field is (a gradient, a
- * curl, given), changes of the mesh carried over (mesh-changes.c), a field on two interlaced meshes, a magnetic field (magnetic-field.c).
+ * law (charge/mass), or the volume where the target is a strength. In addition: images at walls that depend on the field (a gradient, a curl, given),
+ * changes on the mesh (mesh-changes.c), a field on two interlaced meshes, a magnetic field (magnetic-field.c).
  * Cost: one gather of all components. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -29,8 +29,8 @@ static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_ga
 	return j->field ? 0 : pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, mesh ? mesh : j->mesh->name, words);
 }
 
-/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. What is given has
- * the same values on both sides of any face. */
+/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. A given field has the same values on
+ * both sides of any face. */
 static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfer *t)
 {
 	if (j->field->role == PM_STATE) {
@@ -52,9 +52,9 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 		return -PM_DATA;
 	j->name = choice->field ? choice->field : j->law->field;
 	if (!j->name)
-		return pm_fail(PM_DATA, "the law '%s' takes nothing from a mesh (choose a field with --field NAME)", f->law);
+		return pm_fail(PM_DATA, "the law '%s' uses no field of a mesh (choose a field with --field NAME)", f->law);
 	int status = choose_field(choice->mesh, f, j);
-	/* A set takes the law's field if it has what that moves, any other field if it has positions. */
+	/* A set receives the law's field if it has the state that this changes, any other field if it has positions. */
 	const char *const law[] = {"x", j->law->of, j->law->per, j->law->per ? j->law->strength : NULL, NULL}, *const any[] = {"x", NULL};
 	if (!status)
 		status = pm_sets_choose(f, choice->set, choice->field ? any : law, "stab reads it from a table", &j->sets);
@@ -70,7 +70,7 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
 }
 
-/* A set takes the law's field, and with it the changes on the mesh and the magnetic field. */
+/* A set receives the law's field, the changes on the mesh and the magnetic field. */
 static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const char *set)
 {
 	const bool replace = j->choice.replace;
@@ -124,7 +124,7 @@ int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct 
 	return status || !j->interlaced ? status : interlace(j, plans);
 }
 
-/* What is gathered to one set. */
+/* The fields gathered to one set. */
 struct arrays {
 	struct pm_transfer t;
 	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
@@ -147,7 +147,7 @@ static struct arrays arrays_of(const struct pm_gather_job *j, const struct pm_fr
 	return a;
 }
 
-/* The field and the changes in one gather; a field that is given before them, because its images are not theirs. */
+/* The field and the changes in one gather; a given field before them, because its images differ. */
 static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct arrays *a, struct pm_strays *strays)
 {
 	int status = 0;

@@ -1,4 +1,4 @@
-/* A mesh field of a frame gathered to its sets, with all that goes the same way: what m2p does. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gathers a mesh field of a frame, changes on the mesh and a magnetic field to the sets; used by m2p. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_GATHER_FRAME_H
 #define PM_TRANSFER_GATHER_FRAME_H
 
@@ -8,11 +8,11 @@
 struct pm_gather_choice {
 	const char *kernel, *mesh, *set; /* NULL: as the field was made, the first mesh that has the field, every set that the law moves */
 	const char *field;               /* to a particle field of its name; NULL: the law's, to the change field of the law */
-	bool replace;                    /* compute a change field anew instead of refusing to add twice */
-	bool drop;                       /* particles that the mesh does not hold are left out and counted */
+	bool replace;                    /* replace a change field instead of refusing to add twice */
+	bool drop;                       /* particles outside the mesh are left out and counted */
 };
 
-/* What the choice means in a frame. */
+/* The choice applied to a frame. */
 struct pm_gather_job {
 	struct pm_gather_choice choice;
 	const struct pm_law *law;
@@ -29,7 +29,7 @@ struct pm_gather_job {
 /* Each 0 or failure. In declare(): */
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j);
 int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f);
-/* With the data: what all sets share, then set by set; *dropped counts the particles left out. Free in any case. */
+/* With the data: first the part common to all sets, then set by set; *dropped counts the particles left out. Free in any case. */
 int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans);
 int pm_gather_set(const struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped);
 void pm_gather_free(struct pm_gather_job *j);

@@ -1,9 +1,9 @@
 /* Interlacing: half of every strength goes to the mesh, half to one whose nodes sit at the centres of its cells; the second density, as a sum of waves, is read
- * at the nodes: s^(k) = (s1^(k) + exp(-i k.h/2) s2^(k))/2. A wave k + 2 pi n/h that the mesh takes for k comes with opposite signs from the two where
- * n1 + n2 + n3 is odd, so the largest of these aliases vanish. The gather is the transpose (both meshes, half each), so that no particle acts on itself and
- * momentum is kept.
+ * at the nodes: s^(k) = (s1^(k) + exp(-i k.h/2) s2^(k))/2. An alias k + 2 pi n/h of the wave k has opposite signs on the two meshes if n1 + n2 + n3 is odd,
+ * so the largest aliases cancel. The gather is the transpose (both meshes, half each), so that no particle acts on itself and momentum is conserved.
  * Source: Chen, Langdon and Birdsall 1974; Hockney and Eastwood 1988, sections 5-5 and 7-7; combination in k space: Sefusatti et al. 2016.
- * The Nyquist wave has no phase at the centres and is left out of the second mesh. Determinism: by lines, each by one thread.
+ * The Nyquist wave has no phase at the centres and is left out of the second mesh. Each line is computed by one thread, so the result does not depend on
+ * their number.
  * Cost: twice the transfer, and a pass of transforms back and forth per axis and component. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/interlace.h"
 

@@ -1,5 +1,5 @@
-/* bfield_p += sum over points of W((x_p - x_i)/h) B_i, or B where it is uniform. B is given, so no image is taken at walls: its values count as
- * they are on both sides. SPDX-License-Identifier: GPL-3.0-or-later */
+/* bfield_p += sum over points of W((x_p - x_i)/h) B_i, or B where it is uniform. B is given, so it has no image sign at walls: the same values are used on
+ * both sides. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "transfer/magnetic-field.h"

@@ -1,4 +1,4 @@
-/* A magnetic field given on a mesh, brought to the particles: the third part of m2p. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A magnetic field given on a mesh, interpolated to the particles; the third part of m2p. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_MAGNETIC_FIELD_H
 #define PM_TRANSFER_MAGNETIC_FIELD_H
 
@@ -6,7 +6,7 @@
 
 /* For declare(): the set's change field bfield gets the term external from the field `name` of the mesh, of 3 components; nothing if it is not there. */
 int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, bool replace);
-/* The data; a uniform field is added as it is, without interpolation. Strays take no part (they are those of the gather before). */
+/* The data; a uniform field is added without interpolation. Strays are left out (those of the gather before). */
 int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, const struct pm_transfer *t);
 
 #endif

@@ -1,8 +1,8 @@
-/* Carrying changes over: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i / D_i, with the overlap of the particles at the
- * point, D_i = sum over particles of volume_p W((x_p - x_i)/h) / cell, 1 on a lattice; without volume and D where the state is a value.
- * The sum over the particles is then that over the mesh, however they lie, and several sets share it by their volumes. Where D is below a
- * half (the rim of a patch; gaps; negative lobes) it counts as 1, and what then goes to no particle is summed: cell (1 - D) d(density) over those points.
- * Source: Cottet and Koumoutsakos 2000, section 5.5, for D = 1. Cost: a spread, and the changes ride with the gather of the law's field.
+/* Changes from the mesh to particles: d(strength)_p += volume_p sum over points of W((x_p - x_i)/h) d(density)_i / D_i, with the overlap of the particles at
+ * the point, D_i = sum over particles of volume_p W((x_p - x_i)/h) / cell, 1 on a lattice; without volume and D where the state is a value.
+ * The sum over the particles then equals that over the mesh for any positions, and several sets share it by their volumes. Where D is below a
+ * half (the edge of a patch; gaps; negative lobes) D = 1 is used, and the part that no particle receives is summed: cell (1 - D) d(density) over those points.
+ * Source: Cottet and Koumoutsakos 2000, section 5.5, for D = 1. Cost: a spread, and the changes are gathered together with the law's field.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -62,7 +62,7 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1};
 	int status = 0;
 	memcpy(one.staggered[0], change->staggered[0], sizeof one.staggered[0]);
-	pm_grid_even(&one.grid); /* particles go on beyond a wall, whatever the field does there */
+	pm_grid_even(&one.grid); /* particles have even images beyond a wall, for any field */
 	for (size_t i = 0; i < sets->n && !status; i++) {
 		const struct pm_field *state = pm_frame_field(f, sets->name[i], change->of);
 		const double *x[3], *volume;
@@ -76,7 +76,7 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 	return status;
 }
 
-/* What the points with too few particles do not pass on. */
+/* The part lost at points with too few particles. */
 static double lost(const struct pm_grid *g, const double *D, const double *from)
 {
 	const double cell = pm_grid_cell(g);

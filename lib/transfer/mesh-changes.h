@@ -11,8 +11,8 @@ enum { PM_MESH_CHANGES = 8 };
 struct pm_mesh_changes {
 	int n;
 	struct pm_field *change[PM_MESH_CHANGES];
-	double lost[PM_MESH_CHANGES][3]; /* per time: what of the change of a strength goes to no particle, by component (3 at most) */
-	double *share[PM_MESH_CHANGES]; /* [components][points] change over the volume that the particles bring to the point; NULL: the change itself */
+	double lost[PM_MESH_CHANGES][3]; /* per time: the part of the change of a strength that no particle receives, by component (at most 3) */
+	double *share[PM_MESH_CHANGES]; /* [components][points] change divided by the particle volume at the point; NULL: the change itself */
 };
 
 /* For declare(): every change field of the mesh that names a state of the set in `of` adds its terms to the set's change field d<state>; onto a

@@ -1,5 +1,5 @@
-/* The order of particles in one transfer, kept for the next one at the same positions. An order is a function of positions, mesh and width, so that
- * nothing depends on whether it was found or made. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order of particles in one transfer, kept for the next one at the same positions. An order is a function of positions, mesh and width, so the result
+ * does not depend on whether it was found or computed. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 

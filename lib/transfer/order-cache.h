@@ -1,4 +1,4 @@
-/* The order of particles in one transfer, kept for the next one at the same positions: m2p finds that of p2m. Private to lib/transfer.
+/* The order of particles in one transfer, kept for the next one at the same positions: m2p uses that of p2m. Private to lib/transfer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_ORDER_CACHE_H
 #define PM_TRANSFER_ORDER_CACHE_H
@@ -7,7 +7,7 @@
 #include "stream/frame.h"
 
 struct pm_order_cache {
-	struct pm_note note;     /* first: it may hang on the field of the positions */
+	struct pm_note note;     /* first member: it may be attached to the field of the positions */
 	struct pm_grid grid;     /* what the order depends on, with n and the positions */
 	int width;
 	unsigned char staggered[3];
@@ -22,9 +22,9 @@ struct pm_order_cache {
 struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[], int nvalues,
 	const double *const values[], int room);
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o);
-/* The one that hangs there, if it is that of these positions; NULL if none. */
+/* The one attached there, if it belongs to these positions; NULL if none. */
 struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[]);
-/* Leaves it there, or frees it where there is no place. */
+/* Attaches it there, or frees it if that is not possible. */
 void pm_order_cache_leave(const struct pm_transfer *t, struct pm_order_cache *o);
 
 #endif

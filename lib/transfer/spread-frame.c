@@ -14,7 +14,7 @@ int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_fram
 	if (!j->kernel)
 		return -PM_DATA;
 	if (!j->strength)
-		return pm_fail(PM_DATA, "the law '%s' puts nothing on a mesh (choose a field with --strength FIELD)", f->law);
+		return pm_fail(PM_DATA, "the law '%s' deposits nothing on a mesh (choose a field with --strength FIELD)", f->law);
 	if (!j->mesh && !choice->cells)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
 	return pm_sets_choose(f, choice->set, (const char *const[]){j->strength, NULL},
@@ -83,7 +83,7 @@ int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char 
 void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)
 {
 	struct pm_field *density = pm_frame_field(f, j->mesh->name, j->density);
-	const bool own = !j->choice.add && !j->choice.strength && !j->choice.field; /* once in every density that is made anew */
+	const bool own = !j->choice.add && !j->choice.strength && !j->choice.field; /* once in every new density */
 	const double background = own && j->law->background ? pm_frame_constant(f, j->law->background, 0) : 0;
 	for (size_t i = 0; i < density->count && background != 0; i++)
 		pm_out(density, 0)[i] += background;

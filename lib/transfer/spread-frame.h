@@ -1,4 +1,4 @@
-/* The strengths of a frame's sets spread to a density on a mesh: what p2m does. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spreads the strengths of a frame's sets to a density on a mesh; used by p2m. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_SPREAD_FRAME_H
 #define PM_TRANSFER_SPREAD_FRAME_H
 
@@ -10,10 +10,10 @@ struct pm_spread_choice {
 	bool cells;              /* a mesh that is not there will be made */
 	bool add;                /* to the density that is there */
 	bool interlace;
-	bool drop, grow;         /* particles that the mesh does not hold are left out and counted, or the mesh grows */
+	bool drop, grow;         /* particles outside the mesh are left out and counted, or the mesh grows */
 };
 
-/* What the choice means in a frame. */
+/* The choice applied to a frame. */
 struct pm_spread_job {
 	struct pm_spread_choice choice;
 	const struct pm_law *law;

@@ -1,12 +1,12 @@
 /* A stable counting sort of particles into tiles of cells: count per chunk of the stream, add up, move the records. Stability makes the result
- * independent of the number of chunks, which is the number of threads. A stream that is in the order of tiles already is left where it is.
+ * independent of the number of chunks, which is the number of threads. Particles that are already in the order of tiles are not moved.
  * Cost: two passes over the positions, one over the rest.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "transfer/tile-order.h"
 
-enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later record is fetched early */
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later record is prefetched */
 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
@@ -31,7 +31,7 @@ static void find_strays(struct pm_tile_order *o, size_t p, size_t m, double u[3]
 			}
 }
 
-/* u is not negative (strays are seen to afterwards), so that the cast is floor. */
+/* u is not negative (strays are handled later), so the cast equals floor. */
 static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batch], uint32_t *restrict tile)
 {
 	const int *shift = pm_tile_shift[o->dim];
@@ -44,7 +44,7 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 	}
 }
 
-/* Counts, and says whether the chunk is in order and without strays. */
+/* Counts; returns whether the chunk is in order and without strays. */
 static bool count_chunk(struct pm_tile_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], struct pm_strays *strays)
 {
 	uint32_t falls = 0;

@@ -7,7 +7,7 @@
 #include "mesh/index-fold.h"
 #include "transfer/transfer-axis.h"
 
-/* +1, -1 or 0 (the kernel never gets there with weight). */
+/* +1, -1 or 0 (the weight of the kernel is 0 there). */
 static int image_sign(enum pm_face face, bool flip)
 {
 	if (face == PM_WALL || face == PM_NEUMANN)
@@ -110,7 +110,7 @@ void pm_axes_free(struct pm_axis axes[3])
 	}
 }
 
-/* One period up or down, without a branch; what is still outside, or sits at n by rounding, goes the slow way. */
+/* One period up or down, without a branch; values still outside, or at n by rounding, use the general function. */
 static inline double wrap_near(const struct pm_axis *a, double x)
 {
 	double u = (x - a->lo) / a->h + a->add;

@@ -1,4 +1,4 @@
-/* One axis of a transfer: where a particle is on it, and to which mesh points the points around it belong. Private to lib/transfer.
+/* One axis of a transfer: the position of a particle on it, and the mesh points around it. Private to lib/transfer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_AXIS_H
 #define PM_TRANSFER_AXIS_H
@@ -24,12 +24,12 @@ struct pm_axis {
 int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3]);
 void pm_axes_free(struct pm_axis axes[3]);
 
-/* u of a particle anywhere: periodic axes fold (lo+L is lo; -1e-17 and 1e300 too); false if the axis does not hold it. */
+/* u of a particle anywhere: periodic axes fold (lo+L is lo; -1e-17 and 1e300 too); false if it is outside. */
 bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
-/* The same for n particles; u is -1 where the axis does not hold it. False if there is one such. */
+/* The same for n particles; u is -1 for those outside. False if there is one. */
 bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, double *u);
 
-/* Notes a stray; the one with the least index is kept. */
+/* Records a stray; the one with the smallest index is kept. */
 void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis);
 
 #endif

@@ -1,4 +1,4 @@
-/* Transfers between the sets and the meshes of a frame: who takes part, what is read and made, how a mesh grows, how strays are refused.
+/* Transfers between the sets and the meshes of a frame: the sets involved, the fields read and made, the growth of a mesh, errors for strays.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Transfers between the sets and the meshes of a frame: what p2m and m2p share.
+/* Transfers between the sets and the meshes of a frame, shared by p2m and m2p.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_FRAME_H
 #define PM_TRANSFER_FRAME_H

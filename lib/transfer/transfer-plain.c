@@ -1,4 +1,4 @@
-/* The plain loops: particle by particle in the order of the stream, straight to and from the mesh. What the tiled ones are tested against.
+/* The plain loops: particle by particle in the order of the stream, straight to and from the mesh. The reference for the tiled loops in tests.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/transfer-axis.h"
 

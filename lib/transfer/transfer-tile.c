@@ -1,6 +1,6 @@
 /* The loops over the particles of one tile. Dimension, width and degree of the kernel are constants of inline functions; the weights of all points
- * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the
- * faces are seen to when blocks and mesh meet (transfer.c). Cost: width^dim products per particle.
+ * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the faces are
+ * handled when blocks are added to or read from the mesh (transfer.c). Cost: width^dim products per particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
 #include "transfer/transfer-tile.h"
@@ -51,7 +51,7 @@ PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct 
 	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
 	double distance[4];
 	int32_t cell[4];
-	pm_simd4_at u = *(const pm_simd4_at *)record; /* lanes from dim on hold something else */
+	pm_simd4_at u = *(const pm_simd4_at *)record; /* lanes from dim on hold other values */
 	pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at); /* u >= 0 */
 	*(pm_simd4_int_at *)cell = floor_u;
 	*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at) - t->shift;

@@ -6,7 +6,7 @@
 #include "transfer/transfer-axis.h"
 
 /* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
-static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows: the mesh is met in rows */
+static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows, because the mesh is read and written in rows */
 
 /* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors. Its rows have this many
  * points, its planes this many rows. */
@@ -15,7 +15,7 @@ static const int pm_block_rows[4] = {0, 1, 64 + 8, 16 + 8};
 static const int pm_block_planes[4] = {0, 1, 1, 8 + 8};
 enum { PM_BLOCK_MOST = 40 * 24 * 16, PM_TILE_CELLS = 4096, PM_CORNERS = 8 };
 
-/* What the loops over particles need. */
+/* Arguments of the loops over particles. */
 struct pm_tile {
 	const struct pm_kernel *kernel;
 	double shift;           /* of the axes: t = u - cell - shift */

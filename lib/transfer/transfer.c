@@ -1,5 +1,5 @@
-/* Spread and gather by tiles of cells: particles are sorted by tile (transfer_order.c), each tile works on a block of its own without faces
- * (transfer_tile.c), and blocks meet the mesh here, where points beyond a face are folded back with the sign of their image. A point's sum is
+/* Spread and gather by tiles of cells: particles are sorted by tile (tile-order.c), each tile has its own block without faces (transfer-tile.c), and blocks
+ * are added to or read from the mesh here, where points beyond a face are folded back with the sign of their image. A point's sum is
  * made of its tiles' sums, in the order of the tiles, each in the order of the stream: the same bytes for any number of threads.
  * Cost: two passes over the particles for the order, width^dim products each, a pass over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
@@ -8,8 +8,8 @@
 #include "transfer/order-cache.h"
 
 enum {
-	piece = 16384, /* particles per job: a crowded tile is shared out */
-	wave = 32      /* jobs per thread between two meetings */
+	piece = 16384, /* particles per job: a crowded tile is divided among threads */
+	wave = 32      /* jobs per thread between two barriers */
 };
 
 struct job {
@@ -135,7 +135,7 @@ static void spread_job(const struct pass *w, const struct job *j, int value, dou
 	}
 }
 
-/* Jobs are taken in waves: every thread fills blocks of the wave, then adds the mesh lines that are its own from all of them in order. */
+/* Jobs are done in waves: every thread fills blocks of the wave, then adds to its own mesh lines from all blocks in order. */
 static void spread_component(const struct pass *w, int value, int threads, double *mesh)
 {
 	size_t under_way = jobs_under_way(threads);
@@ -184,7 +184,7 @@ static void load_block(const struct pass *w, const struct job *j, int c, const d
 		}
 }
 
-/* Where the values of a stream that is in order go; they stay in the records otherwise. */
+/* The place of the values of a stream that is in order; otherwise they stay in the records. */
 struct results {
 	const double *const *factor;
 	const bool *set;
@@ -206,7 +206,7 @@ static bool gather_in_order(const struct pass *w, const struct job *j, struct pm
 	return finite;
 }
 
-/* True if the values are finite; those in records are looked at later. */
+/* True if the values are finite; those in records are checked later. */
 static bool gather_pass(const struct pass *w, int threads, const double *const mesh[], const struct results *r)
 {
 	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
@@ -226,7 +226,7 @@ static bool gather_pass(const struct pass *w, int threads, const double *const m
 	return !bad;
 }
 
-/* The next pass: the first component not yet done, and all that sit where it does. False if there is none. */
+/* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
 static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
 {
 	*w = (struct pass){.t = t};
@@ -257,7 +257,7 @@ static int begin_spread(struct pass *w, size_t n, const double *const x[], const
 	return begin_pass(w, jobs_under_way(threads), 1);
 }
 
-/* An order that was kept stays as it is: the results get a place of their own. */
+/* A kept order must not be changed, so the results get their own memory. */
 static int begin_gather(struct pass *w, size_t n, const double *const x[], int threads)
 {
 	const unsigned char *staggered = w->t->staggered[w->which[0]];
@@ -357,8 +357,8 @@ static int grow_axis(const struct pm_grid *g, int d, double r, size_t n, const d
 	for (int side = 0; side < 2; side++) {
 		bool closed = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
 		if (closed && (side ? most > cells : least < 0))
-			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, and only open faces can be moved (push them back, or "
-				"--outside drop)", pm_face_names[g->face[d][side]], "xyz"[d]);
+			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, but only open faces can be moved (move them back, or use --outside drop)",
+				pm_face_names[g->face[d][side]], "xyz"[d]);
 		if (closed)
 			*(side ? above : below) = 0;
 	}

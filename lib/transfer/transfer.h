@@ -21,7 +21,7 @@ struct pm_transfer {
 	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };
 
-/* Particles the mesh does not hold: beyond a wall, or so near an open face that the kernel would reach its end nodes. They take no part. */
+/* Particles outside the mesh: beyond a wall, or so near an open face that the kernel would reach its end nodes. They are left out. */
 struct pm_strays {
 	uint64_t count;
 	size_t first;  /* index of the first of them */
@@ -30,14 +30,14 @@ struct pm_strays {
 	bool finite;   /* gather: every value it left is a finite number */
 };
 
-/* x[d][n] positions; strength[c][n], mesh[c][points] += density. End nodes of neumann faces hold twice what falls on them (half weight in mesh sums),
- * of walls nothing. 0 or failure (memory). strays is filled in. The same bytes for any number of threads. */
+/* x[d][n] positions; strength[c][n], mesh[c][points] += density. End nodes of neumann faces get twice the deposited value (half weight in mesh sums), those
+ * of walls 0. 0 or failure (memory). strays is filled in. The same bytes for any number of threads. */
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays);
 /* out[c][p] += factor[c][p] * value; factor NULL or factor[c] NULL: 1. */
 int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays);
-/* The same, particle by particle in the order of the stream: the test of the fast ones. */
+/* The same, particle by particle in the order of the stream: the reference in tests. */
 int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays);
 int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],

@@ -35,7 +35,7 @@ load ../helper
 			same_as $cache.free.1 $cache.free.$n
 		done
 	done
-	grep -q "not a plan of ours" said
+	grep -q "not a plan file of pmpipe" said
 	grep -q " 0 measured, 0 estimated" said
 }
 
@@ -85,7 +85,7 @@ load ../helper
 		echo foreign > "$f"
 	done
 	run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > b'
-	[[ $stderr == *"not a plan of ours"* ]]
+	[[ $stderr == *"not a plan file of pmpipe"* ]]
 	run -0 --separate-stderr bash -c 'poisson-fft --verbose < rho > c'
 	[[ $stderr == *" 0 measured, 0 estimated"* ]]
 	same_as b c

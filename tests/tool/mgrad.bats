@@ -48,7 +48,7 @@ refused() {
 @test "mgrad: a field that is given is not replaced; on a mesh of its own it stays, and m2p adds both" {
 	pinit langmuir -n 64 --cells 16 > a
 	scalc --mesh mesh 'E = 0.5' --role state < a > b
-	refused 1 "'E' on 'mesh' is given, and a derivative does not replace it (choose another --target; keep what is given on a mesh of its own, m2p --mesh adds it)" \
+	refused 1 "'E' on 'mesh' is given, and a derivative must not replace it (choose another --target; keep the given field on a separate mesh, m2p --mesh adds it)" \
 		"p2m < b | poisson-fft | mgrad"
 	p2m < b | poisson-fft | mgrad --target mine | sls > list
 	grep -q ' mine  *1 f64 derived' list

@@ -50,7 +50,7 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[[ $output =~ "5 x 4 x 7 cells" ]]
 	printf "$two" | line open 8 | p2m | stab | sed '1s/"name":"rho","on":"mesh","role":"derived"/"name":"e","on":"mesh","role":"state"/; s/^rho$/e/' >b
 	run -1 bash -o pipefail -c 'stab - <b | p2m -n 16 | sls'
-	[[ $output =~ "carries the state 'e'" ]]
+	[[ $output =~ "has the state field 'e'" ]]
 	sh_ok 'stab - <b | p2m -n 8 | sls'
 	awk '/^#mesh/ { skip = 1 } /^#end/ { skip = 0 } !skip' b | sed '1s/\("name":"e","on":"mesh","role":"state","type":"f64"\)/\1,"uniform":[0.25]/' >c
 	sh_ok 'stab - <c | p2m -n 16 | sls'

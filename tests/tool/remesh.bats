@@ -112,7 +112,7 @@ patch() {
 @test "remesh carries values by a strength: momentum is kept; alone they are refused, or dropped" {
 	pinit uniform -n 60 --dispersion 1 >a
 	run -1 bash -o pipefail -c 'remesh <a | sls'
-	[[ $output =~ "'v' on 'matter' is a value, which cannot be shared among nodes (--by mass carries it as mass times v, --drop v leaves it out)" ]]
+	[[ $output =~ "'v' on 'matter' is a value, which cannot be distributed to nodes (--by mass remeshes mass times v, --drop v removes it)" ]]
 	sh_ok 'remesh -n 5 --drop v <a | sls'
 	[[ ! $output =~ " v " ]]
 	stab --plain <a >before
@@ -130,7 +130,7 @@ patch() {
 	[[ ! $output =~ " acc " && ! $output =~ " rho " && ! $output =~ " id " ]]
 	printf 'x y circulation name\n0.3 0 2 a\n-1 0 1 b\n' >named
 	run -1 bash -o pipefail -c 'stab named --law vortex --box -4,4 | remesh | sls'
-	[[ $output =~ "'name' on 'matter' is of type u8, which cannot be shared among nodes (--drop name leaves it out)" ]]
+	[[ $output =~ "'name' on 'matter' is of type u8, which cannot be distributed to nodes (--drop name removes it)" ]]
 	sh_ok 'stab named --law vortex --box -4,4 | remesh --drop name | sls'
 	printf 'x y circulation heat\n0.3 0 2 5\n-1 0 1 5\n' | stab - --law vortex --box -4,4 | stab |
 		sed '1s/"name":"heat",/&"uniform":[5],/; s/\theat//; s/\t5$//; s/\t5\t/\t/' >text
