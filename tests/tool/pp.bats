@@ -41,7 +41,7 @@ fixture() {
 }
 
 @test "a periodic box and a wall are refused with the name of what can do them" {
-	refuses 1 "periodic along x but pp sums in open space (use p2m | poisson-fft | mgrad | m2p; for periodic ones also the word ewald)" "pinit pair | pp"
+	refuses 1 "periodic along x, but pp sums in open space (use p2m | poisson-fft | mgrad | m2p; for periodic ones also the word ewald)" "pinit pair | pp"
 	fixture > t
 	refuses 1 "the box is wall along x" "stab t --law gravity --faces wall | pp --softening 0"
 }
