@@ -125,8 +125,9 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 @test "every option that the README or a page names is one of a tool" {
 	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' >there
 	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/bench/*.sh >>there # of our scripts
+	sed -nE 's/.*\.name = "([a-z-]+)", .*\.kind = PM_.*/--\1/p' "$top"/docs/*.md >>there # of the words that the pages print
 	sort -u -o there there
-	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md | sort -u >named
+	sed 's/pkg-config [^)`]*//' "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md | grep -oE -- '--[a-z][a-z0-9-]+' | sort -u >named
 	comm -23 named there >wrong
 	cat wrong
 	[ ! -s wrong ]
