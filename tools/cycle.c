@@ -25,7 +25,8 @@ static const struct pm_option options[] = {
 		.text = "full steps, counted from the beginning, also after --resume"},
 	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", .cosmetic = true, AT(time), .text = "stop at the first step with time >= T - dt/2"},
 	{.name = "until", .kind = PM_TEXT, .unit = "EXPRESSION", .cosmetic = true, AT(until),
-		.text = "stop at the first step at which this expression in the columns of diag is true; NAME0 is the value at the beginning: 'energy > 10*energy0'"},
+		.text = "stop at the first step at which this expression in the columns of diag is true; NAME0 is the value at the beginning: 'energy > "
+			"10*energy0'"},
 	{.name = "plan", .kind = PM_FLAG, .cosmetic = true, AT(plan), .text = "without SENTENCE: run the sentence that plan chooses for the first frame"},
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, .cosmetic = true, AT(accuracy),
 		.text = "with --plan: effects that change the result by less than this (relative) are left out"},

@@ -78,7 +78,8 @@ static const struct pm_option options[] = {
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),
 		.text = "fit them between these times (default: growth from 1 to 10 % of the maximum, else all)"},
 	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair), .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)"},
-	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene provides"},
+	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene "
+		"provides"},
 	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .cosmetic = true, PM_AT(format),
 		.text = "a table with a header line, or one JSON object per line"},
 	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, PM_AT(tee), .text = "write to FILE and pass the frames on"},
@@ -99,9 +100,11 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_diag = {
 	.name = "diag",
 	.summary = "measures energy, momentum, mass, radii, vorticity of every frame",
-	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it includes the self-energy of the smoothed particles); of the field at the\n"
+	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it includes the self-energy of the smoothed particles); of the field "
+		"at the\n"
 		"particles, 1/2 sum m phi, if they have a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
-		"particles' energy if known, else that of the mesh. Quantities that cannot be computed are nan. All sums are compensated and do not depend on the number\n"
+		"particles' energy if known, else that of the mesh. Quantities that cannot be computed are nan. All sums are compensated and do not depend "
+		"on the number\n"
 		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum, value at the\n"
 		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 "
 		"integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",

@@ -78,7 +78,8 @@ const struct pm_tool tool_dt = {
 	.name = "dt",
 	.summary = "write the time step that the state allows",
 	.about = "The smallest step over the rules and over the particles of every set that moves: C h/|v_d| (--courant), sqrt(ETA softening/|acc|) "
-		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma). Written at substep 0; inside a step the frame is passed on "
+		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma). Written at substep 0; inside a step the frame is "
+		"passed on "
 		"unchanged. With a variable step leapfrog is not reversible, and its energy error is not bounded.",
 	.kind = PM_FILTER,
 	.reads = "v or vel, acc; the flow u of the mesh; charge and mass",

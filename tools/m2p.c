@@ -80,9 +80,11 @@ const struct pm_tool tool_m2p = {
 	.name = "m2p",
 	.summary = "interpolate mesh fields to the particles and add them to their rates of change",
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with, so that momentum "
-		"is conserved and a particle exerts no force on itself. The law determines the field that is gathered (g, E, u) and the rate it is added to (acc, vel); "
+		"is conserved and a particle exerts no force on itself. The law determines the field that is gathered (g, E, u) and the rate it is added to "
+		"(acc, vel); "
 		 "a given field is the term external, a computed one the term self; a magnetic field B goes to bfield. Changes on the "
-		 "mesh (domega of diffuse) are interpolated to the rates of the strengths (dcirculation), times the volume of the particle; the part that no particle "
+		 "mesh (domega of diffuse) are interpolated to the rates of the strengths (dcirculation), times the volume of the particle; the part that "
+		"no particle "
 		 "receives, in gaps or beyond the particles, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,

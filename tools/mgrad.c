@@ -22,7 +22,8 @@ static const struct pm_option options[] = {
 	{.name = "target", .kind = PM_TEXT, .unit = "FIELD", PM_AT(choice.target), .text = "the mesh field to make (default: the law's field)"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.mesh), .text = "the mesh (default: the first)"},
 	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "how FFTW plans (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or by measurement, kept in the user's cache "
+		.text = "how FFTW plans (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or by measurement, kept in the "
+			"user's cache "
 			"(default: PM_PLAN or measure)"},
 	{0},
 };
@@ -71,8 +72,10 @@ static void release(struct pm_stage *s)
 const struct pm_tool tool_mgrad = {
 	.name = "mgrad",
 	.summary = "take gradients and other derivatives of mesh fields",
-	.about = "Without options, computes the field of the law from its potential: g = -grad phi for gravity, u = (d psi/dy, -d psi/dx) for 2-D vortices. With "
-		"--operator it applies grad, curl, div or lap to any field. Differences are centred; a wall is an odd image and a neumann face an even one; near "
+	.about = "Without options, computes the field of the law from its potential: g = -grad phi for gravity, u = (d psi/dy, -d psi/dx) for 2-D vortices. "
+		"With "
+		"--operator it applies grad, curl, div or lap to any field. Differences are centred; a wall is an odd image and a neumann face an even one; "
+		"near "
 		"an open face they are one-sided, of the same order. Spectral derivatives need periodic, wall or neumann faces. Of a vector the tangential "
 		"components are odd at a wall and the normal one even; of a flow (u of vortices) the other way round.",
 	.kind = PM_FILTER,

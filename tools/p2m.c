@@ -84,7 +84,8 @@ const struct pm_tool tool_p2m = {
 	.summary = "deposit the strengths of particles on a mesh as a density",
 	.about = "density(i) = sum over particles of strength * W((x - x_i)/h) / (volume of a cell), W a product of one-dimensional kernels (Hockney and "
 		"Eastwood "
-		 "1988, chapter 5). Beyond a wall the mesh is continued as its odd image, beyond a neumann face as its even image; at open faces the support of "
+		 "1988, chapter 5). Beyond a wall the mesh is continued as its odd image, beyond a neumann face as its even image; at open faces the "
+		"support of "
 		 "every kernel must stay inside the mesh. End nodes of faces that are not periodic have half weight in mesh sums. See "
 		 "docs/methods/transfer.md.",
 	.kind = PM_FILTER,

@@ -30,7 +30,8 @@ static const struct pm_option options[] = {
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(softening),
 		.text = "delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
-		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence function "
+		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence "
+			"function "
 			"of least force error (Hockney and Eastwood), which has no symbol"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
 		.text = "the order of the mgrad that follows, for --influence optimal (default: the law's)"},
@@ -152,8 +153,10 @@ const struct pm_tool tool_poisson_fft = {
 	.name = "poisson-fft",
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
 	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
-		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any combination, also on opposite faces. If no face fixes phi, "
-		"the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the Green's function "
+		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any combination, also on opposite faces. If no face "
+		"fixes phi, "
+		"the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the "
+		"Green's function "
 		"is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
 	.kind = PM_FILTER,
 	.makes = true,

@@ -42,7 +42,8 @@ static const struct pm_option options[] = {
 	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "mean of eps between two nodes"},
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
 		.text = "tolerance of the residual relative to c*s, both as root mean square"},
-	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles; then it fails"},
+	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles; then it "
+		"fails"},
 	PM_SOLVER_ROWS,
 	{0},
 };
@@ -145,7 +146,8 @@ const struct pm_tool tool_poisson_mg = {
 		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as in poisson-fft); any number of cells per axis, any "
 		"ratio of the spacings. V- and W-cycles, full multigrid with cubic "
 		"interpolation; for a variable eps, operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
-		"If no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or when "
+		"If no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or "
+		"when "
 		"round-off prevents further reduction (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
 		"solves the same "
 		"equation with --symbol fd2.",

@@ -79,7 +79,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, PM_AT(method),
-		.text = "exchange: conserves the sum, for particles without distortion; dc: corrected for the positions of the partners (DC-PSE), does not conserve"},
+		.text = "exchange: conserves the sum, for particles without distortion; dc: corrected for the positions of the partners (DC-PSE), does not "
+			"conserve"},
 	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, PM_AT(order), .text = "error eps^2 with positive weights, or eps^4"},
 	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, PM_AT(eps),
 		.text = "width of the kernel exp(-(r/eps)^2/4); by default --overlap times the spacing of the particles"},
@@ -109,10 +110,12 @@ const struct pm_tool tool_pse = {
 	.name = "pse",
 	.summary = "add viscosity by exchange of strength between particles",
 	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the "
-		"strengths conserved to round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses a step beyond the "
+		"strengths conserved to round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses "
+		"a step beyond the "
 		 "limit, nu dt/eps^2 <= 2 "
 		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, "
-		 "fastest_dt, and the number of particles without a partner (alone). --method dc solves for the weights of each particle: order 2 or 4 also for "
+		 "fastest_dt, and the number of particles without a partner (alone). --method dc solves for the weights of each particle: order 2 or 4 also "
+		"for "
 		 "distorted particles and at boundaries. If nu is 0 the frame is passed on unchanged. See docs/methods/pse.md.",
 	.kind = PM_FILTER,
 	.makes = true,

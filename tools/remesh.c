@@ -155,8 +155,10 @@ const struct pm_tool tool_remesh = {
 	.summary = "put the strengths of particles back onto the nodes of a mesh, which become the particles",
 	.about = "strength(i) = sum over particles of strength * W((x - x_i)/h): nodes that are not 0, or above --cut-off, are the new particles, in the "
 		"order of the "
-		 "mesh. The total is conserved to round-off, moments as far as the kernel does (docs/methods/kernels.md). Acts between steps only; inside a step the "
-		 "frame is passed on unchanged. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean of |H - "
+		 "mesh. The total is conserved to round-off, moments as far as the kernel does (docs/methods/kernels.md). Acts between steps only; inside a "
+		"step the "
+		 "frame is passed on unchanged. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean "
+		"of |H - "
 		 "H0|/H0 over the "
 		 "particles, H = sum of volume * zeta(distance), H0 that after the last remesh. See docs/methods/remesh.md.",
 	.kind = PM_FILTER,

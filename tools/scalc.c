@@ -85,7 +85,8 @@ const struct pm_tool tool_scalc = {
 	.name = "scalc",
 	.summary = "new fields from expressions",
 	.about = "Computes NAME = EXPRESSION for every particle of a set or point of a mesh, in the order given; commas make the components of a vector: 'w "
-		"= -y, x'. An existing field is overwritten; if it is state, everything derived from the state is dropped. Names: x y z, vx vy vz, NAME, NAME_0, "
+		"= -y, x'. An existing field is overwritten; if it is state, everything derived from the state is dropped. Names: x y z, vx vy vz, NAME, "
+		"NAME_0, "
 		 "NAME.x; "
 		 "on a mesh x y z are the coordinates of the point; time dt step n dim pi Lx Ly Lz and the constants of the law (G, softening). Operators ^ "
 		 "* / + - < <= > >= == != && || ! ?:. "

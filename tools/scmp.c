@@ -48,7 +48,8 @@ static int whole(struct pm_stage *s)
 }
 
 static const struct pm_example examples[] = {
-	{"The same force computed in two ways; the second is the reference.", "pinit plummer -n 200 | p2m | poisson-fft | mgrad | m2p > a; pinit plummer -n 200 | pp "
+	{"The same force computed in two ways; the second is the reference.", "pinit plummer -n 200 | p2m | poisson-fft | mgrad | m2p > a; pinit plummer -n "
+		"200 | pp "
 		"> b; scmp --field acc a b"},
 	{"Exit 1 unless two files hold the same numbers.", "pinit plummer -n 50 > a; cp a b; scmp --tolerance 0 a b"},
 	{0}};
@@ -60,7 +61,8 @@ const struct pm_tool tool_scmp = {
 		"where the "
 		 "difference is largest (an id, an index, or a mesh point). |.| is the length over the components; means over a mesh count points on its "
 		 "faces half. "
-		 "Particles are matched by id where both streams have one, by index otherwise. Fields of different shapes are an error; streams of different lengths "
+		 "Particles are matched by id where both streams have one, by index otherwise. Fields of different shapes are an error; streams of "
+		"different lengths "
 		 "are exit 1. Without --field and --set the times are compared too.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

@@ -47,7 +47,8 @@ static const struct pm_option options[] = {
 		.text = "points, or density; auto: density from 4000 particles on unless they are coloured"},
 	{.name = "log", .kind = PM_FLAG, PM_AT(log), .text = "logarithmic colour scale"},
 	{.name = "linear", .kind = PM_FLAG, PM_AT(linear), .text = "linear colour scale for a density, not logarithmic"},
-	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "values at the ends of the colour scale (default: the range of each frame)"},
+	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "values at the ends of the colour scale (default: the range of each "
+		"frame)"},
 	{.name = "area", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", PM_AT(window), .text = "the area to show (default: the box)"},
 	{.name = "map", .kind = PM_WORD, .fallback = "auto", .choices = maps, PM_AT(map),
 		.text = "colours; auto: viridis for fields, inferno for densities, coolwarm for numbers of both signs"},
@@ -128,7 +129,8 @@ const struct pm_tool tool_sdraw = {
 	.summary = "pictures of a mesh field or of particles",
 	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as "
 		"density; with --field a mesh "
-		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values lie beyond it. "
+		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values "
+		"lie beyond it. "
 		 "A movie: sdraw --format ppm --range LO,HI | ffmpeg -f image2pipe -i - movie.mp4.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

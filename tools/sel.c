@@ -89,7 +89,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_sel = {
 	.name = "sel",
 	.summary = "selects frames, sets, fields and particles",
-	.about = "Kinds for which nothing is named are kept. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles for which an "
+	.about = "Kinds for which nothing is named are kept. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles "
+		"for which an "
 		"expression is not 0 (see "
 		 "scalc); their derived fields and changes keep the values computed with all particles. The names in --set, --field or --drop must exist in "
 		 "every frame.",

@@ -113,7 +113,8 @@ static int end(struct pm_stage *s)
 static void release(struct pm_stage *s) { pm_set_motion_clear(&((struct state *)s->state)->motion); }
 
 static const struct pm_example examples[] = {
-	{"Change the time step and softening, and store in single precision.", "pinit plummer -n 100 | smod --dt 0.01 --constant softening=0.1 --store f32 | sls"},
+	{"Change the time step and softening, and store in single precision.", "pinit plummer -n 100 | smod --dt 0.01 --constant softening=0.1 --store f32 "
+		"| sls"},
 	{"Rename a set, and let push move it from now on.", "pinit kepler | smod --loose sun --rename sun=centre | sls"},
 	{0},
 };
@@ -122,7 +123,8 @@ const struct pm_tool tool_smod = {
 	.name = "smod",
 	.summary = "sets attributes: time step, law, constants, box and faces, units, types, names",
 	.about = "In this order: attributes, --store, --rename. A change of the law, its constants or the box drops derived and change fields, because they "
-		"are no longer valid. Particles are moved by smove; its options --set, --scale, --rotate, --shift and --boost still work here, after the attributes.",
+		"are no longer valid. Particles are moved by smove; its options --set, --scale, --rotate, --shift and --boost still work here, after the "
+		"attributes.",
 	.kind = PM_FILTER,
 	.changes = "attributes, the fields of --store",
 	.config = sizeof(struct config),

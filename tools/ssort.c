@@ -39,8 +39,10 @@ const struct pm_tool tool_ssort = {
 	.summary = "reorders particles by cell or by an expression",
 	.about = "Permutes every field of the set, so that neighbours in space are neighbours in memory, and p2m, m2p and pse find them in the cache. "
 		"By default by "
-		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Acts only at "
-		 "substep 0; other frames are passed on unchanged. No value changes, but sums over particles may differ in the last digit because of the other order.",
+		 "the cells of the first mesh, in p2m's tiles of 32x16x8 (64x64, 4096) cells, x fastest; particles with equal keys keep their order. Acts "
+		"only at "
+		 "substep 0; other frames are passed on unchanged. No value changes, but sums over particles may differ in the last digit because of the "
+		"other order.",
 	.kind = PM_FILTER,
 	.reads = "x, or the fields in --by",
 	.changes = "the order of all fields of the set",

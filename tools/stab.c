@@ -115,13 +115,16 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_stab = {
 	.name = "stab",
 	.summary = "text to stream and back, exactly",
-	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then one row per line, separated by blanks or tabs; empty "
+	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then one row per line, separated by blanks or "
+		"tabs; empty "
 		"lines and "
 		 "lines that start with # are skipped. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id "
 		 "whole "
-		 "numbers, name a text (stored as a field of bytes with the unit text), any other column a field. Values that are not finite numbers, and rows with "
+		 "numbers, name a text (stored as a field of bytes with the unit text), any other column a field. Values that are not finite numbers, and "
+		"rows with "
 		 "too few or too many columns, are errors reported with the line. A table without rows is a set of 0 particles.\n"
-		 "Without FILE a sink: every frame as a line of JSON (the header of the stream) and a table per set and mesh, numbers with enough digits to restore "
+		 "Without FILE a sink: every frame as a line of JSON (the header of the stream) and a table per set and mesh, numbers with enough digits to "
+		"restore "
 		 "the same bits. stab reads this text again, also with rows added or removed.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),

@@ -127,11 +127,14 @@ const struct pm_tool tool_stack = {
 	.name = "stack",
 	.summary = "combines scenes into one",
 	.about = "Reads a frame of every stream and writes one frame with the sets of all. Dimensions, law, time and faces must agree, and the constants "
-		"that several of them have; the box is the smallest that contains all boxes, the time step the smallest, the default mesh that of the first, spanning "
+		"that several of them have; the box is the smallest that contains all boxes, the time step the smallest, the default mesh that of the "
+		"first, spanning "
 		"the new box. A set "
 		 "whose name "
-		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: if ids of a later stream could coincide with earlier ones, the "
-		 "same number is added to all ids of that stream, so that its smallest becomes the first free id. Derived fields and changes are dropped, because "
+		 "is taken is renamed NAME-2, or joined to the other with --merge. Ids stay unique: if ids of a later stream could coincide with earlier "
+		"ones, the "
+		 "same number is added to all ids of that stream, so that its smallest becomes the first free id. Derived fields and changes are dropped, "
+		"because "
 		 "they are those of the separate scenes.",
 	.kind = PM_SOURCE,
 	.config = sizeof(struct config),

@@ -52,11 +52,13 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_walk = {
 	.name = "walk",
 	.summary = "add diffusion by random steps of the particles",
-	.about = "x += N(0, 2 nu dt) per component, once per step (inside a step the frame is passed on unchanged): put it after the last push. Strengths do not "
+	.about = "x += N(0, 2 nu dt) per component, once per step (inside a step the frame is passed on unchanged): put it after the last push. Strengths "
+		"do not "
 		"change. The numbers "
 		 "depend on seed, set, id (or index, where there is none) and step, not on order or threads; two walks in one sentence need two seeds. "
 		 "Fields derived from the positions are dropped. Faces as in push. Error 1/sqrt(N): pse and diffuse are more accurate, but need volumes and "
-		 "overlapping particles. Reports the standard deviation of a step and the number of absorbed particles. If nu is 0 the frame is passed on unchanged. "
+		 "overlapping particles. Reports the standard deviation of a step and the number of absorbed particles. If nu is 0 the frame is passed on "
+		"unchanged. "
 		 "See docs/methods/walk.md.",
 	.kind = PM_FILTER,
 	.reads = "id",

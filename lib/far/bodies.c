@@ -48,7 +48,8 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 	if (!targets && far->set)
 		return pm_fail(PM_DATA, "no set '%s' that could be accelerated (sls lists the sets)", far->set);
 	if (!targets)
-		return pm_fail(PM_DATA, "no set can be accelerated: all are fixed or have no state that moves (smod --loose, or --potential for the potential alone)");
+		return pm_fail(PM_DATA, "no set can be accelerated: all are fixed or have no state that moves (smod --loose, or --potential for the "
+			"potential alone)");
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		status = plan_set(f, f->sets[i], far, term, replace);
 	return status;

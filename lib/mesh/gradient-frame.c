@@ -26,7 +26,8 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 {
 	const struct pm_field *old = pm_frame_field(f, on, target);
 	if (old && old->role == PM_STATE)
-		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative must not replace it (choose another --target; keep the given field on a separate "
+		return pm_fail(PM_DATA, "'%s' on '%s' is given, and a derivative must not replace it (choose another --target; keep the given field on a "
+			"separate "
 			"mesh, m2p --mesh adds it)", target, on);
 	t->target = pm_makes(f, on, target, t->operator.out, PM_DERIVED);
 	if (!t->target)

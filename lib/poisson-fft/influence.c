@@ -122,7 +122,8 @@ int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influenc
 			a->k[at] = wave / h;
 			a->window[at] = w * w;
 			if (f->kind == PM_DECONVOLVED && fabs(w) < 1e-3)
-				return pm_fail(PM_DATA, "kernel %s has a zero transform at wave %zu of %zu cells, so that division is impossible (--influence optimal, or --kernel tsc)",
+				return pm_fail(PM_DATA, "kernel %s has a zero transform at wave %zu of %zu cells, so that division is impossible "
+					"(--influence optimal, or --kernel tsc)",
 					f->kernel->name, m, n);
 		}
 	}

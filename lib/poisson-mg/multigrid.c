@@ -52,7 +52,8 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 	if (!any_open(g))
 		return pm_mg_check(g);
 	if (o->variable)
-		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, but these are open (pinit --faces neumann and "
+		return pm_fail(PM_DATA, "a permittivity that varies needs a box with walls, neumann or periodic faces, but these are open (pinit --faces "
+			"neumann and "
 			"a box large enough, "
 			"or poisson-fft without a permittivity)");
 	return pm_mg_open_check(g);

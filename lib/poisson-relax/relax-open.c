@@ -28,7 +28,8 @@ int pm_outer_check(const struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim; d++)
 		if (g->face[d][0] != PM_OPEN || g->face[d][1] != PM_OPEN)
-			return pm_fail(PM_DATA, "relaxation needs open faces on all axes or on none, but axis %c has %s ones (use poisson-fft, which mixes them)", "xyz"[d],
+			return pm_fail(PM_DATA, "relaxation needs open faces on all axes or on none, but axis %c has %s ones (use poisson-fft, which mixes "
+				"them)", "xyz"[d],
 				pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
 	return pm_mg_open_check(g);
 }

@@ -357,7 +357,8 @@ static int grow_axis(const struct pm_grid *g, int d, double r, size_t n, const d
 	for (int side = 0; side < 2; side++) {
 		bool closed = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
 		if (closed && (side ? most > cells : least < 0))
-			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, but only open faces can be moved (move them back, or use --outside drop)",
+			return pm_fail(PM_DATA, "particles are beyond the %s face of axis %c, but only open faces can be moved (move them back, or use "
+				"--outside drop)",
 				pm_face_names[g->face[d][side]], "xyz"[d]);
 		if (closed)
 			*(side ? above : below) = 0;
