@@ -105,7 +105,7 @@ void *pm_alloc(size_t count, size_t size)
 		return NULL;
 	}
 	if (bytes > large && bytes > most_memory()) {
-		pm_fail(PM_DATA, "%.1f GB wanted at once, and the machine has %.1f GB", (double)bytes / 1e9, (double)most_memory() / 1e9);
+		pm_fail(PM_DATA, "%.1f GB of memory wanted at once, and the machine has %.1f GB", (double)bytes / 1e9, (double)most_memory() / 1e9);
 		return NULL;
 	}
 	bytes += head;
