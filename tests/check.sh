@@ -1,5 +1,5 @@
 #!/bin/sh
-# The whole suite, from a bare Debian machine: installs missing packages (as root or with sudo), builds, runs the unit tests and every bats
+# The whole suite, on a bare Debian machine too: installs missing packages (as root or with sudo), builds, runs the unit tests and every bats
 # file, and ends with `N passed, N failed, N skipped`. PM_LONG=1 adds the long physics. Arguments: only these bats files, directories, or `unit`:
 # sh tests/check.sh tests/tool/p2m.bats
 # SPDX-License-Identifier: GPL-3.0-or-later

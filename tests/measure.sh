@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The size of the house: lines per directory, the longest files and functions, and how functions are distributed (goals: most under 20
-# lines, nine in ten under 50). A function runs from an opening brace to the next brace in column 0.
+# The size of the code: lines per directory, the longest files and functions, and the distribution of function lengths (goals: most under 20
+# lines, nine in ten under 50). A function extends from an opening brace to the next brace in column 0.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."

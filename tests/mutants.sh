@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Do the tests see errors? Plants those of tests/mutants.tsv, one at a time, in scratch copies of the tree, runs the test that should see it, and prints
-# a line for each: caught, or NOT CAUGHT; the last line counts. Exit 1 if one is not caught, cannot be planted, or does not build.
-# bash tests/mutants.sh [NAME...] plants those whose names begin so.
-# A row of the list: name, file, old text (exactly once in the file), new text, and the test: `unit NAME` or `bats FILE FILTER`, the filter a part of
-# a test's name. SPDX-License-Identifier: GPL-3.0-or-later
+# Checks that the tests catch errors: plants those of tests/mutants.tsv, one at a time, in scratch copies of the tree, runs the test that should fail, and
+# prints a line for each, caught or NOT CAUGHT; the last line counts them. Exit 1 if one is not caught, cannot be planted, or does not build.
+# bash tests/mutants.sh [NAME...] plants only those whose names begin with a NAME.
+# A row of the list: name, file, old text (exactly once in the file), new text, and the test: `unit NAME` or `bats FILE FILTER`, where FILTER is part of
+# the name of a test. SPDX-License-Identifier: GPL-3.0-or-later
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C OMP_WAIT_POLICY=passive OMP_NUM_THREADS=2 PM_PLAN=estimate
-limit=600 # [s] of a test: one that takes longer says nothing
+limit=600 # [s] per test: one that takes longer decides nothing
 
 # rows [NAME...]
 rows() {
@@ -16,7 +16,7 @@ rows() {
 		if [ $# = 0 ]; then cat; else grep -E "^($(IFS='|'; echo "$*"))"; fi
 }
 
-# programs FILE: those that a bats file names, cycle and plan, which hold every word, and sh5; all where it goes through lists of them.
+# programs FILE: those that a bats file names, cycle and plan, which contain every word, and sh5; all of them if it loops over lists of programs.
 programs() {
 	local t
 	grep -qE 'load words|pipelines/|README' "tests/$1" && echo all && return
@@ -26,8 +26,8 @@ programs() {
 	done
 }
 
-# sight WHAT: builds and runs it in this directory; 0: the test passes, 1: it fails, 2: it does not build, 3: there is no such test, 4: it took too long.
-# A unit test is left at its first failure.
+# sight WHAT: builds and runs a test in this directory; 0: it passes, 1: it fails, 2: it does not build, 3: there is no such test, 4: it took too long.
+# A unit test ends at its first failure.
 sight() {
 	local kind name filter status log=$PWD/mutant.log
 	read -r kind name filter <<<"$1"
@@ -47,7 +47,7 @@ sight() {
 	[ "$status" = 0 ]
 }
 
-# one ROW: in the copy of this lane. With an empty name: the sight alone, which must pass where nothing is planted.
+# one ROW: in the copy of this lane. With an empty name: only the test, which must pass without an error planted.
 one() {
 	local name file old new what text rest seen
 	IFS=$'\037' read -r name file old new what <<<"${1//$'\t'/$'\037'}" # columns may be empty
@@ -91,14 +91,14 @@ trap 'rm -rf "$scratch"' EXIT
 wanted=$(rows "$@") || exit 1
 [ "$wanted" ] || { echo "tests/mutants.sh: no such name in tests/mutants.tsv" >&2; exit 1; }
 
-# Built once, in a copy of what git knows or would; the other lanes are copies of that.
+# Built once, in a copy of the tracked and the new files (not the ignored ones); the other lanes are copies of that.
 mkdir "$scratch/1"
 git ls-files -co --exclude-standard -z | tar --null --ignore-failed-read -T - -cf - 2>/dev/null | tar -xf - -C "$scratch/1"
 make -C "$scratch/1" -s -j"$lanes" OPT=-O1 all unit >"$scratch/build" 2>&1 || { tail -n 5 "$scratch/build"; exit 1; }
 for ((l = 2; l <= lanes; l++)); do cp -a "$scratch/1" "$scratch/$l"; done
 
-# First every sight without an error, then the errors.
-# shellcheck disable=SC2016 # what is in single quotes is for the inner shell
+# First every test without an error, then the errors.
+# shellcheck disable=SC2016 # single quotes: for the inner shell
 { cut -f5 <<<"$wanted" | sort -u | sed 's/^/-\t-\t-\t-\t/'; echo "$wanted"; } |
 	xargs --process-slot-var=lane -d '\n' -n 1 -P "$lanes" sh -c 'lane=$((lane + 1)) exec bash "$scratch/1/tests/mutants.sh" "$1"' sh | tee "$scratch/lines"
 caught=$(grep -c '^caught ' "$scratch/lines")

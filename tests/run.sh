@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the built tests: the unit tests and the bats files (all, or those named; `unit` names the unit tests), as many at a time as there are processors.
 # Prints its progress every ten seconds, failures with their reasons, skipped tests by name, and the counts in the last line. The reports stay in $B/check/,
-# with the time of every test. B: where it was built; REPORTS: another place for them; PM_WRAP: a command put before each unit test (valgrind).
+# with the time of every test. B: the build directory; REPORTS: another place for the reports; PM_WRAP: a command put before each unit test (valgrind).
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -11,7 +11,7 @@ reports=${REPORTS:-$B/check}
 export PM_BIN reports
 export LC_ALL=C OMP_WAIT_POLICY=passive # waiting threads must not occupy the cores of the other stages of a pipe
 
-# suites [FILE...]: the files of tests, one a line. The long ones come first, so that no core is idle at the end.
+# suites [FILE...]: the test files, one per line. The long ones come first, so that no core is idle at the end.
 suites() {
 	local f
 	if [ $# = 0 ]; then
@@ -25,7 +25,7 @@ suites() {
 	if [ $# = 0 ] || [[ " $* " == *" unit "* ]] || [ "$B" != build ]; then ls -S tests/unit/*.c; fi
 }
 
-# suite FILE: its report, then its failures. A file that does not parse, a run cut short and a program that dies count as failures.
+# suite FILE: its report, then its failures. A file that does not parse, an incomplete run and a program that crashes count as failures.
 suite() {
 	local name=${1#tests/} report status planned seen
 	name=${name%.*}
@@ -49,10 +49,10 @@ suite() {
 }
 export -f suite
 
-# count PATTERN: the lines of all reports that match it.
+# count PATTERN: the number of lines in all reports that match it.
 count() { cat "$reports"/*.tap 2>/dev/null | grep -cE "$1"; }
 
-# Until its standard input is closed: a line every ten seconds (EVERY).
+# Prints a line every ten seconds (EVERY) until its standard input is closed.
 signs_of_life() {
 	local finished
 	while read -r -t "${EVERY:-10}"; [ $? -gt 128 ]; do
@@ -65,7 +65,7 @@ signs_of_life() {
 # The files that differ from the commit, except build/ and bin/.
 tree() { git status --porcelain --ignored --untracked-files=all 2>&1 | grep -vE '^!! (build|bin)/'; }
 
-# The tests leave the tree as it was. $1: the tree before.
+# Tests that the tests leave the tree as it was. $1: the tree before.
 tree_test() {
 	local now
 	if ! git rev-parse --git-dir >/dev/null 2>&1; then
@@ -80,7 +80,7 @@ tree_test() {
 
 rm -rf "$reports"
 mkdir -p "$reports"
-# Where python3 is a script that looks for one (pyenv: 0.1 s), the tests, which start it a thousand times, use the real python3.
+# If python3 is a wrapper script (pyenv: 0.1 s per start), the tests, which start it a thousand times, use the real python3.
 python=$(python3 -c 'import sys; print(sys.executable)' 2>/dev/null)
 if [ -n "$python" ] && ! [ "$python" -ef "$(command -v python3)" ]; then
 	mkdir "$reports/bin"

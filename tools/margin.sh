@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # margin: how far a run is from the edge. A number in a sentence is bisected until the value is closed in at which the run stops being stable; two numbers make
-# a map. A run is unstable if it meets a criterion over diag's columns (cycle --until) or a word exits 3. A script, for all it does is to start programs and to
-# wait for them. The Makefile puts the files it reads from lib/shell/ into bin/margin.
+# a map. A run is unstable if a criterion on diag's columns becomes true (cycle --until) or a word exits 3. A script, because it only starts programs and
+# waits for them. The Makefile inserts the files it reads from lib/shell/ into bin/margin.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 export LC_ALL=C
@@ -30,33 +30,33 @@ summary="how far a run is from the edge: the value of a number at which it stops
 kind="runs sentences and writes text"
 arguments=SENTENCE
 arguments_text="Words joined by |, in quotes, that leave a stream; {name} stands for the numbers and choices of --vary, {seed} for a seed."
-about="--vary dt:0.1:4 is bisected between its ends, which are tried first: a limit that they do not enclose is not made up, but said. --vary scheme=rk2,rk4, or
+about="--vary dt:0.1:4 is bisected between its end points, which are tried first; if they do not enclose a limit, the table says so. --vary scheme=rk2,rk4, or
 braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag (energy > 10*energy0; NAME0 is the
 value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not finite, not converged). Any other failure ends the search with its
 message. With {seed} in the sentence every limit is found for --seeds seeds. Two ranges make a map: stable or not on a grid of --map points, and the boundary refined.
 
 With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnuplot: growth per step on both sides of the limit, or the map) and index.html, a page of
-one file; what was run is kept there, and the same command goes on where it stopped."
+one file; the results are kept there, and the same command continues a search that was stopped."
 rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; may be given several times
 u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
-e|expect|EXPRESSION||the limit of theory: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
+e|expect|EXPRESSION||the theoretical limit: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
 |from|WORD|below above|the side of the limit that is stable (default below)
-|tolerance|X||half of the bracket over the limit at which it is good enough (default 1e-3)
+|tolerance|X||bisect until half the bracket, relative to the limit, is at most X (default 1e-3)
 |seeds|N||how many seeds {seed} stands for: 1, 2, ... (default 3)
 |column|NAME||the column of diag whose growth is drawn (default: the first name of --unstable-when)
 |map|SIZE||points across and up of a map (default 24x16)
-o|output|DIRECTORY||write the results there, and go on from what is there
+o|output|DIRECTORY||write the results there, and continue from earlier ones
 j|jobs|N||runs at a time (default 1)
 |format|WORD|table tsv json|what is printed (default table)
 |list|||print the sentences, and run nothing
-|fresh|||forget what was run before in the directory of -o
+|fresh|||discard earlier results in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
 examples="The step at which a leapfrog on a spring leaves the orbit; 2 in theory|margin 'printf \"x vx\\n1 0\\n\" | stab - --law free | cycle -n 100 \"push --dt {dt} kick/2 drift | field acc=-x | push kick/2\"' --vary dt:0.5:4 --expect 2 --unstable-when 'distance_max > 100' --tolerance 0.01
 Two schemes on the imaginary axis, each with its own limit|margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 --vary scheme=lsrk3,rk4 --expect 'lsrk3=sqrt(3),rk4=2*sqrt(2)' --unstable-when 'distance_max > 2' --tolerance 0.02"
 
 number='[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?'
 
-# The ranges apart from the choices.
+# Separates the ranges from the choices.
 axes() {
 	local v
 	axis_name=() axis_low=() axis_high=() axis_scale=() choices=()
@@ -104,7 +104,7 @@ settle() {
 	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
 }
 
-# The sentences, in which the numbers are still open.
+# The sentences, in which the numbers are not yet inserted.
 understand() {
 	local template=${positional[0]//$'\n'/ } n open=() w cycles=0
 	for n in ${has_seed:+seed} "${axis_name[@]}"; do open+=("$n=$mark$n$mark"); done

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # pareto: what accuracy costs in time. Every combination of the alternatives in a sentence is run, its error measured against a reference and its seconds
-# word by word; the Pareto front is what no other combination beats in both. A script, for all it does is to start programs and to wait for them: bash
-# runs the words as the user's shell would, awk sums. The Makefile puts the files it reads from lib/shell/ into bin/pareto.
+# word by word; the Pareto front are the combinations that no other beats in both. A script, because it only starts programs and waits for them: bash
+# runs the words as the user's shell would, awk sums. The Makefile inserts the files it reads from lib/shell/ into bin/pareto.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 export LC_ALL=C
@@ -26,27 +26,27 @@ summary="what accuracy costs in time: error against seconds of all the alternati
 kind="runs sentences and writes text"
 arguments=SENTENCE
 arguments_text="Words joined by |, with alternatives in braces, in quotes."
-about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may hold |; \\{ \\} \\, are the signs themselves. --vary kernel=cic,tsc
-gives {kernel} one value for every place it has (linked choices). The words before the first brace are run once, and no sentence is charged
-for them; what several sentences begin with behind them is run once a round and charged to each. One word runs at a time. The seconds are the
-words' own (--timing; the processor's of a word that has no such option), in rounds over all sentences: the median counts, half the range is the spread.
-Set-up, and the largest memory of one word, stand apart. A sentence that fails is reported and does not stop the others.
+about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may contain |; \\{ \\} \\, are the literal characters. --vary kernel=cic,tsc
+gives {kernel} the same value everywhere in the sentence (linked choices). The words before the first brace are run once, and no sentence is charged
+for them; after that, a beginning that several sentences share is run once per round and charged to each. One word runs at a time. The seconds are those
+that the words report (--timing; for a word without this option its CPU time), in rounds over all sentences: the result is the median, the spread half the
+range. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not stop the others.
 
-With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; what was measured is kept there, and the
-same command goes on where it stopped."
+With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; the results are kept there, and the
+same command continues a sweep that was stopped."
 rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
 f|field|NAME||compare these fields, with commas between (default: all)
-|set|NAME||compare what is on these sets or meshes only
-|norm|WORD|l1 l2 max relative_l2 relative_max|the norm of scmp that is the error (default relative_l2); the largest over fields and frames counts
+|set|NAME||compare only fields on these sets or meshes
+|norm|WORD|l1 l2 max relative_l2 relative_max|the norm of scmp used as the error (default relative_l2), the largest over fields and frames
 |vary|TEXT||name=value,value,...: what {name} stands for; may be given several times
-o|output|DIRECTORY||write the results there, and go on from what is there
+o|output|DIRECTORY||write the results there, and continue from earlier ones
 |repeat|N||rounds of timing (default 3)
-j|jobs|N||only errors, without seconds: run so many sentences at a time (GNU parallel)
+j|jobs|N||only errors, without seconds: run N sentences at a time (GNU parallel)
 |until-error|X||print the cheapest sentence with at most this error, and nothing else
 |within|TEXT||print the most accurate sentence of at most this cost, as 2s, 50ms or 1.5min, and nothing else
 |tsv|||print the table as TSV
 |list|||print the sentences, and run nothing
-|fresh|||forget what was measured before in the directory of -o
+|fresh|||discard earlier results in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
 examples="Two kernels and two meshes: errors of the force against the direct sum|pareto 'pinit plummer -n 200 | p2m --kernel {cic,tsc} -n {8,16} | poisson-fft | mgrad | m2p' --against pp --field acc --repeat 1
 The same kernel for the way to the mesh and back; only errors|pareto 'pinit uniform -n 99 | p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p --kernel {k}' --vary k=ngp,tsc --against finest --field acc --repeat 1 --tsv"
@@ -75,7 +75,7 @@ settle() {
 	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
 }
 
-# The sentences, what they begin with, and the tree of what follows.
+# The sentences, their common beginning, and the tree of the remaining words.
 understand() {
 	local template=${positional[0]//$'\n'/ } w
 	words "$template"
@@ -91,7 +91,7 @@ understand() {
 	refer
 }
 
-# open_state: the directory of results and what is known there, or one that goes away again.
+# open_state: the directory of results with its log, or a temporary one.
 open_state() {
 	work_directory
 	state=$work

@@ -4,7 +4,7 @@
 
 #include "mesh/grid.h"
 
-/* Number of the cell each position lies in, tile by tile as p2m works (transfer_tile.h), x fastest; a periodic axis wraps, beyond any other face the last
+/* Number of the cell each position lies in, tile by tile as p2m works (transfer-tile.h), x fastest; a periodic axis wraps, beyond any other face the last
  * cell counts. x[0..dim-1] of n values. */
 void pm_keys_of_cells(const struct pm_grid *g, size_t n, const double *const x[], uint64_t *key);
 void pm_keys_of_reals(size_t n, const double *y, uint64_t *key); /* ascending; -0 is 0 */

@@ -1,4 +1,4 @@
-/* The driver of the iterative methods of lib/relax: lap phi = c*s on the nodes of a mesh (relax.c; docs/methods/poisson-relax.md).
+/* The driver of the iterative methods of lib/relax: lap phi = c*s on the nodes of a mesh (relaxation.c; docs/methods/poisson-relax.md).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_RELAX_RELAXATION_H
 #define PM_POISSON_RELAX_RELAXATION_H

@@ -1,11 +1,11 @@
 # shellcheck shell=bash
-# Bisection as a function of the log: what it knows is gone through from the ends again each time, and what it does not know yet is asked for. So a stopped
-# search goes on, and a finer --tolerance begins where the coarser one ended. SPDX-License-Identifier: GPL-3.0-or-later
+# Bisection computed from the log: each call repeats the bisection from the end points with the recorded trials, and requests the first one that is missing.
+# So a stopped search can be continued, and a finer --tolerance starts where the coarser one ended. SPDX-License-Identifier: GPL-3.0-or-later
 
-# look WHAT: from $state/log, lines
-#   ask MEMBER SEED VALUE            what has to be tried next
-#   limit MEMBER SEED LOW HIGH       closed in
-#   none MEMBER SEED WHY             no limit between the ends, and what they do
+# look WHAT: prints, from $state/log, lines
+#   ask MEMBER SEED VALUE            the trial to run next
+#   limit MEMBER SEED LOW HIGH       the final bracket
+#   none MEMBER SEED WHY             no limit between the end points, and whether they are stable
 # WHAT sample: instead "ask MEMBER SEED VALUE" and "grow MEMBER SEED VALUE STEPS" for a curve of growth on both sides of the first seed's limit.
 look() {
 	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v scale="${axis_scale[0]}" \
@@ -34,7 +34,7 @@ look() {
 		had[x] = 1; x = text(x)
 		if (!((m, s, x) in is)) print "ask", m, s, x
 		else if (!((m, s, x) in grew)) print "grow", m, s, x, step[m, s, x] }
-	# All over the range, and close to the limit l.
+	# Nine points over the range, and twelve close to the limit l.
 	function curve(m, s, l,    i, near) {
 		if (s != 1) return
 		split("", had)
@@ -45,7 +45,7 @@ look() {
 	END { for (m = 0; m < members; m++) for (s = 1; s <= seeds; s++) search(m, s) }' "$state/log" 3>"$work/brackets"
 }
 
-# Tries what is asked for until nothing is.
+# Runs the requested trials until there are no more requests.
 search() {
 	local line lines asked=() a b
 	while :; do
@@ -66,7 +66,7 @@ search() {
 	done
 }
 
-# expected MEMBER: the number that --expect is for it, which awk reads; of a list name=number,name=number the one whose name is a choice of the member.
+# expected MEMBER: the value of --expect for this member, computed by awk; of a list name=number,name=number the one whose name is a choice of the member.
 expected() {
 	local e=${reference[$1]} one=() d arithmetic='^[A-Za-z0-9_.+*/^%() ,?:=!-]*$'
 	if [[ $e =~ ^[[:space:]]*[A-Za-z0-9_.-]+[[:space:]]*=[^=] ]]; then
@@ -79,16 +79,16 @@ expected() {
 		done
 	fi
 	[ -n "$e" ] || return 0
-	# awk could write files and run programs: of its signs only those of arithmetic go there
+	# awk could write files and run programs, so only the characters of arithmetic are passed to it
 	[[ $(sed 's/"[A-Za-z0-9_. -]*"//g' <<<"$e") =~ $arithmetic ]] || usage "--expect: '$e' has signs that are none of arithmetic"
-	# awk takes a name that it does not know for 0, and writes what is not finite as inf or nan
+	# awk reads unknown names as 0 and prints non-finite numbers as inf or nan
 	one=$(! grep -oE '[0-9.]+([eE][-+]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*' <<<"$(sed 's/"[^"]*"//g' <<<"$e")" | grep -E '^[A-Za-z_]' | grep -qvxE 'pi|sqrt|exp|log|sin|cos|atan2' &&
 		awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"$e"') }' 2>/dev/null) && [[ $one =~ ^-?[0-9] ]] ||
 		usage "--expect: '$e' is not a number (2, 2*sqrt(2), {name}^2/2, or rk2=2,rk4=2.785 for choices)"
 	printf %s "$one"
 }
 
-# The result: a line per member. Uncertainty: half of the bracket, and half of the range over the seeds.
+# The result: a line per member. Uncertainty: half the bracket plus half the range over the seeds.
 tsv() {
 	local m d
 	for m in "${!sentence[@]}"; do
@@ -101,7 +101,7 @@ tsv() {
 	function median(v, n,    i, j, t) {
 		for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j] < v[j-1]; j--) { t = v[j]; v[j] = v[j-1]; v[j-1] = t }
 		return n % 2 ? v[(n+1)/2] : (v[n/2] + v[n/2+1]) / 2 }
-	# Two digits, upwards: an uncertainty must not be rounded below itself.
+	# Rounded up to two digits: an uncertainty must not be rounded down.
 	function up(x,    e, k) { if (x <= 0) return 0; e = 10 ^ (int(log(x) / log(10) + 100) - 101); k = int(x / e); if (k < x / e * (1 - 1e-12)) k++; return sprintf("%.3g", k * e) }
 	FILENAME != "-" && $1 == "member" { want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS; count++; next }
 	FILENAME != "-" { if ($1 == "trial") { k = ++runs[$2]; seed[$2, k] = $3; at[$2, k] = $4; was[$2, k] = $5 } next }

@@ -1,11 +1,11 @@
 # shellcheck shell=bash
-# Sentences with alternatives: {a,b,c} splits at the commas directly inside, nests, and may hold |; \{ \} \, are the signs themselves;
-# {name} stands for the value of --vary name=a,b,c wherever it is (linked choices). `sentences TEMPLATE VARY...` sets sentence[], and of the choices
-# choice_name[] and chosen[member * choices + choice]. The last choice runs fastest; of equal sentences the first is kept. last_member is that of the last
-# choices.
+# Sentences with alternatives: {a,b,c} splits at the commas directly inside, nests, and may contain |; \{ \} \, are the literal characters;
+# {name} stands for the value of --vary name=a,b,c wherever it occurs (linked choices). `sentences TEMPLATE REFERENCE VARY...` sets sentence[], choice_name[]
+# and chosen[member * choices + choice]. The last choice varies fastest; of equal sentences the first is kept. last_member is the member with the last
+# alternative of every choice.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# The escaped signs wait as control characters until everything is expanded.
+# Escaped characters are replaced by control characters until everything is expanded.
 hide_escapes() {
 	text=${1//'\{'/$'\001'}
 	text=${text//'\}'/$'\002'}
@@ -28,8 +28,8 @@ piece() {
 	pieces+=("$text")
 }
 
-# group TEXT BEFORE: of a text that begins with { sets end to the place of its }, pieces to what stands between its commas. Blanks around them do not count, but
-# the one that parts an option from the word before the brace does: a{, --b}.
+# group TEXT BEFORE: TEXT begins with {; sets end to the index of the matching }, pieces to the alternatives between its commas. Blanks around them are
+# removed, except one that separates an option from the word before the brace: a{, --b}.
 group() {
 	local i depth=0 from=1 behind_word=
 	pieces=()
@@ -52,7 +52,7 @@ no_stray() {
 	usage "a } without its { in '$text' (\\} for the sign itself)"
 }
 
-# known NAME: is it a name of --vary?
+# known NAME: succeeds if it is a name of --vary.
 known() {
 	local n
 	for n in "${vary_name[@]}"; do
@@ -62,7 +62,7 @@ known() {
 	usage "'{$text}' is neither alternatives, which have a comma, nor a name of --vary (\\{ for the sign itself)"
 }
 
-# expand TEXT [BEFORE]: sets expanded to all it can be; names stay.
+# expand TEXT [BEFORE]: sets expanded to all expansions of TEXT; {name} is left as it is.
 expand() {
 	local s=$1 before='' head one all=() last=() parts=()
 	while [[ $s == *'{'* ]]; do
@@ -103,7 +103,7 @@ add_choice() {
 	alternative+=("$@")
 }
 
-# link_names TEXT: the names in it become choices, once.
+# link_names TEXT: makes each {name} in it a choice, once.
 link_names() {
 	local i
 	for i in "${!vary_name[@]}"; do
@@ -120,7 +120,7 @@ link_names() {
 	done
 }
 
-# What a choice is called: the option before it, "word" where a word begins, else "choice".
+# The name of a choice: the option before it, "word" at the beginning of a word, else "choice".
 name_of() {
 	if [[ $1 =~ (^|[[:space:]])--?([A-Za-z][A-Za-z0-9-]*)[=[:space:]]+$ ]]; then
 		name=${BASH_REMATCH[2]}
@@ -131,7 +131,7 @@ name_of() {
 	fi
 }
 
-# parse TEMPLATE: segment[] is the text before each choice without a name, then the rest.
+# parse TEMPLATE: sets segment[] to the text before each brace with alternatives, then the rest.
 parse() {
 	local s=$1 head before='' parts
 	segment=() segment_choice=()
@@ -167,7 +167,7 @@ vary_read() {
 	done
 }
 
-# with_names TEXT: the values of this member in place of the names, the hidden signs shown; sets text.
+# with_names TEXT: sets text to TEXT with the values of this member in place of the names and the escaped characters restored.
 with_names() {
 	local i t=$1
 	for i in "${!linked[@]}"; do
@@ -176,7 +176,7 @@ with_names() {
 	show_escapes "$t"
 }
 
-# quoting TEXT: sets quote to the quote that is open behind TEXT.
+# quoting TEXT: sets quote to the quotation mark that is still open at the end of TEXT.
 quoting() {
 	local i
 	quote=
@@ -189,14 +189,14 @@ quoting() {
 	done
 }
 
-# with_data TEXT: as with_names, for a sentence, which a shell parses: there a value is one word, whatever its signs.
+# with_data TEXT: as with_names, for a sentence, which a shell parses: a value is quoted so that it stays one word.
 with_data() {
 	local i t=$1 name v before done quote q="'" plain='^[A-Za-z0-9_./:+,@%^-]*$'
 	for i in "${!linked[@]}"; do
 		name="{${vary_name[i]}}"
 		show_escapes "${value[linked[i]]}"
 		v=$text
-		if [[ ${v//$'\004'/} =~ $plain ]]; then # margin's marks are plain, too
+		if [[ ${v//$'\004'/} =~ $plain ]]; then # the marks of margin need no quotes either
 			t=${t//"$name"/"$v"}
 			continue
 		fi
@@ -205,7 +205,7 @@ with_data() {
 			before=$done${t%%"$name"*}
 			t=${t#*"$name"}
 			quoting "$before"
-			# shellcheck disable=SC2016 # signs of the shell that runs the sentence
+			# shellcheck disable=SC2016 # for the shell that runs the sentence
 			if [[ $before == *'`'* || $before == *'$('* || $before == *'<('* || $before == *'>('* || $before == *'${'* ]]; then
 				usage "--vary ${vary_name[i]}: '$v' cannot stand behind a \$( ) of the sentence (write the alternatives into the sentence, in braces)"
 			elif [[ -n $quote && $v == *[\'\"\\\$\`\|]* ]]; then
@@ -218,7 +218,7 @@ with_data() {
 	show_escapes "$t"
 }
 
-# The member whose places among the alternatives are at[]: its sentence, unless it is there already.
+# Adds the member with the alternatives at[], unless the same sentence exists already.
 add_member() {
 	local d s=''
 	value=()
@@ -242,7 +242,7 @@ add_member() {
 	reference+=("$text")
 }
 
-# sentences TEMPLATE REFERENCE VARY...: also reference[], the second text with the names of each member in it.
+# sentences TEMPLATE REFERENCE VARY...: also sets reference[], REFERENCE with the values of each member.
 sentences() {
 	local d at=() value=() reference_template
 	local -A there=()
@@ -268,7 +268,7 @@ sentences() {
 	done
 }
 
-# words TEXT: sets word[] to what stands between the | outside quotes, braces and parentheses.
+# words TEXT: splits TEXT into word[] at each | outside quotes, braces and parentheses.
 words() {
 	local i c quote='' depth=0 from=0
 	word=()
@@ -296,7 +296,7 @@ words() {
 	done
 }
 
-# join WORDS...: sets text to the sentence.
+# join WORDS...: sets text to the words joined by |.
 join() {
 	text=$1
 	shift

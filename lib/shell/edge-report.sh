@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What margin leaves behind: the table on standard output, and with -o TSV, JSON, pictures and the page. SPDX-License-Identifier: GPL-3.0-or-later
+# The output of margin: the table on standard output, and with -o TSV, JSON, pictures and the page. SPDX-License-Identifier: GPL-3.0-or-later
 
-# show TABLE-COMMAND TSV NAME: what was asked for, on standard output.
+# show TABLE-COMMAND TSV NAME: prints the result in the chosen format.
 show() {
 	case $format in
 	tsv) cat "$2" ;;

@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# From a sweep's log to its result: the table of all members with the Pareto front (no other member is both cheaper and more accurate), as TSV, text,
-# picture and page. SPDX-License-Identifier: GPL-3.0-or-later
+# Makes the result of a sweep from its log: the table of all members with the Pareto front (members to which no other is both cheaper and more accurate),
+# as TSV, text, picture and page. SPDX-License-Identifier: GPL-3.0-or-later
 
-# members: a line per member: number, path, chosen..., sentence.
+# members: prints a line per member: number, path, chosen..., sentence.
 members() {
 	local m d
 	for m in "${!sentence[@]}"; do
@@ -12,7 +12,7 @@ members() {
 	done
 }
 
-# The seconds of a member in a round are the sum over its path; the median over the rounds counts, half their range is the spread.
+# The seconds of a member in a round are the sum over its path; its result is the median over the rounds, its spread half their range.
 tsv() {
 	local names d
 	names=$(for d in "${choice_name[@]}"; do printf '%s\t' "$d"; done)
@@ -48,7 +48,7 @@ tsv() {
 		status[m] = why[m] != "" ? "failed" : $1 == reference_member ? "reference" : "ok"
 		tail[m] = $3; for (i = 4; i <= NF; i++) tail[m] = tail[m] OFS $i
 	}
-	# Not a number, or infinite, is worse than everything.
+	# A NaN or infinite error ranks below every finite one.
 	function finite(x) { return x ~ /[0-9]/ && x !~ /[nN][aA][nN]|[iI][nN][fF]/ }
 	function beats(a, b) { return status[a] == "ok" && finite(e[a]) && (!finite(e[b]) || e[a] <= e[b]) && sec[a] <= sec[b] && (e[a] < e[b] || sec[a] < sec[b] || !finite(e[b]) || id[a] < id[b]) }
 	END {
@@ -56,7 +56,7 @@ tsv() {
 		for (m = 1; m <= NR; m++) {
 			front = "-"; by = "-"
 			if (status[m] == "ok" && sec[m] != "-") {
-				# Named is the one that is farthest ahead in the product of error and seconds.
+				# Of the members that dominate m, the one with the smallest product of error and seconds is named.
 				best = 0
 				for (b = 1; b <= NR; b++) if (b != m && sec[b] != "-" && beats(b, m) && (!best || e[b] * sec[b] < e[best] * sec[best])) best = b
 				front = best ? "no" : "yes"; if (best) by = id[best] + 1
@@ -72,7 +72,7 @@ tsv() {
 	}
 }
 
-# The table for people: the front with a star, then what never is on it, then what failed.
+# The table as text: the front marked with a star, then the alternatives that are never on it, then the failures.
 table() {
 	awk -F'\t' -v choices=${#choice_name[@]} -v norm="$norm" -v field="${field:-all fields}" -v against="$against" -v errors_only="${jobs:+1}" '
 	function cell(r, c, text) { t[r, c] = text; if (length(text) > w[c]) w[c] = length(text) }
@@ -105,7 +105,7 @@ table() {
 	}' "$1"
 }
 
-# The picture: error against seconds, the front as steps, its members with their choices, the others with their number.
+# The picture: error against seconds, the front as a step line, its members labelled with their choices, the others with their number.
 points() {
 	awk -F'\t' -v choices=${#choice_name[@]} -v front="$2" -v OFS='\t' 'NR > 1 && $2 == "ok" && $3 == front && $5 > 0 && $11 > 0 {
 		label = $1
@@ -125,7 +125,7 @@ plot() {
 	draw "$dir" pareto.gp
 }
 
-# Without seconds: a line a member with its choices, the smallest error on top.
+# The picture without seconds: a line per member with its choices, the smallest error at the top.
 plot_errors() {
 	local rows
 	rows=$(awk -F'\t' -v choices=${#choice_name[@]} 'NR > 1 && $2 == "ok" && $5 > 0 && $5 !~ /inf/ {
@@ -190,7 +190,7 @@ set output "pareto.png"
 GP
 }
 
-# Every command as run, to be pasted into a shell: what lay in a directory that is gone is written into the one it is pasted in.
+# Every command that was run, ready to be pasted into a shell: files of the temporary working directory are replaced by files in the current directory.
 commands() {
 	local m n before start='' i argument
 	local -A said=()
@@ -262,7 +262,7 @@ page() {
 	} >"$dir/index.html"
 }
 
-# choose TSV: the cheapest sentence that is accurate enough, or the most accurate that is cheap enough.
+# choose TSV: prints the cheapest sentence within --until-error, or the most accurate one --within the cost.
 choose() {
 	awk -F'\t' -v choices=${#choice_name[@]} -v until="$until" -v within="$within_seconds" -v me=$me '
 		NR > 1 && $2 == "ok" && $5 !~ /nan|inf/ {

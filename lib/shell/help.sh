@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What a tool in shell says of itself and how it reads its options: help, manual page, completion, examples from one table of rows, in the form
-# of the tools in C (lib/stage/help.c, options.c). The tool sets me, summary, arguments, arguments_text, kind, about, examples (lines
-# "TEXT|COMMAND") and rows (lines "letter|name|VALUE|choices|text"); options --a-b TEXT end up in opt_a_b.
+# Help, manual page, completion, examples and option parsing of the tools in shell, from one table of rows, in the form of the tools in C
+# (lib/stage/help.c, options.c). The tool sets me, summary, arguments, arguments_text, kind, about, examples (lines
+# "TEXT|COMMAND") and rows (lines "letter|name|VALUE|choices|text"); the value of --a-b is stored in opt_a_b.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 common_rows='|verbose|||say on standard error what is done
@@ -11,7 +11,7 @@ h|help|||print this help
 |complete|||print the options with their choices, for completion
 |version|||print the version'
 
-# fail STATUS TEXT...: one line, and out.
+# fail STATUS TEXT...: prints one line and exits.
 fail() {
 	local status=$1
 	shift
@@ -79,7 +79,7 @@ print_and_go() {
 	exit
 }
 
-# nearest NAME WORDS...: the word fewest slips away (letters left out, put in, replaced, exchanged), if these are at most two.
+# nearest NAME WORDS...: the word at the smallest edit distance (deletions, insertions, replacements, transpositions), if that is at most two.
 nearest() {
 	awk 'BEGIN { a = ARGV[1]; n = length(a); best = 3
 		for (w = 2; w < ARGC; w++) { b = ARGV[w]; m = length(b)
@@ -100,7 +100,7 @@ unknown() {
 	usage "no option '$1' (${near:+did you mean $near? }$me --help lists them)"
 }
 
-# take NAME VALUE KIND CHOICES: keeps the value, if it is one.
+# take NAME VALUE KIND CHOICES: stores the value if it is valid.
 take() {
 	local name=$1 value=$2 var=opt_${1//-/_} near
 	[[ $value != *[[:cntrl:]]* ]] || usage "option '--$name': a line break, a tab or another control character does not belong there"

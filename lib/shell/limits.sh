@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What margin found, for people and programs: table, JSON, the picture of growth against the parameter, the page.
+# The limits that margin found as a table, as JSON, as a picture of growth against the parameter, and as a page.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 conditions() {
@@ -26,7 +26,7 @@ table() {
 		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " "; print found[i] ? s why[i] : "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
 }
 
-# Any table of tabs as JSON: numbers stay numbers, "-" is null.
+# Any tab-separated table as JSON: numbers stay numbers, "-" becomes null.
 json_rows() {
 	awk -F'\t' 'function quote(s) { gsub(/\\/, "\\\\&", s); gsub(/"/, "\\\"", s); gsub(/[\001-\037]/, " ", s); return "\"" s "\"" }
 	function value(s) { return s == "-" ? "null" : s ~ /^-?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?$/ ? s : quote(s) }
@@ -41,7 +41,7 @@ json() {
 	printf ']}\n'
 }
 
-# curve MEMBER: value and growth, sorted.
+# curve MEMBER: prints value and growth, sorted by value.
 curve() { awk -F'\t' -v OFS='\t' -v m="$1" '$1 == "growth" && $2 == m && $3 == 1 && $5 != "-" { print $4, $5 }' "$state/log" | sort -g; }
 
 # name_of_member MEMBER: its choices in words.
@@ -73,7 +73,7 @@ plot() {
 	draw "$dir" margin.gp
 }
 
-# Every command as run, in the order of the log.
+# Every command that was run, in the order of the log.
 commands() {
 	local what m s x rest one
 	while IFS=$'\t' read -r what m s x rest; do

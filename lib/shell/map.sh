@@ -1,15 +1,15 @@
 # shellcheck shell=bash
-# Two parameters at once: stable or not on a grid of points, then the boundary: wherever two neighbours differ, the place between them by bisection to
-# 1/32 of their distance, joined to lines cell by cell. Again a function of the log. SPDX-License-Identifier: GPL-3.0-or-later
+# A map of two parameters: stable or not on a grid of points, then the boundary: between two neighbours that differ it is bisected to
+# 1/32 of their distance, and the crossings are joined to lines cell by cell. Computed from the log, as in bisect.sh. SPDX-License-Identifier: GPL-3.0-or-later
 
-# look_map WHAT: "ask MEMBER SEED X,Y" while something is missing; then of WHAT points "MEMBER X Y OUTCOME STEP", of WHAT lines "MEMBER X1 Y1 X2 Y2".
+# look_map WHAT: "ask MEMBER SEED X,Y" while trials are missing; then for WHAT points "MEMBER X Y OUTCOME STEP", for WHAT lines "MEMBER X1 Y1 X2 Y2".
 look_map() {
 	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v w="$map_width" -v h="$map_height" -v x0="${axis_low[0]}" -v x1="${axis_high[0]}" -v xs="${axis_scale[0]}" \
 		-v y0="${axis_low[1]}" -v y1="${axis_high[1]}" -v ys="${axis_scale[1]}" '
 	function text(x) { x = sprintf("%.10g", x); return x == "-0" ? "0" : x }
 	function place(a, b, scale, i, n) { return text(scale == "log" ? a * (b / a) ^ (i / n) : a + (b - a) * i / n) }
 	function asked(m, x, y) { if ((m, x "," y) in is) return 0; print "ask", m, 1, x "," y; return 1 }
-	# The crossing on an edge, its ends along one axis; at[] is "" where there is none, "?" where something was asked for.
+	# The crossing on an edge, whose end points differ along one axis; at[] is "" if there is none, "?" if a trial was requested.
 	function cross(m, a, b, other, along, scale,    k, mid, first, p) {
 		p = along == "x"
 		first = is[m, p ? a "," other : other "," a]
@@ -66,7 +66,7 @@ tsv_boundary() {
 	printf '%s\t%s\t%s_2\t%s_2\n' "${axis_name[0]}" "${axis_name[1]}" "${axis_name[0]}" "${axis_name[1]}"
 	rows_of_members < <(look_map lines)
 }
-# The number of a member gives way to its choices.
+# Replaces the number of a member by its choices.
 rows_of_members() {
 	local m d rest
 	while IFS=$'\t' read -r m rest; do
@@ -75,7 +75,7 @@ rows_of_members() {
 	done
 }
 
-# The map in letters, the second axis upwards.
+# The map as text, the second axis upwards.
 table_map() {
 	local m
 	echo "o stable, . unstable: ${criterion:+$criterion, or }exit status 3; ${axis_name[0]} from ${axis_low[0]} to ${axis_high[0]} across, ${axis_name[1]} from ${axis_low[1]} to ${axis_high[1]} upwards"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What the pages and pictures of the tools in shell share: one file of HTML that holds everything itself, with the machine, the versions and every command
-# as run; gnuplot's terminals. The tool defines `commands`, which prints the commands. SPDX-License-Identifier: GPL-3.0-or-later
+# Pages and pictures of the tools in shell: one self-contained HTML file with the machine, the versions and every command that was run;
+# gnuplot's terminals. The tool defines `commands`, which prints the commands. SPDX-License-Identifier: GPL-3.0-or-later
 
 escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g'; }
 
@@ -30,7 +30,7 @@ page_foot() {
 
 inline_svg() { sed '/^<?xml/d; /^<!DOCTYPE/,/>$/d' "$1"; }
 
-# Sets png to the terminal that there is.
+# Sets png to the terminal that this gnuplot has.
 terminal() {
 	png=png
 	! echo 'set terminal pngcairo' | gnuplot >/dev/null 2>&1 || png=pngcairo

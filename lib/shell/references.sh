@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What the members of a sweep are compared with, and what they all begin with: run once. SPDX-License-Identifier: GPL-3.0-or-later
+# The references of a sweep and the common beginning of all its members, each run once. SPDX-License-Identifier: GPL-3.0-or-later
 
-# Which reference each member has; several only where names of --vary are in it.
+# Assigns a reference to each member; there are several only if the reference contains names of --vary.
 refer() {
 	local m
 	local -A number=()
@@ -20,7 +20,7 @@ refer() {
 	fi
 }
 
-# What every member begins with, and what they are compared with, once.
+# Runs the common beginning and the references.
 prepare() {
 	local i status
 	first_input=/dev/null

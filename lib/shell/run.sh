@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# What the tools that run sentences share: a directory to work in, why a sentence failed, the log of what is known, how a run is stopped. A shell parses the
-# sentence and nothing else: values of options, names of files and the log are data. SPDX-License-Identifier: GPL-3.0-or-later
+# Shared by the tools that run sentences: the working directory, the reason of a failure, the log of results, stopping a run. Only the sentence is parsed by
+# a shell: values of options, file names and the log are data. SPDX-License-Identifier: GPL-3.0-or-later
 
-# plain_words ARGUMENTS...: sets text to the command as a person would type it; a word with other signs is put between quotes.
+# plain_words ARGUMENTS...: sets text to the command as a person would type it; words with special characters are quoted.
 plain_words() {
 	local a q="'" all=()
 	for a; do
@@ -12,18 +12,18 @@ plain_words() {
 	text="${all[*]}"
 }
 
-# gnuplot_text TEXT: as a string of gnuplot, which runs what stands between backquotes in its other kind of string.
+# gnuplot_text TEXT: as a single-quoted gnuplot string; in double-quoted ones gnuplot runs the text between backquotes.
 gnuplot_text() {
 	local q="'"
 	printf "'%s'" "${1//"$q"/"$q$q"}"
 }
 
-# work_directory: sets work, by its whole path: neither awk nor a program may take it for an option or an assignment.
+# work_directory: sets work to an absolute path, which neither awk nor a program can mistake for an option or an assignment.
 work_directory() {
 	work=$(cd -- "${TMPDIR:-/tmp}" 2>/dev/null && mktemp -d "${PWD%/}/$me.XXXXXX") || { work=; fail 1 "cannot make a directory in '${TMPDIR:-/tmp}' (TMPDIR names another place)"; }
 }
 
-# checked_log PATTERN: lines of the log that are no results are said and left out; it may come from somebody else, or end where a disk was full.
+# checked_log PATTERN: reports and drops invalid lines of the log, which may come from elsewhere or be truncated by a full disk.
 checked_log() {
 	touch -- "$state/log"
 	grep -qavE "$1" -- "$state/log" || return 0
@@ -32,7 +32,7 @@ checked_log() {
 	cat -- "$work/log" >"$state/log"
 }
 
-# why STATUS [FILE]: of what a run said, the first line that does not only pass on what another said.
+# why STATUS [FILE]: of the messages of a run, the first that does not merely forward the message of another word.
 why() {
 	local line
 	line=$(grep -v ': stopped by ' "${2:-$work/said}" | head -n 1 | tr '\t' ' ')
@@ -42,7 +42,7 @@ why() {
 
 note() { printf '%s\n' "$1" >>"$state/log"; }
 
-# Stops what runs (child, or the groups whose numbers are the keys of children), says how far it came, leaves the log.
+# Stops the running processes (child, or the process groups that are the keys of children), reports the progress, keeps the log.
 stop() {
 	local c
 	trap '' INT TERM

@@ -1,13 +1,13 @@
 # shellcheck shell=bash
-# Runs the members of a sweep. What many begin with is a node of a tree: a node is run on what the node before it left, one at a time, once in each round,
-# and its seconds are charged to every member behind it. What is known is appended to $state/log, from which a stopped sweep goes on:
+# Runs the members of a sweep. Common beginnings are nodes of a tree: a node runs on the output of its parent, one at a time, once per round,
+# and its seconds are charged to every member below it. Results are appended to $state/log, from which a stopped sweep is continued:
 #   time NODE ROUND SETUP SECONDS KB | fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Can the program append its seconds to a file?
+# Succeeds if the program has the option --timing.
 timed() {
 	local program=$1
-	while [[ $program =~ ^[A-Za-z_][A-Za-z0-9_]*= ]]; do # what is set before it
+	while [[ $program =~ ^[A-Za-z_][A-Za-z0-9_]*= ]]; do # skip assignments before the program
 		program=${program#* }
 	done
 	program=${program%%[[:space:]]*}
@@ -18,7 +18,7 @@ timed() {
 	[ "${is_timed[$program]}" = yes ]
 }
 
-# plant: a number for every node, path[member] "N N N" behind the brace-free beginning, in the order of a walk through the tree.
+# plant: numbers the nodes in the order of a walk through the tree; path[member] is "N N N", without the brace-free beginning.
 plant() {
 	local m w parent key
 	local -A number=()
@@ -39,7 +39,7 @@ plant() {
 	for m in "${!path[@]}"; do path[m]=$(printf '%s' "${path[m]}" | awk '{ for (i = 1; i <= NF; i++) printf "%s%d", (i > 1 ? " " : ""), $i }'); done
 }
 
-# run COMMAND IN OUT: in a group of its own, so that it can be stopped whole; what it says is in $work/said.
+# run COMMAND IN OUT: in its own process group, so that all of it can be stopped; its messages are in $work/said.
 run() {
 	local status=0 clock=()
 	[ -z "$time_program" ] || clock=("$time_program" -q -o "$work/clock" -f '%M %U %S')
@@ -54,21 +54,21 @@ run() {
 	return $status
 }
 
-# with_timing WORD: sets text to the command that also writes its seconds.
+# with_timing WORD: sets text to the command with --timing.
 with_timing() {
 	text=$1
 	# shellcheck disable=SC2016 # for the shell that runs it
 	! timed "$1" || text+=' --timing "$PARETO_TIMING"'
 }
 
-# Seconds of set-up, of work, and kB of the last run. cycle writes its words' seconds and then its own; a foreign word has only the processor's.
+# Seconds of set-up and of work, and kB, of the last run. cycle writes the seconds of its words and then its own; for a foreign word the CPU time is used.
 cost() {
 	awk -F'[\t]' 'FILENAME == ARGV[1] { split($0, c, " "); kb = c[1]; cpu = c[2] + c[3]; next }
 		{ own = $3; set = $2; work += $3; up += $2; n++ }
 		END { if (n > 1) { work -= own; up -= set } printf "%.9f\t%.9f\t%s\n", up, n ? work : cpu, kb + 0 }' "$work/clock" "$work/timing"
 }
 
-# run_node NODE IN ROUND: leaves $work/node.NODE; its seconds count once a round.
+# run_node NODE IN ROUND: writes $work/node.NODE; its seconds are recorded once per round.
 run_node() {
 	local status=0
 	with_timing "${node_word[$1]}"
@@ -83,7 +83,7 @@ run_node() {
 	note "time"$'\t'"$1"$'\t'"$3"$'\t'"$(cost)"
 }
 
-# The rows of scmp, or of diag beside the exact solution, to one: the largest of each norm. Sums go over the frames for the exact one.
+# Reduces the rows of scmp, or of diag --exact, to one: the largest of each norm. For diag --exact the norms are taken over the frames.
 norms_scmp() { awk -F'\t' 'NR > 1 && $2 != "-" { k++; n += $4; for (i = 5; i <= 9; i++) if (k == 1 || $i ~ /nan/ || (v[i] !~ /nan/ && $i + 0 > v[i] + 0)) v[i] = $i }
 	END { if (!k) exit 1; printf "%d", n; for (i = 5; i <= 9; i++) printf "\t%s", v[i]; print "" }'; }
 norms_exact() { awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; for (f in at) if (("exact_" f) in at) want[f] = 1; next } /^#/ { next }
@@ -93,7 +93,7 @@ norms_exact() { awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; for 
 	END { for (f in n) { k += n[f]; most(1, s[f] / n[f]); most(2, sqrt(q[f] / n[f])); most(3, m[f]); most(4, z[f] ? sqrt(q[f] / z[f]) : q[f] ? "inf" : 0); most(5, t[f] ? m[f] / t[f] : m[f] ? "inf" : 0) }
 		if (!k) exit 1; printf "%d", k; for (i = 1; i <= 5; i++) printf "\t%.10g", v[i]; print "" }'; }
 
-# compare_words MEMBER FILE: sets argument to the words that measure its error; for the exact numbers FILE is the input.
+# compare_words MEMBER FILE: sets argument to the words that measure its error; for --against exact FILE is the input.
 compare_words() {
 	if [ "$against" = exact ]; then
 		argument=(diag --exact ${field:+--columns "$field"})
@@ -102,7 +102,7 @@ compare_words() {
 	fi
 }
 
-# compare MEMBER FILE: prints the line of the log.
+# compare MEMBER FILE: prints the line for the log.
 compare() {
 	local row='' input=/dev/null argument line
 	compare_words "$1" "$2"
@@ -127,7 +127,7 @@ compare() {
 	rm -f "$2.rows" "$2.said"
 }
 
-# Is there nothing left to measure of MEMBER in ROUND?
+# Succeeds if nothing of MEMBER is left to measure in ROUND.
 is_complete() {
 	local n
 	for n in ${path[$1]}; do
@@ -137,7 +137,7 @@ is_complete() {
 	[ -n "${error_known[$1]:-}" ]
 }
 
-# visit MEMBER ROUND: what is missing on its path is run.
+# visit MEMBER ROUND: runs the missing nodes of its path.
 visit() {
 	local n from=$first_input f line
 	for f in "${held[@]}"; do
@@ -167,7 +167,7 @@ progress() {
 	fi
 }
 
-# Rounds over all members, so that what disturbs the machine for a while disturbs all alike.
+# Rounds over all members, so that a temporary load on the machine affects all alike.
 measure() {
 	local round m done_now=0 to_do=0
 	local -A wanted=()
@@ -225,7 +225,7 @@ measure_errors() {
 	[ $status = 0 ] || fail 1 "parallel: $(grep -v '^$' "$work/parallel" | tail -n 1)"
 }
 
-# recall: what the log of an earlier run knows.
+# recall: reads the results in the log of an earlier run.
 recall() {
 	local what a b rest
 	while IFS=$'\t' read -r what a b rest; do

@@ -1,13 +1,13 @@
 # shellcheck shell=bash
-# Trials: a sentence with its numbers put in is run, and was stable or not: unstable if a cycle met the criterion (cycle --until) or a word exited 3.
-# What is known is a line of $state/log, so nothing is run twice:
+# Trials: a sentence is run with given numbers. It is unstable if a cycle reached the criterion (cycle --until) or a word exited 3, else stable.
+# Each result is a line of $state/log, so nothing is run twice:
 #   trial MEMBER SEED VALUE stable|unstable STEP WHY | growth MEMBER SEED VALUE RATE POINTS (ln of the column per step; - none)
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Names that stand for numbers wait in the sentences between two of these.
+# Marks {name} of a number in the sentences until its value is inserted.
 mark=$'\004'
 
-# filled MEMBER SEED VALUE[,VALUE]: sets text to the member's sentence with its numbers.
+# filled MEMBER SEED VALUE[,VALUE]: sets text to the member's sentence with these numbers.
 filled() {
 	local i x
 	IFS=, read -r -a x <<<"$3"
@@ -15,17 +15,17 @@ filled() {
 	for i in "${!axis_name[@]}"; do text=${text//"$mark${axis_name[i]}$mark"/${x[i]}}; done
 }
 
-# shown TEXT: the names in braces again.
+# shown TEXT: sets text to TEXT with the marked names in braces again.
 shown() {
 	local t=$1 n
 	for n in seed "${axis_name[@]}"; do t=${t//"$mark$n$mark"/"{$n}"}; done
 	text=$t
 }
 
-# cycle, with what is set for it and the way to it before the name.
+# Matches cycle, with assignments and a path before the name.
 cycle_word='^(([A-Za-z_][A-Za-z0-9_]*=[^[:space:]]*[[:space:]]+)*([^[:space:]|]*/)?cycle)([[:space:]].*|)$'
 
-# with_until WORD MORE: sets text; a word that is cycle gets the criterion and MORE.
+# with_until WORD MORE: sets text to WORD; if it is cycle, with the criterion and MORE added.
 with_until() {
 	local until=$criterion
 	text=$1
@@ -34,7 +34,7 @@ with_until() {
 	text="${BASH_REMATCH[1]}${criterion:+ --until $until}$2${BASH_REMATCH[4]}"
 }
 
-# parts SENTENCE: sets part[] to the sentence cut behind every cycle but the last, with the criterion in each.
+# parts SENTENCE: sets part[] to the sentence split after every cycle but the last, with the criterion in each cycle.
 parts() {
 	local w now=() last=-1 i all
 	words "$1"
@@ -52,7 +52,7 @@ parts() {
 	part+=("$text")
 }
 
-# The commands of a trial, as they would be typed one behind the other; trial runs the same.
+# The commands of a trial as they would be typed one after the other; trial runs the same.
 trial_commands() {
 	local i before=''
 	parts "$1"
@@ -67,7 +67,7 @@ trial_commands() {
 	done
 }
 
-# judge FILE: of what sls says of the last frame, sets outcome and step.
+# judge FILE: sets outcome and step from the listing of the last frame by sls.
 judge() {
 	local line
 	line=$(tail -n 1 "$1")
@@ -76,7 +76,7 @@ judge() {
 	[[ ! $line =~ \"until\":1(\.0+)?[,}] ]] || outcome=unstable
 }
 
-# trial MEMBER SEED VALUE DIRECTORY: appends its line to the log, or leaves why it failed in $work/failure.
+# trial MEMBER SEED VALUE DIRECTORY: appends its line to the log, or writes the reason of its failure to $work/failure.
 trial() {
 	local dir=$4 i last before=/dev/null status outcome=stable step=- reason=-
 	filled "$1" "$2" "$3"
@@ -113,7 +113,7 @@ trial() {
 	[ -e "$work/failure" ] || note "trial"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"$outcome"$'\t'"$step"$'\t'"$reason"
 }
 
-# growth_sentence MEMBER SEED VALUE STEPS: sets text to the member's sentence with about a hundred frames of the run, whose column is drawn.
+# growth_sentence MEMBER SEED VALUE STEPS: sets text to the member's sentence writing about a hundred frames, from which the column is drawn.
 growth_sentence() {
 	local every=1 all=() w
 	filled "$1" "$2" "$3"

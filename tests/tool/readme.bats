@@ -122,6 +122,16 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 	[ -z "$missing" ]
 }
 
+@test "the .c and .h files that comments name are there" {
+	cd "$top"
+	grep -rhE '/\*|^ \*|# ' --include=*.[ch] --include=*.sh --include=*.bats lib tools tests bench | grep -v '#include <' |
+		grep -oE '(^|[^A-Za-z0-9_.-])[A-Za-z0-9_-]{2,}\.[ch]\b' | tr -cd 'A-Za-z0-9_.\n-' | sort -u >"$BATS_TEST_TMPDIR/named" # {2,}: k.h is a product
+	find lib tools tests bench -name '*.[ch]' -printf '%f\n' | sort -u >"$BATS_TEST_TMPDIR/there"
+	run -0 comm -23 "$BATS_TEST_TMPDIR/named" "$BATS_TEST_TMPDIR/there"
+	echo "$output"
+	[ -z "$output" ]
+}
+
 @test "every option that the README or a page names is one of a tool" {
 	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' >there
 	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/bench/*.sh >>there # of our scripts
