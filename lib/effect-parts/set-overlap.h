@@ -4,7 +4,7 @@
 
 #include "stream/frame.h"
 
-/* H has room for the set; where it has no volumes each particle has that of a cell. 0 or failure. */
+/* H has an entry per particle of the set; without volumes each particle has that of a cell. 0 or failure. */
 int pm_set_overlap(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *H);
 
 #endif

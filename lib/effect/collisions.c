@@ -1,6 +1,6 @@
-/* Collisions: encounters that a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v); charges in N_D/ln N_D plasma periods over
- * 2 pi (N_D^2 in 1-D), N_D in a sphere of the Debye length. The share is T over that time. Pairs that are summed collide by themselves, cold particles keep
- * their order.
+/* Collisions: encounters, which a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v); charges in N_D/ln N_D plasma periods over
+ * 2 pi (N_D^2 in 1-D), N_D in a sphere of the Debye length. The share is T over that time. Summing pairs includes collisions; cold particles
+ * keep their order.
  * Source: Binney and Tremaine 2008, equation 1.38; Birdsall and Langdon 1985, section 1-3; Dawson 1964, Phys. Fluids 7, 419.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
@@ -14,7 +14,7 @@ static void bodies(const struct pm_scales *s, struct pm_decision *d)
 	snprintf(d->text, sizeof d->text, "T is %.1g of the relaxation time", d->number);
 }
 
-/* Particles in a sphere of the Debye length, in a stretch of it in 1-D. */
+/* Number of particles in a sphere with the Debye length as radius, in an interval of that length in 1-D. */
 static int measure(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN])
 {
 	const struct pm_scales *s = c->scales;

@@ -1,5 +1,5 @@
 /* Currents: moving charges make a magnetic field, whose force on others is (v/c)^2 of the electric one. c is a constant of the frame; without it the
- * law is electrostatic by choice. Source: Birdsall and Langdon 1985, section 15-1. SPDX-License-Identifier: GPL-3.0-or-later */
+ * law is taken to be electrostatic. Source: Birdsall and Langdon 1985, section 15-1. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
 #include "effect-parts/effect-decision.h"

@@ -1,5 +1,5 @@
 /* Diffusion: viscosity spreads vorticity, D omega/Dt = nu lap omega. Within the time T it changes omega by nu T |lap omega|/|omega|, both in l2 on the
- * mesh; nu dt/h^2 is its part of a step. Points, which have no mesh, walk sqrt(2 nu T) while the flow takes them u T.
+ * mesh; nu dt/h^2 is its diffusion number per step. Points, which have no mesh, walk sqrt(2 nu T) while the flow moves them u T.
  * Source: Cottet and Koumoutsakos 2000, chapter 5; Chorin 1973, J. Fluid Mech. 57, 785. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -39,7 +39,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && c->scales->nu > 0; }
 
-/* On the mesh strengths after one step: later particles are distorted, and the roughness of that would diffuse too. */
+/* On the mesh compare strengths after one step: later the particles are distorted, and the resulting noise would diffuse too. */
 static void test(const struct pm_effect_case *c, struct pm_effect_test *t)
 {
 	t->of = c->method->pairs ? PM_TEST_WALK : PM_TEST_STRENGTH;

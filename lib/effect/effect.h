@@ -1,6 +1,6 @@
-/* Effects: what physics a frame may call for. One file per effect holds all that is known of it: the numbers that only it needs, whether leaving it out would
- * change the result by more than the accuracy asked for, its words with their places in the sentence and their reasons, and how its decision is tested.
- * plan (lib/planner) measures the numbers that several effects share, asks every effect, and puts their words in order; it knows none of them by name but the
+/* Effects: the physics and numerics that a frame may need. One file per effect has everything about it: the numbers that only it needs, whether leaving it
+ * out would change the result by more than the accuracy, its words with their places in the sentence and their reasons, and how its decision is tested.
+ * plan (lib/planner) measures the numbers that several effects share, calls every effect, and puts their words in order; the only effect it names is the
  * self field, which it measures. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_EFFECT_H
 #define PM_EFFECT_H
@@ -10,42 +10,42 @@
 struct pm_frame;
 struct pm_law;
 
-/* One frame in numbers (lib/planner/scales.c). NAN: not there, or not known. */
+/* The scales of a frame (lib/planner/scales.c). NAN: absent or unknown. */
 struct pm_scales {
 	int dim;
 	const char *law;             /* its name */
 	enum { PM_NO_FIELD, PM_CARRIED, PM_MASSES, PM_CHARGES, PM_VORTICES } kind; /* free, passive, gravity, plasmas, vortices */
-	bool second;                 /* moved by an acceleration: the particles have v */
+	bool second;                 /* second order in time: the particles have v and an acceleration */
 	bool pairs;                  /* the far field is summed pair by pair, not on a mesh */
-	bool periodic, open, walls;  /* a face of the fields is; walls: of any other kind */
-	double n, sources;           /* particles that move; those with a strength, fixed ones too */
-	double dt, time;             /* [time] the step, and how long the run is to last */
+	bool periodic, open, walls;  /* some face is periodic, open, or (walls) of any other kind */
+	double n, sources;           /* number of particles that move; of those with a strength, fixed ones included */
+	double dt, time;             /* [time] the step, and the duration of the run */
 	double h, box;               /* [length] largest spacing of the mesh, shortest side of the box */
-	double points, edge;         /* of the mesh; [length] of the particle nearest to an open face from it, HUGE_VAL: there is none */
+	double points, edge;         /* number of mesh points; [length] smallest distance of a particle from an open face, HUGE_VAL: no such face */
 	double softening, nu, c;     /* [length], [length^2/time], [length/time] constants of the frame; c NAN: infinite */
-	double spread, nearest, spacing; /* [length] rms distance from the centre; of the nearest pair; of neighbours on the average */
-	double volume;               /* [length^dim] of the particles: the box where it is periodic, else the ball with their rms radius */
+	double spread, nearest, spacing; /* [length] rms distance from the centre; of the nearest pair; mean distance of neighbours */
+	double volume;               /* [length^dim] of the particles: the box if it is periodic, else the ball with their rms radius */
 	double v_max, v_rms, v_thermal; /* [length/time] speeds, and the rms about the mean */
-	double omega;                /* [1/time] of the particles together: omega_p, sqrt(4 pi G rho), largest vorticity */
-	double encounter;            /* [1/time] of the nearest pair, softened: the fastest thing there can be between two */
-	double orbit, eccentricity;  /* [1/time] mean motion of the orbit with the fastest pericentre, where there are few bodies; NAN: none */
+	double omega;                /* [1/time] collective frequency: omega_p, sqrt(4 pi G rho), largest vorticity */
+	double encounter;            /* [1/time] of the nearest pair, softened: the fastest possible encounter */
+	double orbit, eccentricity;  /* [1/time] mean motion of the orbit with the fastest pericentre, for few bodies; NAN: none */
 	double debye;                /* [length] v_thermal/omega */
-	double overlap, width;       /* mean |H - 1| of the particles: 0 a lattice, they carry a field; NAN: no volumes. [length] mean volume^(1/dim) */
+	double overlap, width;       /* mean |H - 1| of the particles, 0 for a lattice that represents a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
 	double given, cyclotron;     /* [length/time^2] largest (q/m) E given on a mesh; [1/time] largest (q/m) B */
-	double self, self_max;       /* rms and largest of what the self field adds to acc [length/time^2] or vel [length/time] */
+	double self, self_max;       /* rms and largest contribution of the self field to acc [length/time^2] or vel [length/time] */
 	double strain, rough;        /* [1/time] largest |grad u|; [1/length^2] |lap density|/|density| in l2 */
 	double length;               /* [length] of the field: |field|/|its sources| in l2 */
 	double mesh_error;           /* of the force on the mesh, by the atlas; NAN: not known */
-	double accuracy;             /* what is asked for: relative changes below are negligible */
+	double accuracy;             /* of the user: relative changes below this are negligible */
 };
 
-/* How the effects that are put in are computed; plan chooses, effects may ask for more. */
+/* How the included effects are computed; plan chooses, effects may require more. */
 struct pm_method {
 	bool pairs, grow;      /* the far field pair by pair; the mesh follows particles that leave it */
 	const char *kernel, *symbol, *order, *scheme; /* symbol NULL: the law's */
 	const char *kick;      /* half a kick: "kick/2", "boris/2" */
-	size_t cells[3];       /* 0: as the mesh of the frame */
+	size_t cells[3];       /* 0: those of the frame's mesh */
 	double dt;             /* [time]; NAN: the frame's */
 	char why_far[160], why_mesh[160], why_step[160];
 };
@@ -54,27 +54,27 @@ enum pm_answer { PM_LEFT_OUT, PM_PUT_IN };
 
 struct pm_decision {
 	enum pm_answer answer;
-	bool kept;       /* put in though it may be small: it costs nothing, or nothing would move without it */
-	double number;   /* the one that decided; NAN: none was needed */
-	double share;    /* what leaving it out changes, relative, within the time of the run; NAN: not known */
-	int every;       /* of what is not done in every step: steps between; 0 not asked */
+	bool kept;       /* included although it may be small: it has no cost, or nothing would move without it */
+	double number;   /* the number that decided; NAN: none was needed */
+	double share;    /* relative change caused by leaving it out, within the time of the run; NAN: unknown */
+	int every;       /* interval in steps of an action that is not done in every step; 0 none */
 	char text[160];  /* the reason, with the number */
 };
 
 enum { PM_EFFECTS = 32, PM_EFFECT_OWN = 8, PM_EFFECT_WORDS = 32 };
 
-/* What an effect knows when it is asked. */
+/* The arguments of an effect's functions. */
 struct pm_effect_case {
 	const struct pm_frame *frame;
 	const struct pm_law *law;
 	const struct pm_scales *scales;
 	const struct pm_method *method;
-	const double *own;                       /* what its measure found; NAN before */
+	const double *own;                       /* results of its measure; NAN before */
 	const struct pm_decision *decision;      /* its own */
-	struct pm_decision decided[PM_EFFECTS];  /* of all, in the order of pm_effects; PM_LEFT_OUT where there is no word for what is needed */
+	struct pm_decision decided[PM_EFFECTS];  /* of all, in the order of pm_effects; PM_LEFT_OUT if an effect is needed but has no word */
 };
 
-/* Steps of the frame with the self field alone, for what shows only in motion. */
+/* Runs steps of the frame with the self field alone, for numbers that need the motion. */
 struct pm_effect_run {
 	struct pm_frame *(*steps)(const struct pm_effect_run *r, const struct pm_frame *f, int steps); /* a new frame; NULL with a message */
 	const char *sentence;
@@ -82,12 +82,12 @@ struct pm_effect_run {
 
 /* The places of a sentence, in order. Within one the words stand in the order of pm_effects. */
 enum pm_slot {
-	PM_SLOT_OPENING,   /* push, where half a kick and the drift come first */
-	PM_SLOT_SOURCE,    /* changes of the strengths before they go to the mesh */
+	PM_SLOT_OPENING,   /* push with the first half of the kick and the drift */
+	PM_SLOT_SOURCE,    /* changes of the strengths before they are spread to the mesh */
 	PM_SLOT_DENSITY,   /* particles to mesh */
 	PM_SLOT_POTENTIAL, /* the potential of the density */
 	PM_SLOT_FIELD,     /* the field of the potential */
-	PM_SLOT_MESH,      /* other changes on the mesh, which the next word takes to the particles */
+	PM_SLOT_MESH,      /* other changes on the mesh, which the next word interpolates to the particles */
 	PM_SLOT_PARTICLES, /* mesh to particles, or a sum over pairs */
 	PM_SLOT_FORCES,    /* other changes at the particles: given fields, friction */
 	PM_SLOT_CLOSING,   /* push, which completes the step */
@@ -109,33 +109,33 @@ struct pm_words { /* written with pm_words_add and pm_words_amend (effect-parts/
 	} amendment[PM_EFFECT_WORDS];
 };
 
-/* How plan --check tests the decision: with the effect and without, for so many steps, and what then differs. */
+/* How plan --check tests the decision: with the effect and without, for a number of steps, and the quantity compared. */
 struct pm_effect_test {
-	enum { PM_TEST_MOTION, PM_TEST_WALK, PM_TEST_STRENGTH, PM_TEST_DENSITY } of; /* v or x; x that goes on as the root of time; strengths; the density */
+	enum { PM_TEST_MOTION, PM_TEST_WALK, PM_TEST_STRENGTH, PM_TEST_DENSITY } of; /* v or x; x of a walk, growing as sqrt(t); strengths; density */
 	int steps;
 };
 
 struct pm_effect {
 	const char *name, *sentence, *source;
-	const char *word;  /* the word that does it; NULL: those of the self field do, or it belongs to the frame. Without `words`, plan can only name it */
-	bool force;        /* it moves particles or turns their velocities; where no such effect is in they go straight */
-	bool replaces;     /* the particles are others after it, so other effects are tested without it */
-	/* Numbers of the frame that no other effect needs, once scales and method are known. NULL: none. 0 or failure. */
+	const char *word;  /* the word that computes it; NULL: the words of the self field, or the frame itself. Without `words`, plan can only name it */
+	bool force;        /* it moves particles or rotates their velocities; if no such effect is included they move straight */
+	bool replaces;     /* it replaces the particles, so other effects are tested without it */
+	/* Measures numbers of the frame that only this effect needs, after scales and method are known. NULL: none. 0 or failure. */
 	int (*measure)(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN]);
 	void (*decide)(const struct pm_effect_case *c, struct pm_decision *d);
-	/* Its decision again, after all have decided. NULL: it stays. */
+	/* Revises its decision after all have decided. NULL: no revision. */
 	void (*reconsider)(const struct pm_effect_case *c, struct pm_decision *d);
-	/* Why it cannot be left out by hand, with the remedy; "" where it can. NULL: it always can. */
+	/* The reason why the user cannot leave it out, with the remedy; "" if he can. NULL: he always can. */
 	void (*stays)(const struct pm_effect_case *c, char why[160]);
-	/* What it wants of the method, whatever was decided about it. NULL: nothing. */
+	/* Its requirements on the method, called whatever the decision. NULL: none. */
 	void (*ask)(const struct pm_effect_case *c, struct pm_method *m);
-	/* Its words, whatever was decided about it. NULL: none yet, or none of its own. */
+	/* Adds its words, called whatever the decision. NULL: none yet, or none of its own. */
 	void (*words)(const struct pm_effect_case *c, struct pm_words *w);
-	/* Can the other decision be said in words too? Then plan --check tests it. NULL: no. */
+	/* Can the opposite decision also be written in words? Then plan --check tests it. NULL: no. */
 	bool (*reversible)(const struct pm_effect_case *c);
-	/* What that takes besides other words: changes of the frame and the method; in: it was left out and is put in. NULL: nothing. 0 or failure. */
+	/* Other changes needed for that, of the frame and the method; in: it was left out and is now included. NULL: nothing. 0 or failure. */
 	int (*reverse)(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m);
-	void (*test)(const struct pm_effect_case *c, struct pm_effect_test *t); /* NULL: the motion, after the steps asked for */
+	void (*test)(const struct pm_effect_case *c, struct pm_effect_test *t); /* NULL: the motion, after the default number of steps */
 };
 
 extern const struct pm_effect *const pm_effects[]; /* generated from lib/effect/, NULL ends */

@@ -1,5 +1,5 @@
-/* External field: a field given on a mesh (E, or u for particles that are carried). It matters by what it makes of the velocity, (q/m) E T over the largest
- * speed that there is or comes of it. A given field of zeros is none. Source: the definition. SPDX-License-Identifier: GPL-3.0-or-later */
+/* External field: a field given on a mesh (E, or u for passive particles). Its share is the change of velocity, (q/m) E T, over the largest
+ * speed before or after it. A given field of zeros does not count. Source: the definition. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
 #include "effect-parts/effect-decision.h"
@@ -28,7 +28,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	snprintf(d->text, sizeof d->text, "(q/m) E T = %.2g, the part %.1g of the speeds", gain, share);
 }
 
-/* A magnetic field, which m2p brings too, is given on the same mesh. */
+/* A magnetic field, which m2p also interpolates, is given on the same mesh. */
 static void words(const struct pm_effect_case *c, struct pm_words *w)
 {
 	const bool in = c->decision->answer == PM_PUT_IN, self = pm_effect_in(c, "self-field");
@@ -48,7 +48,7 @@ static void stays(const struct pm_effect_case *c, char why[160])
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->given > 0; }
 
-/* A given field of zeros: m2p wants it where the magnetic field is. */
+/* A given field of zeros: m2p requires it on the mesh of the magnetic field. */
 static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)
 {
 	(void)in, (void)m;

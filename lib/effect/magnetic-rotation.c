@@ -1,4 +1,4 @@
-/* Magnetic rotation: v turns about a given B by omega_c T, omega_c = q B/m, in the time of the run; omega_c dt is the angle of a step.
+/* Magnetic rotation: v rotates about a given B by omega_c T, omega_c = q B/m, in the time of the run; omega_c dt is the angle of a step.
  * Source: Birdsall and Langdon 1985, section 4-3. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -30,7 +30,7 @@ static void ask(const struct pm_effect_case *c, struct pm_method *m)
 		m->kick = "boris/2";
 }
 
-/* The kick turns the velocities, and m2p brings B: that of the self field, or that of a given one. */
+/* The kick rotates the velocities; B is interpolated by the m2p of the self field, or by that of a given field. */
 static void words(const struct pm_effect_case *c, struct pm_words *w)
 {
 	if (c->decision->answer != PM_PUT_IN)

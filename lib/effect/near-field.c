@@ -1,8 +1,8 @@
-/* Near-field correction: the part of the force of near pairs that a mesh smooths away. Pairs summed one by one, and particles that cover their mesh as a field,
+/* Near-field correction: the part of the force of near pairs that a mesh smooths away. Summed pairs, and particles that represent a field on their mesh,
  * need none. The force of a pair at distance d is too small by (h/d)^2/4, and almost zero within 2.5 cells: the fraction of bodies with such a neighbour,
- * times its force, m/d^2 at the distance of neighbours, relative to the mesh force; warm bodies pass their neighbours, and only the root of their number
- * adds up.
- * In open space the atlas knows what a mesh does to a cluster of bodies. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
+ * times its force, m/d^2 at the distance of neighbours, relative to the mesh force; warm bodies pass their neighbours, so their contributions add
+ * as the square root of their number.
+ * In open space the atlas has the error of a mesh for a cluster of bodies. Source: Hockney and Eastwood 1988, section 8-2; docs/methods/pm-force.md.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 

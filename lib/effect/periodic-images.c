@@ -1,5 +1,5 @@
-/* Periodic images: the field of the copies of the box beyond its periodic faces. They belong to the frame's faces: a transform brings them for nothing, where
- * open faces cost a transform of twice the length per axis; so they are put in wherever a face is periodic, and the part they make is said:
+/* Periodic images: the field of the copies of the box beyond its periodic faces. They follow from the frame's faces: a transform includes them at no cost, but
+ * open faces need a transform of twice the length per axis; so they are included if a face is periodic, and their share is printed:
  * (spread/box)^2 is the tide of the nearest image over the field at the edge of the cloud. Source: Hockney and Eastwood 1988, section 6-5.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
@@ -33,7 +33,7 @@ static void stays(const struct pm_effect_case *c, char why[160])
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->periodic && !c->method->pairs && pm_effect_in(c, "self-field"); }
 
-/* Open faces, between which nothing is spectral, and a mesh that follows the particles. */
+/* Open faces, which have no spectral symbol, and a mesh that follows the particles. */
 static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)
 {
 	(void)in;

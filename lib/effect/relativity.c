@@ -1,5 +1,5 @@
-/* Relativity: momentum grows as gamma v, gamma = 1/sqrt(1 - v^2/c^2); left out the error is of order (v/c)^2. c is a constant of the frame; without it light
- * is infinitely fast. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Relativity: momentum grows as gamma v, gamma = 1/sqrt(1 - v^2/c^2); without it the error is of order (v/c)^2. c is a constant of the frame; if missing, c is
+ * infinite. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
 #include "effect-parts/effect-decision.h"

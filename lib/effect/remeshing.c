@@ -1,7 +1,7 @@
-/* Remeshing: particles that carry a field go back on the lattice before they stop covering space. The distortion |H - H0|/H0 is how wrong they represent a
- * constant (lib/remesh/distortion.c) and is held against the accuracy itself: measured after 1, 2, 4, 8 steps without remeshing, it goes on as t^2. Shear
- * along the mesh has none by that measure, so strains e = |grad u| t count too, as (e/4)^2: a lattice stretched 1.25, 1.5, 1.75 times has 0.0032, 0.0106,
- * 0.0336 (docs/methods/remesh.md). Points, which cover nothing, have no lattice to go back to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
+/* Remeshing: particles that represent a field are put back on the lattice before they lose overlap. The distortion |H - H0|/H0 is their error for a
+ * constant (lib/remesh/distortion.c) and must stay below the accuracy: measured after 1, 2, 4, 8 steps without remeshing, extrapolated as t^2. Shear
+ * along the mesh gives none by this measure, so the strain e = |grad u| t counts too, as (e/4)^2: a lattice stretched 1.25, 1.5, 1.75 times has 0.0032, 0.0106,
+ * 0.0336 (docs/methods/remesh.md). Point particles have no lattice to return to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -14,7 +14,7 @@
 /* After 1, 2, 4, 8 steps; own[0..3]. */
 enum { MEASURED = 4 };
 
-/* Mean |H - H0|/H0 of all sets that move, which have as many particles as before; weighted by their strength, for where there is none nothing is wrong. */
+/* Mean |H - H0|/H0 of all sets that move and have as many particles as before; weighted by strength: particles without strength cause no error. */
 static double change(const struct pm_frame *f, const struct pm_frame *g, const char *strength)
 {
 	double sum = 0, all = 0;
@@ -35,7 +35,7 @@ static double change(const struct pm_frame *f, const struct pm_frame *g, const c
 	return all > 0 ? sum / all : NAN;
 }
 
-/* Steps without remeshing, until the distortion is too much. */
+/* Runs steps without remeshing until the distortion is too large. */
 static int measure(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN])
 {
 	const struct pm_scales *s = c->scales;
@@ -55,7 +55,7 @@ static int measure(const struct pm_effect_case *c, const struct pm_effect_run *r
 	return status;
 }
 
-/* As measured, after so many steps: the longest of the times below, and t^2 from there on. */
+/* The measured distortion after a number of steps: from the longest measured time below it, extrapolated as t^2. */
 static double measured(const struct pm_effect_case *c, double steps)
 {
 	double known = 0;
@@ -64,7 +64,7 @@ static double measured(const struct pm_effect_case *c, double steps)
 	return known;
 }
 
-/* And by the strain. */
+/* The larger of the measured distortion and the estimate by the strain. */
 static double distortion(const struct pm_effect_case *c, double steps)
 {
 	return fmax(measured(c, steps), pow(0.25 * c->scales->strain * fabs(c->scales->dt) * steps, 2));
@@ -89,14 +89,14 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		snprintf(d->text, sizeof d->text, "distortion reaches %.1g in the time T", end);
 		return;
 	}
-	d->kept = measured(c, s->time / fabs(s->dt)) <= s->accuracy; /* not seen in the first steps */
+	d->kept = measured(c, s->time / fabs(s->dt)) <= s->accuracy; /* too small in the measured steps for --check to find it */
 	for (d->every = 1; d->every < 16 && distortion(c, d->every + 1) <= s->accuracy;)
 		d->every++;
 	d->number = distortion(c, d->every);
 	snprintf(d->text, sizeof d->text, "distortion reaches %.2g", d->number);
 }
 
-/* Every remeshing sets a rim of nodes around the particles. */
+/* Every remeshing adds a rim of nodes around the particles. */
 static void ask(const struct pm_effect_case *c, struct pm_method *m)
 {
 	m->grow = m->grow || (c->scales->open && c->decision->answer == PM_PUT_IN);
@@ -114,7 +114,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 		open = open || f->face[k / 2][k % 2] != PM_PERIODIC;
 	if (d->every > 1)
 		snprintf(every, sizeof every, " --every %d", d->every);
-	if (open) /* particles only where there is something; those that diffusion will need are kept, and what spreads takes its mesh along */
+	if (open) /* only nodes with strength become particles; those that diffusion needs are kept, and the mesh grows with them */
 		snprintf(edge, sizeof edge, " --cut-off %.2g%s%s", c->scales->accuracy * 1e-3, pm_effect_in(c, "diffusion") ? " --rim 2" : "",
 			c->method->grow ? " --outside grow" : "");
 	snprintf(words, sizeof words, "remesh --kernel %s%s%s", c->method->kernel, every, edge);
@@ -126,7 +126,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && !c->method->pairs; }
 
-/* It must happen within the steps. */
+/* At least one remeshing must fall within the steps. */
 static void test(const struct pm_effect_case *c, struct pm_effect_test *t)
 {
 	t->of = PM_TEST_DENSITY;

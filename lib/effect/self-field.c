@@ -1,6 +1,6 @@
-/* Self field: what the particles do to each other. Within the time T of the run it changes velocities by a T over the speeds that there are; and what is small
- * may grow, at most at the frequency omega of all of them together (plasma, Jeans), so it may be left out only where (omega T)^2/2 is small too. Vortices have
- * no inertia: u T over their distance. Forces that cancel to rounding (a lattice) may grow as cosh(omega T) at most. Assumes that the force of the frame was
+/* Self field: the forces between the particles. Within the time T of the run it changes velocities by a T, relative to the speeds present; a small force
+ * may grow, at most at the collective frequency omega (plasma, Jeans), so it may be left out only if (omega T)^2/2 is small too. Vortices have
+ * no inertia: u T over their distance. Forces that cancel to round-off (a lattice) may grow as cosh(omega T) at most. Assumes that the force of the frame was
  * measured. Source: Birdsall and Langdon 1985, section 4-2; Binney and Tremaine 2008, section 5.2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static void vortices(const struct pm_scales *s, struct pm_decision *d)
 	const double moved = s->self * s->time / s->spacing;
 	pm_effect_by(d, s, moved, moved);
 	snprintf(d->text, sizeof d->text, "u T is %.2g distances of neighbours", moved);
-	d->kept = d->answer == PM_LEFT_OUT; /* nothing else moves them */
+	d->kept = d->answer == PM_LEFT_OUT; /* without it the particles would not move */
 	d->answer = PM_PUT_IN;
 }
 
@@ -47,7 +47,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	}
 }
 
-/* A magnetic field is brought by m2p, which wants the law's field beside it. */
+/* A magnetic field is interpolated by m2p, which also requires the law's field. */
 static void reconsider(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const size_t at = strlen(d->text);
@@ -58,7 +58,7 @@ static void reconsider(const struct pm_effect_case *c, struct pm_decision *d)
 	snprintf(d->text + at, sizeof d->text - at, ", but m2p wants %s beside %s", c->law->field, c->law->magnetic);
 }
 
-/* The option of p2m for more cells, or for a mesh of its own. */
+/* The option of p2m for more cells, or for a separate mesh. */
 static void cells(const struct pm_effect_case *c, const char *own, char text[64])
 {
 	const struct pm_frame *f = c->frame;
@@ -75,7 +75,7 @@ static void cells(const struct pm_effect_case *c, const char *own, char text[64]
 		at += snprintf(text + at, 64 - (size_t)at, "x%zu", n[d]);
 }
 
-/* " --kernel tsc", or nothing where it is the law's. */
+/* " --kernel tsc", or nothing if it is the law's. */
 static const char *option(const char *name, const char *value, const char *law, char text[64])
 {
 	text[0] = 0;

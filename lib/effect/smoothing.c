@@ -1,5 +1,5 @@
-/* Smoothing: the softening of pairs. It is the frame's constant; at the nearest pair (or the mean distance of neighbours) d it takes off (3/2) (softening/d)^2
- * of the force. On a mesh the kernel smooths over a cell, which is no choice; a softening below that cannot be seen. Source: Plummer 1911; Hockney and
+/* Smoothing: the softening of pairs. It is the frame's constant; at the nearest pair (or the mean distance of neighbours) d it reduces the force by (3/2)
+ * (softening/d)^2. On a mesh the kernel smooths over a cell in any case, and a smaller softening has no effect. Source: Plummer 1911; Hockney and
  * Eastwood 1988, section 8-2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -21,13 +21,13 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "softening = 0");
 	else {
 		pm_effect_by(d, s, ratio, fmin(1, 1.5 * ratio * ratio));
-		d->kept = d->answer == PM_LEFT_OUT; /* it costs nothing */
+		d->kept = d->answer == PM_LEFT_OUT; /* it has no cost */
 		d->answer = PM_PUT_IN;
 		snprintf(d->text, sizeof d->text, "softening is %.2g of the distance of the nearest pair", ratio);
 	}
 }
 
-/* pp takes the frame's softening unless it is told otherwise. */
+/* pp uses the frame's softening unless --softening is given. */
 static void words(const struct pm_effect_case *c, struct pm_words *w)
 {
 	const bool without = c->scales->softening > 0 && c->decision->answer != PM_PUT_IN;

@@ -1,4 +1,4 @@
-/* Stretching: vortex lines turned and drawn out by the flow, d alpha/dt = (alpha . grad) u; there are no such lines in the plane. In space it changes strengths
+/* Stretching: vortex lines tilted and stretched by the flow, d alpha/dt = (alpha . grad) u; zero in 2-D. In 3-D it changes strengths
  * by |grad u| T. Source: Cottet and Koumoutsakos 2000, section 3.1. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 

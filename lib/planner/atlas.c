@@ -1,5 +1,5 @@
-/* Reads between the rows of the atlas: log error is a straight line in log h and log dt between two rows. Rows stand in any order; an error that is not a
- * number was a run that failed. Assumes that the error falls with h and dt where it is below 1. Source: docs/accuracy/README.md. Cost: rows.
+/* Interpolates between the rows of the atlas: log error is linear in log h and log dt between two rows. Rows may be in any order; an error of NaN is a
+ * failed run. Assumes that the error falls with h and dt once it is below 1. Source: docs/accuracy/README.md. Cost: rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -48,7 +48,7 @@ double pm_atlas_longest(const char *problem, const char *scheme, double error)
 			insert(r, &n, s->dt, s->error);
 	if (n < 2)
 		return NAN;
-	while (i < n && r[i].error <= error) /* from short steps upwards, because a long step may have a small error by chance */
+	while (i < n && r[i].error <= error) /* starts with the shortest step, because a long step may have a small error by chance */
 		i++;
 	if (i == n)
 		return r[n - 1].x;

@@ -12,17 +12,17 @@ struct pm_atlas_force {
 };
 struct pm_atlas_step {
 	const char *problem, *scheme; /* kepler, kepler-circle, langmuir, vortex-patch, gyration; kdk, rk4 ... */
-	double dt, error, evaluations; /* in units of 1/omega; relative after the problem's time; of the force in that time */
+	double dt, error, evaluations; /* in units of 1/omega; relative, after the problem's time; force evaluations in that time */
 };
 extern const struct pm_atlas_force pm_atlas_forces[]; /* generated; scene NULL ends */
 extern const struct pm_atlas_step pm_atlas_steps[];   /* problem NULL ends */
 
-/* Error of a force at spacing h, straight lines through the logarithms; beyond the ends the line goes on, below not steeper than its order allows.
- * NAN: such words were not measured. */
+/* Error of a force at spacing h, interpolated linearly in the logarithms and extrapolated beyond the ends; towards small h at most as h^2.
+ * NAN: this combination of words was not measured. */
 double pm_atlas_force_error(const char *scene, const char *solver, const char *kernel, const char *gradient, double h);
 /* Longest step, in units of 1/omega, whose error is at most this; NAN: not measured. */
 double pm_atlas_longest(const char *problem, const char *scheme, double error);
-/* The time after which those errors were taken, in units of 1/omega; NAN: no such problem. */
+/* The time at which these errors were measured, in units of 1/omega; NAN: no such problem. */
 double pm_atlas_time(const char *problem);
 
 #endif

@@ -1,6 +1,6 @@
-/* The fastest orbit among few bodies: of every bound pair the ellipse it would follow alone, a = 1/(2/r - v^2/mu), e^2 = 1 - L^2/(mu a), mean motion n^2 =
- * mu/a^3; the one that is fastest at its pericentre, n sqrt((1 + e)/(1 - e)^3), counts. mu = G (m1 + m2), without the mass of the one that is free if the
- * other is fixed. Source: Goldstein 1980, chapter 3. Assumes gravity in space; other bodies disturb it. Cost N^2.
+/* The fastest orbit among few bodies: for every bound pair the Kepler ellipse of this pair alone, a = 1/(2/r - v^2/mu), e^2 = 1 - L^2/(mu a), mean motion n^2 =
+ * mu/a^3; the result is the one that is fastest at its pericentre, n sqrt((1 + e)/(1 - e)^3). mu = G (m1 + m2), or G times the fixed mass if one body
+ * is fixed. Source: Goldstein 1980, chapter 3. Assumes gravity in 3-D; ignores other bodies. Cost N^2.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "planner/scales.h"
 

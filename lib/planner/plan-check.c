@@ -1,7 +1,7 @@
 /* Tests a plan: each decision about an effect is reversed, both sentences are run for a few steps from the frame, and the difference is compared
- * with the accuracy. Velocities: |v - v'|/|v|, strengths after one step alike, extrapolated to the time T of the run (times T/(n dt)); where
- * there is no inertia displacements, |x - x'|/|x - x0|; remeshing, after which particles are others: the density on the mesh, extrapolated. Which of
- * these, the effect says.
+ * with the accuracy. Velocities: |v - v'|/|v|, likewise strengths after one step, extrapolated to the time T of the run (times T/(n dt)); without
+ * inertia displacements, |x - x'|/|x - x0|; for remeshing, which replaces the particles, the density on the mesh, extrapolated. Each effect
+ * chooses one of these.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "planner/plan.h"
 #include "stream/run.h"
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static double size(const struct pm_field *f)
 {
@@ -20,7 +20,7 @@ static double size(const struct pm_field *f)
 	return s;
 }
 
-/* |a - b|/|b| of a field of every set that moves, in l2; differences of floor and less are rounding. */
+/* |a - b|/|b| of a field of every set that moves, in l2; differences up to floor are round-off. */
 static double relative(const struct pm_frame *a, const struct pm_frame *b, const char *name, double floor)
 {
 	double d2 = 0, r2 = 0;
@@ -35,14 +35,14 @@ static double relative(const struct pm_frame *a, const struct pm_frame *b, const
 	return d2 == 0 ? 0 : sqrt(d2 / r2);
 }
 
-/* The shorter way in a periodic box. */
+/* The shortest distance in a periodic box. */
 static double apart(const struct pm_frame *f, int d, double x, double y)
 {
 	const double side = f->hi[d] - f->lo[d], z = x - y;
 	return f->pface[d][0] == PM_PFOLD ? z - side * floor(z / side + 0.5) : z;
 }
 
-/* |a - b|/|b - start| of the places, in l2. */
+/* |a - b|/|b - start| of the positions, in l2. */
 static double displaced(const struct pm_frame *a, const struct pm_frame *b, const struct pm_frame *start)
 {
 	struct pm_sum d2 = {0, 0}, r2 = {0, 0};
@@ -58,7 +58,7 @@ static double displaced(const struct pm_frame *a, const struct pm_frame *b, cons
 	return pm_sum_total(d2) == 0 ? 0 : sqrt(pm_sum_total(d2) / pm_sum_total(r2));
 }
 
-/* The value of a mesh field at the node of another mesh of the same spacing; NAN where it does not reach. */
+/* The value of a mesh field at a node of another mesh of the same spacing; NAN outside the field's mesh. */
 static double at_node(const struct pm_mesh *m, const size_t points[3], const double *values, const struct pm_mesh *other, const size_t node[3])
 {
 	size_t place = 0;
@@ -71,7 +71,7 @@ static double at_node(const struct pm_mesh *m, const size_t points[3], const dou
 	return values[place];
 }
 
-/* Sums over the nodes of a of a^2 and of (a - b)^2; outside: over those alone that b does not reach. */
+/* Sums over the nodes of a of a^2 and of (a - b)^2; outside: only over nodes outside the mesh of b. */
 static void node_sums(const struct pm_frame *x, const struct pm_frame *y, const char *density, struct pm_sum *square, struct pm_sum *difference, bool outside)
 {
 	const struct pm_mesh *m = x->meshes[0], *n = y->meshes[0];
@@ -88,7 +88,7 @@ static void node_sums(const struct pm_frame *x, const struct pm_frame *y, const 
 	}
 }
 
-/* |a - b|/|b| of the densities on the mesh, which may have grown with the particles of one of them. */
+/* |a - b|/|b| of the densities on the mesh, which may have grown in one of the two runs. */
 static double densities(const struct pm_frame *a, const struct pm_frame *b, const struct pm_plan *p)
 {
 	char words[80];
@@ -103,7 +103,7 @@ static double densities(const struct pm_frame *a, const struct pm_frame *b, cons
 	return y ? sqrt(pm_sum_total(difference) / pm_sum_total(square)) : NAN;
 }
 
-/* ---- the other way ---- */
+/* ---- the reversed decision ---- */
 
 static void put(struct pm_plan *p, int i, bool in)
 {
@@ -112,7 +112,7 @@ static void put(struct pm_plan *p, int i, bool in)
 	d->every = in && !d->every ? 1 : d->every;
 }
 
-/* What is compared has the same particles. */
+/* Both runs compared must have the same particles. */
 static void keep_particles(struct pm_plan *p)
 {
 	for (int i = 0; i < p->neffects; i++)
@@ -122,7 +122,7 @@ static void keep_particles(struct pm_plan *p)
 
 static bool is_in(const struct pm_plan *p, int i) { return p->effect[i].decision.answer == PM_PUT_IN && !p->effect[i].lacking; }
 
-/* Can the other way be said in words? */
+/* Can the reversed decision be written as a sentence? */
 static bool reversible(const struct pm_frame *f, const struct pm_plan *p, int i)
 {
 	struct pm_effect_case c;
@@ -132,7 +132,7 @@ static bool reversible(const struct pm_frame *f, const struct pm_plan *p, int i)
 	return p->effect[i].effect->reversible(&c);
 }
 
-/* Frame and sentence with one effect, put in already, the other way. */
+/* Frame and sentence with the decision on one effect reversed. */
 static int other(const struct pm_plan *p, int i, struct pm_frame *f, struct pm_plan *q)
 {
 	const struct pm_effect *e = p->effect[i].effect;
@@ -151,7 +151,7 @@ static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan
 	struct pm_plan q = *p;
 	if (!g)
 		return NULL;
-	if (!seconds) /* what is timed is as it would run */
+	if (!seconds) /* the timed run is left unchanged */
 		keep_particles(&q);
 	put(&q, i, !is_in(p, i));
 	if (!q.scales.second && !pm_plan_forced(&q))
@@ -174,7 +174,7 @@ static void verdict(const struct pm_plan *p, const struct pm_plan_effect *e, str
 		o->verdict = matters ? "right" : !in ? "right: negligible" : e->decision.kept ? "small, and kept" : "small";
 }
 
-/* What differs between a run the other way, a, and as planned, b; on: steps of the run over those that were run. */
+/* The difference between the reversed run, a, and the planned one, b; on: steps of the whole run over the steps tested. */
 static double difference(const struct pm_frame *a, const struct pm_frame *b, const struct pm_frame *start, const struct pm_plan *p,
 	const struct pm_effect_test *t, double on, const char *of)
 {
@@ -182,7 +182,7 @@ static double difference(const struct pm_frame *a, const struct pm_frame *b, con
 		return densities(a, b, p) * on;
 	if (t->of == PM_TEST_STRENGTH || p->scales.second)
 		return relative(a, b, of, t->of == PM_TEST_STRENGTH ? 0 : 1e-12 * p->scales.omega * p->scales.spacing) * on;
-	return displaced(a, b, start) / (t->of == PM_TEST_WALK ? sqrt(on) : 1); /* a walk goes on as the root of time, the flow as time itself */
+	return displaced(a, b, start) / (t->of == PM_TEST_WALK ? sqrt(on) : 1); /* a walk grows as the square root of time, the flow linearly */
 }
 
 static int prove(const struct pm_frame *f, const struct pm_plan *p, int i, int steps, struct pm_plan_proof *o)

@@ -24,7 +24,7 @@ bool pm_plan_forced(const struct pm_plan *p)
 	return forced;
 }
 
-/* What the effects want of the method, and then their words. */
+/* The requirements of the effects on the method, then their words. */
 static void ask(const struct pm_frame *f, struct pm_plan *p, struct pm_words *w)
 {
 	struct pm_effect_case c;
@@ -41,7 +41,7 @@ static void ask(const struct pm_frame *f, struct pm_plan *p, struct pm_words *w)
 		}
 }
 
-/* The step is said once, by the first push. */
+/* The time step is given once, in the first push. */
 static void push(const struct pm_plan *p, struct pm_words *w, enum pm_slot slot, bool first, const char *actions, const char *reason)
 {
 	char words[160];
@@ -56,7 +56,7 @@ static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 {
 	char actions[32];
 	if (!forced) {
-		p->method.dt = NAN; /* any step will do */
+		p->method.dt = NAN; /* any step is possible */
 		push(p, w, PM_SLOT_OPENING, true, "drift", "no force: straight lines");
 	} else if (p->scales.second && !strcmp(p->method.scheme, "leapfrog")) {
 		snprintf(actions, sizeof actions, "%s drift", p->method.kick);
@@ -66,7 +66,7 @@ static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 		push(p, w, PM_SLOT_CLOSING, true, p->method.scheme, p->method.why_step);
 }
 
-/* Without a force only what begins and what follows the step is left. */
+/* Without a force only the opening slot and the slot after the step remain. */
 static void sort(struct pm_plan *p, const struct pm_words *w, bool forced)
 {
 	p->nstages = 0;

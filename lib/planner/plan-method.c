@@ -4,7 +4,7 @@
 #include "planner/atlas.h"
 #include "planner/plan.h"
 
-/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all that is done there, a particle
+/* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all work on it, a particle
  * to the mesh and back (docs/speed.md). */
 static const double ns_pair = 0.39, ns_point = 5, ns_particle = 100;
 
@@ -14,7 +14,7 @@ static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points
 
 static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
 
-/* pp sums in open space only; particles that carry a field need its mesh. */
+/* pp sums in open space only; particles that represent a field need a mesh. */
 static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[160])
 {
 	const struct pm_scales *s = &p->scales;
@@ -39,14 +39,14 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
 	m->grow = s->edge < 4 * s->h; /* half the widest kernel */
 	if (s->kind == PM_VORTICES && !m->pairs) {
-		m->kernel = "m6prime"; /* m4prime makes vortices that are not there (VM-16) */
+		m->kernel = "m6prime"; /* m4prime makes spurious vortices (VM-16) */
 		m->scheme = "lsrk3";
 	}
 }
 
 /* ---- the mesh ---- */
 
-/* A force wrong by d shifts frequencies by d/2, phases by d omega T/2 in the time of the run: so much less is allowed. */
+/* A relative force error d shifts frequencies by d/2 and phases by d omega T/2 within the run, which limits d. */
 static double allowed(const struct pm_scales *s) { return s->accuracy / fmax(1, 0.5 * s->omega * s->time); }
 
 struct try {
@@ -60,7 +60,7 @@ static bool can(const struct pm_plan *p, const struct pm_atlas_force *r, const c
 	return !strcmp(r->scene, scene) && !strncmp(r->solver, "poisson-fft", 11) && (!p->scales.open || strcmp(r->gradient, "spectral"));
 }
 
-/* Of the rows that reach the accuracy with so many times the cells and cost at most 1.5 times the cheapest of them, the most accurate: smaller differences
+/* Of the rows that reach the accuracy with `factor` times the cells and cost at most 1.5 times the cheapest of them, the most accurate: smaller differences
  * are timing noise of the atlas. If none reaches it, the most accurate of all. */
 static struct try best(const struct pm_plan *p, const char *scene, double h, int factor)
 {
@@ -79,7 +79,7 @@ static struct try best(const struct pm_plan *p, const char *scene, double h, int
 
 static double room(const struct pm_scales *s, int factor) { return s->points * pow(factor * (s->open ? 2 : 1), s->dim); }
 
-/* What the law says, if it is good enough; else what the atlas says, on as few cells as do. */
+/* The law's defaults if they are accurate enough; else the choice of the atlas, with as few cells as possible. */
 static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 {
 	const struct pm_scales *s = &p->scales;
@@ -92,25 +92,25 @@ static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 			least = (struct try){r, 1, pm_atlas_force_error(scene, solver, r->kernel, r->gradient, h)};
 	for (int factor = 1; factor <= 8 && !(least.error <= allowed(s)) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
 		const struct try t = best(p, scene, h, factor);
-		if (t.row && t.error < 0.8 * least.error) /* more cells for something */
+		if (t.row && t.error < 0.8 * least.error) /* more cells only if they reduce the error */
 			least = t;
 	}
 	return least;
 }
 
-/* The particles are its nodes, so it stays; m6prime remeshed for a run is wrong by (h k)^5/2 in the largest vorticity, k^2 = |lap omega|/|omega|
- * (docs/plan.md). */
+/* The particles are the nodes of the mesh, so its spacing is fixed; remeshing with m6prime over a run changes the largest vorticity by (h k)^5/2,
+ * k^2 = |lap omega|/|omega| (docs/plan.md). */
 static void vortex_mesh(struct pm_plan *p)
 {
 	const struct pm_scales *s = &p->scales;
 	const double hk = s->h * sqrt(s->rough), error = fmin(1, 0.5 * pow(hk, 5));
 	char more[80] = "";
-	if (error > s->accuracy) /* what would be good enough */
+	if (error > s->accuracy) /* the spacing that would suffice */
 		snprintf(more, sizeof more, ", more than asked for (pinit --cells %.0f)", ceil(s->box / s->h * hk / pow(2 * s->accuracy, 0.2)));
 	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, remeshing is wrong by %.1g%s", hk, error, more);
 }
 
-/* As many cells as bring the nearest pair far enough apart (lib/effect/near-field.c). */
+/* Enough cells that the nearest pair is several cells apart (lib/effect/near-field.c). */
 static void few_bodies(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_scales *s = &p->scales;

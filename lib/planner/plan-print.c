@@ -1,11 +1,11 @@
-/* A plan as text: a stage a line with its reason behind it, then what is left out and what is lacking; and as JSON.
+/* A plan as text: one stage per line with its reason, then the effects left out and those lacking; and as JSON.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/plan.h"
 #include "stage/apply.h"
 
-/* The name as people write it. */
+/* The name in ordinary spelling. */
 static const char *label(const struct pm_effect *e, char text[64])
 {
 	snprintf(text, 64, "%s", e->name);
@@ -20,7 +20,7 @@ static void duration(double seconds, char text[32])
 	snprintf(text, 32, isnan(seconds) ? "-" : "%.3g %s", seconds * (seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1), unit);
 }
 
-/* What a needed effect without a word, or whose word plan does not place, leaves to say. */
+/* The line for a needed effect without a word, or with one that plan does not place. */
 static void lacking(FILE *out, const struct pm_plan_effect *e)
 {
 	if (e->lacking && pm_tool_find(e->effect->word))

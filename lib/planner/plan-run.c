@@ -17,7 +17,7 @@ struct pm_frame *pm_plan_bare(const struct pm_frame *f)
 
 static int prime(struct pm_sentence *s, struct pm_frame **f) { return pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0; }
 
-/* A step, which may be several passes. */
+/* One step, which may take several passes. */
 static int step(struct pm_sentence *s, struct pm_frame **f)
 {
 	const int64_t before = (*f)->step;
@@ -27,14 +27,14 @@ static int step(struct pm_sentence *s, struct pm_frame **f)
 	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence completes no step");
 }
 
-/* Adds sign times the seconds of each word so far. */
+/* Adds sign times the accumulated seconds of each word. */
 static void clock_words(const struct pm_sentence *s, double sign, double *seconds)
 {
 	for (int k = 0; seconds && k < PM_PLAN_WORDS && pm_sentence_stage(s, k); k++)
 		seconds[k] += sign * pm_sentence_stage(s, k)->seconds;
 }
 
-/* The failure again, after what frees things, with the sentence. */
+/* Repeats the failure message after the clean-up, with the sentence. */
 static struct pm_frame *failed(struct pm_frame *f, struct pm_sentence *s, const char *sentence, int status)
 {
 	char why[1024];

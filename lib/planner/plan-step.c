@@ -1,5 +1,5 @@
 /* Scheme and step of a plan, by the measured atlas: the fastest process in the frame (an orbit, the plasma frequency, vorticity, an encounter) is compared
- * with the measured problem. Errors are taken to grow in proportion to time, on orbits by its square where the scheme does not keep energy.
+ * with the measured problem. Errors are assumed to grow linearly in time, on orbits quadratically if the scheme does not conserve energy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -12,7 +12,7 @@ struct clock {
 	const char *problem;
 	double omega;        /* [1/time] */
 	double eccentricity; /* kepler: between the circle and 0.9; else NAN */
-	bool steady;         /* it stays what it is, so that steps may be longer than the frame's */
+	bool steady;         /* it is constant in time, so steps may be longer than the frame's */
 	const char *what;
 };
 
@@ -24,7 +24,7 @@ static double at_error(const char *problem, const char *scheme, const struct clo
 	return pm_atlas_longest(problem, scheme, s->accuracy / grown);
 }
 
-/* [time] longest step of a scheme. Orbits: by the frequency at the pericentre, log dt between those of the circle and of e = 0.9. */
+/* [time] longest step of a scheme. Orbits: by the frequency at the pericentre, with log dt interpolated between the circle and e = 0.9. */
 static double longest(const struct clock *c, const char *scheme, const struct pm_scales *s)
 {
 	if (isnan(c->eccentricity))
@@ -72,7 +72,7 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 	return dt;
 }
 
-/* Of vortices on a mesh: particles must not cross, and viscosity must be stable. */
+/* Limits for vortices on a mesh: particles must not cross, and viscosity must be stable. */
 static double bounded(const struct pm_frame *f, const struct pm_plan *p, double dt, const char **what)
 {
 	const struct pm_scales *s = &p->scales;
@@ -80,7 +80,7 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 	double viscous = HUGE_VAL;
 	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
-	if (s->pairs && s->second && isnan(s->orbit) && dt > 0.5 / s->encounter) /* a quarter of where leapfrog is unstable */
+	if (s->pairs && s->second && isnan(s->orbit) && dt > 0.5 / s->encounter) /* a quarter of the stability limit of leapfrog */
 		*what = "encounters", dt = 0.5 / s->encounter;
 	if (s->kind != PM_VORTICES || s->pairs)
 		return dt;

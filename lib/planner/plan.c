@@ -1,5 +1,5 @@
-/* A plan: the frame's numbers, what every effect decides by them, and the sentence. The force of the frame is computed once for it, and a few steps where an
- * effect asks for them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes a plan: the scales of the frame, the decision of every effect, and the sentence. The force of the frame is computed once, and a few steps if an
+ * effect needs them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "planner/scales.h"
@@ -13,7 +13,7 @@ static bool in(const struct pm_list *list, const char *name)
 	return false;
 }
 
-/* By hand, if the user did. */
+/* The user's decision, if there is one. */
 static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 {
 	const bool on = in(&c->on, e->effect->name), off = in(&c->off, e->effect->name);
@@ -28,7 +28,7 @@ static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 	e->by_hand = true;
 }
 
-/* In two rounds: some decide again when all have. */
+/* In two rounds: some effects revise their decision when all others are known. */
 static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_plan_choice *choice)
 {
 	struct pm_effect_case c;
@@ -84,7 +84,7 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p)
 
 static struct pm_frame *run_steps(const struct pm_effect_run *r, const struct pm_frame *f, int steps) { return pm_plan_run(f, r->sentence, steps, NULL); }
 
-/* The numbers that an effect alone needs. */
+/* The numbers that only one effect needs. */
 static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_effect_case c;
@@ -99,7 +99,7 @@ static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 	return status;
 }
 
-/* Of every stage in a step: the second step, or the first where steps are long. */
+/* The cost of every stage: of the second step, or of the first if steps take long. */
 static int cost(const struct pm_frame *f, struct pm_plan *p)
 {
 	double measured[PM_PLAN_WORDS];
@@ -112,7 +112,7 @@ static int cost(const struct pm_frame *f, struct pm_plan *p)
 	return pm_plan_savings(f, p);
 }
 
-/* What no sentence can say: faces and given fields belong to the frame. */
+/* Refuses choices that no sentence can express: faces and given fields belong to the frame. */
 static int by_hand(const struct pm_frame *f, const struct pm_plan *p, const struct pm_plan_choice *choice)
 {
 	struct pm_effect_case c;

@@ -1,6 +1,6 @@
-/* Scales of a frame: speeds and their spread, the frequency of the particles together, Debye length, distances, what is given on meshes, strain and
- * roughness of the field. omega^2 = |c| sum q^2/m over the volume V, c that of lap phi = c rho (masses: |c| M/V); V is the box where it is periodic, else
- * the ball that has the same rms radius. Source: Birdsall and Langdon 1985, section 1-2; the definitions. Cost N, and N^2/2 below PM_SCALES_PAIRS
+/* Scales of a frame: speeds and their spread, the collective frequency of the particles, Debye length, distances, the fields given on meshes, strain and
+ * roughness of the field. omega^2 = |c| sum q^2/m over the volume V, c that of lap phi = c rho (masses: |c| M/V); V is the box if it is periodic, else
+ * the ball with the same rms radius. Source: Birdsall and Langdon 1985, section 1-2; the definitions. Cost N, and N^2/2 below PM_SCALES_PAIRS
  * particles; no clock, sums in a fixed order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -51,7 +51,7 @@ static void speeds(const struct pm_frame *f, struct pm_scales *s)
 
 /* ---- distances ---- */
 
-/* Of the particles that take part, in one array. */
+/* The positions of all particles that take part, in one array. */
 static size_t places(const struct pm_frame *f, const struct pm_law *law, size_t most, double *x[3])
 {
 	size_t n = 0;
@@ -123,7 +123,7 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 	return status;
 }
 
-/* ---- what they do together ---- */
+/* ---- collective frequency ---- */
 
 static void strengths(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
@@ -149,7 +149,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 	s->debye = s->omega > 0 ? s->v_thermal / s->omega : NAN;
 }
 
-/* Largest length of a field of state on a mesh; NAN if there is none. */
+/* Largest magnitude of a state field on a mesh; NAN if there is none. */
 static double largest(const struct pm_frame *f, const char *name)
 {
 	double most = NAN;
@@ -230,7 +230,7 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 	return status || s->kind != PM_VORTICES ? status : coverage(f, s);
 }
 
-/* ---- of the force ---- */
+/* ---- scales of the force ---- */
 
 static double length_of(const struct pm_grid *g, int components, const double *const y[], double mean)
 {

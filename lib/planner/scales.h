@@ -6,15 +6,15 @@
 #include "law/law.h"
 
 enum {
-	PM_SCALES_PAIRS = 4096, /* up to so many particles the nearest pair is searched for; beyond, it is that expected of a random cloud */
-	PM_SCALES_FEW = 64      /* up to so many bodies their orbits are computed pair by pair */
+	PM_SCALES_PAIRS = 4096, /* up to this many particles the nearest pair is searched; above, its expected distance in a random cloud is used */
+	PM_SCALES_FEW = 64      /* up to this many bodies their orbits are computed pair by pair */
 };
 
-/* Of the particles and what is given on meshes; time and accuracy are left to the caller, as is what needs the force. All data are held. */
+/* Scales of the particles and of fields given on meshes; the caller sets time, accuracy and those that need the force. All data must be in memory. */
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
-/* Of the force: the same frame with the law's change field, and on a mesh density and field, if they were made. */
+/* Scales of the force: the same frame with the law's change field and, if they were made, density and field on a mesh. */
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
-/* orbits.c: of few bodies. */
+/* orbits.c: for few bodies. */
 void pm_scales_orbits(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 
 #endif

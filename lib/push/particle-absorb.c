@@ -17,7 +17,7 @@ bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face)
 int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m)
 {
 	for (size_t i = 0, n = f->nfields; i < n; i++) {
-		struct pm_field *field = f->fields[i]; /* pm_changes moves a field to the end: look at the same place again */
+		struct pm_field *field = f->fields[i]; /* pm_changes moves a field to the end: use the same index again */
 		if (strcmp(field->on, m->set->name) || field->uniform || field->use & (PM_USE_CHANGE | PM_USE_NEW))
 			continue;
 		if (!pm_changes(f, field->on, field->name))
@@ -40,7 +40,7 @@ static size_t mark(const struct pm_frame *f, const struct pm_moving *m, unsigned
 	return count;
 }
 
-/* Moves the values whose gone is 0 to the front, in order; size bytes each. The number left. */
+/* Moves the values with gone 0 to the front, in order; size bytes each. Returns their number. */
 static size_t compact(size_t n, const unsigned char *gone, size_t size, void *values)
 {
 	unsigned char *p = values;
@@ -69,5 +69,5 @@ int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *ab
 			compact(n, gone, size, bytes + (size_t)c * n * size);
 	}
 	pm_free(gone);
-	return *absorbed ? pm_frame_set_resize(f, m->set, n - *absorbed) : 0; /* which keeps the first values of every component */
+	return *absorbed ? pm_frame_set_resize(f, m->set, n - *absorbed) : 0; /* keeps the first values of every component */
 }

@@ -1,5 +1,5 @@
-/* What is typed behind push: kick, drift/2, boris/2, clear or the name of a scheme, made into what one push does, and refused where an order makes no
- * step. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses the arguments of push: kick, drift/2, boris/2, clear or the name of a scheme; refuses orders that do not make a step.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ static int unknown(const char *word)
 		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
-/* Does the action, 1/n of a step, go with those before it? */
+/* Can the action, 1/n of a step, be combined with those before it? */
 static int allowed(const struct pm_push *p, const struct pm_step *step, const char *word, double n)
 {
 	if (step->kind == PM_KICK && p->drift > 0)

@@ -1,4 +1,4 @@
-/* The header's part of a push of one set: what is refused, the clock, the fields declared.
+/* The header part of a push of one set: refusals, the clock, the declaration of fields.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -28,7 +28,7 @@ static int declare_register(struct pm_frame *f, struct pm_moving *m, struct pm_r
 	return rate->q[i] ? 0 : -PM_DATA;
 }
 
-/* Registers of the set that this pass leaves behind: all but the first `kept` of each rate. */
+/* Registers of the set that are dropped after this pass: all but the first `kept` of each rate. */
 static void forget_registers(struct pm_frame *f, const struct pm_moving *m, int kept)
 {
 	for (size_t i = f->nfields; i-- > 0;) {
@@ -61,7 +61,7 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 	return p->moves && pm_moving_face(f, PM_PABSORB) ? pm_moving_shrinks(f, m) : 0;
 }
 
-/* What a magnetic kick reads besides acc. */
+/* The fields that a magnetic kick reads besides acc. */
 static int declare_magnetic(struct pm_frame *f, struct pm_moving *m)
 {
 	const char *on = m->set->name;

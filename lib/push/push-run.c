@@ -1,8 +1,8 @@
-/* The data's part of a push of one set: velocities turned about a magnetic field, then every component advanced (state-advance.h).
+/* The data part of a push of one set: rotates velocities about a magnetic field, then advances every component (state-advance.h).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "push/push-set.h"
 
-/* Component c of a rate as a line of the loops. */
+/* Component c of a state with its rate and registers, for the loops. */
 static struct pm_advanced line(const struct pm_moving *m, const struct pm_rate *r, int c)
 {
 	struct pm_advanced l = {.y = pm_out(r->state, c), .position = r->state == m->x};
@@ -20,7 +20,7 @@ static int lines_of(const struct pm_moving *m, int c, bool motion, struct pm_adv
 		const struct pm_rate *rate = &m->rates[r];
 		bool is_motion = rate->state == m->x || rate->state == m->v;
 		if (m->b && rate->state == m->v)
-			continue; /* turned before */
+			continue; /* already rotated */
 		if (is_motion == motion && c < pm_moving_components(rate))
 			lines[n++] = line(m, rate, c);
 	}
@@ -33,7 +33,7 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 		.mirror = {f->pface[axis][0] == PM_PREFLECT, f->pface[axis][1] == PM_PREFLECT}};
 }
 
-/* Turns and kicks the velocities about bfield, all components of a particle together. */
+/* Rotates the velocities about bfield and kicks them, all components of a particle together. */
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
@@ -66,7 +66,7 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
 	if (p->scheme) {
-		int own = m->pass.registers - m->pass.step->registers; /* those the asked scheme keeps come first */
+		int own = m->pass.registers - m->pass.step->registers; /* those that the requested scheme keeps come first */
 		a.action[0].step = m->pass.step, a.action[0].pass = m->pass.pass;
 		a.shift = m->pass.shift ? own : 0;
 		a.registers = m->pass.step == p->scheme ? 0 : own;
@@ -83,7 +83,7 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 		if (n)
 			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
 	}
-	for (int r = 0; r < m->n && finite; r++) /* else the library looks for the place */
+	for (int r = 0; r < m->n && finite; r++) /* if not finite, the library searches for the value */
 		if (!m->b || m->rates[r].state != m->v) {
 			m->rates[r].state->use |= PM_USE_SEEN;
 			for (int i = 0; i < PM_REGISTERS; i++)

@@ -6,23 +6,23 @@
 #include "push/state-advance.h"
 #include "push/step-clock.h"
 
-/* What is asked of every set. */
+/* The actions of one push, the same for every set. */
 struct pm_push {
 	struct pm_advance actions;
 	double part[PM_ADVANCE_ACTIONS]; /* of dt, for each action */
 	double kick, drift;              /* sums of the parts */
 	const struct pm_step *scheme;    /* NULL: kicks and drifts */
 	const struct pm_step *magnetic;  /* the kick that turns v about bfield; NULL none */
-	bool open, moves, unsafe;        /* a kick is still to come after the drift; positions change; any step length */
-	bool clear;                      /* change and derived fields go afterwards */
+	bool open, moves, unsafe;        /* a kick follows after the drift; positions change; any step length is allowed */
+	bool clear;                      /* change and derived fields are dropped afterwards */
 };
 
-/* One word as typed: clear, NAME or NAME/N, behind those before it. 0, or failure in words. */
+/* Adds one action as typed: clear, NAME or NAME/N. 0, or failure with a message. */
 int pm_push_action(struct pm_push *p, const char *word);
 
 struct pm_moving {
 	struct pm_set *set;
-	struct pm_field *x, *v; /* v NULL: none, or nobody changes it */
+	struct pm_field *x, *v; /* v NULL: none, or it is not changed */
 	struct pm_field *b, *charge, *mass; /* of a magnetic kick */
 	bool closing;           /* the drift is done */
 	int n;
@@ -32,13 +32,13 @@ struct pm_moving {
 
 bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face);
 int pm_moving_components(const struct pm_rate *r);
-/* Where particles may be absorbed every field that stays is rewritten, shorter. */
+/* If particles may be absorbed, every field that is kept is rewritten, shorter. */
 int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
-/* The header's part: refuses what cannot be, moves the set's clock on, declares the fields. */
+/* The header part: refuses invalid pushes, advances the set's clock, declares the fields. */
 int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
-/* The data's part, but for absorption. */
+/* The data part, without absorption. */
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
-/* Takes out the particles that have crossed an absorbing face; *absorbed of them. */
+/* Removes the particles that have crossed an absorbing face; *absorbed is their number. */
 int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed);
 
 #endif

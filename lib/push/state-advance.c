@@ -5,7 +5,7 @@
 #include "mesh/particle-faces.h"
 #include "push/state-advance.h"
 
-/* Lines of one axis, which is what a mirror changes together: x, v and their registers. */
+/* The lines of one axis, which a mirror changes together: x, v and their registers. */
 static void take_through_faces(size_t i, size_t n, const struct pm_bounds *b, double *x, double *v, int nlines, const struct pm_advanced *lines)
 {
 	if (b->fold)

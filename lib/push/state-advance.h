@@ -1,5 +1,5 @@
-/* The loops of push: blocks of particles that stay in cache, each advanced by every action of the push and then taken through the faces of the
- * box, so that a push costs one pass through memory. Elementwise: the same bytes for any number of threads.
+/* The loops of push: blocks of particles that stay in cache; on each all actions of the push, then the faces of the box (wrap, reflect),
+ * so that a push costs one pass through memory. Elementwise: the same bytes for any number of threads.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_PUSH_STATE_ADVANCE_H
 #define PM_PUSH_STATE_ADVANCE_H
@@ -24,8 +24,8 @@ struct pm_advance {
 		int pass;
 		double dt;
 	} action[PM_ADVANCE_ACTIONS];
-	int shift;     /* registers that remember rates: the newest goes to q[0]; 0 none */
-	int registers; /* of the scheme itself begin behind this many */
+	int shift;     /* number of registers that hold old rates: the newest goes to q[0]; 0 none */
+	int registers; /* those of the scheme itself come after this many */
 };
 
 /* The faces an axis has for one set. */
@@ -34,8 +34,8 @@ struct pm_bounds {
 	bool fold, mirror[2];
 };
 
-/* Advances n particles along one axis (or, with x NULL, states that belong to none). lines: positions first, because their rate is the velocity
- * before this pass; but kicks go before drifts, and then the velocity is the new one. True if everything is finite afterwards. */
+/* Advances n particles along one axis (or, with x NULL, states without an axis). lines: positions first, because their rate is the velocity
+ * before this pass; kicks, however, are done before drifts, which use the new velocity. True if everything is finite afterwards. */
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
 	const struct pm_bounds *b);
 

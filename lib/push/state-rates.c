@@ -9,7 +9,7 @@ static const char *const remedy = "compute it first: p2m | poisson-fft | mgrad |
 
 bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
 
-/* Does the set hold every term of a change on a mesh? */
+/* Does the set have every term of a change on a mesh? */
 static bool carried(const struct pm_frame *f, const struct pm_set *s, const struct pm_field *m)
 {
 	int found = 0;

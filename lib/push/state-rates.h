@@ -14,14 +14,14 @@ struct pm_rate {
 };
 
 bool pm_rate_is_state(const struct pm_field *field);
-/* What stands against advancing a set by its change fields: a magnetic field (by: the scheme that does not know it, NULL one that does), or a
- * change on a mesh that was not carried to the particles. */
+/* Refuses to advance a set by its change fields if there is a magnetic field (by: the scheme, which cannot use one; NULL: it can), or a
+ * change on a mesh that was not interpolated to the particles. */
 int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const char *by);
-/* Every change field must have found its state, or a contribution would be lost without a word. */
+/* Every change field must belong to a state, or a contribution would be lost silently. */
 int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s);
-/* The rates of a set, positions first; which of them: those a kick, a drift or a scheme advances. The number of them, or failure. */
+/* The rates of a set, positions first: those that a kick, a drift or a scheme advances. Returns their number, or failure. */
 int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES]);
-/* Refuses a step beyond the limit of the scheme on the negative real axis (kicks: Euler's, 2) for a rate that says how fast it decays. */
+/* Refuses a step beyond the limit of the scheme on the negative real axis (kicks: Euler's, 2) for a rate with a known decay constant. */
 int pm_rates_stable(const struct pm_frame *f, const struct pm_rate *rates, int n, const struct pm_step *scheme);
 
 #endif

@@ -35,7 +35,7 @@ void pm_register_name(char to[PM_NAME], int i, const char *state)
 		snprintf(to, PM_NAME, "q_%.48s", state);
 }
 
-/* Steps remembered by the registers of a set for this scheme and dt; 0 where anything does not fit, so that the scheme starts anew. */
+/* Number of old steps in the registers of a set for this scheme and dt; 0 if anything does not match, so that the scheme is restarted. */
 static int remembered(const struct pm_frame *f, const struct pm_set *s, const struct pm_step *asked, int n, const struct pm_rate *rates)
 {
 	const json_t *scheme = json_object_get(s->more, "scheme"), *count = json_object_get(scheme, "rates");
@@ -83,7 +83,7 @@ int pm_clock_add(struct pm_set *s, double kick, double drift, bool open)
 		json_object_set_new(s->more, "open", json_true());
 	else if (kick > 0)
 		json_object_del(s->more, "open");
-	json_object_del(s->more, "scheme"); /* old rates are worth nothing after another way of moving */
+	json_object_del(s->more, "scheme"); /* old rates are invalid after another kind of push */
 	return 0;
 }
 

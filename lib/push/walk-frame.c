@@ -1,4 +1,4 @@
-/* Which sets walk, what that changes in a frame, and a step of it (random-walk.c). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random walk of the sets of a frame: the sets that walk, the fields changed, one step (random-walk.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "push/random-walk.h"

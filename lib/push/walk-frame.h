@@ -5,14 +5,14 @@
 #include "push/push-set.h"
 
 struct pm_walk {
-	const char *set;  /* this set alone; NULL: every set that moves */
+	const char *set;  /* only this set; NULL: every set that moves */
 	double deviation; /* [length] of a step, sqrt(2 nu dt); not needed in the header */
 	uint64_t seed;
 };
 
-/* Header, between two steps alone (substep 0): what a walk changes, and what no longer belongs to the positions. 0 or failure. */
+/* Header, only between two steps (substep 0): declares the positions changed and drops fields derived from them. 0 or failure. */
 int pm_walk_declare(const struct pm_walk *w, struct pm_frame *f);
-/* Data: walk and faces of a set; *absorbed of its particles are taken out. 0 or failure. */
+/* Data: walk and faces of a set; *absorbed is the number of particles removed. 0 or failure. */
 int pm_walk_set(const struct pm_walk *w, struct pm_frame *f, struct pm_set *set, uint64_t *absorbed);
 bool pm_walk_takes(const struct pm_walk *w, const struct pm_frame *f, const struct pm_set *set);
 

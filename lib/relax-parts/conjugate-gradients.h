@@ -6,9 +6,9 @@
 
 #include "relax/relax.h"
 
-/* (sqrt K - 1)/(sqrt K + 1), K the ratio of the largest to the smallest eigenvalue but 0. */
+/* (sqrt K - 1)/(sqrt K + 1), K the ratio of the largest to the smallest nonzero eigenvalue. */
 double pm_gradients_bound(const struct pm_laplacian *l);
-/* extra[0] = r, [1] = p, [2] = lap p, and [3] = z where there is a preconditioner, which may turn the sign of z: u and r do not notice. */
+/* extra[0] = r, [1] = p, [2] = lap p, and [3] = z if there is a preconditioner, which may reverse the sign of z: u and r do not depend on it. */
 double pm_gradients_sweep(struct pm_relax_work *w, void (*precondition)(struct pm_relax_work *w, const double *r, double *z));
 
 #endif

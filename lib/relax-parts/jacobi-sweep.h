@@ -6,7 +6,7 @@
 
 /* u + (factor/diagonal) (lap u - f), from old values only: the rows are independent. */
 double pm_jacobi_sweep(struct pm_relax_work *w);
-/* Eigenvalues 1 - factor (1 - mu), mu those of the average over neighbours. */
+/* Spectral radius: the eigenvalues are 1 - factor (1 - mu), mu those of the average over neighbours. */
 double pm_jacobi_radius(const struct pm_laplacian *l, double factor);
 
 #endif

@@ -6,10 +6,10 @@
 
 #include "relax/relax.h"
 
-/* On u with right-hand side f; sums: per row, of the squares of the residual met. */
+/* On u with right-hand side f; sums: per row, of the squared residuals, each before its node is updated. */
 void pm_lexicographic_sweep(const struct pm_laplacian *l, double relaxation, double *u, const double *f, double *sums, bool forward);
 double pm_lexicographic_relax(struct pm_relax_work *w);
-/* Round a periodic axis the order is not consistent. */
+/* Is the order consistent? Not with a periodic axis. */
 double pm_lexicographic_radius(const struct pm_laplacian *l, double factor);
 
 #endif

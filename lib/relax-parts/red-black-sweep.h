@@ -1,5 +1,5 @@
-/* Gauss-Seidel sweeps over red nodes (i + j + k even), then black ones; shared by red-black and red-black-sor. Nodes of a colour do not see each other, so the
- * rows are independent, except across the seam of a periodic axis of odd length: rows at its end wait for the others.
+/* Gauss-Seidel sweeps over red nodes (i + j + k even), then black ones; shared by red-black and red-black-sor. Nodes of a colour are not coupled, so the
+ * rows are independent, except across the seam of a periodic axis of odd length: rows at its end are done after the others.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_RED_BLACK_SWEEP_H
 #define PM_RED_BLACK_SWEEP_H
@@ -7,7 +7,7 @@
 #include "relax/relax.h"
 
 double pm_red_black_sweep(struct pm_relax_work *w);
-/* Two colours are a consistent order where every neighbour is of the other colour. */
+/* Is the order consistent? If every neighbour has the other colour. */
 double pm_red_black_radius(const struct pm_laplacian *l, double factor);
 
 #endif

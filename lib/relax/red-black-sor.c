@@ -1,5 +1,5 @@
-/* Successive over-relaxation of red and black nodes in turn: the steps of red-black times omega, by default Young's best factor (lib/relax/sor.c).
- * The radius is that of sor, omega - 1, also round periodic axes of even length, where it holds for the order of memory only roughly; all rows of a colour
+/* Successive over-relaxation of the red, then the black nodes: the steps of red-black times omega, by default Young's best factor (lib/relax/sor.c).
+ * The radius is that of sor, omega - 1, also on periodic axes of even length, for which it is only approximate in the order of memory; all rows of a colour
  * go to the threads. Source: Young 1954. Cost: N per sweep, of order n sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "relax-parts/red-black-sweep.h"
 #include "relax-parts/young-theory.h"

@@ -1,6 +1,6 @@
-/* Red-black Gauss-Seidel: all nodes with i + j + k even from their neighbours, then all others from the new values.
- * Source: Young 1954; Varga 1962, section 4.1. Radius: the square of Jacobi's, as in the order of memory, also round periodic axes of even length; a sweep is
- * independent of the direction and of the threads. It smooths better than the plain order (poisson-mg). Cost: N per sweep, of order n^2 sweeps.
+/* Red-black Gauss-Seidel: first all nodes with i + j + k even, then all others with the new values of these.
+ * Source: Young 1954; Varga 1962, section 4.1. Radius: the square of Jacobi's, as in the order of memory, also on periodic axes of even length; a sweep does
+ * not depend on the direction or the threads. It smooths better than the order of memory (poisson-mg). Cost: N per sweep, of order n^2 sweeps.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "relax-parts/red-black-sweep.h"
 

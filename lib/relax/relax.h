@@ -10,23 +10,23 @@ enum { PM_RELAX_EXTRA = 4 };
 /* What a method works on; the driver (lib/poisson-relax/relaxation.c) owns it. */
 struct pm_relax_work {
 	const struct pm_laplacian *lap;
-	double *u;                     /* the iterate; a method may exchange it with a mesh of its own */
+	double *u;                     /* the iterate; a method may swap it with one of its own meshes */
 	const double *f;
 	double factor;                 /* of relaxation */
 	bool fresh;                    /* u was changed outside, so that the method's stored vectors are invalid; the method sets it to false */
-	double *extra[PM_RELAX_EXTRA]; /* meshes, zero at the start; nothing but 0 is written where u is no unknown */
+	double *extra[PM_RELAX_EXTRA]; /* meshes, zero at the start; stay 0 at nodes where u is not an unknown */
 	double *sums;                  /* per row */
 	double memory;                 /* one number kept from sweep to sweep */
 };
 
 struct pm_relax {
 	const char *name, *sentence, *source;
-	bool bound;                    /* radius is a bound, and the method remembers from sweep to sweep: conjugate gradients */
+	bool bound;                    /* radius is only a bound, and sweeps depend on earlier ones: conjugate gradients */
 	int extra;                     /* meshes it needs besides u and f */
 	double (*factor)(const struct pm_laplacian *l); /* its own relaxation factor; NULL: it has none */
-	/* By how much it shrinks the error per sweep in the long run, the published formula; NAN where that does not hold. 1 or more: it does not converge. */
+	/* Spectral radius: the asymptotic error reduction per sweep by the published formula; NAN if that does not apply. 1 or more: no convergence. */
 	double (*radius)(const struct pm_laplacian *l, double factor);
-	/* One sweep. Returns the weighted sum of squares of the residual: of the old u, or of each node when its turn came; conjugate gradients return that
+	/* One sweep. Returns the weighted sum of squares of the residual: of the old u, or of each node just before its update; for conjugate gradients
 	 * of the new u. */
 	double (*sweep)(struct pm_relax_work *w);
 };

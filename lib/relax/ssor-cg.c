@@ -1,6 +1,6 @@
 /* Conjugate gradients preconditioned by symmetric successive over-relaxation: z from one sweep of sor forward and one back on -lap z = r, from zero.
  * Source: Axelsson 1972; Saad 2003, section 10.2. With a factor near 2/(1 + 2 sin(pi/(2n))) the number of sweeps is of order sqrt(n) instead of n; each
- * costs about three of cg. factor 1: symmetric Gauss-Seidel. No formula of the radius is claimed. In 3-D on any number of threads, else the two sweeps are
+ * costs about three of cg. factor 1: symmetric Gauss-Seidel. No formula is given for the radius. In 3-D on any number of threads, else the two sweeps are
  * serial. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* Weighted Jacobi: a part of Jacobi's step, u <- u + (factor/diagonal)(lap u - f), by default 2/3, 4/5, 6/7 in 1, 2, 3 dimensions.
- * These shrink all waves shorter than four nodes best, by 1/3, 3/5, 5/7 per sweep on equal spacings, which is why multigrid smooths with them; long waves
- * fare worse than with Jacobi: 1 - factor pi^2 h^2/2 in 1-D whatever the factor. Converges for 0 < factor <= 1, also where Jacobi's does not.
+/* Weighted Jacobi: a fraction of Jacobi's step, u <- u + (factor/diagonal)(lap u - f), by default 2/3, 4/5, 6/7 in 1, 2, 3 dimensions.
+ * These damp all waves shorter than four nodes best, by 1/3, 3/5, 5/7 per sweep on equal spacings, which is why multigrid smooths with them; long waves
+ * are damped less than by Jacobi: 1 - factor pi^2 h^2/2 in 1-D whatever the factor. Converges for 0 < factor <= 1, also if Jacobi's does not.
  * Source: Briggs, Henson, McCormick 2000, chapter 2; Trottenberg, Oosterlee, Schueller 2001, section 2.1. Any number of threads.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "relax-parts/jacobi-sweep.h"

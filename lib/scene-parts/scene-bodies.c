@@ -1,4 +1,4 @@
-/* A box, its mesh and a set of bodies, as most scenes begin.
+/* The box, the mesh and the set of bodies of most scenes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 

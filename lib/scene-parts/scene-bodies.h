@@ -11,13 +11,13 @@ struct pm_scene_body { /* the arrays of a set, n values per component */
 	int64_t *id;
 };
 
-/* Gravity with G = 1 in a cube lo..hi with the same faces all round; dt as given. */
+/* Gravity with G = 1 in a cube lo..hi with the same face condition on every side; dt as given. */
 void pm_scene_world(struct pm_frame *f, double lo, double hi, enum pm_face face, double softening, double dt);
-/* The default mesh: so many cells on every axis of the box. */
+/* The default mesh: the same number of cells on every axis of the box. */
 int pm_scene_mesh(struct pm_frame *f, size_t cells);
 /* A set with x, mass, id, and v if it moves; mass is that of each particle, NAN if they differ and the caller fills b->mass. */
 int pm_scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, double mass, struct pm_scene_body *b);
-/* Takes the weighted mean (weights all equal if NULL) of n values away; twice, so that what is left is rounding alone. */
+/* Subtracts the weighted mean (equal weights if NULL) of n values; twice, so that the remaining mean is only round-off. */
 void pm_scene_centre(uint64_t n, const double *weight, double *a);
 /* Particles per axis of a regular arrangement of n in dim dimensions; 0 with a message if n is not such a power. */
 size_t pm_scene_per_axis(uint64_t n, int dim);

@@ -1,4 +1,4 @@
-/* What the scenes of plasmas share: units in which omega_p = eps0 = 1 and electrons have q = -1, m = 1 per unit of density 1, so that each of n
+/* Shared by the plasma scenes: units in which omega_p = eps0 = 1 and electrons have q = -1, m = 1 per unit of density 1, so that each of n
  * particles of a box of length L carries the charge -L/n and the mass L/n; ions are a constant background.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_SCENE_PLASMA_H
@@ -10,9 +10,9 @@
 void pm_scene_plasma_world(struct pm_frame *f, double length, double background, double dt);
 /* The set "electrons" with x, v of `velocities` components (above dim all 0), mass and charge the same for all. */
 int pm_scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double charge, double mass, double *x[3], double *v[3]);
-/* A field on the mesh that is given and the same everywhere. */
+/* A given uniform field on the mesh. */
 int pm_scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value);
-/* Whole numbers among the parameters. */
+/* Parameters that are integers. */
 int pm_scene_plasma_whole(double mode, double velocities, int least);
 /* x in [0, length). */
 double pm_scene_fold(double x, double length);

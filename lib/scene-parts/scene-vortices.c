@@ -1,4 +1,4 @@
-/* A plane of vortices: points, or a lattice on the nodes of the mesh that carries a vorticity.
+/* Vortices in the plane: points, or a lattice on the nodes of the mesh that represents a vorticity.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 

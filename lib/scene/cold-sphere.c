@@ -1,6 +1,6 @@
-/* A uniform sphere at rest that falls together, G = M = R = 1, particles at random. Every shell keeps its place in the order:
+/* A uniform sphere that collapses from rest, G = M = R = 1, particles at random. Shells do not cross:
  * r(t) = r(0) cos^2 b with b + sin b cos b = (pi/2) t/t_ff and t_ff = (pi/2) sqrt(R^3/(2 G M)) = 1.1107. The step is t_ff/200.
- * Source: Peebles 1980, section 19; PM-08 of the reference cases. Noise seeds fragments: follow it to 0.75 t_ff, not beyond.
+ * Source: Peebles 1980, section 19; PM-08 of the reference cases. Poisson noise grows into fragments: valid to 0.75 t_ff, not beyond.
  * Exact: mass, radius_F, energy_field_pair and energy at t = 0 (-3/5), free_fall. Centre of mass zero. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>

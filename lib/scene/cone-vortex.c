@@ -1,4 +1,4 @@
-/* A round vortex with straight flanks in open space, omega = W max(0, 1 - r/R): an exact steady flow without viscosity, in which neighbouring
+/* A round vortex with a conical profile in open space, omega = W max(0, 1 - r/R): an exact steady flow without viscosity, in which neighbouring
  * rings slide past each other; particles that are not remeshed lose their overlap and their roundness. u_theta = W (r/2 - r^2/(3R)) inside, W R^2/(6r) outside,
  * the largest 3 W R/16 at r = 3R/4. Source: Koumoutsakos 1997, J. Comput. Phys. 138, 821; scene A of the notes (W = 100, R = 0.5, dt = 5e-3).
  * Exact at any time (nu = 0): circulation, impulses, enstrophy, omega_max, speed_max. Cost: nodes of the mesh.

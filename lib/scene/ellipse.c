@@ -1,6 +1,6 @@
-/* An elliptical Gaussian vortex in a periodic box of side 2 pi: omega = W exp(-(X^2/(2 a^2) + Y^2/(2 b^2))) about its middle. It turns, throws
- * out arms and becomes round. The default is VM-17 of the reference cases (W = 10, a = 1/2, b = 1/4, nu = 5e-4); --nu 0 is VM-21, whose vorticity
- * may never exceed its start. The mean of omega is not removed here but by the solver. Source: Melander, McWilliams, Zabusky 1987, J. Fluid Mech. 178, 137.
+/* An elliptical Gaussian vortex in a periodic box of side 2 pi: omega = W exp(-(X^2/(2 a^2) + Y^2/(2 b^2))) about its centre. It turns, ejects
+ * filaments and becomes round. The default is VM-17 of the reference cases (W = 10, a = 1/2, b = 1/4, nu = 5e-4); --nu 0 is VM-21, whose vorticity
+ * must never exceed its initial maximum. The solver removes the mean of omega. Source: Melander, McWilliams, Zabusky 1987, J. Fluid Mech. 178, 137.
  * Exact: circulation (the tails reach 3e-9 of the peak at the edge), with nu = 0 also omega_max and enstrophy. Cost: nodes of the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Electrons that drift across a given uniform magnetic field B along z and electric field E along y: v = E x B/B^2 = E/B along x, plus a gyration
  * of `speed` about it; q = -1, m = 1, Omega = B. Both fields are given on the mesh, so `push boris/2 drift | m2p | push boris/2` moves them.
- * Boris drifts at exactly E/B on the average over a gyration.
+ * With the Boris scheme the drift averaged over a gyration is exactly E/B.
  * Source: Birdsall and Langdon 1985, section 4-3; PIC-12 of the reference cases.
  * Exact: mass, charge, drift (E/B); without gyration energy_kinetic, momentum_x, momentum_y. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */

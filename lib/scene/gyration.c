@@ -1,6 +1,6 @@
 /* Electrons that circle in a given uniform magnetic field along z: q = -1, m = 1, Omega = B, counter-clockwise, radius v/B about the middle of the
  * box; several start at equal angles. B and E = 0 are given on the mesh, so `push boris/2 drift | m2p | push boris/2` moves them.
- * A step of Boris turns by 2 atan(Omega dt/2) on a circle of radius (v/B) sqrt(1 + (Omega dt/2)^2).
+ * A step of the Boris scheme turns by 2 atan(Omega dt/2) on a circle of radius (v/B) sqrt(1 + (Omega dt/2)^2).
  * Source: Birdsall and Langdon 1985, section 4-3; PIC-12, HC-08 of the reference cases.
  * Exact: mass, charge, energy_kinetic; of one particle centre_x, centre_y. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */

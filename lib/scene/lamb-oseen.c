@@ -30,7 +30,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (!(c->value[NU] > 0))
 		return pm_fail(PM_USAGE, "a Lamb-Oseen vortex needs a viscosity (--nu above 0)");
 	f->time = f->start = c->value[START];
-	f->dt = 0.02 * c->value[START]; /* what lsrk3 bears with 128 cells and differences of order 6 is 0.0203 */
+	f->dt = 0.02 * c->value[START]; /* lsrk3 with 128 cells and differences of order 6 is stable up to 0.0203 */
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
 	if (pm_scene_plane(c, f, -10 * radius, 10 * radius, PM_OPEN, 128))

@@ -1,8 +1,8 @@
-/* A Maxwellian plasma with a small wave, f = (1 + A cos k x) M(v), which Landau damping takes away. vth = 1 and omega_p = 1, so lambda_D = 1 and
+/* A Maxwellian plasma with a small wave, f = (1 + A cos k x) M(v), which is Landau damped. vth = 1 and omega_p = 1, so lambda_D = 1 and
  * the default k = 0.5 is k lambda_D = 0.5: omega = 1.4156619, gamma = -0.1533595; k = 0.3: 1.1598465, -0.01262037.
- * Quiet start: Hammersley's points, velocities by their quantiles, places by reversed bits through the inverse of x + (A/k) sin k x; every second
+ * Quiet start: Hammersley's points, velocities by their quantiles, positions by reversed bits through the inverse of x + (A/k) sin k x; every second
  * particle is the mirror image of the one before, so the momentum is zero. Or, without noise, --beams of evenly spaced velocities with the weights
- * of the Maxwellian; they are in step again after 2 pi/(k dv), dv = 12 vth over their number.
+ * of the Maxwellian; they are in phase again (recurrence) after 2 pi/(k dv), dv = 12 vth over their number.
  * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
  * Exact: mass, charge. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -36,7 +36,7 @@ static double place(double q, double a, double k)
 	return x;
 }
 
-/* Beams of even velocities, even places in each, masses as the Maxwellian has it. */
+/* Beams of evenly spaced velocities, evenly spaced particles in each, masses in proportion to the Maxwellian. */
 static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, double length, double k, double *x, double *v)
 {
 	const uint64_t beams = (uint64_t)c->value[BEAMS], each = c->n / beams;
@@ -55,7 +55,7 @@ static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, doubl
 		total += exp(-0.5 * pow(12 * ((double)b + 0.5) / (double)beams - 6, 2));
 	for (uint64_t i = 0; i < c->n; i++) {
 		const double u = 12 * ((double)(i / each) + 0.5) / (double)beams - 6, share = exp(-0.5 * u * u) / total * length / (double)each;
-		/* each lattice begins elsewhere (golden section), or their images on the mesh would be in step again and again */
+		/* each lattice is offset (golden section), or their images on the mesh would come into phase repeatedly */
 		const double first = fmod(0.6180339887498949 * ((double)(i / each) + 1), 1);
 		x[i] = pm_scene_fold(place(((double)(i % each) + first) / (double)each * length, c->value[AMPLITUDE], k), length);
 		v[i] = c->value[VTH] * u;

@@ -1,5 +1,5 @@
 /* A cold plasma oscillation: electrons at rest on a lattice, displaced by x = q + (A/k) sin(k q), before immobile ions; omega_p = 1.
- * Until sheets cross (A < 1: never) each electron swings about its own place, x = q + (A/k) sin(k q) cos t, for any A (Dawson 1959). On a mesh with
+ * Until sheets cross (A < 1: never) each electron oscillates about its own position, x = q + (A/k) sin(k q) cos t, for any A (Dawson 1959). On a mesh with
  * cic and the 3-point Laplacian the frequency is cos(k dx/2), with the leapfrog sin(omega dt/2) = (dt/2) cos(k dx/2). In 2-D and 3-D the box is a square
  * or a cube, and the wave runs along x or, with --axes, along a diagonal.
  * Source: Dawson 1959, Phys. Rev. 113, 383; Birdsall and Langdon 1985, chapter 4; PIC-06, PIC-07, PIC-16 of the reference cases.

@@ -1,5 +1,5 @@
 /* A cold simple lattice in a periodic box: x = (i + offset/spacing) * spacing, in cells of the default mesh, whose spacing is 1.
- * In the continuum no particle feels a force. On a mesh that holds where spacing is a whole number of cells (to rounding), and only there:
+ * In the continuum no particle feels a force. On a mesh this holds (to rounding) only if the spacing is a whole number of cells:
  * spacing 1.5 has a largest force component of 0.945 G rho dx with cic and 0.478 with tsc (fd2 Laplacian, 4-point gradient).
  * Source: PM-13 and HC-15 of the reference cases. Exact: mass, speed_rms = 0, energy_kinetic = 0. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */

@@ -1,4 +1,4 @@
-/* Two particles at rest anywhere in a periodic box whose default mesh has cells of length 1: the finest look at a force.
+/* Two particles at rest anywhere in a periodic box whose default mesh has cells of length 1: for the detailed comparison of a force.
  * The defaults are PM-01 of the reference cases: 16^3 cells, m = 1 at (3.3, 4.7, 5.2) and m = 2 at (7.9, 6.1, 9.4), G = 1, lap phi =
  * 4 pi G (rho - mean); with them the field of the neutralised periodic system at the first particle is acc_x, acc_y, acc_z of `exact`
  * (Ewald sums, two splittings agree to 1e-13). Exact: mass, energy_kinetic = 0 (at t = 0). SPDX-License-Identifier: GPL-3.0-or-later */

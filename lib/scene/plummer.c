@@ -1,9 +1,9 @@
 /* A Plummer sphere in equilibrium, G = M = a = 1: rho = 3/(4 pi) (1 + r^2)^(-5/2), f(E) ~ (-E)^(7/2), sigma^2(r) = 1/(6 sqrt(1 + r^2)).
  * Radii from the mass fraction M(r) = (1 + r^-2)^(-3/2), speeds by rejection from q^2 (1 - q^2)^(7/2), q = v/v_escape.
  * Source: Aarseth, Henon, Wielen 1974, Astron. Astrophys. 37, 183, appendix.
- * The sphere ends at `truncation`; the mass outside is left out, not spread over the rest (1.5 % at 10 a), so density and potential
+ * The sphere ends at `truncation`; the mass outside is left out, not redistributed (1.5 % at 10 a), so density and potential
  * gradient inside are Plummer's. Centre of mass and momentum are zero. With theta = atan(truncation) the energies are
- * K = 3/32 (theta - sin(4 theta)/4) and W = -3 (theta/16 - sin(4 theta)/64 - sin(2 theta)^3/48); -3 pi/64 in all without an end.
+ * K = 3/32 (theta - sin(4 theta)/4) and W = -3 (theta/16 - sin(4 theta)/64 - sin(2 theta)^3/48); in total -3 pi/64 without truncation.
  * Exact: mass, energy_kinetic, energy_field_pair, energy, virial_ratio, radius_F (fraction F of the mass kept), dispersion_centre. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Point vortices at random in a disc of radius 1 in open space, of either sign with equal chance (--mixed 0: all of one sign); each has the
  * circulation --circulation over n in magnitude. Invariants: circulation, impulse, angular impulse, and the energy of the pairs.
- * Source: Aref 1983, Annu. Rev. Fluid Mech. 15, 345. Exact: none of the sums, they depend on the seed. Cost N.
+ * Source: Aref 1983, Annu. Rev. Fluid Mech. 15, 345. Exact: none, because the sums depend on the seed. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

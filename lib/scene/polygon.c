@@ -1,6 +1,6 @@
 /* N equal point vortices on a circle (Thomson's polygon) in open space: it turns as a solid body at Omega = (N - 1) Gamma/(4 pi R^2). Disturbances
- * of wave number m grow at sqrt(q (q - 2 (N - 1))) Gamma/(4 pi R^2), q = m (N - m), where that is real: never for N < 7; neutral for N = 7; sqrt(32)
- * = 5.65685 for N = 8. --disturbance moves vortex i outwards by that part of R times cos(2 pi m i/N), m = N/2.
+ * of wave number m grow at sqrt(q (q - 2 (N - 1))) Gamma/(4 pi R^2), q = m (N - m), if that is real: never for N < 7; neutral for N = 7; sqrt(32)
+ * = 5.65685 for N = 8. --disturbance moves vortex i outwards by that fraction of R times cos(2 pi m i/N), m = N/2.
  * Source: Thomson 1883; Havelock 1931, Phil. Mag. 11, 617; VM-07 of the reference cases. Exact: circulation, angular_impulse, rate, growth. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>

@@ -8,16 +8,16 @@
 enum { PM_SCENE_PARAMETERS = 16 };
 
 struct pm_scene_parameter {
-	const char *name, *unit; /* the same word means the same in every scene */
+	const char *name, *unit; /* a name has the same meaning in every scene */
 	double otherwise;        /* default */
 	double low, high;        /* inclusive; both 0: any */
 	const char *text;
 };
 
-struct pm_scene_choice { /* what pinit was asked for, defaults filled in and ranges checked */
+struct pm_scene_choice { /* the options of pinit, defaults filled in and ranges checked */
 	int dim;
 	uint64_t n, seed;
-	size_t cells[3];                   /* of the default mesh as asked for; 0: the scene's own */
+	size_t cells[3];                   /* of the default mesh, from the options; 0: the scene's own */
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
 };
 
@@ -26,7 +26,7 @@ struct pm_scene {
 	unsigned dims;           /* bit 1u<<dim for each dimension it exists in */
 	int dim;                 /* default */
 	uint64_t n;              /* default, in its default dimension */
-	bool n_fixed;            /* no other n; and n 0: the particles are nodes of the mesh, as many as its cells say */
+	bool n_fixed;            /* n cannot be changed; with n 0 the particles are nodes of the mesh, whose cells give their number */
 	bool random;             /* depends on the seed */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
 	/* Fills a new frame of c->dim: law, constants, box, faces, sets with their data, the mesh "mesh", dt. 0 or failure. */

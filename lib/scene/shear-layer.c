@@ -1,6 +1,6 @@
 /* Two layers of shear in a periodic unit box that roll up: u = tanh(rho (y - 1/4)) for y <= 1/2, tanh(rho (3/4 - y)) above, v = delta
- * sin(2 pi x); omega = dv/dx - du/dy. rho = 80, delta = 0.05, nu = 1e-4 is the thin layer of Brown and Minion, in which too coarse a method makes
- * a vortex that is not there: omega at (0, 1/4) at t = 1 is -26.070867, the centre of a braid (VM-16 of the reference cases). rho = 30 is the thick one.
+ * sin(2 pi x); omega = dv/dx - du/dy. rho = 80, delta = 0.05, nu = 1e-4 is the thin layer of Brown and Minion, in which an under-resolved computation makes
+ * a spurious vortex: omega at (0, 1/4) at t = 1 is -26.070867, the centre of a braid (VM-16 of the reference cases). rho = 30 is the thick one.
  * Source: Bell, Colella, Glaz 1989, J. Comput. Phys. 85, 257; Brown, Minion 1995, J. Comput. Phys. 122, 165.
  * Exact: circulation; of the defaults omega_centre at (0, 1/4), energy, enstrophy, omega_max at t = 0.4, 0.8, 1 (pseudo-spectral, 1024^2). Cost: nodes.
  * SPDX-License-Identifier: GPL-3.0-or-later */

@@ -1,7 +1,7 @@
 /* Two beams of electrons, v0 and -v0, half of the density each (together omega_p = 1), before immobile ions; cold, or Maxwellian of width vth.
  * Cold beams grow for k v0 < 1 at gamma^2 = sqrt(2 a + 1/4) - a - 1/2, a = (k v0)^2, fastest at a = 3/8: gamma = 1/sqrt 8. Equal Maxwellian beams are
  * stable at every k below v0/vth = 1.30693. Quiet start: particles of the two beams are mirror images; cold beams are lattices, warm ones
- * Hammersley's points (velocities by their quantiles, places by reversed bits). Both are displaced by (A/k) sin(k q).
+ * Hammersley's points (velocities by their quantiles, positions by reversed bits). Both are displaced by (A/k) sin(k q).
  * Source: Birdsall and Langdon 1985, sections 5-6 to 5-9; PIC-02, PIC-03, HC-04 of the reference cases.
  * Exact: mass, charge, gamma (cold). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */

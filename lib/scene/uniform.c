@@ -1,4 +1,4 @@
-/* Particles at random in a periodic box, the same chance everywhere, at rest or with a Maxwellian of 1-D dispersion `dispersion`.
+/* Uniformly distributed random particles in a periodic box, at rest or with a Maxwellian of 1-D dispersion `dispersion`.
  * Poisson noise: the number in a cell of the box has the variance of its mean. Masses are equal, or log-uniform over
  * `mass-spread` decades (m = mass/n 10^(spread (u - 1/2))). Total momentum is zero.
  * Source: Hockney, Eastwood 1988, section 9; HC-14 of the reference cases for the spread of masses.

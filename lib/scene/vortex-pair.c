@@ -1,4 +1,4 @@
-/* Two point vortices in open space, distance --distance apart along x: of unlike sign and equal they go straight at Gamma/(2 pi d), else they turn about
+/* Two point vortices in open space, distance --distance apart along x: if equal and of opposite sign they move straight at Gamma/(2 pi d), else they turn about
  * their centre of circulation at (Gamma1 + Gamma2)/(2 pi d^2). Source: Saffman 1992, section 7.2; VM-08 of the reference cases.
  * Exact: circulation, impulses, angular_impulse, rate or speed, energy_field_pair. 
  * SPDX-License-Identifier: GPL-3.0-or-later */

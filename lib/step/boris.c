@@ -1,6 +1,6 @@
-/* Boris: v' = acc + (q/m) v x B. Half a step (boris/2) about a time is half of the rotation and half of the kick: opening (before the drift)
- * rotates, then kicks; closing kicks, then rotates. Each rotates by atan(Omega dt/2), half the angle of the published step, so that two
- * halves about a time are that step: E/2, rotation by 2 atan(Omega dt/2), E/2.
+/* Boris: v' = acc + (q/m) v x B. Half a step (boris/2) is half of the rotation and half of the kick: the opening half (before the drift)
+ * rotates, then kicks; the closing half kicks, then rotates. Each rotates by atan(Omega dt/2), half the angle of the published step, so that a
+ * closing half and the next opening half are that step: E/2, rotation by 2 atan(Omega dt/2), E/2.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 4-4; notes in docs/methods/boris.md.
  * Assumes v << c. Second order, keeps |v| without E to round-off, moves at exactly E x B/B^2 in uniform fields. Cost: one square root and
  * two divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
@@ -15,8 +15,8 @@ static void pass(int p, double dt, size_t n, double *restrict y, const double *r
 
 static double component(const double *const *a, int c, size_t i) { return a[c] ? a[c][i] : 0; }
 
-/* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would stretch v by a few 1e-17 the same way in every
- * step; the low part of 2/(1 + tau^2) takes that off, so that only random rounding is left. */
+/* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would change |v| by a few 1e-17 with the same sign in every
+ * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. */
 static void turn(const double tau[3], double v[3])
 {
 	double high = 1, low = 0;

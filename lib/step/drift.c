@@ -1,6 +1,6 @@
 /* Drift: positions advance at fixed velocity, x += v dt/N (or vel, where a set has no v).
  * Source: Hockney and Eastwood 1988, section 4-4 (leapfrog); Tuckerman et al. 1992 (kick and drift as factors of the propagator).
- * See kick for what the two make together. Cost: 3 words of memory traffic per component.
+ * For the combination of the two see kick. Cost: 3 words of memory traffic per component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step/step.h"
 

@@ -1,5 +1,5 @@
-/* Steps: how push advances state by its rates. push knows no law: x' = v (or vel), v' = acc, s' = its change field.
- * One file per action or scheme; what push does around them is in lib/push.
+/* Steps: how push advances state by its rates, independent of the law: x' = v (or vel), v' = acc, s' = its change field.
+ * One file per action or scheme; the rest of push is in lib/push.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STEP_H
 #define PM_STEP_H
@@ -14,7 +14,7 @@ enum pm_step_kind {
 	PM_SCHEME /* advances every state through a whole step, one pass of the sentence per force evaluation */
 };
 
-/* One set as a magnetic step sees it; components that are not there are NULL. */
+/* One set in a magnetic step; components that do not exist are NULL. */
 struct pm_magnetic {
 	double *v[3];                     /* [length/time] */
 	const double *acc[3], *b[3];      /* [length/time^2] without v x B; [magnetic field] */
@@ -27,15 +27,15 @@ struct pm_step {
 	int passes;    /* force evaluations per step */
 	int registers; /* per state, zero at the first pass, dropped after the last; each a linear combination of rates, so that it does not
 	                * change when a particle is folded and changes sign when it is reflected */
-	int rates;     /* old rates kept from step to step: q[0] that of the last step, q[1] the one before; push shifts them */
-	const char *start;  /* of schemes that keep rates: the one-step scheme that makes the first steps */
+	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
+	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
-	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: the scheme is not for decay */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not usable for decay */
 	double imaginary_limit; /* and on the imaginary axis */
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt */
 	/* One pass over n values: y is advanced, k is its rate now, q the registers. */
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
-	/* Of magnetic kicks, which turn v about B; for particles from..to-1 and half a step of dt; every other state is kicked by pass. NULL: none. */
+	/* For magnetic kicks, which rotate v about B: particles from..to-1, half a step of dt; every other state is kicked by pass. NULL: none. */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
 };
 
