@@ -31,7 +31,7 @@ swing() {
 
 @test "PIC-07: with ngp the frequency tends to cos(k dx/2) as the square of the cell: 0.2 % below it on 16 cells" {
 	# 262144 electrons, displaced by up to 800 of their spacings. The alias sum assumes displacements that vary within a cell, but ngp moves all
-	 * electrons of a cell together, so that those crossing a face all come from one side.
+	# electrons of a cell together, so that those crossing a face all come from one side.
 	ngp() { # CELLS: relative difference, corrected for the leapfrog: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), sin(omega dt/2) = w dt/2
 		pinit langmuir -n 262144 --cells "$1" --amplitude 0.02 --dt 0.05 | cycle -n 24 --every 1 "${step/p2m/p2m --kernel ngp}" | diag --columns energy_kinetic |
 			sed 1d | awk -v cells="$1" '{ a[NR] = sqrt($1) } END { for (i = 2; i < NR; i++) { num += (a[i-1] + a[i+1]) * a[i]; den += 2 * a[i]^2 }

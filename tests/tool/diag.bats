@@ -167,7 +167,7 @@ load ../helper
 	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$3"; [[ $stderr == *"$2"* ]] || { echo "$stderr"; return 1; }; }
 	refused 1 "no field 'E' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)" "pinit langmuir -n 64 | diag --growth mode:1"
 	refused 1 "1 points of mode 1 are too few for a growth rate" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1"
-	refused 1 "want a box that is periodic in x" "pinit plummer -n 64 | diag --growth mode:1"
+	refused 1 "modes need a box that is periodic in x" "pinit plummer -n 64 | diag --growth mode:1"
 	refused 2 "it is written mode:1" "pinit langmuir -n 64 | diag --growth 1"
 	refused 2 "it is written T0:T1" "pinit langmuir -n 64 | diag --growth mode:1 --window 3:1"
 	refused 2 "not a whole number of waves" "pinit langmuir -n 64 | diag --modes 1.5"

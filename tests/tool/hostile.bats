@@ -75,7 +75,7 @@ spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} k
 	printf 'trial\ta[$(touch touched)]\t1\t0.5\tstable\t-\t-\ngrowth\t0\t1\tEND\t1\t2\ngrowth\t0\t1\t1\tEND;system "touch touched"\t2\ntrial\t0\t1\t`touch touched`\tstable\t-\t-\ntrial\t0' >>d/measured/log
 	untouched margin "$spring" --vary dt:0.5:9 --tolerance 0.5 --unstable-when 'distance_max > 100' -o d --format tsv
 	[[ $output == "margin: 5 lines of 'd/measured/log' are no results of margin and are left out"* ]]
-	[ "$(tail -n +2 <<<"$output")" = "$(cat want)" ]
+	[ "$(tail -n +2 <<<"$output" | grep -v 'no gnuplot here')" = "$(cat want)" ]
 	cmp log d/measured/log
 	pareto 'pinit uniform -n 9 | p2m -n {4,8} | poisson-fft | mgrad | m2p' --against finest --field acc --repeat 1 -o p --tsv >want
 	cp p/measured/log log

@@ -93,7 +93,7 @@ static void usage(void)
 	refused(f, "rk4 drift", PM_USAGE, "a whole scheme stands alone");
 	refused(f, "clear kick", PM_USAGE, "put clear last");
 	refused(f, "kick --open", PM_USAGE, "--open belongs to drift");
-	refused(f, "drift --dt 0", PM_USAGE, "--dt 0 moves nothing");
+	refused(f, "drift --dt 0", PM_USAGE, "--dt must not be 0");
 	pm_frame_free(f);
 }
 
