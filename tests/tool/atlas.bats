@@ -1,10 +1,10 @@
-# The atlas of accuracy: the page and its files are of one mind, a figure is made as its commands say, and data/atlas/ holds what is measured.
+# The atlas of accuracy: the page agrees with its files, each figure is made by its commands, and data/atlas/ has the measured values.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 page=$top/docs/accuracy/README.md
 figures() { sed -n 's|^!\[.*](\([^)]*\)\.png)$|\1|p' "$page"; }
-# below_picture NAME: the page from its picture to the end of its block.
+# below_picture NAME: the text of the page from the picture to the end of its section.
 below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; next } there { print } there && /^```$/ && on { exit } /^```sh$/ { on = there }' "$page"; }
 
 @test "every figure of the page has its picture, its numbers, commands that write both, and three sentences" {
@@ -31,10 +31,10 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 	command -v gnuplot >/dev/null || skip "no gnuplot here"
 	OUT=$PWD bash "$top/docs/accuracy/atlas.sh" diffusion
 	[ "$(head -c 4 diffusion.png | tail -c 3)" = PNG ]
-	# Other instructions round otherwise: 1e-6 of an error, and what round-off is of u = 0.4.
+	# Other instruction sets round differently: 1e-6 of an error, and the round-off of u = 0.4.
 	paste "$top/docs/accuracy/diffusion.tsv" diffusion.tsv | awk -F'\t' 'NR == 1 { next } $1 $2 $3 != $5 $6 $7 { exit 1 } $4 == "-" || $8 == "-" { next }
 		{ n++; d = $4 - $8; if (d < 0) d = -d; if (d > 1e-6 * $4 + 1e-14) { print; exit 1 } } END { exit n < 40 }'
-	# N64: exchange at N = 25 to 1600, the kernel cut off at 5 eps, as the notes have it.
+	# N64: exchange at N = 25 to 1600, the kernel cut off at 5 eps, as in the notes.
 	k=0
 	for want in 7.09e-5 1.95e-5 5.6e-6 2.1e-6 1.25e-6 1.05e-6 1.00e-6; do
 		within "$(awk -F'\t' -v n=$((25 * 2 ** k)) '$1 == "pse --cutoff 5" && $2 == "lattice" && $3 == n { print $4 }' diffusion.tsv)" $want "$(awk -v w=$want 'BEGIN { print 0.006 * w }')" "N = $((25 * 2 ** k))"
@@ -42,7 +42,7 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 	done
 }
 
-@test "data/atlas/ has the columns that it promises, in numbers, and the errors of the figures" {
+@test "data/atlas/ has the documented columns, all numeric, and the errors of the figures" {
 	grep -v '^#' "$top/data/atlas/force.tsv" >force
 	[ "$(head -n 1 force)" = $'scene\tsolver\tkernel\tgradient\th_over_scale\terror\tns_per_particle' ]
 	awk -F'\t' 'NR > 1 && !($1 ~ /^(smooth|clustered)$/ && $2 ~ /^(poisson-(fft|mg)|pp)/ && $4 ~ /^([246-]|spectral)$/ && $5 >= 0 && $5 < 2 && $6 >= 0 && $6 < 2 && $7 > 0) { print; exit 1 }' force
@@ -54,7 +54,7 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 	for what in force.tsv step.tsv; do grep -q "atlas/$what" "$top/data/README.md"; done
 }
 
-@test "a row of each table is what the words measure today" {
+@test "a row of each table agrees with a new measurement" {
 	want=$(awk -F'\t' '$1 == "clustered" && $2 == "poisson-fft" && $3 == "cic" && $4 == 4 && $5 == 0.875 { print $6 }' "$top/data/atlas/force.tsv")
 	pinit plummer -n 20000 >stars
 	p2m --kernel cic -n 32 <stars | poisson-fft | mgrad --order 4 | m2p >mesh
@@ -67,8 +67,8 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 	within "$(column relative_l2 <norms)" "$(cut -f4 <<<"$row")" 1e-8
 }
 
-@test "evaluations are counted as the words run: passes of a scheme, and what starting takes" {
-	# A word that keeps what passes before it passes it on (tee is stopped before its last line is in the file).
+@test "evaluations counted are those that run: passes of a scheme, and those of its start" {
+	# A word that stores its input before passing it on (tee is stopped before its last line is in the file).
 	printf '#!/usr/bin/env python3\nimport os\nkept = open("passed", "ab", 0)\nwhile data := os.read(0, 1 << 20):\n    kept.write(data)\n    os.write(1, data)\n' >keep
 	chmod +x keep
 	for scheme in kdk euler rk2 lsrk3 rk4 ab2 ab3; do

@@ -1,4 +1,4 @@
-# The measuring programs of bench/: what they record without a clock, and the tables they make. What they measure is in docs/speed.md.
+# The benchmark programs of bench/: their counts, which need no clock, and the tables they make. The results are in docs/speed.md.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -42,7 +42,7 @@ load ../helper
 	[ "$(grep -c 'pp | full | 1 | 4.1 | Gpair/s' new.md)" = 1 ]
 	[ "$(grep -cE '^(above|between|kept)$' new.md)" = 3 ]
 	run ! grep -q '^old$' new.md
-	# Made anew from the same rows it stays as it is.
+	# Regenerated from the same rows it does not change.
 	awk -v markdown=1 -f "$top/bench/table.awk" rows.tsv new.md | cmp - new.md
 	# Every program of bench/ that prints rows has its place on the page.
 	for kernel in machine start pass-through cycle p2m m2p poisson-fft poisson-mg pp pse push mgrad diag step; do

@@ -3,7 +3,7 @@
 load ../helper
 load words
 
-# usage PATTERN COMMAND LINE: exit 2 before the input is read (it never comes), one line, and an abort alone for those behind.
+# usage PATTERN COMMAND LINE: exit 2 before the input is read (there is none), one line, and only an abort for later stages.
 usage() {
 	local got=0 tool=${2%% *} word='' length=0
 	timeout 5 bash -c "exec $2" < <(sleep 6) >out 2>err || got=$?
@@ -28,7 +28,7 @@ usage() {
 	done
 }
 
-@test "a missing value, a value that is none, a value too many: exit 2" {
+@test "a missing value, an invalid value, a value too many: exit 2" {
 	usage 'needs a value' 'p2m --kernel'
 	usage 'not a number' 'push kick --dt fast'
 	usage 'not a number' 'push kick --dt nan'
@@ -52,7 +52,7 @@ usage() {
 
 @test "a wrong choice: exit 2, the choices and the nearest" {
 	usage 'cic.*did you mean cic' 'p2m --kernel cci'
-	usage 'did you mean tsc' 'p2m --kernel tcs' # letters that changed places, not pcs with one replaced
+	usage 'did you mean tsc' 'p2m --kernel tcs' # a transposition, not pcs with one letter replaced
 	usage 'fused.*did you mean fused' "cycle -n 1 --engine fusde 'push drift'"
 	usage 'did you mean plummer' 'pinit plumer'
 	usage 'spectral' 'poisson-fft --symbol special'
@@ -88,7 +88,7 @@ usage() {
 	pinit plummer -n 12 --cells 4 | tee slow.pm >/dev/null
 	wire edit slow.pm 'put("v", 3, 1e308)' >in.pm
 	five 'push drift --dt 10' 3 "push: frame 1: .*not finite"
-	# A stage that is not there at all, and one that is killed: those behind see a stream that is cut.
+	# A stage that does not exist, and one that is killed: later stages read a truncated stream.
 	run bash -o pipefail -c 'pinit uniform -n 12 --cells 4 | nosuchstage 2>/dev/null | p2m 2>/dev/null | diag'
 	[[ $output == *"diag: stopped by p2m: frame 1: no input: zero bytes"* ]]
 }
@@ -102,7 +102,7 @@ usage() {
 	[ "${lines[-1]}" = "diag: stopped by $(cat err)" ]
 }
 
-@test "a failure in the second frame: the first comes out whole, then the abort" {
+@test "a failure in the second frame: the first is written completely, then the abort" {
 	cloud >a.pm
 	wire edit a.pm 'put("x", 1, float("nan"))' >b.pm
 	wire frames a.pm b.pm >two.pm
@@ -130,7 +130,7 @@ usage() {
 	cloud >a.pm
 	p2m <a.pm >want.pm
 	coproc P { p2m 2>err; }
-	# The frame without the end marker: the answer must come while the input stays open.
+	# The frame without the end marker: the output must come while the input is still open.
 	wire cut a.pm before-end-line >&"${P[1]}"
 	timeout 5 head -c $(($(wc -c <want.pm) - 64)) <&"${P[0]}" >got.pm
 	cmp -n "$(wc -c <got.pm)" want.pm got.pm
@@ -150,7 +150,7 @@ usage() {
 	done
 }
 
-@test "state between frames is only a cache: a frame after others comes out as it does alone" {
+@test "state between frames is only a cache: a frame gives the same result after others as alone" {
 	for t in $(readers); do
 		"$t" --help | grep -q 'writes text' && continue
 		case $t in stack | scmp) continue ;; esac # they take a second stream, frame by frame
@@ -177,9 +177,9 @@ assert "threads" not in h[0]["options"], h'
 	[ "$(wire header b.pm | python3 -c 'import json, sys; print(len(json.load(sys.stdin)["history"]))')" = 0 ]
 }
 
-# Green's functions and hierarchies are made when the first frame comes: a third (poisson-fft) and a fifth of three solves on 32^3 cells; begin and plan alone
+# Green's functions and hierarchies are made at the first frame: a third (poisson-fft) and a fifth of three solves on 32^3 cells; begin and plan alone
 # are a hundredth.
-@test "--timing: what a solver makes once is set-up, not work" {
+@test "--timing: the one-time preparation of a solver is set-up, not work" {
 	pinit plummer -n 100 --cells 32 | p2m >a.pm
 	for word in poisson-fft poisson-mg; do
 		cat a.pm a.pm a.pm | "$word" --timing t >/dev/null
@@ -208,7 +208,7 @@ assert "threads" not in h[0]["options"], h'
 
 @test "a stage holds only the fields it reads: poisson-fft's memory does not depend on the number of particles" {
 	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
-	peak() { # the address space that just suffices, by bisection to 8 MB
+	peak() { # the smallest sufficient address space, by bisection to 8 MB
 		local low=0 high=2000 mid
 		while [ $((high - low)) -gt 8 ]; do
 			mid=$(((low + high) / 2))

@@ -1,5 +1,5 @@
-# Streams that are cut, damaged, strange or refused by the other end: in full for a filter, a sink and cycle, in part for every other tool.
-# Each answer is an exit status and a message.
+# Streams that are truncated, damaged, of another format, or whose reader stops: all cases for a filter, a sink and cycle, some for every other tool.
+# Each case must give an exit status and a message.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 load words
@@ -23,7 +23,7 @@ setup() {
 	cp "$BATS_FILE_TMPDIR"/*.pm .
 }
 
-# fails FILE CODE PATTERN [SUBJECT...]: the exit status, one line on stderr that matches, and an abort with that line for those behind.
+# fails FILE CODE PATTERN [SUBJECT...]: the exit status, one line on stderr that matches, and an abort with that line for later stages.
 fails() {
 	local file=$1 code=$2 pattern=$3 got=0 s
 	shift 3
@@ -37,7 +37,7 @@ fails() {
 	done; done
 }
 
-# works FILE [SUBJECT...]: exit status 0 and nothing on stderr; the output stays in out.SUBJECT.
+# works FILE [SUBJECT...]: exit status 0 and nothing on stderr; the output is in out.SUBJECT.
 works() {
 	local file=$1 got=0 s
 	shift
@@ -48,7 +48,7 @@ works() {
 	done; done
 }
 
-# cut KIND PATTERN: at every place of that kind in a stream of two frames.
+# cut KIND PATTERN: at every position of that kind in a stream of two frames.
 cut_at() {
 	local place n=0 frame
 	for place in $(wire places two.pm | grep -E "$1"); do
@@ -104,7 +104,7 @@ cut_at() {
 	fails zero 1 'not a pmpipe stream'
 }
 
-@test "garbage behind a good stream is not taken for another: exit 1" {
+@test "garbage after a valid stream is not taken for another stream: exit 1" {
 	cat one.pm text 2>/dev/null >behind || true
 	echo 'a line behind the end' >>behind
 	fails behind 1 'not a pmpipe stream'
@@ -143,7 +143,7 @@ cut_at() {
 	{ cat one.rows && tail -n +2 other.rows; } | cmp - out.diag
 }
 
-@test "two streams, one behind the other: two streams come out" {
+@test "two streams, one after the other: two streams come out" {
 	works one.pm && mv out.p2m one.out && mv out.diag one.rows && mv out.cycle one.cycle
 	works other.pm && mv out.p2m other.out && mv out.diag other.rows && mv out.cycle other.cycle
 	cat one.pm other.pm >both.pm
@@ -160,7 +160,7 @@ cut_at() {
 	cmp none.pm out.cycle
 }
 
-@test "unknown fields and attributes travel unchanged, and do not disturb" {
+@test "unknown fields and attributes are passed on unchanged and have no effect" {
 	wire edit one.pm '
 h["colour"] = {"deep": [1, None, "two"]}
 h["box"]["walls"] = "painted"
@@ -197,7 +197,7 @@ assert h["fields"][i]["by"] == "hand" and h["fields"][i]["type"] == "f32" and st
 	fails inf.pm 1 "(frame 1|step 1: p2m): 'x' of 'matter' is not finite"
 }
 
-@test "NaN in a field that is not read travels on: exit 0" {
+@test "NaN in a field that is not read is passed on: exit 0" {
 	wire edit one.pm '
 h["fields"].append({"name": "heat", "on": "matter", "components": 1, "type": "f64", "role": "state", "kind": "value", "unit": ""})
 data.append(bytearray(struct.pack("<12d", *[float("nan")] * 12)))' >nan.pm
@@ -217,7 +217,7 @@ data.append(bytearray(struct.pack("<12d", *[float("nan")] * 12)))' >nan.pm
 	done
 }
 
-@test "a reader that went away: SIGPIPE, no message" {
+@test "a reader that has exited: SIGPIPE, no message" {
 	for s in $subjects; do
 		[ "$(wire closed bash -c "exec $(command_of "$s")" <one.pm 2>err)" = 141 ] || { echo "$s"; return 1; }
 		[ ! -s err ]
@@ -254,7 +254,7 @@ data.append(bytearray(struct.pack("<12d", *[float("nan")] * 12)))' >nan.pm
 	done
 }
 
-@test "every other tool: works on the stream that the cut ones were made of" {
+@test "every other tool: works on the complete stream" {
 	for t in $(readers); do
 		input "$t" >same.pm
 		got=0

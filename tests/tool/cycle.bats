@@ -1,5 +1,5 @@
 #!/usr/bin/env bats
-# cycle: what it counts, writes, primes, keeps and refuses. SPDX-License-Identifier: GPL-3.0-or-later
+# cycle: counting, output, priming, checkpoints, refusals. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 leap='push kick/2 drift | pp | push kick/2'
@@ -89,7 +89,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	within "$(awk -v a="$e1" -v b="$e0" 'BEGIN { print a / b }')" "$(awk -v d="$dt" 'BEGIN { print (1 - d) ^ 80 }')" 1e-6
 }
 
-@test "a foreign word that is not there is named" {
+@test "a foreign word that does not exist is named" {
 	pinit two-body > a
 	run -2 bash -c "cycle -n 1 'no-such-word | push kick drift' < a > b"
 	[[ $output == "cycle: no word 'no-such-word'"* ]]
@@ -112,12 +112,12 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done
 }
 
-@test "how long must be said" {
+@test "a number of steps, a time or a condition is required" {
 	run -2 bash -c "cycle 'pp' < /dev/null > b"
 	[[ $output == *"how long"* ]]
 }
 
-@test "a failure inside names the step and the stage, and travels" {
+@test "a failure inside names the step and the stage, and is passed on" {
 	pinit two-body > a
 	for engine in fused pipes; do
 		run -1 bash -c "set -o pipefail; cycle -n 3 --engine $engine 'push kick/2 drift | push kick/2' < a | diag"
@@ -141,7 +141,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	sleep 0.3
 	kill -TERM $pid
 	wait $pid && status=0 || status=$?
-	if [ $status -ne 0 ]; then # it may have been done already on a fast machine
+	if [ $status -ne 0 ]; then # a fast machine may have finished already
 		grep -q 'stopped by signal 15 after step' err
 		tail -c 512 b | grep -q 'PMPIPE/1 abort 1'
 		cycle --no-history -n 300 --resume c "$leap" > rest
@@ -209,7 +209,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done
 }
 
-@test "--until stops at the first step where it is true, in both engines, and says in the tail that it was met" {
+@test "--until stops at the first step where it is true, in both engines, and reports this in the tail" {
 	pinit cold-sphere -n 100 > a
 	words='push kick/2 drift | pp --potential | push kick/2'
 	cycle -n 500 --every 1 "$words" < a | diag --columns step,virial_ratio > table
@@ -246,7 +246,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	cycle --no-history --resume c --until 'virial_ratio > 1' -n 20 --checkpoint d "$words" > /dev/null
 	cycle --no-history --resume d --until 'virial_ratio > 1' "$words" > e
 	same_as b e
-	# at step 20 the ratio is not that of the beginning, and nobody may take it for it
+	# at step 20 the ratio is not the initial one, and must not be used as such
 	run --separate-stderr cycle --no-history --resume d --until 'virial_ratio > virial_ratio0 + 0.5' "$words"
 	[ "$status" = 2 ]
 	[[ $stderr == *"has no value of 'virial_ratio' at the beginning"* ]]

@@ -1,4 +1,4 @@
-# diag: what it prints. The sums themselves are tested in tests/unit/measure.c. SPDX-License-Identifier: GPL-3.0-or-later
+# diag: its output. The sums themselves are tested in tests/unit/measure.c. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 @test "diag: a table with a header line of words, one row a frame, the same columns all along" {
@@ -18,7 +18,7 @@ load ../helper
 	[[ ${lines[0]} == *angular_momentum_z* && ${lines[0]} != *angular_momentum_x* ]]
 }
 
-@test "diag: what cannot be computed is nan, and null in JSON" {
+@test "diag: quantities that cannot be computed are nan, and null in JSON" {
 	sh_ok 'pinit plummer -n 100 > a; diag < a > t'
 	[ "$(column energy < t)" = nan ]
 	sh_ok 'diag --format json < a'
@@ -35,8 +35,8 @@ load ../helper
 }
 
 @test "PM-09: plummer has the exact energy, Lagrangian radii and virial ratio" {
-	# radius_F counts the mass that is kept, so F = 0.1/0.985185 ... is the reference's tenth of all.
-	# 1e4 particles scatter the energy by 0.7 %, the end at 10 a costs 0.5 %: the mean of four seeds is within the case's 1 %
+	# radius_F is a fraction of the mass inside the truncation, so F = 0.1/0.985185 ... is a tenth of the total mass of the reference.
+	# with 1e4 particles the energy scatters by 0.7 %, the truncation at 10 a costs 0.5 %: the mean of four seeds is within the case's 1 %
 	for s in 1 2 3 4; do
 		pinit plummer -n 10000 --seed $s | pp --potential | diag --exact --radii 0.10150373,0.50751869,0.91353358 > $s
 	done
@@ -96,7 +96,7 @@ load ../helper
 	[ "$(column step < t | tr '\n' ' ')" = "1 2 3 4 5 " ]
 }
 
-@test "diag: inside cycle too the line of --growth stands behind the table, whichever the engine" {
+@test "diag: inside cycle too the line of --growth comes after the table, with either engine" {
 	for engine in fused pipes; do
 		sh_ok "pinit langmuir -n 64 --cells 16 | cycle --engine $engine -n 40 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | diag --growth mode:1 --tee $engine'"
 		[ "$(grep -c '^# mode:1 gamma ' $engine)" = 1 ]
@@ -120,13 +120,13 @@ load ../helper
 	[[ $stderr == *"/no/such/place/t"* ]]
 }
 
-@test "diag: charge, field energy by component and modes of a plasma; --growth prints one line behind the table" {
+@test "diag: charge, field energy by component and modes of a plasma; --growth prints one line after the table" {
 	sh_ok "pinit langmuir -n 1024 --cells 16 --amplitude 1e-3 --dt 0.2 | cycle -n 100 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
 		p2m | poisson-fft | mgrad > a; diag --modes 1,2 --growth mode:1 < a > t"
 	[ "$(wc -l < t)" = 103 ]
 	[[ $(tail -n 1 t) == "# mode:1 gamma "*" omega "*", from t = 0 to "*", 101 points" ]]
 	within "$(sed '$d' t | column charge | tail -n 1)" -6.283185307179586 1e-12
-	# a plane wave of amplitude e has the energy L e^2/4, and mode 2 is not there
+	# a plane wave of amplitude e has the energy L e^2/4, and mode 2 is absent
 	e=$(sed '$d' t | column mode_1 | head -n 1)
 	within "$(sed '$d' t | column energy_field_x | head -n 1)" "$(awk -v e="$e" 'BEGIN { printf "%.17g", 6.283185307179586 * e * e / 4 }')" 1e-9
 	below "$(sed '$d' t | column mode_2 | head -n 1)" 1e-5

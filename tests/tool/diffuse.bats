@@ -57,7 +57,7 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	run -2 diffuse --nu -1
 }
 
-@test "diffuse refuses to add twice, --replace computes anew, other terms stay" {
+@test "diffuse refuses to add twice, --replace replaces its term, other terms are kept" {
 	lattice 8 'sin(2*pi*x)' --constant nu=0.1 | p2m | diffuse >a
 	run -1 bash -o pipefail -c 'diffuse <a | sls'
 	[[ $output =~ "already holds the term 'diffusion'" ]]
@@ -95,7 +95,7 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 		{ d = $2 - f * $1; if (d > 1e-15 || d < -1e-15) exit 1 }'
 }
 
-@test "the second moment of a blob grows by 4 nu t and its circulation stays, for every order" {
+@test "the second moment of a blob grows by 4 nu t and its circulation is conserved, for every order" {
 	for order in 2 4 6; do
 		lattice 32 'exp(-((x - 0.5)^2 + (y - 0.5)^2) / 0.005)' --constant nu=1e-3 >a
 		cycle -n 5 "p2m | poisson-fft | mgrad | diffuse --order $order | m2p | push rk2 | remesh" <a >b
@@ -103,7 +103,7 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 			stab --plain <$f | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 				{ c = $at["circulation"]; s += c; m += c * (($at["x"] - 0.5)^2 + ($at["y"] - 0.5)^2) } END { printf "%.17g %.17g\n", s, m / s }'
 		done >moments
-		# the blob is .05 wide and reaches the edge with exp(-50); the second moment sees the distortion within a step, the circulation does not
+		# the blob is .05 wide and reaches the edge with exp(-50); the distortion within a step affects the second moment, not the circulation
 		awk 'NR == 1 { s = $1; m = $2 } NR == 2 { g = ($2 - m) / (4 * 1e-3 * 0.05); d = ($1 - s) / s; print g, d; exit !(g > 0.998 && g < 1.002 && d < 1e-13 && d > -1e-13) }' moments
 	done
 }
@@ -124,7 +124,7 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	done
 }
 
-@test "what diffuses to where no particle is, is reported: the drift of the circulation in a step of euler, to round-off" {
+@test "circulation that diffuses to nodes without particles is reported: its drift in a step of euler, to round-off" {
 	# unremeshed for 40 steps: gaps open between the particles
 	pinit lamb-oseen --cells 64 >a
 	cycle -n 40 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' <a >b

@@ -26,7 +26,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 		dt --lcfl ${c%:*} < a > b
 		sls --format json --report < b | grep -q "\"crossing\":${c#*:}[,}]"
 	done
-	# a step that is held is counted too, and --verbose says what would do
+	# a step held by --min is counted too, and --verbose prints the step that would suffice
 	run -0 bash -o pipefail -c 'dt --lcfl 0.5 --min 3 --max 3 --verbose < a 2>&1 >b'
 	[[ $output == *"above 1: particles may cross (--lcfl 1, or --max 1.0"* ]]
 	sls --format json --report < b | grep -q '"crossing":1'
@@ -57,7 +57,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	[ "$(stab t --box 0,2 --cells 4 --dt 0.75 | dt --courant 1 --max 0.5 | step_of)" = 0.5 ]
 }
 
-@test "in the middle of a step the frame passes" {
+@test "in the middle of a step the frame is passed on unchanged" {
 	pinit two-body | pp | push kick/2 --no-history > a
 	dt --acceleration 1e-6 --softening 1 --no-history < a > b
 	same_as a b

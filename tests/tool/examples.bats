@@ -3,7 +3,7 @@
 load ../helper
 load words
 
-# A tenth of the allowance is for a loaded machine's mood: the median example takes a few hundredths.
+# The limit leaves room for a loaded machine: the median example takes a few hundredths of a second.
 limit=${PM_EXAMPLE_SECONDS:-10}
 
 @test "every tool has at least one example" {

@@ -1,11 +1,11 @@
-# field: rates of change from expressions: what they add to, whom they move, what is refused. SPDX-License-Identifier: GPL-3.0-or-later
+# field: rates of change from expressions: terms, sets, refusals. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 table() { stab --plain; }
 # one VALUES [options of stab]: one particle of x y, and its numbers.
 one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 0.125 "$@"; }
 
-@test "acc, vel and d<state> are what the expression says, of the right state, term external" {
+@test "acc, vel and d<state> have the values of the expression, belong to the right state, and are the term external" {
 	pinit plummer -n 50 >a
 	field 'acc = -2*x, y - vx, time + 3' <a >b
 	paste <(table <a | tail -n +2) <(scalc 'acc = -2*x, y - vx, time + 3' <a | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"], $c["acc_1"], $c["acc_2"] }') >want
@@ -20,7 +20,7 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	grep -qE 'dcirculation +1 f64 change.* of circulation terms external' list
 }
 
-@test "it adds to what is there, in either order, and twice only under two terms or with --replace" {
+@test "it adds to an existing change, in either order, and twice only under two terms or with --replace" {
 	pinit plummer -n 40 >a
 	pp <a | field 'acc = x, 2*y, z' >b
 	field 'acc = x, 2*y, z' <a | pp >c
@@ -36,10 +36,10 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 @test "a spring under leapfrog keeps v^2 + x^2 (1 - dt^2/4) to round-off (C9)" {
 	printf 'x vx\n1 0\n' | stab - --law free --dt 0.4 | cycle -n 1000 --every 1 "push kick/2 drift | field 'acc = -x' | push kick/2" |
 		scalc 'h = vx^2 + x^2*(1 - 0.04)' | table | awk '$1 == "x" { for (i = 1; i <= NF; i++) if ($i == "h") c = i; next } NF { d = $c - 0.96; if (d < 0) d = -d; if (d > m) m = d; n++ }
-			END { print n, m; exit !(n == 1001 && m < 1e-12) }' # 3000 roundings of 1e-16, that do not drift
+			END { print n, m; exit !(n == 1001 && m < 1e-12) }' # 3000 roundings of 1e-16, without drift
 }
 
-@test "an expression of the time sees the time of the stage: orders 1, 2, 4 for x' = cos t" {
+@test "an expression of the time uses the time of the pass: orders 1, 2, 4 for x' = cos t" {
 	for case in euler:1 rk2:2 rk4:4; do
 		points=()
 		for n in 10 20 40; do
@@ -69,7 +69,7 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 			f = NR == 4 ? 0.5 : 1; d = ($c["x"] - f * x)^2 + ($c["y"] - f * y)^2; if (d > 1e-30) { print; exit 1 } }' b
 }
 
-@test "of several sets each gets the rate whose state it has, --set names one" {
+@test "each of several sets gets the rates of its own states, --set names one" {
 	pinit plummer -n 4 >matter
 	printf 'x y z\n1 2 3\n' | stab - --set tracers --law gravity --dt 1 --box -9,9 >tracers
 	stack matter tracers >both
@@ -81,7 +81,7 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	[[ $output == *"no set 'nobody'"* ]]
 }
 
-@test "what is no rate is refused in a sentence with a remedy" {
+@test "a target that is not a rate is refused with a remedy" {
 	pinit plummer -n 4 >a
 	refused() { run -"$1" bash -c "$2 <a | sls"; [[ ${lines[0]} == *"$3"* ]] || { echo "$2: ${lines[0]}"; return 1; }; }
 	refused 2 "field 'speed = x'" "'speed' is no rate of change (acc of v, vel of x"

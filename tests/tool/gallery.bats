@@ -23,7 +23,7 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 	done
 }
 
-@test "the pictures that are there are those of the gallery's list, and each has commands that write it" {
+@test "the pictures are those of the gallery's list, and each has commands that make it" {
 	diff <(listed) <(cd "$top/docs/gallery" && ls -- *.png | sed 's/\.png$//' | sort)
 	for name in $(listed); do
 		awk -v picture="](gallery/$name.png)" 'index($0, picture) { there = 1 } /^```$/ { if (on) exit } on { print } /^```sh$/ { on = there }' "$top/docs/gallery.md" >block

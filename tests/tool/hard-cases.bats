@@ -24,7 +24,7 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 	done <cases
 }
 
-@test "every row of docs/hard-cases.md has five cells and names tests that are there, or a word that is not" {
+@test "every row of docs/hard-cases.md has five cells and names existing tests, or a missing word" {
 	page | awk -F'|' '/^\|/ && NF != 7 { print NR ": " NF - 2 " cells"; bad = 1 } END { exit bad }'
 	rows | cut -f2,3 >rows
 	[ "$(wc -l <rows)" -ge 80 ]
@@ -45,7 +45,7 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 
 @test "where a row's test measures, docs/hard-cases.md has its number, made by make hard-cases" {
 	rows >rows
-	# a line is one row; what compares by a helper of tests/helper.bash leaves a number
+	# a line is one row; comparisons by a helper of tests/helper.bash give a number
 	while IFS=$'\t' read -r line file begins number; do
 		[[ $number =~ ^([0-9]+(\.[0-9]+)?(e[0-9]+)?\ \(.*\)|exact|([0-9]+)\ of\ ([0-9]+)|yes\ or\ no)$ ]] || { echo "line $line of docs/hard-cases.md: '$number' (make hard-cases)"; return 1; }
 		[ "$number" = "yes or no" ] && [ "${file%%/*}" != unit ] || continue
@@ -54,7 +54,7 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 	done <rows
 }
 
-@test "the number of a row is the comparison nearest to its bound, and the rest of the page stays" {
+@test "the number of a row is the comparison nearest to its bound, and the rest of the page is unchanged" {
 	mkdir -p tests/hard docs
 	cp "$top/docs/hard-cases.sh" docs
 	ln -s "$top/tests/helper.bash" tests

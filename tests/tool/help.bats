@@ -1,4 +1,4 @@
-# What every tool prints of itself: help, manual page, completion, version.
+# The help, manual page, completion and version of every tool.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 load words
@@ -23,7 +23,7 @@ load words
 	done
 }
 
-@test "--help writes options alike in every tool: -x, --name or --name" {
+@test "--help writes options the same way in every tool: -x, --name or --name" {
 	for t in $(tools); do
 		! "$t" --help | sed -n '/^options/,/^examples/p' | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' || { echo "$t"; return 1; }
 	done

@@ -4,7 +4,7 @@ load ../helper
 
 export PM_PLAN=estimate OMP_NUM_THREADS=1
 
-# untouched COMMAND...: runs it, whatever it says, and no file called `touched` is there afterwards.
+# untouched COMMAND...: runs it, ignoring its output; afterwards there must be no file called `touched`.
 untouched() {
 	run timeout 60 "$@"
 	[ "$status" -lt 124 ] || { echo "$* hangs: $output"; return 1; }
@@ -13,7 +13,7 @@ untouched() {
 attacks=('acc; touch touched' '$(touch touched)' '`touch touched`' "a' | touch touched; '" 'a" | touch touched; "' 'a | touch touched' '>touched' 'a&touch touched' $'a\ntouch touched')
 spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
 
-@test "pareto: --field and --set are names, whatever signs they have, with --jobs and with exact numbers too" {
+@test "pareto: --field and --set are names, whatever characters they contain, with --jobs and with exact numbers too" {
 	for a in "${attacks[@]}"; do
 		untouched pareto 'pinit uniform -n 9 | p2m -n {4,8} | poisson-fft | mgrad | m2p' --against finest --field "$a" --repeat 1 -o d --fresh
 		untouched pareto 'pinit uniform -n 9 | p2m -n {4,8} | poisson-fft | mgrad | m2p' --against finest --set "$a" --jobs 2 -o d --fresh
@@ -69,7 +69,7 @@ spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} k
 	done
 }
 
-@test "results kept in a directory are data: lines that are none are said and left out" {
+@test "results kept in a directory are data: invalid lines are reported and left out" {
 	margin "$spring" --vary dt:0.5:9 --tolerance 0.5 --unstable-when 'distance_max > 100' -o d --format tsv >want
 	cp d/measured/log log
 	printf 'trial\ta[$(touch touched)]\t1\t0.5\tstable\t-\t-\ngrowth\t0\t1\tEND\t1\t2\ngrowth\t0\t1\t1\tEND;system "touch touched"\t2\ntrial\t0\t1\t`touch touched`\tstable\t-\t-\ntrial\t0' >>d/measured/log

@@ -1,4 +1,4 @@
-# The house around the code: what is installed, what the directories promise.
+# The repository: what is installed, and the rules for its directories.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -239,8 +239,8 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 	[ -z "$bad" ]
 }
 
-# A method or a word that held, settled or resized fields behind the runner's back would leave a frame that is not what was declared. No header includes
-# it, so nobody has it through another.
+# A method or a word that loaded, converted or resized fields itself would leave a frame that differs from its declaration. No header includes
+# it, so it cannot be included indirectly.
 @test "only the layer that runs stages, and readers and writers of frames, include stream/run.h" {
 	bad=$(cd "$top" && grep -l '"stream/run.h"' lib/*/*.[ch] tools/*.c | grep -vE '^lib/(stream|stage|sentence|cycle|planner|h5)/[^/]*\.c$' || true)
 	echo "$bad"

@@ -1,4 +1,4 @@
-# m2p: what is gathered, to what it is added, and what is refused.
+# m2p: interpolation, terms, refusals.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -79,7 +79,7 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 	[ "$(m2p --field phi --kernel tsc <b | of phi)" = "0.25 2.25" ] # 1(0.28125-0.03125); 9(0.28125-0.03125), the end node is 0
 }
 
-@test "m2p: what is given has the same values on both sides of any face, in one dimension and along a wall in two" {
+@test "m2p: a given field has the same values on both sides of any face, in one dimension and along a wall in two" {
 	for faces in wall neumann wall,neumann; do
 		given g $faces state 0.25 3.75 >a
 		[ "$(m2p --kernel tsc <a | of acc)" = "0.3125 13.8125" ] # as above: 0 at the wall and 1 on both sides; 16, and 9 on both sides
@@ -95,12 +95,12 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 	done
 }
 
-@test "m2p honours components that sit half a cell up" {
+@test "m2p interpolates components that are staggered by half a cell" {
 	given g periodic derived 2.25 | stab | sed '1s/"kernel":"cic",/&"half":[[1,0,0]],/' | stab - >a
 	[ "$(m2p <a | of acc)" = 3.25 ] # values 0 1 4 9 at 0.5 1.5 2.5 3.5: a quarter below 2.5
 }
 
-@test "m2p names a particle the mesh does not hold, or leaves it out and counts it" {
+@test "m2p names a particle outside the mesh, or leaves it out and counts it" {
 	given g open derived 2.25 7 >a
 	run -1 m2p <a
 	[[ $output =~ "particle 1 of 'matter' at (7) is outside mesh 'mesh'" ]]
@@ -109,7 +109,7 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 	[[ $output =~ dropped.*1 ]]
 }
 
-@test "m2p leaves sets alone that lack what the law moves, and says so if there is no other" {
+@test "m2p skips sets without the state that the law changes, and reports it if there is no other" {
 	given g open derived 2.25 | stab | sed '1s/"name":"v"/"name":"w"/; s/^x\tvx/x\tw/' | stab - >a
 	run -1 m2p <a
 	[[ $output =~ "no field 'v' on 'matter'" ]]

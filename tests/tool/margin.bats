@@ -1,4 +1,4 @@
-# margin: bisection between checked ends, choices, seeds, maps, what is kept and gone on with. SPDX-License-Identifier: GPL-3.0-or-later
+# margin: bisection between checked end points, choices, seeds, maps, continuing from earlier results. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 export PM_PLAN=estimate OMP_NUM_THREADS=1
@@ -33,14 +33,14 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	[ "$(number sentence <t)" = "$spring" ]
 }
 
-@test "--tolerance closes the bracket in, and costs one run for each half" {
+@test "a smaller --tolerance narrows the bracket, at one run for each halving" {
 	leap --tolerance 0.1 --format tsv >a
 	leap --tolerance 0.00078125 --format tsv >b
 	[ "$(($(number runs <b) - $(number runs <a)))" = 7 ]
 	awk -v u="$(number uncertainty <a)" 'BEGIN { exit !(u <= 0.2 && u > 0.05) }'
 }
 
-@test "ends that do not enclose a limit are said, and no number is made up" {
+@test "end points that do not enclose a limit are reported, without a number" {
 	run -1 --separate-stderr margin "$spring" --vary dt:0.5:1 --unstable-when 'distance_max > 100'
 	[[ $output == *"none"*"no limit: stable at both ends, 0.5 and 1"* && $stderr == "margin: no limit: stable at both ends, 0.5 and 1" ]]
 	run -1 margin "$spring" --vary dt:2.5:4 --unstable-when 'distance_max > 100' --format tsv
@@ -94,7 +94,7 @@ rk2 - -" ] || { cat t; false; }
 2 rk4 " ] || { cat t; false; }
 }
 
-@test "a choice without a limit is said in its row, and the others stand" {
+@test "a choice without a limit is reported in its row, and the others have theirs" {
 	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when 'distance_max > 2' --tolerance 0.01 -o d
 	[[ $output == *"no limit for euler: unstable at both ends, 1 and 4"* ]]
 	grep -qE '^rk4 +2\.8' <<<"$output"
@@ -102,7 +102,7 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(awk -F'\t' '$1 == "growth" && $2 == 0 && $4 == 1 { d = $5 - log(2)/2; if (d < 0) d = -d; print d < 1e-4 }' d/measured/log)" = 1 ]
 }
 
-@test "{seed}: every seed has its limit, and their spread is part of the uncertainty; without it the run is said to be deterministic" {
+@test "{seed}: every seed has its limit, and their spread is part of the uncertainty; without it the run is reported as deterministic" {
 	gate
 	# A limit that depends on the seed: 0.5, 0.6, 0.7.
 	margin 'pinit uniform -n 3 --seed {seed} | gate {a} 0.$((4 + {seed}))' --vary a:0.1:1 --tolerance 0.01 --format tsv >t
@@ -116,7 +116,7 @@ rk2 - -" ] || { cat t; false; }
 	[[ $output == *"no {seed} in the sentence: every run is deterministic"* ]]
 }
 
-@test "the criterion is put into every cycle, and the first that meets it decides" {
+@test "the criterion is put into every cycle, and the first that reaches it decides" {
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel={a}*x | push euler" | scalc x=1 | cycle -n 5 "field vel=0*x | push euler"'
 	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --format tsv >t # (1 + a)^5 = 32
 	within "$(number limit <t)" 1 "$(number uncertainty <t)"
@@ -140,7 +140,7 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(margin 'pinit uniform --seed {seed} | a {x} | {b,c}' --vary x:1:2 --list)" = $'pinit uniform --seed {seed} | a {x} | b\npinit uniform --seed {seed} | a {x} | c' ]
 }
 
-@test "what is no search: one clear line, exit 2" {
+@test "an invalid search: one clear line, exit 2" {
 	told 'SENTENCE is missing' --vary a:1:2
 	told '--vary is missing' 'a {b,c}'
 	told 'nowhere in the sentence' 'a' --vary a:1:2
@@ -163,7 +163,7 @@ rk2 - -" ] || { cat t; false; }
 	told 'not between 1e-9 and 1' 'a {a}' --vary a:1:2 --tolerance 1
 }
 
-@test "with -o: TSV, JSON, a picture of growth on both sides, one page that holds everything itself" {
+@test "with -o: TSV, JSON, a picture of growth on both sides, one self-contained page" {
 	leap --expect 2 -o d | tail -n 1 >last
 	[ "$(cat last)" = "page: d/index.html" ]
 	# Growth per step of ln|x|: ln 7 in the first step of dt = 4, then towards ln(7 + sqrt 48), the larger root; on the other side none.
@@ -179,7 +179,7 @@ rk2 - -" ] || { cat t; false; }
 	done
 }
 
-@test "more than one limit between the ends is said, where a run shows it" {
+@test "more than one limit between the end points is reported if a run shows it" {
 	gate
 	# stable below 2, and from 5.5 to 6.5.
 	cat >bin/window <<-'SH'
@@ -216,7 +216,7 @@ rk2 - -" ] || { cat t; false; }
 	cmp a b
 }
 
-@test "stopped by SIGINT it says how far it came, and the same command goes on and runs nothing twice" {
+@test "stopped by SIGINT it reports its progress, and the same command continues and runs nothing twice" {
 	gate
 	mkdir -p bin
 	cat >bin/halt <<-'SH'

@@ -35,7 +35,7 @@ refused() {
 	below "$worst" 1e-11 # second derivatives of size 1e2
 }
 
-@test "mgrad: what it cannot do is refused with what can" {
+@test "mgrad: unsupported cases are refused, with an alternative" {
 	pinit uniform -n 100 | p2m -n 8 > rho
 	pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft > free
 	refused 1 "no field 'phi' on 'mesh' (poisson-fft, poisson-mg or poisson-relax makes" "mgrad < rho"
@@ -45,7 +45,7 @@ refused() {
 	refused 2 "" "mgrad --order 3 < free"
 }
 
-@test "mgrad: a field that is given is not replaced; on a mesh of its own it stays, and m2p adds both" {
+@test "mgrad: a given field is not replaced; on a separate mesh it is kept, and m2p adds both" {
 	pinit langmuir -n 64 --cells 16 > a
 	scalc --mesh mesh 'E = 0.5' --role state < a > b
 	refused 1 "'E' on 'mesh' is given, and a derivative must not replace it (choose another --target; keep the given field on a separate mesh, m2p --mesh adds it)" \

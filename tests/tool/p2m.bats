@@ -1,4 +1,4 @@
-# p2m: what is deposited, on which mesh, from which sets, and what is refused.
+# p2m: deposition, meshes, sets, refusals.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 load words
@@ -24,7 +24,7 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[ "$(printf "$two" | line open 8 | p2m | mesh)" = "0 0 2 2 0 1 1 0 0" ]
 }
 
-@test "p2m: every kernel keeps the total strength, odd and even cells, 1-D to 3-D" {
+@test "p2m: every kernel conserves the total strength, odd and even cells, 1-D to 3-D" {
 	for kernel in ngp cic tsc pcs m4prime; do
 		for dim in 1 2 3; do
 			total=$(pinit uniform -n 99 --dim $dim | p2m --kernel $kernel -n "$(cut -d x -f 1-$dim <<<11x8x9)" | stab --plain --mesh mesh |
@@ -194,7 +194,7 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 	same_as alone second
 }
 
-@test "p2m --interlace: faces that are not periodic, a density of another kind and changes to carry are refused with what can" {
+@test "p2m --interlace: faces that are not periodic, a density of another kind and changes to interpolate are refused, with an alternative" {
 	run -1 --separate-stderr bash -c 'pinit plummer -n 50 | p2m --interlace >out'
 	[[ $stderr == *"axis x is open (leave out --interlace"* ]]
 	run -1 --separate-stderr bash -c 'pinit uniform -n 50 | p2m -n 8 | p2m --interlace --add >out'

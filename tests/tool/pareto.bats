@@ -1,4 +1,4 @@
-# pareto: the alternatives of a sentence, their errors and seconds, the front, what is kept and gone on with.
+# pareto: the alternatives of a sentence, their errors and seconds, the front, continuing from earlier results.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -27,7 +27,7 @@ cycle -n 10 'push kick/2 | pp'
 cycle -n 10 'push drift/2 | pp'" ]
 }
 
-@test "braces: \\{ \\} \\, are the signs themselves" {
+@test "braces: \\{ \\} \\, are the literal characters" {
 	[ "$(list "awk '\\{ print \$1, \$2 \\}' {x\\,y,z}")" = "awk '{ print \$1, \$2 }' x,y
 awk '{ print \$1, \$2 }' z" ]
 }
@@ -43,7 +43,7 @@ awk '{ print \$1, \$2 }' z" ]
 	[ "$(list 'a | {p2m --kernel {k} | m2p --kernel {k}, pp}' --vary 'k=m{4,6}prime,cic' | grep -c .)" = 4 ] # pp once
 }
 
-@test "what is no sentence: one clear line, exit 2" {
+@test "an invalid sentence: one clear line, exit 2" {
 	told 'not closed' 'a {b,c' --against pp
 	told 'neither alternatives' 'a {b}' --against pp
 	told 'without its {' 'a {b,c} d}' --against pp
@@ -77,7 +77,7 @@ awk '{ print \$1, \$2 }' z" ]
 	awk -F'\t' 'NR > 1 && !($11 > 0 && $13 > 0 && ($14 == "-" || $14 > 0)) { exit 1 }' table
 }
 
-@test "exact: a leapfrog's error falls by four when the step is halved; a column without an exact one is said" {
+@test "exact: a leapfrog's error falls by four when the step is halved; a column without an exact value is reported" {
 	run -0 pareto "pinit two-body --eccentricity 0.5 --dt {0.1,0.05,0.025} | cycle -t 1 'push kick/2 drift | pp | push kick/2'" --against exact --field energy_kinetic --repeat 1 --tsv
 	mapfile -t e < <(column error <<<"$output" | sort -rg)
 	order 2 0.1 "${e[0]}" 0.05 "${e[1]}" 0.025 "${e[2]}"
@@ -85,7 +85,7 @@ awk '{ print \$1, \$2 }' z" ]
 	[[ $output == *"nothing to compare"* ]]
 }
 
-@test "of several frames the largest error counts" {
+@test "the error is the largest over several frames" {
 	run -0 pareto "pinit two-body | cycle -n 3 --every 1 'push drift --dt {0.1,0.2}'" --against "cycle -n 3 --every 1 'push drift --dt 0.15'" --field x --norm max --repeat 1 --tsv
 	# |v| = 1/2, three steps, 0.05 off in each.
 	while read -r e; do within "$e" 0.075 1e-9; done < <(column error <<<"$output")
@@ -129,7 +129,7 @@ by_hand() {
 	grep -q 'never on the front: choice2 1' text
 }
 
-@test "--until-error prints the cheapest sentence that meets it, --within the most accurate; none is exit 1" {
+@test "--until-error prints the cheapest sentence within it, --within the most accurate; none is exit 1" {
 	[ "$(by_hand --until-error 1e-2)" = "pinit uniform -n 20 | m2p -a 2" ]
 	[ "$(by_hand --until-error 1e-4)" = "pinit uniform -n 20 | m2p -b 2" ]
 	[ "$(by_hand --within 4500ms)" = "pinit uniform -n 20 | m2p -b 2" ]
@@ -148,7 +148,7 @@ by_hand() {
 	[[ $output == *"failed: 2: mgrad: frame 1: --order spectral needs periodic"* ]]
 }
 
-@test "what several sentences begin with is measured once a round and charged to each" {
+@test "the common beginning of several sentences is measured once per round and charged to each" {
 	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 2 -o d >/dev/null
 	# p2m and poisson-fft once, mgrad and m2p twice, in each of two rounds: empty alternatives are the same sentence.
 	[ "$(grep -c ^time d/measured/log)" = 12 ]
@@ -157,7 +157,7 @@ by_hand() {
 	[ "$(sort -n table | column seconds | tr '\n' ' ')" = "$(cat want) " ]
 }
 
-@test "with -o: TSV, both pictures, and one page that holds everything itself" {
+@test "with -o: TSV, both pictures, and one self-contained page" {
 	sweep --repeat 1 -o d | tail -n 1 >last
 	[ "$(cat last)" = "page: d/index.html" ]
 	command -v gnuplot >/dev/null || skip "no gnuplot here"
@@ -203,7 +203,7 @@ errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
 	! grep -q 'median seconds' d/index.html
 }
 
-@test "stopped by SIGINT it says how far it came, and the same command goes on from there and measures nothing twice" {
+@test "stopped by SIGINT it reports its progress, and the same command continues and measures nothing twice" {
 	mkdir bin
 	# The first time it comes to the mesh of 16 cells, it stops pareto and waits.
 	cat >bin/mesh <<-'SH'

@@ -35,7 +35,7 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	[[ $stderr == *"eccentricity"* ]]
 }
 
-@test "pinit: values outside a range, a dimension or a count that the scene has not are refused, exit 2" {
+@test "pinit: values outside a range, a dimension or a count that the scene does not have are refused, exit 2" {
 	run -2 --separate-stderr pinit kepler --eccentricity 1.5
 	[[ $stderr == *"--eccentricity 1.5 is not in 0..0.999"* ]]
 	run -2 --separate-stderr pinit plummer --dim 2

@@ -1,4 +1,4 @@
-# plan: what every effect decides by its number, the sentence, that cycle --plan runs it, and the proof of it for every scene.
+# plan: the decision of every effect by its number, the sentence, cycle --plan, and the check for every scene.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -71,7 +71,7 @@ small() {
 	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 12 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
 }
 
-@test "what was computed of a frame before is not in the way: the same plan" {
+@test "fields computed earlier do not change the plan" {
 	pinit uniform -n 300 --cells 8 >start
 	plan --no-cost <start >want
 	p2m <start | poisson-fft | mgrad | m2p | plan --no-cost | diff - want
@@ -79,7 +79,7 @@ small() {
 	pinit plummer -n 300 | pp --potential | plan --no-cost | diff - want
 }
 
-@test "what a step costs stands beside every stage, and what leaving an effect out saves" {
+@test "the cost per step is printed for every stage, and the saving by leaving out an effect" {
 	pinit shear-layer --cells 32 --nu 1e-9 | plan >text
 	grep -qE '^p2m .*#  *[0-9.]+ (us|ms|s)  ' text
 	grep -qE '^ +# +[0-9.]+ (us|ms|s)  a step$' text
@@ -188,7 +188,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[ "$(decide taylor-green-2d --cells 32 --nu 0 | says diffusion)" = "off    nu = 0" ]
 }
 
-@test "self field: alone there is none, on a lattice it cancels, weak and short it is left out" {
+@test "self field: none for one particle, cancelled on a lattice, left out if weak and the run short" {
 	[[ "$(decide exb | says 'self field')" = "off "*"one particle"* ]]
 	[[ "$(decide lattice -n 512 --cells 16 | says 'self field')" = "off "*"cancel"* ]]
 	[ "$(sentence lattice -n 512 --cells 16)" = "push drift" ]
@@ -197,7 +197,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ "$(plan --no-cost -t 1 <fast | says 'self field')" = on* ]]
 }
 
-@test "near field: neighbours within a few cells of each other need what no word brings yet" {
+@test "near field: neighbours within a few cells need a correction for which there is no word yet" {
 	[[ "$(decide uniform -n 300 --cells 8 | says 'near field')" = needed*"no word for it yet"* ]]
 	[[ "$(decide pair | says 'near field')" = off*"nearest pair 13 cells apart"* ]] # 6.4 of the scene's own, too few for 0.005
 	[[ "$(decide plummer -n 100 | says 'near field')" = off*"every pair is summed"* ]]
@@ -240,7 +240,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	pinit gyration | run -3 plan --check --on self-field
 }
 
-@test "frames as people have them: particles at an open face, a magnetic field alone, walls, no step" {
+@test "unusual frames: particles at an open face, only a magnetic field, walls, no time step" {
 	pinit uniform -n 300 --cells 16 --faces periodic,periodic,open >edge
 	[[ "$(plan --sentence <edge)" = *"p2m "*"--outside grow"* ]]
 	plan --check <edge
@@ -277,7 +277,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	done
 }
 
-@test "what no sentence can say is refused with the word that says it: faces and given fields" {
+@test "choices that belong to the frame (faces, given fields) are refused, with the word that sets them" {
 	run -2 plan --off periodic-images < <(pinit uniform -n 20)
 	[[ $output == *"smod --faces open"* ]]
 	run -2 plan --off magnetic-rotation < <(pinit exb)
@@ -290,7 +290,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ $output == *"nothing moves"* ]]
 }
 
-@test "the table of docs/plan.md is what its command prints" {
+@test "the table of docs/plan.md is the output of its command" {
 	[ "${PM_LONG:-}" ] || skip "long: make check-long"
 	bash "$top/docs/plan.sh" >table
 	sed -n '/^| run /,/^$/p' "$top/docs/plan.md" | grep '^|' | diff - table

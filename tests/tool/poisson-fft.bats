@@ -20,7 +20,7 @@ refused() {
 	below "$worst" 1e-15
 }
 
-@test "poisson-fft: what it cannot do is refused with what can" {
+@test "poisson-fft: unsupported cases are refused, with an alternative" {
 	pinit uniform -n 100 > bare
 	p2m -n 8 < bare > rho
 	refused 1 "no field 'rho' on 'mesh' (p2m makes it" "poisson-fft < bare"
@@ -46,7 +46,7 @@ refused() {
 	refused 1 "" "poisson-fft < /dev/null"
 }
 
-@test "poisson-fft: --influence and --cloud refuse what they are not for, with what is" {
+@test "poisson-fft: --influence and --cloud refuse unsupported cases, with an alternative" {
 	pinit uniform -n 100 | p2m -n 8 > rho
 	refused 1 "axis x is open (leave them out: --influence plain)" "pinit plummer -n 50 | p2m -n 16 --outside drop | poisson-fft --influence deconvolved"
 	refused 1 "axis x is wall" "pinit uniform -n 50 --faces wall | p2m -n 16 | poisson-fft --cloud 0.2"
@@ -56,7 +56,7 @@ refused() {
 	refused 2 "sharp" "poisson-fft --influence sharp < rho"
 }
 
-@test "poisson-fft: the influence function follows the kernel of each frame, and threads leave no trace" {
+@test "poisson-fft: the influence function follows the kernel of each frame, and does not depend on the threads" {
 	pinit uniform -n 100 --no-history > a
 	for k in cic tsc; do p2m -n 10x7x12 --kernel $k --no-history < a > $k; done
 	p2m -n 10x7x12 --kernel cic --interlace --no-history < a > both

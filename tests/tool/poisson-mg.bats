@@ -25,7 +25,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	below "$(cat sum)" 1e-15 # the coefficient is 4 pi to the last digit
 }
 
-@test "cycles, residual, contraction, what was removed and how it ended travel in the tail" {
+@test "cycles, residual, contraction, the part removed and the outcome are reported in the tail" {
 	mesh >m
 	poisson-mg <m >a
 	within "$(report a cycles)" 8 4
@@ -68,7 +68,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	[[ $stderr == *"source and target are both 'rho'"* ]]
 }
 
-@test "too few cycles are exit 3 with the history of the residual, and every later stage says so too" {
+@test "too few cycles are exit 3 with the history of the residual, and every later stage repeats it" {
 	mesh >m
 	run -3 --separate-stderr poisson-mg --max-cycles 2 <m
 	[[ $stderr == *"did not converge: 2 cycles left a relative residual of"*"--max-cycles"* ]]
@@ -76,7 +76,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	[[ $stderr == *"sls: stopped by poisson-mg: frame 1: multigrid did not converge"* ]]
 }
 
-@test "what came before leaves no trace: after 1 and after 10 other frames" {
+@test "the result does not depend on earlier frames: after 1 and after 10 others" {
 	mesh >a
 	pinit uniform -n 50 --seed 3 --faces wall | p2m -n 9 >b
 	pinit uniform -n 50 --seed 4 --dim 2 | p2m -n 16x12 >c
@@ -134,7 +134,7 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	run ! below "$(differ a b)" 1e-3
 }
 
-@test "options that do not fit together are exit 2 and say what does" {
+@test "options that exclude each other are exit 2, with those that can be combined" {
 	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:2, 4" "--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
 		run -2 --separate-stderr poisson-mg ${row%%:*} </dev/null
 		[[ $stderr == poisson-mg:*"${row#*:}"* ]]

@@ -43,7 +43,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	done
 }
 
-@test "Jacobi is refused where its error does not shrink, in a sentence that names methods that can" {
+@test "Jacobi is refused if its error does not decrease, with the names of methods that converge" {
 	mesh >m
 	run -1 --separate-stderr poisson-relax --method jacobi <m
 	[[ $stderr == *"jacobi does not converge where no face fixes phi"*"use weighted-jacobi, red-black or cg, or poisson-fft --symbol fd2"* ]]
@@ -101,7 +101,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	[[ $stderr == *"source and target are both 'rho'"* ]]
 }
 
-@test "sweeps, radius, the formula for it and what was removed travel in the tail" {
+@test "sweeps, radius, its formula and the part removed are reported in the tail" {
 	pinit uniform -n 200 --dim 2 --faces wall | p2m -n 32 | poisson-relax --method gauss-seidel >a
 	within "$(report a radius_expected)" 0.990392640201615 1e-14 # cos^2(pi/32)
 	within "$(report a radius)" 0.990392640201615 1e-6           # the next mode is 1e-10 of the first by then
@@ -125,7 +125,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	done
 }
 
-@test "too few sweeps are exit 3 with the history of the residual, and every later stage says so too" {
+@test "too few sweeps are exit 3 with the history of the residual, and every later stage repeats it" {
 	mesh >m
 	run -3 --separate-stderr poisson-relax --method red-black --max-sweeps 20 <m
 	[[ $stderr == *"red-black did not converge: 20 sweeps left a relative residual of"*"residual by sweep: 1: "*" 16: "*"--max-sweeps"*"poisson-fft"* ]]
@@ -133,7 +133,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	[[ $stderr == *"sls: stopped by poisson-relax: frame 1: cg did not converge"* ]]
 }
 
-@test "what came before leaves no trace: after 1 and after 10 other frames" {
+@test "the result does not depend on earlier frames: after 1 and after 10 others" {
 	mesh >a
 	pinit uniform -n 50 --seed 3 --faces wall | p2m -n 9 >b
 	pinit uniform -n 50 --seed 4 --dim 2 | p2m -n 16x12 >c

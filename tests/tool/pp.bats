@@ -1,4 +1,4 @@
-# pp as a word: PM-04 through text, what it refuses, that no force is counted twice, bytes for any number of threads.
+# pp as a word: PM-04 through text, refusals, no force counted twice, equal bytes for any number of threads.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -40,7 +40,7 @@ fixture() {
 	same_as a c
 }
 
-@test "a periodic box and a wall are refused with the name of what can do them" {
+@test "a periodic box and a wall are refused, with the words that support them" {
 	refuses 1 "periodic along x, but pp sums in open space (use p2m | poisson-fft | mgrad | m2p; for periodic ones also the word ewald)" "pinit pair | pp"
 	fixture > t
 	refuses 1 "the box is wall along x" "stab t --law gravity --faces wall | pp --softening 0"
@@ -63,7 +63,7 @@ fixture() {
 	same_as a b
 }
 
-@test "where all sets are fixed nothing feels the sum, and it is said so; --potential still gives the potential" {
+@test "if all sets are fixed no set needs the force, which is reported; --potential still gives the potential" {
 	pinit plummer -n 20 | smod --fixed matter > a
 	refuses 1 "no set can be accelerated: all are fixed" "pp < a"
 	pp --potential < a | sls | grep -q 'phi  *1 f64 derived'

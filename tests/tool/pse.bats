@@ -1,4 +1,4 @@
-# pse: diffusion by exchange of strength between particles; what it needs, adds, refuses and reports.
+# pse: diffusion by exchange of strength between particles; inputs, terms, refusals, reports.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 export PM_PLAN=estimate
@@ -59,7 +59,7 @@ rest="field 'vel = 0'"
 	run -2 pse --nu -1
 }
 
-@test "pse needs volumes that are not negative, a field that is real state, particles before a wall; each refusal says what helps" {
+@test "pse needs volumes that are not negative, a field that is real state, particles before a wall; each refusal has a remedy" {
 	rod 10 1 >a
 	refused() { # PATTERN COMMAND LINE
 		run -1 bash -o pipefail -c "$2 | sls"
@@ -76,7 +76,7 @@ rest="field 'vel = 0'"
 	run -2 pse --eps 1 --overlap 1
 }
 
-@test "pse refuses to add twice, --replace computes anew, other terms stay" {
+@test "pse refuses to add twice, --replace replaces its term, other terms are kept" {
 	rod 12 'x*x' >a
 	pse --field heat --nu 0.1 <a >b
 	run -1 bash -o pipefail -c 'pse --field heat --nu 0.1 <b | sls'

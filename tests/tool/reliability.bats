@@ -1,4 +1,4 @@
-# What docs/reliability.md promises: files stay whole, runs can be stopped, nothing ends without a word. SPDX-License-Identifier: GPL-3.0-or-later
+# The promises of docs/reliability.md: files stay intact, runs can be stopped, nothing ends without a message. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 export PM_PLAN=estimate OMP_NUM_THREADS=1
@@ -10,7 +10,7 @@ told() {
 	[[ $stderr == $2 ]] || { echo "$3: $stderr"; return 1; }
 }
 
-@test "a law, a kernel or a mollifier that is none is said by every word, and none dies" {
+@test "an unknown law, kernel or mollifier is reported by every word, and none crashes" {
 	pinit plummer -n 5 --no-history --dt 0.01 | p2m -n 4 | poisson-fft | mgrad | m2p >good
 	sed 's/"name":"gravity"/"name":"grauity"/' good >law
 	sed 's/"kernel":"cic"/"kernel":"cyc"/g' good >kernel
@@ -109,7 +109,7 @@ told() {
 	[ ! -e - ]
 }
 
-@test "two cycles with one checkpoint: the second says so, and the first one's can be gone on with" {
+@test "two cycles with one checkpoint: the second is refused, and that of the first can be resumed" {
 	mkfifo hold
 	cat >pause <<-'SH'
 		#!/bin/sh
@@ -139,7 +139,7 @@ told() {
 	[ -z "$(ls -A | grep '^\.')" ]
 }
 
-@test "a full disk is said with the name of the file: --timing, --checkpoint, -o" {
+@test "a full disk is reported with the name of the file: --timing, --checkpoint, -o" {
 	[ -e /dev/full ] || skip "no /dev/full here"
 	told 1 "p2m: *'/dev/full'*" "pinit uniform -n 9 | p2m -n 4 --timing /dev/full >/dev/null"
 	told 1 "cycle: *'/dev/full'*" "pinit two-body | cycle -n 1 --timing /dev/full 'push drift' >/dev/null"
@@ -217,7 +217,7 @@ swallowing() {
 	grep -q 'stopped by signal 15' said
 }
 
-@test "pipes in the cache directory are no plans, and nobody waits for them" {
+@test "pipes in the cache directory are not plans, and no word waits for them" {
 	export XDG_CACHE_HOME=$PWD/cache PM_PLAN=measure
 	pinit uniform -n 9 | p2m -n 34 | poisson-fft >/dev/null # 34 = 2 * 17 needs FFTW
 	[ "$(find cache -type f | wc -l)" -ge 2 ]
@@ -226,7 +226,7 @@ swallowing() {
 	[[ $output == *'"plan":"estimate"'* ]]
 }
 
-@test "a library that ends the process is not the last word: a line, an abort, exit 1" {
+@test "a library that ends the process: a message, an abort, exit 1" {
 	pinit uniform -n 20000 | p2m -n 16 >mesh.pm
 	run --separate-stderr bash -c 'ulimit -v 3000000; OMP_NUM_THREADS=8 OMP_STACKSIZE=1G poisson-fft <mesh.pm >out.pm'
 	[[ $stderr == *libgomp* ]] || skip "libgomp starts its threads here: $stderr"

@@ -1,4 +1,4 @@
-# remesh: what becomes a particle, what is conserved, when it acts, what is refused.
+# remesh: the new particles, conservation, when it acts, refusals.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -138,7 +138,7 @@ patch() {
 	[[ $output =~ heat\ .*uniform\ 5 ]]
 }
 
-@test "remesh acts between steps only: inside a step the frame passes" {
+@test "remesh acts between steps only: inside a step the frame is passed on" {
 	patch | p2m | poisson-fft --plan estimate | mgrad | m2p | push rk2 --no-history >half
 	remesh --no-history <half | cmp half -
 	patch | cycle -n 3 'p2m | poisson-fft --plan estimate | mgrad | m2p | push rk2 | remesh' >a

@@ -51,7 +51,7 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 	done
 }
 
-@test "whole numbers beyond 2^53 are told apart" {
+@test "integers beyond 2^53 are distinguished" {
 	printf 'x k id\n0 1 9007199254740993\n' | stab - >a
 	printf 'x k id\n0 1 9007199254740992\n' | stab - >b
 	run -1 --separate-stderr scmp a b
@@ -120,7 +120,7 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 	for n in 2 3; do scmp --threads $n a b | cmp - one; done
 }
 
-@test "what is cut, empty, or not there is exit 1; two times - is exit 2" {
+@test "a truncated, empty or missing input is exit 1; - given twice is exit 2" {
 	pinit plummer -n 100 >a; head -c 3000 a >cut; : >empty
 	for bad in cut empty /nonexistent; do run -1 scmp a $bad; run -1 scmp $bad a; done
 	run -2 scmp - - <a

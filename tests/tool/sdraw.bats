@@ -146,7 +146,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	for p in a b c d; do picture $p.png; done
 }
 
-@test "what cannot be drawn is refused in one line" {
+@test "data that cannot be drawn are refused in one line" {
 	pinit plummer -n 20 >a; mesh 2 >m
 	for o in '--field nothing' '--set nobody' '--mesh nowhere' '--x q' '--x "sqrt(x)"' '--mesh mesh'; do
 		run --separate-stderr bash -c "sdraw $o -o p.png <a"
@@ -163,7 +163,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	run -1 bash -c 'sdraw --format ppm <a >/dev/full'
 }
 
-@test "nothing is drawn of a stream that was cut" {
+@test "nothing is drawn from a truncated stream" {
 	pinit plummer -n 100 >a; head -c 3000 a >cut
 	run -1 bash -c 'sdraw -o p.png <cut'
 	[ ! -e p.png ]

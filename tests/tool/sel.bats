@@ -57,7 +57,7 @@ fields() { sls --format json | jq -r '.fields[] | .on + "/" + .name' | paste -sd
 	[ "$(sel --field x --no-history < b | cksum)" = "$(sel --field x --no-history < c | cksum)" ] # all four particles
 	run -1 --separate-stderr bash -c 'sel --where "vx > -100" < b > /dev/null'
 	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
-	run -1 --separate-stderr bash -c 'push drift < c > /dev/null' # whoever computes with it still refuses
+	run -1 --separate-stderr bash -c 'push drift < c > /dev/null' # words that compute with it still refuse
 	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
 	run -1 --separate-stderr bash -c "cycle -n 1 'sel --where \"x > -100\" | push drift' < b > /dev/null"
 	[[ $stderr == *"'v' of 'matter' is not finite"* ]]
@@ -69,7 +69,7 @@ fields() { sls --format json | jq -r '.fields[] | .on + "/" + .name' | paste -sd
 	for n in 2 3; do sel --no-history --threads $n --where 'x*y > z' <a | cmp - one; done
 }
 
-@test "what is not there or makes no sense is refused in one line" {
+@test "missing names and meaningless options are refused in one line" {
 	pinit plummer -n 10 >a
 	for o in '--set nobody' '--mesh nowhere' '--field nothing' '--drop nothing' '--where q' '--where "sqrt(x)"'; do
 		run --separate-stderr bash -c "sel $o <a >/dev/null"

@@ -4,7 +4,7 @@ load ../helper
 
 wire() { python3 "$top/tests/wire.py" "$@"; }
 
-# there_and_back FILE.pm: equal bytes, and nothing said.
+# there_and_back FILE.pm: equal bytes, and no message.
 there_and_back() {
 	sh5 -o back.h5 <"$1" && sh5 back.h5 | cmp - "$1"
 }
@@ -158,7 +158,7 @@ for n, on in ((3, "more matter"), (2, "more_matter")):
 	[ "$(attribute back.h5 /data/0/meshes/g/z/position)" = "0.5, 0, 0" ]
 }
 
-# stranger FILE: the same file as if another program had written it: without the attributes that are ours.
+# stranger FILE: the same file as if written by another program: without our own attributes.
 stranger() { sed 's/pmpipeHeader/pmpipeHeadex/; s/pmpipeReport/pmpipeReport/; s/pmpipeStreams/pmpipeStreamx/' "$1"; }
 # columns FILE.pm [--mesh NAME] NAMES: those columns of stab --plain.
 columns() { stab --plain "${@:2:$#-2}" <"$1" | awk -F'\t' -v names="${*: -1}" 'NR == 1 { n = split(names, w, ","); for (i = 1; i <= NF; i++) at[$i] = i; next } { for (k = 1; k <= n; k++) printf "%s ", $at[w[k]]; print "" }'; }
@@ -301,7 +301,7 @@ END
 	cmp d.h5 e.h5
 }
 
-@test "what cannot be read is refused in one line" {
+@test "unsupported files are refused in one line" {
 	mesh | sh5 -o a.h5
 	says 1 "sh5: cannot open 'no.h5': No such file or directory" sh5 no.h5
 	head -c 5000 "$top/COPYING" >text.h5

@@ -62,4 +62,4 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	run -1 bash -c 'smod --dt 1 <cut >/dev/null'
 }
 
-@test "no particles are no trouble" { sh_ok 'printf "x y z\n" | stab - | smod --store f32 | sls'; }
+@test "a set of no particles is valid" { sh_ok 'printf "x y z\n" | stab - | smod --store f32 | sls'; }

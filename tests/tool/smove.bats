@@ -5,7 +5,7 @@ t() { printf 'x y z vx vy vz mass id\n1 2 3 4 5 6 7 8\n' | stab - --box -8,8 --c
 row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{ printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
 # id mass vx vy vz x y z
 
-@test "--shift, --boost and --scale do what they say to what they name" {
+@test "--shift, --boost and --scale change the fields that they name" {
 	[ "$(t | smove --shift 10,20,30 | row)" = "8 7 4 5 6 11 22 33" ]
 	[ "$(t | smove --boost -1,0,1 | row)" = "8 7 3 5 7 1 2 3" ]
 	[ "$(t | smove --scale x=2,mass=0.5 | row)" = "8 3.5 4 5 6 2 4 6" ]
@@ -54,7 +54,7 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	[[ $stderr == *"particles, box and law can change only between steps (substep 1 here)"* ]]
 }
 
-@test "smod takes the same options, gives the same frames, and says on one line who does this now" {
+@test "smod takes the same options, gives the same frames, and names in one line the word that replaces them" {
 	t >a
 	for o in '--shift 10,20,30' '--boost -1,0,1' '--rotate x,30' '--scale x=2,mass=0.5,box=2' '--set matter --scale v=3 --rotate z,90 --shift 1,1,1 --boost 1,1,1'; do
 		run -0 --separate-stderr bash -c "smod --no-history $o <a >old"
@@ -92,4 +92,4 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	run -1 bash -c 'smove --shift 1,1,1 <cut >/dev/null'
 }
 
-@test "no particles are no trouble" { sh_ok 'printf "x y z\n" | stab - | smove --shift 1,1,1 --rotate z,5 | sls'; }
+@test "a set of no particles is valid" { sh_ok 'printf "x y z\n" | stab - | smove --shift 1,1,1 --rotate z,5 | sls'; }

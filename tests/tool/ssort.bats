@@ -44,7 +44,7 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 	run ! cmp -s <(ssort --no-history --every 7 <c) c
 }
 
-@test "a frame inside a step passes as it is" {
+@test "a frame inside a step is passed on unchanged" {
 	pinit plummer -n 50 | push drift/2 --no-history >a || skip "push is not there"
 	ssort --no-history <a | cmp - a
 }

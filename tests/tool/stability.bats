@@ -14,7 +14,7 @@ relaxation: 3 rows
 misprints and their effect: 4 rows" ]
 }
 
-@test "a number on the page that is not what is measured, and a row that nothing measures, are found" {
+@test "a number on the page that differs from the measured one, and a row without a measurement, are found" {
 	copy=$PWD/copy.md
 	sed '/^| crossing/s/| 0\.9[0-9]* |/| 2.1 |/' "$page" >copy.md
 	! cmp -s copy.md "$page"
@@ -26,7 +26,7 @@ misprints and their effect: 4 rows" ]
 	[[ $output == *"section"*"has 1 rows, and 2 are measured"* ]]
 }
 
-@test "what is measured is written into the page, which else stays as it is" {
+@test "measured values are written into the page, which is otherwise unchanged" {
 	copy=$PWD/copy.md
 	sed '/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' "$page" >copy.md
 	[ "$(diff copy.md "$page" | grep -c '^<')" = 2 ]
@@ -58,7 +58,7 @@ misprints and their effect: 4 rows" ]
 	done
 }
 
-@test "what waits for a word has no number, and none of those words is there" {
+@test "rows for words that do not exist yet have no number" {
 	awk '/^## No word/ { on = 1 } on && /^\| / && !/^\| case/' "$page" >waiting
 	[ "$(wc -l <waiting)" -ge 5 ]
 	for word in maxwell sph collide; do

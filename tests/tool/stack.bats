@@ -46,7 +46,7 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 	run -2 bash -c 'stack - - <a'
 }
 
-@test "scenes that do not fit together are refused in one line" {
+@test "incompatible scenes are refused in one line" {
 	scene 1 -2,2 >a
 	refused() { run -1 --separate-stderr bash -c "stack ${2:-} a b >/dev/null"; [ "${#stderr_lines[@]}" = 1 ]; [[ "$stderr" == *"$1"* ]]; }
 	smod --constant G=2 <a >b; refused "the constant G is 1 in one scene and 2 in another"
@@ -61,7 +61,7 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 	rm b; refused "cannot open"
 }
 
-@test "scenes of no particles go together" {
+@test "scenes of no particles can be combined" {
 	printf 'x mass id\n' | stab - >a; printf 'x mass id\n1 2 3\n' | stab - --box 0,1 >b
 	sh_ok 'stack --merge a b | sls | grep "1 particles"; stack --merge b a | sls | grep "1 particles"; stack --merge a a | sls | grep "0 particles"'
 }

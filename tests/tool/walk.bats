@@ -40,7 +40,7 @@ points() {
 	same_as <(sel --drop id <a | walk --nu 1 | stab --plain | column x) <(stab --plain <b | column x)
 }
 
-@test "walk acts once per step, behind the last pass of a scheme, and not when cycle primes" {
+@test "walk acts once per step, after the last pass of a scheme, and not when cycle primes" {
 	pinit lamb-oseen --cells 24 --dt 0.1 >a
 	s='p2m | poisson-fft | mgrad | m2p | push'
 	cycle -n 1 "$s rk4 | walk" <a | stab --plain | column x >b
@@ -52,7 +52,7 @@ points() {
 	cycle -n 50 "push kick/2 drift | field 'acc = 0' | push kick/2 | walk --nu 1" <a | stab --plain | column x | awk '{ v += $1 * $1 } END { print v / NR; exit !(v / NR > 0.87 && v / NR < 1.13) }' # 2 nu t = 1, 4 standard errors
 }
 
-@test "moving drops what was derived from the positions, and only that" {
+@test "moving drops fields derived from the positions, and only those" {
 	pinit uniform -n 50 --dt 0.1 | p2m -n 8 | poisson-fft | mgrad | m2p >a
 	run -0 bash -o pipefail -c 'walk --nu 0.1 <a | sls'
 	[[ $output != *acc* && $output != *rho* && $output != *phi* && $output == *mass* && $output == *" v "* ]]
@@ -87,7 +87,7 @@ points() {
 	within "$gone" 640 95 # 0.1587 + P(3 < z) of 4000 and four standard errors
 	[ "$(stab --plain <b | column x | wc -l)" = $((4000 - gone)) ]
 	stab --plain <b | column x | awk '$1 < -1 || $1 > 1 { exit 1 }'
-	# a mirror turns no velocity: the step is not the particle's motion
+	# a mirror does not reverse the velocity: the step is not due to the particle's velocity
 	points 100 1 --particle-faces reflect | scalc --role state 'v = 1' | walk --nu 400 | stab --plain | column vx | awk '$1 != 1 { exit 1 }'
 }
 
@@ -100,7 +100,7 @@ points() {
 	! cmp -s b <(walk --nu 1 <a | stab --plain)
 }
 
-@test "what a particle does in one step says nothing of the next, of its neighbour, of another seed or set" {
+@test "the step of a particle is uncorrelated with its next one, its neighbour's, and those of another seed or set" {
 	points 20000 2 --number --no-history >a
 	# the steps 0 and 1, seeds 1 and 2, two sets; seven series of which every pair must be uncorrelated, and neighbours too
 	walk --nu 0.5 <a | stab --plain >s0

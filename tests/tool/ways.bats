@@ -16,7 +16,7 @@ loop() {
 # quiet SENTENCE: every word with --no-history.
 quiet() { [ -z "$1" ] || echo "$1" | sed 's/ *| */ --no-history | /g; s/$/ --no-history/'; }
 
-# A cache that another program left: every file there is overwritten with what is no plan. (Plans measured anew may differ from those of the empty
+# A cache that another program left: every file there is overwritten with invalid data. (Plans measured again may differ from those of the empty
 # cache, and then the bytes do: the ways are compared within one cache.)
 foreign() {
 	cp -r empty foreign 2> /dev/null || mkdir -p foreign/pmpipe
@@ -34,7 +34,7 @@ all_ways() {
 		want=$(OMP_NUM_THREADS=1 loop "$(quiet "$3")" "$(quiet "$2")" $((steps * $4)) < start | cksum)
 		loop true "" 0 < start | cksum | grep -qvF "$want" # something was computed
 		[ "${want##* }" -gt 1000 ]
-		for threads in $([ $cache = empty ] && echo 1 2 3 || echo 2); do # a cache and the number of threads have nothing to do with each other
+		for threads in $([ $cache = empty ] && echo 1 2 3 || echo 2); do # the cache does not depend on the number of threads
 			for engine in fused pipes; do
 				got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --engine $engine "$3" < start | cksum)
 				[ "$got" = "$want" ] || { echo "$engine, $threads threads, $cache cache: $got, the shell loop: $want"; return 1; }
@@ -135,7 +135,7 @@ vortices() {
 	[ "$(wc -l < sums)" -eq 1 ]
 }
 
-@test "resume refuses plans other than the checkpoint's, unless told" {
+@test "resume refuses plans other than the checkpoint's, except with --other-plans" {
 	s='p2m -n 17 | poisson-fft | mgrad | m2p | push rk2' # 17: FFTW plans it, smaller factors need no plan
 	pinit uniform -n 50 | XDG_CACHE_HOME=$PWD/a PM_PLAN=measure cycle -n 2 --checkpoint c "$s" > b
 	run -1 bash -c "PM_PLAN=estimate cycle -n 4 --resume c '$s' > d"
