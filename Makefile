@@ -7,7 +7,8 @@ CC = gcc
 endif
 # gcc brings its OpenMP along, clang does not.
 ifeq ($(findstring gcc,$(CC))$(filter clean uninstall,$(MAKECMDGOALS)),)
-ifneq ($(shell printf '\043include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' | $(CC) -fopenmp $(CFLAGS) -x c -o /dev/null - $(LDLIBS) >/dev/null 2>&1 || echo no),)
+ifneq ($(shell printf '\043include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' | \
+	$(CC) -fopenmp $(CFLAGS) -x c -o /dev/null - $(LDLIBS) >/dev/null 2>&1 || echo no),)
 $(error $(CC) -fopenmp does not link: install libomp-dev (for clang-19: libomp-19-dev), or use CC=gcc)
 endif
 endif
@@ -20,7 +21,8 @@ SOVERSION = 0
 WARN = -Wall -Wextra -Wno-psabi -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(WERROR),-Werror)
 ARCH = $(if $(PORTABLE),,-march=native $(if $(findstring gcc,$(CC)),-mprefer-vector-width=512))
 OPT ?= -O3
-CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(ARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fPIC -fopenmp $(WARN) -Ilib -I$(B) -MMD -MP $(CFLAGS)
+CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(ARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fPIC -fopenmp \
+	$(WARN) -Ilib -I$(B) -MMD -MP $(CFLAGS)
 LDLIBS_ALL = -Wl,--as-needed -lfftw3 -lgsl -lgslcblas -lpng -ljansson -lm $(LDLIBS)
 # Programs take the large libraries as archives where these are there: poisson-fft then starts in half the time (bench/start.c).
 archive = $(or $(wildcard $(shell $(CC) -print-file-name=lib$(1).a)),-l$(1))
@@ -79,9 +81,12 @@ $(foreach t,$(tables),$(eval $(call table,$(t))))
 $(B)/tables/atlas.c: data/atlas/force.tsv data/atlas/step.tsv Makefile
 	@mkdir -p $(@D)
 	@awk -F'\t' 'BEGIN { print "#include \"planner/atlas.h\"" } \
-	FNR == 1 { if (open) print "{0}};"; name = FILENAME ~ /force/ ? "force" : "step"; print "const struct pm_atlas_" name " pm_atlas_" name "s[] = {"; open = 1; head = 0 } \
+	FNR == 1 { if (open) print "{0}};"; name = FILENAME ~ /force/ ? "force" : "step"; \
+		print "const struct pm_atlas_" name " pm_atlas_" name "s[] = {"; open = 1; head = 0 } \
 	/^#/ || NF < 5 { next } !head { head = 1; next } \
-	{ texts = name == "force" ? 4 : 2; printf "{"; for (i = 1; i <= NF; i++) { number = $$i ~ /^[-+0-9.]/ ? $$i : "NAN"; if (i <= texts) printf "\"%s\", ", $$i; else printf "%s, ", number }; print "}," } \
+	{ texts = name == "force" ? 4 : 2; printf "{"; \
+		for (i = 1; i <= NF; i++) { number = $$i ~ /^[-+0-9.]/ ? $$i : "NAN"; \
+			if (i <= texts) printf "\"%s\", ", $$i; else printf "%s, ", number }; print "}," } \
 	END { print "{0}};" }' data/atlas/force.tsv data/atlas/step.tsv > $@
 
 $(B)/libpmpipe.a: $(lib_obj)
@@ -97,12 +102,15 @@ $(B)/libpmpipe.so: $(lib_obj) $(B)/exports.map
 $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
 	@{ echo '#include "stage/apply.h"'; for n in $(basename $(notdir $(word_src))); do echo "extern const struct pm_tool tool_$$n;" | tr - _; done; \
-	echo 'const struct pm_tool *const pm_tools[] = {'; for n in $(basename $(notdir $(word_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
+	echo 'const struct pm_tool *const pm_tools[] = {'; \
+	for n in $(basename $(notdir $(word_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
 
 # The main of each program is generated; cycle, plan and the unit tests link every tool that can be a word.
 $(B)/mains/%.c: Makefile
 	@mkdir -p $(@D)
-	@n=$$(echo $* | tr - _); printf '#include <stdlib.h>\n#include "stage/stage.h"\nextern const struct pm_tool tool_%s;\n__attribute__((constructor(101))) static void sleepers(void)\n{\n\tsetenv("OMP_WAIT_POLICY", "passive", 0);\n}\nint main(int argc, char **argv)\n{\n\treturn pm_main(&tool_%s, argc, argv);\n}\n' $$n $$n > $@
+	@n=$$(echo $* | tr - _); printf '%s\n' '#include <stdlib.h>' '#include "stage/stage.h"' "extern const struct pm_tool tool_$$n;" \
+		'__attribute__((constructor(101))) static void sleepers(void)' '{' '	setenv("OMP_WAIT_POLICY", "passive", 0);' '}' \
+		'int main(int argc, char **argv)' '{' "	return pm_main(&tool_$$n, argc, argv);" '}' > $@
 $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
 .PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
@@ -121,7 +129,8 @@ $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 # A tool in shell is one file: what it reads from lib/shell/ is put in.
 $(script_src:tools/%.sh=$(bin_dir)/%): $(bin_dir)/%: tools/%.sh $(wildcard lib/shell/*.sh) lib/base/base.h Makefile
 	@mkdir -p $(@D)
-	awk '/^# shellcheck source=/ { next } /^\. lib\/shell\// { while ((getline line < $$2) > 0) if (line !~ /^# shellcheck shell=/) print line; next } { sub(/@VERSION@/, "$(VERSION)"); print }' $< > $@.part
+	awk '/^# shellcheck source=/ { next } /^\. lib\/shell\// { while ((getline line < $$2) > 0) if (line !~ /^# shellcheck shell=/) print line; next } \
+		{ sub(/@VERSION@/, "$(VERSION)"); print }' $< > $@.part
 	@chmod +x $@.part && mv $@.part $@
 
 # Unit tests and measuring programs link every tool.
@@ -178,7 +187,8 @@ lint: all man
 	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit benches
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
-	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) $(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) \
+		$(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
 
 # Manual pages and completion are printed by the programs.
 man := $(tools:$(bin_dir)/%=$(B)/man/%.1)
@@ -221,5 +231,6 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all public unit benches demo check check-long mutants asan valgrind bench counts counts-check gallery stability atlas hard-cases measure lint man install uninstall clean
+.PHONY: all public unit benches demo check check-long mutants asan valgrind bench counts counts-check \
+	gallery stability atlas hard-cases measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)

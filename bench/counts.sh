@@ -37,13 +37,15 @@ count() {
 	scratch=$(mktemp -d)
 	# shellcheck disable=SC2064 # expand the directory now
 	trap "rm -rf '$scratch'" EXIT
-	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --toggle-collect=pm_counted --dump-after=pm_counted --callgrind-out-file="$scratch/out" "$1" >"$scratch/cases"
+	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --toggle-collect=pm_counted --dump-after=pm_counted --callgrind-out-file="$scratch/out" "$1" \
+		>"$scratch/cases"
 	echo "# $compiler"
 	echo "# case, instructions per item, item"
 	names=0
 	while IFS=$'\t' read -r name per items; do
 		names=$((names + 1))
-		awk -v OFS='\t' -v name="$name" -v per="$per" -v items="$items" '/^(totals|summary):/ { print name, sprintf("%.4g", $2 / items), per; exit }' "$scratch/out.$names"
+		awk -v OFS='\t' -v name="$name" -v per="$per" -v items="$items" '/^(totals|summary):/ { print name, sprintf("%.4g", $2 / items), per;
+			exit }' "$scratch/out.$names"
 	done <"$scratch/cases"
 }
 

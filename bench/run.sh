@@ -51,7 +51,8 @@ part_start() {
 }
 part_pass() {
 	through
-	local size i lines=('poisson-fft <through.pm >/dev/null' 'cat through.pm | poisson-fft | cat >/dev/null' 'poisson-fft <through.pm | mgrad | poisson-fft >/dev/null')
+	local size i lines=('poisson-fft <through.pm >/dev/null' 'cat through.pm | poisson-fft | cat >/dev/null' \
+		'poisson-fft <through.pm | mgrad | poisson-fft >/dev/null')
 	size=$(wc -c <through.pm)
 	rm -f pass.*
 	for _ in 0 1 2 3 4 5 6 7; do
@@ -118,6 +119,7 @@ awk -f "$top/bench/table.awk" "$rows"
 [ -z "$markdown" ] || {
 	compiler=$("${CC:-gcc}" --version | sed 1q)
 	model=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed 1q)
-	awk -v markdown=1 -v about="$model, up to $cores threads, $compiler, load average $busy before it began" -f "$top/bench/table.awk" "$rows" "$top/docs/speed.md" >speed.md
+	awk -v markdown=1 -v about="$model, up to $cores threads, $compiler, load average $busy before it began" -f "$top/bench/table.awk" "$rows" \
+		"$top/docs/speed.md" >speed.md
 	cat speed.md >"$top/docs/speed.md"
 }

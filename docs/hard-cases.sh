@@ -20,7 +20,8 @@ rows() {
 
 # The lines of rows on standard input, those of the files in the arguments alone and the others of the same lines of the page.
 chosen() {
-	awk -F'\t' -v only=" $* " 'index(only, " " $2 " ") || only == "  " { line[$1] } { row[NR] = $0; of[NR] = $1 } END { for (i = 1; i <= NR; i++) if (of[i] in line) print row[i] }'
+	awk -F'\t' -v only=" $* " 'index(only, " " $2 " ") || only == "  " { line[$1] } { row[NR] = $0; of[NR] = $1 } END {
+		for (i = 1; i <= NR; i++) if (of[i] in line) print row[i] }'
 }
 
 # run_file FILE: the tests of this file that the rows name; what they compare goes to $PM_MEASURED, what they say to $work/tap.
@@ -30,7 +31,8 @@ run_file() {
 	else
 		# any sign may stand for itself: what is measured is found by its name afterwards
 		awk -F'\t' -v f="$1" '$2 == f { gsub(/[^A-Za-z0-9 ]/, ".", $3); printf "%s%s", (n++ ? "|" : ""), $3 }' "$work/rows" >"$work/names"
-		bats --formatter tap -f "^($(cat "$work/names"))" "$top/tests/$1.bats" </dev/null >"$work/out" 2>&1 || { grep -A 20 '^not ok' "$work/out" >&2; echo "hard-cases: tests/$1.bats failed" >&2; return 1; }
+		bats --formatter tap -f "^($(cat "$work/names"))" "$top/tests/$1.bats" </dev/null >"$work/out" 2>&1 || { grep -A 20 '^not ok' "$work/out" >&2
+		echo "hard-cases: tests/$1.bats failed" >&2; return 1; }
 		cat "$work/out" >>"$work/tap"
 	fi
 }
@@ -86,5 +88,6 @@ awk -F'\t' -v OFS='\t' '
 			print l, cell
 		}
 	}' "$work/tap" "$PM_MEASURED" "$work/rows" >"$work/cells"
-awk -F'\t' 'FNR == NR { cell[$1] = $2; next } FNR in cell { match($0, /\|[^|]*\|[ \t]*$/); $0 = substr($0, 1, RSTART) " " cell[FNR] " |" } { print }' "$work/cells" "$page" >"$work/page"
+awk -F'\t' 'FNR == NR { cell[$1] = $2; next } FNR in cell { match($0, /\|[^|]*\|[ \t]*$/); $0 = substr($0, 1, RSTART) " " cell[FNR] " |" } {
+	print }' "$work/cells" "$page" >"$work/page"
 cmp -s "$work/page" "$page" || cp "$work/page" "$page"

@@ -20,7 +20,8 @@ block() { awk -v n="$1" -v k="$2" '/^## / { at++ } /^```$/ { on = 0 } on { print
 numbers() {
 	awk -F'\t' -v OFS='\t' '$1 == "member" { split("", c); for (i = 1; i <= NF; i++) c[$i] = i; next }
 	{ key = ""; for (i = 2; i < c["parameter"]; i++) key = key (key == "" ? "" : " ") $i
-		if ($c["limit"] == "-") print key, $c["reason"], "-", "-"; else print key, sprintf("%.5g", $c["limit"]), $c["uncertainty"], ($c["ratio"] == "-" ? "-" : sprintf("%.4f", $c["ratio"])) }'
+		if ($c["limit"] == "-") print key, $c["reason"], "-", "-"; else print key, sprintf("%.5g", $c["limit"]), $c["uncertainty"],
+			($c["ratio"] == "-" ? "-" : sprintf("%.4f", $c["ratio"])) }'
 }
 
 # write SECTION NUMBERS: the page with them in the first table of the section; every word of a key must be in the first cell of its row.
@@ -29,7 +30,8 @@ write() {
 	/^## / { at++; if (at == n) on = 1; else on = 0 }
 	on && /^\|/ && !/^\|---/ && !/^\| case/ {
 		r++; gsub(/\\\|/, "\001"); split($0, cell, "|"); k = split(key[r], word, " ")
-		for (i = 1; i <= k; i++) if (index(cell[2], word[i]) == 0) { printf "stability: row %d of the section, %s, is measured as %s\n", r, cell[2], key[r] >"/dev/stderr"; exit 1 }
+		for (i = 1; i <= k; i++) if (index(cell[2], word[i]) == 0) { printf "stability: row %d of the section, %s, is measured as %s\n", r, cell[2],
+			key[r] >"/dev/stderr"; exit 1 }
 		$0 = "|" cell[2] "|" cell[3] "|" cell[4] "|" new[r] " |" cell[8] "|"; gsub("\001", "\\|") }
 	{ print }
 	END { if (r != rows) { printf "stability: section %d has %d rows, and %d are measured\n", n, r, rows >"/dev/stderr"; exit 1 } }' "$2" "$page"
@@ -41,7 +43,8 @@ differs() {
 	/^## / { at++ }
 	at == n && /^\|/ && !/^\|---/ && !/^\| case/ {
 		r++; gsub(/\\\|/, "\001"); split($0, cell, "|"); old = cell[5]; gsub(/^ | $/, "", old); d = old - new[r]; if (d < 0) d = -d
-		if (u[r] == "-" ? old != new[r] : !(old ~ /[0-9]/ && d <= u[r] + cell[6])) { printf "stability:%sis %s, on the page %s\n", cell[2], new[r], old >"/dev/stderr"; bad = 1 } }
+		if (u[r] == "-" ? old != new[r] : !(old ~ /[0-9]/ && d <= u[r] + cell[6])) { printf "stability:%sis %s, on the page %s\n", cell[2], new[r],
+			old >"/dev/stderr"; bad = 1 } }
 	END { exit bad || r != rows }' "$2" "$page"
 }
 
@@ -55,7 +58,8 @@ measure() {
 			echo 'margin() { command margin "$@" --format tsv --jobs "${JOBS:-2}" || [ $? = 1 ]; }'
 			block "$n" $k
 		} >"$work/block"
-		(cd "$work/run" && bash -euo pipefail "$work/block" </dev/null 2>"$work/said") >"$work/table" || { cat "$work/said" >&2; echo "stability: block $k of section $n failed" >&2; return 1; }
+		(cd "$work/run" && bash -euo pipefail "$work/block" </dev/null 2>"$work/said") >"$work/table" || { cat "$work/said" >&2
+		echo "stability: block $k of section $n failed" >&2; return 1; }
 		numbers <"$work/table" >>"$work/numbers"
 	done
 	[ -s "$work/numbers" ] || return 0

@@ -17,7 +17,8 @@ is() {
 
 # column NAME ROW FILE: a number of diag's table; ROW counts from 1, or is `last`.
 column() {
-	awk -F'\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; if (!c) exit 1; next } NR == r + 1 { print $c; found = 1; exit } { x = $c }
+	awk -F'\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; if (!c) exit 1; next } NR == r + 1 { print $c; found = 1;
+		exit } { x = $c }
 		END { if (!found && r == "last") print x }' "$3"
 }
 

@@ -30,7 +30,8 @@ echo "8 steps, gyrating, with its own field added to the given ones, one word sw
 while IFS=: read -r name words; do
 	pinit exb --dt "$(calc "2 * sin(pi / 8) / cos(pi / 8)")" --speed 1 | smod --rename mesh=given |
 		cycle -n 8 --every 8 "push boris/2 drift | $words | m2p --mesh own | m2p --mesh given | push boris/2" | diag >"$work/table"
-	is "drift along x, $name" "$(calc "($(column centre_x last "$work/table") - $(column centre_x 1 "$work/table")) / (16 * sin(pi / 8) / cos(pi / 8))")" 0.1 1e-13
+	is "drift along x, $name" "$(calc "($(column centre_x last "$work/table") - $(column centre_x 1 "$work/table")) / (16 * sin(pi / 8) / cos(pi / 8))")" \
+		0.1 1e-13
 done <<-END
 	cic, poisson-fft, order 2:p2m --mesh own -n 16 | poisson-fft --mesh own | mgrad --mesh own
 	kernel tsc:p2m --mesh own -n 16 --kernel tsc | poisson-fft --mesh own | mgrad --mesh own

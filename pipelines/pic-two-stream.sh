@@ -29,7 +29,8 @@ gamma() { sed -n 's/^# .* gamma \([^ ]*\) omega.*/\1/p' "$work/$1"; }
 
 # most TABLE COLUMN: its largest value after t = 20 over its mean before.
 most() {
-	awk -F'\t' -v c="$2" '!/^#/ && NR > 1 { if ($1 <= 20) { sum += $c; n++ } else if ($c > most) most = $c } END { printf "%.9g", most * n / sum }' "$work/$1"
+	awk -F'\t' -v c="$2" '!/^#/ && NR > 1 { if ($1 <= 20) { sum += $c; n++ } else if ($c > most) most = $c } END { printf "%.9g",
+		most * n / sum }' "$work/$1"
 }
 
 echo "cold beams"
@@ -40,8 +41,10 @@ is "gamma at k v0 = 0.3" "$(gamma slow)" 0.256405640402469 0.0051
 beams 10000 400 fast --v0 0.9
 is "gamma at k v0 = 0.9" "$(gamma fast)" 0.239748687416082 0.0048
 beams 10000 400 beyond --v0 1.1
-is "largest difference from theory at k v0 = 1.1" "$(awk -F'\t' -v a=1.21 'BEGIN { r = sqrt(2 * a + 0.25); w = sqrt(a + 0.5 + r); W = sqrt(a + 0.5 - r); c = (1 + a - W^2) / (w^2 - W^2) }
-	!/^#/ && NR > 1 && $1 <= 40 { if (!first) first = $5; e = c * cos(w * $1) + (1 - c) * cos(W * $1); d = $5 / first - (e < 0 ? -e : e); d = d < 0 ? -d : d; if (d > most) most = d; n++ }
+is "largest difference from theory at k v0 = 1.1" "$(awk -F'\t' -v a=1.21 'BEGIN { r = sqrt(2 * a + 0.25); w = sqrt(a + 0.5 + r); W = sqrt(a + 0.5 - r);
+	c = (1 + a - W^2) / (w^2 - W^2) }
+	!/^#/ && NR > 1 && $1 <= 40 { if (!first) first = $5; e = c * cos(w * $1) + (1 - c) * cos(W * $1); d = $5 / first - (e < 0 ? -e : e);
+		d = d < 0 ? -d : d; if (d > most) most = d; n++ }
 	END { print (n > 90 ? most : "none") }' "$work/beyond")" 0 0.01
 
 echo "cold beams at k v0 = sqrt(3/8), one word swapped"

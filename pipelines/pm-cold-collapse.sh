@@ -29,9 +29,11 @@ run() { # CELLS TIME AMPLITUDE
 run 128 3.75 0.05 >"$work/a"
 is "k A at t = 1, 128 cells" "$(sed -n 21p "$work/a")" 0.0771540317407622 7.7e-5
 is "k A at t = 2" "$(sed -n 41p "$work/a")" 0.188109784554182 1.9e-4
-is "time of crossing" "$(awk -v dt=$dt 'NR > 1 && $1 >= 1 && a < 1 { printf "%.17g", dt * (NR - 2 + (1 - a) / ($1 - a)); exit } { a = $1 }' "$work/a")" 3.68825386736 0.037
+is "time of crossing" "$(awk -v dt=$dt 'NR > 1 && $1 >= 1 && a < 1 { printf "%.17g", dt * (NR - 2 + (1 - a) / ($1 - a)); exit } {
+	a = $1 }' "$work/a")" 3.68825386736 0.037
 for cells in 16 32 64; do
-	rate=$(run $cells 2 1e-4 | awk -v dt=$dt '{ a[NR] = $1 } END { i = int(NR / 2); c = (a[i+1] + a[i-1]) / (2 * a[i]); g = log(c + sqrt(c * c - 1)); printf "%.17g", (exp(g / 2) - exp(-g / 2)) / dt }')
+	rate=$(run $cells 2 1e-4 | awk -v dt=$dt '{ a[NR] = $1 } END { i = int(NR / 2); c = (a[i+1] + a[i-1]) / (2 * a[i]); g = log(c + sqrt(c * c - 1));
+		printf "%.17g", (exp(g / 2) - exp(-g / 2)) / dt }')
 	is "growth rate, $cells cells: cos(k dx/2)" "$rate" "$(calc "cos(pi / $cells)")" 1e-4
 done
 finish

@@ -24,7 +24,8 @@ export OMP_NUM_THREADS=1 PM_PLAN=${PM_PLAN:-estimate}
 places() {
 	pinit pair --length "$n" --no-history | stab | awk -v n="$n" -v places="$places" -v seed="$seed" '
 		function random() { seed = 16807 * seed % 2147483647; return seed / 2147483647 }
-		/^#pmpipe/ { gsub(/"n":2,/, "\"n\":25,"); gsub(/"cells":\[[0-9,]*\]/, "\"cells\":[" n "," n "," n "]"); gsub(/"h":\[[0-9.,]*\]/, "\"h\":[1.0,1.0,1.0]"); header = $0 }
+		/^#pmpipe/ { gsub(/"n":2,/, "\"n\":25,"); gsub(/"cells":\[[0-9,]*\]/, "\"cells\":[" n "," n "," n "]"); gsub(/"h":\[[0-9.,]*\]/,
+			"\"h\":[1.0,1.0,1.0]"); header = $0 }
 		END { for (p = 0; p < places; p++) {
 			print header; print "#set matter"; print "x\ty\tz\tvx\tvy\tvz\tmass\tid"
 			for (d = 0; d < 3; d++) x[d] = n * random()

@@ -17,9 +17,11 @@ size=${SIZE:-640}
 pinit plummer -n "$particles" --cells "$cells" --seed 1 |
 	cycle -n "$steps" --every 10 --checkpoint "$work/end" 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
 	diag --radii 0.5 --exact >"$work/table"
-sdraw --field rho --project --log --area -7,7,-7,7 --size "$size" --title "Plummer sphere, $particles particles, $cells^3 cells, $steps steps" -o "$picture" <"$work/end" >/dev/null
+sdraw --field rho --project --log --area -7,7,-7,7 --size "$size" --title "Plummer sphere, $particles particles, $cells^3 cells, $steps steps" -o "$picture" \
+	<"$work/end" >/dev/null
 
-awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i } { printf "%6s %8s %14s %17s %14s %14s\n", $c["step"], $c["time"], substr($c["energy_kinetic"], 1, 14),
+awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i } { printf "%6s %8s %14s %17s %14s %14s\n", $c["step"], $c["time"], substr($c["energy_kinetic"], 1,
+	14),
 	substr($c["energy_field_mesh"], 1, 17), substr($c["energy"], 1, 14), substr($c["radius_0.5"], 1, 10) }' "$work/table"
 scale=$(column momentum_scale last "$work/table")
 is "mass" "$(column mass last "$work/table")" "$(column exact_mass 1 "$work/table")" 1e-12

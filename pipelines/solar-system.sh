@@ -38,7 +38,8 @@ report() {
 		read -r planet want <<<"$row"
 		is "period of $planet [years]" "$(awk -v p="$planet" '$1 == p { print $2 }' "$work/periods")" "$want" "$(calc "0.005 * $want")"
 	done
-	is "energy error, largest" "$(awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "energy") c = i; next } NR == 2 { e = $c } { d = $c / e - 1; if (d < 0) d = -d; if (d > m) m = d } END { print m }' "$work/table")" 0 "$2"
+	is "energy error, largest" "$(awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "energy") c = i; next } NR == 2 { e = $c } { d = $c / e - 1;
+		if (d < 0) d = -d; if (d > m) m = d } END { print m }' "$work/table")" 0 "$2"
 	is "momentum over its scale" "$(calc "$(column momentum_x last "$work/table") / $(column momentum_scale last "$work/table")")" \
 		"$(calc "$(column momentum_x 1 "$work/table") / $(column momentum_scale 1 "$work/table")")" 1e-12
 }

@@ -18,7 +18,8 @@ run() {
 	cycle -n "$1" "p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 $2" <"$work/start" | p2m --kernel m6prime >"$work/end"
 	diag --exact <"$work/end" >"$work/table"
 	largest=$(stab --plain --mesh mesh <"$work/end" |
-		awk 'NR > 1 { r = sqrt($1 * $1 + $2 * $2); d = $3 - (r < 0.5 ? 100 * (1 - 2 * r) : 0); d = d < 0 ? -d : d; m = d > m ? d : m } END { printf "%.17g", m }')
+		awk 'NR > 1 { r = sqrt($1 * $1 + $2 * $2); d = $3 - (r < 0.5 ? 100 * (1 - 2 * r) : 0); d = d < 0 ? -d : d; m = d > m ? d : m } END {
+			printf "%.17g", m }')
 }
 
 # lost: circulation removed by the threshold of remesh.

@@ -11,7 +11,8 @@ set -euo pipefail
 . "$(dirname "$0")/numbers.sh"
 
 pinit lamb-oseen --cells 120 >"$work/start"
-cycle -t 4 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-8 --rim 2' <"$work/start" >"$work/end"
+cycle -t 4 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-8 --rim 2' <"$work/start" \
+	>"$work/end"
 
 for f in start end; do
 	p2m --kernel m6prime <"$work/$f" | poisson-fft | mgrad | tee "$work/$f.solved" | stab --plain --mesh mesh >"$work/$f.text"
@@ -26,7 +27,8 @@ at() {
 # fastest FILE: place and value of the maximum of u_theta along x > 0, by a parabola through the largest value and its neighbours.
 fastest() {
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "u_1") c = i; next } $1 > 0 && $2 ^ 2 < 1e-16 { n++; x[n] = $1; u[n] = $c; if (u[n] > u[k]) k = n }
-		END { a = u[k + 1] - u[k - 1]; b = u[k + 1] - 2 * u[k] + u[k - 1]; printf "%.17g %.17g\n", x[k] - a / b / 2 * (x[k + 1] - x[k]), u[k] - a * a / b / 8 }' "$work/$1.text"
+		END { a = u[k + 1] - u[k - 1]; b = u[k + 1] - 2 * u[k] + u[k - 1]; printf "%.17g %.17g\n", x[k] - a / b / 2 * (x[k + 1] - x[k]),
+			u[k] - a * a / b / 8 }' "$work/$1.text"
 }
 
 is "omega at t = 1, r = 0.2" "$(at start 0.2 omega)" 2.92749157621596 1e-12

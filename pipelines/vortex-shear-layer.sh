@@ -28,7 +28,8 @@ run() {
 # against NAME TOLERANCE: a column of the last run compared with the exact one at t = 0.4, 0.8, 1, relative.
 against() {
 	for row in 1 2 3; do
-		is "  $1 over the exact, t = $(printf %.3g "$(column time $row "$work/table")")" "$(calc "$(column "$1" $row "$work/table") / $(column "exact_$1" $row "$work/table")")" 1 "$2"
+		is "  $1 over the exact, t = $(printf %.3g "$(column time $row "$work/table")")" "$(calc "$(column "$1" $row "$work/table") / $(column \
+			"exact_$1" $row "$work/table")")" 1 "$2"
 	done
 }
 

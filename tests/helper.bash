@@ -22,7 +22,8 @@ measured() {
 holds() {
 	measured "$@"
 	awk -v r="$1" -v g="$2" -v a="$3" -v b="$4" 'BEGIN { d = g - a; d = d < 0 ? -d : d; n = g + 0 < 0 ? -g : g + 0
-		exit !(g ~ /[0-9]/ && g !~ /nan|inf/ && (r == "within" ? b != "" && d <= b + 0 : r == "below" ? a != "" && n <= a + 0 : r == "above" ? g >= a + 0 : r == "between" ? g >= a + 0 && g <= b + 0 : 0)) }'
+		exit !(g ~ /[0-9]/ && g !~ /nan|inf/ && (r == "within" ? b != "" && d <= b + 0 : r == "below" ? a != "" &&
+			n <= a + 0 : r == "above" ? g >= a + 0 : r == "between" ? g >= a + 0 && g <= b + 0 : 0)) }'
 }
 
 # within GOT WANT TOLERANCE [sentence]: |got - want| <= tolerance.

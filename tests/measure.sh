@@ -14,7 +14,9 @@ echo
 echo "longest files"
 wc -l "${code[@]}" | grep -v ' total$' | sort -rn | head -n 8
 echo
-functions=$(awk 'FNR == 1 { open = 0 } /^[a-z].*\)$/ { name = $0 } /^\{/ { open = FNR } /^\}/ && open { print FNR - open - 1, FILENAME, name; open = 0 }' "${code[@]}" | sort -rn)
+functions=$(awk 'FNR == 1 { open = 0 } /^[a-z].*\)$/ { name = $0 } /^\{/ { open = FNR } /^\}/ && open { print FNR - open - 1, FILENAME, name;
+	open = 0 }' "${code[@]}" | sort -rn)
 echo "longest functions"
 sed -E 's/^([0-9]+) ([^ ]+) .*[ *]([a-z_0-9]+)\(.*/\1 \2 \3/' <<<"$functions" | head -n 12
-awk '{ v[NR] = $1 } END { if (NR) printf "\n%d functions: median %d lines, 90th percentile %d, longest %d\n", NR, v[int((NR + 1) / 2)], v[int(NR / 10) + 1], v[1] }' <<<"$functions"
+awk '{ v[NR] = $1 } END { if (NR) printf "\n%d functions: median %d lines, 90th percentile %d, longest %d\n", NR, v[int((NR + 1) / 2)], v[int(NR / 10) + 1],
+	v[1] }' <<<"$functions"

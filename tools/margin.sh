@@ -63,7 +63,8 @@ axes() {
 	for v in "${varied[@]}"; do
 		if [[ $v =~ ^([A-Za-z_][A-Za-z0-9_-]*):($number):($number)$ ]]; then
 			axis_name+=("${BASH_REMATCH[1]}") axis_low+=("${BASH_REMATCH[2]}") axis_high+=("${BASH_REMATCH[5]}")
-			axis_scale+=("$(awk -v a="${BASH_REMATCH[2]}" -v b="${BASH_REMATCH[5]}" 'BEGIN { print (a >= b ? "wrong" : a > 0 && b > 10 * a ? "log" : "linear") }')")
+			axis_scale+=("$(awk -v a="${BASH_REMATCH[2]}" -v b="${BASH_REMATCH[5]}" 'BEGIN { print (a >= b ? "wrong" : a > 0 &&
+				b > 10 * a ? "log" : "linear") }')")
 			[ "${axis_scale[-1]}" != wrong ] || usage "--vary '$v': the first number is not below the second"
 		elif [[ $v == *=* ]]; then
 			choices+=("$v")
@@ -80,14 +81,16 @@ settle() {
 	read_options "$@"
 	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
-	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} keep=${opt_output:-} format=${opt_format:-table} growth=${opt_column:-}
+	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} keep=${opt_output:-} \
+		format=${opt_format:-table} growth=${opt_column:-}
 	[ "$keep" = / ] || keep=${keep%/}
 	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
 	axes
 	map_width=24 map_height=16 seeds=1 has_seed=
 	if [ -n "${opt_map:-}" ]; then
 		[ ${#axis_name[@]} = 2 ] || usage "--map wants two ranges (--vary x:0:1 --vary y:0:1)"
-		[[ $opt_map =~ ^([0-9]{1,4})x([0-9]{1,4})$ && ${BASH_REMATCH[1]} -ge 2 && ${BASH_REMATCH[2]} -ge 2 ]] || usage "--map '$opt_map' is not a size of at least 2x2 (40x30)"
+		[[ $opt_map =~ ^([0-9]{1,4})x([0-9]{1,4})$ && ${BASH_REMATCH[1]} -ge 2 && ${BASH_REMATCH[2]} -ge 2 ]] ||
+			usage "--map '$opt_map' is not a size of at least 2x2 (40x30)"
 		map_width=${BASH_REMATCH[1]} map_height=${BASH_REMATCH[2]}
 	fi
 	[[ ${#axis_name[@]} = 1 || -z ${opt_expect:-} ]] || usage "--expect belongs to one range, not to a map"
@@ -115,9 +118,11 @@ understand() {
 	words "${sentence[0]}"
 	for w in "${word[@]}"; do
 		[[ ! $w =~ $cycle_word ]] || cycles=$((cycles + 1))
-		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] || usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
+		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] ||
+			usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
 	done
-	[[ $cycles != 0 || -z $criterion ]] || usage "--unstable-when is looked at by cycle, and there is none in the sentence (without it exit status 3 counts)"
+	[[ $cycles != 0 || -z $criterion ]] ||
+		usage "--unstable-when is looked at by cycle, and there is none in the sentence (without it exit status 3 counts)"
 	for n in "${!sentence[@]}"; do expected "$n" >/dev/null; done
 }
 

@@ -53,14 +53,16 @@ The same kernel for the way to the mesh and back; only errors|pareto 'pinit unif
 
 seconds_of() {
 	[[ $1 =~ ^([0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?)(us|ms|s|min|h|)$ ]] || usage "option '--within': '$1' is not a time (2s, 50ms, 1.5min)"
-	awk -v x="${BASH_REMATCH[1]}" -v u="${BASH_REMATCH[3]}" 'BEGIN { print x * (u == "us" ? 1e-6 : u == "ms" ? 1e-3 : u == "min" ? 60 : u == "h" ? 3600 : 1) }'
+	awk -v x="${BASH_REMATCH[1]}" -v u="${BASH_REMATCH[3]}" 'BEGIN {
+		print x * (u == "us" ? 1e-6 : u == "ms" ? 1e-3 : u == "min" ? 60 : u == "h" ? 3600 : 1) }'
 }
 
 settle() {
 	read_options "$@"
 	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
-	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} keep=${opt_output:-}
+	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} \
+		keep=${opt_output:-}
 	[ "$keep" = / ] || keep=${keep%/}
 	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
 	until=${opt_until_error:-} within_seconds=

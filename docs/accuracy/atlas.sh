@@ -44,7 +44,8 @@ force_head() {
 # force SCENE FILE PARTICLES: error 0 is the reference itself.
 force() {
 	awk -F'\t' -v OFS='\t' -v scene="$1" -v n="$3" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-		$at["error"] != "-" { print scene, $at["solver"], $at["kernel"], $at["gradient"], $at["h_over_scale"], $at["error"], sprintf("%.4g", $at["seconds"] / n * 1e9) }' "$2"
+		$at["error"] != "-" { print scene, $at["solver"], $at["kernel"], $at["gradient"], $at["h_over_scale"], $at["error"], sprintf("%.4g",
+			$at["seconds"] / n * 1e9) }' "$2"
 }
 
 step_head() {

@@ -8,7 +8,8 @@
 #   none MEMBER SEED WHY             no limit between the end points, and whether they are stable
 # WHAT sample: instead "ask MEMBER SEED VALUE" and "grow MEMBER SEED VALUE STEPS" for a curve of growth on both sides of the first seed's limit.
 look() {
-	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v scale="${axis_scale[0]}" \
+	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v \
+		scale="${axis_scale[0]}" \
 		-v from="$from" -v tolerance="$tolerance" '
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
@@ -82,7 +83,8 @@ expected() {
 	# awk could write files and run programs, so only the characters of arithmetic are passed to it
 	[[ $(sed 's/"[A-Za-z0-9_. -]*"//g' <<<"$e") =~ $arithmetic ]] || usage "--expect: '$e' has signs that are none of arithmetic"
 	# awk reads unknown names as 0 and prints non-finite numbers as inf or nan
-	one=$(! grep -oE '[0-9.]+([eE][-+]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*' <<<"$(sed 's/"[^"]*"//g' <<<"$e")" | grep -E '^[A-Za-z_]' | grep -qvxE 'pi|sqrt|exp|log|sin|cos|atan2' &&
+	one=$(! grep -oE '[0-9.]+([eE][-+]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*' <<<"$(sed 's/"[^"]*"//g' <<<"$e")" | grep -E '^[A-Za-z_]' |
+		grep -qvxE 'pi|sqrt|exp|log|sin|cos|atan2' &&
 		awk 'BEGIN { pi = atan2(0, -1); printf "%.10g", ('"$e"') }' 2>/dev/null) && [[ $one =~ ^-?[0-9] ]] ||
 		usage "--expect: '$e' is not a number (2, 2*sqrt(2), {name}^2/2, or rk2=2,rk4=2.785 for choices)"
 	printf %s "$one"
@@ -97,7 +99,8 @@ tsv() {
 		for d in "${choice_shown[@]}"; do printf '\t%s' "${chosen[m * ${#choice_name[@]} + d]}"; done
 		echo
 	done >"$work/members"
-	look limits | awk -F'\t' -v OFS='\t' -v names="$(for d in "${choice_shown[@]}"; do printf '%s\t' "${choice_name[d]}"; done)" -v from="$from" -v axis="${axis_name[0]}" '
+	look limits | awk -F'\t' -v OFS='\t' -v names="$(for d in "${choice_shown[@]}"; do printf '%s\t' "${choice_name[d]}"
+	done)" -v from="$from" -v axis="${axis_name[0]}" '
 	function median(v, n,    i, j, t) {
 		for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j] < v[j-1]; j--) { t = v[j]; v[j] = v[j-1]; v[j-1] = t }
 		return n % 2 ? v[(n+1)/2] : (v[n/2] + v[n/2+1]) / 2 }

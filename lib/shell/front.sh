@@ -50,9 +50,11 @@ tsv() {
 	}
 	# A NaN or infinite error ranks below every finite one.
 	function finite(x) { return x ~ /[0-9]/ && x !~ /[nN][aA][nN]|[iI][nN][fF]/ }
-	function beats(a, b) { return status[a] == "ok" && finite(e[a]) && (!finite(e[b]) || e[a] <= e[b]) && sec[a] <= sec[b] && (e[a] < e[b] || sec[a] < sec[b] || !finite(e[b]) || id[a] < id[b]) }
+	function beats(a, b) { return status[a] == "ok" && finite(e[a]) && (!finite(e[b]) || e[a] <= e[b]) && sec[a] <= sec[b] && (e[a] < e[b] ||
+		sec[a] < sec[b] || !finite(e[b]) || id[a] < id[b]) }
 	END {
-		print "member", "status", "front", "dominated_by", "error", "l1", "l2", "max", "relative_l2", "relative_max", "seconds", "spread", "setup", "memory_mb", ENVIRON["NAMES"] "sentence", "reason"
+		print "member", "status", "front", "dominated_by", "error", "l1", "l2", "max", "relative_l2", "relative_max", "seconds", "spread", "setup",
+			"memory_mb", ENVIRON["NAMES"] "sentence", "reason"
 		for (m = 1; m <= NR; m++) {
 			front = "-"; by = "-"
 			if (status[m] == "ok" && sec[m] != "-") {
@@ -63,12 +65,15 @@ tsv() {
 			}
 			row = id[m] + 1 OFS status[m] OFS front OFS by OFS (why[m] == "" ? e[m] : "-")
 			for (i = 2; i <= 6; i++) row = row OFS (why[m] == "" ? norms[id[m], i] : "-")
-			print row, sec[m] == "-" ? "-" : sprintf("%.6g", sec[m]), sec[m] == "-" ? "-" : sprintf("%.2g", spread[m]), setup[m] == "-" ? "-" : sprintf("%.3g", setup[m]), (mem[m] > 0 ? sprintf("%.1f", mem[m] / 1024) : "-"), tail[m], why[m] == "" ? "-" : why[m]
+			print row, sec[m] == "-" ? "-" : sprintf("%.6g", sec[m]), sec[m] == "-" ? "-" : sprintf("%.2g", spread[m]),
+				setup[m] == "-" ? "-" : sprintf("%.3g", setup[m]), (mem[m] > 0 ? sprintf("%.1f", mem[m] / 1024) : "-"), tail[m],
+					why[m] == "" ? "-" : why[m]
 		}
 	}' | {
 		IFS= read -r d
 		printf '%s\n' "$d"
-		awk -F'\t' -v OFS='\t' '{ print $2 == "failed", $11 == "-" ? 0 : $11, $5 == "-" ? 0 : $5, $0 }' | sort -t $'\t' -s -k1,1n -k2,2g -k3,3g | cut -f4-
+		awk -F'\t' -v OFS='\t' '{ print $2 == "failed", $11 == "-" ? 0 : $11, $5 == "-" ? 0 : $5, $0 }' | sort -t $'\t' -s -k1,1n -k2,2g -k3,3g |
+			cut -f4-
 	}
 }
 
@@ -77,7 +82,8 @@ table() {
 	awk -F'\t' -v choices=${#choice_name[@]} -v norm="$norm" -v field="${field:-all fields}" -v against="$against" -v errors_only="${jobs:+1}" '
 	function cell(r, c, text) { t[r, c] = text; if (length(text) > w[c]) w[c] = length(text) }
 	function number(x) { return x == "-" ? x : sprintf("%.3g", x) }
-	function line(r,    c, s) { s = ""; for (c = 0; c <= last; c++) s = s sprintf(c == 0 || (c > 1 && c < choices + 2) ? "%-" w[c] "s  " : "%" w[c] "s  ", t[r, c]); sub(/ +$/, "", s); print s }
+	function line(r,    c, s) { s = ""; for (c = 0; c <= last; c++) s = s sprintf(c == 0 || (c > 1 && c < choices + 2) ? "%-" w[c] "s  " : "%" w[c] "s  ",
+		t[r, c]); sub(/ +$/, "", s); print s }
 	NR == 1 {
 		cell(1, 0, " "); cell(1, 1, "member")
 		for (i = 1; i <= choices; i++) { cell(1, i + 1, $(14 + i)); name[i] = $(14 + i) }
@@ -88,9 +94,11 @@ table() {
 	$2 == "failed" { why = $(16 + choices); if (!(why in bad)) { reason[++nbad] = why } else bad[why] = bad[why] ", "; bad[why] = bad[why] $1 }
 	{
 		r = ++rows; cell(r, 0, $3 == "yes" ? "*" : " "); cell(r, 1, $1)
-		for (i = 1; i <= choices; i++) { cell(r, i + 1, $(14 + i)); if ($2 == "reference") continue; if ($3 == "yes") on[i, $(14 + i)] = 1; if (!((i, $(14 + i)) in had)) { had[i, $(14 + i)] = 1; order[i] = order[i] "\t" $(14 + i) } }
+		for (i = 1; i <= choices; i++) { cell(r, i + 1, $(14 + i)); if ($2 == "reference") continue; if ($3 == "yes") on[i, $(14 + i)] = 1; if (!((i,
+			$(14 + i)) in had)) { had[i, $(14 + i)] = 1; order[i] = order[i] "\t" $(14 + i) } }
 		c = choices + 2; cell(r, c++, $2 == "ok" ? number($5) : $2); if ($3 == "yes") fronts++
-		if (!errors_only) { cell(r, c++, number($11)); cell(r, c++, $12); cell(r, c++, number($13)); cell(r, c++, $14); cell(r, c++, $4 == "-" ? "" : $4); }
+		if (!errors_only) { cell(r, c++, number($11)); cell(r, c++, $12); cell(r, c++, number($13)); cell(r, c++, $14); cell(r, c++,
+			$4 == "-" ? "" : $4); }
 	}
 	END {
 		printf "error: %s of %s against %s", norm, field, against
@@ -253,8 +261,10 @@ page() {
 			inline_svg "$dir/pareto.svg"
 		fi
 		printf '<h2>The members</h2>\n<p>'
-		[ -n "$jobs" ] || printf 'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
-		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END { printf "%.3g", s }')"
+		[ -n "$jobs" ] || printf \
+			'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
+		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END {
+			printf "%.3g", s }')"
 		printf '</p>\n<table>\n'
 		rows_html "$dir/pareto.tsv"
 		printf '</table>\n<h2>In words</h2>\n<pre>%s</pre>\n' "$(table "$dir/pareto.tsv" | escape)"
@@ -274,6 +284,7 @@ choose() {
 			if (found == "" || key < best) { best = key; found = $(15 + choices) } }
 		END { if (found != "") { print found; exit }
 			if (floor == "") print me ": no sentence could be measured" > "/dev/stderr"
-			else printf "%s: no sentence meets this: the smallest error is %.3g, the shortest time %s s\n", me, floor, quick == "" ? "-" : sprintf("%.3g", quick) > "/dev/stderr"
+			else printf "%s: no sentence meets this: the smallest error is %.3g, the shortest time %s s\n", me, floor,
+				quick == "" ? "-" : sprintf("%.3g", quick) > "/dev/stderr"
 			exit 1 }' "$1"
 }

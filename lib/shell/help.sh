@@ -29,7 +29,8 @@ help_rows() {
 }
 
 print_help() {
-	printf '%s: %s\n\nusage: %s [options] %s\n%s %s.\n%s: %s\n\n%s\n' "$me" "$summary" "$me" "$arguments" "$me" "$kind" "$arguments" "$arguments_text" "$about"
+	printf '%s: %s\n\nusage: %s [options] %s\n%s %s.\n%s: %s\n\n%s\n' "$me" "$summary" "$me" "$arguments" "$me" "$kind" "$arguments" "$arguments_text" \
+		"$about"
 	printf '\noptions:\n'
 	help_rows <<<"$rows"
 	printf '\noptions of every tool:\n'

@@ -22,8 +22,10 @@ table() {
 		if (NR == 1 || $(k+5) != "-") any = 1
 		cell(r, c++, $(k+5)); cell(r, c++, $(k+6)); cell(r, c++, NR == 1 ? "agrees" : $(k+7)); cell(r, c++, $(k+10)); last = c - 1
 		found[r] = $(k+1) != "-"; why[r] = NR > 1 && $(k+12) != "-" ? $(k+12) : "" }
-	END { for (i = 1; i <= r; i++) { s = ""; for (c = 1; c <= last; c++) s = s sprintf(c <= choices ? "%-" w[c] "s  " : "%" w[c] "s  ", t[i, c]); sub(/ +$/, "", s); print s }
-		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " "; print found[i] ? s why[i] : "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
+	END { for (i = 1; i <= r; i++) { s = ""; for (c = 1; c <= last; c++) s = s sprintf(c <= choices ? "%-" w[c] "s  " : "%" w[c] "s  ", t[i, c]);
+		sub(/ +$/, "", s); print s }
+		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " ";
+			print found[i] ? s why[i] : "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
 }
 
 # Any tab-separated table as JSON: numbers stay numbers, "-" becomes null.
@@ -31,12 +33,14 @@ json_rows() {
 	awk -F'\t' 'function quote(s) { gsub(/\\/, "\\\\&", s); gsub(/"/, "\\\"", s); gsub(/[\001-\037]/, " ", s); return "\"" s "\"" }
 	function value(s) { return s == "-" ? "null" : s ~ /^-?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?$/ ? s : quote(s) }
 	NR == 1 { for (i = 1; i <= NF; i++) name[i] = $i; next }
-	{ s = ""; for (i = 1; i <= NF; i++) s = s (i > 1 ? ", " : "") quote(name[i]) ": " value($i); printf "%s  {%s}", (NR > 2 ? ",\n" : ""), s } END { print "" }' "$1"
+	{ s = ""; for (i = 1; i <= NF; i++) s = s (i > 1 ? ", " : "") quote(name[i]) ": " value($i); printf "%s  {%s}", (NR > 2 ? ",\n" : ""),
+		s } END { print "" }' "$1"
 }
 quoted() { awk 'BEGIN { s = ARGV[1]; gsub(/\\/, "\\\\&", s); gsub(/"/, "\\\"", s); gsub(/[\001-\037]/, " ", s); printf "\"%s\"", s }' "$1"; }
 
 json() {
-	printf '{"sentence": %s, "unstable_when": %s, "version": "%s", "%s": [\n' "$(quoted "${positional[0]}")" "$([ -z "$criterion" ] && echo null || quoted "$criterion")" "$version" "$2"
+	printf '{"sentence": %s, "unstable_when": %s, "version": "%s", "%s": [\n' "$(quoted "${positional[0]}")" "$([ -z "$criterion" ] && echo null ||
+		quoted "$criterion")" "$version" "$2"
 	json_rows "$1"
 	printf ']}\n'
 }
@@ -60,14 +64,17 @@ plot() {
 			[ -n "$(curve "$m")" ] || continue
 			printf '$curve%d << END\n%s\nEND\n' "$m" "$(curve "$m")"
 			k=$((k + 1))
-			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
+			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title $(gnuplot_text "$(name_of_member \
+				"$m")") noenhanced"
 		done
-		limits=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
+		limits=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) \
+			'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
 		[ -z "$limits" ] || echo "$limits"
 		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
 		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel %s noenhanced\nset title "Growth on both sides of the limit (dashed)"\n' "${axis_name[0]}" "$(gnuplot_text "growth of ln($growth) per step")"
 		echo "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#444444'"
-		[ -z "$draws" ] || printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
+		[ -z "$draws" ] || printf \
+			'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
 	} >"$dir/margin.gp"
 	[ -n "$draws" ] || { echo "$me: no growth could be measured: no picture (--column NAME)" >&2; return 1; }
 	draw "$dir" margin.gp
@@ -81,7 +88,8 @@ commands() {
 		if [ "$what" = trial ]; then
 			while IFS= read -r one; do echo "$one   # ${rest%%$'\t'*}"; done < <(trial_commands "$text")
 		else
-			growth_sentence "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6; exit }' "$state/log")"
+			growth_sentence "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6;
+				exit }' "$state/log")"
 			one=$text
 			plain_words diag --columns "step,$growth"
 			echo "$one | $text"

@@ -4,7 +4,8 @@
 
 # look_map WHAT: "ask MEMBER SEED X,Y" while trials are missing; then for WHAT points "MEMBER X Y OUTCOME STEP", for WHAT lines "MEMBER X1 Y1 X2 Y2".
 look_map() {
-	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v w="$map_width" -v h="$map_height" -v x0="${axis_low[0]}" -v x1="${axis_high[0]}" -v xs="${axis_scale[0]}" \
+	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v w="$map_width" -v h="$map_height" -v x0="${axis_low[0]}" -v x1="${axis_high[0]}" -v \
+		xs="${axis_scale[0]}" \
 		-v y0="${axis_low[1]}" -v y1="${axis_high[1]}" -v ys="${axis_scale[1]}" '
 	function text(x) { x = sprintf("%.10g", x); return x == "-0" ? "0" : x }
 	function place(a, b, scale, i, n) { return text(scale == "log" ? a * (b / a) ^ (i / n) : a + (b - a) * i / n) }
@@ -82,7 +83,8 @@ table_map() {
 	for m in "${!sentence[@]}"; do
 		[ ${#sentence[@]} = 1 ] || name_of_member "$m"$'\n'
 		[ ${#sentence[@]} = 1 ] || echo
-		look_map points | awk -F'\t' -v m="$m" -v w="$map_width" '$1 == m { row[int(n / w)] = row[int(n / w)] ($4 == "stable" ? "o" : "."); n++ } END { for (j = int((n - 1) / w); j >= 0; j--) print row[j] }'
+		look_map points | awk -F'\t' -v m="$m" -v w="$map_width" '$1 == m { row[int(n / w)] = row[int(n / w)] ($4 == "stable" ? "o" : ".");
+			n++ } END { for (j = int((n - 1) / w); j >= 0; j--) print row[j] }'
 	done
 }
 
@@ -92,10 +94,13 @@ plot_map() {
 	{
 		echo 'set datafile separator tab'
 		for m in "${!sentence[@]}"; do
-			printf '$stable%d << END\n%s\nEND\n' "$m" "$(look_map points | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m && $4 == "stable" { print $2, $3 }')"
-			printf '$line%d << END\n%s\nEND\n' "$m" "$(look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m { print $2, $3; print $4, $5; print "" }')"
+			printf '$stable%d << END\n%s\nEND\n' "$m" "$(look_map points | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m && $4 == "stable" { print $2,
+				$3 }')"
+			printf '$line%d << END\n%s\nEND\n' "$m" "$(look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m { print $2, $3; print $4, $5;
+				print "" }')"
 			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
-			[ ${#sentence[@]} != 1 ] || one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", \$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
+			[ ${#sentence[@]} != 1 ] ||
+				one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", \$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
 			draws+="${draws:+, }$one"
 		done
 		printf 'set xrange [%s:%s]\nset yrange [%s:%s]\n' "${axis_low[0]}" "${axis_high[0]}" "${axis_low[1]}" "${axis_high[1]}"

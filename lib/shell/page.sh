@@ -5,7 +5,8 @@
 escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g'; }
 
 machine() {
-	echo "$(uname -srm), $(nproc) processors,$(sed -n 's/^model name[^:]*:/ /p' /proc/cpuinfo 2>/dev/null | head -n 1), $(awk '/^MemTotal/ { printf "%.1f GB", $2 / 1048576 }' /proc/meminfo 2>/dev/null)"
+	echo "$(uname -srm), $(nproc) processors,$(sed -n 's/^model name[^:]*:/ /p' /proc/cpuinfo 2>/dev/null | head -n 1), $(awk '/^MemTotal/ {
+		printf "%.1f GB", $2 / 1048576 }' /proc/meminfo 2>/dev/null)"
 	echo "threads: ${OMP_NUM_THREADS:-as many as processors}; load when written: $(cut -d' ' -f1-3 /proc/loadavg 2>/dev/null)"
 }
 

@@ -84,13 +84,15 @@ run_node() {
 }
 
 # Reduces the rows of scmp, or of diag --exact, to one: the largest of each norm. For diag --exact the norms are taken over the frames.
-norms_scmp() { awk -F'\t' 'NR > 1 && $2 != "-" { k++; n += $4; for (i = 5; i <= 9; i++) if (k == 1 || $i ~ /nan/ || (v[i] !~ /nan/ && $i + 0 > v[i] + 0)) v[i] = $i }
+norms_scmp() { awk -F'\t' 'NR > 1 && $2 != "-" { k++; n += $4; for (i = 5; i <= 9; i++) if (k == 1 || $i ~ /nan/ || (v[i] !~ /nan/ &&
+	$i + 0 > v[i] + 0)) v[i] = $i }
 	END { if (!k) exit 1; printf "%d", n; for (i = 5; i <= 9; i++) printf "\t%s", v[i]; print "" }'; }
 norms_exact() { awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; for (f in at) if (("exact_" f) in at) want[f] = 1; next } /^#/ { next }
 	{ for (f in want) { a = $at[f]; b = $at["exact_" f]; d = a - b; if (d < 0) d = -d; c = b < 0 ? -b : b
 		n[f]++; s[f] += d; q[f] += d * d; z[f] += c * c; if (d > m[f]) m[f] = d; if (c > t[f]) t[f] = c } }
 	function most(i, x) { if (!(i in v) || x != x || x > v[i]) v[i] = x }
-	END { for (f in n) { k += n[f]; most(1, s[f] / n[f]); most(2, sqrt(q[f] / n[f])); most(3, m[f]); most(4, z[f] ? sqrt(q[f] / z[f]) : q[f] ? "inf" : 0); most(5, t[f] ? m[f] / t[f] : m[f] ? "inf" : 0) }
+	END { for (f in n) { k += n[f]; most(1, s[f] / n[f]); most(2, sqrt(q[f] / n[f])); most(3, m[f]); most(4, z[f] ? sqrt(q[f] / z[f]) : q[f] ? "inf" : 0);
+		most(5, t[f] ? m[f] / t[f] : m[f] ? "inf" : 0) }
 		if (!k) exit 1; printf "%d", k; for (i = 1; i <= 5; i++) printf "\t%.10g", v[i]; print "" }'; }
 
 # compare_words MEMBER FILE: sets argument to the words that measure its error; for --against exact FILE is the input.
@@ -217,7 +219,8 @@ measure_errors() {
 	export -f member_error compare compare_words norms_scmp norms_exact
 	doing="${#list[@]} were to be compared"
 	set -m
-	PARALLEL_SHELL=$(command -v bash) parallel --will-cite "${bar[@]}" -j "$jobs" member_error '{}' ::: "${list[@]}" </dev/null >>"$state/log" 2>"$work/parallel" &
+	PARALLEL_SHELL=$(command -v bash) parallel --will-cite "${bar[@]}" -j "$jobs" member_error '{}' ::: "${list[@]}" </dev/null >>"$state/log" \
+		2>"$work/parallel" &
 	child=$!
 	set +m
 	wait $child || status=$?

@@ -8,7 +8,8 @@ watch() {
 		x = $c["x"]; y = $c["y"]; u = $c["vx"]; v = $c["vy"]; r = sqrt(x*x + y*y); e = 0.5 * (u*u + v*v) - 1/r; l = x * v - y * u
 		a = atan2(l * u + y / r, -(l * v - x / r)); now = x * u + y * v
 		if (!n++) { e0 = e; a0 = a }
-		if (last > 0 && now <= 0) { k++; d = e / e0 - 1; d = d < 0 ? -d : d; turn = atan2(sin(a - a0), cos(a - a0)); printf "%d %.6g %.8g\n", k, d, turn / k }
+		if (last > 0 && now <= 0) { k++; d = e / e0 - 1; d = d < 0 ? -d : d; turn = atan2(sin(a - a0), cos(a - a0)); printf "%d %.6g %.8g\n", k, d,
+			turn / k }
 		last = now }'
 }
 
@@ -39,7 +40,8 @@ watch() {
 	# PM-11, in quadruple precision; the last step ends up to dt/2 = 5e-5 from t = 20. An error of 1e-6 in the energy of the pair has its phase off by
 	# 1e-5 or so
 	late=$(sls < b | sed -n 's/^frame 1: time \([0-9.]*\) .*/\1/p')
-	stab --plain < b | awk -v late="$late" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["x"] - $c["vx"] * (late - 20); print $c["y"] - $c["vy"] * (late - 20) }' OFMT=%.12g > places
+	stab --plain < b | awk -v late="$late" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["x"] - $c["vx"] * (late - 20);
+		print $c["y"] - $c["vy"] * (late - 20) }' OFMT=%.12g > places
 	for want in 3.0042926367 0.5119252350 -1.3886265375 -0.4704760503 -0.6916743520 0.0692256992; do
 		read -r got
 		within "$got" "$want" 1e-4 "place"

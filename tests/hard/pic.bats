@@ -12,7 +12,8 @@ hot() {
 	local solve='poisson-fft --symbol fd2 | mgrad --order 2'
 	pinit uniform --dim 1 -n 4096 --length "$2" --mass "$2" --dispersion 1 --cells 64 --dt 0.2 --seed "$1" | scalc "x = (id + 0.5) * $2 / 4096" |
 		scalc 'charge = -mass' --extensive --role state | smod --law electrostatic --constant eps0=1,background=1 |
-		cycle -n 5000 --every 5000 "push kick/2 drift | p2m | $solve | ${gather:-m2p} | push kick/2" | p2m | poisson-fft --symbol fd2 | mgrad --order 2 | diag
+		cycle -n 5000 --every 5000 "push kick/2 drift | p2m | $solve | ${gather:-m2p} | push kick/2" | p2m | poisson-fft --symbol fd2 |
+			mgrad --order 2 | diag
 }
 gain() { column energy < t | awk 'NR == 1 { a = $1 } END { printf "%.9g", $1 / a }'; }
 lost() { awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum_scale < t | tail -n 1)" 'BEGIN { printf "%.17g", p / s }'; }
@@ -52,7 +53,8 @@ lost() { awk -v p="$(column momentum_x < t | tail -n 1)" -v s="$(column momentum
 }
 
 # later FROM: of diag's time and energy_field_x, the largest from that time on over the mean until t = 20.
-later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ } if ($1 >= from && $2 > most) most = $2 } END { printf "%.9g", most * n / sum }'; }
+later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ } if ($1 >= from && $2 > most) most = $2 } END { printf "%.9g",
+	most * n / sum }'; }
 
 @test "HC-04: two warm beams at v0 = 1.30 vth, below the threshold, do not grow: 1e5 particles, t = 200, at random and with a wave; at 1.6 vth they do" {
 	# the frames hold the field of their positions: the second kick changes velocities alone
@@ -60,7 +62,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	# beam SEED V SET: half of the electrons, at random
 	beam() {
 		pinit uniform --dim 1 -n 50000 --length 31.415926535897931 --mass 15.707963267948966 --dispersion 1 --dt 0.2 --seed "$1" |
-			scalc 'charge = -mass' --extensive --role state | smove --boost="$2" | smod --law electrostatic --constant eps0=1,background=1 --rename matter="$3"
+			scalc 'charge = -mass' --extensive --role state | smove --boost="$2" |
+				smod --law electrostatic --constant eps0=1,background=1 --rename matter="$3"
 	}
 	beam 1 1.3 right > right
 	beam 2 -1.3 left > left
@@ -76,7 +79,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 @test "HC-06: at w dt = 1.9 a cold wave keeps its amplitude for 10000 steps" {
 	sh_ok "pinit langmuir -n 64 --cells 16 --amplitude 1e-5 --dt 1.9372232 | cycle -n 10000 --every 1 '$step' | diag --columns time --modes 1 > t"
 	# the largest of each hundred steps: the smallest of these is within 1 % of the largest
-	within "$(sed 1d t | awk '{ b = int((NR - 1) / 100); if ($2 > m[b]) m[b] = $2 } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
+	within "$(sed 1d t | awk '{ b = int((NR - 1) / 100); if ($2 > m[b]) m[b] = $2 } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i ||
+		m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
 }
 
 @test "HC-06: at w dt = 2.05 it grows by 0.446 a step, until it is no longer small: electric forces in a box are bounded, and so is the wave" {
@@ -92,7 +96,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 
 @test "HC-06: in the field of an ion slab, which is not bounded, it grows by 0.446 a step until it leaves the mesh: exit 1, the particle is named, and no frame follows" {
 	# E = x is the field of ions of density 1 about x = 0: omega_p = 1
-	slab() { printf 'x v mass charge\n1e-3 0 1 -1\n' | stab - --law electrostatic --box=-1000,1000 --faces open --particle-faces open --dt "$1" --strength mass,charge \
+	slab() { printf 'x v mass charge\n1e-3 0 1 -1\n' |
+		stab - --law electrostatic --box=-1000,1000 --faces open --particle-faces open --dt "$1" --strength mass,charge \
 		--set electrons -n 8 | scalc --mesh mesh 'E = x' --role state; }
 	words='push kick/2 drift | m2p | push kick/2'
 	slab 2.05 > a
@@ -105,7 +110,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	run ! grep -qi 'nan\|inf' t
 	slab 1.9 > a
 	sh_ok "cycle -n 10000 --every 1 '$words' < a | diag --columns centre_x > t"
-	within "$(sed 1d t | awk '{ x = $1 < 0 ? -$1 : $1; b = int((NR - 1) / 100); if (x > m[b]) m[b] = x } END { for (i = 0; i < 100; i++) { if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
+	within "$(sed 1d t | awk '{ x = $1 < 0 ? -$1 : $1; b = int((NR - 1) / 100); if (x > m[b]) m[b] = x } END { for (i = 0; i < 100; i++) {
+		if (m[i] > hi) hi = m[i]; if (!i || m[i] < lo) lo = m[i] } printf "%.9g", lo / hi }')" 1 0.01
 }
 
 @test "a step works with no electrons at all, and with all of them in one place" {
@@ -117,7 +123,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 
 @test "HC-08: |v| of electrons after steps of Omega dt = 0.1, 2, 100 in three dimensions, by the words (1e6 steps in check-long; every one of 1e6 in tests/unit/boris.c)" {
 	for omega_dt in 0.1 2 100; do
-		sh_ok "pinit gyration --dim 3 --velocities 3 --magnetic-field $omega_dt --dt 1 | cycle -n $([ -n "$PM_LONG" ] && echo 1000000 || echo 10000) 'push boris/2 drift | m2p | push boris/2' |
+		sh_ok "pinit gyration --dim 3 --velocities 3 --magnetic-field $omega_dt --dt 1 | cycle -n $([ -n "$PM_LONG" ] && echo 1000000 ||
+			echo 10000) 'push boris/2 drift | m2p | push boris/2' |
 			diag --columns speed_rms > t"
 		within "$(column speed_rms < t)" 1 1e-11 "Omega dt = $omega_dt"
 	done

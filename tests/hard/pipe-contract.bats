@@ -45,14 +45,16 @@ text() { wire text one.pm "$1" "$2" >hostile.pm; }
 @test "HC-60: no memory is allocated for a huge payload before it arrives" {
 	# 2^40 particles, and a line that announces their size.
 	wire text one.pm '"n":12' '"n":1099511627776' >big.pm
-	promised=$(wire header one.pm | python3 -c 'import json,sys; h=json.load(sys.stdin); print(sum(-(-f["components"]*2**40*8//64)*64 for f in h["fields"] if "uniform" not in f))')
+	promised=$(wire header one.pm |
+		python3 -c 'import json,sys; h=json.load(sys.stdin); print(sum(-(-f["components"]*2**40*8//64)*64 for f in h["fields"] if "uniform" not in f))')
 	old=$(head -c 64 big.pm | tr -s ' ' | cut -d' ' -f4)
 	wire line big.pm " $old" " $promised" >hostile.pm
 	refused hostile.pm 'memory|cut'
 }
 
 @test "HC-60: cells, components and dimensions out of range are refused" {
-	for c in '[4,4,0]' '[4,4,-4]' '[4,4]' '[4,4,4,4]' '[2147483648,2147483648,2147483648]' '[9223372036854775807,2,2]' '[1.5,4,4]' '[1e308,1e308,1e308]' '"4"' '{}'; do
+	for c in '[4,4,0]' '[4,4,-4]' '[4,4]' '[4,4,4,4]' '[2147483648,2147483648,2147483648]' '[9223372036854775807,2,2]' '[1.5,4,4]' '[1e308,1e308,1e308]' \
+		'"4"' '{}'; do
 		text '"cells":[4,4,4]' "\"cells\":$c"
 		refused hostile.pm "header|JSON"
 	done
@@ -77,7 +79,8 @@ data[:] = [bytearray() for f in h["fields"]]'
 @test "HC-60: JSON that is deep, cut, has duplicate keys, is not UTF-8, or has invalid syntax" {
 	text '"dim":3' "\"deep\":$(printf '[%.0s' {1..5000})$(printf ']%.0s' {1..5000}),\"dim\":3"
 	refused hostile.pm "JSON"
-	for t in '"dim":NaN' '"dim":Infinity' '"dim":-Infinity' '"dim":1e999' '"dim":03' '"dim":3,' '"dim":3,"dim":3' '"dim":0x3' "'dim':3" '"dim":3,"a":"\xff\xfe"' '"dim":3,"a":"\xc0\x80"' '"dim":3,"a":"\xed\xa0\x80"' '"dim":3,"a":"\x00"' '"dim":3,"a":"\x1b[2J"' '"dim":3}{'; do
+	for t in '"dim":NaN' '"dim":Infinity' '"dim":-Infinity' '"dim":1e999' '"dim":03' '"dim":3,' '"dim":3,"dim":3' '"dim":0x3' "'dim':3" \
+		'"dim":3,"a":"\xff\xfe"' '"dim":3,"a":"\xc0\x80"' '"dim":3,"a":"\xed\xa0\x80"' '"dim":3,"a":"\x00"' '"dim":3,"a":"\x1b[2J"' '"dim":3}{'; do
 		text '"dim":3' "$t"
 		refused hostile.pm "JSON"
 	done
@@ -86,10 +89,14 @@ data[:] = [bytearray() for f in h["fields"]]'
 }
 
 @test "HC-60: a header that is not an object is refused" {
-	for code in 'h.clear()' 'h["fields"] = {}' 'h["fields"] = [[]]' 'h["sets"] = 3' 'h["sets"].append(None)' 'h["meshes"] = None' 'h["box"] = []' 'h["law"] = "gravity"' \
-		'h["history"] = {}' 'h["time"] = "now"' 'h["step"] = -1' 'h["step"] = 1.5' 'h["substep"] = -1' 'h["box"]["lo"] = [0, 0]' 'h["box"]["hi"] = h["box"]["lo"]' \
-		'h["box"]["fields"][0] = ["periodic", "open"]' 'h["box"]["fields"] = "periodic"' 'h["box"]["particles"][1][1] = "elastic"' 'h["sets"][0]["done"] = {"kick": -1, "drift": 0}' \
-		'h["sets"][0]["done"] = {"kick": "half", "drift": 0}' 'h["meshes"][0]["h"][0] = 0' 'h["meshes"][0]["h"][0] = -1.0' 'del h["law"]' 'del h["box"]'; do
+	for code in 'h.clear()' 'h["fields"] = {}' 'h["fields"] = [[]]' 'h["sets"] = 3' 'h["sets"].append(None)' 'h["meshes"] = None' 'h["box"] = []' \
+		'h["law"] = "gravity"' \
+		'h["history"] = {}' 'h["time"] = "now"' 'h["step"] = -1' 'h["step"] = 1.5' 'h["substep"] = -1' 'h["box"]["lo"] = [0, 0]' \
+			'h["box"]["hi"] = h["box"]["lo"]' \
+		'h["box"]["fields"][0] = ["periodic", "open"]' 'h["box"]["fields"] = "periodic"' 'h["box"]["particles"][1][1] = "elastic"' \
+			'h["sets"][0]["done"] = {"kick": -1, "drift": 0}' \
+		'h["sets"][0]["done"] = {"kick": "half", "drift": 0}' 'h["meshes"][0]["h"][0] = 0' 'h["meshes"][0]["h"][0] = -1.0' 'del h["law"]' \
+			'del h["box"]'; do
 		wire edit one.pm "
 keep = [len(d) for d in data]
 $code" >hostile.pm 2>err || true
@@ -100,10 +107,13 @@ $code" >hostile.pm 2>err || true
 
 @test "HC-60: names that are empty, too long, duplicate, without owner, or no text are refused" {
 	long=$(printf 'n%.0s' {1..64})
-	for code in 'h["fields"][0]["name"] = ""' "h['fields'][0]['name'] = '$long'" 'h["fields"][0]["name"] = 7' 'h["fields"][0]["name"] = "v"' 'h["fields"][0]["on"] = "nobody"' \
-		'h["fields"][0]["type"] = "f16"' 'h["fields"][0]["role"] = "king"' 'h["fields"][0]["kind"] = "odd"' 'h["fields"][0]["half"] = [[1]]' 'h["fields"][0]["half"] = [["a", 0, 0], [0, 0, 2], [0, 0, 0]]' 'h["fields"][0]["terms"] = 3' \
+	for code in 'h["fields"][0]["name"] = ""' "h['fields'][0]['name'] = '$long'" 'h["fields"][0]["name"] = 7' 'h["fields"][0]["name"] = "v"' \
+		'h["fields"][0]["on"] = "nobody"' \
+		'h["fields"][0]["type"] = "f16"' 'h["fields"][0]["role"] = "king"' 'h["fields"][0]["kind"] = "odd"' 'h["fields"][0]["half"] = [[1]]' \
+			'h["fields"][0]["half"] = [["a", 0, 0], [0, 0, 2], [0, 0, 0]]' 'h["fields"][0]["terms"] = 3' \
 		'h["fields"][0]["terms"] = ["t%d" % i for i in range(99)]' 'h["sets"].append(dict(h["sets"][0]))' 'h["meshes"].append(dict(h["meshes"][0]))' \
-		'h["meshes"][0]["name"] = "matter"' 'h["fields"][0]["unit"] = [1]' 'h["fields"][0]["uniform"] = [1, 2, "three"]' 'h["fields"][0]["uniform"] = [1]' 'h["law"]["name"] = 7'; do
+		'h["meshes"][0]["name"] = "matter"' 'h["fields"][0]["unit"] = [1]' 'h["fields"][0]["uniform"] = [1, 2, "three"]' \
+			'h["fields"][0]["uniform"] = [1]' 'h["law"]["name"] = 7'; do
 		header "$code"
 		refused hostile.pm "header"
 	done

@@ -29,8 +29,10 @@ export PM_PLAN=estimate OMP_NUM_THREADS=1
 			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == 3 { printf "%.15g", -$c["acc_0"] }'
 	}
 	# jump X: the force just below X over that just above, less 1; kink X: the same of the slopes, over 0.001 on both sides
-	jump() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-6 }")")" -v b="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 + 1e-6 }")")" 'BEGIN { printf "%.9g", a / b - 1 }'; }
-	kink() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-3 }")")" -v o="$(pull "$1")" -v b="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 + 1e-3 }")")" 'BEGIN { printf "%.9g", (a - o) / (o - b) - 1 }'; }
+	jump() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-6 }")")" -v b="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 + 1e-6 }")")" 'BEGIN {
+		printf "%.9g", a / b - 1 }'; }
+	kink() { awk -v a="$(pull "$(awk "BEGIN { printf \"%.12g\", $1 - 1e-3 }")")" -v o="$(pull "$1")" -v b="$(pull "$(awk \
+		"BEGIN { printf \"%.12g\", $1 + 1e-3 }")")" 'BEGIN { printf "%.9g", (a - o) / (o - b) - 1 }'; }
 	# weights of ngp change at 9.5, of cic at 10, of tsc at 9.5
 	kernel=ngp
 	above "$(jump 9.5)" 1 "ngp"

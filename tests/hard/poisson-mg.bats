@@ -29,7 +29,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 
 @test "HC-24: sizes 1, 2, 3, 5, 7, 97, 127, 2^k + 1 and 96x64x20 converge, to the result of the transforms" {
 	for faces in periodic wall; do
-		for row in "1 1" "1 2" "1 3" "1 97" "2 1" "2 2" "2 3" "2 5" "2 7" "2 97" "2 127" "2 129" "3 1" "3 2" "3 3" "3 5" "3 7" "3 17" "3 33" "3 1x7x16" "3 96x64x20"; do
+		for row in "1 1" "1 2" "1 3" "1 97" "2 1" "2 2" "2 3" "2 5" "2 7" "2 97" "2 127" "2 129" "3 1" "3 2" "3 3" "3 5" "3 7" "3 17" "3 33" \
+			"3 1x7x16" "3 96x64x20"; do
 			read -r dim n <<<"$row"
 			pinit uniform -n 100 --dim $dim --faces $faces | p2m --kernel ngp -n $n >m
 			poisson-fft --plan estimate --symbol fd2 <m >f
@@ -46,7 +47,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 		pinit uniform -n 1000 --dim 2 | p2m -n $row | poisson-mg >a
 		[[ $(report a status) =~ converged|floor ]]
 		below "$(report a contraction)" 0.5 "$row"
-		below "$(differ a <(pinit uniform -n 1000 --dim 2 | p2m -n $row | poisson-fft --plan estimate --symbol fd2))" 1e-9 "phi, $row" # the reported convergence is true
+		below "$(differ a <(pinit uniform -n 1000 --dim 2 | p2m -n $row |
+			poisson-fft --plan estimate --symbol fd2))" 1e-9 "phi, $row" # the reported convergence is true
 	done
 	for row in "40x4x400" "8x80x80"; do
 		pinit uniform -n 1000 --faces wall | p2m -n $row | poisson-mg >a
@@ -83,13 +85,15 @@ conduct() {
 	vars=(-v "n=$n" -v "kind=$kind" -v "k=$contrast" -v "mean=$mean")
 	pinit uniform -n 2 --dim 2 | p2m -n "$n" | scalc --mesh mesh 'eps = 1' | stab >frame
 	awk "${vars[@]}" "$(cat medium.awk)"'
-		/^#mesh/ { m = 1; print; getline; print; next } /^#end/ { m = 0 } m { printf "%.17g %.17g\n", -n*(face(i) - face(below(i))), eps(i); i++; next } { print }' frame |
+		/^#mesh/ { m = 1; print; getline; print; next } /^#end/ { m = 0 } m { printf "%.17g %.17g\n", -n*(face(i) - face(below(i))), eps(i); i++;
+			next } { print }' frame |
 		stab - | poisson-mg --permittivity eps --mean "$mean" --coefficient 1 --tolerance 1e-8 --max-cycles 59 "$@" >a
 	stab --plain --mesh mesh <a | awk "${vars[@]}" "$(cat medium.awk)"'
 		NR > 1 { u[NR-2] = $NF } END { for (q = 0; q < n*n; q++) s += face(q)*(1 + n*(u[int(q/n)*n + (q+1)%n] - u[q])); printf "%.8g\n", s/n/n }'
 }
 falls() { # the residual is at least halved in every five iterations
-	tail -c 4096 a | grep -ao '"residuals":"[^"]*"' | cut -d'"' -f4 | tr ' ' '\n' | awk '{ r[NR] = $1 } NR > 5 && !($1 < 0.5*r[NR-5]) { bad = 1 } END { exit bad || NR < 6 }'
+	tail -c 4096 a | grep -ao '"residuals":"[^"]*"' | cut -d'"' -f4 | tr ' ' '\n' | awk '{ r[NR] = $1 } NR > 5 && !($1 < 0.5*r[NR-5]) { bad = 1 } END {
+		exit bad || NR < 6 }'
 }
 
 @test "HC-26: discs of contrast 1e6 conduct 3.0801890 within 0.5 %, in fewer than 60 iterations to 1e-8 without stagnation" {

@@ -5,10 +5,12 @@ export PM_PLAN=estimate
 
 # noise N [FACES]: N particles on a line, strengths that alternate and random ones on top, 1e-6 large.
 noise() {
-	awk -v n="$1" 'BEGIN { srand(7); print "x heat volume"; for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, 1e-6 * (2 * rand() - 1 + (i % 2 ? -0.1 : 0.1)) / n, 1 / n }' |
+	awk -v n="$1" 'BEGIN { srand(7); print "x heat volume"; for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n,
+		1e-6 * (2 * rand() - 1 + (i % 2 ? -0.1 : 0.1)) / n, 1 / n }' |
 		stab - --strength heat --box 0,1 --faces ${2:-periodic} --dt 1
 }
-largest() { stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { c = $at["heat"] / $at["volume"]; c = c < 0 ? -c : c; if (c > m) m = c } END { print m }'; }
+largest() { stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { c = $at["heat"] / $at["volume"]; c = c < 0 ? -c : c;
+	if (c > m) m = c } END { print m }'; }
 sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s }'; }
 
 @test "N47, S41: white noise decays at nu dt/eps^2 = 1.99 in 2e4 steps and grows by 1e5 and more at 2.001, which push refuses" {
@@ -39,14 +41,17 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 }
 
 @test "the bound holds for random positions: just below it nothing grows" {
-	awk 'BEGIN { srand(9); print "x y heat volume"; for (i = 0; i < 300; i++) printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), (2 * rand() - 1) / 300, (rand() + 0.1) / 300 }' |
+	awk 'BEGIN { srand(9); print "x y heat volume"; for (i = 0; i < 300; i++) printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), (2 * rand() - 1) / 300,
+		(rand() + 0.1) / 300 }' |
 		stab - --strength heat --box 0,1 --faces wall,open,periodic,periodic >a
 	fastest=$(pse --field heat --nu 1 <a | stab | head -n 1 | grep -o '"fastest":[0-9.e+]*' | cut -d: -f2)
 	before=$(largest <a)
 	# euler at 1.99999 of 2: V-weighted squares cannot grow
-	cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 | push euler --dt $(awk "BEGIN { printf \"%.17g\", 1.99999 / $fastest }")" <a | largest >after
+	cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 | push euler --dt $(awk "BEGIN { printf \"%.17g\", 1.99999 / $fastest }")" <a |
+		largest >after
 	below "$(cat after)" "$before"
-	run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 | push euler --dt $(awk "BEGIN { printf \"%.17g\", 2.00001 / $fastest }")\" <a | sls"
+	run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 | push euler --dt $(awk \
+		"BEGIN { printf \"%.17g\", 2.00001 / $fastest }")\" <a | sls"
 }
 
 @test "widths of a thousandth and of a thousand spacings: no exchange, with a message, or complete mixing" {
@@ -55,7 +60,8 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	run -0 bash -o pipefail -c 'sls --report <b'
 	[[ $output == *'"alone":64'* ]]
 	stab --plain <b | column dheat | awk '$1 != 0 { exit 1 }'
-	pse --field heat --nu 1 --overlap 1e3 <a | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { h[NR] = $at["heat"]; d[NR] = $at["dheat"]; m += $at["heat"] / 64 }
+	pse --field heat --nu 1 --overlap 1e3 <a | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { h[NR] = $at["heat"];
+		d[NR] = $at["dheat"]; m += $at["heat"] / 64 }
 		END { c = 1 / sqrt(16 * atan2(1, 1)) * 64^3 * 1e-9; for (i in h) { e = d[i] - c * (m - h[i]); if (e^2 > w) w = e^2; if (d[i]^2 > v) v = d[i]^2 }
 			print sqrt(w / v) }' >off
 	below "$(cat off)" 1.1e-3 # eta is 1 to 64^2/(4 1000^2)
@@ -68,15 +74,20 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	for dim in 1 2 3; do
 		for faces in open periodic wall neumann; do
 			for n in 0 1 7; do
-				awk -v n=$n -v d=$dim 'BEGIN { print substr("x y z", 1, 2 * d - 1) " heat volume"; for (i = 0; i < n; i++) print substr("0 0 0", 1, 2 * d - 1), i + 1, 0.1 + i % 2 }' |
+				awk -v n=$n -v d=$dim 'BEGIN { print substr("x y z", 1, 2 * d - 1) " heat volume";
+					for (i = 0; i < n; i++) print substr("0 0 0", 1, 2 * d - 1), i + 1, 0.1 + i % 2 }' |
 					stab - --strength heat --box 0,1 --faces $faces >a
 				for order in 2 4; do
 					pse --field heat --nu 1 --order $order --eps 0.3 <a | stab --plain >b
 					# in one point with equal weight: sum over q of V_p G_q - V_q G_p; walls through the point double or annul the strengths
-					awk -v n=$n -v faces=$faces -v d=$dim 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { g[NR] = $at["heat"]; v[NR] = $at["volume"]; r[NR] = $at["dheat"]; G += $at["heat"]; V += $at["volume"]; s += $at["dheat"]; a += $at["dheat"]^2 }
+					awk -v n=$n -v faces=$faces -v d=$dim 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { g[NR] = $at["heat"];
+						v[NR] = $at["volume"]; r[NR] = $at["dheat"]; G += $at["heat"]; V += $at["volume"]; s += $at["dheat"];
+							a += $at["dheat"]^2 }
 						END { if (NR != n + 1) exit 1; if (faces != "wall" && s^2 > 1e-28 * a) exit 1
-							if (faces != "wall" && n > 1) { f = r[2] / (v[2] * G - V * g[2]); if (!(f > 0)) exit 1; for (i in g) { e = r[i] - f * (v[i] * G - V * g[i]); if (e^2 > 1e-26 * a) exit 1 } }
-							if (n == 1 && faces != "wall" && r[2] != 0) exit 1; if (n == 1 && faces == "wall" && !(r[2] < 0)) exit 1 }' b ||
+							if (faces != "wall" && n > 1) { f = r[2] / (v[2] * G - V * g[2]); if (!(f > 0)) exit 1; for (i in g) {
+								e = r[i] - f * (v[i] * G - V * g[i]); if (e^2 > 1e-26 * a) exit 1 } }
+							if (n == 1 && faces != "wall" && r[2] != 0) exit 1; if (n == 1 && faces == "wall" &&
+								!(r[2] < 0)) exit 1 }' b ||
 						{ echo "$dim-D, $faces, $n particles, order $order"; cat b; return 1; }
 				done
 			done
@@ -86,33 +97,41 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 
 @test "particles on faces and beyond periodic ones are treated correctly: at 0, at the box's length, outside" {
 	for at in 0 1 -1 2; do
-		printf 'x heat volume\n%s 1 0.1\n0.1 2 0.1\n0.9 4 0.2\n' $at | stab - --strength heat --box 0,1 --faces periodic | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >$at
+		printf 'x heat volume\n%s 1 0.1\n0.1 2 0.1\n0.9 4 0.2\n' $at | stab - --strength heat --box 0,1 --faces periodic |
+			pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >$at
 	done
 	for at in 1 -1 2; do paste 0 ./$at | awk '{ d = $1 - $2; if (d * d > 1e-24 * $1 * $1) exit 1; n++ } END { exit n != 3 }'; done
 	# on a wall the image cancels, and only half of the cell is inside
-	awk 'BEGIN { print "x heat volume"; for (i = 0; i <= 20; i++) print i / 20, i / 20, i ? 0.05 : 0.025 }' | stab - --strength heat --box 0,1 --faces wall,open | pse --field heat --nu 1 | stab --plain | column dheat | head -n 9 |
+	awk 'BEGIN { print "x heat volume"; for (i = 0; i <= 20; i++) print i / 20, i / 20, i ? 0.05 : 0.025 }' |
+		stab - --strength heat --box 0,1 --faces wall,open | pse --field heat --nu 1 | stab --plain | column dheat | head -n 9 |
 		awk '{ if ($1^2 > 1e-20) exit 1; n++ } END { exit n != 9 }' # linear: no diffusion, but near the open end
 }
 
 @test "a box much smaller than the cut-off gives the same as many boxes side by side" {
 	cell() { # COPIES: three particles a box of 0.3
-		awk -v c=$1 'BEGIN { print "x y heat volume"; for (i = 0; i < c; i++) for (j = 0; j < c; j++) { print 0.3 * i, 0.3 * j, 1, 0.03; print 0.3 * i + 0.1, 0.3 * j + 0.2, 2, 0.05; print 0.3 * i + 0.25, 0.3 * j + 0.1, -1, 0.01 } }' |
-			stab - --strength heat --box 0,$(awk "BEGIN { print 0.3 * $1 }") --faces periodic | pse --field heat --nu 1 --eps 0.15 | stab --plain | column dheat | head -n 3
+		awk -v c=$1 'BEGIN { print "x y heat volume"; for (i = 0; i < c; i++) for (j = 0; j < c; j++) { print 0.3 * i, 0.3 * j, 1, 0.03;
+			print 0.3 * i + 0.1, 0.3 * j + 0.2, 2, 0.05; print 0.3 * i + 0.25, 0.3 * j + 0.1, -1, 0.01 } }' |
+			stab - --strength heat --box 0,$(awk "BEGIN { print 0.3 * $1 }") --faces periodic | pse --field heat --nu 1 --eps 0.15 |
+				stab --plain | column dheat | head -n 3
 	}
 	paste <(cell 1) <(cell 2) <(cell 9) | awk '{ if (($1 - $2)^2 > 1e-24 * $1^2 || ($1 - $3)^2 > 1e-24 * $1^2) exit 1; n++ } END { exit n != 3 }'
 }
 
 @test "a wall is the odd field on both sides of it, in the plane too, with a wall and a neumann face in a corner" {
 	awk 'BEGIN { srand(2); for (i = 0; i < 60; i++) print rand(), rand(), rand(), 0.01 + rand() / 60 }' >some
-	awk 'BEGIN { print "x y heat volume" } { print }' some | stab - --strength heat --box 0,1 --faces wall,open,neumann,open | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >corner
+	awk 'BEGIN { print "x y heat volume" } { print }' some | stab - --strength heat --box 0,1 --faces wall,open,neumann,open |
+		pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >corner
 	awk 'BEGIN { print "x y heat volume" } { print; a[NR] = $0 } END { for (i = 1; i <= NR; i++) { split(a[i], c); print -c[1], c[2], -c[3], c[4] }
-		for (i = 1; i <= NR; i++) { split(a[i], c); print c[1], -c[2], c[3], c[4]; print -c[1], -c[2], -c[3], c[4] } }' some | stab - --strength heat --box -1,1 | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat | head -n 60 >both
+		for (i = 1; i <= NR; i++) { split(a[i], c); print c[1], -c[2], c[3], c[4]; print -c[1], -c[2], -c[3], c[4] } }' some |
+			stab - --strength heat --box -1,1 | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat | head -n 60 >both
 	paste corner both | awk '{ if (($1 - $2)^2 > 1e-22 * $1^2) { print; exit 1 } n++ } END { exit n != 60 }'
 }
 
 @test "volumes over six decades: the sum is conserved, and a constant value stays constant" {
-	awk 'BEGIN { srand(6); print "x y heat volume"; for (i = 0; i < 200; i++) { v = exp(-13.8 * rand()) / 50; printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), 3 * v, v } }' | stab - --strength heat --box 0,1 --faces periodic >a
-	pse --field heat --nu 1 --eps 0.1 <a | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { s += $at["dheat"]; d = $at["dheat"] / $at["heat"]; if (d > m) m = d; if (-d > m) m = -d } END { print m, s }' >off
+	awk 'BEGIN { srand(6); print "x y heat volume"; for (i = 0; i < 200; i++) { v = exp(-13.8 * rand()) / 50; printf "%.17g %.17g %.17g %.17g\n", rand(),
+		rand(), 3 * v, v } }' | stab - --strength heat --box 0,1 --faces periodic >a
+	pse --field heat --nu 1 --eps 0.1 <a | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { s += $at["dheat"];
+		d = $at["dheat"] / $at["heat"]; if (d > m) m = d; if (-d > m) m = -d } END { print m, s }' >off
 	below "$(cut -d' ' -f1 off)" 1e-12 "the value"
 	below "$(cut -d' ' -f2 off)" 1e-14 "the sum"
 }
@@ -127,8 +146,10 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 }
 
 @test "S36, HC-45: --method dc on lines, coincident and few points: refused with a message, never NaN" {
-	scatter() { awk -v how="$1" 'BEGIN { srand(5); print "x y heat volume"; for (i = 0; i < 60; i++) { x = rand(); y = how == "line" ? 2 * x - 0.3 : how == "almost" ? x + 1e-12 * rand() : rand()
-		for (k = 0; k < (how == "twins" ? 2 : 1); k++) printf "%.17g %.17g %.17g %.17g\n", x, y, rand(), 1/60 } }' | stab - --strength heat --box -1,2; }
+	scatter() { awk -v how="$1" 'BEGIN { srand(5); print "x y heat volume"; for (i = 0; i < 60; i++) { x = rand();
+		y = how == "line" ? 2 * x - 0.3 : how == "almost" ? x + 1e-12 * rand() : rand()
+		for (k = 0; k < (how == "twins" ? 2 : 1); k++) printf "%.17g %.17g %.17g %.17g\n", x, y, rand(), 1/60 } }' |
+			stab - --strength heat --box -1,2; }
 	for how in line almost; do
 		scatter $how >a
 		run -1 bash -o pipefail -c 'pse --field heat --nu 1 --method dc <a | sls'
@@ -146,12 +167,16 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 
 @test "--method dc on a lattice and on distorted points: noise does not grow just below the bound, and push refuses steps beyond it" {
 	for jitter in 0 0.5; do
-		awk -v j=$jitter 'BEGIN { srand(7); print "x y heat volume"; for (i = 0; i < 16; i++) for (k = 0; k < 16; k++) printf "%.17g %.17g %.17g %.17g\n", (i + j * rand()) / 16, (k + j * rand()) / 16, (2 * rand() - 1) / 256, 1/256 }' |
+		awk -v j=$jitter 'BEGIN { srand(7); print "x y heat volume";
+			for (i = 0; i < 16; i++) for (k = 0; k < 16; k++) printf "%.17g %.17g %.17g %.17g\n", (i + j * rand()) / 16, (k + j * rand()) / 16,
+				(2 * rand() - 1) / 256, 1/256 }' |
 			stab - --strength heat --box 0,1 --faces periodic >a
 		fastest=$(pse --field heat --nu 1 --method dc <a | stab | head -n 1 | grep -o '"fastest":[0-9.e+]*' | cut -d: -f2)
 		before=$(largest <a)
-		cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk "BEGIN { printf \"%.17g\", 1.999 / $fastest }")" <a | largest >after
+		cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk \
+			"BEGIN { printf \"%.17g\", 1.999 / $fastest }")" <a | largest >after
 		below "$(cat after)" "$before" "jitter $jitter, just below the bound"
-		run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk "BEGIN { printf \"%.17g\", 2.001 / $fastest }")\" <a | sls"
+		run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk \
+			"BEGIN { printf \"%.17g\", 2.001 / $fastest }")\" <a | sls"
 	done
 }

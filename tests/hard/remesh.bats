@@ -6,7 +6,8 @@ export PM_PLAN=estimate
 # line CELLS EXPRESSION VX: strengths on the nodes of a periodic line, all with the same velocity (uniform, so that remesh keeps it).
 line() {
 	awk -v n="$1" 'BEGIN { pi = atan2(0, -1); print "x vx mass"; for (i = 0; i < n; i++) printf "%.17g 9 %.17g\n", i / n, ('"$2"') }' |
-		stab - --box 0,1 -n "$1" --faces periodic --particle-faces periodic --dt 1 | stab | sed '1s/"name":"v",/&"uniform":['"$3"'],/; s/\tvx$//; s/\tvx\t/\t/; s/\t9$//; s/\t9\t/\t/' | stab -
+		stab - --box 0,1 -n "$1" --faces periodic --particle-faces periodic --dt 1 | stab |
+			sed '1s/"name":"v",/&"uniform":['"$3"'],/; s/\tvx$//; s/\tvx\t/\t/; s/\t9$//; s/\t9\t/\t/' | stab -
 }
 masses() { stab --plain | column mass; }
 
@@ -15,14 +16,16 @@ masses() { stab --plain | column mass; }
 		# 33 nodes, 0.377 of a cell per step: all fractions of a cell differ
 		line 33 2.385 0.011424242424242424 | cycle -n 1000 "push drift | remesh --kernel $kernel" | masses >a
 		[ "$(wc -l <a)" = 33 ]
-		below "$(awk '{ d = $1 / 2.385 - 1; if (d < 0) d = -d; if (d > m) m = d } END { printf "%.9g", m }' a)" 3.2e-11 "$kernel, constant" # 1e-12 sqrt(1000)
+		below "$(awk '{ d = $1 / 2.385 - 1; if (d < 0) d = -d; if (d > m) m = d } END { printf "%.9g",
+			m }' a)" 3.2e-11 "$kernel, constant" # 1e-12 sqrt(1000)
 		below "$(awk '{ s += $1 } END { printf "%.9g", s / (33 * 2.385) - 1 }' a)" 1e-13 "$kernel, sum"
 	done
 }
 
 @test "HC-43: a unit step remeshed at its worst shift overshoots by 2/27 for m4prime, 0.10157 for m6prime, 0 for cic, tsc, pcs" {
 	# the worst shifts: 1/3 (exact for M'4) and .342154 (of M6*, from its weights)
-	for case in "m4prime 0.33333333333333333 0.074074074074 1e-10" "m6prime 0.342154 0.10156766 1e-6" "cic 0.37 0 1e-14" "tsc 0.37 0 1e-14" "pcs 0.37 0 1e-14"; do
+	for case in "m4prime 0.33333333333333333 0.074074074074 1e-10" "m6prime 0.342154 0.10156766 1e-6" "cic 0.37 0 1e-14" "tsc 0.37 0 1e-14" \
+		"pcs 0.37 0 1e-14"; do
 		read -r kernel shift want tolerance <<<"$case"
 		line 32 '(i >= 16) + 1e-300' "$(awk -v s="$shift" 'BEGIN { printf "%.17g", s / 32 }')" | push drift | remesh --kernel "$kernel" | masses >a
 		within "$(awk '$1 - 1 > m { m = $1 - 1 } END { printf "%.12g", m }' a)" "$want" "$tolerance" "$kernel above"
@@ -33,14 +36,16 @@ masses() { stab --plain | column mass; }
 @test "RM-01: the amplitude of a wave of 16 cells after 100 remeshings at shifts of 0.3 h" {
 	for case in cic:0.1969824138 pcs:0.07618229684 m4prime:0.9619883394 lambda-2-2:0.9660087992 m6prime:0.9988947768 lambda-6-4:0.9999672286; do
 		line 32 'cos(4 * pi * i / n)' 0.009375 | cycle -n 100 "push drift | remesh --kernel ${case%:*}" | masses |
-			awk 'BEGIN { k = 4 * atan2(0, -1) / 32 } { c += $1 * cos(k * (NR - 1)) / 16; s += $1 * sin(k * (NR - 1)) / 16 } END { printf "%.12g\n", sqrt(c * c + s * s) }' >a
+			awk 'BEGIN { k = 4 * atan2(0, -1) / 32 } { c += $1 * cos(k * (NR - 1)) / 16; s += $1 * sin(k * (NR - 1)) / 16 } END {
+				printf "%.12g\n", sqrt(c * c + s * s) }' >a
 		within "$(cat a)" "${case#*:}" 1e-9 "${case%:*}"
 	done
 }
 
 # noise CELLS: white noise (too weak to move anything) on a periodic lattice with nu = 0.1.
 noise() {
-	awk -v n="$1" 'BEGIN { srand(3); print "x y circulation volume"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g %.17g\n", i / n, j / n, 1e-9 * (rand() - 0.5), 1 / n / n }' |
+	awk -v n="$1" 'BEGIN { srand(3); print "x y circulation volume"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g %.17g\n",
+		i / n, j / n, 1e-9 * (rand() - 0.5), 1 / n / n }' |
 		stab - --law vortex --box 0,1 -n "$1" --faces periodic --particle-faces periodic --constant nu=0.1
 }
 largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if (c > m) m = c } END { print m }'; }
@@ -56,7 +61,8 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 		run -3 bash -o pipefail -c "cycle -n 30 '$s --dt $(at 1.02)' <a | sls"
 		[[ $output =~ "is 1.02 times what $scheme can bear: 'dcirculation' decays at up to" ]]
 		cycle -n 250 "$s --unsafe --dt $(at 1.02)" <a | largest >beyond
-		below "$(cat below)" 0.5e-9 "$case, at 0.98" # relative to the start; its smooth waves decay at once, those at the edge of the spectrum by 0.96^30 = 0.3
+		below "$(cat below)" 0.5e-9 "$case, at 0.98" \
+			# relative to the start; its smooth waves decay at once, those at the edge of the spectrum by 0.96^30 = 0.3
 		above "$(cat beyond)" 5e-9 "$case, at 1.02" # 1.04^250 = 18000 times the part at the edge of the spectrum, a thousandth or more
 	done
 }
@@ -70,14 +76,17 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 
 @test "HC-57: a disc wound up and unwound by a vortex (T = 8) on 64^2: the sum is conserved to 1e-12; the area shrinks by 100 % with cic and pcs, 31 % with m4prime, less with m6prime" {
 	# LS-02: the signed distance, carried as a strength and remeshed every step; without reinitialisation
-	awk -v n=64 'BEGIN { print "x y level"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, j / n, (0.15 - sqrt((i / n - 0.5)^2 + (j / n - 0.75)^2)) / n / n }' |
+	awk -v n=64 'BEGIN { print "x y level"; for (j = 0; j < n; j++) for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, j / n,
+		(0.15 - sqrt((i / n - 0.5)^2 + (j / n - 0.75)^2)) / n / n }' |
 		stab - --law passive --box 0,1 -n 64 --faces periodic --particle-faces periodic --strength level --dt 0.0625 > a
 	flow="scalc --mesh mesh 'u = -sin(pi*x)^2 * sin(2*pi*y) * cos(pi*time/8), sin(pi*y)^2 * sin(2*pi*x) * cos(pi*time/8)' --role state"
 	# area and symmetric difference by the nodes inside, 289 at the start
 	while read -r kernel area tolerance difference; do
 		sh_ok "cycle -t 8 \"$flow | m2p --kernel m6prime | push rk4 | remesh --kernel $kernel\" < a | stab --plain --set matter > b"
-		read -r now off sum < <(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { l = $c["level"]; d = 0.15 - sqrt(($c["x"] - 0.5)^2 + ($c["y"] - 0.75)^2)
-			a += l > 0; b += d > 0; e += (l > 0) != (d > 0); s += l; t += d / 64 / 64 } END { printf "%.9g %.9g %.17g\n", a / b - 1, e / b, s / t - 1 }' b)
+		read -r now off sum < <(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { l = $c["level"];
+			d = 0.15 - sqrt(($c["x"] - 0.5)^2 + ($c["y"] - 0.75)^2)
+			a += l > 0; b += d > 0; e += (l > 0) != (d > 0); s += l; t += d / 64 / 64 } END { printf "%.9g %.9g %.17g\n", a / b - 1, e / b,
+				s / t - 1 }' b)
 		within "$now" "$area" "$tolerance" "$kernel, area"
 		[ "$difference" = - ] || below "$off" "$difference" "$kernel, symmetric difference"
 		below "$sum" 1e-12 "$kernel, sum"

@@ -34,7 +34,8 @@ radii() {
 @test "HC-30: the thin shear layer stays bounded on 128^2, and finite on 64^2 to t = 2" {
 	for k in m4prime m6prime; do
 		pinit shear-layer --cells 128 --dt 0.01 |
-			cycle -t 1 --every 25 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k | p2m --kernel $k" | diag --columns omega_max,circulation > t
+			cycle -t 1 --every 25 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k | p2m --kernel $k" |
+				diag --columns omega_max,circulation > t
 		below "$(column omega_max < t | sed 1d | sort -g | tail -1)" "$(calc '1.4 * 80.31')" $k
 		below "$(column circulation < t | tail -1)" 1e-12
 	done
@@ -70,9 +71,11 @@ radii() {
 
 @test "HC-34: longer steps, dt |grad u| = 0.5 to 4: the error grows smoothly, nothing is NaN, and dt counts the steps in which particles may cross" {
 	local list=() last=0
-	for n in 24:0 12:6 6:6 3:3; do # |grad u| (row sums) is 6.5 at the start, 5.1 from the middle on: dt |grad u| = 0.54 to 0.43, 1.1 to 0.85, 2.2 to 1.7, 4.3
+	for n in 24:0 12:6 6:6 3:3; do
+		# |grad u| (row sums) is 6.5 at the start, 5.1 from the middle on: dt |grad u| = 0.54 to 0.43, 1.1 to 0.85, 2.2 to 1.7, 4.3
 		dt=$(calc "2 / ${n%:*}")
-		pinit ellipse --dt "$dt" | cycle -n ${n%:*} "p2m --kernel m6prime | poisson-fft | mgrad | dt --lcfl 1 --min $dt --max $dt | diffuse | m2p | push lsrk3 | remesh --kernel m6prime" > end
+		pinit ellipse --dt "$dt" |
+			cycle -n ${n%:*} "p2m --kernel m6prime | poisson-fft | mgrad | dt --lcfl 1 --min $dt --max $dt | diffuse | m2p | push lsrk3 | remesh --kernel m6prime" > end
 		e=$(solved < end | diag | column energy)
 		list+=("$dt" "$(calc "5.503255 - $e")") # VM-17 at t = 2, over the box
 		echo "dt $dt: energy lost $(calc "5.503255 - $e"), crossing ${n#*:}"
@@ -97,7 +100,8 @@ radii() {
 	# 600 cuts
 	for rim in 0 2; do
 		for dt in 0.02 0.01 0.005; do
-			pinit lamb-oseen --cells 120 --dt $dt | cycle -t 4 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6 --rim $rim" |
+			pinit lamb-oseen --cells 120 --dt $dt |
+				cycle -t 4 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6 --rim $rim" |
 				diag --columns circulation | tail -1 | awk '{ printf "%.3e ", 1 - $1 }'
 		done
 		echo
@@ -121,8 +125,10 @@ radii() {
 
 @test "explicit Euler on two vortices: the distance grows by sqrt(1 + (dt Gamma/(2 pi d^2))^2) a step; rk4 preserves it" {
 	pinit vortex-pair --circulation1 1.5 --circulation2 1.5 > a
-	apart() { stab --plain --set vortices | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x[NR] = $c["x"]; y[NR] = $c["y"] } END { printf "%.17g", sqrt((x[2] - x[3])^2 + (y[2] - y[3])^2) }'; }
+	apart() { stab --plain --set vortices | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x[NR] = $c["x"]; y[NR] = $c["y"] } END {
+		printf "%.17g", sqrt((x[2] - x[3])^2 + (y[2] - y[3])^2) }'; }
 	want=$(awk 'BEGIN { pi = atan2(0, -1); d = 1; for (i = 0; i < 200; i++) d *= sqrt(1 + (0.05 * 3 / (2 * pi * d * d))^2); printf "%.17g", d }')
 	within "$(cycle -n 200 'pp | push euler --dt 0.05' < a | apart)" "$want" 1e-12 "euler" # 200 roundings; 5 % farther apart after less than a turn
-	within "$(cycle -n 200 'pp | push rk4 --dt 0.05' < a | apart)" 1 1e-9 "rk4" # four times (w dt)^6/144 a step, 2.6e-10 in 200, as for rk4 on an oscillator; w dt = 0.024
+	within "$(cycle -n 200 'pp | push rk4 --dt 0.05' < a |
+		apart)" 1 1e-9 "rk4" # four times (w dt)^6/144 a step, 2.6e-10 in 200, as for rk4 on an oscillator; w dt = 0.024
 }

@@ -13,7 +13,8 @@ kA() {
 
 # rate DT: from three successive amplitudes in the middle of the list, w with sinh(g dt/2) = w dt/2.
 rate() {
-	awk -v dt="$1" '{ a[NR] = $1 } END { i = int(NR / 2); c = (a[i+1] + a[i-1]) / (2 * a[i]); g = log(c + sqrt(c*c - 1)); printf "%.17g\n", (exp(g/2) - exp(-g/2)) / dt }'
+	awk -v dt="$1" '{ a[NR] = $1 } END { i = int(NR / 2); c = (a[i+1] + a[i-1]) / (2 * a[i]); g = log(c + sqrt(c*c - 1)); printf "%.17g\n",
+		(exp(g/2) - exp(-g/2)) / dt }'
 }
 
 @test "PM-06: a cold wave grows as cosh(w t): k A after one and two Jeans times to 1e-3" {

@@ -41,7 +41,8 @@ has_order() {
 @test "momentum of 500 stars under pp and leapfrog stays at round-off, energy error falls with dt^2" {
 	pinit plummer -n 500 --dt 0.04 > a
 	for k in 1 2 4; do
-		cycle -n $((25 * k)) "push --dt $(awk -v k=$k 'BEGIN { print 0.04 / k }') kick/2 drift | pp | push kick/2" < a | pp --potential --replace | diag > "d$k"
+		cycle -n $((25 * k)) "push --dt $(awk -v k=$k 'BEGIN { print 0.04 / k }') kick/2 drift | pp | push kick/2" < a | pp --potential --replace |
+			diag > "d$k"
 	done
 	pp --potential < a | diag > d0
 	# 25 to 100 steps of 500 sums of 500 terms

@@ -3,12 +3,14 @@
 load ../helper
 
 # moments: sum of m, m x, m y, m (x^2 + y^2) of a table of x y value on standard input, times a cell's volume.
-moments() { awk -v v="$1" 'NR > 1 { m += $3; a += $3 * $1; b += $3 * $2; r += $3 * ($1 ^ 2 + $2 ^ 2) } END { printf "%.17g %.17g %.17g %.17g", m * v, a * v, b * v, r * v }'; }
+moments() { awk -v v="$1" 'NR > 1 { m += $3; a += $3 * $1; b += $3 * $2; r += $3 * ($1 ^ 2 + $2 ^ 2) } END { printf "%.17g %.17g %.17g %.17g", m * v, a * v,
+	b * v, r * v }'; }
 
 @test "p2m conserves the moments stated by its kernel; cic, tsc and pcs widen the second as computed" {
 	{
 		echo "x y mass"
-		pinit uniform -n 1000 --dim 2 --mass-spread 2 | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "mass") c = i; next } { print 0.2 + 0.6 * $1, 0.3 + 0.5 * $2, $c }'
+		pinit uniform -n 1000 --dim 2 --mass-spread 2 | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "mass") c = i; next } {
+			print 0.2 + 0.6 * $1, 0.3 + 0.5 * $2, $c }'
 	} >particles
 	stab - --law gravity --box 0,1 --faces open -n 20x25 <particles >a
 	read -r m x y r <<<"$(moments 1 <particles)"

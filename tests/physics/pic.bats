@@ -10,14 +10,17 @@ cells=0.980785280403230
 # swing DT [STEPS]: cos(omega dt) from the velocities at whole steps: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), exact for a linear leapfrog.
 swing() {
 	pinit langmuir -n 256 --cells 16 --amplitude 1e-7 --dt "$1" | cycle -n "${2:-12}" --every 1 "$step" | stab --plain --set electrons |
-		awk '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx") c = i; frame++; next } NF == 0 { next } { p[frame]++; if (p[frame] % 256 == 1) v[frame] = $c }
-			END { num = den = 0; for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i] * v[i] } printf "%.17g", num / den }'
+		awk '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx") c = i; frame++; next } NF == 0 { next } { p[frame]++;
+			if (p[frame] % 256 == 1) v[frame] = $c }
+			END { num = den = 0; for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i] * v[i] } printf "%.17g",
+				num / den }'
 }
 
 @test "PIC-06: a cold wave oscillates at 2 asin(w dt/2)/dt, for w dt = 0.1 to 1.9" {
 	for wdt in 0.1 0.2 0.5 1 1.9; do
 		# cos(2 asin(a)) = 1 - 2 a^2; amplitude 1e-7 leaves 1e-7 of nonlinearity and 1e-9 of rounding in the velocities
-		within "$(swing "$(awk -v a=$wdt -v c=$cells 'BEGIN { printf "%.17g", a / c }')")" "$(awk -v a=$wdt 'BEGIN { printf "%.17g", 1 - a * a / 2 }')" 1e-6 "w dt = $wdt"
+		within "$(swing "$(awk -v a=$wdt -v c=$cells 'BEGIN { printf "%.17g", a / c }')")" "$(awk -v a=$wdt 'BEGIN { printf "%.17g",
+			1 - a * a / 2 }')" 1e-6 "w dt = $wdt"
 	done
 }
 
@@ -25,7 +28,8 @@ swing() {
 	for case in "2.01 0.199916760277393" "2.1 0.629849513207696" "2.5 1.38629436111989"; do
 		read -r wdt growth <<<"$case"
 		# v(n+1) + v(n-1) = -2 cosh(g) v(n); 5 steps, so that the wave stays small
-		within "$(swing "$(awk -v a="$wdt" -v c=$cells 'BEGIN { printf "%.17g", a / c }')" 5)" "$(awk -v g="$growth" 'BEGIN { printf "%.17g", -(exp(g) + exp(-g)) / 2 }')" 1e-3 "w dt = $wdt"
+		within "$(swing "$(awk -v a="$wdt" -v c=$cells 'BEGIN { printf "%.17g", a / c }')" 5)" "$(awk -v g="$growth" 'BEGIN { printf "%.17g",
+			-(exp(g) + exp(-g)) / 2 }')" 1e-3 "w dt = $wdt"
 	done
 }
 
@@ -33,7 +37,8 @@ swing() {
 	# 262144 electrons, displaced by up to 800 of their spacings. The alias sum assumes displacements that vary within a cell, but ngp moves all
 	# electrons of a cell together, so that those crossing a face all come from one side.
 	ngp() { # CELLS: relative difference, corrected for the leapfrog: v(n+1) + v(n-1) = 2 cos(omega dt) v(n), sin(omega dt/2) = w dt/2
-		pinit langmuir -n 262144 --cells "$1" --amplitude 0.02 --dt 0.05 | cycle -n 24 --every 1 "${step/p2m/p2m --kernel ngp}" | diag --columns energy_kinetic |
+		pinit langmuir -n 262144 --cells "$1" --amplitude 0.02 --dt 0.05 | cycle -n 24 --every 1 "${step/p2m/p2m --kernel ngp}" |
+			diag --columns energy_kinetic |
 			sed 1d | awk -v cells="$1" '{ a[NR] = sqrt($1) } END { for (i = 2; i < NR; i++) { num += (a[i-1] + a[i+1]) * a[i]; den += 2 * a[i]^2 }
 				printf "%.9g", 1 - 2 / 0.05 * sqrt((1 - num / den) / 2) / cos(3.14159265358979 / cells) }'
 	}
@@ -44,9 +49,11 @@ swing() {
 
 # wave DIM AXES: the frequency w of a wave along x or a diagonal on 8 cells an axis, corrected for the leapfrog, from the velocity of one electron.
 wave() {
-	pinit langmuir --dim "$1" --axes "$2" -n $((32 ** $1)) --cells 8 --amplitude 1e-5 --dt 0.1 | cycle -n 8 --every 1 "$step" | stab --plain --set electrons |
+	pinit langmuir --dim "$1" --axes "$2" -n $((32 ** $1)) --cells 8 --amplitude 1e-5 --dt 0.1 | cycle -n 8 --every 1 "$step" |
+		stab --plain --set electrons |
 		awk '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx") c = i; frame++; n = 0; next } ++n == 3 { v[frame] = $c }
-			END { for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i]^2 } printf "%.9g", 2 / 0.1 * sqrt((1 - num / den) / 2) }'
+			END { for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i]^2 } printf "%.9g",
+				2 / 0.1 * sqrt((1 - num / den) / 2) }'
 }
 
 @test "PIC-07 in two and three dimensions: along x cos(k dx/2), along the diagonals less by the kernel's sums over the other axes" {
@@ -55,7 +62,8 @@ wave() {
 	# p = 4.
 	for case in "1 1" "2 1" "2 2" "3 1" "3 3"; do
 		read -r dim axes <<<"$case"
-		want=$(awk -v a="$axes" 'BEGIN { printf "%.9g", cos(0.39269908169872415) * (1 - (1 / 3 + 1 / 96) * (1 - cos(0.78539816339744831)))^((a - 1) / 2) }')
+		want=$(awk -v a="$axes" 'BEGIN { printf "%.9g",
+			cos(0.39269908169872415) * (1 - (1 / 3 + 1 / 96) * (1 - cos(0.78539816339744831)))^((a - 1) / 2) }')
 		within "$(wave "$dim" "$axes")" "$want" 1e-4 "dim $dim axes $axes"
 	done
 }
@@ -73,12 +81,15 @@ wave() {
 }
 
 # turning DT: the frequency of the first velocity of one electron, from frames of a stream.
-turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx" || $i == "v_0") c = i; frame++; n = 0; next } ++n == 3 { v[frame] = $c }
-	END { for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i]^2 } q = num / den; printf "%.9g", atan2(sqrt(1 - q * q), q) / dt }'; }
+turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <= NF; i++) if ($i == "v" || $i == "vx" || $i == "v_0") c = i; frame++; n = 0;
+	next } ++n == 3 { v[frame] = $c }
+	END { for (i = 2; i < frame; i++) { num += (v[i-1] + v[i+1]) * v[i]; den += 2 * v[i]^2 } q = num / den; printf "%.9g", atan2(sqrt(1 - q * q),
+		q) / dt }'; }
 
 @test "one to three velocities in one dimension; across a magnetic field the wave oscillates at the upper hybrid frequency (PIC-15)" {
 	for n in 1 2 3; do
-		within "$(pinit langmuir -n 256 --cells 16 --velocities $n --amplitude 1e-5 --dt 0.02 | cycle -n 40 --every 1 "$step" | turning 0.02)" 0.980785 1e-4 "$n velocities"
+		within "$(pinit langmuir -n 256 --cells 16 --velocities $n --amplitude 1e-5 --dt 0.02 | cycle -n 40 --every 1 "$step" |
+			turning 0.02)" 0.980785 1e-4 "$n velocities"
 	done
 	# omega^2 = w^2 + Omega^2, w = cos(pi/16): sqrt 2 = 1.41421 less 0.9 %; a B in the plane of the wave front, along y, needs the third velocity
 	for case in "2 0,0,1" "3 0,0,1" "3 0,1,0" "3 0,0.6,-0.8"; do
@@ -94,7 +105,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 
 @test "two species oscillate together: electrons and ions of mass 4, omega^2 = 1 + 1/4 times that of the mesh; the same ions as a background, 1" {
 	pinit langmuir -n 256 --cells 16 --amplitude 1e-5 --dt 0.02 | smod --constant background=0 > electrons
-	pinit langmuir -n 256 --cells 16 --amplitude 0 --dt 0.02 | smove --scale charge=-1,mass=4 | smod --rename electrons=ions --constant background=0 | sel --drop mesh > ions
+	pinit langmuir -n 256 --cells 16 --amplitude 0 --dt 0.02 | smove --scale charge=-1,mass=4 | smod --rename electrons=ions --constant background=0 |
+		sel --drop mesh > ions
 	for order in 'electrons ions' 'ions electrons'; do
 		# shellcheck disable=SC2086 # two files
 		stack $order | cycle -n 40 --every 1 "${step/p2m/p2m -n 16}" > a
@@ -111,7 +123,9 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	# electrons. The run of the case: 4 % at 0.3 and 1.5 % at 0.5.
 	for case in "0.3 1.15984648059191 -0.0126203684211172" "0.5 1.41566188860454 -0.153359466909605"; do
 		read -r k omega gamma <<<"$case"
-		pinit landau --wavenumber "$k" -n 640000 | cycle -t 22.3 "$step | diag --columns time --growth mode:1 --tee t --window $(awk -v w="$omega" 'BEGIN { printf "%g:22.2", 7.853981634 / w }')" > last
+		pinit landau --wavenumber "$k" -n 640000 |
+			cycle -t 22.3 "$step | diag --columns time --growth mode:1 --tee t --window $(awk -v w="$omega" 'BEGIN { printf "%g:22.2",
+				7.853981634 / w }')" > last
 		within "$(sed -n 's/^# .* omega \([^,]*\),.*/\1/p' t)" "$omega" "$(awk -v w="$omega" 'BEGIN { print 0.003 * w }')" "omega, k = $k"
 		within "$(sed -n 's/^# .* gamma \([^ ]*\) omega.*/\1/p' t)" "$gamma" "$(awk -v g="$gamma" 'BEGIN { print -0.04 * g }')" "gamma, k = $k"
 	done
@@ -121,7 +135,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	sh_ok "pinit langmuir -n 500 | p2m | poisson-fft > a"
 	below "$(grep -ao '"mean[^:]*":[-0-9.e+]*' a | tail -n 1 | cut -d: -f2)" 1e-12
 	sh_ok "pinit langmuir -n 500 --no-history | stab > h; sed 's/\"background\":1.0/\"background\":0.0/' h > g; for k in h g; do stab \$k | p2m | poisson-fft | mgrad | m2p | stab --plain --set electrons > \$k.t; done"
-	paste h.t g.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i == "acc") c = i; next } { d = $c - $(c + n); if (d * d > most) most = d * d } END { exit !(c && most < 1e-26) }'
+	paste h.t g.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i == "acc") c = i; next } { d = $c - $(c + n);
+		if (d * d > most) most = d * d } END { exit !(c && most < 1e-26) }'
 }
 
 @test "between walls the background acts: a density of 2 alone makes the parabola phi = 1/4 - (x - 1/2)^2" {
@@ -135,7 +150,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 @test "two species of opposite charge and unequal mass: equal and opposite momentum" {
 	printf 'x v mass charge id\n0.3 0 1 -1 0\n' > e
 	printf 'x v mass charge id\n0.55 0 25 1 1\n' > i
-	for s in e i; do sh_ok "stab $s --law electrostatic --box 0,1 --faces periodic --particle-faces periodic --dt 0.01 --strength mass,charge --set $s > $s.f"; done
+	for s in e i; do sh_ok \
+		"stab $s --law electrostatic --box 0,1 --faces periodic --particle-faces periodic --dt 0.01 --strength mass,charge --set $s > $s.f"; done
 	sh_ok "stack e.f i.f | cycle -n 20 '${step/p2m/p2m -n 16}' | diag > t"
 	below "$(column momentum_x < t)" 1e-15
 	[ "$(column charge < t)" = 0 ]
@@ -158,7 +174,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 @test "a magnetic field that varies is interpolated to the particles, with the kernel of the transfer" {
 	sh_ok "pinit gyration -n 5 --length 4 --velocities 3 > a; scalc --mesh mesh 'B = 0, 0, 1 + x / 4' < a > b"
 	sh_ok "m2p < b | stab --plain --set electrons > c"
-	awk 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "x") x = i; if ($i ~ /^bfield/) b = i } next } NF { d = $b - 1 - $x / 4; if (d * d > 1e-28) exit 1; n++ } END { exit n != 5 }' c
+	awk 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "x") x = i; if ($i ~ /^bfield/) b = i } next } NF { d = $b - 1 - $x / 4;
+		if (d * d > 1e-28) exit 1; n++ } END { exit n != 5 }' c
 }
 
 @test "a given E on another mesh is added to the computed one, as a separate term" {
@@ -166,5 +183,6 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 	stab < a | sed '1s/"fields":\[{/"fields":[{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""},{/; 1s/"meshes":\[/"meshes":[{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"},/' > b
 	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep '\"terms\":\[\"self\",\"external\"\]' >/dev/null"
 	# q/m = -1
-	paste a.t c.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i ~ /^acc/) c = i; next } { d = $(c + n) - $c + 0.5; if (d * d > 1e-28) exit 1 } END { exit !c }'
+	paste a.t c.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i ~ /^acc/) c = i; next } { d = $(c + n) - $c + 0.5;
+		if (d * d > 1e-28) exit 1 } END { exit !c }'
 }

@@ -9,7 +9,8 @@ pp='push kick/2 drift | pp | push kick/2'
 	sh_ok "pinit plummer -n 10000 | cycle -n 20 '$pm' --every 10 | diag > t"
 	[ "$(column step < t | tr '\n' ' ')" = "0 10 20 " ]
 	awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
-		{ for (d = 0; d < 3; d++) { p = $c["momentum_" substr("xyz", d + 1, 1)]; if (p < 0) p = -p; if (!(p <= 1e-12 * $c["momentum_scale"])) exit 1 } }' t
+		{ for (d = 0; d < 3; d++) { p = $c["momentum_" substr("xyz", d + 1, 1)]; if (p < 0) p = -p;
+			if (!(p <= 1e-12 * $c["momentum_scale"])) exit 1 } }' t
 	! grep -q nan <(column energy < t)
 }
 
@@ -31,7 +32,8 @@ pp='push kick/2 drift | pp | push kick/2'
 	errors=()
 	for k in 8 16 32; do
 		sh_ok "pinit plummer -n 200 --softening 0.2 --dt $(awk "BEGIN { print 1 / $k }") | cycle -t 4 '$pp | diag --pair --tee t' | diag --pair > end"
-		errors+=("$(awk "BEGIN { print 1 / $k }")" "$(column energy < t | awk 'NR == 1 { e = $1 } { d = $1 - e; if (d < 0) d = -d; if (d > m) m = d } END { print m }')")
+		errors+=("$(awk "BEGIN { print 1 / $k }")" "$(column energy < t | awk 'NR == 1 { e = $1 } { d = $1 - e; if (d < 0) d = -d;
+			if (d > m) m = d } END { print m }')")
 		below "$(column momentum_x < end)" 1e-14
 		below "$(column angular_momentum_z < end | awk -v a="$(column angular_momentum_z < t | head -n1)" '{ printf "%.17g", $1 - a }')" 1e-14
 	done

@@ -6,7 +6,8 @@ export PM_PLAN=estimate
 # pm KERNEL SYMBOL ORDER: PM-01's pair, its forces (mass times acceleration, two lines) and the potential at node (5, 5, 6).
 pm() {
 	pinit pair | p2m --kernel "$1" | poisson-fft --symbol "$2" | tee potential | mgrad --order "$3" | m2p | stab --plain --set matter |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { m = $c["mass"]; printf "%.17g %.17g %.17g\n", m*$c["acc_0"], m*$c["acc_1"], m*$c["acc_2"] }'
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { m = $c["mass"]; printf "%.17g %.17g %.17g\n", m*$c["acc_0"], m*$c["acc_1"],
+			m*$c["acc_2"] }'
 	stab --plain --mesh mesh < potential | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $1 == 5 && $2 == 5 && $3 == 6 { print $c["phi"] }'
 }
 
@@ -57,7 +58,8 @@ pm01() {
 # force KERNEL SPACING N, on 18^3 cells: the largest acceleration component on PM-13's lattice, G = rho = dx = 1.
 force() {
 	pinit lattice -n "$3" --spacing "$2" | p2m --kernel "$1" | poisson-fft --symbol fd2 | mgrad --order 4 | m2p | stab --plain --set matter |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (d = 0; d < 3; d++) { a = $c["acc_" d]; if (a < 0) a = -a; if (a > m) m = a } } END { print m + 0 }'
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (d = 0; d < 3; d++) { a = $c["acc_" d]; if (a < 0) a = -a;
+			if (a > m) m = a } } END { print m + 0 }'
 }
 
 @test "PM-13: a cold lattice of spacing 2 dx has no force" {
@@ -76,7 +78,8 @@ setup_file() { bash "$top/pipelines/pm-force.sh" -n 32 --check 40 > "$BATS_FILE_
 error() {
 	local part='force of points' column=$((2 + ($2 == 2) + 2 * ($2 == 4)))
 	[[ $1 != cloud* ]] || part='force of clouds'
-	awk -F'|' -v part="$part" -v name=" ${1#cloud } " -v c=$((column + 1)) -v k="${3:-3}" '/force of/ { on = index($0, part) } on && $2 == name { split($c, v, " "); print v[k]; n++ } END { exit n != 1 }' "$BATS_FILE_TMPDIR/table"
+	awk -F'|' -v part="$part" -v name=" ${1#cloud } " -v c=$((column + 1)) -v k="${3:-3}" \
+		'/force of/ { on = index($0, part) } on && $2 == name { split($c, v, " "); print v[k]; n++ } END { exit n != 1 }' "$BATS_FILE_TMPDIR/table"
 }
 smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g", f * b }')"; }
 
@@ -86,7 +89,8 @@ smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g
 		for r in 2 3 4; do
 			read -r r mean want < <(cut -d'|' -f$r <<< "$row")
 			within "$(error "${row%%|*}" "$r" 1)" "$mean" "$(awk "BEGIN { print .2 * $want }")" "${row%%|*} r = $r, mean"
-			within "$(error "${row%%|*}" "$r")" "$want" "$(awk "BEGIN { print ($r == 4 && \"$row\" ~ /spectral/ ? .5 : .2) * $want }")" "${row%%|*} r = $r, error"
+			within "$(error "${row%%|*}" "$r")" "$want" "$(awk "BEGIN { print ($r == 4 && \"$row\" ~ /spectral/ ? .5 : .2) * $want }")" \
+				"${row%%|*} r = $r, error"
 		done
 	done
 }
@@ -102,7 +106,8 @@ smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g
 	for kernel in cic tsc; do
 		for influence in deconvolved optimal; do
 			within "$(error "$kernel, --influence $influence, 4" 1 1)" 1 0.2 "$kernel $influence"
-			smaller "$(error "$kernel, spectral, 4" 2)" "$(error "$kernel, --influence $influence, 4" 2)" 0.6 # a mesh cannot represent point particles
+			smaller "$(error "$kernel, spectral, 4" 2)" "$(error "$kernel, --influence $influence, 4" 2)" 0.6 \
+				# a mesh cannot represent point particles
 		done
 		smaller "$(error "$kernel, spectral, 4" 1 1)" 0.5
 		smaller "$(error "$kernel, --influence optimal, 4" 1)" "$(error "$kernel, spectral, 4" 1)" 0.8
@@ -135,7 +140,8 @@ smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g
 @test "PM-01: interlaced meshes keep momentum: no self force, and the two forces are opposite" {
 	for kernel in ngp cic tsc pcs; do
 		pinit pair | p2m --kernel $kernel --interlace | poisson-fft --influence optimal --cloud 3 | mgrad | m2p | stab --plain --set matter |
-			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (d = 0; d < 3; d++) s[d] += $c["mass"] * $c["acc_" d] } END { print s[0], s[1], s[2] }' > sum
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (d = 0; d < 3; d++) s[d] += $c["mass"] * $c["acc_" d] } END {
+				print s[0], s[1], s[2] }' > sum
 		read -r x y z < sum
 		for s in "$x" "$y" "$z"; do below "$s" 2e-15 "$kernel"; done
 		pinit pair --m2 0 | p2m --kernel $kernel --interlace | poisson-fft | mgrad --order spectral | m2p | stab --plain --set matter |

@@ -19,7 +19,8 @@ worst() {
 		# eps0 = 1; nodes two cells away from the charges feel all of them: round-off of differences of phi over 2h
 		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $1, $c["E"] }' E > at
 		for place in 0.1 0.5 0.9; do
-			want=$(awk -v x=$place -v f=$faces 'BEGIN { low = (x > 0.31 ? 2 : 0) + (x > 0.77 ? -0.5 : 0); print f == "wall,neumann" ? low - 1.5 : low }')
+			want=$(awk -v x=$place -v f=$faces 'BEGIN { low = (x > 0.31 ? 2 : 0) + (x > 0.77 ? -0.5 : 0);
+				print f == "wall,neumann" ? low - 1.5 : low }')
 			within "$(awk -v x=$place '{ d = $1 - x } d*d < 1e-12 { print $2 }' at)" "$want" 1e-13 "$faces at $place"
 		done
 	done
@@ -87,7 +88,8 @@ round_trip() {
 		scalc --mesh mesh 'omega = (1+x)*y, x*(1-x)*(1-y)' | poisson-fft --symbol fd4 --coefficient 1 | mgrad --operator lap --order 4 --source psi --target back |
 		stab --plain --mesh mesh > ob"
 	# omega on nodes where psi is zero has no effect
-	below "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; print; next } $1 > 0.01 && $1 < 0.99 && $2 > 0.01 && $2 < 0.99' ob > in; worst back_0 omega_0 < in)" 1e-12
+	below "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; print; next } $1 > 0.01 && $1 < 0.99 && $2 > 0.01 && $2 < 0.99' ob > in
+	worst back_0 omega_0 < in)" 1e-12
 	below "$(worst back_1 omega_1 < in)" 1e-12
 }
 

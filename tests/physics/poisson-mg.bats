@@ -15,7 +15,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	c=() s=()
 	for n in 16 32 64; do
 		source_of $n 1 --dim 2 --faces wall | poisson-mg --coefficient -1 | phi >u
-		read -r centre sum < <(awk -v n=$n '{ s += $1 } NR == (n/2)*(n+1) + n/2 + 1 { c = $1 } END { printf "%.17g %.17g\n", c - 0.0736713532815138, s/n/n - 0.0351442537387884 }' u)
+		read -r centre sum < <(awk -v n=$n '{ s += $1 } NR == (n/2)*(n+1) + n/2 + 1 { c = $1 } END { printf "%.17g %.17g\n", c - 0.0736713532815138,
+			s/n/n - 0.0351442537387884 }' u)
 		c+=("$(awk "BEGIN { print 1/$n }")" "${centre#-}") s+=("$(awk "BEGIN { print 1/$n }")" "${sum#-}")
 	done
 	order 2 "${c[@]}"
@@ -75,7 +76,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	within $z 0.02494476327532 1e-11
 	# with the same second-order gradient, spectral and multigrid differ by less (3.3e-4) than the error of either (5.9e-4, 6.3e-4)
 	echo "$mg $(f 'poisson-fft --plan estimate --symbol spectral' 2) 0.0269507714622 0.00946960886732 0.0254426249975" |
-		awk '{ for (i = 1; i <= 3; i++) { d += ($i - $(i+3))^2; a += ($i - $(i+6))^2; b += ($(i+3) - $(i+6))^2 } print sqrt(d), sqrt(a), sqrt(b); exit !(d < a && d < b) }'
+		awk '{ for (i = 1; i <= 3; i++) { d += ($i - $(i+3))^2; a += ($i - $(i+6))^2; b += ($(i+3) - $(i+6))^2 } print sqrt(d), sqrt(a), sqrt(b);
+			exit !(d < a && d < b) }'
 }
 
 @test "PS-03: the potential of a unit cube in open space, at its centre and its corner; the mesh is 1.5 times as wide" {
@@ -84,7 +86,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 		scalc --mesh mesh 'rho = (X_0 < 0.499 ? 1 : X_0 < 0.501 ? 0.5 : 0)*(X_1 < 0.499 ? 1 : X_1 < 0.501 ? 0.5 : 0)*(X_2 < 0.499 ? 1 : X_2 < 0.501 ? 0.5 : 0)' >m
 	side=$(sls <m | awk '/mesh: / { for (i = 1; i <= NF; i++) if ($i == "h") print 32*$(i+1) }')
 	poisson-mg --coefficient -12.566370614359172 <m | phi >u
-	read -r centre corner < <(awk -v l="$side" 'NR == 24*(1 + 49 + 49*49) + 1 { a = $1 } NR == 40*(1 + 49 + 49*49) + 1 { b = $1 } END { printf "%.10g %.10g\n", a/l/l, b/l/l }' u)
+	read -r centre corner < <(awk -v l="$side" 'NR == 24*(1 + 49 + 49*49) + 1 { a = $1 } NR == 40*(1 + 49 + 49*49) + 1 { b = $1 } END {
+		printf "%.10g %.10g\n", a/l/l, b/l/l }' u)
 	within "$centre" 2.38007736397955 1e-3
 	within "$corner" 1.19003868198978 1e-3
 }
@@ -106,7 +109,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	# on a box of length 1 the ratio is u (2 pi m)^2 2 / s; at x = y = 1/(4m), where the sines are 1
 	for row in "1 0.999995880816087" "4 0.998986994425862"; do
 		read -r m ratio <<<"$row"
-		source_of 32 "sin(6.283185307179586*$m*(i%32)/32)*sin(6.283185307179586*$m*int(i/32)/32)" --dim 2 | poisson-mg --order 4 --coefficient -1 --tolerance 1e-14 | phi >u
+		source_of 32 "sin(6.283185307179586*$m*(i%32)/32)*sin(6.283185307179586*$m*int(i/32)/32)" --dim 2 |
+			poisson-mg --order 4 --coefficient -1 --tolerance 1e-14 | phi >u
 		got=$(awk -v m=$m 'NR == 33*8/m + 1 { printf "%.16g", 2 * $1 * (6.283185307179586*m)^2 }' u)
 		within "$got" "$ratio" 1e-12 "m = $m"
 	done

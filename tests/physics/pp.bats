@@ -2,7 +2,8 @@
 load ../helper
 
 # value FIELD ROW [SET]: of the text of the frame on standard input.
-value() { stab --plain --set "${3:-matter}" | awk -v f="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == f) c = i; if (!c) exit 1; next } NR == r + 1 { print $c }'; }
+value() { stab --plain --set "${3:-matter}" | awk -v f="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == f) c = i; if (!c) exit 1;
+	next } NR == r + 1 { print $c }'; }
 
 two() { # two DIM R: masses 2 and 3 at distance R along x
 	case $1 in
@@ -48,7 +49,8 @@ two() { # two DIM R: masses 2 and 3 at distance R along x
 	pinit plummer -n 1500 > a
 	for loop in half full; do
 		pp --loop $loop < a > $loop
-		stab --plain < $loop | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { a = $c["acc_0"]; s += a; t += a < 0 ? -a : a } END { printf "%.9g\n", s / t }' > momentum
+		stab --plain < $loop | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { a = $c["acc_0"]; s += a; t += a < 0 ? -a : a } END {
+			printf "%.9g\n", s / t }' > momentum
 		below "$(cat momentum)" 1e-14 "momentum, $loop"
 	done
 	below "$(scmp --field acc half full | column relative_l2)" 1e-13 "half and full"

@@ -6,7 +6,8 @@ solved() { p2m --kernel "$1" | poisson-fft; }
 calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }
 # place ROW: x and y of a vortex.
 place() { stab --plain --set vortices | awk -v r="$1" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == r + 1 { print $c["x"], $c["y"] }'; }
-velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == r + 1 { print $c["vel_0"], $c["vel_1"] }'; }
+velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == r + 1 { print $c["vel_0"],
+	$c["vel_1"] }'; }
 
 @test "VM-01: vortex-lamb-oseen spreads as the exact solution does, omega and u_theta at two ages to 1e-3" {
 	pipeline vortex-lamb-oseen 17
@@ -25,17 +26,20 @@ velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for 
 @test "VM-16: the printed sentence of the shear layer: diag's omega_centre is within 1.5 of -60.65 on 128^2 (in check-long within 1 of -26.07 on 256^2)" {
 	read -r cells want tolerance <<<"128x128 -60.65 1.5"
 	[ -z "${PM_LONG:-}" ] || read -r cells want tolerance <<<"256x256 -26.070867 1"
-	pinit shear-layer --cells $cells --nu 1e-4 --dt 0.005 | cycle -t 1 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | p2m | diag > t
+	pinit shear-layer --cells $cells --nu 1e-4 --dt 0.005 |
+		cycle -t 1 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' | p2m | diag > t
 	within "$(column omega_centre < t)" $want $tolerance
 }
 
 @test "VM-02: Taylor-Green decays by exp(-2 nu t) at nu = 0.01 and 0.1: energy to 1e-6 with m6prime, 8e-5 with m4prime; cic loses 5 % of it" {
 	# run_with KERNEL NU T DT: over the exact
 	run_with() {
-		pinit taylor-green-2d --nu "$2" --dt "$4" | cycle -t "$3" "p2m --kernel $1 | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $1" | solved "$1" | diag > t
+		pinit taylor-green-2d --nu "$2" --dt "$4" |
+			cycle -t "$3" "p2m --kernel $1 | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $1" | solved "$1" | diag > t
 		energy=$(calc "$(column energy < t) / ($5 * 4 * pi ^ 2)") most=$(calc "$(column omega_max < t) / $6")
 	}
-	while read -r kernel e w; do # of the reference: 7e-5 and 1e-6 of the energy; the largest omega is measured on a node and so includes the error of the kernel
+	while read -r kernel e w; do
+		# of the reference: 7e-5 and 1e-6 of the energy; the largest omega is measured on a node and so includes the error of the kernel
 		for case in "0.01 1 0.05 0.240197359788081 1.96039734661351" "0.1 2 0.02 0.112332241029305 1.34064009207128"; do
 			# shellcheck disable=SC2086
 			run_with "$kernel" $case
@@ -66,7 +70,8 @@ ellipse() {
 		stab rankine --law vortex --box -2.5,2.5 -n $((5 * n)) | p2m | poisson-fft | mgrad | m2p | stab --plain > t
 		for r in "0.5 0.25 0.001" "1 0.5 $(calc "0.48 / $n")" "2 0.25 0.001"; do
 			read -r at want off <<<"$r"
-			within "$(awk -v x="$at" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == x && $c["y"] == 0 { print $c["vel_1"] }' t)" "$want" "$(calc "$off * $want")" "$n cells, r = $at"
+			within "$(awk -v x="$at" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == x && $c["y"] == 0 {
+				print $c["vel_1"] }' t)" "$want" "$(calc "$off * $want")" "$n cells, r = $at"
 		done
 	done
 }
@@ -127,8 +132,10 @@ ellipse() {
 		pinit ellipse | cycle -t 10 --every 20 "p2m --kernel $k | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel $k" | solved $k |
 			diag --columns time,energy,enstrophy,omega_max,circulation > t
 		while read -r at energy enstrophy peak; do
-			awk -v k=$k -v t="$at" -v e="$energy" -v z="$enstrophy" -v w="$peak" -v te=$e -v tz=$z -v tw=$w 'function off(got, want) { got = got / want - 1; return got < 0 ? -got : got }
-				NR > 1 && ($1 - t) ^ 2 < 1e-12 { n++; A = 4 * atan2(0, -1) ^ 2; m = $5 / A; de = off($2 / A, e); dz = off($3 / A - m * m / 2, z); dw = off($4 - m, w) }
+			awk -v k=$k -v t="$at" -v e="$energy" -v z="$enstrophy" -v w="$peak" -v te=$e -v tz=$z -v tw=$w 'function off(got, want) {
+				got = got / want - 1; return got < 0 ? -got : got }
+				NR > 1 && ($1 - t) ^ 2 < 1e-12 { n++; A = 4 * atan2(0, -1) ^ 2; m = $5 / A; de = off($2 / A, e); dz = off($3 / A - m * m / 2,
+					z); dw = off($4 - m, w) }
 				END { print k, "t", t, "energy", de, "enstrophy", dz, "peak", dw; exit !(n == 1 && de < te * t / 2 && dz < tz && dw < tw) }' t
 		done <<-'END'
 			2 0.139399332 0.466961964 9.634597
@@ -160,15 +167,18 @@ blob() {
 	awk -v m="$1" -v h="$2" 'BEGIN { OFMT = CONVFMT = "%.17g"; pi = atan2(0, -1); far = m == "rankine" ? 1 : m == "krasny" ? 4 : 6.2; n = int(far / h) + 1
 		print "x y circulation volume"
 		for (j = -n; j <= n; j++) for (i = -n; i <= n; i++) { in_ = 0; r2 = (i * i + j * j) * h * h
-			if (sqrt(r2) + h < far) in_ = 64; else if (sqrt(r2) - h < far) for (k = -7; k <= 7; k += 2) for (l = -7; l <= 7; l += 2) in_ += ((i + k / 16) ^ 2 + (j + l / 16) ^ 2) * h * h < far * far
-			if (in_) print i * h, j * h, in_ / 64 * h * h * (m == "gaussian" ? exp(-r2) / pi : m == "krasny" ? 1 / (pi * (r2 + 1) ^ 2) : 1 / pi), h * h } }'
+			if (sqrt(r2) + h < far) in_ = 64;
+				else if (sqrt(r2) - h < far) for (k = -7; k <= 7; k += 2) for (l = -7; l <= 7; l += 2) in_ += ((i + k / 16) ^ 2 + (j + l / 16) ^ 2) * h * h < far * far
+			if (in_) print i * h, j * h, in_ / 64 * h * h * (m == "gaussian" ? exp(-r2) / pi : m == "krasny" ? 1 / (pi * (r2 + 1) ^ 2) : 1 / pi),
+				h * h } }'
 }
 
 # apart A B: the largest difference of the velocities of the last six particles, over the largest velocity.
 apart() {
 	paste <(stab --plain < "$1" | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["vel_0"], $c["vel_1"] }' | tail -6) \
 		<(stab --plain < "$2" | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["vel_0"], $c["vel_1"] }' | tail -6) |
-		awk '{ d = sqrt(($1 - $3) ^ 2 + ($2 - $4) ^ 2); v = sqrt($3 * $3 + $4 * $4); if (d > e) e = d; if (v > m) m = v } END { printf "%.9g", e / m; exit NR != 6 }'
+		awk '{ d = sqrt(($1 - $3) ^ 2 + ($2 - $4) ^ 2); v = sqrt($3 * $3 + $4 * $4); if (d > e) e = d; if (v > m) m = v } END { printf "%.9g", e / m;
+			exit NR != 6 }'
 }
 
 @test "pp and the mesh agree in open space: one vortex with a Rankine, denominator or Gaussian core gives the velocity of that core's vorticity in cells" {
@@ -179,7 +189,8 @@ apart() {
 		{ echo x y circulation volume; echo 0 0 1 1; probes; } | stab - --law vortex --box -8,8 -n 8 | pp --mollifier $m --softening 1 > pp
 		list=()
 		for n in 8 16 32; do # cells to the unit
-			{ blob $m "$(calc "1 / $n")"; probes; } | stab - --law vortex --box -8,8 -n $((16 * n)) | p2m --kernel m6prime | poisson-fft | mgrad | m2p > pm
+			{ blob $m "$(calc "1 / $n")"; probes; } | stab - --law vortex --box -8,8 -n $((16 * n)) | p2m --kernel m6prime | poisson-fft | mgrad |
+				m2p > pm
 			list+=("$(calc "1 / $n")" "$(apart pm pp)")
 		done
 		echo "$m: ${list[*]}"
@@ -200,7 +211,8 @@ apart() {
 			p2m --kernel m6prime < a | poisson-fft | mgrad | m2p > pm
 			pp --mollifier $m --softening "$delta" < a > pp
 			want=$(stab --plain --set vortices < a | awk -v d="$delta" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
-				function u(r2, s2) { return (1 - exp(-r2 / s2)) / sqrt(r2) } { r2 = $c["x"] ^ 2 + $c["y"] ^ 2; if (r2 > 1e-20) { e += (u(r2, 0.04) - u(r2, 0.04 + d * d)) ^ 2; s += u(r2, 0.04 + d * d) ^ 2 } }
+				function u(r2, s2) { return (1 - exp(-r2 / s2)) / sqrt(r2) } { r2 = $c["x"] ^ 2 + $c["y"] ^ 2; if (r2 > 1e-20) { e += (u(r2,
+					0.04) - u(r2, 0.04 + d * d)) ^ 2; s += u(r2, 0.04 + d * d) ^ 2 } }
 				END { printf "%.9g", sqrt(e / s) }')
 			list+=("$delta" "$(scmp --field vel pm pp | column relative_l2)")
 			case $m in
@@ -229,7 +241,8 @@ apart() {
 			for (k = -3; k <= 3; k++) if (k) { print k * s, 0, 0; print 0, k * s, 0 }
 			n = int(6.5 * d) + 2; for (j = -n; j <= n; j++) for (i = -n; i <= n; i++) print i, j, 1 }' |
 			stab - --law vortex --box -20,20 | pp --mollifier gaussian --softening "$d" | stab --plain |
-			awk -v d="$d" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; split("-1 9 -45 45 -9 1", w, " "); next } NR <= 13 { k = int(NR / 2); g += NR % 2 ? -w[k] * $c["vel_0"] : w[k] * $c["vel_1"] }
+			awk -v d="$d" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; split("-1 9 -45 45 -9 1", w, " "); next } NR <= 13 { k = int(NR / 2);
+				g += NR % 2 ? -w[k] * $c["vel_0"] : w[k] * $c["vel_1"] }
 				END { printf "%.17g", g / (60 * d / 40) - 1 }' > t
 		within "$(cat t)" "${case#*:}" 1e-8 "delta/h = $d"
 	done
@@ -237,8 +250,10 @@ apart() {
 
 # pair CELLS: two smooth vortices of different size and strength in open space, neither on the axes, CELLS to the unit.
 pair() {
-	awk -v c="$1" 'BEGIN { OFMT = CONVFMT = "%.17g"; h = 1 / c; print "x y circulation volume"; for (j = -2 * c; j <= 2 * c; j++) for (i = -2 * c; i <= 2 * c; i++) { x = i * h; y = j * h
-		w = 10 * exp(-((x - 0.4) ^ 2 + (y - 0.1) ^ 2) / 0.06) - 4 * exp(-((x + 0.5) ^ 2 + (y + 0.3) ^ 2) / 0.1); if (w * w > 1e-16) print x, y, w * h * h, h * h } }' |
+	awk -v c="$1" 'BEGIN { OFMT = CONVFMT = "%.17g"; h = 1 / c; print "x y circulation volume";
+		for (j = -2 * c; j <= 2 * c; j++) for (i = -2 * c; i <= 2 * c; i++) { x = i * h; y = j * h
+		w = 10 * exp(-((x - 0.4) ^ 2 + (y - 0.1) ^ 2) / 0.06) - 4 * exp(-((x + 0.5) ^ 2 + (y + 0.3) ^ 2) / 0.1); if (w * w > 1e-16) print x, y,
+			w * h * h, h * h } }' |
 		stab - --law vortex --box -4,4 -n $((8 * $1)) --dt 0.04
 }
 
@@ -248,7 +263,8 @@ pair() {
 	start=$(pair 16 | diag --columns circulation,impulse_x,impulse_y | tail -1)
 	for words in cic pcs m4prime m6prime ngp alone; do
 		[ $words = alone ] && last='' k=m4prime || last="| remesh --kernel $words" k=$words
-		pair 16 | cycle -n 8 "p2m --kernel $k | poisson-fft | mgrad | m2p | push lsrk3 $last" | diag --columns circulation,impulse_x,impulse_y,angular_impulse | tail -1 > t
+		pair 16 | cycle -n 8 "p2m --kernel $k | poisson-fft | mgrad | m2p | push lsrk3 $last" |
+			diag --columns circulation,impulse_x,impulse_y,angular_impulse | tail -1 > t
 		off=$(paste <(echo "$start") t | awk '{ a = $2 - $5; b = $3 - $6; printf "%.3g", sqrt(a * a + b * b) }')
 		echo "$words: $off"
 		if [ $words = ngp ]; then [ "$(calc "$off > 1e-6")" = 1 ]; else below "$off" 1e-13 $words; fi
@@ -258,7 +274,8 @@ pair() {
 	list=()
 	for c in 8 12 16; do
 		first=$(pair $c | diag --columns angular_impulse | tail -1)
-		now=$(pair $c | cycle -n 8 'p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-9' | diag --columns angular_impulse | tail -1)
+		now=$(pair $c | cycle -n 8 'p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-9' |
+			diag --columns angular_impulse | tail -1)
 		list+=("$(calc "1 / $c")" "$(calc "sqrt(($now - ($first)) ^ 2)")")
 	done
 	order 4 "${list[@]}"
@@ -291,7 +308,8 @@ pair() {
 near() {
 	solved m6prime < "$2" | diag --columns energy,enstrophy,omega_max | tail -1 > swapped
 	paste base swapped | awk -v w="$1" -v e="$3" -v z="$4" -v o="$5" 'function off(a, b) { a = b / a - 1; return a < 0 ? -a : a }
-		{ x = off($1, $4); y = off($2, $5); u = off($3, $6); printf "%s: energy %.2g, enstrophy %.2g, largest omega %.2g\n", w, x, y, u; exit !(NF == 6 && x <= e && y <= z && u <= o && (x + y + u > 0 || w == "ab3")) }'
+		{ x = off($1, $4); y = off($2, $5); u = off($3, $6); printf "%s: energy %.2g, enstrophy %.2g, largest omega %.2g\n", w, x, y, u;
+			exit !(NF == 6 && x <= e && y <= z && u <= o && (x + y + u > 0 || w == "ab3")) }'
 }
 
 @test "swapping one word of the shear layer's sentence: kernel, solver, gradient, viscosity, scheme" {
@@ -373,7 +391,8 @@ near() {
 		within "$(cut -d' ' -f1 t)" "$(calc "-0.25 * $a / ($a + $b)")" 1e-3
 		within "$(cut -d' ' -f2 t)" "$(calc "0.5 * $b / ($a + $b)")" 1e-3
 		cycle -t 2 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' < start | stab --plain |
-			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; y = $c["y"]; q = $c["circulation"]; d += q * (x*x - y*y); m += 2 * q * x * y }
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; y = $c["y"]; q = $c["circulation"]; d += q * (x*x - y*y);
+				m += 2 * q * x * y }
 				END { printf "%.17g\n", atan2(m, d) / 2 / 2 }' > t
 		within "$(cat t)" "$want" "$(calc "0.01 * $want")" "a/b = $a/$b"
 	done
@@ -384,10 +403,12 @@ near() {
 # obeys M(0) + M(16) = 2 cosh(8 lambda) M(8), for any growing and decaying parts.
 love() {
 	ellipse "$1" "$2" 48 | awk -v a="$1" -v b="$2" 'BEGIN { OFMT = CONVFMT = "%.17g" } NR == 1 { print; next }
-		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' | stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |
+		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' |
+			stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |
 		cycle -t 16 --every 80 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' | stab --plain |
 		awk 'function frame(p) { if (!n) return; X /= Q; Y /= Q
-				for (p = 1; p <= n; p++) { x = at[p] - X; y = up[p] - Y; q = of[p]; d += q * (x*x - y*y); m += 2 * q * x * y; r += q * (x*x*x - 3*x*y*y); s += q * (3*x*x*y - y*y*y) }
+				for (p = 1; p <= n; p++) { x = at[p] - X; y = up[p] - Y; q = of[p]; d += q * (x*x - y*y); m += 2 * q * x * y;
+					r += q * (x*x*x - 3*x*y*y); s += q * (3*x*x*y - y*y*y) }
 				t = atan2(m, d) / 2; while (t < turned - 0.1) t += atan2(0, -1); turned = t
 				k++; R[k] = r * cos(3*t) + s * sin(3*t); I[k] = s * cos(3*t) - r * sin(3*t); n = Q = X = Y = d = m = r = s = 0 }
 			/^[a-z]/ { frame(); for (i = 1; i <= NF; i++) c[$i] = i; next } NF < 3 { next }

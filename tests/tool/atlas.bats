@@ -5,7 +5,8 @@ load ../helper
 page=$top/docs/accuracy/README.md
 figures() { sed -n 's|^!\[.*](\([^)]*\)\.png)$|\1|p' "$page"; }
 # below_picture NAME: the text of the page from the picture to the end of its section.
-below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; next } there { print } there && /^```$/ && on { exit } /^```sh$/ { on = there }' "$page"; }
+below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; next } there { print } there && /^```$/ && on { exit } /^```sh$/ {
+	on = there }' "$page"; }
 
 @test "every figure of the page has its picture, its numbers, commands that write both, and three sentences" {
 	[ "$(figures | wc -l)" -ge 8 ]
@@ -13,7 +14,8 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 		below_picture "$name" >text
 		[ "$(head -c 4 "$top/docs/accuracy/$name.png" | tail -c 3)" = PNG ] || { echo "$name.png is not there (make atlas)"; return 1; }
 		[ "$(wc -c <"$top/docs/accuracy/$name.png")" -le 80000 ]
-		awk -F'\t' 'NR == 1 { n = NF; for (i = 1; i <= NF; i++) error += $i == "error" } NF != n { exit 1 } END { exit !(error == 1 && NR > 8) }' "$top/docs/accuracy/$name.tsv" || { echo "$name.tsv"; return 1; }
+		awk -F'\t' 'NR == 1 { n = NF; for (i = 1; i <= NF; i++) error += $i == "error" } NF != n { exit 1 } END { exit !(error == 1 &&
+			NR > 8) }' "$top/docs/accuracy/$name.tsv" || { echo "$name.tsv"; return 1; }
 		grep -q "> $name\.png$" text && grep -qE "> $name\.tsv$" text || { echo "$name: no command writes its picture and its numbers"; return 1; }
 		# Shows, choose, surprised: one sentence each, with one full stop, at its end.
 		[ "$(grep -c '^- ' text)" = 3 ] || { echo "$name: not three sentences"; return 1; }
@@ -37,7 +39,8 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 	# N64: exchange at N = 25 to 1600, the kernel cut off at 5 eps, as in the notes.
 	k=0
 	for want in 7.09e-5 1.95e-5 5.6e-6 2.1e-6 1.25e-6 1.05e-6 1.00e-6; do
-		within "$(awk -F'\t' -v n=$((25 * 2 ** k)) '$1 == "pse --cutoff 5" && $2 == "lattice" && $3 == n { print $4 }' diffusion.tsv)" $want "$(awk -v w=$want 'BEGIN { print 0.006 * w }')" "N = $((25 * 2 ** k))"
+		within "$(awk -F'\t' -v n=$((25 * 2 ** k)) '$1 == "pse --cutoff 5" && $2 == "lattice" && $3 == n { print $4 }' diffusion.tsv)" $want "$(awk -v \
+			w=$want 'BEGIN { print 0.006 * w }')" "N = $((25 * 2 ** k))"
 		k=$((k + 1))
 	done
 }
@@ -45,7 +48,8 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 @test "data/atlas/ has the documented columns, all numeric, and the errors of the figures" {
 	grep -v '^#' "$top/data/atlas/force.tsv" >force
 	[ "$(head -n 1 force)" = $'scene\tsolver\tkernel\tgradient\th_over_scale\terror\tns_per_particle' ]
-	awk -F'\t' 'NR > 1 && !($1 ~ /^(smooth|clustered)$/ && $2 ~ /^(poisson-(fft|mg)|pp)/ && $4 ~ /^([246-]|spectral)$/ && $5 >= 0 && $5 < 2 && $6 >= 0 && $6 < 2 && $7 > 0) { print; exit 1 }' force
+	awk -F'\t' 'NR > 1 && !($1 ~ /^(smooth|clustered)$/ && $2 ~ /^(poisson-(fft|mg)|pp)/ && $4 ~ /^([246-]|spectral)$/ && $5 >= 0 && $5 < 2 && $6 >= 0 &&
+		$6 < 2 && $7 > 0) { print; exit 1 }' force
 	diff <(sed 1d force | cut -f6) <(for f in smooth clustered; do awk -F'\t' 'NR > 1 && $5 != "-" { print $5 }' "$top/docs/accuracy/force-$f.tsv"; done)
 	for kernel in $(cut -f3 force | sed 1d | grep -v '^-$' | sort -u); do p2m --complete | grep -- '^--kernel' | grep -qw -- "$kernel"; done
 	grep -v '^#' "$top/data/atlas/step.tsv" | diff - "$top/docs/accuracy/steps.tsv"

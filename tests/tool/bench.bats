@@ -21,7 +21,8 @@ load ../helper
 
 @test "the recorded counts name their compiler and have a number for every hot loop" {
 	head -n 1 "$top/bench/counts.tsv" | grep -qE '^# (gcc|clang) [0-9.]+ '
-	for case in 'p2m cic' 'p2m pcs' 'p2m m6prime' 'm2p cic, vector' 'poisson-fft periodic 32^3' 'poisson-mg V(2,2) 32^3' 'pp half' 'push kick/2 drift' 'mgrad order 2'; do
+	for case in 'p2m cic' 'p2m pcs' 'p2m m6prime' 'm2p cic, vector' 'poisson-fft periodic 32^3' 'poisson-mg V(2,2) 32^3' 'pp half' 'push kick/2 drift' \
+		'mgrad order 2'; do
 		[ "$(awk -F'\t' -v c="$case" '$1 == c { print ($2 > 1) }' "$top/bench/counts.tsv")" = 1 ]
 	done
 }

@@ -122,7 +122,8 @@ usage() {
 		[ "$t" = pinit ] && line="pinit uniform -n 12 --cells 4" || { input "$t" >in.pm && cp in.pm same.pm && line="$(words "$t") <in.pm"; }
 		got=0
 		script -qec "bash -c $(printf %q "$line")" /dev/null >screen </dev/null || got=$?
-		[ $got = 2 ] && grep -q "$t: .*standard output is a terminal.*sls" screen && ! grep -q PMPIPE screen || { echo "$t: exit status $got"; cat -A screen | head; return 1; }
+		[ $got = 2 ] && grep -q "$t: .*standard output is a terminal.*sls" screen && ! grep -q PMPIPE screen || { echo "$t: exit status $got"
+		cat -A screen | head; return 1; }
 	done
 }
 

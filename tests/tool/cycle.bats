@@ -255,7 +255,8 @@ steps_of() { diag | column step | tr '\n' ' '; }
 @test "--until: a plasma's energy at twice the leapfrog's limit and below" {
 	words='push --dt {} kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 	for dt in 1.95 2.05; do
-		pinit langmuir -n 512 --cells 32 --amplitude 0.001 | cycle -n 200 --until 'energy > 10*energy0' "${words/\{\}/$dt}" | sls --report --format json | jq .report.cycle.until
+		pinit langmuir -n 512 --cells 32 --amplitude 0.001 | cycle -n 200 --until 'energy > 10*energy0' "${words/\{\}/$dt}" |
+			sls --report --format json | jq .report.cycle.until
 	done > met
 	[ "$(tr '\n' ' ' < met)" = "0 1 " ]
 }
@@ -283,8 +284,10 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	pinit langmuir -n 256 --cells 32 --dt 0.02 >plasma
 	pinit lamb-oseen --cells 24 >vortex
 	# scene, sentence, column, factor of the beginning, and what is added
-	for row in "bodies|push --dt 0.02 kick/2 drift | pp | push kick/2|energy_kinetic|1.02|0" "plasma|push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2|speed_rms|1|0.02" \
-		"vortex|pp --softening 0.1 | push rk2 | walk|distance_max|1.2|0" "vortex|p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3|angular_impulse|0.5|-0.02"; do
+	for row in "bodies|push --dt 0.02 kick/2 drift | pp | push kick/2|energy_kinetic|1.02|0" \
+		"plasma|push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2|speed_rms|1|0.02" \
+		"vortex|pp --softening 0.1 | push rk2 | walk|distance_max|1.2|0" \
+			"vortex|p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3|angular_impulse|0.5|-0.02"; do
 		read -r name factor add < <(awk -F'|' '{ print $(NF - 2), $(NF - 1), $NF }' <<<"$row")
 		scene=${row%%|*} words=${row#*|} words=${words%|"$name"|*}
 		sign=$(awk "BEGIN { print $factor < 1 ? \"<\" : \">\" }")

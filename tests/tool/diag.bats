@@ -139,7 +139,8 @@ load ../helper
 @test "diag: the energy of each component of the field: equal along a diagonal, all of it along x in a wave along x; together 1/2 integral rho phi" {
 	for case in "2 2" "3 3" "3 1"; do
 		read -r dim axes <<<"$case"
-		pinit langmuir --dim "$dim" --axes "$axes" -n $((16 ** dim)) --cells 16 --amplitude 0.1 | p2m | poisson-fft --symbol spectral | mgrad --order spectral | diag --modes 1 > t
+		pinit langmuir --dim "$dim" --axes "$axes" -n $((16 ** dim)) --cells 16 --amplitude 0.1 | p2m | poisson-fft --symbol spectral |
+			mgrad --order spectral | diag --modes 1 > t
 		x=$(column energy_field_x < t) y=$(column energy_field_y < t)
 		if [ "$axes" = 1 ]; then
 			below "$y" 1e-28
@@ -149,7 +150,8 @@ load ../helper
 		else
 			within "$(awk -v x="$x" -v y="$y" 'BEGIN { printf "%.17g", y / x }')" 1 1e-12
 		fi
-		within "$(awk -v x="$x" -v n="$axes" -v m="$(column energy_field_mesh < t)" 'BEGIN { printf "%.17g", n * x / m }')" 1 1e-9 # nothing at the highest wavenumber
+		within "$(awk -v x="$x" -v n="$axes" -v m="$(column energy_field_mesh < t)" 'BEGIN { printf "%.17g", n * x / m }')" 1 1e-9 \
+			# nothing at the highest wavenumber
 	done
 }
 

@@ -35,8 +35,10 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 		points=()
 		for n in 40 56 80; do
 			lattice $n 'exp(sin(2*pi*x) + cos(2*pi*y))' --constant nu=1 | p2m | diffuse --order $order | mesh >b
-			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk 'BEGIN { k = 2 * atan2(0, -1) } NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-				{ x = k * $at["x"]; y = k * $at["y"]; w = exp(sin(x) + cos(y)) * k * k * (cos(x)^2 - sin(x) + sin(y)^2 - cos(y)); d = $at["domega"] - w; if (d < 0) d = -d; if (d > m) m = d }
+			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk 'BEGIN { k = 2 * atan2(0, -1) } NR == 1 {
+				for (i = 1; i <= NF; i++) at[$i] = i; next }
+				{ x = k * $at["x"]; y = k * $at["y"]; w = exp(sin(x) + cos(y)) * k * k * (cos(x)^2 - sin(x) + sin(y)^2 - cos(y));
+					d = $at["domega"] - w; if (d < 0) d = -d; if (d > m) m = d }
 				END { print m }' b)")
 		done
 		order $order "${points[@]}"
@@ -49,7 +51,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	run -0 bash -o pipefail -c 'diffuse --verbose <a 2>&1 >/dev/null'
 	[[ $output =~ "diffuse: the viscosity nu is 0: nothing to do, the frame is passed on unchanged" ]]
 	for engine in fused pipes; do # once, whatever the number of steps
-		run -0 bash -o pipefail -c "pinit shear-layer --cells 16 --nu 0 | cycle -n 3 --verbose --engine $engine 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' 2>&1 >/dev/null | grep -c 'nu is 0'"
+		run -0 bash -o pipefail -c \
+			"pinit shear-layer --cells 16 --nu 0 | cycle -n 3 --verbose --engine $engine 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' 2>&1 >/dev/null | grep -c 'nu is 0'"
 		[ "$output" = 1 ]
 	done
 	run -1 bash -o pipefail -c "stab <a | sed '1s/\"nu\":0.0/\"nu\":-1.0/' | stab - | diffuse | sls"
@@ -63,7 +66,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	[[ $output =~ "already holds the term 'diffusion'" ]]
 	same_as <(diffuse --replace <a | mesh) <(mesh <a)
 	# another stage's term, then diffusion on top of it
-	stab <a | sed '1s/"terms":\["diffusion"\]/"terms":["forcing"]/' | stab - | diffuse | mesh | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { print 2 * $at["domega"] }' >unused
+	stab <a | sed '1s/"terms":\["diffusion"\]/"terms":["forcing"]/' | stab - | diffuse | mesh | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i;
+		next } { print 2 * $at["domega"] }' >unused
 	stab <a | sed '1s/"terms":\["diffusion"\]/"terms":["forcing"]/' | stab - | diffuse | mesh | column domega >twice
 	paste <(mesh <a | column domega) twice | awk '{ d = $2 - 2 * $1; if (d > 1e-15 || d < -1e-15) exit 1 }'
 }
@@ -80,7 +84,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	sh_ok 'sls <b'
 	[[ $output =~ dcirculation\ +1\ f64\ change\ strength\ of\ circulation\ terms\ diffusion ]]
 	# particles on the nodes, an interpolating kernel: each has the value of its node
-	paste <(stab --plain <b | column dcirculation) <(mesh <b | column domega) | awk '{ d = $1 - $2 / 144; if (d > 1e-15 || d < -1e-15) exit 1; n++ } END { exit n != 144 }'
+	paste <(stab --plain <b | column dcirculation) <(mesh <b | column domega) | awk '{ d = $1 - $2 / 144; if (d > 1e-15 || d < -1e-15) exit 1; n++ } END {
+		exit n != 144 }'
 	run -1 bash -o pipefail -c "sel --drop volume <a | $step | sls"
 	[[ $output =~ "must be multiplied by a 'volume'" ]]
 }
@@ -91,7 +96,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	[[ $output =~ "the change 'domega' of 'circulation' is on mesh 'mesh' and not yet on 'matter' (carry it over with m2p)" ]]
 	bash -o pipefail -c "cat a | $step | push euler | stab --plain" | column circulation >after
 	# order 6: sin(2 pi x) decays by s(pi/6) 144
-	paste <(stab --plain <a | column circulation) after | awk 'BEGIN { t = atan2(0, -1) / 6; f = 1 - 0.01 * 0.1 * 144 * (49/18 - 3*cos(t) + 0.3*cos(2*t) - cos(3*t)/45) }
+	paste <(stab --plain <a | column circulation) after | awk 'BEGIN { t = atan2(0, -1) / 6;
+		f = 1 - 0.01 * 0.1 * 144 * (49/18 - 3*cos(t) + 0.3*cos(2*t) - cos(3*t)/45) }
 		{ d = $2 - f * $1; if (d > 1e-15 || d < -1e-15) exit 1 }'
 }
 
@@ -104,7 +110,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 				{ c = $at["circulation"]; s += c; m += c * (($at["x"] - 0.5)^2 + ($at["y"] - 0.5)^2) } END { printf "%.17g %.17g\n", s, m / s }'
 		done >moments
 		# the blob is .05 wide and reaches the edge with exp(-50); the distortion within a step affects the second moment, not the circulation
-		awk 'NR == 1 { s = $1; m = $2 } NR == 2 { g = ($2 - m) / (4 * 1e-3 * 0.05); d = ($1 - s) / s; print g, d; exit !(g > 0.998 && g < 1.002 && d < 1e-13 && d > -1e-13) }' moments
+		awk 'NR == 1 { s = $1; m = $2 } NR == 2 { g = ($2 - m) / (4 * 1e-3 * 0.05); d = ($1 - s) / s; print g, d; exit !(g > 0.998 && g < 1.002 &&
+			d < 1e-13 && d > -1e-13) }' moments
 	done
 }
 

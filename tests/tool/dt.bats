@@ -17,7 +17,8 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 }
 
 @test "the strain rule gives C/|grad u| of the flow on the mesh, and counts the steps in which particles may cross" {
-	awk 'BEGIN { OFMT = "%.17g"; print "x y circulation"; for (j = 0; j < 16; j++) for (i = 0; i < 24; i++) print i / 24, j / 16, cos(2 * atan2(0, -1) * i / 24) / 384 }' > t
+	awk 'BEGIN { OFMT = "%.17g"; print "x y circulation"; for (j = 0; j < 16; j++) for (i = 0; i < 24; i++) print i / 24, j / 16, cos(2 * atan2(0,
+		-1) * i / 24) / 384 }' > t
 	# omega = cos(2 pi x): v = sin(2 pi x)/(2 pi), by differences of order 2 dv/dx = cos(2 pi x) sin(a)/a, a = 2 pi/24
 	stab t --law vortex --box 0,1 -n 24x16 --faces periodic --particle-faces periodic --dt 1 | p2m | poisson-fft | mgrad --order spectral > a
 	want=$(awk 'BEGIN { a = 2 * atan2(0, -1) / 24; printf "%.17g", sin(a) / a }')
@@ -40,7 +41,8 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	within "$(pinit two-stream -n 1000 | dt --plasma 0.2 | step_of)" 0.2 1e-12
 	# sum q^2/m = 2 * 9/0.5 + 1/4 = 36.25 in a box of 6, eps0 = 2
 	printf 'x charge mass\n1 3 0.5\n2 -3 0.5\n4 1 4\n' > t
-	within "$(stab t --law electrostatic --constant eps0=2 --box 0,6 --dt 1 | dt --plasma 0.5 --set matter | step_of)" "$(awk 'BEGIN { printf "%.17g", 0.5 / sqrt(36.25 / 12) }')" 1e-15
+	within "$(stab t --law electrostatic --constant eps0=2 --box 0,6 --dt 1 | dt --plasma 0.5 --set matter | step_of)" "$(awk 'BEGIN { printf "%.17g",
+		0.5 / sqrt(36.25 / 12) }')" 1e-15
 	run -1 bash -o pipefail -c 'pinit plummer -n 10 | dt --plasma 0.2 | sls'
 	[[ $output == *"no set with charge and mass under the law 'gravity'"* ]]
 }
@@ -78,5 +80,6 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	pinit two-body --eccentricity 0.5 | cycle -n 20 --every 1 'dt --acceleration 0.01 --softening 0.1 | push kick/2 drift | pp | push kick/2' > a
 	[ "$(stab < a | grep -o '"dt":[-+.e0-9]*' | sort -u | wc -l)" -gt 10 ]
 	# time of the last frame = sum of the steps recorded in those after the first
-	stab < a | grep -o '"dt":[-+.e0-9]*\|"time":[-+.e0-9]*' | awk -F: '/dt/ { d = $2 } /time/ { if (n++) s += d; t = $2 } END { exit !(s > 0 && s - t < 1e-13 && t - s < 1e-13) }'
+	stab < a | grep -o '"dt":[-+.e0-9]*\|"time":[-+.e0-9]*' | awk -F: '/dt/ { d = $2 } /time/ { if (n++) s += d; t = $2 } END { exit !(s > 0 &&
+		s - t < 1e-13 && t - s < 1e-13) }'
 }

@@ -18,7 +18,8 @@ limit=${PM_EXAMPLE_SECONDS:-10}
 		while IFS= read -r example; do
 			n=$((n + 1))
 			mkdir "$n"
-			(cd "$n" && timeout "$limit" bash -o pipefail -c "$example" >out 2>err </dev/null) || { echo "$t: exit status $? of: $example"; cat "$n/err"; return 1; }
+			(cd "$n" && timeout "$limit" bash -o pipefail -c "$example" >out 2>err </dev/null) || { echo "$t: exit status $? of: $example"
+			cat "$n/err"; return 1; }
 			[ ! -s "$n/err" ] || { echo "$t: says on stderr: $example"; cat "$n/err"; return 1; }
 			rm -r "$n"
 		done < <("$t" --examples)

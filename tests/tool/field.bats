@@ -8,7 +8,8 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 @test "acc, vel and d<state> have the values of the expression, belong to the right state, and are the term external" {
 	pinit plummer -n 50 >a
 	field 'acc = -2*x, y - vx, time + 3' <a >b
-	paste <(table <a | tail -n +2) <(scalc 'acc = -2*x, y - vx, time + 3' <a | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"], $c["acc_1"], $c["acc_2"] }') >want
+	paste <(table <a | tail -n +2) <(scalc 'acc = -2*x, y - vx, time + 3' <a | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } {
+		print $c["acc_0"], $c["acc_1"], $c["acc_2"] }') >want
 	table <b | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"], $c["acc_1"], $c["acc_2"] }' >got
 	[ "$(wc -l <got)" = 50 ]
 	awk '{ print $(NF-2), $(NF-1), $NF }' want | diff - got
@@ -28,14 +29,16 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	! pp <a | scmp --field acc --tolerance 0.1 b - >/dev/null
 	run -1 bash -c 'field "acc = x, y, z" <a | field "acc = x, y, z" | sls'
 	[[ $output == *"already holds the term 'external'"* ]]
-	field 'acc = x, y, z' <a | field --term more 'acc = -x, -y, -z' | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^acc/) c[i] } NR > 1 { for (i in c) if ($i != 0) exit 1 }'
+	field 'acc = x, y, z' <a | field --term more 'acc = -x, -y, -z' | table | awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^acc/) c[i] } NR > 1 {
+		for (i in c) if ($i != 0) exit 1 }'
 	field 'acc = x, y, z' <a | field --replace 'acc = 3*x, 0, 0' >d
 	field 'acc = 3*x, 0, 0' <a | scmp --field acc --tolerance 0 d -
 }
 
 @test "a spring under leapfrog keeps v^2 + x^2 (1 - dt^2/4) to round-off (C9)" {
 	printf 'x vx\n1 0\n' | stab - --law free --dt 0.4 | cycle -n 1000 --every 1 "push kick/2 drift | field 'acc = -x' | push kick/2" |
-		scalc 'h = vx^2 + x^2*(1 - 0.04)' | table | awk '$1 == "x" { for (i = 1; i <= NF; i++) if ($i == "h") c = i; next } NF { d = $c - 0.96; if (d < 0) d = -d; if (d > m) m = d; n++ }
+		scalc 'h = vx^2 + x^2*(1 - 0.04)' | table | awk '$1 == "x" { for (i = 1; i <= NF; i++) if ($i == "h") c = i; next } NF { d = $c - 0.96;
+			if (d < 0) d = -d; if (d > m) m = d; n++ }
 			END { print n, m; exit !(n == 1001 && m < 1e-12) }' # 3000 roundings of 1e-16, without drift
 }
 
@@ -43,7 +46,8 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	for case in euler:1 rk2:2 rk4:4; do
 		points=()
 		for n in 10 20 40; do
-			x=$(echo 'x 0' | tr ' ' '\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" | cycle -n $n "field 'vel = cos(time)' | push ${case%:*}" | table | tail -n 1)
+			x=$(echo 'x 0' | tr ' ' '\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" |
+				cycle -n $n "field 'vel = cos(time)' | push ${case%:*}" | table | tail -n 1)
 			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk -v x="$x" 'BEGIN { d = x - sin(2); print d < 0 ? -d : d }')")
 		done
 		order "${case#*:}" "${points[@]}"
@@ -54,7 +58,8 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	for case in "1|push kick/2 drift | F | push kick/2" "2|F | push rk2"; do
 		s=${case#*|} points=()
 		for n in 10 20 40; do
-			v=$(printf 'x vx\n0 1\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" | cycle -n $n "${s/F/field \'acc = -vx\'}" | table | tr ' ' '\t' | column vx)
+			v=$(printf 'x vx\n0 1\n' | stab - --law free --dt "$(awk -v n=$n 'BEGIN { print 2 / n }')" |
+				cycle -n $n "${s/F/field \'acc = -vx\'}" | table | tr ' ' '\t' | column vx)
 			points+=("$(awk -v n=$n 'BEGIN { print 1 / n }')" "$(awk -v v="$v" 'BEGIN { d = v - exp(-2); print d < 0 ? -d : d }')")
 		done
 		order "${case%%|*}" "${points[@]}" 2>said
@@ -65,7 +70,8 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 @test "the test equation: one step of rk4 is 1 + z + z^2/2 + z^3/6 + z^4/24 for every lambda of the set" {
 	printf 'x y a b\n1 0 -1 2\n1 0 3 0\n0.5 0 0 -8\n' | stab - --law free --dt 0.125 | cycle -n 1 "field 'vel = a*x - b*y, b*x + a*y' | push rk4" | table >b
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
-		{ p = $c["a"] / 8; q = $c["b"] / 8; x = 1; y = 0; u = 1; w = 0; for (k = 1; k <= 4; k++) { t = (u * p - w * q) / k; w = (u * q + w * p) / k; u = t; x += u; y += w }
+		{ p = $c["a"] / 8; q = $c["b"] / 8; x = 1; y = 0; u = 1; w = 0; for (k = 1; k <= 4; k++) { t = (u * p - w * q) / k; w = (u * q + w * p) / k;
+			u = t; x += u; y += w }
 			f = NR == 4 ? 0.5 : 1; d = ($c["x"] - f * x)^2 + ($c["y"] - f * y)^2; if (d > 1e-30) { print; exit 1 } }' b
 }
 

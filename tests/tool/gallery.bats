@@ -8,8 +8,10 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 	listed >list
 	for page in "$top"/docs/methods/*.md; do
 		name=$(basename "$page" .md)
-		[ "$(sed -n 's|^!\[.\+](\.\./gallery/\([^)]*\)\.png)$|\1|p' "$page")" = "$name" ] || { echo "$page: no line ![...](../gallery/$name.png)"; return 1; }
-		grep -qx "$name" list || { echo "docs/gallery.md: no ![...](gallery/$name.png) with the commands that make it below (then: make gallery)"; return 1; }
+		[ "$(sed -n 's|^!\[.\+](\.\./gallery/\([^)]*\)\.png)$|\1|p' "$page")" = "$name" ] || { echo "$page: no line ![...](../gallery/$name.png)"
+		return 1; }
+		grep -qx "$name" list || { echo "docs/gallery.md: no ![...](gallery/$name.png) with the commands that make it below (then: make gallery)"
+		return 1; }
 		picture=$top/docs/gallery/$name.png
 		[ "$(head -c 4 "$picture" | tail -c 3)" = PNG ] || { echo "$picture: not there (make gallery)"; return 1; }
 		[ "$(wc -c <"$picture")" -le 60000 ] || { echo "$picture: $(wc -c <"$picture") bytes, at most 60000"; return 1; }
@@ -26,7 +28,8 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 @test "the pictures are those of the gallery's list, and each has commands that make it" {
 	diff <(listed) <(cd "$top/docs/gallery" && ls -- *.png | sed 's/\.png$//' | sort)
 	for name in $(listed); do
-		awk -v picture="](gallery/$name.png)" 'index($0, picture) { there = 1 } /^```$/ { if (on) exit } on { print } /^```sh$/ { on = there }' "$top/docs/gallery.md" >block
+		awk -v picture="](gallery/$name.png)" 'index($0, picture) { there = 1 } /^```$/ { if (on) exit } on { print } /^```sh$/ {
+			on = there }' "$top/docs/gallery.md" >block
 		grep -q "$name\.png" block || { echo "$name: the block below it does not write $name.png"; return 1; }
 	done
 	grep -q '^!\[.*](docs/gallery/plummer.png)$' "$top/README.md"

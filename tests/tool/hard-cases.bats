@@ -12,7 +12,8 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 	for f in "$top"/tests/hard/*.bats; do
 		f=hard/$(basename "$f" .bats)
 		names "$f" | awk -F'\t' -v f="$f" 'FILENAME == "rows" { if ($2 == f) begins[++n] = $3; next }
-			{ for (i = 1; i <= n; i++) if (index($0, begins[i]) == 1) next; print "no row of docs/hard-cases.md for `" f " " $0 "` (its head says how)"; bad = 1 } END { exit bad }' rows -
+			{ for (i = 1; i <= n; i++) if (index($0, begins[i]) == 1) next;
+				print "no row of docs/hard-cases.md for `" f " " $0 "` (its head says how)"; bad = 1 } END { exit bad }' rows -
 	done
 }
 
@@ -32,7 +33,8 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 		if [ "${file%%/*}" = unit ]; then
 			grep -qF -- "${begins%% *}" "$top/tests/$file.c" || { echo "tests/$file.c has no check '$begins'"; return 1; }
 		else
-			names "$file" | awk -v b="$begins" 'index($0, b) == 1 { n++ } END { exit !n }' || { echo "tests/$file.bats has no test that begins with '$begins'"; return 1; }
+			names "$file" | awk -v b="$begins" 'index($0, b) == 1 { n++ } END { exit !n }' ||
+				{ echo "tests/$file.bats has no test that begins with '$begins'"; return 1; }
 		fi
 	done <rows
 	page | grep '^| ' | grep -vE '^\| case \|.*margin \|$|`(hard|physics|tool|unit)/' >without
@@ -47,10 +49,12 @@ names() { sed -n 's/^@test "\(.*\)" {.*$/\1/p' "$top/tests/$1.bats"; }
 	rows >rows
 	# a line is one row; comparisons by a helper of tests/helper.bash give a number
 	while IFS=$'\t' read -r line file begins number; do
-		[[ $number =~ ^([0-9]+(\.[0-9]+)?(e[0-9]+)?\ \(.*\)|exact|([0-9]+)\ of\ ([0-9]+)|yes\ or\ no)$ ]] || { echo "line $line of docs/hard-cases.md: '$number' (make hard-cases)"; return 1; }
+		[[ $number =~ ^([0-9]+(\.[0-9]+)?(e[0-9]+)?\ \(.*\)|exact|([0-9]+)\ of\ ([0-9]+)|yes\ or\ no)$ ]] ||
+			{ echo "line $line of docs/hard-cases.md: '$number' (make hard-cases)"; return 1; }
 		[ "$number" = "yes or no" ] && [ "${file%%/*}" != unit ] || continue
 		awk -v b="@test \"$begins" 'index($0, b) == 1 { on = 1 } on { print } /^}/ { on = 0 }' "$top/tests/$file.bats" >body
-		! grep -E '^\s*([^"]*(\|\|?|&&|;|do) )?(within|below|above|between|order|counted|refused|pipeline) ' body || { echo "line $line of docs/hard-cases.md says 'yes or no' (make hard-cases)"; return 1; }
+		! grep -E '^\s*([^"]*(\|\|?|&&|;|do) )?(within|below|above|between|order|counted|refused|pipeline) ' body ||
+			{ echo "line $line of docs/hard-cases.md says 'yes or no' (make hard-cases)"; return 1; }
 	done <rows
 }
 

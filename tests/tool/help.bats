@@ -25,7 +25,8 @@ load words
 
 @test "--help writes options the same way in every tool: -x, --name or --name" {
 	for t in $(tools); do
-		! "$t" --help | sed -n '/^options/,/^examples/p' | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' || { echo "$t"; return 1; }
+		! "$t" --help | sed -n '/^options/,/^examples/p' | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' ||
+			{ echo "$t"; return 1; }
 	done
 }
 
@@ -59,7 +60,8 @@ load words
 		"$t" --help | awk -v t="$t" '/^  (-|   )/ && match($0, /--[a-z0-9-]+( [A-Z][A-Z,.]*)?/) { print substr($0, RSTART, RLENGTH), t }'
 	done | sort -u >all
 	# A number, a flag, or words: one name, or several with commas. (cycle --plan is another word than the --plan of transforms.)
-	awk '/^--plan cycle$/ { next } { kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) { print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
+	awk '/^--plan cycle$/ { next } { kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) {
+		print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
 }
 
 @test "the completion file is bash, and completes options and choices" {

@@ -10,7 +10,8 @@ untouched() {
 	[ "$status" -lt 124 ] || { echo "$* hangs: $output"; return 1; }
 	[ -z "$(find . "$top" -maxdepth 1 -name 'touched*')" ] || { echo "$*: ran a command: $output"; return 1; }
 }
-attacks=('acc; touch touched' '$(touch touched)' '`touch touched`' "a' | touch touched; '" 'a" | touch touched; "' 'a | touch touched' '>touched' 'a&touch touched' $'a\ntouch touched')
+attacks=('acc; touch touched' '$(touch touched)' '`touch touched`' "a' | touch touched; '" 'a" | touch touched; "' 'a | touch touched' '>touched' \
+	'a&touch touched' $'a\ntouch touched')
 spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
 
 @test "pareto: --field and --set are names, whatever characters they contain, with --jobs and with exact numbers too" {
@@ -33,8 +34,10 @@ spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} k
 }
 
 @test "a value of --vary is one word, or text between the quotes that the sentence has there" {
-	for a in 'acc; touch touched' '$(touch touched)' '`touch touched`' "'; touch touched; '" '"; touch touched; "' 'cat | touch touched' 'a&touch touched' '>touched'; do
-		for s in 'pinit uniform -n 9 | sel --set {k}' 'pinit uniform -n 9 | sel --set "{k}"' "pinit uniform -n 9 | sel --set '{k}'" 'pinit uniform -n $(echo {k})' 'pinit uniform -n 9 | cycle -n 1 "{k}"' '{k}' \
+	for a in 'acc; touch touched' '$(touch touched)' '`touch touched`' "'; touch touched; '" '"; touch touched; "' 'cat | touch touched' 'a&touch touched' \
+		'>touched'; do
+		for s in 'pinit uniform -n 9 | sel --set {k}' 'pinit uniform -n 9 | sel --set "{k}"' "pinit uniform -n 9 | sel --set '{k}'" \
+			'pinit uniform -n $(echo {k})' 'pinit uniform -n 9 | cycle -n 1 "{k}"' '{k}' \
 			'pinit uniform -n "$(echo "{k}")"'; do
 			untouched pareto "$s" --against finest --vary "k=$a,b" --repeat 1 -o d --fresh
 			untouched margin "$s | p2m -n {n}" --vary n:1:3 --vary "k=$a,b" -o d --fresh

@@ -31,10 +31,12 @@ outside_parentheses() {
 
 @test "no awk compares with > inside a print that has no parentheses" {
 	printf '%s\n' "awk '{ print \$1 > 0 }'" "awk '{ printf \"%s\", i > n ? 1 : 2 }'" 'print "a" b > c' >wrong
-	printf '%s\n' "awk '{ print (\$1 > 0) }'" "awk '{ print x > \"/dev/stderr\" }'" "awk '{ print } x > 0'" "printf 'a' >b" 'printf "%s, " "$a" >b' "print a >= b" >right
+	printf '%s\n' "awk '{ print (\$1 > 0) }'" "awk '{ print x > \"/dev/stderr\" }'" "awk '{ print } x > 0'" "printf 'a' >b" 'printf "%s, " "$a" >b' \
+		"print a >= b" >right
 	[ "$(outside_parentheses wrong | wc -l)" = 3 ]
 	[ -z "$(outside_parentheses right)" ]
-	bad=$(cd "$top" && outside_parentheses Makefile .ci/run $(find bench docs lib pipelines tests tools -name '*.sh' -o -name '*.bats' -o -name '*.bash' -o -name '*.awk' -o -name '*.md' | grep -v house.bats))
+	bad=$(cd "$top" && outside_parentheses Makefile .ci/run $(find bench docs lib pipelines tests tools -name '*.sh' -o -name '*.bats' -o -name '*.bash' \
+		-o -name '*.awk' -o -name '*.md' | grep -v house.bats))
 	echo "$bad"
 	[ -z "$bad" ]
 }
@@ -43,7 +45,8 @@ outside_parentheses() {
 # test are one text, as they are run. Comments that docs/accuracy/atlas.sh writes into its tables are lines of a table.
 long_lines() {
 	for f in "$@"; do
-		expand -t 8 "$f" | awk -v f="$f" 'length > 160 && (f !~ /(sh|bats)$/ || /^ *#/ && !(f ~ /atlas\.sh$/ && /^ /)) { print f ":" NR ": " length " columns" }'
+		expand -t 8 "$f" | awk -v f="$f" 'length > 160 && (f !~ /(sh|bats)$/ || /^ *#/ && !(f ~ /atlas\.sh$/ && /^ /)) {
+			print f ":" NR ": " length " columns" }'
 	done
 }
 
@@ -93,9 +96,11 @@ many_arguments() {
 	END
 	printf '%stest "open" {\n' @ >b.bats
 	# bats within bats: without what the outer one exports
-	run -1 env -i PATH="$(tr : '\n' <<<"$PATH" | grep -v bats-core | paste -sd:)" HOME="$HOME" REPORTS="$PWD/reports" EVERY=0.1 bash "$top/tests/run.sh" "$PWD"/{a,b,c}.bats
+	run -1 env -i PATH="$(tr : '\n' <<<"$PATH" | grep -v bats-core |
+		paste -sd:)" HOME="$HOME" REPORTS="$PWD/reports" EVERY=0.1 bash "$top/tests/run.sh" "$PWD"/{a,b,c}.bats
 	echo "$output"
-	[[ $output == *"check: "[0-3]" of 3 files, "*" tests, "*" failed, "* && $output == *"--- $PWD/a.bats"*"not ok 2 bad"*"# because"* && $output == *": long: no time"* ]]
+	[[ $output == *"check: "[0-3]" of 3 files, "*" tests, "*" failed, "* && $output == *"--- $PWD/a.bats"*"not ok 2 bad"*"# because"* &&
+		$output == *": long: no time"* ]]
 	[[ ${lines[-1]} =~ ^[12]\ passed,\ 3\ failed,\ [12]\ skipped$ ]]
 }
 
@@ -130,7 +135,8 @@ install_here() {
 	[ -s root/usr/lib/libpmpipe.a ]
 	[ -s root/usr/lib/libpmpipe.so ]
 	[ "$(public | sort)" = "$(cd root/usr/include/pmpipe && find . -type f | sed 's|^\./||' | sort)" ]
-	[ "$(PKG_CONFIG_PATH=root/usr/lib/pkgconfig pkg-config --modversion pmpipe)" = "$(sed -n 's/^#define PM_VERSION "\(.*\)"/\1/p' "$top/lib/base/base.h")" ]
+	[ "$(PKG_CONFIG_PATH=root/usr/lib/pkgconfig pkg-config --modversion pmpipe)" = "$(sed -n 's/^#define PM_VERSION "\(.*\)"/\1/p' \
+		"$top/lib/base/base.h")" ]
 	install_here uninstall
 	[ -z "$(find root ! -type d)" ]
 }
@@ -231,7 +237,8 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 @test "arrows go one way: every room includes only rooms below it in docs/architecture.md" {
 	rooms=$(sed -n 's/^| `lib\/\([a-z0-9-]*\)\/`.*/\1/p' "$top/docs/architecture.md")
 	[ "$(sort <<<"$rooms")" = "$(cd "$top/lib" && find . -mindepth 1 -maxdepth 1 -type d ! -name shell | sed 's|^\./||' | sort)" ]
-	bad=$(cd "$top" && grep -HoE '^#include "[a-z0-9-]+/[^"]+"' lib/*/*.[ch] | grep -vE '"(effect|green|kernel|law|mollifier|relax|scene|step)/(effect|green|kernel|law|mollifier|relax|scene|step).h"' |
+	bad=$(cd "$top" && grep -HoE '^#include "[a-z0-9-]+/[^"]+"' lib/*/*.[ch] |
+		grep -vE '"(effect|green|kernel|law|mollifier|relax|scene|step)/(effect|green|kernel|law|mollifier|relax|scene|step).h"' |
 		sed -E 's|(lib/([a-z0-9-]+)/[^:]*):#include "([a-z0-9-]+)/.*|\2 \3 \1|' | sort -u | awk -v rooms="$rooms" '
 		BEGIN { n = split(rooms, list, "\n"); for (i = 1; i <= n; i++) height[list[i]] = i }
 		!($2 in height) || height[$2] > height[$1] { print $3 " includes " $2 }')

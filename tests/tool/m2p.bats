@@ -11,12 +11,14 @@ given() {
 		printf '%s 0 2\n' "$@"
 	} | stab - --law gravity --box 0,4 --faces "$faces" --particle-faces open -n 4 | p2m --outside drop | stab |
 		sed "1s/\"name\":\"rho\",\"on\":\"mesh\",\"role\":\"derived\"/\"name\":\"$field\",\"on\":\"mesh\",\"role\":\"$role\"/" |
-		awk -v f="$field" '/^#end/ { inside = 0 } inside == 2 { print i * i; i++; next } inside == 1 { print f; inside = 2; next } /^#mesh/ { inside = 1 } { print }' |
+		awk -v f="$field" '/^#end/ { inside = 0 } inside == 2 { print i * i; i++; next } inside == 1 { print f; inside = 2; next } /^#mesh/ {
+			inside = 1 } { print }' |
 		stab -
 }
 
 # of FIELD: that column of the particles, one line.
-of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; next } { printf "%s%s", (NR > 2 ? " " : ""), $c } END { print "" }'; }
+of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; next } { printf "%s%s", (NR > 2 ? " " : ""), $c } END {
+	print "" }'; }
 
 @test "m2p needs no options: the law's mesh field is added to its change field as the term self" {
 	sh_ok 'pinit uniform -n 50 | p2m -n 8 --kernel tsc | poisson-fft | mgrad | m2p | sls'

@@ -70,7 +70,8 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	[[ $stderr == "margin: 'pinit uniform -n 3 | cycle -n 3 \"push --dt 1 kick\"' fails: cycle: "*"no field 'acc'"* && -z $output ]]
 	run -2 --separate-stderr margin 'pinit uniform -n {n} | cycle -n 3 "push drift"' --vary n:1.5:3
 	[[ $stderr == *"not a whole number"* ]]
-	run -1 --separate-stderr margin 'printf "x\n1\n" | stab - --law free | cycle -n 3 "field vel=x | push --dt {dt} euler"' --vary dt:1:2 --unstable-when 'omega_max > 1'
+	run -1 --separate-stderr margin 'printf "x\n1\n" | stab - --law free | cycle -n 3 "field vel=x | push --dt {dt} euler"' --vary dt:1:2 --unstable-when \
+		'omega_max > 1'
 	[[ $stderr == *"'omega_max' cannot be computed"* ]]
 	run -1 --separate-stderr margin 'true {n}' --vary n:1:3
 	[[ $stderr == *"fails: sls: "*"no input"* ]]
@@ -83,11 +84,13 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	grep -qE '^lsrk3 .* 1\.732050808 .* yes' t
 	grep -qE '^rk4 .* 2\.828427125 .* yes' t
 	grep -qE '^rk4 .* 2\.828427125 .* yes' t
-	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*x | push {euler,rk4,rk2}"' --vary w:0.2:3 --expect 'rk4=2.8, euler=1+1' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*x | push {euler,rk4,rk2}"' --vary w:0.2:3 --expect \
+		'rk4=2.8, euler=1+1' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
 	[ "$(awk -F'\t' 'NR > 1 { print $2, $8, $10 }' t)" = "euler 2 yes
 rk4 2.8 yes
 rk2 - -" ] || { cat t; false; }
-	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"' --vary w:0.2:3 --vary k=1,2 --expect '2/{k}' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"' --vary w:0.2:3 --vary k=1,2 --expect \
+		'2/{k}' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
 	[ "$(awk -F'\t' 'NR > 1 { print $2, $3, ($3 == "euler" ? $11 : "") }' t)" = "1 euler yes
 1 rk4 
 2 euler yes
@@ -95,7 +98,8 @@ rk2 - -" ] || { cat t; false; }
 }
 
 @test "a choice without a limit is reported in its row, and the others have theirs" {
-	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when 'distance_max > 2' --tolerance 0.01 -o d
+	run -0 margin 'printf "x y\n1 0\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*y,{w}*x | push {euler,rk4}"' --vary w:1:4 --unstable-when \
+		'distance_max > 2' --tolerance 0.01 -o d
 	[[ $output == *"no limit for euler: unstable at both ends, 1 and 4"* ]]
 	grep -qE '^rk4 +2\.8' <<<"$output"
 	# and its growth is drawn, ln(1 + w^2)/2 a step
@@ -137,7 +141,8 @@ rk2 - -" ] || { cat t; false; }
 }
 
 @test "--list prints the sentences with their names and runs nothing" {
-	[ "$(margin 'pinit uniform --seed {seed} | a {x} | {b,c}' --vary x:1:2 --list)" = $'pinit uniform --seed {seed} | a {x} | b\npinit uniform --seed {seed} | a {x} | c' ]
+	[ "$(margin 'pinit uniform --seed {seed} | a {x} | {b,c}' --vary x:1:2 --list)" = \
+		$'pinit uniform --seed {seed} | a {x} | b\npinit uniform --seed {seed} | a {x} | c' ]
 }
 
 @test "an invalid search: one clear line, exit 2" {
@@ -202,7 +207,8 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(wc -l <d/margin.tsv)" = 43 ]
 	awk -F'\t' 'NR > 1 { if (($3 == "stable") != ($1 * $1 + $2 * $2 <= 1)) exit 1 }' d/margin.tsv
 	# the crossings lie on lines of the grid, to 1/64 of 0.25
-	awk -F'\t' 'NR > 1 { n++; for (k = 1; k < 4; k += 2) { r = sqrt($k * $k + $(k+1) * $(k+1)); if (r < 1 - 0.004 || r > 1 + 0.004) { print; exit 1 } } } END { exit !(n >= 7) }' d/boundary.tsv
+	awk -F'\t' 'NR > 1 { n++; for (k = 1; k < 4; k += 2) { r = sqrt($k * $k + $(k+1) * $(k+1)); if (r < 1 - 0.004 || r > 1 + 0.004) { print;
+		exit 1 } } } END { exit !(n >= 7) }' d/boundary.tsv
 	without gnuplot # a hint on stderr, and no word of it in the JSON
 	run -0 --separate-stderr margin "$s" --vary a:0:1.5 --vary b:0:1.25 --map 7x6 --unstable-when 'distance_max > 2' -o d --format json
 	[[ $stderr == *"no gnuplot here"* ]]

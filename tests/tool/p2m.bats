@@ -190,7 +190,8 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 	same_as out.1 out.2
 	same_as out.1 out.3
 	p2m -n 12 --interlace --no-history <a | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | grep -v '^#' >alone
-	cat b a | p2m -n 12 --interlace --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | awk '/^#pmpipe/ { n++ } n == 2 && !/^#/' >second
+	cat b a | p2m -n 12 --interlace --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | awk '/^#pmpipe/ {
+		n++ } n == 2 && !/^#/' >second
 	same_as alone second
 }
 
@@ -199,7 +200,8 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 	[[ $stderr == *"axis x is open (leave out --interlace"* ]]
 	run -1 --separate-stderr bash -c 'pinit uniform -n 50 | p2m -n 8 | p2m --interlace --add >out'
 	[[ $stderr == *"leave out --add"* ]]
-	run -1 --separate-stderr bash -c 'pinit taylor-green-2d --cells 16 | p2m --kernel tsc --interlace | poisson-fft --plan estimate | mgrad | diffuse | m2p >out'
+	run -1 --separate-stderr bash -c \
+		'pinit taylor-green-2d --cells 16 | p2m --kernel tsc --interlace | poisson-fft --plan estimate | mgrad | diffuse | m2p >out'
 	[[ $stderr == *"carried over with one mesh (p2m without --interlace)"* ]]
 	pinit uniform -n 50 | p2m -n 8 --interlace | poisson-fft --plan estimate | mgrad >g
 	m2p --kernel tsc <g >one # as it is, from one mesh

@@ -18,9 +18,11 @@ told() {
 }
 
 @test "braces: nest, may be empty, may hold |, and the commas inside an inner pair are the inner pair's" {
-	[ "$(list 'a | {p2m | poisson-fft | mgrad --order {2,4} | m2p, tree, pp}')" = $'a | p2m | poisson-fft | mgrad --order 2 | m2p\na | p2m | poisson-fft | mgrad --order 4 | m2p\na | tree\na | pp' ]
+	[ "$(list 'a | {p2m | poisson-fft | mgrad --order {2,4} | m2p, tree, pp}')" = \
+		$'a | p2m | poisson-fft | mgrad --order 2 | m2p\na | p2m | poisson-fft | mgrad --order 4 | m2p\na | tree\na | pp' ]
 	[ "$(list 'a{1{x,y},,2}')" = $'a1x\na1y\na\na2' ]
-	[ "$(list 'a {x, y} --k={1, -2} b{, --o,-p, -q {3, 4}}' | sed -n '1,4p;15,16p')" = $'a x --k=1 b\na x --k=1 b --o\na x --k=1 b-p\na x --k=1 b -q 3\na y --k=1 b -q 4\na y --k=-2 b' ]
+	[ "$(list 'a {x, y} --k={1, -2} b{, --o,-p, -q {3, 4}}' |
+		sed -n '1,4p;15,16p')" = $'a x --k=1 b\na x --k=1 b --o\na x --k=1 b-p\na x --k=1 b -q 3\na y --k=1 b -q 4\na y --k=-2 b' ]
 	[ "$(list "cycle -n {5,10} 'push {kick,drift}/2 | pp'")" = "cycle -n 5 'push kick/2 | pp'
 cycle -n 5 'push drift/2 | pp'
 cycle -n 10 'push kick/2 | pp'
@@ -33,12 +35,14 @@ awk '{ print \$1, \$2 }' z" ]
 }
 
 @test "finest is the last of all alternatives, where a name makes it the same sentence twice, too" {
-	pareto 'pinit plummer -n 50 | {p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p,pp}' --vary k=cic,tsc --against finest --field acc --repeat 1 --tsv >table
+	pareto 'pinit plummer -n 50 | {p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p,pp}' --vary k=cic,tsc --against finest --field acc --repeat 1 --tsv \
+		>table
 	[ "$(awk -F'\t' '$2 == "reference" { print $(NF - 1) }' table)" = "pinit plummer -n 50 | pp" ]
 }
 
 @test "--vary: one choice in several places, whose values may have braces of their own; equal sentences count once" {
-	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = $'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
+	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = \
+		$'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
 	[ "$(list 'a -n {1,2} | b {k}{k}' --vary k=x,y)" = $'a -n 1 | b xx\na -n 1 | b yy\na -n 2 | b xx\na -n 2 | b yy' ]
 	[ "$(list 'a | {p2m --kernel {k} | m2p --kernel {k}, pp}' --vary 'k=m{4,6}prime,cic' | grep -c .)" = 4 ] # pp once
 }
@@ -78,7 +82,8 @@ awk '{ print \$1, \$2 }' z" ]
 }
 
 @test "exact: a leapfrog's error falls by four when the step is halved; a column without an exact value is reported" {
-	run -0 pareto "pinit two-body --eccentricity 0.5 --dt {0.1,0.05,0.025} | cycle -t 1 'push kick/2 drift | pp | push kick/2'" --against exact --field energy_kinetic --repeat 1 --tsv
+	run -0 pareto "pinit two-body --eccentricity 0.5 --dt {0.1,0.05,0.025} | cycle -t 1 'push kick/2 drift | pp | push kick/2'" --against exact --field \
+		energy_kinetic --repeat 1 --tsv
 	mapfile -t e < <(column error <<<"$output" | sort -rg)
 	order 2 0.1 "${e[0]}" 0.05 "${e[1]}" 0.025 "${e[2]}"
 	run -1 pareto "pinit two-body --dt {0.1,0.05} | cycle -n 1 'push drift'" --against exact --field distance_max --repeat 1
@@ -86,7 +91,8 @@ awk '{ print \$1, \$2 }' z" ]
 }
 
 @test "the error is the largest over several frames" {
-	run -0 pareto "pinit two-body | cycle -n 3 --every 1 'push drift --dt {0.1,0.2}'" --against "cycle -n 3 --every 1 'push drift --dt 0.15'" --field x --norm max --repeat 1 --tsv
+	run -0 pareto "pinit two-body | cycle -n 3 --every 1 'push drift --dt {0.1,0.2}'" --against "cycle -n 3 --every 1 'push drift --dt 0.15'" --field x \
+		--norm max --repeat 1 --tsv
 	# |v| = 1/2, three steps, 0.05 off in each.
 	while read -r e; do within "$e" 0.075 1e-9; done < <(column error <<<"$output")
 }
@@ -112,7 +118,8 @@ by_hand() {
 	pareto "pinit uniform -n 20 | m2p -{a,b} {1,2}" --against 'p2m -n 4' --field x --repeat 3 -o d >/dev/null 2>&1 || true
 	{
 		for n in 0 1 2 3; do
-			for r in 1 2 3; do printf 'time\t%d\t%d\t0.5\t%s\t2048\n' $n $r "$(awk -v n=$n -v r=$r 'BEGIN { s[0] = 2; s[1] = 1; s[2] = 5; s[3] = 4; print s[n] + (r - 2) * 0.1 + (r == 3 ? 9 : 0) }')"; done
+			for r in 1 2 3; do printf 'time\t%d\t%d\t0.5\t%s\t2048\n' $n $r "$(awk -v n=$n -v r=$r 'BEGIN { s[0] = 2; s[1] = 1; s[2] = 5;
+				s[3] = 4; print s[n] + (r - 2) * 0.1 + (r == 3 ? 9 : 0) }')"; done
 		done
 		printf 'error\t0\t20\t1\t1\t1\t0.02\t1\nerror\t1\t20\t1\t1\t1\t0.01\t1\nerror\t2\t20\t1\t1\t1\t2e-5\t1\nerror\t3\t20\t1\t1\t1\t1e-5\t1\n'
 	} >d/measured/log
@@ -149,11 +156,14 @@ by_hand() {
 }
 
 @test "the common beginning of several sentences is measured once per round and charged to each" {
-	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 2 -o d >/dev/null
+	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 2 -o d \
+		>/dev/null
 	# p2m and poisson-fft once, mgrad and m2p twice, in each of two rounds: empty alternatives are the same sentence.
 	[ "$(grep -c ^time d/measured/log)" = 12 ]
-	sort -k2,2n d/measured/log | awk -F'\t' '$1 == "time" && $3 == 1 { s[$2] = $5 } END { printf "%.6g %.6g\n", s[0] + s[1] + s[2] + s[3], s[0] + s[1] + s[4] + s[5] }' >want
-	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 1 -o d --tsv >table
+	sort -k2,2n d/measured/log | awk -F'\t' '$1 == "time" && $3 == 1 { s[$2] = $5 } END { printf "%.6g %.6g\n", s[0] + s[1] + s[2] + s[3],
+		s[0] + s[1] + s[4] + s[5] }' >want
+	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 1 -o d --tsv \
+		>table
 	[ "$(sort -n table | column seconds | tr '\n' ' ')" = "$(cat want) " ]
 }
 
@@ -165,7 +175,8 @@ by_hand() {
 	grep -q '</svg>' d/pareto.svg
 	[ "$(wc -l <d/pareto.tsv)" = 4 ]
 	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
-	for what in '<svg' 'pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32}' 'processors' 'pmpipe ' 'poisson-fft --timing' 'scmp --field acc' 'p2m --kernel tsc -n 16 --timing'; do
+	for what in '<svg' 'pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32}' 'processors' 'pmpipe ' 'poisson-fft --timing' 'scmp --field acc' \
+		'p2m --kernel tsc -n 16 --timing'; do
 		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
 	done
 }
@@ -215,7 +226,8 @@ errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
 	PATH=$PWD/bin:$PATH
 	s='pinit uniform -n 50 | mesh {8,16,4} | poisson-fft | mgrad | m2p'
 	# Under GNU parallel signals may come in ignored.
-	run -130 timeout 15 env --default-signal=INT bash -c 'echo $$ >pid; exec pareto "$1" --against "p2m -n 32 | poisson-fft | mgrad | m2p" --field acc --repeat 1 -o d' - "$s"
+	run -130 timeout 15 env --default-signal=INT bash -c \
+		'echo $$ >pid; exec pareto "$1" --against "p2m -n 32 | poisson-fft | mgrad | m2p" --field acc --repeat 1 -o d' - "$s"
 	[[ ${lines[-1]} == "pareto: stopped; 0"* || ${lines[-1]} == "pareto: stopped; 1 of 3"* ]]
 	[[ ${lines[-1]} == *"the same command goes on from here" ]]
 	cp d/measured/log before

@@ -84,7 +84,8 @@ small() {
 	grep -qE '^p2m .*#  *[0-9.]+ (us|ms|s)  ' text
 	grep -qE '^ +# +[0-9.]+ (us|ms|s)  a step$' text
 	grep -qE '^# diffusion  *off .*; saves [0-9.]+ (us|ms|s) a step$' text
-	pinit shear-layer --cells 32 --nu 1e-9 | plan --format json | python3 -c 'import json, sys; p = json.load(sys.stdin); assert all(s["seconds"] >= 0 for s in p["stages"])'
+	pinit shear-layer --cells 32 --nu 1e-9 | plan --format json |
+		python3 -c 'import json, sys; p = json.load(sys.stdin); assert all(s["seconds"] >= 0 for s in p["stages"])'
 }
 
 @test "the sentences are those of the pipelines" {
@@ -100,8 +101,10 @@ small() {
 	for s in exb gyration; do [ "$(sentence $s)" = 'push boris/2 drift | m2p | push boris/2' ]; done
 	for s in polygon vortex-pair point-vortices; do [[ "$(sentence $s)" = 'pp | push '@(lsrk3|rk4) ]]; done
 	[ "$(sentence shear-layer --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' ]
-	[ "$(sentence cone-vortex --cells 64)" = 'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-05 --outside grow' ]
-	[[ "$(sentence lamb-oseen --cells 64)" = 'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime '*'--cut-off 1e-05 --rim 2 --outside grow' ]]
+	[ "$(sentence cone-vortex --cells 64)" = \
+		'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-05 --outside grow' ]
+	[[ "$(sentence lamb-oseen --cells 64)" = \
+		'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime '*'--cut-off 1e-05 --rim 2 --outside grow' ]]
 }
 
 # error FIELD A B: relative l2 of a field of the first set that has it.
@@ -135,10 +138,13 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 
 @test "the atlas chooses the step, the scheme and the kernel" {
 	pinit kepler >start
-	plan --sentence -t 6.283185307179586 --accuracy 0.01 <start | grep -qx 'push kick/2 drift | pp | push kick/2' # dt of the scene, 0.0063; the atlas says 0.0061
+	plan --sentence -t 6.283185307179586 --accuracy 0.01 <start |
+		grep -qx 'push kick/2 drift | pp | push kick/2' # dt of the scene, 0.0063; the atlas says 0.0061
 	plan --sentence -t 6.283185307179586 --accuracy 0.001 <start | grep -q '^push --dt 0.0019'                     # kdk 0.00258 at 0.00307, order 2
 	plan --sentence -t 6.283185307179586 --accuracy 1e-5 <start | grep -q '^pp | push --dt 0.002[0-9]* rk4$'      # 1.5e-5 at 0.00307, order 4.7
-	pinit langmuir | plan --sentence --accuracy 0.001 | grep -q '^p2m --kernel m4prime | poisson-fft --symbol spectral | mgrad --order 6 | m2p | push --dt 0.25 rk4$' # as dear as spectral, and 1.03e-3 for 1.16e-3
+	pinit langmuir | plan --sentence --accuracy 0.001 |
+		grep -q '^p2m --kernel m4prime | poisson-fft --symbol spectral | mgrad --order 6 | m2p | push --dt 0.25 rk4$' \
+			# as dear as spectral, and 1.03e-3 for 1.16e-3
 }
 
 @test "bodies in open space: pairs where they cost less or a mesh is not good enough, else a mesh, and what it lacks is said" {
@@ -272,7 +278,8 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 @test "what spreads to an open face takes its mesh along: coarse vortices run to the end of their plan" {
 	for scene in 'lamb-oseen --cells 32' 'cone-vortex --cells 24' 'shear-layer --cells 24 --faces open'; do
 		pinit $scene >start
-		run -0 --separate-stderr bash -o pipefail -c 'cycle -n 100 --plan <start | p2m --kernel m6prime --outside grow | diag --columns circulation,omega_max'
+		run -0 --separate-stderr bash -o pipefail -c \
+			'cycle -n 100 --plan <start | p2m --kernel m6prime --outside grow | diag --columns circulation,omega_max'
 		echo "$scene: $output"
 	done
 }

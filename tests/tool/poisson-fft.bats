@@ -52,7 +52,8 @@ refused() {
 	refused 1 "axis x is wall" "pinit uniform -n 50 --faces wall | p2m -n 16 | poisson-fft --cloud 0.2"
 	refused 1 "for boxes in 3-D" "pinit uniform -n 50 --dim 2 | p2m -n 16 | poisson-fft --cloud 0.2"
 	refused 2 "leave one of them out" "poisson-fft --influence optimal --symbol fd2 < rho"
-	refused 1 "the field carries none" "poisson-fft < rho | mgrad --operator lap --target l | stab | sed 's/\"kernel\":\"cic\",//g' | stab - | poisson-fft --influence optimal"
+	refused 1 "the field carries none" \
+		"poisson-fft < rho | mgrad --operator lap --target l | stab | sed 's/\"kernel\":\"cic\",//g' | stab - | poisson-fft --influence optimal"
 	refused 2 "sharp" "poisson-fft --influence sharp < rho"
 }
 
@@ -70,10 +71,14 @@ refused() {
 
 @test "poisson-fft: spectral deconvolution of a wave in a box gives the wave of the particles back" {
 	# One particle a node, masses 1 + 0.1 cos(2 pi 3 x): rho has the wave times W, phi of it divided by W^2 is read by m2p times W.
-	awk 'BEGIN { print "x mass"; for (i = 0; i < 4096; i++) printf "%.17g %.17g\n", (i + .5) / 4096, (1 + .1 * cos(6.283185307179586 * 3 * (i + .5) / 4096)) / 4096 }' > t
+	awk 'BEGIN { print "x mass"; for (i = 0; i < 4096; i++) printf "%.17g %.17g\n", (i + .5) / 4096,
+		(1 + .1 * cos(6.283185307179586 * 3 * (i + .5) / 4096)) / 4096 }' > t
 	for k in ngp cic tsc pcs; do
-		stab t --law gravity --box 0,1 --faces periodic -n 16 | p2m --kernel $k | poisson-fft --coefficient -1 --influence deconvolved | m2p --field phi | stab --plain |
-			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"]; s += $c["phi"] * cos(6.283185307179586 * 3 * x) / 2048 } END { printf "%.12g\n", s }' > got
-		within "$(cat got)" "$(awk 'BEGIN { printf "%.15g", .1 / (6.283185307179586 * 3)^2 }')" 1e-9 "$k" # 4096 particles, 16 cells: 256 a cell, the sums are exact to 256^-2 of an alias at most
+		stab t --law gravity --box 0,1 --faces periodic -n 16 | p2m --kernel $k | poisson-fft --coefficient -1 --influence deconvolved |
+			m2p --field phi | stab --plain |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { x = $c["x"];
+				s += $c["phi"] * cos(6.283185307179586 * 3 * x) / 2048 } END { printf "%.12g\n", s }' > got
+		within "$(cat got)" "$(awk 'BEGIN { printf "%.15g",
+			.1 / (6.283185307179586 * 3)^2 }')" 1e-9 "$k" # 4096 particles, 16 cells: 256 a cell, the sums are exact to 256^-2 of an alias at most
 	done
 }

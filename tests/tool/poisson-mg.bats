@@ -124,7 +124,8 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	mesh >m
 	poisson-mg --no-history <m >a
-	for o in "--smoother red-black" "--smoother jacobi" "--smoother four-colour" "--smoother sor --relaxation 1.2" "--restriction half" "--cycle w --smooth 1,2"; do
+	for o in "--smoother red-black" "--smoother jacobi" "--smoother four-colour" "--smoother sor --relaxation 1.2" "--restriction half" \
+		"--cycle w --smooth 1,2"; do
 		poisson-mg $o <m >b
 		below "$(differ a b)" 1e-9 "$o"
 	done
@@ -135,7 +136,8 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 }
 
 @test "options that exclude each other are exit 2, with those that can be combined" {
-	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:2, 4" "--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
+	for row in "--order 4 --smoother red-black:four-colour" "--order 4 --permittivity eps:leave out" "--order 3:2, 4" \
+		"--permittivity eps --restriction half:leave out" "--smoother gs:sor"; do
 		run -2 --separate-stderr poisson-mg ${row%%:*} </dev/null
 		[[ $stderr == poisson-mg:*"${row#*:}"* ]]
 	done

@@ -73,7 +73,8 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 		for method in cg sor jacobi; do
 			poisson-relax --method $method <m >r
 			below "$(scmp --norm relative_l2 --field $field r g | tail -1 | cut -f8)" 1e-9 "$row $method, multigrid"
-			below "$(scmp --norm relative_l2 --field $field r f | tail -1 | cut -f8)" 1e-7 "$row $method, transforms" # their table of the lattice's function, 1e-8
+			below "$(scmp --norm relative_l2 --field $field r f | tail -1 |
+				cut -f8)" 1e-7 "$row $method, transforms" # their table of the lattice's function, 1e-8
 		done
 	done
 }

@@ -9,7 +9,8 @@ refuses() {
 
 # fixture: 1000 equal masses from minstd, seed 1, in the unit cube.
 fixture() {
-	awk 'BEGIN { print "x y z mass"; s = 1; for (i = 0; i < 1000; i++) { for (d = 0; d < 3; d++) { s = 16807 * s % 2147483647; printf "%.17g ", s / 2147483647 } print 0.001 } }'
+	awk 'BEGIN { print "x y z mass"; s = 1; for (i = 0; i < 1000; i++) { for (d = 0; d < 3; d++) { s = 16807 * s % 2147483647; printf "%.17g ",
+		s / 2147483647 } print 0.001 } }'
 }
 
 @test "PM-04: potential energy, accelerations and their rms, softening 0 and 0.02, both loops" {
@@ -20,7 +21,8 @@ fixture() {
 		for loop in half full; do
 			stab t --law gravity --constant G=1 | pp --softening "$1" --potential --loop $loop | stab --plain |
 				awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == 2 { a = $c["acc_0"] "\n" $c["acc_1"] "\n" $c["acc_2"] }
-					{ u += 0.0005 * $c["phi"]; r += $c["acc_0"]^2 + $c["acc_1"]^2 + $c["acc_2"]^2 } END { printf "%s\n%.17g\n%.17g\n", a, u, sqrt(r / 1000) }' > out
+					{ u += 0.0005 * $c["phi"]; r += $c["acc_0"]^2 + $c["acc_1"]^2 + $c["acc_2"]^2 } END { printf "%s\n%.17g\n%.17g\n", a,
+						u, sqrt(r / 1000) }' > out
 			within "$(sed -n 4p out)" "$2" 1e-13 "energy"
 			within "$(sed -n 1p out)" "$3" 1e-11 "acc x" # the reference has 12 digits
 			within "$(sed -n 2p out)" "$4" 1e-11 "acc y"
@@ -32,7 +34,8 @@ fixture() {
 
 @test "no softening length is an error, never a silent 0" {
 	fixture > t
-	refuses 1 "no softening length (--softening LENGTH, which may be 0; smod --constant softening=LENGTH for the frame; or --mollifier none)" "stab t --law gravity | pp"
+	refuses 1 "no softening length (--softening LENGTH, which may be 0; smod --constant softening=LENGTH for the frame; or --mollifier none)" \
+		"stab t --law gravity | pp"
 	sh_ok "stab t --law gravity | pp --mollifier none | stab --plain > a"
 	sh_ok "stab t --law gravity | pp --softening 0 | stab --plain > b"
 	same_as a b
@@ -85,5 +88,6 @@ fixture() {
 	printf 'x y z mass\n' > t
 	stab t --law gravity | pp --softening 0 | sls | grep -q 'acc  *3 f64 change'
 	printf 'x y z mass\n1 2 3 4\n' > t
-	[ "$(stab t --law gravity | pp --softening 0 --potential | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["acc_0"] + 0, $c["phi"] + 0 }')" = "0 0" ]
+	[ "$(stab t --law gravity | pp --softening 0 --potential | stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } {
+		print $c["acc_0"] + 0, $c["phi"] + 0 }')" = "0 0" ]
 }

@@ -8,7 +8,8 @@ rod() {
 	local n=$1 e=$2
 	shift 2
 	awk -v n="$n" 'BEGIN { pi = atan2(0, -1); h = 1 / n; print "x heat volume"
-		for (i = 0; i < n; i++) { x = (i + 0.5) * h; printf "%.17g %.17g %.17g\n", x, h * ('"$e"'), h } }' | stab - --strength heat --box 0,1 --dt 1e-3 "$@"
+		for (i = 0; i < n; i++) { x = (i + 0.5) * h; printf "%.17g %.17g %.17g\n", x, h * ('"$e"'), h } }' |
+			stab - --strength heat --box 0,1 --dt 1e-3 "$@"
 }
 total() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s }'; }
 rest="field 'vel = 0'"
@@ -21,7 +22,8 @@ rest="field 'vel = 0'"
 		awk -v order=$order 'BEGIN { k = atan2(0, -1) / 20; s = order == 2 ? 1 - exp(-k*k) : 2 - (2 + k*k) * exp(-k*k); want = -0.3 * s * 1600 }
 			NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 			{ d = $at["dheat"] - want * $at["heat"]; if (d < 0) d = -d; if (d > m) m = d }
-			END { print m; exit !(NR == 41 && m < 0.3 * 39 * 0.025 * 7e-7) }' b # the second moment is right to 4e-8 and 7e-9, the zeroth to as little
+			END { print m; exit !(NR == 41 &&
+				m < 0.3 * 39 * 0.025 * 7e-7) }' b # the second moment is right to 4e-8 and 7e-9, the zeroth to as little
 	done
 	run -0 bash -o pipefail -c 'pse --field heat --nu 0.3 <a | sls'
 	[[ $output =~ dheat\ +1\ f64\ change\ strength\ of\ heat\ terms\ diffusion ]]
@@ -29,7 +31,8 @@ rest="field 'vel = 0'"
 
 @test "pse works on the strength of every law that has one, and on its own field under those that have none" {
 	for law in gravity:mass electrostatic:charge vortex:circulation; do
-		awk -v s=${law#*:} 'BEGIN { print "x y " s " volume"; for (i = 0; i < 100; i++) print (i % 10)/10, int(i/10)/10, i % 7, 0.01 }' | stab - --law ${law%:*} --constant nu=0.1 >a
+		awk -v s=${law#*:} 'BEGIN { print "x y " s " volume"; for (i = 0; i < 100; i++) print (i % 10)/10, int(i/10)/10, i % 7, 0.01 }' |
+			stab - --law ${law%:*} --constant nu=0.1 >a
 		run -0 bash -o pipefail -c 'pse <a | sls'
 		[[ $output =~ d${law#*:}\ .*of\ ${law#*:}\ terms\ diffusion ]]
 	done
@@ -42,7 +45,8 @@ rest="field 'vel = 0'"
 @test "a value diffuses as the strength that is value times volume, divided by volume" {
 	rod 30 'exp(x) * (1 + x)' | scalc --role state 'volume = volume * (1 + x)' 'temperature = heat / volume' >a
 	pse --field heat --nu 1 <a | pse --field temperature --nu 1 | stab --plain >b
-	paste <(column dheat <b) <(column dtemperature <b) <(column volume <b) | awk '{ d = $1 - $2 * $3; if (d < 0) d = -d; if (d > 1e-12) exit 1; n++ } END { exit n != 30 }' # rates of 1e2
+	paste <(column dheat <b) <(column dtemperature <b) <(column volume <b) | awk '{ d = $1 - $2 * $3; if (d < 0) d = -d; if (d > 1e-12) exit 1;
+		n++ } END { exit n != 30 }' # rates of 1e2
 	run -0 bash -o pipefail -c 'pse --field temperature --nu 1 <a | sls'
 	[[ $output =~ dtemperature\ +1\ f64\ change\ value\ of\ temperature ]]
 	run -1 bash -o pipefail -c "scalc --role state 'volume = x < 0.5 ? 0 : 1' <a | pse --field temperature --nu 1 | sls"
@@ -65,7 +69,8 @@ rest="field 'vel = 0'"
 		run -1 bash -o pipefail -c "$2 | sls"
 		[[ $output == *"$1"* ]] || { echo "$output"; return 1; }
 	}
-	refused "no field 'volume' on 'matter', and particles exchange strength by their volumes (remesh gives them volumes" 'sel --drop volume <a | pse --field heat --nu 1'
+	refused "no field 'volume' on 'matter', and particles exchange strength by their volumes (remesh gives them volumes" \
+		'sel --drop volume <a | pse --field heat --nu 1'
 	refused "particle 3 of 'matter' has the volume -0.1" "scalc --role state 'volume = abs(x - 0.35) < 0.01 ? -0.1 : 0.1' <a | pse --field heat --nu 1"
 	refused "no field 'warmth' on 'matter'" 'pse --field warmth --nu 1 <a'
 	refused "'cold' on 'matter' is not state of real numbers" "scalc 'cold = -heat' <a | pse --field cold --nu 1"
@@ -101,7 +106,8 @@ rest="field 'vel = 0'"
 }
 
 @test "S33: the sum is kept to round-off between open, periodic and neumann faces, for unequal volumes at random, over steps of every scheme" {
-	awk 'BEGIN { srand(3); print "x y heat volume"; for (i = 0; i < 400; i++) printf "%.17g %.17g %.17g %.17g\n", rand(), rand(), rand() * (rand() < 0.3 ? -1 : 1), (0.5 + rand()) / 400 }' >table
+	awk 'BEGIN { srand(3); print "x y heat volume"; for (i = 0; i < 400; i++) printf "%.17g %.17g %.17g %.17g\n", rand(), rand(),
+		rand() * (rand() < 0.3 ? -1 : 1), (0.5 + rand()) / 400 }' >table
 	for faces in open periodic neumann; do
 		stab table --strength heat --box 0,1 --faces $faces --dt 1e-5 >a
 		for order in 2 4; do
@@ -140,7 +146,8 @@ rest="field 'vel = 0'"
 	[[ $output == *"what euler can bear: 'dheat' decays at up to 102.4"* ]]
 	sh_ok "smod --dt 0.0195 <a | field 'vel = 0' | pse --field heat --nu 0.1 | push euler | sls"
 	# four particles in one place: the weights add up
-	awk 'BEGIN { print "x heat volume"; for (i = 0; i < 32; i++) for (j = 0; j < 1 + 3 * (i > 27); j++) print i/32, i, 1/32 }' | stab - --strength heat --box 0,1 --faces periodic --dt 0.0195 >b
+	awk 'BEGIN { print "x heat volume"; for (i = 0; i < 32; i++) for (j = 0; j < 1 + 3 * (i > 27); j++) print i/32, i, 1/32 }' |
+		stab - --strength heat --box 0,1 --faces periodic --dt 0.0195 >b
 	run -3 bash -o pipefail -c "field 'vel = 0' <b | pse --field heat --nu 0.1 --eps 0.03125 | push euler | sls"
 }
 
@@ -155,13 +162,15 @@ rest="field 'vel = 0'"
 }
 
 @test "three threads give the same bytes" {
-	awk 'BEGIN { srand(5); print "x y z heat volume"; for (i = 0; i < 3000; i++) print rand(), rand(), rand(), rand(), 1 / 3000 }' | stab - --strength heat --box 0,1 --faces periodic >a
+	awk 'BEGIN { srand(5); print "x y z heat volume"; for (i = 0; i < 3000; i++) print rand(), rand(), rand(), rand(), 1 / 3000 }' |
+		stab - --strength heat --box 0,1 --faces periodic >a
 	for t in 1 2 3; do OMP_NUM_THREADS=$t pse --field heat --nu 1 --cutoff 6 --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
 }
 
 @test "--method dc: no volumes needed but for the width, refuses points that do not determine it, reports who looked farther" {
-	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 20; i++) for (k = 0; k < 20; k++) print (i + rand() * 0.6) / 20, (k + rand() * 0.6) / 20, (i + rand() * 0.6)^2 / 400, 1/400 }' | stab - --strength heat >a
+	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 20; i++) for (k = 0; k < 20; k++) print (i + rand() * 0.6) / 20,
+		(k + rand() * 0.6) / 20, (i + rand() * 0.6)^2 / 400, 1/400 }' | stab - --strength heat >a
 	pse --field heat --nu 1 --method dc <a >b
 	run -0 bash -o pipefail -c 'sls --report <b'
 	[[ $output =~ \"widened\":[1-9] && $output == *'"cutoff":3.1'* && $output == *'"eps":0.05'* ]]
@@ -169,7 +178,8 @@ rest="field 'vel = 0'"
 	grep -q '"cutoff":4.0999999' c
 	# a field of degree 3 exactly, whatever the volumes
 	scalc --role state 'T = x^3 - 2*x*y + y^2' 'volume = 0.001 + x' <a | pse --field T --nu 0.5 --method dc --eps 0.05 | stab --plain |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { e = $at["dT"] - 0.5 * (6 * $at["x"] + 2); if (e * e > 1e-20) exit 1; n++ } END { exit n != 400 }'
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { e = $at["dT"] - 0.5 * (6 * $at["x"] + 2); if (e * e > 1e-20) exit 1; n++ } END {
+			exit n != 400 }'
 	run -1 bash -o pipefail -c "scalc --role state 'x = x, 0.5' <a | pse --field heat --nu 1 --method dc | sls"
 	[[ $output == *"which do not determine the Laplacian (rank 3 of 9; a larger --cutoff or --overlap, remesh, or --method exchange)"* ]]
 	run -1 bash -o pipefail -c "sel --where 'x < 0.2 && y < 0.1' <a | pse --field heat --nu 1 --method dc --cutoff 40 | sls"
@@ -177,7 +187,8 @@ rest="field 'vel = 0'"
 }
 
 @test "--method dc: the same bytes with three threads; push refuses a step beyond its bound" {
-	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 30; i++) for (k = 0; k < 30; k++) print (i + rand() * 0.6) / 30, (k + rand() * 0.6) / 30, rand(), 1/900 }' | stab - --strength heat --dt 1e-2 >a
+	awk 'BEGIN { srand(4); print "x y heat volume"; for (i = 0; i < 30; i++) for (k = 0; k < 30; k++) print (i + rand() * 0.6) / 30,
+		(k + rand() * 0.6) / 30, rand(), 1/900 }' | stab - --strength heat --dt 1e-2 >a
 	for t in 1 2 3; do OMP_NUM_THREADS=$t pse --field heat --nu 1 --method dc --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
 	run -3 bash -o pipefail -c "field 'vel = 0, 0' <a | pse --field heat --nu 1 --method dc | push euler | sls"

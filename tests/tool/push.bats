@@ -60,7 +60,8 @@ refuses() {
 	pinit uniform -n 5001 --dispersion 1 > a
 	for words in 'kick/2 drift' euler rk2 rk4 lsrk3 ab2 ab3; do
 		for t in 1 2 3; do
-			OMP_NUM_THREADS=$t cycle -n 2 "p2m -n 8 | poisson-fft | mgrad | m2p --replace | push $words$([[ $words == kick* ]] && echo ' | p2m -n 8 | poisson-fft | mgrad | m2p | push kick/2')" < a > "b$t"
+			OMP_NUM_THREADS=$t cycle -n 2 "p2m -n 8 | poisson-fft | mgrad | m2p --replace | push $words$([[ $words == kick* ]] &&
+				echo ' | p2m -n 8 | poisson-fft | mgrad | m2p | push kick/2')" < a > "b$t"
 		done
 		same_as b1 b2
 		same_as b1 b3
@@ -84,7 +85,8 @@ refuses() {
 }
 
 @test "boris/2 refuses what it cannot do: no bfield, whole steps, a kick beside it; and a plain kick refuses a bfield" {
-	refuses 1 "no field 'bfield' on 'electrons' (m2p makes it of a B on the mesh" "pinit langmuir -n 16 --velocities 2 | p2m | poisson-fft | mgrad | m2p | push boris/2"
+	refuses 1 "no field 'bfield' on 'electrons' (m2p makes it of a B on the mesh" \
+		"pinit langmuir -n 16 --velocities 2 | p2m | poisson-fft | mgrad | m2p | push boris/2"
 	refuses 1 "turns velocities of 2 or 3 components, and 'electrons' has 1" "pinit langmuir -n 16 | p2m | poisson-fft | mgrad | m2p | push boris/2"
 	refuses 2 "push boris/2 drift | force | push boris/2" "pinit gyration | m2p | push boris"
 	refuses 2 "no kick stands beside a magnetic one" "pinit gyration | m2p | push kick/2 boris/2"

@@ -117,7 +117,9 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 }
 
 @test "the files that pages and heads name by their paths are there" {
-	missing=$(cd "$top" && grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|awk|bash)\b' README.md docs lib tools pipelines tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
+	missing=$(cd "$top" &&
+		grep -rhoE '\b(tests|pipelines|lib|tools|bench|docs|data)/[A-Za-z0-9_./-]+\.(sh|bats|c|h|py|md|awk|bash)\b' README.md docs lib tools pipelines \
+			tests/*.sh bench | sort -u | while read -r f; do [ -e "$f" ] || echo "$f"; done)
 	echo "$missing"
 	[ -z "$missing" ]
 }

@@ -123,7 +123,8 @@ told() {
 		pinit two-body | PATH=$PWD:$PATH cycle -n 3 --checkpoint $c 'push kick/2 drift | pp | push kick/2 | pause' >one.pm &
 		first=$!
 		for _ in $(seq 200); do [ -e held ] && break; sleep 0.05; done
-		told 1 "cycle: *'$c' is the checkpoint of another cycle that runs*" "pinit two-body | cycle -n 2 --checkpoint $c 'push kick/2 drift | pp | push kick/2' >two.pm"
+		told 1 "cycle: *'$c' is the checkpoint of another cycle that runs*" \
+			"pinit two-body | cycle -n 2 --checkpoint $c 'push kick/2 drift | pp | push kick/2' >two.pm"
 		: >hold
 		wait $first
 		cycle --resume $c -n 4 'push kick/2 drift | pp | push kick/2' --checkpoint $c | sls --format json >s
@@ -132,7 +133,8 @@ told() {
 	# without a file to begin with, too: whatever happens, the file is whole
 	for i in 1 2 3 4 5; do
 		rm -f d.pm
-		for k in 1 2 3; do (pinit plummer -n 2000 | cycle -n 3 --every 1 --checkpoint d.pm 'push drift' >/dev/null 2>said.$k || grep -q 'another cycle' said.$k) & done
+		for k in 1 2 3; do (pinit plummer -n 2000 | cycle -n 3 --every 1 --checkpoint d.pm 'push drift' >/dev/null 2>said.$k ||
+			grep -q 'another cycle' said.$k) & done
 		wait
 		sls -i d.pm >/dev/null
 	done
@@ -175,7 +177,8 @@ swallowing() {
 	chmod +x swallow
 	rm -f c.pm swallowed
 	pinit two-body >in.pm
-	PATH=$PWD:$PATH env --default-signal=TERM,HUP,INT cycle -n 9 --checkpoint c.pm 'push kick/2 drift | swallow | pp | push kick/2' -i in.pm >out.pm 2>said &
+	PATH=$PWD:$PATH env --default-signal=TERM,HUP,INT cycle -n 9 --checkpoint c.pm 'push kick/2 drift | swallow | pp | push kick/2' -i in.pm >out.pm \
+		2>said &
 	pid=$!
 	for _ in $(seq 200); do [ -e swallowed ] && break; sleep 0.05; done
 	for s; do kill -"$s" $pid; sleep 1; done
@@ -257,7 +260,8 @@ swallowing() {
 	PY
 	[ "$(wc -c <bomb.pm)" -lt 4000 ]
 	for word in 'push drift --dt 1' 'cycle -n 1 "push --dt 1 drift"' 'scalc "a = x"' 'p2m -n 4' 'diag' 'dt --courant 1'; do
-		told 1 "*uniform values only, and *GB would be made of them (PM_EXPAND_GB=*" "ulimit -v 8000000; $word <bomb.pm | head -c 100000000 | wc -c >bytes"
+		told 1 "*uniform values only, and *GB would be made of them (PM_EXPAND_GB=*" \
+			"ulimit -v 8000000; $word <bomb.pm | head -c 100000000 | wc -c >bytes"
 		[ "$(cat bytes)" -lt 10000 ] || { echo "$word: $(cat bytes) bytes"; return 1; }
 	done
 	sls -i bomb.pm >/dev/null

@@ -3,13 +3,16 @@
 load ../helper
 
 # total COLUMN < plain table: the sum of a column; moments X^a Y^b with total "c*x*x".
-total() { awk -v e="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; n = split(e, f, "*"); next } { p = 1; for (k = 1; k <= n; k++) p *= $at[f[k]]; s += p } END { printf "%.17g", s }'; }
+total() { awk -v e="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; n = split(e, f, "*"); next } { p = 1; for (k = 1; k <= n; k++) p *= $at[f[k]];
+	s += p } END { printf "%.17g", s }'; }
 # of WORD KEY: what a word reported.
-of() { sls --format json --report | python3 -c 'import json, sys; print([v[sys.argv[2]] for k, v in json.loads(sys.stdin.readlines()[-1])["report"].items() if k.startswith(sys.argv[1]) and sys.argv[2] in v][0])' "$@"; }
+of() { sls --format json --report |
+	python3 -c 'import json, sys; print([v[sys.argv[2]] for k, v in json.loads(sys.stdin.readlines()[-1])["report"].items() if k.startswith(sys.argv[1]) and sys.argv[2] in v][0])' "$@"; }
 
 # A patch of circulation off the nodes, well inside the open box -4..4 of 32 x 32 cells of 1/4.
 patch() {
-	awk 'BEGIN { print "x y circulation volume"; for (i = 0; i < 9; i++) for (j = 0; j < 7; j++) printf "%.17g %.17g %.17g 0.04\n", -0.9 + 0.2137 * i + 0.01 * j * j, -0.7 + 0.231 * j, 0.3 + 0.1 * i - 0.05 * j }' |
+	awk 'BEGIN { print "x y circulation volume"; for (i = 0; i < 9; i++) for (j = 0; j < 7; j++) printf "%.17g %.17g %.17g 0.04\n",
+		-0.9 + 0.2137 * i + 0.01 * j * j, -0.7 + 0.231 * j, 0.3 + 0.1 * i - 0.05 * j }' |
 		stab - --law vortex --box -4,4 -n 32 --dt 0.1 "$@"
 }
 
@@ -49,12 +52,14 @@ patch() {
 @test "remesh with pcs widens by h^2/3 a remesh along each axis, as its second moment says" {
 	patch | stab --plain >before
 	patch | remesh --kernel pcs | stab --plain >after
-	within "$(total 'circulation*x*x' <after)" "$(awk -v b="$(total 'circulation*x*x' <before)" -v g="$(total circulation <before)" 'BEGIN { printf "%.17g", b + g / 48 }')" 1e-13
+	within "$(total 'circulation*x*x' <after)" "$(awk -v b="$(total 'circulation*x*x' <before)" -v g="$(total circulation <before)" \
+		'BEGIN { printf "%.17g", b + g / 48 }')" 1e-13
 }
 
 @test "remesh keeps the total at periodic, wall and neumann faces, particles on the faces included" {
 	for faces in periodic wall neumann; do
-		awk 'BEGIN { print "x y circulation"; for (i = 0; i < 50; i++) printf "%.17g %.17g %.17g\n", (i % 10) / 10 + (i % 3) / 77, i / 50, i - 11.5 }' >table
+		awk 'BEGIN { print "x y circulation"; for (i = 0; i < 50; i++) printf "%.17g %.17g %.17g\n", (i % 10) / 10 + (i % 3) / 77, i / 50,
+			i - 11.5 }' >table
 		[ $faces = periodic ] && pf=periodic || pf=reflect
 		for kernel in cic m4prime lambda-6-4; do
 			stab table --law vortex --box 0,1 -n 11x9 --faces $faces --particle-faces $pf | remesh --kernel $kernel | stab --plain >after
@@ -158,7 +163,8 @@ patch() {
 	below "$(of remesh distortion <b)" 1e-14
 	same_as <(stab --plain <a) <(stab --plain <b)
 	# the change of H is relative: from a quarter to 1
-	awk 'BEGIN { print "x y circulation volume overlap"; for (i = 0; i < 8; i++) for (j = 0; j < 8; j++) print i / 8 + 0.03, j / 8 + 0.05, i - j, 1 / 64, 0.25 }' |
+	awk 'BEGIN { print "x y circulation volume overlap"; for (i = 0; i < 8; i++) for (j = 0; j < 8; j++) print i / 8 + 0.03, j / 8 + 0.05, i - j, 1 / 64,
+		0.25 }' |
 		stab - --law vortex --box 0,1 -n 8 --faces periodic --particle-faces periodic | remesh --when distortion --threshold 10 >b
 	within "$(of remesh distortion <b)" 3 1e-13
 	# stretched along x, squeezed along y

@@ -5,7 +5,8 @@ load ../helper
 mesh() { # DIM: a mesh of 4 cells per axis, open faces, with f = x + 10 y (+ 100 z), w a vector
 	local n
 	printf '%s' "$1" | awk '{ d = $1; n = 5
-		box = d == 1 ? "[0.0]" : d == 2 ? "[0.0,0.0]" : "[0.0,0.0,0.0]"; hi = box; gsub("0.0", "4.0", hi); cells = box; gsub("0.0", "4", cells); h = box; gsub("0.0", "1.0", h)
+		box = d == 1 ? "[0.0]" : d == 2 ? "[0.0,0.0]" : "[0.0,0.0,0.0]"; hi = box; gsub("0.0", "4.0", hi); cells = box; gsub("0.0", "4", cells);
+			h = box; gsub("0.0", "1.0", h)
 		faces = "[\"open\",\"open\"]"; all = faces; for (i = 1; i < d; i++) all = all "," faces
 		printf "#pmpipe {\"byte_order\":\"little\",\"box\":{\"fields\":[%s],\"hi\":%s,\"lo\":%s,\"particles\":[%s]},\"dim\":%d,\"dt\":0.1,\"fields\":[", all, hi, box, all, d
 		printf "{\"components\":1,\"kind\":\"value\",\"name\":\"f\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"},"
@@ -110,8 +111,10 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	pinit plummer -n 200 >a
 	sdraw --size 64 --format ppm <a >p0
 	i=0
-	for o in '--x x --y z' '--y vx' '--colour hypot(vx,vy)' '--field v' '--weight mass' '--style density' '--style density --linear' '--style density --log --map grey' \
-		'--colour x --range 0,1' '--colour x --map magma' '--area -2,2,-2,2' '--title hello' '--size 70' '--colour abs(x)+1 --log' '--set matter --style points --area -3,3,-3,3'; do
+	for o in '--x x --y z' '--y vx' '--colour hypot(vx,vy)' '--field v' '--weight mass' '--style density' '--style density --linear' \
+		'--style density --log --map grey' \
+		'--colour x --range 0,1' '--colour x --map magma' '--area -2,2,-2,2' '--title hello' '--size 70' '--colour abs(x)+1 --log' \
+			'--set matter --style points --area -3,3,-3,3'; do
 		i=$((i + 1))
 		# shellcheck disable=SC2086
 		sdraw --size 64 --format ppm $o <a >p$i
@@ -126,7 +129,8 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	# the brightest row of a column, above and below the middle, is that of v0 = 0.612
 	w=$(sed -n 2p p | cut -d' ' -f1) h=$(sed -n 2p p | cut -d' ' -f2)
 	tail -c +$((1 + $(head -3 p | wc -c))) p | od -An -v -tu1 -w$((3 * w)) | awk -v c=200 '{ print $(3 * c + 1) + $(3 * c + 2) + $(3 * c + 3) }' >column
-	read -r up down between <<<"$(awk 'NR > 30 && NR < 345 { v[NR] = $1 } END { for (i = 31; i < 345; i++) { if (i < 187 && v[i] > v[a]) a = i; if (i > 187 && v[i] >= v[b]) b = i }
+	read -r up down between <<<"$(awk 'NR > 30 && NR < 345 { v[NR] = $1 } END { for (i = 31; i < 345; i++) { if (i < 187 && v[i] > v[a]) a = i;
+		if (i > 187 && v[i] >= v[b]) b = i }
 		for (i = a; i <= b; i++) if (!m || v[i] < v[m]) m = i; print a, b, v[m] }' column)"
 	echo "$w x $h: $up $down $between"
 	[ "$between" -lt 40 ]
@@ -155,7 +159,8 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	run -1 bash -c 'sdraw --field w --component 2 -o p.png <m'
 	run -1 bash -c 'sdraw --set matter -o p.png <m'
 	run -1 bash -c 'sdraw --field w --component x --log --range 1,2 -o p.png <m; sdraw --colour "-1-x^2" --log -o p.png <a'
-	for o in '-o p%s.png' '-o %d%d.png' '--range 2,1' '--range 1' '--area 1,2,3' '--component q' '--project --slice 0' '--log --linear' '--size 5' '--map rainbow' '--format gif' '--style art' '--axis w' '--log --range 0,1 --colour x'; do
+	for o in '-o p%s.png' '-o %d%d.png' '--range 2,1' '--range 1' '--area 1,2,3' '--component q' '--project --slice 0' '--log --linear' '--size 5' \
+		'--map rainbow' '--format gif' '--style art' '--axis w' '--log --range 0,1 --colour x'; do
 		run -2 bash -c "sdraw $o <a"
 	done
 	run -1 bash -c 'sdraw -o /nonexistent/p.png <a'

@@ -12,7 +12,8 @@ there_and_back() {
 # attribute FILE PATH: its values as h5dump prints them, one line.
 attribute() { h5dump -a "$2" "$1" | sed -n '/DATA {/,/}/{/DATA {/d; /}/d; s/^ *([0-9,]*): //; p}' | tr -s ' \n' ' ' | sed 's/ $//'; }
 
-mesh() { pinit plummer -n "${1:-50}" --seed 1 --cells 8x7x10 --no-history | p2m --no-history | poisson-fft --no-history | mgrad --no-history | m2p --no-history; }
+mesh() { pinit plummer -n "${1:-50}" --seed 1 --cells 8x7x10 --no-history | p2m --no-history | poisson-fft --no-history | mgrad --no-history |
+	m2p --no-history; }
 
 # says CODE LINE COMMAND...: exit status and the one line on stderr.
 says() {
@@ -161,7 +162,8 @@ for n, on in ((3, "more matter"), (2, "more_matter")):
 # stranger FILE: the same file as if written by another program: without our own attributes.
 stranger() { sed 's/pmpipeHeader/pmpipeHeadex/; s/pmpipeReport/pmpipeReport/; s/pmpipeStreams/pmpipeStreamx/' "$1"; }
 # columns FILE.pm [--mesh NAME] NAMES: those columns of stab --plain.
-columns() { stab --plain "${@:2:$#-2}" <"$1" | awk -F'\t' -v names="${*: -1}" 'NR == 1 { n = split(names, w, ","); for (i = 1; i <= NF; i++) at[$i] = i; next } { for (k = 1; k <= n; k++) printf "%s ", $at[w[k]]; print "" }'; }
+columns() { stab --plain "${@:2:$#-2}" <"$1" | awk -F'\t' -v names="${*: -1}" 'NR == 1 { n = split(names, w, ","); for (i = 1; i <= NF; i++) at[$i] = i;
+	next } { for (k = 1; k <= n; k++) printf "%s ", $at[w[k]]; print "" }'; }
 
 @test "a file of another program is read: particles, weighting, meshes, time" {
 	mesh >a.pm
@@ -186,8 +188,10 @@ assert [e["program"] for e in h["history"]] == ["sh5"], h["history"]'
 	wire edit a.pm 'next(k for k in h["fields"] if k["name"] == "g")["half"] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]' | sh5 -o a.h5
 	stranger a.h5 >b.h5
 	sh5 b.h5 >b.pm
-	cmp <(columns a.pm --mesh mesh rho) <(columns b.pm --mesh "$(wire header b.pm | python3 -c 'import json, sys; print(next(k["on"] for k in json.load(sys.stdin)["fields"] if k["name"] == "rho"))')" rho)
-	[ "$(wire header b.pm | python3 -c 'import json, sys; h = json.load(sys.stdin); print(len(h["meshes"]), [k["name"] for k in h["fields"] if k["name"][0] == "g"], [m["lo"] for m in h["meshes"]][0])')" = "4 ['g_x', 'g_y', 'g_z'] [-12.25, -14.0, -14.0]" ]
+	cmp <(columns a.pm --mesh mesh rho) <(columns b.pm --mesh "$(wire header b.pm |
+		python3 -c 'import json, sys; print(next(k["on"] for k in json.load(sys.stdin)["fields"] if k["name"] == "rho"))')" rho)
+	[ "$(wire header b.pm |
+		python3 -c 'import json, sys; h = json.load(sys.stdin); print(len(h["meshes"]), [k["name"] for k in h["fields"] if k["name"][0] == "g"], [m["lo"] for m in h["meshes"]][0])')" = "4 ['g_x', 'g_y', 'g_z'] [-12.25, -14.0, -14.0]" ]
 	sh5 -o c.h5 <a.pm
 	stranger c.h5 | sed 's/zyx/xyz/g' >d.h5
 	sh5 d.h5 >d.pm
@@ -262,7 +266,8 @@ END
 	[ "${lines[0]}" = "0 2 4 $(diag <a.pm | column time | tail -n 1) 2" ]
 	[ "${lines[1]}" = "g_x g_y g_z phi rho" ]
 	[ "${lines[2]}" = 1 ]
-	sel --last <a.pm | stab --plain --mesh mesh | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "phi") c = i; next } NF { printf "%.17g\n", $c }' | sort -g >want
+	sel --last <a.pm | stab --plain --mesh mesh | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "phi") c = i; next } NF { printf "%.17g\n",
+		$c }' | sort -g >want
 	[ "$(wc -l <want)" = 792 ]
 	printf '%s\n' "${lines[@]:3}" | sort -g | diff - want
 }

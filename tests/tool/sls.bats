@@ -2,7 +2,8 @@
 load ../helper
 
 @test "attributes, sets, meshes and fields are listed with type, role, kind and uniform value" {
-	printf 'x y mass q_0 q_1\n0 1 2.5 1 2\n3 5 2.5 1 4\n' | stab - --law free --constant a=1.5 --box -8,8 --faces periodic --cells 4x6 --unit mass=kg --dt 0.25 --time 3 >a
+	printf 'x y mass q_0 q_1\n0 1 2.5 1 2\n3 5 2.5 1 4\n' |
+		stab - --law free --constant a=1.5 --box -8,8 --faces periodic --cells 4x6 --unit mass=kg --dt 0.25 --time 3 >a
 	sh_ok 'sls <a'
 	[ "${lines[0]}" = "frame 1: time 3 step 0 substep 0 dt 0.25 dim 2 seed 0" ]
 	[ "${lines[1]}" = "  law free (a 1.5)" ]

@@ -2,12 +2,14 @@
 load ../helper
 
 t() { printf 'x y z vx vy vz mass id\n1 2 3 4 5 6 7 8\n' | stab - --box -8,8 --cells 2 --law free --constant G=1; }
-row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{ printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
+row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{
+	printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
 # id mass vx vy vz x y z
 
 @test "attributes are set" {
 	sh_ok 't() { printf "x y\n1 2\n"; }; t | stab - | smod --dt 0.125 --time 2.5 --step 7 --seed 9 --law free --constant a=1.5 --box -4,4 --faces periodic --unit x=pc | sls --format json'
-	echo "$output" | jq -e '.dt == 0.125 and .time == 2.5 and .step == 7 and .seed == 9 and .law.constants.a == 1.5 and .box.hi == [4,4] and .box.fields[1][1] == "periodic"
+	echo "$output" | jq -e \
+		'.dt == 0.125 and .time == 2.5 and .step == 7 and .seed == 9 and .law.constants.a == 1.5 and .box.hi == [4,4] and .box.fields[1][1] == "periodic"
 		and .box.particles[0][0] == "periodic" and .meshes[0].h == [0.25,0.25] and .fields[0].unit == "pc"'
 	sh_ok 'printf "x\n1\n" | stab - --box 0,4 | smove --scale box=0.5 | smod --particle-faces reflect,absorb | sls --format json'
 	echo "$output" | jq -e '.box.particles == [["reflect","absorb"]] and .box.hi == [2] and .meshes[0].h == [0.0625]'
@@ -28,8 +30,10 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	[[ "$output" == *"set stars: 10 particles, fixed"* && "$output" == *"mesh grid"* && "$output" == *" m  "* ]]
 	sh_ok 'pinit plummer -n 10 | smod --fixed matter | smod --loose matter | sls'
 	[[ "$output" != *fixed* ]]
-	[ "$(t | smod --shift 1,1,1 --rename x=q | stab --plain | head -1 | tr '\t' ' ')" = "mass id q_0 q_1 q_2" ] || t | smod --shift 1,1,1 --rename x=q | stab --plain | grep -q 'q_0'
-	[ "$(t | smod --shift 1,1,1 --rename v=w | row)" = "8 7 4 5 6 2 3 4" ] || [ "$(t | smod --shift 1,1,1 --rename v=w | stab --plain | tail -1 | tr '\t' '\n' | sort -n | paste -sd' ')" = "2 3 4 4 5 6 7 8" ]
+	[ "$(t | smod --shift 1,1,1 --rename x=q | stab --plain | head -1 | tr '\t' ' ')" = "mass id q_0 q_1 q_2" ] || t | smod --shift 1,1,1 --rename x=q |
+		stab --plain | grep -q 'q_0'
+	[ "$(t | smod --shift 1,1,1 --rename v=w | row)" = "8 7 4 5 6 2 3 4" ] || [ "$(t | smod --shift 1,1,1 --rename v=w | stab --plain | tail -1 |
+		tr '\t' '\n' | sort -n | paste -sd' ')" = "2 3 4 4 5 6 7 8" ]
 }
 
 @test "which sets are fixed can change between steps only" {
@@ -50,11 +54,13 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 
 @test "wrong options are usage errors, missing things data errors, in one line" {
 	t >a
-	for o in '--shift 1,2' '--boost 1' '--rotate q,3' '--rotate z' '--scale x' '--scale x=q' '--store f16' '--scale box=-1' '--box 3,1' '--faces soft' '--constant G' '--dt -1' '--law nothing'; do
+	for o in '--shift 1,2' '--boost 1' '--rotate q,3' '--rotate z' '--scale x' '--scale x=q' '--store f16' '--scale box=-1' '--box 3,1' '--faces soft' \
+		'--constant G' '--dt -1' '--law nothing'; do
 		run -2 --separate-stderr bash -c "smod $o <a >/dev/null"
 		[ "${#stderr_lines[@]}" = 1 ]
 	done
-	for o in '--set nobody --shift 1,1,1' '--scale q=2' '--scale id=2' '--rename q=r' '--rename x=v' '--fixed nobody' '--store q=f32' '--store id=f32' '--unit q=m'; do
+	for o in '--set nobody --shift 1,1,1' '--scale q=2' '--scale id=2' '--rename q=r' '--rename x=v' '--fixed nobody' '--store q=f32' '--store id=f32' \
+		'--unit q=m'; do
 		run -1 --separate-stderr bash -c "smod $o <a >/dev/null"
 		[ "${#stderr_lines[@]}" = 1 ]
 	done

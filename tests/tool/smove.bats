@@ -2,7 +2,8 @@
 load ../helper
 
 t() { printf 'x y z vx vy vz mass id\n1 2 3 4 5 6 7 8\n' | stab - --box -8,8 --cells 2 --law free --constant G=1; }
-row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{ printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
+row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i; next } { for (i = 1; i <= NF; i++) print n[i], $i }' | sort | awk '{
+	printf "%s%s", (NR > 1 ? " " : ""), $2 }'; }
 # id mass vx vy vz x y z
 
 @test "--shift, --boost and --scale change the fields that they name" {
@@ -56,7 +57,8 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 
 @test "smod takes the same options, gives the same frames, and names in one line the word that replaces them" {
 	t >a
-	for o in '--shift 10,20,30' '--boost -1,0,1' '--rotate x,30' '--scale x=2,mass=0.5,box=2' '--set matter --scale v=3 --rotate z,90 --shift 1,1,1 --boost 1,1,1'; do
+	for o in '--shift 10,20,30' '--boost -1,0,1' '--rotate x,30' '--scale x=2,mass=0.5,box=2' \
+		'--set matter --scale v=3 --rotate z,90 --shift 1,1,1 --boost 1,1,1'; do
 		run -0 --separate-stderr bash -c "smod --no-history $o <a >old"
 		[ "${#stderr_lines[@]}" = 1 ]
 		[[ $stderr == *"smove"* ]]

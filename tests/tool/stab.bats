@@ -131,7 +131,8 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 
 @test "wrong options are usage errors" {
 	printf 'x\n0\n' >t
-	for o in '--dim 2' '--box 1' '--box 2,1' '--faces soft' '--faces periodic,open,open' '--constant G' '--constant G=x' '--law gravity2' '--plain' '--mesh m' '--dt -1'; do
+	for o in '--dim 2' '--box 1' '--box 2,1' '--faces soft' '--faces periodic,open,open' '--constant G' '--constant G=x' '--law gravity2' '--plain' \
+		'--mesh m' '--dt -1'; do
 		run bash -c "stab t $o >/dev/null"
 		[ "$status" = 2 ] || { [ "$o" = "--dim 2" ] && [ "$status" = 1 ]; }
 	done

@@ -36,7 +36,8 @@ misprints and their effect: 4 rows" ]
 	[[ -e stability.png && ! -e stray.png ]]
 	grep -v '^: >stability.png' planted.md >copy.md
 	# the last digits may depend on the machine: the bracket does not
-	diff <(sed '/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' copy.md) <(sed '/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' "$page")
+	diff <(sed '/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' copy.md) <(sed \
+		'/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' "$page")
 	[ "$(grep -c '^| crossing | .* | 0\.99[0-9]* | 0\.000[0-9]* | ' copy.md)" = 1 ]
 }
 
@@ -62,6 +63,7 @@ misprints and their effect: 4 rows" ]
 	awk '/^## No word/ { on = 1 } on && /^\| / && !/^\| case/' "$page" >waiting
 	[ "$(wc -l <waiting)" -ge 5 ]
 	for word in maxwell sph collide; do
-		[ ! -x "${PM_BIN:-$top/bin}/$word" ] || ! grep -qi "^| $word" waiting || { echo "$word is here: measure its limit in docs/stability.md"; return 1; }
+		[ ! -x "${PM_BIN:-$top/bin}/$word" ] || ! grep -qi "^| $word" waiting || { echo "$word is here: measure its limit in docs/stability.md"
+		return 1; }
 	done
 }

@@ -87,7 +87,8 @@ force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
 vortices() {
 	awk 'BEGIN { h = 0.1; print "x y circulation volume"; for (j = 0; j < 22; j++) for (i = 0; i < 20; i++) { x = -1 + i * h; y = -1.1 + j * h
 		w = exp(-((x - 0.2)^2 + y * y) / 0.08) - 0.5 * exp(-((x + 0.4)^2 + (y - 0.1)^2) / 0.05)
-		print x, y, w * h * h, h * h } }' | stab - --law vortex --constant nu=1e-3 --dt 0.1 --box -1,-1.1,1,1.1 -n 20x22 --faces periodic --particle-faces periodic "$@"
+		print x, y, w * h * h, h * h } }' |
+			stab - --law vortex --constant nu=1e-3 --dt 0.1 --box -1,-1.1,1,1.1 -n 20x22 --faces periodic --particle-faces periodic "$@"
 }
 
 @test "equal bytes: viscous vortices, three passes a step (lsrk3), remeshed after every step" {
@@ -173,7 +174,8 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 @test "equal bytes: electrons and heavy ions, leapfrog" {
 	two() { stack "$@" electrons ions; }
 	pinit two-stream -n 500 --vth 0.1 --amplitude 0.1 --no-history | smod --constant background=0 --no-history > electrons
-	pinit landau -n 300 --wavenumber 1 --vth 0.01 --no-history | smove --scale charge=-1,mass=25 --no-history | smod --rename electrons=ions --constant background=0 --no-history |
+	pinit landau -n 300 --wavenumber 1 --vth 0.01 --no-history | smove --scale charge=-1,mass=25 --no-history |
+		smod --rename electrons=ions --constant background=0 --no-history |
 		sel --drop mesh --no-history > ions
 	all_ways two "$(force 33)" "push kick/2 drift | $(force 33) | push kick/2" 1
 }
