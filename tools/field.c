@@ -45,7 +45,7 @@ static const struct pm_example examples[] = {
 		"push kick/2\" | diag"},
 	{"the test equation x' = i x, as two components, through a step of Runge-Kutta", "printf 'x y\\n1 0\\n' | stab - --law free --dt 0.1 | cycle -n 1 "
 		"\"field 'vel = -y, x' | push rk4\" | stab --plain"},
-	{"vortices that decay while they rotate", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push rk2\" | diag "
+	{"vortices that decay while they rotate", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push midpoint\" | diag "
 		"--columns "
 		"time,circulation"},
 	{0}};

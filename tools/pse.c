@@ -98,7 +98,7 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"a vortex spreads, its circulation is conserved",
-		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | pse | push rk2 | remesh' | diag --columns circulation"},
+		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | pse | push midpoint | remesh' | diag --columns circulation"},
 	{"heat in a rod between cold ends, particles at rest",
 		"awk 'BEGIN { print \"x heat volume\"; for (i = 0; i < 40; i++) print (i + 0.5)/40, (i < 20)/40, 1/40 }' | stab - --strength heat --box 0,1 "
 		"--faces wall --dt 1e-3 | cycle -n 9 'field \"vel = 0\" | pse --field heat --nu 0.1 | push rk2' | sls --report"},

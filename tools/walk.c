@@ -43,7 +43,7 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"a vortex of 2000 blobs spreads, its circulation is conserved",
-		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | push rk2 | walk' | diag --columns circulation"},
+		"pinit lamb-oseen --cells 48 | cycle -n 3 'p2m | poisson-fft | mgrad | m2p | push midpoint | walk' | diag --columns circulation"},
 	{"particles that start at random walk in a box with mirrors",
 		"pinit uniform --dim 2 -n 500 --faces wall --particle-faces reflect --dt 0.01 | smod --law free | cycle -n 20 'push drift | walk --nu 0.1' | "
 		"sls"},

@@ -17,7 +17,7 @@ static const struct pm_step *find(const char *name, size_t length)
 static int unknown(const char *word)
 {
 	const char *near = pm_nearest(word, pm_step_names);
-	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of euler, rk2, rk4, lsrk3, ab2, ab3)", word,
+	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of euler, rk2, midpoint, lsrk3, rk4, ab2, ab3)", word,
 		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 

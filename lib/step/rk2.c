@@ -1,6 +1,6 @@
 /* Heun's second-order Runge-Kutta: y1 = y0 + dt k1, y = y0 + dt/2 (k1 + k2), written as increments so that the register holds k1.
  * Source: Heun 1900; Springel and Graeter, notes, section 2.4.
- * Second order; oscillations grow like (omega dt)^4/8 per step. Two passes, one register.
+ * Second order; oscillations grow like (omega dt)^4/8 per step, and so does the radius of a round vortex, which midpoint keeps. Two passes, one register.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step/step.h"
 
@@ -17,7 +17,7 @@ static void pass(int p, double dt, size_t n, double *restrict y, const double *r
 
 const struct pm_step step_rk2 = {
 	.name = "rk2",
-	.sentence = "Heun's Runge-Kutta scheme, second order",
+	.sentence = "Heun's Runge-Kutta scheme, second order (for vortices: midpoint)",
 	.source = "Heun 1900",
 	.kind = PM_SCHEME,
 	.passes = 2,

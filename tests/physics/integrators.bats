@@ -18,12 +18,13 @@ has_order() {
 	order "$1" 4 "$(miss "$2" 40)" 2 "$(miss "$2" 80)" 1 "$(miss "$2" 160)"
 }
 
-@test "TI-01: global orders of the integrators: leapfrog 2 (both ways round), euler 1, rk2 2, lsrk3 3, rk4 4, ab2 2, ab3 3" {
+@test "TI-01: global orders of the integrators: leapfrog 2 (both ways round), euler 1, rk2 and midpoint 2, lsrk3 3, rk4 4, ab2 2, ab3 3" {
 	has_order 2 'push kick/2 drift | pp | push kick/2'
 	has_order 2 'push drift/2 | pp | push kick drift/2'
 	has_order 1 'pp | push kick drift'
 	has_order 1 'pp | push euler'
 	has_order 2 'pp | push rk2'
+	has_order 2 'pp | push midpoint'
 	has_order 3 'pp | push lsrk3'
 	has_order 4 'pp | push rk4'
 	has_order 2 'pp | push ab2'

@@ -58,7 +58,7 @@ refuses() {
 
 @test "the bytes do not depend on the number of threads, for every action and scheme" {
 	pinit uniform -n 5001 --dispersion 1 > a
-	for words in 'kick/2 drift' euler rk2 rk4 lsrk3 ab2 ab3; do
+	for words in 'kick/2 drift' euler rk2 midpoint rk4 lsrk3 ab2 ab3; do
 		for t in 1 2 3; do
 			OMP_NUM_THREADS=$t cycle -n 2 "p2m -n 8 | poisson-fft | mgrad | m2p --replace | push $words$([[ $words == kick* ]] &&
 				echo ' | p2m -n 8 | poisson-fft | mgrad | m2p | push kick/2')" < a > "b$t"

@@ -310,9 +310,10 @@ static void schemes(void)
 		const char *name;
 		int order, passes, later, kept;
 		double at[4];
-	} all[] = {{"euler", 1, 1, 1, 0, {0}}, {"rk2", 2, 2, 2, 0, {1}}, {"lsrk3", 3, 3, 3, 0, {1.0 / 3, 0.75}}, {"rk4", 4, 4, 4, 0, {0.5, 0.5, 1}},
+	} all[] = {{"euler", 1, 1, 1, 0, {0}}, {"rk2", 2, 2, 2, 0, {1}}, {"midpoint", 2, 2, 2, 0, {0.5}},
+		{"lsrk3", 3, 3, 3, 0, {1.0 / 3, 0.75}}, {"rk4", 4, 4, 4, 0, {0.5, 0.5, 1}},
 		{"ab2", 2, 2, 1, 2, {1}}, {"ab3", 3, 3, 1, 4, {1.0 / 3, 0.75}}};
-	for (int k = 0; k < 6; k++) {
+	for (int k = 0; k < 7; k++) {
 		const char *name = all[k].name;
 		struct pm_frame *f = frame(2, 3, true);
 		for (int p = 0; p + 1 < all[k].passes; p++) {
@@ -408,8 +409,8 @@ static void faces(void)
 /* A particle in a constant field between mirrors: with the mirror the exact parabola is folded, and so is that of any scheme. */
 static void mirrors_in_schemes(void)
 {
-	static const char *const names[] = {"rk2", "lsrk3", "rk4", "ab2", "ab3"};
-	for (int k = 0; k < 5; k++) {
+	static const char *const names[] = {"rk2", "midpoint", "lsrk3", "rk4", "ab2", "ab3"};
+	for (int k = 0; k < 6; k++) {
 		struct pm_frame *f = frame(1, 1, true), *g = frame(1, 1, true);
 		for (int s = 0; s < 2; s++)
 			f->pface[0][s] = PM_PREFLECT;

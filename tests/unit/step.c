@@ -225,8 +225,32 @@ static void orbit(const char *scheme, int steps, int orbits, double x0, double y
 	check_near(y[1], y0, tolerance, text);
 }
 
+/* A ring of vortices seen from its centre: r' = u, u r = 1 across r. */
+static void ring(const double *y, double *k)
+{
+	double r2 = y[0] * y[0] + y[1] * y[1];
+	k[0] = -y[1] / r2, k[1] = y[0] / r2;
+}
+
+/* Of one step, times from r = 1: rk2 evaluates its second pass at r sqrt(1 + dt^2) and ends at r sqrt(1 + dt^4/(4 (1 + dt^2))); midpoint at r. */
+static void vortex(double dt)
+{
+	struct problem p = {2, ring};
+	double heun[2] = {1, 0}, middle[2] = {1, 0}, memory[2][MOST] = {{0}};
+	char text[128];
+	whole_step(pm_step_find("rk2"), &p, dt, heun, memory, 0);
+	whole_step(pm_step_find("midpoint"), &p, dt, middle, memory, 0);
+	snprintf(text, sizeof text, "rk2 makes a ring of vortices grow by (Omega dt)^4/8, Omega dt = %g", dt);
+	check_near(hypot(heun[0], heun[1]), sqrt(1 + pow(dt, 4) / (4 * (1 + dt * dt))), 1e-15, text);
+	snprintf(text, sizeof text, "midpoint keeps its radius, Omega dt = %g", dt);
+	check_near(hypot(middle[0], middle[1]), 1, 1e-15, text);
+	snprintf(text, sizeof text, "midpoint turns it by 2 atan(Omega dt/2), Omega dt = %g", dt);
+	check_near(atan2(middle[1], middle[0]), 2 * atan(dt / 2), 1e-15, text);
+}
+
 int main(void)
 {
+	vortex(0.1), vortex(0.3851), vortex(1.7);
 	for (int i = 0; pm_steps[i]; i++) {
 		promises(pm_steps[i], pm_step_names[i]);
 		limits(pm_steps[i], pm_step_names[i]);
