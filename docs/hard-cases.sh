@@ -13,7 +13,8 @@ export LC_ALL=C
 # One line per test that a row of the page names: line, file, beginning of the name, number.
 rows() {
 	awk -F'|' '/^\|.*`(hard|physics|tool|unit)\// { cell = $6; gsub(/^ +| +$/, "", cell); rest = $5
-		while (match(rest, /`[a-z]+\/[^` ]+ [^`]+`/)) { key = substr(rest, RSTART + 1, RLENGTH - 2); rest = substr(rest, RSTART + RLENGTH); at = index(key, " ")
+		while (match(rest, /`[a-z]+\/[^` ]+ [^`]+`/)) {
+			key = substr(rest, RSTART + 1, RLENGTH - 2); rest = substr(rest, RSTART + RLENGTH); at = index(key, " ")
 			printf "%d\t%s\t%s\t%s\n", NR, substr(key, 1, at - 1), substr(key, at + 1), cell } }' "$page"
 }
 [ "${1:-}" != --rows ] || { rows; exit; }

@@ -26,8 +26,11 @@ periods() {
 			{ name = $c["name"] }
 			name == "sun" { sx = $c["x"]; sy = $c["y"]; next }
 			{ a = atan2($c["y"] - sy, $c["x"] - sx)
-			  if (name in last) { step = a - last[name]; step -= step > pi ? 2 * pi : step < -pi ? -2 * pi : 0; before = turned[name]; turned[name] += step
-				while (turned[name] >= 2 * pi * (turns[name] + 1)) { turns[name]++; when[name] = frame - 2 + (2 * pi * turns[name] - before) / step } }
+			  if (name in last) {
+				step = a - last[name]; step -= step > pi ? 2 * pi : step < -pi ? -2 * pi : 0
+				before = turned[name]; turned[name] += step
+				while (turned[name] >= 2 * pi * (turns[name] + 1)) {
+					turns[name]++; when[name] = frame - 2 + (2 * pi * turns[name] - before) / step } }
 			  last[name] = a }
 			END { for (n in turns) printf "%s %.17g\n", n, when[n] * dt / 365.25 / turns[n] }'
 }

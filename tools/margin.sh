@@ -30,14 +30,16 @@ summary="how far a run is from the edge: the value of a number at which it stops
 kind="runs sentences and writes text"
 arguments=SENTENCE
 arguments_text="Words joined by |, in quotes, that leave a stream; {name} stands for the numbers and choices of --vary, {seed} for a seed."
-about="--vary dt:0.1:4 is bisected between its end points, which are tried first; if they do not enclose a limit, the table says so. --vary scheme=rk2,rk4, or
-braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag (energy > 10*energy0; NAME0 is the
-value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not finite, not converged). Any other failure ends the search with its
-message. With {seed} in the sentence every limit is found for --seeds seeds. Two ranges make a map: stable or not on a grid of --map points, and the boundary refined.
+about="--vary dt:0.1:4 is bisected between its end points, which are tried first; if they do not enclose a limit, the table says so. --vary scheme=rk2,rk4,
+or braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag
+(energy > 10*energy0; NAME0 is the value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not
+finite, not converged). Any other failure ends the search with its message. With {seed} in the sentence every limit is found for --seeds seeds. Two
+ranges make a map: stable or not on a grid of --map points, and the boundary refined.
 
-With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnuplot: growth per step on both sides of the limit, or the map) and index.html, a page of
-one file; the results are kept there, and the same command continues a search that was stopped."
-rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; may be given several times
+With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnuplot: growth per step on both sides of the limit, or the map) and
+index.html, a page of one file; the results are kept there, and the same command continues a search that was stopped."
+rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; \
+may be given several times
 u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
 e|expect|EXPRESSION||the theoretical limit: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
 |from|WORD|below above|the side of the limit that is stable (default below)
@@ -51,8 +53,12 @@ j|jobs|N||runs at a time (default 1)
 |list|||print the sentences, and run nothing
 |fresh|||discard earlier results in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
-examples="The step at which a leapfrog on a spring leaves the orbit; 2 in theory|margin 'printf \"x vx\\n1 0\\n\" | stab - --law free | cycle -n 100 \"push --dt {dt} kick/2 drift | field acc=-x | push kick/2\"' --vary dt:0.5:4 --expect 2 --unstable-when 'distance_max > 100' --tolerance 0.01
-Two schemes on the imaginary axis, each with its own limit|margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 --vary scheme=lsrk3,rk4 --expect 'lsrk3=sqrt(3),rk4=2*sqrt(2)' --unstable-when 'distance_max > 2' --tolerance 0.02"
+examples="The step at which a leapfrog on a spring leaves the orbit; 2 in theory|\
+margin 'printf \"x vx\\n1 0\\n\" | stab - --law free | cycle -n 100 \"push --dt {dt} kick/2 drift | field acc=-x | push kick/2\"' \
+--vary dt:0.5:4 --expect 2 --unstable-when 'distance_max > 100' --tolerance 0.01
+Two schemes on the imaginary axis, each with its own limit|\
+margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 \
+--vary scheme=lsrk3,rk4 --expect 'lsrk3=sqrt(3),rk4=2*sqrt(2)' --unstable-when 'distance_max > 2' --tolerance 0.02"
 
 number='[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?'
 
@@ -139,7 +145,9 @@ open_state() {
 		printf '%s\n' "$key" >"$state/key"
 	fi
 	local x='[-+0-9.eE,]+'
-	checked_log "^(trial"$'\t'"[0-9]+"$'\t'"[0-9]+"$'\t'"$x"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth"$'\t'"[0-9]+"$'\t'"[0-9]+"$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
+	local x='[-+0-9.eE,]+' count=$'\t''[0-9]+' result
+	result="^(trial$count$count"$'\t'"$x"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
+	checked_log "$result"$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
 }
 
 main() {

@@ -26,15 +26,17 @@ summary="what accuracy costs in time: error against seconds of all the alternati
 kind="runs sentences and writes text"
 arguments=SENTENCE
 arguments_text="Words joined by |, with alternatives in braces, in quotes."
-about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may contain |; \\{ \\} \\, are the literal characters. --vary kernel=cic,tsc
-gives {kernel} the same value everywhere in the sentence (linked choices). The words before the first brace are run once, and no sentence is charged
-for them; after that, a beginning that several sentences share is run once per round and charged to each. One word runs at a time. The seconds are those
-that the words report (--timing; for a word without this option its CPU time), in rounds over all sentences: the result is the median, the spread half the
-range. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not stop the others.
+about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may contain |; \\{ \\} \\, are the literal characters. --vary
+kernel=cic,tsc gives {kernel} the same value everywhere in the sentence (linked choices). The words before the first brace are run once, and no
+sentence is charged for them; after that, a beginning that several sentences share is run once per round and charged to each. One word runs at a time.
+The seconds are those that the words report (--timing; for a word without this option its CPU time), in rounds over all sentences: the result is the
+median, the spread half the range. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not
+stop the others.
 
-With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; the results are kept there, and the
-same command continues a sweep that was stopped."
-rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
+With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; the results are kept there, and the same command
+continues a sweep that was stopped."
+rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in \
+SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
 f|field|NAME||compare these fields, with commas between (default: all)
 |set|NAME||compare only fields on these sets or meshes
 |norm|WORD|l1 l2 max relative_l2 relative_max|the norm of scmp used as the error (default relative_l2), the largest over fields and frames
@@ -48,8 +50,11 @@ j|jobs|N||only errors, without seconds: run N sentences at a time (GNU parallel)
 |list|||print the sentences, and run nothing
 |fresh|||discard earlier results in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
-examples="Two kernels and two meshes: errors of the force against the direct sum|pareto 'pinit plummer -n 200 | p2m --kernel {cic,tsc} -n {8,16} | poisson-fft | mgrad | m2p' --against pp --field acc --repeat 1
-The same kernel for the way to the mesh and back; only errors|pareto 'pinit uniform -n 99 | p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p --kernel {k}' --vary k=ngp,tsc --against finest --field acc --repeat 1 --tsv"
+examples="Two kernels and two meshes: errors of the force against the direct sum|\
+pareto 'pinit plummer -n 200 | p2m --kernel {cic,tsc} -n {8,16} | poisson-fft | mgrad | m2p' --against pp --field acc --repeat 1
+The same kernel for the way to the mesh and back; only errors|\
+pareto 'pinit uniform -n 99 | p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p --kernel {k}' --vary k=ngp,tsc --against finest --field acc \
+--repeat 1 --tsv"
 
 seconds_of() {
 	[[ $1 =~ ^([0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?)(us|ms|s|min|h|)$ ]] || usage "option '--within': '$1' is not a time (2s, 50ms, 1.5min)"

@@ -34,9 +34,12 @@ make_one() {
 # data/atlas/: what the word plan chooses from. The forces of one evaluation, on a mesh whose spacing is h_over_scale times the scale of the scene.
 force_head() {
 	cat <<-END
-		# Error of the acceleration and what it costs, p2m to m2p or pp. Made by bash docs/accuracy/atlas.sh (figures force-smooth and force-clustered of docs/accuracy/).
-		# smooth: 216000 particles of a periodic plane wave, scale 1/k = 1/(2 pi); clustered: 20000 bodies of a Plummer sphere of scale 1 in open space, against pp.
-		# error: relative l2. ns_per_particle: without set-up, one thread of: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1); of the mesh's work every particle has its part.
+		# Error of the acceleration and what it costs, p2m to m2p or pp. Made by bash docs/accuracy/atlas.sh (figures force-smooth and
+		# force-clustered of docs/accuracy/).
+		# smooth: 216000 particles of a periodic plane wave, scale 1/k = 1/(2 pi); clustered: 20000 bodies of a Plummer sphere of scale 1 in open
+		# space, against pp.
+		# error: relative l2. ns_per_particle: without set-up, one thread of: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1);
+		# of the mesh's work every particle has its part.
 	END
 	printf 'scene\tsolver\tkernel\tgradient\th_over_scale\terror\tns_per_particle\n'
 }
@@ -50,8 +53,10 @@ force() {
 
 step_head() {
 	cat <<-'END'
-		# Error of the place (langmuir: of the velocity) after a fixed time against evaluations of the force. Made by bash docs/accuracy/atlas.sh (figure steps of docs/accuracy/).
-		# kepler (e = 0.9), kepler-circle (e = 0) and gyration: one turn; langmuir: 3.125 periods; vortex-patch: an elliptic patch of peak vorticity omega, omega t = 20. dt in units of 1/omega
+		# Error of the place (langmuir: of the velocity) after a fixed time against evaluations of the force. Made by
+		# bash docs/accuracy/atlas.sh (figure steps of docs/accuracy/).
+		# kepler (e = 0.9), kepler-circle (e = 0) and gyration: one turn; langmuir: 3.125 periods; vortex-patch: an elliptic patch of peak
+		# vorticity omega, omega t = 20. dt in units of 1/omega
 		# (kepler: the mean motion). Relative l2; nan: unstable.
 	END
 	printf 'problem\tscheme\tdt\terror\tevaluations\n'

@@ -14,7 +14,7 @@ look() {
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
 	function between(a, b) { return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
-	function search(m, s,    a, b, good, mid) {
+	function search(m, s,    a, b, good, mid, width) {
 		a = low; b = high
 		if (!((m, s, a) in is)) print "ask", m, s, a
 		if (!((m, s, b) in is)) print "ask", m, s, b
@@ -22,10 +22,14 @@ look() {
 		good = from == "below" ? "stable" : "unstable"
 		if (what == "sample" && is[m, s, a] == is[m, s, b]) { curve(m, s, 0); return }
 		if (is[m, s, a] == is[m, s, b]) { print "none", m, s, is[m, s, a] " at both ends, " a " and " b; return }
-		if (is[m, s, a] != good) { print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " (from == "below" ? "above" : "below") ")"; return }
+		if (is[m, s, a] != good) {
+			print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " \
+				(from == "below" ? "above" : "below") ")"
+			return }
 		for (;;) {
 			mid = between(a, b)
-			if ((b - a) / 2 <= tolerance * (size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)) || mid == a || mid == b) break
+			width = size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)
+			if ((b - a) / 2 <= tolerance * width || mid == a || mid == b) break
 			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
 			if (is[m, s, mid] == good) a = mid; else b = mid
 		}
@@ -105,19 +109,28 @@ tsv() {
 		for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j] < v[j-1]; j--) { t = v[j]; v[j] = v[j-1]; v[j-1] = t }
 		return n % 2 ? v[(n+1)/2] : (v[n/2] + v[n/2+1]) / 2 }
 	# Rounded up to two digits: an uncertainty must not be rounded down.
-	function up(x,    e, k) { if (x <= 0) return 0; e = 10 ^ (int(log(x) / log(10) + 100) - 101); k = int(x / e); if (k < x / e * (1 - 1e-12)) k++; return sprintf("%.3g", k * e) }
-	FILENAME != "-" && $1 == "member" { want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS; count++; next }
+	function up(x,    e, k) {
+		if (x <= 0) return 0
+		e = 10 ^ (int(log(x) / log(10) + 100) - 101); k = int(x / e); if (k < x / e * (1 - 1e-12)) k++
+		return sprintf("%.3g", k * e) }
+	FILENAME != "-" && $1 == "member" {
+		want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS
+		count++; next }
 	FILENAME != "-" { if ($1 == "trial") { k = ++runs[$2]; seed[$2, k] = $3; at[$2, k] = $4; was[$2, k] = $5 } next }
-	$1 == "limit" { n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2; if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
+	$1 == "limit" {
+		n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2
+		if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
 	$1 == "none" { why[$2] = $4 }
 	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
 	function astray(m,    k, below) {
 		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1) {
 			below = at[m, k] <= low[m, 1]
-			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable")) return was[m, k] " again at " at[m, k] ": there is more than one limit" }
+			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable"))
+				return was[m, k] " again at " at[m, k] ": there is more than one limit" }
 		return "" }
 	END {
-		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", "runs", "sentence", "reason"
+		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", \
+			"runs", "sentence", "reason"
 		for (m = 0; m < count; m++) {
 			row = m + 1 OFS rest[m] axis
 			if (why[m] != "" || !n[m]) row = row OFS "-" OFS "-" OFS "-" OFS "-" OFS (want[m] == "" ? "-" : want[m]) OFS "-" OFS "-"
@@ -125,7 +138,8 @@ tsv() {
 				for (i = 1; i <= n[m]; i++) v[i] = mid[m, i]
 				l = median(v, n[m]); s = (v[n[m]] - v[1]) / 2; u = half[m] + s; d = l - want[m]; if (d < 0) d = -d
 				row = row OFS sprintf("%.8g", l) OFS up(u) OFS up(half[m]) OFS (n[m] > 1 ? sprintf("%.2g", s) : "-")
-				row = row OFS (want[m] == "" ? "-" : want[m]) OFS (want[m] + 0 == 0 ? "-" : sprintf("%.6g", l / want[m])) OFS (want[m] == "" ? "-" : d <= u * (1 + 1e-9) ? "yes" : "no")
+				row = row OFS (want[m] == "" ? "-" : want[m]) OFS (want[m] + 0 == 0 ? "-" : sprintf("%.6g", l / want[m]))
+				row = row OFS (want[m] == "" ? "-" : d <= u * (1 + 1e-9) ? "yes" : "no")
 			}
 			if (n[m]) why[m] = astray(m)
 			print row, from, n[m] + 0, runs[m] + 0, sentence[m], why[m] == "" ? "-" : why[m]

@@ -191,7 +191,7 @@ quoting() {
 
 # with_data TEXT: as with_names, for a sentence, which a shell parses: a value is quoted so that it stays one word.
 with_data() {
-	local i t=$1 name v before done quote q="'" plain='^[A-Za-z0-9_./:+,@%^-]*$'
+	local instead='write the alternatives into the sentence, in braces' i t=$1 name v before done quote q="'" plain='^[A-Za-z0-9_./:+,@%^-]*$'
 	for i in "${!linked[@]}"; do
 		name="{${vary_name[i]}}"
 		show_escapes "${value[linked[i]]}"
@@ -207,9 +207,9 @@ with_data() {
 			quoting "$before"
 			# shellcheck disable=SC2016 # for the shell that runs the sentence
 			if [[ $before == *'`'* || $before == *'$('* || $before == *'<('* || $before == *'>('* || $before == *'${'* ]]; then
-				usage "--vary ${vary_name[i]}: '$v' cannot stand behind a \$( ) of the sentence (write the alternatives into the sentence, in braces)"
+				usage "--vary ${vary_name[i]}: '$v' cannot stand behind a \$( ) of the sentence ($instead)"
 			elif [[ -n $quote && $v == *[\'\"\\\$\`\|]* ]]; then
-				usage "--vary ${vary_name[i]}: '$v' stands between quotes in the sentence, where it can have none of ' \" \\ \$ \` | (write the alternatives into the sentence, in braces)"
+				usage "--vary ${vary_name[i]}: '$v' stands between quotes in the sentence, where it can have none of ' \" \\ \$ \` | ($instead)"
 			fi
 			if [ -n "$quote" ]; then done=$before$v; else done="$before'${v//"$q"/"'\\''"}'"; fi
 		done

@@ -178,7 +178,8 @@ set logscale xy
 set format "%g"
 $(awk -F'\t' 'NR > 1 && $2 == "ok" && $5 > 0 && $11 > 0 { x = log($11); y = log($5); n++
 		if (n == 1) { a = b = x; c = d = y } if (x < a) a = x; if (x > b) b = x; if (y < c) c = y; if (y > d) d = y }
-		END { w = b - a; h = d - c; printf "set xrange [%g:%g]\nset yrange [%g:%g]\n", exp(a - 0.04 * w - 0.1), exp(b + 0.3 * w + 0.2), exp(c - 0.08 * h - 0.1), exp(d + 0.1 * h + 0.1) }' "$dir/pareto.tsv")
+		END { w = b - a; h = d - c; printf "set xrange [%g:%g]\n", exp(a - 0.04 * w - 0.1), exp(b + 0.3 * w + 0.2)
+		printf "set yrange [%g:%g]\n", exp(c - 0.08 * h - 0.1), exp(d + 0.1 * h + 0.1) }' "$dir/pareto.tsv")
 set grid
 set key off
 set title "Error against seconds; red: the Pareto front; numbers are members"
@@ -262,7 +263,8 @@ page() {
 		fi
 		printf '<h2>The members</h2>\n<p>'
 		[ -n "$jobs" ] || printf \
-			'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; set-up apart; the largest memory of one word. ' "$repeat"
+			'Of %s repetitions the median seconds of the words behind the shared beginning, half their range as spread; %s' "$repeat" \
+			'set-up apart; the largest memory of one word. '
 		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END {
 			printf "%.3g", s }')"
 		printf '</p>\n<table>\n'

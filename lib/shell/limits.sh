@@ -71,10 +71,13 @@ plot() {
 			'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
 		[ -z "$limits" ] || echo "$limits"
 		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
-		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel %s noenhanced\nset title "Growth on both sides of the limit (dashed)"\n' "${axis_name[0]}" "$(gnuplot_text "growth of ln($growth) per step")"
+		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel %s noenhanced\n' "${axis_name[0]}" \
+			"$(gnuplot_text "growth of ln($growth) per step")"
+		echo 'set title "Growth on both sides of the limit (dashed)"'
 		echo "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#444444'"
 		[ -z "$draws" ] || printf \
-			'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
+			'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\n' "$draws"
+		[ -z "$draws" ] || printf 'set terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$png" "$draws"
 	} >"$dir/margin.gp"
 	[ -n "$draws" ] || { echo "$me: no growth could be measured: no picture (--column NAME)" >&2; return 1; }
 	draw "$dir" margin.gp

@@ -29,7 +29,10 @@ look_map() {
 			missing = 0
 			for (j = 0; j < h; j++) for (i = 0; i < w; i++) missing += asked(m, X[i], Y[j])
 			if (missing) continue
-			if (what == "points") { for (j = 0; j < h; j++) for (i = 0; i < w; i++) print m, X[i], Y[j], is[m, X[i] "," Y[j]], step[m, X[i] "," Y[j]]; continue }
+			if (what == "points") {
+				for (j = 0; j < h; j++) for (i = 0; i < w; i++)
+					print m, X[i], Y[j], is[m, X[i] "," Y[j]], step[m, X[i] "," Y[j]]
+				continue }
 			for (j = 0; j < h; j++) for (i = 0; i + 1 < w; i++) H[i, j] = cross(m, X[i], X[i+1], Y[j], "x", xs)
 			for (j = 0; j + 1 < h; j++) for (i = 0; i < w; i++) V[i, j] = cross(m, Y[j], Y[j+1], X[i], "y", ys)
 			if (what != "lines") continue
@@ -79,7 +82,8 @@ rows_of_members() {
 # The map as text, the second axis upwards.
 table_map() {
 	local m
-	echo "o stable, . unstable: ${criterion:+$criterion, or }exit status 3; ${axis_name[0]} from ${axis_low[0]} to ${axis_high[0]} across, ${axis_name[1]} from ${axis_low[1]} to ${axis_high[1]} upwards"
+	printf 'o stable, . unstable: %sexit status 3; %s from %s to %s across, %s from %s to %s upwards\n' "${criterion:+$criterion, or }" \
+		"${axis_name[0]}" "${axis_low[0]}" "${axis_high[0]}" "${axis_name[1]}" "${axis_low[1]}" "${axis_high[1]}"
 	for m in "${!sentence[@]}"; do
 		[ ${#sentence[@]} = 1 ] || name_of_member "$m"$'\n'
 		[ ${#sentence[@]} = 1 ] || echo
@@ -100,14 +104,19 @@ plot_map() {
 				print "" }')"
 			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
 			[ ${#sentence[@]} != 1 ] ||
-				one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", \$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
+				one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", "
+			[ ${#sentence[@]} != 1 ] ||
+				one+="\$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
 			draws+="${draws:+, }$one"
 		done
 		printf 'set xrange [%s:%s]\nset yrange [%s:%s]\n' "${axis_low[0]}" "${axis_high[0]}" "${axis_low[1]}" "${axis_high[1]}"
 		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
 		[ "${axis_scale[1]}" != log ] || echo 'set logscale y'
-		printf 'set format "%%g"\nset grid\nset key outside right top\nset xlabel "%s" noenhanced\nset ylabel "%s" noenhanced\nset title "Where it is stable"\n' "${axis_name[0]}" "${axis_name[1]}"
-		printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\nset terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$draws" "$png" "$draws"
+		printf 'set format "%%g"\nset grid\nset key outside right top\nset xlabel "%s" noenhanced\nset ylabel "%s" noenhanced\n' \
+			"${axis_name[0]}" "${axis_name[1]}"
+		echo 'set title "Where it is stable"'
+		printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\n' "$draws"
+		printf 'set terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$png" "$draws"
 	} >"$dir/margin.gp"
 	draw "$dir" margin.gp
 }

@@ -21,7 +21,11 @@ versions() {
 
 # page_head TITLE CSS
 page_head() {
-	printf '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>%s</title>\n<style>body{font:15px/1.45 sans-serif;max-width:72em;margin:2em auto;padding:0 1em}pre{background:#f4f4f4;padding:.7em;overflow-x:auto}table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}td,th{padding:.15em .6em;text-align:left;border-bottom:1px solid #ddd;white-space:nowrap}svg{max-width:100%%;height:auto}%s</style></head><body>\n' "$1" "$2"
+	printf '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>%s</title>\n<style>' "$1"
+	printf %s 'body{font:15px/1.45 sans-serif;max-width:72em;margin:2em auto;padding:0 1em}pre{background:#f4f4f4;padding:.7em;overflow-x:auto}'
+	printf %s 'table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}'
+	printf %s 'td,th{padding:.15em .6em;text-align:left;border-bottom:1px solid #ddd;white-space:nowrap}svg{max-width:100%;height:auto}'
+	printf '%s</style></head><body>\n' "$2"
 }
 
 page_foot() {

@@ -20,7 +20,9 @@ gnuplot_text() {
 
 # work_directory: sets work to an absolute path, which neither awk nor a program can mistake for an option or an assignment.
 work_directory() {
-	work=$(cd -- "${TMPDIR:-/tmp}" 2>/dev/null && mktemp -d "${PWD%/}/$me.XXXXXX") || { work=; fail 1 "cannot make a directory in '${TMPDIR:-/tmp}' (TMPDIR names another place)"; }
+	work=$(cd -- "${TMPDIR:-/tmp}" 2>/dev/null && mktemp -d "${PWD%/}/$me.XXXXXX") && return
+	work=
+	fail 1 "cannot make a directory in '${TMPDIR:-/tmp}' (TMPDIR names another place)"
 }
 
 # checked_log PATTERN: reports and drops invalid lines of the log, which may come from elsewhere or be truncated by a full disk.

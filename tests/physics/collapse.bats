@@ -53,13 +53,15 @@ rate() {
 	# cic smooths most for one particle in the middle of a cell: 1/64 and 1/32 of a wave reduce the growth by 0.2 % and 0.7 %
 	for d in "2 4096 64 0.002" "3 32768 32 0.01"; do
 		read -r dim n cells most <<<"$d"
-		sh_ok "pinit cold-collapse --dim $dim -n $n --cells $cells --dt 0.1 | cycle -t 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' | diag --exact > t"
+		sh_ok "pinit cold-collapse --dim $dim -n $n --cells $cells --dt 0.1 |
+			cycle -t 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' | diag --exact > t"
 		within "$(awk -v g="$(column speed_rms < t)" -v w="$(column exact_speed_rms < t)" 'BEGIN { printf "%.17g", g / w }')" 1 "$most"
 	done
 }
 
 @test "PM-08: a cold sphere falls to 0.837 of its radius in half a free-fall time" {
-	sh_ok "pinit cold-sphere -n 20000 --cells 48 --dt 0.0138840091817449 | cycle -n 40 --every 20 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
+	sh_ok "pinit cold-sphere -n 20000 --cells 48 --dt 0.0138840091817449 |
+		cycle -n 40 --every 20 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
 		diag --exact --radii 0.5,0.9 > t"
 	within "$(sed -n 4p t | cut -f 2)" 0.5553603672697958 1e-9
 	for r in radius_0.5 radius_0.9; do

@@ -134,7 +134,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 @test "a neutral plasma with its background has no mean density; without it the force is the same, because the solver removes the mean" {
 	sh_ok "pinit langmuir -n 500 | p2m | poisson-fft > a"
 	below "$(grep -ao '"mean[^:]*":[-0-9.e+]*' a | tail -n 1 | cut -d: -f2)" 1e-12
-	sh_ok "pinit langmuir -n 500 --no-history | stab > h; sed 's/\"background\":1.0/\"background\":0.0/' h > g; for k in h g; do stab \$k | p2m | poisson-fft | mgrad | m2p | stab --plain --set electrons > \$k.t; done"
+	sh_ok "pinit langmuir -n 500 --no-history | stab > h; sed 's/\"background\":1.0/\"background\":0.0/' h > g
+		for k in h g; do stab \$k | p2m | poisson-fft | mgrad | m2p | stab --plain --set electrons > \$k.t; done"
 	paste h.t g.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i == "acc") c = i; next } { d = $c - $(c + n);
 		if (d * d > most) most = d * d } END { exit !(c && most < 1e-26) }'
 }
@@ -161,7 +162,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 @test "passive particles move with a given velocity, in any scheme" {
 	printf 'x y\n0.25 0.5\n0.9 0.1\n' > t
 	sh_ok "stab t --law passive --box 0,1 --faces periodic --particle-faces periodic --dt 0.1 --cells 8 > a"
-	stab < a | sed '1s/"fields":\[{/"fields":[{"components":2,"kind":"value","name":"u","on":"mesh","role":"state","type":"f64","uniform":[0.5,-0.25],"unit":""},{/' > b
+	field='{"components":2,"kind":"value","name":"u","on":"mesh","role":"state","type":"f64","uniform":[0.5,-0.25],"unit":""}'
+	stab < a | sed '1s/"fields":\[{/"fields":['"$field"',{/' > b
 	for words in rk4 euler; do
 		sh_ok "stab b | cycle -n 4 'm2p | push $words' | stab --plain > c"
 		within "$(awk 'NR == 2 { print $1 }' c)" 0.45 1e-14
@@ -180,7 +182,9 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 
 @test "a given E on another mesh is added to the computed one, as a separate term" {
 	sh_ok "pinit langmuir -n 64 --cells 16 | p2m | poisson-fft | mgrad | m2p > a; stab --plain --set electrons < a > a.t"
-	stab < a | sed '1s/"fields":\[{/"fields":[{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""},{/; 1s/"meshes":\[/"meshes":[{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"},/' > b
+	field='{"components":1,"kind":"value","name":"E","on":"external","role":"state","type":"f64","uniform":[0.5],"unit":""}'
+	mesh='{"cells":[4],"h":[1.5707963267948966],"lo":[0.0],"name":"external"}'
+	stab < a | sed '1s/"fields":\[{/"fields":['"$field"',{/; 1s/"meshes":\[/&'"$mesh"',/' > b
 	sh_ok "stab b | m2p --mesh external > c; stab --plain --set electrons < c > c.t; stab < c | grep '\"terms\":\[\"self\",\"external\"\]' >/dev/null"
 	# q/m = -1
 	paste a.t c.t | awk 'NR == 1 { n = NF / 2; for (i = 1; i <= n; i++) if ($i ~ /^acc/) c = i; next } { d = $(c + n) - $c + 0.5;

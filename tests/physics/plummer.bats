@@ -60,7 +60,8 @@ pp='push kick/2 drift | pp | push kick/2'
 @test "HC-22: 10000 particles by direct summation stay a Plummer sphere for 20 crossing times" {
 	[ -n "${PM_LONG:-}" ] || skip "long: 2000 direct sums (PM_LONG=1)"
 	# t_cross = R_v/sigma = (16/(3 pi)) / sqrt(3 pi/32) = 3.13
-	sh_ok "pinit plummer -n 10000 --seed 1 | cycle -t 62.6 --every 200 'push kick/2 drift | pp --loop half | push kick/2' | diag --pair --radii 0.1,0.5,0.9 > t"
+	sh_ok "pinit plummer -n 10000 --seed 1 | cycle -t 62.6 --every 200 'push kick/2 drift | pp --loop half | push kick/2' |
+		diag --pair --radii 0.1,0.5,0.9 > t"
 	drift() { below "$(column "$1" < t | awk 'NR == 1 { r = $1 } END { printf "%.6f", $1 / r - 1 }')" "$2" "$1"; }
 	drift radius_0.1 0.05
 	drift radius_0.5 0.03

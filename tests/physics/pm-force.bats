@@ -95,14 +95,14 @@ smaller() { between "$1" 0 "$(awk -v b="$2" -v f="${3:-1}" 'BEGIN { printf "%.9g
 	done
 }
 
-@test "PM-02: interlacing removes the oscillation of spectral gradients: cic below two fifths of the error at r = 2, half at r = 4; three tenths of the transverse scatter at r = 1" {
+@test "PM-02: interlacing removes the oscillation of spectral gradients: cic's error at r = 2 below two fifths, at 4 half; scatter at 1 three tenths" {
 	smaller "$(error 'cic --interlace, spectral, spectral' 2)" "$(error 'cic, spectral, spectral' 2)" 0.4
 	smaller "$(error 'cic --interlace, spectral, spectral' 4)" "$(error 'cic, spectral, spectral' 4)" 0.5
 	smaller "$(error 'cic --interlace, spectral, spectral' 1 2)" "$(error 'cic, spectral, spectral' 1 2)" 0.3
 	smaller "$(error 'tsc --interlace, spectral, spectral' 1 2)" "$(error 'tsc, spectral, spectral' 1 2)" 0.3
 }
 
-@test "PM-02: with deconvolution or the optimal influence function the mean force at r = 1 is right within 20 % instead of half; the larger error at r = 2 is confirmed" {
+@test "PM-02: with deconvolution or the optimal influence the mean force at r = 1 is right within 20 % instead of half; larger error at r = 2" {
 	for kernel in cic tsc; do
 		for influence in deconvolved optimal; do
 			within "$(error "$kernel, --influence $influence, 4" 1 1)" 1 0.2 "$kernel $influence"

@@ -13,7 +13,8 @@ worst() {
 @test "poisson-fft: charges between a grounded plate and a plane of symmetry: E is minus the charge beyond" {
 	printf 'x mass charge\n0.31 1 2\n0.77 1 -0.5\n' > table
 	for faces in wall,neumann neumann,wall; do
-		sh_ok "stab table --law electrostatic --dim 1 --box 0,1 --faces $faces --particle-faces reflect -n 40 | p2m --kernel cic | poisson-fft --symbol fd2 |
+		sh_ok "stab table --law electrostatic --dim 1 --box 0,1 --faces $faces --particle-faces reflect -n 40 |
+			p2m --kernel cic | poisson-fft --symbol fd2 |
 			mgrad --order 2 | stab --plain --mesh mesh > E"
 		grep -q '^x' E
 		# eps0 = 1; nodes two cells away from the charges feel all of them: round-off of differences of phi over 2h
@@ -34,7 +35,8 @@ worst() {
 
 @test "poisson-fft --screening: a sheet of charge in a plasma falls as exp(-K x) from a wall held apart by neumann faces" {
 	# rho on one plane of nodes; between neumann faces phi = cosh(K (1 - x)) / (K sinh K), less (K h)^2/8 of it at x = 0 with second differences
-	sh_ok "pinit uniform --dim 1 -n 10 --faces neumann | p2m -n 200 | scalc --mesh mesh 's = x < 1e-9 ? 400 : 0' 'want = -(exp(5*(1-x)) + exp(-5*(1-x)))/(5*(exp(5) - exp(-5)))' |
+	sh_ok "pinit uniform --dim 1 -n 10 --faces neumann | p2m -n 200 |
+		scalc --mesh mesh 's = x < 1e-9 ? 400 : 0' 'want = -(exp(5*(1-x)) + exp(-5*(1-x)))/(5*(exp(5) - exp(-5)))' |
 		poisson-fft --symbol fd2 --source s --target u --coefficient 1 --screening 5 | stab --plain --mesh mesh > u"
 	below "$(worst u want < u)" 7.9e-5 # (5/200)^2/8 = 7.81e-5
 	sh_ok "pinit uniform -n 10 | p2m -n 8 | poisson-fft --screening 3 | sls --report"
@@ -45,7 +47,8 @@ worst() {
 round_trip() {
 	local scene=$1 order=$2
 	shift 2
-	sh_ok "$scene | mgrad --operator lap --order $order --source A --target J | poisson-fft $* --symbol ${order/#[246]/fd$order} --source J --target B --coefficient 1 |
+	sh_ok "$scene | mgrad --operator lap --order $order --source A --target J |
+		poisson-fft $* --symbol ${order/#[246]/fd$order} --source J --target B --coefficient 1 |
 		stab --plain --mesh mesh > AB"
 	for c in $(head -1 AB | tr ' \t' '\n\n' | grep -o '^A_[0-9]' | grep -o '[0-9]'); do
 		below "$(worst "B_$c" "A_$c" < AB)" 1e-12 "order $order, component $c" # as the unit test of scalars
@@ -85,7 +88,8 @@ round_trip() {
 @test "poisson-fft: psi from a vector omega has the faces that mgrad gives psi" {
 	printf 'x y circulation\n0.3 0.4 1\n' > table
 	sh_ok "stab table --law vortex --box 0,1 --faces wall,wall,wall,neumann --particle-faces reflect -n 12 |
-		scalc --mesh mesh 'omega = (1+x)*y, x*(1-x)*(1-y)' | poisson-fft --symbol fd4 --coefficient 1 | mgrad --operator lap --order 4 --source psi --target back |
+		scalc --mesh mesh 'omega = (1+x)*y, x*(1-x)*(1-y)' | poisson-fft --symbol fd4 --coefficient 1 |
+		mgrad --operator lap --order 4 --source psi --target back |
 		stab --plain --mesh mesh > ob"
 	# omega on nodes where psi is zero has no effect
 	below "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; print; next } $1 > 0.01 && $1 < 0.99 && $2 > 0.01 && $2 < 0.99' ob > in

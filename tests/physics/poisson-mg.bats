@@ -80,10 +80,12 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 			exit !(d < a && d < b) }'
 }
 
+# edge X: 1 inside the cube, half on its faces.
+edge() { echo "($1 < 0.499 ? 1 : $1 < 0.501 ? 0.5 : 0)"; }
 @test "PS-03: the potential of a unit cube in open space, at its centre and its corner; the mesh is 1.5 times as wide" {
 	# rho = 1 in the cube, 1/2, 1/4, 1/8 on its faces, edges and corners; phi = 1/(4 pi) int 1/r with coefficient -1
 	pinit plummer -n 10 | p2m -n 48 --outside drop | scalc --mesh mesh 'X = abs(x)/Lx*1.5, abs(y)/Ly*1.5, abs(z)/Lz*1.5' |
-		scalc --mesh mesh 'rho = (X_0 < 0.499 ? 1 : X_0 < 0.501 ? 0.5 : 0)*(X_1 < 0.499 ? 1 : X_1 < 0.501 ? 0.5 : 0)*(X_2 < 0.499 ? 1 : X_2 < 0.501 ? 0.5 : 0)' >m
+		scalc --mesh mesh "rho = $(edge X_0)*$(edge X_1)*$(edge X_2)" >m
 	side=$(sls <m | awk '/mesh: / { for (i = 1; i <= NF; i++) if ($i == "h") print 32*$(i+1) }')
 	poisson-mg --coefficient -12.566370614359172 <m | phi >u
 	read -r centre corner < <(awk -v l="$side" 'NR == 24*(1 + 49 + 49*49) + 1 { a = $1 } NR == 40*(1 + 49 + 49*49) + 1 { b = $1 } END {

@@ -24,7 +24,8 @@ kepler() {
 @test "HC-17: over 100 orbits of e = 0.9 the energy at the apocentre is constant to 1e-8 without a trend, and the pericentre rotates uniformly" {
 	orbits=100
 	[ -z "${PM_LONG:-}" ] || orbits=1000
-	sh_ok "export OMP_NUM_THREADS=1; pinit kepler | cycle -n $((1000 * orbits)) --every 1000 'push kick/2 drift | pp | push kick/2' | diag --pair --exact > t"
+	sh_ok "export OMP_NUM_THREADS=1; pinit kepler | cycle -n $((1000 * orbits)) --every 1000 'push kick/2 drift | pp | push kick/2' |
+		diag --pair --exact > t"
 	[ "$(wc -l < t)" = $((orbits + 2)) ]
 	# largest error, and the ratio of its means in the last and first tenth, which a trend would increase
 	errors t | awk -v n=$orbits '{ d = $1 < 0 ? -$1 : $1; if (d > m) m = d } NR <= n / 2 { a += $1 } NR > n / 2 { b += $1 } END { d = (b - a) / (n / 2);

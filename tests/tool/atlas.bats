@@ -73,7 +73,14 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 
 @test "evaluations counted are those that run: passes of a scheme, and those of its start" {
 	# A word that stores its input before passing it on (tee is stopped before its last line is in the file).
-	printf '#!/usr/bin/env python3\nimport os\nkept = open("passed", "ab", 0)\nwhile data := os.read(0, 1 << 20):\n    kept.write(data)\n    os.write(1, data)\n' >keep
+	cat >keep <<-'PY'
+		#!/usr/bin/env python3
+		import os
+		kept = open("passed", "ab", 0)
+		while data := os.read(0, 1 << 20):
+		    kept.write(data)
+		    os.write(1, data)
+	PY
 	chmod +x keep
 	for scheme in kdk euler rk2 lsrk3 rk4 ab2 ab3; do
 		rm -f passed

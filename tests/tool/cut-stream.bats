@@ -203,7 +203,8 @@ h["fields"].append({"name": "heat", "on": "matter", "components": 1, "type": "f6
 data.append(bytearray(struct.pack("<12d", *[float("nan")] * 12)))' >nan.pm
 	works nan.pm
 	for s in p2m cycle; do
-		wire edit out.$s 'assert struct.unpack("<12d", data[field("heat")])[3] != 0; assert all(v != v for v in struct.unpack("<12d", data[field("heat")]))' >/dev/null
+		wire edit out.$s 'assert struct.unpack("<12d", data[field("heat")])[3] != 0
+assert all(v != v for v in struct.unpack("<12d", data[field("heat")]))' >/dev/null
 	done
 }
 

@@ -279,7 +279,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	fails 1 'energy > 0' 'p2m | poisson-fft | mgrad | m2p | push rk4' "the column 'energy' cannot be computed"
 }
 
-@test "--until ends where diag's table of every step first says so: two sets of bodies, a plasma, vortices that walk or diffuse; in both engines, with --every" {
+@test "--until ends where diag's table of every step first says so: two sets of bodies, a plasma, vortices that walk or diffuse; both engines" {
 	stack <(pinit plummer -n 40 | smod --rename matter=stars) <(pinit plummer -n 30 --seed 4 | smod --rename matter=gas | smove --shift 3,0,0) >bodies
 	pinit langmuir -n 256 --cells 32 --dt 0.02 >plasma
 	pinit lamb-oseen --cells 24 >vortex

@@ -98,7 +98,8 @@ load ../helper
 
 @test "diag: inside cycle too the line of --growth comes after the table, with either engine" {
 	for engine in fused pipes; do
-		sh_ok "pinit langmuir -n 64 --cells 16 | cycle --engine $engine -n 40 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | diag --growth mode:1 --tee $engine'"
+		sh_ok "pinit langmuir -n 64 --cells 16 | cycle --engine $engine -n 40 '
+			push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | diag --growth mode:1 --tee $engine'"
 		[ "$(grep -c '^# mode:1 gamma ' $engine)" = 1 ]
 	done
 	same_as fused pipes
@@ -121,7 +122,8 @@ load ../helper
 }
 
 @test "diag: charge, field energy by component and modes of a plasma; --growth prints one line after the table" {
-	sh_ok "pinit langmuir -n 1024 --cells 16 --amplitude 1e-3 --dt 0.2 | cycle -n 100 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
+	sh_ok "pinit langmuir -n 1024 --cells 16 --amplitude 1e-3 --dt 0.2 |
+		cycle -n 100 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
 		p2m | poisson-fft | mgrad > a; diag --modes 1,2 --growth mode:1 < a > t"
 	[ "$(wc -l < t)" = 103 ]
 	[[ $(tail -n 1 t) == "# mode:1 gamma "*" omega "*", from t = 0 to "*", 101 points" ]]
@@ -130,7 +132,8 @@ load ../helper
 	e=$(sed '$d' t | column mode_1 | head -n 1)
 	within "$(sed '$d' t | column energy_field_x | head -n 1)" "$(awk -v e="$e" 'BEGIN { printf "%.17g", 6.283185307179586 * e * e / 4 }')" 1e-9
 	below "$(sed '$d' t | column mode_2 | head -n 1)" 1e-5
-	sh_ok "diag --growth mode:1 --window 2.1:14.9 --format json < a | tail -n 1 | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d[\"growth\"], d[\"points\"])'"
+	sh_ok "diag --growth mode:1 --window 2.1:14.9 --format json < a | tail -n 1 |
+		python3 -c 'import json, sys; d = json.load(sys.stdin); print(d[\"growth\"], d[\"points\"])'"
 	[ "$output" = "mode:1 64" ]
 	pinit uniform -n 10 | diag > u
 	run ! grep -q charge u

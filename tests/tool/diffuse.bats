@@ -52,7 +52,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 	[[ $output =~ "diffuse: the viscosity nu is 0: nothing to do, the frame is passed on unchanged" ]]
 	for engine in fused pipes; do # once, whatever the number of steps
 		run -0 bash -o pipefail -c \
-			"pinit shear-layer --cells 16 --nu 0 | cycle -n 3 --verbose --engine $engine 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' 2>&1 >/dev/null | grep -c 'nu is 0'"
+			"pinit shear-layer --cells 16 --nu 0 |
+			cycle -n 3 --verbose --engine $engine 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' 2>&1 >/dev/null | grep -c 'nu is 0'"
 		[ "$output" = 1 ]
 	done
 	run -1 bash -o pipefail -c "stab <a | sed '1s/\"nu\":0.0/\"nu\":-1.0/' | stab - | diffuse | sls"

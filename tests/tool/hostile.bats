@@ -75,7 +75,10 @@ spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} k
 @test "results kept in a directory are data: invalid lines are reported and left out" {
 	margin "$spring" --vary dt:0.5:9 --tolerance 0.5 --unstable-when 'distance_max > 100' -o d --format tsv >want
 	cp d/measured/log log
-	printf 'trial\ta[$(touch touched)]\t1\t0.5\tstable\t-\t-\ngrowth\t0\t1\tEND\t1\t2\ngrowth\t0\t1\t1\tEND;system "touch touched"\t2\ntrial\t0\t1\t`touch touched`\tstable\t-\t-\ntrial\t0' >>d/measured/log
+	{
+		printf 'trial\ta[$(touch touched)]\t1\t0.5\tstable\t-\t-\ngrowth\t0\t1\tEND\t1\t2\n'
+		printf 'growth\t0\t1\t1\tEND;system "touch touched"\t2\ntrial\t0\t1\t`touch touched`\tstable\t-\t-\ntrial\t0'
+	} >>d/measured/log
 	untouched margin "$spring" --vary dt:0.5:9 --tolerance 0.5 --unstable-when 'distance_max > 100' -o d --format tsv
 	[[ $output == "margin: 5 lines of 'd/measured/log' are no results of margin and are left out"* ]]
 	[ "$(tail -n +2 <<<"$output" | grep -v 'no gnuplot here')" = "$(cat want)" ]

@@ -68,7 +68,8 @@ of() { stab --plain | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i 
 	given mass open derived 2.25 1.5 >a
 	run -1 m2p --field mass <a
 	[[ $output =~ "'mass' on 'matter' is a strength" ]]
-	stab <a | sed '1s/{"components":1,"kind":"strength","name":"mass"/{"components":1,"kind":"value","name":"volume","on":"matter","role":"state","type":"f64","uniform":[0.5],"unit":""},&/' |
+	volume='{"components":1,"kind":"value","name":"volume","on":"matter","role":"state","type":"f64","uniform":[0.5],"unit":""}'
+	stab <a | sed '1s/{"components":1,"kind":"strength","name":"mass"/'"$volume"',&/' |
 		stab - >b
 	[ "$(m2p --field mass <b | of mass)" = "2.625 1.25" ]
 }

@@ -15,7 +15,8 @@ refused() {
 }
 
 @test "mgrad: lap of order 2 undoes poisson-fft --symbol fd2" {
-	sh_ok "pinit uniform -n 100 | p2m -n 8x9x7 | poisson-fft --symbol fd2 --coefficient 1 | mgrad --operator lap --order 2 --target back | stab --plain --mesh mesh > a"
+	sh_ok "pinit uniform -n 100 | p2m -n 8x9x7 | poisson-fft --symbol fd2 --coefficient 1 |
+		mgrad --operator lap --order 2 --target back | stab --plain --mesh mesh > a"
 	worst=$(awk 'NR > 1 { d = $4 - 1 - $6; if (d < 0) d = -d; if (d > m) m = d } END { print m + 0 }' a) # the mean density is 1
 	below "$worst" 1e-11
 }
@@ -49,7 +50,8 @@ refused() {
 @test "mgrad: a given field is not replaced; on a separate mesh it is kept, and m2p adds both" {
 	pinit langmuir -n 64 --cells 16 > a
 	scalc --mesh mesh 'E = 0.5' --role state < a > b
-	refused 1 "'E' on 'mesh' is given, and a derivative must not replace it (choose another --target; keep the given field on a separate mesh, m2p --mesh adds it)" \
+	remedy='choose another --target; keep the given field on a separate mesh, m2p --mesh adds it'
+	refused 1 "'E' on 'mesh' is given, and a derivative must not replace it ($remedy)" \
 		"p2m < b | poisson-fft | mgrad"
 	p2m < b | poisson-fft | mgrad --target mine | sls > list
 	grep -q ' mine  *1 f64 derived' list

@@ -18,7 +18,8 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 
 @test "p2m divides by the cell volume and counts end nodes of neumann faces twice" {
 	# cells of length 1; 0.3 from a neumann face: 0.7 * 2 on the end node at half weight is 2.8
-	run -0 bash -c "printf 'x vx mass\n0.3 0 2\n2.75 0 1\n' | stab - --law gravity --box 0,4 --faces neumann --particle-faces reflect -n 4 | p2m | stab --plain --mesh mesh"
+	run -0 bash -c "printf 'x vx mass\n0.3 0 2\n2.75 0 1\n' |
+		stab - --law gravity --box 0,4 --faces neumann --particle-faces reflect -n 4 | p2m | stab --plain --mesh mesh"
 	[ "$(tail -n +2 <<<"$output" | cut -f 2 | tr '\n' ' ')" = "2.8 0.6 0.25 0.75 0 " ]
 	# cells of length 1/2: twice the density
 	[ "$(printf "$two" | line open 8 | p2m | mesh)" = "0 0 2 2 0 1 1 0 0" ]

@@ -42,7 +42,7 @@ awk '{ print \$1, \$2 }' z" ]
 
 @test "--vary: one choice in several places, whose values may have braces of their own; equal sentences count once" {
 	[ "$(list 'p2m --kernel {k} | m2p --kernel {k} -n {1,2}' --vary k=cic,tsc)" = \
-		$'p2m --kernel cic | m2p --kernel cic -n 1\np2m --kernel cic | m2p --kernel cic -n 2\np2m --kernel tsc | m2p --kernel tsc -n 1\np2m --kernel tsc | m2p --kernel tsc -n 2' ]
+		"$(for k in cic tsc; do for n in 1 2; do echo "p2m --kernel $k | m2p --kernel $k -n $n"; done; done)" ]
 	[ "$(list 'a -n {1,2} | b {k}{k}' --vary k=x,y)" = $'a -n 1 | b xx\na -n 1 | b yy\na -n 2 | b xx\na -n 2 | b yy' ]
 	[ "$(list 'a | {p2m --kernel {k} | m2p --kernel {k}, pp}' --vary 'k=m{4,6}prime,cic' | grep -c .)" = 4 ] # pp once
 }

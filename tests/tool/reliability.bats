@@ -251,7 +251,9 @@ swallowing() {
 		    tail = b'{"crc32c":[' + b",".join([b"0"] * len(h["fields"])) + b'],"report":{}}'
 		    tail += b" " * (-(len(tail) + 1) % 64) + b"\n"
 		    fixed = lambda s: s.ljust(63).encode() + b"\n"
-		    open(name, "wb").write(fixed("PMPIPE/1 frame %d 0" % len(text)) + text + fixed("PMPIPE/1 tail %d" % len(tail)) + tail + fixed("PMPIPE/1 end 1"))
+		    with open(name, "wb") as out:
+		        out.write(fixed("PMPIPE/1 frame %d 0" % len(text)) + text)
+		        out.write(fixed("PMPIPE/1 tail %d" % len(tail)) + tail + fixed("PMPIPE/1 end 1"))
 		for s in h["sets"]:
 		    s["n"] = 2 ** 31
 		for f in h["fields"]:

@@ -7,7 +7,9 @@ total() { awk -v e="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; n = spl
 	s += p } END { printf "%.17g", s }'; }
 # of WORD KEY: what a word reported.
 of() { sls --format json --report |
-	python3 -c 'import json, sys; print([v[sys.argv[2]] for k, v in json.loads(sys.stdin.readlines()[-1])["report"].items() if k.startswith(sys.argv[1]) and sys.argv[2] in v][0])' "$@"; }
+	python3 -c 'import json, sys
+report = json.loads(sys.stdin.readlines()[-1])["report"]
+print([v[sys.argv[2]] for k, v in report.items() if k.startswith(sys.argv[1]) and sys.argv[2] in v][0])' "$@"; }
 
 # A patch of circulation off the nodes, well inside the open box -4..4 of 32 x 32 cells of 1/4.
 patch() {

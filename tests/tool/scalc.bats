@@ -32,7 +32,8 @@ col() { stab --plain | awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++)
 }
 
 @test "--role, --extensive, --unit and --type describe the new field" {
-	sh_ok 't() { printf "x\n1.75\n"; }; t | stab - | scalc --extensive --unit C "charge = -x" | scalc --type i64 --role state "k = x" | scalc --type f32 "r = x / 3" | sls'
+	sh_ok 't() { printf "x\n1.75\n"; }
+		t | stab - | scalc --extensive --unit C "charge = -x" | scalc --type i64 --role state "k = x" | scalc --type f32 "r = x / 3" | sls'
 	[[ "$output" == *"charge      1 f64 state strength [C]"* ]]
 	[[ "$output" == *"k           1 i64 state value"* ]]
 	[[ "$output" == *"r           1 f32 derived value"* ]]

@@ -8,10 +8,13 @@ mesh() { # DIM: a mesh of 4 cells per axis, open faces, with f = x + 10 y (+ 100
 		box = d == 1 ? "[0.0]" : d == 2 ? "[0.0,0.0]" : "[0.0,0.0,0.0]"; hi = box; gsub("0.0", "4.0", hi); cells = box; gsub("0.0", "4", cells);
 			h = box; gsub("0.0", "1.0", h)
 		faces = "[\"open\",\"open\"]"; all = faces; for (i = 1; i < d; i++) all = all "," faces
-		printf "#pmpipe {\"byte_order\":\"little\",\"box\":{\"fields\":[%s],\"hi\":%s,\"lo\":%s,\"particles\":[%s]},\"dim\":%d,\"dt\":0.1,\"fields\":[", all, hi, box, all, d
+		printf "#pmpipe {\"byte_order\":\"little\",\"box\":{\"fields\":[%s],\"hi\":%s,\"lo\":%s,\"particles\":[%s]},", all, hi, box, all
+		printf "\"dim\":%d,\"dt\":0.1,\"fields\":[", d
 		printf "{\"components\":1,\"kind\":\"value\",\"name\":\"f\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"},"
-		printf "{\"components\":2,\"kind\":\"value\",\"name\":\"w\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"}],\"history\":[],"
-		printf "\"law\":{\"constants\":{},\"name\":\"free\"},\"meshes\":[{\"cells\":%s,\"h\":%s,\"lo\":%s,\"name\":\"mesh\"}],\"scene\":{\"name\":\"\",\"parameters\":{}},", cells, h, box
+		printf "{\"components\":2,\"kind\":\"value\",\"name\":\"w\",\"on\":\"mesh\",\"role\":\"derived\",\"type\":\"f64\",\"unit\":\"\"}],"
+		printf "\"history\":[],"
+		printf "\"law\":{\"constants\":{},\"name\":\"free\"},\"meshes\":[{\"cells\":%s,\"h\":%s,\"lo\":%s,\"name\":\"mesh\"}],", cells, h, box
+		printf "\"scene\":{\"name\":\"\",\"parameters\":{}},"
 		printf "\"seed\":1,\"sets\":[],\"step\":0,\"substep\":0,\"time\":0.0}\n#mesh mesh\nf w_0 w_1\n"
 		for (k = 0; k < (d > 2 ? n : 1); k++) for (j = 0; j < (d > 1 ? n : 1); j++) for (i = 0; i < n; i++) print 1 + i + 10*j + 100*k, i - 2, j
 		print "#end 1" }' | stab -
@@ -64,7 +67,8 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 @test "a mesh field is drawn in one, two and three dimensions" {
 	for d in 1 2 3; do
 		mesh $d >m
-		sh_ok 'sdraw --field f -o f.png <m; sdraw -o g.png <m; sdraw --mesh mesh --field w --component y -o h.png <m; sdraw --field w --component 0 -o i.png <m'
+		sh_ok 'sdraw --field f -o f.png <m; sdraw -o g.png <m
+			sdraw --mesh mesh --field w --component y -o h.png <m; sdraw --field w --component 0 -o i.png <m'
 		for p in f g h i; do picture $p.png; done
 	done
 }
@@ -122,7 +126,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	done
 }
 
-@test "phase space: x against v is what 1-D particles show by themselves; two streams are two bands with nothing between; another velocity or a wrong name is refused" {
+@test "phase space: x against v is what 1-D particles show by themselves; two streams are two bands; another velocity or a wrong name is refused" {
 	pinit two-stream -n 40000 --vth 0.1 --amplitude 0 >a
 	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 <a >p
 	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 --x x --y vx --style density <a | cmp - p

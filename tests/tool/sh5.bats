@@ -168,7 +168,9 @@ columns() { stab --plain "${@:2:$#-2}" <"$1" | awk -F'\t' -v names="${*: -1}" 'N
 @test "a file of another program is read: particles, weighting, meshes, time" {
 	mesh >a.pm
 	wire edit a.pm 'h["time"] = 1.5; h["step"] = 7
-h["fields"].append({"name": "weighting", "on": "matter", "components": 1, "type": "f64", "role": "state", "kind": "value", "unit": "", "uniform": [2.5]}); data.append(bytearray())' >b.pm
+h["fields"].append({"name": "weighting", "on": "matter", "components": 1, "type": "f64", "role": "state", "kind": "value", "unit": "",
+    "uniform": [2.5]})
+data.append(bytearray())' >b.pm
 	sh5 -o b.h5 <b.pm
 	stranger b.h5 >c.h5
 	sh5 c.h5 >c.pm
@@ -191,7 +193,10 @@ assert [e["program"] for e in h["history"]] == ["sh5"], h["history"]'
 	cmp <(columns a.pm --mesh mesh rho) <(columns b.pm --mesh "$(wire header b.pm |
 		python3 -c 'import json, sys; print(next(k["on"] for k in json.load(sys.stdin)["fields"] if k["name"] == "rho"))')" rho)
 	[ "$(wire header b.pm |
-		python3 -c 'import json, sys; h = json.load(sys.stdin); print(len(h["meshes"]), [k["name"] for k in h["fields"] if k["name"][0] == "g"], [m["lo"] for m in h["meshes"]][0])')" = "4 ['g_x', 'g_y', 'g_z'] [-12.25, -14.0, -14.0]" ]
+		python3 -c 'import json, sys
+h = json.load(sys.stdin)
+print(len(h["meshes"]), [k["name"] for k in h["fields"] if k["name"][0] == "g"], [m["lo"] for m in h["meshes"]][0])')" = \
+		"4 ['g_x', 'g_y', 'g_z'] [-12.25, -14.0, -14.0]" ]
 	sh5 -o c.h5 <a.pm
 	stranger c.h5 | sed 's/zyx/xyz/g' >d.h5
 	sh5 d.h5 >d.pm
@@ -207,7 +212,8 @@ unweigh() {
 	python3 -c '
 import struct, sys
 b = bytearray(open(sys.argv[1], "rb").read())
-for name, place, old, new in ((b"macroWeighted\0", 40, struct.pack("<I", 1), bytes(4)), (b"weightingPower\0", 48, struct.pack("<d", 1), struct.pack("<d", float(sys.argv[2])))):
+for name, place, old, new in ((b"macroWeighted\0", 40, struct.pack("<I", 1), bytes(4)),
+        (b"weightingPower\0", 48, struct.pack("<d", 1), struct.pack("<d", float(sys.argv[2])))):
     i = -1
     while (i := b.find(name, i + 1)) >= 0:
         if b[i + place:i + place + len(old)] == old:

@@ -7,9 +7,12 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 # id mass vx vy vz x y z
 
 @test "attributes are set" {
-	sh_ok 't() { printf "x y\n1 2\n"; }; t | stab - | smod --dt 0.125 --time 2.5 --step 7 --seed 9 --law free --constant a=1.5 --box -4,4 --faces periodic --unit x=pc | sls --format json'
+	sh_ok 't() { printf "x y\n1 2\n"; }
+		t | stab - | smod --dt 0.125 --time 2.5 --step 7 --seed 9 --law free --constant a=1.5 --box -4,4 --faces periodic --unit x=pc |
+		sls --format json'
 	echo "$output" | jq -e \
-		'.dt == 0.125 and .time == 2.5 and .step == 7 and .seed == 9 and .law.constants.a == 1.5 and .box.hi == [4,4] and .box.fields[1][1] == "periodic"
+		'.dt == 0.125 and .time == 2.5 and .step == 7 and .seed == 9 and .law.constants.a == 1.5 and .box.hi == [4,4]
+		and .box.fields[1][1] == "periodic"
 		and .box.particles[0][0] == "periodic" and .meshes[0].h == [0.25,0.25] and .fields[0].unit == "pc"'
 	sh_ok 'printf "x\n1\n" | stab - --box 0,4 | smove --scale box=0.5 | smod --particle-faces reflect,absorb | sls --format json'
 	echo "$output" | jq -e '.box.particles == [["reflect","absorb"]] and .box.hi == [2] and .meshes[0].h == [0.0625]'

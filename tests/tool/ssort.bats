@@ -52,7 +52,8 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 @test "sets without particles are sorted; --set chooses one" {
 	sh_ok 'printf "x\n" | stab - | ssort | sls'
 	printf 'x id\n2 1\n1 2\n' | stab - --box 0,4 --set a >a; printf 'x id\n2 3\n1 4\n' | stab - --box 0,4 --set b >b
-	sh_ok 'stack a b | ssort --set b --by x >c; stab --plain --set a <c | tail -n +2 | cut -f2 | paste -sd" "; stab --plain --set b <c | tail -n +2 | cut -f2 | paste -sd" "'
+	sh_ok 'stack a b | ssort --set b --by x >c
+		for s in a b; do stab --plain --set $s <c | tail -n +2 | cut -f2 | paste -sd" "; done'
 	[ "${lines[0]}" = "1 2" ]
 	[ "${lines[1]}" = "4 3" ]
 }

@@ -113,10 +113,13 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 
 @test "the options of a table become attributes of the frame" {
 	printf 'x y mass w\n0 0 1 1\n' >t
-	sh_ok 'stab t --law free --constant a=2.5,b=3 --dt 0.125 --time 2 --dim 2 --box -1,2 --faces periodic --cells 4x5 --strength w --unit mass=kg --number --set stars | stab | head -1 | cut -c9-'
+	sh_ok 'stab t --law free --constant a=2.5,b=3 --dt 0.125 --time 2 --dim 2 --box -1,2 --faces periodic --cells 4x5 --strength w \
+		--unit mass=kg --number --set stars | stab | head -1 | cut -c9-'
 	echo "$output" | jq -e '.law.constants.a == 2.5 and .law.constants.b == 3 and .dt == 0.125 and .time == 2 and .box.lo == [-1,-1] and .box.hi == [2,2]
-		and .box.fields[1] == ["periodic","periodic"] and .box.particles[0] == ["periodic","periodic"] and .meshes[0].cells == [4,5] and .sets[0].name == "stars"
-		and ([.fields[] | select(.name == "w" or .name == "mass") | .kind] == ["strength","strength"]) and ([.fields[] | select(.name == "mass").unit] == ["kg"])
+		and .box.fields[1] == ["periodic","periodic"] and .box.particles[0] == ["periodic","periodic"] and .meshes[0].cells == [4,5]
+		and .sets[0].name == "stars"
+		and ([.fields[] | select(.name == "w" or .name == "mass") | .kind] == ["strength","strength"])
+		and ([.fields[] | select(.name == "mass").unit] == ["kg"])
 		and ([.fields[] | select(.name == "id").type] == ["i64"])'
 	sh_ok 'stab t --faces open,wall --particle-faces absorb,open,reflect,open | stab | head -1 | cut -c9-'
 	echo "$output" | jq -e '.box.fields == [["open","open"],["wall","wall"]] and .box.particles == [["absorb","open"],["reflect","open"]]'

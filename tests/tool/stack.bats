@@ -8,7 +8,8 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 	scene 1 -2,2 >a; scene 5 0,7 0.25 >b
 	sh_ok 'stack a b | sls --format json'
 	echo "$output" | jq -e \
-		'[.sets[].name] == ["matter","matter-2"] and .box.lo == [-2,-2] and .box.hi == [7,7] and .dt == 0.25 and .meshes[0].h == [2.25,2.25] and (.meshes | length) == 1'
+		'[.sets[].name] == ["matter","matter-2"] and .box.lo == [-2,-2] and .box.hi == [7,7] and .dt == 0.25
+		and .meshes[0].h == [2.25,2.25] and (.meshes | length) == 1'
 	[ "$(stack a b | stab --plain --set matter-2 | col id)" = "2 3" ]
 	[ "$(stack a b a | stab --plain --set matter-3 | col id)" = "4 5" ]
 }
