@@ -74,6 +74,9 @@ static int influence(const struct config *o, const struct pm_frame *f, const str
 	if (i->kind == PM_OPTIMAL && o->symbol)
 		return pm_fail(PM_USAGE, "--influence optimal has no --symbol (leave one of them out)");
 	i->order = pm_order_find(o->order ? o->order : p->law->order ? p->law->order : "2");
+	if (!strcmp(source->kernel, "several"))
+		return pm_fail(PM_DATA, "'%s' on '%s' comes from fields made with different kernels, and --influence %s corrects for one (leave it out)",
+			source->name, source->on, o->influence);
 	i->kernel = *source->kernel ? pm_kernel_find(source->kernel) : NULL;
 	return i->order < 0 || (*source->kernel && !i->kernel) ? -PM_DATA : 0;
 }

@@ -83,7 +83,11 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		status = pm_multigrid_check(&t->choice, &t->problem.grid);
 	if (!status && o->permittivity)
 		status = pm_problem_coefficient(f, &t->problem, o->permittivity, &t->eps);
-	return status ? status : pm_problem_declare(f, &t->problem);
+	if (!status)
+		status = pm_problem_declare(f, &t->problem);
+	if (!status && t->eps)
+		pm_field_inherit(t->problem.target, t->eps);
+	return status;
 }
 
 /* One component, and its report. */

@@ -25,6 +25,17 @@ static struct pm_field *target(const struct pm_computed_choice *c, struct pm_fra
 	return p;
 }
 
+/* The kernel of a field is that of the fields it is computed from, its own old values among them. */
+static void inherit(struct pm_field *field, const struct pm_frame *f, const struct pm_expression *e)
+{
+	struct pm_field made = {.kernel = ""};
+	for (int i = 0; i < e->nvalues; i++)
+		if (*e->value[i].field)
+			pm_field_inherit(&made, pm_frame_field(f, e->on, e->value[i].field));
+	memcpy(field->kernel, made.kernel, sizeof field->kernel);
+	field->interlaced = made.interlaced;
+}
+
 int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text,
 	bool *changed)
 {
@@ -40,6 +51,7 @@ int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_compute
 	*changed |= old && old->role == PM_STATE;
 	if (!(job->field = target(c, f, on, name, &job->e)))
 		return -PM_DATA;
+	inherit(job->field, f, &job->e);
 	if (c->unit)
 		snprintf(job->field->unit, PM_NAME, "%.63s", c->unit);
 	jobs->n++;

@@ -22,7 +22,9 @@ struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *
 	bool replace);
 void pm_drops(struct pm_frame *f, struct pm_field *field);
 void pm_drops_roles(struct pm_frame *f, const char *on, unsigned roles); /* roles: bits 1u << enum pm_role; on NULL: every mesh */
-void pm_field_inherit(struct pm_field *field, const struct pm_field *from); /* derived from it: takes over the kernel and whether it is interlaced */
+/* The field is computed from this source too: it takes over the source's kernel and whether that is interlaced. Sources without a kernel do not count;
+ * of two that differ the kernel is "several", which m2p refuses. */
+void pm_field_inherit(struct pm_field *field, const struct pm_field *from);
 
 /* For a stage that makes a field in frame() (sources, meshes that grow): allocates what was just declared, new values zero. */
 int pm_field_ready(struct pm_field *field);

@@ -153,8 +153,14 @@ struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const si
 
 void pm_field_inherit(struct pm_field *field, const struct pm_field *from)
 {
-	memcpy(field->kernel, from->kernel, sizeof field->kernel);
-	field->interlaced = from->interlaced;
+	const bool differs = strcmp(field->kernel, from->kernel) || field->interlaced != from->interlaced;
+	if (*field->kernel && *from->kernel && differs) {
+		pm_name_copy(field->kernel, "several");
+		field->interlaced = false;
+	} else if (*from->kernel) {
+		memcpy(field->kernel, from->kernel, sizeof field->kernel);
+		field->interlaced = from->interlaced;
+	}
 }
 
 struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name)

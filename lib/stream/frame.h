@@ -41,7 +41,7 @@ struct pm_field {
 	char on[PM_NAME];     /* the set or mesh it belongs to */
 	char unit[PM_NAME];   /* free text, "" unknown */
 	char of[PM_NAME];     /* change fields: the state it is the rate of, "" none (bfield) */
-	char kernel[PM_NAME]; /* mesh fields made by p2m, and fields derived from them: the kernel's name; else "" */
+	char kernel[PM_NAME]; /* mesh fields made by p2m, and fields derived from them: the kernel's name, "several" if these differ in it; else "" */
 	bool interlaced;      /* made with that kernel on two meshes half a cell apart */
 	int components;       /* 1..PM_COMPONENTS */
 	enum pm_type type;

@@ -45,6 +45,46 @@ static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfe
 			t->flip[c][c] = 1;
 }
 
+/* The law's field, the changes on its mesh that some set receives, and the magnetic field; how many. */
+static int gathered(const struct pm_gather_job *j, const struct pm_frame *f, const struct pm_field *all[PM_MESH_CHANGES + 2])
+{
+	int n = 1;
+	const struct pm_field *magnetic = j->law->magnetic ? pm_frame_field(f, j->mesh->name, j->law->magnetic) : NULL;
+	if (magnetic && magnetic != j->field)
+		all[n++] = magnetic;
+	for (size_t i = 0; i < f->nfields; i++) {
+		bool any = false;
+		for (size_t k = 0; k < j->sets.n; k++)
+			any |= pm_mesh_change_concerns(f, j->sets.name[k], j->mesh, f->fields[i]);
+		if (any && n < PM_MESH_CHANGES + 2)
+			all[n++] = f->fields[i];
+	}
+	return n;
+}
+
+static const char *mark(const struct pm_field *p) { return p->interlaced ? "interlaced " : ""; }
+
+/* One kernel for all that is gathered at once. A particle whose field comes back with another kernel than it went out with accelerates itself. */
+static int choose_kernel(const struct pm_frame *f, struct pm_gather_job *j)
+{
+	const struct pm_field *all[PM_MESH_CHANGES + 2] = {j->field};
+	struct pm_field made = {.kernel = ""};
+	int n = j->choice.field ? 1 : gathered(j, f, all);
+	for (int i = 0; i < n && !j->choice.kernel; i++) {
+		const struct pm_field before = made;
+		pm_field_inherit(&made, all[i]);
+		if (!strcmp(all[i]->kernel, "several"))
+			return pm_fail(PM_DATA, "'%s' on '%s' comes from fields made with different kernels (choose one: m2p --kernel)", all[i]->name,
+				all[i]->on);
+		if (!strcmp(made.kernel, "several"))
+			return pm_fail(PM_DATA, "'%s' on '%s' was made with the kernel %s%s, what is gathered with it with %s%s (choose one: m2p --kernel)",
+				all[i]->name, all[i]->on, mark(all[i]), all[i]->kernel, mark(&before), before.kernel);
+	}
+	j->interlaced = made.interlaced;
+	j->transfer.kernel = pm_kernel_choose(j->choice.kernel, &made, j->law, "cic");
+	return j->transfer.kernel ? 0 : -PM_DATA;
+}
+
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	*j = (struct pm_gather_job){.choice = *choice, .law = pm_law_of(f)};
@@ -60,11 +100,9 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 		status = pm_sets_choose(f, choice->set, choice->field ? any : law, "stab reads it from a table", &j->sets);
 	if (status)
 		return status;
-	j->interlaced = j->field->interlaced && !choice->kernel && j->field->role != PM_STATE;
-	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .kernel = pm_kernel_choose(choice->kernel, j->field, j->law, "cic"),
-		.components = j->field->components};
-	if (!j->transfer.kernel)
-		return -PM_DATA;
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .components = j->field->components};
+	if ((status = choose_kernel(f, j)))
+		return status;
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
 	set_images(j, f->dim, &j->transfer);
 	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
@@ -152,7 +190,8 @@ static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const
 {
 	int status = 0;
 	if (j->field->role == PM_STATE) {
-		status = pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
+			: pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
 	}
@@ -160,7 +199,7 @@ static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const
 		status = pm_mesh_changes_append(&j->changes, f, set, &a->t, a->mesh, a->factor, a->out);
 	if (status || !a->t.components)
 		return status;
-	if (j->interlaced && a->t.components > j->transfer.components)
+	if (j->interlaced && j->changes.n)
 		return pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
 	return j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
 			     : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);

@@ -11,7 +11,7 @@
 #include "stream/declare.h"
 #include "stream/fastest.h"
 
-static bool concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
+bool pm_mesh_change_concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
 {
 	const struct pm_field *state = c->role == PM_CHANGE && !strcmp(c->on, m->name) && c->of[0] ? pm_frame_field(f, set, c->of) : NULL;
 	return state && state->role == PM_STATE;
@@ -46,7 +46,7 @@ int pm_mesh_changes_declare(struct pm_frame *f, const char *set, const struct pm
 	struct pm_field *fields[PM_MESH_CHANGES]; /* contributing reorders the frame's list */
 	int n = 0, status = 0;
 	for (size_t i = 0; i < f->nfields; i++)
-		if (concerns(f, set, m, f->fields[i])) {
+		if (pm_mesh_change_concerns(f, set, m, f->fields[i])) {
 			if (n == PM_MESH_CHANGES)
 				return pm_fail(PM_DATA, "more than %d change fields on mesh '%s' to carry over", PM_MESH_CHANGES, m->name);
 			fields[n++] = f->fields[i];
@@ -115,7 +115,7 @@ int pm_mesh_changes_init(struct pm_mesh_changes *c, const struct pm_frame *f, co
 	for (size_t i = 0; i < f->nfields && !status; i++) {
 		bool any = false, strength = false;
 		for (size_t k = 0; k < sets->n; k++)
-			if (concerns(f, sets->name[k], m, f->fields[i])) {
+			if (pm_mesh_change_concerns(f, sets->name[k], m, f->fields[i])) {
 				any = true;
 				strength |= pm_frame_field(f, sets->name[k], f->fields[i]->of)->extensive;
 			}

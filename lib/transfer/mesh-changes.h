@@ -15,6 +15,8 @@ struct pm_mesh_changes {
 	double *share[PM_MESH_CHANGES]; /* [components][points] change divided by the particle volume at the point; NULL: the change itself */
 };
 
+/* c is a change field of the mesh that names a state of the set. */
+bool pm_mesh_change_concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c);
 /* For declare(): every change field of the mesh that names a state of the set in `of` adds its terms to the set's change field d<state>; onto a
  * strength it counts times volume, which is then read. */
 int pm_mesh_changes_declare(struct pm_frame *f, const char *set, const struct pm_mesh *m, bool replace);
