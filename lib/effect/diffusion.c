@@ -20,7 +20,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	}
 	pm_effect_by(d, s, s->pairs ? walked : step, s->pairs ? fmin(1, walked) : s->nu * s->time * s->rough);
 	if (s->pairs)
-		snprintf(d->text, sizeof d->text, "sqrt(2 nu T) = %.2g of the way with the flow", walked);
+		snprintf(d->text, sizeof d->text, "sqrt(2 nu T) is %.2g of the distance moved with the flow", walked);
 	else
 		snprintf(d->text, sizeof d->text, "nu dt/h^2 = %.2g, changes omega by %.1g", step, d->share);
 }
@@ -34,7 +34,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 		return;
 	}
 	pm_words_add(w, PM_SLOT_MESH, "diffuse", "diffusion: on, %s", c->decision->text);
-	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and what diffusion does to their strengths");
+	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and the change of their strengths by diffusion");
 }
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && c->scales->nu > 0; }
@@ -48,7 +48,7 @@ static void test(const struct pm_effect_case *c, struct pm_effect_test *t)
 
 const struct pm_effect effect_diffusion = {
 	.name = "diffusion",
-	.sentence = "viscosity spreads what vortices carry",
+	.sentence = "viscosity spreads vorticity",
 	.source = "Cottet and Koumoutsakos 2000, chapter 5",
 	.word = "diffuse",
 	.decide = decide,

@@ -25,13 +25,13 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		snprintf(d->text, sizeof d->text, "the mesh resolves the softening, softening/h = %.2g", d->number);
 	} else if (s->kind == PM_CHARGES || s->dim == 1) {
 		d->number = s->n / s->points;
-		snprintf(d->text, sizeof d->text, "particles sample a cloud, %.2g in a cell, and are as wide as one", d->number);
+		snprintf(d->text, sizeof d->text, "particles sample a smooth density, %.2g in a cell, and are a cell wide", d->number);
 	} else if (s->open && !s->periodic && !s->walls && s->mesh_error > s->accuracy) {
 		pm_effect_by(d, s, s->mesh_error, s->mesh_error);
-		snprintf(d->text, sizeof d->text, "the mesh is wrong by %.1g where bodies are near", s->mesh_error);
+		snprintf(d->text, sizeof d->text, "the error of the mesh is %.1g where bodies are close", s->mesh_error);
 	} else if (cells > 2.5) {
 		pm_effect_by(d, s, cells, apart);
-		snprintf(d->text, sizeof d->text, "nearest pair %.2g cells apart, the mesh is wrong by %.1g there", cells, apart);
+		snprintf(d->text, sizeof d->text, "nearest pair %.2g cells apart, the error of the mesh there is %.1g", cells, apart);
 	} else {
 		const double ball[4] = {0, 2, pm_pi, 4 * pm_pi / 3}, part = fmin(1, ball[s->dim] * pow(2.5 * s->h / s->spacing, s->dim));
 		const double pull = part * s->omega * s->omega * s->spacing / (4 * pm_pi * s->self), passing = s->v_thermal * s->time / s->spacing;
@@ -42,7 +42,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 
 const struct pm_effect effect_near_field = {
 	.name = "near-field",
-	.sentence = "the pull of pairs nearer than a few cells",
+	.sentence = "forces of pairs closer than a few cells",
 	.source = "Hockney and Eastwood 1988, section 8-2",
 	.word = "pair",
 	.decide = decide,

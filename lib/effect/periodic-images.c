@@ -16,12 +16,12 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	if (!s->periodic)
 		pm_effect_off(d, "no face is periodic");
 	else if (pm_effect_alone(s))
-		pm_effect_off(d, "no self field: the images pull evenly");
+		pm_effect_off(d, "no self field: the pull of the images is uniform");
 	else {
 		pm_effect_by(d, s, part, fmin(1, part * part));
 		d->answer = PM_PUT_IN;
 		d->kept = true;
-		snprintf(d->text, sizeof d->text, "the box is periodic, spread/box = %.2g; the transform has them for nothing", part);
+		snprintf(d->text, sizeof d->text, "the box is periodic, spread/box = %.2g; the Fourier transform includes them at no cost", part);
 	}
 }
 

@@ -25,7 +25,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 
 const struct pm_effect effect_relativity = {
 	.name = "relativity",
-	.sentence = "inertia that grows with the speed",
+	.sentence = "inertia grows with the speed",
 	.source = "Birdsall and Langdon 1985, section 15-4",
 	.word = "relativity",
 	.decide = decide,

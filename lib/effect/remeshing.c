@@ -81,7 +81,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	if (s->pairs) {
 		pm_effect_off(d, "");
 		d->number = s->overlap;
-		snprintf(d->text, sizeof d->text, "these are points: sqrt(volume)/h = %.2g, they miss a lattice by %.2g", s->width / s->h, s->overlap);
+		snprintf(d->text, sizeof d->text, "point vortices: sqrt(volume)/h = %.2g, off a lattice by %.2g", s->width / s->h, s->overlap);
 		return;
 	}
 	pm_effect_by(d, s, end, fmin(1, end));

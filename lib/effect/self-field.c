@@ -15,7 +15,7 @@ static void vortices(const struct pm_scales *s, struct pm_decision *d)
 {
 	const double moved = s->self * s->time / s->spacing;
 	pm_effect_by(d, s, moved, moved);
-	snprintf(d->text, sizeof d->text, "u T is %.2g distances of neighbours", moved);
+	snprintf(d->text, sizeof d->text, "u T is %.2g neighbour distances", moved);
 	d->kept = d->answer == PM_LEFT_OUT; /* without it the particles would not move */
 	d->answer = PM_PUT_IN;
 }

@@ -23,7 +23,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_by(d, s, ratio, fmin(1, 1.5 * ratio * ratio));
 		d->kept = d->answer == PM_LEFT_OUT; /* it has no cost */
 		d->answer = PM_PUT_IN;
-		snprintf(d->text, sizeof d->text, "softening is %.2g of the distance of the nearest pair", ratio);
+		snprintf(d->text, sizeof d->text, "softening is %.2g times the distance of the nearest pair", ratio);
 	}
 }
 
@@ -38,7 +38,7 @@ static bool reversible(const struct pm_effect_case *c) { return c->method->pairs
 
 const struct pm_effect effect_smoothing = {
 	.name = "smoothing",
-	.sentence = "a softened pull between pairs",
+	.sentence = "softened forces between pairs",
 	.source = "Hockney and Eastwood 1988, section 8-2",
 	.decide = decide,
 	.words = words,

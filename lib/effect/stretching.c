@@ -22,7 +22,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 
 const struct pm_effect effect_stretching = {
 	.name = "stretching",
-	.sentence = "vortex lines drawn out by the flow",
+	.sentence = "vortex lines stretched by the flow",
 	.source = "Cottet and Koumoutsakos 2000, section 3.1",
 	.word = "stretch",
 	.decide = decide,

@@ -23,7 +23,7 @@ static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[16
 	if (!all_open(s))
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
 	else if (field)
-		snprintf(why, 160, "the particles carry a field: they cover the mesh to %.1g", s->overlap);
+		snprintf(why, 160, "the particles carry a field: their volumes fill the mesh to %.1g", s->overlap);
 	else if (a <= b)
 		snprintf(why, 160, "%g bodies, pairs cost %.1g of the mesh", s->sources, a / b);
 	else
@@ -107,7 +107,7 @@ static void vortex_mesh(struct pm_plan *p)
 	char more[80] = "";
 	if (error > s->accuracy) /* the spacing that would suffice */
 		snprintf(more, sizeof more, ", more than asked for (pinit --cells %.0f)", ceil(s->box / s->h * hk / pow(2 * s->accuracy, 0.2)));
-	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, remeshing is wrong by %.1g%s", hk, error, more);
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, error of remeshing %.1g%s", hk, error, more);
 }
 
 /* Enough cells that the nearest pair is several cells apart (lib/effect/near-field.c). */
@@ -146,7 +146,8 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	const double dearer = cost_pairs(s) / cost_mesh(s);
 	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
 		m->pairs = s->pairs = true;
-		snprintf(m->why_far, sizeof m->why_far, "%g bodies, a mesh would be wrong by %.1g; pairs cost %.2g times as much", s->sources, t.error, dearer);
+		snprintf(m->why_far, sizeof m->why_far, "%g bodies, the error of a mesh would be %.1g; pairs cost %.2g times as much",
+			s->sources, t.error, dearer);
 		return;
 	}
 	s->mesh_error = t.error;
@@ -155,6 +156,6 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	m->symbol = strcmp(symbol, p->law->symbol) ? symbol : NULL;
 	for (int d = 0; d < f->dim && t.factor > 1; d++)
 		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
-	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: %.1g of the force is wrong at h = %.2g of its length%s", m->kernel, t.error, s->h / s->length,
+	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: force error %.1g at h = %.2g of the length scale%s", m->kernel, t.error, s->h / s->length,
 		t.error > allowed(s) ? ", more than asked for" : "");
 }

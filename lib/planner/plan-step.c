@@ -111,8 +111,8 @@ void pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 	if (!isfinite(allowed)) {
 		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame", m->scheme, f->dt);
 	} else if (dt > 0 && allowed > 0.9 * dt && (allowed < 1.25 * dt || !c.steady)) {
-		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g would do for %.1g by %s", m->scheme, f->dt, allowed, s->accuracy,
-			what);
+		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g is short enough for %.1g: %s", m->scheme, f->dt, allowed,
+			s->accuracy, what);
 	} else {
 		m->dt = back * s->time / ceil(s->time / allowed - 1e-9);
 		s->dt = m->dt;

@@ -153,11 +153,11 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ "$(plan --sentence <cluster)" = *"| pp |"* ]]
 	plan --no-cost <cluster | grep -q '^pp .*pairs cost 0'
 	pinit plummer -n 20000 --cells 32 >cluster
-	plan --no-cost <cluster | grep -qE '^pp .*a mesh would be wrong by .*pairs cost [0-9.]+ times as much'
+	plan --no-cost <cluster | grep -qE '^pp .*the error of a mesh would be .*pairs cost [0-9.]+ times as much'
 	plan --no-cost --accuracy 0.3 <cluster | grep -q '^p2m .*a mesh costs'
 	[[ "$(plan --no-cost --accuracy 0.3 <cluster | says 'near field')" = off* ]]
 	pinit plummer -n 100000 --cells 32 >cluster
-	[[ "$(plan --no-cost <cluster | says 'near field')" = needed*"the mesh is wrong by 0."* ]]
+	[[ "$(plan --no-cost <cluster | says 'near field')" = needed*"the error of the mesh is 0."* ]]
 }
 
 @test "points with viscosity walk" {
@@ -173,7 +173,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 }
 
 @test "a mesh that is too coarse for vortices is named, with the cells that would do" {
-	decide shear-layer --cells 64 | grep -q '^p2m .*remeshing is wrong by .*more than asked for (pinit --cells '
+	decide shear-layer --cells 64 | grep -q '^p2m .*error of remeshing .*more than asked for (pinit --cells '
 	! decide shear-layer --cells 256 | grep -q 'more than asked for' || false
 }
 
