@@ -21,39 +21,50 @@ def frames(file):
     def take(n):
         data = file.read(n)
         return data if len(data) == n else fail("the stream is cut")
-    def line():
-        words = take(64).split()
+    def line(*kinds):                                   # the kind of the line, its numbers, the block behind it
+        text = take(64)
+        words = text.split()
         if words[:1] != [b"PMPIPE/1"]:
             fail("this is not a stream of version 1")
-        if words[1] == b"abort":
-            fail(take(int(words[3])).decode().strip(), int(words[2]))
-        return words
-    while True:
-        words = line()
-        if words[1] == b"end":
-            if not file.peek(1):                        # or another stream follows
-                return
-            continue
-        header = json.loads(take(int(words[2])))
-        length = {s["name"]: s["n"] for s in header["sets"]}
-        for m in header["meshes"]:
-            faces = header["box"]["fields"]
-            length[m["name"]] = math.prod(n + (f[0] != "periodic") for n, f in zip(m["cells"], faces))
-        data, sums = [], []
-        for f in header["fields"]:
-            n, values = length[f["on"]], array.array(TYPES[f["type"]])
-            if "uniform" not in f:
-                size = f["components"] * n * values.itemsize
-                values.frombytes(take(-(-size // 64) * 64)[:size])
-            sums.append(crc32c(values.tobytes()))
-            if sys.byteorder == "big":
-                values.byteswap()
-            data.append([[u] * n for u in f["uniform"]] if "uniform" in f else
-                        [values[c * n:c * n + n] for c in range(f["components"])])
-        tail = json.loads(take(int(line()[2])))
-        if tail["crc32c"] != sums:
+        kind, last = words[1].decode(), 4 if words[1] in (b"frame", b"abort") else 3
+        numbers, seal = [int(w) for w in words[2:last]], words[last:]
+        block = take(0 if kind == "end" else numbers[kind == "abort"])
+        sums = [], [b"%08x" % crc32c(b" ".join(words[:last]) + block)]     # without one: written by an older version
+        if seal not in sums or text != b" ".join(words).ljust(63) + b"\n":
             fail("a checksum is wrong")
-        yield header, data, tail
+        if kind == "abort":
+            fail(block.decode().strip(), numbers[0])
+        return (kind, numbers, block) if kind in kinds else fail("the stream is damaged")
+    try:
+        while True:
+            kind, numbers, block = line("frame", "end")
+            if kind == "end":
+                if not file.peek(1):                    # or another stream follows
+                    return
+                continue
+            header = json.loads(block)
+            length = {s["name"]: s["n"] for s in header["sets"]}
+            for m in header["meshes"]:
+                faces = header["box"]["fields"]
+                length[m["name"]] = math.prod(n + (f[0] != "periodic") for n, f in zip(m["cells"], faces))
+            data, sums = [], []
+            for f in header["fields"]:
+                n, values = length[f["on"]], array.array(TYPES[f["type"]])
+                if "uniform" not in f:
+                    size = f["components"] * n * values.itemsize
+                    padded = take(-(-size // 64) * 64)
+                    values.frombytes(padded[:size] if not any(padded[size:]) else fail("the stream is damaged"))
+                sums.append(crc32c(values.tobytes()))
+                if sys.byteorder == "big":
+                    values.byteswap()
+                data.append([[u] * n for u in f["uniform"]] if "uniform" in f else
+                            [values[c * n:c * n + n] for c in range(f["components"])])
+            tail = json.loads(line("tail")[2])
+            if tail["crc32c"] != sums:
+                fail("a checksum is wrong")
+            yield header, data, tail
+    except (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError, RecursionError):
+        fail("the stream is damaged")
 
 if __name__ == "__main__":
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)

@@ -53,6 +53,9 @@ order() {
 # same_as A B: equal bytes.
 same_as() { cmp "$1" "$2"; }
 
+# edited SCRIPT FILE: sed on the text of a stream, to a text of the same length; the checksums of lines, headers and tails are made anew.
+edited() { sed "$@" | python3 -I -S "$top/tests/wire.py" seal /dev/stdin; }
+
 # sh_ok COMMAND LINE: runs it under bash -o pipefail and demands exit status 0.
 sh_ok() { run -0 bash -o pipefail -c "$1"; }
 

@@ -10,6 +10,9 @@
   wire.py text FILE FROM TO         replaces text in the header as it stands (bytes, \\xNN understood), sizes kept right
   wire.py tail-text FILE FROM TO    the same in the tail
   wire.py line FILE FROM TO         replaces text in the 64-byte lines
+  wire.py seal FILE                 the stream with its checksums of lines, headers and tails made anew; for edits by sed and the like
+  wire.py unseal FILE               the stream without them, as older versions wrote it
+  wire.py end                       a stream of no frames
   wire.py flip FILE PLACE           inverts one bit of the byte at that place
   wire.py frames FILE...            the frames of all these files as one stream
   wire.py messages FILE             the aborts in a stream, one `code message` a line
@@ -44,8 +47,13 @@ def up(n):
     return -(-n // 64) * 64
 
 
-def line(*words):
-    return " ".join(map(str, words)).encode().ljust(63) + b"\n"
+NUMBERS = {b"frame": 2, b"abort": 2, b"tail": 1, b"end": 1}
+
+
+def line(words, block=b""):
+    """The line of these words, with the checksum of words and block, and the block."""
+    text = words.encode() if isinstance(words, str) else b" ".join(words)
+    return (text + b" %08x" % crc32c(text + block)).ljust(63) + b"\n" + block
 
 
 def canonical(v):
@@ -81,11 +89,21 @@ def size(h, f):
     return 0 if "uniform" in f else f["components"] * count(h, f) * SIZE[f["type"]]
 
 
-def parts(data):
+def split(data, at):
+    """Words and checksum (or None) of the line there, and its block."""
+    words = data[at:at + 64].split()
+    n = 2 + NUMBERS[words[1]]
+    size = 0 if words[1] == b"end" else int(words[3 if words[1] == b"abort" else 2])
+    return words[:n], (words[n:] or [None])[0], data[at + 64:at + 64 + size]
+
+
+def parts(data, check=True):
     """[(kind, start, end)] of a sound stream: line, header, field NAME, tail-line, tail, end."""
     at, out = 0, []
     while at < len(data):
-        words = data[at:at + 64].split()
+        words, seal, block = split(data, at)
+        if check and seal is not None and line(words, block)[:64] != data[at:at + 64]:
+            sys.exit("wire.py: the checksum of the %s line at byte %d is wrong" % (words[1].decode(), at))
         out.append((words[1].decode() + "-line", at, at + 64))
         at += 64
         if words[1] == b"frame":
@@ -128,7 +146,7 @@ def frame_bytes(h, fields, tail):
     payload = b"".join(bytes(d).ljust(up(len(d)), b"\0") for d in fields)
     tail = dict(tail, crc32c=[crc32c(d) for d in fields])
     t = block(tail)
-    return line("PMPIPE/1 frame", len(header), len(payload)) + header + payload + line("PMPIPE/1 tail", len(t)) + t
+    return line("PMPIPE/1 frame %d %d" % (len(header), len(payload)), header) + payload + line("PMPIPE/1 tail %d" % len(t), t)
 
 
 def places(data):
@@ -162,7 +180,7 @@ def edit(data, code):
         data = fields
         exec(code, {"resize": resize, "h": h, "data": fields, "tail": tail, "field": field, "put": put, "struct": struct, "crc32c": crc32c})
         out.append(frame_bytes(h, fields, tail))
-    return b"".join(out) + line("PMPIPE/1 end", len(all))
+    return b"".join(out) + line("PMPIPE/1 end %d" % len(all))
 
 
 def text(data, a, b, old, new):
@@ -170,8 +188,20 @@ def text(data, a, b, old, new):
     if old not in old_block:
         sys.exit("wire.py: no %r in %r" % (old, old_block))
     new_block = block(old_block.replace(old, new, 1))
-    words = data[a - 64:a].decode().split()
-    return data[:a - 64] + line(*words[:2], len(new_block), *words[3:]) + new_block + data[b:]
+    words = split(data, a - 64)[0]
+    words[2] = b"%d" % len(new_block)
+    return data[:a - 64] + line(words, new_block) + data[b:]
+
+
+def seal(data, sealed):
+    """The same stream with its checksums made anew, or without them."""
+    out, done = [], 0
+    for kind, a, b in parts(data, False):
+        if kind.endswith("-line"):
+            words, _, block = split(data, a)
+            out += [data[done:a], line(words, block)[:64] if sealed else b" ".join(words).ljust(63) + b"\n"]
+            done = b
+    return b"".join(out) + data[done:]
 
 
 def literal(s):
@@ -186,12 +216,14 @@ def closed(command):
     print(code if code >= 0 else 128 - code)
 
 
-def main(action, path, *rest):
+def main(action, path=None, *rest):
+    if action == "end":
+        return sys.stdout.buffer.write(line("PMPIPE/1 end 0"))
     if action == "closed":
         return closed([path, *rest])
     data = open(path, "rb").read()
     out = sys.stdout.buffer
-    spots = [(k, a, b) for k, a, b in parts(data)] if action != "line" else []
+    spots = parts(data) if action not in ("line", "seal", "unseal") else []
     if action == "places":
         out.write("".join("%s\n" % n for n, _ in places(data)).encode())
     elif action == "cut":
@@ -204,7 +236,7 @@ def main(action, path, *rest):
         out.write(json.dumps(h, indent=1, sort_keys=True).encode() + b"\n")
     elif action == "frames":
         all = [f for p in (path, *rest) for f in frames(open(p, "rb").read())]
-        out.write(b"".join(frame_bytes(*f) for f in all) + line("PMPIPE/1 end", len(all)))
+        out.write(b"".join(frame_bytes(*f) for f in all) + line("PMPIPE/1 end %d" % len(all)))
     elif action == "messages":
         for kind, a, b in spots:
             if kind == "abort":
@@ -216,9 +248,12 @@ def main(action, path, *rest):
         out.write(text(data, a, b, literal(rest[0]), literal(rest[1])))
     elif action == "line":
         old, new = literal(rest[0]), literal(rest[1])
-        at = data.index(old)
-        whole = data[at // 64 * 64:at // 64 * 64 + 64].rstrip().replace(old, new, 1).ljust(63)[:63] + b"\n"
-        out.write(data[:at // 64 * 64] + whole + data[at // 64 * 64 + 64:])
+        at = data.index(old) // 64 * 64
+        words, _, block = split(data, at)
+        changed = (b" ".join(words) + b" ").replace(old, new, 1)
+        out.write(data[:at] + line([changed.rstrip()], block)[:63] + b"\n" + data[at + 64:])
+    elif action in ("seal", "unseal"):
+        out.write(seal(data, action == "seal"))
     else:
         sys.exit(__doc__)
 

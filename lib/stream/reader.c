@@ -8,6 +8,7 @@
 
 #include "stream/forward.h"
 #include "stream/header.h"
+#include "stream/line.h"
 #include "stream/run.h"
 #include "stream/wire.h"
 
@@ -124,39 +125,8 @@ static int must_get(struct pm_reader *r, void *to, size_t n, const char *what)
 	return (size_t)k == n ? 0 : pm_fail(PM_DATA, "the input ends in %s: it was cut (run the whole pipeline again)", what);
 }
 
-/* A 64-byte line: "PMPIPE/1 word a b", spaces, newline. */
-struct line {
-	char word[16];
-	uint64_t number[2];
-	int numbers;
-};
-
-static int line_parse(const char *text, struct line *l)
-{
-	char copy[PM_LINE + 1], *next = NULL;
-	memcpy(copy, text, PM_LINE);
-	copy[PM_LINE] = 0;
-	if (memcmp(copy, "PMPIPE/", 7))
-		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
-	if (memcmp(copy, "PMPIPE/1 ", 9))
-		return pm_fail(PM_DATA, "the stream has version %ld, this program reads version 1 (use a newer pmpipe)", strtol(copy + 7, NULL, 10));
-	if (strlen(copy) != PM_LINE || copy[PM_LINE - 1] != '\n')
-		return pm_fail(PM_DATA, "a line of the stream is damaged");
-	char *word = strtok_r(copy + 9, " \n", &next), *number;
-	snprintf(l->word, sizeof l->word, "%s", word ? word : "");
-	for (l->numbers = 0; (number = strtok_r(NULL, " \n", &next)); l->numbers++) {
-		char *end;
-		errno = 0;
-		if (l->numbers < 2)
-			l->number[l->numbers] = strtoull(number, &end, 10);
-		if (l->numbers >= 2 || *end || errno || *number == '-')
-			return pm_fail(PM_DATA, "a line of the stream is damaged: '%s'", number);
-	}
-	return 0;
-}
-
-/* Text that fills a multiple of 64 bytes with the line before it; free() it. */
-static int get_text(struct pm_reader *r, uint64_t bytes, const char *what, char **text)
+/* The text behind a line, a multiple of 64 bytes; free() it. */
+static int get_text(struct pm_reader *r, const struct pm_line *l, uint64_t bytes, const char *what, char **text)
 {
 	if (bytes > most_text || bytes % PM_LINE)
 		return pm_fail(PM_DATA, "%s of %llu bytes: not a multiple of 64 up to 16 MiB", what, (unsigned long long)bytes);
@@ -164,6 +134,8 @@ static int get_text(struct pm_reader *r, uint64_t bytes, const char *what, char 
 	if (!t)
 		return pm_fail(PM_DATA, "out of memory");
 	int status = must_get(r, t, bytes, what);
+	if (!status)
+		status = pm_line_check(l, t, bytes, what);
 	if (status) {
 		free(t);
 		return status;
@@ -173,13 +145,29 @@ static int get_text(struct pm_reader *r, uint64_t bytes, const char *what, char 
 	return 0;
 }
 
-static int get_json(struct pm_reader *r, uint64_t bytes, const char *what, json_t **out)
+/* Behind the JSON there are spaces and one newline. */
+static bool block_padded(const char *text, size_t bytes)
+{
+	size_t n = bytes - 1;
+	if (!bytes || text[n] != '\n')
+		return false;
+	while (n && text[n - 1] == ' ')
+		n--;
+	return n && text[n - 1] > ' ';
+}
+
+static int get_json(struct pm_reader *r, const struct pm_line *l, const char *what, json_t **out)
 {
 	char *text = NULL;
+	size_t bytes = l->number[0];
 	json_error_t error;
-	int status = get_text(r, bytes, what, &text);
+	int status = get_text(r, l, bytes, what, &text);
 	if (status)
 		return status;
+	if (!block_padded(text, bytes)) {
+		free(text);
+		return pm_fail(PM_DATA, "%s does not end in spaces and a newline: it is damaged", what);
+	}
 	json_t *j = json_loadb(text, bytes, JSON_REJECT_DUPLICATES, &error);
 	free(text);
 	if (!j)
@@ -188,11 +176,11 @@ static int get_json(struct pm_reader *r, uint64_t bytes, const char *what, json_
 	return 0;
 }
 
-static int get_abort(struct pm_reader *r, const struct line *l)
+static int get_abort(struct pm_reader *r, const struct pm_line *l)
 {
 	char *text = NULL;
-	int code = l->numbers == 2 && l->number[0] >= 1 && l->number[0] <= 3 ? (int)l->number[0] : PM_DATA;
-	int status = l->numbers == 2 ? get_text(r, l->number[1], "an abort message", &text) : pm_fail(PM_DATA, "a damaged abort line");
+	int code = l->number[0] >= 1 && l->number[0] <= 3 ? (int)l->number[0] : PM_DATA;
+	int status = get_text(r, l, l->number[1], "an abort message", &text);
 	if (status)
 		return status;
 	r->aborted = true;
@@ -207,8 +195,6 @@ static int get_abort(struct pm_reader *r, const struct line *l)
 	return status;
 }
 
-static size_t padded(size_t bytes) { return (bytes + PM_LINE - 1) / PM_LINE * PM_LINE; }
-
 /* Stores the expected fields, and compares their size with the payload announced in the line. */
 static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t payload)
 {
@@ -221,7 +207,7 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
 		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0};
-		if (__builtin_add_overflow(total, padded(items[i].bytes), &total))
+		if (__builtin_add_overflow(total, pm_line_padded(items[i].bytes), &total))
 			return pm_fail(PM_DATA, "the fields of the header are too large");
 	}
 	return total == payload ? 0
@@ -229,11 +215,11 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 					  (unsigned long long)payload);
 }
 
-static int get_frame(struct pm_reader *r, const struct line *l, struct pm_frame **out)
+static int get_frame(struct pm_reader *r, const struct pm_line *l, struct pm_frame **out)
 {
 	json_t *header = NULL;
 	struct pm_frame *f = NULL;
-	int status = l->numbers == 2 ? get_json(r, l->number[0], "a header", &header) : pm_fail(PM_DATA, "a damaged frame line");
+	int status = get_json(r, l, "a header", &header);
 	if (status)
 		return status;
 	status = pm_header_frame(header, &f);
@@ -253,7 +239,7 @@ static int get_frame(struct pm_reader *r, const struct line *l, struct pm_frame 
 int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 {
 	char text[PM_LINE];
-	struct line l = {0};
+	struct pm_line l;
 	r->frame += r->whole;
 	r->whole = false;
 	ssize_t k = get(r, text, PM_LINE);
@@ -269,7 +255,7 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
 	if (k < PM_LINE)
 		return pm_fail(PM_DATA, "the input ends in a line: it was cut (run the whole pipeline again)");
-	int status = line_parse(text, &l);
+	int status = pm_line_parse(text, &l);
 	if (status)
 		return status;
 	if (!strcmp(l.word, "frame"))
@@ -278,8 +264,11 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 		return get_abort(r, &l);
 	if (strcmp(l.word, "end"))
 		return pm_fail(PM_DATA, "'%s' instead of a frame or the end", l.word);
-	if (l.numbers != 1 || l.number[0] != r->frames)
-		return pm_fail(PM_DATA, "the end marker does not count the %llu frames received", (unsigned long long)r->frames);
+	status = pm_line_check(&l, NULL, 0, "the end marker");
+	if (!status && l.number[0] != r->frames)
+		status = pm_fail(PM_DATA, "the end marker does not count the %llu frames received", (unsigned long long)r->frames);
+	if (status)
+		return status;
 	r->frames = 0;
 	r->stream = false;
 	return PM_GOT_END;
@@ -319,27 +308,31 @@ static int get_field(struct pm_reader *r, struct item *it, bool load, struct pm_
 			status = pm_forward(w, piece, n);
 		done += n;
 	}
-	char pad[PM_LINE];
-	size_t rest = padded(it->bytes) - it->bytes;
+	char pad[PM_LINE], ored = 0;
+	size_t rest = pm_line_padded(it->bytes) - it->bytes;
 	if (!status && rest)
 		status = must_get(r, pad, rest, "the data");
+	for (size_t i = 0; i < rest && !status; i++)
+		ored |= pad[i];
+	if (ored)
+		status = pm_fail(PM_DATA, "the bytes behind field %zu of %zu are not zero: the data are damaged", (size_t)(it - r->items) + 1, r->nitems);
 	return !status && w ? pm_forward_done(w, it->field, it->crc) : status;
 }
 
 static int get_tail(struct pm_reader *r, struct pm_frame *f)
 {
 	char text[PM_LINE];
-	struct line l = {0};
+	struct pm_line l;
 	json_t *tail = NULL;
 	int status = must_get(r, text, PM_LINE, "a tail");
 	if (!status)
-		status = line_parse(text, &l);
+		status = pm_line_parse(text, &l);
 	if (!status && !strcmp(l.word, "abort"))
 		return get_abort(r, &l);
-	if (!status && (strcmp(l.word, "tail") || l.numbers != 1))
+	if (!status && strcmp(l.word, "tail"))
 		status = pm_fail(PM_DATA, "'%s' instead of the tail of the frame", l.word);
 	if (!status)
-		status = get_json(r, l.number[0], "a tail", &tail);
+		status = get_json(r, &l, "a tail", &tail);
 	if (status)
 		return status;
 	const json_t *crcs = json_object_get(tail, "crc32c"), *report = json_object_get(tail, "report");

@@ -9,6 +9,7 @@
 #include "base/replace.h"
 #include "stream/forward.h"
 #include "stream/header.h"
+#include "stream/line.h"
 
 struct pm_writer {
 	int fd;
@@ -97,28 +98,18 @@ static int put(struct pm_writer *w, const void *data, size_t n)
 	return 0;
 }
 
-static size_t padded(size_t bytes) { return (bytes + PM_LINE - 1) / PM_LINE * PM_LINE; }
-
-static void line(char out[PM_LINE], const char *format, unsigned long long a, unsigned long long b)
-{
-	char text[2 * PM_LINE];
-	int n = snprintf(text, sizeof text, format, a, b);
-	memset(out, ' ', PM_LINE);
-	memcpy(out, text, (size_t)n < PM_LINE - 1 ? (size_t)n : PM_LINE - 1);
-	out[PM_LINE - 1] = '\n';
-}
-
 /* Writes a line and the text it announces at once: the text padded with spaces to a multiple of 64, a newline last. */
 static int put_text(struct pm_writer *w, const char *format, unsigned long long a, bool size_first, const char *text)
 {
-	size_t n = strlen(text), bytes = padded(n + 1);
-	char *all = malloc(PM_LINE + bytes);
+	size_t n = strlen(text), bytes = pm_line_padded(n + 1);
+	char words[PM_LINE], *all = malloc(PM_LINE + bytes);
 	if (!all)
 		return pm_fail(PM_DATA, "out of memory");
-	line(all, format, size_first ? bytes : a, size_first ? a : bytes);
 	memcpy(all + PM_LINE, text, n);
 	memset(all + PM_LINE + n, ' ', bytes - n);
 	all[PM_LINE + bytes - 1] = '\n';
+	snprintf(words, sizeof words, format, size_first ? bytes : a, size_first ? a : bytes);
+	pm_line_seal(all, words, all + PM_LINE, bytes);
 	int status = put(w, all, PM_LINE + bytes);
 	free(all);
 	return status;
@@ -135,7 +126,7 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 		return pm_fail(PM_DATA, "the header cannot be written as JSON (a name that is not UTF-8?)");
 	uint64_t payload = 0;
 	for (size_t i = 0; i < f->nfields; i++)
-		payload += padded(pm_field_wire(f->fields[i]));
+		payload += pm_line_padded(pm_field_wire(f->fields[i]));
 	int status = 0;
 	if (w->ncrc < f->nfields) {
 		free(w->crc);
@@ -163,7 +154,7 @@ int pm_forward_done(struct pm_writer *w, const struct pm_field *field, uint32_t 
 	static const char zero[PM_LINE];
 	size_t bytes = pm_field_wire(field);
 	w->crc[w->next++] = crc;
-	return pm_forward(w, zero, padded(bytes) - bytes);
+	return pm_forward(w, zero, pm_line_padded(bytes) - bytes);
 }
 
 static int put_field(struct pm_writer *w, struct pm_field *p)
@@ -219,8 +210,9 @@ int pm_write_frame(struct pm_writer *w, struct pm_frame *f)
 
 int pm_write_end(struct pm_writer *w)
 {
-	char text[PM_LINE];
-	line(text, "PMPIPE/1 end %llu", w->frames, 0);
+	char words[PM_LINE], text[PM_LINE];
+	snprintf(words, sizeof words, "PMPIPE/1 end %llu", (unsigned long long)w->frames);
+	pm_line_seal(text, words, NULL, 0);
 	w->frames = 0;
 	int status = put(w, text, PM_LINE);
 	w->whole = !status;

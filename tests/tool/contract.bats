@@ -12,7 +12,7 @@ usage() {
 	if "$tool" --help | grep -q 'writes text'; then
 		[ ! -s out ]
 	else
-		read -r word length < <(head -n 1 out | sed -nE 's|^PMPIPE/1 abort 2 ([0-9]+) *$|abort \1|p') || true
+		read -r word length < <(head -n 1 out | sed -nE 's|^PMPIPE/1 abort 2 ([0-9]+) [0-9a-f]{8} *$|abort \1|p') || true
 		[ "$word" = abort ] && [ "$(wc -c <out)" = $((64 + length)) ] && [ "$(tail -c "$length" out | sed 's/ *$//')" = "$(cat err)" ]
 	fi || { echo "$2: on standard output"; cat out; return 1; }
 }

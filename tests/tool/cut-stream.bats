@@ -154,7 +154,7 @@ cut_at() {
 }
 
 @test "a stream of no frames is a stream: exit 0" {
-	printf '%-63s\n' 'PMPIPE/1 end 0' >none.pm
+	wire end >none.pm
 	works none.pm
 	cmp none.pm out.p2m
 	cmp none.pm out.cycle

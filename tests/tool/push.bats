@@ -110,9 +110,9 @@ refuses() {
 
 @test "a magnetic field in the plane of two velocity components is refused, with three it turns them out of the plane" {
 	pinit gyration > a
-	sed -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' a > b # the same length
+	edited -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' a > b # the same length
 	refuses 1 "a magnetic field in the plane turns them out of it (give v 3 components)" "m2p < b | push boris/2"
-	pinit gyration --velocities 3 | sed -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' > c
+	pinit gyration --velocities 3 | edited -e '1,2s/"uniform":\[0.0,0.0,1.0\]/"uniform":[0.0,1.0,0.0]/' > c
 	m2p < c | push boris/2 drift | m2p | push boris/2 | stab --plain --set electrons > t
 	within "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { printf "%.17g", atan2($c["vz"], $c["vx"]) }' t)" -0.0999167914438855 1e-15
 }

@@ -77,7 +77,7 @@ for n, on in ((3, "more matter"), (2, "more_matter")):
 	[ "$(h5ls back.h5/data | cut -d' ' -f1 | paste -sd,)" = 0,1,2,3 ]
 	cat four.pm one.pm >two.pm
 	there_and_back two.pm
-	printf '%-63s\n' 'PMPIPE/1 end 0' >none.pm
+	wire end >none.pm
 	there_and_back none.pm
 	cat none.pm one.pm none.pm >mixed.pm
 	there_and_back mixed.pm
