@@ -3,7 +3,7 @@
  * Source: Hockney and Eastwood 1988, 6-5-4 (1/h); the mean over a rectangle of sides a, b is
  *   (ln((a^2 + b^2)/4) - 3 + (a/b) atan(b/a) + (b/a) atan(a/b))/2. Cost: none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "green/free.h"
+#include "green-parts/free-space.h"
 
 static double centre(int dim, const double h[3])
 {

@@ -1,7 +1,7 @@
-/* The Green's function of a Gaussian blob: order 2, positive (gauss.h): smooth, so its value at 0 needs no correction; the potential is that of the
+/* The Green's function of a Gaussian blob: order 2, positive: smooth, so its value at 0 needs no correction; the potential is that of the
  * source smoothed over sigma = 2 h (or softening/sqrt(2)), with an error O(sigma^2). Source: Hejlesen, Rasmussen, Chatelain and Walther 2013.
  * Cost: an exponential and an error function or exponential integral per node, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "green/gauss.h"
+#include "green-parts/gauss-blob.h"
 
 PM_GREEN_GAUSS(2, "regularised by a Gaussian blob: order 2, positive")

@@ -24,9 +24,10 @@ struct pm_green {
 	bool regular;              /* it depends on width */
 	bool differences;          /* it inverts the differences of --symbol, not the Laplacian; its `at` is for one axis and fd2 */
 	/* At least one of two. at: the value at distance sqrt(r2); at r2 = 0 the value used in the sum over nodes. transform: that of the function truncated at
-	 * reach, at wave number sqrt(k2); used if `at` is missing or some kappa > 0. */
+	 * reach, at wave number sqrt(k2); used if `at` is missing, or some kappa > 0 and it is smooth: 0 to round-off at the Nyquist wave of the mesh. */
 	double (*at)(const struct pm_green_case *c, double r2);
 	double (*transform)(const struct pm_green_case *c, double k2);
+	bool (*smooth)(const struct pm_green_case *c); /* of those that have both */
 	void (*prepare)(struct pm_green_case *c); /* may be NULL; fills constant */
 };
 

@@ -9,7 +9,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <gsl/gsl_sf_expint.h>
 
-#include "green/free.h"
+#include "green-parts/free-space.h"
 
 struct ewald {
 	int dim;

@@ -3,7 +3,7 @@
  * like any other. No special value at 0 and no sampling error: the result is as accurate as the source is resolved and small at the faces.
  * Source: Vico, Greengard and Ferrando 2016, chapters 2 and 3. Cost: transforms of twice the octant per axis, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "green/truncated.h"
+#include "green-parts/truncated.h"
 
 static void prepare(struct pm_green_case *c)
 {

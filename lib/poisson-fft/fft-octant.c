@@ -253,7 +253,7 @@ double *pm_octant_spectrum(struct pm_octant *o, struct pm_fft_plans *planner)
 	struct work w = {.o = o};
 	double *all = NULL, *out = NULL;
 	bool screened = cases(&w);
-	w.fold = !o->green->at || (screened && o->green->transform);
+	w.fold = !o->green->at || (screened && o->green->transform && o->green->smooth(w.cases));
 	if (!w.cases || lattice(&w, planner->effort) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
 		goto out;
 	size_t slab = w.side[1].size * o->row;

@@ -1,7 +1,7 @@
 /* Free-space Green's functions of lap G - kappa^2 G = delta function at r > 0: 3-D -exp(-kappa r)/(4 pi r), 2-D -K0(kappa r)/(2 pi), 1-D
  * -exp(-kappa |x|)/(2 kappa); with kappa = 0: -1/(4 pi r), ln(r)/(2 pi), |x|/2. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_GREEN_FREE_H
-#define PM_GREEN_FREE_H
+#ifndef PM_GREEN_PARTS_FREE_SPACE_H
+#define PM_GREEN_PARTS_FREE_SPACE_H
 
 #include <gsl/gsl_sf_bessel.h>
 

@@ -4,8 +4,8 @@
  *   2-D -(1 + R (k J1(kR) K0(kappa R) - kappa J0(kR) K1(kappa R)))/K^2  R ln(R) J1(kR)/k - (1 - J0(kR))/k^2
  *   1-D -(1 - exp(-kappa R)(cos kR - k sin(kR)/kappa))/K^2              (kR sin kR - 2 sin^2(kR/2))/k^2
  * Source: Vico, Greengard and Ferrando 2016, equations 10-14 for kappa = 0. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_GREEN_TRUNCATED_H
-#define PM_GREEN_TRUNCATED_H
+#ifndef PM_GREEN_PARTS_TRUNCATED_H
+#define PM_GREEN_PARTS_TRUNCATED_H
 
 #include <gsl/gsl_sf_bessel.h>
 
