@@ -22,7 +22,7 @@ wave() {
 	pinit landau --wavenumber "$1" -n 40960 --beams 160 --amplitude $amplitude |
 		cycle -t "$to" "${4:-push kick/2 drift | p2m --kernel tsc | poisson-fft | mgrad | m2p | push kick/2} |
 			diag --columns time --growth mode:1 --window $from:$to --tee $work/table" >"$work/last"
-	sed -n 's/^# .* gamma \([^ ]*\) omega \([^,]*\),.*/\2 \1/p' "$work/table"
+	sed -n 's/^# .* gamma \([^ ]*\) .* omega \([^,]*\),.*/\2 \1/p' "$work/table"
 }
 
 while read -r k want_omega want_gamma; do

@@ -25,7 +25,7 @@ beams() {
 		mgrad |
 		diag --columns time,energy_field_x,energy,momentum_x --modes 1 --growth mode:1 >"$work/$table"
 }
-gamma() { sed -n 's/^# .* gamma \([^ ]*\) omega.*/\1/p' "$work/$1"; }
+gamma() { sed -n 's/^# .* gamma \([^ ]*\) .*/\1/p' "$work/$1"; }
 
 # most TABLE COLUMN: its largest value after t = 20 over its mean before.
 most() {

@@ -26,8 +26,9 @@ static int begin(struct pm_stage *s)
 	struct config *c = s->config;
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
-		.modes = c->modes.x, .nmodes = c->modes.n, .window = c->window, .pair = c->pair, .exact = c->exact, .json = !strcmp(c->format, "json")};
-	if (pm_diag_choice_check(&choice, c->growth))
+		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
+		.pair = c->pair, .exact = c->exact, .json = !strcmp(c->format, "json")};
+	if (pm_diag_table_init(&state->table, &choice, stdout))
 		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
 	state->out = stdout;
@@ -37,7 +38,7 @@ static int begin(struct pm_stage *s)
 		return pm_failed();
 	if (c->tee)
 		state->out = fdopen(state->tee.fd, "w");
-	pm_diag_table_init(&state->table, &choice, state->out);
+	state->table.out = state->out;
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
@@ -72,11 +73,11 @@ static const struct pm_option options[] = {
 	{.name = "radii", .kind = PM_VECTOR, .cosmetic = true, PM_AT(radii),
 		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
 	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
-		.text = "add the amplitudes of these waves along x of the law's field (its first component)"},
-	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M", .cosmetic = true, PM_AT(growth),
-		.text = "after the table print a line with the growth rate and frequency of wave M along x"},
+		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others)"},
+	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M|COLUMN", .cosmetic = true, PM_AT(growth),
+		.text = "after the table print a line with the growth rate and frequency of wave M along x, or of a column; or none, and why"},
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),
-		.text = "fit them between these times (default: growth from 1 to 10 % of the maximum, else all)"},
+		.text = "fit them between these times (default: where the rate has the smallest error)"},
 	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair), .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)"},
 	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene "
 		"provides"},

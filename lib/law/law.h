@@ -21,6 +21,7 @@ struct pm_law {
 	const char *background; /* constant of the frame that p2m adds to the density; NULL none */
 	const char *potential;  /* what a solver makes: "phi", "psi" */
 	const char *field;      /* what mgrad makes: "g", "E", "u"; dim components */
+	int wave;               /* component of the field that waves along x have: 0; 1 for a velocity without divergence, whose u.x cannot vary */
 	enum { PM_GRADIENT, PM_CURL } of_potential; /* field = sign * grad(potential), or (d psi/dy, -d psi/dx) */
 	double sign;            /* of the gradient: -1 for g and E */
 	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */

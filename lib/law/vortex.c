@@ -27,6 +27,7 @@ const struct pm_law law_vortex = {
 	.density = "omega",
 	.potential = "psi",
 	.field = "u",
+	.wave = 1,
 	.of_potential = PM_CURL,
 	.sign = 1,
 	.change = "vel",

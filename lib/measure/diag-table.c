@@ -1,46 +1,55 @@
 /* The table of diag: the columns that a frame can give or that were asked for, decided by the first frame, one row per frame, and the growth rate of a mode
- * after the last row.
+ * or a column after the last row.
  * Cost: that of the measures, and with growth two numbers kept per frame. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/diag-table.h"
 
-/* mode:M and T0:T1. */
-static int take_growth(struct pm_diag_choice *c, const char *growth)
+static int check(const struct pm_diag_choice *c)
 {
-	int used = 0;
-	if (growth && (sscanf(growth, "mode:%d%n", &c->growth, &used) != 1 || growth[used] || c->growth < 1))
-		return pm_fail(PM_USAGE, "--growth '%s' (it is written mode:1, waves in the box along x)", growth);
-	if (growth && c->nmodes == PM_COMPONENTS)
-		return pm_fail(PM_USAGE, "--growth with %d modes (at most %d)", c->nmodes, PM_COMPONENTS - 1);
-	if (c->window && (!growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
-		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
-	return 0;
-}
-
-int pm_diag_choice_check(struct pm_diag_choice *c, const char *growth)
-{
-	c->growth = 0;
-	c->from = c->to = NAN;
 	for (int k = 0; k < c->nradii; k++)
 		if (!(c->radii[k] > 0 && c->radii[k] <= 1))
 			return pm_fail(PM_USAGE, "--radii %g is not a fraction of the mass in 0..1", c->radii[k]);
 	for (int k = 0; k < c->nmodes; k++)
 		if (!(c->modes[k] >= 1 && c->modes[k] <= 1e6 && c->modes[k] == floor(c->modes[k])))
 			return pm_fail(PM_USAGE, "--modes %g is not a whole number of waves", c->modes[k]);
-	return take_growth(c, growth);
+	return 0;
 }
 
-void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out)
+/* mode:M or a column, and T0:T1. */
+static int take_growth(struct pm_diag_table *t)
+{
+	struct pm_diag_choice *c = &t->choice;
+	struct pm_diag_request *g = &t->request;
+	char mode[PM_DIAG_NAME] = "";
+	int used = 0;
+	c->from = c->to = NAN;
+	if (c->window && (!c->growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
+		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
+	if (!c->growth)
+		return 0;
+	if (g->nmodes == PM_COMPONENTS || g->nradii == PM_COMPONENTS)
+		return pm_fail(PM_USAGE, "--growth with %d modes or radii (at most %d)", PM_COMPONENTS, PM_COMPONENTS - 1);
+	const bool wave = !strncmp(c->growth, "mode:", strlen("mode:"));
+	snprintf(mode, sizeof mode, "mode_%s", wave ? c->growth + strlen("mode:") : "");
+	if (!pm_diag_find(g, wave ? mode : c->growth, &t->growth))
+		return pm_fail(PM_USAGE, "--growth '%s' (mode:1 for waves in the box along x, or a column of diag)", c->growth);
+	t->mode = wave ? g->nmodes - 1 : -1;
+	t->series.column = !wave;
+	return 0;
+}
+
+int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out)
 {
 	struct pm_diag_request *g = &t->request;
 	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes}};
+	if (check(c))
+		return -PM_USAGE;
 	for (int k = 0; k < c->nradii; k++)
 		g->fraction[k] = c->radii[k];
 	for (int k = 0; k < c->nmodes; k++)
 		g->mode[k] = (int)c->modes[k];
-	if (c->growth)
-		g->mode[g->nmodes++] = c->growth; /* the last is the mode whose growth is fitted */
+	return take_growth(t);
 }
 
 static void add(struct pm_diag_table *t, const struct pm_frame *f, struct pm_diag_column column)
@@ -76,13 +85,20 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 	return 0;
 }
 
+static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struct pm_measures *m)
+{
+	if (!t->choice.growth)
+		return 0;
+	const double value[2] = {t->mode < 0 ? pm_diag_value(&t->growth, m, f) : 0, 0};
+	return pm_series_add(&t->series, f->time, t->mode < 0 ? value : m->mode[t->mode], t->mode < 0 ? 0 : m->field_most);
+}
+
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	struct pm_measures m;
 	const bool json = t->choice.json, first = !t->n;
 	const struct pm_measure how = pm_diag_how(&t->request, f);
-	if ((first && decide(t, f)) || pm_measure_frame(&how, f, &m) ||
-		(t->choice.growth && pm_series_add(&t->series, f->time, m.mode[how.nmodes - 1])))
+	if ((first && decide(t, f)) || pm_measure_frame(&how, f, &m) || follow(t, f, &m))
 		return -PM_DATA;
 	for (int i = 0; i < t->n && first && !json; i++)
 		fprintf(t->out, "%s%c", t->column[i].name, i + 1 < t->n ? '\t' : '\n');
@@ -96,18 +112,38 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 
+static void number(FILE *out, bool json, const char *before, double x)
+{
+	fprintf(out, isfinite(x) ? "%s%.9g" : json ? "%snull" : "%snan", before, x);
+}
+
+/* The line of the growth rate: for people, a comment of the table. */
+static void print_growth(FILE *out, bool json, const char *of, const struct pm_growth *g)
+{
+	const char *const name[2][6] = {{"# ", " gamma ", " +- ", " omega ", ", from t = ", " to "},
+		{"{\"growth\":\"", "\",\"gamma\":", ",\"error\":", ",\"omega\":", ",\"from\":", ",\"to\":"}}, *const *n = name[json];
+	fprintf(out, "%s%s", n[0], of);
+	number(out, json, n[1], g->gamma);
+	number(out, json, n[2], g->error);
+	number(out, json, n[3], g->omega);
+	if (g->reason[0]) {
+		fprintf(out, json ? ",\"points\":%zu,\"none\":\"%s\"}\n" : ", none of %zu points: %s\n", g->points, g->reason);
+		return;
+	}
+	number(out, json, n[4], g->from);
+	number(out, json, n[5], g->to);
+	fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g}\n" : ", %zu points, %.3g times the noise\n", g->points, g->over_noise);
+}
+
 int pm_diag_table_end(struct pm_diag_table *t)
 {
 	const struct pm_diag_choice *c = &t->choice;
-	const bool json = c->json;
+	struct pm_growth g;
 	if (!c->growth)
 		return 0;
-	const struct pm_growth g = pm_growth_of(&t->series, c->from, c->to);
-	if (!isfinite(g.gamma))
-		return pm_fail(PM_DATA, "%zu points of mode %d%s%s are too few for a growth rate (more frames: cycle --every, or another --window)", g.points,
-			c->growth, c->window ? " in the window " : "", c->window ? c->window : "");
-	fprintf(t->out, json ? "{\"growth\":\"mode:%d\",\"gamma\":%.9g,\"omega\":%.9g,\"from\":%.9g,\"to\":%.9g,\"points\":%zu}\n"
-		: "# mode:%d gamma %.9g omega %.9g, from t = %.9g to %.9g, %zu points\n", c->growth, g.gamma, g.omega, g.from, g.to, g.points);
+	if (pm_growth_of(&t->series, c->from, c->to, &g))
+		return -PM_DATA;
+	print_growth(t->out, c->json, c->growth, &g);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 

@@ -15,7 +15,7 @@ struct pm_diag_choice {
 	int ncolumns;                                   /* 0: all that exist here */
 	const double *radii, *modes;                    /* fractions of the mass; waves along x */
 	int nradii, nmodes;                             /* PM_COMPONENTS at most, the mode of the growth included */
-	int growth;                                     /* the mode whose growth is fitted; 0 none */
+	const char *growth;                             /* what is fitted, as typed: mode:M or a column; NULL none */
 	const char *window;                             /* as typed, for messages; NULL none */
 	double from, to;                                /* [time] of the fit; NAN: chosen */
 	bool pair, exact, json;
@@ -27,14 +27,14 @@ struct pm_diag_table {
 	int n; /* columns, decided by the first frame; 0 before */
 	struct pm_diag_column column[PM_DIAG_WIDEST];
 	struct pm_diag_request request;
-	struct pm_series series; /* of the growth */
+	struct pm_diag_column growth; /* the column that is fitted */
+	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
+	struct pm_series series;
 };
 
-/* Radii, modes, the growth as typed (mode:M, NULL none) and the window (T0:T1) of a choice otherwise filled: checked, growth, from and to set.
- * 0 or failure. */
-int pm_diag_choice_check(struct pm_diag_choice *c, const char *growth);
-void pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
-/* 0 or failure. The first row is preceded by the line of names; end prints the line of the growth rate. */
+/* Checks what was typed, and takes the growth and the window (T0:T1) apart. 0 or failure. */
+int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
+/* 0 or failure. The first row is preceded by the line of names; end prints the line of the growth rate, or that there is none and why. */
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
 int pm_diag_table_end(struct pm_diag_table *t);
 void pm_diag_table_clear(struct pm_diag_table *t);

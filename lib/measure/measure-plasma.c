@@ -36,6 +36,15 @@ static double charge(const struct pm_measure *how, const struct pm_frame *f)
 	return sets ? pm_sum_total(sum) : NAN;
 }
 
+static double largest(const struct pm_grid *g, const struct pm_field *field)
+{
+	double most = 0;
+	for (int c = 0; c < field->components; c++)
+		for (size_t i = 0; i < pm_grid_size(g); i++)
+			most = fmax(most, fabs(pm_in(field, c)[i]));
+	return most;
+}
+
 void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {
 	const struct pm_mesh *mesh = how->plasma || how->nmodes ? filled(how, f) : NULL;
@@ -48,6 +57,7 @@ void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct
 	for (int k = 0; k < how->nmodes; k++) {
 		m->mode[k][0] = m->mode[k][1] = NAN;
 		if (e && f->face[0][0] == PM_PERIODIC)
-			pm_mode(&g, pm_in(e, 0), how->modes[k], m->mode[k]);
+			pm_mode(&g, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
 	}
+	m->field_most = how->nmodes && e ? largest(&g, e) : NAN;
 }

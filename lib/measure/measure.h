@@ -60,6 +60,7 @@ struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
+	double field_most;              /* largest component of the law's field at any point; with modes, else NAN */
 };
 /* All columns from bulk and field energies (NAN: unknown); field: the law has a field, so the total energy is unknown without the field's energy. */
 void pm_measures_of(const struct pm_frame *f, const struct pm_particle_sums *bulk, double mesh, double pair, bool field, struct pm_measures *m);
@@ -73,7 +74,8 @@ struct pm_measure { /* what to measure of a frame */
 	double centre[2];            /* [length] where omega is looked at */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
 	const char *field;           /* of the law on the mesh; NULL none */
-	int nmodes, modes[PM_COMPONENTS]; /* waves along x of its first component */
+	int wave;                    /* component of it that waves along x have */
+	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };

@@ -94,7 +94,7 @@ commands() {
 			growth_sentence "$m" "$s" "$x" "$(awk -F'\t' -v m="$m" -v s="$s" -v x="$x" '$1 == "trial" && $2 == m && $3 == s && $4 == x { print $6;
 				exit }' "$state/log")"
 			one=$text
-			plain_words diag --columns "step,$growth"
+			plain_words diag --columns step,time --growth "$growth"
 			echo "$one | $text"
 		fi
 	done <"$state/log"

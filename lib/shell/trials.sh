@@ -126,14 +126,14 @@ growth_sentence() {
 	join "${all[@]}"
 }
 
-# growth_of MEMBER SEED VALUE STEPS: the slope of ln |column| over the second half of the frames.
+# growth_of MEMBER SEED VALUE STEPS: gamma of the column by diag --growth, times the mean step; - where diag finds none.
 growth_of() {
 	local line
 	growth_sentence "$1" "$2" "$3" "$4"
-	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | diag --columns "step,$growth" 2>/dev/null | awk -F'\t' 'NR > 1 && !/^#/ && $2 ~ /[0-9]/ &&
-		$2 !~ /nan|inf/ && $2 != 0 { n++; x[n] = $1; y[n] = log($2 < 0 ? -$2 : $2) }
-		END { for (i = n > 5 ? int(n / 2) + 1 : 1; i <= n; i++) { k++; sx += x[i]; sy += y[i]; sxx += x[i] * x[i]; sxy += x[i] * y[i] }
-			d = k * sxx - sx * sx; if (k > 1 && d > 0) printf "%.6g\t%d\n", (k * sxy - sx * sy) / d, k; else print "-\t" k + 0 }') || true
+	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | diag --columns step,time --growth "$growth" 2>/dev/null | awk -F'\t' '
+		!/^#/ && NR > 1 { if (!n++) { step = $1; start = $2 } steps = $1 - step; time = $2 - start }
+		/^# / { split($0, word, " "); gamma = word[4]; points = $0; sub(/ points.*/, "", points); sub(/.* /, "", points) }
+		END { if (gamma ~ /[0-9]/ && steps > 0) printf "%.6g\t%d\n", gamma * time / steps, points; else print "-\t0" }') || true
 	note "growth"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"${line:--$'\t'0}"
 }
 

@@ -127,7 +127,7 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 			cycle -t 22.3 "$step | diag --columns time --growth mode:1 --tee t --window $(awk -v w="$omega" 'BEGIN { printf "%g:22.2",
 				7.853981634 / w }')" > last
 		within "$(sed -n 's/^# .* omega \([^,]*\),.*/\1/p' t)" "$omega" "$(awk -v w="$omega" 'BEGIN { print 0.003 * w }')" "omega, k = $k"
-		within "$(sed -n 's/^# .* gamma \([^ ]*\) omega.*/\1/p' t)" "$gamma" "$(awk -v g="$gamma" 'BEGIN { print -0.04 * g }')" "gamma, k = $k"
+		within "$(sed -n 's/^# .* gamma \([^ ]*\) .*/\1/p' t)" "$gamma" "$(awk -v g="$gamma" 'BEGIN { print -0.04 * g }')" "gamma, k = $k"
 	done
 }
 

@@ -126,7 +126,7 @@ load ../helper
 		cycle -n 100 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
 		p2m | poisson-fft | mgrad > a; diag --modes 1,2 --growth mode:1 < a > t"
 	[ "$(wc -l < t)" = 103 ]
-	[[ $(tail -n 1 t) == "# mode:1 gamma "*" omega "*", from t = 0 to "*", 101 points" ]]
+	[[ $(tail -n 1 t) == "# mode:1 gamma "*" +- "*" omega "*", from t = 0 to "*", 101 points, "*" times the noise" ]]
 	within "$(sed '$d' t | column charge | tail -n 1)" -6.283185307179586 1e-12
 	# a plane wave of amplitude e has the energy L e^2/4, and mode 2 is absent
 	e=$(sed '$d' t | column mode_1 | head -n 1)
@@ -168,12 +168,38 @@ load ../helper
 	below "$y" "$(awk -v x="$x" 'BEGIN { print 0.9 * x }')"
 }
 
-@test "diag: --growth without a field, with too few frames or a wrong word is refused" {
+@test "diag: --growth of noise, of rounding and of too few frames prints no rate but the reason" {
+	none() { sh_ok "$2 | diag --columns time --growth mode:1 | tail -n 1"; [[ $output == "# mode:1 gamma nan +- nan omega nan, none of "*"$1"* ]] ||
+		{ echo "$output"; return 1; }; }
+	none "1 points: 1 points are too few" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad"
+	# u.y of Taylor's vortices is sin(y) cos(x), and its mean over y 0
+	none "is the rounding of a field of 1" "pinit taylor-green-2d --cells 32 | cycle -n 12 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk2' | p2m | poisson-fft | mgrad"
+	# a field that is random anew in every frame
+	none "exponential" "for i in {1..40}; do pinit uniform --dim 1 -n 50 --seed \$i | smod --time \$i; done | p2m | poisson-fft | mgrad"
+	sh_ok "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1 --format json | tail -n 1 | jq -c '[.gamma, .points, .none]'"
+	[ "$output" = '[null,1,"1 points are too few (more frames: cycle --every)"]' ]
+}
+
+@test "diag: a mode under law vortex is that of u.y: a viscous shear flow u.y = sin(x) decays at nu, and u.x is 0 for all waves along x" {
+	flow='pinit taylor-green-2d --cells 32 --nu 0.05 --dt 0.1 | scalc "circulation = cos(x)*volume"'
+	sh_ok "$flow | cycle -n 60 --every 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' | p2m | poisson-fft | mgrad | diag --columns time,energy --modes 1 --growth mode:1 > t"
+	within "$(sed '$d' t | column mode_1 | head -n 1)" 1 1e-4 # circulation of the nodes, spread by m4prime
+	within "$(sed -n 's/^# mode:1 gamma \([^ ]*\) .*/\1/p' t)" -0.05 5e-4
+}
+
+@test "diag: --growth of a column: the energy of a damped wave falls at twice its rate and turns at twice its frequency" {
+	sh_ok "pinit landau -n 10240 --beams 80 --amplitude 1e-3 | cycle -n 160 --every 2 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' > a"
+	sh_ok "diag --growth mode:1 < a > m; diag --growth energy_field_x < a > c"
+	rate() { sed -n "s/^# .* $1 \([^ ,]*\)[ ,].*/\1/p" "$2"; }
+	within "$(rate gamma c)" "$(awk -v g="$(rate gamma m)" 'BEGIN { print 2 * g }')" 0.01
+	within "$(rate omega c)" "$(awk -v w="$(rate omega m)" 'BEGIN { print 2 * w }')" 0.02
+}
+
+@test "diag: --growth without a field or with a wrong word is refused" {
 	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$3"; [[ $stderr == *"$2"* ]] || { echo "$stderr"; return 1; }; }
 	refused 1 "no field 'E' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)" "pinit langmuir -n 64 | diag --growth mode:1"
-	refused 1 "1 points of mode 1 are too few for a growth rate" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1"
 	refused 1 "modes need a box that is periodic in x" "pinit plummer -n 64 | diag --growth mode:1"
-	refused 2 "it is written mode:1" "pinit langmuir -n 64 | diag --growth 1"
+	refused 2 "mode:1 for waves in the box along x, or a column of diag" "pinit langmuir -n 64 | diag --growth 1"
 	refused 2 "it is written T0:T1" "pinit langmuir -n 64 | diag --growth mode:1 --window 3:1"
 	refused 2 "not a whole number of waves" "pinit langmuir -n 64 | diag --modes 1.5"
 }
