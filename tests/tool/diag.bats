@@ -173,7 +173,8 @@ load ../helper
 		{ echo "$output"; return 1; }; }
 	none "1 points: 1 points are too few" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad"
 	# u.y of Taylor's vortices is sin(y) cos(x), and its mean over y 0
-	none "is the rounding of a field of 1" "pinit taylor-green-2d --cells 32 | cycle -n 12 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk2' | p2m | poisson-fft | mgrad"
+	none "is the rounding of a field of 1" "pinit taylor-green-2d --cells 32 |
+		cycle -n 12 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk2' | p2m | poisson-fft | mgrad"
 	# a field that is random anew in every frame
 	none "exponential" "for i in {1..40}; do pinit uniform --dim 1 -n 50 --seed \$i | smod --time \$i; done | p2m | poisson-fft | mgrad"
 	sh_ok "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1 --format json | tail -n 1 | jq -c '[.gamma, .points, .none]'"
@@ -182,13 +183,15 @@ load ../helper
 
 @test "diag: a mode under law vortex is that of u.y: a viscous shear flow u.y = sin(x) decays at nu, and u.x is 0 for all waves along x" {
 	flow='pinit taylor-green-2d --cells 32 --nu 0.05 --dt 0.1 | scalc "circulation = cos(x)*volume"'
-	sh_ok "$flow | cycle -n 60 --every 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' | p2m | poisson-fft | mgrad | diag --columns time,energy --modes 1 --growth mode:1 > t"
+	sh_ok "$flow | cycle -n 60 --every 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' |
+		p2m | poisson-fft | mgrad | diag --columns time,energy --modes 1 --growth mode:1 > t"
 	within "$(sed '$d' t | column mode_1 | head -n 1)" 1 1e-4 # circulation of the nodes, spread by m4prime
 	within "$(sed -n 's/^# mode:1 gamma \([^ ]*\) .*/\1/p' t)" -0.05 5e-4
 }
 
 @test "diag: --growth of a column: the energy of a damped wave falls at twice its rate and turns at twice its frequency" {
-	sh_ok "pinit landau -n 10240 --beams 80 --amplitude 1e-3 | cycle -n 160 --every 2 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' > a"
+	sh_ok "pinit landau -n 10240 --beams 80 --amplitude 1e-3 |
+		cycle -n 160 --every 2 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' > a"
 	sh_ok "diag --growth mode:1 < a > m; diag --growth energy_field_x < a > c"
 	rate() { sed -n "s/^# .* $1 \([^ ,]*\)[ ,].*/\1/p" "$2"; }
 	within "$(rate gamma c)" "$(awk -v g="$(rate gamma m)" 'BEGIN { print 2 * g }')" 0.01
