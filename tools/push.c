@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "stage/stage.h"
 #include "push/push-set.h"
+#include "stage/strength-report.h"
 
 struct config {
 	double dt;
@@ -81,21 +81,31 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
 }
 
+static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_moving *m)
+{
+	const struct pm_push *p = &((const struct config *)s->config)->push;
+	struct pm_strengths before, after, lost = {.n = 0};
+	uint64_t absorbed = 0;
+	pm_moving_given(f, m, &before);
+	if (pm_moving_run(f, m, p))
+		return -PM_DATA;
+	pm_moving_given(f, m, &after);
+	pm_report_strengths(s, f, "given", &before, &after);
+	if (p->moves && pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, m, &absorbed, &lost))
+		return -PM_DATA;
+	if (absorbed)
+		pm_report_count(s, f, "absorbed", absorbed);
+	pm_report_strengths(s, f, "absorbed", NULL, &lost);
+	return 0;
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct config *cfg = s->config;
 	const struct state *state = s->state;
-	for (size_t i = 0; i < state->n; i++) {
-		struct pm_moving *m = &state->moving[i];
-		uint64_t absorbed = 0;
-		if (pm_moving_run(f, m, &cfg->push))
-			return -PM_DATA;
-		if (cfg->push.moves && pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, m, &absorbed))
-			return -PM_DATA;
-		if (absorbed)
-			pm_report_count(s, f, "absorbed", absorbed);
-	}
-	return 0;
+	int status = 0;
+	for (size_t i = 0; i < state->n && !status; i++)
+		status = move(s, f, &state->moving[i]);
+	return status;
 }
 
 static void release(struct pm_stage *s)

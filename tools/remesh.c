@@ -6,6 +6,7 @@
 #include "remesh/distortion.h"
 #include "remesh/remesh-frame.h"
 #include "stage/mesh-options.h"
+#include "stage/strength-report.h"
 
 struct config {
 	const char *kernel, *mesh, *set, *when, *by, *outside;
@@ -27,11 +28,28 @@ static int begin(struct pm_stage *s)
 	for (int i = 0; i < o->drop.n; i++)
 		if (!strcmp(o->drop.item[i], "x"))
 			return pm_fail(PM_USAGE, "--drop x would leave no particles");
-	if (o->rim && o->by)
+	if (o->rim > 0 && o->by)
 		return pm_fail(PM_USAGE, "--rim makes particles of strength 0, for which a value --by strength is undefined (leave one of them out)");
 	if (pm_given(s, "threshold") && strcmp(o->when, "distortion"))
 		return pm_fail(PM_USAGE, "--threshold belongs to --when distortion");
 	return 0;
+}
+
+/* Can strength spread to the edge of the mesh? Then a few nodes of next to no strength would be added at every remeshing, without an end. */
+static bool open_faces(const struct pm_frame *f)
+{
+	for (int k = 0; k < 2 * f->dim; k++)
+		if (f->face[k / 2][k % 2] == PM_OPEN || f->face[k / 2][k % 2] == PM_ABSORBING)
+			return true;
+	return false;
+}
+
+static struct pm_remesh_choice choice_of(const struct config *o, const struct pm_frame *f, const struct pm_law *law)
+{
+	const bool open = open_faces(f), spreads = open && !o->by && pm_frame_constant(f, "nu", 0) > 0;
+	return (struct pm_remesh_choice){.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"),
+		.cut_off = !isnan(o->cut_off) ? o->cut_off : open ? 1e-6 : 0, .rim = o->rim >= 0 ? (int)o->rim : spreads ? 2 : 0, .by = o->by,
+		.drop = o->drop.item, .ndrop = o->drop.n, .out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")};
 }
 
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
@@ -39,8 +57,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = {.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off, .rim = (int)o->rim,
-		.by = o->by, .drop = o->drop.item, .ndrop = o->drop.n, .overlap = !strcmp(o->when, "distortion")}};
+	*j = (struct job){.choice = choice_of(o, f, law)};
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
@@ -80,22 +97,25 @@ static int measure(struct pm_stage *s, struct pm_frame *f, const struct job *j, 
 static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 {
 	const struct pm_grid g = pm_grid_of(f, j->mesh);
-	const struct pm_transfer t = {.grid = g, .kernel = j->choice.kernel};
+	struct pm_kernel wide = *j->choice.kernel;
+	const struct pm_transfer t = {.grid = g, .kernel = &wide};
 	int status = pm_mesh_take_cells(f, j->mesh, &o->cells);
+	wide.width += 2 * (int)pm_remesh_room(j->choice.kernel); /* the new particles have room to move, too */
 	if (!status && !strcmp(o->outside, "grow"))
 		status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
 	return status < 0 ? status : 0;
 }
 
-/* Sums of removed strengths are added over frames. */
+/* What is removed is added over frames. */
 static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_remesh_loss *loss)
 {
-	for (int i = 0; i < loss->n && loss->cut; i++) {
-		char key[PM_NAME + 16] = "lost_";
-		strcat(key, loss->of[i].name);
-		pm_report(s, f, key, json_number_value(json_object_get(json_object_get(f->report, s->word), key)) + loss->of[i].sum);
-	}
+	if (loss->cut)
+		pm_report_strengths(s, f, "lost", NULL, &loss->under);
 	pm_report_count(s, f, "cut", loss->cut);
+	if (loss->strays) {
+		pm_report_count(s, f, "outside", loss->strays);
+		pm_report_strengths(s, f, "outside", NULL, &loss->outside);
+	}
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -121,16 +141,18 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "grow", NULL};
+static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "drop", "grow", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
 		.text = "the interpolation kernel (default: the law's, else m4prime)"},
 	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with a strength that is not fixed)"},
-	{.name = "cut-off", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(cut_off),
-		.text = "drop nodes with at most this fraction of the largest strength; they are counted and their strength summed"},
-	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .fallback = "0", .high = 1000, PM_AT(rim),
-		.text = "also keep all nodes within this distance of a particle, so that diffusion has room"},
+	{.name = "cut-off", .kind = PM_REAL, .high = 1, PM_AT(cut_off),
+		.text = "drop nodes with at most this fraction of the largest strength; they are counted and their strength summed (default: 1e-6 where a face "
+			"is open, else 0)"},
+	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .high = 1000, PM_AT(rim),
+		.text = "also keep all nodes within this distance of a particle, so that diffusion has room (default: 2 where a face is open and nu is not 0, "
+			"else 0)"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
 		.text = "act only if the step number is a multiple of this"},
 	{.name = "when", .kind = PM_WORD, .fallback = "always", .choices = when, PM_AT(when),
@@ -139,8 +161,8 @@ static const struct pm_option options[] = {
 		.text = "the largest distortion allowed: mean relative change of the overlap of particles"},
 	{.name = "by", .kind = PM_TEXT, .unit = "STRENGTH", PM_AT(by), .text = "conserve the product of this strength and the values (v): momentum with mass"},
 	{.name = "drop", .kind = PM_LIST, .unit = "FIELD", PM_AT(drop), .text = "fields that the new particles do not have"},
-	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
-		.text = "particles outside an open mesh: fail, or enlarge the mesh"},
+	{.name = "outside", .kind = PM_WORD, .fallback = "grow", .choices = outside, PM_AT(outside),
+		.text = "particles outside an open mesh: fail, leave out and count with the sum of their strengths, or enlarge the mesh"},
 	{0},
 };
 static const struct pm_example examples[] = {

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "expression/computed-fields.h"
-#include "stage/stage.h"
+#include "stage/strength-report.h"
 
 static const char *const roles[] = {"auto", "state", "derived", NULL}, *const types[] = {"f64", "f32", "i64", NULL};
 
@@ -70,7 +70,24 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return !status && changed ? pm_computed_outdate(&st->jobs, f) : status;
 }
 
-static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_computed_apply(&((struct state *)s->state)->jobs, f); }
+static void strengths(const struct pm_expression_jobs *jobs, struct pm_strengths *sums)
+{
+	sums->n = 0;
+	for (size_t k = 0; k < jobs->n; k++)
+		if (jobs->job[k].field->use & PM_USE_CHANGE && pm_is_strength(jobs->job[k].field))
+			pm_strengths_add(jobs->job[k].field, sums);
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct pm_expression_jobs *jobs = &((struct state *)s->state)->jobs;
+	struct pm_strengths before, after;
+	strengths(jobs, &before);
+	int status = pm_computed_apply(jobs, f);
+	strengths(jobs, &after);
+	pm_report_strengths(s, f, "given", &before, &after);
+	return status;
+}
 
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 

@@ -1,7 +1,7 @@
 /* sel: selects frames, sets, meshes, fields, and particles by an expression (lib/expression/selection.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expression/selection.h"
-#include "stage/stage.h"
+#include "stage/strength-report.h"
 
 struct config {
 	struct pm_list frames, sets, meshes, fields, drop;
@@ -61,7 +61,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const struct config *c = s->config;
 	struct state *st = s->state;
 	const struct pm_selection selection = selection_of(c);
+	struct pm_strengths before, after;
+	pm_strengths_of(f, NULL, &before);
 	int status = c->where ? pm_selection_apply(&selection, f) : 0;
+	pm_strengths_of(f, NULL, &after);
+	if (!status && c->where)
+		pm_report_strengths(s, f, "given", &before, &after);
 	if (status || !c->last)
 		return status;
 	pm_frame_free(st->kept);

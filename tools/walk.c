@@ -1,5 +1,6 @@
 /* walk: diffusion by random steps (lib/push/walk-frame.c, random-walk.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "push/walk-frame.h"
+#include "stage/strength-report.h"
 #include "stage/viscosity-options.h"
 
 struct config {
@@ -26,10 +27,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		.seed = pm_given(s, "seed") ? (uint64_t)o->seed : f->seed};
 	for (size_t i = 0; i < f->nsets; i++) {
 		uint64_t absorbed = 0;
-		if (pm_walk_takes(&w, f, f->sets[i]) && pm_walk_set(&w, f, f->sets[i], &absorbed))
+		struct pm_strengths lost = {.n = 0};
+		if (pm_walk_takes(&w, f, f->sets[i]) && pm_walk_set(&w, f, f->sets[i], &absorbed, &lost))
 			return -PM_DATA;
 		if (absorbed)
 			pm_report_count(s, f, "absorbed", absorbed);
+		pm_report_strengths(s, f, "absorbed", NULL, &lost);
 	}
 	pm_report(s, f, "deviation", w.deviation);
 	return 0;

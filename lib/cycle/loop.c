@@ -15,6 +15,7 @@
 #include "sentence/process-chain.h"
 #include "sentence/sentence.h"
 #include "cycle/until.h"
+#include "cycle/watch.h"
 
 struct cycle {
 	const struct pm_loop *c;
@@ -22,6 +23,7 @@ struct cycle {
 	struct pm_sentence *words;
 	struct pm_writer *out;
 	struct pm_until *until; /* NULL: none */
+	struct pm_watch watch;  /* over the sums of strengths; not if foreign words may change state */
 	int met;                /* the expression is true for this frame */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
@@ -130,6 +132,7 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 	if (!copy)
 		return name ? pm_failed() : 0;
 	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
+	json_object_set_new(copy->more, "cycle_strengths", pm_watch_save(&y->watch));
 	if (y->until)
 		json_object_set_new(copy->more, "cycle_until", pm_until_save(y->until));
 	const bool hdf = pm_h5_pipe_is(name);
@@ -272,7 +275,8 @@ static int pass(struct cycle *y, struct pm_frame **f)
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);
-	status = full ? look(y, *f) : 0;
+	status = full && !y->c->moves.n ? pm_watch_step(&y->watch, *f) : 0;
+	status = status || !full ? status : look(y, *f);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)(*f)->step, pm_message());
 	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
@@ -303,6 +307,15 @@ static int speak_plan(struct cycle *y, const struct pm_frame *f)
 	return status ? status : speak(y, sentence);
 }
 
+/* The beginning of a run, or of its rest. */
+static void watch(struct cycle *y, struct pm_frame *f)
+{
+	json_t *saved = json_incref(json_object_get(f->more, "cycle_strengths"));
+	json_object_del(f->more, "cycle_strengths");
+	pm_watch_load(&y->watch, f, y->c->resume ? saved : NULL);
+	json_decref(saved);
+}
+
 static int run_frame(struct cycle *y, struct pm_frame **f)
 {
 	int status = y->words ? 0 : speak_plan(y, *f);
@@ -311,6 +324,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	const json_t *start = json_object_get((*f)->more, "cycle_start");
 	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
 	json_object_del((*f)->more, "cycle_start");
+	watch(y, *f);
 	y->written = -1;
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)

@@ -79,7 +79,7 @@ static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame 
 	if (!wants(u, PM_ENERGY_MESH, PM_ENERGY) && !wants(u, PM_VIRIAL_RATIO, PM_VIRIAL_RATIO))
 		how.potential = NULL;
 	how.vortices = how.vortices && wants(u, PM_CIRCULATION, PM_DISTORTION);
-	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_COLUMNS - 1);
+	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_STRENGTH_SCALE - 1);
 	return how;
 }
 

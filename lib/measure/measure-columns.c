@@ -14,6 +14,8 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max",
 	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
+	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
+	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)
@@ -30,13 +32,15 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 	return true;
 }
 
-bool pm_column_suits(enum pm_column c, bool vortices, bool plasma)
+bool pm_column_suits(enum pm_column c, const struct pm_measure *how)
 {
 	const bool any = c == PM_STEP || c == PM_TIME || c == PM_ENERGY_MESH || c == PM_ENERGY_PAIR || c == PM_ENERGY || c == PM_PARTICLES ||
 		c == PM_DISTANCE_MAX;
+	if (c >= PM_STRENGTH_SCALE)
+		return how->strength != NULL;
 	if (c >= PM_CHARGE)
-		return plasma;
-	return any || vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);
+		return how->plasma;
+	return any || how->vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);
 }
 
 void pm_measures_of(const struct pm_frame *f, const struct pm_particle_sums *bulk, double mesh, double pair, bool field, struct pm_measures *m)

@@ -108,6 +108,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	pm_measures_of(f, &bulk, mesh_energy(how, f), pair_energy(how, n, b), how->potential != NULL, m);
 	pm_vortex_of(how, f, m);
 	pm_plasma_of(how, f, m);
+	pm_account_of(how, f, m);
 	const int status = how->nradii ? radii(how, n, b, m) : 0;
 	pm_free(b);
 	return status;

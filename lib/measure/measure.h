@@ -48,13 +48,15 @@ enum pm_column {
 	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
 	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE,
 	PM_DISTORTION,
-	PM_CHARGE, PM_ENERGY_COMPONENT, PM_COLUMNS = PM_ENERGY_COMPONENT + 3
+	PM_CHARGE, PM_ENERGY_COMPONENT,
+	PM_STRENGTH_SCALE = PM_ENERGY_COMPONENT + 3, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_COLUMNS
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
-/* Is it defined for vortices; or for bodies with mass and velocity, in a plasma or not? */
-bool pm_column_suits(enum pm_column c, bool vortices, bool plasma);
+struct pm_measure;
+/* Is it defined under the law: for vortices, or bodies with mass and velocity, in a plasma or not, with a strength or without? */
+bool pm_column_suits(enum pm_column c, const struct pm_measure *how);
 
 struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
@@ -87,6 +89,8 @@ void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct
 /* Charge, energy of the components of the field, modes. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
 void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+/* The account of the law's strength (stream/strengths.h): sum of its absolute values, and what the words of the run took away or gave, as they report. */
+void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif

@@ -54,13 +54,33 @@ static size_t compact(size_t n, const unsigned char *gone, size_t size, void *va
 	return left;
 }
 
-int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed)
+/* The sums of the strengths of the particles that leave. */
+static void note_loss(const struct pm_frame *f, const struct pm_moving *m, const unsigned char *gone, uint64_t absorbed, struct pm_strengths *lost)
+{
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *field = f->fields[i];
+		for (int c = 0; !strcmp(field->on, m->set->name) && pm_is_strength(field) && c < field->components && lost->n < PM_STRENGTHS; c++) {
+			struct pm_strength *one = &lost->of[lost->n++];
+			struct pm_sum sum = {0, 0};
+			for (size_t p = 0; p < field->count && field->buffer; p++)
+				if (gone[p])
+					pm_sum_add(&sum, pm_in(field, c)[p]);
+			pm_strength_name(field, c, one->name);
+			one->sum = field->buffer ? pm_sum_total(sum) : (double)absorbed * field->value[c];
+		}
+	}
+}
+
+int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed, struct pm_strengths *lost)
 {
 	size_t n = m->set->n;
 	unsigned char *gone = pm_zalloc(n ? n : 1, 1);
 	if (!gone)
 		return -PM_DATA;
 	*absorbed = mark(f, m, gone);
+	lost->n = 0;
+	if (*absorbed)
+		note_loss(f, m, gone, *absorbed, lost);
 	for (size_t i = 0; i < f->nfields && *absorbed; i++) {
 		struct pm_field *field = f->fields[i];
 		unsigned char *bytes = strcmp(field->on, m->set->name) ? NULL : pm_field_bytes(field);

@@ -5,6 +5,7 @@
 
 #include "push/state-advance.h"
 #include "push/step-clock.h"
+#include "stream/strengths.h"
 
 /* The actions of one push, the same for every set. */
 struct pm_push {
@@ -38,7 +39,9 @@ int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
 int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
 /* The data part, without absorption. */
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
-/* Removes the particles that have crossed an absorbing face; *absorbed is their number. */
-int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed);
+/* Removes the particles that have crossed an absorbing face; *absorbed is their number, lost the sums of their strengths. */
+int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed, struct pm_strengths *lost);
+/* Sums of the strengths whose rates need not add up to 0: those that are given, and diffusion beside a face that strength passes. */
+void pm_moving_given(const struct pm_frame *f, const struct pm_moving *m, struct pm_strengths *s);
 
 #endif

@@ -41,7 +41,7 @@ int pm_walk_declare(const struct pm_walk *w, struct pm_frame *f)
 	return status;
 }
 
-int pm_walk_set(const struct pm_walk *w, struct pm_frame *f, struct pm_set *set, uint64_t *absorbed)
+int pm_walk_set(const struct pm_walk *w, struct pm_frame *f, struct pm_set *set, uint64_t *absorbed, struct pm_strengths *lost)
 {
 	struct pm_moving m = {.set = set, .x = pm_frame_field(f, set->name, "x")};
 	const struct pm_field *id = pm_frame_field(f, set->name, "id");
@@ -51,5 +51,6 @@ int pm_walk_set(const struct pm_walk *w, struct pm_frame *f, struct pm_set *set,
 	pm_walk_step(pm_walk_key(w->seed, set->name), f->step, w->deviation, set->n, f->dim, id ? pm_in_i64(id, 0) : NULL, x);
 	pm_walk_faces(f, set->n, x);
 	*absorbed = 0;
-	return pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, &m, absorbed) ? -PM_DATA : 0;
+	lost->n = 0;
+	return pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, &m, absorbed, lost) ? -PM_DATA : 0;
 }

@@ -1,7 +1,6 @@
 /* Remeshing a set: every strength is distributed to the nodes, the volume becomes that of the nodes, uniform values are kept, other values are an error,
  * dropped, or remeshed as strength times value (momentum for a velocity), whose total is then conserved like that of a strength.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <string.h>
 
 #include "remesh/distortion.h"
@@ -228,19 +227,36 @@ static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mes
 	return pm_overlap(&g, made->count, x, volume ? pm_in(volume, 0) : NULL, pm_out(made, 0));
 }
 
-static void note_loss(const struct work *w, struct pm_remesh_loss *loss)
+/* What the nodes cut off held, and, if particles lay outside, what the set had more than all nodes together. */
+static void note_loss(const struct work *w, const struct pm_strengths *before, const struct pm_strays *strays, struct pm_remesh_loss *loss)
 {
-	*loss = (struct pm_remesh_loss){.cut = w->r.cut};
+	*loss = (struct pm_remesh_loss){.cut = w->r.cut, .strays = strays->count};
 	for (int i = 0; i < w->n; i++)
-		for (int c = 0; c < w->entry[i].old->components && w->entry[i].part == STRENGTH; c++) {
-			const struct pm_field *old = w->entry[i].old;
-			char *name = loss->of[loss->n].name;
-			if (old->components > 1)
-				snprintf(name, sizeof loss->of->name, "%.60s_%d", old->name, c);
-			else
-				snprintf(name, sizeof loss->of->name, "%s", old->name);
-			loss->of[loss->n++].sum = w->r.lost[w->entry[i].first + c];
+		for (int c = 0; c < w->entry[i].old->components && w->entry[i].part == STRENGTH && loss->under.n < PM_STRENGTHS; c++) {
+			const int value = w->entry[i].first + c;
+			struct pm_strength *one = &loss->under.of[loss->under.n++], *out = &loss->outside.of[loss->outside.n++];
+			pm_strength_name(w->entry[i].old, c, one->name);
+			memcpy(out->name, one->name, sizeof out->name);
+			one->sum = w->r.lost[value];
+			const struct pm_strength *all = pm_strength_find(before, w->entry[i].old->on, one->name);
+			out->sum = strays->count && all ? all->sum - pm_sum_array(w->r.points, w->r.node[value]) : 0;
 		}
+}
+
+/* In and out agree but for the losses that are counted. */
+static int balance(const struct pm_frame *f, const char *set, const struct pm_strengths *before, const struct pm_remesh_loss *loss)
+{
+	struct pm_strengths after;
+	pm_strengths_of(f, set, &after);
+	for (int i = 0; i < loss->under.n; i++) {
+		const char *name = loss->under.of[i].name;
+		const struct pm_strength *in = pm_strength_find(before, set, name), *out = pm_strength_find(&after, set, name);
+		const double counted = loss->under.of[i].sum + loss->outside.of[i].sum, off = in && out ? out->sum + counted - in->sum : 0;
+		if (in && fabs(off) > pm_strength_tolerance * in->scale)
+			return pm_fail(PM_NUMERICS, "the sum of '%s' of '%s' was %.6g and is %.6g, with %.3g counted as lost: %.3g is missing (an error of "
+				"remesh; another --kernel may do)", name, set, in->sum, out->sum, counted, -off);
+	}
+	return 0;
 }
 
 int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss)
@@ -248,18 +264,22 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	const struct pm_grid g = pm_grid_of(f, m);
 	struct work w = {.r = pm_remesh_on(&g, c->kernel)};
 	struct pm_strays strays = {.count = 0};
+	struct pm_strengths before;
+	pm_strengths_of(f, set, &before);
 	int status = collect(f, set, c, &w, &strays);
 	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
-	if (!status && strays.count)
-		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow, or a --cut-off that keeps particles from spreading");
+	if (!status && strays.count && !c->out)
+		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow or drop, or a --cut-off that keeps particles from spreading");
 	if (!status)
 		status = pm_remesh_keep(&w.r, c->cut_off, c->rim);
 	if (!status) {
-		note_loss(&w, loss);
+		note_loss(&w, &before, &strays, loss);
 		pm_frame_set(f, set)->n = w.r.kept;
 	}
 	for (int i = 0; i < w.n && !status; i++)
 		status = renew(f, set, &w, c, &w.entry[i]);
+	if (!status)
+		status = balance(f, set, &before, loss);
 	if (!status && c->overlap)
 		status = keep_overlap(f, set, m);
 	pm_remesh_free(&w.r);

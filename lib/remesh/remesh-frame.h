@@ -4,6 +4,7 @@
 #define PM_REMESH_FRAME_H
 
 #include "remesh/remesh.h"
+#include "stream/strengths.h"
 #include "transfer/transfer-frame.h"
 
 struct pm_remesh_choice {
@@ -13,16 +14,13 @@ struct pm_remesh_choice {
 	const char *by;          /* values are remeshed as this strength times value, then divided by it; NULL: values are an error */
 	const char *const *drop; /* fields to leave out */
 	int ndrop;
+	bool out;                /* particles outside an open mesh are left out; else an error */
 	bool overlap;            /* keep the overlap of the new particles (distortion.h) in the state field overlap */
 };
 
 struct pm_remesh_loss {
-	size_t cut; /* nodes below the cut-off */
-	int n;
-	struct {
-		char name[PM_NAME + 16]; /* of the strength, _0 _1 ... of its components */
-		double sum;
-	} of[PM_REMESH_VALUES];
+	uint64_t cut, strays;                 /* nodes below the cut-off; particles outside the mesh */
+	struct pm_strengths under, outside;   /* their strengths */
 };
 
 /* The sets that have positions and a strength and are not fixed, or the one named only; fails with a sentence if there is none. */

@@ -94,10 +94,12 @@ static void mark(const struct pm_remesh *r, const double least[])
 	}
 }
 
+size_t pm_remesh_room(const struct pm_kernel *k) { return (size_t)(k->width + 1) / 2 + 1; }
+
 /* May a node of a rim lie at index k of axis d? Particles there must have room to move before the kernel reaches an open face. */
 static bool has_room(const struct pm_remesh *r, int d, size_t k)
 {
-	const size_t room = (size_t)(r->kernel->width + 1) / 2 + 1;
+	const size_t room = pm_remesh_room(r->kernel);
 	const enum pm_face low = r->grid.face[d][0], high = r->grid.face[d][1];
 	return (low == PM_PERIODIC || low == PM_NEUMANN || k >= room) && (high == PM_PERIODIC || high == PM_NEUMANN || k + room <= r->grid.cells[d]);
 }

@@ -20,6 +20,8 @@ struct pm_remesh {
 	double lost[PM_REMESH_VALUES];  /* sum of each value over the nodes cut */
 };
 
+/* Cells that particles keep from an open face so that they can move before the kernel reaches it. */
+size_t pm_remesh_room(const struct pm_kernel *k);
 struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k);
 /* Shares a strength q[components][n] of particles at x[d][n] among the nodes; decides: a node where it is not 0 becomes a particle. strays as
  * in pm_spread. 0 or failure. */

@@ -138,6 +138,11 @@ void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, do
 	json_object_set_new(own_report(s, f), key, isfinite(value) ? json_real(value) : json_string(isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"));
 }
 
+void pm_report_sum(const struct pm_stage *s, struct pm_frame *f, const char *key, double value)
+{
+	pm_report(s, f, key, json_number_value(json_object_get(own_report(s, f), key)) + value);
+}
+
 void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count)
 {
 	json_t *mine = own_report(s, f);

@@ -116,6 +116,7 @@ struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): t
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */
 /* Reports travel in the tail under the stage's word; counts are added over steps, other values are replaced. */
 void pm_report(const struct pm_stage *s, struct pm_frame *f, const char *key, double value);
+void pm_report_sum(const struct pm_stage *s, struct pm_frame *f, const char *key, double value); /* added over steps, as counts are */
 void pm_report_count(const struct pm_stage *s, struct pm_frame *f, const char *key, uint64_t count);
 void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *key, const char *value);
 

@@ -69,10 +69,10 @@ radii() {
 	done
 }
 
-@test "HC-34: longer steps, dt |grad u| = 0.5 to 4: the error grows smoothly, nothing is NaN, and dt counts the steps in which particles may cross" {
+@test "HC-34: longer steps, dt |grad u| = 0.5 to 2: the error grows smoothly, dt counts the steps with crossings; at 4 circulation is lost: exit 3" {
 	local list=() last=0
-	for n in 24:0 12:6 6:6 3:3; do
-		# |grad u| (row sums) is 6.5 at the start, 5.1 from the middle on: dt |grad u| = 0.54 to 0.43, 1.1 to 0.85, 2.2 to 1.7, 4.3
+	for n in 24:0 12:6 6:6; do
+		# |grad u| (row sums) is 6.5 at the start, 5.1 from the middle on: dt |grad u| = 0.54 to 0.43, 1.1 to 0.85, 2.2 to 1.7
 		dt=$(calc "2 / ${n%:*}")
 		pinit ellipse --dt "$dt" |
 			cycle -n ${n%:*} "p2m --kernel m6prime | poisson-fft | mgrad | dt --lcfl 1 --min $dt --max $dt | diffuse | m2p |
@@ -87,22 +87,26 @@ radii() {
 	done
 	order 2.9 "${list[@]:0:6}" # as dt^3 while particles do not cross
 	below "${list[5]}" 0.1 # 2 % at dt |grad u| = 2
+	pinit ellipse --dt "$(calc "2 / 3")" > a
+	run -3 cycle -n 3 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' < a
+	[[ $output == *"the sum of 'circulation' went from 7.85398 to 7."* ]]
 }
 
-@test "viscosity without remeshing loses circulation in the gaps between particles: 90 % of it in 150 steps, and diag shows it" {
-	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' | diag > t
-	below "$(column circulation < t)" 0.2 "left alone"
+@test "viscosity without remeshing loses circulation in the gaps between particles; cycle ends such a run once 1e-3 of it is lost" {
+	pinit lamb-oseen > a
+	run -3 cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' < a
+	[[ $output == *"the sum of 'circulation' went from 1 to 0.99"* ]]
 	pinit lamb-oseen | cycle -t 4 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-8' | diag > t
-	within "$(column circulation < t)" 1 1e-4 # the loss over 150 steps at the rim of nodes at 1e-8 of the largest, beyond which there is no particle
+	within "$(column circulation < t)" 1 1e-6 # the loss over 150 steps at 1e-8 of the largest strength and two cells farther
 }
 
 @test "in open space viscosity with a cut-off loses circulation, more with more remeshing; with a rim of two cells 1e3 times less, falling with dt" {
-	# circulation that diffuses beyond the last particle is lost. Without a rim this happens at the cut-off, where omega is 1e-6 of its largest; 150, 300,
-	# 600 cuts
+	# circulation that diffuses beyond the last particle is lost. Without a rim this happens at the cut-off, where omega is 1e-6 of its largest; 40, 80,
+	# 160 cuts
 	for rim in 0 2; do
 		for dt in 0.02 0.01 0.005; do
 			pinit lamb-oseen --cells 120 --dt $dt |
-				cycle -t 4 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 |
+				cycle -t 1.8 "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 |
 					remesh --kernel m6prime --cut-off 1e-6 --rim $rim" |
 				diag --columns circulation | tail -1 | awk '{ printf "%.3e ", 1 - $1 }'
 		done
@@ -110,11 +114,11 @@ radii() {
 	done > drift
 	cat drift
 	read -r coarse middle fine <drift
-	above "$coarse" 1e-3 "no rim"
+	above "$coarse" 2e-4 "no rim"
 	above "$(calc "$middle / $coarse")" 1 "no rim, half the step"
 	above "$(calc "$fine / $middle")" 1 "no rim, a quarter of it"
 	read -r coarse middle fine < <(sed 1d drift)
-	below "$coarse" 4e-6 "rim" # a thousandth of the 1.5e-3 to 5.5e-3 lost without
+	below "$coarse" 1e-6 "rim" # 3e-4 to 7e-4 are lost without
 	between "$(calc "$middle / $coarse")" 0 1 "rim, half the step"
 	between "$(calc "$fine / $middle")" 0 1 "rim, a quarter of it"
 }

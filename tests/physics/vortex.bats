@@ -271,7 +271,7 @@ pair() {
 	# conserves the moments of its kernel: cic and pcs 1, m4prime 2, m6prime 4; ngp 0. Terms of size 1, 1e3 of them.
 	start=$(pair 16 | diag --columns circulation,impulse_x,impulse_y | tail -1)
 	for words in cic pcs m4prime m6prime ngp alone; do
-		[ $words = alone ] && last='' k=m4prime || last="| remesh --kernel $words" k=$words
+		[ $words = alone ] && last='' k=m4prime || last="| remesh --kernel $words --cut-off 0" k=$words
 		pair 16 | cycle -n 8 "p2m --kernel $k | poisson-fft | mgrad | m2p | push lsrk3 $last" |
 			diag --columns circulation,impulse_x,impulse_y,angular_impulse | tail -1 > t
 		off=$(paste <(echo "$start") t | awk '{ a = $2 - $5; b = $3 - $6; printf "%.3g", sqrt(a * a + b * b) }')

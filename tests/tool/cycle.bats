@@ -287,7 +287,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	for row in "bodies|push --dt 0.02 kick/2 drift | pp | push kick/2|energy_kinetic|1.02|0" \
 		"plasma|push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2|speed_rms|1|0.02" \
 		"vortex|pp --softening 0.1 | push rk2 | walk|distance_max|1.2|0" \
-			"vortex|p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3|angular_impulse|0.5|-0.02"; do
+			"vortex|p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh|angular_impulse|0.5|-0.02"; do
 		read -r name factor add < <(awk -F'|' '{ print $(NF - 2), $(NF - 1), $NF }' <<<"$row")
 		scene=${row%%|*} words=${row#*|} words=${words%|"$name"|*}
 		sign=$(awk "BEGIN { print $factor < 1 ? \"<\" : \">\" }")

@@ -133,9 +133,8 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 }
 
 @test "circulation that diffuses to nodes without particles is reported: its drift in a step of euler, to round-off" {
-	# unremeshed for 40 steps: gaps open between the particles
-	pinit lamb-oseen --cells 64 >a
-	cycle -n 40 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' <a >b
+	# a gap of six cells between the particles
+	pinit lamb-oseen --cells 64 | sel --where 'x < 0.1 || x > 0.5' >b
 	sh_ok "cat b | $step >c"
 	push euler --dt 0.01 --unsafe <c >d
 	lost=$(sls --format json --report <c | grep -o '"lost_dcirculation":[-+.e0-9]*' | cut -d: -f2)

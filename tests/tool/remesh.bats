@@ -36,7 +36,7 @@ patch() {
 @test "remesh keeps the total to round-off and the moments that the kernel promises" {
 	patch | stab --plain >before
 	for kernel in ngp:0 cic:1 tsc:1 pcs:1 m4prime:2 lambda-2-2:2 m6prime:4 lambda-4-4:4 lambda-6-4:6 lambda-6-6:6; do
-		patch | remesh --kernel ${kernel%:*} | stab --plain >after
+		patch | remesh --cut-off 0 --kernel ${kernel%:*} | stab --plain >after
 		m=circulation
 		for power in 0 1 2 3 4 5 6; do
 			[ $power -gt "${kernel#*:}" ] && break
@@ -46,7 +46,7 @@ patch() {
 		done
 	done
 	# impulse and angular impulse are first and second moments
-	patch | remesh | stab --plain >after
+	patch | remesh --cut-off 0 | stab --plain >after
 	within "$(total 'circulation*y' <after)" "$(total 'circulation*y' <before)" 1e-13
 	within "$(total 'circulation*y*y' <after)" "$(total 'circulation*y*y' <before)" 1e-13
 }
@@ -83,7 +83,7 @@ patch() {
 	stab --plain <a >after
 	lost=$(of remesh lost_circulation <a)
 	within "$(awk -v a="$(total circulation <after)" -v l="$lost" 'BEGIN { printf "%.17g", a + l }')" "$(total circulation <before)" 1e-13
-	all=$(patch | remesh | stab --plain | wc -l)
+	all=$(patch | remesh --cut-off 0 | stab --plain | wc -l)
 	[ $(($(wc -l <after) + $(of remesh cut <a))) -eq "$all" ]
 	[ "$(of remesh cut <a)" -gt 0 ]
 	# smallest kept over largest
@@ -182,14 +182,18 @@ patch() {
 	same_as <(stab --plain <d) <(stab --plain <e)
 }
 
-@test "remesh -n gives the mesh other cells; --outside grow enlarges an open one; otherwise a particle outside is named" {
+@test "remesh -n gives the mesh other cells; an open one is enlarged; --outside error names a particle outside, drop leaves it out and counts it" {
 	sh_ok 'printf "x y circulation\n0.3 0 2\n-1 0 1\n" | stab - --law vortex --box -2,2 -n 4 | remesh -n 16x8 | sls'
 	[[ $output =~ "16 x 8 cells" ]]
 	printf 'x y circulation\n0.3 0 2\n-3.9 0 1\n' | stab - --law vortex --box -4,4 -n 16 >a
-	run -1 bash -o pipefail -c 'remesh <a | sls'
+	run -1 bash -o pipefail -c 'remesh --outside error <a | sls'
 	[[ $output =~ "particle 1 of 'matter' at (-3.9, 0) is too near the open face x = -4" ]]
-	sh_ok 'remesh --outside grow <a | sls'
+	sh_ok 'remesh <a | sls'
 	[[ $output =~ "24 x 16 cells" ]]
+	remesh --outside drop <a >b
+	within "$(stab --plain <b | total circulation)" 2 1e-15
+	[ "$(of remesh outside <b)" = 1 ]
+	within "$(of remesh outside_circulation <b)" 1 1e-14
 }
 
 @test "remesh: no mesh, no strength, no such set, no particles, a threshold without a use" {
@@ -209,10 +213,11 @@ patch() {
 @test "a vortex in free space keeps circulation to round-off, and what a cut-off takes is what is missing" {
 	patch >a
 	total=$(stab --plain <a | total circulation)
-	cycle -n 4 'p2m | poisson-fft --plan estimate | mgrad | m2p | push lsrk3 --dt 0.02 | remesh' <a | stab --plain >after
+	cycle -n 4 'p2m | poisson-fft --plan estimate | mgrad | m2p | push lsrk3 --dt 0.02 | remesh --cut-off 0' <a | stab --plain >after
 	within "$(total circulation <after)" "$total" 5e-12 # 1e-13 of the sum of absolute strengths, 43
-	# without a cut-off the particles spread by a cell or two a step until they reach the edge, and p2m says so
-	run -1 bash -o pipefail -c "cycle -n 40 'p2m | poisson-fft --plan estimate | mgrad | m2p | push lsrk3 --dt 0.02 | remesh' <a | sls"
+	# without a cut-off the particles spread by a cell or two a step until they reach the edge
+	run -1 bash -o pipefail -c "cycle -n 40 'p2m --outside drop | poisson-fft --plan estimate | mgrad | m2p --outside drop | push lsrk3 --dt 0.02 | "`
+		`"remesh --cut-off 0 --outside error' <a | sls"
 	[[ $output =~ "too near the open face" ]]
 	cycle -n 40 'p2m | poisson-fft --plan estimate | mgrad | m2p | push lsrk3 --dt 0.002 | remesh --cut-off 1e-3' <a >b
 	within "$(awk -v a="$(stab --plain <b | total circulation)" -v l="$(of remesh lost_circulation <b)" 'BEGIN { printf "%.17g", a + l }')" "$total" 5e-12

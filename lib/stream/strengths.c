@@ -1,0 +1,115 @@
+/* Sums of strengths, eight values at a time, in blocks of fixed size that are added in order (Neumaier 1974). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/simd-sum.h"
+#include "stream/strengths.h"
+
+enum { SUM, SCALE, SUMS, CHUNK = 256 };
+
+bool pm_is_strength(const struct pm_field *field)
+{
+	return field->role == PM_STATE && field->extensive && (field->type == PM_F64 || field->type == PM_F32) && strcmp(field->name, "volume");
+}
+
+void pm_strength_name(const struct pm_field *field, int c, char name[PM_STRENGTH_NAME])
+{
+	snprintf(name, PM_STRENGTH_NAME, field->components > 1 ? "%.60s_%d" : "%.60s", field->name, c);
+}
+
+PM_SIMD_INLINE void add(pm_simd x, struct pm_simd_sum s[SUMS])
+{
+	pm_simd_sum_add(&s[SUM], x);
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		x[l] = fabs(x[l]);
+	pm_simd_sum_add(&s[SCALE], x);
+}
+
+static void block(size_t n, const double *x, struct pm_sum total[SUMS])
+{
+	struct pm_simd_sum s[SUMS] = {{{0}, {0}}};
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
+		add(pm_simd_load_any(x + i), s);
+	if (i < n)
+		add(pm_simd_load_few(x + i, n - i), s);
+	for (int k = 0; k < SUMS; k++) {
+		total[k] = (struct pm_sum){0, 0};
+		pm_simd_sum_join(&total[k], &s[k]);
+	}
+}
+
+static void sums(size_t n, const double *x, struct pm_strength *s)
+{
+	struct pm_sum all[SUMS] = {{0, 0}}, part[CHUNK][SUMS];
+	const size_t blocks = (n + pm_sum_block - 1) / pm_sum_block;
+	for (size_t first = 0; first < blocks; first += CHUNK) {
+		const int m = (int)(blocks - first < CHUNK ? blocks - first : CHUNK);
+#pragma omp parallel for schedule(static) if (m > 8)
+		for (int b = 0; b < m; b++) {
+			const size_t i = (first + (size_t)b) * pm_sum_block;
+			block(n - i < pm_sum_block ? n - i : pm_sum_block, x + i, part[b]);
+		}
+		for (int b = 0; b < m; b++)
+			for (int k = 0; k < SUMS; k++) {
+				pm_sum_add(&all[k], part[b][k].sum);
+				pm_sum_add(&all[k], part[b][k].carry);
+			}
+	}
+	s->sum = pm_sum_total(all[SUM]);
+	s->scale = pm_sum_total(all[SCALE]);
+}
+
+const struct pm_strength *pm_strength_find(const struct pm_strengths *s, const char *on, const char *name)
+{
+	for (int i = 0; i < s->n; i++)
+		if (!strcmp(s->of[i].name, name) && !strcmp(s->of[i].on, on))
+			return &s->of[i];
+	return NULL;
+}
+
+void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
+{
+	for (int c = 0; c < field->components && s->n < PM_STRENGTHS; c++) {
+		struct pm_strength *one = &s->of[s->n];
+		pm_strength_name(field, c, one->name);
+		if (pm_strength_find(s, field->on, one->name))
+			return;
+		s->n++;
+		snprintf(one->on, sizeof one->on, "%s", field->on);
+		if (field->buffer)
+			sums(field->count, pm_in(field, c), one);
+		else {
+			one->sum = (double)field->count * field->value[c];
+			one->scale = fabs(one->sum);
+		}
+	}
+}
+
+void pm_strengths_of(const struct pm_frame *f, const char *set, struct pm_strengths *s)
+{
+	s->n = 0;
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *field = f->fields[i];
+		if (pm_is_strength(field) && (set ? !strcmp(field->on, set) : pm_frame_set(f, field->on) != NULL) && (field->buffer || field->uniform))
+			pm_strengths_add(field, s);
+	}
+}
+
+double pm_strength_reported(const struct pm_frame *f, const char *key, const char *name)
+{
+	char full[2 * PM_STRENGTH_NAME];
+	const char *word;
+	json_t *entry;
+	double sum = 0;
+	snprintf(full, sizeof full, "%s_%s", key, name);
+	json_object_foreach(f->report, word, entry)
+		sum += json_number_value(json_object_get(entry, full));
+	return sum;
+}
+
+double pm_strength_permitted(const struct pm_frame *f, const char *name)
+{
+	return pm_strength_reported(f, "given", name) - pm_strength_reported(f, "absorbed", name) - pm_strength_reported(f, "lost", name) -
+		pm_strength_reported(f, "outside", name);
+}
