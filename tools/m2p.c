@@ -17,7 +17,7 @@ struct state {
 static int choose(const struct config *o, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	const struct pm_gather_choice choice = {.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace,
-		.drop = !strcmp(o->outside, "drop")};
+		.outside = o->outside};
 	return pm_gather_choose(&choice, f, j);
 }
 
@@ -52,6 +52,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 			pm_report_count(s, f, "dropped", dropped);
 	}
 	if (!status)
+		status = pm_gather_outside(&j, f);
+	if (!status)
 		report(s, f, &j.changes);
 	pm_gather_free(&j);
 	return status;
@@ -59,15 +61,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }
 
-static const char *const outside[] = {"error", "drop", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
 		.text = "the interpolation kernel (default: the kernel of the field, interlaced if the field is)"},
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "gather this mesh field to a particle field of the same name instead"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first that has the field)"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with the state that the law moves)"},
-	{.name = "outside", .kind = PM_WORD, .fallback = "error", .choices = outside, PM_AT(outside),
-		.text = "particles outside an open mesh: fail, or leave out and count"},
+	{.name = "outside", .kind = PM_WORD, .choices = pm_outside_names, PM_AT(outside),
+		.text = "particles beyond an open mesh: the force of the monopole of those inside, and the reaction on these; no force; or failure (default: "
+			"as p2m made the density; failure where the field is not that of particles)"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };

@@ -97,6 +97,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
+	if (!status && o->screening != 0)
+		pm_problem_not_of_law(&t->problem);
 	if (!status)
 		t->problem.target->use |= PM_USE_FILL;
 	return status;

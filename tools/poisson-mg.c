@@ -85,8 +85,10 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		status = pm_problem_coefficient(f, &t->problem, o->permittivity, &t->eps);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
-	if (!status && t->eps)
+	if (!status && t->eps) {
 		pm_field_inherit(t->problem.target, t->eps);
+		pm_problem_not_of_law(&t->problem);
+	}
 	return status;
 }
 

@@ -80,6 +80,7 @@ static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame 
 		how.potential = NULL;
 	how.vortices = how.vortices && wants(u, PM_CIRCULATION, PM_DISTORTION);
 	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_STRENGTH_SCALE - 1);
+	how.outside = how.potential || wants(u, PM_OUTSIDE, PM_OUTSIDE);
 	return how;
 }
 

@@ -28,12 +28,16 @@ static struct pm_field *target(const struct pm_computed_choice *c, struct pm_fra
 /* The kernel of a field is that of the fields it is computed from, its own old values among them. */
 static void inherit(struct pm_field *field, const struct pm_frame *f, const struct pm_expression *e)
 {
-	struct pm_field made = {.kernel = ""};
+	struct pm_field made = {.kernel = "", .role = PM_DERIVED};
 	for (int i = 0; i < e->nvalues; i++)
 		if (*e->value[i].field)
 			pm_field_inherit(&made, pm_frame_field(f, e->on, e->value[i].field));
 	memcpy(field->kernel, made.kernel, sizeof field->kernel);
 	field->interlaced = made.interlaced;
+	field->outside = 0;
+	for (int d = 0; d < 2 * f->dim && *made.kernel; d++) /* what is computed is no longer the law's field of the particles */
+		if (f->face[d / 2][d % 2] == PM_OPEN)
+			field->outside = made.outside == PM_OUTSIDE_DROP ? PM_OUTSIDE_DROP : PM_OUTSIDE_ERROR;
 }
 
 int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *text,

@@ -32,7 +32,7 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
 		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = g->nradii,
-		.fraction = g->fraction, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
+		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}};
 	memcpy(how.modes, g->mode, sizeof how.modes);
 	return how;

@@ -72,7 +72,8 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		if (!strcmp(f->fields[i]->name, "v") && f->fields[i]->components > vdim)
 			vdim = f->fields[i]->components;
 	for (int k = 0; k < PM_COLUMNS && !c->ncolumns; k++)
-		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, &how))
+		if (pm_column_exists((enum pm_column)k, f->dim, vdim) && pm_column_suits((enum pm_column)k, &how) &&
+			(k != PM_OUTSIDE || pm_measure_has_outside(&how, f)))
 			add(t, f, pm_diag_column((enum pm_column)k));
 	for (int i = 0; i < c->ncolumns; i++)
 		for (int k = 0; k < PM_COLUMNS; k++)

@@ -15,7 +15,7 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
-	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given",
+	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given", [PM_OUTSIDE] = "outside",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)

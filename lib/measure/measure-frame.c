@@ -29,6 +29,7 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f)
 	}
 	pm_vortex_reads(how, f);
 	pm_plasma_reads(how, f);
+	pm_outside_of_reads(how, f);
 }
 
 static const double *values(const struct pm_frame *f, const char *on, const char *name, int component)
@@ -105,11 +106,15 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 			b[n++] = bodies(how, f, f->sets[i]);
 	for (size_t i = 0; i < n; i++)
 		pm_particle_sums_add(&b[i], &bulk);
-	pm_measures_of(f, &bulk, mesh_energy(how, f), pair_energy(how, n, b), how->potential != NULL, m);
+	double outside, beyond;
+	int status = pm_outside_of(how, f, &outside, &beyond);
+	pm_measures_of(f, &bulk, mesh_energy(how, f) + beyond, pair_energy(how, n, b), how->potential != NULL, m);
+	m->value[PM_OUTSIDE] = outside;
 	pm_vortex_of(how, f, m);
 	pm_plasma_of(how, f, m);
 	pm_account_of(how, f, m);
-	const int status = how->nradii ? radii(how, n, b, m) : 0;
+	if (!status && how->nradii)
+		status = radii(how, n, b, m);
 	pm_free(b);
 	return status;
 }

@@ -49,7 +49,7 @@ enum pm_column {
 	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE,
 	PM_DISTORTION,
 	PM_CHARGE, PM_ENERGY_COMPONENT,
-	PM_STRENGTH_SCALE = PM_ENERGY_COMPONENT + 3, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_COLUMNS
+	PM_STRENGTH_SCALE = PM_ENERGY_COMPONENT + 3, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE, PM_COLUMNS
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
@@ -74,6 +74,7 @@ struct pm_measure { /* what to measure of a frame */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
 	bool vortices;               /* the law is that of vortices */
 	double centre[2];            /* [length] where omega is looked at */
+	bool outside;                /* count those beyond the mesh, and their energy */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int wave;                    /* component of it that waves along x have */
@@ -91,6 +92,10 @@ void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
 void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* The account of the law's strength (stream/strengths.h): sum of its absolute values, and what the words of the run took away or gave, as they report. */
 void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+/* How many are beyond the open mesh (NAN: no such mesh), and the energy between them and those inside. */
+bool pm_measure_has_outside(const struct pm_measure *how, const struct pm_frame *f);
+void pm_outside_of_reads(const struct pm_measure *how, struct pm_frame *f);
+int pm_outside_of(const struct pm_measure *how, const struct pm_frame *f, double *count, double *energy);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif

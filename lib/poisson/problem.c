@@ -27,6 +27,7 @@ int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *nam
 	for (int i = 0; names->wall && pm_wall_rule_names[i]; i++)
 		if (!strcmp(names->wall, pm_wall_rule_names[i]))
 			p->wall = (enum pm_wall_rule)i;
+	p->own = !isnan(names->coefficient) && !(law->coefficient && names->coefficient == law->coefficient(f));
 	p->c = isnan(names->coefficient) ? law->coefficient(f) : names->coefficient;
 	return 0;
 }
@@ -44,7 +45,17 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	if (!p->target)
 		return -PM_DATA;
 	pm_field_inherit(p->target, p->source);
+	if (p->own)
+		pm_problem_not_of_law(p);
 	return 0;
+}
+
+void pm_problem_not_of_law(struct pm_problem *p)
+{
+	if (p->target->outside == PM_OUTSIDE_MONOPOLE && *p->target->kernel)
+		for (int d = 0; d < 2 * p->grid.dim; d++)
+			if (p->grid.face[d / 2][d % 2] == PM_OPEN)
+				p->target->outside = PM_OUTSIDE_ERROR;
 }
 
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field)

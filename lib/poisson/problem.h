@@ -22,12 +22,14 @@ struct pm_problem {
 	struct pm_grid grid;     /* with the faces of a scalar */
 	enum pm_wall_rule wall;
 	double c;
+	bool own;                /* the coefficient is not the law's */
 	const struct pm_field *source; /* after pm_problem_declare */
 	struct pm_field *target;
 };
 
 int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *names, struct pm_problem *p);
 int pm_problem_declare(struct pm_frame *f, struct pm_problem *p); /* reads the source, makes the target: derived, with the source's kernel */
+void pm_problem_not_of_law(struct pm_problem *p); /* the target is not the law's potential of the particles, so m2p does not know it beyond the mesh */
 /* A coefficient beside the source: one component on the nodes of the same mesh; read. */
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field);
 struct pm_grid pm_problem_grid(const struct pm_problem *p, int c); /* after pm_problem_declare: with the faces of component c */

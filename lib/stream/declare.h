@@ -22,8 +22,8 @@ struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *
 	bool replace);
 void pm_drops(struct pm_frame *f, struct pm_field *field);
 void pm_drops_roles(struct pm_frame *f, const char *on, unsigned roles); /* roles: bits 1u << enum pm_role; on NULL: every mesh */
-/* The field is computed from this source too: it takes over the source's kernel and whether that is interlaced. Sources without a kernel do not count;
- * of two that differ the kernel is "several", which m2p refuses. */
+/* The field is computed from this source too: it takes over the source's kernel, whether that is interlaced, and, if derived, what m2p is to do outside the
+ * mesh and the sets it is made of. Sources without a kernel do not count; of two that differ the kernel is "several", which m2p refuses. */
 void pm_field_inherit(struct pm_field *field, const struct pm_field *from);
 
 /* For a stage that makes a field in frame() (sources, meshes that grow): allocates what was just declared, new values zero. */

@@ -8,6 +8,7 @@
 #include "stream/run.h"
 
 const char *const pm_kind_names[] = {"value", "strength", NULL};
+const char *const pm_outside_names[] = {"monopole", "drop", "error", NULL};
 const char *const pm_type_names[] = {"f64", "f32", "i64", "u8", NULL};
 const char *const pm_role_names[] = {"state", "change", "derived", "register", NULL};
 const char *const pm_face_names[] = {"periodic", "open", "wall", "neumann", "absorbing", NULL};
@@ -151,9 +152,24 @@ struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const si
 	return m;
 }
 
+/* Of two sources the stricter; with other sets in one than in the other it is not known what makes the field. */
+static void inherit_sources(struct pm_field *field, const struct pm_field *from)
+{
+	const bool first = !*field->kernel, same = field->nterms == from->nterms && !memcmp(field->terms, from->terms, sizeof field->terms);
+	field->outside = from->outside > field->outside ? from->outside : field->outside;
+	if (from->role == PM_DERIVED && first) {
+		memcpy(field->terms, from->terms, sizeof field->terms);
+		field->nterms = from->nterms;
+	} else if (!same) {
+		field->outside = PM_OUTSIDE_ERROR;
+	}
+}
+
 void pm_field_inherit(struct pm_field *field, const struct pm_field *from)
 {
 	const bool differs = strcmp(field->kernel, from->kernel) || field->interlaced != from->interlaced;
+	if (field->role == PM_DERIVED && *from->kernel)
+		inherit_sources(field, from);
 	if (*field->kernel && *from->kernel && differs) {
 		pm_name_copy(field->kernel, "several");
 		field->interlaced = false;

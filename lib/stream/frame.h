@@ -18,6 +18,10 @@ enum pm_role { PM_STATE, PM_CHANGE, PM_DERIVED, PM_REGISTER };
 enum pm_face { PM_PERIODIC, PM_OPEN, PM_WALL, PM_NEUMANN, PM_ABSORBING };          /* of the fields */
 enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };             /* of the particles: periodic, reflect, absorb, open */
 
+/* What m2p does with particles beyond the open faces of the mesh, of whose density the field was made (docs/methods/transfer.md). */
+enum pm_outside { PM_OUTSIDE_MONOPOLE, PM_OUTSIDE_DROP, PM_OUTSIDE_ERROR };
+
+extern const char *const pm_outside_names[]; /* NULL ends */
 extern const char *const pm_type_names[], *const pm_role_names[], *const pm_face_names[], *const pm_particle_face_names[]; /* NULL ends */
 size_t pm_type_size(enum pm_type type); /* bytes of a value in the stream */
 
@@ -43,6 +47,7 @@ struct pm_field {
 	char of[PM_NAME];     /* change fields: the state it is the rate of, "" none (bfield) */
 	char kernel[PM_NAME]; /* mesh fields made by p2m, and fields derived from them: the kernel's name, "several" if these differ in it; else "" */
 	bool interlaced;      /* made with that kernel on two meshes half a cell apart */
+	enum pm_outside outside; /* mesh fields with a kernel; monopole unless p2m or a solver says otherwise */
 	int components;       /* 1..PM_COMPONENTS */
 	enum pm_type type;
 	enum pm_role role;
@@ -50,7 +55,9 @@ struct pm_field {
 	bool uniform;         /* all values of a component are equal: value[c], and no data in the stream */
 	double value[PM_COMPONENTS];
 	unsigned char staggered[PM_COMPONENTS][3]; /* meshes: 1 where the component sits half a cell up that axis */
-	char terms[PM_TERMS][PM_NAME];        /* change fields: the names of the contributions (self, near, external, ...) */
+	/* Change fields: the names of the contributions (self, near, external, ...). Densities and what is made of them: the sets that were deposited, if not
+	 * all that have the strength. */
+	char terms[PM_TERMS][PM_NAME];
 	int nterms;
 	size_t count;         /* values per component: n of the set, points of the mesh */
 	unsigned use;         /* PM_USE_... bits of the running stage */

@@ -283,6 +283,8 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	take_name(&l, "unit", false, true, p->unit);
 	take_name(&l, "of", false, true, p->of);
 	read_kernel(&l, p);
+	if (json_object_get(l.j, "outside"))
+		p->outside = (enum pm_outside)take_choice(&l, "outside", pm_outside_names);
 	p->uniform = json_object_get(l.j, "uniform") != NULL;
 	if (p->uniform)
 		take_reals(&l, "uniform", components, p->value);

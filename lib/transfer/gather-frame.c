@@ -105,7 +105,8 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 		return status;
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
 	set_images(j, f->dim, &j->transfer);
-	return j->interlaced ? pm_interlace_check(&j->transfer) : 0;
+	status = j->interlaced ? pm_interlace_check(&j->transfer) : 0;
+	return status ? status : pm_gather_outside_choose(j, f);
 }
 
 /* A set receives the law's field, the changes on the mesh and the magnetic field. */
@@ -140,6 +141,8 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 		if (!status)
 			status = j->choice.field ? declare_field(j, f, j->sets.name[i]) : declare_law(j, f, j->sets.name[i]);
 	}
+	if (!status && j->outside == PM_OUTSIDE_MONOPOLE)
+		status = pm_outside_reads(&j->far, f);
 	return status;
 }
 
@@ -205,10 +208,10 @@ static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const
 			     : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
 }
 
-int pm_gather_set(const struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)
+int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)
 {
 	const bool law = !j->choice.field;
-	struct pm_field *target = pm_frame_field(f, set, law ? j->law->change : j->choice.field);
+	struct pm_field *target = pm_gather_target(j, f, set);
 	struct pm_strays strays = {.count = 0};
 	double *ratio = NULL;
 	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
@@ -219,9 +222,10 @@ int pm_gather_set(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
 	if (!status && law && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
-	if (!status && strays.count && !j->choice.drop)
+	if (!status && strays.count && j->outside == PM_OUTSIDE_ERROR)
 		status = pm_strays_refuse(&strays, set, j->mesh, &a.t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
-	*dropped = strays.count;
+	j->strays += strays.count;
+	*dropped = j->outside == PM_OUTSIDE_DROP ? strays.count : 0;
 	return status;
 }
 

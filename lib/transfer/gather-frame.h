@@ -4,12 +4,13 @@
 
 #include "transfer/interlace.h"
 #include "transfer/mesh-changes.h"
+#include "transfer/outside.h"
 
 struct pm_gather_choice {
 	const char *kernel, *mesh, *set; /* NULL: as the field was made, the first mesh that has the field, every set that the law moves */
 	const char *field;               /* to a particle field of its name; NULL: the law's, to the change field of the law */
 	bool replace;                    /* replace a change field instead of refusing to add twice */
-	bool drop;                       /* particles outside the mesh are left out and counted */
+	const char *outside;             /* of particles beyond open faces, a name of pm_outside; NULL: as the field was made */
 };
 
 /* The choice applied to a frame. */
@@ -24,14 +25,22 @@ struct pm_gather_job {
 	bool interlaced;
 	struct pm_interlaced both;      /* of the field, on two meshes */
 	struct pm_mesh_changes changes; /* carried along */
+	enum pm_outside outside;        /* what is done with particles outside */
+	struct pm_outside_force far;          /* monopole: of those inside, and the reaction */
+	uint64_t strays;                /* outside, of the sets so far */
 };
 
 /* Each 0 or failure. In declare(): */
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j);
 int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f);
-/* With the data: first the part common to all sets, then set by set; *dropped counts the particles left out. Free in any case. */
+/* With the data: first the part common to all sets, then set by set; *dropped counts the particles left out; then the monopole. Free in any case. */
 int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans);
-int pm_gather_set(const struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped);
+int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped);
+/* Private to lib/transfer (gather-outside.c): */
+int pm_gather_outside_choose(struct pm_gather_job *j, const struct pm_frame *f);
+struct pm_field *pm_gather_target(const struct pm_gather_job *j, const struct pm_frame *f, const char *set);
+/* For m2p, after all sets: */
+int pm_gather_outside(struct pm_gather_job *j, struct pm_frame *f);
 void pm_gather_free(struct pm_gather_job *j);
 
 #endif

@@ -1,7 +1,19 @@
 /* density_i = sum over the sets and their particles of strength_p W((x_p - x_i)/h) / (volume of a cell), on one mesh or on two interlaced ones, plus the law's
  * uniform background (the ions of a plasma of electrons). Cost: one spread a set. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "stream/declare.h"
+#include "transfer/outside.h"
 #include "transfer/spread-frame.h"
+
+/* The monopole of another field than the law's strength is no force, so what is beyond the mesh is refused. */
+static enum pm_outside outside_of(const struct pm_spread_job *j, const char *word)
+{
+	const bool force = j->law->strength && j->law->coefficient && !strcmp(j->strength, j->law->strength);
+	if (!strcmp(word, "drop"))
+		return PM_OUTSIDE_DROP;
+	return force && !strcmp(word, "monopole") ? PM_OUTSIDE_MONOPOLE : PM_OUTSIDE_ERROR;
+}
 
 int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_frame *f, struct pm_spread_job *j)
 {
@@ -17,6 +29,8 @@ int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_fram
 		return pm_fail(PM_DATA, "the law '%s' deposits nothing on a mesh (choose a field with --strength FIELD)", f->law);
 	if (!j->mesh && !choice->cells)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
+	j->grow = !strcmp(choice->outside, "grow");
+	j->outside = outside_of(j, choice->outside);
 	return pm_sets_choose(f, choice->set, (const char *const[]){j->strength, NULL},
 		"add it with stab --strength, or choose another with --strength FIELD", &j->sets);
 }
@@ -34,7 +48,8 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 {
 	struct pm_transfer t = transfer_of(j, f);
 	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets,
-		.strength = j->strength};
+		.strength = j->strength,
+		.outside = j->outside == PM_OUTSIDE_DROP || !j->law->strength || strcmp(j->strength, j->law->strength) ? j->outside : PM_OUTSIDE_MONOPOLE};
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	return status ? status : pm_makes_density(f, j->mesh, &density, add);
 }
@@ -59,7 +74,20 @@ int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f)
 	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
 }
 
-int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *dropped)
+/* What is beyond a wall is refused, what is beyond an open face too if it is to be. */
+static int judge(const struct pm_spread_job *j, const struct pm_frame *f, const char *set, const struct pm_transfer *t, struct pm_strays *strays)
+{
+	static const char remedy[] = "a larger box, or --outside grow or drop";
+	struct pm_strays closed;
+	if (!strays->count || j->outside == PM_OUTSIDE_DROP)
+		return 0;
+	if (j->outside == PM_OUTSIDE_ERROR)
+		return pm_strays_refuse(strays, set, j->mesh, t, remedy);
+	int status = pm_outside_find(f, set, t, NULL, &closed);
+	return !status && closed.count ? pm_strays_refuse(&closed, set, j->mesh, t, "a larger box, or --outside drop") : status;
+}
+
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside)
 {
 	struct pm_transfer t = transfer_of(j, f);
 	const size_t n = pm_frame_set(f, set)->n;
@@ -74,10 +102,8 @@ int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char 
 	if (!status)
 		status = j->choice.interlace ? pm_interlace_spread(&t, plans, n, x, q, mesh, &strays) : pm_spread(&t, n, x, q, mesh, &strays);
 	pm_free(made);
-	if (!status && strays.count && !j->choice.drop)
-		status = pm_strays_refuse(&strays, set, j->mesh, &t, "a larger box, or --outside grow or drop");
-	*dropped = strays.count;
-	return status;
+	*outside = strays.count;
+	return status ? status : judge(j, f, set, &t, &strays);
 }
 
 void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)

@@ -10,7 +10,7 @@ struct pm_spread_choice {
 	bool cells;              /* a mesh that is not there will be made */
 	bool add;                /* to the density that is there */
 	bool interlace;
-	bool drop, grow;         /* particles outside the mesh are left out and counted, or the mesh grows */
+	const char *outside;     /* a choice of p2m --outside */
 };
 
 /* The choice applied to a frame. */
@@ -19,6 +19,8 @@ struct pm_spread_job {
 	const struct pm_law *law;
 	const struct pm_kernel *kernel;
 	const char *strength, *density;
+	enum pm_outside outside; /* particles beyond open faces: left out, with the force of the monopole or without, or refused */
+	bool grow;               /* the mesh grows to hold them */
 	struct pm_sets sets;
 	struct pm_mesh *mesh; /* NULL: to be made before pm_spread_declare */
 };
@@ -26,9 +28,9 @@ struct pm_spread_job {
 /* Each 0 or failure. In declare(): */
 int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_frame *f, struct pm_spread_job *j);
 int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f);
-/* With the data: the mesh grows if asked to, then set by set (*dropped counts the particles left out), then what the law adds to its own density. */
+/* With the data: the mesh grows if asked to, then set by set (*outside counts the particles left out), then what the law adds to its own density. */
 int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f);
-int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *dropped);
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside);
 void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f);
 
 #endif

@@ -185,6 +185,34 @@ static void unit_over_volume(const char *unit, int dim, char *out, size_t size)
 		snprintf(out, size, dim > 1 ? "%.40s/%s" : "%.40s/length", unit, volume);
 }
 
+static bool is_term(const struct pm_field *field, const char *name)
+{
+	for (int i = 0; i < field->nterms; i++)
+		if (!strcmp(field->terms[i], name))
+			return true;
+	return false;
+}
+
+/* Which sets the density is made of, for m2p: their names, none if these are all that have the strength. One added twice, or more than there is room for:
+ * what is beyond the mesh is then refused. */
+static int mark_sources(struct pm_frame *f, const struct pm_density *d, bool added, struct pm_field *density)
+{
+	struct pm_sets all;
+	int status = pm_sets_choose(f, NULL, (const char *const[]){d->strength, NULL}, "", &all);
+	bool twice = added && !density->nterms;
+	density->outside = d->outside > density->outside ? d->outside : density->outside;
+	for (size_t i = 0; i < d->sets->n && !status && (added || d->sets->n < all.n); i++) {
+		twice |= is_term(density, d->sets->name[i]) || density->nterms == PM_TERMS;
+		if (!twice)
+			snprintf(density->terms[density->nterms++], PM_NAME, "%s", d->sets->name[i]);
+	}
+	if ((size_t)density->nterms == all.n)
+		density->nterms = 0;
+	if (twice)
+		density->outside = PM_OUTSIDE_ERROR;
+	return status;
+}
+
 int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct pm_density *d, bool add)
 {
 	const struct pm_field *q = pm_frame_field(f, d->sets->name[0], d->strength), *old = pm_frame_field(f, m->name, d->name);
@@ -198,7 +226,7 @@ int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct p
 	density->interlaced = d->interlaced;
 	if (q->extensive)
 		unit_over_volume(q->unit, f->dim, density->unit, sizeof density->unit);
-	return 0;
+	return mark_sources(f, d, old && add, density);
 }
 
 struct pm_field *pm_makes_gathered(struct pm_frame *f, const char *set, const struct pm_field *from)

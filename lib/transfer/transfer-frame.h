@@ -27,7 +27,7 @@ int pm_strengths(const struct pm_frame *f, const char *set, const char *name, co
 /* strength/per, particle by particle; to be freed. */
 int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, double **ratio);
 
-/* Refuses strays with a sentence that names the first, and the remedies of the tool. */
+/* Refuses particles outside the mesh with a sentence that names the first, and the remedies of the tool. */
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy);
 
 /* Enlarges the mesh (regrid.h) so that every particle of the sets fits, by whole blocks of 8 cells: a slow expansion does not change it at every
@@ -44,6 +44,7 @@ struct pm_density {
 	bool interlaced;
 	const struct pm_sets *sets;
 	const char *strength;
+	enum pm_outside outside;
 };
 int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct pm_density *density, bool add);
 

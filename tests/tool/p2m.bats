@@ -97,15 +97,15 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[ "$(p2m --strength mass <b | mesh)" = "0 0 2 2 0 0 0 0 0" ]
 }
 
-@test "p2m names a particle outside an open mesh by set, index and position" {
+@test "p2m --outside error names a particle outside an open mesh by set, index and position" {
 	printf 'x mass\n1.25 2\n4.5 1\n-3 1\n' | line open 8 >a
-	run -1 p2m <a
+	run -1 p2m --outside error <a
 	[[ $output =~ "p2m: frame 1: particle 1 of 'matter' at (4.5) is outside mesh 'mesh', 0 <= x <= 4" ]]
 	printf 'x mass\n1.25 2\n3.75 1\n' | line open 8 >b
-	run -1 p2m <b
+	run -1 p2m --outside error <b
 	[[ $output =~ "particle 1 of 'matter' at (3.75) is too near the open face x = 4" ]]
 	printf 'x mass\n1.25 2\n3.5 1\n' | line open 8 >c
-	sh_ok 'p2m <c | sls'
+	sh_ok 'p2m --outside error <c | sls'
 }
 
 @test "p2m --outside drop leaves them out and counts them" {
