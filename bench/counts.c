@@ -67,7 +67,7 @@ static void push(struct work *w)
 	a.action[0].step = pm_step_find("kick"), a.action[1].step = pm_step_find("drift");
 	for (int d = 0; d < 3; d++) {
 		struct pm_advanced lines[2] = {{.y = w->x[d], .k = w->v[d], .position = true}, {.y = w->v[d], .k = w->a[d]}};
-		pm_advance_axis(POINTS, &a, 2, lines, w->x[d], NULL, &box);
+		pm_advance_axis(POINTS, &a, 2, lines, w->x[d], NULL, &box, NULL);
 	}
 }
 

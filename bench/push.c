@@ -20,7 +20,7 @@ static void push(void *with)
 	a.action[1].step = pm_step_find("drift"), a.action[1].dt = 1e-9;
 	for (int d = 0; d < 3; d++) {
 		struct pm_advanced lines[2] = {{.y = p->x[d], .k = p->v[d], .position = true}, {.y = p->v[d], .k = p->a[d]}};
-		if (!pm_advance_axis(N, &a, 2, lines, p->x[d], NULL, &box))
+		if (!pm_advance_axis(N, &a, 2, lines, p->x[d], NULL, &box, NULL))
 			exit(1);
 	}
 }

@@ -74,8 +74,8 @@ static void push(void *with)
 	for (int d = 0; d < 3; d++) {
 		struct pm_bounds box = {.lo = s->frame->lo[d], .hi = s->frame->hi[d], .fold = true};
 		struct pm_advanced lines[2] = {{.y = s->x[d], .k = s->v[d], .position = true}, {.y = s->v[d], .k = s->a[d]}};
-		pm_advance_axis(s->n, &open, 2, lines, s->x[d], NULL, &box);
-		pm_advance_axis(s->n, &close, 1, lines + 1, NULL, NULL, NULL);
+		pm_advance_axis(s->n, &open, 2, lines, s->x[d], NULL, &box, NULL);
+		pm_advance_axis(s->n, &close, 1, lines + 1, NULL, NULL, NULL, NULL);
 	}
 }
 

@@ -45,7 +45,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		if (!status)
 			status = pm_pse_plan(f, &p, o->replace);
 	}
-	return status ? status : PM_HOLD; /* the fastest decay rate in the header depends on the positions */
+	return status;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)

@@ -16,6 +16,7 @@ struct config {
 struct state { /* set by declare for frame */
 	struct pm_moving *moving;
 	size_t n;
+	const struct pm_mesh *mesh; /* the first with a field, before the push drops it; NULL none */
 };
 
 static int begin(struct pm_stage *s)
@@ -51,6 +52,15 @@ static void drop(struct pm_frame *f, const struct config *cfg)
 			pm_drops_roles(f, f->sets[i]->name, roles);
 }
 
+static const struct pm_mesh *mesh_in_use(const struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nmeshes; i++)
+		for (size_t k = 0; k < f->nfields; k++)
+			if (!strcmp(f->fields[k]->on, f->meshes[i]->name))
+				return f->meshes[i];
+	return NULL;
+}
+
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
@@ -67,6 +77,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return pm_fail(PM_DATA, "out of memory");
 	state->moving = room;
 	state->n = 0;
+	state->mesh = mesh_in_use(f);
 	for (size_t i = 0; i < f->nsets && steps && !status; i++)
 		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
 			status = pm_moving_declare(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
@@ -81,13 +92,29 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
 }
 
-static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_moving *m)
+/* The limits of the rates that a set is moved by (stream/limits.h). */
+static int stable(struct pm_stage *s, const struct pm_frame *f, const struct pm_moving *m)
+{
+	const struct pm_push *p = &((const struct config *)s->config)->push;
+	for (int r = 0; r < m->n; r++) {
+		const double strain = m->rates[r].state == m->x ? m->rates[r].rate->limits.strain : 0;
+		if (strain * fabs(f->dt) > 1)
+			pm_tell_once(s, "dt |grad u| is %.3g for '%s' (dt %g): above 1 particles cross within a step, and the error is large "
+				"(the word dt --lcfl 0.5 chooses a step)",
+				strain * fabs(f->dt), m->set->name, f->dt);
+	}
+	if (p->unsafe || !(p->scheme || p->kick > 0))
+		return 0;
+	return pm_rates_stable(m->rates, m->n, p->scheme, f->dt, m->part);
+}
+
+static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_moving *m, const double *h, double *crossed)
 {
 	const struct pm_push *p = &((const struct config *)s->config)->push;
 	struct pm_strengths before, after, lost = {.n = 0};
 	uint64_t absorbed = 0;
 	pm_moving_given(f, m, &before);
-	if (pm_moving_run(f, m, p))
+	if (pm_moving_run(f, m, p, h, crossed))
 		return -PM_DATA;
 	pm_moving_given(f, m, &after);
 	pm_report_strengths(s, f, "given", &before, &after);
@@ -101,10 +128,17 @@ static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_mo
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct config *cfg = s->config;
 	const struct state *state = s->state;
+	const double *h = state->mesh && cfg->push.moves ? state->mesh->h : NULL;
+	double crossed = 0;
 	int status = 0;
 	for (size_t i = 0; i < state->n && !status; i++)
-		status = move(s, f, &state->moving[i]);
+		status = stable(s, f, &state->moving[i]);
+	for (size_t i = 0; i < state->n && !status; i++)
+		status = move(s, f, &state->moving[i], h, &crossed);
+	if (h && !status)
+		pm_report(s, f, "courant", crossed);
 	return status;
 }
 
@@ -117,7 +151,8 @@ static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time advances when the others have moved too"},
 	{.name = "open", .kind = PM_FLAG, PM_AT(push.open), .text = "the drift does not complete the step: a kick is still to come"},
-	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe), .text = "allow steps beyond the stability limit of the scheme for decay (diffusion)"},
+	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe),
+		.text = "allow steps for which the scheme is not stable, too long for a decay (diffusion) or an oscillation"},
 	{0},
 };
 

@@ -1,6 +1,7 @@
 /* Rates of change given by expressions, rate += expression. Cost: one evaluation a value. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "expression/given-limits.h"
 #include "expression/given-rates.h"
 #include "stream/declare.h"
 
@@ -102,6 +103,8 @@ int pm_given_rates_add(const struct pm_expression_jobs *jobs, const struct pm_fr
 			pm_expression_assign(&job->e, f, job->field);
 		else
 			status = add(f, job);
+		if (!status)
+			pm_given_limits_add(job, f);
 	}
 	return status;
 }

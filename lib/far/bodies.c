@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "far/bodies.h"
+#include "limit/rates.h"
 #include "stream/declare.h"
+#include "stream/limits.h"
 
 static const struct pm_field *state_of(const struct pm_frame *f, const struct pm_set *s, const char *name)
 {
@@ -90,6 +92,22 @@ int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct 
 	return 0;
 }
 
+/* The largest rate of pm_orbit_rate: the square of a frequency, or of a flow the strain. */
+static double orbits(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
+{
+	const double *q = far->per ? pm_in(state_of(f, s, far->strength), 0) : NULL, *per = far->per ? pm_in(state_of(f, s, far->per), 0) : NULL;
+	double most = 0, pull = 0;
+	for (size_t i = 0; i < b->n; i++)
+		pull += fabs(c * b->q[i]);
+	for (size_t i = 0; i < s->n; i++) {
+		double square = 0;
+		for (int d = 0; d < f->dim; d++)
+			square += b->gradient[d][at + i] * b->gradient[d][at + i];
+		most = fmax(most, pm_orbit_rate(f->dim, fabs(c) * sqrt(square), pull) * (per ? fabs(q[i] / per[i]) : 1));
+	}
+	return most;
+}
+
 static void add(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
 {
 	struct pm_field *change = pm_frame_field(f, s->name, far->change);
@@ -109,8 +127,12 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 		const struct pm_set *s = f->sets[i];
 		if (!is_target(f, s, far))
 			continue;
-		if (!s->fixed)
+		if (!s->fixed) {
+			const double rate = orbits(f, s, far, coefficient, b, at);
 			add(f, s, far, coefficient, b, at);
+			pm_limits_add(pm_frame_field(f, s->name, far->change), strcmp(far->of, "x") ?
+				(struct pm_limits){.oscillation = sqrt(rate)} : (struct pm_limits){.strain = rate});
+		}
 		double *phi = b->potential ? pm_out(pm_frame_field(f, s->name, far->potential), 0) : NULL;
 		for (size_t k = 0; phi && k < s->n; k++)
 			phi[k] = coefficient * b->potential[at + k];

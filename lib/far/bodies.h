@@ -25,6 +25,7 @@ struct pm_bodies {
 
 int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace);
 int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b);
+/* Adds the sums to the sets, with the limits of what is added (stream/limits.h). */
 void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coefficient, const struct pm_bodies *b);
 void pm_bodies_free(struct pm_bodies *b);
 

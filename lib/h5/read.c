@@ -7,6 +7,7 @@
 
 #include "h5/node.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 #include "stream/run.h"
 
 /* ---- the file ---- */
@@ -210,6 +211,11 @@ static int get_own(hid_t at, struct pm_frame **out)
 		f->report = json_incref(report);
 	}
 	json_decref(report);
+	if (!status && pm_h5_has(at, "pmpipeLimits")) {
+		json_t *limits = get_json(at, "pmpipeLimits");
+		status = limits ? pm_limits_take_all(limits, f) : -PM_DATA;
+		json_decref(limits);
+	}
 	char(*path)[PM_H5_PATH] = status ? NULL : calloc(f->nfields + 1, sizeof *path);
 	if (path)
 		pm_h5_paths(f, path);

@@ -12,6 +12,7 @@
 #include "base/replace.h"
 #include "h5/node.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 
 /* Powers of length, mass, time, current, temperature, amount, luminous intensity. A density is divided by a length per dimension. */
 static const struct dimension {
@@ -222,8 +223,12 @@ static int put_header(hid_t at, const struct pm_frame *f)
 		status = pm_h5_put_long_text(at, "pmpipeReport", report);
 	if (!status && (pm_h5_put_reals(at, "time", 0, &f->time) || pm_h5_put_reals(at, "dt", 0, &f->dt) || pm_h5_put_reals(at, "timeUnitSI", 0, &one)))
 		status = -PM_DATA;
-	json_decref(header);
-	free(text), free(report);
+	json_t *limits = pm_limits_json(f);
+	char *line = limits ? pm_json_line(limits) : NULL;
+	if (!status && limits)
+		status = line ? pm_h5_put_long_text(at, "pmpipeLimits", line) : pm_fail(PM_DATA, "the limits cannot be written as JSON");
+	json_decref(header), json_decref(limits);
+	free(text), free(report), free(line);
 	return status;
 }
 

@@ -6,6 +6,7 @@
 #include "measure/frame-listing.h"
 #include "measure/range.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 
 static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
 
@@ -33,6 +34,9 @@ int pm_list_json(FILE *out, const struct pm_listing *c, const struct pm_frame *f
 		json_object_del(j, "history");
 	if (c->report)
 		json_object_set(j, "report", f->report);
+	json_t *limits = c->report ? pm_limits_json(f) : NULL;
+	if (limits)
+		json_object_set_new(j, "limits", limits);
 	if (c->data)
 		json_object_set_new(j, "data", data_json(f));
 	char *line = pm_json_line(j);
@@ -164,4 +168,8 @@ void pm_list_text(FILE *out, const struct pm_listing *c, const struct pm_frame *
 		lines(out, "history", f->history);
 	if (c->report)
 		lines(out, "report", f->report);
+	json_t *limits = c->report ? pm_limits_json(f) : NULL;
+	if (limits)
+		lines(out, "limits", limits);
+	json_decref(limits);
 }

@@ -3,8 +3,7 @@
  * Koumoutsakos 2000, section 7.1 (strain); Birdsall and Langdon 1985, section 4-2 (plasma frequency). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "law/law.h"
-#include "measure/timestep.h"
+#include "limit/rates.h"
 #include "measure/timestep-rules.h"
 #include "stream/declare.h"
 
@@ -99,23 +98,10 @@ static double strain(const struct pm_frame *f, const char *name)
 	return 0;
 }
 
-static double plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
-{
-	double sum = 0, box = 1;
-	for (size_t i = 0; i < f->nsets; i++) {
-		const char *set = f->sets[i]->name;
-		if (charged(f, law, set))
-			sum += pm_charge_over_mass(f->sets[i]->n, pm_in(pm_frame_field(f, set, law->strength), 0), pm_in(pm_frame_field(f, set, law->per), 0));
-	}
-	for (int d = 0; d < f->dim; d++)
-		box *= f->hi[d] - f->lo[d];
-	return sqrt(fabs(law->coefficient(f)) * sum / box);
-}
-
 double pm_timestep_allowed(const struct pm_timestep_rules *r, const struct pm_frame *f, double *rate)
 {
 	const struct pm_law *law = pm_law_of(f);
-	double dt = isnan(r->plasma) ? HUGE_VAL : r->plasma / plasma_frequency(f, law);
+	double dt = isnan(r->plasma) ? HUGE_VAL : r->plasma / pm_plasma_frequency(f, law);
 	*rate = isnan(r->strain) ? 0 : strain(f, law->field);
 	dt = *rate > 0 ? fmin(dt, r->strain / *rate) : dt;
 	for (size_t i = 0; i < f->nsets; i++) {

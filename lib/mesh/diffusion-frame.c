@@ -6,9 +6,9 @@
 #include "law/law.h"
 #include "mesh/diffusion-frame.h"
 #include "stream/declare.h"
-#include "stream/fastest.h"
+#include "stream/limits.h"
 
-/* The mesh change field d<density> of the law's strength, with what push must know of it. */
+/* The mesh change field d<density> of the law's strength. */
 static int contribute(const struct pm_diffusion_choice *o, struct pm_frame *f, const struct pm_law *law, struct pm_diffusion *t)
 {
 	char name[PM_NAME];
@@ -17,7 +17,6 @@ static int contribute(const struct pm_diffusion_choice *o, struct pm_frame *f, c
 	if (!t->change)
 		return -PM_DATA;
 	pm_field_inherit(t->change, t->density);
-	pm_fastest_add(t->change, t->nu * pm_operator_fastest(&t->operator));
 	return 0;
 }
 
@@ -69,6 +68,7 @@ int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans)
 	int status = pm_operator_plan(&t->operator, plans);
 	if (!status)
 		status = add(t, scratch);
+	pm_limits_add(t->change, (struct pm_limits){.decay = t->nu * pm_operator_fastest(&t->operator)});
 	pm_free(scratch);
 	return status;
 }

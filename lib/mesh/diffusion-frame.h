@@ -18,9 +18,9 @@ struct pm_diffusion {
 	double nu;
 };
 
-/* Each 0 or failure. Header: the change field d<density> of the law's strength, with its fastest decay. */
+/* Each 0 or failure. Header: the change field d<density> of the law's strength. */
 int pm_diffusion_declare(const struct pm_diffusion_choice *c, struct pm_frame *f, struct pm_diffusion *t);
-/* Data. plans: of spectral operators, started anew where full. */
+/* Data, with the limit of the change. plans: of spectral operators, started anew where full. */
 int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans);
 
 #endif

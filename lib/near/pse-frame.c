@@ -4,7 +4,7 @@
 
 #include "near/pse-frame.h"
 #include "stream/declare.h"
-#include "stream/fastest.h"
+#include "stream/limits.h"
 
 static void change_name(const struct pm_pse_set *s, char name[PM_NAME]) { snprintf(name, PM_NAME, "d%.62s", s->field); }
 
@@ -150,7 +150,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	if (!status)
 		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, volume, change, found);
 	if (!status)
-		pm_fastest_add(change, s->nu * found->fastest);
+		pm_limits_add(change, (struct pm_limits){.decay = s->nu * found->fastest});
 	pm_cell_list_free(&list);
 	return status;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "effect-parts/set-overlap.h"
-#include "measure/timestep.h"
+#include "limit/rates.h"
 #include "mesh/gradient.h"
 #include "planner/scales.h"
 

@@ -86,7 +86,10 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 {
 	enum pm_step_kind kind = p->scheme || (p->kick > 0 && p->drift > 0) ? PM_SCHEME : p->kick > 0 ? PM_KICK : PM_DRIFT;
 	int status = pm_clock_allows(set, p->scheme, p->kick, p->drift);
-	*m = (struct pm_moving){.set = set, .x = pm_frame_field(f, set->name, "x"), .v = pm_frame_field(f, set->name, "v")};
+	/* half a kick, at the beginning and at the end, belongs to a whole step; between them a kick to a part of its own size */
+	const bool inner = set->kick > 0 && set->kick + p->kick < 1 - 1e-9;
+	const double part = p->scheme ? 1 : fmin(1, (inner ? 1 : 2) * p->kick);
+	*m = (struct pm_moving){.part = part, .set = set, .x = pm_frame_field(f, set->name, "x"), .v = pm_frame_field(f, set->name, "v")};
 	if (!pm_rate_is_state(m->v))
 		m->v = NULL;
 	if (!status && p->magnetic)
@@ -97,8 +100,6 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 		status = pm_rates_complete(f, set);
 	if (!status)
 		status = m->n = pm_rates(f, set, kind, m->rates);
-	if (status >= 0 && kind != PM_DRIFT && !p->unsafe)
-		status = pm_rates_stable(f, m->rates, m->n, p->scheme);
 	if (status >= 0)
 		status = p->scheme ? pm_clock_pass(f, set, p->scheme, m->n, m->rates, &m->pass) : pm_clock_add(set, p->kick, p->drift, p->open);
 	return status < 0 ? status : declare_fields(f, m, p);

@@ -58,7 +58,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	return 0;
 }
 
-int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
+int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)
 {
 	struct pm_advance a = p->actions;
 	bool finite = true;
@@ -77,11 +77,14 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 		bool faces = p->moves && c < f->dim && c < m->x->components;
 		int n = lines_of(m, c, true, lines);
 		double *v = faces && m->v && c < m->v->components && (b.mirror[0] || b.mirror[1]) ? pm_out(m->v, c) : NULL;
+		double fastest = 0;
 		if (n)
-			finite &= pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b);
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b, h && faces ? &fastest : NULL);
+		if (h && faces)
+			*crossed = fmax(*crossed, fastest * fabs(f->dt) / h[c]);
 		n = lines_of(m, c, false, lines);
 		if (n)
-			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL);
+			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL, NULL);
 	}
 	for (int r = 0; r < m->n && finite; r++) /* if not finite, the library searches for the value */
 		if (!m->b || m->rates[r].state != m->v) {

@@ -26,6 +26,7 @@ struct pm_moving {
 	struct pm_field *x, *v; /* v NULL: none, or it is not changed */
 	struct pm_field *b, *charge, *mass; /* of a magnetic kick */
 	bool closing;           /* the drift is done */
+	double part;            /* of a step that this push stands for where a rate limits it: 1, or less for a step split into parts */
 	int n;
 	struct pm_rate rates[PM_RATES];
 	struct pm_pass pass;
@@ -37,8 +38,9 @@ int pm_moving_components(const struct pm_rate *r);
 int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
 /* The header part: refuses invalid pushes, advances the set's clock, declares the fields. */
 int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
-/* The data part, without absorption. */
-int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
+/* The data part, without absorption. With the cells h [length per axis] of a mesh *crossed, at least its value before, is the Courant number of the
+ * particles: the largest number of cells that one crosses in dt along an axis; h NULL: not wanted. */
+int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed);
 /* Removes the particles that have crossed an absorbing face; *absorbed is their number, lost the sums of their strengths. */
 int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed, struct pm_strengths *lost);
 /* Sums of the strengths whose rates need not add up to 0: those that are given, and diffusion beside a face that strength passes. */

@@ -46,21 +46,40 @@ static bool all_finite(size_t i, size_t n, const struct pm_advanced *l)
 	return finite;
 }
 
+/* The bits of the largest |k|, which are ordered as the numbers are: a loop over whole numbers runs eight at a time. */
+static int64_t largest(int64_t most, size_t n, const double *k)
+{
+	for (size_t i = 0; i < n; i++) {
+		int64_t bits;
+		memcpy(&bits, k + i, sizeof bits);
+		bits &= INT64_MAX;
+		most = bits > most ? bits : most;
+	}
+	return most;
+}
+
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
-	const struct pm_bounds *b)
+	const struct pm_bounds *b, double *fastest)
 {
 	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;
 	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	int bad = 0;
-#pragma omp parallel for schedule(static) reduction(| : bad) if (n > 16384)
+	int64_t most = 0;
+#pragma omp parallel for schedule(static) reduction(| : bad) reduction(max : most) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
 		size_t i = block * PM_ADVANCE_BLOCK, m = n - i < PM_ADVANCE_BLOCK ? n - i : PM_ADVANCE_BLOCK;
-		for (int l = 0; l < nlines; l++)
-			advance(i, m, a, lines + (kick_first ? nlines - 1 - l : l));
+		for (int l = 0; l < nlines; l++) {
+			const struct pm_advanced *line = lines + (kick_first ? nlines - 1 - l : l);
+			advance(i, m, a, line);
+			if (fastest && line->position)
+				most = largest(most, m, line->k + i);
+		}
 		if (x && b)
 			take_through_faces(i, m, b, x, v, nlines, lines);
 		for (int l = 0; l < nlines; l++)
 			bad |= !all_finite(i, m, lines + l);
 	}
+	if (fastest)
+		memcpy(fastest, &most, sizeof most);
 	return !bad;
 }

@@ -35,8 +35,9 @@ struct pm_bounds {
 };
 
 /* Advances n particles along one axis (or, with x NULL, states without an axis). lines: positions first, because their rate is the velocity
- * before this pass; kicks, however, are done before drifts, which use the new velocity. True if everything is finite afterwards. */
+ * before this pass; kicks, however, are done before drifts, which use the new velocity. True if everything is finite afterwards. *fastest (NULL: not
+ * wanted) is then the largest |rate| of the positions [length/time]. */
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
-	const struct pm_bounds *b);
+	const struct pm_bounds *b, double *fastest);
 
 #endif

@@ -34,6 +34,16 @@ with_until() {
 	text="${BASH_REMATCH[1]}${criterion:+ --until $until}$2${BASH_REMATCH[4]}"
 }
 
+# with_unsafe TEXT: sets text to TEXT with --unsafe in every push, so that what is found is where a run grows, and not where push refuses the step.
+with_unsafe() {
+	local rest=$1
+	text=''
+	while [[ $rest =~ ^((.*[|\'\"])?[[:space:]]*)push([[:space:]].*)$ ]]; do
+		text="push --unsafe${BASH_REMATCH[3]}$text" rest=${BASH_REMATCH[1]}
+	done
+	text=$rest$text
+}
+
 # parts SENTENCE: sets part[] to the sentence split after every cycle but the last, with the criterion in each cycle.
 parts() {
 	local w now=() last=-1 i all
@@ -43,6 +53,7 @@ parts() {
 	part=()
 	for i in "${!all[@]}"; do
 		with_until "${all[i]}" ''
+		with_unsafe "$text"
 		now+=("$text")
 		[[ ${all[i]} =~ $cycle_word && $i != "$last" ]] || continue
 		join "${now[@]}"
@@ -121,6 +132,7 @@ growth_sentence() {
 	[[ ! $4 =~ ^[0-9]+$ ]] || every=$((1 + $4 / 100))
 	for w in "${word[@]}"; do
 		if [[ $w == *--every* ]]; then with_until "$w" ''; else with_until "$w" " --every $every"; fi
+		with_unsafe "$text"
 		all+=("$text")
 	done
 	join "${all[@]}"

@@ -176,6 +176,16 @@ void pm_say(const struct pm_stage *s, const char *format, ...)
 	va_end(ap);
 }
 
+void pm_tell_once(struct pm_stage *s, const char *format, ...)
+{
+	va_list ap;
+	va_start(ap, format);
+	if (!s->trial && !s->told)
+		say(s, format, ap, "");
+	s->told |= !s->trial;
+	va_end(ap);
+}
+
 int pm_idle(struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;

@@ -24,6 +24,7 @@ const struct pm_step step_ab2 = {
 	.order = 2,
 	.real_limit = 1,
 	.imaginary_limit = 0,
+	.doubling = 0.600758887359,
 	.at = {1},
 	.pass = pass,
 };

@@ -20,6 +20,7 @@ const struct pm_step step_euler = {
 	.order = 1,
 	.real_limit = 2,
 	.imaginary_limit = 0,
+	.doubling = 0.226234942147,
 	.at = {1},
 	.pass = pass,
 };

@@ -26,6 +26,7 @@ const struct pm_step step_midpoint = {
 	.order = 2,
 	.real_limit = 2,
 	.imaginary_limit = 0,
+	.doubling = 0.995642361818,
 	.at = {0.5, 1},
 	.pass = pass,
 };

@@ -25,6 +25,7 @@ const struct pm_step step_rk2 = {
 	.order = 2,
 	.real_limit = 2,
 	.imaginary_limit = 0,
+	.doubling = 0.995642361818,
 	.at = {1, 1},
 	.pass = pass,
 };

@@ -32,6 +32,7 @@ struct pm_step {
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
 	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not usable for decay */
 	double imaginary_limit; /* and on the imaginary axis */
+	double doubling;        /* where that is 0: the |lambda| dt at which an oscillation doubles within its period */
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt */
 	/* One pass over n values: y is advanced, k is its rate now, q the registers. */
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);

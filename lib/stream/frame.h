@@ -40,6 +40,13 @@ struct pm_note {
 	void (*free)(struct pm_note *note);
 };
 
+/* How fast a change field makes its state decay, oscillate and strain [1/time]; 0 unknown, or none (stream/limits.h). */
+struct pm_limits {
+	double decay;       /* the largest rate of exponential decay: the largest eigenvalue of the operator behind the change */
+	double oscillation; /* the largest angular frequency */
+	double strain;      /* of a flow: the largest |grad u|, so that particles cross within a step of 1/strain */
+};
+
 struct pm_field {
 	char name[PM_NAME];
 	char on[PM_NAME];     /* the set or mesh it belongs to */
@@ -59,6 +66,7 @@ struct pm_field {
 	 * all that have the strength. */
 	char terms[PM_TERMS][PM_NAME];
 	int nterms;
+	struct pm_limits limits;              /* of change fields; travel in the tail */
 	size_t count;         /* values per component: n of the set, points of the mesh */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */

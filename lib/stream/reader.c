@@ -8,6 +8,7 @@
 
 #include "stream/forward.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 #include "stream/line.h"
 #include "stream/run.h"
 #include "stream/wire.h"
@@ -19,6 +20,7 @@ struct item { /* one field of the current frame, as it was when its header was r
 	size_t bytes, count;
 	enum pm_type type;
 	uint32_t crc;
+	char key[PM_LIMITS_KEY]; /* of its limits in the tail: a stage may have renamed it by then */
 };
 
 struct pm_reader {
@@ -206,7 +208,8 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 	uint64_t total = 0; /* n < 2^48, 16 components, 8 bytes: a field fits; the sum is checked */
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
-		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0};
+		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0, ""};
+		pm_limits_key(p, items[i].key);
 		if (__builtin_add_overflow(total, pm_line_padded(items[i].bytes), &total))
 			return pm_fail(PM_DATA, "the fields of the header are too large");
 	}
@@ -335,12 +338,16 @@ static int get_tail(struct pm_reader *r, struct pm_frame *f)
 		status = get_json(r, &l, "a tail", &tail);
 	if (status)
 		return status;
-	const json_t *crcs = json_object_get(tail, "crc32c"), *report = json_object_get(tail, "report");
+	const json_t *crcs = json_object_get(tail, "crc32c"), *report = json_object_get(tail, "report"), *limits = json_object_get(tail, "limits");
 	if (!json_is_array(crcs) || json_array_size(crcs) != r->nitems || (report && !json_is_object(report)))
 		status = pm_fail(PM_DATA, "the tail does not fit the fields of the frame");
 	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (json_integer_value(json_array_get(crcs, i)) != (json_int_t)r->items[i].crc)
 			status = pm_fail(PM_DATA, "the checksum of field %zu of %zu is wrong: the data are damaged", i + 1, r->nitems);
+	if (!status)
+		status = pm_limits_check(limits);
+	for (size_t i = 0; i < r->nitems && !status && limits; i++)
+		pm_limits_take(limits, r->items[i].key, r->items[i].field);
 	if (!status && report) {
 		json_decref(f->report);
 		f->report = json_deep_copy(report);

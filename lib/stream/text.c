@@ -6,10 +6,11 @@
 
 #include "base/decimal.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 #include "stream/run.h"
 #include "stream/text.h"
 
-static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", end_mark[] = "#end ";
+static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", limits_mark[] = "#limits ", end_mark[] = "#end ";
 
 /* The n-th owner of fields: sets first, then meshes. NULL after the last. */
 static const char *owner(const struct pm_frame *f, size_t n, const char **kind)
@@ -44,6 +45,10 @@ int pm_text_frame_write(FILE *out, struct pm_frame *f)
 	int status = column && header ? json_write(out, frame_mark, header) : -PM_DATA;
 	if (!status && json_object_size(f->report))
 		status = json_write(out, report_mark, f->report);
+	json_t *limits = pm_limits_json(f);
+	if (!status && limits)
+		status = json_write(out, limits_mark, limits);
+	json_decref(limits);
 	for (size_t i = 0; !status && (on = owner(f, i, &kind)); i++) {
 		int n = pm_table_columns(f, on, column);
 		if (n > 0)
@@ -80,7 +85,7 @@ static json_t *json_read(struct pm_text *t, const char *mark)
 /* The next line that starts with one of our marks. */
 static size_t table_end(const struct pm_text *t)
 {
-	static const char *const marks[] = {"\n#pmpipe ", "\n#report ", "\n#set ", "\n#mesh ", "\n#end ", NULL};
+	static const char *const marks[] = {"\n#pmpipe ", "\n#report ", "\n#limits ", "\n#set ", "\n#mesh ", "\n#end ", NULL};
 	for (const char *s = t->data + t->at; (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
 		for (int i = 0; s[1] == '#' && marks[i]; i++)
 			if (!strncmp(s, marks[i], strlen(marks[i])))
@@ -155,6 +160,11 @@ static int frame_tables(struct pm_text *t, struct pm_frame *f)
 		status = json_is_object(report) ? 0 : report ? pm_fail(PM_DATA, "line %lu: the report is not an object", (unsigned long)t->line - 1) : -PM_DATA;
 		json_decref(f->report);
 		f->report = report ? report : json_object();
+	}
+	if (!status && starts(t, limits_mark)) {
+		json_t *limits = json_read(t, limits_mark);
+		status = limits ? pm_limits_take_all(limits, f) : -PM_DATA;
+		json_decref(limits);
 	}
 	for (size_t i = 0; !status && (on = owner(f, i, &kind)); i++)
 		status = table_read(t, f, on, kind, column);

@@ -5,7 +5,7 @@
 
 #include "stream/table.h"
 
-/* #pmpipe {header} / #report {report} / #set NAME and its table / #mesh NAME and its table ... */
+/* #pmpipe {header} / #report {report} / #limits {limits} / #set NAME and its table / #mesh NAME and its table ... */
 int pm_text_frame_write(FILE *out, struct pm_frame *f);
 void pm_text_end_write(FILE *out, uint64_t frames); /* #end FRAMES */
 bool pm_text_is_frames(const struct pm_text *t);    /* does the next line start or end the frames? */

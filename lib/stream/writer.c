@@ -9,6 +9,7 @@
 #include "base/replace.h"
 #include "stream/forward.h"
 #include "stream/header.h"
+#include "stream/limits.h"
 #include "stream/line.h"
 
 struct pm_writer {
@@ -185,7 +186,9 @@ static int put_tail(struct pm_writer *w, const struct pm_frame *f)
 	json_t *crcs = json_array();
 	for (size_t i = 0; i < f->nfields; i++)
 		json_array_append_new(crcs, json_integer(w->crc[i]));
-	json_t *tail = json_pack("{s:o,s:O}", "crc32c", crcs, "report", f->report);
+	json_t *tail = json_pack("{s:o,s:O}", "crc32c", crcs, "report", f->report), *limits = pm_limits_json(f);
+	if (limits)
+		json_object_set_new(tail, "limits", limits);
 	char *text = pm_json_line(tail);
 	json_decref(tail);
 	int status = text ? put_text(w, "PMPIPE/1 tail %llu", 0, true, text) : pm_fail(PM_DATA, "the tail cannot be written as JSON");

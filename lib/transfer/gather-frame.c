@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "stream/declare.h"
-#include "transfer/gather-frame.h"
+#include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
 
 /* The mesh that has the field, or the words that make it. */
@@ -143,7 +143,7 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 	}
 	if (!status && j->outside == PM_OUTSIDE_MONOPOLE)
 		status = pm_outside_reads(&j->far, f);
-	return status;
+	return status || j->choice.field ? status : pm_gather_limits_declare(j, f);
 }
 
 /* The field on both of its meshes. */
@@ -162,6 +162,8 @@ static int interlace(struct pm_gather_job *j, struct pm_fft_plans *plans)
 int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans)
 {
 	int status = j->choice.field ? 0 : pm_mesh_changes_init(&j->changes, f, &j->sets, j->mesh, &j->transfer);
+	if (!j->choice.field)
+		pm_gather_limits_prepare(j, f);
 	return status || !j->interlaced ? status : interlace(j, plans);
 }
 
@@ -216,6 +218,7 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	double *ratio = NULL;
 	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
 	struct arrays a = arrays_of(j, f, set, target, ratio);
+	const double before = law ? pm_gather_limits_most(j, f, set) : 0;
 	if (!status)
 		status = gather(j, f, set, &a, &strays);
 	pm_free(ratio);
@@ -225,6 +228,8 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	if (!status && strays.count && j->outside == PM_OUTSIDE_ERROR)
 		status = pm_strays_refuse(&strays, set, j->mesh, &a.t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
 	j->strays += strays.count;
+	if (!status && law)
+		pm_gather_limits_add(j, f, set, before);
 	*dropped = j->outside == PM_OUTSIDE_DROP ? strays.count : 0;
 	return status;
 }

@@ -28,6 +28,8 @@ struct pm_gather_job {
 	enum pm_outside outside;        /* what is done with particles outside */
 	struct pm_outside_force far;          /* monopole: of those inside, and the reaction */
 	uint64_t strays;                /* outside, of the sets so far */
+	struct pm_limits limits;        /* of the law's change, what all sets have in common */
+	double pull;                    /* |coefficient| sum |strength| of masses; else 0 */
 };
 
 /* Each 0 or failure. In declare(): */

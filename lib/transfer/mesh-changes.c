@@ -9,7 +9,7 @@
 
 #include "transfer/mesh-changes.h"
 #include "stream/declare.h"
-#include "stream/fastest.h"
+#include "stream/limits.h"
 
 bool pm_mesh_change_concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
 {
@@ -34,10 +34,8 @@ static int plan_field(struct pm_frame *f, const char *set, struct pm_field *chan
 	for (int t = 0; t < change->nterms; t++, replace = false)
 		if (!(to = pm_contributes(f, set, name, change->of, change->components, change->terms[t], replace)))
 			return -PM_DATA;
-	if (to) {
+	if (to)
 		to->extensive = strength;
-		pm_fastest_add(to, pm_fastest(change));
-	}
 	return 0;
 }
 
@@ -144,6 +142,7 @@ static int append(const struct pm_frame *f, const char *set, const struct pm_fie
 		return pm_fail(PM_DATA, "more than %d components to bring from '%s' to '%s' at once", PM_COMPONENTS, change->on, set);
 	target_name(change, name);
 	struct pm_field *to = pm_frame_field(f, set, name);
+	pm_limits_add(to, pm_limits_of(change));
 	for (int c = 0; c < n; c++) {
 		int at = t->components++;
 		mesh[at] = values ? values + (size_t)c * change->count : pm_in(change, c);

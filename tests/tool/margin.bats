@@ -181,7 +181,7 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(head -c 4 d/margin.png | tail -c 3)" = PNG ]
 	grep -q '</svg>' d/margin.svg
 	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
-	for what in '<svg' "cycle --until 'distance_max" 'processors' 'pmpipe ' 'diag --columns step,time --growth distance_max' 'push --dt 4 kick/2'; do
+	for what in '<svg' "cycle --until 'distance_max" 'processors' 'pmpipe ' 'diag --columns step,time --growth distance_max' 'push --unsafe --dt 4'; do
 		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
 	done
 }

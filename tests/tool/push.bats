@@ -131,3 +131,108 @@ refuses() {
 	done
 	stab < c1 | grep -q '"name":"bfield"'
 }
+
+# limits: those in the tail of a stream's last frame, "KEY DECAY OSCILLATION STRAIN" a line.
+limits() {
+	stab | sed -n 's/^#limits //p' | tail -n 1 | grep -o '"[^"]*":{[^}]*}' |
+		sed 's/"\([^"]*\)":{"decay":\([^,]*\),"oscillation":\([^,]*\),"strain":\([^}]*\)}/\1 \2 \3 \4/'
+}
+
+@test "the limits of a change travel with it: m2p takes them to the strength, push and clear drop them, --replace computes them anew" {
+	pinit lamb-oseen --cells 32 --dt 1e-3 | p2m | poisson-fft | mgrad | diffuse >a
+	rate=$(limits <a | awk '$1 == "mesh/domega" && NF == 4 && $3 == 0 && $4 == 0 { print $2 }') # nu times the largest eigenvalue of the Laplacian
+	# what diffuse reports, divided by dt and so to round-off
+	within "$rate" "$(sls --report <a | sed -n 's/.*"fastest_dt":\([^},]*\).*/\1/p' | awk '{ printf "%.17g", $1 / 1e-3 }')" 1e-14
+	m2p <a >b
+	[ "$(limits <b | awk '$1 == "vortices/dcirculation" { print $2 }')" = "$rate" ]
+	within "$(limits <b | awk '$1 == "vortices/vel" { print $4 }')" \
+		"$(dt --lcfl 1 <a | sls | sed -n 's/.* dt \([0-9.e-]*\) .*/\1/p' | awk '{ printf "%.12g", 1 / $1 }')" 1e-8
+	m2p --replace <b >c
+	same_as <(limits <b) <(limits <c)
+	[ -z "$(push euler <b | limits)" ]
+	[ -z "$(push clear <b | limits)" ]
+	# as text, as HDF5 and renamed: the same entries
+	stab <b | stab - >f
+	same_as b f
+	sh5 -o b.h5 <b
+	sh5 b.h5 >g
+	same_as b g
+	[ "$(smod --rename vortices=eddies <b | limits | grep -c '^eddies/')" = 2 ]
+}
+
+@test "decays of a change add, of oscillations and strains the largest counts" {
+	printf 'x vx mass\n1 0 1\n' | stab - --law free --dt 0.1 >a
+	field 'acc = -4*x - 3*vx' <a | field --term drag 'acc = -2*vx - x' | limits >t
+	read -r key decay oscillation strain <t
+	[ "$key $strain" = 'matter/acc 0.0' ]
+	within "$decay" 5 1e-9 # differences of a linear expression: round-off over 1e-5
+	within "$oscillation" 2 1e-9
+	printf 'x y\n1 0\n' | stab - --law free --dt 0.1 | field 'vel = 3*y, -x' | field --term more 'vel = 2*y, 0' | limits >t
+	read -r key decay oscillation strain <t
+	within "$strain" 3 1e-9
+}
+
+@test "pp, m2p and field state the frequency: of an orbit, of a plasma, of a spring, of a charge in a magnetic field" {
+	# two bodies of 1/2 at distance 1 turn at 1; from one mass alone and the sum of both, |a|^(3/2)/(G M)^(1/2) = 2^(-3/2), its root
+	within "$(pinit two-body | pp --softening 0 | limits | awk '{ print $3 }')" 0.59460355750136051 1e-12
+	force='p2m | poisson-fft | mgrad | m2p'
+	within "$(pinit langmuir | p2m | poisson-fft | mgrad | m2p | limits | awk '{ print $3 }')" 1 1e-12
+	pinit gyration | m2p | limits >t
+	within "$(awk '$1 ~ /bfield/ { print $3 }' t)" 1 1e-12 # q B/m of the scene
+}
+
+@test "a step beyond the scheme's stable oscillation is refused with the word, the number and the remedy, and --unsafe takes it" {
+	for force in 'p2m | poisson-fft | mgrad | m2p' 'pp'; do
+		run -3 bash -o pipefail -c "pinit plummer --dt 5 | cycle -n 2 'push kick/2 drift | $force | push kick/2' | sls"
+		[[ $output == *"times what a kick can bear: 'acc' of 'matter' (self) oscillates at up to "*"(dt up to "*", or --unsafe)"* ]]
+		sh_ok "pinit plummer --dt 0.5 | cycle -n 1 'push kick/2 drift | $force | push kick/2' | sls"
+	done
+	# a spring: leapfrog to 2, rk4 to 2.83; schemes that are stable for no oscillation to where it doubles within a period
+	spring() { printf 'x vx\n1 0\n' | stab - --law free --dt "$1" | cycle -n 9 "$2"; }
+	for case in '1.99 2.01 a kick|push kick/2 drift, field acc=-x, push kick/2' '2.82 2.84 rk4|field acc=-x, push rk4' \
+		'1.73 1.74 lsrk3|field acc=-x, push lsrk3' '0.99 1 rk2|field acc=-x, push rk2' '0.99 1 midpoint|field acc=-x, push midpoint' \
+		'0.226 0.227 euler|field acc=-x, push euler' '0.6 0.602 ab2|field acc=-x, push ab2' '0.72 0.73 ab3|field acc=-x, push ab3'; do
+		read -r below beyond name <<<"${case%|*}"
+		words=${case#*|} words=${words//,/ |}
+		spring "$below" "$words" >a
+		run -3 spring "$beyond" "$words"
+		[[ $output == *"what $name can bear: 'acc' of 'matter' (external) oscillates"* ]]
+		spring "$beyond" "${words//push /push --unsafe }" >a
+	done
+	# a step of leapfrog in two parts: each of half the length
+	spring 3.9 'push kick/4 drift/2 | field acc=-x | push kick/2 drift/2 | field --replace acc=-x | push kick/4' >a
+	run -3 spring 4.1 'push kick/4 drift/2 | field acc=-x | push kick/2 drift/2 | field --replace acc=-x | push kick/4'
+}
+
+@test "a decay is refused beyond the real axis, of friction as of diffusion; the limit of older streams, fastest, is read" {
+	drag() { printf 'x vx\n1 1\n' | stab - --law free --dt 1 | cycle -n 3 "$1"; }
+	drag 'push kick/2 drift | field acc=-1.99*vx | push kick/2' >a
+	run -3 drag 'push kick/2 drift | field acc=-2.01*vx | push kick/2'
+	[[ $output == *"'acc' of 'matter' (external) decays at up to 2.01 per time"* ]]
+	pinit lamb-oseen --cells 32 --dt 0.1 | p2m | poisson-fft | mgrad | diffuse | m2p >a
+	stab <a | sed '/^#limits/d; s/"name":"dcirculation"/"fastest":21,&/' | stab - >old
+	run -3 bash -o pipefail -c 'push euler <old | sls'
+	[[ $output == *"'dcirculation' of 'vortices' (diffusion) decays at up to 21 per time"* ]]
+	sh_ok 'push euler <a | sls; push euler --unsafe <old | sls'
+}
+
+@test "a strain dt above 1 is told once and never refused" {
+	for engine in fused pipes; do
+		pinit lamb-oseen --cells 64 --nu 1e-4 --dt 0.02 |
+			cycle -n 4 --engine $engine 'p2m --outside grow | poisson-fft | mgrad | m2p | push lsrk3' 2>said | sls
+		[ "$(grep -c 'push: dt |grad u| is 7.5[0-9]* for .vortices. (dt 0.02)' said)" = 1 ]
+	done
+	pinit lamb-oseen --cells 64 --nu 1e-4 --dt 0.002 | cycle -n 1 'p2m --outside grow | poisson-fft | mgrad | m2p | push lsrk3' 2>said | sls
+	[ ! -s said ]
+}
+
+@test "the Courant number of the particles is in the report where the frame has a field on a mesh" {
+	printf 'x y vx vy mass\n1 1 3 0 1\n2 2 -1 -5 1\n' | stab - --law gravity --constant G=1e-30 --box 0,16 --faces periodic -n 8 --dt 0.2 >a
+	run -0 bash -o pipefail -c 'push drift <a | sls --report'
+	[[ $output != *courant* ]]
+	# 5 * 0.2 in cells of 2, at any number of threads and for parts of a step
+	for words in drift 'drift/4' 'kick/2 drift'; do
+		run -0 bash -o pipefail -c "p2m <a | poisson-fft | mgrad | m2p | push $words | sls --report"
+		[[ $output == *'"courant":0.5}'* ]]
+	done
+}

@@ -116,6 +116,17 @@ static void limits(const struct pm_step *s, const char *name)
 		check_near(limit(s, -1), s->real_limit, 1e-3, text);
 }
 
+/* Schemes without a stable oscillation: at |lambda| dt = doubling it doubles within a period, 2 pi/doubling steps. */
+static void doubling(const struct pm_step *s, const char *name)
+{
+	char text[128];
+	snprintf(text, sizeof text, "%s: an oscillation doubles within its period at the entry's limit", name);
+	if (s->imaginary_limit == 0)
+		check_near(pow(amplification(s, I * s->doubling), 2 * pm_pi / s->doubling), 2, 1e-9, text);
+	else
+		check(s->doubling == 0, "%s: no such limit where oscillations are stable", name);
+}
+
 /* Error of the pendulum at t = 2 with n steps, against rk4 with many. */
 static double pendulum_error(const struct pm_step *s, int n)
 {
@@ -254,6 +265,7 @@ int main(void)
 	for (int i = 0; pm_steps[i]; i++) {
 		promises(pm_steps[i], pm_step_names[i]);
 		limits(pm_steps[i], pm_step_names[i]);
+		doubling(pm_steps[i], pm_step_names[i]);
 		orders(pm_steps[i], pm_step_names[i]);
 	}
 	verlet(0.1, 0.10004171361154);

@@ -2,7 +2,9 @@
  * if dt |grad u| < 1 in a matrix norm; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
  * Lagrangian CFL). Plasma frequency: omega_p^2 = sum q^2/m/(eps0 V), with V the box (Birdsall and Langdon 1985, section 1-2). Cost N, points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "measure/timestep.h"
+#include <string.h>
+
+#include "limit/rates.h"
 
 enum { BLOCK = 4096 };
 
@@ -56,4 +58,35 @@ double pm_charge_over_mass(size_t n, const double *q, const double *m)
 	for (size_t p = 0; p < n; p++)
 		pm_sum_add(&sum, q[p] * q[p] / m[p]);
 	return pm_sum_total(sum);
+}
+
+double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
+{
+	double sum = 0, box = 1;
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
+		if (q && m && pm_set_moves(f, f->sets[i]))
+			sum += pm_charge_over_mass(q->count, pm_in(q, 0), pm_in(m, 0));
+	}
+	for (int d = 0; d < f->dim; d++)
+		box *= f->hi[d] - f->lo[d];
+	return sqrt(fabs(law->coefficient(f)) * sum / box);
+}
+
+double pm_strength_total(const struct pm_frame *f, const char *strength)
+{
+	struct pm_sum sum = {0, 0};
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, strength);
+		for (size_t p = 0; q && p < q->count; p++)
+			pm_sum_add(&sum, fabs(q->uniform ? q->value[0] : pm_in(q, 0)[p]));
+	}
+	return pm_sum_total(sum);
+}
+
+double pm_orbit_rate(int dim, double most, double pull)
+{
+	if (dim < 2 || !(most > 0) || !(pull > 0))
+		return 0;
+	return dim == 2 ? most * most * 2 * pm_pi / pull : most * sqrt(most * 4 * pm_pi / pull);
 }

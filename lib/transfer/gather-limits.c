@@ -1,0 +1,75 @@
+/* How fast a law's field makes particles oscillate and strains them. A flow: |grad u| on its mesh. Charges that move in the field they make: omega_p of all
+ * of them in the box. Masses: the orbit that the largest acceleration of a particle belongs to (pm_orbit_rate), which never exceeds the true frequency, as the
+ * gradient of g on the mesh would, which holds each particle's own cloud. A magnetic field: the largest |q B/m|.
+ * Given fields other than a flow are left out: how they vary around a particle says nothing about its motion without the other forces.
+ * Source: rates.h. Cost: one pass over the mesh (a flow) or over the strengths. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "limit/rates.h"
+#include "stream/declare.h"
+#include "stream/limits.h"
+#include "transfer/gather-limits.h"
+
+static bool is_flow(const struct pm_gather_job *j) { return !strcmp(j->law->of, "x"); }
+static bool self(const struct pm_gather_job *j) { return j->field->role != PM_STATE && j->law->strength && j->law->coefficient; }
+
+static bool counts(const struct pm_gather_job *j, const struct pm_frame *f, const struct pm_set *s)
+{
+	return pm_frame_field(f, s->name, j->law->strength) && (!j->law->per || (pm_set_moves(f, s) && pm_frame_field(f, s->name, j->law->per)));
+}
+
+int pm_gather_limits_declare(const struct pm_gather_job *j, struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nsets && self(j) && !is_flow(j); i++) {
+		const char *set = f->sets[i]->name;
+		if (!counts(j, f, f->sets[i]))
+			continue;
+		if ((j->law->per || !pm_frame_field(f, set, j->law->strength)->uniform) && !pm_reads(f, set, j->law->strength))
+			return -PM_DATA;
+		if (j->law->per && !pm_reads(f, set, j->law->per))
+			return -PM_DATA;
+	}
+	return 0;
+}
+
+void pm_gather_limits_prepare(struct pm_gather_job *j, const struct pm_frame *f)
+{
+	const double *u[PM_COMPONENTS];
+	for (int c = 0; c < j->field->components; c++)
+		u[c] = pm_in(j->field, c);
+	if (is_flow(j))
+		j->limits.strain = pm_strain(&j->transfer.grid, j->field->components, u);
+	else if (self(j) && j->law->per)
+		j->limits.oscillation = pm_plasma_frequency(f, j->law);
+	else if (self(j))
+		j->pull = fabs(j->law->coefficient(f)) * pm_strength_total(f, j->law->strength);
+}
+
+double pm_gather_limits_most(const struct pm_gather_job *j, const struct pm_frame *f, const char *set)
+{
+	const struct pm_field *change = pm_frame_field(f, set, j->law->change);
+	return j->pull > 0 && !(change->use & PM_USE_FILL) ? sqrt(pm_most(change, NULL)) : 0;
+}
+
+/* Largest |q B/m|. */
+static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, const struct pm_field *b)
+{
+	const double *q = pm_in(pm_frame_field(f, b->on, j->law->strength), 0), *m = pm_in(pm_frame_field(f, b->on, j->law->per), 0);
+	double most = 0;
+	for (size_t i = 0; i < b->count; i++) {
+		const double x = pm_in(b, 0)[i], y = pm_in(b, 1)[i], z = pm_in(b, 2)[i];
+		most = fmax(most, fabs(q[i] / m[i]) * sqrt(x * x + y * y + z * z));
+	}
+	return most;
+}
+
+void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, const char *set, double before)
+{
+	struct pm_field *change = pm_frame_field(f, set, j->law->change), *b = pm_frame_field(f, set, "bfield");
+	struct pm_limits found = j->limits;
+	if (j->pull > 0) /* of this field alone: at least the difference of the largest values */
+		found.oscillation = sqrt(pm_orbit_rate(f->dim, sqrt(pm_most(change, NULL)) - before, j->pull));
+	pm_limits_add(change, found);
+	if (b && j->law->magnetic && j->law->per && b->use & (PM_USE_CHANGE | PM_USE_NEW))
+		pm_limits_add(b, (struct pm_limits){.oscillation = gyration(j, f, b)});
+}
