@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/nearest-name.h"
+#include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-parameters.h"
 #include "stage/attribute-options.h"
 
@@ -12,6 +13,7 @@ struct config {
 	struct pm_cells cells;
 	struct pm_vector box;
 	double dt;
+	const char *loading;
 	struct pm_list faces, particle_faces;
 	double parameter[PM_SCENE_ROWS];
 };
@@ -70,6 +72,10 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "the scene %s always has -n %d", scene->name, (int)scene->n);
 	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
 		return -PM_USAGE;
+	if (o->loading && !scene->loads)
+		return pm_fail(PM_USAGE, "the scene %s has no --loading: its particles are %s", scene->name, scene->random ? "at random" : "given");
+	while (o->loading && strcmp(o->loading, pm_loading_names[state->choice.loading]))
+		state->choice.loading++;
 	return pm_scene_parameters_choose(scene, o->parameter, state->choice.value);
 }
 
@@ -114,6 +120,9 @@ static const struct pm_option options[] = {
 	{.name = "cells", .kind = PM_CELLS, .unit = "cells", PM_AT(cells), .text = "cells of the default mesh, as 64 or 64x32x32 (default: the scene's)"},
 	{.name = "box", .kind = PM_VECTOR, .unit = "length", PM_AT(box), .text = "lo,hi of all axes, or all lo and then all hi (default: the scene's)"},
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(dt), .text = "time step (default: the scene's)"},
+	{.name = "loading", .kind = PM_WORD, .choices = pm_loading_names, PM_AT(loading),
+		.text = "how plasmas and cold waves are filled with particles: quiet on a lattice (default; of a warm plasma weighted), by reversed digits or "
+		"Sobol's sequence, or at random"},
 	{.name = "faces", .kind = PM_LIST, .choices = pm_face_names, PM_AT(faces),
 		.text = "faces of the fields: one word, one per axis, or low,high per axis (default: the scene's)"},
 	{.name = "particle-faces", .kind = PM_LIST, .choices = pm_particle_face_names, PM_AT(particle_faces),

@@ -25,20 +25,26 @@ static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const
 
 /* ---- speeds ---- */
 
-static void speeds(const struct pm_frame *f, struct pm_scales *s)
+/* Means over the particles; of charges by their strength, because a plasma may be sampled by particles of different weight. */
+static void speeds(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	struct pm_sum sum[3] = {{0, 0}}, square = {0, 0};
 	double n = 0, mean = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *v = pm_set_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
+		const struct pm_field *q = v && s->kind == PM_CHARGES ? state(f, f->sets[k]->name, law->strength) : NULL;
+		double share = 0; /* mean strength */
+		for (size_t i = 0; q && !q->uniform && i < q->count; i++)
+			share += fabs(at(q, 0, i)) / (double)q->count;
 		for (size_t i = 0; v && i < v->count; i++) {
+			const double weight = share > 0 ? fabs(at(q, 0, i)) / share : 1;
 			double v2 = 0;
 			for (int c = 0; c < v->components && c < 3; c++) {
 				v2 += at(v, c, i) * at(v, c, i);
-				pm_sum_add(&sum[c], at(v, c, i));
+				pm_sum_add(&sum[c], weight * at(v, c, i));
 			}
 			s->v_max = fmax(s->v_max, sqrt(v2));
-			pm_sum_add(&square, v2);
+			pm_sum_add(&square, weight * v2);
 		}
 		n += v ? (double)v->count : 0;
 		s->second = s->second || v;
@@ -220,7 +226,7 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 	for (size_t k = 0; k < f->nsets; k++)
 		s->n += pm_set_moves(f, f->sets[k]) ? (double)f->sets[k]->n : 0;
 	geometry(f, s);
-	speeds(f, s);
+	speeds(f, law, s);
 	int status = distances(f, law, s);
 	strengths(f, law, s);
 	const double field = largest(f, law->field), B = largest(f, law->magnetic);

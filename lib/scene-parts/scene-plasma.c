@@ -1,4 +1,4 @@
-/* A plasma in a periodic box, and the numbers of quiet starts.
+/* A plasma in a periodic box.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -35,6 +35,18 @@ int pm_scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double c
 	return 0;
 }
 
+int pm_scene_plasma_weights(struct pm_frame *f, double *weight[2])
+{
+	for (int i = 0; i < 2; i++) {
+		struct pm_field *field = pm_frame_field(f, "electrons", i ? "mass" : "charge");
+		field->uniform = false;
+		if (pm_field_ready(field))
+			return -PM_DATA;
+		weight[i] = pm_out(field, 0);
+	}
+	return 0;
+}
+
 int pm_scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value)
 {
 	struct pm_field *field = pm_makes(f, "mesh", name, components, PM_STATE);
@@ -59,21 +71,4 @@ double pm_scene_fold(double x, double length)
 {
 	x -= length * floor(x / length);
 	return x >= length ? 0 : x;
-}
-
-double pm_scene_bits_reversed(uint64_t i)
-{
-	double x = 0, bit = 0.5;
-	for (; i; i >>= 1, bit *= 0.5)
-		x += (double)(i & 1) * bit;
-	return x;
-}
-
-double pm_scene_normal_of(double u)
-{
-	const double p = u < 0.5 ? u : 1 - u, t = sqrt(-2 * log(p));
-	double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-	for (int i = 0; i < 3; i++) /* each step squares the error of 4.5e-4 */
-		z += (0.5 * erfc(z / sqrt(2)) - p) / (exp(-0.5 * z * z) / sqrt(2 * pm_pi));
-	return u < 0.5 ? -z : z;
 }

@@ -10,15 +10,12 @@
 void pm_scene_plasma_world(struct pm_frame *f, double length, double background, double dt);
 /* The set "electrons" with x, v of `velocities` components (above dim all 0), mass and charge the same for all. */
 int pm_scene_plasma_set(struct pm_frame *f, uint64_t n, int velocities, double charge, double mass, double *x[3], double *v[3]);
+/* Charge and mass of each electron, to be filled, where they are not all the same. */
+int pm_scene_plasma_weights(struct pm_frame *f, double *weight[2]);
 /* A given uniform field on the mesh. */
 int pm_scene_plasma_given(struct pm_frame *f, const char *name, const char *unit, int components, const double *value);
 /* Parameters that are integers. */
 int pm_scene_plasma_whole(double mode, double velocities, int least);
 /* x in [0, length). */
 double pm_scene_fold(double x, double length);
-/* Van der Corput's sequence: the bits of i behind the point in reverse order (Hammersley 1960). */
-double pm_scene_bits_reversed(uint64_t i);
-/* z with u = (1 + erf(z/sqrt 2))/2, 0 < u < 1: bisection-free, Newton's method from the tail estimate of Abramowitz and Stegun 26.2.23. */
-double pm_scene_normal_of(double u);
-
 #endif

@@ -1,4 +1,4 @@
-/* A cold plane wave that collapses in a static periodic box: x = q + A sin(k q), at rest, q on a lattice, k = 2 pi mode/length along x.
+/* A cold plane wave that collapses in a static periodic box: x = q + A sin(k q), at rest, q on a lattice (or as --loading says), k = 2 pi mode/length along x.
  * Until the sheets cross (k A = 1) the exact motion is A(t) = A0 cosh(w t), w^2 = 4 pi G rho (the mean of rho is removed); w = 1 by the default
  * density 1/(4 pi). On a mesh with cic and the fd2 Laplacian w becomes w cos(k dx/2), and the leapfrog's growth per step obeys
  * sinh(g dt/2) = w dt/2. Source: Zel'dovich 1970; PM-06 of the reference cases.
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene-parts/scene-bodies.h"
+#include "scene-parts/scene-loading.h"
 
 enum { AMPLITUDE, MODE, LENGTH, DENSITY, SOFTENING };
 
@@ -23,7 +24,8 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	static const size_t cells[4] = {0, 128, 64, 16};
-	const size_t side = pm_scene_per_axis(c->n ? c->n : 1, c->dim);
+	const bool lattice = c->loading == PM_LATTICE;
+	const size_t side = lattice ? pm_scene_per_axis(c->n ? c->n : 1, c->dim) : 1;
 	const double length = c->value[LENGTH], k = 2 * pm_pi * c->value[MODE] / length, volume = pow(length, c->dim);
 	struct pm_scene_body b;
 	if (!side)
@@ -33,10 +35,12 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
 	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->n ? c->value[DENSITY] * volume / (double)c->n : 0, &b))
 		return -PM_DATA;
+	if (!lattice && pm_scene_points(c->loading, c->seed, c->n, c->dim, (double *const[PM_LOAD_AXES]){b.x[0], b.x[1], b.x[2]}))
+		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const size_t at[3] = {i % side, i / side % side, i / side / side};
 		for (int d = 0; d < c->dim; d++) {
-			const double q = ((double)at[d] + 0.5) / (double)side * length;
+			const double q = lattice ? ((double)at[d] + 0.5) / (double)side * length : b.x[d][i] * length;
 			b.x[d][i] = d ? q : q + c->value[AMPLITUDE] / k * sin(k * q);
 			b.v[d][i] = 0;
 		}
@@ -72,6 +76,7 @@ const struct pm_scene scene_cold_collapse = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.dim = 1,
 	.n = 4096,
+	.loads = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -1,15 +1,15 @@
 /* A Maxwellian plasma with a small wave, f = (1 + A cos k x) M(v), which is Landau damped. vth = 1 and omega_p = 1, so lambda_D = 1 and
  * the default k = 0.5 is k lambda_D = 0.5: omega = 1.4156619, gamma = -0.1533595; k = 0.3: 1.1598465, -0.01262037.
- * Quiet start: Hammersley's points, velocities by their quantiles, positions by reversed bits through the inverse of x + (A/k) sin k x; every second
- * particle is the mirror image of the one before, so the momentum is zero. Or, without noise, --beams of evenly spaced velocities with the weights
- * of the Maxwellian; they are in phase again (recurrence) after 2 pi/(k dv), dv = 12 vth over their number.
+ * Quiet start: a lattice of --beams evenly spaced velocities with the weights of the Maxwellian, without noise until they are in phase again (recurrence)
+ * after 2 pi/(k dv), dv = 12 vth over their number. --loading bit-reversed and sobol: particles of one weight, velocities by their quantiles, positions
+ * through the inverse of x + (A/k) sin k x; every second particle is the mirror image of the one before, so the momentum is zero. random: neither.
  * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
  * Exact: mass, charge. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-plasma.h"
-#include "stream/declare.h"
 
 enum { AMPLITUDE, MODE, WAVENUMBER, VTH, VELOCITIES, BEAMS };
 
@@ -19,7 +19,7 @@ static const struct pm_scene_parameter rows[] = {
 	{.name = "wavenumber", .unit = "1/length", .otherwise = 0.5, .low = 1e-300, .high = 1e300, .text = "k of mode 1; the box is 2 pi/k long"},
 	{.name = "vth", .unit = "length/time", .otherwise = 1, .high = 1e300, .text = "thermal speed, the standard deviation of the velocity"},
 	{.name = "velocities", .otherwise = 1, .low = 1, .high = 3, .text = "components of v"},
-	{.name = "beams", .high = 1e6, .text = "evenly spaced velocities from -6 to 6 vth, weighted; 0: each particle its own, all of one weight"},
+	{.name = "beams", .high = 1e6, .text = "evenly spaced velocities from -6 to 6 vth, weighted (--loading lattice); 0: sqrt(0.8 n)"},
 	{0},
 };
 
@@ -36,31 +36,45 @@ static double place(double q, double a, double k)
 	return x;
 }
 
-/* Beams of evenly spaced velocities, evenly spaced particles in each, masses in proportion to the Maxwellian. */
-static int make_beams(const struct pm_scene_choice *c, struct pm_frame *f, double length, double k, double *x, double *v)
+/* A lattice in phase space with the weights of the Maxwellian. */
+static int make_lattice(const struct pm_scene_choice *c, struct pm_frame *f, double length, double k, double *x, double *v)
 {
-	const uint64_t beams = (uint64_t)c->value[BEAMS], each = c->n / beams;
-	double total = 0, *weight[2];
-	if (c->value[BEAMS] != floor(c->value[BEAMS]) || each * beams != c->n)
-		return pm_fail(PM_USAGE, "%llu particles do not make %g beams of the same number (-n a multiple of --beams)",
-			(unsigned long long)c->n, c->value[BEAMS]);
-	for (int i = 0; i < 2; i++) {
-		struct pm_field *field = pm_frame_field(f, "electrons", i ? "mass" : "charge");
-		field->uniform = false;
-		if (pm_field_ready(field))
-			return -PM_DATA;
-		weight[i] = pm_out(field, 0);
-	}
-	for (uint64_t b = 0; b < beams; b++)
-		total += exp(-0.5 * pow(12 * ((double)b + 0.5) / (double)beams - 6, 2));
+	double *weight[2];
+	struct pm_scene_beams beams;
+	if (pm_scene_beams_init(c->n, c->value[BEAMS], &beams))
+		return -PM_USAGE;
+	if (pm_scene_plasma_weights(f, weight))
+		return -PM_DATA;
+#pragma omp parallel for schedule(static) if (c->n > 16384)
 	for (uint64_t i = 0; i < c->n; i++) {
-		const double u = 12 * ((double)(i / each) + 0.5) / (double)beams - 6, share = exp(-0.5 * u * u) / total * length / (double)each;
-		/* each lattice is offset (golden section), or their images on the mesh would come into phase repeatedly */
-		const double first = fmod(0.6180339887498949 * ((double)(i / each) + 1), 1);
-		x[i] = pm_scene_fold(place(((double)(i % each) + first) / (double)each * length, c->value[AMPLITUDE], k), length);
-		v[i] = c->value[VTH] * u;
-		weight[0][i] = -share, weight[1][i] = share;
+		const struct pm_scene_beam_point p = pm_scene_beam_at(&beams, i);
+		x[i] = pm_scene_fold(place(p.place * length, c->value[AMPLITUDE], k), length);
+		v[i] = c->value[VTH] * p.velocity;
+		weight[0][i] = -p.weight * length, weight[1][i] = p.weight * length;
 	}
+	return 0;
+}
+
+/* The sequences: half of the particles, and their mirror images. At random: all of them, at rest together. */
+static int make_equal(const struct pm_scene_choice *c, double length, double k, double *x, double *v)
+{
+	const uint64_t points = c->loading == PM_RANDOM ? c->n : c->n / 2;
+	double *const u[PM_LOAD_AXES] = {x, v};
+	if (c->value[BEAMS] > 0)
+		return pm_fail(PM_USAGE, "--beams is for --loading lattice");
+	if (points + points != c->n && points != c->n)
+		return pm_fail(PM_USAGE, "%llu particles do not make mirror images (take an even -n)", (unsigned long long)c->n);
+	if (pm_scene_points(c->loading, c->seed, points, 2, u))
+		return -PM_DATA;
+	for (uint64_t i = points; i-- > 0;) { /* from the end, because the images go between */
+		const double at = place(x[i] * length, c->value[AMPLITUDE], k), speed = c->value[VTH] * pm_scene_normal_of(v[i]);
+		const uint64_t first = points == c->n ? i : 2 * i;
+		if (points != c->n)
+			x[first + 1] = pm_scene_fold(length - at, length), v[first + 1] = -speed;
+		x[first] = pm_scene_fold(at, length), v[first] = speed;
+	}
+	if (points == c->n)
+		pm_scene_centre(c->n, NULL, v);
 	return 0;
 }
 
@@ -70,22 +84,10 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	double *x[3], *v[3];
 	if (pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
-	if (c->n % 2 && c->value[BEAMS] == 0)
-		return pm_fail(PM_USAGE, "%llu particles do not make mirror images (take an even -n)", (unsigned long long)c->n);
 	pm_scene_plasma_world(f, length, 1, 0.1);
 	if (pm_scene_mesh(f, 64) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
-	if (c->value[BEAMS] > 0)
-		return make_beams(c, f, length, k, x[0], v[0]);
-#pragma omp parallel for schedule(static) if (c->n > 16384)
-	for (uint64_t i = 0; i < c->n; i++) {
-		const uint64_t j = i / 2;
-		const double at = place((pm_scene_bits_reversed(j) + 0.5 / n) * length, c->value[AMPLITUDE], k);
-		const double speed = c->value[VTH] * pm_scene_normal_of(((double)j + 0.5) / (n / 2));
-		x[0][i] = pm_scene_fold(i % 2 ? length - at : at, length);
-		v[0][i] = i % 2 ? -speed : speed;
-	}
-	return 0;
+	return c->loading == PM_LATTICE ? make_lattice(c, f, length, k, x[0], v[0]) : make_equal(c, length, k, x[0], v[0]);
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)
@@ -102,6 +104,7 @@ const struct pm_scene scene_landau = {
 	.dims = 1u << 1,
 	.dim = 1,
 	.n = 20000,
+	.loads = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -1,4 +1,4 @@
-/* A cold plasma oscillation: electrons at rest on a lattice, displaced by x = q + (A/k) sin(k q), before immobile ions; omega_p = 1.
+/* A cold plasma oscillation: electrons at rest on a lattice (or as --loading says), displaced by x = q + (A/k) sin(k q), before immobile ions; omega_p = 1.
  * Until sheets cross (A < 1: never) each electron oscillates about its own position, x = q + (A/k) sin(k q) cos t, for any A (Dawson 1959). On a mesh with
  * cic and the 3-point Laplacian the frequency is cos(k dx/2), with the leapfrog sin(omega dt/2) = (dt/2) cos(k dx/2). In 2-D and 3-D the box is a square
  * or a cube, and the wave runs along x or, with --axes, along a diagonal.
@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-plasma.h"
 
 enum { AMPLITUDE, MODE, WAVENUMBER, VELOCITIES, AXES };
@@ -26,8 +27,10 @@ static double wavenumber(double k1, double mode, double axes) { return k1 * mode
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = 2 * pm_pi / c->value[WAVENUMBER], k1 = c->value[WAVENUMBER] * c->value[MODE], axes = c->value[AXES];
-	const size_t cells[] = {64, 32, 16}, side = c->n ? pm_scene_per_axis(c->n, f->dim) : 1;
-	const double share = c->n ? pow(length / (double)side, f->dim) : 0, swing = c->value[AMPLITUDE] / (k1 * axes);
+	const bool lattice = c->loading == PM_LATTICE;
+	const size_t cells[] = {64, 32, 16}, side = c->n && lattice ? pm_scene_per_axis(c->n, f->dim) : 1;
+	const double share = !c->n ? 0 : lattice ? pow(length / (double)side, f->dim) : pow(length, f->dim) / (double)c->n;
+	const double swing = c->value[AMPLITUDE] / (k1 * axes);
 	double *x[3], *v[3];
 	if (!side || pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
@@ -36,11 +39,13 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	pm_scene_plasma_world(f, length, 1, 0.1);
 	if (pm_scene_mesh(f, cells[f->dim - 1]) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
+	if (!lattice && pm_scene_points(c->loading, c->seed, c->n, f->dim, (double *const[PM_LOAD_AXES]){x[0], x[1], x[2]}))
+		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {
 		const size_t at[3] = {i % side, i / side % side, i / side / side};
 		double q[3], phase = 0;
 		for (int d = 0; d < f->dim; d++) {
-			q[d] = ((double)at[d] + 0.5) / (double)side * length;
+			q[d] = lattice ? ((double)at[d] + 0.5) / (double)side * length : x[d][i] * length;
 			phase += d < axes ? k1 * q[d] : 0;
 		}
 		for (int d = 0; d < f->dim; d++)
@@ -74,6 +79,7 @@ const struct pm_scene scene_langmuir = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.dim = 1,
 	.n = 4096,
+	.loads = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

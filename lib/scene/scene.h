@@ -14,9 +14,13 @@ struct pm_scene_parameter {
 	const char *text;
 };
 
+/* How particles are drawn from a distribution: evenly spaced, by sequences that fill space evenly, or at random. */
+enum pm_loading { PM_LATTICE, PM_BIT_REVERSED, PM_SOBOL, PM_RANDOM };
+
 struct pm_scene_choice { /* the options of pinit, defaults filled in and ranges checked */
 	int dim;
 	uint64_t n, seed;
+	enum pm_loading loading;
 	size_t cells[3];                   /* of the default mesh, from the options; 0: the scene's own */
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
 };
@@ -28,6 +32,7 @@ struct pm_scene {
 	uint64_t n;              /* default, in its default dimension */
 	bool n_fixed;            /* n cannot be changed; with n 0 the particles are nodes of the mesh, whose cells give their number */
 	bool random;             /* depends on the seed */
+	bool loads;              /* has all loadings, and is quiet by default: PM_LATTICE */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
 	/* Fills a new frame of c->dim: law, constants, box, faces, sets with their data, the mesh "mesh", dt. 0 or failure. */
 	int (*make)(const struct pm_scene_choice *c, struct pm_frame *f);

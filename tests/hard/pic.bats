@@ -68,7 +68,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	beam 1 1.3 right > right
 	beam 2 -1.3 left > left
 	stack right left | warm 1000 > noise
-	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.3 --vth 1 --amplitude 0.01 --dt 0.2 | warm 1000 > wave
+	# not on a lattice: after B/(2 omega_p) = 100 its beams, B = 200, are unstable by themselves
+	pinit two-stream -n 100000 --wavenumber 0.2 --v0 1.3 --vth 1 --amplitude 0.01 --dt 0.2 --loading bit-reversed | warm 1000 > wave
 	below "$(later 0 < noise)" 3 "noise"
 	below "$(later 20 < wave)" 3 "wave" # it starts at its maximum and is damped
 	# and a growing case is detected: at v0 = 1.6 vth the rate is 0.08, e^6.4 = 600 in energy from t = 20 to 60, less what noise there was before

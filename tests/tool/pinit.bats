@@ -107,3 +107,25 @@ PY
 		below "$p" "$(awk -v s="$scale" 'BEGIN { print 1e-15 * s }')" # one subtraction of the weighted mean, compensated sums
 	done
 }
+
+@test "pinit: --loading: a lattice without a word, reversed digits and Sobol's points without the seed, random numbers with it; other scenes refuse it" {
+	for scene in landau two-stream langmuir "langmuir --dim 2" cold-collapse; do
+		pinit $scene -n 64 > bare
+		for how in lattice bit-reversed sobol random; do
+			pinit $scene -n 64 --loading $how > $how
+			pinit $scene -n 64 --loading $how --seed 2 | smod --seed 1 > other
+			stab --plain < $how > a; stab --plain < other > b
+			[ "$(cmp -s a b && echo same)" = "$([ $how = random ] || echo same)" ]
+			stab --plain < bare > b
+			# cold and in one dimension, reversed digits are the lattice
+			[ "$(cmp -s a b && echo same)" = "$([ $how = lattice ] && echo same)" ] || [[ $how = bit-reversed && $scene != landau ]]
+		done
+	done
+	refused() { run -2 --separate-stderr pinit "${@:2}"; [[ $stderr == *"$1"* ]] || { echo "$stderr"; return 1; }; }
+	refused "the scene plummer has no --loading: its particles are at random" plummer --loading sobol
+	refused "the scene two-body has no --loading: its particles are given" two-body --loading random
+	refused "did you mean sobol" landau --loading sobl
+	refused "--beams is for --loading lattice" landau --loading random --beams 10
+	refused "10 particles do not make 20 beams" landau -n 10 --beams 20
+	refused "take an even -n" landau -n 11 --loading sobol
+}

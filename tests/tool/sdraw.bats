@@ -127,7 +127,7 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 }
 
 @test "phase space: x against v is what 1-D particles show by themselves; two streams are two bands; another velocity or a wrong name is refused" {
-	pinit two-stream -n 40000 --vth 0.1 --amplitude 0 >a
+	pinit two-stream -n 40000 --vth 0.1 --amplitude 0 --loading bit-reversed >a # of one weight: the density is that of the particles
 	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 <a >p
 	sdraw --format ppm --size 400 --area 0,6.283185307,-1,1 --x x --y vx --style density <a | cmp - p
 	# the brightest row of a column, above and below the middle, is that of v0 = 0.612

@@ -75,10 +75,10 @@ static void exact(void)
 static void disturbed(void)
 {
 	struct pm_growth g = fit(JITTERS, -0.02, 0.98, NAN, NAN);
-	check_near(g.omega, 0.98, 1e-3, "a wave with 1 %% of jitter: omega");
+	check_near(g.omega, 0.98, 1e-3, "a wave with 1 % of jitter: omega");
 	check_near(g.gamma, -0.02, 1e-4, "and gamma");
 	g = fit(SATURATES, 0.5, 0, NAN, NAN);
-	check_near(g.gamma, 0.5, 0.01, "growth that saturates: within 2 %%");
+	check_near(g.gamma, 0.5, 0.01, "growth that saturates: within 2 %");
 	check(g.from > 3 && g.to < 19, "and not before or after (%g to %g)", g.from, g.to); /* at 18.4 it would be 1 */
 	g = fit(COSH, 0.5, 0, NAN, NAN);
 	check_near(g.gamma, 0.5, 0.001, "a wave that starts at rest, once its other half is gone");
