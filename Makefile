@@ -1,5 +1,5 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
-# make, demo, check, check-long, mutants, asan, valgrind, bench, counts, counts-check, gallery, stability, atlas, hard-cases,
+# make, demo, check, check-long, mutants, asan, fuzz, valgrind, bench, counts, counts-check, gallery, stability, atlas, hard-cases,
 # measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
@@ -151,12 +151,29 @@ check-long:
 mutants:
 	bash tests/mutants.sh
 
-# The sanitizers see the unit tests and the tests that feed the tools what they do not like.
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-format-truncation
+# The sanitizers see the unit tests and the tests that feed the tools what they do not like. Those of gcc and of clang see different things:
+# make asan CC=clang asan_build=build/asan-clang. What clang makes there serves the fuzzers too.
+SANITIZERS = address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANITIZE = -fsanitize=$(if $(findstring clang,$(CC)),fuzzer-no-link,address),$(SANITIZERS) $(if $(findstring clang,$(CC)),,-Wno-format-truncation)
 asan_tests ?= $(wildcard tests/tool/contract.bats tests/tool/cut-stream.bats tests/tool/examples.bats tests/hard/pipe-contract.bats)
+asan_build ?= build/asan
 asan:
-	+$(MAKE) B=build/asan OPT=-O1 CFLAGS='$(SANITIZE)' all unit
-	B=build/asan PM_SANITIZED=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0 bash tests/run.sh $(asan_tests)
+	+$(MAKE) B=$(asan_build) OPT=-O1 CFLAGS='$(SANITIZE)' all unit
+	B=$(asan_build) PM_SANITIZED=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0 bash tests/run.sh $(asan_tests)
+# Fuzzing (docs/reliability.md), SECONDS for each harness; FUZZ="reader table" runs these alone. The inputs that were found stay in build/asan-clang/fuzz/.
+fuzz_src := $(sort $(wildcard tests/fuzz/*.c))
+fuzzers := $(fuzz_src:%.c=$(B)/%)
+fuzz_cc := $(if $(findstring clang,$(CC)),$(CC),clang)
+fuzz: all
+	@printf 'int LLVMFuzzerTestOneInput(void) { return 0; }\n' | $(fuzz_cc) -fsanitize=fuzzer,address -x c -o /dev/null - 2>/dev/null || \
+		{ echo 'fuzz: a clang with libFuzzer is needed (apt install clang libomp-dev; for clang-19 libclang-rt-19-dev, libomp-19-dev)'; exit 1; }
+	+$(MAKE) B=build/asan-clang CC='$(fuzz_cc)' OPT=-O1 CFLAGS='-fsanitize=fuzzer-no-link,$(SANITIZERS)' fuzzers
+	B=build/asan-clang bash tests/fuzz/run.sh $(or $(SECONDS),60) $(FUZZ)
+fuzzers: $(fuzzers)
+$(B)/tests/fuzz/sentence: $(tool_obj) $(B)/tables/tools.o
+$(fuzzers): $(B)/%: $(B)/%.o $(B)/libpmpipe.a
+	$(CC) -fopenmp $(CFLAGS) -fsanitize=fuzzer $(fuzz_wrap) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS_PROGRAM)
+$(B)/tests/fuzz/sentence: fuzz_wrap = -Wl,--wrap=pm_replace_open,--wrap=pm_h5_pipe_open
 valgrind:
 	+$(MAKE) B=build/valgrind OPT=-O1 PORTABLE=1 unit
 	B=build/valgrind PM_WRAP='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite' bash tests/run.sh unit
@@ -188,7 +205,7 @@ lint: all man
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
 	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) \
-		$(wildcard pipelines/*.sh tests/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
+		$(wildcard pipelines/*.sh tests/*.sh tests/fuzz/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
 
 # Manual pages and completion are printed by the programs.
 man := $(tools:$(bin_dir)/%=$(B)/man/%.1)
@@ -231,6 +248,6 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all public unit benches demo check check-long mutants asan valgrind bench counts counts-check \
+.PHONY: all public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
 	gallery stability atlas hard-cases measure lint man install uninstall clean
--include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d)
+-include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d) $(fuzzers:=.d)

@@ -9,6 +9,17 @@
 static _Thread_local char message[1024];
 static _Thread_local int last = -PM_DATA;
 
+/* One line, whatever names and texts of a stream or a command are quoted in it: control characters, which a terminal would execute, become blanks or
+ * question marks; so do those that UTF-8 writes as two bytes (C2 80 to C2 9F). */
+static void one_line(char *text)
+{
+	for (unsigned char *c = (unsigned char *)text; *c; c++)
+		if (*c < ' ' || *c == 0x7f)
+			*c = *c == '\n' || *c == '\t' || *c == '\r' ? ' ' : '?';
+		else if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0)
+			c[0] = c[1] = '?';
+}
+
 int pm_fail(int code, const char *format, ...)
 {
 	char text[sizeof message]; /* so that the old message may be among the arguments */
@@ -16,6 +27,7 @@ int pm_fail(int code, const char *format, ...)
 	va_start(ap, format);
 	vsnprintf(text, sizeof text, format, ap);
 	va_end(ap);
+	one_line(text);
 	memcpy(message, text, sizeof message);
 	last = -code;
 	return last;

@@ -189,10 +189,7 @@ static int get_abort(struct pm_reader *r, const struct pm_line *l)
 	size_t n = strlen(text);
 	while (n && (text[n - 1] == '\n' || text[n - 1] == ' '))
 		text[--n] = 0;
-	for (char *c = text; *c; c++) /* one line, without control characters that a terminal would execute */
-		if ((unsigned char)*c < ' ' || *c == 0x7f)
-			*c = ' ';
-	status = pm_fail(code, "%s", text);
+	status = pm_fail(code, "%s", n ? text : "the stream was aborted without a reason");
 	free(text);
 	return status;
 }

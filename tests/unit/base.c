@@ -157,5 +157,7 @@ int main(void)
 	check(!pm_alloc(SIZE_MAX / 2, 16) && strstr(pm_message(), "more than memory"), "a size that overflows is refused, not wrapped");
 	check(pm_fail(PM_NUMERICS, "%d bad", 3) == -3 && !strcmp(pm_message(), "3 bad") && pm_exit_code(-PM_MISSING) == 1,
 		"a failure carries code and message");
+	pm_fail(PM_DATA, "no field '%s'", "a\nb\tc\033[2J\177\302\233d\303\251");
+	check(!strcmp(pm_message(), "no field 'a b c?[2J???d\303\251'"), "a message is one line without control characters");
 	return check_done();
 }
