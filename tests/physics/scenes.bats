@@ -65,3 +65,82 @@ kepler() {
 		[ "$(column speed_rms < t)" = 0 ]
 	done
 }
+
+# The laws' plain sentences.
+gravity='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' orbit='push kick/2 drift | pp | push kick/2'
+magnetic='push boris/2 drift | m2p | push boris/2' vorticity='p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' points='pp | push lsrk3'
+
+@test "every scene of pinit --help, typed bare, has the exact values of its page after some steps of its law's plain sentence" {
+	# scene, steps, sentence, the rest of the line, and columns with the difference allowed, relative to the exact value or 1e-3. Orbits: (omega dt)^2 of
+	# the leapfrog. Meshes: (h/scale)^2 of the kernel. plummer: 1/sqrt(n) of its random numbers. Vortices: the cut-off of remesh, and time steps of order 3.
+	local row scene steps sentence rest columns name tolerance
+	export OMP_NUM_THREADS=1 # small
+	while IFS=';' read -r scene steps sentence rest columns; do
+		sh_ok "pinit $scene | cycle -n $steps '${!sentence}' $rest > t"
+		for row in $columns; do
+			name=${row%=*} tolerance=${row#*=}
+			awk -F'\t' -v name="$name" -v tol="$tolerance" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
+				{ got = $c[name]; want = $c["exact_" name]; d = got - want; d = d < 0 ? -d : d; w = want < 0 ? -want : want
+				if (!c["exact_" name] || !(d <= tol * (w > 1e-3 ? w : 1e-3))) { print name " " got ", want " want; exit 1 } }' t ||
+				{ echo "$scene"; return 1; }
+		done
+		echo "$scene" >> done
+	done <<-END
+		cold-collapse;40;gravity;| diag --exact;mass=1e-12 speed_rms=2e-3 energy_kinetic=4e-3
+		cold-sphere;20;gravity;| diag --exact;mass=1e-12 energy_kinetic=0.01 energy=0.01
+		plummer;20;gravity;| diag --exact;mass=1e-12 energy_kinetic=0.02 virial_ratio=0.06
+		kepler;100;orbit;| diag --pair --exact;energy=1e-6 energy_kinetic=1e-5 angular_momentum_z=1e-12
+		two-body;100;orbit;| diag --pair --exact;energy=1e-6 energy_kinetic=2e-3 angular_momentum_z=1e-12
+		lattice;10;gravity;| diag --exact;mass=1e-12 speed_rms=1e-9
+		uniform;10;gravity;| diag --exact;mass=1e-12
+		pair;1;gravity;| diag --exact;mass=1e-12
+		langmuir;10;gravity;| diag --exact;charge=1e-12 speed_rms=4e-3 energy_kinetic=8e-3
+		two-stream;10;gravity;| diag --exact;mass=1e-12 charge=1e-12
+		landau;10;gravity;| diag --exact;mass=1e-11 charge=1e-11
+		gyration;50;magnetic;| diag --exact;energy_kinetic=1e-12 centre_x=2e-3 centre_y=2e-3
+		exb;50;magnetic;| diag --exact;energy_kinetic=4e-3 momentum_x=2e-3
+		lamb-oseen;5;vorticity;| p2m | diag --exact;circulation=1e-5 angular_impulse=1e-3 enstrophy=1e-3 palinstrophy=2e-3 omega_max=1e-3
+		taylor-green-2d;5;vorticity;| p2m | diag --exact;circulation=1e-9 enstrophy=1e-4 palinstrophy=1e-4 omega_max=1e-4
+		shear-layer;2;vorticity;| p2m | diag --exact;circulation=1e-9
+		ellipse;2;vorticity;| p2m | diag --exact;circulation=1e-6
+		cone-vortex;2;vorticity;| p2m | diag --exact;circulation=1e-4 angular_impulse=1e-3 enstrophy=1e-3 omega_max=0.01
+		point-vortices;2;points;| diag;
+		polygon;10;points;| diag --exact;circulation=1e-12 angular_impulse=1e-9
+		vortex-pair;10;points;| diag --exact;circulation=1e-12 impulse_x=1e-9 impulse_y=1e-9
+	END
+	pinit --help | awk '/^The scenes:/ { on = 1; next } !NF { on = 0 } on { print $1 }' | sort > all
+	sort done | diff all -
+}
+
+# growth SCENE STEPS: "gamma +- error omega" of the first mode, as bare as it can be typed; diag's line is left in t.
+growth() {
+	pinit $1 | cycle -n "$2" --every 2 "$gravity" | diag --columns time --growth mode:1 | tail -n 1 > t
+	sed -n 's/^# mode:1 gamma \([^ ]*\) +- \([^ ]*\) omega \([^ ,]*\),.*/\1 \2 \3/p' t
+}
+
+@test "PIC-01, 02, 03: landau, two-stream and langmuir meet theory at their defaults: rates within 2 %, frequencies within 0.3 %" {
+	local gamma error omega
+	export OMP_NUM_THREADS=1
+	while read -r want frequency steps scene; do
+		read -r gamma error omega <<<"$(growth "$scene" "$steps")"
+		within "$gamma" "$want" "$(awk -v w="$want" 'BEGIN { print w ? 0.02 * (w < 0 ? -w : w) : 1e-5 }')" "gamma of $scene"
+		within "$omega" "$frequency" "$(awk -v w="$frequency" 'BEGIN { print 0.003 * w }')" "omega of $scene"
+		below "$error" 0.005 "error of $scene"
+	done <<-END
+		-0.153359466909605 1.41566188860454 300 landau
+		-0.851330458692056 2.04590486569062 100 landau --wavenumber 1
+		0.353553390593274 0 300 two-stream
+		0.256405640402469 0 400 two-stream --v0 0.3
+		0.16201 0 600 two-stream --v0 2 --vth 1 --wavenumber 0.2
+		0.284509686204960 0 400 two-stream --v0 3 --vth 1 --wavenumber 0.2
+		0 0.999217 300 langmuir
+	END
+}
+
+@test "landau of 2000 particles at random has no damping rate, and diag says why; nor has a plasma without a wave" {
+	export OMP_NUM_THREADS=1
+	for scene in "landau -n 2000 --loading random" "landau -n 2000 --loading random --seed 2" "landau --loading random --amplitude 0"; do
+		growth "$scene" 300
+		grep -q '^# mode:1 gamma nan +- nan omega nan, none of 151 points: ' t || { echo "$scene: $(cat t)"; return 1; }
+	done
+}
