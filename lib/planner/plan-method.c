@@ -37,8 +37,8 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	const struct pm_scales *s = &p->scales;
 	*m = (struct pm_method){.dt = NAN, .kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
 	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
-	/* A patch of vorticity stays together, so its mesh may follow it; bodies escape, and the mesh would grow with each: they keep p2m's monopole. 4: half the
-	 * widest kernel. */
+	/* A patch of vorticity stays together, so its mesh may follow it; bodies escape, and the mesh would grow with each: they keep p2m's monopole.
+	 * 4: half the widest kernel. */
 	m->grow = s->kind == PM_VORTICES && s->edge < 4 * s->h;
 	if (s->kind == PM_VORTICES && !m->pairs) {
 		m->kernel = "m6prime"; /* m4prime makes spurious vortices (VM-16) */

@@ -1,4 +1,4 @@
-# Ten thousand steps of every scene, by the plain sentence of its law and by plan's: none dies. Few particles and coarse meshes; minutes, so `make check-long` alone.
+# Ten thousand steps of every scene, by the plain sentence of its law and by plan's: none dies. Few particles, coarse meshes; minutes: `make check-long` alone.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
@@ -20,8 +20,8 @@ small() {
 	esac
 }
 
-# plain SCENE: the words of its law without options. Viscosity needs particles where the vorticity goes, and they must stay a lattice: without remesh cycle ends these
-# runs at step 26 (ellipse) to 531 (shear-layer), because circulation is lost (docs/methods/diffuse.md).
+# plain SCENE: the words of its law without options. Viscosity needs particles where the vorticity goes, and they must stay a lattice: without remesh
+# cycle ends these runs at step 26 (ellipse) to 531 (shear-layer), because circulation is lost (docs/check-long.md).
 plain() {
 	case $1 in
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;

@@ -251,9 +251,9 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	{
 		pinit plummer -n 8000 | stab --plain | cut -f 1-7
 		printf '1e6\t0\t0\t1\t0\t0\t1e-4\n'
-	} | stab - --law gravity --box=-14,14 --faces open --particle-faces open --dt 0.03 -n 16 | smod --store softening=0.02 >far
+	} | stab - --law gravity --box=-14,14 --faces open --particle-faces open --dt 0.03 -n 16 | smod --constant softening=0.02 >far
 	[[ "$(plan --accuracy 0.1 --sentence <far)" = *"p2m"* && "$(plan --accuracy 0.1 --sentence <far)" != *outside* ]]
-	[ "$(cycle -n 2 --plan --accuracy 0.1 <far | diag --columns outside | tail -n 1)" = 1 ]
+	[ "$(cycle -n 2 "$(plan --accuracy 0.1 --sentence <far)" <far | diag --columns outside | tail -n 1)" = 1 ]
 }
 
 @test "unusual frames: particles at an open face, only a magnetic field, walls, no time step" {
