@@ -18,6 +18,7 @@ struct state {
 	FILE *out;
 	struct pm_replace tee;
 	struct pm_diag_table table;
+	bool told; /* why there is no energy */
 };
 _Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
 
@@ -47,7 +48,15 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&((struct state *)s->state)->table.request, f);
 }
 
-static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_diag_table_row(&((struct state *)s->state)->table, f); }
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct state *state = s->state;
+	int status = pm_diag_table_row(&state->table, f);
+	if (!status && state->table.unknown[0] && !state->told)
+		fprintf(stderr, "diag: energy is nan: %s (energy_kinetic and energy_field_... are its known parts)\n", state->table.unknown);
+	state->told = state->told || state->table.unknown[0];
+	return status;
+}
 
 static int end(struct pm_stage *s)
 {
@@ -78,7 +87,8 @@ static const struct pm_option options[] = {
 		.text = "after the table print a line with the growth rate and frequency of wave M along x, or of a column; or none, and why"},
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),
 		.text = "fit them between these times (default: where the rate has the smallest error)"},
-	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair), .text = "sum the pair energy over all pairs, with the frame's softening (cost n^2)"},
+	{.name = "pair", .kind = PM_FLAG, .cosmetic = true, PM_AT(pair),
+		.text = "sum the pair energy over all pairs, softened as pp was, else as the frame says (cost n^2)"},
 	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene "
 		"provides"},
 	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .cosmetic = true, PM_AT(format),
@@ -104,8 +114,8 @@ const struct pm_tool tool_diag = {
 	.about = "Energies: kinetic; of the field on the mesh, 1/2 integral rho phi (it includes the self-energy of the smoothed particles); of the field "
 		"at the\n"
 		"particles, 1/2 sum m phi, if they have a potential (pp --potential), or with --pair by direct summation. The total takes the\n"
-		"particles' energy if known, else that of the mesh. Quantities that cannot be computed are nan. All sums are compensated and do not depend "
-		"on the number\n"
+		"particles' energy if known, else that of the mesh; it is nan where a given force acts (field), whose potential nobody states.\n"
+		"Quantities that cannot be computed are nan. All sums are compensated and do not depend on the number\n"
 		"of threads. Vortices: circulation, impulse, angular impulse, and of omega on the mesh enstrophy, palinstrophy, maximum, value at the\n"
 		"centre (the middle of the box; of shear-layer the braid at (0, 1/4)); distortion as in remesh. Plasmas: the charge and the energy eps0/2 "
 		"integral E^2 of each component. Frames inside a step (substep other than 0) give no row.",

@@ -6,6 +6,7 @@
 
 #include "push/push-set.h"
 #include "stage/strength-report.h"
+#include "stream/acting-forces.h"
 
 struct config {
 	double dt;
@@ -113,6 +114,8 @@ static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_mo
 	const struct pm_push *p = &((const struct config *)s->config)->push;
 	struct pm_strengths before, after, lost = {.n = 0};
 	uint64_t absorbed = 0;
+	for (int r = 0; r < m->n; r++)
+		pm_acting_note(f, m->rates[r].rate);
 	pm_moving_given(f, m, &before);
 	if (pm_moving_run(f, m, p, h, crossed))
 		return -PM_DATA;

@@ -328,7 +328,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->written = -1;
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
-		pm_history_add(y->s, *f);
+		pm_history_add(y->s, *f), pm_sentence_forces(y->words, *f);
 	status = look_first(y, f);
 	if (!status && y->c->every > 0 && !y->c->resume) {
 		status = prime(y, f);

@@ -15,6 +15,7 @@ struct pm_until {
 	int n;
 	struct pm_diag_column column[most];
 	double number[2 * most]; /* of column k: at 2k now, at 2k + 1 at the beginning of the run */
+	char unknown[200]; /* why the total energy is not known; "" */
 	bool first[most], known[most]; /* does the expression use column k at the beginning; is that number from the beginning of this run */
 };
 
@@ -92,6 +93,7 @@ static int measure(struct pm_until *u, struct pm_frame *f, int at)
 	if (pm_diag_reads(&u->gauge, f))
 		return -2;
 	const struct pm_measure how = how_of(u, f);
+	memcpy(u->unknown, how.unknown, sizeof u->unknown);
 	if (pm_frame_ready(f) || pm_measure_frame(&how, f, &m) || pm_frame_settle(f))
 		return -2;
 	for (int k = u->n - 1; k >= 0; k--)
@@ -102,6 +104,8 @@ static int measure(struct pm_until *u, struct pm_frame *f, int at)
 
 static int cannot(const struct pm_until *u, int k)
 {
+	if (u->column[k].from == PM_ENERGY && u->unknown[0])
+		return pm_fail(PM_DATA, "--until: the column 'energy' cannot be computed: %s (use another column)", u->unknown);
 	return pm_fail(PM_DATA, "--until: the column '%s' cannot be computed from this frame "
 		"(derived fields are dropped when particles move: put the words that make them after the last push, or use another column)",
 		u->column[k].name);

@@ -1,9 +1,12 @@
 /* Direct summation in a frame: the law gives strength, factor and sign, and names the mollifier. Cost: that of the sum (pp.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "far/bodies.h"
 #include "far/pp-frame.h"
 #include "far/pp.h"
 #include "law/law.h"
+#include "stream/acting-forces.h"
 
 static struct pm_far far_of(const struct pm_law *law, const struct pm_pp_choice *c)
 {
@@ -38,6 +41,18 @@ static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const 
 	return 0;
 }
 
+/* The smoothing goes with the change where it is not the frame's. */
+static void tell(const struct pm_pp_choice *c, struct pm_frame *f, const struct pm_law *law, const struct pm_pp *p)
+{
+	const bool softened = !p->mollifier->bare && p->delta != pm_frame_constant(f, "softening", 0);
+	const bool other = strcmp(p->mollifier->name, law->mollifier ? law->mollifier : "plummer") != 0;
+	for (size_t i = 0; i < f->nsets; i++) {
+		struct pm_field *change = c->set && strcmp(c->set, f->sets[i]->name) ? NULL : pm_frame_field(f, f->sets[i]->name, law->change);
+		if (change && change->role == PM_CHANGE)
+			pm_acting_smooth(change, softened ? p->delta : NAN, other ? p->mollifier->name : NULL);
+	}
+}
+
 int pm_pp_declare(const struct pm_pp_choice *c, struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -50,7 +65,10 @@ int pm_pp_declare(const struct pm_pp_choice *c, struct pm_frame *f)
 	if (status)
 		return status;
 	const struct pm_far far = far_of(law, c);
-	return pm_far_plan(f, &far, "self", c->replace);
+	status = pm_far_plan(f, &far, "self", c->replace);
+	if (!status)
+		tell(c, f, law, &p);
+	return status;
 }
 
 int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, uint64_t *coincident)

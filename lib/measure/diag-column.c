@@ -4,8 +4,8 @@
 
 #include "base/decimal.h"
 #include "law/law.h"
-#include "mollifier/mollifier.h"
 #include "measure/diag-column.h"
+#include "measure/known-energy.h"
 
 enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS };
 
@@ -28,13 +28,12 @@ static double centre_of(const struct pm_frame *f, int d)
 struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
-	const struct pm_mollifier *plummer = g->pair ? pm_mollifier_find("plummer") : NULL;
 	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
-		.coefficient = law->coefficient ? law->coefficient(f) : 0, .softening = pm_frame_constant(f, "softening", 0),
-		.pair = plummer ? plummer->potential : NULL, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = g->nradii,
+		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}};
 	memcpy(how.modes, g->mode, sizeof how.modes);
+	pm_known_energy(f, law, g->pair, &how);
 	return how;
 }
 

@@ -101,6 +101,10 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 	const struct pm_measure how = pm_diag_how(&t->request, f);
 	if ((first && decide(t, f)) || pm_measure_frame(&how, f, &m) || follow(t, f, &m))
 		return -PM_DATA;
+	t->unknown[0] = 0;
+	for (int i = 0; i < t->n; i++)
+		if (t->column[i].from == PM_ENERGY)
+			memcpy(t->unknown, how.unknown, sizeof t->unknown);
 	for (int i = 0; i < t->n && first && !json; i++)
 		fprintf(t->out, "%s%c", t->column[i].name, i + 1 < t->n ? '\t' : '\n');
 	for (int i = 0; i < t->n; i++) {

@@ -30,6 +30,7 @@ struct pm_diag_table {
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	struct pm_series series;
+	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
 };
 
 /* Checks what was typed, and takes the growth and the window (T0:T1) apart. 0 or failure. */

@@ -110,6 +110,8 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	int status = pm_outside_of(how, f, &outside, &beyond);
 	pm_measures_of(f, &bulk, mesh_energy(how, f) + beyond, pair_energy(how, n, b), how->potential != NULL, m);
 	m->value[PM_OUTSIDE] = outside;
+	if (how->unknown[0])
+		m->value[PM_ENERGY] = NAN;
 	pm_vortex_of(how, f, m);
 	pm_plasma_of(how, f, m);
 	pm_account_of(how, f, m);

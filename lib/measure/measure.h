@@ -72,6 +72,7 @@ struct pm_measure { /* what to measure of a frame */
 	const char *strength, *density, *potential; /* names under the frame's law; potential NULL: it has no field */
 	double coefficient, softening; /* of the direct sum */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
+	char unknown[200];           /* why the total energy is not known; "" it is */
 	bool vortices;               /* the law is that of vortices */
 	double centre[2];            /* [length] where omega is looked at */
 	bool outside;                /* count those beyond the mesh, and their energy */

@@ -8,6 +8,7 @@
 #include "sentence/process-chain.h"
 #include "stage/internal.h"
 #include "sentence/sentence.h"
+#include "stream/acting-forces.h"
 #include "stream/run.h"
 #include "stage/apply.h"
 
@@ -296,6 +297,24 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 	}
 	pm_frame_free(h);
 	return needs;
+}
+
+void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f)
+{
+	struct pm_frame *h = pm_frame_header(f);
+	int status = h ? 0 : pm_failed();
+	pm_acting_forget(f);
+	for (int i = 0; i < s->nwords && status >= 0 && s->word[i].stage; i++) {
+		struct word *w = s->word + i;
+		w->stage->trial = true;
+		status = pm_stage_declare(w->stage, h);
+		w->stage->trial = false;
+		for (size_t k = 0; k < h->nfields && status >= 0; k++)
+			if (pm_frame_set(h, h->fields[k]->on))
+				pm_acting_note(f, h->fields[k]);
+		pm_frame_settle(h);
+	}
+	pm_frame_free(h);
 }
 
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
