@@ -1,6 +1,7 @@
 /* dt: writes the time step that the state of a frame allows (lib/measure/timestep-rules.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/timestep-rules.h"
 #include "stage/stage.h"
+#include "stream/frame-time.h"
 
 struct config {
 	struct pm_timestep_rules rules;
@@ -38,7 +39,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!isfinite(dt)) /* no velocity and no acceleration */
 		pm_say(s, "no rule limits the step, dt stays %g", f->dt);
 	else
-		f->dt = dt;
+		pm_frame_dt_set(f, dt);
 	if (pm_given(s, "lcfl")) {
 		pm_report(s, f, "strain", rate);
 		pm_report_count(s, f, "crossing", f->dt * rate > 1 + 1e-9);

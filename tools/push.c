@@ -7,6 +7,7 @@
 #include "push/push-set.h"
 #include "stage/strength-report.h"
 #include "stream/acting-forces.h"
+#include "stream/frame-time.h"
 
 struct config {
 	double dt;
@@ -39,7 +40,7 @@ static int take_dt(const struct pm_stage *s, struct pm_frame *f)
 	if (pm_given(s, "dt") && f->substep && cfg->dt != f->dt)
 		return pm_fail(PM_DATA, "--dt %g in the middle of a step of dt %g (it may change only at substep 0)", cfg->dt, f->dt);
 	if (pm_given(s, "dt"))
-		f->dt = cfg->dt;
+		pm_frame_dt_set(f, cfg->dt);
 	return f->dt != 0 && isfinite(f->dt) ? 0 : pm_fail(PM_DATA, "the frame has no time step (push --dt, or the word dt)");
 }
 

@@ -7,6 +7,7 @@
 #include "stage/attribute-options.h"
 #include "stage/motion-options.h"
 #include "stream/edit.h"
+#include "stream/frame-time.h"
 #include "stream/join.h"
 
 struct config {
@@ -72,6 +73,8 @@ static int attributes(const struct config *c, struct pm_frame *f)
 	f->seed = c->seed >= 0 ? (uint64_t)c->seed : f->seed;
 	if (!isnan(c->time))
 		f->time = f->start = c->time;
+	if (!isnan(c->dt) || !isnan(c->time) || c->step >= 0)
+		pm_frame_since_renew(f);
 	if (c->box.n)
 		pm_frame_meshes_span(f);
 	return (status = pm_attributes_fixed(f, &c->fixed, true)) ? status : pm_attributes_fixed(f, &c->loose, false);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "push/step-clock.h"
+#include "stream/frame-time.h"
 
 static const double tolerance = 1e-10; /* parts add to one only up to round-off: a million millionths to 8e-12, and no part is below 1e-9 */
 
@@ -115,14 +116,17 @@ void pm_clock_close(struct pm_frame *f)
 {
 	double slowest = 1;
 	bool complete = true;
-	if (f->substep == 0)
+	if (f->substep == 0) {
 		f->start = f->time;
+		if (!pm_frame_since_holds(f))
+			pm_frame_since_renew(f);
+	}
 	for (size_t i = 0; i < f->nsets; i++)
 		if (pm_set_moves(f, f->sets[i])) {
 			slowest = fmin(slowest, f->sets[i]->drift);
 			complete = complete && pm_clock_complete(f->sets[i]);
 		}
-	f->time = f->start + f->dt * slowest;
+	f->time = slowest < 1 ? f->start + f->dt * slowest : pm_frame_time_at(f, f->step + 1);
 	f->substep++;
 	if (!complete)
 		return;

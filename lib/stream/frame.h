@@ -100,6 +100,8 @@ struct pm_frame {
 	double time, dt;                /* [time] */
 	double start;                   /* [time] at substep 0 of the current step; equal to time when substep is 0 */
 	int64_t step;                   /* full steps done */
+	double since_time;              /* [time] at which step since_step began; since then dt has been the same (frame-time.h) */
+	int64_t since_step;
 	int substep;                    /* pushes done in the current step, 0 between steps */
 	double lo[3], hi[3];            /* the box [length] */
 	enum pm_face face[3][2];        /* of the fields: [axis][low, high] */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "stream/declare.h"
+#include "stream/frame-time.h"
 #include "stream/header.h"
 
 static const int64_t most_particles = (int64_t)1 << 48, most_cells = (int64_t)1 << 31;
@@ -317,6 +318,22 @@ static void read_named(struct look *l, struct pm_frame *f, const char *key, cons
 		l->bad = true;
 }
 
+/* One that does not give the frame's time was passed on by a program that set time, dt or step without knowing of it; then, and where there is none, it is
+ * the frame's own time and step. */
+static void read_since(struct look *l, struct pm_frame *f)
+{
+	const json_t *since = take(l, "since", false);
+	if (since) {
+		struct look in = look_at(since, "since");
+		f->since_time = in.j ? take_real(&in, "time", true, 0) : 0;
+		f->since_step = in.j ? take_integer(&in, "step", 0, INT64_MAX, true, 0) : 0;
+		if (!in.j || !look_done_inside(&in, f, "since"))
+			l->bad = true;
+	}
+	if (!since || !pm_frame_since_holds(f))
+		pm_frame_since_renew(f);
+}
+
 static bool read_all(struct look *l, struct pm_frame *f)
 {
 	read_named(l, f, "law", "constants", f->law, &f->constants);
@@ -326,6 +343,7 @@ static bool read_all(struct look *l, struct pm_frame *f)
 	f->start = take_real(l, "start", false, f->time);
 	f->step = take_integer(l, "step", 0, INT64_MAX, true, 0);
 	f->substep = (int)take_integer(l, "substep", 0, 1 << 20, true, 0);
+	read_since(l, f);
 	f->seed = (uint64_t)take_integer(l, "seed", 0, INT64_MAX, false, 0);
 	const json_t *history = take(l, "history", false);
 	bool entries = json_is_array(history);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/frame-time.h"
 #include "stream/header.h"
 
 char *pm_json_line(const json_t *j) { return json_dumps(j, JSON_SORT_KEYS | JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY); }
@@ -100,6 +101,13 @@ static void put_named(json_t *j, const struct pm_frame *f, const char *key, json
 	json_object_set_new(j, key, object);
 }
 
+/* Left out where it is the frame's own time and step, or where one of these was set by a word that did not renew it. */
+static void put_since(json_t *j, const struct pm_frame *f)
+{
+	if (f->since_step != f->step && pm_frame_since_holds(f))
+		put_named(j, f, "since", json_pack("{s:f,s:I}", "time", f->since_time, "step", (json_int_t)f->since_step));
+}
+
 static bool header_finite(const struct pm_frame *f)
 {
 	bool good = isfinite(f->time) && isfinite(f->dt) && isfinite(f->start);
@@ -158,6 +166,7 @@ json_t *pm_header_json(const struct pm_frame *f)
 	json_object_set_new(j, "dt", json_real(f->dt));
 	if (f->substep)
 		json_object_set_new(j, "start", json_real(f->start));
+	put_since(j, f);
 	json_object_set_new(j, "step", json_integer(f->step));
 	json_object_set_new(j, "substep", json_integer(f->substep));
 	json_object_set_new(j, "seed", json_integer((json_int_t)f->seed));

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/frame-time.h"
 #include "stream/join.h"
 #include "stream/run.h"
 
@@ -277,7 +278,7 @@ int pm_frame_join(struct pm_frame *a, const struct pm_frame *b, struct pm_join *
 	}
 	for (int d = 0; d < a->dim; d++)
 		a->lo[d] = fmin(a->lo[d], b->lo[d]), a->hi[d] = fmax(a->hi[d], b->hi[d]);
-	a->dt = a->dt > 0 && b->dt > 0 ? fmin(a->dt, b->dt) : fmax(a->dt, b->dt);
+	pm_frame_dt_set(a, a->dt > 0 && b->dt > 0 ? fmin(a->dt, b->dt) : fmax(a->dt, b->dt));
 	pm_frame_meshes_span(a);
 	next_id(a, join);
 	history_join(a, b);

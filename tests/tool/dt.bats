@@ -80,6 +80,5 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	pinit two-body --eccentricity 0.5 | cycle -n 20 --every 1 'dt --acceleration 0.01 --softening 0.1 | push kick/2 drift | pp | push kick/2' > a
 	[ "$(stab < a | grep -o '"dt":[-+.e0-9]*' | sort -u | wc -l)" -gt 10 ]
 	# time of the last frame = sum of the steps recorded in those after the first
-	stab < a | grep -o '"dt":[-+.e0-9]*\|"time":[-+.e0-9]*' | awk -F: '/dt/ { d = $2 } /time/ { if (n++) s += d; t = $2 } END { exit !(s > 0 &&
-		s - t < 1e-13 && t - s < 1e-13) }'
+	sls --format json < a | jq -r '"\(.dt) \(.time)"' | awk '{ if (n++) s += $1; t = $2 } END { exit !(s > 0 && s - t < 1e-13 && t - s < 1e-13) }'
 }

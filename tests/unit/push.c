@@ -6,6 +6,7 @@
 #include "check.h"
 #include "stage/apply.h"
 #include "push/step-clock.h"
+#include "stream/frame-time.h"
 
 extern const struct pm_tool tool_push;
 
@@ -468,12 +469,38 @@ static void absorb(void)
 	pm_frame_free(f);
 }
 
+/* The header alone. A sum of a million 0.1 is 100000.00000133288. */
+static void million(void)
+{
+	struct pm_frame *f = pm_frame_new(1);
+	struct pm_set *s = pm_frame_set_new(f, "matter", 0);
+	pm_makes(f, "matter", "x", 1, PM_STATE);
+	pm_frame_dt_set(f, 0.1);
+	for (int i = 0; i < 1000000; i++)
+		pm_clock_add(s, 0, 1, false), pm_clock_close(f);
+	check(f->step == 1000000 && f->time == 100000, "1e6 steps of 0.1 end at exactly 100000 (%.17g)", f->time);
+	pm_frame_dt_set(f, 1 / 3.);
+	check(f->since_time == 100000 && f->since_step == 1000000, "another dt counts from there");
+	int inside = 0;
+	for (int i = 0; i < 2000000; i++) {
+		pm_clock_add(s, 0, 0.5, false), pm_clock_close(f);
+		inside += f->substep && f->time != f->start + f->dt / 2;
+	}
+	check(f->step == 2000000 && f->time == 100000 + 1000000 * (1 / 3.), "and so do 1e6 steps of 1/3 in two halves (%.17g)", f->time);
+	check(!inside, "half-way the time is half a step after the beginning of the step");
+	f->dt = 0.1; /* by a word that knows nothing of since */
+	pm_clock_add(s, 0, 1, false), pm_clock_close(f);
+	check(f->time == f->since_time + 0.1 && f->since_step == 2000000, "a dt that was set by hand counts from the next step on (%.17g)", f->time);
+	pm_frame_free(f);
+}
+
 int main(void)
 {
 	usage();
 	refusals();
 	motion();
 	clock();
+	million();
 	several_sets();
 	schemes();
 	restarts();
