@@ -5,7 +5,7 @@
 #include "check.h"
 #include "measure/growth.h"
 
-enum { SWINGS, RISES, TRAVELS, SATURATES, JITTERS, SETTLES, COSH, SQUARE, WHITE, THERMAL, BOX };
+enum { SWINGS, RISES, TRAVELS, SATURATES, JITTERS, SETTLES, COSH, SQUARE, WHITE, THERMAL, SUNK, DROPS, SINKS, BOX };
 enum { COUNT = 300 };
 
 static struct pm_growth fit_of(int kind, int n, uint64_t seed, double gamma, double omega, double from, double to)
@@ -13,7 +13,7 @@ static struct pm_growth fit_of(int kind, int n, uint64_t seed, double gamma, dou
 	struct pm_series s = {.column = kind == SQUARE};
 	struct pm_growth g;
 	double complex thermal = 0;
-	for (int i = kind == THERMAL ? -COUNT : 0; i < n; i++) {
+	for (int i = -COUNT; i < n; i++) {
 		const double t = 0.1 * i, size = 0.02385 * exp(gamma * t);
 		double z[2];
 		pm_random_normal(seed, (uint64_t)(i + COUNT), 0, z);
@@ -24,7 +24,10 @@ static struct pm_growth fit_of(int kind, int n, uint64_t seed, double gamma, dou
 		a += kind == SETTLES ? 2e-4 * (z[0] + I * z[1]) + 0.01 * exp(-3 * t) : 0; /* noise of 1 %, and a second root that is gone soon */
 		a = kind == COSH ? cosh(gamma * t) * 1e-4 : kind == SQUARE ? size * size * pow(cos(omega * t), 2) : a;
 		a = kind == WHITE ? z[0] + I * z[1] : kind == BOX ? fmod(t, 5) < 2.5 : a;
-		thermal = thermal * cexp((gamma + I * omega) * 0.1) + z[0] + I * z[1]; /* a damped wave that noise keeps alive */
+		thermal = thermal * cexp((gamma + I * omega) * 0.1) + z[0] + I * z[1]; /* a damped wave that noise keeps alive; rms 8.2 for gamma = -0.15 */
+		a = kind == SUNK ? exp(gamma * t) * cos(omega * t) + 0.25 * thermal / 8.2 : a;
+		a = kind == DROPS ? (t < 12 ? exp(-0.15 * t) * cos(omega * t) : 0.25 * (z[0] + I * z[1])) : a;
+		a = kind == SINKS ? (t < 10 ? exp(0.3 * (t - 10)) * cos(omega * t) : 0.02 * (z[0] + I * z[1])) : a;
 		if (i >= 0)
 			pm_series_add(&s, t, (double[]){creal(kind == THERMAL ? thermal : a), cimag(kind == THERMAL ? thermal : a)}, 0);
 	}
@@ -107,6 +110,14 @@ static void none(void)
 		found += isfinite(fit_of(THERMAL, COUNT, seed, -1, 0, NAN, NAN).gamma);
 	}
 	check(found <= 1, "noise has no growth rate: %d of 40", found);
+	found = 0;
+	for (uint64_t seed = 1; seed <= 10; seed++)
+		found += isfinite(fit_of(SUNK, COUNT, seed, -0.15, 1.4, NAN, NAN).gamma);
+	check(found <= 1, "nor a damped wave among thermal ones of a quarter of its size: %d of 10", found);
+	g = fit(DROPS, 0, 1.4, NAN, NAN);
+	check(isnan(g.gamma) && strstr(g.reason, "times the noise"), "nor one that is damped to noise of a quarter of its size: %g %s", g.gamma, g.reason);
+	g = fit(SINKS, 0, 1.4, NAN, NAN);
+	check(isnan(g.gamma) && strstr(g.reason, "short times"), "nor one that grows and is gone: %g %s", g.gamma, g.reason);
 	g = fit(WHITE, 0, 0, NAN, NAN);
 	check(strstr(g.reason, "noise") || strstr(g.reason, "no window is an exponential"), "and it is said: %s", g.reason);
 	g = fit(WHITE, 0, 0, 3, 25);
