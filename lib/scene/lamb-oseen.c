@@ -30,8 +30,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (!(c->value[NU] > 0))
 		return pm_fail(PM_USAGE, "a Lamb-Oseen vortex needs a viscosity (--nu above 0)");
 	f->time = f->start = c->value[START];
-	/* lsrk3 with 128 cells and differences of order 6 is stable up to 0.0203 of the start; |grad u| is half the vorticity of the centre, and of dt |grad u| a
-	 * half keeps the particles together */
+	/* lsrk3 with 128 cells and differences of order 6 is stable up to 0.0203 of the start; |grad u| is half the vorticity of the centre, and of dt |grad u|
+	 * a half keeps the particles together */
 	f->dt = fmin(0.02 * c->value[START], 1 / fmax(fabs(omega(c, 0, 0)), 1e-300));
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
