@@ -4,6 +4,8 @@
 
 double pm_scene_orbit_period(struct pm_scene_orbit o) { return 2 * pm_pi * sqrt(o.axis * o.axis * o.axis / o.gm); }
 
+double pm_scene_orbit_pericentre(double e) { return sqrt((1 - e) * (1 - e) * (1 - e) / (1 + e)); }
+
 void pm_scene_orbit_at(struct pm_scene_orbit o, double t, double x[2], double v[2])
 {
 	const double rate = 2 * pm_pi / pm_scene_orbit_period(o);

@@ -12,6 +12,7 @@ struct pm_scene_orbit {
 };
 
 double pm_scene_orbit_period(struct pm_scene_orbit o);
+double pm_scene_orbit_pericentre(double e); /* mean motion over the angular velocity at the pericentre, sqrt((1 - e)^3/(1 + e)) */
 /* Position and velocity at time t: M = pi + 2 pi t/T = E - e sin E by Newton's method, x = a (cos E - e), y = a sqrt(1-e^2) sin E. */
 void pm_scene_orbit_at(struct pm_scene_orbit o, double t, double x[2], double v[2]);
 

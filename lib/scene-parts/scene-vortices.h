@@ -15,7 +15,8 @@ struct pm_scene_vortices { /* the arrays of the set, n values each */
 int pm_scene_plane(const struct pm_scene_choice *c, struct pm_frame *f, double lo, double hi, enum pm_face face, size_t cells);
 /* The set vortices: x, circulation, volume (of each) and id. */
 int pm_scene_vortices(struct pm_frame *f, uint64_t n, double volume, struct pm_scene_vortices *v);
-/* A vortex of circulation omega h_x h_y on every node of the mesh; none where |omega| <= least, nor in the margin along open faces. */
+/* Shortens dt to what explicit diffusion on the mesh allows, if nu is above 0.
+ * A vortex of circulation omega h_x h_y on every node of the mesh; none where |omega| <= least, nor in the margin along open faces. */
 int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene_choice *c, double x, double y),
 	const struct pm_scene_choice *c, double least);
 

@@ -32,7 +32,9 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 		return -PM_USAGE;
 	if (c->value[MODE] != floor(c->value[MODE]))
 		return pm_fail(PM_USAGE, "--mode %g is not a whole number of waves", c->value[MODE]);
-	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
+	/* 1/20 of the growth time 1/sqrt(4 pi G density) */
+	const double slow = c->value[DENSITY] > 0 ? sqrt(rows[DENSITY].otherwise / c->value[DENSITY]) : 1;
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05 * slow);
 	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->n ? c->value[DENSITY] * volume / (double)c->n : 0, &b))
 		return -PM_DATA;
 	if (!lattice && pm_scene_points(c->loading, c->seed, c->n, c->dim, (double *const[PM_LOAD_AXES]){b.x[0], b.x[1], b.x[2]}))

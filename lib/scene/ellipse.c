@@ -25,7 +25,7 @@ static double omega(const struct pm_scene_choice *c, double x, double y)
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	f->dt = 0.05;
+	f->dt = 0.5 / fmax(fabs(c->value[PEAK]), 1e-300);
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	return pm_scene_plane(c, f, 0, 2 * pm_pi, PM_PERIODIC, 128) ? -PM_DATA : pm_scene_vorticity(f, omega, c, -1);
 }

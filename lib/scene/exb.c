@@ -26,7 +26,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	double *x[3], *v[3];
 	if (pm_scene_plasma_whole(1, c->value[VELOCITIES], 2))
 		return -PM_USAGE;
-	pm_scene_plasma_world(f, c->value[LENGTH], 0, 0.1);
+	pm_scene_plasma_world(f, c->value[LENGTH], 0, 0.1 / c->value[MAGNETIC]);
 	if (pm_scene_mesh(f, 16) || pm_scene_plasma_given(f, "B", "", 3, b) || pm_scene_plasma_given(f, "E", "", f->dim, e) ||
 		pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -1, 1, x, v))
 		return -PM_DATA;

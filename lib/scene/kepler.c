@@ -24,7 +24,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	const double side = 2 * o.axis * (1 + o.e);
 	double x[2], v[2];
 	struct pm_scene_body b, sun;
-	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pm_scene_orbit_period(o) / 1000);
+	const double slow = fmin(1, pm_scene_orbit_pericentre(o.e) / pm_scene_orbit_pericentre(0.9));
+	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pm_scene_orbit_period(o) / 1000 * slow);
 	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", 1, true, 1, &b) || pm_scene_set(f, "sun", 1, false, 1, &sun))
 		return -PM_DATA;
 	pm_scene_orbit_at(o, 0, x, v);

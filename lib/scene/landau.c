@@ -84,7 +84,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	double *x[3], *v[3];
 	if (pm_scene_plasma_whole(c->value[MODE], c->value[VELOCITIES], 1))
 		return -PM_USAGE;
-	pm_scene_plasma_world(f, length, 1, 0.1);
+	pm_scene_plasma_world(f, length, 1, 0.1 / fmax(1, k * c->value[VTH])); /* of 1/omega_p, or of the time to cross a wave */
 	if (pm_scene_mesh(f, 64) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 	return c->loading == PM_LATTICE ? make_lattice(c, f, length, k, x[0], v[0]) : make_equal(c, length, k, x[0], v[0]);

@@ -28,7 +28,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (length != floor(length) || c->value[OFFSET] >= spacing)
 		return pm_fail(PM_USAGE, "%zu particles per axis, %g cells apart, %g from the edge, do not fill whole cells (change --spacing, --offset or -n)",
 			side, spacing, c->value[OFFSET]);
-	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05);
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.05 / (c->value[DENSITY] > 0 ? sqrt(c->value[DENSITY]) : 1));
 	if (pm_scene_mesh(f, (size_t)length) || pm_scene_set(f, "matter", c->n, true, c->value[DENSITY] * pow(spacing, c->dim), &b))
 		return -PM_DATA;
 	for (uint64_t i = 0; i < c->n; i++) {

@@ -22,6 +22,18 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
+/* [time] sqrt((d^2 + softening^2)^(3/2)/(G M)) of two bodies at distance d; standard: of the default parameters. */
+static double orbit(const struct pm_scene_choice *c, bool standard)
+{
+	double value[SOFTENING + 1], square;
+	for (int i = 0; i <= SOFTENING; i++)
+		value[i] = standard ? rows[i].otherwise : c->value[i];
+	square = value[SOFTENING] * value[SOFTENING];
+	for (int d = 0; d < c->dim; d++)
+		square += (value[X1 + d] - value[X2 + d]) * (value[X1 + d] - value[X2 + d]);
+	return sqrt(pow(square, 1.5) / (value[M1] + value[M2]));
+}
+
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double length = c->value[LENGTH];
@@ -31,7 +43,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	for (int d = 0; d < c->dim; d++)
 		if (c->value[X1 + d] >= length || c->value[X2 + d] >= length)
 			return pm_fail(PM_USAGE, "a particle lies outside the box 0..%g (change --length or the positions)", length);
-	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], 0.1);
+	const double time = orbit(c, false), standard = orbit(c, true);
+	pm_scene_world(f, 0, length, PM_PERIODIC, c->value[SOFTENING], time > 0 && isfinite(time) ? 0.1 * (time / standard) : 0.1);
 	if (pm_scene_mesh(f, (size_t)length) || pm_scene_set(f, "matter", 2, true, c->value[M1] == c->value[M2] ? c->value[M1] : NAN, &b))
 		return -PM_DATA;
 	for (int i = 0; i < 2; i++) {

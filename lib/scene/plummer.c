@@ -52,11 +52,17 @@ static void particle(uint64_t seed, uint64_t id, double kept, double x[3], doubl
 	spread(escape * speed(seed, id), u[2][0], u[2][1], v);
 }
 
+/* Shorter in proportion to the softening below the default: the time in which a body passes another at the softening, or at 1/n, where it is scattered. */
+static double pass(const struct pm_scene_choice *c)
+{
+	return fmin(1, fmax(c->value[SOFTENING], c->n ? 1 / (double)c->n : 1) / rows[SOFTENING].otherwise);
+}
+
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	const double kept = mass_within(c->value[TRUNCATION]), side = 14 * fmax(1, c->value[TRUNCATION] / 10);
 	struct pm_scene_body b;
-	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], 1.0 / 32);
+	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pass(c) / 32);
 	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", c->n, true, c->n ? kept / (double)c->n : 0, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)

@@ -18,7 +18,7 @@ static const struct pm_scene_parameter rows[] = {
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	struct pm_scene_vortices v;
-	f->dt = 0.01;
+	f->dt = 0.01 / (c->value[GAMMA] != 0 ? fabs(c->value[GAMMA]) : 1);
 	pm_frame_constant_set(f, "nu", 0);
 	pm_frame_constant_set(f, "softening", c->value[SOFTENING]);
 	if (pm_scene_plane(c, f, -2, 2, PM_OPEN, 128) || pm_scene_vortices(f, c->n, c->n ? pm_pi / (double)c->n : 0, &v))

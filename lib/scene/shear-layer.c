@@ -25,7 +25,7 @@ static double omega(const struct pm_scene_choice *c, double x, double y)
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	f->dt = 0.005;
+	f->dt = 0.005 * fmin(10, rows[RHO].otherwise / c->value[RHO]); /* 0.4 of 1/rho, the time of the strain; of thick layers a part of L/u */
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	return pm_scene_plane(c, f, 0, 1, PM_PERIODIC, 256) ? -PM_DATA : pm_scene_vorticity(f, omega, c, -1);
 }

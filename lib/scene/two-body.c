@@ -25,7 +25,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	const double side = 2 * o.axis * (1 + o.e), share[2] = {-m[1] / o.gm, m[0] / o.gm};
 	double x[2], v[2];
 	struct pm_scene_body b;
-	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pm_scene_orbit_period(o) / 200);
+	const double slow = fmin(1, pm_scene_orbit_pericentre(o.e) / pm_scene_orbit_pericentre(0.75));
+	pm_scene_world(f, -side, side, PM_OPEN, c->value[SOFTENING], pm_scene_orbit_period(o) / 200 * slow);
 	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", 2, true, m[0] == m[1] ? m[0] : NAN, &b))
 		return -PM_DATA;
 	pm_scene_orbit_at(o, 0, x, v);

@@ -76,7 +76,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 		return -PM_USAGE;
 	if (c->n % 2)
 		return pm_fail(PM_USAGE, "%llu particles do not make two equal beams (take an even -n)", (unsigned long long)c->n);
-	pm_scene_plasma_world(f, length, 1, 0.1);
+	/* of 1/omega_p, or of the time to cross a wave */
+	pm_scene_plasma_world(f, length, 1, 0.1 / fmax(1, c->value[WAVENUMBER] * c->value[MODE] * (c->value[V0] + c->value[VTH])));
 	if (pm_scene_mesh(f, 128) || pm_scene_plasma_set(f, c->n, (int)c->value[VELOCITIES], -share, share, x, v))
 		return -PM_DATA;
 	return fill(c, f, length, x[0], v[0]);

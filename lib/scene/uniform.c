@@ -37,12 +37,20 @@ static void particle(const struct pm_scene_choice *c, uint64_t i, const struct p
 		b->mass[i] = c->value[MASS] / (double)c->n * pow(10, c->value[SPREAD] * (w[1] - 0.5));
 }
 
+/* [time] sqrt(L^dim/(G M)), or the time to cross the box at the dispersion where that is shorter. */
+static double slowest(const struct pm_scene_choice *c)
+{
+	const double length = c->value[LENGTH], fall = c->value[MASS] > 0 ? sqrt(pow(length, c->dim) / c->value[MASS]) : HUGE_VAL;
+	const double time = fmin(fall, c->value[DISPERSION] > 0 ? length / c->value[DISPERSION] : HUGE_VAL);
+	return isfinite(time) ? time : 1;
+}
+
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
 	static const size_t cells[4] = {0, 128, 64, 32};
 	const double mass = c->n ? c->value[MASS] / (double)c->n : 0;
 	struct pm_scene_body b;
-	pm_scene_world(f, 0, c->value[LENGTH], PM_PERIODIC, c->value[SOFTENING], 0.01);
+	pm_scene_world(f, 0, c->value[LENGTH], PM_PERIODIC, c->value[SOFTENING], 0.01 * slowest(c));
 	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->value[SPREAD] > 0 ? NAN : mass, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)

@@ -129,3 +129,46 @@ PY
 	refused "10 particles do not make 20 beams" landau -n 10 --beams 20
 	refused "take an even -n" landau -n 11 --loading sobol
 }
+
+@test "the default step follows the parameters as the time scale of the scene" {
+	step() { pinit "$@" | sls --format json | sed 's/.*"dt":\([^,]*\),.*/\1/'; }
+	# what is given | the factor of the default step
+	while IFS='|' read -r given factor; do
+		read -r -a words <<<"$given"
+		within "$(step "${words[@]}")" "$(awk -v a="$(step "${words[0]}")" -v f="$factor" "BEGIN { printf \"%.17g\", a * $factor }")" 1e-12 "$given"
+	done <<-'END'
+		plummer --softening 0.005 -n 1000|1/4
+		plummer --softening 0.05|1
+		cold-collapse --density 7.957747154594767|1/10
+		lattice --density 100|1/10
+		uniform --mass 100|1/10
+		uniform --length 4|8
+		uniform --dispersion 20|1/20
+		pair --m1 10 --m2 2|1/2
+		kepler --semi-major 4|8
+		two-body --mass 100|1/10
+		two-stream --v0 10 --vth 10|1/20
+		two-stream --vth 0.1|1
+		landau --vth 20|1/10
+		landau --wavenumber 20|1/20
+		langmuir --wavenumber 20|1
+		gyration --magnetic-field 100|1/100
+		exb --magnetic-field 100|1/100
+		ellipse --peak 100|1/10
+		cone-vortex --peak 1000|1/10
+		shear-layer --rho 160|1/2
+		shear-layer --rho 20|4
+		point-vortices --circulation 10|1/10
+		polygon --circulation 10|1/10
+		vortex-pair --distance 3|9
+		taylor-green-2d --speed 10|1/10
+		lamb-oseen --start 10|10
+		lamb-oseen --nu 1e-4|3.14159265358979324/50
+	END
+	# 200 steps of an eccentric orbit would not follow its pericentre, nor 20 steps of spreading a mesh of twice the cells
+	within "$(step two-body --eccentricity 0.99)" \
+		"$(awk 'BEGIN { printf "%.17g", 3.14159265358979324e-2 * sqrt(0.01^3 / 1.99) / sqrt(0.25^3 / 1.75) }')" 1e-12
+	for scene in 'lamb-oseen --cells 256' 'shear-layer --nu 0.01 --cells 128' 'ellipse --nu 0.5' 'cone-vortex --nu 1' 'taylor-green-2d --nu 3'; do
+		sh_ok "pinit $scene | cycle -n 1 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3' | sls" "$scene"
+	done
+}

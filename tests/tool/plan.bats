@@ -214,7 +214,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ "$(decide landau -n 20000 | says collisions)" = off*"1.6e+03 particles in a Debye length"* ]] # 20000/(4 pi)
 	[[ "$(decide landau -n 40 | says collisions)" = needed* ]]                                      # 3 of them
 	# N/(8 ln N) crossing times of spread/v: 300 of them at 172 within 0.5 cross 343 times in T = 1 and need 6.6 times for it.
-	[[ "$(decide uniform -n 300 --cells 8 --dispersion 100 | says collisions)" = needed*"T is 5e+01 of the relaxation time"* ]]
+	[[ "$(decide uniform -n 300 --cells 8 --dispersion 100 --dt 0.01 | says collisions)" = needed*"T is 5e+01 of the relaxation time"* ]]
 }
 
 @test "every scene of pinit: plan --check finds no decision wrong" {
