@@ -76,7 +76,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return pm_fail(PM_DATA, "'%s' does not move: %s", cfg->set, named->fixed ? "it is fixed" : "it has no positions 'x'");
 	void *room = realloc(state->moving, (f->nsets + 1) * sizeof *state->moving);
 	if (!room)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	state->moving = room;
 	state->n = 0;
 	state->mesh = mesh_in_use(f);

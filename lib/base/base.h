@@ -43,6 +43,10 @@ int pm_exit_code(int status);
 void *pm_alloc(size_t count, size_t size);
 void *pm_zalloc(size_t count, size_t size);  /* the same, zeroed */
 void *pm_free(void *block);                  /* accepts NULL, returns NULL */
+/* For every other failed allocation: records the message and returns -PM_DATA. Where a program asked for it (pm_main does, for itself and for
+ * jansson), a failed allocation ends the program instead, here and in pm_alloc: end() says why and does not return. */
+int pm_no_memory(void);
+void pm_memory_end(void (*end)(void));
 size_t pm_memory_idle(void);                 /* bytes of freed blocks kept: never more than were in use at a time lately (in the last 256 to 512 requests) */
 
 /* Threads: OMP_NUM_THREADS, PM_THREADS or --threads. Results never depend on the number. */

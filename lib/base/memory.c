@@ -97,6 +97,29 @@ static size_t most_memory(void)
 	return pages > 0 && page > 0 ? (size_t)pages * (size_t)page : SIZE_MAX;
 }
 
+/* What ends the program, once; a second thread waits for that. */
+static void (*end_now)(void);
+static pthread_mutex_t end_lock = PTHREAD_MUTEX_INITIALIZER;
+
+void pm_memory_end(void (*end)(void)) { end_now = end; }
+
+static int ends(void)
+{
+	static _Thread_local bool here;
+	if (end_now && !here) {
+		here = true; /* it may fail again while it says why */
+		pthread_mutex_lock(&end_lock);
+		end_now();
+	}
+	return -PM_DATA;
+}
+
+int pm_no_memory(void)
+{
+	pm_fail(PM_DATA, "out of memory");
+	return ends();
+}
+
 void *pm_alloc(size_t count, size_t size)
 {
 	size_t bytes;
@@ -119,6 +142,7 @@ void *pm_alloc(size_t count, size_t size)
 			if (bytes >= kept)
 				not_alive(bytes);
 			pm_fail(PM_DATA, "out of memory: %zu bytes wanted", bytes);
+			ends();
 			return NULL;
 		}
 		if (bytes >= large)

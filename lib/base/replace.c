@@ -14,13 +14,13 @@
 #include "base/base.h"
 #include "base/replace.h"
 
-static int no_memory(void) { return pm_fail(PM_DATA, "out of memory"); }
-
 /* The directory of a path; free() it. */
 static char *directory_of(const char *path)
 {
 	char *copy = strdup(path), *name = copy ? strdup(dirname(copy)) : NULL;
 	free(copy);
+	if (!name)
+		pm_no_memory();
 	return name;
 }
 
@@ -71,7 +71,7 @@ int pm_replace_open(struct pm_replace *r, const char *path, bool always)
 	if (!directory || !name) {
 		free(directory), free(name);
 		pm_replace_drop(r);
-		return no_memory();
+		return pm_no_memory();
 	}
 	r->fd = open(directory, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
 	if (r->fd < 0 && (r->fd = mkostemp(name, O_CLOEXEC)) >= 0)
@@ -101,7 +101,7 @@ static int take_name(struct pm_replace *r)
 		if (errno != EEXIST)
 			break;
 	}
-	int status = name ? pm_fail_errno("cannot write '%s'", r->path) : no_memory();
+	int status = name ? pm_fail_errno("cannot write '%s'", r->path) : pm_no_memory();
 	free(name);
 	return status;
 }
@@ -143,6 +143,14 @@ void pm_replace_drop(struct pm_replace *r)
 	*r = (struct pm_replace){.fd = -1};
 }
 
+static char unfinished[PATH_MAX];
+
+void pm_replace_abandon(void)
+{
+	if (*unfinished)
+		unlink(unfinished);
+}
+
 char *pm_replace_name(const char *path, char **target)
 {
 	struct stat st;
@@ -150,7 +158,7 @@ char *pm_replace_name(const char *path, char **target)
 	*target = target_of(path);
 	char *name = *target ? name_beside(*target) : NULL;
 	if (*target && !name) {
-		no_memory();
+		pm_no_memory();
 		return NULL;
 	}
 	int fd = name && !(there && access(path, W_OK)) ? mkostemp(name, O_CLOEXEC) : -1;
@@ -161,6 +169,7 @@ char *pm_replace_name(const char *path, char **target)
 	}
 	fchmod(fd, there ? st.st_mode & 07777 : usual_mode());
 	close(fd);
+	snprintf(unfinished, sizeof unfinished, "%s", name);
 	return name;
 }
 

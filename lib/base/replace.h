@@ -20,6 +20,7 @@ void pm_replace_drop(struct pm_replace *r); /* what was written is forgotten; al
 /* The name to be used for a file beside path, which a library opens itself; free() it. NULL: failure with a message. path: links are followed. */
 char *pm_replace_name(const char *path, char **target);
 int pm_replace_rename(const char *temporary, const char *path, bool lasting);
+void pm_replace_abandon(void); /* the process ends: deletes the file of the last name */
 
 /* A lock on a regular file that ends with the process: 1 taken, 0 another process has it, -1 this file system has no locks. */
 int pm_lock_file(int fd);

@@ -139,7 +139,8 @@ int pm_cell_list_init(struct pm_cell_list *l, const struct pm_domain *domain, si
 		return status ? status : -PM_DATA;
 	shape(l, n, x, edge);
 	status = sort(l, x);
-	gather(l, x);
+	if (!status)
+		gather(l, x);
 	return status;
 }
 

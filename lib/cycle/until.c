@@ -51,7 +51,7 @@ struct pm_until *pm_until_new(const char *text)
 {
 	struct pm_until *u = calloc(1, sizeof *u);
 	if (!u)
-		return pm_fail(PM_DATA, "out of memory"), NULL;
+		return pm_no_memory(), NULL;
 	if (!pm_expression_compile_numbers(&u->expression, slot, u, "column", text))
 		return u;
 	char message[1024];

@@ -8,7 +8,7 @@ struct pm_expression_job *pm_expression_jobs_next(struct pm_expression_jobs *job
 	if (jobs->n == jobs->room) {
 		struct pm_expression_job *more = realloc(jobs->job, (2 * jobs->room + 4) * sizeof *more);
 		if (!more) {
-			pm_fail(PM_DATA, "out of memory");
+			pm_no_memory();
 			return NULL;
 		}
 		jobs->job = more;

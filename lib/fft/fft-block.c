@@ -260,8 +260,8 @@ struct pm_fft *pm_fft(struct pm_fft_plans *p, size_t n)
 			return p->made[i];
 	struct pm_fft *f = calloc(1, sizeof *f);
 	if (!f || p->nmade == PM_FFT_PLANS) {
+		f ? pm_fail(PM_DATA, "no transform of length %zu", n) : pm_no_memory();
 		free(f);
-		pm_fail(PM_DATA, "no transform of length %zu", n);
 		return NULL;
 	}
 	f->n = n;

@@ -97,6 +97,8 @@ static char *wisdom_read(struct pm_fft_plans *p, const char *path)
 		return NULL;
 	}
 	char *text = malloc(FILE_MOST + 1);
+	if (!text)
+		pm_no_memory(); /* a program ends here; for others it is estimated */
 	size_t n = text ? fread(text, 1, FILE_MOST, f) : 0;
 	fclose(f);
 	unsigned sum = 0;

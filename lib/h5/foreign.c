@@ -419,7 +419,7 @@ int pm_h5_get_foreign(hid_t at, const char *name, struct pm_frame **out)
 	struct names *set = malloc(2 * sizeof *set), *mesh = set + 1;
 	char sets[PM_NAME], meshes[PM_NAME], path[PM_H5_PATH];
 	folder_of(at, "particlesPath", "particles", sets), folder_of(at, "meshesPath", "meshes", meshes);
-	int status = set ? 0 : pm_fail(PM_DATA, "out of memory");
+	int status = set ? 0 : pm_no_memory();
 	if (set)
 		set->n = mesh->n = 0;
 	if (!status && H5Lexists(at, sets, H5P_DEFAULT) > 0)

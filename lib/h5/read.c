@@ -94,7 +94,7 @@ struct pm_h5 *pm_h5_open(const char *path)
 {
 	struct pm_h5 *h = calloc(1, sizeof *h);
 	if (!h) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	H5dont_atexit();

@@ -198,7 +198,7 @@ static int put_folder(hid_t iteration, const char *path)
 static int put_fields(hid_t iteration, struct pm_frame *f)
 {
 	char(*path)[PM_H5_PATH] = calloc(f->nfields + 1, sizeof *path);
-	int status = path ? 0 : pm_fail(PM_DATA, "out of memory");
+	int status = path ? 0 : pm_no_memory();
 	if (!status)
 		pm_h5_paths(f, path);
 	for (size_t i = 0; i < f->nfields && !status; i++) {
@@ -252,7 +252,7 @@ int pm_h5_put_end(struct pm_h5 *h)
 {
 	uint64_t *more = realloc(h->streams, (h->nstreams + 1) * sizeof *more);
 	if (!more)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	h->streams = more;
 	h->streams[h->nstreams++] = h->frames;
 	h->frames = 0;
@@ -274,7 +274,7 @@ struct pm_h5 *pm_h5_create(const char *path)
 	struct pm_h5 *h = calloc(1, sizeof *h);
 	struct stat there;
 	if (!h) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	h->file = -1;

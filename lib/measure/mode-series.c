@@ -33,7 +33,7 @@ int pm_series_add(struct pm_series *s, double t, const double amplitude[2], doub
 		for (int i = 0; i < 3; i++) {
 			double *more = realloc(*array[i], room * sizeof *more);
 			if (!more)
-				return pm_fail(PM_DATA, "out of memory");
+				return pm_no_memory();
 			*array[i] = more;
 		}
 		s->room = room;

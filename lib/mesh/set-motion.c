@@ -81,7 +81,7 @@ static int add_job(struct pm_set_motion *m, struct pm_motion_job job)
 	if (m->njobs == m->room) {
 		struct pm_motion_job *more = realloc(m->job, (2 * m->room + 8) * sizeof *more);
 		if (!more)
-			return pm_fail(PM_DATA, "out of memory");
+			return pm_no_memory();
 		m->job = more;
 		m->room = 2 * m->room + 8;
 	}

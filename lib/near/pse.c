@@ -224,7 +224,7 @@ static int pieces(const struct work *w, const struct loops *loops)
 		}
 		pm_free(s), pm_free(own.exchange), pm_free(own.weight);
 	}
-	return bad ? pm_fail(PM_DATA, "out of memory") : 0;
+	return bad ? pm_no_memory() : 0;
 }
 
 static double *by_place(const struct pm_cell_list *l, const double *values)

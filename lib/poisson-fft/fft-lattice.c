@@ -6,6 +6,7 @@
  * Source: the integral of Bessel functions of Katsura et al. 1971, for any stencil; Liska and Colonius 2014 for its use.
  * Cost: 250 products per separation, once. Relative error 1e-12 (case PS-07).
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,10 +57,14 @@ static int heat_panel(struct pm_fft_plans *planner, enum pm_symbol symbol, size_
 	return 0;
 }
 
-static void nodes(struct pm_lattice *l, double first, double last)
+static int nodes(struct pm_lattice *l, double first, double last)
 {
+	gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own aborts where memory is short */
 	gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(GAUSS);
+	gsl_set_error_handler(handler);
 	double low = 0, high = first;
+	if (!table)
+		return pm_no_memory();
 	for (l->nodes = 0; low < last && l->nodes < PM_LATTICE_NODES; low = high, high *= 4)
 		for (size_t i = 0; i < GAUSS; i++, l->nodes++)
 			if (low > 0) { /* in ln t */
@@ -71,6 +76,7 @@ static void nodes(struct pm_lattice *l, double first, double last)
 			}
 	l->last = low;
 	gsl_integration_glfixed_table_free(table);
+	return 0;
 }
 
 /* Where the integral starts and ends. */
@@ -105,16 +111,15 @@ struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol sym
 	struct pm_lattice *l = calloc(1, sizeof *l);
 	double first, last;
 	if (!l) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	l->dim = dim;
 	range(dim, ncases, cases, &first, &last);
 	l->t = pm_alloc(PM_LATTICE_NODES, sizeof *l->t);
 	l->w = pm_alloc(PM_LATTICE_NODES, sizeof *l->w);
-	if (!l->t || !l->w)
+	if (!l->t || !l->w || nodes(l, first, last))
 		return pm_lattice_free(l);
-	nodes(l, first, last);
 	int code = l->last < last ? pm_fail(PM_DATA, "the spacings, or they and the screening length, are too far apart for --green lattice (choose --symbol "
 		"spectral)") :
 		weights(l, ncases, cases);

@@ -8,6 +8,7 @@
  * Assumes p2m and m2p with the same kernel. Cost: the optimal one (2 reach + 1)^dim terms a mode, once per mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/influence-table.h"
 
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <string.h>
 
@@ -47,9 +48,13 @@ static double value(const struct pm_kernel *k, double x)
 /* Integral of W(x) W(x + shift), or of W(x) cos(theta x): over half cells, in each of which W and its neighbour at a half-integer shift are polynomials. */
 static double integral(const struct pm_kernel *k, bool product, double parameter)
 {
+	gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own aborts where memory is short */
 	gsl_integration_glfixed_table *t = gsl_integration_glfixed_table_alloc(points);
+	gsl_set_error_handler(handler);
+	if (!t)
+		return pm_no_memory(), NAN;
 	double sum = 0;
-	for (int i = -k->width; t && i < k->width; i++)
+	for (int i = -k->width; i < k->width; i++)
 		for (size_t q = 0; q < points; q++) {
 			double x, w;
 			gsl_integration_glfixed_point(0.5 * i, 0.5 * (i + 1), q, &x, &w, t);

@@ -155,7 +155,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		return NULL;
 	struct pm_poisson_fft *p = calloc(1, sizeof *p);
 	if (!p) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	p->grid = *g;

@@ -29,6 +29,7 @@ static void child(char **argv, int in, int out)
 {
 	char path[PATH_MAX + 64];
 	const char *dir = pm_tool_find(argv[0]) ? pm_home() : NULL;
+	pm_memory_end(NULL); /* a failure here must not end the parent's output */
 	setpgid(0, 0); /* only cycle handles an interrupt from the terminal: it completes the step first */
 	signal(SIGPIPE, SIG_DFL);
 	setenv("OMP_WAIT_POLICY", "passive", 0); /* waiting threads must not occupy the cores of the other processes */
@@ -53,13 +54,15 @@ struct pm_chain *pm_chain_new(char ***words)
 	int in[2], out[2], n = 0, status = 0;
 	while (words[n])
 		n++;
-	if (!c || !(c->pid = calloc((size_t)n, sizeof *c->pid)) || pipe2(in, O_CLOEXEC)) {
-		pm_fail_errno("cannot make a pipe");
+	bool room = c && (c->pid = calloc((size_t)n, sizeof *c->pid)) && (c->name = calloc((size_t)n, sizeof *c->name));
+	if (!room || pipe2(in, O_CLOEXEC)) {
+		room ? pm_fail_errno("cannot make a pipe") : pm_no_memory();
+		if (c)
+			free(c->pid), free(c->name);
 		free(c);
 		return NULL;
 	}
-	c->name = calloc((size_t)n, sizeof *c->name);
-	for (int i = 0; c->name && i < n; i++)
+	for (int i = 0; i < n; i++)
 		c->name[i] = words[i][0]; /* the sentence outlives its chains */
 	c->to = pm_writer_of_fd(in[1]);
 	int next = in[0];

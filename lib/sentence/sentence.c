@@ -44,7 +44,9 @@ static int word_end(struct pm_sentence *s, char *buffer, size_t *n, bool *open)
 	if (w->argc == most_arguments)
 		return pm_fail(PM_USAGE, "more than %d words between two bars", most_arguments);
 	buffer[*n] = 0;
-	w->argv[w->argc++] = strdup(buffer);
+	if (!(w->argv[w->argc] = strdup(buffer)))
+		return pm_no_memory();
+	w->argc++;
 	*n = 0;
 	*open = false;
 	return 0;
@@ -108,7 +110,9 @@ static int foreign_check(const char *name)
 	const char *names[256], *near;
 	char path[4096], *list = strdup(getenv("PATH") ? getenv("PATH") : "/bin:/usr/bin"), *next = NULL;
 	bool found = strchr(name, '/') ? access(name, X_OK) == 0 : false;
-	for (char *dir = strchr(name, '/') || !list ? NULL : strtok_r(list, ":", &next); dir && !found; dir = strtok_r(NULL, ":", &next)) {
+	if (!list)
+		return pm_no_memory();
+	for (char *dir = strchr(name, '/') ? NULL : strtok_r(list, ":", &next); dir && !found; dir = strtok_r(NULL, ":", &next)) {
 		snprintf(path, sizeof path, "%s/%s", dir, name);
 		found = access(path, X_OK) == 0;
 	}
@@ -189,7 +193,7 @@ struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct p
 {
 	struct pm_sentence *s = calloc(1, sizeof *s);
 	char *buffer = malloc(strlen(text) + 1);
-	int status = s && buffer ? split(s, text, buffer) : pm_fail(PM_DATA, "out of memory");
+	int status = s && buffer ? split(s, text, buffer) : pm_no_memory();
 	free(buffer);
 	for (int i = 0; s && i < s->nwords && !status; i++)
 		status = word_make(s->word + i, moves);
@@ -339,7 +343,7 @@ int pm_sentence_safe(const char *text)
 {
 	struct pm_sentence *s = calloc(1, sizeof *s);
 	char *buffer = malloc(strlen(text) + 1);
-	int status = s && buffer ? split(s, text, buffer) : pm_fail(PM_DATA, "out of memory");
+	int status = s && buffer ? split(s, text, buffer) : pm_no_memory();
 	free(buffer);
 	for (int i = 0; s && i < s->nwords && !status; i++) {
 		struct word *w = s->word + i;

@@ -39,6 +39,7 @@ static void become(const char *const argv[])
 	char beside[PATH_MAX + 8];
 	const char *dir = pm_home();
 	signal(SIGPIPE, SIG_DFL);
+	pm_memory_end(NULL); /* a failure here must not end the parent's output */
 	if (dir) {
 		snprintf(beside, sizeof beside, "%s/sh5", dir);
 		execv(beside, (char *const *)(uintptr_t)argv);
@@ -78,7 +79,11 @@ struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest)
 	const char *const argv[] = {"sh5", "-o", path, NULL};
 	int in[2], said[2];
 	struct pm_h5_pipe *r = calloc(1, sizeof *r);
-	if (!r || pipe2(in, O_CLOEXEC) || pipe2(said, O_CLOEXEC) || (r->pid = fork()) < 0) {
+	if (!r) {
+		pm_no_memory();
+		return NULL;
+	}
+	if (pipe2(in, O_CLOEXEC) || pipe2(said, O_CLOEXEC) || (r->pid = fork()) < 0) {
 		pm_fail_errno("cannot start sh5");
 		free(r);
 		return NULL;

@@ -139,9 +139,11 @@ static int vector(const struct pm_option *o, const char *text, struct pm_vector 
 static int list(struct pm_run *run, const struct pm_option *o, const char *text, struct pm_list *out)
 {
 	char *copy = strdup(text), *next = NULL;
+	if (!copy)
+		return pm_no_memory();
 	if (run->ncopies < PM_LIST_MOST)
 		run->copies[run->ncopies++] = copy;
-	for (char *item = copy ? strtok_r(copy, ",", &next) : NULL; item; item = strtok_r(NULL, ",", &next)) {
+	for (char *item = strtok_r(copy, ",", &next); item; item = strtok_r(NULL, ",", &next)) {
 		if (!is_choice(o, item))
 			return not_a_choice(o, item);
 		if (out->n == PM_LIST_MOST)
@@ -208,16 +210,17 @@ static struct found find(const struct pm_tool *tool, const char *name, size_t le
 	return (struct found){0};
 }
 
-static void word_add(struct pm_stage *s, const char *text)
+static int word_add(struct pm_stage *s, const char *text)
 {
 	size_t old = s->word ? strlen(s->word) : 0, n = strlen(text);
 	char *word = realloc(s->word, old + n + 2);
 	if (!word)
-		return;
+		return pm_no_memory();
 	if (old)
 		word[old++] = ' ';
 	memcpy(word + old, text, n + 1);
 	s->word = word;
+	return 0;
 }
 
 static void note(struct pm_stage *s, const struct pm_option *o, const char *value)
@@ -260,12 +263,11 @@ static int option(struct pm_stage *s, int argc, char **argv, int i)
 	if (status)
 		return status;
 	note(s, f.row, value);
-	if (!f.common) {
-		word_add(s, typed);
-		if (took == 2)
-			word_add(s, value);
-	}
-	return took;
+	if (!f.common)
+		status = word_add(s, typed);
+	if (!f.common && took == 2 && !status)
+		status = word_add(s, value);
+	return status ? status : took;
 }
 
 static int utf8_check(int argc, char **argv)
@@ -307,7 +309,8 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 			if (status)
 				return status;
 		}
-	word_add(s, s->tool->name);
+	if (word_add(s, s->tool->name))
+		return -PM_DATA;
 	bool only_words = false;
 	json_t *arguments = json_array();
 	json_object_set_new(s->entry, "arguments", arguments);
@@ -321,7 +324,8 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 				return took;
 			i += took;
 		} else {
-			word_add(s, argv[i]);
+			if (word_add(s, argv[i]))
+				return -PM_DATA;
 			json_array_append_new(arguments, json_string(argv[i]));
 			s->args[s->nargs++] = argv[i++];
 		}

@@ -146,17 +146,45 @@ static int text_to(struct pm_run *run, const char *path)
 	return status;
 }
 
-/* A library ends the process by itself (libgomp, where no thread can be started): said under our name and down the stream. */
-static struct pm_stage *running;
+/* The process ends within run(): by a library (libgomp, where no thread can be started), or because there is no memory. Both are said under our
+ * name and down the stream. */
+static struct {
+	const struct pm_tool *tool; /* NULL: not within */
+	struct pm_stage *stage;     /* NULL: not made yet */
+	bool memory;
+} running;
 
 static void left_early(void)
 {
-	struct pm_stage *s = running;
-	running = NULL;
-	if (!s)
+	const struct pm_tool *tool = running.tool;
+	struct pm_stage *s = running.stage;
+	if (!tool)
 		return;
-	pm_fail(PM_DATA, "ended by a library before it was done, its reason is above (fewer threads: --threads, OMP_NUM_THREADS; OMP_STACKSIZE)");
-	tell(s, s->tool, -PM_DATA);
+	running.tool = NULL;
+	if (!running.memory)
+		pm_fail(PM_DATA, "ended by a library before it was done, its reason is above (fewer threads: --threads, OMP_NUM_THREADS; OMP_STACKSIZE)");
+	tell(s, tool, -PM_DATA);
+	pm_replace_abandon();
+	fflush(stdout);
+	_exit(PM_DATA); /* HDF5 ends with 255 */
+}
+
+static void memory_ends(void)
+{
+	running.memory = true;
+	if (running.tool)
+		exit(PM_DATA);
+	fprintf(stderr, "%s\n", pm_message()); /* behind run(), where nothing is left but to close the files */
+	_exit(PM_DATA);
+}
+
+/* jansson's functions return -1 where there is no memory, which nobody can check everywhere. */
+static void *json_room(size_t bytes)
+{
+	void *room = malloc(bytes);
+	if (!room && bytes)
+		pm_no_memory();
+	return room;
 }
 
 static int run(struct pm_stage *s)
@@ -180,14 +208,15 @@ static int run(struct pm_stage *s)
 int pm_main(const struct pm_tool *tool, int argc, char **argv)
 {
 	int status = 0;
-	struct pm_stage *s = pm_stage_make(tool, argc, argv, &status);
+	running.tool = tool;
+	json_set_alloc_funcs(json_room, free);
+	pm_memory_end(memory_ends);
+	atexit(left_early);
+	struct pm_stage *s = running.stage = pm_stage_make(tool, argc, argv, &status);
 	bool printed = s && !status && print_and_go(tool, &s->run->common);
-	if (s && !status && !printed) {
-		running = s;
-		atexit(left_early);
+	if (s && !status && !printed)
 		status = run(s);
-		running = NULL;
-	}
+	running.tool = NULL;
 	if (status < 0 && s && s->run->rest)
 		status = pm_h5_pipe_reason(s->run->rest, status);
 	if (status < 0)

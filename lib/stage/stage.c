@@ -28,15 +28,17 @@ struct pm_stage *pm_stage_free(struct pm_stage *s)
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status)
 {
 	struct pm_stage *s = calloc(1, sizeof *s);
-	if (!s)
+	if (!s) {
+		*status = pm_no_memory();
 		return NULL;
+	}
 	s->tool = tool;
 	s->kind = tool->kind;
 	s->config = calloc(1, tool->config + 1);
 	s->args = calloc((size_t)argc + 1, sizeof *s->args);
 	s->run = calloc(1, sizeof *s->run);
 	if (!s->config || !s->args || !s->run) {
-		*status = pm_fail(PM_DATA, "out of memory");
+		*status = pm_no_memory();
 		return s;
 	}
 	s->run->began = pm_seconds();
@@ -56,7 +58,7 @@ int pm_stage_begin(struct pm_stage *s)
 		pm_threads_use((int)s->run->common.threads);
 	s->state = calloc(1, s->tool->state + 1);
 	if (!s->state)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	int status = s->tool->begin ? s->tool->begin(s) : 0;
 	s->setup += pm_seconds() - s->run->began;
 	return status;

@@ -52,6 +52,7 @@ struct pm_field *pm_makes(struct pm_frame *f, const char *on, const char *name, 
 	struct pm_field *old = pm_frame_field(f, on, name), *field = calloc(1, sizeof *field);
 	if (!field || !pm_list_add((void ***)&f->fields, &f->nfields, field)) {
 		free(field);
+		pm_no_memory();
 		return NULL;
 	}
 	if (old)
@@ -109,8 +110,8 @@ void pm_drops(struct pm_frame *f, struct pm_field *field)
 {
 	if (!field)
 		return;
-	pm_list_remove((void **)f->fields, &f->nfields, field);
-	pm_list_add((void ***)&f->dropped, &f->ndropped, field);
+	if (pm_list_add((void ***)&f->dropped, &f->ndropped, field)) /* else there is a message, and the field stays */
+		pm_list_remove((void **)f->fields, &f->nfields, field);
 }
 
 void pm_drops_roles(struct pm_frame *f, const char *on, unsigned roles)

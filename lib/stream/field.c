@@ -39,6 +39,7 @@ static struct pm_buffer *buffer_new(size_t n, size_t size, bool zero)
 	void *data = zero ? pm_zalloc(n, size) : pm_alloc(n, size);
 	if (!b || !data) {
 		free(b), pm_free(data);
+		pm_no_memory();
 		return NULL;
 	}
 	atomic_init(&b->users, 1);
@@ -49,8 +50,10 @@ static struct pm_buffer *buffer_new(size_t n, size_t size, bool zero)
 struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
 {
 	struct pm_field *c = malloc(sizeof *c);
-	if (!c)
+	if (!c) {
+		pm_no_memory();
 		return NULL;
+	}
 	*c = *field;
 	c->more = json_deep_copy(field->more);
 	c->use = 0;

@@ -20,7 +20,7 @@ struct pm_frame *pm_frame_new(int dim)
 {
 	struct pm_frame *f = calloc(1, sizeof *f);
 	if (!f) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	f->dim = dim;
@@ -67,7 +67,7 @@ static struct pm_frame *copy(const struct pm_frame *f, bool with_data)
 {
 	struct pm_frame *c = malloc(sizeof *c);
 	if (!c) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	*c = *f;
@@ -79,21 +79,31 @@ static struct pm_frame *copy(const struct pm_frame *f, bool with_data)
 	c->inside = json_deep_copy(f->inside);
 	c->nsets = c->nmeshes = c->nfields = c->ndropped = 0;
 	c->sets = NULL, c->meshes = NULL, c->fields = c->dropped = NULL;
-	for (size_t i = 0; i < f->nsets; i++) {
+	bool good = true;
+	for (size_t i = 0; i < f->nsets && good; i++) {
 		struct pm_set *s = pm_frame_set_new(c, "", 0);
+		if (!(good = s != NULL))
+			break;
 		json_decref(s->more);
 		*s = *f->sets[i];
 		s->more = json_deep_copy(s->more);
 	}
-	for (size_t i = 0; i < f->nmeshes; i++) {
-		struct pm_mesh *m = malloc(sizeof *m);
+	for (size_t i = 0; i < f->nmeshes && good; i++) {
+		struct pm_mesh *m = pm_frame_mesh_new(c, "", f->meshes[i]->cells);
+		if (!(good = m != NULL))
+			break;
+		json_decref(m->more);
 		*m = *f->meshes[i];
 		m->more = json_deep_copy(m->more);
-		pm_list_add((void ***)&c->meshes, &c->nmeshes, m);
 	}
-	for (size_t i = 0; i < f->nfields; i++)
-		pm_list_add((void ***)&c->fields, &c->nfields, pm_field_copy(f->fields[i], with_data));
-	return c;
+	for (size_t i = 0; i < f->nfields && good; i++) {
+		struct pm_field *p = pm_field_copy(f->fields[i], with_data);
+		if (!(good = p && pm_list_add((void ***)&c->fields, &c->nfields, p)))
+			pm_field_free(p);
+	}
+	if (!good)
+		pm_frame_free(c);
+	return good ? c : NULL;
 }
 
 struct pm_frame *pm_frame_copy(const struct pm_frame *f) { return copy(f, true); }
@@ -127,6 +137,7 @@ struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n
 	struct pm_set *s = calloc(1, sizeof *s);
 	if (!s || !pm_list_add((void ***)&f->sets, &f->nsets, s)) {
 		free(s);
+		pm_no_memory();
 		return NULL;
 	}
 	pm_name_copy(s->name, name);
@@ -140,6 +151,7 @@ struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const si
 	struct pm_mesh *m = calloc(1, sizeof *m);
 	if (!m || !pm_list_add((void ***)&f->meshes, &f->nmeshes, m)) {
 		free(m);
+		pm_no_memory();
 		return NULL;
 	}
 	pm_name_copy(m->name, name);

@@ -206,7 +206,7 @@ static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *
 {
 	struct pm_set *s = pm_frame_set_new(a, name, set->n);
 	if (!s)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	s->fixed = set->fixed;
 	for (size_t i = 0; i < b->nfields; i++) {
 		const struct pm_field *p = b->fields[i];

@@ -14,7 +14,7 @@ void *pm_list_add(void ***list, size_t *n, void *item)
 	if ((*n & (*n - 1)) == 0) { /* room for the next power of two */
 		void **more = realloc(*list, (*n ? 2 * *n : 1) * sizeof *more);
 		if (!more) {
-			pm_fail(PM_DATA, "out of memory");
+			pm_no_memory();
 			return NULL;
 		}
 		*list = more;

@@ -39,7 +39,7 @@ struct pm_reader *pm_reader_of_fd(int fd)
 {
 	struct pm_reader *r = malloc(sizeof *r);
 	if (!r) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	memset(r, 0, offsetof(struct pm_reader, piece));
@@ -134,7 +134,7 @@ static int get_text(struct pm_reader *r, const struct pm_line *l, uint64_t bytes
 		return pm_fail(PM_DATA, "%s of %llu bytes: not a multiple of 64 up to 16 MiB", what, (unsigned long long)bytes);
 	char *t = malloc(bytes + 1);
 	if (!t)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	int status = must_get(r, t, bytes, what);
 	if (!status)
 		status = pm_line_check(l, t, bytes, what);
@@ -199,7 +199,7 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 {
 	struct item *items = realloc(r->items, (f->nfields + 1) * sizeof *items);
 	if (!items)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	r->items = items;
 	r->nitems = f->nfields;
 	uint64_t total = 0; /* n < 2^48, 16 components, 8 bytes: a field fits; the sum is checked */

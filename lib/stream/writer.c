@@ -26,7 +26,7 @@ struct pm_writer *pm_writer_of_fd(int fd)
 {
 	struct pm_writer *w = calloc(1, sizeof *w);
 	if (!w) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	w->fd = fd;
@@ -105,7 +105,7 @@ static int put_text(struct pm_writer *w, const char *format, unsigned long long 
 	size_t n = strlen(text), bytes = pm_line_padded(n + 1);
 	char words[PM_LINE], *all = malloc(PM_LINE + bytes);
 	if (!all)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	memcpy(all + PM_LINE, text, n);
 	memset(all + PM_LINE + n, ' ', bytes - n);
 	all[PM_LINE + bytes - 1] = '\n';
@@ -133,7 +133,7 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 		free(w->crc);
 		w->crc = malloc(f->nfields * sizeof *w->crc);
 		w->ncrc = w->crc ? f->nfields : 0;
-		status = w->crc ? 0 : pm_fail(PM_DATA, "out of memory");
+		status = w->crc ? 0 : pm_no_memory();
 	}
 	if (!status)
 		status = put_text(w, "PMPIPE/1 frame %llu %llu", payload, true, text);

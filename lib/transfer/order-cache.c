@@ -22,7 +22,7 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 {
 	struct pm_order_cache *o = calloc(1, sizeof *o);
 	if (!o) {
-		pm_fail(PM_DATA, "out of memory");
+		pm_no_memory();
 		return NULL;
 	}
 	o->note.free = free_note;

@@ -264,3 +264,15 @@ for e in h["history"]:
 		[ ! -e touched ]
 	done
 }
+
+@test "an allocation that fails, anywhere, is a message and exit 1, or the same bytes: every 149th of twelve commands, alone and with all behind it" {
+	[ -z "${PM_SANITIZED:-}" ] || skip "a sanitizer has its own malloc"
+	run -0 python3 "$top/tests/fail-malloc.py" 149 pinit p2m-many poisson-fft poisson-mg mgrad m2p push remesh diag cycle-checkpoint pp stab
+	[[ ${lines[-1]} == *", 0 with another outcome" ]] || { echo "$output"; return 1; }
+}
+
+@test "without memory for a checkpoint or an output nothing is left behind, and the checkpoint before stays" {
+	[ -z "${PM_SANITIZED:-}" ] || skip "a sanitizer has its own malloc"
+	run -0 python3 "$top/tests/fail-malloc.py" 499 push-file diag-file cycle-checkpoint sdraw cycle-pipes
+	[[ ${lines[-1]} == *", 0 with another outcome" ]] || { echo "$output"; return 1; }
+}
