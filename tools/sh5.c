@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "h5/apart.h"
 #include "h5/stream-copy.h"
 #include "stage/stage.h"
 
@@ -50,7 +51,10 @@ static int to_file(struct pm_stage *s, struct state *st)
 static int from_file(struct pm_stage *s, struct state *st)
 {
 	struct pm_writer *w = pm_stage_writer(s);
-	if (!w || !(st->file = pm_h5_open(s->args[0])))
+	int apart = w ? pm_h5_read_apart(s->args[0], w) : pm_failed();
+	if (apart <= 0)
+		return apart;
+	if (!(st->file = pm_h5_open(s->args[0])))
 		return pm_failed();
 	return pm_h5_to_stream(st->file, w, s->entry);
 }

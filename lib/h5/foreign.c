@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "h5/apart.h"
 #include "h5/node.h"
 #include "stream/columns.h"
 #include "stream/list.h"
@@ -111,6 +112,7 @@ static int look(hid_t at, const char *path, struct part *c)
 /* Values of a component, times unitSI. */
 static int load(hid_t at, const char *path, const struct part *c, struct pm_field *p, int k)
 {
+	pm_h5_goes_on(p->count * sizeof(double));
 	hid_t d = H5Dopen2(at, path, H5P_DEFAULT);
 	bool whole = p->type == PM_I64;
 	void *to = whole ? (void *)pm_out_i64(p, k) : (void *)pm_out(p, k);
@@ -208,7 +210,7 @@ static int species(hid_t at, const char *folder, const char *name, struct pm_fra
 	struct names *records = malloc(2 * sizeof *records), *parts = records + 1;
 	char path[2 * PM_H5_PATH];
 	struct part first;
-	int status = records ? children(at, folder, records) : -PM_DATA;
+	int status = records ? children(at, folder, records) : pm_no_memory();
 	snprintf(path, sizeof path, "%s/position", folder);
 	if (!status && !(status = children(at, path, parts))) {
 		snprintf(path, sizeof path, "%s/position/%s", folder, parts->name[0]);
@@ -336,6 +338,8 @@ static int mesh_record(hid_t at, const char *folder, const char *name, struct pm
 	struct lattice l;
 	char path[2 * PM_H5_PATH], full[3 * PM_H5_PATH], own[2 * PM_NAME];
 	bool together = true;
+	if (!parts)
+		return pm_no_memory();
 	snprintf(path, sizeof path, "%s/%s", folder, name);
 	hid_t o = H5Oopen(at, path, H5P_DEFAULT);
 	int status = parts && o >= 0 ? lattice_look(o, name, f->dim, &l) : -PM_DATA;
@@ -385,6 +389,8 @@ static int dimensions(hid_t at, const char *sets, const struct names *set, const
 	struct names *parts = malloc(sizeof *parts);
 	char path[PM_H5_PATH], letters[3];
 	int dim = -1;
+	if (!parts)
+		return pm_no_memory();
 	if (parts && set->n) {
 		snprintf(path, sizeof path, "%s/%s/position", sets, set->name[0]);
 		dim = children(at, path, parts) ? -1 : parts->n;

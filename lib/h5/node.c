@@ -1,5 +1,6 @@
 /* Groups, datasets and attributes, and the names of records. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,6 +122,7 @@ static char *texts(hid_t at, const char *name, int most, int *n, size_t *stride)
 	char *out = NULL, *one = NULL;
 	*n = (int)there;
 	*stride = H5Tget_size(type) + 1;
+	errno = 0;
 	if (text && variable && there == 1 && H5Aread(a, type, &one) >= 0 && one) {
 		out = strdup(one);
 		H5free_memory(one);
@@ -139,7 +141,7 @@ static char *texts(hid_t at, const char *name, int most, int *n, size_t *stride)
 	}
 	H5Tclose(type), H5Sclose(space), H5Aclose(a);
 	if (!out)
-		pm_fail(PM_DATA, "the attribute '%s' is not text", name);
+		errno == ENOMEM ? pm_no_memory() : pm_fail(PM_DATA, "the attribute '%s' is not text", name);
 	return out;
 }
 
@@ -163,17 +165,17 @@ int pm_h5_get_letters(hid_t at, const char *name, int most, char *letters)
 	return n;
 }
 
-hid_t pm_h5_type(enum pm_type type, bool memory)
+hid_t pm_h5_type(enum pm_type type)
 {
 	switch (type) { /* the types are not constants: they are made when the library starts */
 	case PM_F64:
-		return memory ? H5T_NATIVE_DOUBLE : H5T_IEEE_F64LE;
+		return H5T_IEEE_F64LE;
 	case PM_F32:
-		return memory ? H5T_NATIVE_DOUBLE : H5T_IEEE_F32LE;
+		return H5T_IEEE_F32LE;
 	case PM_I64:
-		return memory ? H5T_NATIVE_INT64 : H5T_STD_I64LE;
+		return H5T_STD_I64LE;
 	default:
-		return memory ? H5T_NATIVE_UINT8 : H5T_STD_U8LE;
+		return H5T_STD_U8LE;
 	}
 }
 

@@ -20,6 +20,8 @@ struct pm_h5 {
 	uint64_t *streams;       /* frames of each stream */
 	size_t niterations, at;  /* reading: names of the iterations, ascending */
 	uint64_t *iterations;
+	bool own;                /* reading: a frame that was a stream has been read */
+	uint32_t crc;            /* of the headers and reports so far: that of the file with the frames of the streams behind them */
 };
 
 /* pm_fail with the innermost error of the HDF5 library appended to the message. */
@@ -39,7 +41,13 @@ bool pm_h5_has(hid_t at, const char *name);       /* an attribute */
 int pm_h5_get_reals(hid_t at, const char *name, int *n, double *x);
 char *pm_h5_get_text(hid_t at, const char *name); /* free() it; NULL with a message */
 int pm_h5_get_letters(hid_t at, const char *name, int most, char *letters); /* first letters of an array of texts; how many, or failure */
-hid_t pm_h5_type(enum pm_type type, bool memory);
+hid_t pm_h5_type(enum pm_type type);                                        /* in the file; the same in memory but for f32 */
+
+/* A checksum as an attribute, name NULL: pmpipeCrc32c. check: 0 if it agrees or is not there; what: for the message. */
+int pm_h5_put_checksum(hid_t at, const char *name, uint32_t crc);
+int pm_h5_check(hid_t at, const char *name, uint32_t crc, const char *what);
+hid_t pm_h5_put_data(hid_t at, const char *name, struct pm_field *p, int c, int rank, const hsize_t *dims); /* made; negative with a message */
+int pm_h5_get_data(hid_t d, const char *path, struct pm_field *p, int c); /* the field has its room; f32 is widened */
 
 /* The paths of the fields of a frame: "particles/matter/position", "meshes/rho". room for f->nfields. */
 void pm_h5_paths(const struct pm_frame *f, char (*path)[PM_H5_PATH]);

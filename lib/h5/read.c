@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "h5/apart.h"
 #include "h5/node.h"
 #include "stream/header.h"
 #include "stream/limits.h"
@@ -20,6 +21,8 @@ static herr_t iteration_add(hid_t at, const char *name, const H5L_info_t *info, 
 	errno = 0;
 	uint64_t number = strtoull(name, &end, 10);
 	uint64_t *more = realloc(h->iterations, (h->niterations + 1) * sizeof *more);
+	if (!more)
+		pm_no_memory();
 	if (!more || *end || errno || *name == '-')
 		return -1;
 	h->iterations = more;
@@ -58,7 +61,7 @@ static int read_streams(struct pm_h5 *h)
 	else
 		status = pm_h5_get_reals(h->file, "pmpipeStreams", &n, x);
 	if (status || !(h->streams = calloc((size_t)n, sizeof *h->streams)))
-		return -PM_DATA;
+		return status ? status : pm_no_memory();
 	h->nstreams = (size_t)n;
 	for (int i = 0; i < n; i++)
 		sum += h->streams[i] = x[i] >= 0 && x[i] < 0x1p53 ? (uint64_t)x[i] : 0;
@@ -105,10 +108,14 @@ struct pm_h5 *pm_h5_open(const char *path)
 
 /* ---- a frame ---- */
 
-static json_t *get_json(hid_t at, const char *name)
+static json_t *get_json(struct pm_h5 *h, hid_t at, const char *name)
 {
 	json_error_t why;
-	char *text = pm_h5_get_text(at, name);
+	char *text = pm_h5_get_text(at, name), checksum[64];
+	snprintf(checksum, sizeof checksum, "%sCrc32c", name);
+	h->crc = text ? pm_crc32c(h->crc, text, strlen(text)) : 0;
+	if (text && pm_h5_check(at, checksum, pm_crc32c(0, text, strlen(text)), name))
+		return free(text), NULL;
 	json_t *j = text ? json_loads(text, JSON_REJECT_DUPLICATES, &why) : NULL;
 	if (text && !j)
 		pm_fail(PM_DATA, "the attribute '%s' is not JSON: %s", name, why.text);
@@ -136,7 +143,7 @@ static bool fits(hid_t d, const struct pm_frame *f, const struct pm_field *p)
 	hsize_t dims[H5S_MAX_RANK];
 	size_t points[3] = {p->count, 1, 1};
 	int rank = m ? f->dim : 1;
-	bool good = H5Sget_simple_extent_ndims(space) == rank && H5Tequal(type, pm_h5_type(p->type, false)) > 0;
+	bool good = H5Sget_simple_extent_ndims(space) == rank && H5Tequal(type, pm_h5_type(p->type)) > 0;
 	if (m)
 		pm_mesh_points(f, m, points);
 	if (good)
@@ -164,9 +171,9 @@ static int get_component(hid_t at, const char *path, const struct pm_frame *f, s
 	int status = fits(d, f, p) && stored(d, p) ? 0 : differs(path);
 	if (!status && c == 0)
 		status = pm_field_hold(p);
-	char *data = pm_field_bytes(p);
-	if (!status && p->count && H5Dread(d, pm_h5_type(p->type, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data + (size_t)c * p->count * pm_field_memory(p)) < 0)
-		status = pm_h5_fail("cannot read '%s'", path);
+	pm_h5_goes_on(p->count * pm_field_memory(p));
+	if (!status)
+		status = pm_h5_get_data(d, path, p, c);
 	H5Dclose(d);
 	return status;
 }
@@ -200,9 +207,9 @@ static bool folder_is_there(hid_t at, const char *path)
 	return true;
 }
 
-static int get_own(hid_t at, struct pm_frame **out)
+static int get_own(struct pm_h5 *h, hid_t at, struct pm_frame **out)
 {
-	json_t *header = get_json(at, "pmpipeHeader"), *report = header ? get_json(at, "pmpipeReport") : NULL;
+	json_t *header = get_json(h, at, "pmpipeHeader"), *report = header ? get_json(h, at, "pmpipeReport") : NULL;
 	struct pm_frame *f = NULL;
 	int status = report && !pm_header_frame(header, &f) ? 0 : -PM_DATA;
 	json_decref(header);
@@ -212,11 +219,13 @@ static int get_own(hid_t at, struct pm_frame **out)
 	}
 	json_decref(report);
 	if (!status && pm_h5_has(at, "pmpipeLimits")) {
-		json_t *limits = get_json(at, "pmpipeLimits");
+		json_t *limits = get_json(h, at, "pmpipeLimits");
 		status = limits ? pm_limits_take_all(limits, f) : -PM_DATA;
 		json_decref(limits);
 	}
 	char(*path)[PM_H5_PATH] = status ? NULL : calloc(f->nfields + 1, sizeof *path);
+	if (!status && !path)
+		status = pm_no_memory();
 	if (path)
 		pm_h5_paths(f, path);
 	for (size_t i = 0; path && i < f->nfields && !status; i++)
@@ -229,8 +238,11 @@ static int get_own(hid_t at, struct pm_frame **out)
 int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
 {
 	char name[32], why[512];
-	if (h->stream == h->nstreams)
-		return PM_GOT_EOF;
+	if (h->stream == h->nstreams) {
+		const uint32_t crc = pm_crc32c(h->crc, h->streams, h->nstreams * sizeof *h->streams);
+		int bad = h->own ? pm_h5_check(h->file, NULL, crc, "the sequence of the frames") : 0;
+		return bad ? bad : PM_GOT_EOF;
+	}
 	if (h->frames == h->streams[h->stream]) {
 		h->stream++;
 		h->frames = 0;
@@ -238,11 +250,14 @@ int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
 	}
 	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->iterations[h->at++]);
 	h->frames++;
+	pm_h5_goes_on(0);
 	hid_t at = H5Gopen2(h->file, name, H5P_DEFAULT);
 	if (at < 0)
 		return pm_h5_fail("cannot open '%s'", name);
 	*foreign = !pm_h5_has(at, "pmpipeHeader");
-	int status = *foreign ? pm_h5_get_foreign(at, name + 6, f) : get_own(at, f);
+	h->own |= !*foreign;
+	int status = !*foreign ? get_own(h, at, f) : !pm_h5_has(h->file, "pmpipeStreams") ? pm_h5_get_foreign(at, name + 6, f)
+		: pm_fail(PM_DATA, "no attribute 'pmpipeHeader', but the file is one of sh5's: it is damaged");
 	H5Gclose(at);
 	if (status) {
 		snprintf(why, sizeof why, "%s", pm_message());

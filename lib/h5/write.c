@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/replace.h"
+#include "h5/apart.h"
 #include "h5/node.h"
 #include "stream/header.h"
 #include "stream/limits.h"
@@ -65,23 +66,6 @@ static int shape(const struct pm_frame *f, const struct pm_field *p, hsize_t dim
 	return f->dim;
 }
 
-static hid_t put_data(hid_t at, const char *name, struct pm_field *p, int c, int rank, const hsize_t *dims)
-{
-	hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, dims, NULL);
-	H5Pset_obj_track_times(how, false);
-	H5Pset_fill_time(how, H5D_FILL_TIME_NEVER);
-	hid_t d = H5Dcreate2(at, name, pm_h5_type(p->type, false), space, H5P_DEFAULT, how, H5P_DEFAULT);
-	const char *data = (char *)pm_field_bytes(p) + (size_t)c * p->count * pm_field_memory(p);
-	if (d < 0 || (p->count && H5Dwrite(d, pm_h5_type(p->type, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) {
-		pm_h5_fail("cannot write '%s' of '%s'", p->name, p->on);
-		H5Dclose(d);
-		d = -1;
-	}
-	H5Sclose(space);
-	H5Pclose(how);
-	return d;
-}
-
 static hid_t put_constant(hid_t at, const char *name, double value, int rank, const hsize_t *dims)
 {
 	uint64_t as[3] = {0};
@@ -96,7 +80,7 @@ static hid_t put_component(hid_t at, const char *name, const struct pm_frame *f,
 	hsize_t dims[3];
 	double one = 1, place[3];
 	int rank = shape(f, p, dims), status;
-	hid_t o = p->uniform ? put_constant(at, name, p->value[c], rank, dims) : put_data(at, name, p, c, rank, dims);
+	hid_t o = p->uniform ? put_constant(at, name, p->value[c], rank, dims) : pm_h5_put_data(at, name, p, c, rank, dims);
 	if (o < 0)
 		return -1;
 	status = pm_h5_put_reals(o, "unitSI", 0, &one);
@@ -213,20 +197,30 @@ static int put_fields(hid_t iteration, struct pm_frame *f)
 	return status;
 }
 
-static int put_header(hid_t at, const struct pm_frame *f)
+/* A text and its checksum, which also enters that of the file. */
+static int put_checked(struct pm_h5 *h, hid_t at, const char *name, const char *text)
+{
+	char checksum[64];
+	snprintf(checksum, sizeof checksum, "%sCrc32c", name);
+	h->crc = pm_crc32c(h->crc, text, strlen(text));
+	int status = pm_h5_put_long_text(at, name, text);
+	return status ? status : pm_h5_put_checksum(at, checksum, pm_crc32c(0, text, strlen(text)));
+}
+
+static int put_header(struct pm_h5 *h, hid_t at, const struct pm_frame *f)
 {
 	double one = 1;
 	json_t *header = pm_header_json(f);
 	char *text = header ? pm_json_line(header) : NULL, *report = pm_json_line(f->report);
-	int status = !text || !report ? pm_fail(PM_DATA, "the header cannot be written as JSON") : pm_h5_put_long_text(at, "pmpipeHeader", text);
+	int status = !text || !report ? pm_fail(PM_DATA, "the header cannot be written as JSON") : put_checked(h, at, "pmpipeHeader", text);
 	if (!status)
-		status = pm_h5_put_long_text(at, "pmpipeReport", report);
+		status = put_checked(h, at, "pmpipeReport", report);
 	if (!status && (pm_h5_put_reals(at, "time", 0, &f->time) || pm_h5_put_reals(at, "dt", 0, &f->dt) || pm_h5_put_reals(at, "timeUnitSI", 0, &one)))
 		status = -PM_DATA;
 	json_t *limits = pm_limits_json(f);
 	char *line = limits ? pm_json_line(limits) : NULL;
 	if (!status && limits)
-		status = line ? pm_h5_put_long_text(at, "pmpipeLimits", line) : pm_fail(PM_DATA, "the limits cannot be written as JSON");
+		status = line ? put_checked(h, at, "pmpipeLimits", line) : pm_fail(PM_DATA, "the limits cannot be written as JSON");
 	json_decref(header), json_decref(limits);
 	free(text), free(report), free(line);
 	return status;
@@ -241,7 +235,7 @@ int pm_h5_put(struct pm_h5 *h, struct pm_frame *f)
 	h->frames++;
 	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->last);
 	hid_t g = pm_h5_group(h->file, name);
-	int status = g < 0 ? -PM_DATA : put_header(g, f);
+	int status = g < 0 ? -PM_DATA : put_header(h, g, f);
 	if (!status)
 		status = put_fields(g, f);
 	H5Gclose(g);
@@ -278,14 +272,16 @@ struct pm_h5 *pm_h5_create(const char *path)
 		return NULL;
 	}
 	h->file = -1;
-	H5dont_atexit();
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	bool odd = !stat(path, &there) && !S_ISREG(there.st_mode);
 	if (odd || !(h->part = pm_replace_name(path, &h->path))) {
 		if (odd)
 			pm_fail(PM_DATA, "cannot write '%s': it is not a regular file", path);
 		return pm_h5_free(h);
 	}
+	if (pm_h5_write_apart() < 0)
+		return pm_h5_free(h);
+	H5dont_atexit();
+	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	hid_t how = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
 	H5Pset_obj_track_times(how, false);
 	H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -303,6 +299,8 @@ struct pm_h5 *pm_h5_create(const char *path)
 int pm_h5_finish(struct pm_h5 *h)
 {
 	int status = pm_h5_put_counts(h->file, "pmpipeStreams", (int)h->nstreams, h->streams);
+	if (!status)
+		status = pm_h5_put_checksum(h->file, NULL, pm_crc32c(h->crc, h->streams, h->nstreams * sizeof *h->streams));
 	if (!status && (H5Fflush(h->file, H5F_SCOPE_GLOBAL) < 0 || H5Fclose(h->file) < 0))
 		status = pm_h5_fail("cannot write '%s'", h->path);
 	if (status)

@@ -24,7 +24,7 @@ static int sobol(uint64_t n, int axes, double *const u[PM_LOAD_AXES])
 	gsl_qrng *q = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)axes);
 	double x[PM_LOAD_AXES];
 	if (!q)
-		return pm_fail(PM_DATA, "out of memory");
+		return pm_no_memory();
 	for (uint64_t i = 0; i < n; i++) {
 		gsl_qrng_get(q, x);
 		for (int d = 0; d < axes; d++)

@@ -273,6 +273,6 @@ for e in h["history"]:
 
 @test "without memory for a checkpoint or an output nothing is left behind, and the checkpoint before stays" {
 	[ -z "${PM_SANITIZED:-}" ] || skip "a sanitizer has its own malloc"
-	run -0 python3 "$top/tests/fail-malloc.py" 499 push-file diag-file cycle-checkpoint sdraw cycle-pipes
+	run -0 python3 "$top/tests/fail-malloc.py" 499 push-file diag-file cycle-checkpoint sdraw sh5 sh5-write cycle-pipes
 	[[ ${lines[-1]} == *", 0 with another outcome" ]] || { echo "$output"; return 1; }
 }

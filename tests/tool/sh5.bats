@@ -324,11 +324,11 @@ END
 	sed 's/openPMD\x00/openPMX\x00/' a.h5 >plain.h5
 	says 1 "sh5: this is HDF5, but not openPMD*" sh5 plain.h5
 	sed 's/"n":50/"n":51/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/position/x' does not agree with the header of the frame*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/position/x' does not agree with the header of the frame*" env PM_UNSEALED=1 sh5 lie.h5
 	sed 's/"mass","on"/"mess","on"/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/mess' does not agree*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/mess' does not agree*" env PM_UNSEALED=1 sh5 lie.h5
 	sed 's/"type":"i64"/"type":"f64"/' a.h5 >lie.h5
-	says 1 "sh5: iteration 0: 'particles/matter/id' does not agree*" sh5 lie.h5
+	says 1 "sh5: iteration 0: 'particles/matter/id' does not agree*" env PM_UNSEALED=1 sh5 lie.h5
 	says 1 "p2m: stopped by sh5: cannot open 'no.h5': No such file or directory" p2m -i no.h5
 	says 1 "diag: stopped by sh5: cannot open 'no.h5'*" diag -i no.h5
 }
@@ -375,4 +375,87 @@ END
 		[ "${t##*/}" = sh5 ] || ! ldd "$t" | grep -q hdf5 || { echo "$t"; return 1; }
 	done
 	ldd "$top/bin/sh5" | grep -q hdf5
+}
+
+# flip FILE TEXT OFFSET: damaged.h5, with a bit flipped in the byte that lies so far behind the start of the first TEXT (or bytes, 0x...).
+flip() {
+	python3 - "$@" <<-'PY'
+		import sys
+		data = bytearray(open(sys.argv[1], "rb").read())
+		what = bytes.fromhex(sys.argv[2][2:]) if sys.argv[2].startswith("0x") else sys.argv[2].encode()
+		data[data.index(what) + int(sys.argv[3])] ^= 4
+		open("damaged.h5", "wb").write(data)
+	PY
+}
+
+@test "every dataset has a checksum: one bit in the data, the header or the report is refused with its name; files without are read" {
+	pinit plummer -n 20 --seed 1 --cells 4 | p2m | poisson-fft >a.pm
+	sh5 -o a.h5 <a.pm
+	[ "$(h5dump -A a.h5 | grep -c 'ATTRIBUTE "pmpipeCrc32c"')" = "$(( $(h5ls -r a.h5 | grep -c Dataset) + 1 ))" ]
+	h5dump -d /data/0/particles/matter/position/y -b LE -o y.bin a.h5 >/dev/null
+	flip a.h5 "0x$(od -An -tx1 -j 16 -N 8 y.bin | tr -d ' ')" 3
+	says 1 "sh5: iteration 0: the checksum of 'particles/matter/position/y' is wrong: the file is damaged*" sh5 damaged.h5
+	says 1 "sls: stopped by sh5: iteration 0: the checksum of 'particles/matter/position/y' is wrong*" sls -i damaged.h5
+	[ "$(PM_UNSEALED=1 sh5 damaged.h5 | cmp -l - a.pm | wc -l)" -gt 0 ]
+	flip a.h5 '"seed":1' 7
+	says 1 "sh5: iteration 0: the checksum of 'pmpipeHeader' is wrong*" sh5 damaged.h5
+	flip a.h5 '"plan":"own"' 9
+	says 1 "sh5: iteration 0: the checksum of 'pmpipeReport' is wrong*" sh5 damaged.h5
+	sed 's/pmpipeCrc32c/pmpipeCrc32x/g; s/HeaderCrc32c/HeaderCrc32x/g; s/ReportCrc32c/ReportCrc32x/g' a.h5 >older.h5
+	sh5 older.h5 | cmp - a.pm
+}
+
+@test "the order of the frames and the ends of streams have a checksum" {
+	for k in 1 2 3; do pinit two-body | smod --time $k; done >a.pm
+	sh5 -o a.h5 <a.pm
+	sed 's/pmpipeStreams/pmpipeStreamz/' a.h5 >one.h5
+	says 1 "sh5: the checksum of 'the sequence of the frames' is wrong*" sh5 one.h5
+	sed 's/pmpipeHeader\x00/pmpipeHeadex\x00/' a.h5 >headless.h5
+	says 1 "sh5: iteration *: no attribute 'pmpipeHeader', but the file is one of sh5's: it is damaged" sh5 headless.h5
+}
+
+@test "of 60 files with a bit flipped and 30 with 30 bytes overwritten none gives another stream, and none ends sh5 by a signal" {
+	run -0 python3 "$top/tests/flip-hdf5.py" 60 5
+	echo "$output"
+	run -0 python3 "$top/tests/flip-hdf5.py" 30 6 --bytes 30
+	echo "$output"
+}
+
+@test "the process that reads the file crashes or does not get on: one line, exit 1, and an abort behind the part that was sent" {
+	pinit uniform -n 200000 -o big.h5
+	mkfifo pipe
+	sh5 big.h5 >pipe 2>said &
+	pid=$!
+	exec 7<pipe
+	for _ in $(seq 200); do
+		child=$(ps -o pid= --ppid $pid) && break
+		sleep 0.05
+	done
+	sleep 0.5 # both pipes are full
+	kill -SEGV $child
+	run -1 --separate-stderr sls <&7
+	[[ $stderr == "sls: stopped by sh5: the process that reads the file was ended by signal 11 (HDF5 1."* ]] || { echo "$stderr"; return 1; }
+	exec 7<&-
+	wait $pid && return 1
+	[ "$(wc -l <said)" = 1 ]
+	grep -q '^sh5: the process that reads the file was ended by signal 11' said
+	pinit two-body | cycle -n 300 --every 1 'push drift' -o long.h5
+	PM_H5_SECONDS=0.000001 says 1 "sh5: the HDF5 library does not get on*" sh5 long.h5 # the first tick of the clock ends it
+}
+
+@test "the process that writes the file crashes: one line, exit 1, nothing is left, the old file stays" {
+	pinit two-body | sh5 -o a.h5
+	cp a.h5 old.h5
+	(pinit two-body && sleep 2) | sh5 -o a.h5 2>said &
+	pid=$!
+	for _ in $(seq 200); do
+		child=$(ps -o pid= --ppid $pid) && break
+		sleep 0.05
+	done
+	kill -SEGV $child
+	wait $pid && return 1
+	cmp a.h5 old.h5
+	grep -qx 'sh5: the process that writes the file was ended by signal 11.*' said
+	[ "$(wc -l <said)" = 1 ]
+	[ "$(ls -A | tr '\n' ' ')" = "a.h5 old.h5 said " ] || { ls -A; return 1; }
 }
