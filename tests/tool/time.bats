@@ -56,6 +56,10 @@ clock() { wire header "$1" | python3 -c 'import json, sys; h = json.load(sys.std
 		wire edit d.pm 'assert h["time"] == h["since"]["time"] + h["dt"] and h["since"]["step"] == h["step"] - 1, h' >/dev/null
 		wire edit c.pm 'del h["since"]' | push drift | cmp - d.pm
 	done
+	push drift/2 <b.pm >c.pm # inside a step it is start that counts
+	[ "$(since c.pm)" = "0.0 0" ]
+	wire edit c.pm 'h["start"], h["time"] = 7.0, 7.05' | push drift/2 >d.pm
+	[ "$(clock d.pm | cut -d' ' -f2-) $(since d.pm)" = "7.1 4 7.0 3" ]
 	for edit in '= 3' '= {"time": 0}' '= {"time": "0", "step": 0}' '= {"time": 0.0, "step": -1}' '= {"time": 0.0, "step": 0.5}'; do
 		wire edit b.pm "h['since'] $edit" >c.pm
 		run -1 --separate-stderr sls -i c.pm
