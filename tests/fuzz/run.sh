@@ -7,7 +7,7 @@ set -u
 cd "$(dirname "$0")/../.." || exit 1
 seconds=$1
 shift
-[ $# != 0 ] || set -- reader sealed table expression sentence braces
+[ $# != 0 ] || set -- reader sealed table expression sentence braces hdf5
 B=${B:-build/asan-clang}
 here=$PWD work=$PWD/$B/fuzz
 mkdir -p "$work/found" "$work/empty"

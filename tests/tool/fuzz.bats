@@ -9,7 +9,7 @@ crashes=$top/tests/fuzz/crashes
 # survives COMMAND...: exit status 0, or 1 to 3 and one line; no signal, no wait.
 survives() {
 	local status=0
-	timeout 20 "$@" >out 2>err || status=$?
+	timeout 60 "$@" >out 2>err || status=$?
 	[[ $status = 0 && ! -s err || $status = [123] && $(wc -l <err) = 1 && -s err ]] && ! LC_ALL=C grep -q '[[:cntrl:]]' err &&
 		! LC_ALL=C grep -qE '^[a-z0-9-]+: *$' err || { echo "$*: status $status: $(cat -v err)"; return 1; }
 }
@@ -39,5 +39,6 @@ survives() {
 }
 
 @test "HDF5 files that broke sh5 are read or refused" {
+	export PM_H5_SECONDS=1 # of the processor: one of them makes libhdf5 go round for ever
 	for f in "$crashes"/hdf5/*; do survives sh5 "$f"; done
 }
