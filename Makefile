@@ -223,7 +223,7 @@ D = $(DESTDIR)$(PREFIX)
 # the shared library exports: every function and table declared in them, and no more.
 public := $(addprefix lib/,base/base.h stream/frame.h stream/declare.h stream/run.h stream/wire.h stage/stage.h \
 	kernel/kernel.h law/law.h mollifier/mollifier.h green/green.h mesh/grid.h mesh/gradient.h transfer/transfer.h \
-	fft/fft-effort.h poisson-fft/poisson-fft.h poisson-fft/influence.h poisson-mg/multigrid.h poisson-mg/mg.h poisson-mg/mg-variable.h far/pp.h)
+	fft/fft-plans.h poisson-fft/poisson-fft.h poisson-fft/influence.h poisson-mg/multigrid.h poisson-mg/mg.h poisson-mg/mg-variable.h far/pp.h)
 public:
 	@echo $(public)
 install: all man $(B)/libpmpipe.a $(B)/completion.bash $(B)/pmpipe.pc

@@ -98,7 +98,7 @@ static void solve(struct work *w, enum pm_face face)
 	char name[32];
 	for (int d = 0; d < 3; d++)
 		g.cells[d] = CELLS, g.points[d] = CELLS + (face != PM_PERIODIC), g.h[d] = 1, g.face[d][0] = g.face[d][1] = face;
-	w->fft = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_ESTIMATE);
+	w->fft = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL});
 	must(!w->fft);
 	snprintf(name, sizeof name, "poisson-fft %s 32^3", pm_face_names[face]);
 	run(w, name, "point", (double)pm_grid_size(&g), fft);

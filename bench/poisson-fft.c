@@ -114,7 +114,7 @@ int main(int argc, char **argv)
 		for (int f = 0; f < FACES; f++) {
 			struct pm_grid grid = cube(n, faces[f]);
 			problems[f].s = problems[0].s, problems[f].phi = problems[0].phi;
-			problems[f].solver = pm_poisson_fft_new(&grid, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_MEASURE);
+			problems[f].solver = pm_poisson_fft_new(&grid, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL});
 			if (!problems[f].solver) {
 				fprintf(stderr, "poisson-fft: %s\n", pm_message());
 				return 1;

@@ -94,7 +94,7 @@ static void prepare(struct step *s)
 	s->spread = s->gather = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find("cic"), .components = 1};
 	s->gather.components = 3;
 	s->gather.set[0] = s->gather.set[1] = s->gather.set[2] = true;
-	s->solver = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}, PM_MEASURE);
+	s->solver = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL});
 	check(!s->solver || pm_operator_init(&s->gradient, &g, PM_OP_GRAD, 2, 1, false));
 	for (int d = 0; d < 3; d++) {
 		s->x[d] = values(s->n), s->v[d] = values(s->n), s->a[d] = values(s->n), s->g[d] = values(pm_grid_size(&g));

@@ -6,7 +6,7 @@ set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 page=$top/docs/gallery.md
 # Small runs: threads would only wait for each other.
-export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1 PM_PLAN=estimate
+export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1
 for program in gnuplot pnmcat; do
 	command -v $program >/dev/null || { echo "gallery: no $program here (apt-get install gnuplot-nox netpbm)" >&2; exit 1; }
 done

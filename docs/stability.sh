@@ -6,7 +6,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 page=${PAGE:-$top/docs/stability.md} # PAGE=FILE, OUT=DIRECTORY for the pictures: elsewhere
-export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1 PM_PLAN=estimate
+export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1
 check=
 if [ "${1:-}" = --check ]; then check=1; shift; fi
 

@@ -18,7 +18,7 @@ while [ $# -gt 0 ]; do
 	esac
 	shift 2
 done
-export OMP_NUM_THREADS=1 PM_PLAN=${PM_PLAN:-estimate}
+export OMP_NUM_THREADS=1
 
 # The frames as text: the header of the scene pair with 25 particles, once per place. Random numbers: x <- 16807 x mod 2^31-1 (Park and Miller 1988).
 places() {

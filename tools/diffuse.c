@@ -2,6 +2,7 @@
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/diffusion-frame.h"
+#include "stage/plan-option.h"
 #include "stage/viscosity-options.h"
 
 struct config {
@@ -13,13 +14,6 @@ struct state {
 	struct pm_fft_plans planner;
 	struct pm_diffusion diffusion;
 };
-
-static int begin(struct pm_stage *s)
-{
-	int effort = pm_fft_effort_find(((const struct config *)s->config)->plan);
-	((struct state *)s->state)->planner.effort = (enum pm_fft_effort)effort;
-	return effort < 0 ? -PM_USAGE : 0;
-}
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
@@ -45,9 +39,7 @@ static const struct pm_option options[] = {
 	PM_VISCOSITY_ROW,
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change instead of refusing to add it twice"},
-	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "with --order spectral, how FFTW plans are chosen: by estimate, or by measurement, kept in the user's cache (default: PM_PLAN or "
-			"measure)"},
+	PM_PLAN_ROW,
 	{0},
 };
 static const struct pm_example examples[] = {
@@ -74,7 +66,6 @@ const struct pm_tool tool_diffuse = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
-	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.free = release,

@@ -1,6 +1,7 @@
 /* mgrad: derivatives of mesh fields (lib/mesh/gradient-frame.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fft/axis-transform.h"
 #include "mesh/gradient-frame.h"
+#include "stage/plan-option.h"
 #include "stage/stage.h"
 
 struct config {
@@ -21,27 +22,20 @@ static const struct pm_option options[] = {
 		.text = "the mesh field to take derivatives of (default: the law's potential)"},
 	{.name = "target", .kind = PM_TEXT, .unit = "FIELD", PM_AT(choice.target), .text = "the mesh field to make (default: the law's field)"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.mesh), .text = "the mesh (default: the first)"},
-	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "how FFTW plans (--order spectral, lengths with a prime factor above 13) are chosen: by estimate, or by measurement, kept in the "
-			"user's cache "
-			"(default: PM_PLAN or measure)"},
+	PM_PLAN_ROW,
 	{0},
 };
 
 static const struct pm_example examples[] = {
-	{"the acceleration on the mesh of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --plan estimate | mgrad | sls"},
+	{"the acceleration on the mesh of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft | mgrad | sls"},
 	{"back from the potential to the density (times 4 pi G)",
-		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 --plan estimate | mgrad --operator lap --order 2 --target lap | sls"},
+		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 | mgrad --operator lap --order 2 --target lap | sls"},
 	{0},
 };
 
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
-	int effort = pm_fft_effort_find(o->plan);
-	((struct state *)s->state)->planner.effort = (enum pm_fft_effort)effort;
-	if (effort < 0)
-		return -PM_USAGE;
 	if (o->choice.kind && !o->choice.target)
 		return pm_fail(PM_USAGE, "--operator %s needs a --target (the name of the field to make)", o->choice.kind);
 	return 0;
@@ -59,8 +53,6 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	double began = pm_seconds();
 	int status = pm_gradient_plan(&t->gradient, &t->planner);
 	pm_setup_since(s, began);
-	if (*t->planner.note)
-		pm_say(s, "%s", t->planner.note);
 	return status ? status : pm_gradient_apply(&t->gradient);
 }
 

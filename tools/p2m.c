@@ -13,13 +13,6 @@ struct state {
 	struct pm_fft_plans plans; /* of interlaced meshes */
 };
 
-static int begin(struct pm_stage *s)
-{
-	int effort = ((struct config *)s->config)->interlace ? pm_fft_effort_find(NULL) : 0;
-	((struct state *)s->state)->plans.effort = (enum pm_fft_effort)effort;
-	return effort < 0 ? -PM_USAGE : 0;
-}
-
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }
 
 static int choose(const struct config *o, const struct pm_frame *f, struct pm_spread_job *j)
@@ -110,7 +103,6 @@ const struct pm_tool tool_p2m = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
-	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.free = release,

@@ -5,6 +5,7 @@
 #include "fft/fftw-plan.h"
 #include "mesh/gradient.h"
 #include "poisson-fft/fft-solvers.h"
+#include "stage/plan-option.h"
 #include "stage/solver-options.h"
 
 struct config {
@@ -15,7 +16,6 @@ struct config {
 struct state {
 	struct pm_problem problem;
 	struct pm_poisson_fft_choice choice;
-	enum pm_fft_effort effort;
 	struct pm_fft_solvers solvers;
 };
 
@@ -38,29 +38,19 @@ static const struct pm_option options[] = {
 	{.name = "cloud", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(cloud),
 		.text = "compute the force of balls of this diameter (density falling linearly to 0) instead of points; periodic boxes in 3-D"},
 	PM_SOLVER_ROWS,
-	{.name = "plan", .kind = PM_WORD, .choices = pm_fft_effort_names, PM_AT(plan),
-		.text = "how FFTW plans (lengths with a prime factor above 13) are chosen: by estimate, or by measurement, kept in the user's cache "
-			"(default: PM_PLAN or measure)"},
+	PM_PLAN_ROW,
 	{0},
 };
 
 static const struct pm_example examples[] = {
-	{"the potential of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --plan estimate | sls"},
+	{"the potential of a cluster in free space", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft | sls"},
 	{"the exact inverse of the second-order differences, in a periodic box",
-		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 --plan estimate | sls"},
+		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 | sls"},
 	{"a screened plasma between a grounded plate and a plane of symmetry",
-		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 --plan estimate | sls"},
-	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico --plan estimate | sls"},
+		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 | sls"},
+	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico | sls"},
 	{0},
 };
-
-static int begin(struct pm_stage *s)
-{
-	const struct config *o = s->config;
-	int effort = pm_fft_effort_find(o->plan);
-	((struct state *)s->state)->effort = (enum pm_fft_effort)effort;
-	return effort < 0 ? -PM_USAGE : 0;
-}
 
 /* The kernel of the source, and the order of the gradient that will compute the law's field. */
 static int influence(const struct config *o, const struct pm_frame *f, const struct pm_problem *p, struct pm_influence *i)
@@ -111,14 +101,8 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 	if (solver)
 		return solver;
 	double began = pm_seconds();
-	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->effort, t->problem.source->components == 1);
+	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->problem.source->components == 1);
 	pm_setup_since(s, began);
-	if (!solver)
-		return NULL;
-	const struct pm_fft_plans *p = pm_poisson_fft_planner(solver);
-	if (*p->note)
-		pm_say(s, "%s", p->note);
-	pm_say(s, "plans: %d from the cache, %d measured, %d estimated", p->stored, p->measured, p->estimated);
 	return solver;
 }
 
@@ -145,9 +129,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	for (int c = 0; c < t->problem.source->components; c++)
 		if (component(s, f, c, &p))
 			return -PM_DATA;
-	char plan_text[48] = "own"; /* our own transforms: the same on all machines */
+	char plan_text[16] = "own"; /* our own transforms: the same on all machines */
 	if (p && p->n)
-		snprintf(plan_text, sizeof plan_text, p->sum ? "%s %08x" : "estimate", pm_fft_effort_names[t->effort], p->sum);
+		snprintf(plan_text, sizeof plan_text, "fftw %08x", p->sum);
 	pm_report_text(s, f, "plan", plan_text);
 	return 0;
 }
@@ -172,7 +156,6 @@ const struct pm_tool tool_poisson_fft = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
-	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.free = release,

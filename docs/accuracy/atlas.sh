@@ -6,7 +6,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 page=$top/docs/accuracy/README.md
-export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1 PM_PLAN=estimate
+export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1
 command -v gnuplot >/dev/null || { echo "atlas: no gnuplot here (apt-get install gnuplot-nox)" >&2; exit 1; }
 
 # The name of every picture of the page, in order.

@@ -229,7 +229,7 @@ static int same_plans(struct cycle *y, const struct pm_frame *f)
 		const char *now = json_string_value(json_object_get(json_object_get(f->report, word), "plan"));
 		if (old && now && strcmp(old, now) && !y->c->other_plans && !status)
 			status = pm_fail(PM_DATA, "'%s' uses the FFTW plans '%s', but the checkpoint was made with '%s': the bytes would differ "
-				"(--other-plans continues, PM_PLAN=estimate gives the same plans everywhere)", word, now, old);
+				"(another FFTW or processor, or an older pmpipe; --other-plans continues)", word, now, old);
 	}
 	json_decref(y->before);
 	y->before = NULL;

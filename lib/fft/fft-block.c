@@ -1,7 +1,7 @@
 /* Complex FFT of eight lines side by side, mixed radix 2, 3, 4, 5, 7, 8, 11, 13, in place: decimation in frequency forward, which leaves the
  * frequencies in digit-reversed rows, and its exact reverse back, which takes them from there. A convolution never needs them sorted.
  *   forward stage of length N = r M:  b_p = w_N^{j p} sum_q a_q w_r^{p q},  a_q in row j + q M, b_p in row j + p M,  w_N = exp(-2 pi i/N)
- * Lengths with a greater prime factor go to FFTW, as split arrays in the same layout.
+ * Greater primes up to 251 are stages too, slower ones (prime-dft.c). Lengths with a prime factor above that go to FFTW, as split arrays in the same layout.
  * Source: Gentleman and Sande 1966; Cooley and Tukey 1965; the lane layout as in FFTW's and ducc's vector passes.
  * Plain vector arithmetic without fused operations: the same bytes on every processor. Cost: 5 n log2 n per line, from L1.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -9,16 +9,10 @@
 #include <string.h>
 
 #include "fft/fft-block.h"
-#include "fft/fft-vector.h"
+#include "fft/prime-dft.h"
 
 /* -i*a forward, +i*a back */
 PM_SIMD_INLINE struct c8 turn(struct c8 a, bool back) { return back ? (struct c8){-a.im, a.re} : (struct c8){a.im, -a.re}; }
-/* times exp(-i x) forward, exp(+i x) back; w = cos x, sin x */
-PM_SIMD_INLINE struct c8 twist(struct c8 a, const double *w, bool back)
-{
-	return back ? (struct c8){a.re * w[0] - a.im * w[1], a.im * w[0] + a.re * w[1]} :
-		(struct c8){a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]};
-}
 
 PM_SIMD_INLINE void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, bool back)
 {
@@ -71,27 +65,27 @@ PM_SIMD_INLINE void fly2(struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a0 = take(x), a1 = take(x + m);
 	if (w && back)
-		a1 = twist(a1, w, true);
+		a1 = twisted(a1, w, true);
 	struct c8 s = plus(a0, a1), d = minus(a0, a1);
 	put(x, s);
-	put(x + m, w && !back ? twist(d, w, false) : d);
+	put(x + m, w && !back ? twisted(d, w, false) : d);
 }
 
 PM_SIMD_INLINE void fly4(struct c8 *x, size_t m, const double *w, bool back)
 {
 	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
 	if (w && back)
-		a1 = twist(a1, w, true), a2 = twist(a2, w + 2, true), a3 = twist(a3, w + 4, true);
+		a1 = twisted(a1, w, true), a2 = twisted(a2, w + 2, true), a3 = twisted(a3, w + 4, true);
 	dft4(&a0, &a1, &a2, &a3, back);
 	if (w && !back)
-		a1 = twist(a1, w, false), a2 = twist(a2, w + 2, false), a3 = twist(a3, w + 4, false);
+		a1 = twisted(a1, w, false), a2 = twisted(a2, w + 2, false), a3 = twisted(a3, w + 4, false);
 	put(x, a0), put(x + m, a1), put(x + 2 * m, a2), put(x + 3 * m, a3);
 }
 
 PM_SIMD_INLINE void twist8(struct eight *a, const double *w, bool back)
 {
-	a->a1 = twist(a->a1, w, back), a->a2 = twist(a->a2, w + 2, back), a->a3 = twist(a->a3, w + 4, back), a->a4 = twist(a->a4, w + 6, back);
-	a->a5 = twist(a->a5, w + 8, back), a->a6 = twist(a->a6, w + 10, back), a->a7 = twist(a->a7, w + 12, back);
+	a->a1 = twisted(a->a1, w, back), a->a2 = twisted(a->a2, w + 2, back), a->a3 = twisted(a->a3, w + 4, back), a->a4 = twisted(a->a4, w + 6, back);
+	a->a5 = twisted(a->a5, w + 8, back), a->a6 = twisted(a->a6, w + 10, back), a->a7 = twisted(a->a7, w + 12, back);
 }
 
 PM_SIMD_INLINE void fly8(struct c8 *x, size_t m, const double *w, bool back)
@@ -112,10 +106,10 @@ PM_SIMD_INLINE void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t 
 	for (int q = 0; q < r; q++)
 		a[q] = take(x + (size_t)q * m);
 	for (int p = 1; p < r && w && back; p++)
-		a[p] = twist(a[p], w + 2 * (p - 1), true);
+		a[p] = twisted(a[p], w + 2 * (p - 1), true);
 	dft_odd(r, f->cosine[r], f->sine[r], back, a);
 	for (int p = 1; p < r && w && !back; p++)
-		a[p] = twist(a[p], w + 2 * (p - 1), false);
+		a[p] = twisted(a[p], w + 2 * (p - 1), false);
 	for (int q = 0; q < r; q++)
 		put(x + (size_t)q * m, a[q]);
 }
@@ -159,7 +153,8 @@ PM_SIMD_INLINE void stage(int r, const struct pm_fft *f, size_t length, const do
 		case 7: stage(7, f, length, w, back, x); break; \
 		case 8: stage(8, f, length, w, back, x); break; \
 		case 11: stage(11, f, length, w, back, x); break; \
-		default: stage(13, f, length, w, back, x); \
+		case 13: stage(13, f, length, w, back, x); break; \
+		default: pm_prime_stage(f, s, length, back, x); \
 		} \
 	}
 STAGES(false)
@@ -195,7 +190,6 @@ void pm_fft_circle(size_t i, size_t n, double *c, double *s)
 /* Stages of radix 8 and 4 for the twos, then the odd primes; 0 if a greater one is left. */
 static int factors(struct pm_fft *f)
 {
-	static const int odd[] = {3, 5, 7, 11, 13};
 	size_t n = f->n;
 	int twos = 0;
 	for (; n % 2 == 0; n /= 2)
@@ -205,9 +199,9 @@ static int factors(struct pm_fft *f)
 		f->radix[f->stages++] = 1 << take;
 		twos -= take;
 	}
-	for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
-		for (; n % (size_t)odd[i] == 0; n /= (size_t)odd[i])
-			f->radix[f->stages++] = odd[i];
+	for (int r = 3; r <= PM_PRIME_MOST; r += 2)
+		for (; n % (size_t)r == 0; n /= (size_t)r)
+			f->radix[f->stages++] = r;
 	if (n > 1)
 		f->stages = 0;
 	return f->stages;
@@ -224,8 +218,12 @@ static int tables(struct pm_fft *f)
 		for (size_t j = 0; j < m; j++)
 			for (size_t p = 1; p < r; p++, w += 2)
 				pm_fft_circle(j * p, length, &w[0], &w[1]);
-		for (size_t i = 0; i < r && r != 8; i++)
+		for (size_t i = 0; i < r && r <= PM_PRIME && r != 8; i++)
 			pm_fft_circle(i, r, &f->cosine[r][i], &f->sine[r][i]);
+		if (r > PM_PRIME && !(f->circle[s] = pm_alloc(2 * r, sizeof *w)))
+			return -PM_DATA;
+		for (size_t i = 0; i < r && r > PM_PRIME; i++)
+			pm_fft_circle(i, r, &f->circle[s][2 * i], &f->circle[s][2 * i + 1]);
 		length = m;
 	}
 	for (size_t k = 0; k < f->n; k++) {
@@ -244,7 +242,7 @@ static void *fft_free(void *fft)
 {
 	struct pm_fft *f = fft;
 	for (int s = 0; f && s < f->stages; s++)
-		pm_free(f->twiddle[s]);
+		pm_free(f->twiddle[s]), pm_free(f->circle[s]);
 	if (f)
 		pm_free(f->at), pm_free(f->half), pm_free(f->quarter);
 	for (int i = 0; f && i < 5; i++)

@@ -13,6 +13,7 @@ struct pm_fft {
 	int stages;                /* 0: by FFTW */
 	int radix[PM_FFT_PASSES];
 	double *twiddle[PM_FFT_PASSES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
+	double *circle[PM_FFT_PASSES]; /* of stages of primes above 13: cos, sin of 2 pi i/p */
 	double cosine[PM_PRIME + 1][PM_PRIME], sine[PM_PRIME + 1][PM_PRIME]; /* of 2 pi i/p */
 	fftw_plan forward, backward;
 	/* cos, sin of pi i/n for i < n (of pm_fft_shifted and pm_fft_sine_cosine only), of pi i/2n for i <= n (of pm_fft_sine_cosine) */

@@ -1,11 +1,11 @@
-/* Plans of the transforms: serial FFTW plans, measured once under a lock and kept in the user's cache, so that every process computes with
- * the same plan and so gets the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+/* FFTW's plans for lengths with a prime factor above 251, and the transforms made with them (fft/fft-block.h).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FFT_FFTW_PLAN_H
 #define PM_FFT_FFTW_PLAN_H
 
 #include <fftw3.h>
 
-#include "fft/fft-effort.h"
+#include "fft/fft-plans.h"
 
 enum { PM_FFT_LINES = 16, PM_FFT_PLANS = 16 };
 
@@ -13,21 +13,18 @@ enum { PM_FFT_LINES = 16, PM_FFT_PLANS = 16 };
 enum pm_fft_direction { PM_BLOCK_FORWARD, PM_BLOCK_BACKWARD };
 
 struct pm_fft_plans {
-	enum pm_fft_effort effort;
 	int n;
 	struct {
 		enum pm_fft_direction transform;
 		size_t n;
 		fftw_plan plan;
 	} entry[PM_FFT_PLANS];
-	int stored, measured, estimated; /* where the plans came from: the cache, measured now, no cache to keep them in */
-	uint32_t sum;                    /* CRC-32C of the wisdom in use; 0 if all is estimated */
-	char note[320];                  /* what was wrong with the cache, "" nothing */
+	uint32_t sum;                    /* CRC-32C of the plans as FFTW prints them; 0 if there are none */
 	int nmade;                       /* transforms made with it (fft/fft-block.c) */
 	void *made[PM_FFT_PLANS], *(*unmake)(void *);
 };
 
-/* A plan, owned by the planner. The planner of FFTW is not thread-safe: never inside a parallel region. NULL with a message. */
+/* A plan, owned by the collection. The planner of FFTW is not thread-safe: never inside a parallel region. NULL with a message. */
 fftw_plan pm_plan(struct pm_fft_plans *p, enum pm_fft_direction transform, size_t n);
 void pm_fft_plans_clear(struct pm_fft_plans *p);
 

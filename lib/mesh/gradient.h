@@ -3,7 +3,7 @@
 #ifndef PM_MESH_GRADIENT_H
 #define PM_MESH_GRADIENT_H
 
-#include "fft/fft-effort.h"
+#include "fft/fft-plans.h"
 #include "mesh/grid.h"
 
 PM_C_BEGIN

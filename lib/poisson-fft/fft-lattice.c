@@ -105,8 +105,7 @@ static int weights(struct pm_lattice *l, size_t ncases, const struct pm_green_ca
 	return 0;
 }
 
-struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases,
-	enum pm_fft_effort effort)
+struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases)
 {
 	struct pm_lattice *l = calloc(1, sizeof *l);
 	double first, last;
@@ -124,7 +123,7 @@ struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol sym
 		"spectral)") :
 		weights(l, ncases, cases);
 	for (int d = 0; d < dim && !code; d++) {
-		struct pm_fft_plans planner = {.effort = effort};
+		struct pm_fft_plans planner = {0};
 		if (!(l->heat[d] = pm_alloc(l->nodes * (n[d] + 1), sizeof *l->heat[d])))
 			code = -PM_DATA;
 		for (size_t q = 0; q < l->nodes && !code; q += GAUSS)

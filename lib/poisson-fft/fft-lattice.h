@@ -18,8 +18,7 @@ struct pm_lattice {
 };
 
 /* Open axes of n cells of h, and the cases that occur. NULL with a message. */
-struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases,
-	enum pm_fft_effort effort);
+struct pm_lattice *pm_lattice_new(int dim, const size_t n[3], enum pm_symbol symbol, size_t ncases, const struct pm_green_case *cases);
 struct pm_lattice *pm_lattice_free(struct pm_lattice *l);
 
 /* row[i] -= weighted sum over the nodes of other[node] heat_0[node][i] for i = 0 ... n, the tail not yet added. */

@@ -220,7 +220,7 @@ static bool cases(struct work *w)
 	return some > 0;
 }
 
-static int lattice(struct work *w, enum pm_fft_effort effort)
+static int lattice(struct work *w)
 {
 	const struct pm_octant *o = w->o;
 	size_t n[3] = {0, 0, 0};
@@ -230,7 +230,7 @@ static int lattice(struct work *w, enum pm_fft_effort effort)
 			n[open++] = o->axis[d].n;
 	if (!o->green->differences || (open == 1 && o->symbol == PM_FD2))
 		return 0;
-	w->lattice = pm_lattice_new(open, n, o->symbol, w->ncases, w->cases, effort);
+	w->lattice = pm_lattice_new(open, n, o->symbol, w->ncases, w->cases);
 	return w->lattice ? 0 : -PM_DATA;
 }
 
@@ -254,7 +254,7 @@ double *pm_octant_spectrum(struct pm_octant *o, struct pm_fft_plans *planner)
 	double *all = NULL, *out = NULL;
 	bool screened = cases(&w);
 	w.fold = !o->green->at || (screened && o->green->transform && o->green->smooth(w.cases));
-	if (!w.cases || lattice(&w, planner->effort) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
+	if (!w.cases || lattice(&w) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
 		goto out;
 	size_t slab = w.side[1].size * o->row;
 	if (!(all = pm_alloc(w.side[2].samples * slab, sizeof *all)))

@@ -17,12 +17,11 @@ struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const
 	return NULL;
 }
 
-struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort,
-	bool alone)
+struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, bool alone)
 {
 	if (s->n == PM_FFT_SOLVERS || alone)
 		pm_fft_solvers_clear(s);
-	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o, effort);
+	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o);
 	if (solver)
 		s->made[s->n++] = (struct pm_fft_made){.solver = solver, .grid = *g, .symbol = o->symbol, .influence = o->influence};
 	return solver;

@@ -19,8 +19,7 @@ struct pm_fft_solvers {
 /* The solver for a grid; NULL if there is none yet. Of the choice only symbol and influence may differ between calls. */
 struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 /* Makes one; a scalar source (alone) needs no other beside it. NULL with a message. */
-struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort,
-	bool alone);
+struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, bool alone);
 void pm_fft_solvers_clear(struct pm_fft_solvers *s);
 
 #endif

@@ -149,7 +149,7 @@ static int symbols(struct pm_poisson_fft *p)
 	return 0;
 }
 
-struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort)
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
 	if (pm_poisson_fft_check(g, o))
 		return NULL;
@@ -160,7 +160,6 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 	}
 	p->grid = *g;
 	p->choice = *o;
-	p->planner.effort = effort;
 	p->singular = pm_poisson_fft_singular(g, o);
 	p->complex = true;
 	for (int d = 0; d < g->dim; d++) {

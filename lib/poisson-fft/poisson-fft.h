@@ -5,7 +5,7 @@
 
 #include "green/green.h"
 #include "mesh/grid.h"
-#include "fft/fft-effort.h"
+#include "fft/fft-plans.h"
 #include "poisson-fft/influence.h"
 
 PM_C_BEGIN
@@ -35,7 +35,7 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
 /* NULL with a message. */
-struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, enum pm_fft_effort effort);
+struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
 const struct pm_fft_plans *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 

@@ -62,7 +62,7 @@ static int transform_table(struct mg_faces *s, int c, const double *table)
 			s->hat[c][l] = table[l / (s->n[1] + 1) + l % (s->n[1] + 1) * (s->n[0] + 1)];
 		return 0;
 	}
-	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans planner = {0};
 	const struct pm_fft *fft = pm_fft(&planner, length(s, c));
 	int failed = !fft;
 	#pragma omp parallel for num_threads(pm_threads()) schedule(static) if (size > mg_parallel)

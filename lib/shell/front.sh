@@ -204,7 +204,7 @@ commands() {
 	local m n before start='' i argument
 	local -A said=()
 	printf '# run in %q\n' "$PWD"
-	for n in OMP_NUM_THREADS OMP_WAIT_POLICY PM_PLAN; do
+	for n in OMP_NUM_THREADS OMP_WAIT_POLICY; do
 		[ -z "${!n:-}" ] || printf 'export %s=%q\n' "$n" "${!n}"
 	done
 	if [ ${#beginning[@]} != 0 ]; then

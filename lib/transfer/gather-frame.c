@@ -150,10 +150,6 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 static int interlace(struct pm_gather_job *j, struct pm_fft_plans *plans)
 {
 	const double *mesh[PM_COMPONENTS];
-	int effort = pm_fft_effort_find(NULL);
-	if (effort < 0)
-		return -PM_USAGE;
-	plans->effort = (enum pm_fft_effort)effort;
 	for (int c = 0; c < j->field->components; c++)
 		mesh[c] = pm_in(j->field, c);
 	return pm_interlace_init(&j->both, &j->transfer, plans, mesh);

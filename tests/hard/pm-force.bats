@@ -1,6 +1,6 @@
 # The particle-mesh force where it goes wrong. HC-13 and HC-14 are in tests/unit/pm-force.c. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 
 @test "HC-15: a cold lattice stays cold for 1000 steps, kinetic energy below 1e-24 G M^2/L" {
 	pinit lattice -n 64 --spacing 2 --offset 0.3 --dt 0.002 |

@@ -1,7 +1,6 @@
 # Diffusion on particles where it is hard: at the limit of stability, widths far too small and too large, no or few particles, all in one place, on
 # faces, in boxes smaller than the reach, unequal volumes. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # noise N [FACES]: N particles on a line, strengths that alternate and random ones on top, 1e-6 large.
 noise() {

@@ -1,7 +1,6 @@
 # Hard cases of remeshing and diffusion through the words: a thousand remeshes (HC-41), steps (HC-43), the limit of explicit diffusion (HC-44), and
 # the waves of RM-01. The same on arrays, for every kernel: tests/unit/remesh.c. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # line CELLS EXPRESSION VX: strengths on the nodes of a periodic line, all with the same velocity (uniform, so that remesh keeps it).
 line() {

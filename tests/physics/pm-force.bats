@@ -1,7 +1,6 @@
 # The particle-mesh force of two particles and of a lattice, through the words. Reference numbers: tests/reference/values.csv.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # pm KERNEL SYMBOL ORDER: PM-01's pair, its forces (mass times acceleration, two lines) and the potential at node (5, 5, 6).
 pm() {

@@ -2,7 +2,6 @@
 # pm-faces.c.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # worst A B < table: the largest |A - B| of two columns over the largest |B|; nan fails.
 worst() {

@@ -1,6 +1,5 @@
 # Two solvers of one equation. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # forces of PM-01's pair from a density on standard input by "$@" | mgrad | m2p: one line of three for the first particle
 pair_force() {

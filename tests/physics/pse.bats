@@ -1,7 +1,6 @@
 # Diffusion on particles against exact solutions: the benchmark of the lecture notes (N64, DF-02), orders (N06, N07), distorted points (S35).
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # rod N [FROM]: u = x exp(-x^2) at the middles of N cells of 0..4, from the FROM-th on.
 rod() {

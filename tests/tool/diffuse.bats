@@ -1,7 +1,6 @@
 # diffuse: nu lap omega on the mesh, carried to the particles by m2p, advanced by push within the limits of its schemes.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # lattice CELLS EXPRESSION [stab options]: omega(x, y) on the nodes of the periodic box 0..1 of CELLS x CELLS, as particles.
 lattice() {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export PM_PLAN=estimate OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 
 # untouched COMMAND...: runs it, ignoring its output; afterwards there must be no file called `touched`.
 untouched() {

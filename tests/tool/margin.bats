@@ -1,7 +1,7 @@
 # margin: bisection between checked end points, choices, seeds, maps, continuing from earlier results. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export PM_PLAN=estimate OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 # A spring: x' = v, v' = -x. Leapfrog is stable up to dt = 2.
 spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 200 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
 leap() { margin "$spring" --vary dt:0.5:4 --unstable-when 'distance_max > 100' "$@"; }

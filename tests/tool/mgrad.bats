@@ -1,6 +1,5 @@
 # mgrad: options and refusals. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 refused() {
 	run -"$1" --separate-stderr bash -c "$3 > out"

@@ -164,7 +164,7 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 }
 
 @test "p2m --interlace: streams that name the kernel interlaced-tsc, as they once did, read as tsc, interlaced" {
-	pinit uniform -n 300 | p2m -n 9 --kernel tsc --interlace | PM_PLAN=estimate poisson-fft | mgrad >new
+	pinit uniform -n 300 | p2m -n 9 --kernel tsc --interlace | poisson-fft | mgrad >new
 	wire edit new '
 for f in h["fields"]:
     if f.pop("interlaced", False): f["kernel"] = "interlaced-" + f["kernel"]' >old
@@ -187,7 +187,7 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 @test "p2m --interlace: the same bytes for 1, 2 and 3 threads, and after other frames" {
 	pinit uniform -n 5000 >a
 	pinit uniform -n 50 --dim 1 >b
-	for t in 1 2 3; do p2m -n 31x34x28 --interlace --threads $t <a | PM_PLAN=estimate poisson-fft | mgrad | m2p --threads $t >out.$t; done
+	for t in 1 2 3; do p2m -n 31x34x28 --interlace --threads $t <a | poisson-fft | mgrad | m2p --threads $t >out.$t; done
 	same_as out.1 out.2
 	same_as out.1 out.3
 	p2m -n 12 --interlace --no-history <a | poisson-fft --no-history | mgrad --no-history | m2p --no-history | stab | grep -v '^#' >alone

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export PM_PLAN=estimate
 list() { pareto "$@" --against pp --list; }
 # sweep ARGUMENTS...: three meshes of a small box against the finest.
 sentence='pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32} | poisson-fft | mgrad | m2p'

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export PM_PLAN=estimate
 # says EFFECT < plan: answer and reason of an effect.
 says() { sed -n "s/^# $1  *//p"; }
 # decide SCENE...: the plan without seconds.

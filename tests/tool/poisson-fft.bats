@@ -1,6 +1,5 @@
 # poisson-fft: options and refusals. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # refused STATUS TEXT COMMAND LINE: exit status and a piece of the message.
 refused() {
@@ -36,7 +35,6 @@ refused() {
 	refused 2 "" "poisson-fft --green ewald < open"
 	refused 2 "" "poisson-fft --screening -1 < rho"
 	refused 2 "" "poisson-fft --symbol fd3 < rho"
-	refused 2 "PM_PLAN is 'quick'" "PM_PLAN=quick poisson-fft < rho"
 }
 
 @test "poisson-fft: a cut stream, garbage and an empty input exit 1" {

@@ -1,7 +1,6 @@
 # poisson-relax as a word: fields, options, reports, refusals, and the same answers as the other solvers of the same differences. The radii are in tests/unit.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 methods="cg gauss-seidel jacobi red-black red-black-sor sor ssor-cg weighted-jacobi"
 mesh() { pinit uniform -n 200 "$@" | p2m -n 12x8x10; }

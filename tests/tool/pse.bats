@@ -1,7 +1,6 @@
 # pse: diffusion by exchange of strength between particles; inputs, terms, refusals, reports.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # rod N EXPRESSION [stab options]: c(x) at the middles of N cells of 0..1, as strengths called heat.
 rod() {

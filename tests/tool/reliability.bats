@@ -2,7 +2,7 @@
 load ../helper
 load words
 
-export PM_PLAN=estimate OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 
 # told STATUS PATTERN COMMAND LINE: that exit status, the pattern on standard error, and no signal.
 told() {
@@ -219,15 +219,6 @@ swallowing() {
 	kill -TERM $pid
 	wait $pid && return 1
 	grep -q 'stopped by signal 15' said
-}
-
-@test "pipes in the cache directory are not plans, and no word waits for them" {
-	export XDG_CACHE_HOME=$PWD/cache PM_PLAN=measure
-	pinit uniform -n 9 | p2m -n 34 | poisson-fft >/dev/null # 34 = 2 * 17 needs FFTW
-	[ "$(find cache -type f | wc -l)" -ge 2 ]
-	for f in cache/pmpipe/*; do rm "$f"; mkfifo "$f"; done
-	sh_ok 'pinit uniform -n 9 | p2m -n 34 | timeout 20 poisson-fft | sls --report'
-	[[ $output == *'"plan":"estimate"'* ]]
 }
 
 @test "a library that ends the process: a message, an abort, exit 1" {

@@ -1,7 +1,6 @@
 # walk: diffusion by random steps; keys, faces, moments, its place in a step.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
-export PM_PLAN=estimate
 
 # points N DIM [stab options]: N particles at the origin.
 points() {

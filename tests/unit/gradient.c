@@ -29,7 +29,7 @@ static int apply(const struct pm_grid *g, enum pm_operator_kind kind, int order,
 	double *const to[])
 {
 	struct pm_operator o;
-	struct pm_fft_plans p = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans p = {0};
 	int status = pm_operator_init(&o, g, kind, order, in, flow);
 	if (!status)
 		status = pm_operator_plan(&o, &p);

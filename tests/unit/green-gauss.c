@@ -83,7 +83,7 @@ static void near(const char *faces, size_t cells, const struct pm_poisson_fft_ch
 		at[d] = g.cells[d] / 2;
 	s[at[0] + g.points[0] * (at[1] + g.points[1] * at[2])] = 1;
 	struct pm_poisson_fft_record r;
-	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, o, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, o);
 	if (!p || pm_poisson_fft_solve(p, 1, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);

@@ -38,7 +38,7 @@ static double *noise(size_t n)
 static void solve(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, double c, const double *s, double *phi)
 {
 	struct pm_poisson_fft_record r;
-	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o);
 	if (!p || pm_poisson_fft_solve(p, c, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);

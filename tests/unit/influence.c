@@ -139,7 +139,7 @@ static void test_interlaced(void)
 			g.cells[d] = g.points[d] = row[q].n[d], g.h[d] = 0.7 + 0.2 * d;
 		size_t size = pm_grid_size(&g);
 		struct pm_transfer t = {.grid = g, .kernel = pm_kernel_find(row[q].kernel), .components = 1};
-		struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
+		struct pm_fft_plans planner = {0};
 		double x[3][N], s[N], out[N] = {0}, *rho = pm_zalloc(size, sizeof *rho), *f = pm_zalloc(size, sizeof *f), left = 0, right = 0, total = 0,
 			sum = 0;
 		for (size_t i = 0; i < N; i++)

@@ -54,8 +54,8 @@ static double there_and_back(const struct pm_transform *l)
 
 int main(void)
 {
-	static const size_t size[] = {1, 2, 3, 4, 5, 7, 8, 12, 33, 97, 256, 512};
-	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
+	static const size_t size[] = {1, 2, 3, 4, 5, 7, 8, 12, 33, 34, 97, 256, 257, 512};
+	struct pm_fft_plans planner = {0};
 	for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
 		double worst = 0, back = 0;
 		for (size_t i = 0; i < sizeof size / sizeof *size; i++) {

@@ -52,7 +52,7 @@ static double energy(const struct ions *ions, const char *faces, const struct pm
 			rho[q] += factor * ions->q[i] * bell(&g, 0, q % p[0], ions->x[i][0], sigma, false) * bell(&g, 1, q / p[0] % p[1], ions->x[i][1],
 				sigma, false) *
 				bell(&g, 2, q / p[0] / p[1], ions->x[i][2], sigma, false);
-	struct pm_poisson_fft *s = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.green = green}, PM_ESTIMATE);
+	struct pm_poisson_fft *s = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.green = green});
 	check(s && !pm_poisson_fft_solve(s, -4 * pm_pi, rho, phi, NULL), "%s: solved", faces);
 	pm_poisson_fft_free(s);
 	for (size_t q = 0; q < n; q++) /* rho is 0 at open ends, where weights would be half */

@@ -43,11 +43,11 @@ static bool force(const struct pm_grid *g, const char *kernel, const struct pm_p
 	struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find(kernel), .components = 1}, back = t;
 	struct pm_strays strays;
 	struct pm_operator grad;
-	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans planner = {0};
 	back.components = g->dim;
 	for (int d = 0; d < 3; d++)
 		back.flip[d][d] = 1; /* the normal component of a gradient, as m2p does */
-	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o, PM_ESTIMATE);
+	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o);
 	bool good = solver && pm_spread(&t, p->n, (const double *const *)p->x, (const double *[]){p->m}, (double *[]){rho}, &strays) == 0 &&
 		pm_poisson_fft_solve(solver, 4 * pm_pi, rho, rho, NULL) == 0 && pm_operator_init(&grad, g, PM_OP_GRAD, order, 1, false) == 0 &&
 		pm_operator_plan(&grad, &planner) == 0 && pm_operator_apply(&grad, -1, (const double *[]){rho}, field, NULL) == 0 &&

@@ -21,12 +21,12 @@ struct pm {
 static void pm_new(struct pm *p, struct pm_grid g, const char *in, const char *out, enum pm_symbol symbol, int order)
 {
 	size_t n = pm_grid_size(&g);
-	*p = (struct pm){.grid = g, .planner.effort = PM_ESTIMATE};
+	*p = (struct pm){.grid = g};
 	p->in = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find(in), .components = 1};
 	p->out = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find(out), .components = g.dim};
 	for (int d = 0; d < 3; d++)
 		p->out.flip[d][d] = 1;
-	p->solver = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = symbol}, PM_ESTIMATE);
+	p->solver = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = symbol});
 	pm_operator_init(&p->grad, &g, PM_OP_GRAD, order, 1, false);
 	pm_operator_plan(&p->grad, &p->planner);
 	p->rho = calloc(n, sizeof(double));

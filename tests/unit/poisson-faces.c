@@ -97,7 +97,7 @@ static double error_of(const struct pm_grid *g, const struct pm_poisson_fft_choi
 {
 	size_t n = pm_grid_size(g);
 	double *phi = malloc(n * sizeof *phi), most = 0, scale = 1e-300;
-	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o);
 	if (!p || pm_poisson_fft_solve(p, 1, s, phi, NULL))
 		most = NAN;
 	if (pm_poisson_fft_singular(g, o))
@@ -183,7 +183,7 @@ static double round_trip(const struct pm_grid *g, const struct pm_poisson_fft_ch
 				want[q] = 0;
 	}
 	struct pm_operator lap;
-	struct pm_fft_plans planner = {.effort = PM_ESTIMATE};
+	struct pm_fft_plans planner = {0};
 	if (!pm_operator_init(&lap, g, PM_OP_LAP, 2 * (int)o->symbol, 1, false) && !pm_operator_plan(&lap, &planner) &&
 	    !pm_operator_apply(&lap, 1, (const double *[]){want}, (double *[]){s}, NULL)) {
 		for (size_t q = 0; q < n; q++)
@@ -275,7 +275,7 @@ static void yukawa(void)
 		r[q] = sqrt(x * x + y * y + z * z);
 		s[q] = exp(-0.5 * r[q] * r[q]) / pow(2 * pm_pi, 1.5);
 	}
-	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.screening = K}, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.screening = K});
 	pm_poisson_fft_solve(p, -4 * pm_pi, s, s, NULL);
 	for (size_t q = 0; q < n; q++)
 		if (r[q] > 0.1 && r[q] < 4) {
@@ -294,7 +294,7 @@ static double lattice(int dim, size_t n, double differences[2])
 	struct pm_grid g = {.dim = dim, .cells = {n, n, dim > 2 ? n : 1}, .points = {n, n, dim > 2 ? n : 1}, .h = {1, 1, 1}};
 	double *s = calloc(pm_grid_size(&g), sizeof *s);
 	s[0] = 1;
-	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2}, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_FD2});
 	pm_poisson_fft_solve(p, -1, s, s, NULL);
 	double centre = s[0];
 	differences[0] = centre - s[1], differences[1] = centre - s[n + 1];

@@ -35,7 +35,7 @@ static double removed; /* of the last solve: |mean| over the largest |s| */
 static double solve(const struct pm_grid *g, enum pm_symbol symbol, double c, const double *s, double *phi)
 {
 	struct pm_poisson_fft_record r = {NAN, NAN};
-	struct pm_poisson_fft *p = pm_poisson_fft_new(g, &(struct pm_poisson_fft_choice){.symbol = symbol}, PM_ESTIMATE);
+	struct pm_poisson_fft *p = pm_poisson_fft_new(g, &(struct pm_poisson_fft_choice){.symbol = symbol});
 	if (!p || pm_poisson_fft_solve(p, c, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);
