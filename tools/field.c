@@ -42,7 +42,7 @@ static const struct pm_option options[] = {
 
 static const struct pm_example examples[] = {
 	{"a cluster in the tide of a distant galaxy", "pinit plummer -n 100 | cycle -n 3 \"push kick/2 drift | pp | field 'acc = 0.02*x, -0.01*y, -0.01*z' | "
-		"push kick/2\" | diag"},
+		"push kick/2\" | diag --columns time,energy_kinetic,speed_rms"},
 	{"the test equation x' = i x, as two components, through a step of Runge-Kutta", "printf 'x y\\n1 0\\n' | stab - --law free --dt 0.1 | cycle -n 1 "
 		"\"field 'vel = -y, x' | push rk4\" | stab --plain"},
 	{"vortices that decay while they rotate", "pinit polygon -n 4 | cycle -n 5 \"pp | field 'dcirculation = -0.1*circulation' | push midpoint\" | diag "

@@ -11,6 +11,7 @@
 #include "base/replace.h"
 #include "stage/internal.h"
 #include "cycle/loop.h"
+#include "cycle/missing-words.h"
 #include "planner/plan.h"
 #include "sentence/process-chain.h"
 #include "sentence/sentence.h"
@@ -25,6 +26,7 @@ struct cycle {
 	struct pm_until *until; /* NULL: none */
 	struct pm_watch watch;  /* over the sums of strengths; not if foreign words may change state */
 	int met;                /* the expression is true for this frame */
+	bool judged;            /* the first frame was compared with the sentence */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	double told;            /* clock of the last progress line */
 	int lock;               /* the checkpoint, open and locked; -1: none yet */
@@ -292,10 +294,16 @@ static int speak(struct cycle *y, const char *sentence)
 	return y->words ? 0 : pm_failed();
 }
 
+/* The time at which the run will end; NAN: unknown. */
+static double end_of(const struct cycle *y, const struct pm_frame *f)
+{
+	return !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;
+}
+
 /* --plan: the sentence chosen for the first frame, recorded in the history as if typed; a resumed run uses the one recorded there. */
 static int speak_plan(struct cycle *y, const struct pm_frame *f)
 {
-	const double end = !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;
+	const double end = end_of(y, f);
 	char sentence[PM_PLAN_TEXT];
 	int status = y->c->resume ? pm_plan_again(f, sentence) : pm_plan_sentence(f, y->c->accuracy, end, sentence);
 	if (!status && y->s->entry)
@@ -329,6 +337,9 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
 		pm_history_add(y->s, *f), pm_sentence_forces(y->words, *f);
+	if (!y->c->resume && !y->c->plan && !y->judged)
+		pm_missing_words(y->words, *f, end_of(y, *f));
+	y->judged = true;
 	status = look_first(y, f);
 	if (!status && y->c->every > 0 && !y->c->resume) {
 		status = prime(y, f);

@@ -5,6 +5,7 @@
 
 #include "effect-parts/effect-decision.h"
 #include "effect-parts/effect-words.h"
+#include "law/law.h"
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
@@ -37,6 +38,13 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and the change of their strengths by diffusion");
 }
 
+static bool asked(const struct pm_frame *f, const struct pm_law *law, char what[64])
+{
+	const double nu = law->of_potential == PM_CURL && law->strength ? pm_frame_constant(f, "nu", 0) : 0;
+	snprintf(what, 64, "nu = %g", nu);
+	return nu > 0;
+}
+
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && c->scales->nu > 0; }
 
 /* On the mesh compare strengths after one step: later the particles are distorted, and the resulting noise would diffuse too. */
@@ -51,6 +59,8 @@ const struct pm_effect effect_diffusion = {
 	.sentence = "viscosity spreads vorticity",
 	.source = "Cottet and Koumoutsakos 2000, chapter 5",
 	.word = "diffuse",
+	.asked = asked,
+	.done_by = (const char *const[]){"diffuse", "pse", "walk", NULL},
 	.decide = decide,
 	.words = words,
 	.reversible = reversible,

@@ -120,6 +120,10 @@ struct pm_effect {
 	const char *word;  /* the word that computes it; NULL: the words of the self field, or the frame itself. Without `words`, plan can only name it */
 	bool force;        /* it moves particles or rotates their velocities; if no such effect is included they move straight */
 	bool replaces;     /* it replaces the particles, so other effects are tested without it */
+	/* Do the frame's constants or fields ask for it? Then they are written to what ("nu = 0.01"), and cycle says so once where no word of its sentence does
+	 * it: done_by, words or actions of push, NULL ends. Headers alone. NULL: no. */
+	bool (*asked)(const struct pm_frame *f, const struct pm_law *law, char what[64]);
+	const char *const *done_by;
 	/* Measures numbers of the frame that only this effect needs, after scales and method are known. NULL: none. 0 or failure. */
 	int (*measure)(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN]);
 	void (*decide)(const struct pm_effect_case *c, struct pm_decision *d);

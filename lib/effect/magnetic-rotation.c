@@ -18,6 +18,15 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	snprintf(d->text, sizeof d->text, "omega_c dt = %.2g, omega_c T = %.2g", s->cyclotron * s->dt, s->cyclotron * s->time);
 }
 
+static bool asked(const struct pm_frame *f, const struct pm_law *law, char what[64])
+{
+	const struct pm_field *field = NULL;
+	for (size_t i = 0; i < f->nmeshes && law->magnetic && !field; i++)
+		field = pm_frame_field(f, f->meshes[i]->name, law->magnetic);
+	snprintf(what, 64, "a magnetic field %.40s", field ? field->name : "");
+	return field && field->role == PM_STATE;
+}
+
 static void stays(const struct pm_effect_case *c, char why[160])
 {
 	if (!isnan(c->scales->cyclotron))
@@ -57,6 +66,8 @@ const struct pm_effect effect_magnetic_rotation = {
 	.sentence = "velocities turn about a magnetic field",
 	.source = "Birdsall and Langdon 1985, section 4-3",
 	.force = true,
+	.asked = asked,
+	.done_by = (const char *const[]){"boris", NULL},
 	.decide = decide,
 	.stays = stays,
 	.ask = ask,

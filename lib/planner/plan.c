@@ -127,7 +127,8 @@ static int by_hand(const struct pm_frame *f, const struct pm_plan *p, const stru
 	return 0;
 }
 
-int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
+/* The scales that need no force, and the method. */
+static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
 {
 	*p = (struct pm_plan){.law = pm_law_of(f)};
 	if (!p->law)
@@ -146,7 +147,13 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	pm_plan_method(f, p);
 	p->scales.pairs = p->method.pairs;
 	know_effects(p);
-	status = by_hand(f, p, c);
+	return 0;
+}
+
+int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
+{
+	int status = begin(f, c, p);
+	status = status ? status : by_hand(f, p, c);
 	status = status ? status : measure_force(f, p);
 	if (!status)
 		pm_plan_mesh(f, p), pm_plan_step(f, p);
@@ -158,6 +165,21 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	decide(f, p, c);
 	status = pm_plan_compose(f, p);
 	return status || !c->cost ? status : cost(f, p);
+}
+
+int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d)
+{
+	struct pm_plan p;
+	struct pm_effect_case one;
+	int status = begin(f, c, &p);
+	*d = (struct pm_decision){.answer = PM_LEFT_OUT};
+	status = status ? status : measure_force(f, &p);
+	for (int i = 0; i < p.neffects && !status; i++)
+		if (p.effect[i].effect == effect) {
+			pm_plan_case(f, &p, i, &one);
+			effect->decide(&one, d);
+		}
+	return status;
 }
 
 int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT])

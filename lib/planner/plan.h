@@ -41,6 +41,8 @@ struct pm_plan {
 
 /* For a frame with all its data in memory. 0 or failure. */
 int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p);
+/* The decision on one effect that needs no numbers of its own. Cost: a force. 0 or failure. */
+int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d);
 /* The sentence alone; and the one that cycle recorded in the history of a checkpoint. */
 int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);
 int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);

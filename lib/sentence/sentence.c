@@ -323,6 +323,19 @@ void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f)
 
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
 
+bool pm_sentence_says(const struct pm_sentence *s, const char *name)
+{
+	const size_t n = strlen(name);
+	bool says = false;
+	for (int i = 0; i < s->nwords && !says; i++) {
+		const struct pm_stage *stage = s->word[i].stage;
+		says = !stage || !strcmp(stage->tool->name, name);
+		for (int k = 0; !says && k < stage->nargs; k++)
+			says = !strncmp(stage->args[k], name, n) && (!stage->args[k][n] || stage->args[k][n] == '/');
+	}
+	return says;
+}
+
 bool pm_sentence_waits(const struct pm_sentence *s)
 {
 	for (int i = 0; i < s->nsegments; i++)

@@ -19,6 +19,8 @@ int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words 
 int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
 int pm_sentence_end(struct pm_sentence *s); /* the input ended well: calls end() of the words (processes do so themselves) */
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: after the last, or a foreign word */
+/* Has it a word or an action of push (boris for boris/2) of this name, or a foreign word, which may do anything? */
+bool pm_sentence_says(const struct pm_sentence *s, const char *name);
 bool pm_sentence_waits(const struct pm_sentence *s); /* some of its words are processes */
 int pm_sentence_safe(const char *text);              /* fails where it runs programs that are not ours, or writes files: for one that nobody typed */
 int pm_sentence_timing(const struct pm_sentence *s, const char *file); /* 0 or failure */

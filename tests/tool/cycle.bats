@@ -301,3 +301,26 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		done
 	done
 }
+
+@test "what a frame asks for and the sentence does not do is told once, where plan would put it in: viscosity, a magnetic field" {
+	pinit lamb-oseen --cells 32 >a
+	for words in 'p2m | poisson-fft | mgrad | m2p | push lsrk3' 'pp --softening 0.1 | push rk4'; do
+		for engine in fused pipes; do
+			run --separate-stderr bash -o pipefail -c "cat a a | cycle -n 2 --engine $engine '$words' | sls"
+			[ "$status" = 0 ]
+			[ "$stderr" = "${stderr_lines[0]}" ]
+			[[ $stderr == "cycle: the frame has nu = 0.01, but no word of the sentence acts by it (diffuse, pse, walk): "* ]]
+		done
+	done
+	run --separate-stderr bash -o pipefail -c "pinit exb | cycle -n 20 'push drift' | sls"
+	[[ $stderr == "cycle: the frame has a magnetic field B, but no word of the sentence acts by it (boris): omega_c dt = 0.1, omega_c T = 2" ]]
+	# done, too small to matter, softening below the cells, nothing asked for; and a foreign word may do anything
+	for line in "pinit lamb-oseen --cells 32 | cycle -n 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3'" \
+		"cycle -n 2 'pp --softening 0.1 | push rk4 | walk' <a" "cycle -n 2 'pp --softening 0.1 | cat | push rk4' <a" \
+		"pinit lamb-oseen --cells 32 --dt 1e-5 | cycle -n 1 'p2m | poisson-fft | mgrad | m2p | push lsrk3'" \
+		"pinit plummer -n 1000 | cycle -n 2 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2'"; do
+		run --separate-stderr bash -o pipefail -c "$line | sls"
+		[ "$status" = 0 ]
+		[ -z "$stderr" ] || { echo "$line: $stderr"; return 1; }
+	done
+}
