@@ -55,6 +55,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!status && state->table.unknown[0] && !state->told)
 		fprintf(stderr, "diag: energy is nan: %s (energy_kinetic and energy_field_... are its known parts)\n", state->table.unknown);
 	state->told = state->told || state->table.unknown[0];
+	if (!status && state->table.note[0])
+		pm_tell_once(s, "%s", state->table.note);
 	return status;
 }
 

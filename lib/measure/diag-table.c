@@ -105,6 +105,8 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 	for (int i = 0; i < t->n; i++)
 		if (t->column[i].from == PM_ENERGY)
 			memcpy(t->unknown, how.unknown, sizeof t->unknown);
+	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
+		t->note[0] = 0;
 	for (int i = 0; i < t->n && first && !json; i++)
 		fprintf(t->out, "%s%c", t->column[i].name, i + 1 < t->n ? '\t' : '\n');
 	for (int i = 0; i < t->n; i++) {

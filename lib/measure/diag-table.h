@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "measure/diag-column.h"
+#include "measure/energy-error.h"
 #include "measure/growth.h"
 
 enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS) };
@@ -31,6 +32,8 @@ struct pm_diag_table {
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	struct pm_series series;
 	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
+	struct pm_energy_error energy;
+	char note[320];               /* a sentence about the last row for stderr; "" none */
 };
 
 /* Checks what was typed, and takes the growth and the window (T0:T1) apart. 0 or failure. */
