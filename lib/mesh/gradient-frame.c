@@ -1,5 +1,6 @@
 /* Source and target of a derivative in a frame, and what is asked for that cannot be. The differences are gradient.c's.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 
 #include "fft/axis-transform.h"
@@ -37,6 +38,20 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 	return 0;
 }
 
+/* The density is looked at where differences of its potential are one-sided on more than the end nodes, which p2m leaves empty. */
+static int beside_open_faces(struct pm_frame *f, const struct pm_law *law, const char *on, struct pm_gradient *t)
+{
+	const struct pm_grid *g = &t->operator.grid;
+	bool open = false;
+	for (int d = 0; d < g->dim; d++)
+		open |= g->face[d][0] == PM_OPEN || g->face[d][1] == PM_OPEN;
+	t->density = NULL;
+	if (!open || t->operator.order <= 2 || !law->density || strcmp(t->source->name, law->potential) || !pm_frame_field(f, on, law->density))
+		return 0;
+	t->density = pm_reads(f, on, law->density);
+	return t->density ? 0 : -PM_DATA;
+}
+
 int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, struct pm_gradient *t)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -62,7 +77,9 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 				return pm_fail(PM_DATA, "'%s' is staggered (mgrad works on the nodes)", source);
 	struct pm_grid g = pm_grid_of(f, mesh);
 	int status = choose(o, law, &g, t->source, t);
-	return status ? status : make(f, mesh->name, target, t);
+	if (!status)
+		status = make(f, mesh->name, target, t);
+	return status ? status : beside_open_faces(f, law, mesh->name, t);
 }
 
 int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans)
@@ -84,4 +101,30 @@ int pm_gradient_apply(struct pm_gradient *t)
 	int status = pm_operator_apply(&t->operator, t->factor, in, out, &seen);
 	t->target->use |= seen ? PM_USE_SEEN : 0;
 	return status;
+}
+
+/* Is node i of axis d less than `width` nodes from an open face? */
+static bool near_open(const struct pm_grid *g, int d, size_t i, size_t width)
+{
+	return (g->face[d][0] == PM_OPEN && i < width) || (g->face[d][1] == PM_OPEN && g->points[d] - 1 - i < width);
+}
+
+double pm_gradient_rim(const struct pm_gradient *t)
+{
+	const struct pm_grid *g = &t->operator.grid;
+	const size_t width = (size_t)t->operator.order / 2, *n = g->points;
+	double rim = 0, all = 0;
+	for (int c = 0; t->density && c < t->density->components; c++) {
+		const double *rho = pm_in(t->density, c);
+		for (size_t k = 0; k < n[2]; k++)
+			for (size_t j = 0; j < n[1]; j++) {
+				const bool beside = (g->dim > 2 && near_open(g, 2, k, width)) || (g->dim > 1 && near_open(g, 1, j, width));
+				const double *row = rho + (k * n[1] + j) * n[0];
+				for (size_t i = 0; i < n[0]; i++) {
+					all += fabs(row[i]);
+					rim += beside || near_open(g, 0, i, width) ? fabs(row[i]) : 0;
+				}
+			}
+	}
+	return rim > 0 ? rim / all : 0;
 }

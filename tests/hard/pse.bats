@@ -172,7 +172,7 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 			stab - --strength heat --box 0,1 --faces periodic >a
 		fastest=$(pse --field heat --nu 1 --method dc <a | stab | grep '^#limits' | grep -o '"decay":[0-9.e+]*' | cut -d: -f2)
 		before=$(largest <a)
-		cycle -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk \
+		cycle --moves pse -n 200 "field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk \
 			"BEGIN { printf \"%.17g\", 1.999 / $fastest }")" <a | largest >after
 		below "$(cat after)" "$before" "jitter $jitter, just below the bound"
 		run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 0, 0' | pse --field heat --nu 1 --method dc | push euler --dt $(awk \

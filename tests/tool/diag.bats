@@ -174,7 +174,7 @@ load ../helper
 	none "1 points: 1 points are too few" "pinit langmuir -n 64 | p2m | poisson-fft | mgrad"
 	# u.y of Taylor's vortices is sin(y) cos(x), and its mean over y 0
 	none "is the rounding of a field of 1" "pinit taylor-green-2d --cells 32 |
-		cycle -n 12 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk2' | p2m | poisson-fft | mgrad"
+		cycle -n 12 --every 1 'p2m | poisson-fft | mgrad | diffuse | m2p | push rk2' | p2m | poisson-fft | mgrad"
 	# a field that is random anew in every frame
 	none "exponential" "for i in {1..40}; do pinit uniform --dim 1 -n 50 --seed \$i | smod --time \$i; done | p2m | poisson-fft | mgrad"
 	sh_ok "pinit langmuir -n 64 | p2m | poisson-fft | mgrad | diag --growth mode:1 --format json | tail -n 1 | jq -c '[.gamma, .points, .none]'"
