@@ -125,7 +125,7 @@ def all_failures(name, words, every):
 
 def main():
     every, names = int(sys.argv[1]) if len(sys.argv) > 1 else 1, sys.argv[2:] or list(commands)
-    os.environ.update(LC_ALL="C", OMP_NUM_THREADS="1", PM_PLAN="estimate", PATH=os.environ.get("PM_BIN", top + "/bin") + ":" + os.environ["PATH"])
+    os.environ.update(LC_ALL="C", OMP_NUM_THREADS="1", PATH=os.environ.get("PM_BIN", top + "/bin") + ":" + os.environ["PATH"])
     with tempfile.TemporaryDirectory() as scratch:
         os.chdir(scratch)
         os.mkdir("run")

@@ -18,7 +18,7 @@ struct config {
 struct state { /* set by declare for frame */
 	struct pm_moving *moving;
 	size_t n;
-	const struct pm_mesh *mesh; /* the first with a field, before the push drops it; NULL none */
+	const struct pm_mesh *mesh; /* for the Courant number; NULL none */
 };
 
 static int begin(struct pm_stage *s)
@@ -44,25 +44,6 @@ static int take_dt(const struct pm_stage *s, struct pm_frame *f)
 	return f->dt != 0 && isfinite(f->dt) ? 0 : pm_fail(PM_DATA, "the frame has no time step (push --dt, or the word dt)");
 }
 
-/* Change and derived fields of the meshes, of fixed sets and, with clear, of the sets themselves. */
-static void drop(struct pm_frame *f, const struct config *cfg)
-{
-	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
-	pm_drops_roles(f, NULL, roles);
-	for (size_t i = 0; i < f->nsets; i++)
-		if (f->sets[i]->fixed || (cfg->push.clear && (!cfg->set || !strcmp(cfg->set, f->sets[i]->name))))
-			pm_drops_roles(f, f->sets[i]->name, roles);
-}
-
-static const struct pm_mesh *mesh_in_use(const struct pm_frame *f)
-{
-	for (size_t i = 0; i < f->nmeshes; i++)
-		for (size_t k = 0; k < f->nfields; k++)
-			if (!strcmp(f->fields[k]->on, f->meshes[i]->name))
-				return f->meshes[i];
-	return NULL;
-}
-
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
@@ -79,7 +60,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return pm_no_memory();
 	state->moving = room;
 	state->n = 0;
-	state->mesh = mesh_in_use(f);
+	state->mesh = pm_push_mesh(f);
 	for (size_t i = 0; i < f->nsets && steps && !status; i++)
 		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
 			status = pm_moving_declare(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
@@ -88,26 +69,19 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	if (cfg->push.clear || cfg->push.moves)
-		drop(f, cfg);
+		pm_push_drops(f, &cfg->push, cfg->set);
 	if (steps)
 		pm_clock_close(f);
 	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
 }
 
-/* The limits of the rates that a set is moved by (stream/limits.h). */
 static int stable(struct pm_stage *s, const struct pm_frame *f, const struct pm_moving *m)
 {
-	const struct pm_push *p = &((const struct config *)s->config)->push;
-	for (int r = 0; r < m->n; r++) {
-		const double strain = m->rates[r].state == m->x ? m->rates[r].rate->limits.strain : 0;
-		if (strain * fabs(f->dt) > 1)
-			pm_tell_once(s, "dt |grad u| is %.3g for '%s' (dt %g): above 1 particles cross within a step, and the error is large "
-				"(the word dt --lcfl 0.5 chooses a step)",
-				strain * fabs(f->dt), m->set->name, f->dt);
-	}
-	if (p->unsafe || !(p->scheme || p->kick > 0))
-		return 0;
-	return pm_rates_stable(m->rates, m->n, p->scheme, f->dt, m->part);
+	const double strain = pm_moving_strain(f, m);
+	if (strain > 1)
+		pm_tell_once(s, "dt |grad u| is %.3g for '%s' (dt %g): above 1 particles cross within a step, and the error is large "
+			"(the word dt --lcfl 0.5 chooses a step)", strain, m->set->name, f->dt);
+	return pm_moving_stable(f, m, &((const struct config *)s->config)->push);
 }
 
 static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_moving *m, const double *h, double *crossed)

@@ -35,21 +35,11 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-/* Can strength spread to the edge of the mesh? Then a few nodes of next to no strength would be added at every remeshing, without an end. */
-static bool open_faces(const struct pm_frame *f)
+static struct pm_remesh_choice choice_of(const struct config *o, const struct pm_law *law)
 {
-	for (int k = 0; k < 2 * f->dim; k++)
-		if (f->face[k / 2][k % 2] == PM_OPEN || f->face[k / 2][k % 2] == PM_ABSORBING)
-			return true;
-	return false;
-}
-
-static struct pm_remesh_choice choice_of(const struct config *o, const struct pm_frame *f, const struct pm_law *law)
-{
-	const bool open = open_faces(f), spreads = open && !o->by && pm_frame_constant(f, "nu", 0) > 0;
-	return (struct pm_remesh_choice){.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"),
-		.cut_off = !isnan(o->cut_off) ? o->cut_off : open ? 1e-6 : 0, .rim = o->rim >= 0 ? (int)o->rim : spreads ? 2 : 0, .by = o->by,
-		.drop = o->drop.item, .ndrop = o->drop.n, .out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")};
+	return (struct pm_remesh_choice){.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off,
+		.rim = o->rim >= 0 ? (int)o->rim : -1, .by = o->by, .drop = o->drop.item, .ndrop = o->drop.n,
+		.out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")};
 }
 
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
@@ -57,7 +47,8 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = choice_of(o, f, law)};
+	*j = (struct job){.choice = choice_of(o, law)};
+	pm_remesh_defaults(f, &j->choice);
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", o->mesh ? " " : "", o->mesh ? o->mesh : "");
@@ -79,31 +70,13 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status ? status : PM_HOLD;
 }
 
-/* The largest distortion of the sets, reported. */
-static int measure(struct pm_stage *s, struct pm_frame *f, const struct job *j, double *most)
-{
-	int status = 0;
-	for (size_t i = 0; i < j->sets.n && !status; i++) {
-		double here;
-		status = pm_distortion(f, j->sets.name[i], j->mesh, &here);
-		*most = here > *most || isnan(here) ? here : *most;
-	}
-	if (!status)
-		pm_report(s, f, "distortion", *most);
-	return status;
-}
-
 /* The mesh of the options: other cells, or enlarged until it contains every particle. */
 static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 {
-	const struct pm_grid g = pm_grid_of(f, j->mesh);
-	struct pm_kernel wide = *j->choice.kernel;
-	const struct pm_transfer t = {.grid = g, .kernel = &wide};
-	int status = pm_mesh_take_cells(f, j->mesh, &o->cells);
-	wide.width += 2 * (int)pm_remesh_room(j->choice.kernel); /* the new particles have room to move, too */
-	if (!status && !strcmp(o->outside, "grow"))
-		status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
-	return status < 0 ? status : 0;
+	const int status = pm_mesh_take_cells(f, j->mesh, &o->cells);
+	if (status || strcmp(o->outside, "grow"))
+		return status < 0 ? status : 0;
+	return pm_remesh_grow(f, j->mesh, j->choice.kernel, &j->sets);
 }
 
 /* What is removed is added over frames. */
@@ -125,7 +98,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	double distortion = 0;
 	int status = job_of(o, f, &j);
 	if (!status && j.choice.overlap)
-		status = measure(s, f, &j, &distortion);
+		status = pm_distortion_most(f, &j.sets, j.mesh, &distortion);
+	if (!status && j.choice.overlap)
+		pm_report(s, f, "distortion", distortion);
 	if (status || (j.choice.overlap && distortion <= o->threshold))
 		return status;
 	status = fit(o, f, &j);

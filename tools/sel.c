@@ -32,9 +32,8 @@ static const struct pm_option options[] = {
 static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
-	const struct pm_names frames = {c->frames.item, c->frames.n};
 	s->leaves_out = c->frames.n || c->every > 1 || c->last;
-	return pm_frame_numbers_check(&frames);
+	return pm_frame_numbers_check(&(struct pm_names){c->frames.item, c->frames.n});
 }
 
 static struct pm_selection selection_of(const struct config *c)
@@ -95,10 +94,8 @@ const struct pm_tool tool_sel = {
 	.name = "sel",
 	.summary = "selects frames, sets, fields and particles",
 	.about = "Kinds for which nothing is named are kept. Frames are counted from 1 over the whole input, as in messages. --where keeps the particles "
-		"for which an "
-		"expression is not 0 (see "
-		 "scalc); their derived fields and changes keep the values computed with all particles. The names in --set, --field or --drop must exist in "
-		 "every frame.",
+		"for which an expression is not 0 (see scalc); their derived fields and changes keep the values computed with all particles. The names in "
+		"--set, --field or --drop must exist in every frame.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

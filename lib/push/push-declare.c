@@ -5,6 +5,24 @@
 #include "push/push-set.h"
 #include "stream/declare.h"
 
+const struct pm_mesh *pm_push_mesh(const struct pm_frame *f)
+{
+	for (size_t i = 0; i < f->nmeshes; i++)
+		for (size_t k = 0; k < f->nfields; k++)
+			if (!strcmp(f->fields[k]->on, f->meshes[i]->name))
+				return f->meshes[i];
+	return NULL;
+}
+
+void pm_push_drops(struct pm_frame *f, const struct pm_push *p, const char *only)
+{
+	const unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
+	pm_drops_roles(f, NULL, roles);
+	for (size_t i = 0; i < f->nsets; i++)
+		if (f->sets[i]->fixed || (p->clear && (!only || !strcmp(only, f->sets[i]->name))))
+			pm_drops_roles(f, f->sets[i]->name, roles);
+}
+
 int pm_moving_components(const struct pm_rate *r)
 {
 	return r->rate->components < r->state->components ? r->rate->components : r->state->components;

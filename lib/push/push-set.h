@@ -36,8 +36,17 @@ bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face);
 int pm_moving_components(const struct pm_rate *r);
 /* If particles may be absorbed, every field that is kept is rewritten, shorter. */
 int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
+/* The mesh whose cells a push counts for the Courant number: the first that has a field, before the push drops it; NULL none. */
+const struct pm_mesh *pm_push_mesh(const struct pm_frame *f);
+/* Drops the change and derived fields of the meshes, of fixed sets and, with clear, of the sets themselves (only: of this one; NULL: of all). */
+void pm_push_drops(struct pm_frame *f, const struct pm_push *p, const char *only);
 /* The header part: refuses invalid pushes, advances the set's clock, declares the fields. */
 int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
+/* With the tail: dt times the strain of the flow that moves the positions (stream/limits.h); 0 where none is known. */
+double pm_moving_strain(const struct pm_frame *f, const struct pm_moving *m);
+/* With the tail: refuses, unless unsafe, a step for whose rates the scheme, or a kick, is not stable. For schemes that are stable for no oscillation the limit
+ * is where it doubles within its period. */
+int pm_moving_stable(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
 /* The data part, without absorption. With the cells h [length per axis] of a mesh *crossed, at least its value before, is the Courant number of the
  * particles: the largest number of cells that one crosses in dt along an axis; h NULL: not wanted. */
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed);

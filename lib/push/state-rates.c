@@ -1,17 +1,8 @@
 /* The rates of a set's states, found by the names and roles of its fields. Cost: the number of fields squared, no data.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <string.h>
 
 #include "push/state-rates.h"
-#include "stream/limits.h"
-
-/* What a step is compared with. */
-struct stability {
-	const char *name;
-	double dt, part; /* [time] of the frame; the absolute value of what the push advances by, a kick/2 for a whole step */
-	bool weak;       /* no oscillation is stable, others can do better */
-};
 
 static const char *const remedy = "compute it first: p2m | poisson-fft | mgrad | m2p, or pp";
 
@@ -109,34 +100,4 @@ int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind
 			rates[n++] = (struct pm_rate){.state = state, .rate = rate};
 	}
 	return status ? status : n;
-}
-
-/* One axis of the stability region: does the rate stay within it? The remedy is the longest step that does. */
-static int within(const struct pm_rate *r, const char *does, double rate, double limit, const struct stability *s)
-{
-	const struct pm_field *change = r->rate;
-	char terms[PM_TERMS * (PM_NAME + 2)] = "";
-	if (!(s->part * rate > limit * (1 + 1e-12)))
-		return 0;
-	for (int t = 0; t < change->nterms; t++)
-		snprintf(terms + strlen(terms), sizeof terms - strlen(terms), "%s%s", t ? ", " : "", change->terms[t]);
-	return pm_fail(PM_NUMERICS, "dt %g is %.4g times what %s can bear: '%s' of '%s' (%s) %s at up to %g per time, and the step would grow "
-		"without bound (dt up to %.6g%s, or --unsafe)", s->dt, s->part * rate / limit, s->name, change->name, change->on, terms, does, rate,
-		fabs(s->dt) * limit / (s->part * rate), s->weak ? ", lsrk3, rk4 or leapfrog" : "");
-}
-
-int pm_rates_stable(const struct pm_rate *rates, int n, const struct pm_step *scheme, double dt, double part)
-{
-	/* kicks, also magnetic ones: Euler's limit for decay, leapfrog's for oscillations */
-	struct stability s = {.name = scheme ? scheme->name : "a kick", .dt = dt, .part = fabs(dt) * part,
-		.weak = scheme && scheme->imaginary_limit == 0};
-	const double decay = scheme ? scheme->real_limit : 2, turn = !scheme ? 2 : s.weak ? scheme->doubling : scheme->imaginary_limit;
-	int status = 0;
-	for (int r = 0; r < n && !status; r++) {
-		const struct pm_limits l = rates[r].rate->role == PM_CHANGE ? pm_limits_of(rates[r].rate) : (struct pm_limits){0};
-		status = within(rates + r, "decays", l.decay, decay, &s);
-		if (!status)
-			status = within(rates + r, "oscillates", l.oscillation, turn, &s);
-	}
-	return status;
 }

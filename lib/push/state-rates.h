@@ -21,8 +21,5 @@ int pm_rates_allowed(const struct pm_frame *f, const struct pm_set *s, const cha
 int pm_rates_complete(const struct pm_frame *f, const struct pm_set *s);
 /* The rates of a set, positions first: those that a kick, a drift or a scheme advances. Returns their number, or failure. */
 int pm_rates(const struct pm_frame *f, const struct pm_set *s, enum pm_step_kind kind, struct pm_rate rates[PM_RATES]);
-/* With the tail: refuses a step for whose rates (stream/limits.h) the scheme (NULL: kicks, for a `part` of the step) is not stable. For schemes that are stable
- * for no oscillation the limit is where it doubles within its period. */
-int pm_rates_stable(const struct pm_rate *rates, int n, const struct pm_step *scheme, double dt, double part);
 
 #endif

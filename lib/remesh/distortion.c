@@ -57,3 +57,15 @@ int pm_distortion(const struct pm_frame *f, const char *set, const struct pm_mes
 	pm_free(H);
 	return status;
 }
+
+int pm_distortion_most(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_mesh *m, double *distortion)
+{
+	int status = 0;
+	*distortion = 0;
+	for (size_t i = 0; i < sets->n && !status; i++) {
+		double here;
+		status = pm_distortion(f, sets->name[i], m, &here);
+		*distortion = here > *distortion || isnan(here) ? here : *distortion;
+	}
+	return status;
+}

@@ -2,7 +2,7 @@
 #ifndef PM_REMESH_DISTORTION_H
 #define PM_REMESH_DISTORTION_H
 
-#include "mesh/grid.h"
+#include "transfer/transfer-frame.h"
 
 /* H[p] = sum over particles j of volume_j zeta(x_p - x_j): the overlap of the particles around p, 1 on a lattice. volume
  * NULL: each has a cell. Particles outside the mesh have 0. 0 or failure (memory). */
@@ -11,5 +11,7 @@ int pm_overlap(const struct pm_grid *g, size_t n, const double *const x[], const
 /* (1/N) sum |H - H0|/H0 over a set that has x, of its state volume and overlap (H0, stored by remesh) if it has them, else one cell and 1. The fields
  * are held. 0 particles: 0. Negative: failure. */
 int pm_distortion(const struct pm_frame *f, const char *set, const struct pm_mesh *m, double *distortion);
+/* The largest of several sets, nan if one of them has nan; 0 for none. 0 or failure. */
+int pm_distortion_most(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_mesh *m, double *distortion);
 
 #endif

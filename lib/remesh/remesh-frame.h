@@ -9,8 +9,8 @@
 
 struct pm_remesh_choice {
 	const struct pm_kernel *kernel;
-	double cut_off;          /* of the largest absolute strength */
-	int rim;                 /* cells around a particle whose nodes become particles too */
+	double cut_off;          /* of the largest absolute strength; nan: see pm_remesh_defaults */
+	int rim;                 /* cells around a particle whose nodes become particles too; below 0: see pm_remesh_defaults */
 	const char *by;          /* values are remeshed as this strength times value, then divided by it; NULL: values are an error */
 	const char *const *drop; /* fields to leave out */
 	int ndrop;
@@ -23,6 +23,11 @@ struct pm_remesh_loss {
 	struct pm_strengths under, outside;   /* their strengths */
 };
 
+/* Where nothing was chosen (cut_off nan, rim below 0): 0, but with an open face the cut-off is 1e-6, and the rim 2 if there is a viscosity and no value is
+ * remeshed. */
+void pm_remesh_defaults(const struct pm_frame *f, struct pm_remesh_choice *c);
+/* Enlarges the mesh until every particle of the sets lies inside, and the new ones have room to move. 0 or failure. */
+int pm_remesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_kernel *kernel, const struct pm_sets *sets);
 /* The sets that have positions and a strength and are not fixed, or the one named only; fails with a sentence if there is none. */
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
 /* For declare(): fails for fields that cannot be distributed to nodes, declares the others as read. */

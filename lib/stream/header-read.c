@@ -167,6 +167,13 @@ static bool read_box(const json_t *j, struct pm_frame *f)
 	return look_done_inside(&l, f, "box");
 }
 
+/* For what cannot be made; the message is there (pm_no_memory for one). */
+static bool give_up(struct look *l)
+{
+	json_decref(l->j);
+	return false;
+}
+
 static bool read_set(const json_t *j, struct pm_frame *f)
 {
 	struct look l = look_at(j, "set");
@@ -177,6 +184,8 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 	if (pm_frame_set(f, name) || pm_frame_mesh(f, name))
 		complain(&l, name, "occurs twice");
 	struct pm_set *s = pm_frame_set_new(f, name, (uint64_t)take_integer(&l, "n", 0, most_particles, true, 0));
+	if (!s)
+		return give_up(&l);
 	const json_t *done = take(&l, "done", false);
 	const json_t *kick = json_object_get(done, "kick"), *drift = json_object_get(done, "drift");
 	s->kick = json_number_value(kick);
@@ -204,6 +213,8 @@ static bool read_mesh(const json_t *j, struct pm_frame *f)
 	take_reals(&l, "lo", f->dim, lo);
 	take_reals(&l, "h", f->dim, h);
 	struct pm_mesh *m = pm_frame_mesh_new(f, name, one);
+	if (!m)
+		return give_up(&l);
 	double points = 1;
 	for (int a = 0; a < f->dim && !l.bad; a++) {
 		if (!(cells[a] >= 1 && cells[a] <= (double)most_cells && cells[a] == floor(cells[a])) || !(h[a] > 0))
@@ -270,13 +281,11 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	if (!l.bad && pm_frame_field(f, on, name))
 		complain(&l, name, "occurs twice");
 	int components = (int)take_integer(&l, "components", 1, PM_COMPONENTS, true, 1);
+	if (!pm_frame_set(f, on) && !pm_frame_mesh(f, on))
+		complain(&l, on, "owns a field, but is neither a set nor a mesh");
 	struct pm_field *p = l.bad ? NULL : pm_makes(f, on, name, components, PM_STATE);
-	if (!p) {
-		if (!l.bad)
-			complain(&l, on, "owns a field, but is neither a set nor a mesh");
-		json_decref(l.j);
-		return false;
-	}
+	if (!p)
+		return give_up(&l);
 	p->use = 0;
 	p->type = (enum pm_type)take_choice(&l, "type", pm_type_names);
 	p->role = (enum pm_role)take_choice(&l, "role", pm_role_names);
@@ -369,9 +378,11 @@ int pm_header_frame(const json_t *header, struct pm_frame **out)
 		complain(&l, "byte_order", "is not little (data must be little-endian; swap the bytes where they are written)");
 	int dim = (int)take_integer(&l, "dim", 1, 3, true, 1);
 	struct pm_frame *f = pm_frame_new(dim);
-	bool good = f && read_all(&l, f);
-	if (!f)
+	if (!f) {
+		give_up(&l);
 		return -PM_DATA;
+	}
+	bool good = read_all(&l, f);
 	if (!look_done(&l, &f->more) || !good) {
 		pm_frame_free(f);
 		return -PM_DATA;

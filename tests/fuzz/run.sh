@@ -11,7 +11,7 @@ shift
 B=${B:-build/asan-clang}
 here=$PWD work=$PWD/$B/fuzz
 mkdir -p "$work/found" "$work/empty"
-export LC_ALL=C OMP_NUM_THREADS=1 PM_PLAN=estimate
+export LC_ALL=C OMP_NUM_THREADS=1
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=256:malloc_context_size=4:quarantine_size_mb=8
 export LSAN_OPTIONS=suppressions=$here/tests/leaks.txt:print_suppressions=0
 passed=0 failed=0

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export PM_PLAN=estimate
 steps=${PM_STEPS:-10000}
 
 # A scene, small: meshes that plan makes eight times finer must stay cheap.

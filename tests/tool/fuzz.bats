@@ -2,7 +2,7 @@
 # line without control characters. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-export OMP_NUM_THREADS=1 PM_PLAN=estimate PM_UNSEALED=1
+export OMP_NUM_THREADS=1 PM_UNSEALED=1
 shopt -s nullglob
 crashes=$top/tests/fuzz/crashes
 

@@ -58,6 +58,20 @@ long_lines() {
 	[ -z "$bad" ]
 }
 
+# tool_sizes FILE...: the longest and the median of the numbers of lines.
+tool_sizes() { for f in "$@"; do wc -l <"$f"; done | sort -n | awk '{ n[NR] = $1 } END { print n[NR], (n[int((NR + 1) / 2)] + n[int(NR / 2) + 1]) / 2 }'; }
+
+# A tool is options, help and what it asks of the library; what grows beyond that is a method, which has a room in lib.
+@test "no tool has 180 lines or more, and their median is below 110" {
+	seq 179 >a.c && seq 109 >b.sh && seq 3 >c.c && seq 110 >d.c
+	[ "$(tool_sizes a.c b.sh c.c)" = "179 109" ]
+	[ "$(tool_sizes ?.*)" = "179 109.5" ]
+	read -r longest median < <(tool_sizes "$top"/tools/*.c "$top"/tools/*.sh)
+	echo "the longest has $longest lines, the median is $median:"
+	(cd "$top/tools" && wc -l -- *.c *.sh | sort -n)
+	awk "BEGIN { exit !($longest < 180 && $median < 110) }"
+}
+
 # many_arguments FILE...: functions whose head, in column 1, has more than eight arguments; what is in brackets inside them is one of them.
 many_arguments() {
 	awk '/^[a-z][A-Za-z0-9_ *]*\(/ {

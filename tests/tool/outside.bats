@@ -3,7 +3,6 @@
 load ../helper
 load words
 
-export PM_PLAN=estimate
 force='p2m | poisson-fft | mgrad | m2p'
 leapfrog="push kick/2 drift | $force | push kick/2"
 

@@ -267,3 +267,46 @@ for e in h["history"]:
 	run -0 python3 "$top/tests/fail-malloc.py" 499 push-file diag-file cycle-checkpoint sdraw sh5 sh5-write cycle-pipes
 	[[ ${lines[-1]} == *", 0 with another outcome" ]] || { echo "$output"; return 1; }
 }
+
+# The header reader of a program with a main of its own, in which each calloc fails once: sets, meshes and fields are made by calloc.
+@test "a header that the library has no memory for is a failure with that message, at every set, mesh and field" {
+	[ -z "${PM_SANITIZED:-}" ] || skip "a sanitizer has its own malloc"
+	pinit plummer -n 5 --no-history | p2m -n 4 | head -n 2 | tail -n 1 >header.json
+	cat >reads.c <<'END'
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "stream/declare.h"
+#include "stream/header.h"
+
+extern void *__libc_calloc(size_t n, size_t size);
+static int left;
+
+void *calloc(size_t n, size_t size) { return left && !--left ? NULL : __libc_calloc(n, size); }
+
+int main(void)
+{
+	json_t *header = json_load_file("header.json", 0, NULL);
+	int failed = 0;
+	for (int n = 1; header; n++) {
+		struct pm_frame *f = NULL;
+		left = n;
+		const int status = pm_header_frame(header, &f);
+		if (left) {
+			printf("%d\n", failed);
+			return status != 0;
+		}
+		if (status != -PM_DATA || strcmp(pm_message(), "out of memory")) {
+			printf("calloc %d: status %d, '%s'\n", n, status, pm_message());
+			return 1;
+		}
+		failed++;
+	}
+	return 1;
+}
+END
+	gcc -std=c11 -Wall -Wextra -Werror -I"$top/lib" -fopenmp -o reads reads.c "$top/build/libpmpipe.a" -lfftw3 -lgsl -lgslcblas -lpng -ljansson -lm
+	run -0 ./reads
+	[ "$output" -ge 6 ] # the frame, the set, its three fields, the mesh
+}
