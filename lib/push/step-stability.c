@@ -23,7 +23,7 @@ static int within(const struct pm_rate *r, const char *does, double rate, double
 		return 0;
 	for (int t = 0; t < change->nterms; t++)
 		snprintf(terms + strlen(terms), sizeof terms - strlen(terms), "%s%s", t ? ", " : "", change->terms[t]);
-	return pm_fail(PM_NUMERICS, "dt %g is %.4g times what %s can bear: '%s' of '%s' (%s) %s at up to %g per time, and the step would grow "
+	return pm_fail(PM_NUMERICS, "dt %g is %.4g times the limit of %s: '%s' of '%s' (%s) %s at up to %g per time, and the step would grow "
 		"without bound (dt up to %.6g%s, or --unsafe)", s->dt, s->part * rate / limit, s->name, change->name, change->on, terms, does, rate,
 		fabs(s->dt) * limit / (s->part * rate), s->weak ? ", lsrk3, rk4 or leapfrog" : "");
 }

@@ -47,7 +47,7 @@ watch() {
 		within "$got" "$want" 1e-4 "place"
 	done < places
 	run -3 bash -o pipefail -c "cycle -n 20000 'pp --softening 0 | push rk4 --dt 1e-3' < a | sls"
-	[[ $output == *"what rk4 can bear: 'acc' of 'matter' (self) oscillates"* ]]
+	[[ $output == *"the limit of rk4: 'acc' of 'matter' (self) oscillates"* ]]
 	cycle -n 20000 'pp --softening 0 | push rk4 --unsafe --dt 1e-3' < a > c
 	above "$(off < c | tr -d -)" 1 "energy, fixed step"
 	[ -n "${PM_LONG:-}" ] || return 0

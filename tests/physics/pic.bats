@@ -26,7 +26,7 @@ swing() {
 
 @test "PIC-06: beyond w dt = 2 push refuses (exit 3); with --unsafe it grows at 2 acosh(w dt/2) a step" {
 	run -3 bash -o pipefail -c "pinit langmuir -n 256 --cells 16 --amplitude 1e-7 --dt 2.05 | cycle -n 1 '$step' | sls"
-	[[ $output == *"dt 2.05 is 1.025 times what a kick can bear: 'acc' of 'electrons' (self) oscillates at up to 1 per time"*"(dt up to 2, or --unsafe)"* ]]
+	[[ $output == *"dt 2.05 is 1.025 times the limit of a kick: 'acc' of 'electrons' (self) oscillates at up to 1 per time"*"(dt up to 2, or --unsafe)"* ]]
 	step=${step//push /push --unsafe }
 	for case in "2.01 0.199916760277393" "2.1 0.629849513207696" "2.5 1.38629436111989"; do
 		read -r wdt growth <<<"$case"

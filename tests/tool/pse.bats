@@ -142,7 +142,7 @@ rest="field 'vel = 0'"
 @test "push refuses a step beyond the limit, whatever the particles, and names the longest" {
 	rod 32 'x' --faces periodic --dt 0.02 >a # nu dt/eps^2 = 2.05
 	run -3 bash -o pipefail -c "field 'vel = 0' <a | pse --field heat --nu 0.1 | push euler | sls"
-	[[ $output == *"what euler can bear: 'dheat' of 'matter' (diffusion) decays at up to 102.4"* ]]
+	[[ $output == *"the limit of euler: 'dheat' of 'matter' (diffusion) decays at up to 102.4"* ]]
 	sh_ok "smod --dt 0.0195 <a | field 'vel = 0' | pse --field heat --nu 0.1 | push euler | sls"
 	# four particles in one place: the weights add up
 	awk 'BEGIN { print "x heat volume"; for (i = 0; i < 32; i++) for (j = 0; j < 1 + 3 * (i > 27); j++) print i/32, i, 1/32 }' |
@@ -191,5 +191,5 @@ rest="field 'vel = 0'"
 	for t in 1 2 3; do OMP_NUM_THREADS=$t pse --field heat --nu 1 --method dc --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
 	run -3 bash -o pipefail -c "field 'vel = 0, 0' <a | pse --field heat --nu 1 --method dc | push euler | sls"
-	[[ $output == *"times what euler can bear"* ]]
+	[[ $output == *"times the limit of euler"* ]]
 }

@@ -184,7 +184,7 @@ limits() {
 @test "a step beyond the scheme's stable oscillation is refused with the word, the number and the remedy, and --unsafe takes it" {
 	for force in 'p2m | poisson-fft | mgrad | m2p' 'pp'; do
 		run -3 bash -o pipefail -c "pinit plummer --dt 5 | cycle -n 2 'push kick/2 drift | $force | push kick/2' | sls"
-		[[ $output == *"times what a kick can bear: 'acc' of 'matter' (self) oscillates at up to "*"(dt up to "*", or --unsafe)"* ]]
+		[[ $output == *"times the limit of a kick: 'acc' of 'matter' (self) oscillates at up to "*"(dt up to "*", or --unsafe)"* ]]
 		sh_ok "pinit plummer --dt 0.5 | cycle -n 1 'push kick/2 drift | $force | push kick/2' | sls"
 	done
 	# a spring: leapfrog to 2, rk4 to 2.83; schemes that are stable for no oscillation to where it doubles within a period
@@ -196,7 +196,7 @@ limits() {
 		words=${case#*|} words=${words//,/ |}
 		spring "$below" "$words" >a
 		run -3 spring "$beyond" "$words"
-		[[ $output == *"what $name can bear: 'acc' of 'matter' (external) oscillates"* ]]
+		[[ $output == *"the limit of $name: 'acc' of 'matter' (external) oscillates"* ]]
 		spring "$beyond" "${words//push /push --unsafe }" >a
 	done
 	# a step of leapfrog in two parts: each of half the length
