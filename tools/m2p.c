@@ -53,6 +53,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	}
 	if (!status)
 		status = pm_gather_outside(&j, f);
+	if (!status && 9 * j.far.count > j.far.within)
+		pm_tell_once(s, "%g of %g particles are beyond the mesh, where they feel those inside and not each other (a larger box)",
+			(double)j.far.count, (double)(j.far.count + j.far.within));
 	if (!status)
 		report(s, f, &j.changes);
 	pm_gather_free(&j);
