@@ -62,7 +62,7 @@ commands = {
     "stack": "stack ../bodies.pm ../bodies.pm",
     "sls": "sls --report -i ../acc.pm",
     "scmp": "scmp ../bodies.pm ../bodies.pm",
-    "sdraw": "sdraw -i ../bodies.pm -o out",
+    "sdraw": "sdraw --format png -i ../bodies.pm -o out",
     "sh5": "sh5 ../bodies.h5",
     "sh5-write": "sh5 -o out -i ../bodies.pm",
 }

@@ -9,7 +9,7 @@
 #include "picture/view.h"
 #include "stage/stage.h"
 
-static const char *const axes[] = {"x", "y", "z", NULL}, *const formats[] = {"png", "ppm", NULL}, *const styles[] = {"auto", "points", "density", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL}, *const styles[] = {"auto", "points", "density", NULL};
 static const char *const maps[] = {"auto", "viridis", "magma", "inferno", "grey", "coolwarm", NULL};
 
 struct config {
@@ -28,9 +28,10 @@ struct state {
 
 static const struct pm_option options[] = {
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .fallback = "frame-%04d.png", .cosmetic = true, PM_AT(output),
-		.text = "the file to write; %d or %04d stands for the number of the frame"},
-	{.name = "format", .kind = PM_WORD, .fallback = "png", .choices = formats, PM_AT(format),
-		.text = "png: one file per frame; ppm: all frames in sequence, to standard output unless --output is given"},
+		.text = "the file to write, whose ending says its kind; %d or %04d stands for the number of the frame"},
+	{.name = "format", .kind = PM_WORD, .choices = pm_picture_kinds, PM_AT(format),
+		.text = "the kind where --output has no ending; png: one file per frame; ppm: all frames in sequence, to "
+		"standard output unless --output is given"},
 	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", PM_AT(field),
 		.text = "draw this mesh field; if only the particles have it, colour them by it"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "draw a field of this mesh (the last field if --field is missing)"},
@@ -71,8 +72,9 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
-	const bool ppm = !strcmp(c->format, "ppm");
-	if (pm_picture_files_check(c->output))
+	const bool piped = c->format && strcmp(c->format, "png") && !pm_given(s, "output");
+	st->files.name = piped ? "-" : c->output;
+	if (pm_picture_files_check(&st->files, c->format))
 		return -PM_USAGE;
 	if (c->range.n && (c->range.n != 2 || !(c->range.x[1] > c->range.x[0])))
 		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
@@ -84,9 +86,8 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--project and --slice exclude each other");
 	if (c->log && c->linear)
 		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
-	if (ppm && !pm_given(s, "output") && isatty(STDOUT_FILENO))
+	if (piped && isatty(STDOUT_FILENO))
 		return pm_fail(PM_USAGE, "a picture cannot be written to a terminal (give --output FILE, or a pipe)");
-	st->files = (struct pm_picture_files){.name = c->output, .ppm = ppm, .standard = ppm && (!pm_given(s, "output") || !strcmp(c->output, "-"))};
 	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight,
 		.title = c->title,
 		.component = c->component ? component_of(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,

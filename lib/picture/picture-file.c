@@ -1,6 +1,7 @@
 /* Pictures written to files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
 #include <string.h>
+#include <strings.h>
 
 #include "picture/picture-file.h"
 
@@ -17,12 +18,40 @@ static int number_place(const char *name, const char **place, const char **behin
 	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
 }
 
-int pm_picture_files_check(const char *name)
+const char *const pm_picture_kinds[] = {"png", "ppm", NULL};
+
+static int kind_named(const char *name)
 {
-	const char *place, *behind;
-	int width;
-	if (number_place(name, &place, &behind, &width) < 0)
-		return pm_fail(PM_USAGE, "--output '%s': only %%d or %%04d can stand for the number of the frame, once", name);
+	for (int k = 0; pm_picture_kinds[k]; k++)
+		if (!strcasecmp(name, pm_picture_kinds[k]))
+			return k;
+	return -1;
+}
+
+/* ".png, .ppm or .mp4" */
+static void list_kinds(char out[80])
+{
+	for (int k = 0, used = 0; pm_picture_kinds[k]; k++)
+		used += snprintf(out + used, 80 - (size_t)used, "%s.%s", !k ? "" : pm_picture_kinds[k + 1] ? ", " : " or ", pm_picture_kinds[k]);
+}
+
+int pm_picture_files_check(struct pm_picture_files *c, const char *format)
+{
+	const char *slash = strrchr(c->name, '/'), *dot = strrchr(slash ? slash : c->name, '.'), *place, *behind;
+	int width, asked = format ? kind_named(format) : -1, kind = dot ? kind_named(dot + 1) : asked;
+	char known[80];
+	list_kinds(known);
+	if (number_place(c->name, &place, &behind, &width) < 0)
+		return pm_fail(PM_USAGE, "--output '%s': only %%d or %%04d can stand for the number of the frame, once", c->name);
+	if (!strcmp(c->name, "-"))
+		kind = asked < 0 ? PM_PICTURE_PNG : asked;
+	else if (dot && kind < 0)
+		return pm_fail(PM_USAGE, "--output '%s': no kind of picture ends in '%s' (%s)", c->name, dot, known);
+	else if (kind < 0)
+		return pm_fail(PM_USAGE, "--output '%s' has no ending, which says the kind of picture (%s, or give --format)", c->name, known);
+	else if (asked >= 0 && asked != kind)
+		return pm_fail(PM_USAGE, "--output '%s' ends in '%s', but --format is %s (leave --format out, or change the ending)", c->name, dot, format);
+	c->kind = (enum pm_picture_kind)kind;
 	return 0;
 }
 
@@ -42,15 +71,13 @@ static int name_of(const struct pm_picture_files *c, uint64_t frame, bool movie,
 
 int pm_picture_files_write(struct pm_picture_files *c, const struct pm_picture *p, uint64_t frame)
 {
-	const bool ppm = c->ppm, movie = ppm && !strchr(c->name, '%');
+	const bool ppm = c->kind == PM_PICTURE_PPM, movie = ppm && !strchr(c->name, '%');
 	char name[4096];
 	int status = name_of(c, frame, movie, name);
 	if (status)
 		return status;
-	if (c->standard)
-		return pm_picture_ppm(p, stdout);
 	if (!strcmp(c->name, "-"))
-		return pm_picture_png(p, stdout);
+		return ppm ? pm_picture_ppm(p, stdout) : pm_picture_png(p, stdout);
 	FILE *out = movie && c->movie ? c->movie : fopen(name, "wb");
 	if (!out)
 		return pm_fail_errno("cannot write '%s'", name);

@@ -168,8 +168,21 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 		run -2 bash -c "sdraw $o <a"
 	done
 	run -1 bash -c 'sdraw -o /nonexistent/p.png <a'
-	run -1 bash -c 'sdraw -o /dev/full <a'
+	run -1 bash -c 'sdraw --format png -o /dev/full <a'
 	run -1 bash -c 'sdraw --format ppm <a >/dev/full'
+}
+
+@test "the ending of --output says the kind of picture; another ending, none, or one that contradicts --format is refused with the list" {
+	pinit plummer -n 20 >a
+	sh_ok 'sdraw --size 64 -o p.PNG <a; sdraw --size 64 -o p.ppm <a; sdraw --size 64 --format ppm -o bare <a'
+	picture p.PNG
+	[ "$(head -c 2 p.ppm)" = P6 ] && cmp p.ppm bare
+	for o in '-o x.jpg' '-o x.d/p' '-o x' '--format png -o x.jpg' '-o x.jpg --format ppm' '--format ppm -o x.png' '--format png -o x.ppm'; do
+		run -2 --separate-stderr bash -c "sdraw $o <a"
+		[ "${#stderr_lines[@]}" = 1 ]
+		[[ $stderr == "sdraw: --output "* && ( $stderr == *"(.png"* || $stderr == *"--format is "* ) ]]
+	done
+	[ -z "$(ls -d x* 2>/dev/null)" ]
 }
 
 @test "nothing is drawn from a truncated stream" {
