@@ -134,7 +134,7 @@ report() {
 		if command -v gnuplot >/dev/null; then
 			plot "$keep" || true
 		else
-			echo "$me: no gnuplot here: no picture (apt-get install gnuplot-nox)" >&2
+			tell "no gnuplot here: no picture (apt-get install gnuplot-nox)"
 		fi
 		page "$keep"
 	fi

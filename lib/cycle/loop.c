@@ -175,7 +175,7 @@ static int write_out(struct cycle *y, struct pm_frame *f)
 static void progress(struct cycle *y, const struct pm_frame *f, bool last)
 {
 	double now = pm_seconds();
-	if (!isatty(STDERR_FILENO) || (!last && now - y->told < 0.2))
+	if (y->s->quiet || !isatty(STDERR_FILENO) || (!last && now - y->told < 0.2))
 		return;
 	y->told = now;
 	fprintf(stderr, "\rcycle: step %lld, time %g%s", (long long)f->step, f->time, last ? "\n" : "   ");
@@ -288,8 +288,8 @@ static int pass(struct cycle *y, struct pm_frame **f)
 static int speak(struct cycle *y, const char *sentence)
 {
 	y->words = pm_sentence_new(sentence, !strcmp(y->c->engine, "fused"), &y->c->moves);
-	if (y->words && y->s->verbose)
-		pm_sentence_verbose(y->words);
+	if (y->words)
+		pm_sentence_notes(y->words, y->s);
 	waits = y->words && pm_sentence_waits(y->words);
 	return y->words ? 0 : pm_failed();
 }
@@ -337,7 +337,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
 		pm_history_add(y->s, *f), pm_sentence_forces(y->words, *f);
-	if (!y->c->resume && !y->c->plan && !y->judged)
+	if (!y->c->resume && !y->c->plan && !y->judged && !y->s->quiet)
 		pm_missing_words(y->words, *f, end_of(y, *f));
 	y->judged = true;
 	status = look_first(y, f);

@@ -15,7 +15,7 @@
 enum { most_words = 64, most_arguments = 64 };
 
 struct word {
-	char *argv[most_arguments + 3]; /* two spare, for --no-history and --verbose */
+	char *argv[most_arguments + 3]; /* two spare, for --no-history and --verbose or --quiet */
 	int argc;
 	const struct pm_tool *tool; /* NULL: a foreign program */
 	struct pm_stage *stage;     /* pmpipe words: declared here even when they run as processes */
@@ -205,13 +205,16 @@ struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct p
 	return s;
 }
 
-void pm_sentence_verbose(struct pm_sentence *s)
+void pm_sentence_notes(struct pm_sentence *s, const struct pm_stage *as)
 {
-	for (int i = 0; i < s->nwords; i++)
-		if (s->word[i].stage) {
-			s->word[i].stage->verbose = true;
-			s->word[i].argv[s->word[i].argc + 1] = "--verbose"; /* of its process */
-		}
+	for (int i = 0; i < s->nwords; i++) {
+		struct word *w = s->word + i;
+		if (!w->stage || w->stage->verbose || w->stage->quiet || !(as->verbose || as->quiet))
+			continue; /* what was typed behind the word stays */
+		w->stage->verbose = as->verbose;
+		w->stage->quiet = as->quiet;
+		w->argv[w->argc + 1] = as->quiet ? "--quiet" : "--verbose"; /* of its process */
+	}
 }
 
 /* ---- running ---- */

@@ -9,7 +9,7 @@ struct pm_sentence;
 
 /* moves: foreign words that change state (the others are taken to make change or derived fields). fused: our own words run in this process. */
 struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves);
-void pm_sentence_verbose(struct pm_sentence *s); /* before the first pass: its words report their decisions */
+void pm_sentence_notes(struct pm_sentence *s, const struct pm_stage *as); /* before the first pass: its words are as verbose or quiet as this one */
 int pm_sentence_free(struct pm_sentence *s); /* 0, or failure with the way a process ended */
 /* True if a word that changes state needs a change field that neither the frame nor an earlier word supplies. */
 bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);

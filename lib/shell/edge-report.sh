@@ -14,7 +14,7 @@ pictures() {
 	if command -v gnuplot >/dev/null; then
 		"$1" "$keep" || true
 	else
-		echo "$me: no gnuplot here: no picture (apt-get install gnuplot-nox)" >&2
+		tell "no gnuplot here: no picture (apt-get install gnuplot-nox)"
 	fi
 }
 

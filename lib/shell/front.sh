@@ -139,7 +139,7 @@ plot_errors() {
 	rows=$(awk -F'\t' -v choices=${#choice_name[@]} 'NR > 1 && $2 == "ok" && $5 > 0 && $5 !~ /inf/ {
 		label = $1; for (i = 1; i <= choices; i++) label = label " " $(14 + i)
 		gsub(/"/, "\047", label); print ++n "\t" $5 "\t" (length(label) > 60 ? substr(label, 1, 57) "..." : label) }' "$1/pareto.tsv")
-	[ -n "$rows" ] || { echo "$me: no member with an error above zero: no picture" >&2; return 1; }
+	[ -n "$rows" ] || { tell "no member with an error above zero: no picture"; return 1; }
 	cat >"$1/pareto.gp" <<GP
 set datafile separator tab
 \$members << END
@@ -165,7 +165,7 @@ GP
 
 plot_front() {
 	local dir=$1
-	[ -n "$(points "$dir/pareto.tsv" yes)" ] || { echo "$me: no member with an error and seconds above zero: no picture" >&2; return 1; }
+	[ -n "$(points "$dir/pareto.tsv" yes)" ] || { tell "no member with an error and seconds above zero: no picture"; return 1; }
 	cat >"$dir/pareto.gp" <<GP
 set datafile separator tab
 \$front << END

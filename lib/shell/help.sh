@@ -4,7 +4,8 @@
 # "TEXT|COMMAND") and rows (lines "letter|name|VALUE|choices|text"); the value of --a-b is stored in opt_a_b.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-common_rows='|verbose|||say on standard error what is done
+common_rows='q|quiet|||print no notes on standard error, only errors
+v|verbose|||say on standard error what is done
 h|help|||print this help
 |man|||print the manual page (troff)
 |examples|||print the examples, one command a line
@@ -19,6 +20,8 @@ fail() {
 	exit "$status"
 }
 usage() { fail 2 "$@"; }
+# tell TEXT...: a note, one line; --quiet leaves it out.
+tell() { [ -n "${opt_quiet:-}" ] || echo "$me: $*" >&2; }
 
 help_rows() {
 	local letter name value choices text
@@ -125,7 +128,7 @@ read_options() {
 	while [ $# != 0 ]; do
 		word=$1 given=
 		shift
-		[ "$word" != -- ] || { positional+=("$@"); return; }
+		[ "$word" != -- ] || { positional+=("$@"); break; }
 		[[ $word == -?* ]] || { positional+=("$word"); continue; }
 		[[ $word != --*=* ]] || { given=${word#*=}; set -- "$given" "$@"; word=${word%%=*} given=1; }
 		while IFS='|' read -r letter name value choices text; do
@@ -143,4 +146,5 @@ read_options() {
 			shift
 		fi
 	done
+	[[ -z ${opt_quiet:-} || -z ${opt_verbose:-} ]] || usage "--quiet and --verbose exclude each other (leave one of them out)"
 }

@@ -79,7 +79,7 @@ plot() {
 			'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\n' "$draws"
 		[ -z "$draws" ] || printf 'set terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$png" "$draws"
 	} >"$dir/margin.gp"
-	[ -n "$draws" ] || { echo "$me: no growth could be measured: no picture (--column NAME)" >&2; return 1; }
+	[ -n "$draws" ] || { tell "no growth could be measured: no picture (--column NAME)"; return 1; }
 	draw "$dir" margin.gp
 }
 

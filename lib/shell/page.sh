@@ -43,5 +43,5 @@ terminal() {
 
 # draw DIRECTORY FILE: runs gnuplot there.
 draw() {
-	(cd "$1" && LC_ALL=C.UTF-8 gnuplot "$2") 2>"$work/gnuplot" || { echo "$me: gnuplot: $(grep -v '^[ ^]*$' "$work/gnuplot" | tail -n 1)" >&2; return 1; }
+	(cd "$1" && LC_ALL=C.UTF-8 gnuplot "$2") 2>"$work/gnuplot" || { tell "gnuplot: $(grep -v '^[ ^]*$' "$work/gnuplot" | tail -n 1)"; return 1; }
 }

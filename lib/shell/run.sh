@@ -29,7 +29,7 @@ work_directory() {
 checked_log() {
 	touch -- "$state/log"
 	grep -qavE "$1" -- "$state/log" || return 0
-	echo "$me: $(grep -cavE "$1" -- "$state/log") lines of '$state/log' are no results of $me and are left out" >&2
+	tell "$(grep -cavE "$1" -- "$state/log") lines of '$state/log' are no results of $me and are left out"
 	{ grep -aE "$1" -- "$state/log" || true; } >"$work/log"
 	cat -- "$work/log" >"$state/log"
 }

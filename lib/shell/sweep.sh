@@ -162,7 +162,9 @@ progress() {
 	local left=''
 	[ "$1" = 0 ] || left=", about $(((SECONDS - began) * ($2 - $1) / $1)) s left"
 	doing="$1 of $2 measured$3"
-	if [ -t 2 ]; then
+	if [ -n "${opt_quiet:-}" ]; then
+		return 0
+	elif [ -t 2 ]; then
 		printf '\r%s: %s%s  \033[K' "$me" "$doing" "$left" >&2
 	elif [ -n "${opt_verbose:-}" ]; then
 		printf '%s: %s%s\n' "$me" "$doing" "$left" >&2

@@ -168,7 +168,9 @@ give_up() {
 
 progress() {
 	doing="$made runs made${1:+, $1}"
-	if [ -t 2 ]; then
+	if [ -n "${opt_quiet:-}" ]; then
+		return 0
+	elif [ -t 2 ]; then
 		printf '\r%s: %s%s  \033[K' "$me" "$made runs" "${phase:+ ($phase)}" >&2
 	elif [ -n "${opt_verbose:-}" ]; then
 		printf '%s: %s runs%s\n' "$me" "$made" "${phase:+ ($phase)}" >&2

@@ -8,7 +8,7 @@
 
 /* Options of the library, the same for every tool. */
 struct pm_common {
-	bool help, man, complete, examples, version, no_history, verbose;
+	bool help, man, complete, examples, version, no_history, verbose, quiet;
 	const char *input, *output, *timing;
 	int64_t threads;
 };

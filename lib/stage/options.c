@@ -15,7 +15,8 @@ const struct pm_option pm_common_options[] = {
 	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
 		.text = "append a line to FILE: word, seconds of set-up, seconds of work"},
 	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},
-	{.name = "verbose", .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "print decisions on standard error"},
+	{.name = "quiet", .letter = 'q', .kind = PM_FLAG, .cosmetic = true, AT(quiet), .text = "print no notes on standard error, only errors"},
+	{.name = "verbose", .letter = 'v', .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "print decisions on standard error"},
 	{.name = "help", .letter = 'h', .kind = PM_FLAG, .cosmetic = true, AT(help), .text = "print this help"},
 	{.name = "man", .kind = PM_FLAG, .cosmetic = true, AT(man), .text = "print the manual page (troff)"},
 	{.name = "examples", .kind = PM_FLAG, .cosmetic = true, AT(examples), .text = "print the examples, one command a line"},
@@ -287,6 +288,8 @@ static int arguments_check(const struct pm_stage *s)
 	const struct pm_common *c = &s->run->common;
 	if (c->help || c->man || c->complete || c->examples || c->version)
 		return 0;
+	if (c->quiet && c->verbose)
+		return pm_fail(PM_USAGE, "--quiet and --verbose exclude each other (leave one of them out)");
 	if (s->nargs > t->most && !t->arguments)
 		return pm_fail(PM_USAGE, "unexpected argument '%s' (%s has options only)", s->args[0], t->name);
 	if (s->nargs > t->most)

@@ -45,6 +45,7 @@ struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv
 	s->entry = json_pack("{s:s,s:s,s:{}}", "program", tool->name, "version", PM_VERSION, "options");
 	*status = pm_options_parse(s, argc, argv);
 	s->verbose = s->run->common.verbose;
+	s->quiet = s->run->common.quiet;
 	if (s->run->common.no_history) {
 		json_decref(s->entry);
 		s->entry = NULL;
@@ -178,11 +179,20 @@ void pm_say(const struct pm_stage *s, const char *format, ...)
 	va_end(ap);
 }
 
+void pm_note(const struct pm_stage *s, const char *format, ...)
+{
+	va_list ap;
+	va_start(ap, format);
+	if (!s->quiet && !s->trial)
+		say(s, format, ap, "");
+	va_end(ap);
+}
+
 void pm_tell_once(struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;
 	va_start(ap, format);
-	if (!s->trial && !s->told)
+	if (!s->trial && !s->told && !s->quiet)
 		say(s, format, ap, "");
 	s->told |= !s->trial;
 	va_end(ap);

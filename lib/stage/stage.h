@@ -73,7 +73,8 @@ struct pm_stage {
 	char *word;          /* as typed, without the options of the library; the key of its report */
 	json_t *entry;       /* for the history; NULL with --no-history */
 	bool leaves_out;     /* set by begin: some frames are not written, so it cannot be part of a sentence */
-	bool verbose, trial; /* cycle tries declare() on a header without data: it must not cache or count anything */
+	bool verbose, quiet; /* --verbose, --quiet: of the word, or of cycle for all its words */
+	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */
 	bool told;           /* pm_tell_once has been used */
 	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup; work: the rest of frame */
@@ -110,7 +111,8 @@ bool pm_given(const struct pm_stage *s, const char *option);       /* was it typ
 void pm_stage_no_entry(struct pm_stage *s);                        /* begin(), source(): it leaves no entry in the history (looking, text of whole frames) */
 int pm_cells_for(const struct pm_cells *c, int dim, size_t cells[3]); /* 0, or failure if the count of numbers does not fit */
 void pm_say(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, with --verbose only */
-void pm_tell_once(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* frame(): a line on stderr, the first time */
+void pm_note(const struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a line on stderr, not with --quiet */
+void pm_tell_once(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* frame(): as pm_note, the first time */
 /* declare(): the effect is zero here; prints the reason once (--verbose) and returns PM_PASS. */
 int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void pm_setup_since(struct pm_stage *s, double began);             /* frame(): counts the time since `began` as set-up, not as work */
