@@ -1,4 +1,4 @@
-/* sdraw: pictures of a mesh field or of particles, a PNG per frame or PPM for a movie (docs/methods/pictures.md). SPDX-License-Identifier: GPL-3.0-or-later */
+/* sdraw: pictures of a mesh field or of particles: a PNG per frame, or a movie (docs/methods/pictures.md). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@ static const char *const maps[] = {"auto", "viridis", "magma", "inferno", "grey"
 
 struct config {
 	const char *field, *mesh, *set, *x, *y, *colour, *weight, *title, *component, *axis, *map, *format, *style, *output;
-	double slice;
+	double slice, fps;
 	struct pm_vector range, window;
 	int64_t size;
 	bool project, log, linear;
@@ -32,6 +32,8 @@ static const struct pm_option options[] = {
 	{.name = "format", .kind = PM_WORD, .choices = pm_picture_kinds, PM_AT(format),
 		.text = "the kind where --output has no ending; png: one file per frame; ppm: all frames in sequence, to "
 		"standard output unless --output is given"},
+	{.name = "fps", .kind = PM_REAL, .unit = "1/s", .fallback = "25", .low = 0.1, .high = 240, PM_AT(fps),
+		.text = "pictures per second of a movie (.mp4)"},
 	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", PM_AT(field),
 		.text = "draw this mesh field; if only the particles have it, colour them by it"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "draw a field of this mesh (the last field if --field is missing)"},
@@ -74,8 +76,9 @@ static int begin(struct pm_stage *s)
 	struct state *st = s->state;
 	const bool piped = c->format && strcmp(c->format, "png") && !pm_given(s, "output");
 	st->files.name = piped ? "-" : c->output;
+	st->files.fps = c->fps;
 	if (pm_picture_files_check(&st->files, c->format))
-		return -PM_USAGE;
+		return pm_failed();
 	if (c->range.n && (c->range.n != 2 || !(c->range.x[1] > c->range.x[0])))
 		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
 	if (c->window.n && (c->window.n != 4 || !(c->window.x[1] > c->window.x[0]) || !(c->window.x[3] > c->window.x[2])))
@@ -116,7 +119,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static int end(struct pm_stage *s) { return pm_picture_files_close(&((struct state *)s->state)->files); }
 
-static void done(struct pm_stage *s) { pm_picture_files_close(&((struct state *)s->state)->files); }
+static void done(struct pm_stage *s) { pm_picture_files_drop(&((struct state *)s->state)->files); }
 
 static const struct pm_example examples[] = {
 	{"The particles of a scene seen along z.", "pinit plummer -n 20000 | sdraw -o plummer.png"},
@@ -132,7 +135,7 @@ const struct pm_tool tool_sdraw = {
 		"density; with --field a mesh "
 		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values "
 		"lie beyond it. "
-		 "A movie: sdraw --format ppm --range LO,HI | ffmpeg -f image2pipe -i - movie.mp4.",
+		 "A movie: sdraw -o run.mp4 --range LO,HI, which needs ffmpeg.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

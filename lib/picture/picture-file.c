@@ -18,7 +18,7 @@ static int number_place(const char *name, const char **place, const char **behin
 	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
 }
 
-const char *const pm_picture_kinds[] = {"png", "ppm", NULL};
+const char *const pm_picture_kinds[] = {"png", "ppm", "mp4", NULL};
 
 static int kind_named(const char *name)
 {
@@ -52,15 +52,19 @@ int pm_picture_files_check(struct pm_picture_files *c, const char *format)
 	else if (asked >= 0 && asked != kind)
 		return pm_fail(PM_USAGE, "--output '%s' ends in '%s', but --format is %s (leave --format out, or change the ending)", c->name, dot, format);
 	c->kind = (enum pm_picture_kind)kind;
-	return 0;
+	if (kind != PM_PICTURE_MP4)
+		return 0;
+	if (!strcmp(c->name, "-") || strchr(c->name, '%'))
+		return pm_fail(PM_USAGE, "--output '%s': a movie is one file with a name", c->name);
+	return pm_movie_possible();
 }
 
 /* The name of the picture of this frame. */
-static int name_of(const struct pm_picture_files *c, uint64_t frame, bool movie, char out[4096])
+static int name_of(const struct pm_picture_files *c, uint64_t frame, bool series, char out[4096])
 {
 	const char *place, *behind;
 	int width, there = number_place(c->name, &place, &behind, &width);
-	if (!there && frame > 1 && !movie)
+	if (!there && frame > 1 && !series)
 		return pm_fail(PM_USAGE, "'%s' would be overwritten (give --output a name with %%04d, or choose a frame with sel)", c->name);
 	if (there)
 		snprintf(out, 4096, "%.*s%0*llu%s", (int)(place - c->name), c->name, width, (unsigned long long)frame, behind);
@@ -69,31 +73,53 @@ static int name_of(const struct pm_picture_files *c, uint64_t frame, bool movie,
 	return 0;
 }
 
+/* All pictures into one file. */
+static int add_movie(struct pm_picture_files *c, const struct pm_picture *p)
+{
+	c->movie.name = c->name, c->movie.fps = c->fps;
+	return pm_movie_add(&c->movie, p);
+}
+
 int pm_picture_files_write(struct pm_picture_files *c, const struct pm_picture *p, uint64_t frame)
 {
-	const bool ppm = c->kind == PM_PICTURE_PPM, movie = ppm && !strchr(c->name, '%');
+	const bool ppm = c->kind == PM_PICTURE_PPM, series = ppm && !strchr(c->name, '%');
 	char name[4096];
-	int status = name_of(c, frame, movie, name);
+	if (c->kind == PM_PICTURE_MP4)
+		return add_movie(c, p);
+	int status = name_of(c, frame, series, name);
 	if (status)
 		return status;
 	if (!strcmp(c->name, "-"))
 		return ppm ? pm_picture_ppm(p, stdout) : pm_picture_png(p, stdout);
-	FILE *out = movie && c->movie ? c->movie : fopen(name, "wb");
+	FILE *out = series && c->series ? c->series : fopen(name, "wb");
 	if (!out)
 		return pm_fail_errno("cannot write '%s'", name);
 	status = ppm ? pm_picture_ppm(p, out) : pm_picture_png(p, out);
-	if (movie)
-		c->movie = out;
+	if (series)
+		c->series = out;
 	else if (fclose(out) && !status)
 		status = pm_fail_errno("cannot write '%s'", name);
-	if (!status && !(movie && frame > 1))
+	if (!status && !(series && frame > 1))
 		puts(name);
 	return status;
 }
 
 int pm_picture_files_close(struct pm_picture_files *c)
 {
-	FILE *movie = c->movie;
-	c->movie = NULL;
-	return movie && fclose(movie) ? pm_fail_errno("cannot write '%s'", c->name) : 0;
+	FILE *series = c->series;
+	c->series = NULL;
+	if (series && fclose(series))
+		return pm_fail_errno("cannot write '%s'", c->name);
+	int status = pm_movie_end(&c->movie);
+	if (c->movie.width && !status)
+		puts(c->name);
+	return status;
+}
+
+void pm_picture_files_drop(struct pm_picture_files *c)
+{
+	if (c->series)
+		fclose(c->series);
+	c->series = NULL;
+	pm_movie_drop(&c->movie);
 }

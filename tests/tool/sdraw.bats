@@ -185,6 +185,41 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	[ -z "$(ls -d x* 2>/dev/null)" ]
 }
 
+need_ffmpeg() { command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null || skip "no ffmpeg here"; }
+
+@test "a movie has a picture per frame with the colours of the PPM, --fps says how fast, and the name is printed at the end" {
+	need_ffmpeg
+	mesh 2 >m; cat m m m >mmm
+	sh_ok 'sdraw --field w --component x --size 200 --fps 12.5 -o run.mp4 <mmm'
+	[ "$output" = run.mp4 ]
+	[ "$(ls -A)" = "$(printf '%s\n' m mmm run.mp4)" ]
+	[ "$(ffprobe -v error -count_frames -select_streams v -show_entries stream=nb_read_frames,r_frame_rate -of csv=p=0 run.mp4)" = 25/2,3 ]
+	sdraw --field w --component x --size 200 --format ppm <m >p
+	ffmpeg -v error -i run.mp4 -frames:v 1 q.ppm
+	[ "$(sed -n 2p p)" = "$(sed -n 2p q.ppm)" ]
+	for x in 60 144 230; do # blue, grey, red of the field; 10 of 255: what H.264 at its default quality keeps of a smooth area
+		read -r r g b <<<"$(pixel p $x 120)"; read -r R G B <<<"$(pixel q.ppm $x 120)"
+		within "$R" "$r" 10; within "$G" "$g" 10; within "$B" "$b" 10
+	done
+}
+
+@test "a movie that fails is one line with the reason, and leaves no file" {
+	pinit plummer -n 20 >a; mesh 2 >m; cat a m >am; head -c -200 a >cut; cat a cut >aacut
+	none() { [ ! -e run.mp4 ] && [ "${#stderr_lines[@]}" = 1 ] && [ -z "$(find . -name '.*' -type f)" ]; }
+	PATH="$(without ffmpeg; echo "$PATH")" run -1 --separate-stderr bash -c 'sdraw -o run.mp4 <a'
+	[[ $stderr == "sdraw: no program ffmpeg"*"apt-get install ffmpeg"* ]] && none
+	need_ffmpeg
+	run -1 --separate-stderr bash -c 'sdraw --size 64 -o run.mp4 <am'
+	[[ $stderr == "sdraw: frame 2: this picture has "*" a movie has one size"* ]] && none
+	run -1 --separate-stderr bash -c 'sdraw --size 64 -o run.mp4 <aacut'
+	none
+	mkdir broken; printf '#!/bin/sh\nread -r line\necho "no encoder here" >&2\nexit 1\n' >broken/ffmpeg; chmod +x broken/ffmpeg
+	PATH=$PWD/broken:$PATH run -1 --separate-stderr bash -c 'cat a a a | sdraw -o run.mp4'
+	[[ $stderr == "sdraw: "*"ffmpeg: no encoder here" ]] && none
+	for o in '-o run%d.mp4' '--format mp4 -o -' '--format mp4'; do run -2 bash -c "sdraw $o <a"; done
+	run -1 bash -c 'sdraw -o /nonexistent/run.mp4 <a'
+}
+
 @test "nothing is drawn from a truncated stream" {
 	pinit plummer -n 100 >a; head -c 3000 a >cut
 	run -1 bash -c 'sdraw -o p.png <cut'
