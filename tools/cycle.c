@@ -11,6 +11,8 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "SENTENCE is missing (the stages of one pass, in quotes, joined by |; or --plan)");
 	if (s->nargs && c->plan)
 		return pm_fail(PM_USAGE, "--plan makes the sentence, but a SENTENCE is given too (leave out one of them)");
+	if (c->exact && isnan(c->time))
+		return pm_fail(PM_USAGE, "--exact belongs to -t TIME");
 	if (pm_given(s, "accuracy") && !c->plan)
 		return pm_fail(PM_USAGE, "--accuracy belongs to --plan");
 	return 0;
@@ -24,6 +26,7 @@ static const struct pm_option options[] = {
 	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .high = 1e15, .cosmetic = true, AT(steps),
 		.text = "full steps, counted from the beginning, also after --resume"},
 	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", .cosmetic = true, AT(time), .text = "stop at the first step with time >= T - dt/2"},
+	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, AT(exact), .text = "with -t: end at exactly that time, by a shorter last step if it needs one"},
 	{.name = "until", .kind = PM_TEXT, .unit = "EXPRESSION", .cosmetic = true, AT(until),
 		.text = "stop at the first step at which this expression in the columns of diag is true; NAME0 is the value at the beginning: 'energy > "
 			"10*energy0'"},

@@ -12,6 +12,7 @@
 #include "stage/internal.h"
 #include "cycle/loop.h"
 #include "cycle/missing-words.h"
+#include "cycle/run-end.h"
 #include "planner/plan.h"
 #include "sentence/process-chain.h"
 #include "sentence/sentence.h"
@@ -24,6 +25,7 @@ struct cycle {
 	struct pm_sentence *words;
 	struct pm_writer *out;
 	struct pm_until *until; /* NULL: none */
+	struct pm_run_end end;  /* -t */
 	struct pm_watch watch;  /* over the sums of strengths; not if foreign words may change state */
 	int met;                /* the expression is true for this frame */
 	bool judged;            /* the first frame was compared with the sentence */
@@ -185,8 +187,7 @@ static bool done(const struct cycle *y, const struct pm_frame *f)
 {
 	if (f->substep)
 		return false;
-	bool late = f->dt < 0 ? f->time <= y->c->time - f->dt / 2 : f->time >= y->c->time - f->dt / 2; /* time may run backwards */
-	return y->met || (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || (!isnan(y->c->time) && late);
+	return y->met || (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || pm_run_end_reached(&y->end, f);
 }
 
 static int prime(struct cycle *y, struct pm_frame **f)
@@ -257,6 +258,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 		if (!(y->last = pm_frame_copy(*f)))
 			return pm_failed();
 	}
+	pm_run_end_shorten(&y->end, *f);
 	int status = prime(y, f);
 	if (!status)
 		status = pm_sentence_pass(y->words, f);
@@ -277,7 +279,8 @@ static int pass(struct cycle *y, struct pm_frame **f)
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	progress(y, *f, false);
-	status = full && !y->c->moves.n ? pm_watch_step(&y->watch, *f) : 0;
+	status = full ? pm_run_end_restore(&y->end, *f) : 0;
+	status = full && !status && !y->c->moves.n ? pm_watch_step(&y->watch, *f) : status;
 	status = status || !full ? status : look(y, *f);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)(*f)->step, pm_message());
@@ -327,6 +330,8 @@ static void watch(struct cycle *y, struct pm_frame *f)
 static int run_frame(struct cycle *y, struct pm_frame **f)
 {
 	int status = y->words ? 0 : speak_plan(y, *f);
+	const double began = (*f)->time;
+	status = status ? status : pm_run_end_check(&y->end, y->words);
 	if (status)
 		return status;
 	const json_t *start = json_object_get((*f)->more, "cycle_start");
@@ -351,6 +356,8 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 			status = interrupted(y, *f);
 	}
 	progress(y, *f, true);
+	if (!status && pm_run_end_reached(&y->end, *f))
+		pm_run_end_tell(&y->end, y->s, y->words, *f, (*f)->step - y->start, began);
 	json_decref(y->before);
 	y->before = NULL;
 	return !status && y->written != (*f)->step ? write_out(y, *f) : status;
@@ -374,7 +381,7 @@ static int frames(struct cycle *y, struct pm_reader *in)
 
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
-	struct cycle y = {.c = c, .s = s, .lock = -1};
+	struct cycle y = {.c = c, .s = s, .lock = -1, .end = {.time = c->time, .exact = c->exact}};
 	int bad = checkpoint_check(&y);
 	if (bad)
 		return bad;

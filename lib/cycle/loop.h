@@ -9,6 +9,7 @@ struct pm_loop { /* the options; the config of cycle */
 	double time;          /* NAN: not given */
 	const char *engine, *checkpoint, *resume, *until;
 	struct pm_list moves;
+	bool exact;           /* the last step is shorter where that is needed to end at time */
 	bool other_plans, plan; /* plan: use the sentence that plan chooses for the first frame */
 	double accuracy;        /* of that */
 };

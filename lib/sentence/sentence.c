@@ -324,6 +324,8 @@ void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f)
 	pm_frame_free(h);
 }
 
+int pm_sentence_words(const struct pm_sentence *s) { return s->nwords; }
+
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word) { return word < s->nwords ? s->word[word].stage : NULL; }
 
 bool pm_sentence_says(const struct pm_sentence *s, const char *name)

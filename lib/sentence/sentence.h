@@ -18,6 +18,7 @@ void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f);
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */
 int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
 int pm_sentence_end(struct pm_sentence *s); /* the input ended well: calls end() of the words (processes do so themselves) */
+int pm_sentence_words(const struct pm_sentence *s); /* how many */
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: after the last, or a foreign word */
 /* Has it a word or an action of push (boris for boris/2) of this name, or a foreign word, which may do anything? */
 bool pm_sentence_says(const struct pm_sentence *s, const char *name);

@@ -115,3 +115,46 @@ clock() { wire header "$1" | python3 -c 'import json, sys; h = json.load(sys.std
 	wire edit d.pm 'assert h["dt"] == 0.05 and h["step"] == 3, h' >/dev/null
 	[ "$(push drift <d.pm | times)" = 0.35000000000000003 ]
 }
+
+@test "cycle -t --exact ends at exactly that time by a shorter last step, and dt is what it was" {
+	for t in 0.01 0.25 1.004 100.04; do
+		body | cycle -t $t --exact 'push drift' >a.pm 2>err
+		[ ! -s err ]
+		wire header a.pm | python3 -c 'import json, sys; h = json.load(sys.stdin); assert (h["time"], h["dt"]) == ('$t', 0.1), h'
+		# x = t with v = 1, up to the rounding of each of the steps
+		within "$(stab --plain <a.pm | column x)" $t "$(awk -v t=$t 'BEGIN { print 2e-16 * t * (t / 0.1 + 1) }')" "position at $t"
+	done
+	[ "$(since a.pm)" = "none" ]
+	[ "$(body | push --dt -0.1 drift | cycle -t -0.75 --exact 'push drift' | times)" = -0.75 ]
+	[ "$(cycle -t 200.04 --exact 'push drift' <a.pm | diag | column step)" = 2001 ]
+}
+
+@test "--exact gives the same bytes in every engine, in two runs and resumed, also with schemes of several passes and of memory" {
+	pinit plummer -n 20 --dt 0.03 >a.pm
+	for words in 'push kick/2 drift | pp | push kick/2' 'pp | push rk4' 'pp | push ab2'; do
+		cycle -t 0.2 --exact "$words" <a.pm >b.pm
+		cycle -t 0.2 --exact --engine pipes "$words" <a.pm | same_as - b.pm
+		cycle -n 2 "$words" <a.pm | cycle -t 0.2 --exact "$words" | same_as - b.pm
+		cycle -n 4 --checkpoint c.pm "$words" <a.pm >d.pm
+		cycle --resume c.pm -t 0.2 --exact "$words" | same_as - b.pm
+		cycle -t 0.2 --exact --checkpoint c.pm "$words" <a.pm >d.pm
+		cycle --resume c.pm -t 0.2 --exact "$words" | same_as - b.pm # nothing is left to do
+	done
+}
+
+@test "--exact changes no byte where whole steps reach the end, and is refused without -t and where a word sets dt" {
+	body | cycle -t 0.3 'push drift' >a.pm
+	body | cycle -t 0.3 --exact 'push drift' | same_as - a.pm
+	run -2 cycle -n 3 --exact 'push drift'
+	run -2 --separate-stderr cycle -t 1 --exact 'push --dt 0.3 drift' < <(body)
+	[[ $stderr == *"'push --dt 0.3 drift' sets dt in every step"* ]]
+	run -2 cycle -t 1 --exact 'dt --max 0.3 | push drift' < <(body)
+}
+
+@test "cycle says where a run by -t has ended if that is not where it was to end" {
+	said() { body | cycle -t "$1" "${@:2}" 'push drift' 2>&1 >/dev/null; }
+	[[ $(said 0.01) == 'cycle: ended at time 0 after 0 steps of dt 0.1, not at 0.01: '*--exact* ]]
+	[[ $(said 0.09) == 'cycle: ended at time 0.1 after 1 step of dt 0.1, not at 0.09: '* ]]
+	[[ $(said 0.26) == 'cycle: ended at time 0.3 after 3 steps of dt 0.1, not at 0.26: '* ]]
+	[ -z "$(said 0.3)$(said 20.04)$(said 0.01 -q)$(said 0.01 --exact)$(said 0.26 -n 1)" ]
+}
