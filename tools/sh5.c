@@ -48,13 +48,22 @@ static int to_file(struct pm_stage *s, struct state *st)
 	return pm_h5_from_stream(st->file, r);
 }
 
+/* What the report says of a file of another program: how it was read, and what was left out. */
+static void tell(void *stage, const struct pm_frame *f)
+{
+	const json_t *said = json_object_get(f->report, ((struct pm_stage *)stage)->word);
+	const char *how = json_string_value(json_object_get(said, "read")), *less = json_string_value(json_object_get(said, "left_out"));
+	if (how && less)
+		pm_tell_once(stage, "%s; left out: %s", how, less);
+}
+
 static int from_file(struct pm_stage *s, struct state *st)
 {
 	struct pm_writer *w = pm_stage_writer(s);
-	int apart = w ? pm_h5_read_apart(s->args[0], w) : pm_failed();
+	int apart = w ? pm_h5_read_apart(s->args[0], w, tell, s) : pm_failed();
 	if (apart <= 0)
 		return apart;
-	if (!(st->file = pm_h5_open(s->args[0])))
+	if (!(st->file = pm_h5_open(s->args[0], s->word)))
 		return pm_failed();
 	return pm_h5_to_stream(st->file, w, s->entry);
 }
@@ -66,8 +75,8 @@ static void done(struct pm_stage *s) { pm_h5_free(((struct state *)s->state)->fi
 const struct pm_tool tool_sh5 = {
 	.name = "sh5",
 	.summary = "HDF5 to stream and back, exactly",
-	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1. With -o FILE a sink: writes its input as such a file, which "
-		"h5ls, h5dump, h5diff, yt and ParaView read. "
+	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1, or a snapshot in GADGET's layout. "
+		"With -o FILE a sink: writes its input as an openPMD file, which h5ls, h5dump, h5diff, yt and ParaView read. "
 		 "Stream to HDF5 to stream gives equal bytes. Iterations are named by their step, or by the next free number if two frames have the same step. "
 		 "-i FILE.h5 and -o FILE.h5 of any other tool run sh5 on a pipe.",
 	.kind = PM_SINK,

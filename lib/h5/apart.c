@@ -60,6 +60,17 @@ static void limit(const char *path)
 	pm_h5_goes_on(0);
 }
 
+void pm_h5_more_room(const char *path)
+{
+	struct stat st;
+	struct rlimit most;
+	if (limited && !stat(path, &st) && !getrlimit(RLIMIT_AS, &most) && most.rlim_cur != RLIM_INFINITY) {
+		rlim_t more = most.rlim_cur + 16 * (rlim_t)st.st_size;
+		most.rlim_cur = more > most.rlim_cur && more < most.rlim_max ? more : most.rlim_max;
+		setrlimit(RLIMIT_AS, &most);
+	}
+}
+
 /* How it ended, as a failure; 0 if well. */
 static int how_it_ended(int how, const char *doing)
 {
@@ -82,7 +93,7 @@ static int wait_for(pid_t pid)
 }
 
 /* The stream of the other process, as any word passes one on. */
-static int relay(struct pm_reader *r, struct pm_writer *w)
+static int relay(struct pm_reader *r, struct pm_writer *w, void (*seen)(void *who, const struct pm_frame *f), void *who)
 {
 	for (;;) {
 		struct pm_frame *f = NULL;
@@ -95,6 +106,8 @@ static int relay(struct pm_reader *r, struct pm_writer *w)
 			status = pm_write_header(w, f);
 			status = status ? status : pm_read_payload(r, f, false, w);
 			status = status ? status : pm_write_payload(w, f);
+			if (!status)
+				seen(who, f);
 		}
 		pm_frame_free(f);
 		if (status)
@@ -102,7 +115,7 @@ static int relay(struct pm_reader *r, struct pm_writer *w)
 	}
 }
 
-int pm_h5_read_apart(const char *path, struct pm_writer *w)
+int pm_h5_read_apart(const char *path, struct pm_writer *w, void (*seen)(void *who, const struct pm_frame *f), void *who)
 {
 	int out[2];
 	pid_t pid = pipe2(out, O_CLOEXEC) ? -1 : fork();
@@ -118,7 +131,7 @@ int pm_h5_read_apart(const char *path, struct pm_writer *w)
 	}
 	close(out[1]);
 	struct pm_reader *r = pm_reader_of_fd(out[0]);
-	int status = r ? relay(r, w) : -PM_DATA;
+	int status = r ? relay(r, w, seen, who) : -PM_DATA;
 	bool said = r && pm_reader_aborted(r);
 	char text[1024];
 	snprintf(text, sizeof text, "%s", pm_message());

@@ -11,11 +11,6 @@
 #include "stream/list.h"
 #include "stream/run.h"
 
-struct names {
-	int n;
-	char name[256][PM_NAME];
-};
-
 struct part { /* a component */
 	bool constant;
 	enum pm_type type;
@@ -23,35 +18,6 @@ struct part { /* a component */
 	int rank;
 	hsize_t dims[3];
 };
-
-static herr_t name_add(hid_t at, const char *name, const H5L_info_t *info, void *p)
-{
-	struct names *all = p;
-	(void)at, (void)info;
-	if (all->n == 256 || strlen(name) >= PM_NAME)
-		return -1;
-	pm_name_copy(all->name[all->n++], name);
-	return 0;
-}
-
-/* The members of a group, sorted by name. */
-static int children(hid_t at, const char *path, struct names *all)
-{
-	hsize_t from = 0;
-	all->n = 0;
-	hid_t g = H5Gopen2(at, path, H5P_DEFAULT);
-	int status = g < 0 || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, &from, name_add, all) < 0
-		? pm_fail(PM_DATA, "'%s' is not a group, or has too many members, or names longer than 63 bytes", path) : 0;
-	H5Gclose(g);
-	return status;
-}
-
-static double number(hid_t at, const char *name, double otherwise)
-{
-	int n = 1;
-	double x;
-	return pm_h5_has(at, name) && !pm_h5_get_reals(at, name, &n, &x) ? x : otherwise;
-}
 
 static bool is_dataset(hid_t at, const char *path)
 {
@@ -93,12 +59,12 @@ static int look(hid_t at, const char *path, struct part *c)
 	if (!c->constant)
 		status = dataset_look(o, c);
 	else if (!(status = pm_h5_get_reals(o, "shape", &c->rank, shape))) {
-		c->value = number(o, "value", NAN);
+		c->value = pm_h5_number(o, "value", NAN);
 		for (int a = 0; a < c->rank; a++)
 			c->dims[a] = (hsize_t)shape[a];
 		status = isfinite(c->value) ? 0 : -1;
 	}
-	c->unit = number(o, "unitSI", 1);
+	c->unit = pm_h5_number(o, "unitSI", 1);
 	if (pm_h5_has(o, "position"))
 		status = status ? status : pm_h5_get_reals(o, "position", &n, c->place);
 	H5Oclose(o);
@@ -125,7 +91,7 @@ static int load(hid_t at, const char *path, const struct part *c, struct pm_fiel
 }
 
 /* A record becomes a field: its components are the children of path, or path itself. */
-static int record(hid_t at, const char *path, const struct names *parts, struct pm_frame *f, const char *on, const char *name)
+static int record(hid_t at, const char *path, const struct pm_h5_names *parts, struct pm_frame *f, const char *on, const char *name)
 {
 	char full[4 * PM_H5_PATH];
 	struct part c[PM_COMPONENTS];
@@ -195,7 +161,7 @@ static int weigh(hid_t at, const char *folder, struct pm_frame *f, const char *s
 		char path[2 * PM_H5_PATH];
 		snprintf(path, sizeof path, "%s/%s", folder, strengths[i]);
 		hid_t o = p ? H5Oopen(at, path, H5P_DEFAULT) : -1;
-		double whole = p ? number(o, "macroWeighted", 1) : 1, power = p ? number(o, "weightingPower", 0) : 0;
+		double whole = p ? pm_h5_number(o, "macroWeighted", 1) : 1, power = p ? pm_h5_number(o, "weightingPower", 0) : 0;
 		H5Oclose(o);
 		if (p)
 			p->extensive = true;
@@ -207,12 +173,12 @@ static int weigh(hid_t at, const char *folder, struct pm_frame *f, const char *s
 
 static int species(hid_t at, const char *folder, const char *name, struct pm_frame *f)
 {
-	struct names *records = malloc(2 * sizeof *records), *parts = records + 1;
+	struct pm_h5_names *records = malloc(2 * sizeof *records), *parts = records + 1;
 	char path[2 * PM_H5_PATH];
 	struct part first;
-	int status = records ? children(at, folder, records) : pm_no_memory();
+	int status = records ? pm_h5_children(at, folder, records) : pm_no_memory();
 	snprintf(path, sizeof path, "%s/position", folder);
-	if (!status && !(status = children(at, path, parts))) {
+	if (!status && !(status = pm_h5_children(at, path, parts))) {
 		snprintf(path, sizeof path, "%s/position/%s", folder, parts->name[0]);
 		status = parts->n == f->dim ? look(at, path, &first)
 			: pm_fail(PM_DATA, "the positions of '%s' have %d components in %d dimensions", name, parts->n, f->dim);
@@ -225,7 +191,7 @@ static int species(hid_t at, const char *folder, const char *name, struct pm_fra
 		if (!strcmp(r, "particlePatches"))
 			continue;
 		parts->n = 0;
-		status = is_component(at, path) ? 0 : children(at, path, parts);
+		status = is_component(at, path) ? 0 : pm_h5_children(at, path, parts);
 		if (!status)
 			status = record(at, path, parts, f, name, !strcmp(r, "position") ? "x" : !strcmp(r, "velocity") ? "v" : r);
 	}
@@ -260,7 +226,7 @@ static int lattice_look(hid_t o, const char *name, int dim, struct lattice *l)
 	if (pm_h5_get_letters(o, "axisLabels", 3, letters) != dim || pm_h5_get_reals(o, "gridSpacing", &nh, l->h) ||
 		pm_h5_get_reals(o, "gridGlobalOffset", &nlo, l->lo) || nh != dim || nlo != dim)
 		return pm_fail(PM_DATA, "mesh '%s': axisLabels, gridSpacing and gridGlobalOffset do not name %d axes", name, dim);
-	double unit = number(o, "gridUnitSI", 1);
+	double unit = pm_h5_number(o, "gridUnitSI", 1);
 	for (int k = 0; k < dim; k++) {
 		l->h[k] *= unit, l->lo[k] *= unit, l->axis[k] = 0;
 		for (int j = 0; j < dim; j++)
@@ -323,7 +289,8 @@ static int reorder(const struct pm_frame *f, struct pm_field *p, const struct la
 	return 0;
 }
 
-static int mesh_part(hid_t at, const char *path, const struct names *parts, const struct lattice *l, const struct part *c, struct pm_frame *f, const char *name)
+static int mesh_part(hid_t at, const char *path, const struct pm_h5_names *parts, const struct lattice *l, const struct part *c, struct pm_frame *f,
+	const char *name)
 {
 	struct pm_mesh *m = mesh_of(f, l, c, name);
 	int status = m ? record(at, path, parts, f, m->name, name) : -PM_DATA;
@@ -333,7 +300,7 @@ static int mesh_part(hid_t at, const char *path, const struct names *parts, cons
 /* Components at different positions in a cell become fields NAME_x on separate meshes. */
 static int mesh_record(hid_t at, const char *folder, const char *name, struct pm_frame *f)
 {
-	struct names *parts = malloc(2 * sizeof *parts), *none = parts + 1;
+	struct pm_h5_names *parts = malloc(2 * sizeof *parts), *none = parts + 1;
 	struct part c[PM_COMPONENTS];
 	struct lattice l;
 	char path[2 * PM_H5_PATH], full[3 * PM_H5_PATH], own[2 * PM_NAME];
@@ -347,7 +314,7 @@ static int mesh_record(hid_t at, const char *folder, const char *name, struct pm
 	if (parts)
 		parts->n = none->n = 0;
 	if (!status && !is_component(at, path))
-		status = children(at, path, parts);
+		status = pm_h5_children(at, path, parts);
 	for (int k = 0; !status && k < (parts->n ? parts->n : 1); k++) {
 		snprintf(full, sizeof full, parts->n ? "%s/%s" : "%s", path, parts->n ? parts->name[k] : "");
 		status = k == PM_COMPONENTS ? pm_fail(PM_DATA, "mesh '%s' has too many components", name) : look(at, full, c + k);
@@ -384,16 +351,16 @@ static void folder_of(hid_t at, const char *attribute, const char *otherwise, ch
 }
 
 /* The number of dimensions: that of the positions of the first species, or of the axes of the first mesh. */
-static int dimensions(hid_t at, const char *sets, const struct names *set, const char *meshes, const struct names *mesh)
+static int dimensions(hid_t at, const char *sets, const struct pm_h5_names *set, const char *meshes, const struct pm_h5_names *mesh)
 {
-	struct names *parts = malloc(sizeof *parts);
+	struct pm_h5_names *parts = malloc(sizeof *parts);
 	char path[PM_H5_PATH], letters[3];
 	int dim = -1;
 	if (!parts)
 		return pm_no_memory();
 	if (parts && set->n) {
 		snprintf(path, sizeof path, "%s/%s/position", sets, set->name[0]);
-		dim = children(at, path, parts) ? -1 : parts->n;
+		dim = pm_h5_children(at, path, parts) ? -1 : parts->n;
 	} else if (parts && mesh->n) {
 		snprintf(path, sizeof path, "%s/%s", meshes, mesh->name[0]);
 		hid_t o = H5Oopen(at, path, H5P_DEFAULT);
@@ -422,16 +389,16 @@ static void box_about(struct pm_frame *f)
 
 int pm_h5_get_foreign(hid_t at, const char *name, struct pm_frame **out)
 {
-	struct names *set = malloc(2 * sizeof *set), *mesh = set + 1;
+	struct pm_h5_names *set = malloc(2 * sizeof *set), *mesh = set + 1;
 	char sets[PM_NAME], meshes[PM_NAME], path[PM_H5_PATH];
 	folder_of(at, "particlesPath", "particles", sets), folder_of(at, "meshesPath", "meshes", meshes);
 	int status = set ? 0 : pm_no_memory();
 	if (set)
 		set->n = mesh->n = 0;
 	if (!status && H5Lexists(at, sets, H5P_DEFAULT) > 0)
-		status = children(at, sets, set);
+		status = pm_h5_children(at, sets, set);
 	if (!status && H5Lexists(at, meshes, H5P_DEFAULT) > 0)
-		status = children(at, meshes, mesh);
+		status = pm_h5_children(at, meshes, mesh);
 	int dim = status ? status : dimensions(at, sets, set, meshes, mesh);
 	struct pm_frame *f = dim > 0 ? pm_frame_new(dim) : NULL;
 	status = f ? 0 : -PM_DATA;
@@ -442,8 +409,8 @@ int pm_h5_get_foreign(hid_t at, const char *name, struct pm_frame **out)
 	for (int i = 0; !status && i < mesh->n; i++)
 		status = mesh_record(at, meshes, mesh->name[i], f);
 	if (!status) {
-		double unit = number(at, "timeUnitSI", 1);
-		f->time = f->start = unit * number(at, "time", 0), f->dt = unit * number(at, "dt", 0);
+		double unit = pm_h5_number(at, "timeUnitSI", 1);
+		f->time = f->start = unit * pm_h5_number(at, "time", 0), f->dt = unit * pm_h5_number(at, "dt", 0);
 		f->step = strtoll(name, NULL, 10);
 		box_about(f);
 	}

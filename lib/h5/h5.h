@@ -13,7 +13,7 @@ int pm_h5_put(struct pm_h5 *h, struct pm_frame *f); /* everything loaded */
 int pm_h5_put_end(struct pm_h5 *h);                 /* an end marker stood here */
 int pm_h5_finish(struct pm_h5 *h);
 
-struct pm_h5 *pm_h5_open(const char *path);
+struct pm_h5 *pm_h5_open(const char *path, const char *word); /* word: as typed, the key of its report */
 /* PM_GOT_FRAME, PM_GOT_END, PM_GOT_EOF or failure. foreign: the file was not written by sh5. */
 int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign);
 

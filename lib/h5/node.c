@@ -165,6 +165,34 @@ int pm_h5_get_letters(hid_t at, const char *name, int most, char *letters)
 	return n;
 }
 
+double pm_h5_number(hid_t at, const char *name, double otherwise)
+{
+	int n = 1;
+	double x;
+	return pm_h5_has(at, name) && !pm_h5_get_reals(at, name, &n, &x) ? x : otherwise;
+}
+
+static herr_t name_add(hid_t at, const char *name, const H5L_info_t *info, void *p)
+{
+	struct pm_h5_names *all = p;
+	(void)at, (void)info;
+	if (all->n == 256 || strlen(name) >= PM_NAME)
+		return -1;
+	pm_name_copy(all->name[all->n++], name);
+	return 0;
+}
+
+int pm_h5_children(hid_t at, const char *path, struct pm_h5_names *all)
+{
+	hsize_t from = 0;
+	all->n = 0;
+	hid_t g = H5Gopen2(at, path, H5P_DEFAULT);
+	int status = g < 0 || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, &from, name_add, all) < 0
+		? pm_fail(PM_DATA, "'%s' is not a group, or has too many members, or names longer than 63 bytes", path) : 0;
+	H5Gclose(g);
+	return status;
+}
+
 hid_t pm_h5_type(enum pm_type type)
 {
 	switch (type) { /* the types are not constants: they are made when the library starts */

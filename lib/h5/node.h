@@ -14,6 +14,7 @@ enum { PM_H5_PATH = 256 };
 struct pm_h5 {
 	hid_t file;
 	char *path, *part;       /* part: NULL when reading, or when finished */
+	const char *word;        /* reading: as typed, the key of its report */
 	uint64_t last;           /* name of the last iteration written */
 	uint64_t frames;         /* writing: of the current stream; reading: all so far */
 	size_t nstreams, stream; /* writing: end markers; reading: the next one */
@@ -21,6 +22,7 @@ struct pm_h5 {
 	size_t niterations, at;  /* reading: names of the iterations, ascending */
 	uint64_t *iterations;
 	bool own;                /* reading: a frame that was a stream has been read */
+	bool gadget;             /* reading: a snapshot in GADGET's layout, one frame */
 	uint32_t crc;            /* of the headers and reports so far: that of the file with the frames of the streams behind them */
 };
 
@@ -41,6 +43,12 @@ bool pm_h5_has(hid_t at, const char *name);       /* an attribute */
 int pm_h5_get_reals(hid_t at, const char *name, int *n, double *x);
 char *pm_h5_get_text(hid_t at, const char *name); /* free() it; NULL with a message */
 int pm_h5_get_letters(hid_t at, const char *name, int most, char *letters); /* first letters of an array of texts; how many, or failure */
+double pm_h5_number(hid_t at, const char *name, double otherwise);
+struct pm_h5_names {
+	int n;
+	char name[256][PM_NAME];
+};
+int pm_h5_children(hid_t at, const char *path, struct pm_h5_names *all); /* the members of a group, sorted by name */
 hid_t pm_h5_type(enum pm_type type);                                        /* in the file; the same in memory but for f32 */
 
 /* A checksum as an attribute, name NULL: pmpipeCrc32c. check: 0 if it agrees or is not there; what: for the message. */

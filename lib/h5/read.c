@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "h5/apart.h"
-#include "h5/node.h"
+#include "h5/gadget.h"
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/run.h"
@@ -39,7 +39,8 @@ static int ascending(const void *a, const void *b)
 static int check_standard(hid_t file)
 {
 	if (!pm_h5_has(file, "openPMD"))
-		return pm_fail(PM_DATA, "this is HDF5, but not openPMD: it has no attribute 'openPMD' (h5ls shows what it holds)");
+		return pm_fail(PM_DATA,
+			"this is HDF5, but neither openPMD (no attribute 'openPMD') nor a GADGET snapshot (no group Header; h5ls shows what it holds)");
 	char *version = pm_h5_get_text(file, "openPMD"), *base = version ? pm_h5_get_text(file, "basePath") : NULL;
 	int status = base ? 0 : -PM_DATA;
 	if (base && strncmp(version, "1.", 2))
@@ -70,6 +71,15 @@ static int read_streams(struct pm_h5 *h)
 			(unsigned long long)sum, (unsigned long long)h->niterations);
 }
 
+static int open_snapshot(struct pm_h5 *h)
+{
+	h->gadget = true;
+	if (!(h->iterations = calloc(1, sizeof *h->iterations)))
+		return pm_no_memory();
+	h->niterations = 1;
+	return read_streams(h);
+}
+
 static int open_all(struct pm_h5 *h, const char *path)
 {
 	hsize_t at = 0;
@@ -79,6 +89,10 @@ static int open_all(struct pm_h5 *h, const char *path)
 		return pm_fail(PM_DATA, "'%s' is not HDF5 (stab reads text)", path);
 	if ((h->file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
 		return pm_h5_fail("cannot open '%s'", path);
+	if (!(h->path = strdup(path)))
+		return pm_no_memory();
+	if (!pm_h5_has(h->file, "openPMD") && pm_gadget_is(h->file))
+		return open_snapshot(h);
 	if (check_standard(h->file))
 		return -PM_DATA;
 	if (H5Lexists(h->file, "data", H5P_DEFAULT) <= 0)
@@ -93,7 +107,7 @@ static int open_all(struct pm_h5 *h, const char *path)
 	return read_streams(h);
 }
 
-struct pm_h5 *pm_h5_open(const char *path)
+struct pm_h5 *pm_h5_open(const char *path, const char *word)
 {
 	struct pm_h5 *h = calloc(1, sizeof *h);
 	if (!h) {
@@ -103,6 +117,7 @@ struct pm_h5 *pm_h5_open(const char *path)
 	H5dont_atexit();
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	h->file = -1;
+	h->word = word;
 	return open_all(h, path) ? pm_h5_free(h) : h;
 }
 
@@ -251,6 +266,9 @@ int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
 	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->iterations[h->at++]);
 	h->frames++;
 	pm_h5_goes_on(0);
+	*foreign = true;
+	if (h->gadget)
+		return pm_gadget_frame(h, f) ? -PM_DATA : PM_GOT_FRAME;
 	hid_t at = H5Gopen2(h->file, name, H5P_DEFAULT);
 	if (at < 0)
 		return pm_h5_fail("cannot open '%s'", name);

@@ -31,7 +31,7 @@ const char *pm_home(void)
 bool pm_h5_pipe_is(const char *path)
 {
 	size_t n = path ? strlen(path) : 0;
-	return n > 3 && !strcmp(path + n - 3, ".h5");
+	return (n > 3 && !strcmp(path + n - 3, ".h5")) || (n > 5 && !strcmp(path + n - 5, ".hdf5"));
 }
 
 static void become(const char *const argv[])

@@ -322,7 +322,7 @@ END
 	head -c 20000 a.h5 >cut.h5
 	says 1 "sh5: cannot open 'cut.h5' (HDF5: truncated file*" sh5 cut.h5
 	sed 's/openPMD\x00/openPMX\x00/' a.h5 >plain.h5
-	says 1 "sh5: this is HDF5, but not openPMD*" sh5 plain.h5
+	says 1 "sh5: this is HDF5, but neither openPMD*" sh5 plain.h5
 	sed 's/"n":50/"n":51/' a.h5 >lie.h5
 	says 1 "sh5: iteration 0: 'particles/matter/position/x' does not agree with the header of the frame*" env PM_UNSEALED=1 sh5 lie.h5
 	sed 's/"mass","on"/"mess","on"/' a.h5 >lie.h5
