@@ -1,5 +1,6 @@
 /* Parses the arguments of push: kick, drift/2, boris/2, clear or the name of a scheme; refuses orders that do not make a step.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,8 +18,12 @@ static const struct pm_step *find(const char *name, size_t length)
 static int unknown(const char *word)
 {
 	const char *near = pm_nearest(word, pm_step_names);
-	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of euler, rk2, midpoint, lsrk3, rk4, ab2, ab3)", word,
-		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
+	char schemes[256] = "";
+	for (int i = 0; pm_steps[i]; i++)
+		if (pm_steps[i]->kind == PM_SCHEME)
+			snprintf(schemes + strlen(schemes), sizeof schemes - strlen(schemes), "%s%s", *schemes ? ", " : "", pm_step_names[i]);
+	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, clear, or one of %s)", word, near ? ", did you mean '" : "",
+		near ? near : "", near ? "'?" : "", schemes);
 }
 
 /* Can the action, 1/n of a step, be combined with those before it? */

@@ -26,13 +26,23 @@ static bool applies(const struct pm_step *step, bool position)
 	return step->kind == PM_SCHEME || (step->kind == PM_DRIFT) == position;
 }
 
+/* A pass of a composition: the part of dt that its kick or drift has. */
+static void compose(const struct pm_step *step, int pass, double dt, size_t n, size_t i, const struct pm_advanced *l)
+{
+	const double part = dt * (l->position ? step->drifts : step->kicks)[pass];
+	for (size_t j = i; j < i + n; j++)
+		l->y[j] += part * l->k[j];
+}
+
 static void advance(size_t i, size_t n, const struct pm_advance *a, const struct pm_advanced *l)
 {
 	double *q[PM_REGISTERS];
 	for (int r = 0; r < PM_REGISTERS; r++)
 		q[r] = l->q[r] ? l->q[r] + i : NULL;
 	for (int t = 0; t < a->actions; t++)
-		if (applies(a->action[t].step, l->position))
+		if (a->action[t].step->kicks)
+			compose(a->action[t].step, a->action[t].pass, a->action[t].dt, n, i, l);
+		else if (applies(a->action[t].step, l->position))
 			a->action[t].step->pass(a->action[t].pass, a->action[t].dt, n, l->y + i, l->k + i, q + a->registers);
 	for (int r = a->shift - 1; r >= 0; r--)
 		memcpy(q[r], r ? q[r - 1] : l->k + i, n * sizeof *q[r]);
@@ -61,7 +71,7 @@ static int64_t largest(int64_t most, size_t n, const double *k)
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
 	const struct pm_bounds *b, double *fastest)
 {
-	bool kick_first = a->actions && a->action[0].step->kind == PM_KICK;
+	bool kick_first = a->actions && (a->action[0].step->kind == PM_KICK || a->action[0].step->kicks);
 	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	int bad = 0;
 	int64_t most = 0;

@@ -107,14 +107,14 @@ int pm_clock_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_st
 	if (last && !asked->rates)
 		json_object_del(s->more, "scheme");
 	s->pass = last ? 0 : s->pass + 1;
-	s->drift = last ? 1 : step->at[p->pass];
+	s->drift = pm_step_at(step, p->pass);
 	s->kick = last;
 	return 0;
 }
 
 void pm_clock_close(struct pm_frame *f)
 {
-	double slowest = 1;
+	double slowest = HUGE_VAL;
 	bool complete = true;
 	if (f->substep == 0) {
 		f->start = f->time;
@@ -126,7 +126,7 @@ void pm_clock_close(struct pm_frame *f)
 			slowest = fmin(slowest, f->sets[i]->drift);
 			complete = complete && pm_clock_complete(f->sets[i]);
 		}
-	f->time = slowest < 1 ? f->start + f->dt * slowest : pm_frame_time_at(f, f->step + 1);
+	f->time = slowest != 1 ? f->start + f->dt * slowest : pm_frame_time_at(f, f->step + 1); /* compositions pass 0 and 1 on their way */
 	f->substep++;
 	if (!complete)
 		return;

@@ -21,6 +21,9 @@ static int within(const struct pm_rate *r, const char *does, double rate, double
 	char terms[PM_TERMS * (PM_NAME + 2)] = "";
 	if (!(s->part * rate > limit * (1 + 1e-12)))
 		return 0;
+	if (limit == 0)
+		return pm_fail(PM_NUMERICS, "'%s' of '%s' %s, and %s has parts of a step that go backwards (rk4, lsrk3, or --unsafe)", change->name, change->on,
+			does, s->name);
 	for (int t = 0; t < change->nterms; t++)
 		snprintf(terms + strlen(terms), sizeof terms - strlen(terms), "%s%s", t ? ", " : "", change->terms[t]);
 	return pm_fail(PM_NUMERICS, "dt %g is %.4g times the limit of %s: '%s' of '%s' (%s) %s at up to %g per time, and the step would grow "

@@ -6,7 +6,7 @@
 
 #include "base/base.h"
 
-enum { PM_STEP_PASSES = 4, PM_REGISTERS = 3 };
+enum { PM_STEP_PASSES = 12, PM_REGISTERS = 3 };
 
 enum pm_step_kind {
 	PM_KICK,  /* advances every state but the positions, and counts as kick */
@@ -30,11 +30,13 @@ struct pm_step {
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
 	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
-	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not usable for decay */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not made for decay; 0: unusable, because parts of the step go backwards */
 	double imaginary_limit; /* and on the imaginary axis */
 	double doubling;        /* where that is 0: the |lambda| dt at which an oscillation doubles within its period */
-	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt */
-	/* One pass over n values: y is advanced, k is its rate now, q the registers. */
+	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt; compositions: by pm_step_at */
+	/* Of a composition of kicks and drifts: each pass is a kick of this part of dt, then a drift of that; parts may be negative. NULL: no composition. */
+	const double *kicks, *drifts;
+	/* One pass over n values: y is advanced, k is its rate now, q the registers. NULL for compositions. */
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
 	/* For magnetic kicks, which rotate v about B: particles from..to-1, half a step of dt; every other state is kicked by pass. NULL: none. */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
@@ -43,5 +45,14 @@ struct pm_step {
 extern const struct pm_step *const pm_steps[]; /* generated from lib/step/, NULL ends */
 extern const char *const pm_step_names[];
 const struct pm_step *pm_step_find(const char *name); /* NULL with a message */
+
+/* Time of the state after a pass, in units of dt; inside the step of a composition it may lie before its start or beyond its end. */
+static inline double pm_step_at(const struct pm_step *s, int pass)
+{
+	double sum = 0;
+	for (int i = 0; s->drifts && i <= pass; i++)
+		sum += s->drifts[i];
+	return pass + 1 == s->passes ? 1 : s->drifts ? sum : s->at[pass];
+}
 
 #endif

@@ -190,9 +190,12 @@ static bool read_set(const json_t *j, struct pm_frame *f)
 	const json_t *kick = json_object_get(done, "kick"), *drift = json_object_get(done, "drift");
 	s->kick = json_number_value(kick);
 	s->drift = json_number_value(drift);
-	if ((done && !(json_is_number(kick) && json_is_number(drift))) || !(s->kick >= 0 && s->kick <= 1 && s->drift >= 0 && s->drift <= 1))
-		complain(&l, "done", "is not a fraction");
 	s->pass = (int)take_integer(&l, "stage", 0, 64, false, 0);
+	/* inside a step a composition of kicks and drifts goes back before its start and beyond its end */
+	const double before = s->pass ? 4 : 0, beyond = s->pass ? 4 : 1;
+	if ((done && !(json_is_number(kick) && json_is_number(drift))) ||
+		!(s->kick >= 0 && s->kick <= 1 && s->drift >= -before && s->drift <= beyond))
+		complain(&l, "done", "is not a fraction");
 	const json_t *fixed = take(&l, "fixed", false); /* json_is_true would evaluate the call twice */
 	s->fixed = json_is_true(fixed);
 	return look_done(&l, &s->more);
