@@ -111,8 +111,8 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 	if (!pm_rate_is_state(m->v))
 		m->v = NULL;
 	if (!status && p->scheme && p->scheme->kicks && !m->v)
-		status = pm_fail(PM_DATA, "%s kicks velocities and moves by them, and '%s' has no 'v' (rk4, lsrk3 advance what moves by a flow)", p->scheme->name,
-			set->name);
+		status = pm_fail(PM_DATA, "%s kicks velocities and moves by them, and '%s' has no 'v' (rk4, lsrk3 advance what moves by a flow)",
+			p->scheme->name, set->name);
 	if (!status && p->magnetic)
 		status = declare_magnetic(f, m);
 	if (!status && kind != PM_DRIFT)

@@ -30,7 +30,7 @@ struct pm_step {
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
 	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
-	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not made for decay; 0: unusable, because parts of the step go backwards */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not made for decay; 0: unusable, for parts go backwards */
 	double imaginary_limit; /* and on the imaginary axis */
 	double doubling;        /* where that is 0: the |lambda| dt at which an oscillation doubles within its period */
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt; compositions: by pm_step_at */
