@@ -5,6 +5,7 @@
 
 #include "h5/apart.h"
 #include "h5/stream-copy.h"
+#include "stage/file-operands.h"
 #include "stage/stage.h"
 
 struct config {
@@ -31,11 +32,13 @@ static int begin(struct pm_stage *s)
 	const struct config *c = s->config;
 	if (!s->nargs && !c->output)
 		return pm_fail(PM_USAGE, "which way? (sh5 FILE.h5 reads a file, sh5 -o FILE.h5 writes one)");
-	if (s->nargs && c->output)
-		return pm_fail(PM_USAGE, "sh5 FILE reads, sh5 -o FILE writes: not both (sh5 a.h5 | sh5 -o b.h5)");
+	for (int i = 0; i < s->nargs && !c->output; i++)
+		if (pm_file_kind(s->args[i]) == PM_FILE_STREAM)
+			return pm_fail(PM_USAGE, "'%s' is a stream already (sh5 %s -o FILE.h5 writes it as HDF5)", s->args[i], s->args[i]);
 	if (c->output && !strcmp(c->output, "-"))
 		return pm_fail(PM_USAGE, "-o -: HDF5 cannot be written to a pipe (-o FILE.h5)");
-	if (s->nargs)
+	s->files = s->nargs && c->output;
+	if (s->nargs && !s->files)
 		s->kind = PM_SOURCE;
 	return 0;
 }
@@ -60,12 +63,14 @@ static void tell(void *stage, const struct pm_frame *f)
 static int from_file(struct pm_stage *s, struct state *st)
 {
 	struct pm_writer *w = pm_stage_writer(s);
-	int apart = w ? pm_h5_read_apart(s->args[0], w, tell, s) : pm_failed();
-	if (apart <= 0)
-		return apart;
-	if (!(st->file = pm_h5_open(s->args[0], s->word)))
-		return pm_failed();
-	return pm_h5_to_stream(st->file, w, s->entry);
+	for (int i = 0; i < s->nargs; i++) {
+		int apart = w ? pm_h5_read_apart(s->args[i], w, tell, s) : pm_failed();
+		if (apart < 0)
+			return apart;
+		if (apart) /* the process that reads this file, and ends here */
+			return (st->file = pm_h5_open(s->args[i], s->word)) ? pm_h5_to_stream(st->file, w, s->entry) : pm_failed();
+	}
+	return 0;
 }
 
 static int whole(struct pm_stage *s) { return s->kind == PM_SOURCE ? from_file(s, s->state) : to_file(s, s->state); }
@@ -83,9 +88,9 @@ const struct pm_tool tool_sh5 = {
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,
-	.arguments = "[FILE]",
-	.arguments_text = "The HDF5 file to read; without it the stream on standard input is written to -o FILE.",
-	.most = 1,
+	.arguments = "[FILE...]",
+	.arguments_text = "HDF5 files to read. With -o FILE.h5 the streams to write there; without them standard input.",
+	.most = PM_FILES_MOST,
 	.examples = examples,
 	.begin = begin,
 	.whole = whole,

@@ -2,6 +2,7 @@
  * from; without, a sink that writes its input as text (docs/methods/text.md). Cost: about 1 us per row of seven columns.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
+#include "stage/file-operands.h"
 #include "stage/table-source.h"
 #include "stream/plain-table.h"
 #include "stream/text.h"
@@ -50,14 +51,15 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *c = s->config;
 	const char *only;
-	if (s->nargs)
+	s->files = s->nargs && pm_file_kind(s->args[0]) != PM_FILE_OTHER;
+	if (s->nargs && !s->files)
 		s->kind = PM_SOURCE;
 	else {
 		pm_stage_no_entry(s);
 		if ((only = pm_table_option_given(s)))
 			return pm_fail(PM_USAGE, "--%s is for reading a table (name its file, or - for standard input)", only);
 	}
-	if (s->nargs && (c->plain || c->mesh))
+	if (s->kind == PM_SOURCE && (c->plain || c->mesh))
 		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text, not for reading '%s'", s->args[0]);
 	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh needs --plain") : 0;
 }
@@ -130,9 +132,10 @@ const struct pm_tool tool_stab = {
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,
-	.arguments = "[FILE]",
-	.arguments_text = "A text to read; without it the stream on standard input is written as text.",
-	.most = 1,
+	.arguments = "[FILE...]",
+	.arguments_text = "Texts to make a stream of (- is a text on standard input), or streams and .h5 files to write as text; the first bytes tell which. "
+		"Without FILE the stream on standard input is written as text.",
+	.most = PM_FILES_MOST,
 	.examples = examples,
 	.begin = begin,
 	.declare = declare,

@@ -148,6 +148,9 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		status = pm_stage_begin(w->stage);
 	if (status)
 		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	if (w->stage->files && w->stage->nargs)
+		return pm_fail(PM_USAGE, "%s: unexpected argument '%s' (inside a sentence no word reads files: cycle -i FILE does)", w->argv[0],
+			w->stage->args[0]);
 	const struct pm_common *k = &w->stage->run->common;
 	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version)
 		return pm_fail(PM_USAGE, "'%s': options for files, timing and help belong to cycle itself, not inside the sentence", w->stage->word);

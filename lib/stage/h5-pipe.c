@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "stage/file-operands.h"
 #include "stage/h5-pipe.h"
 
 struct pm_h5_pipe {
@@ -47,15 +48,13 @@ static void become(const char *const argv[])
 	execvp("sh5", (char *const *)(uintptr_t)argv);
 }
 
-struct pm_reader *pm_h5_pipe_read(const char *path)
+int pm_h5_pipe_fd(const char *path)
 {
 	const char *const argv[] = {"sh5", "--", path, NULL};
 	int out[2];
 	pid_t pid = pipe2(out, O_CLOEXEC) ? -1 : fork();
-	if (pid < 0) {
-		pm_fail_errno("cannot start sh5");
-		return NULL;
-	}
+	if (pid < 0)
+		return pm_fail_errno("cannot start sh5");
 	if (pid == 0) {
 		setenv("PM_QUIET", "1", 1); /* its message arrives in the stream as an abort */
 		dup2(out[1], STDOUT_FILENO);
@@ -66,12 +65,15 @@ struct pm_reader *pm_h5_pipe_read(const char *path)
 		_exit(127);
 	}
 	close(out[1]);
-	return pm_reader_of_fd(out[0]);
+	return out[0];
 }
 
 struct pm_reader *pm_h5_pipe_open(const char *path)
 {
-	return pm_h5_pipe_is(path) ? pm_h5_pipe_read(path) : pm_reader_open(path && strcmp(path, "-") ? path : NULL);
+	int fd = path && pm_file_kind(path) == PM_FILE_HDF5 ? pm_h5_pipe_fd(path) : STDIN_FILENO;
+	if (fd < 0)
+		return NULL;
+	return fd != STDIN_FILENO ? pm_reader_of_fd(fd) : pm_reader_open(path && strcmp(path, "-") ? path : NULL);
 }
 
 struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest)

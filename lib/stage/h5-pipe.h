@@ -8,7 +8,7 @@ struct pm_h5_pipe; /* an sh5 process that writes a file for this program */
 
 const char *pm_home(void); /* the directory of this program and the other words; NULL if unknown */
 bool pm_h5_pipe_is(const char *path); /* does it end in .h5 or .hdf5? */
-struct pm_reader *pm_h5_pipe_read(const char *path); /* a failure arrives in the stream as an abort */
+int pm_h5_pipe_fd(const char *path); /* the file as a stream, to read; a failure to read it arrives there as an abort */
 struct pm_reader *pm_h5_pipe_open(const char *path); /* a stream in a file of either kind, or standard input for NULL and "-" */
 struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest);
 /* After a failure of the stage: if sh5 failed first, its reason becomes the message; else returns status unchanged. */

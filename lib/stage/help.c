@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "stage/file-operands.h"
 #include "stage/internal.h"
 
 static const char *const kinds[] = {"makes a stream", "reads a stream and writes one", "reads a stream and writes text"};
@@ -49,15 +50,20 @@ static bool hidden(const struct pm_option *const rows[PM_ROWS], const struct pm_
 	return false;
 }
 
+static const char *arguments_of(const struct pm_tool *t) { return pm_takes_files(t) ? "[FILE...]" : t->arguments; }
+
+static const char *arguments_text(const struct pm_tool *t) { return pm_takes_files(t) ? pm_files_text : t->arguments_text; }
+
 void pm_help(const struct pm_tool *t)
 {
 	const struct pm_option *rows[PM_ROWS];
+	const char *arguments = arguments_of(t);
 	char head[128], facts[1024];
 	pm_option_rows(t, rows);
-	printf("%s: %s\n\nusage: %s [options]%s%s\n%s %s.\n", t->name, t->summary, t->name, t->arguments ? " " : "", t->arguments ? t->arguments : "",
+	printf("%s: %s\n\nusage: %s [options]%s%s\n%s %s.\n", t->name, t->summary, t->name, arguments ? " " : "", arguments ? arguments : "",
 		t->name, kinds[t->kind]);
-	if (t->arguments_text)
-		printf("%s: %s\n", t->arguments, t->arguments_text);
+	if (arguments)
+		printf("%s: %s\n", arguments, arguments_text(t));
 	if (t->reads)
 		printf("reads: %s\n", t->reads);
 	if (t->changes)
@@ -147,9 +153,9 @@ void pm_man(const struct pm_tool *t)
 	printf("\n.SH SYNOPSIS\n.B ");
 	troff(t->name);
 	printf("\n[options]");
-	if (t->arguments) {
+	if (arguments_of(t)) {
 		putchar(' ');
-		troff(t->arguments);
+		troff(arguments_of(t));
 	}
 	printf("\n.SH DESCRIPTION\n");
 	troff(t->name);
@@ -160,7 +166,7 @@ void pm_man(const struct pm_tool *t)
 		troff(t->about);
 		putchar('\n');
 	}
-	paragraph(t->arguments ? t->arguments : "", t->arguments_text);
+	paragraph(arguments_of(t) ? arguments_of(t) : "", arguments_text(t));
 	paragraph("reads", t->reads);
 	paragraph("changes", t->changes);
 	paragraph("adds", t->adds);

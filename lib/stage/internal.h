@@ -21,6 +21,7 @@ struct pm_run {
 	int ncopies;
 	char *copies[PM_LIST_MOST]; /* texts of list options, split into their items */
 	struct pm_reader *reader;
+	int operand; /* how many of the files among the arguments have been opened */
 	struct pm_writer *writer;
 	struct pm_replace text;     /* the file of a sink's text; path NULL: none, or one that is new */
 	struct pm_h5_pipe *rest; /* the sh5 process after the writer if the output is HDF5; else NULL */

@@ -2,8 +2,10 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/nearest-name.h"
+#include "stage/file-operands.h"
 #include "stage/internal.h"
 
 #define AT(member) .offset = offsetof(struct pm_common, member)
@@ -290,10 +292,9 @@ static int arguments_check(const struct pm_stage *s)
 		return 0;
 	if (c->quiet && c->verbose)
 		return pm_fail(PM_USAGE, "--quiet and --verbose exclude each other (leave one of them out)");
-	if (s->nargs > t->most && !t->arguments)
-		return pm_fail(PM_USAGE, "unexpected argument '%s' (%s has options only)", s->args[0], t->name);
-	if (s->nargs > t->most)
-		return pm_fail(PM_USAGE, "unexpected argument '%s' (expected: %s)", s->args[t->most], t->arguments);
+	if (s->nargs > t->most && !s->files)
+		return pm_fail(PM_USAGE, access(s->args[t->most], F_OK) ? "unexpected argument '%s' (expected: %s)" :
+			"unexpected argument '%s' (expected: %s; -i reads a file)", s->args[t->most], t->arguments ? t->arguments : "options only");
 	if (s->nargs < t->least)
 		return pm_fail(PM_USAGE, "%s is missing (%s)", t->arguments, t->arguments_text);
 	return 0;
@@ -315,6 +316,7 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 	if (word_add(s, s->tool->name))
 		return -PM_DATA;
 	bool only_words = false;
+	s->files = pm_takes_files(s->tool);
 	json_t *arguments = json_array();
 	json_object_set_new(s->entry, "arguments", arguments);
 	for (int i = 1; i < argc;) {
@@ -327,9 +329,10 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 				return took;
 			i += took;
 		} else {
-			if (word_add(s, argv[i]))
+			if (!s->files && word_add(s, argv[i]))
 				return -PM_DATA;
-			json_array_append_new(arguments, json_string(argv[i]));
+			if (!s->files) /* as with -i, where a stream came from changes no result */
+				json_array_append_new(arguments, json_string(argv[i]));
 			s->args[s->nargs++] = argv[i++];
 		}
 	}

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "stage/file-operands.h"
 #include "stage/internal.h"
 #include "stream/run.h"
 #include "stage/apply.h"
@@ -12,7 +13,7 @@
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {
 	if (!s->run->reader)
-		s->run->reader = pm_h5_pipe_open(s->run->common.input);
+		s->run->reader = s->files && s->nargs ? pm_operands_open(s) : pm_h5_pipe_open(s->run->common.input);
 	return s->run->reader;
 }
 
@@ -121,11 +122,13 @@ static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 {
 	char text[2048];
 	struct pm_reader *r = s ? s->run->reader : NULL;
+	const char *file = s && s->files ? pm_operand_name(s) : NULL;
 	bool passed_on = r && pm_reader_aborted(r), in_frame = r && !passed_on && (s->kind == PM_FILTER || s->kind == PM_SINK) && !tool->whole;
 	if (passed_on)
 		snprintf(text, sizeof text, "%s", pm_message());
 	else if (in_frame)
-		snprintf(text, sizeof text, "%s: frame %llu: %s", tool->name, (unsigned long long)pm_reader_frame(r), pm_message());
+		snprintf(text, sizeof text, "%s: %s%sframe %llu: %s", tool->name, file ? file : "", file ? ": " : "", (unsigned long long)pm_reader_frame(r),
+			pm_message());
 	else
 		snprintf(text, sizeof text, "%s: %s", tool->name, pm_message());
 	if (!getenv("PM_QUIET")) /* set by cycle for its processes */

@@ -70,6 +70,7 @@ struct pm_stage {
 	void *state;         /* tool->state bytes, zero at begin: only a cache (plans, hierarchies, orders) */
 	int nargs;
 	const char **args;   /* arguments that are not options */
+	bool files;          /* they are streams to read one after another; begin may set it (stab, sh5) */
 	char *word;          /* as typed, without the options of the library; the key of its report */
 	json_t *entry;       /* for the history; NULL with --no-history */
 	bool leaves_out;     /* set by begin: some frames are not written, so it cannot be part of a sentence */

@@ -55,22 +55,35 @@ static int frames(struct pm_stage *s, struct pm_table_source *st, struct pm_fram
 	return pm_text_frame_read(&st->text, f, &st->frames);
 }
 
+/* The next frame of the current text. */
+static int next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+{
+	int status = st->open ? 0 : pm_text_open(&st->text, s->args[st->file]);
+	if (status || st->over)
+		return status;
+	st->over = !st->open && !pm_text_is_frames(&st->text);
+	st->open = true;
+	if (!st->over)
+		return frames(s, st, f);
+	status = table(s, &st->text, options, f);
+	return status ? status : 1;
+}
+
 int pm_table_source_next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
 {
 	char why[512];
-	int status = st->open ? 0 : pm_text_open(&st->text, s->args[0]);
-	if (status || st->over)
-		return status;
+	int status = 0;
 	*f = NULL;
-	st->over = !st->open && !pm_text_is_frames(&st->text);
-	st->open = true;
-	status = st->over ? table(s, &st->text, options, f) : frames(s, st, f);
-	if (st->over && !status)
-		return 1;
-	if (status < 0) {
+	for (; st->file < s->nargs && !(status = next(s, st, options, f)); st->file++) {
+		pm_table_source_close(st);
+		st->over = false;
+		st->frames = 0;
+	}
+	if (status < 0 && st->open) { /* a failure to open names the file itself */
+		const char *path = s->args[st->file];
 		*f = pm_frame_free(*f);
 		snprintf(why, sizeof why, "%s", pm_message());
-		return pm_fail(-status, "%s: %s", strcmp(s->args[0], "-") ? s->args[0] : "standard input", why);
+		return pm_fail(-status, "%s: %s", strcmp(path, "-") ? path : "standard input", why);
 	}
 	return status;
 }
@@ -79,4 +92,5 @@ void pm_table_source_close(struct pm_table_source *t)
 {
 	if (t->open)
 		pm_text_close(&t->text);
+	t->open = false;
 }

@@ -18,13 +18,14 @@ struct pm_table_options {
 
 struct pm_table_source {
 	struct pm_text text;
-	bool open, over;
-	uint64_t frames; /* read */
+	bool open, over; /* the text: has been opened; was a table, which has been read */
+	int file;        /* which of the arguments it is, from 0 */
+	uint64_t frames; /* read of it */
 };
 
 /* The name of the first option that was typed of those for reading a plain table; NULL none. */
 const char *pm_table_option_given(const struct pm_stage *s);
-/* source(): opens the text at the first call; 1 and a frame, 0 at the end, or failure that names the file. */
+/* source(): opens one text after another; 1 and a frame, 0 at the end, or failure that names the file. */
 int pm_table_source_next(struct pm_stage *s, struct pm_table_source *t, struct pm_table_options *o, struct pm_frame **f);
 void pm_table_source_close(struct pm_table_source *t);
 

@@ -40,6 +40,8 @@ int pm_line_parse(const char text[PM_LINE], struct pm_line *line)
 	memcpy(copy, text, PM_LINE);
 	copy[PM_LINE] = 0;
 	*line = (struct pm_line){0};
+	if (!memcmp(copy, "\211HDF", 4))
+		return pm_fail(PM_DATA, "this is an HDF5 file (give its name, which ends in .h5, or put sh5 FILE before this word)");
 	if (memcmp(copy, "PMPIPE/", 7))
 		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
 	if (memcmp(copy, "PMPIPE/1 ", prefix))

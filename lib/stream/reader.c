@@ -26,6 +26,8 @@ struct item { /* one field of the current frame, as it was when its header was r
 struct pm_reader {
 	int fd;
 	bool (*give_up)(void);     /* NULL: it waits for ever */
+	int (*next)(void *from, int *fd); /* the input that follows; NULL: none */
+	void *from;
 	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
 	bool whole;                /* the current frame has been read to its tail; it stays current until the next begins */
 	uint64_t frame, frames;    /* number of the current frame, from 1; frames of this stream */
@@ -35,6 +37,14 @@ struct pm_reader {
 	char piece[PM_PIECE], scratch[PM_PIECE];
 };
 
+static void input_is(struct pm_reader *r, int fd)
+{
+	r->fd = fd;
+	r->frame = 1;
+	r->any = false;
+	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* harmless if it is not a pipe or not permitted */
+}
+
 struct pm_reader *pm_reader_of_fd(int fd)
 {
 	struct pm_reader *r = malloc(sizeof *r);
@@ -43,9 +53,7 @@ struct pm_reader *pm_reader_of_fd(int fd)
 		return NULL;
 	}
 	memset(r, 0, offsetof(struct pm_reader, piece));
-	r->fd = fd;
-	r->frame = 1;
-	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* harmless if it is not a pipe or not permitted */
+	input_is(r, fd);
 	return r;
 }
 
@@ -71,6 +79,8 @@ struct pm_reader *pm_reader_close(struct pm_reader *r)
 }
 
 void pm_reader_give_up(struct pm_reader *r, bool (*when)(void)) { r->give_up = when; }
+
+void pm_reader_then(struct pm_reader *r, int (*next)(void *from, int *fd), void *from) { r->next = next, r->from = from; }
 
 uint64_t pm_reader_frame(const struct pm_reader *r) { return r->frame; }
 
@@ -236,19 +246,34 @@ static int get_frame(struct pm_reader *r, const struct pm_line *l, struct pm_fra
 	return PM_GOT_FRAME;
 }
 
+/* The input has ended between two streams: PM_GOT_EOF if no other follows. */
+static int next_input(struct pm_reader *r)
+{
+	int fd = -1, more = r->next ? r->next(r->from, &fd) : 0;
+	if (more <= 0)
+		return more;
+	if (r->fd != STDIN_FILENO)
+		close(r->fd);
+	input_is(r, fd);
+	return more;
+}
+
 int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 {
 	char text[PM_LINE];
 	struct pm_line l;
 	r->frame += r->whole;
 	r->whole = false;
-	ssize_t k = get(r, text, PM_LINE);
+	ssize_t k;
+	while ((k = get(r, text, PM_LINE)) == 0 && r->any && !r->stream) {
+		int more = next_input(r);
+		if (more <= 0)
+			return more;
+	}
 	if (k < 0)
 		return pm_fail_errno("cannot read");
 	if (k == 0 && !r->any)
 		return pm_fail(PM_DATA, "no input: zero bytes are not a stream (the stage before did not start)");
-	if (k == 0 && !r->stream)
-		return PM_GOT_EOF;
 	if (k == 0)
 		return pm_fail(PM_DATA, "the input ends without an end marker: it was cut (run the whole pipeline again)");
 	if (k < PM_LINE && (k < 7 || memcmp(text, "PMPIPE/", 7)))

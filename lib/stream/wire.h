@@ -18,7 +18,9 @@ struct pm_writer;
 struct pm_reader *pm_reader_open(const char *path); /* NULL: standard input; NULL returned on failure */
 struct pm_reader *pm_reader_of_fd(int fd);          /* closes fd when closed */
 struct pm_reader *pm_reader_close(struct pm_reader *r);
-uint64_t pm_reader_frame(const struct pm_reader *r);  /* number of the frame being read, from 1 over the whole input */
+/* Where its input ends between two streams, it asks for the next one: 1 and a descriptor, 0 if there is none, or failure. */
+void pm_reader_then(struct pm_reader *r, int (*next)(void *from, int *fd), void *from);
+uint64_t pm_reader_frame(const struct pm_reader *r);  /* number of the frame being read, from 1 in every input */
 bool pm_reader_aborted(const struct pm_reader *r);    /* the failure was an abort sent by a stage upstream */
 
 /* Next header. Fields of the frame hold no data yet (uniform ones their values). */

@@ -62,7 +62,8 @@ usage() {
 	usage 'SENTENCE is missing' 'cycle -n 1'
 	usage 'missing' pinit
 	usage 'missing' push
-	usage 'unexpected argument' 'p2m p2m'
+	usage 'unexpected argument' "cycle -n 1 'p2m p2m'"
+	usage 'expected: SENTENCE; -i reads a file' "cycle -n 1 'push drift' ."
 	usage 'unexpected argument' "cycle -n 1 'push drift' again"
 	usage 'how long' "cycle 'push drift'"
 }

@@ -365,7 +365,6 @@ END
 
 @test "wrong options are usage errors; inside a sentence sh5 is refused" {
 	says 2 "sh5: which way?*" sh5
-	says 2 "sh5: sh5 FILE reads*" sh5 a.h5 -o b.h5
 	says 2 "cycle: *sh5 reads or writes a file*" cycle -n 1 'push drift | sh5 -o x.h5'
 }
 
