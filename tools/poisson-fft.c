@@ -26,9 +26,11 @@ static const struct pm_option options[] = {
 	{.name = "screening", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(screening),
 		.text = "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length"},
 	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green),
-		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice)"},
-	{.name = "softening", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(softening),
-		.text = "delta of the blobs of gauss2 to gauss10, exp(-(r/delta)^2) for gauss2 (0: 2 sqrt(2) times the largest spacing of an open axis)"},
+		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice); "
+			"plummer, which is softened, for all faces"},
+	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e150, PM_AT(softening),
+		.text = "of plummer the softening (default: the frame's constant softening); of gauss2 to gauss10 delta of the blobs, exp(-(r/delta)^2) for gauss2 "
+			"(default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
 		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence "
 			"function "
@@ -48,6 +50,7 @@ static const struct pm_example examples[] = {
 		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 | sls"},
 	{"a screened plasma between a grounded plate and a plane of symmetry",
 		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 | sls"},
+	{"the same cluster, softened as pp softens it", "pinit plummer -n 2000 --softening 0.3 | p2m -n 32 | poisson-fft --green plummer | sls"},
 	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico | sls"},
 	{0},
 };
@@ -81,7 +84,10 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
 	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2"
 		: !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, o->softening, {0}};
+	double softening = !isnan(o->softening) ? o->softening : green && green->factor ? pm_frame_constant(f, "softening", NAN) : 0;
+	if (isnan(softening))
+		return pm_fail(PM_DATA, "--green %s, and the frame has no softening (--softening LENGTH, or smod --constant softening=LENGTH)", green->name);
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}};
 	status = influence(o, f, &t->problem, &t->choice.influence);
 	if (!status)
 		status = pm_poisson_fft_check(&t->problem.grid, &t->choice);

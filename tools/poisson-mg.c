@@ -2,12 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "green/green.h"
 #include "poisson-mg/multigrid.h"
 #include "stage/solver-options.h"
 
 struct config {
 	struct pm_problem_names names;
-	const char *cycle, *order, *smoother, *restriction, *permittivity, *mean;
+	const char *cycle, *order, *smoother, *restriction, *permittivity, *mean, *green;
 	struct pm_vector smooth;
 	double relaxation, tolerance;
 	int64_t most;
@@ -44,6 +45,7 @@ static const struct pm_option options[] = {
 		.text = "tolerance of the residual relative to c*s, both as root mean square"},
 	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles; then it "
 		"fails"},
+	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green), .text = "refused: Green's functions, softened ones too, are poisson-fft's"},
 	PM_SOLVER_ROWS,
 	{0},
 };
@@ -61,6 +63,8 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
 	struct state *t = s->state;
+	if (o->green)
+		return pm_fail(PM_USAGE, "multigrid inverts differences, and has no --green (poisson-fft --green %s)", o->green);
 	if (o->smooth.n != 2 || floor(o->smooth.x[0]) != o->smooth.x[0] || floor(o->smooth.x[1]) != o->smooth.x[1])
 		return pm_fail(PM_USAGE, "--smooth needs two integers, the sweeps before and after (--smooth 2,2)");
 	if (o->smooth.x[0] + o->smooth.x[1] == 0)

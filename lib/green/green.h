@@ -13,7 +13,7 @@ struct pm_green_case {
 	double kappa;         /* [1/length] */
 	double k2;            /* [1/length^2] squared wave number along the other axes: kappa^2 without the part of the screened equation */
 	double reach;         /* [length] the function is truncated (set to 0) beyond this distance before it is transformed */
-	double width;         /* [length] standard deviation of the regularising blobs, if the method has them */
+	double width;         /* [length] standard deviation of the regularising blobs, if the method has them; of softened functions the softening */
 	double constant[4];   /* numbers of the method's own, set by prepare */
 };
 
@@ -28,6 +28,9 @@ struct pm_green {
 	double (*at)(const struct pm_green_case *c, double r2);
 	double (*transform)(const struct pm_green_case *c, double k2);
 	bool (*smooth)(const struct pm_green_case *c); /* of those that have both */
+	/* Of softened functions: what multiplies the transform of the function of a point, at x = wave number times width. Periodic faces and walls take it
+	 * too, and width is the softening itself, 0 for none. NULL: for open faces alone, and width is a standard deviation. */
+	double (*factor)(double x);
 	void (*prepare)(struct pm_green_case *c); /* may be NULL; fills constant */
 };
 

@@ -10,11 +10,13 @@ static double symbol(const void *choice, double theta, double h)
 
 int pm_poisson_fft_influence(struct pm_poisson_fft *p)
 {
-	const struct pm_influence *f = &p->choice.influence;
+	struct pm_influence made = p->choice.influence, *f = &made;
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	struct pm_influence_axis axis[3] = {{0}};
 	int status = 0;
+	if (p->choice.green && p->choice.green->factor)
+		made.factor = p->choice.green->factor, made.softening = p->choice.softening;
 	for (int a = X; a <= Z && !status; a++)
 		status = pm_influence_axis_init(&axis[a], f, p->line[a].n, h[a], symbol, &p->choice);
 	p->green_row = (p->chunks * H + L - 1) / L * L;

@@ -36,10 +36,12 @@ int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_f
 	char text[200];
 	for (int d = 0; d < g->dim; d++)
 		open += open_line(g->face[d]);
+	if (green->factor && o->symbol != PM_SPECTRAL)
+		return pm_fail(PM_DATA, "--green %s inverts the Laplacian, not its differences (leave out one of --symbol and --green)", green->name);
 	if (!open)
-		return o->green ? pm_fail(PM_DATA, "--green %s is for open faces, and there are none (leave it out)", o->green->name) : 0;
+		return o->green && !o->green->factor ? pm_fail(PM_DATA, "--green %s is for open faces, and there are none (leave it out)", o->green->name) : 0;
 	if (o->softening > 0 && !green->regular)
-		return pm_fail(PM_DATA, "--green %s has no softening (choose gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
+		return pm_fail(PM_DATA, "--green %s has no softening (choose plummer, or gauss2, gauss4, gauss6, gauss8 or gauss10)", green->name);
 	bool screened = open < g->dim || o->screening > 0, differences = o->symbol != PM_SPECTRAL;
 	if (green->differences && !differences)
 		return pm_fail(PM_DATA, "--green %s inverts differences (choose --symbol fd2, fd4 or fd6, or leave out one of --symbol and --green)",
@@ -85,8 +87,8 @@ int pm_poisson_fft_green(struct pm_poisson_fft *p)
 	}
 	for (int d = 0; d < g->dim; d++)
 		o.width = fmax(o.width, open_line(g->face[d]) ? 2 * g->h[d] : 0); /* Hejlesen et al. 2013 */
-	if (p->choice.softening > 0)
-		o.width = p->choice.softening / sqrt(2);
+	if (p->choice.softening > 0 || o.green->factor)
+		o.width = p->choice.softening / (o.green->factor ? 1 : sqrt(2));
 	o.rows = p->chunks * (p->complex ? H : L);
 	o.row = (o.rows + L - 1) / L * L;
 	o.map = pm_alloc(o.rows, sizeof *o.map);

@@ -3,6 +3,7 @@
  *   plain        S(k)^2 / lambda(k)
  *   deconvolved  S(k)^2 / (lambda(k) W(k)^2): one W for the way to the mesh, one for the way back
  *   optimal      - sum_n D.k_n/k_n^2 S(k_n)^2 W(k_n)^2 / (|D|^2 (sum_n W(k_n)^2)^2)
+ * A softened Green's function multiplies S^2 by its factor of K epsilon, K^2 = k_n^2 + screening^2.
  * optimal minimises the mean square error of the force over all positions of two clouds in their cells. Interlaced: sums over n1 + n2 + n3 even.
  * Source: Hockney and Eastwood 1988, equations 8-22 and 8-3 ff.; sums of W^2 by Poisson's formula from the autocorrelation of the kernel.
  * Assumes p2m and m2p with the same kernel. Cost: the optimal one (2 reach + 1)^dim terms a mode, once per mesh. SPDX-License-Identifier: GPL-3.0-or-later */
@@ -137,10 +138,11 @@ int pm_influence_axis_init(struct pm_influence_axis *a, const struct pm_influenc
 
 void pm_influence_axis_free(struct pm_influence_axis *a) { a->lambda = pm_free(a->lambda); }
 
-static double cloud2(const struct pm_influence *f, double k2)
+/* S^2, and the factor of a softened Green's function. */
+static double cloud2(const struct pm_influence *f, double k2, double screening2)
 {
 	double s = f->cloud > 0 ? pm_cloud_wave(0.5 * sqrt(k2) * f->cloud) : 1;
-	return s * s;
+	return s * s * (f->factor ? f->factor(sqrt(k2 + screening2) * f->softening) : 1);
 }
 
 /* Sum over aliases of D.k/(k^2 + K^2) S^2 W^2. */
@@ -158,7 +160,7 @@ static double numerator(const struct pm_influence *f, const struct pm_influence_
 				bool odd = (i - n[0] / 2 + b - n[1] / 2 + c - n[2] / 2) & 1;
 				double q2 = k2 + kx[i] * kx[i];
 				if (!(odd && f->interlaced) && q2 > 0)
-					sum += w * wx[i] * (across + axis[0].slope[mode[0]] * kx[i]) / (q2 + screening2) * cloud2(f, q2);
+					sum += w * wx[i] * (across + axis[0].slope[mode[0]] * kx[i]) / (q2 + screening2) * cloud2(f, q2, screening2);
 			}
 		}
 	return sum;
@@ -191,6 +193,6 @@ void pm_influence_row(const struct pm_influence *f, const struct pm_influence_ax
 			k2 += axis[d].k[mode[d]] * axis[d].k[mode[d]];
 			window *= axis[d].window[mode[d]];
 		}
-		row[i] = sum < 0 ? cloud2(f, k2) / (sum * window) : 0;
+		row[i] = sum < 0 ? cloud2(f, k2, screening2) / (sum * window) : 0;
 	}
 }

@@ -17,6 +17,8 @@ struct pm_influence {
 	bool interlaced;                /* both on two meshes */
 	int order;                      /* of the differences that make the field; 0 spectral; of optimal */
 	double cloud;                   /* [length] diameter of the clouds S2 whose force is computed; 0: points */
+	double (*factor)(double x);     /* set by the solver: of a softened Green's function (green/green.h), NULL none; x in units of 1/softening [length] */
+	double softening;
 };
 
 static inline bool pm_influence_any(const struct pm_influence *f) { return f->kind != PM_PLAIN || f->cloud > 0; }

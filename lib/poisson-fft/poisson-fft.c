@@ -149,6 +149,18 @@ static int symbols(struct pm_poisson_fft *p)
 	return 0;
 }
 
+static int multipliers(struct pm_poisson_fft *p)
+{
+	const struct pm_poisson_fft_choice *o = &p->choice;
+	bool soft = o->green && o->green->factor && o->softening > 0 && !p->empty;
+	if (p->open && !p->empty)
+		return pm_poisson_fft_green(p);
+	if (pm_influence_any(&o->influence) || (soft && p->complex))
+		return pm_poisson_fft_influence(p);
+	int status = symbols(p);
+	return status || !soft ? status : pm_poisson_fft_softened(p);
+}
+
 struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
 	if (pm_poisson_fft_check(g, o))
@@ -167,7 +179,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		p->open = p->open || open[0] || open[1];
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	if (layout(p) || (p->open && !p->empty ? pm_poisson_fft_green(p) : pm_influence_any(&o->influence) ? pm_poisson_fft_influence(p) : symbols(p)))
+	if (layout(p) || multipliers(p))
 		p = pm_poisson_fft_free(p);
 	return p;
 }

@@ -20,8 +20,9 @@ double pm_symbol_value(enum pm_symbol symbol, double theta, double h);
 struct pm_poisson_fft_choice {
 	enum pm_symbol symbol;
 	double screening; /* K [1/length] in lap phi - K^2 phi = c*s; 0: Poisson's equation */
-	const struct pm_green *green; /* of open faces; NULL: hockney, with differences lattice */
-	double softening;             /* [length] delta of its blobs, where the method has any; 0: 2 sqrt(2) times the largest spacing of an open axis */
+	const struct pm_green *green; /* of open faces; NULL: hockney, with differences lattice. Softened: of all faces */
+	double softening;             /* [length] delta of its blobs, where the method has any; 0: 2 sqrt(2) times the largest spacing of an open axis.
+	                               * Of plummer epsilon, 0: none */
 	struct pm_influence influence; /* of periodic boxes */
 };
 

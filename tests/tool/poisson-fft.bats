@@ -21,6 +21,7 @@ refused() {
 
 @test "poisson-fft: unsupported cases are refused, with an alternative" {
 	pinit uniform -n 100 > bare
+	printf 'x y z mass\n.5 .5 .5 1\n' > bodies
 	p2m -n 8 < bare > rho
 	refused 1 "no field 'rho' on 'mesh' (p2m makes it" "poisson-fft < bare"
 	refused 1 "no mesh named fine" "poisson-fft --mesh fine < rho"
@@ -28,7 +29,10 @@ refused() {
 	refused 1 "absorbing" "pinit uniform -n 0 --faces absorbing | p2m -n 8 | poisson-fft"
 	pinit uniform -n 0 --faces open | p2m -n 8 > open
 	refused 1 "choose gauss10, gauss2" "poisson-fft --green cell --screening 2 < open"
-	refused 1 "choose gauss2" "poisson-fft --green vico --softening 1 < open"
+	refused 1 "choose plummer, or gauss2" "poisson-fft --green vico --softening 1 < open"
+	refused 1 "smod --constant softening=LENGTH" "stab --law gravity --constant G=1 --box 0,1 bodies | p2m | poisson-fft --green plummer"
+	refused 1 "leave out one of" "poisson-fft --green plummer --symbol fd4 < rho"
+	refused 2 "poisson-fft --green plummer" "poisson-mg --green plummer < rho"
 	refused 1 "leave out one of" "poisson-fft --green vico --symbol fd2 < open"
 	refused 1 "choose --symbol fd2" "poisson-fft --green lattice --symbol spectral < open"
 	refused 1 "there are none (leave it out)" "poisson-fft --green vico < rho"

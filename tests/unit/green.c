@@ -59,7 +59,7 @@ static void against_sum(struct pm_grid g, const struct pm_green *green, double s
 {
 	struct pm_poisson_fft_choice o = {.symbol = green->differences ? PM_FD2 : PM_SPECTRAL, .screening = screening, .green = green,
 		.softening = green->regular * 1.9};
-	struct pm_green_case c = {.dim = g.dim, .h = {g.h[0], g.h[1], g.h[2]}, .kappa = screening, .reach = 1, .width = 1.9 / sqrt(2)};
+	struct pm_green_case c = {.dim = g.dim, .h = {g.h[0], g.h[1], g.h[2]}, .kappa = screening, .reach = 1, .width = green->factor ? 1.9 : 1.9 / sqrt(2)};
 	if (green->prepare)
 		green->prepare(&c);
 	size_t n = pm_grid_size(&g);
@@ -299,7 +299,7 @@ static void round_blobs(void)
 	const double delta = 0.9, sigma2 = 0.5 * delta * delta;
 	struct pm_grid g = box(2, "oopp", 48, 24, 16);
 	size_t n = pm_grid_size(&g);
-	double *s = malloc(n * sizeof *s), *smooth = malloc(n * sizeof *smooth), *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), k = 2 * pm_pi / 5;
+	double *s = calloc(n, sizeof *s), *smooth = malloc(n * sizeof *smooth), *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), k = 2 * pm_pi / 5;
 	for (size_t q = 0; q < n; q++) {
 		double x = g.h[0] * (double)(q % g.points[0]) - 8.1, wave = cos(k * g.h[1] * (double)(q / g.points[0]) + 0.3);
 		s[q] = exp(-x * x / 2) * (1 + wave);
@@ -328,7 +328,7 @@ static void blobs(void)
 {
 	for (int i = 0; pm_greens[i]; i++) {
 		const struct pm_green *green = pm_greens[i];
-		if (!green->regular)
+		if (!green->regular || green->factor)
 			continue;
 		struct pm_grid g = box(3, "oooooo", 34, 0, 14);
 		struct pm_poisson_fft_choice o = {.green = green};
