@@ -1,5 +1,6 @@
 /* Sources and targets of far fields, between the sets of a frame and plain arrays.
- * Every set with positions and the strength is a source. Every set with positions is accelerated (test particles too); a fixed one gets only the potential.
+ * Every set with positions and the strength is a source. Every set with positions is accelerated (test particles too); a fixed one, and one without the
+ * mass that its acceleration needs, gets only the potential.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -19,25 +20,44 @@ static bool is_source(const struct pm_frame *f, const struct pm_set *s, const st
 	return state_of(f, s, "x") && state_of(f, s, far->strength);
 }
 
+static bool is_accelerated(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far)
+{
+	return !s->fixed && (!far->per || (state_of(f, s, far->per) && state_of(f, s, far->strength)));
+}
+
 static bool is_target(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far)
 {
-	return (!far->set || !strcmp(far->set, s->name)) && state_of(f, s, "x")
-		&& (!far->per || (state_of(f, s, far->per) && state_of(f, s, far->strength))) && (!s->fixed || far->with_potential);
+	return (!far->set || !strcmp(far->set, s->name)) && state_of(f, s, "x") && (is_accelerated(f, s, far) || far->with_potential);
 }
 
 static int plan_set(struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, const char *term, bool replace)
 {
 	const struct pm_field *x = state_of(f, s, "x");
-	bool source = is_source(f, s, far), target = is_target(f, s, far);
+	bool source = is_source(f, s, far), target = is_target(f, s, far), pushed = target && is_accelerated(f, s, far);
 	if ((source || target) && x->components < f->dim)
 		return pm_fail(PM_DATA, "'x' of '%s' has %d components in %d-D", s->name, x->components, f->dim);
 	bool good = (!source && !target) || pm_reads(f, s->name, "x");
-	good = good && (!source || pm_reads(f, s->name, far->strength)) && (!target || !far->per || pm_reads(f, s->name, far->per));
-	if (good && target && !s->fixed)
+	good = good && (!source || pm_reads(f, s->name, far->strength)) && (!pushed || !far->per || pm_reads(f, s->name, far->per));
+	if (good && pushed)
 		good = pm_contributes(f, s->name, far->change, far->of, f->dim, term, replace);
 	if (good && target && far->with_potential)
 		good = pm_makes(f, s->name, far->potential, 1, PM_DERIVED);
 	return good ? 0 : -PM_DATA;
+}
+
+/* Why no set is accelerated. */
+static int no_target(const struct pm_frame *f, const struct pm_far *far)
+{
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_set *s = f->sets[i];
+		const bool asked = !far->set || !strcmp(far->set, s->name);
+		if (asked && far->per && !s->fixed && is_source(f, s, far) && !state_of(f, s, far->per))
+			return pm_fail(PM_DATA, "no field '%s' on '%s', by which its acceleration is divided (a column %s for stab, or scalc --extensive '%s = 1'; "
+				"--potential for the potential alone)", far->per, s->name, far->per, far->per);
+	}
+	if (far->set)
+		return pm_fail(PM_DATA, "no set '%s' that could be accelerated (sls lists the sets)", far->set);
+	return pm_fail(PM_DATA, "no set can be accelerated: all are fixed (smod --loose, or --potential for the potential alone)");
 }
 
 int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace)
@@ -47,11 +67,8 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 		sources += is_source(f, f->sets[i], far), targets += is_target(f, f->sets[i], far);
 	if (!sources)
 		return pm_fail(PM_DATA, "no set with 'x' and '%s' (add it with stab --strength)", far->strength);
-	if (!targets && far->set)
-		return pm_fail(PM_DATA, "no set '%s' that could be accelerated (sls lists the sets)", far->set);
 	if (!targets)
-		return pm_fail(PM_DATA, "no set can be accelerated: all are fixed or have no state that moves (smod --loose, or --potential for the "
-			"potential alone)");
+		return no_target(f, far);
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		status = plan_set(f, f->sets[i], far, term, replace);
 	return status;
@@ -127,7 +144,7 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 		const struct pm_set *s = f->sets[i];
 		if (!is_target(f, s, far))
 			continue;
-		if (!s->fixed) {
+		if (is_accelerated(f, s, far)) {
 			const double rate = orbits(f, s, far, coefficient, b, at);
 			add(f, s, far, coefficient, b, at);
 			pm_limits_add(pm_frame_field(f, s->name, far->change), strcmp(far->of, "x") ?

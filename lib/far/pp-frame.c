@@ -18,8 +18,8 @@ static int open_space(const struct pm_frame *f)
 {
 	for (int a = 0; a < 2 * f->dim; a++)
 		if (f->face[a / 2][a % 2] != PM_OPEN)
-			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space (use p2m | poisson-fft | mgrad | m2p; for "
-				"periodic ones also the word ewald)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
+			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space (use p2m | poisson-fft | "
+				"mgrad | m2p)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
 	return 0;
 }
 
