@@ -52,9 +52,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *state = s->state;
 	int status = pm_diag_table_row(&state->table, f);
+	const bool many = state->table.many;
 	if (!status && state->table.unknown[0] && !state->told)
 		pm_note(s, "energy is nan: %s (energy_kinetic and energy_field_... are its known parts)", state->table.unknown);
-	state->told = state->told || state->table.unknown[0];
+	else if (!status && many && !state->told)
+		pm_note(s, "energy is nan: %s", state->table.lacks);
+	state->told = state->told || state->table.unknown[0] || many;
 	if (!status && state->table.note[0])
 		pm_tell_once(s, "%s", state->table.note);
 	return status;

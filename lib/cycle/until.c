@@ -4,10 +4,11 @@
 
 #include "expression/expression.h"
 #include "measure/diag-column.h"
+#include "measure/known-energy.h"
 #include "cycle/until.h"
 #include "stream/run.h"
 
-enum { most = PM_EXPRESSION_VALUES, most_pairs = 4096 };
+enum { most = PM_EXPRESSION_VALUES };
 
 struct pm_until {
 	struct pm_expression expression;
@@ -114,14 +115,11 @@ static int cannot(const struct pm_until *u, int k)
 /* Uses a direct sum if the frame has no potential, where that is possible and cheap. */
 static bool may_sum(const struct pm_until *u, const struct pm_frame *f, int missing)
 {
-	uint64_t n = 0;
-	for (int d = 0; d < f->dim; d++)
-		if (f->face[d][0] == PM_PERIODIC)
-			return false;
-	for (size_t i = 0; i < f->nsets; i++)
-		n += f->sets[i]->n;
+	char why[200];
+	const struct pm_measure how = pm_diag_how(&u->gauge, f);
 	const int from = missing >= 0 ? u->column[missing].from : -1;
-	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || from == PM_VIRIAL_RATIO) && n <= most_pairs && !u->gauge.pair;
+	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || from == PM_VIRIAL_RATIO) && !u->gauge.pair &&
+		pm_pairs_unasked(f, pm_law_of(f), &how, why) == PM_PAIRS_SUM;
 }
 
 static int measure_first(struct pm_until *u, struct pm_frame *f)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "measure/diag-table.h"
+#include "measure/known-energy.h"
 
 static int check(const struct pm_diag_choice *c)
 {
@@ -94,17 +95,49 @@ static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struc
 	return pm_series_add(&t->series, f->time, t->mode < 0 ? value : m->mode[t->mode], t->mode < 0 ? 0 : m->field_most);
 }
 
-int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
+static bool needs_energy(const struct pm_diag_table *t)
 {
-	struct pm_measures m;
-	const bool json = t->choice.json, first = !t->n;
-	const struct pm_measure how = pm_diag_how(&t->request, f);
-	if ((first && decide(t, f)) || pm_measure_frame(&how, f, &m) || follow(t, f, &m))
-		return -PM_DATA;
+	bool needs = false;
+	for (int i = 0; i <= t->n; i++) {
+		const int from = i < t->n ? t->column[i].from : t->choice.growth ? t->growth.from : 0;
+		needs = needs || from == PM_ENERGY_PAIR || from == PM_ENERGY || from == PM_VIRIAL_RATIO;
+	}
+	return needs;
+}
+
+/* Measures the frame; sums pairs too where that is the only way to the energy and cheap. The first row decides whether, so that a column is one quantity. */
+static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool first, struct pm_measure *how, struct pm_measures *m)
+{
+	char why[200] = "";
+	*how = pm_diag_how(&t->request, f);
+	int status = pm_measure_frame(how, f, m);
+	const bool lacks = t->energies && !t->choice.pair && isnan(m->value[PM_ENERGY_PAIR]) && isnan(m->value[PM_ENERGY_MESH]);
+	const enum pm_pairs pairs = lacks || t->unasked ? pm_pairs_unasked(f, pm_law_of(f), how, why) : PM_PAIRS_NO;
+	if (!status && pairs == PM_PAIRS_SUM && ((first && lacks) || t->unasked)) {
+		t->unasked = t->request.pair = true;
+		*how = pm_diag_how(&t->request, f);
+		t->request.pair = false;
+		status = pm_measure_frame(how, f, m);
+	}
+	t->many = lacks && pairs == PM_PAIRS_MANY;
+	snprintf(t->lacks, sizeof t->lacks, "%s", lacks ? why : "");
 	t->unknown[0] = 0;
 	for (int i = 0; i < t->n; i++)
 		if (t->column[i].from == PM_ENERGY)
-			memcpy(t->unknown, how.unknown, sizeof t->unknown);
+			memcpy(t->unknown, how->unknown, sizeof t->unknown);
+	return status;
+}
+
+int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
+{
+	struct pm_measures m;
+	struct pm_measure how;
+	const bool json = t->choice.json, first = !t->n;
+	if (first && decide(t, f))
+		return -PM_DATA;
+	t->energies = needs_energy(t);
+	if (measure(t, f, first, &how, &m) || follow(t, f, &m))
+		return -PM_DATA;
 	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
 		t->note[0] = 0;
 	for (int i = 0; i < t->n && first && !json; i++)

@@ -48,3 +48,22 @@ void pm_known_energy(const struct pm_frame *f, const struct pm_law *law, bool pa
 	if (!how->unknown[0])
 		snprintf(how->unknown, sizeof how->unknown, "the sums over pairs of the sets are softened differently");
 }
+
+enum pm_pairs pm_pairs_unasked(const struct pm_frame *f, const struct pm_law *law, const struct pm_measure *how, char why[200])
+{
+	uint64_t n = 0;
+	bool open = !(law->background && pm_frame_constant(f, law->background, 0) != 0);
+	why[0] = 0;
+	for (int d = 0; d < 2 * f->dim; d++)
+		open = open && f->face[d / 2][d % 2] == PM_OPEN;
+	for (size_t i = 0; i < f->nsets && how->strength; i++)
+		n += (!how->set || !strcmp(how->set, f->sets[i]->name)) && pm_frame_field(f, f->sets[i]->name, how->strength) ? f->sets[i]->n : 0;
+	if (!n || !how->potential || !law->coefficient || !(law->dims >> f->dim & 1) || how->unknown[0])
+		return PM_PAIRS_NO;
+	if (!open)
+		snprintf(why, 200, "no mesh holds %s and %s (p2m | poisson-fft, or poisson-mg, makes them)", how->density, how->potential);
+	else if (n > PM_PAIRS_UNASKED)
+		snprintf(why, 200, "no mesh and no particle holds %s, and the pairs of more than %d particles are not summed unasked (p2m | poisson-fft, pp "
+			"--potential, or diag --pair)", how->potential, PM_PAIRS_UNASKED);
+	return !open ? PM_PAIRS_NO : n > PM_PAIRS_UNASKED ? PM_PAIRS_MANY : PM_PAIRS_SUM;
+}

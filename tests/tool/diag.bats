@@ -19,7 +19,7 @@ load ../helper
 }
 
 @test "diag: quantities that cannot be computed are nan, and null in JSON" {
-	sh_ok 'pinit plummer -n 100 > a; diag < a > t'
+	sh_ok 'pinit uniform -n 100 > a; diag < a > t'
 	[ "$(column energy < t)" = nan ]
 	sh_ok 'diag --format json < a'
 	[ "$(jq .energy <<<"$output")" = null ]
@@ -247,4 +247,25 @@ load ../helper
 	done
 	# without any force it is the kinetic energy
 	[ "$(cycle -n 1 'push drift' <free | diag --columns energy | tail -1)" = 0.5 ]
+}
+
+@test "energy is summed over pairs where no mesh and no particle holds the potential, unasked up to 4096 particles: no --potential is needed with pp" {
+	pinit plummer -n 300 >a
+	cycle -n 4 --every 2 'push kick/2 drift | pp --softening 0.3 | push kick/2' <a >b
+	columns=energy,energy_field_pair,virial_ratio
+	[ "$(diag --columns $columns <b)" = "$(diag --pair --columns $columns <b)" ]
+	run ! grep -q nan <(diag --columns $columns <b)
+	# a sum once begun goes on, and one that was not is not begun: a column is one quantity
+	p2m <a | poisson-fft >m
+	[ "$(cat m a | diag --columns energy | tail -n 1)" = nan ]
+	[ "$(cat a m | diag --columns energy | uniq -d | wc -l)" = 1 ]
+	pinit plummer -n 4096 | run -0 --separate-stderr diag --columns energy
+	[ -z "$stderr" ] && [ "${lines[1]}" != nan ]
+	run -0 --separate-stderr diag --columns energy < <(pinit plummer -n 4097)
+	[ "${lines[1]}" = nan ]
+	[[ $stderr == "diag: energy is nan: no mesh and no particle holds phi, and the pairs of more than 4096 particles are not summed unasked"* ]]
+	run -0 --separate-stderr diag --columns energy_kinetic < <(pinit plummer -n 4097)
+	[ -z "$stderr" ]
+	# images behind walls and periodic boxes are no sum over pairs
+	[ "$(pinit plummer -n 30 --faces wall | diag --columns energy | tail -n 1)" = nan ]
 }
