@@ -52,8 +52,8 @@ static int no_target(const struct pm_frame *f, const struct pm_far *far)
 		const struct pm_set *s = f->sets[i];
 		const bool asked = !far->set || !strcmp(far->set, s->name);
 		if (asked && far->per && !s->fixed && is_source(f, s, far) && !state_of(f, s, far->per))
-			return pm_fail(PM_DATA, "no field '%s' on '%s', by which its acceleration is divided (a column %s for stab, or scalc --extensive '%s = 1'; "
-				"--potential for the potential alone)", far->per, s->name, far->per, far->per);
+			return pm_fail(PM_DATA, "no field '%s' on '%s', by which its acceleration is divided (a column %s for stab, or scalc --extensive "
+				"'%s = 1'; --potential for the potential alone)", far->per, s->name, far->per, far->per);
 	}
 	if (far->set)
 		return pm_fail(PM_DATA, "no set '%s' that could be accelerated (sls lists the sets)", far->set);

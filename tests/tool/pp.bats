@@ -79,7 +79,8 @@ fixture() {
 	[ "$(pp --potential <a | stab --plain | column phi | sort -u)" = 0.07957747154594767 ]
 	[ "$(pp --potential <a | sls | grep -c acc)" = 0 ]
 	for words in pp 'pp --set matter'; do
-		refuses 1 "no field 'mass' on 'matter', by which its acceleration is divided (a column mass for stab, or scalc --extensive 'mass = 1'" "$words <a"
+		refuses 1 "no field 'mass' on 'matter', by which its acceleration is divided (a column mass for stab, or scalc --extensive 'mass = 1'" \
+			"$words <a"
 	done
 	scalc --extensive 'mass = 1' <a | pp --potential | stab --plain >b
 	[ "$(column acc_0 <b | sort | xargs)" = "-0.07957747154594767 0.07957747154594767" ]

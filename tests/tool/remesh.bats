@@ -10,7 +10,8 @@ load ../helper
 	[ "$(column step <a)" = 30 ]
 	# enstrophy falls by 0.48 %: the peak of the cone is below the cells
 	for q in circulation:1e-4 enstrophy:0.006; do
-		within "$(column "${q%:*}" <a)" "$(column "exact_${q%:*}" <a)" "$(awk -v e="$(column "exact_${q%:*}" <a)" -v r="${q#*:}" 'BEGIN { print e * r }')" "$q"
+		exact=$(column "exact_${q%:*}" <a)
+		within "$(column "${q%:*}" <a)" "$exact" "$(awk -v e="$exact" -v r="${q#*:}" 'BEGIN { print e * r }')" "$q"
 	done
 }
 
