@@ -21,7 +21,9 @@ static int begin(struct pm_stage *s)
 static int whole(struct pm_stage *s) { return pm_loop_run(s, s->config); }
 
 static const char *const engines[] = {"fused", "pipes", NULL};
+static const char *const stores[] = {"all", "f32", NULL};
 #define AT(member) .offset = offsetof(struct pm_loop, member)
+#define AT_KEPT(member) AT(output.kept.member)
 static const struct pm_option options[] = {
 	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .high = 1e15, .cosmetic = true, AT(steps),
 		.text = "full steps, counted from the beginning, also after --resume"},
@@ -35,10 +37,15 @@ static const struct pm_option options[] = {
 		.text = "with --plan: effects that change the result by less than this (relative) are left out"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(every),
 		.text = "write the initial frame, every step that is a multiple of N, and the last"},
+	PM_SELECTION_ROWS(AT_KEPT, 0),
+	{.name = "store", .kind = PM_LIST, .choices = stores, .cosmetic = true, AT(output.store),
+		.text = "write everything (all), and real numbers in single precision (f32); default: f64, without what mgrad made of the potential"},
 	{.name = "engine", .kind = PM_WORD, .fallback = "fused", .choices = engines, .cosmetic = true, AT(engine),
 		.text = "run the words in one process, or as long-lived processes on pipes"},
 	{.name = "checkpoint", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(checkpoint),
-		.text = "keep the frame last written in FILE, and on SIGINT and SIGTERM"},
+		.text = "keep the whole frame of the step last written in FILE, also on SIGINT, SIGTERM and SIGHUP"},
+	{.name = "checkpoint-every", .kind = PM_TEXT, .unit = "STEPS|TIME", .cosmetic = true, AT(checkpoint_every),
+		.text = "instead with every frame: after this number of steps, or this wall time (30s, 10m, 2h), and at the end"},
 	{.name = "resume", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(resume), .text = "continue from a checkpoint instead of standard input"},
 	{.name = "other-plans", .kind = PM_FLAG, .cosmetic = true, AT(other_plans),
 		.text = "allow --resume with other FFTW plans than in the checkpoint (results may differ by round-off)"},
@@ -58,8 +65,9 @@ const struct pm_tool tool_cycle = {
 	.name = "cycle",
 	.summary = "run a sentence repeatedly, once per time step",
 	.about = "The sentence is a pipeline in quotes: words and quotes as in the shell, without expansion. If its first push needs a force that the frame "
-		"does "
-		 "not have, the words that make fields run once first (priming). A word that does not belong to pmpipe runs as a process; see docs/stage.md.",
+		"does not have, the words that make fields run once first (priming). A word that does not belong to pmpipe runs as a process; see "
+		"docs/stage.md. Frames are written without the field that mgrad makes of the law's potential (g, E, u), which diag and a further cycle do "
+		"not need; --store all writes it too. --set, --mesh, --field and --drop choose what is written, as in sel. Checkpoints are whole.",
 	.kind = PM_FILTER,
 	.config = sizeof(struct pm_loop),
 	.options = options,

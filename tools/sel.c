@@ -1,10 +1,11 @@
 /* sel: selects frames, sets, meshes, fields, and particles by an expression (lib/expression/selection.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "expression/selection.h"
+#include "stage/selection-options.h"
 #include "stage/strength-report.h"
 
 struct config {
-	struct pm_list frames, sets, meshes, fields, drop;
+	struct pm_list frames;
+	struct pm_selection_options kept;
 	const char *where;
 	int64_t every;
 	bool last;
@@ -15,16 +16,14 @@ struct state {
 	struct pm_frame *kept;  /* the last one so far, with --last */
 };
 
+#define AT_KEPT(member) PM_AT(kept.member)
 static const struct pm_option options[] = {
 	{.name = "frames", .kind = PM_LIST, .unit = "N|N:M", PM_AT(frames),
 		.text = "frames by number, counted from 1: 1,3,5:10 or 7: for all from the seventh"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
 		.text = "frames whose step number is a multiple of this"},
 	{.name = "last", .kind = PM_FLAG, PM_AT(last), .text = "only the last frame of each stream, after the other selections"},
-	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(sets), .text = "keep only these sets"},
-	{.name = "mesh", .kind = PM_LIST, .unit = "NAME", PM_AT(meshes), .text = "keep only these meshes"},
-	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(fields), .text = "keep only these fields"},
-	{.name = "drop", .kind = PM_LIST, .unit = "NAME|ON/NAME", PM_AT(drop), .text = "remove these fields, sets or meshes"},
+	PM_SELECTION_ROWS(AT_KEPT, 1),
 	{.name = "where", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(where), .text = "keep the particles for which this is true: 'x < 0.5 && mass > 0'"},
 	{0},
 };
@@ -38,8 +37,9 @@ static int begin(struct pm_stage *s)
 
 static struct pm_selection selection_of(const struct config *c)
 {
-	return (struct pm_selection){.sets = {c->sets.item, c->sets.n}, .meshes = {c->meshes.item, c->meshes.n}, .fields = {c->fields.item, c->fields.n},
-		.drop = {c->drop.item, c->drop.n}, .where = c->where};
+	struct pm_selection selection = pm_selection_of(&c->kept);
+	selection.where = c->where;
+	return selection;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)

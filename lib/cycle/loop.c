@@ -10,8 +10,10 @@
 
 #include "base/replace.h"
 #include "stage/internal.h"
+#include "cycle/checkpoint.h"
 #include "cycle/loop.h"
 #include "cycle/missing-words.h"
+#include "cycle/output.h"
 #include "cycle/run-end.h"
 #include "planner/plan.h"
 #include "sentence/process-chain.h"
@@ -30,8 +32,10 @@ struct cycle {
 	int met;                /* the expression is true for this frame */
 	bool judged;            /* the first frame was compared with the sentence */
 	int64_t start, written; /* step at the beginning of the run; step last written */
+	int64_t saved;          /* step of the last checkpoint */
 	double told;            /* clock of the last progress line */
-	int lock;               /* the checkpoint, open and locked; -1: none yet */
+	struct pm_checkpoint kept;
+	struct pm_output what;  /* is written of a frame */
 	struct pm_frame *last;  /* the beginning of the step under way, where the sentence has processes, which may never answer; else NULL */
 	json_t *before;         /* resume: the report of the checkpoint, kept until the first pass has been compared with it */
 };
@@ -63,115 +67,46 @@ static void listen_to(int signal_number)
 		signal(signal_number, SIG_IGN); /* nohup */
 }
 
-/* A stream of one frame. */
-static int write_alone(struct pm_writer *w, struct pm_frame *f)
-{
-	int status = w ? pm_write_frame(w, f) : pm_failed();
-	status = status || !w ? status : pm_write_end(w);
-	int closed = w ? pm_writer_close(w) : 0;
-	return status ? status : closed;
-}
-
-/* As HDF5: sh5 does the renaming. If its pipe closes during writing, sh5 has failed; a later close is normal. */
-static int checkpoint_rest(const char *name, struct pm_frame *f)
-{
-	struct pm_h5_pipe *rest = NULL;
-	void (*before)(int) = signal(SIGPIPE, SIG_IGN);
-	int status = write_alone(pm_h5_pipe_write(name, &rest), f), closed = pm_h5_pipe_close(rest);
-	signal(SIGPIPE, before);
-	return closed ? closed : status;
-}
-
-/* Takes the lock of the file that has the name now, unless it is ours already. One cycle writes a checkpoint: the file in place is always locked by it. */
-static int checkpoint_lock(struct cycle *y)
-{
-	const char *name = y->c->checkpoint;
-	for (int tries = 0; tries < 100; tries++) {
-		struct stat mine, now;
-		int fd = open(name, O_RDWR | O_CLOEXEC);
-		if (fd < 0) /* none there; or one that cannot be written, which is said when it is */
-			return 0;
-		bool ours = y->lock >= 0 && !fstat(y->lock, &mine) && !fstat(fd, &now) && mine.st_dev == now.st_dev && mine.st_ino == now.st_ino;
-		int got = ours ? -1 : pm_lock_file(fd);
-		if (!got) {
-			close(fd);
-			return pm_fail(PM_DATA, "'%s' is the checkpoint of another cycle that runs (--checkpoint with a name of its own)", name);
-		}
-		if (got < 0) { /* ours, or a file system without locks */
-			close(fd);
-			return 0;
-		}
-		bool same = !fstat(fd, &mine) && !stat(name, &now) && mine.st_dev == now.st_dev && mine.st_ino == now.st_ino;
-		if (same && y->lock >= 0)
-			close(y->lock);
-		if (same) {
-			y->lock = fd;
-			return 0;
-		}
-		close(fd); /* another took its place meanwhile */
-	}
-	return 0;
-}
-
-static int checkpoint_stream(struct cycle *y, struct pm_frame *f)
-{
-	struct pm_writer *w = pm_writer_lasting(y->c->checkpoint);
-	int fd = w ? fcntl(pm_writer_file(w), F_DUPFD_CLOEXEC, 0) : -1;
-	if (fd >= 0)
-		pm_lock_file(fd);
-	int status = write_alone(w, f);
-	if (status && fd >= 0)
-		close(fd);
-	if (!status && y->lock >= 0)
-		close(y->lock);
-	y->lock = status ? y->lock : fd;
-	return status;
-}
-
-/* Written under a temporary name and renamed when complete. It contains the step at the beginning of the run. */
+/* The whole frame, with what a resumed run must know: the step at the beginning, strengths, the values of --until. */
 static int checkpoint(struct cycle *y, const struct pm_frame *f)
 {
-	const char *name = y->c->checkpoint;
-	struct pm_frame *copy = name ? pm_frame_copy(f) : NULL;
+	struct pm_frame *copy = y->kept.name ? pm_frame_copy(f) : NULL;
 	if (!copy)
-		return name ? pm_failed() : 0;
+		return y->kept.name ? pm_failed() : 0;
 	json_object_set_new(copy->more, "cycle_start", json_integer(y->start));
 	json_object_set_new(copy->more, "cycle_strengths", pm_watch_save(&y->watch));
 	if (y->until)
 		json_object_set_new(copy->more, "cycle_until", pm_until_save(y->until));
-	const bool hdf = pm_h5_pipe_is(name);
-	int status = checkpoint_lock(y);
-	status = status ? status : hdf ? checkpoint_rest(name, copy) : checkpoint_stream(y, copy);
-	status = status || !hdf ? status : checkpoint_lock(y);
+	const int status = pm_checkpoint_write(&y->kept, copy);
+	y->saved = f->step;
 	pm_frame_free(copy);
-	return status && !strstr(pm_message(), name) ? pm_fail(-status, "checkpoint '%s': %s", name, pm_message()) : status;
+	return status;
 }
 
-/* Checked before anything is computed: the target is writable, and is not a device that the rename would replace. */
-static int checkpoint_check(struct cycle *y)
+/* until: said of frames that are written; not under the command line as typed, because a resumed run is typed differently. */
+static void say_until(struct cycle *y, struct pm_frame *f)
 {
-	struct stat st;
-	struct pm_replace try;
-	const char *name = y->c->checkpoint;
-	if (!name)
-		return 0;
-	if (!strcmp(name, "-") || (!stat(name, &st) && !S_ISREG(st.st_mode)))
-		return pm_fail(PM_USAGE, "--checkpoint '%s' is not a file", name);
-	int status = checkpoint_lock(y);
-	if (status || (status = pm_replace_open(&try, name, true)))
-		return status;
-	close(try.fd);
-	pm_replace_drop(&try);
-	return 0;
+	if (y->until)
+		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
 }
 
 static int write_out(struct cycle *y, struct pm_frame *f)
 {
 	y->written = f->step;
-	if (y->until) /* not under the command line as typed: a resumed run is typed differently */
-		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
-	int status = pm_write_frame(y->out, f);
-	return status ? status : checkpoint(y, f);
+	say_until(y, f);
+	struct pm_frame *part = pm_output_of(&y->what, y->words, f);
+	const int status = part ? pm_write_frame(y->out, part) : pm_failed();
+	pm_frame_free(part);
+	return status || !pm_checkpoint_with_frames(&y->kept) ? status : checkpoint(y, f);
+}
+
+/* A full step is behind: a frame, a checkpoint, both or none. */
+static int keep(struct cycle *y, struct pm_frame *f)
+{
+	int status = pm_output_check(&y->what, f);
+	if (!status && y->c->every > 0 && f->step % y->c->every == 0)
+		status = write_out(y, f);
+	return status || !pm_checkpoint_due(&y->kept, f) ? status : checkpoint(y, f);
 }
 
 static void progress(struct cycle *y, const struct pm_frame *f, bool last)
@@ -284,7 +219,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	status = status || !full ? status : look(y, *f);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)(*f)->step, pm_message());
-	return full && y->c->every > 0 && (*f)->step % y->c->every == 0 ? write_out(y, *f) : 0;
+	return full ? keep(y, *f) : 0;
 }
 
 /* The sentence, made into stages. */
@@ -338,7 +273,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
 	json_object_del((*f)->more, "cycle_start");
 	watch(y, *f);
-	y->written = -1;
+	y->written = y->saved = -1;
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
 		pm_history_add(y->s, *f), pm_sentence_forces(y->words, *f);
@@ -346,6 +281,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 		pm_missing_words(y->words, *f, end_of(y, *f));
 	y->judged = true;
 	status = look_first(y, f);
+	status = status ? status : pm_output_begin(&y->what, *f);
 	if (!status && y->c->every > 0 && !y->c->resume) {
 		status = prime(y, f);
 		status = status ? status : write_out(y, *f);
@@ -360,7 +296,10 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 		pm_run_end_tell(&y->end, y->s, y->words, *f, (*f)->step - y->start, began);
 	json_decref(y->before);
 	y->before = NULL;
-	return !status && y->written != (*f)->step ? write_out(y, *f) : status;
+	status = status ? status : pm_output_check(&y->what, *f);
+	if (!status && y->written != (*f)->step)
+		status = write_out(y, *f);
+	return !status && y->saved != (*f)->step ? checkpoint(y, *f) : status;
 }
 
 static int frames(struct cycle *y, struct pm_reader *in)
@@ -381,8 +320,9 @@ static int frames(struct cycle *y, struct pm_reader *in)
 
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
-	struct cycle y = {.c = c, .s = s, .lock = -1, .end = {.time = c->time, .exact = c->exact}};
-	int bad = checkpoint_check(&y);
+	struct cycle y = {.c = c, .s = s, .end = {.time = c->time, .exact = c->exact}};
+	int bad = pm_output_init(&y.what, &c->output);
+	bad = bad ? bad : pm_checkpoint_init(&y.kept, c->checkpoint, c->checkpoint_every);
 	if (bad)
 		return bad;
 	if (!c->plan && (bad = speak(&y, s->args[0])))
@@ -410,7 +350,7 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	int end = pm_sentence_free(y.words);
 	pm_until_free(y.until);
 	pm_frame_free(y.last);
-	if (y.lock >= 0)
-		close(y.lock);
+	pm_output_free(&y.what);
+	pm_checkpoint_free(&y.kept);
 	return status ? pm_fail(-status, "%s", message) : end;
 }

@@ -2,12 +2,13 @@
 #ifndef PM_CYCLE_LOOP_H
 #define PM_CYCLE_LOOP_H
 
-#include "stage/stage.h"
+#include "cycle/output.h"
 
 struct pm_loop { /* the options; the config of cycle */
 	int64_t steps, every; /* INT64_MIN: not given */
 	double time;          /* NAN: not given */
-	const char *engine, *checkpoint, *resume, *until;
+	const char *engine, *checkpoint, *checkpoint_every, *resume, *until;
+	struct pm_output_choice output;
 	struct pm_list moves;
 	bool exact;           /* the last step is shorter where that is needed to end at time */
 	bool other_plans, plan; /* plan: use the sentence that plan chooses for the first frame */

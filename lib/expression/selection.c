@@ -27,22 +27,39 @@ static bool named(const struct pm_names *list, const char *name)
 	return false;
 }
 
-/* Checks that every name in a list exists in the frame. */
-static int all_there(const struct pm_frame *f, const struct pm_names *list, const char *option, bool sets, bool meshes, bool fields)
+enum { SETS = 1, MESHES = 2, FIELDS = 4 };
+
+static bool there_is(const struct pm_frame *f, const char *const *name, unsigned among)
+{
+	const struct pm_names one = {.name = name, .n = 1};
+	bool there = (among & SETS && pm_frame_set(f, *name)) || (among & MESHES && pm_frame_mesh(f, *name));
+	for (size_t k = 0; among & FIELDS && k < f->nfields && !there; k++)
+		there = listed(&one, f->fields[k]);
+	return there;
+}
+
+/* Checks that every name in a list exists in one of the frames. */
+static int all_there(const struct pm_frame *const f[], int n, const struct pm_names *list, const char *option, unsigned among)
 {
 	for (int i = 0; i < list->n; i++) {
-		const struct pm_names one = {.name = &list->name[i], .n = 1};
-		bool there = (sets && pm_frame_set(f, list->name[i])) || (meshes && pm_frame_mesh(f, list->name[i]));
-		for (size_t k = 0; fields && k < f->nfields; k++)
-			there |= listed(&one, f->fields[k]);
+		bool there = false;
+		for (int k = 0; k < n && !there; k++)
+			there = there_is(f[k], &list->name[i], among);
 		if (!there)
 			return pm_fail(PM_DATA, "--%s: there is no '%s' (sls lists what there is)", option, list->name[i]);
 	}
 	return 0;
 }
 
-/* Removes the sets, meshes and fields that were not chosen. */
-static void leave_out(const struct pm_selection *s, struct pm_frame *f)
+int pm_selection_check(const struct pm_selection *s, const struct pm_frame *const f[], int n)
+{
+	int status = all_there(f, n, &s->sets, "set", SETS);
+	status = status ? status : all_there(f, n, &s->meshes, "mesh", MESHES);
+	status = status ? status : all_there(f, n, &s->fields, "field", FIELDS);
+	return status ? status : all_there(f, n, &s->drop, "drop", SETS | MESHES | FIELDS);
+}
+
+void pm_selection_leave_out(const struct pm_selection *s, struct pm_frame *f)
 {
 	for (size_t i = f->nsets; i-- > 0;)
 		if ((s->sets.n && !named(&s->sets, f->sets[i]->name)) || named(&s->drop, f->sets[i]->name))
@@ -76,9 +93,9 @@ static int declare_where(const struct pm_selection *s, struct pm_frame *f, const
 
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
 {
-	int status;
-	if ((status = all_there(f, &s->sets, "set", true, false, false)) || (status = all_there(f, &s->meshes, "mesh", false, true, false)) ||
-		(status = all_there(f, &s->fields, "field", false, false, true)) || (status = all_there(f, &s->drop, "drop", true, true, true)))
+	const struct pm_frame *const one[] = {f};
+	int status = pm_selection_check(s, one, 1);
+	if (status)
 		return status;
 	if (s->where && !f->nsets)
 		return pm_fail(PM_DATA, "no particles for --where to choose from");
@@ -86,7 +103,7 @@ int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
 		if (takes_part(s, f->sets[i]->name))
 			status = declare_where(s, f, f->sets[i]->name);
 	if (!s->where)
-		leave_out(s, f);
+		pm_selection_leave_out(s, f);
 	return status;
 }
 
@@ -118,7 +135,7 @@ int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		if (takes_part(s, f->sets[i]->name))
 			status = select_particles(s, f, f->sets[i]);
-	leave_out(s, f);
+	pm_selection_leave_out(s, f);
 	return status;
 }
 

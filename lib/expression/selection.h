@@ -14,6 +14,10 @@ struct pm_selection {
 	const char *where;                          /* expression over the particles of a set; NULL: keep all */
 };
 
+/* Does every name exist, in one of these frames at least? 0 or failure. */
+int pm_selection_check(const struct pm_selection *s, const struct pm_frame *const f[], int n);
+/* Removes what was not chosen; names that do not exist here are not missed. */
+void pm_selection_leave_out(const struct pm_selection *s, struct pm_frame *f);
 /* Header: every name must exist; without `where` everything not chosen is removed at once. 0 or failure. */
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f);
 /* Data, only with `where`: keeps the particles for which it is not 0, then removes everything that was not chosen. 0 or failure. */

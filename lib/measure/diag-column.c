@@ -6,6 +6,7 @@
 #include "law/law.h"
 #include "measure/diag-column.h"
 #include "measure/known-energy.h"
+#include "measure/law-field.h"
 
 enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS };
 
@@ -37,15 +38,14 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 	return how;
 }
 
-/* Modes need the field of the law on a mesh that is periodic in x. */
+/* Modes need the field of the law, or its potential, on a mesh that is periodic in x. */
 static int has_mode(const struct pm_frame *f, const struct pm_law *law)
 {
-	const struct pm_field *field = NULL;
-	for (size_t i = 0; i < f->nmeshes && law->field && !field; i++)
-		field = pm_frame_field(f, f->meshes[i]->name, law->field);
+	const struct pm_measure how = {.field = law->field, .potential = law->potential};
 	if (f->face[0][0] != PM_PERIODIC)
 		return pm_fail(PM_DATA, "modes need a box that is periodic in x (pinit --faces periodic)");
-	return field ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)", law->field ? law->field : "");
+	return pm_law_field_mesh(&how, f) ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)",
+		law->field ? law->field : "");
 }
 
 int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)

@@ -113,7 +113,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	if (how->unknown[0])
 		m->value[PM_ENERGY] = NAN;
 	pm_vortex_of(how, f, m);
-	pm_plasma_of(how, f, m);
+	status = status ? status : pm_plasma_of(how, f, m);
 	pm_account_of(how, f, m);
 	if (!status && how->nradii)
 		status = radii(how, n, b, m);

@@ -1,26 +1,20 @@
 /* What diag measures of plasmas in addition to the quantities of all bodies: the charge of the particles, and the energy of each component of the field on the
- * first mesh that holds it, eps0/2 int E_c^2 (it differs from 1/2 int rho phi by the error of the finite differences). Modes of the
+ * first mesh that holds it or its potential (law-field.c), eps0/2 int E_c^2. Modes of the
  * law's field along x for any law. Missing quantities are NAN. Source: Birdsall and Langdon 1985, section 2-8 and 4-9.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/growth.h"
+#include "measure/law-field.h"
 #include "measure/measure.h"
 #include "stream/declare.h"
 
-static const struct pm_mesh *filled(const struct pm_measure *how, const struct pm_frame *f)
-{
-	for (size_t i = 0; how->field && i < f->nmeshes; i++)
-		if (pm_frame_field(f, f->meshes[i]->name, how->field))
-			return f->meshes[i];
-	return NULL;
-}
+static bool needs_field(const struct pm_measure *how) { return how->plasma || how->nmodes; }
 
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
 {
-	const struct pm_mesh *mesh = how->plasma || how->nmodes ? filled(how, f) : NULL;
-	if (mesh)
-		pm_reads(f, mesh->name, how->field);
+	if (needs_field(how))
+		pm_law_field_reads(how, f);
 }
 
 static double charge(const struct pm_measure *how, const struct pm_frame *f)
@@ -45,11 +39,12 @@ static double largest(const struct pm_grid *g, const struct pm_field *field)
 	return most;
 }
 
-void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {
-	const struct pm_mesh *mesh = how->plasma || how->nmodes ? filled(how, f) : NULL;
-	const struct pm_field *e = mesh ? pm_frame_field(f, mesh->name, how->field) : NULL;
-	const struct pm_grid g = mesh ? pm_grid_of(f, mesh) : (struct pm_grid){0};
+	struct pm_law_field law = {0};
+	int status = needs_field(how) ? pm_law_field_of(how, f, &law) : 0;
+	const struct pm_field *e = law.field;
+	const struct pm_grid g = e ? pm_grid_of(f, pm_frame_mesh(f, e->on)) : (struct pm_grid){0};
 	m->value[PM_CHARGE] = how->plasma ? charge(how, f) : NAN;
 	for (int c = 0; c < 3; c++) /* eps0 is -1 over the coefficient of the law */
 		m->value[PM_ENERGY_COMPONENT + c] = how->plasma && e && c < e->components
@@ -60,4 +55,6 @@ void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct
 			pm_mode(&g, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
 	}
 	m->field_most = how->nmodes && e ? largest(&g, e) : NAN;
+	pm_law_field_free(&law);
+	return status;
 }

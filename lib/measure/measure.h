@@ -88,9 +88,9 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
 /* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
 void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);
 void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
-/* Charge, energy of the components of the field, modes. */
+/* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
-void pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* The account of the law's strength (stream/strengths.h): sum of its absolute values, and what the words of the run took away or gave, as they report. */
 void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* How many are beyond the open mesh (NAN: no such mesh), and the energy between them and those inside. */

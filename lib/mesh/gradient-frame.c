@@ -38,6 +38,22 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 	return 0;
 }
 
+const char *pm_gradient_order_of(const struct pm_field *p) { return json_string_value(json_object_get(p->more, PM_DIFFERENCES)); }
+
+bool pm_gradient_repeats(const struct pm_frame *f, const struct pm_field *p)
+{
+	const struct pm_law *law = pm_law_find(f->law);
+	const struct pm_field *of = law && law->field && law->potential ? pm_frame_field(f, p->on, law->potential) : NULL;
+	return of && p->role == PM_DERIVED && !strcmp(p->name, law->field) && pm_gradient_order_of(p) && of->role == PM_DERIVED;
+}
+
+void pm_gradient_leave_out(struct pm_frame *f, struct pm_field *p)
+{
+	struct pm_field *potential = pm_frame_field(f, p->on, pm_law_find(f->law)->potential);
+	json_object_set(potential->more, PM_DIFFERENCES, json_object_get(p->more, PM_DIFFERENCES));
+	pm_drops(f, p);
+}
+
 /* The density is looked at where differences of its potential are one-sided on more than the end nodes, which p2m leaves empty. */
 static int beside_open_faces(struct pm_frame *f, const struct pm_law *law, const char *on, struct pm_gradient *t)
 {
@@ -79,6 +95,8 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 	int status = choose(o, law, &g, t->source, t);
 	if (!status)
 		status = make(f, mesh->name, target, t);
+	if (!status && !o->kind && law->field && !strcmp(target, law->field) && !strcmp(source, law->potential)) /* field: it can be made again */
+		json_object_set_new(t->target->more, PM_DIFFERENCES, json_string(o->order ? o->order : law->order ? law->order : "2"));
 	return status ? status : beside_open_faces(f, law, mesh->name, t);
 }
 

@@ -28,4 +28,11 @@ int pm_gradient_apply(struct pm_gradient *t);
  * one-sided difference. 0 where there is none, or no density in the frame. */
 double pm_gradient_rim(const struct pm_gradient *t);
 
+/* A law's field that mgrad made of the law's potential has the order of its differences in its header (PM_DIFFERENCES). So it can be made again from the
+ * potential, to the last bit, and need not be stored. */
+/* The order, as typed; NULL: unknown. Of a potential: that of the field that was left out beside it. */
+const char *pm_gradient_order_of(const struct pm_field *p);
+bool pm_gradient_repeats(const struct pm_frame *f, const struct pm_field *p); /* is it such a field, with its potential beside it? */
+void pm_gradient_leave_out(struct pm_frame *f, struct pm_field *p);           /* drops such a field; its order goes to the potential */
+
 #endif

@@ -309,6 +309,31 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 	return needs;
 }
 
+/* What a word does with the field: 0 nothing, 1 uses it, -1 it is gone or made anew; h: the header before the word, then behind it. */
+static int use_by(struct pm_stage *stage, struct pm_frame *h, const struct pm_field *field)
+{
+	stage->trial = true;
+	const int status = pm_stage_declare(stage, h);
+	stage->trial = false;
+	const struct pm_field *now = pm_frame_field(h, field->on, field->name);
+	bool reads = status < 0 || (now && now->use & (PM_USE_READ | PM_USE_CHANGE));
+	for (size_t i = 0; i < h->ndropped; i++) /* and where it is dropped behind that */
+		reads |= !strcmp(h->dropped[i]->name, field->name) && !strcmp(h->dropped[i]->on, field->on) && h->dropped[i]->use & PM_USE_READ;
+	const int use = reads ? 1 : !now || now->use & PM_USE_NEW ? -1 : 0;
+	pm_frame_settle(h);
+	return use;
+}
+
+bool pm_sentence_uses(struct pm_sentence *s, const struct pm_frame *f, const struct pm_field *field)
+{
+	struct pm_frame *h = pm_frame_header(f);
+	int use = h ? 0 : 1;
+	for (int i = 0; i < s->nwords && !use; i++)
+		use = s->word[i].stage ? use_by(s->word[i].stage, h, field) : 1;
+	pm_frame_free(h);
+	return use >= 0; /* 0: nobody makes it again */
+}
+
 void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f)
 {
 	struct pm_frame *h = pm_frame_header(f);

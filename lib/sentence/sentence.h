@@ -13,6 +13,8 @@ void pm_sentence_notes(struct pm_sentence *s, const struct pm_stage *as); /* bef
 int pm_sentence_free(struct pm_sentence *s); /* 0, or failure with the way a process ended */
 /* True if a word that changes state needs a change field that neither the frame nor an earlier word supplies. */
 bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
+/* Would the next pass use the values of this field of f? Not if a word drops it or makes it anew before any other reads it. A foreign word may read it. */
+bool pm_sentence_uses(struct pm_sentence *s, const struct pm_frame *f, const struct pm_field *field);
 /* Before a run: writes to the report of f which forces will act, as push does when they have acted (stream/acting-forces.h). Headers alone, no data. */
 void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f);
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */

@@ -26,6 +26,7 @@ struct pm_field *pm_changes(struct pm_frame *f, const char *on, const char *name
 		pm_list_remove((void **)f->fields, &f->nfields, field);
 		f->fields[f->nfields++] = field;
 	}
+	json_object_del(field->more, PM_DIFFERENCES);
 	field->use |= PM_USE_CHANGE;
 	field->use |= field->uniform ? PM_USE_FROM_VALUE : 0;
 	field->uniform = false;

@@ -7,6 +7,9 @@
 
 PM_C_BEGIN
 
+/* Key in the header of a mesh field that mgrad made (lib/mesh/gradient-frame.h): the order of the differences. A stage that changes the values removes it. */
+#define PM_DIFFERENCES "differences"
+
 struct pm_set *pm_frame_set_new(struct pm_frame *f, const char *name, uint64_t n);
 struct pm_mesh *pm_frame_mesh_new(struct pm_frame *f, const char *name, const size_t cells[3]); /* spans the box */
 

@@ -256,7 +256,7 @@ yt_python() {
 @test "yt reads the meshes, and finds the particles" {
 	python=$(yt_python)
 	[ "$python" ] || skip "yt is not there (apt-get install python3-yt)"
-	pinit two-body | cycle -n 4 --every 2 'push kick/2 drift | p2m -n 8x7x10 | poisson-fft | mgrad | m2p | push kick/2' >a.pm
+	pinit two-body | cycle -n 4 --every 2 --store all 'push kick/2 drift | p2m -n 8x7x10 | poisson-fft | mgrad | m2p | push kick/2' >a.pm
 	sh5 -o a.h5 <a.pm
 	cat >look.py <<'END'
 import yt

@@ -25,10 +25,10 @@ all_ways() {
 	[ "${want##* }" -gt 1000 ]
 	for threads in 1 2 3; do
 		for engine in fused pipes; do
-			got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --engine $engine "$3" < start | cksum)
+			got=$(OMP_NUM_THREADS=$threads cycle --no-history --store all -n $steps --engine $engine "$3" < start | cksum)
 			[ "$got" = "$want" ] || { echo "$engine, $threads threads: $got, the shell loop: $want"; return 1; }
 			OMP_NUM_THREADS=$threads cycle --no-history -n 2 --checkpoint half --engine $engine "$3" < start > /dev/null
-			got=$(OMP_NUM_THREADS=$threads cycle --no-history -n $steps --resume half --engine $engine "$3" | cksum)
+			got=$(OMP_NUM_THREADS=$threads cycle --no-history --store all -n $steps --resume half --engine $engine "$3" | cksum)
 			[ "$got" = "$want" ] || { echo "resumed, $engine, $threads threads: $got, want $want"; return 1; }
 			ways=$((ways + 2))
 		done
