@@ -4,8 +4,8 @@
 
 wire() { python3 -I -S "$top/tests/wire.py" "$@"; }
 tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
-# Tools in shell run sentences; streams do not pass through them.
-readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vx pinit | sort); }
+# Tools in shell run sentences, and splot reads tables; streams do not pass through them.
+readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vxE 'pinit|splot' | sort); }
 
 words() {
 	case $1 in
