@@ -10,13 +10,14 @@ in_git() { tracked >/dev/null 2>&1 || skip "no git, or no repository of it, here
 
 @test "the root holds what it should, and nothing else" {
 	in_git
-	diff <(printf '%s\n' .ci .gitignore COPYING Makefile NEWS README.md bench data docs lib pipelines tests tools) <(tracked | sed 's|/.*||' | sort -u)
+	diff <(printf '%s\n' .ci .gitignore COPYING Makefile NEWS README.md bench data docs lib pipelines python tests tools) \
+		<(tracked | sed 's|/.*||' | sort -u)
 }
 
 # `_` only where a language wants it: modules of Python, completions of zsh (_name).
 @test "names of files are letters, digits, dots and dashes inside, with a letter among them" {
 	in_git
-	bad=$(tracked | tr / '\n' | sort -u | grep -vE '^\.?[A-Za-z0-9]([A-Za-z0-9.-]*[A-Za-z0-9])?$|^[a-z][a-z0-9_]*\.py$|^_[a-z][a-z0-9-]*$' || true
+	bad=$(tracked | tr / '\n' | sort -u | grep -vE '^\.?[A-Za-z0-9]([A-Za-z0-9.-]*[A-Za-z0-9])?$|^(__)?[a-z][a-z0-9_]*\.py$|^_[a-z][a-z0-9-]*$' || true
 		tracked | tr / '\n' | sort -u | grep -v '[A-Za-z]' || true)
 	echo "$bad"
 	[ -z "$bad" ]
@@ -53,7 +54,7 @@ long_lines() {
 	printf '\t%0153d\n' 0 | tee d.c e.py >f.sh
 	printf '@test "%0145d" {\n}\n' 0 >g.bats
 	[ "$(long_lines ?.*)" = $'d.c:1: 161 columns\ne.py:1: 161 columns\nf.sh:1: 161 columns' ]
-	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs -type f | grep -E '\.([ch]|sh|bats|bash|awk|py)$'))
+	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs python -type f | grep -E '\.([ch]|sh|bats|bash|awk|py)$'))
 	echo "$bad"
 	[ -z "$bad" ]
 }
@@ -280,7 +281,7 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 }
 
 @test "every source names its licence in its head" {
-	bad=$(cd "$top" && find lib tools tests bench pipelines docs .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | xargs awk '
+	bad=$(cd "$top" && find lib tools tests bench pipelines docs python .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | xargs awk '
 		FNR == 1 { if (NR > 1 && !named) print file; file = FILENAME; named = 0 }
 		FNR <= 25 && /SPDX-License-Identifier: GPL-3.0-or-later/ { named = 1 }
 		END { if (!named) print file }')
