@@ -77,6 +77,7 @@ struct pm_effect_case {
 /* Runs steps of the frame with the self field alone, for numbers that need the motion. */
 struct pm_effect_run {
 	struct pm_frame *(*steps)(const struct pm_effect_run *r, const struct pm_frame *f, int steps); /* a new frame; NULL with a message */
+	struct pm_frame *(*force)(const struct pm_frame *f, const char *sentence); /* a new frame with the fields that the words of a sentence make of it */
 	const char *sentence;
 };
 
@@ -121,9 +122,10 @@ struct pm_effect {
 	bool force;        /* it moves particles or rotates their velocities; if no such effect is included they move straight */
 	bool replaces;     /* it replaces the particles, so other effects are tested without it */
 	/* Do the frame's constants or fields ask for it? Then they are written to what ("nu = 0.01"), and cycle says so once where no word of its sentence does
-	 * it: done_by, words or actions of push, NULL ends. Headers alone. NULL: no. */
+	 * it: done_by, words or actions of push, or what is typed with a word, NULL ends. asked_beside: only of a sentence with one of these words; NULL: of
+	 * every one. Headers alone. NULL: no. */
 	bool (*asked)(const struct pm_frame *f, const struct pm_law *law, char what[64]);
-	const char *const *done_by;
+	const char *const *done_by, *const *asked_beside;
 	/* Measures numbers of the frame that only this effect needs, after scales and method are known. NULL: none. 0 or failure. */
 	int (*measure)(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN]);
 	void (*decide)(const struct pm_effect_case *c, struct pm_decision *d);

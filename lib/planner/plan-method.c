@@ -116,8 +116,9 @@ static void vortex_mesh(struct pm_plan *p)
 static void few_bodies(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_scales *s = &p->scales;
+	const double apart = s->softening > 0 ? hypot(s->nearest, s->softening) : s->nearest;
 	int factor = 1;
-	while (factor < 8 && 0.25 * pow(s->h / (factor * s->nearest), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < 3e7)
+	while (factor < 8 && 0.25 * pow(s->h / (factor * apart), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < 3e7)
 		factor *= 2;
 	for (int d = 0; d < f->dim && factor > 1; d++)
 		p->method.cells[d] = (size_t)factor * f->meshes[0]->cells[d];

@@ -66,17 +66,20 @@ static int alone(const struct pm_frame *f, const struct pm_plan *p, struct pm_pl
 	return pm_plan_compose(f, q);
 }
 
-static int measure_force(const struct pm_frame *f, struct pm_plan *p)
+static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char *typed)
 {
 	struct pm_plan q;
 	if (p->scales.kind == PM_NO_FIELD || p->scales.kind == PM_CARRIED || !(p->scales.sources > 0))
 		return 0;
-	int status = alone(f, p, &q);
+	const bool own = !typed || !*typed;
+	int status = own ? alone(f, p, &q) : 0;
 	const double began = pm_seconds();
-	struct pm_frame *g = status ? NULL : pm_plan_prime(f, q.sentence);
+	struct pm_frame *g = status ? NULL : pm_plan_prime(f, own ? q.sentence : typed);
 	p->force = pm_seconds() - began;
 	if (!g)
 		return pm_failed();
+	for (int d = 0; !own && g->nmeshes && d < g->dim; d++)
+		p->scales.h = fmax(d ? p->scales.h : 0, g->meshes[0]->h[d]);
 	status = pm_scales_of_force(g, p->law, &p->scales);
 	pm_frame_free(g);
 	return status;
@@ -90,7 +93,7 @@ static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 	struct pm_effect_case c;
 	struct pm_plan q;
 	int status = alone(f, p, &q);
-	const struct pm_effect_run run = {.steps = run_steps, .sentence = q.sentence};
+	const struct pm_effect_run run = {.steps = run_steps, .force = pm_plan_prime, .sentence = q.sentence};
 	for (int i = 0; i < p->neffects && !status; i++)
 		if (p->effect[i].effect->measure) {
 			pm_plan_case(f, p, i, &c);
@@ -154,7 +157,7 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 {
 	int status = begin(f, c, p);
 	status = status ? status : by_hand(f, p, c);
-	status = status ? status : measure_force(f, p);
+	status = status ? status : measure_force(f, p, NULL);
 	if (!status)
 		pm_plan_mesh(f, p), pm_plan_step(f, p);
 	if (!status && p->method.dt == 0)
@@ -171,14 +174,20 @@ int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, con
 {
 	struct pm_plan p;
 	struct pm_effect_case one;
-	int status = begin(f, c, &p);
+	int status = begin(f, c, &p), i = 0;
 	*d = (struct pm_decision){.answer = PM_LEFT_OUT};
-	status = status ? status : measure_force(f, &p);
-	for (int i = 0; i < p.neffects && !status; i++)
-		if (p.effect[i].effect == effect) {
-			pm_plan_case(f, &p, i, &one);
-			effect->decide(&one, d);
-		}
+	if (c->force && *c->force)
+		p.method.pairs = p.scales.pairs = false;
+	status = status ? status : measure_force(f, &p, c->force);
+	if (status)
+		return status;
+	while (p.effect[i].effect != effect)
+		i++;
+	pm_plan_case(f, &p, i, &one);
+	if (effect->measure && c->force && *c->force)
+		status = effect->measure(&one, &(struct pm_effect_run){.steps = run_steps, .force = pm_plan_prime, .sentence = c->force}, p.effect[i].own);
+	if (!status)
+		effect->decide(&one, d);
 	return status;
 }
 

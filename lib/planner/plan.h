@@ -13,6 +13,7 @@ struct pm_plan_choice { /* the options of the user */
 	double accuracy, time;  /* [time] end of the run; NAN: after a hundred steps of the frame */
 	struct pm_list on, off; /* effects decided by hand */
 	bool cost;              /* measure seconds */
+	const char *force;      /* the words of a force on a mesh, to decide on an effect beside them (pm_plan_decide); NULL or "": those of the plan */
 };
 
 struct pm_plan_word {
@@ -41,7 +42,7 @@ struct pm_plan {
 
 /* For a frame with all its data in memory. 0 or failure. */
 int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p);
-/* The decision on one effect that needs no numbers of its own. Cost: a force. 0 or failure. */
+/* The decision on one effect. Cost: a force, and what the effect measures. 0 or failure. */
 int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d);
 /* The sentence alone; and the one that cycle recorded in the history of a checkpoint. */
 int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);

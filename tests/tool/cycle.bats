@@ -302,7 +302,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done
 }
 
-@test "what a frame asks for and the sentence does not do is told once, where plan would put it in: viscosity, a magnetic field" {
+@test "what a frame asks for and the sentence does not do is told once, where plan would put it in: viscosity, a magnetic field, a softening" {
 	pinit lamb-oseen --cells 32 >a
 	for words in 'p2m | poisson-fft | mgrad | m2p | push lsrk3' 'pp --softening 0.1 | push rk4'; do
 		for engine in fused pipes; do
@@ -314,10 +314,18 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	done
 	run --separate-stderr bash -o pipefail -c "pinit exb | cycle -n 20 'push drift' | sls"
 	[[ $stderr == "cycle: the frame has a magnetic field B, but no word of the sentence acts by it (boris): omega_c dt = 0.1, omega_c T = 2" ]]
+	pinit uniform -n 2000 --box 0,1 --cells 16 --softening 0.1 >soft
+	for solver in poisson-fft 'poisson-mg --order 4' 'poisson-relax --tolerance 1e-2'; do
+		run --separate-stderr bash -o pipefail -c "cycle -n 1 'push kick/2 drift | p2m | $solver | mgrad | m2p | push kick/2' <soft | sls"
+		[[ $stderr == "cycle: the frame has softening = 0.1, but no word of the sentence acts by it (poisson-fft --green plummer, "*"): softening/h = 1.6, changes"* ]]
+	done
 	# done, too small to matter, softening below the cells, nothing asked for; and a foreign word may do anything
 	for line in "pinit lamb-oseen --cells 32 | cycle -n 2 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3'" \
 		"cycle -n 2 'pp --softening 0.1 | push rk4 | walk' <a" "cycle -n 2 'pp --softening 0.1 | cat | push rk4' <a" \
 		"pinit lamb-oseen --cells 32 --dt 1e-5 | cycle -n 1 'p2m | poisson-fft | mgrad | m2p | push lsrk3'" \
+		"cycle -n 1 'push kick/2 drift | p2m | poisson-fft --green plummer | mgrad | m2p | push kick/2' <soft" \
+		"cycle -n 1 'push kick/2 drift | p2m | cat | poisson-fft | mgrad | m2p | push kick/2' <soft" "cycle -n 1 'push drift' <soft" \
+		"pinit plummer | cycle -n 20 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'" \
 		"pinit plummer -n 1000 | cycle -n 2 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2'"; do
 		run --separate-stderr bash -o pipefail -c "$line | sls"
 		[ "$status" = 0 ]
