@@ -29,8 +29,8 @@ static const struct pm_option options[] = {
 		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice); "
 			"plummer, which is softened, for all faces"},
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e150, PM_AT(softening),
-		.text = "of plummer the softening (default: the frame's constant softening); of gauss2 to gauss10 delta of the blobs, exp(-(r/delta)^2) for gauss2 "
-			"(default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
+		.text = "of plummer the softening (default: the frame's constant softening); of gauss2 to gauss10 delta of the blobs, "
+			"exp(-(r/delta)^2) for gauss2 (default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
 		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence "
 			"function "
