@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/replace.h"
 #include "measure/diag-table.h"
@@ -20,7 +21,18 @@ struct state {
 	struct pm_diag_table table;
 	bool told; /* why there is no energy */
 };
+static const char *const formats[] = {"tsv", "csv", "json", "table", NULL}; /* as enum pm_diag_format */
 _Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
+
+/* As typed, else a table that people read where they look at it. */
+static enum pm_diag_format format_of(const struct pm_stage *s)
+{
+	const struct config *c = s->config;
+	int k = 0;
+	while (c->format && strcmp(c->format, formats[k]))
+		k++;
+	return c->format ? (enum pm_diag_format)k : !c->tee && !pm_given(s, "output") && isatty(STDOUT_FILENO) ? PM_DIAG_READABLE : PM_DIAG_TSV;
+}
 
 static int begin(struct pm_stage *s)
 {
@@ -28,7 +40,7 @@ static int begin(struct pm_stage *s)
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
-		.pair = c->pair, .exact = c->exact, .json = !strcmp(c->format, "json")};
+		.pair = c->pair, .exact = c->exact, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
 	if (pm_diag_table_init(&state->table, &choice, stdout))
 		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
@@ -40,6 +52,7 @@ static int begin(struct pm_stage *s)
 	if (c->tee)
 		state->out = fdopen(state->tee.fd, "w");
 	state->table.out = state->out;
+	state->table.readable.live = state->out == stdout && isatty(STDOUT_FILENO) && isatty(STDERR_FILENO);
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 
@@ -52,12 +65,16 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *state = s->state;
 	int status = pm_diag_table_row(&state->table, f);
-	const bool many = state->table.many;
+	const bool many = state->table.many && !state->table.readable.n; /* which has its own notes */
 	if (!status && state->table.unknown[0] && !state->told)
 		pm_note(s, "energy is nan: %s (energy_kinetic and energy_field_... are its known parts)", state->table.unknown);
 	else if (!status && many && !state->told)
 		pm_note(s, "energy is nan: %s", state->table.lacks);
 	state->told = state->told || state->table.unknown[0] || many;
+	for (int i = 0; i < PM_READABLE_NOTES && !status && state->table.readable.note[i][0]; i++) {
+		pm_note(s, "%s", state->table.readable.note[i]);
+		state->table.readable.note[i][0] = 0;
+	}
 	if (!status && state->table.note[0])
 		pm_tell_once(s, "%s", state->table.note);
 	return status;
@@ -79,7 +96,6 @@ static void release(struct pm_stage *s)
 	pm_replace_drop(&state->tee);
 }
 
-static const char *const formats[] = {"tsv", "json", NULL};
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .cosmetic = true, PM_AT(set), .text = "measure only this set (default: all)"},
 	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .cosmetic = true, PM_AT(columns),
@@ -96,8 +112,8 @@ static const struct pm_option options[] = {
 		.text = "sum the pair energy over all pairs, softened as pp was, else as the frame says (cost n^2)"},
 	{.name = "exact", .kind = PM_FLAG, .cosmetic = true, PM_AT(exact), .text = "add a column exact_NAME for every column whose exact value the scene "
 		"provides"},
-	{.name = "format", .kind = PM_WORD, .fallback = "tsv", .choices = formats, .cosmetic = true, PM_AT(format),
-		.text = "a table with a header line, or one JSON object per line"},
+	{.name = "format", .kind = PM_WORD, .choices = formats, .cosmetic = true, PM_AT(format),
+		.text = "a header line and a line per frame; one JSON object per line; or, the default on a terminal, a table of few columns and digits"},
 	{.name = "tee", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, PM_AT(tee), .text = "write to FILE and pass the frames on"},
 	{0},
 };

@@ -44,6 +44,7 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 {
 	struct pm_diag_request *g = &t->request;
 	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes}};
+	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	if (check(c))
 		return -PM_USAGE;
 	for (int k = 0; k < c->nradii; k++)
@@ -128,11 +129,28 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool first
 	return status;
 }
 
+static void print_row(struct pm_diag_table *t, const double *value, bool first)
+{
+	const bool json = t->choice.format == PM_DIAG_JSON;
+	const char between = t->choice.format == PM_DIAG_CSV ? ',' : '\t';
+	for (int i = 0; i < t->n && first && !json; i++)
+		fprintf(t->out, "%s%c", t->column[i].name, i + 1 < t->n ? between : '\n');
+	for (int i = 0; i < t->n; i++) {
+		if (json)
+			fprintf(t->out, "%c\"%s\":", i ? ',' : '{', t->column[i].name);
+		fprintf(t->out, isfinite(value[i]) ? "%.17g" : json ? "null" : "nan", value[i]);
+		if (!json && i + 1 < t->n)
+			fputc(between, t->out);
+	}
+	fputs(json ? "}\n" : "\n", t->out);
+}
+
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	struct pm_measures m;
 	struct pm_measure how;
-	const bool json = t->choice.json, first = !t->n;
+	const bool first = !t->n;
+	double value[PM_DIAG_WIDEST];
 	if (first && decide(t, f))
 		return -PM_DATA;
 	t->energies = needs_energy(t);
@@ -140,15 +158,12 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 		return -PM_DATA;
 	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
 		t->note[0] = 0;
-	for (int i = 0; i < t->n && first && !json; i++)
-		fprintf(t->out, "%s%c", t->column[i].name, i + 1 < t->n ? '\t' : '\n');
-	for (int i = 0; i < t->n; i++) {
-		const double x = pm_diag_value(&t->column[i], &m, f);
-		if (json)
-			fprintf(t->out, "%c\"%s\":", i ? ',' : '{', t->column[i].name);
-		fprintf(t->out, isfinite(x) ? "%.17g" : json ? "null" : "nan", x);
-		fputs(i + 1 < t->n ? json ? "" : "\t" : json ? "}\n" : "\n", t->out);
-	}
+	for (int i = 0; i < t->n; i++)
+		value[i] = pm_diag_value(&t->column[i], &m, f);
+	if (t->choice.format == PM_DIAG_READABLE)
+		pm_readable_row(&t->readable, t->out, t->n, t->column, value, &how, f, t->lacks);
+	else
+		print_row(t, value, first);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 
@@ -183,7 +198,7 @@ int pm_diag_table_end(struct pm_diag_table *t)
 		return 0;
 	if (pm_growth_of(&t->series, c->from, c->to, &g))
 		return -PM_DATA;
-	print_growth(t->out, c->json, c->growth, &g);
+	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 

@@ -7,8 +7,11 @@
 #include "measure/diag-column.h"
 #include "measure/energy-error.h"
 #include "measure/growth.h"
+#include "measure/readable-table.h"
 
 enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS) };
+
+enum pm_diag_format { PM_DIAG_TSV, PM_DIAG_CSV, PM_DIAG_JSON, PM_DIAG_READABLE };
 
 struct pm_diag_choice {
 	const char *set;                                /* this set alone; NULL all */
@@ -19,7 +22,9 @@ struct pm_diag_choice {
 	const char *growth;                             /* what is fitted, as typed: mode:M or a column; NULL none */
 	const char *window;                             /* as typed, for messages; NULL none */
 	double from, to;                                /* [time] of the fit; NAN: chosen */
-	bool pair, exact, json;
+	bool pair, exact;
+	enum pm_diag_format format;
+	int width;                                      /* [characters] of a line of the readable table */
 };
 
 struct pm_diag_table {
@@ -36,6 +41,7 @@ struct pm_diag_table {
 	char lacks[200];   /* why it is nan, if no mesh and no particle holds the potential; "" */
 	bool many;         /* of so many particles that their pairs are not summed unasked */
 	struct pm_energy_error energy;
+	struct pm_readable readable;
 	char note[320];               /* a sentence about the last row for stderr; "" none */
 };
 
