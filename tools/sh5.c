@@ -81,7 +81,7 @@ const struct pm_tool tool_sh5 = {
 	.name = "sh5",
 	.summary = "HDF5 to stream and back, exactly",
 	.about = "With FILE a source: the frames of an HDF5 file in the layout of openPMD 1.1, or a snapshot in GADGET's layout. "
-		"With -o FILE a sink: writes its input as an openPMD file, which h5ls, h5dump, h5diff, yt and ParaView read. "
+		"With -o FILE a sink: writes its input as an openPMD file, which h5ls, h5dump, h5diff, openpmd-api and openpmd-viewer read. "
 		 "Stream to HDF5 to stream gives equal bytes. Iterations are named by their step, or by the next free number if two frames have the same step. "
 		 "-i FILE.h5 and -o FILE.h5 of any other tool run sh5 on a pipe.",
 	.kind = PM_SINK,

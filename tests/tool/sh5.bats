@@ -251,8 +251,8 @@ yt_python() {
 	done
 }
 
-# What yt 4.1 of Debian 12 can: meshes to the last bit, the names of the particles' fields and their number. (Their arrays are empty in it, those of the example
-# of openPMD itself too: it looks for /position from the root of the file.)
+# What yt 4.1 of Debian 12 can by itself: meshes to the last bit, the names of the particles' fields and their number. (Their arrays are empty, see
+# docs/methods/vtk.md; foreign-readers.bats has them.)
 @test "yt reads the meshes, and finds the particles" {
 	python=$(yt_python)
 	[ "$python" ] || skip "yt is not there (apt-get install python3-yt)"

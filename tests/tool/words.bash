@@ -22,6 +22,7 @@ words() {
 	scmp) echo "scmp - same.pm" ;;
 	sdraw) echo "sdraw -o picture.png" ;;
 	sh5) echo "sh5 -o file.h5" ;;
+	svtk) echo "svtk -o file.pvd" ;;
 	smod) echo "smod --dt 0.5" ;;
 	smove) echo "smove --shift 1,0,0" ;;
 	stack) echo "stack - same.pm" ;;
