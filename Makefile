@@ -52,7 +52,7 @@ unit := $(unit_src:%.c=$(B)/%)
 bench_src := $(sort $(wildcard bench/*.c))
 bench := $(bench_src:%.c=$(B)/%)
 
-all: $(tools) $(B)/libpmpipe.so
+all: $(tools) $(bin_dir)/pmpipe $(B)/libpmpipe.so
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
@@ -126,11 +126,25 @@ $(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 
-# A tool in shell is one file: what it reads from lib/shell/ is put in.
-$(script_src:tools/%.sh=$(bin_dir)/%): $(bin_dir)/%: tools/%.sh $(wildcard lib/shell/*.sh) lib/base/base.h Makefile
+# A program in shell is one file: what it reads from lib/ is put in.
+one_file = awk 'function put(file,  line) { while ((getline line < file) > 0) out(line); close(file) } \
+	function out(line,  part) { if (line ~ /^\. lib\//) { split(line, part, " "); put(part[2]) } else if (line !~ /^\# shellcheck (shell|source)=/) { \
+		sub(/@VERSION@/, "$(VERSION)", line); print line } } { out($$0) }'
+shell_parts := $(wildcard lib/shell/*.sh lib/command/*.sh) lib/base/base.h Makefile
+$(script_src:tools/%.sh=$(bin_dir)/%): $(bin_dir)/%: tools/%.sh $(shell_parts)
 	@mkdir -p $(@D)
-	awk '/^# shellcheck source=/ { next } /^\. lib\/shell\// { while ((getline line < $$2) > 0) if (line !~ /^# shellcheck shell=/) print line; next } \
-		{ sub(/@VERSION@/, "$(VERSION)"); print }' $< > $@.part
+	$(one_file) $< > $@.part
+	@chmod +x $@.part && mv $@.part $@
+
+# The command `pmpipe`, with what was built: the compiler, the instructions of the processor (as /proc/cpuinfo names them), the libraries.
+$(bin_dir)/pmpipe: lib/command/pmpipe.sh $(shell_parts)
+	@mkdir -p $(@D)
+	@simd=$$($(CC) $(ARCH) $(CFLAGS) -dM -E -x c /dev/null | \
+		sed -nE 's/^\#define __(AVX512F|AVX512DQ|AVX512VL|AVX2|AVX|FMA|BMI2|SSE4_2)__ 1/\1/p' | tr A-Z a-z | sort | tr '\n' ' '); \
+	libraries=$$(for l in fftw3 gsl jansson libpng hdf5; do echo "$$l $$(pkg-config --modversion $$l 2>/dev/null || echo '(unknown)'),"; \
+		done | tr '\n' ' '); $(one_file) $< | awk -v simd="$${simd% }" -v libraries="$${libraries%, }" \
+		-v build="$$($(CC) --version | sed 1q | tr -d \'\&), $(OPT)" \
+		'{ sub(/@SIMD@/, simd); sub(/@BUILD@/, build); sub(/@LIBRARIES@/, libraries); print }' > $@.part
 	@chmod +x $@.part && mv $@.part $@
 
 # Unit tests and measuring programs link every tool.
@@ -204,17 +218,16 @@ lint: all man
 	+$(MAKE) -s B=build/gcc CC=gcc WERROR=1 all unit benches
 	+$(if $(shell command -v clang),$(MAKE) -s B=build/clang CC=clang WERROR=1 all unit benches,@echo 'lint: no clang here')
 	$(if $(shell command -v mandoc),mandoc -T lint -W warning $(man),@echo 'lint: no mandoc here')
-	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) \
+	$(if $(shell command -v shellcheck),shellcheck -x .ci/run $(script_src) lib/command/pmpipe.sh lib/command/completion.bash \
 		$(wildcard pipelines/*.sh tests/*.sh tests/fuzz/*.sh bench/*.sh docs/*.sh docs/accuracy/*.sh),@echo 'lint: no shellcheck here')
 
-# Manual pages and completion are printed by the programs.
-man := $(tools:$(bin_dir)/%=$(B)/man/%.1)
+# Manual pages are printed by the programs; that of a word is called pmpipe-WORD where it is installed, because other packages have some of these names.
+man := $(tools:$(bin_dir)/%=$(B)/man/%.1) $(B)/man/pmpipe.1
 man: $(man)
 $(B)/man/%.1: $(bin_dir)/%
 	@mkdir -p $(@D)
 	$< --man > $@.part && mv $@.part $@
-$(B)/completion.bash: lib/stage/completion.sh $(tools)
-	@bash lib/stage/completion.sh $(tools) > $@.part && mv $@.part $@
+$(B)/man/pmpipe.1: $(tools)
 $(B)/pmpipe.pc: lib/pmpipe.pc.in Makefile lib/base/base.h
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' $< > $@
 
@@ -226,22 +239,38 @@ public := $(addprefix lib/,base/base.h stream/frame.h stream/declare.h stream/ru
 	fft/fft-plans.h poisson-fft/poisson-fft.h poisson-fft/influence.h poisson-mg/multigrid.h poisson-mg/mg.h poisson-mg/mg-variable.h far/pp.h)
 public:
 	@echo $(public)
-install: all man $(B)/libpmpipe.a $(B)/completion.bash $(B)/pmpipe.pc
-	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/share/man/man1 $(D)/share/bash-completion/completions $(D)/share/doc/pmpipe
-	install $(tools) $(D)/bin
-	install -m 644 $(man) $(D)/share/man/man1
-	install -m 644 $(B)/completion.bash $(D)/share/bash-completion/completions/pmpipe
-	for t in $(notdir $(tools)); do ln -sf pmpipe $(D)/share/bash-completion/completions/$$t; done
+# The words go to libexec/pmpipe, where `pmpipe WORD` finds them: Debian has other programs called cycle, diffuse, field, pp and stack. WITH_WORDS=1 puts them
+# on PATH too, with their manual pages and completion.
+words = $(notdir $(tools))
+completions = $(D)/share/bash-completion/completions
+install: all man $(B)/libpmpipe.a $(B)/pmpipe.pc
+	install -d $(D)/bin $(D)/libexec/pmpipe $(D)/lib/pkgconfig $(D)/share/man/man1 $(completions) $(D)/share/zsh/site-functions \
+		$(D)/share/fish/vendor_completions.d $(D)/share/pmpipe $(D)/share/doc/pmpipe/methods
+	install $(bin_dir)/pmpipe $(D)/bin
+	install $(tools) $(D)/libexec/pmpipe
+	install -m 644 $(B)/man/pmpipe.1 $(D)/share/man/man1
+	for w in $(words); do sed "/^.SH NAME/{n;s/^/pmpipe\\\\-/;}" $(B)/man/$$w.1 > $(D)/share/man/man1/pmpipe-$$w.1 || exit 1; done
+	install -m 644 lib/command/completion.bash lib/command/completion.zsh lib/command/completion.fish $(D)/share/pmpipe
+	ln -sf ../../pmpipe/completion.bash $(completions)/pmpipe
+	ln -sf ../../pmpipe/completion.zsh $(D)/share/zsh/site-functions/_pmpipe
+	ln -sf ../../pmpipe/completion.fish $(D)/share/fish/vendor_completions.d/pmpipe.fish
+	$(if $(WITH_WORDS),for w in $(words); do ln -sf ../libexec/pmpipe/$$w $(D)/bin/$$w && ln -sf pmpipe-$$w.1 $(D)/share/man/man1/$$w.1 && \
+		ln -sf pmpipe $(completions)/$$w || exit 1; done)
 	install -m 644 $(B)/libpmpipe.a $(D)/lib
 	install $(B)/libpmpipe.so $(D)/lib/libpmpipe.so.$(VERSION)
 	ln -sf libpmpipe.so.$(VERSION) $(D)/lib/libpmpipe.so.$(SOVERSION)
 	ln -sf libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so
 	for h in $(public); do install -D -m 644 $$h $(D)/include/pmpipe/$${h#lib/} || exit 1; done
 	install -m 644 $(B)/pmpipe.pc $(D)/lib/pkgconfig
-	install -m 644 README.md NEWS COPYING docs/stream.md docs/stage.md docs/library.md docs/read.py $(D)/share/doc/pmpipe
+	install -m 644 README.md NEWS COPYING $(wildcard docs/*.md) docs/read.py $(D)/share/doc/pmpipe
+	install -m 644 $(wildcard docs/methods/*.md) $(D)/share/doc/pmpipe/methods
+# A word on PATH is removed where it is a link to ours.
 uninstall:
-	rm -f $(tools:$(bin_dir)/%=$(D)/bin/%) $(man:$(B)/man/%=$(D)/share/man/man1/%)
-	rm -f $(D)/share/bash-completion/completions/pmpipe $(addprefix $(D)/share/bash-completion/completions/,$(notdir $(tools)))
+	ours() { [ "$$(readlink "$$1")" != "$$2" ] || rm -f "$$1"; }; for w in $(words); do ours $(D)/bin/$$w ../libexec/pmpipe/$$w; \
+		ours $(D)/share/man/man1/$$w.1 pmpipe-$$w.1; ours $(completions)/$$w pmpipe; done
+	rm -f $(D)/bin/pmpipe $(D)/share/man/man1/pmpipe.1 $(words:%=$(D)/share/man/man1/pmpipe-%.1) $(completions)/pmpipe
+	rm -f $(D)/share/zsh/site-functions/_pmpipe $(D)/share/fish/vendor_completions.d/pmpipe.fish
+	rm -rf $(D)/libexec/pmpipe $(D)/share/pmpipe
 	rm -f $(D)/lib/libpmpipe.a $(D)/lib/libpmpipe.so $(D)/lib/libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so.$(VERSION) $(D)/lib/pkgconfig/pmpipe.pc
 	rm -rf $(D)/include/pmpipe $(D)/share/doc/pmpipe
 

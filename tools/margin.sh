@@ -153,7 +153,7 @@ open_state() {
 main() {
 	declare -A children=()
 	child='' doing='' phase='' work='' made=0
-	PATH=$PATH:$(cd "$(dirname "$(command -v "$0")")" && pwd)
+	PATH=$(own_directory):$PATH
 	settle "$@"
 	understand
 	if [ -n "${opt_list:-}" ]; then

@@ -151,8 +151,8 @@ report() {
 
 main() {
 	declare -A children=() is_timed=() failed=() clocked=() error_known=()
-	held=() child='' doing='' work='' bin=$(cd "$(dirname "$(command -v "$0")")" && pwd)
-	PATH=$PATH:$bin
+	held=() child='' doing='' work='' bin=$(own_directory)
+	PATH=$bin:$PATH
 	time_program=$(type -P time) || time_program=
 	settle "$@"
 	understand

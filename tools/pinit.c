@@ -149,6 +149,7 @@ const struct pm_tool tool_pinit = {
 	.more = parameters,
 	.arguments = "SCENE",
 	.arguments_text = "the name of a scene",
+	.arguments_choices = pm_scene_names,
 	.least = 1,
 	.most = 1,
 	.examples = examples,

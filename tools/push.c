@@ -157,6 +157,7 @@ const struct pm_tool tool_push = {
 	.state = sizeof(struct state),
 	.options = options,
 	.arguments = "ACTION...",
+	.arguments_choices = pm_step_names,
 	.arguments_text = "kick, drift (with /N a part of the step), boris/2, clear; or a scheme: euler, rk2, midpoint, lsrk3, rk4, ab2, ab3, yoshida4, "
 		"yoshida6, blanes-moan4, blanes-moan6",
 	.least = 1,

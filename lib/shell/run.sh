@@ -18,6 +18,9 @@ gnuplot_text() {
 	printf "'%s'" "${1//"$q"/"$q$q"}"
 }
 
+# own_directory: where this program is, and the other words beside it; they come first on PATH, because other packages have words of our names.
+own_directory() { dirname "$(readlink -f -- "$(command -v -- "$0")")"; }
+
 # work_directory: sets work to an absolute path, which neither awk nor a program can mistake for an option or an assignment.
 work_directory() {
 	work=$(cd -- "${TMPDIR:-/tmp}" 2>/dev/null && mktemp -d "${PWD%/}/$me.XXXXXX") && return

@@ -185,19 +185,24 @@ void pm_man(const struct pm_tool *t)
 	printf(".SH SEE ALSO\nThe stream and the methods are described in docs/ of the source.\n");
 }
 
+static void complete(const char *dashes, const char *name, const char *const *choices)
+{
+	printf("%s%s", dashes, name);
+	for (int i = 0; choices && choices[i]; i++)
+		printf(" %s", choices[i]);
+	putchar('\n');
+}
+
 void pm_complete(const struct pm_tool *t)
 {
 	const struct pm_option *rows[PM_ROWS];
 	pm_option_rows(t, rows);
 	for (int k = 0; k < PM_ROWS; k++)
-		for (const struct pm_option *o = rows[k]; o && o->name; o++) {
-			if (hidden(rows, o))
-				continue;
-			printf("--%s", o->name);
-			for (int i = 0; o->choices && o->choices[i]; i++)
-				printf(" %s", o->choices[i]);
-			putchar('\n');
-		}
+		for (const struct pm_option *o = rows[k]; o && o->name; o++)
+			if (!hidden(rows, o))
+				complete("--", o->name, o->choices);
+	if (t->arguments_choices)
+		complete("", t->arguments, t->arguments_choices);
 }
 
 void pm_print_examples(const struct pm_tool *t)

@@ -92,6 +92,7 @@ struct pm_tool {
 	const struct pm_option *options;   /* rows; may be NULL */
 	const struct pm_option *(*more)(void); /* further rows computed from a table; may be NULL */
 	const char *arguments, *arguments_text; /* synopsis of the arguments that are not options ("ACTION..."), and a sentence; NULL none */
+	const char *const *arguments_choices; /* what they may be, for completion, NULL ends; NULL none */
 	int least, most;                   /* how many of them */
 	const struct pm_example *examples; /* {0} ends */
 	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */

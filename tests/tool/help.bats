@@ -64,15 +64,6 @@ load words
 		print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
 }
 
-@test "the completion file is bash, and completes options and choices" {
-	bash "$top/lib/stage/completion.sh" $(tools | sed "s|^|${PM_BIN:-$top/bin}/|") >completion.bash
-	run -0 bash -c '. ./completion.bash
-		complete -p cycle >/dev/null
-		COMP_WORDS=(cycle --ever) COMP_CWORD=1; _pmpipe; echo "${COMPREPLY[@]}"
-		COMP_WORDS=(cycle --engine p) COMP_CWORD=2; _pmpipe; echo "${COMPREPLY[@]}"'
-	[ "$output" = $'--every\npipes' ]
-}
-
 @test "--help on a full disk: exit 1" {
 	run -1 bash -c 'cycle --help >/dev/full'
 	[[ $output == *"No space left"* ]]
