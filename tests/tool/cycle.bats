@@ -74,21 +74,6 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	| push '\"'kick/2'\"'' | diag"
 }
 
-@test "a stage in Python works inside, between ours, in both engines" {
-	stage="$top/tests/drag.py"
-	pinit plummer -n 50 --no-history > a
-	s="push kick/2 drift | pp | $stage 0.5 | push kick/2"
-	cycle --no-history -n 3 "$s" < a > fused
-	cycle --no-history -n 3 --engine pipes "$s" < a > pipes
-	same_as fused pipes
-	e0=$(diag < a | column energy_kinetic)
-	e1=$(cycle -n 40 "$stage 1 | push kick drift" < a | diag | column energy_kinetic)
-	t=$(cycle -n 40 "$stage 1 | push kick drift" < a | diag | column time)
-	# v' = -v by Euler steps: the kinetic energy falls as (1 - dt)^(2n)
-	dt=$(awk -v t="$t" 'BEGIN { print t / 40 }')
-	within "$(awk -v a="$e1" -v b="$e0" 'BEGIN { print a / b }')" "$(awk -v d="$dt" 'BEGIN { print (1 - d) ^ 80 }')" 1e-6
-}
-
 @test "a foreign word that does not exist is named" {
 	pinit two-body > a
 	run -2 bash -c "cycle -n 1 'no-such-word | push kick drift' < a > b"

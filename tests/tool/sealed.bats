@@ -108,7 +108,7 @@ frame 4: time 0.01570796327 step 0 substep 2 dt 0.03141592654 dim 3 seed 1" ]
 }
 
 # One bit of every byte of a small stream, in one process each: Python needs 1 ms a flip.
-@test "the readers in Python refuse what is damaged in one line, without a traceback" {
+@test "the reader in Python refuses what is damaged in one line, without a traceback" {
 	pinit two-body --no-history >a.pm
 	python3 - "$top/docs" <<-'PY'
 		import contextlib, io, sys
@@ -128,19 +128,15 @@ frame 4: time 0.01570796327 step 0 substep 2 dt 0.03141592654 dim 3 seed 1" ]
 		        raise SystemExit("byte %d: read" % at)
 	PY
 	wire unseal a.pm >old.pm
-	for script in "$top/docs/read.py" "$top/tests/drag.py 1"; do
-		for edit in 's/"dim":3/"dim"3/' 's/"type":"f64"/"type":"f99"/' 's/"sets":\[/"sets":[3/' 's/"n":2/"n":7/' 's/frame [0-9]*/frame x/' \
-			's/"on":/"no":/' 's/tail [0-9]*/tail -9/' 's/"crc32c"/"crc32d"/' 's/"name":"matter"/"name":"\xff\xfe"/' \
-			's/frame [0-9]*/frame 99999999999/'; do
-			for f in a.pm old.pm; do
-				LC_ALL=C sed "$edit" $f >bad.pm
-				run -1 cmp -s $f bad.pm
-				run -1 --separate-stderr bash -c "python3 $script <bad.pm >out.pm"
-				[ "$(wc -l <<<"$stderr")" = 1 ] && [[ $stderr != *Trace* ]] || { echo "$script, $edit, $f: $stderr"; return 1; }
-			done
+	for edit in 's/"dim":3/"dim"3/' 's/"type":"f64"/"type":"f99"/' 's/"sets":\[/"sets":[3/' 's/"n":2/"n":7/' 's/frame [0-9]*/frame x/' \
+		's/"on":/"no":/' 's/tail [0-9]*/tail -9/' 's/"crc32c"/"crc32d"/' 's/"name":"matter"/"name":"\xff\xfe"/' \
+		's/frame [0-9]*/frame 99999999999/'; do
+		for f in a.pm old.pm; do
+			LC_ALL=C sed "$edit" $f >bad.pm
+			run -1 cmp -s $f bad.pm
+			run -1 --separate-stderr bash -c "python3 '$top/docs/read.py' <bad.pm >out.pm"
+			[ "$(wc -l <<<"$stderr")" = 1 ] && [[ $stderr != *Trace* ]] || { echo "$edit, $f: $stderr"; return 1; }
 		done
-		run -0 bash -c "python3 $script <a.pm >out.pm"
 	done
-	run -1 bash -c "python3 '$top/tests/drag.py' 1 <bad.pm | sls"
-	[[ ${lines[-1]} == "sls: stopped by drag.py: "* ]]
+	run -0 bash -c "python3 '$top/docs/read.py' <a.pm >out.pm"
 }
