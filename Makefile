@@ -40,7 +40,7 @@ alone := tools/sh5.c
 
 tables := effect green law kernel mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/%,$(wildcard lib/*/*.c)))
-lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o
+lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o $(B)/tables/viewer-text.o
 tool_src := $(sort $(wildcard tools/*.c))
 word_src := $(filter-out $(alone),$(tool_src))
 tool_obj := $(word_src:%.c=$(B)/%.o)
@@ -88,6 +88,14 @@ $(B)/tables/atlas.c: data/atlas/force.tsv data/atlas/step.tsv Makefile
 		for (i = 1; i <= NF; i++) { number = $$i ~ /^[-+0-9.]/ ? $$i : "NAN"; \
 			if (i <= texts) printf "\"%s\", ", $$i; else printf "%s, ", number }; print "}," } \
 	END { print "{0}};" }' data/atlas/force.tsv data/atlas/step.tsv > $@
+
+# The page of sdraw -o run.html: its template, its style and its script, all files one after the other.
+viewer_js := $(sort $(wildcard lib/viewer/*.js))
+$(B)/tables/viewer-text.c: lib/viewer/page.html lib/viewer/page.css $(viewer_js) lib/viewer Makefile
+	@mkdir -p $(@D)
+	@{ echo '#include "viewer/viewer-text.h"'; \
+	for kind in html css js; do echo "const char pm_viewer_$$kind[] ="; \
+		case $$kind in js) cat $(viewer_js);; *) cat lib/viewer/page.$$kind;; esac | sed 's/[\\"?]/\\&/g; s/.*/"&\\n"/'; echo ';'; done; } > $@
 
 $(B)/libpmpipe.a: $(lib_obj)
 	@rm -f $@

@@ -1,4 +1,5 @@
-/* sdraw: pictures of a mesh field or of particles: a PNG per frame, or a movie (docs/methods/pictures.md). SPDX-License-Identifier: GPL-3.0-or-later */
+/* sdraw: pictures of a mesh field or of particles: a PNG per frame, a movie, or a page for a browser (docs/methods/pictures.md).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "picture/picture-file.h"
 #include "picture/view.h"
 #include "stage/stage.h"
+#include "viewer/viewer.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL}, *const styles[] = {"auto", "points", "density", NULL};
 static const char *const maps[] = {"auto", "viridis", "magma", "inferno", "grey", "coolwarm", NULL};
@@ -24,12 +26,13 @@ struct state {
 	uint64_t frame;
 	struct pm_view view;
 	struct pm_picture_files files;
+	struct pm_viewer page;
 };
 
 static const struct pm_option options[] = {
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .fallback = "frame-%04d.png", .cosmetic = true, PM_AT(output),
 		.text = "the file to write, whose ending says its kind; %d or %04d stands for the number of the frame"},
-	{.name = "format", .kind = PM_WORD, .choices = pm_picture_kinds, PM_AT(format),
+	{.name = "format", .kind = PM_WORD, .choices = pm_picture_kinds, .cosmetic = true, PM_AT(format),
 		.text = "the kind where --output has no ending; png: one file per frame; ppm: all frames in sequence, to "
 		"standard output unless --output is given"},
 	{.name = "fps", .kind = PM_REAL, .unit = "1/s", .fallback = "25", .low = 0.1, .high = 240, PM_AT(fps),
@@ -61,13 +64,20 @@ static const struct pm_option options[] = {
 	{0},
 };
 
-static int component_of(const char *word)
+static bool is_page(const struct pm_stage *s) { return ((struct state *)s->state)->files.kind == PM_PICTURE_HTML; }
+
+static int begin_page(struct pm_stage *s)
 {
-	if (strlen(word) == 1 && *word >= 'x' && *word <= 'z')
-		return *word - 'x';
-	char *end;
-	long k = strtol(word, &end, 10);
-	return *word && !*end && k >= 0 && k < PM_COMPONENTS ? (int)k : -1;
+	const struct config *c = s->config;
+	struct state *st = s->state;
+	static const char *const others[] = {"project", "weight", "area", "style", "linear", "size"};
+	for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+		if (pm_given(s, others[i]))
+			return pm_fail(PM_USAGE, "--%s is for pictures; a page shows this by itself (leave it out)", others[i]);
+	st->page = (struct pm_viewer){.name = st->files.name, .title = c->title, .map = pm_given(s, "map") ? c->map : NULL, .component = c->component,
+		.fps = c->fps, .range = {c->range.x[0], c->range.x[1]}, .nrange = c->range.n, .slice = c->slice, .axis = *c->axis - 'x', .log = c->log,
+		.choice = {.set = c->set, .mesh = c->mesh, .field = c->field, .x = c->x, .y = c->y, .colour = c->colour}};
+	return 0;
 }
 
 static int begin(struct pm_stage *s)
@@ -83,7 +93,7 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--range takes LO,HI with LO below HI");
 	if (c->window.n && (c->window.n != 4 || !(c->window.x[1] > c->window.x[0]) || !(c->window.x[3] > c->window.x[2])))
 		return pm_fail(PM_USAGE, "--area takes XLO,XHI,YLO,YHI with each LO below its HI");
-	if (c->component && component_of(c->component) < 0)
+	if (c->component && pm_view_component(c->component) < 0)
 		return pm_fail(PM_USAGE, "--component '%s' is none of x, y, z or a number from 0 to %d", c->component, PM_COMPONENTS - 1);
 	if (c->project && !isnan(c->slice))
 		return pm_fail(PM_USAGE, "--project and --slice exclude each other");
@@ -91,9 +101,11 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
 	if (piped && isatty(STDOUT_FILENO))
 		return pm_fail(PM_USAGE, "a picture cannot be written to a terminal (give --output FILE, or a pipe)");
+	if (is_page(s))
+		return begin_page(s);
 	st->view = (struct pm_view){.field = c->field, .mesh = c->mesh, .set = c->set, .x = c->x, .y = c->y, .colour = c->colour, .weight = c->weight,
 		.title = c->title,
-		.component = c->component ? component_of(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,
+		.component = c->component ? pm_view_component(c->component) : -1, .axis = *c->axis - 'x', .slice = c->slice, .project = c->project,
 		.points = !strcmp(c->style, "points"), .density = !strcmp(c->style, "density"), .log = c->log, .linear = c->linear,
 		.map = pm_colour_find(c->map), .nrange = c->range.n, .range = {c->range.x[0], c->range.x[1]}, .nwindow = c->window.n,
 		.window = {c->window.x[0], c->window.x[1], c->window.x[2], c->window.x[3]}, .size = (int)c->size};
@@ -102,7 +114,8 @@ static int begin(struct pm_stage *s)
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	return pm_view_plan(&((struct state *)s->state)->view, f);
+	struct state *st = s->state;
+	return is_page(s) ? pm_viewer_reads(&st->page, f) : pm_view_plan(&st->view, f);
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -110,6 +123,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *st = s->state;
 	struct pm_plot plot;
 	st->frame++;
+	if (is_page(s))
+		return pm_viewer_add(&st->page, f);
 	int status = pm_view_draw(&st->view, f, &plot);
 	if (!status)
 		status = pm_picture_files_write(&st->files, &plot.picture, st->frame);
@@ -117,15 +132,30 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static int end(struct pm_stage *s) { return pm_picture_files_close(&((struct state *)s->state)->files); }
+static int end(struct pm_stage *s)
+{
+	struct state *st = s->state;
+	char left_out[320];
+	if (!is_page(s))
+		return pm_picture_files_close(&st->files);
+	pm_viewer_left_out(&st->page, left_out);
+	if (*left_out)
+		pm_note(s, "the page has %s", left_out);
+	return pm_viewer_end(&st->page);
+}
 
-static void done(struct pm_stage *s) { pm_picture_files_drop(&((struct state *)s->state)->files); }
+static void done(struct pm_stage *s)
+{
+	pm_picture_files_drop(&((struct state *)s->state)->files);
+	pm_viewer_drop(&((struct state *)s->state)->page);
+}
 
 static const struct pm_example examples[] = {
 	{"The particles of a scene seen along z.", "pinit plummer -n 20000 | sdraw -o plummer.png"},
 	{"A slice of the density, coloured by its logarithm.", "pinit plummer -n 20000 | p2m -n 64 | sdraw --field rho --project --log -o rho.png"},
 	{"Radius against radial velocity, coloured by the speed.", "pinit plummer -n 1000 | sdraw --x 'sqrt(x^2+y^2+z^2)' --y "
 		"'(x*vx+y*vy+z*vz)/sqrt(x^2+y^2+z^2)' --colour 'hypot(vx,vy,vz)' -o phase.png"},
+	{"A page that turns the cluster in a browser.", "pinit plummer -n 5000 | sdraw -o cluster.html"},
 	{0}};
 
 const struct pm_tool tool_sdraw = {
@@ -135,7 +165,7 @@ const struct pm_tool tool_sdraw = {
 		"density; with --field a mesh "
 		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values "
 		"lie beyond it. "
-		 "A movie: sdraw -o run.mp4 --range LO,HI, which needs ffmpeg.",
+		 "A movie: sdraw -o run.mp4 --range LO,HI, which needs ffmpeg. A page with all frames for a browser: sdraw -o run.html.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),

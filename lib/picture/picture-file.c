@@ -18,7 +18,7 @@ static int number_place(const char *name, const char **place, const char **behin
 	return *p == 'd' && !strchr(p, '%') ? 1 : -1;
 }
 
-const char *const pm_picture_kinds[] = {"png", "ppm", "mp4", NULL};
+const char *const pm_picture_kinds[] = {"png", "ppm", "mp4", "html", NULL};
 
 static int kind_named(const char *name)
 {
@@ -52,11 +52,12 @@ int pm_picture_files_check(struct pm_picture_files *c, const char *format)
 	else if (asked >= 0 && asked != kind)
 		return pm_fail(PM_USAGE, "--output '%s' ends in '%s', but --format is %s (leave --format out, or change the ending)", c->name, dot, format);
 	c->kind = (enum pm_picture_kind)kind;
-	if (kind != PM_PICTURE_MP4)
+	if (kind != PM_PICTURE_MP4 && kind != PM_PICTURE_HTML)
 		return 0;
-	if (!strcmp(c->name, "-") || strchr(c->name, '%'))
-		return pm_fail(PM_USAGE, "--output '%s': a movie is one file with a name", c->name);
-	return pm_movie_possible();
+	if (strchr(c->name, '%') || (kind == PM_PICTURE_MP4 && !strcmp(c->name, "-")))
+		return pm_fail(PM_USAGE, "--output '%s': a %s is one file%s", c->name, kind == PM_PICTURE_MP4 ? "movie" : "page", strchr(c->name, '%') ?
+			"" : " with a name");
+	return kind == PM_PICTURE_MP4 ? pm_movie_possible() : 0;
 }
 
 /* The name of the picture of this frame. */

@@ -5,7 +5,7 @@
 #include "picture/movie.h"
 #include "picture/picture.h"
 
-enum pm_picture_kind { PM_PICTURE_PNG, PM_PICTURE_PPM, PM_PICTURE_MP4 };
+enum pm_picture_kind { PM_PICTURE_PNG, PM_PICTURE_PPM, PM_PICTURE_MP4, PM_PICTURE_HTML /* written by lib/viewer */ };
 extern const char *const pm_picture_kinds[]; /* their endings without the dot; NULL ends */
 
 struct pm_picture_files {

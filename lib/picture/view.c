@@ -1,5 +1,6 @@
 /* A view of a frame. A mesh field is a slice or an integral along an axis (3-D), as it is (2-D), or a curve (1-D); particles are points, or, where they are
  * many, their density over the plane of two expressions. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
 
 #include "picture/colour.h"
@@ -10,6 +11,15 @@
 
 enum { many = 4000 };
 static const unsigned char dark[3] = {17, 18, 28}, light[3] = {250, 250, 252};
+
+int pm_view_component(const char *word)
+{
+	if (strlen(word) == 1 && *word >= 'x' && *word <= 'z')
+		return *word - 'x';
+	char *end;
+	long k = strtol(word, &end, 10);
+	return *word && !*end && k >= 0 && k < PM_COMPONENTS ? (int)k : -1;
+}
 
 /* ---- what is drawn ---- */
 

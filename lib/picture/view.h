@@ -22,6 +22,7 @@ struct pm_view {
 	struct pm_expression ex, ey, ecolour, eweight;
 };
 
+int pm_view_component(const char *word); /* x, y, z or a number from 0; -1: none of these */
 int pm_view_plan(struct pm_view *v, struct pm_frame *f);                    /* decides what to draw, and marks the fields to be read */
 int pm_view_draw(struct pm_view *v, struct pm_frame *f, struct pm_plot *p); /* free the plot in any case */
 

@@ -49,12 +49,13 @@ long_lines() {
 	done
 }
 
-@test "no line of C, Python, awk, shell or make has more than 160 columns" {
+@test "no line of C, Python, JavaScript, awk, shell or make has more than 160 columns" {
 	printf '\t%0152d\n' 0 | tee a.c b.py >c.awk
 	printf '\t%0153d\n' 0 | tee d.c e.py >f.sh
 	printf '@test "%0145d" {\n}\n' 0 >g.bats
 	[ "$(long_lines ?.*)" = $'d.c:1: 161 columns\ne.py:1: 161 columns\nf.sh:1: 161 columns' ]
-	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs python -type f | grep -E '\.([ch]|sh|bats|bash|awk|py)$'))
+	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs python -type f |
+		grep -E '\.([ch]|sh|bats|bash|awk|py|js|css)$'))
 	echo "$bad"
 	[ -z "$bad" ]
 }
@@ -291,7 +292,7 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 }
 
 @test "every source names its licence in its head" {
-	bad=$(cd "$top" && find lib tools tests bench pipelines docs python .ci -type f | grep -E '\.(c|h|sh|bats|bash|py)$|/run$' | xargs awk '
+	bad=$(cd "$top" && find lib tools tests bench pipelines docs python .ci -type f | grep -E '\.(c|h|sh|bats|bash|py|js|css|html)$|/run$' | xargs awk '
 		FNR == 1 { if (NR > 1 && !named) print file; file = FILENAME; named = 0 }
 		FNR <= 25 && /SPDX-License-Identifier: GPL-3.0-or-later/ { named = 1 }
 		END { if (!named) print file }')
