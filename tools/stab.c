@@ -1,6 +1,8 @@
 /* stab: text to stream and back, exactly. With FILE a source: a plain table becomes a frame, text that stab wrote becomes the frames it was made
  * from; without, a sink that writes its input as text (docs/methods/text.md). Cost: about 1 us per row of seven columns.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "law/law.h"
 #include "stage/file-operands.h"
 #include "stage/table-source.h"
@@ -10,7 +12,8 @@
 struct config {
 	struct pm_table_options table;
 	const char *mesh;
-	bool plain;
+	const char *format;
+	bool plain; /* one table: --plain, or a format that has nothing else */
 };
 
 struct state {
@@ -18,6 +21,7 @@ struct state {
 	uint64_t frames; /* written */
 };
 
+static const char *const formats[] = {"text", "tsv", "csv", NULL};
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "matter", PM_AT(table.set),
 		.text = "name of the set made from a plain table; with --plain the set to write (if the default does not exist, the first)"},
@@ -42,6 +46,8 @@ static const struct pm_option options[] = {
 	{.name = "text", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.text), .text = "text columns (at most 16 letters) to keep, besides name"},
 	{.name = "skip", .kind = PM_LIST, .unit = "COLUMN", PM_AT(table.skip), .text = "columns to skip"},
 	{.name = "number", .kind = PM_FLAG, PM_AT(table.number), .text = "add a field id that counts the rows from 0"},
+	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format),
+		.text = "write whole frames as text that stab reads again, or one table as --plain does, with tabs or commas"},
 	{.name = "plain", .kind = PM_FLAG, PM_AT(plain), .text = "write one table without headers; further frames follow after two empty lines"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "with --plain: write this mesh, the coordinates of its points first"},
 	{0},
@@ -49,8 +55,9 @@ static const struct pm_option options[] = {
 
 static int begin(struct pm_stage *s)
 {
-	const struct config *c = s->config;
+	struct config *c = s->config;
 	const char *only;
+	c->plain = c->plain || strcmp(c->format, "text");
 	s->files = s->nargs && pm_file_kind(s->args[0]) != PM_FILE_OTHER;
 	if (s->nargs && !s->files)
 		s->kind = PM_SOURCE;
@@ -60,8 +67,8 @@ static int begin(struct pm_stage *s)
 			return pm_fail(PM_USAGE, "--%s is for reading a table (name its file, or - for standard input)", only);
 	}
 	if (s->kind == PM_SOURCE && (c->plain || c->mesh))
-		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text, not for reading '%s'", s->args[0]);
-	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh needs --plain") : 0;
+		return pm_fail(PM_USAGE, "--plain and --mesh are for writing text, as --format is, not for reading '%s'", s->args[0]);
+	return c->mesh && !c->plain ? pm_fail(PM_USAGE, "--mesh needs --plain or --format csv") : 0;
 }
 
 static int source(struct pm_stage *s, struct pm_frame **f)
@@ -94,7 +101,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (c->plain && st->frames)
 		fputs("\n\n", stdout);
 	st->frames++;
-	return c->plain ? pm_plain_table_write(stdout, f, table_of(s, f), c->mesh) : pm_text_frame_write(stdout, f);
+	return c->plain ? pm_plain_table_write(stdout, !strcmp(c->format, "csv"), f, table_of(s, f), c->mesh) : pm_text_frame_write(stdout, f);
 }
 
 static int end(struct pm_stage *s)
@@ -117,8 +124,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_stab = {
 	.name = "stab",
 	.summary = "text to stream and back, exactly",
-	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then one row per line, separated by blanks or "
-		"tabs; empty "
+	.about = "With FILE (- is standard input) a source. A plain table has a line of column names and then one row per line, separated by blanks, "
+		"tabs or commas; empty "
 		"lines and "
 		 "lines that start with # are skipped. x y z are the positions, vx vy vz the velocity, NAME_0 NAME_1 ... the components of a field, id "
 		 "whole "

@@ -137,6 +137,8 @@ int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, 
 	size_t rows = 0;
 	int n = 0, dim = 0, status = column && plan ? 0 : -PM_DATA;
 	*f = NULL;
+	if (!status)
+		status = pm_text_separator(t);
 	if (!status && (n = pm_text_names(t, t->size, column)) <= 0)
 		status = n < 0 ? n : pm_fail(PM_DATA, "line %lu: the text ends before a line of column names", (unsigned long)t->line);
 	if (!status && !(status = group(n, column, choice, plan)))

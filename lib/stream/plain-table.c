@@ -28,7 +28,7 @@ static void coordinates(const struct pm_frame *f, const struct pm_mesh *m, struc
 	}
 }
 
-int pm_plain_table_write(FILE *out, struct pm_frame *f, const char *on, bool mesh)
+int pm_plain_table_write(FILE *out, bool csv, struct pm_frame *f, const char *on, bool mesh)
 {
 	struct pm_column column[PM_COLUMNS + 3];
 	size_t rows = 0;
@@ -42,5 +42,5 @@ int pm_plain_table_write(FILE *out, struct pm_frame *f, const char *on, bool mes
 		return n;
 	struct pm_column *first = column + 3 - axes;
 	memmove(first, column + 3 + n - axes, (size_t)axes * sizeof *column); /* x was made last and comes first */
-	return pm_table_write(out, rows, n, first);
+	return pm_table_write(out, csv, rows, n, first);
 }

@@ -8,7 +8,7 @@
 
 /* Header: every field of `on` is read; a mesh gets the coordinates of its points as a field x. 0 or failure. */
 int pm_plain_table_declare(struct pm_frame *f, const char *on, bool mesh);
-/* Data: uniform fields too, coordinates first. 0 or failure. */
-int pm_plain_table_write(FILE *out, struct pm_frame *f, const char *on, bool mesh);
+/* Data: uniform fields too, coordinates first; tabs between columns, or commas. 0 or failure. */
+int pm_plain_table_write(FILE *out, bool csv, struct pm_frame *f, const char *on, bool mesh);
 
 #endif

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/decimal.h"
+#include "stream/csv.h"
 #include "stream/table.h"
 
 static const size_t piece_bytes = 1 << 20;
@@ -15,7 +16,7 @@ static const size_t piece_bytes = 1 << 20;
 struct complaint {
 	uint64_t line; /* 0: none */
 	int column, count;
-	enum { COUNT, NUMBER, FINITE, WHOLE, LETTERS } what;
+	enum { COUNT, NUMBER, FINITE, WHOLE, LETTERS, QUOTE } what;
 	char token[32];
 };
 
@@ -106,6 +107,40 @@ static bool is_row(const char *s, const char *e)
 	return s < e && *s != '#';
 }
 
+int pm_text_separator(struct pm_text *t)
+{
+	size_t at = t->at, stop;
+	for (; (stop = pm_text_line_end(t, at)) < t->size && !is_row(t->data + at, t->data + stop); at = stop + 1)
+		;
+	const char found = pm_csv_separator(t->data + at, t->data + stop);
+	t->csv = found == ',';
+	return found == ';' ? pm_fail(PM_DATA, "semicolons separate its columns, but a table has commas, tabs or blanks there (tr ';' ',' where 0.5 has a point; "
+		"tr ',;' '.,' where it is written 0,5)") : 0;
+}
+
+static int name_add(const struct pm_text *t, struct pm_column *column, int n, const char *s, size_t length)
+{
+	if (n == PM_COLUMNS || !length || length >= PM_NAME || memchr(s, 0, length))
+		return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)", (unsigned long)t->line - 1, n + 1, PM_COLUMNS);
+	column[n] = (struct pm_column){.component = 0};
+	memcpy(column[n].name, s, length);
+	return 0;
+}
+
+/* The names of a line with commas; a name may be in quotes. */
+static int csv_names(const struct pm_text *t, const char *s, const char *e, struct pm_column *column)
+{
+	int n = 0;
+	for (struct pm_csv_cell cell; s; n++) {
+		s = pm_csv_next(s, e, &cell);
+		if (cell.wrong)
+			return pm_fail(PM_DATA, "line %lu: the quotes of column %d do not end before a comma", (unsigned long)t->line - 1, n + 1);
+		if (name_add(t, column, n, cell.s, (size_t)(cell.e - cell.s)))
+			return -PM_DATA;
+	}
+	return n;
+}
+
 int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
 {
 	for (int n = 0; t->at < end;) {
@@ -115,14 +150,12 @@ int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
 		t->line++;
 		if (!is_row(s, e))
 			continue;
+		if (t->csv)
+			return csv_names(t, s, e, column);
 		for (s = blanks(s, e); s < e; s = blanks(s, e)) {
 			const char *stop_name = token_end(s, e);
-			size_t length = (size_t)(stop_name - s);
-			if (n == PM_COLUMNS || length >= PM_NAME || memchr(s, 0, length))
-				return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)",
-					(unsigned long)t->line - 1, n + 1, PM_COLUMNS);
-			column[n] = (struct pm_column){.component = 0};
-			memcpy(column[n++].name, s, length);
+			if (name_add(t, column, n++, s, (size_t)(stop_name - s)))
+				return -PM_DATA;
 			s = stop_name;
 		}
 		return n;
@@ -231,19 +264,54 @@ static int value_read(const struct pm_column *c, size_t row, const char *s, cons
 	return isfinite(x) ? -1 : FINITE;
 }
 
+static bool bad(struct complaint *wrong, int what, int column, const char *s, const char *stop)
+{
+	size_t length = (size_t)(stop - s) < sizeof wrong->token ? (size_t)(stop - s) : sizeof wrong->token - 1;
+	wrong->what = what, wrong->column = column;
+	for (size_t k = 0; k < length; k++)
+		wrong->token[k] = isprint((unsigned char)s[k]) ? s[k] : '?';
+	return false;
+}
+
+/* Letters as they are; "" is one " within quotes. */
+static bool csv_letters(const struct pm_field *field, size_t row, const struct pm_csv_cell *cell)
+{
+	unsigned char *y = pm_out_u8((struct pm_field *)(uintptr_t)field, 0);
+	int c = 0;
+	const char *s = cell->s;
+	for (; s < cell->e && c < field->components; s++) {
+		y[(size_t)c++ * field->count + row] = (unsigned char)*s;
+		s += cell->quoted && *s == '"';
+	}
+	for (; c < field->components; c++)
+		y[(size_t)c * field->count + row] = 0;
+	return s >= cell->e;
+}
+
+static bool csv_row_read(const char *s, const char *e, int n, const struct pm_column *column, size_t row, struct complaint *wrong)
+{
+	int i = 0;
+	for (struct pm_csv_cell cell; s; i++) {
+		int what = -1;
+		s = pm_csv_next(s, e, &cell);
+		if (i < n && column[i].field)
+			what = column[i].text ? (csv_letters(column[i].field, row, &cell) ? -1 : LETTERS) : cell.s == cell.e ? NUMBER :
+				value_read(column + i, row, cell.s, cell.e);
+		if (cell.wrong || what >= 0)
+			return bad(wrong, cell.wrong ? QUOTE : what, i < n ? i : n - 1, cell.s, cell.e);
+	}
+	wrong->what = COUNT, wrong->count = i;
+	return i == n;
+}
+
 static bool row_read(const char *s, const char *e, int n, const struct pm_column *column, size_t row, struct complaint *wrong)
 {
 	int i = 0;
 	for (s = blanks(s, e); s < e; s = blanks(s, e), i++) {
 		const char *stop = token_end(s, e);
 		int what = i < n && column[i].field ? value_read(column + i, row, s, stop) : -1;
-		if (what >= 0) {
-			size_t length = (size_t)(stop - s) < sizeof wrong->token ? (size_t)(stop - s) : sizeof wrong->token - 1;
-			wrong->what = what, wrong->column = i;
-			for (size_t k = 0; k < length; k++)
-				wrong->token[k] = isprint((unsigned char)s[k]) ? s[k] : '?';
-			return false;
-		}
+		if (what >= 0)
+			return bad(wrong, what, i, s, stop);
 		s = stop;
 	}
 	wrong->what = COUNT, wrong->count = i;
@@ -257,7 +325,7 @@ static void piece_read(const struct pm_text *t, int n, const struct pm_column *c
 	for (const char *s = t->data + p->begin, *stop = t->data + p->end; s < stop; line++) {
 		const char *e = memchr(s, '\n', (size_t)(stop - s));
 		e = e ? e : stop;
-		if (is_row(s, e) && !row_read(s, e, n, column, row++, &p->wrong)) {
+		if (is_row(s, e) && !(t->csv ? csv_row_read : row_read)(s, e, n, column, row++, &p->wrong)) {
 			p->wrong.line = line;
 			return;
 		}
@@ -267,7 +335,8 @@ static void piece_read(const struct pm_text *t, int n, const struct pm_column *c
 
 static int complain(const struct complaint *w, int n, const struct pm_column *column)
 {
-	static const char *const why[] = {"", "is not a number", "is not finite", "is not an integer of 64 bits", "has too many letters"};
+	static const char *const why[] = {"", "is not a number", "is not finite", "is not an integer of 64 bits", "has too many letters",
+		"has quotes that do not end before a comma"};
 	if (w->what == COUNT)
 		return pm_fail(PM_DATA, "line %lu: %d columns, but the line of names has %d", (unsigned long)w->line, w->count, n);
 	return pm_fail(PM_DATA, "line %lu, column %d '%s': '%s' %s", (unsigned long)w->line, w->column + 1, column[w->column].name, w->token, why[w->what]);
@@ -353,9 +422,23 @@ static size_t letters_write(char *out, const struct pm_field *field, size_t row)
 	return (size_t)(o - out);
 }
 
-static size_t value_write(char *o, const struct pm_column *c, size_t row)
+static size_t csv_letters_write(char *out, const struct pm_field *field, size_t row)
+{
+	const unsigned char *y = pm_in_u8(field, 0) + row;
+	char text[PM_COMPONENTS];
+	int n = field->components;
+	while (n > 0 && !y[(size_t)(n - 1) * field->count])
+		n--;
+	for (int c = 0; c < n; c++)
+		text[c] = (char)y[(size_t)c * field->count];
+	return pm_csv_write(out, text, (size_t)n);
+}
+
+static size_t value_write(char *o, bool csv, const struct pm_column *c, size_t row)
 {
 	const struct pm_field *field = c->field;
+	if (c->text && csv)
+		return csv_letters_write(o, field, row);
 	if (c->text)
 		return letters_write(o, field, row);
 	if (field->type == PM_I64)
@@ -365,31 +448,37 @@ static size_t value_write(char *o, const struct pm_column *c, size_t row)
 	return pm_decimal_write(o, pm_in(field, c->component)[row], field->type == PM_F32);
 }
 
-static size_t rows_write(char *out, size_t first, size_t last, int n, const struct pm_column *column)
+static size_t rows_write(char *out, bool csv, size_t first, size_t last, int n, const struct pm_column *column)
 {
 	char *o = out;
 	for (size_t row = first; row < last; row++)
 		for (int i = 0; i < n; i++) {
-			o += value_write(o, column + i, row);
-			*o++ = i + 1 < n ? '\t' : '\n';
+			o += value_write(o, csv, column + i, row);
+			*o++ = i + 1 == n ? '\n' : csv ? ',' : '\t';
 		}
 	return (size_t)(o - out);
 }
 
-int pm_table_write(FILE *out, size_t rows, int n, const struct pm_column *column)
+int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
 {
 	enum { blocks = 16 };
 	size_t per = n ? 32768 / (size_t)n : 1, room = per * (size_t)n * (3 * PM_COMPONENTS + 1), length[blocks];
 	char *text = n ? pm_alloc(blocks, room) : NULL;
 	if (n && !text)
 		return -PM_DATA;
-	for (int i = 0; i < n; i++)
-		fprintf(out, "%s%c", column[i].name, i + 1 < n ? '\t' : '\n');
+	for (int i = 0; i < n; i++) {
+		char name[2 * PM_NAME + 2];
+		if (csv)
+			fwrite(name, 1, pm_csv_write(name, column[i].name, strlen(column[i].name)), out);
+		else
+			fputs(column[i].name, out);
+		fputc(i + 1 == n ? '\n' : csv ? ',' : '\t', out);
+	}
 	for (size_t first = 0; n && first < rows; first += blocks * per) {
 #pragma omp parallel for schedule(dynamic)
 		for (size_t b = 0; b < blocks; b++) {
 			size_t from = first + b * per, to = from + per;
-			length[b] = from < rows ? rows_write(text + b * room, from, to < rows ? to : rows, n, column) : 0;
+			length[b] = from < rows ? rows_write(text + b * room, csv, from, to < rows ? to : rows, n, column) : 0;
 		}
 		for (size_t b = 0; b < blocks; b++)
 			fwrite(text + b * room, 1, length[b], out);

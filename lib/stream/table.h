@@ -1,4 +1,5 @@
-/* Tables of text: a line of column names, then one row per line, separated by blanks or tabs; lines that are empty or start with '#' are skipped.
+/* Tables of text: a line of column names, then one row per line, separated by blanks or tabs, or by commas; lines that are empty or start with '#' are
+ * skipped.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STREAM_TABLE_H
 #define PM_STREAM_TABLE_H
@@ -21,10 +22,13 @@ struct pm_text {
 	char *data;    /* followed by a 0 that is not counted */
 	size_t size, at;
 	uint64_t line; /* of `at`, from 1 */
+	bool csv;      /* its tables have commas */
 };
 
 int pm_text_open(struct pm_text *t, const char *path); /* reads all of it; "-" is standard input */
 void pm_text_close(struct pm_text *t);
+/* Before a plain table: sets csv by its line of names; refuses semicolons. */
+int pm_text_separator(struct pm_text *t);
 /* The next line that is neither empty nor a comment, split into names; 0 at the end of the text. */
 int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column);
 size_t pm_text_line_end(const struct pm_text *t, size_t at); /* the newline, or the end of the text */
@@ -35,6 +39,6 @@ int pm_table_read(struct pm_text *t, size_t end, int ncolumns, const struct pm_c
 
 /* The columns of the fields of `on` without uniform ones: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; all different. Returns their number. */
 int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column);
-int pm_table_write(FILE *out, size_t rows, int ncolumns, const struct pm_column *column);
+int pm_table_write(FILE *out, bool csv, size_t rows, int ncolumns, const struct pm_column *column);
 
 #endif

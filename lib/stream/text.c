@@ -53,7 +53,7 @@ int pm_text_frame_write(FILE *out, struct pm_frame *f)
 		int n = pm_table_columns(f, on, column);
 		if (n > 0)
 			fprintf(out, "#%s %s\n", kind, on);
-		status = n < 0 ? n : pm_table_write(out, rows_of(f, on), n, column);
+		status = n < 0 ? n : pm_table_write(out, false, rows_of(f, on), n, column);
 	}
 	json_decref(header);
 	pm_free(column);

@@ -217,3 +217,31 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	run -1 --separate-stderr bash -c 'pinit two-stream -n 10 | stab --plain --set matter'
 	[[ $stderr == *"no set 'matter'"* ]]
 }
+
+@test "a table with commas is read as one with blanks: quotes, blanks, comments, empty lines and CRLF; --format csv writes it as RFC 4180 has it" {
+	printf '# made elsewhere\n"x", y ,name,mass\r\n\n0,1,"a, ""b""",2\r\n# here\n 3 ,-4e-1,c d,"5"\r\n-0,7,,1' >c
+	printf 'x\ty\tname\tmass\n0\t1\ta,%%20"b"\t2\n3\t-0.4\tc%%20d\t5\n-0\t7\t%%\t1\n' >t
+	stab c | stab --plain | diff t -
+	stab t | stab --format csv >d
+	printf 'x,y,name,mass\n0,1,"a, ""b""",2\n3,-0.4,c d,5\n-0,7,,1\n' | diff - d
+	stab d | stab --plain | diff t -
+	python3 -I -S -c 'import csv; a = list(csv.reader(open("d"))); assert a[1][2] == "a, \"b\"" and a[3][2] == "", a'
+	pinit plummer -n 3000 | stab --format csv >p
+	[ "$(tr , '\t' <p | tail -n 1)" = "$(pinit plummer -n 3000 | stab --plain | tail -n 1)" ]
+	stab p | OMP_NUM_THREADS=1 stab --format csv | same_as - p
+	p2m -n 4 < <(pinit uniform -n 9) | stab --format csv --mesh mesh | head -n 1 | grep -qx 'x,y,z,rho'
+}
+
+@test "what is wrong in a table with commas is refused with line and column, and semicolons in words that help" {
+	refused() { run -1 --separate-stderr stab - < <(printf "$2"); [[ $stderr == "stab: standard input: $1"* ]] || { echo "$stderr"; return 1; }; }
+	refused "line 2, column 2 'y': '' is not a number" 'x,y\n1,\n'
+	refused "line 3: 3 columns, but the line of names has 2" 'x,y\n\n1,2,\n'
+	refused "line 2, column 2 'y': '2' has quotes that do not end before a comma" 'x,y\n1,"2\n'
+	refused "line 2, column 1 'x': '1' has quotes that do not end before a comma" 'x,y\n"1"2,3\n'
+	refused "line 2, column 1 'x': '1 2' is not a number" 'x,y\n1 2,3\n'
+	refused "line 1: column 2 has no name" 'x,,z\n1,2,3\n'
+	refused "semicolons separate its columns, but a table has commas, tabs or blanks there (tr ';' ',' where 0.5 has a point" 'x;y\n1;2\n'
+	[ "$(printf 'x;y\n0,5;2\n' | tr ',;' '.,' | stab - | stab --plain | tail -n 1)" = "$(printf '0.5\t2')" ]
+	# a comma in a name of a table with tabs is no separator
+	[ "$(printf 'x\ta,b\n1\t2\n' | stab - | stab --plain | tail -n 1)" = "$(printf '1\t2')" ]
+}
