@@ -52,7 +52,9 @@ unit := $(unit_src:%.c=$(B)/%)
 bench_src := $(sort $(wildcard bench/*.c))
 bench := $(bench_src:%.c=$(B)/%)
 
-all: $(tools) $(bin_dir)/pmpipe $(B)/libpmpipe.so
+all: words $(B)/libpmpipe.so
+# The programs alone, for the wheel of python/.
+words: $(tools) $(bin_dir)/pmpipe
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
@@ -285,6 +287,6 @@ uninstall:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
+.PHONY: all words public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
 	gallery stability atlas hard-cases measure lint man install uninstall clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d) $(fuzzers:=.d)

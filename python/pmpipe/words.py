@@ -21,17 +21,18 @@ _HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def directory() -> Optional[str]:
-    """Where the words are: PM_BIN, the programs that came with the package, those of the tree that it lies in, or None (then those on PATH)."""
+    """Where the words are: PM_BIN, the programs that came with the package, those of the tree that it lies in, or those of a
+    `pmpipe` on PATH; None if there are none."""
     for path in (os.environ.get("PM_BIN"), os.path.join(_HERE, "libexec"), os.path.join(_HERE, "..", "..", "bin")):
         if path and os.access(os.path.join(path, "pinit"), os.X_OK):
             return os.path.abspath(path)
-    command = shutil.which("pmpipe")  # an installation that keeps the words out of PATH; this package's own script does not ask again
-    if command and "PMPIPE_ASKED" not in os.environ:
-        said = subprocess.run([command, "path"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env={**os.environ, "PMPIPE_ASKED": "1"})
-        if said.returncode == 0 and os.access(os.path.join(said.stdout.strip(), "pinit"), os.X_OK):
-            return said.stdout.strip()
-    pinit = shutil.which("pinit")
-    return os.path.dirname(pinit) if pinit else None
+    for place in os.environ.get("PATH", "").split(os.pathsep):
+        command = os.path.join(place, "pmpipe")
+        if os.access(command, os.X_OK) and "PMPIPE_ASKED" not in os.environ:  # it may be this package's own script
+            said = subprocess.run([command, "path"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env={**os.environ, "PMPIPE_ASKED": "1"})
+            if said.returncode == 0 and os.access(os.path.join(said.stdout.strip(), "pinit"), os.X_OK):
+                return said.stdout.strip()
+    return None
 
 
 def environment() -> dict[str, str]:
@@ -49,9 +50,7 @@ def words() -> list[str]:
     path = directory()
     if path is None:
         return []
-    completions = os.path.join(path, "..", "share", "bash-completion", "completions")  # of a directory shared with others: what `make install` linked
-    own = {n for n in os.listdir(completions) if os.path.islink(os.path.join(completions, n))} if os.path.isdir(completions) else None
-    return sorted(n for n in os.listdir(path) if os.access(os.path.join(path, n), os.X_OK) and (own is None or n in own))
+    return sorted(n for n in os.listdir(path) if n != "pmpipe" and os.access(os.path.join(path, n), os.X_OK))
 
 
 def program(name: str) -> str:

@@ -286,10 +286,11 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 	cat err
 	[ ! -s err ]
 	python3 -m pmpipe >list
-	diff <(cut -d: -f1 list) <(ls "${PM_BIN:-$top/bin}" | LC_ALL=C sort)
+	diff <(sed -n 's/^  \([a-z][a-z0-9-]*\)  .*/\1/p' list | LC_ALL=C sort) <(tools)
+	python3 -c 'import pmpipe; print(*pmpipe.words(), sep="\n")' | diff - <(tools)
 	python3 -m pmpipe pinit two-body | cmp - <(pinit two-body)
 	run -2 --separate-stderr python3 -m pmpipe p3m
-	[[ $stderr == "pmpipe: no word 'p3m' (did you mean p2m?)" ]]
+	[[ $stderr == "pmpipe: no word 'p3m' (did you mean p2m? "* ]]
 }
 
 @test "python: a word in ten lines follows the contract: ways agree, refusals are one line, aborts travel, mistakes end in an abort" {
@@ -388,4 +389,42 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 	[ "$(wc -l <page.sh)" = 2 ]
 	run -0 bash -euo pipefail page.sh
 	[[ $output == *"acc "*"terms drag"* ]]
+}
+
+# The programs of the tree as they are: building them again is for the long run (below).
+@test "python: a wheel is built and installed without a network, and its programs run from outside the tree" {
+	wheel_here PMPIPE_PROGRAMS="${PM_BIN:-$top/bin}"
+}
+
+@test "python: a wheel builds its programs from the tree with make, and an sdist from what it holds" {
+	[ "${PM_LONG:-}" ] || skip "long: make check-long"
+	wheel_here PMPIPE_PROGRAMS=
+	(cd tree/python && python3 setup.py -q sdist -d "$BATS_TEST_TMPDIR/dist" 2>err) || { cat tree/python/err; return 1; }
+	mkdir alone && tar -C alone --strip-components 1 -xzf dist/*.tar.gz
+	[ -e alone/tree/lib/base/base.h ]
+	rm -r tree dist
+	python3 -m pip wheel -q --no-build-isolation --no-index --no-deps -w dist ./alone
+	unzip -l dist/*.whl | grep -q pmpipe/libexec/poisson-fft
+}
+
+# wheel_here NAME=VALUE: builds with that in the environment, installs into a venv, and runs its programs.
+wheel_here() {
+	local p=$PWD
+	python3 -c 'import setuptools, pip, wheel, venv' 2>/dev/null ||
+		skip "no pip, setuptools, wheel or venv for python3 (apt install python3-pip python3-setuptools python3-wheel python3-venv)"
+	export PIP_DISABLE_PIP_VERSION_CHECK=1
+	unset PYTHONPATH PM_BIN MAKEFLAGS
+	mkdir tree && ln -s "$top"/{Makefile,COPYING,lib,tools,data} tree && cp -r "$top/python" tree
+	env "$1" python3 -m pip wheel -q --no-build-isolation --no-index --no-deps -w dist ./tree/python
+	python3 -m venv --system-site-packages --without-pip venv
+	python3 -m pip -q --python venv/bin/python install --no-index --no-deps dist/*.whl
+	cd /
+	env -i "$p/venv/bin/pmpipe" pinit two-body | cmp - <(pinit two-body)
+	env -i "$p/venv/bin/python" -c '
+import pmpipe, sys
+assert pmpipe.directory() == pmpipe.__file__.replace("__init__.py", "libexec"), pmpipe.directory()
+frames = pmpipe.run("pinit two-body | cycle -n 2 '"'push kick/2 drift | pp | push kick/2'"'")
+assert frames[-1].step == 2
+assert pmpipe.text("pinit --version").split()[-1] == pmpipe.__version__, pmpipe.text("pinit --version")'
+	cd "$p"
 }
