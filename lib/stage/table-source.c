@@ -26,24 +26,53 @@ static const char *const *names(struct pm_list *list)
 	return list->item;
 }
 
-static int table(struct pm_stage *s, struct pm_text *text, struct pm_table_options *c, struct pm_frame **f)
+/* What was typed, onto a frame that has its particles. */
+static int attributes(struct pm_stage *s, struct pm_table_options *c, const char *law, struct pm_frame *g)
 {
-	const struct pm_columns_choice choice = {.set = c->set, .dim = c->dim > 0 ? (int)c->dim : 0, .skip = names(&c->skip), .text = names(&c->text),
-		.strength = names(&c->strength), .number = c->number};
 	size_t cells[3];
-	int status = pm_columns_frame(text, &choice, f);
-	if (status)
-		return status;
-	struct pm_frame *g = *f;
-	g->dt = c->dt, g->time = g->start = c->time;
+	int status;
+	g->dt = c->dt;
 	pm_columns_box(g, c->set);
-	if ((status = pm_attributes_constants(g, &c->constants)) || (status = pm_attributes_law(g, c->law)) || (status = pm_attributes_box(g, &c->box)) ||
+	if ((status = pm_attributes_constants(g, &c->constants)) || (status = pm_attributes_law(g, law)) || (status = pm_attributes_box(g, &c->box)) ||
 		(status = pm_attributes_faces(g, &c->faces)) || (status = pm_attributes_particle_faces(g, &c->particle_faces)) ||
 		(status = pm_attributes_units(g, c->set, &c->units)) || (status = pm_cells_for(&c->cells, g->dim, cells)))
 		return status;
 	if (!c->box.n)
 		pm_report_text(s, g, "box", "automatic");
 	return pm_frame_mesh_new(g, "mesh", cells) ? 0 : -PM_DATA;
+}
+
+static int table(struct pm_stage *s, struct pm_text *text, struct pm_table_options *c, struct pm_frame **f)
+{
+	const struct pm_columns_choice choice = {.set = c->set, .dim = c->dim > 0 ? (int)c->dim : 0, .skip = names(&c->skip), .text = names(&c->text),
+		.strength = names(&c->strength), .number = c->number};
+	int status = pm_columns_frame(text, &choice, f);
+	if (status)
+		return status;
+	(*f)->time = (*f)->start = c->time;
+	return attributes(s, c, c->law, *f);
+}
+
+/* NEMO's units have G = 1 unless somebody says otherwise. */
+static int snapshot(struct pm_stage *s, struct pm_nemo *r, struct pm_table_options *c, struct pm_frame **f)
+{
+	static const char *const columns[] = {"dim", "strength", "text", "skip", "number", NULL};
+	const bool law = pm_given(s, "law");
+	for (int i = 0; columns[i]; i++)
+		if (pm_given(s, columns[i]))
+			return pm_fail(PM_USAGE, "--%s is for plain tables, and this is a snapshot of NEMO", columns[i]);
+	int got = pm_nemo_next(r, c->set, f);
+	if (got < 0)
+		return got;
+	if (!got)
+		pm_tell_once(s, "a snapshot of NEMO%s; left out: %s", law ? "" : ", law gravity with G = 1 (--law, --constant)",
+			*r->left_out ? r->left_out : "nothing");
+	if (!got)
+		return 0;
+	if (pm_given(s, "time"))
+		(*f)->time = (*f)->start = c->time;
+	int status = attributes(s, c, law ? c->law : "gravity", *f);
+	return status ? status : 1;
 }
 
 static int frames(struct pm_stage *s, struct pm_table_source *st, struct pm_frame **f)
@@ -61,8 +90,12 @@ static int next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_
 	int status = st->open ? 0 : pm_text_open(&st->text, s->args[st->file]);
 	if (status || st->over)
 		return status;
-	st->over = !st->open && !pm_text_is_frames(&st->text);
+	if (!st->open && pm_nemo_is(st->text.data, st->text.size))
+		st->nemo = (struct pm_nemo){.data = st->text.data, .size = st->text.size};
+	st->over = !st->open && !st->nemo.data && !pm_text_is_frames(&st->text);
 	st->open = true;
+	if (st->nemo.data)
+		return snapshot(s, &st->nemo, options, f);
 	if (!st->over)
 		return frames(s, st, f);
 	status = table(s, &st->text, options, f);
@@ -93,4 +126,5 @@ void pm_table_source_close(struct pm_table_source *t)
 	if (t->open)
 		pm_text_close(&t->text);
 	t->open = false;
+	t->nemo.data = NULL;
 }

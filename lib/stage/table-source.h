@@ -1,7 +1,8 @@
-/* A text as a source of frames: the reading half of stab. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A text, or a snapshot of NEMO, as a source of frames: the reading half of stab. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_STAGE_TABLE_SOURCE_H
 #define PM_STAGE_TABLE_SOURCE_H
 
+#include "nemo/nemo.h"
 #include "stage/stage.h"
 #include "stream/table.h"
 
@@ -21,6 +22,7 @@ struct pm_table_source {
 	bool open, over; /* the text: has been opened; was a table, which has been read */
 	int file;        /* which of the arguments it is, from 0 */
 	uint64_t frames; /* read of it */
+	struct pm_nemo nemo; /* data NULL: it is text */
 };
 
 /* The name of the first option that was typed of those for reading a plain table; NULL none. */

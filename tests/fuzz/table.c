@@ -1,6 +1,7 @@
-/* Text as stab reads it: plain tables, and frames that stab wrote. What is read is written as text and read again: the second text must be the first.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stab reads: snapshots of NEMO, plain tables, and frames that stab wrote. What is read as text is written as text and read again: the second text must be
+ * the first. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fuzz.h"
+#include "nemo/nemo.h"
 #include "stream/columns.h"
 #include "stream/header.h"
 #include "stream/text.h"
@@ -51,12 +52,27 @@ static void plain(struct pm_text *t)
 	pm_frame_free(f);
 }
 
+static void nemo(const struct pm_text *t)
+{
+	struct pm_nemo r = {.data = t->data, .size = t->size};
+	struct pm_frame *f = NULL;
+	int got;
+	while ((got = pm_nemo_next(&r, "matter", &f)) == 1) {
+		pm_columns_box(f, "matter");
+		pm_frame_free(f);
+	}
+	if (got < 0)
+		fuzz_refused();
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 {
 	uint64_t frames = 0;
 	struct pm_text t = {.data = fuzz_text(data, n), .size = n, .line = 1};
 	char *text = t.data;
-	if (!pm_text_is_frames(&t))
+	if (pm_nemo_is(t.data, t.size))
+		nemo(&t);
+	else if (!pm_text_is_frames(&t))
 		plain(&t);
 	else
 		for (int i = 0, got = 1; i < most_frames && got == 1; i++) {
