@@ -46,8 +46,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return pm_gradient_declare(&((const struct config *)s->config)->choice, f, &((struct state *)s->state)->gradient);
 }
 
-/* A body with this part of the mass, in the last cells of 32, exerts on itself about a tenth of the force that all others do (docs/methods/mgrad.md). */
-static const double rim_told = 1e-3;
+/* Round-off. A body with 1e-3 of the mass, in the last cells of 32, exerts on itself about a tenth of the force that all others do (docs/methods/mgrad.md). */
+static const double rim_told = 1e-14;
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
@@ -59,7 +59,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const double rim = pm_gradient_rim(&t->gradient);
 	if (rim > rim_told)
 		pm_tell_once(s, "%.2g of the density is within %d nodes of an open face, where differences of order %d are one-sided and exert a force on "
-			"what makes the field (--order 2 does not; or a larger mesh)", rim, t->gradient.operator.order / 2, t->gradient.operator.order);
+			"what makes the field (p2m --rim %d leaves these nodes free; --order 2 has no such force)", rim, t->gradient.operator.order / 2,
+			t->gradient.operator.order, t->gradient.operator.order / 2 - 1);
 	return status ? status : pm_gradient_apply(&t->gradient);
 }
 

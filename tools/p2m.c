@@ -7,6 +7,7 @@
 struct config {
 	const char *kernel, *mesh, *set, *strength, *field, *outside;
 	struct pm_cells cells;
+	int64_t rim;
 	bool add, interlace;
 };
 struct state {
@@ -18,7 +19,7 @@ static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s
 static int choose(const struct config *o, const struct pm_frame *f, struct pm_spread_job *j)
 {
 	const struct pm_spread_choice choice = {.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .strength = o->strength, .field = o->field,
-		.cells = o->cells.n, .add = o->add, .interlace = o->interlace, .outside = o->outside};
+		.cells = o->cells.n, .add = o->add, .interlace = o->interlace, .outside = o->outside, .rim = (int)o->rim};
 	return pm_spread_choose(&choice, f, j);
 }
 
@@ -74,6 +75,8 @@ static const struct pm_option options[] = {
 	{.name = "outside", .kind = PM_WORD, .fallback = "monopole", .choices = outside, PM_AT(outside),
 		.text = "particles beyond an open mesh: left off and counted, and m2p gives them the force of the monopole of those inside; left out without "
 			"force and counted; the mesh grows; or failure"},
+	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .fallback = "0", .high = PM_RIM_MOST, PM_AT(rim),
+		.text = "particles so much nearer to an open face than the kernel's reach are outside too: 1 for mgrad of order 4, 2 of order 6"},
 	{.name = "add", .kind = PM_FLAG, PM_AT(add), .text = "add to the existing density instead of replacing it"},
 	{.name = "interlace", .kind = PM_FLAG, PM_AT(interlace),
 		.text = "use two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)"},
@@ -88,12 +91,9 @@ const struct pm_tool tool_p2m = {
 	.name = "p2m",
 	.summary = "deposit the strengths of particles on a mesh as a density",
 	.about = "density(i) = sum over particles of strength * W((x - x_i)/h) / (volume of a cell), W a product of one-dimensional kernels (Hockney and "
-		"Eastwood "
-		 "1988, chapter 5). Beyond a wall the mesh is continued as its odd image, beyond a neumann face as its even image; at open faces the "
-		"support of "
-		 "every kernel must stay inside the mesh; the particles beyond are left off and counted (outside), and m2p gives them the force of the "
-		 "monopole of those inside. End nodes of faces that are not periodic have half weight in mesh sums. See "
-		 "docs/methods/transfer.md.",
+		"Eastwood 1988, chapter 5). Beyond a wall the mesh is continued as its odd image, beyond a neumann face as its even image; at open faces the "
+		"support of every kernel must stay inside the mesh; the particles beyond are left off and counted (outside), and m2p gives them the force of "
+		"the monopole of those inside. End nodes of faces that are not periodic have half weight in mesh sums. See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x and the law's strength (mass, charge, circulation) of every set that has it",

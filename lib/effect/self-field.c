@@ -84,13 +84,21 @@ static const char *option(const char *name, const char *value, const char *law, 
 	return text;
 }
 
+/* Differences of order 4 and 6 are one-sided beside open faces, where what makes the field would act on itself (docs/methods/mgrad.md). */
+static const char *rim(const struct pm_effect_case *c)
+{
+	const char *order = c->scales->open && c->method->order ? c->method->order : "";
+	return !strcmp(order, "4") ? " --rim 1" : !strcmp(order, "6") ? " --rim 2" : "";
+}
+
 static void on_mesh(const struct pm_effect_case *c, struct pm_words *w)
 {
 	const struct pm_method *m = c->method;
 	const char *own = pm_effect_own_mesh(c->frame, c->law);
 	char words[160], n[64], text[64];
 	cells(c, own, n);
-	snprintf(words, sizeof words, "p2m%s%s%s%s", own, n, option("kernel", m->kernel, c->law->kernel, text), m->grow ? " --outside grow" : "");
+	snprintf(words, sizeof words, "p2m%s%s%s%s%s", own, n, option("kernel", m->kernel, c->law->kernel, text), rim(c),
+		m->grow ? " --outside grow" : "");
 	pm_words_add(w, PM_SLOT_DENSITY, words, "on a mesh: %s; %s", m->why_far, m->why_mesh);
 	snprintf(words, sizeof words, "poisson-fft%s%s", own, option("symbol", m->symbol, NULL, text));
 	pm_words_add(w, PM_SLOT_POTENTIAL, words, "self field: on, %s", c->decision->text);

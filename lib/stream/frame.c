@@ -169,10 +169,11 @@ static void inherit_sources(struct pm_field *field, const struct pm_field *from)
 {
 	const bool first = !*field->kernel, same = field->nterms == from->nterms && !memcmp(field->terms, from->terms, sizeof field->terms);
 	field->outside = from->outside > field->outside ? from->outside : field->outside;
+	field->rim = first || from->rim > field->rim ? from->rim : field->rim;
 	if (from->role == PM_DERIVED && first) {
 		memcpy(field->terms, from->terms, sizeof field->terms);
 		field->nterms = from->nterms;
-	} else if (!same) {
+	} else if (!same || (!first && field->rim != from->rim)) {
 		field->outside = PM_OUTSIDE_ERROR;
 	}
 }

@@ -19,6 +19,7 @@ enum pm_face { PM_PERIODIC, PM_OPEN, PM_WALL, PM_NEUMANN, PM_ABSORBING };       
 enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };             /* of the particles: periodic, reflect, absorb, open */
 
 /* What m2p does with particles beyond the open faces of the mesh, of whose density the field was made (docs/methods/transfer.md). */
+enum { PM_RIM_MOST = 64 }; /* cells */
 enum pm_outside { PM_OUTSIDE_MONOPOLE, PM_OUTSIDE_DROP, PM_OUTSIDE_ERROR };
 
 extern const char *const pm_outside_names[]; /* NULL ends */
@@ -55,6 +56,7 @@ struct pm_field {
 	char kernel[PM_NAME]; /* mesh fields made by p2m, and fields derived from them: the kernel's name, "several" if these differ in it; else "" */
 	bool interlaced;      /* made with that kernel on two meshes half a cell apart */
 	enum pm_outside outside; /* mesh fields with a kernel; monopole unless p2m or a solver says otherwise */
+	int rim;              /* [cells] of p2m --rim, for m2p: particles so near to the reach of open faces are outside */
 	int components;       /* 1..PM_COMPONENTS */
 	enum pm_type type;
 	enum pm_role role;

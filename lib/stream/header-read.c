@@ -298,6 +298,8 @@ static bool read_field(const json_t *j, struct pm_frame *f)
 	read_kernel(&l, p);
 	if (json_object_get(l.j, "outside"))
 		p->outside = (enum pm_outside)take_choice(&l, "outside", pm_outside_names);
+	if (json_object_get(l.j, "rim"))
+		p->rim = (int)take_integer(&l, "rim", 0, PM_RIM_MOST, true, 0);
 	p->uniform = json_object_get(l.j, "uniform") != NULL;
 	if (p->uniform)
 		take_reals(&l, "uniform", components, p->value);

@@ -38,6 +38,8 @@ static json_t *field_json(const struct pm_field *p)
 		json_object_set_new(j, "interlaced", json_true());
 	if (p->outside)
 		json_object_set_new(j, "outside", json_string(pm_outside_names[p->outside]));
+	if (p->rim)
+		json_object_set_new(j, "rim", json_integer(p->rim));
 	if (p->uniform)
 		json_object_set_new(j, "uniform", reals(p->value, p->components));
 	if (p->nterms) {

@@ -100,7 +100,7 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 		status = pm_sets_choose(f, choice->set, choice->field ? any : law, "stab reads it from a table", &j->sets);
 	if (status)
 		return status;
-	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .components = j->field->components};
+	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .components = j->field->components, .rim = j->field->rim};
 	if ((status = choose_kernel(f, j)))
 		return status;
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);

@@ -57,7 +57,7 @@ int pm_mesh_changes_declare(struct pm_frame *f, const char *set, const struct pm
 /* cell * D on the points. */
 static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_field *change, const struct pm_transfer *t, double *D)
 {
-	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1};
+	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1, .rim = t->rim};
 	int status = 0;
 	memcpy(one.staggered[0], change->staggered[0], sizeof one.staggered[0]);
 	pm_grid_even(&one.grid); /* particles have even images beyond a wall, for any field */

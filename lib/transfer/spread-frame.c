@@ -38,7 +38,7 @@ int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_fram
 static struct pm_transfer transfer_of(const struct pm_spread_job *j, const struct pm_frame *f)
 {
 	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
-	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components};
+	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components, .rim = j->choice.rim};
 	for (int c = 0; c < components && c < f->dim && components > 1; c++)
 		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
 	return t;
@@ -48,7 +48,7 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 {
 	struct pm_transfer t = transfer_of(j, f);
 	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets,
-		.strength = j->strength,
+		.strength = j->strength, .rim = j->choice.rim,
 		.outside = j->outside == PM_OUTSIDE_DROP || !j->law->strength || strcmp(j->strength, j->law->strength) ? j->outside : PM_OUTSIDE_MONOPOLE};
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	return status ? status : pm_makes_density(f, j->mesh, &density, add);

@@ -11,6 +11,7 @@ struct pm_spread_choice {
 	bool add;                /* to the density that is there */
 	bool interlace;
 	const char *outside;     /* a choice of p2m --outside */
+	int rim;                 /* [cells] beside open faces that are left free */
 };
 
 /* The choice applied to a frame. */

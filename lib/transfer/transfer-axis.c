@@ -48,10 +48,11 @@ static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, bool h
 		a->from = a->to = a->slots;
 }
 
-/* Open and absorbing faces keep the kernel inside the points 1..n-1; at walls and neumann faces a particle may sit on the face itself. */
-static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int width)
+/* Open and absorbing faces keep the kernel inside the points 1..n-1, and off a rim of as many more as asked for; at walls and neumann faces a particle
+ * may sit on the face itself. */
+static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int width, int rim)
 {
-	double r = 0.5 * width, rounding = 4 * DBL_EPSILON * (a->n + fabs(a->lo) / a->h);
+	double r = 0.5 * width + rim, rounding = 4 * DBL_EPSILON * (a->n + fabs(a->lo) / a->h);
 	bool closed[2];
 	for (int side = 0; side < 2; side++)
 		closed[side] = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
@@ -61,7 +62,7 @@ static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int wid
 		a->high = nextafter(a->high, 0); /* ngp jumps: ties go up */
 }
 
-static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int width, bool half)
+static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int width, int rim, bool half)
 {
 	bool odd = width % 2, lift;
 	a->periodic = g->face[d][0] == PM_PERIODIC;
@@ -73,7 +74,7 @@ static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int widt
 	a->add = a->shift - (half ? 0.5 : 0) + lift;
 	a->count = g->cells[d] + !a->periodic;
 	a->slots = a->count + (size_t)width - 1;
-	set_range(a, g, d, width);
+	set_range(a, g, d, width, rim);
 	a->at = pm_alloc(a->slots, sizeof *a->at);
 	double *factor = pm_alloc(a->slots, 4 * sizeof *factor);
 	a->put[0] = factor;
@@ -92,7 +93,7 @@ int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsi
 		axes[d] = (struct pm_axis){.count = 0};
 	for (int d = 0; d < 3; d++) {
 		bool used = d < t->grid.dim;
-		int status = axis_init(&axes[d], &t->grid, d, used ? t->kernel->width : 1, used && staggered[d]);
+		int status = axis_init(&axes[d], &t->grid, d, used ? t->kernel->width : 1, used ? t->rim : 0, used && staggered[d]);
 		if (status) {
 			pm_axes_free(axes);
 			return status;

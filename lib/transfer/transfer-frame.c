@@ -171,6 +171,8 @@ static int check_density(const struct pm_frame *f, const struct pm_field *old, c
 		return pm_fail(PM_DATA, "'%s' on '%s' has %d components and the kernel '%s'%s; %d of '%s'%s cannot be added to it (leave out --add)", old->name,
 			old->on, old->components, old->kernel, old->interlaced ? " interlaced" : "", components, d->kernel->name,
 			d->interlaced ? " interlaced" : "");
+	if (old && add && old->rim != d->rim)
+		return pm_fail(PM_DATA, "'%s' on '%s' was deposited with a rim of %d cells (--rim %d)", old->name, old->on, old->rim, old->rim);
 	return 0;
 }
 
@@ -224,6 +226,7 @@ int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct p
 		return -PM_DATA;
 	snprintf(density->kernel, sizeof density->kernel, "%s", d->kernel->name);
 	density->interlaced = d->interlaced;
+	density->rim = d->rim;
 	if (q->extensive)
 		unit_over_volume(q->unit, f->dim, density->unit, sizeof density->unit);
 	return mark_sources(f, d, old && add, density);

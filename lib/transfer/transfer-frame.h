@@ -45,6 +45,7 @@ struct pm_density {
 	const struct pm_sets *sets;
 	const char *strength;
 	enum pm_outside outside;
+	int rim;
 };
 int pm_makes_density(struct pm_frame *f, const struct pm_mesh *m, const struct pm_density *density, bool add);
 

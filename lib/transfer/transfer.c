@@ -371,7 +371,7 @@ int pm_transfer_grow(const struct pm_transfer *t, size_t n, const double *const 
 	double points = 1;
 	for (int d = 0; d < t->grid.dim; d++) {
 		double low = 0, high = 0;
-		int status = n ? grow_axis(&t->grid, d, 0.5 * t->kernel->width, n, x[d], &low, &high) : 0;
+		int status = n ? grow_axis(&t->grid, d, 0.5 * t->kernel->width + t->rim, n, x[d], &low, &high) : 0;
 		if (status)
 			return status;
 		points *= (double)t->grid.cells[d] + low + high + 1;

@@ -13,6 +13,7 @@ struct pm_transfer {
 	struct pm_grid grid;
 	const struct pm_kernel *kernel;
 	int components;
+	int rim;   /* [cells] particles so much nearer to an open face than the kernel's reach are outside too */
 	unsigned char staggered[PM_COMPONENTS][3]; /* 1 where the component sits half a cell up that axis */
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */

@@ -101,9 +101,10 @@ small() {
 	for s in polygon vortex-pair point-vortices; do [[ "$(sentence $s)" = 'pp | push '@(lsrk3|rk4) ]]; done
 	[ "$(sentence shear-layer --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' ]
 	[ "$(sentence cone-vortex --cells 64)" = \
-		'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-05 --outside grow' ]
+		"p2m --kernel m6prime --rim 2 --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | \
+remesh --kernel m6prime --cut-off 1e-05 --outside grow" ]
 	[[ "$(sentence lamb-oseen --cells 64)" = \
-		'p2m --kernel m6prime --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | '*' --outside grow' ]]
+		'p2m --kernel m6prime --rim 2 --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | '*' --outside grow' ]]
 	[[ "$(sentence lamb-oseen --cells 64)" = *' | remesh --kernel m6prime '*'--cut-off 1e-05 --rim 2 --outside grow' ]]
 }
 
