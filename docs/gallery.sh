@@ -24,8 +24,12 @@ make_one() {
 	local name=$1 commands
 	commands=$(block "$name")
 	[ -n "$commands" ] || { echo "gallery: docs/gallery.md has no picture '$name' with commands below it" >&2; return 1; }
+	if grep -q 'tests/browser.py ' <<<"$commands" && ! command -v chromium >/dev/null; then
+		echo "gallery: $name left as it is: no chromium here (apt-get install chromium)" >&2
+		return
+	fi
 	mkdir "$work/$name"
-	ln -s "$top/data" "$top/docs" "$top/pipelines" "$work/$name"
+	ln -s "$top/data" "$top/docs" "$top/pipelines" "$top/tests" "$work/$name"
 	(cd "$work/$name" && bash -euo pipefail -c "$commands" </dev/null >"$work/log") || { echo "gallery: $name failed" >&2; return 1; }
 	[ -s "$work/$name/$name.png" ] || { echo "gallery: the block of $name left no $name.png" >&2; return 1; }
 	mv "$work/$name/$name.png" "$out/$name.png"

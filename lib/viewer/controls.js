@@ -33,12 +33,12 @@ function offer() {
 	const labels = all.map(one => [one.key, one.label]), position = all.filter(one => one.field === "x" && one.c < dim);
 	const first = all.find(one => one.field === asked.field && one.c === componentAsked(one, asked.component)) ??
 		all.find(one => one.field === asked.colour);
-	for (const [kind, there] of [["particles", !onMesh], ["mesh", onMesh && dim > 1 && frames.some(f => f.sets.length)], ["slice", onMesh && dim === 3]])
+	for (const [kind, there] of [["particles", !onMesh], ["beside", onMesh ? dim > 1 && setNames().length : setNames().length > 1], ["slice", onMesh && dim === 3]])
 		for (const element of document.querySelectorAll("." + kind))
 			element.hidden = !there;
+	fill("overlay", [["", "none"], ...setNames().map(set => ["set " + set, set]).filter(([key]) => key !== name)], onMesh ? "" : otherSet(name));
 	if (onMesh) {
 		fill("colour", labels, first?.key ?? all.at(-1)?.key);
-		fill("overlay", [["", "none"], ...setNames().map(set => ["set " + set, set])]);
 	} else {
 		const most = Math.max(...frames.map(f => placeOf(f, name)?.kept ?? 0)), dense = paint.density ? [["density", "density"]] : [];
 		fill("colour", [["", "one colour"], ...dense, ...labels], first?.key ?? (most >= many && dense.length ? "density" : ""));
@@ -51,6 +51,12 @@ function offer() {
 		fill("depth", [["", "none"], ...labels], flat ? "" : position[2]?.key);
 	}
 	firstView();
+}
+
+// Few bodies beside those that are shown are shown too.
+function otherSet(name) {
+	const few = place => place.kept <= 20 && "set " + place.name !== name;
+	return frames[0].sets.filter(few).map(place => "set " + place.name)[0] ?? "";
 }
 
 function componentAsked(one, text) {

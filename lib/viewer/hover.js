@@ -58,13 +58,28 @@ function textAt(x, y) {
 	const drawn = state.drawn;
 	if (!drawn || !inPlot(x, y))
 		return "";
-	const particles = drawn.numbers ? drawn : drawn.over, i = particles && particles.place ? particleAt(particles, x, y) : -1;
-	if (i >= 0)
-		return tellParticle(particles, i);
+	for (const particles of [drawn.numbers && drawn, drawn.over]) {
+		const i = particles && particles.place ? particleAt(particles, x, y) : -1;
+		if (i >= 0)
+			return tellParticle(particles, i);
+	}
 	return drawn.plane ? tellPlane(drawn, x, y) : drawn.curve ? tellCurve(drawn, x) : "";
 }
 
+let resting = 0;
+
+// At once, or where there are many particles to search (a million take 0.1 s) when the mouse rests.
 function hover(x, y) {
+	const n = state.drawn?.numbers?.[0].length ?? 0;
+	clearTimeout(resting);
+	byId("tip").hidden = byId("tip").hidden || n > 1e5;
+	if (n > 1e5)
+		resting = setTimeout(tell, 150, x, y);
+	else
+		tell(x, y);
+}
+
+function tell(x, y) {
 	const tip = document.getElementById("tip"), view = document.getElementById("view"), text = textAt(x, y);
 	tip.hidden = !text;
 	tip.textContent = text;

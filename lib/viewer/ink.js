@@ -136,6 +136,8 @@ function inkEdge(to, axis, {a, b, out, at}) {
 	to.fillStyle = "#ffffff";
 	const name = withUnit(axis.label, axis.unit), half = to.measureText(name).width * (across === "center" ? 0.5 : 1), x = (a[0] + b[0]) / 2 + off * nx;
 	const low = plot.x0 + 4 + (across === "left" ? 0 : half), high = plot.x1 - 4 - (across === "right" ? 0 : half);
+	if (!inPlot((a[0] + b[0]) / 2, (a[1] + b[1]) / 2))
+		return;
 	if (x >= low - 4 && x <= high + 4)
 		label(to, name, Math.min(Math.max(x, low), high), (a[1] + b[1]) / 2 + off * ny, across, up);
 	else // no room beside the ticks: above the upper end

@@ -6,7 +6,7 @@ function written(x) {
 		return "nan";
 	const size = Math.abs(x);
 	if (size !== 0 && (size < 1e-3 || size >= 1e6))
-		return x.toExponential(4).replace(/\.?0+e/, "e").replace("e+", "e").replace("-", "\u2212");
+		return x.toExponential(4).replace(/\.?0+e/, "e").replace("e+", "e").replace(/-/g, "\u2212");
 	return String(Number(x.toPrecision(5))).replace("-", "\u2212");
 }
 
@@ -21,7 +21,7 @@ function ticksOf(lo, hi, most) {
 		const at = k === 0 ? 0 : k * step;
 		const text = large < 1e5 && decimals <= 4 ? at.toFixed(decimals) :
 			at.toExponential(Math.min(12, Math.max(0, Math.floor(Math.log10(Math.max(Math.abs(at), step))) - Math.floor(Math.log10(step) + 1e-9))));
-		ticks.push({at, text: at === 0 ? "0" : text.replace("e+", "e").replace("-", "\u2212")});
+		ticks.push({at, text: at === 0 ? "0" : text.replace("e+", "e").replace(/-/g, "\u2212")});
 	}
 	return ticks;
 }

@@ -191,11 +191,11 @@ function paintGround(ground) {
 	gl.clear(gl.COLOR_BUFFER_BIT);
 }
 
-// x, y, z, value: Float32Arrays (value null: one colour).
-function paintPoints(x, y, z, value, scale, radius) {
+// x, y, z, value: Float32Arrays (value null: one colour, plain).
+function paintPoints(x, y, z, value, scale, radius, plain) {
 	const gl = paint.gl, program = use("points", scale, radius);
 	gl.uniform1f(gl.getUniformLocation(program, "coloured"), value ? 1 : 0);
-	gl.uniform3f(gl.getUniformLocation(program, "plain"), 1, 214 / 255, 150 / 255);
+	gl.uniform3f(gl.getUniformLocation(program, "plain"), ...plain);
 	gl.enable(gl.DEPTH_TEST);
 	gl.enable(gl.BLEND);
 	gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);

@@ -53,9 +53,11 @@ function scaleOf(name, one, points) {
 	return {lo, hi, log, map, start: points && map !== "coolwarm" ? 0.25 : 0}; // points must not be as dark as the ground
 }
 
+// The particles as they were chosen; as those beside them (withBar false) in one colour, on a mesh at their positions.
 function drawParticles(name, ink, withBar) {
 	const frame = frames[state.frame], place = placeOf(frame, name), radius = pointRadius(place ? place.kept : 0);
-	const keys = ["across", "up", "depth"].map(id => choice(name, chosen(id)));
+	const onMesh = chosen("show").startsWith("mesh ");
+	const keys = (onMesh ? ["x 0", "x 1", "x 2"] : ["across", "up", "depth"].map(chosen)).map(key => choice(name, key));
 	const numbers = keys.map(one => {
 		const field = one && fieldOf(place, one.field);
 		return field ? numbersOf(frame, place, field, one.c) : new Float32Array(place ? place.kept : 0);
@@ -74,7 +76,7 @@ function drawParticles(name, ink, withBar) {
 		return;
 	}
 	const one = withBar ? choice(name, chosen("colour")) : null, field = one && fieldOf(place, one.field), scale = one && scaleOf(name, one, true);
-	paintPoints(...numbers, field ? numbersOf(frame, place, field, one.c) : null, field ? scale : null, radius);
+	paintPoints(...numbers, field ? numbersOf(frame, place, field, one.c) : null, field ? scale : null, radius, withBar ? [1, 0.84, 0.59] : [0.62, 0.8, 1]);
 	if (field)
 		inkBar(ink, scale, withUnit(one.label, one.unit));
 }
@@ -196,8 +198,13 @@ function draw() {
 			drawParticles(chosen("overlay"), ink, false);
 			state.drawn = {...mesh, over: state.drawn};
 		}
-	} else
+	} else {
 		drawParticles(name, ink, true);
+		const own = state.drawn;
+		if (chosen("overlay") && chosen("overlay") !== name)
+			drawParticles(chosen("overlay"), ink, false);
+		state.drawn = {...own, over: state.drawn === own ? null : state.drawn};
+	}
 	const flat = flatAxes();
 	if (!curve && flat) {
 		inkFlatBox(ink, flat);

@@ -22,13 +22,14 @@ function readAddress() {
 }
 
 function tellNotes() {
-	const notes = [], types = new Set(frames.flatMap(f => [...f.sets, ...f.meshes]).flatMap(p => p.fields).flatMap(f => f.data).map(d => d && d.as));
+	const notes = [], places = frames.flatMap(f => [...f.sets, ...f.meshes]);
+	const of = type => [...new Set(places.filter(p => p.fields.some(f => f.data.some(d => d && d.as === type))).map(p => p.name))].join(", ");
 	if (run.leftOut)
 		notes.push(`Left out: this page has ${run.leftOut}.`);
-	if (types.has("u16"))
-		notes.push("Positions are rounded to 1/65535 of their range.");
-	if (types.has("f16"))
-		notes.push("Values are rounded to 3 digits.");
+	if (of("u16"))
+		notes.push(`Positions (${of("u16")}) are rounded to 1/65535 of their range.`);
+	if (of("f16"))
+		notes.push(`Values (${of("f16")}) are rounded to 3 digits.`);
 	byId("notes").textContent = notes.join(" ");
 	byId("history").textContent = (Array.isArray(run.history) ? run.history : []).map(commandOf).join("\n");
 }

@@ -1,20 +1,29 @@
 /* The columns of diag in time: all that exist under the law; those without a number throughout are left out. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/diag-column.h"
+#include "measure/known-energy.h"
 #include "viewer/viewer-curves.h"
 #include "viewer/viewer-frame.h"
 
-static const struct pm_diag_request request;
+static const struct pm_diag_request request, summed = {.pair = true};
 
 int pm_viewer_curves_reads(struct pm_frame *f) { return f->substep ? 0 : pm_diag_reads(&request, f); }
 
 int pm_viewer_curves_add(struct pm_viewer_curves *c, const struct pm_frame *f)
 {
-	const struct pm_measure how = pm_diag_how(&request, f);
+	struct pm_measure how = pm_diag_how(&request, f);
 	struct pm_measures m;
+	char why[200];
 	if (f->substep) /* the state is not at the header's time */
 		return 0;
-	if (pm_measure_frame(&how, f, &m))
-		return -PM_DATA;
+	int status = pm_measure_frame(&how, f, &m);
+	const bool lacks = !c->rows && isnan(m.value[PM_ENERGY_PAIR]) && isnan(m.value[PM_ENERGY_MESH]);
+	if (!status && (lacks || c->pairs) && pm_pairs_unasked(f, pm_law_of(f), &how, why) == PM_PAIRS_SUM) {
+		c->pairs = true;
+		how = pm_diag_how(&summed, f);
+		status = pm_measure_frame(&how, f, &m);
+	}
+	if (status)
+		return status;
 	json_t *row = json_array();
 	for (int k = 0; k < PM_COLUMNS; k++)
 		json_array_append_new(row, pm_column_suits((enum pm_column)k, &how) ? pm_viewer_number(m.value[k]) : json_null());

@@ -7,6 +7,7 @@
 #include "stream/frame.h"
 
 struct pm_viewer_curves { /* zero at first */
+	bool pairs;   /* the energy is summed over pairs: as in diag the first frame decides */
 	json_t *rows; /* an array of numbers for each frame, by column; time and step first */
 };
 

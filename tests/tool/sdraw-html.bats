@@ -132,19 +132,20 @@ unpack() {
 	need_chromium
 	pinit uniform --dim 2 -n 1 --cells 16 | scalc --mesh mesh 'f = sin(2*pi*x/Lx) + y/Ly' >two
 	pinit uniform -n 1 --cells 16 | scalc --mesh mesh 'f = 2 + sin(2*pi*x/Lx) + y/Ly + z/Lz' >three
+	places='eval [[0.2, 0.3], [0.5, 0.6], [0.8, 0.45]].map(p => project([p[0], p[1], 0.5].map((t, d) => t * frames[0].box[d < 2 ? d : 0].hi))).flat()
+		.concat(byId("view").getBoundingClientRect().top).map(Math.round).join(" ")'
 	for d in two three; do
 		sdraw --field f --range 0,5 --slice 0.5 -o $d.html <$d
 		sdraw --field f --range 0,5 --slice 0.5 --size 400 --format ppm <$d >$d.ppm
-		browser 'size 1000 700' "open $d.html" 'shot shot.png' 'eval document.getElementById("view").getBoundingClientRect().top' \
-			'eval [[0.2, 0.3], [0.5, 0.6], [0.8, 0.45]].map(p => project([p[0], p[1], 0.5].map((t, d) => t * frames[0].box[d < 2 ? d : 0].hi)))
-				.flat().map(Math.round).join(" ")' >out
-		pngtopnm shot.png >shot.ppm
-		top_=$(sed -n 1p out | cut -d. -f1)
-		read -ra p <<<"$(tail -n 1 out | tr -d '"')"
+	done
+	browser 'size 1000 700' 'open two.html' 'shot two.png' "$places" 'open three.html' 'shot three.png' "$places" >out
+	for d in two three; do
+		pngtopnm $d.png >shot.ppm
+		read -ra p <<<"$(tr -d '"' <out | sed -n "$([ $d = two ] && echo 1 || echo 2)p")"
 		# the data area of sdraw begins at 44, 24; a pixel is 1/400 of the map's way in its 5 units: 6 of 255
-		near "$(pixel shot.ppm "${p[0]}" $((p[1] + top_)))" "$(pixel $d.ppm $((44 + 80)) $((24 + 280)))" 6
-		near "$(pixel shot.ppm "${p[3]}" $((p[4] + top_)))" "$(pixel $d.ppm $((44 + 200)) $((24 + 160)))" 6
-		near "$(pixel shot.ppm "${p[6]}" $((p[7] + top_)))" "$(pixel $d.ppm $((44 + 320)) $((24 + 220)))" 6
+		near "$(pixel shot.ppm "${p[0]}" $((p[1] + p[9])))" "$(pixel $d.ppm $((44 + 80)) $((24 + 280)))" 6
+		near "$(pixel shot.ppm "${p[3]}" $((p[4] + p[9])))" "$(pixel $d.ppm $((44 + 200)) $((24 + 160)))" 6
+		near "$(pixel shot.ppm "${p[6]}" $((p[7] + p[9])))" "$(pixel $d.ppm $((44 + 320)) $((24 + 220)))" 6
 	done
 }
 
