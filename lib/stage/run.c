@@ -215,7 +215,8 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	json_set_alloc_funcs(json_room, free);
 	pm_memory_end(memory_ends);
 	atexit(left_early);
-	struct pm_stage *s = running.stage = pm_stage_make(tool, argc, argv, &status);
+	status = pm_rounding(getenv("PM_ROUNDING"));
+	struct pm_stage *s = running.stage = status ? NULL : pm_stage_make(tool, argc, argv, &status);
 	bool printed = s && !status && print_and_go(tool, &s->run->common);
 	if (s && !status && !printed)
 		status = run(s);
