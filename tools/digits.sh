@@ -155,25 +155,4 @@ main() {
 	report
 }
 
-# report: lines of "frame quantity value input rounding [f32] digits worst".
-report() {
-	local groups="input rounding${opt_f32:+ f32}"
-	{ agreement "$groups"; [ -z "$(runs_of fields)" ] || fields_agree "$groups"; } | awk -F'\t' -v OFS='\t' -v all="${opt_all:-}" -v least="${opt_least:-}" \
-		-v form="${opt_format:-table}" -v groups="$groups" '
-	{ line[NR] = $0; frame[NR] = $1; if ($1 > last) last = $1 }
-	function show(f, n,    i, text) {
-		if (form == "tsv") { for (i = 1; i <= n; i++) printf "%s%s", f[i], i < n ? OFS : "\n"; return }
-		text = sprintf("%5s %-26s %24s", f[1], f[2], f[3]); for (i = 4; i <= n; i++) text = text sprintf(" %9s", f[i]); print text }
-	END {
-		n = split("frame\tquantity\tvalue\t" groups "\tdigits\tworst", f, /[\t ]/); show(f, n)
-		for (k = 1; k <= NR; k++) {
-			n = split(line[k], f, "\t"); f[n + 1] = "-"
-			for (i = 4; i <= 5; i++) if (f[i] != "-" && (f[n + 1] == "-" || f[i] + 0 < f[n + 1] + 0)) f[n + 1] = f[i]
-			if (f[n + 1] != "-" && !((f[2] in worst) && worst[f[2]] <= f[n + 1] + 0)) worst[f[2]] = f[n + 1] + 0
-			f[n + 2] = f[2] in worst ? sprintf("%.1f", worst[f[2]]) : "-"
-			if (all || frame[k] == last) show(f, n + 2)
-			if (frame[k] == last && least != "" && f[3] != "-" && f[n + 1] != "-" && f[n + 1] + 0 < least + 0) few = few (few == "" ? "" : ", ") f[2] }
-		if (few != "") { print "digits: fewer than " least " digits: " few >"/dev/stderr"; exit 3 } }'
-}
-
 main "$@"

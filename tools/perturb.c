@@ -26,7 +26,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	const struct pm_perturb p = asked(s->config);
 	const int n = pm_perturb_declare(&p, f);
 	if (n == 0)
-		return pm_fail(PM_DATA, "no field of role state with real numbers to move%s (sls lists the fields)", p.on[0] || p.fields[0] ? " of these names" : "");
+		return pm_fail(PM_DATA, "no field of role state with real numbers to move%s (sls lists the fields)",
+			p.on[0] || p.fields[0] ? " of these names" : "");
 	return n < 0 ? n : 0;
 }
 
@@ -39,7 +40,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const struct pm_option options[] = {
 	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, PM_AT(seed), .text = "seed of the random numbers"},
-	{.name = "relative", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(relative), .text = "move each number by this fraction of itself; by default by one unit in the last place"},
+	{.name = "relative", .kind = PM_REAL, .fallback = "0", .high = 1, PM_AT(relative),
+		.text = "move each number by this fraction of itself; by default by one unit in the last place"},
 	{.name = "set", .kind = PM_LIST, .unit = "NAME", PM_AT(on), .text = "only these sets and meshes"},
 	{.name = "field", .letter = 'f', .kind = PM_LIST, .unit = "NAME", PM_AT(fields), .text = "only these fields"},
 	{0},
@@ -47,7 +49,8 @@ static const struct pm_option options[] = {
 
 static const struct pm_example examples[] = {
 	{"a cluster as it is, and one that differs in the last bit of each number: how far apart are they after 5 times?",
-		"pinit plummer -n 50 > a; perturb < a > b; for i in a b; do cycle -n 100 'push kick/2 drift | pp | push kick/2' < $i > $i.end; done; scmp --field x a.end b.end"},
+		"pinit plummer -n 50 > a; perturb < a > b; for i in a b; do cycle -n 100 'push kick/2 drift | pp | push kick/2' < $i > $i.end; "
+		"done; scmp --field x a.end b.end"},
 	{0},
 };
 

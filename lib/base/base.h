@@ -56,9 +56,6 @@ void pm_threads_use(int n);
 /* Seconds of a monotonic clock; only the stage layer and bench/ may call it. */
 double pm_seconds(void);
 
-/* Rounding of this process from now on: nearest, up, down, zero; NULL or empty: as it is. 0, or failure with a message. */
-int pm_rounding(const char *name);
-
 /* Random numbers: Philox4x32-10 (Salmon et al. 2011), a function of (seed, id, counter) and nothing else. */
 void pm_random(uint64_t seed, uint64_t id, uint64_t counter, double u[2]);        /* uniform in (0,1), 53 bits each */
 void pm_random_normal(uint64_t seed, uint64_t id, uint64_t counter, double z[2]); /* independent N(0,1) */

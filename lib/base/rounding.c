@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "base/rounding.h"
 
 int pm_rounding(const char *name)
 {

@@ -23,7 +23,9 @@ agreement() {
 		s = sqrt(s / (n - 1))
 		if (mean == 0) return 0
 		return s == 0 ? most : clip(log(sqrt(n) * size(mean) / (student(n - 1) * s)) / log(10)) }
-	BEGIN { most = 53 * log(2) / log(10); split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228", t, " "); ng = split(groups, group, " ") }
+	BEGIN { most = 53 * log(2) / log(10)
+		split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228", t, " ")
+		ng = split(groups, group, " ") }
 	FNR == 1 { run = FILENAME; sub(/\.table$/, "", run); sub(/.*\//, "", run); row = 0; names = 0 }
 	/^#/ || NF == 0 { next }
 	!names { names = NF; if (run == "as-is") { columns = NF; for (i = 1; i <= NF; i++) name[i] = $i } next }
@@ -35,7 +37,8 @@ agreement() {
 			print line } }' "$work/as-is.table" $(runs_of table)
 }
 
-# fields_agree GROUPS: the same for the fields of the streams, "frame set.field - GROUP...", by the largest relative l2 difference of a group from the run as it is.
+# fields_agree GROUPS: the same for the fields of the streams, "frame set.field - GROUP...", by the largest relative l2 difference of a group from the run as
+# it is.
 fields_agree() {
 	awk -F'\t' -v OFS='\t' -v groups="$1" '
 	function digits(x) { return x == 0 ? most : x >= 1 ? 0 : -log(x) / log(10) > most ? most : -log(x) / log(10) }
@@ -52,4 +55,26 @@ fields_agree() {
 				x = worst[group[g], order[i]]
 				line = line OFS ((group[g], order[i]) in worst && x ~ /^[0-9.]/ ? sprintf("%.1f", digits(x + 0)) : "-") }
 			print line } }' $(runs_of fields)
+}
+
+# report: lines of "frame quantity value input rounding [f32] digits worst".
+report() {
+	local groups="input rounding${opt_f32:+ f32}"
+	{ agreement "$groups"; [ -z "$(runs_of fields)" ] || fields_agree "$groups"; } | awk -F'\t' -v OFS='\t' -v all="${opt_all:-}" \
+		-v least="${opt_least:-}" -v form="${opt_format:-table}" -v groups="$groups" '
+	{ line[NR] = $0; frame[NR] = $1; if ($1 > last) last = $1 }
+	function show(f, n,    i, text) {
+		if (form == "tsv") { for (i = 1; i <= n; i++) printf "%s%s", f[i], i < n ? OFS : "\n"; return }
+		text = sprintf("%5s %-26s %24s", f[1], f[2], f[3]); for (i = 4; i <= n; i++) text = text sprintf(" %9s", f[i]); print text }
+	END {
+		n = split("frame\tquantity\tvalue\t" groups "\tdigits\tworst", f, /[\t ]/); show(f, n)
+		for (k = 1; k <= NR; k++) {
+			n = split(line[k], f, "\t"); f[n + 1] = "-"
+			for (i = 4; i <= 5; i++) if (f[i] != "-" && (f[n + 1] == "-" || f[i] + 0 < f[n + 1] + 0)) f[n + 1] = f[i]
+			if (f[n + 1] != "-" && !((f[2] in worst) && worst[f[2]] <= f[n + 1] + 0)) worst[f[2]] = f[n + 1] + 0
+			f[n + 2] = f[2] in worst ? sprintf("%.1f", worst[f[2]]) : "-"
+			if (all || frame[k] == last) show(f, n + 2)
+			if (frame[k] == last && least != "" && f[3] != "-" && f[n + 1] != "-" && f[n + 1] + 0 < least + 0)
+				few = few (few == "" ? "" : ", ") f[2] }
+		if (few != "") { print "digits: fewer than " least " digits: " few >"/dev/stderr"; exit 3 } }'
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/rounding.h"
 #include "stage/file-operands.h"
 #include "stage/internal.h"
 #include "stream/run.h"
