@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 10) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 11) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
