@@ -5,6 +5,7 @@
 
 #include "limit/rates.h"
 #include "measure/timestep-rules.h"
+#include "mesh/force-words.h"
 #include "stream/declare.h"
 
 static bool takes_part(const struct pm_timestep_rules *r, const struct pm_frame *f, const struct pm_set *s)
@@ -20,12 +21,15 @@ static int needs(const struct pm_timestep_rules *r, struct pm_frame *f, const st
 {
 	const char *names[] = {!isnan(r->courant) ? velocity(f, set) : NULL,
 		!isnan(r->acceleration) && pm_frame_field(f, set->name, "v") ? "acc" : NULL};
-	for (int i = 0; i < 2; i++)
+	char words[PM_FORCE_WORDS];
+	const struct pm_law *law = pm_law_of(f);
+	for (int i = 0; i < 2 && law; i++)
 		if (names[i] && !pm_frame_field(f, set->name, names[i]))
-			return pm_fail(PM_MISSING, "no field '%s' on '%s' (compute it first: p2m | poisson-fft | mgrad | m2p, or pp)", names[i], set->name);
+			return pm_fail(PM_MISSING, "no field '%s' on '%s' (compute it first: %s)", names[i], set->name,
+				*pm_force_words(f, law, NULL, names[i], words) ? words : "with field");
 		else if (names[i] && !pm_reads(f, set->name, names[i]))
 			return -PM_DATA;
-	return 0;
+	return law ? 0 : -PM_DATA;
 }
 
 /* The mesh field that advects particles. */

@@ -5,6 +5,7 @@
 
 #include "fft/axis-transform.h"
 #include "law/law.h"
+#include "mesh/force-words.h"
 #include "mesh/gradient-frame.h"
 #include "stream/declare.h"
 
@@ -71,6 +72,7 @@ static int beside_open_faces(struct pm_frame *f, const struct pm_law *law, const
 int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, struct pm_gradient *t)
 {
 	const struct pm_law *law = pm_law_of(f);
+	char words[PM_FORCE_WORDS];
 	if (!law)
 		return -PM_DATA;
 	const struct pm_mesh *mesh = pm_frame_mesh(f, o->mesh);
@@ -82,8 +84,9 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 	if (!strcmp(source, target))
 		return pm_fail(PM_USAGE, "source and target are both '%s' (choose another --target)", source);
 	if (!pm_frame_field(f, mesh->name, source))
-		return pm_fail(PM_DATA, "no field '%s' on '%s' (poisson-fft, poisson-mg or poisson-relax makes a potential, or choose --source)", source,
-			mesh->name);
+		return pm_fail(PM_DATA, "no field '%s' on '%s' (%s, or choose --source)", source, mesh->name,
+			strcmp(pm_force_words(f, law, mesh->name, source, words), "p2m | poisson-fft") ?
+			"poisson-fft, poisson-mg or poisson-relax makes a potential" : "p2m | poisson-fft makes it");
 	t->source = pm_reads(f, mesh->name, source);
 	if (!t->source)
 		return -PM_DATA;

@@ -1,10 +1,19 @@
 /* The rates of a set's states, found by the names and roles of its fields. Cost: the number of fields squared, no data.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
+#include "mesh/force-words.h"
 #include "push/state-rates.h"
 
-static const char *const remedy = "compute it first: p2m | poisson-fft | mgrad | m2p, or pp";
+static int missing(const struct pm_frame *f, const struct pm_set *s, const char *name)
+{
+	char words[PM_FORCE_WORDS];
+	const struct pm_law *law = pm_law_of(f);
+	if (law && !*pm_force_words(f, law, NULL, name, words))
+		snprintf(words, sizeof words, "field '%.60s = ...'", name);
+	return law ? pm_fail(PM_MISSING, "no field '%s' on '%s' (compute it first: %s)", name, s->name, words) : -PM_DATA;
+}
 
 bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
 
@@ -57,7 +66,7 @@ static int rate_of(const struct pm_frame *f, const struct pm_set *s, const char 
 			*rate = c;
 	}
 	if (named && !*rate)
-		return pm_fail(PM_MISSING, "no field '%s' on '%s' (%s)", named, s->name, remedy);
+		return missing(f, s, named);
 	return 0;
 }
 

@@ -75,8 +75,10 @@ int pm_clock_add(struct pm_set *s, double kick, double drift, bool open)
 	for (int i = 0; i < 2; i++) {
 		double sum = *done[i] + more[i];
 		if (sum > 1 + tolerance)
-			return pm_fail(PM_DATA, "%s on '%s' adds up to %.6g of a step (kick %.6g, drift %.6g were done before this push; each may reach 1)",
-				i ? "drift" : "kick", s->name, sum, s->kick, s->drift);
+			return pm_fail(PM_DATA, "%s on '%s' adds up to %.6g of a step (kick %.6g, drift %.6g were done before this push; %s)",
+				i ? "drift" : "kick", s->name, sum, s->kick, s->drift, i && s->kick > 0 && s->kick < 1 && s->drift == 1 ?
+				"the other part of the kick is missing: push kick/2 behind the force" : !i && s->kick == 1 && s->drift < 1 ?
+				"a push drift is missing before it" : "each may reach 1");
 		more[i] = fabs(sum - 1) <= tolerance ? 1 : sum;
 	}
 	s->kick = more[0], s->drift = more[1];

@@ -114,14 +114,15 @@ int pm_text_separator(struct pm_text *t)
 		;
 	const char found = pm_csv_separator(t->data + at, t->data + stop);
 	t->csv = found == ',';
-	return found == ';' ? pm_fail(PM_DATA, "semicolons separate its columns, but a table has commas, tabs or blanks there (tr ';' ',' where 0.5 has a point; "
-		"tr ',;' '.,' where it is written 0,5)") : 0;
+	return found == ';' ? pm_fail(PM_DATA, "semicolons separate its columns, but a table has commas, tabs or blanks there (tr ';' ',' where 0.5 has a "
+		"point; tr ',;' '.,' where it is written 0,5)") : 0;
 }
 
 static int name_add(const struct pm_text *t, struct pm_column *column, int n, const char *s, size_t length)
 {
 	if (n == PM_COLUMNS || !length || length >= PM_NAME || memchr(s, 0, length))
-		return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)", (unsigned long)t->line - 1, n + 1, PM_COLUMNS);
+		return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)", (unsigned long)t->line - 1, n + 1,
+			PM_COLUMNS);
 	column[n] = (struct pm_column){.component = 0};
 	memcpy(column[n].name, s, length);
 	return 0;

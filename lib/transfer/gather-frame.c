@@ -4,6 +4,7 @@
  * Cost: one gather of all components. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "mesh/force-words.h"
 #include "stream/declare.h"
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
@@ -12,7 +13,7 @@
 static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	const struct pm_law *law = j->law;
-	const char *words = "";
+	char words[PM_FORCE_WORDS];
 	for (size_t i = 0; i < f->nmeshes && !j->field; i++)
 		if (!mesh || !strcmp(mesh, f->meshes[i]->name)) {
 			j->mesh = f->meshes[i];
@@ -20,13 +21,11 @@ static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_ga
 		}
 	if (!j->mesh)
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", mesh ? " " : "", mesh ? mesh : "");
-	if (law->field && !strcmp(j->name, law->field))
-		words = " (run p2m | poisson-fft | mgrad first)";
-	else if (law->potential && !strcmp(j->name, law->potential))
-		words = " (run p2m | poisson-fft first)";
-	else if (law->density && !strcmp(j->name, law->density))
-		words = " (run p2m first)";
-	return j->field ? 0 : pm_fail(PM_DATA, "no field '%s' on mesh '%s'%s", j->name, mesh ? mesh : j->mesh->name, words);
+	if (j->field)
+		return 0;
+	if (!*pm_force_words(f, law, mesh, j->name, words))
+		return pm_fail(PM_DATA, "no field '%s' on mesh '%s'", j->name, mesh ? mesh : j->mesh->name);
+	return pm_fail(PM_DATA, "no field '%s' on mesh '%s' (run %s first)", j->name, mesh ? mesh : j->mesh->name, words);
 }
 
 /* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. A given field has the same values on

@@ -101,7 +101,7 @@ static void usage(void)
 static void refusals(void)
 {
 	struct pm_frame *f = frame(2, 3, true), *g = frame(2, 3, false);
-	const char *remedy = "no field 'acc' on 'matter' (compute it first: p2m | poisson-fft | mgrad | m2p, or pp)";
+	const char *remedy = "no field 'acc' on 'matter' (compute it first: field 'acc = ...')";
 	refused(f, "kick", PM_MISSING, remedy);
 	refused(f, "kick/2 drift", PM_MISSING, remedy);
 	refused(f, "rk4", PM_MISSING, remedy);
