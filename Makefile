@@ -271,6 +271,7 @@ install: all man $(B)/libpmpipe.a $(B)/pmpipe.pc
 	ln -sf libpmpipe.so.$(VERSION) $(D)/lib/libpmpipe.so.$(SOVERSION)
 	ln -sf libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so
 	for h in $(public); do install -D -m 644 $$h $(D)/include/pmpipe/$${h#lib/} || exit 1; done
+	install -m 644 lib/pmpipe-read.h $(D)/include/pmpipe
 	install -m 644 $(B)/pmpipe.pc $(D)/lib/pkgconfig
 	install -m 644 README.md NEWS COPYING $(wildcard docs/*.md) docs/read.py $(D)/share/doc/pmpipe
 	install -m 644 $(wildcard docs/methods/*.md) $(D)/share/doc/pmpipe/methods

@@ -7,7 +7,7 @@ set -u
 cd "$(dirname "$0")/../.." || exit 1
 seconds=$1
 shift
-[ $# != 0 ] || set -- reader sealed table expression sentence braces hdf5
+[ $# != 0 ] || set -- reader sealed pmpipe-read table expression sentence braces hdf5
 B=${B:-build/asan-clang}
 here=$PWD work=$PWD/$B/fuzz
 mkdir -p "$work/found" "$work/empty"
@@ -16,11 +16,11 @@ export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=256:mallo
 export LSAN_OPTIONS=suppressions=$here/tests/leaks.txt:print_suppressions=0
 passed=0 failed=0
 
-# library NAME PROGRAM: libFuzzer, in an empty directory; the first corpus directory gets what is new.
+# library NAME PROGRAM [CORPUS]: libFuzzer, in an empty directory; the first corpus directory gets what is new.
 library() {
 	local -a corpus=("$work/$1")
 	mkdir -p "$work/$1"
-	for dir in "$here/tests/fuzz/corpus/$2" "$here/tests/fuzz/crashes/$2"; do [ ! -d "$dir" ] || corpus+=("$dir"); done
+	for dir in "$here/tests/fuzz/corpus/${3:-$2}" "$here/tests/fuzz/crashes/${3:-$2}"; do [ ! -d "$dir" ] || corpus+=("$dir"); done
 	if [ "$1" = sealed ]; then unset PM_UNSEALED; else export PM_UNSEALED=1; fi
 	cd "$work/empty" && timeout $((seconds + 120)) "$here/$B/tests/fuzz/$2" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=2048 \
 		-artifact_prefix="$work/found/$1-" -print_final_stats=1 -verbosity=1 "${corpus[@]}"
@@ -31,6 +31,7 @@ one() {
 	local name=$1 log=$work/$1.log status inputs
 	case $name in
 	sealed) library sealed reader ;;
+	pmpipe-read) library pmpipe-read pmpipe-read reader ;;
 	braces) bash tests/fuzz/braces.sh "$seconds" "${SEED:-$(date +%s)}" ;;
 	hdf5) python3 tests/fuzz/hdf5.py "$seconds" "${SEED:-$(date +%s)}" "$work/found" ;;
 	*) library "$name" "$name" ;;

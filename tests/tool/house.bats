@@ -153,7 +153,7 @@ install_here() {
 	done
 	[ -s root/usr/lib/libpmpipe.a ]
 	[ -s root/usr/lib/libpmpipe.so ]
-	[ "$(public | sort)" = "$(cd root/usr/include/pmpipe && find . -type f | sed 's|^\./||' | sort)" ]
+	[ "$( (public; echo pmpipe-read.h) | sort)" = "$(cd root/usr/include/pmpipe && find . -type f | sed 's|^\./||' | sort)" ]
 	[ "$(PKG_CONFIG_PATH=root/usr/lib/pkgconfig pkg-config --modversion pmpipe)" = "$(sed -n 's/^#define PM_VERSION "\(.*\)"/\1/p' \
 		"$top/lib/base/base.h")" ]
 	install_here WITH_WORDS=1 install
@@ -192,6 +192,28 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 	run -1 --separate-stderr bash -c './meshforce <cut.pm >rest'
 	[[ $stderr == "meshforce: the input ends in the data"* ]]
 	run -1 diag <rest
+}
+
+# use_library has -I and -L of the installed tree; the reader needs no -l.
+@test "docs/library.md: the reader in one header compiles alone in C99 and C++, and the program gives the centre that diag gives" {
+	install_here
+	block c 3 "$top/docs/library.md" >centre.c
+	block sh 3 "$top/docs/library.md" >reader.sh
+	use_library
+	run -0 bash -euo pipefail reader.sh
+	[ "${#lines[@]}" = 3 ]
+	gcc -std=c99 -pedantic -Wall -Wextra -Wshadow -Werror -o centre centre.c $(pkg-config --cflags pmpipe)
+	! command -v g++ >/dev/null || g++ -std=c++17 -Wall -Wextra -Werror $(pkg-config --cflags pmpipe) -fsyntax-only -x c++ centre.c
+	! ldd centre | grep -qE 'pmpipe|jansson|libm\.'
+	pinit plummer -n 500 | tee a.pm | ./centre >got
+	read -r time x rest <got
+	within "$x" "$(diag <a.pm | column centre_x)" 1e-15
+	head -c 3000 a.pm >cut.pm
+	run -1 --separate-stderr bash -c './centre <cut.pm'
+	[[ $stderr == "centre: the input ends in the data: it was cut" ]]
+	pinit plummer | push kick >aborted.pm 2>said || true
+	run -1 --separate-stderr bash -c './centre <aborted.pm'
+	[ "$stderr" = "centre: $(cat said)" ]
 }
 
 @test "docs/library.md lists every header that is installed" {

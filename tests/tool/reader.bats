@@ -56,3 +56,98 @@ read_py() { python3 "$top/docs/read.py"; }
 	run -2 read_py <abort.pm
 	[ "$output" = "$(cat err)" ]
 }
+
+# The reader of lib/pmpipe-read.h in a program that prints what it reads; with --flips it reads the file with every byte damaged, and cut at every length.
+one_header() {
+	cat >print.c <<-'END'
+		#include "pmpipe-read.h"
+		static int all(FILE *file, int print)
+		{
+			struct pmr *r = pmr_of(file);
+			int code, got;
+			while ((got = pmr_next(r)) > 0)
+				for (size_t i = 0; i < r->nfields; i++) {
+					const struct pmr_field *f = r->fields + i;
+					size_t n;
+					const void *data = pmr_data(r, f->on, f->name, f->type, &n);
+					if (!print)
+						continue;
+					printf("%s %s %s\n", f->on, f->name, f->type);
+					for (size_t k = 0; k < n; k++)
+						for (int c = 0; c < f->components; c++) {
+							size_t at = (size_t)c * n + k;
+							double v = f->type[0] == 'i' ? (double)((const int64_t *)data)[at]
+								: f->type[0] == 'u' ? ((const unsigned char *)data)[at]
+								: f->type[1] == '3' ? ((const float *)data)[at] : ((const double *)data)[at];
+							printf("%.17g%c", v, c < f->components - 1 ? '\t' : '\n');
+						}
+				}
+			if (got && print)
+				fprintf(stderr, "%s\n", pmr_message(r));
+			code = pmr_code(r);
+			pmr_close(r);
+			return code;
+		}
+		int main(int argc, char **argv)
+		{
+			static unsigned char data[1 << 20];
+			FILE *file = fopen(argv[1], "rb");
+			size_t n = fread(data, 1, sizeof data, file), bad = 0;
+			fclose(file);
+			if (argc == 2)
+				return all(fmemopen(data, n, "rb"), 1);
+			for (size_t at = 0; at < n; at++) {
+				data[at] ^= 1 << at % 8;
+				bad += !all(fmemopen(data, n, "rb"), 0);
+				data[at] ^= 1 << at % 8;
+				bad += at && !all(fmemopen(data, at, "rb"), 0);
+			}
+			return bad != 0;
+		}
+	END
+	gcc -std=gnu99 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$top/lib" -o print print.c 2>err ||
+		gcc -std=gnu99 -O1 -Wall -Wextra -Werror -I"$top/lib" -o print print.c
+}
+
+@test "the reader in one header gets the values that docs/read.py gets, of every kind of field" {
+	one_header
+	cloud | p2m | poisson-fft | mgrad >a.pm
+	smod --store f32 <a.pm >b.pm
+	pinit two-stream -n 10 --cells 4 | cycle -n 2 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' >c.pm
+	cat a.pm c.pm >d.pm
+	sel --where 'x > 1e6' <a.pm >e.pm
+	wire edit a.pm 'h["remark"] = {"\u00e4\\\"b": [1e300, -1e-7, None, True, {}], "": []}
+h["fields"].insert(1, {"name": "fl\u00e4g\"", "on": "matter", "components": 1, "type": "u8", "role": "state", "kind": "value", "unit": ""})
+data.insert(1, bytearray(range(12)))' >f.pm
+	wire unseal a.pm >g.pm
+	for f in ?.pm; do
+		./print $f | awk '{ if ($0 !~ /^[a-z]/) for (i = 1; i <= NF; i++) $i = sprintf("%.17g", $i); $1 = $1; print }' >got
+		read_py <$f | awk '{ if ($0 !~ /^[a-z]/) for (i = 1; i <= NF; i++) $i = sprintf("%.17g", $i); $1 = $1; print }' | cmp - got
+		[ "$(wc -l <got)" -gt 5 ]
+	done
+}
+
+@test "the reader in one header refuses every flipped byte, every cut, and headers that lie; no read past the end" {
+	one_header
+	pinit two-body --no-history >a.pm
+	pinit plummer -n 2 --cells 2 --no-history | p2m --no-history >b.pm
+	for f in a b; do ./print $f.pm >/dev/null && ./print $f.pm --flips; done
+	for code in 'h["sets"][0]["n"] = 2 ** 48 + 1' 'h["sets"][0]["n"] = 2 ** 47' 'h["sets"] *= 2' 'h["fields"] *= 2' \
+		'h["meshes"][0]["cells"] = [2 ** 20] * 3' 'h["meshes"][0]["h"][1] = 0' 'h["fields"][0]["on"] = "nobody"' 'h["fields"][0]["components"] = 17' \
+		'h["fields"][0]["type"] = "f16"' 'h["fields"][0]["name"] = "n" * 64' 'h["byte_order"] = "big"' 'h["box"]["fields"][0] = ["periodic", "open"]' \
+		'del h["law"]' 'h["dim"] = 4' 'h["fields"][0]["name"] = "\0"' 'h["fields"][0]["uniform"] = [1]'; do
+		wire edit b.pm "$code" >bad.pm || continue
+		run -1 ./print bad.pm
+		[ "${#lines[@]}" = 1 ]
+	done
+	wire text b.pm '"dim":3' '"dim":3,"dim":3' >bad.pm
+	run -1 ./print bad.pm
+	for f in "$top"/tests/fuzz/crashes/reader/*; do
+		code=0
+		PM_UNSEALED=1 timeout 20 ./print "$f" >out 2>err || code=$?
+		[[ $code -le 3 && $(wc -l <err) -le 1 ]] || { cat err; return 1; }
+	done
+	push --nonsense <a.pm >abort.pm 2>said || true
+	run -2 ./print abort.pm
+	[ "$output" = "$(cat said)" ]
+}
