@@ -21,6 +21,7 @@ make_one() {
 	local name=$1 commands began=$SECONDS file
 	commands=$(block "$name")
 	[ -n "$commands" ] || { echo "atlas: docs/accuracy/README.md has no picture '$name' with commands below it" >&2; return 1; }
+	echo "atlas: $name, figure $((++made)) of ${#names[@]}, $SECONDS s so far" >&2
 	mkdir "$work/$name"
 	ln -s "$top/data" "$top/docs" "$work/$name"
 	(cd "$work/$name" && bash -euo pipefail -c "$commands" </dev/null) || { echo "atlas: $name failed" >&2; return 1; }
@@ -67,7 +68,8 @@ trap 'rm -rf "$work"' EXIT
 out=${OUT:-$top/docs/accuracy} # OUT=DIRECTORY: elsewhere
 mkdir -p "$out"
 [ $# != 0 ] || mapfile -t all < <(names)
-for name in "${@:-${all[@]}}"; do
+made=0 names=("${@:-${all[@]}}")
+for name in "${names[@]}"; do
 	make_one "$name"
 done
 if [ $# = 0 ]; then

@@ -8,12 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/replace.h"
+#include "base/status-line.h"
 #include "stage/internal.h"
 #include "cycle/checkpoint.h"
 #include "cycle/loop.h"
 #include "cycle/missing-words.h"
 #include "cycle/output.h"
+#include "cycle/progress.h"
 #include "cycle/run-end.h"
 #include "planner/plan.h"
 #include "sentence/process-chain.h"
@@ -33,7 +34,7 @@ struct cycle {
 	bool judged;            /* the first frame was compared with the sentence */
 	int64_t start, written; /* step at the beginning of the run; step last written */
 	int64_t saved;          /* step of the last checkpoint */
-	double told;            /* clock of the last progress line */
+	struct pm_progress progress;
 	struct pm_checkpoint kept;
 	struct pm_output what;  /* is written of a frame */
 	struct pm_frame *last;  /* the beginning of the step under way, where the sentence has processes, which may never answer; else NULL */
@@ -56,6 +57,7 @@ static bool give_up(void)
 	static double since;
 	if (stop && since == 0) {
 		since = pm_seconds();
+		pm_status_clear();
 		fprintf(stderr, "cycle: signal %d: waits for the processes of this step, %d s at most (a second signal does not wait)\n", (int)stop, most_wait);
 	}
 	return stops > 1 || (stop && pm_seconds() - since > most_wait);
@@ -94,6 +96,7 @@ static int write_out(struct cycle *y, struct pm_frame *f)
 {
 	y->written = f->step;
 	say_until(y, f);
+	pm_progress_writes(&y->progress);
 	struct pm_frame *part = pm_output_of(&y->what, y->words, f);
 	const int status = part ? pm_write_frame(y->out, part) : pm_failed();
 	pm_frame_free(part);
@@ -107,15 +110,6 @@ static int keep(struct cycle *y, struct pm_frame *f)
 	if (!status && y->c->every > 0 && f->step % y->c->every == 0)
 		status = write_out(y, f);
 	return status || !pm_checkpoint_due(&y->kept, f) ? status : checkpoint(y, f);
-}
-
-static void progress(struct cycle *y, const struct pm_frame *f, bool last)
-{
-	double now = pm_seconds();
-	if (y->s->quiet || !isatty(STDERR_FILENO) || (!last && now - y->told < 0.2))
-		return;
-	y->told = now;
-	fprintf(stderr, "\rcycle: step %lld, time %g%s", (long long)f->step, f->time, last ? "\n" : "   ");
 }
 
 static bool done(const struct cycle *y, const struct pm_frame *f)
@@ -215,7 +209,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 			"behind it: push kick/2 drift | ... | push kick/2)",
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
-	progress(y, *f, false);
+	pm_progress_step(&y->progress, *f);
 	status = full ? pm_run_end_restore(&y->end, *f) : 0;
 	status = full && !status && !y->c->moves.n ? pm_watch_step(&y->watch, *f) : status;
 	status = status || !full ? status : look(y, *f);
@@ -275,6 +269,8 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->start = y->c->resume ? json_integer_value(start) : (*f)->step;
 	json_object_del((*f)->more, "cycle_start");
 	watch(y, *f);
+	y->progress = (struct pm_progress){.first = y->start, .steps = y->c->steps, .to = y->c->time};
+	pm_progress_begin(&y->progress, y->s, *f);
 	y->written = y->saved = -1;
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
@@ -293,7 +289,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 		if (!status && stop && (*f)->substep == 0)
 			status = interrupted(y, *f);
 	}
-	progress(y, *f, true);
+	pm_progress_end(&y->progress, *f);
 	if (!status && pm_run_end_reached(&y->end, *f))
 		pm_run_end_tell(&y->end, y->s, y->words, *f, (*f)->step - y->start, began);
 	json_decref(y->before);

@@ -39,7 +39,14 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 	return 0;
 }
 
-const char *pm_gradient_order_of(const struct pm_field *p) { return json_string_value(json_object_get(p->more, PM_DIFFERENCES)); }
+const char *pm_gradient_order_of(const struct pm_field *p)
+{
+	const char *order = json_string_value(json_object_get(p->more, PM_DIFFERENCES));
+	for (int i = 0; order && pm_order_names[i]; i++)
+		if (!strcmp(order, pm_order_names[i]))
+			return order;
+	return NULL;
+}
 
 bool pm_gradient_repeats(const struct pm_frame *f, const struct pm_field *p)
 {

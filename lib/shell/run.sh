@@ -47,6 +47,13 @@ why() {
 
 note() { printf '%s\n' "$1" >>"$state/log"; }
 
+# in_place TEXT: rewrites the line on the terminal, cut to its width, beyond which it would not be rewritten but repeated.
+in_place() {
+	local width=80 said
+	said=$(stty size <&2 2>/dev/null) && [ "${said#* }" -gt 1 ] && width=${said#* }
+	printf '\r%.*s\033[K' $((width - 1)) "$1" >&2
+}
+
 # Stops the running processes (child, or the process groups that are the keys of children), reports the progress, keeps the log.
 stop() {
 	local c

@@ -160,12 +160,12 @@ visit() {
 
 progress() {
 	local left=''
-	[ "$1" = 0 ] || left=", about $(((SECONDS - began) * ($2 - $1) / $1)) s left"
+	[ "$1" = 0 ] || left=", $((100 * $1 / $2)) %, about $(((SECONDS - began) * ($2 - $1) / $1)) s left"
 	doing="$1 of $2 measured$3"
 	if [ -n "${opt_quiet:-}" ]; then
 		return 0
 	elif [ -t 2 ]; then
-		printf '\r%s: %s%s  \033[K' "$me" "$doing" "$left" >&2
+		in_place "$me: $1 of $2 measured$left$3"
 	elif [ -n "${opt_verbose:-}" ]; then
 		printf '%s: %s%s\n' "$me" "$doing" "$left" >&2
 	fi

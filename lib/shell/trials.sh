@@ -171,7 +171,7 @@ progress() {
 	if [ -n "${opt_quiet:-}" ]; then
 		return 0
 	elif [ -t 2 ]; then
-		printf '\r%s: %s%s  \033[K' "$me" "$made runs" "${phase:+ ($phase)}" >&2
+		in_place "$me: $made runs${phase:+ ($phase)}, $SECONDS s"
 	elif [ -n "${opt_verbose:-}" ]; then
 		printf '%s: %s runs%s\n' "$me" "$made" "${phase:+ ($phase)}" >&2
 	fi

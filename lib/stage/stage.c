@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/status-line.h"
 #include "stage/internal.h"
 #include "stream/run.h"
 #include "stage/apply.h"
@@ -159,6 +160,7 @@ void pm_report_text(const struct pm_stage *s, struct pm_frame *f, const char *ke
 
 static void say(const struct pm_stage *s, const char *format, va_list ap, const char *more)
 {
+	pm_status_clear();
 	fprintf(stderr, "%s: ", s->tool->name);
 	vfprintf(stderr, format, ap);
 	fprintf(stderr, "%s\n", more);
