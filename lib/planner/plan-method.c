@@ -112,13 +112,15 @@ static void vortex_mesh(struct pm_plan *p)
 	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, error of remeshing %.1g%s", hk, error, more);
 }
 
-/* Enough cells that the nearest pair is several cells apart (lib/effect/near-field.c). */
-static void few_bodies(const struct pm_frame *f, struct pm_plan *p)
+/* Enough cells that the nearest pair is several cells apart (lib/effect/near-field.c), beyond 8 times as many of the frame up to 160 an axis in 3-D. */
+void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_scales *s = &p->scales;
 	const double apart = s->softening > 0 ? hypot(s->nearest, s->softening) : s->nearest;
 	int factor = 1;
-	while (factor < 8 && 0.25 * pow(s->h / (factor * apart), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < 3e7)
+	if (s->pairs || !f->nmeshes || !(s->n < 32) || (s->kind != PM_MASSES && s->kind != PM_CHARGES))
+		return;
+	while (0.25 * pow(s->h / (factor * apart), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < (factor < 8 ? 3e7 : 4.2e6))
 		factor *= 2;
 	for (int d = 0; d < f->dim && factor > 1; d++)
 		p->method.cells[d] = (size_t)factor * f->meshes[0]->cells[d];
@@ -138,10 +140,8 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 		vortex_mesh(p);
 		return;
 	}
-	if (s->n < 32) {
-		few_bodies(f, p);
-		return;
-	}
+	if (s->n < 32)
+		return; /* pm_plan_few_bodies */
 	const struct try t = mesh_try(p, scene, h);
 	if (!t.row)
 		return;

@@ -2,6 +2,7 @@
  * effect needs them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "effect-parts/effect-decision.h"
 #include "planner/scales.h"
 #include "planner/plan.h"
 
@@ -66,11 +67,9 @@ static int alone(const struct pm_frame *f, const struct pm_plan *p, struct pm_pl
 	return pm_plan_compose(f, q);
 }
 
-static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char *typed)
+static int force_on(const struct pm_frame *f, struct pm_plan *p, const char *typed)
 {
 	struct pm_plan q;
-	if (p->scales.kind == PM_NO_FIELD || p->scales.kind == PM_CARRIED || !(p->scales.sources > 0))
-		return 0;
 	const bool own = !typed || !*typed;
 	int status = own ? alone(f, p, &q) : 0;
 	const double began = pm_seconds();
@@ -82,6 +81,26 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char
 		p->scales.h = fmax(d ? p->scales.h : 0, g->meshes[0]->h[d]);
 	status = pm_scales_of_force(g, p->law, &p->scales);
 	pm_frame_free(g);
+	return status;
+}
+
+/* Forces that cancel on a mesh must also cancel where it resolves the nearest pair: on one cell, or two, all do. */
+static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char *typed)
+{
+	const struct pm_scales *s = &p->scales;
+	const size_t before[3] = {p->method.cells[0], p->method.cells[1], p->method.cells[2]};
+	if (s->kind == PM_NO_FIELD || s->kind == PM_CARRIED || !(s->sources > 0))
+		return 0;
+	int status = force_on(f, p, typed);
+	double h = s->h, points = s->points;
+	const bool mesh = !typed && !s->pairs && f->nmeshes && s->sources > 1 && s->nearest > 0;
+	while (mesh && !status && pm_effect_cancels(s) && h > s->nearest / 3 && points < 1e6) {
+		for (int d = 0; d < f->dim; d++)
+			p->method.cells[d] = 2 * (p->method.cells[d] ? p->method.cells[d] : f->meshes[0]->cells[d]);
+		h *= 0.5, points *= pow(2, f->dim);
+		status = force_on(f, p, typed);
+	}
+	memcpy(p->method.cells, before, sizeof before);
 	return status;
 }
 
@@ -157,6 +176,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 {
 	int status = begin(f, c, p);
 	status = status ? status : by_hand(f, p, c);
+	if (!status)
+		pm_plan_few_bodies(f, p);
 	status = status ? status : measure_force(f, p, NULL);
 	if (!status)
 		pm_plan_mesh(f, p), pm_plan_step(f, p);

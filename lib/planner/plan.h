@@ -57,6 +57,7 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
 /* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
+void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
 void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 
 /* plan-run.c: runs a sentence for a number of full steps on a copy of a frame. seconds, if not NULL: of each word in the last step, without set-up. */

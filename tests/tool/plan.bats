@@ -337,3 +337,15 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	# what cells of this size smooth away in any case
 	pinit uniform -n 500 --cells 8 --softening 1e-4 --box 0,1 | plan --no-cost | says smoothing | grep -q '^off '
 }
+
+@test "a coarse mesh is not physics: forces that vanish on one cell or two are measured again where the mesh resolves the particles" {
+	pinit pair --length 1 --x1 .45 --y1 .5 --z1 .5 --x2 .55 --y2 .5 --z2 .5 >start # the default mesh has one cell
+	cycle -n 0 --every 1 "$(plan --sentence <start)" <start | stab --plain >got
+	a=$(awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "acc_0") c = i; next } NR == 2 { print $c }' got)
+	within "$a" 200 3 # G m/d^2, less the images and the background, 4 pi/3 G m d = 0.8; the accuracy of 0.01
+	plan --no-cost <start | says 'self field' | grep -q '^on '
+	pinit langmuir --cells 2 | plan --no-cost >text
+	says 'self field' <text | grep -q '^on '
+	[ "$(pinit lattice --cells 16 -n 512 | plan --sentence)" = 'push drift' ] # forces that do cancel
+	[ "$(pinit lattice --cells 8 -n 64 | plan --sentence)" = 'push drift' ]
+}
