@@ -36,8 +36,8 @@ or braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstab
 finite, not converged). Any other failure ends the search with its message. With {seed} in the sentence every limit is found for --seeds seeds. Two
 ranges make a map: stable or not on a grid of --map points, and the boundary refined.
 
-With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (gnuplot: growth per step on both sides of the limit, or the map) and
-index.html, a page of one file; the results are kept there, and the same command continues a search that was stopped."
+With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (splot: growth per step on both sides of the limit, or the map) and index.html,
+a page of one file whose table sorts; the results are kept there, and the same command continues a search that was stopped."
 rows="|vary|TEXT||name:low:high is bisected (in the logarithm where high is more than 10 times low); name=value,value,... gives a row for each; \
 may be given several times
 u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
@@ -87,10 +87,9 @@ settle() {
 	read_options "$@"
 	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
-	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} keep=${opt_output:-} \
+	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} \
 		format=${opt_format:-table} growth=${opt_column:-}
-	[ "$keep" = / ] || keep=${keep%/}
-	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
+	keep_directory
 	axes
 	map_width=24 map_height=16 seeds=1 has_seed=
 	if [ -n "${opt_map:-}" ]; then
@@ -109,8 +108,7 @@ settle() {
 	awk -v x="$tolerance" 'BEGIN { exit !(x >= 1e-9 && x < 1) }' || usage "--tolerance $tolerance is not between 1e-9 and 1"
 	if [ -z "$growth" ] && [[ $criterion =~ [A-Za-z_][A-Za-z0-9_.]* ]]; then growth=${BASH_REMATCH[0]}; fi
 	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
-	command_line=$(printf '%q ' "$me" "$@")
-	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
+	as_typed "$@"
 }
 
 # The sentences, in which the numbers are not yet inserted.
@@ -133,21 +131,10 @@ understand() {
 }
 
 open_state() {
-	work_directory
-	state=$work
-	local key
-	key=$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")
-	if [ -n "$keep" ]; then
-		state=$keep/measured
-		mkdir -p "$state" 2>/dev/null || fail 1 "cannot make the directory '$keep'"
-		if [ -n "${opt_fresh:-}" ]; then rm -f "$state/log" "$state/key"; fi
-		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another search (choose another -o, or --fresh to forget it)"
-		printf '%s\n' "$key" >"$state/key"
-	fi
-	local x='[-+0-9.eE,]+'
 	local x='[-+0-9.eE,]+' count=$'\t''[0-9]+' result
 	result="^(trial$count$count"$'\t'"$x"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
-	checked_log "$result"$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
+	result+=$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
+	open_results search "$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")" "$result" "$result"
 }
 
 main() {

@@ -19,6 +19,8 @@ version=@VERSION@
 . lib/shell/sweep.sh
 # shellcheck source=lib/shell/front.sh
 . lib/shell/front.sh
+# shellcheck source=lib/shell/front-picture.sh
+. lib/shell/front-picture.sh
 # shellcheck source=lib/shell/references.sh
 . lib/shell/references.sh
 
@@ -33,8 +35,8 @@ The seconds are those that the words report (--timing; for a word without this o
 median, the spread half the range. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not
 stop the others.
 
-With -o DIRECTORY: pareto.tsv, pareto.svg, pareto.png (gnuplot) and index.html, a page of one file; the results are kept there, and the same command
-continues a sweep that was stopped."
+With -o DIRECTORY: pareto.tsv, pareto.svg and pareto.png (splot) and index.html, a page of one file whose table sorts; the results are kept there, and the
+same command continues a sweep that was stopped. Then --until-error, --within and --tsv need no SENTENCE."
 rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in \
 SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
 f|field|NAME||compare these fields, with commas between (default: all)
@@ -64,22 +66,22 @@ seconds_of() {
 
 settle() {
 	read_options "$@"
-	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
-	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
-	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-} \
-		keep=${opt_output:-}
-	[ "$keep" = / ] || keep=${keep%/}
-	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
+	[ ${#positional[@]} -le 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
+	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-}
+	keep_directory
 	until=${opt_until_error:-} within_seconds=
 	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of "$opt_within")
+	if [ ${#positional[@]} = 0 ]; then
+		answer_again
+		exit
+	fi
 	[ -n "$against" ] || usage "--against is missing: what is the reference? (a sentence such as 'pp', a file, exact, or finest)"
 	[ "$repeat" -ge 1 ] || usage "--repeat 0 measures nothing (--repeat 1)"
 	[[ -z $jobs || $jobs -ge 1 ]] || usage "--jobs 0 runs nothing (--jobs 1)"
 	[[ -z $jobs || -z $within_seconds ]] || usage "--within wants seconds, which --jobs does not measure (leave --jobs out)"
 	[[ $against != exact || -n $field ]] || usage "--against exact wants --field: columns that diag --exact knows (--field energy_kinetic)"
 	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
-	command_line=$(printf '%q ' "$me" "$@")
-	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
+	as_typed "$@"
 }
 
 # The sentences, their common beginning, and the tree of the remaining words.
@@ -98,21 +100,11 @@ understand() {
 	refer
 }
 
-# open_state: the directory of results with its log, or a temporary one.
 open_state() {
-	work_directory
-	state=$work
-	local key
-	key=$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" "${jobs:+errors}")
-	if [ -n "$keep" ]; then
-		state=$keep/measured
-		mkdir -p "$state" 2>/dev/null || fail 1 "cannot make the directory '$keep'"
-		if [ -n "${opt_fresh:-}" ]; then rm -f "$state/log" "$state/key"; fi
-		[[ ! -s $state/key || $(cat "$state/key") == "$key" ]] || usage "'$keep' holds another sweep (choose another -o, or --fresh to forget it)"
-		printf '%s\n' "$key" >"$state/key"
-	fi
 	local x='[^[:space:]]+'
-	checked_log "^(time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
+	open_results sweep "$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" \
+		"${jobs:+errors}")" '^error' \
+		"^(time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
 }
 
 all_known() {
@@ -131,11 +123,7 @@ report() {
 	[ ! -t 2 ] || printf '\r\033[K' >&2
 	if [ -n "$keep" ]; then
 		cp "$work/pareto.tsv" "$keep/pareto.tsv"
-		if command -v gnuplot >/dev/null; then
-			plot "$keep" || true
-		else
-			tell "no gnuplot here: no picture (apt-get install gnuplot-nox)"
-		fi
+		plot "$keep"
 		page "$keep"
 	fi
 	if [ -n "$until$within_seconds" ]; then

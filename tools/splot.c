@@ -4,11 +4,11 @@
 #include "chart/plot-job.h"
 #include "stage/stage.h"
 
-static const char *const styles[] = {"auto", "lines", "points", "both", "steps", NULL}, *const legends[] = {"auto", "outside", "none", NULL};
+static const char *const legends[] = {"auto", "outside", "none", NULL};
 
 struct config {
 	const char *style, *legend;
-	struct pm_list columns, errors, xerrors, by, where;
+	struct pm_list columns, errors, xerrors, by, where, styles;
 	struct pm_vector slope, level, mark, xrange, yrange;
 	int64_t width, height;
 	bool log, logx, logy;
@@ -44,8 +44,9 @@ static const struct pm_option options[] = {
 		.text = "lines of these slopes (on logarithmic axes: powers), through the middle of the first, the second ... line of data"},
 	{.name = "level", .kind = PM_VECTOR, .unit = "Y", PM_AT(level), .text = "horizontal lines"},
 	{.name = "mark", .kind = PM_VECTOR, .unit = "X", PM_AT(mark), .text = "vertical lines"},
-	{.name = "style", .letter = 's', .kind = PM_WORD, .fallback = "auto", .choices = styles, PM_AT(style),
+	{.name = "style", .letter = 's', .kind = PM_WORD, .fallback = "auto", .choices = pm_chart_styles, PM_AT(style),
 		.text = "lines, points, both, or steps; auto: both up to 60 points, then lines"},
+	{.name = "style-of", .kind = PM_LIST, .unit = "LABEL=STYLE", PM_AT(styles), .text = "the style of one line; steps is then thick and black too"},
 	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", PM_AT(job.title), .text = "title"},
 	{.name = "x-label", .kind = PM_TEXT, .unit = "TEXT", PM_AT(job.label[0]), .text = "label of the x axis, as 'time [s]' (default: the column)"},
 	{.name = "y-label", .kind = PM_TEXT, .unit = "TEXT", PM_AT(job.label[1]), .text = "label of the y axis"},
@@ -61,22 +62,22 @@ static int whole(struct pm_stage *s)
 {
 	struct config *c = s->config;
 	struct pm_plot_job *j = &c->job;
-	const struct pm_list *const list[] = {&c->columns, &c->errors, &c->xerrors, &c->by, &c->where};
+	const struct pm_list *const list[] = {&c->columns, &c->errors, &c->xerrors, &c->by, &c->where, &c->styles};
 	const struct pm_vector *const numbers[] = {&c->xrange, &c->yrange, &c->slope, &c->mark, &c->level};
-	for (int k = 0; k < 5; k++) {
+	for (int k = 0; k < 6; k++)
 		j->list[k] = list[k]->item, j->n[k] = list[k]->n;
+	for (int k = 0; k < 5; k++)
 		j->numbers[k] = numbers[k]->x, j->count[k] = numbers[k]->n;
-	}
-	while (strcmp(styles[j->columns.style], c->style))
+	while (strcmp(pm_chart_styles[j->columns.style], c->style))
 		j->columns.style++;
 	j->logx = c->log || c->logx, j->logy = c->log || c->logy;
 	j->legend_outside = *c->legend == 'o', j->no_legend = *c->legend == 'n';
 	j->width = pm_given(s, "width") ? (int)c->width : 0, j->height = pm_given(s, "height") ? (int)c->height : 0;
 	int status = pm_plot_job_run(j, s->nargs, s->args);
 	if (!status && j->beyond)
-		fprintf(stderr, "splot: numbers below 0, which a logarithmic axis leaves out: %zu\n", j->beyond);
+		pm_note(s, "numbers below 0, which a logarithmic axis leaves out: %zu", j->beyond);
 	if (!status && j->unplaced)
-		fprintf(stderr, "splot: names beside points without room: %zu (a larger --width and --height, or fewer rows with --where)\n", j->unplaced);
+		pm_note(s, "names beside points without room: %zu (a larger --width and --height, or fewer rows with --where)", j->unplaced);
 	return status;
 }
 

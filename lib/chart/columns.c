@@ -155,6 +155,14 @@ struct pm_chart_series *pm_chart_series_new(struct pm_chart *c, size_t room)
 	return s->x && s->y ? s : NULL;
 }
 
+static bool is_gap(const struct source *s, size_t row)
+{
+	for (size_t c = 0; c < s->t->columns; c++)
+		if (*s->t->word[c * s->t->rows + row])
+			return false;
+	return true;
+}
+
 /* The rows of the group of `row` as one series. */
 static int group(struct pm_chart *c, const struct source *s, size_t row, bool done[])
 {
@@ -164,14 +172,15 @@ static int group(struct pm_chart *c, const struct source *s, size_t row, bool do
 	if (!p)
 		return pm_failed();
 	p->label = label_of(s, row), p->style = s->w->style;
-	p->colour = p->mark = (int)(c->nseries - 1);
-	p->dashed = p->colour >= PM_CHART_COLOURS;
+	p->mark = (int)(c->nseries - 1);
+	p->colour = p->mark % (PM_CHART_COLOURS - 1), p->dashed = p->mark >= PM_CHART_COLOURS - 1; /* black is kept for pm_chart_restyle */
 	p->dx = s->dx ? pm_alloc(n + 1, sizeof *p->dx) : NULL, p->dy = s->dy ? pm_alloc(n + 1, sizeof *p->dy) : NULL;
 	p->name = name >= 0 ? pm_alloc(n + 1, sizeof *p->name) : NULL;
 	if (!p->label || (s->dx && !p->dx) || (s->dy && !p->dy) || (name >= 0 && !p->name))
 		return pm_no_memory();
 	for (size_t i = row; i < n; i++) {
-		if (done[i] || !same_group(s, row, i) || !wanted(s->w, s->t, s->where, i))
+		bool gap = is_gap(s, i) && p->n; /* between two blocks of rows: in every series that has begun */
+		if (!gap && (done[i] || is_gap(s, i) || !same_group(s, row, i) || !wanted(s->w, s->t, s->where, i)))
 			continue;
 		p->x[p->n] = s->x[i], p->y[p->n] = s->y[i];
 		if (p->dx)
@@ -181,7 +190,7 @@ static int group(struct pm_chart *c, const struct source *s, size_t row, bool do
 		if (p->name)
 			p->name[p->n] = s->t->word[(size_t)name * n + i];
 		p->n++;
-		done[i] = true;
+		done[i] = !gap;
 	}
 	return 0;
 }
@@ -203,8 +212,7 @@ static int add_column(struct pm_chart *c, struct source *s, int k)
 	}
 	s->dx = own[0], s->dy = own[1];
 	for (size_t i = 0; i < n && !status; i++) {
-		bool gap = w->nby && !*s->t->word[(size_t)s->by[0] * n + i];
-		if (!done[i] && !gap && wanted(w, s->t, s->where, i))
+		if (!done[i] && !is_gap(s, i) && wanted(w, s->t, s->where, i))
 			status = group(c, s, i, done);
 	}
 	pm_free(done), pm_free(own[0]), pm_free(own[1]);
@@ -232,6 +240,29 @@ int pm_chart_add(struct pm_chart *c, const struct pm_chart_columns *want, const 
 		status = add_column(c, &s, k);
 	pm_free(s.x), pm_free(s.y);
 	return status;
+}
+
+const char *const pm_chart_styles[] = {"auto", "lines", "points", "both", "steps", NULL};
+
+int pm_chart_restyle(struct pm_chart *c, const struct pm_chart_columns *want)
+{
+	for (int i = 0; i < want->nstyles; i++) {
+		const char *equal = strrchr(want->styles[i], '='), *word = equal ? equal + 1 : "";
+		int style = 0;
+		while (pm_chart_styles[style] && strcmp(pm_chart_styles[style], word))
+			style++;
+		if (!equal || !pm_chart_styles[style])
+			return pm_fail(PM_USAGE, "--style-of '%s' is not LABEL=lines, points, both or steps", want->styles[i]);
+		for (size_t k = 0; k < c->nseries; k++) {
+			struct pm_chart_series *s = &c->series[k];
+			if (strlen(s->label) != (size_t)(equal - want->styles[i]) || strncmp(s->label, want->styles[i], strlen(s->label)))
+				continue;
+			s->style = (enum pm_chart_style)style;
+			if (s->style == PM_CHART_STEPS)
+				s->thick = true, s->dashed = false, s->colour = PM_CHART_COLOURS - 1, s->mark = 0;
+		}
+	}
+	return 0;
 }
 
 void pm_chart_free(struct pm_chart *c)

@@ -211,7 +211,8 @@ static bool find_rooms(struct pm_drawing *d)
 
 void pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas)
 {
-	struct pm_drawing d = {.c = c, .k = canvas, .letter = fmax(6, sqrt((double)c->width * c->height) / 72), .outside = c->legend_outside};
+	const double size = fmax(6, sqrt((double)c->width * c->height) / 72), flat = fmin(c->width / 90.0, c->height / 14.0);
+	struct pm_drawing d = {.c = c, .k = canvas, .letter = fmax(size, flat), .outside = c->legend_outside};
 	legend_size(&d);
 	lay_out(&d);
 	if (!find_rooms(&d)) {

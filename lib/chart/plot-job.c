@@ -120,6 +120,7 @@ static int read_all(struct plot *p)
 	int status = 0;
 	w->nerrors = job->n[1], w->error = job->list[1], w->nxerrors = job->n[2], w->xerror = job->list[2];
 	w->nby = job->n[3], w->by = job->list[3], w->nwhere = job->n[4], w->where = job->list[4];
+	w->nstyles = job->n[5], w->styles = job->list[5];
 	for (int k = 0; k < p->nfiles && !status; k++) {
 		char file[256] = "";
 		status = pm_number_table_read(&p->table[k], p->file[k]);
@@ -131,7 +132,7 @@ static int read_all(struct plot *p)
 		if (!status)
 			status = pm_chart_add(&p->chart, w, &p->table[k], file);
 	}
-	return status;
+	return status ? status : pm_chart_restyle(&p->chart, w);
 }
 
 static void labels(struct plot *p)

@@ -6,8 +6,8 @@
 
 struct pm_plot_job {
 	const char *input, *output, *title, *label[2], *theory;
-	const char *const *list[5]; /* columns, errors, errors along x, by, where */
-	int n[5];
+	const char *const *list[6]; /* columns, errors, errors along x, by, where, styles of single lines */
+	int n[6];
 	struct pm_chart_columns columns; /* x, name and style are given */
 	bool text, ascii, logx, logy, legend_outside, no_legend;
 	const double *numbers[5];   /* ends of the x and of the y axis (none: of the data), slopes, vertical and horizontal lines */

@@ -177,22 +177,32 @@ void pm_series_line(struct pm_drawing *d, const struct pm_chart_series *s)
 
 bool pm_drawing_inside(const struct pm_drawing *d, double x, double y) { return x >= d->x0 - 0.5 && x <= d->x1 + 0.5 && y >= d->y0 - 0.5 && y <= d->y1 + 0.5; }
 
-/* The bar of point i along one axis; on a logarithmic one it may run to the lower edge. */
-static void error_bar(struct pm_drawing *d, const struct pm_chart_series *s, size_t i, int axis)
+/* The ends of the bar of point i along one axis, x0 y0 x1 y1: on a logarithmic one it may run to the lower edge. false: there is none. */
+static bool ends_of_bar(const struct pm_drawing *d, const struct pm_chart_series *s, size_t i, int axis, double bar[4])
 {
-	const double *half = axis ? s->dy : s->dx, v = axis ? s->y[i] : s->x[i], cap = 0.28 * d->letter;
+	const double *half = axis ? s->dy : s->dx, v = axis ? s->y[i] : s->x[i];
 	const struct pm_chart_axis *a = axis ? &d->c->y : &d->c->x;
-	if (!half || !(half[i] > 0) || (a->log && v <= 0))
-		return;
-	double end[2], fixed = axis ? pm_drawing_x(d, s->x[i]) : pm_drawing_y(d, s->y[i]);
+	double at[2] = {pm_drawing_x(d, s->x[i]), pm_drawing_y(d, s->y[i])};
+	if (!half || !(half[i] > 0) || (a->log && v <= 0) || isnan(at[0]) || isnan(at[1]) || !pm_drawing_inside(d, at[0], at[1]))
+		return false;
 	for (int k = 0; k < 2; k++) {
 		double e = v + (k ? 1 : -1) * half[i], low = axis ? d->y1 : d->x0;
-		end[k] = a->log && e <= 0 ? low : axis ? pm_drawing_y(d, e) : pm_drawing_x(d, e);
-		end[k] = axis ? fmin(fmax(end[k], d->y0), d->y1) : fmin(fmax(end[k], d->x0), d->x1);
+		double end = a->log && e <= 0 ? low : axis ? pm_drawing_y(d, e) : pm_drawing_x(d, e);
+		bar[2 * k] = axis ? at[0] : fmin(fmax(end, d->x0), d->x1);
+		bar[2 * k + 1] = axis ? fmin(fmax(end, d->y0), d->y1) : at[1];
 	}
-	const double bar[3][4] = {{fixed, end[0], fixed, end[1]}, {fixed - cap, end[0], fixed + cap, end[0]}, {fixed - cap, end[1], fixed + cap, end[1]}};
-	for (int k = 0; k < 3; k++)
-		pm_drawing_piece(d, axis ? bar[k] : (double[4]){bar[k][1], bar[k][0], bar[k][3], bar[k][2]}, 0.1 * d->letter, NULL, colour_of(s));
+	return true;
+}
+
+static void error_bar(struct pm_drawing *d, const struct pm_chart_series *s, size_t i, int axis)
+{
+	const double cap = 0.28 * d->letter, dx = axis ? cap : 0, dy = axis ? 0 : cap, width = 0.1 * d->letter;
+	double bar[4];
+	if (!ends_of_bar(d, s, i, axis, bar))
+		return;
+	pm_drawing_piece(d, bar, width, NULL, colour_of(s));
+	for (int k = 0; k < 4; k += 2)
+		pm_drawing_piece(d, (double[4]){bar[k] - dx, bar[k + 1] - dy, bar[k] + dx, bar[k + 1] + dy}, width, NULL, colour_of(s));
 }
 
 void pm_series_points(struct pm_drawing *d, const struct pm_chart_series *s)
@@ -228,5 +238,10 @@ void pm_series_take(struct pm_drawing *d, const struct pm_chart_series *s)
 			pm_room_take_line(&d->room, a, b, PM_ROOM_LINE);
 		if ((pm_series_has_marks(s) || s->name) && !isnan(before[0]) && !isnan(before[1]))
 			pm_room_take(&d->room, (double[4]){before[0] - r, before[1] - r, before[0] + r, before[1] + r}, PM_ROOM_MARK);
+		for (int axis = 0; axis < 2; axis++) {
+			double bar[4];
+			if (ends_of_bar(d, s, i, axis, bar))
+				pm_room_take_line(&d->room, bar, bar + 2, PM_ROOM_MARK);
+		}
 	}
 }

@@ -10,14 +10,6 @@ show() {
 	esac
 }
 
-pictures() {
-	if command -v gnuplot >/dev/null; then
-		"$1" "$keep" || true
-	else
-		tell "no gnuplot here: no picture (apt-get install gnuplot-nox)"
-	fi
-}
-
 report() {
 	local title="How far from the edge" table=table name=limits drawn=plot
 	if [ ${#axis_name[@]} = 2 ]; then
@@ -31,7 +23,7 @@ report() {
 		cp "$work/margin.tsv" "$keep/margin.tsv"
 		[ ${#axis_name[@]} = 1 ] || tsv_boundary >"$keep/boundary.tsv"
 		json "$work/margin.tsv" $name >"$keep/margin.json"
-		pictures $drawn
+		$drawn "$keep"
 		$table "$work/margin.tsv" >"$work/text"
 		page "$keep" "$title" "$work/text"
 	fi

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Makes the result of a sweep from its log: the table of all members with the Pareto front (members to which no other is both cheaper and more accurate),
-# as TSV, text, picture and page. SPDX-License-Identifier: GPL-3.0-or-later
+# as TSV, text and page. SPDX-License-Identifier: GPL-3.0-or-later
 
 # members: prints a line per member: number, path, chosen..., sentence.
 members() {
@@ -113,92 +113,6 @@ table() {
 	}' "$1"
 }
 
-# The picture: error against seconds, the front as a step line, its members labelled with their choices, the others with their number.
-points() {
-	awk -F'\t' -v choices=${#choice_name[@]} -v front="$2" -v OFS='\t' 'NR > 1 && $2 == "ok" && $3 == front && $5 > 0 && $11 > 0 {
-		label = $1
-		if (front == "yes") for (i = 1; i <= choices; i++) label = label " " $(14 + i)
-		if (length(label) > 40) label = substr(label, 1, 37) "..."
-		print $11, $5, label }' "$1"
-}
-
-plot() {
-	local dir=$1
-	terminal
-	if [ -n "$jobs" ]; then
-		plot_errors "$dir" || return 1
-	else
-		plot_front "$dir" || return 1
-	fi
-	draw "$dir" pareto.gp
-}
-
-# The picture without seconds: a line per member with its choices, the smallest error at the top.
-plot_errors() {
-	local rows
-	rows=$(awk -F'\t' -v choices=${#choice_name[@]} 'NR > 1 && $2 == "ok" && $5 > 0 && $5 !~ /inf/ {
-		label = $1; for (i = 1; i <= choices; i++) label = label " " $(14 + i)
-		gsub(/"/, "\047", label); print ++n "\t" $5 "\t" (length(label) > 60 ? substr(label, 1, 57) "..." : label) }' "$1/pareto.tsv")
-	[ -n "$rows" ] || { tell "no member with an error above zero: no picture"; return 1; }
-	cat >"$1/pareto.gp" <<GP
-set datafile separator tab
-\$members << END
-$rows
-END
-set logscale x
-set format x "%g"
-set yrange [$(wc -l <<<"$rows").5:0.5]
-set ytics font ",9" noenhanced
-set grid
-set key off
-set title "Errors, without seconds; numbers are members"
-set xlabel $(gnuplot_text "$norm${field:+ of $field}") noenhanced
-draw = 'plot \$members using 2:1:yticlabels(3) with points pt 7 ps 0.8 lc rgb "#c03030"'
-set terminal svg size 900,$((100 + 18 * $(wc -l <<<"$rows"))) dynamic font "sans,12" background "white"
-set output "pareto.svg"
-@draw
-set terminal $png size 900,$((100 + 18 * $(wc -l <<<"$rows"))) font "sans,11"
-set output "pareto.png"
-@draw
-GP
-}
-
-plot_front() {
-	local dir=$1
-	[ -n "$(points "$dir/pareto.tsv" yes)" ] || { tell "no member with an error and seconds above zero: no picture"; return 1; }
-	cat >"$dir/pareto.gp" <<GP
-set datafile separator tab
-\$front << END
-$(points "$dir/pareto.tsv" yes)
-END
-\$others << END
-$(points "$dir/pareto.tsv" no)
-END
-set logscale xy
-set format "%g"
-$(awk -F'\t' 'NR > 1 && $2 == "ok" && $5 > 0 && $11 > 0 { x = log($11); y = log($5); n++
-		if (n == 1) { a = b = x; c = d = y } if (x < a) a = x; if (x > b) b = x; if (y < c) c = y; if (y > d) d = y }
-		END { w = b - a; h = d - c; printf "set xrange [%g:%g]\n", exp(a - 0.04 * w - 0.1), exp(b + 0.3 * w + 0.2)
-		printf "set yrange [%g:%g]\n", exp(c - 0.08 * h - 0.1), exp(d + 0.1 * h + 0.1) }' "$dir/pareto.tsv")
-set grid
-set key off
-set title "Error against seconds; red: the Pareto front; numbers are members"
-set xlabel "seconds"
-set ylabel $(gnuplot_text "$norm${field:+ of $field}") noenhanced
-draw = 'plot \$front using 1:2 with steps lw 2 lc rgb "#c03030", '
-draw = draw . '\$front using 1:2 with points pt 7 ps 1 lc rgb "#c03030", '
-draw = draw . '\$front using 1:2:3 with labels noenhanced left offset 0.8,0.5 font ",10"'
-if (|\$others| > 0) draw = draw . ', \$others using 1:2 with points pt 7 ps 0.6 lc rgb "#888888", '
-if (|\$others| > 0) draw = draw . '\$others using 1:2:3 with labels noenhanced left offset 0.4,0.3 font ",8" tc rgb "#666666"'
-set terminal svg size 900,620 dynamic font "sans,12" background "white"
-set output "pareto.svg"
-@draw
-set terminal $png size 900,620 font "sans,11"
-set output "pareto.png"
-@draw
-GP
-}
-
 # Every command that was run, ready to be pasted into a shell: files of the temporary working directory are replaced by files in the current directory.
 commands() {
 	local m n before start='' i argument
@@ -246,20 +160,18 @@ commands() {
 	done
 }
 
-rows_html() {
-	escape <"$1" | awk -F'\t' '{ tag = NR == 1 ? "<th>" : "<td>"; s = ""; for (i = 1; i <= NF; i++) if (i < 6 || i > 10) s = s tag $i
-		print ($3 == "yes" ? "<tr class=front>" : "<tr>") s }'
-}
-
 page() {
 	local dir=$1
 	{
-		page_head pareto '.front{background:#fbe9e7}'
-		printf '<h1>What accuracy costs in time</h1>\n<h2>The sentence</h2>\n<pre>%s</pre>\n' "$(escape <<<"$command_line")"
+		page_head pareto
+		printf '<h1>What accuracy costs in time</h1>\n'
+		pasted 'The sentence' "$command_line"
 		if [ -s "$dir/pareto.svg" ]; then
-			[ -n "$jobs" ] || printf '<h2>Error against seconds</h2>\n<p>Red: the Pareto front. Numbers are members.</p>\n'
+			[ -n "$jobs" ] || printf '<h2>Error against seconds</h2>\n<p>Black steps: the Pareto front, %s.</p>\n' \
+				'with the numbers and choices of its members'
 			[ -z "$jobs" ] || printf '<h2>Errors</h2>\n'
 			inline_svg "$dir/pareto.svg"
+			pasted 'The picture from points.tsv' "$picture_command"
 		fi
 		printf '<h2>The members</h2>\n<p>'
 		[ -n "$jobs" ] || printf \
@@ -267,26 +179,34 @@ page() {
 			'set-up apart; the largest memory of one word. '
 		[ ! -e "$state/reference.0.seconds" ] || printf 'The reference took %s s.' "$(cat "$state"/reference.*.seconds | awk '{ s += $1 } END {
 			printf "%.3g", s }')"
-		printf '</p>\n<table>\n'
-		rows_html "$dir/pareto.tsv"
-		printf '</table>\n<h2>In words</h2>\n<pre>%s</pre>\n' "$(table "$dir/pareto.tsv" | escape)"
+		printf ' A click on the head of a column sorts by it.</p>\n'
+		rows_html "$dir/pareto.tsv" 6 10
+		printf '<h2>In words</h2>\n<pre>%s</pre>\n' "$(table "$dir/pareto.tsv" | escape)"
 		page_foot
 	} >"$dir/index.html"
 }
 
 # choose TSV: prints the cheapest sentence within --until-error, or the most accurate one --within the cost.
 choose() {
-	awk -F'\t' -v choices=${#choice_name[@]} -v until="$until" -v within="$within_seconds" -v me=$me '
-		NR > 1 && $2 == "ok" && $5 !~ /nan|inf/ {
+	awk -F'\t' -v until="$until" -v within="$within_seconds" -v me=$me '
+		NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+		$2 == "ok" && $5 !~ /nan|inf/ {
 			if (floor == "" || $5 + 0 < floor) floor = $5 + 0
 			if ($11 != "-" && (quick == "" || $11 + 0 < quick)) quick = $11 + 0
 			if (until != "" && $5 + 0 > until + 0) next
 			if (within != "" && ($11 == "-" || $11 + 0 > within + 0)) next
 			key = until != "" ? $11 + 0 : $5 + 0
-			if (found == "" || key < best) { best = key; found = $(15 + choices) } }
+			if (found == "" || key < best) { best = key; found = $at["sentence"] } }
 		END { if (found != "") { print found; exit }
 			if (floor == "") print me ": no sentence could be measured" > "/dev/stderr"
 			else printf "%s: no sentence meets this: the smallest error is %.3g, the shortest time %s s\n", me, floor,
 				quick == "" ? "-" : sprintf("%.3g", quick) > "/dev/stderr"
 			exit 1 }' "$1"
+}
+
+# answer_again: without a sentence, --until-error, --within and --tsv are answered from the finished sweep in the directory of -o.
+answer_again() {
+	[[ -n $keep && -n $until$within_seconds${opt_tsv:-} ]] || usage "SENTENCE is missing"
+	[ -s "$keep/pareto.tsv" ] || usage "SENTENCE is missing, and '$keep' holds no finished sweep (pareto.tsv)"
+	if [ -n "$until$within_seconds" ]; then choose "$keep/pareto.tsv"; else cat -- "$keep/pareto.tsv"; fi
 }

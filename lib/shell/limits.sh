@@ -55,32 +55,25 @@ name_of_member() {
 	printf '%s' "${s:-${axis_name[0]}}"
 }
 
+# plot DIRECTORY: growth against the parameter, a line for each choice; the limits dashed.
 plot() {
-	local dir=$1 m k=0 draws='' limits=''
-	terminal
+	local m marks options=()
 	{
-		echo 'set datafile separator tab'
+		printf '%s\tgrowth\tcase\n' "${axis_name[0]}"
 		for m in "${!sentence[@]}"; do
-			[ -n "$(curve "$m")" ] || continue
-			printf '$curve%d << END\n%s\nEND\n' "$m" "$(curve "$m")"
-			k=$((k + 1))
-			draws+="${draws:+, }\$curve$m using 1:2 with linespoints pt 7 ps 0.5 lw 1.5 lc $k title $(gnuplot_text "$(name_of_member \
-				"$m")") noenhanced"
+			curve "$m" | awk -F'\t' -v OFS='\t' -v name="$(name_of_member "$m")" '{ print $1, $2, name }'
 		done
-		limits=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) \
-			'NR > 1 && $c != "-" { printf "set arrow from %s, graph 0 to %s, graph 1 nohead dt 2 lc rgb \"#888888\"\n", $c, $c }' "$dir/margin.tsv")
-		[ -z "$limits" ] || echo "$limits"
-		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
-		printf 'set format "%%g"\nset grid\nset key left top\nset xlabel "%s" noenhanced\nset ylabel %s noenhanced\n' "${axis_name[0]}" \
-			"$(gnuplot_text "growth of ln($growth) per step")"
-		echo 'set title "Growth on both sides of the limit (dashed)"'
-		echo "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#444444'"
-		[ -z "$draws" ] || printf \
-			'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\n' "$draws"
-		[ -z "$draws" ] || printf 'set terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$png" "$draws"
-	} >"$dir/margin.gp"
-	[ -n "$draws" ] || { tell "no growth could be measured: no picture (--column NAME)"; return 1; }
-	draw "$dir" margin.gp
+	} >"$1/points.tsv"
+	if [ "$(wc -l <"$1/points.tsv")" = 1 ]; then
+		tell "no growth could be measured: no picture (--column NAME)"
+		return
+	fi
+	marks=$(awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" && n++ < 16 { printf "%s%s", (n > 1 ? "," : ""), $c }' "$1/margin.tsv")
+	[ -z "$marks" ] || options=(--mark="$marks")
+	[ "${axis_scale[0]}" != log ] || options+=(--log-x)
+	[ ${#sentence[@]} = 1 ] || options+=(--by case)
+	picture "$1" margin --x "${axis_name[0]}" growth --level 0 "${options[@]}" --title 'Growth on both sides of the limit (dashed)' \
+		--y-label "growth of ln($growth) per step"
 }
 
 # Every command that was run, in the order of the log.
@@ -100,19 +93,20 @@ commands() {
 	done <"$state/log"
 }
 
-rows_html() { escape <"$1" | awk -F'\t' '{ tag = NR == 1 ? "<th>" : "<td>"; s = ""; for (i = 1; i <= NF; i++) s = s tag $i; print "<tr>" s }'; }
-
 # page DIRECTORY TITLE TEXT-FILE
 page() {
 	local dir=$1
 	{
-		page_head margin ''
-		printf '<h1>%s</h1>\n<h2>The sentence</h2>\n<pre>%s</pre>\n' "$2" "$(escape <<<"$command_line")"
-		if [ -s "$dir/margin.svg" ]; then inline_svg "$dir/margin.svg"; fi
+		page_head margin
+		printf '<h1>%s</h1>\n' "$2"
+		pasted 'The sentence' "$command_line"
+		if [ -s "$dir/margin.svg" ]; then
+			inline_svg "$dir/margin.svg"
+			pasted 'The picture from points.tsv' "$picture_command"
+		fi
 		printf '<h2>In words</h2>\n<pre>%s</pre>\n' "$(escape <"$3")"
-		printf '<h2>The numbers</h2>\n<table>\n'
+		printf '<h2>The numbers</h2>\n<p>A click on the head of a column sorts by it.</p>\n'
 		rows_html "$dir/margin.tsv"
-		printf '</table>\n'
 		page_foot
 	} >"$dir/index.html"
 }

@@ -92,31 +92,19 @@ table_map() {
 	done
 }
 
+# plot_map DIRECTORY: the boundary of each choice as a line; of a single one the stable points too.
 plot_map() {
-	local dir=$1 m draws='' one
-	terminal
+	local m options=()
 	{
-		echo 'set datafile separator tab'
+		printf '%s\t%s\tcase\n' "${axis_name[0]}" "${axis_name[1]}"
 		for m in "${!sentence[@]}"; do
-			printf '$stable%d << END\n%s\nEND\n' "$m" "$(look_map points | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m && $4 == "stable" { print $2,
-				$3 }')"
-			printf '$line%d << END\n%s\nEND\n' "$m" "$(look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" '$1 == m { print $2, $3; print $4, $5;
-				print "" }')"
-			one="\$line$m using 1:2 with lines lw 2 lc $((m + 1)) title $(gnuplot_text "$(name_of_member "$m")") noenhanced"
-			[ ${#sentence[@]} != 1 ] ||
-				one="\$stable0 using 1:2 with points pt 5 ps 0.7 lc rgb \"#c6dbef\" title \"stable\", "
-			[ ${#sentence[@]} != 1 ] ||
-				one+="\$line0 using 1:2 with lines lw 2 lc rgb \"#08519c\" title \"boundary\""
-			draws+="${draws:+, }$one"
+			look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" -v name="$([ ${#sentence[@]} = 1 ] && echo boundary || name_of_member "$m")" '
+				$1 == m { print $2, $3, name; print $4, $5, name; print "" }'
 		done
-		printf 'set xrange [%s:%s]\nset yrange [%s:%s]\n' "${axis_low[0]}" "${axis_high[0]}" "${axis_low[1]}" "${axis_high[1]}"
-		[ "${axis_scale[0]}" != log ] || echo 'set logscale x'
-		[ "${axis_scale[1]}" != log ] || echo 'set logscale y'
-		printf 'set format "%%g"\nset grid\nset key outside right top\nset xlabel "%s" noenhanced\nset ylabel "%s" noenhanced\n' \
-			"${axis_name[0]}" "${axis_name[1]}"
-		echo 'set title "Where it is stable"'
-		printf 'set terminal svg size 900,620 dynamic font "sans,12" background "white"\nset output "margin.svg"\nplot %s\n' "$draws"
-		printf 'set terminal %s size 900,620 font "sans,11"\nset output "margin.png"\nplot %s\n' "$png" "$draws"
-	} >"$dir/margin.gp"
-	draw "$dir" margin.gp
+		[ ${#sentence[@]} != 1 ] || look_map points | awk -F'\t' -v OFS='\t' '$4 == "stable" { print $2, $3, "stable" }'
+	} >"$1/points.tsv"
+	[ "${axis_scale[0]}" != log ] || options+=(--log-x)
+	[ "${axis_scale[1]}" != log ] || options+=(--log-y)
+	picture "$1" margin --x "${axis_name[0]}" "${axis_name[1]}" --by case --style lines --style-of stable=points "${options[@]}" \
+		--x-range="${axis_low[0]},${axis_high[0]}" --y-range="${axis_low[1]},${axis_high[1]}" --title 'Where it is stable'
 }

@@ -12,12 +12,6 @@ plain_words() {
 	text="${all[*]}"
 }
 
-# gnuplot_text TEXT: as a single-quoted gnuplot string; in double-quoted ones gnuplot runs the text between backquotes.
-gnuplot_text() {
-	local q="'"
-	printf "'%s'" "${1//"$q"/"$q$q"}"
-}
-
 # own_directory: where this program is, and the other words beside it; they come first on PATH, because other packages have words of our names.
 own_directory() { dirname "$(readlink -f -- "$(command -v -- "$0")")"; }
 
@@ -62,4 +56,33 @@ stop() {
 	[ ! -t 2 ] || printf '\r\033[K' >&2
 	echo "$me: stopped; ${doing:-nothing measured yet}${keep:+; the same command goes on from here}" >&2
 	exit 130
+}
+
+# keep_directory: the directory of -o, never mistaken for an option or an assignment. as_typed ARGUMENTS...: sets command_line.
+keep_directory() {
+	keep=${opt_output:-}
+	[ "$keep" = / ] || keep=${keep%/}
+	[[ $keep != *=* && $keep != -* || $keep == /* ]] || keep=./$keep
+}
+as_typed() {
+	command_line=$(printf '%q ' "$me" "$@")
+	[[ $* == *"'"* ]] || command_line="$me$(for a; do [[ $a =~ ^[A-Za-z0-9_./:=+-]+$ ]] && printf ' %s' "$a" || printf " '%s'" "$a"; done)"
+}
+
+# open_results WHAT KEY RESULT PATTERN: the directory with the log, that of -o or a temporary one. Of another KEY only what has no result yet is replaced:
+# a sentence that failed may be corrected. RESULT: the lines of the log that are results, PATTERN: all valid ones.
+open_results() {
+	work_directory
+	state=$work
+	if [ -n "$keep" ]; then
+		state=$keep/measured
+		mkdir -p "$state" 2>/dev/null || fail 1 "cannot make the directory '$keep'"
+		if [ -n "${opt_fresh:-}" ]; then rm -f "$state/log" "$state/key"; fi
+		if [[ -s $state/key && $(cat "$state/key") != "$2" ]]; then
+			! grep -qaE "$3" "$state/log" 2>/dev/null || usage "'$keep' holds another $1 (choose another -o, or --fresh to forget it)"
+			rm -f "$state/log"
+		fi
+		printf '%s\n' "$2" >"$state/key"
+	fi
+	checked_log "$4"
 }

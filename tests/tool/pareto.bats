@@ -169,11 +169,10 @@ by_hand() {
 @test "with -o: TSV, both pictures, and one self-contained page" {
 	sweep --repeat 1 -o d | tail -n 1 >last
 	[ "$(cat last)" = "page: d/index.html" ]
-	command -v gnuplot >/dev/null || skip "no gnuplot here"
 	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
 	grep -q '</svg>' d/pareto.svg
 	[ "$(wc -l <d/pareto.tsv)" = 4 ]
-	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script|@import|url\((https?|file)" d/index.html
+	run -1 grep -oiE "(src|href)=['\"]?[^#'\"]|<link|<script[^>]@import|url\((https?|file)" d/index.html
 	for what in '<svg' 'pinit uniform -n 500 | p2m --kernel tsc -n {8,16,32}' 'processors' 'pmpipe ' 'poisson-fft --timing' 'scmp --field acc' \
 		'p2m --kernel tsc -n 16 --timing'; do
 		grep -qF -- "$what" d/index.html || { echo "page lacks $what"; return 1; }
@@ -182,7 +181,8 @@ by_hand() {
 
 # pasted DIRECTORY: the relative_l2 of all members, by the commands of its page, in an empty directory.
 pasted() {
-	sed -n '/Every command as run/,$p' "$1/index.html" | sed -e '1d' -e 's/<[^>]*>//g' -e 's/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g' >commands
+	sed -n '/Every command as run/,/<\/pre>/p' "$1/index.html" |
+		sed -e '1d; s/<button.*<\/button>//; s/<[^>]*>//g; s/&lt;/</g; s/&gt;/>/g; s/&quot;/"/g; s/&amp;/\&/g' >commands
 	mkdir "$1.again"
 	(cd "$1.again" && bash ../commands 2>/dev/null) | awk -F'\t' '$3 == "acc" { print $8 }' | sort -g
 }
@@ -202,14 +202,76 @@ errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
 	grep -q '^export OMP_NUM_THREADS=1$' commands
 }
 
+@test "the picture: a line per method with error bars, the front with names that do not overlap; an error of 0 has its place" {
+	echo 'member status front dominated_by error l1 l2 max relative_l2 relative_max seconds spread setup memory_mb kernel n sentence reason' |
+		tr ' ' '\t' >t
+	i=0
+	for kernel in cic tsc; do for n in 8 16 32; do
+		i=$((i + 1))
+		printf '%d\tok\t%s\t-\t%s\t-\t-\t-\t-\t-\t%s\t0.02\t0\t1\t%s\t%s\ts\t-\n' $i "$([ $kernel = cic ] && echo yes || echo no)" \
+			"$([ $n = 32 ] && echo 0 || echo 0.$((40 / n)))" "0.$((n / 8))1" $kernel $n
+	done; done >>t
+	mkdir d work
+	cp t d/pareto.tsv
+	(me=pareto work=work jobs='' norm=relative_l2 field=acc choice_name=(kernel n)
+		tell() { echo "$me: $*" >&2; }
+		for f in run page front-picture; do . "$top/lib/shell/$f.sh"; done
+		plot d) 2>said
+	[ ! -s said ]
+	for what in 'Pareto front' cic tsc '1 cic 8' '2 cic 16' '3 cic 32' 0 'relative_l2 of acc'; do
+		[ "$(grep -c ">$what</text>" d/pareto.svg)" = 1 ] || { echo "$what"; return 1; }
+	done
+	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
+	[ "$(grep -c 'stroke-width="1.1"' d/pareto.svg)" -ge 18 ] # six bars of three pieces
+}
+
+@test "the page works in a browser without a network: a click sorts the table by numbers, nothing is on the console, text is escaped" {
+	command -v chromium >/dev/null || skip "no chromium here"
+	pareto 'pinit uniform -n 50 | p2m --kernel {k} -n {8,16} | poisson-fft | mgrad | m2p' --vary 'k=<b>&,tsc,cic' --against finest --field acc \
+		--repeat 1 -o d >/dev/null
+	# What a reader would do, at the end of the page; the state is then printed.
+	sed 's|</body>|<script>const heads = [...document.querySelectorAll("th")], click = n => heads.find(h => h.textContent === n).click();\
+		const column = () => [...document.querySelectorAll("tbody tr")].map(r => r.cells[4].textContent).join(" ");\
+		const out = document.createElement("div"); click("error"); out.append("UP " + column()); click("error"); out.append(" DOWN " + column());\
+		document.querySelector("button.copy").click(); document.body.append(out);</script></body>|' d/index.html >page.html
+	chromium --headless --no-sandbox --disable-gpu --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr --dump-dom \
+		"file://$PWD/page.html" >dom 2>log
+	! grep CONSOLE log
+	up=$(sed -n 's/.*<div>UP \(.*\) DOWN .*/\1/p' dom)
+	down=$(sed -n 's/.*<div>UP .* DOWN \([^<]*\)<.*/\1/p' dom)
+	[ "$(tr ' ' '\n' <<<"$up" | grep -c '[0-9]')" = 4 ] # and two that failed
+	[ "$(tr ' ' '\n' <<<"$up" | grep -v '^-$' | sort -g | xargs)" = "$(tr ' ' '\n' <<<"$up" | grep -v '^-$' | xargs)" ]
+	[ "$(tr ' ' '\n' <<<"$down" | grep -v '^-$' | sort -gr | xargs)" = "$(tr ' ' '\n' <<<"$down" | grep -v '^-$' | xargs)" ]
+	grep -q '&lt;b&gt;&amp;' d/index.html
+	! grep -q '<b>&' d/index.html
+}
+
+@test "a finished directory answers --until-error, --within and --tsv without the sentence; a directory whose sentences all failed takes the corrected one" {
+	run -2 --separate-stderr pareto -o d --until-error 0.1
+	[[ $stderr == *"SENTENCE is missing, and 'd' holds no finished sweep"* ]]
+	pinit uniform -n 50 | p2m | poisson-fft | mgrad | m2p >one.pm
+	run -1 pareto 'pinit uniform -n 50 | p2m -n {8,16} | poisson-fft | mgrad --source nothing | m2p' --against one.pm --field acc --repeat 1 -o d
+	[[ $output == *"every sentence failed"* ]]
+	sweep --repeat 1 -o d >/dev/null
+	sweep --repeat 1 -o d --until-error 0.9 >want
+	run -0 pareto -o d --until-error 0.9
+	[[ -s want && $output == "$(cat want)" ]]
+	run -0 pareto -o d --within 1h
+	[[ $output == *" -n "* ]]
+	pareto -o d/ --tsv | cmp - d/pareto.tsv
+	run -2 pareto "$sentence | cat" --against finest --field acc --repeat 1 -o d
+	[[ $output == *"holds another sweep"* ]]
+	run -2 pareto -o d
+	[[ $output == *"SENTENCE is missing"* ]]
+}
+
 @test "--jobs -o: a picture of the errors alone, and the same command measures nothing twice" {
 	sweep --jobs 2 -o d >/dev/null
 	cp d/measured/log before
 	sweep --jobs 2 -o d >/dev/null
 	cmp before d/measured/log
-	command -v gnuplot >/dev/null || skip "no gnuplot here"
 	[ "$(head -c 4 d/pareto.png | tail -c 3)" = PNG ]
-	[ "$(grep -c '>[12] [0-9]*</' d/index.html)" = 2 ] # the two that are no reference, by their mesh
+	[ "$(grep -c '>[12] [0-9]*</text>' d/index.html)" = 2 ] # the two that are no reference, by their mesh
 	! grep -q 'median seconds' d/index.html
 }
 

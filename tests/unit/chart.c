@@ -94,7 +94,7 @@ static void rooms(void)
 	double at[2];
 	if (pm_room_new(&r, 0, 0, 100, 100, 2))
 		return;
-	pm_room_take(&r, (double[4]){60, 0, 100, 30}, PM_ROOM_LINE);
+	pm_room_take(&r, (double[4]){80, 10, 84, 12}, PM_ROOM_LINE);
 	check(pm_room_at_edge(&r, 30, 20, 1, at) && at[0] == 1 && at[1] == 1, "a legend goes to the next corner that is free");
 	double point[2] = {50, 50}, size[2] = {20, 8};
 	int placed = 0, overlapping = 0;
