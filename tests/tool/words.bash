@@ -4,11 +4,12 @@
 
 wire() { python3 -I -S "$top/tests/wire.py" "$@"; }
 tools() { (cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//' | sort); }
-# Tools in shell run sentences, and splot reads tables; streams do not pass through them.
-readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vxE 'pinit|splot' | sort); }
+# Tools in shell and again run sentences, and splot reads tables; streams do not pass through them.
+readers() { (cd "$top/tools" && ls -- *.c | sed 's/\.c$//' | grep -vxE 'again|pinit|splot' | sort); }
 
 words() {
 	case $1 in
+	again) echo "again in.pm" ;;
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
