@@ -201,12 +201,12 @@ static int pass(struct cycle *y, struct pm_frame **f)
 		return pm_fail(PM_USAGE, "the sentence has no word that completes a step (add push)");
 	if ((*f)->step > step && (*f)->substep)
 		return pm_fail(PM_USAGE,
-			"one pass of the sentence completes a step and begins another (begin with push kick/2 drift; or write drift --open "
-			"where the kick comes later)");
+			"one pass of the sentence completes a step and begins another (begin with push kick/2 drift; or write drift "
+			"--open where the kick comes later)");
 	if ((*f)->step > step + 1)
 		return pm_fail(PM_USAGE,
-			"one pass of the sentence completes %lld steps, but cycle needs one step per pass (one scheme; or half a kick before the force and half "
-			"behind it: push kick/2 drift | ... | push kick/2)",
+			"one pass of the sentence completes %lld steps, but cycle needs one step per pass (one scheme; or half a kick before the force and "
+			"half behind it: push kick/2 drift | ... | push kick/2)",
 			(long long)((*f)->step - step));
 	bool full = (*f)->substep == 0 && (*f)->step > step;
 	pm_progress_step(&y->progress, *f);

@@ -81,8 +81,8 @@ struct pm_field *pm_contributes(struct pm_frame *f, const char *on, const char *
 	struct pm_field *field = pm_frame_field(f, on, name);
 	const struct pm_set *set = pm_frame_set(f, on);
 	if (field && has_term(field, term) && !replace && set && set->kick > 0 && set->drift == 0) {
-		pm_fail(PM_DATA, "'%s' on '%s' already holds the term '%s', and nothing has moved since the kick that used it (push drift is missing before this "
-			"word; --replace computes it again)", name, on, term);
+		pm_fail(PM_DATA, "'%s' on '%s' already holds the term '%s', and nothing has moved since the kick that used it (push drift is missing before "
+			"this word; --replace computes it again)", name, on, term);
 		return NULL;
 	}
 	if (field && has_term(field, term) && !replace) {
