@@ -41,7 +41,7 @@ function unitPixels() {
 	const width = plot.x1 - plot.x0, height = plot.y1 - plot.y0, flat = flatAxes();
 	if (flat)
 		return Math.min(width / space.w[flat[0]], height / space.w[flat[1]]);
-	return 0.9 * Math.min(width, height) / Math.hypot(...space.w) * 1.12;
+	return 0.95 * Math.min(width, height) / Math.hypot(...space.w);
 }
 
 // Numbers on the three axes -> [x, y, nearness] on the screen.

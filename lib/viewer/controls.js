@@ -33,7 +33,8 @@ function offer() {
 	const labels = all.map(one => [one.key, one.label]), position = all.filter(one => one.field === "x" && one.c < dim);
 	const first = all.find(one => one.field === asked.field && one.c === componentAsked(one, asked.component)) ??
 		all.find(one => one.field === asked.colour);
-	for (const [kind, there] of [["particles", !onMesh], ["beside", onMesh ? dim > 1 && setNames().length : setNames().length > 1], ["slice", onMesh && dim === 3]])
+	for (const [kind, there] of [["particles", !onMesh], ["slice", onMesh && dim === 3],
+		["beside", onMesh ? dim > 1 && setNames().length : setNames().length > 1]])
 		for (const element of document.querySelectorAll("." + kind))
 			element.hidden = !there;
 	fill("overlay", [["", "none"], ...setNames().map(set => ["set " + set, set]).filter(([key]) => key !== name)], onMesh ? "" : otherSet(name));

@@ -117,14 +117,15 @@ function pointRadius(n) {
 function planeOf(place, numbers, offset, frame) {
 	const p = place.points, axis = frame.dim < 3 ? 2 : Number(chosen("axis")), axes = [0, 1, 2].filter(d => d !== axis), [a, b] = axes;
 	const lo = d => place.lo[d] + offset[d] * place.h[d], at = frame.dim < 3 ? 0 : sliceAt(), stride = [1, p[0], p[0] * p[1]];
-	const node = frame.dim < 3 ? 0 : Math.min(Math.max((at - lo(axis)) / place.h[axis], 0), p[axis] - 1);
-	const k = Math.min(Math.floor(node), Math.max(p[axis] - 2, 0)), f = node - k, step = p[axis] > 1 ? stride[axis] : 0;
-	const closes = d => frame.box[d].periodic && Math.abs(p[d] * place.h[d] / (frame.box[d].hi - frame.box[d].lo) - 1) < 1e-6;
+	const closes = d => d < frame.dim && frame.box[d].periodic && Math.abs(p[d] * place.h[d] / (frame.box[d].hi - frame.box[d].lo) - 1) < 1e-6;
+	const last = closes(axis) ? p[axis] : p[axis] - 1, node = frame.dim < 3 ? 0 : Math.min(Math.max((at - lo(axis)) / place.h[axis], 0), last);
+	const k = Math.min(Math.floor(node), Math.max(last - 1, 0)), f = node - k;
+	const below = k * stride[axis], above = Math.min(k + 1, last) % p[axis] * stride[axis];
 	const n = axes.map(d => p[d] + (closes(d) ? 1 : 0)), out = new Float32Array(n[0] * n[1]);
 	for (let j = 0; j < n[1]; j++)
 		for (let i = 0; i < n[0]; i++) {
-			const one = i % p[a] * stride[a] + j % p[b] * stride[b] + k * stride[axis];
-			out[j * n[0] + i] = (1 - f) * numbers[one] + f * numbers[one + step];
+			const one = i % p[a] * stride[a] + j % p[b] * stride[b];
+			out[j * n[0] + i] = (1 - f) * numbers[one + below] + f * numbers[one + above];
 		}
 	const corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(([i, j]) => {
 		const x = [at, at, at];

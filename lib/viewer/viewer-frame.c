@@ -201,8 +201,8 @@ static json_t *mesh_json(struct pm_viewer_frame *to, const struct pm_viewer_choi
 {
 	struct picked from;
 	size_t points[3], k = 1;
-	const size_t all = pm_mesh_points(f, m, points);
-	while (all / (k * k * k) > c->points)
+	pm_mesh_points(f, m, points);
+	while (((points[0] - 1) / k + 1) * ((points[1] - 1) / k + 1) * ((points[2] - 1) / k + 1) > c->points)
 		k++;
 	json_t *fields = pick_points(points, k, &from) ? NULL : fields_json(to, c, f, m->name, &from);
 	to->coarse = k > to->coarse ? k : to->coarse;

@@ -43,16 +43,18 @@ static int keep(struct pm_viewer *v, struct pm_viewer_frame *p)
 	}
 	v->kept[v->nkept++] = p;
 	v->bytes += p->bytes;
-	while (v->bytes > PM_VIEWER_BYTES && v->nkept > 1)
+	while (v->bytes > v->most && v->nkept > 1)
 		halve(v);
-	return v->bytes <= PM_VIEWER_BYTES ? 0 : pm_fail(PM_DATA, "this frame alone would make a page of %zu MB, the limit is %d (--field NAME or --set "
-		"NAME takes less onto it)", v->bytes / 1000000, PM_VIEWER_BYTES / 1000000);
+	return v->bytes <= v->most ? 0 : pm_fail(PM_DATA, "this frame alone would make a page of %zu MB, the limit is %d (--field NAME or --set "
+		"NAME takes less onto it)", v->bytes / 1000000, (int)(v->most / 1000000));
 }
 
 int pm_viewer_add(struct pm_viewer *v, struct pm_frame *f)
 {
 	v->stride = v->stride ? v->stride : 1;
-	v->choice.particles = PM_VIEWER_PARTICLES, v->choice.points = PM_VIEWER_POINTS;
+	v->choice.particles = v->choice.particles ? v->choice.particles : PM_VIEWER_PARTICLES;
+	v->choice.points = v->choice.points ? v->choice.points : PM_VIEWER_POINTS;
+	v->most = v->most ? v->most : PM_VIEWER_BYTES;
 	struct pm_viewer_frame *p = pm_viewer_frame_of(&v->choice, f);
 	if (!p)
 		return pm_failed();
@@ -78,7 +80,7 @@ void pm_viewer_left_out(const struct pm_viewer *v, char text[320])
 	}
 	*text = 0;
 	if (v->stride > 1)
-		used += snprintf(text, 320, "one frame of %llu (the limit is %d MB)", (unsigned long long)v->stride, PM_VIEWER_BYTES / 1000000);
+		used += snprintf(text, 320, "one frame of %llu (the limit is %d MB)", (unsigned long long)v->stride, (int)(v->most / 1000000));
 	if (thinned > 1)
 		used += snprintf(text + used, 320 - (size_t)used, "%sone particle of %zu (the limit is %zu of a set)", used ? ", " : "", thinned,
 			v->choice.particles);

@@ -22,6 +22,7 @@ struct pm_viewer { /* zero at first, but for what to show */
 	int nrange, axis;
 	bool log;
 	struct pm_viewer_choice choice;
+	size_t most;                   /* bytes of all frames; 0 (and of choice.particles, choice.points): the limits above */
 	/* set by the functions */
 	struct pm_replace file;
 	uint64_t seen, stride;         /* frames seen; every stride-th of them is kept */

@@ -132,11 +132,11 @@ unpack() {
 	need_chromium
 	pinit uniform --dim 2 -n 1 --cells 16 | scalc --mesh mesh 'f = sin(2*pi*x/Lx) + y/Ly' >two
 	pinit uniform -n 1 --cells 16 | scalc --mesh mesh 'f = 2 + sin(2*pi*x/Lx) + y/Ly + z/Lz' >three
-	places='eval [[0.2, 0.3], [0.5, 0.6], [0.8, 0.45]].map(p => project([p[0], p[1], 0.5].map((t, d) => t * frames[0].box[d < 2 ? d : 0].hi))).flat()
+	places='eval [[0.2, 0.3], [0.5, 0.6], [0.8, 0.45]].map(p => project([p[0], p[1], 0.98].map((t, d) => t * frames[0].box[d < 2 ? d : 0].hi))).flat()
 		.concat(byId("view").getBoundingClientRect().top).map(Math.round).join(" ")'
 	for d in two three; do
-		sdraw --field f --range 0,5 --slice 0.5 -o $d.html <$d
-		sdraw --field f --range 0,5 --slice 0.5 --size 400 --format ppm <$d >$d.ppm
+		sdraw --field f --range 0,5 --slice 0.98 -o $d.html <$d
+		sdraw --field f --range 0,5 --slice 0.98 --size 400 --format ppm <$d >$d.ppm
 	done
 	browser 'size 1000 700' 'open two.html' 'shot two.png' "$places" 'open three.html' 'shot three.png' "$places" >out
 	for d in two three; do
@@ -159,7 +159,10 @@ unpack() {
 		'drag 300 300 400 330' 'eval camera.turn[0].toFixed(3)' \
 		'key z' 'eval JSON.stringify(flatAxes())' 'wheel 300 300 -200' 'eval camera.zoom > 1.3' 'key r' 'eval camera.zoom' \
 		'pinch 300 300 1.5' 'eval camera.zoom.toFixed(2)' 'key r' 'key z' \
-		'eval [...project([0, 1, 2].map(d => state.drawn.numbers[d][1])).slice(0, 2), byId("view").getBoundingClientRect().top,
+		'key Space' 'wait state.frame == 2' 'key Space' 'eval state.playing' \
+		'size 600 900' 'wait byId("scene").width == byId("view").clientWidth' \
+		'size 1000 700' 'key Home' 'eval [...project([0, 1, 2].map(d => state.drawn.numbers[d][1])).slice(0, 2),
+			byId("view").getBoundingClientRect().top,
 			byId("curves-ink").getBoundingClientRect().left + panel.r.x1 * 0.76 + panel.r.x0 * 0.24,
 			byId("curves-ink").getBoundingClientRect().top + 60]
 			.map(Math.round).join(" ")' >out
@@ -176,6 +179,7 @@ unpack() {
 		true
 		1
 		"1.50"
+		false
 	END
 	)
 	browser 'size 1000 700' 'open run.html#depth=x%202' 'key z' "move $x $((y + below))" 'eval byId("tip").hidden' 'eval byId("tip").textContent' \
