@@ -2,12 +2,12 @@
 # Makes the figures of docs/accuracy/README.md: every block of that page is run as printed in an empty directory and leaves NAME.tsv, the numbers,
 # and NAME.png, the picture. Then data/atlas/ from the numbers. Names as arguments: those alone. Errors are the same in every run; seconds are this
 # machine's, of one thread.
-# Needs bin/ and gnuplot. SPDX-License-Identifier: GPL-3.0-or-later
+# Needs bin/ and netpbm. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 page=$top/docs/accuracy/README.md
 export PATH=${PM_BIN:-$top/bin}:$PATH LC_ALL=C.UTF-8 OMP_NUM_THREADS=1
-command -v gnuplot >/dev/null || { echo "atlas: no gnuplot here (apt-get install gnuplot-nox)" >&2; exit 1; }
+command -v pnmcat >/dev/null || { echo "atlas: no pnmcat here (apt-get install netpbm)" >&2; exit 1; }
 
 # The name of every picture of the page, in order.
 names() { sed -n 's|^!\[.*](\([^)]*\)\.png)$|\1|p' "$page"; }

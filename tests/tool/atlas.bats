@@ -30,7 +30,7 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 }
 
 @test "a figure is made by its commands, and its errors are those that are stored" {
-	command -v gnuplot >/dev/null || skip "no gnuplot here"
+	command -v pnmcat >/dev/null || skip "no netpbm here"
 	OUT=$PWD bash "$top/docs/accuracy/atlas.sh" diffusion
 	[ "$(head -c 4 diffusion.png | tail -c 3)" = PNG ]
 	# Other instruction sets round differently: 1e-6 of an error, and the round-off of u = 0.4.
@@ -93,7 +93,7 @@ below_picture() { awk -v picture="]($1.png)" 'index($0, picture) { there = 1; ne
 }
 
 @test "a name that the atlas does not have is refused in one line" {
-	command -v gnuplot >/dev/null || skip "no gnuplot here"
+	command -v pnmcat >/dev/null || skip "no netpbm here"
 	OUT=$PWD run -1 --separate-stderr bash "$top/docs/accuracy/atlas.sh" nothing
 	[[ ${#stderr_lines[@]} = 1 && $stderr == "atlas: docs/accuracy/README.md has no picture 'nothing'"* ]]
 }
