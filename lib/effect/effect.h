@@ -17,6 +17,7 @@ struct pm_scales {
 	enum { PM_NO_FIELD, PM_CARRIED, PM_MASSES, PM_CHARGES, PM_VORTICES } kind; /* free, passive, gravity, plasmas, vortices */
 	bool second;                 /* second order in time: the particles have v and an acceleration */
 	bool pairs;                  /* the far field is summed pair by pair, not on a mesh */
+	bool singular;               /* vortices that do not fill their mesh: a field of points, not a vorticity that the mesh represents */
 	bool periodic, open, walls;  /* some face is periodic, open, or (walls) of any other kind */
 	double n, sources;           /* number of particles that move; of those with a strength, fixed ones included */
 	double dt, time;             /* [time] the step, and the duration of the run */

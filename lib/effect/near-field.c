@@ -17,7 +17,11 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "no self field");
 	else if (s->pairs)
 		return;
-	else if (s->kind == PM_VORTICES) {
+	else if (s->singular) {
+		pm_effect_by(d, s, s->mesh_error, s->mesh_error);
+		d->answer = s->mesh_error > s->accuracy ? PM_PUT_IN : PM_LEFT_OUT;
+		snprintf(d->text, sizeof d->text, "point vortices, softening/h = %.2g: the error of the mesh is %.1g", s->softening / s->h, s->mesh_error);
+	} else if (s->kind == PM_VORTICES) {
 		d->number = s->spacing / s->h;
 		snprintf(d->text, sizeof d->text, "the particles cover the mesh, neighbours are %.2g cells apart", d->number);
 	} else if (s->softening > 2 * s->h) {

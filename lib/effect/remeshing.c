@@ -39,7 +39,7 @@ static double change(const struct pm_frame *f, const struct pm_frame *g, const c
 static int measure(const struct pm_effect_case *c, const struct pm_effect_run *run, double own[PM_EFFECT_OWN])
 {
 	const struct pm_scales *s = c->scales;
-	if (s->kind != PM_VORTICES || c->method->pairs || isnan(s->overlap))
+	if (s->kind != PM_VORTICES || c->method->pairs || s->singular || isnan(s->overlap))
 		return 0;
 	struct pm_frame *g = pm_frame_copy(c->frame);
 	for (int i = 0; i < MEASURED && g; i++) {
@@ -78,7 +78,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "the particles do not carry a field on a lattice");
 		return;
 	}
-	if (s->pairs) {
+	if (s->pairs || s->singular) {
 		pm_effect_off(d, "");
 		d->number = s->overlap;
 		snprintf(d->text, sizeof d->text, "point vortices: sqrt(volume)/h = %.2g, off a lattice by %.2g", s->width / s->h, s->overlap);
@@ -124,7 +124,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 		pm_words_add(w, PM_SLOT_AFTER, words, "remesh: every step, %s", d->text);
 }
 
-static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && !c->method->pairs; }
+static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && !c->method->pairs && !c->scales->singular; }
 
 /* At least one remeshing must fall within the steps. */
 static void test(const struct pm_effect_case *c, struct pm_effect_test *t)

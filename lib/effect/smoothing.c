@@ -18,7 +18,7 @@ static const double least = 0.03;
 static bool on_mesh(const struct pm_effect_case *c)
 {
 	const struct pm_scales *s = c->scales;
-	return !c->method->pairs && (s->kind == PM_MASSES || s->kind == PM_CHARGES) && s->softening > least * s->h && !pm_effect_alone(s);
+	return !c->method->pairs && (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->singular) && s->softening > least * s->h && !pm_effect_alone(s);
 }
 
 /* The sentence with the first word that solves for the potential in the place of `solver`; its --mesh is kept. */
@@ -76,7 +76,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		snprintf(d->text, sizeof d->text, "softening is %.2g times the distance of the nearest pair", ratio);
 	} else if (!isnan(c->own[0])) {
 		const double gain = s->self * s->time, begun = s->self * fmin(s->time, 4 * fabs(s->dt));
-		pm_effect_by(d, s, ratio, c->own[0] * fmax(1, 0.5 * gain / (s->v_rms + begun)));
+		pm_effect_by(d, s, ratio, c->own[0] * (s->second ? fmax(1, 0.5 * gain / (s->v_rms + begun)) : 1));
 		snprintf(d->text, sizeof d->text, "softening/h = %.2g, changes the force by %.2g", ratio, c->own[0]);
 	} else {
 		pm_effect_off(d, "");

@@ -39,7 +39,7 @@ static struct clock clock_of(const struct pm_plan *p)
 	const struct pm_scales *s = &p->scales;
 	struct clock c = {.problem = "langmuir", .omega = s->omega, .eccentricity = NAN, .steady = s->kind == PM_CHARGES,
 		.what = s->kind == PM_CHARGES ? "omega_p" : "orbits"};
-	if (s->kind == PM_VORTICES && s->pairs)
+	if (s->kind == PM_VORTICES && (s->pairs || s->singular))
 		c = (struct clock){.problem = "kepler-circle", .omega = fmax(s->encounter, s->self_max / s->spread), .eccentricity = NAN, .steady = s->n < 64,
 			.what = "the nearest pair"};
 	else if (s->kind == PM_VORTICES)
@@ -59,7 +59,7 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 {
 	static const char *const second[] = {"kdk", "rk4", "lsrk3", NULL}, *const first[] = {"lsrk3", "rk4", NULL}, *const magnetic[] = {"boris", NULL};
 	const struct pm_scales *s = &p->scales;
-	const bool turns = s->cyclotron * s->time > s->accuracy, field = s->kind == PM_VORTICES && !s->pairs;
+	const bool turns = s->cyclotron * s->time > s->accuracy, field = s->kind == PM_VORTICES && !s->pairs && !s->singular;
 	double least = HUGE_VAL, dt = NAN;
 	for (const char *const *name = turns ? magnetic : s->second ? second : first; *name; name++) {
 		const char *word = !strcmp(*name, "kdk") || !strcmp(*name, "boris") ? "leapfrog" : *name;
@@ -82,7 +82,7 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
 	if (s->pairs && s->second && isnan(s->orbit) && dt > 0.5 / s->encounter) /* a quarter of the stability limit of leapfrog */
 		*what = "encounters", dt = 0.5 / s->encounter;
-	if (s->kind != PM_VORTICES || s->pairs)
+	if (s->kind != PM_VORTICES || s->pairs || (s->singular && !(s->nu > 0)))
 		return dt;
 	for (double fastest = 0; s->nu > 0 && fastest == 0;) {
 		struct pm_operator lap;
