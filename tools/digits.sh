@@ -144,7 +144,7 @@ batch() {
 main() {
 	declare -A children=()
 	child='' doing='' work=''
-	here=$(cd "$(dirname "$(command -v "$0")")" && pwd)
+	here=$(own_directory)
 	PATH=$here:$PATH
 	settle "$@"
 	understand

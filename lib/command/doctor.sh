@@ -101,9 +101,10 @@ doctor() {
 	row disk "$(df -Pk "$room" | awk 'NR == 2 { printf "%.1f GiB free", $4 / 1048576 }') in ${TMPDIR:-/tmp}"
 	sentence_runs
 	optional bash bash 'pareto and margin'
-	optional gnuplot gnuplot-nox 'pictures of pareto, margin and the atlas'
+	optional gnuplot gnuplot-nox 'pictures of the gallery'
 	optional parallel parallel 'pareto --jobs'
 	optional ffmpeg ffmpeg 'sdraw -o run.mp4'
+	optional chromium chromium 'the tests of the pages (any browser shows them)'
 	optional h5ls hdf5-tools 'a look into .h5 files'
 	optional python3 python3 'the Python package and the readers in docs/'
 	[ -z "$ill" ] || fail 1 'not all is well: see above'

@@ -116,10 +116,13 @@ static int cannot(const struct pm_until *u, int k)
 static bool may_sum(const struct pm_until *u, const struct pm_frame *f, int missing)
 {
 	char why[200];
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return false;
 	const struct pm_measure how = pm_diag_how(&u->gauge, f);
 	const int from = missing >= 0 ? u->column[missing].from : -1;
 	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || from == PM_VIRIAL_RATIO) && !u->gauge.pair &&
-		pm_pairs_unasked(f, pm_law_of(f), &how, why) == PM_PAIRS_SUM;
+		pm_pairs_unasked(f, law, &how, why) == PM_PAIRS_SUM;
 }
 
 static int measure_first(struct pm_until *u, struct pm_frame *f)
