@@ -1,6 +1,6 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
 # make, demo, check, check-long, mutants, asan, fuzz, valgrind, bench, counts, counts-check, gallery, stability, atlas, hard-cases,
-# measure, lint, install, uninstall, clean; PREFIX=... DESTDIR=... for install;
+# measure, lint, install, uninstall, deb, deb-check, clean; PREFIX=... DESTDIR=... for install;
 # PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
@@ -285,9 +285,16 @@ uninstall:
 	rm -f $(D)/lib/libpmpipe.a $(D)/lib/libpmpipe.so $(D)/lib/libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so.$(VERSION) $(D)/lib/pkgconfig/pmpipe.pc
 	rm -rf $(D)/include/pmpipe $(D)/share/doc/pmpipe
 
+# Packages of Debian from the files that git knows, in build/deb: packaging/debian has the rules. deb-check: they are made, checked by lintian, installed
+# and removed on a bare machine (tests/deb.sh; BARE=DIRECTORY is one that debootstrap made, else it makes one, as root).
+deb:
+	+sh tests/deb.sh build
+deb-check:
+	+sh tests/deb.sh build check
+
 clean:
 	rm -rf $(B) bin
 
 .PHONY: all words public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
-	gallery stability atlas hard-cases measure lint man install uninstall clean
+	gallery stability atlas hard-cases measure lint man install uninstall deb deb-check clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d) $(fuzzers:=.d)

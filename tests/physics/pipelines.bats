@@ -50,3 +50,21 @@ load ../helper
 @test "PIC-12: pic-exb drifts at exactly E x B/B^2" {
 	pipeline pic-exb 16
 }
+
+@test "sweep-steps: GNU parallel runs six orbits, and the errors fall with the order of the scheme" {
+	command -v parallel >/dev/null || skip "GNU parallel is not there (apt-get install parallel)"
+	pipeline sweep-steps 4
+	[ -z "$(ls)" ]
+}
+
+@test "study.mk: make runs a study of order 2, does nothing the second time, and after a change what follows from it" {
+	run -0 make -s -f "$top/pipelines/study.mk" DIR=study
+	for e in 0.2 0.4; do
+		for n in 160 320; do within "$(awk -v e=$e -v n=$n '$1 == e && $2 == n { print $4 }' study/table.tsv)" 2 0.05 "order at eccentricity $e, $n steps"; done
+	done
+	run -0 make -f "$top/pipelines/study.mk" DIR=study
+	[[ $output == *"is up to date"* ]]
+	touch study/ellipse-0.4-80.pm
+	run -0 make -f "$top/pipelines/study.mk" DIR=study
+	[ "$(grep -c '^cycle -n' <<<"$output")" = 1 ]
+}

@@ -10,7 +10,7 @@ in_git() { tracked >/dev/null 2>&1 || skip "no git, or no repository of it, here
 
 @test "the root holds what it should, and nothing else" {
 	in_git
-	diff <(printf '%s\n' .ci .gitignore COPYING Makefile NEWS README.md bench data docs lib pipelines python tests tools) \
+	diff <(printf '%s\n' .ci .gitignore COPYING Makefile NEWS README.md bench data docs lib packaging pipelines python tests tools) \
 		<(tracked | sed 's|/.*||' | sort -u)
 }
 
