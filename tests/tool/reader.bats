@@ -105,8 +105,8 @@ one_header() {
 			return bad != 0;
 		}
 	END
-	gcc -std=gnu99 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$top/lib" -o print print.c 2>err ||
-		gcc -std=gnu99 -O1 -Wall -Wextra -Werror -I"$top/lib" -o print print.c
+	gcc -std=gnu99 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$top/lib" -o show print.c 2>err ||
+		gcc -std=gnu99 -O1 -Wall -Wextra -Werror -I"$top/lib" -o show print.c
 }
 
 @test "the reader in one header gets the values that docs/read.py gets, of every kind of field" {
@@ -121,7 +121,7 @@ h["fields"].insert(1, {"name": "fl\u00e4g\"", "on": "matter", "components": 1, "
 data.insert(1, bytearray(range(12)))' >f.pm
 	wire unseal a.pm >g.pm
 	for f in ?.pm; do
-		./print $f | awk '{ if ($0 !~ /^[a-z]/) for (i = 1; i <= NF; i++) $i = sprintf("%.17g", $i); $1 = $1; print }' >got
+		./show $f | awk '{ if ($0 !~ /^[a-z]/) for (i = 1; i <= NF; i++) $i = sprintf("%.17g", $i); $1 = $1; print }' >got
 		read_py <$f | awk '{ if ($0 !~ /^[a-z]/) for (i = 1; i <= NF; i++) $i = sprintf("%.17g", $i); $1 = $1; print }' | cmp - got
 		[ "$(wc -l <got)" -gt 5 ]
 	done
@@ -131,23 +131,23 @@ data.insert(1, bytearray(range(12)))' >f.pm
 	one_header
 	pinit two-body --no-history >a.pm
 	pinit plummer -n 2 --cells 2 --no-history | p2m --no-history >b.pm
-	for f in a b; do ./print $f.pm >/dev/null && ./print $f.pm --flips; done
+	for f in a b; do ./show $f.pm >/dev/null && ./show $f.pm --flips; done
 	for code in 'h["sets"][0]["n"] = 2 ** 48 + 1' 'h["sets"][0]["n"] = 2 ** 47' 'h["sets"] *= 2' 'h["fields"] *= 2' \
 		'h["meshes"][0]["cells"] = [2 ** 20] * 3' 'h["meshes"][0]["h"][1] = 0' 'h["fields"][0]["on"] = "nobody"' 'h["fields"][0]["components"] = 17' \
 		'h["fields"][0]["type"] = "f16"' 'h["fields"][0]["name"] = "n" * 64' 'h["byte_order"] = "big"' 'h["box"]["fields"][0] = ["periodic", "open"]' \
 		'del h["law"]' 'h["dim"] = 4' 'h["fields"][0]["name"] = "\0"' 'h["fields"][0]["uniform"] = [1]'; do
 		wire edit b.pm "$code" >bad.pm || continue
-		run -1 ./print bad.pm
+		run -1 ./show bad.pm
 		[ "${#lines[@]}" = 1 ]
 	done
 	wire text b.pm '"dim":3' '"dim":3,"dim":3' >bad.pm
-	run -1 ./print bad.pm
+	run -1 ./show bad.pm
 	for f in "$top"/tests/fuzz/crashes/reader/*; do
 		code=0
-		PM_UNSEALED=1 timeout 20 ./print "$f" >out 2>err || code=$?
+		PM_UNSEALED=1 timeout 20 ./show "$f" >out 2>err || code=$?
 		[[ $code -le 3 && $(wc -l <err) -le 1 ]] || { cat err; return 1; }
 	done
 	push --nonsense <a.pm >abort.pm 2>said || true
-	run -2 ./print abort.pm
+	run -2 ./show abort.pm
 	[ "$output" = "$(cat said)" ]
 }
