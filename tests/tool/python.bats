@@ -166,6 +166,7 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 		import os, resource, time
 		import numpy as np, pmpipe
 		from pmpipe.wire import block_make, canonical, line_make
+		resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
 		small = pmpipe.Frame(dim=3, time=0.5)
 		small.add_set("matter", n=4, x=np.zeros((4, 3)), mass=np.arange(4.0))
 		small.header["fields"] = [f.meta for f in small.fields]
@@ -298,8 +299,8 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 	[ "$(grep -cvE '^ *(#.*|""".*)?$' "$drag")" -le 10 ]
 	pinit plummer -n 12 --cells 4 | p2m --kernel ngp >a.pm # with meshes
 	s="push kick/2 drift | pp | $drag 0.5 | push kick/2"
-	cycle -n 2 "$s" <a.pm >fused
-	cycle -n 2 --engine pipes "$s" <a.pm >pipes
+	timeout 60 cycle -n 2 "$s" <a.pm >fused # a word that keeps the end to itself is waited for
+	timeout 60 cycle -n 2 --engine pipes "$s" <a.pm >pipes
 	same_as fused pipes
 	[ "$(sls --history <fused | grep -c '"program":"drag"')" = 1 ]
 	sh_ok "cat a.pm a.pm | $drag --no-history 0.5 | sls | grep -c frames" # streams stay two
