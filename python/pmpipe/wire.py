@@ -24,7 +24,7 @@ class Error(Exception):
     """
 
     def __init__(self, message: str, code: int = 1) -> None:
-        super().__init__(message)
+        super().__init__(re.sub(r"[\x00-\x1f\x7f]+", " ", message))
         self.code = code
 
 

@@ -124,12 +124,15 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 		import resource, sys
 		import pmpipe
 		resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
-		try:
-		    [frame.load() for frame in pmpipe.open(sys.argv[1])]
-		except pmpipe.Error as e:
-		    print(e)
-		    sys.exit(1)
+		for path in sys.argv[2:]:
+		    try:
+		        [frame.load() for frame in pmpipe.open(path)]
+		    except pmpipe.Error as e:
+		        assert "\n" not in str(e) and str(e), path
+		    else:
+		        assert sys.argv[1] == "any", path + " is read"
 	END
+	local n=0
 	for code in 'h["sets"][0]["n"] = 2 ** 48 + 1' 'h["sets"][0]["n"] = 2 ** 47' 'h["sets"][0]["n"] = -1' 'h["sets"][0]["n"] = 4.0' \
 		'h["sets"][0]["n"] = True' \
 		'h["sets"] *= 2' 'h["fields"] *= 2' 'h["meshes"][0]["cells"] = [2 ** 31 + 1, 1, 1]' 'h["meshes"][0]["cells"] = [2 ** 20] * 3' \
@@ -140,24 +143,18 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 		'h["since"] = {"time": 0.0}' 'h["sets"][0]["done"] = {"kick": 2, "drift": 0}' \
 		'h["fields"][0]["half"] = [[1]]' 'h["fields"][0]["terms"] = [3]' 'h["fields"][0]["uniform"] = [1]' 'tail["report"] = 3' \
 		'tail["limits"] = {"matter/x": {"decay": -1}}'; do
-		python3 -I -S "$top/tests/wire.py" edit a.pm "$code" >bad.pm || continue
-		run -1 sls -i bad.pm
-		run -1 python3 judge.py bad.pm || { echo "$code: $output"; return 1; }
-		[ "${#lines[@]}" = 1 ]
+		n=$((n + 1))
+		wire edit a.pm "$code" >bad-$n.pm || rm bad-$n.pm # wire.py itself cannot write some
 	done
 	for edit in '"dim":3/"dim":3,"dim":3' '"dt":/"dt":NaN,"t":' '"dt":/"dt":1e999,"t":'; do
-		wire text a.pm "${edit%%/*}" "${edit#*/}" >bad.pm
-		run -1 python3 judge.py bad.pm
-		[ "${#lines[@]}" = 1 ]
+		n=$((n + 1))
+		wire text a.pm "${edit%%/*}" "${edit#*/}" >bad-$n.pm
 	done
-	wire line a.pm 'PMPIPE/1 frame' 'PMPIPE/2 frame' >bad.pm
-	run -1 python3 judge.py bad.pm
-	[[ $output == *version* ]]
-	for f in "$top"/tests/fuzz/crashes/reader/*; do
-		code=0
-		PM_UNSEALED=1 python3 judge.py "$f" >out 2>err || code=$?
-		[[ $code -le 1 && ! -s err ]] || { cat err; return 1; }
-	done
+	wire line a.pm 'PMPIPE/1 frame' 'PMPIPE/2 frame' >bad-0.pm
+	[ "$(ls bad-*.pm | wc -l)" -ge 25 ]
+	for f in bad-*.pm; do run -1 sls -i $f; done
+	python3 judge.py none bad-*.pm
+	PM_UNSEALED=1 python3 judge.py any "$top"/tests/fuzz/crashes/reader/*
 }
 
 # The data are a hole in the file: 4 GB that the disk does not hold, of which neither memory nor time is to be seen.
@@ -327,8 +324,7 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 	run -1 --separate-stderr bash -c "$drag 1 <cut.pm"
 	[[ ${#stderr_lines[@]} = 1 && $stderr == "drag: frame 1: the input ends in "* ]]
 	wire unseal a.pm >old.pm
-	for edit in 's/"dim":3/"dim"3/' 's/"type":"f64"/"type":"f99"/' 's/frame [0-9]*/frame x/' 's/"on":/"no":/' 's/tail [0-9]*/tail -9/' \
-		's/"crc32c"/"crc32d"/' 's/"name":"matter"/"name":"\xff\xfe"/' 's/frame [0-9]*/frame 99999999999/'; do
+	for edit in 's/"dim":3/"dim"3/' 's/tail [0-9]*/tail -9/' 's/"name":"matter"/"name":"\xff\xfe"/'; do
 		LC_ALL=C sed "$edit" old.pm >bad.pm # without checksums of lines, which would see it first
 		run -1 --separate-stderr bash -c "$drag 1 <bad.pm"
 		[[ ${#stderr_lines[@]} = 1 && $stderr == "drag: frame 1: "* ]] || { echo "$edit: $stderr"; return 1; }
@@ -394,7 +390,8 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 
 # The programs of the tree as they are: building them again is for the long run (below).
 @test "python: a wheel is built and installed without a network, and its programs run from outside the tree" {
-	wheel_here PMPIPE_PROGRAMS="${PM_BIN:-$top/bin}"
+	mkdir few && cp "${PM_BIN:-$top/bin}"/{pinit,push,pp,cycle,pmpipe} few
+	wheel_here PMPIPE_PROGRAMS="$PWD/few"
 }
 
 @test "python: a wheel builds its programs from the tree with make, and an sdist from what it holds" {
