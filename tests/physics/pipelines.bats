@@ -60,7 +60,9 @@ load ../helper
 @test "study.mk: make runs a study of order 2, does nothing the second time, and after a change what follows from it" {
 	run -0 make -s -f "$top/pipelines/study.mk" DIR=study
 	for e in 0.2 0.4; do
-		for n in 160 320; do within "$(awk -v e=$e -v n=$n '$1 == e && $2 == n { print $4 }' study/table.tsv)" 2 0.05 "order at eccentricity $e, $n steps"; done
+		for n in 160 320; do
+			within "$(awk -v e=$e -v n=$n '$1 == e && $2 == n { print $4 }' study/table.tsv)" 2 0.05 "order at eccentricity $e, $n steps"
+		done
 	done
 	run -0 make -f "$top/pipelines/study.mk" DIR=study
 	[[ $output == *"is up to date"* ]]
