@@ -143,8 +143,8 @@ static void point_vortices(const struct pm_frame *f, struct pm_plan *p)
 	const double dearer = cost_pairs(s) / cost_mesh(s);
 	if (all_open(s) && (dearer <= 1 || (error > s->accuracy && dearer < 20))) {
 		m->pairs = s->pairs = true;
-		snprintf(m->why_far, sizeof m->why_far, "%g point vortices, the error of a mesh would be %.1g; pairs cost %.2g times as much", s->sources, error,
-			dearer);
+		snprintf(m->why_far, sizeof m->why_far, "%g point vortices, the error of a mesh would be %.1g; pairs cost %.2g times as much", s->sources,
+			error, dearer);
 		return;
 	}
 	for (int d = 0; d < f->dim && factor > 1; d++)
