@@ -11,6 +11,7 @@ export OMP_NUM_THREADS=1 # too small for threads: parallel runs one per core
 command -v parallel >/dev/null || { echo "sweep-steps: no GNU parallel here (apt-get install parallel)" >&2; exit 1; }
 
 # one SCHEME STEPS: a row with the distance from the start after one orbit.
+# shellcheck disable=SC2317 # parallel calls it
 one() {
 	local sentence='push kick/2 drift | pp | push kick/2'
 	[ "$1" = rk4 ] && sentence='pp | push rk4'
