@@ -45,9 +45,19 @@ static struct pm_frame *failed(struct pm_frame *f, struct pm_sentence *s, const 
 	return NULL;
 }
 
+/* A trial prints no notes: they would be read as those of a run. */
+static struct pm_sentence *silent(const char *sentence)
+{
+	const struct pm_stage quiet = {.quiet = true};
+	struct pm_sentence *s = pm_sentence_new(sentence, true, NULL);
+	if (s)
+		pm_sentence_notes(s, &quiet);
+	return s;
+}
+
 struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds)
 {
-	struct pm_sentence *s = pm_sentence_new(sentence, true, NULL);
+	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
 	int status = g ? prime(s, &g) : pm_failed();
 	for (int k = 0; k < PM_PLAN_WORDS && seconds; k++)
@@ -67,7 +77,7 @@ struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int
 
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence)
 {
-	struct pm_sentence *s = pm_sentence_new(sentence, true, NULL);
+	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
 	int status = g ? pm_sentence_prime(s, &g) : pm_failed();
 	if (status)

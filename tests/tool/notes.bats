@@ -40,10 +40,15 @@ load words
 }
 
 @test "pareto and margin -q print no progress and no hint" {
-	without gnuplot
-	run -0 --separate-stderr pareto 'pinit uniform -n 20 | p2m --kernel {cic,tsc} -n 8 | sel' --against finest --repeat 1 -o here
-	[[ $stderr == *'no gnuplot here'* ]]
-	run -0 --separate-stderr pareto -q 'pinit uniform -n 20 | p2m --kernel {cic,tsc} -n 8 | sel' --against finest --repeat 1 -o there
+	sweep() { pareto "$@" 'pinit uniform -n 20 | p2m --kernel {cic,tsc} -n 8 | sel' --against finest --repeat 1 -o here; }
+	run -0 --separate-stderr sweep -q
+	[ -z "$stderr" ]
+	log=$(find here -name log)
+	echo 'no result' >>"$log"
+	run -0 --separate-stderr sweep
+	[[ $stderr == *'are no results of pareto and are left out'* ]]
+	echo 'no result' >>"$log"
+	run -0 --separate-stderr sweep -q
 	[ -z "$stderr" ]
 	run -2 --separate-stderr margin -q
 	[[ $stderr == 'margin: '* ]]
