@@ -110,3 +110,25 @@ fields() { sls | awk '/^frame/ { n = ""; on = 0 } /^  mesh/ { on = 1; next } /^ 
 	cycle -n 2 --every 1 --drop acc 'push euler | pp --potential' <a >b # the first frame has none
 	run -2 cycle -n 1 --store f16 "$leap"
 }
+
+@test "--checkpoint-every writes checkpoints by steps or by wall time and at the end, apart from --every" {
+	pinit two-body --no-history --dt 0.1 >a
+	words='push kick/2 drift | pp | push kick/2'
+	# The run fails after step 25 (exit 3), so what is there is a checkpoint on the way: of step 20, not of frame 24.
+	run -3 cycle --no-history -n 40 --every 4 --checkpoint c --checkpoint-every 10 "$words | scalc 'w = mass*sqrt(2.55 - time)'" -i a -o b
+	sls <c | grep -q 'step 20 '
+	cycle --no-history -n 40 --resume c "$words" | scmp --field x,v --tolerance 0 - <(cycle --no-history -n 40 "$words" <a) >/dev/null
+	cycle --no-history -n 33 --every 4 --checkpoint d --checkpoint-every 10 "$words" <a >b # and at the end
+	sls <d | grep -q 'step 33 '
+	cycle -n 100000000 --checkpoint e --checkpoint-every 0.3s 'push drift' -i a -o b &
+	pid=$!
+	for _ in {1..100}; do [ ! -s e ] || break; sleep 0.1; done
+	kill -KILL $pid
+	wait $pid || true
+	[ "$(sls <e | sed -n 's/.* step \([0-9]*\) .*/\1/p')" -gt 0 ]
+	for bad in 0 -3 2.5 10x '' 5mm nan 1e; do
+		run -2 --separate-stderr cycle -n 1 --checkpoint c --checkpoint-every "$bad" "$words"
+		[[ $stderr == "cycle: --checkpoint-every '$bad' (a number of steps, or a time: 30s, 10m, 2h)" ]]
+	done
+	run -2 cycle -n 1 --checkpoint-every 5 "$words"
+}
