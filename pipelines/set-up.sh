@@ -23,6 +23,10 @@ there() {
 	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
 	netpbm) command -v pngtopnm >/dev/null 2>&1 ;;
 	bsdutils) command -v script >/dev/null 2>&1 ;;
+	gnuplot-nox) command -v gnuplot >/dev/null 2>&1 ;;
+	debhelper) command -v dh >/dev/null 2>&1 ;;
+	python3-venv) /usr/bin/python3 -c 'import ensurepip' 2>/dev/null ;;
+	python3-*) /usr/bin/python3 -c "import ${1#python3-}" 2>/dev/null ;;
 	*) command -v "$1" >/dev/null 2>&1 ;;
 	esac
 }

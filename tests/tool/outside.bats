@@ -115,7 +115,7 @@ ball() { awk 'BEGIN { srand(3); print "x y z vx vy vz mass"; for (i = 0; i < 40;
 		bash -o pipefail -c "${leapfrog//|/--no-history |} --no-history" <loop >next
 		mv next loop
 	done
-	cycle -n 20 --no-history "$leapfrog" <a | cmp - loop
+	cycle -n 20 --store all --no-history "$leapfrog" <a | cmp - loop
 	diag --columns outside <fused.1 | sort -u | tr '\n' ' ' >seen
 	[ "$(cat seen)" = "0 1 outside " ]
 	# it has come back: the last count is 0, in the report too
