@@ -405,9 +405,16 @@ int pm_sentence_safe(const char *text)
 
 int pm_sentence_timing(const struct pm_sentence *s, const char *file)
 {
+	const struct pm_stage *words[most_words];
+	size_t n = 0;
 	int status = 0;
-	for (int i = 0; i < s->nwords && !status; i++)
+	for (int i = 0; i < s->nwords; i++)
 		if (s->word[i].stage)
-			status = pm_timing_write(s->word[i].stage, file, -1);
+			words[n++] = s->word[i].stage;
+	if (file && !strcmp(file, "-") && n)
+		pm_timing_table(n, words);
+	else
+		for (size_t i = 0; i < n && !status; i++)
+			status = pm_timing_write(words[i], file, -1);
 	return status;
 }

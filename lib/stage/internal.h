@@ -35,7 +35,8 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv);
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
 int pm_stage_begin(struct pm_stage *s);
 void pm_history_add(struct pm_stage *s, struct pm_frame *f);
-int pm_timing_write(const struct pm_stage *s, const char *file, double wall); /* file NULL: nothing; -: standard error */
+int pm_timing_write(const struct pm_stage *s, const char *file, double wall); /* file NULL: nothing; -: a sentence on standard error */
+void pm_timing_table(size_t n, const struct pm_stage *const *words);          /* on standard error: set-up, work, share of the work of all */
 
 void pm_help(const struct pm_tool *tool);
 void pm_man(const struct pm_tool *tool);

@@ -218,22 +218,6 @@ void pm_setup_since(struct pm_stage *s, double began)
 	s->seconds -= t; /* the total time of frame() is added when it ends */
 }
 
-int pm_timing_write(const struct pm_stage *s, const char *file, double wall)
-{
-	if (!file)
-		return 0;
-	bool standard = !strcmp(file, "-");
-	FILE *out = standard ? stderr : fopen(file, "a");
-	if (!out)
-		return pm_fail_errno("cannot write the timing to '%s'", file);
-	fprintf(out, "%s\t%.9f\t%.9f", s->word, s->setup, s->seconds);
-	if (wall >= 0)
-		fprintf(out, "\t%.9f", wall);
-	bool bad = fputc('\n', out) == EOF || fflush(out);
-	bad |= !standard && fclose(out);
-	return bad ? pm_fail_errno("cannot write the timing to '%s'", file) : 0;
-}
-
 const struct pm_tool *pm_tool_find(const char *name)
 {
 	for (int i = 0; pm_tools && pm_tools[i]; i++)

@@ -189,6 +189,16 @@ assert "threads" not in h[0]["options"], h'
 	awk -F'\t' '!($2 > $3 / 30 && $3 > 0) { print; bad = 1 } END { exit bad || NR != 2 }' t
 }
 
+@test "--timing - says on standard error what a word cost; of cycle a table of its words, whose shares add to 100 %" {
+	pinit uniform -n 12 --cells 4 | p2m --timing - 2>err >/dev/null
+	grep -qE '^p2m: [0-9.]+ (s|ms|us) of work, [0-9.]+ (s|ms|us) of set-up$' err
+	pinit plummer -n 3000 | cycle -n 3 --timing - 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' 2>err >/dev/null
+	[ "$(head -n 1 err | tr -s ' ')" = 'word set-up work share' ]
+	grep -qE '^poisson-fft +[0-9.]+ (s|ms|us) +[0-9.]+ (s|ms|us) +[0-9]+ %$' err
+	within "$(awk '/ %$/ { sum += $(NF - 1) } END { print sum }' err)" 100 3 # six roundings to one per cent
+	grep -qE '^cycle -n 3 .*: [0-9.]+ (s|ms) of work' err
+}
+
 @test "--timing appends the word, its seconds of set-up and of work" {
 	pinit uniform -n 12 --cells 4 | p2m --timing t.tsv >/dev/null
 	pinit uniform -n 12 --cells 4 | p2m --kernel tsc --timing t.tsv >/dev/null

@@ -1,0 +1,50 @@
+/* --timing: a line of numbers for each word in a file, or something to read on standard error. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "stage/internal.h"
+
+/* Three digits with s, ms or us. */
+static const char *readable(char to[16], double seconds)
+{
+	const double scale = seconds >= 1 ? 1 : seconds >= 1e-3 ? 1e3 : 1e6;
+	const double x = seconds * scale;
+	snprintf(to, 16, "%.*f %s", x < 9.995 ? 2 : x < 99.95 ? 1 : 0, x, scale == 1 ? "s" : scale == 1e3 ? "ms" : "us");
+	return to;
+}
+
+int pm_timing_write(const struct pm_stage *s, const char *file, double wall)
+{
+	char work[16], setup[16];
+	if (!file)
+		return 0;
+	if (!strcmp(file, "-")) {
+		fprintf(stderr, "%.60s: %s of work, %s of set-up\n", s->word, readable(work, s->seconds), readable(setup, s->setup));
+		return 0;
+	}
+	FILE *out = fopen(file, "a");
+	if (!out)
+		return pm_fail_errno("cannot write the timing to '%s'", file);
+	fprintf(out, "%s\t%.9f\t%.9f", s->word, s->setup, s->seconds);
+	if (wall >= 0)
+		fprintf(out, "\t%.9f", wall);
+	bool bad = fputc('\n', out) == EOF || fflush(out);
+	bad |= fclose(out);
+	return bad ? pm_fail_errno("cannot write the timing to '%s'", file) : 0;
+}
+
+void pm_timing_table(size_t n, const struct pm_stage *const *words)
+{
+	double sum = 0, setup = 0;
+	int width = 4;
+	char a[16], b[16];
+	for (size_t i = 0; i < n; i++) {
+		sum += words[i]->seconds, setup += words[i]->setup;
+		width = (int)strlen(words[i]->word) > width ? (int)strlen(words[i]->word) : width;
+	}
+	fprintf(stderr, "%-*s  %9s  %9s  share\n", width, "word", "set-up", "work");
+	for (size_t i = 0; i < n; i++)
+		fprintf(stderr, "%-*s  %9s  %9s  %3.0f %%\n", width, words[i]->word, readable(a, words[i]->setup), readable(b, words[i]->seconds),
+			sum > 0 ? 100 * words[i]->seconds / sum : 0);
+	fprintf(stderr, "%-*s  %9s  %9s\n", width, "all", readable(a, setup), readable(b, sum));
+}
