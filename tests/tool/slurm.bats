@@ -13,7 +13,8 @@ setup() {
 }
 
 @test "the Slurm job submits itself again when its time ends, goes on from the checkpoint, and its parts are one run to the last bit" {
-	printf '%s\n' '#!/usr/bin/env bash' 'kill -TERM "$PPID"' 'exec "'"$(command -v cycle)"'" --no-history "$@"' >stand-in/cycle # Slurm's signal, in every slice
+	printf '%s\n' '#!/usr/bin/env bash' 'kill -TERM "$PPID"' 'exec "'"$(command -v cycle)"'" --no-history "$@"' \
+		>stand-in/cycle # Slurm's signal, in every slice
 	chmod +x stand-in/cycle
 	for k in 1 2; do
 		bash "$job" >said
