@@ -107,7 +107,7 @@ bare() { env -i PATH="$PWD/root/usr/bin:/usr/bin:/bin" HOME="$HOME" LC_ALL=C OMP
 	pmpipe complete p2m --kernel '' | grep -qx m6prime
 	pmpipe complete pmpipe p2m --kernel tsc | grep -qx tsc
 	[ "$(pmpipe complete sdraw a.pm --field '' | tr '\n' ' ')" = 'x v charge mass id ' ] || pmpipe complete sdraw a.pm --field '' | grep -qx charge
-	! pmpipe complete sdraw a.pm --field '' | grep -qE 'matter|mesh|electrons|two-stream'
+	if pmpipe complete sdraw a.pm --field '' | grep -E 'matter|mesh|electrons|two-stream'; then return 1; fi
 	pmpipe complete sdraw -f '' | grep -qx rho
 	pmpipe complete pmpipe help '' | grep -q $'^kernels\t'
 	[ -z "$(pmpipe complete sls '')$(pmpipe complete p2m -o '')$(pmpipe complete pmpipe diag --input '')$(pmpipe complete nothing '')" ]

@@ -16,7 +16,8 @@ load words
 	run -0 --separate-stderr diag --pair --columns energy -i f
 	[[ $stderr == 'diag: energy is nan: '* ]]
 	run -0 --separate-stderr diag -q --pair --columns energy -i f
-	[ -z "$stderr" ] && [ "$output" = "$(printf 'energy\nnan')" ]
+	[ -z "$stderr" ]
+	[ "$output" = "$(printf 'energy\nnan')" ]
 	run -1 --separate-stderr m2p -q -i a
 	[[ $stderr == 'm2p: frame 1: '* ]]
 }

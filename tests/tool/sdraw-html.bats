@@ -22,10 +22,12 @@ near() { # "R G B" "R G B" TOLERANCE
 	grep -q "default-src 'none'" run.html
 	[ "$(grep -c '^<script type="application/json" class="frame">' run.html)" = 2 ]
 	sdraw --format html <aa | cmp - run.html
-	sdraw --threads 1 -o one.html <aa && cmp one.html run.html
+	sdraw --threads 1 -o one.html <aa
+	cmp one.html run.html
 	head -c -200 a >cut
 	run -1 --separate-stderr bash -c 'cat a cut | sdraw -o cut.html'
-	[ ! -e cut.html ] && [ "${#stderr_lines[@]}" = 1 ]
+	[ ! -e cut.html ]
+	[ "${#stderr_lines[@]}" = 1 ]
 	run -1 bash -c 'sdraw -o /nonexistent/run.html <a'
 	run -1 bash -c 'sdraw --field nothing -o x.html <a'
 	run -1 bash -c 'sdraw --set nobody -o x.html <a'

@@ -73,7 +73,8 @@ fields() { sls --format json | jq -r '.fields[] | .on + "/" + .name' | paste -sd
 	pinit plummer -n 10 >a
 	for o in '--set nobody' '--mesh nowhere' '--field nothing' '--drop nothing' '--where q' '--where "sqrt(x)"'; do
 		run --separate-stderr bash -c "sel $o <a >/dev/null"
-		[ "$status" != 0 ] && [ "${#stderr_lines[@]}" = 1 ]
+		[ "$status" != 0 ]
+		[ "${#stderr_lines[@]}" = 1 ]
 	done
 	for o in '--frames 0' '--frames 3:2' '--frames x' '--frames -1' '--every 0' '--where "x >"'; do
 		run -2 bash -c "sel $o <a >/dev/null"

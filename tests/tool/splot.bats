@@ -20,7 +20,7 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 	told 2 "no terminal (-o FILE.png" a t.tsv
 	[ ! -e p.jpg ]
 	two | splot b a -o p.png # an old picture is replaced
-	! pngtopnm p.png | cmp -s - p.PPM
+	if pngtopnm p.png | cmp -s - p.PPM; then return 1; fi
 	[ "$(ls | grep -v stderr)" = $'p.PPM\np.png\np.svg\nt.tsv' ]
 }
 
@@ -40,7 +40,7 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 # Points of a 0..3 x 0..9 chart, one letter each: the parabola's corners are where they belong.
 @test "text: the points are where they belong, of ASCII letters or braille, without trailing blanks" {
 	two | splot a --ascii --style points --width 40 --height 20 >out
-	! grep -nP '[^\x00-\x7f]| $' out
+	run ! grep -nP '[^\x00-\x7f]| $' out
 	[ "$(head -n 1 out)" = a ]
 	[ "$(tail -n 1 out | xargs)" = time ]
 	[ "$(grep -o '\*' out | wc -l)" = 4 ]
@@ -48,7 +48,9 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 	two | LC_ALL=C.UTF-8 splot a --as-text >braille
 	grep -q $'[\u2801-\u28ff]' braille
 	two | LC_ALL=C.UTF-8 splot a b --as-text >marks # two lines without colours
-	grep -q '●' marks && grep -q '+' marks && ! grep -q $'\033' marks
+	grep -q '●' marks
+	grep -q '+' marks
+	run ! grep -q $'\033' marks
 	script -qec 'bash -c "splot a <<<\"\$(printf \"x a\n1 2\n2 3\n\")\""' /dev/null >screen </dev/null
 	grep -q $'\033\[38;5;' screen
 }
@@ -80,7 +82,8 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 	# x^2 and a power law are straight lines through the data on logarithmic axes: the guides cover the line.
 	sed 2d t.tsv >power.tsv
 	splot a power.tsv --log --slope 2 --theory 'square law = x^2' --legend outside -o s.svg
-	grep -q '>square law<' s.svg && grep -q '>slope 2<' s.svg
+	grep -q '>square law<' s.svg
+	grep -q '>slope 2<' s.svg
 	python3 - s.svg <<-'PY'
 		import re, sys
 		lines = [[tuple(map(float, p.split(","))) for p in q.split()] for q in re.findall(r'dasharray[^>]*points="([^"]*)"', open(sys.argv[1]).read())]

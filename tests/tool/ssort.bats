@@ -62,7 +62,8 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 	pinit plummer -n 10 >a
 	for o in '--set nobody' '--by nothing' '--mesh nowhere' "--by 'log(x-100)'" '--every 0' "--by 'x+'"; do
 		run --separate-stderr bash -c "ssort $o <a >/dev/null"
-		[ "$status" != 0 ] && [ "${#stderr_lines[@]}" = 1 ]
+		[ "$status" != 0 ]
+		[ "${#stderr_lines[@]}" = 1 ]
 	done
 	head -c -200 a >cut
 	run -1 bash -c 'ssort <cut >/dev/null'
