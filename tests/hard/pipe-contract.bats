@@ -141,7 +141,7 @@ $code" >hostile.pm 2>err || true
 	sls <abort.pm 2>err || got=$?
 	[ $got = 3 ]
 	[ "$(wc -l <err)" = 1 ]
-	! grep -q $'\e' err
+	run ! grep -q $'\e' err
 	{ printf '%-63s\n' 'PMPIPE/1 abort 77 64'; printf '%-63s\n' 'odd'; } >abort.pm
 	run -1 sls -i abort.pm
 }

@@ -14,8 +14,10 @@ screen() { script -qec "stty cols $1; $2 2>err" /dev/null </dev/null | tr -d '\r
 	diag -i a >all
 	[ "$(head -n 1 all | wc -w)" -gt 15 ]
 	diag -i a | same_as - all
-	screen 80 'diag -i a -o file' && same_as file all
-	screen 80 'diag -q -i a >file' && same_as file all
+	screen 80 'diag -i a -o file'
+	same_as file all
+	screen 80 'diag -q -i a >file'
+	same_as file all
 	screen 80 'diag --format tsv -i a' | same_as - all
 	# units that a table states
 	printf 'x y vx vy mass\n0 0 1 0 2\n' | stab - --law free --unit x=km,v=km/s,mass=kg >b
@@ -44,10 +46,13 @@ screen() { script -qec "stty cols $1; $2 2>err" /dev/null </dev/null | tr -d '\r
 		'enstrophy, omega_max cannot be computed: no mesh holds omega (p2m makes it)')" ]
 	[[ $(screen 120 'diag -i m' | grep step) == *enstrophy*omega_max* ]]
 	screen 80 'diag --columns time,energy -i a' >t
-	[ "$(tail -n 1 t | tr -s ' ')" = ' 0 nan' ] && grep -q '^diag: energy cannot be computed' err
+	[ "$(tail -n 1 t | tr -s ' ')" = ' 0 nan' ]
+	grep -q '^diag: energy cannot be computed' err
 	cat a p a >many
 	screen 120 'diag -i many' >t
-	[ "$(grep -c step t)" = 2 ] && [[ $(grep step t | tail -n 1) == *energy*enstrophy* ]] && [ "$(tail -n 1 t | grep -o nan | wc -l)" -ge 2 ]
+	[ "$(grep -c step t)" = 2 ]
+	[[ $(grep step t | tail -n 1) == *energy*enstrophy* ]]
+	[ "$(tail -n 1 t | grep -o nan | wc -l)" -ge 2 ]
 	pinit uniform -n 5 | field 'acc = -x, -y, -z' >f
 	screen 80 'diag -i f' >t
 	[[ $(head -n 1 err) == "diag: energy is nan: the term 'external' acts on 'matter'"* ]]

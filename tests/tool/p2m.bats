@@ -80,7 +80,7 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	printf 'x mass heat volume\n1.25 2 8 0.5\n2.75 1 4 0.25\n' | line open 8 >a
 	[ "$(p2m --strength heat --field warm <a | mesh)" = "0 0 4 4 0 1 1 0 0" ]
 	sh_ok 'p2m --strength heat --field warm <a | sls'
-	[[ $output =~ warm ]] && [[ ! $output =~ rho ]]
+	[[ $output =~ warm && ! $output =~ rho ]]
 	printf 'x mass heat\n1.25 2 8\n' | line open 8 >b
 	run -1 p2m --strength heat <b
 	[[ $output =~ "is a value, not a strength" ]]
