@@ -40,8 +40,9 @@ static void colours(void)
 			for (int i = 0; i < k; i++)
 				check_least(&least, sqrt(pow(lab[k][0] - lab[i][0], 2) + pow(lab[k][1] - lab[i][1], 2) + pow(lab[k][2] - lab[i][2], 2)));
 		}
-		/* 2.3 is just noticeable side by side; thin lines need several times as much. Measured: 16 (tritanopia). */
-		check(least > 16, "%s: any two colours of the palette differ by %.1f in L*a*b*", eyes[e].name, least);
+		/* 2.3 is just noticeable side by side; thin lines need several times as much. Five times 2.3 is asked
+		 * for; the least is 16.1 (tritanopia). */
+		check(least > 5 * 2.3, "%s: any two colours of the palette differ by %.1f in L*a*b*", eyes[e].name, least);
 		check(lightest < 75, "%s: the lightest, L* = %.0f, is seen on white", eyes[e].name, lightest);
 	}
 }

@@ -88,7 +88,8 @@ static double *solved(const struct pm_grid *g, const struct pm_poisson_fft_choic
 	return s;
 }
 
-/* Softening of 9 cells: waves beyond the Nyquist wave have 9 pi K1(9 pi) = 3e-12 of the strength of a point. */
+/* Softening of 9 cells: waves beyond the Nyquist wave have 9 pi K1(9 pi) = 3e-12 of the strength of a point. Measured: 5e-12; twice that
+ * is allowed. */
 static double mixture(int dim, const int kind[3], double softening, char name[8])
 {
 	const struct pm_grid g = grid(dim, kind, name);
@@ -115,7 +116,7 @@ static void mixtures(void)
 					if (dim == 3 && (i + 2 * j + 3 * k) % 11) /* one in eleven: the sum has 17000 images */
 						continue;
 					const double error = mixture(dim, (int[]){i, j, k}, 9, name);
-					check(error < 1e-8, "%d-D, faces %s, softening of 9 cells: error %g", dim, name, error);
+					check(error < 1e-11, "%d-D, faces %s, softening of 9 cells: error %g", dim, name, error);
 					check_worst(&worst, error);
 				}
 		printf("# %d-D: at most %.1e from the sum over images\n", dim, worst);
@@ -192,7 +193,8 @@ static void wide(void)
 	free(phi);
 }
 
-/* Without softening to the last bit, and the limit is smooth: the change is of order (softening/h)^2. */
+/* Without softening to the last bit, and the limit is smooth: the change is of order (softening/h)^2 = 1e-4. Measured: 2.1 to 2.7e-4, at most
+ * 1.5 times that is allowed. */
 static void narrow(void)
 {
 	char name[8];
@@ -211,7 +213,7 @@ static void narrow(void)
 			double *little = solved(&g, &(struct pm_poisson_fft_choice){.green = &green_plummer, .softening = 0.01}, at), worst = 0;
 			for (size_t k = 0; k < pm_grid_size(&g); k++)
 				check_worst(&worst, fabs(little[k] - plain[k]));
-			check(worst > 0 && worst < 2e-3, "%d-D, faces %s: softening of a hundredth of a cell changes little (%g)", dim, name, worst);
+			check(worst > 0 && worst < 4e-4, "%d-D, faces %s: softening of a hundredth of a cell changes little (%g)", dim, name, worst);
 			free(plain), free(none), free(little);
 		}
 }
