@@ -158,7 +158,8 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	pinit plummer -n 20 >a; mesh 2 >m
 	for o in '--field nothing' '--set nobody' '--mesh nowhere' '--x q' '--x "sqrt(x)"' '--mesh mesh'; do
 		run --separate-stderr bash -c "sdraw $o -o p.png <a"
-		[ "$status" != 0 ] && [ "${#stderr_lines[@]}" = 1 ]
+		[ "$status" != 0 ]
+		[ "${#stderr_lines[@]}" = 1 ]
 	done
 	run -1 bash -c 'sdraw --field w --component 2 -o p.png <m'
 	run -1 bash -c 'sdraw --set matter -o p.png <m'
@@ -176,7 +177,8 @@ picture() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a
 	pinit plummer -n 20 >a
 	sh_ok 'sdraw --size 64 -o p.PNG <a; sdraw --size 64 -o p.ppm <a; sdraw --size 64 --format ppm -o bare <a'
 	picture p.PNG
-	[ "$(head -c 2 p.ppm)" = P6 ] && cmp p.ppm bare
+	[ "$(head -c 2 p.ppm)" = P6 ]
+	cmp p.ppm bare
 	for o in '-o x.jpg' '-o x.d/p' '-o x' '--format png -o x.jpg' '-o x.jpg --format ppm' '--format ppm -o x.png' '--format png -o x.ppm'; do
 		run -2 --separate-stderr bash -c "sdraw $o <a"
 		[ "${#stderr_lines[@]}" = 1 ]
@@ -207,15 +209,18 @@ need_ffmpeg() { command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null ||
 	pinit plummer -n 20 >a; mesh 2 >m; cat a m >am; head -c -200 a >cut; cat a cut >aacut
 	none() { [ ! -e run.mp4 ] && [ "${#stderr_lines[@]}" = 1 ] && [ -z "$(find . -name '.*' -type f)" ]; }
 	PATH="$(without ffmpeg; echo "$PATH")" run -1 --separate-stderr bash -c 'sdraw -o run.mp4 <a'
-	[[ $stderr == "sdraw: no program ffmpeg"*"apt-get install ffmpeg"* ]] && none
+	[[ $stderr == "sdraw: no program ffmpeg"*"apt-get install ffmpeg"* ]]
+	none
 	need_ffmpeg
 	run -1 --separate-stderr bash -c 'sdraw --size 64 -o run.mp4 <am'
-	[[ $stderr == "sdraw: frame 2: this picture has "*" a movie has one size"* ]] && none
+	[[ $stderr == "sdraw: frame 2: this picture has "*" a movie has one size"* ]]
+	none
 	run -1 --separate-stderr bash -c 'sdraw --size 64 -o run.mp4 <aacut'
 	none
 	mkdir broken; printf '#!/bin/sh\nread -r line\necho "no encoder here" >&2\nexit 1\n' >broken/ffmpeg; chmod +x broken/ffmpeg
 	PATH=$PWD/broken:$PATH run -1 --separate-stderr bash -c 'cat a a a | sdraw -o run.mp4'
-	[[ $stderr == "sdraw: "*"ffmpeg: no encoder here" ]] && none
+	[[ $stderr == "sdraw: "*"ffmpeg: no encoder here" ]]
+	none
 	for o in '-o run%d.mp4' '--format mp4 -o -' '--format mp4'; do run -2 bash -c "sdraw $o <a"; done
 	run -1 bash -c 'sdraw -o /nonexistent/run.mp4 <a'
 }
