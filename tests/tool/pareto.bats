@@ -236,7 +236,7 @@ errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
 		document.querySelector("button.copy").click(); document.body.append(out);</script></body>|' d/index.html >page.html
 	chromium --headless --no-sandbox --disable-gpu --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr --dump-dom \
 		"file://$PWD/page.html" >dom 2>log
-	! grep CONSOLE log
+	if grep CONSOLE log; then return 1; fi
 	up=$(sed -n 's/.*<div>UP \(.*\) DOWN .*/\1/p' dom)
 	down=$(sed -n 's/.*<div>UP .* DOWN \([^<]*\)<.*/\1/p' dom)
 	[ "$(tr ' ' '\n' <<<"$up" | grep -c '[0-9]')" = 4 ] # and two that failed

@@ -45,7 +45,8 @@ slow_word() {
 	cycle -n 12 "$slow" <a 2>said >b
 	[ ! -s said ]
 	cycle -v -n 120 "$slow" <a 2>said >b
-	grep -Eq "^cycle: step [0-9]+/120, time $x, [0-9]+ %, $x steps/s, [0-9:]+ left" said # after a second; its energy too, where that is cheap: not on a busy machine
+	# After a second; its energy too, where that is cheap: not on a busy machine.
+	grep -Eq "^cycle: step [0-9]+/120, time $x, [0-9]+ %, $x steps/s, [0-9:]+ left" said
 	tail -n 1 said | grep -Eq "^cycle: step 120, time $x, $x s, $x steps/s, energy [-+]"
 }
 
