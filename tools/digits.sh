@@ -94,15 +94,13 @@ one() {
 	[ "$1" != f32.1 ] || rounded_words
 	[ -z "$3" ] || all[behind]+=" | perturb --seed $3${opt_relative:+ --relative $opt_relative}"
 	join "${all[@]}"
-	if ! PM_ROUNDING=$2 bash -o pipefail -c "$text" >"$work/$1.out" 2>"$work/$1.said" </dev/null; then
-		why 1 "$work/$1.said" >"$work/failure"
-		echo "$1" >>"$work/failure"
-	fi
+	local status=0
+	PM_ROUNDING=$2 bash -o pipefail -c "$text" >"$work/$1.out" 2>"$work/$1.said" </dev/null || status=$?
+	[ $status = 0 ] || printf '%s\t%s\n' $status "the run '$1' fails: $(why $status "$work/$1.said")" >"$work/failure"
 }
 
 # measure RUN: the numbers and fields of its result.
 measure() {
-	[ ! -e "$work/$1.measured" ] || return 0
 	if [ "$(head -c 7 "$work/$1.out")" = PMPIPE/ ]; then
 		diag ${opt_columns:+--columns "$opt_columns"} <"$work/$1.out" >"$work/$1.table" 2>"$work/$1.said" || fail 1 "$(why 1 "$work/$1.said")"
 		[[ $1 == as-is || ${opt_fields:-} == none ]] || scmp --common ${opt_fields:+--field "$opt_fields"} "$work/$1.out" "$work/as-is.out" \
@@ -122,22 +120,34 @@ settle() {
 	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
 }
 
+# reap: waits for one run; ends them all if it failed.
+reap() {
+	local gone='' c status text
+	wait -n -p gone "${!children[@]}" 2>/dev/null || true
+	[ -z "$gone" ] || unset "children[$gone]"
+	doing="${#children[@]} runs under way"
+	[ -e "$work/failure" ] || return 0
+	for c in "${!children[@]}"; do kill -TERM -- "-$c" 2>/dev/null || true; done
+	IFS=$'\t' read -r status text <"$work/failure"
+	fail "$status" "$text"
+}
+
 # batch: the variants, --jobs of them at a time.
 batch() {
-	local i n=0 list=("as-is nearest ") line
+	local i list=("as-is nearest ") line run mode seed
 	for ((i = 1; i <= runs; i++)); do list+=("input.$i nearest $i"); done
 	list+=("rounding.1 up " "rounding.2 down " "rounding.3 zero ")
 	[ -z "${opt_f32:-}" ] || list+=("f32.1 nearest ")
 	for line in "${list[@]}"; do
-		while [ "$n" -ge "$jobs" ]; do wait -n && n=$((n - 1)); done
+		while [ ${#children[@]} -ge "$jobs" ]; do reap; done
 		IFS=' ' read -r run mode seed <<<"$line"
-		one "$run" "$mode" "$seed" &
-		n=$((n + 1))
-		doing="$n of ${#list[@]} runs begun"
 		[ -z "${opt_verbose:-}" ] || tell "run $run"
+		set -m # a process group of its own, for stop
+		one "$run" "$mode" "$seed" &
+		children[$!]=1
+		set +m
 	done
-	wait
-	[ ! -e "$work/failure" ] || fail 1 "the run '$(tail -n 1 "$work/failure")' fails: $(head -n 1 "$work/failure")"
+	while [ ${#children[@]} != 0 ]; do reap; done
 	for line in "${list[@]}"; do measure "${line%% *}"; done
 }
 
@@ -148,6 +158,7 @@ main() {
 	PATH=$here:$PATH
 	settle "$@"
 	understand
+	[ -z "${opt_f32:-}" ] || rounded_words
 	trap stop INT TERM
 	trap '[ -z "$work" ] || rm -rf "$work"' EXIT
 	work_directory

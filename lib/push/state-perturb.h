@@ -1,5 +1,5 @@
 /* Every number of the state moved at random, by units in the last place or by a fraction of itself: the input of a run as uncertain as its storage.
- * A number goes up or down by (seed, set, field, particle, component) alone, not by order or threads; 0 stays.
+ * A number goes up or down by (seed, set, field, id or index, component) alone, not by threads; 0 stays.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_PUSH_STATE_PERTURB_H
 #define PM_PUSH_STATE_PERTURB_H

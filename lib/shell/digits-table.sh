@@ -6,6 +6,8 @@
 # runs, NAME.1, NAME.2 ...; the run "as-is" belongs to each. The digits of a group are those of Vignes (1993), log10(sqrt(n) |mean| / (t s)), with the
 # standard deviation s of its n runs and Student's t for 95 %; of f32, a single run, -log10 of the relative difference.
 agreement() {
+	local files
+	mapfile -t files < <(runs_of table)
 	awk -F'\t' -v OFS='\t' -v groups="$1" '
 	function size(x) { return x < 0 ? -x : x }
 	function number(x) { return x ~ /^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$/ }
@@ -34,12 +36,14 @@ agreement() {
 		for (r = 1; r <= rows; r++) for (i = 1; i <= columns; i++) if (number(at["as-is", r, i])) {
 			line = r OFS name[i] OFS at["as-is", r, i]
 			for (g = 1; g <= ng; g++) { d = digits(group[g], r, i); line = line OFS (d == "-" ? d : sprintf("%.1f", d)) }
-			print line } }' "$work/as-is.table" $(runs_of table)
+			print line } }' "$work/as-is.table" "${files[@]}"
 }
 
 # fields_agree GROUPS: the same for the fields of the streams, "frame set.field - GROUP...", by the largest relative l2 difference of a group from the run as
 # it is.
 fields_agree() {
+	local files
+	mapfile -t files < <(runs_of fields)
 	awk -F'\t' -v OFS='\t' -v groups="$1" '
 	function digits(x) { return x == 0 ? most : x >= 1 ? 0 : -log(x) / log(10) > most ? most : -log(x) / log(10) }
 	BEGIN { most = 53 * log(2) / log(10); ng = split(groups, group, " ") }
@@ -54,7 +58,7 @@ fields_agree() {
 			for (g = 1; g <= ng; g++) {
 				x = worst[group[g], order[i]]
 				line = line OFS ((group[g], order[i]) in worst && x ~ /^[0-9.]/ ? sprintf("%.1f", digits(x + 0)) : "-") }
-			print line } }' $(runs_of fields)
+			print line } }' "${files[@]}"
 }
 
 # report: lines of "frame quantity value input rounding [f32] digits worst".

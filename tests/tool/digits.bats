@@ -15,7 +15,7 @@ found() { awk -F'\t' -v q="$1" -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if
 	sel --field x <b | stab --plain | tail -n +2 >xb
 	between "$(paste xa xb | awk '$4 > $1 { up++ } END { print up }')" 200 300 # 250 +- 4.5 deviations
 	[ "$(paste xa xb | awk '$4 == $1 || $5 == $2' | wc -l)" = 0 ]
-	! cmp -s <(perturb --seed 2 <a) b
+	run -1 cmp -s <(perturb --seed 2 <a) b
 	within "$(perturb --relative 1e-3 <a | scmp --field v - a | column relative_l2)" 1e-3 1e-15
 }
 
@@ -35,7 +35,7 @@ found() { awk -F'\t' -v q="$1" -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if
 		PM_ROUNDING=$m p2m --threads 2 <a | PM_ROUNDING=$m poisson-fft --threads 1 >"$m.2"
 		same_as "$m.1" "$m.2"
 	done
-	! cmp -s up.1 down.1
+	run -1 cmp -s up.1 down.1
 	PM_ROUNDING=sideways run -2 sls a
 	[[ $output = *"PM_ROUNDING is 'sideways' (nearest, up, down or zero)"* ]]
 }
@@ -76,7 +76,27 @@ found() { awk -F'\t' -v q="$1" -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if
 	run -1 digits 'pinit plummer -n 3 | mgrad'
 	[[ $output = *"fails: mgrad: frame 1"* ]]
 	run -2 digits --runs 1 'pinit plummer'
-	touch "there is no shell here"
-	run -2 digits --columns '$(rm there*)' --runs x 'pinit plummer'
-	[ -e 'there is no shell here' ]
+	touch there.is.a.file
+	run -1 digits --columns '$(rm there*)' --fields '; rm there*' 'pinit plummer -n 3'
+	[ -e there.is.a.file ]
+	mkdir 'a b*'
+	TMPDIR=$PWD/'a b*' digits --runs 2 --columns mass --fields x 'pinit plummer -n 3 | pp' >out
+	[ -z "$(ls 'a b*')" ]
+	run -2 digits --f32 'pinit plummer -n 3 | cycle "push drift" -n 1'
+	[[ $output = *'the sentence of cycle is not the last argument'* && $output != *fails* ]]
+}
+
+@test "digits that is stopped ends its runs and leaves nothing behind" {
+	mkdir there
+	TMPDIR=$PWD/there setsid digits 'pinit plummer -n 3000 | cycle -n 100000 "push kick/2 drift | pp | push kick/2"' >out 2>err &
+	digits=$!
+	for _ in {1..50}; do [ -z "$(ls there)" ] && sleep 0.1 || break; done
+	sleep 0.3
+	kill -TERM $digits
+	wait $digits && status=0 || status=$?
+	[ $status = 130 ]
+	grep -q '^digits: stopped; ' err
+	[ -z "$(ls there)" ]
+	run pgrep -f 'cycle -n 100000 push kick/2 drift . pp'
+	[ "$status" = 1 ]
 }
