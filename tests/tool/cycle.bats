@@ -281,7 +281,8 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		for how in '' '--engine pipes' '--every 7'; do
 			got=$(cycle -n 60 $how --until "$name $sign $factor*${name}0 + $add" "$words" <$scene | sls --format json | jq -s '.[-1].step')
 			echo "$scene, $name: $got, in the table '$want' ($how)"
-			[ "$want" -gt 3 ] && [ "$want" -lt 60 ]
+			[ "$want" -gt 3 ]
+			[ "$want" -lt 60 ]
 			[ "$got" = "$want" ]
 		done
 	done
