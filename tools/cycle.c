@@ -39,7 +39,8 @@ static const struct pm_option options[] = {
 		.text = "write the initial frame, every step that is a multiple of N, and the last"},
 	PM_SELECTION_ROWS(AT_KEPT, 0),
 	{.name = "store", .kind = PM_LIST, .choices = stores, .cosmetic = true, AT(output.store),
-		.text = "write everything (all), and real numbers in single precision (f32); default: f64, without what mgrad made of the potential"},
+		.text = "write everything (all), and real numbers in single precision (f32); default: types as they are, without what mgrad made of the "
+			"potential"},
 	{.name = "engine", .kind = PM_WORD, .fallback = "fused", .choices = engines, .cosmetic = true, AT(engine),
 		.text = "run the words in one process, or as long-lived processes on pipes"},
 	{.name = "checkpoint", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(checkpoint),

@@ -76,7 +76,7 @@ static const struct pm_option options[] = {
 		.text = "particles beyond an open mesh: left off and counted, and m2p gives them the force of the monopole of those inside; left out without "
 			"force and counted; the mesh grows; or failure"},
 	{.name = "rim", .kind = PM_INTEGER, .unit = "cells", .fallback = "0", .high = PM_RIM_MOST, PM_AT(rim),
-		.text = "particles so much nearer to an open face than the kernel's reach are outside too: 1 for mgrad of order 4, 2 of order 6"},
+		.text = "particles within N cells of the kernel's reach of an open face are outside too: 1 for mgrad of order 4, 2 of order 6"},
 	{.name = "add", .kind = PM_FLAG, PM_AT(add), .text = "add to the existing density instead of replacing it"},
 	{.name = "interlace", .kind = PM_FLAG, PM_AT(interlace),
 		.text = "use two meshes half a cell apart, combined so that half of the aliases vanish (periodic boxes; m2p does the same)"},

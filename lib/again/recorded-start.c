@@ -27,13 +27,34 @@ static void become(char **argv, int in, int out)
 	_exit(127);
 }
 
+static int wait_for(pid_t pid)
+{
+	int how = 0;
+	while (waitpid(pid, &how, 0) < 0 && errno == EINTR)
+		;
+	return how;
+}
+
+/* Ends those that run already: nobody reads what they write. */
+static int given_up(int status, int started, int in, const int out[2])
+{
+	const int open[3] = {in, out[0], out[1]};
+	for (int i = 0; i < 3; i++)
+		if (open[i] >= 0)
+			close(open[i]);
+	while (started-- > 0)
+		wait_for(processes[started]);
+	return status;
+}
+
 int pm_recorded_start(const struct pm_recorded_run *run, int *end)
 {
-	int in = open("/dev/null", O_RDONLY | O_CLOEXEC), out[2];
+	int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
 	for (int k = 0; k < run->n; k++) {
+		int out[2] = {-1, -1};
 		pid_t pid = in < 0 || pipe2(out, O_CLOEXEC) ? -1 : fork();
 		if (pid < 0)
-			return pm_fail_errno("cannot start '%s'", run->argv[k][0]);
+			return given_up(pm_fail_errno("cannot start '%s'", run->argv[k][0]), k, in, out);
 		if (pid == 0)
 			become(run->argv[k], in, out[1]);
 		processes[k] = pid;
@@ -49,9 +70,7 @@ int pm_recorded_wait(const struct pm_recorded_run *run)
 {
 	int status = 0;
 	for (int k = 0; k < run->n; k++) {
-		int how = 0;
-		while (waitpid(processes[k], &how, 0) < 0 && errno == EINTR)
-			;
+		int how = wait_for(processes[k]);
 		int code = WIFEXITED(how) ? WEXITSTATUS(how) : PM_DATA;
 		if (code && !status)
 			status = pm_fail(code <= PM_NUMERICS ? code : PM_DATA, "%s has failed, its reason is above", run->argv[k][0]);

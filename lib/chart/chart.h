@@ -64,7 +64,7 @@ void pm_chart_ticks(const struct pm_chart_axis *a, int most, struct pm_chart_tic
 extern const unsigned char pm_chart_palette[PM_CHART_COLOURS][3]; /* told apart by colour-blind people too (tests/unit/chart.c) */
 
 struct pm_canvas;
-void pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas);
+int pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas);
 struct pm_chart_print { bool ascii, colours; };
 int pm_chart_print(struct pm_chart *c, FILE *out, struct pm_chart_print how);
 

@@ -1,4 +1,4 @@
-/* Series from the columns of a table, and the lines of a theory. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Series from the columns of a table. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>

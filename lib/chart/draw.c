@@ -190,11 +190,18 @@ static void axes(struct pm_drawing *d)
 		d->k->text(d->k, (double[2]){d->x0, d->y0 - 1.1 * l}, 1.1 * l, PM_CANVAS_START, false, d->c->title, pm_chart_ink);
 }
 
-/* What is taken, and the place of the legend; false: there is none inside. */
+/* What is taken, and the place of the legend; false: there is none inside. d->status is set where nothing can be drawn. */
 static bool find_rooms(struct pm_drawing *d)
 {
+	const double least = 4 * d->letter;
 	pm_room_free(&d->room);
-	if (pm_room_new(&d->room, d->x0, d->y0, d->x1, d->y1, 0.5 * d->letter))
+	if (!(d->x1 - d->x0 >= least))
+		d->status = pm_fail(PM_DATA, "the texts leave no room for the data (--legend none, or a larger --width)");
+	else if (!(d->y1 - d->y0 >= least))
+		d->status = pm_fail(PM_DATA, "the texts leave no room for the data (a larger --height, or a smaller --width)");
+	else
+		d->status = pm_room_new(&d->room, d->x0, d->y0, d->x1, d->y1, 0.5 * d->letter);
+	if (d->status)
 		return true;
 	for (size_t k = 0; k < d->c->nseries; k++)
 		pm_series_take(d, &d->c->series[k]);
@@ -209,7 +216,7 @@ static bool find_rooms(struct pm_drawing *d)
 	return true;
 }
 
-void pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas)
+int pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas)
 {
 	const double size = fmax(6, sqrt((double)c->width * c->height) / 72), flat = fmin(c->width / 90.0, c->height / 14.0);
 	struct pm_drawing d = {.c = c, .k = canvas, .letter = fmax(size, flat), .outside = c->legend_outside};
@@ -220,7 +227,7 @@ void pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas)
 		lay_out(&d);
 		find_rooms(&d);
 	}
-	if (d.room.taken) {
+	if (!d.status) {
 		frame_lines(&d);
 		for (int guides = 1; guides >= 0; guides--) /* under the data */
 			for (size_t k = c->nseries; k-- > 0;)
@@ -233,4 +240,5 @@ void pm_chart_draw(struct pm_chart *c, struct pm_canvas *canvas)
 		names(&d);
 	}
 	pm_room_free(&d.room);
+	return d.status;
 }

@@ -17,6 +17,7 @@ struct pm_drawing {
 	struct pm_room room;
 	double legend[2], size[2];     /* upper left corner, width and height of the legend; size 0: none */
 	bool outside;
+	int status;                    /* failed, if not 0 */
 };
 
 double pm_drawing_x(const struct pm_drawing *d, double v);

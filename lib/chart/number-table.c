@@ -67,11 +67,13 @@ static char separator(const char *line)
 
 static const char *blank(const char *line) { return line + strspn(line, " \t"); }
 
+/* At most one more than most_columns, which is too many. */
 static size_t cells_of(char *line, char mark, char *cell[most_columns])
 {
 	size_t n = 0;
-	for (char *at = line, *c; n < most_columns && (c = next_cell(&at, mark));)
-		cell[n++] = c;
+	for (char *at = line, *c; n <= most_columns && (c = next_cell(&at, mark)); n++)
+		if (n < most_columns)
+			cell[n] = c;
 	return n;
 }
 
@@ -114,7 +116,8 @@ static int read_names(struct pm_number_table *t, char *mark, char **line)
 	*mark = separator(*line);
 	if (!(copy = t->names = strdup(*line)))
 		return pm_no_memory();
-	t->columns = cells_of(copy, *mark, cell);
+	if ((t->columns = cells_of(copy, *mark, cell)) > most_columns)
+		return pm_fail(PM_DATA, "%s: more than %d columns (cut -f takes some of them)", t->path, most_columns);
 	for (size_t c = 0; c < t->columns; c++)
 		words |= !number_of(cell[c], &x);
 	if (!(t->name = pm_alloc(t->columns + 1, sizeof *t->name)))

@@ -201,8 +201,9 @@ static int write_pixels(struct plot *p, FILE *out)
 	if (status)
 		return status;
 	struct pm_canvas canvas = pm_canvas_pixels(&picture);
-	pm_chart_draw(&p->chart, &canvas);
-	status = p->kind == PNG ? pm_picture_png(&picture, out) : pm_picture_ppm(&picture, out);
+	status = pm_chart_draw(&p->chart, &canvas);
+	if (!status)
+		status = p->kind == PNG ? pm_picture_png(&picture, out) : pm_picture_ppm(&picture, out);
 	pm_picture_free(&picture);
 	return status;
 }
@@ -213,7 +214,7 @@ static int to_file(struct plot *p)
 	p->chart.width = p->job->width ? p->job->width : 900, p->chart.height = p->job->height ? p->job->height : 620;
 	if (p->chart.width < 120 || p->chart.height < 90)
 		return pm_fail(PM_USAGE, "%d by %d pixels are too few for a picture (at least --width 120 --height 90)", p->chart.width, p->chart.height);
-	int status = pm_replace_open(&file, p->job->output, false);
+	int status = pm_replace_open(&file, p->job->output, true);
 	if (status)
 		return status;
 	FILE *out = fdopen(dup(file.fd), "wb");
@@ -221,7 +222,7 @@ static int to_file(struct plot *p)
 		status = pm_fail_errno("cannot write '%s'", p->job->output);
 	else if (p->kind == SVG) {
 		struct pm_canvas canvas = pm_canvas_svg(out, p->chart.width, p->chart.height);
-		pm_chart_draw(&p->chart, &canvas);
+		status = pm_chart_draw(&p->chart, &canvas);
 		pm_canvas_svg_end(&canvas);
 	} else
 		status = write_pixels(p, out);
@@ -231,8 +232,8 @@ static int to_file(struct plot *p)
 		status = pm_fail_errno("cannot write '%s'", p->job->output);
 	if (!status)
 		status = pm_replace_commit(&file, false);
-	pm_replace_drop(&file);
 	close(file.fd);
+	pm_replace_drop(&file);
 	return status;
 }
 

@@ -171,7 +171,8 @@ void pm_series_line(struct pm_drawing *d, const struct pm_chart_series *s)
 		if ((double)n > 4 * (d->x1 - d->x0) && in_order(n, xy))
 			n = thin(n, xy);
 		cut_line(d, s, n, xy, run);
-	}
+	} else if (pm_series_has_lines(s))
+		d->status = -PM_DATA;
 	pm_free(xy), pm_free(run);
 }
 

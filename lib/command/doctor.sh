@@ -100,7 +100,7 @@ doctor() {
 	trap 'rm -rf "$room"' EXIT
 	row disk "$(df -Pk "$room" | awk 'NR == 2 { printf "%.1f GiB free", $4 / 1048576 }') in ${TMPDIR:-/tmp}"
 	sentence_runs
-	optional bash bash 'pareto and margin'
+	optional bash bash 'pareto, margin and digits'
 	optional gnuplot gnuplot-nox 'pictures of the gallery'
 	optional parallel parallel 'pareto --jobs'
 	optional ffmpeg ffmpeg 'sdraw -o run.mp4'

@@ -50,7 +50,7 @@ choice_rows() {
 
 # choices NAME: who chooses from such a list, and the list: kernels are what --kernel takes, scenes what pinit takes.
 choices() {
-	choice_rows | awk -F'\t' -v want="$1" '$3 != want && $3 "s" != want { next }
+	choice_rows | WANT=$1 awk -F'\t' 'BEGIN { want = ENVIRON["WANT"] } $3 != want && $3 "s" != want { next }
 		!($4 in by) { order[++n] = $4 } { by[$4] = by[$4] (by[$4] == "" ? "" : ", ") $1 " " $2 }
 		END { for (i = 1; i <= n; i++) print by[order[i]] ":\n  " order[i]; exit !n }'
 }

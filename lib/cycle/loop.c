@@ -1,4 +1,4 @@
-/* The loop of cycle. All decisions are made between steps and from the frame alone, so that every engine and a resumed run do the same.
+/* The loop of cycle. All that is written to the output is decided between steps and from the frame alone, so that every engine and a resumed run do the same.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
@@ -318,20 +318,21 @@ static int frames(struct cycle *y, struct pm_reader *in)
 
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
-	struct cycle y = {.c = c, .s = s, .end = {.time = c->time, .exact = c->exact}};
-	int bad = pm_output_init(&y.what, &c->output);
-	bad = bad ? bad : pm_checkpoint_init(&y.kept, c->checkpoint, c->checkpoint_every);
-	if (bad)
-		return bad;
-	if (!c->plan && (bad = speak(&y, s->args[0])))
-		return bad;
-	if (c->until && !(y.until = pm_until_new(c->until)))
-		return pm_sentence_free(y.words), pm_failed();
-	if (c->resume)
-		s->run->reader = pm_h5_pipe_open(c->resume);
-	struct pm_reader *in = c->resume ? s->run->reader : pm_stage_reader(s);
-	y.out = in ? pm_stage_writer(s) : NULL;
-	int status = y.out ? 0 : pm_failed();
+	struct cycle y = {.c = c, .s = s, .kept = {.lock = -1}, .end = {.time = c->time, .exact = c->exact}};
+	struct pm_reader *in = NULL;
+	int status = pm_output_init(&y.what, &c->output);
+	status = status ? status : pm_checkpoint_init(&y.kept, c->checkpoint, c->checkpoint_every);
+	if (!status && !c->plan)
+		status = speak(&y, s->args[0]);
+	if (!status && c->until && !(y.until = pm_until_new(c->until)))
+		status = pm_failed();
+	if (!status) {
+		if (c->resume)
+			s->run->reader = pm_h5_pipe_open(c->resume);
+		in = c->resume ? s->run->reader : pm_stage_reader(s);
+		y.out = in ? pm_stage_writer(s) : NULL;
+		status = y.out ? 0 : pm_failed();
+	}
 	pm_chain_give_up = give_up;
 	listen_to(SIGINT);
 	listen_to(SIGTERM);

@@ -97,11 +97,12 @@ static int name_parts(const char *path, hid_t header, struct pm_gadget *g)
 	return 0;
 }
 
-hid_t pm_gadget_open(const struct pm_gadget *g, int k)
+hid_t pm_gadget_open(struct pm_gadget *g, int k)
 {
 	char path[sizeof g->stem + 32];
 	snprintf(path, sizeof path, "%s%d%s", g->stem, k, g->ending);
-	pm_h5_more_room(path);
+	if (k > g->allowed) /* each file is opened for every field */
+		pm_h5_more_room(path), g->allowed = k;
 	hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
 	if (file < 0)
 		pm_h5_fail("cannot open '%s', one of the %d files of the snapshot", path, g->files);

@@ -17,13 +17,13 @@ struct pm_gadget {
 	double length, weight, speed;       /* the units in cm, g, cm/s; 0: not stated */
 	double G;                           /* in these units; 0 unknown */
 	int periodic;                       /* 1 yes, 0 no, -1 not stated */
-	int files;
+	int files, allowed;                 /* allowed: the last one for which memory has been allowed; for the 0th it was at the start */
 	char stem[4096], ending[8];         /* of several files: STEM.K.ENDING */
 };
 
 bool pm_gadget_is(hid_t file);
 int pm_gadget_header(hid_t file, const char *path, struct pm_gadget *g);
-hid_t pm_gadget_open(const struct pm_gadget *g, int k); /* the k-th of several files, counted by pm_gadget_here; negative with a message */
+hid_t pm_gadget_open(struct pm_gadget *g, int k); /* the k-th of several files, counted by pm_gadget_here; negative with a message */
 int pm_gadget_here(hid_t file, struct pm_gadget *g);    /* sets here[] */
 
 /* The whole snapshot as a frame; its report says how it was read. */

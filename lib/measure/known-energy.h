@@ -7,7 +7,7 @@
 
 /* Sets softening, pair (if pairs are to be summed) and unknown of *how, whose set and strength are known. */
 void pm_known_energy(const struct pm_frame *f, const struct pm_law *law, bool pairs, struct pm_measure *how);
-enum { PM_PAIRS_UNASKED = 4096 }; /* particles; 8.4e6 pairs, 42 ms on one core */
+enum { PM_PAIRS_UNASKED = 4096 }; /* particles; 8.4e6 pairs, 43 ms on one core */
 enum pm_pairs { PM_PAIRS_NO, PM_PAIRS_SUM, PM_PAIRS_MANY };
 /* Are pairs summed though nobody asked, where neither mesh nor particles hold the potential: in open space, and of so many at most. If not, why is a
  * reason and a remedy; "" if the energy does not need them, or its reason is known already. */

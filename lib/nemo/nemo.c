@@ -184,6 +184,8 @@ static int collect(struct pm_nemo *r, struct body *b, bool particles, int depth)
 			b->time = real(&item, 0);
 		else if (!set && particles && b->items < 32)
 			b->item[b->items++] = item;
+		else if (!set && particles)
+			leave_out(r, item.tag);
 	}
 	return status < 0 ? status : status ? 0 : damaged(r, "it ends within a set");
 }

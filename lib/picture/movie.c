@@ -81,9 +81,9 @@ int pm_movie_end(struct pm_movie *m)
 {
 	int status = 0, state = 0;
 	char text[1024];
-	if (!m->pid)
-		return 0;
-	const bool cut = fclose(m->pipe) != 0;
+	if (m->pid <= 0)
+		return m->pid ? pm_fail(PM_DATA, "cannot start ffmpeg") : 0;
+	const bool cut = !m->pipe || fclose(m->pipe) != 0;
 	m->pipe = NULL;
 	while (waitpid(m->pid, &state, 0) < 0 && errno == EINTR);
 	m->pid = 0;

@@ -61,7 +61,7 @@ plot() {
 	{
 		printf '%s\tgrowth\tcase\n' "${axis_name[0]}"
 		for m in "${!sentence[@]}"; do
-			curve "$m" | awk -F'\t' -v OFS='\t' -v name="$(name_of_member "$m")" '{ print $1, $2, name }'
+			curve "$m" | NAME=$(name_of_member "$m") awk -F'\t' -v OFS='\t' '{ print $1, $2, ENVIRON["NAME"] }'
 		done
 	} >"$1/points.tsv"
 	if [ "$(wc -l <"$1/points.tsv")" = 1 ]; then

@@ -98,8 +98,8 @@ plot_map() {
 	{
 		printf '%s\t%s\tcase\n' "${axis_name[0]}" "${axis_name[1]}"
 		for m in "${!sentence[@]}"; do
-			look_map lines | awk -F'\t' -v OFS='\t' -v m="$m" -v name="$([ ${#sentence[@]} = 1 ] && echo boundary || name_of_member "$m")" '
-				$1 == m { print $2, $3, name; print $4, $5, name; print "" }'
+			look_map lines | NAME=$([ ${#sentence[@]} = 1 ] && echo boundary || name_of_member "$m") awk -F'\t' -v OFS='\t' -v m="$m" '
+				BEGIN { name = ENVIRON["NAME"] } $1 == m { print $2, $3, name; print $4, $5, name; print "" }'
 		done
 		[ ${#sentence[@]} != 1 ] || look_map points | awk -F'\t' -v OFS='\t' '$4 == "stable" { print $2, $3, "stable" }'
 	} >"$1/points.tsv"

@@ -18,8 +18,8 @@ enum pm_role { PM_STATE, PM_CHANGE, PM_DERIVED, PM_REGISTER };
 enum pm_face { PM_PERIODIC, PM_OPEN, PM_WALL, PM_NEUMANN, PM_ABSORBING };          /* of the fields */
 enum pm_particle_face { PM_PFOLD, PM_PREFLECT, PM_PABSORB, PM_POPEN };             /* of the particles: periodic, reflect, absorb, open */
 
-/* What m2p does with particles beyond the open faces of the mesh, of whose density the field was made (docs/methods/transfer.md). */
 enum { PM_RIM_MOST = 64 }; /* cells */
+/* What m2p does with particles beyond the open faces of the mesh, of whose density the field was made (docs/methods/transfer.md). */
 enum pm_outside { PM_OUTSIDE_MONOPOLE, PM_OUTSIDE_DROP, PM_OUTSIDE_ERROR };
 
 extern const char *const pm_outside_names[]; /* NULL ends */

@@ -99,16 +99,16 @@ static int end(FILE *out, const char *type, const struct array *a, int n)
 	return ferror(out) ? pm_fail_errno("cannot write") : 0;
 }
 
-enum { most_arrays = 256 };
-
 int pm_vtk_set(FILE *out, const struct pm_frame *f, const struct pm_set *set)
 {
-	struct array a[most_arrays];
 	int n = 3;
 	uint64_t offset = 0;
 	const struct pm_field *x = pm_frame_field(f, set->name, "x");
 	if (!x || (x->type != PM_F64 && x->type != PM_F32))
 		return pm_fail(PM_DATA, "the set '%s' has no positions", set->name);
+	struct array *a = pm_alloc(f->nfields + 3, sizeof *a);
+	if (!a)
+		return -PM_DATA;
 	a[0] = array_of(x, -1);
 	a[1] = (struct array){.what = COUNT_FROM_0, .n = x->count, .wide = 1, .type = PM_I64};
 	a[2] = (struct array){.what = COUNT_FROM_1, .n = x->count, .wide = 1, .type = PM_I64};
@@ -122,7 +122,7 @@ int pm_vtk_set(FILE *out, const struct pm_frame *f, const struct pm_set *set)
 	array_head(out, a + 1, "connectivity", &offset);
 	array_head(out, a + 2, "offsets", &offset);
 	fputs("</Verts>\n<PointData>\n", out);
-	for (size_t i = 0; i < f->nfields && n < most_arrays; i++) {
+	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *p = f->fields[i];
 		if (strcmp(p->on, set->name) || p == x)
 			continue;
@@ -130,7 +130,9 @@ int pm_vtk_set(FILE *out, const struct pm_frame *f, const struct pm_set *set)
 		array_head(out, a + n++, p->name, &offset);
 	}
 	fputs("</PointData>\n", out);
-	return end(out, "PolyData", a, n);
+	int status = end(out, "PolyData", a, n);
+	pm_free(a);
+	return status;
 }
 
 bool pm_vtk_staggered(const struct pm_field *p, int component)
@@ -149,11 +151,13 @@ static bool whole(const struct pm_field *p)
 
 int pm_vtk_mesh(FILE *out, const struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *part, int component)
 {
-	struct array a[most_arrays];
+	struct array *a = pm_alloc(f->nfields + 1, sizeof *a);
 	int n = 0;
 	uint64_t offset = 0;
 	size_t points[3] = {1, 1, 1};
 	double lo[3] = {0}, h[3] = {1, 1, 1};
+	if (!a)
+		return -PM_DATA;
 	pm_mesh_points(f, m, points);
 	for (int d = 0; d < f->dim; d++)
 		h[d] = m->h[d], lo[d] = m->lo[d] + (part && part->staggered[component][d] ? m->h[d] / 2 : 0);
@@ -164,7 +168,7 @@ int pm_vtk_mesh(FILE *out, const struct pm_frame *f, const struct pm_mesh *m, co
 		points[2] - 1, lo[0], lo[1], lo[2], h[0], h[1], h[2]);
 	time_of(out, f);
 	fprintf(out, "<Piece Extent=\"0 %zu 0 %zu 0 %zu\">\n<PointData>\n", points[0] - 1, points[1] - 1, points[2] - 1);
-	for (size_t i = 0; i < f->nfields && n < most_arrays; i++) {
+	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *p = f->fields[i];
 		if (strcmp(p->on, m->name) || (part ? p != part : !whole(p)))
 			continue;
@@ -172,5 +176,7 @@ int pm_vtk_mesh(FILE *out, const struct pm_frame *f, const struct pm_mesh *m, co
 		array_head(out, a + n++, p->name, &offset);
 	}
 	fputs("</PointData>\n", out);
-	return end(out, "ImageData", a, n);
+	int status = end(out, "ImageData", a, n);
+	pm_free(a);
+	return status;
 }

@@ -208,7 +208,9 @@ class Stream(Iterable[Frame]):
             code = self._process.wait()
             if code and self._errors is not None:
                 self._errors.seek(0)
-                raise Error(self._errors.read().decode("utf-8", "replace").strip().splitlines()[-1:][0], code if code in (1, 2, 3) else 1)
+                said = self._errors.read().decode("utf-8", "replace").strip().splitlines()
+                message = said[-1] if said else "sh5 ended with exit status %d and no message" % code
+                raise Error(message, code if code in (1, 2, 3) else 1)
             self._process = None
 
     def _at(self, i: int) -> Frame:
@@ -311,7 +313,7 @@ def open(source: Source) -> Stream:
             return of_file(file)
     from .words import environment, program
     errors = tempfile.TemporaryFile()
-    process = subprocess.Popen([program("sh5"), os.fspath(source)], stdout=subprocess.PIPE, stderr=errors, env=environment())  # type: ignore
+    process = subprocess.Popen([program("sh5"), "--", os.fspath(source)], stdout=subprocess.PIPE, stderr=errors, env=environment())  # type: ignore
     assert process.stdout is not None
     return Stream(_Piped(process.stdout), process, errors)
 

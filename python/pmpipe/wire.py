@@ -50,7 +50,6 @@ def line_parse(text: bytes) -> Line:
         raise Error("this is not a pmpipe stream (stab reads text, sh5 reads HDF5)")
     if text[:9] != b"PMPIPE/1 ":
         raise Error("the stream is of a version that this reader does not know (use a newer pmpipe)")
-    words = text.split(b" ")
     kind = text[9:-1].rstrip(b" ").split(b" ")[0]
     if text[-1:] != b"\n" or kind not in _NUMBERS:
         raise Error("a line of the stream is damaged")

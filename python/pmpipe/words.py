@@ -142,7 +142,7 @@ def _run(sentence: str, input: Input, threads: Optional[int]) -> BinaryIO:
         with builtins.open(path, "rb") as file:
             hdf5 = file.read(8) == b"\x89HDF\r\n\x1a\n"
         if hdf5:
-            commands.insert(0, ["sh5", path])
+            commands.insert(0, ["sh5", "--", path])
     programs = [program(c[0]) for c in commands]
     errors: list[BinaryIO] = [tempfile.TemporaryFile() for _ in commands]  # type: ignore[misc]
     out: BinaryIO = tempfile.TemporaryFile()  # type: ignore[assignment]
