@@ -1,6 +1,7 @@
 /* Charts: colours that colour-blind people can tell apart, ticks, the break of a logarithmic axis, free room. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "chart/canvas.h"
 #include "chart/chart.h"
 #include "chart/room.h"
 #include "check.h"
@@ -110,8 +111,25 @@ static void rooms(void)
 	pm_room_free(&r);
 }
 
+static void legend_too_wide(void)
+{
+	double x[2] = {0, 1}, y[2] = {0, 1};
+	char label[201] = "";
+	struct pm_chart_series one = {.label = label, .n = 2, .x = x, .y = y};
+	struct pm_chart c = {.x = {.lo = 0, .hi = 1}, .y = {.lo = 0, .hi = 1}, .series = &one, .nseries = 1, .width = 900, .height = 620};
+	struct pm_picture picture;
+	memset(label, 'w', sizeof label - 1);
+	if (pm_picture_new(&picture, c.width, c.height, (unsigned char[3]){255, 255, 255}))
+		return;
+	struct pm_canvas canvas = pm_canvas_pixels(&picture);
+	check(pm_chart_draw(&c, &canvas) != 0, "a legend wider than the picture is refused");
+	label[8] = 0;
+	check(pm_chart_draw(&c, &canvas) == 0, "a short one is drawn");
+	pm_picture_free(&picture);
+}
+
 int main(void)
 {
-	colours(), ticks(), zero(), rooms();
+	legend_too_wide(), colours(), ticks(), zero(), rooms();
 	return check_done();
 }
