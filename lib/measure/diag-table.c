@@ -106,15 +106,16 @@ static bool needs_energy(const struct pm_diag_table *t)
 	return needs;
 }
 
-/* Measures the frame; sums pairs too where that is the only way to the energy and cheap. The first row decides whether, so that a column is one quantity. */
-static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool first, struct pm_measure *how, struct pm_measures *m)
+/* Measures the frame; sums pairs too where that is the only way to the energy and cheap. The first row of a run
+ * decides whether, so that a column is one quantity; another run begins where the step does not rise. */
+static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begins, struct pm_measure *how, struct pm_measures *m)
 {
 	char why[200] = "";
 	*how = pm_diag_how(&t->request, f);
 	int status = pm_measure_frame(how, f, m);
 	const bool lacks = t->energies && !t->choice.pair && isnan(m->value[PM_ENERGY_PAIR]) && isnan(m->value[PM_ENERGY_MESH]);
 	const enum pm_pairs pairs = lacks || t->unasked ? pm_pairs_unasked(f, pm_law_of(f), how, why) : PM_PAIRS_NO;
-	if (!status && pairs == PM_PAIRS_SUM && ((first && lacks) || t->unasked)) {
+	if (!status && pairs == PM_PAIRS_SUM && ((begins && lacks) || t->unasked)) {
 		t->unasked = t->request.pair = true;
 		*how = pm_diag_how(&t->request, f);
 		t->request.pair = false;
@@ -145,6 +146,17 @@ static void print_row(struct pm_diag_table *t, const double *value, bool first)
 	fputs(json ? "}\n" : "\n", t->out);
 }
 
+/* A set of masses that moves and has no v, as behind --drop v: what a sum over velocities leaves out. */
+static void no_velocity(const struct pm_frame *f, const struct pm_measure *how, char note[320])
+{
+	note[0] = 0;
+	for (size_t i = 0; i < f->nsets && !how->vortices; i++) {
+		const char *set = f->sets[i]->name;
+		if (pm_set_moves(f, f->sets[i]) && pm_frame_field(f, set, "mass") && !pm_frame_field(f, set, "v"))
+			snprintf(note, 320, "'%s' has no velocities 'v': kinetic energy and momentum are 0, energy is that of the field alone", set);
+	}
+}
+
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	struct pm_measures m;
@@ -154,10 +166,13 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 	if (first && decide(t, f))
 		return -PM_DATA;
 	t->energies = needs_energy(t);
-	if (measure(t, f, first, &how, &m) || follow(t, f, &m))
+	const bool begins = first || f->step <= t->step;
+	t->step = f->step;
+	t->unasked = t->unasked && !begins;
+	if (measure(t, f, begins, &how, &m) || follow(t, f, &m))
 		return -PM_DATA;
 	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
-		t->note[0] = 0;
+		no_velocity(f, &how, t->note);
 	for (int i = 0; i < t->n; i++)
 		value[i] = pm_diag_value(&t->column[i], &m, f);
 	if (t->choice.format == PM_DIAG_READABLE)

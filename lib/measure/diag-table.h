@@ -36,6 +36,7 @@ struct pm_diag_table {
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	struct pm_series series;
+	int64_t step;                 /* of the last row */
 	bool energies, unasked; /* a column needs the energy of the field; the first row needed the sum over pairs for it, unasked */
 	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
 	char lacks[200];   /* why it is nan, if no mesh and no particle holds the potential; "" */

@@ -257,8 +257,10 @@ load ../helper
 	run ! grep -q nan <(diag --columns $columns <b)
 	# a sum once begun goes on, and one that was not is not begun: a column is one quantity
 	p2m <a | poisson-fft >m
-	[ "$(cat m a | diag --columns energy | tail -n 1)" = nan ]
-	[ "$(cat a m | diag --columns energy | uniq -d | wc -l)" = 1 ]
+	smod --step 1 <a >a1
+	smod --step 1 <m >m1
+	[ "$(cat m a1 | diag --columns energy 2>err | tail -n 1)" = nan ]
+	[ "$(cat a m1 | diag --columns energy | uniq -d | wc -l)" = 1 ]
 	run -0 --separate-stderr diag --columns energy < <(pinit plummer -n 4096)
 	[ -z "$stderr" ]
 	[ "${lines[1]}" != nan ]
@@ -269,4 +271,15 @@ load ../helper
 	[ -z "$stderr" ]
 	# images behind walls and periodic boxes are no sum over pairs
 	[ "$(pinit plummer -n 30 --faces wall | diag --columns energy | tail -n 1)" = nan ]
+}
+
+@test "diag decides anew for every run whether pairs are summed, and says where masses have no velocities" {
+	pinit langmuir -n 100 --cells 16 | p2m >l.pm
+	pinit plummer -n 300 >d.pm
+	energy=$(diag --columns energy d.pm | tail -n 1)
+	[ "$energy" != nan ]
+	[ "$(diag --columns energy l.pm d.pm 2>err | tail -n 1)" = "$energy" ]
+	sel --drop v d.pm >e.pm
+	diag e.pm 2>err >out
+	grep -q "'matter' has no velocities 'v': kinetic energy and momentum are 0" err
 }
