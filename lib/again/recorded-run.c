@@ -175,7 +175,10 @@ static int options_check(const struct pm_tool *tool, const json_t *entry)
 {
 	const char *name;
 	json_t *value;
-	json_object_foreach(json_object_get(entry, "options"), name, value) {
+	json_t *given = json_object_get(entry, "options");
+	if (given && !json_is_object(given))
+		return pm_fail(PM_DATA, "the options of '%s' are no list of names: the history was edited", text(entry, "program"));
+	json_object_foreach(given, name, value) {
 		const struct pm_option *rows[] = {tool ? tool->options : NULL, tool && tool->more ? tool->more() : NULL};
 		bool known = false;
 		for (int k = 0; k < 2; k++)
