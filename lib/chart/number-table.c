@@ -149,13 +149,13 @@ static int read_rows(struct pm_number_table *t, char mark, char *line, struct ro
 			status = rows->n ? row_add(rows, t->columns, NULL) : 0;
 			continue;
 		}
-		size_t n = cells_of(line, mark, cell), same = 0;
+		size_t n = cells_of(line, mark, cell), same = 0, words = 0;
 		if (n != t->columns)
 			return pm_fail(PM_DATA, "%s: line %llu has %zu cells, the first has %zu", t->path, (unsigned long long)t->source.line - 1, n,
 				t->columns);
-		while (same < n && !strcmp(cell[same], t->name[same]))
-			same++;
-		status = row_add(rows, n, same == n ? NULL : cell); /* the names again: another table behind the first */
+		for (double x; same < n && !strcmp(cell[same], t->name[same]); same++)
+			words += !number_of(cell[same], &x);
+		status = row_add(rows, n, same == n && words ? NULL : cell); /* the names again: another table behind the first */
 	}
 	return status;
 }

@@ -42,9 +42,13 @@ void pm_timing_table(size_t n, const struct pm_stage *const *words)
 		sum += words[i]->seconds, setup += words[i]->setup;
 		width = (int)strlen(words[i]->word) > width ? (int)strlen(words[i]->word) : width;
 	}
+	if (sum == 0) {
+		fprintf(stderr, "the words ran as processes, whose times are not measured (--engine fused)\n");
+		return;
+	}
 	fprintf(stderr, "%-*s  %9s  %9s  share\n", width, "word", "set-up", "work");
 	for (size_t i = 0; i < n; i++)
 		fprintf(stderr, "%-*s  %9s  %9s  %3.0f %%\n", width, words[i]->word, readable(a, words[i]->setup), readable(b, words[i]->seconds),
-			sum > 0 ? 100 * words[i]->seconds / sum : 0);
+			100 * words[i]->seconds / sum);
 	fprintf(stderr, "%-*s  %9s  %9s\n", width, "all", readable(a, setup), readable(b, sum));
 }

@@ -197,6 +197,8 @@ assert "threads" not in h[0]["options"], h'
 	grep -qE '^poisson-fft +[0-9.]+ (s|ms|us) +[0-9.]+ (s|ms|us) +[0-9]+ %$' err
 	within "$(awk '/ %$/ { sum += $(NF - 1) } END { print sum }' err)" 100 3 # six roundings to one per cent
 	grep -qE '^cycle -n 3 .*: [0-9.]+ (s|ms) of work' err
+	pinit two-body | cycle -n 3 --engine pipes --timing - 'push kick/2 drift | pp | push kick/2' 2>err >/dev/null
+	grep -q '^the words ran as processes, whose times are not measured' err
 }
 
 @test "--timing appends the word, its seconds of set-up and of work" {

@@ -166,3 +166,8 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 	printf 'method error\ncic 0.3\ntsc 0.2\npcs 0.1\n' | splot --x error method -o words.svg
 	for w in cic tsc pcs; do grep -q ">$w</text>" words.svg; done
 }
+
+@test "splot: rows of numbers without names keep their first row, though it reads as the names 1 and 2" {
+	printf '1 2\n2 3\n3 5\n' | splot --as-text --width 60 >out
+	grep -q '1\.0 .* 3\.0' out
+}
