@@ -51,7 +51,7 @@ two() { printf 'time\ta\tb\n0\t0\t1\n1\t1\t2\n2\t4\tnan\n3\t9\t4\n'; }
 	grep -q '●' marks
 	grep -q '+' marks
 	run ! grep -q $'\033' marks
-	script -qec 'bash -c "splot a <<<\"\$(printf \"x a\n1 2\n2 3\n\")\""' /dev/null >screen </dev/null
+	TERM=xterm script -qec 'bash -c "splot a <<<\"\$(printf \"x a\n1 2\n2 3\n\")\""' /dev/null >screen </dev/null
 	grep -q $'\033\[38;5;' screen
 }
 
