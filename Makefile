@@ -238,7 +238,7 @@ $(B)/man/%.1: $(bin_dir)/%
 	@mkdir -p $(@D)
 	$< --man > $@.part && mv $@.part $@
 $(B)/man/pmpipe.1: $(tools)
-$(B)/pmpipe.pc: lib/pmpipe.pc.in Makefile lib/base/base.h
+$(B)/pmpipe.pc: lib/pmpipe.pc.in # always: the last install may have had another PREFIX
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' $< > $@
 
 D = $(DESTDIR)$(PREFIX)
@@ -295,6 +295,6 @@ deb-check:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: all words public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
+.PHONY: $(B)/pmpipe.pc all words public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
 	gallery stability atlas hard-cases measure lint man install uninstall deb deb-check clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d) $(fuzzers:=.d)
