@@ -16,7 +16,8 @@ from .stage import VERSION as __version__
 from .stage import Stage, stage
 from .stream import Stream, Writer, create, of_bytes, open, write
 from .wire import Error
-from .words import diag, directory, run, table, table_of, text, words
+from .words import diag, run, table, table_of, text
+from .programs import directory, words  # the last, since the module words has that name too
 
 __all__ = ["Error", "Field", "Frame", "Mesh", "Owner", "Set", "Stage", "Stream", "Writer", "crc32c", "create", "diag", "directory", "of_bytes", "open", "run",
            "stage", "table", "table_of", "text", "words", "write", "__version__"]

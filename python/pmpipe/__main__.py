@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from .words import directory, environment
+from .programs import directory, environment
 
 
 def main() -> int:

@@ -14,6 +14,7 @@ import numpy as np
 from . import header as _header
 from .checksum import crc32c
 from .frame import Field, Frame, payload_size
+from .programs import environment, program
 from .wire import LINE, Error, Line, block_make, block_size, canonical, json_parse, line_check, line_make, line_parse, padded
 
 PIECE = 1 << 24
@@ -311,7 +312,6 @@ def open(source: Source) -> Stream:
         if magic != b"\x89HDF\r\n\x1a\n":
             file.seek(0)
             return of_file(file)
-    from .words import environment, program
     errors = tempfile.TemporaryFile()
     process = subprocess.Popen([program("sh5"), "--", os.fspath(source)], stdout=subprocess.PIPE, stderr=errors, env=environment())  # type: ignore
     assert process.stdout is not None
@@ -329,7 +329,6 @@ class Writer:
             return
         path = os.fspath(target)  # type: ignore[arg-type]
         if path.endswith((".h5", ".hdf5")):
-            from .words import environment, program
             self._errors = tempfile.TemporaryFile()
             self._process = subprocess.Popen([program("sh5"), "-o", path], stdin=subprocess.PIPE, stderr=self._errors, env=environment())
             assert self._process.stdin is not None
