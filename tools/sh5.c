@@ -6,6 +6,7 @@
 #include "h5/apart.h"
 #include "h5/stream-copy.h"
 #include "stage/file-operands.h"
+#include "stage/h5-pipe.h"
 #include "stage/stage.h"
 
 struct config {

@@ -5,6 +5,7 @@
 
 #include "law/law.h"
 #include "stage/file-operands.h"
+#include "stage/h5-pipe.h"
 #include "stage/table-source.h"
 #include "stream/plain-table.h"
 #include "stream/text.h"

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "stage/file-operands.h"
+#include "stage/h5-pipe.h"
 #include "stage/internal.h"
 
 const char *const pm_files_text = "streams to read one after another instead of standard input; - is standard input, HDF5 is read through sh5";
@@ -13,23 +13,6 @@ const char *const pm_files_text = "streams to read one after another instead of 
 bool pm_takes_files(const struct pm_tool *tool) { return !tool->arguments && tool->kind != PM_SOURCE; }
 
 static bool standard(const char *path) { return !strcmp(path, "-"); }
-
-enum pm_file_kind pm_file_kind(const char *path)
-{
-	static const char hdf5[] = "\211HDF\r\n\032\n", ours[] = "PMPIPE/";
-	char head[8] = "";
-	struct stat is;
-	enum pm_file_kind by_name = pm_h5_pipe_is(path) ? PM_FILE_HDF5 : PM_FILE_OTHER;
-	if (standard(path) || stat(path, &is) || !S_ISREG(is.st_mode))
-		return by_name;
-	int fd = open(path, O_RDONLY | O_CLOEXEC);
-	ssize_t n = fd < 0 ? -1 : read(fd, head, sizeof head);
-	if (fd >= 0)
-		close(fd);
-	if (n == sizeof head && !memcmp(head, hdf5, sizeof head))
-		return PM_FILE_HDF5;
-	return n == sizeof head && !memcmp(head, ours, sizeof ours - 1) ? PM_FILE_STREAM : by_name;
-}
 
 /* The next file: 1 and its descriptor, 0 if there is none, or failure. */
 static int next(void *from, int *fd)

@@ -8,10 +8,6 @@ enum { PM_FILES_MOST = 1 << 20 }; /* as many as a command line can hold: for a t
 bool pm_takes_files(const struct pm_tool *tool); /* its arguments are streams to read: it reads one, and has no other arguments */
 extern const char *const pm_files_text;          /* for the help of such a word */
 
-/* What a file holds, by its first bytes; by its name (.h5) where it is no regular file. */
-enum pm_file_kind { PM_FILE_OTHER, PM_FILE_STREAM, PM_FILE_HDF5 };
-enum pm_file_kind pm_file_kind(const char *path);
-
 /* A reader of the streams in s->args. Every file must be there before the first is read; it is opened when its turn comes. */
 struct pm_reader *pm_operands_open(struct pm_stage *s);
 const char *pm_operand_name(const struct pm_stage *s); /* the file that is read now, as typed; NULL if the input is not from such files */

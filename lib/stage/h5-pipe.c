@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "stage/file-operands.h"
 #include "stage/h5-pipe.h"
 
 struct pm_h5_pipe {
@@ -33,6 +33,23 @@ bool pm_h5_pipe_is(const char *path)
 {
 	size_t n = path ? strlen(path) : 0;
 	return (n > 3 && !strcmp(path + n - 3, ".h5")) || (n > 5 && !strcmp(path + n - 5, ".hdf5"));
+}
+
+enum pm_file_kind pm_file_kind(const char *path)
+{
+	static const char hdf5[] = "\211HDF\r\n\032\n", ours[] = "PMPIPE/";
+	char head[8] = "";
+	struct stat is;
+	enum pm_file_kind by_name = pm_h5_pipe_is(path) ? PM_FILE_HDF5 : PM_FILE_OTHER;
+	if (!strcmp(path, "-") || stat(path, &is) || !S_ISREG(is.st_mode))
+		return by_name;
+	int fd = open(path, O_RDONLY | O_CLOEXEC);
+	ssize_t n = fd < 0 ? -1 : read(fd, head, sizeof head);
+	if (fd >= 0)
+		close(fd);
+	if (n == sizeof head && !memcmp(head, hdf5, sizeof head))
+		return PM_FILE_HDF5;
+	return n == sizeof head && !memcmp(head, ours, sizeof ours - 1) ? PM_FILE_STREAM : by_name;
 }
 
 static void become(const char *const argv[])

@@ -8,6 +8,9 @@ struct pm_h5_pipe; /* an sh5 process that writes a file for this program */
 
 const char *pm_home(void); /* the directory of this program and the other words; NULL if unknown */
 bool pm_h5_pipe_is(const char *path); /* does it end in .h5 or .hdf5? */
+/* What a file holds, by its first bytes; by its name where it is no regular file. */
+enum pm_file_kind { PM_FILE_OTHER, PM_FILE_STREAM, PM_FILE_HDF5 };
+enum pm_file_kind pm_file_kind(const char *path);
 int pm_h5_pipe_fd(const char *path); /* the file as a stream, to read; a failure to read it arrives there as an abort */
 struct pm_reader *pm_h5_pipe_open(const char *path); /* a stream in a file of either kind, or standard input for NULL and "-" */
 struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest);
