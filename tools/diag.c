@@ -19,7 +19,8 @@ struct state {
 	FILE *out;
 	struct pm_replace tee;
 	struct pm_diag_table table;
-	bool told; /* why there is no energy */
+	bool told;   /* why there is no energy */
+	bool within; /* a frame inside a step was left out */
 };
 static const char *const formats[] = {"tsv", "csv", "json", "table", NULL}; /* as enum pm_diag_format */
 _Static_assert((int)PM_LIST_MOST <= (int)PM_DIAG_ASKED, "every column of --columns has room");
@@ -58,7 +59,9 @@ static int begin(struct pm_stage *s)
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&((struct state *)s->state)->table.request, f);
+	struct state *state = s->state;
+	state->within = state->within || f->substep;
+	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&state->table.request, f);
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -84,6 +87,8 @@ static int end(struct pm_stage *s)
 {
 	struct state *state = s->state;
 	int status = pm_diag_table_end(&state->table);
+	if (!status && !state->table.n && state->within)
+		pm_note(s, "no row: every frame lies inside a step, where states and time are not those of one instant (cycle writes whole steps)");
 	return status || state->out == stdout ? status : fflush(state->out) ? pm_fail_errno("cannot write the table") : pm_replace_commit(&state->tee, false);
 }
 

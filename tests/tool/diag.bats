@@ -283,3 +283,11 @@ load ../helper
 	diag e.pm 2>err >out
 	grep -q "'matter' has no velocities 'v': kinetic energy and momentum are 0" err
 }
+
+@test "diag of frames that all lie inside a step says why it has no row" {
+	run -0 --separate-stderr bash -c 'pinit two-body | pp | push rk4 | diag'
+	[ -z "$output" ]
+	[[ $stderr = *'no row: every frame lies inside a step'* ]]
+	run -0 --separate-stderr bash -c 'pinit two-body -n 2 | sel --drop id | diag --columns step'
+	[ -z "$stderr" ]
+}
