@@ -40,6 +40,18 @@ found() { awk -F'\t' -v q="$1" -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if
 	[[ $output = *"PM_ROUNDING is 'sideways' (nearest, up, down or zero)"* ]]
 }
 
+@test "digits are those of Vignes: log10(sqrt(n) |mean| / (t s)) of the run as it is and the four with moved input, t = 2.776 for 95 %" {
+	printf 'x a\n1 2.5\n' >t
+	digits --format tsv --relative 1e-3 'stab t | stab --plain' >out
+	for s in 1 2 3 4; do stab t | perturb --seed $s --relative 1e-3 | stab --plain | tail -n 1; done | awk '
+		{ v[NR] = $1 } END { # x: 1 and four numbers 1 +- 1e-3
+			v[5] = 1; for (i = 1; i <= 5; i++) m += v[i] / 5
+			for (i = 1; i <= 5; i++) s += (v[i] - m) ^ 2 / 4
+			print log(sqrt(5) * m / (2.776 * sqrt(s))) / log(10) }' >wanted
+	within "$(found x input)" "$(cat wanted)" 0.051 # the table has one decimal
+	above "$(found x rounding)" 15
+}
+
 @test "digits: cancellation leaves none of the variance of 1e8 + {1, 2, 3}, and all of its two-pass form" {
 	digits --runs 12 --format tsv 'printf "x a b c\n1 100000001 100000002 100000003\n" | stab - |
 		scalc "m = (a+b+c)/3" | scalc "w = (a^2+b^2+c^2)/3 - m^2" "u = ((a-m)^2+(b-m)^2+(c-m)^2)/3" | stab --plain' >out
