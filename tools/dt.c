@@ -5,14 +5,15 @@
 
 struct config {
 	struct pm_timestep_rules rules;
-	double least, most;
+	double least, most, until;
 };
 
 static int begin(struct pm_stage *s)
 {
 	const struct config *cfg = s->config;
-	if (!pm_given(s, "courant") && !pm_given(s, "acceleration") && !pm_given(s, "lcfl") && !pm_given(s, "plasma"))
-		return pm_fail(PM_USAGE, "no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C)");
+	if (!pm_given(s, "courant") && !pm_given(s, "acceleration") && !pm_given(s, "lcfl") && !pm_given(s, "plasma") &&
+		!pm_given(s, "oscillation"))
+		return pm_fail(PM_USAGE, "no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C)");
 	if (cfg->least > cfg->most)
 		return pm_fail(PM_USAGE, "--min %g is above --max %g", cfg->least, cfg->most);
 	return 0;
@@ -26,9 +27,13 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return status ? status : PM_HOLD;
 }
 
+/* Before the end one step, or two of one length, so that the last is not so short that a run by -t ends before it. */
+static double ending(double dt, double left) { return left > 0 && dt * (1 + 1e-9) >= left ? left : left > 0 && 2 * dt > left ? left / 2 : dt; }
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
+	const double back = f->dt < 0 ? -1 : 1;
 	double rate, dt = pm_timestep_allowed(&cfg->rules, f, &rate);
 	pm_report(s, f, "allowed", isfinite(dt) ? dt : 0);
 	dt = fmin(dt, cfg->most); /* NaN if not given, which fmin ignores */
@@ -39,7 +44,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!isfinite(dt)) /* no velocity and no acceleration */
 		pm_say(s, "no rule limits the step, dt stays %g", f->dt);
 	else
-		pm_frame_dt_set(f, dt);
+		pm_frame_dt_set(f, back * ending(dt, back * (cfg->until - f->time)));
 	if (pm_given(s, "lcfl")) {
 		pm_report(s, f, "strain", rate);
 		pm_report_count(s, f, "crossing", f->dt * rate > 1 + 1e-9);
@@ -58,11 +63,14 @@ static const struct pm_option options[] = {
 		.text = "dt = C/|grad u| of the flow on the mesh; above 1 particles may cross, and such steps are counted"},
 	{.name = "plasma", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(rules.plasma),
 		.text = "dt = C/omega_p, of the mean densities in the box; leapfrog is stable below 2, 0.2 is usual"},
+	{.name = "oscillation", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(rules.oscillation),
+		.text = "dt = C/omega, omega the fastest oscillation that the words which made acc have stated, of pp the orbit of the largest acceleration"},
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(rules.softening),
 		.text = "the softening in that rule (default: the frame's constant softening)"},
 	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "upper limit of the step"},
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(least),
 		.text = "lower limit of the step; frames whose rules need a shorter one are counted as below_min"},
+	{.name = "until", .kind = PM_REAL, .unit = "time", PM_AT(until), .text = "the last step before this time ends at it, as a run by -t needs it"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(rules.set), .text = "use only this set"},
 	{0},
 };
@@ -79,7 +87,8 @@ const struct pm_tool tool_dt = {
 	.name = "dt",
 	.summary = "write the time step that the state allows",
 	.about = "The smallest step over the rules and over the particles of every set that moves: C h/|v_d| (--courant), sqrt(ETA softening/|acc|) "
-		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma). Written at substep 0; inside a step the frame is "
+		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma), C/omega of what "
+		"oscillates fastest (--oscillation). Written at substep 0; inside a step the frame is "
 		"passed on "
 		"unchanged. With a variable step leapfrog is not reversible, and its energy error is not bounded.",
 	.kind = PM_FILTER,

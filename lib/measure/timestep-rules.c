@@ -1,12 +1,15 @@
 /* The time step that the state of a frame allows: the smallest over the rules asked for and the sets that move.
  * Courant, Friedrichs and Lewy 1928 (cells crossed in a step); Springel 2005, MNRAS 364, 1105, eq. 34 (softening over acceleration); Cottet and
- * Koumoutsakos 2000, section 7.1 (strain); Birdsall and Langdon 1985, section 4-2 (plasma frequency). SPDX-License-Identifier: GPL-3.0-or-later */
+ * Koumoutsakos 2000, section 7.1 (strain); Birdsall and Langdon 1985, section 4-2 (plasma frequency); the limits that
+ * words state (docs/methods/push.md), for an orbit that of its largest acceleration, so that every part of an ellipse has as many steps as a circle of its
+ * radius. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "limit/rates.h"
 #include "measure/timestep-rules.h"
 #include "mesh/force-words.h"
 #include "stream/declare.h"
+#include "stream/limits.h"
 
 static bool takes_part(const struct pm_timestep_rules *r, const struct pm_frame *f, const struct pm_set *s)
 {
@@ -20,7 +23,7 @@ static const char *velocity(const struct pm_frame *f, const struct pm_set *s) { 
 static int needs(const struct pm_timestep_rules *r, struct pm_frame *f, const struct pm_set *set)
 {
 	const char *names[] = {!isnan(r->courant) ? velocity(f, set) : NULL,
-		!isnan(r->acceleration) && pm_frame_field(f, set->name, "v") ? "acc" : NULL};
+		(!isnan(r->acceleration) || !isnan(r->oscillation)) && pm_frame_field(f, set->name, "v") ? "acc" : NULL};
 	char words[PM_FORCE_WORDS];
 	const struct pm_law *law = pm_law_of(f);
 	for (int i = 0; i < 2 && law; i++)
@@ -115,6 +118,9 @@ double pm_timestep_allowed(const struct pm_timestep_rules *r, const struct pm_fr
 		if (!isnan(r->courant))
 			dt = fmin(dt, r->courant / pm_most(pm_frame_field(f, set->name, velocity(f, set)), f->meshes[0]->h));
 		const struct pm_field *acc = isnan(r->acceleration) ? NULL : pm_frame_field(f, set->name, "acc");
+		const struct pm_field *turns = isnan(r->oscillation) ? NULL : pm_frame_field(f, set->name, "acc");
+		const double omega = turns ? pm_limits_of(turns).oscillation : 0;
+		dt = omega > 0 ? fmin(dt, r->oscillation / omega) : dt;
 		if (acc)
 			dt = fmin(dt, sqrt(r->acceleration * softening(r, f) / sqrt(pm_most(acc, NULL))));
 	}

@@ -10,6 +10,7 @@ struct pm_timestep_rules {
 	double acceleration; /* ETA of sqrt(ETA softening/|acc|) */
 	double strain;       /* C of C/|grad u|, of the flow on a mesh */
 	double plasma;       /* C of C/omega_p */
+	double oscillation;  /* C of C/omega, the fastest oscillation that the words which made acc have stated (stream/limits.h) */
 	double softening;    /* [length]; NAN: the frame's constant */
 	const char *set;     /* this set alone; NULL: every set that moves */
 };

@@ -71,7 +71,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	run -1 bash -o pipefail -c 'pinit two-body | pp | dt --acceleration 0.1 > /dev/null'
 	[[ $output == *"needs a softening length (--softening LENGTH)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt > /dev/null'
-	[[ $output == *"no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C)"* ]]
+	[[ $output == *"no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt --courant 1 --min 2 --max 1 > /dev/null'
 	[[ $output == *"--min 2 is above --max 1"* ]]
 }
@@ -81,4 +81,28 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	[ "$(stab < a | grep -o '"dt":[-+.e0-9]*' | sort -u | wc -l)" -gt 10 ]
 	# time of the last frame = sum of the steps recorded in those after the first
 	sls --format json < a | jq -r '"\(.dt) \(.time)"' | awk '{ if (n++) s += $1; t = $2 } END { exit !(s > 0 && s - t < 1e-13 && t - s < 1e-13) }'
+}
+
+@test "the oscillation rule gives C/omega of the orbit of the largest acceleration, so that an ellipse has short steps at its pericentre alone" {
+	printf 'x y z vx vy vz mass\n0 0 0 0 0 0 2\n2 0 0 0 0 0 3\n' > t
+	# a = 3/4, G M = 5: omega = a^(3/4) (G M)^(-1/4)
+	within "$(stab t --law gravity --constant G=1 --dt 1 | pp --softening 0 | dt --oscillation 0.3 | step_of)" \
+		"$(awk 'BEGIN { printf "%.17g", 0.3 / (0.75 ^ 0.75 * 5 ^ -0.25) }')" 1e-15
+	run -1 bash -o pipefail -c 'pinit two-body | dt --oscillation 0.1 > /dev/null'
+	[[ $output == *"no field 'acc' on 'matter' (compute it first"* ]]
+	# e = 0.999, one turn in 123 steps; those of the pericentre alone would be 2e6
+	pinit kepler --eccentricity 0.999 > start
+	cycle -t 6.283185307179586 'pp | dt --oscillation 0.1 --until 6.283185307179586 | push blanes-moan6' < start > end
+	below "$(scmp --set matter --field x end start | column relative_l2)" 1e-6 "place after a turn" # 4.2e-7
+	[ "$(sls < end | sed -n 's/^frame 1: .* step \([0-9]*\) .*/\1/p')" -lt 200 ]
+}
+
+@test "--until: the last steps are made so long that a run by -t ends at that time, forwards and backwards" {
+	words='pp | dt --oscillation 0.1 --until 1.234 | push rk4'
+	pinit two-body --eccentricity 0.5 > start
+	cycle -t 1.234 "$words" < start | sls | grep -q '^frame 1: time 1.234 '
+	pinit two-body --eccentricity 0.5 | cycle -n 1 'pp | push --dt=-0.01 rk4' > start
+	cycle -t -1.234 "${words/--until /--until=-}" < start | sls | grep -q '^frame 1: time -1.234 '
+	# beyond it the rule alone counts
+	cycle -t 1.234 "$words" < <(pinit two-body --eccentricity 0.5) | cycle -n 3 "$words" | sls | grep -qE '^frame 1: time 1.[3-9]'
 }
