@@ -53,7 +53,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	(void)f;
-	double began = pm_seconds();
+	struct pm_clock began = pm_clock();
 	int status = pm_gradient_plan(&t->gradient, &t->planner);
 	pm_setup_since(s, began);
 	const double rim = pm_gradient_rim(&t->gradient);

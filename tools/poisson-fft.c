@@ -106,7 +106,7 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 	struct pm_poisson_fft *solver = pm_fft_solvers_find(&t->solvers, g, &t->choice);
 	if (solver)
 		return solver;
-	double began = pm_seconds();
+	struct pm_clock began = pm_clock();
 	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->problem.source->components == 1);
 	pm_setup_since(s, began);
 	return solver;

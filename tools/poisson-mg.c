@@ -105,7 +105,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	struct pm_grid g = pm_problem_grid(p, c);
 	char key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
 	const double *eps = t->choice.variable ? pm_in(t->eps, 0) : NULL;
-	double began = pm_seconds();
+	struct pm_clock began = pm_clock();
 	int status = pm_multigrid_prepare(t->solver, &t->choice, &g, eps);
 	pm_setup_since(s, began);
 	if (!status)

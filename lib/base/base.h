@@ -55,6 +55,10 @@ void pm_threads_use(int n);
 
 /* Seconds of a monotonic clock; only the stage layer and bench/ may call it. */
 double pm_seconds(void);
+struct pm_clock {
+	double wall, processor; /* [s] of a monotonic clock, and of the processors with all threads of the program */
+};
+struct pm_clock pm_clock(void);
 
 /* Random numbers: Philox4x32-10 (Salmon et al. 2011), a function of (seed, id, counter) and nothing else. */
 void pm_random(uint64_t seed, uint64_t id, uint64_t counter, double u[2]);        /* uniform in (0,1), 53 bits each */

@@ -13,9 +13,13 @@ void pm_threads_use(int n)
 		omp_set_num_threads(n);
 }
 
-double pm_seconds(void)
+static double seconds_of(clockid_t clock)
 {
 	struct timespec t;
-	clock_gettime(CLOCK_MONOTONIC, &t);
+	clock_gettime(clock, &t);
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
+
+double pm_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
+
+struct pm_clock pm_clock(void) { return (struct pm_clock){.wall = pm_seconds(), .processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID)}; }

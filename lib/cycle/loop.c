@@ -343,10 +343,10 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 		status = pm_sentence_end(y.words);
 	if (!status && y.words)
 		status = pm_sentence_timing(y.words, s->run->common.timing);
-	s->seconds = pm_seconds() - s->run->began;
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());
 	int end = pm_sentence_free(y.words);
+	pm_timing_whole(s);
 	pm_until_free(y.until);
 	pm_frame_free(y.last);
 	pm_output_free(&y.what);

@@ -415,6 +415,6 @@ int pm_sentence_timing(const struct pm_sentence *s, const char *file)
 		pm_timing_table(n, words);
 	else
 		for (size_t i = 0; i < n && !status; i++)
-			status = pm_timing_write(words[i], file, -1);
+			status = pm_timing_write(words[i], file);
 	return status;
 }

@@ -25,7 +25,7 @@ struct pm_run {
 	struct pm_writer *writer;
 	struct pm_replace text;     /* the file of a sink's text; path NULL: none, or one that is new */
 	struct pm_h5_pipe *rest; /* the sh5 process after the writer if the output is HDF5; else NULL */
-	double began; /* clock when the stage was made */
+	struct pm_clock began;   /* when the stage was made */
 };
 
 enum { PM_ROWS = 3 };
@@ -35,7 +35,9 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv);
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
 int pm_stage_begin(struct pm_stage *s);
 void pm_history_add(struct pm_stage *s, struct pm_frame *f);
-int pm_timing_write(const struct pm_stage *s, const char *file, double wall); /* file NULL: nothing; -: a sentence on standard error */
+void pm_work_since(struct pm_stage *s, struct pm_clock began);                /* counts the time since then as work */
+void pm_timing_whole(struct pm_stage *s);                                     /* all since the stage was made is work, and that of ended processes */
+int pm_timing_write(const struct pm_stage *s, const char *file);              /* file NULL: nothing; -: a sentence on standard error */
 void pm_timing_table(size_t n, const struct pm_stage *const *words);          /* on standard error: set-up, work, share of the work of all */
 
 void pm_help(const struct pm_tool *tool);

@@ -15,7 +15,7 @@ const struct pm_option pm_common_options[] = {
 	{.name = "threads", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = 4096, .cosmetic = true, AT(threads),
 		.text = "number of threads; results do not depend on it (also OMP_NUM_THREADS)"},
 	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
-		.text = "append a line to FILE: word, seconds of set-up, seconds of work; -: on standard error, to read"},
+		.text = "append a line to FILE: word, seconds of set-up, of work, of the processors in this work; -: on standard error, to read"},
 	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},
 	{.name = "quiet", .letter = 'q', .kind = PM_FLAG, .cosmetic = true, AT(quiet), .text = "print no notes on standard error, only errors"},
 	{.name = "verbose", .letter = 'v', .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "print decisions on standard error"},

@@ -41,10 +41,10 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 		status = pm_read_payload(r, f, hold, emit && !hold ? w : NULL);
 	if (!status && (plan == 0 || hold)) {
 		status = pm_frame_ready(f);
-		double t = pm_seconds();
+		struct pm_clock began = pm_clock();
 		if (!status && s->tool->frame)
 			status = s->tool->frame(s, f);
-		s->seconds += pm_seconds() - t;
+		pm_work_since(s, began);
 		if (status == PM_SKIP) /* only if the header has not been written yet */
 			return 0;
 	}
@@ -84,9 +84,9 @@ static int run_source(struct pm_stage *s)
 	struct pm_frame *f = NULL;
 	int more, status = w ? 0 : pm_failed();
 	while (!status) {
-		double t = pm_seconds();
+		struct pm_clock began = pm_clock();
 		more = s->tool->source(s, &f);
-		s->seconds += pm_seconds() - t;
+		pm_work_since(s, began);
 		if (more <= 0) {
 			status = more;
 			break;
@@ -226,7 +226,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 		status = pm_h5_pipe_reason(s->run->rest, status);
 	if (status < 0)
 		tell(s, tool, status);
-	else if (s && !printed && pm_timing_write(s, s->run->common.timing, -1)) {
+	else if (s && !printed && pm_timing_write(s, s->run->common.timing)) {
 		status = -PM_DATA;
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}

@@ -42,7 +42,7 @@ struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv
 		*status = pm_no_memory();
 		return s;
 	}
-	s->run->began = pm_seconds();
+	s->run->began = pm_clock();
 	s->entry = json_pack("{s:s,s:s,s:{}}", "program", tool->name, "version", PM_VERSION, "options");
 	*status = pm_options_parse(s, argc, argv);
 	s->verbose = s->run->common.verbose;
@@ -62,7 +62,7 @@ int pm_stage_begin(struct pm_stage *s)
 	if (!s->state)
 		return pm_no_memory();
 	int status = s->tool->begin ? s->tool->begin(s) : 0;
-	s->setup += pm_seconds() - s->run->began;
+	s->setup += pm_seconds() - s->run->began.wall;
 	return status;
 }
 
@@ -107,9 +107,9 @@ int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
 	if (!status)
 		status = pm_frame_ready(f);
 	if (!status && s->tool->frame) {
-		double t = pm_seconds();
+		struct pm_clock began = pm_clock();
 		status = s->tool->frame(s, f);
-		s->seconds += pm_seconds() - t;
+		pm_work_since(s, began);
 	}
 	if (status < 0 || status == PM_SKIP)
 		return status;
@@ -211,11 +211,19 @@ int pm_idle(struct pm_stage *s, const char *format, ...)
 	return PM_PASS;
 }
 
-void pm_setup_since(struct pm_stage *s, double began)
+void pm_setup_since(struct pm_stage *s, struct pm_clock began)
 {
-	double t = pm_seconds() - began;
-	s->setup += t;
-	s->seconds -= t; /* the total time of frame() is added when it ends */
+	struct pm_clock now = pm_clock();
+	s->setup += now.wall - began.wall;
+	s->seconds -= now.wall - began.wall; /* the total time of frame() is added when it ends */
+	s->processor -= now.processor - began.processor;
+}
+
+void pm_work_since(struct pm_stage *s, struct pm_clock began)
+{
+	struct pm_clock now = pm_clock();
+	s->seconds += now.wall - began.wall;
+	s->processor += now.processor - began.processor;
 }
 
 const struct pm_tool *pm_tool_find(const char *name)

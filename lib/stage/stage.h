@@ -78,7 +78,8 @@ struct pm_stage {
 	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */
 	bool told;           /* pm_tell_once has been used */
-	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup; work: the rest of frame */
+	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup_since; work: the rest of frame */
+	double processor;       /* [s] of the processors, by all threads, in the same work */
 	struct pm_run *run;  /* of the library */
 };
 
@@ -117,7 +118,7 @@ void pm_note(const struct pm_stage *s, const char *format, ...) __attribute__((f
 void pm_tell_once(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3))); /* frame(): as pm_note, the first time */
 /* declare(): the effect is zero here; prints the reason once (--verbose) and returns PM_PASS. */
 int pm_idle(struct pm_stage *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void pm_setup_since(struct pm_stage *s, double began);             /* frame(): counts the time since `began` as set-up, not as work */
+void pm_setup_since(struct pm_stage *s, struct pm_clock began);    /* frame(): counts the time since `began` as set-up, not as work */
 struct pm_reader *pm_stage_reader(struct pm_stage *s);             /* whole(): the input, opened */
 struct pm_writer *pm_stage_writer(struct pm_stage *s);             /* whole(): the output, opened */
 /* Reports travel in the tail under the stage's word; counts are added over steps, other values are replaced. */

@@ -1,6 +1,7 @@
 /* --timing: a line of numbers for each word in a file, or something to read on standard error. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "stage/internal.h"
 
@@ -13,7 +14,18 @@ static const char *readable(char to[16], double seconds)
 	return to;
 }
 
-int pm_timing_write(const struct pm_stage *s, const char *file, double wall)
+static double seconds_of(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
+
+void pm_timing_whole(struct pm_stage *s)
+{
+	struct rusage ended;
+	s->seconds = s->processor = 0;
+	pm_work_since(s, s->run->began);
+	if (!getrusage(RUSAGE_CHILDREN, &ended))
+		s->processor += seconds_of(ended.ru_utime) + seconds_of(ended.ru_stime);
+}
+
+int pm_timing_write(const struct pm_stage *s, const char *file)
 {
 	char work[16], setup[16];
 	if (!file)
@@ -25,10 +37,7 @@ int pm_timing_write(const struct pm_stage *s, const char *file, double wall)
 	FILE *out = fopen(file, "a");
 	if (!out)
 		return pm_fail_errno("cannot write the timing to '%s'", file);
-	fprintf(out, "%s\t%.9f\t%.9f", s->word, s->setup, s->seconds);
-	if (wall >= 0)
-		fprintf(out, "\t%.9f", wall);
-	bool bad = fputc('\n', out) == EOF || fflush(out);
+	bool bad = fprintf(out, "%s\t%.9f\t%.9f\t%.9f\n", s->word, s->setup, s->seconds, s->processor) < 0 || fflush(out);
 	bad |= fclose(out);
 	return bad ? pm_fail_errno("cannot write the timing to '%s'", file) : 0;
 }

@@ -201,12 +201,20 @@ assert "threads" not in h[0]["options"], h'
 	grep -q '^the words ran as processes, whose times are not measured' err
 }
 
-@test "--timing appends the word, its seconds of set-up and of work" {
+@test "--timing appends the word, its seconds of set-up and of work, and those of the processors" {
 	pinit uniform -n 12 --cells 4 | p2m --timing t.tsv >/dev/null
 	pinit uniform -n 12 --cells 4 | p2m --kernel tsc --timing t.tsv >/dev/null
 	[ "$(wc -l <t.tsv)" = 2 ]
-	awk -F'\t' 'NF < 3 || $2 !~ /^[0-9.]+$/ || $3 !~ /^[0-9.]+$/ { bad = 1 } END { exit bad }' t.tsv
+	awk -F'\t' 'NF != 4 || $2 !~ /^[0-9.]+$/ || $3 !~ /^[0-9.]+$/ || $4 !~ /^[0-9.]+$/ { bad = 1 } END { exit bad }' t.tsv
 	[ "$(cut -f1 t.tsv | tail -n 1)" = "p2m --kernel tsc" ]
+}
+
+# One thread cannot use more processor time than wall time (5 ms for the ticks of the two clocks); on a loaded machine it uses less.
+@test "--timing: one thread uses no more seconds of the processors than of the clock, and of cycle the processes count" {
+	pinit plummer -n 20000 | pp --threads 1 --timing t >/dev/null
+	awk -F'\t' '!($4 > 0 && $4 < $3 + 0.005) { print; exit 1 }' t
+	pinit plummer -n 20000 | cycle -n 1 --engine pipes --threads 1 --timing u 'push drift | pp' >/dev/null
+	awk -F'\t' -v pp="$(cut -f4 t)" '/^cycle/ && $4 < pp / 2 { print; exit 1 }' u # half: the state of the machine
 }
 
 @test "-i and -o stand for standard input and output" {
