@@ -54,7 +54,7 @@ force() {
 
 step_head() {
 	cat <<-'END'
-		# Error of the place (langmuir: of the velocity) after a fixed time against evaluations of the force. Made by
+		# Error of the place (langmuir, gyration: of the velocity) after a fixed time against evaluations of the force. Made by
 		# bash docs/accuracy/atlas.sh (figure steps of docs/accuracy/).
 		# kepler (e = 0.9), kepler-circle (e = 0) and gyration: one turn; langmuir: 3.125 periods; vortex-patch: an elliptic patch of peak
 		# vorticity omega, omega t = 20. dt in units of 1/omega
