@@ -47,6 +47,7 @@ void *pm_free(void *block);                  /* accepts NULL, returns NULL */
  * jansson), a failed allocation ends the program instead, here and in pm_alloc: end() says why and does not return. */
 int pm_no_memory(void);
 void pm_memory_end(void (*end)(void));
+void pm_memory_release(void);                /* gives the freed blocks back to the system, and forgets how many were in use */
 size_t pm_memory_idle(void);                 /* bytes of freed blocks kept: never more than were in use at a time lately (in the last 256 to 512 requests) */
 
 /* Threads: OMP_NUM_THREADS, PM_THREADS or --threads. Results never depend on the number. */

@@ -172,6 +172,19 @@ void *pm_free(void *p)
 	return NULL;
 }
 
+void pm_memory_release(void)
+{
+	struct block *out[shelf_size];
+	int n = 0;
+	pthread_mutex_lock(&shelf_lock);
+	while (shelved)
+		out[n++] = off_shelf(shelved - 1);
+	most[0] = alive, most[1] = 0, requests = 0;
+	pthread_mutex_unlock(&shelf_lock);
+	for (int i = 0; i < n; i++)
+		free(out[i]);
+}
+
 size_t pm_memory_idle(void)
 {
 	pthread_mutex_lock(&shelf_lock);

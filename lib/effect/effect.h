@@ -78,7 +78,7 @@ struct pm_effect_case {
 /* Runs steps of the frame with the self field alone, for numbers that need the motion. */
 struct pm_effect_run {
 	struct pm_frame *(*steps)(const struct pm_effect_run *r, const struct pm_frame *f, int steps); /* a new frame; NULL with a message */
-	struct pm_frame *(*force)(const struct pm_frame *f, const char *sentence); /* a new frame with the fields that the words of a sentence make of it */
+	struct pm_frame *(*force)(const struct pm_frame *f, const char *sentence); /* a new frame with what the words of a sentence do to its particles */
 	const char *sentence;
 };
 

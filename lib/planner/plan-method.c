@@ -1,6 +1,7 @@
 /* How the effects of a plan are computed: pairs or a mesh, and by the measured atlas kernel, gradient and cells. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "effect-parts/effect-decision.h"
 #include "planner/atlas.h"
 #include "planner/plan.h"
 
@@ -187,6 +188,10 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	}
 	if (s->n < 32)
 		return; /* pm_plan_few_bodies */
+	if (pm_effect_cancels(s)) { /* no field, so no length of it */
+		snprintf(m->why_mesh, sizeof m->why_mesh, "%s: forces cancel on the mesh of the frame", m->kernel);
+		return;
+	}
 	const struct try t = mesh_try(p, scene, h);
 	if (!t.row)
 		return;

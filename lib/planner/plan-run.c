@@ -45,9 +45,10 @@ static struct pm_frame *failed(struct pm_frame *f, struct pm_sentence *s, const 
 	return NULL;
 }
 
-/* A trial prints no notes: they would be read as those of a run. */
+/* A trial prints no notes: they would be read as those of a run. It begins without the freed blocks of the trial before, which had other sizes. */
 static struct pm_sentence *silent(const char *sentence)
 {
+	pm_memory_release();
 	const struct pm_stage quiet = {.quiet = true};
 	struct pm_sentence *s = pm_sentence_new(sentence, true, NULL);
 	if (s)
@@ -84,4 +85,13 @@ struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence)
 		return failed(g, s, sentence, status);
 	pm_sentence_free(s);
 	return g;
+}
+
+struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence)
+{
+	struct pm_frame *g = pm_plan_prime(f, sentence);
+	if (!g)
+		return NULL;
+	pm_drops_roles(g, NULL, 1u << PM_DERIVED);
+	return pm_frame_settle(g) ? pm_frame_free(g) : g;
 }

@@ -94,7 +94,7 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char
 	int status = force_on(f, p, typed);
 	double h = s->h, points = s->points;
 	const bool mesh = !typed && !s->pairs && f->nmeshes && s->sources > 1 && s->nearest > 0;
-	while (mesh && !status && pm_effect_cancels(s) && h > s->nearest / 3 && points < 1e6) {
+	while (mesh && !status && pm_effect_cancels(s) && h > s->nearest / 3 && points * pow(2, f->dim) <= 1e6) {
 		for (int d = 0; d < f->dim; d++)
 			p->method.cells[d] = 2 * (p->method.cells[d] ? p->method.cells[d] : f->meshes[0]->cells[d]);
 		h *= 0.5, points *= pow(2, f->dim);
@@ -112,7 +112,7 @@ static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 	struct pm_effect_case c;
 	struct pm_plan q;
 	int status = alone(f, p, &q);
-	const struct pm_effect_run run = {.steps = run_steps, .force = pm_plan_prime, .sentence = q.sentence};
+	const struct pm_effect_run run = {.steps = run_steps, .force = pm_plan_force, .sentence = q.sentence};
 	for (int i = 0; i < p->neffects && !status; i++)
 		if (p->effect[i].effect->measure) {
 			pm_plan_case(f, p, i, &c);
@@ -206,7 +206,7 @@ int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, con
 		i++;
 	pm_plan_case(f, &p, i, &one);
 	if (effect->measure && c->force && *c->force)
-		status = effect->measure(&one, &(struct pm_effect_run){.steps = run_steps, .force = pm_plan_prime, .sentence = c->force}, p.effect[i].own);
+		status = effect->measure(&one, &(struct pm_effect_run){.steps = run_steps, .force = pm_plan_force, .sentence = c->force}, p.effect[i].own);
 	if (!status)
 		effect->decide(&one, d);
 	return status;

@@ -64,6 +64,7 @@ void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds);
 /* Runs the words that make fields from state, once. */
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence);
+struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence); /* without the fields on meshes: these are large */
 struct pm_frame *pm_plan_bare(const struct pm_frame *f); /* a copy without change and derived fields */
 
 /* plan-check.c: tests every effect that can be left out or included, for a number of steps. */

@@ -57,6 +57,8 @@ static void memory(void)
 	check(pm_memory_idle() <= (1 << 20) + head, "freed blocks larger than what a program has lately used go back to the system");
 	come_and_go(20, 64, 3);
 	check(pm_memory_idle() <= (64 << 20) + head, "freed blocks of many sizes: no more bytes are kept than were in use at a time");
+	pm_memory_release();
+	check(pm_memory_idle() == 0, "freed blocks are given back to the system on request");
 	void *a = pm_alloc(7 << 20, 1), *b = pm_alloc(9 << 20, 1), *was = a;
 	pm_free(a), pm_free(b);
 	a = pm_alloc(7 << 20, 1);
