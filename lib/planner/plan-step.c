@@ -76,7 +76,7 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 static double bounded(const struct pm_frame *f, const struct pm_plan *p, double dt, const char **what)
 {
 	const struct pm_scales *s = &p->scales;
-	const double strain = 4 * sqrt(s->accuracy) / s->strain;
+	const double strain = fmin(pow(s->accuracy, 0.3), 4 * sqrt(s->accuracy)) / s->strain; /* what one step distorts, by measurement: docs/plan.md */
 	double viscous = HUGE_VAL;
 	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);

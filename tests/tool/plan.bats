@@ -26,7 +26,7 @@ small() {
 	pinit shear-layer --cells 32 --nu 1e-4 >start
 	plan --no-cost <start >text
 	[ "$(sed -n 1p text | sed 's/ *|.*//')" = "p2m --kernel m6prime" ]
-	grep -qE '^diffuse  *\|  # diffusion: on, nu dt/h\^2 = 0.00091' text # 1e-4 * 0.5/56 * 32^2
+	grep -qE '^diffuse  *\|  # diffusion: on, nu dt/h\^2 = 0.00051' text # 1e-4 * 0.005 * 32^2
 	grep -q '^# stretching  *off  *2-D$' text
 	cycle -n 2 "$(cat text)" <start >a
 	cycle -n 2 "$(plan --sentence <start)" <start >b
@@ -261,7 +261,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ "$(plan --sentence <edge)" = *"p2m "* && "$(plan --sentence <edge)" != *outside* ]]
 	plan --check <edge
 	pinit exb | sel --drop E >magnet
-	[[ "$(plan --sentence <magnet)" = "push --dt "*" boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2" ]]
+	[[ "$(plan --sentence <magnet)" = "push "*"boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2" ]]
 	plan --check <magnet
 	pinit uniform --dim 2 -n 300 --faces wall --particle-faces reflect | plan --check
 	pinit lamb-oseen --cells 32 | smod --dt 0 >still
