@@ -20,6 +20,7 @@ block() { awk -v n="$1" -v k="$2" '/^## / { at++ } /^```$/ { on = 0 } on { print
 numbers() {
 	awk -F'\t' -v OFS='\t' '$1 == "member" { split("", c); for (i = 1; i <= NF; i++) c[$i] = i; next }
 	{ key = ""; for (i = 2; i < c["parameter"]; i++) key = key (key == "" ? "" : " ") $i
+		sub(/; unstable after.*/, "", $c["reason"])
 		if ($c["limit"] == "-") print key, $c["reason"], "-", "-"; else print key, sprintf("%.5g", $c["limit"]), $c["uncertainty"],
 			($c["ratio"] == "-" ? "-" : sprintf("%.4f", $c["ratio"])) }'
 }

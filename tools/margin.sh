@@ -17,6 +17,8 @@ version=@VERSION@
 . lib/shell/page.sh
 # shellcheck source=lib/shell/trials.sh
 . lib/shell/trials.sh
+# shellcheck source=lib/shell/longer.sh
+. lib/shell/longer.sh
 # shellcheck source=lib/shell/bisect.sh
 . lib/shell/bisect.sh
 # shellcheck source=lib/shell/limits.sh
@@ -33,8 +35,9 @@ arguments_text="Words joined by |, in quotes, that leave a stream; {name} stands
 about="--vary dt:0.1:4 is bisected between its end points, which are tried first; if they do not enclose a limit, the table says so. --vary scheme=rk2,rk4,
 or braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag
 (energy > 10*energy0; NAME0 is the value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not
-finite, not converged). Any other failure ends the search with its message. With {seed} in the sentence every limit is found for --seeds seeds. Two
-ranges make a map: stable or not on a grid of --map points, and the boundary refined.
+finite, not converged). Any other failure ends the search with its message. The stable end of the bracket is run twice as long; where it is no longer
+stable, the limit moves: it is extrapolated from longer runs, or there is no edge, and the table says so. With {seed} in the sentence every
+limit is found for --seeds seeds. Two ranges make a map: stable or not on a grid of --map points, and the boundary refined.
 
 With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (splot: growth per step on both sides of the limit, or the map) and index.html,
 a page of one file whose table sorts; the results are kept there, and the same command continues a search that was stopped."
@@ -44,6 +47,7 @@ u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --
 e|expect|EXPRESSION||the theoretical limit: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
 |from|WORD|below above|the side of the limit that is stable (default below)
 |tolerance|X||bisect until half the bracket, relative to the limit, is at most X (default 1e-3)
+|given-length|||the limit within runs as long as given: none is repeated twice as long
 |seeds|N||how many seeds {seed} stands for: 1, 2, ... (default 3)
 |column|NAME||the column of diag whose growth is drawn (default: the first name of --unstable-when)
 |map|SIZE||points across and up of a map (default 24x16)
@@ -113,7 +117,8 @@ settle() {
 
 # The sentences, in which the numbers are not yet inserted.
 understand() {
-	local template=${positional[0]//$'\n'/ } n open=() w cycles=0
+	local template=${positional[0]//$'\n'/ } n open=() w
+	cycles=0
 	for n in ${has_seed:+seed} "${axis_name[@]}"; do open+=("$n=$mark$n$mark"); done
 	sentences "$template" "${opt_expect:-}" "${open[@]}" "${choices[@]}"
 	choice_shown=()
@@ -128,18 +133,19 @@ understand() {
 	[[ $cycles != 0 || -z $criterion ]] ||
 		usage "--unstable-when is looked at by cycle, and there is none in the sentence (without it exit status 3 counts)"
 	for n in "${!sentence[@]}"; do expected "$n" >/dev/null; done
+	if [ -n "${opt_given_length:-}" ] || ! can_lengthen; then cycles=0; fi
 }
 
 open_state() {
 	local x='[-+0-9.eE,]+' count=$'\t''[0-9]+' result
-	result="^(trial$count$count"$'\t'"$x"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
+	result="^(trial$count$count"$'\t'"$x(@[24])?"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
 	result+=$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
 	open_results search "$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")" "$result" "$result"
 }
 
 main() {
 	declare -A children=()
-	child='' doing='' phase='' work='' made=0
+	child='' doing='' phase='' work='' made=0 begin_file=()
 	PATH=$(own_directory):$PATH
 	settle "$@"
 	understand

@@ -4,13 +4,14 @@
 
 # look WHAT: prints, from $state/log, lines
 #   ask MEMBER SEED VALUE            the trial to run next
-#   limit MEMBER SEED LOW HIGH       the final bracket
+#   limit MEMBER SEED LOW HIGH HOW   the final bracket; HOW: where it was in runs of each length, if it moved
+#   moves MEMBER SEED HOW            the limit moves with the length of the run, and has no value that it approaches
 #   none MEMBER SEED WHY             no limit between the end points, and whether they are stable
 # WHAT sample: instead "ask MEMBER SEED VALUE" and "grow MEMBER SEED VALUE STEPS" for a curve of growth on both sides of the first seed's limit.
 look() {
 	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v \
 		scale="${axis_scale[0]}" \
-		-v from="$from" -v tolerance="$tolerance" '
+		-v from="$from" -v tolerance="$tolerance" -v cycles="${cycles:-0}" -v steps="${steps:-}" '
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
 	function between(a, b) { return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
@@ -33,7 +34,64 @@ look() {
 			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
 			if (is[m, s, mid] == good) a = mid; else b = mid
 		}
-		if (what == "sample") curve(m, s, between(a, b) + 0); else print "limit", m, s, a, b }
+		if (what == "sample") curve(m, s, between(a, b) + 0); else again(m, s, a, b) }
+	function key(x, f) { return f == 1 ? x : x "@" f }
+	# The outcome at x in a run f times as long, "" if it is not known. What one cycle has reached it has reached in a longer run too.
+	function known(x, f) {
+		if ((M, S, key(x, f)) in is) return is[M, S, key(x, f)]
+		return f > 1 && cycles == 1 ? (known(x, f / 2) == "unstable" ? "unstable" : "") : "" }
+	# The bracket G, B in a run f times as long: good is no longer stable there. Steps away from bad, each twice as large, until it is stable,
+	# then bisects to 1/16 of the shift. 1; 0 if a trial was requested; -1 if there is nothing stable in the range.
+	function shifted(good, bad, f,    sign, d, end, x, k, was, before) {
+		before = (good + bad) / 2; sign = good < bad ? -1 : 1; d = size(bad - good); end = sign < 0 ? low : high; B = good
+		for (k = 1;; k++) {
+			x = text(good + sign * d * (2 ^ k - 1))
+			if ((x - end) * sign >= 0) x = end
+			if ((was = known(x, f)) == "") { print "ask", M, S, key(x, f); return 0 }
+			if (was == "stable") break
+			if (x == end) return -1
+			B = x }
+		for (G = x;;) {
+			x = text((G + B) / 2); d = size(before - x) / 16
+			if (d < size(bad - good) / 2) d = size(bad - good) / 2
+			if (size(B - G) / 2 <= d || x == G || x == B) return 1
+			if ((was = known(x, f)) == "") { print "ask", M, S, key(x, f); return 0 }
+			if (was == "stable") G = x; else B = x } }
+	function run_of(f) { return steps != "" ? "in " steps * f (f == 1 ? " steps" : "") : f == 1 ? "in the run as given" : "in one " f " times as long" }
+	# How fast the runs became unstable: the slowest, and each next one at least twice as fast.
+	function slow(m, s,    k, one, most, x, last, n, t) {
+		for (last = 1e300; n < 3; n++) {
+			most = 0
+			for (k in is) {
+				split(k, one, SUBSEP)
+				if (one[1] != m || one[2] != s || is[k] != "unstable" || one[3] ~ /@/ || step[k] !~ /^[0-9]+$/ || step[k] > last / 2) continue
+				if (step[k] > most || (step[k] == most && one[3] + 0 < x + 0)) { most = step[k]; x = one[3] } }
+			if (!most) break
+			t = t (n ? ", " : "; unstable after ") most " steps at " x; last = most }
+		return t }
+	# The stable end a (or b) once more in a run twice as long. If it is unstable there, the limit is found in runs of two and four times the length, and
+	# extrapolated: a rate of growth that is linear in the distance halves the distance with each doubling, one that goes with its root quarters it.
+	function again(m, s, a, b,    g, u, l1, l2, l4, h, ratio, rest, l, width, how, found) {
+		M = m; S = s; g = from == "below" ? a : b; u = from == "below" ? b : a
+		if (!cycles) { print "limit", m, s, a, b, ""; return }
+		if (known(g, 2) == "") { print "ask", m, s, key(g, 2); return }
+		if (known(g, 2) == "stable") { print "limit", m, s, a, b, ""; return }
+		l1 = (a + b) / 2; how = sprintf("%.5g %s", l1, run_of(1))
+		found = shifted(g, u, 2)
+		if (!found) return
+		if (found < 0) { print "moves", m, s, how ", unstable in the whole range " run_of(2) slow(m, s); return }
+		l2 = (G + B) / 2; h = size(B - G) / 2; g = G; u = B; how = how sprintf(", %.5g %s", l2, run_of(2))
+		if (known(g, 4) == "") { print "ask", m, s, key(g, 4); return }
+		if (known(g, 4) == "stable") { print "limit", m, s, l2 - h, l2 + h, "settled: " how ", and so " run_of(4); return }
+		found = shifted(g, u, 4)
+		if (!found) return
+		if (found < 0) { print "moves", m, s, how ", unstable in the whole range " run_of(4) slow(m, s); return }
+		l4 = (G + B) / 2; h += size(B - G) / 2; how = how sprintf(", %.5g %s", l4, run_of(4))
+		ratio = size(l1 - l2) / size(l2 - l4)
+		l = l4 - (l2 - l4) / ((ratio < 2 ? 2 : ratio > 4 ? 4 : ratio) - 1); rest = size(l4 - l) + h
+		width = size(l) > 0 && low * high > 0 ? size(l) : size(low) > size(high) ? size(low) : size(high)
+		if (ratio < 1.5 || rest > 0.05 * width || l < low + 0 || l > high + 0) print "moves", m, s, how slow(m, s)
+		else print "limit", m, s, l - rest, l + rest, "extrapolated: " how }
 	function point(m, s, x) {
 		if (x < low + 0 || x > high + 0 || (x in had)) return
 		had[x] = 1; x = text(x)
@@ -120,17 +178,19 @@ tsv() {
 	$1 == "limit" {
 		n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2
 		if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
+	$1 == "limit" && $6 != "" { moved[$2] = $6; status[$2] = "extrapolated"; if ($6 ~ /^settled/) status[$2] = "settled" }
+	$1 == "moves" { why[$2] = "no edge: the limit moves: " $4; status[$2] = "moves" }
 	$1 == "none" { why[$2] = $4 }
 	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
 	function astray(m,    k, below) {
-		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1) {
+		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /@/) {
 			below = at[m, k] <= low[m, 1]
 			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable"))
 				return was[m, k] " again at " at[m, k] ": there is more than one limit" }
 		return "" }
 	END {
 		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", \
-			"runs", "sentence", "reason"
+			"runs", "sentence", "status", "reason"
 		for (m = 0; m < count; m++) {
 			row = m + 1 OFS rest[m] axis
 			if (why[m] != "" || !n[m]) row = row OFS "-" OFS "-" OFS "-" OFS "-" OFS (want[m] == "" ? "-" : want[m]) OFS "-" OFS "-"
@@ -141,8 +201,9 @@ tsv() {
 				row = row OFS (want[m] == "" ? "-" : want[m]) OFS (want[m] + 0 == 0 ? "-" : sprintf("%.6g", l / want[m]))
 				row = row OFS (want[m] == "" ? "-" : d <= u * (1 + 1e-9) ? "yes" : "no")
 			}
-			if (n[m]) why[m] = astray(m)
-			print row, from, n[m] + 0, runs[m] + 0, sentence[m], why[m] == "" ? "-" : why[m]
+			if (why[m] == "" && n[m]) why[m] = moved[m] != "" ? moved[m] : astray(m)
+			if (status[m] == "") status[m] = n[m] ? "limit" : "none"
+			print row, from, n[m] + 0, runs[m] + 0, sentence[m], status[m], why[m] == "" ? "-" : why[m]
 		}
 	}' "$work/members" "$state/log" -
 }

@@ -31,6 +31,6 @@ report() {
 	[[ -z $keep || $format != table ]] || echo "page: $keep/index.html"
 	if [ ${#axis_name[@]} = 1 ]; then
 		awk -F'\t' -v c=$((${#choice_shown[@]} + 3)) 'NR > 1 && $c != "-" { found = 1 } END { exit !found }' "$work/margin.tsv" ||
-			fail 1 "no limit: $(awk -F'\t' 'NR == 2 { print $NF }' "$work/margin.tsv")"
+			fail 1 "$(awk -F'\t' 'NR == 2 { print ($NF ~ /^no edge/ ? "" : "no limit: ") $NF }' "$work/margin.tsv")"
 	fi
 }

@@ -10,6 +10,13 @@ conditions() {
 	else
 		echo "no {seed} in the sentence: every run is deterministic, and the uncertainty is half of the bracket"
 	fi
+	if [ -n "${opt_given_length:-}" ]; then
+		echo "within runs as long as given"
+	elif [ "$cycles" = 0 ]; then
+		echo "nothing was run longer: no cycle whose -n or -t is a number"
+	else
+		echo "the stable end of each bracket was run twice as long"
+	fi
 }
 
 table() {
@@ -17,15 +24,16 @@ table() {
 	awk -F'\t' -v choices=${#choice_shown[@]} '
 	function cell(r, c, text) { t[r, c] = text; if (length(text) > w[c]) w[c] = length(text) }
 	{ r++; for (c = 1; c <= choices; c++) cell(r, c, $(c + 1))
-		k = choices + 2 # parameter; limit uncertainty half spread expected ratio agrees stable seeds runs sentence reason
+		k = choices + 2 # parameter; limit uncertainty half spread expected ratio agrees stable seeds runs sentence status reason
 		cell(r, c++, NR == 1 ? "limit" : $(k+1) == "-" ? "none" : sprintf("%.6g", $(k+1))); cell(r, c++, NR == 1 ? "+-" : $(k+2))
 		if (NR == 1 || $(k+5) != "-") any = 1
 		cell(r, c++, $(k+5)); cell(r, c++, $(k+6)); cell(r, c++, NR == 1 ? "agrees" : $(k+7)); cell(r, c++, $(k+10)); last = c - 1
-		found[r] = $(k+1) != "-"; why[r] = NR > 1 && $(k+12) != "-" ? $(k+12) : "" }
+		found[r] = $(k+1) != "-"; why[r] = NR > 1 && $(k+13) != "-" ? $(k+13) : "" }
 	END { for (i = 1; i <= r; i++) { s = ""; for (c = 1; c <= last; c++) s = s sprintf(c <= choices ? "%-" w[c] "s  " : "%" w[c] "s  ", t[i, c]);
 		sub(/ +$/, "", s); print s }
 		for (i = 2; i <= r; i++) if (why[i] != "") { s = ""; for (c = 1; c <= choices; c++) s = s t[i, c] " ";
-			print found[i] ? s why[i] : "no limit" (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
+			what = sub(/^no edge: /, "", why[i]) ? "no edge" : "no limit"
+			print found[i] ? s why[i] : what (s == "" ? "" : " for " s) ": " why[i] } }' "$1" | sed 's/ : /: /'
 }
 
 # Any tab-separated table as JSON: numbers stay numbers, "-" becomes null.

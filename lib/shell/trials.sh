@@ -1,16 +1,18 @@
 # shellcheck shell=bash
 # Trials: a sentence is run with given numbers. It is unstable if a cycle reached the criterion (cycle --until) or a word exited 3, else stable.
-# Each result is a line of $state/log, so nothing is run twice:
+# Each result is a line of $state/log, so nothing is run twice (VALUE@2: in a run twice as long):
 #   trial MEMBER SEED VALUE stable|unstable STEP WHY | growth MEMBER SEED VALUE RATE POINTS (ln of the column per step; - none)
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # Marks {name} of a number in the sentences until its value is inserted.
 mark=$'\004'
 
-# filled MEMBER SEED VALUE[,VALUE]: sets text to the member's sentence with these numbers.
+# filled MEMBER SEED VALUE[,VALUE][@FACTOR]: sets text to the member's sentence with these numbers, and factor.
 filled() {
 	local i x
-	IFS=, read -r -a x <<<"$3"
+	IFS=, read -r -a x <<<"${3%@*}"
+	factor=1
+	[[ $3 != *@* ]] || factor=${3#*@}
 	text=${sentence[$1]//"${mark}seed$mark"/$2}
 	for i in "${!axis_name[@]}"; do text=${text//"$mark${axis_name[i]}$mark"/${x[i]}}; done
 }
@@ -25,13 +27,18 @@ shown() {
 # Matches cycle, with assignments and a path before the name.
 cycle_word='^(([A-Za-z_][A-Za-z0-9_]*=[^[:space:]]*[[:space:]]+)*([^[:space:]|]*/)?cycle)([[:space:]].*|)$'
 
-# with_until WORD MORE: sets text to WORD; if it is cycle, with the criterion and MORE added.
+# with_until WORD MORE: sets text to WORD; if it is cycle, with the criterion and MORE added, and factor times as long.
 with_until() {
-	local until=$criterion
+	local until=$criterion name rest
 	text=$1
 	[[ $1 =~ $cycle_word ]] || return 0
+	name=${BASH_REMATCH[1]} rest=${BASH_REMATCH[4]}
+	if [ "$factor" != 1 ]; then
+		lengthen "$rest" "$factor" || true
+		rest=$text
+	fi
 	if [[ $until == *"'"* ]]; then until=$(printf '%q' "$until"); else until="'$until'"; fi
-	text="${BASH_REMATCH[1]}${criterion:+ --until $until}$2${BASH_REMATCH[4]}"
+	text="$name${criterion:+ --until $until}$2$rest"
 }
 
 # with_unsafe TEXT: sets text to TEXT with --unsafe in every push, so that what is found is where a run grows, and not where push refuses the step.
@@ -44,11 +51,12 @@ with_unsafe() {
 	text=$rest$text
 }
 
-# parts SENTENCE: sets part[] to the sentence split after every cycle but the last, with the criterion in each cycle.
+# parts SENTENCE [WORDS]: sets part[] to the sentence, without that many words of its beginning, split after every cycle but the last, with the criterion
+# in each cycle.
 parts() {
 	local w now=() last=-1 i all
 	words "$1"
-	all=("${word[@]}")
+	all=("${word[@]:${2:-0}}")
 	for i in "${!all[@]}"; do [[ ! ${all[i]} =~ $cycle_word ]] || last=$i; done
 	part=()
 	for i in "${!all[@]}"; do
@@ -89,11 +97,11 @@ judge() {
 
 # trial MEMBER SEED VALUE DIRECTORY: appends its line to the log, or writes the reason of its failure to $work/failure.
 trial() {
-	local dir=$4 i last before=/dev/null status outcome=stable step=- reason=-
+	local dir=$4 i last before=${begin_file[$1]} status outcome=stable step=- reason=-
 	filled "$1" "$2" "$3"
 	local whole=$text
 	mkdir -p "$dir"
-	parts "$whole"
+	parts "$whole" "${begin_words[$1]}"
 	last=$((${#part[@]} - 1))
 	for i in "${!part[@]}"; do
 		status=0
@@ -124,11 +132,13 @@ trial() {
 	[ -e "$work/failure" ] || note "trial"$'\t'"$1"$'\t'"$2"$'\t'"$3"$'\t'"$outcome"$'\t'"$step"$'\t'"$reason"
 }
 
-# growth_sentence MEMBER SEED VALUE STEPS: sets text to the member's sentence writing about a hundred frames, from which the column is drawn.
+# growth_sentence MEMBER SEED VALUE STEPS [WORDS]: sets text to the member's sentence, without that many words of its beginning, writing about a hundred
+# frames, from which the column is drawn.
 growth_sentence() {
 	local every=1 all=() w
 	filled "$1" "$2" "$3"
 	words "$text"
+	word=("${word[@]:${5:-0}}")
 	[[ ! $4 =~ ^[0-9]+$ ]] || every=$((1 + $4 / 100))
 	for w in "${word[@]}"; do
 		if [[ $w == *--every* ]]; then with_until "$w" ''; else with_until "$w" " --every $every"; fi
@@ -141,8 +151,8 @@ growth_sentence() {
 # growth_of MEMBER SEED VALUE STEPS: gamma of the column by diag --growth, times the mean step; - where diag finds none.
 growth_of() {
 	local line
-	growth_sentence "$1" "$2" "$3" "$4"
-	line=$(bash -o pipefail -c "$text" </dev/null 2>/dev/null | diag --columns step,time --growth "$growth" 2>/dev/null | awk -F'\t' '
+	growth_sentence "$1" "$2" "$3" "$4" "${begin_words[$1]}"
+	line=$(bash -o pipefail -c "$text" <"${begin_file[$1]}" 2>/dev/null | diag --columns step,time --growth "$growth" 2>/dev/null | awk -F'\t' '
 		!/^#/ && NR > 1 { if (!n++) { step = $1; start = $2 } steps = $1 - step; time = $2 - start }
 		/^# / { split($0, word, " "); gamma = word[4]; points = $0; sub(/ points.*/, "", points); sub(/.* /, "", points) }
 		END { if (gamma ~ /[0-9]/ && steps > 0) printf "%.6g\t%d\n", gamma * time / steps, points; else print "-\t0" }') || true
@@ -177,9 +187,37 @@ progress() {
 	fi
 }
 
+# beginnings: runs the words of each member before its first cycle and before its first number once, and keeps what they write. Sets begin_file[] and
+# begin_words[]. A beginning that fails is left to the trials, which report it.
+beginnings() {
+	local m k text
+	local -A made_of=()
+	begin_file=() begin_words=()
+	for m in "${!sentence[@]}"; do
+		words "${sentence[m]}"
+		for ((k = 0; k < ${#word[@]} - 1; k++)); do [[ ${word[k]} != *"$mark"* && ! ${word[k]} =~ $cycle_word ]] || break; done
+		begin_file[m]=/dev/null begin_words[m]=0
+		[ $k != 0 ] || continue
+		join "${word[@]:0:k}"
+		with_unsafe "$text"
+		if [ -z "${made_of[$text]:-}" ]; then
+			made_of[$text]=$work/beginning.$m
+			set -m
+			bash -o pipefail -c "$text" </dev/null >"$work/beginning.$m" 2>/dev/null &
+			child=$!
+			set +m
+			wait $child || made_of[$text]=none
+			child=
+		fi
+		[ "${made_of[$text]}" != none ] || continue
+		begin_file[m]=${made_of[$text]} begin_words[m]=$k
+	done
+}
+
 # batch LINES: "trial MEMBER SEED VALUE" or "growth MEMBER SEED VALUE STEPS", with tabs between; --jobs of them at a time.
 batch() {
 	local line c n=0
+	[ ${#begin_file[@]} != 0 ] || beginnings
 	for line; do
 		IFS=$'\t' read -r -a c <<<"$line"
 		while [ ${#children[@]} -ge "$jobs" ]; do reap; done

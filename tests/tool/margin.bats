@@ -50,6 +50,64 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	[[ $output == *"stable at 0.5 and unstable at 4 (--from below)"* ]]
 }
 
+@test "a limit that moves with the length of the run is no edge, in words, TSV, JSON and exit status" {
+	# the kinetic energy of a heated particle grows linearly in time: v = b n dt, and the criterion is met at b = 1/n
+	slow='printf "x vx mass\n0 1 1\n" | stab - --law free --dt 1 | cycle -n 50 "push kick/2 drift | field acc={b} | push kick/2"'
+	run -1 --separate-stderr margin "$slow" --vary b:0.001:0.3 --unstable-when 'energy_kinetic > 4*energy_kinetic0' -o d
+	[[ $output == *"no edge: the limit moves: 0.02"*" in 50 steps, 0.0"*" in 100, 0.00"*" in 200; unstable after "* ]]
+	[[ $stderr == "margin: no edge: the limit moves: "* && $(wc -l <<<"$stderr") = 1 ]]
+	[ "$(number status <d/margin.tsv)" = moves ]
+	[ "$(number limit <d/margin.tsv)" = - ]
+	[ "$(jq -r '.limits[0] | .status, .limit' d/margin.json)" = $'moves\nnull' ]
+	grep -qF 'cycle --until '"'energy_kinetic > 4*energy_kinetic0'"' -n 200 ' <(sed "s/&gt;/>/g" d/index.html) # the longer runs are among the commands
+	# what is asked about a run as long as it is has a number
+	margin "$slow" --vary b:0.001:0.3 --unstable-when 'energy_kinetic > 4*energy_kinetic0' --given-length -o d --format tsv >t
+	within "$(number limit <t)" 0.02 "$(number uncertainty <t)"
+	[ "$(number status <t)" = limit ]
+}
+
+@test "a limit that is slow to show is extrapolated, and its uncertainty covers the edge" {
+	# decay by euler at z: grows by z - 1 a step above 2, so in n steps by 10 at 2.303/n above it
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 50 "field vel=-{z}*x | push euler"' --vary z:1:3 --unstable-when 'distance_max > 10' \
+		--format tsv >t
+	[ "$(number status <t)" = extrapolated ]
+	within "$(number limit <t)" 2 "$(number uncertainty <t)"
+	within "$(number uncertainty <t)" 0.015 0.01
+	[[ $(number reason <t) == "extrapolated: 2.0"*" in 50 steps, 2.0"*" in 100, 2.0"*" in 200" ]]
+	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 50 "field vel=-{z}*x | push euler"' --vary z:1:3 --unstable-when 'distance_max > 10' \
+		--given-length --format tsv >t
+	run ! within "$(number limit <t)" 2 "$(number uncertainty <t)"
+}
+
+@test "-t is lengthened as -n is, options inside the sentence are not, and without a length nothing is run longer" {
+	s='printf "x vx\n1 0\n" | stab - --law free --dt 0.1 | cycle -t 2e2 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
+	margin "$s" --vary dt:0.5:4 --unstable-when 'distance_max > 100' -o d >/dev/null
+	grep -qF 'cycle --until '"'distance_max &gt; 100'"' -t 400 ' d/index.html
+	gate
+	run -0 margin 'pinit uniform -n 3 | gate {a} 0.3' --vary a:1e-3:1e2
+	[[ $output == *"nothing was run longer: no cycle whose -n or -t is a number"* ]]
+	run -0 margin "pinit uniform -n 3 | gate {a} 0.3 | cycle -n 3 'push --dt 0.1 drift | p2m -n 8'" --vary a:1e-3:1e2 -o e
+	grep -qF "cycle -n 6 'push --unsafe --dt 0.1 drift | p2m -n 8'" e/index.html
+}
+
+@test "the words before the first number run once, with the same result" {
+	gate
+	cat >bin/count <<-'SH'
+		#!/bin/sh
+		echo >>counted
+		exec cat
+	SH
+	chmod +x bin/count
+	margin 'pinit uniform -n 3 | count | gate {a} 2.5 | cycle -n 2 "push drift"' --vary a:1:4 --format tsv >t
+	[ "$(wc -l <counted)" = 1 ]
+	[ "$(number runs <t)" -gt 9 ]
+	within "$(number limit <t)" 2.5 "$(number uncertainty <t)"
+	# seeds and choices before the cycle have beginnings of their own
+	rm counted
+	margin 'pinit uniform -n {3,4} | count | gate {a} 2.5' --vary a:1:4 --tolerance 0.1 --format tsv >t
+	[ "$(wc -l <counted)" = 2 ]
+}
+
 @test "--from above: a limit below which it is unstable" {
 	gate
 	margin 'pinit uniform -n 3 | gate -{a} -7.25' --vary a:1:9 --from above --format tsv >t
@@ -122,10 +180,10 @@ rk2 - -" ] || { cat t; false; }
 
 @test "the criterion is put into every cycle, and the first that reaches it decides" {
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel={a}*x | push euler" | scalc x=1 | cycle -n 5 "field vel=0*x | push euler"'
-	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --format tsv >t # (1 + a)^5 = 32
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --given-length --format tsv >t # (1 + a)^5 = 32
 	within "$(number limit <t)" 1 "$(number uncertainty <t)"
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel=0*x | push euler" | scalc x=1 | cycle -n 5 "field vel={a}*x | push euler"'
-	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --format tsv >t
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --given-length --format tsv >t
 	within "$(number limit <t)" 1 "$(number uncertainty <t)"
 }
 

@@ -29,7 +29,7 @@ misprints and their effect: 4 rows" ]
 @test "measured values are written into the page, which is otherwise unchanged" {
 	copy=$PWD/copy.md
 	sed '/^## Flow/,/^## Rel/s/| [0-9.]* | [0-9.e-]* | [0-9.]* |/| | | |/' "$page" >copy.md
-	[ "$(diff copy.md "$page" | grep -c '^<')" = 2 ]
+	[ "$(diff copy.md "$page" | grep -c '^<')" = 1 ]
 	# a block that leaves a picture of the page, and one that is not
 	awk '{ print } /^## Flow/ { on = 1 } on && /^```sh$/ { print ": >stability.png; : >stray.png"; on = 0 }' copy.md >planted.md
 	copy=$PWD/planted.md stability flow >/dev/null
@@ -44,7 +44,7 @@ misprints and their effect: 4 rows" ]
 @test "every row has a number, or says between which ends there is none; its ratio is 1 within the uncertainty, or its remark says why not" {
 	[ "$(rows | wc -l)" -ge 50 ]
 	rows | awk -F'|' '{ x = $5; u = $6; r = $7; gsub(/ /, "", r)
-		if (x ~ /stable at both ends/) next
+		if (x ~ /stable at both ends|^ no edge: the limit moves/) next
 		if (!(x ~ /[0-9]/ && u ~ /[0-9]/ && r ~ /[0-9]/)) { print "no number: " $0; exit 1 }
 		d = (r - 1) * x / r; if (d < 0) d = -d
 		if (d > u * 1.05 + 1e-4 * x && $8 !~ /[a-z]/) { print "off, without a reason: " $0; exit 1 } }' # ratios have four digits behind the point
