@@ -48,6 +48,9 @@ void *pm_free(void *block);                  /* accepts NULL, returns NULL */
 int pm_no_memory(void);
 void pm_memory_end(void (*end)(void));
 void pm_memory_release(void);                /* gives the freed blocks back to the system, and forgets how many were in use */
+/* The most that the process has held since _begin, in bytes; NAN, and false: the system does not say. */
+bool pm_memory_peak_begin(void);
+double pm_memory_peak(void);
 size_t pm_memory_idle(void);                 /* bytes of freed blocks kept: never more than were in use at a time lately (in the last 256 to 512 requests) */
 
 /* Threads: OMP_NUM_THREADS, PM_THREADS or --threads. Results never depend on the number. */

@@ -1,6 +1,7 @@
 /* Aligned memory with huge pages for large blocks, and a small cache of freed large blocks: a time step allocates the same sizes again and again, and the
  * first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The cache holds no more bytes than were recently in use at a time, so
  * that a run with changing sizes (one that loses particles) uses at most twice the memory it needs. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <malloc.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -183,6 +184,9 @@ void pm_memory_release(void)
 	pthread_mutex_unlock(&shelf_lock);
 	for (int i = 0; i < n; i++)
 		free(out[i]);
+#ifdef __GLIBC__
+	malloc_trim(0);
+#endif
 }
 
 size_t pm_memory_idle(void)

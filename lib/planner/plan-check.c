@@ -145,19 +145,19 @@ static int other(const struct pm_plan *p, int i, struct pm_frame *f, struct pm_p
 	return status ? status : pm_plan_compose(f, q);
 }
 
-static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan *p, int i, int steps, double *seconds)
+static struct pm_frame *run_other(const struct pm_frame *f, const struct pm_plan *p, int i, int steps, struct pm_plan_timing *t)
 {
 	struct pm_frame *g = pm_plan_bare(f), *end = NULL;
 	struct pm_plan q = *p;
 	if (!g)
 		return NULL;
-	if (!seconds) /* the timed run is left unchanged */
+	if (!t) /* the timed run is left unchanged */
 		keep_particles(&q);
 	put(&q, i, !is_in(p, i));
 	if (!q.scales.second && !pm_plan_forced(&q))
 		return g; /* without it nothing moves */
 	if (!other(p, i, g, &q))
-		end = pm_plan_run(g, q.sentence, steps, seconds);
+		end = t ? pm_plan_time(g, q.sentence, pm_plan_period(&q), steps, t) : pm_plan_run(g, q.sentence, steps);
 	pm_frame_free(g);
 	return end;
 }
@@ -199,7 +199,7 @@ static int prove(const struct pm_frame *f, const struct pm_plan *p, int i, int s
 	const double on = p->scales.time / (t.steps * fabs(p->scales.dt)); /* the step of the plan */
 	if (pm_plan_compose(f, &base))
 		return -PM_DATA;
-	struct pm_frame *b = pm_plan_run(f, base.sentence, t.steps, NULL), *a = b ? run_other(f, p, i, t.steps, NULL) : NULL;
+	struct pm_frame *b = pm_plan_run(f, base.sentence, t.steps), *a = b ? run_other(f, p, i, t.steps, NULL) : NULL;
 	int status = a ? 0 : pm_failed();
 	o->tried = true;
 	o->of = t.of == PM_TEST_DENSITY ? p->law->density : t.of == PM_TEST_STRENGTH ? p->law->strength : p->scales.second ? "v" : "x";
@@ -224,21 +224,18 @@ int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, 
 
 int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p)
 {
-	double now = 0;
-	for (int i = 0; i < p->nstages; i++)
-		now += p->stage[i].seconds;
+	const int most = (int)fmin(1e4, pm_plan_steps(f, p));
 	for (int i = 0; i < p->neffects; i++) {
 		struct pm_plan_effect *e = &p->effect[i];
-		double seconds[PM_PLAN_WORDS] = {0}, then = 0;
+		struct pm_plan_timing t = {.blocks = 0};
 		if (e->decision.answer == PM_PUT_IN || !reversible(f, p, i))
 			continue;
-		struct pm_frame *g = run_other(f, p, i, 2, seconds);
+		struct pm_frame *g = run_other(f, p, i, most, &t);
 		if (!g)
 			return pm_failed();
 		pm_frame_free(g);
-		for (int k = 0; k < PM_PLAN_WORDS; k++)
-			then += seconds[k];
-		e->saves = fmax(0, then - now);
+		if (t.blocks)
+			e->saves = fmax(0, pm_plan_dearer(p, &t, &e->noise));
 	}
 	return 0;
 }

@@ -14,12 +14,6 @@ static const char *label(const struct pm_effect *e, char text[64])
 	return text;
 }
 
-static void duration(double seconds, char text[32])
-{
-	const char *unit = seconds < 1e-3 ? "us" : seconds < 1 ? "ms" : "s";
-	snprintf(text, 32, isnan(seconds) ? "-" : "%.3g %s", seconds * (seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1), unit);
-}
-
 /* The line for a needed effect without a word, or with one that plan does not place. */
 static void lacking(FILE *out, const struct pm_plan_effect *e)
 {
@@ -34,20 +28,17 @@ static const char *answer(const struct pm_plan_effect *e) { return e->lacking ? 
 static void stages(FILE *out, const struct pm_plan *p, bool cost)
 {
 	size_t width = 0;
-	double all = 0;
 	char text[32];
 	for (int i = 0; i < p->nstages; i++) {
 		width = strlen(p->stage[i].words) > width ? strlen(p->stage[i].words) : width;
-		all += p->stage[i].seconds;
 	}
 	for (int i = 0; i < p->nstages; i++) {
-		duration(p->stage[i].seconds, text);
+		pm_plan_duration(p->stage[i].seconds, text);
 		fprintf(out, "%-*s %c  # ", (int)width, p->stage[i].words, i + 1 < p->nstages ? '|' : ' ');
 		fprintf(out, cost ? "%8s  %s\n" : "%.0s%s\n", text, p->stage[i].reason);
 	}
-	duration(all, text);
 	if (cost)
-		fprintf(out, "%-*s    # %8s  a step\n", (int)width, "", text);
+		fprintf(out, "%-*s    # %8s  a step\n", (int)width, "", pm_plan_duration(p->cost.step, text));
 }
 
 static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *which)
@@ -57,11 +48,10 @@ static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *w
 		const struct pm_plan_effect *e = &p->effect[i];
 		if (strcmp(answer(e), which))
 			continue;
-		duration(e->saves, text);
 		fprintf(out, "# %-18s %-6s %s", label(e->effect, name), answer(e), e->decision.text);
 		lacking(out, e);
 		if (cost && !isnan(e->saves))
-			fprintf(out, "; saves %s a step", text);
+			fprintf(out, "; saves %s%s a step", e->saves > e->noise ? "" : "less than ", pm_plan_duration(fmax(e->saves, e->noise), text));
 		fputc('\n', out);
 	}
 }
@@ -73,6 +63,8 @@ void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
 	effects(out, p, cost, "needed");
 	effects(out, p, cost, "on");
 	effects(out, p, cost, "off");
+	if (cost)
+		pm_plan_print_cost(out, p);
 }
 
 static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
@@ -92,9 +84,11 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",
 			number(e->decision.number), "share", number(e->decision.share), "by_hand", e->by_hand);
 		if (cost)
-			json_object_set_new(s, "saves", number(e->saves));
+			json_object_set_new(s, "saves", number(e->saves)), json_object_set_new(s, "saves_noise", number(e->noise));
 		json_array_append_new(json_object_get(all, "effects"), s);
 	}
+	if (cost)
+		json_object_set_new(all, "cost", pm_plan_cost_json(p));
 	json_dumpf(all, out, JSON_SORT_KEYS | JSON_COMPACT);
 	fputc('\n', out);
 	json_decref(all);

@@ -1,4 +1,7 @@
 /* Sentences run on copies of a frame, for what a plan measures. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include <time.h>
+
 #include "planner/plan.h"
 #include "sentence/sentence.h"
 #include "stream/run.h"
@@ -27,13 +30,6 @@ static int step(struct pm_sentence *s, struct pm_frame **f)
 	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence completes no step");
 }
 
-/* Adds sign times the accumulated seconds of each word. */
-static void clock_words(const struct pm_sentence *s, double sign, double *seconds)
-{
-	for (int k = 0; seconds && k < PM_PLAN_WORDS && pm_sentence_stage(s, k); k++)
-		seconds[k] += sign * pm_sentence_stage(s, k)->seconds;
-}
-
 /* Repeats the failure message after the clean-up, with the sentence. */
 static struct pm_frame *failed(struct pm_frame *f, struct pm_sentence *s, const char *sentence, int status)
 {
@@ -56,35 +52,111 @@ static struct pm_sentence *silent(const char *sentence)
 	return s;
 }
 
-struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds)
+static struct pm_frame *ended(struct pm_frame *g, struct pm_sentence *s, const char *sentence, int status)
 {
-	struct pm_sentence *s = silent(sentence);
-	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? prime(s, &g) : pm_failed();
-	for (int k = 0; k < PM_PLAN_WORDS && seconds; k++)
-		seconds[k] = 0;
-	for (int i = 0; i < steps && !status; i++) {
-		if (i + 1 == steps)
-			clock_words(s, -1, seconds);
-		status = step(s, &g);
-	}
-	if (!status)
-		clock_words(s, 1, seconds);
 	if (status)
 		return failed(g, s, sentence, status);
 	pm_sentence_free(s);
 	return g;
 }
 
+struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps)
+{
+	struct pm_sentence *s = silent(sentence);
+	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
+	int status = g ? prime(s, &g) : pm_failed();
+	for (int i = 0; i < steps && !status; i++)
+		status = step(s, &g);
+	return ended(g, s, sentence, status);
+}
+
+/* ---- timed ---- */
+
+/* Wall, all processors, and the thread that leads: on a quiet machine it works all the time. */
+struct clocks {
+	struct pm_clock c;
+	double lead;
+};
+
+static struct clocks now(void)
+{
+	struct timespec t;
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+	return (struct clocks){.c = pm_clock(), .lead = (double)t.tv_sec + 1e-9 * (double)t.tv_nsec};
+}
+
+/* Adds the accumulated seconds of each word, times `by`. */
+static void clock_words(const struct pm_sentence *s, double by, double seconds[PM_PLAN_WORDS])
+{
+	for (int k = 0; k < PM_PLAN_WORDS && pm_sentence_stage(s, k); k++)
+		seconds[k] += by * pm_sentence_stage(s, k)->seconds;
+}
+
+/* Adds a block of n steps, and its clocks to sum. */
+static int block(struct pm_sentence *s, struct pm_frame **g, int n, struct pm_plan_timing *t, struct clocks *sum)
+{
+	const struct clocks a = now();
+	int status = 0;
+	memset(t->word[t->blocks], 0, sizeof t->word[t->blocks]);
+	clock_words(s, -1. / n, t->word[t->blocks]);
+	for (int i = 0; i < n && !status; i++)
+		status = step(s, g);
+	clock_words(s, 1. / n, t->word[t->blocks]);
+	const struct clocks b = now();
+	t->wall[t->blocks++] = (b.c.wall - a.c.wall) / n;
+	sum->c.wall += b.c.wall - a.c.wall;
+	sum->c.processor += b.c.processor - a.c.processor;
+	sum->lead += b.lead - a.lead;
+	t->steps += n, t->timed += n;
+	return status;
+}
+
+/* [s] a block is not shorter, since clocks and interruptions cost microseconds; enough for five blocks; enough for two, and for one. */
+static const double shortest = 2e-3, enough = 0.1, long_enough = 1;
+
+static bool known(const struct pm_plan_timing *t, double seconds)
+{
+	return t->blocks == PM_PLAN_BLOCKS || (t->blocks >= 5 && seconds > enough) || (t->blocks >= 2 && seconds > long_enough) ||
+		(t->blocks && seconds > 4 * long_enough);
+}
+
+/* Blocks that were too short are done again with twice the steps, if the run has as many. */
+static int blocks(struct pm_sentence *s, struct pm_frame **g, int period, double most, struct pm_plan_timing *t)
+{
+	struct clocks sum = {.lead = 0};
+	int status = 0;
+	for (int n = period; !status && !known(t, sum.c.wall) && (!t->blocks || t->steps + n <= most);) {
+		status = block(s, g, n, t, &sum);
+		if (t->blocks == 1 && sum.c.wall < shortest && t->steps + 10. * n <= most)
+			n *= 2, t->blocks = t->timed = 0, sum = (struct clocks){.lead = 0};
+	}
+	t->processor = sum.c.processor / t->timed;
+	t->load = sum.lead > 0 ? sum.c.wall / sum.lead : NAN;
+	return status;
+}
+
+struct pm_frame *pm_plan_time(const struct pm_frame *f, const char *sentence, int period, double most, struct pm_plan_timing *t)
+{
+	const bool held = pm_memory_peak_begin();
+	const double began = pm_seconds();
+	*t = (struct pm_plan_timing){.steps = 1};
+	struct pm_sentence *s = silent(sentence);
+	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
+	int status = g ? prime(s, &g) : pm_failed();
+	status = status ? status : step(s, &g);
+	t->first = pm_seconds() - began;
+	status = status ? status : blocks(s, &g, period, most, t);
+	t->peak = held ? pm_memory_peak() : NAN;
+	return ended(g, s, sentence, status);
+}
+
+/* ---- fields alone ---- */
+
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence)
 {
 	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? pm_sentence_prime(s, &g) : pm_failed();
-	if (status)
-		return failed(g, s, sentence, status);
-	pm_sentence_free(s);
-	return g;
+	return ended(g, s, sentence, g ? pm_sentence_prime(s, &g) : pm_failed());
 }
 
 struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence)

@@ -52,7 +52,7 @@ static void know_effects(struct pm_plan *p)
 {
 	for (p->neffects = 0; pm_effects[p->neffects] && p->neffects < PM_EFFECTS; p->neffects++) {
 		struct pm_plan_effect *e = &p->effect[p->neffects];
-		*e = (struct pm_plan_effect){.effect = pm_effects[p->neffects], .saves = NAN};
+		*e = (struct pm_plan_effect){.effect = pm_effects[p->neffects], .saves = NAN, .noise = NAN};
 		for (int k = 0; k < PM_EFFECT_OWN; k++)
 			e->own[k] = NAN;
 	}
@@ -104,7 +104,7 @@ static int measure_force(const struct pm_frame *f, struct pm_plan *p, const char
 	return status;
 }
 
-static struct pm_frame *run_steps(const struct pm_effect_run *r, const struct pm_frame *f, int steps) { return pm_plan_run(f, r->sentence, steps, NULL); }
+static struct pm_frame *run_steps(const struct pm_effect_run *r, const struct pm_frame *f, int steps) { return pm_plan_run(f, r->sentence, steps); }
 
 /* The numbers that only one effect needs. */
 static int measure_own(const struct pm_frame *f, struct pm_plan *p)
@@ -119,19 +119,6 @@ static int measure_own(const struct pm_frame *f, struct pm_plan *p)
 			status = p->effect[i].effect->measure(&c, &run, p->effect[i].own);
 		}
 	return status;
-}
-
-/* The cost of every stage: of the second step, or of the first if steps take long. */
-static int cost(const struct pm_frame *f, struct pm_plan *p)
-{
-	double measured[PM_PLAN_WORDS];
-	struct pm_frame *g = pm_plan_run(f, p->sentence, p->force > 0.5 ? 1 : 2, measured);
-	if (!g)
-		return pm_failed();
-	pm_frame_free(g);
-	for (int i = 0; i < p->nstages; i++)
-		p->stage[i].seconds = measured[i];
-	return pm_plan_savings(f, p);
 }
 
 /* Refuses choices that no sentence can express: faces and given fields belong to the frame. */
@@ -188,7 +175,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		return status;
 	decide(f, p, c);
 	status = pm_plan_compose(f, p);
-	return status || !c->cost ? status : cost(f, p);
+	status = status || !c->cost ? status : pm_plan_price(f, p);
+	return status || !c->cost ? status : pm_plan_savings(f, p);
 }
 
 int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d)

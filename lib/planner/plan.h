@@ -7,7 +7,7 @@
 #include "law/law.h"
 #include "stage/stage.h"
 
-enum { PM_PLAN_WORDS = PM_EFFECT_WORDS, PM_PLAN_TEXT = 2048 };
+enum { PM_PLAN_WORDS = PM_EFFECT_WORDS, PM_PLAN_TEXT = 2048, PM_PLAN_BLOCKS = 16 };
 
 struct pm_plan_choice { /* the options of the user */
 	double accuracy, time;  /* [time] end of the run; NAN: after a hundred steps of the frame */
@@ -26,7 +26,28 @@ struct pm_plan_effect {
 	struct pm_decision decision;
 	bool by_hand, lacking; /* lacking: needed, but there is no word for it yet */
 	double own[PM_EFFECT_OWN]; /* the results of its measure */
-	double saves;          /* seconds per step saved by leaving it out; NAN: not measured */
+	double saves, noise;   /* seconds per step saved by leaving it out, and what of that may be noise; NAN: not measured */
+};
+
+/* Of the whole run, until the time of the scales; NAN: not measured. */
+struct pm_plan_cost {
+	double steps;           /* of the run */
+	double step, low, high; /* [s] of a step: the median of the blocks timed, the quickest, the value that nine tenths of them do not exceed */
+	double begin;           /* [s] what the first step took longer: set-up, and the force before it */
+	double processor;       /* [s] of all processors in a step */
+	double load;            /* wall time over the processor time of the thread that leads: above 1, it waited for others */
+	double memory, written; /* [bytes] held at most; fields of a frame that cycle writes */
+	int timed;              /* steps */
+	bool varies;            /* the sentence chooses its steps itself, and their number is that at the speed of the steps timed */
+};
+
+/* Steps timed in blocks of equal length; seconds are those of one step. */
+struct pm_plan_timing {
+	int blocks, steps, timed; /* steps done, and those in the blocks */
+	double wall[PM_PLAN_BLOCKS], word[PM_PLAN_BLOCKS][PM_PLAN_WORDS];
+	double first;           /* [s] of the first step, with set-up and the force before it */
+	double processor, load; /* the means of all blocks, as above */
+	double peak;            /* [bytes] held at most by the process */
 };
 
 struct pm_plan {
@@ -38,6 +59,7 @@ struct pm_plan {
 	struct pm_plan_word stage[PM_PLAN_WORDS];
 	char sentence[PM_PLAN_TEXT];
 	double force; /* seconds for the force of the frame */
+	struct pm_plan_cost cost;
 };
 
 /* For a frame with all its data in memory. 0 or failure. */
@@ -60,8 +82,22 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
 void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 
-/* plan-run.c: runs a sentence for a number of full steps on a copy of a frame. seconds, if not NULL: of each word in the last step, without set-up. */
-struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps, double *seconds);
+/* plan-cost.c: what the run costs, from steps timed; */
+int pm_plan_price(const struct pm_frame *f, struct pm_plan *p);
+double pm_plan_steps(const struct pm_frame *f, const struct pm_plan *p); /* of the run */
+double pm_plan_seconds(const struct pm_plan *p);                         /* of the run, after _price */
+int pm_plan_period(const struct pm_plan *p); /* the number of steps after which all that is not done in every step has been done */
+double pm_plan_word_seconds(const struct pm_plan_timing *t, int word);
+/* The seconds that a step of another sentence takes more than one of the plan, and what of that may be noise. */
+double pm_plan_dearer(const struct pm_plan *p, const struct pm_plan_timing *t, double *noise);
+const char *pm_plan_duration(double seconds, char text[32]);
+void pm_plan_print_cost(FILE *out, const struct pm_plan *p);
+json_t *pm_plan_cost_json(const struct pm_plan *p);
+
+/* plan-run.c: runs a sentence for a number of full steps on a copy of a frame. */
+struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps);
+/* The same for as many steps as it takes to know their seconds, in blocks of a multiple of `period` steps; at most `most` steps if that is a block or more. */
+struct pm_frame *pm_plan_time(const struct pm_frame *f, const char *sentence, int period, double most, struct pm_plan_timing *t);
 /* Runs the words that make fields from state, once. */
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence);
 struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence); /* without the fields on meshes: these are large */

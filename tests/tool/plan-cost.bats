@@ -13,3 +13,45 @@ load ../helper
 	[[ "$(pinit lattice | plan --no-cost --on self-field)" = *"p2m  "*"cic: forces cancel on the mesh of the frame"* ]] || {
 		pinit lattice | plan --no-cost --on self-field; return 1; }
 }
+
+@test "the cost of the whole run: the steps that cycle does, the seconds as their product, no less memory than a frame" {
+	for run in "kepler|1" "landau -n 2000 --cells 32|0.7" "lamb-oseen --cells 32|1.4" "plummer -n 300|0.033" "exb|0.3" "lattice -n 64 --cells 8|1"; do
+		pinit ${run%|*} >start
+		plan -t "${run#*|}" --format json <start >plan.json
+		cycle -t "${run#*|}" --plan <start >end
+		python3 - "$(sls end | sed -n 's/.* step \([0-9]*\) .*/\1/p')" "$(stat -c %s end)" <<-'END' || { echo "$run"; jq -c .cost plan.json; return 1; }
+			import json, sys
+			plan = json.load(open("plan.json"))
+			c = plan["cost"]
+			assert c["steps"] == int(sys.argv[1]), "steps of cycle: " + sys.argv[1]
+			total = c["set_up"] + c["steps"] * c["seconds_per_step"]
+			assert abs(c["seconds"] - total) <= 1e-12 * total, "seconds"
+			assert 0 < c["seconds_low"] <= c["seconds"] <= c["seconds_high"], "interval"
+			assert c["steps_timed"] >= 1 and c["processor_per_step"] > 0 and c["load"] > 0
+			assert c["memory"] > c["frame"] > 0, "memory"
+			# the words are inside the steps; medians of sums are not sums of medians, and blocks differ on a loaded machine
+			assert sum(s["seconds"] for s in plan["stages"]) < 3 * c["seconds_per_step"], "stages"
+			# the header and the history take a few kB
+			assert c["frame"] <= int(sys.argv[2]) <= c["frame"] + 16384, "bytes of a frame: " + sys.argv[2]
+		END
+	done
+}
+
+@test "the cost of the whole run as text: steps, seconds with their range, memory; nothing costs 0 us, and with --no-cost nothing is priced" {
+	pinit kepler | plan -t 1 >text
+	grep -qE '^# the run  *[0-9]+ steps, .*[mu]s \(.* to .*\), of it .* to begin; processor .*; from [0-9]+ steps timed, without output$' text
+	grep -qE '^# memory  *[0-9.]+ MB at most; a frame written takes [0-9.]+ kB$' text
+	for scene in kepler lattice exb; do
+		pinit $scene | plan >text
+		run ! grep -E '[^0-9.]0 us|saves 0' text
+	done
+	run ! grep -E '^# the run|^# memory|a step' <<<"$(pinit kepler | plan --no-cost)"
+	[ "$(pinit kepler | plan --no-cost --format json | jq .cost)" = null ]
+}
+
+@test "an action that is not done in every step is priced with as many steps as lie between two of it" {
+	pinit taylor-green-2d --cells 32 --dt 0.01 >start
+	every=$(plan --accuracy 0.1 --sentence <start | sed -n 's/.*--every \([0-9]*\).*/\1/p')
+	[ "$every" -gt 1 ]
+	[ $(($(plan --accuracy 0.1 --format json <start | jq .cost.steps_timed) % every)) = 0 ]
+}
