@@ -70,7 +70,8 @@ def draw(r):
         "shear-layer": lambda: (some("--cells", "32", "64", "128") + some("--rho", "30", "80") + some("--nu", "0", "1e-4", "1e-3"), log(0.1, 0.8)),
         "taylor-green-2d": lambda: (some("--cells", "16", "32", "64") + some("--nu", "0", "1e-3", "0.01", "0.1"), log(0.5, 5)),
         "two-body": lambda: (["--eccentricity", "%.2g" % r.uniform(0, 0.98)] + real("--ratio", 1e-6, 1), log(1, 60)),
-        "two-stream": lambda: (["-n", str(2 * int(log(250, 4000)))] + some("--cells", "32", "64") + real("--v0", 0.3, 1.6) + some("--vth", "0", "0.05", "0.3"), log(2, 30)),
+        "two-stream": lambda: (["-n", str(2 * int(log(250, 4000)))] + some("--cells", "32", "64") + real("--v0", 0.3, 1.6) + some("--vth", "0", "0.05", "0.3"),
+                               log(2, 30)),
         "uniform": lambda: (whole("-n", 20, 2000) + some("--dim", "2", "3") + some("--cells", "8", "16", "32") + soft() + seed()
                             + some("--mass-spread", "0", "2"), log(0.05, 1)),
         "vortex-pair": lambda: (["--circulation2", "%.3g" % r.uniform(-2, 2)] + real("--distance", 0.3, 3), log(1, 60)),

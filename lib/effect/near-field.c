@@ -8,6 +8,13 @@
 
 #include "effect-parts/effect-decision.h"
 
+/* Can the nearest pair fall together within the run? Alone it would at 1.11/sqrt(G m/d^3); in a lattice the pulls of the others cancel its own. */
+static bool falls(const struct pm_scales *s)
+{
+	const double rate = s->encounter / sqrt(2), d = fmax(s->nearest, s->softening);
+	return rate * s->time > 0.8 && s->self_max > 0.3 * rate * rate * d;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
@@ -33,6 +40,9 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	} else if (s->open && !s->periodic && !s->walls && s->mesh_error > s->accuracy) {
 		pm_effect_by(d, s, s->mesh_error, s->mesh_error);
 		snprintf(d->text, sizeof d->text, "the error of the mesh is %.1g where bodies are close", s->mesh_error);
+	} else if (cells > 2.5 && falls(s)) {
+		pm_effect_by(d, s, cells, 1);
+		snprintf(d->text, sizeof d->text, "the nearest pair, now %.2g cells apart, may fall together", cells);
 	} else if (cells > 2.5) {
 		pm_effect_by(d, s, cells, apart);
 		snprintf(d->text, sizeof d->text, "nearest pair %.2g cells apart, the error of the mesh there is %.1g", cells, apart);
