@@ -48,10 +48,3 @@ load ../helper
 	run ! grep -E '^# the run|^# memory|a step' <<<"$(pinit kepler | plan --no-cost)"
 	[ "$(pinit kepler | plan --no-cost --format json | jq .cost)" = null ]
 }
-
-@test "an action that is not done in every step is priced with as many steps as lie between two of it" {
-	pinit taylor-green-2d --cells 32 --dt 0.01 >start
-	every=$(plan --accuracy 0.1 --sentence <start | sed -n 's/.*--every \([0-9]*\).*/\1/p')
-	[ "$every" -gt 1 ]
-	[ $(($(plan --accuracy 0.1 --format json <start | jq .cost.steps_timed) % every)) = 0 ]
-}
