@@ -17,6 +17,12 @@ version=@VERSION@
 . lib/shell/page.sh
 # shellcheck source=lib/shell/sweep.sh
 . lib/shell/sweep.sh
+# shellcheck source=lib/shell/rounds.sh
+. lib/shell/rounds.sh
+# shellcheck source=lib/shell/members.sh
+. lib/shell/members.sh
+# shellcheck source=lib/shell/sizes.sh
+. lib/shell/sizes.sh
 # shellcheck source=lib/shell/front.sh
 . lib/shell/front.sh
 # shellcheck source=lib/shell/front-picture.sh
@@ -31,9 +37,9 @@ arguments_text="Words joined by |, with alternatives in braces, in quotes."
 about="Alternatives {a,b} split at the commas directly inside, nest, may be empty and may contain |; \\{ \\} \\, are the literal characters. --vary
 kernel=cic,tsc gives {kernel} the same value everywhere in the sentence (linked choices). The words before the first brace are run once, and no
 sentence is charged for them; after that, a beginning that several sentences share is run once per round and charged to each. One word runs at a time.
-The seconds are those that the words report (--timing; for a word without this option its CPU time), in rounds over all sentences: the result is the
-median, the spread half the range. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not
-stop the others.
+The seconds are those that the words report (--timing; for a word without this option those of its process), wall time and processor time, in rounds
+over all sentences in changing order, until the medians of the front are known to --spread. Sentences that differ by no more than noise are a tie: both
+are on the front. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not stop the others.
 
 With -o DIRECTORY: pareto.tsv, pareto.svg and pareto.png (splot) and index.html, a page of one file whose table sorts; the results are kept there, and the
 same command continues a sweep that was stopped. Then --until-error, --within and --tsv need no SENTENCE."
@@ -44,7 +50,13 @@ f|field|NAME||compare these fields, with commas between (default: all)
 |norm|WORD|l1 l2 max relative_l2 relative_max|the norm of scmp used as the error (default relative_l2), the largest over fields and frames
 |vary|TEXT||name=value,value,...: what {name} stands for; may be given several times
 o|output|DIRECTORY||write the results there, and continue from earlier ones
-|repeat|N||rounds of timing (default 3)
+|repeat|N||exactly so many rounds of timing (with --spread or --budget: at least so many; default 3)
+|spread|X||repeat until the median time of all that may be on the front is known to this fraction (default 0.05; half the interval of 90 %)
+|budget|TIME||and no longer than this, as 90s or 5min (default 60s)
+|time|WORD|wall processor|which time the front is made of (default wall; processor: of all threads, less disturbed on a loaded machine)
+|axes|LIST||the criteria of the front, of error, time and memory (default error,time)
+|size|NAME||the name of --vary that is the size of the problem: a front and, by default, a reference for each size, power laws, crossovers
+|extrapolate|X||a size that is not run: times, memory and errors by the power laws, labelled
 j|jobs|N||only errors, without seconds: run N sentences at a time (GNU parallel)
 |until-error|X||print the cheapest sentence with at most this error, and nothing else
 |within|TEXT||print the most accurate sentence of at most this cost, as 2s, 50ms or 1.5min, and nothing else
@@ -58,19 +70,14 @@ The same kernel for the way to the mesh and back; only errors|\
 pareto 'pinit uniform -n 99 | p2m --kernel {k} -n 8 | poisson-fft | mgrad | m2p --kernel {k}' --vary k=ngp,tsc --against finest --field acc \
 --repeat 1 --tsv"
 
-seconds_of() {
-	[[ $1 =~ ^([0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?)(us|ms|s|min|h|)$ ]] || usage "option '--within': '$1' is not a time (2s, 50ms, 1.5min)"
-	awk -v x="${BASH_REMATCH[1]}" -v u="${BASH_REMATCH[3]}" 'BEGIN {
-		print x * (u == "us" ? 1e-6 : u == "ms" ? 1e-3 : u == "min" ? 60 : u == "h" ? 3600 : 1) }'
-}
-
 settle() {
 	read_options "$@"
 	[ ${#positional[@]} -le 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-}
+	settle_times
 	keep_directory
 	until=${opt_until_error:-} within_seconds=
-	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of "$opt_within")
+	[ -z "${opt_within:-}" ] || within_seconds=$(seconds_of within "$opt_within")
 	if [ ${#positional[@]} = 0 ]; then
 		answer_again
 		exit
@@ -87,24 +94,24 @@ settle() {
 # The sentences, their common beginning, and the tree of the remaining words.
 understand() {
 	local template=${positional[0]//$'\n'/ } w
-	words "$template"
-	beginning=()
+	sized
+	words "${template//"{${opt_size:- }}"/0}"
+	skip=0
 	for w in "${word[@]}"; do
 		[[ ${w//'\{'/} != *'{'* ]] || break
-		hide_escapes "$w"
-		show_escapes "$text"
-		beginning+=("$text")
+		skip=$((skip + 1))
 	done
 	sentences "$template" "$against" "${varied[@]}"
-	plant
-	refer
+	find_size
+	plant 0
+	refer 0
 }
 
 open_state() {
 	local x='[^[:space:]]+'
 	open_results sweep "$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" \
-		"${jobs:+errors}")" '^error' \
-		"^(time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
+		"${jobs:+errors}" ${opt_size:+"$opt_size"})" '^error' \
+		"^(load("$'\t'"$x){2}|time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3,4}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
 }
 
 all_known() {
@@ -113,6 +120,7 @@ all_known() {
 		if [ -n "$jobs" ]; then
 			[ -n "${error_known[$m]:-}" ] || return 1
 		else
+			[ "$fixed" = 1 ] || return 1
 			for ((r = 1; r <= repeat; r++)); do is_complete "$m" $r || return 1; done
 		fi
 	done
@@ -138,7 +146,7 @@ report() {
 }
 
 main() {
-	declare -A children=() is_timed=() failed=() clocked=() error_known=()
+	declare -A children=() is_timed=() failed=() clocked=() error_known=() node_number=() beginning_number=() reference_number=()
 	held=() child='' doing='' work='' bin=$(own_directory)
 	PATH=$bin:$PATH
 	time_program=$(type -P time) || time_program=

@@ -234,7 +234,7 @@ add_member() {
 	there[$text]=$last_member
 	sentence+=("$text")
 	for d in "${!at[@]}"; do
-		with_names "${value[d]}"
+		with_names "${value[d]//"{${opt_size:-}}"/$'\001'${opt_size:-}$'\002'}" # {NAME} of --size stays: a method is the same at all sizes
 		trim "$text"
 		chosen+=("$text")
 	done

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Runs the members of a sweep. Common beginnings are nodes of a tree: a node runs on the output of its parent, one at a time, once per round,
 # and its seconds are charged to every member below it. Results are appended to $state/log, from which a stopped sweep is continued:
-#   time NODE ROUND SETUP SECONDS KB | fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
+#   time NODE ROUND SETUP SECONDS KB PROCESSOR | load OTHERS PROCESSORS | fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # Succeeds if the program has the option --timing.
@@ -18,31 +18,38 @@ timed() {
 	[ "${is_timed[$program]}" = yes ]
 }
 
-# plant: numbers the nodes in the order of a walk through the tree; path[member] is "N N N", without the brace-free beginning.
+# plant MEMBER: numbers the nodes of the members from MEMBER on; path[member] is "N N N", without the words before the first brace, of
+# which beginning_of[member] is the number.
 plant() {
 	local m w parent key
-	local -A number=()
-	node_word=() path=()
-	for m in "${!sentence[@]}"; do
+	[ "$1" != 0 ] || { node_word=() path=() beginning_text=() beginning_of=() walk=() node_number=() beginning_number=(); }
+	for ((m = $1; m < ${#sentence[@]}; m++)); do
 		words "${sentence[m]}"
 		join "${word[@]}"
 		sentence[m]=$text
-		parent=
-		for w in "${word[@]:${#beginning[@]}}"; do
+		[ $skip = 0 ] || join "${word[@]:0:skip}"
+		[ $skip != 0 ] || text=
+		[ -n "${beginning_number[x$text]:-}" ] || { beginning_number[x$text]=${#beginning_text[@]}; beginning_text+=("$text"); }
+		beginning_of[m]=${beginning_number[x$text]}
+		if [[ -n $size_choice && -n ${opt_extrapolate:-} ]]; then
+			[ "${chosen[m * ${#choice_name[@]} + size_choice - 1]}" != "$opt_extrapolate" ] || continue # not run
+		fi
+		parent="b${beginning_of[m]}" path[m]=
+		for w in "${word[@]:skip}"; do
 			key="$parent|$w"
-			[ -n "${number[$key]:-}" ] || { number[$key]=${#node_word[@]}; node_word+=("$w"); }
-			parent+=" $(printf %06d "${number[$key]}")"
+			[ -n "${node_number[$key]:-}" ] || { node_number[$key]=${#node_word[@]}; node_word+=("$w"); }
+			path[m]+=" ${node_number[$key]}"
+			parent+=" ${node_number[$key]}"
 		done
-		path[m]=${parent# }
+		path[m]=${path[m]# }
+		walk+=("$m")
 	done
-	mapfile -t walk < <(for m in "${!path[@]}"; do printf '%s\t%d\n' "${path[m]}" "$m"; done | sort | cut -f2)
-	for m in "${!path[@]}"; do path[m]=$(printf '%s' "${path[m]}" | awk '{ for (i = 1; i <= NF; i++) printf "%s%d", (i > 1 ? " " : ""), $i }'); done
 }
 
 # run COMMAND IN OUT: in its own process group, so that all of it can be stopped; its messages are in $work/said.
 run() {
 	local status=0 clock=()
-	[ -z "$time_program" ] || clock=("$time_program" -q -o "$work/clock" -f '%M %U %S')
+	[ -z "$time_program" ] || clock=("$time_program" -q -o "$work/clock" -f '%M %U %S %e')
 	: >"$work/clock"
 	: >"$work/timing"
 	set -m
@@ -61,11 +68,13 @@ with_timing() {
 	! timed "$1" || text+=' --timing "$PARETO_TIMING"'
 }
 
-# Seconds of set-up and of work, and kB, of the last run. cycle writes the seconds of its words and then its own; for a foreign word the CPU time is used.
+# Seconds of set-up and of work, kB, and seconds of the processors, of the last run. cycle writes the seconds of its words and then its own, which count
+# where its words ran as processes; for a foreign word the clocks of time are used, to 10 ms.
 cost() {
-	awk -F'[\t]' 'FILENAME == ARGV[1] { split($0, c, " "); kb = c[1]; cpu = c[2] + c[3]; next }
-		{ own = $3; set = $2; work += $3; up += $2; n++ }
-		END { if (n > 1) { work -= own; up -= set } printf "%.9f\t%.9f\t%s\n", up, n ? work : cpu, kb + 0 }' "$work/clock" "$work/timing"
+	awk -F'[\t]' 'FILENAME == ARGV[1] { split($0, c, " "); kb = c[1]; cpu = c[2] + c[3]; clock = c[4]; next }
+		{ own = $3; set = $2; used = $4; work += $3; up += $2; all += $4; n++ }
+		END { if (n > 1 && work > own) { work -= own; up -= set; all -= used } else if (n > 1) { work = own; all = used }
+			printf "%.9f\t%.9f\t%s\t%.9f\n", up, n ? work : clock, kb + 0, n ? all : cpu }' "$work/clock" "$work/timing"
 }
 
 # run_node NODE IN ROUND: writes $work/node.NODE; its seconds are recorded once per round.
@@ -139,9 +148,13 @@ is_complete() {
 	[ -n "${error_known[$1]:-}" ]
 }
 
+# input_of MEMBER: the output of the words before its first brace.
+input_of() { if [ $skip = 0 ]; then echo /dev/null; else echo "$work/beginning.${beginning_of[$1]}"; fi; }
+
 # visit MEMBER ROUND: runs the missing nodes of its path.
 visit() {
-	local n from=$first_input f line
+	local n from f line
+	from=$(input_of "$1")
 	for f in "${held[@]}"; do
 		[[ " ${path[$1]} " == *" $f "* ]] || rm -f "$work/node.$f"
 	done
@@ -171,31 +184,10 @@ progress() {
 	fi
 }
 
-# Rounds over all members, so that a temporary load on the machine affects all alike.
-measure() {
-	local round m done_now=0 to_do=0
-	local -A wanted=()
-	for ((round = 1; round <= repeat; round++)); do
-		for m in "${walk[@]}"; do is_complete "$m" $round || wanted[$m,$round]=1; done
-	done
-	to_do=${#wanted[@]}
-	began=$SECONDS
-	for ((round = 1; round <= repeat; round++)); do
-		for m in "${walk[@]}"; do
-			[ -n "${wanted[$m,$round]:-}" ] || continue
-			progress $done_now $to_do " (round $round of $repeat: ${sentence[m]})"
-			is_complete "$m" $round || visit "$m" $round
-			done_now=$((done_now + 1))
-		done
-		rm -f "$work"/node.*
-		held=()
-	done
-}
-
 # One member as one sentence, for errors alone; run by GNU parallel.
 member_error() {
 	local member=$1 out=$work/member.$1 text
-	if bash -o pipefail -c "$(cat "$work/tail.$1")" <"$first_input" >"$out" 2>"$out.err"; then
+	if bash -o pipefail -c "$(cat "$work/tail.$1")" <"$(cat "$work/input.$1")" >"$out" 2>"$out.err"; then
 		reference_of=()
 		reference_of[member]=$(cat "$work/against.$1")
 		compare "$member" "$out"
@@ -211,13 +203,14 @@ measure_errors() {
 		[ -z "${error_known[$m]:-}" ] || continue
 		list+=("$m")
 		words "${sentence[m]}"
-		join "${word[@]:${#beginning[@]}}"
+		join "${word[@]:skip}"
 		printf '%s\n' "$text" >"$work/tail.$m"
+		input_of "$m" >"$work/input.$m"
 		echo "${reference_of[m]:-}" >"$work/against.$m"
 	done
 	[ ${#list[@]} != 0 ] || return 0
 	[ ! -t 2 ] || bar=(--bar)
-	export work first_input against field set
+	export work against field set
 	export -f member_error compare compare_words norms_scmp norms_exact
 	doing="${#list[@]} were to be compared"
 	set -m
