@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "push/push-set.h"
+#include "stage/control-options.h"
 #include "stage/strength-report.h"
 #include "stream/acting-forces.h"
 #include "stream/frame-time.h"
@@ -31,7 +31,7 @@ static int begin(struct pm_stage *s)
 	}
 	if (cfg->push.open && !(cfg->push.drift > 0))
 		return pm_fail(PM_USAGE, "--open belongs to drift (push drift --open | force | push kick)");
-	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt must not be 0") : 0;
+	return pm_given(s, "dt") && cfg->dt == 0 ? pm_fail(PM_USAGE, "--dt must not be 0") : pm_control_begin(s, &cfg->push);
 }
 
 static int take_dt(const struct pm_stage *s, struct pm_frame *f)
@@ -70,6 +70,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return status;
 	if (cfg->push.clear || cfg->push.moves)
 		pm_push_drops(f, &cfg->push, cfg->set);
+	if (pm_control_chosen(&cfg->push))
+		return (status = pm_control_frame(f, state->n, state->moving, &cfg->push)) ? status : PM_HOLD;
 	if (steps)
 		pm_clock_close(f);
 	return cfg->push.moves && pm_moving_face(f, PM_PABSORB) ? PM_HOLD : 0;
@@ -111,6 +113,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const double *h = state->mesh && cfg->push.moves ? state->mesh->h : NULL;
 	double crossed = 0;
 	int status = 0;
+	if (pm_control_chosen(&cfg->push))
+		return pm_control_pass(s, f, state->n, state->moving, &cfg->push);
 	for (size_t i = 0; i < state->n && !status; i++)
 		status = stable(s, f, &state->moving[i]);
 	for (size_t i = 0; i < state->n && !status; i++)
@@ -127,6 +131,7 @@ static void release(struct pm_stage *s)
 
 static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
+	PM_CONTROL_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time advances when the others have moved too"},
 	{.name = "open", .kind = PM_FLAG, PM_AT(push.open), .text = "the drift does not complete the step: a kick is still to come"},
 	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe),
@@ -159,7 +164,7 @@ const struct pm_tool tool_push = {
 	.arguments = "ACTION...",
 	.arguments_choices = pm_step_names,
 	.arguments_text = "kick, drift (with /N a part of the step), boris/2, clear; or a scheme: euler, rk2, midpoint, lsrk3, rk4, ab2, ab3, yoshida4, "
-		"yoshida6, blanes-moan4, blanes-moan6",
+		"yoshida6, blanes-moan4, blanes-moan6, ias15",
 	.least = 1,
 	.most = PM_ADVANCE_ACTIONS,
 	.examples = examples,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cycle/run-end.h"
+#include "step/step.h"
 #include "stream/frame-time.h"
 
 static const double round_off = 1e-9; /* of dt; a time is rounded to 1e-16 of itself, so after 1e6 steps to 1e-10 dt */
@@ -22,8 +23,22 @@ static const char *setter(const struct pm_sentence *s)
 	return NULL;
 }
 
-int pm_run_end_check(const struct pm_run_end *e, const struct pm_sentence *s)
+/* Is there a scheme that chooses its steps? */
+static bool chooses(const struct pm_sentence *s)
 {
+	bool found = false;
+	for (int i = 0; i < pm_sentence_words(s) && !found; i++) {
+		const struct pm_stage *w = pm_sentence_stage(s, i);
+		for (int k = 0; w && k < w->nargs && !found; k++)
+			for (int j = 0; pm_steps[j] && !found; j++)
+				found = pm_steps[j]->control && !strcmp(w->args[k], pm_step_names[j]);
+	}
+	return found;
+}
+
+int pm_run_end_check(struct pm_run_end *e, const struct pm_sentence *s)
+{
+	e->chosen = e->exact && chooses(s);
 	const char *word = e->exact ? setter(s) : NULL;
 	return word ? pm_fail(PM_USAGE, "--exact makes the last step shorter, but '%s' sets dt in every step (leave one of them out; smod --dt before cycle "
 		"sets dt once)", word) : 0;
@@ -49,7 +64,12 @@ int pm_run_end_restore(struct pm_run_end *e, struct pm_frame *f)
 {
 	if (e->dt == 0 || f->substep)
 		return 0;
-	if (!(fabs(f->time - e->time) <= 1e-6 * fabs(e->dt)))
+	const bool there = fabs(f->time - e->time) <= 1e-6 * fabs(e->dt);
+	if (!there && e->chosen) { /* the step to the end was rejected: another follows */
+		e->dt = 0;
+		return 0;
+	}
+	if (!there)
 		return pm_fail(PM_USAGE, "--exact: the last step ended at time %.9g, not at %.9g: a word of the sentence sets dt or time", f->time, e->time);
 	f->time = f->start = e->time;
 	f->dt = e->dt;

@@ -9,10 +9,11 @@ struct pm_run_end {
 	bool exact;
 	double dt;   /* the step of the run while a shorter one is under way, else 0 */
 	bool told;   /* the note was printed */
+	bool chosen; /* a scheme chooses its steps, and may make the last one shorter still */
 };
 
 /* Fails if a word of the sentence sets dt itself, which --exact would have to. */
-int pm_run_end_check(const struct pm_run_end *e, const struct pm_sentence *s);
+int pm_run_end_check(struct pm_run_end *e, const struct pm_sentence *s);
 /* Has the run reached its end? At substep 0; time may run backwards. */
 bool pm_run_end_reached(const struct pm_run_end *e, const struct pm_frame *f);
 /* Before a step: makes it shorter if it would pass the end. After it: the time is exactly the end, and dt again that of the run. */

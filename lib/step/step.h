@@ -6,7 +6,18 @@
 
 #include "base/base.h"
 
-enum { PM_STEP_PASSES = 12, PM_REGISTERS = 3 };
+enum { PM_STEP_PASSES = 12, PM_REGISTERS = 17 };
+
+/* The registers of a state under an error-controlled scheme; the first PM_CONTROL_KEPT are kept from step to step. */
+enum {
+	PM_CONTROL_TERMS = 7,
+	PM_CONTROL_REST = 0,
+	PM_CONTROL_SERIES = 1,
+	PM_CONTROL_FORETOLD = PM_CONTROL_SERIES + PM_CONTROL_TERMS,
+	PM_CONTROL_KEPT = PM_CONTROL_FORETOLD + PM_CONTROL_TERMS,
+	PM_CONTROL_START = PM_CONTROL_KEPT,
+	PM_CONTROL_RATE
+};
 
 enum pm_step_kind {
 	PM_KICK,  /* advances every state but the positions, and counts as kick */
@@ -21,10 +32,44 @@ struct pm_magnetic {
 	const double *charge, *mass;
 };
 
+/* One component of a state under an error-controlled scheme, n values each. A position whose rate is this state (x beside v) goes with it. */
+struct pm_control_line {
+	double *y, *y_start;   /* the state, and what it was when the step began */
+	double *y_rest;        /* what rounding has left out of y: y + y_rest is the state */
+	double *x, *x_start, *x_rest;          /* x' = y; NULL: none */
+	const double *k;                       /* the rate of y now */
+	double *k_start;                       /* and at the beginning of the step */
+	double *series[PM_CONTROL_TERMS];      /* of the rate over this step, as good as it is known */
+	double *foretold[PM_CONTROL_TERMS];    /* what the step before said of them */
+};
+
+/* Maxima over the values of a state: of the rate, of the terms of its series, of the change of the last one in this iteration. */
+struct pm_control_norms {
+	double rate, change, term[PM_CONTROL_TERMS];
+};
+
+/* A scheme that iterates over the nodes of a step until its series has converged, and then takes the step or begins it again with a shorter one. */
+struct pm_control {
+	int nodes;               /* the first is the beginning of the step; a force evaluation each */
+	const double *at;        /* their times, in units of dt */
+	int most_iterations;
+	double converged;        /* change over rate below which no further iteration is made */
+	double rounding;         /* the most that rounding may add to the last term over the rate; above, a change that grows is no sign of it */
+	double power;            /* last term over rate grows as this power of dt */
+	double factor;           /* a step that should be shorter than this part of itself is rejected; none is longer than the last by more than 1/factor */
+	/* At the beginning of a step; the series was foretold for dt/ratio. */
+	void (*begin)(double ratio, size_t n, const struct pm_control_line *l);
+	void (*correct)(int node, size_t n, const struct pm_control_line *l, struct pm_control_norms *norms); /* by the rate at this node; norms at the last */
+	void (*place)(int node, double dt, size_t n, const struct pm_control_line *l);               /* puts the state there */
+	/* Takes the step dt, and foretells the series of the next, dt times ratio; known: steps before that did so for this one. */
+	void (*end)(double dt, double ratio, bool known, size_t n, const struct pm_control_line *l);
+	void (*reject)(double ratio, size_t n, const struct pm_control_line *l); /* the series for dt times ratio, by what was foretold */
+};
+
 struct pm_step {
 	const char *name, *sentence, *source;
 	enum pm_step_kind kind;
-	int passes;    /* force evaluations per step */
+	int passes;    /* force evaluations per step; of an error-controlled scheme as many as it usually takes */
 	int registers; /* per state, zero at the first pass, dropped after the last; each a linear combination of rates, so that it does not
 	                * change when a particle is folded and changes sign when it is reflected */
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
@@ -40,6 +85,7 @@ struct pm_step {
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
 	/* For magnetic kicks, which rotate v about B: particles from..to-1, half a step of dt; every other state is kicked by pass. NULL: none. */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
+	const struct pm_control *control; /* of an error-controlled scheme, which has no pass; NULL */
 };
 
 extern const struct pm_step *const pm_steps[]; /* generated from lib/step/, NULL ends */

@@ -1,0 +1,46 @@
+/* Options and reports of error-controlled steps. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "stage/control-options.h"
+#include "stream/acting-forces.h"
+
+bool pm_control_chosen(const struct pm_push *p) { return p->scheme && p->scheme->control; }
+
+int pm_control_begin(const struct pm_stage *s, const struct pm_push *p)
+{
+	const char *const names[] = {"tolerance", "min", "max"};
+	for (int i = 0; i < 3; i++)
+		if (pm_given(s, names[i]) && !pm_control_chosen(p))
+			return pm_fail(PM_USAGE, "--%s belongs to a scheme that chooses its steps by their error (push ias15)", names[i]);
+	if (p->floor > p->most)
+		return pm_fail(PM_USAGE, "--min %g is above --max %g", p->floor, p->most);
+	if (pm_control_chosen(p) && p->tolerance > 0 && pm_given(s, "dt"))
+		return pm_fail(PM_USAGE, "%s chooses its steps (smod --dt before it gives the first one, --min and --max limit them; with --tolerance 0 all "
+			"are --dt)", p->scheme->name);
+	return 0;
+}
+
+static void tell(struct pm_stage *s, struct pm_frame *f, const struct pm_controlled *done)
+{
+	pm_report(s, f, "error", done->error);
+	pm_report_count(s, f, "iterations", (uint64_t)done->iterations);
+	pm_report_count(s, f, "rejected", done->rejected);
+	pm_report_count(s, f, "below_min", done->least);
+	pm_report_count(s, f, "rounded", done->rounded);
+	pm_report_count(s, f, "unconverged", done->unconverged);
+	if (done->rejected)
+		pm_say(s, "the step from time %.9g is rejected: with dt %g its error is %.3g (again with %g)", f->start, done->dt, done->error, done->next);
+	if (done->unconverged)
+		pm_tell_once(s, "the step to time %.9g: %d iterations did not converge with dt %g (counted as unconverged; --max makes steps shorter)", f->time,
+			done->iterations, done->dt);
+}
+
+int pm_control_pass(struct pm_stage *s, struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p)
+{
+	struct pm_controlled done;
+	for (size_t i = 0; i < n; i++)
+		for (int r = 0; r < moving[i].n; r++)
+			pm_acting_note(f, moving[i].rates[r].rate);
+	const int status = pm_control_run(f, n, moving, p, &done);
+	if (!status && (done.completed || done.rejected))
+		tell(s, f, &done);
+	return status;
+}
