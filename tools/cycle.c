@@ -15,6 +15,10 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--exact belongs to -t TIME");
 	if (pm_given(s, "accuracy") && !c->plan)
 		return pm_fail(PM_USAGE, "--accuracy belongs to --plan");
+	if (pm_given(s, "again") && !c->plan)
+		return pm_fail(PM_USAGE, "--again belongs to --plan");
+	if (pm_given(s, "again") && c->exact)
+		return pm_fail(PM_USAGE, "--exact and --again both choose the step (with --again a step that is changed divides the time to the end)");
 	return 0;
 }
 
@@ -35,6 +39,8 @@ static const struct pm_option options[] = {
 	{.name = "plan", .kind = PM_FLAG, .cosmetic = true, AT(plan), .text = "without SENTENCE: run the sentence that plan chooses for the first frame"},
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, .cosmetic = true, AT(accuracy),
 		.text = "with --plan: effects that change the result by less than this (relative) are left out"},
+	{.name = "again", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(again),
+		.text = "with --plan: decide anew every N steps (50 is usual) and when speed, force or size of the frame change much"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(every),
 		.text = "write the initial frame, every step that is a multiple of N, and the last"},
 	PM_SELECTION_ROWS(AT_KEPT, 0),

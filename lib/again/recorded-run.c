@@ -16,6 +16,20 @@ static const json_t *entry_of(const struct pm_recorded_run *run, int k)
 	return json_array_get(run->history, json_array_size(run->history) - (size_t)(run->n - k));
 }
 
+/* cycle --again records what it has decided so far: its own decisions, which the options repeat. */
+static bool decides(const json_t *entry) { return json_object_get(json_object_get(entry, "options"), "again"); }
+
+/* The history without these decisions: that of all frames of a run. A new reference. */
+static json_t *of_all_frames(const json_t *history)
+{
+	json_t *same = json_deep_copy(history), *entry;
+	size_t i;
+	json_array_foreach(same, i, entry)
+		if (decides(entry))
+			json_object_set_new(entry, "arguments", json_array());
+	return same;
+}
+
 int pm_recorded_read(struct pm_recorded_run *run, struct pm_reader *r)
 {
 	struct pm_frame *f = NULL;
@@ -25,12 +39,14 @@ int pm_recorded_read(struct pm_recorded_run *run, struct pm_reader *r)
 			continue;
 		if (got == PM_GOT_EOF)
 			return run->frames ? 0 : pm_fail(PM_DATA, "it has no frames, and so no history");
-		if (!status && run->history && !json_equal(run->history, f->history))
+		json_t *history = status ? NULL : of_all_frames(f->history);
+		if (!status && run->history && !json_equal(run->history, history))
 			status = pm_fail(PM_DATA, "frame %llu has another history than frame 1: these are several runs (sel --frames takes one out)",
 				(unsigned long long)run->frames + 1);
 		if (status < 0) {
 			if (got == PM_GOT_FRAME)
 				pm_frame_free(f);
+			json_decref(history);
 			return status;
 		}
 		run->frames++;
@@ -38,7 +54,8 @@ int pm_recorded_read(struct pm_recorded_run *run, struct pm_reader *r)
 		run->second = run->frames == 2 ? f->step : run->second;
 		run->last = f->step;
 		if (!run->history)
-			run->history = json_incref(f->history);
+			run->history = json_incref(history);
+		json_decref(history);
 		f = pm_frame_free(f);
 	}
 }
@@ -62,14 +79,14 @@ static int add(char **argv, const char *format, const char *a, const char *b)
 	return asprintf(argv + n, format, a, b) < 0 ? argv[n] = NULL, pm_no_memory() : 0;
 }
 
-/* cycle counts its steps from the beginning of the run; a single frame is taken for the last of a run from step 0. */
-static int cycle_length(const struct pm_recorded_run *run, char **argv)
+/* cycle counts its steps from the beginning of the run; a single frame is taken for the last of a run from step 0. typed: the options have the length. */
+static int cycle_length(const struct pm_recorded_run *run, bool typed, char **argv)
 {
 	char number[32];
 	const int64_t from = run->frames > 1 ? run->first : 0, every = run->frames > 1 ? run->second - run->first : 0;
 	snprintf(number, sizeof number, "%lld", (long long)(run->last - from));
-	int status = add(argv, "-n", "", "");
-	status = status ? status : add(argv, "%s", number, "");
+	int status = typed ? 0 : add(argv, "-n", "", "");
+	status = status || typed ? status : add(argv, "%s", number, "");
 	snprintf(number, sizeof number, "%lld", (long long)every);
 	if (!status && every > 0 && !(status = add(argv, "--every", "", "")))
 		status = add(argv, "%s", number, "");
@@ -93,7 +110,7 @@ static int command(const struct pm_recorded_run *run, const json_t *entry, char 
 			status = add(argv, "%s", json_string_value(value), "");
 	}
 	if (!status && !strcmp(text(entry, "program"), "cycle"))
-		status = cycle_length(run, argv);
+		status = cycle_length(run, decides(entry), argv);
 	json_array_foreach(arguments, i, value)
 		dash |= json_is_string(value) && json_string_value(value)[0] == '-' && json_string_value(value)[1];
 	if (!status && dash)
@@ -170,6 +187,16 @@ void pm_recorded_print(const struct pm_recorded_run *run, FILE *out, const char 
 	fflush(out);
 }
 
+/* The options of cycle that decide on its sentences leave a trace with --again alone. */
+static bool of_again(const json_t *entry, const char *name)
+{
+	static const char *const names[] = {"plan", "again", "accuracy", "steps", "time", "until", NULL};
+	int i = 0;
+	while (names[i] && strcmp(names[i], name))
+		i++;
+	return decides(entry) && !strcmp(text(entry, "program"), "cycle") && names[i];
+}
+
 /* Options of the library, and others that leave no trace in a history (they may write files), are those of a forged one. */
 static int options_check(const struct pm_tool *tool, const json_t *entry)
 {
@@ -183,7 +210,7 @@ static int options_check(const struct pm_tool *tool, const json_t *entry)
 		bool known = false;
 		for (int k = 0; k < 2; k++)
 			for (const struct pm_option *o = rows[k]; o && o->name; o++)
-				known |= !strcmp(o->name, name) && !o->cosmetic && (o->kind == PM_FLAG) == json_is_true(value);
+				known |= !strcmp(o->name, name) && (!o->cosmetic || of_again(entry, name)) && (o->kind == PM_FLAG) == json_is_true(value);
 		if (!known)
 			return pm_fail(PM_DATA, "'%s' never records an option --%s: the history was edited", text(entry, "program"), name);
 	}

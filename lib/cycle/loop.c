@@ -1,23 +1,16 @@
 /* The loop of cycle. All that is written to the output is decided between steps and from the frame alone, so that every engine and a resumed run do the same.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/status-line.h"
 #include "stage/internal.h"
 #include "cycle/checkpoint.h"
-#include "cycle/loop.h"
+#include "cycle/in-force.h"
+#include "cycle/interrupt.h"
 #include "cycle/missing-words.h"
 #include "cycle/output.h"
 #include "cycle/progress.h"
 #include "cycle/run-end.h"
-#include "planner/plan.h"
-#include "sentence/process-chain.h"
 #include "sentence/sentence.h"
 #include "cycle/until.h"
 #include "cycle/watch.h"
@@ -25,7 +18,7 @@
 struct cycle {
 	const struct pm_loop *c;
 	struct pm_stage *s;
-	struct pm_sentence *words;
+	struct pm_in_force now; /* the sentence */
 	struct pm_writer *out;
 	struct pm_until *until; /* NULL: none */
 	struct pm_run_end end;  /* -t */
@@ -40,34 +33,6 @@ struct cycle {
 	struct pm_frame *last;  /* the beginning of the step under way, where the sentence has processes, which may never answer; else NULL */
 	json_t *before;         /* resume: the report of the checkpoint, kept until the first pass has been compared with it */
 };
-
-static volatile sig_atomic_t stop, stops, waits;
-enum { most_wait = 10 }; /* seconds for which a process may answer after a signal */
-
-/* The first one waits for the end of the step; a second one does not. With processes it gives up the step and keeps the one before. */
-static void on_signal(int signal_number)
-{
-	stop = signal_number;
-	if (++stops > (waits ? 1 : 0))
-		signal(signal_number, SIG_DFL);
-}
-
-static bool give_up(void)
-{
-	static double since;
-	if (stop && since == 0) {
-		since = pm_seconds();
-		pm_status_clear();
-		fprintf(stderr, "cycle: signal %d: waits for the processes of this step, %d s at most (a second signal does not wait)\n", (int)stop, most_wait);
-	}
-	return stops > 1 || (stop && pm_seconds() - since > most_wait);
-}
-
-static void listen_to(int signal_number)
-{
-	if (signal(signal_number, on_signal) == SIG_IGN && signal_number == SIGHUP)
-		signal(signal_number, SIG_IGN); /* nohup */
-}
 
 /* The whole frame, with what a resumed run must know: the step at the beginning, strengths, the values of --until. */
 static int checkpoint(struct cycle *y, const struct pm_frame *f)
@@ -89,7 +54,7 @@ static int checkpoint(struct cycle *y, const struct pm_frame *f)
 static void say_until(struct cycle *y, struct pm_frame *f)
 {
 	if (y->until)
-		json_object_set_new(f->report, "cycle", json_pack("{s:i}", "until", y->met));
+		json_object_set_new(pm_cycle_report(f), "until", json_integer(y->met));
 }
 
 static int write_out(struct cycle *y, struct pm_frame *f)
@@ -97,7 +62,7 @@ static int write_out(struct cycle *y, struct pm_frame *f)
 	y->written = f->step;
 	say_until(y, f);
 	pm_progress_writes(&y->progress);
-	struct pm_frame *part = pm_output_of(&y->what, y->words, f);
+	struct pm_frame *part = pm_output_of(&y->what, y->now.words, f);
 	const int status = part ? pm_write_frame(y->out, part) : pm_failed();
 	pm_frame_free(part);
 	return status || !pm_checkpoint_with_frames(&y->kept) ? status : checkpoint(y, f);
@@ -121,7 +86,7 @@ static bool done(const struct cycle *y, const struct pm_frame *f)
 
 static int prime(struct cycle *y, struct pm_frame **f)
 {
-	return (*f)->substep == 0 && pm_sentence_needs_priming(y->words, *f) ? pm_sentence_prime(y->words, f) : 0;
+	return (*f)->substep == 0 && pm_sentence_needs_priming(y->now.words, *f) ? pm_sentence_prime(y->now.words, f) : 0;
 }
 
 /* 0 or failure; sets whether the run ends here. */
@@ -173,7 +138,7 @@ static int interrupted(struct cycle *y, const struct pm_frame *f)
 	int status = checkpoint(y, f);
 	if (status)
 		return status;
-	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", (int)stop, (long long)f->step,
+	return pm_fail(PM_DATA, "stopped by signal %d after step %lld%s%s", pm_interrupted(), (long long)f->step,
 		y->c->checkpoint ? ", continue with --resume " : "", y->c->checkpoint ? y->c->checkpoint : "");
 }
 
@@ -182,6 +147,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 {
 	int64_t step = (*f)->step;
 	int substep = (*f)->substep;
+	const bool waits = pm_sentence_waits(y->now.words);
 	if (waits && !substep) {
 		pm_frame_free(y->last);
 		if (!(y->last = pm_frame_copy(*f)))
@@ -190,8 +156,8 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	pm_run_end_shorten(&y->end, *f);
 	int status = prime(y, f);
 	if (!status)
-		status = pm_sentence_pass(y->words, f);
-	if (status && waits && give_up() && y->last)
+		status = pm_sentence_pass(y->now.words, f);
+	if (status && waits && pm_interrupt_gives_up() && y->last)
 		return interrupted(y, y->last);
 	if (status)
 		return pm_fail(-status, "step %lld: %s", (long long)step + 1, pm_message());
@@ -218,37 +184,6 @@ static int pass(struct cycle *y, struct pm_frame **f)
 	return full ? keep(y, *f) : 0;
 }
 
-/* The sentence, made into stages. */
-static int speak(struct cycle *y, const char *sentence)
-{
-	y->words = pm_sentence_new(sentence, !strcmp(y->c->engine, "fused"), &y->c->moves);
-	if (y->words)
-		pm_sentence_notes(y->words, y->s);
-	waits = y->words && pm_sentence_waits(y->words);
-	return y->words ? 0 : pm_failed();
-}
-
-/* The time at which the run will end; NAN: unknown. */
-static double end_of(const struct cycle *y, const struct pm_frame *f)
-{
-	return !isnan(y->c->time) ? y->c->time : y->c->steps != INT64_MIN ? f->time + (double)y->c->steps * f->dt : NAN;
-}
-
-/* --plan: the sentence chosen for the first frame, recorded in the history as if typed; a resumed run uses the one recorded there. */
-static int speak_plan(struct cycle *y, const struct pm_frame *f)
-{
-	const double end = end_of(y, f);
-	char sentence[PM_PLAN_TEXT];
-	int status = y->c->resume ? pm_plan_again(f, sentence) : pm_plan_sentence(f, y->c->accuracy, end, sentence);
-	if (!status && y->s->entry)
-		json_array_append_new(json_object_get(y->s->entry, "arguments"), json_string(sentence));
-	if (!status)
-		pm_say(y->s, "%s", sentence);
-	if (!status && y->c->resume)
-		status = pm_sentence_safe(sentence);
-	return status ? status : speak(y, sentence);
-}
-
 /* The beginning of a run, or of its rest. */
 static void watch(struct cycle *y, struct pm_frame *f)
 {
@@ -260,9 +195,14 @@ static void watch(struct cycle *y, struct pm_frame *f)
 
 static int run_frame(struct cycle *y, struct pm_frame **f)
 {
-	int status = y->words ? 0 : speak_plan(y, *f);
+	int status = 0;
+	if (!y->c->plan || !y->c->resume)
+		json_object_del((*f)->more, "plan"); /* of an earlier run */
+	if (y->now.words && y->now.again.every && (status = pm_in_force_finish(&y->now)))
+		return status;
+	status = y->now.words ? 0 : pm_in_force_plan(&y->now, *f);
 	const double began = (*f)->time;
-	status = status ? status : pm_run_end_check(&y->end, y->words);
+	status = status ? status : pm_run_end_check(&y->end, y->now.words);
 	if (status)
 		return status;
 	const json_t *start = json_object_get((*f)->more, "cycle_start");
@@ -274,9 +214,9 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->written = y->saved = -1;
 	y->before = y->c->resume ? json_deep_copy((*f)->report) : NULL;
 	if (!y->c->resume)
-		pm_history_add(y->s, *f), pm_sentence_forces(y->words, *f);
+		pm_history_add(y->s, *f), pm_sentence_forces(y->now.words, *f);
 	if (!y->c->resume && !y->c->plan && !y->judged && !y->s->quiet)
-		pm_missing_words(y->words, *f, end_of(y, *f));
+		pm_missing_words(y->now.words, *f, pm_in_force_end(&y->now, *f));
 	y->judged = true;
 	status = look_first(y, f);
 	status = status ? status : pm_output_begin(&y->what, *f);
@@ -285,13 +225,14 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 		status = status ? status : write_out(y, *f);
 	}
 	while (!status && !done(y, *f)) {
-		status = pass(y, f);
-		if (!status && stop && (*f)->substep == 0)
+		status = pm_in_force_again(&y->now, f);
+		status = status ? status : pass(y, f);
+		if (!status && pm_interrupted() && (*f)->substep == 0)
 			status = interrupted(y, *f);
 	}
 	pm_progress_end(&y->progress, *f);
 	if (!status && pm_run_end_reached(&y->end, *f))
-		pm_run_end_tell(&y->end, y->s, y->words, *f, (*f)->step - y->start, began);
+		pm_run_end_tell(&y->end, y->s, y->now.words, *f, (*f)->step - y->start, began);
 	json_decref(y->before);
 	y->before = NULL;
 	status = status ? status : pm_output_check(&y->what, *f);
@@ -318,12 +259,12 @@ static int frames(struct cycle *y, struct pm_reader *in)
 
 int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 {
-	struct cycle y = {.c = c, .s = s, .kept = {.lock = -1}, .end = {.time = c->time, .exact = c->exact}};
+	struct cycle y = {.c = c, .s = s, .now = {.c = c, .s = s}, .kept = {.lock = -1}, .end = {.time = c->time, .exact = c->exact}};
 	struct pm_reader *in = NULL;
 	int status = pm_output_init(&y.what, &c->output);
 	status = status ? status : pm_checkpoint_init(&y.kept, c->checkpoint, c->checkpoint_every);
 	if (!status && !c->plan)
-		status = speak(&y, s->args[0]);
+		status = pm_in_force_speak(&y.now, s->args[0]);
 	if (!status && c->until && !(y.until = pm_until_new(c->until)))
 		status = pm_failed();
 	if (!status) {
@@ -333,19 +274,16 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 		y.out = in ? pm_stage_writer(s) : NULL;
 		status = y.out ? 0 : pm_failed();
 	}
-	pm_chain_give_up = give_up;
-	listen_to(SIGINT);
-	listen_to(SIGTERM);
-	listen_to(SIGHUP);
+	pm_interrupt_listen();
 	if (!status)
 		status = frames(&y, in);
-	if (!status && y.words)
-		status = pm_sentence_end(y.words);
-	if (!status && y.words)
-		status = pm_sentence_timing(y.words, s->run->common.timing);
+	if (!status && y.now.words)
+		status = pm_sentence_end(y.now.words);
+	if (!status && y.now.words)
+		status = pm_sentence_timing(y.now.words, s->run->common.timing);
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());
-	int end = pm_sentence_free(y.words);
+	int end = pm_sentence_free(y.now.words);
 	pm_timing_whole(s);
 	pm_until_free(y.until);
 	pm_frame_free(y.last);

@@ -5,7 +5,7 @@
 #include "cycle/output.h"
 
 struct pm_loop { /* the options; the config of cycle */
-	int64_t steps, every; /* INT64_MIN: not given */
+	int64_t steps, every, again; /* INT64_MIN: not given */
 	double time;          /* NAN: not given */
 	const char *engine, *checkpoint, *checkpoint_every, *resume, *until;
 	struct pm_output_choice output;

@@ -58,12 +58,18 @@ static void know_effects(struct pm_plan *p)
 	}
 }
 
+/* The self field, as pairs smooth it: unsoftened, the closest pair of many would decide on the step. */
+static bool measured(const struct pm_plan *p, const char *effect)
+{
+	return !strcmp(effect, "self-field") || (p->method.pairs && !strcmp(effect, "smoothing"));
+}
+
 /* Only the self field, to measure it. */
 static int alone(const struct pm_frame *f, const struct pm_plan *p, struct pm_plan *q)
 {
 	*q = *p;
 	for (int i = 0; i < q->neffects; i++)
-		q->effect[i].decision.answer = !strcmp(q->effect[i].effect->name, "self-field") ? PM_PUT_IN : PM_LEFT_OUT;
+		q->effect[i].decision.answer = measured(p, q->effect[i].effect->name) ? PM_PUT_IN : PM_LEFT_OUT;
 	return pm_plan_compose(f, q);
 }
 

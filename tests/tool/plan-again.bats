@@ -1,0 +1,66 @@
+# cycle --plan --again: the sentence is planned anew during the run. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# A cold sphere that falls together at t = 1.2; softened, so that it collapses as a whole and not in pairs.
+sphere() { pinit cold-sphere -n 300 --dt 0.05 --softening 0.1; }
+# The relative l2 difference of the places of two files.
+places() { scmp --field x "$1" "$2" | awk 'END { print $8 }'; }
+
+@test "a cold sphere through collapse: planned again it is within the accuracy, planned once it is not" {
+	sphere >start
+	# 0.0002: half of it changes the places by 2.6e-7
+	cycle -t 2 'push --dt 0.0002 kick/2 drift | pp | push kick/2' <start >exact
+	cycle -t 2 --plan --accuracy 0.03 <start >once
+	cycle -t 2 --plan --accuracy 0.03 --again 20 -q <start >again
+	within "$(places again exact)" 0 0.03 # 0.005
+	above "$(places once exact)" 0.06 # 0.095
+	# the step is short only while it has to be: a tenth of the steps that its shortest would need
+	[ "$(diag --columns step again | tail -n 1)" -lt 300 ]
+}
+
+@test "a change is a line on standard error, in the history with its step, in the report, and in the attribute plan" {
+	sphere | cycle -t 1.3 --plan --again 20 --every 20 2>said >run
+	[ "$(grep -c '^cycle: step [0-9]*, time [0-9.]*: dt [0-9.e-]* instead of [0-9.e-]*$' said)" = "$(wc -l <said)" ]
+	sel --frames "$(diag --columns step run | sed 1d | wc -l)" run >last
+	sed -n 2p last >header
+	first=$(sed -n '1s/^cycle: step \([0-9]*\),.*/\1/p' said)
+	grep -q "\"from step $first: push --dt " header
+	grep -q "\"changes\":$(wc -l <said)," header
+	# one was due by a number of the frame, not by the count of steps
+	sed 's/^cycle: step \([0-9]*\),.*/\1/' said | awk '$1 % 20 { n++ } END { exit !n }'
+	grep -aq '"cycle":{"changed":"step [0-9]*: dt ' last
+}
+
+@test "the same bytes from every engine, with any threads, from a checkpoint at any step, and by again" {
+	sphere >start
+	cycle -t 1.5 --plan --again 20 -q <start >all
+	cycle -t 1.5 --plan --again 20 -q --engine pipes <start | same_as all -
+	OMP_NUM_THREADS=1 cycle -t 1.5 --plan --again 20 -q <start | same_as all -
+	for n in 20 26 150; do # at a decision, at a change that is due by a number, between two decisions of which the second lengthens the step
+		cycle -t 1.5 --plan --again 20 -q --every 1 --checkpoint part --checkpoint-every $n <start 2>/dev/null | head -c $((30000 * n)) >/dev/null
+		[ "$(($(diag --columns step part | tail -n 1) % n))" = 0 ]
+		cycle --resume part -t 1.5 --plan -q | same_as all -
+	done
+	sphere | cycle -t 1.5 --plan --again 20 --every 20 -q >run
+	again -q run | same_as run -
+}
+
+@test "nothing that stays as it is is decided otherwise: a cluster in equilibrium, a plasma wave, vortices that decay" {
+	pinit plummer -n 300 --softening 0.05 | cycle -t 5 --plan --again 20 2>said >a
+	pinit taylor-green-2d --cells 16 | cycle -t 5 --plan --again 5 2>>said >b
+	pinit langmuir -n 256 | cycle -t 10 --plan --again 5 2>>said >c
+	[ "$(grep -c instead said)" = 0 ]
+	# and the state is that of the sentence that plan makes once
+	pinit taylor-green-2d --cells 16 | cycle -t 5 --plan >d
+	scmp --tolerance 0 b d
+}
+
+@test "what --again cannot do is refused" {
+	run -2 cycle -n 2 --again 5 'push drift'
+	[[ "$output" = *"cycle: --again belongs to --plan"* ]]
+	run -2 cycle -t 2 --exact --plan --again 5
+	[[ "$output" = *"--exact and --again both choose the step"* ]]
+	sphere | cycle -n 2 --plan --checkpoint part >/dev/null
+	run -1 bash -o pipefail -c 'cycle --resume part -n 4 --plan --again 5 >x'
+	[[ "$output" = *"the attribute 'plan' of the checkpoint"* ]]
+}
