@@ -37,7 +37,7 @@ static int begin_again(struct pm_in_force *y, struct pm_frame *f)
 	r->every = c->again != INT64_MIN ? c->again : r->every;
 	r->accuracy = !c->resume || pm_given(y->s, "accuracy") ? c->accuracy : r->accuracy;
 	r->end = !c->resume || !isnan(c->time) ? pm_in_force_end(y, f) : r->end;
-	status = status || c->resume ? status : pm_replan_begin(r, f);
+	status = status || c->resume ? status : pm_replan_begin(r, f, y->s->quiet ? NULL : stderr);
 	if (!status && y->s->entry)
 		pm_replan_entry(r, y->s->entry, c);
 	if (!status)
@@ -50,7 +50,9 @@ int pm_in_force_plan(struct pm_in_force *y, struct pm_frame *f)
 	const bool again = y->c->again != INT64_MIN || (y->c->resume && json_object_get(f->more, "plan"));
 	const double end = pm_in_force_end(y, f);
 	struct pm_replan *r = &y->again;
-	int status = again ? begin_again(y, f) : y->c->resume ? pm_plan_again(f, r->sentence) : pm_plan_sentence(f, y->c->accuracy, end, r->sentence);
+	FILE *warn = y->s->quiet ? NULL : stderr;
+	int status = again ? begin_again(y, f) : y->c->resume ? pm_plan_again(f, r->sentence)
+		: pm_plan_sentence(f, y->c->accuracy, end, r->sentence, warn);
 	if (!status && !again && y->s->entry)
 		json_array_append_new(json_object_get(y->s->entry, "arguments"), json_string(r->sentence));
 	if (!status)

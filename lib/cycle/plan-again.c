@@ -15,7 +15,7 @@ static struct pm_plan_choice choice_of(const struct pm_replan *r, const struct p
 	return (struct pm_plan_choice){.accuracy = accuracy, .time = isnan(r->end) ? NAN : f->time + (r->end - r->began)};
 }
 
-int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f)
+int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f, FILE *warn)
 {
 	struct pm_plan p;
 	r->first = r->decided = r->since = f->step;
@@ -31,6 +31,8 @@ int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f)
 	pm_replan_way_of(&r->way, &p, f);
 	r->seen = pm_replan_look(f);
 	memcpy(r->sentence, p.sentence, sizeof r->sentence);
+	if (warn)
+		pm_plan_warn(&p, "cycle", warn);
 	return 0;
 }
 

@@ -39,7 +39,7 @@ struct pm_replan {
 };
 
 /* plan-again.c. The first decision of a run. 0 or failure. */
-int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f);
+int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f, FILE *warn); /* warn: as of pm_plan_sentence */
 /* Is a decision due at this full step? */
 bool pm_replan_due(const struct pm_replan *r, const struct pm_frame *f);
 /* Decides. 1: r->sentence is another one, and why tells what has changed; 0: it stays; or failure. Cost: as plan, twice where something would become cheaper. */

@@ -148,11 +148,12 @@ static void effects(const struct pm_replan_way *now, struct pm_plan *a, const st
 		const int to = interval(before, own, wb->every[i], patience);
 		e->decision.answer = to >= 0 ? PM_PUT_IN : PM_LEFT_OUT;
 		e->decision.every = to > 0 ? to : 0;
-		e->lacking = to >= 0 && e->effect->word && !e->effect->words;
+		e->lacking = to >= 0 && e->effect->word && !e->effect->words && !e->decision.error;
 		if (to == before)
 			continue;
 		if (before < 0)
-			add(what, "%s %s, %s", e->effect->name, e->lacking ? "is needed, but has no word yet" : "comes in", e->decision.text);
+			add(what, "%s %s, %s", e->effect->name, e->lacking ? "is needed, but has no word yet" : e->effect->numerical || e->decision.error
+				? "is above the accuracy" : "comes in", e->decision.text);
 		else if (to < 0)
 			add(what, "%s goes out, %s", e->effect->name, e->decision.text);
 		else

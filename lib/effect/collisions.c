@@ -1,17 +1,34 @@
 /* Collisions: encounters, which a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v); charges in N_D/ln N_D plasma periods over
  * 2 pi (N_D^2 in 1-D), N_D in a sphere of the Debye length. The share is T over that time. Summing pairs includes collisions; cold particles
- * keep their order.
+ * keep their order. Particles that stand for more bodies than there are (the constant `bodies`; charges always, unless it is given) have encounters that
+ * those have not: two-body relaxation, an error. With pairs ln N is ln(R/softening), on a mesh ln(R/h), R the spread, if that is less.
  * Source: Binney and Tremaine 2008, equation 1.38; Birdsall and Langdon 1985, section 1-3; Dawson 1964, Phys. Fluids 7, 419.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
 #include "effect-parts/effect-decision.h"
 
+/* Charges whose pairs are summed are points, unless the frame says otherwise. */
+static bool sample(const struct pm_scales *s) { return s->bodies > s->n && (!s->pairs || isfinite(s->bodies)); }
+
+/* T over the relaxation time of n bodies. */
+static double relaxed(const struct pm_scales *s, double n, double logarithm)
+{
+	return s->time * s->v_thermal / s->spread * 8 * logarithm / n;
+}
+
 static void bodies(const struct pm_scales *s, struct pm_decision *d)
 {
-	const double crossing = s->spread / s->v_thermal, relaxation = s->n / (8 * fmax(1, log(s->n))) * crossing;
-	pm_effect_by(d, s, s->time / relaxation, s->time / relaxation);
+	const double least = fmax(s->softening, s->pairs ? 0 : s->h), range = least > 0 ? fmax(1, s->spread / least) : HUGE_VAL;
+	double share = relaxed(s, s->n, fmax(1, log(s->n)));
+	if (sample(s))
+		share = fmax(0, relaxed(s, s->n, log(fmin(s->n, range))) - relaxed(s, s->bodies, log(s->bodies)));
+	pm_effect_by(d, s, share, share);
+	d->error = sample(s);
 	snprintf(d->text, sizeof d->text, "T is %.1g of the relaxation time", d->number);
+	if (d->error)
+		snprintf(d->text, sizeof d->text, "%g particles for %g bodies relax by encounters: T is %.1g of that time%s", s->n, s->bodies, share,
+			d->answer == PM_PUT_IN ? "; more particles, more softening" : "");
 }
 
 /* Number of particles in a sphere with the Debye length as radius, in an interval of that length in 1-D. */
@@ -30,6 +47,7 @@ static void charges(const struct pm_scales *s, double per_debye, struct pm_decis
 	pm_effect_by(d, s, per_debye, share);
 	snprintf(d->text, sizeof d->text, "%.2g particles in a Debye length%s, T is %.1g of the time between collisions", per_debye,
 		s->dim == 1 ? "" : "'s sphere", share);
+	d->error = sample(s);
 }
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
@@ -39,7 +57,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "the law has none");
 	else if (pm_effect_alone(s))
 		pm_effect_off(d, "no self field");
-	else if (s->pairs)
+	else if (s->pairs && !sample(s))
 		pm_effect_off(d, "every pair is summed, encounters are in the self field");
 	else if (!(s->v_thermal > 1e-9 * s->omega * s->spread) || (s->dim == 1 && s->kind == PM_MASSES))
 		pm_effect_off(d, s->dim == 1 && s->kind == PM_MASSES ? "sheets pass through each other" : "cold: no random velocities");

@@ -39,6 +39,13 @@ struct pm_scales {
 	double length;               /* [length] of the field: |field|/|its sources| in l2 */
 	double mesh_error;           /* of the force on the mesh, by the atlas; NAN: not known */
 	double accuracy;             /* of the user: relative changes below this are negligible */
+	/* Of the particles as a sample (lib/planner/sampling.c), without a mesh. */
+	double effective;            /* number of particles of equal strength with the same noise, (sum abs q)^2 / sum q^2 */
+	double bodies;               /* how many real ones they stand for: the constant `bodies`, else n for masses, HUGE_VAL for charges */
+	double thermal, drift;       /* [length/time] standard deviation of one component of v about the local flow of its beam; rms velocity of the beams */
+	bool beams;                  /* two beams with thermal velocities well below their difference */
+	double noise;                /* typical abs(a_k)^2, a_k = sum abs(q) exp(-i k x)/sum abs(q): 1/effective at random, less if quiet; NAN: no modes */
+	double wave, wave_length;    /* of the modes above the noise: largest abs(a_k), 0: none; [length] field over sources, 1/k for one */
 };
 
 /* How the included effects are computed; plan chooses, effects may require more. */
@@ -55,6 +62,7 @@ enum pm_answer { PM_LEFT_OUT, PM_PUT_IN };
 
 struct pm_decision {
 	enum pm_answer answer;
+	bool error;      /* as `numerical` below, of an effect that is physics for other frames */
 	bool kept;       /* included although it may be small: it has no cost, or nothing would move without it */
 	double number;   /* the number that decided; NAN: none was needed */
 	double share;    /* relative change caused by leaving it out, within the time of the run; NAN: unknown */
@@ -122,6 +130,7 @@ struct pm_effect {
 	const char *word;  /* the word that computes it; NULL: the words of the self field, or the frame itself. Without `words`, plan can only name it */
 	bool force;        /* it moves particles or rotates their velocities; if no such effect is included they move straight */
 	bool replaces;     /* it replaces the particles, so other effects are tested without it */
+	bool numerical;    /* an error of the method or the sample: put in if it exceeds the accuracy; then the result has it and plan says so */
 	/* Do the frame's constants or fields ask for it? Then they are written to what ("nu = 0.01"), and cycle says so once where no word of its sentence does
 	 * it: done_by, words or actions of push, or what is typed with a word, NULL ends. asked_beside: only of a sentence with one of these words; NULL: of
 	 * every one. Headers alone. NULL: no. */
@@ -134,6 +143,8 @@ struct pm_effect {
 	void (*reconsider)(const struct pm_effect_case *c, struct pm_decision *d);
 	/* The reason why the user cannot leave it out, with the remedy; "" if he can. NULL: he always can. */
 	void (*stays)(const struct pm_effect_case *c, char why[160]);
+	/* The share with other scales of the mesh and another method: plan looks for one where it is small enough. NULL: nothing avoids it. */
+	double (*share)(const struct pm_effect_case *c);
 	/* Its requirements on the method, called whatever the decision. NULL: none. */
 	void (*ask)(const struct pm_effect_case *c, struct pm_method *m);
 	/* Adds its words, called whatever the decision. NULL: none yet, or none of its own. */

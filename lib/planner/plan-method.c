@@ -11,7 +11,7 @@ static const double ns_pair = 0.39, ns_point = 5, ns_particle = 100;
 
 static double cost_pairs(const struct pm_scales *s) { return ns_pair * s->n * s->sources; }
 
-static double cost_mesh(const struct pm_scales *s) { return ns_point * s->points * (s->open ? pow(2, s->dim) : 1) + ns_particle * s->n; }
+double pm_plan_cost_mesh(const struct pm_scales *s) { return ns_point * s->points * (s->open ? pow(2, s->dim) : 1) + ns_particle * s->n; }
 
 static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
 
@@ -26,7 +26,7 @@ static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[16
 {
 	const struct pm_scales *s = &p->scales;
 	const bool field = is_field(s);
-	const double a = cost_pairs(s), b = f->nmeshes ? cost_mesh(s) : HUGE_VAL;
+	const double a = cost_pairs(s), b = f->nmeshes ? pm_plan_cost_mesh(s) : HUGE_VAL;
 	if (!all_open(s))
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
 	else if (field)
@@ -108,16 +108,14 @@ static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 	return least;
 }
 
-/* The particles are the nodes of the mesh, so its spacing is fixed; remeshing with m6prime over a run changes the largest vorticity by (h k)^5/2,
- * k^2 = |lap omega|/|omega| (docs/plan.md). */
+/* The particles are the nodes of the mesh, so its spacing is fixed; what remeshing costs is the effect remeshing-loss. */
 static void vortex_mesh(struct pm_plan *p)
 {
-	const struct pm_scales *s = &p->scales;
-	const double hk = s->h * sqrt(s->rough), error = fmin(1, 0.5 * pow(hk, 5));
-	char more[80] = "";
-	if (error > s->accuracy) /* the spacing that would suffice */
-		snprintf(more, sizeof more, ", more than asked for (pinit --cells %.0f)", ceil(s->box / s->h * hk / pow(2 * s->accuracy, 0.2)));
-	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, error of remeshing %.1g%s", hk, error, more);
+	struct pm_scales *s = &p->scales;
+	const double hk = s->h * sqrt(s->rough);
+	s->mesh_error = pm_atlas_force_error("smooth", "poisson-fft", p->method.kernel, "6", hk);
+	s->length = 1 / sqrt(s->rough);
+	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, error of the velocity %.1g", hk, s->mesh_error);
 }
 
 /* Softened point vortices, m6prime, order 6, --green plummer: error of the velocity against pp of pinit point-vortices -n 20000 by softening/h, from
@@ -141,7 +139,7 @@ static void point_vortices(const struct pm_frame *f, struct pm_plan *p)
 	const double error = s->softening > 0 ? point_error(factor * s->softening / s->h) : 1;
 	factor = s->softening > 0 ? factor : 1;
 	s->h /= factor, s->points *= pow(factor, s->dim);
-	const double dearer = cost_pairs(s) / cost_mesh(s);
+	const double dearer = cost_pairs(s) / pm_plan_cost_mesh(s);
 	if (all_open(s) && (dearer <= 1 || (error > s->accuracy && dearer < 20))) {
 		m->pairs = s->pairs = true;
 		snprintf(m->why_far, sizeof m->why_far, "%g point vortices, the error of a mesh would be %.1g; pairs cost %.2g times as much", s->sources,
@@ -176,6 +174,8 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	struct pm_method *m = &p->method;
 	struct pm_scales *s = &p->scales;
 	const char *scene = all_open(s) ? "clustered" : "smooth";
+	if (s->wave > 0 && s->kind != PM_VORTICES)
+		s->length = fmin(s->length, s->wave_length); /* a coarse mesh folds short waves onto long ones */
 	const double h = s->h / s->length;
 	if (m->pairs || !f->nmeshes || !(s->length > 0))
 		return;
@@ -196,7 +196,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	if (!t.row)
 		return;
 	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
-	const double dearer = cost_pairs(s) / cost_mesh(s);
+	const double dearer = cost_pairs(s) / pm_plan_cost_mesh(s);
 	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
 		m->pairs = s->pairs = true;
 		snprintf(m->why_far, sizeof m->why_far, "%g bodies, the error of a mesh would be %.1g; pairs cost %.2g times as much",

@@ -23,7 +23,24 @@ static void lacking(FILE *out, const struct pm_plan_effect *e)
 		fputs(", no word for it yet: the result lacks it", out);
 }
 
-static const char *answer(const struct pm_plan_effect *e) { return e->lacking ? "needed" : e->decision.answer == PM_PUT_IN ? "on" : "off"; }
+static const char *answer(const struct pm_plan_effect *e)
+{
+	return e->lacking ? "needed" : e->decision.answer != PM_PUT_IN ? "off" : e->effect->numerical || e->decision.error ? "error" : "on";
+}
+
+/* Is the result wrong by more than the accuracy for it? */
+static bool warns(const struct pm_plan_effect *e) { return !strcmp(answer(e), "needed") || !strcmp(answer(e), "error"); }
+
+void pm_plan_warn(const struct pm_plan *p, const char *tool, FILE *out)
+{
+	char name[64];
+	for (int i = 0; i < p->neffects; i++)
+		if (warns(&p->effect[i])) {
+			fprintf(out, "%s: %s: %s", tool, label(p->effect[i].effect, name), p->effect[i].decision.text);
+			lacking(out, &p->effect[i]);
+			fputc('\n', out);
+		}
+}
 
 static void stages(FILE *out, const struct pm_plan *p, bool cost)
 {
@@ -61,6 +78,7 @@ void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
 	stages(out, p, cost);
 	fprintf(out, "#\n# effects, for relative changes above %g within T = %g\n", p->scales.accuracy, p->scales.time);
 	effects(out, p, cost, "needed");
+	effects(out, p, cost, "error");
 	effects(out, p, cost, "on");
 	effects(out, p, cost, "off");
 	if (cost)
@@ -71,8 +89,8 @@ static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(
 
 void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 {
-	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy),
-		"time", number(p->scales.time), "stages", "effects");
+	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy),
+		"time", number(p->scales.time), "stages", "effects", "warnings");
 	for (int i = 0; i < p->nstages; i++) {
 		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
 		if (cost)
@@ -86,6 +104,8 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 		if (cost)
 			json_object_set_new(s, "saves", number(e->saves)), json_object_set_new(s, "saves_noise", number(e->noise));
 		json_array_append_new(json_object_get(all, "effects"), s);
+		if (warns(e))
+			json_array_append_new(json_object_get(all, "warnings"), json_string(e->effect->name));
 	}
 	if (cost)
 		json_object_set_new(all, "cost", pm_plan_cost_json(p));
@@ -96,6 +116,8 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 
 static const char *untried(const struct pm_plan_effect *e)
 {
+	if (e->effect->numerical || e->decision.error)
+		return "an error, no choice";
 	return e->lacking ? "no word for it yet" : e->effect->word && !pm_tool_find(e->effect->word) ? "no word" : "nothing to compare";
 }
 

@@ -39,7 +39,7 @@ static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_
 		e->decision = (struct pm_decision){.answer = PM_LEFT_OUT};
 		e->effect->decide(&c, &e->decision);
 		overrule(e, choice);
-		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words;
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words && !e->decision.error;
 	}
 	for (int i = 0; i < p->neffects; i++)
 		if (p->effect[i].effect->reconsider) {
@@ -169,11 +169,12 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 {
 	int status = begin(f, c, p);
 	status = status ? status : by_hand(f, p, c);
+	status = status ? status : pm_scales_sampling(f, p->law, &p->scales);
 	if (!status)
 		pm_plan_few_bodies(f, p);
 	status = status ? status : measure_force(f, p, NULL);
 	if (!status)
-		pm_plan_mesh(f, p), pm_plan_step(f, p);
+		pm_plan_mesh(f, p), pm_plan_cure(f, p), pm_plan_step(f, p);
 	if (!status && p->method.dt == 0)
 		return pm_fail(PM_DATA, "two particles in one place have forces without bound, and no step is short enough (smod --constant softening=LENGTH)");
 	status = status ? status : measure_own(f, p);
@@ -206,12 +207,14 @@ int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, con
 	return status;
 }
 
-int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT])
+int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT], FILE *warn)
 {
 	const struct pm_plan_choice c = {.accuracy = accuracy, .time = end};
 	struct pm_plan p;
 	int status = pm_plan_frame(f, &c, &p);
 	snprintf(sentence, PM_PLAN_TEXT, "%s", status ? "" : p.sentence);
+	if (warn && !status)
+		pm_plan_warn(&p, "cycle", warn);
 	return status;
 }
 

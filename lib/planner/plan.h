@@ -67,7 +67,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 /* The decision on one effect. Cost: a force, and what the effect measures. 0 or failure. */
 int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d);
 /* The sentence alone; and the one that cycle recorded in the history of a checkpoint. */
-int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT]);
+/* warn, if not NULL: there what the result will lack or have wrong is said. */
+int pm_plan_sentence(const struct pm_frame *f, double accuracy, double end, char sentence[PM_PLAN_TEXT], FILE *warn);
 int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);
 
 /* plan-compose.c: the arguments of effect i; */
@@ -79,6 +80,8 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
 /* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
+double pm_plan_cost_mesh(const struct pm_scales *s); /* [ns] of a step on a mesh */
+void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p); /* plan-cure.c: more cells where an error of the method is too large */
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
 void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 
@@ -119,6 +122,8 @@ int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
 /* Runs the check and prints it; PM_NUMERICS if a decision was wrong. */
 int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int steps);
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);
+/* A line for each effect that the sentence lacks, and for each error above the accuracy. */
+void pm_plan_warn(const struct pm_plan *p, const char *tool, FILE *out);
 void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost);
 void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const struct pm_plan_proof *proof);
 

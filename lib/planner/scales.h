@@ -14,6 +14,8 @@ enum {
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* Scales of the force: the same frame with the law's change field and, if they were made, density and field on a mesh. */
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
+/* sampling.c: the particles as a sample of a smooth density. 0 or failure. */
+int pm_scales_sampling(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* orbits.c: for few bodies. */
 void pm_scales_orbits(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 

@@ -1,0 +1,81 @@
+# Numerical effects of plan: what it foresees is what a run has, to a factor; what it can avoid it avoids; the rest is said at the top.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+export OMP_NUM_THREADS=1 # small meshes, many steps
+
+says() { sed -n "s/^# $1  *//p"; }
+# share EFFECT [OPTION]... < frame
+share() { plan --no-cost --format json "${@:2}" | python3 -c 'import json, sys
+print([e["share"] for e in json.load(sys.stdin)["effects"] if e["effect"] == sys.argv[1]][0])' "$1"; }
+plasma() { scalc 'charge = -mass' --extensive --role state | smod --law electrostatic --constant eps0=1,background=1; }
+# grown TIME OPTION... < frame: the relative change of the energy by the sentence of its plan.
+grown() {
+	cat >begin
+	words=$(plan --sentence -t "$@" <begin)
+	solve=$(tr '|' '\n' <<<"$words" | grep -v 'push\|m2p' | paste -sd'|')
+	cycle -t "$1" "$words" <begin >end
+	for f in begin end; do bash -c "$solve" <$f | diag --columns energy | tail -n 1; done | awk 'NR == 1 { a = $1 } END { print $1 / a - 1 }'
+}
+# thermal LAMBDA/H: 64 electrons in each of 64 cells, evenly spaced. beam V0/(OMEGA_P H): cold ones, displaced a little.
+thermal() {
+	l=$(awk "BEGIN { print 64 / $1 }")
+	pinit uniform --dim 1 -n 4096 --length "$l" --mass "$l" --dispersion 1 --cells 64 --dt 0.2 --seed 3 | scalc "x = (id + 0.5) * $l / 4096" | plasma
+}
+beam() {
+	pinit uniform --dim 1 -n 2048 --length 64 --mass 64 --cells 64 --dt 0.1 | scalc "x = (id + 0.5) / 32 + 0.001*sin(2*pi*id*id*0.618034)" "v = $1" |
+		plasma
+}
+
+@test "plan: a plasma that its mesh would heat 25 times gets cells that keep its energy; what no word avoids cycle says before the first step" {
+	pinit landau -n 2000 --wavenumber 0.09817477042468103 --vth 0.02 --amplitude 0 --cells 64 --dt 0.2 >start
+	between "$(grown 200 <start)" -0.01 0.01 "energy" # measured -0.0068
+	run -0 --separate-stderr cycle -t 0.4 --plan -q <start # quiet is quiet
+	[ -z "$stderr" ]
+	cycle -t 200 --until 'step >= 1' --plan <start 2>said >/dev/null || true
+	grep -q '^cycle: collisions: 0.62 particles in a Debye length' said
+	grep -q '^cycle: sampling noise: 2000 particles, mixed within T' said
+	[ "$(plan -t 200 --format json <start | python3 -c 'import json, sys; print(*json.load(sys.stdin)["warnings"])')" = 'collisions sampling-noise' ]
+}
+
+@test "plan: the heating that it foresees is that of the run to a factor of two: thermal plasmas, and cold beams" {
+	for l in 0.1 0.2 1; do # measured over foreseen: 1.04, 0.91, 0.92
+		thermal $l >plasma
+		ratio=$(awk "BEGIN { print $(grown 1000 --accuracy 1 <plasma) / $(share grid-heating -t 1000 --accuracy 1 <plasma) }")
+		between "$ratio" 0.5 2 "lambda_D/h = $l"
+	done
+	for v in 0.1 0.2; do # on the 256 cells of plan 0.4 and 0.8: 1.64, 1.05
+		beam $v >cold
+		between "$(awk "BEGIN { print $(grown 200 --accuracy 1 <cold) / $(share grid-heating -t 200 --accuracy 1 <cold) }")" 0.5 2 "v0 = $v"
+	done
+}
+
+@test "plan: the noise of a sample is foreseen from the frame: a random start is warned of, a quiet one is not, and the amplitude spreads as it says" {
+	pinit landau --loading random --amplitude 0.1 --seed 1 >random
+	plan --no-cost <random | says 'sampling noise' | grep -q '^error .*20000 particles: noise '
+	pinit landau | plan --no-cost | says 'sampling noise' | grep -q '^off '
+	pinit landau --loading random | plan --no-cost | says 'sampling noise' | grep -q '^error .*no wave above their noise'
+	spread=$(for seed in 1 2 3 4 5 6 7 8; do
+		pinit landau --loading random --amplitude 0.1 --seed $seed | p2m | poisson-fft | mgrad | diag --columns time --modes 1 | tail -n 1
+	done | awk '{ s += $2; q += $2 * $2 } END { s /= NR; print sqrt(q / NR - s * s) / s }')
+	between "$(awk "BEGIN { print $spread / $(share sampling-noise <random) }")" 0.5 2 "spread" # 0.87; of 8 seeds: +- 0.25
+}
+
+@test "plan: a wave shorter than the cells is seen by its particles, and the mesh that plan takes has its force" {
+	pinit langmuir --mode 20 --cells 16 -n 16384 >start # on these cells it looks like mode 4
+	words=$(plan --sentence <start)
+	force=$(tr '|' '\n' <<<"$words" | grep -v push | paste -sd'|')
+	bash -c "$force" <start | scalc 'want = -0.0025*sin(40*pi*(id + 0.5)/16384)' | stab --plain |
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { w = $at["want"]; d += ($at["acc"] - w)^2; r += w^2 }
+			END { print sqrt(d / r) }' >error
+	below "$(cat error)" 0.02 "force" # allowed: accuracy/(omega T/2) = 0.002 of the smooth field; without the particles' waves 1
+	pinit shear-layer --cells 64 | plan --no-cost | says resolution | grep -q '^error '
+}
+
+@test "plan: particles that stand for many bodies relax, bodies themselves do not; a smooth start of defaults has no numerical error" {
+	pinit plummer -n 500 | plan --no-cost -t 5 | says collisions | grep -q '^off .*every pair is summed'
+	pinit plummer -n 500 | smod --constant bodies=1e12 | plan --no-cost -t 5 | says collisions | grep -q '^error .*T is 0.09 of that time'
+	pinit plummer -n 500 | smod --constant bodies=500 | plan --no-cost -t 5 | says collisions | grep -q '^off '
+	for s in landau langmuir two-stream cold-collapse ellipse taylor-green-2d lamb-oseen; do
+		! pinit $s | plan --no-cost | grep -q '^# [a-z ]*  error  ' || { echo "$s"; return 1; }
+	done
+}
