@@ -3,10 +3,14 @@
 
 #include "effect-parts/effect-decision.h"
 
+static double rest_of(const struct pm_scales *s) { return s->self / (s->omega * s->omega * s->spacing); }
+
+bool pm_effect_round_off(const struct pm_scales *s) { return s->second && rest_of(s) < 1e-9; }
+
 bool pm_effect_cancels(const struct pm_scales *s)
 {
-	const double rest = s->self / (s->omega * s->omega * s->spacing);
-	return s->second && !s->walls && s->v_thermal <= 1e-7 * s->v_rms && rest < 1e-9 && rest * cosh(fmin(s->omega * s->time, 700)) < s->accuracy;
+	const double rest = rest_of(s);
+	return pm_effect_round_off(s) && !s->walls && s->v_thermal <= 1e-7 * s->v_rms && rest * cosh(fmin(s->omega * s->time, 700)) < s->accuracy;
 }
 
 bool pm_effect_alone(const struct pm_scales *s)

@@ -6,6 +6,7 @@
 #include "effect/effect.h"
 
 /* Forces that cancel to round-off and continue to do so: a lattice that moves as a whole and reaches no wall. */
+bool pm_effect_round_off(const struct pm_scales *s); /* the forces measured are zero but for round-off */
 bool pm_effect_cancels(const struct pm_scales *s);
 /* Is there no force between particles? */
 bool pm_effect_alone(const struct pm_scales *s);

@@ -188,7 +188,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	}
 	if (s->n < 32)
 		return; /* pm_plan_few_bodies */
-	if (pm_effect_cancels(s)) { /* no field, so no length of it */
+	if (pm_effect_round_off(s)) { /* no field, so no length of it */
 		snprintf(m->why_mesh, sizeof m->why_mesh, "%s: forces cancel on the mesh of the frame", m->kernel);
 		return;
 	}
