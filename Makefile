@@ -115,7 +115,7 @@ $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	echo 'const struct pm_tool *const pm_tools[] = {'; \
 	for n in $(basename $(notdir $(word_src))); do echo "&tool_$$n," | tr - _; done; echo 'NULL};'; } > $@
 
-# The main of each program is generated; cycle, plan, again and the unit tests link every tool that can be a word.
+# The main of each program is generated; cycle, plan, modes, again and the unit tests link every tool that can be a word.
 $(B)/mains/%.c: Makefile
 	@mkdir -p $(@D)
 	@n=$$(echo $* | tr - _); printf '%s\n' '#include <stdlib.h>' '#include "stage/stage.h"' "extern const struct pm_tool tool_$$n;" \
@@ -125,7 +125,7 @@ $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
 .PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
 
-$(bin_dir)/cycle $(bin_dir)/plan $(bin_dir)/again: $(bin_dir)/%: $(B)/mains/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+$(bin_dir)/cycle $(bin_dir)/plan $(bin_dir)/modes $(bin_dir)/again: $(bin_dir)/%: $(B)/mains/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	@mkdir -p $(@D)
 	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 $(h5_obj): CFLAGS_ALL += $(h5_include)

@@ -118,7 +118,7 @@ settle() {
 # The sentences, in which the numbers are not yet inserted.
 understand() {
 	local template=${positional[0]//$'\n'/ } n open=() w
-	cycles=0
+	cycles=0 has_modes=
 	for n in ${has_seed:+seed} "${axis_name[@]}"; do open+=("$n=$mark$n$mark"); done
 	sentences "$template" "${opt_expect:-}" "${open[@]}" "${choices[@]}"
 	choice_shown=()
@@ -127,6 +127,7 @@ understand() {
 	words "${sentence[0]}"
 	for w in "${word[@]}"; do
 		[[ ! $w =~ $cycle_word ]] || cycles=$((cycles + 1))
+		[[ ! $w =~ ^([^[:space:]]*/)?modes[[:space:]] ]] || has_modes=1
 		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] ||
 			usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
 	done
@@ -163,7 +164,7 @@ main() {
 		search_map
 	else
 		search limits
-		[[ -z $keep || -z $growth ]] || search sample
+		[[ -z $keep || -z $growth$has_modes ]] || search sample
 	fi
 	report
 }

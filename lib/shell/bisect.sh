@@ -15,7 +15,23 @@ look() {
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
 	function between(a, b) { return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
-	function search(m, s,    a, b, good, mid, width) {
+	# The next value to try between a and b: the middle, or a little beside the zero of the growth g per step where trials have one (modes). With decay at
+	# one end the zero lies on the line of exp(g) through both; where the stable end is neutral, on that of sinh(g/2)^2 over two unstable values, which a
+	# leapfrog makes linear in the square of the step. Every third time the middle, so that a wrong guess costs little.
+	function size_of(g) { return g > 50 ? 50 : g < -50 ? -50 : g }
+	function root(g) { g = size_of(g); return exp(g) + exp(-g) - 2 }
+	function next_of(m, s, a, b, width, k,    x, good, bad, g, h, d) {
+		good = from == "below" ? a : b; bad = from == "below" ? b : a
+		if (k % 3 == 2 || !((m, s, good) in rate) || !((m, s, bad) in rate)) return between(a, b)
+		g = size_of(rate[m, s, bad]); h = size_of(rate[m, s, good])
+		if (h < -1e-3) x = bad - (exp(g) - 1) * (bad - good) / (exp(g) - exp(h))
+		else if ((m, s, worse) in rate && rate[m, s, worse] > g) x = bad - root(g) * (worse - bad) / (root(rate[m, s, worse]) - root(g))
+		else return between(a, b)
+		d = 0.8 * tolerance * width
+		if (d < 0.03 * (b - a)) d = 0.03 * (b - a)
+		x += size(x - good) > size(bad - x) ? (good < bad ? -d : d) : (good < bad ? d : -d)
+		return x > a + 0 && x < b + 0 ? text(x) : between(a, b) }
+	function search(m, s,    a, b, good, mid, width, k) {
 		a = low; b = high
 		if (!((m, s, a) in is)) print "ask", m, s, a
 		if (!((m, s, b) in is)) print "ask", m, s, b
@@ -27,11 +43,14 @@ look() {
 			print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " \
 				(from == "below" ? "above" : "below") ")"
 			return }
-		for (;;) {
+		worse = ""
+		for (k = 0;; k++) {
 			mid = between(a, b)
 			width = size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)
 			if ((b - a) / 2 <= tolerance * width || mid == a || mid == b) break
+			mid = next_of(m, s, a, b, width, k)
 			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
+			if (is[m, s, mid] == "unstable") worse = from == "below" ? b : a
 			if (is[m, s, mid] == good) a = mid; else b = mid
 		}
 		if (what == "sample") curve(m, s, between(a, b) + 0); else again(m, s, a, b) }
@@ -73,6 +92,10 @@ look() {
 	# extrapolated: a rate of growth that is linear in the distance halves the distance with each doubling, one that goes with its root quarters it.
 	function again(m, s, a, b,    g, u, l1, l2, l4, h, ratio, rest, l, width, how, found) {
 		M = m; S = s; g = from == "below" ? a : b; u = from == "below" ? b : a
+		# A growth that is called neutral (modes) is there still: the limit is where the line through both ends has none.
+		if (rate[m, s, g] > 1e-6 && rate[m, s, u] > rate[m, s, g]) {
+			l = g - rate[m, s, g] * (u - g) / (rate[m, s, u] - rate[m, s, g]); h = (b - a) / 2
+			print "limit", m, s, l - h, l + h, ""; return }
 		if (!cycles) { print "limit", m, s, a, b, ""; return }
 		if (known(g, 2) == "") { print "ask", m, s, key(g, 2); return }
 		if (known(g, 2) == "stable") { print "limit", m, s, a, b, ""; return }
@@ -96,6 +119,7 @@ look() {
 		if (x < low + 0 || x > high + 0 || (x in had)) return
 		had[x] = 1; x = text(x)
 		if (!((m, s, x) in is)) print "ask", m, s, x
+		else if ((m, s, x) in rate) return
 		else if (!((m, s, x) in grew)) print "grow", m, s, x, step[m, s, x] }
 	# Nine points over the range, and twelve close to the limit l.
 	function curve(m, s, l,    i, near) {
@@ -104,6 +128,7 @@ look() {
 		for (i = 0; i <= 8; i++) point(m, s, scale == "log" ? low * (high / low) ^ (i / 8) : low + (high - low) * i / 8)
 		split("0.01 0.03 0.06 0.1 0.2 0.35", near, " ")
 		for (i = 1; i <= 6 && l != 0; i++) { point(m, s, l * (1 - near[i])); point(m, s, l * (1 + near[i])) } }
+	$1 == "trial" && $7 ~ /^growth / { rate[$2, $3, $4] = substr($7, 8) + 0 }
 	{ if ($1 == "trial") { is[$2, $3, $4] = $5; step[$2, $3, $4] = $6 } else if ($1 == "growth") grew[$2, $3, $4] = 1 }
 	END { for (m = 0; m < members; m++) for (s = 1; s <= seeds; s++) search(m, s) }' "$state/log" 3>"$work/brackets"
 }
@@ -174,7 +199,8 @@ tsv() {
 	FILENAME != "-" && $1 == "member" {
 		want[$2] = $3; sentence[$2] = $4; rest[$2] = ""; for (i = 6; i <= NF; i++) rest[$2] = rest[$2] $i OFS
 		count++; next }
-	FILENAME != "-" { if ($1 == "trial") { k = ++runs[$2]; seed[$2, k] = $3; at[$2, k] = $4; was[$2, k] = $5 } next }
+	FILENAME != "-" { if ($1 == "trial") { k = ++runs[$2]; seed[$2, k] = $3; at[$2, k] = $4; was[$2, k] = $5
+		if ($5 == "stable" && $7 ~ /^growth / && substr($7, 8) + 0 > 1e-6) neutral[$2, k] = 1 } next }
 	$1 == "limit" {
 		n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2
 		if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
@@ -183,7 +209,7 @@ tsv() {
 	$1 == "none" { why[$2] = $4 }
 	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
 	function astray(m,    k, below) {
-		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /@/) {
+		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /@/ && !((m, k) in neutral)) {
 			below = at[m, k] <= low[m, 1]
 			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable"))
 				return was[m, k] " again at " at[m, k] ": there is more than one limit" }

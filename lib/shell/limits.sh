@@ -12,6 +12,8 @@ conditions() {
 	fi
 	if [ -n "${opt_given_length:-}" ]; then
 		echo "within runs as long as given"
+	elif [ -n "$has_modes" ]; then
+		echo "unstable is also a mode that grows (modes): the growth of the linear map, and no run"
 	elif [ "$cycles" = 0 ]; then
 		echo "nothing was run longer: no cycle whose -n or -t is a number"
 	else
@@ -54,7 +56,8 @@ json() {
 }
 
 # curve MEMBER: prints value and growth, sorted by value.
-curve() { awk -F'\t' -v OFS='\t' -v m="$1" '$1 == "growth" && $2 == m && $3 == 1 && $5 != "-" { print $4, $5 }' "$state/log" | sort -g; }
+curve() { awk -F'\t' -v OFS='\t' -v m="$1" '$2 != m || $3 != 1 { next } $1 == "growth" && $5 != "-" { print $4, $5 }
+	$1 == "trial" && $7 ~ /^growth / { print $4, substr($7, 8) }' "$state/log" | sort -g; }
 
 # name_of_member MEMBER: its choices in words.
 name_of_member() {
@@ -81,7 +84,7 @@ plot() {
 	[ "${axis_scale[0]}" != log ] || options+=(--log-x)
 	[ ${#sentence[@]} = 1 ] || options+=(--by case)
 	picture "$1" margin --x "${axis_name[0]}" growth --level 0 "${options[@]}" --title 'Growth on both sides of the limit (dashed)' \
-		--y-label "growth of ln($growth) per step"
+		--y-label "growth ${growth:+of ln($growth) }per step"
 }
 
 # Every command that was run, in the order of the log.

@@ -86,11 +86,16 @@ trial_commands() {
 	done
 }
 
-# judge FILE: sets outcome and step from the listing of the last frame by sls.
+# judge FILE: sets outcome, step and, of the word modes, the growth per step as the reason, from the listing of the last frame by sls.
 judge() {
 	local line
 	line=$(tail -n 1 "$1")
 	outcome=stable step=-
+	if [[ $line =~ \"growth_per_step\":([-+0-9.e]+) ]]; then
+		reason="growth ${BASH_REMATCH[1]}"
+		[[ ! $line =~ \"unstable\":1(\.0+)?[,}] ]] || outcome=unstable
+		return
+	fi
 	[[ ! $line =~ .*\"step\":([0-9]+) ]] || step=${BASH_REMATCH[1]}
 	[[ ! $line =~ \"until\":1(\.0+)?[,}] ]] || outcome=unstable
 }

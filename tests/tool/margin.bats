@@ -90,6 +90,22 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	grep -qF "cycle -n 6 'push --unsafe --dt 0.1 drift | p2m -n 8'" e/index.html
 }
 
+@test "with modes the limit is where the growth of a step vanishes, found in fewer runs than by halving" {
+	s='printf "x vx\n0 0\n" | stab - --law free | modes "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
+	margin "$s" --vary dt:0.5:4 --tolerance 1e-6 -o d --format tsv >t
+	within "$(number limit <t)" 2 "$(number uncertainty <t)"
+	within "$(number uncertainty <t)" 2e-6 1.9e-6
+	[ "$(number runs <t)" -lt 44 ] # with the twenty of the picture; halving needs 2 + log2(3.5/2/2e-6) = 22
+	[ "$(awk -F'\t' '$1 == "growth"' d/measured/log | wc -l)" = 0 ] # the picture takes the growth of the trials
+	[ -s d/margin.svg ]
+	margin "$s" --vary dt:0.5:4 --tolerance 1e-6 --format tsv >t
+	[ "$(number runs <t)" -lt 18 ]
+	# a decay: the growth changes its sign
+	margin 'printf "x\n0\n" | stab - --law free --dt 1 | modes "field vel=-{z}*x | push ab3"' --vary z:0.3:4 --tolerance 1e-5 --format tsv >t
+	within "$(number limit <t)" 0.5454545 "$(number uncertainty <t)"
+	[ "$(number runs <t)" -lt 15 ] # halving: 2 + log2(ln(13.3)/2e-5) = 19
+}
+
 @test "the words before the first number run once, with the same result" {
 	gate
 	cat >bin/count <<-'SH'
