@@ -42,7 +42,7 @@ struct pm_replan {
 int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f, FILE *warn); /* warn: as of pm_plan_sentence */
 /* Is a decision due at this full step? */
 bool pm_replan_due(const struct pm_replan *r, const struct pm_frame *f);
-/* Decides. 1: r->sentence is another one, and why tells what has changed; 0: it stays; or failure. Cost: as plan, twice where something would become cheaper. */
+/* Decides. 1: r->sentence is another one, why tells what has changed; 0: it stays; or failure. Cost: as plan, twice where something would become cheaper. */
 int pm_replan_decide(struct pm_replan *r, const struct pm_frame *f, char why[PM_REPLAN_WHY]);
 
 /* plan-keep.c: the choice between what is in force and two plans: a, for the accuracy, and b, for a third of it (NULL: not made). a becomes the plan that

@@ -1,8 +1,10 @@
 /* Relativity: momentum grows as gamma v, gamma = 1/sqrt(1 - v^2/c^2); without it the error is of order (v/c)^2. c is a constant of the frame; if missing, c is
  * infinite. Source: Birdsall and Langdon 1985, section 15-4. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <string.h>
 
 #include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
@@ -23,10 +25,30 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		snprintf(d->text, sizeof d->text, "max v/c = %.2g, error below %.1g", beta, pow(10, ceil(log10(fmax(beta * beta, 1e-300)))));
 }
 
+/* The kick of gamma v, which turns it about a magnetic field, too; a whole scheme has none. */
+static void ask(const struct pm_effect_case *c, struct pm_method *m)
+{
+	if (c->decision->answer != PM_PUT_IN)
+		return;
+	m->kick = "relativistic/2";
+	m->scheme = "leapfrog";
+}
+
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	if (c->decision->answer == PM_PUT_IN)
+		pm_words_amend(w, PM_SLOT_OPENING, "push", "", "; relativity: on, %s", c->decision->text);
+}
+
+static bool reversible(const struct pm_effect_case *c) { return c->scales->second && !isnan(c->scales->c); }
+
 const struct pm_effect effect_relativity = {
 	.name = "relativity",
 	.sentence = "inertia grows with the speed",
 	.source = "Birdsall and Langdon 1985, section 15-4",
-	.word = "relativity",
+	.word = "push relativistic/2",
 	.decide = decide,
+	.ask = ask,
+	.words = words,
+	.reversible = reversible,
 };

@@ -60,8 +60,10 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 	static const char *const second[] = {"kdk", "rk4", "lsrk3", NULL}, *const first[] = {"lsrk3", "rk4", NULL}, *const magnetic[] = {"boris", NULL};
 	const struct pm_scales *s = &p->scales;
 	const bool turns = s->cyclotron * s->time > s->accuracy, field = s->kind == PM_VORTICES && !s->pairs && !s->singular;
+	const bool heavy = s->v_max * s->v_max > 0.5 * s->accuracy * s->c * s->c; /* relativity comes in: its kick is one of leapfrog */
+	static const char *const kicks[] = {"kdk", NULL};
 	double least = HUGE_VAL, dt = NAN;
-	for (const char *const *name = turns ? magnetic : s->second ? second : first; *name; name++) {
+	for (const char *const *name = turns ? magnetic : heavy && s->second ? kicks : s->second ? second : first; *name; name++) {
 		const char *word = !strcmp(*name, "kdk") || !strcmp(*name, "boris") ? "leapfrog" : *name;
 		const struct pm_step *step = strcmp(word, "leapfrog") ? pm_step_find(word) : NULL;
 		const double here = longest(c, turns && strcmp(c->problem, "gyration") ? "kdk" : *name, s), cost = (step ? step->passes : 1) / here;

@@ -80,10 +80,17 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 }
 
 /* The fields that a magnetic kick reads besides acc. */
-static int declare_magnetic(struct pm_frame *f, struct pm_moving *m)
+static int declare_magnetic(struct pm_frame *f, struct pm_moving *m, const struct pm_step *step)
 {
 	const char *on = m->set->name;
 	m->closing = m->set->drift > 0;
+	m->turned = true;
+	if (step->relativistic && !(pm_frame_constant(f, "c", NAN) > 0))
+		return pm_fail(PM_DATA, "the frame has no speed of light c (smod --constant c=C, or push kick/2)");
+	if (step->relativistic && !m->v)
+		return pm_fail(PM_DATA, "relativistic advances velocities, and '%s' has none", on);
+	if (step->relativistic && !pm_frame_field(f, on, "bfield"))
+		return 0;
 	if (!m->v || m->v->components < 2 || m->v->components > 3)
 		return pm_fail(PM_DATA, "boris turns velocities of 2 or 3 components, and '%s' has %d (pinit --velocities 3, or push kick/2 without a magnetic "
 			"field)", on, m->v ? m->v->components : 0);
@@ -114,7 +121,7 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 		status = pm_fail(PM_DATA, "%s kicks velocities and moves by them, and '%s' has no 'v' (rk4, lsrk3 advance what moves by a flow)",
 			p->scheme->name, set->name);
 	if (!status && p->magnetic)
-		status = declare_magnetic(f, m);
+		status = declare_magnetic(f, m, p->magnetic);
 	if (!status && kind != PM_DRIFT)
 		status = pm_rates_allowed(f, set, p->magnetic ? NULL : p->scheme ? p->scheme->name : "a plain kick");
 	if (!status)

@@ -19,7 +19,7 @@ static int lines_of(const struct pm_moving *m, int c, bool motion, struct pm_adv
 	for (int r = 0; r < m->n; r++) {
 		const struct pm_rate *rate = &m->rates[r];
 		bool is_motion = rate->state == m->x || rate->state == m->v;
-		if (m->b && rate->state == m->v)
+		if (m->turned && rate->state == m->v)
 			continue; /* already rotated */
 		if (is_motion == motion && c < pm_moving_components(rate))
 			lines[n++] = line(m, rate, c);
@@ -37,19 +37,28 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
-	struct pm_magnetic a = {.charge = pm_in(m->charge, 0), .mass = pm_in(m->mass, 0)};
+	struct pm_magnetic a = {.c = pm_frame_constant(f, "c", NAN)};
 	size_t n = m->set->n, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	if (m->b)
+		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
 	for (int r = 0; r < m->n; r++)
 		acc = m->rates[r].state == m->v ? m->rates[r].rate : acc;
 	for (int c = 0; c < 3; c++) {
 		a.v[c] = c < m->v->components ? pm_out(m->v, c) : NULL;
 		a.acc[c] = c < acc->components ? pm_in(acc, c) : NULL;
-		a.b[c] = pm_in(m->b, c);
+		a.b[c] = m->b ? pm_in(m->b, c) : NULL;
 	}
-	for (size_t i = 0; i < n && !a.v[2]; i++)
+	for (size_t i = 0; i < n && m->b && !a.v[2]; i++)
 		if (a.b[0][i] != 0 || a.b[1][i] != 0)
 			return pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in the plane turns them out of it "
 				"(give v 3 components)", m->set->name);
+	for (size_t i = 0; i < n && step->relativistic; i++) {
+		double v2 = 0;
+		for (int c = 0; c < 3; c++)
+			v2 += a.v[c] ? a.v[c][i] * a.v[c][i] : 0;
+		if (!(v2 < a.c * a.c))
+			return pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g", i, m->set->name, sqrt(v2), a.c);
+	}
 #pragma omp parallel for schedule(static) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
 		size_t i = block * PM_ADVANCE_BLOCK;
@@ -87,7 +96,7 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL, NULL);
 	}
 	for (int r = 0; r < m->n && finite; r++) /* if not finite, the library searches for the value */
-		if (!m->b || m->rates[r].state != m->v) {
+		if (!m->turned || m->rates[r].state != m->v) {
 			m->rates[r].state->use |= PM_USE_SEEN;
 			for (int i = 0; i < PM_REGISTERS; i++)
 				if (m->rates[r].q[i])

@@ -25,7 +25,8 @@ int pm_push_action(struct pm_push *p, const char *word);
 struct pm_moving {
 	struct pm_set *set;
 	struct pm_field *x, *v; /* v NULL: none, or it is not changed */
-	struct pm_field *b, *charge, *mass; /* of a magnetic kick */
+	struct pm_field *b, *charge, *mass; /* of a magnetic kick; a relativistic one may have none */
+	bool turned;            /* v is advanced by a magnetic kick */
 	bool closing;           /* the drift is done */
 	double part;            /* of a step that this push stands for where a rate limits it: 1, or less for a step split into parts */
 	int n;

@@ -4,6 +4,7 @@
  * Source: Boris 1970; Birdsall and Langdon 1985, section 4-4; notes in docs/methods/boris.md.
  * Assumes v << c. Second order, keeps |v| without E to round-off, moves at exactly E x B/B^2 in uniform fields. Cost: one square root and
  * two divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step-parts/magnetic-turn.h"
 #include "step/step.h"
 
 static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
@@ -13,43 +14,22 @@ static void pass(int p, double dt, size_t n, double *restrict y, const double *r
 		y[i] += dt * k[i];
 }
 
-static double component(const double *const *a, int c, size_t i) { return a[c] ? a[c][i] : 0; }
-
-/* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would change |v| by a few 1e-17 with the same sign in every
- * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. */
-static void turn(const double tau[3], double v[3])
-{
-	double high = 1, low = 0;
-	for (int c = 0; c < 3; c++) { /* 1 + tau^2 in two parts */
-		const double square = tau[c] * tau[c], sum = high + square, part = sum - high;
-		low += fma(tau[c], tau[c], -square) + ((high - (sum - part)) + (square - part));
-		high = sum;
-	}
-	const double s = 2 / high, s_low = (fma(-s, high, 2) - s * low) / high;
-	const double w[3] = {v[0] + (v[1] * tau[2] - v[2] * tau[1]), v[1] + (v[2] * tau[0] - v[0] * tau[2]), v[2] + (v[0] * tau[1] - v[1] * tau[0])};
-	for (int c = 0; c < 3; c++) {
-		const int d = (c + 1) % 3, e = (c + 2) % 3;
-		const double cross = w[d] * tau[e] - w[e] * tau[d];
-		v[c] += fma(s, cross, s_low * cross);
-	}
-}
-
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
 	for (size_t i = from; i < to; i++) {
 		double v[3], a[3], t[3], tau[3], t2 = 0;
 		const double half = 0.5 * dt * m->charge[i] / m->mass[i];
 		for (int c = 0; c < 3; c++) {
-			v[c] = component((const double *const *)m->v, c, i);
-			a[c] = 0.5 * dt * component(m->acc, c, i);
-			t[c] = half * component(m->b, c, i);
+			v[c] = pm_magnetic_component((const double *const *)m->v, c, i);
+			a[c] = 0.5 * dt * pm_magnetic_component(m->acc, c, i);
+			t[c] = half * pm_magnetic_component(m->b, c, i);
 			t2 += t[c] * t[c];
 		}
 		for (int c = 0; c < 3; c++) {
 			tau[c] = t[c] / (1 + sqrt(1 + t2)); /* tan of half of atan |t| */
 			v[c] += closing ? a[c] : 0;
 		}
-		turn(tau, v);
+		pm_magnetic_turn(tau, v);
 		for (int c = 0; c < 3; c++)
 			if (m->v[c])
 				m->v[c][i] = v[c] + (closing ? 0 : a[c]);

@@ -30,6 +30,7 @@ struct pm_magnetic {
 	double *v[3];                     /* [length/time] */
 	const double *acc[3], *b[3];      /* [length/time^2] without v x B; [magnetic field] */
 	const double *charge, *mass;
+	double c;                         /* [length/time] of relativistic kicks; b may then be absent */
 };
 
 /* One component of a state under an error-controlled scheme, n values each. A position whose rate is this state (x beside v) goes with it. */
@@ -84,6 +85,7 @@ struct pm_step {
 	/* One pass over n values: y is advanced, k is its rate now, q the registers. NULL for compositions. */
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
 	/* For magnetic kicks, which rotate v about B: particles from..to-1, half a step of dt; every other state is kicked by pass. NULL: none. */
+	bool relativistic; /* a magnetic kick that needs the constant c, and no magnetic field */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
 	const struct pm_control *control; /* of an error-controlled scheme, which has no pass; NULL */
 };

@@ -18,6 +18,39 @@ places() { scmp --field x "$1" "$2" | awk 'END { print $8 }'; }
 	[ "$(diag --columns step again | tail -n 1)" -lt 300 ]
 }
 
+# Velocities of the first particle.
+velocity() { stab "$1" | grep -v '^#' | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR == 2 { print $at["vx"], $at["vy"] }'; }
+
+@test "an electron accelerated past v/c = 0.1: relativity comes in between two decisions, before that it is left out" {
+	pinit exb --dt 0.05 | sel --drop B | smod --constant c=2 >start # (q/m) E = -0.1 along y, v = 0.1 along x
+	cycle -t 20 --plan <start >once
+	cycle -t 20 --plan --again 10 <start 2>said >again
+	read -r vx vy < <(velocity once)
+	within "$vy" -2 1e-9 # v = a t
+	read -r vx vy < <(velocity again)
+	# u = gamma v = (0.1/sqrt(1 - 0.0025), -2), v = u/sqrt(1 + u^2/4); the accuracy 0.01 is asked for, 2e-4 is reached: two steps are without it
+	within "$vx" 0.0707549 1e-3
+	within "$vy" -1.4133283 1e-3
+	grep -q '^cycle: step 2, .*relativity comes in, max v/c = 0.097' said
+	sed -n 2p again | grep -q '"from step 2: push relativistic/2 drift | m2p | push relativistic/2"'
+}
+
+@test "relativistic/2 is exact in a uniform E, turns by Omega/gamma in B as boris does, keeps |v| below c, and refuses what it cannot do" {
+	pinit exb | sel --drop B | smod --constant c=2 >straight
+	cycle -t 20 'push --dt 0.5 relativistic/2 drift | m2p | push relativistic/2' <straight >a
+	read -r vx vy < <(velocity a)
+	within "$vx" 0.0707549137677 1e-12 # closed form, as above
+	within "$vy" -1.41332829558063 1e-12
+	pinit gyration --dt 0.05 | smod --constant c=2 | cycle -t 20 'push relativistic/2 drift | m2p | push relativistic/2' >b
+	read -r vx vy < <(velocity b) # 800 steps of atan(Omega dt/2 gamma), 1/gamma = sqrt(3/4)
+	within "$vx" 0.03903299404360 1e-12
+	within "$vy" -0.99923792230679 1e-12
+	run -1 bash -o pipefail -c 'pinit exb | sel --drop B | cycle -n 1 "push relativistic/2 drift | m2p | push relativistic/2"'
+	[[ "$output" = *"the frame has no speed of light c (smod --constant c=C, or push kick/2)"* ]]
+	run -1 bash -o pipefail -c 'pinit exb | sel --drop B | smod --constant c=0.05 | cycle -n 1 "push relativistic/2 drift | m2p | push relativistic/2"'
+	[[ "$output" = *"has the speed 0.1, and c is 0.05"* ]]
+}
+
 @test "a change is a line on standard error, in the history with its step, in the report, and in the attribute plan" {
 	sphere | cycle -t 1.3 --plan --again 20 --every 20 2>said >run
 	[ "$(grep -c '^cycle: step [0-9]*, time [0-9.]*: dt [0-9.e-]* instead of [0-9.e-]*$' said)" = "$(wc -l <said)" ]

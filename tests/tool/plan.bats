@@ -178,14 +178,15 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	! decide shear-layer --cells 256 | grep -q '^# .* error ' || false
 }
 
-@test "relativity and currents: by v/c; needed, they are named, and the result lacks them" {
+@test "relativity and currents: by v/c; currents needed are named, and the result lacks them" {
 	pinit two-stream -n 100 --v0 0.4 | smod --constant c=1 | plan --no-cost >fast
-	[ "$(says relativity <fast)" = 'needed max v/c = 0.4, no word for it yet: the result lacks it' ]
+	[ "$(says relativity <fast)" = 'on     max v/c = 0.4' ]
+	[[ "$(pinit two-stream -n 100 --v0 0.4 | smod --constant c=1 | plan --sentence)" = "push relativistic/2 drift | "*" | push relativistic/2" ]]
 	[[ "$(says currents <fast)" = needed* ]]
 	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost >slow
 	[ "$(says relativity <slow)" = 'off    max v/c = 0.003, error below 1e-05' ]
 	[[ "$(says relativity < <(decide two-stream -n 100))" = *"no speed of light"* ]]
-	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost --accuracy 1e-6 | says relativity | grep -q ^needed
+	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost --accuracy 1e-6 | says relativity | grep -q ^on
 }
 
 @test "diffusion: nu dt/h^2 is printed, nu T |lap omega|/|omega| decides" {
