@@ -1,8 +1,8 @@
-/* Relativistic kick: (gamma v)' = acc + (q/m) v x B, gamma = 1/sqrt(1 - v^2/c^2), split like boris: half a step (relativistic/2) is half of the rotation, by the
- * frequency Omega/gamma, and half of the kick of u = gamma v; the opening half rotates, then kicks, the closing half kicks, then rotates. Without a
- * magnetic field only the kick. The frame keeps v; c is its constant.
- * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to round-off.
- * v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three square roots a particle. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Relativistic kick: (gamma v)' = acc + (q/m) v x B, gamma = 1/sqrt(1 - v^2/c^2), split like boris: half a step (relativistic/2) is half of the rotation,
+ * by the frequency Omega/gamma, and half of the kick of u = gamma v; the opening half rotates, then kicks, the closing half kicks, then rotates.
+ * Without a magnetic field only the kick. The frame keeps v; c is its constant.
+ * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
+ * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three square roots a particle. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-turn.h"
 #include "step/step.h"
 
