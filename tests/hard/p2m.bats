@@ -43,3 +43,25 @@ mesh() { stab --plain --mesh mesh | awk 'NR > 1 { printf "%s%s", (NR > 2 ? " " :
 	# the first three are on the node at 0, which has at least their 7
 	[ "$(awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "rho") c = i; next } NR < 5 { n += $c >= 7 - 1e-12 } END { print n }' <<<"$output")" = 3 ]
 }
+
+@test "clustered: nine of ten particles in one cell of 32^3, or all in one point: the sum to round-off, the same bytes for 1, 2, 3 threads, m2p the transpose" {
+	pinit uniform -n 40000 --cells 32 --box 0,0,0,1,1,1 --seed 4 >all
+	scalc 'x = id < 36000 ? 0.503 + x/65 : x, id < 36000 ? 0.503 + y/65 : y, id < 36000 ? 0.503 + z/65 : z' <all >cell
+	scalc 'x = 0.503, 0.503, 0.503' <all >point
+	for set in cell point; do
+		for kernel in cic pcs; do
+			for threads in 1 2 3; do
+				p2m --kernel $kernel --threads $threads <$set | m2p --kernel $kernel --field rho --threads $threads >$set.$threads
+			done
+			same_as $set.1 $set.2
+			same_as $set.1 $set.3
+			# uniform at random, a mass of 1 in all: the sum over the mesh, 32768 nodes of 1/32^3
+			stab --plain --mesh mesh <$set.1 >nodes
+			within "$(awk 'NR > 1 { s += $4 } END { printf "%.17g", s / 32768 }' nodes)" 1 1e-12 "sum, $kernel, $set" # awk adds 32768 of them
+			# sum m rho(x) = sum h^3 rho^2
+			within "$(stab --plain <$set.1 | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "rho") c = i; next } { s += $c }
+				END { printf "%.17g", s / 40000 }')" "$(awk 'NR > 1 { s += $4 * $4 } END { printf "%.17g", s / 32768 }' nodes)" \
+				"$(awk 'NR > 1 { s += $4 * $4 } END { printf "%.17g", 1e-11 * s / 32768 }' nodes)" "transpose, $kernel, $set"
+		done
+	done
+}
