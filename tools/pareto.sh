@@ -23,6 +23,8 @@ version=@VERSION@
 . lib/shell/members.sh
 # shellcheck source=lib/shell/sizes.sh
 . lib/shell/sizes.sh
+# shellcheck source=lib/shell/refine.sh
+. lib/shell/refine.sh
 # shellcheck source=lib/shell/front.sh
 . lib/shell/front.sh
 # shellcheck source=lib/shell/front-picture.sh
@@ -41,8 +43,8 @@ The seconds are those that the words report (--timing; for a word without this o
 over all sentences in changing order, until the medians of the front are known to --spread. Sentences that differ by no more than noise are a tie: both
 are on the front. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not stop the others.
 
-With -o DIRECTORY: pareto.tsv, pareto.svg and pareto.png (splot) and index.html, a page of one file whose table sorts; the results are kept there, and the
-same command continues a sweep that was stopped. Then --until-error, --within and --tsv need no SENTENCE."
+With -o DIRECTORY: pareto.tsv, pictures (splot) and index.html, a page of one file whose table sorts; the same command continues a sweep that was
+stopped. Then --until-error, --within and --tsv need no SENTENCE."
 rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in \
 SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
 f|field|NAME||compare these fields, with commas between (default: all)
@@ -59,6 +61,7 @@ o|output|DIRECTORY||write the results there, and continue from earlier ones
 |extrapolate|X||a size that is not run: times, memory and errors by the power laws, labelled
 j|jobs|N||only errors, without seconds: run N sentences at a time (GNU parallel)
 |until-error|X||print the cheapest sentence with at most this error, and nothing else
+|refine|||with --until-error: where no sentence listed meets it, continue the numbers among the alternatives along their measured convergence
 |within|TEXT||print the most accurate sentence of at most this cost, as 2s, 50ms or 1.5min, and nothing else
 |tsv|||print the table as TSV
 |list|||print the sentences, and run nothing
@@ -103,6 +106,7 @@ understand() {
 	done
 	sentences "$template" "$against" "${varied[@]}"
 	find_size
+	settle_refine
 	plant 0
 	refer 0
 }
@@ -111,7 +115,7 @@ open_state() {
 	local x='[^[:space:]]+'
 	open_results sweep "$(printf '%s\n' "$version" "${positional[0]}" "$against" "$field" "$set" "${varied[*]}" "${OMP_NUM_THREADS:-}" \
 		"${jobs:+errors}" ${opt_size:+"$opt_size"})" '^error' \
-		"^(load("$'\t'"$x){2}|time"$'\t'"[0-9]+"$'\t'"[0-9]+("$'\t'"$x){3,4}|(fail|bad)"$'\t'"[0-9]+"$'\t'".*|error"$'\t'"[0-9]+("$'\t'"$x){6})$"
+		"$(printf '^(refined\t[0-9]+\t[-0-9.e+ ]+|load(\t%s){2}|time(\t[0-9]+){2}(\t%s){3,4}|(fail|bad)\t[0-9]+\t.*|error\t[0-9]+(\t%s){6})$' "$x"{,,})"
 }
 
 all_known() {
@@ -134,6 +138,7 @@ report() {
 		plot "$keep"
 		page "$keep"
 	fi
+	[ -z "$until$within_seconds${opt_tsv:-}" ] || tell_loaded
 	if [ -n "$until$within_seconds" ]; then
 		choose "$work/pareto.tsv"
 	elif [ -n "${opt_tsv:-}" ]; then
@@ -152,13 +157,11 @@ main() {
 	time_program=$(type -P time) || time_program=
 	settle "$@"
 	understand
-	if [ -n "${opt_list:-}" ]; then
-		printf '%s\n' "${sentence[@]}"
-		return
-	fi
+	[ -z "${opt_list:-}" ] || { printf '%s\n' "${sentence[@]}"; return; }
 	trap stop INT TERM
 	trap '[ -z "$work" ] || rm -rf "$work"' EXIT
 	open_state
+	listed=${#sentence[@]}
 	recall
 	if ! all_known; then
 		prepare
@@ -169,6 +172,7 @@ main() {
 			measure
 		fi
 	fi
+	[ -z "${opt_refine:-}" ] || refine
 	report
 }
 

@@ -218,13 +218,19 @@ with_data() {
 	show_escapes "$t"
 }
 
-# Adds the member with the alternatives at[], unless the same sentence exists already.
+# Adds the member with the alternatives at[].
 add_member() {
-	local d s=''
+	local d
 	value=()
 	for d in "${!at[@]}"; do
 		value[d]=${alternative[choice_first[d] + at[d]]}
 	done
+	add_values
+}
+
+# Adds the member with the values value[], unless the same sentence exists already; at_of[member] are the numbers of its alternatives.
+add_values() {
+	local d i v s=''
 	for d in "${!segment_choice[@]}"; do
 		s+=${segment[d]}${value[segment_choice[d]]}
 	done
@@ -233,8 +239,13 @@ add_member() {
 	last_member=${#sentence[@]}
 	there[$text]=$last_member
 	sentence+=("$text")
+	at_of+=("${at[*]}")
 	for d in "${!at[@]}"; do
-		with_names "${value[d]//"{${opt_size:-}}"/$'\001'${opt_size:-}$'\002'}" # {NAME} of --size stays: a method is the same at all sizes
+		v=${value[d]}
+		for i in "${!linked[@]}"; do # {NAME} of --size stays, and with --refine of all: a method is the same at all sizes
+			[[ -z ${opt_refine:-} && ${vary_name[i]} != "${opt_size:-}" ]] || v=${v//"{${vary_name[i]}}"/$'\001'${vary_name[i]}$'\002'}
+		done
+		with_names "$v"
 		trim "$text"
 		chosen+=("$text")
 	done
@@ -244,9 +255,9 @@ add_member() {
 
 # sentences TEMPLATE REFERENCE VARY...: also sets reference[], REFERENCE with the values of each member.
 sentences() {
-	local d at=() value=() reference_template
+	local d at=() value=()
 	local -A there=()
-	choice_name=() choice_first=() choice_count=() alternative=() sentence=() chosen=() reference=()
+	choice_name=() choice_first=() choice_count=() alternative=() sentence=() chosen=() reference=() at_of=()
 	hide_escapes "$2"
 	reference_template=$text
 	vary_read "${@:3}"

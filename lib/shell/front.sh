@@ -129,7 +129,7 @@ page() {
 
 # choose TSV: prints the cheapest sentence within --until-error, or the most accurate one --within the cost; a note names those that cost as much within noise.
 choose() {
-	awk -F'\t' -v until="$until" -v within="$within_seconds" -v me=$me -v clock="$clock" -v quiet="${opt_quiet:-}" '
+	awk -F'\t' -v until="$until" -v within="$within_seconds" -v me=$me -v clock="$clock" -v quiet="${opt_quiet:-}" -v refined="${opt_refine:-}" '
 		NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; t = at[clock == "wall" ? "seconds" : "processor"]
 			s = at[clock == "wall" ? "spread" : "processor_spread"]; next }
 		$2 == "ok" && $5 !~ /nan|inf/ {
@@ -147,7 +147,7 @@ choose() {
 				exit }
 			if (floor == "") print me ": no sentence could be measured" > "/dev/stderr"
 			else printf "%s: no sentence meets this: the smallest error is %.3g, the shortest time %s s%s\n", me, floor,
-				quick == "" ? "-" : sprintf("%.3g", quick), until == "" ? "" : " (--refine searches finer numbers)" > "/dev/stderr"
+				quick == "" ? "-" : sprintf("%.3g", quick), until == "" || refined ? "" : " (--refine searches finer numbers)" > "/dev/stderr"
 			exit 1 }' "$1"
 }
 

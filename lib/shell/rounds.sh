@@ -56,6 +56,12 @@ loaded() {
 			most, all }' "$state/log"
 }
 
+tell_loaded() {
+	local said
+	said=$(loaded)
+	[ -z "$said" ] || tell "$said"
+}
+
 # One round over the members in todo.
 one_round() {
 	local m order done_now=0 to_do=0 missing=()

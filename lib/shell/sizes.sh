@@ -25,6 +25,10 @@ settle_times() {
 		fail 1 "no program 'time' here, which measures memory (apt-get install time, or leave memory out of --axes)"
 	[[ -z ${opt_jobs:-} || -z ${opt_axes:-}${opt_time:-}${opt_spread:-}${opt_budget:-}${opt_extrapolate:-} ]] ||
 		usage "--jobs measures errors alone (leave it out for --axes, --time, --spread, --budget, --extrapolate)"
+	[[ -z ${opt_refine:-} || -n ${opt_until_error:-} ]] || usage "--refine wants --until-error: how small shall the error be?"
+	[[ -z ${opt_refine:-} || -z ${opt_size:-}${opt_jobs:-} ]] || usage "--refine goes neither with --size nor with --jobs (leave it out)"
+	[[ -z ${opt_refine:-} || $against != finest ]] ||
+		usage "--refine wants a reference that stays finer than what is refined, which finest does not (--against with a sentence, a file or exact)"
 	[[ -z ${opt_extrapolate:-} || -n ${opt_size:-} ]] || usage "--extrapolate wants --size NAME: which of the names of --vary is the size?"
 }
 

@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # Runs the members of a sweep. Common beginnings are nodes of a tree: a node runs on the output of its parent, one at a time, once per round,
 # and its seconds are charged to every member below it. Results are appended to $state/log, from which a stopped sweep is continued:
-#   time NODE ROUND SETUP SECONDS KB PROCESSOR | load OTHERS PROCESSORS | fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
+#   refined BASE VALUES (refine.sh) | time NODE ROUND SETUP SECONDS KB PROCESSOR | load OTHERS PROCESSORS
+#   fail NODE WHY | error MEMBER N l1 l2 max relative_l2 relative_max | bad MEMBER WHY
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # Succeeds if the program has the option --timing.
@@ -231,6 +232,7 @@ recall() {
 		time) clocked[$a,$b]=1 ;;
 		fail) failed[$a]=$b ;;
 		error | bad) error_known[$a]=1 ;;
+		refined) add_again "$a" "$b" ;;
 		esac
 	done <"$state/log"
 }

@@ -45,7 +45,7 @@ spring='printf "x vx\n1 0\n" | stab - --law free | cycle -n 20 "push --dt {dt} k
 	done
 	[ "$(pareto 'a {k} "x {k}" '"'y {k}'" --against finest --vary 'k=p q,r' --list)" = "a 'p q' \"x p q\" 'y p q'"$'\n'"a r \"x r\" 'y r'" ]
 	[ "$(pareto 'a {k}' --against finest --vary "k=it's,{k}" --list)" = "a 'it'\\''s'"$'\n'"a '{k}'" ]
-	run -0 pareto 'pinit uniform -n 9 | scalc "a = {k}"' --against finest --vary 'k=x*(y+1),(2 - x)' --field a --repeat 1 --tsv
+	run -0 pareto 'pinit uniform -n 9 | scalc "a = {k}"' --against finest --vary 'k=x*(y+1),(2 - x)' --field a --repeat 1 --tsv -q
 	! grep -q failed <<<"$output"
 }
 

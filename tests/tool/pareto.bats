@@ -82,7 +82,7 @@ awk '{ print \$1, \$2 }' z" ]
 
 @test "exact: a leapfrog's error falls by four when the step is halved; a column without an exact value is reported" {
 	run -0 pareto "pinit two-body --eccentricity 0.5 --dt {0.1,0.05,0.025} | cycle -t 1 'push kick/2 drift | pp | push kick/2'" --against exact --field \
-		energy_kinetic --repeat 1 --tsv
+		energy_kinetic --repeat 1 --tsv -q
 	mapfile -t e < <(column error <<<"$output" | sort -rg)
 	order 2 0.1 "${e[0]}" 0.05 "${e[1]}" 0.025 "${e[2]}"
 	run -1 pareto "pinit two-body --dt {0.1,0.05} | cycle -n 1 'push drift'" --against exact --field distance_max --repeat 1
@@ -91,7 +91,7 @@ awk '{ print \$1, \$2 }' z" ]
 
 @test "the error is the largest over several frames" {
 	run -0 pareto "pinit two-body | cycle -n 3 --every 1 'push drift --dt {0.1,0.2}'" --against "cycle -n 3 --every 1 'push drift --dt 0.15'" --field x \
-		--norm max --repeat 1 --tsv
+		--norm max --repeat 1 --tsv -q
 	# |v| = 1/2, three steps, 0.05 off in each.
 	while read -r e; do within "$e" 0.075 1e-9; done < <(column error <<<"$output")
 }
@@ -396,4 +396,40 @@ fronts() { awk -F'\t' '$3 == "yes" { print $5 }' "$1" | sort -g | xargs; }
 	[ "$(awk -F'\t' '$2 == "reference" { print $21, $22 }' table | sort)" = "30 16
 40 16" ]
 	[ "$(grep -c '\bok\b' table)" = 4 ]
+}
+
+# Errors 1/n^2 and dt, costs n^3 and 1/dt: n = 100 and dt = 1e-4 meet 1e-4, for 10 s each; the model is exact, so each step but the last is what was predicted.
+@test "--refine: numbers are continued along their measured convergence until the error is met, the cheapest method wins, and a floor is said" {
+	fakes
+	two() { pareto "pinit uniform -n 20 | {fake -c '1e-5*{n}^3' -e '(1/{n}^2)',fake -c '2e-3/{dt}' -e '{dt}'}" --vary n=8,16,32 --vary dt=0.1,0.05 \
+		--against 'scalc mass=mass' --field mass --repeat 1 --until-error 1e-4 -o d "$@"; }
+	run -1 --separate-stderr two
+	[[ $stderr == *"the smallest error is 0.000977"*"(--refine searches finer numbers)" ]]
+	run -0 --separate-stderr two --refine
+	[[ $output == "pinit uniform -n 20 | fake -c '1e-5*108^3' -e '(1/108^2)'" ]]
+	[[ $stderr == *"n 32 -> 108 (order 2.00): error 8.573388203e-05, 12.5971 s, predicted 8.57e-05, 12.6 s"*"met after"*"error 8.573388203e-05, 12.5971"* ]]
+	awk -F'\t' 'NR > 1 && ($7 / $8 - 1) ^ 2 > 1e-4 { print; exit 1 }' d/refine.tsv
+	n=$(grep -c '^error' d/measured/log)
+	two --refine >again 2>/dev/null
+	[ "$(cat again)" = "$output" ]
+	[ "$(grep -c '^error' d/measured/log)" = "$n" ]
+	# Two numbers of one method, raised one at a time, whichever lowers the error most for its time.
+	both() { pareto "pinit uniform -n 20 | fake -c '1e-7*{n}^3/{dt}' -e '($1 + 1/{n}^2 + {dt})'" --vary n=8,16,32 --vary dt=0.1,0.05 \
+		--against 'scalc mass=mass' --field mass --repeat 1 --until-error 1e-3 --refine "${@:2}"; }
+	run -0 --separate-stderr both 0 --budget 1h
+	[[ $stderr == *"dt 0.05 -> "*"n 32 -> "* ]]
+	run -1 --separate-stderr both 0.02
+	[[ $stderr == *"floor: member "*" stays at error 0.02"*"finer"* ]]
+	run -1 --separate-stderr both 0 --budget 2s
+	[[ $stderr == *"more than what is left of the budget"* ]]
+}
+
+@test "--refine: a leapfrog of second order finds the step for an error, and what does not go together is refused" {
+	s="pinit two-body --eccentricity 0.5 --dt {0.1,0.05} | cycle -t 1 'push kick/2 drift | pp | push kick/2'"
+	run -0 --separate-stderr pareto "$s" --against exact --field energy_kinetic --repeat 1 --until-error 2e-5 --refine --tsv
+	[[ $output == "pinit two-body --eccentricity 0.5 --dt 0.02"* && $stderr == *"(order 2.00)"*"met after"* ]]
+	told 'finest does not' "$s" --against finest --until-error 1 --refine
+	told 'wants --until-error' "$s" --against pp --refine
+	told 'finds no numbers' 'a {b,c}' --against pp --until-error 1 --refine
+	told 'neither with --size' "$s" --against pp --until-error 1 --refine --jobs 2
 }
