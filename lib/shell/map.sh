@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # A map of two parameters: stable or not on a grid of points, then the boundary: between two neighbours that differ it is bisected to
-# 1/32 of their distance, and the crossings are joined to lines cell by cell. Computed from the log, as in bisect.sh. SPDX-License-Identifier: GPL-3.0-or-later
+# 1/32 of their distance, or interpolated where the growth is known (modes), and the crossings are joined to lines cell by cell.
+# Computed from the log, as in bisect.sh. SPDX-License-Identifier: GPL-3.0-or-later
 
 # look_map WHAT: "ask MEMBER SEED X,Y" while trials are missing; then for WHAT points "MEMBER X Y OUTCOME STEP", for WHAT lines "MEMBER X1 Y1 X2 Y2".
 look_map() {
@@ -10,18 +11,34 @@ look_map() {
 	function text(x) { x = sprintf("%.10g", x); return x == "-0" ? "0" : x }
 	function place(a, b, scale, i, n) { return text(scale == "log" ? a * (b / a) ^ (i / n) : a + (b - a) * i / n) }
 	function asked(m, x, y) { if ((m, x "," y) in is) return 0; print "ask", m, 1, x "," y; return 1 }
+	function growth(m, p, x, other,    g) { g = rate[m, p ? x "," other : other "," x]; return g > 50 ? 50 : g < -50 ? -50 : g }
+	# The crossing on an edge where the growth per step is known (modes) and changes its sign: the line of exp(growth) through both ends, until its zero
+	# moves by less than 1/64 of the edge. "no": it does not change its sign.
+	function zero(m, a, b, other, p,    k, ga, gb, x, before, span) {
+		if (!((m, p ? a "," other : other "," a) in rate) || !((m, p ? b "," other : other "," b) in rate)) return "no"
+		ga = growth(m, p, a, other); gb = growth(m, p, b, other); span = b - a
+		if (ga * gb >= 0 || ga * ga < 1e-6 || gb * gb < 1e-6) return "no"
+		for (k = 0; k < 5; k++) {
+			x = text(a + (b - a) * (1 - exp(ga)) / (exp(gb) - exp(ga)))
+			if (k && (x - before) ^ 2 < (span / 64) ^ 2) break
+			if (asked(m, p ? x : other, p ? other : x)) return "?"
+			before = x
+			if (ga * growth(m, p, x, other) > 0) { a = x; ga = growth(m, p, x, other) } else { b = x; gb = growth(m, p, x, other) }
+		}
+		return x }
 	# The crossing on an edge, whose end points differ along one axis; at[] is "" if there is none, "?" if a trial was requested.
 	function cross(m, a, b, other, along, scale,    k, mid, first, p) {
 		p = along == "x"
 		first = is[m, p ? a "," other : other "," a]
 		if (first == is[m, p ? b "," other : other "," b]) return ""
+		if ((mid = zero(m, a, b, other, p)) != "no") return mid
 		for (k = 0; k < 5; k++) {
 			mid = text(scale == "log" ? sqrt(a * b) : (a + b) / 2)
 			if (asked(m, p ? mid : other, p ? other : mid)) return "?"
 			if (is[m, p ? mid "," other : other "," mid] == first) a = mid; else b = mid
 		}
 		return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
-	{ if ($1 == "trial") { is[$2, $4] = $5; step[$2, $4] = $6 } }
+	$1 == "trial" { is[$2, $4] = $5; step[$2, $4] = $6; if ($7 ~ /^growth /) rate[$2, $4] = substr($7, 8) + 0 }
 	END {
 		for (i = 0; i < w; i++) X[i] = place(x0, x1, xs, i, w - 1)
 		for (j = 0; j < h; j++) Y[j] = place(y0, y1, ys, j, h - 1)

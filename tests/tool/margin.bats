@@ -292,6 +292,17 @@ rk2 - -" ] || { cat t; false; }
 	[ "$(jq '.points | length' <<<"$output")" = 42 ]
 }
 
+@test "a map with modes: the boundary is where the growth vanishes, at two runs a crossing and not five" {
+	margin 'printf "x y\n0 0\n" | stab - --law free --dt 1 | modes "field vel={a}*x-{b}*y,{b}*x+{a}*y | push euler"' --vary a:-2.2:0.2 --vary b:0.1:1.3 \
+		--map 7x5 -o d >text
+	# euler is stable in the circle |1 + z| < 1; the crossings are on it, to 1/64 of 0.4 (halving leaves up to that)
+	awk -F'\t' 'NR > 1 { n++; for (k = 1; k < 4; k += 2) { r = sqrt(($k + 1)^2 + $(k+1)^2); if (r < 1 - 0.006 || r > 1 + 0.006) { print; exit 1 } } }
+		END { exit !(n >= 5) }' d/boundary.tsv
+	crossings=$(awk -F'\t' 'NR > 1 { print $1, $2; print $3, $4 }' d/boundary.tsv | sort -u | wc -l)
+	echo "$(($(wc -l <d/measured/log) - 35)) runs for $crossings crossings"
+	[ $(($(wc -l <d/measured/log) - 35)) -le $((5 * crossings / 2)) ]
+}
+
 @test "--jobs: the same limits from several runs at a time" {
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"'
 	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >a
