@@ -141,7 +141,8 @@ later() { sed '1d; /^#/d' | awk -v from="$1" '{ if ($1 <= 20) { sum += $2; n++ }
 	# Birdsall and Langdon 1985, 8-11: aliases of the beam's plasma waves on the mesh. v0/(omega_p h) = 0.1; half the energy a wave has is 0.5 %
 	pinit langmuir -n 4096 --cells 64 --amplitude 1e-3 --dt 0.1 | scalc 'v = 0.01' >beam
 	beam() {
-		cycle -n 2000 "push kick/2 drift | p2m --kernel $1 | poisson-fft | mgrad | m2p | push kick/2" <beam | p2m --kernel "$1" | poisson-fft | mgrad >end
+		cycle -n 2000 "push kick/2 drift | p2m --kernel $1 | poisson-fft | mgrad | m2p | push kick/2" <beam |
+			p2m --kernel "$1" | poisson-fft | mgrad >end
 		diag --columns energy,momentum_x,momentum_scale <end >t
 		awk -v e="$(column energy <t)" 'BEGIN { printf "%.9g", e / (3.141592653589793 * 0.01 ^ 2) }'
 	}
