@@ -58,7 +58,8 @@ step_head() {
 		# bash docs/accuracy/atlas.sh (figure steps of docs/accuracy/).
 		# kepler (e = 0.9), kepler-circle (e = 0) and gyration: one turn; langmuir: 3.125 periods; vortex-patch: an elliptic patch of peak
 		# vorticity omega, omega t = 20. dt in units of 1/omega
-		# (kepler: the mean motion). Relative l2; nan: unstable.
+		# (kepler: the mean motion). Relative l2; nan: unstable. kepler-0.5, -0.7, -0.99, -0.999: of that eccentricity, one turn.
+		# dt-SCHEME: steps by dt --oscillation; dt in units of the 1/omega of the circle at each distance.
 	END
 	printf 'problem\tscheme\tdt\terror\tevaluations\n'
 }

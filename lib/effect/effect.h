@@ -30,6 +30,9 @@ struct pm_scales {
 	double omega;                /* [1/time] collective frequency: omega_p, sqrt(4 pi G rho), largest vorticity */
 	double encounter;            /* [1/time] of the nearest pair, softened: the fastest possible encounter */
 	double orbit, eccentricity;  /* [1/time] mean motion of the orbit with the fastest pericentre, for few bodies; NAN: none */
+	double few;                  /* bodies of all sets, fixed ones too, where there are few masses in 3-D (orbits.c); else NAN */
+	double anomaly, stated;      /* [1] mean anomaly of that orbit now; the frequency that pp states at a distance, times the 1/omega of its circle */
+	double pericentre;           /* [length] of that orbit */
 	double debye;                /* [length] v_thermal/omega */
 	double overlap, width;       /* mean |H - 1| of the particles, 0 for a lattice that represents a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
@@ -55,6 +58,9 @@ struct pm_method {
 	const char *kick;      /* half a kick: "kick/2", "boris/2" */
 	size_t cells[3];       /* 0: those of the frame's mesh */
 	double dt;             /* [time]; NAN: the frame's */
+	double follow, until;  /* steps by dt --oscillation of this number, until this time; follow NAN: steps of one length */
+	double evaluations;    /* of the force in the whole run; NAN: those of T/dt steps */
+	char warning[400];     /* what the plan cannot promise; "" nothing */
 	char why_far[160], why_mesh[160], why_step[160];
 };
 

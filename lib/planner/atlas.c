@@ -39,21 +39,43 @@ double pm_atlas_force_error(const char *scene, const char *solver, const char *k
 	return r[i - 1].error * pow(h / r[i - 1].x, h < r[0].x ? fmin(p, 2) : p); /* below the measured range an error falls at most as h^2 */
 }
 
-double pm_atlas_longest(const char *problem, const char *scheme, double error)
+struct pm_atlas_found pm_atlas_find(const char *problem, const char *scheme, double error)
 {
 	struct row r[MOST];
 	int n = 0, i = 0;
+	double work = NAN; /* evaluations times step: the same in every row, but for starting and rounding */
 	for (const struct pm_atlas_step *s = pm_atlas_steps; s->problem; s++)
-		if (!strcmp(s->problem, problem) && !strcmp(s->scheme, scheme))
+		if (!strcmp(s->problem, problem) && !strcmp(s->scheme, scheme)) {
 			insert(r, &n, s->dt, s->error);
+			work = s->evaluations * s->dt;
+		}
 	if (n < 2)
-		return NAN;
+		return (struct pm_atlas_found){.dt = NAN, .evaluations = NAN};
 	while (i < n && r[i].error <= error) /* starts with the shortest step, because a long step may have a small error by chance */
 		i++;
-	if (i == n)
-		return r[n - 1].x;
 	const int a = i ? i - 1 : 0;
-	return r[a].x * pow(error / r[a].error, 1 / fmax(0.5, slope(&r[a], &r[a + 1])));
+	const double dt = i == n ? r[n - 1].x : r[a].x * pow(error / r[a].error, 1 / fmax(0.5, slope(&r[a], &r[a + 1])));
+	return (struct pm_atlas_found){.dt = dt, .evaluations = work / dt, .outside = i == 0};
+}
+
+double pm_atlas_longest(const char *problem, const char *scheme, double error) { return pm_atlas_find(problem, scheme, error).dt; }
+
+static double speed2(double e) { return (1 + e) / pow(1 - e, 3); }
+
+struct pm_atlas_found pm_atlas_orbit(double e, const char *scheme, double error)
+{
+	static const struct {
+		double e;
+		const char *problem;
+	} at[] = {{0, "kepler-circle"}, {0.5, "kepler-0.5"}, {0.7, "kepler-0.7"}, {0.9, "kepler"}, {0.99, "kepler-0.99"}, {0.999, "kepler-0.999"}};
+	enum { LAST = sizeof at / sizeof *at - 2 };
+	int i = 0;
+	while (i < LAST && e > at[i + 1].e)
+		i++;
+	const struct pm_atlas_found a = pm_atlas_find(at[i].problem, scheme, error), b = pm_atlas_find(at[i + 1].problem, scheme, error);
+	const double w = log(speed2(e) / speed2(at[i].e)) / log(speed2(at[i + 1].e) / speed2(at[i].e));
+	return (struct pm_atlas_found){.dt = a.dt * pow(b.dt / a.dt, w), .evaluations = a.evaluations * pow(b.evaluations / a.evaluations, w),
+		.outside = a.outside || b.outside || !(e <= at[LAST + 1].e * (1 + 1e-12))};
 }
 
 double pm_atlas_time(const char *problem)

@@ -11,8 +11,9 @@ struct pm_atlas_force {
 	double h, error, ns;                    /* spacing over the scene's length; relative l2 (NAN: failed); per particle and evaluation */
 };
 struct pm_atlas_step {
-	const char *problem, *scheme; /* kepler, kepler-circle, langmuir, vortex-patch, gyration; kdk, rk4 ... */
-	double dt, error, evaluations; /* in units of 1/omega; relative, after the problem's time; force evaluations in that time */
+	const char *problem, *scheme; /* kepler, kepler-circle, langmuir, vortex-patch, gyration; kdk, rk4 ...; dt-rk4: with dt --oscillation */
+	/* in units of 1/omega, with dt-: of the circle at each distance; relative, after the problem's time; force evaluations in that time */
+	double dt, error, evaluations;
 };
 extern const struct pm_atlas_force pm_atlas_forces[]; /* generated; scene NULL ends */
 extern const struct pm_atlas_step pm_atlas_steps[];   /* problem NULL ends */
@@ -22,6 +23,15 @@ extern const struct pm_atlas_step pm_atlas_steps[];   /* problem NULL ends */
 double pm_atlas_force_error(const char *scene, const char *solver, const char *kernel, const char *gradient, double h);
 /* Longest step, in units of 1/omega, whose error is at most this; NAN: not measured. */
 double pm_atlas_longest(const char *problem, const char *scheme, double error);
+
+struct pm_atlas_found {
+	double dt, evaluations; /* of the longest step that reaches an error, in units of 1/omega, and of the force in the problem's time; NAN: not measured */
+	bool outside;           /* extrapolated beyond the smallest error measured */
+};
+struct pm_atlas_found pm_atlas_find(const char *problem, const char *scheme, double error);
+/* Orbits of this eccentricity, between those that were measured: logarithms are linear in that of (1 + e)/(1 - e)^3, the square of the pericentre's angular
+ * speed. outside: e is beyond the last one measured, too. */
+struct pm_atlas_found pm_atlas_orbit(double eccentricity, const char *scheme, double error);
 /* The time at which these errors were measured, in units of 1/omega; NAN: no such problem. */
 double pm_atlas_time(const char *problem);
 

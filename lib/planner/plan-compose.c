@@ -52,13 +52,25 @@ static void push(const struct pm_plan *p, struct pm_words *w, enum pm_slot slot,
 	pm_words_add(w, slot, words, "%s", reason);
 }
 
+/* Steps that follow the fastest orbit: before the push that begins one, and after the force. */
+static void follow(const struct pm_plan *p, struct pm_words *w, enum pm_slot slot)
+{
+	char words[160];
+	snprintf(words, sizeof words, "dt --oscillation %.6g --until %.17g", p->method.follow, p->method.until);
+	if (!isnan(p->method.follow))
+		pm_words_add(w, slot, words, "%s", "as short as the fastest orbit needs, the last ones to the end");
+}
+
 static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 {
+	const bool leaps = forced && p->scales.second && !strcmp(p->method.scheme, "leapfrog");
 	char actions[32];
+	if (forced)
+		follow(p, w, leaps ? PM_SLOT_OPENING : PM_SLOT_CLOSING);
 	if (!forced) {
 		p->method.dt = NAN; /* any step is possible */
 		push(p, w, PM_SLOT_OPENING, true, "drift", "no force: straight lines");
-	} else if (p->scales.second && !strcmp(p->method.scheme, "leapfrog")) {
+	} else if (leaps) {
 		snprintf(actions, sizeof actions, "%s drift", p->method.kick);
 		push(p, w, PM_SLOT_OPENING, true, actions, p->method.why_step);
 		push(p, w, PM_SLOT_CLOSING, false, p->method.kick, "the second half of the kick");

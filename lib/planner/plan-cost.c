@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "planner/plan.h"
+#include "step/step.h"
 
 /* ---- statistics of the blocks ---- */
 
@@ -70,7 +71,17 @@ static double steps_of(const struct pm_plan *p, double dt) { return fmax(0, ceil
 
 static double step_of(const struct pm_frame *f, const struct pm_plan *p) { return isnan(p->method.dt) ? f->dt : p->method.dt; }
 
-double pm_plan_steps(const struct pm_frame *f, const struct pm_plan *p) { return steps_of(p, step_of(f, p)); }
+/* Of a plan that follows an orbit, by the evaluations of the force that the atlas or the trials needed. */
+static double followed(const struct pm_plan *p)
+{
+	const struct pm_step *scheme = strcmp(p->method.scheme, "leapfrog") ? pm_step_find(p->method.scheme) : NULL;
+	return isnan(p->method.follow) ? NAN : ceil(p->method.evaluations / (scheme ? scheme->passes : 1));
+}
+
+double pm_plan_steps(const struct pm_frame *f, const struct pm_plan *p)
+{
+	return isfinite(followed(p)) ? followed(p) : steps_of(p, step_of(f, p));
+}
 
 static double bytes(const struct pm_field *field) { return (double)field->count * field->components * (double)pm_type_size(field->type); }
 
@@ -107,7 +118,7 @@ int pm_plan_price(const struct pm_frame *f, struct pm_plan *p)
 	const double dt = step_of(f, p), advance = fabs(g->time - f->time) / t.steps; /* a sentence may choose its steps itself */
 	spread(&t, &c->step, &c->low, &c->high);
 	c->varies = fabs(advance / dt - 1) > 1e-6 && fabs(advance / -dt - 1) > 1e-6;
-	c->steps = steps_of(p, c->varies ? advance : dt);
+	c->steps = isfinite(followed(p)) ? followed(p) : steps_of(p, c->varies ? advance : dt);
 	c->begin = fmax(t.first - c->step, 0);
 	c->processor = t.processor;
 	c->load = t.load;

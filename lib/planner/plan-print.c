@@ -76,6 +76,8 @@ static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *w
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
 {
 	stages(out, p, cost);
+	if (*p->method.warning)
+		fprintf(out, "#\n# not promised: %s\n", p->method.warning);
 	fprintf(out, "#\n# effects, for relative changes above %g within T = %g\n", p->scales.accuracy, p->scales.time);
 	effects(out, p, cost, "needed");
 	effects(out, p, cost, "error");

@@ -70,6 +70,18 @@ struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int
 	return ended(g, s, sentence, status);
 }
 
+struct pm_frame *pm_plan_run_until(const struct pm_frame *f, const char *sentence, double time, size_t *passes)
+{
+	struct pm_sentence *s = silent(sentence);
+	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
+	int status = g ? prime(s, &g) : pm_failed();
+	while (!status && *passes && fabs(g->time - time) > 1e-9 * fabs(g->dt)) {
+		status = pm_sentence_pass(s, &g);
+		--*passes;
+	}
+	return ended(g, s, sentence, status);
+}
+
 /* ---- timed ---- */
 
 /* Wall, all processors, and the thread that leads: on a quiet machine it works all the time. */

@@ -11,7 +11,6 @@
 struct clock {
 	const char *problem;
 	double omega;        /* [1/time] */
-	double eccentricity; /* kepler: between the circle and 0.9; else NAN */
 	bool steady;         /* it is constant in time, so steps may be longer than the frame's */
 	const char *what;
 };
@@ -24,40 +23,35 @@ static double at_error(const char *problem, const char *scheme, const struct clo
 	return pm_atlas_longest(problem, scheme, s->accuracy / grown);
 }
 
-/* [time] longest step of a scheme. Orbits: by the frequency at the pericentre, with log dt interpolated between the circle and e = 0.9. */
-static double longest(const struct clock *c, const char *scheme, const struct pm_scales *s)
-{
-	if (isnan(c->eccentricity))
-		return at_error(c->problem, scheme, c, s) / c->omega;
-	const double e = c->eccentricity, w = log((1 + e) / pow(1 - e, 3)) / log(1.9 / 0.001);
-	const double circle = at_error("kepler-circle", scheme, c, s), ellipse = at_error("kepler", scheme, c, s);
-	return circle * pow(ellipse / circle, w) / c->omega;
-}
+/* [time] longest step of a scheme. */
+static double longest(const struct clock *c, const char *scheme, const struct pm_scales *s) { return at_error(c->problem, scheme, c, s) / c->omega; }
 
 static struct clock clock_of(const struct pm_plan *p)
 {
 	const struct pm_scales *s = &p->scales;
-	struct clock c = {.problem = "langmuir", .omega = s->omega, .eccentricity = NAN, .steady = s->kind == PM_CHARGES,
+	struct clock c = {.problem = "langmuir", .omega = s->omega, .steady = s->kind == PM_CHARGES,
 		.what = s->kind == PM_CHARGES ? "omega_p" : "orbits"};
 	if (s->kind == PM_VORTICES && (s->pairs || s->singular))
-		c = (struct clock){.problem = "kepler-circle", .omega = fmax(s->encounter, s->self_max / s->spread), .eccentricity = NAN, .steady = s->n < 64,
+		c = (struct clock){.problem = "kepler-circle", .omega = fmax(s->encounter, s->self_max / s->spread), .steady = s->n < 64,
 			.what = "the nearest pair"};
 	else if (s->kind == PM_VORTICES)
-		c = (struct clock){.problem = "vortex-patch", .omega = s->omega, .eccentricity = NAN, .steady = true, .what = "the vorticity"};
+		c = (struct clock){.problem = "vortex-patch", .omega = s->omega, .steady = true, .what = "the vorticity"};
 	else if (s->kind == PM_CHARGES && s->cyclotron * s->time > s->accuracy && (s->cyclotron > s->omega || s->sources < 2))
-		c = (struct clock){.problem = "gyration", .omega = s->cyclotron, .eccentricity = NAN, .steady = true, .what = "the gyration"};
-	else if (s->pairs && !isnan(s->orbit))
-		c = (struct clock){.problem = "kepler", .omega = s->orbit, .eccentricity = s->eccentricity, .steady = true, .what = "the orbit"};
+		c = (struct clock){.problem = "gyration", .omega = s->cyclotron, .steady = true, .what = "the gyration"};
 	else if (s->pairs)
-		c = (struct clock){.problem = "langmuir", .omega = fmax(s->omega, sqrt(s->self_max / s->spread)), .eccentricity = NAN, .steady = false,
+		c = (struct clock){.problem = "langmuir", .omega = fmax(s->omega, sqrt(s->self_max / s->spread)), .steady = false,
 			.what = "orbits"};
 	return c;
 }
 
+/* The waves of the atlas are cold: in the long steps of a composition no particle may pass through structures of the mesh. */
+static bool crosses(const struct pm_scales *s, double dt) { return !s->pairs && s->v_max * dt > s->h; }
+
 /* The cheapest scheme and its longest step. */
 static double cheapest(struct pm_plan *p, const struct clock *c)
 {
-	static const char *const second[] = {"kdk", "rk4", "lsrk3", NULL}, *const first[] = {"lsrk3", "rk4", NULL}, *const magnetic[] = {"boris", NULL};
+	static const char *const second[] = {"kdk", "rk4", "lsrk3", "yoshida4", "yoshida6", "blanes-moan4", "blanes-moan6", NULL},
+		*const first[] = {"lsrk3", "rk4", NULL}, *const magnetic[] = {"boris", NULL};
 	const struct pm_scales *s = &p->scales;
 	const bool turns = s->cyclotron * s->time > s->accuracy, field = s->kind == PM_VORTICES && !s->pairs && !s->singular;
 	const bool heavy = s->v_max * s->v_max > 0.5 * s->accuracy * s->c * s->c; /* relativity comes in: its kick is one of leapfrog */
@@ -67,6 +61,8 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 		const char *word = !strcmp(*name, "kdk") || !strcmp(*name, "boris") ? "leapfrog" : *name;
 		const struct pm_step *step = strcmp(word, "leapfrog") ? pm_step_find(word) : NULL;
 		const double here = longest(c, turns && strcmp(c->problem, "gyration") ? "kdk" : *name, s), cost = (step ? step->passes : 1) / here;
+		if (step && step->drifts && crosses(s, here))
+			continue;
 		const bool steady = c->steady || !strcmp(word, "leapfrog") || !s->second;
 		if (here > 0 && steady && cost < (least < HUGE_VAL ? 0.8 : 1) * least && (!field || !strcmp(word, "lsrk3")))
 			least = cost, dt = here, p->method.scheme = word;
@@ -82,7 +78,7 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 	double viscous = HUGE_VAL;
 	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
-	if (s->pairs && s->second && isnan(s->orbit) && dt > 0.5 / s->encounter) /* a quarter of the stability limit of leapfrog */
+	if (s->pairs && s->second && !(s->few > 1) && dt > 0.5 / s->encounter) /* a quarter of the stability limit of leapfrog */
 		*what = "encounters", dt = 0.5 / s->encounter;
 	if (s->kind != PM_VORTICES || s->pairs || (s->singular && !(s->nu > 0)))
 		return dt;
@@ -101,18 +97,40 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 	return fmin(dt, fmin(strain, viscous));
 }
 
-void pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
+/* Steps that follow the fastest orbit: they need no comparison with the frame's. */
+static void follow(const struct pm_frame *f, struct pm_plan *p, const char *what)
+{
+	struct pm_method *m = &p->method;
+	m->until = f->time + (f->dt < 0 ? -1 : 1) * p->scales.time;
+	snprintf(m->why_step, sizeof m->why_step, "%s, steps of %.2g/omega of the fastest orbit: for %.1g by %s", m->scheme, m->follow, p->scales.accuracy,
+		what);
+}
+
+int pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_method *m = &p->method;
 	struct pm_scales *s = &p->scales;
 	struct clock c = clock_of(p);
-	const char *what = c.what;
-	double allowed = c.omega > 0 ? cheapest(p, &c) : NAN;
+	const bool few = s->pairs && s->second && s->few > 1 && s->self > 0 && !(s->cyclotron > 0) && !(s->given > 0);
+	const bool pair = few && s->few < 3 && !isnan(s->orbit) && !(pow(s->softening / s->pericentre, 2) > 0.01 * s->accuracy) && pm_plan_orbit(p);
+	int status = few && !pair ? pm_plan_trial(f, p) : 0;
+	char orbit[64] = "trials with these bodies";
+	if (status)
+		return status;
+	if (pair)
+		snprintf(orbit, sizeof orbit, "the orbit, e = %.4g", s->eccentricity), c.steady = true;
+	if (!isnan(m->follow)) {
+		follow(f, p, orbit);
+		return 0;
+	}
+	const char *what = few ? orbit : c.what;
+	double allowed = few ? m->dt : c.omega > 0 ? cheapest(p, &c) : NAN;
+	m->dt = NAN;
 	allowed = bounded(f, p, isnan(allowed) ? HUGE_VAL : allowed, &what);
 	const double dt = fabs(f->dt), back = f->dt < 0 ? -1 : 1;
 	if (!isfinite(allowed)) {
 		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame", m->scheme, f->dt);
-	} else if (dt > 0 && allowed > 0.9 * dt && (allowed < 1.25 * dt || !c.steady)) {
+	} else if (dt > 0 && allowed > (few ? 1 : 0.9) * dt && (allowed < 1.25 * dt || !c.steady)) {
 		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g of the frame; %.2g is short enough for %.1g: %s", m->scheme, f->dt, allowed,
 			s->accuracy, what);
 	} else {
@@ -120,4 +138,5 @@ void pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 		s->dt = m->dt;
 		snprintf(m->why_step, sizeof m->why_step, "%s, dt = %.3g: for %.1g by %s", m->scheme, m->dt, s->accuracy, what);
 	}
+	return 0;
 }

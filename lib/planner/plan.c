@@ -174,7 +174,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		pm_plan_few_bodies(f, p);
 	status = status ? status : measure_force(f, p, NULL);
 	if (!status)
-		pm_plan_mesh(f, p), pm_plan_cure(f, p), pm_plan_step(f, p);
+		pm_plan_mesh(f, p), pm_plan_cure(f, p);
+	status = status ? status : pm_plan_step(f, p);
 	if (!status && p->method.dt == 0)
 		return pm_fail(PM_DATA, "two particles in one place have forces without bound, and no step is short enough (smod --constant softening=LENGTH)");
 	status = status ? status : measure_own(f, p);

@@ -83,7 +83,11 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
 double pm_plan_cost_mesh(const struct pm_scales *s); /* [ns] of a step on a mesh */
 void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p); /* plan-cure.c: more cells where an error of the method is too large */
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
-void pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
+int pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
+/* orbit-scheme.c: of a pair, by the atlas: true if it was measured there. */
+bool pm_plan_orbit(struct pm_plan *p);
+/* orbit-trial.c: of few bodies that the atlas does not hold, by trials with the frame itself. 0 or failure. */
+int pm_plan_trial(const struct pm_frame *f, struct pm_plan *p);
 
 /* plan-cost.c: what the run costs, from steps timed; */
 int pm_plan_price(const struct pm_frame *f, struct pm_plan *p);
@@ -101,6 +105,8 @@ json_t *pm_plan_cost_json(const struct pm_plan *p);
 struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int steps);
 /* The same for as many steps as it takes to know their seconds, in blocks of a multiple of `period` steps; at most `most` steps if that is a block or more. */
 struct pm_frame *pm_plan_time(const struct pm_frame *f, const char *sentence, int period, double most, struct pm_plan_timing *t);
+/* Until this time, or until so many passes of the sentence are used up (one evaluation of the force each), which are counted down. */
+struct pm_frame *pm_plan_run_until(const struct pm_frame *f, const char *sentence, double time, size_t *passes);
 /* Runs the words that make fields from state, once. */
 struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence);
 struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence); /* without the fields on meshes: these are large */

@@ -16,7 +16,12 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* sampling.c: the particles as a sample of a smooth density. 0 or failure. */
 int pm_scales_sampling(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
-/* orbits.c: for few bodies. */
+/* orbits.c: for few bodies, at most PM_SCALES_FEW; their number. */
+struct pm_orbit_body {
+	double x[3], v[3], mass;
+	bool fixed;
+};
+size_t pm_orbit_bodies(const struct pm_frame *f, const struct pm_law *law, struct pm_orbit_body b[PM_SCALES_FEW]);
 void pm_scales_orbits(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 
 #endif
