@@ -51,6 +51,13 @@ velocity() { stab "$1" | grep -v '^#' | awk 'NR == 1 { for (i = 1; i <= NF; i++)
 	[[ "$output" = *"has the speed 0.1, and c is 0.05"* ]]
 }
 
+@test "two vortices that merge: the step gets shorter once, when their strain has grown" {
+	two='exp(-((x.x-3.14159-0.8)^2+(x.y-3.14159)^2)/0.1) + exp(-((x.x-3.14159+0.8)^2+(x.y-3.14159)^2)/0.1)'
+	pinit ellipse --cells 64 --nu 0 --dt 0.02 | scalc --extensive "circulation = volume*5*($two)" >start
+	cycle -t 5 --plan --accuracy 0.05 --again 25 <start 2>said >again
+	[ "$(grep -c '^cycle: step 25, time .*: dt [0-9.]* instead of [0-9.]*$' said)" = 1 ]
+}
+
 @test "a change is a line on standard error, in the history with its step, in the report, and in the attribute plan" {
 	sphere | cycle -t 1.3 --plan --again 20 --every 20 2>said >run
 	[ "$(grep -c '^cycle: step [0-9]*, time [0-9.]*: dt [0-9.e-]* instead of [0-9.e-]*$' said)" = "$(wc -l <said)" ]
