@@ -41,6 +41,11 @@ echo '| run | 0.1 | 0.01 | 0.001 |'
 echo '|---|---|---|---|'
 set=matter
 row 'kepler, e = 0.9, one turn: place' back $turn kepler
+row 'kepler, e = 0.9, ten turns: place' back 62.83185307179586 kepler
+row 'kepler, e = 0.99, one turn: place' back $turn kepler --eccentricity 0.99
+row 'kepler, e = 0.99, ten turns: place' back 62.83185307179586 kepler --eccentricity 0.99
+row 'kepler, e = 0.999, one turn: place' back $turn kepler --eccentricity 0.999
+row 'kepler, e = 0.999, ten turns: place' back 62.83185307179586 kepler --eccentricity 0.999
 row 'two-body, ten turns: place' back 62.83185307179586 two-body
 row 'plummer, 2000 bodies, t = 1: places' finer 1 plummer -n 2000
 row 'langmuir, t = 10: velocities' swing 10 langmuir
