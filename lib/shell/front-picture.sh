@@ -31,7 +31,8 @@ front_points() {
 			style = methods > 12 ? "points" : "both"
 			print m, f[5], f[time], front ? "-" : f[bar], label, style, front ? 0 : 1, size ? f[first + size] : 0, front ? f[time] : f[1]
 		}
-	}' "$1" | { IFS= read -r head; printf '%s\n' "$head"; sort -t $'\t' -s -k7,7n -k8,8g -k9,9g | cut -f1-6; }
+	}' "$1" | { IFS= read -r head; printf '%s\n' "$head"; sort -t $'\t' -s -k7,7n -k8,8g -k9,9g | cut -f1-6 |
+		awk -F'\t' '/^Pareto front/ { if (($1 in low) && $2 + 0 >= low[$1]) next; low[$1] = $2 + 0 } { print }'; } # ties are points, not steps
 }
 
 # plot DIRECTORY: points.tsv, pareto.svg and pareto.png there; sets picture_command.
