@@ -13,7 +13,7 @@ enum { AXIS, ECCENTRICITY, SOFTENING };
 
 static const struct pm_scene_parameter rows[] = {
 	{.name = "semi-major", .unit = "length", .otherwise = 1, .low = 1e-100, .high = 1e100, .text = "semi-major axis of the orbit"},
-	{.name = "eccentricity", .otherwise = 0.9, .high = 0.999, .text = "0 a circle"},
+	{.name = "eccentricity", .otherwise = 0.9, .high = 0.99999, .text = "0 a circle"},
 	{.name = "softening", .unit = "length", .high = 1e6, .text = "softening length of direct sums; 0 is stated, so that the orbit is Kepler's"},
 	{0},
 };
