@@ -8,7 +8,7 @@ struct config {
 	struct pm_plan_choice choice;
 	bool check, sentence, no_cost;
 	int64_t steps;
-	const char *format;
+	const char *format, *instead;
 };
 
 struct state {
@@ -20,6 +20,8 @@ static int begin(struct pm_stage *s)
 	const struct config *o = s->config;
 	if (pm_given(s, "steps") && !o->check)
 		return pm_fail(PM_USAGE, "-n belongs to --check (the end of the run is -t)");
+	if (*o->instead && !o->check)
+		return pm_fail(PM_USAGE, "--instead belongs to --check");
 	for (int i = 0; i < o->choice.on.n; i++)
 		for (int k = 0; k < o->choice.off.n; k++)
 			if (!strcmp(o->choice.on.item[i], o->choice.off.item[k]))
@@ -51,14 +53,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (state->frames++ && !o->sentence && strcmp(o->format, "json"))
 		putchar('\n');
 	if (o->check)
-		return pm_plan_prove(stdout, f, &p, (int)o->steps);
+		return pm_plan_prove(stdout, f, &p, pm_given(s, "steps") ? o->steps : 0, *o->instead ? o->instead : NULL, !strcmp(o->format, "json"));
 	if (o->sentence)
 		puts(p.sentence);
 	else if (!strcmp(o->format, "json"))
 		pm_plan_print_json(stdout, &p, o->choice.cost);
 	else
 		pm_plan_print(stdout, &p, o->choice.cost);
-	return 0;
+	return *p.refused ? pm_fail(PM_NUMERICS, "%s", p.refused) : 0;
 }
 
 static const char *const formats[] = {"text", "json", NULL};
@@ -70,9 +72,11 @@ static const struct pm_option options[] = {
 	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on),
 		.text = "always include these effects"},
 	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "never include these effects"},
-	{.name = "check", .kind = PM_FLAG, PM_AT(check), .text = "run a few steps with and without every effect; exit 3 if a decision was wrong"},
-	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .fallback = "4", .low = 1, .high = 1e9, PM_AT(steps),
-		.text = "number of steps of --check"},
+	{.name = "check", .kind = PM_FLAG, PM_AT(check),
+		.text = "test every effect and every choice (step, mesh, kernel ...) by runs without it; exit 3 if the accuracy is missed"},
+	{.name = "steps", .letter = 'n', .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e9, PM_AT(steps),
+		.text = "number of steps of --check (default: the run, if that is affordable)"},
+	{.name = "instead", .kind = PM_TEXT, .unit = "SENTENCE", .fallback = "", PM_AT(instead), .text = "--check tests this sentence, not plan's"},
 	{.name = "sentence", .kind = PM_FLAG, PM_AT(sentence), .text = "print only the sentence, for cycle"},
 	{.name = "no-cost", .kind = PM_FLAG, PM_AT(no_cost), .text = "omit measured seconds, so that the output is reproducible"},
 	{.name = "format", .kind = PM_WORD, .fallback = "text", .choices = formats, PM_AT(format), .text = "text, or one JSON object per line"},

@@ -34,6 +34,8 @@ static bool warns(const struct pm_plan_effect *e) { return !strcmp(answer(e), "n
 void pm_plan_warn(const struct pm_plan *p, const char *tool, FILE *out)
 {
 	char name[64];
+	if (*p->refused || *p->unproved)
+		fprintf(out, "%s: %s\n", tool, *p->refused ? p->refused : p->unproved);
 	for (int i = 0; i < p->neffects; i++)
 		if (warns(&p->effect[i])) {
 			fprintf(out, "%s: %s: %s", tool, label(p->effect[i].effect, name), p->effect[i].decision.text);
@@ -75,6 +77,8 @@ static void effects(FILE *out, const struct pm_plan *p, bool cost, const char *w
 
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
 {
+	if (*p->refused || *p->unproved)
+		fprintf(out, "# %s\n", *p->refused ? p->refused : p->unproved);
 	stages(out, p, cost);
 	if (*p->method.warning)
 		fprintf(out, "#\n# not promised: %s\n", p->method.warning);
@@ -93,6 +97,10 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 {
 	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy),
 		"time", number(p->scales.time), "stages", "effects", "warnings");
+	if (*p->refused)
+		json_object_set_new(all, "refused", json_string(p->refused));
+	if (*p->unproved)
+		json_object_set_new(all, "unproved", json_string(p->unproved));
 	for (int i = 0; i < p->nstages; i++) {
 		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
 		if (cost)
@@ -134,16 +142,4 @@ void pm_plan_print_proof(FILE *out, const struct pm_plan *p, int steps, const st
 		fprintf(out, "%-18s %-6s %10s  %-12s %s\n", label(e->effect, name), answer(e), text, of, proof[i].tried ? proof[i].verdict : untried(e));
 	}
 	fprintf(out, "# relative to a run of T = %g, from %d steps; above %g it matters\n", p->scales.time, steps, p->scales.accuracy);
-}
-
-int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int steps)
-{
-	struct pm_plan_proof proof[PM_EFFECTS];
-	int status = pm_plan_check(f, p, steps, proof), wrong = 0;
-	if (status)
-		return status;
-	pm_plan_print_proof(out, p, steps, proof);
-	for (int i = 0; i < p->neffects; i++)
-		wrong += proof[i].wrong;
-	return wrong ? pm_fail(PM_NUMERICS, "%d decision%s wrong", wrong, wrong > 1 ? "s were" : " was") : 0;
 }

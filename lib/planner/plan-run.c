@@ -2,7 +2,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "planner/plan.h"
+#include "planner/trial.h"
 #include "sentence/sentence.h"
 #include "stream/run.h"
 
@@ -178,4 +178,48 @@ struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence)
 		return NULL;
 	pm_drops_roles(g, NULL, 1u << PM_DERIVED);
 	return pm_frame_settle(g) ? pm_frame_free(g) : g;
+}
+
+struct pm_frame *pm_trial_pass(const struct pm_frame *f, const char *words)
+{
+	struct pm_sentence *s = silent(words);
+	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
+	int status = g ? pm_sentence_pass(s, &g) : pm_failed();
+	if (status)
+		return failed(g, s, words, status);
+	pm_sentence_free(s);
+	return g;
+}
+
+void pm_trial_run_free(struct pm_trial_run *r)
+{
+	r->half = pm_frame_free(r->half);
+	r->end = pm_frame_free(r->end);
+}
+
+int pm_trial_run(const struct pm_frame *f, const char *sentence, double middle, double to, int64_t most, struct pm_trial_run *r)
+{
+	struct pm_sentence *s = silent(sentence);
+	const double back = to < f->time ? -1 : 1;
+	*r = (struct pm_trial_run){.end = s ? pm_plan_bare(f) : NULL};
+	int status = r->end ? prime(s, &r->end) : pm_failed();
+	for (bool there = false; !status && !there; r->steps++) {
+		status = step(s, &r->end);
+		const double left = back * (to - r->end->time), near = 1e-6 * fabs(r->end->dt);
+		if (!status && !r->half && back * (middle - r->end->time) <= near)
+			status = (r->half = pm_plan_bare(r->end)) ? 0 : pm_failed();
+		there = left <= near || r->steps + 1 >= most;
+	}
+	struct pm_frame *bare = status ? NULL : pm_plan_bare(r->end); /* without the meshes of its last force */
+	status = status || bare ? status : pm_failed();
+	if (status) {
+		pm_frame_free(r->half);
+		failed(r->end, s, sentence, status);
+		*r = (struct pm_trial_run){.end = NULL};
+		return pm_failed();
+	}
+	pm_sentence_free(s);
+	pm_frame_free(r->end);
+	r->end = bare;
+	return 0;
 }

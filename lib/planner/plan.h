@@ -60,6 +60,8 @@ struct pm_plan {
 	char sentence[PM_PLAN_TEXT];
 	double force; /* seconds for the force of the frame */
 	struct pm_plan_cost cost;
+	char refused[300];  /* rounding and chaos forbid the accuracy; "": they do not, or it was not tested */
+	char unproved[200]; /* and why not; "" */
 };
 
 /* For a frame with all its data in memory. 0 or failure. */
@@ -124,9 +126,17 @@ int pm_plan_check(const struct pm_frame *f, const struct pm_plan *p, int steps, 
 /* The seconds saved by leaving out each effect, from a step with it; to be called after the stages were measured. */
 int pm_plan_savings(const struct pm_frame *f, struct pm_plan *p);
 
+/* plan-digits.c: a copy between steps whose state is moved by its last bit, up or down by the seed. */
+struct pm_frame *pm_digits_moved(const struct pm_frame *f, uint64_t seed);
+/* Writes refused, or unproved, where orbits may part within the run. 0 or failure. */
+enum { PM_DIGITS_FEW = 64 };
+int pm_plan_digits(const struct pm_frame *f, struct pm_plan *p);
+
+/* plan-prove.c: tests effects and choices, prints what it finds, and a sentence that passes where this one does not. PM_NUMERICS if a decision was wrong or
+ * the error exceeds the accuracy. steps: 0 as many as are affordable; instead: a sentence to test instead of the plan's, NULL none. */
+int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int64_t steps, const char *instead, bool json);
+
 /* plan-print.c */
-/* Runs the check and prints it; PM_NUMERICS if a decision was wrong. */
-int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int steps);
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);
 /* A line for each effect that the sentence lacks, and for each error above the accuracy. */
 void pm_plan_warn(const struct pm_plan *p, const char *tool, FILE *out);
