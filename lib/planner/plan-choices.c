@@ -6,7 +6,7 @@
 #include "planner/choices.h"
 #include "step/step.h"
 
-static const struct pm_edit_option dt = {"dt", 0}, every = {"every", 0};
+static const struct pm_edit_option dt = {"dt", 0}, tolerance = {"tolerance", 0}, every = {"every", 0};
 
 /* ---- what the sentence says ---- */
 
@@ -41,10 +41,22 @@ static int setter(const struct pm_edit *e, char value[64])
 	return -1;
 }
 
+/* The push of ias15, which chooses its steps; -1 none. */
+static int chooser(const struct pm_edit *e, char value[64])
+{
+	for (int w = -1; (w = pm_edit_find(e, "push", w + 1)) >= 0;)
+		if (pm_edit_says(e, w, "ias15")) {
+			if (!pm_edit_value(e, w, tolerance, value))
+				snprintf(value, 64, "1e-9");
+			return strtod(value, NULL) > 0 ? w : -1;
+		}
+	return -1;
+}
+
 double pm_choice_step(const struct pm_edit *e, const struct pm_frame *f)
 {
 	char value[64];
-	return pm_edit_find(e, "dt", 0) >= 0 ? NAN : setter(e, value) >= 0 ? strtod(value, NULL) : f->dt;
+	return pm_edit_find(e, "dt", 0) >= 0 || chooser(e, value) >= 0 ? NAN : setter(e, value) >= 0 ? strtod(value, NULL) : f->dt;
 }
 
 /* ---- time ---- */
@@ -90,6 +102,12 @@ static int half_step(const struct pm_plan *p, struct pm_edit *e, struct pm_frame
 	(void)p;
 	if (w >= 0)
 		return shorter_rules(e, w, from, to) && keep_intervals(e);
+	if ((w = chooser(e, value)) >= 0) { /* its step goes as the 7th root of its tolerance */
+		snprintf(from, 48, "tolerance %.32s", value);
+		snprintf(value, sizeof value, "%.3g", strtod(value, NULL) / 128);
+		snprintf(to, 48, "%.32s", value);
+		return pm_edit_set(e, w, tolerance, value);
+	}
 	const double step = pm_choice_step(e, *f);
 	const int at = setter(e, value);
 	w = at >= 0 ? at : pm_edit_find(e, "push", 0);

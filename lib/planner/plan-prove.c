@@ -21,7 +21,16 @@ static void where(const struct pm_trial *t, const struct pm_plan *p, char text[1
 		snprintf(text, 160, "over %.2g of the run, %lld steps, and continued to T = %g", t->part, (long long)t->steps, p->scales.time);
 }
 
-static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_plan *p)
+/* An effect that the plan needs and has no word for; NULL none. A plan that says so has not decided wrongly. */
+static const char *lacking(const struct pm_plan *p)
+{
+	for (int i = 0; i < p->neffects; i++)
+		if (p->effect[i].lacking)
+			return p->effect[i].effect->name;
+	return NULL;
+}
+
+static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_plan *p, const char *lacks)
 {
 	char difference[24], error[24], change[100], text[160];
 	fprintf(out, "#\n%-10s %-34s %10s %10s  %s\n", "choice", "changed", "difference", "error", "by");
@@ -33,8 +42,10 @@ static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_pla
 	}
 	where(t, p, text);
 	fprintf(out, "# relative differences of %s, %s; %.0f forces in all\n", t->of, text, t->evaluations);
-	fprintf(out, "# error %.2g +- %.1g, accuracy %g: %s%s\n", t->error, t->uncertain, p->scales.accuracy, verdicts[t->verdict],
-		t->part < 1 && t->verdict == PM_TRIAL_PASS ? ", as far as tested (-n tests more)" : "");
+	fprintf(out, "# error %.2g +- %.1g, accuracy %g: %s", t->error, t->uncertain, p->scales.accuracy, verdicts[t->verdict]);
+	if (t->verdict == PM_TRIAL_FAIL && lacks)
+		fprintf(out, ", as the plan says itself: %s is needed, and has no word", lacks);
+	fputs(t->part < 1 && t->verdict == PM_TRIAL_PASS ? ", as far as tested (-n tests more)\n" : "\n", out);
 }
 
 static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
@@ -91,14 +102,14 @@ static void print_json(FILE *out, const struct pm_plan *p, const struct pm_plan_
 	json_decref(all);
 }
 
-static int say(int wrong, const struct pm_trial *t, const struct pm_plan *p)
+static int say(int wrong, bool fails, const struct pm_trial *t, const struct pm_plan *p)
 {
 	if (wrong)
 		return pm_fail(PM_NUMERICS, "%d decision%s wrong%s", wrong, wrong > 1 ? "s were" : " was",
-			t->verdict == PM_TRIAL_FAIL ? ", and the accuracy is missed" : "");
+			fails ? ", and the accuracy is missed" : "");
 	if (*p->refused)
 		return pm_fail(PM_NUMERICS, "%s", p->refused);
-	if (t->verdict != PM_TRIAL_FAIL)
+	if (!fails)
 		return 0;
 	return pm_fail(PM_NUMERICS, "the error of %s is %.2g +- %.1g, more than the accuracy %g: by the %s", t->of, t->error, t->uncertain, p->scales.accuracy,
 		t->worst < 0 ? "sentence" : t->row[t->worst].choice->name);
@@ -116,7 +127,8 @@ int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, 
 	if (!status && !instead)
 		status = pm_plan_check(f, p, few, proof);
 	status = status ? status : pm_trial_of(f, p, instead ? instead : p->sentence, steps, t);
-	const bool fails = !status && t->verdict == PM_TRIAL_FAIL;
+	const char *lacks = instead ? NULL : lacking(p);
+	const bool fails = !status && t->verdict == PM_TRIAL_FAIL && !lacks;
 	if (fails && *p->refused)
 		b->trial = *t, snprintf(b->why, sizeof b->why, "rounding and chaos forbid the accuracy");
 	else if (fails)
@@ -128,14 +140,14 @@ int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, 
 			fprintf(out, "# %s\n", *p->refused ? p->refused : p->unproved);
 		if (!instead)
 			pm_plan_print_proof(out, p, few, proof);
-		print_trial(out, t, p);
+		print_trial(out, t, p, lacks);
 		if (fails)
 			print_better(out, b);
 	}
 	for (int i = 0; i < p->neffects && !status; i++)
 		wrong += proof[i].wrong;
 	if (!status)
-		status = say(wrong, t, p);
+		status = say(wrong, fails, t, p);
 	pm_free(t), pm_free(b);
 	return status;
 }

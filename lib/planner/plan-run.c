@@ -4,6 +4,7 @@
 
 #include "planner/trial.h"
 #include "sentence/sentence.h"
+#include "stream/frame-time.h"
 #include "stream/run.h"
 
 struct pm_frame *pm_plan_bare(const struct pm_frame *f)
@@ -25,7 +26,7 @@ static int step(struct pm_sentence *s, struct pm_frame **f)
 {
 	const int64_t before = (*f)->step;
 	int status = prime(s, f);
-	for (int pass = 0; pass < 16 && !status && (*f)->step == before; pass++)
+	for (int pass = 0; pass < 512 /* ias15 iterates */ && !status && (*f)->step == before; pass++)
 		status = pm_sentence_pass(s, f);
 	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence completes no step");
 }
@@ -204,6 +205,8 @@ int pm_trial_run(const struct pm_frame *f, const char *sentence, double middle, 
 	*r = (struct pm_trial_run){.end = s ? pm_plan_bare(f) : NULL};
 	int status = r->end ? prime(s, &r->end) : pm_failed();
 	for (bool there = false; !status && !there; r->steps++) {
+		if (back * (to - r->end->time) < fabs(r->end->dt) * (1 - 1e-6)) /* steps that a word chooses end there too */
+			pm_frame_dt_set(r->end, to - r->end->time);
 		status = step(s, &r->end);
 		const double left = back * (to - r->end->time), near = 1e-6 * fabs(r->end->dt);
 		if (!status && !r->half && back * (middle - r->end->time) <= near)
