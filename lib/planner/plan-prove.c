@@ -21,16 +21,18 @@ static void where(const struct pm_trial *t, const struct pm_plan *p, char text[1
 		snprintf(text, 160, "over %.2g of the run, %lld steps, and continued to T = %g", t->part, (long long)t->steps, p->scales.time);
 }
 
-/* An effect that the plan needs and has no word for; NULL none. A plan that says so has not decided wrongly. */
-static const char *lacking(const struct pm_plan *p)
+/* An effect that the plan needs and has no word for, or an error that it foresees; NULL none. A plan that says so has not decided wrongly. */
+static const struct pm_plan_effect *lacking(const struct pm_plan *p)
 {
-	for (int i = 0; i < p->neffects; i++)
-		if (p->effect[i].lacking)
-			return p->effect[i].effect->name;
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_plan_effect *e = &p->effect[i];
+		if (e->lacking || (e->decision.answer == PM_PUT_IN && (e->effect->numerical || e->decision.error)))
+			return e;
+	}
 	return NULL;
 }
 
-static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_plan *p, const char *lacks)
+static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_plan *p, const struct pm_plan_effect *lacks)
 {
 	char difference[24], error[24], change[100], text[160];
 	fprintf(out, "#\n%-10s %-34s %10s %10s  %s\n", "choice", "changed", "difference", "error", "by");
@@ -44,7 +46,7 @@ static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_pla
 	fprintf(out, "# relative differences of %s, %s; %.0f forces in all\n", t->of, text, t->evaluations);
 	fprintf(out, "# error %.2g +- %.1g, accuracy %g: %s", t->error, t->uncertain, p->scales.accuracy, verdicts[t->verdict]);
 	if (t->verdict == PM_TRIAL_FAIL && lacks)
-		fprintf(out, ", as the plan says itself: %s is needed, and has no word", lacks);
+		fprintf(out, ", as the plan says itself: %s%s", lacks->effect->name, lacks->lacking ? " is needed, and has no word" : "");
 	fputs(t->part < 1 && t->verdict == PM_TRIAL_PASS ? ", as far as tested (-n tests more)\n" : "\n", out);
 }
 
@@ -127,7 +129,7 @@ int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, 
 	if (!status && !instead)
 		status = pm_plan_check(f, p, few, proof);
 	status = status ? status : pm_trial_of(f, p, instead ? instead : p->sentence, steps, t);
-	const char *lacks = instead ? NULL : lacking(p);
+	const struct pm_plan_effect *lacks = instead ? NULL : lacking(p);
 	const bool fails = !status && t->verdict == PM_TRIAL_FAIL && !lacks;
 	if (fails && *p->refused)
 		b->trial = *t, snprintf(b->why, sizeof b->why, "rounding and chaos forbid the accuracy");
