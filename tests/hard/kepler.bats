@@ -58,7 +58,7 @@ watch() {
 		END { a = sqrt((x[2] - x[3])^2 + (y[2] - y[3])^2); b = sqrt((x[3] - x[4])^2 + (y[3] - y[4])^2); print a / b }')" 5 "escape"
 }
 
-# The three bodies at t = 70, by extrapolation of order 24 in quadruple precision (Gragg 1965; 12 columns, __float128) with steps of 0.1 and 0.05 of the shortest
+# The three bodies at t = 70, by extrapolation of order 24 in quadruple precision (Gragg 1965; 12 columns, __float128), steps of 0.1 and 0.05 of the shortest
 # sqrt(r^3/(m1 + m2)): 3852 and 7713 steps, energy to 7e-24 and 7e-25, positions equal to 15 digits; at t = 10 and 20 they are those of PM-11.
 pythagoras_70='6.933463599011887 20.26180430595171 -2.003006002605982 -6.872463435824545 -2.557673357322346 -6.659111834911392'
 
