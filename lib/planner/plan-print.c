@@ -36,6 +36,8 @@ void pm_plan_warn(const struct pm_plan *p, const char *tool, FILE *out)
 	char name[64];
 	if (*p->refused || *p->unproved)
 		fprintf(out, "%s: %s\n", tool, *p->refused ? p->refused : p->unproved);
+	if (*p->method.warning)
+		fprintf(out, "%s: not promised: %s\n", tool, p->method.warning);
 	for (int i = 0; i < p->neffects; i++)
 		if (warns(&p->effect[i])) {
 			fprintf(out, "%s: %s: %s", tool, label(p->effect[i].effect, name), p->effect[i].decision.text);
@@ -107,6 +109,8 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 			json_object_set_new(s, "seconds", number(p->stage[i].seconds));
 		json_array_append_new(json_object_get(all, "stages"), s);
 	}
+	if (*p->method.warning)
+		json_array_append_new(json_object_get(all, "warnings"), json_string(p->method.warning));
 	for (int i = 0; i < p->neffects; i++) {
 		const struct pm_plan_effect *e = &p->effect[i];
 		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",

@@ -427,4 +427,5 @@ pythagoras() {
 	run ! grep -q '^# not promised' <<<"$(plan --no-cost -t 20 <start)"
 	plan --no-cost -t 100 <start >text
 	grep -qE '^# not promised: the places of these 10 bodies .* agree until [0-9.]+ only \(chaos' text
+	cycle -t 100 --plan <start 2>&1 >end | grep -q '^cycle: not promised: the places of these 10 bodies'
 }
