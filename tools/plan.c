@@ -54,9 +54,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		putchar('\n');
 	if (o->check)
 		return pm_plan_prove(stdout, f, &p, pm_given(s, "steps") ? o->steps : 0, *o->instead ? o->instead : NULL, !strcmp(o->format, "json"));
-	if (o->sentence)
+	if (o->sentence) {
 		puts(p.sentence);
-	else if (!strcmp(o->format, "json"))
+		if (!*p.refused) /* that is the tool's last line */
+			pm_plan_warn(&p, "plan", stderr);
+	} else if (!strcmp(o->format, "json"))
 		pm_plan_print_json(stdout, &p, o->choice.cost);
 	else
 		pm_plan_print(stdout, &p, o->choice.cost);

@@ -428,4 +428,5 @@ pythagoras() {
 	plan --no-cost -t 100 <start >text
 	grep -qE '^# not promised: the places of these 10 bodies .* agree until [0-9.]+ only \(chaos' text
 	cycle -t 100 --plan <start 2>&1 >end | grep -q '^cycle: not promised: the places of these 10 bodies'
+	plan --sentence -t 100 <start 2>&1 >words | grep -q '^plan: not promised: the places of these 10 bodies'
 }
