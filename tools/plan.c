@@ -8,7 +8,7 @@ struct config {
 	struct pm_plan_choice choice;
 	bool check, sentence, no_cost;
 	int64_t steps;
-	const char *format, *instead;
+	const char *format, *instead, *within;
 };
 
 struct state {
@@ -17,7 +17,11 @@ struct state {
 
 static int begin(struct pm_stage *s)
 {
-	const struct config *o = s->config;
+	struct config *o = s->config;
+	if (o->within && pm_given(s, "accuracy"))
+		return pm_fail(PM_USAGE, "--within finds the accuracy (leave out --accuracy)");
+	if (o->within && pm_plan_budget(o->within, &o->choice.within))
+		return -PM_USAGE;
 	if (pm_given(s, "steps") && !o->check)
 		return pm_fail(PM_USAGE, "-n belongs to --check (the end of the run is -t)");
 	if (*o->instead && !o->check)
@@ -47,7 +51,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	o->choice.cost = !o->no_cost && !o->sentence && !o->check;
 	if ((o->choice.time - f->time) * (f->dt < 0 ? -1 : 1) < 0)
 		return pm_fail(PM_DATA, "-t %g is before the time of the frame, %g (-t is when the run ends, not how long it is)", o->choice.time, f->time);
-	int status = pm_plan_frame(f, &o->choice, &p);
+	int status = o->within ? pm_plan_within(f, &o->choice, &p) : pm_plan_frame(f, &o->choice, &p);
 	if (status)
 		return status;
 	if (state->frames++ && !o->sentence && strcmp(o->format, "json"))
@@ -69,10 +73,11 @@ static const char *const formats[] = {"text", "json", NULL};
 static const struct pm_option options[] = {
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, PM_AT(choice.accuracy),
 		.text = "relative changes below this are negligible; determines kernel, mesh and step too"},
+	{.name = "within", .kind = PM_TEXT, .unit = "TIME", PM_AT(within),
+		.text = "instead of --accuracy: the most accurate plan whose run takes no longer on this machine, as 60s, 50ms, 1.5min, 2h"},
 	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", PM_AT(choice.time),
 		.text = "the end time of the run, as in cycle -t (default: after a hundred steps)"},
-	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on),
-		.text = "always include these effects"},
+	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on), .text = "always include these effects"},
 	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "never include these effects"},
 	{.name = "check", .kind = PM_FLAG, PM_AT(check),
 		.text = "test every effect and every choice (step, mesh, kernel ...) by runs without it; exit 3 if the accuracy is missed"},
@@ -92,9 +97,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_plan = {
 	.name = "plan",
 	.summary = "choose a sentence for a frame and give the reason of every word",
-	.about = "Every effect is decided from numbers of the frame: it is included if leaving it out would change the result by more than "
-		"--accuracy within "
-		 "the time of the run. An effect that is needed and has no word yet is named. `cycle --plan` runs the sentence. See docs/plan.md.",
+	.about = "Every effect is decided from numbers of the frame: it is included if leaving it out would change the result by more than --accuracy "
+		"within the time of the run. An effect that is needed and has no word yet is named. `cycle --plan` runs the sentence. See docs/plan.md.",
 	.kind = PM_SINK,
 	.reads = "everything",
 	.config = sizeof(struct config),

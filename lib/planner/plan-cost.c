@@ -131,6 +131,13 @@ int pm_plan_price(const struct pm_frame *f, struct pm_plan *p)
 	return 0;
 }
 
+bool pm_plan_too_dear(const struct pm_frame *f, struct pm_plan *p, double seconds)
+{
+	const double step = pm_plan_forced(p) ? pm_plan_force_seconds(&p->scales) / pm_threads() : 0;
+	p->cost = (struct pm_plan_cost){.steps = pm_plan_steps(f, p), .step = step};
+	return seconds > 0 && pm_plan_seconds(p) > 10 * seconds;
+}
+
 double pm_plan_seconds(const struct pm_plan *p) { return p->cost.begin + p->cost.steps * p->cost.step; }
 
 /* Seconds per step that another sentence takes more than the plan's; spread: what of that is noise. */
@@ -170,6 +177,11 @@ void pm_plan_print_cost(FILE *out, const struct pm_plan *p)
 	fprintf(out, "; from %d step%s timed, without output\n", c->timed, c->timed == 1 ? "" : "s");
 	if (c->load > 1.25) /* measured: up to 1.1 on a quiet machine, where threads wait for each other */
 		fprintf(out, "# the machine is loaded: a step took %.2g times as long as the processor worked on it; its time holds on a quiet one\n", c->load);
+	if (p->within > 0) {
+		fprintf(out, "# within %-11s accuracy %.2g by the estimates of the atlas, on this machine",
+			pm_plan_duration(p->within, all), p->scales.accuracy);
+		fprintf(out, isnan(p->next) ? "\n" : "; %.2g takes longer\n", p->next);
+	}
 	if (isnan(c->memory))
 		fprintf(out, "# memory             not measured: the system does not say what a process holds at most;");
 	else

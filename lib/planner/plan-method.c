@@ -13,6 +13,8 @@ static double cost_pairs(const struct pm_scales *s) { return ns_pair * s->n * s-
 
 double pm_plan_cost_mesh(const struct pm_scales *s) { return ns_point * s->points * (s->open ? pow(2, s->dim) : 1) + ns_particle * s->n; }
 
+double pm_plan_force_seconds(const struct pm_scales *s) { return 1e-9 * (s->pairs ? cost_pairs(s) : pm_plan_cost_mesh(s)); }
+
 static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
 
 /* Vortices that represent a field: their volumes fill the mesh. */

@@ -183,6 +183,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 		return status;
 	decide(f, p, c);
 	status = pm_plan_compose(f, p);
+	if (!status && pm_plan_too_dear(f, p, c->within))
+		return 0;
 	status = status ? status : pm_plan_digits(f, p);
 	status = status || !c->cost ? status : pm_plan_price(f, p);
 	return status || !c->cost ? status : pm_plan_savings(f, p);

@@ -12,6 +12,7 @@ enum { PM_PLAN_WORDS = PM_EFFECT_WORDS, PM_PLAN_TEXT = 2048, PM_PLAN_BLOCKS = 16
 struct pm_plan_choice { /* the options of the user */
 	double accuracy, time;  /* [time] end of the run; NAN: after a hundred steps of the frame */
 	struct pm_list on, off; /* effects decided by hand */
+	double within;          /* [s] of the run: far dearer plans are not timed; 0: any */
 	bool cost;              /* measure seconds */
 	const char *force;      /* the words of a force on a mesh, to decide on an effect beside them (pm_plan_decide); NULL or "": those of the plan */
 };
@@ -62,6 +63,7 @@ struct pm_plan {
 	struct pm_plan_cost cost;
 	char refused[300];  /* rounding and chaos forbid the accuracy; "": they do not, or it was not tested */
 	char unproved[200]; /* and why not; "" */
+	double within, next; /* [s] the time that the run may take, 0: any; the coarsest accuracy found to take longer, NAN: none */
 };
 
 /* For a frame with all its data in memory. 0 or failure. */
@@ -82,6 +84,7 @@ int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
 /* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p);
 void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p);
+double pm_plan_force_seconds(const struct pm_scales *s); /* of one core, for a force by this method */
 double pm_plan_cost_mesh(const struct pm_scales *s); /* [ns] of a step on a mesh */
 void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p); /* plan-cure.c: more cells where an error of the method is too large */
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
@@ -91,8 +94,13 @@ bool pm_plan_orbit(struct pm_plan *p);
 /* orbit-trial.c: of few bodies that the atlas does not hold, by trials with the frame itself. 0 or failure. */
 int pm_plan_trial(const struct pm_frame *f, struct pm_plan *p);
 
+/* plan-within.c: the most accurate plan within the seconds of the choice, whose accuracy is not used; and such a time as text. */
+int pm_plan_within(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p);
+int pm_plan_budget(const char *text, double *seconds);
+
 /* plan-cost.c: what the run costs, from steps timed; */
 int pm_plan_price(const struct pm_frame *f, struct pm_plan *p);
+bool pm_plan_too_dear(const struct pm_frame *f, struct pm_plan *p, double seconds); /* ten times over these by the atlas, which it then puts into the cost */
 double pm_plan_steps(const struct pm_frame *f, const struct pm_plan *p); /* of the run */
 double pm_plan_seconds(const struct pm_plan *p);                         /* of the run, after _price */
 int pm_plan_period(const struct pm_plan *p); /* the number of steps after which all that is not done in every step has been done */

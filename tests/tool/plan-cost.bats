@@ -50,3 +50,26 @@ load ../helper
 	run ! grep -E '^# the run|^# memory|a step' <<<"$(pinit kepler | plan --no-cost)"
 	[ "$(pinit kepler | plan --no-cost --format json | jq .cost)" = null ]
 }
+
+@test "--within: the most accurate plan that the time allows, and none where even accuracy 1 takes longer" {
+	pinit kepler >start
+	plan -t 1 --within 2h --format json <start >all.json
+	plan -t 1 --within 0.5s --format json <start >some.json
+	python3 - <<-'END'
+		import json
+		all, some = json.load(open("all.json")), json.load(open("some.json"))
+		assert all["accuracy"] == 1e-6 and some["cost"]["seconds"] <= 0.5 and all["cost"]["seconds"] <= 7200
+		assert some["accuracy"] >= all["accuracy"]
+	END
+	a=$(jq .accuracy all.json)
+	[ "$(plan -t 1 --within 2h --sentence <start)" = "$(plan -t 1 --accuracy "$a" --sentence <start)" ] # and the same sentence as by that accuracy
+	plan -t 1 --within 2h <start | grep -q '^# within 120 min  *accuracy 1e-06 by the estimates of the atlas, on this machine$'
+	run -1 plan -t 1e3 --within 1us <start
+	[[ $output == *"no plan takes as little as 1 us on this machine: at accuracy 1 it is "* ]]
+	for wrong in 5x -1s s 1e 0x1s nan inf; do
+		run -2 plan --within "$wrong" <start
+		[[ $output == *"'$wrong' is not a time (2s, 50ms, 1.5min)"* ]] || { echo "$wrong: $output"; return 1; }
+		run -2 pareto 'pinit kepler | pp --softening {0,1}' --within "$wrong" # the same times as there
+	done
+	run -2 plan --within 1s --accuracy 0.1 <start
+}
