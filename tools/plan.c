@@ -73,10 +73,8 @@ static const char *const formats[] = {"text", "json", NULL};
 static const struct pm_option options[] = {
 	{.name = "accuracy", .kind = PM_REAL, .fallback = "0.01", .low = 1e-12, .high = 1, PM_AT(choice.accuracy),
 		.text = "relative changes below this are negligible; determines kernel, mesh and step too"},
-	{.name = "within", .kind = PM_TEXT, .unit = "TIME", PM_AT(within),
-		.text = "instead of --accuracy: the most accurate plan whose run takes no longer on this machine, as 60s, 50ms, 1.5min, 2h"},
-	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", PM_AT(choice.time),
-		.text = "the end time of the run, as in cycle -t (default: after a hundred steps)"},
+	{.name = "within", .kind = PM_TEXT, .unit = "TIME", PM_AT(within), .text = "in place of --accuracy: the best run of this time here, as 60s"},
+	{.name = "time", .letter = 't', .kind = PM_REAL, .unit = "time", PM_AT(choice.time), .text = "end of the run, as cycle -t (default: a hundred steps)"},
 	{.name = "on", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.on), .text = "always include these effects"},
 	{.name = "off", .kind = PM_LIST, .unit = "EFFECT", .choices = pm_effect_names, PM_AT(choice.off), .text = "never include these effects"},
 	{.name = "check", .kind = PM_FLAG, PM_AT(check),

@@ -175,12 +175,12 @@ void pm_plan_print_cost(FILE *out, const struct pm_plan *p)
 	fprintf(out, " (%s to %s), of it %s to begin; processor %s", pm_plan_duration(c->begin + c->steps * c->low, low),
 		pm_plan_duration(c->begin + c->steps * c->high, high), pm_plan_duration(c->begin, begin), pm_plan_duration(c->steps * c->processor, work));
 	fprintf(out, "; from %d step%s timed, without output\n", c->timed, c->timed == 1 ? "" : "s");
-	if (c->load > 1.25) /* measured: up to 1.1 on a quiet machine, where threads wait for each other */
+	if (c->load > 1.25) /* a guess: threads wait for each other on a quiet machine, too */
 		fprintf(out, "# the machine is loaded: a step took %.2g times as long as the processor worked on it; its time holds on a quiet one\n", c->load);
 	if (p->within > 0) {
 		fprintf(out, "# within %-11s accuracy %.2g by the estimates of the atlas, on this machine",
 			pm_plan_duration(p->within, all), p->scales.accuracy);
-		fprintf(out, isnan(p->next) ? "\n" : "; %.2g takes longer\n", p->next);
+		fprintf(out, isnan(p->next) ? "\n" : p->forbidden ? "; %.2g cannot be had\n" : "; %.2g takes longer\n", p->next);
 	}
 	if (isnan(c->memory))
 		fprintf(out, "# memory             not measured: the system does not say what a process holds at most;");

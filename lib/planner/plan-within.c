@@ -1,6 +1,7 @@
 /* The most accurate plan whose run takes no longer than a given time on this machine: bisection over accuracies from 1 to 1e-6, four in a decade, each
- * planned and priced. Assumes that a more accurate run takes longer; the plan returned does fit, whether or not it holds. What costs ten times too much by
- * the atlas' cost of a force is not tried. Cost: about seven plans. SPDX-License-Identifier: GPL-3.0-or-later */
+ * planned and priced. Assumes that a more accurate run takes longer, and that what chaos forbids it forbids to all finer ones; the plan returned does fit,
+ * whether or not the first holds. What costs ten times too much by the atlas' cost of a force is not timed. Cost: about seven plans.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,19 +46,22 @@ int pm_plan_within(const struct pm_frame *f, const struct pm_plan_choice *c, str
 	int status = try(f, *c, 0, c->within, p), good = 0, bad = FINEST + 1;
 	if (status)
 		return status;
+	p->next = NAN, p->forbidden = false;
 	if (!(pm_plan_seconds(p) <= c->within))
 		return pm_fail(PM_DATA, "no plan takes as little as %s on this machine: at accuracy 1 it is %s (an earlier end -t, or more time)",
 			pm_plan_duration(c->within, has), pm_plan_duration(pm_plan_seconds(p), needs));
-	while (bad - good > 1) {
+	p->within = c->within;
+	while (bad - good > 1 && !*p->refused) {
 		const int k = (good + bad) / 2;
 		status = try(f, *c, k, c->within, &q);
-		if (status)
+		if (status && status != -PM_NUMERICS)
 			return status;
-		if (pm_plan_seconds(&q) <= c->within)
-			good = k, *p = q, p->next = bad <= FINEST ? accuracy(bad) : NAN;
+		const bool had = !status && !*q.refused; /* chaos or rounding may forbid it */
+		q.next = p->next, q.forbidden = p->forbidden, q.within = c->within;
+		if (had && pm_plan_seconds(&q) <= c->within)
+			good = k, *p = q;
 		else
-			bad = k, p->next = accuracy(k);
+			bad = k, p->next = accuracy(k), p->forbidden = !had;
 	}
-	p->within = c->within;
 	return 0;
 }

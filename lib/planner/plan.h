@@ -63,7 +63,8 @@ struct pm_plan {
 	struct pm_plan_cost cost;
 	char refused[300];  /* rounding and chaos forbid the accuracy; "": they do not, or it was not tested */
 	char unproved[200]; /* and why not; "" */
-	double within, next; /* [s] the time that the run may take, 0: any; the coarsest accuracy found to take longer, NAN: none */
+	double within, next; /* [s] the time that the run may take, 0: any; the coarsest accuracy found not to be had, NAN: none */
+	bool forbidden;      /* by chaos or rounding, not by the time */
 };
 
 /* For a frame with all its data in memory. 0 or failure. */
