@@ -132,7 +132,7 @@ def on_scene_mesh(file, h, to):
 
 def last_step(sentence):
     """Steps that plan chose end at the time; others are made to."""
-    return [] if "--dt" in sentence else ["--exact"]
+    return [] if "--dt" in sentence or "dt --" in sentence else ["--exact"]
 
 
 def error_of(name, end, begun, sentence, finer, at):
