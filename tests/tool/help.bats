@@ -59,8 +59,12 @@ load words
 	for t in $(tools); do
 		"$t" --help | awk -v t="$t" '/^  (-|   )/ && match($0, /--[a-z0-9-]+( [A-Z][A-Z,.]*)?/) { print substr($0, RSTART, RLENGTH), t }'
 	done | sort -u >all
-	# A number, a flag, or words: one name, or several with commas. (cycle --plan is another word than the --plan of transforms.)
-	awk '/^--plan cycle$/ { next } { kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) {
+	# Words that rightly differ: cycle --plan is not the --plan of transforms. pareto is about runs, not frames: its --time is a clock, its --size one of
+	# its names, its --axes those of its picture, and in pinit they are those of a wave. pinit --mode counts
+	# waves, and modes --mode is one of those it found.
+	# cycle --until ends a run by the columns of diag, dt --until at a time.
+	awk '/^--(plan cycle|(time|size|axes) [A-Z]+ pareto|mode N modes|until X dt)$/ { next } {
+		kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) {
 		print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
 }
 
