@@ -115,6 +115,34 @@ miss_turns() {
 	above "$(miss_turns 0.999 1 1e-3)" 2e-12 # with too long steps it is not
 }
 
+@test "ias15: two vortices and Thomson's polygon are back where they were after 1 and 10 turns" {
+	# Measured 5e-16 after 1 turn, 2e-14 after 10: rounding changes the rate of turning by 1e-16 or so, and 10 turns are 63 radians.
+	local turn
+	for n in 1 10; do
+		for scene in vortex-pair 'polygon -n 5'; do
+			pinit $scene >a
+			turn=$(awk -v n=$n -v s="$scene" 'BEGIN { p = atan2(0, -1); printf "%.17g", n * (s ~ /^p/ ? 2 : 4 / 3) * p * p }')
+			cycle -t "$turn" --exact 'pp | push ias15' <a >b
+			below "$(scmp --field x a b | column relative_l2)" 1e-12 "$scene, $n turns"
+		done
+	done
+	cycle -t "$turn" --exact 'pp | push ias15 --tolerance 1' <a >b # with too long steps they are not
+	above "$(scmp --field x a b | column relative_l2)" 1e-12
+}
+
+@test "ias15: a planet of 1e-6 of its sun's mass is back after 100 turns of e = 0.5; momentum and centre of mass stay to round-off" {
+	pinit two-body --ratio 1e-6 --eccentricity 0.5 >a
+	turns() { cycle -t 628.31853071795865 --exact "pp | push ias15 --tolerance $1" <a; }
+	turns 1e-7 >b
+	# Measured 2e-13. Rounding of the energy, 1e-16, moves the period by as much, and the place after 600 times, by the walk of 6000 steps again by 10.
+	below "$(scmp --field x a b | column relative_l2)" 1e-11 "place"
+	# of mass times speed, 1.15e-6, and of the total mass times the sun's distance from the centre, 1.5e-6: 6000 kicks of round-off
+	below "$(diag --columns momentum_x,momentum_y,momentum_scale <b | awk 'NR == 2 { print sqrt($1 * $1 + $2 * $2) / $3 }')" 1e-13 "momentum"
+	below "$(diag --columns centre_x,centre_y <b | awk 'NR == 2 { print sqrt($1 * $1 + $2 * $2) / 1.5e-6 }')" 1e-11 "centre of mass"
+	turns 1e-3 >b # with too long steps it is not
+	above "$(scmp --field x a b | column relative_l2)" 1e-11
+}
+
 # energies TIME EVERY: time and relative change of the energy of the outer solar system.
 energies() {
 	stab "$top/data/solar-system.tsv" --law gravity --constant "G=$(awk 'BEGIN { printf "%.17g", 0.01720209895^2 }'),softening=0" --dt 50 |

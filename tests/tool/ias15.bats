@@ -44,6 +44,12 @@ start() {
 	pinit uniform -n 3 | smod --particle-faces reflect >a
 	run -1 bash -o pipefail -c "field 'acc = 0, 0, 0' <a | push ias15 -o b"
 	[[ $output == *'ias15 follows a smooth path, and the box has faces that reflect particles (smod --particle-faces open, or push rk4)'* ]]
+	smod --particle-faces absorb <a >b
+	run -1 bash -o pipefail -c "field 'acc = 0, 0, 0' <b | push ias15 -o c"
+	[[ $output == *'and the box has faces that absorb particles (smod --particle-faces open, or push rk4)'* ]]
+	printf 'x y vx mass\n1 2 0 1\n2 1 0 1\n' | stab - --dt 0.1 | field 'acc = -x' >a
+	run -1 push ias15 -i a -o b
+	[[ $output == *"'acc' on 'matter' has 1 components, and 'x' 2: ias15 needs the rate of every position"* ]]
 	pinit exb -n 2 | m2p >a
 	run -1 push ias15 -i a -o b
 	[[ $output == *"has a magnetic field, which ias15 would leave out"* ]]
@@ -64,6 +70,13 @@ start() {
 	[[ $output == *"no register 'q_v' on 'matter' after 1 passes of ias15"* ]]
 	run -1 push rk4 -i <(push ias15 <a | pp) -o c
 	[[ $output == *'while ias15 is under way'* ]]
+	start | pp | push ias15 >a
+	edited '0,/"stage":1/s//"stage":8/' a | pp >b
+	run -1 push ias15 -i b -o c
+	[[ $output == *"'matter' claims node 8 of ias15, which has 8"* ]]
+	edited '0,/"stage":1/s//"stage":2/' a | pp >b
+	run -1 push ias15 -i b -o c
+	[[ $output == *"'matter' is at node 2 of a step of ias15, 'dust' at node 1 (start the step anew from a frame at substep 0)"* ]]
 }
 
 @test "rates that are not smooth end a run of ias15 with exit 3, or are passed by --min, whose steps are counted" {
