@@ -157,5 +157,6 @@ falls() { # the residual is at least halved in every five iterations
 		[[ $stderr =~ "did not converge: 2 cycles left a relative residual of " ]]
 		[[ $stderr =~ "the residuals: "[0-9.e-]+\ [0-9.e-]+\ [0-9.e-]+\ "(allow more with --max-cycles" ]]
 		run -3 sls <a # the abort, not a frame
+		counted 1
 	done
 }

@@ -71,6 +71,8 @@ largest() { stab --plain | column circulation | awk '{ c = $1 < 0 ? -$1 : $1; if
 	s='p2m | poisson-fft | mgrad | diffuse --order 2 | m2p | push euler --dt'
 	sh_ok "cycle -n 1 '$s $(awk 'BEGIN { printf "%.15g", 0.24999 / 25.6 }')' <a | sls"
 	run -3 bash -o pipefail -c "cycle -n 1 '$s $(awk 'BEGIN { printf "%.15g", 0.25001 / 25.6 }')' <a | sls"
+	[[ $output =~ "dt up to "([0-9.e-]+) ]]
+	within "$(awk -v dt="${BASH_REMATCH[1]}" 'BEGIN { printf "%.9g", 25.6 * dt }')" 0.25 1e-6 "limit" # six digits of dt
 }
 
 @test "HC-57: a disc wound up and unwound by a vortex (T = 8) on 64^2: sum to 1e-12; area lost: cic, pcs 100 %, m4prime 31 %, m6prime less" {
