@@ -11,9 +11,8 @@ struct config {
 static int begin(struct pm_stage *s)
 {
 	const struct config *cfg = s->config;
-	if (!pm_given(s, "courant") && !pm_given(s, "acceleration") && !pm_given(s, "lcfl") && !pm_given(s, "plasma") &&
-		!pm_given(s, "oscillation"))
-		return pm_fail(PM_USAGE, "no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C)");
+	if (!pm_timestep_ruled(&cfg->rules) && !pm_given(s, "until"))
+		return pm_fail(PM_USAGE, "no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C, or --until T alone)");
 	if (cfg->least > cfg->most)
 		return pm_fail(PM_USAGE, "--min %g is above --max %g", cfg->least, cfg->most);
 	return 0;
@@ -28,13 +27,19 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 }
 
 /* Before the end one step, or two of one length, so that the last is not so short that a run by -t ends before it. */
-static double ending(double dt, double left) { return left > 0 && dt * (1 + 1e-9) >= left ? left : left > 0 && 2 * dt > left ? left / 2 : dt; }
+static double ending(double dt, double left)
+{
+	if (!(left > 1e-9 * dt)) /* there, but for rounding */
+		return dt;
+	return dt * (1 + 1e-9) >= left ? left : 2 * dt > left ? left / 2 : dt;
+}
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
 	const double back = f->dt < 0 ? -1 : 1;
 	double rate, dt = pm_timestep_allowed(&cfg->rules, f, &rate);
+	dt = pm_timestep_ruled(&cfg->rules) ? dt : fabs(f->dt);
 	pm_report(s, f, "allowed", isfinite(dt) ? dt : 0);
 	dt = fmin(dt, cfg->most); /* NaN if not given, which fmin ignores */
 	if (dt < cfg->least) {
@@ -70,7 +75,8 @@ static const struct pm_option options[] = {
 	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "upper limit of the step"},
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(least),
 		.text = "lower limit of the step; frames whose rules need a shorter one are counted as below_min"},
-	{.name = "until", .kind = PM_REAL, .unit = "time", PM_AT(until), .text = "the last step before this time ends at it, as a run by -t needs it"},
+	{.name = "until", .kind = PM_REAL, .unit = "time", PM_AT(until),
+		.text = "the last step before this time ends at it, as a run by -t needs it; without a rule dt is left alone until then"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(rules.set), .text = "use only this set"},
 	{0},
 };

@@ -60,6 +60,7 @@ step_head() {
 		# vorticity omega, omega t = 20. dt in units of 1/omega
 		# (kepler: the mean motion). Relative l2; nan: unstable. kepler-0.5, -0.7, -0.99, -0.999: of that eccentricity, one turn.
 		# dt-SCHEME: steps by dt --oscillation; dt in units of the 1/omega of the circle at each distance.
+		# ias15: dt is tolerance^(1/7), to which its steps are in proportion.
 	END
 	printf 'problem\tscheme\tdt\terror\tevaluations\n'
 }

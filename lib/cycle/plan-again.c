@@ -40,7 +40,7 @@ bool pm_replan_due(const struct pm_replan *r, const struct pm_frame *f)
 {
 	if (r->every < 1 || f->substep || f->step == r->decided)
 		return false;
-	if (strstr(r->sentence, "dt --oscillation")) /* few bodies: the words themselves adapt every step to the fastest orbit */
+	if (strstr(r->sentence, "dt --oscillation") || strstr(r->sentence, "push ias15")) /* few bodies: steps adapt to orbits */
 		return false;
 	return (f->step - r->first) % r->every == 0 || pm_replan_crossed(r, f);
 }

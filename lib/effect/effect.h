@@ -59,6 +59,7 @@ struct pm_method {
 	size_t cells[3];       /* 0: those of the frame's mesh */
 	double dt;             /* [time]; NAN: the frame's */
 	double follow, until;  /* steps by dt --oscillation of this number, until this time; follow NAN: steps of one length */
+	double tolerance;      /* of ias15, until this time too; NAN: another scheme */
 	double evaluations;    /* of the force in the whole run; NAN: those of T/dt steps */
 	char warning[400];     /* what the plan cannot promise; "" nothing */
 	char why_far[160], why_mesh[160], why_step[160];

@@ -105,6 +105,11 @@ static double strain(const struct pm_frame *f, const char *name)
 	return 0;
 }
 
+bool pm_timestep_ruled(const struct pm_timestep_rules *r)
+{
+	return !isnan(r->courant) || !isnan(r->acceleration) || !isnan(r->strain) || !isnan(r->plasma) || !isnan(r->oscillation);
+}
+
 double pm_timestep_allowed(const struct pm_timestep_rules *r, const struct pm_frame *f, double *rate)
 {
 	const struct pm_law *law = pm_law_of(f);

@@ -17,6 +17,7 @@ struct pm_timestep_rules {
 
 /* Header: declares the fields that the rules read; fails if a rule is not defined here. */
 int pm_timestep_declare(const struct pm_timestep_rules *r, struct pm_frame *f);
+bool pm_timestep_ruled(const struct pm_timestep_rules *r); /* is any rule given? */
 /* Data: the longest step allowed, infinite if nothing limits it; *rate is |grad u| [1/time], 0 without that rule. */
 double pm_timestep_allowed(const struct pm_timestep_rules *r, const struct pm_frame *f, double *rate);
 

@@ -6,19 +6,19 @@
 #include "planner/atlas.h"
 
 struct row {
-	double x, error;
+	double x, error, work; /* work: evaluations times x, the same in every row but for starting, rounding, and the iterations of ias15 */
 };
 
 enum { MOST = 32 };
 
-static void insert(struct row *r, int *n, double x, double error)
+static void insert(struct row *r, int *n, double x, double error, double work)
 {
 	int i = *n;
 	if (!(error >= 0) || *n == MOST)
 		return;
 	for (; i && r[i - 1].x > x; i--)
 		r[i] = r[i - 1];
-	r[i] = (struct row){x, fmax(error, 1e-300)};
+	r[i] = (struct row){x, fmax(error, 1e-300), work};
 	(*n)++;
 }
 
@@ -30,7 +30,7 @@ double pm_atlas_force_error(const char *scene, const char *solver, const char *k
 	int n = 0, i = 1;
 	for (const struct pm_atlas_force *f = pm_atlas_forces; f->scene; f++)
 		if (!strcmp(f->scene, scene) && !strcmp(f->solver, solver) && !strcmp(f->kernel, kernel) && !strcmp(f->gradient, gradient))
-			insert(r, &n, f->h, f->error);
+			insert(r, &n, f->h, f->error, 0);
 	if (n < 2)
 		return NAN;
 	while (i < n - 1 && r[i].x < h)
@@ -43,19 +43,16 @@ struct pm_atlas_found pm_atlas_find(const char *problem, const char *scheme, dou
 {
 	struct row r[MOST];
 	int n = 0, i = 0;
-	double work = NAN; /* evaluations times step: the same in every row, but for starting and rounding */
 	for (const struct pm_atlas_step *s = pm_atlas_steps; s->problem; s++)
-		if (!strcmp(s->problem, problem) && !strcmp(s->scheme, scheme)) {
-			insert(r, &n, s->dt, s->error);
-			work = s->evaluations * s->dt;
-		}
+		if (!strcmp(s->problem, problem) && !strcmp(s->scheme, scheme))
+			insert(r, &n, s->dt, s->error, s->evaluations * s->dt);
 	if (n < 2)
 		return (struct pm_atlas_found){.dt = NAN, .evaluations = NAN};
 	while (i < n && r[i].error <= error) /* starts with the shortest step, because a long step may have a small error by chance */
 		i++;
 	const int a = i ? i - 1 : 0;
 	const double dt = i == n ? r[n - 1].x : r[a].x * pow(error / r[a].error, 1 / fmax(0.5, slope(&r[a], &r[a + 1])));
-	return (struct pm_atlas_found){.dt = dt, .evaluations = work / dt, .outside = i == 0};
+	return (struct pm_atlas_found){.dt = dt, .evaluations = r[a].work / dt, .outside = i == 0};
 }
 
 double pm_atlas_longest(const char *problem, const char *scheme, double error) { return pm_atlas_find(problem, scheme, error).dt; }

@@ -12,7 +12,7 @@ struct pm_atlas_force {
 };
 struct pm_atlas_step {
 	const char *problem, *scheme; /* kepler, kepler-circle, langmuir, vortex-patch, gyration; kdk, rk4 ...; dt-rk4: with dt --oscillation */
-	/* in units of 1/omega, with dt-: of the circle at each distance; relative, after the problem's time; force evaluations in that time */
+	/* in units of 1/omega, with dt-: of the circle at each distance, of ias15 tolerance^(1/7); relative, after the problem's time; forces in that time */
 	double dt, error, evaluations;
 };
 extern const struct pm_atlas_force pm_atlas_forces[]; /* generated; scene NULL ends */

@@ -1,7 +1,8 @@
 /* The step of few bodies that the atlas does not hold (three or more, or a pair that falls straight together): the frame itself is run for the whole time, or
  * for the first part of it that a bounded number of force evaluations reaches, with steps C/omega of the fastest orbit (dt --oscillation) and C halved again
  * and again, until the places agree as the order of the scheme asks. C then follows from their difference: it falls as C^p, and grows in time as it grew in
- * the second half of the trial, as a power of time, or by e-foldings where that power is above 4 (chaos). What does not agree, or would need a C much smaller
+ * the second half of the trial, as a power of time, or by e-foldings where that power is above 4 (chaos). ias15 is taken where it needs fewer forces, by the
+ * agreement of two of its tolerances; also where no C agrees, if it reaches the end. What does not agree, or would need a C much smaller
  * than any that was tried, cannot be promised: the plan says so, and keeps the energy. No clock, so the plan is the same in every run.
  * Source: Richardson 1911 (the error from two steps); Quinlan and Tremaine 1992 (chaos in few-body orbits).
  * Cost: MOST_PASSES forces at most, a second for three bodies; three times as
@@ -77,7 +78,9 @@ static struct pm_frame *leg(struct trial *t, const struct pm_frame *from, const 
 	const double back = t->f->dt < 0 ? -1 : 1, until = t->f->time + back * span;
 	char step[96], words[192];
 	snprintf(step, sizeof step, "dt --oscillation %.12g --until %.17g", C, until);
-	if (strcmp(scheme, "leapfrog"))
+	if (!strcmp(scheme, "ias15")) /* C is its tolerance */
+		snprintf(words, sizeof words, "pp | push ias15 --tolerance %.3g | dt --until %.17g", C, until);
+	else if (strcmp(scheme, "leapfrog"))
 		snprintf(words, sizeof words, "pp | %s | push %s", step, scheme);
 	else
 		snprintf(words, sizeof words, "%s | push kick/2 drift | pp | push kick/2", step);
@@ -172,6 +175,28 @@ static void cheapest(struct trial *t, struct pm_plan *p)
 	}
 }
 
+/* The loosest tolerance of ias15 whose places at `span` are those of a tighter one, if that is cheaper than what was chosen. */
+static bool controlled(struct trial *t, struct pm_plan *p, double span, double most)
+{
+	static const double tolerance[] = {1e-3, 1e-4, 1e-5, 1e-7, 1e-9};
+	struct run *r = pm_plan_smooth(t->f) ? pm_alloc(2, sizeof *r) : NULL;
+	bool found = false;
+	for (size_t k = 0; r && k < sizeof tolerance / sizeof *tolerance && !found && t->left > 0; k++) {
+		struct run *now = &r[k % 2], *before = &r[(k + 1) % 2];
+		run(t, "ias15", tolerance[k], span, t->left, now);
+		const double cost = (double)(k ? before : now)->passes * t->time / span;
+		if (!now->done || !(cost < (isfinite(p->method.evaluations) ? 0.8 * p->method.evaluations : HUGE_VAL)))
+			break;
+		found = k > 0 && apart(before->end, now->end, now->n) < most;
+		if (found) {
+			choose(p, "ias15", NAN, cost);
+			p->method.tolerance = tolerance[k - 1];
+		}
+	}
+	pm_free(r);
+	return found;
+}
+
 /* No places: as long a step as keeps the energy, as far as it can be tried. 0 or failure. */
 static int keep_energy(struct trial *t, struct pm_plan *p)
 {
@@ -211,9 +236,14 @@ int pm_plan_trial(const struct pm_frame *f, struct pm_plan *p)
 		t.left = MOST_PASSES >> k;
 		agrees(&t, span);
 	}
-	if (whole && longest(&t, margin * p->scales.accuracy / grown(&t)) > coarse * pow(0.5, t.levels + 2)) {
+	const double most = whole ? margin * p->scales.accuracy / grown(&t) : NAN;
+	if (whole && longest(&t, most) > coarse * pow(0.5, t.levels + 2)) {
 		cheapest(&t, p);
+		controlled(&t, p, t.until, most);
 		return 0;
 	}
+	t.left = 2 * MOST_PASSES;
+	if (controlled(&t, p, t.time, margin * p->scales.accuracy))
+		return 0;
 	return keep_energy(&t, p);
 }

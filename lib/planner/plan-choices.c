@@ -100,7 +100,7 @@ static int half_step(const struct pm_plan *p, struct pm_edit *e, struct pm_frame
 	char value[64];
 	int w = pm_edit_find(e, "dt", 0);
 	(void)p;
-	if (w >= 0)
+	if (w >= 0 && chooser(e, value) < 0)
 		return shorter_rules(e, w, from, to) && keep_intervals(e);
 	if ((w = chooser(e, value)) >= 0) { /* its step goes as the 7th root of its tolerance */
 		snprintf(from, 48, "tolerance %.32s", value);

@@ -45,27 +45,33 @@ static void ask(const struct pm_frame *f, struct pm_plan *p, struct pm_words *w)
 static void push(const struct pm_plan *p, struct pm_words *w, enum pm_slot slot, bool first, const char *actions, const char *reason)
 {
 	char words[160];
-	if (first && !isnan(p->method.dt))
+	if (first && !isnan(p->method.tolerance))
+		snprintf(words, sizeof words, "push %s --tolerance %.3g", actions, p->method.tolerance);
+	else if (first && !isnan(p->method.dt))
 		snprintf(words, sizeof words, "push --dt %.12g %s", p->method.dt, actions);
 	else
 		snprintf(words, sizeof words, "push %s", actions);
 	pm_words_add(w, slot, words, "%s", reason);
 }
 
-/* Steps that follow the fastest orbit: before the push that begins one, and after the force. */
+/* Steps that follow the fastest orbit: before the push that begins one, and after the force; those of ias15 are only made to end at the end. */
 static void follow(const struct pm_plan *p, struct pm_words *w, enum pm_slot slot)
 {
 	char words[160];
 	snprintf(words, sizeof words, "dt --oscillation %.6g --until %.17g", p->method.follow, p->method.until);
 	if (!isnan(p->method.follow))
 		pm_words_add(w, slot, words, "%s", "as short as the fastest orbit needs, the last ones to the end");
+	snprintf(words, sizeof words, "dt --until %.17g", p->method.until);
+	if (!isnan(p->method.tolerance))
+		pm_words_add(w, slot, words, "%s", "the scheme chooses its steps, the last ones to the end");
 }
 
 static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 {
 	const bool leaps = forced && p->scales.second && !strcmp(p->method.scheme, "leapfrog");
 	char actions[32];
-	if (forced)
+	const bool chosen = !isnan(p->method.tolerance); /* its step is known after it */
+	if (forced && !chosen)
 		follow(p, w, leaps ? PM_SLOT_OPENING : PM_SLOT_CLOSING);
 	if (!forced) {
 		p->method.dt = NAN; /* any step is possible */
@@ -76,6 +82,8 @@ static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 		push(p, w, PM_SLOT_CLOSING, false, p->method.kick, "the second half of the kick");
 	} else
 		push(p, w, PM_SLOT_CLOSING, true, p->method.scheme, p->method.why_step);
+	if (forced && chosen)
+		follow(p, w, PM_SLOT_CLOSING);
 }
 
 /* Without a force only the opening slot and the slot after the step remain. */

@@ -75,7 +75,7 @@ static double step_of(const struct pm_frame *f, const struct pm_plan *p) { retur
 static double followed(const struct pm_plan *p)
 {
 	const struct pm_step *scheme = strcmp(p->method.scheme, "leapfrog") ? pm_step_find(p->method.scheme) : NULL;
-	return isnan(p->method.follow) ? NAN : ceil(p->method.evaluations / (scheme ? scheme->passes : 1));
+	return isnan(p->method.follow) && isnan(p->method.tolerance) ? NAN : ceil(p->method.evaluations / (scheme ? scheme->passes : 1));
 }
 
 double pm_plan_steps(const struct pm_frame *f, const struct pm_plan *p)

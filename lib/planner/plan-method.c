@@ -44,7 +44,7 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_method *m = &p->method;
 	const struct pm_scales *s = &p->scales;
-	*m = (struct pm_method){.dt = NAN, .follow = NAN, .evaluations = NAN,
+	*m = (struct pm_method){.dt = NAN, .follow = NAN, .tolerance = NAN, .evaluations = NAN,
 		.kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
 	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
 	p->scales.singular = s->kind == PM_VORTICES && f->nmeshes && !is_field(s);

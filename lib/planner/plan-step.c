@@ -102,8 +102,11 @@ static void follow(const struct pm_frame *f, struct pm_plan *p, const char *what
 {
 	struct pm_method *m = &p->method;
 	m->until = f->time + (f->dt < 0 ? -1 : 1) * p->scales.time;
-	snprintf(m->why_step, sizeof m->why_step, "%s, steps of %.2g/omega of the fastest orbit: for %.1g by %s", m->scheme, m->follow, p->scales.accuracy,
-		what);
+	if (!isnan(m->tolerance))
+		snprintf(m->why_step, sizeof m->why_step, "%s, tolerance %.2g: for %.1g by %s", m->scheme, m->tolerance, p->scales.accuracy, what);
+	else
+		snprintf(m->why_step, sizeof m->why_step, "%s, steps of %.2g/omega of the fastest orbit: for %.1g by %s", m->scheme, m->follow,
+			p->scales.accuracy, what);
 }
 
 int pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
@@ -112,14 +115,14 @@ int pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 	struct pm_scales *s = &p->scales;
 	struct clock c = clock_of(p);
 	const bool few = s->pairs && s->second && s->few > 1 && s->self > 0 && !(s->cyclotron > 0) && !(s->given > 0);
-	const bool pair = few && s->few < 3 && !isnan(s->orbit) && !(pow(s->softening / s->pericentre, 2) > 0.01 * s->accuracy) && pm_plan_orbit(p);
+	const bool pair = few && s->few < 3 && !isnan(s->orbit) && !(pow(s->softening / s->pericentre, 2) > 0.01 * s->accuracy) && pm_plan_orbit(f, p);
 	int status = few && !pair ? pm_plan_trial(f, p) : 0;
 	char orbit[64] = "trials with these bodies";
 	if (status)
 		return status;
 	if (pair)
 		snprintf(orbit, sizeof orbit, "the orbit, e = %.4g", s->eccentricity), c.steady = true;
-	if (!isnan(m->follow)) {
+	if (!isnan(m->follow) || !isnan(m->tolerance)) {
 		follow(f, p, orbit);
 		return 0;
 	}

@@ -91,7 +91,9 @@ void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p); /* plan-cure.c: 
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p); /* before the force: their mesh follows from the nearest pair */
 int pm_plan_step(const struct pm_frame *f, struct pm_plan *p);
 /* orbit-scheme.c: of a pair, by the atlas: true if it was measured there. */
-bool pm_plan_orbit(struct pm_plan *p);
+bool pm_plan_orbit(const struct pm_frame *f, struct pm_plan *p);
+/* May ias15 advance this frame (lib/push/control-declare.c)? Its first step is the frame's. */
+bool pm_plan_smooth(const struct pm_frame *f);
 /* orbit-trial.c: of few bodies that the atlas does not hold, by trials with the frame itself. 0 or failure. */
 int pm_plan_trial(const struct pm_frame *f, struct pm_plan *p);
 

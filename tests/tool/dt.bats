@@ -71,7 +71,7 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	run -1 bash -o pipefail -c 'pinit two-body | pp | dt --acceleration 0.1 > /dev/null'
 	[[ $output == *"needs a softening length (--softening LENGTH)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt > /dev/null'
-	[[ $output == *"no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C)"* ]]
+	[[ $output == *"no rule (--courant C, --acceleration ETA, --lcfl C, --plasma C, --oscillation C, or --until T alone)"* ]]
 	run -2 bash -o pipefail -c 'pinit two-body | dt --courant 1 --min 2 --max 1 > /dev/null'
 	[[ $output == *"--min 2 is above --max 1"* ]]
 }
@@ -105,4 +105,13 @@ step_of() { stab | grep -o '"dt":[-+.e0-9]*' | cut -d: -f2; }
 	cycle -t -1.234 "${words/--until /--until=-}" < start | sls | grep -q '^frame 1: time -1.234 '
 	# beyond it the rule alone counts
 	cycle -t 1.234 "$words" < <(pinit two-body --eccentricity 0.5) | cycle -n 3 "$words" | sls | grep -qE '^frame 1: time 1.[3-9]'
+}
+
+@test "--until alone leaves the steps to the scheme, and ends them at that time" {
+	pinit kepler --eccentricity 0.9 >start
+	cycle -t 3.3 'pp | push ias15 --tolerance 1e-5 | dt --until 3.3' <start | sls >end
+	grep -q '^frame 1: time 3.3 ' end
+	steps=$(sed -n 's/^frame 1: .* step \([0-9]*\) .*/\1/p' end)
+	[ "$steps" -gt 5 ] && [ "$steps" -lt 100 ] # 45; with the dt of the frame 525
+	pinit two-body --dt 0.1 | cycle -t 1.234 'pp | dt --until 1.234 | push rk4' | sls | grep -q '^frame 1: time 1.234 step 13 '
 }
