@@ -88,8 +88,8 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 							if (n == 1 && faces != "wall" && r[2] != 0) exit 1; if (n == 1 && faces == "wall" &&
 								!(r[2] < 0)) exit 1 }' b ||
 						{ echo "$dim-D, $faces, $n particles, order $order"; cat b; return 1; }
-					[ $faces = wall ] || awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { s += $at["dheat"]; a += $at["dheat"]^2 }
-						END { print (a > 0 ? sqrt(s^2 / a) : 0) }' b >>sums
+					[ $faces = wall ] || awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+						{ s += $at["dheat"]; a += $at["dheat"]^2 } END { print (a > 0 ? sqrt(s^2 / a) : 0) }' b >>sums
 				done
 			done
 		done
@@ -103,7 +103,8 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 			pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat >$at
 	done
 	for at in 1 -1 2; do # relative, round-off of a few terms
-		below "$(paste 0 ./$at | awk '{ d = ($1 - $2)^2 / $1^2; worst = d > worst ? d : worst; n++ } END { print (n == 3 ? sqrt(worst) : "nan") }')" 1e-12 "at $at"
+		below "$(paste 0 ./$at | awk '{ d = ($1 - $2)^2 / $1^2; worst = d > worst ? d : worst; n++ }
+			END { print (n == 3 ? sqrt(worst) : "nan") }')" 1e-12 "at $at"
 	done
 	# on a wall the image cancels, and only half of the cell is inside
 	awk 'BEGIN { print "x heat volume"; for (i = 0; i <= 20; i++) print i / 20, i / 20, i ? 0.05 : 0.025 }' |
@@ -131,7 +132,8 @@ sum() { stab --plain | column heat | awk '{ s += $1 } END { printf "%.17g\n", s 
 	awk 'BEGIN { print "x y heat volume" } { print; a[NR] = $0 } END { for (i = 1; i <= NR; i++) { split(a[i], c); print -c[1], c[2], -c[3], c[4] }
 		for (i = 1; i <= NR; i++) { split(a[i], c); print c[1], -c[2], c[3], c[4]; print -c[1], -c[2], -c[3], c[4] } }' some |
 			stab - --strength heat --box -1,1 | pse --field heat --nu 1 --eps 0.1 | stab --plain | column dheat | head -n 60 >both
-	below "$(paste corner both | awk '{ d = ($1 - $2)^2 / $1^2; worst = d > worst ? d : worst; n++ } END { print (n == 60 ? sqrt(worst) : "nan") }')" 1e-11
+	below "$(paste corner both |
+		awk '{ d = ($1 - $2)^2 / $1^2; worst = d > worst ? d : worst; n++ } END { print (n == 60 ? sqrt(worst) : "nan") }')" 1e-11
 }
 
 @test "volumes over six decades: the sum is conserved, and a constant value stays constant" {

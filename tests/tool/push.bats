@@ -94,6 +94,7 @@ refuses() {
 	refuses 2 "no kick stands beside a magnetic one" "pinit gyration | m2p | push boris/2 kick/2"
 	refuses 1 "has a magnetic field, which a plain kick would leave out (use a magnetic scheme: push boris/2)" "pinit gyration | m2p | push kick/2"
 	refuses 1 "adds up to 1.5 of a step" "pinit gyration | m2p | push boris/2 | push boris/2 | push boris/2"
+	counted 7
 }
 
 @test "boris/2 keeps acc and bfield, counts as half a kick, and two halves about a time turn v by 2 atan(Omega dt/2)" {

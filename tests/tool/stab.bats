@@ -57,6 +57,7 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 		printf 'x y z\n1 2 3\n# one\n4 %s 6\n' "$bad" >t
 		run -1 --separate-stderr stab t
 		[ "$stderr" = "stab: t: line 4, column 2 'y': '$bad' is not finite" ]
+		counted 1
 	done
 }
 
@@ -67,6 +68,7 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	printf 'x y z\n1 2 3\n1 2 3 4\n' >t
 	run -1 --separate-stderr stab t
 	[ "$stderr" = "stab: t: line 3: 4 columns, but the line of names has 3" ]
+	counted 2
 }
 
 @test "HC-59: the first wrong line is named in a text of many pieces, whatever the number of threads" {
