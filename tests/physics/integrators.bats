@@ -156,7 +156,7 @@ energies() {
 	below "$(awk '{ d = $2 < 0 ? -$2 : $2; if (d > m) m = d } END { print m }' e)" 5e-15
 	[ -n "${PM_LONG:-}" ] || return 0
 	energies 43326000 2000 >e # 507 689 steps
-	# What the error changes by in a time: its root mean square over the run, for times of 6 to 50 thousand steps. A walk has the slope 1/2, a trend 1.
+	# What the error changes by in a time: its root mean square over the run, for times of 8 to 64 thousand steps. A walk has the slope 1/2, a trend 1.
 	# Measured 0.49 +- 0.04 (24 runs that differ in the last bits of their start), and 0.4 from the energy of diag: its last place blurs short times.
 	between "$(awk '{ e[NR] = $2 } END { for (lag = 4; lag <= 32; lag *= 2) { s = 0; for (i = lag + 1; i <= NR; i++) s += (e[i] - e[i - lag])^2
 		x = log(lag); y = log(s / (NR - lag)) / 2
