@@ -70,6 +70,19 @@ static double cheapest(struct pm_plan *p, const struct clock *c)
 	return dt;
 }
 
+/* [time] Step of leapfrog for the encounters of many bodies: C/omega, with omega = sqrt(2 G m/softening^3) of the deepest, once bodies move far enough to
+ * meet. Measured errors of velocities, C = 0.06, 0.2, 0.6, 2: 1e-4, 4e-4, 3e-3, 0.05 of warm bodies (plummer), and up to 2e-3, 0.01, 0.3, 0.8 of cold ones,
+ * which fall onto each other (cold-sphere; docs/plan.md). Others: a quarter of the limit of stability for the nearest pair. */
+static double encounter_step(const struct pm_scales *s)
+{
+	if (s->kind != PM_MASSES || !(s->softening > 0))
+		return 0.5 / s->encounter;
+	const double moved = s->v_rms * s->time + 0.5 * s->self_max * s->time * s->time;
+	const double omega = s->encounter * (moved > 0.3 * s->nearest ? pow(fmax(1, s->nearest / s->softening), 1.5) : 1);
+	const bool cold = s->v_thermal * s->v_thermal < 0.1 * s->self * s->spread;
+	return fmin(cold ? 0.5 : 2, cold ? 1.5 * sqrt(s->accuracy) : sqrt(s->accuracy / 0.02)) / omega;
+}
+
 /* Limits for vortices on a mesh: particles must not cross, and viscosity must be stable. */
 static double bounded(const struct pm_frame *f, const struct pm_plan *p, double dt, const char **what)
 {
@@ -78,8 +91,8 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 	double viscous = HUGE_VAL;
 	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
-	if (s->pairs && s->second && !(s->few > 1) && dt > 0.5 / s->encounter) /* a quarter of the stability limit of leapfrog */
-		*what = "encounters", dt = 0.5 / s->encounter;
+	if (s->pairs && s->second && !(s->few > 1) && dt > encounter_step(s))
+		*what = "encounters", dt = encounter_step(s);
 	if (s->kind != PM_VORTICES || s->pairs || (s->singular && !(s->nu > 0)))
 		return dt;
 	for (double fastest = 0; s->nu > 0 && fastest == 0;) {
