@@ -49,8 +49,9 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	} else {
 		const double ball[4] = {0, 2, pm_pi, 4 * pm_pi / 3}, part = fmin(1, ball[s->dim] * pow(2.5 * s->h / s->spacing, s->dim));
 		const double pull = part * s->omega * s->omega * s->spacing / (4 * pm_pi * s->self), passing = s->v_thermal * s->time / s->spacing;
-		pm_effect_by(d, s, pull, passing > 1 ? pull / sqrt(passing) : pull);
-		snprintf(d->text, sizeof d->text, "%.2g of the bodies have neighbours within 2.5 cells; left out is %.2g of the force", part, d->share);
+		/* those that fall together get velocities of their own: l2 over all bodies */
+		pm_effect_by(d, s, pull, passing > 1 ? pull / sqrt(passing) : s->omega * s->time > 1 ? fmax(pull, sqrt(part)) : pull);
+		snprintf(d->text, sizeof d->text, "%.2g of the bodies have neighbours within 2.5 cells; left out changes %.2g", part, d->share);
 	}
 }
 

@@ -80,7 +80,7 @@ static double encounter_step(const struct pm_scales *s)
 	const double moved = s->v_rms * s->time + 0.5 * s->self_max * s->time * s->time;
 	const double omega = s->encounter * (moved > 0.3 * s->nearest ? pow(fmax(1, s->nearest / s->softening), 1.5) : 1);
 	const bool cold = s->v_thermal * s->v_thermal < 0.1 * s->self * s->spread;
-	return fmin(cold ? 0.5 : 2, cold ? 1.5 * sqrt(s->accuracy) : sqrt(s->accuracy / 0.02)) / omega;
+	return fmin(cold ? 0.5 : 2, cold ? 0.8 * sqrt(s->accuracy) : sqrt(s->accuracy / 0.02)) / omega;
 }
 
 /* Limits for vortices on a mesh: particles must not cross, and viscosity must be stable. */
@@ -91,7 +91,8 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 	double viscous = HUGE_VAL;
 	if (s->kind == PM_CHARGES && !s->pairs && s->v_rms * dt > s->h && dt > fabs(f->dt))
 		*what = "a cell in a step", dt = fmax(fabs(f->dt), s->h / s->v_rms);
-	if (s->pairs && s->second && !(s->few > 1) && dt > encounter_step(s))
+	const bool meet = s->pairs || (s->kind == PM_MASSES && s->dim > 1 && s->softening > s->h); /* on a mesh, where it resolves the softening */
+	if (meet && s->second && !(s->pairs && s->few > 1) && dt > encounter_step(s))
 		*what = "encounters", dt = encounter_step(s);
 	if (s->kind != PM_VORTICES || s->pairs || (s->singular && !(s->nu > 0)))
 		return dt;
