@@ -13,6 +13,7 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
+	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	pse) echo "pse --nu 0.1" ;;
 	walk) echo "walk --nu 0.1" ;;
@@ -34,7 +35,7 @@ words() {
 # Inputs are small, so that Python can sum them: a dozen bodies, and where a mesh is needed one of 4 cells an axis.
 input() {
 	case $1 in
-	cycle | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
+	cycle | modes | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse) cloud | p2m ;;
