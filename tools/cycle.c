@@ -64,7 +64,7 @@ static const struct pm_example examples[] = {
 		"pinit plummer -n 1000 | cycle -n 20 --every 10 'push kick/2 drift | p2m -n 32 | poisson-fft | mgrad | m2p | push kick/2' | diag"},
 	{"until a cold cluster has collapsed", "pinit cold-sphere -n 200 | cycle -n 500 --until 'virial_ratio > 1' 'push kick/2 drift | pp --potential | "
 		"push kick/2' | diag --columns step,time,virial_ratio"},
-	{"the sentence that plan chooses", "pinit taylor-green-2d --cells 16 | cycle -n 5 --plan | p2m | diag"},
+	{"the sentence that plan chooses", "pinit taylor-green-2d --cells 32 | cycle -n 5 --plan | p2m | diag"},
 	{"one orbit by direct summation", "pinit two-body | cycle -n 100 'push kick/2 drift | pp | push kick/2' | diag"},
 	{0},
 };

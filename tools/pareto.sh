@@ -54,7 +54,7 @@ f|field|NAME||compare these fields, with commas between (default: all)
 o|output|DIRECTORY||write the results there, and continue from earlier ones
 |repeat|N||exactly so many rounds of timing (with --spread or --budget: at least so many; default 3)
 |spread|X||repeat until the median time of all that may be on the front is known to this fraction (default 0.05; half the interval of 90 %)
-|budget|TIME||and no longer than this, as 90s or 5min (default 60s)
+|budget|TIME||and no longer than this, as 90s or 5min (default 20s)
 |time|WORD|wall processor|which time the front is made of (default wall; processor: of all threads, less disturbed on a loaded machine)
 |axes|LIST||the criteria of the front, of error, time and memory (default error,time)
 |size|NAME||the name of --vary that is the size of the problem: a front and, by default, a reference for each size, power laws, crossovers

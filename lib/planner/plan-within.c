@@ -56,7 +56,7 @@ int pm_plan_within(const struct pm_frame *f, const struct pm_plan_choice *c, str
 		status = try(f, *c, k, c->within, &q);
 		if (status && status != -PM_NUMERICS)
 			return status;
-		const bool had = !status && !*q.refused; /* chaos or rounding may forbid it */
+		const bool had = !status && !*q.refused && !*q.unproved; /* chaos or rounding forbid it, or may: too dear to test */
 		q.next = p->next, q.forbidden = p->forbidden, q.within = c->within;
 		if (had && pm_plan_seconds(&q) <= c->within)
 			good = k, *p = q;

@@ -13,7 +13,7 @@ seconds_of() {
 settle_times() {
 	local a n=0
 	clock=${opt_time:-wall} spread=${opt_spread:-0.05} axes=${opt_axes:-error,time} fixed=
-	budget=$(seconds_of budget "${opt_budget:-60s}") || exit 2
+	budget=$(seconds_of budget "${opt_budget:-20s}") || exit 2
 	budget=${budget%.*}
 	[[ -z ${opt_repeat:-} || -n ${opt_spread:-}${opt_budget:-} ]] || fixed=1
 	for a in ${axes//,/ }; do

@@ -62,7 +62,7 @@ block() {
 @test "README: what accuracy costs: eight sentences, a front, a page" {
 	block 7 >cost.sh
 	sh_ok 'bash -euo pipefail cost.sh'
-	[ "$(grep -cE '^[* ] +[1-8] ' <<<"$output")" = 8 ]
+	[ "$(grep -cE '^[*~ ] +[1-8] ' <<<"$output")" = 8 ]
 	[[ $output == *$'\n* '* && -s report/index.html ]]
 }
 
