@@ -20,7 +20,8 @@ limit=${PM_EXAMPLE_SECONDS:-10}
 			mkdir "$n"
 			(cd "$n" && timeout "$limit" bash -o pipefail -c "$example" >out 2>err </dev/null) || { echo "$t: exit status $? of: $example"
 			cat "$n/err"; return 1; }
-			[ ! -s "$n/err" ] || { echo "$t: says on stderr: $example"; cat "$n/err"; return 1; }
+			sed -i '/^pareto: the machine was loaded:/d' "$n/err" # by the tests beside this one
+		[ ! -s "$n/err" ] || { echo "$t: says on stderr: $example"; cat "$n/err"; return 1; }
 			rm -r "$n"
 		done < <("$t" --examples)
 	done
