@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "planner/plan.h"
+#include "trial/trial.h"
 
 struct config {
 	struct pm_plan_choice choice;
@@ -57,7 +58,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (state->frames++ && !o->sentence && strcmp(o->format, "json"))
 		putchar('\n');
 	if (o->check)
-		return pm_plan_prove(stdout, f, &p, pm_given(s, "steps") ? o->steps : 0, *o->instead ? o->instead : NULL, !strcmp(o->format, "json"));
+		return pm_trial_prove(stdout, f, &p, pm_given(s, "steps") ? o->steps : 0, *o->instead ? o->instead : NULL, !strcmp(o->format, "json"));
 	if (o->sentence) {
 		puts(p.sentence);
 		if (!*p.refused) /* that is the tool's last line */

@@ -8,13 +8,13 @@
 
 #include "law/law.h"
 #include "measure/norms.h"
-#include "planner/trial.h"
+#include "planner/plan-compare.h"
 
 const char *pm_compare_what(const struct pm_frame *f, const struct pm_plan *p)
 {
 	const struct pm_scales *s = &p->scales;
 	(void)f;
-	if (pm_choice_nodes(p))
+	if (pm_plan_nodes(p))
 		return p->law->density;
 	return s->second && (s->kind == PM_CHARGES || s->periodic || s->walls || !(fmax(s->n, s->sources) > 1)) ? "v" : "x";
 }

@@ -5,7 +5,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 
-#include "planner/trial.h"
+#include "planner/plan-compare.h"
+#include "planner/sentence-edit.h"
 #include "push/state-perturb.h"
 #include "stream/run.h"
 
@@ -38,20 +39,20 @@ static bool affordable(const struct pm_frame *f, const struct pm_plan *p)
 	struct pm_edit e;
 	if (!pm_edit_read(&e, p->sentence))
 		return false;
-	const double dt = pm_choice_step(&e, f), steps = isnan(dt) ? 5000 /* of a sentence whose word dt sets them: a guess */ : p->scales.time / fabs(dt);
-	return 2 * steps * pm_trial_cost(&e, f, p) < budget;
+	const double dt = pm_edit_step(&e, f), steps = isnan(dt) ? 5000 /* of a sentence whose word dt sets them: a guess */ : p->scales.time / fabs(dt);
+	return 2 * steps * pm_edit_cost(&e, f, p) < budget;
 }
 
 /* One piece of both runs; x and y are replaced by their ends. */
 static int piece(const struct pm_plan *p, double to, struct pm_frame **x, struct pm_frame **y)
 {
-	struct pm_trial_run a, b;
-	int status = pm_trial_run(*x, p->sentence, HUGE_VAL, to, INT64_MAX, &a);
+	struct pm_plan_span a, b;
+	int status = pm_plan_run_span(*x, p->sentence, HUGE_VAL, to, INT64_MAX, &a);
 	if (status)
 		return status;
 	pm_frame_free(*x), *x = a.end;
 	pm_frame_free(a.half);
-	status = pm_trial_run(*y, p->sentence, HUGE_VAL, to, INT64_MAX, &b);
+	status = pm_plan_run_span(*y, p->sentence, HUGE_VAL, to, INT64_MAX, &b);
 	if (status)
 		return status;
 	pm_frame_free(*y), *y = b.end;

@@ -57,6 +57,8 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	}
 }
 
+bool pm_plan_nodes(const struct pm_plan *p) { return p->scales.kind == PM_VORTICES && !p->scales.pairs && !p->scales.singular; }
+
 /* ---- the mesh ---- */
 
 /* A relative force error d shifts frequencies by d/2 and phases by d omega T/2 within the run, which limits d. */

@@ -2,7 +2,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "planner/trial.h"
+#include "planner/plan-compare.h"
 #include "sentence/sentence.h"
 #include "stream/frame-time.h"
 #include "stream/run.h"
@@ -181,28 +181,24 @@ struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence)
 	return pm_frame_settle(g) ? pm_frame_free(g) : g;
 }
 
-struct pm_frame *pm_trial_pass(const struct pm_frame *f, const char *words)
+struct pm_frame *pm_plan_pass(const struct pm_frame *f, const char *words)
 {
 	struct pm_sentence *s = silent(words);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? pm_sentence_pass(s, &g) : pm_failed();
-	if (status)
-		return failed(g, s, words, status);
-	pm_sentence_free(s);
-	return g;
+	return ended(g, s, words, g ? pm_sentence_pass(s, &g) : pm_failed());
 }
 
-void pm_trial_run_free(struct pm_trial_run *r)
+void pm_plan_span_free(struct pm_plan_span *r)
 {
 	r->half = pm_frame_free(r->half);
 	r->end = pm_frame_free(r->end);
 }
 
-int pm_trial_run(const struct pm_frame *f, const char *sentence, double middle, double to, int64_t most, struct pm_trial_run *r)
+int pm_plan_run_span(const struct pm_frame *f, const char *sentence, double middle, double to, int64_t most, struct pm_plan_span *r)
 {
 	struct pm_sentence *s = silent(sentence);
 	const double back = to < f->time ? -1 : 1;
-	*r = (struct pm_trial_run){.end = s ? pm_plan_bare(f) : NULL};
+	*r = (struct pm_plan_span){.end = s ? pm_plan_bare(f) : NULL};
 	int status = r->end ? prime(s, &r->end) : pm_failed();
 	for (bool there = false; !status && !there; r->steps++) {
 		if (back * (to - r->end->time) < fabs(r->end->dt) * (1 - 1e-6)) /* steps that a word chooses end there too */
@@ -218,7 +214,7 @@ int pm_trial_run(const struct pm_frame *f, const char *sentence, double middle, 
 	if (status) {
 		pm_frame_free(r->half);
 		failed(r->end, s, sentence, status);
-		*r = (struct pm_trial_run){.end = NULL};
+		*r = (struct pm_plan_span){.end = NULL};
 		return pm_failed();
 	}
 	pm_sentence_free(s);

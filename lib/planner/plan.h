@@ -80,6 +80,8 @@ int pm_plan_again(const struct pm_frame *f, char sentence[PM_PLAN_TEXT]);
 void pm_plan_case(const struct pm_frame *f, const struct pm_plan *p, int i, struct pm_effect_case *c);
 /* is any effect included that moves particles? */
 bool pm_plan_forced(const struct pm_plan *p);
+/* plan-method.c: are the particles the nodes of the mesh, which cannot be refined without them? */
+bool pm_plan_nodes(const struct pm_plan *p);
 /* Stages and sentence from the decisions and the method. */
 int pm_plan_compose(const struct pm_frame *f, struct pm_plan *p);
 /* plan-method.c: pairs or a mesh, before the force is known; then kernel, gradient and cells. plan-step.c: scheme and step. */
@@ -142,10 +144,6 @@ struct pm_frame *pm_digits_moved(const struct pm_frame *f, uint64_t seed);
 /* Writes refused, or unproved, where orbits may part within the run. 0 or failure. */
 enum { PM_DIGITS_FEW = 64 };
 int pm_plan_digits(const struct pm_frame *f, struct pm_plan *p);
-
-/* plan-prove.c: tests effects and choices, prints what it finds, and a sentence that passes where this one does not. PM_NUMERICS if a decision was wrong or
- * the error exceeds the accuracy. steps: 0 as many as are affordable; instead: a sentence to test instead of the plan's, NULL none. */
-int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int64_t steps, const char *instead, bool json);
 
 /* plan-print.c */
 void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost);

@@ -25,4 +25,14 @@ bool pm_edit_says(const struct pm_edit *e, int word, const char *token);        
 bool pm_edit_set(struct pm_edit *e, int word, struct pm_edit_option o, const char *value);    /* NULL: takes it out; false: too long */
 void pm_edit_remove(struct pm_edit *e, int word);
 
+/* sentence-numbers.c */
+int pm_edit_order(const struct pm_edit *e);  /* of the scheme of its push: 1 if none is known */
+int pm_edit_passes(const struct pm_edit *e); /* force evaluations per step */
+int pm_edit_setter(const struct pm_edit *e, char value[64]);  /* the push that sets the step; -1 none */
+int pm_edit_chooser(const struct pm_edit *e, char value[64]); /* the push of ias15, which chooses its steps by this tolerance; -1 none */
+double pm_edit_step(const struct pm_edit *e, const struct pm_frame *f); /* [time] of the sentence, or of the frame; NAN: the word dt sets it */
+bool pm_edit_cells(const struct pm_edit *e, const struct pm_frame *f, size_t n[3]); /* of p2m along each axis; false: no p2m, or no mesh */
+double pm_edit_points(const struct pm_edit *e, const struct pm_frame *f); /* of that mesh; 0: no p2m */
+double pm_edit_cost(const struct pm_edit *e, const struct pm_frame *f, const struct pm_plan *p); /* [ns] of a step, estimated */
+
 #endif

@@ -7,9 +7,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/trial-runs.h"
+#include "trial/trial-runs.h"
 
-static double between(const struct pm_trials *t, const struct pm_trial_run *a, const struct pm_trial_run *b, const char *of)
+static double between(const struct pm_trials *t, const struct pm_plan_span *a, const struct pm_plan_span *b, const char *of)
 {
 	const struct pm_frame *const scaled[3] = {t->f, t->base.half, t->base.end};
 	return pm_compare(a->end, b->end, scaled, t->p, of);
@@ -36,7 +36,7 @@ static void richardson(double d, double p, struct pm_trial_row *row)
 
 static double order_of(const struct pm_trials *t, const struct pm_choice *c)
 {
-	return c->kind == PM_TRIAL_TIME ? pm_choice_order(&t->edit) : pm_choice_nodes(t->p) ? 4 /* m6prime */ : 2;
+	return c->kind == PM_TRIAL_TIME ? pm_edit_order(&t->edit) : pm_plan_nodes(t->p) ? 4 /* m6prime */ : 2;
 }
 
 /* The same from a mesh twice as coarse. */
@@ -54,7 +54,7 @@ static void refine_twice(struct pm_trials *t, struct pm_alternative *a, struct p
 	const bool coarse = a->choice == &pm_choices[PM_CHOICE_COARSE];
 	if (row->error + row->uncertain < 0.25 * t->p->scales.accuracy / grown(t, a, r, row->difference) || pm_trial_alter(t, a->choice, 2, b) != 1)
 		return;
-	if (a->choice->kind != PM_TRIAL_TIME && (double)t->steps * pm_trial_cost(&b->edit, b->frame, t->p) > pm_trial_budget)
+	if (a->choice->kind != PM_TRIAL_TIME && (double)t->steps * pm_edit_cost(&b->edit, b->frame, t->p) > pm_trial_budget)
 		return;
 	pm_trial_run_one(t, b, r);
 	if (!b->ran)

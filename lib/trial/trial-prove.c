@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/trial.h"
+#include "trial/trial.h"
 
 static const char *const verdicts[] = {"pass", "fail", "cannot tell"};
 static const char *const kinds[] = {"time", "space", "sampling", "rounding"};
@@ -117,7 +117,7 @@ static int say(int wrong, bool fails, const struct pm_trial *t, const struct pm_
 		t->worst < 0 ? "sentence" : t->row[t->worst].choice->name);
 }
 
-int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int64_t steps, const char *instead, bool json)
+int pm_trial_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int64_t steps, const char *instead, bool json)
 {
 	struct pm_plan_proof proof[PM_EFFECTS];
 	struct pm_trial *t = pm_alloc(1, sizeof *t);
@@ -134,7 +134,7 @@ int pm_plan_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, 
 	if (fails && *p->refused)
 		b->trial = *t, snprintf(b->why, sizeof b->why, "rounding and chaos forbid the accuracy");
 	else if (fails)
-		status = pm_refine(f, p, t, &b->trial, b->why);
+		status = pm_trial_refine(f, p, t, &b->trial, b->why);
 	if (!status && json) {
 		print_json(out, p, proof, t, fails ? b : NULL);
 	} else if (!status) {

@@ -1,9 +1,9 @@
 /* What a sentence would give if it were computed otherwise: runs of a frame beside the sentence's own, each with one choice changed (half the step, twice
  * the mesh, ...), and from their differences the error of the result with its uncertainty. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PLANNER_TRIAL_H
-#define PM_PLANNER_TRIAL_H
+#ifndef PM_TRIAL_H
+#define PM_TRIAL_H
 
-#include "planner/plan.h"
+#include "planner/plan-compare.h"
 #include "planner/sentence-edit.h"
 
 /* Choices of one kind govern the same error, of which the largest estimate counts; the kinds add up. */
@@ -12,7 +12,7 @@ enum pm_trial_verdict { PM_TRIAL_PASS, PM_TRIAL_FAIL, PM_TRIAL_UNKNOWN };
 
 enum { PM_TRIAL_ROWS = 16 };
 
-/* ---- alternatives: plan-choices.c ---- */
+/* ---- alternatives: choices-time.c, choices-space.c, choices-sample.c ---- */
 
 struct pm_choice {
 	const char *name;
@@ -22,18 +22,11 @@ struct pm_choice {
 	bool refines;
 	/* Changes sentence and frame; from, to: for the reader. 0: there is none; 1: changed; failure. */
 	int (*alter)(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48]);
-	const char *remedy; /* of a scene, where no sentence refines it; NULL: a sentence can */
 };
 extern const struct pm_choice pm_choices[]; /* name NULL ends; the first refines time, the second space */
 enum { PM_CHOICE_STEP, PM_CHOICE_MESH, PM_CHOICE_COARSE };
 
-int pm_choice_order(const struct pm_edit *e);  /* of the scheme of its push: 1 if none is known */
-int pm_choice_passes(const struct pm_edit *e); /* force evaluations per step */
-double pm_choice_step(const struct pm_edit *e, const struct pm_frame *f); /* [time] of the sentence, or of the frame; NAN: the word dt sets it */
-double pm_choice_points(const struct pm_edit *e, const struct pm_frame *f); /* of the mesh of p2m; 0: no p2m */
-bool pm_choice_nodes(const struct pm_plan *p); /* the particles are the nodes of the mesh: it cannot be refined without them */
-
-/* ---- runs: plan-trial.c ---- */
+/* ---- runs: trial.c ---- */
 
 struct pm_trial_row {
 	const struct pm_choice *choice;
@@ -60,29 +53,18 @@ struct pm_trial {
 /* steps of the sentence: 0: as many as are affordable, at most the run. 0 or failure: the sentence itself cannot run. */
 int pm_trial_of(const struct pm_frame *f, const struct pm_plan *p, const char *sentence, int64_t steps, struct pm_trial *t);
 
-double pm_trial_cost(const struct pm_edit *e, const struct pm_frame *f, const struct pm_plan *p); /* [ns] of a step, estimated */
 bool pm_trial_affordable(const struct pm_edit *e, const struct pm_frame *f, const struct pm_plan *p); /* a few steps of this sentence */
 
-struct pm_trial_run {
-	struct pm_frame *half, *end;
-	int64_t steps;
-};
-/* To time `to`, or for `most` steps if that comes first; half: the first frame at or after `middle`. 0 or failure. */
-int pm_trial_run(const struct pm_frame *f, const char *sentence, double middle, double to, int64_t most, struct pm_trial_run *r);
-void pm_trial_run_free(struct pm_trial_run *r);
-struct pm_frame *pm_trial_pass(const struct pm_frame *f, const char *words); /* a copy behind words that select or change, once */
-
-/* ---- differences: plan-compare.c ---- */
-
-const char *pm_compare_what(const struct pm_frame *f, const struct pm_plan *p); /* the quantity that the accuracy is of */
-/* |a - b| over the scale of b, in l2; NAN: they cannot be compared. a may have some of b's particles only. scaled: frames of the run of b, NULL none: the
- * scale of v is the largest of theirs. */
-double pm_compare(const struct pm_frame *a, const struct pm_frame *b, const struct pm_frame *const scaled[3], const struct pm_plan *p, const char *of);
-
-/* ---- plan-refine.c ---- */
+/* ---- trial-refine.c ---- */
 
 /* Refines the choice that fails until the sentence passes, in at most PM_REFINE_TRIES trials; last: its final trial. why: "" or why there is none. */
 enum { PM_REFINE_TRIES = 6 };
-int pm_refine(const struct pm_frame *f, const struct pm_plan *p, const struct pm_trial *first, struct pm_trial *last, char why[200]);
+int pm_trial_refine(const struct pm_frame *f, const struct pm_plan *p, const struct pm_trial *first, struct pm_trial *last, char why[200]);
+
+/* ---- trial-prove.c ---- */
+
+/* Tests effects and choices, prints what it finds, and a sentence that passes where this one does not. PM_NUMERICS if a decision was wrong or the error
+ * exceeds the accuracy. steps: 0 as many as are affordable; instead: a sentence to test instead of the plan's, NULL none. */
+int pm_trial_prove(FILE *out, const struct pm_frame *f, const struct pm_plan *p, int64_t steps, const char *instead, bool json);
 
 #endif

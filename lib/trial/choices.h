@@ -1,8 +1,8 @@
 /* The functions of pm_choices (trial.h). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PLANNER_CHOICES_H
-#define PM_PLANNER_CHOICES_H
+#ifndef PM_TRIAL_CHOICES_H
+#define PM_TRIAL_CHOICES_H
 
-#include "planner/trial.h"
+#include "trial/trial.h"
 
 int pm_choice_finer(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48]);
 int pm_choice_coarser(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48]);

@@ -1,7 +1,7 @@
 /* Choices of the particles: half of them, and their last bits. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/choices.h"
+#include "trial/choices.h"
 
 /* Particles that sample a smooth density: the plan has found that their neighbours do not matter one by one. */
 static bool samples(const struct pm_plan *p)
@@ -50,7 +50,7 @@ int pm_choice_particles(const struct pm_plan *p, struct pm_edit *e, struct pm_fr
 		(long long)(2 * bit));
 	if (p->scales.kind == PM_CHARGES)
 		snprintf(words + at, sizeof words - (size_t)at, " 'charge = 2*charge'");
-	struct pm_frame *g = pm_trial_pass(*f, words);
+	struct pm_frame *g = pm_plan_pass(*f, words);
 	pm_frame_free(*f);
 	*f = g;
 	snprintf(from, 48, "n = %g", p->scales.n);

@@ -2,7 +2,7 @@
  * came nearer to the refined run. Greedy: one choice in each try. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/trial.h"
+#include "trial/trial.h"
 
 static const double dearest = 8e9; /* [ns] of one trial, estimated */
 
@@ -48,11 +48,11 @@ static void given(const struct pm_trial *t, const struct pm_plan *p, char why[20
 	else if (sum_of(t, PM_TRIAL_SAMPLING) > accuracy)
 		snprintf(why, 200, "the noise of %g particles is %.2g (about %.0f times as many: pinit -n)", p->scales.n, sum_of(t, PM_TRIAL_SAMPLING),
 			ceil(pow(sum_of(t, PM_TRIAL_SAMPLING) / (0.5 * accuracy), 2)));
-	else if (pm_choice_nodes(p) && culprit(t) && culprit(t)->choice->kind == PM_TRIAL_SPACE)
+	else if (pm_plan_nodes(p) && culprit(t) && culprit(t)->choice->kind == PM_TRIAL_SPACE)
 		snprintf(why, 200, "the particles of the frame are the nodes of the mesh, and a finer one needs more of them (pinit --cells)");
 }
 
-int pm_refine(const struct pm_frame *f, const struct pm_plan *p, const struct pm_trial *first, struct pm_trial *last, char why[200])
+int pm_trial_refine(const struct pm_frame *f, const struct pm_plan *p, const struct pm_trial *first, struct pm_trial *last, char why[200])
 {
 	struct pm_edit e;
 	char sentence[PM_PLAN_TEXT];
@@ -73,7 +73,7 @@ int pm_refine(const struct pm_frame *f, const struct pm_plan *p, const struct pm
 		if (!status || !pm_edit_write(&e, sentence))
 			break;
 		const double halved = step ? pow(2, fmin(6, fmax(1, halvings))) : 1, steps = (double)last->steps * halved;
-		if (!pm_trial_affordable(&e, f, p) || 5 * steps * pm_trial_cost(&e, f, p) > dearest) {
+		if (!pm_trial_affordable(&e, f, p) || 5 * steps * pm_edit_cost(&e, f, p) > dearest) {
 			snprintf(why, 200, "error %.2g +- %.1g, and the next refinement is beyond the cost of a trial: %.100s", last->error,
 				last->uncertain, sentence);
 			break;

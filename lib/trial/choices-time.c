@@ -3,63 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/choices.h"
-#include "step/step.h"
+#include "trial/choices.h"
 
 static const struct pm_edit_option dt = {"dt", 0}, tolerance = {"tolerance", 0}, every = {"every", 0};
-
-/* ---- what the sentence says ---- */
-
-static const struct pm_step *scheme(const struct pm_edit *e)
-{
-	const struct pm_step *found = NULL;
-	for (int w = -1; (w = pm_edit_find(e, "push", w + 1)) >= 0 && !found;)
-		for (int i = 0; pm_steps[i] && !found; i++)
-			if (pm_steps[i]->kind == PM_SCHEME && pm_edit_says(e, w, pm_steps[i]->name))
-				found = pm_steps[i];
-	return found;
-}
-
-int pm_choice_passes(const struct pm_edit *e)
-{
-	const struct pm_step *s = scheme(e);
-	return s ? s->passes : 1;
-}
-
-int pm_choice_order(const struct pm_edit *e)
-{
-	const struct pm_step *s = scheme(e);
-	return s ? s->order : 2; /* kick/2, drift, kick/2, or with boris */
-}
-
-/* The push that sets the step; -1 none. */
-static int setter(const struct pm_edit *e, char value[64])
-{
-	for (int w = -1; (w = pm_edit_find(e, "push", w + 1)) >= 0;)
-		if (pm_edit_value(e, w, dt, value))
-			return w;
-	return -1;
-}
-
-/* The push of ias15, which chooses its steps; -1 none. */
-static int chooser(const struct pm_edit *e, char value[64])
-{
-	for (int w = -1; (w = pm_edit_find(e, "push", w + 1)) >= 0;)
-		if (pm_edit_says(e, w, "ias15")) {
-			if (!pm_edit_value(e, w, tolerance, value))
-				snprintf(value, 64, "1e-9");
-			return strtod(value, NULL) > 0 ? w : -1;
-		}
-	return -1;
-}
-
-double pm_choice_step(const struct pm_edit *e, const struct pm_frame *f)
-{
-	char value[64];
-	return pm_edit_find(e, "dt", 0) >= 0 || chooser(e, value) >= 0 ? NAN : setter(e, value) >= 0 ? strtod(value, NULL) : f->dt;
-}
-
-/* ---- time ---- */
 
 /* Rules of dt: each is halved, or what makes half the step of it. */
 static int shorter_rules(struct pm_edit *e, int w, char from[48], char to[48])
@@ -100,16 +46,16 @@ static int half_step(const struct pm_plan *p, struct pm_edit *e, struct pm_frame
 	char value[64];
 	int w = pm_edit_find(e, "dt", 0);
 	(void)p;
-	if (w >= 0 && chooser(e, value) < 0)
+	if (w >= 0 && pm_edit_chooser(e, value) < 0)
 		return shorter_rules(e, w, from, to) && keep_intervals(e);
-	if ((w = chooser(e, value)) >= 0) { /* its step goes as the 7th root of its tolerance */
+	if ((w = pm_edit_chooser(e, value)) >= 0) { /* its step goes as the 7th root of its tolerance */
 		snprintf(from, 48, "tolerance %.32s", value);
 		snprintf(value, sizeof value, "%.3g", strtod(value, NULL) / 128);
 		snprintf(to, 48, "%.32s", value);
 		return pm_edit_set(e, w, tolerance, value);
 	}
-	const double step = pm_choice_step(e, *f);
-	const int at = setter(e, value);
+	const double step = pm_edit_step(e, *f);
+	const int at = pm_edit_setter(e, value);
 	w = at >= 0 ? at : pm_edit_find(e, "push", 0);
 	if (w < 0 || step == 0 || !strcmp(e->word[w], "push drift") || pm_edit_find(e, "walk", 0) >= 0)
 		return 0; /* straight lines have no error of the step; half steps of a random walk draw other numbers */
@@ -157,7 +103,7 @@ const struct pm_choice pm_choices[] = {
 	{.name = "gradient", .kind = PM_TRIAL_SPACE, .alter = pm_choice_gradient},
 	{.name = "solver", .kind = PM_TRIAL_SPACE, .alter = pm_choice_solver},
 	{.name = "pairs", .kind = PM_TRIAL_SPACE, .alter = pm_choice_pairs},
-	{.name = "particles", .kind = PM_TRIAL_SAMPLING, .alter = pm_choice_particles, .remedy = "more particles (pinit -n)"},
+	{.name = "particles", .kind = PM_TRIAL_SAMPLING, .alter = pm_choice_particles},
 	{.name = "last bit", .kind = PM_TRIAL_ROUNDING, .alter = pm_choice_last_bit},
 	{.name = NULL},
 };

@@ -3,42 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/trial-runs.h"
+#include "trial/trial-runs.h"
 
-/* Of one core, with all words of a sentence: a pair, a point of the mesh, a particle, a pass. */
-static const double ns_pair = 0.39, ns_point = 40, ns_particle = 150, ns_pass = 2e4;
 static const double orbits = 1e9; /* instead of the budget for few bodies, whose error may come all at once, at a pericentre */
-enum { LEAST_STEPS = 4 };
-
-double pm_trial_cost(const struct pm_edit *e, const struct pm_frame *f, const struct pm_plan *p)
-{
-	const struct pm_scales *s = &p->scales;
-	const double points = pm_choice_points(e, f), open = s->open ? pow(2, f->dim) : 1, slow = pm_edit_find(e, "poisson-mg", 0) >= 0 ? 4 : 1;
-	const double pairs = pm_edit_find(e, "pp", 0) >= 0 ? ns_pair * s->n * s->sources : 0;
-	return pm_choice_passes(e) * (ns_pass + ns_particle * s->n + ns_point * points * open * slow + pairs);
-}
-
-/* 1: there is such an alternative; 0: none; failure. */
-int pm_trial_alter(const struct pm_trials *t, const struct pm_choice *c, int times, struct pm_alternative *a)
-{
-	char from[48];
-	*a = (struct pm_alternative){.choice = c, .edit = t->edit, .frame = pm_plan_bare(t->f), .steps = 1};
-	int status = a->frame ? 1 : -PM_DATA;
-	for (int i = 0; i < times && status == 1; i++)
-		status = c->alter(t->p, &a->edit, &a->frame, i ? from : a->from, a->to);
-	if (status == 1 && c->refines && c->kind == PM_TRIAL_TIME)
-		a->steps = pow(2, times);
-	if (status == 1 && !pm_edit_write(&a->edit, a->sentence))
-		status = 0;
-	if (status != 1)
-		a->frame = pm_frame_free(a->frame);
-	return status;
-}
-
-bool pm_trial_affordable(const struct pm_edit *e, const struct pm_frame *f, const struct pm_plan *p)
-{
-	return LEAST_STEPS * pm_trial_cost(e, f, p) < pm_trial_budget;
-}
 
 static bool affordable(const struct pm_trials *t, const struct pm_choice *c, const struct pm_alternative *a)
 {
@@ -47,7 +14,7 @@ static bool affordable(const struct pm_trials *t, const struct pm_choice *c, con
 		finer = finer || t->alt[i].choice == &pm_choices[PM_CHOICE_MESH];
 	if (c == &pm_choices[PM_CHOICE_COARSE] && finer)
 		return false;
-	return LEAST_STEPS * a->steps * pm_trial_cost(&a->edit, a->frame, t->p) < pm_trial_budget || (c->refines && c->kind == PM_TRIAL_TIME);
+	return PM_TRIAL_LEAST * a->steps * pm_edit_cost(&a->edit, a->frame, t->p) < pm_trial_budget || (c->refines && c->kind == PM_TRIAL_TIME);
 }
 
 static void collect(struct pm_trials *t)
@@ -66,9 +33,9 @@ static void collect(struct pm_trials *t)
 /* [ns] of all runs, for a step of the sentence. */
 static double cost_of_all(const struct pm_trials *t)
 {
-	double ns = 2 * pm_trial_cost(&t->edit, t->f, t->p); /* some are refined twice */
+	double ns = 2 * pm_edit_cost(&t->edit, t->f, t->p); /* some are refined twice */
 	for (int i = 0; i < t->n; i++)
-		ns += t->alt[i].steps * pm_trial_cost(&t->alt[i].edit, t->alt[i].frame, t->p);
+		ns += t->alt[i].steps * pm_edit_cost(&t->alt[i].edit, t->alt[i].frame, t->p);
 	return ns;
 }
 
@@ -88,16 +55,7 @@ static int64_t affordable_steps(struct pm_trials *t)
 		for (int i = 0; i < t->n; i++)
 			if (!strcmp(t->alt[i].choice->name, "scheme"))
 				leave_out(t, i);
-	return (int64_t)fmax(LEAST_STEPS, floor(most / cost_of_all(t)));
-}
-
-/* Words that set dt themselves end their run at t->to. */
-static bool ends(struct pm_trials *t, struct pm_edit *e, char sentence[PM_PLAN_TEXT])
-{
-	char value[64];
-	const int w = pm_edit_find(e, "dt", 0);
-	snprintf(value, sizeof value, "%.17g", t->to);
-	return (w < 0 || pm_edit_set(e, w, (struct pm_edit_option){"until", 0}, value)) && pm_edit_write(e, sentence);
+	return (int64_t)fmax(PM_TRIAL_LEAST, floor(most / cost_of_all(t)));
 }
 
 /* The sentence itself, and by it how far all of them run. */
@@ -109,25 +67,17 @@ static int run_base(struct pm_trials *t, int64_t steps, struct pm_trial *r)
 	t->to = t->f->time + sign * (r->all && most < r->all ? (double)most * fabs(t->dt) : r->all ? (double)r->all * fabs(t->dt) : T);
 	t->middle = t->f->time + (t->to - t->f->time) * (r->all ? floor(0.5 * (double)(most < r->all ? most : r->all)) / (double)(most < r->all ? most : r->all)
 		: 0.5);
-	if (!ends(t, &t->edit, t->sentence))
+	if (!pm_trial_ends(t, &t->edit, t->sentence))
 		return pm_fail(PM_USAGE, "the sentence is too long to be tested");
-	const int status = pm_trial_run(t->f, t->sentence, t->middle, t->to, most, &t->base);
+	const int status = pm_plan_run_span(t->f, t->sentence, t->middle, t->to, most, &t->base);
 	if (status)
 		return status;
 	t->steps = r->steps = t->base.steps;
 	t->to = t->base.end->time;
 	r->part = fabs(t->to - t->f->time) / T;
 	r->part = r->part > 1 - 1e-6 ? 1 : r->part;
-	r->evaluations += (double)t->steps * pm_choice_passes(&t->edit);
-	return ends(t, &t->edit, t->sentence) ? 0 : pm_fail(PM_USAGE, "the sentence is too long to be tested");
-}
-
-void pm_trial_run_one(struct pm_trials *t, struct pm_alternative *a, struct pm_trial *r)
-{
-	const int64_t most = (int64_t)(8 * a->steps) * t->steps + 64;
-	a->ran = ends(t, &a->edit, a->sentence) && !pm_trial_run(a->frame, a->sentence, t->middle, t->to, most, &a->run) &&
-		fabs(a->run.end->time - t->to) <= 1e-6 * fabs(a->run.end->dt);
-	r->evaluations += (double)a->run.steps * pm_choice_passes(&a->edit);
+	r->evaluations += (double)t->steps * pm_edit_passes(&t->edit);
+	return pm_trial_ends(t, &t->edit, t->sentence) ? 0 : pm_fail(PM_USAGE, "the sentence is too long to be tested");
 }
 
 static void add_up(const struct pm_trials *t, struct pm_trial *r)
@@ -160,7 +110,7 @@ int pm_trial_of(const struct pm_frame *f, const struct pm_plan *p, const char *s
 	snprintf(r->sentence, sizeof r->sentence, "%s", sentence);
 	int status = pm_edit_read(&t->edit, sentence) ? 0 : pm_fail(PM_USAGE, "the sentence is too long to be tested");
 	if (!status) {
-		t->dt = pm_choice_step(&t->edit, f);
+		t->dt = pm_edit_step(&t->edit, f);
 		collect(t);
 		status = run_base(t, steps, r);
 	}
@@ -175,10 +125,10 @@ int pm_trial_of(const struct pm_frame *f, const struct pm_plan *p, const char *s
 	if (!status)
 		add_up(t, r);
 	for (int i = 0; i < t->n; i++)
-		pm_frame_free(t->alt[i].frame), pm_trial_run_free(&t->alt[i].run);
+		pm_frame_free(t->alt[i].frame), pm_plan_span_free(&t->alt[i].run);
 	for (int i = 0; i < PM_TRIAL_KINDS; i++)
-		pm_frame_free(t->again[i].frame), pm_trial_run_free(&t->again[i].run);
-	pm_trial_run_free(&t->base);
+		pm_frame_free(t->again[i].frame), pm_plan_span_free(&t->again[i].run);
+	pm_plan_span_free(&t->base);
 	pm_free(t);
 	return status;
 }

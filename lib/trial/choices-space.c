@@ -2,36 +2,9 @@
 #include <string.h>
 
 #include "law/law.h"
-#include "planner/choices.h"
+#include "trial/choices.h"
 
 static const struct pm_edit_option cells = {"cells", 'n'}, kernel = {"kernel", 'k'}, order = {"order", 0}, rim = {"rim", 0}, symbol = {"symbol", 0};
-
-bool pm_choice_nodes(const struct pm_plan *p) { return p->scales.kind == PM_VORTICES && !p->scales.pairs && !p->scales.singular; }
-
-/* Cells of p2m along each axis; false: no p2m, or no mesh. */
-static bool mesh_of(const struct pm_edit *e, const struct pm_frame *f, size_t n[3])
-{
-	char value[64], *end = value;
-	const int w = pm_edit_find(e, "p2m", 0);
-	if (w < 0)
-		return false;
-	n[0] = n[1] = n[2] = 1;
-	if (!pm_edit_value(e, w, cells, value)) {
-		if (!f->nmeshes)
-			return false;
-		memcpy(n, f->meshes[0]->cells, 3 * sizeof n[0]);
-		return true;
-	}
-	for (int d = 0; d < f->dim; d++)
-		n[d] = d && *end != 'x' ? n[d - 1] : strtoul(d ? end + 1 : value, &end, 10);
-	return true;
-}
-
-double pm_choice_points(const struct pm_edit *e, const struct pm_frame *f)
-{
-	size_t n[3];
-	return mesh_of(e, f, n) ? (double)n[0] * (double)n[1] * (double)n[2] : 0;
-}
 
 static void show(const size_t n[3], int dim, char text[48])
 {
@@ -45,7 +18,7 @@ static int remeshed(const struct pm_plan *p, struct pm_edit *e, struct pm_frame 
 {
 	size_t n[3];
 	char words[160];
-	if (!mesh_of(e, *f, n))
+	if (!pm_edit_cells(e, *f, n))
 		return 0;
 	show(n, (*f)->dim, from);
 	for (int d = 0; d < (*f)->dim; d++) {
@@ -54,10 +27,10 @@ static int remeshed(const struct pm_plan *p, struct pm_edit *e, struct pm_frame 
 		n[d] = finer ? 2 * n[d] : n[d] / 2;
 	}
 	show(n, (*f)->dim, to);
-	if (!pm_choice_nodes(p))
+	if (!pm_plan_nodes(p))
 		return pm_edit_set(e, pm_edit_find(e, "p2m", 0), cells, to);
 	snprintf(words, sizeof words, "remesh --kernel m6prime --cells %s", to);
-	struct pm_frame *g = pm_trial_pass(*f, words);
+	struct pm_frame *g = pm_plan_pass(*f, words);
 	pm_frame_free(*f);
 	*f = g;
 	return g ? 1 : pm_failed();
@@ -66,7 +39,7 @@ static int remeshed(const struct pm_plan *p, struct pm_edit *e, struct pm_frame 
 /* Nodes cannot be made finer: what lies between them is not known. */
 int pm_choice_finer(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48])
 {
-	return pm_choice_nodes(p) ? 0 : remeshed(p, e, f, from, to, true);
+	return pm_plan_nodes(p) ? 0 : remeshed(p, e, f, from, to, true);
 }
 
 int pm_choice_coarser(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48])
@@ -151,7 +124,7 @@ int pm_choice_pairs(const struct pm_plan *p, struct pm_edit *e, struct pm_frame 
 	const int first = pm_edit_find(e, "p2m", 0), last = pm_edit_find(e, "m2p", 0);
 	const struct pm_scales *s = &p->scales;
 	(void)f;
-	if (first < 0 || last != first + 3 || pm_edit_find(e, "mgrad", 0) != first + 2 || strncmp(e->word[first + 1], "poisson-", 8) || pm_choice_nodes(p) ||
+	if (first < 0 || last != first + 3 || pm_edit_find(e, "mgrad", 0) != first + 2 || strncmp(e->word[first + 1], "poisson-", 8) || pm_plan_nodes(p) ||
 		s->periodic || s->walls)
 		return 0;
 	for (int i = 0; i < 3; i++)
