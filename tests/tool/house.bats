@@ -296,6 +296,14 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 	done
 }
 
+# Else a line of the list is dead as soon as its code moves, and only `make mutants` says so.
+@test "every error of tests/mutants.tsv has its old text exactly once in its file" {
+	bad=$(cd "$top" && awk -F'\t' '!/^#/ && NF { file = ""; while ((getline line <$2) > 0) file = file line "\n"; close($2)
+		n = 0; while (i = index(file, $3)) { n++; file = substr(file, i + length($3)) } if (n != 1) print $1 ": " n " times in " $2 }' tests/mutants.tsv)
+	echo "$bad"
+	[ -z "$bad" ]
+}
+
 # The order of the rooms is the list in docs/architecture.md, from the ground up; a file may include its own room and any below. The header that describes
 # a table's entries (kernel/kernel.h) may be included from anywhere; the methods behind it never.
 @test "arrows go one way: every room includes only rooms below it in docs/architecture.md" {
