@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cycle/plan-again.h"
-#include "planner/atlas.h"
+#include "planner/force-error.h"
 
 static const double least = 1.5; /* factor by which a step or an interval changes */
 enum { enough = 3 };               /* decisions in a row */
@@ -91,7 +91,7 @@ static void mesh(const struct pm_replan_way *now, struct pm_plan *a, const struc
 	struct pm_replan_patience *patience)
 {
 	const struct pm_scales *s = &a->scales;
-	const bool coarser = demand(wa) < demand(now), fits = error_of(now, a) <= fmax(s->mesh_error, s->accuracy / fmax(1, 0.5 * s->omega * s->time));
+	const bool coarser = demand(wa) < demand(now), fits = error_of(now, a) <= fmax(s->mesh_error, pm_force_allowed(s));
 	if (patience->weak || (fits && !coarser) || same_mesh(wa, now) || same_mesh(wb, now) || (coarser && (demand(wb) > demand(now) || !give_up(patience))))
 		take_mesh(a, NULL, now);
 	else

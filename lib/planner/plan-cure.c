@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "planner/atlas.h"
+#include "planner/force-error.h"
 #include "planner/plan.h"
 
 struct choice {
@@ -44,7 +44,6 @@ void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p)
 	const char *spectral = p->law->symbol && strcmp(p->law->symbol, "spectral") ? "spectral" : NULL;
 	const struct choice choice[] = {{p->method.kernel, p->method.order, p->method.symbol, s->mesh_error}, {"tsc", "4", spectral, NAN},
 		{"pcs", "4", spectral, NAN}};
-	const double allowed = s->accuracy / fmax(1, 0.5 * s->omega * s->time);
 	if (s->pairs || !f->nmeshes || s->kind == PM_VORTICES || !(s->length > 0) || worst(f, p) <= 0.5 * s->accuracy)
 		return;
 	for (int factor = 1; factor <= 4096; factor *= 2)
@@ -56,7 +55,7 @@ void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p)
 				return;
 			if (i)
 				k.error = pm_atlas_force_error("smooth", "poisson-fft", k.kernel, k.order, q.scales.h / s->length);
-			if (i && !(k.error <= fmax(allowed, s->mesh_error)))
+			if (i && !(k.error <= fmax(pm_force_allowed(s), s->mesh_error)))
 				continue;
 			if (tries(f, p, &k, factor)) {
 				const size_t at = strlen(p->method.why_mesh);

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "effect-parts/effect-decision.h"
-#include "planner/atlas.h"
+#include "planner/force-error.h"
 #include "planner/plan.h"
 
 /* Nanoseconds of one core: a pair of pp (data/atlas/force.tsv: 7815 for each of 20000); a point of the transform's mesh with all work on it, a particle
@@ -61,9 +61,6 @@ bool pm_plan_nodes(const struct pm_plan *p) { return p->scales.kind == PM_VORTIC
 
 /* ---- the mesh ---- */
 
-/* A relative force error d shifts frequencies by d/2 and phases by d omega T/2 within the run, which limits d. */
-static double allowed(const struct pm_scales *s) { return s->accuracy / fmax(1, 0.5 * s->omega * s->time); }
-
 struct try {
 	const struct pm_atlas_force *row; /* solver, kernel, gradient */
 	int factor;                       /* of the cells */
@@ -75,67 +72,6 @@ static bool can(const struct pm_plan *p, const struct pm_atlas_force *r, const c
 	return !strcmp(r->scene, scene) && !strncmp(r->solver, "poisson-fft", 11) && (!p->scales.open || strcmp(r->gradient, "spectral"));
 }
 
-static bool is_lattice(const struct pm_scales *s) { return s->noise * s->effective < 0.1 && s->thermal < 1e-3 * s->omega * s->h; }
-
-/* Sheets of a cold wave of amplitude A are 1 - A as far apart as they were where they are densest, at its largest within the run; waves of masses grow. */
-static double squeeze(const struct pm_scales *s)
-{
-	const double grown = s->kind == PM_MASSES ? cosh(fmin(s->omega * s->time, 50)) : 1;
-	return s->wave > 0 && is_lattice(s) ? 1 - fmin(0.9, 2 * s->wave * grown) : 1;
-}
-
-/* What a cold lattice of particles in a smooth wave does on a mesh with n of them in a cell along an axis: waves of the lattice fold onto long ones, c n^-q
- * of a wave whose particles swing by 0.036 of a cell, and grow: with t = omega T as (t/5)^g, and as exp(r t), faster the wider the particles swing, to full
- * rate at a seventh of a cell (with spectral gradients; 0.8, 0.7 and 0.5 of it with those of order 6, 4 and 2). Measured with waves of amplitude 0.0005 to
- * 0.45 on 16 to 128 cells, 1.7 to 64 particles in each, to t = 100 (docs/plan.md); 3: what the ratio of particles to cells does. */
-static const struct folding {
-	const char *kernel;
-	double c, q, g, rate;
-} foldings[] = {{"ngp", 2, 1, 1, 0.5}, {"cic", 1.2, 2, 1, 0.32}, {"tsc", 0.1, 3, 0.5, 0.2}, {"pcs", 0.02, 4, 0.5, 0.12}, {"m4prime", 0.5, 3.3, 2, 0.39},
-	{"lambda-2", 0.5, 3.7, 2, 0.4}, {"m6prime", 0.15, 3.6, 2, 0.4}, {"lambda-4-2", 0.15, 3.6, 2, 0.4}, {"lambda", 1.2, 6, 2, 0.4}};
-
-static const struct folding *folding_of(const char *kernel)
-{
-	for (size_t i = 0; i < sizeof foldings / sizeof *foldings; i++)
-		if (!strncmp(kernel, foldings[i].kernel, strlen(foldings[i].kernel)))
-			return &foldings[i];
-	return &foldings[1];
-}
-
-/* Of a particle, in cells. */
-static double swing(const struct pm_scales *s, double h) { return fmax(s->v_rms / s->omega, s->self / (s->omega * s->omega)) / h; }
-
-/* exp(r t) */
-static double growth(const struct pm_scales *s, const struct pm_atlas_force *r, double h, double t)
-{
-	const double part = fmin(1, pow(swing(s, h) / 0.15, 0.75));
-	const double order = !strcmp(r->gradient, "spectral") ? 1 : !strcmp(r->gradient, "6") ? 0.8 : !strcmp(r->gradient, "4") ? 0.7 : 0.5;
-	return exp(fmin(order * folding_of(r->kernel)->rate * part * fmax(t, 0), 100));
-}
-
-static double lattice_error(const struct pm_scales *s, const struct pm_atlas_force *r, int factor)
-{
-	const struct folding *f = folding_of(r->kernel);
-	const double h = s->h / factor, n = pow(s->n / s->points, 1. / s->dim) / factor, t = s->omega * s->time;
-	if (!is_lattice(s))
-		return 0;
-	const double least = fmin(1, f->c * pow(n * (s->kind == PM_MASSES ? 1 : squeeze(s)), -f->q));
-	if (s->kind == PM_MASSES)
-		return least; /* all waves of cold masses grow alike */
-	return fmin(1, 3 * least * 0.036 / swing(s, h) * fmax(pow(fmax(t / 5, 1), f->g), 0.1 * growth(s, r, h, t)));
-}
-
-/* The relative error of a force by a row of the atlas, with `factor` times the cells; h: of the frame's mesh over the length of the field. */
-static double row_error(const struct pm_scales *s, const struct pm_atlas_force *r, double h, int factor)
-{
-	const double atlas = pm_atlas_force_error(r->scene, r->solver, r->kernel, r->gradient, h / squeeze(s) / factor);
-	/* the mesh's own error of a steep wave makes new waves, which grow as those of the lattice */
-	const double steep = 1 - squeeze(s), t = s->omega * s->time;
-	if (is_lattice(s) && s->kind == PM_CHARGES)
-		return fmin(1, atlas * (1 + steep * steep * growth(s, r, s->h / factor, t - 5)) + lattice_error(s, r, factor) / fmax(1, 0.5 * t));
-	return atlas + lattice_error(s, r, factor) / fmax(1, 0.5 * s->omega * s->time);
-}
-
 /* Of the rows that reach the accuracy with `factor` times the cells and cost at most 1.5 times the cheapest of them, the most accurate: smaller differences
  * are timing noise of the atlas. If none reaches it, the most accurate of all. */
 static struct try best(const struct pm_plan *p, const char *scene, double h, int factor)
@@ -144,10 +80,10 @@ static struct try best(const struct pm_plan *p, const char *scene, double h, int
 	double least = HUGE_VAL;
 	for (int pass = 0; pass < 2; pass++)
 		for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++) {
-			const double e = can(p, r, scene) ? row_error(&p->scales, r, h, factor) : NAN;
-			if (!pass && e <= allowed(&p->scales))
+			const double e = can(p, r, scene) ? pm_force_error(&p->scales, r, h, factor) : NAN;
+			if (!pass && e <= pm_force_allowed(&p->scales))
 				least = fmin(least, r->ns);
-			else if (pass && e < found.error && (least == HUGE_VAL || (e <= allowed(&p->scales) && r->ns <= 1.5 * least)))
+			else if (pass && e < found.error && (least == HUGE_VAL || (e <= pm_force_allowed(&p->scales) && r->ns <= 1.5 * least)))
 				found = (struct try){r, factor, e};
 		}
 	return found;
@@ -165,8 +101,8 @@ static struct try mesh_try(const struct pm_plan *p, const char *scene, double h)
 		snprintf(solver, sizeof solver, "poisson-fft --symbol %s", p->law->symbol);
 	for (const struct pm_atlas_force *r = pm_atlas_forces; r->scene; r++)
 		if (can(p, r, scene) && !strcmp(r->solver, solver) && !strcmp(r->kernel, p->law->kernel) && !strcmp(r->gradient, p->law->order))
-			least = (struct try){r, 1, row_error(s, r, h, 1)};
-	for (int factor = 1; factor <= 8 && !(least.error <= allowed(s)) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
+			least = (struct try){r, 1, pm_force_error(s, r, h, 1)};
+	for (int factor = 1; factor <= 8 && !(least.error <= pm_force_allowed(s)) && (factor == 1 || room(s, factor) < 3e7); factor *= 2) {
 		const struct try t = best(p, scene, h, factor);
 		if (t.row && t.error < 0.8 * least.error) /* more cells only if they reduce the error */
 			least = t;
@@ -263,7 +199,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 		return;
 	s->h /= t.factor, s->points *= pow(t.factor, s->dim);
 	const double dearer = cost_pairs(s) / pm_plan_cost_mesh(s);
-	if (t.error > allowed(s) && all_open(s) && dearer < 20) {
+	if (t.error > pm_force_allowed(s) && all_open(s) && dearer < 20) {
 		m->pairs = s->pairs = true;
 		snprintf(m->why_far, sizeof m->why_far, "%g bodies, the error of a mesh would be %.1g; pairs cost %.2g times as much",
 			s->sources, t.error, dearer);
@@ -276,5 +212,5 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	for (int d = 0; d < f->dim && t.factor > 1; d++)
 		m->cells[d] = (size_t)t.factor * f->meshes[0]->cells[d];
 	snprintf(m->why_mesh, sizeof m->why_mesh, "%s: force error %.1g at h = %.2g of the length scale%s", m->kernel, t.error, s->h / s->length,
-		t.error > allowed(s) ? ", more than asked for" : "");
+		t.error > pm_force_allowed(s) ? ", more than asked for" : "");
 }
