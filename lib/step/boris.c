@@ -5,14 +5,8 @@
  * Assumes v << c. Second order, keeps |v| without E to round-off, moves at exactly E x B/B^2 in uniform fields. Cost: one square root and
  * two divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-turn.h"
+#include "step-parts/plain-pass.h"
 #include "step/step.h"
-
-static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
-{
-	(void)p, (void)q;
-	for (size_t i = 0; i < n; i++)
-		y[i] += dt * k[i];
-}
 
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
@@ -46,6 +40,6 @@ const struct pm_step step_boris = {
 	.real_limit = NAN,
 	.imaginary_limit = 2,
 	.at = {1},
-	.pass = pass,
+	.pass = pm_plain_pass,
 	.magnetic = magnetic,
 };

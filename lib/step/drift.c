@@ -2,14 +2,8 @@
  * Source: Hockney and Eastwood 1988, section 4-4 (leapfrog); Tuckerman et al. 1992 (kick and drift as factors of the propagator).
  * For the combination of the two see kick. Cost: 3 words of memory traffic per component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step-parts/plain-pass.h"
 #include "step/step.h"
-
-static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
-{
-	(void)p, (void)q;
-	for (size_t i = 0; i < n; i++)
-		y[i] += dt * k[i];
-}
 
 const struct pm_step step_drift = {
 	.name = "drift",
@@ -21,5 +15,5 @@ const struct pm_step step_drift = {
 	.real_limit = NAN,
 	.imaginary_limit = 2,
 	.at = {1},
-	.pass = pass,
+	.pass = pm_plain_pass,
 };

@@ -2,14 +2,8 @@
  * Source: Hairer, Norsett and Wanner 1993, section I.7.
  * First order; a negative control: circles become spirals, every undamped oscillation grows. One pass, no registers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step-parts/plain-pass.h"
 #include "step/step.h"
-
-static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
-{
-	(void)p, (void)q;
-	for (size_t i = 0; i < n; i++)
-		y[i] += dt * k[i];
-}
 
 const struct pm_step step_euler = {
 	.name = "euler",
@@ -22,5 +16,5 @@ const struct pm_step step_euler = {
 	.imaginary_limit = 0,
 	.doubling = 0.226234942147,
 	.at = {1},
-	.pass = pass,
+	.pass = pm_plain_pass,
 };

@@ -3,14 +3,8 @@
  * With drift: kick/2 drift | force | kick/2 is velocity Verlet, second order, symplectic and reversible if the force depends on
  * positions only, stable up to omega dt = 2. Cost: 3 words of memory traffic per component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step-parts/plain-pass.h"
 #include "step/step.h"
-
-static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
-{
-	(void)p, (void)q;
-	for (size_t i = 0; i < n; i++)
-		y[i] += dt * k[i];
-}
 
 const struct pm_step step_kick = {
 	.name = "kick",
@@ -22,5 +16,5 @@ const struct pm_step step_kick = {
 	.real_limit = NAN,
 	.imaginary_limit = 2,
 	.at = {1},
-	.pass = pass,
+	.pass = pm_plain_pass,
 };

@@ -4,14 +4,8 @@
  * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
  * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three square roots a particle. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-turn.h"
+#include "step-parts/plain-pass.h"
 #include "step/step.h"
-
-static void pass(int p, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q)
-{
-	(void)p, (void)q;
-	for (size_t i = 0; i < n; i++)
-		y[i] += dt * k[i];
-}
 
 static double square(const double x[3]) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
 
@@ -59,7 +53,7 @@ const struct pm_step step_relativistic = {
 	.real_limit = NAN,
 	.imaginary_limit = 2,
 	.at = {1},
-	.pass = pass,
+	.pass = pm_plain_pass,
 	.magnetic = magnetic,
 	.relativistic = true,
 };
