@@ -20,7 +20,7 @@ static bool remembers(const struct pm_frame *f, const struct pm_moving *m, const
 			pm_register_name(q, i, m->rates[r].state->name);
 			const struct pm_field *there = pm_control_register(m, &m->rates[r], i) ? pm_frame_field(f, m->set->name, q) : NULL;
 			all = !pm_control_register(m, &m->rates[r], i) ||
-				(there && there->role == PM_REGISTER && there->components == pm_moving_components(&m->rates[r]));
+				(there && there->role == PM_REGISTER && there->components == pm_rate_components(&m->rates[r]));
 		}
 	return all;
 }
@@ -36,7 +36,7 @@ static int sound(const struct pm_frame *f, const struct pm_moving *m, const char
 		if (rate->state->type != PM_F64)
 			return pm_fail(PM_DATA, "'%s' on '%s' is in single precision, which %s cannot use (make it again in f64, or push rk4)",
 				rate->state->name, on, name);
-		if (rate->state == m->v && m->x && pm_moving_components(rate) < m->x->components)
+		if (rate->state == m->v && m->x && pm_rate_components(rate) < m->x->components)
 			return pm_fail(PM_DATA, "'%s' on '%s' has %d components, and 'x' %d: %s needs the rate of every position", rate->rate->name, on,
 				rate->rate->components, m->x->components, name);
 	}

@@ -154,7 +154,7 @@ static struct worst all(const struct pm_frame *f, size_t n, const struct pm_movi
 		for (int r = 0; r < m->n; r++) {
 			const struct pm_rate *rate = &m->rates[r];
 			struct pm_control_norms of = {0, 0, {0}};
-			for (int c = 0; c < pm_moving_components(rate) && !(rate->state == m->x && m->v); c++) {
+			for (int c = 0; c < pm_rate_components(rate) && !(rate->state == m->x && m->v); c++) {
 				const struct pm_control_line l = line_of(m, rate, c);
 				const struct pm_control_norms one = each(w, m->set->n, &l);
 				of.rate = fmax(of.rate, one.rate), of.change = fmax(of.change, one.change);

@@ -23,11 +23,6 @@ void pm_push_drops(struct pm_frame *f, const struct pm_push *p, const char *only
 			pm_drops_roles(f, f->sets[i]->name, roles);
 }
 
-int pm_moving_components(const struct pm_rate *r)
-{
-	return r->rate->components < r->state->components ? r->rate->components : r->state->components;
-}
-
 static int declare_register(struct pm_frame *f, struct pm_moving *m, struct pm_rate *rate, int i)
 {
 	char name[PM_NAME];
@@ -39,10 +34,10 @@ static int declare_register(struct pm_frame *f, struct pm_moving *m, struct pm_r
 			name, m->set->name, m->pass.pass, m->pass.step->name);
 	if (there && there->role != PM_REGISTER)
 		return pm_fail(PM_DATA, "'%s' on '%s' is in the way of the register of %s (rename it)", name, m->set->name, m->pass.step->name);
-	rate->q[i] = known ? pm_changes(f, m->set->name, name) : pm_makes(f, m->set->name, name, pm_moving_components(rate), PM_REGISTER);
-	if (rate->q[i] && rate->q[i]->components != pm_moving_components(rate))
+	rate->q[i] = known ? pm_changes(f, m->set->name, name) : pm_makes(f, m->set->name, name, pm_rate_components(rate), PM_REGISTER);
+	if (rate->q[i] && rate->q[i]->components != pm_rate_components(rate))
 		return pm_fail(PM_DATA, "the register '%s' on '%s' has %d components, its rate %d", name, m->set->name, rate->q[i]->components,
-			pm_moving_components(rate));
+			pm_rate_components(rate));
 	return rate->q[i] ? 0 : -PM_DATA;
 }
 

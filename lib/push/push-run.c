@@ -21,7 +21,7 @@ static int lines_of(const struct pm_moving *m, int c, bool motion, struct pm_adv
 		bool is_motion = rate->state == m->x || rate->state == m->v;
 		if (m->turned && rate->state == m->v)
 			continue; /* already rotated */
-		if (is_motion == motion && c < pm_moving_components(rate))
+		if (is_motion == motion && c < pm_rate_components(rate))
 			lines[n++] = line(m, rate, c);
 	}
 	return n;

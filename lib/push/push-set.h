@@ -35,7 +35,6 @@ struct pm_moving {
 };
 
 bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face);
-int pm_moving_components(const struct pm_rate *r);
 /* If particles may be absorbed, every field that is kept is rewritten, shorter. */
 int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m);
 /* The mesh whose cells a push counts for the Courant number: the first that has a field, before the push drops it; NULL none. */

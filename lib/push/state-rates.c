@@ -15,6 +15,11 @@ static int missing(const struct pm_frame *f, const struct pm_set *s, const char 
 	return law ? pm_fail(PM_MISSING, "no field '%s' on '%s' (compute it first: %s)", name, s->name, words) : -PM_DATA;
 }
 
+int pm_rate_components(const struct pm_rate *r)
+{
+	return r->rate->components < r->state->components ? r->rate->components : r->state->components;
+}
+
 bool pm_rate_is_state(const struct pm_field *field) { return field && field->role == PM_STATE; }
 
 /* Does the set have every term of a change on a mesh? */

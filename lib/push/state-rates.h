@@ -13,6 +13,7 @@ struct pm_rate {
 	struct pm_field *q[PM_REGISTERS]; /* registers of a scheme; NULL outside */
 };
 
+int pm_rate_components(const struct pm_rate *r); /* that the rate and its state have in common */
 bool pm_rate_is_state(const struct pm_field *field);
 /* Refuses to advance a set by its change fields if there is a magnetic field (by: the scheme, which cannot use one; NULL: it can), or a
  * change on a mesh that was not interpolated to the particles. */
