@@ -84,11 +84,6 @@ static bool done(const struct cycle *y, const struct pm_frame *f)
 	return y->met || (y->c->steps != INT64_MIN && f->step >= y->start + y->c->steps) || pm_run_end_reached(&y->end, f);
 }
 
-static int prime(struct cycle *y, struct pm_frame **f)
-{
-	return (*f)->substep == 0 && pm_sentence_needs_priming(y->now.words, *f) ? pm_sentence_prime(y->now.words, f) : 0;
-}
-
 /* 0 or failure; sets whether the run ends here. */
 static int look(struct cycle *y, struct pm_frame *f)
 {
@@ -107,7 +102,7 @@ static int look_first(struct cycle *y, struct pm_frame **f)
 	if (y->until && y->c->resume)
 		status = pm_until_load(y->until, *f, saved);
 	else if (y->until) {
-		status = prime(y, f);
+		status = pm_sentence_ready(y->now.words, f);
 		status = status ? status : pm_until_begin(y->until, *f);
 	}
 	json_decref(saved);
@@ -154,7 +149,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 			return pm_failed();
 	}
 	pm_run_end_shorten(&y->end, *f);
-	int status = prime(y, f);
+	int status = pm_sentence_ready(y->now.words, f);
 	if (!status)
 		status = pm_sentence_pass(y->now.words, f);
 	if (status && waits && pm_interrupt_gives_up() && y->last)
@@ -221,7 +216,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	status = look_first(y, f);
 	status = status ? status : pm_output_begin(&y->what, *f);
 	if (!status && y->c->every > 0 && !y->c->resume) {
-		status = prime(y, f);
+		status = pm_sentence_ready(y->now.words, f);
 		status = status ? status : write_out(y, *f);
 	}
 	while (!status && !done(y, *f)) {

@@ -21,21 +21,11 @@ struct map {
 	struct pm_sentence *words;
 };
 
-/* One step, which may take several passes. */
-static int step(struct pm_sentence *s, struct pm_frame **f)
-{
-	const int64_t before = (*f)->step;
-	int status = (*f)->substep == 0 && pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0;
-	for (int pass = 0; pass < 16 && !status && (*f)->step == before; pass++)
-		status = pm_sentence_pass(s, f);
-	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence has no word that completes a step (add push)");
-}
-
 static int steps(struct pm_sentence *s, struct pm_frame **f, int64_t n)
 {
 	int status = *f ? 0 : pm_failed();
 	for (int64_t i = 0; i < n && !status; i++)
-		status = step(s, f);
+		status = pm_sentence_step(s, f);
 	return status;
 }
 
@@ -95,6 +85,8 @@ static int rest(struct pm_modes *m, const struct pm_modes_choice *c, const struc
 	for (size_t i = 0; i < m->state.n && !status; i++)
 		m->moves = fmax(m->moves, fabs(d[i]));
 	pm_free(d);
+	if (!status && fabs((after->time - base->time) / (double)c->steps - after->dt) > 1e-6 * fabs(after->dt))
+		status = pm_fail(PM_USAGE, "the sentence chooses its steps, and modes are of steps of one length (push ias15 --tolerance 0; without dt)");
 	if (!status && m->moves > 0.01 && !c->moving)
 		status = pm_fail(PM_USAGE, "the frame is no equilibrium: its state changes by %.2g of the distance of particles in "
 			"%lld step%s (-n: the steps after which it returns; --moving: the modes of these steps alone)", m->moves,

@@ -19,18 +19,6 @@ struct pm_frame *pm_plan_bare(const struct pm_frame *f)
 	return pm_frame_settle(copy) ? pm_frame_free(copy) : copy;
 }
 
-static int prime(struct pm_sentence *s, struct pm_frame **f) { return pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0; }
-
-/* One step, which may take several passes. */
-static int step(struct pm_sentence *s, struct pm_frame **f)
-{
-	const int64_t before = (*f)->step;
-	int status = prime(s, f);
-	for (int pass = 0; pass < 512 /* ias15 iterates */ && !status && (*f)->step == before; pass++)
-		status = pm_sentence_pass(s, f);
-	return status || (*f)->step > before ? status : pm_fail(PM_USAGE, "the sentence completes no step");
-}
-
 /* Repeats the failure message after the clean-up, with the sentence. */
 static struct pm_frame *failed(struct pm_frame *f, struct pm_sentence *s, const char *sentence, int status)
 {
@@ -65,9 +53,9 @@ struct pm_frame *pm_plan_run(const struct pm_frame *f, const char *sentence, int
 {
 	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? prime(s, &g) : pm_failed();
+	int status = g ? pm_sentence_ready(s, &g) : pm_failed();
 	for (int i = 0; i < steps && !status; i++)
-		status = step(s, &g);
+		status = pm_sentence_step(s, &g);
 	return ended(g, s, sentence, status);
 }
 
@@ -75,7 +63,7 @@ struct pm_frame *pm_plan_run_until(const struct pm_frame *f, const char *sentenc
 {
 	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? prime(s, &g) : pm_failed();
+	int status = g ? pm_sentence_ready(s, &g) : pm_failed();
 	while (!status && *passes && fabs(g->time - time) > 1e-9 * fabs(g->dt)) {
 		status = pm_sentence_pass(s, &g);
 		--*passes;
@@ -113,7 +101,7 @@ static int block(struct pm_sentence *s, struct pm_frame **g, int n, struct pm_pl
 	memset(t->word[t->blocks], 0, sizeof t->word[t->blocks]);
 	clock_words(s, -1. / n, t->word[t->blocks]);
 	for (int i = 0; i < n && !status; i++)
-		status = step(s, g);
+		status = pm_sentence_step(s, g);
 	clock_words(s, 1. / n, t->word[t->blocks]);
 	const struct clocks b = now();
 	t->wall[t->blocks++] = (b.c.wall - a.c.wall) / n;
@@ -155,8 +143,8 @@ struct pm_frame *pm_plan_time(const struct pm_frame *f, const char *sentence, in
 	*t = (struct pm_plan_timing){.steps = 1};
 	struct pm_sentence *s = silent(sentence);
 	struct pm_frame *g = s ? pm_plan_bare(f) : NULL;
-	int status = g ? prime(s, &g) : pm_failed();
-	status = status ? status : step(s, &g);
+	int status = g ? pm_sentence_ready(s, &g) : pm_failed();
+	status = status ? status : pm_sentence_step(s, &g);
 	t->first = pm_seconds() - began;
 	status = status ? status : blocks(s, &g, period, most, t);
 	t->peak = held ? pm_memory_peak() : NAN;
@@ -199,11 +187,11 @@ int pm_plan_run_span(const struct pm_frame *f, const char *sentence, double midd
 	struct pm_sentence *s = silent(sentence);
 	const double back = to < f->time ? -1 : 1;
 	*r = (struct pm_plan_span){.end = s ? pm_plan_bare(f) : NULL};
-	int status = r->end ? prime(s, &r->end) : pm_failed();
+	int status = r->end ? pm_sentence_ready(s, &r->end) : pm_failed();
 	for (bool there = false; !status && !there; r->steps++) {
 		if (back * (to - r->end->time) < fabs(r->end->dt) * (1 - 1e-6)) /* steps that a word chooses end there too */
 			pm_frame_dt_set(r->end, to - r->end->time);
-		status = step(s, &r->end);
+		status = pm_sentence_step(s, &r->end);
 		const double left = back * (to - r->end->time), near = 1e-6 * fabs(r->end->dt);
 		if (!status && !r->half && back * (middle - r->end->time) <= near)
 			status = (r->half = pm_plan_bare(r->end)) ? 0 : pm_failed();

@@ -19,6 +19,9 @@ bool pm_sentence_uses(struct pm_sentence *s, const struct pm_frame *f, const str
 void pm_sentence_forces(struct pm_sentence *s, struct pm_frame *f);
 int pm_sentence_prime(struct pm_sentence *s, struct pm_frame **f); /* the words that make fields from state, once */
 int pm_sentence_pass(struct pm_sentence *s, struct pm_frame **f);  /* every word, once */
+/* sentence-step.c: before a step, primes a frame that needs it; a whole step, which may take several passes. 0 or failure. */
+int pm_sentence_ready(struct pm_sentence *s, struct pm_frame **f);
+int pm_sentence_step(struct pm_sentence *s, struct pm_frame **f);
 int pm_sentence_end(struct pm_sentence *s); /* the input ended well: calls end() of the words (processes do so themselves) */
 int pm_sentence_words(const struct pm_sentence *s); /* how many */
 const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word); /* NULL: after the last, or a foreign word */

@@ -54,7 +54,16 @@ column() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	[ "$(cat t)" = $'no\nyes' ] # the limit is 0.7236
 }
 
+@test "a scheme that iterates: ias15 with steps of one length has the modes of rk4 about a circular orbit" {
+	for scheme in rk4 'ias15 --tolerance 0'; do
+		pinit two-body --eccentricity 0 --dt 0.01 | modes --table -k 1 --moving -n 20 "pp | push $scheme" | column growth_rate
+	done | paste -s >t
+	awk '{ exit !($1 > 1.41 && $1 < 1.4112 && ($1 - $2) ^ 2 < 1e-10) }' t || { cat t; false; } # 1.4106736 of both
+}
+
 @test "what has no modes is refused in one line" {
+	run -2 --separate-stderr modes --table --moving -n 20 'pp | push ias15' < <(pinit two-body --eccentricity 0 --dt 0.01)
+	[[ $stderr == "modes: frame 1: the sentence chooses its steps"*"--tolerance 0"* && $(wc -l <<<"$stderr") = 1 ]]
 	run -2 --separate-stderr modes --table "$(plasma 0.1)" < <(pinit landau -n 100)
 	[[ $stderr == "modes: frame 1: the frame is no equilibrium: its state changes by "*"--moving"* && $(wc -l <<<"$stderr") = 1 ]]
 	run -2 --separate-stderr modes 'p2m' < <(pinit langmuir -n 64)
