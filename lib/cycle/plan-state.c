@@ -5,8 +5,7 @@
 
 #include "base/decimal.h"
 #include "cycle/plan-again.h"
-
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+#include "stream/header.h"
 
 static json_t *cells_json(const size_t cells[3])
 {
@@ -26,7 +25,7 @@ void pm_replan_save(const struct pm_replan *r, struct pm_frame *f)
 		if (w->every[i] >= 0)
 			json_object_set_new(effects, pm_effects[i]->name, json_integer(w->every[i]));
 	json_object_set_new(plan, "began", json_real(r->began));
-	json_object_set_new(plan, "end", number(r->end));
+	json_object_set_new(plan, "end", pm_json_number(r->end));
 	json_object_set_new(plan, "given", json_pack("{s:f,s:o}", "dt", r->dt, "cells", cells_json(r->cells)));
 	json_object_set_new(plan, "effects", effects);
 	json_object_set_new(plan, "way", json_pack("{s:b,s:b,s:s,s:s,s:s,s:s,s:o}", "pairs", w->pairs, "grow", w->grow, "kernel", w->kernel, "symbol",

@@ -7,8 +7,7 @@
 #include <math.h>
 
 #include "cycle/plan-again.h"
-
-static double at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
+#include "stream/field-value.h"
 
 static bool real(const struct pm_field *f) { return f && (f->type == PM_F64 || f->type == PM_F32); }
 
@@ -16,7 +15,7 @@ static double length(const struct pm_field *f, size_t i)
 {
 	double square = 0;
 	for (int c = 0; c < f->components; c++)
-		square += at(f, c, i) * at(f, c, i);
+		square += pm_value_at(f, c, i) * pm_value_at(f, c, i);
 	return sqrt(square);
 }
 
@@ -36,7 +35,7 @@ struct pm_replan_seen pm_replan_look(const struct pm_frame *f)
 			s.rate += length(a, i), rates++;
 		for (size_t i = 0; moves && real(x) && i < x->count; i++, n++)
 			for (int d = 0; d < f->dim; d++) {
-				const double y = at(x, d, i) - f->lo[d]; /* from the box: no cancellation between large numbers */
+				const double y = pm_value_at(x, d, i) - f->lo[d]; /* from the box: no cancellation between large numbers */
 				sum[d] += y, square[d] += y * y;
 			}
 	}

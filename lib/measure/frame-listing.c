@@ -8,8 +8,6 @@
 #include "stream/header.h"
 #include "stream/limits.h"
 
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
 static json_t *data_json(const struct pm_frame *f)
 {
 	json_t *all = json_array();
@@ -17,7 +15,8 @@ static json_t *data_json(const struct pm_frame *f)
 		json_t *min = json_array(), *max = json_array(), *mean = json_array();
 		for (int c = 0; c < f->fields[i]->components; c++) {
 			struct pm_range r = pm_range_of(f->fields[i], c);
-			json_array_append_new(min, number(r.min)), json_array_append_new(max, number(r.max)), json_array_append_new(mean, number(r.mean));
+			json_array_append_new(min, pm_json_number(r.min)), json_array_append_new(max, pm_json_number(r.max)),
+				json_array_append_new(mean, pm_json_number(r.mean));
 		}
 		json_array_append_new(all, json_pack("{s:s,s:s,s:o,s:o,s:o}", "name", f->fields[i]->name, "on", f->fields[i]->on, "min", min, "max", max,
 			"mean", mean));

@@ -4,8 +4,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "limit/rates.h"
 #include "planner/scales.h"
+#include "stream/field-value.h"
 
-static double at(const struct pm_field *f, int c, size_t i) { return !f || c >= f->components ? 0 : f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
+static double at(const struct pm_field *f, int c, size_t i) { return f && c < f->components ? pm_value_at(f, c, i) : 0; }
 
 size_t pm_orbit_bodies(const struct pm_frame *f, const struct pm_law *law, struct pm_orbit_body b[PM_SCALES_FEW])
 {

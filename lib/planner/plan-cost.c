@@ -7,6 +7,7 @@
 
 #include "planner/plan.h"
 #include "step/step.h"
+#include "stream/header.h"
 
 /* ---- statistics of the blocks ---- */
 
@@ -189,13 +190,11 @@ void pm_plan_print_cost(FILE *out, const struct pm_plan *p)
 	fprintf(out, " a frame written takes %s\n", size(c->written, all));
 }
 
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
 json_t *pm_plan_cost_json(const struct pm_plan *p)
 {
 	const struct pm_plan_cost *c = &p->cost;
-	return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:o,s:o}", "steps", number(c->steps), "seconds_per_step", number(c->step),
-		"set_up", number(c->begin), "seconds", number(pm_plan_seconds(p)), "seconds_low", number(c->begin + c->steps * c->low),
-		"seconds_high", number(c->begin + c->steps * c->high), "processor_per_step", number(c->processor), "load", number(c->load),
-		"steps_timed", c->timed, "memory", number(c->memory), "frame", number(c->written));
+	return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:o,s:o}", "steps", pm_json_number(c->steps), "seconds_per_step", pm_json_number(c->step),
+		"set_up", pm_json_number(c->begin), "seconds", pm_json_number(pm_plan_seconds(p)), "seconds_low",
+		pm_json_number(c->begin + c->steps * c->low), "seconds_high", pm_json_number(c->begin + c->steps * c->high), "processor_per_step",
+		pm_json_number(c->processor), "load", pm_json_number(c->load), "steps_timed", c->timed, "memory", pm_json_number(c->memory), "frame", pm_json_number(c->written));
 }

@@ -4,6 +4,7 @@
 
 #include "planner/plan.h"
 #include "stage/apply.h"
+#include "stream/header.h"
 
 /* The name in ordinary spelling. */
 static const char *label(const struct pm_effect *e, char text[64])
@@ -93,12 +94,10 @@ void pm_plan_print(FILE *out, const struct pm_plan *p, bool cost)
 		pm_plan_print_cost(out, p);
 }
 
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
 void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 {
-	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[],s:[]}", "sentence", p->sentence, "accuracy", number(p->scales.accuracy),
-		"time", number(p->scales.time), "stages", "effects", "warnings");
+	json_t *all = json_pack("{s:s,s:o,s:o,s:[],s:[],s:[]}", "sentence", p->sentence, "accuracy", pm_json_number(p->scales.accuracy),
+		"time", pm_json_number(p->scales.time), "stages", "effects", "warnings");
 	if (*p->refused)
 		json_object_set_new(all, "refused", json_string(p->refused));
 	if (*p->unproved)
@@ -106,7 +105,7 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 	for (int i = 0; i < p->nstages; i++) {
 		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
 		if (cost)
-			json_object_set_new(s, "seconds", number(p->stage[i].seconds));
+			json_object_set_new(s, "seconds", pm_json_number(p->stage[i].seconds));
 		json_array_append_new(json_object_get(all, "stages"), s);
 	}
 	if (*p->method.warning)
@@ -114,9 +113,9 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 	for (int i = 0; i < p->neffects; i++) {
 		const struct pm_plan_effect *e = &p->effect[i];
 		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",
-			number(e->decision.number), "share", number(e->decision.share), "by_hand", e->by_hand);
+			pm_json_number(e->decision.number), "share", pm_json_number(e->decision.share), "by_hand", e->by_hand);
 		if (cost)
-			json_object_set_new(s, "saves", number(e->saves)), json_object_set_new(s, "saves_noise", number(e->noise));
+			json_object_set_new(s, "saves", pm_json_number(e->saves)), json_object_set_new(s, "saves_noise", pm_json_number(e->noise));
 		json_array_append_new(json_object_get(all, "effects"), s);
 		if (warns(e))
 			json_array_append_new(json_object_get(all, "warnings"), json_string(e->effect->name));

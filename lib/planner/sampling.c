@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "planner/scales.h"
+#include "stream/field-value.h"
 
 enum { MODES = 32, DIRECTIONS = 13, BEAMS = 2 };
 
@@ -15,8 +16,6 @@ struct sample {
 	size_t n;
 	double *x[3], *v[3], *q; /* v NULL: none */
 };
-
-static double at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
 
 static const struct pm_field *state(const struct pm_frame *f, const char *on, const char *name)
 {
@@ -46,8 +45,8 @@ static int collect(const struct pm_frame *f, const struct pm_law *law, struct sa
 		const struct pm_field *x = state(f, set, "x"), *v = state(f, set, "v"), *q = state(f, set, law->strength);
 		for (size_t i = 0; x && q && pm_set_moves(f, f->sets[k]) && i < x->count && p->n < most; i++, p->n++) {
 			for (int d = 0; d < f->dim; d++)
-				p->x[d][p->n] = at(x, d, i), p->v[d][p->n] = v && d < v->components ? at(v, d, i) : 0;
-			p->q[p->n] = fabs(at(q, 0, i));
+				p->x[d][p->n] = pm_value_at(x, d, i), p->v[d][p->n] = v && d < v->components ? pm_value_at(v, d, i) : 0;
+			p->q[p->n] = fabs(pm_value_at(q, 0, i));
 		}
 	}
 	return ok && p->q ? 0 : -PM_DATA;

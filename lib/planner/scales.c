@@ -9,8 +9,7 @@
 #include "limit/rates.h"
 #include "mesh/gradient.h"
 #include "planner/scales.h"
-
-static double at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
+#include "stream/field-value.h"
 
 static const struct pm_field *state(const struct pm_frame *f, const char *on, const char *name)
 {
@@ -35,13 +34,13 @@ static void speeds(const struct pm_frame *f, const struct pm_law *law, struct pm
 		const struct pm_field *q = v && s->kind == PM_CHARGES ? state(f, f->sets[k]->name, law->strength) : NULL;
 		double share = 0; /* mean strength */
 		for (size_t i = 0; q && !q->uniform && i < q->count; i++)
-			share += fabs(at(q, 0, i)) / (double)q->count;
+			share += fabs(pm_value_at(q, 0, i)) / (double)q->count;
 		for (size_t i = 0; v && i < v->count; i++) {
-			const double weight = share > 0 ? fabs(at(q, 0, i)) / share : 1;
+			const double weight = share > 0 ? fabs(pm_value_at(q, 0, i)) / share : 1;
 			double v2 = 0;
 			for (int c = 0; c < v->components && c < 3; c++) {
-				v2 += at(v, c, i) * at(v, c, i);
-				pm_sum_add(&sum[c], weight * at(v, c, i));
+				v2 += pm_value_at(v, c, i) * pm_value_at(v, c, i);
+				pm_sum_add(&sum[c], weight * pm_value_at(v, c, i));
 			}
 			s->v_max = fmax(s->v_max, sqrt(v2));
 			pm_sum_add(&square, weight * v2);
@@ -65,7 +64,7 @@ static size_t places(const struct pm_frame *f, const struct pm_law *law, size_t 
 		const struct pm_field *p = takes_part(f, law, f->sets[k]) ? state(f, f->sets[k]->name, "x") : NULL;
 		for (size_t i = 0; p && i < p->count && n < most; i++, n++)
 			for (int d = 0; d < f->dim; d++)
-				x[d][n] = at(p, d, i);
+				x[d][n] = pm_value_at(p, d, i);
 	}
 	return n;
 }
@@ -140,12 +139,12 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL;
 		const struct pm_field *v = turns ? state(f, set, "volume") : NULL;
 		for (size_t i = 0; q && i < q->count; i++) {
-			const double a = fabs(at(q, 0, i));
+			const double a = fabs(pm_value_at(q, 0, i));
 			s->sources += a > 0;
-			sum += squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a;
-			dense = v && at(v, 0, i) > 0 ? fmax(dense, a / at(v, 0, i)) : dense;
-			largest_pull = fmax(largest_pull, squares ? m && at(m, 0, i) > 0 ? a * a / at(m, 0, i) : 0 : a);
-			s->ratio = fmax(s->ratio, m && at(m, 0, i) > 0 ? a / at(m, 0, i) : squares ? 0 : 1);
+			sum += squares ? m && pm_value_at(m, 0, i) > 0 ? a * a / pm_value_at(m, 0, i) : 0 : a;
+			dense = v && pm_value_at(v, 0, i) > 0 ? fmax(dense, a / pm_value_at(v, 0, i)) : dense;
+			largest_pull = fmax(largest_pull, squares ? m && pm_value_at(m, 0, i) > 0 ? a * a / pm_value_at(m, 0, i) : 0 : a);
+			s->ratio = fmax(s->ratio, m && pm_value_at(m, 0, i) > 0 ? a / pm_value_at(m, 0, i) : squares ? 0 : 1);
 		}
 	}
 	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
@@ -164,7 +163,7 @@ static double largest(const struct pm_frame *f, const char *name)
 		for (size_t i = 0; y && i < (y->uniform ? 1 : y->count); i++) {
 			double here = 0;
 			for (int c = 0; c < y->components; c++)
-				here += at(y, c, i) * at(y, c, i);
+				here += pm_value_at(y, c, i) * pm_value_at(y, c, i);
 			most = fmax(most, sqrt(here));
 		}
 	}
@@ -183,7 +182,7 @@ static int coverage(const struct pm_frame *f, struct pm_scales *s)
 		double *H = pm_alloc(set->n, sizeof *H);
 		int status = H ? pm_set_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
 		for (size_t i = 0; i < set->n && !status; i++)
-			sum += fabs(H[i] - 1), width += pow(fabs(at(v, 0, i)), 1.0 / f->dim);
+			sum += fabs(H[i] - 1), width += pow(fabs(pm_value_at(v, 0, i)), 1.0 / f->dim);
 		n += (double)set->n;
 		pm_free(H);
 		if (status)
@@ -284,7 +283,7 @@ int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struc
 		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
 		for (size_t i = 0; a && i < a->count; i++)
 			for (int c = 0; c < a->components; c++)
-				pm_sum_add(&square, at(a, c, i) * at(a, c, i));
+				pm_sum_add(&square, pm_value_at(a, c, i) * pm_value_at(a, c, i));
 		most = a ? fmax(most, sqrt(pm_most(a, NULL))) : most;
 		n += a ? (double)a->count : 0;
 	}

@@ -10,4 +10,6 @@ int pm_header_frame(const json_t *header, struct pm_frame **f);   /* everything 
 size_t pm_field_wire(const struct pm_field *field);               /* bytes in the stream without padding; 0 if uniform */
 char *pm_json_line(const json_t *j);                              /* canonical text: sorted keys, compact, %.17g; free() it */
 
+static inline json_t *pm_json_number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+
 #endif

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "stream/header.h"
 #include "trial/trial.h"
 
 static const char *const verdicts[] = {"pass", "fail", "cannot tell"};
@@ -50,18 +51,16 @@ static void print_trial(FILE *out, const struct pm_trial *t, const struct pm_pla
 	fputs(t->part < 1 && t->verdict == PM_TRIAL_PASS ? ", as far as tested (-n tests more)\n" : "\n", out);
 }
 
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
 static json_t *trial_json(const struct pm_trial *t)
 {
-	json_t *all = json_pack("{s:s,s:s,s:o,s:o,s:s,s:o,s:I,s:I,s:[]}", "sentence", t->sentence, "of", t->of, "error", number(t->error), "uncertain",
-		number(t->uncertain), "verdict", verdicts[t->verdict], "part", number(t->part), "steps", (json_int_t)t->steps, "forces",
+	json_t *all = json_pack("{s:s,s:s,s:o,s:o,s:s,s:o,s:I,s:I,s:[]}", "sentence", t->sentence, "of", t->of, "error", pm_json_number(t->error), "uncertain",
+		pm_json_number(t->uncertain), "verdict", verdicts[t->verdict], "part", pm_json_number(t->part), "steps", (json_int_t)t->steps, "forces",
 		(json_int_t)t->evaluations, "choices");
 	for (int i = 0; i < t->n; i++) {
 		const struct pm_trial_row *r = &t->row[i];
 		json_array_append_new(json_object_get(all, "choices"), json_pack("{s:s,s:s,s:s,s:s,s:o,s:o,s:o,s:o,s:s}", "choice", r->choice->name, "kind",
-			kinds[r->choice->kind], "from", r->from, "to", r->to, "difference", number(r->difference), "error", number(r->error), "uncertain",
-			number(r->uncertain), "order", number(r->order), "by", r->text));
+			kinds[r->choice->kind], "from", r->from, "to", r->to, "difference", pm_json_number(r->difference), "error",
+			pm_json_number(r->error), "uncertain", pm_json_number(r->uncertain), "order", pm_json_number(r->order), "by", r->text));
 	}
 	return all;
 }
@@ -72,7 +71,7 @@ static json_t *proof_json(const struct pm_plan *p, const struct pm_plan_proof *p
 	for (int i = 0; i < p->neffects; i++)
 		if (proof[i].tried)
 			json_array_append_new(all, json_pack("{s:s,s:o,s:s,s:s,s:b}", "effect", p->effect[i].effect->name, "difference",
-				number(proof[i].difference), "of", proof[i].of, "verdict", proof[i].verdict, "wrong", proof[i].wrong));
+				pm_json_number(proof[i].difference), "of", proof[i].of, "verdict", proof[i].verdict, "wrong", proof[i].wrong));
 	return all;
 }
 
@@ -92,7 +91,7 @@ static void print_better(FILE *out, const struct better *b)
 
 static void print_json(FILE *out, const struct pm_plan *p, const struct pm_plan_proof *proof, const struct pm_trial *t, const struct better *b)
 {
-	json_t *all = json_pack("{s:o,s:o,s:o}", "accuracy", number(p->scales.accuracy), "effects", proof_json(p, proof), "trial", trial_json(t));
+	json_t *all = json_pack("{s:o,s:o,s:o}", "accuracy", pm_json_number(p->scales.accuracy), "effects", proof_json(p, proof), "trial", trial_json(t));
 	if (*p->refused)
 		json_object_set_new(all, "refused", json_string(p->refused));
 	if (b && *b->why)

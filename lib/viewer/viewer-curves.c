@@ -1,6 +1,7 @@
 /* The columns of diag in time: all that exist under the law; those without a number throughout are left out. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/diag-column.h"
 #include "measure/known-energy.h"
+#include "stream/header.h"
 #include "viewer/viewer-curves.h"
 #include "viewer/viewer-frame.h"
 
@@ -26,7 +27,7 @@ int pm_viewer_curves_add(struct pm_viewer_curves *c, const struct pm_frame *f)
 		return status;
 	json_t *row = json_array();
 	for (int k = 0; k < PM_COLUMNS; k++)
-		json_array_append_new(row, pm_column_suits((enum pm_column)k, &how) ? pm_viewer_number(m.value[k]) : json_null());
+		json_array_append_new(row, pm_column_suits((enum pm_column)k, &how) ? pm_json_number(m.value[k]) : json_null());
 	if (!c->rows)
 		c->rows = json_array();
 	return json_array_append_new(c->rows, row) ? pm_no_memory() : 0;

@@ -5,11 +5,10 @@
 
 #include "measure/range.h"
 #include "stream/declare.h"
+#include "stream/header.h"
 #include "viewer/viewer-frame.h"
 
 enum { precise = 4096 }; /* numbers of f32 up to here */
-
-json_t *pm_viewer_number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
 
 static bool same(const char *wanted, const char *name) { return !wanted || !strcmp(wanted, name); }
 
@@ -93,7 +92,7 @@ static int pick_points(const size_t points[3], size_t k, struct picked *p)
 
 static json_t *triple(double lo, double hi, double least)
 {
-	return json_pack("[o,o,o]", pm_viewer_number(lo), pm_viewer_number(hi), pm_viewer_number(least));
+	return json_pack("[o,o,o]", pm_json_number(lo), pm_json_number(hi), pm_json_number(least));
 }
 
 /* [smallest, largest, smallest above 0] of every component, and of the length of a vector. */
@@ -119,7 +118,7 @@ static json_t *pack(struct pm_viewer_frame *to, const struct picked *from, const
 {
 	double lo = HUGE_VAL, hi = -HUGE_VAL;
 	if (p->uniform)
-		return pm_viewer_number(p->value[c]);
+		return pm_json_number(p->value[c]);
 	for (size_t i = 0; i < from->n; i++) {
 		w[i] = pm_field_value(p, c, from->index ? from->index[i] : i);
 		lo = fmin(lo, w[i]), hi = fmax(hi, w[i]);

@@ -23,6 +23,5 @@ struct pm_viewer_frame {
 int pm_viewer_frame_reads(const struct pm_viewer_choice *c, struct pm_frame *f);
 struct pm_viewer_frame *pm_viewer_frame_of(const struct pm_viewer_choice *c, struct pm_frame *f); /* NULL: failure */
 struct pm_viewer_frame *pm_viewer_frame_free(struct pm_viewer_frame *p);
-json_t *pm_viewer_number(double x); /* null where it is not finite */
 
 #endif

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "picture/colour.h"
+#include "stream/header.h"
 #include "viewer/viewer-text.h"
 #include "viewer/viewer.h"
 
@@ -142,7 +143,7 @@ static json_t *run_json(const struct pm_viewer *v)
 	pm_viewer_left_out(v, left_out);
 	json_t *asked = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:i, s:o, s:f}", "set", text_or_null(c->set), "mesh", text_or_null(c->mesh),
 		"field", text_or_null(c->field), "x", text_or_null(c->x), "y", text_or_null(c->y), "colour", text_or_null(c->colour),
-		"component", text_or_null(v->component), "map", text_or_null(v->map), "log", v->log, "axis", v->axis, "slice", pm_viewer_number(v->slice),
+		"component", text_or_null(v->component), "map", text_or_null(v->map), "log", v->log, "axis", v->axis, "slice", pm_json_number(v->slice),
 		"fps", v->fps);
 	if (asked && v->nrange)
 		json_object_set_new(asked, "range", json_pack("[f,f]", v->range[0], v->range[1]));

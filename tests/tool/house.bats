@@ -299,7 +299,8 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 # Else a line of the list is dead as soon as its code moves, and only `make mutants` says so.
 @test "every error of tests/mutants.tsv has its old text exactly once in its file" {
 	bad=$(cd "$top" && awk -F'\t' '!/^#/ && NF { file = ""; while ((getline line <$2) > 0) file = file line "\n"; close($2)
-		n = 0; while (i = index(file, $3)) { n++; file = substr(file, i + length($3)) } if (n != 1) print $1 ": " n " times in " $2 }' tests/mutants.tsv)
+		for (n = 0; i = index(file, $3); n++) file = substr(file, i + length($3))
+		if (n != 1) print $1 ": " n " times in " $2 }' tests/mutants.tsv)
 	echo "$bad"
 	[ -z "$bad" ]
 }
