@@ -196,5 +196,6 @@ json_t *pm_plan_cost_json(const struct pm_plan *p)
 	return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:o,s:o}", "steps", pm_json_number(c->steps), "seconds_per_step", pm_json_number(c->step),
 		"set_up", pm_json_number(c->begin), "seconds", pm_json_number(pm_plan_seconds(p)), "seconds_low",
 		pm_json_number(c->begin + c->steps * c->low), "seconds_high", pm_json_number(c->begin + c->steps * c->high), "processor_per_step",
-		pm_json_number(c->processor), "load", pm_json_number(c->load), "steps_timed", c->timed, "memory", pm_json_number(c->memory), "frame", pm_json_number(c->written));
+		pm_json_number(c->processor), "load", pm_json_number(c->load), "steps_timed",
+		c->timed, "memory", pm_json_number(c->memory), "frame", pm_json_number(c->written));
 }
