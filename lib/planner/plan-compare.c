@@ -67,23 +67,30 @@ static void add_set(const struct pm_frame *a, const struct pm_frame *b, const ch
 	pm_free(match);
 }
 
-/* The mean square distance from the centre, of all particles, fixed ones too. */
+/* Mean square distance of the particles that move from the centre: of the fixed ones if there are any (a sun), else of all. */
 static double spread(const struct pm_frame *f)
 {
+	bool sun = false;
 	double square = 0;
+	for (size_t k = 0; k < f->nsets; k++)
+		sun = sun || (!pm_set_moves(f, f->sets[k]) && f->sets[k]->n > 0);
 	for (int d = 0; d < f->dim; d++) {
-		struct pm_sum first = {0, 0}, second = {0, 0};
-		double n = 0, origin = NAN;
+		struct pm_sum first[2] = {{0, 0}, {0, 0}}, second = {0, 0}; /* [1]: of those that move */
+		double n[2] = {0, 0}, origin = NAN;
 		for (size_t k = 0; k < f->nsets; k++) {
 			const struct pm_field *x = pm_frame_field(f, f->sets[k]->name, "x");
+			const bool moves = pm_set_moves(f, f->sets[k]);
 			for (size_t i = 0; x && x->buffer && i < x->count; i++) {
 				origin = isnan(origin) ? pm_in(x, d)[i] : origin;
 				const double z = pm_in(x, d)[i] - origin;
-				pm_sum_add(&first, z), pm_sum_add(&second, z * z);
-				n++;
+				pm_sum_add(&first[moves], z);
+				n[moves]++;
+				if (moves)
+					pm_sum_add(&second, z * z);
 			}
 		}
-		square += n > 0 ? pm_sum_total(second) / n - pow(pm_sum_total(first) / n, 2) : 0;
+		const double mean = n[1] > 0 ? pm_sum_total(first[1]) / n[1] : 0, centre = sun && n[0] > 0 ? pm_sum_total(first[0]) / n[0] : mean;
+		square += n[1] > 0 ? pm_sum_total(second) / n[1] - mean * mean + pow(mean - centre, 2) : 0;
 	}
 	return square;
 }

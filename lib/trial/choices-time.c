@@ -89,6 +89,12 @@ static int other_scheme(const struct pm_plan *p, struct pm_edit *e, struct pm_fr
 	const bool set = pm_edit_value(e, first, dt, value);
 	snprintf(e->word[last], PM_EDIT_WORD, "push %s%s%sblanes-moan4", set ? "--dt " : "", set ? value : "", set ? " " : "");
 	pm_edit_remove(e, first);
+	if (pm_edit_find(e, "dt", 0) == 0) { /* a step by the force stands behind the force, before the only push */
+		char words[PM_EDIT_WORD];
+		snprintf(words, sizeof words, "%s", e->word[0]);
+		memmove(e->word[0], e->word[1], (size_t)(last - 2) * PM_EDIT_WORD);
+		snprintf(e->word[last - 2], PM_EDIT_WORD, "%s", words);
+	}
 	snprintf(from, 48, "leapfrog");
 	snprintf(to, 48, "blanes-moan4");
 	return 1;

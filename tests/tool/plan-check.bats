@@ -24,6 +24,17 @@ proposed() { grep -A 1 '^# this one passes' | tail -n 1; }
 	scmp --set matter --field x --tolerance 1e-4 end start
 }
 
+@test "plan --check: places are measured from a sun that does not move, and a step by the force stands behind the force in another scheme" {
+	turn=6.283185307179586
+	pinit kepler --eccentricity 0.99 >start
+	plan --check -t $turn <start >table
+	cycle -t $turn "$(plan -t $turn --sentence <start)" <start >end
+	true=$(scmp --set matter --field x end start | awk 'NR == 2 { print $8 }')
+	error=$(sed -n 's/^# error \([^ ]*\) +- .*: pass$/\1/p' table)
+	within "$error" "$true" "$(awk "BEGIN { print 0.1 * $true }")" "the error of the places" # one digit may be printed
+	grep -qE '^scheme +leapfrog -> blanes-moan4 +[0-9]' table
+}
+
 @test "plan --check: a mesh too coarse exits 3, and the sentence it proposes has the right velocities" {
 	pinit langmuir >start
 	run -3 plan --check --instead 'push kick/2 drift | p2m -n 8 | poisson-fft | mgrad | m2p | push kick/2' <start
