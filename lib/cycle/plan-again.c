@@ -76,12 +76,13 @@ static int decide(struct pm_replan *r, const struct pm_frame *f, const struct pm
 {
 	struct pm_plan a, b;
 	struct pm_plan_choice c = choice_of(r, g, r->accuracy);
+	c.untested = true;
 	struct pm_replan_way now = r->way, to;
 	int status = pm_plan_frame(g, &c, &a);
 	if (now.grow && g->nmeshes)
 		memcpy(now.cells, g->meshes[0]->cells, sizeof now.cells);
 	const bool wary = !status && pm_replan_needs_wary(&now, fabs(f->dt), &a, g);
-	c = choice_of(r, g, r->accuracy / 3);
+	c.accuracy = r->accuracy / 3;
 	status = wary ? pm_plan_frame(g, &c, &b) : status;
 	if (status)
 		return status;

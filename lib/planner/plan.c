@@ -185,7 +185,7 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	status = pm_plan_compose(f, p);
 	if (!status && pm_plan_too_dear(f, p, c->within))
 		return 0;
-	status = status ? status : pm_plan_digits(f, p);
+	status = status || c->untested ? status : pm_plan_digits(f, p);
 	status = status || !c->cost ? status : pm_plan_price(f, p);
 	return status || !c->cost ? status : pm_plan_savings(f, p);
 }

@@ -14,6 +14,7 @@ struct pm_plan_choice { /* the options of the user */
 	struct pm_list on, off; /* effects decided by hand */
 	double within;          /* [s] of the run: far dearer plans are not timed; 0: any */
 	bool cost;              /* measure seconds */
+	bool untested;          /* chaos is not tested by runs: the plan is one of many of a run, the first of which was */
 	const char *force;      /* the words of a force on a mesh, to decide on an effect beside them (pm_plan_decide); NULL or "": those of the plan */
 };
 
