@@ -82,7 +82,10 @@ static double error_of(const struct pm_replan_way *now, const struct pm_plan *a)
 		snprintf(solver, sizeof solver, "poisson-fft --symbol %s", symbol);
 	if (a->method.pairs || now->pairs || isnan(s->mesh_error))
 		return NAN;
-	return pm_atlas_force_error(scene, solver, now->kernel, now->order, s->h * cells / s->length);
+	struct pm_scales there = *s;
+	there.h *= cells, there.points /= pow(cells, s->dim);
+	const struct pm_atlas_force row = {.scene = scene, .solver = solver, .kernel = now->kernel, .gradient = now->order};
+	return pm_force_error(&there, &row, there.h / s->length, 1);
 }
 
 /* The mesh in force stays while it is as accurate as was asked for, or as a can be; and where a is coarser, while b is not, or not for long enough.

@@ -53,8 +53,9 @@ void pm_plan_cure(const struct pm_frame *f, struct pm_plan *p)
 			q.scales.h /= factor, q.scales.points *= pow(factor, s->dim);
 			if (factor > 1 && (q.scales.points > 3e7 || pm_plan_cost_mesh(&q.scales) > 20 * pm_plan_cost_mesh(s)))
 				return;
+			const struct pm_atlas_force row = {.scene = "smooth", .solver = "poisson-fft", .kernel = k.kernel, .gradient = k.order};
 			if (i)
-				k.error = pm_atlas_force_error("smooth", "poisson-fft", k.kernel, k.order, q.scales.h / s->length);
+				k.error = pm_force_error(&q.scales, &row, q.scales.h / s->length, 1);
 			if (i && !(k.error <= fmax(pm_force_allowed(s), s->mesh_error)))
 				continue;
 			if (tries(f, p, &k, factor)) {

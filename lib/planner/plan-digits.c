@@ -39,8 +39,8 @@ static bool affordable(const struct pm_frame *f, const struct pm_plan *p)
 	struct pm_edit e;
 	if (!pm_edit_read(&e, p->sentence))
 		return false;
-	const double dt = pm_edit_step(&e, f), steps = isnan(dt) ? 5000 /* of a sentence whose word dt sets them: a guess */ : p->scales.time / fabs(dt);
-	return 2 * steps * pm_edit_cost(&e, f, p) < budget;
+	const double dt = pm_edit_step(&e, f), known = isnan(dt) ? pm_plan_steps(f, p) : p->scales.time / fabs(dt);
+	return 2 * (isfinite(known) ? known : 5000 /* a guess, of a sentence that chooses its steps */) * pm_edit_cost(&e, f, p) < budget;
 }
 
 /* One piece of both runs; x and y are replaced by their ends. */
