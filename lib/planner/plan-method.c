@@ -159,7 +159,8 @@ static void point_vortices(const struct pm_frame *f, struct pm_plan *p)
 void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p)
 {
 	struct pm_scales *s = &p->scales;
-	const double apart = s->softening > 0 ? hypot(s->nearest, s->softening) : s->nearest;
+	const double near = s->dim == 1 ? s->spacing : s->nearest; /* the force of sheets does not depend on their distance */
+	const double apart = s->softening > 0 ? hypot(near, s->softening) : near;
 	int factor = 1;
 	if (s->pairs || !f->nmeshes || !(s->n < 32) || (s->kind != PM_MASSES && s->kind != PM_CHARGES))
 		return;
