@@ -95,6 +95,12 @@ velocity() { stab "$1" | grep -v '^#' | awk 'NR == 1 { for (i = 1; i <= NF; i++)
 	scmp --tolerance 0 b d
 }
 
+@test "decisions in a collapse test no chaos by runs: what is decided often costs a few forces" {
+	pinit cold-sphere -n 200 >start
+	timeout 30 cycle -t 1.6 --plan --accuracy 0.05 --again 30 <start >end 2>/dev/null # 0.05 s; minutes with two runs for each decision
+	[ "$(sls end | grep -c '^frame 1: time 1\.5994')" = 1 ]
+}
+
 @test "what --again cannot do is refused" {
 	run -2 cycle -n 2 --again 5 'push drift'
 	[[ "$output" = *"cycle: --again belongs to --plan"* ]]

@@ -292,6 +292,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 		[[ "$(sentence $scene)" = *poisson-fft* ]]
 		plan --check < <(pinit $scene)
 	done
+	[[ "$(sentence two-stream -n 2)" != *"p2m -n"* ]] # sheets in one place: no number of cells parts them
 	# two charges in one place, softening 0: no step of 0, but a sentence
 	run -1 plan < <(pinit two-stream -n 400 --faces open)
 	[[ $output == *"in one place"*"smod --constant softening="* ]]
