@@ -23,10 +23,9 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--within finds the accuracy (leave out --accuracy)");
 	if (o->within && pm_plan_budget(o->within, &o->choice.within))
 		return -PM_USAGE;
-	if (pm_given(s, "steps") && !o->check)
-		return pm_fail(PM_USAGE, "-n belongs to --check (the end of the run is -t)");
-	if (*o->instead && !o->check)
-		return pm_fail(PM_USAGE, "--instead belongs to --check");
+	const char *stray = pm_given(s, "steps") ? "-n belongs to --check (the end of the run is -t)" : *o->instead ? "--instead belongs to --check" : NULL;
+	if (stray && !o->check)
+		return pm_fail(PM_USAGE, "%s", stray);
 	for (int i = 0; i < o->choice.on.n; i++)
 		for (int k = 0; k < o->choice.off.n; k++)
 			if (!strcmp(o->choice.on.item[i], o->choice.off.item[k]))
