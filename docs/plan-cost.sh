@@ -1,12 +1,20 @@
 #!/usr/bin/env bash
 # The table of costs in docs/plan.md: for every scene of pinit what plan says of the whole run, and what the run then takes. The end of the run is chosen so
-# that it takes about a second. Processor time (user and system), one thread, which other users of the machine change least; prediction and run take
-# turns, three times, and the medians are printed. The start of the program is taken off. Expected: all quotients within a factor 1.5. Arguments: only
-# these scenes. Takes 1 min 40 s at load 4 on 2 cores. SPDX-License-Identifier: GPL-3.0-or-later
+# that it takes about a second. Prediction and run take turns, three times, and the medians are printed. The start of the program is taken off.
+#     bash docs/plan-cost.sh [--time wall|processor] [SCENE...]
+# wall (the default): with as many threads as the user's; for a machine that nobody else uses. processor: user and system time of one thread, which other
+# users of the machine change least. Expected: all quotients within a factor 1.5. Takes 1 min 40 s. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 PATH=${PM_BIN:-$top/bin}:$PATH
-export LC_ALL=C OMP_NUM_THREADS=1
+export LC_ALL=C
+time=wall
+[ "${1:-}" != --time ] || { time=${2:-}; shift 2; }
+case $time in
+wall) said=.cost.seconds took=%e ;;
+processor) said='.cost.set_up + .cost.steps * .cost.processor_per_step' took='%U %S'; export OMP_NUM_THREADS=1 ;;
+*) echo "plan-cost.sh: --time '$time' is neither wall nor processor" >&2; exit 2 ;;
+esac
 command -v /usr/bin/time >/dev/null || { echo "plan-cost.sh: no /usr/bin/time (apt-get install time)" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -15,21 +23,22 @@ cd "$work"
 middle() { sort -g | sed -n 2p; }
 calc() { awk "BEGIN { printf \"%.6g\", ($1) }"; }
 
-# An end of the run for which plan predicts 0.2 to 3 s; at most six tries, because a longer run may be planned otherwise.
+# An end of the run for which plan predicts 0.2 to 3 s; at most ten tries, because a longer run may be planned otherwise.
 choose_end() {
-	local seconds i
+	local seconds low= high= i
 	span=$(calc "100 * $dt")
-	for i in 1 2 3 4 5 6; do
+	for i in 1 2 3 4 5 6 7 8 9 10; do
 		seconds=$(plan -t "$(calc "$begin + $span")" --format json <start | jq .cost.seconds)
 		[ "$(calc "$seconds < 0.2 || $seconds > 3")" = 1 ] || return 0
-		span=$(calc "$span * (1 / $seconds > 20 ? 20 : 1 / $seconds)")
+		if [ "$(calc "$seconds < 0.2")" = 1 ]; then low=$span; else high=$span; fi
+		if [ "$low" ] && [ "$high" ]; then span=$(calc "sqrt($low * $high)"); else span=$(calc "$span * (1 / $seconds > 20 ? 20 : 1 / $seconds)"); fi
 	done
 }
 
-# measure ARGUMENTS OF CYCLE...: processor seconds and bytes.
+# measure ARGUMENTS OF CYCLE...: seconds and bytes.
 measure() {
-	/usr/bin/time -o clock -f '%U %S %M' cycle --quiet "$@" <start >end
-	awk '{ printf "%.6g %.6g\n", $1 + $2, 1024 * $3 }' clock
+	/usr/bin/time -o clock -f "$took %M" cycle --quiet "$@" <start >end
+	awk '{ printf "%.6g %.6g\n", NF == 3 ? $1 + $2 : $1, 1024 * $NF }' clock
 }
 
 row() {
@@ -38,15 +47,15 @@ row() {
 	read -r begin dt < <(sls start | awk '/^frame/ { print $4, $10; exit }')
 	choose_end
 	end=$(calc "$begin + $span")
-	rm -f said took
+	rm -f predicted measured
 	for i in 1 2 3; do
 		plan -t "$end" --format json <start >plan.json
-		jq -r '"\(.cost.set_up + .cost.steps * .cost.processor_per_step) \(.cost.memory) \(.cost.steps)"' plan.json >>said
+		jq -r "[$said, .cost.memory, .cost.steps] | join(\" \")" plan.json >>predicted
 		none=$(measure -n 0 'push drift')
-		echo "$(measure -t "$end" "$(jq -r .sentence plan.json)") ${none% *}" >>took
+		echo "$(measure -t "$end" "$(jq -r .sentence plan.json)") ${none% *}" >>measured
 	done
-	seconds=$(awk '{ print $1 }' said | middle) memory=$(awk '{ print $2 }' said | middle) steps=$(awk '{ print $3 }' said | middle)
-	seconds_took=$(awk '{ print $1 - $3 }' took | middle) memory_took=$(awk '{ print $2 }' took | middle)
+	seconds=$(awk '{ print $1 }' predicted | middle) memory=$(awk '{ print $2 }' predicted | middle) steps=$(awk '{ print $3 }' predicted | middle)
+	seconds_took=$(awk '{ print $1 - $3 }' measured | middle) memory_took=$(awk '{ print $2 }' measured | middle)
 	awk -v n="$1" -v k="$steps" -v a="$seconds" -v b="$seconds_took" -v c="$memory" -v d="$memory_took" 'BEGIN {
 		printf b < 0.02 ? "| %s | %d | < 0.02 | < 0.02 | - |" : "| %s | %d | %.2f | %.2f | %.2f |", n, k, a, b, b ? a / b : 0
 		printf " %.1f | %.1f | %.2f |\n", c / 1e6, d / 1e6, c / d }'
