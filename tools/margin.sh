@@ -19,6 +19,8 @@ version=@VERSION@
 . lib/shell/trials.sh
 # shellcheck source=lib/shell/longer.sh
 . lib/shell/longer.sh
+# shellcheck source=lib/shell/limit-of.sh
+. lib/shell/limit-of.sh
 # shellcheck source=lib/shell/bisect.sh
 . lib/shell/bisect.sh
 # shellcheck source=lib/shell/limits.sh
@@ -64,6 +66,8 @@ Two schemes on the imaginary axis, each with its own limit|\
 margin 'printf \"x y\n1 0\n\" | stab - --law free --dt 1 | cycle -n 99 \"field vel=-{w}*y,{w}*x | push {scheme}\"' --vary w:1:4 \
 --vary scheme=lsrk3,rk4 --expect 'lsrk3=sqrt(3),rk4=2*sqrt(2)' --unstable-when 'distance_max > 2' --tolerance 0.02"
 
+# A name that is no function, as abs( is.
+column_name='(^|[^A-Za-z0-9_.])([A-Za-z_][A-Za-z0-9_.]*)[[:space:]]*([^A-Za-z0-9_.([:space:]]|$)'
 number='[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?'
 
 # Separates the ranges from the choices.
@@ -110,7 +114,7 @@ settle() {
 	[ "$seeds" -ge 1 ] || usage "--seeds 0 runs nothing (--seeds 1)"
 	[ "$jobs" -ge 1 ] || usage "--jobs 0 runs nothing (--jobs 1)"
 	awk -v x="$tolerance" 'BEGIN { exit !(x >= 1e-9 && x < 1) }' || usage "--tolerance $tolerance is not between 1e-9 and 1"
-	if [ -z "$growth" ] && [[ $criterion =~ [A-Za-z_][A-Za-z0-9_.]* ]]; then growth=${BASH_REMATCH[0]}; fi
+	if [ -z "$growth" ] && [[ "$criterion " =~ $column_name ]]; then growth=${BASH_REMATCH[2]}; fi
 	[ -z "${opt_threads:-}" ] || export OMP_NUM_THREADS=$opt_threads
 	as_typed "$@"
 }
@@ -118,7 +122,7 @@ settle() {
 # The sentences, in which the numbers are not yet inserted.
 understand() {
 	local template=${positional[0]//$'\n'/ } n open=() w
-	cycles=0 has_modes=
+	cycles=0 has_modes= moved=0
 	for n in ${has_seed:+seed} "${axis_name[@]}"; do open+=("$n=$mark$n$mark"); done
 	sentences "$template" "${opt_expect:-}" "${open[@]}" "${choices[@]}"
 	choice_shown=()
@@ -127,6 +131,7 @@ understand() {
 	words "${sentence[0]}"
 	for w in "${word[@]}"; do
 		[[ ! $w =~ $cycle_word ]] || cycles=$((cycles + 1))
+		[[ ! $w =~ $cycle_word || $w == "${word[0]}" || $cycles != 1 ]] || moved=1
 		[[ ! $w =~ ^([^[:space:]]*/)?modes[[:space:]] ]] || has_modes=1
 		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] ||
 			usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
@@ -139,7 +144,7 @@ understand() {
 
 open_state() {
 	local x='[-+0-9.eE,]+' count=$'\t''[0-9]+' result
-	result="^(trial$count$count"$'\t'"$x(@[24])?"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
+	result="^(trial$count$count"$'\t'"$x(@[24]|~[12])?"$'\t'"(stable|unstable)"$'\t'"([0-9]+|-)"$'\t'".*|growth$count$count"
 	result+=$'\t'"$x"$'\t'"([-+0-9.eE]+|-?nan|-?inf)"$'\t'"[0-9]+)$"
 	open_results search "$(printf '%s\n' "$version" "${positional[0]}" "$criterion" "${choices[*]}" "${axis_name[*]}" "$growth")" "$result" "$result"
 }

@@ -4,14 +4,15 @@
 
 # look WHAT: prints, from $state/log, lines
 #   ask MEMBER SEED VALUE            the trial to run next
-#   limit MEMBER SEED LOW HIGH HOW   the final bracket; HOW: where it was in runs of each length, if it moved
+#   limit MEMBER SEED LOW HIGH HOW   the final bracket; HOW: where it was in runs of each length, if it moved; how far the last bit of the input moves it
 #   moves MEMBER SEED HOW            the limit moves with the length of the run, and has no value that it approaches
 #   none MEMBER SEED WHY             no limit between the end points, and whether they are stable
 # WHAT sample: instead "ask MEMBER SEED VALUE" and "grow MEMBER SEED VALUE STEPS" for a curve of growth on both sides of the first seed's limit.
 look() {
 	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v \
 		scale="${axis_scale[0]}" \
-		-v from="$from" -v tolerance="$tolerance" -v cycles="${cycles:-0}" -v steps="${steps:-}" '
+		-v from="$from" -v tolerance="$tolerance" -v cycles="${cycles:-0}" -v steps="${steps:-}" -v growth="$growth" -v moved="${moved:-0}" \
+		"$by_growth$by_noise"'
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
 	function between(a, b) { return text(scale == "log" ? sqrt(a * b) : (a + b) / 2) }
@@ -43,13 +44,14 @@ look() {
 			print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " \
 				(from == "below" ? "above" : "below") ")"
 			return }
-		worse = ""
+		worse = ""; steps_of_path = 2; path[1] = a; path[2] = b
 		for (k = 0;; k++) {
 			mid = between(a, b)
 			width = size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)
 			if ((b - a) / 2 <= tolerance * width || mid == a || mid == b) break
 			mid = next_of(m, s, a, b, width, k)
 			if (!((m, s, mid) in is)) { print "ask", m, s, mid; print m, s, a, b >"/dev/fd/3"; return }
+			path[++steps_of_path] = mid
 			if (is[m, s, mid] == "unstable") worse = from == "below" ? b : a
 			if (is[m, s, mid] == good) a = mid; else b = mid
 		}
@@ -83,29 +85,35 @@ look() {
 			most = 0
 			for (k in is) {
 				split(k, one, SUBSEP)
-				if (one[1] != m || one[2] != s || is[k] != "unstable" || one[3] ~ /@/ || step[k] !~ /^[0-9]+$/ || step[k] > last / 2) continue
+				if (one[1] != m || one[2] != s || is[k] != "unstable" || one[3] ~ /[@~]/ || step[k] !~ /^[0-9]+$/ ||
+					step[k] > last / 2) continue
 				if (step[k] > most || (step[k] == most && one[3] + 0 < x + 0)) { most = step[k]; x = one[3] } }
 			if (!most) break
 			t = t (n ? ", " : "; unstable after ") most " steps at " x; last = most }
 		return t }
-	# The stable end a (or b) once more in a run twice as long. If it is unstable there, the limit is found in runs of two and four times the length, and
-	# extrapolated: a rate of growth that is linear in the distance halves the distance with each doubling, one that goes with its root quarters it.
+	# The stable end a (or b) once more in a run twice as long. If it is unstable there, the limit is where the fitted growth vanishes; where that cannot be
+	# told, it is found in runs of two and four times the length, and extrapolated: a rate of growth that is linear in the distance halves the distance
+	# with each doubling, one that goes with its root quarters it.
 	function again(m, s, a, b,    g, u, l1, l2, l4, h, ratio, rest, l, width, how, found) {
 		M = m; S = s; g = from == "below" ? a : b; u = from == "below" ? b : a
 		# A growth that is called neutral (modes) is there still: the limit is where the line through both ends has none.
 		if (rate[m, s, g] > 1e-6 && rate[m, s, u] > rate[m, s, g]) {
 			l = g - rate[m, s, g] * (u - g) / (rate[m, s, u] - rate[m, s, g]); h = (b - a) / 2
 			print "limit", m, s, l - h, l + h, ""; return }
-		if (!cycles) { print "limit", m, s, a, b, ""; return }
+		if (!cycles) { final(a, b, a, b, ""); return }
 		if (known(g, 2) == "") { print "ask", m, s, key(g, 2); return }
-		if (known(g, 2) == "stable") { print "limit", m, s, a, b, ""; return }
+		if (known(g, 2) == "stable") { final(a, b, a, b, ""); return }
+		if (by_growth(a, b)) return
 		l1 = (a + b) / 2; how = sprintf("%.5g %s", l1, run_of(1))
 		found = shifted(g, u, 2)
 		if (!found) return
 		if (found < 0) { print "moves", m, s, how ", unstable in the whole range " run_of(2) slow(m, s); return }
 		l2 = (G + B) / 2; h = size(B - G) / 2; g = G; u = B; how = how sprintf(", %.5g %s", l2, run_of(2))
 		if (known(g, 4) == "") { print "ask", m, s, key(g, 4); return }
-		if (known(g, 4) == "stable") { print "limit", m, s, l2 - h, l2 + h, "settled: " how ", and so " run_of(4); return }
+		if (known(g, 4) == "stable") {
+			# what a shift too small for this bracket may leave: as much again if it halves
+			rest = size(l1 - l2) / 2; h += rest < 2 * h ? rest : 2 * h
+			final(l2 - h, l2 + h, a, b, "settled: " how ", and so " run_of(4)); return }
 		found = shifted(g, u, 4)
 		if (!found) return
 		if (found < 0) { print "moves", m, s, how ", unstable in the whole range " run_of(4) slow(m, s); return }
@@ -114,7 +122,7 @@ look() {
 		l = l4 - (l2 - l4) / ((ratio < 2 ? 2 : ratio > 4 ? 4 : ratio) - 1); rest = size(l4 - l) + h
 		width = size(l) > 0 && low * high > 0 ? size(l) : size(low) > size(high) ? size(low) : size(high)
 		if (ratio < 1.5 || rest > 0.05 * width || l < low + 0 || l > high + 0) print "moves", m, s, how slow(m, s)
-		else print "limit", m, s, l - rest, l + rest, "extrapolated: " how }
+		else final(l - rest, l + rest, a, b, "extrapolated: " how) }
 	function point(m, s, x) {
 		if (x < low + 0 || x > high + 0 || (x in had)) return
 		had[x] = 1; x = text(x)
@@ -128,6 +136,7 @@ look() {
 		for (i = 0; i <= 8; i++) point(m, s, scale == "log" ? low * (high / low) ^ (i / 8) : low + (high - low) * i / 8)
 		split("0.01 0.03 0.06 0.1 0.2 0.35", near, " ")
 		for (i = 1; i <= 6 && l != 0; i++) { point(m, s, l * (1 - near[i])); point(m, s, l * (1 + near[i])) } }
+	$1 == "growth" { fitted[$2, $3, $4] = $5 }
 	$1 == "trial" && $7 ~ /^growth / { rate[$2, $3, $4] = substr($7, 8) + 0 }
 	{ if ($1 == "trial") { is[$2, $3, $4] = $5; step[$2, $3, $4] = $6 } else if ($1 == "growth") grew[$2, $3, $4] = 1 }
 	END { for (m = 0; m < members; m++) for (s = 1; s <= seeds; s++) search(m, s) }' "$state/log" 3>"$work/brackets"
@@ -204,12 +213,12 @@ tsv() {
 	$1 == "limit" {
 		n[$2]++; low[$2, n[$2]] = $4; high[$2, n[$2]] = $5; mid[$2, n[$2]] = ($4 + $5) / 2
 		if (($5 - $4) / 2 > half[$2]) half[$2] = ($5 - $4) / 2 }
-	$1 == "limit" && $6 != "" { moved[$2] = $6; status[$2] = "extrapolated"; if ($6 ~ /^settled/) status[$2] = "settled" }
+	$1 == "limit" && $6 != "" { moved[$2] = $6; status[$2] = $6 ~ /noise: / ? "noise" : $6 ~ /^settled/ ? "settled" : "extrapolated" }
 	$1 == "moves" { why[$2] = "no edge: the limit moves: " $4; status[$2] = "moves" }
 	$1 == "none" { why[$2] = $4 }
 	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
 	function astray(m,    k, below) {
-		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /@/ && !((m, k) in neutral)) {
+		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /[@~]/ && !((m, k) in neutral)) {
 			below = at[m, k] <= low[m, 1]
 			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable"))
 				return was[m, k] " again at " at[m, k] ": there is more than one limit" }

@@ -19,6 +19,7 @@ conditions() {
 	else
 		echo "the stable end of each bracket was run twice as long"
 	fi
+	[ "$moved" = 0 ] || echo "both ends were run twice more with the last bit of the input moved"
 }
 
 table() {

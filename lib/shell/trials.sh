@@ -1,18 +1,20 @@
 # shellcheck shell=bash
 # Trials: a sentence is run with given numbers. It is unstable if a cycle reached the criterion (cycle --until) or a word exited 3, else stable.
-# Each result is a line of $state/log, so nothing is run twice (VALUE@2: in a run twice as long):
+# Each result is a line of $state/log, so nothing is run twice (VALUE@2: in a run twice as long,
+# VALUE~1: with the last bit of the input moved):
 #   trial MEMBER SEED VALUE stable|unstable STEP WHY | growth MEMBER SEED VALUE RATE POINTS (ln of the column per step; - none)
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # Marks {name} of a number in the sentences until its value is inserted.
 mark=$'\004'
 
-# filled MEMBER SEED VALUE[,VALUE][@FACTOR]: sets text to the member's sentence with these numbers, and factor.
+# filled MEMBER SEED VALUE[,VALUE][@FACTOR|~PERTURBED]: sets text to the member's sentence with these numbers, and factor and perturbed.
 filled() {
 	local i x
-	IFS=, read -r -a x <<<"${3%@*}"
-	factor=1
+	IFS=, read -r -a x <<<"${3%[@~]*}"
+	factor=1 perturbed=
 	[[ $3 != *@* ]] || factor=${3#*@}
+	[[ $3 != *~* ]] || perturbed=${3#*~}
 	text=${sentence[$1]//"${mark}seed$mark"/$2}
 	for i in "${!axis_name[@]}"; do text=${text//"$mark${axis_name[i]}$mark"/${x[i]}}; done
 }
@@ -62,6 +64,7 @@ parts() {
 	for i in "${!all[@]}"; do
 		with_until "${all[i]}" ''
 		with_unsafe "$text"
+		[[ -z $perturbed || ! ${all[i]} =~ $cycle_word || $((i + ${2:-0})) = 0 || ${#part[@]} != 0 ]] || text="perturb --seed $perturbed | $text"
 		now+=("$text")
 		[[ ${all[i]} =~ $cycle_word && $i != "$last" ]] || continue
 		join "${now[@]}"
