@@ -39,7 +39,7 @@ h5_obj := $(patsubst %.c,$(B)/%.o,$(sort $(wildcard lib/h5/*.c)))
 alone := tools/sh5.c
 
 tables := effect green law kernel mollifier relax scene step
-lib_src := $(sort $(filter-out lib/h5/%,$(wildcard lib/*/*.c)))
+lib_src := $(sort $(filter-out lib/h5/% lib/world/mpi.c,$(wildcard lib/*/*.c)))
 lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o $(B)/tables/viewer-text.o
 tool_src := $(sort $(wildcard tools/*.c))
 word_src := $(filter-out $(alone),$(tool_src))
@@ -52,9 +52,17 @@ unit := $(unit_src:%.c=$(B)/%)
 bench_src := $(sort $(wildcard bench/*.c))
 bench := $(bench_src:%.c=$(B)/%)
 
+# Ranks of MPI are an object that the programs open under a launcher: they link no MPI, and start as fast without.
+MPICC ?= mpicc
+mpi_object := $(if $(shell command -v $(MPICC) 2>/dev/null),$(bin_dir)/pmpipe-mpi.so)
+
 all: words $(B)/libpmpipe.so
 # The programs alone, for the wheel of python/.
-words: $(tools) $(bin_dir)/pmpipe
+words: $(tools) $(bin_dir)/pmpipe $(mpi_object)
+
+$(bin_dir)/pmpipe-mpi.so: lib/world/mpi.c lib/world/transport.h
+	@mkdir -p $(@D)
+	$(MPICC) -std=c11 -O2 -g -fPIC -shared $(WARN) -o $@ $<
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
@@ -258,6 +266,7 @@ install: all man $(B)/libpmpipe.a $(B)/pmpipe.pc
 		$(D)/share/fish/vendor_completions.d $(D)/share/pmpipe $(D)/share/doc/pmpipe/methods
 	install $(bin_dir)/pmpipe $(D)/bin
 	install $(tools) $(D)/libexec/pmpipe
+	$(if $(mpi_object),install -m 644 $(mpi_object) $(D)/libexec/pmpipe)
 	install -m 644 $(B)/man/pmpipe.1 $(D)/share/man/man1
 	for w in $(words); do sed "/^.SH NAME/{n;s/^/pmpipe\\\\-/;}" $(B)/man/$$w.1 > $(D)/share/man/man1/pmpipe-$$w.1 || exit 1; done
 	install -m 644 lib/command/completion.bash lib/command/completion.zsh lib/command/completion.fish $(D)/share/pmpipe

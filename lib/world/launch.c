@@ -1,0 +1,95 @@
+/* Launchers are known by the variables that they set for each rank; the names in `variables` are Open MPI's, PMI's (MPICH and others) and PMIx's. SLURM_* says
+ * nothing: it is there in every job, also for programs that srun has not started. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dlfcn.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "world/launch.h"
+#include "world/world.h"
+
+static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", NULL};
+static const char *const ranks[] = {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK", NULL};
+
+static const char *first_of(const char *const *names)
+{
+	for (; *names; names++)
+		if (getenv(*names))
+			return getenv(*names);
+	return NULL;
+}
+
+bool pm_launched(void)
+{
+	const char *world = getenv("PM_WORLD"), *size = first_of(sizes);
+	if (world && !strcmp(world, "alone"))
+		return false;
+	return size ? atoi(size) > 1 : getenv("PMIX_RANK") != NULL;
+}
+
+int pm_launched_rank(void)
+{
+	const char *rank = first_of(ranks);
+	return rank ? atoi(rank) : 0;
+}
+
+/* Two programs of one rank at the same time are a pipeline that the launcher has started as one program. A socket whose name has no file holds the place of the
+ * rank; a rank other than 0 whose input is a pipe is in a pipeline, too. */
+static int only_one_of_this_rank(void)
+{
+	const char *job = getenv("PMIX_NAMESPACE") ? getenv("PMIX_NAMESPACE") : getenv("PMI_JOBID");
+	struct sockaddr_un place = {.sun_family = AF_UNIX};
+	struct stat in;
+	bool other = pm_launched_rank() && !fstat(STDIN_FILENO, &in) && S_ISFIFO(in.st_mode);
+	if (job) {
+		const int n = snprintf(place.sun_path + 1, sizeof place.sun_path - 1, "pmpipe-%.60s-%d", job, pm_launched_rank());
+		const int held = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0); /* until the process ends */
+		other |= held >= 0 && bind(held, (struct sockaddr *)&place, (socklen_t)(offsetof(struct sockaddr_un, sun_path) + 1 + (size_t)n));
+	}
+	return other ? pm_fail(PM_USAGE, "a pipeline runs inside the launcher (start each word by a launcher of its own, or put the words between the quotes "
+		"of cycle)") : 0;
+}
+
+static void alone_from_here(void)
+{
+	static const char *const more[] = {"OMPI_COMM_WORLD_LOCAL_SIZE", "OMPI_COMM_WORLD_LOCAL_RANK", "PMI_FD", "PMI_PORT", "PMIX_NAMESPACE", NULL};
+	for (int i = 0; sizes[i]; i++)
+		unsetenv(sizes[i]);
+	for (int i = 0; ranks[i]; i++)
+		unsetenv(ranks[i]);
+	for (int i = 0; more[i]; i++)
+		unsetenv(more[i]);
+	setenv("PM_WORLD", "alone", 1);
+}
+
+int pm_launch(const char *directory)
+{
+	char path[PATH_MAX + 32];
+	const char *size = first_of(sizes), *why;
+	const int announced = size ? atoi(size) : 0;
+	struct pm_transport t = {0};
+	int status = only_one_of_this_rank();
+	if (status)
+		return status;
+	snprintf(path, sizeof path, "%s/pmpipe-mpi.so", directory);
+	void *object = dlopen(path, RTLD_NOW | RTLD_GLOBAL);
+	if (!object)
+		return pm_fail(PM_DATA, "started by an MPI launcher, but %s is not there or does not open (install openmpi-bin and libopenmpi-dev before make; "
+			"PM_WORLD=alone runs without): %s", path, dlerror());
+	const struct pm_transport_maker *maker = dlsym(object, "pm_world_mpi");
+	if (!maker || maker->version != PM_TRANSPORT_VERSION)
+		return pm_fail(PM_DATA, "%s belongs to another version of pmpipe (make again)", path);
+	if ((why = maker->open(&t)))
+		return pm_fail(PM_DATA, "%s", why);
+	if (announced && t.size != announced)
+		return pm_fail(PM_DATA, "the launcher has started %d ranks, but this MPI sees %d (the launcher belongs to another MPI than %s)", announced, t.size,
+			path);
+	alone_from_here();
+	pm_world_set(&t);
+	return 0;
+}
