@@ -84,8 +84,9 @@ awk -F'\t' -v OFS='\t' '
 	END {
 		for (l in lines) {
 			if (l in late && !best[l]) cell = old[l]
-			else if (best[l]) cell = least[l] < 1e300 ? said(best[l]) : "exact"
-			else cell = count[l] ? count[l] " of " count[l] : "yes or no"
+			else if (best[l] && least[l] < 1e300) cell = said(best[l])
+			else if (count[l]) cell = count[l] " of " count[l]
+			else cell = best[l] ? "exact" : "yes or no"
 			print l, cell
 		}
 	}' "$work/tap" "$PM_MEASURED" "$work/rows" >"$work/cells"

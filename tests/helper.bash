@@ -51,7 +51,7 @@ order() {
 }
 
 # same_as A B: equal bytes.
-same_as() { cmp "$1" "$2"; }
+same_as() { measured within 0 0 0 bytes; cmp "$1" "$2"; }
 
 # edited SCRIPT FILE: sed on the text of a stream, to a text of the same length; the checksums of lines, headers and tails are made anew.
 edited() { sed "$@" | python3 -I -S "$top/tests/wire.py" seal /dev/stdin; }

@@ -25,6 +25,7 @@ watch() {
 	[[ $output == *"drift on 'matter' adds up to 2 of a step"* ]]
 	run -1 bash -o pipefail -c "pinit kepler | cycle -n 3 'pp | push kick/2 drift | pp | push kick' > /dev/null"
 	[[ $output == *"kick on 'matter' adds up to 1.5 of a step"* ]]
+	counted 2
 }
 
 @test "HC-18: three bodies of Pythagoras through their closest approach, 4e-4 at t = 15.83, with an adaptive step: energy to 1e-6 at t = 20" {

@@ -161,13 +161,14 @@ heats() {
 	gain
 }
 
-@test "a thermal plasma over 500 plasma periods (1e5 in check-long): with pcs its heat grows by less than 5e-6 a period; with cic ten times that" {
+@test "a thermal plasma over 500 plasma periods (1e5 in check-long): with pcs its heat grows by less than 5e-6 a period; with cic four times that and more" {
 	local steps=15708
+	# 0.12, 2.3, 0.39, 3.6 times 1e-6 for seeds 1 to 4: the start settles, which over 1e5 periods is 200 times less; there 6.5e-7. cic: 3.9e-5
 	below "$(heats pcs $steps | awk '{ print ($1 - 1) / 500 }')" 5e-6 "pcs"
-	below "$(lost)" 1e-12 "momentum"
+	below "$(lost)" 1e-14 "momentum" # a walk of 15708 roundings of 1024 velocities, 2^-53 sqrt(15708/1024) = 4e-16; measured 3e-17
 	above "$(heats cic 31416 | awk '{ print ($1 - 1) / 1000 }')" 2e-5 "cic"
 	[ -z "${PM_LONG:-}" ] || {
-		below "$(heats pcs 3141593 | awk '{ print ($1 - 1) / 1e5 }')" 5e-6 "pcs, 1e5 periods"
-		below "$(lost)" 1e-11 "momentum, 1e5 periods"
+		below "$(heats pcs 3141593 | awk '{ print ($1 - 1) / 1e5 }')" 2e-6 "pcs, 1e5 periods"
+		below "$(lost)" 1e-13 "momentum, 1e5 periods" # the same walk: 6e-15; measured 1.5e-14
 	}
 }

@@ -49,9 +49,12 @@ load ../helper
 }
 
 @test "poisson-fft: lengths of factors up to 251 need no plan" {
-	pinit uniform -n 500 | p2m -n 48x34x251 | poisson-fft > a
-	sh_ok 'sls --report < a'
-	[[ $output == *'"plan":"own"'* ]]
+	for n in 48x34x251 81x125x49 121x169x26; do
+		pinit uniform -n 500 | p2m -n $n | poisson-fft > a
+		sh_ok 'sls --report < a'
+		[[ $output == *'"plan":"own"'* ]]
+		counted 3 # lengths
+	done
 }
 
 @test "poisson-fft: the result does not depend on the frames before" {

@@ -34,6 +34,7 @@ fails() {
 		[ "$(wc -l <err)" = 1 ] || { echo "$s on $file: not one line on stderr:"; cat err; return 1; }
 		grep -Eq "^$s: .*($pattern)" err || { echo "$s on $file: wanted '$pattern', got"; cat err; return 1; }
 		[ "$s" = diag ] || [ "$(wire messages out)" = "$code $(cat err)" ] || { echo "$s on $file: the abort says"; wire messages out; return 1; }
+		counted 1
 	done; done
 }
 
@@ -246,6 +247,7 @@ assert all(v != v for v in struct.unpack("<12d", data[field("heat")]))' >/dev/nu
 		got=0
 		bash -c "$(words "$t")" <cut.pm >out 2>err || got=$?
 		[ $got = 1 ] && grep -q "^$t: .*cut" err && [ "$(wc -l <err)" = 1 ] || { echo "$t: exit status $got"; cat err; return 1; }
+		counted 1
 	done
 }
 

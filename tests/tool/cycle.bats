@@ -116,6 +116,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		run -3 bash -c "pinit two-body | cycle -n 50 --engine $engine 'push --unsafe kick/2 drift --dt 1e200 | pp | push kick/2' > b"
 		[[ $output == *"cycle: step "*"push"*"not finite"* ]]
 		tail -c 512 b | grep -q 'PMPIPE/1 abort 3'
+		counted 1
 	done
 }
 
@@ -191,6 +192,7 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		[[ $output == *"'./seven' ended with status 7"* && ${#lines[@]} -eq 1 ]]
 		run -1 bash -c "timeout 10 cycle -n 2 --engine $engine './nine | pp | push rk2' < a > b"
 		[[ $output == *"'./nine' was killed by signal 9"* ]]
+		counted 2
 	done
 }
 

@@ -5,6 +5,7 @@ load ../helper
 refuses() {
 	run -"$1" bash -o pipefail -c "$3 >/dev/null"
 	[[ $output == *"$2"* ]] || { echo "wanted '$2', got: $output"; return 1; }
+	counted 1
 }
 
 # fixture: 1000 equal masses from minstd, seed 1, in the unit cube.

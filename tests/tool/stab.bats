@@ -43,6 +43,7 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	printf '# a table\r\n\r\n  x\ty   mass\r\n\n 1 2\t3\r\n# between\n4 5 6' >t
 	sh_ok 'stab t | stab --plain | paste -sd" " | tr "\t" " "'
 	[ "$output" = "x y mass 1 2 3 4 5 6" ]
+	counted 6 # kinds
 }
 
 @test "HC-59: no rows make a set of no particles, one row makes one" {

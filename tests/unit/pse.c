@@ -283,8 +283,8 @@ static void conserves(void)
 				all += fabs(rate[i]);
 			double drift = fabs(pm_sum_array(b.n, rate)) / all;
 			/* each rate is a sum of up to 2000 terms, rounded: 1e-16 sqrt(2000) of the terms; systematic loss would show as 1e-13 and more */
-			check(drift < 1e-15, "S33: %s faces in %d-D: the rates of 2000 random particles add up to %.2g of their size",
-				pm_face_names[kinds[k]], dim, drift);
+			check_below(drift, 1e-15, "S33: %s faces in %d-D: the rates of 2000 random particles add up to zero", pm_face_names[kinds[k]],
+				dim);
 			for (size_t i = 0; i < b.n; i++)
 				b.strength[i] = 3, b.volume[i] = 0.7;
 			memset(rate, 0, sizeof rate);
