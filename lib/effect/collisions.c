@@ -1,8 +1,10 @@
-/* Collisions: encounters, which a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v); charges in N_D/ln N_D plasma periods over
- * 2 pi (N_D^2 in 1-D), N_D in a sphere of the Debye length. The share is T over that time. Summing pairs includes collisions; cold particles
+/* Collisions: encounters, which a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v), that is, velocities; the mean square of their
+ * energies' change over v^2 is 0.42 of T over that time. Charges: what T is of the time in which their velocities become isotropic, in 3-D N_D/(0.075 ln L)
+ * plasma periods over 2 pi (N_D in a sphere of the Debye length, L the lesser of 9 N_D and the cells in a Debye length), in 2-D N_D/0.155; in 1-D 10 N_D^2,
+ * in which they become Maxwellian. All measured: docs/plan-errors.sh. Summing pairs includes collisions; cold particles
  * keep their order. Particles that stand for more bodies than there are (the constant `bodies`; charges always, unless it is given) have encounters that
  * those have not: two-body relaxation, an error. With pairs ln N is ln(R/softening), on a mesh ln(R/h), R the spread, if that is less.
- * Source: Binney and Tremaine 2008, equation 1.38; Birdsall and Langdon 1985, section 1-3; Dawson 1964, Phys. Fluids 7, 419.
+ * Source: Binney and Tremaine 2008, equation 1.38; NRL Plasma Formulary (Huba 2016), temperature isotropization; Dawson 1964, Phys. Fluids 7, 419.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -20,14 +22,14 @@ static double relaxed(const struct pm_scales *s, double n, double logarithm)
 static void bodies(const struct pm_scales *s, struct pm_decision *d)
 {
 	const double least = fmax(s->softening, s->pairs ? 0 : s->h), range = least > 0 ? fmax(1, s->spread / least) : HUGE_VAL;
-	double share = relaxed(s, s->n, fmax(1, log(s->n)));
+	double part = relaxed(s, s->n, fmax(1, log(s->n)));
 	if (sample(s))
-		share = fmax(0, relaxed(s, s->n, log(fmin(s->n, range))) - relaxed(s, s->bodies, log(s->bodies)));
-	pm_effect_by(d, s, share, share);
+		part = fmax(0, relaxed(s, s->n, log(fmin(s->n, range))) - relaxed(s, s->bodies, log(s->bodies)));
+	pm_effect_by(d, s, part, 0.42 * part);
 	d->error = sample(s);
 	snprintf(d->text, sizeof d->text, "T is %.1g of the relaxation time", d->number);
 	if (d->error)
-		snprintf(d->text, sizeof d->text, "%g particles for %g bodies relax by encounters: T is %.1g of that time%s", s->n, s->bodies, share,
+		snprintf(d->text, sizeof d->text, "%g particles for %g bodies relax by encounters: T is %.1g of that time%s", s->n, s->bodies, part,
 			d->answer == PM_PUT_IN ? "; more particles, more softening" : "");
 }
 
@@ -43,7 +45,8 @@ static int measure(const struct pm_effect_case *c, const struct pm_effect_run *r
 
 static void charges(const struct pm_scales *s, double per_debye, struct pm_decision *d)
 {
-	const double n = fmax(per_debye, 1e-300), periods = s->dim == 1 ? n * n : n / fmax(1, log(n)), share = s->omega * s->time / periods;
+	const double n = fmax(per_debye, 1e-300), reach = s->pairs ? 9 * n : fmin(9 * n, s->debye / s->h);
+	const double rate[4] = {0, 0.1 / (n * n), 0.155 / n, 0.075 * fmax(1, log(reach)) / n}, share = s->omega * s->time * rate[s->dim];
 	pm_effect_by(d, s, per_debye, share);
 	snprintf(d->text, sizeof d->text, "%.2g particles in a Debye length%s, T is %.1g of the time between collisions", per_debye,
 		s->dim == 1 ? "" : "'s sphere", share);

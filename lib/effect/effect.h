@@ -33,7 +33,7 @@ struct pm_scales {
 	double few;                  /* bodies of all sets, fixed ones too, where there are few masses in 3-D (orbits.c); else NAN */
 	double anomaly, stated;      /* [1] mean anomaly of that orbit now; the frequency that pp states at a distance, times the 1/omega of its circle */
 	double pericentre;           /* [length] of that orbit */
-	double debye;                /* [length] v_thermal/omega */
+	double debye;                /* [length] v/omega, v the rms of one component of v about its mean */
 	double overlap, width;       /* mean |H - 1| of the particles, 0 for a lattice that represents a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
 	double given, cyclotron;     /* [length/time^2] largest (q/m) E given on a mesh; [1/time] largest (q/m) B */

@@ -151,7 +151,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 	s->omega = turns ? fmax(dense, sum / s->volume) : sqrt(c * sum / s->volume);
 	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
 	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
-	s->debye = s->omega > 0 ? s->v_thermal / s->omega : NAN;
+	s->debye = s->omega > 0 ? s->v_thermal / sqrt(s->dim) / s->omega : NAN;
 }
 
 /* Largest magnitude of a state field on a mesh; NAN if there is none. */
