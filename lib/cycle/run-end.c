@@ -31,7 +31,7 @@ static bool chooses(const struct pm_sentence *s)
 		const struct pm_stage *w = pm_sentence_stage(s, i);
 		for (int k = 0; w && k < w->nargs && !found; k++)
 			for (int j = 0; pm_steps[j] && !found; j++)
-				found = pm_steps[j]->control && !strcmp(w->args[k], pm_step_names[j]);
+				found = pm_step_adapts(pm_steps[j]) && !strcmp(w->args[k], pm_step_names[j]);
 	}
 	return found;
 }

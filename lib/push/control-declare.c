@@ -6,7 +6,8 @@
 
 bool pm_control_register(const struct pm_moving *m, const struct pm_rate *rate, int i)
 {
-	return rate->state != m->x || !m->v || i == PM_CONTROL_REST || i == PM_CONTROL_START;
+	const struct pm_step *s = m->pass.step;
+	return rate->state != m->x || !m->v || s->embedded || (s->implicit ? i == 0 : i == PM_CONTROL_REST || i == PM_CONTROL_START);
 }
 
 /* Are the registers of an earlier step there? */
@@ -47,12 +48,14 @@ int pm_control_set(const struct pm_frame *f, struct pm_moving *m, const struct p
 {
 	const struct pm_step *scheme = p->scheme;
 	const int status = sound(f, m, scheme->name), pass = m->set->pass;
+	const int nodes = scheme->control ? scheme->control->nodes : scheme->embedded ? scheme->embedded->stages : 2;
 	if (status)
 		return status;
-	if (pass >= scheme->control->nodes)
-		return pm_fail(PM_DATA, "'%s' claims node %d of %s, which has %d", m->set->name, pass, scheme->name, scheme->control->nodes);
+	if (pass >= nodes)
+		return pm_fail(PM_DATA, "'%s' claims node %d of %s, which has %d", m->set->name, pass, scheme->name, nodes);
+	m->pass.step = scheme;
 	m->pass = (struct pm_pass){.step = scheme, .pass = pass, .registers = scheme->registers, .kept = scheme->registers,
-		.known = pass ? scheme->registers : remembers(f, m, scheme) ? PM_CONTROL_KEPT : 0};
+		.known = pass ? scheme->registers : scheme->control && remembers(f, m, scheme) ? PM_CONTROL_KEPT : 0};
 	return 0;
 }
 
@@ -63,14 +66,14 @@ int pm_control_frame(struct pm_frame *f, size_t n, const struct pm_moving *movin
 		for (size_t k = 0; k < n && !here; k++)
 			here = moving[k].set == f->sets[i];
 		if (!here)
-			return pm_fail(PM_DATA, "%s moves all sets by one error, and '%s' is left out (without --set; or fix it with smod --fixed)",
+			return pm_fail(PM_DATA, "%s moves all sets together, and '%s' is left out (without --set; or fix it with smod --fixed)",
 				p->scheme->name, f->sets[i]->name);
 	}
 	for (size_t k = 1; k < n; k++)
 		if (moving[k].pass.pass != moving[0].pass.pass)
 			return pm_fail(PM_DATA, "'%s' is at node %d of a step of %s, '%s' at node %d (start the step anew from a frame at substep 0)",
 				moving[0].set->name, moving[0].pass.pass, p->scheme->name, moving[k].set->name, moving[k].pass.pass);
-	if (!f->substep && fabs(f->dt) > p->most)
+	if (!f->substep && pm_step_adapts(p->scheme) && fabs(f->dt) > p->most)
 		pm_frame_dt_set(f, copysign(p->most, f->dt));
 	return 0;
 }

@@ -255,6 +255,8 @@ static int decide(struct pm_frame *f, size_t n, struct pm_moving *moving, const 
 
 int pm_control_run(struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p, struct pm_controlled *done)
 {
+	if (!p->scheme->control)
+		return p->scheme->implicit ? pm_implicit_run(f, n, moving, p, done) : pm_embedded_run(f, n, moving, p, done);
 	const struct pm_control *c = p->scheme->control;
 	const int node = moving[0].pass.pass;
 	struct memory k = recall(moving);

@@ -66,7 +66,7 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 		return -PM_DATA;
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)
-			if ((!p->scheme->control || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))
+			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))
 				return -PM_DATA;
 	forget_registers(f, m, p->scheme ? m->pass.kept : 0);
 	if (p->moves)
@@ -124,7 +124,7 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 	if (!status)
 		status = m->n = pm_rates(f, set, kind, m->rates);
 	if (status >= 0)
-		status = !p->scheme ? pm_clock_add(set, p->kick, p->drift, p->open) : p->scheme->control ? pm_control_set(f, m, p) :
+		status = !p->scheme ? pm_clock_add(set, p->kick, p->drift, p->open) : pm_step_decides(p->scheme) ? pm_control_set(f, m, p) :
 			pm_clock_pass(f, set, p->scheme, m->n, m->rates, &m->pass);
 	return status < 0 ? status : declare_fields(f, m, p);
 }

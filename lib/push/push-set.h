@@ -16,6 +16,7 @@ struct pm_push {
 	const struct pm_step *magnetic;  /* the kick that turns v about bfield; NULL none */
 	bool open, moves, unsafe;        /* a kick follows after the drift; positions change; any step length is allowed */
 	double tolerance, floor, most;   /* of an error-controlled scheme: the error of a step, 0: steps of one length; its least and longest step [time] */
+	bool dense;                      /* an embedded pair keeps its rates for states between the ends of a step */
 	bool clear;                      /* change and derived fields are dropped afterwards */
 };
 

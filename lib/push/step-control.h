@@ -25,7 +25,9 @@ int pm_control_set(const struct pm_frame *f, struct pm_moving *m, const struct p
 bool pm_control_register(const struct pm_moving *m, const struct pm_rate *rate, int i);
 /* Header, for all sets: they must be at one node, and none may be missing. A step is not begun longer than the longest. */
 int pm_control_frame(struct pm_frame *f, size_t n, const struct pm_moving *moving, const struct pm_push *p);
-/* Data, and the clock. */
+/* Data, and the clock: of a scheme with a series, of an implicit one, of an embedded pair. */
+int pm_implicit_run(struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p, struct pm_controlled *done);
+int pm_embedded_run(struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p, struct pm_controlled *done);
 int pm_control_run(struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p, struct pm_controlled *done);
 
 #endif

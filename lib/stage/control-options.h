@@ -8,11 +8,11 @@
 /* Rows of options, for a struct config with the member `push` (struct pm_push). */
 #define PM_CONTROL_ROWS \
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-9", .low = 0, .high = 1, PM_AT(push.tolerance), \
-		.text = "of ias15: the error of a step, the last term in the series of a rate over the largest rate; 0: all steps are dt"}, \
+		.text = "of ias15, rk45, rk23: the error of a step, relative (docs/methods/push.md says to what); 0: all steps are dt"}, \
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .low = 0, .high = 1e300, PM_AT(push.floor), \
-		.text = "of ias15: the shortest step; those whose error needs a shorter one are counted as below_min"}, \
+		.text = "likewise: the shortest step; those whose error needs a shorter one are counted as below_min"}, \
 	{.name = "max", .kind = PM_REAL, .unit = "time", .fallback = "1e300", .low = 1e-300, .high = 1e300, PM_AT(push.most), \
-		.text = "of ias15: the longest step"}
+		.text = "likewise: the longest step"}
 
 /* Does this push choose its steps by their error? */
 bool pm_control_chosen(const struct pm_push *p);

@@ -67,6 +67,24 @@ struct pm_control {
 	void (*reject)(double ratio, size_t n, const struct pm_control_line *l); /* the series for dt times ratio, by what was foretold */
 };
 
+/* One implicit step: base = y + start dt k(y), then Y = base + part dt k(Y) is solved by iteration, and y + dt (...) = base + beyond (Y - base). */
+struct pm_implicit {
+	double start, part, beyond;
+	double at; /* time of Y in units of dt */
+};
+
+enum { PM_IMPLICIT_DEPTH = 6, PM_IMPLICIT_REGISTERS = 3 + 2 * PM_IMPLICIT_DEPTH, PM_EMBEDDED_STAGES = 7 };
+
+/* An embedded pair of Runge and Kutta: its last stage is at the end of the step, with the rate there. */
+struct pm_embedded {
+	int stages;
+	int order;  /* of the lower member, by whose difference from the other a step is judged */
+	double at[PM_EMBEDDED_STAGES];
+	double a[PM_EMBEDDED_STAGES][PM_EMBEDDED_STAGES - 1]; /* the last row is the step itself */
+	double error[PM_EMBEDDED_STAGES];                     /* difference of the members, over dt */
+	double dense[PM_EMBEDDED_STAGES];                     /* the last term of the polynomial between the ends (embedded-run.c) */
+};
+
 struct pm_step {
 	const char *name, *sentence, *source;
 	enum pm_step_kind kind;
@@ -76,7 +94,7 @@ struct pm_step {
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
 	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
-	double real_limit;      /* largest |lambda| dt on the negative real axis; NAN: not made for decay; 0: unusable, for parts go backwards */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; INFINITY: any; NAN: not made for decay; 0: unusable, parts go backwards */
 	double imaginary_limit; /* and on the imaginary axis */
 	double doubling;        /* where that is 0: the |lambda| dt at which an oscillation doubles within its period */
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt; compositions: by pm_step_at */
@@ -88,11 +106,18 @@ struct pm_step {
 	bool relativistic; /* a magnetic kick that needs the constant c, and no magnetic field */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
 	const struct pm_control *control; /* of an error-controlled scheme, which has no pass; NULL */
+	const struct pm_implicit *implicit; /* likewise; NULL */
+	const struct pm_embedded *embedded; /* likewise; NULL */
 };
 
 extern const struct pm_step *const pm_steps[]; /* generated from lib/step/, NULL ends */
 extern const char *const pm_step_names[];
 const struct pm_step *pm_step_find(const char *name); /* NULL with a message */
+
+/* Is it known only with the data whether a pass ends the step? */
+static inline bool pm_step_decides(const struct pm_step *s) { return s->control || s->implicit || s->embedded; }
+/* Does it choose its steps by their error? */
+static inline bool pm_step_adapts(const struct pm_step *s) { return s->control || s->embedded; }
 
 /* Time of the state after a pass, in units of dt; inside the step of a composition it may lie before its start or beyond its end. */
 static inline double pm_step_at(const struct pm_step *s, int pass)

@@ -57,12 +57,12 @@ start() {
 	run -2 push ias15 --dt 0.1 -i a -o b
 	[[ $output == *'ias15 chooses its steps (smod --dt before it gives the first one, --min and --max limit them; with --tolerance 0 all are --dt)'* ]]
 	run -2 push rk4 --tolerance 1e-6 -i a -o b
-	[[ $output == *'--tolerance belongs to a scheme that chooses its steps by their error (push ias15)'* ]]
+	[[ $output == *'--tolerance belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23)'* ]]
 	run -2 push ias15 --min 2 --max 1 -i a -o b
 	[[ $output == *'--min 2 is above --max 1'* ]]
 	stack a <(pinit plummer -n 3 | smod --rename matter=others) | pp >b
 	run -1 push ias15 --set matter -i b -o c
-	[[ $output == *"ias15 moves all sets by one error, and 'others' is left out (without --set; or fix it with smod --fixed)"* ]]
+	[[ $output == *"ias15 moves all sets together, and 'others' is left out (without --set; or fix it with smod --fixed)"* ]]
 	run -1 bash -o pipefail -c "cycle -n 1 --store f32 'push kick/2 drift | pp | push kick/2' <a | push clear | pp | push ias15 -o b"
 	[[ $output == *"is in single precision, which ias15 cannot use"* ]]
 	push ias15 <a | sel --drop q_v | pp >b

@@ -1,0 +1,64 @@
+# push rk45 and rk23: the step by its error, every way of running, what they refuse. The tables of coefficients: tests/unit/step.c.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+words='pp | push rk45 --tolerance 1e-6'
+
+@test "equal bytes: rk45 of bodies that meet, fused, as processes, with 1 and 3 threads, resumed, and in a shell loop through a rejected step" {
+	printf 'x y z vx vy vz mass\n1 3 0 0 0 0 3\n-2 -1 0 0 0 0 4\n1 -1 0.1 0 0 0 5\n' |
+		stab - --law gravity --constant G=1,softening=0.01 --dt 3 --no-history >now
+	cycle --no-history -n 8 "$words" <now >want
+	sls --report want | grep -q '"rejected":[1-9].*"steps":8'
+	for threads in 1 3; do
+		for engine in fused pipes; do
+			OMP_NUM_THREADS=$threads cycle --no-history -n 8 --engine $engine "$words" <now >got
+			same_as want got
+			OMP_NUM_THREADS=$threads cycle --no-history -n 3 --checkpoint c --engine $engine "$words" <now >got
+			OMP_NUM_THREADS=$threads cycle --no-history -n 8 --resume c --engine $engine "$words" >got
+			same_as want got
+		done
+	done
+	cp now here
+	for i in $(seq 10); do
+		pp --no-history <here | push rk45 --tolerance 1e-6 --no-history >next
+		mv next here
+	done
+	sls --report here | grep -q '"rejected":1'
+	cycle --no-history -n 8 "$words" <here >got
+	same_as want got
+}
+
+@test "002:N13, 002:H14: the error of a run is in proportion to the tolerance of a step, as the member of higher order takes it" {
+	# the error of the lower member, of order p, is tolerance: dt goes as tolerance^(1/(p + 1)), and the error of the other at the end as dt^(p + 1)
+	printf 'x vx\n1.1 0.4\n' | stab - --law free --dt 0.01 >a
+	cycle -q -t 10 --exact "field acc=-sin(x) | push ias15" <a | stab --plain | awk 'END { printf "%.17g", $1 }' >exact
+	for scheme in rk45:1 rk23:1; do
+		for tolerance in 1e-5 1e-6 1e-7 1e-8; do
+			cycle -q -t 10 --exact "field acc=-sin(x) | push ${scheme%:*} --tolerance $tolerance" <a >b
+			echo "$tolerance $(stab --plain <b | awk 'END { printf "%.17g", $1 }')"
+		done | awk -v exact="$(cat exact)" '{ e = $2 - exact; x = log($1); y = log(e < 0 ? -e : e); n++; a += x; b += y; c += x * x; d += x * y }
+			END { print (n * d - a * b) / (n * c - a * a) }' >slope
+		within "$(cat slope)" "${scheme#*:}" 0.2 "$scheme" # four tolerances over three powers of ten: steps change by factors, not at will
+	done
+}
+
+@test "002:H13: rates that no step is short enough for end the run with exit 3, or are passed by --min, whose steps are counted" {
+	printf 'x v mass\n-1 0 1\n' | stab - --law free --dt 0.3 >a
+	run -3 bash -o pipefail -c "cycle -t 3 \"field 'acc = -1/x^3/abs(x)' | push rk45\" <a | sls"
+	[[ $output == *'rk45 would need steps of '*'the rates are not smooth there'* ]]
+	cycle -q -t 3 "field 'acc = x > 0 ? -1 : 1' | push rk45 --min 1e-3" <a | sls --report >report
+	grep -q '"below_min":[1-9]' report
+}
+
+@test "rk45 and the end of a run: --exact ends there; a step is at most --max; with --tolerance 0 all are dt" {
+	pinit kepler --dt 50 >a
+	cycle -t 2 --exact 'pp | push rk45' <a | sls >text
+	grep -q '^frame 1: time 2 ' text
+	pinit kepler >a
+	cycle -t 2 --exact --every 1 'pp | push rk45 --max 0.02' <a | diag --columns time |
+		awk 'NR > 2 { d = $1 - last; if (d > m) m = d } { last = $1 } END { print m, last }' >steps
+	below "$(cut -d' ' -f1 steps)" 0.0200000001
+	[ "$(cut -d' ' -f2 steps)" = 2 ]
+	cycle -n 7 'pp | push rk23 --tolerance 0 --dt 0.125' <a | sls >text
+	grep -q '^frame 1: time 0.875 step 7 substep 0 dt 0.125 ' text
+}
