@@ -4,7 +4,7 @@
 
 #include "fft/fftw-plan.h"
 #include "mesh/gradient.h"
-#include "poisson-fft/fft-solvers.h"
+#include "poisson-fft/fft-boundary.h"
 #include "stage/plan-option.h"
 #include "stage/solver-options.h"
 
@@ -83,12 +83,14 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		return status;
 	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
 	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2"
-		: !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
+		: t->problem.given.any ? "fd2" : !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
 	double softening = !isnan(o->softening) ? o->softening : green && green->factor ? pm_frame_constant(f, "softening", NAN) : 0;
 	if (isnan(softening))
 		return pm_fail(PM_DATA, "--green %s, and the frame has no softening (--softening LENGTH, or smod --constant softening=LENGTH)", green->name);
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}};
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0};
 	status = influence(o, f, &t->problem, &t->choice.influence);
+	if (!status && t->problem.given.any)
+		status = pm_poisson_fft_boundary_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
@@ -107,7 +109,7 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 	if (solver)
 		return solver;
 	struct pm_clock began = pm_clock();
-	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->problem.source->components == 1);
+	solver = pm_fft_solvers_add(&t->solvers, g, &t->choice, t->problem.source->components == 1 && !t->problem.given.any);
 	pm_setup_since(s, began);
 	return solver;
 }
@@ -120,21 +122,30 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	struct pm_grid g = pm_problem_grid(p, c);
 	struct pm_poisson_fft *solver = ready(s, t, &g);
 	struct pm_poisson_fft_record r;
-	if (!solver || pm_poisson_fft_solve(solver, p->c, pm_in(p->source, c), pm_out(p->target, c), &r))
-		return -PM_DATA;
+	struct pm_homogeneous m;
+	const int order = t->choice.symbol == PM_FD2 ? 2 : 0;
+	int status = solver ? pm_problem_move(p, f, c, order, NULL, &m) : -PM_DATA;
+	if (status)
+		return status;
+	status = pm_poisson_fft_solve(solver, m.c, m.s, pm_out(p->target, c), &r);
+	if (!status && p->given.any && order == 0)
+		status = pm_poisson_fft_boundary(&t->solvers, &t->choice, &m.boundary, pm_out(p->target, c));
 	*plans = pm_poisson_fft_planner(solver);
-	if (pm_poisson_fft_singular(&g, &t->choice))
-		pm_solver_report_removed(s, f, p, c, r.mean, r.incompatible);
-	return 0;
+	if (!status && pm_poisson_fft_singular(&g, &t->choice))
+		pm_solver_report_removed(s, f, p, c, r.mean, &m, r.incompatible);
+	pm_homogeneous_close(&m, pm_out(p->target, c));
+	return status;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	const struct pm_fft_plans *p = NULL;
-	for (int c = 0; c < t->problem.source->components; c++)
-		if (component(s, f, c, &p))
-			return -PM_DATA;
+	int status = 0;
+	for (int c = 0; c < t->problem.source->components && !status; c++)
+		status = component(s, f, c, &p);
+	if (status)
+		return status;
 	char plan_text[16] = "own"; /* our own transforms: the same on all machines */
 	if (p && p->n)
 		snprintf(plan_text, sizeof plan_text, "fftw %08x", p->sum);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "green/green.h"
+#include "poisson-mg/mg-medium.h"
 #include "poisson-mg/multigrid.h"
 #include "stage/solver-options.h"
 
@@ -43,8 +44,7 @@ static const struct pm_option options[] = {
 	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "mean of eps between two nodes"},
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
 		.text = "tolerance of the residual relative to c*s, both as root mean square"},
-	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles; then it "
-		"fails"},
+	{.name = "max-cycles", .kind = PM_INTEGER, .fallback = "50", .low = 1, .high = PM_MG_MOST, PM_AT(most), .text = "largest number of cycles"},
 	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green), .text = "refused: Green's functions, softened ones too, are poisson-fft's"},
 	PM_SOLVER_ROWS,
 	{0},
@@ -54,8 +54,7 @@ static const struct pm_example examples[] = {
 	{"the potential in a periodic box", "pinit uniform -n 2000 | p2m -n 32 | poisson-mg | sls --report"},
 	{"order 4, and sizes need not be powers of two nor the cells cubes", "pinit uniform -n 2000 | p2m -n 31x20x7 | poisson-mg --order 4 | sls"},
 	{"a layer of high permittivity",
-		"pinit uniform -n 2000 --dim 2 | p2m -n 64 | scalc --mesh mesh 'eps = x < 0.5 ? 1 : 1e6' | poisson-mg --permittivity eps --tolerance 1e-8 | "
-		"sls"},
+		"pinit uniform -n 99 --dim 2 | p2m -n 64 | scalc --mesh mesh 'eps = x < 0.5 ? 1 : 1e6' | poisson-mg --permittivity eps --tolerance 1e-8 | sls"},
 	{0},
 };
 
@@ -105,18 +104,24 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	struct pm_grid g = pm_problem_grid(p, c);
 	char key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
 	const double *eps = t->choice.variable ? pm_in(t->eps, 0) : NULL;
+	const struct pm_boundary_eps medium = pm_mg_medium(eps, t->choice.mean);
+	struct pm_homogeneous m = {0};
 	struct pm_clock began = pm_clock();
 	int status = pm_multigrid_prepare(t->solver, &t->choice, &g, eps);
 	pm_setup_since(s, began);
 	if (!status)
-		status = pm_multigrid_solve(t->solver, &t->choice, &g, eps, p->c, pm_in(p->source, c), pm_out(p->target, c), &t->record);
+		status = pm_problem_move(p, f, c, t->choice.order, eps ? &medium : NULL, &m);
+	t->choice.cycle.known = m.known;
+	if (!status)
+		status = pm_multigrid_solve(t->solver, &t->choice, &g, eps, m.c, m.s, pm_out(p->target, c), &t->record);
+	if (!status && r->singular)
+		pm_solver_report_removed(s, f, p, c, r->mean, &m, r->incompatible);
+	pm_homogeneous_close(&m, pm_out(p->target, c));
 	if (status)
 		return status;
 	for (int i = 0, n = 0; i < r->n; i++)
 		n += snprintf(residuals + n, sizeof residuals - (size_t)n, "%s%.3e", i ? " " : "", r->history[i]);
 	pm_report_text(s, f, pm_solver_key(p, "residuals", c, key), residuals);
-	if (r->singular)
-		pm_solver_report_removed(s, f, p, c, r->mean, r->incompatible);
 	return 0;
 }
 
@@ -152,15 +157,12 @@ const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
 	.summary = "solve Poisson's equation on a mesh by multigrid",
 	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall "
-		"(phi = 0) or "
-		"neumann (no normal gradient) in any mixture, or open on all axes (free space, as in poisson-fft); any number of cells per axis, any "
-		"ratio of the spacings. V- and W-cycles, full multigrid with cubic "
-		"interpolation; for a variable eps, operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
+		"(phi = 0, or given) or neumann (no normal gradient, or given) in any mixture, or open on all axes (free space, as in "
+		"poisson-fft); any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic interpolation; for a "
+		"variable eps, operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
 		"If no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or "
-		"when "
-		"round-off prevents further reduction (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
-		"solves the same "
-		"equation with --symbol fd2.",
+		"when round-off prevents further reduction (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
+		"solves the same equation with --symbol fd2.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

@@ -93,12 +93,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_relaxation_record longest = {.sweeps = -1}, r;
 	int status = 0;
 	for (int c = 0; !status && c < t->problem.source->components; c++) {
-		if (!(status = ready(t, c)))
-			status = pm_relaxation_solve(t->solver, &t->choice, t->problem.c, pm_in(t->problem.source, c), pm_out(t->problem.target, c), &r);
+		struct pm_homogeneous m = {0};
+		double *phi = pm_out(t->problem.target, c);
+		if (!(status = ready(t, c)) && !(status = pm_problem_move(&t->problem, f, c, 2, NULL, &m)))
+			status = pm_relaxation_solve(t->solver, &t->choice, m.c, m.s, phi, &r);
+		if (!status && r.singular)
+			pm_solver_report_removed(s, f, &t->problem, c, r.mean, &m, r.incompatible);
+		pm_homogeneous_close(&m, phi);
 		if (status)
 			break;
-		if (r.singular)
-			pm_solver_report_removed(s, f, &t->problem, c, r.mean, r.incompatible);
 		if (r.sweeps > longest.sweeps)
 			longest = r;
 	}

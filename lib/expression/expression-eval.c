@@ -19,16 +19,20 @@ const struct pm_expression_function pm_expression_functions[] = {
 	{"round", 1, round, NULL}, {"erf", 1, erf, NULL}, {"erfc", 1, erfc, NULL}, {"gamma", 1, tgamma, NULL}, {"atan2", 2, NULL, atan2}, {"pow", 2, NULL, pow},
 	{"mod", 2, NULL, modulo}, {"hypot", -1, NULL, hypot}, {"min", -1, NULL, fmin}, {"max", -1, NULL, fmax}, {0}};
 
-static void load(const struct pm_expression_value *v, const struct pm_frame *f, const char *on, size_t first, size_t n, double *out)
+/* Of the points index[first] ..., or first ... */
+static void load(const struct pm_expression_value *v, const struct pm_frame *f, const char *on, const size_t *index, size_t first, size_t n, double *out)
 {
 	if (*v->field) {
 		const struct pm_field *field = pm_frame_field(f, on, v->field);
 		if (field->type == PM_I64)
 			for (size_t i = 0; i < n; i++)
-				out[i] = (double)pm_in_i64(field, v->component)[first + i];
+				out[i] = (double)pm_in_i64(field, v->component)[index ? index[first + i] : first + i];
 		else if (field->type == PM_U8)
 			for (size_t i = 0; i < n; i++)
-				out[i] = pm_in_u8(field, v->component)[first + i];
+				out[i] = pm_in_u8(field, v->component)[index ? index[first + i] : first + i];
+		else if (index)
+			for (size_t i = 0; i < n; i++)
+				out[i] = pm_in(field, v->component)[index[first + i]];
 		else
 			memcpy(out, pm_in(field, v->component) + first, n * sizeof *out);
 		return;
@@ -39,7 +43,7 @@ static void load(const struct pm_expression_value *v, const struct pm_frame *f, 
 	for (int a = 0; a < v->axis; a++)
 		stride *= points[a];
 	for (size_t i = 0; i < n; i++)
-		out[i] = m->lo[v->axis] + (double)((first + i) / stride % points[v->axis]) * m->h[v->axis];
+		out[i] = m->lo[v->axis] + (double)((index ? index[first + i] : first + i) / stride % points[v->axis]) * m->h[v->axis];
 }
 
 #define EACH(expression)                   \
@@ -79,7 +83,8 @@ static void unary(enum pm_expression_code code, const struct pm_expression_funct
 }
 
 /* Leaves the result of part k in stack[0]. number: the values of the slots (n is 1), or NULL. */
-static void block_eval(const struct pm_expression *e, const struct pm_frame *f, const double *number, int k, size_t first, size_t n, double (*stack)[block])
+static void block_eval(const struct pm_expression *e, const struct pm_frame *f, const double *number, int k, const size_t *index, size_t first,
+	size_t n, double (*stack)[block])
 {
 	int top = -1;
 	for (int s = e->part[k]; s < e->part[k + 1]; s++) {
@@ -92,7 +97,7 @@ static void block_eval(const struct pm_expression *e, const struct pm_frame *f, 
 		else if (step->code == PM_X_VALUE && number)
 			*stack[++top] = number[e->value[step->value].slot - 1];
 		else if (step->code == PM_X_VALUE)
-			load(e->value + step->value, f, e->on, first, n, stack[++top]);
+			load(e->value + step->value, f, e->on, index, first, n, stack[++top]);
 		else if (step->code == PM_X_CHOOSE) {
 			top -= 2;
 			for (size_t i = 0; i < n; i++)
@@ -106,13 +111,24 @@ static void block_eval(const struct pm_expression *e, const struct pm_frame *f, 
 	}
 }
 
+void pm_expression_eval_at(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, const size_t *index, double *out)
+{
+#pragma omp parallel for if (n > block)
+	for (size_t first = 0; first < n; first += block) {
+		double stack[PM_EXPRESSION_DEPTH][block];
+		size_t here = n - first < block ? n - first : block;
+		block_eval(e, f, NULL, k, index, first, here, stack);
+		memcpy(out + first, stack[0], here * sizeof *out);
+	}
+}
+
 void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, double *out)
 {
 #pragma omp parallel for
 	for (size_t first = 0; first < n; first += block) {
 		double stack[PM_EXPRESSION_DEPTH][block];
 		size_t here = n - first < block ? n - first : block;
-		block_eval(e, f, NULL, k, first, here, stack);
+		block_eval(e, f, NULL, k, NULL, first, here, stack);
 		memcpy(out + first, stack[0], here * sizeof *out);
 	}
 }
@@ -125,7 +141,7 @@ void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *
 		double stack[PM_EXPRESSION_DEPTH][block], result[PM_EXPRESSION_PARTS][block];
 		size_t here = n - first < block ? n - first : block;
 		for (int k = 0; k < e->nparts; k++) {
-			block_eval(e, f, NULL, k, first, here, stack);
+			block_eval(e, f, NULL, k, NULL, first, here, stack);
 			memcpy(result[k], stack[0], here * sizeof(double));
 		}
 		for (int k = 0; k < e->nparts; k++)
@@ -136,6 +152,6 @@ void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *
 double pm_expression_number(const struct pm_expression *e, const double *number)
 {
 	double stack[PM_EXPRESSION_DEPTH][block];
-	block_eval(e, NULL, number, 0, 0, 1, stack);
+	block_eval(e, NULL, number, 0, NULL, 0, 1, stack);
 	return stack[0][0];
 }

@@ -6,6 +6,7 @@
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/force-words.h"
+#include "mesh/given-faces.h"
 #include "mesh/gradient-frame.h"
 #include "stream/declare.h"
 
@@ -36,6 +37,7 @@ static int make(struct pm_frame *f, const char *on, const char *target, struct p
 		return -PM_DATA;
 	t->target->use |= PM_USE_FILL;
 	pm_field_inherit(t->target, t->source);
+	pm_given_faces_copy(t->target, t->source);
 	return 0;
 }
 
@@ -102,6 +104,7 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 			if (t->source->staggered[c][d])
 				return pm_fail(PM_DATA, "'%s' is staggered (mgrad works on the nodes)", source);
 	struct pm_grid g = pm_grid_of(f, mesh);
+	pm_given_faces_open(t->source, &g);
 	int status = choose(o, law, &g, t->source, t);
 	if (!status)
 		status = make(f, mesh->name, target, t);

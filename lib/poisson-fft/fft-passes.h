@@ -50,6 +50,7 @@ double *pm_poisson_fft_eigenvalues(const struct pm_transform *l, size_t modes, s
 int pm_poisson_fft_green(struct pm_poisson_fft *p);
 int pm_poisson_fft_influence(struct pm_poisson_fft *p); /* of fft-influence.c: fills green for a periodic box */
 int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: the same from lambda, for walls */
+int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-boundary.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
 #endif

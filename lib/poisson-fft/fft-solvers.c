@@ -12,7 +12,8 @@ static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
 	for (const struct pm_fft_made *m = s->made; m < s->made + s->n; m++)
-		if (o->symbol == m->symbol && o->softening == m->softening && pm_influence_same(&o->influence, &m->influence) && same_grid(g, &m->grid))
+		if (o->symbol == m->symbol && o->fitted == m->fitted && o->softening == m->softening && pm_influence_same(&o->influence, &m->influence) &&
+			same_grid(g, &m->grid))
 			return m->solver;
 	return NULL;
 }
@@ -23,7 +24,8 @@ struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct
 		pm_fft_solvers_clear(s);
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(g, o);
 	if (solver)
-		s->made[s->n++] = (struct pm_fft_made){.solver = solver, .grid = *g, .symbol = o->symbol, .softening = o->softening, .influence = o->influence};
+		s->made[s->n++] = (struct pm_fft_made){.solver = solver, .grid = *g, .symbol = o->symbol, .fitted = o->fitted, .softening = o->softening,
+			.influence = o->influence};
 	return solver;
 }
 

@@ -133,6 +133,13 @@ static int layout(struct pm_poisson_fft *p)
 	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
+/* Of X, Y, Z; a line of fd2 is fitted (fft-boundary.c). */
+static int fitted_axis(const struct pm_poisson_fft *p)
+{
+	const int d = (p->choice.fitted - 1) / 2;
+	return d == 0 ? X : p->grid.dim == 2 || d == 2 ? Z : Y;
+}
+
 static int symbols(struct pm_poisson_fft *p)
 {
 	double screening = p->choice.screening;
@@ -140,7 +147,8 @@ static int symbols(struct pm_poisson_fft *p)
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
 		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
-		p->lambda[a] = pm_poisson_fft_eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex, p->choice.symbol, h[a]);
+		p->lambda[a] = pm_poisson_fft_eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex,
+			p->choice.fitted && a == fitted_axis(p) ? PM_FD2 : p->choice.symbol, h[a]);
 		if (!p->lambda[a])
 			return -PM_DATA;
 	}
@@ -158,6 +166,8 @@ static int multipliers(struct pm_poisson_fft *p)
 	if (pm_influence_any(&o->influence) || (soft && p->complex))
 		return pm_poisson_fft_influence(p);
 	int status = symbols(p);
+	if (!status && o->fitted && !p->empty)
+		return pm_poisson_fft_fitted(p);
 	return status || !soft ? status : pm_poisson_fft_softened(p);
 }
 

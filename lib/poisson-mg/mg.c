@@ -253,8 +253,10 @@ int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const 
 	int status = mg->order == 4 && !compact ? -PM_DATA : 0;
 	if (compact)
 		pm_mg_compact_source(&mg->grid, s, compact);
+	for (size_t i = 0; compact && o->known && i < pm_grid_size(&mg->grid); i++)
+		compact[i] -= o->known[i] / c;
 	if (!status)
-		status = pm_mg_solve_differences(mg, o, c, compact ? compact : s, compact ? s : NULL, phi, r);
+		status = pm_mg_solve_differences(mg, o, c, compact ? compact : s, compact && !o->known ? s : NULL, phi, r);
 	pm_free(compact);
 	return status;
 }

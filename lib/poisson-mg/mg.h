@@ -20,6 +20,7 @@ struct pm_mg_choice {
 	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel; pm_mg_relaxation returns good ones */
 	double tolerance;     /* of the residual, relative to the right-hand side, root of the sum of squares */
 	int most;             /* cycles, up to PM_MG_MOST */
+	const double *known;  /* order 4: what known boundary values add to the differences, points of the grid (poisson/boundary.h); NULL: none */
 };
 
 struct pm_mg_record {

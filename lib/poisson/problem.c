@@ -1,6 +1,7 @@
 /* Determines the problem from options and law, and checks it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "mesh/given-faces.h"
 #include "poisson/problem.h"
 #include "stream/declare.h"
 
@@ -28,8 +29,18 @@ int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *nam
 		if (!strcmp(names->wall, pm_wall_rule_names[i]))
 			p->wall = (enum pm_wall_rule)i;
 	p->own = !isnan(names->coefficient) && !(law->coefficient && names->coefficient == law->coefficient(f));
+	for (int a = 0; a < 2 * f->dim; a++)
+		p->open |= p->grid.face[a / 2][a % 2] == PM_OPEN;
 	p->c = isnan(names->coefficient) ? law->coefficient(f) : names->coefficient;
-	return 0;
+	return pm_given_find(&names->given, f, law, &p->grid, &p->given);
+}
+
+static void mark(struct pm_problem *p)
+{
+	for (int d = 0; d < p->grid.dim; d++)
+		for (int side = 0; side < 2; side++)
+			if (p->given.inside[d][side])
+				pm_given_face_mark(p->target, d, side);
 }
 
 int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
@@ -45,17 +56,18 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 	if (!p->target)
 		return -PM_DATA;
 	pm_field_inherit(p->target, p->source);
-	if (p->own)
+	if (p->own || p->given.opened)
 		pm_problem_not_of_law(p);
-	return 0;
+	mark(p);
+	if (p->given.any && p->source->components > 1 && p->wall != PM_ZERO_ALL && !p->given.sum)
+		return pm_fail(PM_USAGE, "boundary values of a vector need --wall all, where each component is a scalar");
+	return pm_given_declare(&p->given, f, p->mesh->name, p->law, p->source);
 }
 
 void pm_problem_not_of_law(struct pm_problem *p)
 {
-	if (p->target->outside == PM_OUTSIDE_MONOPOLE && *p->target->kernel)
-		for (int d = 0; d < 2 * p->grid.dim; d++)
-			if (p->grid.face[d / 2][d % 2] == PM_OPEN)
-				p->target->outside = PM_OUTSIDE_ERROR;
+	if (p->target->outside == PM_OUTSIDE_MONOPOLE && *p->target->kernel && p->open)
+		p->target->outside = PM_OUTSIDE_ERROR;
 }
 
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field)
@@ -75,8 +87,63 @@ struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
 {
 	struct pm_grid g = p->grid;
 	for (int d = 0; d < g.dim && p->source->components > 1 && p->wall != PM_ZERO_ALL; d++)
-		for (int side = 0; side < 2; side++)
+		for (int side = 0; side < 2 && !p->given.sum; side++)
 			if ((c == d) == (p->wall == PM_ZERO_TANGENTIAL) && (g.face[d][side] == PM_WALL || g.face[d][side] == PM_NEUMANN))
 				g.face[d][side] = g.face[d][side] == PM_WALL ? PM_NEUMANN : PM_WALL;
 	return g;
+}
+
+/* The integrals whose difference a problem without walls must not have. */
+static void integrals(struct pm_homogeneous *m, double c, const double *s, const struct pm_boundary_eps *eps)
+{
+	const struct pm_grid *g = &m->boundary.grid;
+	struct pm_sum sum = {0}, absolute = {0};
+	for (size_t row = 0; row < g->points[1] * g->points[2]; row++)
+		for (size_t i = 0; i < g->points[0]; i++) {
+			double charge = pm_grid_weight(g, i, row % g->points[1], row / g->points[1]) * s[row * g->points[0] + i];
+			pm_sum_add(&sum, charge);
+			pm_sum_add(&absolute, fabs(charge));
+		}
+	m->charge = c * pm_grid_cell(g) * pm_sum_total(sum);
+	m->charge_absolute = fabs(c) * pm_grid_cell(g) * pm_sum_total(absolute);
+	m->flux = pm_boundary_flux(&m->boundary, eps);
+}
+
+int pm_problem_move(const struct pm_problem *p, const struct pm_frame *f, int c, int order, const struct pm_boundary_eps *eps, struct pm_homogeneous *m)
+{
+	*m = (struct pm_homogeneous){.c = p->c, .s = pm_in(p->source, c), .boundary = {.grid = pm_problem_grid(p, c)}};
+	if (!p->given.any)
+		return 0;
+	const size_t n = pm_grid_size(&p->grid);
+	int status = pm_given_evaluate(&p->given, f, p->law, p->source, c, p->c, &m->boundary);
+	if (status || !(m->source = pm_alloc(n, sizeof(double))) || !(m->moved = pm_alloc(n, sizeof(double)))) {
+		pm_homogeneous_free(m);
+		return status ? status : -PM_DATA;
+	}
+	if (order == 0) {
+		integrals(m, p->c, m->s, eps);
+		return 0;
+	}
+	pm_boundary_known(&m->boundary, order, PM_BOUNDARY_ALL, eps, m->moved);
+	for (size_t i = 0; i < n; i++)
+		m->source[i] = p->c * m->s[i] - (order == 4 ? 0 : m->moved[i]);
+	integrals(m, p->c, m->s, eps);
+	m->c = 1;
+	m->s = m->source;
+	m->known = order == 4 ? m->moved : NULL;
+	return 0;
+}
+
+void pm_homogeneous_close(struct pm_homogeneous *m, double *phi)
+{
+	if (m->source)
+		pm_boundary_set(&m->boundary, phi);
+	pm_homogeneous_free(m);
+}
+
+void pm_homogeneous_free(struct pm_homogeneous *m)
+{
+	pm_boundary_free(&m->boundary);
+	m->source = pm_free(m->source);
+	m->moved = pm_free(m->moved);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesh/force-words.h"
+#include "mesh/given-faces.h"
 #include "stream/declare.h"
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
@@ -84,6 +85,19 @@ static int choose_kernel(const struct pm_frame *f, struct pm_gather_job *j)
 	return j->transfer.kernel ? 0 : -PM_DATA;
 }
 
+/* Where values were given on a face there is no image beyond it, so the kernel must not reach there from inside. */
+static int beside_given_faces(struct pm_gather_job *j)
+{
+	for (int a = 0; a < 2 * j->transfer.grid.dim; a++) {
+		j->transfer.given[a / 2][a % 2] = pm_given_face(j->field, a / 2, a % 2);
+		if (j->transfer.given[a / 2][a % 2] && (j->transfer.kernel->width > 2 || j->interlaced))
+			return pm_fail(PM_DATA, "values were given on the face %s of '%s', and nothing is known beyond, where %s%s reaches (p2m --kernel cic, "
+				"or m2p --kernel cic)", pm_face_places[a / 2][a % 2], j->field->name, j->interlaced ? "interlaced " : "",
+				j->transfer.kernel->name);
+	}
+	return 0;
+}
+
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	*j = (struct pm_gather_job){.choice = *choice, .law = pm_law_of(f)};
@@ -105,6 +119,8 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
 	set_images(j, f->dim, &j->transfer);
 	status = j->interlaced ? pm_interlace_check(&j->transfer) : 0;
+	if (!status)
+		status = beside_given_faces(j);
 	return status ? status : pm_gather_outside_choose(j, f);
 }
 

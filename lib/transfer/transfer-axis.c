@@ -15,12 +15,12 @@ static int image_sign(enum pm_face face, bool flip)
 	return 0;
 }
 
-static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, bool half, ptrdiff_t first)
+static void fill_slots(struct pm_axis *a, const struct pm_grid *g, int d, const bool given[2], bool half, ptrdiff_t first)
 {
 	ptrdiff_t n = (ptrdiff_t)g->cells[d];
 	for (int flip = 0; flip < 2; flip++) {
 		const struct pm_index_axis axis = {.points = g->cells[d] + (!a->periodic && !half), .periodic = a->periodic, .staggered = half,
-			.image = {image_sign(g->face[d][0], flip), image_sign(g->face[d][1], flip)}};
+			.image = {given[0] ? 0 : image_sign(g->face[d][0], flip), given[1] ? 0 : image_sign(g->face[d][1], flip)}};
 		for (size_t slot = 0; slot < a->slots; slot++) {
 			int sign;
 			size_t at = pm_index_image(first + (ptrdiff_t)slot, &axis, &sign);
@@ -62,7 +62,7 @@ static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int wid
 		a->high = nextafter(a->high, 0); /* ngp jumps: ties go up */
 }
 
-static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int width, int rim, bool half)
+static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, const bool given[2], int width, int rim, bool half)
 {
 	bool odd = width % 2, lift;
 	a->periodic = g->face[d][0] == PM_PERIODIC;
@@ -83,7 +83,7 @@ static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, int widt
 	a->put[1] = factor + a->slots;
 	a->get[0] = factor + 2 * a->slots;
 	a->get[1] = factor + 3 * a->slots;
-	fill_slots(a, g, d, half, -((width - 1) / 2) - lift);
+	fill_slots(a, g, d, given, half, -((width - 1) / 2) - lift);
 	return 0;
 }
 
@@ -93,7 +93,7 @@ int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsi
 		axes[d] = (struct pm_axis){.count = 0};
 	for (int d = 0; d < 3; d++) {
 		bool used = d < t->grid.dim;
-		int status = axis_init(&axes[d], &t->grid, d, used ? t->kernel->width : 1, used ? t->rim : 0, used && staggered[d]);
+		int status = axis_init(&axes[d], &t->grid, d, t->given[d], used ? t->kernel->width : 1, used ? t->rim : 0, used && staggered[d]);
 		if (status) {
 			pm_axes_free(axes);
 			return status;

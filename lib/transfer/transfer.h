@@ -18,6 +18,7 @@ struct pm_transfer {
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */
 	unsigned char flip[PM_COMPONENTS][3];
+	bool given[3][2];       /* a wall or neumann face without images: values were given on it; gathers of kernels of width 1 and 2 alone */
 	struct pm_note **kept;   /* NULL, or where the order of these positions may be found and left (the note of their field) */
 	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };

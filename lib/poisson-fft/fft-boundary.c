@@ -1,0 +1,115 @@
+/* The harmonic function with given values on the faces of one axis, by separation: a mode of the other axes with eigenvalue -kappa^2 has along this axis the
+ * profile f sinh(kappa (L-x))/sinh(kappa L) (walls), or -g cosh(kappa (L-x))/(kappa sinh(kappa L)) (g = du/dx at x = 0, neumann). On the nodes it solves
+ *   u(x-h) - 2 u(x) + u(x+h) = 2 (cosh(kappa h) - 1) u(x),
+ * so the known values of order 2 (poisson/boundary.c) and the multiplier 1/(lambda_fd2 - 2 (cosh(kappa h) - 1)/h^2), of neumann faces times
+ * sinh(kappa h)/(kappa h), give its values without error and without a series in x. Source: separated series of textbooks (Haberman 2013, section 2.5).
+ * Assumes: the values are smooth in the modes of the other axes: where walls meet they vanish. Cost: a solve for each axis and kind of face.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-fft/fft-boundary.h"
+#include "poisson-fft/fft-passes.h"
+
+static double fitted(double lambda, double rest, double h, bool neumann)
+{
+	double a = rest < 0 ? h * sqrt(-rest) : 0, s = 2 * sinh(0.5 * a) / h, sum = lambda - s * s;
+	if (neumann && a > 40) /* sinh a/(4 sinh^2(a/2)) = coth(a/2)/2 */
+		return -0.5 * h * h / a;
+	return sum < 0 ? (neumann && a > 0 ? sinh(a) / a : 1) / sum : 0;
+}
+
+int pm_poisson_fft_fitted(struct pm_poisson_fft *p)
+{
+	const int d = (p->choice.fitted - 1) / 2, axis = d == 0 ? X : p->grid.dim == 2 || d == 2 ? Z : Y;
+	const double screening = p->choice.screening * p->choice.screening, h = p->grid.h[d];
+	const bool neumann = (p->choice.fitted - 1) % 2;
+	p->green_row = p->chunks * L;
+	p->green_slab = p->green_row * p->modes[Z];
+	p->green = pm_zalloc(p->modes[Y] * p->modes[Z], p->green_row * sizeof *p->green);
+	p->fold = pm_alloc(p->modes[Y], sizeof *p->fold);
+	if (!p->green || !p->fold)
+		return -PM_DATA;
+	for (size_t j = 0; j < p->modes[Y]; j++)
+		p->fold[j] = j;
+#pragma omp parallel for schedule(static) num_threads(pm_threads()) if (p->modes[Y] * p->green_slab > 16384)
+	for (size_t r = 0; r < p->modes[Y] * p->modes[Z]; r++)
+		for (size_t i = 0; i < p->modes[X]; i++) {
+			const double lambda[3] = {p->lambda[X][i], p->lambda[Y][r / p->modes[Z]], p->lambda[Z][r % p->modes[Z]] + screening};
+			double rest = -screening;
+			for (int a = X; a <= Z; a++)
+				rest += a == axis ? 0 : lambda[a];
+			p->green[r * p->green_row + i] = fitted(lambda[axis], rest, h, neumann);
+		}
+	return 0;
+}
+
+int pm_poisson_fft_boundary_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
+{
+	if ((o->green && !o->green->differences) || pm_influence_any(&o->influence))
+		return pm_fail(PM_USAGE, "boundary values belong to the Laplacian or its differences (leave out --green, --influence and --cloud)");
+	for (int a = 0; a < 2 * g->dim; a++)
+		if (o->symbol != PM_FD2 && g->face[a / 2][a % 2] == PM_OPEN)
+			return pm_fail(PM_DATA, "boundary values beside open faces need the differences of order 2 (leave --symbol out)");
+	return 0;
+}
+
+/* The faces of axis d that are of this kind and have values, as bits 2 d + side. */
+static unsigned faces_of(const struct pm_boundary *b, int d, bool neumann)
+{
+	unsigned faces = 0;
+	for (int side = 0; side < 2; side++)
+		if (b->value[d][side] && b->grid.face[d][side] == (neumann ? PM_NEUMANN : PM_WALL))
+			faces |= 1u << (2 * d + side);
+	return faces;
+}
+
+static int add(struct pm_fft_solvers *s, const struct pm_poisson_fft_choice *o, const struct pm_boundary *b, unsigned faces, double *known, double *u,
+	double *phi)
+{
+	struct pm_poisson_fft *solver = pm_fft_solvers_find(s, &b->grid, o);
+	struct pm_poisson_fft_record r;
+	if (!solver && !(solver = pm_fft_solvers_add(s, &b->grid, o, false)))
+		return -PM_DATA;
+	pm_boundary_known(b, 2, faces, NULL, known);
+	int status = pm_poisson_fft_solve(solver, -1, known, u, &r);
+	for (size_t i = 0; i < pm_grid_size(&b->grid) && !status; i++)
+		phi[i] += u[i];
+	return status;
+}
+
+/* The largest value on an edge where two walls meet, over the largest on all walls. */
+static double on_edges(const struct pm_boundary *b)
+{
+	const struct pm_grid *g = &b->grid;
+	double edge = 0, all = 0;
+	for (int a = 0; a < 2 * g->dim; a++) {
+		const int d = a / 2, t[2] = {d == 0, d == 2 ? 1 : 2};
+		const double *v = g->face[d][a % 2] == PM_WALL ? b->value[d][a % 2] : NULL;
+		for (size_t i = 0; v && i < pm_boundary_points(g, d); i++) {
+			const size_t at[2] = {i % g->points[t[0]], i / g->points[t[0]]};
+			all = fmax(all, fabs(v[i]));
+			for (int k = 0; k < 2; k++)
+				if (t[k] < g->dim && ((at[k] == 0 && g->face[t[k]][0] == PM_WALL) || (at[k] == g->cells[t[k]] && g->face[t[k]][1] == PM_WALL)))
+					edge = fmax(edge, fabs(v[i]));
+		}
+	}
+	return all > 0 ? edge / all : 0;
+}
+
+int pm_poisson_fft_boundary(struct pm_fft_solvers *s, const struct pm_poisson_fft_choice *o, const struct pm_boundary *b, double *phi)
+{
+	const size_t n = pm_grid_size(&b->grid);
+	double *known = pm_alloc(n, sizeof *known), *u = pm_alloc(n, sizeof *u);
+	const double edges = on_edges(b);
+	int status = known && u ? 0 : -PM_DATA;
+	if (!status && edges > 1e-6)
+		status = pm_fail(PM_DATA, "the boundary values are %.2g of the largest where walls meet, and there the series of --symbol spectral, fd4 and "
+			"fd6 do not converge (leave --symbol out, or poisson-mg --order 4)", edges);
+	for (int d = 0; d < 2 * b->grid.dim && !status; d++) {
+		struct pm_poisson_fft_choice one = *o;
+		unsigned faces = faces_of(b, d / 2, d % 2);
+		one.fitted = 1 + d;
+		if (faces)
+			status = add(s, &one, b, faces, known, u, phi);
+	}
+	pm_free(known), pm_free(u);
+	return status;
+}

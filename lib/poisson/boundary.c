@@ -1,0 +1,246 @@
+/* Known boundary values moved to the right-hand side: A phi = f, phi = u + K, where K has the known values and is 0 at the unknown nodes, so A u = f - A K and
+ * u has homogeneous faces. Order 2, per axis: a node beside a wall gets phi_wall/h^2; a node on a neumann face, whose neighbour beyond is
+ * phi(-h) = phi(h) + 2 h g (g = d phi/dn outward), gets 2 g/h. With eps the wall's term has eps half-way, the flux that of the node. Compact differences of
+ * order 4 (mg-compact.c) reach diagonal neighbours, so K is needed beyond edges too: there phi(-h) = phi(h) + 2 h g + h^3/3 phi_nnn, phi_nnn = f_n - lap_t g;
+ * f_n is in the one-sided source of that file, and beyond an edge g is continued by a cubic.
+ * Exact for constants and linear functions; corners are not used by order 2. Source: Press et al., Numerical Recipes, section 20.4; LeVeque 2007, section 2.12.
+ * Cost: nodes of the faces. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "base/base.h"
+#include "poisson/boundary.h"
+
+struct stencil {
+	int order;
+	double side[3], cross[3][3]; /* [1/length^2] */
+	unsigned faces; /* bits 2 axis + side */
+};
+
+static void across(int d, int t[2])
+{
+	t[0] = d == 0;
+	t[1] = d == 2 ? 1 : 2;
+}
+
+size_t pm_boundary_points(const struct pm_grid *g, int d)
+{
+	int t[2];
+	across(d, t);
+	return g->points[t[0]] * g->points[t[1]];
+}
+
+int pm_boundary_room(struct pm_boundary *b, int d, int side)
+{
+	if (!b->value[d][side])
+		b->value[d][side] = pm_zalloc(pm_boundary_points(&b->grid, d), sizeof(double));
+	return b->value[d][side] ? 0 : -PM_DATA;
+}
+
+void pm_boundary_free(struct pm_boundary *b)
+{
+	for (int d = 0; d < 3; d++)
+		for (int side = 0; side < 2; side++)
+			b->value[d][side] = pm_free(b->value[d][side]);
+}
+
+static struct stencil stencil_of(const struct pm_grid *g, int order, unsigned faces)
+{
+	struct stencil s = {.order = order, .faces = faces};
+	for (int d = 0; d < g->dim; d++)
+		s.side[d] = 1 / (g->h[d] * g->h[d]);
+	for (int d = 0; d < g->dim && order == 4; d++)
+		for (int e = d + 1; e < g->dim; e++) {
+			double w = (1 / (g->h[d] * g->h[d]) + 1 / (g->h[e] * g->h[e])) / 12; /* (h_d^2 + h_e^2)/(12 h_d^2 h_e^2) */
+			s.cross[d][e] = w;
+			s.side[d] -= 2 * w;
+			s.side[e] -= 2 * w;
+		}
+	return s;
+}
+
+/* The value on a face at (i, j) of its axes: wrapped where periodic, else beyond an end continued by a cubic (or lower, on few points). */
+static double on_face(const struct pm_boundary *b, int d, int side, const int t[2], ptrdiff_t i, ptrdiff_t j, int axis)
+{
+	static const double weight[5][4] = {{0}, {1}, {2, -1}, {3, -3, 1}, {4, -6, 4, -1}};
+	const struct pm_grid *g = &b->grid;
+	const ptrdiff_t at[2] = {i, j};
+	for (; axis < 2; axis++) {
+		ptrdiff_t n = (ptrdiff_t)g->points[t[axis]], from = at[axis] < 0 ? 0 : n - 1, step = at[axis] < 0 ? 1 : -1;
+		double sum = 0;
+		if (at[axis] >= 0 && at[axis] < n)
+			continue;
+		int terms = n < 4 ? (int)n : 4;
+		bool wraps = g->face[t[axis]][0] == PM_PERIODIC;
+		for (int k = 0; k < (wraps ? 1 : terms); k++) {
+			ptrdiff_t there = wraps ? (at[axis] + n) % n : from + k * step;
+			sum += (wraps ? 1 : weight[terms][k]) * on_face(b, d, side, t, axis == 0 ? there : i, axis == 1 ? there : j, axis + 1);
+		}
+		return sum;
+	}
+	return b->value[d][side][(size_t)i + g->points[t[0]] * (size_t)j];
+}
+
+/* What phi beyond a neumann face is above phi as far inside. */
+static double beyond(const struct pm_boundary *b, const struct stencil *s, int d, int side, const ptrdiff_t at[3])
+{
+	const struct pm_grid *g = &b->grid;
+	int t[2];
+	across(d, t);
+	if (!b->value[d][side] || !(s->faces >> (2 * d + side) & 1))
+		return 0;
+	const ptrdiff_t i = at[t[0]], j = at[t[1]];
+	double h = g->h[d], sum = 2 * h * on_face(b, d, side, t, i, j, 0);
+	for (int k = 0; k < 2 && s->order == 4; k++) {
+		ptrdiff_t n = (ptrdiff_t)g->points[t[k]], m = at[t[k]], low = g->face[t[k]][0] == PM_PERIODIC ? m : m < 1 ? 1 : m > n - 2 ? n - 2 : m;
+		ptrdiff_t p[3][2] = {{i, j}, {i, j}, {i, j}};
+		if (t[k] >= g->dim || n < 3)
+			continue;
+		for (int q = 0; q < 3; q++)
+			p[q][k] = low + q - 1;
+		sum -= h * h * h / 3 * (on_face(b, d, side, t, p[0][0], p[0][1], 0) - 2 * on_face(b, d, side, t, p[1][0], p[1][1], 0) +
+			on_face(b, d, side, t, p[2][0], p[2][1], 0)) / (g->h[t[k]] * g->h[t[k]]);
+	}
+	return sum;
+}
+
+/* phi at a node of one or several walls. */
+static double wall_value(const struct pm_boundary *b, unsigned faces, const ptrdiff_t at[3], bool *wall)
+{
+	const struct pm_grid *g = &b->grid;
+	double sum = 0;
+	int walls = 0;
+	for (int d = 0; d < g->dim; d++)
+		for (int side = 0; side < 2; side++) {
+			int t[2];
+			across(d, t);
+			if (g->face[d][side] != PM_WALL || at[d] != (side ? (ptrdiff_t)g->cells[d] : 0))
+				continue;
+			walls++;
+			if (b->value[d][side] && faces >> (2 * d + side) & 1)
+				sum += b->value[d][side][(size_t)at[t[0]] + g->points[t[0]] * (size_t)at[t[1]]];
+		}
+	*wall = walls > 0;
+	return walls ? sum / walls : 0;
+}
+
+/* K at a node, or one beyond a neumann or periodic face. */
+static double known_at(const struct pm_boundary *b, const struct stencil *s, const ptrdiff_t from[3])
+{
+	const struct pm_grid *g = &b->grid;
+	ptrdiff_t at[3] = {from[0], from[1], from[2]};
+	double sum = 0;
+	bool wall;
+	for (int d = 0; d < g->dim; d++) {
+		ptrdiff_t n = (ptrdiff_t)g->points[d];
+		if (at[d] >= 0 && at[d] < n)
+			continue;
+		int side = at[d] >= n;
+		if (g->face[d][side] == PM_PERIODIC) {
+			at[d] = (at[d] + n) % n;
+			continue;
+		}
+		sum += beyond(b, s, d, side, at);
+		at[d] = n < 2 ? 0 : side ? n - 2 : 1;
+	}
+	return sum + wall_value(b, s->faces, at, &wall);
+}
+
+static double differences(const struct pm_boundary *b, const struct stencil *s, const ptrdiff_t at[3])
+{
+	double sum = 0;
+	for (int d = 0; d < b->grid.dim; d++)
+		for (int up = -1; up <= 1; up += 2) {
+			ptrdiff_t p[3] = {at[0], at[1], at[2]};
+			p[d] += up;
+			sum += s->side[d] * known_at(b, s, p);
+			for (int e = d + 1; e < b->grid.dim && s->order == 4; e++)
+				for (int over = -1; over <= 1; over += 2) {
+					ptrdiff_t q[3] = {p[0], p[1], p[2]};
+					q[e] += over;
+					sum += s->cross[d][e] * known_at(b, s, q);
+				}
+		}
+	return sum;
+}
+
+/* Order 2 with eps. */
+static double with_eps(const struct pm_boundary *b, const struct stencil *s, const struct pm_boundary_eps *e, const ptrdiff_t at[3])
+{
+	const struct pm_grid *g = &b->grid;
+	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
+	const double *eps = e->eps + (size_t)at[0] + step[1] * (size_t)at[1] + step[2] * (size_t)at[2];
+	double sum = 0;
+	for (int d = 0; d < g->dim; d++)
+		for (int side = 0; side < 2; side++) {
+			ptrdiff_t p[3] = {at[0], at[1], at[2]}, n = (ptrdiff_t)g->points[d];
+			p[d] += side ? 1 : -1;
+			bool out = p[d] < 0 || p[d] >= n;
+			double value = known_at(b, s, p);
+			if (value != 0) /* a neighbour across a periodic face is no wall */
+				sum += s->side[d] * value * (out ? *eps : e->between(*eps, side ? eps[step[d]] : *(eps - step[d])));
+		}
+	return sum;
+}
+
+/* Is node `at` of axis d so near to a face with values that a stencil reaches it? */
+static bool near_face(const struct pm_boundary *b, int d, size_t at)
+{
+	return (b->value[d][0] && at <= 1) || (b->value[d][1] && at + 2 >= b->grid.points[d]);
+}
+
+void pm_boundary_known(const struct pm_boundary *b, int order, unsigned faces, const struct pm_boundary_eps *eps, double *known)
+{
+	const struct pm_grid *g = &b->grid;
+	const struct stencil s = stencil_of(g, order, faces);
+	const size_t *n = g->points;
+#pragma omp parallel for schedule(static) num_threads(pm_threads())
+	for (size_t row = 0; row < n[1] * n[2]; row++) {
+		size_t j = row % n[1], k = row / n[1];
+		bool all = near_face(b, 1, j) || near_face(b, 2, k);
+		for (size_t i = 0; i < n[0]; i++) {
+			const ptrdiff_t at[3] = {(ptrdiff_t)i, (ptrdiff_t)j, (ptrdiff_t)k};
+			bool wall = true;
+			if (all || near_face(b, 0, i))
+				wall_value(b, faces, at, &wall);
+			known[row * n[0] + i] = wall ? 0 : eps ? with_eps(b, &s, eps, at) : differences(b, &s, at);
+		}
+	}
+}
+
+void pm_boundary_set(const struct pm_boundary *b, double *phi)
+{
+	const size_t *n = b->grid.points;
+	for (size_t row = 0; row < n[1] * n[2]; row++)
+		for (size_t i = 0; i < n[0]; i++) {
+			const ptrdiff_t at[3] = {(ptrdiff_t)i, (ptrdiff_t)(row % n[1]), (ptrdiff_t)(row / n[1])};
+			bool wall = false, all = near_face(b, 1, row % n[1]) || near_face(b, 2, row / n[1]);
+			double value = all || near_face(b, 0, i) ? wall_value(b, PM_BOUNDARY_ALL, at, &wall) : 0;
+			if (wall)
+				phi[row * n[0] + i] = value;
+		}
+}
+
+struct pm_boundary_flux pm_boundary_flux(const struct pm_boundary *b, const struct pm_boundary_eps *eps)
+{
+	const struct pm_grid *g = &b->grid;
+	struct pm_sum total = {0}, absolute = {0};
+	for (int d = 0; d < g->dim; d++)
+		for (int side = 0; side < 2; side++) {
+			int t[2];
+			across(d, t);
+			const double *value = g->face[d][side] == PM_NEUMANN ? b->value[d][side] : NULL;
+			for (size_t i = 0; value && i < pm_boundary_points(g, d); i++) {
+				size_t at[3] = {0, 0, 0};
+				at[t[0]] = i % g->points[t[0]], at[t[1]] = i / g->points[t[0]];
+				double weight = pm_grid_cell(g) / g->h[d];
+				for (int k = 0; k < 2; k++)
+					if (t[k] < g->dim && g->points[t[k]] > g->cells[t[k]] && (at[t[k]] == 0 || at[t[k]] == g->cells[t[k]]))
+						weight *= 0.5;
+				at[d] = side ? g->cells[d] : 0;
+				weight *= eps ? eps->eps[at[0] + g->points[0] * (at[1] + g->points[1] * at[2])] : 1;
+				pm_sum_add(&total, weight * value[i]);
+				pm_sum_add(&absolute, fabs(weight * value[i]));
+			}
+		}
+	return (struct pm_boundary_flux){pm_sum_total(total), pm_sum_total(absolute)};
+}
