@@ -11,6 +11,8 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "SENTENCE is missing (the stages of one pass, in quotes, joined by |; or --plan)");
 	if (s->nargs && c->plan)
 		return pm_fail(PM_USAGE, "--plan makes the sentence, but a SENTENCE is given too (leave out one of them)");
+	if (pm_given(s, "every") && pm_given(s, "every-time"))
+		return pm_fail(PM_USAGE, "--every counts steps and --every-time counts time (leave out one of them)");
 	if (c->exact && isnan(c->time))
 		return pm_fail(PM_USAGE, "--exact belongs to -t TIME");
 	if (pm_given(s, "accuracy") && !c->plan)
@@ -43,6 +45,8 @@ static const struct pm_option options[] = {
 		.text = "with --plan: decide anew every N steps (50 is usual) and when speed, force or size of the frame change much"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .low = 1, .high = 1e15, .cosmetic = true, AT(every),
 		.text = "write the initial frame, every step that is a multiple of N, and the last"},
+	{.name = "every-time", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, .cosmetic = true, AT(interval),
+		.text = "instead at the multiples of this time: within a step of push rk45 --dense, else at the nearest step"},
 	PM_SELECTION_ROWS(AT_KEPT, 0),
 	{.name = "store", .kind = PM_LIST, .choices = stores, .cosmetic = true, AT(output.store),
 		.text = "write everything (all), and real numbers in single precision (f32); default: types as they are, without what mgrad made of the "

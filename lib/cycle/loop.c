@@ -13,6 +13,7 @@
 #include "cycle/run-end.h"
 #include "sentence/sentence.h"
 #include "cycle/until.h"
+#include "push/dense-output.h"
 #include "cycle/watch.h"
 
 struct cycle {
@@ -26,6 +27,7 @@ struct cycle {
 	int met;                /* the expression is true for this frame */
 	bool judged;            /* the first frame was compared with the sentence */
 	int64_t start, written; /* step at the beginning of the run; step last written */
+	double began;           /* [time] at which the step under way began */
 	int64_t saved;          /* step of the last checkpoint */
 	struct pm_progress progress;
 	struct pm_checkpoint kept;
@@ -68,10 +70,40 @@ static int write_out(struct cycle *y, struct pm_frame *f)
 	return status || !pm_checkpoint_with_frames(&y->kept) ? status : checkpoint(y, f);
 }
 
+/* A frame at a time within the step that is behind. */
+static int write_between(struct cycle *y, const struct pm_frame *f, double time)
+{
+	struct pm_frame *at = pm_dense_frame(f, time), *part = at ? pm_output_of(&y->what, y->now.words, at) : NULL;
+	const int status = part ? pm_write_frame(y->out, part) : pm_failed();
+	pm_frame_free(part);
+	pm_frame_free(at);
+	return status;
+}
+
+/* --every-time: the multiples of the interval that this step has passed. A multiple is at a step if it differs from it by rounding only; without dense
+ * output it belongs to the nearest step, as the end of a run. */
+static int write_multiples(struct cycle *y, struct pm_frame *f)
+{
+	const double interval = y->c->interval, step = f->time - y->began, half = pm_dense_has(f) ? 1e-9 * step : step / 2;
+	const double from = fmin(y->began + half, f->time + half) / interval, to = fmax(y->began + half, f->time + half) / interval;
+	const int64_t count = (int64_t)fmin(floor(to) - floor(from), 1e9);
+	int status = 0;
+	for (int64_t i = 1; i <= count && !status; i++) {
+		const double time = (step > 0 ? floor(from) + (double)i : floor(to) + 1 - (double)i) * interval;
+		if (pm_dense_has(f) && fabs(time - f->time) > fabs(half))
+			status = write_between(y, f, time);
+		else if (y->written != f->step)
+			status = write_out(y, f);
+	}
+	return status;
+}
+
 /* A full step is behind: a frame, a checkpoint, both or none. */
 static int keep(struct cycle *y, struct pm_frame *f)
 {
 	int status = pm_output_check(&y->what, f);
+	if (!status && y->c->interval > 0)
+		status = write_multiples(y, f);
 	if (!status && y->c->every > 0 && f->step % y->c->every == 0)
 		status = write_out(y, f);
 	return status || !pm_checkpoint_due(&y->kept, f) ? status : checkpoint(y, f);
@@ -142,6 +174,7 @@ static int pass(struct cycle *y, struct pm_frame **f)
 {
 	int64_t step = (*f)->step;
 	int substep = (*f)->substep;
+	y->began = (*f)->start;
 	const bool waits = pm_sentence_waits(y->now.words);
 	if (waits && !substep) {
 		pm_frame_free(y->last);
@@ -215,7 +248,7 @@ static int run_frame(struct cycle *y, struct pm_frame **f)
 	y->judged = true;
 	status = look_first(y, f);
 	status = status ? status : pm_output_begin(&y->what, *f);
-	if (!status && y->c->every > 0 && !y->c->resume) {
+	if (!status && (y->c->every > 0 || y->c->interval > 0) && !y->c->resume) {
 		status = pm_sentence_ready(y->now.words, f);
 		status = status ? status : write_out(y, *f);
 	}

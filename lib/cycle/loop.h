@@ -7,6 +7,7 @@
 struct pm_loop { /* the options; the config of cycle */
 	int64_t steps, every, again; /* INT64_MIN: not given */
 	double time;          /* NAN: not given */
+	double interval;      /* [time] frames are written at its multiples; NAN: not given */
 	const char *engine, *checkpoint, *checkpoint_every, *resume, *until;
 	struct pm_output_choice output;
 	struct pm_list moves;

@@ -5,6 +5,7 @@
 
 #include "cycle/output.h"
 #include "mesh/gradient-frame.h"
+#include "push/dense-output.h"
 #include "stream/edit.h"
 #include "stream/run.h"
 
@@ -50,6 +51,8 @@ struct pm_frame *pm_output_of(const struct pm_output *o, struct pm_sentence *wor
 		return NULL;
 	if (!o->all && !o->kept.fields.n)
 		leave_out(copy, words);
+	if (!o->all && pm_dense_has(copy))
+		pm_dense_leave_out(copy);
 	pm_selection_leave_out(&o->kept, copy);
 	int status = o->single ? pm_frame_store(copy, "f32") : 0;
 	status = status || !o->single ? status : pm_frame_ready(copy);

@@ -13,6 +13,8 @@ int pm_control_begin(const struct pm_stage *s, const struct pm_push *p)
 	for (int i = 0; i < 3; i++)
 		if (pm_given(s, names[i]) && !(pm_control_chosen(p) && pm_step_adapts(p->scheme)))
 			return pm_fail(PM_USAGE, "--%s belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23)", names[i]);
+	if (p->dense && !(p->scheme && p->scheme->embedded))
+		return pm_fail(PM_USAGE, "--dense belongs to an embedded pair (push rk45, rk23)");
 	if (p->floor > p->most)
 		return pm_fail(PM_USAGE, "--min %g is above --max %g", p->floor, p->most);
 	if (pm_control_chosen(p) && pm_step_adapts(p->scheme) && p->tolerance > 0 && pm_given(s, "dt"))

@@ -12,7 +12,9 @@
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .low = 0, .high = 1e300, PM_AT(push.floor), \
 		.text = "likewise: the shortest step; those whose error needs a shorter one are counted as below_min"}, \
 	{.name = "max", .kind = PM_REAL, .unit = "time", .fallback = "1e300", .low = 1e-300, .high = 1e300, PM_AT(push.most), \
-		.text = "likewise: the longest step"}
+		.text = "likewise: the longest step"}, \
+	{.name = "dense", .kind = PM_FLAG, PM_AT(push.dense), \
+		.text = "of rk45 and rk23: keep the rates of a step, for frames at times within it (cycle --every-time)"}
 
 /* Does this push choose its steps by their error? */
 bool pm_control_chosen(const struct pm_push *p);

@@ -62,3 +62,38 @@ words='pp | push rk45 --tolerance 1e-6'
 	cycle -n 7 'pp | push rk23 --tolerance 0 --dt 0.125' <a | sls >text
 	grep -q '^frame 1: time 0.875 step 7 substep 0 dt 0.125 ' text
 }
+
+@test "cycle --every-time writes rk45 --dense and rk23 --dense within steps, with the order of the steps" {
+	printf 'x vx\n1 0\n' | stab - --law free >a
+	for scheme in rk45:5 rk23:3; do # the polynomial of order 4 has a local error of dt^5, the cubic one of dt^4, at the end of steps of order 5 and 3
+		for dt in 0.4 0.2 0.1; do
+			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a | diag --columns time,centre_x | sed 1d >b
+			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a | stab --plain | awk '$1 + 0 == $1' >c
+			[ "$(wc -l <c)" = 7 ] # 0, 0.77, ... 3.85, 4
+			awk '{ print $1 }' b | paste - c | awk -v dt=$dt '{ e = $2 - cos($1); e = e < 0 ? -e : e; if (e > m) m = e } END { printf "%.17g %.17g\n", dt, m }'
+		done | awk '{ x = log($1); y = log($2); n++; a += x; b += y; c += x * x; d += x * y } END { print (n * d - a * b) / (n * c - a * a) }' >order
+		within "$(cat order)" "${scheme#*:}" 0.25 "$scheme"
+	done
+}
+
+@test "equal bytes of --every-time: fused, as processes, resumed; frames have no rates of the step, and those at its end are of the run without --dense" {
+	pinit plummer -n 20 --softening 0.1 --dt 0.5 --no-history >now
+	words='pp | push rk45 --dense --tolerance 1e-4'
+	cycle -q --no-history -t 2 --every-time 0.3 "$words" <now >want
+	run -1 grep -aq '"name":"q' want
+	cycle -q --no-history -t 2 --every-time 0.3 --engine pipes --threads 1 "$words" <now >got
+	same_as want got
+	cycle -q --no-history -t 1 --checkpoint c "$words" <now >first
+	cycle -q --no-history -t 2 --every-time 0.3 --resume c "$words" >rest
+	[ "$(sls rest | grep -c '^frame')" -lt "$(sls want | grep -c '^frame')" ]
+	sel --last --no-history <want >a
+	cycle -q --no-history -t 2 'pp | push rk45 --tolerance 1e-4' <now >b
+	run -0 scmp --tolerance 0 a b
+	# with other schemes the nearest steps
+	pinit two-body --dt 0.07 | cycle -q -t 1 --every-time 0.3 'push kick/2 drift | pp | push kick/2' | diag --columns time | sed 1d | tr '\n' ' ' >times
+	[ "$(cat times)" = '0 0.28000000000000003 0.63000000000000012 0.91000000000000014 0.98000000000000009 ' ]
+	run -2 cycle -n 1 --every 1 --every-time 1 "$words" -i now -o b
+	[[ $output == *'--every counts steps and --every-time counts time'* ]]
+	run -2 push rk4 --dense -i now -o b
+	[[ $output == *'--dense belongs to an embedded pair (push rk45, rk23)'* ]]
+}
