@@ -54,13 +54,13 @@ bench := $(bench_src:%.c=$(B)/%)
 
 # Ranks of MPI are an object that the programs open under a launcher: they link no MPI, and start as fast without.
 MPICC ?= mpicc
-mpi_object := $(if $(shell command -v $(MPICC) 2>/dev/null),$(bin_dir)/pmpipe-mpi.so)
+mpi_object := $(if $(shell command -v $(MPICC) 2>/dev/null),$(B)/pmpipe-mpi.so)
 
 all: words $(B)/libpmpipe.so
 # The programs alone, for the wheel of python/.
 words: $(tools) $(bin_dir)/pmpipe $(mpi_object)
 
-$(bin_dir)/pmpipe-mpi.so: lib/world/mpi.c lib/world/transport.h
+$(B)/pmpipe-mpi.so: lib/world/mpi.c lib/world/transport.h
 	@mkdir -p $(@D)
 	$(MPICC) -std=c11 -O2 -g -fPIC -shared $(WARN) -o $@ $<
 
@@ -266,7 +266,7 @@ install: all man $(B)/libpmpipe.a $(B)/pmpipe.pc
 		$(D)/share/fish/vendor_completions.d $(D)/share/pmpipe $(D)/share/doc/pmpipe/methods
 	install $(bin_dir)/pmpipe $(D)/bin
 	install $(tools) $(D)/libexec/pmpipe
-	$(if $(mpi_object),install -m 644 $(mpi_object) $(D)/libexec/pmpipe)
+	$(if $(mpi_object),install -D -m 644 $(mpi_object) $(D)/lib/pmpipe/pmpipe-mpi.so)
 	install -m 644 $(B)/man/pmpipe.1 $(D)/share/man/man1
 	for w in $(words); do sed "/^.SH NAME/{n;s/^/pmpipe\\\\-/;}" $(B)/man/$$w.1 > $(D)/share/man/man1/pmpipe-$$w.1 || exit 1; done
 	install -m 644 lib/command/completion.bash lib/command/completion.zsh lib/command/completion.fish $(D)/share/pmpipe
@@ -290,7 +290,7 @@ uninstall:
 		ours $(D)/share/man/man1/$$w.1 pmpipe-$$w.1; ours $(completions)/$$w pmpipe; done
 	rm -f $(D)/bin/pmpipe $(D)/share/man/man1/pmpipe.1 $(words:%=$(D)/share/man/man1/pmpipe-%.1) $(completions)/pmpipe
 	rm -f $(D)/share/zsh/site-functions/_pmpipe $(D)/share/fish/vendor_completions.d/pmpipe.fish
-	rm -rf $(D)/libexec/pmpipe $(D)/share/pmpipe
+	rm -rf $(D)/libexec/pmpipe $(D)/lib/pmpipe $(D)/share/pmpipe
 	rm -f $(D)/lib/libpmpipe.a $(D)/lib/libpmpipe.so $(D)/lib/libpmpipe.so.$(SOVERSION) $(D)/lib/libpmpipe.so.$(VERSION) $(D)/lib/pkgconfig/pmpipe.pc
 	rm -rf $(D)/include/pmpipe $(D)/share/doc/pmpipe
 

@@ -7,6 +7,7 @@
 #include "base/replace.h"
 #include "measure/diag-table.h"
 #include "stage/stage.h"
+#include "world/launch.h"
 
 struct config {
 	const char *set, *format, *tee;
@@ -32,7 +33,7 @@ static enum pm_diag_format format_of(const struct pm_stage *s)
 	int k = 0;
 	while (c->format && strcmp(c->format, formats[k]))
 		k++;
-	return c->format ? (enum pm_diag_format)k : !c->tee && !pm_given(s, "output") && isatty(STDOUT_FILENO) ? PM_DIAG_READABLE : PM_DIAG_TSV;
+	return c->format ? (enum pm_diag_format)k : !c->tee && !pm_given(s, "output") && pm_output_is_terminal() ? PM_DIAG_READABLE : PM_DIAG_TSV;
 }
 
 static int begin(struct pm_stage *s)
@@ -53,7 +54,7 @@ static int begin(struct pm_stage *s)
 	if (c->tee)
 		state->out = fdopen(state->tee.fd, "w");
 	state->table.out = state->out;
-	state->table.readable.live = state->out == stdout && isatty(STDOUT_FILENO) && isatty(STDERR_FILENO);
+	state->table.readable.live = state->out == stdout && pm_output_is_terminal() && isatty(STDERR_FILENO);
 	return state->out ? 0 : pm_fail_errno("cannot write '%s'", c->tee);
 }
 

@@ -3,13 +3,13 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "picture/colour.h"
 #include "picture/picture-file.h"
 #include "picture/view.h"
 #include "stage/stage.h"
 #include "viewer/viewer.h"
+#include "world/launch.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL}, *const styles[] = {"auto", "points", "density", NULL};
 static const char *const maps[] = {"auto", "viridis", "magma", "inferno", "grey", "coolwarm", NULL};
@@ -99,7 +99,7 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--project and --slice exclude each other");
 	if (c->log && c->linear)
 		return pm_fail(PM_USAGE, "--log and --linear exclude each other");
-	if (piped && isatty(STDOUT_FILENO))
+	if (piped && pm_output_is_terminal())
 		return pm_fail(PM_USAGE, "a picture cannot be written to a terminal (give --output FILE, or a pipe)");
 	if (is_page(s))
 		return begin_page(s);

@@ -9,6 +9,7 @@
 #include "base/replace.h"
 #include "chart/canvas.h"
 #include "chart/plot-job.h"
+#include "world/launch.h"
 
 enum { most_files = 64, most_columns = 64, few_columns = 6 };
 enum kind { TEXT, PNG, SVG, PPM };
@@ -31,7 +32,7 @@ static int kind_of(const struct pm_plot_job *job, enum kind *kind)
 	if (job->text && name && strcmp(name, "-"))
 		return pm_fail(PM_USAGE, "--as-text goes to standard output (leave --output out, or redirect it with >)");
 	if (!name || !strcmp(name, "-")) {
-		if (name || job->text || job->ascii || isatty(STDOUT_FILENO))
+		if (name || job->text || job->ascii || pm_output_is_terminal())
 			return 0;
 		return pm_fail(PM_USAGE, "standard output is no terminal (-o FILE.png, .svg or .ppm for a picture, or --as-text)");
 	}
@@ -183,7 +184,7 @@ static bool speaks_utf8(void)
 static int to_terminal(struct plot *p)
 {
 	struct winsize w = {.ws_col = 0};
-	const bool terminal = isatty(STDOUT_FILENO);
+	const bool terminal = pm_output_is_terminal();
 	const char *none = getenv("NO_COLOR"), *term = getenv("TERM");
 	bool sized = terminal && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) && w.ws_col > 20 && w.ws_row > 8;
 	p->chart.width = p->job->width ? p->job->width : sized ? w.ws_col : 79;

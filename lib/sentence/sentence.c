@@ -152,8 +152,8 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		return pm_fail(PM_USAGE, "%s: unexpected argument '%s' (inside a sentence no word reads files: cycle -i FILE does)", w->argv[0],
 			w->stage->args[0]);
 	const struct pm_common *k = &w->stage->run->common;
-	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version)
-		return pm_fail(PM_USAGE, "'%s': options for files, timing and help belong to cycle itself, not inside the sentence", w->stage->word);
+	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version || k->ranks > 0)
+		return pm_fail(PM_USAGE, "'%s': options for files, ranks, timing and help belong to cycle itself, not inside the sentence", w->stage->word);
 	if (w->stage->leaves_out)
 		return pm_fail(PM_USAGE, "'%s' leaves frames out, but inside a sentence every frame must be passed on", w->stage->word);
 	if (w->stage->kind == PM_SINK)

@@ -10,7 +10,7 @@
 struct pm_common {
 	bool help, man, complete, examples, version, no_history, verbose, quiet;
 	const char *input, *output, *timing;
-	int64_t threads;
+	int64_t threads, ranks;
 };
 extern const struct pm_option pm_common_options[];
 

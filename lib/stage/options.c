@@ -7,6 +7,7 @@
 #include "base/nearest-name.h"
 #include "stage/file-operands.h"
 #include "stage/internal.h"
+#include "stage/ranks.h"
 
 #define AT(member) .offset = offsetof(struct pm_common, member)
 const struct pm_option pm_common_options[] = {
@@ -14,6 +15,8 @@ const struct pm_option pm_common_options[] = {
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(output), .text = "write FILE instead of standard output"},
 	{.name = "threads", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = 4096, .cosmetic = true, AT(threads),
 		.text = "number of threads; results do not depend on it (also OMP_NUM_THREADS)"},
+	{.name = "ranks", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = PM_RANKS_MOST, .cosmetic = true, AT(ranks),
+		.text = "number of processes on this machine that share the work, to rehearse a run by an MPI launcher; results do not depend on it"},
 	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
 		.text = "append a line to FILE: word, seconds of set-up, of work, of the processors in this work; -: on standard error, to read"},
 	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},

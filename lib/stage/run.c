@@ -8,8 +8,11 @@
 #include "base/rounding.h"
 #include "stage/file-operands.h"
 #include "stage/internal.h"
+#include "stage/ranks.h"
 #include "stream/run.h"
 #include "stage/apply.h"
+#include "world/launch.h"
+#include "world/world.h"
 
 struct pm_reader *pm_stage_reader(struct pm_stage *s)
 {
@@ -134,7 +137,7 @@ static void tell(struct pm_stage *s, const struct pm_tool *tool, int status)
 		snprintf(text, sizeof text, "%s: %s", tool->name, pm_message());
 	if (!getenv("PM_QUIET")) /* set by cycle for its processes */
 		fprintf(stderr, passed_on ? "%s: stopped by %s\n" : "%.0s%s\n", tool->name, text);
-	if ((s ? s->kind : tool->kind) == PM_SINK || (isatty(STDOUT_FILENO) && !(s && s->run->common.output)))
+	if ((s ? s->kind : tool->kind) == PM_SINK || (pm_output_is_terminal() && !(s && s->run->common.output)))
 		return;
 	struct pm_writer *w = s ? pm_stage_writer(s) : pm_writer_open(NULL);
 	if (w)
@@ -170,6 +173,7 @@ static void left_early(void)
 	tell(s, tool, -PM_DATA);
 	pm_replace_abandon();
 	fflush(stdout);
+	pm_world_abort(PM_DATA);
 	_exit(PM_DATA); /* HDF5 ends with 255 */
 }
 
@@ -179,6 +183,7 @@ static void memory_ends(void)
 	if (running.tool)
 		exit(PM_DATA);
 	fprintf(stderr, "%s\n", pm_message()); /* behind run(), where nothing is left but to close the files */
+	pm_world_abort(PM_DATA);
 	_exit(PM_DATA);
 }
 
@@ -209,15 +214,12 @@ static int run(struct pm_stage *s)
 	return status;
 }
 
-int pm_main(const struct pm_tool *tool, int argc, char **argv)
+/* Rank 0, or alone. made: the status of s, with its message. */
+static int lead(const struct pm_tool *tool, struct pm_stage *s, int made)
 {
-	int status = 0;
+	int status = made;
 	running.tool = tool;
-	json_set_alloc_funcs(json_room, free);
-	pm_memory_end(memory_ends);
-	atexit(left_early);
-	status = pm_rounding(getenv("PM_ROUNDING"));
-	struct pm_stage *s = running.stage = status ? NULL : pm_stage_make(tool, argc, argv, &status);
+	running.stage = s;
 	bool printed = s && !status && print_and_go(tool, &s->run->common);
 	if (s && !status && !printed)
 		status = run(s);
@@ -249,5 +251,30 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
 	}
 	pm_stage_free(s);
+	const int others = pm_ranks_end();
+	if (others && !status) {
+		status = others;
+		fprintf(stderr, "%s: %s\n", tool->name, pm_message());
+	}
 	return pm_exit_code(status);
+}
+
+int pm_main(const struct pm_tool *tool, int argc, char **argv)
+{
+	running.tool = tool;
+	json_set_alloc_funcs(json_room, free);
+	pm_memory_end(memory_ends);
+	atexit(left_early);
+	int status = pm_rounding(getenv("PM_ROUNDING"));
+	const bool launched = !status && pm_launched();
+	status = launched ? pm_ranks_launch() : status;
+	status = launched && !status ? pm_ranks_compare(tool) : status;
+	struct pm_stage *s = running.stage = status || pm_world_rank() ? NULL : pm_stage_make(tool, argc, argv, &status);
+	if (s && !status && s->run->common.ranks > 0)
+		status = pm_ranks_rehearse((int)s->run->common.ranks);
+	if (pm_world_rank() == 0)
+		return lead(tool, s, status);
+	running.tool = NULL;
+	pm_stage_free(s);
+	return pm_ranks_follow(tool);
 }

@@ -11,6 +11,7 @@
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/line.h"
+#include "world/launch.h"
 
 struct pm_writer {
 	int fd;
@@ -55,7 +56,7 @@ struct pm_writer *pm_writer_open(const char *path)
 {
 	if (path && !strcmp(path, "-"))
 		path = NULL;
-	if (!path && isatty(STDOUT_FILENO)) {
+	if (!path && pm_output_is_terminal()) {
 		pm_fail(PM_USAGE, "standard output is a terminal, but a stream is not text (add | sls, | stab, or > FILE)");
 		return NULL;
 	}

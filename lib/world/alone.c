@@ -1,5 +1,4 @@
 /* A world of one rank. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdlib.h>
 #include <string.h>
 
 #include "world/world.h"
@@ -33,8 +32,7 @@ static int move(struct pm_transport *t, size_t nout, const struct pm_message_par
 
 static void give_up(struct pm_transport *t, int code)
 {
-	(void)t;
-	exit(code);
+	(void)t, (void)code;
 }
 
 static int finish(struct pm_transport *t)

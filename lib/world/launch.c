@@ -32,6 +32,8 @@ bool pm_launched(void)
 	return size ? atoi(size) > 1 : getenv("PMIX_RANK") != NULL;
 }
 
+bool pm_output_is_terminal(void) { return !getenv("PM_WORLD") && !first_of(sizes) && !first_of(ranks) && isatty(STDOUT_FILENO); }
+
 int pm_launched_rank(void)
 {
 	const char *rank = first_of(ranks);
@@ -67,28 +69,44 @@ static void alone_from_here(void)
 	setenv("PM_WORLD", "alone", 1);
 }
 
+/* Where the object of mpi.c is, seen from the programs: installed; in the tree; in another build directory. */
+static void *object_open(const char *directory)
+{
+	static const char *const beside[] = {"../../lib/pmpipe", "../build", "..", NULL};
+	char path[PATH_MAX + 64];
+	for (int i = 0; beside[i]; i++) {
+		snprintf(path, sizeof path, "%s/%s/pmpipe-mpi.so", directory, beside[i]);
+		if (!access(path, R_OK)) {
+			void *object = dlopen(path, RTLD_NOW | RTLD_GLOBAL); /* global: Open MPI opens parts of itself that need it */
+			if (!object)
+				pm_fail(PM_DATA, "started by an MPI launcher, but MPI does not open: %s (PM_WORLD=alone runs without)", dlerror());
+			return object;
+		}
+	}
+	pm_fail(PM_DATA, "started by an MPI launcher, but pmpipe-mpi.so is not there (install openmpi-bin and libopenmpi-dev, then make; PM_WORLD=alone runs "
+		"without)");
+	return NULL;
+}
+
 int pm_launch(const char *directory)
 {
-	char path[PATH_MAX + 32];
 	const char *size = first_of(sizes), *why;
 	const int announced = size ? atoi(size) : 0;
 	struct pm_transport t = {0};
 	int status = only_one_of_this_rank();
 	if (status)
 		return status;
-	snprintf(path, sizeof path, "%s/pmpipe-mpi.so", directory);
-	void *object = dlopen(path, RTLD_NOW | RTLD_GLOBAL);
+	void *object = object_open(directory);
 	if (!object)
-		return pm_fail(PM_DATA, "started by an MPI launcher, but %s is not there or does not open (install openmpi-bin and libopenmpi-dev before make; "
-			"PM_WORLD=alone runs without): %s", path, dlerror());
+		return pm_failed();
 	const struct pm_transport_maker *maker = dlsym(object, "pm_world_mpi");
 	if (!maker || maker->version != PM_TRANSPORT_VERSION)
-		return pm_fail(PM_DATA, "%s belongs to another version of pmpipe (make again)", path);
+		return pm_fail(PM_DATA, "pmpipe-mpi.so belongs to another version of pmpipe (make again)");
 	if ((why = maker->open(&t)))
 		return pm_fail(PM_DATA, "%s", why);
 	if (announced && t.size != announced)
-		return pm_fail(PM_DATA, "the launcher has started %d ranks, but this MPI sees %d (the launcher belongs to another MPI than %s)", announced, t.size,
-			path);
+		return pm_fail(PM_DATA, "the launcher has started %d ranks, but this MPI sees %d (the launcher belongs to another MPI than pmpipe-mpi.so)",
+			announced, t.size);
 	alone_from_here();
 	pm_world_set(&t);
 	return 0;

@@ -257,10 +257,10 @@ static const char *reason(struct pm_transport *t)
 static void give_up(struct pm_transport *t, int code)
 {
 	struct rehearsal *r = t->self;
+	(void)code;
 	for (int k = 1; !t->rank && k < r->n; k++)
 		if (r->pid[k] > 0)
 			kill(r->pid[k], SIGKILL);
-	_exit(code); /* the others see that the sockets close */
 }
 
 static void read_faults(struct rehearsal *r)

@@ -43,6 +43,12 @@ int pm_world_end(void)
 	return status;
 }
 
+void pm_world_abort(int code)
+{
+	if (here()->size > 1)
+		here()->abort(here(), code);
+}
+
 /* 7 bits of the check, 8 of the set, 8 of the component, 40 of the index; the first check stands for failures without a place. */
 void pm_world_place(int check, int set, int component, uint64_t index)
 {

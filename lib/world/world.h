@@ -27,8 +27,8 @@ int pm_world_gather(int status, const void *mine, size_t bytes, void **all, size
 /* 3. To every rank its own piece: out holds the pieces for rank 0, 1, ... one after the other, out_bytes their lengths. *in holds what arrived, in the order
  * of ranks, to be freed with pm_free; in_bytes (size numbers) the lengths. */
 int pm_world_exchange(int status, const void *out, const size_t *out_bytes, void **in, size_t *in_bytes);
-/* 4. The planes beyond the ends of this rank's stretch. from: the beginnings of all ranks' planes, size + 1 of them. data points to the first own plane; there is
- * room for `wide` planes below it and above the last one. On an axis that is not periodic the planes beyond its ends stay as they are. */
+/* 4. The planes beyond the ends of this rank's stretch. from: the beginnings of all ranks' planes, size + 1 of them. data points to the first own plane;
+ * there is room for `wide` planes below it and above the last one. On an axis that is not periodic the planes beyond its ends stay as they are. */
 struct pm_halo {
 	const uint64_t *from;
 	size_t bytes; /* of a plane */
@@ -55,6 +55,7 @@ struct pm_world_traffic pm_world_traffic(void);
 /* For the layer that runs stages, and tests. */
 void pm_world_set(const struct pm_transport *t); /* from now on this is the world; copied */
 int pm_world_end(void);                          /* all ranks have ended: 0 or failure; afterwards the world is of one */
+void pm_world_abort(int code);                   /* ends the other ranks, and where they are MPI's this one too; alone it does nothing */
 void pm_world_cut(size_t bytes);                 /* messages are cut at this length; 1 GiB at the beginning */
 bool pm_world_broken(void);                      /* a rank has died: no operation can succeed */
 extern const struct pm_transport pm_transport_alone;

@@ -145,7 +145,7 @@ install_here() {
 }
 
 @test "every tool is a program, and every program is a tool" {
-	[ "$(printf '%s\n' pmpipe $(tools) | sort)" = "$(ls "${PM_BIN:-$top/bin}" | grep -vx pmpipe-mpi.so | sort)" ]
+	[ "$(printf '%s\n' pmpipe $(tools) | sort)" = "$(ls "${PM_BIN:-$top/bin}" | sort)" ]
 }
 
 @test "no program of ours hides one of the system's" {

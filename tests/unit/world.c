@@ -269,7 +269,7 @@ static void mpi(const char *self)
 	char command[1000], directory[500];
 	const char *bin = getenv("PM_BIN");
 	snprintf(directory, sizeof directory, "%s", bin ? bin : "bin");
-	snprintf(command, sizeof command, "%s/pmpipe-mpi.so", directory);
+	snprintf(command, sizeof command, "%s/pmpipe-mpi.so", getenv("B") ? getenv("B") : "build");
 	if (system("command -v mpirun >/dev/null 2>&1") || access(command, R_OK)) {
 		printf("ok - the same under mpirun # skip no mpirun, or no pmpipe-mpi.so (mpicc was not there)\n");
 		return;

@@ -1,0 +1,195 @@
+#!/usr/bin/env bats
+# The same bytes, messages and exit codes for any number of ranks: rehearsed with 1, 2, 3, 4 and 7 on this machine, and under mpirun where it is there.
+# Every run has a watchdog. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# on N COMMAND...: with N ranks; it may not hang.
+on() { local n=$1 word=$2; shift 2; timeout -k 1 60 "$word" --ranks "$n" "$@"; }
+
+# same SENTENCE [OPTION...] < frame: cycle with every number of ranks writes what it writes alone.
+same() {
+	local sentence=$1 n ran=0
+	shift
+	cat >start
+	OMP_NUM_THREADS=1 cycle -n 3 "$@" "$sentence" <start >alone
+	[ "$(wc -c <alone)" -gt 1000 ]
+	for n in 1 2 3 4 7; do
+		OMP_NUM_THREADS=$((1 + n % 2)) on "$n" cycle -n 3 "$@" "$sentence" <start >ranks || return
+		cmp alone ranks || { echo "$n ranks: $sentence"; return 1; }
+		ran=$((ran + 1))
+	done
+	[ $ran -eq 5 ]
+}
+
+force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
+kicks() { echo "push kick/2 drift | $1 | push kick/2"; }
+
+vortices() {
+	awk 'BEGIN { h = 0.1; print "x y circulation volume"; for (j = 0; j < 22; j++) for (i = 0; i < 20; i++) { x = -1 + i * h; y = -1.1 + j * h
+		w = exp(-((x - 0.2)^2 + y * y) / 0.08) - 0.5 * exp(-((x + 0.4)^2 + (y - 0.1)^2) / 0.05)
+		print x, y, w * h * h, h * h } }' |
+			stab - --law vortex --constant nu=1e-3 --dt 0.1 --box -1,-1.1,1,1.1 -n 20x22 --faces periodic --particle-faces periodic "$@"
+}
+
+@test "any number of ranks: gravity in open space, even and odd meshes" {
+	pinit plummer -n 500 | same "$(kicks "$(force 24)")"
+	pinit plummer -n 500 | same "$(kicks "$(force 27x25x31)")"
+}
+
+@test "any number of ranks: 0, 1, 4096, 4097, 8191 and 13000 particles" {
+	pinit plummer -n 12 | sel --where 'mass > 1' | same "push drift"
+	for n in 1 4096 4097 8191 13000; do
+		pinit uniform -n $n --dispersion 0.3 | same "$(kicks "field 'acc = -x, -2*y, vx'")"
+	done
+}
+
+@test "any number of ranks: multigrid on an odd periodic mesh, relaxation on interlaced meshes, an optimal influence function" {
+	pinit uniform -n 300 | same "p2m -n 12x16x15 | poisson-mg | mgrad | m2p | push lsrk3"
+	pinit uniform -n 300 | same "p2m -n 9x12x10 --interlace | poisson-relax --method red-black-sor --tolerance 1e-6 | mgrad | m2p | push lsrk3"
+	pinit uniform -n 300 | same "$(kicks "p2m -n 12 --kernel tsc | poisson-fft --influence optimal --cloud 0.2 | mgrad | m2p")"
+}
+
+@test "any number of ranks: direct sums, a tide that turns, a scheme with a memory, ias15" {
+	pinit plummer -n 300 | same "$(kicks pp)"
+	pinit plummer -n 300 | same "$(kicks "pp | field 'acc = 0.1*cos(time)*x, -0.1*cos(time)*y, -0.2*z'")"
+	pinit plummer -n 200 | same "pp | push ab3"
+	pinit two-body | same "pp | push ias15"
+}
+
+@test "any number of ranks: vortices, viscous, remeshed, with pse, at random, with a step of their own" {
+	vortices | same "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6"
+	vortices | same "p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6"
+	vortices --number | same "p2m | poisson-fft | mgrad | m2p | push rk2 | walk --nu 0.01"
+	vortices | same "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3"
+	pinit polygon -n 7 --disturbance 1e-3 | same "pp | field 'vel = -y, x + sin(time)' 'dcirculation = -0.1*circulation' | push rk4"
+}
+
+@test "any number of ranks: plasmas, magnetised electrons, two sets, particles that leave" {
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | same "$(kicks "$(force 33)")" --every 1
+	pinit exb -n 7 --speed 1 | same "push boris/2 drift | m2p | push boris/2"
+	pinit two-stream -n 5000 --vth 0.1 --amplitude 0.1 | smod --constant background=0 >electrons
+	pinit landau -n 300 --wavenumber 1 --vth 0.01 | smove --scale charge=-1,mass=25 | smod --rename electrons=ions --constant background=0 |
+		sel --drop mesh >ions
+	stack electrons ions | same "$(kicks "$(force 33)")"
+	pinit uniform -n 9000 --dispersion 1 --dt 0.2 | smod --faces open --particle-faces absorb | same "push drift" --store f32
+}
+
+@test "any number of ranks: foreign words, processes on pipes, --until, --exact, --plan" {
+	pinit plummer -n 200 | same "pp | cat | push rk2"
+	pinit plummer -n 200 | same "$(kicks pp)" --engine pipes
+	pinit plummer -n 200 | same "$(kicks pp)" --until 'energy_kinetic > 1e3*energy_kinetic0'
+	pinit plummer -n 200 | same "$(kicks pp)" -t 0.1 --exact
+	pinit taylor-green-2d --cells 16 >start
+	cycle -n 2 --plan <start >alone
+	on 3 cycle -n 2 --plan <start | cmp - alone
+}
+
+@test "any number of ranks: a run resumed with another number of ranks" {
+	pinit plummer -n 5000 >start
+	s=$(kicks "$(force 16)")
+	cycle -n 4 --no-history --store all "$s" <start >alone
+	for n in 1 2 3; do
+		on "$n" cycle -n 2 --no-history --checkpoint half "$s" <start >first
+		on $((4 - n)) cycle -n 4 --no-history --store all --resume half "$s" | cmp - alone || return 1
+	done
+}
+
+@test "every tool with ranks: the bytes, messages and exit code of a run alone" {
+	load words.bash
+	for t in $(readers); do
+		input "$t" >in.pm
+		cp in.pm same.pm
+		command=$(words "$t")
+		[ "$t" != plan ] || command="plan --no-cost"
+		bash -c "$command" <in.pm >alone 2>said && code=0 || code=$?
+		for n in 2 3; do
+			got=0
+			bash -c "timeout -k 1 60 ${command/$t/$t --ranks $n}" <in.pm >ranks 2>says || got=$?
+			[ "$got" = "$code" ] && cmp alone ranks && diff said says || { echo "$t, $n ranks: $got, alone $code"; return 1; }
+		done
+	done
+}
+
+@test "a failure with ranks is that of a run alone: message, exit code, and the stream it leaves" {
+	pinit uniform -n 9000 --dispersion 0.3 >good
+	scalc 'mass = x > 0.5 ? 0 : 1' <good >zero
+	scalc 'mass = 1 / mass' <zero 2>/dev/null >/dev/null && return 1
+	head -c 100000 good >cut
+	failed=0
+	while IFS='#' read -r file words; do
+		bash -c "$words" <"$file" >alone 2>said && return 1 || code=$?
+		for n in 2 3 7; do
+			got=0
+			bash -c "timeout -k 1 60 ${words/ / --ranks $n }" <"$file" >ranks 2>says || got=$?
+			[ "$got" = "$code" ] && diff said says && cmp alone ranks || { echo "$n ranks: $words: $got, alone $code"; return 1; }
+			failed=$((failed + 1))
+		done
+	done <<'END'
+good#push kick
+good#push nonsense
+good#push --bad drift
+cut#push drift
+zero#scalc 'mass = 1 / mass'
+zero#cycle -n 2 "field 'acc = x / mass, y, z' | push rk2"
+good#cycle -n 2 "field 'acc = 1e300*exp(1e3*x), y, z' | push kick drift"
+good#cycle -n 2 'p2m -n 8'
+good#cycle -n 2 'push drift --ranks 2'
+good#cycle -n 2 'nothing | push drift'
+good#diag no-such-file
+END
+	[ $failed -eq 33 ]
+}
+
+@test "a rank that is killed ends the run: no hang, one message, the last checkpoint is whole" {
+	pinit plummer -n 9000 >start
+	for call in 1 2; do
+		PM_REHEARSE="kill=1:$call" run -1 --separate-stderr on 3 cycle -q -n 2 --checkpoint c -o out "$(kicks "$(force 8)")" <start
+		[[ $stderr == *"rank 1 of 3 was killed by signal 9"* ]] || { echo "$call: $stderr"; return 1; }
+		[ "$(wc -l <<<"$stderr")" -eq 1 ]
+		cycle -n 3 --resume c "$(kicks "$(force 8)")" >/dev/null
+	done
+	PM_REHEARSE="seed=7 delay=2000" on 4 cycle -n 1 "push drift" <start | cmp - <(cycle -n 1 "push drift" <start)
+}
+
+@test "SIGTERM with ranks: the step is completed, the checkpoint resumes to the bytes of a run alone" {
+	pinit plummer -n 2000 >start
+	timeout -k 1 60 cycle --ranks 3 -n 1000000 --checkpoint c "$(kicks "$(force 8)")" <start >/dev/null 2>said &
+	for _ in {1..50}; do sleep 0.1; ! [ -s c ] || break; pgrep -P $! >/dev/null || true; [ "$_" -lt 5 ] || break; done
+	kill -TERM "$(pgrep -P $! | head -n 1)"
+	wait $! && return 1 || [ $? -eq 1 ]
+	grep -q 'stopped by signal 15 after step .*, continue with --resume c' said
+	sls c >/dev/null
+}
+
+# mpi N COMMAND...: under mpirun, if it is there.
+mpi() { timeout -k 1 60 mpirun -n "$@"; }
+mpi_here() {
+	bin=$(dirname "$(command -v cycle)")
+	command -v mpirun >/dev/null && { [ -e "$bin/../build/pmpipe-mpi.so" ] || [ -e "$bin/../pmpipe-mpi.so" ]; } ||
+		skip "no mpirun, or no mpicc when the programs were made"
+	export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+}
+
+@test "under mpirun: the bytes, messages and codes of a run alone" {
+	mpi_here
+	s=$(kicks "$(force 12)")
+	pinit plummer -n 9000 >start
+	cycle -n 2 "$s" <start >alone
+	for n in 2 3; do mpi $n cycle -n 2 "$s" -i start -o file && cmp file alone || return 1; done
+	run -1 --separate-stderr mpi 2 push kick -i start -o file
+	[[ $stderr == *"push: frame 1: no field 'acc' on 'matter'"* ]]
+	cmp file alone
+}
+
+@test "under mpirun: what cannot run says why; one rank needs no MPI" {
+	mpi_here
+	pinit plummer -n 10 >start
+	run -2 mpi 2 sh -c 'pinit plummer -n 10 | push drift >file'
+	[[ $output == *"runs inside the launcher"* || $output == *"a launcher starts one word"* ]]
+	run -2 mpi 2 push --ranks 2 drift -i start
+	[[ $output == *"push: --ranks rehearses on one machine, but a launcher has started 2 ranks"* ]]
+	mkdir bare && cp "$bin/sls" bare
+	run -1 mpi 2 bare/sls start
+	[[ $output == *"pmpipe-mpi.so is not there"*"install openmpi-bin and libopenmpi-dev"* ]]
+	mpi 1 bare/sls start | diff <(sls start) -
+}
