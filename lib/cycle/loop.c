@@ -13,7 +13,7 @@
 #include "cycle/run-end.h"
 #include "sentence/sentence.h"
 #include "cycle/until.h"
-#include "push/dense-output.h"
+#include "cycle/dense-output.h"
 #include "cycle/watch.h"
 
 struct cycle {

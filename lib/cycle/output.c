@@ -5,7 +5,7 @@
 
 #include "cycle/output.h"
 #include "mesh/gradient-frame.h"
-#include "push/dense-output.h"
+#include "cycle/dense-output.h"
 #include "stream/edit.h"
 #include "stream/run.h"
 

@@ -67,10 +67,11 @@ words='pp | push rk45 --tolerance 1e-6'
 	printf 'x vx\n1 0\n' | stab - --law free >a
 	for scheme in rk45:5 rk23:3; do # the polynomial of order 4 has a local error of dt^5, the cubic one of dt^4, at the end of steps of order 5 and 3
 		for dt in 0.4 0.2 0.1; do
-			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a | diag --columns time,centre_x | sed 1d >b
-			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a | stab --plain | awk '$1 + 0 == $1' >c
+			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a >d
+			diag --columns time d | sed 1d >b
+			stab --plain <d | awk '$1 + 0 == $1' >c
 			[ "$(wc -l <c)" = 7 ] # 0, 0.77, ... 3.85, 4
-			awk '{ print $1 }' b | paste - c | awk -v dt=$dt '{ e = $2 - cos($1); e = e < 0 ? -e : e; if (e > m) m = e } END { printf "%.17g %.17g\n", dt, m }'
+			paste b c | awk -v dt=$dt '{ e = $2 - cos($1); e = e < 0 ? -e : e; if (e > m) m = e } END { printf "%.17g %.17g\n", dt, m }'
 		done | awk '{ x = log($1); y = log($2); n++; a += x; b += y; c += x * x; d += x * y } END { print (n * d - a * b) / (n * c - a * a) }' >order
 		within "$(cat order)" "${scheme#*:}" 0.25 "$scheme"
 	done

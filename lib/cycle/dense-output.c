@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "mesh/particle-faces.h"
-#include "push/dense-output.h"
+#include "cycle/dense-output.h"
 #include "push/step-clock.h"
 #include "stream/declare.h"
 #include "stream/frame-time.h"

@@ -1,6 +1,6 @@
 /* The state between the ends of the last step of an embedded pair, from the rates that push --dense has kept. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_PUSH_DENSE_OUTPUT_H
-#define PM_PUSH_DENSE_OUTPUT_H
+#ifndef PM_CYCLE_DENSE_OUTPUT_H
+#define PM_CYCLE_DENSE_OUTPUT_H
 
 #include "stream/frame.h"
 
