@@ -83,6 +83,9 @@ static int begin(struct pm_stage *s)
 static int adjust(const struct config *o, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
+	for (size_t i = 0; i < f->nfields && o->faces.n; i++)
+		if (!strcmp(f->fields[i]->on, m->name) && !f->fields[i]->uniform)
+			return pm_fail(PM_USAGE, "the fields of this scene are made for its own faces (leave out --faces)");
 	if (pm_attributes_box(f, &o->box) || pm_attributes_faces(f, &o->faces) || pm_attributes_particle_faces(f, &o->particle_faces) ||
 		(o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;

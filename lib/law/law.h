@@ -27,6 +27,8 @@ struct pm_law {
 	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */
 	const char *per;        /* change = (strength/per) * field: "mass" for (q/m) E; NULL: the field itself */
 	const char *magnetic;   /* mesh field that m2p interpolates to bfield if the frame has it: "B"; NULL none */
+	bool evolves;           /* field and magnetic are states of the mesh, staggered, which a word advances in time (maxwell); no potential */
+	bool relativistic;      /* its magnetic kicks advance gamma v, with the constant c */
 	double (*coefficient)(const struct pm_frame *f); /* c in lap potential = c * density */
 	const char *kernel;     /* defaults of the words' options */
 	const char *symbol;     /* of poisson-fft: "spectral", "fd2", "fd4" */

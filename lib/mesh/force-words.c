@@ -26,6 +26,12 @@ const char *pm_force_words(const struct pm_frame *f, const struct pm_law *law, c
 {
 	const char *const made[] = {law->density, law->potential, law->field, law->change};
 	int first = 0, last = 0;
+	if (law->evolves) {
+		const bool field = held(f, mesh, law->field);
+		snprintf(text, PM_FORCE_WORDS, "%s", !strcmp(name, law->density) ? "p2m" : !strcmp(name, law->field) ? "p2m | maxwell --gauss"
+			: strcmp(name, law->change) ? "" : field ? "m2p" : "p2m | maxwell --gauss | m2p");
+		return text;
+	}
 	while (last < 4 && !(made[last] && !strcmp(made[last], name)))
 		last++;
 	text[0] = 0;

@@ -148,6 +148,7 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		status = pm_stage_begin(w->stage);
 	if (status)
 		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	w->makes = w->makes && !w->stage->advances;
 	if (w->stage->files && w->stage->nargs)
 		return pm_fail(PM_USAGE, "%s: unexpected argument '%s' (inside a sentence no word reads files: cycle -i FILE does)", w->argv[0],
 			w->stage->args[0]);

@@ -74,6 +74,7 @@ struct pm_stage {
 	char *word;          /* as typed, without the options of the library; the key of its report */
 	json_t *entry;       /* for the history; NULL with --no-history */
 	bool leaves_out;     /* set by begin: some frames are not written, so it cannot be part of a sentence */
+	bool advances;       /* set by begin: it stands for a part of the step, so it is left out of priming, whatever tool->makes says */
 	bool verbose, quiet; /* --verbose, --quiet: of the word, or of cycle for all its words */
 	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */

@@ -30,9 +30,13 @@ static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_ga
 }
 
 /* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. A given field has the same values on
- * both sides of any face. */
+ * both sides of any face; one that evolves by Maxwell's equations is one of both. */
 static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfer *t)
 {
+	if (j->law->evolves && t->components == 3 && (!strcmp(j->name, j->law->field) || !strcmp(j->name, j->law->magnetic))) {
+		pm_transfer_maxwell(t, !strcmp(j->name, j->law->field));
+		return;
+	}
 	if (j->field->role == PM_STATE) {
 		pm_grid_even(&t->grid);
 		return;
@@ -131,7 +135,7 @@ static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const 
 	if (j->law->per && (!pm_reads(f, set, j->law->strength) || !pm_reads(f, set, j->law->per)))
 		return -PM_DATA;
 	struct pm_field *target = pm_contributes(f, set, j->law->change, j->law->of, j->field->components,
-		j->field->role == PM_STATE ? "external" : "self", replace);
+		j->field->role == PM_STATE && !j->law->evolves ? "external" : "self", replace);
 	if (!target)
 		return -PM_DATA;
 	if (target->use & PM_USE_NEW)

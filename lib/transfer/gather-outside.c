@@ -14,6 +14,10 @@ static bool is_density(const struct pm_gather_job *j) { return j->law->density &
 int pm_gather_outside_choose(struct pm_gather_job *j, const struct pm_frame *f)
 {
 	const char *word = j->choice.outside;
+	if (j->law->evolves) { /* the kernels are cut at open faces, and what is farther out has no field */
+		j->outside = word && !strcmp(word, pm_outside_names[PM_OUTSIDE_ERROR]) ? PM_OUTSIDE_ERROR : PM_OUTSIDE_DROP;
+		return 0;
+	}
 	const bool asked = word && !strcmp(word, pm_outside_names[PM_OUTSIDE_MONOPOLE]);
 	int known = pm_outside_init(&j->far, f, j->mesh, j->field);
 	if (known < 0)

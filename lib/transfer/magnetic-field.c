@@ -1,11 +1,18 @@
 /* bfield_p += sum over points of W((x_p - x_i)/h) B_i, or B where it is uniform. B is given, so it has no image sign at walls: the same values are used on
- * both sides. SPDX-License-Identifier: GPL-3.0-or-later */
+ * both sides; where it evolves by Maxwell's equations it has theirs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "transfer/magnetic-field.h"
+#include "law/law.h"
 #include "stream/declare.h"
 
 static const char *const target = "bfield";
+
+static bool evolves(const struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_of(f);
+	return law && law->evolves;
+}
 
 int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, bool replace)
 {
@@ -14,7 +21,8 @@ int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m,
 		return 0;
 	if (given->components != 3)
 		return pm_fail(PM_DATA, "'%s' on mesh '%s' has %d components, and a magnetic field has 3", name, m->name, given->components);
-	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, given->role == PM_STATE ? "external" : "self", replace) ? 0 : -PM_DATA;
+	const char *term = given->role == PM_STATE && !evolves(f) ? "external" : "self";
+	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, term, replace) ? 0 : -PM_DATA;
 }
 
 int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, const struct pm_transfer *t)
@@ -36,6 +44,9 @@ int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, cons
 	for (int d = 0; d < f->dim; d++)
 		x[d] = pm_in(pm_frame_field(f, set, "x"), d);
 	memcpy(own.staggered, given->staggered, sizeof own.staggered);
-	pm_grid_even(&own.grid);
+	if (evolves(f))
+		pm_transfer_maxwell(&own, false);
+	else
+		pm_grid_even(&own.grid);
 	return pm_gather(&own, to->count, x, mesh, NULL, out, &strays);
 }

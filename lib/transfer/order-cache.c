@@ -29,6 +29,7 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 	o->grid = t->grid;
 	o->width = t->kernel->width;
 	o->rim = t->rim;
+	o->cut = t->cut;
 	o->n = n;
 	memcpy(o->staggered, staggered, sizeof o->staggered);
 	for (int d = 0; d < t->grid.dim; d++)
@@ -53,7 +54,8 @@ struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const un
 	if (!t->kept || !*t->kept || (*t->kept)->free != free_note)
 		return NULL;
 	struct pm_order_cache *o = (struct pm_order_cache *)*t->kept;
-	bool same = o->n == n && o->width == t->kernel->width && o->rim == t->rim && !memcmp(o->staggered, staggered, sizeof o->staggered) &&
+	bool same = o->n == n && o->width == t->kernel->width && o->rim == t->rim && o->cut == t->cut &&
+		!memcmp(o->staggered, staggered, sizeof o->staggered) &&
 		same_grid(&o->grid, &t->grid);
 	for (int d = 0; d < t->grid.dim && same; d++)
 		same = o->x[d] == x[d];

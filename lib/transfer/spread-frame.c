@@ -10,7 +10,7 @@
 static enum pm_outside outside_of(const struct pm_spread_job *j, const char *word)
 {
 	const bool force = j->law->strength && j->law->coefficient && !strcmp(j->strength, j->law->strength);
-	if (!strcmp(word, "drop"))
+	if (!strcmp(word, "drop") || (j->law->evolves && strcmp(word, "error")))
 		return PM_OUTSIDE_DROP;
 	return force && !strcmp(word, "monopole") ? PM_OUTSIDE_MONOPOLE : PM_OUTSIDE_ERROR;
 }
@@ -38,7 +38,8 @@ int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_fram
 static struct pm_transfer transfer_of(const struct pm_spread_job *j, const struct pm_frame *f)
 {
 	int components = pm_frame_field(f, j->sets.name[0], j->strength)->components;
-	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components, .rim = j->choice.rim};
+	struct pm_transfer t = {.grid = pm_grid_of(f, j->mesh), .kernel = j->kernel, .components = components, .rim = j->choice.rim,
+		.cut = j->law->evolves};
 	for (int c = 0; c < components && c < f->dim && components > 1; c++)
 		t.flip[c][c] = 1; /* of a vector at a wall the tangential components change sign in the image (vortices, currents), the normal one does not */
 	return t;
@@ -113,4 +114,18 @@ void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)
 	const double background = own && j->law->background ? pm_frame_constant(f, j->law->background, 0) : 0;
 	for (size_t i = 0; i < density->count && background != 0; i++)
 		pm_out(density, 0)[i] += background;
+}
+
+int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_plans *plans, uint64_t *outside)
+{
+	int status = j->grow ? pm_spread_grow(j, f) : 0;
+	*outside = 0;
+	for (size_t i = 0; !status && i < j->sets.n; i++) {
+		uint64_t left_out = 0;
+		status = pm_spread_set(j, f, j->sets.name[i], plans, &left_out);
+		*outside += left_out;
+	}
+	if (!status)
+		pm_spread_background(j, f);
+	return status;
 }

@@ -62,19 +62,9 @@ static void set_range(struct pm_axis *a, const struct pm_grid *g, int d, int wid
 		a->high = nextafter(a->high, 0); /* ngp jumps: ties go up */
 }
 
-static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, const bool given[2], int width, int rim, bool half)
+/* Room for the factors of the slots, and their values. */
+static int make_slots(struct pm_axis *a, const struct pm_grid *g, int d, const bool given[2], bool half, ptrdiff_t first)
 {
-	bool odd = width % 2, lift;
-	a->periodic = g->face[d][0] == PM_PERIODIC;
-	a->lo = g->lo[d];
-	a->h = g->h[d];
-	a->n = (double)g->cells[d];
-	a->shift = odd ? 0.5 : 0;
-	lift = !a->periodic && half && !odd; /* keeps u >= 0 */
-	a->add = a->shift - (half ? 0.5 : 0) + lift;
-	a->count = g->cells[d] + !a->periodic;
-	a->slots = a->count + (size_t)width - 1;
-	set_range(a, g, d, width, rim);
 	a->at = pm_alloc(a->slots, sizeof *a->at);
 	double *factor = pm_alloc(a->slots, 4 * sizeof *factor);
 	a->put[0] = factor;
@@ -83,8 +73,64 @@ static int axis_init(struct pm_axis *a, const struct pm_grid *g, int d, const bo
 	a->put[1] = factor + a->slots;
 	a->get[0] = factor + 2 * a->slots;
 	a->get[1] = factor + 3 * a->slots;
-	fill_slots(a, g, d, given, half, -((width - 1) / 2) - lift);
+	fill_slots(a, g, d, given, half, first);
 	return 0;
+}
+
+static int axis_init(struct pm_axis *a, const struct pm_transfer *t, int d, bool half)
+{
+	const struct pm_grid *g = &t->grid;
+	const int width = d < g->dim ? t->kernel->width : 1, rim = d < g->dim ? t->rim : 0;
+	bool odd = width % 2, lift;
+	size_t beyond[2] = {0, 0};
+	a->periodic = g->face[d][0] == PM_PERIODIC;
+	a->lo = g->lo[d];
+	a->h = g->h[d];
+	a->n = (double)g->cells[d];
+	a->shift = odd ? 0.5 : 0;
+	lift = !a->periodic && half && !odd; /* keeps u >= 0 */
+	set_range(a, g, d, width, rim);
+	if (t->cut) {
+		pm_axis_path_room(g, d, width, beyond);
+		a->low = beyond[0] ? -(double)beyond[0] : a->low;
+		a->high = beyond[1] ? a->n + (double)beyond[1] : a->high;
+		a->n += (double)beyond[1];
+	}
+	a->add = a->shift - (half ? 0.5 : 0) + lift + (double)beyond[0];
+	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1];
+	a->slots = a->count + (size_t)width - 1;
+	return make_slots(a, g, d, t->given[d], half, -((width - 1) / 2) - lift - (ptrdiff_t)beyond[0]);
+}
+
+static int path_axis(struct pm_axis *a, const struct pm_grid *g, int d, int width, bool half)
+{
+	size_t beyond[2];
+	pm_axis_path_room(g, d, width, beyond);
+	*a = (struct pm_axis){.periodic = g->face[d][0] == PM_PERIODIC, .lo = g->lo[d], .h = g->h[d], .shift = width % 2 ? 0.5 : 0};
+	a->n = (double)(g->cells[d] + beyond[1]);
+	a->add = a->shift + (double)beyond[0];
+	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1];
+	a->slots = a->count + (size_t)width * (d < g->dim);
+	const double rounding = 4 * DBL_EPSILON * (a->n + fabs(a->lo) / a->h);
+	a->low = -(double)beyond[0] - rounding;
+	a->high = a->n + rounding;
+	return make_slots(a, g, d, (const bool[]){false, false}, half, -((width - 1) / 2) - (ptrdiff_t)beyond[0]);
+}
+
+int pm_axes_path(struct pm_axis nodes[3], struct pm_axis halves[3], const struct pm_grid *g, int width)
+{
+	for (int d = 0; d < 3; d++)
+		nodes[d] = halves[d] = (struct pm_axis){.count = 0};
+	for (int d = 0; d < 3; d++)
+		if (path_axis(&nodes[d], g, d, d < g->dim ? width : 1, false) || path_axis(&halves[d], g, d, d < g->dim ? width : 1, d < g->dim))
+			return -PM_DATA; /* the caller frees both */
+	return 0;
+}
+
+void pm_axis_path_room(const struct pm_grid *g, int d, int width, size_t beyond[2])
+{
+	for (int side = 0; side < 2; side++)
+		beyond[side] = d < g->dim && (g->face[d][side] == PM_OPEN || g->face[d][side] == PM_ABSORBING) ? (size_t)width / 2 + 1 : 0;
 }
 
 int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3])
@@ -93,7 +139,7 @@ int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsi
 		axes[d] = (struct pm_axis){.count = 0};
 	for (int d = 0; d < 3; d++) {
 		bool used = d < t->grid.dim;
-		int status = axis_init(&axes[d], &t->grid, d, t->given[d], used ? t->kernel->width : 1, used ? t->rim : 0, used && staggered[d]);
+		int status = axis_init(&axes[d], t, d, used && staggered[d]);
 		if (status) {
 			pm_axes_free(axes);
 			return status;

@@ -24,6 +24,12 @@ struct pm_axis {
 int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3]);
 void pm_axes_free(struct pm_axis axes[3]);
 
+/* The axes of the ways of particles (current.c), whose windows have width + 1 points: `nodes` for components on the nodes and to locate, `halves` with the
+ * same slots for components half a cell up. Beyond an open face there are slots that are not on the mesh, for particles up to `beyond` cells outside: as far
+ * as their kernel reaches, and a cell to spare. 0 or failure; free both in any case. */
+int pm_axes_path(struct pm_axis nodes[3], struct pm_axis halves[3], const struct pm_grid *g, int width);
+void pm_axis_path_room(const struct pm_grid *g, int d, int width, size_t beyond[2]);
+
 /* u of a particle anywhere: periodic axes fold (lo+L is lo; -1e-17 and 1e300 too); false if it is outside. */
 bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
 /* The same for n particles; u is -1 for those outside. False if there is one. */

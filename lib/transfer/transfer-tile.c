@@ -2,47 +2,7 @@
  * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the faces are
  * handled when blocks are added to or read from the mesh (transfer.c). Cost: width^dim products per particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/simd.h"
-#include "transfer/transfer-tile.h"
-
-enum { lanes = PM_KERNEL_WIDTH };
-
-/* Vector length for a width. */
-PM_SIMD_INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
-
-/* y = a * x, y += a * x, y = y * a + x, for n lanes. */
-#define LANES(n, y, x, statement) \
-	switch (n) { \
-	case 2: { typedef pm_simd2_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 4: { typedef pm_simd4_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 8: { typedef pm_simd8_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	default: { double *v = (y); const double *u = (x); statement; } \
-	}
-PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
-PM_SIMD_INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
-PM_SIMD_INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
-
-/* coefficients[power][lane], lanes beyond the width are 0. */
-PM_SIMD_INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
-{
-	for (int power = 0; power <= degree; power++)
-		for (int i = 0; i < padded(width); i++)
-			to[power * padded(width) + i] = i < width ? k->coefficients[power * width + i] : 0;
-}
-
-PM_SIMD_INLINE void find_weights(int width, int degree, const double *coefficients, double t, double *w)
-{
-	const int n = padded(width);
-	const bool fold = pm_kernel_folds(width, degree, t);
-	double v[lanes];
-	row_set(n, 1, coefficients + degree * n, v);
-	for (int power = degree - 1; power >= 0; power--)
-		row_horner(n, fold ? 1 - t : t, coefficients + power * n, v);
-	row_set(n, 1, v, w);
-	if (fold)
-		for (int i = 0; i < width; i++)
-			w[i] = v[width - 1 - i];
-}
+#include "transfer/tile-lanes.h"
 
 /* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
 PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record,

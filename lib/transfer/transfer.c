@@ -6,52 +6,20 @@
 #include <string.h>
 
 #include "transfer/order-cache.h"
-
-enum {
-	piece = 16384, /* particles per job: a crowded tile is divided among threads */
-	wave = 32      /* jobs per thread between two barriers */
-};
-
-struct job {
-	size_t tile, from, to; /* records */
-};
+#include "transfer/tile-pass.h"
 
 /* One pass: the components that sit at the same offset. */
 struct pass {
 	const struct pm_transfer *t;
 	int components, which[PM_COMPONENTS];
 	struct pm_order_cache *o;
-	size_t jobs;
-	struct job *job;
+	struct pm_tile_pass p; /* its jobs, on the axes of o */
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
 	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
 	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 
-/* The slots of a tile: first cell, and how many. */
-static size_t tile_slots(const struct pass *w, size_t tile, int d, size_t *first)
-{
-	const uint32_t *across = w->o->order.across;
-	size_t edge = (size_t)1 << pm_tile_shift[w->o->order.dim][d];
-	size_t at = d == 0 ? tile % across[0] : d == 1 ? tile / across[0] % across[1] : tile / across[0] / across[1];
-	const struct pm_axis *a = &w->o->axes[d];
-	*first = at * edge;
-	return (a->count - *first < edge ? a->count - *first : edge) + (a->slots - a->count);
-}
-
-static int list_jobs(struct pass *w)
-{
-	size_t most = w->o->order.tiles + w->o->order.n / piece;
-	w->job = pm_alloc(most < w->o->order.n ? most : w->o->order.n, sizeof *w->job);
-	if (!w->job)
-		return -PM_DATA;
-	for (size_t tile = 0; tile < w->o->order.tiles; tile++)
-		for (size_t at = w->o->order.begin[tile], end = w->o->order.begin[tile + 1]; at < end; at += piece)
-			w->job[w->jobs++] = (struct job){tile, at, end - at < piece ? end : at + piece};
-	return 0;
-}
-
-static struct pm_tile tile_of(const struct pass *w, const struct job *j, double *block)
+static struct pm_tile tile_of(const struct pass *w, const struct pm_tile_job *j, double *block)
 {
 	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->o->axes[0].shift, .count = j->to - j->from, .stride = w->o->order.stride, .block = block};
 	if (w->o->order.records)
@@ -59,59 +27,12 @@ static struct pm_tile tile_of(const struct pass *w, const struct job *j, double 
 	t.results = w->results ? w->results + j->from * (size_t)w->components : t.records;
 	t.to = w->results ? w->components : t.stride;
 	for (int d = 0; d < 3; d++)
-		tile_slots(w, j->tile, d, &t.cell[d]);
+		pm_tile_slots(&w->p, j->tile, d, &t.cell[d]);
 	return t;
 }
 
-/* One row of a block to the mesh, times factor; the row is zero afterwards. */
-static void add_row(const struct pm_axis *a, const double *put, size_t first, size_t n, double factor, double *restrict row, double *restrict mesh)
-{
-	size_t slot = first, end = first + n, from = a->from < end ? a->from : end, to = a->to < end ? a->to : end;
-	for (; slot < from; slot++)
-		mesh[a->at[slot]] += factor * put[slot] * row[slot - first];
-	if (slot < to) {
-		double *restrict points = mesh + a->at[slot], *restrict values = row + (slot - first);
-		size_t m = to - slot;
-		for (size_t i = 0; i < m; i++)
-			points[i] += factor * values[i];
-		slot = to;
-	}
-	for (; slot < end; slot++)
-		mesh[a->at[slot]] += factor * put[slot] * row[slot - first];
-	memset(row, 0, n * sizeof *row);
-}
-
-/* The rows of a job's block that belong to this thread. */
-static void add_block(const struct pass *w, const struct job *j, int c, int thread, int threads, double *block, double *mesh)
-{
-	const struct pm_grid *g = &w->t->grid;
-	const unsigned char *flip = w->t->flip[c];
-	const struct pm_axis *a = w->o->axes;
-	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
-	double scale = 1 / pm_grid_cell(g);
-	for (int d = 0; d < 3; d++)
-		n[d] = tile_slots(w, j->tile, d, &first[d]);
-	for (size_t z = 0; z < n[2]; z++)
-		for (size_t y = 0; y < n[1]; y++) {
-			size_t sz = first[2] + z, sy = first[1] + y, line = a[2].at[sz] * g->points[1] + a[1].at[sy];
-			if (line % (size_t)threads == (size_t)thread)
-				add_row(&a[0], a[0].put[flip[0]], first[0], n[0], scale * a[2].put[flip[2]][sz] * a[1].put[flip[1]][sy],
-					block + z * plane + y * row, mesh + line * g->points[0]);
-		}
-}
-
-/* Threads worth starting for n particles. */
-static int threads_for(size_t n)
-{
-	size_t most = n / 4096 + 1;
-	return (size_t)pm_threads() < most ? pm_threads() : (int)most;
-}
-
-/* One thread adds each block at once, while it is in the cache. */
-static size_t jobs_under_way(int threads) { return threads == 1 ? 1 : wave * (size_t)threads; }
-
 /* The particles of a job to its block. */
-static void spread_job(const struct pass *w, const struct job *j, int value, double *block)
+static void spread_job(const struct pass *w, const struct pm_tile_job *j, int value, double *block)
 {
 	struct pm_tile t = tile_of(w, j, block);
 	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
@@ -130,7 +51,7 @@ static void spread_job(const struct pass *w, const struct job *j, int value, dou
 	if (corners) {
 		size_t cells[3], first;
 		for (int d = 0; d < 3; d++)
-			cells[d] = tile_slots(w, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
+			cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
 		pm_tile_fold(&t, cells);
 	}
 }
@@ -138,50 +59,19 @@ static void spread_job(const struct pass *w, const struct job *j, int value, dou
 /* Jobs are done in waves: every thread fills blocks of the wave, then adds to its own mesh lines from all blocks in order. */
 static void spread_component(const struct pass *w, int value, int threads, double *mesh)
 {
-	size_t under_way = jobs_under_way(threads);
+	const struct pm_axis *a = w->o->axes;
+	const struct pm_tile_target to_mesh = {.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[value]], .scale = 1 / pm_grid_cell(&w->t->grid)};
+	size_t under_way = pm_tile_under_way(threads);
 #pragma omp parallel num_threads(threads)
-	for (size_t from = 0; from < w->jobs; from += under_way) {
-		size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
+	for (size_t from = 0; from < w->p.jobs; from += under_way) {
+		size_t to = w->p.jobs - from < under_way ? w->p.jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++)
-			spread_job(w, &w->job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
+			spread_job(w, &w->p.job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
 		for (size_t j = from; j < to; j++)
-			add_block(w, &w->job[j], w->which[value], omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
+			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
 #pragma omp barrier
 	}
-}
-
-/* A row of the mesh to a block. */
-static void load_row(const struct pm_axis *a, const double *get, size_t first, size_t n, double factor, const double *restrict mesh,
-	double *restrict row)
-{
-	size_t slot = first, end = first + n, from = a->from < end ? a->from : end, to = a->to < end ? a->to : end;
-	for (; slot < from; slot++)
-		row[slot - first] = factor * get[slot] * mesh[a->at[slot]];
-	if (slot < to) {
-		const double *points = mesh + a->at[slot];
-		for (size_t i = slot; i < to; i++)
-			row[i - first] = factor * points[i - slot];
-		slot = to;
-	}
-	for (; slot < end; slot++)
-		row[slot - first] = factor * get[slot] * mesh[a->at[slot]];
-}
-
-static void load_block(const struct pass *w, const struct job *j, int c, const double *mesh, double *block)
-{
-	const struct pm_grid *g = &w->t->grid;
-	const unsigned char *flip = w->t->flip[c];
-	const struct pm_axis *a = w->o->axes;
-	size_t first[3], n[3], row = (size_t)pm_block_row[g->dim], plane = row * (size_t)pm_block_rows[g->dim];
-	for (int d = 0; d < 3; d++)
-		n[d] = tile_slots(w, j->tile, d, &first[d]);
-	for (size_t z = 0; z < n[2]; z++)
-		for (size_t y = 0; y < n[1]; y++) {
-			size_t sz = first[2] + z, sy = first[1] + y, line = a[2].at[sz] * g->points[1] + a[1].at[sy];
-			load_row(&a[0], a[0].get[flip[0]], first[0], n[0], a[2].get[flip[2]][sz] * a[1].get[flip[1]][sy],
-				mesh + line * g->points[0], block + z * plane + y * row);
-		}
 }
 
 /* The place of the values of a stream that is in order; otherwise they stay in the records. */
@@ -191,7 +81,7 @@ struct results {
 	double *const *to;
 };
 
-static bool gather_in_order(const struct pass *w, const struct job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
+static bool gather_in_order(const struct pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	bool finite = true;
@@ -210,18 +100,20 @@ static bool gather_in_order(const struct pass *w, const struct job *j, struct pm
 static bool gather_pass(const struct pass *w, int threads, const double *const mesh[], const struct results *r)
 {
 	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
+	const struct pm_axis *a = w->o->axes;
 	int bad = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
-	for (size_t j = 0; j < w->jobs; j++) {
+	for (size_t j = 0; j < w->p.jobs; j++) {
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
-		struct pm_tile t = tile_of(w, &w->job[j], block);
+		struct pm_tile t = tile_of(w, &w->p.job[j], block);
 		t.components = w->components;
 		for (int c = 0; c < w->components; c++)
-			load_block(w, &w->job[j], w->which[c], mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
+			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
+				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
 		if (t.records)
 			loop(&t);
 		else
-			bad |= !gather_in_order(w, &w->job[j], t, loop, r);
+			bad |= !gather_in_order(w, &w->p.job[j], t, loop, r);
 	}
 	return !bad;
 }
@@ -241,8 +133,8 @@ static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
 /* Blocks for at most `at_once` jobs of `each` components. */
 static int begin_pass(struct pass *w, size_t at_once, size_t each)
 {
-	int status = w->o ? list_jobs(w) : -PM_DATA;
-	at_once = at_once < w->jobs ? at_once : w->jobs;
+	int status = w->o ? pm_tile_pass_init(&w->p, &w->t->grid, &w->o->order, w->o->axes) : -PM_DATA;
+	at_once = at_once < w->p.jobs ? at_once : w->p.jobs;
 	w->blocks = status ? NULL : pm_zalloc(at_once * each * PM_BLOCK_MOST, sizeof *w->blocks);
 	return w->blocks ? 0 : -PM_DATA;
 }
@@ -254,7 +146,7 @@ static int begin_spread(struct pass *w, size_t n, const double *const x[], const
 	for (int c = 0; c < w->components; c++)
 		values[c] = strength[w->which[c]];
 	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0);
-	return begin_pass(w, jobs_under_way(threads), 1);
+	return begin_pass(w, pm_tile_under_way(threads), 1);
 }
 
 /* A kept order must not be changed, so the results get their own memory. */
@@ -273,8 +165,8 @@ static int begin_gather(struct pass *w, size_t n, const double *const x[], int t
 static int corners_for(struct pass *w, int threads)
 {
 	bool used = false;
-	for (size_t j = 0; j < w->jobs && !used; j++)
-		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->job[j].to - w->job[j].from);
+	for (size_t j = 0; j < w->p.jobs && !used; j++)
+		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
 	if (used)
 		w->corners = pm_zalloc((size_t)threads * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
 	return used && !w->corners ? -PM_DATA : 0;
@@ -284,7 +176,7 @@ static void end_pass(struct pass *w)
 {
 	pm_free(w->corners);
 	pm_free(w->blocks);
-	pm_free(w->job);
+	pm_tile_pass_free(&w->p);
 	pm_free(w->results);
 }
 
@@ -293,7 +185,7 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 {
 	bool done[PM_COMPONENTS] = {false};
 	struct pass w;
-	int status = 0, threads = threads_for(n);
+	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
@@ -313,7 +205,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 {
 	bool done[PM_COMPONENTS] = {false}, finite = true;
 	struct pass w;
-	int status = 0, threads = threads_for(n);
+	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
 	while (n && !status && next_pass(t, done, &w)) {
 		double *to[PM_COMPONENTS];
@@ -326,7 +218,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 		}
 		const struct results r = {times, set, to};
 		status = begin_gather(&w, n, x, threads);
-		bool seen = !status && gather_pass(&w, (size_t)threads < w.jobs ? threads : (int)w.jobs + !w.jobs, mesh, &r);
+		bool seen = !status && gather_pass(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
 		if (o && o->records)
 			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set,

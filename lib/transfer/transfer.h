@@ -14,6 +14,7 @@ struct pm_transfer {
 	const struct pm_kernel *kernel;
 	int components;
 	int rim;   /* [cells] particles so much nearer to an open face than the kernel's reach are outside too */
+	bool cut;  /* at open faces kernels are cut off instead: no particle is outside until its kernel is off the mesh */
 	unsigned char staggered[PM_COMPONENTS][3]; /* 1 where the component sits half a cell up that axis */
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */
@@ -44,6 +45,16 @@ int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x
 	struct pm_strays *strays);
 int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays);
+
+/* The images of E (else B) beyond faces under Maxwell's equations: E along a conductor is odd, through it even, B the other way round; at neumann faces the
+ * opposite of both. Open faces cut the kernels. */
+static inline void pm_transfer_maxwell(struct pm_transfer *t, bool electric)
+{
+	t->cut = true;
+	for (int c = 0; c < 3; c++)
+		for (int d = 0; d < 3; d++)
+			t->flip[c][d] = (c == d) == electric;
+}
 
 /* How many cells to add below and above each axis so that the kernel of every particle stays inside; only open and absorbing faces move.
  * -PM_DATA with a message if a wall is in the way or the mesh would have more than PM_TRANSFER_POINTS points. */

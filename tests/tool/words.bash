@@ -12,6 +12,7 @@ words() {
 	again) echo "again in.pm" ;;
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
+	maxwell) echo "maxwell --layers 1" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
@@ -39,6 +40,7 @@ input() {
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse) cloud | p2m ;;
+	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	walk) cloud | smod --dt 0.01 ;;
 	*) cloud ;;

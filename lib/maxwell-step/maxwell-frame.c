@@ -1,0 +1,188 @@
+/* One step: B by half of it, E, B by the other half, so that both are at the time of the frame before and after it. --gauss: lap psi = div E - rho/eps0 with
+ * the symbol of the mesh's own differences, E -= grad psi (Boris 1970); then div E = rho/eps0 to round-off, and the other part of E is as it was.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "law/law.h"
+#include "maxwell-step/maxwell-frame.h"
+#include "stream/declare.h"
+
+struct pm_yee pm_yee_of(const struct pm_frame *f, const struct pm_mesh *m)
+{
+	return (struct pm_yee){.grid = pm_grid_of(f, m), .c = pm_frame_constant(f, "c", 1), .eps0 = pm_frame_constant(f, "eps0", 1)};
+}
+
+static void stagger(struct pm_field *field, int dim, bool electric)
+{
+	for (int c = 0; c < 3; c++)
+		for (int d = 0; d < dim; d++)
+			field->staggered[c][d] = (c == d) == electric;
+}
+
+bool pm_yee_staggered(const struct pm_field *field, int dim, bool electric)
+{
+	struct pm_field want = {.components = 3};
+	stagger(&want, dim, electric);
+	return field->components == 3 && !memcmp(want.staggered, field->staggered, 3 * sizeof *want.staggered);
+}
+
+/* E or B of the mesh, to be changed; made of zeros where that is allowed. */
+static struct pm_field *take(struct pm_frame *f, const struct pm_maxwell_job *j, const char *name, bool electric, bool make)
+{
+	struct pm_field *field = pm_frame_field(f, j->mesh->name, name);
+	if (!field && !make) {
+		pm_fail(PM_DATA, "no field '%s' on mesh '%s' (p2m | maxwell --gauss makes it of the charge)", name, j->mesh->name);
+		return NULL;
+	}
+	if (field && field->uniform && field->components == 3 && field->role == PM_STATE)
+		stagger(field, f->dim, electric); /* the same anywhere */
+	if (field && (field->role != PM_STATE || !pm_yee_staggered(field, f->dim, electric))) {
+		pm_fail(PM_DATA, "'%s' on mesh '%s' is not a state of 3 components half a cell off the nodes (drop it: sel --drop %s; p2m | maxwell "
+			"--gauss makes E)", name, j->mesh->name, name);
+		return NULL;
+	}
+	if (field)
+		return pm_changes(f, j->mesh->name, name);
+	if ((field = pm_makes(f, j->mesh->name, name, 3, PM_STATE)))
+		stagger(field, f->dim, electric);
+	return field;
+}
+
+static int take_memory(struct pm_frame *f, struct pm_maxwell_job *j)
+{
+	const struct pm_grid *g = &j->yee.grid;
+	for (int d = 0; d < g->dim; d++) {
+		char name[8];
+		snprintf(name, sizeof name, "pml_%c", "xyz"[d]);
+		if (!pm_yee_open(g->face[d][0]) && !pm_yee_open(g->face[d][1]))
+			continue;
+		const size_t sides = (size_t)pm_yee_open(g->face[d][0]) + pm_yee_open(g->face[d][1]);
+		if (sides * (size_t)j->choice.layers >= g->cells[d])
+			return pm_fail(PM_DATA, "absorbing layers of %d cells do not fit %zu cells along %c (--layers N, or more cells)", j->choice.layers,
+				g->cells[d], "xyz"[d]);
+		const bool there = pm_frame_field(f, j->mesh->name, name);
+		j->pml[d] = there ? pm_changes(f, j->mesh->name, name) : pm_makes(f, j->mesh->name, name, PM_PML_FIELDS, PM_STATE);
+		if (!j->pml[d])
+			return -PM_DATA;
+		if (j->pml[d]->components != PM_PML_FIELDS)
+			return pm_fail(PM_DATA, "'%s' on '%s' is not the memory of an absorbing layer (drop it)", name, j->mesh->name);
+	}
+	return 0;
+}
+
+/* Is there any particle whose current would be left out? */
+static bool charges(const struct pm_frame *f, const struct pm_law *law)
+{
+	bool any = false;
+	for (size_t i = 0; i < f->nsets; i++)
+		any |= f->sets[i]->n && pm_set_moves(f, f->sets[i]) && pm_frame_field(f, f->sets[i]->name, law->strength);
+	return any;
+}
+
+static int check_step(const struct pm_frame *f, const struct pm_maxwell_job *j)
+{
+	const double limit = j->method->limit(&j->yee.grid), now = j->yee.c * fabs(f->dt);
+	if (!(j->yee.c > 0))
+		return pm_fail(PM_DATA, "the speed of light c is %g (smod --constant c=1)", j->yee.c);
+	if (f->dt == 0 || !isfinite(f->dt))
+		return pm_fail(PM_DATA, "the frame has no time step (smod --dt, or the word dt)");
+	if (!j->method->any_face)
+		for (int d = 0; d < f->dim; d++)
+			if (f->face[d][0] != PM_PERIODIC)
+				return pm_fail(PM_DATA, "--method %s is made for periodic boxes (--method yee takes all faces)", j->method->name);
+	if (now > limit * (1 + 1e-12))
+		return pm_fail(PM_NUMERICS, "c dt %.6g is %.6g times the limit %.6g of %s on mesh '%s', beyond which the shortest waves grow without bound "
+			"(dt up to %.6g, or fewer cells)", now, now / limit, limit, j->method->name, j->mesh->name, limit / j->yee.c);
+	return 0;
+}
+
+static int declare_advance(struct pm_frame *f, struct pm_maxwell_job *j, const struct pm_law *law)
+{
+	struct pm_field *current = pm_frame_field(f, j->mesh->name, "J");
+	int status = check_step(f, j);
+	if (status)
+		return status;
+	if (!current && charges(f, law))
+		return pm_fail(PM_DATA, "no current 'J' on mesh '%s' (p2m --current before maxwell makes it; each J is used once)", j->mesh->name);
+	if (current && (current->components != 3 || !pm_yee_staggered(current, f->dim, true)))
+		return pm_fail(PM_DATA, "'J' on mesh '%s' does not sit where E does (p2m --current makes it)", j->mesh->name);
+	if (current && !pm_reads(f, j->mesh->name, "J"))
+		return -PM_DATA;
+	j->j = current;
+	if (current) {
+		snprintf(j->e->kernel, sizeof j->e->kernel, "%s", current->kernel); /* for m2p */
+		snprintf(j->b->kernel, sizeof j->b->kernel, "%s", current->kernel);
+		pm_drops(f, current);
+	}
+	return take_memory(f, j);
+}
+
+int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *f, struct pm_maxwell_job *j)
+{
+	const struct pm_law *law = pm_law_of(f);
+	*j = (struct pm_maxwell_job){.choice = *choice, .method = pm_maxwell_find(choice->method), .mesh = pm_frame_mesh(f, choice->mesh)};
+	if (!law || !j->method)
+		return -PM_DATA;
+	if (!law->evolves)
+		return pm_fail(PM_DATA, "the law '%s' has no fields that evolve (smod --law electromagnetic)", f->law);
+	if (!j->mesh)
+		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
+	j->yee = pm_yee_of(f, j->mesh);
+	j->yee.layers = choice->layers;
+	j->e = take(f, j, law->field, true, choice->gauss);
+	if (!j->e)
+		return -PM_DATA;
+	if (choice->gauss && !pm_frame_field(f, j->mesh->name, law->magnetic) && !take(f, j, law->magnetic, false, true))
+		return -PM_DATA; /* zeros, so that boris has what it needs */
+	if (choice->gauss) {
+		j->rho = pm_reads(f, j->mesh->name, law->density);
+		return j->rho ? 0 : pm_fail(PM_DATA, "no density '%s' on mesh '%s' (p2m makes it)", law->density, j->mesh->name);
+	}
+	j->b = take(f, j, law->magnetic, false, true);
+	return j->b ? declare_advance(f, j, law) : -PM_DATA;
+}
+
+static void fill(struct pm_maxwell_job *j)
+{
+	for (int c = 0; c < 3; c++) {
+		j->yee.e[c] = pm_out(j->e, c);
+		j->yee.b[c] = j->b ? pm_out(j->b, c) : NULL;
+		j->yee.j[c] = j->j ? pm_in(j->j, c) : NULL;
+		for (int k = 0; k < PM_PML_FIELDS; k++)
+			j->yee.pml[c][k] = j->pml[c] ? pm_out(j->pml[c], k) : NULL;
+	}
+}
+
+void pm_maxwell_step(struct pm_maxwell_job *j, double dt)
+{
+	fill(j);
+	j->method->magnetic(&j->yee, 0.5 * dt);
+	j->method->electric(&j->yee, dt);
+	j->method->magnetic(&j->yee, 0.5 * dt);
+}
+
+int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
+{
+	struct pm_grid g = j->yee.grid;
+	const struct pm_poisson_fft_choice choice = {.symbol = PM_FD2};
+	struct pm_poisson_fft_record record = {0, 0};
+	fill(j);
+	for (int d = 0; d < g.dim; d++)
+		for (int s = 0; s < 2; s++)
+			g.face[d][s] = pm_yee_open(g.face[d][s]) ? PM_WALL : g.face[d][s];
+	double *psi = pm_alloc(pm_grid_size(&g), sizeof *psi);
+	struct pm_poisson_fft *solver = psi ? pm_poisson_fft_new(&g, &choice) : NULL;
+	*r = (struct pm_gauss_record){0, 0};
+	if (solver)
+		pm_yee_divergence(&j->yee, pm_in(j->rho, 0), psi);
+	for (size_t i = 0; i < pm_grid_size(&g) && solver; i++)
+		r->before = fmax(r->before, fabs(psi[i]));
+	int status = solver ? pm_poisson_fft_solve(solver, 1, psi, psi, &record) : -PM_DATA;
+	r->mean = record.mean;
+	if (!status)
+		pm_yee_subtract_gradient(&j->yee, psi);
+	pm_poisson_fft_free(solver);
+	pm_free(psi);
+	return status;
+}

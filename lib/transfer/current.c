@@ -1,0 +1,178 @@
+/* The current of particles: Esirkepov's by tiles (current-tile.c), of ways cut at the faces of the box (current-ways.c); or the plain product q v W at the
+ * middle of the way, which does not keep charge and is there to compare. Villasenor and Buneman's is Esirkepov's for cic with ways cut at the faces of cells:
+ * within a cell both are the same. Source: Esirkepov 2001; Villasenor and Buneman 1992; Birdsall and Langdon 1985, section 15-6.
+ * Cost: one pass over the particles to find the ways, one sort, 3 (width + 1)^dim products each. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include <string.h>
+
+#include "mesh/particle-faces.h"
+#include "transfer/current-tile.h"
+#include "transfer/current.h"
+#include "transfer/tile-pass.h"
+
+const char *const pm_deposit_names[] = {"esirkepov", "villasenor-buneman", "direct", NULL};
+
+int pm_current_check(const struct pm_current *c)
+{
+	if (c->deposit == PM_VILLASENOR_BUNEMAN && strcmp(c->kernel->name, "cic"))
+		return pm_fail(PM_USAGE, "--deposit villasenor-buneman is made for the kernel cic, not %s (--deposit esirkepov takes every kernel)",
+			c->kernel->name);
+	for (int d = 0; d < c->grid.dim; d++)
+		for (int s = 0; s < 2; s++) {
+			const enum pm_face f = c->grid.face[d][s];
+			const enum pm_particle_face p = c->face[d][s];
+			if (f == PM_NEUMANN && p == PM_PABSORB)
+				return pm_fail(PM_DATA, "particles absorbed at a neumann face of axis %c would leave their image behind (a wall or an "
+					"open face, or reflect them)", "xyz"[d]);
+			if ((f == PM_WALL || f == PM_NEUMANN) && p == PM_POPEN)
+				return pm_fail(PM_DATA, "particles pass the %s face of axis %c, beyond which there is no mesh (reflect or absorb them: "
+					"smod --particle-faces)", pm_face_names[f], "xyz"[d]);
+		}
+	return 0;
+}
+
+/* The components of every block. */
+struct spread {
+	const struct pm_tile_pass *pass;
+	const struct pm_current *c;
+	const struct pm_axis *nodes, *halves;
+	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
+};
+
+static void deposit_job(const struct spread *s, const struct pm_tile_job *j, double *block)
+{
+	const struct pm_tile_order *o = s->pass->order;
+	struct pm_current_tile t = {.kernel = s->c->kernel, .shift = s->nodes[0].shift, .stride = o->stride,
+		.block = {block, block + PM_BLOCK_MOST, block + 2 * PM_BLOCK_MOST}};
+	pm_current_loop *loop = pm_current_deposit(o->dim, s->c->kernel);
+	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	for (int d = 0; d < 3; d++)
+		pm_tile_slots(s->pass, j->tile, d, &t.cell[d]);
+	if (o->records) {
+		t.records = o->records + j->from * (size_t)o->stride;
+		t.count = j->to - j->from;
+		loop(&t);
+		return;
+	}
+	t.records = packed;
+	for (size_t p = j->from; p < j->to; p += t.count) {
+		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		pm_tile_order_pack(o, p, t.count, packed);
+		loop(&t);
+	}
+}
+
+static struct pm_tile_target target(const struct spread *s, int component, unsigned char flip[3])
+{
+	const struct pm_grid *g = &s->c->grid;
+	struct pm_tile_target t = {.flip = flip, .scale = 1 / pm_grid_cell(g)};
+	for (int d = 0; d < 3; d++) {
+		t.axes[d] = d == component && d < g->dim ? &s->halves[d] : &s->nodes[d];
+		flip[d] = d == component; /* at a wall the current along it has the opposite image, that through it the same */
+	}
+	if (component < g->dim)
+		t.scale *= g->h[component] / s->c->dt;
+	return t;
+}
+
+static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
+{
+	const struct pm_tile_pass *w = s->pass;
+#pragma omp parallel num_threads(threads)
+	for (size_t from = 0; from < w->jobs; from += under_way) {
+		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
+#pragma omp for schedule(dynamic, 1)
+		for (size_t j = from; j < to; j++)
+			deposit_job(s, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST);
+		for (size_t j = from; j < to; j++)
+			for (int c = 0; c < 3; c++) {
+				unsigned char flip[3];
+				const struct pm_tile_target t = target(s, c, flip);
+				pm_tile_add_block(w, &w->job[j], &t, omp_get_thread_num(), threads, s->blocks + ((j - from) * 3 + (size_t)c) * PM_BLOCK_MOST,
+					mesh[c]);
+			}
+#pragma omp barrier
+	}
+}
+
+static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, double *const mesh[3], size_t *stray)
+{
+	struct pm_axis nodes[3], halves[3];
+	struct pm_tile_order order = {.n = 0};
+	struct pm_tile_pass pass = {.jobs = 0};
+	struct pm_strays strays = {.count = 0};
+	struct spread s = {.pass = &pass, .c = c, .nodes = nodes, .halves = halves};
+	const int dim = c->grid.dim, threads = pm_tile_threads(ways->n);
+	const double *values[PM_COMPONENTS] = {0};
+	size_t under_way = threads == 1 ? 1 : 8 * (size_t)threads;
+	for (int d = 0; d < dim; d++)
+		values[d] = ways->way[d];
+	values[dim] = ways->q;
+	for (int d = dim; d < 3; d++)
+		values[dim + 1 + d - dim] = ways->along[d];
+	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = (const double *const *)ways->at,
+		.values = values};
+	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
+	if (!status)
+		status = pm_tile_order_init(&order, nodes, &particles, 0, &strays);
+	if (!status && strays.count)
+		*stray = strays.first;
+	if (!status)
+		status = strays.count ? -PM_DATA : pm_tile_pass_init(&pass, &c->grid, &order, nodes);
+	under_way = pass.jobs < under_way ? pass.jobs : under_way;
+	s.blocks = status ? NULL : pm_zalloc(under_way * 3 * PM_BLOCK_MOST + 1, sizeof *s.blocks);
+	if (!status && s.blocks && pass.jobs)
+		spread_all(&s, threads, under_way, mesh);
+	status = status ? status : s.blocks ? 0 : -PM_DATA;
+	pm_free(s.blocks);
+	pm_tile_pass_free(&pass);
+	pm_tile_order_free(&order);
+	pm_axes_free(nodes);
+	pm_axes_free(halves);
+	return status;
+}
+
+/* q v W at the middle of the way, folded. */
+static int deposit_direct(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const mesh[3])
+{
+	const int dim = c->grid.dim;
+	struct pm_transfer t = {.grid = c->grid, .kernel = c->kernel, .components = 3};
+	struct pm_strays strays;
+	double *memory = pm_alloc(n * 6 + 1, sizeof *memory), *middle[3], *current[3];
+	if (!memory)
+		return -PM_DATA;
+	for (int d = 0; d < 3; d++) {
+		middle[d] = memory + n * (size_t)d;
+		current[d] = memory + n * (size_t)(3 + d);
+		t.staggered[d][d] = d < dim;
+		t.flip[d][d] = 1;
+		for (size_t p = 0; p < n; p++)
+			current[d][p] = v[d] ? q[p] * v[d][p] : 0;
+	}
+	for (int d = 0; d < dim; d++) {
+		const bool mirror[2] = {c->face[d][0] == PM_PREFLECT, c->face[d][1] == PM_PREFLECT};
+		for (size_t p = 0; p < n; p++)
+			middle[d][p] = x[d][p] + 0.5 * c->dt * (v[d] ? v[d][p] : 0);
+		if (mirror[0] || mirror[1])
+			pm_particle_faces_reflect(n, c->lo[d], c->hi[d], mirror, middle[d], 1, &current[d]);
+	}
+	int status = pm_spread(&t, n, (const double *const *)middle, (const double *const *)current, mesh, &strays);
+	pm_free(memory);
+	return status;
+}
+
+int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const j[3],
+	size_t *stray)
+{
+	struct pm_ways ways;
+	*stray = n;
+	if (!n)
+		return 0;
+	if (c->deposit == PM_DIRECT)
+		return deposit_direct(c, n, x, v, q, j);
+	int status = pm_ways_init(&ways, c, n, x, v, q);
+	if (!status)
+		status = deposit_ways(c, &ways, j, stray);
+	pm_ways_free(&ways);
+	return status;
+}

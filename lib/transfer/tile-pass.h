@@ -1,0 +1,43 @@
+/* Jobs over the tiles of an order, and the way of their blocks to and from the mesh: shared by densities, currents and gathers. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_TILE_PASS_H
+#define PM_TRANSFER_TILE_PASS_H
+
+#include "transfer/tile-order.h"
+
+struct pm_tile_job {
+	size_t tile, from, to; /* records */
+};
+
+struct pm_tile_pass {
+	const struct pm_grid *grid;
+	const struct pm_tile_order *order;
+	const struct pm_axis *axes; /* of the order */
+	size_t jobs;
+	struct pm_tile_job *job;
+};
+
+/* Where the slots of a block are on the mesh, for one component. */
+struct pm_tile_target {
+	const struct pm_axis *axes[3]; /* with the slots of the order's axes */
+	const unsigned char *flip;     /* [3] of transfer.h */
+	double scale;                  /* of what is added to the mesh */
+};
+
+/* 0 or failure; free in any case. */
+int pm_tile_pass_init(struct pm_tile_pass *p, const struct pm_grid *g, const struct pm_tile_order *o, const struct pm_axis *axes);
+void pm_tile_pass_free(struct pm_tile_pass *p);
+
+/* The slots of a tile along axis d: the first, and how many. */
+size_t pm_tile_slots(const struct pm_tile_pass *p, size_t tile, int d, size_t *first);
+/* Threads worth starting for n particles; and jobs between two barriers. */
+int pm_tile_threads(size_t n);
+size_t pm_tile_under_way(int threads);
+
+/* The rows of a job's block that belong to this thread, added to the mesh; they are zero afterwards. */
+void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, int thread, int threads,
+	double *block, double *mesh);
+/* The block of a job, read from the mesh. */
+void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, const double *mesh, double *block);
+
+#endif

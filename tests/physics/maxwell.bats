@@ -1,0 +1,27 @@
+# Electromagnetic plasmas by the words: waves in vacuum and in plasma against theory.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+step='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
+
+# omega K < stream: the frequency over K of a standing wave from its first quarter period: a(n+1) + a(n-1) = 2 cos(omega dt) a(n), exact for a mode.
+omega() {
+	diag --modes 1 --columns time | awk -v k="$1" 'NR > 1 { t[NR - 1] = $1; a[NR - 1] = $2 }
+		END { for (i = 2; i < NR - 1; i++) { num += (a[i-1] + a[i+1]) * a[i]; den += 2 * a[i]^2 } q = num / den
+			printf "%.12f", atan2(sqrt(1 - q * q), q) / (t[2] - t[1]) / k }'
+}
+
+@test "PIC-10: waves on Yee's mesh have the phase speed of its dispersion relation, in 1-D to 3-D" {
+	for dim in 1 2 3; do # sin(omega dt/2)/(c dt) = sin(k h/2)/h with k h = pi/8, c dt = h/2
+		within "$(pinit em-wave --standing 1 --dim $dim --cells 16 | cycle -n 6 --every 1 "$step" | omega 1)" 0.995169309108272 2e-12 "dim $dim"
+	done
+}
+
+@test "PIC-10: light in a cold plasma, omega^2 = omega_p^2 + c^2 k^2, to second order in the cell" {
+	for cells in 16 32 64; do
+		w[cells]=$(pinit em-wave --standing 1 -n 1024 --cells $cells --wave-field 1e-4 | cycle -n 4 --every 1 "$step" | omega 1.4142135623731)
+	done
+	within "${w[64]}" 1 1e-3
+	low() { awk -v a="$1" 'BEGIN { print 1 - a }'; }
+	order 2 1 "$(low "${w[64]}")" 2 "$(low "${w[32]}")" 4 "$(low "${w[16]}")"
+}

@@ -1,0 +1,57 @@
+# maxwell and p2m --current: refusals in words, the state they keep, charge, faces, the same bytes however they run.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+step='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
+
+@test "maxwell refuses a step beyond the limit with its number, in 1-D to 3-D and in a flat box, and takes 0.999 of it" {
+	for case in "1 8" "2 8x6" "3 8x6x9" "3 8x1x8" "2 1x8"; do
+		read -r dim cells <<<"$case"
+		limit=$(awk -v c="$cells" 'BEGIN { n = split(c, a, "x"); for (i = 1; i <= n; i++) if (a[i] > 1) s += (a[i] / 6.283185307179586)^2
+			printf "%.17g", 1 / sqrt(s) }')
+		for part in 0.999 1.001; do
+			pinit em-wave --dim "$dim" --cells "$cells" --dt "$(awk -v l="$limit" -v p=$part 'BEGIN { printf "%.17g", p * l }')" >$part.pm
+		done
+		sh_ok "cycle -n 50 '$step' <0.999.pm >/dev/null"
+		run -3 bash -o pipefail -c "cycle -n 1 '$step' <1.001.pm >/dev/null"
+		[[ $output == *"is 1.001 times the limit"*"of yee on mesh 'mesh'"*"dt up to $(printf '%.6g' "$limit")"* ]] || { echo "$output"; return 1; }
+	done
+}
+
+@test "maxwell refuses what it has not: another law, no E, no J beside charges, a nodal E, layers thicker than the mesh" {
+	refuses() { run -"$1" bash -o pipefail -c "$2 >/dev/null"; [[ $output == *"$3"* ]] || { echo "$output"; return 1; }; }
+	refuses 1 "pinit langmuir -n 16 --cells 8 | maxwell" "smod --law electromagnetic"
+	refuses 1 "pinit langmuir -n 16 --cells 8 | smod --law electromagnetic | maxwell" "p2m | maxwell --gauss"
+	refuses 1 "pinit em-wave -n 16 --cells 8 | maxwell" "no current 'J'"
+	refuses 1 "pinit em-wave -n 16 --cells 8 | p2m --current | maxwell | maxwell" "no current 'J'"
+	refuses 1 "pinit langmuir -n 16 --cells 8 | scalc --mesh mesh 'E = x' --role state | smod --law electromagnetic | maxwell" "'E' on mesh"
+	refuses 1 "pinit em-wave --cells 8 | maxwell --gauss" "no density 'rho'"
+	refuses 2 "pinit em-wave --cells 8 | p2m --deposit direct" "--deposit belongs to --current"
+	refuses 2 "pinit em-wave -n 4 --cells 8 | p2m --current --kernel tsc --deposit villasenor-buneman" "made for the kernel cic"
+	refuses 2 "pinit em-wave -n 4 --cells 8 | p2m --current --add" "leave out"
+	refuses 1 "pinit em-wave -n 4 --cells 8 | cycle -n 1 'push boris/2 drift | p2m --current | maxwell | m2p | push boris/2'" "has drifted"
+	refuses 1 "pinit langmuir -n 16 --cells 8 | p2m --current" "smod --law electromagnetic"
+}
+
+@test "the same bytes fused, in a pipe, with 1, 2 and 7 threads, and cut in two runs" {
+	pinit em-wave --dim 2 -n 6400 --cells 12x10 --no-history >a.pm
+	cycle -n 5 --no-history "$step" <a.pm >fused.pm
+	cycle -n 5 --no-history --engine pipes "$step" <a.pm | cmp - fused.pm
+	for n in 1 2 7; do cycle -n 5 --no-history --threads $n "$step" <a.pm | cmp - fused.pm; done
+	cycle -n 2 --no-history "$step" <a.pm | cycle -n 3 --no-history "$step" | cmp - fused.pm
+}
+
+# residual: max |div E - rho/eps0| as maxwell --gauss reports it.
+residual() { p2m "$@" | maxwell --gauss | sls --report | grep -o '"residual":[-0-9.e+]*' | cut -d: -f2; }
+
+@test "Gauss's law holds to round-off over a run in which charge moves, for every deposit but direct" {
+	sh_ok "pinit uniform --dim 2 -n 500 --dispersion 1 --faces periodic --particle-faces periodic --cells 12x10 --dt 0.02 --seed 4 |
+		scalc --extensive 'charge = 0.01*mod(id, 2) - 0.005' | smod --law electromagnetic | p2m | maxwell --gauss >start.pm"
+	for deposit in esirkepov villasenor-buneman direct; do
+		got=$(cycle -n 30 "push boris/2 | p2m --current --deposit $deposit | maxwell | push drift | m2p | push boris/2" <start.pm | residual)
+		if [ $deposit = direct ]; then above "$got" 1e-3; else below "$got" 2e-13 $deposit; fi
+	done
+	below "$(cycle -n 30 "${step/--current/--current --kernel pcs}" <start.pm | p2m --kernel pcs | maxwell --gauss | p2m --kernel pcs | maxwell --gauss |
+		sls --report | grep -o '"residual":[-0-9.e+]*' | tail -n 1 | cut -d: -f2)" 2e-13 "projected"
+}
+

@@ -1,0 +1,79 @@
+/* maxwell: E and B on the mesh through one step (lib/maxwell, lib/maxwell-parts). SPDX-License-Identifier: GPL-3.0-or-later */
+#include "maxwell-step/maxwell-frame.h"
+#include "stage/stage.h"
+
+struct config {
+	const char *mesh, *method;
+	int64_t layers;
+	bool gauss;
+};
+struct state {
+	struct pm_maxwell_job job; /* from declare to frame */
+};
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	s->advances = true;
+	return o->gauss && (pm_given(s, "method") || pm_given(s, "layers"))
+		? pm_fail(PM_USAGE, "--gauss advances nothing (leave out --method and --layers)") : 0;
+}
+
+static int declare(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	const struct pm_maxwell_choice choice = {.mesh = o->mesh, .method = o->method, .gauss = o->gauss, .layers = (int)o->layers};
+	return pm_maxwell_declare(&choice, f, &((struct state *)s->state)->job);
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct pm_maxwell_job *j = &((struct state *)s->state)->job;
+	struct pm_gauss_record r;
+	if (!j->choice.gauss) {
+		pm_maxwell_step(j, f->dt);
+		return 0;
+	}
+	int status = pm_maxwell_project(j, &r);
+	if (status)
+		return status;
+	pm_report(s, f, "residual", r.before);
+	if (r.mean != 0)
+		pm_report(s, f, "mean", r.mean);
+	return 0;
+}
+
+static const struct pm_option options[] = {
+	{.name = "method", .kind = PM_WORD, .fallback = "yee", .choices = pm_maxwell_names, PM_AT(method), .text = "the differences"},
+	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
+	{.name = "layers", .kind = PM_INTEGER, .unit = "cells", .fallback = "10", .low = 1, .high = 1000, PM_AT(layers),
+		.text = "thickness of the layers that absorb waves inside open faces"},
+	{.name = "gauss", .kind = PM_FLAG, PM_AT(gauss),
+		.text = "instead of a step: correct E so that div E = rho/eps0, or make it; rho is that of p2m"},
+	{0},
+};
+static const struct pm_example examples[] = {
+	{"a wave in vacuum over four periods of its box, and its energy",
+		"pinit em-wave --cells 32 | cycle -n 128 --every 32 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' | diag"},
+	{"the field of charges at rest", "pinit langmuir -n 64 --cells 16 | smod --law electromagnetic | p2m | maxwell --gauss | sls"},
+	{0},
+};
+const struct pm_tool tool_maxwell = {
+	.name = "maxwell",
+	.summary = "advance electric and magnetic fields on the mesh by a step",
+	.about = "B' = -curl E, E' = c^2 curl B - J/eps0 on Yee's mesh: B by half a step, E by a whole one, B by half. E and B are then at the end of the step, "
+		"before the particles are (push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2). J is used up. Faces: periodic; wall, a "
+		"perfect conductor; neumann, a plane of symmetry in which E lies; open and absorbing, absorbing layers inside the mesh. A step above "
+		"the limit of the method is refused. Constants c and eps0 of the frame, both 1 if absent.",
+	.kind = PM_FILTER,
+	.reads = "J (mesh); with --gauss rho",
+	.changes = "E, B, and the memory of absorbing layers pml_x, pml_y, pml_z (mesh)",
+	.adds = "B of zeros where there is none; with --gauss E",
+	.config = sizeof(struct config),
+	.state = sizeof(struct state),
+	.options = options,
+	.examples = examples,
+	.begin = begin,
+	.declare = declare,
+	.frame = frame,
+};
