@@ -10,7 +10,7 @@
 
 struct config {
 	struct pm_problem_names names;
-	double screening, softening, cloud;
+	double screening, wave, softening, cloud;
 	const char *symbol, *green, *influence, *order, *plan;
 };
 struct state {
@@ -25,6 +25,8 @@ static const struct pm_option options[] = {
 			"(default: the law's)"},
 	{.name = "screening", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(screening),
 		.text = "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length"},
+	{.name = "wave-number", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(wave),
+		.text = "a in lap phi + a^2 phi = c*s (Helmholtz): standing waves in a closed box; refused at a resonance"},
 	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green),
 		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice); "
 			"plummer, which is softened, for all faces"},
@@ -33,8 +35,7 @@ static const struct pm_option options[] = {
 			"exp(-(r/delta)^2) for gauss2 (default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
 		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence "
-			"function "
-			"of least force error (Hockney and Eastwood), which has no symbol"},
+			"function of least force error (Hockney and Eastwood), which has no symbol"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
 		.text = "the order of the mgrad that follows, for --influence optimal (default: the law's)"},
 	{.name = "cloud", .kind = PM_REAL, .unit = "length", .fallback = "0", .high = 1e150, PM_AT(cloud),
@@ -51,7 +52,6 @@ static const struct pm_example examples[] = {
 	{"a screened plasma between a grounded plate and a plane of symmetry",
 		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 | sls"},
 	{"the same cluster, softened as pp softens it", "pinit plummer -n 2000 --softening 0.3 | p2m -n 32 | poisson-fft --green plummer | sls"},
-	{"the same cluster, spectrally accurate", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --green vico | sls"},
 	{0},
 };
 
@@ -87,7 +87,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	double softening = !isnan(o->softening) ? o->softening : green && green->factor ? pm_frame_constant(f, "softening", NAN) : 0;
 	if (isnan(softening))
 		return pm_fail(PM_DATA, "--green %s, and the frame has no softening (--softening LENGTH, or smod --constant softening=LENGTH)", green->name);
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0};
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0, o->wave};
 	status = influence(o, f, &t->problem, &t->choice.influence);
 	if (!status && t->problem.given.any)
 		status = pm_poisson_fft_boundary_check(&t->problem.grid, &t->choice);
@@ -95,7 +95,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		status = pm_poisson_fft_check(&t->problem.grid, &t->choice);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
-	if (!status && o->screening != 0)
+	if (!status && (o->screening != 0 || o->wave != 0))
 		pm_problem_not_of_law(&t->problem);
 	if (!status)
 		t->problem.target->use |= PM_USE_FILL;
@@ -124,7 +124,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	struct pm_poisson_fft_record r;
 	struct pm_homogeneous m;
 	const int order = t->choice.symbol == PM_FD2 ? 2 : 0;
-	int status = solver ? pm_problem_move(p, f, c, order, NULL, &m) : -PM_DATA;
+	int status = solver ? pm_problem_move(p, f, c, order, NULL, &m) : pm_failed();
 	if (status)
 		return status;
 	status = pm_poisson_fft_solve(solver, m.c, m.s, pm_out(p->target, c), &r);
@@ -133,6 +133,8 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	*plans = pm_poisson_fft_planner(solver);
 	if (!status && pm_poisson_fft_singular(&g, &t->choice))
 		pm_solver_report_removed(s, f, p, c, r.mean, &m, r.incompatible);
+	if (t->choice.wave > 0)
+		pm_report(s, f, "resonance_distance", pm_poisson_fft_distance(solver));
 	pm_homogeneous_close(&m, pm_out(p->target, c));
 	return status;
 }
@@ -160,10 +162,8 @@ const struct pm_tool tool_poisson_fft = {
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
 	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
 		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any combination, also on opposite faces. If no face "
-		"fixes phi, "
-		"the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the "
-		"Green's function "
-		"is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
+		"fixes phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the "
+		"Green's function is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

@@ -10,7 +10,9 @@
 
 static double fitted(double lambda, double rest, double h, bool neumann)
 {
-	double a = rest < 0 ? h * sqrt(-rest) : 0, s = 2 * sinh(0.5 * a) / h, sum = lambda - s * s;
+	double a = h * sqrt(fabs(rest)), s = 2 * (rest < 0 ? sinh(0.5 * a) : sin(0.5 * a)) / h, sum = lambda - (rest < 0 ? s * s : -s * s);
+	if (rest > 0) /* below the cut-off of a wave guide: sines in place of sinh */
+		return sum != 0 ? (neumann ? sin(a) / a : 1) / sum : 0;
 	if (neumann && a > 40) /* sinh a/(4 sinh^2(a/2)) = coth(a/2)/2 */
 		return -0.5 * h * h / a;
 	return sum < 0 ? (neumann && a > 0 ? sinh(a) / a : 1) / sum : 0;
@@ -19,7 +21,7 @@ static double fitted(double lambda, double rest, double h, bool neumann)
 int pm_poisson_fft_fitted(struct pm_poisson_fft *p)
 {
 	const int d = (p->choice.fitted - 1) / 2, axis = d == 0 ? X : p->grid.dim == 2 || d == 2 ? Z : Y;
-	const double screening = p->choice.screening * p->choice.screening, h = p->grid.h[d];
+	const double shift = p->choice.screening * p->choice.screening - p->choice.wave * p->choice.wave, h = p->grid.h[d];
 	const bool neumann = (p->choice.fitted - 1) % 2;
 	p->green_row = p->chunks * L;
 	p->green_slab = p->green_row * p->modes[Z];
@@ -32,8 +34,8 @@ int pm_poisson_fft_fitted(struct pm_poisson_fft *p)
 #pragma omp parallel for schedule(static) num_threads(pm_threads()) if (p->modes[Y] * p->green_slab > 16384)
 	for (size_t r = 0; r < p->modes[Y] * p->modes[Z]; r++)
 		for (size_t i = 0; i < p->modes[X]; i++) {
-			const double lambda[3] = {p->lambda[X][i], p->lambda[Y][r / p->modes[Z]], p->lambda[Z][r % p->modes[Z]] + screening};
-			double rest = -screening;
+			const double lambda[3] = {p->lambda[X][i], p->lambda[Y][r / p->modes[Z]], p->lambda[Z][r % p->modes[Z]] + shift};
+			double rest = -shift;
 			for (int a = X; a <= Z; a++)
 				rest += a == axis ? 0 : lambda[a];
 			p->green[r * p->green_row + i] = fitted(lambda[axis], rest, h, neumann);

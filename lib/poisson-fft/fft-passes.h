@@ -27,6 +27,7 @@ struct pm_poisson_fft {
 	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
 	double *scratch;
 	bool streams;                  /* w is larger than the caches */
+	double distance;               /* with a wave: to the nearest eigenvalue, |lambda + a^2|/a^2 */
 	double zero;                   /* the mode of constants, after the forward transform */
 };
 
@@ -50,6 +51,7 @@ double *pm_poisson_fft_eigenvalues(const struct pm_transform *l, size_t modes, s
 int pm_poisson_fft_green(struct pm_poisson_fft *p);
 int pm_poisson_fft_influence(struct pm_poisson_fft *p); /* of fft-influence.c: fills green for a periodic box */
 int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: the same from lambda, for walls */
+int pm_poisson_fft_resonance(struct pm_poisson_fft *p); /* of fft-wave.c: failure at a resonance */
 int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-boundary.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 

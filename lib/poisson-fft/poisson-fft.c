@@ -13,7 +13,7 @@
 
 bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
-	bool singular = o->screening == 0;
+	bool singular = o->screening == 0 && o->wave == 0;
 	for (int d = 0; d < g->dim; d++)
 		for (int side = 0; side < 2; side++)
 			singular = singular && (g->face[d][side] == PM_PERIODIC || g->face[d][side] == PM_NEUMANN);
@@ -26,6 +26,10 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
 	int status = pm_influence_check(&o->influence, g);
+	for (int a = 0; a < 2 * g->dim && o->wave > 0; a++)
+		if (g->face[a / 2][a % 2] == PM_OPEN || o->screening > 0 || pm_influence_any(&o->influence) || o->green)
+			return pm_fail(PM_DATA, "--wave-number is for standing waves in a box of periodic, wall and neumann faces, without --screening, --green and "
+				"--influence (open faces radiate: a complex Green's function)");
 	return status ? status : pm_poisson_fft_open_check(g, o);
 }
 
@@ -142,7 +146,7 @@ static int fitted_axis(const struct pm_poisson_fft *p)
 
 static int symbols(struct pm_poisson_fft *p)
 {
-	double screening = p->choice.screening;
+	const double shift = p->choice.screening * p->choice.screening - p->choice.wave * p->choice.wave;
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
@@ -153,8 +157,8 @@ static int symbols(struct pm_poisson_fft *p)
 			return -PM_DATA;
 	}
 	for (size_t k = 0; k < p->modes[Z] && !p->empty; k++)
-		p->lambda[Z][k] -= screening * screening;
-	return 0;
+		p->lambda[Z][k] -= shift;
+	return p->choice.wave > 0 && !p->empty && !p->choice.fitted ? pm_poisson_fft_resonance(p) : 0;
 }
 
 static int multipliers(struct pm_poisson_fft *p)

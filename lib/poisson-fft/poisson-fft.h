@@ -25,6 +25,7 @@ struct pm_poisson_fft_choice {
 	                               * Of plummer epsilon, 0: none */
 	struct pm_influence influence; /* of periodic boxes */
 	int fitted; /* 1 + 2 axis + (neumann): known values on faces of that axis, walls or neumann ones (fft-boundary.c); 0: a source */
+	double wave; /* a [1/length] in lap phi + a^2 phi = c*s (Helmholtz) instead of K; no open faces */
 };
 
 struct pm_poisson_fft;
@@ -39,6 +40,8 @@ bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_ff
 /* NULL with a message. */
 struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
+/* With a wave: the distance |lambda + a^2|/a^2 to the nearest eigenvalue. */
+double pm_poisson_fft_distance(const struct pm_poisson_fft *p);
 const struct pm_fft_plans *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 
 /* The mean removed from a singular problem; 0, 0 for others. */

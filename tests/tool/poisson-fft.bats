@@ -84,3 +84,38 @@ refused() {
 			.1 / (6.283185307179586 * 3)^2 }')" 1e-9 "$k" # 4096 particles, 16 cells: 256 a cell, the sums are exact to 256^-2 of an alias at most
 	done
 }
+
+# relative FILE REFERENCE: largest difference of phi over the largest phi.
+relative() { scmp --norm relative_max --field phi "$1" "$2" | tail -1 | cut -f9; }
+
+@test "Helmholtz: --wave-number has + a^2, with every symbol and face, and with given values (000:S23)" {
+	for row in '2 wall sin(pi*x)*sin(2*pi*y) 5*pi^2' '3 periodic,periodic,neumann,neumann,wall,neumann cos(2*pi*x)*cos(pi*y)*sin(pi/2*z) 5.25*pi^2' \
+		'3 periodic cos(2*pi*(x+y+z)) 12*pi^2'; do
+		read -r dim faces u k2 <<<"$row"
+		e=()
+		for n in 8 12 16; do
+			pinit uniform -n 2 --dim "$dim" --faces "$faces" | p2m -n $n | scalc --mesh mesh "rho=(2.385^2-$k2)*($u)" >m
+			scalc --mesh mesh "phi=$u" <m >e
+			poisson-fft --coefficient 1 --symbol spectral --wave-number 2.385 <m >p
+			below "$(relative p e)" 1e-14 "$row"
+			poisson-fft --coefficient 1 --symbol fd2 --wave-number 2.385 <m >p
+			e+=("$(bc -l <<<"1/$n")" "$(relative p e)")
+		done
+		order 2 "${e[@]}"
+	done
+	pinit uniform -n 2 --dim 1 --faces wall | p2m -n 16 | scalc --mesh mesh 'rho=0' >m
+	scalc --mesh mesh 'phi=sin(9.1*(1-x))/sin(9.1)' <m >e
+	poisson-fft --symbol spectral --wave-number 9.1 --x-low 1 <m >p
+	below "$(relative p e)" 1e-13 # round-off over the distance to 3 pi, 0.07
+	tail -c 300 p | grep -aq '"resonance_distance":0.07'
+}
+
+@test "Helmholtz at a resonance is refused with the distance, and open faces by name" {
+	pinit uniform -n 9 --dim 2 --faces wall | p2m -n 16 >m
+	run -3 --separate-stderr poisson-fft --symbol spectral --wave-number 4.442882938158366 <m # pi sqrt 2
+	[[ $stderr == *"at a resonance of this box: the wave number 4.44288293815836"*"at a distance of "*"(at least 1e-08 is needed)"* ]]
+	poisson-fft --symbol spectral --wave-number 4.4429 <m >p
+	pinit uniform -n 9 --dim 2 --faces open --box=-1,2 | p2m -n 16 --outside drop >m
+	run -1 --separate-stderr poisson-fft --wave-number 1 <m
+	[[ $stderr == *"--wave-number is for standing waves in a box"* ]]
+}
