@@ -1,5 +1,5 @@
-/* Helmholtz's equation lap phi + a^2 phi = c s in a closed box: phi^ = c s^/(lambda + a^2), which has no solution where a^2 is an eigenvalue of -lap. The distance
- * to the nearest, min |lambda + a^2|/a^2, is what round-off of s is divided by. Source: Morse and Feshbach 1953, section 7.2. Cost: once a look at every mode.
+/* Helmholtz's equation lap phi + a^2 phi = c s in a closed box: phi^ = c s^/(lambda + a^2), which has no solution where a^2 is an eigenvalue of -lap. The
+ * distance to the nearest, min |lambda + a^2|/a^2, is what round-off of s is divided by. Source: Morse and Feshbach 1953, section 7.2. Cost: once a look at every mode.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
 
@@ -21,8 +21,8 @@ int pm_poisson_fft_resonance(struct pm_poisson_fft *p)
 	p->distance = nearest / a2;
 	if (p->distance >= least)
 		return 0;
-	return pm_fail(PM_NUMERICS, "--wave-number %g is at a resonance of this box: the wave number %.17g is an eigenvalue, at a distance of %.2g of a^2 (at least "
-		"%g is needed)", p->choice.wave, sqrt(at), p->distance, least);
+	return pm_fail(PM_NUMERICS, "--wave-number %g is at a resonance of this box: the wave number %.17g is an eigenvalue, at a distance of %.2g of a^2 (at "
+		"least %g is needed)", p->choice.wave, sqrt(at), p->distance, least);
 }
 
 double pm_poisson_fft_distance(const struct pm_poisson_fft *p) { return p->distance; }
