@@ -17,13 +17,18 @@ PM_SIMD_INLINE void pm_simd_sum_add(struct pm_simd_sum *s, pm_simd x)
 	s->sum = t;
 }
 
-/* Lane after lane. */
-static inline void pm_simd_sum_join(struct pm_sum *all, const struct pm_simd_sum *s)
+/* The lanes l and l + 4, then l and l + 2, then the last two; and their sum to the others. */
+PM_SIMD_INLINE void pm_simd_sum_join(struct pm_sum *all, const struct pm_simd_sum *s)
 {
-	for (int l = 0; l < PM_SIMD_WIDTH; l++) {
-		pm_sum_add(all, s->sum[l]);
-		pm_sum_add(all, s->carry[l]);
-	}
+	struct pm_simd_sum t = *s;
+	t.carry += __builtin_shufflevector(t.carry, t.carry, 4, 5, 6, 7, 0, 1, 2, 3);
+	pm_simd_sum_add(&t, __builtin_shufflevector(t.sum, t.sum, 4, 5, 6, 7, 0, 1, 2, 3));
+	t.carry += __builtin_shufflevector(t.carry, t.carry, 2, 3, 0, 1, 6, 7, 4, 5);
+	pm_simd_sum_add(&t, __builtin_shufflevector(t.sum, t.sum, 2, 3, 0, 1, 6, 7, 4, 5));
+	t.carry += __builtin_shufflevector(t.carry, t.carry, 1, 0, 3, 2, 5, 4, 7, 6);
+	pm_simd_sum_add(&t, __builtin_shufflevector(t.sum, t.sum, 1, 0, 3, 2, 5, 4, 7, 6));
+	pm_sum_add(all, t.sum[0]);
+	pm_sum_add(all, t.carry[0]);
 }
 
 /* The first n of eight values, then zeros. */

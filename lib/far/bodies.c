@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "far/bodies.h"
 #include "limit/rates.h"
 #include "stream/declare.h"
@@ -81,7 +82,7 @@ static void put(const struct pm_frame *f, const struct pm_set *s, const struct p
 		memcpy(b->x[d] + b->n, pm_in(state_of(f, s, "x"), d), s->n * sizeof(double));
 	if (q)
 		memcpy(b->q + b->n, pm_in(q, 0), s->n * sizeof(double));
-	b->n += s->n;
+	b->n += b->count[b->sets++] = s->n;
 }
 
 int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b)
@@ -89,8 +90,9 @@ int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct 
 	size_t n = 1, size = sizeof(double);
 	for (size_t i = 0; i < f->nsets; i++)
 		n += f->sets[i]->n;
-	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .potential = far->with_potential ? pm_alloc(n, size) : NULL};
-	bool good = b->q && (b->potential || !far->with_potential);
+	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .potential = far->with_potential ? pm_alloc(n, size) : NULL,
+		.count = pm_alloc(f->nsets + 1, sizeof *b->count)};
+	bool good = b->q && b->count && (b->potential || !far->with_potential);
 	for (int d = 0; d < f->dim; d++) {
 		b->x[d] = pm_alloc(n, size), b->gradient[d] = pm_alloc(n, size);
 		good = good && b->x[d] && b->gradient[d];
@@ -109,13 +111,28 @@ int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct 
 	return 0;
 }
 
+static void make_sizes(const void *data, size_t from, size_t to, void *part)
+{
+	for (size_t i = from; i < to; i++)
+		pm_sum_add(part, fabs(((const double *)data)[i]));
+}
+
+/* The sum of all strengths without their signs. */
+static double strength_of(const struct pm_bodies *b)
+{
+	struct pm_sum sum = {0, 0};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make_sizes, .join = pm_join_sums};
+	for (size_t s = 0, at = 0; s < b->sets; at += b->count[s++])
+		pm_over_set(&parts, b->q + at, b->count[s], &sum);
+	return pm_sum_total(sum);
+}
+
 /* The largest rate of pm_orbit_rate: the square of a frequency, or of a flow the strain. */
 static double orbits(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
 {
 	const double *q = far->per ? pm_in(state_of(f, s, far->strength), 0) : NULL, *per = far->per ? pm_in(state_of(f, s, far->per), 0) : NULL;
-	double most = 0, pull = 0;
-	for (size_t i = 0; i < b->n; i++)
-		pull += fabs(c * b->q[i]);
+	const double pull = fabs(c) * strength_of(b);
+	double most = 0;
 	for (size_t i = 0; i < s->n; i++) {
 		double square = 0;
 		for (int d = 0; d < f->dim; d++)
@@ -161,5 +178,5 @@ void pm_bodies_free(struct pm_bodies *b)
 {
 	for (int d = 0; d < 3; d++)
 		pm_free(b->x[d]), pm_free(b->gradient[d]);
-	pm_free(b->q), pm_free(b->potential);
+	pm_free(b->q), pm_free(b->potential), pm_free(b->count);
 }

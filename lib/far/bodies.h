@@ -19,6 +19,7 @@ struct pm_far {
 
 struct pm_bodies {
 	size_t targets, n;                /* targets come first, then those that are sources alone */
+	size_t sets, *count;              /* the sets in this order, and the particles of each */
 	double *x[3], *q;                 /* n each; q is 0 for test particles */
 	double *gradient[3], *potential;  /* room for n each, of unit coefficient; potential NULL if not wanted */
 };

@@ -81,6 +81,7 @@ int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, uint64_t *coin
 	if (status)
 		return status;
 	status = pm_bodies_gather(f, &far, &b);
+	p.sets = b.sets, p.count = b.count;
 	if (!status)
 		status = pm_pp_sum(&p, b.targets, b.n, (const double *const *)b.x, b.q, b.gradient, b.potential, coincident);
 	if (!status)

@@ -1,21 +1,27 @@
 /* Direct summation: grad phi_i = sum_j q_j f(|x_i - x_j|) (x_i - x_j) over all pairs, O(N^2), the reference for every other far field.
  * Source: Hockney and Eastwood 1988, section 1-4-1 (particle-particle method); mollifiers as in lib/mollifier.
- * Full loop: 32 targets in registers, sources in blocks of 1024 that stay in the first cache; block sums keep the round-off near
- * (1024 + N/1024) units. Half loop: pairs of tiles are scheduled as the rounds of a tournament, in each of which a tile is paired with one other, so that no
- * sum depends on the number of threads. 1/r^3 from the 14-bit 1/sqrt(r^2) with a correction of fourth order (6e-16).
+ * Full loop: 32 targets of a set in registers, sources in blocks of 1024 that stay in the first cache; blocks end at multiples of 1024 of their
+ * set, and block sums keep the round-off near (1024 + N/1024) units. Half loop: tiles of 2^k particles of a set meet in the rounds of a tournament,
+ * in each of which a tile meets one other; a meeting sums apart, and is added in the order of rounds. So no sum depends on who computes it
+ * (docs/distributed.md). 1/r^3 from the 14-bit 1/sqrt(r^2) with a correction of fourth order (6e-16).
  * Conserves momentum to round-off. Split up: far/pair-forces.h a vector of pairs, far/pp-plain.c the loop these are tested against.
  * Assumes open space. Pairs below r = 1e-100 without mollifier exert no force. Cost: 18 vector operations per 8 pairs in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "far/pp.h"
 #include "far/pair-forces.h"
 
 enum { GROUP = 4, SOURCES = 1024, ROWS = 2 }; /* vectors of targets per group; sources per block; particles at a time in the half loop */
 
-static const double far_away = 1e100; /* position of the particles that fill up a vector; their strength is 0 */
+enum { TILE = 512 }; /* particles of a tile at most; a power of two, so that tiles end with the blocks of the stream */
 
-/* Copies that fill whole vectors, and the sums. */
+static const double far_away = 1e70; /* position of the particles that fill up a set, each a multiple; 1/r^3 is not denormal; their strength is 0 */
+
+/* Copies in which every set begins with a group and is filled up to a whole one, and the sums. */
 struct work {
-	size_t targets, n, padded, tile;
+	size_t targets, padded, sets, tiles; /* places of targets and of all */
+	size_t *from, *count, *tile; /* of each set the first place and the particles; of each tile its places */
 	double *x[3], *q, *g[3], *phi;
 	struct pm_field_pairs how;
 	uint64_t *coincident; /* pairs, per group or tile */
@@ -79,22 +85,30 @@ PM_SIMD_INLINE void group_block(const struct work *w, const struct how how, bool
 	}
 }
 
-/* All sources on one group of targets; blocks end where the group's own particles begin and end. */
+/* All sources on one group of targets; blocks also end where the group's own particles begin and end. */
 PM_SIMD_INLINE void group(const struct work *w, const struct how how, size_t i)
 {
 	size_t width = GROUP * PM_SIMD_WIDTH;
 	unsigned coincident = 0;
-	for (size_t j = 0, end; j < w->n; j = end) {
-		end = j + SOURCES < w->n ? j + SOURCES : w->n;
-		bool self = j >= i && j < i + width;
-		end = self && end > i + width ? i + width : !self && j < i && end > i ? i : end;
-		if (self)
-			group_block(w, how, true, i, j, end, &coincident);
-		else
-			group_block(w, how, false, i, j, end, &coincident);
-	}
+	for (size_t s = 0; s < w->sets; s++)
+		for (size_t first = w->from[s], last = first + w->count[s], j = first, end; j < last; j = end) {
+			end = first + ((j - first) / SOURCES + 1) * SOURCES;
+			end = end < last ? end : last;
+			bool self = j >= i && j < i + width;
+			end = self && end > i + width ? i + width : !self && j < i && end > i ? i : end;
+			if (self)
+				group_block(w, how, true, i, j, end, &coincident);
+			else
+				group_block(w, how, false, i, j, end, &coincident);
+		}
 	w->coincident[i / width] = coincident;
 }
+
+/* What one tile receives in one meeting, by place from its first. */
+struct received {
+	double g[3][TILE], phi[TILE]; /* first, for vectors */
+	size_t from, to;
+} __attribute__((aligned(64)));
 
 /* ROWS particles of the half loop, each in all lanes: they share what is loaded of the others. */
 struct rows {
@@ -114,28 +128,30 @@ PM_SIMD_INLINE struct rows rows_load(const struct work *w, int dim, size_t i)
 	return r;
 }
 
-PM_SIMD_INLINE void rows_add(const struct work *w, int dim, bool potential, size_t i, const struct rows *r)
+PM_SIMD_INLINE void rows_add(struct received *to, int dim, bool potential, size_t i, const struct rows *r)
 {
 	PM_SIMD_UNROLL
 	for (size_t k = 0; k < ROWS; k++) {
 		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++)
-			w->g[d][i + k] += pm_simd_sum(r->g[d][k]);
+			to->g[d][i - to->from + k] += pm_simd_sum(r->g[d][k]);
 		if (potential)
-			w->phi[i + k] += pm_simd_sum(r->phi[k]);
+			to->phi[i - to->from + k] += pm_simd_sum(r->phi[k]);
 	}
 }
 
 /* The rows at i with the vector at j, both ways; on the diagonal those of j that come after. */
-PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool diagonal, size_t i, size_t j, struct rows *r, uint64_t *coincident)
+PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool diagonal, size_t i, size_t j, struct rows *r, struct received *to,
+	uint64_t *coincident)
 {
 	const int dim = how.dim;
 	const enum pm_pairs_mode mode = how.mode;
 	const bool potential = how.potential;
-	pm_simd y[3], h[3], zero = {0}, delta2 = pm_simd_all(w->how.delta2), q = pm_simd_load(w->q + j), phi = potential ? pm_simd_load(w->phi + j) : zero;
+	pm_simd y[3], h[3], zero = {0}, delta2 = pm_simd_all(w->how.delta2), q = pm_simd_load(w->q + j);
+	pm_simd phi = potential ? pm_simd_load(to->phi + (j - to->from)) : zero;
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		y[d] = pm_simd_load(w->x[d] + j), h[d] = pm_simd_load(w->g[d] + j);
+		y[d] = pm_simd_load(w->x[d] + j), h[d] = pm_simd_load(to->g[d] + (j - to->from));
 	PM_SIMD_UNROLL
 	for (size_t k = 0; k < ROWS; k++) {
 		pm_simd s[3], d2 = delta2, f, u = zero;
@@ -146,7 +162,7 @@ PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool d
 		}
 		pm_pairs_meet(&w->how, dim, mode, potential, d2, &f, &u);
 		if (mode != PM_SQUARE && __builtin_expect(pm_simd_any_below(d2, pm_simd_all(pm_pairs_least)), 0))
-			*coincident += pm_pairs_count(j, i + k + 1, i + k < w->targets ? w->n : 0, &d2);
+			*coincident += pm_pairs_count(j, i + k + 1, i + k < w->targets ? w->padded : 0, &d2);
 		if (diagonal && j <= i + k)
 			f = pm_pairs_after(j, i + k, f), u = pm_pairs_after(j, i + k, u);
 		pm_simd fi = f * q, fj = f * r->q[k];
@@ -160,32 +176,55 @@ PM_SIMD_INLINE void rows_meet(const struct work *w, const struct how how, bool d
 	}
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		pm_simd_store(w->g[d] + j, h[d]);
+		pm_simd_store(to->g[d] + (j - to->from), h[d]);
 	if (potential)
-		pm_simd_store(w->phi + j, phi);
+		pm_simd_store(to->phi + (j - to->from), phi);
 }
 
-/* All pairs of one in i[0] <= i < i[1] and one in j[0] <= j < j[1] once; on the diagonal those with j > i. Tiles are multiples of a vector, so no row is left
+/* All pairs of one of a tile and one of another once; on the diagonal of each two of a tile. Tiles are multiples of a vector, so no row is left
  * over. */
-PM_SIMD_INLINE void tiles(const struct work *w, const struct how how, bool diagonal, const size_t i[2], const size_t j[2], uint64_t *coincident)
+PM_SIMD_INLINE void tiles(const struct work *w, const struct how how, bool diagonal, struct received *i, struct received *j, uint64_t *coincident)
 {
-	for (size_t p = i[0]; p < i[1]; p += ROWS) {
+	for (size_t p = i->from; p < i->to; p += ROWS) {
 		struct rows r = rows_load(w, how.dim, p);
-		for (size_t q = diagonal ? p / PM_SIMD_WIDTH * PM_SIMD_WIDTH : j[0]; q < j[1]; q += PM_SIMD_WIDTH)
-			rows_meet(w, how, diagonal, p, q, &r, coincident);
-		rows_add(w, how.dim, how.potential, p, &r);
+		for (size_t q = diagonal ? p / PM_SIMD_WIDTH * PM_SIMD_WIDTH : j->from; q < j->to; q += PM_SIMD_WIDTH)
+			rows_meet(w, how, diagonal, p, q, &r, j, coincident);
+		rows_add(i, how.dim, how.potential, p, &r);
+	}
+}
+
+PM_SIMD_INLINE void begin(const struct work *w, const struct how how, size_t tile, struct received *r)
+{
+	r->from = w->tile[2 * tile], r->to = w->tile[2 * tile + 1];
+	for (int d = 0; d < how.dim; d++)
+		memset(r->g[d], 0, (r->to - r->from) * sizeof(double));
+	if (how.potential)
+		memset(r->phi, 0, (r->to - r->from) * sizeof(double));
+}
+
+PM_SIMD_INLINE void finish(const struct work *w, const struct how how, const struct received *r)
+{
+	for (size_t i = r->from; i < r->to; i++) {
+		for (int d = 0; d < how.dim; d++)
+			w->g[d][i] += r->g[d][i - r->from];
+		if (how.potential)
+			w->phi[i] += r->phi[i - r->from];
 	}
 }
 
 /* Each pair of two tiles once. */
 PM_SIMD_INLINE void meeting(const struct work *w, const struct how how, size_t a, size_t b)
 {
-	const size_t i[2] = {a * w->tile, (a + 1) * w->tile < w->padded ? (a + 1) * w->tile : w->padded};
-	const size_t j[2] = {b * w->tile, (b + 1) * w->tile < w->padded ? (b + 1) * w->tile : w->padded};
-	if (a == b)
-		tiles(w, how, true, i, j, w->coincident + a);
-	else
-		tiles(w, how, false, i, j, w->coincident + a);
+	struct received i, j;
+	begin(w, how, a, &i);
+	if (a == b) {
+		tiles(w, how, true, &i, &i, w->coincident + a);
+	} else {
+		begin(w, how, b, &j);
+		tiles(w, how, false, &i, &j, w->coincident + a);
+		finish(w, how, &j);
+	}
+	finish(w, how, &i);
 }
 
 /* One loop compiled for each dimension, mode and kind of result. */
@@ -218,8 +257,8 @@ static void full(const struct work *w, const struct loops *l)
 /* A tournament of m tiles: in round r meet those with a + b = r modulo m, a <= b. */
 static void half(const struct work *w, const struct loops *l)
 {
-	size_t m = (w->padded + w->tile - 1) / w->tile;
-#pragma omp parallel if (w->n > 1000)
+	const size_t m = w->tiles;
+#pragma omp parallel if (w->padded > 1000)
 	for (size_t r = 0; r < m; r++) {
 		size_t below = r / 2 + 1, meetings = below + (r + m) / 2 - r;
 #pragma omp for schedule(static)
@@ -230,32 +269,75 @@ static void half(const struct work *w, const struct loops *l)
 	}
 }
 
-static double *padded(size_t n, size_t all, const double *from, double fill)
+/* Sets one behind the other, to where they are in the copies. */
+static double *padded(const struct work *w, const double *from, double fill)
 {
-	double *p = pm_alloc(all, sizeof *p);
-	for (size_t i = 0; p && i < all; i++)
-		p[i] = i < n ? from[i] : fill;
+	double *p = pm_alloc(w->padded, sizeof *p);
+	for (size_t s = 0, at = 0, fills = 0; p && s < w->sets; at += w->count[s++]) {
+		const size_t end = s + 1 < w->sets ? w->from[s + 1] : w->padded;
+		memcpy(p + w->from[s], from + at, w->count[s] * sizeof *p);
+		for (size_t i = w->from[s] + w->count[s]; i < end; i++)
+			p[i] = (double)++fills * fill;
+	}
 	return p;
+}
+
+static void unpadded(const struct work *w, size_t targets, double factor, const double *from, double *to)
+{
+	for (size_t s = 0, at = 0; at < targets; at += w->count[s++])
+		for (size_t i = 0; i < w->count[s] && at + i < targets; i++)
+			to[at + i] = factor * from[w->from[s] + i];
 }
 
 static void work_free(struct work *w)
 {
 	for (int d = 0; d < 3; d++)
 		pm_free(w->x[d]), pm_free(w->g[d]);
-	pm_free(w->q), pm_free(w->phi), pm_free(w->coincident);
+	pm_free(w->q), pm_free(w->phi), pm_free(w->coincident), pm_free(w->from), pm_free(w->count), pm_free(w->tile);
+}
+
+/* 16 tiles and more for threads to share, up to 512 particles each. */
+static size_t tile_of(size_t n)
+{
+	size_t tile = PM_SIMD_WIDTH;
+	while (tile < TILE && 16 * tile < n)
+		tile *= 2;
+	return tile;
+}
+
+/* Where sets and tiles begin and end. */
+static int layout(struct work *w, const struct pm_pp *p, size_t targets, size_t n)
+{
+	const size_t width = GROUP * PM_SIMD_WIDTH, tile = tile_of(n);
+	w->sets = p->sets ? p->sets : 1;
+	w->from = pm_alloc(w->sets, sizeof *w->from), w->count = pm_alloc(w->sets, sizeof *w->count);
+	w->tile = pm_alloc(2 * (n / tile + w->sets), sizeof *w->tile);
+	if (!w->from || !w->count || !w->tile)
+		return -PM_DATA;
+	for (size_t s = 0, at = 0; s < w->sets; at += w->count[s++]) {
+		w->from[s] = w->padded;
+		w->count[s] = p->sets ? p->count[s] : n;
+		for (size_t i = 0; i < w->count[s]; i += tile, w->tiles++) {
+			const size_t end = i + tile < w->count[s] ? i + tile : (w->count[s] + PM_SIMD_WIDTH - 1) / PM_SIMD_WIDTH * PM_SIMD_WIDTH;
+			w->tile[2 * w->tiles] = w->padded + i, w->tile[2 * w->tiles + 1] = w->padded + end;
+		}
+		if (at < targets)
+			w->targets = w->padded + (targets - at < w->count[s] ? targets - at : w->count[s]);
+		w->padded += (w->count[s] + width - 1) / width * width;
+	}
+	return 0;
 }
 
 static int work_init(struct work *w, const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, bool potential)
 {
-	size_t width = GROUP * PM_SIMD_WIDTH, tiles_wanted = 16; /* for two threads and more to share, below 8192 particles */
-	*w = (struct work){.how = pm_field_pairs_of(p->mollifier, p->delta, p->dim), .targets = targets, .n = n, .padded = (n + width - 1) / width * width};
-	w->tile = (w->padded / tiles_wanted + PM_SIMD_WIDTH - 1) / PM_SIMD_WIDTH * PM_SIMD_WIDTH;
-	w->tile = w->tile < PM_SIMD_WIDTH ? PM_SIMD_WIDTH : w->tile > 512 ? 512 : w->tile;
+	*w = (struct work){.how = pm_field_pairs_of(p->mollifier, p->delta, p->dim)};
+	if (layout(w, p, targets, n))
+		return -PM_DATA;
 	for (int d = 0; d < p->dim; d++) {
-		w->x[d] = padded(n, w->padded, x[d], far_away);
+		w->x[d] = padded(w, x[d], far_away);
 		w->g[d] = pm_zalloc(w->padded, sizeof **w->g);
 	}
-	w->q = padded(n, w->padded, q, 0);
+	w->q = padded(w, q, 0);
 	w->phi = potential ? pm_zalloc(w->padded, sizeof *w->phi) : NULL;
 	w->coincident = pm_zalloc(w->padded, sizeof *w->coincident);
 	for (int d = 0; d < p->dim; d++)
@@ -275,13 +357,11 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 	if (!status) {
 		const struct loops *l = &table[w.how.mode][p->dim - 1][potential != NULL];
 		p->half ? half(&w, l) : full(&w, l);
-		double c = 1 / pm_pairs_unit(p->dim);
-		for (size_t i = 0; i < targets; i++) {
-			for (int d = 0; d < p->dim; d++)
-				gradient[d][i] = c * w.g[d][i];
-			if (potential)
-				potential[i] = c * w.phi[i];
-		}
+		const double c = 1 / pm_pairs_unit(p->dim);
+		for (int d = 0; d < p->dim; d++)
+			unpadded(&w, targets, c, w.g[d], gradient[d]);
+		if (potential)
+			unpadded(&w, targets, c, w.phi, potential);
 		for (size_t i = 0; i < w.padded; i++)
 			*coincident += w.coincident[i];
 	}

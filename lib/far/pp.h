@@ -11,6 +11,8 @@ struct pm_pp {
 	double delta; /* [length] of the mollifier, >= 0 */
 	const struct pm_mollifier *mollifier;
 	bool half;    /* each pair once, by symmetry; else each target over all sources */
+	size_t sets;  /* the particles are those of so many sets, one behind the other, the targets whole sets in front; 0: of one set, all targets or not */
+	const size_t *count; /* [sets] particles of each */
 };
 
 /* For each of the first `targets` of n particles: gradient[c][i] = sum over j != i of q[j] d(phi1)/dx_c (x_i - x_j), and

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "limit/rates.h"
 
 enum { BLOCK = 4096 };
@@ -52,34 +53,59 @@ double pm_strain(const struct pm_grid *g, int components, const double *const u[
 	return most;
 }
 
+struct charges {
+	const double *q, *m;
+};
+
+static void make_squares(const void *data, size_t from, size_t to, void *part)
+{
+	const struct charges *c = data;
+	for (size_t p = from; p < to; p++)
+		pm_sum_add(part, c->q[p] * c->q[p] / c->m[p]);
+}
+
+static void add_squares(size_t n, const double *q, const double *m, struct pm_sum *sum)
+{
+	const struct pm_parts parts = {.size = sizeof *sum, .make = make_squares, .join = pm_join_sums};
+	pm_over_set(&parts, &(struct charges){q, m}, n, sum);
+}
+
 double pm_charge_over_mass(size_t n, const double *q, const double *m)
 {
 	struct pm_sum sum = {0, 0};
-	for (size_t p = 0; p < n; p++)
-		pm_sum_add(&sum, q[p] * q[p] / m[p]);
+	add_squares(n, q, m, &sum);
 	return pm_sum_total(sum);
 }
 
 double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
 {
-	double sum = 0, box = 1;
+	struct pm_sum sum = {0, 0};
+	double box = 1;
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
 		if (q && m && pm_set_moves(f, f->sets[i]))
-			sum += pm_charge_over_mass(q->count, pm_in(q, 0), pm_in(m, 0));
+			add_squares(q->count, pm_in(q, 0), pm_in(m, 0), &sum);
 	}
 	for (int d = 0; d < f->dim; d++)
 		box *= f->hi[d] - f->lo[d];
-	return sqrt(fabs(law->coefficient(f)) * sum / box);
+	return sqrt(fabs(law->coefficient(f)) * pm_sum_total(sum) / box);
+}
+
+static void make_sizes(const void *data, size_t from, size_t to, void *part)
+{
+	const struct pm_field *q = data;
+	for (size_t p = from; p < to; p++)
+		pm_sum_add(part, fabs(q->uniform ? q->value[0] : pm_in(q, 0)[p]));
 }
 
 double pm_strength_total(const struct pm_frame *f, const char *strength)
 {
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_sizes, .join = pm_join_sums};
 	struct pm_sum sum = {0, 0};
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, strength);
-		for (size_t p = 0; q && p < q->count; p++)
-			pm_sum_add(&sum, fabs(q->uniform ? q->value[0] : pm_in(q, 0)[p]));
+		if (q)
+			pm_over_set(&parts, q, q->count, &sum);
 	}
 	return pm_sum_total(sum);
 }

@@ -60,7 +60,7 @@ static int field_row(struct pm_comparison *c, const struct pm_frame *f, const st
 		status = match && work ? pm_norms_match(a->count, from, to, match, work) : -PM_DATA;
 	}
 	if (!status) {
-		struct pm_norms d = pm_norms_of(a, b, match, weight);
+		struct pm_norms d = pm_norms_of(f, a, b, match, weight);
 		place(f, a, id, d.worst, at);
 		row(c, a->on, a->name, a->count, &d, at);
 	}

@@ -14,7 +14,7 @@ static json_t *data_json(const struct pm_frame *f)
 	for (size_t i = 0; i < f->nfields; i++) {
 		json_t *min = json_array(), *max = json_array(), *mean = json_array();
 		for (int c = 0; c < f->fields[i]->components; c++) {
-			struct pm_range r = pm_range_of(f->fields[i], c);
+			struct pm_range r = pm_range_of(f, f->fields[i], c);
 			json_array_append_new(min, pm_json_number(r.min)), json_array_append_new(max, pm_json_number(r.max)),
 				json_array_append_new(mean, pm_json_number(r.mean));
 		}
@@ -85,7 +85,7 @@ static int missing(const char *name)
 	return n > 0 ? n : 0;
 }
 
-static void field_text(FILE *out, const struct pm_listing *c, const struct pm_field *p)
+static void field_text(FILE *out, const struct pm_listing *c, const struct pm_frame *f, const struct pm_field *p)
 {
 	fprintf(out, "    %s%*s %2d %s %s %s", p->name, missing(p->name), "", p->components, pm_type_names[p->type], pm_role_names[p->role],
 		p->extensive ? "strength" : "value");
@@ -104,7 +104,7 @@ static void field_text(FILE *out, const struct pm_listing *c, const struct pm_fi
 			fprintf(out, " half_%d %d%d%d", i, p->staggered[i][0], p->staggered[i][1], p->staggered[i][2]);
 	putc('\n', out);
 	for (int i = 0; c->data && i < p->components; i++) {
-		struct pm_range r = pm_range_of(p, i);
+		struct pm_range r = pm_range_of(f, p, i);
 		fprintf(out, "      %d: min %.10g max %.10g mean %.10g\n", i, r.min, r.max, r.mean);
 	}
 }
@@ -113,7 +113,7 @@ static void fields_text(FILE *out, const struct pm_listing *c, const struct pm_f
 {
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->on, on))
-			field_text(out, c, f->fields[i]);
+			field_text(out, c, f, f->fields[i]);
 }
 
 static void owners_text(FILE *out, const struct pm_listing *c, const struct pm_frame *f)

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "measure/growth.h"
 #include "measure/law-field.h"
 #include "measure/measure.h"
@@ -23,8 +24,8 @@ static double charge(const struct pm_measure *how, const struct pm_frame *f)
 	size_t sets = 0;
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = how->set && strcmp(how->set, f->sets[i]->name) ? NULL : pm_frame_field(f, f->sets[i]->name, how->strength);
-		for (size_t p = 0; q && p < q->count; p++)
-			pm_sum_add(&sum, pm_in(q, 0)[p]);
+		if (q)
+			pm_sum_of_set(q->count, pm_in(q, 0), NULL, &sum);
 		sets += q != NULL;
 	}
 	return sets ? pm_sum_total(sum) : NAN;
@@ -51,8 +52,8 @@ int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct 
 			? pm_energy_on_mesh(&g, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
 	for (int k = 0; k < how->nmodes; k++) {
 		m->mode[k][0] = m->mode[k][1] = NAN;
-		if (e && f->face[0][0] == PM_PERIODIC)
-			pm_mode(&g, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
+		if (e && f->face[0][0] == PM_PERIODIC && !status)
+			status = pm_mode(&g, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
 	}
 	m->field_most = how->nmodes && e ? largest(&g, e) : NAN;
 	pm_law_field_free(&law);

@@ -1,10 +1,11 @@
 /* Integrals of vortices in the plane: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
  * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given point (by m6prime, exact at a
- * node) on the first mesh that holds omega; the largest distortion of the sets. Missing quantities are NAN. Sums are compensated and
- * serial, so that threads do not matter. Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
+ * node) on the first mesh that holds omega; the largest distortion of the sets. Missing quantities are NAN. Sums follow the
+ * law of sums (base/in-order.h). Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/measure.h"
+#include "base/in-order.h"
 #include "remesh/distortion.h"
 #include "mesh/gradient.h"
 #include "transfer/transfer.h"
@@ -37,15 +38,27 @@ void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 }
 
-static void of_particles(const struct pm_field *at, const struct pm_field *circulation, struct pm_sum sum[4])
+struct vortices {
+	const double *x, *y, *q;
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
 {
-	const double *x = pm_in(at, 0), *y = pm_in(at, 1), *q = pm_in(circulation, 0);
-	for (size_t i = 0; i < at->count; i++) {
+	const struct vortices *v = data;
+	const double *x = v->x, *y = v->y, *q = v->q;
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
 		pm_sum_add(&sum[0], q[i]);
 		pm_sum_add(&sum[1], q[i] * y[i]);
 		pm_sum_add(&sum[2], -q[i] * x[i]);
 		pm_sum_add(&sum[3], -0.5 * q[i] * (x[i] * x[i] + y[i] * y[i]));
 	}
+}
+
+static void of_particles(const struct pm_field *at, const struct pm_field *circulation, struct pm_sum sum[4])
+{
+	const struct pm_parts parts = {.size = 4 * sizeof *sum, .make = make, .join = pm_join_sums};
+	pm_over_set(&parts, &(struct vortices){pm_in(at, 0), pm_in(at, 1), pm_in(circulation, 0)}, at->count, sum);
 }
 
 /* 1/2 int |grad omega|^2; NAN if the mesh is too small for the differences, or without memory. */

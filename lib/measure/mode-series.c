@@ -3,24 +3,44 @@
 #include <stdlib.h>
 
 #include "measure/growth.h"
+#include "base/in-order.h"
 
-void pm_mode(const struct pm_grid *g, const double *values, int m, double amplitude[2])
+/* A row of a mesh times the wave along it, cos and -sin of n points. */
+struct wave {
+	const struct pm_grid *g;
+	const double *values, *wave[2];
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct wave *w = data;
+	const size_t n = to - from, row = from / n;
+	const double weight = pm_grid_weight(w->g, 0, row % w->g->points[1], row / w->g->points[1]), *values = w->values + from;
+	struct pm_sum *sum = part;
+	for (size_t j = 0; j < n; j++)
+		for (int k = 0; k < 2; k++)
+			pm_sum_add(&sum[k], weight * values[j] * w->wave[k][j]);
+}
+
+int pm_mode(const struct pm_grid *g, const double *values, int m, double amplitude[2])
 {
 	const size_t n = g->points[0], rows = g->points[1] * g->points[2];
-	struct pm_sum re = {0}, im = {0};
+	struct pm_sum sum[2] = {{0, 0}};
+	double *wave = pm_alloc(2 * n, sizeof *wave), weight = 0;
+	if (!wave)
+		return -PM_DATA;
 	for (size_t j = 0; j < n; j++) {
 		const double angle = 2 * pm_pi * (double)(((uint64_t)j * (uint64_t)m) % n) / (double)n;
-		struct pm_sum row = {0};
-		for (size_t r = 0; r < rows; r++)
-			pm_sum_add(&row, pm_grid_weight(g, j, r % g->points[1], r / g->points[1]) * values[r * n + j]);
-		pm_sum_add(&re, pm_sum_total(row) * cos(angle));
-		pm_sum_add(&im, -pm_sum_total(row) * sin(angle));
+		wave[j] = cos(angle), wave[n + j] = -sin(angle);
 	}
-	double weight = 0;
+	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
+	pm_over_mesh(&parts, &(struct wave){g, values, {wave, wave + n}}, g->points, sum);
 	for (size_t r = 0; r < rows; r++)
 		weight += pm_grid_weight(g, 0, r % g->points[1], r / g->points[1]);
-	amplitude[0] = 2 * pm_sum_total(re) / ((double)n * weight);
-	amplitude[1] = 2 * pm_sum_total(im) / ((double)n * weight);
+	for (int k = 0; k < 2; k++)
+		amplitude[k] = 2 * pm_sum_total(sum[k]) / ((double)n * weight);
+	pm_free(wave);
+	return 0;
 }
 
 int pm_series_add(struct pm_series *s, double t, const double amplitude[2], double scale)

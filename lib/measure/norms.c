@@ -1,14 +1,22 @@
-/* Norms of the difference of two fields. Sums are compensated in blocks of fixed size that are added in order (Neumaier 1974), so they do not depend on
- * the number of threads; matching sorts the ids of both and merges them. Cost: O(N), matching O(N log N).
+/* Norms of the difference of two fields. Sums are compensated and in the order of the stream (base/in-order.h);
+ * matching sorts the ids of both and merges them. Cost: O(N), matching O(N log N).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 
 #include "measure/norms.h"
+#include "mesh/mesh-sum.h"
 
-enum { block = 4096, group = 64 };
+/* scale: differences and references are multiplied by these before they are squared. */
+struct pair {
+	const struct pm_frame *f;
+	const struct pm_field *a, *b;
+	const size_t *match;
+	const double *weight;
+	double scale[2];
+};
 
 struct part {
-	struct pm_sum one, two, reference, weight;
+	struct pm_sum one, two, reference, weight; /* joined as four */
 	double max, reference_max;
 	size_t worst;
 };
@@ -28,71 +36,63 @@ static double difference(const struct pm_field *a, const struct pm_field *b, int
 	return value(a, c, i) - value(b, c, j);
 }
 
-/* scale: differences and references are multiplied by these before they are squared. */
-static struct part part_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight, const double scale[2], size_t first,
-	size_t last)
+static void make(const void *data, size_t first, size_t last, void *part)
 {
-	struct part p = {.worst = first};
+	const struct pair *q = data;
+	const struct pm_field *a = q->a, *b = q->b;
+	struct part p = *(struct part *)part;
 	for (size_t i = first; i < last; i++) {
-		double d = 0, r = 0, w = weight ? weight[i] : 1;
-		size_t j = match ? match[i] : i;
+		double d = 0, r = 0, w = q->weight ? q->weight[i] : 1;
+		size_t j = q->match ? q->match[i] : i;
 		for (int c = 0; c < a->components; c++) {
 			double dc = difference(a, b, c, i, j), rc = value(b, c, j);
 			d = a->components == 1 ? fabs(dc) : hypot(d, dc);
 			r = a->components == 1 ? fabs(rc) : hypot(r, rc);
 		}
 		pm_sum_add(&p.one, w * d);
-		pm_sum_add(&p.two, w * (d * scale[0]) * (d * scale[0]));
-		pm_sum_add(&p.reference, w * (r * scale[1]) * (r * scale[1]));
+		pm_sum_add(&p.two, w * (d * q->scale[0]) * (d * q->scale[0]));
+		pm_sum_add(&p.reference, w * (r * q->scale[1]) * (r * q->scale[1]));
 		pm_sum_add(&p.weight, w);
 		if (d > p.max)
 			p.max = d, p.worst = i;
 		p.reference_max = fmax(p.reference_max, r);
 	}
-	return p;
+	*(struct part *)part = p;
 }
 
-static void sum_join(struct pm_sum *a, struct pm_sum b)
+static void join(size_t size, const void *part, void *all)
 {
-	pm_sum_add(a, b.sum);
-	pm_sum_add(a, b.carry);
+	(void)size;
+	const struct part *from = part;
+	struct part *to = all;
+	pm_join_sums(offsetof(struct part, max), from, to);
+	if (from->max > to->max)
+		to->max = from->max, to->worst = from->worst;
+	to->reference_max = fmax(to->reference_max, from->reference_max);
 }
 
 static double ratio(double error, double reference) { return error == 0 ? 0 : error / reference; }
 
-static struct part all_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight, const double scale[2])
+static struct part all_of(const struct pair *q)
 {
-	struct part all = {0}, parts[group];
-	size_t n = a->count;
-	for (size_t first = 0; first < n; first += (size_t)block * group) {
-		size_t left = (n - first + block - 1) / block, here = left < group ? left : group;
-#pragma omp parallel for
-		for (size_t k = 0; k < here; k++) {
-			size_t from = first + k * block, to = from + block < n ? from + block : n;
-			parts[k] = part_of(a, b, match, weight, scale, from, to);
-		}
-		for (size_t k = 0; k < here; k++) {
-			sum_join(&all.one, parts[k].one), sum_join(&all.two, parts[k].two);
-			sum_join(&all.reference, parts[k].reference), sum_join(&all.weight, parts[k].weight);
-			if (parts[k].max > all.max)
-				all.max = parts[k].max, all.worst = parts[k].worst;
-			all.reference_max = fmax(all.reference_max, parts[k].reference_max);
-		}
-	}
+	const struct pm_parts parts = {.size = sizeof(struct part), .make = make, .join = join};
+	struct part all = {.max = 0};
+	pm_over_field(&parts, q, q->f, q->a->on, q->a->count, &all);
 	return all;
 }
 
 /* A power of two that scales x to about 1, so that its square neither overflows nor underflows; 1 if there is no such risk. */
 static double scale_of(double x) { return x > 1e-140 && x < 1e140 ? 1 : x > 0 ? ldexp(1, -ilogb(x) < 1000 ? -ilogb(x) : 1000) : 1; }
 
-struct pm_norms pm_norms_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight)
+struct pm_norms pm_norms_of(const struct pm_frame *f, const struct pm_field *a, const struct pm_field *b, const size_t *match,
+	const double *weight)
 {
-	double scale[2] = {1, 1};
-	struct part all = all_of(a, b, match, weight, scale);
-	scale[0] = scale_of(all.max), scale[1] = scale_of(all.reference_max);
-	if (scale[0] != 1 || scale[1] != 1)
-		all = all_of(a, b, match, weight, scale);
-	double w = pm_sum_total(all.weight), two = sqrt(pm_sum_total(all.two)) / scale[0], reference = sqrt(pm_sum_total(all.reference)) / scale[1];
+	struct pair q = {.f = f, .a = a, .b = b, .match = match, .weight = weight, .scale = {1, 1}};
+	struct part all = all_of(&q);
+	q.scale[0] = scale_of(all.max), q.scale[1] = scale_of(all.reference_max);
+	if (q.scale[0] != 1 || q.scale[1] != 1)
+		all = all_of(&q);
+	double w = pm_sum_total(all.weight), two = sqrt(pm_sum_total(all.two)) / q.scale[0], reference = sqrt(pm_sum_total(all.reference)) / q.scale[1];
 	w = w > 0 ? w : 1;
 	return (struct pm_norms){.l1 = pm_sum_total(all.one) / w, .l2 = two / sqrt(w), .max = all.max,
 		.relative_l2 = ratio(two, reference), .relative_max = ratio(all.max, all.reference_max), .worst = all.worst};

@@ -10,9 +10,10 @@ struct pm_norms {
 	size_t worst;                       /* the first index at which |a-b| is largest */
 };
 
-/* a and b have the same components and count. match: value i of a is compared with value match[i] of b, NULL: with i. weight: of value i in the means,
- * NULL: 1. Exact zeros stay exact: equal fields give 0 in every norm. */
-struct pm_norms pm_norms_of(const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight);
+/* a and b have the same components and count; f has the set or mesh that a is on. match: value i of a is compared with value match[i] of b, NULL:
+ * with i. weight: of value i in the means, NULL: 1. Exact zeros stay exact: equal fields give 0 in every norm. */
+struct pm_norms pm_norms_of(const struct pm_frame *f, const struct pm_field *a, const struct pm_field *b, const size_t *match,
+	const double *weight);
 
 /* match[i] is where b holds the id a[i]; order is workspace of n. 0, or failure that names an id which is missing or occurs twice. */
 int pm_norms_match(size_t n, const int64_t *a, const int64_t *b, size_t *match, size_t *order);

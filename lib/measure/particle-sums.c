@@ -1,11 +1,11 @@
 /* Bulk quantities of particles: mass, kinetic energy, momentum and its scale sum m|v|, angular momentum, first moment, largest distance.
  * Each is a sum over particles, compensated (Neumaier 1974), with eight partial sums per block of pm_sum_block particles; partial sums and blocks are added
- * in a fixed order, so the number of threads does not matter. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+ * in the order of the stream (base/in-order.h). Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
+#include "base/in-order.h"
 #include "base/simd-sum.h"
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
-enum { BATCH = 64 }; /* blocks summed before their results are added; limits the memory, does not change the result */
 
 struct block {
 	struct pm_sum sum[SUMS];
@@ -67,43 +67,35 @@ PM_SIMD_INLINE void add_block(int dim, int vdim, const struct pm_measured *b, si
 		add_particles(dim, vdim, b, i, to - i, s);
 }
 
-static struct block block_of(const struct pm_measured *b, size_t from)
+static void make_block(const void *data, size_t from, size_t to, void *part)
 {
+	const struct pm_measured *b = data;
+	struct block *block = part;
 	struct lanes lanes = {0};
-	struct block block = {0};
-	const size_t to = from + pm_sum_block < b->n ? from + pm_sum_block : b->n;
 	if (b->dim == 3 && b->vdim == 3)
 		add_block(3, 3, b, from, to, &lanes);
 	else
 		add_block(b->dim, b->vdim, b, from, to, &lanes);
 	for (int s = 0; s < SUMS; s++)
-		pm_simd_sum_join(&block.sum[s], &lanes.sum[s]);
+		pm_simd_sum_join(&block->sum[s], &lanes.sum[s]);
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		block.farthest2 = fmax(block.farthest2, lanes.farthest2[l]);
-	return block;
+		block->farthest2 = fmax(block->farthest2, lanes.farthest2[l]);
 }
 
-static void join(struct block *all, const struct block *block)
+static void join(size_t size, const void *part, void *all)
 {
-	for (int s = 0; s < SUMS; s++) {
-		pm_sum_add(&all->sum[s], block->sum[s].sum);
-		pm_sum_add(&all->sum[s], block->sum[s].carry);
-	}
-	all->farthest2 = fmax(all->farthest2, block->farthest2);
+	(void)size;
+	const struct block *from = part;
+	struct block *to = all;
+	pm_join_sums(sizeof from->sum, from->sum, to->sum);
+	to->farthest2 = fmax(to->farthest2, from->farthest2);
 }
 
 void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *bulk)
 {
-	struct block all = {0}, batch[BATCH];
-	const size_t blocks = (b->n + pm_sum_block - 1) / pm_sum_block;
-	for (size_t first = 0; first < blocks; first += BATCH) {
-		const size_t n = blocks - first < BATCH ? blocks - first : BATCH;
-#pragma omp parallel for schedule(static) if (n > 1)
-		for (size_t k = 0; k < n; k++)
-			batch[k] = block_of(b, (first + k) * pm_sum_block);
-		for (size_t k = 0; k < n; k++)
-			join(&all, &batch[k]);
-	}
+	const struct pm_parts parts = {.size = sizeof(struct block), .make = make_block, .join = join};
+	struct block all = {0};
+	pm_over_set(&parts, b, b->n, &all);
 	bulk->n += (double)b->n;
 	bulk->movers += b->vdim ? (double)b->n : 0;
 	bulk->mass += pm_sum_total(all.sum[MASS]);

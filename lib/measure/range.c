@@ -1,8 +1,12 @@
-/* Smallest, largest and mean value of a field, in blocks of fixed size, so that the mean does not depend on the number of threads.
+/* Smallest, largest and mean value of a field, the mean by the law of sums (base/in-order.h).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/range.h"
+#include "mesh/mesh-sum.h"
 
-enum { block = 4096, group = 64 };
+struct component {
+	const struct pm_field *field;
+	int c;
+};
 
 struct part {
 	double min, max, least;
@@ -19,36 +23,36 @@ double pm_field_value(const struct pm_field *field, int c, size_t i)
 	return length;
 }
 
-static struct part part_of(const struct pm_field *field, int c, size_t first, size_t last)
+static void make(const void *data, size_t from, size_t to, void *part)
 {
-	struct part p = {.min = HUGE_VAL, .max = -HUGE_VAL, .least = HUGE_VAL};
-	for (size_t i = first; i < last; i++) {
-		double y = pm_field_value(field, c, i);
+	const struct component *of = data;
+	struct part p = *(struct part *)part;
+	for (size_t i = from; i < to; i++) {
+		double y = pm_field_value(of->field, of->c, i);
 		p.min = fmin(p.min, y);
 		p.max = fmax(p.max, y);
 		p.least = y > 0 ? fmin(p.least, y) : p.least;
 		pm_sum_add(&p.sum, y);
 	}
-	return p;
+	*(struct part *)part = p;
 }
 
-struct pm_range pm_range_of(const struct pm_field *field, int c)
+static void join(size_t size, const void *part, void *all)
 {
-	struct part all = {.min = HUGE_VAL, .max = -HUGE_VAL, .least = HUGE_VAL}, parts[group];
-	size_t n = field->count;
-	for (size_t first = 0; first < n; first += (size_t)block * group) {
-		size_t left = (n - first + block - 1) / block, here = left < group ? left : group;
-#pragma omp parallel for
-		for (size_t k = 0; k < here; k++) {
-			size_t from = first + k * block, to = from + block < n ? from + block : n;
-			parts[k] = part_of(field, c, from, to);
-		}
-		for (size_t k = 0; k < here; k++) {
-			all.min = fmin(all.min, parts[k].min), all.max = fmax(all.max, parts[k].max), all.least = fmin(all.least, parts[k].least);
-			pm_sum_add(&all.sum, parts[k].sum.sum), pm_sum_add(&all.sum, parts[k].sum.carry);
-		}
-	}
-	if (!n)
+	(void)size;
+	const struct part *from = part;
+	struct part *to = all;
+	to->min = fmin(to->min, from->min), to->max = fmax(to->max, from->max), to->least = fmin(to->least, from->least);
+	pm_join_sums(sizeof from->sum, &from->sum, &to->sum);
+}
+
+struct pm_range pm_range_of(const struct pm_frame *f, const struct pm_field *field, int c)
+{
+	const struct part none = {.min = HUGE_VAL, .max = -HUGE_VAL, .least = HUGE_VAL};
+	const struct pm_parts parts = {.size = sizeof none, .none = &none, .make = make, .join = join};
+	struct part all = none;
+	if (!field->count)
 		return (struct pm_range){NAN, NAN, NAN, HUGE_VAL};
-	return (struct pm_range){all.min, all.max, pm_sum_total(all.sum) / (double)n, all.least};
+	pm_over_field(&parts, &(struct component){field, c}, f, field->on, field->count, &all);
+	return (struct pm_range){all.min, all.max, pm_sum_total(all.sum) / (double)field->count, all.least};
 }

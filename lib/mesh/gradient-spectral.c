@@ -7,44 +7,43 @@
 #include <string.h>
 
 #include "fft/axis-transform.h"
+#include "fft/line-groups.h"
 #include "mesh/gradient-parts.h"
 
 enum { L = PM_FFT_LINES };
 
-/* A derivative along lines side by side, L at a time. */
+/* A derivative along lines. */
 struct lines {
 	const struct pm_transform *line;
 	double h, factor;
 	bool flip, add; /* odd and even images exchanged; added to the output */
 	int derivative;
-	size_t nodes, step, across; /* of a line; between its nodes; from one line to the next. One of the two is 1. */
+	size_t nodes;
 };
 
-static void transform(const struct lines *l, size_t width, const double *in, double *out, double *block)
+static void transform(const struct lines *l, const struct pm_line_group g, const double *in, double *out, double *block)
 {
 	for (size_t i = 0; i < l->nodes; i++)
 		for (size_t q = 0; q < L; q++)
-			block[i * L + q] = q < width ? in[i * l->step + q * l->across] : 0;
+			block[i * L + q] = q < g.lines ? in[i * g.step + q * g.across] : 0;
 	if (l->derivative == 1)
 		pm_transform_derivative(l->line, l->h, l->flip, block);
 	else
 		pm_transform_second(l->line, l->h, l->flip, block);
 	for (size_t i = 0; i < l->nodes; i++)
-		for (size_t q = 0; q < width; q++) {
-			double *to = out + i * l->step + q * l->across;
+		for (size_t q = 0; q < g.lines; q++) {
+			double *to = out + i * g.step + q * g.across;
 			*to = l->factor * block[i * L + q] + (l->add ? *to : 0);
 		}
 }
 
-/* Along x L rows at a time, along y and z L neighbours in x. */
 static void term(const struct pm_operator *o, int d, const struct lines *l, const double *in, double *out, double *scratch, size_t lot)
 {
-	const size_t *n = o->grid.points, chunks = (n[0] + L - 1) / L, across = d == 1 ? n[2] : n[1], other = d == 1 ? n[0] * n[1] : n[0];
-	const size_t blocks = d == 0 ? (n[1] * n[2] + L - 1) / L : across * chunks;
+	const size_t groups = pm_line_groups(o->grid.points, d);
 #pragma omp parallel for schedule(static) num_threads(pm_threads())
-	for (size_t b = 0; b < blocks; b++) {
-		size_t x = b % chunks * L, left = d == 0 ? n[1] * n[2] - b * L : n[0] - x, at = d == 0 ? b * L * n[0] : b / chunks * other + x;
-		transform(l, left < L ? left : L, in + at, out + at, scratch + (size_t)omp_get_thread_num() * lot);
+	for (size_t b = 0; b < groups; b++) {
+		const struct pm_line_group g = pm_line_group(o->grid.points, d, b);
+		transform(l, g, in + g.at, out + g.at, scratch + (size_t)omp_get_thread_num() * lot);
 	}
 }
 
@@ -66,8 +65,7 @@ int pm_operator_spectral(const struct pm_operator *o, double factor, const doubl
 		const struct pm_operator_term *q = &o->term[t];
 		bool flip = pm_operator_odd(o, q->in, q->axis, 0) != (o->grid.face[q->axis][0] == PM_WALL);
 		const struct lines l = {.line = &line[q->axis], .h = o->grid.h[q->axis], .factor = factor * q->sign, .flip = flip,
-			.add = t && q->out == q[-1].out, .derivative = o->derivative, .nodes = n[q->axis],
-			.step = q->axis == 0 ? 1 : q->axis == 1 ? n[0] : n[0] * n[1], .across = q->axis == 0 ? n[0] : 1};
+			.add = t && q->out == q[-1].out, .derivative = o->derivative, .nodes = n[q->axis]};
 		term(o, q->axis, &l, in[q->in], out[q->out], scratch, lot);
 	}
 	pm_free(scratch);

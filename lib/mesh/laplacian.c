@@ -2,6 +2,7 @@
  * With W the quadrature weights, 1/2 at the ends of a neumann axis, W lap is symmetric: sums with these weights are the inner product in which conjugate
  * gradients work, and a singular problem is solvable if the weighted mean of its right-hand side is 0. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/laplacian.h"
+#include "base/in-order.h"
 
 #include <string.h>
 
@@ -92,6 +93,11 @@ double pm_laplacian_row_residual(const struct pm_laplacian *l, const struct pm_l
 	return a->weight * row_product(&l->axis[0], r, r);
 }
 
+double pm_laplacian_total(const struct pm_laplacian *l, const double *sums)
+{
+	return pm_sum_of_rows((const size_t[3]){l->axis[0].points, l->axis[1].points, l->axis[2].points}, sums);
+}
+
 /* Row by row: r = lap u - f and its sum of squares, or, without f, r = lap u and the sum of u r. */
 static double over_rows(const struct pm_laplacian *l, double *u, const double *f, double *r, double *sums)
 {
@@ -112,7 +118,7 @@ static double over_rows(const struct pm_laplacian *l, double *u, const double *f
 			sums[q] = a.weight * row_product(&l->axis[0], a.u, r + q * nx);
 		}
 	}
-	return pm_sum_array(l->rows, sums);
+	return pm_laplacian_total(l, sums);
 }
 
 double pm_laplacian_residual(const struct pm_laplacian *l, double *u, const double *f, double *r, double *sums) { return over_rows(l, u, f, r, sums); }
@@ -129,7 +135,7 @@ double pm_laplacian_product(const struct pm_laplacian *l, const double *a, const
 		if (pm_laplacian_inside(l, j, k))
 			sums[q] = pm_laplacian_weight(&l->axis[1], j) * pm_laplacian_weight(&l->axis[2], k) * row_product(&l->axis[0], a + q * nx, b + q * nx);
 	}
-	return pm_sum_array(l->rows, sums);
+	return pm_laplacian_total(l, sums);
 }
 
 double pm_laplacian_mean(const struct pm_laplacian *l, const double *a, double *sums)
@@ -142,5 +148,5 @@ double pm_laplacian_mean(const struct pm_laplacian *l, const double *a, double *
 			pm_sum_add(&row, pm_laplacian_weight(x, i) * a[q * x->points + i]);
 		sums[q] = pm_laplacian_weight(y, q % y->points) * pm_laplacian_weight(z, q / y->points) * pm_sum_total(row);
 	}
-	return pm_sum_array(l->rows, sums) / ((double)x->cells * (double)y->cells * (double)z->cells);
+	return pm_laplacian_total(l, sums) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }

@@ -1,5 +1,5 @@
 /* The Laplacian of order 2 on the nodes of a mesh, row by row, with neighbours folded at the faces: periodic wraps, a neumann face mirrors, the nodes of a
- * wall are not unknowns and keep their values. Every sum is over rows in order, with the weights of quadrature, in which the operator is symmetric.
+ * wall are not unknowns and keep their values. Every sum is over rows, then planes, with the weights of quadrature, in which the operator is symmetric.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MESH_LAPLACIAN_H
 #define PM_MESH_LAPLACIAN_H
@@ -74,7 +74,9 @@ static inline double pm_laplacian_node(const struct pm_laplacian *l, const struc
 /* r = lap u - f on a row, 0 on nodes that are not unknowns; returns the weighted sum of squares. */
 double pm_laplacian_row_residual(const struct pm_laplacian *l, const struct pm_laplacian_row *a, double *restrict r);
 
-/* The same on all rows, inside only; r: size values, sums: rows values, u is only read. */
+/* The sum of one number per row, added to planes and to the mesh (base/in-order.h). */
+double pm_laplacian_total(const struct pm_laplacian *l, const double *sums);
+/* r = lap u - f on all rows, inside only, and the sum of squares; r: size values, sums: rows values, u is only read. */
 double pm_laplacian_residual(const struct pm_laplacian *l, double *u, const double *f, double *r, double *sums);
 /* r = lap u; returns the weighted sum of u r. */
 double pm_laplacian_apply(const struct pm_laplacian *l, double *u, double *r, double *sums);

@@ -29,7 +29,7 @@ double pm_pse_value(const struct pm_pse *p, double z2)
 	return pow(4 * pm_pi, -0.5 * p->dim) * (p->constant + p->square * z2) * exp(-z2 / 4);
 }
 
-enum { ROWS = 2, CHUNKS = 64, CHUNK = 1024 }; /* targets at a time; pieces of the work, of this many particles at least */
+enum { ROWS = 2, PIECE = 4096, SMALL = 16 }; /* targets at a time; places of a piece; below so many pieces a quarter of that, for threads to share */
 
 /* By place in the cell list, padded; and the kernel in terms of r^2. */
 struct work {
@@ -203,11 +203,11 @@ static void take(const struct work *w, struct sums *own)
 	}
 }
 
-/* Pieces of equal numbers of particles, whatever the threads; their sums are added in order. */
+/* Pieces end at multiples of their size, whatever the threads; their sums are added in order. */
 static int pieces(const struct work *w, const struct loops *loops)
 {
 	const struct pm_cell_list *l = w->list;
-	size_t wanted = l->n / CHUNK, m = wanted < 1 ? 1 : wanted > CHUNKS ? CHUNKS : wanted;
+	const size_t size = l->n < SMALL * PIECE ? PIECE / 4 : PIECE, m = (l->n + size - 1) / size;
 	int bad = 0;
 #pragma omp parallel if (m > 1) reduction(| : bad)
 	{
@@ -217,7 +217,7 @@ static int pieces(const struct work *w, const struct loops *loops)
 #pragma omp for ordered schedule(dynamic, 1)
 		for (size_t c = 0; c < m; c++) {
 			if (!bad)
-				piece(w, loops, l->n * c / m, l->n * (c + 1) / m, s, &own);
+				piece(w, loops, c * size, (c + 1) * size < l->n ? (c + 1) * size : l->n, s, &own);
 #pragma omp ordered
 			if (!bad)
 				take(w, &own);

@@ -160,7 +160,7 @@ static double aspect_of(const double lo[2], const double hi[2]) { return fmin(fm
 
 static int curve(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, const struct pm_mesh *m, const struct pm_field *field, const char *name)
 {
-	struct pm_range r = pm_range_of(field, v->component);
+	struct pm_range r = pm_range_of(f, field, v->component);
 	size_t n = field->count + (f->face[0][0] == PM_PERIODIC); /* the first point again at the end of the box */
 	double *x = pm_alloc(2 * n, sizeof *x), *y = x + n, pad = r.max > r.min ? 0.05 * (r.max - r.min) : r.max != 0 ? fabs(r.max) / 2 : 0.5;
 	double lo[2] = {f->lo[0], r.min - pad}, hi[2] = {f->hi[0], r.max + pad};

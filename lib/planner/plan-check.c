@@ -28,7 +28,7 @@ static double relative(const struct pm_frame *a, const struct pm_frame *b, const
 		struct pm_field *p = pm_frame_field(a, b->sets[k]->name, name), *q = pm_frame_field(b, b->sets[k]->name, name);
 		if (!p || !q || !pm_set_moves(b, b->sets[k]) || p->count != q->count || !p->buffer || !q->buffer)
 			continue;
-		const double d = pm_norms_of(p, q, NULL, NULL).l2;
+		const double d = pm_norms_of(a, p, q, NULL, NULL).l2;
 		d2 += d > floor ? (double)q->count * d * d : 0;
 		r2 += size(q);
 	}

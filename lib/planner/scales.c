@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "effect-parts/set-overlap.h"
+#include "mesh/mesh-sum.h"
 #include "limit/rates.h"
 #include "mesh/gradient.h"
 #include "planner/scales.h"
@@ -24,33 +25,70 @@ static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const
 
 /* ---- speeds ---- */
 
+/* The velocities of a set, and the strengths by which they are weighted; NULL: all alike. */
+struct speeds {
+	const struct pm_field *v, *q;
+	double share; /* mean strength */
+};
+
+enum { SQUARE = 3 };
+
+static void make_share(const void *data, size_t from, size_t to, void *part)
+{
+	for (size_t i = from; i < to; i++)
+		pm_sum_add(part, fabs(pm_value_at(data, 0, i)));
+}
+
+static void make_speeds(const void *data, size_t from, size_t to, void *part)
+{
+	const struct speeds *s = data;
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
+		const double weight = s->share > 0 ? fabs(pm_value_at(s->q, 0, i)) / s->share : 1;
+		double v2 = 0;
+		for (int c = 0; c < s->v->components && c < 3; c++) {
+			v2 += pm_value_at(s->v, c, i) * pm_value_at(s->v, c, i);
+			pm_sum_add(&sum[c], weight * pm_value_at(s->v, c, i));
+		}
+		pm_sum_add(&sum[SQUARE], weight * v2);
+	}
+}
+
+static double fastest(const struct pm_field *v)
+{
+	double most = 0;
+	for (size_t i = 0; i < v->count; i++) {
+		double v2 = 0;
+		for (int c = 0; c < v->components && c < 3; c++)
+			v2 += pm_value_at(v, c, i) * pm_value_at(v, c, i);
+		most = fmax(most, v2);
+	}
+	return sqrt(most);
+}
+
 /* Means over the particles; of charges by their strength, because a plasma may be sampled by particles of different weight. */
 static void speeds(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
-	struct pm_sum sum[3] = {{0, 0}}, square = {0, 0};
+	struct pm_sum sum[4] = {{0, 0}};
+	const struct pm_parts shares = {.size = sizeof *sum, .make = make_share, .join = pm_join_sums};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make_speeds, .join = pm_join_sums};
 	double n = 0, mean = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *v = pm_set_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
 		const struct pm_field *q = v && s->kind == PM_CHARGES ? state(f, f->sets[k]->name, law->strength) : NULL;
-		double share = 0; /* mean strength */
-		for (size_t i = 0; q && !q->uniform && i < q->count; i++)
-			share += fabs(pm_value_at(q, 0, i)) / (double)q->count;
-		for (size_t i = 0; v && i < v->count; i++) {
-			const double weight = share > 0 ? fabs(pm_value_at(q, 0, i)) / share : 1;
-			double v2 = 0;
-			for (int c = 0; c < v->components && c < 3; c++) {
-				v2 += pm_value_at(v, c, i) * pm_value_at(v, c, i);
-				pm_sum_add(&sum[c], weight * pm_value_at(v, c, i));
-			}
-			s->v_max = fmax(s->v_max, sqrt(v2));
-			pm_sum_add(&square, weight * v2);
+		struct pm_sum share = {0, 0};
+		if (q && !q->uniform)
+			pm_over_set(&shares, q, q->count, &share);
+		if (v) {
+			pm_over_set(&parts, &(struct speeds){v, q, q && q->count ? pm_sum_total(share) / (double)q->count : 0}, v->count, sum);
+			s->v_max = fmax(s->v_max, fastest(v));
 		}
 		n += v ? (double)v->count : 0;
 		s->second = s->second || v;
 	}
 	for (int c = 0; c < 3 && n > 0; c++)
 		mean += pow(pm_sum_total(sum[c]) / n, 2);
-	s->v_rms = n > 0 ? sqrt(pm_sum_total(square) / n) : 0;
+	s->v_rms = n > 0 ? sqrt(pm_sum_total(sum[SQUARE]) / n) : 0;
 	s->v_thermal = sqrt(fmax(0, s->v_rms * s->v_rms - mean));
 }
 
@@ -98,6 +136,19 @@ static double volume(const struct pm_frame *f, double spread)
 	return f->face[0][0] == PM_PERIODIC || !(spread > 0) ? box : fmin(box, ball[f->dim] * pow(radius, f->dim));
 }
 
+/* Positions along an axis, and their mean. */
+struct spread {
+	const double *x;
+	double mean;
+};
+
+static void make_spread(const void *data, size_t from, size_t to, void *part)
+{
+	const struct spread *s = data;
+	for (size_t i = from; i < to; i++)
+		pm_sum_add(part, (s->x[i] - s->mean) * (s->x[i] - s->mean));
+}
+
 static int distances(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	double *x[3] = {NULL}, moment = 0;
@@ -111,8 +162,7 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 	for (int d = 0; d < f->dim && n; d++) {
 		struct pm_sum square = {0, 0};
 		const double mean = pm_sum_array(n, x[d]) / (double)n;
-		for (size_t i = 0; i < n; i++)
-			pm_sum_add(&square, (x[d][i] - mean) * (x[d][i] - mean));
+		pm_over_set(&(struct pm_parts){.size = sizeof square, .make = make_spread, .join = pm_join_sums}, &(struct spread){x[d], mean}, n, &square);
 		moment += pm_sum_total(square) / (double)n;
 	}
 	s->edge = HUGE_VAL;
@@ -130,24 +180,46 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 
 /* ---- collective frequency ---- */
 
+struct pulls {
+	const struct pm_field *q, *m;
+	bool squares;
+};
+
+static double pull(const struct pulls *p, size_t i)
+{
+	const double a = fabs(pm_value_at(p->q, 0, i));
+	return !p->squares ? a : p->m && pm_value_at(p->m, 0, i) > 0 ? a * a / pm_value_at(p->m, 0, i) : 0;
+}
+
+static void make_pulls(const void *data, size_t from, size_t to, void *part)
+{
+	for (size_t i = from; i < to; i++)
+		pm_sum_add(part, pull(data, i));
+}
+
 static void strengths(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	const bool squares = law->per != NULL, turns = s->kind == PM_VORTICES;
-	double sum = 0, dense = 0, largest_pull = 0;
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_pulls, .join = pm_join_sums};
+	struct pm_sum total = {0, 0};
+	double dense = 0, largest_pull = 0;
 	for (size_t k = 0; k < f->nsets && law->strength; k++) {
 		const char *set = f->sets[k]->name;
 		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL;
 		const struct pm_field *v = turns ? state(f, set, "volume") : NULL;
+		const struct pulls of = {q, m, squares};
+		if (q)
+			pm_over_set(&parts, &of, q->count, &total);
 		for (size_t i = 0; q && i < q->count; i++) {
 			const double a = fabs(pm_value_at(q, 0, i));
 			s->sources += a > 0;
-			sum += squares ? m && pm_value_at(m, 0, i) > 0 ? a * a / pm_value_at(m, 0, i) : 0 : a;
 			dense = v && pm_value_at(v, 0, i) > 0 ? fmax(dense, a / pm_value_at(v, 0, i)) : dense;
-			largest_pull = fmax(largest_pull, squares ? m && pm_value_at(m, 0, i) > 0 ? a * a / pm_value_at(m, 0, i) : 0 : a);
+			largest_pull = fmax(largest_pull, pull(&of, i));
 			s->ratio = fmax(s->ratio, m && pm_value_at(m, 0, i) > 0 ? a / pm_value_at(m, 0, i) : squares ? 0 : 1);
 		}
 	}
 	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	const double sum = pm_sum_total(total);
 	s->omega = turns ? fmax(dense, sum / s->volume) : sqrt(c * sum / s->volume);
 	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
 	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
@@ -173,7 +245,8 @@ static double largest(const struct pm_frame *f, const char *name)
 /* The mean of |H - 1| over sets with a volume. */
 static int coverage(const struct pm_frame *f, struct pm_scales *s)
 {
-	double sum = 0, n = 0, width = 0;
+	struct pm_sum sum = {0, 0}, width = {0, 0};
+	double n = 0;
 	for (size_t k = 0; k < f->nsets && f->nmeshes; k++) {
 		const struct pm_set *set = f->sets[k];
 		const struct pm_field *v = state(f, set->name, "volume");
@@ -182,14 +255,18 @@ static int coverage(const struct pm_frame *f, struct pm_scales *s)
 		double *H = pm_alloc(set->n, sizeof *H);
 		int status = H ? pm_set_overlap(f, set->name, f->meshes[0], H) : -PM_DATA;
 		for (size_t i = 0; i < set->n && !status; i++)
-			sum += fabs(H[i] - 1), width += pow(fabs(pm_value_at(v, 0, i)), 1.0 / f->dim);
+			H[i] = fabs(H[i] - 1);
+		pm_sum_of_set(status ? 0 : set->n, H, NULL, &sum);
+		for (size_t i = 0; i < set->n && !status; i++)
+			H[i] = pow(fabs(pm_value_at(v, 0, i)), 1.0 / f->dim);
+		pm_sum_of_set(status ? 0 : set->n, H, NULL, &width);
 		n += (double)set->n;
 		pm_free(H);
 		if (status)
 			return status;
 	}
-	s->overlap = n > 0 ? sum / n : NAN;
-	s->width = n > 0 ? width / n : NAN;
+	s->overlap = n > 0 ? pm_sum_total(sum) / n : NAN;
+	s->width = n > 0 ? pm_sum_total(width) / n : NAN;
 	return 0;
 }
 
@@ -239,10 +316,10 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 
 static double length_of(const struct pm_grid *g, int components, const double *const y[], double mean)
 {
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_spread, .join = pm_join_sums};
 	struct pm_sum sum = {0, 0};
 	for (int c = 0; c < components; c++)
-		for (size_t i = 0; i < pm_grid_size(g); i++)
-			pm_sum_add(&sum, (y[c][i] - mean) * (y[c][i] - mean));
+		pm_over_mesh(&parts, &(struct spread){y[c], mean}, g->points, &sum);
 	return sqrt(pm_sum_total(sum));
 }
 
@@ -267,7 +344,7 @@ static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const
 		return 0;
 	for (int k = 0; k < field->components; k++)
 		y[k] = pm_in(field, k);
-	const double mean = s->periodic ? pm_sum_array(rho->count, r) / (double)rho->count : 0, size = length_of(&g, 1, &r, mean);
+	const double mean = s->periodic ? pm_grid_sum(&g, r, NULL) / (double)rho->count : 0, size = length_of(&g, 1, &r, mean);
 	s->length = length_of(&g, field->components, y, 0) / (c * size);
 	if (s->kind != PM_VORTICES)
 		return 0;
@@ -275,15 +352,23 @@ static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const
 	return size > 0 ? roughness(&g, r, size, &s->rough) : 0;
 }
 
+static void make_squares(const void *data, size_t from, size_t to, void *part)
+{
+	const struct pm_field *a = data;
+	for (size_t i = from; i < to; i++)
+		for (int c = 0; c < a->components; c++)
+			pm_sum_add(part, pm_value_at(a, c, i) * pm_value_at(a, c, i));
+}
+
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_squares, .join = pm_join_sums};
 	struct pm_sum square = {0, 0};
 	double n = 0, most = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
-		for (size_t i = 0; a && i < a->count; i++)
-			for (int c = 0; c < a->components; c++)
-				pm_sum_add(&square, pm_value_at(a, c, i) * pm_value_at(a, c, i));
+		if (a)
+			pm_over_set(&parts, a, a->count, &square);
 		most = a ? fmax(most, sqrt(pm_most(a, NULL))) : most;
 		n += a ? (double)a->count : 0;
 	}

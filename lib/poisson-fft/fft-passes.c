@@ -42,10 +42,17 @@ static struct scratch thread_scratch(const struct pm_poisson_fft *p)
 	return (struct scratch){s, s + p->block, s + p->block + p->rows};
 }
 
-/* A slab is what one thread transforms at a time: a plane, or L single rows where planes are that thin. */
+/* A slab is what one thread transforms at a time: a plane, in 2-D L rows. */
 static bool thick(const struct pm_poisson_fft *p)
 {
-	return p->line[Y].length > 1;
+	return p->grid.dim == 3;
+}
+
+/* In 2-D groups of rows begin at multiples of L of the mesh, whose row 0 is not transformed behind a wall: the rows that a transform of any word joins are
+ * the same. */
+static size_t slabs_of(const struct pm_poisson_fft *p)
+{
+	return thick(p) ? p->nodes[Z] : (p->line[Z].first + p->nodes[Z] + L - 1) / L;
 }
 
 /* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk. */
@@ -55,11 +62,12 @@ struct group {
 
 static struct group group_of(const struct pm_poisson_fft *p, size_t slab, size_t start)
 {
-	bool plane = thick(p);
-	struct group g = {.j = plane ? start : 0, .k = plane ? slab : slab * L, .dj = plane, .dk = !plane};
-	size_t left = plane ? p->nodes[Y] - g.j : p->nodes[Z] - g.k;
-	g.rows = left < L ? left : L;
-	return g;
+	if (thick(p)) {
+		const size_t left = p->nodes[Y] - start;
+		return (struct group){.j = start, .k = slab, .dj = 1, .rows = left < L ? left : L};
+	}
+	const size_t first = p->line[Z].first, from = slab ? slab * L - first : 0, end = (slab + 1) * L - first;
+	return (struct group){.k = from, .dk = 1, .rows = (end < p->nodes[Z] ? end : p->nodes[Z]) - from};
 }
 
 static double end_weight(const struct pm_transform *l, size_t i)
@@ -207,7 +215,7 @@ double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *
 {
 	double largest = 0;
 	bool plane = thick(p);
-	size_t slabs = plane ? p->nodes[Z] : (p->nodes[Z] + L - 1) / L;
+	const size_t slabs = slabs_of(p);
 #pragma omp parallel for schedule(dynamic) num_threads(p->threads) reduction(max : largest)
 	for (size_t i = 0; i < slabs; i++) {
 		struct scratch s = thread_scratch(p);

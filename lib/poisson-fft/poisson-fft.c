@@ -133,7 +133,7 @@ static int layout(struct pm_poisson_fft *p)
 	p->block = odd_stride((most + 1) * L);
 	p->rows = odd_stride(p->nodes[X] * L);
 	size_t slab = p->modes[Y] > p->nodes[Z] ? p->modes[Y] : p->nodes[Z];
-	p->lot = p->block + p->rows + (p->line[Y].length > 1 ? odd_stride((slab + L) * p->row) : 0);
+	p->lot = p->block + p->rows + (g->dim == 3 ? odd_stride((slab + L) * p->row) : 0);
 	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
 }
 

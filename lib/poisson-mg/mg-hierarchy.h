@@ -3,6 +3,7 @@
 #define PM_POISSON_MG_MG_HIERARCHY_H
 
 #include "poisson-mg/mg-level.h"
+#include "base/in-order.h"
 #include "poisson-mg/mg.h"
 
 enum { mg_levels_most = 96 };
@@ -15,6 +16,9 @@ struct pm_mg {
 	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
 	double *sums;          /* per plane of the finest grid */
 };
+
+/* The sum of one number per plane, n of them; of a plane the rows are added first (base/in-order.h). */
+static inline double pm_mg_planes(size_t n, const double *sums) { return pm_sum_of_rows((const size_t[3]){1, 1, n}, sums); }
 
 /* What a sweep does with a plane, in this order. */
 enum mg_stage { MG_ZERO, MG_CORRECT, MG_INTERPOLATE, MG_RED, MG_BLACK, MG_JACOBI, MG_KEEP, MG_COLOUR }; /* MG_COLOUR + 0 .. 3 */

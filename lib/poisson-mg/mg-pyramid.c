@@ -5,6 +5,7 @@
  * later cycles correct. Source: Brandt 1977 (the order of transfers in full multigrid). Cost: 20 operations per node, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-hierarchy.h"
+#include "mesh/mesh-sum.h"
 
 #include <string.h>
 
@@ -49,15 +50,8 @@ static void load(struct mg_level *l, double factor, const double *values)
 {
 	const struct mg_axis *x = &l->axis[0], *y = x + 1, *z = x + 2;
 	struct pm_grid g = grid_of(l);
-	struct pm_sum total = {0};
-	double weight = 0;
+	double mean = l->fixed ? 0 : pm_grid_sum(&g, values, NULL) / ((double)g.cells[0] * (double)g.cells[1] * (double)g.cells[2]);
 	memset(l->f, 0, mg_size(l) * sizeof *l->f);
-	for (size_t p = 0; p < pm_grid_size(&g) && !l->fixed; p++) {
-		double w = pm_grid_weight(&g, p % g.points[0], p / g.points[0] % g.points[1], p / g.points[0] / g.points[1]);
-		pm_sum_add(&total, w * values[p]);
-		weight += w;
-	}
-	double mean = l->fixed ? 0 : pm_sum_total(total) / weight;
 	for (size_t k = z->first; k < z->end; k++)
 		for (size_t j = y->first; j < y->end; j++)
 			for (size_t i = x->first; i < x->end; i++)

@@ -169,9 +169,10 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
 	size_t here = mg_fold(k, &fine->axis[2]);
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
-	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, sum = 0, scale = 1;
+	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, scale = 1;
+	struct pm_sum sum = {0, 0};
 	for (size_t j = y->first; j < y->end; j++) {
-		sum += pm_mg_residual_row(fine, j, here, r);
+		pm_sum_add(&sum, pm_mg_residual_row(fine, j, here, r));
 		if (half)
 			scale = collect_half_weighting(fine, coarse, j, here, r, c, t);
 		else
@@ -188,7 +189,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 			}
 		}
 	}
-	return sum;
+	return pm_sum_total(sum);
 }
 
 /* First fine plane below coarse plane K, unfolded. */
@@ -231,14 +232,11 @@ double pm_mg_restrict(struct pm_mg *mg, int at, bool half_weighting)
 	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
 	const struct mg_axis *z = &coarse->axis[2];
 	size_t n = z->end - z->first, parts = (size_t)mg->threads < n / 4 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
-	double total = 0;
 	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
 	for (size_t p = 0; p < parts; p++) {
 		size_t range[2] = {z->first + n * p / parts, z->first + n * (p + 1) / parts};
 		restrict_range(fine, coarse, half_weighting && halves(fine), range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
 	}
-	if (at == 0)
-		for (size_t k = fine->axis[2].first; k < fine->axis[2].end; k++)
-			total += mg->sums[k];
-	return total;
+	z = &fine->axis[2];
+	return at ? 0 : pm_mg_planes(z->end - z->first, mg->sums + z->first);
 }

@@ -5,6 +5,7 @@
  * The residual is recomputed each time, so that round-off is detected. Singular problems as in mg.c. Cost: O(N) per iteration; memory 30 values
  * per node in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
+#include "mesh/mesh-sum.h"
 
 #include <float.h>
 #include <string.h>
@@ -73,7 +74,6 @@ bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g
 static double product(const struct pm_mg_variable *v, const double *a, const double *b, const double *c)
 {
 	const struct mgv_level *l = &v->level[0];
-	double total = 0;
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(l); row++) {
 		double sum = 0;
@@ -81,9 +81,7 @@ static double product(const struct pm_mg_variable *v, const double *a, const dou
 			sum += a[p] * (c ? b[p] - c[p] : b[p]);
 		v->sums[row] = sum;
 	}
-	for (size_t row = 0; row < mgv_rows(l); row++)
-		total += v->sums[row];
-	return total;
+	return pm_sum_of_rows(l->m, v->sums);
 }
 
 /* y = x + a y, or y += a x: one of the two factors is 1. */
@@ -97,24 +95,19 @@ static void combine(const struct pm_mg_variable *v, double mine, double a, const
 
 static double mean(const struct pm_grid *g, const double *values)
 {
-	struct pm_sum total = {0};
-	double cells = (double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2];
-	for (size_t k = 0, p = 0; k < g->points[2]; k++)
-		for (size_t j = 0; j < g->points[1]; j++)
-			for (size_t i = 0; i < g->points[0]; i++, p++)
-				pm_sum_add(&total, pm_grid_weight(g, i, j, k) * values[p]);
-	return pm_sum_total(total) / cells;
+	return pm_grid_sum(g, values, NULL) / ((double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2]);
 }
 
 /* Is the residual at the level of rounding errors of its terms? */
 static bool at_roundoff(const struct pm_mg_variable *v, double residual, double source)
 {
 	const struct mgv_level *l = &v->level[0];
-	double sum = 0;
-	for (size_t row = 0; row < mgv_rows(l); row++)
+	for (size_t row = 0; row < mgv_rows(l); row++) {
+		v->sums[row] = 0;
 		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
-			sum += l->w[0][p] * v->x[p] * (l->w[0][p] * v->x[p]);
-	return residual <= 4 * DBL_EPSILON * (sqrt(sum) + source);
+			v->sums[row] += l->w[0][p] * v->x[p] * (l->w[0][p] * v->x[p]);
+	}
+	return residual <= 4 * DBL_EPSILON * (sqrt(pm_sum_of_rows(l->m, v->sums)) + source);
 }
 
 /* f - M x into f of the finest level; its sum, which must vanish in a singular problem, is taken out before round-off in it grows. */
@@ -124,10 +117,13 @@ static void residual(struct pm_mg_variable *v, const double *source)
 	pm_mgv_residual(l, v->x, source, l->f);
 	if (v->fixed)
 		return;
-	double total = 0;
-	for (size_t row = 0; row < mgv_rows(l); row++)
+	for (size_t row = 0; row < mgv_rows(l); row++) {
+		struct pm_sum sum = {0, 0};
 		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
-			total += l->f[p];
+			pm_sum_add(&sum, l->f[p]);
+		v->sums[row] = pm_sum_total(sum);
+	}
+	const double total = pm_sum_of_rows(l->m, v->sums);
 	for (size_t row = 0; row < mgv_rows(l); row++)
 		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
 			l->f[p] -= total / (double)mgv_unknowns(l);

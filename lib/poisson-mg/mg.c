@@ -63,7 +63,6 @@ static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (
 static double mean(struct pm_mg *mg, const double *values)
 {
 	const struct mg_axis *x = &mg->level[0].axis[0], *y = x + 1, *z = x + 2;
-	struct pm_sum total = {0};
 	#pragma omp parallel for num_threads(mg->threads) if (mg_size(&mg->level[0]) > mg_parallel)
 	for (size_t k = 0; k < z->points; k++) {
 		struct pm_sum plane = {0};
@@ -76,9 +75,7 @@ static double mean(struct pm_mg *mg, const double *values)
 		}
 		mg->sums[k] = half(z, k) * pm_sum_total(plane);
 	}
-	for (size_t k = 0; k < z->points; k++)
-		pm_sum_add(&total, mg->sums[k]);
-	return pm_sum_total(total) / ((double)x->cells * (double)y->cells * (double)z->cells);
+	return pm_mg_planes(z->points, mg->sums) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }
 
 /* Sum of squares over the unknowns of u or f. */
@@ -86,22 +83,20 @@ static double squares(struct pm_mg *mg, const double *values)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
-	double total = 0;
 	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
 	for (size_t k = z->first; k < z->end; k++) {
-		mg->sums[k] = 0;
+		struct pm_sum plane = {0, 0};
 		for (size_t j = y->first; j < y->end; j++)
 			for (int odd = 0; odd < 2; odd++) {
 				const double *v = values + k * l->plane + j * l->stride + (size_t)odd * l->half;
 				double sum = 0;
 				for (size_t i = 0; i < l->half; i++)
 					sum += l->mask[odd][i] ? v[i] * v[i] : 0;
-				mg->sums[k] += sum;
+				pm_sum_add(&plane, sum);
 			}
+		mg->sums[k] = pm_sum_total(plane);
 	}
-	for (size_t k = z->first; k < z->end; k++)
-		total += mg->sums[k];
-	return total;
+	return pm_mg_planes(z->end - z->first, mg->sums + z->first);
 }
 
 /* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
@@ -167,11 +162,14 @@ void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o)
 double pm_mg_residual(const struct pm_mg *mg)
 {
 	const struct mg_level *l = &mg->level[0];
-	double sum = 0;
-	for (size_t k = l->axis[2].first; k < l->axis[2].end; k++)
-		for (size_t j = l->axis[1].first; j < l->axis[1].end; j++)
-			sum += pm_mg_residual_row(l, j, k, mg->scratch + mg_lanes);
-	return sqrt(sum / fmax(1, (double)pm_mg_unknowns(l)));
+	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
+	for (size_t k = z->first; k < z->end; k++) {
+		struct pm_sum plane = {0, 0};
+		for (size_t j = y->first; j < y->end; j++)
+			pm_sum_add(&plane, pm_mg_residual_row(l, j, k, mg->scratch + mg_lanes));
+		mg->sums[k] = pm_sum_total(plane);
+	}
+	return sqrt(pm_mg_planes(z->end - z->first, mg->sums + z->first) / fmax(1, (double)pm_mg_unknowns(l)));
 }
 
 void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }

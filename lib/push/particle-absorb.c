@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "mesh/particle-faces.h"
 #include "push/push-set.h"
 #include "stream/declare.h"
@@ -54,17 +55,30 @@ static size_t compact(size_t n, const unsigned char *gone, size_t size, void *va
 	return left;
 }
 
+struct leaving {
+	const unsigned char *gone;
+	const double *q;
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct leaving *l = data;
+	for (size_t p = from; p < to; p++)
+		if (l->gone[p])
+			pm_sum_add(part, l->q[p]);
+}
+
 /* The sums of the strengths of the particles that leave. */
 static void note_loss(const struct pm_frame *f, const struct pm_moving *m, const unsigned char *gone, uint64_t absorbed, struct pm_strengths *lost)
 {
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *field = f->fields[i];
 		for (int c = 0; !strcmp(field->on, m->set->name) && pm_is_strength(field) && c < field->components && lost->n < PM_STRENGTHS; c++) {
 			struct pm_strength *one = &lost->of[lost->n++];
 			struct pm_sum sum = {0, 0};
-			for (size_t p = 0; p < field->count && field->buffer; p++)
-				if (gone[p])
-					pm_sum_add(&sum, pm_in(field, c)[p]);
+			if (field->buffer)
+				pm_over_set(&parts, &(struct leaving){gone, pm_in(field, c)}, field->count, &sum);
 			pm_strength_name(field, c, one->name);
 			one->sum = field->buffer ? pm_sum_total(sum) : (double)absorbed * field->value[c];
 		}

@@ -26,7 +26,7 @@ double pm_jacobi_sweep(struct pm_relax_work *w)
 	w->extra[0] = w->u;
 	w->u = next;
 	w->fresh = false;
-	return pm_sum_array(l->rows, w->sums);
+	return pm_laplacian_total(l, w->sums);
 }
 
 double pm_jacobi_radius(const struct pm_laplacian *l, double factor)

@@ -41,7 +41,7 @@ double pm_lexicographic_relax(struct pm_relax_work *w)
 {
 	pm_lexicographic_sweep(w->lap, w->factor, w->u, w->f, w->sums, true);
 	w->fresh = false;
-	return pm_sum_array(w->lap->rows, w->sums);
+	return pm_laplacian_total(w->lap, w->sums);
 }
 
 double pm_lexicographic_radius(const struct pm_laplacian *l, double factor)

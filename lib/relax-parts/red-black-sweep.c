@@ -38,7 +38,7 @@ double pm_red_black_sweep(struct pm_relax_work *w)
 			}
 		}
 	w->fresh = false;
-	return pm_sum_array(l->rows, w->sums);
+	return pm_laplacian_total(l, w->sums);
 }
 
 double pm_red_black_radius(const struct pm_laplacian *l, double factor)

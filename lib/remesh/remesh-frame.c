@@ -239,7 +239,7 @@ static void note_loss(const struct work *w, const struct pm_strengths *before, c
 			memcpy(out->name, one->name, sizeof out->name);
 			one->sum = w->r.lost[value];
 			const struct pm_strength *all = pm_strength_find(before, w->entry[i].old->on, one->name);
-			out->sum = strays->count && all ? all->sum - pm_sum_array(w->r.points, w->r.node[value]) : 0;
+			out->sum = strays->count && all ? all->sum - pm_remesh_total(&w->r, value) : 0;
 		}
 }
 

@@ -6,25 +6,14 @@
 #include <string.h>
 
 #include "remesh/remesh.h"
+#include "base/in-order.h"
 
-enum { block = 4096 }; /* nodes: fixed, because losses are summed block by block */
+static size_t rows_of(const struct pm_remesh *r) { return r->grid.points[1] * r->grid.points[2]; }
 
-static size_t blocks_of(const struct pm_remesh *r) { return (r->points + block - 1) / block; }
-static size_t end_of(const struct pm_remesh *r, size_t b) { return (b + 1) * block < r->points ? (b + 1) * block : r->points; }
-
-/* The place of node i along each axis. */
-static void place_of(const struct pm_grid *g, size_t i, size_t at[3])
+/* Of node i of a row. */
+static double volume_of(const struct pm_grid *g, size_t row, size_t i)
 {
-	at[0] = i % g->points[0];
-	at[1] = i / g->points[0] % g->points[1];
-	at[2] = i / g->points[0] / g->points[1];
-}
-
-static double volume_of(const struct pm_grid *g, size_t i)
-{
-	size_t at[3];
-	place_of(g, i, at);
-	return pm_grid_cell(g) * pm_grid_weight(g, at[0], at[1], at[2]);
+	return pm_grid_cell(g) * pm_grid_weight(g, i, row % g->points[1], row / g->points[1]);
 }
 
 struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k)
@@ -41,9 +30,9 @@ struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k
 static void weigh(const struct pm_remesh *r, double *node)
 {
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t b = 0; b < blocks_of(r); b++)
-		for (size_t i = b * block; i < end_of(r, b); i++)
-			node[i] *= volume_of(&r->grid, i);
+	for (size_t row = 0; row < rows_of(r); row++)
+		for (size_t i = 0, n = r->grid.points[0]; i < n; i++)
+			node[row * n + i] *= volume_of(&r->grid, row, i);
 }
 
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
@@ -127,89 +116,102 @@ static int widen(struct pm_remesh *r, int rim)
 	return from ? 0 : -PM_DATA;
 }
 
-/* One block: counts, and sums what is cut; the number kept. */
-static size_t count_block(const struct pm_remesh *r, size_t b, size_t *cut, struct pm_sum lost[])
+/* What the nodes cut off held. */
+static void make_lost(const void *data, size_t from, size_t to, void *part)
+{
+	const struct pm_remesh *r = data;
+	struct pm_sum *lost = part;
+	for (size_t p = from; p < to; p++)
+		for (int i = 0; i < r->n && !r->keep[p]; i++)
+			pm_sum_add(&lost[i], r->node[i][p]);
+}
+
+/* Counts the nodes of a row that are kept, and those that are not 0 and are not. */
+static size_t count_row(const struct pm_remesh *r, size_t row, uint64_t *cut)
 {
 	size_t kept = 0;
-	*cut = 0;
-	for (int i = 0; i < r->n; i++)
-		lost[i] = (struct pm_sum){0, 0};
-	for (size_t p = b * block; p < end_of(r, b); p++) {
+	for (size_t n = r->grid.points[0], p = row * n; p < (row + 1) * n; p++) {
 		bool any = false;
-		for (int i = 0; i < r->n; i++)
+		for (int i = 0; i < r->n && !r->keep[p]; i++)
 			any = any || r->node[i][p] != 0;
 		kept += r->keep[p];
-		*cut += any && !r->keep[p];
-		for (int i = 0; i < r->n && any && !r->keep[p]; i++)
-			pm_sum_add(&lost[i], r->node[i][p]);
+		*cut += any;
 	}
 	return kept;
 }
 
-static void count(struct pm_remesh *r, size_t cut[], struct pm_sum lost[])
+static void count(struct pm_remesh *r)
 {
-	const size_t blocks = blocks_of(r);
-#pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t b = 0; b < blocks; b++)
-		r->before[b + 1] = count_block(r, b, &cut[b], &lost[b * (size_t)r->n]);
-	r->before[0] = r->cut = 0;
-	for (size_t b = 0; b < blocks; b++) {
-		r->before[b + 1] += r->before[b];
-		r->cut += cut[b];
-		for (int i = 0; i < r->n; i++)
-			r->lost[i] += pm_sum_total(lost[b * (size_t)r->n + (size_t)i]);
-	}
-	r->kept = r->before[blocks];
+	const size_t rows = rows_of(r);
+	uint64_t cut = 0;
+	struct pm_sum lost[PM_REMESH_VALUES] = {{0, 0}};
+	const struct pm_parts parts = {.size = (size_t)(r->n ? r->n : 1) * sizeof *lost, .make = make_lost, .join = pm_join_sums};
+#pragma omp parallel for schedule(static) reduction(+ : cut) if (r->points > 16384)
+	for (size_t row = 0; row < rows; row++)
+		r->before[row + 1] = count_row(r, row, &cut);
+	r->before[0] = 0;
+	for (size_t row = 0; row < rows; row++)
+		r->before[row + 1] += r->before[row];
+	pm_over_mesh(&parts, r, r->grid.points, lost);
+	for (int i = 0; i < r->n; i++)
+		r->lost[i] = pm_sum_total(lost[i]);
+	r->cut = cut;
+	r->kept = r->before[rows];
 }
 
 int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim)
 {
-	const size_t blocks = blocks_of(r);
 	double least[PM_REMESH_VALUES];
 	r->keep = pm_alloc(r->points, 1);
-	r->before = pm_alloc(blocks + 1, sizeof *r->before);
-	size_t *cut = pm_alloc(blocks, sizeof *cut);
-	struct pm_sum *lost = pm_alloc(blocks * (size_t)r->n + 1, sizeof *lost);
-	int status = r->keep && r->before && cut && lost ? 0 : -PM_DATA;
+	r->before = pm_alloc(rows_of(r) + 1, sizeof *r->before);
+	int status = r->keep && r->before ? 0 : -PM_DATA;
 	if (!status) {
 		thresholds(r, cut_off, least);
 		mark(r, least);
 		status = rim ? widen(r, rim) : 0;
 	}
 	if (!status)
-		count(r, cut, lost);
-	pm_free(cut);
-	pm_free(lost);
+		count(r);
 	return status;
+}
+
+double pm_remesh_total(const struct pm_remesh *r, int i)
+{
+	struct pm_sum all = {0, 0};
+	pm_sum_of_mesh(r->grid.points, r->node[i], NULL, NULL, &all);
+	return pm_sum_total(all);
 }
 
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out)
 {
+	const size_t n = r->grid.points[0];
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t b = 0; b < blocks_of(r); b++)
-		for (size_t p = b * block, to = r->before[b]; p < end_of(r, b); p++)
+	for (size_t row = 0; row < rows_of(r); row++)
+		for (size_t p = row * n, to = r->before[row]; p < (row + 1) * n; p++)
 			if (r->keep[p])
 				out[to++] = r->node[i][p];
 }
 
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x)
 {
+	const size_t n = r->grid.points[0];
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t b = 0; b < blocks_of(r); b++)
-		for (size_t p = b * block, to = r->before[b], at[3]; p < end_of(r, b); p++)
-			if (r->keep[p]) {
-				place_of(&r->grid, p, at);
+	for (size_t row = 0; row < rows_of(r); row++)
+		for (size_t i = 0, to = r->before[row]; i < n; i++)
+			if (r->keep[row * n + i]) {
+				const size_t at[3] = {i, row % r->grid.points[1], row / r->grid.points[1]};
 				x[to++] = r->grid.lo[d] + (double)at[d] * r->grid.h[d];
 			}
 }
 
 void pm_remesh_volume(const struct pm_remesh *r, double *volume)
 {
+	const size_t n = r->grid.points[0];
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t b = 0; b < blocks_of(r); b++)
-		for (size_t p = b * block, to = r->before[b]; p < end_of(r, b); p++)
-			if (r->keep[p])
-				volume[to++] = volume_of(&r->grid, p);
+	for (size_t row = 0; row < rows_of(r); row++)
+		for (size_t i = 0, to = r->before[row]; i < n; i++)
+			if (r->keep[row * n + i])
+				volume[to++] = volume_of(&r->grid, row, i);
 }
 
 void pm_remesh_free(struct pm_remesh *r)

@@ -15,7 +15,7 @@ struct pm_remesh {
 	double *node[PM_REMESH_VALUES]; /* [points] the strength of each node, not its density */
 	int field[PM_REMESH_VALUES];    /* the first value of the strength this one is a component of; -1: does not decide which nodes are kept */
 	unsigned char *keep;            /* [points] does the node become a particle? */
-	size_t *before;                 /* kept nodes before each block of nodes */
+	size_t *before;                 /* kept nodes before each row of nodes */
 	size_t kept, cut;               /* nodes that become particles; nodes that are not 0 and do not */
 	double lost[PM_REMESH_VALUES];  /* sum of each value over the nodes cut */
 };
@@ -34,6 +34,7 @@ int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim);
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out);
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x);
 void pm_remesh_volume(const struct pm_remesh *r, double *volume);
+double pm_remesh_total(const struct pm_remesh *r, int i); /* the sum of value i over all nodes */
 void pm_remesh_free(struct pm_remesh *r);
 
 #endif

@@ -1,11 +1,12 @@
-/* Sums of strengths, eight values at a time, in blocks of fixed size that are added in order (Neumaier 1974). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums of strengths, eight values at a time, by the law of sums (base/in-order.h). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 
+#include "base/in-order.h"
 #include "base/simd-sum.h"
 #include "stream/strengths.h"
 
-enum { SUM, SCALE, SUMS, CHUNK = 256 };
+enum { SUM, SCALE, SUMS };
 
 bool pm_is_strength(const struct pm_field *field)
 {
@@ -25,37 +26,24 @@ PM_SIMD_INLINE void add(pm_simd x, struct pm_simd_sum s[SUMS])
 	pm_simd_sum_add(&s[SCALE], x);
 }
 
-static void block(size_t n, const double *x, struct pm_sum total[SUMS])
+static void block(const void *data, size_t from, size_t to, void *part)
 {
+	const double *x = data;
+	struct pm_sum *total = part;
 	struct pm_simd_sum s[SUMS] = {{{0}, {0}}};
-	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
-		add(pm_simd_load_any(x + i), s);
-	if (i < n)
-		add(pm_simd_load_few(x + i, n - i), s);
-	for (int k = 0; k < SUMS; k++) {
-		total[k] = (struct pm_sum){0, 0};
+	for (; from + PM_SIMD_WIDTH <= to; from += PM_SIMD_WIDTH)
+		add(pm_simd_load_any(x + from), s);
+	if (from < to)
+		add(pm_simd_load_few(x + from, to - from), s);
+	for (int k = 0; k < SUMS; k++)
 		pm_simd_sum_join(&total[k], &s[k]);
-	}
 }
 
 static void sums(size_t n, const double *x, struct pm_strength *s)
 {
-	struct pm_sum all[SUMS] = {{0, 0}}, part[CHUNK][SUMS];
-	const size_t blocks = (n + pm_sum_block - 1) / pm_sum_block;
-	for (size_t first = 0; first < blocks; first += CHUNK) {
-		const int m = (int)(blocks - first < CHUNK ? blocks - first : CHUNK);
-#pragma omp parallel for schedule(static) if (m > 8)
-		for (int b = 0; b < m; b++) {
-			const size_t i = (first + (size_t)b) * pm_sum_block;
-			block(n - i < pm_sum_block ? n - i : pm_sum_block, x + i, part[b]);
-		}
-		for (int b = 0; b < m; b++)
-			for (int k = 0; k < SUMS; k++) {
-				pm_sum_add(&all[k], part[b][k].sum);
-				pm_sum_add(&all[k], part[b][k].carry);
-			}
-	}
+	struct pm_sum all[SUMS] = {{0, 0}};
+	const struct pm_parts parts = {.size = sizeof all, .make = block, .join = pm_join_sums};
+	pm_over_set(&parts, x, n, all);
 	s->sum = pm_sum_total(all[SUM]);
 	s->scale = pm_sum_total(all[SCALE]);
 }

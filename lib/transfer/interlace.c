@@ -5,6 +5,7 @@
  * The Nyquist wave has no phase at the centres and is left out of the second mesh. Each line is computed by one thread, so the result does not depend on
  * their number.
  * Cost: twice the transfer, and a pass of transforms back and forth per axis and component. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fft/line-groups.h"
 #include "transfer/interlace.h"
 
 #include <omp.h>
@@ -45,27 +46,24 @@ static void shift_block(const struct pm_transform *l, double sign, double *block
 	pm_transform_backward(l, block);
 }
 
-/* Up to L lines that begin side by side or row below row: across apart, nodes stride apart. */
-static void shift_lines(const struct pm_transform *l, double sign, size_t lines, size_t across, size_t stride, double *at, double *block)
+static void shift_lines(const struct pm_transform *l, double sign, const struct pm_line_group g, double *at, double *block)
 {
 	for (size_t i = 0; i < l->n; i++)
 		for (size_t q = 0; q < L; q++)
-			block[i * L + q] = q < lines ? at[i * stride + q * across] : 0;
+			block[i * L + q] = q < g.lines ? at[i * g.step + q * g.across] : 0;
 	shift_block(l, sign, block);
 	for (size_t i = 0; i < l->n; i++)
-		for (size_t q = 0; q < lines; q++)
-			at[i * stride + q * across] = block[i * L + q];
+		for (size_t q = 0; q < g.lines; q++)
+			at[i * g.step + q * g.across] = block[i * L + q];
 }
 
 static void shift_axis(const struct pm_grid *g, int d, const struct pm_transform *l, double sign, double *a, double *scratch)
 {
-	const size_t *n = g->points, chunks = (n[0] + L - 1) / L, stride = d == 0 ? 1 : d == 1 ? n[0] : n[0] * n[1];
-	const size_t blocks = d == 0 ? (n[1] * n[2] + L - 1) / L : (d == 1 ? n[2] : n[1]) * chunks, jump = d == 1 ? n[0] * n[1] : n[0];
+	const size_t groups = pm_line_groups(g->points, d);
 #pragma omp parallel for schedule(static) num_threads(pm_threads()) if (pm_grid_size(g) > 16384)
-	for (size_t b = 0; b < blocks; b++) {
-		size_t left = d == 0 ? n[1] * n[2] - b * L : n[0] - b % chunks * L, lines = left < L ? left : L;
-		double *at = a + (d == 0 ? b * L * n[0] : b / chunks * jump + b % chunks * L);
-		shift_lines(l, sign, lines, d == 0 ? n[0] : 1, stride, at, scratch + (size_t)omp_get_thread_num() * L * (l->length + 1));
+	for (size_t b = 0; b < groups; b++) {
+		const struct pm_line_group group = pm_line_group(g->points, d, b);
+		shift_lines(l, sign, group, a + group.at, scratch + (size_t)omp_get_thread_num() * L * (l->length + 1));
 	}
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "transfer/mesh-changes.h"
+#include "base/in-order.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 
@@ -75,15 +76,26 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 }
 
 /* The part lost at points with too few particles. */
+struct thin {
+	const struct pm_grid *g;
+	const double *D, *from;
+};
+
+static void make(const void *data, size_t first, size_t end, void *part)
+{
+	const struct thin *t = data;
+	const size_t n = end - first, j = first / n % t->g->points[1], k = first / n / t->g->points[1];
+	const double cell = pm_grid_cell(t->g);
+	for (size_t i = first; i < end; i++)
+		if (t->D[i] < 0.5)
+			pm_sum_add(part, cell * pm_grid_weight(t->g, i - first, j, k) * (1 - t->D[i]) * t->from[i]);
+}
+
 static double lost(const struct pm_grid *g, const double *D, const double *from)
 {
-	const double cell = pm_grid_cell(g);
 	struct pm_sum sum = {0, 0};
-	for (size_t k = 0, i = 0; k < g->points[2]; k++)
-		for (size_t j = 0; j < g->points[1]; j++)
-			for (size_t l = 0; l < g->points[0]; l++, i++)
-				if (D[i] < 0.5)
-					pm_sum_add(&sum, cell * pm_grid_weight(g, l, j, k) * (1 - D[i]) * from[i]);
+	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
+	pm_over_mesh(&parts, &(struct thin){g, D, from}, g->points, &sum);
 	return pm_sum_total(sum);
 }
 

@@ -1,8 +1,9 @@
-/* The sums of those inside an open mesh, and what those outside do to them (outside.c has the equations). Compensated, over blocks in a fixed order.
+/* The sums of those inside an open mesh, and what those outside do to them (outside.c has the equations). By the law of sums (base/in-order.h).
  * Cost: two passes over the particles. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/in-order.h"
 #include "transfer/outside.h"
 
-enum { BLOCK = 4096, SUMS = 6 }; /* q, |q|, |q| (x - middle) per axis, |q| (x - middle)^2 over the open axes */
+enum { SUMS = 6, REACTIONS = 5 }; /* q, |q|, |q| (x - middle) per axis, |q| (x - middle)^2 over the open axes */
 
 static double length(const struct pm_grid *g, int d) { return (double)g->cells[d] * g->h[d]; }
 static double middle(const struct pm_grid *g, int d) { return g->lo[d] + 0.5 * length(g, d); }
@@ -14,12 +15,18 @@ struct tally {
 	unsigned char *mask;
 };
 
-/* The sums over a block; compensated, because the reaction must balance to round-off. */
-static void block_sums(const struct pm_outside_force *o, const struct tally *s, size_t from, double sums[SUMS])
+struct of_set {
+	const struct pm_outside_force *o;
+	const struct tally *s;
+};
+
+/* Of those inside; compensated, because the reaction must balance to round-off. */
+static void make_inside(const void *data, size_t from, size_t to, void *part)
 {
+	const struct pm_outside_force *o = ((const struct of_set *)data)->o;
+	const struct tally *s = ((const struct of_set *)data)->s;
 	const struct pm_grid *g = &o->transfer.grid;
-	const size_t to = from + BLOCK < s->n ? from + BLOCK : s->n;
-	struct pm_sum sum[SUMS] = {{0, 0}};
+	struct pm_sum *sum = part;
 	for (size_t p = from; p < to; p++) {
 		double a = fabs(s->q[p]), square = 0;
 		if (s->mask[p])
@@ -33,24 +40,6 @@ static void block_sums(const struct pm_outside_force *o, const struct tally *s, 
 		pm_sum_add(&sum[1], a);
 		pm_sum_add(&sum[5], a * square);
 	}
-	for (int i = 0; i < SUMS; i++)
-		sums[i] = pm_sum_total(sum[i]);
-}
-
-static int add_inside(const struct pm_outside_force *o, const struct tally *s, struct pm_sum total[SUMS])
-{
-	const size_t blocks = (s->n + BLOCK - 1) / BLOCK;
-	double(*sums)[SUMS] = pm_alloc(blocks + 1, sizeof *sums);
-	if (!sums)
-		return -PM_DATA;
-#pragma omp parallel for schedule(static) if (blocks > 1)
-	for (size_t b = 0; b < blocks; b++)
-		block_sums(o, s, b * BLOCK, sums[b]);
-	for (size_t b = 0; b < blocks; b++)
-		for (int i = 0; i < SUMS; i++)
-			pm_sum_add(&total[i], sums[b][i]);
-	pm_free(sums);
-	return 0;
 }
 
 /* sigma2: second moment per open axis. In one dimension every body beyond a face is beyond all that is inside: a point is exact. */
@@ -82,10 +71,13 @@ static void make_balls(struct pm_outside_force *o, const struct pm_sum total[SUM
 	o->background.radius = radius(o, sides / o->open);
 }
 
-/* What those of one set that are outside do at the centre of those inside: gradient, potential, energy. */
-static void add_outside(const struct pm_outside_force *o, const struct tally *s, struct pm_sum sum[5])
+/* What those that are outside do at the centre of those inside: gradient, potential, energy. */
+static void make_outside(const void *data, size_t from, size_t to, void *part)
 {
-	for (size_t p = 0; p < s->n; p++) {
+	const struct pm_outside_force *o = ((const struct of_set *)data)->o;
+	const struct tally *s = ((const struct of_set *)data)->s;
+	struct pm_sum *sum = part;
+	for (size_t p = from; p < to; p++) {
 		double x[3] = {0}, phi, g[3];
 		if (!s->mask[p])
 			continue;
@@ -102,7 +94,9 @@ static void add_outside(const struct pm_outside_force *o, const struct tally *s,
 
 static int measure(struct pm_outside_force *o, const struct pm_frame *f, struct tally *tally, double **made)
 {
-	struct pm_sum total[SUMS] = {{0, 0}}, sum[5] = {{0, 0}};
+	struct pm_sum total[SUMS] = {{0, 0}}, sum[REACTIONS] = {{0, 0}};
+	const struct pm_parts inside = {.size = sizeof total, .make = make_inside, .join = pm_join_sums};
+	const struct pm_parts outside = {.size = sizeof sum, .make = make_outside, .join = pm_join_sums};
 	int status = 0;
 	o->count = o->within = 0;
 	for (size_t i = 0; i < o->sources.n && !status; i++) {
@@ -120,14 +114,14 @@ static int measure(struct pm_outside_force *o, const struct pm_frame *f, struct 
 			o->count += s->mask[p];
 		o->within += s->n;
 		if (!status)
-			status = add_inside(o, s, total);
+			pm_over_set(&inside, &(struct of_set){o, s}, s->n, total);
 	}
 	o->within -= o->count;
 	if (status)
 		return status;
 	make_balls(o, total);
 	for (size_t i = 0; i < o->sources.n; i++)
-		add_outside(o, &tally[i], sum);
+		pm_over_set(&outside, &(struct of_set){o, &tally[i]}, tally[i].n, sum);
 	for (int d = 0; d < 3; d++)
 		o->gradient[d] = pm_sum_total(sum[d]);
 	o->potential = pm_sum_total(sum[3]);

@@ -96,7 +96,7 @@ static json_t *triple(double lo, double hi, double least)
 }
 
 /* [smallest, largest, smallest above 0] of every component, and of the length of a vector. */
-static json_t *ranges(const struct pm_field *p)
+static json_t *ranges(const struct pm_frame *f, const struct pm_field *p)
 {
 	json_t *list = json_array();
 	double square = 0;
@@ -108,7 +108,7 @@ static json_t *ranges(const struct pm_field *p)
 			json_array_append_new(list, triple(x, x, x > 0 ? x : HUGE_VAL));
 			continue;
 		}
-		const struct pm_range r = pm_range_of(p, length ? -1 : c);
+		const struct pm_range r = pm_range_of(f, p, length ? -1 : c);
 		json_array_append_new(list, triple(r.min, r.max, r.least));
 	}
 	return list;
@@ -127,7 +127,7 @@ static json_t *pack(struct pm_viewer_frame *to, const struct picked *from, const
 	return pm_viewer_pack(&to->blocks, from->n, w, from->n <= precise || integer ? PM_AS_F32 : position ? PM_AS_U16 : PM_AS_F16, from->n ? lo : 0, hi);
 }
 
-static json_t *field_json(struct pm_viewer_frame *to, const struct picked *from, const struct pm_field *p, bool position, double *w)
+static json_t *field_json(struct pm_viewer_frame *to, const struct pm_frame *f, const struct picked *from, const struct pm_field *p, bool position, double *w)
 {
 	json_t *data = json_array(), *offset = json_array();
 	for (int c = 0; c < p->components; c++) {
@@ -139,7 +139,7 @@ static json_t *field_json(struct pm_viewer_frame *to, const struct picked *from,
 		for (int d = 0; d < 3; d++)
 			json_array_append_new(offset, json_real(0.5 * p->staggered[c][d]));
 	}
-	return json_pack("{s:s, s:s, s:o, s:o, s:o}", "name", p->name, "unit", p->unit, "data", data, "range", ranges(p), "offset", offset);
+	return json_pack("{s:s, s:s, s:o, s:o, s:o}", "name", p->name, "unit", p->unit, "data", data, "range", ranges(f, p), "offset", offset);
 }
 
 static json_t *expression_json(struct pm_viewer_frame *to, const struct picked *from, const struct pm_expression *e, const struct pm_frame *f, size_t n,
@@ -173,7 +173,7 @@ static json_t *fields_json(struct pm_viewer_frame *to, const struct pm_viewer_ch
 	bool good = w;
 	for (size_t i = 0; i < f->nfields && good; i++)
 		if (!strcmp(f->fields[i]->on, on) && chosen(c, f, f->fields[i])) {
-			one = field_json(to, from, f->fields[i], set && !strcmp(f->fields[i]->name, "x"), w);
+			one = field_json(to, f, from, f->fields[i], set && !strcmp(f->fields[i]->name, "x"), w);
 			good = one && !json_array_append_new(list, one);
 		}
 	for (int k = 0, most = expressions(c, text); k < most && good && set; k++) {

@@ -1,0 +1,23 @@
+/* Sums over a mesh, and over what a field is on. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mesh/mesh-sum.h"
+
+double pm_grid_sum(const struct pm_grid *g, const double *x, const double *y)
+{
+	double end[3][2];
+	struct pm_sum all = {0, 0};
+	for (int d = 0; d < 3; d++)
+		end[d][0] = end[d][1] = g->points[d] > g->cells[d] ? 0.5 : 1;
+	pm_sum_of_mesh(g->points, x, y, (const double(*)[2])end, &all);
+	return pm_sum_total(all);
+}
+
+void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const char *on, size_t count, void *all)
+{
+	const struct pm_mesh *m = pm_frame_mesh(f, on);
+	if (!m) {
+		pm_over_set(p, data, count, all);
+		return;
+	}
+	const struct pm_grid g = pm_grid_of(f, m);
+	pm_over_mesh(p, data, g.points, all);
+}

@@ -1,0 +1,13 @@
+/* Sums over a mesh, and over what a field is on, by the law of sums (base/in-order.h). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MESH_MESH_SUM_H
+#define PM_MESH_MESH_SUM_H
+
+#include "base/in-order.h"
+#include "mesh/grid.h"
+
+/* The sum over all points of x, or of x y where y is not NULL, with the weights of quadrature. */
+double pm_grid_sum(const struct pm_grid *g, const double *x, const double *y);
+/* Parts over count values per component of what is called `on` in the frame, a set or a mesh. */
+void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const char *on, size_t count, void *all);
+
+#endif
