@@ -17,6 +17,7 @@ enum { BASE, TRIAL, RESIDUAL, STEPS, CHANGES = STEPS + PM_IMPLICIT_DEPTH, DEPTH 
 
 static const double converged = 1e-13; /* residual over state: a few hundred rounding errors */
 static const double stalled = 1e-10;   /* below this a residual that no longer falls is rounding */
+static const double tiny = 1e-140;     /* of what has decayed so far residuals below 1e-153 are none: their squares would underflow */
 static const double dependent = 1e-14; /* square of the sine of the angle below which a column says nothing new: rounding of the products */
 
 struct iteration {
@@ -186,7 +187,8 @@ static double judge(struct iteration *it)
 		for (int j = 0; j < it->lines; j++)
 			if (it->line[j].rate == it->line[k].rate)
 				scale = fmax(scale, size[j]), most = fmax(most, left[j]);
-		it->weight[k] = scale > 0 ? 1 / (scale * scale) : 1;
+		scale = fmax(scale, tiny);
+		it->weight[k] = 1 / scale / scale;
 		if (most > 0)
 			worst = fmax(worst, isfinite(most) ? most / scale : INFINITY);
 	}

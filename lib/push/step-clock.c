@@ -101,7 +101,8 @@ int pm_clock_pass(const struct pm_frame *f, struct pm_set *s, const struct pm_st
 		return pm_fail(PM_DATA, "'%s' claims %d passes of %s, which has %d", s->name, s->pass, step->name, step->passes);
 	bool last = s->pass + 1 == step->passes;
 	*p = (struct pm_pass){.step = step, .pass = s->pass, .registers = asked->rates + step->registers,
-		.known = s->pass ? PM_REGISTERS : memory ? asked->rates : 0, .shift = s->pass == 0};
+		.known = s->pass ? PM_REGISTERS : memory ? asked->rates : 0,
+		.shift = asked->changes ? step != asked && last : s->pass == 0};
 	p->kept = last ? asked->rates : p->registers;
 	if (last)
 		memory = memory < asked->rates ? memory + 1 : memory;

@@ -11,6 +11,7 @@
 struct stability {
 	const char *name;
 	double dt, part; /* [time] of the frame; the absolute value of what the push advances by, a kick/2 for a whole step */
+	bool backwards;  /* a composition */
 	bool weak;       /* no oscillation is stable, others can do better */
 };
 
@@ -22,8 +23,8 @@ static int within(const struct pm_rate *r, const char *does, double rate, double
 	if (!(s->part * rate > limit * (1 + 1e-12)))
 		return 0;
 	if (limit == 0)
-		return pm_fail(PM_NUMERICS, "'%s' of '%s' %s, and %s has parts of a step that go backwards (rk4, lsrk3, or --unsafe)", change->name, change->on,
-			does, s->name);
+		return pm_fail(PM_NUMERICS, "'%s' of '%s' %s, and %s has %s (rk4, lsrk3, or --unsafe)", change->name, change->on, does, s->name,
+			s->backwards ? "parts of a step that go backwards" : "a second root that grows where there is any decay");
 	for (int t = 0; t < change->nterms; t++)
 		snprintf(terms + strlen(terms), sizeof terms - strlen(terms), "%s%s", t ? ", " : "", change->terms[t]);
 	return pm_fail(PM_NUMERICS, "dt %g is %.4g times the limit of %s: '%s' of '%s' (%s) %s at up to %g per time, and the step would grow "
@@ -43,7 +44,7 @@ int pm_moving_stable(const struct pm_frame *f, const struct pm_moving *m, const 
 {
 	/* kicks, also magnetic ones: Euler's limit for decay, leapfrog's for oscillations */
 	const struct pm_step *scheme = p->scheme;
-	const struct stability s = {.name = scheme ? scheme->name : "a kick", .dt = f->dt, .part = fabs(f->dt) * m->part,
+	const struct stability s = {.name = scheme ? scheme->name : "a kick", .dt = f->dt, .part = fabs(f->dt) * m->part, .backwards = scheme && scheme->kicks,
 		.weak = scheme && scheme->imaginary_limit == 0};
 	const double decay = scheme ? scheme->real_limit : 2, turn = !scheme ? 2 : s.weak ? scheme->doubling : scheme->imaginary_limit;
 	int status = 0;

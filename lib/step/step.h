@@ -92,9 +92,10 @@ struct pm_step {
 	int registers; /* per state, zero at the first pass, dropped after the last; each a linear combination of rates, so that it does not
 	                * change when a particle is folded and changes sign when it is reflected */
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
+	bool changes;  /* what is kept is the change of the last step over dt instead, the last rate of the starting scheme; the pass keeps it itself */
 	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */
 	int order;          /* of a whole step; of kick and drift: as kick/2 drift kick/2 */
-	double real_limit;      /* largest |lambda| dt on the negative real axis; INFINITY: any; NAN: not made for decay; 0: unusable, parts go backwards */
+	double real_limit;      /* largest |lambda| dt on the negative real axis; INFINITY: any; NAN: not made for decay; 0: none */
 	double imaginary_limit; /* and on the imaginary axis */
 	double doubling;        /* where that is 0: the |lambda| dt at which an oscillation doubles within its period */
 	double at[PM_STEP_PASSES]; /* time of the state after each pass, in units of dt; compositions: by pm_step_at */

@@ -246,3 +246,33 @@ limits() {
 		[[ $output == *'"courant":0.5}'* ]]
 	done
 }
+
+@test "000:S69, S70, 001:C7: velocity and position Verlet have the positions of the recursion x(t + dt) = 2 x - x(t - dt) + a dt^2" {
+	printf 'x vx\n1.1 0.4\n' | stab - --law free --dt 0.1 >a
+	cycle -q -n 50 --every 1 'push kick/2 drift | field acc=-sin(x) | push kick/2' <a | stab --plain | awk '$1 + 0 == $1' >velocity # x, acc, vx
+	awk 'NR == 1 { print NF }' velocity | grep -qx 3
+	awk 'NR > 2 { d = $1 - (2 * x1 - x0 - 0.01 * sin(x1)); d = d < 0 ? -d : d; if (d > m) m = d } { x0 = x1; x1 = $1 } END { print m }' velocity >most
+	below "$(cat most)" 1e-15 # rounding of 2 x
+	# velocities are (x(t + dt) - x(t - dt))/(2 dt)
+	awk 'NR > 2 { d = v1 - ($1 - x0) / 0.2; d = d < 0 ? -d : d; if (d > m) m = d } { x0 = x1; x1 = $1; v1 = $3 } END { print m }' velocity >most
+	below "$(cat most)" 2e-14 # rounding over 2 dt
+	# position Verlet: the same recursion for the places of the force, half a step on
+	cycle -q -n 50 --every 1 'push drift/2 | field acc=-sin(x) | push kick drift/2' <a | stab --plain | awk '$1 + 0 == $1 { printf "%.17g\n", $1 + 0.05 * $NF }' >middle
+	awk 'NR > 2 { d = $1 - (2 * x1 - x0 - 0.01 * sin(x1)); d = d < 0 ? -d : d; if (d > m) m = d } { x0 = x1; x1 = $1 } END { print m }' middle >most
+	below "$(cat most)" 2e-15
+}
+
+@test "001:C3, 001:N35: leapfrog of two steps is its recursion; it keeps an oscillation and lets a decay grow by its second root" {
+	printf 'x\n1\n' | stab - --law free --dt 0.1 >a
+	cycle -q -n 200 'field vel=-x | push leapfrog2 --unsafe' <a | stab --plain | awk 'END { printf "%.17g", $1 }' >x
+	awk 'BEGIN { a = 1; b = 0.905; for (i = 2; i <= 200; i++) { c = a - 0.2 * b; a = b; b = c }; printf "%.17g", b }' >want
+	above "$(awk '{ print $1 < 0 ? -$1 : $1 }' x)" 1e3 # and e^-20 is 2e-9
+	within "$(cat x)" "$(cat want)" "$(awk '{ print 1e-9 * ($1 < 0 ? -$1 : $1) }' want)"
+	printf 'x vx\n1 1\n' | stab - --law free --dt 0.1 >a
+	run -3 bash -o pipefail -c "cycle -q -n 200 'field acc=-vx | push leapfrog2' <a >b"
+	[[ $output == *'leapfrog2 has a second root that grows where there is any decay'* ]]
+	# its register goes through the faces: a circle in a periodic box is that in open space, folded
+	printf 'x y\n0.3 0.5\n' | stab - --law free --dt 0.1 --box 0,1 --particle-faces periodic >p
+	cycle -q -n 40 'field vel=0.7,0.9*cos(time) | push leapfrog2' <p | stab --plain | awk 'END { print $1 }' >fold
+	within "$(cat fold)" 0.1 1e-12 # 0.3 + 2.8, folded
+}

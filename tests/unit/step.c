@@ -40,7 +40,7 @@ static int whole_step(const struct pm_step *asked, const struct problem *p, doub
 			continue;
 		}
 		step->pass(pass, dt, (size_t)p->m, y, k, q);
-		if (pass == 0 && asked->rates) {
+		if (asked->rates && (asked->changes ? step != asked && pass + 1 == step->passes : pass == 0)) {
 			memcpy(memory[1], memory[0], sizeof memory[0]);
 			memcpy(memory[0], k, sizeof k);
 		}
