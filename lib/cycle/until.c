@@ -78,7 +78,7 @@ static bool wants(const struct pm_until *u, int first, int last)
 static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame *f)
 {
 	struct pm_measure how = pm_diag_how(&u->gauge, f);
-	if (!wants(u, PM_ENERGY_MESH, PM_ENERGY) && !wants(u, PM_VIRIAL_RATIO, PM_VIRIAL_RATIO))
+	if (!wants(u, PM_ENERGY_MESH, PM_ENERGY) && !wants(u, PM_VIRIAL_RATIO, PM_VIRIAL_RATIO) && !wants(u, PM_ENERGY_FLOW, PM_HELICITY))
 		how.potential = NULL;
 	how.vortices = how.vortices && wants(u, PM_CIRCULATION, PM_DISTORTION);
 	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_STRENGTH_SCALE - 1);

@@ -58,6 +58,8 @@ int pm_pp_declare(const struct pm_pp_choice *c, struct pm_frame *f)
 	const struct pm_law *law = pm_law_of(f);
 	struct pm_pp p;
 	int status = law ? open_space(f) : -PM_DATA;
+	if (!status && law->vector)
+		return pm_fail(PM_DATA, "pp sums scalar strengths, and '%s' is a vector (p2m | poisson-fft | mgrad | stretch | m2p)", law->strength);
 	if (!status && !(law->strength && law->change && law->coefficient && law->dims >> f->dim & 1))
 		return pm_fail(PM_DATA, "the law %s has no sum over pairs in %d-D", f->law, f->dim);
 	if (!status)

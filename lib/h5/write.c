@@ -30,6 +30,7 @@ static const struct dimension {
 	{NULL, "mass", {0, 1}, false},
 	{NULL, "charge", {0, 0, 1, 1}, false},
 	{NULL, "circulation", {2, 0, -1}, false},
+	{NULL, "alpha", {3, 0, -1}, false},
 	{NULL, "omega", {0, 0, -1}, false},
 	{NULL, "psi", {2, 0, -1}, false},
 	{NULL, "E", {1, 1, -3, -1}, false},

@@ -16,13 +16,14 @@ struct pm_law_constant {
 struct pm_law {
 	const char *name, *sentence, *source;
 	unsigned dims;          /* bit 1u<<dim for each dimension it is defined in */
-	const char *strength;   /* particle field deposited: "mass", "charge", "circulation"; NULL: none (free, passive) */
+	const char *strength;   /* particle field deposited: "mass", "charge", "circulation", "alpha"; NULL: none (free, passive) */
+	bool vector;            /* the strength, the density and the potential have 3 components */
 	const char *density;    /* mesh field p2m makes of it: "rho", "omega" */
 	const char *background; /* constant of the frame that p2m adds to the density; NULL none */
 	const char *potential;  /* what a solver makes: "phi", "psi" */
 	const char *field;      /* what mgrad makes: "g", "E", "u"; dim components */
 	int wave;               /* component of the field that waves along x have: 0; 1 for a velocity without divergence, whose u.x cannot vary */
-	enum { PM_GRADIENT, PM_CURL } of_potential; /* field = sign * grad(potential), or (d psi/dy, -d psi/dx) */
+	enum { PM_GRADIENT, PM_CURL } of_potential; /* field = sign * grad(potential), or the curl: (d psi/dy, -d psi/dx) of a scalar */
 	double sign;            /* of the gradient: -1 for g and E */
 	const char *change, *of;/* what m2p and pp add to: "acc" of "v", "vel" of "x" */
 	const char *per;        /* change = (strength/per) * field: "mass" for (q/m) E; NULL: the field itself */
@@ -35,6 +36,7 @@ struct pm_law {
 	const char *order;      /* of mgrad: "2", "4", "6", "spectral" */
 	const char *mollifier;  /* of pp: "plummer", "krasny" */
 	const struct pm_law_constant *constants; /* {0} ends */
+	const struct pm_law *in_space; /* the same law where 3-D has other fields; NULL: as above */
 };
 
 extern const struct pm_law *const pm_laws[]; /* generated from lib/law/, NULL ends */
@@ -42,7 +44,8 @@ extern const char *const pm_law_names[];
 const struct pm_law *pm_law_find(const char *name);          /* NULL with a message */
 static inline const struct pm_law *pm_law_of(const struct pm_frame *f) /* NULL with a message */
 {
-	return pm_law_find(f->law);
+	const struct pm_law *law = pm_law_find(f->law);
+	return law && law->in_space && f->dim == 3 ? law->in_space : law;
 }
 
 PM_C_END

@@ -1,7 +1,8 @@
-/* Vortices in the plane, the vorticity form of Euler's equations: lap psi = -omega, u = (d psi/dy, -d psi/dx), vel += u; a particle carries the
- * circulation Gamma = omega times its volume. With viscosity nu, D omega/Dt = nu lap omega, which the word diffuse adds. A point vortex turns
- * its surroundings at u_theta = Gamma/(2 pi r), counter-clockwise for Gamma > 0.
- * Source: Cottet and Koumoutsakos 2000, sections 2.1 and 8.2.
+/* Vortices, the vorticity form of Euler's equations: lap psi = -omega, u = curl psi, vel += u.
+ * In the plane a particle carries the circulation Gamma = omega times its volume, and u = (d psi/dy, -d psi/dx): a point vortex turns its surroundings at
+ * u_theta = Gamma/(2 pi r), counter-clockwise for Gamma > 0. In space it carries the vector alpha = omega times its volume, and
+ * D omega/Dt = (omega . grad) u, which the word stretch adds. Viscosity nu lap omega is the word diffuse.
+ * Source: Cottet and Koumoutsakos 2000, sections 2.1, 3.1 and 8.2.
  * Defaults: m4prime, which keeps circulation and both impulses where particles are remeshed; spectral inverse and differences of order 6,
  * because the velocity is smoother than the vorticity. In periodic boxes the solver removes the mean of omega and reports it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -18,24 +19,24 @@ static const struct pm_law_constant constants[] = {
 	{0},
 };
 
-const struct pm_law law_vortex = {
-	.name = "vortex",
-	.sentence = "vortices advect each other: lap psi = -omega, velocity (d psi/dy, -d psi/dx)",
-	.source = "Cottet and Koumoutsakos 2000",
-	.dims = 1u << 2,
-	.strength = "circulation",
-	.density = "omega",
-	.potential = "psi",
-	.field = "u",
-	.wave = 1,
-	.of_potential = PM_CURL,
-	.sign = 1,
-	.change = "vel",
-	.of = "x",
-	.coefficient = coefficient,
-	.kernel = "m4prime",
-	.symbol = "spectral",
-	.order = "6",
-	.mollifier = "krasny",
-	.constants = constants,
-};
+#define IN_BOTH \
+	.name = "vortex", \
+	.sentence = "vortices advect each other: lap psi = -omega, velocity curl psi", \
+	.source = "Cottet and Koumoutsakos 2000", \
+	.density = "omega", \
+	.potential = "psi", \
+	.field = "u", \
+	.wave = 1, \
+	.of_potential = PM_CURL, \
+	.sign = 1, \
+	.change = "vel", \
+	.of = "x", \
+	.coefficient = coefficient, \
+	.kernel = "m4prime", \
+	.symbol = "spectral", \
+	.order = "6", \
+	.constants = constants
+
+static const struct pm_law in_space = {IN_BOTH, .dims = 1u << 3, .strength = "alpha", .vector = true, .mollifier = "gaussian"};
+
+const struct pm_law law_vortex = {IN_BOTH, .dims = 1u << 2 | 1u << 3, .strength = "circulation", .mollifier = "krasny", .in_space = &in_space};

@@ -30,7 +30,8 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 {
 	const struct pm_law *law = pm_law_of(f);
 	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
-		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .nradii = g->nradii,
+		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
+		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}};
 	memcpy(how.modes, g->mode, sizeof how.modes);

@@ -58,7 +58,7 @@ enum pm_pairs pm_pairs_unasked(const struct pm_frame *f, const struct pm_law *la
 		open = open && f->face[d / 2][d % 2] == PM_OPEN;
 	for (size_t i = 0; i < f->nsets && how->strength; i++)
 		n += (!how->set || !strcmp(how->set, f->sets[i]->name)) && pm_frame_field(f, f->sets[i]->name, how->strength) ? f->sets[i]->n : 0;
-	if (!n || !how->potential || !law->coefficient || !(law->dims >> f->dim & 1) || how->unknown[0])
+	if (!n || !how->potential || how->vector || !law->coefficient || !(law->dims >> f->dim & 1) || how->unknown[0])
 		return PM_PAIRS_NO;
 	if (!open)
 		snprintf(why, 200, "no mesh holds %s and %s (p2m | poisson-fft, or poisson-mg, makes them)", how->density, how->potential);

@@ -1,5 +1,6 @@
-/* The account of the law's strength: the sum of its absolute values over the sets, and what faces, cut-off, mesh and given rates took away or added, as the
- * words report it for the whole run. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The account of the law's strength, of a vector the sum over its components: the sum of its absolute values over the sets, and what faces, cut-off, mesh and
+ * given rates took away or added, as the words report it for the whole run. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "measure/measure.h"
@@ -14,9 +15,15 @@ void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struc
 	struct pm_strengths s;
 	m->value[PM_STRENGTH_SCALE] = NAN;
 	pm_strengths_of(f, how->set, &s);
-	for (int i = 0; i < s.n; i++)
-		if (how->strength && !strcmp(s.of[i].name, how->strength))
-			m->value[PM_STRENGTH_SCALE] = s.of[i].scale + (isnan(m->value[PM_STRENGTH_SCALE]) ? 0 : m->value[PM_STRENGTH_SCALE]);
 	for (size_t k = 0; k < sizeof part / sizeof *part; k++)
-		m->value[part[k].column] = how->strength ? pm_strength_reported(f, part[k].key, how->strength) : NAN;
+		m->value[part[k].column] = how->strength ? 0 : NAN;
+	for (int c = 0; how->strength && c < (how->vector ? 3 : 1); c++) {
+		char name[PM_NAME + 4];
+		snprintf(name, sizeof name, how->vector ? "%.63s_%d" : "%.63s", how->strength, c);
+		for (int i = 0; i < s.n; i++)
+			if (!strcmp(s.of[i].name, name))
+				m->value[PM_STRENGTH_SCALE] = s.of[i].scale + (isnan(m->value[PM_STRENGTH_SCALE]) ? 0 : m->value[PM_STRENGTH_SCALE]);
+		for (size_t k = 0; k < sizeof part / sizeof *part; k++)
+			m->value[part[k].column] += pm_strength_reported(f, part[k].key, name);
+	}
 }

@@ -10,9 +10,12 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_ANGULAR] = "angular_momentum_x", "angular_momentum_y", "angular_momentum_z",
 	[PM_MASS] = "mass", [PM_PARTICLES] = "particles", [PM_CENTRE] = "centre_x", "centre_y", "centre_z",
 	[PM_SPEED_RMS] = "speed_rms", [PM_DISTANCE_MAX] = "distance_max", [PM_VIRIAL_RATIO] = "virial_ratio",
-	[PM_CIRCULATION] = "circulation", [PM_IMPULSE] = "impulse_x", "impulse_y", [PM_ANGULAR_IMPULSE] = "angular_impulse",
+	[PM_CIRCULATION] = "circulation", [PM_ALPHA] = "alpha_x", "alpha_y", "alpha_z", [PM_IMPULSE] = "impulse_x", "impulse_y", "impulse_z",
+	[PM_ANGULAR_IMPULSE] = "angular_impulse", [PM_ANGULAR_IMPULSE_OF] = "angular_impulse_x", "angular_impulse_y", "angular_impulse_z",
 	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max",
-	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISTORTION] = "distortion",
+	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DIVERGENCE] = "divergence", [PM_DISSIPATION] = "dissipation", [PM_ENERGY_FLOW] = "energy_flow",
+	[PM_HELICITY] = "helicity", [PM_RING_CIRCULATION] = "ring_circulation", [PM_RING_RADIUS] = "ring_radius", [PM_RING_POSITION] = "ring_position",
+	[PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
 	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given", [PM_OUTSIDE] = "outside",
@@ -27,6 +30,11 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 		return (int)(c - PM_CENTRE) < dim;
 	if (c >= PM_ENERGY_COMPONENT && c < PM_ENERGY_COMPONENT + 3)
 		return (int)(c - PM_ENERGY_COMPONENT) < dim;
+	if (c == PM_CIRCULATION || c == PM_ANGULAR_IMPULSE || c == PM_PALINSTROPHY || c == PM_OMEGA_CENTRE)
+		return dim == 2;
+	if ((c >= PM_ALPHA && c < PM_ALPHA + 3) || c == PM_IMPULSE + 2 || (c >= PM_ANGULAR_IMPULSE_OF && c < PM_ANGULAR_IMPULSE_OF + 3) ||
+		(c >= PM_DIVERGENCE && c <= PM_RING_POSITION))
+		return dim == 3;
 	if (c >= PM_ANGULAR && c < PM_ANGULAR + 3)
 		return most == 3 ? dim > 1 : most == 2 && c == PM_ANGULAR + 2;
 	return true;

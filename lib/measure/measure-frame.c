@@ -28,6 +28,7 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->potential);
 	}
 	pm_vortex_reads(how, f);
+	pm_vortex_space_reads(how, f);
 	pm_plasma_reads(how, f);
 	pm_outside_of_reads(how, f);
 }
@@ -56,13 +57,18 @@ static double mesh_energy(const struct pm_measure *how, const struct pm_frame *f
 	if (!mesh)
 		return NAN;
 	const struct pm_grid g = pm_grid_of(f, mesh);
-	return pm_energy_on_mesh(&g, values(f, mesh->name, how->density, 0), values(f, mesh->name, how->potential, 0));
+	double sum = 0;
+	for (int c = 0; c < (how->vector ? 3 : 1); c++) {
+		const double *density = values(f, mesh->name, how->density, c), *potential = values(f, mesh->name, how->potential, c);
+		sum += density && potential ? pm_energy_on_mesh(&g, density, potential) : NAN;
+	}
+	return sum;
 }
 
 static double pair_energy(const struct pm_measure *how, size_t n, const struct pm_measured *b)
 {
-	double sum = how->potential ? 0 : NAN;
-	for (size_t i = 0; i < n && how->potential; i++) {
+	double sum = how->potential && !how->vector ? 0 : NAN; /* pairs of vectors are not summed */
+	for (size_t i = 0; i < n && how->potential && !how->vector; i++) {
 		if (!b[i].strength)
 			continue;
 		for (size_t k = i; k < n && how->pair; k++)
@@ -113,6 +119,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	if (how->unknown[0])
 		m->value[PM_ENERGY] = NAN;
 	pm_vortex_of(how, f, m);
+	status = status ? status : pm_vortex_space_of(how, f, m);
 	status = status ? status : pm_plasma_of(how, f, m);
 	pm_account_of(how, f, m);
 	if (!status && how->nradii)

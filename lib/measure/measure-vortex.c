@@ -11,11 +11,11 @@
 #include "transfer/transfer.h"
 #include "stream/declare.h"
 
-/* A set of vortices that is to be measured: it has positions in the plane and circulations. */
+/* A set of vortices that is to be measured: it has positions and strengths. */
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
 {
 	const struct pm_field *x = pm_frame_field(f, set->name, "x"), *q = pm_frame_field(f, set->name, how->strength);
-	return (!how->set || !strcmp(how->set, set->name)) && q && x && x->components == 2;
+	return (!how->set || !strcmp(how->set, set->name)) && q && x && x->components == (how->vector ? 3 : 2);
 }
 
 static const struct pm_mesh *covered(const struct pm_measure *how, const struct pm_frame *f)
@@ -109,13 +109,17 @@ void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct
 		const char *set = f->sets[i]->name;
 		if (!counts(how, f, f->sets[i]))
 			continue;
-		of_particles(pm_frame_field(f, set, "x"), pm_frame_field(f, set, how->strength), sum);
+		if (!how->vector)
+			of_particles(pm_frame_field(f, set, "x"), pm_frame_field(f, set, how->strength), sum);
 		if (first && !pm_distortion(f, set, first, &here))
 			worst = fmax(worst, here);
 	}
-	for (int k = 0; k < 4; k++)
-		m->value[PM_CIRCULATION + k] = pm_sum_total(sum[k]);
 	m->value[PM_DISTORTION] = worst;
+	if (how->vector) /* measure-vortex-space.c */
+		return;
+	static const int column[] = {PM_CIRCULATION, PM_IMPULSE, PM_IMPULSE + 1, PM_ANGULAR_IMPULSE};
+	for (int k = 0; k < 4; k++)
+		m->value[column[k]] = pm_sum_total(sum[k]);
 	if (mesh)
 		of_mesh(how, f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
 }

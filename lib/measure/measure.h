@@ -46,8 +46,9 @@ void pm_radii(size_t n, struct pm_shell *shell, int nfractions, const double *fr
 enum pm_column {
 	PM_STEP, PM_TIME, PM_ENERGY_KINETIC, PM_ENERGY_MESH, PM_ENERGY_PAIR, PM_ENERGY, PM_MOMENTUM, PM_MOMENTUM_SCALE = PM_MOMENTUM + 3, PM_ANGULAR,
 	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
-	PM_CIRCULATION, PM_IMPULSE, PM_ANGULAR_IMPULSE = PM_IMPULSE + 2, PM_ENSTROPHY, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE,
-	PM_DISTORTION,
+	PM_CIRCULATION, PM_ALPHA, PM_IMPULSE = PM_ALPHA + 3, PM_ANGULAR_IMPULSE = PM_IMPULSE + 3, PM_ANGULAR_IMPULSE_OF,
+	PM_ENSTROPHY = PM_ANGULAR_IMPULSE_OF + 3, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE, PM_DIVERGENCE, PM_DISSIPATION, PM_ENERGY_FLOW, PM_HELICITY,
+	PM_RING_CIRCULATION, PM_RING_RADIUS, PM_RING_POSITION, PM_DISTORTION,
 	PM_CHARGE, PM_ENERGY_COMPONENT,
 	PM_STRENGTH_SCALE = PM_ENERGY_COMPONENT + 3, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE, PM_COLUMNS
 };
@@ -74,6 +75,8 @@ struct pm_measure { /* what to measure of a frame */
 	double (*pair)(double r2, double softening, int dim); /* NULL: no direct sum, the pair energy comes from the particles' potential */
 	char unknown[200];           /* why the total energy is not known; "" it is */
 	bool vortices;               /* the law is that of vortices */
+	bool vector;                 /* in space: strength, density and potential have 3 components */
+	double nu;                   /* [length^2/time] viscosity of the frame */
 	double centre[2];            /* [length] where omega is looked at */
 	bool outside;                /* count those beyond the mesh, and their energy */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
@@ -88,6 +91,9 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f);
 /* Sums over the sets and the mesh of vorticity; the reads of both are declared. */
 void pm_vortex_reads(const struct pm_measure *how, struct pm_frame *f);
 void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+/* The same in space. 0, or failure without memory. */
+void pm_vortex_space_reads(const struct pm_measure *how, struct pm_frame *f);
+int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);

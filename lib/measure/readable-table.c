@@ -14,6 +14,8 @@ static const int plasma[] = {PM_STEP, PM_TIME, PM_ENERGY, PM_ENERGY_KINETIC, PM_
 	PM_MOMENTUM, PM_CHARGE, PM_SPEED_RMS, PM_PARTICLES, -1};
 static const int vortices[] = {PM_STEP, PM_TIME, PM_CIRCULATION, PM_ENERGY, PM_ENSTROPHY, PM_OMEGA_MAX, PM_ANGULAR_IMPULSE, PM_IMPULSE, PM_IMPULSE + 1,
 	PM_DISTORTION, PM_PARTICLES, -1};
+static const int space[] = {PM_STEP, PM_TIME, PM_ENERGY, PM_ENSTROPHY, PM_HELICITY, PM_DIVERGENCE, PM_OMEGA_MAX, PM_IMPULSE, PM_IMPULSE + 1, PM_IMPULSE + 2,
+	PM_DISTORTION, PM_PARTICLES, -1};
 static const int others[] = {PM_STEP, PM_TIME, PM_PARTICLES, PM_DISTANCE_MAX, PM_SPEED_RMS, PM_ENERGY_KINETIC, PM_MOMENTUM, PM_MASS, -1};
 
 int pm_readable_width(int file)
@@ -23,7 +25,10 @@ int pm_readable_width(int file)
 	return !ioctl(file, TIOCGWINSZ, &size) && size.ws_col ? size.ws_col : typed > 0 ? typed : 80;
 }
 
-static const int *of_law(const struct pm_measure *how) { return how->vortices ? vortices : how->plasma ? plasma : how->strength ? bodies : others; }
+static const int *of_law(const struct pm_measure *how)
+{
+	return how->vector ? space : how->vortices ? vortices : how->plasma ? plasma : how->strength ? bodies : others;
+}
 
 static bool seldom(const double *value, int k, const struct pm_diag_column *column) /* the second of two energies of the field, and zeros */
 {

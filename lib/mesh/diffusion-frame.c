@@ -1,4 +1,4 @@
-/* The law's density in, its rate of change out; the Laplacian is gradient.c's. Memory: one more field where something has added to the rate before.
+/* The law's density in, its rate of change out; the Laplacian is gradient.c's.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -41,34 +41,26 @@ int pm_diffusion_declare(const struct pm_diffusion_choice *o, struct pm_frame *f
 	return status ? status : contribute(o, f, law, t);
 }
 
-/* change += nu lap density; scratch is used if the change is not empty. */
-static int add(struct pm_diffusion *t, double *scratch)
+/* change += nu lap density */
+static int add(struct pm_diffusion *t)
 {
 	const double *in[PM_COMPONENTS];
 	double *out[PM_COMPONENTS];
-	size_t n = t->change->count;
+	t->operator.add = t->change->nterms > 1;
 	for (int c = 0; c < t->operator.in; c++) {
 		in[c] = pm_in(t->density, c);
-		out[c] = scratch ? scratch + (size_t)c * n : pm_out(t->change, c);
+		out[c] = pm_out(t->change, c);
 	}
-	int status = pm_operator_apply(&t->operator, t->nu, in, out, NULL);
-	for (int c = 0; c < t->operator.out && scratch; c++)
-		for (size_t i = 0; i < n; i++)
-			pm_out(t->change, c)[i] += out[c][i];
-	return status;
+	return pm_operator_apply(&t->operator, t->nu, in, out, NULL);
 }
 
 int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans)
 {
-	double *scratch = t->change->nterms > 1 ? pm_alloc(t->change->count * (size_t)t->operator.out, sizeof *scratch) : NULL;
-	if (t->change->nterms > 1 && !scratch)
-		return -PM_DATA;
 	if (plans->n > PM_FFT_PLANS - 3) /* frames of many sizes: empty the collection */
 		pm_fft_plans_clear(plans);
 	int status = pm_operator_plan(&t->operator, plans);
 	if (!status)
-		status = add(t, scratch);
+		status = add(t);
 	pm_limits_add(t->change, (struct pm_limits){.decay = t->nu * pm_operator_fastest(&t->operator)});
-	pm_free(scratch);
 	return status;
 }

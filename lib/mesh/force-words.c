@@ -16,7 +16,7 @@ static bool held(const struct pm_frame *f, const char *mesh, const char *name)
 
 static bool pairs(const struct pm_frame *f, const struct pm_law *law)
 {
-	bool open = law->coefficient && law->strength;
+	bool open = law->coefficient && law->strength && !law->vector;
 	for (int k = 0; k < 2 * f->dim; k++)
 		open = open && f->face[k / 2][k % 2] == PM_OPEN;
 	return open;

@@ -52,14 +52,14 @@ const char *pm_gradient_order_of(const struct pm_field *p)
 
 bool pm_gradient_repeats(const struct pm_frame *f, const struct pm_field *p)
 {
-	const struct pm_law *law = pm_law_find(f->law);
+	const struct pm_law *law = pm_law_of(f);
 	const struct pm_field *of = law && law->field && law->potential ? pm_frame_field(f, p->on, law->potential) : NULL;
 	return of && p->role == PM_DERIVED && !strcmp(p->name, law->field) && pm_gradient_order_of(p) && of->role == PM_DERIVED;
 }
 
 void pm_gradient_leave_out(struct pm_frame *f, struct pm_field *p)
 {
-	struct pm_field *potential = pm_frame_field(f, p->on, pm_law_find(f->law)->potential);
+	struct pm_field *potential = pm_frame_field(f, p->on, pm_law_of(f)->potential);
 	json_object_set(potential->more, PM_DIFFERENCES, json_object_get(p->more, PM_DIFFERENCES));
 	pm_drops(f, p);
 }

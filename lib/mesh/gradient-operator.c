@@ -19,7 +19,7 @@ int pm_order_find(const char *name)
 
 static void add(struct pm_operator *o, int out, int in, int axis, double sign)
 {
-	o->term[o->nterms++] = (struct pm_operator_term){out, in, axis, sign};
+	o->term[o->nterms++] = (struct pm_operator_term){.out = out, .in = in, .as = in, .axis = axis, .sign = sign};
 }
 
 static int faces(const struct pm_operator *o)
@@ -76,6 +76,31 @@ int pm_operator_init(struct pm_operator *o, const struct pm_grid *g, enum pm_ope
 		return pm_fail(PM_DATA, "no %s of a field of %d components in %d-D (grad takes 1, div %d, lap 1 to 3%s)", pm_operator_names[kind], in, dim, dim,
 			dim == 3 ? ", curl 3" : dim == 2 ? ", curl 1 or 2" : "");
 	}
+	return faces(o);
+}
+
+const char *const pm_stretch_names[] = {"conservative", "classical", "transpose", "mixed", NULL};
+
+int pm_operator_stretch(struct pm_operator *o, const struct pm_grid *g, enum pm_stretch_form form, int component, int order)
+{
+	*o = (struct pm_operator){.grid = *g, .kind = PM_OP_DIV, .order = order, .in = 3, .out = form == PM_STRETCH_CONSERVATIVE ? 1 : 3, .flow = true,
+		.derivative = 1};
+	for (int d = 0; d < 3 && form == PM_STRETCH_CONSERVATIVE; d++) {
+		add(o, 0, d, d, 1); /* omega_d is even where its axis has a wall, so the product has the images of u_c */
+		o->term[d].as = component;
+	}
+	for (int c = 0; c < 3 && form != PM_STRETCH_CONSERVATIVE; c++)
+		for (int d = 0; d < 3; d++) {
+			const double share = form == PM_STRETCH_MIXED ? 0.5 : 1;
+			if (form != PM_STRETCH_TRANSPOSE) {
+				add(o, c, c, d, share);
+				o->term[o->nterms - 1].by = 1 + d;
+			}
+			if (form != PM_STRETCH_CLASSICAL) {
+				add(o, c, d, c, share);
+				o->term[o->nterms - 1].by = 1 + d;
+			}
+		}
 	return faces(o);
 }
 

@@ -21,7 +21,7 @@ struct lines {
 	size_t nodes;
 };
 
-static void transform(const struct lines *l, const struct pm_line_group g, const double *in, double *out, double *block)
+static void transform(const struct lines *l, const struct pm_line_group g, const double *in, const double *weight, double *out, double *block)
 {
 	for (size_t i = 0; i < l->nodes; i++)
 		for (size_t q = 0; q < L; q++)
@@ -33,17 +33,19 @@ static void transform(const struct lines *l, const struct pm_line_group g, const
 	for (size_t i = 0; i < l->nodes; i++)
 		for (size_t q = 0; q < g.lines; q++) {
 			double *to = out + i * g.step + q * g.across;
-			*to = l->factor * block[i * L + q] + (l->add ? *to : 0);
+			const double by = weight ? weight[i * g.step + q * g.across] : 1;
+			*to = l->factor * by * block[i * L + q] + (l->add ? *to : 0);
 		}
 }
 
-static void term(const struct pm_operator *o, int d, const struct lines *l, const double *in, double *out, double *scratch, size_t lot)
+static void term(const struct pm_operator *o, int d, const struct lines *l, const double *in, const double *weight, double *out, double *scratch,
+	size_t lot)
 {
 	const size_t groups = pm_line_groups(o->grid.points, d);
 #pragma omp parallel for schedule(static) num_threads(pm_threads())
 	for (size_t b = 0; b < groups; b++) {
 		const struct pm_line_group g = pm_line_group(o->grid.points, d, b);
-		transform(l, g, in + g.at, out + g.at, scratch + (size_t)omp_get_thread_num() * lot);
+		transform(l, g, in + g.at, weight ? weight + g.at : NULL, out + g.at, scratch + (size_t)omp_get_thread_num() * lot);
 	}
 }
 
@@ -63,10 +65,10 @@ int pm_operator_spectral(const struct pm_operator *o, double factor, const doubl
 		return -PM_DATA;
 	for (int t = 0; t < o->nterms; t++) {
 		const struct pm_operator_term *q = &o->term[t];
-		bool flip = pm_operator_odd(o, q->in, q->axis, 0) != (o->grid.face[q->axis][0] == PM_WALL);
+		bool flip = pm_operator_odd(o, q->as, q->axis, 0) != (o->grid.face[q->axis][0] == PM_WALL);
 		const struct lines l = {.line = &line[q->axis], .h = o->grid.h[q->axis], .factor = factor * q->sign, .flip = flip,
-			.add = t && q->out == q[-1].out, .derivative = o->derivative, .nodes = n[q->axis]};
-		term(o, q->axis, &l, in[q->in], out[q->out], scratch, lot);
+			.add = o->add || (t && q->out == q[-1].out), .derivative = o->derivative, .nodes = n[q->axis]};
+		term(o, q->axis, &l, in[q->in], q->by ? o->weight[q->by - 1] : NULL, out[q->out], scratch, lot);
 	}
 	pm_free(scratch);
 	return 0;

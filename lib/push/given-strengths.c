@@ -1,5 +1,6 @@
 /* Which strengths a push changes in total, as its rates say. Diffusion exchanges strength between particles; its rates add up to 0 but for what passes through
- * a wall, where the density is held at 0. Every other rate of a strength is given by the user. SPDX-License-Identifier: GPL-3.0-or-later */
+ * a wall, where the density is held at 0. Those of stretching add up to 0, or to the error of its differences.
+ * Every other rate of a strength is given by the user. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "push/push-set.h"
@@ -15,7 +16,7 @@ static bool passes(const struct pm_frame *f)
 static bool given(const struct pm_frame *f, const struct pm_field *rate)
 {
 	for (int t = 0; t < rate->nterms; t++)
-		if (strcmp(rate->terms[t], "diffusion"))
+		if (strcmp(rate->terms[t], "diffusion") && strcmp(rate->terms[t], "stretching"))
 			return true;
 	return passes(f);
 }

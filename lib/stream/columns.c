@@ -15,7 +15,7 @@ static bool among(const char *name, const char *const *list)
 
 static bool is_strength(const char *name)
 {
-	static const char *const names[] = {"mass", "charge", "circulation", NULL};
+	static const char *const names[] = {"mass", "charge", "circulation", "alpha", NULL};
 	return among(name, names);
 }
 

@@ -29,7 +29,7 @@ static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_ga
 	return pm_fail(PM_DATA, "no field '%s' on mesh '%s' (run %s first)", j->name, mesh ? mesh : j->mesh->name, words);
 }
 
-/* The normal component of a gradient has the image of the other sign; so has the tangential one of a curl in the plane. A given field has the same values on
+/* The normal component of a gradient has the image of the other sign; so have the tangential ones of a curl. A given field has the same values on
  * both sides of any face; one that evolves by Maxwell's equations is one of both. */
 static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfer *t)
 {
@@ -43,10 +43,8 @@ static void set_images(const struct pm_gather_job *j, int dim, struct pm_transfe
 	}
 	bool law = j->law->field && !strcmp(j->name, j->law->field), curl = law && j->law->of_potential == PM_CURL;
 	for (int c = 0; c < t->components && t->components == dim; c++)
-		if (curl && dim == 2)
-			t->flip[c][1 - c] = 1;
-		else if (!curl && (law || dim > 1))
-			t->flip[c][c] = 1;
+		for (int d = 0; d < dim; d++)
+			t->flip[c][d] = curl ? c != d : c == d && (law || dim > 1);
 }
 
 /* The law's field, the changes on its mesh that some set receives, and the magnetic field; how many. */

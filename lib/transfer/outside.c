@@ -82,7 +82,7 @@ int pm_outside_init(struct pm_outside_force *o, const struct pm_frame *f, const 
 		if (!strcmp(pm_kernel_names[i], made->kernel))
 			kernel = pm_kernel_find(made->kernel);
 	o->transfer = (struct pm_transfer){.grid = pm_grid_of(f, m), .kernel = kernel, .components = 1, .rim = made->rim};
-	const bool known = law->strength && law->coefficient && kernel && made->role == PM_DERIVED && has_sources(f, law->strength);
+	const bool known = law->strength && !law->vector && law->coefficient && kernel && made->role == PM_DERIVED && has_sources(f, law->strength);
 	if (!known || !pm_outside_open(&o->transfer.grid))
 		return 0;
 	o->strength = law->strength;

@@ -6,10 +6,10 @@
 #include "transfer/outside.h"
 #include "transfer/spread-frame.h"
 
-/* The monopole of another field than the law's strength is no force, so what is beyond the mesh is refused. */
+/* The monopole of another field than the law's strength is no force, and that of a vorticity without divergence is 0: what is beyond the mesh is refused. */
 static enum pm_outside outside_of(const struct pm_spread_job *j, const char *word)
 {
-	const bool force = j->law->strength && j->law->coefficient && !strcmp(j->strength, j->law->strength);
+	const bool force = j->law->strength && !j->law->vector && j->law->coefficient && !strcmp(j->strength, j->law->strength);
 	if (!strcmp(word, "drop") || (j->law->evolves && strcmp(word, "error")))
 		return PM_OUTSIDE_DROP;
 	return force && !strcmp(word, "monopole") ? PM_OUTSIDE_MONOPOLE : PM_OUTSIDE_ERROR;
@@ -50,7 +50,8 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 	struct pm_transfer t = transfer_of(j, f);
 	const struct pm_density density = {.name = j->density, .kernel = j->kernel, .interlaced = j->choice.interlace, .sets = &j->sets,
 		.strength = j->strength, .rim = j->choice.rim,
-		.outside = j->outside == PM_OUTSIDE_DROP || !j->law->strength || strcmp(j->strength, j->law->strength) ? j->outside : PM_OUTSIDE_MONOPOLE};
+		.outside = j->outside == PM_OUTSIDE_DROP || !j->law->strength || j->law->vector || strcmp(j->strength, j->law->strength) ? j->outside :
+			PM_OUTSIDE_MONOPOLE};
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	return status ? status : pm_makes_density(f, j->mesh, &density, add);
 }

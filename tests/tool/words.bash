@@ -16,6 +16,7 @@ words() {
 	diffuse) echo "diffuse --nu 0.1" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
+	stretch) echo "stretch --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
 	walk) echo "walk --nu 0.1" ;;
 	remesh) echo "remesh --by mass" ;;
@@ -41,6 +42,7 @@ input() {
 	mgrad) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
+	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	walk) cloud | smod --dt 0.01 ;;
 	*) cloud ;;
