@@ -23,6 +23,8 @@ version=@VERSION@
 . lib/shell/limit-of.sh
 # shellcheck source=lib/shell/bisect.sh
 . lib/shell/bisect.sh
+# shellcheck source=lib/shell/json.sh
+. lib/shell/json.sh
 # shellcheck source=lib/shell/limits.sh
 . lib/shell/limits.sh
 # shellcheck source=lib/shell/map.sh

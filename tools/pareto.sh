@@ -25,6 +25,8 @@ version=@VERSION@
 . lib/shell/sizes.sh
 # shellcheck source=lib/shell/refine.sh
 . lib/shell/refine.sh
+# shellcheck source=lib/shell/json.sh
+. lib/shell/json.sh
 # shellcheck source=lib/shell/front.sh
 . lib/shell/front.sh
 # shellcheck source=lib/shell/front-picture.sh
@@ -44,7 +46,7 @@ over all sentences in changing order, until the medians of the front are known t
 are on the front. Set-up, and the largest memory of one word, are listed separately. A sentence that fails is reported and does not stop the others.
 
 With -o DIRECTORY: pareto.tsv, pictures (splot) and index.html, a page of one file whose table sorts; the same command continues a sweep that was
-stopped. Then --until-error, --within and --tsv need no SENTENCE."
+stopped. Then --until-error, --within and --format tsv or json need no SENTENCE."
 rows="a|against|TEXT||the reference: a sentence (without a source it is fed by the words before the first brace; names in braces as in \
 SENTENCE), a file, exact (the exact numbers of the scene; --field then names columns of diag), or finest (the last of all alternatives)
 f|field|NAME||compare these fields, with commas between (default: all)
@@ -63,7 +65,8 @@ j|jobs|N||only errors, without seconds: run N sentences at a time (GNU parallel)
 |until-error|X||print the cheapest sentence with at most this error, and nothing else
 |refine|||with --until-error: where no sentence listed meets it, continue the numbers among the alternatives along their measured convergence
 |within|TEXT||print the most accurate sentence of at most this cost, as 2s, 50ms or 1.5min, and nothing else
-|tsv|||print the table as TSV
+|format|WORD|table tsv json|what is printed (default table)
+|tsv|||the same as --format tsv
 |list|||print the sentences, and run nothing
 |fresh|||discard earlier results in the directory of -o
 |threads|N||threads of every word (OMP_NUM_THREADS)"
@@ -77,6 +80,8 @@ settle() {
 	read_options "$@"
 	[ ${#positional[@]} -le 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	against=${opt_against:-} field=${opt_field:-} set=${opt_set:-} norm=${opt_norm:-relative_l2} repeat=${opt_repeat:-3} jobs=${opt_jobs:-}
+	format=${opt_format:-${opt_tsv:+tsv}}
+	[[ -z ${opt_tsv:-} || $format = tsv ]] || usage "--tsv and --format $format (leave one of them out)"
 	settle_times
 	keep_directory
 	until=${opt_until_error:-} within_seconds=
@@ -128,26 +133,6 @@ all_known() {
 			for ((r = 1; r <= repeat; r++)); do is_complete "$m" $r || return 1; done
 		fi
 	done
-}
-
-report() {
-	tsv >"$work/pareto.tsv"
-	[ ! -t 2 ] || printf '\r\033[K' >&2
-	if [ -n "$keep" ]; then
-		cp "$work/pareto.tsv" "$keep/pareto.tsv"
-		plot "$keep"
-		page "$keep"
-	fi
-	[ -z "$until$within_seconds${opt_tsv:-}" ] || tell_loaded
-	if [ -n "$until$within_seconds" ]; then
-		choose "$work/pareto.tsv"
-	elif [ -n "${opt_tsv:-}" ]; then
-		cat "$work/pareto.tsv"
-	else
-		table "$work/pareto.tsv"
-		[ -z "$keep" ] || echo "page: $keep/index.html"
-	fi
-	awk -F'\t' 'NR > 1 && $2 != "failed" { found = 1 } END { exit !found }' "$work/pareto.tsv" || fail 1 "every sentence failed"
 }
 
 main() {

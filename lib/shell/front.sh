@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# The result of a sweep (lib/shell/members.sh) as text and page, the commands that were run, and the answers to --until-error and --within.
+# The result of a sweep (lib/shell/members.sh) as text, JSON and page, the commands that were run, and the answers to --until-error and --within.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # The table as text: the front marked with *, or ~ where another member may beat it within noise; then the alternatives that are never on it, the failures,
@@ -151,9 +151,40 @@ choose() {
 			exit 1 }' "$1"
 }
 
-# answer_again: without a sentence, --until-error, --within and --tsv are answered from the finished sweep in the directory of -o.
+# answer_again: without a sentence, --until-error, --within and --format tsv or json are answered from the finished sweep in the directory of -o.
 answer_again() {
-	[[ -n $keep && -n $until$within_seconds${opt_tsv:-} ]] || usage "SENTENCE is missing"
+	[[ -n $keep && ( -n $until$within_seconds || ${format:-table} != table ) ]] || usage "SENTENCE is missing"
 	[ -s "$keep/pareto.tsv" ] || usage "SENTENCE is missing, and '$keep' holds no finished sweep (pareto.tsv)"
-	if [ -n "$until$within_seconds" ]; then choose "$keep/pareto.tsv"; else cat -- "$keep/pareto.tsv"; fi
+	if [ -n "$until$within_seconds" ]; then choose "$keep/pareto.tsv"; else cat -- "$keep/pareto.$format"; fi
+}
+
+# json TSV: the table, with what was asked.
+json() {
+	printf '{"sentence": %s, "against": %s, "field": %s, "norm": "%s", "time": "%s", "version": "%s", "members": [\n' "$(quoted "${positional[0]}")" \
+		"$(quoted "$against")" "$([ -z "$field" ] && echo null || quoted "$field")" "$norm" "$clock" "$version"
+	json_rows "$1"
+	printf ']}\n'
+}
+
+report() {
+	tsv >"$work/pareto.tsv"
+	[ ! -t 2 ] || printf '\r\033[K' >&2
+	if [ -n "$keep" ]; then
+		cp "$work/pareto.tsv" "$keep/pareto.tsv"
+		json "$work/pareto.tsv" >"$keep/pareto.json"
+		plot "$keep"
+		page "$keep"
+	fi
+	[[ -z $until$within_seconds && ${format:-table} = table ]] || tell_loaded
+	if [ -n "$until$within_seconds" ]; then
+		choose "$work/pareto.tsv"
+	elif [ "$format" = tsv ]; then
+		cat "$work/pareto.tsv"
+	elif [ "$format" = json ]; then
+		json "$work/pareto.tsv"
+	else
+		table "$work/pareto.tsv"
+		[ -z "$keep" ] || echo "page: $keep/index.html"
+	fi
+	awk -F'\t' 'NR > 1 && $2 != "failed" { found = 1 } END { exit !found }' "$work/pareto.tsv" || fail 1 "every sentence failed"
 }

@@ -135,6 +135,19 @@ by_hand() {
 	grep -q 'never on the front: choice2 1' text
 }
 
+@test "--format json: the table with numbers as numbers and null for what there is not, also as pareto.json and from a finished directory" {
+	by_hand --format json >j
+	[ "$(jq -c '.members[0] | [.member, .error, .seconds, .dominated_by, .choice, .choice2, .ties]' <j)" = '[2,0.01,1,null,"a",2,null]' ]
+	[ "$(jq -r '.sentence, .against, .norm, .field' <j)" = $'pinit uniform -n 20 | m2p -{a,b} {1,2}\np2m -n 4\nrelative_l2\nx' ]
+	by_hand --tsv >t
+	[ "$(jq '.members | length' <j)" = "$(($(wc -l <t) - 1))" ]
+	[ "$(jq -r '.members[].sentence' <j)" = "$(awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "sentence") c = i; next } { print $c }' t)" ]
+	same_as j d/pareto.json
+	pareto -o d --format json >again
+	same_as j again
+	told 'leave one of them out' 'a {b,c}' --against pp --tsv --format json
+}
+
 @test "--until-error prints the cheapest sentence within it, --within the most accurate; none is exit 1" {
 	[ "$(by_hand --until-error 1e-2)" = "pinit uniform -n 20 | m2p -a 2" ]
 	[ "$(by_hand --until-error 1e-4)" = "pinit uniform -n 20 | m2p -b 2" ]
@@ -360,6 +373,13 @@ fronts() { awk -F'\t' '$3 == "yes" { print $5 }' "$1" | sort -g | xargs; }
 	cp log d/measured/log
 	pareto "pinit uniform -n 20 | m2p -{a,b} {1,2}" --against 'p2m -n 4' --field x --repeat 3 -o d --time processor --tsv >table
 	[ "$(fronts table)" = "1e-5 2e-5 0.02" ]
+	[ "$(column processor_spread <table | sort -u)" = 0.01 ] # of rounds that are 0.01 apart; 0.1 in wall time
+	[[ "$(pareto -o d --time processor --until-error 3e-5 2>&1)" == "pinit uniform -n 20 | m2p -b 1" ]] # 2 s, not 3
+	# 2 and 3 s, each +- 0.6: a tie, which wall times (5 and 4, +- 0.1) are not
+	awk -F'\t' -v OFS='\t' '$1 == "time" { $7 += 0.6 * ($3 - 2) } { print }' log >d/measured/log
+	pareto "pinit uniform -n 20 | m2p -{a,b} {1,2}" --against 'p2m -n 4' --field x --repeat 3 -o d --time processor --tsv >table
+	[[ "$(pareto -o d --time processor --until-error 3e-5 2>&1)" == *"pareto: within noise members 4 cost as much"* ]]
+	[[ "$(pareto -o d --until-error 3e-5 2>&1)" == "pinit uniform -n 20 | m2p -b 2" ]]
 	# By hand: 1 is beaten by 2 and 3 by 4, but 3 is smaller.
 	type -P time >/dev/null || skip "no program time here" # bash has a word of this name
 	by_hand --tsv >/dev/null
