@@ -3,6 +3,8 @@
 #include <stdio.h>
 
 #include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "law/law.h"
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
@@ -20,10 +22,40 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 	snprintf(d->text, sizeof d->text, "|grad u| T = %.2g", share);
 }
 
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	if (c->decision->answer != PM_PUT_IN || c->method->pairs)
+		return;
+	pm_words_add(w, PM_SLOT_MESH, "stretch", "stretching: on, %s", c->decision->text);
+	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and the change of their strengths by stretching");
+}
+
+static bool asked(const struct pm_frame *f, const struct pm_law *law, char what[64])
+{
+	(void)f;
+	snprintf(what, 64, "vorticity in space");
+	return law->vector;
+}
+
+static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && c->scales->dim == 3; }
+
+/* One step of the strengths, as for diffusion. */
+static void test(const struct pm_effect_case *c, struct pm_effect_test *t)
+{
+	(void)c;
+	t->of = PM_TEST_STRENGTH;
+	t->steps = 1;
+}
+
 const struct pm_effect effect_stretching = {
 	.name = "stretching",
 	.sentence = "vortex lines stretched by the flow",
 	.source = "Cottet and Koumoutsakos 2000, section 3.1",
 	.word = "stretch",
+	.asked = asked,
+	.done_by = (const char *const[]){"stretch", NULL},
 	.decide = decide,
+	.words = words,
+	.reversible = reversible,
+	.test = test,
 };

@@ -31,13 +31,15 @@ static bool pairs(const struct pm_frame *f, const struct pm_plan *p, char why[16
 	const double a = cost_pairs(s), b = f->nmeshes ? pm_plan_cost_mesh(s) : HUGE_VAL;
 	if (!all_open(s))
 		snprintf(why, 160, "a %s box", s->periodic ? "periodic" : "walled");
+	else if (p->law->vector)
+		snprintf(why, 160, "vortices in space");
 	else if (field)
 		snprintf(why, 160, "the particles carry a field: their volumes fill the mesh to %.1g", s->overlap);
 	else if (a <= b)
 		snprintf(why, 160, "%g bodies, pairs cost %.1g of the mesh", s->sources, a / b);
 	else
 		snprintf(why, 160, "%g bodies, a mesh costs %.1g of the pairs", s->sources, b / a);
-	return all_open(s) && !field && a <= b;
+	return all_open(s) && !field && !p->law->vector && a <= b;
 }
 
 void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
@@ -47,7 +49,7 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	*m = (struct pm_method){.dt = NAN, .follow = NAN, .tolerance = NAN, .evaluations = NAN,
 		.kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
 	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
-	p->scales.singular = s->kind == PM_VORTICES && f->nmeshes && !is_field(s);
+	p->scales.singular = s->kind == PM_VORTICES && f->nmeshes && !is_field(s) && !p->law->vector;
 	/* A patch of vorticity stays together, so its mesh may follow it; bodies escape, and the mesh would grow with each: they keep p2m's monopole.
 	 * 4: half the widest kernel. */
 	m->grow = s->kind == PM_VORTICES && s->edge < 4 * s->h;

@@ -185,9 +185,18 @@ struct pulls {
 	bool squares;
 };
 
+/* Of a strength: its absolute value, or the length of a vector. */
+static double size_of(const struct pm_field *q, size_t i)
+{
+	double size = fabs(pm_value_at(q, 0, i));
+	for (int c = 1; c < q->components; c++)
+		size = hypot(size, pm_value_at(q, c, i));
+	return size;
+}
+
 static double pull(const struct pulls *p, size_t i)
 {
-	const double a = fabs(pm_value_at(p->q, 0, i));
+	const double a = size_of(p->q, i);
 	return !p->squares ? a : p->m && pm_value_at(p->m, 0, i) > 0 ? a * a / pm_value_at(p->m, 0, i) : 0;
 }
 
@@ -211,7 +220,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 		if (q)
 			pm_over_set(&parts, &of, q->count, &total);
 		for (size_t i = 0; q && i < q->count; i++) {
-			const double a = fabs(pm_value_at(q, 0, i));
+			const double a = size_of(q, i);
 			s->sources += a > 0;
 			dense = v && pm_value_at(v, 0, i) > 0 ? fmax(dense, a / pm_value_at(v, 0, i)) : dense;
 			largest_pull = fmax(largest_pull, pull(&of, i));
@@ -323,15 +332,18 @@ static double length_of(const struct pm_grid *g, int components, const double *c
 	return sqrt(pm_sum_total(sum));
 }
 
-static int roughness(const struct pm_grid *g, const double *density, double size, double *rough)
+static int roughness(const struct pm_grid *g, int components, const double *const density[], double size, double *rough)
 {
 	struct pm_operator lap;
-	double *out = pm_alloc(pm_grid_size(g), sizeof *out);
-	int status = out ? pm_operator_init(&lap, g, PM_OP_LAP, 4, 1, false) : -PM_DATA;
+	const size_t n = pm_grid_size(g);
+	double *made = pm_alloc((size_t)components * n, sizeof *made), *out[PM_COMPONENTS];
+	int status = made ? pm_operator_init(&lap, g, PM_OP_LAP, 4, components, false) : -PM_DATA;
+	for (int k = 0; k < components; k++)
+		out[k] = made + (size_t)k * n;
 	if (!status)
-		status = pm_operator_apply(&lap, 1, &density, &out, NULL);
-	*rough = status ? NAN : length_of(g, 1, (const double *const *)&out, 0) / size;
-	pm_free(out);
+		status = pm_operator_apply(&lap, 1, density, out, NULL);
+	*rough = status ? NAN : length_of(g, components, (const double *const *)out, 0) / size;
+	pm_free(made);
 	return status;
 }
 
@@ -339,17 +351,22 @@ static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const
 {
 	const struct pm_field *rho = pm_frame_field(f, m->name, law->density), *field = pm_frame_field(f, m->name, law->field);
 	const struct pm_grid g = pm_grid_of(f, m);
-	const double *y[PM_COMPONENTS], *r = rho ? pm_in(rho, 0) : NULL, c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	const double *y[PM_COMPONENTS], *r[PM_COMPONENTS], c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	double size = 0;
 	if (!rho || !field || field->role != PM_DERIVED)
 		return 0;
 	for (int k = 0; k < field->components; k++)
 		y[k] = pm_in(field, k);
-	const double mean = s->periodic ? pm_grid_sum(&g, r, NULL) / (double)rho->count : 0, size = length_of(&g, 1, &r, mean);
+	for (int k = 0; k < rho->components; k++) {
+		r[k] = pm_in(rho, k);
+		const double mean = s->periodic ? pm_grid_sum(&g, r[k], NULL) / (double)rho->count : 0, here = length_of(&g, 1, &r[k], mean);
+		size = k ? hypot(size, here) : here;
+	}
 	s->length = length_of(&g, field->components, y, 0) / (c * size);
 	if (s->kind != PM_VORTICES)
 		return 0;
 	s->strain = pm_strain(&g, field->components, y);
-	return size > 0 ? roughness(&g, r, size, &s->rough) : 0;
+	return size > 0 ? roughness(&g, rho->components, r, size, &s->rough) : 0;
 }
 
 static void make_squares(const void *data, size_t from, size_t to, void *part)

@@ -95,3 +95,14 @@ apart() { scalc --mesh mesh "d = max(max(abs($1.x - $2.x), abs($1.y - $2.y)), ab
 		same_as 1.pm 2.pm && same_as 1.pm 7.pm
 	done
 }
+
+@test "plan puts stretch in, and cycle names it where a sentence forgets it" {
+	pinit taylor-green-3d --cells 12 --nu 0 >a
+	plan --no-cost -t 1 <a >text
+	grep -qE '^stretch +\|  # stretching: on, \|grad u\| T = ' text
+	[ "$(plan --sentence -t 1 <a | sed 's/ --dt [^ ]*//')" = \
+		'p2m --kernel m6prime | poisson-fft | mgrad | stretch | m2p | push lsrk3 | remesh --kernel m6prime' ]
+	[[ $(pinit vortex-ring --cells 32x32x16 | plan --sentence -t 1) == *' | stretch | '*' --outside grow' ]]
+	run --separate-stderr cycle -n 1 'p2m | poisson-fft | mgrad | m2p | push lsrk3' <a
+	[[ $stderr == "cycle: the frame has vorticity in space, but no word of the sentence acts by it (stretch): "* ]]
+}
