@@ -77,6 +77,16 @@ int pm_raster_project(struct pm_raster *r, const struct pm_frame *f, const struc
 	return 0;
 }
 
+/* The unit in which n weights are counted: all together are below 2^62 of it. */
+static double quantum(const struct pm_raster_points *points)
+{
+	double most = points->w || !points->n ? 0 : 1;
+	for (size_t p = 0; points->w && p < points->n; p++)
+		most = fmax(most, fabs(points->w[p]));
+	return most > 0 ? fmax(0x1p-1022, ldexp(1, ilogb(most) + 1 + ilogb((double)points->n) + 1 - 62)) : 1;
+}
+
+/* Weights are counted as integers, so the order of the points does not matter. */
 int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo[2], const double hi[2], const struct pm_raster_points *points, size_t *outside)
 {
 	const double *x = points->x, *y = points->y, *w = points->w;
@@ -85,11 +95,15 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 		r->n[k] = bins[k], r->h[k] = (hi[k] - lo[k]) / (double)bins[k];
 		r->lo[k] = lo[k] + r->h[k] / 2, r->wrap[k] = false;
 	}
+	const double unit = quantum(points);
+	int64_t *count = pm_zalloc(bins[0] * bins[1], sizeof *count);
 	r->value = pm_zalloc(bins[0] * bins[1], sizeof *r->value);
-	if (!r->value)
+	if (!r->value || !count) {
+		pm_free(count);
 		return -PM_DATA;
+	}
 	for (size_t p = 0; p < points->n; p++) {
-		double s[2] = {(x[p] - r->lo[0]) / r->h[0], (y[p] - r->lo[1]) / r->h[1]}, value = (w ? w[p] : 1) / (r->h[0] * r->h[1]);
+		double s[2] = {(x[p] - r->lo[0]) / r->h[0], (y[p] - r->lo[1]) / r->h[1]}, value = (w ? w[p] : 1) / unit;
 		if (!(x[p] >= lo[0] && x[p] <= hi[0] && y[p] >= lo[1] && y[p] <= hi[1])) {
 			++*outside;
 			continue;
@@ -99,9 +113,12 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 				double i = floor(s[0]) + a, j = floor(s[1]) + b, share = (1 - fabs(s[0] - i)) * (1 - fabs(s[1] - j));
 				/* A point at the edge goes fully into the last bin. */
 				i = fmin(fmax(i, 0), (double)bins[0] - 1), j = fmin(fmax(j, 0), (double)bins[1] - 1);
-				r->value[(size_t)i + (size_t)j * bins[0]] += share * value;
+				count[(size_t)i + (size_t)j * bins[0]] += llrint(share * value);
 			}
 	}
+	for (size_t b = 0; b < bins[0] * bins[1]; b++)
+		r->value[b] = (double)count[b] * (unit / (r->h[0] * r->h[1]));
+	pm_free(count);
 	return 0;
 }
 

@@ -7,7 +7,7 @@
  * Cost: nodes of the faces. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/base.h"
+#include "base/in-order.h"
 #include "poisson/boundary.h"
 
 struct stencil {
@@ -220,27 +220,45 @@ void pm_boundary_set(const struct pm_boundary *b, double *phi)
 		}
 }
 
+/* A face of the box, a mesh of the two other axes. */
+struct face {
+	const struct pm_grid *g;
+	const struct pm_boundary_eps *eps;
+	const double *value;
+	int d, side, t[2];
+};
+
+/* The flux through a row of a face, and without its sign. */
+static void make_flux(const void *data, size_t from, size_t to, void *part)
+{
+	const struct face *f = data;
+	const struct pm_grid *g = f->g;
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
+		size_t at[3] = {0, 0, 0};
+		at[f->t[0]] = i - from, at[f->t[1]] = from / (to - from);
+		double weight = pm_grid_cell(g) / g->h[f->d];
+		for (int k = 0; k < 2; k++)
+			if (f->t[k] < g->dim && g->points[f->t[k]] > g->cells[f->t[k]] && (at[f->t[k]] == 0 || at[f->t[k]] == g->cells[f->t[k]]))
+				weight *= 0.5;
+		at[f->d] = f->side ? g->cells[f->d] : 0;
+		weight *= f->eps ? f->eps->eps[at[0] + g->points[0] * (at[1] + g->points[1] * at[2])] : 1;
+		pm_sum_add(&sum[0], weight * f->value[i]);
+		pm_sum_add(&sum[1], fabs(weight * f->value[i]));
+	}
+}
+
 struct pm_boundary_flux pm_boundary_flux(const struct pm_boundary *b, const struct pm_boundary_eps *eps)
 {
 	const struct pm_grid *g = &b->grid;
-	struct pm_sum total = {0}, absolute = {0};
+	struct pm_sum sum[2] = {{0, 0}};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make_flux, .join = pm_join_sums};
 	for (int d = 0; d < g->dim; d++)
 		for (int side = 0; side < 2; side++) {
-			int t[2];
-			across(d, t);
-			const double *value = g->face[d][side] == PM_NEUMANN ? b->value[d][side] : NULL;
-			for (size_t i = 0; value && i < pm_boundary_points(g, d); i++) {
-				size_t at[3] = {0, 0, 0};
-				at[t[0]] = i % g->points[t[0]], at[t[1]] = i / g->points[t[0]];
-				double weight = pm_grid_cell(g) / g->h[d];
-				for (int k = 0; k < 2; k++)
-					if (t[k] < g->dim && g->points[t[k]] > g->cells[t[k]] && (at[t[k]] == 0 || at[t[k]] == g->cells[t[k]]))
-						weight *= 0.5;
-				at[d] = side ? g->cells[d] : 0;
-				weight *= eps ? eps->eps[at[0] + g->points[0] * (at[1] + g->points[1] * at[2])] : 1;
-				pm_sum_add(&total, weight * value[i]);
-				pm_sum_add(&absolute, fabs(weight * value[i]));
-			}
+			struct face face = {.g = g, .eps = eps, .value = b->value[d][side], .d = d, .side = side};
+			across(d, face.t);
+			if (g->face[d][side] == PM_NEUMANN && face.value)
+				pm_over_mesh(&parts, &face, (const size_t[3]){g->points[face.t[0]], g->points[face.t[1]], 1}, sum);
 		}
-	return (struct pm_boundary_flux){pm_sum_total(total), pm_sum_total(absolute)};
+	return (struct pm_boundary_flux){pm_sum_total(sum[0]), pm_sum_total(sum[1])};
 }

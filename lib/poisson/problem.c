@@ -1,6 +1,7 @@
 /* Determines the problem from options and law, and checks it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "mesh/given-faces.h"
 #include "poisson/problem.h"
 #include "stream/declare.h"
@@ -93,19 +94,33 @@ struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
 	return g;
 }
 
+struct charges {
+	const struct pm_grid *g;
+	const double *s;
+};
+
+/* The charge of a row, and without its sign. */
+static void make_charges(const void *data, size_t from, size_t to, void *part)
+{
+	const struct charges *c = data;
+	const size_t row = from / (to - from), j = row % c->g->points[1], k = row / c->g->points[1];
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
+		const double charge = pm_grid_weight(c->g, i - from, j, k) * c->s[i];
+		pm_sum_add(&sum[0], charge);
+		pm_sum_add(&sum[1], fabs(charge));
+	}
+}
+
 /* The integrals whose difference a problem without walls must not have. */
 static void integrals(struct pm_homogeneous *m, double c, const double *s, const struct pm_boundary_eps *eps)
 {
 	const struct pm_grid *g = &m->boundary.grid;
-	struct pm_sum sum = {0}, absolute = {0};
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++)
-		for (size_t i = 0; i < g->points[0]; i++) {
-			double charge = pm_grid_weight(g, i, row % g->points[1], row / g->points[1]) * s[row * g->points[0] + i];
-			pm_sum_add(&sum, charge);
-			pm_sum_add(&absolute, fabs(charge));
-		}
-	m->charge = c * pm_grid_cell(g) * pm_sum_total(sum);
-	m->charge_absolute = fabs(c) * pm_grid_cell(g) * pm_sum_total(absolute);
+	struct pm_sum sum[2] = {{0, 0}};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make_charges, .join = pm_join_sums};
+	pm_over_mesh(&parts, &(struct charges){g, s}, g->points, sum);
+	m->charge = c * pm_grid_cell(g) * pm_sum_total(sum[0]);
+	m->charge_absolute = fabs(c) * pm_grid_cell(g) * pm_sum_total(sum[1]);
 	m->flux = pm_boundary_flux(&m->boundary, eps);
 }
 

@@ -87,6 +87,16 @@ static void planes(void)
 	check_near(sum, 7, 1e-13, "a density has the weight of the points inside, at the edge too");
 	check(outside == 1, "points outside are counted");
 	pm_raster_free(&r);
+	double many[3][2][400]; /* x, y, w; forward and back */
+	struct pm_raster both[2];
+	for (int i = 0; i < 400; i++)
+		for (int d = 0; d < 3; d++)
+			many[d][0][i] = many[d][1][399 - i] = d < 2 ? fmod(0.385 * (i + 1) * (i + 1 + d), 3) : exp(fmod(2.385 * i * i, 20) - 10);
+	for (int k = 0; k < 2; k++)
+		pm_raster_density(&both[k], bins, lo, hi, &(struct pm_raster_points){400, many[0][k], many[1][k], many[2][k]}, &outside);
+	check(both[0].value[7] > 0 && !memcmp(both[0].value, both[1].value, bins[0] * bins[1] * sizeof(double)),
+		"a density does not depend on the order of its points, to the last bit");
+	pm_raster_free(&both[0]), pm_raster_free(&both[1]);
 	pm_frame_free(f);
 }
 
