@@ -3,6 +3,8 @@
 #ifndef PM_LAW_H
 #define PM_LAW_H
 
+#include <string.h>
+
 #include "mesh/grid.h"
 
 PM_C_BEGIN
@@ -46,6 +48,16 @@ static inline const struct pm_law *pm_law_of(const struct pm_frame *f) /* NULL w
 {
 	const struct pm_law *law = pm_law_find(f->law);
 	return law && law->in_space && f->dim == 3 ? law->in_space : law;
+}
+
+/* A constant of the frame, else the law's default for it, else `otherwise`. */
+static inline double pm_law_constant(const struct pm_frame *f, const char *name, double otherwise)
+{
+	const struct pm_law *law = pm_law_of(f);
+	for (const struct pm_law_constant *c = law ? law->constants : NULL; c && c->name; c++)
+		if (!strcmp(c->name, name))
+			otherwise = c->otherwise;
+	return pm_frame_constant(f, name, otherwise);
 }
 
 PM_C_END

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "law/law.h"
 #include "push/step-control.h"
 #include "stream/declare.h"
 
@@ -74,13 +75,22 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 	return p->moves && pm_moving_face(f, PM_PABSORB) ? pm_moving_shrinks(f, m) : 0;
 }
 
+const struct pm_step *pm_moving_magnetic(const struct pm_frame *f, const struct pm_push *p)
+{
+	const struct pm_law *law = pm_law_of(f);
+	return law && law->relativistic && p->magnetic && !strcmp(p->magnetic->name, "boris") ? pm_step_find("relativistic") : p->magnetic;
+}
+
 /* The fields that a magnetic kick reads besides acc. */
 static int declare_magnetic(struct pm_frame *f, struct pm_moving *m, const struct pm_step *step)
 {
 	const char *on = m->set->name;
 	m->closing = m->set->drift > 0;
 	m->turned = true;
-	if (step->relativistic && !(pm_frame_constant(f, "c", NAN) > 0))
+	const struct pm_law *law = pm_law_of(f);
+	if (law && law->relativistic && !step->relativistic)
+		return pm_fail(PM_DATA, "%s is not relativistic, and the law '%s' is (push boris/2, vay/2 or higuera-cary/2)", step->name, f->law);
+	if (step->relativistic && !(pm_law_constant(f, "c", NAN) > 0))
 		return pm_fail(PM_DATA, "the frame has no speed of light c (smod --constant c=C, or push kick/2)");
 	if (step->relativistic && !m->v)
 		return pm_fail(PM_DATA, "relativistic advances velocities, and '%s' has none", on);
@@ -116,7 +126,7 @@ int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_pu
 		status = pm_fail(PM_DATA, "%s kicks velocities and moves by them, and '%s' has no 'v' (rk4, lsrk3 advance what moves by a flow)",
 			p->scheme->name, set->name);
 	if (!status && p->magnetic)
-		status = declare_magnetic(f, m, p->magnetic);
+		status = declare_magnetic(f, m, pm_moving_magnetic(f, p));
 	if (!status && kind != PM_DRIFT)
 		status = pm_rates_allowed(f, set, p->magnetic ? NULL : p->scheme ? p->scheme->name : "a plain kick");
 	if (!status)

@@ -1,5 +1,6 @@
 /* The data part of a push of one set: rotates velocities about a magnetic field, then advances every component (state-advance.h).
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "law/law.h"
 #include "push/push-set.h"
 
 /* Component c of a state with its rate and registers, for the loops. */
@@ -37,7 +38,7 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
-	struct pm_magnetic a = {.c = pm_frame_constant(f, "c", NAN)};
+	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN)};
 	size_t n = m->set->n, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	if (m->b)
 		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
@@ -71,7 +72,7 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 {
 	struct pm_advance a = p->actions;
 	bool finite = true;
-	int status = p->magnetic ? turn(f, m, p->magnetic) : 0;
+	int status = p->magnetic ? turn(f, m, pm_moving_magnetic(f, p)) : 0;
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
 	if (p->scheme) {

@@ -44,6 +44,8 @@ const struct pm_mesh *pm_push_mesh(const struct pm_frame *f);
 void pm_push_drops(struct pm_frame *f, const struct pm_push *p, const char *only);
 /* The header part: refuses invalid pushes, advances the set's clock, declares the fields. */
 int pm_moving_declare(struct pm_frame *f, struct pm_set *set, const struct pm_push *p, struct pm_moving *m);
+/* The magnetic kick, NULL none: under a relativistic law boris advances gamma v. */
+const struct pm_step *pm_moving_magnetic(const struct pm_frame *f, const struct pm_push *p);
 /* With the tail: dt times the strain of the flow that moves the positions (stream/limits.h); 0 where none is known. */
 double pm_moving_strain(const struct pm_frame *f, const struct pm_moving *m);
 /* With the tail: refuses, unless unsafe, a step for whose rates the scheme, or a kick, is not stable. For schemes that are stable for no oscillation the limit
