@@ -34,6 +34,11 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}};
+	if (law->evolves) {
+		how.evolves = true;
+		how.c = pm_law_constant(f, "c", 1), how.eps0 = pm_law_constant(f, "eps0", 1);
+		how.coefficient = -1 / how.eps0;
+	}
 	memcpy(how.modes, g->mode, sizeof how.modes);
 	pm_known_energy(f, law, g->pair, &how);
 	return how;

@@ -17,6 +17,7 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_HELICITY] = "helicity", [PM_RING_CIRCULATION] = "ring_circulation", [PM_RING_RADIUS] = "ring_radius", [PM_RING_POSITION] = "ring_position",
 	[PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
+	[PM_ENERGY_ELECTRIC] = "energy_electric", [PM_ENERGY_MAGNETIC] = "energy_magnetic", [PM_GAUSS_RESIDUAL] = "gauss_residual",
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
 	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given", [PM_OUTSIDE] = "outside",
 };
@@ -46,6 +47,8 @@ bool pm_column_suits(enum pm_column c, const struct pm_measure *how)
 		c == PM_DISTANCE_MAX;
 	if (c >= PM_STRENGTH_SCALE)
 		return how->strength != NULL;
+	if (c >= PM_ENERGY_ELECTRIC)
+		return how->evolves;
 	if (c >= PM_CHARGE)
 		return how->plasma;
 	return any || how->vortices == (c >= PM_CIRCULATION && c <= PM_DISTORTION);

@@ -27,6 +27,7 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 		pm_reads(f, mesh->name, how->potential);
 	}
+	pm_maxwell_reads(how, f);
 	pm_vortex_reads(how, f);
 	pm_vortex_space_reads(how, f);
 	pm_plasma_reads(how, f);
@@ -42,7 +43,7 @@ static const double *values(const struct pm_frame *f, const char *on, const char
 static struct pm_measured bodies(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
 {
 	const char *on = set->name;
-	struct pm_measured b = {.n = set->n, .mass = values(f, on, "mass", 0), .strength = values(f, on, how->strength, 0),
+	struct pm_measured b = {.n = set->n, .c = how->c, .mass = values(f, on, "mass", 0), .strength = values(f, on, how->strength, 0),
 		.phi = values(f, on, how->potential, 0)};
 	while (b.dim < 3 && (b.x[b.dim] = values(f, on, "x", b.dim)))
 		b.dim++;
@@ -114,7 +115,9 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 		pm_particle_sums_add(&b[i], &bulk);
 	double outside, beyond;
 	int status = pm_outside_of(how, f, &outside, &beyond);
-	pm_measures_of(f, &bulk, mesh_energy(how, f) + beyond, pair_energy(how, n, b), how->potential != NULL, m);
+	status = status ? status : pm_maxwell_of(how, f, m);
+	const double mesh = how->evolves ? m->value[PM_ENERGY_ELECTRIC] + m->value[PM_ENERGY_MAGNETIC] : mesh_energy(how, f) + beyond;
+	pm_measures_of(f, &bulk, mesh, pair_energy(how, n, b), how->potential || how->evolves, m);
 	m->value[PM_OUTSIDE] = outside;
 	if (how->unknown[0])
 		m->value[PM_ENERGY] = NAN;

@@ -13,11 +13,12 @@ struct pm_measured { /* one set; arrays of n values */
 	const double *mass;          /* [mass]; NULL none */
 	const double *strength;      /* what makes the field; NULL none */
 	const double *phi;           /* potential at the particles; NULL none */
+	double c;                    /* [length/time] speed of light where momenta and energies are relativistic, else 0 */
 };
 
 struct pm_particle_sums {
 	double n, mass;              /* [1], [mass] */
-	double kinetic;              /* sum m v^2/2 */
+	double kinetic;              /* sum m v^2/2; relativistic: sum (gamma - 1) m c^2, and gamma m for m in the next two lines */
 	double momentum[3], scale;   /* sum m v; sum m |v| */
 	double angular[3];           /* sum m x cross v, about the origin */
 	double moment[3];            /* sum m x */
@@ -49,8 +50,8 @@ enum pm_column {
 	PM_CIRCULATION, PM_ALPHA, PM_IMPULSE = PM_ALPHA + 3, PM_ANGULAR_IMPULSE = PM_IMPULSE + 3, PM_ANGULAR_IMPULSE_OF,
 	PM_ENSTROPHY = PM_ANGULAR_IMPULSE_OF + 3, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE, PM_DIVERGENCE, PM_DISSIPATION, PM_ENERGY_FLOW, PM_HELICITY,
 	PM_RING_CIRCULATION, PM_RING_RADIUS, PM_RING_POSITION, PM_DISTORTION,
-	PM_CHARGE, PM_ENERGY_COMPONENT,
-	PM_STRENGTH_SCALE = PM_ENERGY_COMPONENT + 3, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE, PM_COLUMNS
+	PM_CHARGE, PM_ENERGY_COMPONENT, PM_ENERGY_ELECTRIC = PM_ENERGY_COMPONENT + 3, PM_ENERGY_MAGNETIC, PM_GAUSS_RESIDUAL,
+	PM_STRENGTH_SCALE, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE, PM_COLUMNS
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
@@ -80,6 +81,8 @@ struct pm_measure { /* what to measure of a frame */
 	double centre[2];            /* [length] where omega is looked at */
 	bool outside;                /* count those beyond the mesh, and their energy */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
+	bool evolves;                /* the law's field is a state, with a magnetic one */
+	double c, eps0;              /* then the constants of the law; else c is 0 */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
@@ -97,6 +100,9 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 /* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
+/* Energies of E and B on Yee's mesh, and how far E is from Gauss's law: max |div E - rho/eps0| over max |rho/eps0|, where there is a rho. */
+void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f);
+int pm_maxwell_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* The account of the law's strength (stream/strengths.h): sum of its absolute values, and what the words of the run took away or gave, as they report. */
 void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* How many are beyond the open mesh (NAN: no such mesh), and the energy between them and those inside. */

@@ -48,13 +48,19 @@ PM_SIMD_INLINE void add_particles(int dim, int vdim, const struct pm_measured *b
 		pm_simd_sum_add(&s->sum[MOMENT + d], m * x[d]);
 	if (!vdim)
 		return;
-	pm_simd_sum_add(&s->sum[KINETIC], 0.5 * m * v2);
-	pm_simd_sum_add(&s->sum[SCALE], m * root(v2));
+	pm_simd p = m; /* momentum over velocity */
+	if (b->c > 0) {
+		const pm_simd gamma = 1 / root(1 - v2 / (b->c * b->c));
+		p = m * gamma;
+		pm_simd_sum_add(&s->sum[KINETIC], p * v2 * (gamma / (1 + gamma)));
+	} else
+		pm_simd_sum_add(&s->sum[KINETIC], 0.5 * m * v2);
+	pm_simd_sum_add(&s->sum[SCALE], p * root(v2));
 	pm_simd_sum_add(&s->sum[SQUARE], v2);
 	for (int d = 0; d < 3; d++) {
 		const int e = (d + 1) % 3, g = (d + 2) % 3;
-		pm_simd_sum_add(&s->sum[MOMENTUM + d], m * v[d]);
-		pm_simd_sum_add(&s->sum[ANGULAR + d], m * (x[e] * v[g] - x[g] * v[e]));
+		pm_simd_sum_add(&s->sum[MOMENTUM + d], p * v[d]);
+		pm_simd_sum_add(&s->sum[ANGULAR + d], p * (x[e] * v[g] - x[g] * v[e]));
 	}
 }
 

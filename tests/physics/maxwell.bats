@@ -25,3 +25,15 @@ omega() {
 	low() { awk -v a="$1" 'BEGIN { print 1 - a }'; }
 	order 2 1 "$(low "${w[64]}")" 2 "$(low "${w[32]}")" 4 "$(low "${w[16]}")"
 }
+
+@test "light in a plasma keeps its energy to the second order of the step or better, and Gauss's law" {
+	pinit em-wave -n 256 --cells 32 --wave-field 0.1 >a.pm
+	for n in 64 128 256; do # change of the energy over 10/omega_p, steps of 10/n
+		sh_ok "smod --dt $(awk -v n=$n 'BEGIN { printf "%.17g", 10 / n }') <a.pm | cycle -n $n --every $((n / 64)) '$step' | diag --columns energy >e"
+		drift[n]=$(awk 'NR == 2 { a = $1 } NR > 1 { d = $1 / a - 1; d = d < 0 ? -d : d; m = d > m ? d : m } END { print m }' e)
+	done
+	below "${drift[256]}" 2e-6
+	order 2 4 "${drift[64]}" 2 "${drift[128]}" 1 "${drift[256]}"
+	# the plasma is neutral: rho is what the wave makes of it, 1e-3 of the background at most
+	below "$(cycle -n 64 "$step" <a.pm | p2m | diag | column gauss_residual)" 1e-9
+}
