@@ -37,3 +37,21 @@ omega() {
 	# the plasma is neutral: rho is what the wave makes of it, 1e-3 of the background at most
 	below "$(cycle -n 64 "$step" <a.pm | p2m | diag | column gauss_residual)" 1e-9
 }
+
+# growth WINDOW SCENE...: growth rate of B from that of its energy.
+growth() {
+	local window=$1
+	shift
+	pinit weibel --cells 32 "$@" | cycle -t "${window#*:}" --every 12 "$step" | diag --columns time --growth energy_magnetic --window "$window" |
+		sed -n 's/.* gamma \([-0-9.e+]*\) .*/\1/p' | awk '{ printf "%.9g", $1 / 2 }'
+}
+
+@test "PIC-09: filamentation of cold streams at 0.2 c and 0.9 c, within 1 and 3 %" {
+	within "$(growth 30:50 -n 1024 --vth 0 --v0 0.2 --wave-field 1e-6)" 0.141385211908858 0.0014
+	within "$(growth 10:15 -n 1024 --vth 0 --v0 0.9 --wavenumber 5 --wave-field 1e-6)" 0.58915342918614 0.0177
+}
+
+@test "PIC-09: Weibel's instability of a Maxwellian, T across 10 times that along, within 3 %" {
+	# vth = 0.03, so that the theory, which is not relativistic, holds: the hot velocities are 0.095 c, (gamma - 1) 1 %
+	within "$(growth 100:170 -n 4096 --vth 0.03 --wave-field 1e-6)" 0.0498102792 0.0015
+}
