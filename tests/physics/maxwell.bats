@@ -53,5 +53,5 @@ growth() {
 
 @test "PIC-09: Weibel's instability of a Maxwellian, T across 10 times that along, within 3 %" {
 	# vth = 0.03, so that the theory, which is not relativistic, holds: the hot velocities are 0.095 c, (gamma - 1) 1 %
-	within "$(growth 100:170 -n 4096 --vth 0.03 --wave-field 1e-6)" 0.0498102792 0.0015
+	within "$(growth 100:170 -n 8192 --vth 0.03 --wave-field 1e-6)" 0.0498102792 0.0015
 }
