@@ -61,7 +61,7 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_maxwell = {
 	.name = "maxwell",
 	.summary = "advance electric and magnetic fields on the mesh by a step",
-	.about = "B' = -curl E, E' = c^2 curl B - J/eps0 on Yee's mesh: B by half a step, E by a whole one, B by half. E and B are then at the end of the step, "
+	.about = "B' = -curl E, E' = c^2 curl B - J/eps0 on Yee's mesh: B by half a step, E by one, B by half. E and B are at the end of the step then, "
 		"before the particles are (push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2). J is used up. Faces: periodic; wall, a "
 		"perfect conductor; neumann, a plane of symmetry in which E lies; open and absorbing, absorbing layers inside the mesh. A step above "
 		"the limit of the method is refused. Constants c and eps0 of the frame, both 1 if absent.",
