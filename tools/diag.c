@@ -11,7 +11,7 @@
 
 struct config {
 	const char *set, *format, *tee;
-	struct pm_list columns;
+	struct pm_list columns, separation;
 	struct pm_vector radii, modes;
 	const char *growth, *window;
 	bool pair, exact;
@@ -43,6 +43,10 @@ static int begin(struct pm_stage *s)
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
 		.pair = c->pair, .exact = c->exact, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
+	if (c->separation.n && c->separation.n != 2)
+		return pm_fail(PM_USAGE, "--separation takes two sets (--separation matter,shadow)");
+	for (int k = 0; k < c->separation.n; k++)
+		choice.separation[k] = c->separation.item[k];
 	if (pm_diag_table_init(&state->table, &choice, stdout))
 		return -PM_USAGE;
 	s->kind = c->tee ? PM_FILTER : PM_SINK;
@@ -110,6 +114,8 @@ static const struct pm_option options[] = {
 		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
 	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
 		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others)"},
+	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
+		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},
 	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M|COLUMN", .cosmetic = true, PM_AT(growth),
 		.text = "after the table print a line with the growth rate and frequency of wave M along x, or of a column; or none, and why"},
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),

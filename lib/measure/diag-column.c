@@ -7,8 +7,11 @@
 #include "measure/diag-column.h"
 #include "measure/known-energy.h"
 #include "measure/law-field.h"
+#include "measure/separation.h"
 
-enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS };
+enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS, first_separation = first_mode + PM_COMPONENTS };
+
+static const char *const separations[] = {"separation", "separation_v"};
 
 const struct pm_scene *pm_diag_scene(const struct pm_frame *f)
 {
@@ -33,7 +36,7 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
-		.centre = {centre_of(f, 0), centre_of(f, 1)}};
+		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]}};
 	if (law->evolves) {
 		how.evolves = true;
 		how.c = pm_law_constant(f, "c", 1), how.eps0 = pm_law_constant(f, "eps0", 1);
@@ -66,6 +69,8 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
 			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, but this box is periodic (leave --pair out)");
 	if (g->nmodes && has_mode(f, law))
 		return -PM_DATA;
+	if (g->separation[0] && pm_separation_reads(f, g->separation))
+		return -PM_DATA;
 	const struct pm_measure how = pm_diag_how(g, f);
 	pm_measure_reads(&how, f);
 	return 0;
@@ -94,6 +99,8 @@ struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k)
 	return named(first_mode + k, name);
 }
 
+struct pm_diag_column pm_diag_separation(int k) { return named(first_separation + k, separations[k]); }
+
 struct pm_diag_column pm_diag_exact(const char *name)
 {
 	struct pm_diag_column column = {.from = exact};
@@ -115,6 +122,9 @@ bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_co
 	for (int c = 0; c < PM_COLUMNS; c++)
 		if (!strcmp(name, pm_column_names[c]))
 			return *column = pm_diag_column((enum pm_column)c), true;
+	for (int k = 0; k < 2; k++)
+		if (g->separation[0] && !strcmp(name, separations[k]))
+			return *column = pm_diag_separation(k), true;
 	if (!strncmp(name, "exact_", strlen("exact_")))
 		return *column = pm_diag_exact(name + strlen("exact_")), true;
 	if (numbered(name, "radius_", &x) && x > 0 && x <= 1 && g->nradii < PM_COMPONENTS) {
@@ -133,6 +143,8 @@ double pm_diag_value(const struct pm_diag_column *column, const struct pm_measur
 	const struct pm_scene *scene = column->from == exact ? pm_diag_scene(f) : NULL;
 	if (column->from == exact)
 		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	if (column->from >= first_separation)
+		return m->separation[column->from - first_separation];
 	if (column->from >= first_mode)
 		return hypot(m->mode[column->from - first_mode][0], m->mode[column->from - first_mode][1]);
 	return column->from < PM_COLUMNS ? m->value[column->from] : m->radius[column->from - PM_COLUMNS];

@@ -9,6 +9,7 @@
 struct pm_diag_request { /* the options that add columns or cost */
 	const char *set;                         /* this set alone; NULL all */
 	bool pair;                               /* the pair energy by direct summation */
+	const char *separation[2];               /* two sets whose separation is a column; NULL: none */
 	int nradii, nmodes;
 	double fraction[PM_COMPONENTS];          /* of the mass, of each Lagrangian radius */
 	int mode[PM_COMPONENTS];                 /* waves along x of the law's field */
@@ -17,7 +18,8 @@ struct pm_diag_request { /* the options that add columns or cost */
 enum { PM_DIAG_NAME = PM_NAME + 8 };
 struct pm_diag_column { /* one column */
 	char name[PM_DIAG_NAME];
-	int from; /* index among the measures; from PM_COLUMNS on the radii, then the modes; -1: the scene's exact value of this name (exact_NAME) */
+	/* index among the measures; from PM_COLUMNS on the radii, then the modes, then the separations; -1: the scene's exact value of this name (exact_NAME) */
+	int from;
 };
 
 /* The scene of the frame if it has exact values, else NULL. */
@@ -29,6 +31,7 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f);
 struct pm_diag_column pm_diag_column(enum pm_column c);
 struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k);
 struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k);
+struct pm_diag_column pm_diag_separation(int k); /* of positions, of velocities */
 struct pm_diag_column pm_diag_exact(const char *name);
 /* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M (the latter two are added to *g). False: there is none. */
 bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_column *column);

@@ -5,6 +5,7 @@
 
 #include "measure/diag-table.h"
 #include "measure/known-energy.h"
+#include "measure/separation.h"
 
 static int check(const struct pm_diag_choice *c)
 {
@@ -43,7 +44,8 @@ static int take_growth(struct pm_diag_table *t)
 int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out)
 {
 	struct pm_diag_request *g = &t->request;
-	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes}};
+	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes,
+		.separation = {c->separation[0], c->separation[1]}}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	if (check(c))
 		return -PM_USAGE;
@@ -85,6 +87,8 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		add(t, f, pm_diag_radius(&t->request, k));
 	for (int k = 0; k < c->nmodes; k++)
 		add(t, f, pm_diag_mode(&t->request, k));
+	for (int k = 0; k < 2 && c->separation[0]; k++)
+		add(t, f, pm_diag_separation(k));
 	return 0;
 }
 
@@ -205,12 +209,30 @@ static void print_growth(FILE *out, bool json, const char *of, const struct pm_g
 	fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g}\n" : ", %zu points, %.3g times the noise\n", g->points, g->over_noise);
 }
 
+/* The line of the largest Lyapunov exponent: a separation grows by factors that vary along the path. */
+static int print_divergence(const struct pm_diag_table *t)
+{
+	const struct pm_series *s = &t->series;
+	const struct pm_divergence e = pm_divergence_of(s->n, s->t, s->re, t->choice.from, t->choice.to);
+	const bool json = t->choice.format == PM_DIAG_JSON;
+	fprintf(t->out, json ? "{\"growth\":\"%s\"" : "# %s", t->growth.name);
+	number(t->out, json, json ? ",\"lambda\":" : " lambda ", e.lambda);
+	number(t->out, json, json ? ",\"error\":" : " +- ", e.error);
+	if (isfinite(e.lambda))
+		fprintf(t->out, json ? ",\"from\":%.9g,\"to\":%.9g" : ", from t = %.9g to %.9g", e.from, e.to);
+	fprintf(t->out, json ? ",\"points\":%zu}\n" : isfinite(e.lambda) ? ", %zu points\n" : ", none: %zu points below a hundredth of the largest, and 24 are "
+		"needed\n", e.points);
+	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
+}
+
 int pm_diag_table_end(struct pm_diag_table *t)
 {
 	const struct pm_diag_choice *c = &t->choice;
 	struct pm_growth g;
 	if (!c->growth)
 		return 0;
+	if (c->separation[0] && !strncmp(t->growth.name, "separation", strlen("separation")))
+		return print_divergence(t);
 	if (pm_growth_of(&t->series, c->from, c->to, &g))
 		return -PM_DATA;
 	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g);

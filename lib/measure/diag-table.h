@@ -22,6 +22,7 @@ struct pm_diag_choice {
 	const char *growth;                             /* what is fitted, as typed: mode:M or a column; NULL none */
 	const char *window;                             /* as typed, for messages; NULL none */
 	double from, to;                                /* [time] of the fit; NAN: chosen */
+	const char *separation[2];                      /* two sets; NULL: none */
 	bool pair, exact;
 	enum pm_diag_format format;
 	int width;                                      /* [characters] of a line of the readable table */

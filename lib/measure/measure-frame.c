@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "measure/measure.h"
+#include "measure/separation.h"
 #include "stream/declare.h"
 
 static bool chosen(const struct pm_measure *how, const struct pm_set *set) { return !how->set || !strcmp(how->set, set->name); }
@@ -127,6 +128,8 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	pm_account_of(how, f, m);
 	if (!status && how->nradii)
 		status = radii(how, n, b, m);
+	if (!status && how->separation[0])
+		status = pm_separation_of(f, how->separation, m->separation);
 	pm_free(b);
 	return status;
 }

@@ -64,6 +64,7 @@ struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
+	double separation[2];           /* [length], [length/time] of two sets */
 	double field_most;              /* largest component of the law's field at any point; with modes, else NAN */
 };
 /* All columns from bulk and field energies (NAN: unknown); field: the law has a field, so the total energy is unknown without the field's energy. */
@@ -86,6 +87,7 @@ struct pm_measure { /* what to measure of a frame */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
+	const char *separation[2];   /* two sets; NULL: none */
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };

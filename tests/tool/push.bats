@@ -257,7 +257,8 @@ limits() {
 	awk 'NR > 2 { d = v1 - ($1 - x0) / 0.2; d = d < 0 ? -d : d; if (d > m) m = d } { x0 = x1; x1 = $1; v1 = $3 } END { print m }' velocity >most
 	below "$(cat most)" 2e-14 # rounding over 2 dt
 	# position Verlet: the same recursion for the places of the force, half a step on
-	cycle -q -n 50 --every 1 'push drift/2 | field acc=-sin(x) | push kick drift/2' <a | stab --plain | awk '$1 + 0 == $1 { printf "%.17g\n", $1 + 0.05 * $NF }' >middle
+	cycle -q -n 50 --every 1 'push drift/2 | field acc=-sin(x) | push kick drift/2' <a | stab --plain |
+		awk '$1 + 0 == $1 { printf "%.17g\n", $1 + 0.05 * $NF }' >middle
 	awk 'NR > 2 { d = $1 - (2 * x1 - x0 - 0.01 * sin(x1)); d = d < 0 ? -d : d; if (d > m) m = d } { x0 = x1; x1 = $1 } END { print m }' middle >most
 	below "$(cat most)" 2e-15
 }
