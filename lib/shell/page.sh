@@ -4,8 +4,11 @@
 
 escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g' -e 's/"/\&quot;/g'; }
 
+# How many there are, whatever OMP_NUM_THREADS says, which nproc would believe.
+processors() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
+
 machine() {
-	echo "$(uname -srm), $(nproc) processors,$(sed -n 's/^model name[^:]*:/ /p' /proc/cpuinfo 2>/dev/null | head -n 1), $(awk '/^MemTotal/ {
+	echo "$(uname -srm), $(processors) processors,$(sed -n 's/^model name[^:]*:/ /p' /proc/cpuinfo 2>/dev/null | head -n 1), $(awk '/^MemTotal/ {
 		printf "%.1f GB", $2 / 1048576 }' /proc/meminfo 2>/dev/null)"
 	echo "threads: ${OMP_NUM_THREADS:-as many as processors}; load when written: $(cut -d' ' -f1-3 /proc/loadavg 2>/dev/null)"
 }

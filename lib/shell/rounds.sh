@@ -46,7 +46,7 @@ load_end() {
 		if (split(then, a, " ") != 3 || split(now, b, " ") != 3 || b[3] - a[3] < 0.3) exit
 		x = (b[1] - a[1] - (b[2] - a[2])) / (b[3] - a[3]); printf "%.1f", (x > 0 ? x : 0) }')
 	[ -n "$others" ] || return 0
-	note "load"$'\t'"$others"$'\t'"$(nproc)"
+	note "load"$'\t'"$others"$'\t'"$(processors)"
 }
 
 # loaded: prints a sentence if the machine was loaded during one of the measurements in the log.

@@ -109,6 +109,10 @@ found() { awk -F'\t' -v q="$1" -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if
 	[ $status = 130 ]
 	grep -q '^digits: stopped; ' err
 	[ -z "$(ls there)" ]
-	run pgrep -f 'cycle -n 100000 push kick/2 drift . pp'
+	for _ in {1..50}; do # a process takes its time to end
+		run pgrep -f 'cycle -n 100000 push kick/2 drift . pp'
+		[ "$status" = 0 ] || break
+		sleep 0.1
+	done
 	[ "$status" = 1 ]
 }

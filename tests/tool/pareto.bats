@@ -347,6 +347,17 @@ fronts() { awk -F'\t' '$3 == "yes" { print $5 }' "$1" | sort -g | xargs; }
 	[ "$(grep -c '^[*]' text)" = 2 ]
 }
 
+@test "a loaded machine is said, with all its processors, however many threads are asked for" {
+	mkdir bin
+	printf '#!/bin/sh\nsleep 0.4\necho "cpu 100000 0 0 0 0 0 0 0 0" >stat\nexec cat\n' >bin/others
+	chmod +x bin/others
+	echo "cpu 0 0 0 0 0 0 0 0 0" >stat
+	PATH=$PWD/bin:$PATH PROC_STAT=$PWD/stat run -0 pareto 'pinit uniform -n 9 | {others,cat} | p2m -n 4' --against finest --field rho --repeat 1 --threads 1
+	[[ $output == *"the machine was loaded: others kept "[0-9]*" of $(env -u OMP_NUM_THREADS nproc) processors busy"* ]]
+	run -0 pareto 'pinit uniform -n 9 | {cat,tee /dev/null} | p2m -n 4' --against finest --field rho --repeat 1 --threads 1 -o d
+	grep -qF " $(env -u OMP_NUM_THREADS nproc) processors," d/index.html
+}
+
 @test "the rounds go on until the times of the front are known to --spread, and no longer for what is beaten" {
 	fakes
 	# The first two of 'a' are twice as long; the interval of 10 % is reached when they are outside the ranks: with 11 rounds.
