@@ -67,7 +67,7 @@ static double heat(const struct pm_effect_case *c)
 	const double cell = s->omega * s->h, quiet = randomness(s) < 0.1 ? 0.5 * sqrt(s->effective) : 0;
 	const double all = s->v_rms * s->v_rms + pow(s->self / s->omega, 2), factor[4] = {0, 1, 0.5, 0.2};
 	double gain, L = fmax(s->thermal / cell, unstable(s, r, spectral, &gain));
-	if (!(all > 0))
+	if (s->kind != PM_CHARGES || !(all > 0))
 		return 0;
 	const double a = s->dim == 1 ? r->p - 2 : 0.6, drift = pow(1 + pow(s->drift / fmax(L * cell, 1e-30), 2), -1.5);
 	const double R = factor[s->dim] * 2 / r->p * r->C[spectral] * (six ? 1.3 : 1) / in_a_cell(s) * drift;
