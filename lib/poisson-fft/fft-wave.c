@@ -1,6 +1,6 @@
-/* Helmholtz's equation lap phi + a^2 phi = c s in a closed box: phi^ = c s^/(lambda + a^2), which has no solution where a^2 is an eigenvalue of -lap. The
- * distance to the nearest, min |lambda + a^2|/a^2, is what round-off of s is divided by. Source: Morse and Feshbach 1953, section 7.2. Cost: once a look at every mode.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Helmholtz's equation lap phi + a^2 phi = c s in a closed box: phi^ = c s^/(lambda + a^2), which has no solution where a^2 is an eigenvalue of -lap.
+ * The distance to the nearest, min |lambda + a^2|/a^2, is what round-off of s is divided by. Source: Morse and Feshbach 1953, section 7.2. Cost: once a look
+ * at every mode. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
 
 static const double least = 1e-8; /* half of the digits are lost */

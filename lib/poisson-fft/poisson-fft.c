@@ -28,8 +28,8 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 	int status = pm_influence_check(&o->influence, g);
 	for (int a = 0; a < 2 * g->dim && o->wave > 0; a++)
 		if (g->face[a / 2][a % 2] == PM_OPEN || o->screening > 0 || pm_influence_any(&o->influence) || o->green)
-			return pm_fail(PM_DATA, "--wave-number is for standing waves in a box of periodic, wall and neumann faces, without --screening, --green "
-				"and --influence (open faces radiate: a complex Green's function)");
+			return pm_fail(PM_DATA, "--wave-number is for standing waves in a box of periodic, wall and neumann faces, without --screening, "
+				"--green and --influence (open faces radiate: a complex Green's function)");
 	return status ? status : pm_poisson_fft_open_check(g, o);
 }
 
