@@ -162,8 +162,8 @@ const struct pm_tool tool_poisson_fft = {
 	.summary = "solve Poisson's equation on a mesh by fast transforms",
 	.about = "Solves lap phi = c*s, or lap phi - K^2 phi = c*s with --screening, with the faces of the box: periodic (Fourier), wall (phi = 0, sines), "
 		"neumann (no normal gradient, cosines) or open (free space, on a doubled domain), in any combination, also on opposite faces. If no face "
-		"fixes phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes the "
-		"Green's function is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
+		"fixes phi, the mean of s is removed and reported, and the mean of phi is zero. A vector is solved component by component. With d open axes "
+		"the Green's function is -1/(4 pi r) (d = 3), ln(r)/(2 pi) (2), |x|/2 (1), for means over the other axes.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "rho (mesh)",

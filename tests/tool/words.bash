@@ -18,6 +18,7 @@ words() {
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	stretch) echo "stretch --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
+	sample) echo "sample --eps 0.5" ;;
 	walk) echo "walk --nu 0.1" ;;
 	remesh) echo "remesh --by mass" ;;
 	push) echo "push drift" ;;
