@@ -86,7 +86,8 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 		awk -v kind=$kind -v order=$order -v op=$operator 'function zeta(s) {
 				if (kind == "algebraic") return 15 / (4 * 2 * pi) * 1 * (2.5 - s) / (1 + s) ^ 4.5 / 0.31 ^ 3
 				return (order == 4 ? (5 - s) / 2 : 1) * exp(-s / 2) / (2 * pi) ^ 1.5 / 0.31 ^ 3 }
-			function value(X, Y, Z, j, sum) { for (j = 1; j <= n; j++) sum += q[j] * zeta(((X - x[j]) ^ 2 + (Y - y[j]) ^ 2 + (Z - z[j]) ^ 2) / 0.31 ^ 2)
+			function value(X, Y, Z, j, sum) {
+				for (j = 1; j <= n; j++) sum += q[j] * zeta(((X - x[j]) ^ 2 + (Y - y[j]) ^ 2 + (Z - z[j]) ^ 2) / 0.31 ^ 2)
 				return sum }
 			function first(d, i) { return (8 * (at(d, i, 1) - at(d, i, -1)) - at(d, i, 2) + at(d, i, -2)) / 12 / h }
 			function second(d, i) { return (16 * (at(d, i, 1) + at(d, i, -1)) - at(d, i, 2) - at(d, i, -2) - 30 * at(d, i, 0)) / 12 / h ^ 2 }
