@@ -1,8 +1,9 @@
 /* Curls by two-point differences. Beyond a face a component along it is odd at a conductor (wall) and even at a neumann face; there the two neighbours of a
  * node are images of each other, so that a difference is twice one of them.
  * At open faces the mesh ends in layers that absorb: convolutional perfectly matched layers, in which every difference D along the normal becomes D + psi,
- * psi <- b psi + a D with b = exp(-(sigma + alpha) dt), a = sigma/(sigma + alpha) (b - 1); sigma grows as the fourth power of the depth to the value
- * 4 c/h, alpha falls from c/(10 layers h) to 0. Source: Yee 1966; Roden and Gedney 2000, Microwave and Optical Technology Letters 27, 334.
+ * psi <- b psi + (b - 1) D with b = exp(-sigma dt); sigma grows as the fourth power of the depth to the value 4 c/h. The paper's alpha, a shift of the
+ * frequency, is 0: even alpha = 1e-2 c/(layers h) sends 7e-4 of a pulse with a mean back, 0 sends 1e-7 (tests/unit/maxwell.c).
+ * Source: Yee 1966; Roden and Gedney 2000, Microwave and Optical Technology Letters 27, 334.
  * Cost: a pass over six components, memory-bound; layers as much again for the cells in them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maxwell-parts/yee.h"
 
@@ -52,9 +53,8 @@ static double depth(const struct term *t, size_t i)
 /* b and a of the memory at a depth. */
 static void memory_at(const struct term *t, double deep, double *b, double *a)
 {
-	const double rate = t->y->c / t->y->grid.h[t->axis], sigma = 4 * rate * pow(deep, 4), alpha = 0.1 * rate / t->y->layers * (1 - deep);
-	*b = exp(-(sigma + alpha) * fabs(t->dt));
-	*a = sigma > 0 ? sigma / (sigma + alpha) * (*b - 1) : 0;
+	*b = exp(-4 * t->y->c / t->y->grid.h[t->axis] * pow(deep, 4) * fabs(t->dt));
+	*a = *b - 1;
 }
 
 /* Points from..to-1 of the row that begins at `row`, with one pair of neighbours. */

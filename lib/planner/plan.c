@@ -148,6 +148,9 @@ static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struc
 	*p = (struct pm_plan){.law = pm_law_of(f)};
 	if (!p->law)
 		return -PM_DATA;
+	if (p->law->evolves)
+		return pm_fail(PM_DATA, "no plan for the law %s yet, and plan never changes a law (the step is 'push boris/2 | p2m --current | maxwell | "
+			"push drift | m2p | push boris/2'; without waves and magnetic fields: sel --drop E,B | smod --law electrostatic | plan)", p->law->name);
 	if (f->substep)
 		return pm_fail(PM_DATA, "the frame is inside a step (substep %d): plans begin between steps", f->substep);
 	if (f->dt == 0 && (isnan(c->time) || c->time == f->time))

@@ -55,3 +55,20 @@ residual() { p2m "$@" | maxwell --gauss | sls --report | grep -o '"residual":[-0
 		sls --report | grep -o '"residual":[-0-9.e+]*' | tail -n 1 | cut -d: -f2)" 2e-13 "projected"
 }
 
+
+@test "plan has no sentence for the law, says so, and changes no law" {
+	run -1 bash -o pipefail -c "pinit em-wave -n 64 | plan"
+	[[ $output == *"plan never changes a law"*"smod --law electrostatic | plan"* ]]
+	sh_ok "pinit em-wave -n 64 --dt 0.05 | sel --drop E,B | smod --law electrostatic | plan -t 1"
+}
+
+@test "charges that end on conductors, or are reflected there or at planes of symmetry, keep Gauss's law" {
+	for faces in "wall absorb" "wall reflect" "neumann reflect"; do
+		read -r field particles <<<"$faces"
+		sh_ok "pinit uniform --dim 2 -n 400 --dispersion 0.3 --faces $field --particle-faces $particles --cells 24 --dt 0.02 --seed 4 |
+			scalc --extensive 'charge = 0.01*mod(id, 2) - 0.005' | smod --law electromagnetic | p2m | maxwell --gauss |
+			cycle -n 40 '$step' | p2m | diag >t"
+		below "$(column gauss_residual <t)" 1e-12 "$faces"
+		[[ $particles = reflect ]] || below "$(column particles <t)" 399
+	done
+}
