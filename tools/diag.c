@@ -14,7 +14,7 @@ struct config {
 	struct pm_list columns, separation;
 	struct pm_vector radii, modes;
 	const char *growth, *window;
-	bool pair, exact;
+	bool pair, exact, average;
 };
 struct state {
 	FILE *out;
@@ -42,7 +42,7 @@ static int begin(struct pm_stage *s)
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
-		.pair = c->pair, .exact = c->exact, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
+		.pair = c->pair, .exact = c->exact, .average = c->average, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
 	if (c->separation.n && c->separation.n != 2)
 		return pm_fail(PM_USAGE, "--separation takes two sets (--separation matter,shadow)");
 	for (int k = 0; k < c->separation.n; k++)
@@ -116,6 +116,8 @@ static const struct pm_option options[] = {
 		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others)"},
 	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
 		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},
+	{.name = "average", .kind = PM_FLAG, .cosmetic = true, PM_AT(average),
+		.text = "after the table print a line for each column: mean over the frames, its error by blocks, autocorrelation time"},
 	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M|COLUMN", .cosmetic = true, PM_AT(growth),
 		.text = "after the table print a line with the growth rate and frequency of wave M along x, or of a column; or none, and why"},
 	{.name = "window", .kind = PM_TEXT, .unit = "T0:T1", .cosmetic = true, PM_AT(window),

@@ -18,7 +18,7 @@ struct pm_diag_request { /* the options that add columns or cost */
 enum { PM_DIAG_NAME = PM_NAME + 8 };
 struct pm_diag_column { /* one column */
 	char name[PM_DIAG_NAME];
-	/* index among the measures; from PM_COLUMNS on the radii, then the modes, then the separations; -1: the scene's exact value of this name (exact_NAME) */
+	/* index among the measures; from PM_COLUMNS on radii, then modes, then separations; -1: the scene's exact value of this name (exact_NAME) */
 	int from;
 };
 

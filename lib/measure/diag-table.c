@@ -1,11 +1,13 @@
 /* The table of diag: the columns that a frame can give or that were asked for, decided by the first frame, one row per frame, and the growth rate of a mode
  * or a column after the last row.
  * Cost: that of the measures, and with growth two numbers kept per frame. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
 
 #include "measure/diag-table.h"
 #include "measure/known-energy.h"
 #include "measure/separation.h"
+#include "measure/time-average.h"
 
 static int check(const struct pm_diag_choice *c)
 {
@@ -26,8 +28,8 @@ static int take_growth(struct pm_diag_table *t)
 	char mode[PM_DIAG_NAME] = "";
 	int used = 0;
 	c->from = c->to = NAN;
-	if (c->window && (!c->growth || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
-		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth)", c->window);
+	if (c->window && (!(c->growth || c->average) || sscanf(c->window, "%lf:%lf%n", &c->from, &c->to, &used) != 2 || c->window[used] || !(c->to > c->from)))
+		return pm_fail(PM_USAGE, "--window '%s' (it is written T0:T1, T0 < T1, and belongs to --growth and --average)", c->window);
 	if (!c->growth)
 		return 0;
 	if (g->nmodes == PM_COMPONENTS || g->nradii == PM_COMPONENTS)
@@ -89,6 +91,24 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		add(t, f, pm_diag_mode(&t->request, k));
 	for (int k = 0; k < 2 && c->separation[0]; k++)
 		add(t, f, pm_diag_separation(k));
+	return 0;
+}
+
+/* Keeps the row for the averages. */
+static int remember(struct pm_diag_table *t, const double *value, double time)
+{
+	const size_t width = (size_t)t->n + 1;
+	if (!t->choice.average || (time < t->choice.from) || (time > t->choice.to))
+		return 0;
+	if (t->nrows == t->room) {
+		const size_t room = 2 * t->room + 64;
+		double *rows = realloc(t->rows, room * width * sizeof *rows);
+		if (!rows)
+			return pm_no_memory();
+		t->rows = rows, t->room = room;
+	}
+	memcpy(t->rows + t->nrows * width, value, (width - 1) * sizeof *value);
+	t->rows[t->nrows++ * width + width - 1] = time;
 	return 0;
 }
 
@@ -179,6 +199,8 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 		no_velocity(f, &how, t->note);
 	for (int i = 0; i < t->n; i++)
 		value[i] = pm_diag_value(&t->column[i], &m, f);
+	if (remember(t, value, f->time))
+		return -PM_DATA;
 	if (t->choice.format == PM_DIAG_READABLE)
 		pm_readable_row(&t->readable, t->out, t->n, t->column, value, &how, f, t->lacks);
 	else
@@ -225,10 +247,38 @@ static int print_divergence(const struct pm_diag_table *t)
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 
+/* A line for every column but step and time that has values. */
+static int print_averages(const struct pm_diag_table *t)
+{
+	const size_t n = t->nrows, width = (size_t)t->n + 1;
+	const bool json = t->choice.format == PM_DIAG_JSON;
+	double *y = pm_alloc(n + 1, sizeof *y);
+	if (!y)
+		return -PM_DATA;
+	const double from = n ? t->rows[width - 1] : NAN, to = n ? t->rows[n * width - 1] : NAN, spacing = n > 1 ? (to - from) / (double)(n - 1) : NAN;
+	for (int k = 0; k < t->n; k++) {
+		for (size_t i = 0; i < n; i++)
+			y[i] = t->rows[i * width + (size_t)k];
+		const struct pm_average a = pm_average_of(n, y);
+		if (t->column[k].from == PM_STEP || t->column[k].from == PM_TIME || !isfinite(a.mean))
+			continue;
+		fprintf(t->out, json ? "{\"average\":\"%s\"" : "# average %s", t->column[k].name);
+		number(t->out, json, json ? ",\"mean\":" : " ", a.mean);
+		number(t->out, json, json ? ",\"error\":" : " +- ", a.error);
+		number(t->out, json, json ? ",\"correlation_time\":" : ", correlation time ", a.correlation * spacing);
+		fprintf(t->out, json ? ",\"from\":%.9g,\"to\":%.9g,\"frames\":%zu,\"brief\":%s}\n" : ", from t = %.9g to %.9g, %zu frames%s\n", from, to, n,
+			json ? a.brief ? "true" : "false" : a.brief ? ", fewer than 50 correlation times: the error is too small" : "");
+	}
+	pm_free(y);
+	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
+}
+
 int pm_diag_table_end(struct pm_diag_table *t)
 {
 	const struct pm_diag_choice *c = &t->choice;
 	struct pm_growth g;
+	if (c->average && print_averages(t))
+		return -PM_DATA;
 	if (!c->growth)
 		return 0;
 	if (c->separation[0] && !strncmp(t->growth.name, "separation", strlen("separation")))
@@ -239,4 +289,8 @@ int pm_diag_table_end(struct pm_diag_table *t)
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 
-void pm_diag_table_clear(struct pm_diag_table *t) { pm_series_release(&t->series); }
+void pm_diag_table_clear(struct pm_diag_table *t)
+{
+	pm_series_release(&t->series);
+	free(t->rows);
+}

@@ -23,7 +23,7 @@ struct pm_diag_choice {
 	const char *window;                             /* as typed, for messages; NULL none */
 	double from, to;                                /* [time] of the fit; NAN: chosen */
 	const char *separation[2];                      /* two sets; NULL: none */
-	bool pair, exact;
+	bool pair, exact, average;                      /* average: over the rows, after the last one */
 	enum pm_diag_format format;
 	int width;                                      /* [characters] of a line of the readable table */
 };
@@ -37,6 +37,8 @@ struct pm_diag_table {
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	struct pm_series series;
+	double *rows;                 /* of --average: n values and the time each; NULL: none */
+	size_t nrows, room;
 	int64_t step;                 /* of the last row */
 	bool energies, unasked; /* a column needs the energy of the field; the first row needed the sum over pairs for it, unasked */
 	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
