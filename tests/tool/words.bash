@@ -17,6 +17,7 @@ words() {
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	stretch) echo "stretch --order 2" ;;
+	reproject) echo "reproject --kernel cic --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
 	sample) echo "sample --eps 0.5" ;;
 	walk) echo "walk --nu 0.1" ;;
@@ -43,6 +44,7 @@ input() {
 	mgrad) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
+	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	walk) cloud | smod --dt 0.01 ;;
