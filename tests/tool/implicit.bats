@@ -71,6 +71,20 @@ after() {
 	below "$(diag --columns momentum_x,momentum_scale want | awk 'END { print $1 / $2 }')" 1e-14
 }
 
+@test "diffusion 100 times as fast as an explicit step allows: implicit Euler keeps the sum, creates no new extremes, and nears the mean" {
+	awk 'BEGIN { print "x y s volume"; for (i = 0; i < 256; i++) print (i % 16 + 0.5) / 16, (int(i / 16) + 0.5) / 16, i == 37, 1 / 256 }' |
+		stab - --law passive --strength s --box 0,1 --faces periodic --particle-faces periodic --dt 0.1 >a
+	spread() { stab --plain "$1" | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; low = 1; next }
+		{ s = $(at["s"]); sum += s; if (s < low) low = s; if (s > high) high = s } END { print sum - 1, low, high }'; }
+	cycle -q -n 1 "pse --field s --nu 1 | field 'vel = 0, 0' | push implicit-euler" <a >b # nu dt/h^2 = 26
+	spread b >sums
+	below "$(cut -d' ' -f1 sums)" 1e-13 # 256 roundings
+	above "$(cut -d' ' -f2 sums)" 0
+	below "$(cut -d' ' -f3 sums)" 0.05
+	run -3 bash -o pipefail -c "cycle -q -n 1 \"pse --field s --nu 1 | field 'vel = 0, 0' | push rk4\" <a >c"
+	[[ $output == *'times the limit of rk4'* ]]
+}
+
 @test "a step that does not converge ends the run with exit 3, in one line" {
 	printf 'x\n0.3\n' | stab - --law free --dt 1 >a # x1 = 0.3 + 1 + x1^2 has no real solution
 	run -3 bash -o pipefail -c "cycle -n 1 \"field 'vel = 1 + x^2' | push implicit-euler\" <a >b"
