@@ -3,6 +3,7 @@
  * the scheme conserves. Missing quantities are NAN. Cost: a pass over six components. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "maxwell-parts/yee.h"
 #include "measure/measure.h"
 #include "stream/declare.h"
@@ -29,21 +30,32 @@ void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 }
 
+struct component {
+	const struct pm_grid *g;
+	const unsigned char *half;
+	const double *a;
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct component *c = data;
+	const struct pm_grid *g = c->g;
+	const size_t row = from / (to - from), j = row % g->points[1], k = row / g->points[1];
+	const double across = pm_grid_weight(g, g->cells[0] > 1, c->half[1] ? g->cells[1] > 1 : j, c->half[2] ? g->cells[2] > 1 : k);
+	struct pm_sum sum = {0, 0};
+	for (size_t i = from; i < to; i++) {
+		const bool end = !c->half[0] && g->points[0] > g->cells[0] && (i == from || i + 1 == to);
+		pm_sum_add(&sum, across * (end ? 0.5 : 1) * c->a[i] * c->a[i]);
+	}
+	*(struct pm_sum *)part = sum;
+}
+
 /* The integral of the square of a component that sits half a cell up the axes of half[]. */
 static double square(const struct pm_grid *g, const unsigned char half[3], const double *a)
 {
-	struct pm_sum all = {0};
-	for (size_t k = 0; k < g->points[2]; k++)
-		for (size_t j = 0; j < g->points[1]; j++) {
-			const size_t row = (k * g->points[1] + j) * g->points[0];
-			const double across = pm_grid_weight(g, g->cells[0] > 1, half[1] ? g->cells[1] > 1 : j, half[2] ? g->cells[2] > 1 : k);
-			struct pm_sum sum = {0};
-			for (size_t i = 0; i < g->points[0]; i++) {
-				const bool end = !half[0] && g->points[0] > g->cells[0] && (i == 0 || i == g->cells[0]);
-				pm_sum_add(&sum, (end ? 0.5 : 1) * a[row + i] * a[row + i]);
-			}
-			pm_sum_add(&all, across * pm_sum_total(sum));
-		}
+	struct pm_sum all = {0, 0};
+	const struct pm_parts parts = {.size = sizeof all, .make = make, .join = pm_join_sums};
+	pm_over_mesh(&parts, &(struct component){g, half, a}, g->points, &all);
 	return pm_sum_total(all) * pm_grid_cell(g);
 }
 

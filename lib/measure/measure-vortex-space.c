@@ -8,6 +8,7 @@
  * Source: Saffman 1992, sections 3.2 to 3.9 and 10.2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/in-order.h"
 #include "measure/law-field.h"
 #include "mesh/gradient.h"
 #include "stream/declare.h"
@@ -43,12 +44,19 @@ struct sums {
 	struct pm_sum alpha[3], impulse[3], angular[3], centre[3], size;
 };
 
-static void add_sums(const struct pm_field *at, const struct pm_field *strength, struct sums *s)
+struct vortices {
+	const struct pm_field *at, *strength;
+	const double *centre, *axis; /* of a ring */
+};
+
+static void make_sums(const void *data, size_t from, size_t to, void *part)
 {
+	const struct vortices *v = data;
 	const double origin[3] = {0};
-	for (size_t i = 0; i < at->count; i++) {
+	struct sums *s = part;
+	for (size_t i = from; i < to; i++) {
 		double x[3], alpha[3], turn[3], twice[3];
-		particle(at, strength, origin, i, x, alpha);
+		particle(v->at, v->strength, origin, i, x, alpha);
 		cross(x, alpha, turn);
 		cross(x, turn, twice);
 		for (int d = 0; d < 3; d++) {
@@ -62,11 +70,14 @@ static void add_sums(const struct pm_field *at, const struct pm_field *strength,
 }
 
 /* [0] 2 pi circulation, [1] sum of weights, [2] their moment along the axis */
-static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3], struct pm_sum ring[3])
+static void make_ring(const void *data, size_t from, size_t to, void *part)
 {
-	for (size_t i = 0; i < at->count; i++) {
+	const struct vortices *v = data;
+	const double *axis = v->axis;
+	struct pm_sum *ring = part;
+	for (size_t i = from; i < to; i++) {
 		double x[3], alpha[3], turn[3];
-		particle(at, strength, centre, i, x, alpha);
+		particle(v->at, v->strength, v->centre, i, x, alpha);
 		cross(x, alpha, turn);
 		const double along = x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2], about = turn[0] * axis[0] + turn[1] * axis[1] + turn[2] * axis[2];
 		double across[3];
@@ -77,6 +88,18 @@ static void add_ring(const struct pm_field *at, const struct pm_field *strength,
 		pm_sum_add(&ring[1], about);
 		pm_sum_add(&ring[2], about * along);
 	}
+}
+
+static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3], struct pm_sum ring[3])
+{
+	const struct pm_parts parts = {.size = 3 * sizeof *ring, .make = make_ring, .join = pm_join_sums};
+	pm_over_set(&parts, &(struct vortices){at, strength, centre, axis}, at->count, ring);
+}
+
+static void add_sums(const struct pm_field *at, const struct pm_field *strength, struct sums *s)
+{
+	const struct pm_parts parts = {.size = sizeof *s, .make = make_sums, .join = pm_join_sums};
+	pm_over_set(&parts, &(struct vortices){.at = at, .strength = strength}, at->count, s);
 }
 
 static void of_ring(const struct pm_measure *how, const struct pm_frame *f, const struct sums *s, struct pm_measures *m)

@@ -1,6 +1,7 @@
 /* Separation of two runs: sqrt(1/n sum |x_a - x_b|^2), as it grows with the largest Lyapunov exponent, exp(lambda t), until it is as large as the
  * system (Benettin, Galgani and Strelcyn 1976). The rate along a path varies, so the error of the slope of ln d is that of the mean of the slopes of
  * eight parts of the window, each fitted alone. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/in-order.h"
 #include "measure/separation.h"
 #include "stream/declare.h"
 
@@ -36,20 +37,32 @@ static int same_order(const struct pm_frame *f, const char *const sets[2])
 	return 0;
 }
 
+struct pairs {
+	const double *x, *y;
+	double period; /* 0: none */
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct pairs *p = data;
+	for (size_t i = from; i < to; i++) {
+		double d = p->x[i] - p->y[i];
+		d -= p->period > 0 ? p->period * floor(d / p->period + 0.5) : 0;
+		pm_sum_add(part, d * d);
+	}
+}
+
 static double apart_in(const struct pm_frame *f, const char *const sets[2], const char *name)
 {
 	const struct pm_field *a = pm_frame_field(f, sets[0], name), *b = pm_frame_field(f, sets[1], name);
 	const bool positions = name[0] == 'x';
-	struct pm_sum sum = {0};
+	struct pm_sum sum = {0, 0};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
 	if (!a || !b || !a->count)
 		return NAN;
 	for (int c = 0; c < a->components && c < b->components; c++) {
-		const double *x = pm_in(a, c), *y = pm_in(b, c), period = positions && c < f->dim && f->pface[c][0] == PM_PFOLD ? f->hi[c] - f->lo[c] : 0;
-		for (size_t i = 0; i < a->count; i++) {
-			double d = x[i] - y[i];
-			d -= period > 0 ? period * floor(d / period + 0.5) : 0;
-			pm_sum_add(&sum, d * d);
-		}
+		const double period = positions && c < f->dim && f->pface[c][0] == PM_PFOLD ? f->hi[c] - f->lo[c] : 0;
+		pm_over_set(&parts, &(struct pairs){pm_in(a, c), pm_in(b, c), period}, a->count, &sum);
 	}
 	return sqrt(pm_sum_total(sum) / (double)a->count);
 }
