@@ -26,6 +26,15 @@ static inline bool pm_yee_conducts(enum pm_face face) { return face == PM_WALL |
 void pm_yee_magnetic(const struct pm_yee *y, double dt);
 void pm_yee_electric(const struct pm_yee *y, double dt);
 
+/* A derivative along each axis: weights of the two differences along it, and across it of the point itself, of its neighbours along the two other axes
+ * (axis + 1, axis + 2) and of those along both. */
+struct pm_yee_stencil {
+	double near, far;
+	double middle[3], side[3][2], corner[3];
+};
+/* Curls with it in a periodic box; with electric also -dt J/eps0. */
+void pm_yee_wide(const struct pm_yee *y, const struct pm_yee_stencil *s, bool electric, double dt);
+
 /* Waves with the differences d(theta)/h along each axis are bounded for c dt up to 1/sqrt(sum (factor/h)^2), factor 1 for two points. */
 double pm_yee_limit(const struct pm_grid *g, double factor);
 

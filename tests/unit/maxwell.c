@@ -76,12 +76,62 @@ static void test_limit(void)
 	}
 }
 
+/* Every method at 0.999 of its limit: noise stays bounded in 1-D to 3-D (E^2 may swing by 1/sqrt(1 - 0.999^2) = 22 in amplitude). */
+static void test_methods(void)
+{
+	for (int k = 0; pm_maxwells[k]; k++)
+		for (int dim = 1; dim <= 3; dim++) {
+			struct pm_yee y = yee_new(dim, even, PM_PERIODIC, h);
+			const double dt = 0.999 * pm_maxwells[k]->limit(&y.grid) / y.c;
+			double most = 0;
+			noise(&y, 8);
+			const double first = products(&y, y.e, y.e);
+			for (int n = 0; n < 800; n++) {
+				pm_maxwells[k]->magnetic(&y, dt);
+				pm_maxwells[k]->electric(&y, dt);
+				check_worst(&most, products(&y, y.e, y.e) / first);
+			}
+			check(most < 600, "%s in %d-D stays bounded at 0.999 of its limit (E^2 up to %.3g of the start)", pm_maxwell_names[k], dim, most);
+			yee_free(&y);
+		}
+}
+
+/* cole-karkkainen at c dt = h in cubic cells: a wave along an axis returns after one period of the box as it was. fourth: the order of its frequency. */
+static void test_waves(void)
+{
+	double error[3];
+	for (int m = 0; m < 4; m++) {
+		const size_t n = m ? (size_t)8 << m : 12, cells[3] = {n, 6, 8};
+		const double one[3] = {1, 1, 1};
+		struct pm_yee y = yee_new(3, cells, PM_PERIODIC, one);
+		const struct pm_maxwell *method = pm_maxwell_find(m ? "fourth" : "cole-karkkainen");
+		const double k = 2 * pm_pi / (double)n, dt = (m ? 1e-3 : 1) / y.c;
+		double a[3] = {0};
+		for (size_t i = 0; i < pm_grid_size(&y.grid); i++)
+			y.e[1][i] = cos(k * (double)(i % n));
+		method->magnetic(&y, 0.5 * dt);
+		for (int s = 0; s < 3; s++) {
+			a[s] = y.e[1][0];
+			method->electric(&y, dt);
+			method->magnetic(&y, dt);
+		}
+		const double omega = 2 * asin(sqrt(fmax(0, (2 * a[1] - a[0] - a[2]) / (4 * a[1])))) / dt;
+		if (m)
+			error[m - 1] = fabs(omega / (y.c * k) - 1 - k * k * 1e-6 / 24);
+		else
+			check(fabs(omega / (y.c * k) - 1) < 1e-13, "cole-karkkainen at c dt = h has no dispersion along an axis (%.2g)", omega / (y.c * k) - 1);
+		yee_free(&y);
+	}
+	const double order = log2(error[0] / error[2]) / 2;
+	check(order > 3.9 && error[0] < 2e-4, "fourth is of order %.3f in the cell (error %.2g at 16 cells)", order, error[0]);
+}
+
 static void test_energy(void)
 {
 	for (int dim = 1; dim <= 3; dim++) {
 		struct pm_yee y = yee_new(dim, even, PM_PERIODIC, h);
 		const double dt = 0.999 * pm_yee_limit(&y.grid, 1) / y.c;
-		const int steps = dim == 1 ? 100000 : 5000;
+		const int steps = dim == 1 ? 100000 : 1500;
 		double *old[3], first = 0, worst = 0;
 		noise(&y, 6);
 		for (int c = 0; c < 3; c++)
@@ -195,6 +245,8 @@ static void test_threads(void)
 int main(void)
 {
 	test_limit();
+	test_methods();
+	test_waves();
 	test_energy();
 	test_cavity();
 	test_layers();
