@@ -104,7 +104,7 @@ def plan(start, end, accuracy):
     if status:
         return None, [said]
     answer = json.loads(text)
-    lacks = [e["effect"] for e in answer["effects"] if e["answer"] == "needed"] + list(answer.get("warnings", []))
+    lacks = answer["warnings"] + [answer[k] for k in ("not_promised",) if k in answer]
     return answer["sentence"], lacks + [w["words"].split()[0] for w in answer["stages"] if "more than asked for" in w["reason"]]
 
 

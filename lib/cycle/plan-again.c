@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cycle/plan-again.h"
+#include "planner/sentence-edit.h"
 #include "stage/mesh-options.h"
 #include "stream/run.h"
 
@@ -36,13 +37,25 @@ int pm_replan_begin(struct pm_replan *r, const struct pm_frame *f, FILE *warn)
 	return 0;
 }
 
+/* Few bodies: steps adapt to orbits already. */
+static bool follows_orbits(const char *sentence)
+{
+	struct pm_edit e;
+	char number[64];
+	if (!pm_edit_read(&e, sentence))
+		return false;
+	const int dt = pm_edit_find(&e, "dt", 0);
+	bool follows = dt >= 0 && pm_edit_value(&e, dt, (struct pm_edit_option){"oscillation", 0}, number);
+	for (int i = pm_edit_find(&e, "push", 0); i >= 0; i = pm_edit_find(&e, "push", i + 1))
+		follows = follows || pm_edit_says(&e, i, "ias15");
+	return follows;
+}
+
 bool pm_replan_due(const struct pm_replan *r, const struct pm_frame *f)
 {
 	if (r->every < 1 || f->substep || f->step == r->decided)
 		return false;
-	if (strstr(r->sentence, "dt --oscillation") || strstr(r->sentence, "push ias15")) /* few bodies: steps adapt to orbits */
-		return false;
-	return (f->step - r->first) % r->every == 0 || pm_replan_crossed(r, f);
+	return ((f->step - r->first) % r->every == 0 || pm_replan_crossed(r, f)) && !follows_orbits(r->sentence);
 }
 
 /* The frame as the user would have given it: state, step and mesh. A mesh that follows its particles stays as it is. NULL: failure. */

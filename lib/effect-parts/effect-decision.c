@@ -24,6 +24,11 @@ void pm_effect_off(struct pm_decision *d, const char *text)
 	snprintf(d->text, sizeof d->text, "%s", text);
 }
 
+bool pm_effect_ordered(const struct pm_scales *s)
+{
+	return s->kind == PM_CHARGES && s->noise * s->effective < 1 && s->thermal < 0.1 * s->omega * s->spacing;
+}
+
 void pm_effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share)
 {
 	*d = (struct pm_decision){.answer = share > 0.5 * s->accuracy ? PM_PUT_IN : PM_LEFT_OUT, .number = number, .share = share};

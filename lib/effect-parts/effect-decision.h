@@ -12,6 +12,8 @@ bool pm_effect_cancels(const struct pm_scales *s);
 bool pm_effect_alone(const struct pm_scales *s);
 /* A decision that needs no number, and one by a share; shares are estimates, so to be left out it must be below half the accuracy. */
 void pm_effect_off(struct pm_decision *d, const char *text);
+/* A quiet start whose random velocities move no particle past its neighbour in 1/omega: it stays in order, as a cold one does. */
+bool pm_effect_ordered(const struct pm_scales *s);
 void pm_effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share);
 
 #endif

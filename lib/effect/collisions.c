@@ -62,7 +62,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "no self field");
 	else if (s->pairs && !sample(s))
 		pm_effect_off(d, "every pair is summed, encounters are in the self field");
-	else if (!(s->v_thermal > 1e-9 * s->omega * s->spread) || (s->dim == 1 && s->kind == PM_MASSES))
+	else if (!(s->v_thermal > 1e-9 * s->omega * s->spread) || pm_effect_ordered(s) || (s->dim == 1 && s->kind == PM_MASSES))
 		pm_effect_off(d, s->dim == 1 && s->kind == PM_MASSES ? "sheets pass through each other" : "cold: no random velocities");
 	else if (s->kind == PM_MASSES)
 		bodies(s, d);

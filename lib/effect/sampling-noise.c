@@ -32,7 +32,7 @@ static void nothing(const struct pm_scales *s, bool mixed, struct pm_decision *d
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
-	const bool mixed = s->thermal > 0 && s->noise * s->effective < 1 && s->omega * s->time > 0.5 * sqrt(s->effective);
+	const bool mixed = s->thermal > 0 && !pm_effect_ordered(s) && s->noise * s->effective < 1 && s->omega * s->time > 0.5 * sqrt(s->effective);
 	if (s->kind != PM_MASSES && s->kind != PM_CHARGES)
 		pm_effect_off(d, "the particles are no sample");
 	else if (pm_effect_alone(s))

@@ -102,14 +102,14 @@ void pm_plan_print_json(FILE *out, const struct pm_plan *p, bool cost)
 		json_object_set_new(all, "refused", json_string(p->refused));
 	if (*p->unproved)
 		json_object_set_new(all, "unproved", json_string(p->unproved));
+	if (*p->method.warning)
+		json_object_set_new(all, "not_promised", json_string(p->method.warning));
 	for (int i = 0; i < p->nstages; i++) {
 		json_t *s = json_pack("{s:s,s:s}", "words", p->stage[i].words, "reason", p->stage[i].reason);
 		if (cost)
 			json_object_set_new(s, "seconds", pm_json_number(p->stage[i].seconds));
 		json_array_append_new(json_object_get(all, "stages"), s);
 	}
-	if (*p->method.warning)
-		json_array_append_new(json_object_get(all, "warnings"), json_string(p->method.warning));
 	for (int i = 0; i < p->neffects; i++) {
 		const struct pm_plan_effect *e = &p->effect[i];
 		json_t *s = json_pack("{s:s,s:s,s:s,s:o,s:o,s:b}", "effect", e->effect->name, "answer", answer(e), "reason", e->decision.text, "number",
