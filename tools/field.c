@@ -31,6 +31,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 
 static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_given_rates_add(&((struct state *)s->state)->jobs, f); }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 
 static const struct pm_option options[] = {
@@ -73,5 +75,6 @@ const struct pm_tool tool_field = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = done,
 };

@@ -2,12 +2,12 @@
  * that names it. Actions and schemes are files of lib/step; lib/push holds the rules, the clock and the loops.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include <string.h>
 
 #include "stage/control-options.h"
 #include "stage/strength-report.h"
 #include "stream/acting-forces.h"
 #include "stream/frame-time.h"
+#include "world/world.h"
 
 struct config {
 	double dt;
@@ -119,15 +119,18 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		status = stable(s, f, &state->moving[i]);
 	for (size_t i = 0; i < state->n && !status; i++)
 		status = move(s, f, &state->moving[i], h, &crossed);
+	status = h ? pm_world_largest(status, 1, &crossed) : status;
 	if (h && !status)
 		pm_report(s, f, "courant", crossed);
 	return status;
 }
 
-static void release(struct pm_stage *s)
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	free(((struct state *)s->state)->moving);
+	return f && pm_moving_divided(((struct state *)s->state)->n, ((struct state *)s->state)->moving, &((struct config *)s->config)->push);
 }
+
+static void release(struct pm_stage *s) { free(((struct state *)s->state)->moving); }
 
 static const struct pm_option options[] = {
 	{.name = "dt", .kind = PM_REAL, .unit = "time", PM_AT(dt), .text = "overrides the frame's time step and records it; only at substep 0"},
@@ -172,5 +175,6 @@ const struct pm_tool tool_push = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -38,6 +38,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
+/* Where particles may be absorbed, declare() holds the frame. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+
 static const struct pm_option options[] = {
 	PM_VISCOSITY_ROW,
 	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "seed of the random numbers; by default the frame's"},
@@ -71,4 +74,5 @@ const struct pm_tool tool_walk = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

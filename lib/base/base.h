@@ -47,6 +47,7 @@ void *pm_free(void *block);                  /* accepts NULL, returns NULL */
  * jansson), a failed allocation ends the program instead, here and in pm_alloc: end() says why and does not return. */
 int pm_no_memory(void);
 void pm_memory_end(void (*end)(void));
+int pm_cannot_go_on(void);                   /* the same with the message that is there, for failures that a function cannot return */
 void pm_memory_release(void);                /* gives the freed blocks back to the system, and forgets how many were in use */
 /* The most that the process has held since _begin, in bytes; NAN, and false: the system does not say. */
 bool pm_memory_peak_begin(void);

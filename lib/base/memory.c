@@ -121,6 +121,8 @@ int pm_no_memory(void)
 	return ends();
 }
 
+int pm_cannot_go_on(void) { return ends(); }
+
 void *pm_alloc(size_t count, size_t size)
 {
 	size_t bytes;

@@ -308,6 +308,8 @@ int pm_loop_run(struct pm_stage *s, const struct pm_loop *c)
 	if (!status && y.now.words)
 		status = pm_sentence_end(y.now.words);
 	if (!status && y.now.words)
+		pm_sentence_ranks(y.now.words, s);
+	if (!status && y.now.words)
 		status = pm_sentence_timing(y.now.words, s->run->common.timing);
 	char message[1024];
 	snprintf(message, sizeof message, "%s", pm_message());

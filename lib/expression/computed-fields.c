@@ -3,6 +3,7 @@
 
 #include "expression/computed-fields.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 /* The field to compute: an old one is rewritten, a new one made. */
 static struct pm_field *target(const struct pm_computed_choice *c, struct pm_frame *f, const char *on, const char *name, const struct pm_expression *e)
@@ -88,9 +89,12 @@ static int integers(struct pm_frame *f, const struct pm_expression_job *job)
 		pm_expression_eval(&job->e, f, c, n, y);
 		for (size_t i = 0; i < n && !status; i++) {
 			double v = floor(y[i]);
-			if (!(v >= -0x1p63 && v < 0x1p63))
-				status = pm_fail(PM_NUMERICS, "'%s' is no whole number that fits at index %zu", job->field->name, i);
-			else
+			if (!(v >= -0x1p63 && v < 0x1p63)) {
+				if (job->field->here)
+					pm_world_place(2, job->field->order, c, job->field->first + i);
+				status = pm_fail(PM_NUMERICS, "'%s' is no whole number that fits at index %zu", job->field->name,
+					(size_t)job->field->first + i);
+			} else
 				pm_out_i64(job->field, c)[i] = (int64_t)v;
 		}
 	}

@@ -7,6 +7,7 @@
 
 #include "expression/given-limits.h"
 #include "stream/limits.h"
+#include "world/world.h"
 
 enum { most_sampled = 64, axes = 3 };
 
@@ -85,18 +86,26 @@ static void at(const struct pm_expression_job *job, const struct pm_frame *f, si
 	}
 }
 
-void pm_given_limits_add(const struct pm_expression_job *job, const struct pm_frame *f)
+/* The particles that are looked at are chosen among all; each rank looks at its own. */
+int pm_given_limits_add(int status, const struct pm_expression_job *job, const struct pm_frame *f)
 {
-	const size_t n = job->field->count, sampled = n < most_sampled ? n : most_sampled;
+	const struct pm_set *set = pm_frame_set(f, job->e.on);
+	const size_t here = job->field->count, n = set ? set->n : here, sampled = n < most_sampled ? n : most_sampled;
 	struct pm_limits most = {0};
 	bool state = false;
 	for (int j = 0; j < job->e.nvalues; j++) {
 		const struct pm_field *read = pm_frame_field(f, job->e.on, job->e.value[j].field);
 		if (!read)
-			return;
+			return pm_world_agree(status);
 		state = state || !strcmp(read->name, job->field->of) || !strcmp(read->name, "x");
 	}
-	for (size_t k = 0; k < sampled && state; k++)
-		at(job, f, k * n / sampled, &most);
-	pm_limits_add(job->field, most);
+	for (size_t k = 0; k < sampled && state && !status; k++) {
+		const size_t i = k * n / sampled;
+		if (i >= job->field->first && i - job->field->first < here)
+			at(job, f, i - job->field->first, &most);
+	}
+	double all[] = {most.decay, most.oscillation, most.strain};
+	status = pm_world_largest(status, 3, all);
+	pm_limits_add(job->field, (struct pm_limits){all[0], all[1], all[2]});
+	return status;
 }

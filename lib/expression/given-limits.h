@@ -4,7 +4,7 @@
 
 #include "expression/expression-jobs.h"
 
-/* Data: adds them to the job's field. */
-void pm_given_limits_add(const struct pm_expression_job *job, const struct pm_frame *f);
+/* Data: adds them to the job's field. All ranks; takes the status, and returns the agreed one. */
+int pm_given_limits_add(int status, const struct pm_expression_job *job, const struct pm_frame *f);
 
 #endif

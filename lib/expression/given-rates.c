@@ -97,14 +97,13 @@ static int add(const struct pm_frame *f, const struct pm_expression_job *job)
 int pm_given_rates_add(const struct pm_expression_jobs *jobs, const struct pm_frame *f)
 {
 	int status = 0;
-	for (size_t k = 0; k < jobs->n && !status; k++) {
+	for (size_t k = 0; k < jobs->n && !status; k++) { /* the status is agreed */
 		const struct pm_expression_job *job = jobs->job + k;
 		if (job->field->use & PM_USE_FILL)
 			pm_expression_assign(&job->e, f, job->field);
 		else
 			status = add(f, job);
-		if (!status)
-			pm_given_limits_add(job, f);
+		status = pm_given_limits_add(status, job, f);
 	}
 	return status;
 }

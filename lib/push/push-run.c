@@ -39,7 +39,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
 	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN)};
-	size_t n = m->set->n, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	size_t n = m->v->count, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	if (m->b)
 		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
 	for (int r = 0; r < m->n; r++)
@@ -68,9 +68,19 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	return 0;
 }
 
+bool pm_moving_divided(size_t n, const struct pm_moving *moving, const struct pm_push *p)
+{
+	bool can = !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic;
+	for (size_t i = 0; i < n; i++)
+		for (int r = 0; r < moving[i].n; r++)
+			can = can && !pm_is_strength(moving[i].rates[r].state);
+	return can;
+}
+
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)
 {
 	struct pm_advance a = p->actions;
+	const size_t here = m->n ? m->rates[0].state->count : m->x->count; /* of a rank, where the frame is divided */
 	bool finite = true;
 	int status = p->magnetic ? turn(f, m, pm_moving_magnetic(f, p)) : 0;
 	for (int t = 0; t < a.actions; t++)
@@ -89,12 +99,12 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 		double *v = faces && m->v && c < m->v->components && (b.mirror[0] || b.mirror[1]) ? pm_out(m->v, c) : NULL;
 		double fastest = 0;
 		if (n)
-			finite &= pm_advance_axis(m->set->n, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b, h && faces ? &fastest : NULL);
+			finite &= pm_advance_axis(here, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b, h && faces ? &fastest : NULL);
 		if (h && faces)
 			*crossed = fmax(*crossed, fastest * fabs(f->dt) / h[c]);
 		n = lines_of(m, c, false, lines);
 		if (n)
-			finite &= pm_advance_axis(m->set->n, &a, n, lines, NULL, NULL, NULL, NULL);
+			finite &= pm_advance_axis(here, &a, n, lines, NULL, NULL, NULL, NULL);
 	}
 	for (int r = 0; r < m->n && finite; r++) /* if not finite, the library searches for the value */
 		if (!m->turned || m->rates[r].state != m->v) {

@@ -11,13 +11,13 @@ uint64_t pm_walk_key(uint64_t seed, const char *set)
 	return seed ^ hash;
 }
 
-void pm_walk_step(uint64_t key, int64_t step, double deviation, size_t n, int dim, const int64_t *id, double *const x[])
+void pm_walk_step(uint64_t key, int64_t step, double deviation, uint64_t first, size_t n, int dim, const int64_t *id, double *const x[])
 {
 #pragma omp parallel for schedule(static) if (n > 4096)
 	for (size_t i = 0; i < n; i++) {
 		double z[4];
 		for (int k = 0; k < (dim + 1) / 2; k++)
-			pm_random_normal(key, id ? (uint64_t)id[i] : i, (uint64_t)step * 2 + (uint64_t)k, z + 2 * k);
+			pm_random_normal(key, id ? (uint64_t)id[i] : first + i, (uint64_t)step * 2 + (uint64_t)k, z + 2 * k);
 		for (int d = 0; d < dim; d++)
 			x[d][i] += deviation * z[d];
 	}

@@ -48,8 +48,8 @@ int pm_walk_set(const struct pm_walk *w, struct pm_frame *f, struct pm_set *set,
 	double *x[3] = {NULL};
 	for (int d = 0; d < f->dim; d++)
 		x[d] = pm_out(m.x, d);
-	pm_walk_step(pm_walk_key(w->seed, set->name), f->step, w->deviation, set->n, f->dim, id ? pm_in_i64(id, 0) : NULL, x);
-	pm_walk_faces(f, set->n, x);
+	pm_walk_step(pm_walk_key(w->seed, set->name), f->step, w->deviation, m.x->first, m.x->count, f->dim, id ? pm_in_i64(id, 0) : NULL, x);
+	pm_walk_faces(f, m.x->count, x);
 	*absorbed = 0;
 	lost->n = 0;
 	return pm_moving_face(f, PM_PABSORB) && pm_moving_absorb(f, &m, absorbed, lost) ? -PM_DATA : 0;

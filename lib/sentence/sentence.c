@@ -11,6 +11,7 @@
 #include "stream/acting-forces.h"
 #include "stream/run.h"
 #include "stage/apply.h"
+#include "world/world.h"
 
 enum { most_words = 64, most_arguments = 64 };
 
@@ -402,6 +403,19 @@ int pm_sentence_safe(const char *text)
 	}
 	pm_sentence_free(s);
 	return status;
+}
+
+void pm_sentence_ranks(const struct pm_sentence *s, const struct pm_stage *as)
+{
+	char whole[1000] = "", shared[1000] = "";
+	for (int i = 0; i < s->nwords; i++) {
+		const struct pm_stage *w = s->word[i].stage;
+		char *list = w && w->frames[1] ? shared : whole;
+		if (!w || w->frames[0] || w->frames[1])
+			snprintf(list + strlen(list), 1000 - strlen(list), "%s%.60s", *list ? ", " : "", w ? w->word : s->word[i].argv[0]);
+	}
+	if (pm_world_size() > 1)
+		pm_say(as, "%d ranks share: %s; on rank 0 alone: %s", pm_world_size(), *shared ? shared : "no word", *whole ? whole : "no word");
 }
 
 int pm_sentence_timing(const struct pm_sentence *s, const char *file)

@@ -29,6 +29,7 @@ const struct pm_stage *pm_sentence_stage(const struct pm_sentence *s, int word);
 bool pm_sentence_says(const struct pm_sentence *s, const char *name);
 bool pm_sentence_waits(const struct pm_sentence *s); /* some of its words are processes */
 int pm_sentence_safe(const char *text);              /* fails where it runs programs that are not ours, or writes files: for one that nobody typed */
+void pm_sentence_ranks(const struct pm_sentence *s, const struct pm_stage *as); /* --verbose: which words the ranks have shared */
 int pm_sentence_timing(const struct pm_sentence *s, const char *file); /* 0 or failure */
 
 #endif

@@ -34,6 +34,7 @@ void pm_option_rows(const struct pm_tool *tool, const struct pm_option *rows[PM_
 int pm_options_parse(struct pm_stage *s, int argc, char **argv);
 struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv, int *status); /* parsed, not begun */
 int pm_stage_begin(struct pm_stage *s);
+int pm_stage_frame(struct pm_stage *s, struct pm_frame *f); /* frame(), on this rank alone */
 void pm_history_add(struct pm_stage *s, struct pm_frame *f);
 void pm_work_since(struct pm_stage *s, struct pm_clock began);                /* counts the time since then as work */
 void pm_timing_whole(struct pm_stage *s);                                     /* all since the stage was made is work, and that of ended processes */

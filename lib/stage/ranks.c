@@ -6,8 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "stage/divided.h"
 #include "stage/internal.h"
 #include "stage/ranks.h"
+#include "stream/parts.h"
 #include "world/launch.h"
 #include "world/world.h"
 
@@ -120,25 +122,32 @@ int pm_ranks_compare(const struct pm_tool *tool)
 	return pm_world_agree(status ? status : compare(&mine, &first));
 }
 
-enum request { END, REQUESTS };
-
 int pm_ranks_follow(const struct pm_tool *tool)
 {
-	(void)tool;
-	int64_t request = REQUESTS;
-	while (request != END && !pm_world_broken())
-		if (pm_world_share(0, 0, &request, sizeof request))
-			break;
+	enum pm_request what = PM_REQUEST_FORGET;
+	while (what != PM_REQUEST_END && !pm_world_broken()) {
+		void *more;
+		size_t bytes;
+		if (!pm_request_take(&what, &more, &bytes)) {
+			if (what == PM_REQUEST_APPLY)
+				pm_divided_follow(tool, more);
+			else if (what != PM_REQUEST_END)
+				pm_request_parts(what, more, bytes);
+		}
+		free(more);
+	}
+	pm_divided_free();
+	pm_parts_free();
 	pm_world_end();
 	return 0;
 }
 
 int pm_ranks_end(void)
 {
-	int64_t request = END;
 	if (pm_world_size() == 1)
 		return 0;
-	int status = pm_world_broken() ? pm_fail(PM_DATA, "%s", pm_message()) : pm_world_share(0, 0, &request, sizeof request);
+	int status = pm_world_broken() ? pm_fail(PM_DATA, "%s", pm_message()) : pm_request_send(PM_REQUEST_END, NULL, 0);
+	pm_parts_free();
 	const int end = pm_world_end();
 	return end ? end : status;
 }

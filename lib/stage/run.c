@@ -44,10 +44,8 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 		status = pm_read_payload(r, f, hold, emit && !hold ? w : NULL);
 	if (!status && (plan == 0 || hold)) {
 		status = pm_frame_ready(f);
-		struct pm_clock began = pm_clock();
 		if (!status && s->tool->frame)
-			status = s->tool->frame(s, f);
-		pm_work_since(s, began);
+			status = pm_stage_frame(s, f);
 		if (status == PM_SKIP) /* only if the header has not been written yet */
 			return 0;
 	}
@@ -275,6 +273,9 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	if (pm_world_rank() == 0)
 		return lead(tool, s, status);
 	running.tool = NULL;
+	s = s ? s : pm_stage_make(tool, argc, argv, &status); /* what is wrong with the options is said by rank 0 */
+	if (s && !status && s->run->common.threads > 0)
+		pm_threads_use((int)s->run->common.threads);
 	pm_stage_free(s);
 	return pm_ranks_follow(tool);
 }

@@ -6,9 +6,11 @@
 #include <string.h>
 
 #include "base/status-line.h"
+#include "stage/divided.h"
 #include "stage/internal.h"
 #include "stream/run.h"
 #include "stage/apply.h"
+#include "world/world.h"
 
 struct pm_stage *pm_stage_free(struct pm_stage *s)
 {
@@ -42,6 +44,8 @@ struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv
 		*status = pm_no_memory();
 		return s;
 	}
+	s->argc = argc;
+	s->argv = argv;
 	s->run->began = pm_clock();
 	s->entry = json_pack("{s:s,s:s,s:{}}", "program", tool->name, "version", PM_VERSION, "options");
 	*status = pm_options_parse(s, argc, argv);
@@ -97,20 +101,36 @@ static int check_input(struct pm_frame *f)
 	return 0;
 }
 
+int pm_stage_frame(struct pm_stage *s, struct pm_frame *f)
+{
+	struct pm_clock began = pm_clock();
+	const bool apart = pm_world_apart(true);
+	const int status = s->tool->frame(s, f);
+	pm_world_apart(apart);
+	pm_work_since(s, began);
+	return status;
+}
+
+/* The ranks share the work where the word can; else, and alone, it runs here. */
 int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
 {
+	char *header = pm_divided_header(s, f);
 	int plan = pm_stage_declare(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
 	if (!status)
 		status = pm_frame_affordable(f);
+	const bool divided = !status && !plan && header && pm_divided_can(s, f);
+	s->frames[divided] += !status && pm_world_size() > 1;
+	if (divided)
+		status = pm_divided_apply(s, f, header);
+	free(header);
+	if (divided)
+		return status;
 	if (!status)
 		status = check_input(f);
 	if (!status)
 		status = pm_frame_ready(f);
-	if (!status && s->tool->frame) {
-		struct pm_clock began = pm_clock();
-		status = s->tool->frame(s, f);
-		pm_work_since(s, began);
-	}
+	if (!status && s->tool->frame)
+		status = pm_stage_frame(s, f);
 	if (status < 0 || status == PM_SKIP)
 		return status;
 	return pm_frame_settle(f);

@@ -79,6 +79,9 @@ struct pm_stage {
 	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */
 	bool told;           /* pm_tell_once has been used */
+	int argc;
+	char **argv;         /* as typed, for the other ranks */
+	uint64_t frames[2];  /* computed with several ranks: on rank 0 alone, and divided */
 	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup_since; work: the rest of frame */
 	double processor;       /* [s] of the processors, by all threads, in the same work */
 	struct pm_run *run;  /* of the library */
@@ -100,6 +103,8 @@ struct pm_tool {
 	int (*begin)(struct pm_stage *s);  /* options are parsed; nothing has been read */
 	int (*declare)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
 	int (*frame)(struct pm_stage *s, struct pm_frame *f);  /* the data are there: compute */
+	/* Behind declare(): can the ranks share this frame, each with its own stretch of every field in use (docs/distributed.md)? NULL: never. */
+	bool (*divided)(const struct pm_stage *s, const struct pm_frame *f);
 	int (*flush)(struct pm_stage *s, struct pm_writer *w); /* filters: before an end marker goes out; may write frames held back */
 	int (*end)(struct pm_stage *s);    /* the input ended well */
 	void (*free)(struct pm_stage *s);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "stage/internal.h"
+#include "world/world.h"
 
 /* Three digits with s, ms or us. */
 static const char *readable(char to[16], double seconds)
@@ -57,7 +58,7 @@ void pm_timing_table(size_t n, const struct pm_stage *const *words)
 	}
 	fprintf(stderr, "%-*s  %9s  %9s  share\n", width, "word", "set-up", "work");
 	for (size_t i = 0; i < n; i++)
-		fprintf(stderr, "%-*s  %9s  %9s  %3.0f %%\n", width, words[i]->word, readable(a, words[i]->setup), readable(b, words[i]->seconds),
-			100 * words[i]->seconds / sum);
+		fprintf(stderr, "%-*s  %9s  %9s  %3.0f %%%s\n", width, words[i]->word, readable(a, words[i]->setup), readable(b, words[i]->seconds),
+			100 * words[i]->seconds / sum, pm_world_size() == 1 ? "" : words[i]->frames[1] ? "  all ranks" : "  rank 0 alone");
 	fprintf(stderr, "%-*s  %9s  %9s\n", width, "all", readable(a, setup), readable(b, sum));
 }

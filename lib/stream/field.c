@@ -1,30 +1,17 @@
 /* Field data: reference-counted buffers, copied on write; uniform values are expanded when they are read.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/parts.h"
 #include "stream/run.h"
-
-struct pm_buffer {
-	atomic_int users;
-	void *data;
-};
+#include "world/world.h"
 
 static bool is_real(const struct pm_field *field) { return field->type == PM_F64 || field->type == PM_F32; }
 
 size_t pm_field_memory(const struct pm_field *field) { return field->type == PM_U8 ? 1 : 8; }
 
 static size_t values(const struct pm_field *field) { return field->count * (size_t)field->components; }
-
-static struct pm_buffer *buffer_free(struct pm_buffer *b)
-{
-	if (b && atomic_fetch_sub(&b->users, 1) == 1) {
-		pm_free(b->data);
-		free(b);
-	}
-	return NULL;
-}
 
 static void forget_note(struct pm_field *field)
 {
@@ -33,18 +20,22 @@ static void forget_note(struct pm_field *field)
 	field->note = NULL;
 }
 
-static struct pm_buffer *buffer_new(size_t n, size_t size, bool zero)
+/* The values: in a divided frame this rank's, else all of them, brought together where they are divided. */
+static void *base_of(const struct pm_field *field)
 {
-	struct pm_buffer *b = malloc(sizeof *b);
-	void *data = zero ? pm_zalloc(n, size) : pm_alloc(n, size);
-	if (!b || !data) {
-		free(b), pm_free(data);
-		pm_no_memory();
-		return NULL;
-	}
-	atomic_init(&b->users, 1);
-	b->data = data;
-	return b;
+	struct pm_buffer *b = field->buffer;
+	if (!field->here && !b->data && pm_buffer_join(b))
+		pm_cannot_go_on();
+	return field->here ? b->part : b->data;
+}
+
+/* All values will change on rank 0. */
+static void *base_to_change(const struct pm_field *field)
+{
+	void *base = base_of(field);
+	if (!field->here && field->buffer->id)
+		pm_buffer_undivide(field->buffer);
+	return base;
 }
 
 struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
@@ -69,7 +60,7 @@ struct pm_field *pm_field_free(struct pm_field *field)
 {
 	if (field) {
 		forget_note(field);
-		buffer_free(field->buffer);
+		pm_buffer_free(field->buffer);
 		json_decref(field->more);
 		free(field);
 	}
@@ -78,11 +69,11 @@ struct pm_field *pm_field_free(struct pm_field *field)
 
 int pm_field_hold(struct pm_field *field)
 {
-	struct pm_buffer *b = buffer_new(values(field), pm_field_memory(field), false);
+	struct pm_buffer *b = pm_buffer_new(values(field), pm_field_memory(field), false);
 	if (!b)
 		return -PM_DATA;
 	forget_note(field);
-	buffer_free(field->buffer);
+	pm_buffer_free(field->buffer);
 	field->buffer = b;
 	return 0;
 }
@@ -105,28 +96,63 @@ static void fill(struct pm_field *field)
 	}
 }
 
+/* The same in a divided frame, where buffers have parts alone. */
+static int ready_here(struct pm_field *field)
+{
+	struct pm_buffer *old = field->buffer, *b;
+	const bool change = field->use & PM_USE_CHANGE, copies = old && change && atomic_load(&old->users) > 1, fills = !old && !(field->use & PM_USE_NEW);
+	if (old && change && !copies)
+		old->data = pm_free(old->data); /* soon out of date */
+	if ((old && !copies) || (!old && field->use & PM_USE_NEW && field->uniform))
+		return 0;
+	if (!(b = pm_buffer_new(values(field), pm_field_memory(field), !old && !fills && !(field->use & PM_USE_FILL))))
+		return -PM_DATA;
+	b->part = b->data;
+	b->data = NULL;
+	if (copies)
+		memcpy(b->part, old->part, values(field) * pm_field_memory(field));
+	pm_buffer_free(old);
+	field->buffer = b;
+	if (fills)
+		fill(field);
+	return 0;
+}
+
 int pm_field_ready(struct pm_field *field)
 {
 	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
 		forget_note(field);
+	if (field->here)
+		return ready_here(field);
+	if (field->buffer && field->use & PM_USE_CHANGE) /* before threads do */
+		base_to_change(field);
+	else if (field->buffer)
+		base_of(field);
 	if (field->buffer && field->use & PM_USE_CHANGE && atomic_load(&field->buffer->users) > 1) {
-		struct pm_buffer *b = buffer_new(values(field), pm_field_memory(field), false);
+		struct pm_buffer *b = pm_buffer_new(values(field), pm_field_memory(field), false);
 		if (!b)
 			return -PM_DATA;
-		memcpy(b->data, field->buffer->data, values(field) * pm_field_memory(field));
-		buffer_free(field->buffer);
+		memcpy(b->data, base_of(field), values(field) * pm_field_memory(field));
+		pm_buffer_free(field->buffer);
 		field->buffer = b;
 	}
 	if (field->buffer)
 		return 0;
 	if (field->use & PM_USE_NEW && field->uniform)
 		return 0;
-	field->buffer = buffer_new(values(field), pm_field_memory(field), field->use & PM_USE_NEW && !(field->use & PM_USE_FILL));
+	field->buffer = pm_buffer_new(values(field), pm_field_memory(field), field->use & PM_USE_NEW && !(field->use & PM_USE_FILL));
 	if (!field->buffer)
 		return -PM_DATA;
 	if (!(field->use & PM_USE_NEW))
 		fill(field);
 	return 0;
+}
+
+/* Of a failure in a divided frame: the first field that comes in, the last one that goes out, as alone. */
+static void place(const struct pm_field *field, int code, int c, size_t i)
+{
+	if (field->here)
+		pm_world_place(code == PM_DATA ? 1 : 3, code == PM_DATA ? field->order : 255 - field->order, c, field->first + i);
 }
 
 /* The place of the first value that is not finite; called only if there is one. */
@@ -135,8 +161,9 @@ static int not_finite(const struct pm_field *field, int code)
 	for (int c = 0; c < field->components; c++)
 		for (size_t i = 0; i < field->count; i++)
 			if (!isfinite(pm_in(field, c)[i]))
-				return pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name, field->on, c, i,
-					code == PM_DATA ? "made by an earlier word; sel --drop removes the field" : "a smaller dt, or a larger softening");
+				return place(field, code, c, i), pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name, field->on,
+					c, (size_t)field->first + i, code == PM_DATA ? "made by an earlier word; sel --drop removes the field" :
+					"a smaller dt, or a larger softening");
 	return 0;
 }
 
@@ -144,7 +171,7 @@ int pm_field_check(struct pm_field *field, int code)
 {
 	if (field->finite || !is_real(field) || !field->buffer || field->use & PM_USE_ANY)
 		return 0;
-	field->finite = pm_finite(values(field), field->buffer->data);
+	field->finite = pm_finite(values(field), base_of(field));
 	return field->finite ? 0 : not_finite(field, code);
 }
 
@@ -154,7 +181,7 @@ int pm_field_settle(struct pm_field *field)
 	field->use = 0;
 	if (!(use & (PM_USE_CHANGE | PM_USE_NEW)) || field->uniform || !is_real(field) || !field->buffer)
 		return 0;
-	double *y = field->buffer->data;
+	double *y = base_of(field);
 	if (field->type == PM_F32)
 		for (size_t i = 0, n = values(field); i < n; i++)
 			y[i] = (float)y[i];
@@ -165,16 +192,17 @@ int pm_field_settle(struct pm_field *field)
 int pm_field_resize(struct pm_field *field, size_t count)
 {
 	size_t old = field->count, keep = old < count ? old : count, size = pm_field_memory(field);
+	const char *from = field->buffer && count != old ? base_of(field) : NULL;
 	field->count = count;
 	forget_note(field);
-	if (!field->buffer || count == old)
+	if (!from)
 		return 0;
-	struct pm_buffer *b = buffer_new(values(field), size, true);
+	struct pm_buffer *b = pm_buffer_new(values(field), size, true);
 	if (!b)
 		return -PM_DATA;
 	for (int c = 0; c < field->components; c++)
-		memcpy((char *)b->data + (size_t)c * count * size, (char *)field->buffer->data + (size_t)c * old * size, keep * size);
-	buffer_free(field->buffer);
+		memcpy((char *)b->data + (size_t)c * count * size, from + (size_t)c * old * size, keep * size);
+	pm_buffer_free(field->buffer);
 	field->buffer = b;
 	if (field->uniform)
 		fill(field);
@@ -184,19 +212,50 @@ int pm_field_resize(struct pm_field *field, size_t count)
 void pm_field_forget(struct pm_field *field)
 {
 	forget_note(field);
-	field->buffer = buffer_free(field->buffer);
+	field->buffer = pm_buffer_free(field->buffer);
 }
 
-void *pm_field_bytes(struct pm_field *field) { return field->buffer ? field->buffer->data : NULL; }
-
-static void *component(const struct pm_field *field, int c)
+int pm_field_enter(struct pm_field *field, const uint64_t *from)
 {
-	return (char *)field->buffer->data + (size_t)c * field->count * pm_field_memory(field);
+	const int me = pm_world_rank();
+	field->count = (size_t)(from[me + 1] - from[me]);
+	field->first = from[me];
+	field->here = true;
+	return 0;
 }
 
-const double *pm_in(const struct pm_field *field, int c) { return component(field, c); }
-double *pm_out(struct pm_field *field, int c) { return component(field, c); }
-const int64_t *pm_in_i64(const struct pm_field *field, int c) { return component(field, c); }
-int64_t *pm_out_i64(struct pm_field *field, int c) { return component(field, c); }
-const unsigned char *pm_in_u8(const struct pm_field *field, int c) { return component(field, c); }
-unsigned char *pm_out_u8(struct pm_field *field, int c) { return component(field, c); }
+void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	struct pm_buffer *b = field->buffer;
+	field->count = (size_t)from[ranks];
+	field->first = 0;
+	field->here = false;
+	if (!b || b->id == id || !b->part)
+		return;
+	b->from = malloc((ranks + 1) * sizeof *b->from);
+	if (!b->from) {
+		pm_cannot_go_on();
+		return;
+	}
+	memcpy(b->from, from, (ranks + 1) * sizeof *b->from);
+	b->id = id, b->size = pm_field_memory(field), b->components = field->components;
+}
+
+/* Whoever asks may write there. */
+void *pm_field_bytes(struct pm_field *field) { return field->buffer ? base_to_change(field) : NULL; }
+
+static const char *component(const struct pm_field *field, const void *base, int c)
+{
+	return (const char *)base + (size_t)c * field->count * pm_field_memory(field);
+}
+
+static const void *in(const struct pm_field *field, int c) { return component(field, base_of(field), c); }
+static void *out(struct pm_field *field, int c) { return (void *)(uintptr_t)component(field, base_to_change(field), c); }
+
+const double *pm_in(const struct pm_field *field, int c) { return in(field, c); }
+double *pm_out(struct pm_field *field, int c) { return out(field, c); }
+const int64_t *pm_in_i64(const struct pm_field *field, int c) { return in(field, c); }
+int64_t *pm_out_i64(struct pm_field *field, int c) { return out(field, c); }
+const unsigned char *pm_in_u8(const struct pm_field *field, int c) { return in(field, c); }
+unsigned char *pm_out_u8(struct pm_field *field, int c) { return out(field, c); }

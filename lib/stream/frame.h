@@ -69,7 +69,10 @@ struct pm_field {
 	char terms[PM_TERMS][PM_NAME];
 	int nterms;
 	struct pm_limits limits;              /* of change fields; travel in the tail */
-	size_t count;         /* values per component: n of the set, points of the mesh */
+	size_t count;         /* values per component: n of the set, points of the mesh; in a divided frame those of this rank */
+	bool here;            /* in a divided frame: the values are this rank's stretch alone */
+	uint64_t first;       /* then: the number of the first one in the whole stream; else 0 */
+	int order;            /* then: among the fields in use, for the place of a failure */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */
 	struct pm_note *note; /* NULL: none */

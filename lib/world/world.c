@@ -6,7 +6,7 @@
 
 static struct {
 	struct pm_transport t;
-	bool set, broken;
+	bool set, broken, apart;
 	size_t cut;
 	int64_t place; /* of a failure of this rank; -1 none said */
 	struct pm_world_traffic sent;
@@ -14,6 +14,11 @@ static struct {
 
 static struct pm_transport *here(void)
 {
+	static struct pm_transport alone;
+	if (world.apart) {
+		alone = pm_transport_alone;
+		return &alone;
+	}
 	if (!world.set) {
 		world.t = pm_transport_alone;
 		world.set = true;
@@ -23,6 +28,13 @@ static struct pm_transport *here(void)
 
 int pm_world_rank(void) { return here()->rank; }
 int pm_world_size(void) { return here()->size; }
+bool pm_world_apart(bool apart)
+{
+	const bool was = world.apart;
+	world.apart = apart;
+	return was;
+}
+
 bool pm_world_broken(void) { return world.broken; }
 struct pm_world_traffic pm_world_traffic(void) { return world.sent; }
 void pm_world_cut(size_t bytes) { world.cut = bytes; }
@@ -37,6 +49,7 @@ void pm_world_set(const struct pm_transport *t)
 
 int pm_world_end(void)
 {
+	world.apart = false;
 	struct pm_transport *t = here();
 	const int bad = t->close(t), status = bad ? pm_fail(PM_DATA, "%s", t->reason(t)) : 0;
 	pm_world_set(&pm_transport_alone);
@@ -45,6 +58,7 @@ int pm_world_end(void)
 
 void pm_world_abort(int code)
 {
+	world.apart = false;
 	if (here()->size > 1)
 		here()->abort(here(), code);
 }

@@ -53,6 +53,8 @@ struct pm_world_traffic {
 struct pm_world_traffic pm_world_traffic(void);
 
 /* For the layer that runs stages, and tests. */
+/* apart: what follows is done by this rank alone (a word that is not divided), so that it sees a world of one. Returns what was before. */
+bool pm_world_apart(bool apart);
 void pm_world_set(const struct pm_transport *t); /* from now on this is the world; copied */
 int pm_world_end(void);                          /* all ranks have ended: 0 or failure; afterwards the world is of one */
 void pm_world_abort(int code);                   /* ends the other ranks, and where they are MPI's this one too; alone it does nothing */

@@ -1,0 +1,274 @@
+/* Requests of rank 0, and the parts of divided values. A request is a share of its head, then of what belongs to it; then all ranks do the same operations.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream/parts.h"
+#include "world/world.h"
+
+enum { grain = pm_sum_block };
+
+static uint64_t last_id;
+static struct {
+	uint64_t *id; /* rank 0: parts that nobody uses any more, not yet said */
+	size_t n, room;
+} gone;
+static struct {
+	struct kept {
+		uint64_t id;
+		struct pm_buffer *buffer;
+	} *item;
+	size_t n, room;
+} store; /* of the other ranks */
+
+uint64_t pm_parts_number(void) { return ++last_id; }
+
+uint64_t *pm_division_new(uint64_t n)
+{
+	const uint64_t ranks = (uint64_t)pm_world_size(), blocks = (n + grain - 1) / grain;
+	uint64_t *from = malloc((ranks + 1) * sizeof *from);
+	for (uint64_t r = 0; from && r <= ranks; r++) {
+		from[r] = blocks * r / ranks * grain;
+		from[r] = from[r] < n ? from[r] : n;
+	}
+	if (!from)
+		pm_no_memory();
+	return from;
+}
+
+struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero)
+{
+	struct pm_buffer *b = calloc(1, sizeof *b);
+	void *data = zero ? pm_zalloc(n, size) : pm_alloc(n, size);
+	if (!b || !data) {
+		free(b), pm_free(data);
+		pm_no_memory();
+		return NULL;
+	}
+	atomic_init(&b->users, 1);
+	b->data = data;
+	return b;
+}
+
+/* ---- requests ---- */
+
+static int send(enum pm_request what, const void *more, size_t bytes)
+{
+	int64_t head[2] = {what, (int64_t)bytes};
+	const int status = pm_world_share(0, 0, head, sizeof head);
+	return bytes ? pm_world_share(status, 0, (void *)(uintptr_t)more, bytes) : status;
+}
+
+int pm_request_send(enum pm_request what, const void *more, size_t bytes)
+{
+	const size_t n = gone.n;
+	gone.n = 0;
+	int status = n ? send(PM_REQUEST_FORGET, gone.id, n * sizeof *gone.id) : 0;
+	return status ? status : send(what, more, bytes);
+}
+
+int pm_request_take(enum pm_request *what, void **more, size_t *bytes)
+{
+	int64_t head[2];
+	int status = pm_world_share(0, 0, head, sizeof head);
+	*more = NULL;
+	if (status)
+		return status;
+	*what = (enum pm_request)head[0];
+	*bytes = (size_t)head[1];
+	if (*bytes && !(*more = malloc(*bytes + 1)))
+		status = pm_no_memory();
+	status = *bytes ? pm_world_share(status, 0, *more, *bytes) : status;
+	if (*more)
+		((char *)*more)[status ? 0 : *bytes] = 0;
+	return status;
+}
+
+/* ---- parts ---- */
+
+static void forget(uint64_t id)
+{
+	if (gone.n == gone.room) {
+		uint64_t *more = realloc(gone.id, (2 * gone.room + 16) * sizeof *more);
+		if (!more)
+			return; /* the others keep it for nothing */
+		gone.id = more;
+		gone.room = 2 * gone.room + 16;
+	}
+	gone.id[gone.n++] = id;
+}
+
+void pm_buffer_undivide(struct pm_buffer *b)
+{
+	if (b->id && pm_world_rank() == 0)
+		forget(b->id);
+	pm_free(b->part), free(b->from);
+	b->part = NULL, b->from = NULL, b->id = 0;
+}
+
+struct pm_buffer *pm_buffer_free(struct pm_buffer *b)
+{
+	if (b && atomic_fetch_sub(&b->users, 1) == 1) {
+		pm_buffer_undivide(b);
+		pm_free(b->data);
+		free(b);
+	}
+	return NULL;
+}
+
+struct pm_buffer *pm_parts_of(uint64_t id, bool take)
+{
+	for (size_t i = 0; i < store.n; i++)
+		if (store.item[i].id == id) {
+			struct pm_buffer *b = store.item[i].buffer;
+			if (take)
+				store.item[i] = store.item[--store.n];
+			else
+				atomic_fetch_add(&b->users, 1);
+			return b;
+		}
+	return NULL;
+}
+
+int pm_parts_keep(uint64_t id, struct pm_buffer *b)
+{
+	if (store.n == store.room) {
+		struct kept *more = realloc(store.item, (2 * store.room + 16) * sizeof *more);
+		if (!more)
+			return pm_no_memory();
+		store.item = more;
+		store.room = 2 * store.room + 16;
+	}
+	atomic_fetch_add(&b->users, 1);
+	store.item[store.n++] = (struct kept){id, b};
+	return 0;
+}
+
+void pm_parts_free(void)
+{
+	while (store.n)
+		pm_buffer_free(store.item[--store.n].buffer);
+	free(store.item), free(gone.id);
+	store.item = NULL, gone.id = NULL;
+	store.room = gone.room = gone.n = 0;
+}
+
+/* What a request to divide or to join says: of the values, then the division. */
+struct shape {
+	uint64_t id, size, components;
+};
+
+static uint64_t *with_division(const struct shape *s, const uint64_t *from, size_t *bytes)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	uint64_t *text = malloc(*bytes = sizeof *s + (ranks + 1) * sizeof *from);
+	if (text) {
+		memcpy(text, s, sizeof *s);
+		memcpy(text + 3, from, (ranks + 1) * sizeof *from);
+	} else {
+		pm_no_memory();
+	}
+	return text;
+}
+
+/* All on rank 0. */
+static uint64_t *on_first(uint64_t n)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	uint64_t *from = malloc((ranks + 1) * sizeof *from);
+	for (size_t r = 0; from && r <= ranks; r++)
+		from[r] = r ? n : 0;
+	if (!from)
+		pm_no_memory();
+	return from;
+}
+
+/* All values on rank 0 to parts (divide), or the reverse, component by component. whole: on rank 0. */
+static int carry(int status, const struct shape *s, const uint64_t *from, bool divide, char *whole, char *part)
+{
+	const size_t me = (size_t)pm_world_rank(), n = from[pm_world_size()], here = from[me + 1] - from[me];
+	uint64_t *first = on_first(n);
+	status = status ? status : first ? 0 : pm_failed();
+	for (uint64_t c = 0; c < s->components; c++) {
+		char *all = whole ? whole + c * n * s->size : NULL, *own = part ? part + c * here * s->size : NULL;
+		status = divide ? pm_world_recut(status, first, from, s->size, all, own) : pm_world_recut(status, from, first, s->size, own, all);
+	}
+	free(first);
+	return status;
+}
+
+/* Every rank, with its status: room for the part, then the values. */
+static int take_part(int status, struct pm_buffer *b, const struct shape *s, const uint64_t *from)
+{
+	const size_t me = (size_t)pm_world_rank(), ranks = (size_t)pm_world_size(), here = from[me + 1] - from[me];
+	char *part = status ? NULL : pm_alloc(here * s->components + 1, s->size);
+	uint64_t *division = malloc((ranks + 1) * sizeof *division);
+	if (!status && (!part || !division))
+		status = pm_failed();
+	status = carry(status, s, from, true, b ? b->data : NULL, part);
+	if (status || !b || !division) {
+		pm_free(part), free(division);
+		return status;
+	}
+	memcpy(division, from, (ranks + 1) * sizeof *division);
+	b->part = part, b->from = division, b->id = s->id, b->size = s->size, b->components = (int)s->components;
+	return 0;
+}
+
+int pm_buffer_divide(struct pm_buffer *b, int components, size_t size, const uint64_t *from)
+{
+	const struct shape s = {pm_parts_number(), size, (uint64_t)components};
+	size_t bytes;
+	if (b->id)
+		return 0;
+	const bool apart = pm_world_apart(false);
+	uint64_t *text = with_division(&s, from, &bytes);
+	int status = text ? pm_request_send(PM_REQUEST_DIVIDE, text, bytes) : pm_failed();
+	free(text);
+	status = status ? status : take_part(0, b, &s, from);
+	pm_world_apart(apart);
+	return status;
+}
+
+int pm_buffer_join(struct pm_buffer *b)
+{
+	const struct shape s = {b->id, b->size, (uint64_t)b->components};
+	size_t bytes;
+	if (b->data)
+		return 0;
+	const bool apart = pm_world_apart(false);
+	const size_t n = b->from[pm_world_size()];
+	void *data = pm_alloc(n * s.components + 1, s.size);
+	uint64_t *text = data ? with_division(&s, b->from, &bytes) : NULL;
+	int status = text ? pm_request_send(PM_REQUEST_JOIN, text, bytes) : pm_failed();
+	free(text);
+	status = status ? status : carry(0, &s, b->from, false, data, b->part);
+	b->data = status ? pm_free(data) : data;
+	pm_world_apart(apart);
+	return status;
+}
+
+int pm_request_parts(enum pm_request what, const void *more, size_t bytes)
+{
+	struct shape s;
+	const uint64_t *from = (const uint64_t *)more + 3;
+	if (what == PM_REQUEST_FORGET) {
+		for (size_t i = 0; i < bytes / sizeof(uint64_t); i++)
+			pm_buffer_free(pm_parts_of(((const uint64_t *)more)[i], true));
+		return 0;
+	}
+	memcpy(&s, more, sizeof s);
+	if (what == PM_REQUEST_JOIN) {
+		struct pm_buffer *b = pm_parts_of(s.id, false);
+		const int status = carry(b ? 0 : pm_fail(PM_DATA, "a part is missing"), &s, from, false, NULL, b ? b->part : NULL);
+		pm_buffer_free(b);
+		return status;
+	}
+	struct pm_buffer *b = calloc(1, sizeof *b);
+	if (b)
+		atomic_init(&b->users, 1);
+	int status = b ? pm_parts_keep(s.id, b) : pm_no_memory();
+	status = take_part(status, b, &s, from);
+	pm_buffer_free(b);
+	return status;
+}

@@ -1,0 +1,45 @@
+/* Values divided among the ranks (docs/distributed.md). Rank 0 holds the frame, and of a divided field its own stretch; the other ranks hold theirs under a
+ * number, and do what rank 0 asks: requests. For lib/stream and the layer that runs stages.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STREAM_PARTS_H
+#define PM_STREAM_PARTS_H
+
+#include <stdatomic.h>
+
+#include "stream/frame.h"
+
+struct pm_buffer {
+	atomic_int users;
+	void *data;     /* all values, component by component; NULL: only the parts are there (rank 0), or never (other ranks) */
+	void *part;     /* the own stretch; NULL: the values are not divided */
+	uint64_t id;    /* of the parts on all ranks; 0: not divided */
+	uint64_t *from; /* the beginnings of the stretches, one more than ranks; with id */
+	size_t size;    /* [bytes] of a value; with id */
+	int components; /* with id */
+};
+struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
+struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
+
+/* The division of n values: beginnings at multiples of 4096, as even as these allow; free() it. NULL: no memory. */
+uint64_t *pm_division_new(uint64_t n);
+
+/* Rank 0. 0 or failure. */
+int pm_buffer_divide(struct pm_buffer *b, int components, size_t size, const uint64_t *from); /* gives every rank its part, if it has none */
+int pm_buffer_join(struct pm_buffer *b);     /* brings all values together, if they are not; the parts stay valid */
+void pm_buffer_undivide(struct pm_buffer *b);/* all values will change here: the parts are forgotten */
+uint64_t pm_parts_number(void);              /* a number for new parts */
+
+enum pm_request { PM_REQUEST_END, PM_REQUEST_APPLY, PM_REQUEST_DIVIDE, PM_REQUEST_JOIN, PM_REQUEST_FORGET };
+int pm_request_send(enum pm_request what, const void *more, size_t bytes);           /* rank 0 */
+int pm_request_take(enum pm_request *what, void **more, size_t *bytes);              /* the others; free(*more) */
+int pm_request_parts(enum pm_request what, const void *more, size_t bytes);          /* does one that concerns parts alone */
+/* Ranks other than 0: the part of this number, with a further use of it; NULL if there is none. take: it is given up here. */
+struct pm_buffer *pm_parts_of(uint64_t id, bool take);
+int pm_parts_keep(uint64_t id, struct pm_buffer *b);                                 /* a further use */
+void pm_parts_free(void);
+
+/* Between these the field is this rank's stretch alone: field->count values, the first of them number field->first. */
+int pm_field_enter(struct pm_field *field, const uint64_t *from);
+void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id); /* id: of the parts that the field has now */
+
+#endif
