@@ -161,8 +161,8 @@ static int not_finite(const struct pm_field *field, int code)
 	for (int c = 0; c < field->components; c++)
 		for (size_t i = 0; i < field->count; i++)
 			if (!isfinite(pm_in(field, c)[i]))
-				return place(field, code, c, i), pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name, field->on,
-					c, (size_t)field->first + i, code == PM_DATA ? "made by an earlier word; sel --drop removes the field" :
+				return place(field, code, c, i), pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name,
+					field->on, c, (size_t)field->first + i, code == PM_DATA ? "made by an earlier word; sel --drop removes the field" :
 					"a smaller dt, or a larger softening");
 	return 0;
 }
