@@ -1,6 +1,5 @@
 /* push: the only word that moves particles and advances time. It is independent of the law: x' = v (or vel), v' = acc, any other state by the change field
- * that names it. Actions and schemes are files of lib/step; lib/push holds the rules, the clock and the loops.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * that names it. Actions and schemes are files of lib/step; lib/push holds the rules, the clock and the loops. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 
 #include "stage/control-options.h"
