@@ -57,7 +57,8 @@ static const char *next_of(const char *const pairs[][2], size_t n, const char *n
 
 int pm_choice_kernel(const struct pm_plan *p, struct pm_edit *e, struct pm_frame **f, char from[48], char to[48])
 {
-	static const char *const next[][2] = {{"ngp", "cic"}, {"cic", "tsc"}, {"tsc", "pcs"}, {"pcs", "tsc"}, {"m4prime", "m6prime"}, {"m6prime", "lambda-6-4"},
+	static const char *const next[][2] = {{"ngp", "cic"}, {"cic", "tsc"}, {"tsc", "pcs"}, {"pcs", "tsc"}, {"lambda-2", "m4prime"}, {"m4prime", "m6prime"},
+		{"m6prime", "lambda-6-4"},
 		{"lambda-2-1", "lambda-4-2"}, {"lambda-2-2", "lambda-4-2"}, {"lambda-4-2", "lambda-6-4"}, {"lambda-4-4", "lambda-6-4"}, {"lambda-6-4",
 		"lambda-6-6"}, {"lambda-6-6", "lambda-6-4"}};
 	char value[64];

@@ -73,7 +73,7 @@ bare() { env -i PATH="$PWD/root/usr/bin:/usr/bin:/bin" HOME="$HOME" LC_ALL=C OMP
 	same_as <(pmpipe help hdf5) "$top/docs/methods/hdf5.md"
 	same_as <(pmpipe help push.md) "$top/docs/methods/push.md"
 	pmpipe help kernels | grep -q 'p2m --kernel'
-	pmpipe help kernels | grep -q '^  cic, lambda-2-1'
+	pmpipe help kernels | grep -q '^  cic, lambda-2, lambda-2-1'
 	pmpipe help scenes | grep -q 'plummer, '
 	pmpipe help exit | grep -qx '3 numerics (not finite, not converged, unstable).'
 	pmpipe help >topics

@@ -225,8 +225,27 @@ static void check_rm01(const struct rm01 *r)
 	check_order(3, h, error + 1, k->moments + 1, k->name);
 }
 
+/* Three points, exact to the second moment; beyond it u^3 - u, and the scheme of Lax and Wendroff, |g|^2 = 1 - 4 c^2 (1 - c^2) sin^4(kh/2) at a shift c. */
+static void check_three_points(void)
+{
+	const struct pm_kernel *k = pm_kernel_find("lambda-2");
+	double w[PM_KERNEL_WIDTH], third = 0;
+	pm_kernel_weights(k, 0.3, w);
+	for (int i = 0; i < 3; i++)
+		third += w[i] * pow(0.3 - first_point(k) - i, 3);
+	check_near(third, 0.027 - 0.3, 1e-15, "lambda-2: the third moment is u^3 - u");
+	check_near(kernel_at(k, 0.25), 15. / 16, 1e-15, "lambda-2 at 1/4");
+	check_near(kernel_at(k, -0.75), 5. / 32, 1e-15, "lambda-2 at -3/4");
+	check_near(kernel_at(k, 1.25), -3. / 32, 1e-15, "lambda-2 at 5/4");
+	check_near(kernel_at(k, 0.5 - 1e-9) - kernel_at(k, 0.5 + 1e-9), 3. / 8, 1e-8, "lambda-2 jumps by 3/8 at 1/2");
+	check_near(kernel_at(k, 1.5 - 1e-9), -1. / 8, 1e-8, "lambda-2 jumps from -1/8 at 3/2");
+	const double s = sin(pm_pi / 16);
+	check_near(shifted(k, pm_pi / 8), pow(1 - 4 * 0.09 * 0.91 * s * s * s * s, 50), 1e-13, "lambda-2: a wave of 16 cells after 100 shifts of 0.3 h");
+}
+
 int main(void)
 {
+	check_three_points();
 	for (int i = 0; pm_kernels[i]; i++) {
 		const struct pm_kernel *k = pm_kernels[i];
 		check(pm_kernel_find(k->name) == k && k->width >= 1 && k->width <= PM_KERNEL_WIDTH, "%s: is found by its name, %d points wide", k->name,
@@ -243,6 +262,7 @@ int main(void)
 	for (int i = 0; i < 4; i++)
 		check_overshoot(monotone[i], 0, 4.5e-16); /* two roundings of 1 */
 	check_overshoot("m4prime", 2. / 27, 1e-9);
+	check_overshoot("lambda-2", 1. / 8, 1e-9);
 	check_overshoot("lambda-2-2", 0.08251744, 1e-6);
 	check_overshoot("m6prime", 0.10156766, 1e-6);
 	check_overshoot("lambda-6-4", 0.11657810, 1e-6);
