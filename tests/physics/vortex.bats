@@ -432,3 +432,16 @@ love() {
 	love 1 0.5 > t
 	within "$(cat t)" "$(calc 'cos(8 * sqrt((1 / 9 - 1 / 729) / 4))')" 0.05 # the same formula, with the other sign
 }
+
+@test "VM-06: the Lamb-Chaplygin dipole has its energy, moves with its speed and keeps its impulse" {
+	pinit lamb-dipole >a
+	p2m --kernel m6prime --rim 2 <a | poisson-fft | diag --exact >d
+	within "$(column energy <d)" "$(column exact_energy <d)" 1e-3       # the kink at r = a, 32 cells from the middle: h^2
+	within "$(column enstrophy <d)" "$(column exact_enstrophy <d)" 0.02 # of 46.1
+	within "$(column omega_max <d)" "$(column exact_omega_max <d)" 0.02 # between nodes
+	cycle -n 6 'p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime' <a >b
+	# six steps of 1/omega_max: the mean of |circulation|, moved by U t
+	within "$(stab --plain <b | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { q = $at["circulation"]; q = q < 0 ? -q : q
+		s += q; m += q * $at["x"] } END { print m / s }')" 0.541936 0.01
+	within "$(diag --columns impulse_x <b | tail -1)" 6.2831853 1e-3 # the kink, h^2
+}
