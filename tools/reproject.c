@@ -71,8 +71,8 @@ const struct pm_tool tool_reproject = {
 	.name = "reproject",
 	.summary = "remove the divergence of the vorticity of particles in space",
 	.about = "alpha -= volume grad chi, lap chi = div omega, omega that of the particles on the mesh. Put it behind remesh, with its kernel: on nodes the "
-		"result is exact. Acts between steps only; inside a step, and in the plane, the frame is passed on unchanged. Reports the divergence found, as diag "
-		"measures it, and what it adds to the total (given_alpha). See docs/methods/reproject.md.",
+		"result is exact. Acts between steps only; inside a step, and in the plane, the frame is passed on unchanged. Reports the divergence found, as "
+		"diag measures it, and what it adds to the total (given_alpha). See docs/methods/reproject.md.",
 	.kind = PM_FILTER,
 	.reads = "x, alpha and volume",
 	.changes = "alpha",
