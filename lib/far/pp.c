@@ -106,7 +106,7 @@ PM_SIMD_INLINE void group(const struct work *w, const struct how how, size_t i)
 
 /* What one tile receives in one meeting, by place from its first. */
 struct received {
-	double g[3][TILE], phi[TILE]; /* first, for vectors */
+	double g[3][TILE + PM_SIMD_WIDTH], phi[TILE + PM_SIMD_WIDTH]; /* whole vectors, not a page apart */
 	size_t from, to;
 } __attribute__((aligned(64)));
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/in-order.h"
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/force-words.h"
@@ -140,22 +141,34 @@ static bool near_open(const struct pm_grid *g, int d, size_t i, size_t width)
 	return (g->face[d][0] == PM_OPEN && i < width) || (g->face[d][1] == PM_OPEN && g->points[d] - 1 - i < width);
 }
 
+struct density {
+	const struct pm_grid *g;
+	const double *rho;
+	size_t width;
+};
+
+enum { RIM, ALL, SUMS };
+
+static void make_rim(const void *data, size_t from, size_t to, void *part)
+{
+	const struct density *d = data;
+	const struct pm_grid *g = d->g;
+	const size_t row = from / (to - from), j = row % g->points[1], k = row / g->points[1];
+	const bool beside = (g->dim > 2 && near_open(g, 2, k, d->width)) || (g->dim > 1 && near_open(g, 1, j, d->width));
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
+		pm_sum_add(&sum[ALL], fabs(d->rho[i]));
+		if (beside || near_open(g, 0, i - from, d->width))
+			pm_sum_add(&sum[RIM], fabs(d->rho[i]));
+	}
+}
+
 double pm_gradient_rim(const struct pm_gradient *t)
 {
 	const struct pm_grid *g = &t->operator.grid;
-	const size_t width = (size_t)t->operator.order / 2, *n = g->points;
-	double rim = 0, all = 0;
-	for (int c = 0; t->density && c < t->density->components; c++) {
-		const double *rho = pm_in(t->density, c);
-		for (size_t k = 0; k < n[2]; k++)
-			for (size_t j = 0; j < n[1]; j++) {
-				const bool beside = (g->dim > 2 && near_open(g, 2, k, width)) || (g->dim > 1 && near_open(g, 1, j, width));
-				const double *row = rho + (k * n[1] + j) * n[0];
-				for (size_t i = 0; i < n[0]; i++) {
-					all += fabs(row[i]);
-					rim += beside || near_open(g, 0, i, width) ? fabs(row[i]) : 0;
-				}
-			}
-	}
-	return rim > 0 ? rim / all : 0;
+	struct pm_sum sum[SUMS] = {{0, 0}};
+	const struct pm_parts parts = {.size = sizeof sum, .make = make_rim, .join = pm_join_sums};
+	for (int c = 0; t->density && c < t->density->components; c++)
+		pm_over_mesh(&parts, &(struct density){g, pm_in(t->density, c), (size_t)t->operator.order / 2}, g->points, sum);
+	return pm_sum_total(sum[RIM]) > 0 ? pm_sum_total(sum[RIM]) / pm_sum_total(sum[ALL]) : 0;
 }
