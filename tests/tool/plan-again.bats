@@ -42,7 +42,7 @@ velocity() { stab "$1" | grep -v '^#' | awk 'NR == 1 { for (i = 1; i <= NF; i++)
 	within "$vx" 0.0707549137677 1e-12 # closed form, as above, of 13 digits; 40 kicks round by 1e-16 each
 	within "$vy" -1.41332829558063 1e-12
 	pinit gyration --dt 0.05 | smod --constant c=2 | cycle -t 20 'push relativistic/2 drift | m2p | push relativistic/2' >b
-	read -r vx vy < <(velocity b) # 400 steps of 2 atan(Omega dt/2 gamma), 1/gamma = sqrt(3/4); 1e-12: 400 turns round by some 1e-16 each, with one sign at worst
+	read -r vx vy < <(velocity b) # 400 steps of 2 atan(Omega dt/2 gamma), 1/gamma = sqrt(3/4), that round by 1e-16 each
 	within "$vx" 0.03903299404360 1e-12
 	within "$vy" -0.99923792230679 1e-12
 	run -1 bash -o pipefail -c 'pinit exb | sel --drop B | cycle -n 1 "push relativistic/2 drift | m2p | push relativistic/2"'
