@@ -2,7 +2,8 @@
  * smallest spacing, where waves along that axis move at exactly c. curl B and the charge are Yee's, so Gauss's law stays as it is. With r = (least h/h)^2 of
  * each axis, S = r_y r_z + r_z r_x + r_x r_y, b = (1 - r_x r_y r_z/S)/8: along x side weights r_y b, r_z b, corner r_y r_z (1/16 - r_y r_z/(8 S)), and
  * the middle what is missing from 1; in the plane b = 1/8 and no corner.
- * Source: Karkkainen et al. 2006, ICAP, 35; Cowan et al. 2013, Physical Review ST Accelerators and Beams 16, 041303. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Source: Karkkainen et al. 2006, ICAP, 35; Cowan et al. 2013, Physical Review ST Accelerators and Beams 16, 041303.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maxwell/maxwell.h"
 
 static double least(const struct pm_grid *g)

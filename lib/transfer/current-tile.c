@@ -21,7 +21,7 @@ PM_SIMD_INLINE void place_weights(int width, int degree, const double *coefficie
 	const int32_t own = (int32_t)u > cell ? cell + 1 : cell; /* a way of one cell may round up to the next but one */
 	double v[lanes];
 	find_weights(width, degree, coefficients, u - own - shift, v);
-	for (int i = 0; i < room; i++)
+	for (int i = 0; i < window(width); i++)
 		w[i] = 0;
 	for (int i = 0; i < width; i++)
 		w[i + (own > cell)] = v[i];

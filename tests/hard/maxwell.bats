@@ -22,7 +22,8 @@ plasma() {
 @test "a set of no particles, all particles in one cell, one in each: the field stays finite and Gauss's law holds" {
 	sh_ok "pinit em-wave --cells 8 | cycle -n 20 '$step' | diag >t"
 	within "$(column energy <t)" 0.000314159265 2e-6
-	sh_ok "$(declare -f plasma); plasma 300 0.1 12x10 | scalc 'x = 0.01*x + 0.4, 0.01*y + 0.4' | p2m | maxwell --gauss | cycle -n 20 '$step' | p2m | diag >t"
+	sh_ok "$(declare -f plasma); plasma 300 0.1 12x10 | scalc 'x = 0.01*x + 0.4, 0.01*y + 0.4' | p2m | maxwell --gauss |
+		cycle -n 20 '$step' | p2m | diag >t"
 	below "$(column gauss_residual <t)" 1e-12
 	sh_ok "pinit em-wave -n 64 --cells 64 | cycle -n 50 '$step' | diag >t"
 	within "$(column energy <t)" "$(pinit em-wave -n 64 --cells 64 | diag | column energy)" 1e-6
