@@ -2,7 +2,7 @@
 # Tables of docs/plan.md: what plan foresees of the errors of the method and of the sample, and what runs have; errors are the same on every machine, up to
 # round-off.
 #     bash docs/plan-errors.sh [TABLE...]
-# The tables: lattice, encounters, heating, noise, resolution, loss, relaxation, collisions, strain, points, again. Three minutes for all.
+# The tables: lattice, encounters, heating, noise, resolution, loss, relaxation, collisions, strain, points, again, region. Three minutes for all.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -273,5 +273,21 @@ again() {
 	again_row 'two vortices that merge, t = 10: omega' vorticity 10 0.05 25
 }
 
-[ $# -gt 0 ] || set -- lattice encounters heating noise resolution loss relaxation collisions strain points again
+# Pairs for the bodies of a core (r < 1), the mesh for the others: the total force over the rms force times N.
+region() {
+	title '| plummer on 64^3, N | pairs | mesh | pairs in the core, mesh outside |'
+	local n
+	for n in 1000 10000; do
+		pinit plummer -n $n --cells 64 --seed 3 >start
+		pp <start | stab --plain >a
+		p2m <start | poisson-fft | mgrad | m2p | stab --plain --set matter >b
+		paste a b | awk -v n=$n 'NR == 1 { for (i = 1; i <= NF; i++) if ($i in c) d[$i] = i; else c[$i] = i; next }
+			{ core = $c["x"]^2 + $c["y"]^2 + $c["z"]^2 < 1
+				for (k = 0; k < 3; k++) { p = $c["acc_" k]; m = $d["acc_" k]; P[k] += p; M[k] += m; S[k] += core ? p : m; all += p^2 } }
+			END { s = sqrt(all * n); for (k = 0; k < 3; k++) { x += P[k]^2; y += M[k]^2; z += S[k]^2 }
+				printf "| %d | %.1e | %.1e | %.1e |\n", n, sqrt(x) / s, sqrt(y) / s, sqrt(z) / s }'
+	done
+}
+
+[ $# -gt 0 ] || set -- lattice encounters heating noise resolution loss relaxation collisions strain points again region
 for table; do $table; done
