@@ -72,7 +72,7 @@ static void release(struct pm_stage *s)
 const struct pm_tool tool_mgrad = {
 	.name = "mgrad",
 	.summary = "take gradients and other derivatives of mesh fields",
-	.about = "Without options, computes the field of the law from its potential: g = -grad phi for gravity, u = (d psi/dy, -d psi/dx) for 2-D vortices. "
+	.about = "Without options, computes the field of the law from its potential: g = -grad phi for gravity, u = curl psi for vortices. "
 		"With "
 		"--operator it applies grad, curl, div or lap to any field. Differences are centred; a wall is an odd image and a neumann face an even one; "
 		"near "
