@@ -40,6 +40,7 @@ vortices() {
 	pinit plummer -n 12 | sel --where 'mass > 1' | same "push drift"
 	for n in 1 4096 4097 8191 13000; do
 		pinit uniform -n $n --dispersion 0.3 | same "$(kicks "field 'acc = -x, -2*y, vx'")"
+		pinit uniform -n $n --dispersion 0.3 | same "push drift | ssort" # on rank 0 alone, in place
 	done
 }
 
