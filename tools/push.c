@@ -126,7 +126,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	return f && pm_moving_divided(((struct state *)s->state)->n, ((struct state *)s->state)->moving, &((struct config *)s->config)->push);
+	return f && pm_moving_divided(&((const struct config *)s->config)->push);
 }
 
 static void release(struct pm_stage *s) { free(((struct state *)s->state)->moving); }

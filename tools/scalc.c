@@ -89,15 +89,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Sums of strengths that are changed are made on rank 0. */
-static bool divided(const struct pm_stage *s, const struct pm_frame *f)
-{
-	const struct pm_expression_jobs *jobs = &((struct state *)s->state)->jobs;
-	bool can = f != NULL;
-	for (size_t k = 0; k < jobs->n; k++)
-		can = can && !(jobs->job[k].field->use & PM_USE_CHANGE && pm_is_strength(jobs->job[k].field));
-	return can;
-}
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 

@@ -68,14 +68,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	return 0;
 }
 
-bool pm_moving_divided(size_t n, const struct pm_moving *moving, const struct pm_push *p)
-{
-	bool can = !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic;
-	for (size_t i = 0; i < n; i++)
-		for (int r = 0; r < moving[i].n; r++)
-			can = can && !pm_is_strength(moving[i].rates[r].state);
-	return can;
-}
+bool pm_moving_divided(const struct pm_push *p) { return !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic; }
 
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)
 {

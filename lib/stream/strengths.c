@@ -5,6 +5,7 @@
 #include "base/in-order.h"
 #include "base/simd-sum.h"
 #include "stream/strengths.h"
+#include "world/over-ranks.h"
 
 enum { SUM, SCALE, SUMS };
 
@@ -39,11 +40,15 @@ static void block(const void *data, size_t from, size_t to, void *part)
 		pm_simd_sum_join(&total[k], &s[k]);
 }
 
-static void sums(size_t n, const double *x, struct pm_strength *s)
+/* In a divided frame all ranks call this; one that cannot is found by the next operation. */
+static void sums(const struct pm_field *field, const double *x, struct pm_strength *s)
 {
 	struct pm_sum all[SUMS] = {{0, 0}};
 	const struct pm_parts parts = {.size = sizeof all, .make = block, .join = pm_join_sums};
-	pm_over_set(&parts, x, n, all);
+	if (field->here)
+		pm_world_over_set(0, &parts, x, field->count, all);
+	else
+		pm_over_set(&parts, x, field->count, all);
 	s->sum = pm_sum_total(all[SUM]);
 	s->scale = pm_sum_total(all[SCALE]);
 }
@@ -66,7 +71,7 @@ void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 		s->n++;
 		snprintf(one->on, sizeof one->on, "%s", field->on);
 		if (field->buffer)
-			sums(field->count, pm_in(field, c), one);
+			sums(field, pm_in(field, c), one);
 		else {
 			one->sum = (double)field->count * field->value[c];
 			one->scale = fabs(one->sum);

@@ -105,7 +105,7 @@ shares() {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
-	shares "push drift" "push drift | scalc 'mass = 2*mass'" <start
+	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
 	shares "push kick/2 drift, push kick/2" "$(kicks "$(force 8)")" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
 	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "$(kicks pp)" 2>said >/dev/null
@@ -117,6 +117,7 @@ shares() {
 	pinit uniform -n 13000 --dispersion 0.3 | sel --drop id >cloud
 	same "push drift | walk --nu 0.1 | scalc 'k = 3*x' 's = floor(9*y) + n'" --every 1 --checkpoint c <cloud
 	same "push drift | scalc --type i64 'k = 1000*x' | scalc --type f32 'w = vx*k'" --every 1 <cloud
+	same "push drift | scalc 'mass = mass*(1 + x)'" <cloud
 	same "$(kicks "field 'acc = -sin(3*x), x*y, -0.1*vz' 'dmass = -0.1*mass'")" --checkpoint c <cloud
 	pinit uniform -n 9000 --dim 2 --faces wall --particle-faces reflect --dispersion 1 --dt 0.01 | same "push drift | walk --nu 0.1"
 }
