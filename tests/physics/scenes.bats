@@ -69,6 +69,8 @@ kepler() {
 # The laws' plain sentences.
 gravity='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' orbit='push kick/2 drift | pp | push kick/2'
 magnetic='push boris/2 drift | m2p | push boris/2' vorticity='p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' points='pp | push lsrk3'
+space='p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push lsrk3 | remesh'
+light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 
 @test "every scene of pinit --help, typed bare, has the exact values of its page after some steps of its law's plain sentence" {
 	# scene, steps, sentence, the rest of the line, and columns with the difference allowed, relative to the exact value or 1e-3. Orbits: (omega dt)^2 of
@@ -107,6 +109,10 @@ magnetic='push boris/2 drift | m2p | push boris/2' vorticity='p2m | poisson-fft 
 		point-vortices;2;points;| diag;
 		polygon;10;points;| diag --exact;circulation=1e-12 angular_impulse=1e-9
 		vortex-pair;10;points;| diag --exact;circulation=1e-12 impulse_x=1e-9 impulse_y=1e-9
+		taylor-green-3d;2;space;| p2m | diag --exact;alpha_x=1e-9 alpha_y=1e-9 alpha_z=1e-9
+		vortex-ring;2;space;| p2m | diag --exact;ring_circulation=1e-4 ring_radius=1e-4 ring_position=0.03 impulse_z=1e-4
+		em-wave;10;light;| diag --exact;mass=1e-12 charge=1e-12
+		weibel;10;light;| diag --exact;mass=1e-12 charge=1e-12
 	END
 	pinit --help | awk '/^The scenes:/ { on = 1; next } !NF { on = 0 } on { print $1 }' | sort > all
 	sort done | diff all -
