@@ -117,14 +117,14 @@ bare() { env -i PATH="$PWD/root/usr/bin:/usr/bin:/bin" HOME="$HOME" LC_ALL=C OMP
 	run -0 bash -c 'eval "$(pmpipe completion bash)"
 		complete -p cycle pmpipe >/dev/null
 		try() { COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _pmpipe; echo "${COMPREPLY[@]}"; }
-		try cycle --ever
+		try cycle --every-
 		try cycle --engine p
 		try pmpipe pini
 		try pmpipe pinit cold-c
 		try pmpipe sls ""
 		mkdir -p other && printf "#!/bin/sh\n" >other/cycle && chmod +x other/cycle && PATH=$PWD/other:$PATH
 		try cycle --ever'
-	[ "$output" = $'--every\npipes\npinit\ncold-collapse' ]
+	[ "$output" = $'--every-time\npipes\npinit\ncold-collapse' ]
 }
 
 @test "completion in fish" {
