@@ -1,4 +1,4 @@
-/* The length of the next step by the error of this one, and the clock of steps that differ in length (push/embedded-run.c, push/doubled-run.c).
+/* The length of the next step by the error of this one, and the clock of steps that differ in length (push/embedded-run.c).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_PUSH_STEP_CHOICE_H
 #define PM_PUSH_STEP_CHOICE_H
