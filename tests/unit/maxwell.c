@@ -71,7 +71,7 @@ static void test_limit(void)
 		}
 		const double rate = log(sqrt(products(&y, y.e, y.e)) / before) / 100;
 		/* the fastest mode alone is left: 2 acosh(1.001) */
-		check(fabs(rate / 0.0894352672166137 - 1) < 1e-6, "HC-11: %d-D at 1.001 of the limit grows by %.12f a step (0.0894352672)", dim, rate);
+		check_below(fabs(rate / 0.0894352672166137 - 1), 1e-6, "HC-11: %d-D at 1.001 of the limit grows by %.12f a step (0.0894352672)", dim, rate);
 		yee_free(&y);
 	}
 }
@@ -145,7 +145,7 @@ static void test_energy(void)
 			check_worst(&worst, fabs(energy / first - 1));
 			pm_yee_electric(&y, dt);
 		}
-		check(worst < 1e-10, "HC-11: %d-D at 0.999 of the limit keeps E^2 + c^2 B.B over %d steps (%.2g)", dim, steps, worst);
+		check_below(worst, 1e-10, "HC-11: %d-D at 0.999 of the limit keeps E^2 + c^2 B.B over %d steps", dim, steps);
 		for (int c = 0; c < 3; c++)
 			pm_free(old[c]);
 		yee_free(&y);
