@@ -91,7 +91,8 @@ int main(void)
 			const int status = pm_world_count(0, PM_SUM_OF, 1, &bad), rank = pm_world_rank(), end = pm_world_end();
 			_exit(rank ? 0 : status || bad || end);
 		}
-		check(waitpid(pid, &how, 0) == pid && !how, "%d ranks: sum and carry of 0 to 2.5 million values, however they are dealt, and a failure of one rank", n);
+		check(waitpid(pid, &how, 0) == pid && !how,
+			"%d ranks: sum and carry of 0 to 2.5 million values, however they are dealt, and a failure of one rank", n);
 	}
 	fill(70000);
 	const struct pm_sum law = wanted(70000);
