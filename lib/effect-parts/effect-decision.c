@@ -29,6 +29,11 @@ bool pm_effect_ordered(const struct pm_scales *s)
 	return s->kind == PM_CHARGES && s->noise * s->effective < 1 && s->thermal < 0.1 * s->omega * s->spacing;
 }
 
+bool pm_effect_quiet(const struct pm_scales *s)
+{
+	return s->kind == PM_CHARGES && s->bodies > s->n && s->noise * s->effective < 1e-3 && s->thermal > 1e-3 * s->omega * s->h;
+}
+
 void pm_effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share)
 {
 	*d = (struct pm_decision){.answer = share > 0.5 * s->accuracy ? PM_PUT_IN : PM_LEFT_OUT, .number = number, .share = share};

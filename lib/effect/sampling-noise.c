@@ -2,6 +2,9 @@
  * frame: its amplitude a is known to sqrt(|a_k|^2/2)/a. The noise is that of the frame (lib/planner/sampling.c): a quiet start has less, until its beams
  * have mixed at omega_p t = sqrt(N)/2. Where no wave stands above it, it counts by its part of the density, 2 |a_k|, or by the energy of its field
  * over the kinetic energy; between beams both grow, at most by the rate of two cold beams, omega_p/sqrt 8.
+ * Single particles: a quiet start in 1-D is cold beams of sqrt(N) places each, and quiet only up to the wave number of these places, k_s. Above it the
+ * beams are at random as soon as they have moved; fields of n particles a length at random, passed with the speed v, change velocities by
+ * omega_p^2 sqrt(T/(n v))/k_s, of which a mesh with the largest wave number k_h shows (k_h/k_s)^2/20 (measured, docs/plan.md).
  * Source: Birdsall and Langdon 1985, sections 5-6 and 12-3, chapter 16. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -29,6 +32,26 @@ static void nothing(const struct pm_scales *s, bool mixed, struct pm_decision *d
 		snprintf(d->text + strlen(d->text), sizeof d->text - strlen(d->text), ", its field has %.1g of the kinetic energy", field);
 }
 
+/* Change of velocities over their rms by single particles on the mesh. */
+static double singles(const struct pm_scales *s, double *quiet, double *shown)
+{
+	*quiet = 2 * pm_pi / s->box * sqrt(s->effective / 0.295 / 0.8 / (s->beams ? 2 : 1)); /* 0.295: of equal strengths, for a Maxwellian to 6 sigma */
+	*shown = pm_pi / s->h;
+	const double all = s->omega * s->omega * sqrt(s->time * s->box / (s->effective * s->v_rms)) / *quiet;
+	return s->dim == 1 && pm_effect_quiet(s) && !s->pairs ? fmin(1, all * fmin(1, pow(*shown / *quiet, 2) / 20) / s->v_rms) : 0;
+}
+
+static void single(const struct pm_scales *s, struct pm_decision *d)
+{
+	double quiet, shown;
+	const double share = singles(s, &quiet, &shown);
+	if (!(share > d->share) || !(share > 0.5 * s->accuracy))
+		return;
+	pm_effect_by(d, s, shown / quiet, share);
+	snprintf(d->text, sizeof d->text, "%g particles are quiet to k = %.2g, the mesh shows %.2g: single ones push by %.1g; fewer cells, or -n %.1g", s->n, quiet,
+		shown, share, s->n * fmax(1.1, sqrt(2 * share / s->accuracy)));
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
@@ -45,6 +68,8 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		waves(s, mixed, d);
 	else
 		nothing(s, mixed, d);
+	if (!isnan(d->number))
+		single(s, d);
 }
 
 const struct pm_effect effect_sampling_noise = {

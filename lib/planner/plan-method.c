@@ -180,7 +180,8 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 	struct pm_scales *s = &p->scales;
 	const char *scene = all_open(s) ? "clustered" : "smooth";
 	if (s->wave > 0 && s->kind != PM_VORTICES)
-		s->length = fmin(s->length, s->wave_length); /* a coarse mesh folds short waves onto long ones */
+		/* a coarse mesh folds short waves onto long ones, and the beams of a quiet start onto waves that the density has not */
+		s->length = pm_effect_quiet(s) ? s->wave_length : fmin(s->length, s->wave_length);
 	const double h = s->h / s->length;
 	if (m->pairs || !f->nmeshes || !(s->length > 0))
 		return;
