@@ -31,7 +31,7 @@ bool pm_effect_ordered(const struct pm_scales *s)
 
 bool pm_effect_quiet(const struct pm_scales *s)
 {
-	return s->kind == PM_CHARGES && s->bodies > s->n && s->noise * s->effective < 1e-3 && s->thermal > 1e-3 * s->omega * s->h;
+	return s->kind == PM_CHARGES && s->bodies > s->n && s->noise * s->effective < 1e-3 && s->thermal > s->omega * s->spacing;
 }
 
 void pm_effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share)

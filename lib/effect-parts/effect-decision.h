@@ -15,7 +15,8 @@ void pm_effect_off(struct pm_decision *d, const char *text);
 /* A quiet start whose random velocities move no particle past its neighbour in 1/omega: it stays in order, as a cold one does. */
 bool pm_effect_ordered(const struct pm_scales *s);
 
-/* Charges that sample a smooth density by a quiet start with thermal velocities: noise far below that of a random sample. */
+/* Charges that sample a smooth density by a quiet start, noise far below that of a random sample, and pass their neighbours in 1/omega: not a cold wave,
+ * whose flow differs within a box. */
 bool pm_effect_quiet(const struct pm_scales *s);
 void pm_effect_by(struct pm_decision *d, const struct pm_scales *s, double number, double share);
 

@@ -48,8 +48,8 @@ static void single(const struct pm_scales *s, struct pm_decision *d)
 	if (!(share > d->share) || !(share > 0.5 * s->accuracy))
 		return;
 	pm_effect_by(d, s, shown / quiet, share);
-	snprintf(d->text, sizeof d->text, "%g particles are quiet to k = %.2g, the mesh shows %.2g: single ones push by %.1g; fewer cells, or -n %.1g", s->n, quiet,
-		shown, share, s->n * fmax(1.1, sqrt(2 * share / s->accuracy)));
+	snprintf(d->text, sizeof d->text, "%g particles are quiet to k = %.2g, the mesh shows %.2g: single ones push by %.1g; fewer cells, or -n %.1g",
+		s->n, quiet, shown, share, s->n * fmax(1.1, sqrt(2 * share / s->accuracy)));
 }
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
@@ -68,7 +68,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		waves(s, mixed, d);
 	else
 		nothing(s, mixed, d);
-	if (!isnan(d->number))
+	if (!isnan(d->number) && !mixed)
 		single(s, d);
 }
 
