@@ -73,6 +73,9 @@ without() {
 # column NAME: reads diag's TSV and prints that column, one row per line.
 column() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; if (!c) exit 1; next } { print $c }'; }
 
+# calc EXPRESSION: its value, by awk, which knows pi.
+calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }
+
 # pipeline NAME N: pipelines/NAME.sh ends with status 0 and N correct numbers.
 pipeline() {
 	run -0 bash "$top/pipelines/$1.sh"

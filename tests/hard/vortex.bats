@@ -1,7 +1,6 @@
 # Vortices where methods break: too few cells, no remeshing, long steps, hidden instability. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }
 
 solved() { p2m --kernel m6prime | poisson-fft; }
 

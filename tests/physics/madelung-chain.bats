@@ -40,7 +40,7 @@ at() { # N: 4 pi phi at (1/4, 1/4, 0)
 	for n in 24 32 48; do
 		chain $n >c
 		phi=$(p2m --kernel ngp <c | poisson-fft --symbol fd6 | at $n)
-		e+=("$(bc -l <<<"2/$n")" "$(awk -v a="$phi" -v e=$exact 'BEGIN { d = a - e; print d < 0 ? -d : d }')")
+		e+=("$(calc "2/$n")" "$(awk -v a="$phi" -v e=$exact 'BEGIN { d = a - e; print d < 0 ? -d : d }')")
 	done
 	order 5.5 "${e[@]}" # a point charge at four to six cells: 5.9 between 32 and 64 cells, where 4.5e-6 is left
 	below "${e[5]}" 3e-5

@@ -3,7 +3,6 @@ load ../helper
 
 # solved KERNEL: omega and psi on the mesh, of the frame on standard input.
 solved() { p2m --kernel "$1" | poisson-fft; }
-calc() { awk "BEGIN { pi = 3.14159265358979323846; printf \"%.17g\", ($1) }"; }
 # place ROW: x and y of a vortex.
 place() { stab --plain --set vortices | awk -v r="$1" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == r + 1 { print $c["x"], $c["y"] }'; }
 velocity() { stab --plain --set "${2:-vortices}" | awk -v r="$1" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR == r + 1 { print $c["vel_0"],

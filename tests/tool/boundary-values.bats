@@ -60,8 +60,8 @@ mesh() {
 			poisson-mg --order 4 "${given[@]}" <m >h
 			below "$(most g f)" 1e-8 "poisson-mg against poisson-fft, $row" # the tolerance 1e-11 of a residual that has values/h^2
 			below "$(most r f)" 1e-8 "poisson-relax against poisson-fft, $row"
-			a+=("$(bc -l <<<"1/$n")" "$(most f e)")
-			b+=("$(bc -l <<<"1/$n")" "$(most h e)")
+			a+=("$(calc "1/$n")" "$(most f e)")
+			b+=("$(calc "1/$n")" "$(most h e)")
 		done
 		order 2 "${a[@]}"
 		order 3.9 "${b[@]}" # 3.8 to 4.1 measured on so few cells

@@ -99,7 +99,7 @@ relative() { scmp --norm relative_max --field phi "$1" "$2" | tail -1 | cut -f9;
 			poisson-fft --coefficient 1 --symbol spectral --wave-number 2.385 <m >p
 			below "$(relative p e)" 1e-14 "$row"
 			poisson-fft --coefficient 1 --symbol fd2 --wave-number 2.385 <m >p
-			e+=("$(bc -l <<<"1/$n")" "$(relative p e)")
+			e+=("$(calc "1/$n")" "$(relative p e)")
 		done
 		order 2 "${e[@]}"
 	done

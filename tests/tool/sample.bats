@@ -27,9 +27,9 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 			lattice "$n" "$dim" 8 >a
 			sample --field heat --mollifier "$kind" $([ "$kind" = gaussian ] && echo --order "$claim") <a >b
 			scalc --mesh mesh "sampled=${u[dim]}" <b >c
-			e+=("$(bc -l <<<"1/$n")" "$(most b c)")
+			e+=("$(calc "1/$n")" "$(most b c)")
 		done
-		order "$(bc -l <<<"$claim-0.05")" "${e[@]}" # 1.9 to 2.0, 3.8 to 4.0 at these widths; algebraic 3.2 to 3.4: a logarithm
+		order "$(calc "$claim-0.05")" "${e[@]}" # 1.9 to 2.0, 3.8 to 4.0 at these widths; algebraic 3.2 to 3.4: a logarithm
 	done
 }
 
@@ -41,9 +41,9 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 			lattice $n 2 8 >a
 			sample --field heat --order "$claim" --operator "$operator" <a >b
 			scalc --mesh mesh "sampled=$exact" <b >c
-			e+=("$(bc -l <<<"1/$n")" "$(most b c)")
+			e+=("$(calc "1/$n")" "$(most b c)")
 		done
-		order "$(bc -l <<<"$claim-0.1")" "${e[@]}"
+		order "$(calc "$claim-0.1")" "${e[@]}"
 	done
 }
 
@@ -72,7 +72,7 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 	value=$(valley value "${u[1]}")
 	laplacian=$(valley lap "-0.5*$k^2*sin($k*x)")
 	between "$value" 0.7 1 # exp(-2 pi^2 (eps/h)^2) meets (2 pi eps)^4/8
-	above "$laplacian" "$(bc -l <<<"$value+0.05")"
+	above "$laplacian" "$(calc "$value+0.05")"
 }
 
 @test "every mollifier and operator is the plain sum over the particles, at nodes and at particles, in open space" {
