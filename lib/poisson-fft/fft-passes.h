@@ -52,7 +52,7 @@ int pm_poisson_fft_green(struct pm_poisson_fft *p);
 int pm_poisson_fft_influence(struct pm_poisson_fft *p); /* of fft-influence.c: fills green for a periodic box */
 int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: the same from lambda, for walls */
 int pm_poisson_fft_resonance(struct pm_poisson_fft *p); /* of fft-wave.c: failure at a resonance */
-int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-boundary.c: likewise, for known values on faces */
+int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-fitted.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 
 #endif

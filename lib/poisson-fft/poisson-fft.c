@@ -137,7 +137,7 @@ static int layout(struct pm_poisson_fft *p)
 	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
-/* Of X, Y, Z; a line of fd2 is fitted (fft-boundary.c). */
+/* Of X, Y, Z; a line of fd2 is fitted (fft-fitted.c). */
 static int fitted_axis(const struct pm_poisson_fft *p)
 {
 	const int d = (p->choice.fitted - 1) / 2;

@@ -24,7 +24,7 @@ struct pm_poisson_fft_choice {
 	double softening;             /* [length] delta of its blobs, where the method has any; 0: 2 sqrt(2) times the largest spacing of an open axis.
 	                               * Of plummer epsilon, 0: none */
 	struct pm_influence influence; /* of periodic boxes */
-	int fitted; /* 1 + 2 axis + (neumann): known values on faces of that axis, walls or neumann ones (fft-boundary.c); 0: a source */
+	int fitted; /* 1 + 2 axis + (neumann): known values on faces of that axis, walls or neumann ones (fft-fitted.c); 0: a source */
 	double wave; /* a [1/length] in lap phi + a^2 phi = c*s (Helmholtz) instead of K; no open faces */
 };
 
