@@ -4,31 +4,17 @@
  * Source: Boris 1970; Birdsall and Langdon 1985, section 4-4; notes in docs/methods/boris.md.
  * Assumes v << c. Second order, keeps |v| without E to round-off, moves at exactly E x B/B^2 in uniform fields. Cost: one square root and
  * two divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "step-parts/magnetic-turn.h"
+#include "step-parts/boris-half.h"
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
-static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
+static void angle(const double t[3], double t2, double tau[3])
 {
-	for (size_t i = from; i < to; i++) {
-		double v[3], a[3], t[3], tau[3], t2 = 0;
-		const double half = 0.5 * dt * m->charge[i] / m->mass[i];
-		for (int c = 0; c < 3; c++) {
-			v[c] = pm_magnetic_component((const double *const *)m->v, c, i);
-			a[c] = 0.5 * dt * pm_magnetic_component(m->acc, c, i);
-			t[c] = half * pm_magnetic_component(m->b, c, i);
-			t2 += t[c] * t[c];
-		}
-		for (int c = 0; c < 3; c++) {
-			tau[c] = t[c] / (1 + sqrt(1 + t2)); /* tan of half of atan |t| */
-			v[c] += closing ? a[c] : 0;
-		}
-		pm_magnetic_turn(tau, v);
-		for (int c = 0; c < 3; c++)
-			if (m->v[c])
-				m->v[c][i] = v[c] + (closing ? 0 : a[c]);
-	}
+	for (int c = 0; c < 3; c++)
+		tau[c] = t[c] / (1 + sqrt(1 + t2)); /* tan of half of atan |t| */
 }
+
+static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m) { pm_boris_half(closing, dt, from, to, m, angle); }
 
 const struct pm_step step_boris = {
 	.name = "boris",

@@ -177,7 +177,8 @@ by_hand() {
 	pareto 'pinit uniform -n 50 | p2m -n 8 --kernel tsc{,} | poisson-fft | mgrad --order {2,4} | m2p' --against finest --field acc --repeat 1 -o d --tsv \
 		>table
 	# both are sums of the same numbers, printed with six digits: the last may differ by one
-	paste <(sort -n table | column seconds) <(tr ' ' '\n' <want) | awk '{ d = $1 - $2; if ((d < 0 ? -d : d) > 1.01e-5 * $2) bad = 1 } END { exit bad || NR != 2 }'
+	paste <(sort -n table | column seconds) <(tr ' ' '\n' <want) |
+		awk '{ d = $1 - $2; if ((d < 0 ? -d : d) > 1.01e-5 * $2) bad = 1 } END { exit bad || NR != 2 }'
 }
 
 @test "with -o: TSV, both pictures, and one self-contained page" {
