@@ -284,6 +284,7 @@ install: all man $(B)/libpmpipe.a $(B)/pmpipe.pc
 	install -m 644 $(B)/pmpipe.pc $(D)/lib/pkgconfig
 	install -m 644 README.md NEWS COPYING $(wildcard docs/*.md) docs/read.py $(D)/share/doc/pmpipe
 	install -m 644 $(wildcard docs/methods/*.md) $(D)/share/doc/pmpipe/methods
+	install -D -m 644 -t $(D)/share/doc/pmpipe/notes $(wildcard docs/notes/*.md)
 # A word on PATH is removed where it is a link to ours.
 uninstall:
 	ours() { [ "$$(readlink "$$1")" != "$$2" ] || rm -f "$$1"; }; for w in $(words); do ours $(D)/bin/$$w ../libexec/pmpipe/$$w; \

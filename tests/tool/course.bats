@@ -1,0 +1,55 @@
+# docs/notes: every sentence prints what the page says, and every item of the three courses has its row. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+parts="koumoutsakos sbalzarini"
+
+# The items of a course, each to stand on its page once.
+items() {
+	case $1 in
+		koumoutsakos) echo S01-S107 N01-N45 H01-H39 C1-C14 ERR1-ERR51 E1-E4 ;;
+		sbalzarini) echo A1-A9 B1-B6 C1-C9 D1-D6 E1-E3 F1-F10 G0-G4 H1-H4 K1-K15 N1-N21 N30-N57 N60-N65 S1-S50 X1-X51 ;;
+	esac
+}
+
+rows() { bash "$top/docs/notes.sh" --rows "$@"; }
+
+# all_there PART: the page has the items of the part, each once, and every row a sentence or a reason.
+all_there() {
+	items "$1" | sed 's/ /, /g; s/.*/**&** none: x/' >all
+	rows all | cut -f2 | tr ' ' '\n' | grep . | sort >want
+	rows "$top/docs/notes/$1.md" | cut -f2 | tr ' ' '\n' | grep . | sort >have
+	diff want have
+	rows "$top/docs/notes/$1.md" | awk -F'\t' '$3 == "nothing" { print "neither a sentence nor \"none: \":" $2; bad = 1 } END { exit bad }'
+}
+
+@test "Koumoutsakos: every sentence prints what docs/notes/koumoutsakos.md says" {
+	bash "$top/docs/notes.sh" "$top/docs/notes/koumoutsakos.md"
+}
+
+@test "Sbalzarini: every sentence prints what docs/notes/sbalzarini.md says" {
+	bash "$top/docs/notes.sh" "$top/docs/notes/sbalzarini.md"
+}
+
+@test "every item of the courses is in docs/notes/ once, with a sentence or the reason why there is none" {
+	for part in $parts; do all_there "$part" || { echo "docs/notes/$part.md"; return 1; }; done
+}
+
+@test "docs/notes.md counts its rows" {
+	for part in $parts; do
+		count=$(rows "$top/docs/notes/$part.md" | awk -F'\t' '{ n[$3] += split($2, id, " ") } END { printf "| %d | %d |", n["sentence"], n["none"] }')
+		grep -qF -- "(notes/$part.md) $count" "$top/docs/notes.md" || { echo "notes/$part.md: $count"; return 1; }
+	done
+}
+
+@test "a number that is off, a line too many and a missing item are told" {
+	printf '%s\n' '**S1** a thing' '' '    $ echo 0.33333 1e-17 and so on' '    0.333 <1e-15 and ...' '' '**S2-S3** another: none: x' >good
+	bash "$top/docs/notes.sh" good
+	[ "$(rows good)" = $'good\t S1\tsentence\ngood\t S2 S3\tnone' ]
+	sed 's/0.333 /0.335 /' good >bad
+	run -1 bash "$top/docs/notes.sh" bad
+	[[ $output == "bad, line 3: S1: echo 0.33333"*"1 sentences, 1 of them"* ]]
+	sed 's/and \.\.\./&\n    more/' good >bad
+	run -1 bash "$top/docs/notes.sh" bad
+	sed 's/1e-15/1e-18/' good >bad
+	run -1 bash "$top/docs/notes.sh" bad
+}
