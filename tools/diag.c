@@ -1,5 +1,4 @@
-/* diag: measures every frame and prints a row of numbers, as a table or as JSON. With --tee it writes them to a file and passes the frame on.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* diag: measures every frame and prints a row of numbers; with --tee it writes them to a file instead. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,6 +7,7 @@
 #include "measure/diag-table.h"
 #include "stage/stage.h"
 #include "world/launch.h"
+#include "world/world.h"
 
 struct config {
 	const char *set, *format, *tee;
@@ -53,7 +53,7 @@ static int begin(struct pm_stage *s)
 	state->out = stdout;
 	if (c->tee && !strcmp(c->tee, "-"))
 		return pm_fail(PM_USAGE, "--tee -: the frames go to standard output, and a table is none (--tee FILE)");
-	if (c->tee && pm_replace_open(&state->tee, c->tee, false))
+	if (c->tee && pm_replace_open(&state->tee, pm_world_rank() ? "/dev/null" : c->tee, false)) /* rank 0 writes */
 		return pm_failed();
 	if (c->tee)
 		state->out = fdopen(state->tee.fd, "w");
@@ -87,6 +87,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		pm_tell_once(s, "%s", state->table.note);
 	return status;
 }
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return pm_diag_table_shared(&((const struct state *)s->state)->table, f); }
 
 static int end(struct pm_stage *s)
 {
@@ -163,6 +165,7 @@ const struct pm_tool tool_diag = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.end = end,
 	.free = release,
 };

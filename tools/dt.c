@@ -59,6 +59,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !pm_given(s, "lcfl"); /* the strain is on a mesh */ }
+
 static const struct pm_option options[] = {
 	{.name = "courant", .kind = PM_REAL, .unit = "cells", .low = 1e-9, .high = 1e9, PM_AT(rules.courant),
 		.text = "no particle crosses more than this fraction of a cell of the first mesh, along any axis"},
@@ -106,4 +108,5 @@ const struct pm_tool tool_dt = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

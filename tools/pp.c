@@ -31,6 +31,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+
 static const char *const loops[] = {"half", "full", NULL};
 static const struct pm_option options[] = {
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(pp.softening),
@@ -65,4 +67,5 @@ const struct pm_tool tool_pp = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

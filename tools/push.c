@@ -124,10 +124,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f)
-{
-	return f && pm_moving_divided(&((const struct config *)s->config)->push);
-}
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return pm_moving_divided(&((const struct config *)s->config)->push, f); }
 
 static void release(struct pm_stage *s) { free(((struct state *)s->state)->moving); }
 

@@ -4,11 +4,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "far/bodies.h"
 #include "limit/rates.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
+#include "stream/over-stretches.h"
+#include "world/world.h"
 
 static const struct pm_field *state_of(const struct pm_frame *f, const struct pm_set *s, const char *name)
 {
@@ -75,14 +76,31 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 	return status;
 }
 
-static void put(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, struct pm_bodies *b)
+/* All values of a component; in a divided frame each rank gives its own to all. */
+static int all_of(int status, const struct pm_field *field, int c, double *to)
 {
-	const struct pm_field *q = state_of(f, s, far->strength);
+	if (!status)
+		memcpy(to + field->first, pm_in(field, c), field->count * sizeof *to);
+	for (int rank = 0; field->here && rank < pm_world_size(); rank++) {
+		uint64_t stretch[2] = {field->first, field->count};
+		status = pm_world_share(status, rank, stretch, sizeof stretch);
+		status = pm_world_share(status, rank, status ? NULL : to + stretch[0], status ? 0 : stretch[1] * sizeof *to);
+	}
+	return status;
+}
+
+static int put(int status, const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, struct pm_bodies *b)
+{
+	const struct pm_field *q = state_of(f, s, far->strength), *x = state_of(f, s, "x");
 	for (int d = 0; d < f->dim; d++)
-		memcpy(b->x[d] + b->n, pm_in(state_of(f, s, "x"), d), s->n * sizeof(double));
+		status = all_of(status, x, d, status ? NULL : b->x[d] + b->n);
 	if (q)
-		memcpy(b->q + b->n, pm_in(q, 0), s->n * sizeof(double));
+		status = all_of(status, q, 0, status ? NULL : b->q + b->n);
+	if (status)
+		return status;
+	b->own[2 * b->sets] = x->first, b->own[2 * b->sets + 1] = x->first + x->count;
 	b->n += b->count[b->sets++] = s->n;
+	return 0;
 }
 
 int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b)
@@ -91,24 +109,23 @@ int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct 
 	for (size_t i = 0; i < f->nsets; i++)
 		n += f->sets[i]->n;
 	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .potential = far->with_potential ? pm_alloc(n, size) : NULL,
-		.count = pm_alloc(f->nsets + 1, sizeof *b->count)};
-	bool good = b->q && b->count && (b->potential || !far->with_potential);
+		.count = pm_alloc(f->nsets + 1, sizeof *b->count), .own = pm_alloc(2 * f->nsets + 1, sizeof *b->own)};
+	bool good = b->q && b->count && b->own && (b->potential || !far->with_potential);
 	for (int d = 0; d < f->dim; d++) {
 		b->x[d] = pm_alloc(n, size), b->gradient[d] = pm_alloc(n, size);
 		good = good && b->x[d] && b->gradient[d];
 	}
-	if (!good) {
-		pm_bodies_free(b);
-		return -PM_DATA;
-	}
+	int status = good ? 0 : -PM_DATA;
 	for (size_t i = 0; i < f->nsets; i++)
 		if (is_target(f, f->sets[i], far))
-			put(f, f->sets[i], far, b);
+			status = put(status, f, f->sets[i], far, b);
 	b->targets = b->n;
 	for (size_t i = 0; i < f->nsets; i++)
 		if (!is_target(f, f->sets[i], far) && is_source(f, f->sets[i], far))
-			put(f, f->sets[i], far, b);
-	return 0;
+			status = put(status, f, f->sets[i], far, b);
+	if (status)
+		pm_bodies_free(b);
+	return status;
 }
 
 static void make_sizes(const void *data, size_t from, size_t to, void *part)
@@ -127,19 +144,20 @@ static double strength_of(const struct pm_bodies *b)
 	return pm_sum_total(sum);
 }
 
-/* The largest rate of pm_orbit_rate: the square of a frequency, or of a flow the strain. */
-static double orbits(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
+/* The largest rate of pm_orbit_rate: the square of a frequency, or of a flow the strain. x: of the set; `at`: of its first particle that is here. */
+static double orbits(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, const struct pm_field *x, double c, const struct pm_bodies *b,
+	size_t at)
 {
 	const double *q = far->per ? pm_in(state_of(f, s, far->strength), 0) : NULL, *per = far->per ? pm_in(state_of(f, s, far->per), 0) : NULL;
 	const double pull = fabs(c) * strength_of(b);
 	double most = 0;
-	for (size_t i = 0; i < s->n; i++) {
+	for (size_t i = 0; i < x->count; i++) {
 		double square = 0;
 		for (int d = 0; d < f->dim; d++)
 			square += b->gradient[d][at + i] * b->gradient[d][at + i];
 		most = fmax(most, pm_orbit_rate(f->dim, fabs(c) * sqrt(square), pull) * (per ? fabs(q[i] / per[i]) : 1));
 	}
-	return most;
+	return pm_most_of_stretches(x, most);
 }
 
 static void add(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
@@ -149,7 +167,7 @@ static void add(const struct pm_frame *f, const struct pm_set *s, const struct p
 	for (int d = 0; d < f->dim; d++) {
 		const double *g = b->gradient[far->curl ? 1 - d : d] + at;
 		double factor = !far->curl ? far->sign * c : d ? -c : c, *y = pm_out(change, d);
-		for (size_t i = 0; i < s->n; i++)
+		for (size_t i = 0; i < change->count; i++)
 			y[i] += per ? factor * g[i] * (q[i] / per[i]) : factor * g[i];
 	}
 }
@@ -161,15 +179,17 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 		const struct pm_set *s = f->sets[i];
 		if (!is_target(f, s, far))
 			continue;
+		const struct pm_field *x = state_of(f, s, "x");
+		const size_t here = at + x->first;
 		if (is_accelerated(f, s, far)) {
-			const double rate = orbits(f, s, far, coefficient, b, at);
-			add(f, s, far, coefficient, b, at);
+			const double rate = orbits(f, s, far, x, coefficient, b, here);
+			add(f, s, far, coefficient, b, here);
 			pm_limits_add(pm_frame_field(f, s->name, far->change), strcmp(far->of, "x") ?
 				(struct pm_limits){.oscillation = sqrt(rate)} : (struct pm_limits){.strain = rate});
 		}
 		double *phi = b->potential ? pm_out(pm_frame_field(f, s->name, far->potential), 0) : NULL;
-		for (size_t k = 0; phi && k < s->n; k++)
-			phi[k] = coefficient * b->potential[at + k];
+		for (size_t k = 0; phi && k < x->count; k++)
+			phi[k] = coefficient * b->potential[here + k];
 		at += s->n;
 	}
 }
@@ -178,5 +198,6 @@ void pm_bodies_free(struct pm_bodies *b)
 {
 	for (int d = 0; d < 3; d++)
 		pm_free(b->x[d]), pm_free(b->gradient[d]);
-	pm_free(b->q), pm_free(b->potential), pm_free(b->count);
+	pm_free(b->q), pm_free(b->potential), pm_free(b->count), pm_free(b->own);
+	*b = (struct pm_bodies){.n = 0};
 }

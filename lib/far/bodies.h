@@ -19,12 +19,13 @@ struct pm_far {
 
 struct pm_bodies {
 	size_t targets, n;                /* targets come first, then those that are sources alone */
-	size_t sets, *count;              /* the sets in this order, and the particles of each */
+	size_t sets, *count, *own;        /* the sets in this order, the particles of each, and of each [first, end) of those that are here */
 	double *x[3], *q;                 /* n each; q is 0 for test particles */
 	double *gradient[3], *potential;  /* room for n each, of unit coefficient; potential NULL if not wanted */
 };
 
 int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace);
+/* In a divided frame every rank gets all. 0 or failure, which the ranks agree on. */
 int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct pm_bodies *b);
 /* Adds the sums to the sets, with the limits of what is added (stream/limits.h). */
 void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coefficient, const struct pm_bodies *b);

@@ -7,6 +7,7 @@
 #include "far/pp.h"
 #include "law/law.h"
 #include "stream/acting-forces.h"
+#include "world/world.h"
 
 static struct pm_far far_of(const struct pm_law *law, const struct pm_pp_choice *c)
 {
@@ -83,9 +84,12 @@ int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, uint64_t *coin
 	if (status)
 		return status;
 	status = pm_bodies_gather(f, &far, &b);
-	p.sets = b.sets, p.count = b.count;
+	p.sets = b.sets, p.count = b.count, p.own = b.own;
 	if (!status)
 		status = pm_pp_sum(&p, b.targets, b.n, (const double *const *)b.x, b.q, b.gradient, b.potential, coincident);
+	int64_t pairs = (int64_t)*coincident;
+	status = pm_world_count(status, PM_SUM_OF, 1, &pairs);
+	*coincident = (uint64_t)pairs;
 	if (!status)
 		pm_bodies_scatter(f, &far, law->coefficient(f), &b);
 	pm_bodies_free(&b);

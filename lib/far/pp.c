@@ -22,6 +22,7 @@ static const double far_away = 1e70; /* position of the particles that fill up a
 struct work {
 	size_t targets, padded, sets, tiles; /* places of targets and of all */
 	size_t *from, *count, *tile; /* of each set the first place and the particles; of each tile its places */
+	const size_t *own;           /* of each set the targets that are wanted; NULL: all */
 	double *x[3], *q, *g[3], *phi;
 	struct pm_field_pairs how;
 	uint64_t *coincident; /* pairs, per group or tile */
@@ -246,25 +247,37 @@ LOOPS(1, PM_GUARDED) LOOPS(2, PM_GUARDED) LOOPS(3, PM_GUARDED)
 LOOPS(1, PM_OTHER) LOOPS(2, PM_OTHER) LOOPS(3, PM_OTHER)
 static const struct loops table[3][3][2] = {ROW(PM_SQUARE), ROW(PM_GUARDED), ROW(PM_OTHER)};
 
+/* Is the particle at this place wanted? Groups and tiles are wanted as a whole. */
+static bool wanted(const struct work *w, size_t place)
+{
+	size_t s = 0;
+	while (s + 1 < w->sets && w->from[s + 1] <= place)
+		s++;
+	return !w->own || (place - w->from[s] >= w->own[2 * s] && place - w->from[s] < w->own[2 * s + 1]);
+}
+
 static void full(const struct work *w, const struct loops *l)
 {
 	size_t width = GROUP * PM_SIMD_WIDTH, groups = (w->targets + width - 1) / width;
-#pragma omp parallel for schedule(static) if (groups > 8)
+#pragma omp parallel for schedule(static, 8) if (groups > 8)
 	for (size_t i = 0; i < groups; i++)
-		l->group(w, i * width);
+		if (wanted(w, i * width))
+			l->group(w, i * width);
 }
 
-/* A tournament of m tiles: in round r meet those with a + b = r modulo m, a <= b. */
+/* A tournament of m tiles: in round r meet those with a + b = r modulo m, a <= b. Where some are wanted, those of them that meet others do so in full: what the
+ * others receive is not used. */
 static void half(const struct work *w, const struct loops *l)
 {
 	const size_t m = w->tiles;
 #pragma omp parallel if (w->padded > 1000)
 	for (size_t r = 0; r < m; r++) {
 		size_t below = r / 2 + 1, meetings = below + (r + m) / 2 - r;
-#pragma omp for schedule(static)
+#pragma omp for schedule(static, 1)
 		for (size_t k = 0; k < meetings; k++) {
-			size_t a = k < below ? k : r + 1 + (k - below);
-			l->meeting(w, a, (r + m - a) % m);
+			const size_t a = k < below ? k : r + 1 + (k - below), b = (r + m - a) % m;
+			if (wanted(w, w->tile[2 * a]) || wanted(w, w->tile[2 * b]))
+				l->meeting(w, a, b);
 		}
 	}
 }
@@ -330,7 +343,7 @@ static int layout(struct work *w, const struct pm_pp *p, size_t targets, size_t 
 
 static int work_init(struct work *w, const struct pm_pp *p, size_t targets, size_t n, const double *const *x, const double *q, bool potential)
 {
-	*w = (struct work){.how = pm_field_pairs_of(p->mollifier, p->delta, p->dim)};
+	*w = (struct work){.how = pm_field_pairs_of(p->mollifier, p->delta, p->dim), .own = p->own};
 	if (layout(w, p, targets, n))
 		return -PM_DATA;
 	for (int d = 0; d < p->dim; d++) {
@@ -362,8 +375,8 @@ int pm_pp_sum(const struct pm_pp *p, size_t targets, size_t n, const double *con
 			unpadded(&w, targets, c, w.g[d], gradient[d]);
 		if (potential)
 			unpadded(&w, targets, c, w.phi, potential);
-		for (size_t i = 0; i < w.padded; i++)
-			*coincident += w.coincident[i];
+		for (size_t i = 0; i < (p->half ? w.tiles : w.padded / (GROUP * PM_SIMD_WIDTH)); i++)
+			*coincident += wanted(&w, p->half ? w.tile[2 * i] : i * GROUP * PM_SIMD_WIDTH) ? w.coincident[i] : 0;
 	}
 	work_free(&w);
 	return status;

@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "limit/rates.h"
+#include "stream/over-stretches.h"
 
 enum { BLOCK = 4096 };
 
@@ -23,7 +23,7 @@ double pm_most(const struct pm_field *y, const double *h)
 			}
 			most = fmax(most, here);
 		}
-	return most;
+	return pm_most_of_stretches(y, most);
 }
 
 /* |du/dx_d| at point i, the k-th of `points` along axis d. */
@@ -64,16 +64,12 @@ static void make_squares(const void *data, size_t from, size_t to, void *part)
 		pm_sum_add(part, c->q[p] * c->q[p] / c->m[p]);
 }
 
-static void add_squares(size_t n, const double *q, const double *m, struct pm_sum *sum)
-{
-	const struct pm_parts parts = {.size = sizeof *sum, .make = make_squares, .join = pm_join_sums};
-	pm_over_set(&parts, &(struct charges){q, m}, n, sum);
-}
+static const struct pm_parts squares = {.size = sizeof(struct pm_sum), .make = make_squares, .join = pm_join_sums};
 
 double pm_charge_over_mass(size_t n, const double *q, const double *m)
 {
 	struct pm_sum sum = {0, 0};
-	add_squares(n, q, m, &sum);
+	pm_over_set(&squares, &(struct charges){q, m}, n, &sum);
 	return pm_sum_total(sum);
 }
 
@@ -84,7 +80,7 @@ double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
 		if (q && m && pm_set_moves(f, f->sets[i]))
-			add_squares(q->count, pm_in(q, 0), pm_in(m, 0), &sum);
+			pm_over_stretches(q, &squares, &(struct charges){pm_in(q, 0), pm_in(m, 0)}, &sum);
 	}
 	for (int d = 0; d < f->dim; d++)
 		box *= f->hi[d] - f->lo[d];
@@ -105,7 +101,7 @@ double pm_strength_total(const struct pm_frame *f, const char *strength)
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, strength);
 		if (q)
-			pm_over_set(&parts, q, q->count, &sum);
+			pm_over_stretches(q, &parts, q, &sum);
 	}
 	return pm_sum_total(sum);
 }

@@ -154,6 +154,13 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 	return status;
 }
 
+bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f)
+{
+	char why[200];
+	const struct pm_measure how = pm_diag_how(&t->request, f);
+	return pm_measure_shared(&how, f) && pm_pairs_unasked(f, pm_law_of(f), &how, why) != PM_PAIRS_SUM;
+}
+
 static void print_row(struct pm_diag_table *t, const double *value, bool first)
 {
 	const bool json = t->choice.format == PM_DIAG_JSON;

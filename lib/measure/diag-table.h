@@ -51,6 +51,8 @@ struct pm_diag_table {
 
 /* Checks what was typed, and takes the growth and the window (T0:T1) apart. 0 or failure. */
 int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
+/* Can ranks share the measures of a row? Sums over pairs that nobody asked for are for rank 0, which alone knows what the first row had. */
+bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f);
 /* 0 or failure. The first row is preceded by the line of names; end prints the line of the growth rate, or that there is none and why. */
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
 int pm_diag_table_end(struct pm_diag_table *t);

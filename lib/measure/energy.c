@@ -4,10 +4,19 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 #include "mesh/mesh-sum.h"
+#include "stream/over-stretches.h"
 
 enum { BATCH = 512 }; /* rows summed before their results are added to their block, which is a multiple; limits the memory, does not change the result */
 
-double pm_energy_at_particles(const struct pm_measured *b) { return 0.5 * pm_sum_products(b->n, b->strength, b->phi); }
+double pm_energy_at_particles(const struct pm_measured *b)
+{
+	struct pm_sum all = {0, 0};
+	if (b->field)
+		pm_sum_of_stretches(b->field, b->strength, b->phi, &all);
+	else
+		pm_sum_of_set(b->n, b->strength, b->phi, &all);
+	return 0.5 * pm_sum_total(all);
+}
 
 double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const double *phi)
 {

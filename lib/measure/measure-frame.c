@@ -5,6 +5,7 @@
 #include "measure/measure.h"
 #include "measure/separation.h"
 #include "stream/declare.h"
+#include "stream/strengths.h"
 
 static bool chosen(const struct pm_measure *how, const struct pm_set *set) { return !how->set || !strcmp(how->set, set->name); }
 
@@ -50,6 +51,13 @@ static struct pm_measured bodies(const struct pm_measure *how, const struct pm_f
 		b.dim++;
 	while (b.vdim < 3 && (b.v[b.vdim] = values(f, on, "v", b.vdim)))
 		b.vdim++;
+	const char *const names[] = {"x", "v", "mass", how->strength, how->potential};
+	for (size_t k = 0; k < sizeof names / sizeof *names && !b.field; k++) {
+		const struct pm_field *field = names[k] ? pm_frame_field(f, on, names[k]) : NULL;
+		b.field = field && field->here ? field : NULL;
+	}
+	if (b.field)
+		b.all = b.n, b.n = b.field->count;
 	return b;
 }
 
@@ -100,6 +108,14 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 	pm_radii(total, shell, how->nradii, how->fraction, m->radius);
 	pm_free(shell);
 	return 0;
+}
+
+bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
+{
+	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->evolves && !pm_measure_has_outside(how, f);
+	for (size_t i = 0; i < f->nfields; i++)
+		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
+	return sets && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
 }
 
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)

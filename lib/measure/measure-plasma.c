@@ -4,11 +4,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "measure/growth.h"
 #include "measure/law-field.h"
 #include "measure/measure.h"
 #include "stream/declare.h"
+#include "stream/over-stretches.h"
 
 static bool needs_field(const struct pm_measure *how) { return how->plasma || how->nmodes; }
 
@@ -25,7 +25,7 @@ static double charge(const struct pm_measure *how, const struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = how->set && strcmp(how->set, f->sets[i]->name) ? NULL : pm_frame_field(f, f->sets[i]->name, how->strength);
 		if (q)
-			pm_sum_of_set(q->count, pm_in(q, 0), NULL, &sum);
+			pm_sum_of_stretches(q, pm_in(q, 0), NULL, &sum);
 		sets += q != NULL;
 	}
 	return sets ? pm_sum_total(sum) : NAN;

@@ -8,10 +8,10 @@
  * Source: Saffman 1992, sections 3.2 to 3.9 and 10.2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "measure/law-field.h"
 #include "mesh/gradient.h"
 #include "stream/declare.h"
+#include "stream/over-stretches.h"
 
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
 {
@@ -93,13 +93,13 @@ static void make_ring(const void *data, size_t from, size_t to, void *part)
 static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3], struct pm_sum ring[3])
 {
 	const struct pm_parts parts = {.size = 3 * sizeof *ring, .make = make_ring, .join = pm_join_sums};
-	pm_over_set(&parts, &(struct vortices){at, strength, centre, axis}, at->count, ring);
+	pm_over_stretches(at, &parts, &(struct vortices){at, strength, centre, axis}, ring);
 }
 
 static void add_sums(const struct pm_field *at, const struct pm_field *strength, struct sums *s)
 {
 	const struct pm_parts parts = {.size = sizeof *s, .make = make_sums, .join = pm_join_sums};
-	pm_over_set(&parts, &(struct vortices){.at = at, .strength = strength}, at->count, s);
+	pm_over_stretches(at, &parts, &(struct vortices){.at = at, .strength = strength}, s);
 }
 
 static void of_ring(const struct pm_measure *how, const struct pm_frame *f, const struct sums *s, struct pm_measures *m)

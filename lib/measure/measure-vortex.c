@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "measure/measure.h"
-#include "base/in-order.h"
 #include "remesh/distortion.h"
 #include "mesh/gradient.h"
 #include "transfer/transfer.h"
 #include "stream/declare.h"
+#include "stream/over-stretches.h"
 
 /* A set of vortices that is to be measured: it has positions and strengths. */
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
@@ -58,7 +58,7 @@ static void make(const void *data, size_t from, size_t to, void *part)
 static void of_particles(const struct pm_field *at, const struct pm_field *circulation, struct pm_sum sum[4])
 {
 	const struct pm_parts parts = {.size = 4 * sizeof *sum, .make = make, .join = pm_join_sums};
-	pm_over_set(&parts, &(struct vortices){pm_in(at, 0), pm_in(at, 1), pm_in(circulation, 0)}, at->count, sum);
+	pm_over_stretches(at, &parts, &(struct vortices){pm_in(at, 0), pm_in(at, 1), pm_in(circulation, 0)}, sum);
 }
 
 /* 1/2 int |grad omega|^2; NAN if the mesh is too small for the differences, or without memory. */

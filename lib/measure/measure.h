@@ -14,6 +14,8 @@ struct pm_measured { /* one set; arrays of n values */
 	const double *strength;      /* what makes the field; NULL none */
 	const double *phi;           /* potential at the particles; NULL none */
 	double c;                    /* [length/time] speed of light where momenta and energies are relativistic, else 0 */
+	const struct pm_field *field;/* one of them in a divided frame, where n are here and `all` in the set; NULL: n are all */
+	size_t all;
 };
 
 struct pm_particle_sums {
@@ -111,6 +113,8 @@ void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struc
 bool pm_measure_has_outside(const struct pm_measure *how, const struct pm_frame *f);
 void pm_outside_of_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_outside_of(const struct pm_measure *how, const struct pm_frame *f, double *count, double *energy);
+/* Behind the reads: are these sums over sets alone, which ranks can share? Not pairs, order statistics, nor what is on a mesh. */
+bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 
 #endif

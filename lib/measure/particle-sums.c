@@ -2,8 +2,8 @@
  * Each is a sum over particles, compensated (Neumaier 1974), with eight partial sums per block of pm_sum_block particles; partial sums and blocks are added
  * in the order of the stream (base/in-order.h). Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
-#include "base/in-order.h"
 #include "base/simd-sum.h"
+#include "stream/over-stretches.h"
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
 
@@ -101,9 +101,13 @@ void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *
 {
 	const struct pm_parts parts = {.size = sizeof(struct block), .make = make_block, .join = join};
 	struct block all = {0};
-	pm_over_set(&parts, b, b->n, &all);
-	bulk->n += (double)b->n;
-	bulk->movers += b->vdim ? (double)b->n : 0;
+	const double n = (double)(b->field ? b->all : b->n);
+	if (b->field)
+		pm_over_stretches(b->field, &parts, b, &all);
+	else
+		pm_over_set(&parts, b, b->n, &all);
+	bulk->n += n;
+	bulk->movers += b->vdim ? n : 0;
 	bulk->mass += pm_sum_total(all.sum[MASS]);
 	bulk->kinetic += pm_sum_total(all.sum[KINETIC]);
 	bulk->scale += pm_sum_total(all.sum[SCALE]);

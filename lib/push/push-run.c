@@ -68,7 +68,10 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	return 0;
 }
 
-bool pm_moving_divided(const struct pm_push *p) { return !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic; }
+bool pm_moving_divided(const struct pm_push *p, const struct pm_frame *f)
+{
+	return !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic && !(p->moves && pm_moving_face(f, PM_PABSORB));
+}
 
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)
 {

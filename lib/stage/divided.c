@@ -241,7 +241,7 @@ static int frame_of(struct pm_stage *s, const json_t *all, struct pm_frame **f)
 	if (status)
 		return status;
 	const int plan = pm_stage_declare(s, *f);
-	return plan > 0 ? pm_fail(PM_DATA, "rank %d sees another frame than rank 0", pm_world_rank()) : plan;
+	return plan > 0 && plan != PM_HOLD ? pm_fail(PM_DATA, "rank %d sees another frame than rank 0", pm_world_rank()) : plan < 0 ? plan : 0;
 }
 
 static int take_parts(const json_t *fields, struct uses *u)

@@ -118,7 +118,7 @@ int pm_stage_apply(struct pm_stage *s, struct pm_frame *f)
 	int plan = pm_stage_declare(s, f), status = plan < 0 || plan == PM_SKIP || plan == PM_PASS ? plan : 0;
 	if (!status)
 		status = pm_frame_affordable(f);
-	const bool divided = !status && !plan && header && pm_divided_can(s, f);
+	const bool divided = !status && (!plan || plan == PM_HOLD) && header && pm_divided_can(s, f);
 	s->frames[divided] += !status && pm_world_size() > 1;
 	if (divided)
 		status = pm_divided_apply(s, f, header);

@@ -4,8 +4,8 @@
 
 #include "base/in-order.h"
 #include "base/simd-sum.h"
+#include "stream/over-stretches.h"
 #include "stream/strengths.h"
-#include "world/over-ranks.h"
 
 enum { SUM, SCALE, SUMS };
 
@@ -40,15 +40,11 @@ static void block(const void *data, size_t from, size_t to, void *part)
 		pm_simd_sum_join(&total[k], &s[k]);
 }
 
-/* In a divided frame all ranks call this; one that cannot is found by the next operation. */
 static void sums(const struct pm_field *field, const double *x, struct pm_strength *s)
 {
 	struct pm_sum all[SUMS] = {{0, 0}};
 	const struct pm_parts parts = {.size = sizeof all, .make = block, .join = pm_join_sums};
-	if (field->here)
-		pm_world_over_set(0, &parts, x, field->count, all);
-	else
-		pm_over_set(&parts, x, field->count, all);
+	pm_over_stretches(field, &parts, x, all);
 	s->sum = pm_sum_total(all[SUM]);
 	s->scale = pm_sum_total(all[SCALE]);
 }

@@ -101,16 +101,19 @@ shares() {
 	grep -qF "cycle: 3 ranks share: $1; on rank 0 alone:" said || { grep 'ranks share' said; return 1; }
 }
 
-@test "push, walk, field and scalc are shared by the ranks, and no other word; --timing says so" {
+@test "push, walk, field, scalc, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
 	shares "push kick/2 drift, push kick/2" "$(kicks "$(force 8)")" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
-	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "$(kicks pp)" 2>said >/dev/null
-	grep -qE '^push kick/2 drift .* all ranks$' said
-	grep -qE '^pp .* rank 0 alone$' said
+	pinit plummer -n 9000 >cluster
+	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
+	shares "pp, diag --tee table, push rk2" "pp | diag --tee table | push rk2" <cluster
+	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "pp | push rk2 | ssort" 2>said >/dev/null
+	grep -qE '^pp .* all ranks$' said
+	grep -qE '^ssort .* rank 0 alone$' said
 }
 
 @test "any number of ranks: expressions, integers, given rates of strengths, a walk without numbers, copies kept for a checkpoint" {
@@ -120,6 +123,21 @@ shares() {
 	same "push drift | scalc 'mass = mass*(1 + x)'" <cloud
 	same "$(kicks "field 'acc = -sin(3*x), x*y, -0.1*vz' 'dmass = -0.1*mass'")" --checkpoint c <cloud
 	pinit uniform -n 9000 --dim 2 --faces wall --particle-faces reflect --dispersion 1 --dt 0.01 | same "push drift | walk --nu 0.1"
+}
+
+@test "any number of ranks: sums over pairs of several stretches, steps by every rule of sets, tables of diag" {
+	pinit plummer -n 9500 >cluster
+	smod --rename matter=twins <cluster >twins # each coincides with one of the others
+	stack cluster twins >two
+	OMP_NUM_THREADS=2 same "$(kicks "pp --loop full --potential")" --store all <cluster
+	same "pp --softening 0 | push rk2 --unsafe" --store all <two
+	same "pp | dt --acceleration 0.05 --softening 0.1 --oscillation 0.2 | push rk2" <cluster
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 >streams
+	same "dt --courant 0.2 --plasma 0.1 --max 0.5 | push drift" <streams
+	sel --drop mesh <streams | cycle -n 3 'diag --tee table | push drift' >/dev/null
+	cp table alone.tsv
+	for n in 2 3 7; do sel --drop mesh <streams | on $n cycle -n 3 'diag --tee table | push drift' >/dev/null && cmp table alone.tsv || return 1; done
+	[ "$(wc -l <table)" -eq 4 ]
 }
 
 @test "every tool with ranks: the bytes, messages and exit code of a run alone" {
