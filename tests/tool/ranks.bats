@@ -14,11 +14,13 @@ same() {
 	OMP_NUM_THREADS=1 cycle -n 3 "$@" "$sentence" <start >alone
 	[ "$(wc -c <alone)" -gt 1000 ]
 	for n in 1 2 3 4 7; do
-		OMP_NUM_THREADS=$((1 + n % 2)) on "$n" cycle -n 3 "$@" "$sentence" <start >ranks || return
-		cmp alone ranks || { echo "$n ranks: $sentence"; return 1; }
-		ran=$((ran + 1))
+		for threads in $([ -z "${PM_LONG:-}" ] && echo $((1 + n % 2)) || echo 1 2); do
+			OMP_NUM_THREADS=$threads on "$n" cycle -n 3 "$@" "$sentence" <start >ranks || return
+			cmp alone ranks || { echo "$n ranks, $threads threads: $sentence"; return 1; }
+			ran=$((ran + 1))
+		done
 	done
-	[ $ran -eq 5 ]
+	[ $ran -ge 5 ]
 }
 
 force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
@@ -138,6 +140,19 @@ shares() {
 	cp table alone.tsv
 	for n in 2 3 7; do sel --drop mesh <streams | on $n cycle -n 3 'diag --tee table | push drift' >/dev/null && cmp table alone.tsv || return 1; done
 	[ "$(wc -l <table)" -eq 4 ]
+}
+
+@test "any number of ranks: all particles in one cell, a rank emptied by absorption, a mesh that grows, walls in two dimensions, 17 rows a plane" {
+	pinit uniform -n 9000 --dispersion 0.3 >cloud
+	scalc 'x = 0.01*x, 0.01*y, 0.01*z' <cloud | same "$(kicks "p2m -n 8 --outside drop | poisson-fft | mgrad | m2p")"
+	# the last stretches are beyond a face after the first step: a rank has none left
+	ssort --by x <cloud | smod --faces open --particle-faces absorb | scalc 'v = x > 0.4 ? 100 : 0, 0, 0' |
+		same "push drift | scalc 'k = n'" --store all
+	pinit plummer -n 4500 --cells 8 | scalc 'v = 3*x, 3*y, 3*z' | same "$(kicks "p2m --outside grow | poisson-fft | mgrad | m2p")"
+	pinit uniform -n 5000 --dim 2 --dispersion 0.5 --faces wall --particle-faces reflect >walled
+	same "$(kicks "$(force 17x20)")" <walled
+	same "$(kicks "p2m -n 16x24 | poisson-mg | mgrad --order 4 | m2p")" <walled
+	pinit uniform -n 5000 --dispersion 0.2 | same "$(kicks "p2m -n 12x17x10 | poisson-fft | mgrad --order spectral | m2p")"
 }
 
 @test "every tool with ranks: the bytes, messages and exit code of a run alone" {
