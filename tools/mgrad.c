@@ -56,12 +56,19 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_clock began = pm_clock();
 	int status = pm_gradient_plan(&t->gradient, &t->planner);
 	pm_setup_since(s, began);
-	const double rim = pm_gradient_rim(&t->gradient);
+	double rim = 0;
+	status = status ? status : pm_gradient_rim(&t->gradient, &rim);
 	if (rim > rim_told)
 		pm_tell_once(s, "%.2g of the density is within %d nodes of an open face, where differences of order %d are one-sided and exert a force on "
 			"what makes the field (p2m --rim %d leaves these nodes free; --order 2 has no such force)", rim, t->gradient.operator.order / 2,
 			t->gradient.operator.order, t->gradient.operator.order / 2 - 1);
 	return status ? status : pm_gradient_apply(&t->gradient);
+}
+
+/* Lines of transforms cross the planes of ranks. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	return f && ((const struct state *)s->state)->gradient.operator.order;
 }
 
 static void release(struct pm_stage *s)
@@ -90,5 +97,6 @@ const struct pm_tool tool_mgrad = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -19,6 +19,15 @@ const struct pm_expression_function pm_expression_functions[] = {
 	{"round", 1, round, NULL}, {"erf", 1, erf, NULL}, {"erfc", 1, erfc, NULL}, {"gamma", 1, tgamma, NULL}, {"atan2", 2, NULL, atan2}, {"pow", 2, NULL, pow},
 	{"mod", 2, NULL, modulo}, {"hypot", -1, NULL, hypot}, {"min", -1, NULL, fmin}, {"max", -1, NULL, fmax}, {0}};
 
+/* The number of the first point of a mesh on this rank. */
+static uint64_t first_here(const struct pm_frame *f, const char *on)
+{
+	for (size_t i = 0; i < f->nfields; i++)
+		if (f->fields[i]->here && !strcmp(f->fields[i]->on, on))
+			return f->fields[i]->first;
+	return 0;
+}
+
 /* Of the points index[first] ..., or first ... */
 static void load(const struct pm_expression_value *v, const struct pm_frame *f, const char *on, const size_t *index, size_t first, size_t n, double *out)
 {
@@ -40,6 +49,7 @@ static void load(const struct pm_expression_value *v, const struct pm_frame *f, 
 	const struct pm_mesh *m = pm_frame_mesh(f, on);
 	size_t points[3], stride = 1;
 	pm_mesh_points(f, m, points);
+	first += index ? 0 : first_here(f, on);
 	for (int a = 0; a < v->axis; a++)
 		stride *= points[a];
 	for (size_t i = 0; i < n; i++)

@@ -9,6 +9,7 @@
 #include "mesh/force-words.h"
 #include "mesh/given-faces.h"
 #include "mesh/gradient-frame.h"
+#include "mesh/gradient-parts.h"
 #include "stream/declare.h"
 
 /* The operator, its factor and its order: from the options, else the law's. */
@@ -121,6 +122,23 @@ int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans)
 	return pm_operator_plan(&t->operator, plans);
 }
 
+/* The same on the planes of this rank. */
+static int divided(struct pm_operator *o, double factor, const struct pm_field *source, const double *const in[], double *const out[], bool *seen)
+{
+	const double *with[PM_COMPONENTS];
+	struct pm_planes planes;
+	double *room = NULL;
+	int status = pm_planes_init(&planes, &o->grid, source);
+	status = pm_planes_halo(status, &planes, status ? 0 : pm_operator_reach(o, &planes), o->in, in, with, &room);
+	o->planes = &planes;
+	if (!status && planes.here)
+		status = pm_operator_apply(o, factor, with, out, seen);
+	o->planes = NULL;
+	pm_free(room);
+	pm_planes_free(&planes);
+	return status;
+}
+
 int pm_gradient_apply(struct pm_gradient *t)
 {
 	const double *in[PM_COMPONENTS];
@@ -130,7 +148,8 @@ int pm_gradient_apply(struct pm_gradient *t)
 		in[c] = pm_in(t->source, c);
 	for (int c = 0; c < t->operator.out; c++)
 		out[c] = pm_out(t->target, c);
-	int status = pm_operator_apply(&t->operator, t->factor, in, out, &seen);
+	int status = t->source->here ? divided(&t->operator, t->factor, t->source, in, out, &seen) :
+		pm_operator_apply(&t->operator, t->factor, in, out, &seen);
 	t->target->use |= seen ? PM_USE_SEEN : 0;
 	return status;
 }
@@ -143,6 +162,7 @@ static bool near_open(const struct pm_grid *g, int d, size_t i, size_t width)
 
 struct density {
 	const struct pm_grid *g;
+	const struct pm_planes *planes;
 	const double *rho;
 	size_t width;
 };
@@ -153,7 +173,7 @@ static void make_rim(const void *data, size_t from, size_t to, void *part)
 {
 	const struct density *d = data;
 	const struct pm_grid *g = d->g;
-	const size_t row = from / (to - from), j = row % g->points[1], k = row / g->points[1];
+	const size_t row = pm_planes_row(d->planes, from), j = row % g->points[1], k = row / g->points[1];
 	const bool beside = (g->dim > 2 && near_open(g, 2, k, d->width)) || (g->dim > 1 && near_open(g, 1, j, d->width));
 	struct pm_sum *sum = part;
 	for (size_t i = from; i < to; i++) {
@@ -163,12 +183,16 @@ static void make_rim(const void *data, size_t from, size_t to, void *part)
 	}
 }
 
-double pm_gradient_rim(const struct pm_gradient *t)
+int pm_gradient_rim(const struct pm_gradient *t, double *part)
 {
 	const struct pm_grid *g = &t->operator.grid;
 	struct pm_sum sum[SUMS] = {{0, 0}};
 	const struct pm_parts parts = {.size = sizeof sum, .make = make_rim, .join = pm_join_sums};
+	struct pm_planes planes = {.from = NULL};
+	int status = t->density ? pm_planes_init(&planes, g, t->density) : 0;
 	for (int c = 0; t->density && c < t->density->components; c++)
-		pm_over_mesh(&parts, &(struct density){g, pm_in(t->density, c), (size_t)t->operator.order / 2}, g->points, sum);
-	return pm_sum_total(sum[RIM]) > 0 ? pm_sum_total(sum[RIM]) / pm_sum_total(sum[ALL]) : 0;
+		status = pm_planes_over(status, &planes, &parts, &(struct density){g, &planes, pm_in(t->density, c), (size_t)t->operator.order / 2}, sum);
+	pm_planes_free(&planes);
+	*part = !status && pm_sum_total(sum[RIM]) > 0 ? pm_sum_total(sum[RIM]) / pm_sum_total(sum[ALL]) : 0;
+	return status;
 }

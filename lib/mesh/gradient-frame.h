@@ -25,8 +25,8 @@ int pm_gradient_declare(const struct pm_gradient_choice *o, struct pm_frame *f, 
 int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans);
 int pm_gradient_apply(struct pm_gradient *t);
 /* The part of the sum of |density| on nodes less than order/2 from an open face: what is there exerts a force on itself, because a node beside it has a
- * one-sided difference. 0 where there is none, or no density in the frame. */
-double pm_gradient_rim(const struct pm_gradient *t);
+ * one-sided difference. 0 where there is none, or no density in the frame. 0 or failure, agreed by all ranks. */
+int pm_gradient_rim(const struct pm_gradient *t, double *part);
 
 /* A law's field that mgrad made of the law's potential has the order of its differences in its header (PM_DIFFERENCES). So it can be made again from the
  * potential, to the last bit, and need not be stored. */

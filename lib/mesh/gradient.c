@@ -11,6 +11,7 @@
 #include "fft/fft-block.h"
 #include "mesh/gradient-parts.h"
 #include "mesh/index-fold.h"
+#include "world/world.h"
 
 #define ALWAYS static inline __attribute__((always_inline))
 
@@ -24,6 +25,7 @@ struct taps {
 struct axis {
 	size_t points, low, high;
 	ptrdiff_t stride;
+	bool around; /* periodic, and divided among ranks */
 	struct taps regular, end[PM_ENDS];
 };
 
@@ -108,6 +110,7 @@ static struct axis axis_of(const struct pm_operator *o, int component, int d, do
 {
 	struct axis a = {.points = o->grid.points[d], .stride = 1, .regular = centred(o->derivative, o->order)};
 	size_t m = (size_t)o->order / 2;
+	a.around = o->planes && o->planes->periodic && d == o->planes->axis;
 	bool short_axis = a.points <= 2 * m;
 	a.low = short_axis ? a.points : m;
 	a.high = short_axis ? 0 : m;
@@ -174,7 +177,14 @@ static void regular(const struct taps *t, const double *const from[], bool add, 
 	}
 }
 
-/* in: the whole component; the row at (0, j, k). */
+/* Nodes from node `at` to the node `to` of a tap, along the axis that is divided: over the end where that is nearer, since halos continue a periodic axis. */
+static ptrdiff_t nearest(const struct axis *a, ptrdiff_t to, size_t at)
+{
+	const ptrdiff_t n = (ptrdiff_t)a->points, away = to - (ptrdiff_t)at;
+	return !a->around ? away : 2 * away > n ? away - n : 2 * away < -n ? away + n : away;
+}
+
+/* in: the component, of which the first row here is number 0; the row at (0, j, k). */
 static void row_along(const struct axis *a, int d, const double *in, size_t row, size_t at, size_t nx, bool add, double *out)
 {
 	const double *from[PM_TAPS];
@@ -184,7 +194,7 @@ static void row_along(const struct axis *a, int d, const double *in, size_t row,
 		t = &a->end[at < a->low ? at : at + a->low + a->high - a->points];
 	if (d > 0) {
 		for (int k = 0; k < t->n; k++)
-			from[k] = in + row + (inside ? t->at[k] : t->at[k] - (ptrdiff_t)at) * a->stride;
+			from[k] = in + row + (inside ? t->at[k] : nearest(a, t->at[k], at)) * a->stride;
 		if (inside)
 			regular(t, from, add, nx, out);
 		else
@@ -221,11 +231,28 @@ static void fetch(const struct pm_operator *o, const double *const in[], size_t 
 			__builtin_prefetch(in[c] + ahead * n[0] + i);
 }
 
+/* Regular taps and images reach order/2 nodes; one-sided ones from a node beside the face order + derivative nodes into the mesh, which a rank with few planes
+ * has not. */
+int pm_operator_reach(const struct pm_operator *o, const struct pm_planes *p)
+{
+	const size_t m = (size_t)o->order / 2, need = (size_t)(o->order + o->derivative);
+	size_t wide = m;
+	for (int r = 0; r < pm_world_size() && p->axis; r++) {
+		const size_t a = p->from[r], b = p->from[r + 1];
+		if (o->grid.face[p->axis][0] == PM_OPEN && a < b && a < m && b + wide < need)
+			wide = need - b;
+		if (o->grid.face[p->axis][1] == PM_OPEN && a < b && p->all - b < m && p->all - a + wide < need)
+			wide = need - (p->all - a);
+	}
+	return (int)wide;
+}
+
 /* Rows are computed in cache; on meshes larger than the caches they are written with streaming stores, which avoids reading the old values. */
 int pm_operator_differences(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen)
 {
 	struct axis axis[PM_TERMS_MOST];
-	const size_t *n = o->grid.points, rows = n[1] * n[2];
+	const size_t *n = o->grid.points, rows = o->planes ? o->planes->here * o->planes->size / n[0] : n[1] * n[2];
+	const size_t below = o->planes ? pm_planes_row(o->planes, 0) : 0;
 	for (int t = 0; t < o->nterms; t++)
 		axis[t] = axis_of(o, o->term[t].as, o->term[t].axis, factor * o->term[t].sign);
 	bool streams = rows * n[0] > (size_t)1 << 20; /* 8 MiB */
@@ -239,7 +266,7 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 		double *buffer = scratch + 2 * (size_t)omp_get_thread_num() * lot, *slope = buffer + lot;
 #pragma omp for schedule(static)
 		for (size_t r = 0; r < rows; r++) {
-			const size_t at[3] = {0, r % n[1], r / n[1]};
+			const size_t at[3] = {0, (below + r) % n[1], (below + r) / n[1]};
 			if (streams)
 				fetch(o, in, r);
 			for (int t = 0; t < o->nterms; t++) {

@@ -14,6 +14,8 @@ int pm_order_find(const char *name);                                   /* 2, 4, 
 
 enum { PM_TAPS = 8, PM_ENDS = 12, PM_TERMS_MOST = 18 };
 
+struct pm_planes;
+
 /* One term: out component += sign * derivative of in component along an axis, times a field. */
 struct pm_operator_term {
 	int out, in, axis;
@@ -32,6 +34,7 @@ struct pm_operator {
 	int nterms;     /* in order of out */
 	struct pm_operator_term term[PM_TERMS_MOST];
 	bool add;       /* to out, instead of replacing it */
+	const struct pm_planes *planes; /* differences: NULL, or those of this rank (mesh/gradient-parts.h) */
 	const double *weight[3]; /* fields of the grid's points that terms are multiplied by */
 	struct pm_fft_plans *plans; /* spectral: of pm_operator_plan, to be there as long as the operator */
 };

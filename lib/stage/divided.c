@@ -105,8 +105,6 @@ bool pm_divided_can(const struct pm_stage *s, const struct pm_frame *f)
 	bool any = false;
 	for (size_t i = 0; i < f->nfields + f->ndropped; i++) {
 		const struct pm_field *p = i < f->nfields ? f->fields[i] : f->dropped[i - f->nfields];
-		if (p->use && !pm_frame_set(f, p->on))
-			return false;
 		any |= p->use != 0;
 	}
 	return any && s->tool->frame && s->tool->divided(s, f);
@@ -115,7 +113,7 @@ bool pm_divided_can(const struct pm_stage *s, const struct pm_frame *f)
 static int divide(struct used *u, const struct pm_frame *f)
 {
 	struct pm_field *p = u->field;
-	if (!(u->from = pm_division_new(pm_frame_set(f, p->on)->n)))
+	if (!(u->from = pm_division_new(p->count, pm_division_grain(f, p->on))))
 		return -PM_DATA;
 	const bool change = p->use & PM_USE_CHANGE, copies = p->buffer && change && atomic_load(&p->buffer->users) > 1;
 	int status = p->buffer ? pm_buffer_divide(p->buffer, p->components, pm_field_memory(p), u->from) : 0;

@@ -220,6 +220,7 @@ int pm_field_enter(struct pm_field *field, const uint64_t *from)
 	const int me = pm_world_rank();
 	field->count = (size_t)(from[me + 1] - from[me]);
 	field->first = from[me];
+	field->from = from;
 	field->here = true;
 	return 0;
 }
@@ -230,6 +231,7 @@ void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id)
 	struct pm_buffer *b = field->buffer;
 	field->count = (size_t)from[ranks];
 	field->first = 0;
+	field->from = NULL;
 	field->here = false;
 	if (!b || b->id == id || !b->part)
 		return;

@@ -72,6 +72,7 @@ struct pm_field {
 	size_t count;         /* values per component: n of the set, points of the mesh; in a divided frame those of this rank */
 	bool here;            /* in a divided frame: the values are this rank's stretch alone */
 	uint64_t first;       /* then: the number of the first one in the whole stream; else 0 */
+	const uint64_t *from; /* then: the first of every rank, one more than ranks; else NULL */
 	int order;            /* then: among the fields in use, for the place of a failure */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */

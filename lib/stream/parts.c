@@ -6,7 +6,7 @@
 #include "stream/parts.h"
 #include "world/world.h"
 
-enum { grain = pm_sum_block };
+enum { rows_at_once = 16 }; /* of transforms: PM_FFT_LINES of lib/fft */
 
 static uint64_t last_id;
 static struct {
@@ -23,7 +23,14 @@ static struct {
 
 uint64_t pm_parts_number(void) { return ++last_id; }
 
-uint64_t *pm_division_new(uint64_t n)
+uint64_t pm_division_grain(const struct pm_frame *f, const char *on)
+{
+	const struct pm_mesh *m = pm_frame_set(f, on) ? NULL : pm_frame_mesh(f, on);
+	size_t points[3], all = m ? pm_mesh_points(f, m, points) : pm_sum_block;
+	return !m || f->dim == 1 ? all : f->dim == 2 ? rows_at_once * points[0] : points[0] * points[1];
+}
+
+uint64_t *pm_division_new(uint64_t n, uint64_t grain)
 {
 	const uint64_t ranks = (uint64_t)pm_world_size(), blocks = (n + grain - 1) / grain;
 	uint64_t *from = malloc((ranks + 1) * sizeof *from);

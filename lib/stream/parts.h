@@ -20,8 +20,10 @@ struct pm_buffer {
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
 
-/* The division of n values: beginnings at multiples of 4096, as even as these allow; free() it. NULL: no memory. */
-uint64_t *pm_division_new(uint64_t n);
+/* The division of n values: beginnings at multiples of a grain, as even as these allow; free() it. NULL: no memory. */
+uint64_t *pm_division_new(uint64_t n, uint64_t grain);
+/* Of a set 4096 particles; of a mesh a plane in 3-D, 16 rows in 2-D (a transform joins as many), in 1-D all points. */
+uint64_t pm_division_grain(const struct pm_frame *f, const char *on);
 
 /* Rank 0. 0 or failure. */
 int pm_buffer_divide(struct pm_buffer *b, int components, size_t size, const uint64_t *from); /* gives every rank its part, if it has none */

@@ -103,12 +103,21 @@ shares() {
 	grep -qF "cycle: 3 ranks share: $1; on rank 0 alone:" said || { grep 'ranks share' said; return 1; }
 }
 
-@test "push, walk, field, scalc, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
+@test "any number of ranks: derivatives of orders 2 to 6 beside all faces, fields computed on meshes" {
+	pinit plummer -n 300 | same "p2m -n 12x8x16 | poisson-fft | mgrad --order 6 | mgrad --order 4 --operator lap --target l | m2p | push rk2"
+	pinit uniform -n 300 --dim 2 | same "p2m -n 20x70 | poisson-fft | mgrad --order 4 | scalc --mesh mesh 's = rho*x + y' | m2p | push rk2" --store all
+	pinit uniform -n 300 --faces wall,neumann,periodic,periodic,neumann,wall |
+		same "p2m -n 8x9x5 | poisson-fft | mgrad --order 6 | mgrad --operator curl --source g --target c | m2p | push rk2" --store all
+}
+
+@test "push, walk, field, scalc, mgrad, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
-	shares "push kick/2 drift, push kick/2" "$(kicks "$(force 8)")" <start
+	shares "push kick/2 drift, mgrad, push kick/2" "$(kicks "$(force 8)")" <start
+	shares "scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
+	shares "push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
