@@ -65,7 +65,8 @@ def draw(r):
         dim, periodic = pick(1, 2, 3), r.random() < 0.5
         faces = f" | smod --faces {pick('wall', 'open')} --particle-faces {pick('reflect', 'absorb')}" if not periodic else ""
         scene = f"pinit uniform -n {count(50, 300)} --dim {dim} --dispersion 0.3 --dt 0.05 --seed {r.randrange(99)}{faces}"
-        return scene, more(maybe(0.15, "dt --courant 0.3 --max 0.1 |") + " " + around(force(dim, periodic, *{1: (16, 33, 100), 2: (8, 17, 20), 3: (4, 7, 12, 15)}[dim])))
+        sides = {1: (16, 33, 100), 2: (8, 17, 20), 3: (4, 7, 12, 15)}[dim]
+        return scene, more(maybe(0.15, "dt --courant 0.3 --max 0.1 |") + " " + around(force(dim, periodic, *sides)))
 
     def cluster():
         soft = maybe(0.3, "--softening 0.05")
@@ -79,7 +80,9 @@ def draw(r):
             return f"pinit {pick('gyration', 'exb')} -n {count(7, 60)}", more("push boris/2 drift | m2p | push boris/2")
         dim = pick(1, 1, 2)
         n = count(500, 900)
-        scene = f"pinit two-stream -n {max(2, n)} --vth 0.1 --amplitude 0.1" if dim == 1 else f"pinit langmuir --dim 2 --axes 2 -n {pick(100, 961, 9025)} --amplitude 0.3"
+        scene = f"pinit two-stream -n {max(2, n)} --vth 0.1 --amplitude 0.1"
+        if dim == 2:
+            scene = f"pinit langmuir --dim 2 --axes 2 -n {pick(100, 961, 9025)} --amplitude 0.3"
         return scene, more(maybe(0.15, "dt --plasma 0.1 |") + " " + around(force(dim, True, *((33, 64, 35) if dim == 1 else (16, 17, 24)))))
 
     def two_sets():
