@@ -2,8 +2,8 @@
 # Runs every sentence of docs/notes/*.md and compares what it prints with the lines below it; says which do not agree, and exits 1 then.
 # notes.sh FILE ...: these files of docs/notes/. --rows FILE ...: a line for every row: file, its IDs one by one, and "sentence" or "none".
 # A row is a line that begins with **ID, ID-ID** up to the next one. `    $ ` begins a sentence, the indented lines below it are what it prints. A number agrees
-# if it differs by at most one in the last digit that the page prints, an integer if it is equal; `<1e-12` stands for a number of at most this size (rounding); `...` at the end of a line
-# for the rest of it.
+# if it differs by at most one in the last digit that the page prints, an integer if it is equal; `<1e-12` stands for a number of at most this size (rounding);
+# `...` at the end of a line for the rest of it.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 export LC_ALL=C
@@ -32,7 +32,8 @@ for page in "$@"; do
 	# N/line: where it stands; N/sentence, N/want
 	awk -v dir="$work/all" '/^\*\*/ { split($0, half, /\*\*/); row = half[2] }
 		/^    \$ / { n++; d = dir "/" sprintf("%04d", n); system("mkdir " d); print FNR ": " row >(d "/line")
-			print substr($0, 7) >(d "/sentence"); printf "" >(d "/want"); close(d "/line"); close(d "/sentence"); close(d "/want"); on = 1; next }
+			print substr($0, 7) >(d "/sentence"); printf "" >(d "/want"); on = 1
+			close(d "/line"); close(d "/sentence"); close(d "/want"); next }
 		on && /^    / { print substr($0, 5) >>(d "/want"); close(d "/want"); next }
 		{ on = 0 }' "$page"
 	for d in "$work"/all/*/; do
