@@ -7,7 +7,7 @@
 
 PM_C_BEGIN
 
-enum { PM_KERNEL_WIDTH = 8, PM_KERNEL_DEGREE = 15 }; /* the largest width */
+enum { PM_KERNEL_WIDTH = 10, PM_KERNEL_DEGREE = 15 }; /* the largest width */
 
 struct pm_kernel {
 	const char *name, *sentence, *source;
@@ -17,7 +17,7 @@ struct pm_kernel {
 	bool positive;
 	/* The weights of the `width` points around a particle, polynomials in t: coefficients[power][point], powers 0..degree.
 	 * odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
-	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Where the degree is >= width, t is measured from the nearest node:
+	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Where the degree is >= width or 9, t is measured from the nearest node:
 	 * for t > 1/2 the weights are those of 1 - t in the opposite order (kernels are even). Powers of t up to 1 would lose digits at high order. */
 	int degree;
 	const double *coefficients;
@@ -28,7 +28,7 @@ extern const char *const pm_kernel_names[];
 const struct pm_kernel *pm_kernel_find(const char *name); /* NULL with a message */
 
 /* Must t be measured from the point above? */
-static inline bool pm_kernel_folds(int width, int degree, double t) { return width % 2 == 0 && degree >= width && t > 0.5; }
+static inline bool pm_kernel_folds(int width, int degree, double t) { return width % 2 == 0 && (degree >= width || degree >= 9) && t > 0.5; }
 
 /* w[0..width-1] at t, by Horner. */
 static inline void pm_kernel_weights(const struct pm_kernel *k, double t, double *w)

@@ -13,7 +13,7 @@ struct along {
 	double mean[room], change[room], passed[room];
 };
 
-PM_SIMD_INLINE int window(int width) { return width < 8 ? padded(width + 1) : 9; }
+PM_SIMD_INLINE int window(int width) { return width < 8 ? padded(width + 1) : width + 1; }
 
 /* Weights of a window of width + 1 points at u, which is in its first cell or the next. */
 PM_SIMD_INLINE void place_weights(int width, int degree, const double *coefficients, double u, double shift, int32_t cell, double *w)
@@ -97,8 +97,10 @@ DIMS(5)
 DIMS(6)
 DIMS(7)
 DIMS(8)
+DIMS(9)
+DIMS(10)
 #define ROW(name, dim) {name##_##dim##_1, name##_##dim##_2, name##_##dim##_3, name##_##dim##_4, name##_##dim##_5, name##_##dim##_6, name##_##dim##_7, \
-	name##_##dim##_8}
+	name##_##dim##_8, name##_##dim##_9, name##_##dim##_10}
 static pm_current_loop *const loops[2][3][PM_KERNEL_WIDTH] = {{ROW(spline, 1), ROW(spline, 2), ROW(spline, 3)}, {ROW(any, 1), ROW(any, 2), ROW(any, 3)}};
 
 pm_current_loop *pm_current_deposit(int dim, const struct pm_kernel *k) { return loops[k->degree != k->width - 1][dim - 1][k->width - 1]; }

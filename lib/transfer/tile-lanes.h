@@ -6,17 +6,19 @@
 #include "base/simd.h"
 #include "transfer/transfer-tile.h"
 
-enum { lanes = PM_KERNEL_WIDTH };
+enum { lanes = 12 }; /* of the largest width */
 
 /* Vector length for a width. */
-PM_SIMD_INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : 8; }
+PM_SIMD_INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : width <= 8 ? 8 : lanes; }
 
 /* y = a * x, y += a * x, y = y * a + x, for n lanes. */
+#define PART(type, from, y, x, statement) { typedef type vec; vec *v = (vec *)((y) + (from)); const vec *u = (const vec *)((x) + (from)); statement; }
 #define LANES(n, y, x, statement) \
 	switch (n) { \
-	case 2: { typedef pm_simd2_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 4: { typedef pm_simd4_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
-	case 8: { typedef pm_simd8_at vec; vec *v = (vec *)(y); const vec *u = (const vec *)(x); statement; break; } \
+	case 2: PART(pm_simd2_at, 0, y, x, statement) break; \
+	case 4: PART(pm_simd4_at, 0, y, x, statement) break; \
+	case 8: PART(pm_simd8_at, 0, y, x, statement) break; \
+	case lanes: PART(pm_simd8_at, 0, y, x, statement) PART(pm_simd4_at, 8, y, x, statement) break; \
 	default: { double *v = (y); const double *u = (x); statement; } \
 	}
 PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }

@@ -149,8 +149,10 @@ DIMS(5)
 DIMS(6)
 DIMS(7)
 DIMS(8)
+DIMS(9)
+DIMS(10)
 #define ROW(name, dim) {name##_##dim##_1, name##_##dim##_2, name##_##dim##_3, name##_##dim##_4, name##_##dim##_5, name##_##dim##_6, name##_##dim##_7, \
-	name##_##dim##_8}
+	name##_##dim##_8, name##_##dim##_9, name##_##dim##_10}
 #define TABLE(name) {ROW(name, 1), ROW(name, 2), ROW(name, 3)}
 static pm_tile_loop *const spreads[2][3][PM_KERNEL_WIDTH] = {TABLE(spread_spline), TABLE(spread_any)};
 static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline), TABLE(gather_any)};

@@ -243,9 +243,46 @@ static void check_three_points(void)
 	check_near(shifted(k, pm_pi / 8), pow(1 - 4 * 0.09 * 0.91 * s * s * s * s, 50), 1e-13, "lambda-2: a wave of 16 cells after 100 shifts of 0.3 h");
 }
 
+/* The published polynomial of the innermost branch, rational values of the others, the ninth moment at 3/10, and order 9 for a periodic function. */
+static void check_ten_points(void)
+{
+	const struct pm_kernel *k = pm_kernel_find("lambda-8-4");
+	static const double published[] = {1, 0, -205. / 144, 0, 91. / 192, -6181. / 320, 6337. / 96, -2745. / 32, 28909. / 576, -3569. / 320};
+	static const double quarters[] = {-1184697. / 8388608, -2205. / 16384, -478107. / 8388608, 0, 2260799. / 58720256, 567. / 16384, 678501. / 58720256, 0,
+		-1763379. / 234881024, -405. / 65536, -325785. / 234881024};
+	double worst = 0, ninth = 0, w[PM_KERNEL_WIDTH], error[3], h[3];
+	for (double x = 0; x <= 1; x += 1. / 64) {
+		double sum = 0;
+		for (int power = 9; power >= 0; power--)
+			sum = sum * x + published[power];
+		check_worst(&worst, fabs(kernel_at(k, x) - sum));
+		check_worst(&worst, fabs(kernel_at(k, -x) - sum));
+	}
+	for (int i = 0; i < 11; i++)
+		check_worst(&worst, fabs(kernel_at(k, 1.25 + i / 4.) - quarters[i]));
+	check(worst <= 1e-13, "lambda-8-4: the published branch for |x| < 1, rational values at quarters beyond (worst %.2g, tolerance 1e-13)", worst);
+	pm_kernel_weights(k, 0.3, w);
+	for (int i = 0; i < k->width; i++)
+		ninth += w[i] * pow(0.3 - first_point(k) - i, 9);
+	check_near(ninth, 1370738943. / 12500000, 1e-10, "lambda-8-4: the first moment that is not exact");
+	check_near(shifted(k, pm_pi / 4), 0.9989982865, 1e-9, "lambda-8-4: a wave of 8 cells after 100 shifts of 0.3 h");
+	for (int m = 0; m < 3; m++) {
+		const int n = 40 + 20 * m + 5 * m * (m - 1);
+		h[m] = 2 * pm_pi / n, error[m] = 0;
+		for (int j = 0; j < n; j++) {
+			double sum = -exp(sin(h[m] * (j + 0.3)));
+			for (int i = 0; i < k->width; i++)
+				sum += w[i] * exp(sin(h[m] * (j + first_point(k) + i)));
+			check_worst(&error[m], fabs(sum));
+		}
+	}
+	check_order(3, h, error, 9, k->name);
+}
+
 int main(void)
 {
 	check_three_points();
+	check_ten_points();
 	for (int i = 0; pm_kernels[i]; i++) {
 		const struct pm_kernel *k = pm_kernels[i];
 		check(pm_kernel_find(k->name) == k && k->width >= 1 && k->width <= PM_KERNEL_WIDTH, "%s: is found by its name, %d points wide", k->name,
@@ -266,6 +303,7 @@ int main(void)
 	check_overshoot("lambda-2-2", 0.08251744, 1e-6);
 	check_overshoot("m6prime", 0.10156766, 1e-6);
 	check_overshoot("lambda-6-4", 0.11657810, 1e-6);
+	check_overshoot("lambda-8-4", 0.12114576, 1e-6);
 	check(!pm_kernel_find("witch-hat"), "an unknown kernel is not found");
 	return check_done();
 }

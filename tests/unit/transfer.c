@@ -699,7 +699,7 @@ static void check_few(void)
 static void check_exact(void)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
-		struct problem a = problem_new(grid_of(3, (const size_t[]){10, 12, 11}, (const int[]){3, 3, 3}), pm_kernels[k], 1, 200);
+		struct problem a = problem_new(grid_of(3, (const size_t[]){12, 14, 13}, (const int[]){3, 3, 3}), pm_kernels[k], 1, 200);
 		const struct pm_grid *g = &a.t.grid;
 		struct pm_strays strays;
 		double worst = 0;
@@ -725,12 +725,12 @@ static void check_exact(void)
 int main(void)
 {
 	check_adjoint(1, (const size_t[]){13, 1, 1});
-	check_adjoint(2, (const size_t[]){9, 14, 1});
-	check_adjoint(3, (const size_t[]){9, 10, 11}); /* the widest kernel, 8 points, needs 9 cells between open faces */
+	check_adjoint(2, (const size_t[]){11, 14, 1});
+	check_adjoint(3, (const size_t[]){11, 12, 13}); /* the widest kernel, 10 points, needs 11 cells between open faces */
 	for (int rule = 0; rule < 4; rule++)
 		if (rule != 1)
 			for (int dim = 1; dim <= 3; dim++)
-				check_total(dim, (const size_t[]){11, 10, 9}, rule);
+				check_total(dim, (const size_t[]){13, 12, 11}, rule);
 	check_plain(1, (const size_t[]){5003, 1, 1}, 3000);
 	check_plain(2, (const size_t[]){131, 70, 1}, 3000);
 	check_plain(3, (const size_t[]){33, 18, 20}, 3000);
@@ -748,8 +748,8 @@ int main(void)
 	check_kept(3, (const size_t[]){35, 20, 33}, "tsc");
 	check_formula(1, (const size_t[]){13, 1, 1}, 40);
 	check_formula(1, (const size_t[]){2, 1, 1}, 20);
-	check_formula(2, (const size_t[]){9, 12, 1}, 20);
-	check_formula(3, (const size_t[]){9, 10, 11}, 4);
+	check_formula(2, (const size_t[]){11, 12, 1}, 20);
+	check_formula(3, (const size_t[]){11, 12, 13}, 4);
 	for (int dim = 1; dim <= 3; dim++)
 		check_crowd(dim, "cic", true), check_crowd(dim, "m4prime", false);
 	check_images(1, -1);
