@@ -15,6 +15,7 @@ struct pm_kernel {
 	int moments;    /* discrete moments 0..moments of sum_i (x_i - x)^k W are exact (1, 0, 0, ...) */
 	int smooth;     /* continuous derivatives: -1 jumps, 0 continuous, 1 ... */
 	bool positive;
+	bool star;      /* not a product of the axes: the base point and its neighbours along each axis; moments mixed of several axes are not exact */
 	/* The weights of the `width` points around a particle, polynomials in t: coefficients[power][point], powers 0..degree.
 	 * odd widths: points nearest-(width-1)/2 ..., t = x/h - nearest point in [-1/2,1/2);
 	 * even widths: points floor-(width/2-1) ..., t = x/h - floor in [0,1). Where the degree is >= width or 9, t is measured from the nearest node:

@@ -30,6 +30,9 @@ int pm_influence_check(const struct pm_influence *f, const struct pm_grid *g)
 	if (f->kind != PM_PLAIN && !f->kernel)
 		return pm_fail(PM_DATA, "--influence %s needs the kernel that made the density, and the field carries none (p2m makes one, or --influence "
 			"plain)", pm_influence_names[f->kind]);
+	if (f->kind != PM_PLAIN && f->kernel->star && g->dim > 1)
+		return pm_fail(PM_DATA, "--influence %s is for kernels that are a product of the axes, and %s is not (p2m --kernel tsc, or --influence plain)",
+			pm_influence_names[f->kind], f->kernel->name);
 	if (f->cloud > 0 && g->dim < 3)
 		return pm_fail(PM_DATA, "--cloud is a ball, for boxes in 3-D (leave it out: points)");
 	return 0;

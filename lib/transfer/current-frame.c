@@ -33,6 +33,8 @@ int pm_current_choose(const struct pm_spread_choice *choice, const char *deposit
 		return pm_fail(PM_DATA, "the law '%s' has no field that a current changes (smod --law electromagnetic)", f->law);
 	j->current.kernel = pm_kernel_choose(choice->kernel, NULL, law, "cic");
 	j->mesh = pm_frame_mesh(f, choice->mesh);
+	if (j->current.kernel && j->current.kernel->star)
+		return pm_fail(PM_DATA, "currents are of kernels that are a product of the axes, and %s is not (p2m --kernel tsc)", j->current.kernel->name);
 	if (!j->current.kernel)
 		return -PM_DATA;
 	if (!j->mesh && !choice->cells)

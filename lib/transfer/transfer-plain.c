@@ -7,11 +7,13 @@ struct support {
 	int width[3];
 	size_t slot[3]; /* the first */
 	double w[3][PM_KERNEL_WIDTH];
+	bool star;
 };
 
 static bool support_of(struct support *s, const struct pm_transfer *t, const struct pm_axis axes[3], const double *const x[], size_t p,
 	struct pm_strays *strays)
 {
+	s->star = t->kernel->star;
 	for (int d = 0; d < 3; d++) {
 		double u;
 		s->width[d] = 1;
@@ -30,6 +32,20 @@ static bool support_of(struct support *s, const struct pm_transfer *t, const str
 	return true;
 }
 
+/* Of a star: points off the middle along more than one axis have no share. */
+static double star_weight(const struct support *s, const int at[3])
+{
+	double middle = 1, off = 1;
+	int away = 0;
+	for (int d = 0; d < 3; d++)
+		if (s->width[d] == 3) {
+			middle -= s->w[d][0] + s->w[d][2];
+			if (at[d] != 1)
+				off = s->w[d][at[d]], away++;
+		}
+	return away == 0 ? middle : away == 1 ? off : 0;
+}
+
 /* The value gathered from the mesh (spread false), or 0 after adding q to it. */
 static double visit(const struct support *s, const struct pm_grid *g, const struct pm_axis axes[3], const unsigned char flip[3], bool spread,
 	double q, double *mesh)
@@ -39,11 +55,11 @@ static double visit(const struct support *s, const struct pm_grid *g, const stru
 		for (int j = 0; j < s->width[1]; j++)
 			for (int i = 0; i < s->width[0]; i++) {
 				const int at[3] = {i, j, k};
-				double w = 1;
+				double w = s->star ? star_weight(s, at) : 1;
 				size_t point[3];
 				for (int d = 0; d < 3; d++) {
 					size_t slot = s->slot[d] + (size_t)at[d];
-					w *= s->w[d][at[d]] * (spread ? axes[d].put : axes[d].get)[flip[d]][slot];
+					w *= (s->star ? 1 : s->w[d][at[d]]) * (spread ? axes[d].put : axes[d].get)[flip[d]][slot];
 					point[d] = axes[d].at[slot];
 				}
 				double *value = &mesh[(point[2] * g->points[1] + point[1]) * g->points[0] + point[0]];

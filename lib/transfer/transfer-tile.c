@@ -71,6 +71,54 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, const struct pm_tile 
 	}
 }
 
+/* The nearest point gets what its neighbours along the axes leave. */
+PM_SIMD_INLINE double star_middle(int dim, double w[3][lanes])
+{
+	double middle = 1;
+	for (int d = 0; d < dim; d++)
+		middle -= w[d][0] + w[d][2];
+	return middle;
+}
+
+PM_SIMD_INLINE void spread_star(int dim, const struct pm_tile *t)
+{
+	const int step[3] = {1, pm_block_row[dim], pm_block_row[dim] * pm_block_rows[dim]};
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes];
+	pad_coefficients(t->kernel, 3, 2, coefficients);
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		double *middle = t->block + find_support(dim, 3, 2, t, coefficients, record, w), q = record[t->value];
+		for (int d = 0; d < dim; d++)
+			middle += step[d];
+		*middle += q * star_middle(dim, w);
+		for (int d = 0; d < dim; d++) {
+			middle[-step[d]] += q * w[d][0];
+			middle[step[d]] += q * w[d][2];
+		}
+	}
+}
+
+PM_SIMD_INLINE void gather_star(int dim, const struct pm_tile *t)
+{
+	const int step[3] = {1, pm_block_row[dim], pm_block_row[dim] * pm_block_rows[dim]};
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes];
+	pad_coefficients(t->kernel, 3, 2, coefficients);
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		double *result = t->results + i * (size_t)t->to;
+		size_t place = find_support(dim, 3, 2, t, coefficients, record, w);
+		for (int d = 0; d < dim; d++)
+			place += (size_t)step[d];
+		for (int c = 0; c < t->components; c++) {
+			const double *middle = t->block + (size_t)c * PM_BLOCK_MOST + place;
+			double total = *middle * star_middle(dim, w);
+			for (int d = 0; d < dim; d++)
+				total += middle[-step[d]] * w[d][0] + middle[step[d]] * w[d][2];
+			result[c] = total;
+		}
+	}
+}
+
 /* Weights of the corner of a cell at x*4 + y*2 + z. */
 static void spread_corners(const struct pm_tile *t)
 {
@@ -151,6 +199,14 @@ DIMS(7)
 DIMS(8)
 DIMS(9)
 DIMS(10)
+#define STAR(dim) \
+	static void spread_star_##dim(const struct pm_tile *t) { spread_star(dim, t); } \
+	static void gather_star_##dim(const struct pm_tile *t) { gather_star(dim, t); }
+STAR(1)
+STAR(2)
+STAR(3)
+static pm_tile_loop *const star_spreads[3] = {spread_star_1, spread_star_2, spread_star_3};
+static pm_tile_loop *const star_gathers[3] = {gather_star_1, gather_star_2, gather_star_3};
 #define ROW(name, dim) {name##_##dim##_1, name##_##dim##_2, name##_##dim##_3, name##_##dim##_4, name##_##dim##_5, name##_##dim##_6, name##_##dim##_7, \
 	name##_##dim##_8, name##_##dim##_9, name##_##dim##_10}
 #define TABLE(name) {ROW(name, 1), ROW(name, 2), ROW(name, 3)}
@@ -159,7 +215,10 @@ static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline
 
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 {
-	return corners ? spread_corners : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+	return corners ? spread_corners : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
 }
 
-pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k) { return gathers[k->degree != k->width - 1][dim - 1][k->width - 1]; }
+pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k)
+{
+	return k->star ? star_gathers[dim - 1] : gathers[k->degree != k->width - 1][dim - 1][k->width - 1];
+}

@@ -60,7 +60,7 @@ int pm_choice_kernel(const struct pm_plan *p, struct pm_edit *e, struct pm_frame
 	static const char *const next[][2] = {{"ngp", "cic"}, {"cic", "tsc"}, {"tsc", "pcs"}, {"pcs", "tsc"}, {"lambda-2", "m4prime"}, {"m4prime", "m6prime"},
 		{"m6prime", "lambda-6-4"},
 		{"lambda-2-1", "lambda-4-2"}, {"lambda-2-2", "lambda-4-2"}, {"lambda-4-2", "lambda-6-4"}, {"lambda-4-4", "lambda-6-4"}, {"lambda-6-4",
-		"lambda-6-6"}, {"lambda-6-6", "lambda-6-4"}, {"lambda-8-4", "lambda-6-4"}};
+		"lambda-6-6"}, {"lambda-6-6", "lambda-6-4"}, {"lambda-8-4", "lambda-6-4"}, {"star", "tsc"}};
 	char value[64];
 	const int w = pm_edit_find(e, "p2m", 0);
 	(void)f;

@@ -48,7 +48,7 @@ patch() {
 
 @test "remesh keeps the total to round-off and the moments that the kernel promises" {
 	patch | stab --plain >before
-	for kernel in ngp:0 cic:1 tsc:1 lambda-2:2 pcs:1 m4prime:2 lambda-2-2:2 m6prime:4 lambda-4-4:4 lambda-6-4:6 lambda-6-6:6 lambda-8-4:8; do
+	for kernel in ngp:0 cic:1 tsc:1 lambda-2:2 pcs:1 m4prime:2 lambda-2-2:2 m6prime:4 lambda-4-4:4 lambda-6-4:6 lambda-6-6:6 lambda-8-4:8 star:2; do
 		patch | remesh --cut-off 0 --kernel ${kernel%:*} | stab --plain >after
 		m=circulation
 		for power in 0 1 2 3 4 5 6 7 8; do

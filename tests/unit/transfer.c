@@ -428,10 +428,26 @@ static double kernel_at(const struct pm_kernel *k, double s)
 	return i < 0 || i >= k->width ? 0 : w[i];
 }
 
+static double value_at(const struct pm_kernel *k, bool near, double s) { return near ? floor(0.5 - s) == 0 : kernel_at(k, s); }
+
+/* A product, or a star: the sum over the axes of its weights there times the nearest points along the others, less what is counted dim - 1 times. */
+static double combined(const struct pm_kernel *k, int dim, const double own[3], const double near[3])
+{
+	double product = 1, nearest = 1, sum = 0;
+	for (int d = 0; d < dim; d++) {
+		double term = own[d];
+		for (int e = 0; e < dim; e++)
+			term *= e == d ? 1 : near[e];
+		sum += term, product *= own[d], nearest *= near[d];
+	}
+	return k->star ? sum - (dim - 1) * nearest : product;
+}
+
 /* One axis by formula: n cells from 0 on, points at i or i + 1/2; a particle at s, its periodic images or its mirror images made by reflecting it at one face
  * after the other, each time with the sign of that face. */
 struct formula {
 	const struct pm_kernel *kernel;
+	bool near;        /* the nearest point instead (of a star) */
 	double n, offset; /* [cells] */
 	bool periodic;
 	int sign[2]; /* of the image in the face: 1, -1; 0: none */
@@ -452,15 +468,15 @@ static struct formula formula_of(const struct problem *a, int c, int d)
 /* The contribution of a particle of strength 1 to point i. */
 static double received(const struct formula *f, double s, size_t i)
 {
-	double at = (double)i + f->offset, sum = kernel_at(f->kernel, at - s);
+	double at = (double)i + f->offset, sum = value_at(f->kernel, f->near, at - s);
 	for (int k = 1; k <= 8 && f->periodic; k++)
-		sum += kernel_at(f->kernel, at - s - k * f->n) + kernel_at(f->kernel, at - s + k * f->n);
+		sum += value_at(f->kernel, f->near, at - s - k * f->n) + value_at(f->kernel, f->near, at - s + k * f->n);
 	for (int first = 0; first < 2 && !f->periodic; first++) { /* the face that reflects first */
 		double image = s, strength = 1;
 		for (int k = 0; k < 8; k++) {
 			int side = (first + k) % 2;
 			image = side ? 2 * f->n - image : -image, strength *= f->sign[side];
-			sum += strength * kernel_at(f->kernel, at - image);
+			sum += strength * value_at(f->kernel, f->near, at - image);
 		}
 	}
 	return sum;
@@ -484,7 +500,7 @@ static double gathered(const struct formula *f, double s)
 {
 	double sum = 0;
 	for (double i = floor(s) - 6; i <= floor(s) + 6; i++)
-		sum += kernel_at(f->kernel, i + f->offset - s) * symmetric(f, i + f->offset);
+		sum += value_at(f->kernel, f->near, i + f->offset - s) * symmetric(f, i + f->offset);
 	return sum;
 }
 
@@ -492,28 +508,32 @@ static void by_formula(struct problem *a, int c, double worst[2])
 {
 	const struct pm_grid *g = &a->t.grid;
 	double most = 0, far[2] = {0}, *want = pm_zalloc(a->points, sizeof *want), *field = pm_zalloc(a->points, sizeof *field);
-	double *share[3]; /* of the particles, by points of each axis */
-	struct formula f[3];
+	double *share[2][3]; /* of the particles, by points of each axis: the kernel, the nearest point */
+	struct formula f[2][3];
 	struct pm_strays strays;
 	for (int d = 0; d < g->dim; d++) {
-		f[d] = formula_of(a, c, d);
-		share[d] = pm_alloc(g->points[d] * a->n, sizeof **share);
-		for (size_t i = 0; i < g->points[d]; i++)
-			for (size_t p = 0; p < a->n; p++)
-				share[d][i * a->n + p] = received(&f[d], (a->x[d][p] - g->lo[d]) / g->h[d], i);
+		for (int b = 0; b < 2; b++) {
+			f[b][d] = formula_of(a, c, d);
+			f[b][d].near = b;
+			share[b][d] = pm_alloc(g->points[d] * a->n, sizeof ***share);
+			for (size_t i = 0; i < g->points[d]; i++)
+				for (size_t p = 0; p < a->n; p++)
+					share[b][d][i * a->n + p] = received(&f[b][d], (a->x[d][p] - g->lo[d]) / g->h[d], i);
+		}
 	}
 	for (size_t i = 0; i < a->points; i++) {
 		const size_t at[3] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
 		bool used = true; /* the last point of a staggered axis is not */
 		field[i] = 1;
 		for (int d = 0; d < g->dim; d++)
-			used = used && (f[d].periodic || !f[d].offset || at[d] < g->cells[d]), field[i] *= symmetric(&f[d], (double)at[d] + f[d].offset);
+			used = used && (f[0][d].periodic || !f[0][d].offset || at[d] < g->cells[d]),
+				field[i] *= symmetric(&f[0][d], (double)at[d] + f[0][d].offset);
 		field[i] *= used;
 		for (size_t p = 0; p < a->n && used; p++) {
-			double product = a->q[c][p] / pm_grid_cell(g);
-			for (int d = 0; d < g->dim; d++)
-				product *= share[d][at[d] * a->n + p];
-			want[i] += product;
+			double part[2][3];
+			for (int d = 0; d < 2 * g->dim; d++)
+				part[d % 2][d / 2] = share[d % 2][d / 2][at[d / 2] * a->n + p];
+			want[i] += a->q[c][p] / pm_grid_cell(g) * combined(a->t.kernel, g->dim, part[0], part[1]);
 		}
 	}
 	const double *fields[MOST] = {field, field, field};
@@ -524,13 +544,13 @@ static void by_formula(struct problem *a, int c, double worst[2])
 		check_worst(&far[0], fabs(a->mesh[c][i] - want[i])), check_worst(&most, fabs(want[i]));
 	check_worst(&worst[0], far[0] / most);
 	for (size_t p = 0; p < a->n; p++) {
-		double product = 1;
-		for (int d = 0; d < g->dim; d++)
-			product *= gathered(&f[d], (a->x[d][p] - g->lo[d]) / g->h[d]);
-		check_worst(&worst[1], fabs(a->out[c][p] - product));
+		double part[2][3];
+		for (int d = 0; d < 2 * g->dim; d++)
+			part[d % 2][d / 2] = gathered(&f[d % 2][d / 2], (a->x[d / 2][p] - g->lo[d / 2]) / g->h[d / 2]);
+		check_worst(&worst[1], fabs(a->out[c][p] - combined(a->t.kernel, g->dim, part[0], part[1])));
 	}
-	for (int d = 0; d < g->dim; d++)
-		pm_free(share[d]);
+	for (int d = 0; d < 2 * g->dim; d++)
+		pm_free(share[d % 2][d / 2]);
 	pm_free(want), pm_free(field);
 }
 
@@ -705,15 +725,16 @@ static void check_exact(void)
 		double worst = 0;
 		for (size_t i = 0; i < a.points; i++) {
 			double x = (double)(i % g->points[0]), y = (double)(i / g->points[0] % g->points[1]), z = (double)(i / g->points[0] / g->points[1]);
-			a.mesh[0][i] = 1 + (a.t.kernel->moments > 0 ? x - 2 * y + z * x : 0) + (a.t.kernel->moments > 1 ? x * x - y * y * z : 0);
+			a.mesh[0][i] = 1 + (a.t.kernel->moments > 0 ? x - 2 * y + (a.t.kernel->star ? z : z * x) : 0) +
+				(a.t.kernel->moments > 1 ? x * x - y * y * (a.t.kernel->star ? 3 : z) : 0);
 		}
 		pm_gather(&a.t, a.n, in(a.x), in(a.mesh), NULL, a.out, &strays);
 		for (size_t p = 0; p < a.n; p++) {
 			double s[3];
 			for (int d = 0; d < 3; d++)
 				s[d] = (a.x[d][p] - g->lo[d]) / g->h[d];
-			double want = 1 + (a.t.kernel->moments > 0 ? s[0] - 2 * s[1] + s[2] * s[0] : 0) +
-				      (a.t.kernel->moments > 1 ? s[0] * s[0] - s[1] * s[1] * s[2] : 0);
+			double want = 1 + (a.t.kernel->moments > 0 ? s[0] - 2 * s[1] + s[2] * (a.t.kernel->star ? 1 : s[0]) : 0) +
+				      (a.t.kernel->moments > 1 ? s[0] * s[0] - s[1] * s[1] * (a.t.kernel->star ? 3 : s[2]) : 0);
 			check_worst(&worst, fabs(a.out[0][p] - want));
 		}
 		check(worst <= 1e-11, "%s gathers polynomials of degree %d per axis exactly (off by %.2g of 1000)", a.t.kernel->name, a.t.kernel->moments,
