@@ -18,7 +18,7 @@ all_there() {
 	items "$1" | sed 's/ /, /g; s/.*/**&** none: x/' >all
 	rows all | cut -f2 | tr ' ' '\n' | grep . | sort >want
 	rows "$top/docs/notes/$1.md" | cut -f2 | tr ' ' '\n' | grep . | sort >have
-	diff want have
+	diff want have || return 1
 	rows "$top/docs/notes/$1.md" | awk -F'\t' '$3 == "nothing" { print "neither a sentence nor \"none: \":" $2; bad = 1 } END { exit bad }'
 }
 
@@ -41,8 +41,8 @@ all_there() {
 	done
 }
 
-@test "a number that is off, a line too many and a missing item are told" {
-	printf '%s\n' '**S1** a thing' '' '    $ echo 0.33333 1e-17 and so on' '    0.333 <1e-15 and ...' '' '**S2-S3** another: none: x' >good
+@test "a number that is off, a line too many, a missing item and one that stands twice are told" {
+	printf '%s\n' '**S1** a thing' '' '    $ echo 0.33333 1e-17 7 and so on' '    0.333 <1e-15 7 and ...' '' '**S2-S3** another: none: x' >good
 	bash "$top/docs/notes.sh" good
 	[ "$(rows good)" = $'good\t S1\tsentence\ngood\t S2 S3\tnone' ]
 	sed 's/0.333 /0.335 /' good >bad
@@ -50,6 +50,16 @@ all_there() {
 	[[ $output == "bad, line 3: S1: echo 0.33333"*"1 sentences, 1 of them"* ]]
 	sed 's/and \.\.\./&\n    more/' good >bad
 	run -1 bash "$top/docs/notes.sh" bad
-	sed 's/1e-15/1e-18/' good >bad
-	run -1 bash "$top/docs/notes.sh" bad
+	for change in s/1e-15/1e-18/ 's/7 and \.\.\./8 and .../'; do
+		sed "$change" good >bad
+		run -1 bash "$top/docs/notes.sh" bad
+	done
+	items() { echo S1-S3; }
+	top=$PWD/tree
+	mkdir -p tree/docs/notes
+	cp "$BATS_TEST_DIRNAME/../../docs/notes.sh" tree/docs
+	for change in s/x/y/ s/S2-S3/S2/ s/S2-S3/S1-S3/ 's/none: x/x/'; do
+		sed "$change" good >tree/docs/notes/part.md
+		case $change in s/x/y/) run -0 all_there part ;; *) run -1 all_there part ;; esac
+	done
 }
