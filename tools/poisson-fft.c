@@ -4,9 +4,12 @@
 
 #include "fft/fftw-plan.h"
 #include "mesh/gradient.h"
+#include "mesh/planes.h"
 #include "poisson-fft/fft-boundary.h"
+#include "poisson-fft/influence-choice.h"
 #include "stage/plan-option.h"
 #include "stage/solver-options.h"
+#include "world/world.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -55,25 +58,6 @@ static const struct pm_example examples[] = {
 	{0},
 };
 
-/* The kernel of the source, and the order of the gradient that will compute the law's field. */
-static int influence(const struct config *o, const struct pm_frame *f, const struct pm_problem *p, struct pm_influence *i)
-{
-	const struct pm_field *source = pm_frame_field(f, p->mesh->name, p->source_name);
-	*i = (struct pm_influence){.cloud = o->cloud, .interlaced = source->interlaced};
-	while (strcmp(pm_influence_names[i->kind], o->influence))
-		i->kind++;
-	if (i->kind == PM_PLAIN)
-		return 0;
-	if (i->kind == PM_OPTIMAL && o->symbol)
-		return pm_fail(PM_USAGE, "--influence optimal has no --symbol (leave one of them out)");
-	i->order = pm_order_find(o->order ? o->order : p->law->order ? p->law->order : "2");
-	if (!strcmp(source->kernel, "several"))
-		return pm_fail(PM_DATA, "'%s' on '%s' comes from fields made with different kernels, and --influence %s corrects for one (leave it out)",
-			source->name, source->on, o->influence);
-	i->kernel = *source->kernel ? pm_kernel_find(source->kernel) : NULL;
-	return i->order < 0 || (*source->kernel && !i->kernel) ? -PM_DATA : 0;
-}
-
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
@@ -87,8 +71,9 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	double softening = !isnan(o->softening) ? o->softening : green && green->factor ? pm_frame_constant(f, "softening", NAN) : 0;
 	if (isnan(softening))
 		return pm_fail(PM_DATA, "--green %s, and the frame has no softening (--softening LENGTH, or smod --constant softening=LENGTH)", green->name);
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0, o->wave};
-	status = influence(o, f, &t->problem, &t->choice.influence);
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0, NULL, o->wave};
+	const struct pm_influence_choice influence = {.name = o->influence, .symbol = o->symbol, .order = o->order, .cloud = o->cloud};
+	status = pm_influence_choose(&influence, t->problem.law, pm_frame_field(f, t->problem.mesh->name, t->problem.source_name), &t->choice.influence);
 	if (!status && t->problem.given.any)
 		status = pm_poisson_fft_boundary_check(&t->problem.grid, &t->choice);
 	if (!status)
@@ -124,7 +109,8 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	struct pm_poisson_fft_record r;
 	struct pm_homogeneous m;
 	const int order = t->choice.symbol == PM_FD2 ? 2 : 0;
-	int status = solver ? pm_problem_move(p, f, c, order, NULL, &m) : pm_failed();
+	int status = pm_world_agree(solver ? 0 : pm_failed());
+	status = status ? status : pm_problem_move(p, f, c, order, NULL, &m);
 	if (status)
 		return status;
 	status = pm_poisson_fft_solve(solver, m.c, m.s, pm_out(p->target, c), &r);
@@ -143,9 +129,13 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	const struct pm_fft_plans *p = NULL;
-	int status = 0;
+	struct pm_planes planes;
+	int status = pm_world_agree(pm_planes_init(&planes, &t->problem.grid, t->problem.source));
+	t->choice.planes = &planes;
 	for (int c = 0; c < t->problem.source->components && !status; c++)
 		status = component(s, f, c, &p);
+	t->choice.planes = NULL;
+	pm_planes_free(&planes);
 	if (status)
 		return status;
 	char plan_text[16] = "own"; /* our own transforms: the same on all machines */
@@ -154,6 +144,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	pm_report_text(s, f, "plan", plan_text);
 	return 0;
 }
+
+/* Boundary values are computed for the whole mesh. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !((const struct state *)s->state)->problem.given.any; }
 
 static void release(struct pm_stage *s) { pm_fft_solvers_clear(&((struct state *)s->state)->solvers); }
 
@@ -175,5 +168,6 @@ const struct pm_tool tool_poisson_fft = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "poisson-fft/fft-passes.h"
+#include "world/world.h"
 
 /* n rows of L doubles, stride doubles apart, to and from a block. */
 static void gather(const double *restrict from, size_t stride, size_t n, double *restrict block)
@@ -52,10 +53,10 @@ static bool thick(const struct pm_poisson_fft *p)
  * the same. */
 static size_t slabs_of(const struct pm_poisson_fft *p)
 {
-	return thick(p) ? p->nodes[Z] : (p->line[Z].first + p->nodes[Z] + L - 1) / L;
+	return thick(p) ? p->zhere : (p->planes + L - 1) / L;
 }
 
-/* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk. */
+/* Up to L rows of a slab: row r is row j+r*dj of plane k+r*dk. Slabs count from the first one of this rank, j and k in the whole mesh. */
 struct group {
 	size_t j, k, rows, dj, dk;
 };
@@ -64,8 +65,9 @@ static struct group group_of(const struct pm_poisson_fft *p, size_t slab, size_t
 {
 	if (thick(p)) {
 		const size_t left = p->nodes[Y] - start;
-		return (struct group){.j = start, .k = slab, .dj = 1, .rows = left < L ? left : L};
+		return (struct group){.j = start, .k = p->zfirst + slab, .dj = 1, .rows = left < L ? left : L};
 	}
+	slab += p->first / L;
 	const size_t first = p->line[Z].first, from = slab ? slab * L - first : 0, end = (slab + 1) * L - first;
 	return (struct group){.k = from, .dk = 1, .rows = (end < p->nodes[Z] ? end : p->nodes[Z]) - from};
 }
@@ -196,14 +198,14 @@ static double plane_forward(const struct pm_poisson_fft *p, const struct rows *i
 	}
 	columns(p, s.modes, true, s.block);
 	for (size_t j = 0; j < p->modes[Y]; j++)
-		copy_out(p, p->w + (j * p->nodes[Z] + k) * p->row, s.modes + j * p->row, p->chunks * L);
+		copy_out(p, p->w + (j * p->zhere + k) * p->row, s.modes + j * p->row, p->chunks * L);
 	return largest;
 }
 
 static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
 	for (size_t j = 0; j < p->modes[Y]; j++)
-		memcpy(s.modes + j * p->row, p->w + (j * p->nodes[Z] + k) * p->row, p->chunks * L * sizeof *p->w);
+		memcpy(s.modes + j * p->row, p->w + (j * p->zhere + k) * p->row, p->chunks * L * sizeof *p->w);
 	columns(p, s.modes, false, s.block);
 	for (size_t j = 0; j < p->nodes[Y]; j += L) {
 		struct group g = group_of(p, k, j);
@@ -220,14 +222,16 @@ double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *
 	for (size_t i = 0; i < slabs; i++) {
 		struct scratch s = thread_scratch(p);
 		struct group g = group_of(p, i, 0);
+		if (!g.rows) /* only a wall */
+			continue;
 		if (plane && forward)
 			largest = fmax(largest, plane_forward(p, io, i, s));
 		else if (plane)
 			plane_backward(p, io, i, s);
 		else if (forward)
-			largest = fmax(largest, rows_forward(p, io, &g, s, p->w + g.k * p->row));
+			largest = fmax(largest, rows_forward(p, io, &g, s, p->w + (g.k - p->zfirst) * p->row));
 		else
-			rows_backward(p, io, &g, s, p->w + g.k * p->row);
+			rows_backward(p, io, &g, s, p->w + (g.k - p->zfirst) * p->row);
 		pm_stream_end();
 	}
 	return largest;
@@ -311,10 +315,10 @@ static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, d
 	}
 }
 
-static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at)
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at, size_t stride)
 {
 	const struct pm_transform *l = &p->line[Z];
-	gather(at, p->row, p->nodes[Z], block + l->row * L);
+	gather(at, stride, p->nodes[Z], block + l->row * L);
 	(l->fold ? pm_transform_real : forward)(l, block);
 	if (j == 0 && c == 0)
 		p->zero = block[0];
@@ -325,23 +329,34 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 	else
 		real_pencils(p, j, c, factor, block);
 	(l->fold ? pm_transform_real_back : pm_transform_backward)(l, block);
-	scatter(block + l->row * L, p->nodes[Z], p->row, at);
+	scatter(block + l->row * L, p->nodes[Z], stride, at);
 }
 
-void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor)
+/* A unit of pencils: a slab of a row of modes y, in 2-D one chunk. */
+static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scratch s, double *slab)
 {
-	bool plane = thick(p);
-	size_t slabs = plane ? p->modes[Y] : p->chunks, size = p->nodes[Z] * p->row;
+	if (!thick(p))
+		pencils(p, 0, u, factor, s.block, slab, p->from ? L : p->row);
+	for (size_t c = 0; c < p->chunks && thick(p); c++)
+		pencils(p, u, c, factor, s.block, slab + c * L, p->row);
+}
+
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own)
+{
+	const bool plane = thick(p);
+	const size_t me = own ? (size_t)pm_world_rank() : 0, first = own ? p->units_of[me] : 0, size = p->nodes[Z] * p->row;
+	const size_t units = own ? p->units_of[me + 1] - first : plane ? p->modes[Y] : p->chunks;
 #pragma omp parallel for schedule(static) num_threads(p->threads)
-	for (size_t i = 0; i < slabs; i++) {
+	for (size_t i = 0; i < units; i++) {
 		struct scratch s = thread_scratch(p);
-		if (!plane) {
-			pencils(p, 0, i, factor, s.block, p->w + i * L);
-			continue;
-		}
-		memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
-		for (size_t c = 0; c < p->chunks; c++)
-			pencils(p, i, c, factor, s.block, s.modes + c * L);
-		memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
+		if (own)
+			pm_poisson_fft_unit(p, i, own, s.modes, false);
+		else if (plane)
+			memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
+		unit(p, first + i, factor, s, own || plane ? s.modes : p->w + i * L);
+		if (own)
+			pm_poisson_fft_unit(p, i, own, s.modes, true);
+		else if (plane)
+			memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
 	}
 }

@@ -3,7 +3,7 @@
 #define PM_POISSON_FFT_FFT_PASSES_H
 
 #include "fft/axis-transform.h"
-#include "mesh/grid.h"
+#include "mesh/planes.h"
 #include "poisson-fft/poisson-fft.h"
 
 enum { L = PM_FFT_LINES, H = PM_FFT_LINES / 2, X = 0, Y = 1, Z = 2 };
@@ -18,7 +18,12 @@ struct pm_poisson_fft {
 	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
 	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */
 	size_t row;                    /* [doubles] stride of rows */
-	double *w;                     /* [modes[Y]][nodes[Z]][row]: a pencil's slab is in one piece, a plane's rows are not */
+	double *w;                     /* [modes[Y]][zhere][row]: a pencil's slab is in one piece, a plane's rows are not */
+	size_t planes, first;          /* of the mesh, those here and the number of the first one (mesh/planes.h) */
+	size_t zhere, zfirst;          /* those that take part, nodes along z: all of them and 0, or those of this rank */
+	uint64_t *from;                /* NULL, or the division of the planes among the ranks, ranks + 1 numbers, and behind it: */
+	uint64_t *nodes_of, *units_of; /* the same for nodes along z, and for what pencils are dealt by: modes along y, in 2-D chunks */
+	size_t *bytes;                 /* of the pieces that are sent to, and come from, every rank */
 	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
 	double *green;                 /* open: transform of the Green's function over open axes (fft-open.c) */
 	size_t green_row, green_slab;  /* [doubles] green[y][z][x], x in the order of the modes */
@@ -42,8 +47,19 @@ struct rows {
 
 /* Forward it returns the largest absolute source of a singular problem. */
 double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
-/* Forward along z, times factor/lambda or factor*green, and back. */
-void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor);
+/* Forward along z, times factor/lambda or factor*green, and back. pencils: NULL, or those of this rank, of pm_poisson_fft_to_pencils. */
+void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *pencils);
+int pm_poisson_fft_work(struct pm_poisson_fft *p); /* w, if it is not there */
+
+/* Of fft-ranks.c. The division of the work; is it the one of these planes? */
+int pm_poisson_fft_ranks(struct pm_poisson_fft *p, const struct pm_planes *planes);
+bool pm_poisson_fft_same_ranks(const struct pm_poisson_fft *p, const struct pm_planes *planes);
+/* w to the pencils of this rank, and back (frees them). They take the caller's status and return the agreed one. */
+int pm_poisson_fft_to_pencils(int status, struct pm_poisson_fft *p, double **pencils);
+int pm_poisson_fft_to_planes(int status, struct pm_poisson_fft *p, double **pencils);
+/* One unit of them, nodes[Z] rows of modes (in 2-D of L numbers), to a slab or back; and the mode of constants, which one rank has, to all. */
+void pm_poisson_fft_unit(const struct pm_poisson_fft *p, size_t unit, double *pencils, double *slab, bool back);
+int pm_poisson_fft_zero(int status, struct pm_poisson_fft *p);
 
 /* Eigenvalues of the modes of an axis by the row they are in, -1 beyond up to size; NULL with a message. */
 double *pm_poisson_fft_eigenvalues(const struct pm_transform *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h);

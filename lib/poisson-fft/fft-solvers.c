@@ -1,6 +1,7 @@
 /* A few solvers by transforms kept ready for the grids of a stream. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "poisson-fft/fft-passes.h"
 #include "poisson-fft/fft-solvers.h"
 
 static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
@@ -13,7 +14,7 @@ struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const
 {
 	for (const struct pm_fft_made *m = s->made; m < s->made + s->n; m++)
 		if (o->symbol == m->symbol && o->fitted == m->fitted && o->softening == m->softening && pm_influence_same(&o->influence, &m->influence) &&
-			same_grid(g, &m->grid))
+			same_grid(g, &m->grid) && pm_poisson_fft_same_ranks(m->solver, o->planes))
 			return m->solver;
 	return NULL;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "poisson-fft/fft-passes.h"
+#include "world/world.h"
 
 bool pm_poisson_fft_singular(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
@@ -36,7 +37,7 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
 {
 	const struct pm_grid *g = &p->grid;
-	size_t y = p->line[Y].first + j, z = p->line[Z].first + k;
+	size_t y = p->line[Y].first + j, z = p->line[Z].first + k - p->first;
 	return g->points[0] * (g->dim == 2 ? z : y + g->points[1] * z);
 }
 
@@ -70,16 +71,40 @@ static int scratch_ready(struct pm_poisson_fft *p)
 	return 0;
 }
 
-/* The nodes on the wall faces that no row covers. */
-static void zero_walls(const struct pm_grid *g, double *phi)
+/* The nodes on the wall faces that no row covers, of the planes here: rows of each plane, and the first and last plane (in 2-D row). */
+static void zero_walls(const struct pm_poisson_fft *p, double *phi)
 {
-	size_t nx = g->points[0], ny = g->points[1], nz = g->points[2];
-	for (int side = 0; side < 2; side++) {
-		for (size_t k = 0; k < nz && g->dim > 1 && g->face[1][side] == PM_WALL; k++)
+	const struct pm_grid *g = &p->grid;
+	const int last = g->dim - 1;
+	const size_t nx = g->points[0], ny = g->points[1], size = pm_grid_size(g) / g->points[last];
+	for (int side = 0; side < 2 && last > 0; side++) {
+		const size_t end = side ? g->points[last] - 1 : 0;
+		for (size_t k = 0; k < p->planes && g->dim > 2 && g->face[1][side] == PM_WALL; k++)
 			memset(phi + (k * ny + (side ? ny - 1 : 0)) * nx, 0, nx * sizeof *phi);
-		if (g->dim > 2 && g->face[2][side] == PM_WALL)
-			memset(phi + (side ? nz - 1 : 0) * ny * nx, 0, nx * ny * sizeof *phi);
+		if (g->face[last][side] == PM_WALL && end >= p->first && end - p->first < p->planes)
+			memset(phi + (end - p->first) * size, 0, size * sizeof *phi);
 	}
+}
+
+int pm_poisson_fft_work(struct pm_poisson_fft *p)
+{
+	return p->w || p->empty || (p->w = pm_zalloc(p->modes[Y] * p->zhere + 1, p->row * sizeof *p->w)) ? 0 : -PM_DATA;
+}
+
+/* Along z: here, or with the planes of the other ranks turned to pencils and back. */
+static int along_z(int status, struct pm_poisson_fft *p, double factor)
+{
+	double *own = NULL;
+	if (!p->from) {
+		if (!status)
+			pm_poisson_fft_pencils(p, factor, NULL);
+		return status;
+	}
+	status = pm_poisson_fft_to_pencils(status, p, &own);
+	if (!status)
+		pm_poisson_fft_pencils(p, factor, own);
+	status = pm_poisson_fft_to_planes(status, p, &own);
+	return p->singular ? pm_poisson_fft_zero(status, p) : status;
 }
 
 int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r)
@@ -87,19 +112,23 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	if (r)
 		*r = (struct pm_poisson_fft_record){0};
 	if (p->empty) {
-		memset(phi, 0, pm_grid_size(&p->grid) * sizeof *phi);
+		memset(phi, 0, pm_grid_size(&p->grid) / (p->grid.dim == 1 ? 1 : p->grid.points[p->grid.dim - 1]) * p->planes * sizeof *phi);
 		return 0;
 	}
-	if (scratch_ready(p))
-		return -PM_DATA;
 	struct rows io = {.p = p, .s = s, .phi = phi, .from = source_row, .to = result_row};
-	double norm = 1;
+	double norm = 1, largest = 0;
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
-	double largest = pm_poisson_fft_planes(p, &io, true);
-	pm_poisson_fft_pencils(p, c * norm);
+	int status = scratch_ready(p) || pm_poisson_fft_work(p) ? -PM_DATA : 0;
+	if (!status)
+		largest = pm_poisson_fft_planes(p, &io, true);
+	if (p->from && p->singular)
+		status = pm_world_largest(status, 1, &largest);
+	status = along_z(status, p, c * norm);
+	if (status)
+		return status;
 	pm_poisson_fft_planes(p, &io, false);
-	zero_walls(&p->grid, phi);
+	zero_walls(p, phi);
 	if (p->singular && r)
 		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
 	return 0;
@@ -133,8 +162,10 @@ static int layout(struct pm_poisson_fft *p)
 	p->block = odd_stride((most + 1) * L);
 	p->rows = odd_stride(p->nodes[X] * L);
 	size_t slab = p->modes[Y] > p->nodes[Z] ? p->modes[Y] : p->nodes[Z];
-	p->lot = p->block + p->rows + (g->dim == 3 ? odd_stride((slab + L) * p->row) : 0);
-	return p->empty || (p->w = pm_zalloc(p->modes[Y] * p->nodes[Z], p->row * sizeof *p->w)) ? 0 : -PM_DATA;
+	p->lot = p->block + p->rows + (g->dim == 3 ? odd_stride((slab + L) * p->row) : p->choice.planes ? odd_stride((p->nodes[Z] + 1) * L) : 0);
+	const int status = pm_poisson_fft_ranks(p, p->choice.planes);
+	p->choice.planes = NULL; /* the caller's */
+	return status ? status : pm_poisson_fft_work(p);
 }
 
 /* Of X, Y, Z; a line of fd2 is fitted (fft-fitted.c). */
@@ -203,6 +234,7 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
 	if (!p)
 		return NULL;
 	pm_fft_plans_clear(&p->planner);
+	free(p->from), free(p->bytes);
 	pm_free(p->w);
 	pm_free(p->green);
 	pm_free(p->fold);

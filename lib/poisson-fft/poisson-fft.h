@@ -17,6 +17,8 @@ int pm_symbol_find(const char *name);       /* -1 and a message if it is none */
 /* The eigenvalue [1/length^2] of -k^2, or of the centred second difference of order 2, 4 or 6, on exp(i*theta*x/h). */
 double pm_symbol_value(enum pm_symbol symbol, double theta, double h);
 
+struct pm_planes;
+
 struct pm_poisson_fft_choice {
 	enum pm_symbol symbol;
 	double screening; /* K [1/length] in lap phi - K^2 phi = c*s; 0: Poisson's equation */
@@ -25,6 +27,7 @@ struct pm_poisson_fft_choice {
 	                               * Of plummer epsilon, 0: none */
 	struct pm_influence influence; /* of periodic boxes */
 	int fitted; /* 1 + 2 axis + (neumann): known values on faces of that axis, walls or neumann ones (fft-fitted.c); 0: a source */
+	const struct pm_planes *planes; /* NULL, or those of s and phi that this rank has, to be there for pm_poisson_fft_new (mesh/planes.h) */
 	double wave; /* a [1/length] in lap phi + a^2 phi = c*s (Helmholtz) instead of K; no open faces */
 };
 

@@ -110,14 +110,21 @@ shares() {
 		same "p2m -n 8x9x5 | poisson-fft | mgrad --order 6 | mgrad --operator curl --source g --target c | m2p | push rk2" --store all
 }
 
-@test "push, walk, field, scalc, mgrad, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
+@test "any number of ranks: transforms between all faces, in open space, with influence functions, of vectors" {
+	pinit uniform -n 300 --faces wall,neumann,open,open,open,wall | same "p2m -n 7x12x11 | poisson-fft | mgrad | push drift"
+	pinit uniform -n 300 --dim 2 --faces wall,neumann,wall,wall | same "p2m -n 31x17 | poisson-fft | mgrad | push drift"
+	pinit uniform -n 300 | same "p2m -n 12x6x5 | poisson-fft --influence deconvolved --symbol fd4 --screening 2 | mgrad | push drift"
+	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | m2p | push rk2"
+}
+
+@test "push, walk, field, scalc, poisson-fft, mgrad, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
-	shares "push kick/2 drift, mgrad, push kick/2" "$(kicks "$(force 8)")" <start
+	shares "push kick/2 drift, poisson-fft, mgrad, push kick/2" "$(kicks "$(force 8)")" <start
 	shares "scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
-	shares "push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
+	shares "poisson-fft, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
