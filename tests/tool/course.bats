@@ -1,13 +1,16 @@
 # docs/notes: every sentence prints what the page says, and every item of the three courses has its row. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
-parts="koumoutsakos sbalzarini"
+parts="koumoutsakos sbalzarini springel pp-pm"
 
 # The items of a course, each to stand on its page once.
 items() {
 	case $1 in
 		koumoutsakos) echo S01-S107 N01-N45 H01-H39 C1-C14 ERR1-ERR51 E1-E4 ;;
 		sbalzarini) echo A1-A9 B1-B6 C1-C9 D1-D6 E1-E3 F1-F10 G0-G4 H1-H4 K1-K15 N1-N21 N30-N57 N60-N65 S1-S50 X1-X51 ;;
+		springel) echo FP1-FP7 OD1-OD12 CL1-CL4 TR1-TR6 PM1-PM11 FT1-FT7 MG1-MG8 MD1-MD19 MC1-MC14 GD1-GD11 FV1-FV14 SP1-SP8 \
+			FE1-FE2 DG1-DG6 PA1-PA6 N1-N74 H1-H77 E1-E39 ;;
+		pp-pm) echo P1-P14 N1-N9 T1-T13 E1-E8 ;;
 	esac
 }
 
@@ -28,6 +31,14 @@ all_there() {
 
 @test "Sbalzarini: every sentence prints what docs/notes/sbalzarini.md says" {
 	bash "$top/docs/notes.sh" "$top/docs/notes/sbalzarini.md"
+}
+
+@test "Springel and Gräter: every sentence prints what docs/notes/springel.md says" {
+	bash "$top/docs/notes.sh" "$top/docs/notes/springel.md"
+}
+
+@test "PP and PM: every sentence prints what docs/notes/pp-pm.md says" {
+	bash "$top/docs/notes.sh" "$top/docs/notes/pp-pm.md"
 }
 
 @test "every item of the courses is in docs/notes/ once, with a sentence or the reason why there is none" {
