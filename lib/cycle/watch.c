@@ -43,9 +43,9 @@ static int compare(const struct pm_watch *w, const struct pm_frame *f, const str
 		a.sum += here ? w->first.of[k].sum : 0;
 		a.scale += here ? w->first.of[k].scale : 0;
 		b.sum += here ? here->sum : 0;
-		b.scale += here ? here->scale : 0;
+		b.size += here ? here->size : 0;
 	}
-	const double change = b.sum - a.sum - allowed, round_off = 1e-9 * (b.scale + fabs(allowed)); /* of sums that have grown */
+	const double change = b.sum - a.sum - allowed, round_off = 1e-9 * (b.size + fabs(allowed)); /* of sums that have grown */
 	if (fabs(change) <= pm_strength_tolerance * a.scale + round_off)
 		return 0;
 	return pm_fail(PM_NUMERICS, "the sum of '%s' went from %.6g to %.6g; for %.3g of that no absorbing face, cut-off, --outside drop or given rate "

@@ -42,8 +42,14 @@ static int plan_set(struct pm_frame *f, const struct pm_set *s, const struct pm_
 	good = good && (!source || pm_reads(f, s->name, far->strength)) && (!pushed || !far->per || pm_reads(f, s->name, far->per));
 	if (good && pushed)
 		good = pm_contributes(f, s->name, far->change, far->of, f->dim, term, replace);
+	if (good && pushed && source && far->turning) {
+		struct pm_field *rate = pm_contributes(f, s->name, far->turning, far->strength, 3, "stretching", replace);
+		good = rate;
+		if (rate)
+			rate->extensive = true;
+	}
 	if (good && target && far->with_potential)
-		good = pm_makes(f, s->name, far->potential, 1, PM_DERIVED);
+		good = pm_makes(f, s->name, far->potential, far->vector ? 3 : 1, PM_DERIVED);
 	return good ? 0 : -PM_DATA;
 }
 
@@ -94,8 +100,10 @@ static int put(int status, const struct pm_frame *f, const struct pm_set *s, con
 	const struct pm_field *q = state_of(f, s, far->strength), *x = state_of(f, s, "x");
 	for (int d = 0; d < f->dim; d++)
 		status = all_of(status, x, d, status ? NULL : b->x[d] + b->n);
-	if (q)
+	if (q && !far->vector)
 		status = all_of(status, q, 0, status ? NULL : b->q + b->n);
+	for (int d = 0; q && far->vector && d < 3; d++)
+		status = all_of(status, q, d, status ? NULL : b->alpha[d] + b->n);
 	if (status)
 		return status;
 	b->own[2 * b->sets] = x->first, b->own[2 * b->sets + 1] = x->first + x->count;
@@ -108,9 +116,14 @@ int pm_bodies_gather(const struct pm_frame *f, const struct pm_far *far, struct 
 	size_t n = 1, size = sizeof(double);
 	for (size_t i = 0; i < f->nsets; i++)
 		n += f->sets[i]->n;
-	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .potential = far->with_potential ? pm_alloc(n, size) : NULL,
-		.count = pm_alloc(f->nsets + 1, sizeof *b->count), .own = pm_alloc(2 * f->nsets + 1, sizeof *b->own)};
-	bool good = b->q && b->count && b->own && (b->potential || !far->with_potential);
+	*b = (struct pm_bodies){.q = pm_zalloc(n, size), .count = pm_alloc(f->nsets + 1, sizeof *b->count),
+		.own = pm_alloc(2 * f->nsets + 1, sizeof *b->own)};
+	b->potential = far->with_potential && !far->vector ? pm_alloc(n, size) : NULL;
+	bool good = b->q && b->count && b->own && (b->potential || !far->with_potential || far->vector);
+	for (int d = 0; d < 3 && far->vector; d++) {
+		b->alpha[d] = pm_zalloc(n, size), b->rate[d] = pm_alloc(n, size), b->psi[d] = far->with_potential ? pm_alloc(n, size) : NULL;
+		good = good && b->alpha[d] && b->rate[d] && (b->psi[d] || !far->with_potential);
+	}
 	for (int d = 0; d < f->dim; d++) {
 		b->x[d] = pm_alloc(n, size), b->gradient[d] = pm_alloc(n, size);
 		good = good && b->x[d] && b->gradient[d];
@@ -172,6 +185,28 @@ static void add(const struct pm_frame *f, const struct pm_set *s, const struct p
 	}
 }
 
+/* Velocity and the rate of the strengths, with the strain: what turns alpha is no faster than the flow strains. */
+static void add_vortices(const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, double c, const struct pm_bodies *b, size_t at)
+{
+	struct pm_field *change = pm_frame_field(f, s->name, far->change), *turning = far->turning && state_of(f, s, far->strength) ?
+		pm_frame_field(f, s->name, far->turning) : NULL;
+	double strain = 0;
+	for (int d = 0; d < f->dim; d++) {
+		double *y = pm_out(change, d), *r = turning ? pm_out(turning, d) : NULL;
+		for (size_t i = 0; i < s->n; i++)
+			y[i] -= c * b->gradient[d][at + i];
+		for (size_t i = 0; r && i < s->n; i++)
+			r[i] -= c * b->rate[d][at + i];
+	}
+	for (size_t i = 0; turning && i < s->n; i++) {
+		double rate = 0, size = 0;
+		for (int d = 0; d < 3; d++)
+			rate = hypot(rate, c * b->rate[d][at + i]), size = hypot(size, b->alpha[d][at + i]);
+		strain = size > 0 ? fmax(strain, rate / size) : strain;
+	}
+	pm_limits_add(change, (struct pm_limits){.strain = strain});
+}
+
 void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coefficient, const struct pm_bodies *b)
 {
 	size_t at = 0;
@@ -181,7 +216,9 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 			continue;
 		const struct pm_field *x = state_of(f, s, "x");
 		const size_t here = at + x->first;
-		if (is_accelerated(f, s, far)) {
+		if (far->vector && is_accelerated(f, s, far)) {
+			add_vortices(f, s, far, coefficient, b, here);
+		} else if (is_accelerated(f, s, far)) {
 			const double rate = orbits(f, s, far, x, coefficient, b, here);
 			add(f, s, far, coefficient, b, here);
 			pm_limits_add(pm_frame_field(f, s->name, far->change), strcmp(far->of, "x") ?
@@ -190,6 +227,11 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 		double *phi = b->potential ? pm_out(pm_frame_field(f, s->name, far->potential), 0) : NULL;
 		for (size_t k = 0; phi && k < x->count; k++)
 			phi[k] = coefficient * b->potential[here + k];
+		for (int d = 0; d < 3 && b->psi[d]; d++) {
+			double *psi = pm_out(pm_frame_field(f, s->name, far->potential), d);
+			for (size_t k = 0; k < x->count; k++)
+				psi[k] = -coefficient * b->psi[d][here + k];
+		}
 		at += s->n;
 	}
 }
@@ -197,7 +239,7 @@ void pm_bodies_scatter(struct pm_frame *f, const struct pm_far *far, double coef
 void pm_bodies_free(struct pm_bodies *b)
 {
 	for (int d = 0; d < 3; d++)
-		pm_free(b->x[d]), pm_free(b->gradient[d]);
+		pm_free(b->x[d]), pm_free(b->gradient[d]), pm_free(b->alpha[d]), pm_free(b->rate[d]), pm_free(b->psi[d]);
 	pm_free(b->q), pm_free(b->potential), pm_free(b->count), pm_free(b->own);
 	*b = (struct pm_bodies){.n = 0};
 }

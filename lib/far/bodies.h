@@ -14,6 +14,8 @@ struct pm_far {
 	bool curl;                /* field = (d psi/dy, -d psi/dx), else sign * gradient */
 	double sign;
 	const char *set;          /* the only set acted on; NULL all. Every set with the strength is a source */
+	const char *turning;      /* of vortices in space, whose strength is a vector: its rate of change, NULL not wanted */
+	bool vector;              /* the strength and the potential have 3 components, and the field is a velocity */
 	bool with_potential;      /* also for sets that are fixed: they store energy */
 };
 
@@ -22,6 +24,7 @@ struct pm_bodies {
 	size_t sets, *count, *own;        /* the sets in this order, the particles of each, and of each [first, end) of those that are here */
 	double *x[3], *q;                 /* n each; q is 0 for test particles */
 	double *gradient[3], *potential;  /* room for n each, of unit coefficient; potential NULL if not wanted */
+	double *alpha[3], *rate[3], *psi[3]; /* of vector strengths: n each as q and room for n each; NULL otherwise, psi also if not wanted */
 };
 
 int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, bool replace);

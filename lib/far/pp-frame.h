@@ -9,13 +9,19 @@ struct pm_pp_choice {
 	const char *mollifier;    /* NULL: the law's, else plummer */
 	const char *set;          /* the only set acted on; NULL all */
 	double softening;         /* [length]; NAN: the frame's constant */
-	bool half;                /* each pair once */
+	double overlap;           /* of vector strengths without either: the core over their spacing (mean volume)^(1/3) */
+	int form;                 /* of vector strengths: enum pm_pp_form */
+	bool half;                /* each pair once; of scalar strengths */
 	bool potential, replace;  /* also the potential; the term self anew */
 };
 
 /* Each 0 or failure. Header: */
 int pm_pp_declare(const struct pm_pp_choice *c, struct pm_frame *f);
-/* Data: the sums, added to the changes; *coincident pairs exerted nothing. */
-int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, uint64_t *coincident);
+struct pm_pp_done {
+	uint64_t coincident; /* pairs that exerted nothing */
+	double core;         /* [length] that followed from the overlap; 0: none did */
+};
+/* Data: the sums, added to the changes. */
+int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, struct pm_pp_done *done);
 
 #endif

@@ -15,6 +15,10 @@ static inline double pm_bare_force(double r2, int dim)
 	return dim == 1 ? 0.5 / sqrt(r2) : dim == 2 ? 0.5 / (pm_pi * r2) : 0.25 / (pm_pi * r2 * sqrt(r2));
 }
 
+static const double pm_bare_least_slope = 1e-120; /* of r2: below it the slope, and of vortices the force too, counts as that of coincident points */
+
+static inline double pm_bare_slope(double r2) { return r2 < pm_bare_least_slope ? 0 : -0.75 / (pm_pi * r2 * r2 * sqrt(r2)); }
+
 static inline double pm_bare_potential(double r2, int dim)
 {
 	if (r2 < pm_bare_least)

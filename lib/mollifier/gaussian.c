@@ -58,6 +58,20 @@ static double potential(double r2, double delta, int dim)
 	return -(s < 1e-9 ? 2 / root_pi : erf(s) / s) / (4 * pm_pi * delta);
 }
 
+/* (4 exp(-s^2)/sqrt(pi) - 3 F)/s^2 of F = 4 pi delta^3 f; below s = 1 by the series of the derivative. */
+static double slope(double r2, double delta)
+{
+	double d2 = delta * delta, s2 = r2 / d2, sum = 0, power = 1;
+	if (r2 >= REACH2 * d2)
+		return pm_bare_slope(r2);
+	for (int k = 0; k < 20 && s2 < 1; k++) {
+		sum -= power * 6 / (2 * k + 5);
+		power *= -s2 / (k + 1);
+	}
+	double part = s2 < 1 ? 4 / (3 * root_pi) * sum : (4 / root_pi * exp(-s2) - 12 * pm_pi * d2 * delta * force(r2, delta, 3)) / s2;
+	return part / (4 * pm_pi * d2 * d2 * delta);
+}
+
 const struct pm_mollifier mollifier_gaussian = {
 	.name = "gaussian",
 	.sentence = "a Gaussian blob exp(-(r/delta)^2)",
@@ -65,5 +79,7 @@ const struct pm_mollifier mollifier_gaussian = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.force = force,
 	.potential = potential,
+	.slope = slope,
+	.loop = PM_LOOP_GAUSSIAN,
 	.reach = 6.5,
 };

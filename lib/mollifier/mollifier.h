@@ -15,10 +15,14 @@ struct pm_mollifier {
 	 * potential far away. Bare: f = 1/(2r), 1/(2 pi r^2), 1/(4 pi r^3); phi = r/2, ln(r)/(2 pi), -1/(4 pi r) in 1-D, 2-D, 3-D. */
 	double (*force)(double r2, double delta, int dim);
 	double (*potential)(double r2, double delta, int dim);
+	/* In 3-D: 2 df/d(r2) = f'(r)/r, by which the velocity gradient of a vortex is smoothed; bare -3/(4 pi r^5). NULL where it is not defined in 3-D. */
+	double (*slope)(double r2, double delta);
 	int order;    /* power of delta/r in force/bare - 1 far away; 0: exact for r >= reach*delta */
 	double reach; /* beyond reach*delta it equals the bare kernel to round-off; 0: nowhere */
 	bool square;  /* force and potential are the bare ones at r2 + delta^2; the fast loops use this */
 	bool bare;    /* delta is not used */
+	/* How the fast loops over vectors evaluate others (far/vortex-pairs.h). */
+	enum pm_mollifier_loop { PM_LOOP_OWN, PM_LOOP_GAUSSIAN, PM_LOOP_ALGEBRAIC } loop;
 };
 
 extern const struct pm_mollifier *const pm_mollifiers[]; /* generated from lib/mollifier/, NULL ends */

@@ -15,6 +15,12 @@ static double potential(double r2, double delta, int dim)
 	return pm_bare_potential(r2, dim);
 }
 
+static double slope(double r2, double delta)
+{
+	(void)delta;
+	return pm_bare_slope(r2);
+}
+
 const struct pm_mollifier mollifier_none = {
 	.name = "none",
 	.sentence = "the bare kernel of a point",
@@ -22,6 +28,7 @@ const struct pm_mollifier mollifier_none = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.force = force,
 	.potential = potential,
+	.slope = slope,
 	.square = true,
 	.bare = true,
 };

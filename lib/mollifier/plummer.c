@@ -7,6 +7,8 @@ static double force(double r2, double delta, int dim) { return pm_bare_force(r2 
 
 static double potential(double r2, double delta, int dim) { return pm_bare_potential(r2 + delta * delta, dim); }
 
+static double slope(double r2, double delta) { return pm_bare_slope(r2 + delta * delta); }
+
 const struct pm_mollifier mollifier_plummer = {
 	.name = "plummer",
 	.sentence = "the bare kernel at sqrt(r^2 + delta^2)",
@@ -14,6 +16,7 @@ const struct pm_mollifier mollifier_plummer = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.force = force,
 	.potential = potential,
+	.slope = slope,
 	.order = 2,
 	.square = true,
 };

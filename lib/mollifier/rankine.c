@@ -20,6 +20,8 @@ static double potential(double r2, double delta, int dim)
 	return dim == 2 ? (log(delta) + 0.5 * (s2 - 1)) / (2 * pm_pi) : -(3 - s2) / (8 * pm_pi * delta);
 }
 
+static double slope(double r2, double delta) { return r2 >= delta * delta ? pm_bare_slope(r2) : 0; }
+
 const struct pm_mollifier mollifier_rankine = {
 	.name = "rankine",
 	.sentence = "a ball of constant density and radius delta",
@@ -27,5 +29,6 @@ const struct pm_mollifier mollifier_rankine = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.force = force,
 	.potential = potential,
+	.slope = slope,
 	.reach = 1,
 };

@@ -59,6 +59,8 @@ const struct pm_strength *pm_strength_find(const struct pm_strengths *s, const c
 
 void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 {
+	const int first = s->n;
+	double largest = 0;
 	for (int c = 0; c < field->components && s->n < PM_STRENGTHS; c++) {
 		struct pm_strength *one = &s->of[s->n];
 		pm_strength_name(field, c, one->name);
@@ -72,7 +74,10 @@ void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 			one->sum = (double)field->count * field->value[c];
 			one->scale = fabs(one->sum);
 		}
+		largest = fmax(largest, one->scale);
 	}
+	for (int i = first; i < s->n; i++)
+		s->of[i].size = largest;
 }
 
 void pm_strengths_of(const struct pm_frame *f, const char *set, struct pm_strengths *s)

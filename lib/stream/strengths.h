@@ -15,6 +15,7 @@ struct pm_strength {
 	char on[PM_NAME];            /* the set */
 	char name[PM_STRENGTH_NAME]; /* of the field; with _0, _1 ... for its components if it has several */
 	double sum, scale;           /* of the values, and of their absolute values */
+	double size;                 /* the largest scale of the components of the same vector: a component that vanishes has round-off of this */
 };
 struct pm_strengths {
 	int n;

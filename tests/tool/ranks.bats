@@ -65,6 +65,7 @@ vortices() {
 	vortices --number | same "p2m | poisson-fft | mgrad | m2p | push rk2 | walk --nu 0.01"
 	vortices | same "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3"
 	pinit polygon -n 7 --disturbance 1e-3 | same "pp | field 'vel = -y, x + sin(time)' 'dcirculation = -0.1*circulation' | push rk4"
+	pinit vortex-ring --core 0.2 --cells 20x20x10 | same "pp --potential | push rk2"
 }
 
 @test "any number of ranks: plasmas, magnetised electrons, two sets, particles that leave" {
