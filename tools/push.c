@@ -18,6 +18,7 @@ struct state { /* set by declare for frame */
 	struct pm_moving *moving;
 	size_t n;
 	const struct pm_mesh *mesh; /* for the Courant number; NULL none */
+	struct pm_control_tally tally;
 };
 
 static int begin(struct pm_stage *s)
@@ -108,12 +109,12 @@ static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_mo
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *cfg = s->config;
-	const struct state *state = s->state;
+	struct state *state = s->state;
 	const double *h = state->mesh && cfg->push.moves ? state->mesh->h : NULL;
 	double crossed = 0;
 	int status = 0;
 	if (pm_control_chosen(&cfg->push))
-		return pm_control_pass(s, f, state->n, state->moving, &cfg->push);
+		return pm_control_pass(s, f, state->n, state->moving, &cfg->push, &state->tally);
 	for (size_t i = 0; i < state->n && !status; i++)
 		status = stable(s, f, &state->moving[i]);
 	for (size_t i = 0; i < state->n && !status; i++)
@@ -126,6 +127,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return pm_moving_divided(&((const struct config *)s->config)->push, f); }
 
+static int end(struct pm_stage *s) { return pm_control_end(s, &((const struct config *)s->config)->push, &((const struct state *)s->state)->tally); }
+
 static void release(struct pm_stage *s) { free(((struct state *)s->state)->moving); }
 
 static const struct pm_option options[] = {
@@ -133,8 +136,7 @@ static const struct pm_option options[] = {
 	PM_CONTROL_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "moves this set only; time advances when the others have moved too"},
 	{.name = "open", .kind = PM_FLAG, PM_AT(push.open), .text = "the drift does not complete the step: a kick is still to come"},
-	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe),
-		.text = "allow steps for which the scheme is not stable, too long for a decay (diffusion) or an oscillation"},
+	{.name = "unsafe", .kind = PM_FLAG, PM_AT(push.unsafe), .text = "allow steps too long for the scheme to be stable, in a decay or an oscillation"},
 	{0},
 };
 
@@ -149,10 +151,9 @@ const struct pm_tool tool_push = {
 	.name = "push",
 	.summary = "advance state by its rates, and time with it",
 	.about = "Actions are kick[/N], drift[/N], boris/2 (a kick that also rotates v about bfield) and clear, or one whole scheme, which takes one pass of "
-		"the sentence per stage. A set with v moves by "
-		"x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that names it. A missing rate is an error, never "
-		"zero. Moving particles drops change and derived fields; kick keeps them. A step is complete when drift has reached 1 and kick 0 or 1 in "
-		"every set that moves. Particles are folded, mirrored or absorbed at the faces of the box.",
+		"the sentence per stage. A set with v moves by x' = v, v' = acc; a set with x alone by x' = vel; any other state by the change field that "
+		"names it. A missing rate is an error, never zero. Moving particles drops change and derived fields; kick keeps them. A step is complete "
+		"when drift has reached 1 and kick 0 or 1 in every set that moves. Particles are folded, mirrored or absorbed at the faces of the box.",
 	.kind = PM_FILTER,
 	.reads = "v, acc, vel and other change fields; bfield, charge and mass for boris",
 	.changes = "x, v and the states that change fields name; time, step",
@@ -163,8 +164,8 @@ const struct pm_tool tool_push = {
 	.arguments = "ACTION...",
 	.arguments_choices = pm_step_names,
 	.arguments_text = "kick, drift (with /N a part of the step), boris/2, boris-tan/2, relativistic/2, vay/2, higuera-cary/2, clear; or a scheme: "
-		"euler, rk2, midpoint, lsrk3, rk4, ab2, ab3, leapfrog2, yoshida4, "
-		"yoshida6, blanes-moan4, blanes-moan6; implicit-euler, implicit-midpoint, trapezoid; with error control ias15, rk45, rk23",
+		"euler, rk2, midpoint, lsrk3, rk4, ab2, ab3, leapfrog2, yoshida4, yoshida6, blanes-moan4, blanes-moan6; implicit-euler, implicit-midpoint, "
+		"trapezoid; with error control ias15, rk45, rk23, rk4-double, midpoint-double",
 	.least = 1,
 	.most = PM_ADVANCE_ACTIONS,
 	.examples = examples,
@@ -172,5 +173,6 @@ const struct pm_tool tool_push = {
 	.declare = declare,
 	.frame = frame,
 	.divided = divided,
+	.end = end,
 	.free = release,
 };

@@ -1,4 +1,5 @@
 /* Options and reports of error-controlled steps. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "stage/control-options.h"
@@ -12,9 +13,10 @@ int pm_control_begin(const struct pm_stage *s, const struct pm_push *p)
 	const char *const names[] = {"tolerance", "min", "max"};
 	for (int i = 0; i < 3; i++)
 		if (pm_given(s, names[i]) && !(pm_control_chosen(p) && pm_step_adapts(p->scheme)))
-			return pm_fail(PM_USAGE, "--%s belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23)", names[i]);
+			return pm_fail(PM_USAGE, "--%s belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23, rk4-double, "
+				"midpoint-double)", names[i]);
 	if (p->dense && !(p->scheme && p->scheme->embedded))
-		return pm_fail(PM_USAGE, "--dense belongs to an embedded pair (push rk45, rk23)");
+		return pm_fail(PM_USAGE, "--dense belongs to an embedded pair (push rk45, rk23, rk4-double, midpoint-double)");
 	if (p->floor > p->most)
 		return pm_fail(PM_USAGE, "--min %g is above --max %g", p->floor, p->most);
 	if (pm_control_chosen(p) && pm_step_adapts(p->scheme) && p->tolerance > 0 && pm_given(s, "dt"))
@@ -45,7 +47,30 @@ static void tell(struct pm_stage *s, struct pm_frame *f, const struct pm_step *s
 			done->iterations, done->dt);
 }
 
-int pm_control_pass(struct pm_stage *s, struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p)
+static void count(struct pm_control_tally *t, const struct pm_controlled *done)
+{
+	const double dt = fabs(done->dt);
+	t->rejected += done->rejected;
+	t->iterations += done->iterations > 0 ? (uint64_t)done->iterations : 0;
+	if (!done->completed)
+		return;
+	t->shortest = t->steps ? fmin(t->shortest, dt) : dt;
+	t->longest = fmax(t->longest, dt);
+	t->steps++;
+}
+
+int pm_control_end(const struct pm_stage *s, const struct pm_push *p, const struct pm_control_tally *t)
+{
+	if (t->steps < 2)
+		return 0;
+	if (p->scheme->implicit)
+		pm_note(s, "%s: %" PRIu64 " steps, %.3g iterations each", p->scheme->name, t->steps, (double)t->iterations / (double)t->steps);
+	else
+		pm_note(s, "%s: %" PRIu64 " steps of %.3g to %.3g, %" PRIu64 " rejected", p->scheme->name, t->steps, t->shortest, t->longest, t->rejected);
+	return 0;
+}
+
+int pm_control_pass(struct pm_stage *s, struct pm_frame *f, size_t n, struct pm_moving *moving, const struct pm_push *p, struct pm_control_tally *tally)
 {
 	struct pm_controlled done;
 	struct pm_strengths after, *given = calloc(n + 1, sizeof *given);
@@ -62,7 +87,9 @@ int pm_control_pass(struct pm_stage *s, struct pm_frame *f, size_t n, struct pm_
 		pm_report_strengths(s, f, "given", &given[i], &after);
 	}
 	free(given);
-	if (!status && (done.completed || done.rejected))
+	if (!status && (done.completed || done.rejected)) {
 		tell(s, f, p->scheme, &done);
+		count(tally, &done);
+	}
 	return status;
 }

@@ -73,7 +73,7 @@ struct pm_implicit {
 	double at; /* time of Y in units of dt */
 };
 
-enum { PM_IMPLICIT_DEPTH = 6, PM_IMPLICIT_REGISTERS = 3 + 2 * PM_IMPLICIT_DEPTH, PM_EMBEDDED_STAGES = 7 };
+enum { PM_IMPLICIT_DEPTH = 6, PM_IMPLICIT_REGISTERS = 3 + 2 * PM_IMPLICIT_DEPTH, PM_EMBEDDED_STAGES = 12 };
 
 /* An embedded pair of Runge and Kutta: its last stage is at the end of the step, with the rate there. */
 struct pm_embedded {

@@ -57,7 +57,7 @@ start() {
 	run -2 push ias15 --dt 0.1 -i a -o b
 	[[ $output == *'ias15 chooses its steps (smod --dt before it gives the first one, --min and --max limit them; with --tolerance 0 all are --dt)'* ]]
 	run -2 push rk4 --tolerance 1e-6 -i a -o b
-	[[ $output == *'--tolerance belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23)'* ]]
+	[[ $output == *'--tolerance belongs to a scheme that chooses its steps by their error (push ias15, rk45, rk23, rk4-double, midpoint-double)'* ]]
 	run -2 push ias15 --min 2 --max 1 -i a -o b
 	[[ $output == *'--min 2 is above --max 1'* ]]
 	stack a <(pinit plummer -n 3 | smod --rename matter=others) | pp >b

@@ -65,7 +65,8 @@ words='pp | push rk45 --tolerance 1e-6'
 
 @test "cycle --every-time writes rk45 --dense and rk23 --dense within steps, with the order of the steps" {
 	printf 'x vx\n1 0\n' | stab - --law free >a
-	for scheme in rk45:5 rk23:3; do # the polynomial of order 4 has a local error of dt^5, the cubic one of dt^4, at the end of steps of order 5 and 3
+	# the polynomial of order 4 has a local error of dt^5, the cubic one of dt^4, at the end of steps of order 5, 3 and 4
+	for scheme in rk45:5 rk23:3 rk4-double:4.2; do
 		for dt in 0.4 0.2 0.1; do
 			cycle -q -t 4 --every-time 0.77 "field acc=-x | push ${scheme%:*} --dense --tolerance 0 --dt $dt" <a >d
 			diag --columns time d | sed 1d >b
@@ -96,5 +97,51 @@ words='pp | push rk45 --tolerance 1e-6'
 	run -2 cycle -n 1 --every 1 --every-time 1 "$words" -i now -o b
 	[[ $output == *'--every counts steps and --every-time counts time'* ]]
 	run -2 push rk4 --dense -i now -o b
-	[[ $output == *'--dense belongs to an embedded pair (push rk45, rk23)'* ]]
+	[[ $output == *'--dense belongs to an embedded pair (push rk45, rk23, rk4-double, midpoint-double)'* ]]
+}
+
+@test "002:N12, 002:OD8: step doubling: the error that is reported is alpha dt^(p+1) (1 - 2^-p), and the step is that of the two halves" {
+	# x' = (p + 1) t^p is a quadrature: Simpson's rule for t^4 has the error dt^5/24, the midpoint rule for t^2 dt^3/4, alpha known
+	printf 'x\n1000\n' | stab - --law free >a
+	for row in 'rk4-double 5*time^4 4 1/24' 'midpoint-double 3*time^2 2 -1/4'; do
+		read -r scheme rate p alpha <<<"$row"
+		cycle -n 1 "field 'vel=$rate' | push $scheme --tolerance 0 --dt 0.5" <a >b
+		got=$(sls --report b | grep -o '"error":[^,}]*' | cut -d: -f2)
+		x=$(stab --plain b | tail -1 | cut -d' ' -f1)
+		[[ $alpha != -* ]] || got=-$got
+		within "$(calc "$got*$x")" "$(calc "($alpha)*0.5^($p+1)*(1-2^-$p)")" 1e-11 # of x = 1000, which has 1e-13
+		within "$(calc "$x-1000-0.5^($p+1)")" "$(calc "($alpha)*0.5^($p+1)/2^$p")" 1e-12
+	done
+}
+
+@test "002:N13: the error of a step is alpha dt^(p+1), that of a run goes as tolerance^(p/(p+1)): a power of dt is lost" {
+	printf 'x vx\n1.1 0.4\n' | stab - --law free --dt 0.01 >a
+	cycle -q -t 10 --exact "field acc=-sin(x) | push ias15" <a | stab --plain | awk 'END { printf "%.17g", $1 }' >exact
+	for row in rk4-double:0.8:1e-6:1e-7:1e-8:1e-9 midpoint-double:0.6667:1e-4:1e-5:1e-6:1e-7; do
+		IFS=: read -r scheme power tolerances <<<"$row"
+		for tolerance in ${tolerances//:/ }; do
+			cycle -q -t 10 --exact "field acc=-sin(x) | push $scheme --tolerance $tolerance" <a >b
+			echo "$tolerance $(stab --plain <b | awk 'END { printf "%.17g", $1 }')"
+		done | awk -v exact="$(cat exact)" '{ e = $2 - exact; x = log($1); y = log(e < 0 ? -e : e); n++; a += x; b += y; c += x * x; d += x * y }
+			END { print (n * d - a * b) / (n * c - a * a) }' >slope
+		within "$(cat slope)" "$power" 0.06 "$scheme"
+	done
+}
+
+@test "a line at the end says how many steps there were and how many were rejected, the same from every engine, and --quiet leaves it out" {
+	printf 'x y z vx vy vz mass\n1 3 0 0 0 0 3\n-2 -1 0 0 0 0 4\n1 -1 0.1 0 0 0 5\n' |
+		stab - --law gravity --constant G=1,softening=0.01 --dt 3 --no-history >now
+	for scheme in rk45 rk4-double ias15; do
+		for engine in fused pipes; do
+			run -0 --separate-stderr bash -c "cycle --no-history -n 8 --engine $engine 'pp | push $scheme --tolerance 1e-6' <now >$engine"
+			echo "$stderr" >said.$engine
+		done
+		same_as fused pipes
+		diff said.fused said.pipes
+		rejected=$(sls --report fused | grep -o '"rejected":[0-9]*' | cut -d: -f2)
+		grep -qx "push: $scheme: 8 steps of [0-9.e-]* to [0-9.e-]*, $rejected rejected" said.fused
+		[ "$rejected" -gt 0 ]
+	done
+	run -0 --separate-stderr bash -c "cycle -q -n 8 'pp | push rk45' <now >b"
+	[ -z "$stderr" ]
 }

@@ -42,7 +42,7 @@ input() {
 	cycle | modes | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad) cloud | p2m | poisson-fft ;;
-	poisson-* | diffuse) cloud | p2m ;;
+	poisson-* | diffuse | spectrum) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
