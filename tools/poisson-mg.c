@@ -9,7 +9,7 @@
 
 struct config {
 	struct pm_problem_names names;
-	const char *cycle, *order, *smoother, *restriction, *permittivity, *mean, *green;
+	const char *cycle, *order, *smoother, *restriction, *permittivity, *mean, *green, *coarse;
 	struct pm_vector smooth;
 	double relaxation, tolerance;
 	int64_t most;
@@ -25,20 +25,22 @@ struct state {
 static const char *const cycles[] = {"v", "w", "fmg", NULL}; /* in the order of enum pm_mg_cycle */
 static const char *const orders[] = {"2", "4", NULL};
 static const char *const restrictions[] = {"full", "half", NULL};
+static const char *const coarse[] = {"direct", "galerkin", NULL};
 
 static const struct pm_option options[] = {
 	{.name = "cycle", .kind = PM_WORD, .fallback = "fmg", .choices = cycles, PM_AT(cycle),
 		.text = "V-cycles, W-cycles, or full multigrid and then V-cycles"},
 	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, PM_AT(order), .text = "of the differences: 2, or 4 (compact, Mehrstellen)"},
 	{.name = "smoother", .kind = PM_WORD, .choices = pm_mg_smoother_names, PM_AT(smoother),
-		.text = "red-black Gauss-Seidel, over-relaxed (sor), weighted Jacobi, or Gauss-Seidel in four colours (default: sor; order 4: four-colour; "
-			"with --permittivity: red-black)"},
+		.text = "red-black Gauss-Seidel, over-relaxed (sor), Jacobi, or four-colour (default: sor; order 4: four-colour; Galerkin: red-black)"},
 	{.name = "smooth", .kind = PM_VECTOR, .unit = "sweeps", .fallback = "2,2", .high = 20, PM_AT(smooth),
 		.text = "sweeps before and after the coarse grid"},
 	{.name = "relaxation", .kind = PM_REAL, .low = 0.1, .high = 1.9, PM_AT(relaxation),
 		.text = "factor of each sweep (default: 1; sor: 1.15; jacobi: 2/3, 4/5, 6/7 in 1-D, 2-D, 3-D, and 2/3, 2/3, 4/7 at order 4)"},
 	{.name = "restriction", .kind = PM_WORD, .fallback = "full", .choices = restrictions, PM_AT(restriction),
-		.text = "restriction of the residual to the coarse grid; half weighting is for comparison"},
+		.text = "of the residual; half weighting is for comparison"},
+	{.name = "coarse", .kind = PM_WORD, .choices = coarse, PM_AT(coarse),
+		.text = "operators of the coarse grids: the same differences (direct), or P^T A P of the fine one's (default: direct; with a permittivity galerkin)"},
 	{.name = "permittivity", .kind = PM_TEXT, .unit = "FIELD", PM_AT(permittivity),
 		.text = "eps in div(eps grad phi) = c*s, a positive mesh field (default: 1)"},
 	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "mean of eps between two nodes"},
@@ -68,13 +70,16 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--smooth needs two integers, the sweeps before and after (--smooth 2,2)");
 	if (o->smooth.x[0] + o->smooth.x[1] == 0)
 		return pm_fail(PM_USAGE, "--smooth 0,0 smooths nothing (--smooth 2,2)");
-	t->choice = (struct pm_multigrid_choice){.order = *o->order - '0', .variable = o->permittivity, .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
+	if (o->permittivity && o->coarse && !strcmp(o->coarse, coarse[0]))
+		return pm_fail(PM_USAGE, "with --permittivity the coarse operators are P^T A P (leave out --coarse direct)");
+	t->choice = (struct pm_multigrid_choice){.order = *o->order - '0', .variable = o->permittivity,
+		.galerkin = o->coarse && !strcmp(o->coarse, coarse[1]), .mean = strcmp(o->mean, pm_mg_mean_names[0]) != 0,
 		.cycle = {.pre = (int)o->smooth.x[0], .post = (int)o->smooth.x[1], .tolerance = o->tolerance, .most = (int)o->most,
 			.half_weighting = !strcmp(o->restriction, "half")}};
 	while (strcmp(cycles[t->choice.cycle.cycle], o->cycle))
 		t->choice.cycle.cycle++;
 	t->solver = pm_multigrid_new();
-	return t->solver ? pm_multigrid_choose(&t->choice, o->smoother, o->relaxation) : -PM_DATA;
+	return !t->solver ? -PM_DATA : pm_multigrid_choose(&t->choice, o->smoother, o->relaxation);
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
@@ -88,10 +93,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		status = pm_problem_coefficient(f, &t->problem, o->permittivity, &t->eps);
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
-	if (!status && t->eps) {
-		pm_field_inherit(t->problem.target, t->eps);
-		pm_problem_not_of_law(&t->problem);
-	}
+	if (!status && t->eps)
+		pm_field_inherit(t->problem.target, t->eps), pm_problem_not_of_law(&t->problem);
 	return status;
 }
 
@@ -103,7 +106,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	const struct pm_mg_record *r = &t->record;
 	struct pm_grid g = pm_problem_grid(p, c);
 	char key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
-	const double *eps = t->choice.variable ? pm_in(t->eps, 0) : NULL;
+	const double *eps = t->eps ? pm_in(t->eps, 0) : NULL;
 	const struct pm_boundary_eps medium = pm_mg_medium(eps, t->choice.mean);
 	struct pm_homogeneous m = {0};
 	struct pm_clock began = pm_clock();
@@ -117,12 +120,11 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	if (!status && r->singular)
 		pm_solver_report_removed(s, f, p, c, r->mean, &m, r->incompatible);
 	pm_homogeneous_close(&m, pm_out(p->target, c));
-	if (status)
-		return status;
-	for (int i = 0, n = 0; i < r->n; i++)
+	for (int i = 0, n = 0; i < r->n && !status; i++)
 		n += snprintf(residuals + n, sizeof residuals - (size_t)n, "%s%.3e", i ? " " : "", r->history[i]);
-	pm_report_text(s, f, pm_solver_key(p, "residuals", c, key), residuals);
-	return 0;
+	if (!status)
+		pm_report_text(s, f, pm_solver_key(p, "residuals", c, key), residuals);
+	return status;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -140,9 +142,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		contraction = fmax(contraction, r->contraction);
 		roundoff |= r->floor;
 	}
-	pm_report(s, f, "cycles", taken);
-	pm_report(s, f, "residual", residual);
-	pm_report(s, f, "contraction", contraction);
+	pm_report(s, f, "cycles", taken), pm_report(s, f, "residual", residual), pm_report(s, f, "contraction", contraction);
 	pm_report_text(s, f, "status", roundoff ? "floor" : "converged");
 	return 0;
 }
@@ -157,9 +157,9 @@ const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
 	.summary = "solve Poisson's equation on a mesh by multigrid",
 	.about = "Solves lap phi = c*s, or div(eps grad phi) = c*s with --permittivity, with differences of order 2 or 4 on the nodes; faces periodic, wall "
-		"(phi = 0, or given) or neumann (no normal gradient, or given) in any mixture, or open on all axes (free space, as in "
-		"poisson-fft); any number of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic interpolation; for a "
-		"variable eps, operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
+		"(phi = 0, or given) or neumann (no normal gradient, or given) in any mixture, or open on all axes (free space, as in poisson-fft); any number "
+		"of cells per axis, any ratio of the spacings. V- and W-cycles, full multigrid with cubic interpolation; for a variable eps, "
+		"operator-dependent transfers, Galerkin matrices and conjugate gradients, for jumps up to 1e6 and more. "
 		"If no face fixes phi, the mean of s is removed and reported, and the mean of phi is zero. It stops at the tolerance (status converged) or "
 		"when round-off prevents further reduction (status floor), and fails with exit 3 if it does neither. In a plain box poisson-fft is faster and "
 		"solves the same equation with --symbol fd2.",

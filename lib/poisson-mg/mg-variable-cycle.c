@@ -2,7 +2,8 @@
  *   u += omega (f - M u)/D node by node of a colour;  f_c = P^T r;  u += P u_c
  * Colours: the parity of i+j+k (red-black) on the finest grid, where a node has six neighbours; elsewhere, and with four colours, the parities of i, j, k
  * one by one: four in 2-D, eight in 3-D. Where an odd number of nodes is periodic, the last one is a colour of its own. After the coarse grid the colours
- * come in reverse, which makes the cycle a symmetric preconditioner. Cost: about 30 operations per node, sweep and neighbour of ten.
+ * come in reverse, which makes the cycle a symmetric preconditioner; of cycles alone all sweeps end with the nodes
+ * between coarse ones. Cost: about 30 operations per node, sweep and neighbour of ten.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 
@@ -195,7 +196,7 @@ void pm_mgv_cycle(struct pm_mg_variable *v, int at, const struct pm_mg_choice *o
 	}
 	if (zero)
 		memset(l->u, 0, l->size * sizeof(double));
-	smooth(l, o, o->pre, false);
+	smooth(l, o, o->pre, o->plain);
 	pm_mgv_residual(l, l->u, l->f, l->r);
 	restriction(l, l + 1, l->r);
 	pm_mgv_cycle(v, at + 1, o, true);

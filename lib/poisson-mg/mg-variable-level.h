@@ -30,6 +30,7 @@ struct pm_mg_variable {
 	struct pm_grid grid;
 	enum pm_mg_mean mean;
 	double *eps;          /* as given */
+	bool constant;        /* none was: eps is 1 */
 	int levels;
 	bool fixed;           /* at least one wall */
 	struct mgv_level level[mgv_levels]; /* the coarsest has one unknown */

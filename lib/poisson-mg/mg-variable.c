@@ -36,7 +36,9 @@ static bool build(struct pm_mg_variable *v, const struct pm_grid *g, const doubl
 	v->grid = *g;
 	if (!(v->eps = pm_alloc(n, sizeof *eps)))
 		return false;
-	memcpy(v->eps, eps, n * sizeof *eps);
+	v->constant = !eps;
+	for (size_t p = 0; p < n; p++)
+		v->eps[p] = eps ? eps[p] : 1;
 	if (pm_mgv_finest(v))
 		return false;
 	if (!mgv_unknowns(&v->level[0]))
@@ -56,7 +58,7 @@ static bool build(struct pm_mg_variable *v, const struct pm_grid *g, const doubl
 
 struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
 {
-	struct pm_mg_variable *v = pm_mg_check(g) || check_positive(g, eps) ? NULL : pm_zalloc(1, sizeof *v);
+	struct pm_mg_variable *v = pm_mg_check(g) || (eps && check_positive(g, eps)) ? NULL : pm_zalloc(1, sizeof *v);
 	if (!v)
 		return NULL;
 	v->mean = mean;
@@ -67,7 +69,8 @@ bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g
 {
 	const struct pm_grid *a = &v->grid;
 	return v->mean == mean && a->dim == g->dim && !memcmp(a->points, g->points, sizeof g->points) && !memcmp(a->cells, g->cells, sizeof g->cells) &&
-		!memcmp(a->h, g->h, sizeof g->h) && !memcmp(a->face, g->face, sizeof g->face) && !memcmp(v->eps, eps, pm_grid_size(g) * sizeof *eps);
+		!memcmp(a->h, g->h, sizeof g->h) && !memcmp(a->face, g->face, sizeof g->face) &&
+		(eps ? !memcmp(v->eps, eps, pm_grid_size(g) * sizeof *eps) : v->constant);
 }
 
 /* The sum of a (b - c) over the unknowns, c NULL: of a b; rows in order. */
@@ -134,6 +137,11 @@ static double iteration(struct pm_mg_variable *v, const struct pm_mg_choice *o, 
 {
 	struct mgv_level *l = &v->level[0];
 	pm_mgv_cycle(v, 0, o, true);
+	if (o->plain) {
+		combine(v, 1, 1, l->u, v->x);
+		residual(v, source);
+		return 0;
+	}
 	double now = product(v, l->u, l->f, NULL), beta = before != 0 ? product(v, l->u, l->f, v->before) / before : 0;
 	combine(v, beta, 1, l->u, v->d);
 	memset(l->r, 0, l->size * sizeof(double));

@@ -12,7 +12,7 @@ extern const char *const pm_mg_mean_names[];          /* NULL ends */
 
 struct pm_mg_variable; /* the hierarchy of grids and matrices, for one grid and one eps */
 
-/* eps on the points of the grid. NULL with a message, also where eps is not positive or the faces are others than those of pm_mg_check. */
+/* eps on the points of the grid; NULL: 1. NULL with a message, also where eps is not positive or the faces are others than those of pm_mg_check. */
 struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean);
 struct pm_mg_variable *pm_mg_variable_free(struct pm_mg_variable *v);
 bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean);

@@ -17,6 +17,7 @@ struct pm_mg_choice {
 	enum pm_mg_smoother smoother;
 	bool half_weighting;  /* of the residual, for comparison: worse than full weighting in every reference */
 	enum pm_mg_cycle cycle;
+	bool plain;           /* with Galerkin matrices: cycles alone, without conjugate gradients around them */
 	double relaxation;    /* factor omega of the sweeps, 1: Gauss-Seidel; pm_mg_relaxation returns good ones */
 	double tolerance;     /* of the residual, relative to the right-hand side, root of the sum of squares */
 	int most;             /* cycles, up to PM_MG_MOST */

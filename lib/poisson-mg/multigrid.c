@@ -25,17 +25,22 @@ struct pm_multigrid *pm_multigrid_free(struct pm_multigrid *m)
 
 int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, double relaxation)
 {
-	o->cycle.smoother = o->order == 4 ? PM_MG_FOUR_COLOUR : o->variable ? PM_MG_RED_BLACK : PM_MG_SOR;
+	o->cycle.smoother = o->order == 4 ? PM_MG_FOUR_COLOUR : o->variable || o->galerkin ? PM_MG_RED_BLACK : PM_MG_SOR;
 	for (int i = 0; smoother && pm_mg_smoother_names[i]; i++)
 		if (!strcmp(smoother, pm_mg_smoother_names[i]))
 			o->cycle.smoother = (enum pm_mg_smoother)i;
 	o->cycle.relaxation = relaxation; /* NAN: of the dimension, known with the grid */
 	if (o->order == 4 && (o->cycle.smoother == PM_MG_RED_BLACK || o->cycle.smoother == PM_MG_SOR))
 		return pm_fail(PM_USAGE, "two colours do not decouple the nodes of differences of order 4 (use --smoother four-colour or jacobi)");
+	if (o->order == 4 && o->galerkin)
+		return pm_fail(PM_USAGE, "Galerkin matrices are made of differences of order 2 (leave out --order 4, or --coarse galerkin)");
+	if (o->galerkin && !o->variable)
+		o->cycle.plain = true;
 	if (o->order == 4 && o->variable)
 		return pm_fail(PM_USAGE, "differences of order 4 need a constant coefficient (leave out --order 4, or --permittivity)");
-	if (o->variable && o->cycle.half_weighting)
-		return pm_fail(PM_USAGE, "with --permittivity the residual is restricted by the operator itself (leave out --restriction half)");
+	if ((o->variable || o->galerkin) && o->cycle.half_weighting)
+		return pm_fail(PM_USAGE, "with --permittivity or --coarse galerkin the residual is restricted by the transpose of the interpolation (leave "
+			"out --restriction half)");
 	return 0;
 }
 
@@ -56,6 +61,8 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 			"neumann and "
 			"a box large enough, "
 			"or poisson-fft without a permittivity)");
+	if (o->galerkin)
+		return pm_fail(PM_DATA, "Galerkin matrices are for walls, neumann or periodic faces, but these are open (leave out --coarse galerkin)");
 	return pm_mg_open_check(g);
 }
 
@@ -94,7 +101,7 @@ static struct pm_mg_variable *variable(struct pm_multigrid *m, const struct pm_m
 
 int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps)
 {
-	bool there = o->variable ? variable(m, o, g, eps) != NULL : any_open(g) ? open_space(m, o, g) != NULL : constant(m, o, g) != NULL;
+	bool there = o->variable || o->galerkin ? variable(m, o, g, eps) != NULL : any_open(g) ? open_space(m, o, g) != NULL : constant(m, o, g) != NULL;
 	return there ? 0 : pm_failed();
 }
 
@@ -105,7 +112,7 @@ int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice 
 	struct pm_mg_choice cycle = o->cycle;
 	if (isnan(cycle.relaxation))
 		cycle.relaxation = pm_mg_relaxation(cycle.smoother, g->dim, o->order);
-	if (o->variable) {
+	if (o->variable || o->galerkin) {
 		struct pm_mg_variable *v = variable(m, o, g, eps);
 		return v ? pm_mg_variable_solve(v, &cycle, c, s, phi, r) : pm_failed();
 	}

@@ -11,6 +11,7 @@ struct pm_multigrid_choice {
 	struct pm_mg_choice cycle;
 	int order;            /* of the differences, 2 or 4 */
 	bool variable;        /* with a permittivity */
+	bool galerkin;        /* coarse matrices P^T A P, with or without one */
 	enum pm_mg_mean mean; /* of it on the faces between nodes */
 };
 

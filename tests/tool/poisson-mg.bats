@@ -177,3 +177,23 @@ report() { tail -c 2048 "$1" | grep -ao "\"poisson-mg[^}]*}" | tail -1 | grep -o
 	below "$(scmp --norm relative_l2 --field B a b | tail -1 | cut -f8)" 1e-9
 	tail -c 2048 a | grep -aq '"residuals_2"'
 }
+
+@test "Galerkin operators on the coarse grids: the same solution; in 1-D they are the direct ones, in the plane they reduce the residual further a cycle" {
+	last() { sls --report | grep -o 'residuals":"[^"]*' | tr -d '"' | awk '{ print $NF / $(NF - 1) }'; }
+	v() { poisson-mg --cycle v --tolerance 1e-10 "$@"; }
+	for m in "--dim 1 --faces wall;96" "--dim 2 --faces wall,neumann,periodic,periodic;24x20" "--faces neumann,wall,periodic,periodic,wall,wall;12x8x10"; do
+		pinit uniform -n 200 ${m%;*} | p2m -n "${m#*;}" >a
+		poisson-mg --coarse galerkin <a >b
+		poisson-mg <a | scmp --tolerance 1e-9 --field phi - b # both stop at 1e-11 of the residual
+	done
+	pinit uniform -n 200 --dim 1 --faces wall | p2m -n 64 >a
+	for c in direct galerkin; do v --smoother jacobi --smooth 0,1 --coarse $c <a | sls --report | grep -o 'residuals":"[^"]*' >$c; done
+	cmp <(cut -c 1-150 direct) <(cut -c 1-150 galerkin) # one matrix, of 3 points: the same to 4 digits of the first 12 cycles
+	pinit uniform -n 200 --dim 2 --faces wall | p2m -n 64 >a
+	within "$(v --smoother red-black --smooth 1,1 <a | last)" 0.115 0.01
+	within "$(v --smoother red-black --smooth 1,1 --coarse galerkin <a | last)" 0.06 0.01
+	run -1 --separate-stderr bash -c 'pinit plummer -n 9 | p2m -n 8 | poisson-mg --coarse galerkin'
+	[[ $stderr == *"these are open (leave out --coarse galerkin)" ]]
+	run -2 poisson-mg --coarse galerkin --order 4
+	run -2 poisson-mg --coarse direct --permittivity eps
+}
