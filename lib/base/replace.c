@@ -87,8 +87,7 @@ int pm_replace_open(struct pm_replace *r, const char *path, bool always)
 	return 0;
 }
 
-/* A name for what has none yet. */
-static int take_name(struct pm_replace *r)
+int pm_replace_named(struct pm_replace *r)
 {
 	char self[64], *name = name_beside(r->path);
 	snprintf(self, sizeof self, "/proc/self/fd/%d", r->fd);
@@ -126,7 +125,7 @@ int pm_replace_commit(struct pm_replace *r, bool lasting)
 		return 0;
 	if (lasting && fsync(r->fd) && errno != EINVAL)
 		return pm_fail_errno("cannot write '%s'", r->path);
-	int status = r->temporary ? 0 : take_name(r);
+	int status = r->temporary ? 0 : pm_replace_named(r);
 	status = status ? status : pm_replace_rename(r->temporary, r->path, lasting);
 	if (!status) {
 		free(r->temporary);

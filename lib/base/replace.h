@@ -14,6 +14,8 @@ struct pm_replace {
 /* Opens what will replace path. A file that is not there yet is opened itself unless `always`; so is what is no regular file (a pipe, a terminal).
  * 0 or failure with a message. */
 int pm_replace_open(struct pm_replace *r, const char *path, bool always);
+/* Gives it the name by which other processes open it, before it is complete; r->temporary. 0 or failure. */
+int pm_replace_named(struct pm_replace *r);
 /* The new file takes the place of the old one; lasting: it will be there after the machine has lost its power, too. */
 int pm_replace_commit(struct pm_replace *r, bool lasting);
 void pm_replace_drop(struct pm_replace *r); /* what was written is forgotten; also behind commit */

@@ -228,12 +228,17 @@ static int stage_of(const struct pm_tool *own, const json_t *all, struct pm_stag
 	return tool ? stage_add(tool, words, s) : pm_fail(PM_DATA, "rank %d has no word '%s'", pm_world_rank(), name);
 }
 
+static int wrong(const char *what, const json_error_t *error)
+{
+	return json_error_code(error) == json_error_out_of_memory || !*error->text ? pm_no_memory() : pm_fail(PM_DATA, "%s is wrong: %s", what, error->text);
+}
+
 /* The header, before and behind declare(). */
 static int frame_of(struct pm_stage *s, const json_t *all, struct pm_frame **f)
 {
 	json_error_t error;
 	json_t *both = json_loads(json_string_value(json_object_get(all, "frame")), 0, &error);
-	int status = both ? pm_header_frame(json_object_get(both, "header"), f) : pm_fail(PM_DATA, "the header of a divided frame is wrong: %s", error.text);
+	int status = both ? pm_header_frame(json_object_get(both, "header"), f) : wrong("the header of a divided frame", &error);
 	status = status ? status : pm_limits_take_all(json_object_get(both, "limits"), *f);
 	json_decref(both);
 	if (status)
@@ -273,7 +278,7 @@ int pm_divided_follow(const struct pm_tool *tool, const char *text)
 	struct pm_stage *s = NULL;
 	struct pm_frame *f = NULL;
 	struct uses u = {0, NULL};
-	int status = all ? stage_of(tool, all, &s) : pm_fail(PM_DATA, "a request of rank 0 is wrong: %s", error.text);
+	int status = all ? stage_of(tool, all, &s) : wrong("a request of rank 0", &error);
 	status = status ? status : frame_of(s, all, &f);
 	status = status ? status : uses_make(&u, f);
 	status = status ? status : take_parts(json_object_get(all, "fields"), &u);

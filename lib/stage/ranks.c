@@ -9,7 +9,7 @@
 #include "stage/divided.h"
 #include "stage/internal.h"
 #include "stage/ranks.h"
-#include "stream/parts.h"
+#include "stream/parts-file.h"
 #include "world/launch.h"
 #include "world/world.h"
 
@@ -131,6 +131,8 @@ int pm_ranks_follow(const struct pm_tool *tool)
 		if (!pm_request_take(&what, &more, &bytes)) {
 			if (what == PM_REQUEST_APPLY)
 				pm_divided_follow(tool, more);
+			else if (what == PM_REQUEST_READ || what == PM_REQUEST_WRITE)
+				pm_parts_file_follow(what, more, bytes);
 			else if (what != PM_REQUEST_END)
 				pm_request_parts(what, more, bytes);
 		}

@@ -1,5 +1,6 @@
 /* A stage as a process in a pipe: reads a stream, writes one, prints an error in one line, and passes it on to the following words.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -262,6 +263,7 @@ int pm_main(const struct pm_tool *tool, int argc, char **argv)
 	running.tool = tool;
 	json_set_alloc_funcs(json_room, free);
 	pm_memory_end(memory_ends);
+	signal(SIGXFSZ, SIG_IGN); /* a limit of the size of files is an error of write() */
 	atexit(left_early);
 	int status = pm_rounding(getenv("PM_ROUNDING"));
 	const bool launched = !status && pm_launched();

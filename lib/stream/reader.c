@@ -4,12 +4,14 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "stream/forward.h"
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/line.h"
+#include "stream/parts-file.h"
 #include "stream/run.h"
 #include "stream/wire.h"
 
@@ -25,6 +27,7 @@ struct item { /* one field of the current frame, as it was when its header was r
 
 struct pm_reader {
 	int fd;
+	char *path;                /* of a regular file that all ranks may read; NULL: none */
 	bool (*give_up)(void);     /* NULL: it waits for ever */
 	int (*next)(void *from, int *fd); /* the input that follows; NULL: none */
 	void *from;
@@ -42,6 +45,8 @@ static void input_is(struct pm_reader *r, int fd)
 	r->fd = fd;
 	r->frame = 1;
 	r->any = false;
+	free(r->path);
+	r->path = NULL;
 	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* harmless if it is not a pipe or not permitted */
 }
 
@@ -64,7 +69,11 @@ struct pm_reader *pm_reader_open(const char *path)
 		pm_fail_errno("cannot open '%s'", path);
 		return NULL;
 	}
-	return pm_reader_of_fd(fd);
+	struct pm_reader *r = pm_reader_of_fd(fd);
+	struct stat st;
+	if (r && path && !fstat(fd, &st) && S_ISREG(st.st_mode))
+		r->path = strdup(path); /* NULL: rank 0 reads */
+	return r;
 }
 
 struct pm_reader *pm_reader_close(struct pm_reader *r)
@@ -72,7 +81,7 @@ struct pm_reader *pm_reader_close(struct pm_reader *r)
 	if (r) {
 		if (r->fd != STDIN_FILENO)
 			close(r->fd);
-		free(r->items);
+		free(r->items), free(r->path);
 		free(r);
 	}
 	return NULL;
@@ -316,11 +325,32 @@ static void store(struct item *it, size_t offset, const char *piece, size_t n)
 	}
 }
 
-static int get_field(struct pm_reader *r, struct item *it, bool load, struct pm_writer *w)
+/* By all ranks, where the input is a file and several would have some of the values. 1: done; 0: they would not, or failed to, and it is to be read here, which
+ * says why. */
+static int get_parts(struct pm_reader *r, struct item *it, const struct pm_frame *f)
 {
-	int status = load ? pm_field_hold(it->field) : 0;
-	char *base = load && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
-	for (size_t done = 0; done < it->bytes && !status;) {
+	struct stat mine, named;
+	const off_t at = r->path && pm_parts_worth_reading(f, it->field) ? lseek(r->fd, 0, SEEK_CUR) : -1;
+	if (at < 0 || fstat(r->fd, &mine) || stat(r->path, &named) || mine.st_dev != named.st_dev || mine.st_ino != named.st_ino)
+		return 0;
+	const size_t ahead = r->have - r->at;
+	const struct pm_parts_place place = {.path = r->path, .offset = (uint64_t)at - ahead};
+	if (pm_parts_read(f, it->field, &place, &it->crc)) {
+		it->crc = 0;
+		return 0;
+	}
+	if (it->bytes < ahead)
+		r->at += it->bytes;
+	else
+		r->at = r->have, lseek(r->fd, (off_t)(it->bytes - ahead), SEEK_CUR);
+	return 1;
+}
+
+static int get_field(struct pm_reader *r, struct item *it, bool load, bool there, struct pm_writer *w)
+{
+	int status = load && !there ? pm_field_hold(it->field) : 0;
+	char *base = load && !there && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
+	for (size_t done = there ? it->bytes : 0; done < it->bytes && !status;) {
 		size_t n = it->bytes - done < PM_PIECE ? it->bytes - done : PM_PIECE;
 		char *piece = base ? base + done : r->scratch;
 		status = must_get(r, piece, n, "the data");
@@ -395,7 +425,7 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 		struct item *it = r->items + i;
 		bool load = hold || it->field->use & (PM_USE_READ | PM_USE_CHANGE), pass = w && stays(f, it->field);
 		if (it->bytes)
-			status = get_field(r, it, load, pass ? w : NULL);
+			status = get_field(r, it, load, hold && !w && get_parts(r, it, f), pass ? w : NULL);
 		else if (pass)
 			status = pm_forward_done(w, it->field, 0);
 	}

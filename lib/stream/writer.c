@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/replace.h"
@@ -11,12 +12,14 @@
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/line.h"
+#include "stream/parts-file.h"
 #include "world/launch.h"
 
 struct pm_writer {
 	int fd;
 	bool dirty, whole;     /* whole: what was written last is an end marker */
 	bool lasting;
+	char *path;            /* of a regular file that has its name already; NULL: none */
 	struct pm_replace file;
 	uint64_t frames, left; /* of this stream; bytes of the frame's payload announced but not yet written */
 	size_t next, ncrc;     /* current field; room in crc */
@@ -47,8 +50,10 @@ static struct pm_writer *writer_of_file(const char *path, bool lasting)
 		pm_replace_drop(&file);
 		return NULL;
 	}
+	struct stat st;
 	w->file = file;
 	w->lasting = lasting;
+	w->path = !file.path && !fstat(file.fd, &st) && S_ISREG(st.st_mode) ? strdup(path) : NULL; /* NULL: rank 0 writes */
 	return w;
 }
 
@@ -77,7 +82,7 @@ int pm_writer_close(struct pm_writer *w)
 	pm_replace_drop(&w->file);
 	if (close(w->fd) && !status)
 		status = pm_fail_errno("cannot close the output");
-	free(w->crc);
+	free(w->crc), free(w->path);
 	free(w);
 	return status;
 }
@@ -159,13 +164,30 @@ int pm_forward_done(struct pm_writer *w, const struct pm_field *field, uint32_t 
 	return pm_forward(w, zero, pm_line_padded(bytes) - bytes);
 }
 
+/* By all ranks, each its part, where the output is a file with a name. 1: done; 0: it is to be written here. */
+static int put_parts(struct pm_writer *w, const struct pm_field *p, uint32_t *crc)
+{
+	const size_t bytes = pm_field_wire(p);
+	const off_t at = w->file.fd >= 0 && pm_parts_alone(p) ? lseek(w->fd, 0, SEEK_CUR) : -1;
+	if (at < 0 || (w->file.path && !w->file.temporary && pm_replace_named(&w->file)))
+		return 0;
+	const char *path = w->file.path ? w->file.temporary : w->path;
+	const int status = path ? pm_parts_write(p, &(struct pm_parts_place){.path = path, .offset = (uint64_t)at, .lasting = w->lasting}, crc) : 1;
+	if (status)
+		return status < 0 ? status : 0;
+	w->left -= bytes;
+	return lseek(w->fd, (off_t)bytes, SEEK_CUR) < 0 ? pm_fail_errno("cannot write the output") : 1;
+}
+
 static int put_field(struct pm_writer *w, struct pm_field *p)
 {
 	static _Thread_local float narrow[PM_PIECE / 4];
 	size_t bytes = pm_field_wire(p);
-	const char *data = pm_field_bytes(p);
 	uint32_t crc = 0;
-	int status = 0;
+	int status = put_parts(w, p, &crc);
+	if (status)
+		return status < 0 ? status : pm_forward_done(w, p, crc);
+	const char *data = p->buffer ? (const char *)pm_in_u8(p, 0) : NULL; /* of any type; the parts stay valid */
 	for (size_t done = 0; done < bytes && !status;) {
 		size_t n = bytes - done < PM_PIECE ? bytes - done : PM_PIECE;
 		const void *piece = data + done;

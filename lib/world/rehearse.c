@@ -1,6 +1,7 @@
 /* A world of n ranks on this machine: processes joined by socket pairs. For tests: what MPI does over a network, these do in milliseconds, under sanitizers,
  * with delays and a death at a chosen call. A rank that has died is seen by all others, because its sockets close.
- * PM_REHEARSE="seed=3 delay=500 kill=2:17": each call waits up to 500 us, at random from the seed; rank 2 is killed at its 17th call.
+ * PM_REHEARSE="seed=3 delay=500 kill=2:17": each call waits up to 500 us, at random from the seed; rank 2 is killed at its 17th call. memory=1:17: from its
+ * 17th call on rank 1 gets no more memory. limit=1:4096: rank 1 cannot write beyond 4096 bytes of a file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
@@ -27,12 +28,20 @@ struct rehearsal {
 	struct pollfd *poll;
 	uint64_t seed, calls;
 	double delay;   /* [us] */
-	int kill_rank;  /* -1 none */
-	uint64_t kill_call;
+	int kill_rank, starve_rank, limit_rank;  /* -1 none */
+	uint64_t kill_call, starve_call, limit;
 };
 
 static char why[160]; /* outlives the rehearsal */
 static bool killed;    /* it names a rank that was killed, which is the reason for all that followed */
+
+static void limit(int what, uint64_t bytes)
+{
+	struct rlimit now;
+	getrlimit((__rlimit_resource_t)what, &now);
+	now.rlim_cur = (rlim_t)bytes;
+	setrlimit((__rlimit_resource_t)what, &now);
+}
 
 static void faults(struct pm_transport *t)
 {
@@ -41,6 +50,8 @@ static void faults(struct pm_transport *t)
 	r->calls++;
 	if (r->kill_rank == t->rank && r->calls == r->kill_call)
 		raise(SIGKILL);
+	if (r->starve_rank == t->rank && r->calls == r->starve_call)
+		limit(RLIMIT_AS, 0);
 	if (r->delay <= 0)
 		return;
 	pm_random(r->seed, (uint64_t)t->rank, r->calls, u);
@@ -263,18 +274,27 @@ static void give_up(struct pm_transport *t, int code)
 			kill(r->pid[k], SIGKILL);
 }
 
+/* KEY=RANK:NUMBER */
+static void fault(const char *text, const char *key, int *rank, uint64_t *number)
+{
+	const char *at = strstr(text, key);
+	unsigned long long n;
+	int which;
+	if (at && sscanf(at + strlen(key), "%d:%llu", &which, &n) == 2)
+		*rank = which, *number = n;
+}
+
 static void read_faults(struct rehearsal *r)
 {
 	const char *text = getenv("PM_REHEARSE"), *at;
-	int rank;
-	unsigned long long call;
-	r->kill_rank = -1;
+	r->kill_rank = r->starve_rank = r->limit_rank = -1;
 	if (!text)
 		return;
 	r->seed = (at = strstr(text, "seed=")) ? strtoull(at + 5, NULL, 10) : 0;
 	r->delay = (at = strstr(text, "delay=")) ? strtod(at + 6, NULL) : 0;
-	if ((at = strstr(text, "kill=")) && sscanf(at, "kill=%d:%llu", &rank, &call) == 2)
-		r->kill_rank = rank, r->kill_call = call;
+	fault(text, "kill=", &r->kill_rank, &r->kill_call);
+	fault(text, "memory=", &r->starve_rank, &r->starve_call);
+	fault(text, "limit=", &r->limit_rank, &r->limit);
 }
 
 /* All pairs; pair[a * n + b] is the end of rank a towards rank b. */
@@ -346,6 +366,8 @@ int pm_transport_rehearse(struct pm_transport *t, int n)
 		else if (!r->pid[k])
 			rank = k;
 	}
+	if (r->limit_rank == rank)
+		limit(RLIMIT_FSIZE, r->limit);
 	if (rank && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() != first)
 		_exit(PM_DATA);
 	keep(r, rank, pair);

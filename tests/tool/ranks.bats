@@ -221,6 +221,95 @@ END
 	[ $failed -eq 42 ]
 }
 
+@test "files with ranks: each reads and writes its own part, with the bytes of a run alone; several streams, f32, i64, a checkpoint over another" {
+	pinit uniform -n 13000 --dispersion 0.3 | scalc --type f32 'w = x' 'u = y, z' | scalc --type i64 'k = 1000*x' >in.pm
+	cat in.pm in.pm >twice.pm
+	for s in "push drift" "$(kicks "field 'acc = -x, -y, -z'")" "push drift | ssort"; do
+		cycle -n 3 --no-history --checkpoint c -i twice.pm -o alone "$s"
+		for n in 2 3 7; do
+			for again in new old; do # a file that is there is replaced
+				on $n cycle -n 3 --no-history --checkpoint d -i twice.pm -o file "$s" && cmp alone file && cmp c d ||
+					{ echo "$n ranks: $s, $again"; return 1; }
+			done
+			on $n cycle -n 3 --no-history -i twice.pm "$s" | cmp - alone
+			rm file d
+		done
+	done
+	cycle -n 3 --every 1 --store f32 -i in.pm "push drift" >alone
+	on 3 cycle -n 3 --every 1 --store f32 -i in.pm -o file "push drift" && cmp alone file
+	mkfifo pipe
+	cat <in.pm >pipe &
+	cycle -n 1 -i in.pm "push drift" >alone
+	on 3 cycle -n 1 -i pipe "push drift" | cmp - alone
+	PM_REHEARSE="limit=2:0" run -1 --separate-stderr on 3 cycle -n 1 -i in.pm -o file "push drift" # so rank 2 writes
+	[ "$stderr" = "cycle: cannot write the output: File too large" ]
+}
+
+@test "files with ranks: damaged, cut, too large for a limit of one rank or of all: one message, the code of a run alone, the old file stays" {
+	pinit uniform -n 13000 --dispersion 0.3 >in.pm
+	cycle -n 1 -i in.pm -o old "push drift"
+	cp old file
+	head -c 400000 in.pm >cut
+	{ head -c 500000 in.pm; printf x; tail -c +500002 in.pm; } >damaged
+	for f in cut damaged; do
+		run -1 --separate-stderr cycle -n 1 -i $f -o file "push drift"
+		said=$stderr
+		run -1 --separate-stderr on 3 cycle -n 1 -i $f -o file "push drift"
+		[ "$stderr" = "$said" ] && cmp file old
+	done
+	for n in 1 3; do
+		run -1 --separate-stderr bash -c "ulimit -f 400; cycle --ranks $n -n 1 -i in.pm -o file 'push drift'"
+		[ "$stderr" = "cycle: cannot write the output: File too large" ] && cmp file old
+	done
+	for rank in 0 1 2; do
+		PM_REHEARSE="limit=$rank:9000" run -1 --separate-stderr on 3 cycle -n 1 -i in.pm -o new --checkpoint file "push drift"
+		[[ $stderr == "cycle: "*"cannot write the output: File too large" ]] && cmp file old
+	done
+	[ "$(find . -name '.*.??????' | wc -l)" -eq 0 ]
+}
+
+@test "memory that ends on one rank, at any moment: no hang, the message and code of a run alone, or its bytes" {
+	pinit plummer -n 13000 >in.pm
+	s="field 'acc = -x, -y, -z' | dt --oscillation 0.1 | push rk2"
+	cycle -n 2 -i in.pm -o alone "$s"
+	ended=0 failed=0
+	for rank in 0 1 2; do
+		for call in 3 5 9 14 20 27 35 60 120; do
+			code=0
+			OMP_NUM_THREADS=1 PM_REHEARSE="memory=$rank:$call" on 3 cycle -n 2 -i in.pm -o file "$s" 2>said || code=$?
+			if [ $code -eq 0 ]; then cmp file alone && ended=$((ended + 1)); else
+				[ $code -eq 1 ] && [ "$(wc -l <said)" -eq 1 ] && grep -q "out of memory" said ||
+					{ echo "rank $rank, call $call: $code"; cat said; return 1; }
+				failed=$((failed + 1))
+			fi
+		done
+	done
+	[ $ended -gt 3 ] && [ $failed -gt 3 ]
+}
+
+@test "two sets that fail on different ranks: the failure that a run alone meets first" {
+	pinit uniform -n 13000 --dispersion 0.3 >one
+	smod --rename matter=probes <one >two
+	stack one two | scalc --role state --set matter 'bad = id != 12999' | scalc --role state --set probes 'bad = id != 3' >both
+	for s in "push drift | scalc 'a = 1/bad'" "push drift | scalc --set probes 'a = 1/bad' | scalc --set matter 'a = 1/bad'"; do
+		run -3 --separate-stderr cycle -n 1 "$s" <both
+		said=$stderr
+		[[ $said == *"'a' of '"* ]]
+		for n in 2 3 7; do run -3 --separate-stderr on $n cycle -n 1 "$s" <both && [ "$stderr" = "$said" ]; done
+	done
+}
+
+@test "a launcher that is killed leaves no rank behind" {
+	pinit plummer -n 9000 >start
+	timeout -k 1 60 cycle --ranks 3 -q -n 1000000 "push drift" <start >/dev/null 2>&1 &
+	for _ in {1..50}; do sleep 0.1; first=$(pgrep -P $!) && others=$(pgrep -P "$first") && break; done
+	kill -KILL "$first"
+	wait $! || true
+	sleep 0.5
+	for p in $others; do [ ! -e "/proc/$p" ] || grep -q '^State:.*zombie' "/proc/$p/status"; done
+	[ "$(wc -w <<<"$others")" -eq 2 ]
+}
+
 @test "a rank that is killed ends the run: no hang, one message, the last checkpoint is whole" {
 	pinit plummer -n 9000 >start
 	s=$(kicks "$(force 8)")

@@ -1,0 +1,24 @@
+/* Fields of a regular file, read and written by all ranks, each its own stretch at its own offset. The bytes and checksums are those of one rank alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_STREAM_PARTS_FILE_H
+#define PM_STREAM_PARTS_FILE_H
+
+#include "stream/parts.h"
+
+/* Where a field is in a file. */
+struct pm_parts_place {
+	const char *path;
+	uint64_t offset; /* [bytes] of its first value */
+	bool lasting;    /* written: on the disk before it counts as written */
+};
+
+enum { PM_PARTS_ELSEWHERE = 1 }; /* a rank does not see the file */
+/* Rank 0. Each 0, PM_PARTS_ELSEWHERE or failure, agreed; *crc: CRC-32C of all bytes of the field on the wire. */
+int pm_parts_read(const struct pm_frame *f, struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc); /* the field gets parts alone */
+int pm_parts_write(const struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc);                    /* it has parts */
+bool pm_parts_worth_reading(const struct pm_frame *f, const struct pm_field *field); /* several ranks would have some */
+bool pm_parts_alone(const struct pm_field *field);                                   /* they are all there is: rank 0 has no copy */
+/* The other ranks, asked to. */
+int pm_parts_file_follow(enum pm_request what, const void *more, size_t bytes);
+
+#endif
