@@ -78,7 +78,7 @@ static bool wants(const struct pm_until *u, int first, int last)
 static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame *f)
 {
 	struct pm_measure how = pm_diag_how(&u->gauge, f);
-	if (!wants(u, PM_ENERGY_MESH, PM_ENERGY) && !wants(u, PM_VIRIAL_RATIO, PM_VIRIAL_RATIO) && !wants(u, PM_ENERGY_FLOW, PM_HELICITY))
+	if (!wants(u, PM_ENERGY_MESH, PM_ENERGY) && !wants(u, PM_VIRIAL_RATIO, PM_RELAXATION_TIME) && !wants(u, PM_ENERGY_FLOW, PM_HELICITY))
 		how.potential = NULL;
 	how.vortices = how.vortices && wants(u, PM_CIRCULATION, PM_DISTORTION);
 	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_STRENGTH_SCALE - 1);
@@ -121,7 +121,7 @@ static bool may_sum(const struct pm_until *u, const struct pm_frame *f, int miss
 		return false;
 	const struct pm_measure how = pm_diag_how(&u->gauge, f);
 	const int from = missing >= 0 ? u->column[missing].from : -1;
-	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || from == PM_VIRIAL_RATIO) && !u->gauge.pair &&
+	return (from == PM_ENERGY || from == PM_ENERGY_PAIR || (from >= PM_VIRIAL_RATIO && from <= PM_RELAXATION_TIME)) && !u->gauge.pair &&
 		pm_pairs_unasked(f, law, &how, why) == PM_PAIRS_SUM;
 }
 

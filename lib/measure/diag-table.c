@@ -125,7 +125,7 @@ static bool needs_energy(const struct pm_diag_table *t)
 	bool needs = false;
 	for (int i = 0; i <= t->n; i++) {
 		const int from = i < t->n ? t->column[i].from : t->choice.growth ? t->growth.from : 0;
-		needs = needs || from == PM_ENERGY_PAIR || from == PM_ENERGY || from == PM_VIRIAL_RATIO;
+		needs = needs || from == PM_ENERGY_PAIR || from == PM_ENERGY || (from >= PM_VIRIAL_RATIO && from <= PM_RELAXATION_TIME);
 	}
 	return needs;
 }
