@@ -19,10 +19,12 @@ load ../helper
 @test "002:N17: bodies in equilibrium change their energies by encounters as N/(8 ln N) says, within a factor of two, and as the power -0.85 of N" {
 	for n in 200 800; do
 		for seed in 1 2 3 4; do
-			pinit plummer -n $n --seed $seed --dt 0.02 --softening 0.01 | cycle -q -n 1 'pp --potential | push kick/2 drift | pp --potential | push kick/2' >a
+			pinit plummer -n $n --seed $seed --dt 0.02 --softening 0.01 |
+				cycle -q -n 1 'pp --potential | push kick/2 drift | pp --potential | push kick/2' >a
 			cycle -q -t 6 'push kick/2 drift | pp --potential | push kick/2' <a >b
 			for i in a b; do
-				stab --plain $i | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $(c["vx"])^2 + $(c["vy"])^2 + $(c["vz"])^2, $(c["phi"]) }' >$i.e
+				stab --plain $i | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
+					{ print $(c["vx"])^2 + $(c["vy"])^2 + $(c["vz"])^2, $(c["phi"]) }' >$i.e
 			done
 			# (Delta E)^2 = v^2 (Delta v)^2/3 = v^4 T/(3 t_relax)
 			paste a.e b.e | awk -v relax="$(diag --columns relaxation_time a | tail -1)" '{ d = ($3 - $1) / 2 + $4 - $2; s += d * d; v += $1; m++ }
