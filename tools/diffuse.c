@@ -6,7 +6,7 @@
 #include "stage/viscosity-options.h"
 
 struct config {
-	const char *order, *mesh, *plan;
+	const char *field, *order, *mesh, *plan;
 	double nu;
 	bool replace;
 };
@@ -18,7 +18,7 @@ struct state {
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	const struct pm_diffusion_choice choice = {.mesh = o->mesh, .order = o->order, .nu = pm_viscosity(f, o->nu), .replace = o->replace};
+	const struct pm_diffusion_choice choice = {.field = o->field, .mesh = o->mesh, .order = o->order, .nu = pm_viscosity(f, o->nu), .replace = o->replace};
 	int status = pm_law_of(f) ? pm_viscosity_check(s, choice.nu) : -PM_DATA;
 	return status ? status : pm_diffusion_declare(&choice, f, &((struct state *)s->state)->diffusion);
 }
@@ -34,6 +34,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static const struct pm_option options[] = {
+	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field),
+		.text = "a strength or value that p2m --strength NAME --field NAME has deposited (default: the law's density)"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
 		.text = "order of the differences, or spectral (default: that of the law's gradients)"},
 	PM_VISCOSITY_ROW,
@@ -43,6 +45,10 @@ static const struct pm_option options[] = {
 	{0},
 };
 static const struct pm_example examples[] = {
+	{"the heat equation: a value of particles at rest on the nodes, differences of second order and explicit Euler steps",
+		"awk 'BEGIN { print \"x heat volume\"; for (i = 0; i < 32; i++) print i/32, sin(i/32*6.28318530718), 1/32 }' | "
+		"stab - --box 0,1 -n 32 --faces periodic --particle-faces periodic --dt 0.004 | cycle -n 10 "
+		"\"field 'vel = 0' | p2m --strength heat --field heat --kernel m4prime | diffuse --field heat --nu 0.1 --order 2 | m2p | push euler\" | sls"},
 	{"a vortex spreads at rest: its circulation is conserved, its peak falls",
 		"awk 'BEGIN { print \"x y circulation volume\"; for (i = -9; i < 10; i++) for (j = -9; j < 10; j++) print i/8, j/8, exp(-(i*i + j*j)/16)/64, "
 		"1/64 }' | "
@@ -60,8 +66,8 @@ const struct pm_tool tool_diffuse = {
 		 "Reports that product as fastest_dt. If nu is 0 the frame is passed on unchanged. See docs/methods/diffuse.md.",
 	.kind = PM_FILTER,
 	.makes = true,
-	.reads = "the law's density (omega) on the mesh",
-	.adds = "domega (mesh), a change of the strength (term diffusion)",
+	.reads = "the law's density (omega) on the mesh, or --field",
+	.adds = "domega (mesh), a change of the strength or value (term diffusion)",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,

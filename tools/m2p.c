@@ -4,27 +4,45 @@
 #include <string.h>
 
 #include "stage/stage.h"
-#include "transfer/gather-frame.h"
+#include "law/law.h"
+#include "transfer/gather-changes.h"
 
 struct config {
 	const char *kernel, *mesh, *set, *field, *outside;
-	bool replace;
+	bool replace, changes;
 };
 struct state {
 	struct pm_fft_plans plans; /* of interlaced meshes */
 };
 
-static int choose(const struct config *o, const struct pm_frame *f, struct pm_gather_job *j)
+static int begin(struct pm_stage *s)
 {
-	const struct pm_gather_choice choice = {.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace,
-		.outside = o->outside};
-	return pm_gather_choose(&choice, f, j);
+	const struct config *o = s->config;
+	return o->changes && o->field ? pm_fail(PM_USAGE, "--changes or --field, not both: the changes are what is carried") : 0;
+}
+
+static struct pm_gather_choice choice_of(const struct config *o)
+{
+	return (struct pm_gather_choice){.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace, .outside = o->outside};
+}
+
+/* Changes alone: asked for, or the law has no field and the mesh has changes. */
+static bool only_changes(const struct config *o, const struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_of(f);
+	bool any = o->changes;
+	for (size_t i = 0; i < f->nfields && law && !law->field && !o->field; i++)
+		any = any || (f->fields[i]->role == PM_CHANGE && f->fields[i]->of[0] && pm_frame_mesh(f, f->fields[i]->on));
+	return any;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	int status = choose(s->config, f, &j);
+	if (only_changes(s->config, f))
+		return pm_gather_changes_declare(&choice, f);
+	int status = pm_gather_choose(&choice, f, &j);
 	return status ? status : pm_gather_declare(&j, f);
 }
 
@@ -39,10 +57,27 @@ static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm
 		}
 }
 
+static int frame_of_changes(struct pm_stage *s, struct pm_frame *f)
+{
+	const struct pm_gather_choice choice = choice_of(s->config);
+	struct pm_mesh_changes carry;
+	uint64_t dropped;
+	int status = pm_gather_changes(&choice, f, &carry, &dropped);
+	if (!status && dropped)
+		pm_report_count(s, f, "dropped", dropped);
+	if (!status)
+		report(s, f, &carry);
+	pm_mesh_changes_free(&carry);
+	return status;
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	int status = choose(s->config, f, &j);
+	if (only_changes(s->config, f))
+		return frame_of_changes(s, f);
+	int status = pm_gather_choose(&choice, f, &j);
 	if (!status)
 		status = pm_gather_prepare(&j, f, &((struct state *)s->state)->plans);
 	for (size_t i = 0; i < j.sets.n && !status; i++) {
@@ -68,6 +103,8 @@ static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
 		.text = "the interpolation kernel (default: the kernel of the field, interlaced if the field is)"},
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "gather this mesh field to a particle field of the same name instead"},
+	{.name = "changes", .kind = PM_FLAG, PM_AT(changes),
+		.text = "carry the changes on the mesh alone, without the law's field (as it is where the law has none)"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first that has the field)"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with the state that the law moves)"},
 	{.name = "outside", .kind = PM_WORD, .choices = pm_outside_names, PM_AT(outside),
@@ -99,6 +136,7 @@ const struct pm_tool tool_m2p = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
+	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.free = release,

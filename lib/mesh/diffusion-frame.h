@@ -6,6 +6,7 @@
 
 struct pm_diffusion_choice {
 	const char *mesh, *order; /* NULL: the first; the law's */
+	const char *field;        /* NULL: the law's density; a strength or value of particles, deposited under this name */
 	double nu;                /* [length^2/time], positive */
 	bool replace;             /* the term anew, instead of refused a second time */
 };
@@ -18,7 +19,7 @@ struct pm_diffusion {
 	double nu;
 };
 
-/* Each 0 or failure. Header: the change field d<density> of the law's strength. */
+/* Each 0 or failure. Header: the change field d<density> of the law's strength, or of the field. */
 int pm_diffusion_declare(const struct pm_diffusion_choice *c, struct pm_frame *f, struct pm_diffusion *t);
 /* Data, with the limit of the change. plans: of spectral operators, started anew where full. */
 int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans);

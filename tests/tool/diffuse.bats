@@ -152,3 +152,77 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 		OMP_NUM_THREADS=3 diffuse --order $order --no-history <a | cmp b -
 	done
 }
+
+# heat CELLS [stab options]: heat = sin(2 pi x) as values of particles on the nodes of 0..1.
+heat() {
+	awk -v n="$1" 'BEGIN { pi = atan2(0, -1); print "x heat volume"
+		for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", i / n, sin(2 * pi * i / n), 1 / n }' |
+		stab - --box 0,1 -n "$1" --faces periodic --particle-faces periodic "${@:2}"
+}
+heat_step="field 'vel = 0' | p2m --strength heat --field heat --kernel m4prime | diffuse --field heat --nu 0.1 --order 2 | m2p"
+
+@test "the heat equation of a value: du_i/dt = nu (u_{i+1} - 2 u_i + u_{i-1})/h^2 to round-off, order 2 against exp(-4 pi^2 nu t) (000:S55, 002:FV2)" {
+	heat 16 --dt 0.01 >a
+	cycle -n 3 "$heat_step | push euler" <a >b
+	paste <(stab --plain <a | column heat) <(stab --plain <b | column heat) | awk 'BEGIN { f = (1 - 0.01 * 0.1 * 256 * (2 - 2 * cos(atan2(0, -1) / 8)))^3 }
+		{ d = $2 - f * $1; n++; if (d > 1e-15 || d < -1e-15) exit 1 } END { exit n != 16 }'
+	e=()
+	for n in 16 24 32; do
+		heat $n --dt 0.005 | cycle -n 20 "$heat_step | push rk4" | stab --plain | column heat >b
+		e+=("$(calc "1/$n")" "$(awk -v n=$n 'BEGIN { pi = atan2(0, -1) } { d = $1 - exp(-4 * pi * pi * 0.01) * sin(2 * pi * (NR - 1) / n)
+			if (d < 0) d = -d; if (d > m) m = d } END { print m }' b)")
+	done
+	order 2 "${e[@]}" # the error of rk4 in time is 1e-8
+}
+
+@test "explicit Euler needs dt <= h^2/(2 dim nu): push refuses a longer step (002:FV2 as corrected)" {
+	# the limit at 16 cells is 1/(256 * 2 * 0.1) = 0.01953
+	heat 16 --dt 0.0195 | cycle -n 1 "$heat_step | push euler" >/dev/null
+	heat 16 --dt 0.0196 >a
+	run -3 bash -o pipefail -c "cycle -n 1 \"$heat_step | push euler\" <a | sls"
+	[[ $output =~ "0.0195" ]]
+}
+
+@test "diffuse takes the strength of every law: a change of it reaches the particles, and its sum is 0" {
+	for law in gravity:mass electrostatic:charge vortex:circulation; do
+		awk 'BEGIN { srand(3); print "x y s v0 v1 volume mass"
+			for (i = 0; i < 64; i++) print (i % 8 + 0.2 * rand()) / 8, (int(i / 8) + 0.2 * rand()) / 8, rand(), 0, 0, 1/64, 1 }' |
+			awk -v s="${law#*:}" 'NR == 1 { print s == "mass" ? "x y mass vx vy volume" : "x y " s " vx vy volume mass"; next }
+				s == "mass" { $7 = "" } { print }' |
+			stab - --law "${law%:*}" --box 0,1 -n 8 --faces periodic --particle-faces periodic --dt 0.01 >a
+		for words in 'poisson-fft | mgrad | diffuse --nu 0.1 | m2p' 'diffuse --nu 0.1 | m2p --changes'; do
+			sh_ok "p2m <a | $words | stab --plain >b"
+			column "d${law#*:}" <b | awk '{ s += $1; a += $1 < 0 ? -$1 : $1; n++ }
+				END { exit !(n == 64 && a > 0.1 && s < 1e-14 * a && s > -1e-14 * a) }'
+		done
+	done
+}
+
+@test "what diffuse --field cannot do is refused by name" {
+	heat 8 --dt 0.01 >a
+	while IFS='|' read -r text words; do
+		run -1 bash -o pipefail -c "$words <a | sls"
+		[[ $output == *"$text"* ]] || { echo "$words: $output"; return 1; }
+	done <<'ROWS'
+the law 'free' has no density on a mesh to diffuse (--field NAME, deposited by p2m --strength NAME --field NAME)|diffuse --nu 0.1
+no field 'heat' on mesh 'mesh' (p2m --strength heat --field heat makes it of particles)|diffuse --nu 0.1 --field heat
+no change on a mesh names a state of particles (diffuse makes one; m2p --field NAME for another field)|m2p --changes
+ROWS
+	scalc --mesh mesh 'T = x' <a >b
+	run -1 bash -o pipefail -c 'diffuse --field T --nu 0.1 <b | sls'
+	[[ $output =~ "no particles have a state 'T' whose rate of change this would be" ]]
+	run -2 m2p --changes --field heat <a
+}
+
+@test "the errors of diffuse and pse on the same particles are those of diffuse.md, on a lattice of 20^3 off the nodes (000:N08)" {
+	pinit lattice --dim 3 -n 8000 --spacing 1 | scalc --role state 'heat = sin(2*pi*x/Lx)' | scalc --extensive --role state 'volume = Lx*Ly*Lz/n' >a
+	scalc 'rate = -(2*pi/Lx)^2*heat' <a >exact
+	for row in "2 .00851" "4 .000426"; do
+		p2m --strength heat --field heat --kernel m4prime <a | diffuse --field heat --nu 1 --order "${row% *}" | m2p --changes | scalc 'rate = dheat' >b
+		within "$(scmp --norm relative_l2 --field rate b exact | tail -1 | cut -f8)" "${row#* }" "$(calc "0.01*${row#* }")" "mesh, order ${row% *}"
+	done
+	for row in "2 .0478" "4 .00154"; do
+		pse --field heat --nu 1 --order "${row% *}" <a | scalc 'rate = dheat' >b
+		within "$(scmp --norm relative_l2 --field rate b exact | tail -1 | cut -f8)" "${row#* }" "$(calc "0.01*${row#* }")" "pse, order ${row% *}"
+	done
+}
