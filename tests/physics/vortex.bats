@@ -444,3 +444,37 @@ love() {
 		s += q; m += q * $at["x"] } END { print m / s }')" 0.541936 0.01
 	within "$(diag --columns impulse_x <b | tail -1)" 6.2831853 1e-3 # the kink, h^2
 }
+
+@test "VM-11: waves on the tanh layer grow at the rates of Rayleigh's equation, and one with k d > 1 does not" {
+	# 4.6 nodes per d; measured -1.0, -0.8, -2.1 % and a decay
+	local k want gamma
+	while read -r k want; do
+		pinit tanh-layer --wavenumber "$k" |
+			cycle -n 100 --every 4 'p2m --kernel m6prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m6prime' |
+			p2m --kernel m6prime | poisson-fft | mgrad | diag --columns time --growth mode:1 | tail -1 >d
+		gamma=$(sed 's/.*gamma \([^ ]*\) .*/\1/' d)
+		[ "$want" = none ] && below "$(calc "$gamma > 0 ? $gamma : 0")" 0.01 "k d = $k" || within "$gamma" "$want" "$(calc "0.03 * $want")" "k d = $k"
+	done <<-END
+		0.2 0.139491176634992
+		0.4446 0.189702025682916
+		0.8 0.107735163134836
+		1.1 none
+	END
+}
+
+@test "vorticity at random has the energy and enstrophy of its waves, in space without divergence; another seed is another flow" {
+	for dim in 2 3; do
+		pinit random-vorticity --dim $dim --cells 24 --band 3.3 | p2m | poisson-fft >a
+		diag --exact --columns energy,enstrophy <a >d
+		within "$(column energy <d)" "$(column exact_energy <d)" 1e-11
+		within "$(column enstrophy <d)" "$(column exact_enstrophy <d)" 1e-11
+	done
+	for v in $(mgrad --operator div --source omega --target d --order spectral <a | stab --plain --mesh mesh | column d | sort -g | sed -n '1p;$p'); do
+		below "$v" 1e-12
+	done
+	pinit random-vorticity --cells 24 --no-history >a
+	pinit random-vorticity --cells 24 --seed 2 --no-history >b
+	run -1 scmp --field circulation --tolerance 0.1 a b
+	run -2 pinit random-vorticity --cells 8
+	[[ $output == *"8 cells along x do not resolve waves of k = 5 (--cells, or a lower --band)"* ]]
+}
