@@ -13,6 +13,7 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
+	collide) echo "collide --weight 0.01 --quiet" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
@@ -48,6 +49,7 @@ input() {
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	walk) cloud | smod --dt 0.01 ;;
+	collide) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 | smod --law electrostatic | scalc --extensive 'charge = mass' ;;
 	*) cloud ;;
 	esac
 }
