@@ -75,9 +75,9 @@ const struct pm_tool tool_collide = {
 	.summary = "scatter charges by the collisions that a mesh leaves out",
 	.about = "Coulomb collisions as many small-angle encounters: in every cell the particles of each set meet in random pairs, and the relative "
 		"velocity of a pair turns by a random angle whose mean square is 8 pi n log(L) b0^2 u dt where it is small, b0 = q_a q_b/(4 pi eps0 m_ab "
-		"u^2), u the relative speed, m_ab the reduced mass, n the density of the fewer. Momentum and energy are kept to round-off. It stands behind the "
-		"last push, once a step. Velocities need 3 components; in 1-D and 2-D a cell is 1 long across. Random numbers depend on seed, sets, id (or index) "
-		"and step, not on threads. Reports the number of pairs, Coulomb's logarithm (the least) and the mean of 1 - cos of the angles. "
+		"u^2), u the relative speed, m_ab the reduced mass, n the density of the fewer. Momentum and energy are kept to round-off. It stands behind "
+		"the last push, once a step. Velocities need 3 components; in 1-D and 2-D a cell is 1 long across. Random numbers depend on seed, sets, id "
+		"(or index) and step, not on threads. Reports the number of pairs, Coulomb's logarithm (the least) and the mean of 1 - cos of the angles. "
 		"Law electrostatic or electromagnetic; not relativistic. See docs/methods/collide.md.",
 	.kind = PM_FILTER,
 	.reads = "x, charge, mass, id",
