@@ -40,7 +40,7 @@ static const struct pm_option options[] = {
 	{.name = "restriction", .kind = PM_WORD, .fallback = "full", .choices = restrictions, PM_AT(restriction),
 		.text = "of the residual; half weighting is for comparison"},
 	{.name = "coarse", .kind = PM_WORD, .choices = coarse, PM_AT(coarse),
-		.text = "operators of the coarse grids: the same differences (direct), or P^T A P of the fine one's (default: direct; with a permittivity galerkin)"},
+		.text = "coarse operators: the same differences, or P^T A P of the finer one (default: direct; with a permittivity galerkin)"},
 	{.name = "permittivity", .kind = PM_TEXT, .unit = "FIELD", PM_AT(permittivity),
 		.text = "eps in div(eps grad phi) = c*s, a positive mesh field (default: 1)"},
 	{.name = "mean", .kind = PM_WORD, .fallback = "harmonic", .choices = pm_mg_mean_names, PM_AT(mean), .text = "mean of eps between two nodes"},

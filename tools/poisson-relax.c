@@ -8,12 +8,13 @@ struct config {
 	struct pm_problem_names names;
 	const char *method;
 	double relaxation, tolerance;
-	int64_t most;
+	int64_t most, sweeps;
 };
 struct state {
 	struct pm_problem problem;
 	struct pm_relaxation_choice choice;
 	struct pm_relaxation *solver; /* for one grid */
+	bool from;                    /* the target is there, and sweeps begin with it */
 };
 
 static const struct pm_option options[] = {
@@ -23,6 +24,8 @@ static const struct pm_option options[] = {
 	{.name = "tolerance", .kind = PM_REAL, .fallback = "1e-11", .high = 1, PM_AT(tolerance),
 		.text = "tolerance of the residual relative to c*s, both as root mean square"},
 	{.name = "max-sweeps", .kind = PM_INTEGER, .fallback = "100000", .low = 1, .high = 1e9, PM_AT(most), .text = "largest number of sweeps; then it fails"},
+	{.name = "sweeps", .kind = PM_INTEGER, .low = 1, .high = 1e9, PM_AT(sweeps),
+		.text = "just as many, from the target as it is (0 where there is none): relaxation as a piece of multigrid, see mlevel"},
 	PM_SOLVER_ROWS,
 	{0},
 };
@@ -43,6 +46,8 @@ static int begin(struct pm_stage *s)
 	t->choice = (struct pm_relaxation_choice){.method = pm_relax_find(o->method), .factor = o->relaxation, .tolerance = o->tolerance, .most = o->most};
 	if (!t->choice.method)
 		return -PM_USAGE;
+	t->choice.exactly = s->advances = o->sweeps > 0;
+	t->choice.most = o->sweeps > 0 ? o->sweeps : o->most;
 	if (!isnan(o->relaxation) && !t->choice.method->factor)
 		return pm_fail(PM_USAGE, "--method %s has no factor of relaxation (leave --relaxation out, or take --method sor)", o->method);
 	return 0;
@@ -55,14 +60,20 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	int status = pm_problem_find(f, &o->names, &t->problem);
 	if (!status)
 		status = pm_relaxation_check(&t->problem.grid, t->choice.method, t->choice.factor);
+	if (!status && o->sweeps > 0 && pm_relaxation_open(&t->problem.grid))
+		status = pm_fail(PM_DATA, "--sweeps needs faces that give values, but these are open (smod --faces wall, or leave --sweeps out)");
+	t->from = !status && o->sweeps > 0 && pm_frame_field(f, t->problem.mesh->name, t->problem.target_name);
+	t->problem.keep = t->from;
 	if (!status)
 		status = pm_problem_declare(f, &t->problem);
+	if (!status && t->problem.target->components != t->problem.source->components)
+		status = pm_fail(PM_DATA, "'%s' and '%s' have different numbers of components", t->problem.source_name, t->problem.target_name);
 	for (int c = 0; !status && c < t->problem.source->components; c++) {
 		struct pm_grid g = pm_problem_grid(&t->problem, c);
 		status = pm_relaxation_check(&g, t->choice.method, t->choice.factor);
 	}
 	if (!status)
-		t->problem.target->use |= PM_USE_FILL;
+		t->problem.target->use |= t->from ? 0 : PM_USE_FILL;
 	return status;
 }
 
@@ -77,14 +88,15 @@ static int ready(struct state *t, int component)
 }
 
 /* Of the component that took the most sweeps. */
-static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relax *method, const struct pm_relaxation_record *r)
+static void report(struct pm_stage *s, struct pm_frame *f, const struct pm_relax *method, bool exactly,
+	const struct pm_relaxation_record *r)
 {
 	const struct { const char *key; double value; } row[] = {{"sweeps", (double)r->sweeps}, {"residual", r->after}, {"relaxation", r->factor},
 		{"radius", r->radius}, {method->bound ? "radius_bound" : "radius_expected", r->expected}};
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++)
 		if (!isnan(row[i].value))
 			pm_report(s, f, row[i].key, row[i].value);
-	pm_report_text(s, f, "status", r->floor ? "floor" : "converged");
+	pm_report_text(s, f, "status", exactly ? "sweeps" : r->floor ? "floor" : "converged");
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -95,6 +107,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	for (int c = 0; !status && c < t->problem.source->components; c++) {
 		struct pm_homogeneous m = {0};
 		double *phi = pm_out(t->problem.target, c);
+		t->choice.start = t->from ? phi : NULL;
 		if (!(status = ready(t, c)) && !(status = pm_problem_move(&t->problem, f, c, 2, NULL, &m)))
 			status = pm_relaxation_solve(t->solver, &t->choice, m.c, m.s, phi, &r);
 		if (!status && r.singular)
@@ -106,7 +119,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 			longest = r;
 	}
 	if (!status)
-		report(s, f, t->choice.method, &longest);
+		report(s, f, t->choice.method, t->choice.exactly, &longest);
 	return status;
 }
 

@@ -87,6 +87,7 @@ bool pm_relaxation_fits(const struct pm_relaxation *p, const struct pm_grid *g, 
 		!memcmp(p->grid.cells, g->cells, sizeof g->cells) && !memcmp(p->grid.h, g->h, sizeof g->h) && !memcmp(p->grid.face, g->face, sizeof g->face);
 }
 
+bool pm_relaxation_open(const struct pm_grid *g) { return pm_outer_wanted(g); }
 struct pm_relax_work *pm_relaxation_work(struct pm_relaxation *p) { return &p->work; }
 
 /* to = factor (from - average) on the unknowns, 0 elsewhere; from NULL: 0. */
@@ -142,6 +143,13 @@ static void look(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 static void iterate(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double source, struct pm_relaxation_record *r)
 {
 	double met = 1, left = 1;
+	while (o->exactly && r->sweeps < o->most)
+		p->method->sweep(&p->work), r->sweeps++;
+	if (o->exactly) {
+		look(p, o, source, r);
+		r->converged = true;
+		return;
+	}
 	while (!r->converged && r->sweeps < o->most && met < 1e30) {
 		met = sqrt(p->method->sweep(&p->work)) / source;
 		r->sweeps++;
@@ -189,12 +197,14 @@ static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 	r->incompatible = r->mean != 0 ? fabs(r->mean) / largest(l->size, s) : 0;
 	r->expected = l->diagonal > 0 ? p->method->radius(l, r->factor) : NAN;
 	double unit = unit_of(l->size, c, r->mean, s);
+	if (o->start)
+		unit = fmax(unit, unit_of(l->size, 1, 0, o->start));
 	load(l, c / unit, r->mean, s, p->f);
-	load(l, 0, 0, NULL, p->work.u);
+	load(l, 1 / unit, 0, o->start, p->work.u);
 	p->work.factor = r->factor;
 	p->work.fresh = true;
 	double source = norm(p, p->f);
-	r->converged = source == 0 || l->diagonal == 0 || l->unknowns == 0;
+	r->converged = (source == 0 && !o->start) || l->diagonal == 0 || l->unknowns == 0;
 	if (!r->converged)
 		iterate(p, o, source, r);
 	double mean = l->singular ? pm_laplacian_mean(l, p->work.u, p->work.sums) : 0;

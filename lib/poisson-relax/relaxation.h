@@ -12,6 +12,8 @@ struct pm_relaxation_choice {
 	double factor;        /* of relaxation; NAN: the method's own */
 	double tolerance;     /* of the residual, relative to the right-hand side, root of the mean square */
 	int64_t most;         /* sweeps */
+	bool exactly;         /* just as many, whatever the residual */
+	const double *start;  /* phi to begin with, points of the grid; NULL: 0. Not with open faces */
 };
 
 struct pm_relaxation_record {
@@ -33,12 +35,13 @@ struct pm_relaxation; /* the meshes of a method, for one pm_grid */
 
 /* 0, or a failure that names what can: faces absorbing or open on some axes only, and a method or factor whose error would not shrink. */
 int pm_relaxation_check(const struct pm_grid *g, const struct pm_relax *method, double factor);
+bool pm_relaxation_open(const struct pm_grid *g); /* is any face open? */
 struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method); /* NULL with a message */
 struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p);
 bool pm_relaxation_fits(const struct pm_relaxation *p, const struct pm_grid *g, const struct pm_relax *method);
 
-/* lap phi = c*s from phi = 0; s and phi have the points of the grid and may be the same array. Singular problems: the mean of s is removed and that of
- * phi is zero. 0, or -PM_NUMERICS where the tolerance is not reached; the record is filled in any case. */
+/* lap phi = c*s from phi = 0 or from start; s and phi have the points of the grid and may be the same array. Singular problems: the mean of s
+ * is removed and that of phi is zero. 0, or -PM_NUMERICS where the tolerance is not reached; the record is filled in any case. */
 int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi,
 	struct pm_relaxation_record *r);
 

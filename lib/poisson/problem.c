@@ -53,7 +53,10 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p)
 		for (int d = 0; d < f->dim; d++)
 			if (p->source->staggered[c][d])
 				return pm_fail(PM_DATA, "'%s' is staggered, but solvers work on the nodes (where p2m puts densities)", p->source_name);
-	p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
+	if (p->keep && pm_frame_field(f, p->mesh->name, p->target_name))
+		p->target = pm_changes(f, p->mesh->name, p->target_name);
+	else
+		p->target = pm_makes(f, p->mesh->name, p->target_name, p->source->components, PM_DERIVED);
 	if (!p->target)
 		return -PM_DATA;
 	pm_field_inherit(p->target, p->source);

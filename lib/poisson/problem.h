@@ -24,6 +24,7 @@ struct pm_problem {
 	bool open;               /* some face of the box is open */
 	enum pm_wall_rule wall;
 	double c;
+	bool keep;               /* set before pm_problem_declare: a target that is there is changed, not made anew */
 	bool own;                /* the coefficient is not the law's */
 	const struct pm_field *source; /* after pm_problem_declare */
 	struct pm_field *target;

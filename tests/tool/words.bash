@@ -15,6 +15,7 @@ words() {
 	maxwell) echo "maxwell --layers 1" ;;
 	collide) echo "collide --weight 0.01 --quiet" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
+	mlevel) echo "mlevel residual" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	stretch) echo "stretch --order 2" ;;
@@ -42,7 +43,7 @@ input() {
 	case $1 in
 	cycle | modes | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
-	mgrad) cloud | p2m | poisson-fft ;;
+	mgrad | mlevel) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse | spectrum) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
