@@ -40,14 +40,28 @@ int pm_launched_rank(void)
 	return rank ? atoi(rank) : 0;
 }
 
+/* What names the job and is the same for all programs of a rank; NULL: nothing. MPICH's launcher names none, but each rank has a socket to it. */
+static const char *job_of(char text[32])
+{
+	const char *socket = getenv("PMI_FD");
+	struct stat st;
+	if (getenv("PMIX_NAMESPACE") || getenv("PMI_JOBID"))
+		return getenv("PMIX_NAMESPACE") ? getenv("PMIX_NAMESPACE") : getenv("PMI_JOBID");
+	if (!socket || fstat(atoi(socket), &st))
+		return NULL;
+	snprintf(text, 32, "%llu", (unsigned long long)st.st_ino);
+	return text;
+}
+
 /* Two programs of one rank at the same time are a pipeline that the launcher has started as one program. A socket whose name has no file holds the place of the
- * rank; a rank other than 0 whose input is a pipe is in a pipeline, too. */
+ * rank; a rank other than 0 whose input is a pipe is in a pipeline, too, but with MPICH's launcher, which gives one to every rank. */
 static int only_one_of_this_rank(void)
 {
-	const char *job = getenv("PMIX_NAMESPACE") ? getenv("PMIX_NAMESPACE") : getenv("PMI_JOBID");
+	char text[32];
+	const char *job = job_of(text);
 	struct sockaddr_un place = {.sun_family = AF_UNIX};
 	struct stat in;
-	bool other = pm_launched_rank() && !fstat(STDIN_FILENO, &in) && S_ISFIFO(in.st_mode);
+	bool other = pm_launched_rank() && !getenv("PMI_FD") && !fstat(STDIN_FILENO, &in) && S_ISFIFO(in.st_mode);
 	if (job) {
 		const int n = snprintf(place.sun_path + 1, sizeof place.sun_path - 1, "pmpipe-%.60s-%d", job, pm_launched_rank());
 		const int held = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0); /* until the process ends */

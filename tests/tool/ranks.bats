@@ -365,3 +365,18 @@ mpi_here() {
 	[[ $output == *"pmpipe-mpi.so is not there"*"install openmpi-bin and libopenmpi-dev"* ]]
 	mpi 1 bare/sls start | diff <(sls start) -
 }
+
+@test "under MPICH: its object beside the programs, the bytes and messages of a run alone, a pipeline refused" {
+	command -v mpicc.mpich >/dev/null && command -v mpirun.mpich >/dev/null || skip "no mpicc.mpich and mpirun.mpich"
+	mkdir -p tree/bin tree/build
+	cp "$(command -v cycle)" "$(command -v pinit)" "$(command -v push)" tree/bin
+	mpicc.mpich -std=c11 -O2 -Wall -Wextra -Werror -fPIC -shared -o tree/build/pmpipe-mpi.so "$top/lib/world/mpi.c"
+	s=$(kicks "$(force 12)")
+	pinit plummer -n 9000 >start
+	cycle -n 2 "$s" <start >alone
+	for n in 2 3; do timeout -k 1 60 mpirun.mpich -n $n tree/bin/cycle -n 2 "$s" -i start -o file && cmp file alone || return 1; done
+	run timeout -k 1 60 mpirun.mpich -n 2 tree/bin/push kick -i start -o file
+	[ "$status" -ne 0 ] && [[ $output == *"push: frame 1: no field 'acc' on 'matter'"* ]] && cmp file alone
+	run timeout -k 1 60 mpirun.mpich -n 2 sh -c 'tree/bin/pinit plummer -n 10 | tree/bin/push drift >file'
+	[ "$status" -ne 0 ] && [[ $output == *"runs inside the launcher"* || $output == *"a launcher starts one word"* ]]
+}
