@@ -51,7 +51,7 @@ static void uses_free(struct uses *u)
 }
 
 /* On every rank: the same operations in the same order, whatever its status. */
-static int run_here(struct pm_stage *s, struct pm_frame *f, struct uses *u, int status)
+static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int status)
 {
 	for (size_t i = 0; i < u->n && !status; i++)
 		status = pm_field_enter(u->of[i].field, u->of[i].from);
@@ -72,6 +72,20 @@ static int run_here(struct pm_stage *s, struct pm_frame *f, struct uses *u, int 
 		for (size_t i = 0; i < u->n; i++)
 			if (u->of[i].dropped)
 				u->of[i].field = NULL; /* settled: it is gone */
+	}
+	return status;
+}
+
+/* The same, counted. s NULL: it could not be made. */
+static int run_here(struct pm_stage *s, struct pm_frame *f, struct uses *u, int status)
+{
+	const struct pm_world_traffic before = pm_world_traffic();
+	const double seconds = s ? s->seconds : 0;
+	status = run_frame(s, f, u, status);
+	if (s) {
+		const struct pm_world_traffic now = pm_world_traffic();
+		s->sent[0] += now.bytes - before.bytes, s->sent[1] += now.messages - before.messages;
+		s->shared += s->seconds - seconds;
 	}
 	return status;
 }
@@ -295,6 +309,43 @@ int pm_divided_follow(const struct pm_tool *tool, const char *text)
 	pm_frame_free(f);
 	json_decref(all);
 	return status;
+}
+
+/* ---- what they did ---- */
+
+/* Every rank: its work [ns], and what it sent. */
+static int tally(int status, double seconds, const uint64_t sent[2], struct pm_tally *t)
+{
+	int64_t sum[] = {(int64_t)sent[0], (int64_t)sent[1], (int64_t)(1e9 * seconds)}, most = sum[2];
+	status = pm_world_count(status, PM_SUM_OF, 3, sum);
+	status = pm_world_count(status, PM_MOST_OF, 1, &most);
+	*t = (struct pm_tally){(uint64_t)sum[0], (uint64_t)sum[1], sum[2] > 0 ? (double)most * pm_world_size() / (double)sum[2] : 1};
+	return status;
+}
+
+int pm_divided_tally(const struct pm_stage *s, double seconds, const uint64_t sent[2], struct pm_tally *t)
+{
+	json_t *words = json_array();
+	for (int i = 0; s && i < s->argc; i++)
+		json_array_append_new(words, json_string(s->argv[i]));
+	json_t *all = s ? json_pack("{s:s,s:o}", "word", s->tool->name, "words", words) : words;
+	char *text = all ? pm_json_line(all) : NULL;
+	int status = text ? pm_request_send(PM_REQUEST_TALLY, text, strlen(text)) : pm_no_memory();
+	json_decref(all), free(text);
+	return status ? status : tally(0, seconds, sent, t);
+}
+
+void pm_divided_tally_follow(const struct pm_tool *tool, const char *text)
+{
+	const struct pm_world_traffic now = pm_world_traffic();
+	const uint64_t none[2] = {now.bytes, now.messages};
+	struct pm_stage *s = NULL;
+	struct pm_tally t;
+	json_error_t error;
+	json_t *all = json_loads(text, 0, &error);
+	int status = !all ? wrong("a request of rank 0", &error) : json_is_object(all) ? stage_of(tool, all, &s) : 0;
+	tally(status, s ? s->shared : 0, s ? s->sent : none, &t);
+	json_decref(all);
 }
 
 void pm_divided_free(void)

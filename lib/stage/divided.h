@@ -15,4 +15,13 @@ int pm_divided_apply(struct pm_stage *s, struct pm_frame *f, const char *header)
 int pm_divided_follow(const struct pm_tool *tool, const char *text);
 void pm_divided_free(void);
 
+/* What all ranks did in the divided frames of a word, or (s NULL) sent in all. */
+struct pm_tally {
+	uint64_t bytes, messages;
+	double slowest; /* seconds of work of the slowest rank over the mean; 1 where there are none */
+};
+/* Rank 0; own: what it did itself, in seconds and in bytes and messages sent. 0 or failure. */
+int pm_divided_tally(const struct pm_stage *s, double seconds, const uint64_t sent[2], struct pm_tally *t);
+void pm_divided_tally_follow(const struct pm_tool *tool, const char *text);
+
 #endif

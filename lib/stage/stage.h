@@ -82,6 +82,8 @@ struct pm_stage {
 	int argc;
 	char **argv;         /* as typed, for the other ranks */
 	uint64_t frames[2];  /* computed with several ranks: on rank 0 alone, and divided */
+	uint64_t sent[2];    /* [bytes], messages: by this rank, within divided frames */
+	double shared;       /* [s] of work in these */
 	double setup, seconds;  /* [s] set-up: begin, declare and the part of frame reported by pm_setup_since; work: the rest of frame */
 	double processor;       /* [s] of the processors, by all threads, in the same work */
 	struct pm_run *run;  /* of the library */

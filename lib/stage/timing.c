@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "stage/divided.h"
 #include "stage/internal.h"
 #include "world/world.h"
 
@@ -43,6 +44,39 @@ int pm_timing_write(const struct pm_stage *s, const char *file)
 	return bad ? pm_fail_errno("cannot write the timing to '%s'", file) : 0;
 }
 
+/* Bytes with B, kB, MB or GB. */
+static const char *amount(char to[16], double bytes)
+{
+	static const char *const unit[] = {"B", "kB", "MB", "GB"};
+	int k = 0;
+	for (; k < 3 && bytes >= 1e3; k++)
+		bytes /= 1e3;
+	snprintf(to, 16, "%.3g %s", bytes, unit[k]);
+	return to;
+}
+
+/* A word is one on the other ranks, how often it stands in the sentence: the first has the sum. */
+static void traffic(size_t n, const struct pm_stage *const *words, size_t i, char text[100])
+{
+	uint64_t sent[2] = {0, 0};
+	double seconds = 0;
+	struct pm_tally t;
+	char a[16];
+	for (size_t k = 0; k < n; k++) {
+		if (strcmp(words[k]->word, words[i]->word) || !words[k]->frames[1])
+			continue;
+		if (k < i) {
+			snprintf(text, 100, "  all ranks, counted above");
+			return;
+		}
+		seconds += words[k]->shared, sent[0] += words[k]->sent[0], sent[1] += words[k]->sent[1];
+	}
+	if (pm_divided_tally(words[i], seconds, sent, &t))
+		snprintf(text, 100, "  all ranks");
+	else
+		snprintf(text, 100, "  all ranks: %s in %llu messages, slowest/mean %.2f", amount(a, (double)t.bytes), (unsigned long long)t.messages, t.slowest);
+}
+
 void pm_timing_table(size_t n, const struct pm_stage *const *words)
 {
 	double sum = 0, setup = 0;
@@ -57,8 +91,21 @@ void pm_timing_table(size_t n, const struct pm_stage *const *words)
 		return;
 	}
 	fprintf(stderr, "%-*s  %9s  %9s  share\n", width, "word", "set-up", "work");
-	for (size_t i = 0; i < n; i++)
+	for (size_t i = 0; i < n; i++) {
+		char where[100] = "";
+		if (pm_world_size() > 1 && words[i]->frames[1])
+			traffic(n, words, i, where);
+		else if (pm_world_size() > 1)
+			snprintf(where, sizeof where, "  rank 0 alone");
 		fprintf(stderr, "%-*s  %9s  %9s  %3.0f %%%s\n", width, words[i]->word, readable(a, words[i]->setup), readable(b, words[i]->seconds),
-			100 * words[i]->seconds / sum, pm_world_size() == 1 ? "" : words[i]->frames[1] ? "  all ranks" : "  rank 0 alone");
-	fprintf(stderr, "%-*s  %9s  %9s\n", width, "all", readable(a, setup), readable(b, sum));
+			100 * words[i]->seconds / sum, where);
+	}
+	const struct pm_world_traffic own = pm_world_traffic();
+	struct pm_tally t;
+	char bytes[16];
+	fprintf(stderr, "%-*s  %9s  %9s", width, "all", readable(a, setup), readable(b, sum));
+	if (pm_world_size() > 1 && !pm_divided_tally(NULL, 0, (const uint64_t[]){own.bytes, own.messages}, &t))
+		fprintf(stderr, "        sent, with what is given out and brought together: %s in %llu messages", amount(bytes, (double)t.bytes),
+			(unsigned long long)t.messages);
+	fprintf(stderr, "\n");
 }
