@@ -74,7 +74,8 @@ static void traffic(size_t n, const struct pm_stage *const *words, size_t i, cha
 	if (pm_divided_tally(words[i], seconds, sent, &t))
 		snprintf(text, 100, "  all ranks");
 	else
-		snprintf(text, 100, "  all ranks: %s in %llu messages, slowest/mean %.2f", amount(a, (double)t.bytes), (unsigned long long)t.messages, t.slowest);
+		snprintf(text, 100, "  all ranks: %s in %llu messages, slowest/mean %.2f", amount(a, (double)t.bytes), (unsigned long long)t.messages,
+			t.slowest);
 }
 
 void pm_timing_table(size_t n, const struct pm_stage *const *words)

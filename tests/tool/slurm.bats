@@ -35,3 +35,12 @@ setup() {
 	run -3 bash "$job"
 	[ ! -e submitted ]
 }
+
+@test "the Slurm job of several tasks starts cycle by srun, with the bytes of one task" {
+	printf '%s\n' '#!/usr/bin/env bash' 'echo "$1 $2" >>launched' 'word=$3; shift 3' 'exec "$word" --ranks "$SLURM_NTASKS" --no-history "$@"' >stand-in/srun
+	chmod +x stand-in/srun
+	SLURM_NTASKS=3 SLURM_CPUS_PER_TASK=1 bash "$job" | grep -q 'all 24 steps'
+	[ "$(sort -u launched)" = "--mpi=pmix --cpus-per-task=1" ]
+	$SCENE | cycle --no-history -n 24 --every 4 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' | stab >whole
+	cat run/part-*.pm | stab | cmp - whole
+}
