@@ -12,9 +12,9 @@
 struct config {
 	const char *set, *format, *tee;
 	struct pm_list columns, separation;
-	struct pm_vector radii, modes;
+	struct pm_vector radii, modes, flux;
 	const char *growth, *window;
-	bool pair, exact, average;
+	bool pair, exact, average, field;
 };
 struct state {
 	FILE *out;
@@ -42,7 +42,8 @@ static int begin(struct pm_stage *s)
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
-		.pair = c->pair, .exact = c->exact, .average = c->average, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
+		.pair = c->pair, .exact = c->exact, .average = c->average, .field_errors = c->field, .flux = c->flux.n ? c->flux.x : NULL,
+		.nflux = c->flux.n, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
 	if (c->separation.n && c->separation.n != 2)
 		return pm_fail(PM_USAGE, "--separation takes two sets (--separation matter,shadow)");
 	for (int k = 0; k < c->separation.n; k++)
@@ -118,6 +119,10 @@ static const struct pm_option options[] = {
 		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others)"},
 	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
 		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},
+	{.name = "flux", .kind = PM_VECTOR, .unit = "LOW,HIGH", .cosmetic = true, PM_AT(flux),
+		.text = "add the flux of -grad phi out of the box between these two corners, and what Gauss's law gives for the density inside"},
+	{.name = "field", .kind = PM_FLAG, .cosmetic = true, PM_AT(field),
+		.text = "add field_residual, of lap phi = c rho, and field_curl, of the law's field"},
 	{.name = "average", .kind = PM_FLAG, .cosmetic = true, PM_AT(average),
 		.text = "after the table print a line for each column: mean over the frames, its error by blocks, autocorrelation time"},
 	{.name = "growth", .kind = PM_TEXT, .unit = "mode:M|COLUMN", .cosmetic = true, PM_AT(growth),

@@ -1,8 +1,8 @@
 /* mlevel: the pieces of a two-grid cycle: residual, restriction, prolongation (lib/mesh/two-grid.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "mesh/poisson-residual.h"
 #include "mesh/two-grid.h"
-#include "poisson-relax/residual.h"
 #include "stage/solver-options.h"
 #include "stream/declare.h"
 

@@ -7,10 +7,13 @@
 #include "measure/diag-column.h"
 #include "measure/known-energy.h"
 #include "measure/law-field.h"
+#include "measure/measure-field.h"
 #include "measure/separation.h"
 
-enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS, first_separation = first_mode + PM_COMPONENTS };
+enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS, first_separation = first_mode + PM_COMPONENTS,
+	first_field = first_separation + 2 };
 
+static const char *const fields[PM_FIELD_COLUMNS] = {"flux", "flux_enclosed", "field_residual", "field_curl"};
 static const char *const separations[] = {"separation", "separation_v"};
 
 const struct pm_scene *pm_diag_scene(const struct pm_frame *f)
@@ -36,7 +39,8 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
-		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]}};
+		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]},
+		.field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};
 	if (law->evolves) {
 		how.evolves = true;
 		how.c = pm_law_constant(f, "c", 1), how.eps0 = pm_law_constant(f, "eps0", 1);
@@ -73,7 +77,7 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
 		return -PM_DATA;
 	const struct pm_measure how = pm_diag_how(g, f);
 	pm_measure_reads(&how, f);
-	return 0;
+	return pm_field_reads(&how, f);
 }
 
 static struct pm_diag_column named(int from, const char *name)
@@ -100,6 +104,8 @@ struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k)
 }
 
 struct pm_diag_column pm_diag_separation(int k) { return named(first_separation + k, separations[k]); }
+
+struct pm_diag_column pm_diag_field(enum pm_field_column k) { return named(first_field + (int)k, fields[k]); }
 
 struct pm_diag_column pm_diag_exact(const char *name)
 {
@@ -143,6 +149,8 @@ double pm_diag_value(const struct pm_diag_column *column, const struct pm_measur
 	const struct pm_scene *scene = column->from == exact ? pm_diag_scene(f) : NULL;
 	if (column->from == exact)
 		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	if (column->from >= first_field)
+		return m->field[column->from - first_field];
 	if (column->from >= first_separation)
 		return m->separation[column->from - first_separation];
 	if (column->from >= first_mode)

@@ -10,6 +10,9 @@ struct pm_diag_request { /* the options that add columns or cost */
 	const char *set;                         /* this set alone; NULL all */
 	bool pair;                               /* the pair energy by direct summation */
 	const char *separation[2];               /* two sets whose separation is a column; NULL: none */
+	bool field_errors;                       /* residual and curl of the field */
+	const double *flux;                      /* corners of a box; NULL: none */
+	int nflux;
 	int nradii, nmodes;
 	double fraction[PM_COMPONENTS];          /* of the mass, of each Lagrangian radius */
 	int mode[PM_COMPONENTS];                 /* waves along x of the law's field */
@@ -31,6 +34,7 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f);
 struct pm_diag_column pm_diag_column(enum pm_column c);
 struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k);
 struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k);
+struct pm_diag_column pm_diag_field(enum pm_field_column k);
 struct pm_diag_column pm_diag_separation(int k); /* of positions, of velocities */
 struct pm_diag_column pm_diag_exact(const char *name);
 /* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M (the latter two are added to *g). False: there is none. */

@@ -47,7 +47,7 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 {
 	struct pm_diag_request *g = &t->request;
 	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes,
-		.separation = {c->separation[0], c->separation[1]}}};
+		.separation = {c->separation[0], c->separation[1]}, .field_errors = c->field_errors, .flux = c->flux, .nflux = c->nflux}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	if (check(c))
 		return -PM_USAGE;
@@ -91,6 +91,8 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		add(t, f, pm_diag_mode(&t->request, k));
 	for (int k = 0; k < 2 && c->separation[0]; k++)
 		add(t, f, pm_diag_separation(k));
+	for (int k = c->flux ? PM_FLUX : PM_FIELD_RESIDUAL; k < (c->field_errors ? PM_FIELD_COLUMNS : PM_FIELD_RESIDUAL); k++)
+		add(t, f, pm_diag_field((enum pm_field_column)k));
 	return 0;
 }
 

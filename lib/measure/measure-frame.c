@@ -2,6 +2,7 @@
  * NAN, never zero. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "measure/measure-field.h"
 #include "measure/measure.h"
 #include "measure/separation.h"
 #include "stream/declare.h"
@@ -112,7 +113,7 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 {
-	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->evolves && !pm_measure_has_outside(how, f);
+	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->evolves && !how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
 		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
 	return sets && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
@@ -144,6 +145,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	pm_account_of(how, f, m);
 	if (!status && how->nradii)
 		status = radii(how, n, b, m);
+	status = status ? status : pm_field_of(how, f, m->field);
 	if (!status && how->separation[0])
 		status = pm_separation_of(f, how->separation, m->separation);
 	pm_free(b);

@@ -63,11 +63,15 @@ struct pm_measure;
 /* Is it defined under the law: for vortices, or bodies with mass and velocity, in a plasma or not, with a strength or without? */
 bool pm_column_suits(enum pm_column c, const struct pm_measure *how);
 
+/* Flux of the field through a box, how far a potential is from its equation, and its field from a gradient (measure-field.c). */
+enum pm_field_column { PM_FLUX, PM_FLUX_ENCLOSED, PM_FIELD_RESIDUAL, PM_FIELD_CURL, PM_FIELD_COLUMNS };
+
 struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
 	double separation[2];           /* [length], [length/time] of two sets */
+	double field[PM_FIELD_COLUMNS];
 	double field_most;              /* largest component of the law's field at any point; with modes, else NAN */
 };
 /* All columns from bulk and field energies (NAN: unknown); field: the law has a field, so the total energy is unknown without the field's energy. */
@@ -91,6 +95,9 @@ struct pm_measure { /* what to measure of a frame */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
 	const char *separation[2];   /* two sets; NULL: none */
+	bool field_errors;           /* residual and curl */
+	const double *flux;          /* [length] corners of a box, nflux numbers; NULL: none */
+	int nflux;
 	int nradii;
 	const double *fraction;      /* of the mass, of each Lagrangian radius */
 };

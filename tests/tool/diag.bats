@@ -291,3 +291,32 @@ load ../helper
 	run -0 --separate-stderr bash -c 'pinit two-body -n 2 | sel --drop id | diag --columns step'
 	[ -z "$stderr" ]
 }
+
+# A charge q at 0.05, 0.1 of a box of 24 cells; the notes' 4 pi q (000:N09) is that of Gaussian units, here q/eps0.
+@test "the flux of a charge through any box around it is q/eps0 to round-off, and 0 through one beside it; field has no curl and the equation no residual" {
+	printf 'x y z charge mass\n0.1 0.05 0 2.5 1\n' | stab - --law electrostatic --constant eps0=0.5 --box -1,-1,-1,1,1,1 --faces open -n 24 | p2m >a
+	for solver in poisson-fft poisson-mg; do
+		$solver <a | mgrad >b
+		for box in -0.5,-0.5,-0.5,0.5,0.6,0.4 -0.9,-0.2,-0.7,0.3,0.9,0.1 0,0,-0.05,0.2,0.1,0.05; do
+			diag --flux=$box --field <b >c
+			within "$(column flux <c)" 5 1e-8 # the tolerance of poisson-mg
+			within "$(column flux_enclosed <c)" 5 1e-12
+			below "$(column field_residual <c)" 1e-10
+			below "$(column field_curl <c)" 1e-14
+		done
+		within "$(diag --flux=0.4,-0.5,-0.5,0.8,0.6,0.4 <b | column flux)" 0 1e-8
+	done
+	poisson-fft --symbol fd4 <a | diag --flux=-0.5,-0.5,-0.5,0.5,0.6,0.4 --field >c
+	within "$(column flux <c)" 5 0.05 # of order h^2 where the solver's differences are others
+	above "$(column field_residual <c)" 0.05
+	pinit uniform -n 500 --dim 2 | p2m -n 32 | poisson-fft --symbol fd2 | mgrad | diag --flux 0.2,0.2,0.7,0.7 --field >c
+	within "$(column flux <c)" "$(column flux_enclosed <c)" 1e-12 # without the mean, which has no field
+	below "$(column field_residual <c)" 1e-13
+	pinit uniform -n 500 --dim 2 --faces wall | p2m -n 32 | poisson-fft --dirichlet x | mgrad --order 2 >d
+	below "$(diag --field <d | column field_curl)" 1e-13
+	within "$(scalc --mesh mesh 'g = y, -x' <d | diag --field | column field_curl)" 0.0625 1e-12 # curl -2, h 1/32, largest component 1
+	run -1 --separate-stderr diag --flux 0,0.2,0.7,0.7 <d
+	[[ $stderr == *"nodes of the mesh inside and around it, but along x it goes from 0 to 0.7 in a mesh from 0 to 1" ]]
+	run -2 --separate-stderr diag --flux 0,1 <d
+	[[ $stderr == *"--flux needs 4 numbers"* ]]
+}

@@ -1,5 +1,5 @@
 /* The residual of Poisson's equation on the nodes of a mesh. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-relax/residual.h"
+#include "mesh/poisson-residual.h"
 
 #include "mesh/laplacian.h"
 

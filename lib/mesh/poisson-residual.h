@@ -1,6 +1,6 @@
 /* What an approximation leaves of lap phi = c s. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_POISSON_RELAX_RESIDUAL_H
-#define PM_POISSON_RELAX_RESIDUAL_H
+#ifndef PM_MESH_POISSON_RESIDUAL_H
+#define PM_MESH_POISSON_RESIDUAL_H
 
 #include "mesh/grid.h"
 
