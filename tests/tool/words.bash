@@ -14,6 +14,7 @@ words() {
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
 	collide) echo "collide --weight 0.01 --quiet" ;;
+	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	mlevel) echo "mlevel residual" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
@@ -44,7 +45,7 @@ input() {
 	cycle | modes | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
 	mgrad | mlevel) cloud | p2m | poisson-fft ;;
-	poisson-* | diffuse | spectrum) cloud | p2m ;;
+	poisson-* | diffuse | spectrum | smooth) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
