@@ -21,8 +21,9 @@ static int check(const struct pm_frame *f, const struct pm_field *field)
 	for (int c = 0; c < field->components; c++)
 		for (int d = 0; d < f->dim; d++)
 			if (field->staggered[c][d] && f->face[d][0] != PM_PERIODIC)
-				return pm_fail(PM_DATA, "'%s' is half a cell off the nodes along an axis that is not periodic, and how it goes on there depends on "
-					"what it is (smooth it on periodic axes only)", field->name);
+				return pm_fail(PM_DATA,
+					"'%s' is half a cell off the nodes along an axis that is not periodic, and how it goes on there depends "
+					"on what it is (smooth it on periodic axes only)", field->name);
 	return field->type == PM_I64 ? pm_fail(PM_DATA, "'%s' is of integers (scalc makes a field of reals of it)", field->name) : 0;
 }
 
