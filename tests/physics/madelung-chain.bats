@@ -29,7 +29,7 @@ END
 }
 
 # Two ions a period, periodic along x and open around; nodes at the ions and at (1/4, 1/4).
-chain() { printf 'x y z charge mass\n0 0 0 1 1\n1 0 0 -1 1\n' | stab - --law electrostatic --box 0,-1,-1,2,1,1 --faces periodic,open,open -n "$1"; }
+chain() { pinit ionic-chain --cells "$1"; }
 at() { # N: 4 pi phi at (1/4, 1/4, 0)
 	stab | sed '1,/^#mesh/d' | awk -F'\t' -v n="$1" '/^#/ { next } !c { for (i = 1; i <= NF; i++) if ($i == "phi") c = i; next }
 		k++ == n / 8 + n * (5 * n / 8 + (n + 1) * n / 2) { printf "%.15g\n", $c * 4 * atan2(0, -1) }'
@@ -44,4 +44,16 @@ at() { # N: 4 pi phi at (1/4, 1/4, 0)
 	done
 	order 5.5 "${e[@]}" # a point charge at four to six cells: 5.9 between 32 and 64 cells, where 4.5e-6 is left
 	below "${e[5]}" 3e-5
+}
+
+@test "each ion has Madelung's energy -ln 2/(4 pi): the energy on the mesh less that of a lone ion, to order 2" {
+	e=()
+	for n in 16 24 32; do
+		both=$(pinit ionic-chain --cells $n | p2m --kernel ngp | poisson-fft --symbol fd2 | diag -q | column energy_field_mesh)
+		one=$(printf 'x y z charge mass\n0 0 0 1 1\n' | stab - --law electrostatic --box -1,-1,-1,1,1,1 --faces open -n $n | p2m --kernel ngp |
+			poisson-fft --symbol fd2 | diag -q | column energy_field_mesh)
+		e+=("$(calc "2/$n")" "$(calc "-(4*pi*($both-2*$one)/2+log(2))")")
+	done
+	order 1.9 "${e[@]}" # 2.05
+	below "${e[5]}" 1e-3
 }

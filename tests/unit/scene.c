@@ -272,6 +272,7 @@ static void plasma(void)
 	check_near(pm_scene_find("two-stream")->exact(f, "gamma", 0), 0.256405640402469, 1e-14, "PIC-02: cold beams grow at 0.2564056 for k v0 = 0.3");
 	pm_frame_parameter_set(f, "v0", sqrt(0.375));
 	check_near(pm_scene_find("two-stream")->exact(f, "gamma", 0), 0.353553390593274, 1e-14, "PIC-02: and at 1/sqrt 8 at most");
+	check_near(pm_scene_find("ionic-chain")->exact(f, "potential", 0), 1.3985527798610, 2e-13, "ionic chain: potential at (1/4, 1/4), by Bessel functions");
 	pm_frame_free(f);
 }
 
