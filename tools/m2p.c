@@ -4,11 +4,12 @@
 #include <string.h>
 
 #include "stage/stage.h"
+#include "expression/mesh-mask.h"
 #include "law/law.h"
 #include "transfer/gather-changes.h"
 
 struct config {
-	const char *kernel, *mesh, *set, *field, *outside;
+	const char *kernel, *mesh, *set, *field, *outside, *mask;
 	bool replace, changes;
 };
 struct state {
@@ -18,12 +19,15 @@ struct state {
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
+	if (o->mask && (o->changes || o->outside))
+		return pm_fail(PM_USAGE, "--mask excludes --changes and --outside (beside faces and bodies kernels are one-sided; beyond is refused)");
 	return o->changes && o->field ? pm_fail(PM_USAGE, "--changes or --field, not both: the changes are what is carried") : 0;
 }
 
 static struct pm_gather_choice choice_of(const struct config *o)
 {
-	return (struct pm_gather_choice){.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace, .outside = o->outside};
+	return (struct pm_gather_choice){.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace, .outside = o->outside,
+		.beside = o->mask};
 }
 
 /* Changes alone: asked for, or the law has no field and the mesh has changes. */
@@ -43,6 +47,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (only_changes(s->config, f))
 		return pm_gather_changes_declare(&choice, f);
 	int status = pm_gather_choose(&choice, f, &j);
+	if (!status && choice.beside)
+		status = pm_mesh_mask_declare(f, j.mesh, ((const struct config *)s->config)->mask);
 	return status ? status : pm_gather_declare(&j, f);
 }
 
@@ -77,7 +83,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_gather_job j;
 	if (only_changes(s->config, f))
 		return frame_of_changes(s, f);
+	unsigned char *mask = NULL;
 	int status = pm_gather_choose(&choice, f, &j);
+	if (!status && choice.beside)
+		status = pm_mesh_mask(f, j.mesh, ((const struct config *)s->config)->mask, &mask);
+	j.choice.mask = mask;
 	if (!status)
 		status = pm_gather_prepare(&j, f, &((struct state *)s->state)->plans);
 	for (size_t i = 0; i < j.sets.n && !status; i++) {
@@ -94,6 +104,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!status)
 		report(s, f, &j.changes);
 	pm_gather_free(&j);
+	pm_free(mask);
 	return status;
 }
 
@@ -110,6 +121,9 @@ static const struct pm_option options[] = {
 	{.name = "outside", .kind = PM_WORD, .choices = pm_outside_names, PM_AT(outside),
 		.text = "particles beyond an open mesh: the force of the monopole of those inside, and the reaction on these; no force; or failure (default: "
 			"as p2m made the density; failure where the field is not that of particles)"},
+	{.name = "mask", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(mask),
+		.text = "bodies: nodes where this is not 0 are not used ('x^2 + y^2 < 1'; 0 for none), and kernels beside them and beside faces are one-sided, "
+			"without images"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "expression/mesh-mask.h"
 #include "law/law.h"
 #include "remesh/distortion.h"
 #include "remesh/remesh-frame.h"
@@ -9,7 +10,7 @@
 #include "stage/strength-report.h"
 
 struct config {
-	const char *kernel, *mesh, *set, *when, *by, *outside;
+	const char *kernel, *mesh, *set, *when, *by, *outside, *mask;
 	struct pm_cells cells;
 	struct pm_list drop;
 	double cut_off, threshold;
@@ -67,6 +68,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		if (!status && !j.choice.overlap)
 			pm_remesh_drops(f, j.sets.name[i]);
 	}
+	status = !status && o->mask ? pm_mesh_mask_declare(f, j.mesh, o->mask) : status;
 	return status ? status : PM_HOLD;
 }
 
@@ -103,7 +105,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		pm_report(s, f, "distortion", distortion);
 	if (status || (j.choice.overlap && distortion <= o->threshold))
 		return status;
+	unsigned char *mask = NULL;
 	status = fit(o, f, &j);
+	status = !status && o->mask ? pm_mesh_mask(f, j.mesh, o->mask, &mask) : status;
+	j.choice.mask = mask;
 	for (size_t i = 0; i < j.sets.n && !status; i++) {
 		struct pm_remesh_loss loss;
 		pm_remesh_drops(f, j.sets.name[i]);
@@ -113,6 +118,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	}
 	if (!status)
 		pm_report_count(s, f, "remeshings", 1);
+	pm_free(mask);
 	return status;
 }
 
@@ -135,6 +141,8 @@ static const struct pm_option options[] = {
 	{.name = "threshold", .kind = PM_REAL, .fallback = "0.02", .high = 1e9, PM_AT(threshold),
 		.text = "the largest distortion allowed: mean relative change of the overlap of particles"},
 	{.name = "by", .kind = PM_TEXT, .unit = "STRENGTH", PM_AT(by), .text = "conserve the product of this strength and the values (v): momentum with mass"},
+	{.name = "mask", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(mask),
+		.text = "bodies: no particles where this is not 0 ('x^2 + y^2 < 1'), and one-sided kernels beside them and beside faces"},
 	{.name = "drop", .kind = PM_LIST, .unit = "FIELD", PM_AT(drop), .text = "fields that the new particles do not have"},
 	{.name = "outside", .kind = PM_WORD, .fallback = "grow", .choices = outside, PM_AT(outside),
 		.text = "particles outside an open mesh: fail, leave out and count with the sum of their strengths, or enlarge the mesh"},
@@ -151,9 +159,8 @@ const struct pm_tool tool_remesh = {
 	.name = "remesh",
 	.summary = "put the strengths of particles back onto the nodes of a mesh, which become the particles",
 	.about = "strength(i) = sum over particles of strength * W((x - x_i)/h): nodes that are not 0, or above --cut-off, are the new particles, in the "
-		"order of the "
-		 "mesh. The total is conserved to round-off, moments as far as the kernel does (docs/methods/kernels.md). Acts between steps only; inside a "
-		"step the "
+		"order of the mesh. The total is conserved to round-off, moments as far as the kernel does (docs/methods/kernels.md). Acts between steps only; "
+		"inside a step the "
 		 "frame is passed on unchanged. Change and derived fields, registers and id are dropped; values need --by or --drop. Distortion is the mean "
 		"of |H - "
 		 "H0|/H0 over the "

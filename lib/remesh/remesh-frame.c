@@ -266,8 +266,12 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	struct pm_strays strays = {.count = 0};
 	struct pm_strengths before;
 	pm_strengths_of(f, set, &before);
+	w.r.mask = c->mask;
 	int status = collect(f, set, c, &w, &strays);
 	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
+	if (!status && strays.count && !c->out && c->mask)
+		status = pm_fail(PM_DATA, "particle %zu of '%s' is beyond the mesh, or deeper in a body than 16 cells (a smaller step, or --outside "
+			"drop)", strays.first, set);
 	if (!status && strays.count && !c->out)
 		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow or drop, or a --cut-off that keeps particles from spreading");
 	if (!status)

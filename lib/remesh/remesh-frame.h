@@ -15,6 +15,7 @@ struct pm_remesh_choice {
 	const char *const *drop; /* fields to leave out */
 	int ndrop;
 	bool out;                /* particles outside an open mesh are left out; else an error */
+	const unsigned char *mask; /* [nodes] bodies, NULL none (remesh.h) */
 	bool overlap;            /* keep the overlap of the new particles (distortion.h) in the state field overlap */
 };
 

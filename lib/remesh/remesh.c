@@ -7,6 +7,7 @@
 
 #include "remesh/remesh.h"
 #include "base/in-order.h"
+#include "transfer/one-sided.h"
 
 static size_t rows_of(const struct pm_remesh *r) { return r->grid.points[1] * r->grid.points[2]; }
 
@@ -35,6 +36,46 @@ static void weigh(const struct pm_remesh *r, double *node)
 			node[row * n + i] *= volume_of(&r->grid, row, i);
 }
 
+/* Copies of the positions and strengths in which those of which[] stand in the middle of the mesh and have none. */
+static double *apart(const struct pm_remesh *r, size_t n, const struct pm_one_sided_few *few, int components, const double *const q[], const double *xs[3],
+	const double *qs[])
+{
+	const int dim = r->grid.dim;
+	double *copy = pm_alloc((n + 1) * (size_t)(dim + components), sizeof *copy);
+	for (int c = 0; c < dim + components && copy; c++) {
+		double *to = copy + (size_t)c * n;
+		memcpy(to, c < dim ? few->x[c] : q[c - dim], n * sizeof *to);
+		for (size_t k = 0; k < few->count; k++)
+			to[few->which[k]] = c < dim ? r->grid.lo[c] + 0.5 * (double)r->grid.cells[c] * r->grid.h[c] : 0;
+		*(c < dim ? &xs[c] : &qs[c - dim]) = to;
+	}
+	return copy;
+}
+
+/* With bodies: the particles beside them and beside faces by one-sided kernels, all others as ever. Leaves strengths of nodes. */
+static int add_beside(const struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], int first,
+	struct pm_strays *strays)
+{
+	const struct pm_transfer t = {.grid = r->grid, .kernel = r->kernel, .components = components};
+	const struct pm_one_sided o = {.grid = r->grid, .kernel = r->kernel, .mask = r->mask};
+	const double *xs[3] = {NULL}, *qs[PM_REMESH_VALUES];
+	struct pm_one_sided_few few;
+	int status = pm_one_sided_find(&o, n, x, &few);
+	double *copy = status ? NULL : apart(r, n, &few, components, q, xs, qs);
+	status = status ? status : copy ? pm_spread(&t, n, xs, qs, r->node + first, strays) : -PM_DATA;
+	for (int c = 0; c < components && !status; c++)
+		weigh(r, r->node[first + c]);
+	if (!status)
+		status = pm_one_sided_spread(&o, &few, components, q, r->node + first);
+	if (!status && few.lost) {
+		*strays = (struct pm_strays){.count = few.lost, .first = few.first};
+		for (int d = 0; d < r->grid.dim; d++)
+			strays->x[d] = x[d][few.first];
+	}
+	pm_free(few.which), pm_free(copy);
+	return status;
+}
+
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
 	struct pm_strays *strays)
 {
@@ -48,9 +89,12 @@ int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int co
 			return -PM_DATA;
 		r->field[r->n] = decides ? first : -1;
 	}
-	int status = pm_spread(&t, n, x, q, r->node + first, strays);
+	int status = r->mask ? 0 : pm_spread(&t, n, x, q, r->node + first, strays);
+	if (r->mask)
+		status = add_beside(r, n, x, components, q, first, strays);
 	for (int i = first; i < r->n && !status; i++) {
-		weigh(r, r->node[i]);
+		if (!r->mask)
+			weigh(r, r->node[i]);
 		if (!pm_finite(r->points, r->node[i]))
 			status = pm_fail(PM_NUMERICS, "a remeshed strength is not finite (strengths this large overflow)");
 	}
@@ -109,7 +153,7 @@ static int widen(struct pm_remesh *r, int rim)
 			for (size_t s = 1; s <= reach && !keep && has_room(r, d, k); s++)
 				keep = (k >= s ? from[row + (k - s) * stride] : round && from[row + (k + n - s) * stride]) ||
 					(k + s < n ? from[row + (k + s) * stride] : round && from[row + (k + s - n) * stride]);
-			r->keep[p] = keep;
+			r->keep[p] = keep && !(r->mask && r->mask[p]);
 		}
 	}
 	pm_free(from);

@@ -9,6 +9,7 @@
 #include "stream/declare.h"
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
+#include "transfer/gather-beside.h"
 
 /* The mesh that has the field, or the words that make it. */
 static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_gather_job *j)
@@ -100,6 +101,16 @@ static int beside_given_faces(struct pm_gather_job *j)
 	return 0;
 }
 
+static int check_beside(const struct pm_gather_job *j)
+{
+	bool half = j->interlaced;
+	for (int c = 0; c < j->transfer.components; c++)
+		for (int d = 0; d < j->transfer.grid.dim; d++)
+			half = half || j->transfer.staggered[c][d];
+	return half ? pm_fail(PM_DATA, "--mask is of fields on the nodes of one mesh, and '%s' is interlaced or staggered (p2m without --interlace)",
+		j->name) : 0;
+}
+
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	*j = (struct pm_gather_job){.choice = *choice, .law = pm_law_of(f)};
@@ -122,8 +133,11 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 	set_images(j, f->dim, &j->transfer);
 	status = j->interlaced ? pm_interlace_check(&j->transfer) : 0;
 	if (!status)
-		status = beside_given_faces(j);
-	return status ? status : pm_gather_outside_choose(j, f);
+		status = choice->beside ? check_beside(j) : beside_given_faces(j);
+	if (!status)
+		status = pm_gather_outside_choose(j, f);
+	j->outside = choice->beside ? PM_OUTSIDE_DROP : j->outside; /* who is beyond the mesh is found beside */
+	return status;
 }
 
 /* A set receives the law's field, the changes on the mesh and the magnetic field. */
@@ -180,17 +194,9 @@ int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct 
 	return status || !j->interlaced ? status : interlace(j, plans);
 }
 
-/* The fields gathered to one set. */
-struct arrays {
-	struct pm_transfer t;
-	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
-	double *out[PM_COMPONENTS];
-	size_t n;
-};
-
-static struct arrays arrays_of(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_field *target, const double *ratio)
+static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_field *target, const double *ratio)
 {
-	struct arrays a = {.t = j->transfer, .n = target->count};
+	struct pm_gather_arrays a = {.t = j->transfer, .n = target->count};
 	const double *volume = j->choice.field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
 	pm_positions(f, set, a.x);
 	a.t.kept = &pm_frame_field(f, set, "x")->note;
@@ -204,7 +210,7 @@ static struct arrays arrays_of(const struct pm_gather_job *j, const struct pm_fr
 }
 
 /* The field and the changes in one gather; a given field before them, because its images differ. */
-static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct arrays *a, struct pm_strays *strays)
+static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_gather_arrays *a, struct pm_strays *strays)
 {
 	int status = 0;
 	if (j->field->role == PM_STATE) {
@@ -230,11 +236,16 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	struct pm_strays strays = {.count = 0};
 	double *ratio = NULL;
 	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
-	struct arrays a = arrays_of(j, f, set, target, ratio);
+	struct pm_gather_arrays a = arrays_of(j, f, set, target, ratio);
 	const double before = law ? pm_gather_limits_most(j, f, set) : 0;
+	struct pm_gather_beside b = {.values = NULL};
+	if (!status && j->choice.beside)
+		status = pm_gather_beside_find(j, &a, &b);
 	if (!status)
 		status = gather(j, f, set, &a, &strays);
-	pm_free(ratio);
+	if (!status && j->choice.beside)
+		status = pm_gather_beside(j, &a, set, &b), strays.count = 0, strays.finite = false;
+	pm_free(ratio), pm_gather_beside_free(&b);
 	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
 	if (!status && law && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);

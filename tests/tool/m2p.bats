@@ -181,3 +181,20 @@ alone() { printf 'x y z vx vy vz mass\n0.31 0.47 0.52 0 0 0 1\n' | stab - --law 
 	cat <(m2p <b) <(m2p <a) <(m2p <b) <(m2p <a) >single
 	same_as several single
 }
+
+@test "m2p --mask: polynomials up to the kernel's degree come back exactly beside a body, at walls, neumann and open faces (000:S58)" {
+	body='(x-0.5)^2 + (y-0.5)^2 < 0.04'
+	awk 'BEGIN { srand(5); print "x y q"; print 0, 0, 1; print 1, 0.3, 1; print 0.02, 1, 1
+		for (i = 0; i < 400; i++) { x = rand(); y = rand(); if ((x - 0.5)^2 + (y - 0.5)^2 > 0.04) print x, y, 1 } }' >t
+	for faces in wall neumann open; do
+		stab t --strength q --box 0,1 -n 24 --faces $faces --particle-faces open >a
+		for row in 'm4prime f=1+3*x-2*y+x*x-2*x*y' 'm6prime f=1+x*x*y*y-y^4+x^3' 'cic f=2-x+4*y'; do
+			scalc --mesh mesh "${row#* } + 1e6*($body)" <a | m2p --kernel "${row% *}" --field f --mask "$body" | scalc "d=abs(f-(${row#* f=}))" |
+				stab --plain | column d | sort -g | tail -1 >most
+			below "$(cat most)" 2e-14 "$faces $row"
+		done
+	done
+	run -1 --separate-stderr bash -o pipefail -c "printf 'x y\n0.5 1.1\n' | stab - --box 0,1 -n 24 | scalc --mesh mesh 'f=x' | m2p --field f --mask 0"
+	[[ $stderr == *"particle 0 of 'matter' is beyond the mesh, or deeper in a body than 16 cells"* ]]
+	run -2 m2p --mask 0 --outside drop <a
+}

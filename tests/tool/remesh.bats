@@ -235,3 +235,58 @@ patch() {
 	cycle -n 40 'p2m | poisson-fft --plan estimate | mgrad | m2p | push lsrk3 --dt 0.002 | remesh --cut-off 1e-3' <a >b
 	within "$(awk -v a="$(stab --plain <b | total circulation)" -v l="$(of remesh lost_circulation <b)" 'BEGIN { printf "%.17g", a + l }')" "$total" 5e-12
 }
+
+# around DIM CELLS FACES: particles at random in a unit box around a ball of radius 0.2.
+around() {
+	awk -v dim="$1" -v n="$2" 'BEGIN { srand(5); print dim == 3 ? "x y z mass volume" : "x y mass volume"
+		for (i = 0; i < n ^ dim; i++) {
+			k = i; s = ""; r = 0
+			for (d = 0; d < dim; d++) { x = (k % n + rand()) / n; k = int(k / n); s = s sprintf("%.17g ", x); r += (x - 0.5)^2 }
+			if (r > 0.04) printf "%s%.17g %.17g\n", s, rand() - 0.3, n ^ -dim } }' |
+		stab - --box 0,1 -n "$2" --faces "$3" --particle-faces open
+}
+
+inside() { sel --where "$1" | stab --plain | tail -n +2 | wc -l; }
+
+@test "remesh --mask: no particle in a body, and the kernel's moments up to the fourth are exact beside it and beside faces (000:S58, H18)" {
+	for row in 'cic 1' 'm4prime 2' 'lambda-2-2 2' 'm6prime 4' 'lambda-6-4 4'; do
+		around 2 20 wall >a
+		remesh --kernel "${row% *}" --mask '(x-0.5)^2 + (y-0.5)^2 <= 0.04' <a >b
+		stab --plain <a >before
+		stab --plain <b >after
+		[ "$(inside '(x-0.5)^2 + (y-0.5)^2 <= 0.04' <b)" = 0 ]
+		for moment in 1 x x*y y*y x*x*y x*x*y*y x*y*y*y; do
+			degree=$(tr -dc xy <<<"$moment" | wc -c)
+			[ "$degree" -gt "${row#* }" ] && continue
+			within "$(total "mass*$moment" <after)" "$(total "mass*$moment" <before)" 3e-13 "$row $moment" # sums of 400 terms of 1, weights up to 8
+		done
+	done
+	around 3 9 neumann >a
+	remesh --mask '(x-0.5)^2 + (y-0.5)^2 + (z-0.5)^2 <= 0.04' <a | stab --plain >after
+	stab --plain <a >before
+	for moment in 1 x y*z z*z; do
+		within "$(total "mass*$moment" <after)" "$(total "mass*$moment" <before)" 1e-12 "space $moment"
+	done
+}
+
+@test "remesh --mask: far from bodies and faces it is the kernel, and what has drifted into a body comes back to its nearest nodes" {
+	pinit cone-vortex --cells 32 >a
+	remesh --no-history <a | stab --plain >plain
+	remesh --no-history --mask 'x > 1e9' <a | stab --plain | same_as - plain
+	printf 'x y mass volume\n0.5 0.62 1.5 1\n' | stab - --box 0,1 -n 20 --faces periodic >a
+	remesh --mask '(x-0.5)^2 + (y-0.5)^2 < 0.04' <a >b
+	within "$(stab --plain <b | total mass)" 1.5 1e-15
+	[ "$(inside '(x-0.5)^2 + (y-0.5)^2 < 0.04' <b)" = 0 ]
+	run -1 --separate-stderr remesh --mask 'x > 0.9 || 1' <a
+	[[ $stderr == *"particle 0 of 'matter' is beyond the mesh, or deeper in a body than 16 cells"* ]]
+	run -2 --separate-stderr remesh --mask '1, 0' <a
+}
+
+@test "remesh --mask: circulation around a cylinder is kept by 8 steps, and three threads give the same bytes (000:H18)" {
+	pinit cone-vortex --cells 32 >a
+	s="p2m | poisson-fft | mgrad | m2p | push rk2 | remesh --cut-off 0 --mask '(x-0.6)^2 + (y-0.5)^2 < 0.01'"
+	OMP_NUM_THREADS=1 cycle --no-history -n 8 "$s" <a >b
+	OMP_NUM_THREADS=3 cycle --no-history -n 8 "$s" <a | cmp b -
+	g=$(stab --plain <a | total circulation)
+	within "$(stab --plain <b | total circulation)" "$g" 1e-11 # of 26
+}

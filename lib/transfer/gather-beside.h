@@ -1,0 +1,28 @@
+/* Values gathered beside bodies and faces by one-sided kernels, for gather-frame.c. Private to lib/transfer. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_GATHER_BESIDE_H
+#define PM_TRANSFER_GATHER_BESIDE_H
+
+#include "transfer/gather-frame.h"
+#include "transfer/one-sided.h"
+
+/* The fields gathered to one set. */
+struct pm_gather_arrays {
+	struct pm_transfer t;
+	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
+	double *out[PM_COMPONENTS];
+	size_t n;
+};
+
+/* Particles beside bodies and faces: who they are, and what their targets held. */
+struct pm_gather_beside {
+	struct pm_one_sided o;
+	struct pm_one_sided_few few;
+	double *values; /* [2][components][few.count]: before; gathered */
+};
+
+/* Each 0 or failure: before the gather of all, and after it, where their values are computed anew. Free in any case. */
+int pm_gather_beside_find(const struct pm_gather_job *j, const struct pm_gather_arrays *a, struct pm_gather_beside *b);
+int pm_gather_beside(const struct pm_gather_job *j, const struct pm_gather_arrays *a, const char *set, struct pm_gather_beside *b);
+void pm_gather_beside_free(struct pm_gather_beside *b);
+
+#endif
