@@ -27,7 +27,12 @@ measured() {
 		$1 ~ /^cycle/ { next }
 		!($1 in s) { at[++m] = $1 }
 		!($1 in s) || $3 < s[$1] { s[$1] = $3 }
-		END { for (i = 1; i <= m; i++) { w = at[i]; sub(/ .*/, "", w); g = (w in gain) ? gain[w] / rows[w] : 1.85; print w, s[at[i]], 2 / g - 1, (w in yes) } }' \
+		END {
+			for (i = 1; i <= m; i++) {
+				w = at[i]; sub(/ .*/, "", w); g = (w in gain) ? gain[w] / rows[w] : 1.85
+				print w, s[at[i]], 2 / g - 1, (w in yes)
+			}
+		}' \
 		"$top/docs/speed.md" shared all
 }
 
@@ -42,10 +47,13 @@ model() {
 			if (P == 1 || w ~ /^push/) return P == 1 ? 0 : 2 * a * log(P) / log(2)
 			if (w ~ /^poisson/) return 2 * (8 * M / (P * b) + a * P)                      # two transpositions
 			if (mesh(w)) return 4 * plane / b + 4 * a                                     # planes of neighbours
-			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 6 * plane / b + 2 * a * P   # records out of place, sorted every ten steps; planes of jobs
+			# records out of place, sorted every ten steps; planes of jobs
+			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 6 * plane / b + 2 * a * P
 		}
 		# and where it is not: its input to rank 0, its output to all
-		function gathers(w, P) { return P == 1 ? 0 : w == "p2m" ? (8 * dim * N + 8 * M) / b : w == "m2p" ? (8 * dim * M + 8 * dim * N) / b : 16 * M / b }
+		function gathers(w, P) {
+			return P == 1 ? 0 : (w == "p2m" ? 8 * dim * N + 8 * M : w == "m2p" ? 8 * dim * M + 8 * dim * N : 16 * M) / b
+		}
 		function speed(k, c) { return 1 / (serial[k] + (1 - serial[k]) / c) }
 		function time(k, P, c, shared,   most, Q) {
 			most = mesh(word[k]) ? (dim == 3 ? n : n / 16) : P # whole planes, or 16 rows
@@ -58,11 +66,15 @@ model() {
 		END {
 			for (cores = 1; cores <= 2 ^ 20; cores *= 2) {
 				c = cores < T ? cores : T; P = cores / c; now = all = 0
-				for (k = 1; k <= m; k++) { x = time(k, P, c, shared[k]); y = time(k, P, c, 1); now += x; all += y; part[k] = x; share[k] = y }
+				for (k = 1; k <= m; k++) {
+					part[k] = time(k, P, c, shared[k]); share[k] = time(k, P, c, 1)
+					now += part[k]; all += share[k]
+				}
 				if (cores <= 4096) print name, cores, now, all >"rows"
 				if (cores == 1 || cores == 64 || cores == 1024 || cores == 4096) {
 					line = sprintf("| %s | %d | %.3g s | %.3g s |", name, cores, now, all)
-					for (k = 1; k <= m; k++) line = line sprintf("%s %s %.0f/%.0f", k > 1 ? "," : "", word[k], 100 * part[k] / now, 100 * share[k] / all)
+					for (k = 1; k <= m; k++)
+						line = line sprintf("%s %s %.0f/%.0f", k > 1 ? "," : "", word[k], 100 * part[k] / now, 100 * share[k] / all)
 					print line " |"
 				}
 				if (cores > 2 * T && all > before / 1.5 && !stops) stops = cores / 2

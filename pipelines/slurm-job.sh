@@ -27,7 +27,8 @@ while [ $((made * slice)) -lt "$steps" ] && [ ! "$stop" ]; do
 	part=$(printf 'part-%04d.pm' $((made + 1))) from=(-i "$run/start.pm")
 	[ "$made" = 0 ] || from=(--resume "$run/state-$made.pm")
 	end=$(((made + 1) * slice))
-	"${launch[@]}" cycle -n $((end < steps ? end : steps)) --every "$every" "${from[@]}" --checkpoint "$run/state-$((made + 1)).pm" -o "$run/part.tmp" "$words"
+	"${launch[@]}" cycle -n $((end < steps ? end : steps)) --every "$every" "${from[@]}" --checkpoint "$run/state-$((made + 1)).pm" -o "$run/part.tmp" \
+		"$words"
 	mv "$run/part.tmp" "$run/$part" # only now the slice counts
 	rm -f "$run/state-$made.pm"
 	made=$((made + 1))

@@ -384,3 +384,25 @@ mpi_here() {
 	run timeout -k 1 60 mpirun.mpich -n 2 sh -c 'tree/bin/pinit plummer -n 10 | tree/bin/push drift >file'
 	[ "$status" -ne 0 ] && [[ $output == *"runs inside the launcher"* || $output == *"a launcher starts one word"* ]]
 }
+
+@test "under mpirun: a launcher that is killed leaves no rank behind; SIGTERM leaves a whole checkpoint" {
+	mpi_here
+	pinit plummer -n 9000 >start
+	for signal in KILL TERM; do
+		timeout -k 1 60 mpirun -n 2 cycle -q -n 100000000 -i start -o out --checkpoint saved "push drift" >/dev/null 2>said &
+		for _ in {1..100}; do sleep 0.1; launcher=$(pgrep -P $!) && ranks=$(pgrep -P "$launcher") && [ "$(wc -w <<<"$ranks")" -eq 2 ] && break; done
+		sleep 1 # the ranks have met
+		kill -$signal "$launcher"
+		wait $! || true
+		for _ in {1..50}; do
+			left=0
+			for p in $ranks; do [ ! -e "/proc/$p" ] || grep -qs '^State:.*zombie' "/proc/$p/status" || left=$((left + 1)); done
+			[ $left -gt 0 ] || break
+			sleep 0.1
+		done
+		[ $left -eq 0 ]
+	done
+	grep -q 'stopped by signal 15 after step .*, continue with --resume saved' said
+	mpi 3 cycle -q -n "$(($(sls saved | grep -o 'step [0-9]*' | head -n 1 | cut -d' ' -f2) + 1))" --resume saved -o rest "push drift"
+	sls rest >/dev/null
+}
