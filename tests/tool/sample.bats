@@ -75,6 +75,24 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 	above "$laplacian" "$(calc "$value+0.05")"
 }
 
+@test "the map over h and eps of sample.md: at eps = h/2 the error of the Laplacian grows as h^-2, beyond h only eps counts (000:N03, N05)" {
+	for n in 16 32 64; do
+		lattice $n 1 320 >a
+		for width in 128 64 32 16; do
+			for job in 'value 1+0.5*sin(2*pi*x)' 'lap -0.5*(2*pi)^2*sin(2*pi*x)'; do
+				sample --field heat --operator "${job%% *}" --eps "$(calc "1/$width")" <a >b
+				scalc --mesh mesh "sampled=${job#* }" <b >c
+				echo "$width ${job%% *} $(most b c)"
+			done
+		done
+	done | awk '{ row[$1 " " $2] = row[$1 " " $2] sprintf(" %.3g", $3) } END { for (k in row) print k row[k] }' | sort -k2,2r -k1,1nr >map
+	paste -d' ' <(awk '$2 == "value" { print $1, $3, $4, $5 }' map) <(awk '$2 == "lap" { print $3, $4, $5 }' map) >got
+	grep -E '^[|] 1/(128|64|32|16) ' "$top/docs/methods/sample.md" | tr -d '|/' | awk '{ $1 = substr($1, 2); $1 = $1; print }' >want
+	[ "$(wc -l <want)" = 4 ]
+	paste -d' ' want got | awk '{ for (i = 1; i <= 7; i++) { d = $i / $(i + 7) - 1; if (d * d > 0.0025) { print; exit 1 } } }' # two digits
+	between "$(awk '/^32 / { a = $5 } /^128 / { b = $7 } END { print b / a }' got)" 14 18 # h^-2 from 1/16 to 1/64 is 16
+}
+
 @test "every mollifier and operator is the plain sum over the particles, at nodes and at particles, in open space" {
 	awk 'BEGIN { srand(7); print "x y z q volume"; for (i = 0; i < 23; i++) print rand(), rand(), rand(), rand() - 0.4, 0.02 }' >t
 	stab t --strength q --box 0,1 -n 2 >a
