@@ -22,6 +22,7 @@ words() {
 	stretch) echo "stretch --order 2" ;;
 	reproject) echo "reproject --kernel cic --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
+	penalize) echo "penalize --body 'x - 1'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	walk) echo "walk --nu 0.1" ;;
 	remesh) echo "remesh --by mass" ;;
@@ -49,6 +50,7 @@ input() {
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
+	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	walk) cloud | smod --dt 0.01 ;;
 	collide) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 | smod --law electrostatic | scalc --extensive 'charge = mass' ;;
