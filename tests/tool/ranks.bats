@@ -406,3 +406,35 @@ mpi_here() {
 	mpi 3 cycle -q -n "$(($(sls saved | grep -o 'step [0-9]*' | head -n 1 | cut -d' ' -f2) + 1))" --resume saved -o rest "push drift"
 	sls rest >/dev/null
 }
+
+@test "under mpirun with 2 and 3 ranks: twelve sentences, the bytes of a run alone (all of them in check-long, else two)" {
+	mpi_here
+	pinit uniform -n 9000 --dispersion 0.3 >box
+	pinit plummer -n 9000 >cluster
+	vortices >vortex
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 >streams
+	pinit taylor-green-3d --cells 12 >space
+	ran=0
+	while IFS='#' read -r file words; do
+		[ $ran -lt 2 ] || [ -n "${PM_LONG:-}" ] || break
+		cycle -q -n 2 -i "$file" -o alone "$words"
+		for n in 2 3; do
+			mpi $n cycle -q -n 2 -i "$file" -o ranks "$words" </dev/null && cmp alone ranks || { echo "$n ranks: $words"; return 1; }
+		done
+		ran=$((ran + 1))
+	done <<END
+box#$(kicks "$(force 15)")
+vortex#p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6
+cluster#$(kicks "$(force 24)")
+cluster#dt --oscillation 0.2 | $(kicks "pp --loop full --potential")
+box#p2m -n 12x16x15 | poisson-mg | mgrad | m2p | push lsrk3
+box#$(kicks "p2m -n 12 --interlace | poisson-fft | mgrad --order spectral | m2p") | ssort
+box#field 'acc = -x, -2*y, vx' | push rk2 | walk --nu 0.01 | scalc 'k = floor(9*x) + n'
+vortex#p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6
+vortex#p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3
+streams#$(kicks "$(force 33)")
+streams#dt --courant 0.2 --plasma 0.1 --max 0.5 | push drift | diag --tee table
+space#p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push rk2 | remesh
+END
+	[ $ran -eq "$([ -n "${PM_LONG:-}" ] && echo 12 || echo 2)" ]
+}
