@@ -50,12 +50,12 @@ int pm_field_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_law_field_reads(how, f);
 	const struct pm_grid g = pm_grid_of(f, mesh);
 	if (how->flux && how->nflux != 2 * g.dim)
-		return pm_fail(PM_USAGE, "--flux needs %d numbers, the lower corner of a box and the upper one", 2 * g.dim);
+		return pm_fail(PM_USAGE, "--flux-box needs %d numbers, the lower corner of a box and the upper one", 2 * g.dim);
 	for (int d = 0; d < g.dim && how->flux; d++) {
 		size_t first, end;
 		nodes(how, &g, d, &first, &end);
 		if (first >= end || first == 0 || end >= g.points[d])
-			return pm_fail(PM_DATA, "the box of --flux must have nodes of the mesh inside and around it, but along %c it goes from %g to %g "
+			return pm_fail(PM_DATA, "--flux-box must have nodes of the mesh inside and around it, but along %c it goes from %g to %g "
 				"in a mesh from %g to %g", "xyz"[d], how->flux[d], how->flux[g.dim + d], g.lo[d], g.lo[d] + (double)(g.points[d] - 1) * g.h[d]);
 	}
 	return 0;

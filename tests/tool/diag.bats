@@ -298,25 +298,25 @@ load ../helper
 	for solver in poisson-fft poisson-mg; do
 		$solver <a | mgrad >b
 		for box in -0.5,-0.5,-0.5,0.5,0.6,0.4 -0.9,-0.2,-0.7,0.3,0.9,0.1 0,0,-0.05,0.2,0.1,0.05; do
-			diag --flux=$box --field <b >c
+			diag --flux-box=$box --field-errors <b >c
 			within "$(column flux <c)" 5 1e-8 # the tolerance of poisson-mg
 			within "$(column flux_enclosed <c)" 5 1e-12
 			below "$(column field_residual <c)" 1e-10
 			below "$(column field_curl <c)" 1e-14
 		done
-		within "$(diag --flux=0.4,-0.5,-0.5,0.8,0.6,0.4 <b | column flux)" 0 1e-8
+		within "$(diag --flux-box=0.4,-0.5,-0.5,0.8,0.6,0.4 <b | column flux)" 0 1e-8
 	done
-	poisson-fft --symbol fd4 <a | diag --flux=-0.5,-0.5,-0.5,0.5,0.6,0.4 --field >c
+	poisson-fft --symbol fd4 <a | diag --flux-box=-0.5,-0.5,-0.5,0.5,0.6,0.4 --field-errors >c
 	within "$(column flux <c)" 5 0.05 # of order h^2 where the solver's differences are others
 	above "$(column field_residual <c)" 0.05
-	pinit uniform -n 500 --dim 2 | p2m -n 32 | poisson-fft --symbol fd2 | mgrad | diag --flux 0.2,0.2,0.7,0.7 --field >c
+	pinit uniform -n 500 --dim 2 | p2m -n 32 | poisson-fft --symbol fd2 | mgrad | diag --flux-box 0.2,0.2,0.7,0.7 --field-errors >c
 	within "$(column flux <c)" "$(column flux_enclosed <c)" 1e-12 # without the mean, which has no field
 	below "$(column field_residual <c)" 1e-13
 	pinit uniform -n 500 --dim 2 --faces wall | p2m -n 32 | poisson-fft --dirichlet x | mgrad --order 2 >d
-	below "$(diag --field <d | column field_curl)" 1e-13
-	within "$(scalc --mesh mesh 'g = y, -x' <d | diag --field | column field_curl)" 0.0625 1e-12 # curl -2, h 1/32, largest component 1
-	run -1 --separate-stderr diag --flux 0,0.2,0.7,0.7 <d
+	below "$(diag --field-errors <d | column field_curl)" 1e-13
+	within "$(scalc --mesh mesh 'g = y, -x' <d | diag --field-errors | column field_curl)" 0.0625 1e-12 # curl -2, h 1/32, largest component 1
+	run -1 --separate-stderr diag --flux-box 0,0.2,0.7,0.7 <d
 	[[ $stderr == *"nodes of the mesh inside and around it, but along x it goes from 0 to 0.7 in a mesh from 0 to 1" ]]
-	run -2 --separate-stderr diag --flux 0,1 <d
-	[[ $stderr == *"--flux needs 4 numbers"* ]]
+	run -2 --separate-stderr diag --flux-box 0,1 <d
+	[[ $stderr == *"--flux-box needs 4 numbers"* ]]
 }
