@@ -1,4 +1,5 @@
-# The tables of docs/methods/kernels.md: g(k), its zeros, distortion of waves (000:S49, N22), by docs/kernels.sh, against closed forms and the unit's table.
+# The tables of docs/methods/kernels.md: g(k), its zeros, distortion of waves (000:S49, N22), by docs/kernels.sh (stab, scalc, m2p),
+# against closed forms.
 # SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
