@@ -108,6 +108,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+/* Interlaced meshes are combined by transforms of the whole; points beside the faces are found on it. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	const struct pm_gather_choice choice = choice_of(s->config);
+	struct pm_gather_job j;
+	return !choice.beside && !only_changes(s->config, f) && !pm_gather_choose(&choice, f, &j) && !j.interlaced;
+}
+
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }
 
 static const struct pm_option options[] = {
@@ -153,5 +161,6 @@ const struct pm_tool tool_m2p = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "limit/rates.h"
+#include "mesh/planes.h"
 #include "stream/over-stretches.h"
 
 enum { BLOCK = 4096 };
@@ -13,6 +14,8 @@ double pm_most(const struct pm_field *y, const double *h)
 {
 	double most = 0;
 	int m = y->components < 3 || !h ? y->components : 3;
+	if (y->count)
+		pm_in(y, 0); /* brought together before threads ask */
 #pragma omp parallel for schedule(static) reduction(max : most) if (y->count > 16384)
 	for (size_t b = 0; b < y->count; b += BLOCK)
 		for (size_t i = b; i < y->count && i < b + BLOCK; i++) {
@@ -26,20 +29,21 @@ double pm_most(const struct pm_field *y, const double *h)
 	return pm_most_of_stretches(y, most);
 }
 
-/* |du/dx_d| at point i, the k-th of `points` along axis d. */
-static double slope(const struct pm_grid *g, int d, const double *u, size_t i, size_t stride)
+/* |du/dx_d| at point i here, of number first + i in the mesh, the k-th of `points` along axis d. halo: beyond the ends of the axis the neighbours follow. */
+static double slope(const struct pm_grid *g, int d, const double *u, ptrdiff_t i, size_t first, ptrdiff_t stride, bool halo)
 {
-	const size_t points = g->points[d], k = i / stride % points;
+	const size_t points = g->points[d], k = ((size_t)i + first) / (size_t)stride % points;
 	const bool round = g->face[d][0] == PM_PERIODIC;
-	const size_t below = k ? i - stride : round ? i + (points - 1) * stride : i;
-	const size_t above = k + 1 < points ? i + stride : round ? i - (points - 1) * stride : i;
+	const ptrdiff_t over = halo ? -1 : (ptrdiff_t)points - 1;
+	const ptrdiff_t below = k ? i - stride : round ? i + over * stride : i;
+	const ptrdiff_t above = k + 1 < points ? i + stride : round ? i - over * stride : i;
 	const double apart = round || (k && k + 1 < points) ? 2 : 1;
 	return points > 1 ? fabs(u[above] - u[below]) / (apart * g->h[d]) : 0;
 }
 
-double pm_strain(const struct pm_grid *g, int components, const double *const u[])
+static double strain(const struct pm_grid *g, const struct pm_planes *p, int components, const double *const u[])
 {
-	const size_t n = pm_grid_size(g);
+	const size_t n = p->here * p->size, first = p->first * p->size;
 	double most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
 	for (size_t i = 0; i < n; i++)
@@ -47,10 +51,27 @@ double pm_strain(const struct pm_grid *g, int components, const double *const u[
 			double row = 0;
 			size_t stride = 1;
 			for (int d = 0; d < g->dim; stride *= g->points[d++])
-				row += slope(g, d, u[c], i, stride);
+				row += slope(g, d, u[c], (ptrdiff_t)i, first, (ptrdiff_t)stride, p->divided && d > 0 && d == p->axis);
 			most = fmax(most, row);
 		}
 	return most;
+}
+
+double pm_strain(const struct pm_grid *g, const struct pm_field *field, const double *const u[])
+{
+	const double *with[PM_COMPONENTS];
+	double *room = NULL, most = 0;
+	struct pm_planes p;
+	int status = pm_planes_init(&p, g, field);
+	if (!field->here && !status)
+		return strain(g, &p, field->components, u);
+	if (!pm_planes_halo(status, &p, 1, field->components, u, with, &room)) /* all ranks know of a failure */
+		most = strain(g, &p, field->components, with);
+	else
+		pm_cannot_go_on();
+	pm_free(room);
+	pm_planes_free(&p);
+	return pm_most_of_stretches(field, most);
 }
 
 struct charges {

@@ -100,7 +100,7 @@ static double strain(const struct pm_frame *f, const char *name)
 		for (int c = 0; u && c < u->components; c++)
 			component[c] = pm_in(u, c);
 		if (u)
-			return pm_strain(&g, u->components, component);
+			return pm_strain(&g, u, component);
 	}
 	return 0;
 }

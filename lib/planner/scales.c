@@ -365,7 +365,7 @@ static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const
 	s->length = length_of(&g, field->components, y, 0) / (c * size);
 	if (s->kind != PM_VORTICES)
 		return 0;
-	s->strain = pm_strain(&g, field->components, y);
+	s->strain = pm_strain(&g, field, y);
 	return size > 0 ? roughness(&g, rho->components, r, size, &s->rough) : 0;
 }
 

@@ -1,6 +1,6 @@
-/* The transform solver on many ranks: each transforms its planes, one exchange turns planes into pencils, one turns them back. A rank owns whole chunks of
- * the pencils of consecutive units (in 3-D the rows y of the planes of modes, in 2-D chunks of a row); of these it gets the planes of every rank, rank after rank, so
- * that no second copy is needed to put them in order: a unit is gathered from these pieces, and goes back to them.
+/* The transform solver on many ranks: each transforms its planes, one exchange turns planes into pencils, one turns them back. A rank owns the pencils of
+ * consecutive units: in 3-D the rows y of the planes of modes, in 2-D chunks of a row. Of these it gets the planes of every rank, rank after rank, so that no
+ * second copy is needed to put them in order: a unit is gathered from these pieces, and goes back to them.
  * Cost: two exchanges of the work array, of which the part 1 - 1/ranks travels. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>

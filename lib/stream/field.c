@@ -24,8 +24,11 @@ static void forget_note(struct pm_field *field)
 static void *base_of(const struct pm_field *field)
 {
 	struct pm_buffer *b = field->buffer;
-	if (!field->here && !b->data && pm_buffer_join(b))
-		pm_cannot_go_on();
+	if (!field->here && !b->data) {
+#pragma omp critical(pm_join) /* whoever asks first: threads may do so in a loop */
+		if (!b->data && pm_buffer_join(b))
+			pm_cannot_go_on();
+	}
 	return field->here ? b->part : b->data;
 }
 

@@ -10,6 +10,7 @@
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
 #include "transfer/gather-beside.h"
+#include "world/world.h"
 
 /* The mesh that has the field, or the words that make it. */
 static int choose_field(const char *mesh, const struct pm_frame *f, struct pm_gather_job *j)
@@ -188,9 +189,12 @@ static int interlace(struct pm_gather_job *j, struct pm_fft_plans *plans)
 
 int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans)
 {
-	int status = j->choice.field ? 0 : pm_mesh_changes_init(&j->changes, f, &j->sets, j->mesh, &j->transfer);
-	if (!j->choice.field)
-		pm_gather_limits_prepare(j, f);
+	int status = pm_world_agree(pm_planes_init(&j->planes, &j->transfer.grid, j->field));
+	j->transfer.planes = &j->planes;
+	if (status || j->choice.field)
+		return status || !j->interlaced ? status : interlace(j, plans);
+	status = pm_mesh_changes_init(&j->changes, f, &j->sets, j->mesh, &j->transfer);
+	pm_gather_limits_prepare(j, f);
 	return status || !j->interlaced ? status : interlace(j, plans);
 }
 
@@ -241,20 +245,24 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	struct pm_gather_beside b = {.values = NULL};
 	if (!status && j->choice.beside)
 		status = pm_gather_beside_find(j, &a, &b);
+	status = pm_world_agree(status);
 	if (!status)
 		status = gather(j, f, set, &a, &strays);
 	if (!status && j->choice.beside)
 		status = pm_gather_beside(j, &a, set, &b), strays.count = 0, strays.finite = false;
 	pm_free(ratio), pm_gather_beside_free(&b);
+	strays.first += target->first;
 	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
 	if (!status && law && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && j->outside == PM_OUTSIDE_ERROR)
 		status = pm_strays_refuse(&strays, set, j->mesh, &a.t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");
-	j->strays += strays.count;
+	int64_t all = (int64_t)strays.count;
+	status = pm_world_count(status, PM_SUM_OF, 1, &all);
+	j->strays += (uint64_t)all;
 	if (!status && law)
 		pm_gather_limits_add(j, f, set, before);
-	*dropped = j->outside == PM_OUTSIDE_DROP ? strays.count : 0;
+	*dropped = j->outside == PM_OUTSIDE_DROP ? (uint64_t)all : 0;
 	return status;
 }
 
@@ -262,4 +270,5 @@ void pm_gather_free(struct pm_gather_job *j)
 {
 	pm_mesh_changes_free(&j->changes);
 	pm_interlace_free(&j->both);
+	pm_planes_free(&j->planes);
 }

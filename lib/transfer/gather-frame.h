@@ -2,6 +2,7 @@
 #ifndef PM_TRANSFER_GATHER_FRAME_H
 #define PM_TRANSFER_GATHER_FRAME_H
 
+#include "mesh/planes.h"
 #include "transfer/interlace.h"
 #include "transfer/mesh-changes.h"
 #include "transfer/outside.h"
@@ -24,6 +25,7 @@ struct pm_gather_job {
 	struct pm_mesh *mesh;
 	struct pm_field *field;
 	struct pm_transfer transfer;
+	struct pm_planes planes;        /* of the field, from pm_gather_prepare on */
 	bool interlaced;
 	struct pm_interlaced both;      /* of the field, on two meshes */
 	struct pm_mesh_changes changes; /* carried along */

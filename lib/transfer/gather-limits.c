@@ -8,6 +8,7 @@
 #include "limit/rates.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
+#include "stream/over-stretches.h"
 #include "transfer/gather-limits.h"
 
 static bool is_flow(const struct pm_gather_job *j) { return !strcmp(j->law->of, "x"); }
@@ -38,7 +39,7 @@ void pm_gather_limits_prepare(struct pm_gather_job *j, const struct pm_frame *f)
 	for (int c = 0; c < j->field->components; c++)
 		u[c] = pm_in(j->field, c);
 	if (is_flow(j))
-		j->limits.strain = pm_strain(&j->transfer.grid, j->field->components, u);
+		j->limits.strain = pm_strain(&j->transfer.grid, j->field, u);
 	else if (self(j) && j->law->per)
 		j->limits.oscillation = pm_plasma_frequency(f, j->law);
 	else if (self(j))
@@ -60,7 +61,7 @@ static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, 
 		const double x = pm_in(b, 0)[i], y = pm_in(b, 1)[i], z = pm_in(b, 2)[i];
 		most = fmax(most, fabs(q[i] / m[i]) * sqrt(x * x + y * y + z * z));
 	}
-	return most;
+	return pm_most_of_stretches(b, most);
 }
 
 void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, const char *set, double before)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "transfer/gather-frame.h"
+#include "world/world.h"
 
 /* The quantities known beyond the mesh. */
 static bool is_field(const struct pm_gather_job *j) { return j->law->field && !strcmp(j->name, j->law->field); }
@@ -84,7 +85,7 @@ static int finish_set(const struct pm_gather_job *j, const struct pm_frame *f, c
 	unsigned char *mask = pm_alloc(target->count + 1, 1);
 	struct pm_strays closed;
 	double *ratio = NULL;
-	int status = mask ? pm_outside_find(f, set, &j->far.transfer, mask, &closed) : -PM_DATA;
+	int status = mask ? pm_outside_find(f, set, &j->far.transfer, mask, &closed) : pm_failed();
 	if (!status && closed.count)
 		status = pm_strays_refuse(&closed, set, j->mesh, &j->transfer, "--outside drop leaves it without");
 	if (!status && !j->choice.field && j->law->per)
@@ -93,7 +94,7 @@ static int finish_set(const struct pm_gather_job *j, const struct pm_frame *f, c
 		add(j, f, set, mask, ratio, target);
 	pm_free(ratio);
 	pm_free(mask);
-	return status;
+	return pm_world_agree(status);
 }
 
 /* 1 if a particle is outside: one of the sets gathered to, which has been counted if the kernel is that of the deposit, or of the other sources. */
@@ -106,8 +107,11 @@ static int any_outside(const struct pm_gather_job *j, const struct pm_frame *f, 
 			target |= !strcmp(name, j->sets.name[k]);
 		if (target && counted)
 			continue;
+		int64_t some = 0;
 		int status = pm_outside_any(f, name, &j->far.transfer, &any);
-		if (status || any)
+		some = any;
+		status = pm_world_count(status, PM_MOST_OF, 1, &some);
+		if (status || some)
 			return status ? status : 1;
 	}
 	return j->strays > 0;

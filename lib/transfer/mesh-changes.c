@@ -9,8 +9,10 @@
 
 #include "transfer/mesh-changes.h"
 #include "base/in-order.h"
+#include "mesh/planes.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
+#include "world/world.h"
 
 bool pm_mesh_change_concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
 {
@@ -56,10 +58,10 @@ int pm_mesh_changes_declare(struct pm_frame *f, const char *set, const struct pm
 }
 
 /* cell * D on the points. */
-static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const struct pm_field *change, const struct pm_transfer *t, double *D)
+static int overlap(int status, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_field *change, const struct pm_transfer *t, double *D)
 {
-	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1, .rim = t->rim};
-	int status = 0;
+	struct pm_transfer one = {.grid = t->grid, .kernel = t->kernel, .components = 1, .rim = t->rim, .planes = t->planes};
+	status = pm_world_agree(status);
 	memcpy(one.staggered[0], change->staggered[0], sizeof one.staggered[0]);
 	pm_grid_even(&one.grid); /* particles have even images beyond a wall, for any field */
 	for (size_t i = 0; i < sets->n && !status; i++) {
@@ -70,7 +72,7 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 			continue;
 		pm_positions(f, sets->name[i], x);
 		volume = pm_in(pm_frame_field(f, sets->name[i], "volume"), 0);
-		status = pm_spread(&one, state->count, x, &volume, &D, &strays);
+		status = pm_spread(&one, pm_frame_field(f, sets->name[i], "x")->count, x, &volume, &D, &strays);
 	}
 	return status;
 }
@@ -78,38 +80,43 @@ static int overlap(const struct pm_frame *f, const struct pm_sets *sets, const s
 /* The part lost at points with too few particles. */
 struct thin {
 	const struct pm_grid *g;
+	const struct pm_planes *planes;
 	const double *D, *from;
 };
 
 static void make(const void *data, size_t first, size_t end, void *part)
 {
 	const struct thin *t = data;
-	const size_t n = end - first, j = first / n % t->g->points[1], k = first / n / t->g->points[1];
+	const size_t row = pm_planes_row(t->planes, first), j = row % t->g->points[1], k = row / t->g->points[1];
 	const double cell = pm_grid_cell(t->g);
 	for (size_t i = first; i < end; i++)
 		if (t->D[i] < 0.5)
 			pm_sum_add(part, cell * pm_grid_weight(t->g, i - first, j, k) * (1 - t->D[i]) * t->from[i]);
 }
 
-static double lost(const struct pm_grid *g, const double *D, const double *from)
+static int lost(const struct pm_transfer *t, const double *D, const double *from, double *all)
 {
 	struct pm_sum sum = {0, 0};
 	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
-	pm_over_mesh(&parts, &(struct thin){g, D, from}, g->points, &sum);
-	return pm_sum_total(sum);
+	const size_t last = (size_t)t->grid.dim - 1, n = last ? t->grid.points[last] : 1;
+	const struct pm_planes whole = {.points = {t->grid.points[0], t->grid.points[1], t->grid.points[2]}, .all = n, .here = n,
+		.size = pm_grid_size(&t->grid) / n}, *planes = t->planes ? t->planes : &whole;
+	const int status = pm_planes_over(0, planes, &parts, &(struct thin){&t->grid, planes, D, from}, &sum);
+	*all = pm_sum_total(sum);
+	return status;
 }
 
 static int share(struct pm_mesh_changes *c, const struct pm_frame *f, const struct pm_sets *sets, const struct pm_transfer *t)
 {
 	const struct pm_field *change = c->change[c->n - 1];
 	size_t n = change->count;
-	double *D = pm_zalloc(n, sizeof *D), *to = pm_alloc(n * (size_t)change->components, sizeof *to);
-	int status = D && to ? overlap(f, sets, change, t, D) : -PM_DATA;
+	double *D = pm_zalloc(n + 1, sizeof *D), *to = pm_alloc(n * (size_t)change->components + 1, sizeof *to);
+	int status = overlap(D && to ? 0 : pm_failed(), f, sets, change, t, D);
 	c->share[c->n - 1] = to;
 	for (int k = 0; k < change->components && !status; k++) {
 		const double *from = pm_in(change, k);
 		if (k < 3)
-			c->lost[c->n - 1][k] = lost(&t->grid, D, from);
+			status = lost(t, D, from, &c->lost[c->n - 1][k]);
 #pragma omp parallel for schedule(static) if (n > 16384)
 		for (size_t i = 0; i < n; i++)
 			to[(size_t)k * n + i] = D[i] < 0.5 ? from[i] : from[i] / D[i];

@@ -1,7 +1,8 @@
 /* The sums of those inside an open mesh, and what those outside do to them (outside.c has the equations). By the law of sums (base/in-order.h).
  * Cost: two passes over the particles. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/in-order.h"
+#include "stream/over-stretches.h"
 #include "transfer/outside.h"
+#include "world/world.h"
 
 enum { SUMS = 6, REACTIONS = 5 }; /* q, |q|, |q| (x - middle) per axis, |q| (x - middle)^2 over the open axes */
 
@@ -10,6 +11,7 @@ static double middle(const struct pm_grid *g, int d) { return g->lo[d] + 0.5 * l
 
 /* Those of one set that are outside, and the sums of those inside. */
 struct tally {
+	const struct pm_field *field; /* positions */
 	size_t n;
 	const double *x[3], *q;
 	unsigned char *mask;
@@ -103,7 +105,8 @@ static int measure(struct pm_outside_force *o, const struct pm_frame *f, struct 
 		struct tally *s = &tally[i];
 		struct pm_strays closed;
 		const double *q[PM_COMPONENTS];
-		s->n = pm_frame_set(f, o->sources.name[i])->n;
+		s->field = pm_frame_field(f, o->sources.name[i], "x");
+		s->n = s->field->count;
 		s->mask = pm_alloc(s->n + 1, 1);
 		pm_positions(f, o->sources.name[i], s->x);
 		status = s->mask ? pm_strengths(f, o->sources.name[i], o->strength, q, &made[i]) : -PM_DATA;
@@ -113,15 +116,18 @@ static int measure(struct pm_outside_force *o, const struct pm_frame *f, struct 
 		for (size_t p = 0; p < s->n && !status; p++)
 			o->count += s->mask[p];
 		o->within += s->n;
+		status = s->field->here ? pm_world_agree(status) : status;
 		if (!status)
-			pm_over_set(&inside, &(struct of_set){o, s}, s->n, total);
+			pm_over_stretches(s->field, &inside, &(struct of_set){o, s}, total);
 	}
-	o->within -= o->count;
+	int64_t counts[2] = {(int64_t)o->count, (int64_t)o->within};
+	status = o->sources.n && tally[0].field && tally[0].field->here ? pm_world_count(status, PM_SUM_OF, 2, counts) : status;
+	o->count = (uint64_t)counts[0], o->within = (uint64_t)(counts[1] - counts[0]);
 	if (status)
 		return status;
 	make_balls(o, total);
 	for (size_t i = 0; i < o->sources.n; i++)
-		pm_over_set(&outside, &(struct of_set){o, &tally[i]}, tally[i].n, sum);
+		pm_over_stretches(tally[i].field, &outside, &(struct of_set){o, &tally[i]}, sum);
 	for (int d = 0; d < 3; d++)
 		o->gradient[d] = pm_sum_total(sum[d]);
 	o->potential = pm_sum_total(sum[3]);

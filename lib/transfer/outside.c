@@ -104,7 +104,7 @@ int pm_outside_reads(const struct pm_outside_force *o, struct pm_frame *f)
 
 int pm_outside_any(const struct pm_frame *f, const char *set, const struct pm_transfer *t, bool *any)
 {
-	const size_t n = pm_frame_set(f, set)->n;
+	const size_t n = pm_frame_field(f, set, "x")->count;
 	const double *x[3];
 	struct pm_axis axes[3];
 	pm_positions(f, set, x);
@@ -122,7 +122,8 @@ int pm_outside_any(const struct pm_frame *f, const char *set, const struct pm_tr
 
 int pm_outside_find(const struct pm_frame *f, const char *set, const struct pm_transfer *t, unsigned char *mask, struct pm_strays *closed)
 {
-	const size_t n = pm_frame_set(f, set)->n;
+	const struct pm_field *positions = pm_frame_field(f, set, "x");
+	const size_t n = positions->count;
 	const double *x[3];
 	struct pm_axis axes[3];
 	*closed = (struct pm_strays){.count = 0};
@@ -144,6 +145,7 @@ int pm_outside_find(const struct pm_frame *f, const char *set, const struct pm_t
 		if (wall >= 0)
 			pm_strays_note(closed, p, t->grid.dim, x, wall);
 	}
+	closed->first += positions->first;
 	pm_axes_free(axes);
 	return 0;
 }

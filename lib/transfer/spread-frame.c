@@ -2,9 +2,11 @@
  * uniform background (the ions of a plasma of electrons). Cost: one spread a set. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "mesh/planes.h"
 #include "stream/declare.h"
 #include "transfer/outside.h"
 #include "transfer/spread-frame.h"
+#include "world/world.h"
 
 /* The monopole of another field than the law's strength is no force, and that of a vorticity without divergence is 0: what is beyond the mesh is refused. */
 static enum pm_outside outside_of(const struct pm_spread_job *j, const char *word)
@@ -92,20 +94,29 @@ static int judge(const struct pm_spread_job *j, const struct pm_frame *f, const 
 int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside)
 {
 	struct pm_transfer t = transfer_of(j, f);
-	const size_t n = pm_frame_set(f, set)->n;
+	struct pm_field *positions = pm_frame_field(f, set, "x"), *density = pm_frame_field(f, j->mesh->name, j->density);
+	const size_t n = positions->count;
+	struct pm_planes planes;
 	const double *x[3], *q[PM_COMPONENTS];
 	double *mesh[PM_COMPONENTS], *made = NULL;
 	struct pm_strays strays = {.count = 0};
 	pm_positions(f, set, x);
-	t.kept = &pm_frame_field(f, set, "x")->note;
+	t.kept = &positions->note;
 	for (int c = 0; c < t.components; c++)
-		mesh[c] = pm_out(pm_frame_field(f, j->mesh->name, j->density), c);
-	int status = pm_strengths(f, set, j->strength, q, &made);
+		mesh[c] = pm_out(density, c);
+	int status = pm_planes_init(&planes, &t.grid, density);
+	t.planes = &planes;
+	status = pm_world_agree(status ? status : pm_strengths(f, set, j->strength, q, &made));
 	if (!status)
 		status = j->choice.interlace ? pm_interlace_spread(&t, plans, n, x, q, mesh, &strays) : pm_spread(&t, n, x, q, mesh, &strays);
 	pm_free(made);
-	*outside = strays.count;
-	return status ? status : judge(j, f, set, &t, &strays);
+	pm_planes_free(&planes);
+	t.planes = NULL;
+	strays.first += positions->first;
+	int64_t all = (int64_t)strays.count;
+	status = pm_world_count(status ? status : judge(j, f, set, &t, &strays), PM_SUM_OF, 1, &all);
+	*outside = (uint64_t)all;
+	return status;
 }
 
 void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)

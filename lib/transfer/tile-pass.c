@@ -5,8 +5,8 @@
 #include "transfer/tile-pass.h"
 
 enum {
-	piece = 16384, /* particles per job: a crowded tile is divided among threads */
-	wave = 32      /* jobs per thread between two barriers */
+	piece = PM_TILE_PIECE,
+	wave = 32 /* jobs per thread between two barriers */
 };
 
 /* The slots of a tile: first cell, and how many. */
@@ -119,3 +119,31 @@ void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *
 		}
 }
 
+
+/* ---- row by row, for blocks whose rows are on other ranks ---- */
+
+size_t pm_tile_line(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, size_t *count)
+{
+	size_t first[3];
+	for (int d = 2; d >= 0; d--)
+		*count = pm_tile_slots(p, tile, d, &first[d]);
+	return t->axes[2]->at[first[2] + z] * p->grid->points[1] + t->axes[1]->at[first[1] + y];
+}
+
+void pm_tile_add_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, double *row, double *line)
+{
+	const struct pm_axis *const *a = t->axes;
+	size_t first[3], n = 0;
+	for (int d = 2; d >= 0; d--)
+		n = pm_tile_slots(p, tile, d, &first[d]);
+	add_row(a[0], a[0]->put[t->flip[0]], first[0], n, t->scale * a[2]->put[t->flip[2]][first[2] + z] * a[1]->put[t->flip[1]][first[1] + y], row, line);
+}
+
+void pm_tile_load_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, const double *line, double *row)
+{
+	const struct pm_axis *const *a = t->axes;
+	size_t first[3], n = 0;
+	for (int d = 2; d >= 0; d--)
+		n = pm_tile_slots(p, tile, d, &first[d]);
+	load_row(a[0], a[0]->get[t->flip[0]], first[0], n, a[2]->get[t->flip[2]][first[2] + z] * a[1]->get[t->flip[1]][first[1] + y], line, row);
+}

@@ -6,6 +6,7 @@
 #include "mesh/regrid.h"
 #include "transfer/transfer-frame.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 enum { grow_block = 8 }; /* cells */
 
@@ -103,8 +104,10 @@ int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, co
 	if (!*ratio)
 		return -PM_DATA;
 	for (size_t p = 0; p < top->count; p++) {
-		if (m[p] == 0)
-			return pm_fail(PM_DATA, "'%s' of particle %zu of '%s' is 0: %s/%s is not defined", per, p, set, strength, per);
+		if (m[p] == 0) {
+			pm_world_place(2, 0, 0, top->first + p);
+			return pm_fail(PM_DATA, "'%s' of particle %zu of '%s' is 0: %s/%s is not defined", per, (size_t)top->first + p, set, strength, per);
+		}
 		(*ratio)[p] = q[p] / m[p];
 	}
 	return 0;
@@ -115,6 +118,7 @@ int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm
 	char at[96] = "";
 	int d = s->axis, dim = t->grid.dim;
 	double low = m->lo[d], high = m->lo[d] + (double)m->cells[d] * m->h[d];
+	pm_world_place(2, 0, 0, s->first);
 	for (int c = 0, used = 0; c < dim; c++)
 		used += snprintf(at + used, sizeof at - (size_t)used, "%s%.6g", c ? ", " : "", s->x[c]);
 	if (s->x[d] >= low && s->x[d] <= high)

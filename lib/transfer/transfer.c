@@ -5,21 +5,9 @@
 #include <omp.h>
 #include <string.h>
 
-#include "transfer/order-cache.h"
-#include "transfer/tile-pass.h"
+#include "transfer/transfer-pass.h"
 
-/* One pass: the components that sit at the same offset. */
-struct pass {
-	const struct pm_transfer *t;
-	int components, which[PM_COMPONENTS];
-	struct pm_order_cache *o;
-	struct pm_tile_pass p; /* its jobs, on the axes of o */
-	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
-	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
-	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
-};
-
-static struct pm_tile tile_of(const struct pass *w, const struct pm_tile_job *j, double *block)
+struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block)
 {
 	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->o->axes[0].shift, .count = j->to - j->from, .stride = w->o->order.stride, .block = block};
 	if (w->o->order.records)
@@ -32,9 +20,9 @@ static struct pm_tile tile_of(const struct pass *w, const struct pm_tile_job *j,
 }
 
 /* The particles of a job to its block. */
-static void spread_job(const struct pass *w, const struct pm_tile_job *j, int value, double *block)
+void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
-	struct pm_tile t = tile_of(w, j, block);
+	struct pm_tile t = pm_pass_tile(w, j, block);
 	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
@@ -57,7 +45,7 @@ static void spread_job(const struct pass *w, const struct pm_tile_job *j, int va
 }
 
 /* Jobs are done in waves: every thread fills blocks of the wave, then adds to its own mesh lines from all blocks in order. */
-static void spread_component(const struct pass *w, int value, int threads, double *mesh)
+static void spread_component(const struct pm_pass *w, int value, int threads, double *mesh)
 {
 	const struct pm_axis *a = w->o->axes;
 	const struct pm_tile_target to_mesh = {.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[value]], .scale = 1 / pm_grid_cell(&w->t->grid)};
@@ -67,7 +55,7 @@ static void spread_component(const struct pass *w, int value, int threads, doubl
 		size_t to = w->p.jobs - from < under_way ? w->p.jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++)
-			spread_job(w, &w->p.job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
+			pm_pass_spread(w, &w->p.job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
 		for (size_t j = from; j < to; j++)
 			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
 #pragma omp barrier
@@ -81,7 +69,7 @@ struct results {
 	double *const *to;
 };
 
-static bool gather_in_order(const struct pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
+static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	bool finite = true;
@@ -97,7 +85,7 @@ static bool gather_in_order(const struct pass *w, const struct pm_tile_job *j, s
 }
 
 /* True if the values are finite; those in records are checked later. */
-static bool gather_pass(const struct pass *w, int threads, const double *const mesh[], const struct results *r)
+static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct results *r)
 {
 	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
 	const struct pm_axis *a = w->o->axes;
@@ -105,7 +93,7 @@ static bool gather_pass(const struct pass *w, int threads, const double *const m
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->p.jobs; j++) {
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
-		struct pm_tile t = tile_of(w, &w->p.job[j], block);
+		struct pm_tile t = pm_pass_tile(w, &w->p.job[j], block);
 		t.components = w->components;
 		for (int c = 0; c < w->components; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
@@ -119,9 +107,9 @@ static bool gather_pass(const struct pass *w, int threads, const double *const m
 }
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
-static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
+bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w)
 {
-	*w = (struct pass){.t = t};
+	*w = (struct pm_pass){.t = t};
 	for (int c = 0; c < t->components; c++)
 		if (!done[c] && (!w->components || !memcmp(t->staggered[c], t->staggered[w->which[0]], sizeof t->staggered[c]))) {
 			done[c] = true;
@@ -131,7 +119,7 @@ static bool next_pass(const struct pm_transfer *t, bool done[], struct pass *w)
 }
 
 /* Blocks for at most `at_once` jobs of `each` components. */
-static int begin_pass(struct pass *w, size_t at_once, size_t each)
+static int begin_pass(struct pm_pass *w, size_t at_once, size_t each)
 {
 	int status = w->o ? pm_tile_pass_init(&w->p, &w->t->grid, &w->o->order, w->o->axes) : -PM_DATA;
 	at_once = at_once < w->p.jobs ? at_once : w->p.jobs;
@@ -140,7 +128,7 @@ static int begin_pass(struct pass *w, size_t at_once, size_t each)
 }
 
 /* The particles in order, with the values that go along. */
-static int begin_spread(struct pass *w, size_t n, const double *const x[], const double *const strength[], int threads)
+static int begin_spread(struct pm_pass *w, size_t n, const double *const x[], const double *const strength[], int threads)
 {
 	const double *values[PM_COMPONENTS];
 	for (int c = 0; c < w->components; c++)
@@ -150,7 +138,7 @@ static int begin_spread(struct pass *w, size_t n, const double *const x[], const
 }
 
 /* A kept order must not be changed, so the results get their own memory. */
-static int begin_gather(struct pass *w, size_t n, const double *const x[], int threads)
+static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], int threads)
 {
 	const unsigned char *staggered = w->t->staggered[w->which[0]];
 	w->o = pm_order_cache_find(w->t, staggered, n, x);
@@ -162,7 +150,7 @@ static int begin_gather(struct pass *w, size_t n, const double *const x[], int t
 	return begin_pass(w, (size_t)threads, (size_t)w->components);
 }
 
-static int corners_for(struct pass *w, int threads)
+int pm_pass_corners(struct pm_pass *w, int threads)
 {
 	bool used = false;
 	for (size_t j = 0; j < w->p.jobs && !used; j++)
@@ -172,7 +160,7 @@ static int corners_for(struct pass *w, int threads)
 	return used && !w->corners ? -PM_DATA : 0;
 }
 
-static void end_pass(struct pass *w)
+void pm_pass_end(struct pm_pass *w)
 {
 	pm_free(w->corners);
 	pm_free(w->blocks);
@@ -184,17 +172,19 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false};
-	struct pass w;
+	struct pm_pass w;
 	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
-	while (n && !status && next_pass(t, done, &w)) {
+	if (t->planes && t->planes->divided)
+		return pm_spread_ranks(t, n, x, strength, mesh, strays);
+	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
-		status = status ? status : corners_for(&w, threads);
+		status = status ? status : pm_pass_corners(&w, threads);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		if (!status)
 			*strays = w.o->strays;
-		end_pass(&w);
+		pm_pass_end(&w);
 		pm_order_cache_leave(t, w.o);
 	}
 	return status;
@@ -204,10 +194,12 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 	double *const out[], struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false}, finite = true;
-	struct pass w;
+	struct pm_pass w;
 	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
-	while (n && !status && next_pass(t, done, &w)) {
+	if (t->planes && t->planes->divided)
+		return pm_gather_ranks(t, n, x, mesh, factor, out, strays);
+	while (n && !status && pm_pass_next(t, done, &w)) {
 		double *to[PM_COMPONENTS];
 		const double *times[PM_COMPONENTS];
 		bool set[PM_COMPONENTS];
@@ -227,7 +219,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 		if (!status)
 			*strays = w.o->strays;
 		bool in_use = t->kept && *t->kept == &w.o->note;
-		end_pass(&w);
+		pm_pass_end(&w);
 		if (!in_use) /* its records have been overwritten */
 			pm_order_cache_free(w.o);
 	}

@@ -118,14 +118,24 @@ shares() {
 	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | m2p | push rk2"
 }
 
-@test "push, walk, field, scalc, poisson-fft, mgrad, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
+@test "any number of ranks: a whole PM step, uniform, crowded, sorted, in 1-D to 3-D, two sets, particles beyond the mesh" {
+	pinit plummer -n 40000 >cluster
+	same "$(kicks "$(force 24x20x32)")" <cluster # of the crowded tiles some have several jobs, and some particles are outside
+	scalc --role state 'x = 0.01*x, 0.01*y, 0.01*z' <cluster | same "push kick/2 drift | p2m -n 20 | poisson-fft | mgrad | m2p | push kick/2"
+	cycle -n 1 'p2m -n 32 | ssort | push drift' <cluster | same "p2m -n 8 --kernel tsc --outside drop | m2p --field rho | push drift" --store all
+	pinit uniform -n 20000 --dim 2 | same "$(kicks "$(force 70x90)")"
+	pinit taylor-green-2d --cells 100 | same "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3"
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | same "$(kicks "$(force 64)")" --every 1
+}
+
+@test "push, walk, field, scalc, p2m, poisson-fft, mgrad, m2p, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
-	shares "push kick/2 drift, poisson-fft, mgrad, push kick/2" "$(kicks "$(force 8)")" <start
-	shares "scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
-	shares "poisson-fft, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
+	shares "push kick/2 drift, p2m -n 8, poisson-fft, mgrad, m2p, push kick/2" "$(kicks "$(force 8)")" <start
+	shares "p2m -n 8, scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
+	shares "p2m -n 8, poisson-fft, m2p, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster

@@ -1,0 +1,35 @@
+/* One pass of a transfer over the jobs of its tiles: what transfer.c and transfer-ranks.c share. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_PASS_H
+#define PM_TRANSFER_PASS_H
+
+#include "mesh/planes.h"
+#include "transfer/order-cache.h"
+#include "transfer/tile-pass.h"
+
+/* The components that sit at the same offset. */
+struct pm_pass {
+	const struct pm_transfer *t;
+	int components, which[PM_COMPONENTS];
+	struct pm_order_cache *o;
+	struct pm_tile_pass p; /* its jobs, on the axes of o */
+	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
+	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
+	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
+};
+
+/* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
+bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w);
+int pm_pass_corners(struct pm_pass *w, int threads); /* those that its jobs need; 0 or failure */
+struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block);
+/* The particles of a job to its block. */
+void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block);
+void pm_pass_end(struct pm_pass *w);
+
+/* pm_spread and pm_gather where particles and planes of the mesh are divided among the ranks (transfer-ranks.c). Strays are those here. */
+int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
+	struct pm_strays *strays);
+int pm_gather_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
+	double *const out[], struct pm_strays *strays);
+
+#endif
