@@ -55,7 +55,7 @@ static const struct pm_option options[] = {
 		.text = "only collisions of these two sets with each other (A,A: within A); by default all, within and between, that have charge and move"},
 	{.name = "logarithm", .kind = PM_REAL, .low = 0, .high = 1e3, PM_AT(logarithm),
 		.text = "Coulomb's logarithm; by default that of each pair of sets, log(Debye length/b0), at least 2"},
-	{.name = "weight", .kind = PM_REAL, .low = 1e-300, .high = 1e300, PM_AT(weight),
+	{.name = "statistical-weight", .letter = 'w', .kind = PM_REAL, .low = 1e-300, .high = 1e300, PM_AT(weight),
 		.text = "electrons (ions) that a particle stands for; by default the constant bodies over the particles, else 1"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh whose cells hold the particles that collide (default: the first)"},
 	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "seed of the random numbers; by default the frame's"},
@@ -64,10 +64,10 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"collisions alone, of electrons that are twice as fast along x",
 		"pinit uniform -n 4000 --dispersion 1 --cells 4 --dt 0.05 | smod --law electrostatic | scalc --extensive 'charge = -mass' | "
-		"scalc 'v = 2*vx, vy, vz' | cycle -n 40 'push drift | collide --weight 0.002' | sls --report"},
+		"scalc 'v = 2*vx, vy, vz' | cycle -n 40 'push drift | collide --statistical-weight 0.002' | sls --report"},
 	{"a plasma with collisions in every step",
 		"pinit weibel -n 2000 --cells 16 | sel --drop E,B | smod --law electrostatic | "
-		"cycle -n 5 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | collide --weight 10' | sls --report"},
+		"cycle -n 5 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2 | collide --statistical-weight 10' | sls --report"},
 	{0},
 };
 const struct pm_tool tool_collide = {

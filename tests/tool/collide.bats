@@ -22,7 +22,7 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 		beam "$1" "$2" >a
 		# s = 4 pi n W log(L) (1/(4 pi) q_i/W)^2 dt with n = M, q_i = 1/M: 0.1 log(L)/(4 pi M W)
 		while read -r method steps s; do
-			cycle -q -n "$steps" "collide -q --between electrons,ions --logarithm 10 --method $method --weight \
+			cycle -q -n "$steps" "collide -q --between electrons,ions --logarithm 10 --method $method -w \
 				$(calc "0.1 * 10 / (4 * pi * $2 * $s)") | push drift" <a | stab --set electrons --plain | column vx | mean >got
 			# the cosine has a variance of at most (1 - exp(-2 s))/3, a third at the end; four standard errors
 			within "$(cat got)" "$(calc "exp(-$steps * $s)")" "$(calc "4 * 0.53 / sqrt($1)")" "$method, $1 electrons, $2 ions"
@@ -32,7 +32,7 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 
 @test "temperatures become isotropic at the rate of the NRL Plasma Formulary" {
 	gas 60000 0.05 | scalc 'v = sqrt(2)*vx, sqrt(0.5)*vy, sqrt(0.5)*vz' >a
-	cycle -q -n 60 'push drift | collide --weight 3e-5 --logarithm 10' <a >b
+	cycle -q -n 60 'push drift | collide -w 3e-5 --logarithm 10' <a >b
 	# nu = 2 sqrt(pi) K^2 q^4 n log(L)/(sqrt(m) T^1.5) (-3 + (A + 3) atan(sqrt A)/sqrt A)/A^2, A = T_y/T_x - 1; T_x' = -2 nu (T_x - T_y)
 	echo "$(temperatures matter a) $(temperatures matter b)" | awk '{ x = $1; y = ($2 + $3) / 2; first = x - y
 		for (i = 0; i < 2000; i++) { A = y / x - 1; r = sqrt(-A); t = log((1 + r) / (1 - r)) / (2 * r)
@@ -49,9 +49,9 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 	stack --as electrons,ions e i >a
 	temperature() { temperatures "$1" "$2" | awk '{ print ($1 + $2 + $3) / 3 }'; }
 	# both sets stay Maxwellian by collisions of their own, ten times as many, as the formula assumes
-	own='--weight 1e-5 --logarithm 10'
+	own='-w 1e-5 --logarithm 10'
 	cycle -q -n 100 "push drift | collide --between electrons,electrons $own | collide --between ions,ions $own |
-		collide --between electrons,ions --weight 1e-4 --logarithm 10" <a >b
+		collide --between electrons,ions -w 1e-4 --logarithm 10" <a >b
 	# 1/t_eq = 8 sqrt(2 pi)/3 K^2 q^4 n log(L)/(m_e m_i) (T_e/m_e + T_i/m_i)^-1.5; T in units of the mass of an electron
 	echo "$(temperature electrons a) $(temperature ions a) $(temperature electrons b)" | awk '{ e = $1; i = 4 * $2; first = e
 		for (k = 0; k < 2000; k++) {
@@ -67,7 +67,7 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 		pinit uniform --dim "$dim" -n 3000 --dispersion 1 --mass-spread 1 --cells 10 --dt 0.1 | smod --law electrostatic |
 			scalc --extensive 'charge = mass*(1 + x)' | scalc --role state 'w = vx, sin(7*id), cos(5*id)' | sel --drop v |
 			scalc --role state 'v = w_0, w_1, w_2' | sel --drop w >a
-		collide --weight 1e-3 <a >b 2>/dev/null
+		collide -w 1e-3 <a >b 2>/dev/null
 		# in space one of 20 is alone in its cell
 		[ "$(paste <(stab --plain <a | column vx) <(stab --plain <b | column vx) | awk '$1 == $2' | wc -l)" -lt 300 ]
 		paste <(stab --plain <a) <(stab --plain <b) | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "mass") m = i; if ($i ~ /^v[xyz]$/) {
@@ -81,16 +81,16 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 @test "a collision belongs to seed, sets, id and step: not to the order, the threads or the other cells" {
 	gas 5000 0.1 >a
 	step() { stab --plain | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { print $at["id"], $at["vx"], $at["vz"] }' | sort; }
-	collide --weight 1e-4 --logarithm 5 <a >b 2>/dev/null
-	same_as <(step <b) <(ssort --by id --reverse <a | collide --weight 1e-4 --logarithm 5 2>/dev/null | step)
-	same_as <(sel --where 'x < 0.5' <b | step) <(sel --where 'x < 0.5' <a | collide --weight 1e-4 --logarithm 5 2>/dev/null | step)
-	for t in 1 2 3; do OMP_NUM_THREADS=$t collide -q --weight 1e-4 --no-history <a | cksum; done | sort -u >sums
+	collide -w 1e-4 --logarithm 5 <a >b 2>/dev/null
+	same_as <(step <b) <(ssort --by id --reverse <a | collide -w 1e-4 --logarithm 5 2>/dev/null | step)
+	same_as <(sel --where 'x < 0.5' <b | step) <(sel --where 'x < 0.5' <a | collide -w 1e-4 --logarithm 5 2>/dev/null | step)
+	for t in 1 2 3; do OMP_NUM_THREADS=$t collide -q -w 1e-4 --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" -eq 1 ]
-	for other in "smod --seed 2 <a | collide -q --weight 1e-4" "collide -q --weight 1e-4 --seed 2 <a" "smod --step 1 <a | collide -q --weight 1e-4"; do
+	for other in "smod --seed 2 <a | collide -q -w 1e-4" "collide -q -w 1e-4 --seed 2 <a" "smod --step 1 <a | collide -q -w 1e-4"; do
 		bash -o pipefail -c "$other" | step >c
-		[ "$(paste <(collide -q --weight 1e-4 <a | step) c | awk '$2 == $5' | wc -l)" = 0 ]
+		[ "$(paste <(collide -q -w 1e-4 <a | step) c | awk '$2 == $5' | wc -l)" = 0 ]
 	done
-	sh_ok 'sel --drop id <a | collide -q --weight 1e-4 | sls'
+	sh_ok 'sel --drop id <a | collide -q -w 1e-4 | sls'
 }
 
 @test "Coulomb's logarithm by default: log of the Debye length over b0" {
@@ -112,8 +112,8 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 	refused "no set that moves has charge" 'sel --drop charge <a | collide'
 	refused "no mesh" 'sel --drop mesh <a | collide'
 	run -2 collide --between a,b,c -i a
-	run -0 --separate-stderr bash -o pipefail -c 'collide --weight 1e-6 <a | sls'
+	run -0 --separate-stderr bash -o pipefail -c 'collide -w 1e-6 <a | sls'
 	[[ $stderr == 'collide: a step turns pairs by 1 - cos = '*'(a shorter dt)' ]]
-	run -0 --separate-stderr bash -o pipefail -c 'collide --weight 1 <a | sls'
+	run -0 --separate-stderr bash -o pipefail -c 'collide -w 1 <a | sls'
 	[ -z "$stderr" ]
 }

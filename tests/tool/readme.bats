@@ -137,6 +137,7 @@ commands() { sed -nE 's/^    ((pinit|p2m|sh5|h5ls) .*)/\1/p' "$top/docs/$1" | se
 	for t in "${PM_BIN:-$top/bin}"/*; do "$t" --complete | tr ' \t' '\n\n'; done | grep '^--' >there
 	grep -ohE -- '--[a-z][a-z0-9-]+' "$top"/bench/*.sh >>there # of our scripts
 	sed -nE 's/.*\.name = "([a-z-]+)", .*\.kind = PM_.*/--\1/p' "$top"/docs/*.md >>there # of the words that the pages print
+	printf -- '--%s\n' bind-to map-by nodes ntasks-per-node cpus-per-task >>there # of launchers of MPI, and of Slurm
 	sort -u -o there there
 	sed 's/pkg-config [^)`]*//' "$top"/README.md "$top"/docs/*.md "$top"/docs/methods/*.md | grep -oE -- '--[a-z][a-z0-9-]+' | sort -u >named
 	comm -23 named there >wrong

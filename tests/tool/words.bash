@@ -13,7 +13,7 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
-	collide) echo "collide --weight 0.01 --quiet" ;;
+	collide) echo "collide --statistical-weight 0.01 --quiet" ;;
 	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	mlevel) echo "mlevel residual" ;;
