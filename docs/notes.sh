@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs every sentence of docs/notes/*.md and compares what it prints with the lines below it; says which do not agree, and exits 1 then.
-# notes.sh FILE ...: these files of docs/notes/. --rows FILE ...: a line for every row: file, its IDs one by one, and "sentence" or "none".
+# notes.sh FILE ...: these files, by default all of docs/notes/. --rows FILE ...: a line for every row: file, its IDs one by one, and "sentence" or "none".
 # A row is a line that begins with **ID, ID-ID** up to the next one. `    $ ` begins a sentence, the indented lines below it are what it prints. A number agrees
 # if it differs by at most one in the last digit that the page prints, an integer if it is equal; `<1e-12` stands for a number of at most this size (rounding);
 # `...` at the end of a line for the rest of it.
@@ -23,6 +23,7 @@ if [ "${1:-}" = --rows ]; then
 		END { out() }' "$@"
 	exit
 fi
+[ $# -gt 0 ] || set -- "$(cd "$(dirname "$0")" && pwd)"/notes/*.md
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
