@@ -14,6 +14,8 @@
 
 enum { START, RATES };
 
+static const double tiny = 1e-300; /* of what has decayed so far errors below 1e-150 are none: squares would underflow */
+
 static void keep(const struct pm_decided_line *l, int stage)
 {
 	if (!stage)
@@ -54,7 +56,7 @@ static double error_of(const struct pm_embedded *e, const struct pm_decided_line
 		most = isnan(square) ? INFINITY : fmax(most, square);
 	}
 	const double size = fmax(first, last);
-	return most > 0 ? sqrt(most * (double)n / size) : 0;
+	return most > tiny ? sqrt(most * (double)n / size) : 0;
 }
 
 static double error(const struct pm_embedded *e, int lines, const struct pm_decided_line *l, double dt)

@@ -277,3 +277,21 @@ limits() {
 	cycle -q -n 40 'field vel=0.7,0.9*cos(time) | push leapfrog2' <p | stab --plain | awk 'END { print $1 }' >fold
 	within "$(cat fold)" 0.1 1e-12 # 0.3 + 2.8, folded
 }
+
+@test "000:S70, 000:N33: position and velocity of Verlet's three forms are of order 2, also the velocity corrected by the accelerations beside it" {
+	for n in 20 40 80; do
+		printf 'x vx\n1 0.3\n' | stab - --law free --dt "$(calc "1/$n")" >a
+		# one step more, because the corrected velocity is known a step late; a = -x
+		cycle -q -n $((n + 1)) --every 1 'push kick/2 drift | field acc=-x | push kick/2' <a | stab --plain | awk '$1 + 0 == $1 { print $1, $NF }' >v
+		cycle -q -n $n 'push drift/2 | field acc=-x | push kick drift/2' <a | stab --plain | awk '$1 + 0 == $1 { print $1, $NF }' >p
+		awk -v n=$n 'FILENAME == "p" { px = $1; pv = $2; next } { x[FNR - 1] = $1; v[FNR - 1] = $2 }
+			function off(a, b) { return a > b ? a - b : b - a }
+			END { want = cos(1) + 0.3 * sin(1); rate = 0.3 * cos(1) - sin(1)
+				corrected = (x[n + 1] - x[n - 1]) * n / 2 + (x[n + 1] - x[n - 1]) / (12 * n) # dt/12 (a(t - dt) - a(t + dt))
+				print 1 / n, off(x[n], want), off(v[n], rate), off(corrected, rate), off(px, want), off(pv, rate) }' p v >>errors
+	done
+	for k in 2 3 4 5 6; do
+		awk -v k=$k '{ x = log($1); y = log($k); n++; a += x; b += y; c += x * x; d += x * y } END { print (n * d - a * b) / (n * c - a * a) }' errors >order
+		within "$(cat order)" 2 0.05 "column $k" # the next term is dt^2 of it, 1/400 to 1/6400
+	done
+}
