@@ -291,7 +291,8 @@ limits() {
 				print 1 / n, off(x[n], want), off(v[n], rate), off(corrected, rate), off(px, want), off(pv, rate) }' p v >>errors
 	done
 	for k in 2 3 4 5 6; do
-		awk -v k=$k '{ x = log($1); y = log($k); n++; a += x; b += y; c += x * x; d += x * y } END { print (n * d - a * b) / (n * c - a * a) }' errors >order
+		awk -v k=$k '{ x = log($1); y = log($k); n++; a += x; b += y; c += x * x; d += x * y }
+			END { print (n * d - a * b) / (n * c - a * a) }' errors >order
 		within "$(cat order)" 2 0.05 "column $k" # the next term is dt^2 of it, 1/400 to 1/6400
 	done
 }
