@@ -129,7 +129,7 @@ static double moment(const struct pm_grid *g, const struct particles *p, const i
 	return pm_sum_total(sum);
 }
 
-/* Tensor products: every power up to the kernel's along each axis at once. The next one is not conserved. */
+/* Tensor products: every power up to the kernel's along each axis at once; a star: along one axis. The next one is not conserved. */
 static void check_moments(void)
 {
 	for (int k = 0; pm_kernels[k]; k++) {
@@ -140,7 +140,7 @@ static void check_moments(void)
 		struct particles q = taken(&r);
 		double worst = 0, size, m = pm_kernels[k]->moments;
 		for (int a = 0; a <= m; a++)
-			for (int b = 0; b <= m; b++) {
+			for (int b = 0; b <= (pm_kernels[k]->star && a ? 0 : m); b++) {
 				double before = moment(&g, &p, (const int[]){a, b}, &size), after = moment(&g, &q, (const int[]){a, b}, &size);
 				check_worst(&worst, fabs(after - before) / size);
 			}
@@ -414,8 +414,8 @@ int main(void)
 {
 	pm_threads_use(1); /* small meshes: a team costs more than the work */
 	check_totals(1, (const size_t[]){13, 1, 1});
-	check_totals(2, (const size_t[]){10, 14, 1});
-	check_totals(3, (const size_t[]){9, 10, 11});
+	check_totals(2, (const size_t[]){12, 14, 1});
+	check_totals(3, (const size_t[]){11, 12, 13});
 	check_moments();
 	check_thousand(1, (const size_t[]){33, 1, 1});
 	check_thousand(2, (const size_t[]){12, 9, 1});

@@ -42,8 +42,9 @@ static void promises(const struct pm_scene *s, struct pm_frame *f)
 		pm_sum_add(&turn, -0.5 * pm_in(q, 0)[i] * r2);
 	}
 	check(good, "%s: finite, inside its mesh for kernels of width 6, ids in order", s->name);
-	/* lattice sums of smooth functions are exact; the corner of the cone and the kinks of its foot are of order h^2 to h^3: 128 cells, 32 a radius */
-	const double loose = strcmp(s->name, "cone-vortex") ? 1e-9 : 2e-4;
+	/* lattice sums of smooth functions are exact; the corner of the cone and the kinks of its foot are of order h^2 to h^3: 128 cells, 32 a radius;
+	 * the tails that tanh-layer and vortex-merger leave out begin at 1e-7 and 1e-9 of the peak */
+	const double loose = !strcmp(s->name, "cone-vortex") ? 2e-4 : !strcmp(s->name, "tanh-layer") || !strcmp(s->name, "vortex-merger") ? 1e-7 : 1e-9;
 	const double circulation = s->exact(f, "circulation", f->time), angular = s->exact(f, "angular_impulse", f->time);
 	if (!isnan(circulation))
 		check_near(pm_sum_total(sum), circulation, loose * fmax(1, fabs(circulation)), "and the circulation of its exact value");
