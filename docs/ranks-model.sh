@@ -47,8 +47,8 @@ model() {
 			if (P == 1 || w ~ /^push/) return P == 1 ? 0 : 2 * a * log(P) / log(2)
 			if (w ~ /^poisson/) return 2 * (8 * M / (P * b) + a * P)                      # two transpositions
 			if (mesh(w)) return 4 * plane / b + 4 * a                                     # planes of neighbours
-			# records out of place, sorted every ten steps; planes of jobs
-			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 6 * plane / b + 2 * a * P
+			# records out of place, sorted every ten steps; rows of blocks, of cic in 3-D 1.23 numbers a cell
+			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 8 * 1.23 * M / (P * b) + 2 * a * P
 		}
 		# and where it is not: its input to rank 0, its output to all
 		function gathers(w, P) {

@@ -14,8 +14,7 @@ double pm_most(const struct pm_field *y, const double *h)
 {
 	double most = 0;
 	int m = y->components < 3 || !h ? y->components : 3;
-	if (y->count)
-		pm_in(y, 0); /* brought together before threads ask */
+	pm_field_bring(y);
 #pragma omp parallel for schedule(static) reduction(max : most) if (y->count > 16384)
 	for (size_t b = 0; b < y->count; b += BLOCK)
 		for (size_t i = b; i < y->count && i < b + BLOCK; i++) {
@@ -121,6 +120,8 @@ double pm_strength_total(const struct pm_frame *f, const char *strength)
 	struct pm_sum sum = {0, 0};
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, strength);
+		if (q && !q->uniform)
+			pm_field_bring(q);
 		if (q)
 			pm_over_stretches(q, &parts, q, &sum);
 	}

@@ -15,7 +15,10 @@
 static const struct pm_field *state(const struct pm_frame *f, const char *on, const char *name)
 {
 	const struct pm_field *field = name ? pm_frame_field(f, on, name) : NULL;
-	return field && field->role == PM_STATE && (field->type == PM_F64 || field->type == PM_F32) ? field : NULL;
+	if (!field || field->role != PM_STATE || (field->type != PM_F64 && field->type != PM_F32))
+		return NULL;
+	pm_field_bring(field);
+	return field;
 }
 
 static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const struct pm_set *set)
@@ -384,6 +387,7 @@ int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struc
 	double n = 0, most = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
+		pm_field_bring(a);
 		if (a)
 			pm_over_set(&parts, a, a->count, &square);
 		most = a ? fmax(most, sqrt(pm_most(a, NULL))) : most;

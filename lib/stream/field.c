@@ -247,6 +247,12 @@ void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id)
 	b->id = id, b->size = pm_field_memory(field), b->components = field->components;
 }
 
+void pm_field_bring(const struct pm_field *field)
+{
+	if (field && field->buffer && field->count)
+		base_of(field);
+}
+
 /* Whoever asks may write there. */
 void *pm_field_bytes(struct pm_field *field) { return field->buffer ? base_to_change(field) : NULL; }
 

@@ -140,6 +140,9 @@ double pm_frame_parameter(const struct pm_frame *f, const char *name, double oth
 void pm_frame_parameter_set(struct pm_frame *f, const char *name, double value);
 
 /* For the computing function of a stage: the data of component c (double, int64_t or bytes), count values long. */
+/* Values that are divided over ranks are brought together by who first asks for them. Where threads will ask, this asks before: only the first thread of a rank
+ * may use the world (MPI_THREAD_FUNNELED). Nothing in a divided frame, and for a field without values or NULL. */
+void pm_field_bring(const struct pm_field *field);
 const double *pm_in(const struct pm_field *field, int c);
 double *pm_out(struct pm_field *field, int c);
 const int64_t *pm_in_i64(const struct pm_field *field, int c);

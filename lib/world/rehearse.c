@@ -1,10 +1,12 @@
 /* A world of n ranks on this machine: processes joined by socket pairs. For tests: what MPI does over a network, these do in milliseconds, under sanitizers,
  * with delays and a death at a chosen call. A rank that has died is seen by all others, because its sockets close.
  * PM_REHEARSE="seed=3 delay=500 kill=2:17": each call waits up to 500 us, at random from the seed; rank 2 is killed at its 17th call. memory=1:17: from its
- * 17th call on rank 1 gets no more memory. limit=1:4096: rank 1 cannot write beyond 4096 bytes of a file.
+ * 17th call on rank 1 gets no more memory. limit=1:4096: rank 1 cannot write beyond 4096 bytes of a file. one-thread: a call where threads work side by side
+ * ends the rank, because with MPI only its first thread may call.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
+#include <omp.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -28,6 +30,7 @@ struct rehearsal {
 	struct pollfd *poll;
 	uint64_t seed, calls;
 	double delay;   /* [us] */
+	bool one_thread;
 	int kill_rank, starve_rank, limit_rank;  /* -1 none */
 	uint64_t kill_call, starve_call, limit;
 };
@@ -48,6 +51,10 @@ static void faults(struct pm_transport *t)
 	struct rehearsal *r = t->self;
 	double u[2];
 	r->calls++;
+	if (r->one_thread && omp_in_parallel()) {
+		fputs("rehearsal: a rank called others where its threads work side by side\n", stderr);
+		_exit(1);
+	}
 	if (r->kill_rank == t->rank && r->calls == r->kill_call)
 		raise(SIGKILL);
 	if (r->starve_rank == t->rank && r->calls == r->starve_call)
@@ -292,6 +299,7 @@ static void read_faults(struct rehearsal *r)
 		return;
 	r->seed = (at = strstr(text, "seed=")) ? strtoull(at + 5, NULL, 10) : 0;
 	r->delay = (at = strstr(text, "delay=")) ? strtod(at + 6, NULL) : 0;
+	r->one_thread = strstr(text, "one-thread");
 	fault(text, "kill=", &r->kill_rank, &r->kill_call);
 	fault(text, "memory=", &r->starve_rank, &r->starve_call);
 	fault(text, "limit=", &r->limit_rank, &r->limit);
