@@ -450,3 +450,9 @@ space#p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push rk2 | remesh
 END
 	[ $ran -eq "$([ -n "${PM_LONG:-}" ] && echo 12 || echo 2)" ]
 }
+
+@test "a plan with ranks: what files gave to all ranks is brought together before threads ask for it" {
+	pinit plummer -n 30000 >in.pm
+	OMP_NUM_THREADS=2 on 3 cycle -q --plan -n 1 -i in.pm -o file
+	[ -s file ]
+}
