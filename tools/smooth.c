@@ -41,6 +41,9 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (!o->fields.n && !law->evolves && !law->density)
 		return pm_fail(PM_DATA, "the law %s has no density (--field NAME)", law->name);
 	for (int i = 0; i < fields(o); i++) {
+		if (!pm_frame_field(f, m->name, field_of(o, law, i)))
+			return pm_fail(PM_DATA, "no field '%s' on '%s' (%s)", field_of(o, law, i), m->name,
+				o->fields.n ? "sls lists what there is" : "p2m makes it from particles, or choose --field");
 		const struct pm_field *field = pm_changes(f, m->name, field_of(o, law, i));
 		if (!field || check(f, field))
 			return -PM_DATA;

@@ -47,6 +47,6 @@ struct pm_average pm_average_of(size_t n, const double *y)
 	for (size_t length = 2; n / length >= LEAST_BLOCKS; length *= 2)
 		a.error = fmax(a.error, block_error(n, y, a.mean, length));
 	a.correlation = correlation(n, y, a.mean);
-	a.brief = (double)n < ENOUGH * fmax(a.correlation, 0.5);
+	a.brief = isfinite(a.correlation) && (double)n < ENOUGH * fmax(a.correlation, 0.5); /* constants have none, and an exact mean */
 	return a;
 }

@@ -57,6 +57,8 @@ int pm_scene_parameters_choose(const struct pm_scene *scene, const double typed[
 	for (int k = 0; k < n; k++)
 		if (!mine[k] && !isnan(typed[k])) {
 			const char *near = pm_nearest(rows[k]->name, names);
+			if (!names[0])
+				return pm_fail(PM_USAGE, "the scene %s has no --%s, nor any parameter of its own (leave it out)", scene->name, rows[k]->name);
 			return pm_fail(PM_USAGE, "the scene %s has no --%s (%s --%s)", scene->name, rows[k]->name, near ? "did you mean" : "it has",
 				near ? near : names[0]);
 		}

@@ -22,6 +22,8 @@ wander() { printf 'x mass\n0 1\n' | stab - --law free --dt "$2" | smod --seed "$
 	diag -q --columns centre_x --average --window 100:199 a | tail -1 | grep -q 'from t = 100 to 199, 100 frames'
 	wander 100 0.1 3 | diag -q --columns centre_x --average | tail -1 | grep -q 'fewer than 50 correlation times: the error is too small'
 	diag -q --columns centre_x --average --format json a | tail -1 | grep -q '^{"average":"centre_x","mean":.*,"frames":4001,"brief":false}$'
+	wander 10 0.1 3 | diag -q --columns mass,particles --average | tail -1 >line # a constant has an exact mean
+	grep -q '^# average particles 1 +- 0, correlation time nan, from t = 0 to 1, 11 frames$' line
 	run -2 diag -q --window 1:2 a
 	[[ $output == *'belongs to --growth and --average'* ]]
 }

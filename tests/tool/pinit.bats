@@ -33,6 +33,8 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	[[ $stderr == *"the scene cold-collapse has no --mass-spread"* ]]
 	run -2 --separate-stderr pinit kepler --eccentricty 0.5
 	[[ $stderr == *"eccentricity"* ]]
+	run -2 --separate-stderr pinit ionic-chain --spacing 2
+	[[ $stderr == *"the scene ionic-chain has no --spacing, nor any parameter of its own (leave it out)"* ]]
 }
 
 @test "pinit: values outside a range, a dimension or a count that the scene does not have are refused, exit 2" {

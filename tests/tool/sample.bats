@@ -149,7 +149,8 @@ grad2="0.5*$k*cos($k*x)*(1+0.5*sin($k*y)), 0.5*$k*cos($k*y)*(1+0.5*sin($k*x))"
 		[[ $stderr == *"$text"* ]] || { echo "$options: $stderr"; return 1; }
 	done <<'ROWS'
 1||the law free has no strength (--field NAME)
-1|--field mass|no set  with x and 'mass'
+1|--field mass|no set with x and 'mass'
+1|--field heat --set probes|no set named probes with x and 'heat'
 1|--field heat --at probes|no set probes
 1|--field heat --mesh fine|no mesh fine
 2|--field heat --eps 1 --overlap 2|--eps or --overlap, not both

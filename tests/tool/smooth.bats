@@ -68,7 +68,7 @@ mesh() { printf 'x%s mass\n' "${3:+ $3}" | stab - --box 0,1 -n "$1" --faces "${4
 	for t in 1 2 3; do smooth -n 2 --field rho --threads $t --no-history <a | cksum; done | sort -u >sums
 	[ "$(wc -l <sums)" = 1 ]
 	refused() { run --separate-stderr bash -o pipefail -c "$2 | sls"; [[ $status = 1 && $stderr == *"$1"* ]] || { echo "$2: $status $stderr"; return 1; }; }
-	refused "no field 'rho'" 'pinit plummer -n 10 | smooth'
+	refused "no field 'rho' on 'mesh' (p2m makes it from particles, or choose --field)" 'pinit plummer -n 10 | smooth'
 	refused 'is half a cell off the nodes along an axis that is not periodic' 'pinit uniform -n 9 --dim 1 --dispersion 1 --cells 8 --faces wall \
 		--particle-faces reflect | smod --law electromagnetic | scalc --extensive "charge = mass" | p2m --current | smooth'
 	pinit em-wave --cells 8 --no-history >e
