@@ -44,6 +44,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	pm_report(s, f, "turn", r.turn);
 	if (r.turn > 0.07)
 		pm_tell_once(s, "a step turns pairs by 1 - cos = %.2g on average, and from 0.07 on rates are 10 %% too low (a shorter dt)", r.turn);
+	if (r.weighted)
+		pm_tell_once(s, "the particles of '%s' have unequal masses at one charge over mass, and collide takes each for a body of its own mass: rates "
+			"are wrong where these are weights (pinit --loading random)", r.weighted);
 	if (law->relativistic && r.fastest > 0.3 * pm_frame_constant(f, "c", 1))
 		pm_tell_once(s, "the speeds reach %.2g c, and collide is not relativistic", r.fastest / pm_frame_constant(f, "c", 1));
 	return 0;

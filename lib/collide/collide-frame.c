@@ -171,6 +171,17 @@ static double fastest(const struct pm_colliders *k)
 	return sqrt(most);
 }
 
+/* Particles that stand for different numbers of the same body. */
+static bool weighted(const struct pm_colliding *s)
+{
+	bool same = true, one = true;
+	for (size_t i = 1; i < s->n; i++) {
+		one = one && s->mass[i] == s->mass[0];
+		same = same && fabs(s->charge[i] * s->mass[0] - s->charge[0] * s->mass[i]) <= 1e-12 * fabs(s->charge[0] * s->mass[i]);
+	}
+	return same && !one;
+}
+
 int pm_collide_step(const struct pm_collide *c, struct pm_frame *f, struct pm_collided *r)
 {
 	const struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, c->mesh));
@@ -183,6 +194,8 @@ int pm_collide_step(const struct pm_collide *c, struct pm_frame *f, struct pm_co
 	const double bodies = pm_frame_constant(f, "bodies", NAN);
 	k.weight = !isnan(c->weight) ? c->weight : isfinite(bodies) && n ? bodies / (double)n : 1;
 	*r = (struct pm_collided){.logarithm = logarithms(c, f, &k), .fastest = fastest(&k)};
+	for (int a = 0; a < k.nsets && !r->weighted; a++)
+		r->weighted = weighted(&k.set[a]) ? k.set[a].name : NULL;
 	k.cell_of = pm_alloc(n, sizeof *k.cell_of);
 	k.order = pm_alloc(n, sizeof *k.order);
 	int status = !k.cell_of || !k.order ? -PM_DATA : order_of(f, &g, &k, n, k.cell_of, k.order);

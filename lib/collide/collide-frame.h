@@ -20,6 +20,7 @@ struct pm_collided {
 	double turn;       /* mean of 1 - cos of their angle, to be expected */
 	double logarithm;  /* the least used */
 	double fastest;    /* [length/time] before the collisions */
+	const char *weighted; /* a set whose particles have one charge over mass and unequal masses; NULL none */
 };
 
 /* Header: declares what is read and changed. 0 or failure. */

@@ -26,8 +26,8 @@ static int find(const struct pm_sample_choice *o, const struct pm_frame *f, stru
 		if (pm_frame_field(f, f->sets[i]->name, j->field) && pm_frame_field(f, f->sets[i]->name, "x"))
 			j->set = f->sets[i]->name;
 	if (!j->set || !pm_frame_set(f, j->set))
-		return pm_fail(PM_DATA, "no set %s%s%swith x and '%s' (sls lists what there is)", o->set ? "named " : "", o->set ? o->set : "", o->set ? " " : "",
-			j->field);
+		return pm_fail(PM_DATA, "no set %s%s%swith x and '%s' (sls lists what there is)", o->set ? "named " : "", o->set ? o->set : "",
+			o->set ? " " : "", j->field);
 	if (j->nodes ? !j->on : !pm_frame_set(f, j->on))
 		return pm_fail(PM_DATA, j->nodes ? "no mesh%s%s (p2m -n makes one, or --at SET)" : "no set%s%s (sls lists what there is)",
 			j->on || o->mesh ? " " : "", j->nodes ? (o->mesh ? o->mesh : "") : j->on);

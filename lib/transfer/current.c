@@ -57,7 +57,7 @@ static void deposit_job(const struct spread *s, const struct pm_tile_job *j, dou
 	t.records = packed;
 	for (size_t p = j->from; p < j->to; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_order_pack(o, p, t.count, packed);
+		pm_tile_order_pack(o, p, t.count, true, packed);
 		loop(&t);
 	}
 }

@@ -101,7 +101,7 @@ static void move_chunk(struct pm_tile_order *o, int chunk)
 	}
 }
 
-void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, double *records)
+void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records)
 {
 	double u[3][batch];
 	const size_t stride = (size_t)o->stride;
@@ -109,7 +109,7 @@ void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, doubl
 	for (int d = 0; d < o->dim; d++)
 		for (size_t i = 0; i < m; i++)
 			records[i * stride + (size_t)d] = u[d][i];
-	for (int c = 0; c < o->nvalues; c++)
+	for (int c = 0; c < (values ? o->nvalues : 0); c++)
 		for (size_t i = 0; i < m; i++)
 			records[i * stride + (size_t)(o->dim + c)] = o->values[c][p + i];
 }

@@ -31,9 +31,10 @@ struct pm_tile_particles {
  * any case. */
 int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], const struct pm_tile_particles *p, int room, struct pm_strays *strays);
 void pm_tile_order_free(struct pm_tile_order *o);
-/* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. */
+/* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. Only where values are asked for need those
+ * of the order still be there. */
 enum { PM_TILE_ORDER_PACK = 256 };
-void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, double *records);
+void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],

@@ -147,7 +147,7 @@ static double *packed(const struct pm_tile_order *o)
 {
 	double *records = pm_alloc(o->n * (size_t)o->stride + 1, sizeof *records);
 	for (size_t p = 0; records && p < o->n; p += PM_TILE_ORDER_PACK)
-		pm_tile_order_pack(o, p, o->n - p < PM_TILE_ORDER_PACK ? o->n - p : PM_TILE_ORDER_PACK, records + p * (size_t)o->stride);
+		pm_tile_order_pack(o, p, o->n - p < PM_TILE_ORDER_PACK ? o->n - p : PM_TILE_ORDER_PACK, true, records + p * (size_t)o->stride);
 	return records;
 }
 

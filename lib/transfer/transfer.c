@@ -33,7 +33,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		t.records = packed;
-		pm_tile_order_pack(&w->o->order, p, t.count, packed);
+		pm_tile_order_pack(&w->o->order, p, t.count, true, packed);
 		loop(&t);
 	}
 	if (corners) {
@@ -77,7 +77,7 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 	t.to = t.stride;
 	for (size_t p = j->from; p < j->to; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_order_pack(&w->o->order, p, t.count, packed);
+		pm_tile_order_pack(&w->o->order, p, t.count, false, packed);
 		loop(&t);
 		finite &= pm_tile_order_unpack(p, t.count, t.stride, packed, w->components, r->factor, r->set, r->to);
 	}

@@ -116,4 +116,6 @@ mean() { awk '{ s += $1; n++ } END { printf "%.17g\n", s / n }'; }
 	[[ $stderr == 'collide: a step turns pairs by 1 - cos = '*'(a shorter dt)' ]]
 	run -0 --separate-stderr bash -o pipefail -c 'collide -w 1 <a | sls'
 	[ -z "$stderr" ]
+	run -0 --separate-stderr bash -o pipefail -c 'pinit landau -n 100 --velocities 3 | collide | sls'
+	[[ $stderr == "collide: the particles of 'electrons' have unequal masses at one charge over mass"* ]]
 }
