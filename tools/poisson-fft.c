@@ -14,7 +14,7 @@
 struct config {
 	struct pm_problem_names names;
 	double screening, wave, softening, cloud;
-	const char *symbol, *green, *influence, *order, *plan;
+	const char *symbol, *green, *influence, *order, *plan, *space;
 };
 struct state {
 	struct pm_problem problem;
@@ -22,20 +22,22 @@ struct state {
 	struct pm_fft_solvers solvers;
 };
 
+static const char *const spaces[] = {"doubled", "james", NULL};
+
 static const struct pm_option options[] = {
 	{.name = "symbol", .kind = PM_WORD, .choices = pm_symbol_names, PM_AT(symbol),
-		.text = "the Laplacian of a wave: -k^2, or the symbol of the centred differences of order 2, 4 or 6, which are then inverted exactly "
-			"(default: the law's)"},
+		.text = "the Laplacian of a wave: -k^2, or that of the centred differences of order 2, 4 or 6 (default: the law's)"},
 	{.name = "screening", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(screening),
 		.text = "K in lap phi - K^2 phi = c*s: one over the screening (Debye) length"},
 	{.name = "wave-number", .kind = PM_REAL, .unit = "1/length", .fallback = "0", .high = 1e150, PM_AT(wave),
 		.text = "a in lap phi + a^2 phi = c*s (Helmholtz): standing waves in a closed box; refused at a resonance"},
 	{.name = "green", .kind = PM_WORD, .choices = pm_green_names, PM_AT(green),
-		.text = "the Green's function for open faces (default: hockney; with --symbol fd2 lattice); "
-			"plummer, which is softened, for all faces"},
+		.text = "of open faces (default: hockney; of differences lattice); plummer, softened, for all faces"},
+	{.name = "free-space", .kind = PM_WORD, .fallback = "doubled", .choices = spaces, PM_AT(space),
+		.text = "open faces on twice the length, or by James' method: two solutions of fd2 between walls and the charge on them"},
 	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e150, PM_AT(softening),
-		.text = "of plummer the softening (default: the frame's constant softening); of gauss2 to gauss10 delta of the blobs, "
-			"exp(-(r/delta)^2) for gauss2 (default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
+		.text = "of plummer (default: the frame's constant softening); of gauss2 to gauss10 delta of the blobs, exp(-(r/delta)^2) for gauss2 "
+			"(default or 0: 2 sqrt(2) times the largest spacing of an open axis)"},
 	{.name = "influence", .kind = PM_WORD, .fallback = "plain", .choices = pm_influence_names, PM_AT(influence),
 		.text = "in periodic boxes: the inverse of the symbol; that divided by the square of the kernel's transform (p2m and m2p); or the influence "
 			"function of least force error (Hockney and Eastwood), which has no symbol"},
@@ -54,6 +56,7 @@ static const struct pm_example examples[] = {
 		"pinit uniform -n 2000 | p2m -n 32 | poisson-fft --symbol fd2 | sls"},
 	{"a screened plasma between a grounded plate and a plane of symmetry",
 		"pinit uniform -n 2000 --faces wall,neumann,periodic,periodic,periodic,periodic | p2m -n 32 | poisson-fft --screening 5 | sls"},
+	{"the cluster again, by solutions between walls", "pinit plummer -n 2000 | p2m -n 32 | poisson-fft --free-space james | sls"},
 	{"the same cluster, softened as pp softens it", "pinit plummer -n 2000 --softening 0.3 | p2m -n 32 | poisson-fft --green plummer | sls"},
 	{0},
 };
@@ -66,12 +69,13 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (status)
 		return status;
 	const struct pm_green *green = o->green ? pm_green_find(o->green) : NULL;
-	const char *symbol = o->symbol ? o->symbol : green && green->differences ? "fd2"
+	const bool james = !strcmp(o->space, spaces[1]);
+	const char *symbol = o->symbol ? o->symbol : james || (green && green->differences) ? "fd2"
 		: t->problem.given.any ? "fd2" : !green && t->problem.law->symbol ? t->problem.law->symbol : "spectral";
 	double softening = !isnan(o->softening) ? o->softening : green && green->factor ? pm_frame_constant(f, "softening", NAN) : 0;
 	if (isnan(softening))
 		return pm_fail(PM_DATA, "--green %s, and the frame has no softening (--softening LENGTH, or smod --constant softening=LENGTH)", green->name);
-	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0, NULL, o->wave};
+	t->choice = (struct pm_poisson_fft_choice){(enum pm_symbol)pm_symbol_find(symbol), o->screening, green, softening, {0}, 0, NULL, o->wave, james};
 	const struct pm_influence_choice influence = {.name = o->influence, .symbol = o->symbol, .order = o->order, .cloud = o->cloud};
 	status = pm_influence_choose(&influence, t->problem.law, pm_frame_field(f, t->problem.mesh->name, t->problem.source_name), &t->choice.influence);
 	if (!status && t->problem.given.any)
@@ -138,15 +142,17 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	pm_planes_free(&planes);
 	if (status)
 		return status;
-	char plan_text[16] = "own"; /* our own transforms: the same on all machines */
-	if (p && p->n)
-		snprintf(plan_text, sizeof plan_text, "fftw %08x", p->sum);
-	pm_report_text(s, f, "plan", plan_text);
+	char plan[16]; /* our own transforms are the same on all machines */
+	snprintf(plan, sizeof plan, p && p->n ? "fftw %08x" : "own", p ? p->sum : 0);
+	pm_report_text(s, f, "plan", plan);
 	return 0;
 }
 
-/* Boundary values are computed for the whole mesh. */
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !((const struct state *)s->state)->problem.given.any; }
+/* Boundary values, and those of James' method, are computed for the whole mesh. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	return f && !((const struct state *)s->state)->problem.given.any && !((const struct state *)s->state)->choice.james;
+}
 
 static void release(struct pm_stage *s) { pm_fft_solvers_clear(&((struct state *)s->state)->solvers); }
 

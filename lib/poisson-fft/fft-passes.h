@@ -33,6 +33,7 @@ struct pm_poisson_fft {
 	double *scratch;
 	bool streams;                  /* w is larger than the caches */
 	double distance;               /* with a wave: to the nearest eigenvalue, |lambda + a^2|/a^2 */
+	struct pm_fft_james *james;    /* NULL, or the solution in open space by two between walls: nothing else here is then in use */
 	double zero;                   /* the mode of constants, after the forward transform */
 };
 
@@ -70,5 +71,10 @@ int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: th
 int pm_poisson_fft_resonance(struct pm_poisson_fft *p); /* of fft-wave.c: failure at a resonance */
 int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-fitted.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
+/* Of fft-james.c: what cannot be solved so; NULL with a message; as pm_poisson_fft_solve. */
+int pm_fft_james_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
+struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g);
+struct pm_fft_james *pm_fft_james_free(struct pm_fft_james *j);
+int pm_fft_james_solve(struct pm_fft_james *j, double c, const double *s, double *phi);
 
 #endif

@@ -26,12 +26,12 @@ int pm_poisson_fft_check(const struct pm_grid *g, const struct pm_poisson_fft_ch
 	for (int d = 0; d < g->dim; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			return pm_fail(PM_DATA, "absorbing faces belong to Maxwell's equations (Poisson's take periodic, wall, neumann or open faces)");
-	int status = pm_influence_check(&o->influence, g);
+	int status = o->james ? pm_fft_james_check(g, o) : pm_influence_check(&o->influence, g);
 	for (int a = 0; a < 2 * g->dim && o->wave > 0; a++)
 		if (g->face[a / 2][a % 2] == PM_OPEN || o->screening > 0 || pm_influence_any(&o->influence) || o->green)
 			return pm_fail(PM_DATA, "--wave-number is for standing waves in a box of periodic, wall and neumann faces, without --screening, "
 				"--green and --influence (open faces radiate: a complex Green's function)");
-	return status ? status : pm_poisson_fft_open_check(g, o);
+	return status || o->james ? status : pm_poisson_fft_open_check(g, o);
 }
 
 static size_t row_offset(const struct pm_poisson_fft *p, size_t j, size_t k)
@@ -111,6 +111,8 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 {
 	if (r)
 		*r = (struct pm_poisson_fft_record){0};
+	if (p->james)
+		return pm_fft_james_solve(p->james, c, s, phi);
 	if (p->empty) {
 		memset(phi, 0, pm_grid_size(&p->grid) / (p->grid.dim == 1 ? 1 : p->grid.points[p->grid.dim - 1]) * p->planes * sizeof *phi);
 		return 0;
@@ -224,7 +226,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		p->open = p->open || open[0] || open[1];
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	if (layout(p) || multipliers(p))
+	if (o->james ? !(p->james = pm_fft_james_new(g)) : layout(p) || multipliers(p))
 		p = pm_poisson_fft_free(p);
 	return p;
 }
@@ -233,6 +235,7 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
 {
 	if (!p)
 		return NULL;
+	pm_fft_james_free(p->james);
 	pm_fft_plans_clear(&p->planner);
 	free(p->from), free(p->bytes);
 	pm_free(p->w);

@@ -29,6 +29,7 @@ struct pm_poisson_fft_choice {
 	int fitted; /* 1 + 2 axis + (neumann): known values on faces of that axis, walls or neumann ones (fft-fitted.c); 0: a source */
 	const struct pm_planes *planes; /* NULL, or those of s and phi that this rank has, to be there for pm_poisson_fft_new (mesh/planes.h) */
 	double wave; /* a [1/length] in lap phi + a^2 phi = c*s (Helmholtz) instead of K; no open faces */
+	bool james;  /* open space from two solutions between walls (fft-james.c); fd2, open faces on all axes, no planes */
 };
 
 struct pm_poisson_fft;

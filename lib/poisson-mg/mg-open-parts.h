@@ -1,4 +1,4 @@
-/* The parts of James' method; of lib/poisson-mg/mg-open*.c and lib/poisson-relax/relax-open.c. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of James' method; of lib/poisson-mg/mg-open*.c and lib/james/james.c. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_POISSON_MG_MG_OPEN_PARTS_H
 #define PM_POISSON_MG_MG_OPEN_PARTS_H
 

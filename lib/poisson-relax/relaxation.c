@@ -1,10 +1,10 @@
 /* Solves lap phi = c*s by sweeps of a method of lib/relax, from zero to a tolerance of the residual.
  * A sweep returns the residual before its updates; when that is near the tolerance, and from time to time, the true residual is computed, which decides. It
  * ends at the tolerance, or at round-off: the residual is no larger than the rounding errors of its own terms. Where no face fixes phi the mean of s is
- * removed, and that of phi is zero; open faces get their values from relax-open.c. Source of the methods: their files. Cost: N per sweep.
+ * removed, and that of phi is zero; open faces get their values from lib/james/james.c. Source of the methods: their files. Cost: N per sweep.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-relax/relaxation.h"
-#include "poisson-relax/relax-open.h"
+#include "james/james.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ struct pm_relaxation {
 	struct pm_laplacian lap;
 	struct pm_relax_work work;
 	double *f, *r; /* right-hand side; the residual */
-	struct pm_outer *outer; /* open faces; lap is then that between walls */
+	struct pm_james *james; /* open faces; lap is then that between walls */
 };
 
 static double factor_of(const struct pm_laplacian *l, const struct pm_relax *method, double factor)
@@ -26,8 +26,8 @@ static double factor_of(const struct pm_laplacian *l, const struct pm_relax *met
 
 int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *method, double factor)
 {
-	const struct pm_grid walled = pm_outer_walled(given), *g = pm_outer_wanted(given) ? &walled : given;
-	int status = g == given ? 0 : pm_outer_check(given);
+	const struct pm_grid walled = pm_james_walled(given), *g = pm_james_wanted(given) ? &walled : given;
+	int status = g == given ? 0 : pm_james_check(given);
 	for (int d = 0; d < g->dim && !status; d++)
 		if (g->face[d][0] == PM_ABSORBING || g->face[d][1] == PM_ABSORBING)
 			status = pm_fail(PM_DATA, "axis %c has absorbing faces, which belong to Maxwell's equations (poisson-relax and poisson-fft take "
@@ -54,8 +54,8 @@ struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm
 		return NULL;
 	p->grid = *g;
 	p->method = method;
-	struct pm_grid walled = pm_outer_walled(g);
-	p->lap = pm_laplacian_of(pm_outer_wanted(g) ? &walled : g);
+	struct pm_grid walled = pm_james_walled(g);
+	p->lap = pm_laplacian_of(pm_james_wanted(g) ? &walled : g);
 	size_t size = p->lap.size;
 	p->work.lap = &p->lap;
 	p->work.f = p->f = pm_zalloc(size, sizeof(double));
@@ -65,8 +65,8 @@ struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm
 	bool good = p->f && p->r && p->work.u && p->work.sums;
 	for (int i = 0; i < method->extra; i++)
 		good = (p->work.extra[i] = pm_zalloc(size, sizeof(double))) && good;
-	if (pm_outer_wanted(g))
-		good = (p->outer = pm_outer_new(g)) && good;
+	if (pm_james_wanted(g))
+		good = (p->james = pm_james_new(g)) && good;
 	return good ? p : pm_relaxation_free(p);
 }
 
@@ -77,7 +77,7 @@ struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p)
 	pm_free(p->f), pm_free(p->r), pm_free(p->work.u), pm_free(p->work.sums);
 	for (int i = 0; i < PM_RELAX_EXTRA; i++)
 		pm_free(p->work.extra[i]);
-	pm_outer_free(p->outer);
+	pm_james_free(p->james);
 	return pm_free(p);
 }
 
@@ -87,7 +87,7 @@ bool pm_relaxation_fits(const struct pm_relaxation *p, const struct pm_grid *g, 
 		!memcmp(p->grid.cells, g->cells, sizeof g->cells) && !memcmp(p->grid.h, g->h, sizeof g->h) && !memcmp(p->grid.face, g->face, sizeof g->face);
 }
 
-bool pm_relaxation_open(const struct pm_grid *g) { return pm_outer_wanted(g); }
+bool pm_relaxation_open(const struct pm_grid *g) { return pm_james_wanted(g); }
 struct pm_relax_work *pm_relaxation_work(struct pm_relaxation *p) { return &p->work; }
 
 /* to = factor (from - average) on the unknowns, 0 elsewhere; from NULL: 0. */
@@ -222,7 +222,7 @@ static int solve_open(struct pm_relaxation *p, const struct pm_relaxation_choice
 	int64_t sweeps = status ? 0 : r->sweeps;
 	bool floor = !status && r->floor;
 	if (!status)
-		status = pm_outer_values(p->outer, c, s, u, &wall, &f);
+		status = pm_james_values(p->james, c, s, u, &wall, &f);
 	if (!status)
 		status = solve(p, o, 1, f, phi, r);
 	for (size_t i = 0; i < p->lap.size && !status; i++)
@@ -236,5 +236,5 @@ static int solve_open(struct pm_relaxation *p, const struct pm_relaxation_choice
 int pm_relaxation_solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi,
 	struct pm_relaxation_record *r)
 {
-	return p->outer ? solve_open(p, o, c, s, phi, r) : solve(p, o, c, s, phi, r);
+	return p->james ? solve_open(p, o, c, s, phi, r) : solve(p, o, c, s, phi, r);
 }

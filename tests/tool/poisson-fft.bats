@@ -119,3 +119,22 @@ relative() { scmp --norm relative_max --field phi "$1" "$2" | tail -1 | cut -f9;
 	run -1 --separate-stderr poisson-fft --wave-number 1 <m
 	[[ $stderr == *"--wave-number is for standing waves in a box"* ]]
 }
+
+@test "open space by James' method: the infinite lattice's potential; what it does not solve is refused" {
+	for row in "1 1e-14" "2 1e-10" "3 1e-7"; do # 2-D, 3-D: the far form of the lattice's function at 128 and 32 cells
+		read -r dim tolerance <<<"$row"
+		pinit uniform -n 99 --dim "$dim" --faces open | p2m -n 24 >m
+		poisson-fft --symbol fd2 <m >f
+		poisson-fft --free-space james <m >g
+		below "$(relative g f)" "$tolerance" "$dim-D"
+	done
+	[ "$(OMP_NUM_THREADS=2 poisson-fft --free-space james <m | cksum)" = "$(PM_THREADS=1 poisson-fft --free-space james <m | cksum)" ]
+	run -2 --separate-stderr poisson-fft --free-space james --symbol fd4 <m
+	[[ $stderr == *"solves the differences of order 2 (leave out --symbol"* ]]
+	pinit uniform -n 9 --dim 2 --faces open,open,wall,wall | p2m -n 9 >m
+	run -1 --separate-stderr poisson-fft --free-space james <m
+	[[ $stderr == *"open faces on all axes or on none, but axis y has wall ones (poisson-fft --free-space doubled mixes them)"* ]]
+	pinit uniform -n 9 --dim 2 | p2m -n 9 >m
+	run -1 --separate-stderr poisson-fft --free-space james <m
+	[[ $stderr == *"is for open faces, and this box has none"* ]]
+}

@@ -59,7 +59,7 @@ differ() { scmp --norm relative_l2 --field phi "$1" "$2" | tail -1 | cut -f8; }
 	run -1 --separate-stderr poisson-relax <m
 	[[ $stderr == *"axis x has absorbing faces, which belong to Maxwell's equations"* ]]
 	run -1 --separate-stderr bash -c 'pinit uniform -n 0 --faces open,open,wall,wall,periodic,periodic | p2m -n 8 | poisson-relax >out'
-	says="relaxation needs open faces on all axes or on none, but axis y has wall ones (use poisson-fft, which mixes them)"
+	says="James' method needs open faces on all axes or on none, but axis y has wall ones (poisson-fft --free-space doubled mixes them)"
 	[[ $stderr == *"poisson-relax: frame 1: $says"* ]]
 }
 

@@ -1,22 +1,22 @@
-/* Free space for the iterative solvers by James' method, as multigrid has it (mg-open.c): the box is solved grounded, the charge on its walls gives the
- * potential there, and it is solved again with that:
+/* Free space by James' method for the solvers of the differences of order 2 (multigrid has its own: mg-open.c): the box is solved grounded, the charge on
+ * its walls gives the potential there, and it is solved again with that:
  *   A u = f, u = 0 on the walls; q = A u - f on them; phi = -G*q on them; A phi = f inside
  * G is that of the infinite lattice, so the answer is the solution of the differences on all of it: the error is of order 2, whatever the size of the box.
  * Source: James 1977. The source vanishes outside. Cost: two solutions, and 100 N^3 operations for the walls. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-relax/relax-open.h"
+#include "james/james.h"
 
 #include <string.h>
 
 #include "poisson-mg/mg-open-parts.h"
 
-struct pm_outer {
+struct pm_james {
 	struct pm_grid grid, walled;
 	struct mg_stencil stencil;
 	struct mg_faces *faces;
 	double *charge, *wall, *f; /* of the points of the grid */
 };
 
-bool pm_outer_wanted(const struct pm_grid *g)
+bool pm_james_wanted(const struct pm_grid *g)
 {
 	bool open = false;
 	for (int d = 0; d < g->dim; d++)
@@ -24,17 +24,16 @@ bool pm_outer_wanted(const struct pm_grid *g)
 	return open;
 }
 
-int pm_outer_check(const struct pm_grid *g)
+int pm_james_check(const struct pm_grid *g)
 {
 	for (int d = 0; d < g->dim; d++)
 		if (g->face[d][0] != PM_OPEN || g->face[d][1] != PM_OPEN)
-			return pm_fail(PM_DATA, "relaxation needs open faces on all axes or on none, but axis %c has %s ones (use poisson-fft, which mixes "
-				"them)", "xyz"[d],
-				pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
+			return pm_fail(PM_DATA, "James' method needs open faces on all axes or on none, but axis %c has %s ones (poisson-fft "
+				"--free-space doubled mixes them)", "xyz"[d], pm_face_names[g->face[d][g->face[d][0] == PM_OPEN]]);
 	return pm_mg_open_check(g);
 }
 
-struct pm_grid pm_outer_walled(const struct pm_grid *g)
+struct pm_grid pm_james_walled(const struct pm_grid *g)
 {
 	struct pm_grid walled = *g;
 	for (int d = 0; d < g->dim; d++)
@@ -42,24 +41,24 @@ struct pm_grid pm_outer_walled(const struct pm_grid *g)
 	return walled;
 }
 
-struct pm_outer *pm_outer_new(const struct pm_grid *g)
+struct pm_james *pm_james_new(const struct pm_grid *g)
 {
-	struct pm_outer *o = pm_zalloc(1, sizeof *o);
+	struct pm_james *o = pm_zalloc(1, sizeof *o);
 	if (!o)
 		return NULL;
 	size_t n = pm_grid_size(g);
 	o->grid = *g;
-	o->walled = pm_outer_walled(g);
+	o->walled = pm_james_walled(g);
 	o->stencil = pm_mg_stencil(g, 2);
 	o->charge = pm_zalloc(n, sizeof(double));
 	o->wall = pm_zalloc(n, sizeof(double));
 	o->f = pm_zalloc(n, sizeof(double));
 	if (!o->charge || !o->wall || !o->f || pm_mg_lattice(g, 2, o->f) || !(o->faces = pm_mg_faces_new(g, o->f)))
-		return pm_outer_free(o);
+		return pm_james_free(o);
 	return o;
 }
 
-struct pm_outer *pm_outer_free(struct pm_outer *o)
+struct pm_james *pm_james_free(struct pm_james *o)
 {
 	if (o)
 		pm_mg_faces_free(o->faces), pm_free(o->charge), pm_free(o->wall), pm_free(o->f);
@@ -67,7 +66,7 @@ struct pm_outer *pm_outer_free(struct pm_outer *o)
 }
 
 /* A u - f on the walls, where u is zero: only the neighbours inside count. 0 elsewhere. */
-static void induced(struct pm_outer *o, const double *u)
+static void induced(struct pm_james *o, const double *u)
 {
 	const struct pm_grid *g = &o->grid;
 	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
@@ -86,7 +85,7 @@ static void induced(struct pm_outer *o, const double *u)
 		}
 }
 
-int pm_outer_values(struct pm_outer *o, double c, const double *s, const double *phi, const double **wall, const double **f)
+int pm_james_values(struct pm_james *o, double c, const double *s, const double *phi, const double **wall, const double **f)
 {
 	size_t n = pm_grid_size(&o->grid);
 	for (size_t p = 0; p < n; p++)
