@@ -45,7 +45,8 @@ def draw(r):
 
     def force(dim, periodic, *sides):
         kernel = maybe(0.3, "-k", pick("cic", "tsc", "pcs", "ngp"))
-        return (f"p2m -n {cells(dim, *sides)}{kernel}{maybe(0.15, '--interlace') if periodic else ''} | {solver(dim, periodic)} | "
+        filtered = maybe(0.15, "| smooth", pick("", "--passes 2"))
+        return (f"p2m -n {cells(dim, *sides)}{kernel}{maybe(0.15, '--interlace') if periodic else ''}{filtered} | {solver(dim, periodic)} | "
             f"mgrad{maybe(0.4, '--order', pick('2', '4', '6', *(['spectral'] if periodic else [])))} | m2p")
 
     def around(f, second=True):
@@ -102,7 +103,9 @@ def draw(r):
 
     def space():
         scene = pick("pinit taylor-green-3d --cells 8", "pinit vortex-ring --cells 12", "pinit taylor-green-3d --cells 17")
-        return scene, "p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push " + pick("lsrk3", "rk2") + maybe(0.3, "| remesh")
+        form = maybe(0.4, "--form", pick("classical", "transpose", "mixed")) + maybe(0.4, "--order", pick("2", "4", "6"))
+        return scene, f"p2m | poisson-fft | mgrad | stretch{form} | diffuse{maybe(0.4, '--order', pick('2', '4', '6'))} | m2p | push " + \
+            pick("lsrk3", "rk2") + maybe(0.3, "| remesh")
 
     def free():
         scene = f"pinit uniform -n {count(0, 1001, 13000)} --dim {pick(1, 2, 3)} --dispersion {pick(0.3, 1)} --dt 0.1"

@@ -31,6 +31,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+/* Lines of transforms cross the planes of ranks. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && ((const struct state *)s->state)->diffusion.operator.order; }
+
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static const struct pm_option options[] = {
@@ -74,5 +77,6 @@ const struct pm_tool tool_diffuse = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

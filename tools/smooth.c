@@ -56,17 +56,21 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const struct config *o = s->config;
 	const struct pm_mesh *m = pm_frame_mesh(f, o->mesh);
 	const struct pm_grid g = pm_grid_of(f, m);
-	double *work = pm_alloc(pm_grid_size(&g), sizeof *work);
-	if (!work)
-		return -PM_DATA;
+	struct pm_planes planes;
+	int status = pm_planes_init(&planes, &g, pm_frame_field(f, m->name, field_of(o, pm_law_of(f), 0)));
+	double *work = status ? NULL : pm_alloc(planes.here * planes.size + 1, sizeof *work);
+	status = status || work ? status : -PM_DATA;
 	for (int i = 0; i < fields(o); i++) {
 		struct pm_field *field = pm_frame_field(f, m->name, field_of(o, pm_law_of(f), i));
 		for (int c = 0; c < field->components; c++)
-			pm_smooth(&g, (int)o->passes, !o->plain, pm_out(field, c), work);
+			status = pm_smooth(status, &g, &planes, (int)o->passes, !o->plain, pm_out(field, c), work);
 	}
 	pm_free(work);
-	return 0;
+	pm_planes_free(&planes);
+	return status;
 }
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return (void)s, f != NULL; }
 
 static const struct pm_option options[] = {
 	{.name = "field", .kind = PM_LIST, .unit = "NAME", PM_AT(fields), .text = "mesh fields (default: the law's density; of electromagnetic particles J)"},
@@ -99,4 +103,5 @@ const struct pm_tool tool_smooth = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

@@ -34,6 +34,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return pm_stretching_add(&t->stretching, &t->planner);
 }
 
+/* Lines of transforms cross the planes of ranks. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && ((const struct state *)s->state)->stretching.order; }
+
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static const struct pm_option options[] = {
@@ -69,5 +72,6 @@ const struct pm_tool tool_stretch = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

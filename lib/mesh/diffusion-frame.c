@@ -6,6 +6,7 @@
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/diffusion-frame.h"
+#include "mesh/gradient-parts.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 
@@ -72,7 +73,7 @@ static int add(struct pm_diffusion *t)
 		in[c] = pm_in(t->density, c);
 		out[c] = pm_out(t->change, c);
 	}
-	return pm_operator_apply(&t->operator, t->nu, in, out, NULL);
+	return pm_operator_apply_planes(&t->operator, t->nu, t->density, in, out, NULL);
 }
 
 int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans)

@@ -122,23 +122,6 @@ int pm_gradient_plan(struct pm_gradient *t, struct pm_fft_plans *plans)
 	return pm_operator_plan(&t->operator, plans);
 }
 
-/* The same on the planes of this rank. */
-static int divided(struct pm_operator *o, double factor, const struct pm_field *source, const double *const in[], double *const out[], bool *seen)
-{
-	const double *with[PM_COMPONENTS];
-	struct pm_planes planes;
-	double *room = NULL;
-	int status = pm_planes_init(&planes, &o->grid, source);
-	status = pm_planes_halo(status, &planes, status ? 0 : pm_operator_reach(o, &planes), o->in, in, with, &room);
-	o->planes = &planes;
-	if (!status && planes.here)
-		status = pm_operator_apply(o, factor, with, out, seen);
-	o->planes = NULL;
-	pm_free(room);
-	pm_planes_free(&planes);
-	return status;
-}
-
 int pm_gradient_apply(struct pm_gradient *t)
 {
 	const double *in[PM_COMPONENTS];
@@ -148,8 +131,7 @@ int pm_gradient_apply(struct pm_gradient *t)
 		in[c] = pm_in(t->source, c);
 	for (int c = 0; c < t->operator.out; c++)
 		out[c] = pm_out(t->target, c);
-	int status = t->source->here ? divided(&t->operator, t->factor, t->source, in, out, &seen) :
-		pm_operator_apply(&t->operator, t->factor, in, out, &seen);
+	int status = pm_operator_apply_planes(&t->operator, t->factor, t->source, in, out, &seen);
 	t->target->use |= seen ? PM_USE_SEEN : 0;
 	return status;
 }

@@ -131,3 +131,22 @@ int pm_operator_apply(const struct pm_operator *o, double factor, const double *
 		*seen = here;
 	return status;
 }
+
+int pm_operator_apply_planes(const struct pm_operator *o, double factor, const struct pm_field *field, const double *const in[], double *const out[],
+	bool *seen)
+{
+	const double *with[PM_COMPONENTS];
+	struct pm_operator here = *o;
+	struct pm_planes planes;
+	double *room = NULL;
+	if (!field->here)
+		return pm_operator_apply(o, factor, in, out, seen);
+	int status = pm_planes_init(&planes, &o->grid, field);
+	status = pm_planes_halo(status, &planes, status ? 0 : pm_operator_reach(o, &planes), o->in, in, with, &room);
+	here.planes = &planes;
+	if (!status && planes.here)
+		status = pm_operator_apply(&here, factor, with, out, seen);
+	pm_free(room);
+	pm_planes_free(&planes);
+	return status;
+}

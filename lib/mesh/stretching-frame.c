@@ -4,8 +4,10 @@
 
 #include "fft/axis-transform.h"
 #include "law/law.h"
+#include "mesh/gradient-parts.h"
 #include "mesh/stretching-frame.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 /* A field of 3 components on the nodes. */
 static const struct pm_field *vector(struct pm_frame *f, const char *on, const char *name, const char *words)
@@ -60,16 +62,16 @@ static int apply(const struct pm_stretching *t, int component, bool add, struct 
 	o.add = add;
 	for (int d = 0; d < 3; d++)
 		o.weight[d] = pm_in(t->omega, d);
-	status = status ? status : pm_operator_plan(&o, plans);
-	return status ? status : pm_operator_apply(&o, 1, in, out, NULL);
+	status = status ? status : pm_operator_plan(&o, plans); /* fails on all ranks or none: differences need no plans */
+	return status ? status : pm_operator_apply_planes(&o, 1, t->omega, in, out, NULL);
 }
 
 static int conservative(const struct pm_stretching *t, bool add, struct pm_fft_plans *plans)
 {
 	const size_t n = t->u->count;
-	double *product = pm_alloc(3 * n, sizeof *product);
+	double *product = pm_alloc(3 * n + 1, sizeof *product);
 	const double *const in[3] = {product, product + n, product + 2 * n};
-	int status = product ? 0 : -PM_DATA;
+	int status = pm_world_agree(product ? 0 : -PM_DATA);
 	for (int c = 0; c < 3 && !status; c++) {
 		const double *u = pm_in(t->u, c);
 		double *const out[1] = {pm_out(t->change, c)};
@@ -80,7 +82,7 @@ static int conservative(const struct pm_stretching *t, bool add, struct pm_fft_p
 			for (size_t i = 0; i < n; i++)
 				to[i] = omega[i] * u[i];
 		}
-		status = apply(t, c, add, plans, in, out);
+		status = pm_world_agree(apply(t, c, add, plans, in, out));
 	}
 	pm_free(product);
 	return status;

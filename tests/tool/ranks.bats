@@ -118,6 +118,20 @@ shares() {
 	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | m2p | push rk2"
 }
 
+@test "any number of ranks: viscosity, stretching and the binomial filter, periodic and beside walls, more ranks than planes" {
+	pinit taylor-green-3d --cells 7 >space
+	same "p2m | poisson-fft | mgrad | stretch --form mixed --order 4 | diffuse --order 6 | m2p | push rk2" <space
+	same "p2m | poisson-fft | mgrad | stretch | diffuse --order 2 | m2p | push euler" --store all <space
+	vortices | same "p2m | poisson-fft | mgrad | diffuse | m2p | push rk2" --store all
+	pinit uniform -n 300 | same "p2m -n 12x9x7 | smooth --passes 3 | poisson-fft | mgrad | m2p | push rk2" --store all
+	pinit uniform -n 300 --faces wall,neumann,wall,wall,wall,neumann | same "p2m -n 9x8x3 | smooth --passes 2 | push drift" --store all
+	pinit uniform -n 300 --dim 2 --faces wall,neumann,neumann,wall |
+		same "p2m -n 17x33 | smooth | smooth --no-compensation --field rho | push drift" --store all
+	pinit landau -n 400 --cells 32 | same "$(kicks "p2m | smooth | poisson-fft | mgrad | m2p")"
+	shares "p2m, poisson-fft, mgrad, stretch, smooth, diffuse, m2p, push rk2" \
+		"p2m | poisson-fft | mgrad | stretch | smooth | diffuse | m2p | push rk2" <space
+}
+
 @test "any number of ranks: a whole PM step, uniform, crowded, sorted, in 1-D to 3-D, two sets, particles beyond the mesh" {
 	pinit plummer -n 40000 >cluster
 	same "$(kicks "$(force 24x20x32)")" <cluster # of the crowded tiles some have several jobs, and some particles are outside
