@@ -38,7 +38,7 @@ h5_libs = $(or $(shell pkg-config --libs hdf5 2>/dev/null),-lhdf5_serial)
 h5_obj := $(patsubst %.c,$(B)/%.o,$(sort $(wildcard lib/h5/*.c)))
 alone := tools/sh5.c
 
-tables := collision effect green law kernel maxwell mollifier relax scene step
+tables := collision distribution effect green law kernel maxwell mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/% lib/world/mpi.c,$(wildcard lib/*/*.c)))
 lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o $(B)/tables/viewer-text.o
 tool_src := $(sort $(wildcard tools/*.c))

@@ -36,13 +36,13 @@ static int sobol(uint64_t n, int axes, double *const u[PM_LOAD_AXES])
 
 int pm_scene_points(enum pm_loading how, uint64_t seed, uint64_t n, int axes, double *const u[PM_LOAD_AXES])
 {
-	static const uint64_t base[] = {2, 3, 5};
+	static const uint64_t base[PM_LOAD_AXES - 1] = {2, 3, 5, 7, 11, 13, 17};
 	if (how == PM_SOBOL)
 		return sobol(n, axes, u);
 #pragma omp parallel for schedule(static) if (n > 16384)
 	for (uint64_t i = 0; i < n; i++) {
-		double z[2][2];
-		for (int pair = 0; pair < 2 && how == PM_RANDOM; pair++)
+		double z[PM_LOAD_AXES / 2][2];
+		for (int pair = 0; 2 * pair < axes && how == PM_RANDOM; pair++)
 			pm_random(seed, i, (uint64_t)pair, z[pair]);
 		for (int d = 0; d < axes; d++)
 			u[d][i] = how == PM_RANDOM ? z[d / 2][d % 2] : d == axes - 1 ? ((double)i + 0.5) / (double)n

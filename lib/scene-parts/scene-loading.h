@@ -6,9 +6,9 @@
 
 extern const char *const pm_loading_names[]; /* in the order of enum pm_loading; NULL ends */
 
-enum { PM_LOAD_AXES = 4 };
+enum { PM_LOAD_AXES = 8 };
 /* n points of the unit cube, 0 < u < 1: u[axis][i]. bit-reversed is Hammersley's set: the last axis (i + 1/2)/n, the others the digits of i reversed in
- * the bases 2, 3, 5; sobol is Sobol's sequence, random is Philox. Not for PM_LATTICE. 0 or failure. */
+ * the bases 2, 3, 5, 7, 11, 13, 17; sobol is Sobol's sequence, random is Philox. Not for PM_LATTICE. 0 or failure. */
 int pm_scene_points(enum pm_loading how, uint64_t seed, uint64_t n, int axes, double *const u[PM_LOAD_AXES]);
 /* Digits of i in a prime base behind the point in reverse order (van der Corput 1935; Hammersley 1960). */
 double pm_scene_digits_reversed(uint64_t i, uint64_t base);
