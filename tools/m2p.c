@@ -7,10 +7,11 @@
 #include "expression/mesh-mask.h"
 #include "law/law.h"
 #include "transfer/gather-changes.h"
+#include "transfer/gather-energy.h"
 
 struct config {
 	const char *kernel, *mesh, *set, *field, *outside, *mask;
-	bool replace, changes;
+	bool replace, changes, energy;
 };
 struct state {
 	struct pm_fft_plans plans; /* of interlaced meshes */
@@ -21,6 +22,8 @@ static int begin(struct pm_stage *s)
 	const struct config *o = s->config;
 	if (o->mask && (o->changes || o->outside))
 		return pm_fail(PM_USAGE, "--mask excludes --changes and --outside (beside faces and bodies kernels are one-sided; beyond is refused)");
+	if (o->energy && (o->mask || o->changes || o->field || o->outside))
+		return pm_fail(PM_USAGE, "--energy-conserving excludes --mask, --changes, --field and --outside (it is the force of the law's potential)");
 	return o->changes && o->field ? pm_fail(PM_USAGE, "--changes or --field, not both: the changes are what is carried") : 0;
 }
 
@@ -44,9 +47,12 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
+	int status;
+	if (((const struct config *)s->config)->energy)
+		return (status = pm_gather_energy_choose(&choice, f, &j)) ? status : pm_gather_energy_declare(&j, f);
 	if (only_changes(s->config, f))
 		return pm_gather_changes_declare(&choice, f);
-	int status = pm_gather_choose(&choice, f, &j);
+	status = pm_gather_choose(&choice, f, &j);
 	if (!status && choice.beside)
 		status = pm_mesh_mask_declare(f, j.mesh, ((const struct config *)s->config)->mask);
 	return status ? status : pm_gather_declare(&j, f);
@@ -81,10 +87,13 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
+	unsigned char *mask = NULL;
+	int status;
+	if (((const struct config *)s->config)->energy)
+		return (status = pm_gather_energy_choose(&choice, f, &j)) ? status : pm_gather_energy(&j, f);
 	if (only_changes(s->config, f))
 		return frame_of_changes(s, f);
-	unsigned char *mask = NULL;
-	int status = pm_gather_choose(&choice, f, &j);
+	status = pm_gather_choose(&choice, f, &j);
 	if (!status && choice.beside)
 		status = pm_mesh_mask(f, j.mesh, ((const struct config *)s->config)->mask, &mask);
 	j.choice.mask = mask;
@@ -113,7 +122,7 @@ static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	return !choice.beside && !only_changes(s->config, f) && !pm_gather_choose(&choice, f, &j) && !j.interlaced;
+	return !choice.beside && !((const struct config *)s->config)->energy && !only_changes(s->config, f) && !pm_gather_choose(&choice, f, &j) && !j.interlaced;
 }
 
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }
@@ -132,6 +141,8 @@ static const struct pm_option options[] = {
 	{.name = "mask", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(mask),
 		.text = "bodies: nodes where this is not 0 are not used ('x^2 + y^2 < 1'; 0 for none), and kernels beside them and beside faces are one-sided, "
 			"without images"},
+	{.name = "energy-conserving", .kind = PM_FLAG, PM_AT(energy),
+		.text = "the potential by the gradient of the kernel (no mgrad): conserves energy as dt falls, momentum only nearly"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };

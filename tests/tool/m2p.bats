@@ -198,3 +198,60 @@ alone() { printf 'x y z vx vy vz mass\n0.31 0.47 0.52 0 0 0 1\n' | stab - --law 
 	[[ $stderr == *"particle 0 of 'matter' is beyond the mesh, or deeper in a body than 16 cells"* ]]
 	run -2 m2p --mask 0 --outside drop <a
 }
+
+# energy MOVE: of the field on the mesh, with particle 3 moved along x, y or z.
+field_energy() { scalc --set matter "$1" <a | p2m --kernel "$kernel" | poisson-fft | diag --columns energy_field_mesh | sed 1d; }
+
+@test "m2p --energy-conserving: the force is minus the derivative of the mesh's energy, all kernels, faces and dimensions, both laws" {
+	while read -r dim faces kernel law; do
+		particles=reflect
+		[ "$faces" != periodic ] || particles=periodic
+		pinit uniform --dim "$dim" -n 20 --cells 8 --faces "$faces" --particle-faces $particles --seed 5 | smod --law "$law" |
+			scalc --extensive 'charge = mod(id, 3) - 0.5' --role state >a
+		p2m --kernel "$kernel" <a | poisson-fft | m2p --energy-conserving | stab --plain --set matter >t
+		for axis in $(seq 0 $((dim - 1))); do
+			c=$(cut -c $((axis + 1)) <<<xyz)
+			list=$(for k in $(seq 0 $((dim - 1))); do [ "$k" != "$axis" ] && echo -n "$(cut -c $((k + 1)) <<<xyz), " || echo -n "$c + SIGN*(id == 3)*1e-5, "
+				done)
+			up=$(field_energy "x = $(sed 's/SIGN/1/; s/, $//' <<<"$list")")
+			down=$(field_energy "x = $(sed 's/SIGN/-1/; s/, $//' <<<"$list")")
+			got=$( (column "acc_$axis" <t || column acc <t) | sed -n 4p)
+			# a step of 1e-5 leaves rounding 1e-16 E/1e-5 and, with cubic pieces, 1e-10 of the third derivative
+			within "$got" "$(calc "-($up - ($down)) / 2e-5 * 20")" "$(calc "1e-6 * (1 + ($got) * ($got))")" "$dim-D $faces $kernel $law $c"
+		done
+	done <<-'END'
+		1 periodic cic electrostatic
+		1 wall cic electrostatic
+		2 periodic tsc electrostatic
+		2 neumann cic gravity
+		3 periodic pcs gravity
+		3 wall tsc electrostatic
+		2 periodic m6prime electrostatic
+	END
+}
+
+@test "m2p --energy-conserving: energy is kept to an order of dt, ten times better than by mgrad, where the Debye length is a tenth of a cell" {
+	hot() { # LENGTH DT STEPS FORCE: relative change of the energy
+		pinit plasma --length 640 --dt "$1" | species electrons -n 4096 --loading random |
+			cycle -q -n "$2" --every "$2" "push kick/2 drift | p2m | poisson-fft | $3 | push kick/2" | p2m | poisson-fft | diag --columns energy |
+			awk 'NR == 2 { a = $1 } NR == 3 { printf "%.9g", $1 / a - 1 }'
+	}
+	below "$(hot 0.05 2000 'm2p --energy-conserving')" 1e-3 # measured 5e-4; 1.6e-3 and 3e-3 at dt = 0.1 and 0.2
+	above "$(hot 0.05 2000 'mgrad | m2p')" 0.01
+}
+
+@test "m2p --energy-conserving: what it cannot do is refused, and bytes do not depend on threads" {
+	run -2 --separate-stderr bash -c "pinit uniform --dim 2 -n 9 --cells 8 | smod --faces periodic --particle-faces periodic | p2m --kernel ngp | poisson-fft |
+		m2p --energy-conserving"
+	[[ $stderr == *"ngp has no gradient"* ]]
+	run -1 --separate-stderr bash -c "pinit uniform -n 9 --cells 8 | p2m | m2p --energy-conserving"
+	[[ $stderr == *"no potential 'phi' on the mesh (run "*"poisson-fft first"* ]]
+	run -1 --separate-stderr bash -c "pinit lamb-oseen --cells 16 | p2m --kernel cic | poisson-fft | m2p --energy-conserving"
+	[[ $stderr == *"the law 'vortex' has no potential whose gradient is a force"* ]]
+	run -2 --separate-stderr m2p --energy-conserving --changes
+	for t in 1 3; do
+		pinit uniform -n 9000 --cells 8 | smod --faces periodic --particle-faces periodic | p2m | poisson-fft |
+			m2p --energy-conserving --threads $t --no-history >$t
+	done
+	same_as 1 3
+}

@@ -80,7 +80,8 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 			within "$(diag --columns centre_$c <$f | column centre_$c)" "${!c}" 0.002 "$f: $c"
 		done
 	done
-	pinit plasma --dim 2 | species electrons -n 5000 --profile 'abs(x - 6) < 2' | stab --plain --set electrons | column x | awk '$1 < 3.98 || $1 > 8.02' >out
+	pinit plasma --dim 2 | species electrons -n 5000 --profile 'abs(x - 6) < 2' | stab --plain --set electrons | column x |
+		awk '$1 < 3.98 || $1 > 8.02' >out
 	[ ! -s out ] # a slab, sharp to an interval of the table
 }
 
