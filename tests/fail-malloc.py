@@ -53,6 +53,8 @@ commands = {
     "pse": "pse -i ../vortex.pm",
     "diffuse": "diffuse -i ../omega.pm",
     "walk": "walk --nu 1e-3 -i ../vortex.pm",
+    "jump": ["jump", "9: x = y, x", "x > 0 ? 1 : 0: x = -x, y", "-i", "../vortex.pm"],
+    "scalc-per": ["scalc", "--total", "--per", "mass", "k = 1", "-i", "../bodies.pm"],
     "dt": "dt --courant 0.5 -i ../g.pm",
     "scalc": ["scalc", "a = 2 * x.x + mass", "-i", "../bodies.pm"],
     "sel": ["sel", "--where", "x.x > 0", "-i", "../bodies.pm"],

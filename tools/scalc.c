@@ -9,8 +9,8 @@ static const char *const roles[] = {"auto", "state", "derived", NULL}, *const ty
 
 struct config {
 	struct pm_list sets, meshes;
-	const char *role, *unit, *type;
-	bool strength;
+	const char *role, *unit, *type, *per;
+	bool strength, total;
 };
 
 struct state {
@@ -25,28 +25,37 @@ static const struct pm_option options[] = {
 	{.name = "extensive", .kind = PM_FLAG, PM_AT(strength), .text = "new fields are strengths (extensive)"},
 	{.name = "unit", .kind = PM_TEXT, .unit = "UNIT", PM_AT(unit), .text = "unit of the fields"},
 	{.name = "type", .kind = PM_WORD, .fallback = "f64", .choices = types, PM_AT(type), .text = "how new fields are stored; i64 takes the floor"},
+	{.name = "total", .kind = PM_FLAG, PM_AT(total), .text = "each field is the sum of its expression over all particles of the set"},
+	{.name = "per", .kind = PM_TEXT, .unit = "NAME", PM_AT(per), .text = "with --total: over the particles with the same value of this field"},
 	{0},
 };
 
 static int begin(struct pm_stage *s)
 {
+	const struct config *c = s->config;
 	char name[PM_NAME];
 	const char *expression;
+	if (c->per && !c->total)
+		return pm_fail(PM_USAGE, "--per %s says of which particles --total is the sum (add --total)", c->per);
 	for (int i = 0; i < s->nargs; i++)
 		if (pm_expression_named(s->args[i], name, &expression))
 			return -PM_USAGE;
 	return 0;
 }
 
+static struct pm_computed_choice choice(const struct config *c)
+{
+	const bool state = !strcmp(c->role, "state") || (!strcmp(c->role, "auto") && c->strength);
+	return (struct pm_computed_choice){.role = state ? PM_STATE : PM_DERIVED, .extensive = c->strength, .unit = c->unit, .total = c->total, .per = c->per,
+		.type = !strcmp(c->type, "f32") ? PM_F32 : !strcmp(c->type, "i64") ? PM_I64 : PM_F64};
+}
+
 static int declare_on(struct pm_stage *s, struct pm_frame *f, const char *on, bool *changed)
 {
-	const struct config *c = s->config;
-	const bool state = !strcmp(c->role, "state") || (!strcmp(c->role, "auto") && c->strength);
-	const struct pm_computed_choice choice = {.role = state ? PM_STATE : PM_DERIVED, .extensive = c->strength, .unit = c->unit,
-		.type = !strcmp(c->type, "f32") ? PM_F32 : !strcmp(c->type, "i64") ? PM_I64 : PM_F64};
+	const struct pm_computed_choice how = choice(s->config);
 	int status = 0;
 	for (int i = 0; i < s->nargs && !status; i++)
-		status = pm_computed_declare(&((struct state *)s->state)->jobs, &choice, f, on, s->args[i], changed);
+		status = pm_computed_declare(&((struct state *)s->state)->jobs, &how, f, on, s->args[i], changed);
 	return status;
 }
 
@@ -81,15 +90,16 @@ static void strengths(const struct pm_expression_jobs *jobs, struct pm_strengths
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct pm_expression_jobs *jobs = &((struct state *)s->state)->jobs;
+	const struct pm_computed_choice how = choice(s->config);
 	struct pm_strengths before, after;
 	strengths(jobs, &before);
-	int status = pm_computed_apply(jobs, f);
+	int status = pm_computed_apply(jobs, &how, f);
 	strengths(jobs, &after);
 	pm_report_strengths(s, f, "given", &before, &after);
 	return status;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !((const struct config *)s->config)->per; }
 
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 
@@ -97,6 +107,7 @@ static const struct pm_example examples[] = {
 	{"The speed of every particle.", "pinit plummer -n 100 | scalc 'speed = sqrt(vx^2 + vy^2 + vz^2)' | sls --data"},
 	{"Two groups by position, and a charge for each.", "pinit plummer -n 100 | scalc --role state --type i64 'side = x > 0' | scalc --extensive 'charge "
 		"= side ? 1 : -1' | sls"},
+	{"The particles on the right, counted: the same number on each.", "pinit uniform -n 100 | scalc --total 'right = x > 0.5' | sls --data"},
 	{"A mesh field from another.", "pinit plummer -n 1000 | p2m | scalc --mesh mesh 'logrho = log10(rho + 1e-6)' | sls --data"},
 	{0}};
 

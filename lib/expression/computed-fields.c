@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "expression/computed-fields.h"
+#include "expression/field-total.h"
 #include "stream/declare.h"
 #include "world/world.h"
 
@@ -60,7 +61,7 @@ int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_compute
 	if (c->unit)
 		snprintf(job->field->unit, PM_NAME, "%.63s", c->unit);
 	jobs->n++;
-	return 0;
+	return c->total ? pm_total_declare(f, job->field, c->per) : 0;
 }
 
 int pm_computed_outdate(const struct pm_expression_jobs *jobs, struct pm_frame *f)
@@ -102,17 +103,21 @@ static int integers(struct pm_frame *f, const struct pm_expression_job *job)
 	return status;
 }
 
-int pm_computed_apply(const struct pm_expression_jobs *jobs, struct pm_frame *f)
+int pm_computed_apply(const struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f)
 {
 	int status = 0;
-	for (size_t k = 0; k < jobs->n && !status; k++) {
+	for (size_t k = 0; k < jobs->n && (!status || c->total); k++) { /* totals of all ranks, also of one that has failed */
 		const struct pm_expression_job *job = jobs->job + k;
-		if (job->field->type == PM_U8)
+		if (status)
+			;
+		else if (job->field->type == PM_U8)
 			status = pm_fail(PM_DATA, "'%s' holds bytes, which scalc does not compute", job->field->name);
 		else if (job->field->type == PM_I64)
 			status = integers(f, job);
 		else
 			pm_expression_assign(&job->e, f, job->field);
+		if (c->total)
+			status = pm_total(status, f, job->field, c->per);
 	}
 	return status;
 }

@@ -9,6 +9,8 @@ struct pm_computed_choice { /* of new fields; one that is there keeps its own */
 	enum pm_type type;
 	bool extensive;
 	const char *unit; /* NULL: as it is */
+	bool total;       /* the sum over the particles in place of the value (field-total.h) */
+	const char *per;  /* with total: of those with the same value of this field; NULL: of all */
 };
 
 /* Header: "NAME = EXPRESSION" on a set or mesh. *changed is set if the field is state. 0 or failure. */
@@ -16,7 +18,7 @@ int pm_computed_declare(struct pm_expression_jobs *jobs, const struct pm_compute
 	bool *changed);
 /* Header, where state is changed: what others computed from it is dropped. 0, or failure where it is read. */
 int pm_computed_outdate(const struct pm_expression_jobs *jobs, struct pm_frame *f);
-/* Data. 0, or failure where a whole number does not fit. */
-int pm_computed_apply(const struct pm_expression_jobs *jobs, struct pm_frame *f);
+/* Data, all ranks. 0, or failure where a whole number does not fit. */
+int pm_computed_apply(const struct pm_expression_jobs *jobs, const struct pm_computed_choice *c, struct pm_frame *f);
 
 #endif

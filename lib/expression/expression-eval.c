@@ -28,11 +28,21 @@ static uint64_t first_here(const struct pm_frame *f, const char *on)
 	return 0;
 }
 
+/* A field that the stage drops can still be read. */
+static const struct pm_field *to_read(const struct pm_frame *f, const char *on, const char *name)
+{
+	const struct pm_field *field = pm_frame_field(f, on, name);
+	for (size_t i = f->ndropped; i-- > 0 && !field;)
+		if (!strcmp(f->dropped[i]->name, name) && !strcmp(f->dropped[i]->on, on))
+			field = f->dropped[i];
+	return field;
+}
+
 /* Of the points index[first] ..., or first ... */
 static void load(const struct pm_expression_value *v, const struct pm_frame *f, const char *on, const size_t *index, size_t first, size_t n, double *out)
 {
 	if (*v->field) {
-		const struct pm_field *field = pm_frame_field(f, on, v->field);
+		const struct pm_field *field = to_read(f, on, v->field);
 		if (field->type == PM_I64)
 			for (size_t i = 0; i < n; i++)
 				out[i] = (double)pm_in_i64(field, v->component)[index ? index[first + i] : first + i];

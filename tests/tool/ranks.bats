@@ -146,6 +146,7 @@ shares() {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
+	shares "push drift, jump 2*mass: v = -vx, -vy, -vz" "push drift | jump '2*mass: v = -vx, -vy, -vz'" <start
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
 	shares "push kick/2 drift, p2m -n 8, poisson-fft, mgrad, m2p, push kick/2" "$(kicks "$(force 8)")" <start
 	shares "p2m -n 8, scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
@@ -170,6 +171,7 @@ shares() {
 	same "push drift | scalc 'mass = mass*(1 + x)'" <cloud
 	same "$(kicks "field 'acc = -sin(3*x), x*y, -0.1*vz' 'dmass = -0.1*mass'")" --checkpoint c <cloud
 	pinit uniform -n 9000 --dim 2 --faces wall --particle-faces reflect --dispersion 1 --dt 0.01 | same "push drift | walk --nu 0.1"
+	same "push drift | scalc --total 'k = 3*x' | jump 'k/n: v = -vx, vy, vz' '2: x = y, z, x'" <cloud
 }
 
 @test "any number of ranks: sums over pairs of several stretches, steps by every rule of sets, tables of diag" {

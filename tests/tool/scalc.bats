@@ -54,6 +54,28 @@ col() { stab --plain | awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++)
 	[ "$output" = 1 ]
 }
 
+@test "--total: a field is the sum over the particles, or over those with the same value of --per; the same bytes for any ranks and threads" {
+	[ "$(t | scalc --total 'm = mass*x' 'two = 2*m' | col m)" = "4 4" ]
+	[ "$(t | scalc --total 'm = mass*x' 'two = 2*m' | col two)" = "16 16" ]
+	pinit uniform -n 9000 >a
+	scalc --total 's = x' <a | col s | tr ' ' '\n' | sort -u >b
+	[ "$(wc -l <b)" = 1 ]
+	within "$(cat b)" "$(stab --plain <a | column x | awk '{ s += $1 } END { printf "%.17g", s }')" 1e-8
+	scalc --role state 'g = mod(id, 3)' <a | scalc --total --per g 'k = 1' 's = id' >c
+	[ "$(paste -d' ' <(stab --plain c | column g) <(stab --plain c | column k) <(stab --plain c | column s) | sort -u | paste -sd' ')" = \
+		"0 3000 13495500 1 3000 13498500 2 3000 13501500" ]
+	for n in 1 2 3; do
+		cycle -q -n 2 --ranks $n "push drift | scalc --total 'k = x + y'" --no-history <a | cksum
+		OMP_NUM_THREADS=$n cycle -q -n 2 "push drift | scalc --total 'k = x + y'" --no-history <a | cksum
+	done | sort -u >sums
+	[ "$(wc -l <sums)" = 1 ]
+	run -2 scalc --per id 'k = 1' <a
+	run -1 --separate-stderr bash -c "scalc --total --per x 'k = 1' <a | sls"
+	[[ $stderr == *"'x' on 'matter' is a vector, but --per needs one number a particle"* ]]
+	run -1 --separate-stderr bash -c "scalc --total 'id = 1' <a | sls"
+	[[ $stderr == *"holds whole numbers, but --total needs a real field"* ]]
+}
+
 @test "a set of no particles is valid" { sh_ok 'printf "x\n" | stab - | scalc "q = 1/x" | sls | grep " q "'; }
 
 @test "errors are one line that names the column; syntax exits 2, unknown names 1, what is not finite 3" {
