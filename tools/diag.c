@@ -14,7 +14,7 @@ struct config {
 	struct pm_list columns, separation;
 	struct pm_vector radii, modes, flux;
 	const char *growth, *window;
-	bool pair, exact, average, field;
+	bool pair, exact, average, field, species;
 };
 struct state {
 	FILE *out;
@@ -42,7 +42,7 @@ static int begin(struct pm_stage *s)
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
-		.pair = c->pair, .exact = c->exact, .average = c->average, .field_errors = c->field, .flux = c->flux.n ? c->flux.x : NULL,
+		.pair = c->pair, .exact = c->exact, .average = c->average, .field_errors = c->field, .species = c->species, .flux = c->flux.n ? c->flux.x : NULL,
 		.nflux = c->flux.n, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
 	if (c->separation.n && c->separation.n != 2)
 		return pm_fail(PM_USAGE, "--separation takes two sets (--separation matter,shadow)");
@@ -119,6 +119,8 @@ static const struct pm_option options[] = {
 		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others)"},
 	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
 		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},
+	{.name = "species", .kind = PM_FLAG, .cosmetic = true, PM_AT(species),
+		.text = "add for every set particles, kinetic energy, mean and covariance of the velocities (the temperature tensor over the mass)"},
 	{.name = "flux-box", .kind = PM_VECTOR, .unit = "LOW,HIGH", .cosmetic = true, PM_AT(flux),
 		.text = "add the flux of -grad phi out of the box between these two corners, and what Gauss's law gives for the density inside"},
 	{.name = "field-errors", .kind = PM_FLAG, .cosmetic = true, PM_AT(field),

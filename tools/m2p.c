@@ -142,7 +142,7 @@ static const struct pm_option options[] = {
 		.text = "bodies: nodes where this is not 0 are not used ('x^2 + y^2 < 1'; 0 for none), and kernels beside them and beside faces are one-sided, "
 			"without images"},
 	{.name = "energy-conserving", .kind = PM_FLAG, PM_AT(energy),
-		.text = "the potential by the gradient of the kernel (no mgrad): conserves energy as dt falls, momentum only nearly"},
+		.text = "the potential by the gradient of the kernel (no mgrad): conserves energy, momentum only nearly"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };

@@ -9,9 +9,10 @@
 #include "measure/law-field.h"
 #include "measure/measure-field.h"
 #include "measure/separation.h"
+#include "measure/species-moments.h"
 
 enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS, first_separation = first_mode + PM_COMPONENTS,
-	first_field = first_separation + 2 };
+	first_field = first_separation + 2, first_species = first_field + PM_FIELD_COLUMNS };
 
 static const char *const fields[PM_FIELD_COLUMNS] = {"flux", "flux_enclosed", "field_residual", "field_curl"};
 static const char *const separations[] = {"separation", "separation_v"};
@@ -40,7 +41,7 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]},
-		.field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};
+		.species = g->species, .field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};
 	if (law->evolves) {
 		how.evolves = true;
 		how.c = pm_law_constant(f, "c", 1), how.eps0 = pm_law_constant(f, "eps0", 1);
@@ -73,6 +74,10 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
 			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, but this box is periodic (leave --pair out)");
 	if (g->nmodes && has_mode(f, law))
 		return -PM_DATA;
+	if (g->species && f->nsets > PM_SPECIES_MOST)
+		return pm_fail(PM_DATA, "--species: %zu sets, at most %d (sel --set leaves others out)", f->nsets, PM_SPECIES_MOST);
+	if (g->species && g->set)
+		return pm_fail(PM_USAGE, "--species measures every set (leave --set out)");
 	if (g->separation[0] && pm_separation_reads(f, g->separation))
 		return -PM_DATA;
 	const struct pm_measure how = pm_diag_how(g, f);
@@ -106,6 +111,13 @@ struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k)
 struct pm_diag_column pm_diag_separation(int k) { return named(first_separation + k, separations[k]); }
 
 struct pm_diag_column pm_diag_field(enum pm_field_column k) { return named(first_field + (int)k, fields[k]); }
+
+struct pm_diag_column pm_diag_moment(const struct pm_frame *f, size_t set, enum pm_moment k)
+{
+	char name[PM_DIAG_NAME];
+	snprintf(name, sizeof name, "%s_%s", pm_moment_names[k], f->sets[set]->name);
+	return named(first_species + (int)set * PM_MOMENTS + (int)k, name);
+}
 
 struct pm_diag_column pm_diag_exact(const char *name)
 {
@@ -149,6 +161,11 @@ double pm_diag_value(const struct pm_diag_column *column, const struct pm_measur
 	const struct pm_scene *scene = column->from == exact ? pm_diag_scene(f) : NULL;
 	if (column->from == exact)
 		return scene ? scene->exact(f, column->name + strlen("exact_"), f->time) : NAN;
+	if (column->from >= first_species) { /* a frame whose sets are others has no such number */
+		const size_t set = (size_t)(column->from - first_species) / PM_MOMENTS;
+		const enum pm_moment k = (enum pm_moment)((column->from - first_species) % PM_MOMENTS);
+		return set < f->nsets && !strcmp(pm_diag_moment(f, set, k).name, column->name) ? m->species[set][k] : NAN;
+	}
 	if (column->from >= first_field)
 		return m->field[column->from - first_field];
 	if (column->from >= first_separation)

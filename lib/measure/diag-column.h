@@ -10,6 +10,7 @@ struct pm_diag_request { /* the options that add columns or cost */
 	const char *set;                         /* this set alone; NULL all */
 	bool pair;                               /* the pair energy by direct summation */
 	const char *separation[2];               /* two sets whose separation is a column; NULL: none */
+	bool species;                            /* the moments of every set */
 	bool field_errors;                       /* residual and curl of the field */
 	const double *flux;                      /* corners of a box; NULL: none */
 	int nflux;
@@ -18,7 +19,7 @@ struct pm_diag_request { /* the options that add columns or cost */
 	int mode[PM_COMPONENTS];                 /* waves along x of the law's field */
 };
 
-enum { PM_DIAG_NAME = PM_NAME + 8 };
+enum { PM_DIAG_NAME = PM_NAME + 16 };
 struct pm_diag_column { /* one column */
 	char name[PM_DIAG_NAME];
 	/* index among the measures; from PM_COLUMNS on radii, then modes, then separations; -1: the scene's exact value of this name (exact_NAME) */
@@ -36,6 +37,7 @@ struct pm_diag_column pm_diag_radius(const struct pm_diag_request *g, int k);
 struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k);
 struct pm_diag_column pm_diag_field(enum pm_field_column k);
 struct pm_diag_column pm_diag_separation(int k); /* of positions, of velocities */
+struct pm_diag_column pm_diag_moment(const struct pm_frame *f, size_t set, enum pm_moment k); /* of the set with that number */
 struct pm_diag_column pm_diag_exact(const char *name);
 /* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M (the latter two are added to *g). False: there is none. */
 bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_column *column);

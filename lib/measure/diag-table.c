@@ -7,6 +7,7 @@
 #include "measure/diag-table.h"
 #include "measure/known-energy.h"
 #include "measure/separation.h"
+#include "measure/species-moments.h"
 #include "measure/time-average.h"
 
 static int check(const struct pm_diag_choice *c)
@@ -47,7 +48,7 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 {
 	struct pm_diag_request *g = &t->request;
 	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes,
-		.separation = {c->separation[0], c->separation[1]}, .field_errors = c->field_errors, .flux = c->flux, .nflux = c->nflux}};
+		.separation = {c->separation[0], c->separation[1]}, .species = c->species, .field_errors = c->field_errors, .flux = c->flux, .nflux = c->nflux}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	if (check(c))
 		return -PM_USAGE;
@@ -93,6 +94,12 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		add(t, f, pm_diag_separation(k));
 	for (int k = c->flux ? PM_FLUX : PM_FIELD_RESIDUAL; k < (c->field_errors ? PM_FIELD_COLUMNS : PM_FIELD_RESIDUAL); k++)
 		add(t, f, pm_diag_field((enum pm_field_column)k));
+	for (size_t i = 0; i < f->nsets && c->species; i++) {
+		const struct pm_field *v = pm_frame_field(f, f->sets[i]->name, "v");
+		for (int k = 0; k < PM_MOMENTS; k++)
+			if (pm_moment_exists((enum pm_moment)k, v ? v->components : 0))
+				add(t, f, pm_diag_moment(f, i, (enum pm_moment)k));
+	}
 	return 0;
 }
 

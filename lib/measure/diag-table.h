@@ -9,7 +9,7 @@
 #include "measure/growth.h"
 #include "measure/readable-table.h"
 
-enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS + PM_FIELD_COLUMNS) };
+enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS + PM_FIELD_COLUMNS + PM_SPECIES_MOST * PM_MOMENTS) };
 
 enum pm_diag_format { PM_DIAG_TSV, PM_DIAG_CSV, PM_DIAG_JSON, PM_DIAG_READABLE };
 
@@ -23,6 +23,7 @@ struct pm_diag_choice {
 	const char *window;                             /* as typed, for messages; NULL none */
 	double from, to;                                /* [time] of the fit; NAN: chosen */
 	const char *separation[2];                      /* two sets; NULL: none */
+	bool species;                                   /* the moments of every set */
 	bool field_errors;                              /* residual and curl of the law's field */
 	const double *flux;                             /* corners of a box; NULL: none */
 	int nflux;

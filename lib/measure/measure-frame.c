@@ -5,6 +5,7 @@
 #include "measure/measure-field.h"
 #include "measure/measure.h"
 #include "measure/separation.h"
+#include "measure/species-moments.h"
 #include "stream/declare.h"
 #include "stream/strengths.h"
 
@@ -113,7 +114,7 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 {
-	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->evolves && !how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
+	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves && !how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
 		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
 	return sets && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
@@ -131,6 +132,10 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 			b[n++] = bodies(how, f, f->sets[i]);
 	for (size_t i = 0; i < n; i++)
 		pm_particle_sums_add(&b[i], &bulk);
+	for (size_t i = 0; i < f->nsets && i < PM_SPECIES_MOST && how->species; i++) {
+		const struct pm_measured one = bodies(how, f, f->sets[i]);
+		pm_moments_of(&one, m->species[i]);
+	}
 	double outside, beyond;
 	int status = pm_outside_of(how, f, &outside, &beyond);
 	status = status ? status : pm_maxwell_of(how, f, m);

@@ -66,12 +66,18 @@ bool pm_column_suits(enum pm_column c, const struct pm_measure *how);
 /* Flux of the field through a box, how far a potential is from its equation, and its field from a gradient (measure-field.c). */
 enum pm_field_column { PM_FLUX, PM_FLUX_ENCLOSED, PM_FIELD_RESIDUAL, PM_FIELD_CURL, PM_FIELD_COLUMNS };
 
+/* Of every set (species-moments.c): particles; kinetic energy; mean velocity x, y, z; covariance of the velocities xx, yy, zz, xy, xz, yz. */
+enum pm_moment { PM_MOMENT_PARTICLES, PM_MOMENT_KINETIC, PM_MOMENT_DRIFT, PM_MOMENT_COVARIANCE = PM_MOMENT_DRIFT + 3,
+	PM_MOMENTS = PM_MOMENT_COVARIANCE + 6 };
+enum { PM_SPECIES_MOST = 16 };
+
 struct pm_measures {
 	double value[PM_COLUMNS];       /* NAN where it cannot be computed */
 	double radius[PM_COMPONENTS];   /* [length] Lagrangian radii about the centre of mass */
 	double mode[PM_COMPONENTS][2];  /* complex amplitude of the modes asked for */
 	double separation[2];           /* [length], [length/time] of two sets */
 	double field[PM_FIELD_COLUMNS];
+	double species[PM_SPECIES_MOST][PM_MOMENTS]; /* of the sets in their order, if asked for */
 	double field_most;              /* largest component of the law's field at any point; with modes, else NAN */
 };
 /* All columns from bulk and field energies (NAN: unknown); field: the law has a field, so the total energy is unknown without the field's energy. */
@@ -95,6 +101,7 @@ struct pm_measure { /* what to measure of a frame */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
 	const char *separation[2];   /* two sets; NULL: none */
+	bool species;                /* the moments of every set */
 	bool field_errors;           /* residual and curl */
 	const double *flux;          /* [length] corners of a box, nflux numbers; NULL: none */
 	int nflux;

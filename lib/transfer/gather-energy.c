@@ -29,7 +29,7 @@ int pm_gather_energy_choose(const struct pm_gather_choice *choice, const struct 
 		return -PM_DATA;
 	j->name = j->law->potential;
 	if (!j->name || j->law->of_potential != PM_GRADIENT || j->law->evolves)
-		return pm_fail(PM_DATA, "the law '%s' has no potential whose gradient is a force (--energy-conserving is for gravity and electrostatic)", f->law);
+		return pm_fail(PM_DATA, "the law '%s' has no potential whose gradient is a force (no --energy-conserving here)", f->law);
 	for (size_t i = 0; i < f->nmeshes && !j->field; i++)
 		if (!choice->mesh || !strcmp(choice->mesh, f->meshes[i]->name))
 			j->field = pm_frame_field(f, (j->mesh = f->meshes[i])->name, j->name);

@@ -320,3 +320,36 @@ load ../helper
 	run -2 --separate-stderr diag --flux-box 0,1 <d
 	[[ $stderr == *"--flux-box needs 4 numbers"* ]]
 }
+
+@test "diag --species: mean and covariance of a set's velocities, weighted by mass, to round-off beside a large drift; kinetic energies add up" {
+	# masses 1, 2, 3; velocities 1e6 + (0, 3, 1), (1, 0, -1): mean 1e6 + 1.5, -1/3
+	printf 'x y vx vy mass charge\n0 0 1000000 1 1 1\n1 0 1000003 0 2 1\n1 1 1000001 -1 3 1\n' |
+		stab - --box 0,2 --law electrostatic --dt 0.1 --strength mass,charge --set beam >a
+	printf 'x y vx vy mass charge\n0 0 5 0 4 1\n' | stab - --box 0,2 --law electrostatic --dt 0.1 --strength mass,charge --set ions >b
+	stack a b | diag --species >t
+	within "$(column drift_x_beam <t)" 1000001.5 1e-9
+	within "$(column drift_y_beam <t)" "$(calc '-1 / 3')" 1e-14
+	within "$(column covariance_xx_beam <t)" "$(calc '(2.25 + 2 * 2.25 + 3 * 0.25) / 6')" 1e-14
+	within "$(column covariance_yy_beam <t)" "$(calc '(16 / 9 + 2 / 9 + 3 * 4 / 9) / 6')" 1e-14
+	within "$(column covariance_xy_beam <t)" "$(calc '(-1.5 * 4 / 3 + 2 * 1.5 / 3 + 3 * 0.5 * 2 / 3) / 6')" 1e-14
+	[ "$(column particles_beam <t) $(column particles_ions <t) $(column covariance_xx_ions <t)" = "3 1 0" ]
+	within "$(calc "$(column kinetic_beam <t) + $(column kinetic_ions <t)")" "$(column energy_kinetic <t)" 0.001 # of 3e12
+	run ! grep -q covariance_zz t
+	pinit plasma | species hot -n 50000 --velocities 3 --widths 1,2,3 | diag --species >t
+	for c in xx:1 yy:4 zz:9 xy:0; do
+		within "$(column "covariance_${c%:*}_hot" <t)" "${c#*:}" 0.02
+	done
+	run -2 --separate-stderr bash -c "pinit plasma | diag --species --set electrons"
+	[[ $stderr == *"--species measures every set"* ]]
+}
+
+@test "docs/methods/diag.md: density, mean velocity and temperature on the mesh, by the words" {
+	pinit plasma --length 16 --cells 16 | species e -n 200000 --profile '1 + 0.5*sin(2*pi*x/16)' --drift 2 |
+		scalc --set e 'v = 2 + (1 + 0.5*cos(2*pi*x/16))*(vx - 2)' >a
+	sed -n '/^    scalc --set e --extensive/,/^$/p' "$top/docs/methods/diag.md" >sentence
+	bash -o pipefail -c "cat a | $(cat sentence)" | stab --plain --mesh mesh >t
+	# cic smooths: 1 - (2 pi/16)^2/6 = 0.974 of a wave; noise of the sequence 1 %
+	awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { x = (NR - 2) * 2 * 3.14159265 / 16
+		n = $at["n_e"] - 1 - 0.974 * 0.5 * sin(x); u = $at["u_e"] - 2; T = $at["T_e"] - (1 + 0.5 * cos(x))^2
+		if (n * n > 0.0001 || u * u > 0.0009 || T * T > 0.01) { print; bad = 1 } } END { exit bad || NR != 17 }' t
+}
