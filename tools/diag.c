@@ -42,8 +42,8 @@ static int begin(struct pm_stage *s)
 	struct state *state = s->state;
 	struct pm_diag_choice choice = {.set = c->set, .columns = c->columns.item, .ncolumns = c->columns.n, .radii = c->radii.x, .nradii = c->radii.n,
 		.modes = c->modes.x, .nmodes = c->modes.n, .growth = c->growth, .window = c->window,
-		.pair = c->pair, .exact = c->exact, .average = c->average, .field_errors = c->field, .species = c->species, .flux = c->flux.n ? c->flux.x : NULL,
-		.nflux = c->flux.n, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
+		.pair = c->pair, .exact = c->exact, .average = c->average, .field_errors = c->field, .species = c->species,
+		.flux = c->flux.n ? c->flux.x : NULL, .nflux = c->flux.n, .format = format_of(s), .width = pm_readable_width(STDOUT_FILENO)};
 	if (c->separation.n && c->separation.n != 2)
 		return pm_fail(PM_USAGE, "--separation takes two sets (--separation matter,shadow)");
 	for (int k = 0; k < c->separation.n; k++)

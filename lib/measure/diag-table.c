@@ -48,7 +48,8 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 {
 	struct pm_diag_request *g = &t->request;
 	*t = (struct pm_diag_table){.choice = *c, .out = out, .request = {.set = c->set, .pair = c->pair, .nradii = c->nradii, .nmodes = c->nmodes,
-		.separation = {c->separation[0], c->separation[1]}, .species = c->species, .field_errors = c->field_errors, .flux = c->flux, .nflux = c->nflux}};
+		.separation = {c->separation[0], c->separation[1]}, .species = c->species, .field_errors = c->field_errors,
+		.flux = c->flux, .nflux = c->nflux}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	if (check(c))
 		return -PM_USAGE;

@@ -114,7 +114,8 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 {
-	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves && !how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
+	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves &&
+		!how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
 		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
 	return sets && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
