@@ -15,14 +15,14 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
 	s->advances = true;
-	return o->gauss && (pm_given(s, "method") || pm_given(s, "layers"))
-		? pm_fail(PM_USAGE, "--gauss advances nothing (leave out --method and --layers)") : 0;
+	return o->gauss && pm_given(s, "layers") ? pm_fail(PM_USAGE, "--gauss advances nothing (leave out --layers)") : 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	const struct pm_maxwell_choice choice = {.mesh = o->mesh, .method = o->method, .gauss = o->gauss, .layers = (int)o->layers};
+	const struct pm_maxwell_choice choice = {.mesh = o->mesh,
+		.method = o->gauss && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss, .layers = (int)o->layers};
 	return pm_maxwell_declare(&choice, f, &((struct state *)s->state)->job);
 }
 
@@ -30,10 +30,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct pm_maxwell_job *j = &((struct state *)s->state)->job;
 	struct pm_gauss_record r;
-	if (!j->choice.gauss) {
-		pm_maxwell_step(j, f->dt);
-		return 0;
-	}
+	if (!j->choice.gauss)
+		return pm_maxwell_step(j, f->dt);
 	int status = pm_maxwell_project(j, &r);
 	if (status)
 		return status;
@@ -44,7 +42,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 }
 
 static const struct pm_option options[] = {
-	{.name = "method", .kind = PM_WORD, .fallback = "yee", .choices = pm_maxwell_names, PM_AT(method), .text = "the differences"},
+	{.name = "method", .kind = PM_WORD, .fallback = "yee", .choices = pm_maxwell_names, PM_AT(method),
+		.text = "the differences; with --gauss those of Gauss's law (default: that of the method that made E)"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
 	{.name = "layers", .kind = PM_INTEGER, .unit = "cells", .fallback = "10", .low = 1, .high = 1000, PM_AT(layers),
 		.text = "thickness of the layers that absorb waves inside open faces"},

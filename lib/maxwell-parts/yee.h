@@ -16,6 +16,8 @@ struct pm_yee {
 	double *pml[3][PM_PML_FIELDS]; /* [points]; NULL: the axis has no open face */
 };
 
+/* Does Gauss's law of this E hold with the derivatives of waves (PM_DIFFERENCES in its header), not with two-point differences? */
+bool pm_yee_spectral(const struct pm_field *e);
 /* Does anything vary along the axis? */
 static inline bool pm_yee_varies(const struct pm_grid *g, int d) { return d < g->dim && !(g->face[d][0] == PM_PERIODIC && g->cells[d] == 1); }
 static inline bool pm_yee_open(enum pm_face face) { return face == PM_OPEN || face == PM_ABSORBING; }

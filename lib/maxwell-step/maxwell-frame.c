@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "maxwell-parts/yee-waves.h"
 #include "maxwell-step/maxwell-frame.h"
 #include "stream/declare.h"
 
@@ -80,6 +81,14 @@ static bool charges(const struct pm_frame *f, const struct pm_law *law)
 	return any;
 }
 
+static int check_faces(const struct pm_frame *f, const struct pm_maxwell_job *j)
+{
+	for (int d = 0; d < f->dim && !j->method->any_face; d++)
+		if (f->face[d][0] != PM_PERIODIC)
+			return pm_fail(PM_DATA, "--method %s is made for periodic boxes (--method yee takes all faces)", j->method->name);
+	return 0;
+}
+
 static int check_step(const struct pm_frame *f, const struct pm_maxwell_job *j)
 {
 	const double limit = j->method->limit(&j->yee.grid), now = j->yee.c * fabs(f->dt);
@@ -87,10 +96,6 @@ static int check_step(const struct pm_frame *f, const struct pm_maxwell_job *j)
 		return pm_fail(PM_DATA, "the speed of light c is %g (smod --constant c=1)", j->yee.c);
 	if (f->dt == 0 || !isfinite(f->dt))
 		return pm_fail(PM_DATA, "the frame has no time step (smod --dt, or the word dt)");
-	if (!j->method->any_face)
-		for (int d = 0; d < f->dim; d++)
-			if (f->face[d][0] != PM_PERIODIC)
-				return pm_fail(PM_DATA, "--method %s is made for periodic boxes (--method yee takes all faces)", j->method->name);
 	if (now > limit * (1 + 1e-12))
 		return pm_fail(PM_NUMERICS, "c dt %.6g is %.6g times the limit %.6g of %s on mesh '%s', beyond which the shortest waves grow without bound "
 			"(dt up to %.6g, or fewer cells)", now, now / limit, limit, j->method->name, j->mesh->name, limit / j->yee.c);
@@ -121,7 +126,8 @@ static int declare_advance(struct pm_frame *f, struct pm_maxwell_job *j, const s
 int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *f, struct pm_maxwell_job *j)
 {
 	const struct pm_law *law = pm_law_of(f);
-	*j = (struct pm_maxwell_job){.choice = *choice, .method = pm_maxwell_find(choice->method), .mesh = pm_frame_mesh(f, choice->mesh)};
+	*j = (struct pm_maxwell_job){.choice = *choice,
+		.method = pm_maxwell_find(choice->method ? choice->method : "yee"), .mesh = pm_frame_mesh(f, choice->mesh)};
 	if (!law || !j->method)
 		return -PM_DATA;
 	if (!law->evolves)
@@ -130,9 +136,13 @@ int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
 	j->yee = pm_yee_of(f, j->mesh);
 	j->yee.layers = choice->layers;
+	const struct pm_field *before = pm_frame_field(f, j->mesh->name, law->field);
+	j->spectral = j->method->spectral || (choice->gauss && !choice->method && before && pm_yee_spectral(before));
 	j->e = take(f, j, law->field, true, choice->gauss);
-	if (!j->e)
+	if (!j->e || check_faces(f, j))
 		return -PM_DATA;
+	if (j->spectral && json_object_set_new(j->e->more, PM_DIFFERENCES, json_string("spectral")))
+		return pm_fail(PM_DATA, "out of memory");
 	if (choice->gauss && !pm_frame_field(f, j->mesh->name, law->magnetic) && !take(f, j, law->magnetic, false, true))
 		return -PM_DATA; /* zeros, so that boris has what it needs */
 	if (choice->gauss) {
@@ -154,35 +164,66 @@ static void fill(struct pm_maxwell_job *j)
 	}
 }
 
-void pm_maxwell_step(struct pm_maxwell_job *j, double dt)
+int pm_maxwell_step(struct pm_maxwell_job *j, double dt)
 {
 	fill(j);
+	if (j->method->advance)
+		return j->method->advance(&j->yee, dt);
 	j->method->magnetic(&j->yee, 0.5 * dt);
 	j->method->electric(&j->yee, dt);
 	j->method->magnetic(&j->yee, 0.5 * dt);
+	return 0;
 }
 
-int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
+static double largest(size_t n, const double *a)
+{
+	double most = 0;
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(a[i]));
+	return most;
+}
+
+static int project_waves(struct pm_maxwell_job *j, double *room, struct pm_gauss_record *r)
+{
+	const size_t n = pm_grid_size(&j->yee.grid);
+	struct pm_sum mean = {0, 0};
+	int status = pm_yee_waves_divergence(&j->yee, pm_in(j->rho, 0), room);
+	r->before = status ? 0 : largest(n, room);
+	for (size_t i = 0; i < n && !status; i++)
+		pm_sum_add(&mean, room[i]);
+	r->mean = pm_sum_total(mean) / (double)n;
+	return status ? status : pm_yee_waves_correct(&j->yee, room);
+}
+
+static int project_differences(struct pm_maxwell_job *j, double *psi, struct pm_gauss_record *r)
 {
 	struct pm_grid g = j->yee.grid;
 	const struct pm_poisson_fft_choice choice = {.symbol = PM_FD2};
 	struct pm_poisson_fft_record record = {0, 0};
-	fill(j);
 	for (int d = 0; d < g.dim; d++)
 		for (int s = 0; s < 2; s++)
 			g.face[d][s] = pm_yee_open(g.face[d][s]) ? PM_WALL : g.face[d][s];
-	double *psi = pm_alloc(pm_grid_size(&g), sizeof *psi);
-	struct pm_poisson_fft *solver = psi ? pm_poisson_fft_new(&g, &choice) : NULL;
-	*r = (struct pm_gauss_record){0, 0};
-	if (solver)
-		pm_yee_divergence(&j->yee, pm_in(j->rho, 0), psi);
-	for (size_t i = 0; i < pm_grid_size(&g) && solver; i++)
-		r->before = fmax(r->before, fabs(psi[i]));
-	int status = solver ? pm_poisson_fft_solve(solver, 1, psi, psi, &record) : -PM_DATA;
+	struct pm_poisson_fft *solver = pm_poisson_fft_new(&g, &choice);
+	if (!solver)
+		return -PM_DATA;
+	pm_yee_divergence(&j->yee, pm_in(j->rho, 0), psi);
+	r->before = largest(pm_grid_size(&g), psi);
+	int status = pm_poisson_fft_solve(solver, 1, psi, psi, &record);
 	r->mean = record.mean;
 	if (!status)
 		pm_yee_subtract_gradient(&j->yee, psi);
 	pm_poisson_fft_free(solver);
-	pm_free(psi);
+	return status;
+}
+
+int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
+{
+	double *room = pm_alloc(pm_grid_size(&j->yee.grid), sizeof *room);
+	*r = (struct pm_gauss_record){0, 0};
+	if (!room)
+		return -PM_DATA;
+	fill(j);
+	int status = j->spectral ? project_waves(j, room, r) : project_differences(j, room, r);
+	pm_free(room);
 	return status;
 }

@@ -6,7 +6,7 @@
 #include "poisson-fft/poisson-fft.h"
 
 struct pm_maxwell_choice {
-	const char *mesh, *method; /* mesh NULL: the first */
+	const char *mesh, *method; /* mesh NULL: the first; method NULL: yee, and with gauss that of E */
 	bool gauss;                /* E is corrected by the charge; nothing advances */
 	int layers;                /* [cells] */
 };
@@ -16,6 +16,7 @@ struct pm_maxwell_job {
 	struct pm_maxwell_choice choice;
 	const struct pm_maxwell *method;
 	struct pm_mesh *mesh;
+	bool spectral;                  /* Gauss's law is that of derivatives of waves */
 	struct pm_yee yee;              /* without data */
 	struct pm_field *e, *b, *pml[3];
 	const struct pm_field *j, *rho; /* NULL none */
@@ -29,7 +30,7 @@ struct pm_gauss_record {
 
 /* Each 0 or failure. */
 int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *f, struct pm_maxwell_job *j);
-void pm_maxwell_step(struct pm_maxwell_job *j, double dt);
+int pm_maxwell_step(struct pm_maxwell_job *j, double dt);
 int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r);
 
 /* The law's constants and the geometry; no data. */

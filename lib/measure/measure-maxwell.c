@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/in-order.h"
-#include "maxwell-parts/yee.h"
+#include "maxwell-parts/yee-waves.h"
 #include "measure/measure.h"
 #include "stream/declare.h"
 
@@ -84,10 +84,14 @@ static int residual(const struct pm_measure *how, const struct pm_grid *g, const
 		return -PM_DATA;
 	for (int c = 0; c < 3; c++)
 		y.e[c] = (double *)pm_in(e, c);
-	pm_yee_divergence(&y, rho, room);
+	int status = 0;
+	if (pm_yee_spectral(e))
+		status = pm_yee_waves_divergence(&y, rho, room);
+	else
+		pm_yee_divergence(&y, rho, room);
 	*got = largest(pm_grid_size(g), room) * how->eps0 / largest(pm_grid_size(g), rho);
 	pm_free(room);
-	return 0;
+	return status;
 }
 
 int pm_maxwell_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)

@@ -80,7 +80,7 @@ static void test_limit(void)
 static void test_methods(void)
 {
 	for (int k = 0; pm_maxwells[k]; k++)
-		for (int dim = 1; dim <= 3; dim++) {
+		for (int dim = 1; dim <= 3 && !pm_maxwells[k]->advance; dim++) { /* psatd has no limit (unit psatd) */
 			struct pm_yee y = yee_new(dim, even, PM_PERIODIC, h);
 			const double dt = 0.999 * pm_maxwells[k]->limit(&y.grid) / y.c;
 			double most = 0;

@@ -1,0 +1,138 @@
+/* Pseudo-spectral analytical time-domain: every wave of the mesh through the whole step by its exact solution, with the current constant in the step, so
+ * vacuum has no dispersion and no limit of the step. With D the derivative between points half a cell apart (yee-waves.h), K^2 = -D.D, w = c K, C = cos(w dt):
+ *
+ *   E' = E - dt J/eps0 + curl [ c^2 sin(w dt)/w B - (1 - C)/K^2 curl E + (dt - sin(w dt)/w)/K^2 curl J/eps0 ]
+ *   B' = B + curl [ -sin(w dt)/w E - (1 - C)/K^2 curl B + (1 - C)/w^2 J/eps0 ]
+ *
+ * J is first multiplied by sin(k h/2)/(k h/2) along the axis of each component: what obeys the continuity of two-point differences (p2m --current) then obeys
+ * that of D, so div E - rho/eps0 stays as it is, with D for div. div B stays as it is. Periodic boxes; fields where Yee has them.
+ * Source: Haber et al. 1973 (6th conference on numerical simulation of plasmas, 46); Vay, Haber and Godfrey 2013, J. Comput. Phys. 243, 260, eq. 13-14.
+ * Cost: 15 transforms of a component a step, N log N. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "maxwell-parts/yee-waves.h"
+#include "maxwell/maxwell.h"
+
+enum { E, B = 3, J = 6, C = PM_WAVES_CHUNK };
+
+struct complex3 {
+	double re[3], im[3];
+};
+
+/* For eight waves: their values are w->field[..] + at. */
+struct place {
+	const struct pm_yee_waves *w;
+	size_t at;
+};
+
+static struct complex3 load(const struct place *p, int field, size_t q)
+{
+	struct complex3 a;
+	for (int d = 0; d < 3; d++) {
+		a.re[d] = p->w->field[field + d][p->at + q];
+		a.im[d] = p->w->field[field + d][p->at + C + q];
+	}
+	return a;
+}
+
+static void store(const struct place *p, int field, size_t q, const struct complex3 *a, double norm)
+{
+	for (int d = 0; d < 3; d++) {
+		p->w->field[field + d][p->at + q] = a->re[d] * norm;
+		p->w->field[field + d][p->at + C + q] = a->im[d] * norm;
+	}
+}
+
+/* curl of E-like values at B's points (up), and of B-like ones at E's, with -conj D. */
+static struct complex3 curl(const struct complex3 *d, const struct complex3 *a, bool up)
+{
+	const double s = up ? 1 : -1;
+	struct complex3 r;
+	for (int c = 0; c < 3; c++) {
+		const int e = (c + 1) % 3, f = (c + 2) % 3;
+		r.re[c] = s * (d->re[e] * a->re[f] - d->re[f] * a->re[e]) - (d->im[e] * a->im[f] - d->im[f] * a->im[e]);
+		r.im[c] = s * (d->re[e] * a->im[f] - d->re[f] * a->im[e]) + (d->im[e] * a->re[f] - d->im[f] * a->re[e]);
+	}
+	return r;
+}
+
+/* to += factor a */
+static void add(struct complex3 *to, double factor, const struct complex3 *a)
+{
+	for (int c = 0; c < 3; c++)
+		to->re[c] += factor * a->re[c], to->im[c] += factor * a->im[c];
+}
+
+/* One wave, derivatives d, through dt. */
+static void advance_wave(const struct pm_yee *y, const struct complex3 *d, double dt, struct complex3 *e, struct complex3 *b, const struct complex3 *j)
+{
+	double k2 = 0;
+	for (int c = 0; c < 3; c++)
+		k2 += d->re[c] * d->re[c] + d->im[c] * d->im[c];
+	const double w = y->c * sqrt(k2), half = sin(0.5 * w * dt), still = k2 > 0 ? 2 * half * half / k2 : 0, sine = k2 > 0 ? sin(w * dt) / w : dt;
+	const struct complex3 f = curl(d, e, true), g = curl(d, b, false), i = curl(d, j, true);
+	struct complex3 x = {0}, z = {0};
+	add(&x, y->c * y->c * sine, b);
+	add(&x, -still, &f);
+	add(&x, k2 > 0 ? (dt - sine) / (k2 * y->eps0) : 0, &i);
+	add(&z, -sine, e);
+	add(&z, -still, &g);
+	add(&z, still / (y->c * y->c * y->eps0), j);
+	const struct complex3 more = curl(d, &x, false), turned = curl(d, &z, true);
+	add(e, -dt / y->eps0, j);
+	add(e, 1, &more);
+	add(b, 1, &turned);
+}
+
+static void advance_row(const struct pm_yee *y, const struct pm_yee_waves *w, double dt, size_t j, size_t k)
+{
+	const struct pm_wave_axis *a = w->axis;
+	struct place p = {w, (k * a[1].n + j) * w->chunks * 2 * C};
+	struct complex3 d = {.re = {0, a[1].re[j], a[2].re[k]}, .im = {0, a[1].im[j], a[2].im[k]}};
+	for (size_t i = 0; i < a[0].modes; i++) {
+		const size_t q = i % C;
+		p.at += i && !q ? 2 * C : 0;
+		struct complex3 e = load(&p, E, q), b = load(&p, B, q), current = {0};
+		const double ratio[3] = {a[0].ratio[i], a[1].ratio[j], a[2].ratio[k]};
+		for (int c = 0; c < 3 && y->j[c]; c++) {
+			current.re[c] = w->field[J + c][p.at + q] * ratio[c];
+			current.im[c] = w->field[J + c][p.at + C + q] * ratio[c];
+		}
+		d.re[0] = a[0].re[i], d.im[0] = a[0].im[i];
+		advance_wave(y, &d, dt, &e, &b, &current);
+		store(&p, E, q, &e, w->norm);
+		store(&p, B, q, &b, w->norm);
+	}
+}
+
+static int advance(const struct pm_yee *y, double dt)
+{
+	struct pm_yee_waves w;
+	int status = pm_yee_waves_init(&w, &y->grid, y->j[0] ? 9 : 6);
+	for (int c = 0; c < 3 && !status; c++) {
+		pm_yee_waves_forward(&w, y->e[c], E + c);
+		pm_yee_waves_forward(&w, y->b[c], B + c);
+		if (y->j[c])
+			pm_yee_waves_forward(&w, y->j[c], J + c);
+	}
+	const size_t rows = status ? 0 : w.axis[1].n * w.axis[2].n;
+#pragma omp parallel for schedule(static) num_threads(pm_threads()) if (rows > 64)
+	for (size_t i = 0; i < rows; i++)
+		advance_row(y, &w, dt, i % w.axis[1].n, i / w.axis[1].n);
+	for (int c = 0; c < 3 && !status; c++) {
+		pm_yee_waves_backward(&w, E + c, y->e[c]);
+		pm_yee_waves_backward(&w, B + c, y->b[c]);
+	}
+	pm_yee_waves_free(&w);
+	return status;
+}
+
+static double limit(const struct pm_grid *g) { return g ? INFINITY : 0; }
+
+const struct pm_maxwell maxwell_psatd = {
+	.name = "psatd",
+	.sentence = "every wave by its exact solution, without dispersion and limit of the step; periodic boxes",
+	.source = "Vay, Haber and Godfrey 2013",
+	.order = 0,
+	.spectral = true,
+	.limit = limit,
+	.advance = advance,
+};
