@@ -1,7 +1,8 @@
 # pmpipe: one non-recursive Makefile. The directories are the lists: tools/*.c and tools/*.sh become programs, lib/*/ become tables and one library.
 # make, demo, check, check-long, mutants, asan, fuzz, valgrind, bench, counts, counts-check, gallery, stability, atlas, hard-cases,
 # measure, lint, install, uninstall, deb, deb-check, clean; PREFIX=... DESTDIR=... for install;
-# PORTABLE=1 leaves out -march=native; WERROR=1 stops at a warning; B=dir builds elsewhere (programs then in B/bin).
+# PORTABLE=1 leaves out -march=native; DISPATCH=1 builds programs that choose among three sets of instructions when they start; WERROR=1 stops at a
+# warning; B=dir builds elsewhere (programs then in B/bin).
 ifeq ($(origin CC),default)
 CC = gcc
 endif
@@ -19,7 +20,10 @@ VERSION := $(shell sed -n 's/^\#define PM_VERSION "\(.*\)"/\1/p' lib/base/base.h
 SOVERSION = 0
 
 WARN = -Wall -Wextra -Wno-psabi -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(WERROR),-Werror)
-ARCH = $(if $(PORTABLE),,-march=native $(if $(findstring gcc,$(CC)),-mprefer-vector-width=512))
+# Of other processors there are no levels: then DISPATCH=1 is PORTABLE=1.
+levels := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine)),x86-64 x86-64-v3 x86-64-v4)
+wide := $(if $(findstring gcc,$(CC)),-mprefer-vector-width=512)
+ARCH = $(if $(LEVEL),-march=$(LEVEL) $(if $(findstring v4,$(LEVEL)),$(wide)),$(if $(PORTABLE)$(DISPATCH),,-march=native $(wide)))
 OPT ?= -O3
 CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(ARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fPIC -fopenmp \
 	$(WARN) -Ilib -I$(B) -MMD -MP $(CFLAGS)
@@ -133,16 +137,38 @@ $(B)/mains/%.o: $(B)/mains/%.c
 	$(CC) $(CFLAGS_ALL) -c -o $@ $<
 .PRECIOUS: $(B)/mains/%.c $(B)/mains/%.o $(B)/tests/%.o $(B)/bench/%.o
 
-$(bin_dir)/cycle $(bin_dir)/plan $(bin_dir)/modes $(bin_dir)/again: $(bin_dir)/%: $(B)/mains/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
-	@mkdir -p $(@D)
-	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+# What each program is made of.
+parts = $(B)/mains/$(1).o $(if $(filter cycle plan modes again,$(1)),$(tool_obj) $(B)/tables/tools.o,$(B)/tools/$(1).o) $(if $(filter sh5,$(1)),$(h5_obj)) \
+	$(B)/libpmpipe.a
 $(h5_obj): CFLAGS_ALL += $(h5_include)
-$(bin_dir)/sh5: $(B)/mains/sh5.o $(B)/tools/sh5.o $(h5_obj) $(B)/libpmpipe.a
+ifeq ($(and $(DISPATCH)$(LEVEL),$(levels)),)
+define program
+$(bin_dir)/$(1): $(call parts,$(1))
+	@mkdir -p $$(@D)
+	$$(CC) $$(openmp) $$(CFLAGS) -o $$@ $$^ $$(LDLIBS_PROGRAM) $(if $(filter sh5,$(1)),$$(h5_libs))
+endef
+else
+# All that a program needs from this tree is built for each level of x86-64 and linked to one object, whose only name is its main (packaging/dispatch.c).
+entry = main_$(subst -,_,$(LEVEL))
+define program
+$(B)/whole/$(1).o: $(call parts,$(1))
+	@mkdir -p $$(@D)
+	ld -r -o $$@.part $$^
+	objcopy --redefine-sym main=$$(entry) --keep-global-symbol=$$(entry) $$@.part $$@ && rm $$@.part
+$(bin_dir)/$(1): $(B)/dispatch.o $(levels:%=$(B)/%/whole/$(1).o)
+	@mkdir -p $$(@D)
+	$$(CC) $$(openmp) $$(CFLAGS) -o $$@ $$^ $$(LDLIBS_PROGRAM) $(if $(filter sh5,$(1)),$$(h5_libs))
+endef
+whole: $(tool_src:tools/%.c=$(B)/whole/%.o)
+.PHONY: whole $(levels)
+$(levels):
+	+$(MAKE) -s B=$(B)/$@ LEVEL=$@ DISPATCH= whole
+$(foreach l,$(levels),$(eval $(tool_src:tools/%.c=$(B)/$(l)/whole/%.o): $(l) ;))
+$(B)/dispatch.o: packaging/dispatch.c
 	@mkdir -p $(@D)
-	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM) $(h5_libs)
-$(bin_dir)/%: $(B)/mains/%.o $(B)/tools/%.o $(B)/libpmpipe.a
-	@mkdir -p $(@D)
-	$(CC) $(openmp) $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+	$(CC) $(CFLAGS_ALL) -c -o $@ $<
+endif
+$(foreach p,$(basename $(notdir $(tool_src))),$(eval $(call program,$(p))))
 
 # A program in shell is one file: what it reads from lib/ is put in.
 one_file = awk 'function put(file,  line) { while ((getline line < file) > 0) out(line); close(file) } \
@@ -160,9 +186,9 @@ $(bin_dir)/pmpipe: lib/command/pmpipe.sh $(shell_parts)
 	@simd=$$($(CC) $(ARCH) $(CFLAGS) -dM -E -x c /dev/null | \
 		sed -nE 's/^\#define __(AVX512F|AVX512DQ|AVX512VL|AVX2|AVX|FMA|BMI2|SSE4_2)__ 1/\1/p' | tr A-Z a-z | sort | tr '\n' ' '); \
 	libraries=$$(for l in fftw3 gsl jansson libpng hdf5; do echo "$$l $$(pkg-config --modversion $$l 2>/dev/null || echo '(unknown)'),"; \
-		done | tr '\n' ' '); $(one_file) $< | awk -v simd="$${simd% }" -v libraries="$${libraries%, }" \
+		done | tr '\n' ' '); $(one_file) $< | awk -v simd="$${simd% }" -v levels='$(if $(DISPATCH),$(levels))' -v libraries="$${libraries%, }" \
 		-v build="$$($(CC) --version | sed 1q | tr -d \'\&), $(OPT)" \
-		'{ sub(/@SIMD@/, simd); sub(/@BUILD@/, build); sub(/@LIBRARIES@/, libraries); print }' > $@.part
+		'{ sub(/@SIMD@/, simd); sub(/@LEVELS@/, levels); sub(/@BUILD@/, build); sub(/@LIBRARIES@/, libraries); print }' > $@.part
 	@chmod +x $@.part && mv $@.part $@
 
 # Unit tests and measuring programs link every tool.

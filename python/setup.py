@@ -1,7 +1,7 @@
-"""Builds the programs with make PORTABLE=1 into pmpipe/libexec of the wheel; the rest is in pyproject.toml.
+"""Builds the programs with make DISPATCH=1 into pmpipe/libexec of the wheel; the rest is in pyproject.toml.
 
 The sources are the tree beside this directory; an sdist has them in tree/. PMPIPE_WORDS=0 builds a wheel of Python alone;
-PMPIPE_PROGRAMS=DIR takes programs that are built already.
+PMPIPE_PROGRAMS=DIR takes programs that are built already; PMPIPE_MAKE=PORTABLE=1 builds for one level of instructions only.
 SPDX-License-Identifier: GPL-3.0-or-later
 """
 import os
@@ -19,7 +19,7 @@ except ImportError:  # before setuptools 70
     from wheel.bdist_wheel import bdist_wheel
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PARTS = ("Makefile", "COPYING", "lib", "tools", "data")  # what make needs
+PARTS = ("Makefile", "COPYING", "lib", "tools", "data", "packaging")  # what make needs
 
 
 def tree():
@@ -53,7 +53,7 @@ class Build(build_py):
         if os.environ.get("PMPIPE_PROGRAMS"):  # built already
             return self.take(os.environ["PMPIPE_PROGRAMS"], target)
         build = os.path.abspath(os.path.join(self.build_lib, "..", "words"))
-        command = ["make", "-s", "-C", tree(), "-j%d" % (os.cpu_count() or 1), "PORTABLE=1", "B=" + build, "words"]
+        command = ["make", "-s", "-C", tree(), "-j%d" % (os.cpu_count() or 1), os.environ.get("PMPIPE_MAKE", "DISPATCH=1"), "B=" + build, "words"]
         if subprocess.call(command):
             raise SystemExit("pmpipe: the programs do not build (apt install gcc make libfftw3-dev libgsl-dev libjansson-dev libpng-dev libhdf5-dev "
                              "pkg-config, or set PMPIPE_WORDS=0 for a package without them)")

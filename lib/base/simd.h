@@ -27,6 +27,18 @@ typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias
 typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
 
+/* What one register holds: 8, 4 or 2 doubles. A compiler keeps wider vectors in memory, at six times the cost, so loops over lanes that do not know of each
+ * other go part by part: the same bytes. */
+#if defined __AVX512F__
+enum { PM_SIMD_PART = 8 };
+#elif defined __AVX__
+enum { PM_SIMD_PART = 4 };
+#else
+enum { PM_SIMD_PART = 2 };
+#endif
+typedef double pm_simd_part __attribute__((vector_size(PM_SIMD_PART * sizeof(double))));
+typedef double pm_simd_part_at __attribute__((vector_size(PM_SIMD_PART * sizeof(double)), may_alias)); /* aligned to its size */
+
 /* Before a short loop over vectors, which must vanish if they are to stay in registers. */
 #ifdef __clang__
 #define PM_SIMD_UNROLL _Pragma("unroll")
@@ -50,6 +62,34 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { *(pm_simd_at *)p = v; }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
+
+/* PM_SIMD_PART rows of as many numbers: rows become columns. */
+PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)
+{
+#if defined __AVX512F__
+	pm_simd t[8], u[8];
+	for (int i = 0; i < 8; i += 2) {
+		t[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+		t[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+	}
+	for (int i = 0; i < 8; i += i & 1 ? 3 : 1) {
+		u[i] = __builtin_shufflevector(t[i], t[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+		u[i + 2] = __builtin_shufflevector(t[i], t[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+	}
+	for (int i = 0; i < 4; i++) {
+		r[i] = __builtin_shufflevector(u[i], u[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+		r[i + 4] = __builtin_shufflevector(u[i], u[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+	}
+#elif defined __AVX__
+	const pm_simd_part t[4] = {__builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7),
+		__builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7)};
+	r[0] = __builtin_shufflevector(t[0], t[2], 0, 1, 4, 5), r[1] = __builtin_shufflevector(t[1], t[3], 0, 1, 4, 5);
+	r[2] = __builtin_shufflevector(t[0], t[2], 2, 3, 6, 7), r[3] = __builtin_shufflevector(t[1], t[3], 2, 3, 6, 7);
+#else
+	const pm_simd_part low = __builtin_shufflevector(r[0], r[1], 0, 2), high = __builtin_shufflevector(r[0], r[1], 1, 3);
+	r[0] = low, r[1] = high;
+#endif
+}
 
 /* The vector one lane on: the last of `before`, then seven of `here`; and one lane back: seven of `here`, then the first of `after`. */
 PM_SIMD_INLINE pm_simd pm_simd_shift_up(pm_simd before, pm_simd here) { return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14); }

@@ -39,9 +39,15 @@ on_path() {
 
 # The instructions the words were built for must be those of the processor.
 processor() {
-	built='@SIMD@'
+	built='@SIMD@' levels='@LEVELS@' taken=x86-64
 	has=$(sed -n 's/^\(flags\|Features\)[[:blank:]]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
 	row processor "$(sed -n 's/^model name[[:blank:]]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)"
+	if [ -n "$levels" ]; then
+		case " $has " in *' avx2 '*) taken=x86-64-v3 ;; esac
+		case " $has " in *' avx512bw '*) taken=x86-64-v4 ;; esac
+		row build "@BUILD@; for $levels, of which $taken is taken (PM_INSTRUCTIONS=LEVEL allows less)"
+		return
+	fi
 	row build "@BUILD@; for ${built:-any processor of its kind}"
 	for flag in $built; do
 		case " $has " in '  ' | *" $flag "*) ;; *) bad '' "this processor has no $flag (build with make PORTABLE=1)" && break ;; esac

@@ -12,16 +12,16 @@
 #include "fft/prime-dft.h"
 
 /* -i*a forward, +i*a back */
-PM_SIMD_INLINE struct c8 turn(struct c8 a, bool back) { return back ? (struct c8){-a.im, a.re} : (struct c8){a.im, -a.re}; }
+PM_SIMD_INLINE struct lanes turn(struct lanes a, bool back) { return back ? (struct lanes){-a.im, a.re} : (struct lanes){a.im, -a.re}; }
 
-PM_SIMD_INLINE void dft4(struct c8 *a0, struct c8 *a1, struct c8 *a2, struct c8 *a3, bool back)
+PM_SIMD_INLINE void dft4(struct lanes *a0, struct lanes *a1, struct lanes *a2, struct lanes *a3, bool back)
 {
-	struct c8 s = plus(*a0, *a2), d = minus(*a0, *a2), t = plus(*a1, *a3), e = turn(minus(*a1, *a3), back);
+	struct lanes s = plus(*a0, *a2), d = minus(*a0, *a2), t = plus(*a1, *a3), e = turn(minus(*a1, *a3), back);
 	*a0 = plus(s, t), *a1 = plus(d, e), *a2 = minus(s, t), *a3 = minus(d, e);
 }
 
 struct eight {
-	struct c8 a0, a1, a2, a3, a4, a5, a6, a7; /* named variables, because the compiler would put an array into memory */
+	struct lanes a0, a1, a2, a3, a4, a5, a6, a7; /* named variables, because the compiler would put an array into memory */
 };
 
 PM_SIMD_INLINE void dft8(struct eight *x, bool back)
@@ -29,17 +29,17 @@ PM_SIMD_INLINE void dft8(struct eight *x, bool back)
 	const double h = 0.70710678118654752440;
 	dft4(&x->a0, &x->a2, &x->a4, &x->a6, back);
 	dft4(&x->a1, &x->a3, &x->a5, &x->a7, back);
-	struct c8 t = turn(x->a3, back), v = turn(x->a7, back), o2 = turn(x->a5, back); /* exp(-+i pi/4) = h (1 -+ i) */
-	struct c8 o1 = {h * (x->a3.re + t.re), h * (x->a3.im + t.im)}, o3 = {h * (v.re - x->a7.re), h * (v.im - x->a7.im)}, o0 = x->a1;
-	struct c8 e0 = x->a0, e1 = x->a2, e2 = x->a4, e3 = x->a6;
+	struct lanes t = turn(x->a3, back), v = turn(x->a7, back), o2 = turn(x->a5, back); /* exp(-+i pi/4) = h (1 -+ i) */
+	struct lanes o1 = {h * (x->a3.re + t.re), h * (x->a3.im + t.im)}, o3 = {h * (v.re - x->a7.re), h * (v.im - x->a7.im)}, o0 = x->a1;
+	struct lanes e0 = x->a0, e1 = x->a2, e2 = x->a4, e3 = x->a6;
 	x->a0 = plus(e0, o0), x->a1 = plus(e1, o1), x->a2 = plus(e2, o2), x->a3 = plus(e3, o3);
 	x->a4 = minus(e0, o0), x->a5 = minus(e1, o1), x->a6 = minus(e2, o2), x->a7 = minus(e3, o3);
 }
 
 /* Odd p: pairs q and p-q share their products. */
-PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, bool back, struct c8 *a)
+PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, bool back, struct lanes *a)
 {
-	struct c8 s[PM_PRIME / 2], d[PM_PRIME / 2], sum = a[0], first = a[0];
+	struct lanes s[PM_PRIME / 2], d[PM_PRIME / 2], sum = a[0], first = a[0];
 	for (int q = 1; q <= p / 2; q++) {
 		s[q - 1] = plus(a[q], a[p - q]);
 		d[q - 1] = turn(minus(a[q], a[p - q]), back);
@@ -47,7 +47,7 @@ PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, boo
 	}
 	a[0] = sum;
 	for (int k = 1; k <= p / 2; k++) {
-		struct c8 even = first, odd = {{0}, {0}};
+		struct lanes even = first, odd = {{0}, {0}};
 		for (int q = 1; q <= p / 2; q++) {
 			double c = cosine[k * q % p], o = sine[k * q % p];
 			even.re += c * s[q - 1].re, even.im += c * s[q - 1].im;
@@ -57,23 +57,20 @@ PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, boo
 	}
 }
 
-PM_SIMD_INLINE struct c8 take(const struct c8 *x) { return (struct c8){x->re, x->im}; }
-PM_SIMD_INLINE void put(struct c8 *x, struct c8 a) { x->re = a.re, x->im = a.im; }
-
 /* One butterfly of radix 2, 4, 8 in registers: written out, because the compiler would put arrays of them into memory. w: twiddles or NULL for ones. */
 PM_SIMD_INLINE void fly2(struct c8 *x, size_t m, const double *w, bool back)
 {
-	struct c8 a0 = take(x), a1 = take(x + m);
+	struct lanes a0 = take(x), a1 = take(x + m);
 	if (w && back)
 		a1 = twisted(a1, w, true);
-	struct c8 s = plus(a0, a1), d = minus(a0, a1);
+	struct lanes s = plus(a0, a1), d = minus(a0, a1);
 	put(x, s);
 	put(x + m, w && !back ? twisted(d, w, false) : d);
 }
 
 PM_SIMD_INLINE void fly4(struct c8 *x, size_t m, const double *w, bool back)
 {
-	struct c8 a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
+	struct lanes a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
 	if (w && back)
 		a1 = twisted(a1, w, true), a2 = twisted(a2, w + 2, true), a3 = twisted(a3, w + 4, true);
 	dft4(&a0, &a1, &a2, &a3, back);
@@ -102,7 +99,7 @@ PM_SIMD_INLINE void fly8(struct c8 *x, size_t m, const double *w, bool back)
 
 PM_SIMD_INLINE void fly_odd(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
 {
-	struct c8 a[PM_PRIME];
+	struct lanes a[PM_PRIME];
 	for (int q = 0; q < r; q++)
 		a[q] = take(x + (size_t)q * m);
 	for (int p = 1; p < r && w && back; p++)
@@ -126,18 +123,24 @@ PM_SIMD_INLINE void fly(int r, const struct pm_fft *f, struct c8 *x, size_t m, c
 		fly_odd(r, f, x, m, w, back);
 }
 
+PM_SIMD_INLINE void parts(int r, const struct pm_fft *f, struct c8 *x, size_t m, const double *w, bool back)
+{
+	for (int part = 0; part < PM_FFT_PARTS; part++)
+		fly(r, f, part_of((const double *)x, part), m, w, back);
+}
+
 PM_SIMD_INLINE void stage(int r, const struct pm_fft *f, size_t length, const double *twiddle, bool back, struct c8 *x)
 {
 	size_t m = length / (size_t)r;
 	if (m == 1) {
 		for (size_t base = 0; base < f->n; base += length)
-			fly(r, f, x + base, 1, NULL, back);
+			parts(r, f, x + base, 1, NULL, back);
 		return;
 	}
 	for (size_t base = 0; base < f->n; base += length) {
 		const double *w = twiddle;
 		for (size_t j = 0; j < m; j++, w += 2 * (r - 1))
-			fly(r, f, x + base + j, m, w, back);
+			parts(r, f, x + base + j, m, w, back);
 	}
 }
 

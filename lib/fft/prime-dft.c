@@ -8,11 +8,11 @@
 enum { HALF = PM_PRIME_MOST / 2 };
 
 struct sums {
-	struct c8 even, odd;
+	struct lanes even, odd;
 };
 
 /* Adds to the sums of one k what elements q and p-q contribute; w = cos, sin of 2 pi kq/p. */
-PM_SIMD_INLINE void add(struct sums *b, const double *w, const struct c8 *sum, const struct c8 *difference)
+PM_SIMD_INLINE void add(struct sums *b, const double *w, const struct lanes *sum, const struct lanes *difference)
 {
 	b->even.re += w[0] * sum->re, b->even.im += w[0] * sum->im;
 	b->odd.re += w[1] * difference->re, b->odd.im += w[1] * difference->im;
@@ -21,14 +21,14 @@ PM_SIMD_INLINE void add(struct sums *b, const double *w, const struct c8 *sum, c
 static int next(int at, int k, int p) { return at + k < p ? at + k : at + k - p; }
 
 /* circle: cos, sin of 2 pi i/p. */
-static void dft(int p, const double *circle, bool back, struct c8 *a)
+static void dft(int p, const double *circle, bool back, struct lanes *a)
 {
-	struct c8 sum[HALF], difference[HALF], all = a[0], first = a[0];
+	struct lanes sum[HALF], difference[HALF], all = a[0], first = a[0];
 	const int half = p / 2;
 	for (int q = 1; q <= half; q++) {
-		struct c8 d = minus(a[q], a[p - q]);
+		struct lanes d = minus(a[q], a[p - q]);
 		sum[q - 1] = plus(a[q], a[p - q]);
-		difference[q - 1] = back ? (struct c8){-d.im, d.re} : (struct c8){d.im, -d.re};
+		difference[q - 1] = back ? (struct lanes){-d.im, d.re} : (struct lanes){d.im, -d.re};
 		all = plus(all, sum[q - 1]);
 	}
 	a[0] = all;
@@ -47,15 +47,16 @@ static void dft(int p, const double *circle, bool back, struct c8 *a)
 void pm_prime_stage(const struct pm_fft *f, int s, size_t length, bool back, struct c8 *x)
 {
 	const size_t r = (size_t)f->radix[s], m = length / r;
-	struct c8 a[PM_PRIME_MOST];
-	for (size_t base = 0; base < f->n; base += length) {
-		const double *w = f->twiddle[s];
-		for (size_t j = 0; j < m; j++, w += 2 * (r - 1)) {
+	struct lanes a[PM_PRIME_MOST];
+	for (size_t base = 0; base < f->n; base += length)
+		for (size_t i = 0; i < m * PM_FFT_PARTS; i++) {
+			const size_t j = i / PM_FFT_PARTS;
+			const double *w = f->twiddle[s] + 2 * (r - 1) * j;
+			struct c8 *y = part_of((const double *)(x + base + j), (int)(i % PM_FFT_PARTS));
 			for (size_t q = 0; q < r; q++)
-				a[q] = back && q && m > 1 ? twisted(x[base + j + q * m], w + 2 * (q - 1), true) : x[base + j + q * m];
+				a[q] = back && q && m > 1 ? twisted(take(y + q * m), w + 2 * (q - 1), true) : take(y + q * m);
 			dft((int)r, f->circle[s], back, a);
 			for (size_t q = 0; q < r; q++)
-				x[base + j + q * m] = !back && q && m > 1 ? twisted(a[q], w + 2 * (q - 1), false) : a[q];
+				put(y + q * m, !back && q && m > 1 ? twisted(a[q], w + 2 * (q - 1), false) : a[q]);
 		}
-	}
 }

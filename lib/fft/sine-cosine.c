@@ -9,148 +9,181 @@
 #include "fft/fft-vector.h"
 #include "fft/sine-cosine.h"
 
-PM_SIMD_INLINE struct c8 times(double p, struct c8 a) { return (struct c8){p * a.re, p * a.im}; }
-PM_SIMD_INLINE struct c8 times_i(struct c8 a) { return (struct c8){-a.im, a.re}; }
+PM_SIMD_INLINE struct lanes times(double p, struct lanes a) { return (struct lanes){p * a.re, p * a.im}; }
+PM_SIMD_INLINE struct lanes times_i(struct lanes a) { return (struct lanes){-a.im, a.re}; }
 /* times exp(-i x), w = cos x, sin x */
-PM_SIMD_INLINE struct c8 twist(const double *w, struct c8 a) { return (struct c8){a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]}; }
+PM_SIMD_INLINE struct lanes twist(const double *w, struct lanes a) { return twisted(a, w, false); }
 
 /* Nodes a and b to p*(a + b) + q*(a - b) and p*(a + b) - q*(a - b). */
 PM_SIMD_INLINE void turn(double p, double q, struct c8 *x, struct c8 *y)
 {
-	struct c8 e = times(p, plus(*x, *y)), o = times(q, minus(*x, *y));
-	*x = plus(e, o), *y = minus(e, o);
+	struct lanes a = take(x), b = take(y), e = times(p, plus(a, b)), o = times(q, minus(a, b));
+	put(x, plus(e, o)), put(y, minus(e, o));
 }
 
-static void sines(const struct pm_fft *f, struct c8 *x)
+static void sines_before(const struct pm_fft *f, struct c8 *x)
 {
 	size_t n = f->n, j = 1;
-	*x = (struct c8){{0}, {0}};
+	put(x, (struct lanes){{0}, {0}});
 	for (; j < n - j; j++)
 		turn(2 * f->half[2 * j + 1], 1, x + j, x + n - j);
 	if (2 * j == n)
-		x[j] = times(4, x[j]);
-	pm_fft_forward(f, (double *)x);
-	struct c8 sum = *x = times(0.5, *x);
+		put(x + j, times(4, take(x + j)));
+}
+
+static void sines_after(const struct pm_fft *f, struct c8 *x)
+{
+	size_t n = f->n;
+	struct lanes sum = times(0.5, take(x));
+	put(x, sum);
 	for (size_t k = 1; k < n - k; k++) {
-		struct c8 *a = x + f->at[k], *b = x + f->at[n - k], even = times(0.5, times_i(minus(*a, *b)));
-		sum = plus(sum, times(0.5, plus(*a, *b)));
-		*a = even, *b = sum;
+		struct c8 *p = x + f->at[k], *q = x + f->at[n - k];
+		struct lanes a = take(p), b = take(q), even = times(0.5, times_i(minus(a, b)));
+		sum = plus(sum, times(0.5, plus(a, b)));
+		put(p, even), put(q, sum);
 	}
 }
 
-static void sines_back(const struct pm_fft *f, struct c8 *x)
+static void sines_back_before(const struct pm_fft *f, struct c8 *x)
+{
+	size_t n = f->n;
+	struct lanes sum = {{0}, {0}};
+	for (size_t k = (n - 1) / 2; k > 0; k--) {
+		struct c8 *p = x + f->at[k], *q = x + f->at[n - k];
+		struct lanes s = times_i(take(p));
+		sum = 2 * k + 1 < n ? plus(sum, take(q)) : sum;
+		put(p, minus(sum, s)), put(q, plus(sum, s));
+	}
+	put(x, plus(take(x), sum));
+	if (n % 2 == 0)
+		put(x + f->at[n / 2], (struct lanes){{0}, {0}});
+}
+
+static void sines_back_after(const struct pm_fft *f, struct c8 *x)
 {
 	size_t n = f->n, j = 1;
-	struct c8 sum = {{0}, {0}};
-	for (size_t k = (n - 1) / 2; k > 0; k--) {
-		struct c8 *a = x + f->at[k], *b = x + f->at[n - k], s = times_i(*a);
-		sum = 2 * k + 1 < n ? plus(sum, *b) : sum;
-		*a = minus(sum, s), *b = plus(sum, s);
-	}
-	*x = plus(*x, sum);
-	if (n % 2 == 0)
-		x[f->at[n / 2]] = (struct c8){{0}, {0}};
-	pm_fft_backward(f, (double *)x);
 	for (; j < n - j; j++)
 		turn(f->half[2 * j + 1], 0.5, x + j, x + n - j);
 	if (2 * j == n)
-		x[j] = times(2, x[j]);
+		put(x + j, times(2, take(x + j)));
 }
 
-static void cosines(const struct pm_fft *f, struct c8 *x)
+static void cosines_before(const struct pm_fft *f, struct c8 *x)
 {
 	size_t n = f->n, j = 1;
-	struct c8 sum = minus(x[0], x[n]);
-	x[0] = plus(x[0], x[n]);
+	struct lanes sum = minus(take(x), take(x + n));
+	put(x, plus(take(x), take(x + n)));
 	for (; j < n - j; j++) {
-		sum = plus(sum, times(2 * f->half[2 * j], minus(x[j], x[n - j])));
+		sum = plus(sum, times(2 * f->half[2 * j], minus(take(x + j), take(x + n - j))));
 		turn(1, 2 * f->half[2 * j + 1], x + j, x + n - j);
 	}
 	if (2 * j == n)
-		x[j] = times(2, x[j]);
-	x[n] = sum;
-	pm_fft_forward(f, (double *)x);
+		put(x + j, times(2, take(x + j)));
+	put(x + n, sum);
+}
+
+static void cosines_after(const struct pm_fft *f, struct c8 *x)
+{
+	size_t n = f->n;
+	struct lanes sum = take(x + n);
 	for (size_t k = 1; k < n - k; k++) {
-		struct c8 *a = x + f->at[k], *b = x + f->at[n - k], even = times(0.5, plus(*a, *b));
-		sum = minus(sum, times(0.5, times_i(minus(*a, *b))));
-		*a = even, *b = sum;
+		struct c8 *p = x + f->at[k], *q = x + f->at[n - k];
+		struct lanes a = take(p), b = take(q), even = times(0.5, plus(a, b));
+		sum = minus(sum, times(0.5, times_i(minus(a, b))));
+		put(p, even), put(q, sum);
 	}
 }
 
-static void cosines_back(const struct pm_fft *f, struct c8 *x)
+static void cosines_back_before(const struct pm_fft *f, struct c8 *x)
+{
+	size_t n = f->n;
+	struct lanes sum = {{0}, {0}};
+	for (size_t k = (n - 1) / 2; k > 0; k--) {
+		struct c8 *p = x + f->at[k], *q = x + f->at[n - k];
+		struct lanes even = take(p);
+		sum = plus(sum, times(2 * k + 1 == n ? 0.5 : 1, take(q)));
+		put(p, minus(even, times_i(sum))), put(q, plus(even, times_i(sum)));
+	}
+	put(x + n, times(2, plus(sum, times(n == 1 ? 0.5 : 1, take(x + n)))));
+}
+
+static void cosines_back_after(const struct pm_fft *f, struct c8 *x)
 {
 	size_t n = f->n, j = 1;
-	struct c8 sum = {{0}, {0}};
-	for (size_t k = (n - 1) / 2; k > 0; k--) {
-		struct c8 *a = x + f->at[k], *b = x + f->at[n - k], even = *a;
-		sum = plus(sum, times(2 * k + 1 == n ? 0.5 : 1, *b));
-		*a = minus(even, times_i(sum)), *b = plus(even, times_i(sum));
-	}
-	sum = times(2, plus(sum, times(n == 1 ? 0.5 : 1, x[n])));
-	pm_fft_backward(f, (double *)x);
-	x[n] = minus(x[0], sum);
-	x[0] = plus(x[0], sum);
+	struct lanes first = take(x), sum = take(x + n);
+	put(x + n, minus(first, sum));
+	put(x, plus(first, sum));
 	for (; j < n - j; j++) {
-		struct c8 e = times(0.5, plus(x[j], x[n - j]));
-		struct c8 o = minus(times(f->half[2 * j], sum), times(f->half[2 * j + 1], minus(x[j], x[n - j])));
-		x[j] = plus(e, o), x[n - j] = minus(e, o);
+		struct lanes a = take(x + j), b = take(x + n - j), e = times(0.5, plus(a, b));
+		struct lanes o = minus(times(f->half[2 * j], sum), times(f->half[2 * j + 1], minus(a, b)));
+		put(x + j, plus(e, o)), put(x + n - j, minus(e, o));
 	}
 }
 
-static void quarters(const struct pm_fft *f, bool wall_below, struct c8 *x)
+static void quarters_before(const struct pm_fft *f, bool wall_below, struct c8 *x)
 {
 	size_t n = f->n;
 	if (wall_below)
-		x[0] = x[n];
+		put(x, take(x + n));
 	for (size_t j = 1; j <= n - j; j++) {
-		struct c8 a = wall_below ? x[n - j] : x[j], b = wall_below ? x[j] : x[n - j];
-		x[j] = twist(f->quarter + 2 * j, plus(a, times_i(b)));
-		x[n - j] = twist(f->quarter + 2 * (n - j), plus(b, times_i(a)));
+		struct lanes a = take(x + (wall_below ? n - j : j)), b = take(x + (wall_below ? j : n - j));
+		put(x + j, twist(f->quarter + 2 * j, plus(a, times_i(b))));
+		put(x + n - j, twist(f->quarter + 2 * (n - j), plus(b, times_i(a))));
 	}
-	pm_fft_forward(f, (double *)x);
 }
 
 /* exp(i t/2) a + exp(-i t/2) b */
-PM_SIMD_INLINE struct c8 untwist(const double *w, struct c8 a, struct c8 b)
+PM_SIMD_INLINE struct lanes untwist(const double *w, struct lanes a, struct lanes b)
 {
 	const double back[2] = {w[0], -w[1]};
 	return plus(twist(back, a), twist(w, b));
 }
 
-static void quarters_back(const struct pm_fft *f, bool wall_below, struct c8 *x)
+static void quarters_back_after(const struct pm_fft *f, bool wall_below, struct c8 *x)
 {
 	size_t n = f->n;
-	pm_fft_backward(f, (double *)x);
-	x[0] = times(2, x[0]);
+	put(x, times(2, take(x)));
 	if (wall_below)
-		x[n] = x[0];
+		put(x + n, take(x));
 	for (size_t j = 1; j <= n - j; j++) {
-		struct c8 a = x[j], b = x[n - j], low = untwist(f->quarter + 2 * j, a, b), high = untwist(f->quarter + 2 * (n - j), b, a);
-		x[j] = wall_below ? high : low;
-		x[n - j] = wall_below ? low : high;
+		struct lanes a = take(x + j), b = take(x + n - j), low = untwist(f->quarter + 2 * j, a, b), high = untwist(f->quarter + 2 * (n - j), b, a);
+		put(x + j, wall_below ? high : low);
+		put(x + n - j, wall_below ? low : high);
 	}
 }
 
 void pm_sine_cosine(enum pm_waves fold, const struct pm_fft *f, double *block)
 {
-	struct c8 *x = (struct c8 *)block;
-	if (fold == PM_WAVES_SINE)
-		sines(f, x);
-	else if (fold == PM_WAVES_COSINE)
-		cosines(f, x);
-	else
-		quarters(f, fold == PM_WAVES_QUARTER_SINE, x);
+	for (int part = 0; part < PM_FFT_PARTS; part++)
+		if (fold == PM_WAVES_SINE)
+			sines_before(f, part_of(block, part));
+		else if (fold == PM_WAVES_COSINE)
+			cosines_before(f, part_of(block, part));
+		else
+			quarters_before(f, fold == PM_WAVES_QUARTER_SINE, part_of(block, part));
+	pm_fft_forward(f, block);
+	for (int part = 0; part < PM_FFT_PARTS; part++)
+		if (fold == PM_WAVES_SINE)
+			sines_after(f, part_of(block, part));
+		else if (fold == PM_WAVES_COSINE)
+			cosines_after(f, part_of(block, part));
 }
 
 void pm_sine_cosine_back(enum pm_waves fold, const struct pm_fft *f, double *block)
 {
-	struct c8 *x = (struct c8 *)block;
-	if (fold == PM_WAVES_SINE)
-		sines_back(f, x);
-	else if (fold == PM_WAVES_COSINE)
-		cosines_back(f, x);
-	else
-		quarters_back(f, fold == PM_WAVES_QUARTER_SINE, x);
+	for (int part = 0; part < PM_FFT_PARTS; part++)
+		if (fold == PM_WAVES_SINE)
+			sines_back_before(f, part_of(block, part));
+		else if (fold == PM_WAVES_COSINE)
+			cosines_back_before(f, part_of(block, part));
+	pm_fft_backward(f, block);
+	for (int part = 0; part < PM_FFT_PARTS; part++)
+		if (fold == PM_WAVES_SINE)
+			sines_back_after(f, part_of(block, part));
+		else if (fold == PM_WAVES_COSINE)
+			cosines_back_after(f, part_of(block, part));
+		else
+			quarters_back_after(f, fold == PM_WAVES_QUARTER_SINE, part_of(block, part));
 }
 
 /* The row of mode number `mode` (0: the lowest), on both ways. */

@@ -397,11 +397,18 @@ data.insert(1, bytearray(range(7)))' | sel >strange.pm # canonical again
 @test "python: a wheel builds its programs from the tree with make, and an sdist from what it holds" {
 	[ "${PM_LONG:-}" ] || skip "long: make check-long"
 	wheel_here PMPIPE_PROGRAMS=
+	echo 'pinit plummer -n 5000 | p2m -n 32 --kernel pcs | poisson-fft | mgrad | m2p' >step
+	for level in x86-64 x86-64-v3 x86-64-v4; do # the code of each level, as far as the processor has it
+		export PM_INSTRUCTIONS=$level
+		env PATH="$PWD/venv/lib/$(ls venv/lib)/site-packages/pmpipe/libexec:$PATH" bash step | cksum
+	done | sort -u >sums
+	unset PM_INSTRUCTIONS
+	bash step | cksum | cmp - sums
 	(cd tree/python && python3 setup.py -q sdist -d "$BATS_TEST_TMPDIR/dist" 2>err) || { cat tree/python/err; return 1; }
 	mkdir alone && tar -C alone --strip-components 1 -xzf dist/*.tar.gz
 	[ -e alone/tree/lib/base/base.h ]
 	rm -r tree dist
-	python3 -m pip wheel -q --no-build-isolation --no-index --no-deps -w dist ./alone
+	PMPIPE_MAKE=PORTABLE=1 python3 -m pip wheel -q --no-build-isolation --no-index --no-deps -w dist ./alone
 	unzip -l dist/*.whl | grep -q pmpipe/libexec/poisson-fft
 }
 
@@ -412,7 +419,7 @@ wheel_here() {
 		skip "no pip, setuptools, wheel or venv for python3 (apt install python3-pip python3-setuptools python3-wheel python3-venv)"
 	export PIP_DISABLE_PIP_VERSION_CHECK=1
 	unset PYTHONPATH PM_BIN MAKEFLAGS
-	mkdir tree && ln -s "$top"/{Makefile,COPYING,lib,tools,data} tree && cp -r "$top/python" tree
+	mkdir tree && ln -s "$top"/{Makefile,COPYING,lib,tools,data,packaging} tree && cp -r "$top/python" tree
 	env "$1" python3 -m pip wheel -q --no-build-isolation --no-index --no-deps -w dist ./tree/python
 	python3 -m venv --system-site-packages --without-pip venv
 	python3 -m pip -q --python venv/bin/python install --no-index --no-deps dist/*.whl
