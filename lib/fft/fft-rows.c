@@ -1,5 +1,5 @@
-/* Between rows in memory and lanes in a block: tiles of 8 x 8 (or 4 x 4, 2 x 2: what registers hold) transposed, with the split of a pair transform into the spectra of its two rows
- * where they are complex: rows a and b, Z = F(a + i b), A_k = (Z_k + conj Z_{n-k})/2, B_k = (Z_k - conj Z_{n-k})/(2 i).
+/* Between rows in memory and lanes in a block: tiles of 8 x 8 (or 4 x 4, 2 x 2: what registers hold) transposed, with the split of a pair transform into the
+ * spectra of its two rows where they are complex: rows a and b, Z = F(a + i b), A_k = (Z_k + conj Z_{n-k})/2, B_k = (Z_k - conj Z_{n-k})/(2 i).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
