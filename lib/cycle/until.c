@@ -83,6 +83,7 @@ static struct pm_measure how_of(const struct pm_until *u, const struct pm_frame 
 	how.vortices = how.vortices && wants(u, PM_CIRCULATION, PM_DISTORTION);
 	how.plasma = how.plasma && wants(u, PM_CHARGE, PM_STRENGTH_SCALE - 1);
 	how.outside = how.potential || wants(u, PM_OUTSIDE, PM_OUTSIDE);
+	how.level = how.level && wants(u, PM_LEVEL_INSIDE, PM_LEVEL_DIFFERENCE);
 	return how;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/decimal.h"
 #include "law/law.h"
+#include "level/level-frame.h"
 #include "measure/diag-column.h"
 #include "measure/known-energy.h"
 #include "measure/law-field.h"
@@ -39,7 +40,8 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
-		.fraction = g->fraction, .outside = true, .plasma = law->background != NULL, .field = law->field, .wave = law->wave, .nmodes = g->nmodes,
+		.fraction = g->fraction, .outside = true, .level = pm_level_there(f, g->set), .plasma = law->background != NULL,
+		.field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]},
 		.species = g->species, .field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};
 	if (law->evolves) {

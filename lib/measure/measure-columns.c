@@ -24,6 +24,7 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_ENERGY_ELECTRIC] = "energy_electric", [PM_ENERGY_MAGNETIC] = "energy_magnetic", [PM_GAUSS_RESIDUAL] = "gauss_residual",
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
 	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given", [PM_OUTSIDE] = "outside",
+	[PM_LEVEL_INSIDE] = "level_inside", [PM_LEVEL_INTERFACE] = "level_interface", [PM_LEVEL_DIFFERENCE] = "level_difference",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)
@@ -53,6 +54,8 @@ bool pm_column_suits(enum pm_column c, const struct pm_measure *how)
 		c == PM_DISTANCE_MAX;
 	if (c >= PM_CROSSING_TIME && c <= PM_RELAXATION_TIME)
 		return how->strength && !strcmp(how->strength, "mass");
+	if (c >= PM_LEVEL_INSIDE)
+		return how->level;
 	if (c >= PM_STRENGTH_SCALE)
 		return how->strength != NULL;
 	if (c >= PM_ENERGY_ELECTRIC)

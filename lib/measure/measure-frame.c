@@ -2,6 +2,7 @@
  * NAN, never zero. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "level/level-frame.h"
 #include "measure/measure-field.h"
 #include "measure/measure.h"
 #include "measure/separation.h"
@@ -36,6 +37,7 @@ void pm_measure_reads(const struct pm_measure *how, struct pm_frame *f)
 	pm_vortex_space_reads(how, f);
 	pm_plasma_reads(how, f);
 	pm_outside_of_reads(how, f);
+	pm_level_reads(f, how->set);
 }
 
 static const double *values(const struct pm_frame *f, const char *on, const char *name, int component)
@@ -112,9 +114,19 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 	return 0;
 }
 
+static int of_level(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	struct pm_level_measures level = {NAN, NAN, NAN};
+	const int status = how->level ? pm_level_of(f, how->set, &level) : 0;
+	m->value[PM_LEVEL_INSIDE] = level.inside;
+	m->value[PM_LEVEL_INTERFACE] = level.interface;
+	m->value[PM_LEVEL_DIFFERENCE] = level.difference;
+	return status;
+}
+
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 {
-	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves &&
+	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves && !how->level &&
 		!how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
 		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
@@ -149,6 +161,7 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	status = status ? status : pm_vortex_space_of(how, f, m);
 	status = status ? status : pm_plasma_of(how, f, m);
 	pm_account_of(how, f, m);
+	status = status ? status : of_level(how, f, m);
 	if (!status && how->nradii)
 		status = radii(how, n, b, m);
 	status = status ? status : pm_field_of(how, f, m->field);

@@ -54,7 +54,8 @@ enum pm_column {
 	PM_ENSTROPHY = PM_ANGULAR_IMPULSE_OF + 3, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE, PM_DIVERGENCE, PM_DISSIPATION, PM_ENERGY_FLOW, PM_HELICITY,
 	PM_RING_CIRCULATION, PM_RING_RADIUS, PM_RING_POSITION, PM_DISTORTION,
 	PM_CHARGE, PM_ENERGY_COMPONENT, PM_ENERGY_ELECTRIC = PM_ENERGY_COMPONENT + 3, PM_ENERGY_MAGNETIC, PM_GAUSS_RESIDUAL,
-	PM_STRENGTH_SCALE, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE, PM_COLUMNS
+	PM_STRENGTH_SCALE, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE,
+	PM_LEVEL_INSIDE, PM_LEVEL_INTERFACE, PM_LEVEL_DIFFERENCE, PM_COLUMNS
 };
 extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
@@ -93,6 +94,7 @@ struct pm_measure { /* what to measure of a frame */
 	bool vector;                 /* in space: strength, density and potential have 3 components */
 	double nu;                   /* [length^2/time] viscosity of the frame */
 	double centre[2];            /* [length] where omega is looked at */
+	bool level;                  /* a set carries a level (level/level-frame.h) */
 	bool outside;                /* count those beyond the mesh, and their energy */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
 	bool evolves;                /* the law's field is a state, with a magnetic one */

@@ -44,7 +44,7 @@ static enum part part_of(const struct pm_field *field, const struct pm_remesh_ch
 	if (is_dropped(field, c))
 		return GONE;
 	if (!strcmp(field->name, "volume"))
-		return VOLUME;
+		return c->by && !strcmp(c->by, "volume") && is_real(field) ? STRENGTH : VOLUME;
 	if (field->extensive && is_real(field))
 		return STRENGTH;
 	if (field->uniform)
@@ -76,7 +76,7 @@ int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm
 	}
 	if (sets->n)
 		return 0;
-	return pm_fail(PM_DATA, "no set%s%s%s has positions 'x' and a strength (mass, charge, circulation; stab --strength)", only ? " '" : "",
+	return pm_fail(PM_DATA, "no set%s%s%s has positions 'x' and a strength (mass, charge, circulation; --by volume carries values alone)", only ? " '" : "",
 		only ? only : "", only ? "'" : "");
 }
 
