@@ -4,8 +4,9 @@
 
 #include "green/green.h"
 #include "poisson-mg/mg-medium.h"
-#include "poisson-mg/multigrid.h"
+#include "poisson-mg/mg-ranks.h"
 #include "stage/solver-options.h"
+#include "world/world.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -23,9 +24,7 @@ struct state {
 };
 
 static const char *const cycles[] = {"v", "w", "fmg", NULL}; /* in the order of enum pm_mg_cycle */
-static const char *const orders[] = {"2", "4", NULL};
-static const char *const restrictions[] = {"full", "half", NULL};
-static const char *const coarse[] = {"direct", "galerkin", NULL};
+static const char *const orders[] = {"2", "4", NULL}, *const restrictions[] = {"full", "half", NULL}, *const coarse[] = {"direct", "galerkin", NULL};
 
 static const struct pm_option options[] = {
 	{.name = "cycle", .kind = PM_WORD, .fallback = "fmg", .choices = cycles, PM_AT(cycle),
@@ -110,7 +109,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	const struct pm_boundary_eps medium = pm_mg_medium(eps, t->choice.mean);
 	struct pm_homogeneous m = {0};
 	struct pm_clock began = pm_clock();
-	int status = pm_multigrid_prepare(t->solver, &t->choice, &g, eps);
+	int status = pm_world_agree(pm_multigrid_prepare(t->solver, &t->choice, &g, eps));
 	pm_setup_since(s, began);
 	if (!status)
 		status = pm_problem_move(p, f, c, t->choice.order, eps ? &medium : NULL, &m);
@@ -132,11 +131,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *t = s->state;
 	const struct pm_mg_record *r = &t->record;
 	double taken = 0, residual = 0, contraction = 0;
-	bool roundoff = false;
-	for (int c = 0; c < t->problem.source->components; c++) {
-		int status = component(s, f, c);
-		if (status)
-			return status;
+	int status = 0, roundoff = 0;
+	t->choice.field = t->problem.source;
+	for (int c = 0; c < t->problem.source->components && !status; c++) {
+		status = component(s, f, c);
 		taken = fmax(taken, r->cycles);
 		residual = fmax(residual, r->after);
 		contraction = fmax(contraction, r->contraction);
@@ -144,14 +142,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	}
 	pm_report(s, f, "cycles", taken), pm_report(s, f, "residual", residual), pm_report(s, f, "contraction", contraction);
 	pm_report_text(s, f, "status", roundoff ? "floor" : "converged");
-	return 0;
+	return status;
 }
 
-static void release(struct pm_stage *s)
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	struct state *t = s->state;
-	t->solver = pm_multigrid_free(t->solver);
+	const struct state *t = s->state;
+	return f && pm_multigrid_shares(&t->choice, &t->problem);
 }
+static void release(struct pm_stage *s) { pm_multigrid_free(((struct state *)s->state)->solver); }
 
 const struct pm_tool tool_poisson_mg = {
 	.name = "poisson-mg",
@@ -175,5 +174,6 @@ const struct pm_tool tool_poisson_mg = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -96,8 +96,6 @@ void pm_over_mesh(const struct pm_parts *p, const void *data, const size_t point
 
 struct values {
 	const double *x, *y;
-	const size_t *points;
-	const double (*end)[2];
 };
 
 /* weight times n values, eight sums side by side; a loop for values and one for products. */
@@ -129,8 +127,8 @@ static void block_of(const void *data, size_t from, size_t to, void *part)
 
 static void row_of(const void *data, size_t from, size_t to, void *part)
 {
-	const struct values *v = data;
-	const size_t n = to - from, row = from / n, at[2] = {row % v->points[1], row / v->points[1]};
+	const struct pm_mesh_values *v = data;
+	const size_t n = to - from, row = v->row + from / n, at[2] = {row % v->points[1], row / v->points[1]};
 	const double *x = v->x + from, *y = v->y ? v->y + from : NULL;
 	double weight = 1;
 	for (int d = 1; d < 3 && v->end; d++)
@@ -149,10 +147,11 @@ void pm_sum_of_set(size_t n, const double *x, const double *y, struct pm_sum *al
 	pm_over_set(&p, &(struct values){.x = x, .y = y}, n, all);
 }
 
+const struct pm_parts pm_mesh_sums = {.size = sizeof(struct pm_sum), .make = row_of, .join = pm_join_sums};
+
 void pm_sum_of_mesh(const size_t points[3], const double *x, const double *y, const double end[3][2], struct pm_sum *all)
 {
-	const struct pm_parts p = {.size = sizeof *all, .make = row_of, .join = pm_join_sums};
-	pm_over_mesh(&p, &(struct values){.x = x, .y = y, .points = points, .end = end}, points, all);
+	pm_over_mesh(&pm_mesh_sums, &(struct pm_mesh_values){.x = x, .y = y, .points = points, .end = end}, points, all);
 }
 
 static void plane_of_rows(const void *data, size_t from, size_t to, void *part)

@@ -33,6 +33,14 @@ void pm_over_mesh(const struct pm_parts *p, const void *data, const size_t point
  * 1 everywhere). */
 void pm_sum_of_set(size_t n, const double *x, const double *y, struct pm_sum *all);
 void pm_sum_of_mesh(const size_t points[3], const double *x, const double *y, const double end[3][2], struct pm_sum *all);
+/* The latter as parts, whose data are these: values from row number `row` of the mesh on. */
+struct pm_mesh_values {
+	const double *x, *y;
+	const size_t *points;
+	const double (*end)[2];
+	size_t row;
+};
+extern const struct pm_parts pm_mesh_sums;
 /* Of one number per row. */
 double pm_sum_of_rows(const size_t points[3], const double *row);
 

@@ -52,9 +52,15 @@ int pm_planes_halo(int status, const struct pm_planes *p, int wide, int n, const
 
 int pm_planes_over(int status, const struct pm_planes *p, const struct pm_parts *parts, const void *data, void *all)
 {
+	const size_t rows = p->axis == 2 && p->points[2] == 1 ? p->points[1] : 1; /* a mesh of one plane is joined by rows, as in 2-D */
 	if (p->divided)
-		return pm_world_over_mesh(status, parts, data, p->points, p->here, all);
+		return pm_world_over_mesh(status, parts, data, p->points, p->here * rows, all);
 	if (!status)
 		pm_over_mesh(parts, data, p->points, all);
 	return status;
+}
+
+int pm_planes_sum(int status, const struct pm_planes *p, const double *x, const double *y, const double end[3][2], struct pm_sum *all)
+{
+	return pm_planes_over(status, p, &pm_mesh_sums, &(struct pm_mesh_values){x, y, p->points, end, pm_planes_row(p, 0)}, all);
 }

@@ -28,6 +28,8 @@ int pm_planes_halo(int status, const struct pm_planes *p, int wide, int n, const
 /* As pm_over_mesh, called by all ranks in the same order, with the values here: make() counts from the first one here, so rows of the mesh begin at
  * first * points[1] (pm_planes_row). `all` is joined to on rank 0, and is then the same on all ranks. */
 int pm_planes_over(int status, const struct pm_planes *p, const struct pm_parts *parts, const void *data, void *all);
+/* pm_sum_of_mesh in the same way, of the values here. */
+int pm_planes_sum(int status, const struct pm_planes *p, const double *x, const double *y, const double end[3][2], struct pm_sum *all);
 /* The number in the mesh of the row that value `from` here begins; its j and k are row % points[1], row / points[1]. */
 static inline size_t pm_planes_row(const struct pm_planes *p, size_t from)
 {

@@ -39,7 +39,7 @@ static struct around around(const struct mg_level *l, size_t j, size_t k, int od
 	static const int at[rows_most][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
 	struct around a;
 	for (int m = 0; m < rows_most; m++) {
-		const double *row = l->u + ks[at[m][1]] * l->plane + js[at[m][0]] * l->stride;
+		const double *row = l->u + mg_plane(l, ks[at[m][1]]) + js[at[m][0]] * l->stride;
 		a.same[m] = row + (odd ? l->half : 0);
 		if (m >= rows_beside)
 			continue;
@@ -82,7 +82,7 @@ static inline __attribute__((always_inline)) void defects(const int dim, const s
 static void defect_half(const struct mg_level *l, size_t j, size_t k, int odd, size_t range[2], double *d)
 {
 	const struct mg_axis *x = &l->axis[0];
-	const double *f = l->f + k * l->plane + j * l->stride + (odd ? l->half : 0);
+	const double *f = l->f + mg_plane(l, k) + j * l->stride + (odd ? l->half : 0);
 	struct around a = around(l, j, k, odd);
 	range[0] = odd ? 0 : (x->first + 1) / 2;
 	range[1] = odd ? x->end / 2 : (x->end + 1) / 2;
@@ -112,7 +112,7 @@ void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour,
 	for (size_t j = y->first; j < y->end; j++) {
 		if (l->dim == 3 && ((j + k) & 1) != (size_t)(colour >> 1))
 			continue;
-		double *row = l->u + k * l->plane + j * l->stride, *u = row + (odd ? l->half : 0);
+		double *row = l->u + mg_plane(l, k) + j * l->stride, *u = row + (odd ? l->half : 0);
 		defect_half(l, j, k, odd, range, w);
 		for (size_t i = range[0]; i < range[1]; i++)
 			u[i] -= factor * w[i];
@@ -127,7 +127,7 @@ void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, d
 	size_t range[2];
 	for (size_t j = y->first; j < y->end; j++)
 		for (int odd = 0; odd < 2; odd++) {
-			size_t at = k * l->plane + j * l->stride + (odd ? l->half : 0);
+			size_t at = mg_plane(l, k) + j * l->stride + (odd ? l->half : 0);
 			defect_half(l, j, k, odd, range, w);
 			for (size_t i = range[0]; i < range[1]; i++)
 				l->v[at + i] = l->u[at + i] - factor * w[i];
@@ -138,7 +138,7 @@ void pm_mg_keep_plane(const struct mg_level *l, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1];
 	for (size_t j = y->first; j < y->end; j++) {
-		size_t at = k * l->plane + j * l->stride;
+		size_t at = mg_plane(l, k) + j * l->stride;
 		memcpy(l->u + at, l->v + at, l->stride * sizeof(double)); /* v is zero where there is no unknown */
 		mg_close_row(l, l->u + at);
 	}
@@ -162,31 +162,35 @@ double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, doub
 	return sum;
 }
 
-/* h^2/12 D s at node i of n values `step` apart. */
-static double along(const struct pm_grid *g, int d, size_t i, size_t step, const double *s)
+/* h^2/12 D s at node i of n values `step` apart; ahead: those beyond a periodic end lie behind it. */
+static double along(const struct pm_grid *g, int d, bool ahead, size_t i, size_t step, const double *s)
 {
 	size_t n = g->points[d];
 	bool periodic = g->face[d][0] == PM_PERIODIC;
+	if (periodic && ahead)
+		return (s[-(ptrdiff_t)step] - 2 * s[0] + s[step]) / 12;
 	if (!periodic && (i == 0 || i + 1 == n)) {
 		ptrdiff_t in = i ? -(ptrdiff_t)step : (ptrdiff_t)step;
 		if (g->face[d][i != 0] != PM_NEUMANN)
 			return 0;
 		return n < 3 ? (s[in] - s[0]) / 3 : (-5 * s[0] + 6 * s[in] - s[2 * in]) / 12;
 	}
-	const double *line = s - i * step;
-	return (line[pm_index_fold((ptrdiff_t)i - 1, n, periodic) * step] - 2 * s[0] + line[pm_index_fold((ptrdiff_t)i + 1, n, periodic) * step]) / 12;
+	const ptrdiff_t below = (ptrdiff_t)pm_index_fold((ptrdiff_t)i - 1, n, periodic) - (ptrdiff_t)i;
+	const ptrdiff_t above = (ptrdiff_t)pm_index_fold((ptrdiff_t)i + 1, n, periodic) - (ptrdiff_t)i;
+	return (s[below * (ptrdiff_t)step] - 2 * s[0] + s[above * (ptrdiff_t)step]) / 12;
 }
 
-void pm_mg_compact_source(const struct pm_grid *g, const double *s, double *out)
+void pm_mg_compact_source(const struct pm_grid *g, const struct mg_level *l, const double *s, double *out)
 {
+	const size_t each = g->dim == 3 ? g->points[1] : 1, first = l->first * each, rows = l->here * each; /* in 2-D planes are rows */
 	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++) {
+	for (size_t row = 0; row < rows; row++) {
 		const double *from = s + row * g->points[0];
-		size_t at[3] = {0, row % g->points[1], row / g->points[1]}, step[3] = {1, g->points[0], g->points[0] * g->points[1]};
+		size_t at[3] = {0, (first + row) % g->points[1], (first + row) / g->points[1]}, step[3] = {1, g->points[0], g->points[0] * g->points[1]};
 		for (at[0] = 0; at[0] < g->points[0]; at[0]++) {
 			double sum = 0;
 			for (int d = 0; d < g->dim; d++)
-				sum += along(g, d, at[d], step[d], from + at[0]);
+				sum += along(g, d, l->from && d && d == g->dim - 1, at[d], step[d], from + at[0]);
 			out[row * g->points[0] + at[0]] = from[at[0]] + sum;
 		}
 	}

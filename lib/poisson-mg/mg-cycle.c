@@ -3,7 +3,7 @@
  * W: the coarser grid is visited twice. Full multigrid: the right-hand side on every grid, solved from the coarsest up, cubic interpolation and one
  * cycle on each (Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, sections 2.4 and 2.6).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/mg-ranks.h"
 
 size_t pm_mg_unknowns(const struct mg_level *l)
 {
@@ -50,7 +50,9 @@ double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, 
 /* The second: solve on the coarser grids, correct and relax. */
 void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o)
 {
-	if (at + 2 == mg->levels)
+	if (at + 1 == mg->shared)
+		pm_mg_whole_cycles(mg, o);
+	else if (at + 2 == mg->levels)
 		pm_mg_solve_coarsest(mg);
 	else
 		for (int i = 0; i < (o->cycle == PM_MG_W ? 2 : 1); i++) {
@@ -64,12 +66,25 @@ void pm_mg_start_sources(struct pm_mg *mg)
 {
 	for (int at = 0; at + 1 < mg->levels; at++)
 		pm_mg_restrict_source(mg, at);
+	if (mg->shared)
+		pm_mg_hand_over(mg);
+	if (mg->whole)
+		pm_mg_start_sources(mg->whole);
 }
 
 /* From the coarsest grid up, one cycle on each but the finest. */
 void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
-	pm_mg_solve_coarsest(mg);
+	if (!mg->shared)
+		pm_mg_solve_coarsest(mg);
+	if (mg->whole)
+		pm_mg_start_full(mg->whole, o);
+	if (mg->whole && mg->whole->levels > 1) { /* its finest grid is none of ours */
+		pm_mg_cycle_down(mg->whole, 0, o, false);
+		pm_mg_cycle_up(mg->whole, 0, o);
+	}
+	if (mg->shared)
+		pm_mg_take_back(mg);
 	for (int at = mg->levels - 2; at >= 0; at--) {
 		smooth(mg, at, o, MG_INTERPOLATE, 0);
 		if (at) {

@@ -4,7 +4,7 @@
  * the error of the differences, this one 1.7, as injection does, but injection misses a point source on an odd node. Linear instead of cubic
  * interpolation leaves 4 times (case PS-10). On axes of any other ratio f goes as in mg-transfer.c. Interpolation is one-sided at walls.
  * Source: Brandt 1977; Trottenberg, Oosterlee, Schueller 2001, section 2.6. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/mg-ranks.h"
 
 #include <string.h>
 
@@ -102,7 +102,7 @@ void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level 
 	double *t = w + mg_lanes;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents(&fine->map[1], 0, j);
-		double *u = fine->u + k * fine->plane + j * fine->stride;
+		double *u = fine->u + mg_plane(fine, k) + j * fine->stride;
 		pm_mg_gather(coarse, &py, &pz, t);
 		if (fine->map[0].half)
 			interpolate_half(fine, &coarse->axis[0], t, u);
@@ -148,7 +148,8 @@ static void collect(const struct mg_level *fine, const struct mg_level *coarse, 
 static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], double *c)
 {
 	const struct mg_axis *y = &fine->axis[1], *z = &fine->axis[2];
-	memset(coarse->f + range[0] * coarse->plane, 0, (range[1] - range[0]) * coarse->plane * sizeof(double));
+	if (range[0] < range[1])
+		memset(coarse->f + mg_plane(coarse, range[0]), 0, (range[1] - range[0]) * coarse->plane * sizeof(double));
 	for (size_t k = z->first; k < z->end; k++) {
 		struct mg_parents pz = parents(&fine->map[2], 1, k);
 		bool any = false;
@@ -156,22 +157,25 @@ static void restrict_range(const struct mg_level *fine, const struct mg_level *c
 			any |= pz.node[a] >= range[0] && pz.node[a] < range[1];
 		for (size_t j = y->first; any && j < y->end; j++) {
 			struct mg_parents py = parents(&fine->map[1], 1, j);
-			collect(fine, coarse, fine->f + k * fine->plane + j * fine->stride, c);
+			collect(fine, coarse, fine->f + mg_plane(fine, k) + j * fine->stride, c);
 			for (int a = 0; a < pz.n; a++)
 				for (int b = 0; b < py.n && pz.node[a] >= range[0] && pz.node[a] < range[1]; b++)
 					pm_mg_add_row(coarse->stride, pz.w[a] * py.w[b], c,
-						coarse->f + pz.node[a] * coarse->plane + py.node[b] * coarse->stride);
+						coarse->f + mg_plane(coarse, pz.node[a]) + py.node[b] * coarse->stride);
 		}
 	}
 }
 
 void pm_mg_restrict_source(struct pm_mg *mg, int at)
 {
-	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
-	size_t n = coarse->axis[2].points, parts = (size_t)mg->threads < n / 8 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
+	struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
+	pm_mg_beside(mg, fine, fine->f, mg_beyond);
+	fine->beside = true;
+	coarse->beside = false;
+	size_t n = coarse->here, parts = (size_t)mg->threads < n / 8 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
 	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
 	for (size_t p = 0; p < parts; p++) {
-		size_t range[2] = {n * p / parts, n * (p + 1) / parts};
+		size_t range[2] = {coarse->first + n * p / parts, coarse->first + n * (p + 1) / parts};
 		restrict_range(fine, coarse, range, mg->scratch + p * mg->room);
 	}
 }

@@ -15,6 +15,9 @@ struct pm_mg {
 	double *scratch;       /* per thread: four rows */
 	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
 	double *sums;          /* per plane of the finest grid */
+	int shared;            /* grids 0 .. shared-1 are in planes on all ranks; the next one is too, to hand over to `whole`; 0: alone */
+	struct pm_mg *whole;   /* rank 0: that one and the coarser grids */
+	int status;            /* agreed by all ranks since the solution began */
 };
 
 /* The sum of one number per plane, n of them; of a plane the rows are added first (base/in-order.h). */
@@ -35,7 +38,9 @@ void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour,
 void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, double *w); /* v from u */
 void pm_mg_keep_plane(const struct mg_level *l, size_t k);                                  /* u from v */
 double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, double *r);     /* as pm_mg_residual_row */
-void pm_mg_compact_source(const struct pm_grid *g, const double *s, double *out);           /* the right-hand side of order 4 for lap u = s */
+/* The right-hand side of order 4 for lap u = s; on planes of a grid l,
+ * of which s has two more on either side where they are not all. */
+void pm_mg_compact_source(const struct pm_grid *g, const struct mg_level *l, const double *s, double *out);
 
 /* mg-transfer.c */
 struct mg_parents { /* of one node along one axis, without those of weight 0 */
@@ -77,7 +82,7 @@ void pm_mg_start_sources(struct pm_mg *mg); /* the right-hand sides of all grids
 void pm_mg_start_full(struct pm_mg *mg, const struct pm_mg_choice *o); /* then from the coarsest grid up, one cycle on each but the finest */
 
 /* mg-hierarchy.c */
-bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order);
+bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order, const struct pm_planes *planes);
 bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o); /* for what the smoother needs */
 void pm_mg_demolish(struct pm_mg *mg);
 

@@ -5,6 +5,9 @@
  * as a single point on which nothing varies, so the coarsest grid has one unknown, or none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-level.h"
+#include "world/world.h"
+
+#include <string.h>
 
 static void axis_fill(struct mg_axis *a)
 {
@@ -82,6 +85,41 @@ static bool map_build(const struct mg_axis *f, const struct mg_axis *c, struct m
 	return true;
 }
 
+/* The planes of the coarse grid at or above the first fine plane of every rank. */
+static bool planes_coarse(const struct mg_level *fine, struct mg_level *l)
+{
+	const struct mg_axis *f = &fine->axis[2], *c = &l->axis[2];
+	const size_t ranks = (size_t)pm_world_size();
+	if (!(l->from = pm_alloc(ranks + 1, sizeof *l->from)))
+		return false;
+	for (size_t r = 0; r <= ranks; r++) {
+		const size_t k = ((size_t)fine->from[r] * c->cells + f->cells - 1) / f->cells;
+		l->from[r] = k < c->points ? k : c->points;
+	}
+	l->from[ranks] = c->points;
+	return true;
+}
+
+/* Where the planes of this rank are. */
+static bool planes_place(struct mg_level *l)
+{
+	const struct mg_axis *z = &l->axis[2];
+	const size_t rank = (size_t)pm_world_rank();
+	if (!(l->at = pm_zalloc(z->points, sizeof *l->at)))
+		return false;
+	l->first = l->from[rank];
+	l->here = l->from[rank + 1] - l->from[rank];
+	for (ptrdiff_t away = mg_beyond; away > 0; away--) /* a plane may be on both sides: the nearer one, which is brought whenever the farther one is */
+		for (int side = 0; side < 2; side++) {
+			const ptrdiff_t n = (ptrdiff_t)z->points, i = side ? (ptrdiff_t)l->here - 1 + away : -away, k = (ptrdiff_t)l->first + i;
+			if ((k >= 0 && k < n) || z->periodic)
+				l->at[((k % n) + n) % n] = (size_t)(i + mg_beyond) * l->plane;
+		}
+	for (size_t i = 0; i < l->here; i++)
+		l->at[l->first + i] = (i + mg_beyond) * l->plane;
+	return true;
+}
+
 static bool level_alloc(struct mg_level *l)
 {
 	const struct mg_axis *x = &l->axis[0];
@@ -92,8 +130,11 @@ static bool level_alloc(struct mg_level *l)
 		l->plane += mg_lanes;
 	for (int d = 0; d < 3; d++)
 		l->fixed |= !axis_free(&l->axis[d]);
-	l->u = pm_zalloc(mg_size(l), sizeof(double));
-	l->f = pm_zalloc(mg_size(l), sizeof(double));
+	l->here = l->axis[2].points;
+	if (l->from && !planes_place(l))
+		return false;
+	l->u = pm_zalloc(mg_held(l), sizeof(double));
+	l->f = pm_zalloc(mg_held(l), sizeof(double));
 	for (int m = 0; m < 2; m++)
 		if (!(l->mask[m] = pm_zalloc(l->half, sizeof(int64_t))))
 			return false;
@@ -119,22 +160,36 @@ bool pm_mg_level_coarser(struct mg_level *fine, struct mg_level *coarse, bool *m
 		if (!map_build(a, &coarse->axis[d], &fine->map[d]))
 			return false;
 	}
-	return level_alloc(coarse);
+	return (!fine->from || planes_coarse(fine, coarse)) && level_alloc(coarse);
 }
 
-bool pm_mg_level_finest(struct mg_level *l, const struct pm_grid *g, int order)
+bool pm_mg_level_finest(struct mg_level *l, const struct pm_grid *g, int order, const struct pm_planes *planes)
 {
 	l->dim = g->dim;
 	l->order = order;
 	l->axis[0] = axis_of(g, 0);
 	l->axis[1] = g->dim == 3 ? axis_of(g, 1) : axis_flat(1);
 	l->axis[2] = g->dim == 3 ? axis_of(g, 2) : g->dim == 2 ? axis_of(g, 1) : axis_flat(1);
+	const size_t ranks = planes && planes->divided ? (size_t)pm_world_size() + 1 : 0;
+	if (ranks && !(l->from = pm_alloc(ranks, sizeof *l->from)))
+		return false;
+	if (ranks)
+		memcpy(l->from, planes->from, ranks * sizeof *l->from);
+	return level_alloc(l);
+}
+
+bool pm_mg_level_whole(const struct mg_level *part, struct mg_level *l)
+{
+	l->dim = part->dim;
+	l->order = part->order;
+	for (int d = 0; d < 3; d++)
+		l->axis[d] = part->axis[d];
 	return level_alloc(l);
 }
 
 void pm_mg_level_free(struct mg_level *l)
 {
-	pm_free(l->u), pm_free(l->f), pm_free(l->v), pm_free(l->mask[0]), pm_free(l->mask[1]);
+	pm_free(l->from), pm_free(l->at), pm_free(l->u), pm_free(l->f), pm_free(l->v), pm_free(l->mask[0]), pm_free(l->mask[1]);
 	for (int d = 0; d < 3; d++) {
 		struct mg_map *m = &l->map[d];
 		pm_free(m->parent);

@@ -4,8 +4,8 @@
  * order 1 beside a wall where s does not vanish. The means of singular problems are removed grid by grid. It misses a source on a single odd node, which the
  * later cycles correct. Source: Brandt 1977 (the order of transfers in full multigrid). Cost: 20 operations per node, once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-hierarchy.h"
-#include "mesh/mesh-sum.h"
+#include "poisson-mg/mg-ranks.h"
+#include "world/world.h"
 
 #include <string.h>
 
@@ -45,42 +45,105 @@ static void along(const struct pm_grid *g, int d, const struct mg_axis *f, const
 		}
 }
 
-/* values: of the points of the level; f of the level from them. */
-static void load(struct mg_level *l, double factor, const double *values)
+/* The same along the axis of planes, for those of the level c on this rank; from has mg_beyond more on either side, of `inner` values each. */
+static void along_planes(const struct mg_level *f, const struct mg_level *c, size_t inner, const double *from, double *to)
 {
-	const struct mg_axis *x = &l->axis[0], *y = x + 1, *z = x + 2;
+	const struct mg_axis *fine = &f->axis[2], *coarse = &c->axis[2];
+	#pragma omp parallel for num_threads(pm_threads()) if (c->here * inner > mg_parallel)
+	for (size_t i = c->first; i < c->first + c->here; i++) {
+		size_t node[mg_cubic] = {0};
+		double w[mg_cubic] = {0};
+		pm_mg_lagrange(fine, (ptrdiff_t)(i * fine->cells / coarse->cells), (double)(i * fine->cells) / (double)coarse->cells, node, w);
+		for (size_t p = 0; p < inner; p++) {
+			double sum = 0;
+			for (int m = 0; m < mg_cubic; m++)
+				sum += w[m] * (w[m] != 0 ? from + ((ptrdiff_t)(mg_plane(f, node[m]) / f->plane) - mg_beyond) * (ptrdiff_t)inner : from)[p];
+			to[(i - c->first) * inner + p] = sum;
+		}
+	}
+}
+
+/* Of values of the planes here. */
+static double mean_of(struct pm_mg *mg, const struct mg_level *l, const struct pm_grid *g, const double *values)
+{
+	const struct mg_axis *z = &l->axis[2];
+	const struct pm_planes planes = {.points = {g->points[0], g->points[1], g->points[2]}, .axis = l->dim - 1, .all = z->points,
+		.size = pm_grid_size(g) / z->points, .first = l->first, .here = l->here, .periodic = z->periodic, .divided = l->from, .from = l->from};
+	struct pm_sum all = {0, 0};
+	double end[3][2];
+	for (int d = 0; d < 3; d++)
+		end[d][0] = end[d][1] = g->points[d] > g->cells[d] ? 0.5 : 1;
+	mg->status = pm_planes_sum(mg->status, &planes, values, NULL, (const double(*)[2])end, &all);
+	return pm_sum_total(all) / ((double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2]);
+}
+
+/* values: of the points of the level here; f of the level from them. */
+static void load(struct pm_mg *mg, struct mg_level *l, double factor, const double *values)
+{
+	const struct mg_axis *x = &l->axis[0], *y = x + 1;
 	struct pm_grid g = grid_of(l);
-	double mean = l->fixed ? 0 : pm_grid_sum(&g, values, NULL) / ((double)g.cells[0] * (double)g.cells[1] * (double)g.cells[2]);
-	memset(l->f, 0, mg_size(l) * sizeof *l->f);
-	for (size_t k = z->first; k < z->end; k++)
-		for (size_t j = y->first; j < y->end; j++)
+	double mean = l->fixed ? 0 : mean_of(mg, l, &g, values);
+	size_t range[2];
+	mg_range(l, range);
+	l->beside = false;
+	memset(l->f, 0, mg_held(l) * sizeof *l->f);
+	for (size_t k = range[0]; k < range[1]; k++)
+		for (size_t j = y->first; j < y->end; j++) {
+			const double *row = values + ((k - l->first) * y->points + j) * x->points;
 			for (size_t i = x->first; i < x->end; i++)
-				l->f[k * l->plane + j * l->stride + mg_slot(l, i)] = factor * (values[(k * y->points + j) * x->points + i] - mean);
+				l->f[mg_plane(l, k) + j * l->stride + mg_slot(l, i)] = factor * (row[i] - mean);
+		}
+}
+
+/* From the source a of grid f to that of grid c, by way of b: which of the two has it. */
+static double *coarser(struct pm_mg *mg, const struct mg_level *f, const struct mg_level *c, double *a, double *b)
+{
+	struct pm_grid g = grid_of(f);
+	for (int d = 0; d < f->dim; d++) {
+		const struct mg_axis *fine = &f->axis[axis_of(f, d)], *coarse = &c->axis[axis_of(f, d)];
+		const bool planes = f->from && d == f->dim - 1;
+		if (fine->points == coarse->points)
+			continue;
+		if (planes) {
+			const size_t inner = pm_grid_size(&g) / g.points[d];
+			pm_mg_beside_own(mg, f, a, inner, mg_beyond);
+			along_planes(f, c, inner, a, b);
+		} else {
+			struct pm_grid here = g;
+			here.points[f->dim - 1] = f->from ? f->here : g.points[f->dim - 1];
+			along(&here, d, fine, coarse, a, b);
+		}
+		g.points[d] = coarse->points;
+		double *t = a;
+		a = b, b = t;
+	}
+	return a;
 }
 
 bool pm_mg_pyramid(struct pm_mg *mg, double factor, const double *s)
 {
-	struct pm_grid g = grid_of(&mg->level[0]);
-	size_t size = pm_grid_size(&g);
-	double *a = pm_alloc(size, sizeof *a), *b = pm_alloc(size, sizeof *b);
-	if (a && b)
-		memcpy(a, s, size * sizeof *a);
-	for (int at = 1; a && b && at < mg->levels; at++) {
-		struct mg_level *f = &mg->level[at - 1], *c = &mg->level[at];
-		for (int d = 0; d < f->dim; d++) {
-			const struct mg_axis *fine = &f->axis[axis_of(f, d)], *coarse = &c->axis[axis_of(f, d)];
-			if (fine->points == coarse->points)
-				continue;
-			along(&g, d, fine, coarse, a, b);
-			g.points[d] = coarse->points;
-			double *t = a;
-			a = b, b = t;
-		}
-		g = grid_of(c);
-		pm_mg_compact_source(&g, a, b);
-		load(c, factor, b);
+	const struct mg_level *finest = &mg->level[0];
+	const size_t plane = finest->axis[0].points * finest->axis[1].points, here = finest->here * plane;
+	const size_t own = finest->from ? mg_beyond * plane : 0;
+	double *room[2] = {pm_alloc(here + 2 * own + 1, sizeof(double)), pm_alloc(here + 2 * own + 1, sizeof(double))};
+	bool good = room[0] && room[1];
+	if (finest->from)
+		mg->status = pm_world_agree(mg->status ? mg->status : good ? 0 : pm_failed());
+	good = good && !mg->status;
+	double *a = good ? room[0] + own : NULL;
+	if (good)
+		memcpy(a, s, here * sizeof *a);
+	for (int at = 1; good && at < mg->levels; at++) {
+		struct mg_level *c = &mg->level[at];
+		a = coarser(mg, &mg->level[at - 1], c, a, a == room[0] + own ? room[1] + own : room[0] + own);
+		double *b = a == room[0] + own ? room[1] + own : room[0] + own;
+		const struct pm_grid g = grid_of(c);
+		pm_mg_beside_own(mg, c, a, pm_grid_size(&g) / c->axis[2].points, 2);
+		pm_mg_compact_source(&g, c, a, b);
+		load(mg, c, factor, b);
 	}
-	bool good = a && b;
-	pm_free(a), pm_free(b);
+	if (good && mg->shared && mg->levels > 1)
+		pm_mg_whole_pyramid(mg, factor, a);
+	pm_free(room[0]), pm_free(room[1]);
 	return good;
 }

@@ -15,11 +15,11 @@ struct rows {
 PM_SIMD_INLINE struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
-	double *plane = l->u + k * l->plane;
+	double *plane = l->u + mg_plane(l, k);
 	size_t row = j * l->stride;
-	return (struct rows){.u = plane + row, .f = l->f + k * l->plane + row,
+	return (struct rows){.u = plane + row, .f = l->f + mg_plane(l, k) + row,
 		.south = plane + mg_below(y, j) * l->stride, .north = plane + mg_above(y, j) * l->stride,
-		.back = l->u + mg_below(z, k) * l->plane + row, .front = l->u + mg_above(z, k) * l->plane + row};
+		.back = l->u + mg_plane(l, mg_below(z, k)) + row, .front = l->u + mg_plane(l, mg_above(z, k)) + row};
 }
 
 PM_SIMD_INLINE pm_simd along_y(const struct rows *a, size_t i) { return pm_simd_load(a->south + i) + pm_simd_load(a->north + i); }

@@ -3,8 +3,9 @@
  * take slabs that narrow by one plane per stage at each cut, and after a barrier the wedges left at the cuts (split tiling, as in
  * Wellein et al. 2009). Every plane goes through the same stages with the same neighbours whatever the cuts, so the bytes do not depend on threads.
  * The seam of a periodic axis is a cut at which plane 0 comes after plane n-1 in every stage. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/mg-ranks.h"
 
+#include <omp.h>
 #include <string.h>
 
 struct sweep {
@@ -20,7 +21,7 @@ static void stage_plane(const struct sweep *s, int stage, size_t k, double *w)
 	struct mg_level *l = s->level;
 	switch (s->stages[stage]) {
 	case MG_ZERO:
-		memset(l->u + k * l->plane, 0, l->axis[1].points * l->stride * sizeof(double));
+		memset(l->u + mg_plane(l, k), 0, l->axis[1].points * l->stride * sizeof(double));
 		break;
 	case MG_CORRECT:
 		pm_mg_correct_plane(l, l + 1, k, w);
@@ -95,10 +96,43 @@ static void sweep_tiled(const struct sweep *s, int parts)
 	}
 }
 
+/* Stage by stage on the planes of this rank. Neighbouring planes wait for each other, so that threads take every second one. */
+static void sweep_here(const struct sweep *s)
+{
+	struct mg_level *l = s->level;
+	struct pm_mg *mg = s->mg;
+	const struct mg_axis *z = &l->axis[2];
+	const bool chain = z->periodic && z->points % 2; /* plane 0 comes after plane n-1 */
+	size_t range[2];
+	mg_range(l, range);
+	for (int stage = 0; stage < s->n; stage++) {
+		const enum mg_stage what = s->stages[stage];
+		const bool corrects = what == MG_CORRECT || what == MG_INTERPOLATE, sweeps = what == MG_RED || what == MG_BLACK || what >= MG_COLOUR;
+		if (corrects)
+			pm_mg_beside(mg, l + 1, l[1].u, what == MG_CORRECT ? 1 : mg_beyond);
+		else if (sweeps || what == MG_JACOBI)
+			pm_mg_beside(mg, l, l->u, 1);
+		const size_t from = sweeps && chain && range[0] == 0 ? 1 : range[0];
+		for (size_t odd = 0; odd < 2; odd++) {
+			#pragma omp parallel for num_threads(mg->threads) schedule(static) if (l->here * l->plane > mg_parallel)
+			for (size_t k = from + odd; k < range[1]; k += 2)
+				stage_plane(s, stage, k, mg->scratch + (size_t)omp_get_thread_num() * mg->room);
+		}
+		if (sweeps && chain)
+			pm_mg_beside(mg, l, l->u, 1);
+		if (sweeps && chain && range[0] == 0 && range[1])
+			stage_plane(s, stage, 0, mg->scratch);
+	}
+}
+
 void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const enum mg_stage *stages)
 {
 	struct sweep s = {.mg = mg, .level = &mg->level[level], .relaxation = relaxation, .n = n, .stages = stages};
 	const struct mg_axis *z = &s.level->axis[2];
+	if (s.level->from) {
+		sweep_here(&s);
+		return;
+	}
 	int most = (int)((z->end - z->first) / (size_t)(2 * n + 2));
 	int parts = mg_size(s.level) < mg_parallel ? 1 : mg->threads < most ? mg->threads : most;
 	if (parts < 1 || (parts == 1 && mg_size(s.level) < mg_parallel))

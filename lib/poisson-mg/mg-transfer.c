@@ -5,7 +5,7 @@
  * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
-#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/mg-ranks.h"
 
 static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
 {
@@ -54,7 +54,7 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 	for (int a = 0; a < z->n; a++)
 		for (int b = 0; b < y->n; b++, n++) {
 			w[n] = z->w[a] * y->w[b];
-			row[n] = c->u + z->node[a] * c->plane + y->node[b] * c->stride;
+			row[n] = c->u + mg_plane(c, z->node[a]) + y->node[b] * c->stride;
 		}
 	if (n == 1)
 		combine(c, 1, row, w, t);
@@ -99,7 +99,7 @@ void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coa
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents_linear(&fine->map[1], &coarse->axis[1], j);
 		pm_mg_gather(coarse, &py, &pz, w + mg_lanes);
-		spread_row(fine, w + mg_lanes, fine->u + k * fine->plane + j * fine->stride);
+		spread_row(fine, w + mg_lanes, fine->u + mg_plane(fine, k) + j * fine->stride);
 	}
 }
 
@@ -185,7 +185,7 @@ static double restrict_plane(const struct mg_level *fine, const struct mg_level 
 				size_t over = mg_fold(my->parent[j] + b, cy);
 				if (my->a[b][j] != 0)
 					pm_mg_add_row(coarse->stride, scale * (mz->a[a][here] * my->a[b][j]), c,
-						coarse->f + (size_t)up * coarse->plane + over * coarse->stride);
+						coarse->f + mg_plane(coarse, (size_t)up) + over * coarse->stride);
 			}
 		}
 	}
@@ -211,32 +211,52 @@ static ptrdiff_t last_child(const struct mg_level *fine, const struct mg_level *
 	return (n * ((ptrdiff_t)K + 1) + m - 1) / m - 1;
 }
 
-/* Coarse planes range[0] <= K < range[1]. The sums of squares are kept for the fine planes that no other range starts with. */
-static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], double *w, double *sums)
+/* The fine planes whose sums of squares are kept with coarse planes range[0] <= K < range[1] of `all` here: those that no other range starts with. */
+static void counted(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], const size_t all[2], ptrdiff_t mine[2])
 {
-	const struct mg_axis *z = &coarse->axis[2];
-	ptrdiff_t from = first_child(fine, coarse, range[0]), to = last_child(fine, coarse, range[1] - 1);
-	ptrdiff_t mine = range[1] < z->end ? first_child(fine, coarse, range[1])
-		: fine->axis[2].periodic ? first_child(fine, coarse, 0) + (ptrdiff_t)fine->axis[2].points : to + 1;
+	size_t own[2];
+	mg_range(fine, own);
+	const bool none = range[0] == range[1]; /* a rank may have fine planes and no coarse one */
+	mine[0] = none ? (ptrdiff_t)own[0] : first_child(fine, coarse, range[0]);
+	mine[1] = range[1] < all[1] ? first_child(fine, coarse, range[1]) : fine->axis[2].periodic && !none && !fine->from ?
+		first_child(fine, coarse, 0) + (ptrdiff_t)fine->axis[2].points : (ptrdiff_t)own[1];
+	if (fine->from && range[0] == all[0])
+		mine[0] = (ptrdiff_t)own[0];
+}
+
+/* Coarse planes range[0] <= K < range[1]. */
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], const ptrdiff_t mine[2], double *w,
+	double *sums)
+{
+	const bool none = range[0] == range[1];
+	const ptrdiff_t from = none ? mine[0] : first_child(fine, coarse, range[0]), to = none ? mine[1] - 1 : last_child(fine, coarse, range[1] - 1);
 	for (size_t K = range[0]; K < range[1]; K++)
-		memset(coarse->f + K * coarse->plane, 0, coarse->axis[1].points * coarse->stride * sizeof(double));
-	for (ptrdiff_t k = from; k <= to || k < mine; k++) {
+		memset(coarse->f + mg_plane(coarse, K), 0, coarse->axis[1].points * coarse->stride * sizeof(double));
+	for (ptrdiff_t k = from < mine[0] ? from : mine[0]; k <= to || k < mine[1]; k++) {
 		double sum = restrict_plane(fine, coarse, half, k, range, w);
-		if (k < mine && sums)
+		if (k >= mine[0] && k < mine[1] && sums)
 			sums[mg_fold(k, &fine->axis[2])] = sum;
 	}
 }
 
 double pm_mg_restrict(struct pm_mg *mg, int at, bool half_weighting)
 {
-	const struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
-	const struct mg_axis *z = &coarse->axis[2];
-	size_t n = z->end - z->first, parts = (size_t)mg->threads < n / 4 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
+	struct mg_level *fine = &mg->level[at], *coarse = fine + 1;
+	const struct mg_axis *z = &fine->axis[2];
+	size_t all[2];
+	mg_range(coarse, all);
+	pm_mg_beside(mg, fine, fine->u, mg_beyond);
+	if (!fine->beside)
+		pm_mg_beside(mg, fine, fine->f, mg_beyond);
+	fine->beside = true;
+	coarse->beside = false;
+	size_t n = all[1] - all[0], parts = (size_t)mg->threads < n / 4 && mg_size(fine) > mg_parallel ? (size_t)mg->threads : 1;
 	#pragma omp parallel for num_threads((int)parts) schedule(static, 1) if (parts > 1)
 	for (size_t p = 0; p < parts; p++) {
-		size_t range[2] = {z->first + n * p / parts, z->first + n * (p + 1) / parts};
-		restrict_range(fine, coarse, half_weighting && halves(fine), range, mg->scratch + p * mg->room, at ? NULL : mg->sums);
+		size_t range[2] = {all[0] + n * p / parts, all[0] + n * (p + 1) / parts};
+		ptrdiff_t mine[2];
+		counted(fine, coarse, range, all, mine);
+		restrict_range(fine, coarse, half_weighting && halves(fine), range, mine, mg->scratch + p * mg->room, at ? NULL : mg->sums);
 	}
-	z = &fine->axis[2];
-	return at ? 0 : pm_mg_planes(z->end - z->first, mg->sums + z->first);
+	return at ? 0 : pm_mg_total(mg, z->first, z->end);
 }

@@ -5,7 +5,8 @@
  * rounding errors of its own terms. Singular problems (no wall): the mean of f is removed, the mean of phi is zero.
  * Cost: O(N) per cycle, 3-D V(2,2) about 6 passes over u and f. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg.h"
-#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/mg-ranks.h"
+#include "world/world.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -34,12 +35,20 @@ int pm_mg_check(const struct pm_grid *g)
 	return 0;
 }
 
-struct pm_mg *pm_mg_new(const struct pm_grid *g, int order)
+struct pm_mg *pm_mg_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes)
 {
 	struct pm_mg *mg = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *mg);
-	if (mg && !pm_mg_build(mg, g, order))
+	if (mg && !pm_mg_build(mg, g, order, planes))
 		mg = pm_mg_free(mg);
 	return mg;
+}
+
+struct pm_mg *pm_mg_new(const struct pm_grid *g, int order) { return pm_mg_new_planes(g, order, NULL); }
+
+bool pm_mg_same_planes(const struct pm_mg *mg, const struct pm_planes *planes)
+{
+	const uint64_t *from = planes && planes->divided ? planes->from : NULL, *has = mg->level[0].from;
+	return from && has ? !memcmp(from, has, ((size_t)pm_world_size() + 1) * sizeof *from) : !from && !has;
 }
 
 bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g, int order)
@@ -62,12 +71,13 @@ static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (
 /* With the weights of quadrature; rows and planes are added in order. */
 static double mean(struct pm_mg *mg, const double *values)
 {
-	const struct mg_axis *x = &mg->level[0].axis[0], *y = x + 1, *z = x + 2;
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(&mg->level[0]) > mg_parallel)
-	for (size_t k = 0; k < z->points; k++) {
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = x + 1, *z = x + 2;
+	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	for (size_t k = l->first; k < l->first + l->here; k++) {
 		struct pm_sum plane = {0};
 		for (size_t j = 0; j < y->points; j++) {
-			const double *v = values + (k * y->points + j) * x->points;
+			const double *v = values + ((k - l->first) * y->points + j) * x->points;
 			double sum = x->periodic ? 0 : -0.5 * (v[0] + v[x->points - 1]);
 			for (size_t i = 0; i < x->points; i++)
 				sum += v[i];
@@ -75,7 +85,7 @@ static double mean(struct pm_mg *mg, const double *values)
 		}
 		mg->sums[k] = half(z, k) * pm_sum_total(plane);
 	}
-	return pm_mg_planes(z->points, mg->sums) / ((double)x->cells * (double)y->cells * (double)z->cells);
+	return pm_mg_total(mg, 0, z->points) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }
 
 /* Sum of squares over the unknowns of u or f. */
@@ -83,12 +93,14 @@ static double squares(struct pm_mg *mg, const double *values)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
-	for (size_t k = z->first; k < z->end; k++) {
+	size_t range[2];
+	mg_range(l, range);
+	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	for (size_t k = range[0]; k < range[1]; k++) {
 		struct pm_sum plane = {0, 0};
 		for (size_t j = y->first; j < y->end; j++)
 			for (int odd = 0; odd < 2; odd++) {
-				const double *v = values + k * l->plane + j * l->stride + (size_t)odd * l->half;
+				const double *v = values + mg_plane(l, k) + j * l->stride + (size_t)odd * l->half;
 				double sum = 0;
 				for (size_t i = 0; i < l->half; i++)
 					sum += l->mask[odd][i] ? v[i] * v[i] : 0;
@@ -96,27 +108,28 @@ static double squares(struct pm_mg *mg, const double *values)
 			}
 		mg->sums[k] = pm_sum_total(plane);
 	}
-	return pm_mg_planes(z->end - z->first, mg->sums + z->first);
+	return pm_mg_total(mg, z->first, z->end);
 }
 
 /* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
 static void load(struct pm_mg *mg, double c, double average, const double *s, const double *u)
 {
-	const struct mg_level *l = &mg->level[0];
+	struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
-	for (size_t k = 0; k < z->points; k++)
+	l->beside = false;
+	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	for (size_t k = l->first; k < l->first + l->here; k++)
 		for (size_t j = 0; j < y->points; j++) {
 			for (size_t odd = 0; odd < 2; odd++) {
 				bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
-				size_t from = (k * y->points + j) * x->points + odd, to = k * l->plane + j * l->stride + odd * l->half;
+				size_t from = ((k - l->first) * y->points + j) * x->points + odd, to = mg_plane(l, k) + j * l->stride + odd * l->half;
 				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++) {
 					bool unknown = inside && l->mask[odd][i];
 					l->f[to + i] = unknown ? c * (s[from + 2 * i] - average) : 0;
 					l->u[to + i] = unknown && u ? u[from + 2 * i] : 0;
 				}
 			}
-			mg_close_row(l, l->u + k * l->plane + j * l->stride);
+			mg_close_row(l, l->u + mg_plane(l, k) + j * l->stride);
 		}
 }
 
@@ -125,13 +138,13 @@ static void store(const struct pm_mg *mg, double factor, double average, double 
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_size(l) > mg_parallel)
-	for (size_t k = 0; k < l->axis[2].points; k++)
+	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	for (size_t k = l->first; k < l->first + l->here; k++)
 		for (size_t j = 0; j < y->points; j++)
 			for (size_t odd = 0; odd < 2; odd++)
 				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++)
-					phi[(k * y->points + j) * x->points + 2 * i + odd] =
-						factor * l->u[k * l->plane + j * l->stride + odd * l->half + i] - average;
+					phi[((k - l->first) * y->points + j) * x->points + 2 * i + odd] =
+						factor * l->u[mg_plane(l, k) + j * l->stride + odd * l->half + i] - average;
 }
 
 /* The largest |c (s - average)|. */
@@ -206,7 +219,7 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
 		if (!r->converged && slow && at_roundoff(mg, residual, source))
 			r->converged = r->floor = true;
-		if (r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
+		if (mg->status || r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
 			break;
 		pm_mg_cycle_up(mg, 0, o);
 	}
@@ -219,13 +232,17 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi,
 	struct pm_mg_record *r)
 {
-	if (!pm_mg_room(mg, o))
-		return -PM_DATA;
 	struct mg_level *l = &mg->level[0];
+	mg->status = pm_mg_room(mg, o) ? 0 : pm_failed();
+	if (l->from)
+		mg->status = pm_world_agree(mg->status);
+	if (mg->status)
+		return mg->status;
+	const size_t here = l->here * l->axis[0].points * l->axis[1].points;
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
-	double whole = l->fixed ? 0 : largest(pm_grid_size(&mg->grid), 1, 0, s);
+	double whole = l->fixed ? 0 : pm_mg_most(mg, largest(here, 1, 0, s));
 	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
-	double most = largest(pm_grid_size(&mg->grid), c, r->mean, s);
+	double most = pm_mg_most(mg, largest(here, c, r->mean, s));
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
 	load(mg, c / unit, r->mean, s, NULL);
 	double source = sqrt(squares(mg, l->f));
@@ -233,7 +250,7 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	if (source != 0 && mg->levels == 1)
 		pm_mg_solve_coarsest(mg);
 	if (!r->converged) {
-		if (o->cycle == PM_MG_FMG && (!point || !pm_mg_pyramid(mg, c / unit, point)))
+		if (o->cycle == PM_MG_FMG && (!point || (!pm_mg_pyramid(mg, c / unit, point) && !l->from)))
 			pm_mg_start_sources(mg);
 		if (o->cycle == PM_MG_FMG)
 			pm_mg_start_full(mg, o);
@@ -242,16 +259,27 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	store(mg, unit, 0, phi);
 	if (r->singular)
 		store(mg, unit, mean(mg, phi), phi);
+	if (mg->status)
+		return mg->status;
 	return r->converged ? 0 : pm_mg_not_converged(r, o, true);
 }
 
 int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
-	double *compact = mg->order == 4 ? pm_alloc(pm_grid_size(&mg->grid), sizeof *compact) : NULL;
-	int status = mg->order == 4 && !compact ? -PM_DATA : 0;
-	if (compact)
-		pm_mg_compact_source(&mg->grid, s, compact);
-	for (size_t i = 0; compact && o->known && i < pm_grid_size(&mg->grid); i++)
+	const struct mg_level *l = &mg->level[0];
+	const size_t plane = l->axis[0].points * l->axis[1].points, here = l->here * plane, own = l->from ? mg_beyond * plane : 0;
+	double *compact = mg->order == 4 ? pm_alloc(here + 1, sizeof *compact) : NULL, *with = compact && own ? pm_alloc(here + 2 * own, sizeof *with) : NULL;
+	int status = mg->order == 4 && (!compact || (own && !with)) ? -PM_DATA : 0;
+	mg->status = l->from ? pm_world_agree(status) : status;
+	if (with && !mg->status)
+		memcpy(with + own, s, here * sizeof *with);
+	if (mg->order == 4)
+		pm_mg_beside_own(mg, l, with ? with + own : NULL, plane, 2);
+	status = mg->status;
+	if (compact && !status)
+		pm_mg_compact_source(&mg->grid, l, with ? with + own : s, compact);
+	pm_free(with);
+	for (size_t i = 0; compact && o->known && i < here; i++)
 		compact[i] -= o->known[i] / c;
 	if (!status)
 		status = pm_mg_solve_differences(mg, o, c, compact ? compact : s, compact && !o->known ? s : NULL, phi, r);

@@ -1,7 +1,8 @@
 /* Chooses and keeps the multigrid solver of a grid: constant coefficient of order 2 or 4 (mg.c), the same in free space (mg-open.c), or variable
  * (mg-variable.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open.h"
-#include "poisson-mg/multigrid.h"
+#include "poisson-mg/mg-ranks.h"
+#include "world/world.h"
 
 #include <string.h>
 
@@ -52,6 +53,11 @@ static bool any_open(const struct pm_grid *g)
 	return any;
 }
 
+bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_problem *p)
+{
+	return p->grid.dim > 1 && !p->given.any && !o->variable && !o->galerkin && !any_open(&p->grid);
+}
+
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g)
 {
 	if (!any_open(g))
@@ -68,12 +74,19 @@ int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid
 
 static struct pm_mg *constant(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g)
 {
-	for (int i = 0; i < kept; i++)
-		if (m->constant[i] && pm_mg_fits(m->constant[i], g, o->order))
-			return m->constant[i];
-	pm_mg_free(m->constant[m->next]);
-	struct pm_mg *mg = m->constant[m->next] = pm_mg_new(g, o->order);
-	m->next = (m->next + 1) % kept;
+	struct pm_planes planes = {.divided = false};
+	struct pm_mg *mg = NULL;
+	if (o->field && pm_planes_init(&planes, g, o->field))
+		return NULL;
+	for (int i = 0; i < kept && !mg; i++)
+		if (m->constant[i] && pm_mg_fits(m->constant[i], g, o->order) && pm_mg_same_planes(m->constant[i], &planes))
+			mg = m->constant[i];
+	if (!mg) {
+		pm_mg_free(m->constant[m->next]);
+		mg = m->constant[m->next] = pm_mg_new_planes(g, o->order, &planes);
+		m->next = (m->next + 1) % kept;
+	}
+	pm_planes_free(&planes);
 	return mg;
 }
 
@@ -121,5 +134,6 @@ int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice 
 		return open ? pm_mg_open_solve(open, &cycle, c, s, phi, r) : pm_failed();
 	}
 	struct pm_mg *mg = constant(m, o, g);
-	return mg ? pm_mg_solve(mg, &cycle, c, s, phi, r) : pm_failed();
+	const int status = pm_world_agree(mg ? 0 : pm_failed());
+	return status ? status : pm_mg_solve(mg, &cycle, c, s, phi, r);
 }

@@ -7,12 +7,14 @@
 
 PM_C_BEGIN
 
+struct pm_field;
 struct pm_multigrid_choice {
 	struct pm_mg_choice cycle;
 	int order;            /* of the differences, 2 or 4 */
 	bool variable;        /* with a permittivity */
 	bool galerkin;        /* coarse matrices P^T A P, with or without one */
 	enum pm_mg_mean mean; /* of it on the faces between nodes */
+	const struct pm_field *field; /* whose planes are solved for, where ranks share the mesh; NULL: all are here */
 };
 
 struct pm_multigrid; /* a few solvers, for the grids of the components of a vector */

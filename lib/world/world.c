@@ -317,7 +317,7 @@ static int64_t whole_periods(int64_t plane, int64_t n) { return (plane >= 0 ? pl
 static bool next_wanted(const struct pm_halo *h, int size, int who, int owner, int64_t *at, struct wanted *w)
 {
 	const int64_t n = (int64_t)h->from[size], lo = (int64_t)h->from[who], hi = (int64_t)h->from[who + 1];
-	while (lo < hi && *at < 2 * h->wide) {
+	while ((lo < hi || h->empty) && *at < 2 * h->wide) {
 		const int64_t k = (*at)++, beyond = k < h->wide ? lo - h->wide + k : hi + k - h->wide;
 		const int64_t shift = h->periodic ? whole_periods(beyond, n) : 0, plane = beyond - shift;
 		*w = (struct wanted){plane, shift};

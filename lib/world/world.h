@@ -34,6 +34,7 @@ struct pm_halo {
 	size_t bytes; /* of a plane */
 	int wide;     /* planes */
 	bool periodic;
+	bool empty;   /* ranks without planes get those on either side of where theirs would be, too */
 };
 int pm_world_halo(int status, const struct pm_halo *halo, void *data);
 /* 5. The largest of each of n numbers over all ranks; one that is not a number is larger than all others. */

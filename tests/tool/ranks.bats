@@ -118,6 +118,24 @@ shares() {
 	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | m2p | push rk2"
 }
 
+@test "any number of ranks: multigrid, odd and even periodic axes, walls, both orders, all cycles, more ranks than planes, one plane" {
+	pinit uniform -n 300 >box
+	same "push drift | p2m -n 6x5x33 | poisson-mg" --store all <box
+	same "push drift | p2m -n 8x6x34 | poisson-mg --order 4" --store all <box
+	same "push drift | p2m -n 5x4x3 | poisson-mg --cycle w" --store all <box
+	same "push drift | p2m -n 8x8x1 | poisson-mg --order 4" --store all <box
+	pinit uniform -n 300 --faces periodic,wall,neumann | same "push drift | p2m -n 6x7x17 | poisson-mg" --store all
+	pinit uniform -n 300 --faces wall | same "push drift | p2m -n 6x5x17 | poisson-mg --order 4 --cycle v --smoother jacobi" --store all
+	pinit uniform -n 300 --dim 2 --faces wall | same "push drift | p2m -n 33x70 | poisson-mg --restriction half" --store all
+	pinit uniform -n 300 --dim 2 | same "push drift | p2m -n 20x129 | poisson-mg --order 4" --store all
+	shares "p2m -n 16, poisson-mg, mgrad, m2p, push drift" "p2m -n 16 | poisson-mg | mgrad | m2p | push drift" <box
+	cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>want >/dev/null && return 1
+	on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>got >/dev/null && return 1
+	cmp want got
+	PM_REHEARSE="one-thread memory=2:40" on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg | push drift" <box 2>said >/dev/null && return 1
+	grep -q 'poisson-mg.*out of memory' said
+}
+
 @test "any number of ranks: viscosity, stretching and the binomial filter, periodic and beside walls, more ranks than planes" {
 	pinit taylor-green-3d --cells 7 >space
 	same "p2m | poisson-fft | mgrad | stretch --form mixed --order 4 | diffuse --order 6 | m2p | push rk2" <space

@@ -82,7 +82,7 @@ static void halo(uint64_t planes, int wide, bool periodic, int kind)
 	for (int64_t k = -wide; k < here + wide; k++)
 		for (int c = 0; c < 3; c++)
 			data[3 * k + c] = k >= 0 && k < here ? (double)(10 * (lo + k) + c) : -1;
-	must(!pm_world_halo(0, &(struct pm_halo){from, 3 * sizeof *data, wide, periodic}, data), "halo");
+	must(!pm_world_halo(0, &(struct pm_halo){from, 3 * sizeof *data, wide, periodic, false}, data), "halo");
 	for (int64_t k = -wide; k < here + wide && here; k++) {
 		const int64_t g = lo + k, image = ((g % n) + n) % n;
 		const bool inside = g >= 0 && g < n;
@@ -155,7 +155,7 @@ static int operation(int which, int status)
 	case 0: return pm_world_share(status, 0, x, sizeof x);
 	case 1: status = pm_world_gather(status, x, 8, &got, &total); pm_free(got); return status;
 	case 2: status = pm_world_exchange(status, x, out, &got, in); pm_free(got); return status;
-	case 3: return pm_world_halo(status, &(struct pm_halo){from, 8, 1, true}, x + 3);
+	case 3: return pm_world_halo(status, &(struct pm_halo){from, 8, 1, true, false}, x + 3);
 	case 4: return pm_world_largest(status, 1, x);
 	case 5: return pm_world_agree(status);
 	case 6: return pm_world_count(status, PM_SUM_OF, 1, &k);

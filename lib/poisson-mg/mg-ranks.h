@@ -1,0 +1,26 @@
+/* Multigrid on several ranks (mg-ranks.c). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_POISSON_MG_MG_RANKS_H
+#define PM_POISSON_MG_MG_RANKS_H
+
+#include "poisson/problem.h"
+#include "poisson-mg/mg-hierarchy.h"
+#include "poisson-mg/multigrid.h"
+
+/* Can ranks share it? Coefficients that vary, James' method and given values of faces are for a whole mesh, and in 1-D there is one plane. */
+bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_problem *p);
+
+/* pm_mg_new for the planes of a rank; s and phi of pm_mg_solve are then those, and all ranks solve together. */
+struct pm_mg *pm_mg_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes);
+bool pm_mg_same_planes(const struct pm_mg *mg, const struct pm_planes *planes);
+
+/* Brings the planes of other ranks, if there are any; of values laid out as u and f, and of planes of so many values from the first own one on. */
+void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, double *values, int wide);
+void pm_mg_beside_own(struct pm_mg *mg, const struct mg_level *l, double *own, size_t plane, int wide);
+double pm_mg_total(struct pm_mg *mg, size_t from, size_t to); /* of mg->sums, planes from <= k < to */
+double pm_mg_most(struct pm_mg *mg, double here);
+void pm_mg_hand_over(struct pm_mg *mg); /* f of grid `shared` to the whole one */
+void pm_mg_take_back(struct pm_mg *mg); /* u from there */
+void pm_mg_whole_cycles(struct pm_mg *mg, const struct pm_mg_choice *o);
+void pm_mg_whole_pyramid(struct pm_mg *mg, double factor, const double *s); /* s: the own planes of the source on grid `shared` */
+
+#endif
