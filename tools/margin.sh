@@ -36,12 +36,12 @@ summary="how far a run is from the edge: the value of a number at which it stops
 kind="runs sentences and writes text"
 arguments=SENTENCE
 arguments_text="Words joined by |, in quotes, that leave a stream; {name} stands for the numbers and choices of --vary, {seed} for a seed."
-about="--vary dt:0.1:4 is bisected between its end points, which are tried first; if they do not enclose a limit, the table says so. --vary scheme=rk2,rk4,
-or braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the columns of diag
-(energy > 10*energy0; NAME0 is the value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3 (not
-finite, not converged). Any other failure ends the search with its message. The stable end of the bracket is run twice as long; where it is no longer
-stable, the limit moves: it is extrapolated from longer runs, or there is no edge, and the table says so. With {seed} in the sentence every
-limit is found for --seeds seeds. Two ranges make a map: stable or not on a grid of --map points, and the boundary refined.
+about="--vary dt:0.1:4 is tried at 17 values (--scan), and bisected at the first limit from the stable end; if there is none, or more beyond it, the table says
+so. --vary scheme=rk2,rk4, or braces {rk2,rk4} in the sentence, give a row for each choice. A run is unstable when --unstable-when, an expression over the
+columns of diag (energy > 10*energy0; NAME0 is the value at the beginning), comes true after a full step of any cycle of the sentence, or when a word exits 3
+(not finite, not converged). Any other failure ends the search with its message. The stable end of the bracket is run twice as long; where it is no longer
+stable, the limit moves: it is extrapolated from longer runs, or there is no edge, and the table says so. With {seed} in the sentence every limit is found for
+--seeds seeds. Two ranges make a map of --map points, with the boundary refined.
 
 With -o DIRECTORY: margin.tsv, margin.json, a picture margin.svg and .png (splot: growth per step on both sides of the limit, or the map) and index.html,
 a page of one file whose table sorts; the results are kept there, and the same command continues a search that was stopped."
@@ -50,6 +50,7 @@ may be given several times
 u|unstable-when|EXPRESSION||over the columns of diag, put into every cycle as --until; without it only exit status 3 counts
 e|expect|EXPRESSION||the theoretical limit: a number, arithmetic with sqrt, pi and the {name} of choices, or rk2=2,rk4=2.785 for each choice
 |from|WORD|below above|the side of the limit that is stable (default below)
+|scan|N||divide the range by N and begin at the first limit from the stable end (default 16, 64 with modes; 0: bisect between the ends)
 |tolerance|X||bisect until half the bracket, relative to the limit, is at most X (default 1e-3)
 |given-length|||the limit within runs as long as given: none is repeated twice as long
 |seeds|N||how many seeds {seed} stands for: 1, 2, ... (default 3)
@@ -98,7 +99,7 @@ settle() {
 	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} \
-		format=${opt_format:-table} growth=${opt_column:-}
+		format=${opt_format:-table} growth=${opt_column:-} scan=${opt_scan:-16}
 	keep_directory
 	axes
 	map_width=24 map_height=16 seeds=1 has_seed=
@@ -111,8 +112,7 @@ settle() {
 	[[ ${#axis_name[@]} = 1 || -z ${opt_expect:-} ]] || usage "--expect belongs to one range, not to a map"
 	[[ ${positional[0]} != *'{seed}'* ]] || has_seed=1
 	[[ -z ${opt_seeds:-} || -n $has_seed ]] || usage "--seeds without {seed} in the sentence would run the same thing again (pinit ... --seed {seed})"
-	[ -z "$has_seed" ] || seeds=${opt_seeds:-3}
-	[ ${#axis_name[@]} = 1 ] || seeds=1
+	[[ -z $has_seed || ${#axis_name[@]} != 1 ]] || seeds=${opt_seeds:-3}
 	[ "$seeds" -ge 1 ] || usage "--seeds 0 runs nothing (--seeds 1)"
 	[ "$jobs" -ge 1 ] || usage "--jobs 0 runs nothing (--jobs 1)"
 	awk -v x="$tolerance" 'BEGIN { exit !(x >= 1e-9 && x < 1) }' || usage "--tolerance $tolerance is not between 1e-9 and 1"
@@ -134,7 +134,7 @@ understand() {
 	for w in "${word[@]}"; do
 		[[ ! $w =~ $cycle_word ]] || cycles=$((cycles + 1))
 		[[ ! $w =~ $cycle_word || $w == "${word[0]}" || $cycles != 1 ]] || moved=1
-		[[ ! $w =~ ^([^[:space:]]*/)?modes[[:space:]] ]] || has_modes=1
+		[[ ! $w =~ ^([^[:space:]]*/)?modes[[:space:]] ]] || has_modes=1 scan=${opt_scan:-64}
 		[[ ! $w =~ $cycle_word || -z $criterion || $w != *--until* ]] ||
 			usage "a cycle of the sentence has an --until of its own (leave it out, or --unstable-when)"
 	done

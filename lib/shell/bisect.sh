@@ -12,6 +12,7 @@ look() {
 	awk -F'\t' -v OFS='\t' -v what="$1" -v members=${#sentence[@]} -v seeds="$seeds" -v low="${axis_low[0]}" -v high="${axis_high[0]}" -v \
 		scale="${axis_scale[0]}" \
 		-v from="$from" -v tolerance="$tolerance" -v cycles="${cycles:-0}" -v steps="${steps:-}" -v growth="$growth" -v moved="${moved:-0}" \
+		-v scan="${scan:-0}" \
 		"$by_growth$by_noise"'
 	function size(x) { return x < 0 ? -x : x }
 	function text(x) { return sprintf("%.10g", x) }
@@ -32,19 +33,31 @@ look() {
 		if (d < 0.03 * (b - a)) d = 0.03 * (b - a)
 		x += size(x - good) > size(bad - x) ? (good < bad ? -d : d) : (good < bad ? d : -d)
 		return x > a + 0 && x < b + 0 ? text(x) : between(a, b) }
-	function search(m, s,    a, b, good, mid, width, k) {
-		a = low; b = high
+	# Value i of the scan, 0 .. scan, from the end of the range that is said to be stable.
+	function scanned(i,    k) {
+		k = from == "below" ? i : scan - i
+		return k == 0 ? low : k == scan ? high : text(scale == "log" ? low * (high / low) ^ (k / scan) : low + (high - low) * k / scan) }
+	function search(m, s,    a, b, good, mid, width, k, asked) {
+		a = low; b = high; steps_of_path = 2
 		if (!((m, s, a) in is)) print "ask", m, s, a
 		if (!((m, s, b) in is)) print "ask", m, s, b
 		if (!((m, s, a) in is) || !((m, s, b) in is)) return
 		good = from == "below" ? "stable" : "unstable"
+		# The first limit from the stable end: a gap of instability, or an island of stability beyond the limit, is not to be stepped over.
+		if (is[m, s, scanned(0)] == "stable") {
+			for (k = 1; k < scan; k++) if (!((m, s, scanned(k)) in is)) { print "ask", m, s, scanned(k); asked = 1 }
+			if (asked) return
+			for (k = 1; k < scan && is[m, s, scanned(k)] == "stable";) k++
+			if (scan && is[m, s, scanned(k)] == "unstable") {
+				a = scanned(k - (from == "below")); b = scanned(k - (from != "below"))
+				while (++k <= scan && is[m, s, scanned(k)] == "unstable") path[++steps_of_path] = scanned(k) } }
 		if (what == "sample" && is[m, s, a] == is[m, s, b]) { curve(m, s, 0); return }
 		if (is[m, s, a] == is[m, s, b]) { print "none", m, s, is[m, s, a] " at both ends, " a " and " b; return }
 		if (is[m, s, a] != good) {
 			print "none", m, s, "stable at " (from == "below" ? b : a) " and unstable at " (from == "below" ? a : b) " (--from " \
 				(from == "below" ? "above" : "below") ")"
 			return }
-		worse = ""; steps_of_path = 2; path[1] = a; path[2] = b
+		worse = ""; path[1] = a; path[2] = b
 		for (k = 0;; k++) {
 			mid = between(a, b)
 			width = size(mid) > 0 && a * b > 0 ? size(mid) : size(a) > size(b) ? size(a) : size(b)
@@ -216,13 +229,18 @@ tsv() {
 	$1 == "limit" && $6 != "" { moved[$2] = $6; status[$2] = $6 ~ /noise: / ? "noise" : $6 ~ /^settled/ ? "settled" : "extrapolated" }
 	$1 == "moves" { why[$2] = "no edge: the limit moves: " $4; status[$2] = "moves" }
 	$1 == "none" { why[$2] = $4 }
-	# A trial on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
-	function astray(m,    k, below) {
+	# Trials on the wrong side of the first seed'"'"'s bracket: there is more than one limit.
+	function astray(m,    k, below, first, last, x) {
+		first = last = ""
 		for (k = 1; k <= runs[m]; k++) if (seed[m, k] == 1 && at[m, k] !~ /[@~]/ && !((m, k) in neutral)) {
-			below = at[m, k] <= low[m, 1]
-			if (was[m, k] != ((below == (from == "below")) ? "stable" : "unstable"))
-				return was[m, k] " again at " at[m, k] ": there is more than one limit" }
-		return "" }
+			x = at[m, k] + 0; below = x <= low[m, 1]
+			if (was[m, k] == ((below == (from == "below")) ? "stable" : "unstable")) continue
+			if (was[m, k] == "unstable") return "unstable again at " at[m, k] ": there is more than one limit"
+			if (first == "" || x < first + 0) first = at[m, k]
+			if (last == "" || x > last + 0) last = at[m, k] }
+		if (first == "") return ""
+		first = "stable again " (first == last ? "at " first : "between " first " and " last)
+		return first ": there is more than one limit, and this is the first from " from }
 	END {
 		print "member", names "parameter", "limit", "uncertainty", "half_bracket", "spread", "expected", "ratio", "agrees", "stable", "seeds", \
 			"runs", "sentence", "status", "reason"

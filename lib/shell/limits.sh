@@ -10,6 +10,9 @@ conditions() {
 	else
 		echo "no {seed} in the sentence: every run is deterministic, and the uncertainty is half of the bracket"
 	fi
+	[ "$scan" = 0 ] || awk -v a="${axis_low[0]}" -v b="${axis_high[0]}" -v n="$scan" -v scale="${axis_scale[0]}" -v from="$from" 'BEGIN {
+		printf "the first limit from %s of %d values tried: a gap or an island narrower than %.2g%s may be missed (--scan)\n", from, n + 1,
+			scale == "log" ? 100 * ((b / a) ^ (1 / n) - 1) : (b - a) / n, scale == "log" ? " %" : "" }'
 	if [ -n "${opt_given_length:-}" ]; then
 		echo "within runs as long as given"
 	elif [ -n "$has_modes" ]; then

@@ -99,7 +99,7 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 @test "a limit that the last bit of the input moves has the digits that rounding and chaos leave, and a threshold inside of rounding has none" {
 	# sixteen stars over some fifteen dynamical times; with another compiler other rows than here may end in noise
 	margin "pinit plummer -n 16 --seed {s} | cycle -t 40 'push --dt {dt} kick/2 drift | pp | push kick/2'" --vary s=2,3,4,5 --vary dt:0.008:0.3 \
-		--tolerance 0.01 --given-length --unstable-when 'abs(energy/energy0-1) > 2' --format tsv >t
+		--tolerance 0.01 --scan 0 --given-length --unstable-when 'abs(energy/energy0-1) > 2' --format tsv >t
 	row=$(awk -F'\t' '$(NF - 1) == "noise" { print NR - 1; exit }' t)
 	[[ $(number reason "$row" <t) == *"noise: runs that differ in the last bit of their input disagree between 0.0"* ]]
 	[[ $(number reason "$row" <t) == *" digits of the limit are known, and --tolerance 0.01 is refused" ]]
@@ -121,16 +121,16 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 
 @test "with modes the limit is where the growth of a step vanishes, found in fewer runs than by halving" {
 	s='printf "x vx\n0 0\n" | stab - --law free | modes "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
-	margin "$s" --vary dt:0.5:4 --tolerance 1e-6 -o d --format tsv >t
+	margin "$s" --scan 0 --vary dt:0.5:4 --tolerance 1e-6 -o d --format tsv >t
 	within "$(number limit <t)" 2 "$(number uncertainty <t)"
 	within "$(number uncertainty <t)" 2e-6 1.9e-6
 	[ "$(number runs <t)" -lt 44 ] # with the twenty of the picture; halving needs 2 + log2(3.5/2/2e-6) = 22
 	[ "$(awk -F'\t' '$1 == "growth"' d/measured/log | wc -l)" = 0 ] # the picture takes the growth of the trials
 	[ -s d/margin.svg ]
-	margin "$s" --vary dt:0.5:4 --tolerance 1e-6 --format tsv >t
+	margin "$s" --scan 0 --vary dt:0.5:4 --tolerance 1e-6 --format tsv >t
 	[ "$(number runs <t)" -lt 18 ]
 	# a decay: the growth changes its sign
-	margin 'printf "x\n0\n" | stab - --law free --dt 1 | modes "field vel=-{z}*x | push ab3"' --vary z:0.3:4 --tolerance 1e-5 --format tsv >t
+	margin 'printf "x\n0\n" | stab - --law free --dt 1 | modes "field vel=-{z}*x | push ab3"' --vary z:0.3:4 --scan 0 --tolerance 1e-5 --format tsv >t
 	within "$(number limit <t)" 0.5454545 "$(number uncertainty <t)"
 	[ "$(number runs <t)" -lt 15 ] # halving: 2 + log2(ln(13.3)/2e-5) = 19
 }
@@ -162,7 +162,7 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 
 @test "exit 3 of any word counts as unstable, without a criterion too" {
 	gate
-	margin 'pinit uniform -n 3 | gate {a} 0.3' --vary a:1e-3:1e2 --format tsv >t
+	margin 'pinit uniform -n 3 | gate {a} 0.3' --vary a:1e-3:1e2 --scan 0 --format tsv >t
 	within "$(number limit <t)" 0.3 "$(number uncertainty <t)"
 	# from 1e-3 to 1e2 by halving logarithms: 2 ends and log2(ln(1e5)/2e-3) = 12.5 halves
 	within "$(number runs <t)" 15 1
@@ -300,6 +300,30 @@ rk2 - -" ] || { cat t; false; }
 	[[ $output == *"again at "*": there is more than one limit"* ]]
 	[[ $(grep again <<<"$output") != *for* ]]
 	jq -r '.limits[0].reason' d/margin.json | grep -q 'more than one limit'
+}
+
+@test "the first limit from the stable end is found where a gap or an island lies beyond it, and is told; from above the other one" {
+	# yoshida6 on a spring: stable to 2.2691, and again from 2.3278 to 2.8174 (where the trace of a step is 2, docs/methods/push.md)
+	s='printf "x vx\n0 0\n" | stab - --law free | modes "field acc=-x | push --dt {dt} yoshida6"'
+	margin "$s" --vary dt:0.3:4 --expect 2.2691 >t
+	[[ $(cat t) == *"2.26"*"     yes"*"stable again between 2.3"*" and 2.7"*": there is more than one limit, and this is the first from below"* ]]
+	[[ $(cat t) == *"the first limit from below of 65 values tried: a gap or an island narrower than 4.1 % may be missed (--scan)"* ]]
+	margin "$s" --vary dt:0.3:4 --scan 0 --format tsv >t
+	within "$(number limit <t)" 2.8174 "$(number uncertainty <t)" # halving steps over the gap
+	# both ends are stable, and the gap is between them
+	margin "$s" --vary dt:2:2.7 --scan 20 --format tsv >t
+	within "$(number limit <t)" 2.2691 "$(number uncertainty <t)"
+	[[ $(number reason <t) == "stable again between 2.3"*" and 2.7: "* ]]
+	# a window from 5.5 to 6.5, and below 2
+	gate
+	cat >bin/window <<-'SH'
+		#!/bin/sh
+		if awk -v x="$1" 'BEGIN { exit !(x < 2 || x > 5.5) }'; then exec cat; else exec gate 1 0; fi
+	SH
+	chmod +x bin/window
+	margin 'pinit uniform -n 3 | window {a}' --vary a:1:9 --from above --format tsv >t
+	within "$(number limit <t)" 5.5 "$(number uncertainty <t)"
+	[[ $(number reason <t) == "stable again between 1 and 1.5: there is more than one limit, and this is the first from above" ]]
 }
 
 @test "a map: where it is stable, and its boundary refined" {
