@@ -132,8 +132,8 @@ const struct pm_tool tool_species = {
 	.summary = "add a species to a plasma: particles from a density and a distribution of velocities",
 	.about = "Makes the set NAME with x, v, mass, charge and id. Places and velocities come through the inverse of their cumulative distributions "
 		"from points that fill phase space evenly or at random. A particle stands for W = (integral of the density)/n real ones, with "
-		"their charge and mass; W is reported. The names of expressions are x y z (--profile) or v (--fx), Lx Ly Lz, time and the constants of the frame. "
-		"Species with the same density, n and sequence have the same places, so they begin neutral. See docs/methods/species.md.",
+		"their charge and mass; W is reported. The names of expressions are x y z (--profile) or v (--fx), Lx Ly Lz, time and the constants of the "
+		"frame. Species with the same density, n and sequence have the same places, so they begin neutral. See docs/methods/species.md.",
 	.kind = PM_FILTER,
 	.adds = "a set with x, v, mass, charge, id",
 	.config = sizeof(struct config),

@@ -17,6 +17,7 @@ words() {
 	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
 	species) echo "species ions -n 7 --charge 1" ;;
+	dispersion) echo "dispersion -n 1" ;;
 	phase) echo "phase x vx -n 4" ;;
 	mlevel) echo "mlevel residual" ;;
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;

@@ -23,7 +23,8 @@ static void faddeeva(void)
 	for (double x = 0.013; x < 60; x *= 1.17)
 		for (double y = -3; y < 3; y += 0.23) {
 			const double complex z = x + I * y, d = 1e-4 * (1 + cabs(z));
-			const double complex slope = (8 * (pm_plasma_z(z + d) - pm_plasma_z(z - d)) - (pm_plasma_z(z + 2 * d) - pm_plasma_z(z - 2 * d))) / (12 * d);
+			const double complex slope =
+				(8 * (pm_plasma_z(z + d) - pm_plasma_z(z - d)) - (pm_plasma_z(z + 2 * d) - pm_plasma_z(z - 2 * d))) / (12 * d);
 			worst = fmax(worst, cabs(slope - pm_plasma_z_slope(z)) / (cabs(slope) + 2 * cabs(z * pm_plasma_z(z)) + 1e-3));
 		}
 	check(worst < 1e-9, "Z' is the derivative of Z: %.2g", worst); /* of differences of order 4: rounding 1e-15/1e-4, d^4 times the fifth derivative */

@@ -1,0 +1,59 @@
+# dispersion: frequencies of waves by wave number beside theory; the map; refusals. The dispersion relation itself is tested in tests/unit/dispersion.c.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i } $1 == m { print $c }' t; }
+
+@test "dispersion: a cold wave stands at omega_p cos(k h/2), of power A^2, beside the theory of cold electrons" {
+	pinit langmuir -n 1024 --mode 2 --amplitude 1e-3 | cycle -q -n 2000 --every 5 "$step" | dispersion -n 3 >t
+	within "$(row 2 omega)" "$(calc 'cos(pi / 32) * 1.00041')" 0.0006 # the step adds (0.1)^2/24; a twentieth of the resolution, 0.0314
+	within "$(row 2 theory_omega)" 1 1e-9
+	within "$(row 2 theory_gamma)" 0 1e-9
+	within "$(row 2 k)" 2 1e-12
+	# E = A/k cos(k x) cos(omega t), half of it in each direction: 2 (A/(2 k))^2 at the nearest frequency, which is within 30 % of the peak
+	between "$(row 2 power)" "$(calc '0.5 * (1e-3 / 2) ^ 2 * 0.6')" "$(calc '0.5 * (1e-3 / 2) ^ 2 * 1.02')"
+	below "$(row 1 power)" 1e-14
+}
+
+@test "dispersion: warm electrons, and ions whose slow wave --highest finds below theirs, are at the roots for their sets" {
+	pinit plasma --length 31.41592653589793 --dt 0.2 --background 0 | species electrons -n 10000 --profile '1 + 0.1*cos(0.2*x)' |
+		species ions -n 10000 --charge 1 --mass 25 --vth 0.02 --profile '1 + 0.1*cos(0.2*x)' | cycle -q -n 2500 --every 5 "$step" >run
+	dispersion -n 1 run >t
+	within "$(row 1 theory_omega)" 1.0801 0.0005 # the root by scipy, within the sampling of the width
+	within "$(row 1 omega)" "$(row 1 theory_omega)" 0.0126 # the resolution
+	dispersion -n 1 --highest 0.1 run >t
+	within "$(row 1 theory_omega)" "$(calc '0.2 * 0.2 / sqrt(1.04)')" 0.0015 # k c_s/sqrt(1 + k^2), a little more by hot ions
+	within "$(row 1 omega)" "$(row 1 theory_omega)" 0.004 # a third of the resolution
+	within "$(row 1 theory_gamma)" -0.0049 0.001 # sqrt(pi m_e/(8 m_i)) omega = 0.125 omega of Landau damping by electrons
+}
+
+@test "dispersion --as-mesh: a frame whose largest power is that of the table, at its wave number and frequency" {
+	pinit langmuir -n 1024 --mode 2 --amplitude 1e-3 | cycle -q -n 400 --every 4 "$step" >run
+	dispersion -n 3 run >t
+	dispersion -n 3 --as-mesh run | stab --plain --mesh waves |
+		awk -F'\t' 'NR > 1 && $3 > p { p = $3; k = $1; w = $2; l = $4 } END { print k, w, p, l }' >most
+	read -r k w p l <most
+	within "$k" 2 1e-12
+	within "$w" "$(row 2 omega)" "$(calc "0.51 * $(row 2 resolution)")"
+	within "$p" "$(row 2 power)" 1e-18
+	within "$l" "$(calc "log($p) / log(10)")" 1e-9
+	dispersion -n 3 --as-mesh --highest 2 run | sls | grep -q 'set' && return 1
+	[ "$(dispersion -n 3 --as-mesh --highest 2 run | sdraw --field power -o m.png)" = m.png ]
+}
+
+@test "dispersion: no theory where a set is no Maxwellian or there is a magnetic field; runs that are too short or not even in time are refused" {
+	pinit two-stream -n 1000 --vth 0.3 | cycle -q -n 40 --every 2 "$step" >run
+	run -0 --separate-stderr dispersion -n 1 run
+	[[ $stderr == *"no theory: the velocities of 'electrons' are not Maxwellian"*"make every beam a set"* && $output == *nan ]]
+	pinit langmuir -n 256 --velocities 3 | scalc --mesh mesh --role state 'B = 0, 0, 1' >a
+	run -0 --separate-stderr bash -c "cycle -q -n 20 --every 1 '${step//kick/boris}' <a | dispersion -n 1"
+	[[ $stderr == *"no theory: the dispersion relation is that without a magnetic field"* ]]
+	run -1 --separate-stderr bash -c "pinit landau -n 500 | cycle -q -n 5 --every 1 '$step' | dispersion"
+	[[ $stderr == *"frames are too few for frequencies"* ]]
+	pinit landau -n 500 >a
+	run -1 --separate-stderr bash -c "(cycle -q -n 20 --every 1 '$step' <a; cycle -q -n 40 --every 20 '$step' <a) | dispersion -n 1"
+	[[ $stderr == *"not equally spaced in time"* ]]
+	run -2 --separate-stderr bash -c "pinit landau -n 500 --cells 8 | cycle -q -n 20 --every 1 '$step' | dispersion -n 5"
+	[[ $stderr == *"a mesh of 8 points has 4 waves"* ]]
+}
