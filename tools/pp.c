@@ -37,11 +37,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Vortices in space are summed by one rank. */
+/* Vortices in space and rows of images are summed by one rank. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
-	return s && law && !law->vector;
+	return s && law && !law->vector && f->face[0][0] != PM_PERIODIC && f->face[1][0] != PM_PERIODIC;
 }
 
 static const char *const loops[] = {"half", "full", NULL};
@@ -53,7 +53,7 @@ static const struct pm_option options[] = {
 	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, PM_AT(pp.mollifier),
 		.text = "how a point is smoothed (default: the law's)"},
 	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, PM_AT(loop),
-		.text = "each pair once by symmetry, or each target over all sources; equal to round-off (of vortices in space always full)"},
+		.text = "each pair once by symmetry, or each target over all sources; equal to round-off (of vortices in space and periodic rows always full)"},
 	{.name = "form", .kind = PM_WORD, .fallback = "transpose", .choices = pm_pp_form_names, PM_AT(form),
 		.text = "of vortices in space, how they stretch: sum_d alpha_d grad u_d, whose total is 0; (alpha . grad) u; half of each; or not"},
 	{.name = "potential", .kind = PM_FLAG, PM_AT(pp.potential), .text = "also compute the potential at each particle, without its own"},
@@ -71,7 +71,8 @@ const struct pm_tool tool_pp = {
 	.name = "pp",
 	.summary = "far field by direct summation over all pairs",
 	.about = "Adds the law's field of every particle at every other (gravity: acc = -G sum m_j (x_i - x_j)/(r^2 + softening^2)^(3/2) in 3-D, "
-		"2 G m/r in 2-D, 2 pi G m in 1-D; vortices in space: vel by Biot and Savart, and dalpha, their stretching). Open space only. "
+		"2 G m/r in 2-D, 2 pi G m in 1-D; vortices in space: vel by Biot and Savart, and dalpha, their stretching). "
+		"In open space, or in the plane with one periodic axis. "
 		"Cost N^2: 4 billion pairs per second and core on AVX-512. The bytes do not depend on the number of threads. "
 		"Coincident particles without softening exert no force on each other and are counted.",
 	.kind = PM_FILTER,

@@ -4,6 +4,7 @@
 
 #include "far/bodies.h"
 #include "far/pp-frame.h"
+#include "far/pp-periodic.h"
 #include "far/pp-vortex.h"
 #include "far/pp.h"
 #include "law/law.h"
@@ -18,12 +19,23 @@ static struct pm_far far_of(const struct pm_law *law, const struct pm_pp_choice 
 		.vector = law->vector, .turning = law->vector && c->form != PM_PP_NONE ? "dalpha" : NULL};
 }
 
+static bool open_along(const struct pm_frame *f, int axis) { return f->face[axis][0] == PM_OPEN && f->face[axis][1] == PM_OPEN; }
+
+/* The periodic axis of a plane that is open along the other; -1: none. */
+static int periodic_axis(const struct pm_frame *f)
+{
+	for (int a = 0; a < f->dim; a++)
+		if (f->dim == 2 && f->face[a][0] == PM_PERIODIC && open_along(f, !a))
+			return a;
+	return -1;
+}
+
 static int open_space(const struct pm_frame *f)
 {
 	for (int a = 0; a < 2 * f->dim; a++)
-		if (f->face[a / 2][a % 2] != PM_OPEN)
-			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space (use p2m | poisson-fft | "
-				"mgrad | m2p)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
+		if (f->face[a / 2][a % 2] != PM_OPEN && periodic_axis(f) != a / 2)
+			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space, or in the plane with one periodic axis "
+				"(use p2m | poisson-fft | mgrad | m2p)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
 	return 0;
 }
 
@@ -38,6 +50,8 @@ static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const 
 		return pm_fail(PM_DATA, "the mollifier %s is not defined in %d-D (plummer, rankine and gaussian are)", name, f->dim);
 	if (law->vector && !p->mollifier->slope)
 		return pm_fail(PM_DATA, "the mollifier %s has no smoothed velocity gradient, which stretches (gaussian, algebraic)", name);
+	if (periodic_axis(f) >= 0 && !p->mollifier->square)
+		return pm_fail(PM_DATA, "the mollifier %s has no sum over periodic images (krasny and none have)", name);
 	if (p->mollifier->bare)
 		return 0;
 	p->delta = isnan(c->softening) ? pm_frame_constant(f, "softening", NAN) : c->softening;
@@ -120,6 +134,12 @@ static int vortices(const struct pm_pp_choice *c, const struct pm_pp *p, struct 
 	return status;
 }
 
+static int plane_with_images(const struct pm_pp *p, const struct pm_frame *f, int axis, struct pm_bodies *b, uint64_t *coincident)
+{
+	const struct pm_pp_periodic row = {.axis = axis, .period = f->hi[axis] - f->lo[axis], .delta = p->mollifier->bare ? 0 : p->delta};
+	return pm_pp_periodic_sum(&row, b->targets, b->n, (const double *const *)b->x, b->q, b->gradient, b->potential, coincident);
+}
+
 int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, struct pm_pp_done *done)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -138,6 +158,8 @@ int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, struct pm_pp_d
 	p.sets = b.sets, p.count = b.count, p.own = b.own;
 	if (!status && law->vector)
 		status = vortices(c, &p, &b, &done->coincident);
+	else if (!status && periodic_axis(f) >= 0)
+		status = plane_with_images(&p, f, periodic_axis(f), &b, &done->coincident);
 	else if (!status)
 		status = pm_pp_sum(&p, b.targets, b.n, (const double *const *)b.x, b.q, b.gradient, b.potential, &done->coincident);
 	int64_t pairs = (int64_t)done->coincident;

@@ -26,7 +26,7 @@ plain() {
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;
 	lamb-oseen) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --rim 2 --cut-off 1e-4' ;;
 	ellipse | shear-layer | taylor-green-2d) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;
-	cone-vortex | point-vortices | polygon | vortex-pair) echo 'p2m | poisson-fft | mgrad | m2p | push lsrk3' ;;
+	cone-vortex | point-vortices | polygon | vortex-pair | vortex-sheet) echo 'p2m | poisson-fft | mgrad | m2p | push lsrk3' ;;
 	*) echo 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' ;;
 	esac
 }

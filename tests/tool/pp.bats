@@ -45,9 +45,52 @@ fixture() {
 }
 
 @test "a periodic box and a wall are refused, with the words that support them" {
-	refuses 1 "periodic along x, but pp sums in open space (use p2m | poisson-fft | mgrad | m2p)" "pinit pair | pp"
+	refuses 1 "periodic along x, but pp sums in open space, or in the plane with one periodic axis (use p2m | poisson-fft | mgrad | m2p)" "pinit pair | pp"
 	fixture > t
 	refuses 1 "the box is wall along x" "stab t --law gravity --faces wall | pp --softening 0"
+}
+
+# row PERIODIC: two vortices and a probe; periodic along x with period 2, or else the second vortex with 2000 images on either side.
+row() {
+	awk -v p="$1" 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation"; print 0.3, 0.2, 0; print 1.6, -0.5, 0
+		for (i = (p ? 0 : -2000); i <= (p ? 0 : 2000); i++) { print 2 * i + 0.7, 0.1, 1.5; print 2 * i + 1.9, -0.4, -0.5 } }'
+}
+
+@test "in the plane pp sums the images along a periodic axis in closed form, as image by image, along x or y, with krasny's core and none" {
+	row 1 >one
+	row 0 >many
+	for core in "--mollifier none" "--softening 1e-3" "--mollifier plummer --softening 1e-4"; do
+		stab one --law vortex --box 0,-1,2,1 --faces periodic,open | pp $core --potential | stab --plain >a
+		stab many --law vortex --box -4001,-1,4001,1 --faces open | pp $core | stab --plain >b
+		for c in vel_0 vel_1; do
+			# images beyond 2000 on either side: y/(pi 2000 L^2) of circulations near 1
+			for r in 2 3; do within "$(awk -v c=$c -v r=$r 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR == r { print $at[c] }' a)" \
+				"$(awk -v c=$c -v r=$r 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR == r { print $at[c] }' b)" 1e-4 "$core $c"; done
+		done
+	done
+	# the same turned by 90 degrees
+	awk 'NR > 1 { print -$2, $1, $3;
+		next } { print }' one | stab - --law vortex --box -1,0,1,2 --faces open,periodic | pp --softening 1e-3 | stab --plain >d
+	stab one --law vortex --box 0,-1,2,1 --faces periodic,open | pp --softening 1e-3 | stab --plain >a
+	paste a d | awk 'NR == 1 { for (i = NF / 2; i; i--) { one[$i] = i; two[$(NF / 2 + i)] = NF / 2 + i } next }
+		{ e = $one["vel_0"] - $two["vel_1"]; f = $one["vel_1"] + $two["vel_0"]; e = e * e + f * f;
+			if (e > m) m = e } END { printf "%.17g", sqrt(m) }' >e
+	below "$(cat e)" 1e-15
+	# velocity is the curl of psi: by differences over 2e-4 of the probes on either side of a point
+	awk 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation"; print 0.3, 0.2, 0; for (s = -1; s < 2; s += 2) print 0.3, 0.2 + s * 1e-4, 0;
+		print 0.7, 0.1, 1.5 }' >f
+	stab f --law vortex --box 0,-1,2,1 --faces periodic,open | pp --softening 1e-3 --potential | stab --plain | 
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+		NR == 2 { u = $at["vel_0"] } NR == 3 { a = $at["psi"] } NR == 4 { printf "%.17g", ($at["psi"] - a) / 2e-4 / u }' >g
+	within "$(cat g)" 1 1e-6
+	refuses 1 "the mollifier gaussian has no sum over periodic images" \
+		"stab one --law vortex --box 0,-1,2,1 --faces periodic,open | pp --mollifier gaussian --softening 0.1"
+	printf 'x y circulation\n0 0 1\n0 200 1\n' >far
+	refuses 1 "extend over 100 periods across" "stab far --law vortex --box 0,-1,2,300 --faces periodic,open | pp --mollifier none"
+	printf 'x y circulation\n0.5 0 1\n0.5 0 1\n' >same
+	sh_ok "stab same --law vortex --box 0,-1,2,1 --faces periodic,open | pp --mollifier none | stab --plain"
+	[[ "$output" != *nan* ]]
+	[[ "$(stab same --law vortex --box 0,-1,2,1 --faces periodic,open | pp --mollifier none | sls --report)" = *'coincident'*'1'* ]]
 }
 
 @test "a law without a field, a set without masses and a mollifier of other dimensions are refused" {
