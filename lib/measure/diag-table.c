@@ -122,10 +122,21 @@ static int remember(struct pm_diag_table *t, const double *value, double time)
 	return 0;
 }
 
+/* Of the wave that the scene starts with, where its rate is asked for. */
+static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
+{
+	const struct pm_scene *scene = t->choice.exact && t->mode >= 0 ? pm_diag_scene(f) : NULL;
+	const bool its = scene && t->request.mode[t->mode] == (int)pm_frame_parameter(f, "mode", 1);
+	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
+	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
+}
+
 static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struct pm_measures *m)
 {
 	if (!t->choice.growth)
 		return 0;
+	if (!t->series.n)
+		ask_theory(t, f);
 	const double value[2] = {t->mode < 0 ? pm_diag_value(&t->growth, m, f) : 0, 0};
 	return pm_series_add(&t->series, f->time, t->mode < 0 ? value : m->mode[t->mode], t->mode < 0 ? 0 : m->field_most);
 }
@@ -231,7 +242,7 @@ static void number(FILE *out, bool json, const char *before, double x)
 }
 
 /* The line of the growth rate: for people, a comment of the table. */
-static void print_growth(FILE *out, bool json, const char *of, const struct pm_growth *g)
+static void print_growth(FILE *out, bool json, const char *of, const struct pm_growth *g, const double theory[2])
 {
 	const char *const name[2][6] = {{"# ", " gamma ", " +- ", " omega ", ", from t = ", " to "},
 		{"{\"growth\":\"", "\",\"gamma\":", ",\"error\":", ",\"omega\":", ",\"from\":", ",\"to\":"}}, *const *n = name[json];
@@ -245,7 +256,12 @@ static void print_growth(FILE *out, bool json, const char *of, const struct pm_g
 	}
 	number(out, json, n[4], g->from);
 	number(out, json, n[5], g->to);
-	fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g}\n" : ", %zu points, %.3g times the noise\n", g->points, g->over_noise);
+	fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g" : ", %zu points, %.3g times the noise", g->points, g->over_noise);
+	if (isfinite(theory[0])) {
+		number(out, json, json ? ",\"theory_gamma\":" : "; theory: gamma ", theory[0]);
+		number(out, json, json ? ",\"theory_omega\":" : " omega ", theory[1]);
+	}
+	fputs(json ? "}\n" : "\n", out);
 }
 
 /* The line of the largest Lyapunov exponent: a separation grows by factors that vary along the path. */
@@ -302,7 +318,7 @@ int pm_diag_table_end(struct pm_diag_table *t)
 		return print_divergence(t);
 	if (pm_growth_of(&t->series, c->from, c->to, &g))
 		return -PM_DATA;
-	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g);
+	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g, t->theory);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 

@@ -40,6 +40,7 @@ struct pm_diag_table {
 	struct pm_diag_request request;
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
+	double theory[2];             /* [1/time] gamma and omega that the scene states for this mode; NAN: none */
 	struct pm_series series;
 	double *rows;                 /* of --average: n values and the time each; NULL: none */
 	size_t nrows, room;

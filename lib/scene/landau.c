@@ -4,10 +4,11 @@
  * after 2 pi/(k dv), dv = 12 vth over their number. --loading bit-reversed and sobol: particles of one weight, velocities by their quantiles, positions
  * through the inverse of x + (A/k) sin k x; every second particle is the mirror image of the one before, so the momentum is zero. random: neither.
  * Source: Landau 1946; Birdsall and Langdon 1985, section 5-15 and chapter 16; PIC-01 of the reference cases.
- * Exact: mass, charge. Cost N.
+ * Exact: mass, charge; omega and gamma of the wave, small and after its other roots have gone (lib/plasma). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "plasma/dispersion.h"
 #include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-plasma.h"
 
@@ -94,6 +95,11 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
 	const double length = 2 * pm_pi / pm_frame_parameter(f, "wavenumber", 0.5);
 	(void)t;
+	if (!strcmp(quantity, "omega") || !strcmp(quantity, "gamma")) {
+		const struct pm_wave_species s = {1, 0, pm_frame_parameter(f, "vth", 1)};
+		const double complex root = pm_wave_strongest(&s, 1, 2 * pm_pi / length * pm_frame_parameter(f, "mode", 1));
+		return *quantity == 'o' ? creal(root) : cimag(root);
+	}
 	return !strcmp(quantity, "mass") ? length : !strcmp(quantity, "charge") ? -length : NAN;
 }
 

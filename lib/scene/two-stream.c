@@ -4,10 +4,11 @@
  * beams are lattices, warm ones lattices in phase space with the weights of the Maxwellian (--loading: or of one weight, velocities by their quantiles,
  * positions by reversed bits or Sobol's sequence; or all at random). All are displaced by (A/k) sin(k q).
  * Source: Birdsall and Langdon 1985, sections 5-6 to 5-9; PIC-02, PIC-03, HC-04 of the reference cases.
- * Exact: mass, charge, gamma (cold). Cost N.
+ * Exact: mass, charge, gamma and omega of the wave that grows most (or is damped least). Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "plasma/dispersion.h"
 #include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-plasma.h"
 
@@ -94,6 +95,12 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		return -length;
 	if (!strcmp(quantity, "gamma") && pm_frame_parameter(f, "vth", 0) == 0)
 		return a < 1 ? sqrt(sqrt(2 * a + 0.25) - a - 0.5) : 0;
+	if (!strcmp(quantity, "gamma") || !strcmp(quantity, "omega")) {
+		const double v0 = pm_frame_parameter(f, "v0", 0), vth = pm_frame_parameter(f, "vth", 0), half = sqrt(0.5);
+		const struct pm_wave_species beams[] = {{half, v0, vth}, {half, -v0, vth}};
+		const double complex root = pm_wave_strongest(beams, 2, k1 * pm_frame_parameter(f, "mode", 1));
+		return *quantity == 'o' ? fabs(creal(root)) < 1e-12 ? 0 : creal(root) : cimag(root);
+	}
 	return NAN;
 }
 

@@ -353,3 +353,15 @@ load ../helper
 		n = $at["n_e"] - 1 - 0.974 * 0.5 * sin(x); u = $at["u_e"] - 2; T = $at["T_e"] - (1 + 0.5 * cos(x))^2
 		if (n * n > 0.0001 || u * u > 0.0009 || T * T > 0.01) { print; bad = 1 } } END { exit bad || NR != 17 }' t
 }
+
+@test "diag --growth mode:1 --exact ends with the scene's theory for its own wave: Landau damping, cold and warm streams" {
+	step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+	theory() { cycle -q -n 250 --every 2 "$step" | diag --columns time --growth "$1" --exact | tail -n 1; }
+	[[ $(pinit landau --wavenumber 0.3 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648" ]]
+	[[ $(pinit two-stream -n 2000 | theory mode:1) == *"; theory: gamma 0.353553391 omega 0" ]]
+	[[ $(pinit two-stream --v0 3 --vth 1 --wavenumber 0.2 -n 8000 | theory mode:1) == *"; theory: gamma 0.284509686 omega 0" ]]
+	[[ $(pinit landau -n 2000 | theory mode:2) != *theory* ]]
+	[[ $(pinit landau -n 2000 --mode 2 --wavenumber 0.25 | theory mode:2) == *"; theory: gamma -0.153359467 omega 1.41566189" ]]
+	[[ $(pinit landau -n 2000 | cycle -q -n 100 --every 2 "$step" | diag --columns time --growth mode:1 --exact --format json | tail -n 1) == \
+		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189}' ]]
+}
