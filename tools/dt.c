@@ -59,7 +59,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !pm_given(s, "lcfl"); /* the strain is on a mesh */ }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static const struct pm_option options[] = {
 	{.name = "courant", .kind = PM_REAL, .unit = "cells", .low = 1e-9, .high = 1e9, PM_AT(rules.courant),

@@ -41,6 +41,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && pm_maxwell_shares(&((const struct state *)s->state)->job); }
+
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "yee", .choices = pm_maxwell_names, PM_AT(method),
 		.text = "the differences; with --gauss those of Gauss's law (default: that of the method that made E)"},
@@ -75,4 +77,5 @@ const struct pm_tool tool_maxwell = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

@@ -25,14 +25,16 @@ struct pair {
 	double w_high, w_low;
 };
 
-static struct pair pair_at(const struct pm_grid *g, int d, bool up, size_t i)
+static struct pair pair_at(const struct pm_yee *y, int d, bool up, size_t i)
 {
+	const struct pm_grid *g = &y->grid;
 	const ptrdiff_t s = (ptrdiff_t)stride_of(g, d), last = (ptrdiff_t)g->points[d] - 1;
 	const bool periodic = g->face[d][0] == PM_PERIODIC;
 	struct pair p = {.high = up ? s : 0, .low = up ? 0 : -s, .w_high = 1, .w_low = 1};
-	if (up && (ptrdiff_t)i == last)
+	const bool ahead = y->planes && d == y->planes->axis; /* what is beyond a periodic end lies beside it */
+	if (up && (ptrdiff_t)i == last && !ahead)
 		p.high = -last * s;
-	if (!up && i == 0 && periodic)
+	if (!up && i == 0 && periodic && !ahead)
 		p.low = last * s;
 	if (!up && !periodic && i == 0)
 		p.low = 0, p.w_low = 0, p.w_high = 2;
@@ -81,14 +83,13 @@ static void remember(const struct term *t, size_t at, struct pair p, double b, d
 /* The points of a row that are in the layers. */
 static void absorb(const struct term *t, size_t row, size_t other, size_t from, size_t to)
 {
-	const struct pm_grid *g = &t->y->grid;
 	double b, a;
 	if (t->axis > 0) {
 		const double deep = depth(t, other);
 		if (deep < 0)
 			return;
 		memory_at(t, deep, &b, &a);
-		const struct pair p = pair_at(g, t->axis, t->up, other);
+		const struct pair p = pair_at(t->y, t->axis, t->up, other);
 		for (size_t i = from; i < to; i++)
 			remember(t, row + i, p, b, a);
 		return;
@@ -98,24 +99,31 @@ static void absorb(const struct term *t, size_t row, size_t other, size_t from, 
 		if (deep < 0)
 			continue;
 		memory_at(t, deep, &b, &a);
-		remember(t, row + i, pair_at(g, 0, t->up, i), b, a);
+		remember(t, row + i, pair_at(t->y, 0, t->up, i), b, a);
 	}
+}
+
+/* Where the row (j, k) is here. */
+static size_t row_at(const struct pm_yee *y, size_t j, size_t k)
+{
+	const size_t first = y->planes ? pm_planes_row(y->planes, 0) : 0;
+	return (k * y->grid.points[1] + j - first) * y->grid.points[0];
 }
 
 static void row_of(const struct term *t, const size_t first[3], const size_t end[3], size_t j, size_t k)
 {
 	const struct pm_grid *g = &t->y->grid;
-	const size_t row = (k * g->points[1] + j) * g->points[0], other = t->axis == 1 ? j : k;
+	const size_t row = row_at(t->y, j, k), other = t->axis == 1 ? j : k;
 	if (t->axis > 0)
-		run(t, row, first[0], end[0], pair_at(g, t->axis, t->up, other));
+		run(t, row, first[0], end[0], pair_at(t->y, t->axis, t->up, other));
 	else {
 		const bool at_low = !t->up && first[0] == 0, at_high = end[0] == g->points[0] && (t->up || g->face[0][0] != PM_PERIODIC);
 		const size_t from = first[0] + at_low, to = end[0] - (at_high && end[0] > from);
 		if (at_low)
-			run(t, row, first[0], from, pair_at(g, 0, t->up, 0));
-		run(t, row, from, to, pair_at(g, 0, t->up, !t->up));
+			run(t, row, first[0], from, pair_at(t->y, 0, t->up, 0));
+		run(t, row, from, to, pair_at(t->y, 0, t->up, !t->up));
 		if (to < end[0])
-			run(t, row, to, end[0], pair_at(g, 0, t->up, to));
+			run(t, row, to, end[0], pair_at(t->y, 0, t->up, to));
 	}
 	if (t->memory)
 		absorb(t, row, other, first[0], end[0]);
@@ -131,6 +139,14 @@ static void range(const struct pm_grid *g, bool electric, int c, size_t first[3]
 	}
 }
 
+/* Of these, those of this rank. */
+static void range_here(const struct pm_planes *p, size_t first[3], size_t end[3])
+{
+	const size_t last = p->first + p->here;
+	first[p->axis] = first[p->axis] > p->first ? first[p->axis] : p->first;
+	end[p->axis] = end[p->axis] < last ? end[p->axis] : last;
+}
+
 /* F_c += dt factor (d_d G_e - d_e G_d) - dt J_c/eps0 for the three components. */
 static void curl(const struct pm_yee *y, bool electric, double dt)
 {
@@ -142,19 +158,22 @@ static void curl(const struct pm_yee *y, bool electric, double dt)
 		struct term terms[2];
 		int n = 0;
 		range(g, electric, c, first, end);
+		if (y->planes)
+			range_here(y->planes, first, end);
 		for (int k = 0; k < 2; k++) {
 			const int axis = (c + 1 + k) % 3, other = (c + 2 - k) % 3;
 			if (!pm_yee_varies(g, axis))
 				continue;
 			/* of axis a component a + 1 is number 0 (or 2, of B), a + 2 number 1 (3) */
 			terms[n++] = (struct term){.y = y, .axis = axis, .up = !electric, .factor = k ? -factor : factor, .dt = dt, .to = to,
-				.from = electric ? y->b[other] : y->e[other], .memory = y->pml[axis][(electric ? 0 : 2) + (c == (axis + 2) % 3)]};
+				.from = y->planes ? y->beside[other] : electric ? y->b[other] : y->e[other],
+				.memory = y->pml[axis][(electric ? 0 : 2) + (c == (axis + 2) % 3)]};
 		}
 		const double *j = electric ? y->j[c] : NULL, push = dt / y->eps0;
 #pragma omp parallel for collapse(2) schedule(static) if (pm_grid_size(g) > 8192)
 		for (size_t k = first[2]; k < end[2]; k++)
 			for (size_t l = first[1]; l < end[1]; l++) {
-				const size_t row = (k * g->points[1] + l) * g->points[0];
+				const size_t row = row_at(y, l, k);
 				for (int m = 0; m < n; m++)
 					row_of(&terms[m], first, end, l, k);
 				for (size_t i = first[0]; i < end[0] && j; i++)
@@ -194,7 +213,7 @@ void pm_yee_divergence(const struct pm_yee *y, const double *rho, double *to)
 				const size_t at[3] = {i, j, k}, p = (k * g->points[1] + j) * g->points[0] + i;
 				double sum = 0;
 				for (int d = 0; d < g->dim; d++) {
-					const struct pair s = pair_at(g, d, false, at[d]);
+					const struct pair s = pair_at(y, d, false, at[d]);
 					const double *e = y->e[d] + p;
 					sum += (s.w_high * e[s.high] - s.w_low * e[s.low]) / g->h[d];
 				}

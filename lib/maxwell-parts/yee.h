@@ -3,7 +3,7 @@
 #ifndef PM_MAXWELL_PARTS_YEE_H
 #define PM_MAXWELL_PARTS_YEE_H
 
-#include "mesh/grid.h"
+#include "mesh/planes.h"
 
 enum { PM_PML_FIELDS = 4 }; /* of an axis a: memory of the derivatives along it that advance E and B of components a + 1 and a + 2, in this order */
 
@@ -11,6 +11,8 @@ struct pm_yee {
 	struct pm_grid grid;
 	double c, eps0;          /* [length/time], [charge^2 time^2/(mass length^dim)] */
 	double *e[3], *b[3];     /* [points] */
+	const struct pm_planes *planes; /* two-point differences: NULL, or the planes of this rank, which alone are the points then */
+	const double *beside[3]; /* with them the field whose curl is taken, with a plane more on either side */
 	const double *j[3];      /* [charge/(time length^(dim - 1))]; NULL none */
 	int layers;              /* [cells] of the absorbing layers inside open faces */
 	double *pml[3][PM_PML_FIELDS]; /* [points]; NULL: the axis has no open face */

@@ -164,9 +164,40 @@ static void fill(struct pm_maxwell_job *j)
 	}
 }
 
+/* B or E through dt from the curl of the other, which has a plane of the neighbours on either side. */
+static int advance_planes(int status, struct pm_maxwell_job *j, bool electric, double dt)
+{
+	struct pm_yee *y = &j->yee;
+	double *room = NULL;
+	status = pm_planes_halo(status, y->planes, 1, 3, electric ? (const double *const *)y->b : (const double *const *)y->e, y->beside, &room);
+	if (!status && electric)
+		j->method->electric(y, dt);
+	else if (!status)
+		j->method->magnetic(y, dt);
+	pm_free(room);
+	return status;
+}
+
+static int step_planes(struct pm_maxwell_job *j, double dt)
+{
+	struct pm_planes planes;
+	int status = pm_planes_init(&planes, &j->yee.grid, j->e);
+	j->yee.planes = &planes;
+	status = advance_planes(status, j, false, 0.5 * dt);
+	status = advance_planes(status, j, true, dt);
+	status = advance_planes(status, j, false, 0.5 * dt);
+	j->yee.planes = NULL;
+	pm_planes_free(&planes);
+	return status;
+}
+
+bool pm_maxwell_shares(const struct pm_maxwell_job *j) { return j->method->in_planes && !j->choice.gauss && j->yee.grid.dim > 1; }
+
 int pm_maxwell_step(struct pm_maxwell_job *j, double dt)
 {
 	fill(j);
+	if (j->e->here)
+		return step_planes(j, dt);
 	if (j->method->advance)
 		return j->method->advance(&j->yee, dt);
 	j->method->magnetic(&j->yee, 0.5 * dt);

@@ -10,6 +10,7 @@ struct pm_maxwell {
 	int order;        /* of its differences in space; 0: derivatives of waves */
 	bool spectral;    /* Gauss's law holds with derivatives of waves, not with two-point differences */
 	bool any_face;    /* false: periodic boxes alone */
+	bool in_planes;   /* two-point differences along each axis, which ranks can take on planes of the mesh */
 	double (*limit)(const struct pm_grid *g); /* [length] the largest c dt at which every wave of the mesh stays bounded */
 	void (*magnetic)(const struct pm_yee *y, double dt); /* B -= dt curl E */
 	void (*electric)(const struct pm_yee *y, double dt); /* E += dt (c^2 curl B - J/eps0) */

@@ -23,6 +23,12 @@ double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const doubl
 	return 0.5 * pm_grid_cell(g) * pm_grid_sum(g, rho, phi);
 }
 
+double pm_energy_of_field(const struct pm_grid *g, const struct pm_field *field, const double *rho, const double *phi)
+{
+	const double half = 0.5 * pm_grid_cell(g);
+	return half * pm_grid_sum_of(g, field, rho, phi);
+}
+
 /* Sum over the partners j of particle i of a. */
 static double row_of_pairs(const struct pm_measured *a, const struct pm_measured *b, size_t i, double softening,
 	double (*potential)(double r2, double softening, int dim))

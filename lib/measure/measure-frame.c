@@ -74,7 +74,7 @@ static double mesh_energy(const struct pm_measure *how, const struct pm_frame *f
 	double sum = 0;
 	for (int c = 0; c < (how->vector ? 3 : 1); c++) {
 		const double *density = values(f, mesh->name, how->density, c), *potential = values(f, mesh->name, how->potential, c);
-		sum += density && potential ? pm_energy_on_mesh(&g, density, potential) : NAN;
+		sum += density && potential ? pm_energy_of_field(&g, pm_frame_field(f, mesh->name, how->density), density, potential) : NAN;
 	}
 	return sum;
 }
@@ -129,8 +129,8 @@ bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves && !how->level &&
 		!how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
-		sets = sets && (pm_frame_set(f, f->fields[i]->on) ? f->fields[i]->use || !pm_is_strength(f->fields[i]) : !f->fields[i]->use);
-	return sets && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
+		sets = sets && (!pm_frame_set(f, f->fields[i]->on) || f->fields[i]->use || !pm_is_strength(f->fields[i]));
+	return sets && !how->nmodes && !pm_plasma_makes(how, f) && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
 }
 
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)

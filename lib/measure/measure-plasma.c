@@ -18,6 +18,12 @@ void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_law_field_reads(how, f);
 }
 
+bool pm_plasma_makes(const struct pm_measure *how, const struct pm_frame *f)
+{
+	const struct pm_mesh *mesh = needs_field(how) ? pm_law_field_mesh(how, f) : NULL;
+	return mesh && !pm_frame_field(f, mesh->name, how->field);
+}
+
 static double charge(const struct pm_measure *how, const struct pm_frame *f)
 {
 	struct pm_sum sum = {0};
@@ -49,7 +55,7 @@ int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct 
 	m->value[PM_CHARGE] = how->plasma ? charge(how, f) : NAN;
 	for (int c = 0; c < 3; c++) /* eps0 is -1 over the coefficient of the law */
 		m->value[PM_ENERGY_COMPONENT + c] = how->plasma && e && c < e->components
-			? pm_energy_on_mesh(&g, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
+			? pm_energy_of_field(&g, e, pm_in(e, c), pm_in(e, c)) / -how->coefficient : NAN;
 	for (int k = 0; k < how->nmodes; k++) {
 		m->mode[k][0] = m->mode[k][1] = NAN;
 		if (e && f->face[0][0] == PM_PERIODIC && !status)

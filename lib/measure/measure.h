@@ -34,6 +34,8 @@ void pm_particle_sums_add(const struct pm_measured *b, struct pm_particle_sums *
 double pm_energy_at_particles(const struct pm_measured *b);
 /* integral of rho phi/2 over a mesh, end nodes with half weight. */
 double pm_energy_on_mesh(const struct pm_grid *g, const double *rho, const double *phi);
+/* The same of values of a field, which ranks may share. */
+double pm_energy_of_field(const struct pm_grid *g, const struct pm_field *field, const double *rho, const double *phi);
 /* Direct sum over the pairs of a with b (each once if a == b) of q q' coefficient potential(r^2, softening, dim). Cost n^2. */
 double pm_energy_of_pairs(const struct pm_measured *a, const struct pm_measured *b, double coefficient, double softening,
 	double (*potential)(double r2, double softening, int dim));
@@ -120,6 +122,7 @@ void pm_vortex_space_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
+bool pm_plasma_makes(const struct pm_measure *how, const struct pm_frame *f); /* the field of the potential, on the whole mesh? */
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Energies of E and B on Yee's mesh, and how far E is from Gauss's law: max |div E - rho/eps0| over max |rho/eps0|, where there is a rho. */
 void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f);
@@ -130,7 +133,7 @@ void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struc
 bool pm_measure_has_outside(const struct pm_measure *how, const struct pm_frame *f);
 void pm_outside_of_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_outside_of(const struct pm_measure *how, const struct pm_frame *f, double *count, double *energy);
-/* Behind the reads: are these sums over sets alone, which ranks can share? Not pairs, order statistics, nor what is on a mesh. */
+/* Behind the reads: are these sums over sets and meshes, which ranks can share? Not pairs, order statistics, nor derivatives on a mesh. */
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f);
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 

@@ -118,6 +118,39 @@ shares() {
 	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | m2p | push rk2"
 }
 
+# charged SCENE OPTION...: a few charges in a box, with their field on a mesh.
+charged() {
+	local columns=$1
+	shift
+	awk -v d="$columns" 'BEGIN { print d == 3 ? "x y z vx vy vz mass charge" : "x y vx vy mass charge"
+		for (i = 0; i < 60; i++) { printf "%g %g ", 0.3 + 0.4*(i*0.618%1), 0.3 + 0.4*(i*0.324%1); if (d == 3) printf "%g ", 0.3 + 0.4*(i*0.111%1)
+			printf "%g %g ", 0.1*(i%5), 0.2*(i%3); if (d == 3) printf "%g ", 0.1*(i%7); print 1, (i%2)*2 - 1 } }' |
+		stab - --law electromagnetic --dt 0.01 "$@" | p2m | maxwell --gauss | sel --drop rho
+}
+
+@test "any number of ranks: Yee's mesh at all faces, with absorbing layers, more ranks than planes" {
+	local step="push boris/2 | p2m --current | maxwell --layers 3 | push drift | m2p | push boris/2"
+	charged 3 --box 0,0,0,1,1.1,1.2 --faces absorbing,periodic,wall --particle-faces reflect -n 12x7x16 | same "$step" --store all
+	charged 3 --box 0,0,0,1,1.1,1.2 --faces neumann,wall,absorbing --particle-faces reflect -n 6x7x12 | same "$step" --store all
+	charged 3 --box 0,0,0,1,1.1,1.2 --faces periodic --particle-faces periodic -n 6x7x3 | same "$step" --store all
+	charged 2 --box 0,0,1,1.1 --faces wall,absorbing --particle-faces reflect -n 9x37 >plane
+	same "$step" --store all <plane
+	shares "maxwell --layers 3, push drift, m2p" "$step" <plane
+}
+
+@test "any number of ranks: steps by the strain of a flow, energies on meshes in the table of diag" {
+	local table words
+	vortices | same "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3"
+	pinit taylor-green-3d --cells 7 | same "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | stretch | m2p | push rk2"
+	pinit langmuir -n 961 --dim 2 --axes 2 --amplitude 0.3 >wave
+	words="$(kicks "p2m -n 17x40 | poisson-fft | mgrad | m2p") | diag --tee table"
+	cycle -q -n 3 "$words" <wave >/dev/null
+	cp table alone.tsv
+	for n in 2 3 7; do on $n cycle -q -n 3 "$words" <wave >/dev/null && cmp table alone.tsv || return 1; done
+	awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "energy_field_mesh") c = i } END { exit !(c && $c > 0) }' table
+	shares "push kick/2 drift, p2m -n 17x40, poisson-fft, mgrad, m2p, push kick/2, diag --tee table" "$words" <wave
+}
+
 @test "any number of ranks: multigrid, odd and even periodic axes, walls, both orders, all cycles, more ranks than planes, one plane" {
 	pinit uniform -n 300 >box
 	same "push drift | p2m -n 6x5x33 | poisson-mg" --store all <box
