@@ -93,8 +93,8 @@ const struct pm_tool tool_dispersion = {
 	.summary = "waves of a saved run by wave number and frequency, beside the dispersion relation of its species",
 	.about = "Reads all frames of a run, which must be equally spaced in time, and takes the waves along x of the law's field apart in time, under "
 		"Hann's window. The table has for every wave number the frequency of the largest power, the resolution 2 pi/T, that power, and the nearest "
-		"root omega + i gamma of the electrostatic dispersion relation of Maxwellian species: each set counts as one, with its plasma frequency, drift and "
-		"width in the first frame. See docs/methods/dispersion.md.",
+		"root omega + i gamma of the electrostatic dispersion relation of Maxwellian species: each set counts as one, with its plasma frequency, "
+		"drift and width in the first frame. See docs/methods/dispersion.md.",
 	.kind = PM_SINK,
 	.reads = "the law's field or potential on a mesh; v, mass, charge",
 	.config = sizeof(struct config),

@@ -69,8 +69,8 @@ const struct pm_tool tool_phase = {
 	.summary = "count particles on a mesh whose axes are expressions: phase space and distributions",
 	.about = "Makes of every frame one of one, two or three dimensions, whose axes are the expressions given, with the mesh `phase` and on it f, "
 		"the sum of the weights of the particles per volume of these axes, so that f integrates to the sum of the weights. sdraw draws it, "
-		"stab prints it, spectrum and mgrad take it. An axis that is a coordinate of a periodic box is periodic. Particles beyond the box are reported as outside. "
-		"See docs/methods/phase.md.",
+		"stab prints it, spectrum and mgrad take it. An axis that is a coordinate of a periodic box is periodic. "
+		"Particles beyond the box are reported as outside. See docs/methods/phase.md.",
 	.kind = PM_FILTER,
 	.reads = "the fields in the expressions, mass",
 	.adds = "the mesh phase with f; everything else is left out",

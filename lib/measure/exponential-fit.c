@@ -1,5 +1,5 @@
 /* a(t) = exp(gamma t) (C cos(omega t) + S sin(omega t)) fitted to a part of a series, C and S complex: standing, travelling, or C alone where it does
- * not oscillate; for a column of diag also with a constant, exp(gamma t) (B + C cos + S sin). Least squares of the residual over exp(gamma t), so that every
+ * not oscillate, or C exp(-i omega t) of a travelling wave within less than one and a half turns; for a column of diag also with a constant, exp(gamma t) (B + C cos + S sin). Least squares of the residual over exp(gamma t), so that every
  * e-folding counts the same: gamma and omega by Gauss and Newton's method, the linear parameters projected out (Golub and Pereyra 1973). The standard
  * error of gamma takes the residuals of neighbours as correlated (Bartlett 1946), and the change of gamma between the halves of the window is
  * added where it is larger than its own error. Cost: about 30 passes over the points. SPDX-License-Identifier: GPL-3.0-or-later */
@@ -15,6 +15,7 @@ struct fit { /* of points a..b-1, time from the middle in units of the length */
 	int shape;
 	double middle, length, size; /* [time], [time], amplitude in the middle */
 	double gamma, omega;         /* times length */
+	double turn;                 /* times length: the rotation of the phase that is taken out of the points first */
 	double c[3][2];              /* linear parameters, complex */
 	double inverse[3][3];        /* of sum f f */
 	double step[2], covariance, drift, drift_variance, residual;
@@ -26,7 +27,8 @@ static double at(const struct fit *f, size_t i) { return (f->s->t[i] - f->middle
 static void scaled(const struct fit *f, size_t i, double t, double u[2])
 {
 	const double w = exp(-f->gamma * t) / f->size;
-	u[0] = f->s->re[i] * w, u[1] = f->s->im[i] * w;
+	const double c = f->turn != 0 ? cos(f->turn * t) : 1, s = f->turn != 0 ? sin(f->turn * t) : 0; /* times exp(-i turn t) */
+	u[0] = (f->s->re[i] * c + f->s->im[i] * s) * w, u[1] = (f->s->im[i] * c - f->s->re[i] * s) * w;
 }
 
 static void functions(const struct fit *f, double t, double value[3], double slope[3])
@@ -201,6 +203,21 @@ static double turns(const struct fit *f)
 	return changes > 2 ? pm_pi * (double)(changes - 1) / (last - first) : 0;
 }
 
+/* The slope of the unwrapped phase, times length. */
+static double rotation(const struct fit *f)
+{
+	double phase = 0, t1 = 0, p1 = 0, tt = 0, tp = 0;
+	const double n = (double)(f->b - f->a);
+	for (size_t i = f->a; i < f->b; i++) {
+		const double t = at(f, i);
+		const double *re = f->s->re, *im = f->s->im;
+		if (i > f->a)
+			phase += atan2(im[i] * re[i - 1] - re[i] * im[i - 1], re[i] * re[i - 1] + im[i] * im[i - 1]);
+		t1 += t / n, p1 += phase / n, tt += t * t, tp += t * phase;
+	}
+	return (tp - n * t1 * p1) / (tt - n * t1 * t1);
+}
+
 /* The frequency near the one counted from which the fit is best. */
 static void choose_frequency(struct fit *f, double counted)
 {
@@ -240,10 +257,17 @@ bool pm_exponential_fit(const struct pm_series *s, size_t a, size_t b, double ga
 		if (converge(&wave) && wave.omega > 3 * pm_pi && (!straight || wave.residual < 0.7 * steady.residual))
 			best = &wave;
 	}
+	/* a travelling wave in less than that: its phase turns by a radian at least, and without it the fit is clearly better */
+	struct fit turned = steady;
+	turned.gamma = gamma * steady.length;
+	turned.turn = best == &steady && !s->column && b - a >= 8 ? rotation(&steady) : 0;
+	const bool travels = fabs(turned.turn) > 1 && converge(&turned) && (!straight || turned.residual < 0.5 * steady.residual);
+	if (travels)
+		turned.omega = fabs(turned.turn), best = &turned;
 	if (best == &steady && !straight)
 		return false;
 	const double drift = fmax(0, best->drift * best->drift - best->drift_variance), error = sqrt(best->covariance + drift);
-	*e = (struct pm_exponential){.gamma = best->gamma / best->length, .omega = best->shape == STEADY ? 0 : best->omega / best->length,
+	*e = (struct pm_exponential){.gamma = best->gamma / best->length, .omega = best->shape == STEADY && !travels ? 0 : best->omega / best->length,
 		.error = error / best->length, .residual = best->residual, .first = envelope(best, -0.5), .last = envelope(best, 0.5)};
 	return isfinite(error);
 }

@@ -70,6 +70,9 @@ static void exact(void)
 	g = fit(TRAVELS, -0.1, 2.1, NAN, NAN);
 	check_near(g.gamma, -0.1, 1e-9, "a travelling wave: gamma");
 	check_near(g.omega, 2.1, 1e-9, "and omega");
+	g = fit(TRAVELS, 0.2, 0.15, 10, 29);
+	check_near(g.gamma, 0.2, 1e-9, "a travelling wave that turns by less than half: gamma");
+	check_near(g.omega, 0.15, 1e-9, "and omega");
 	g = fit(SQUARE, -0.05, 0.7, NAN, NAN);
 	check_near(g.gamma, -0.1, 1e-9, "an energy, the square of a damped wave: twice gamma");
 	check_near(g.omega, 1.4, 1e-9, "and twice omega");
