@@ -114,9 +114,10 @@ typedef void loop(const struct work *w, size_t from, size_t to);
 	LOOP(mode, TRANSPOSE, 0) LOOP(mode, CLASSICAL, 0) LOOP(mode, MIXED, 0) LOOP(mode, NONE, 0) \
 	LOOP(mode, TRANSPOSE, 1) LOOP(mode, CLASSICAL, 1) LOOP(mode, MIXED, 1) LOOP(mode, NONE, 1)
 #define ROW(mode, psi) {loop_##mode##_TRANSPOSE_##psi, loop_##mode##_CLASSICAL_##psi, loop_##mode##_MIXED_##psi, loop_##mode##_NONE_##psi}
-LOOPS(SQUARE) LOOPS(ALGEBRAIC) LOOPS(GAUSSIAN) LOOPS(OTHER)
+LOOPS(SQUARE) LOOPS(ALGEBRAIC) LOOPS(GAUSSIAN) LOOPS(GAUSSIAN_4) LOOPS(OTHER)
 static loop *const table[PM_VORTEX_MODES][2][4] = {
-	{ROW(SQUARE, 0), ROW(SQUARE, 1)}, {ROW(ALGEBRAIC, 0), ROW(ALGEBRAIC, 1)}, {ROW(GAUSSIAN, 0), ROW(GAUSSIAN, 1)}, {ROW(OTHER, 0), ROW(OTHER, 1)}};
+	{ROW(SQUARE, 0), ROW(SQUARE, 1)}, {ROW(ALGEBRAIC, 0), ROW(ALGEBRAIC, 1)}, {ROW(GAUSSIAN, 0), ROW(GAUSSIAN, 1)},
+	{ROW(GAUSSIAN_4, 0), ROW(GAUSSIAN_4, 1)}, {ROW(OTHER, 0), ROW(OTHER, 1)}};
 
 /* Filled up with zeros, which exert nothing and are not read back. */
 static double *padded(const struct work *w, const double *from)

@@ -8,7 +8,7 @@
 #include "base/simd.h"
 #include "mollifier/mollifier.h"
 
-enum pm_vortex_mode { PM_VORTEX_SQUARE, PM_VORTEX_ALGEBRAIC, PM_VORTEX_GAUSSIAN, PM_VORTEX_OTHER, PM_VORTEX_MODES };
+enum pm_vortex_mode { PM_VORTEX_SQUARE, PM_VORTEX_ALGEBRAIC, PM_VORTEX_GAUSSIAN, PM_VORTEX_GAUSSIAN_4, PM_VORTEX_OTHER, PM_VORTEX_MODES };
 
 static const double pm_vortex_least = 1e-120; /* of r^2: closer points without a core coincide, because 1/r^5 overflows */
 
@@ -26,7 +26,7 @@ PM_SIMD_INLINE struct pm_vortex_pairs pm_vortex_pairs_of(const struct pm_mollifi
 		.near2 = m->reach * m->reach * delta * delta};
 	const bool point = m->bare || delta * delta < pm_vortex_least;
 	p.mode = point ? PM_VORTEX_OTHER : m->square ? PM_VORTEX_SQUARE : m->loop == PM_LOOP_ALGEBRAIC ? PM_VORTEX_ALGEBRAIC :
-		m->loop == PM_LOOP_GAUSSIAN ? PM_VORTEX_GAUSSIAN : PM_VORTEX_OTHER;
+		m->loop == PM_LOOP_GAUSSIAN ? PM_VORTEX_GAUSSIAN : m->loop == PM_LOOP_GAUSSIAN_4 ? PM_VORTEX_GAUSSIAN_4 : PM_VORTEX_OTHER;
 	if (p.mode == PM_VORTEX_SQUARE || p.mode == PM_VORTEX_ALGEBRAIC)
 		p.delta2 = delta * delta;
 	if (point)
@@ -52,8 +52,9 @@ PM_SIMD_INLINE pm_simd pm_vortex_polynomial(const double *c, int degree, pm_simd
 	return p;
 }
 
-/* In units of 1/delta^3, 1/delta^5 and 1/delta; y = 1/r, anything where r vanishes. */
-PM_SIMD_INLINE void pm_vortex_gaussian(const struct pm_vortex_pairs *p, pm_simd r2, pm_simd y, pm_simd *f, pm_simd *slope, pm_simd *u)
+/* In units of 1/delta^3, 1/delta^5 and 1/delta; y = 1/r, anything where r vanishes. fourth: of the blob of order 4, whose kernels differ by multiples of
+ * the blob of order 2 (lib/mollifier/gaussian-4.c). */
+PM_SIMD_INLINE void pm_vortex_gaussian(const struct pm_vortex_pairs *p, bool fourth, pm_simd r2, pm_simd y, pm_simd *f, pm_simd *slope, pm_simd *u)
 {
 	static const double erfcx[] = {0.2245626810502295967, 0.1961533934919514514, 0.07596934908157716719, 0.02310616183147472387, 0.005288485982287136675,
 		0.0008123314434640339912, 0.00004958598224762631286, -9.630083149797361266e-6, -2.160562962050521445e-6, 7.730815866441108226e-8,
@@ -81,6 +82,10 @@ PM_SIMD_INLINE void pm_vortex_gaussian(const struct pm_vortex_pairs *p, pm_simd 
 		S = pm_simd_where_not_below(x, pm_simd_all(low), S) + (T - pm_simd_where_not_below(x, pm_simd_all(low), T));
 	}
 	*f = F, *slope = S, *u = -pm_simd_fma(F, x, e * pm_simd_all(2 * over_root_pi));
+	if (fourth) {
+		const pm_simd blob = e * pm_simd_all(over_root_pi);
+		*f += blob + blob, *slope -= pm_simd_all(4) * blob, *u -= blob;
+	}
 }
 
 /* Lanes that need the mollifier's own functions. */
@@ -109,9 +114,9 @@ PM_SIMD_INLINE void pm_vortex_meet(const struct pm_vortex_pairs *p, enum pm_vort
 	}
 	if (mode == PM_VORTEX_OTHER)
 		y = pm_simd_where_not_below(d2, pm_simd_all(pm_vortex_least), y);
-	if (mode == PM_VORTEX_GAUSSIAN && pm_simd_any_below(r2, pm_simd_all(p->near2))) {
+	if ((mode == PM_VORTEX_GAUSSIAN || mode == PM_VORTEX_GAUSSIAN_4) && pm_simd_any_below(r2, pm_simd_all(p->near2))) {
 		const double c = p->unit, c3 = c * p->unit2;
-		pm_vortex_gaussian(p, r2, y, f, slope, u);
+		pm_vortex_gaussian(p, mode == PM_VORTEX_GAUSSIAN_4, r2, y, f, slope, u);
 		*f *= pm_simd_all(c3), *slope *= pm_simd_all(c3 * p->unit2), *u *= pm_simd_all(c);
 		return;
 	}

@@ -22,7 +22,7 @@ struct pm_mollifier {
 	bool square;  /* force and potential are the bare ones at r2 + delta^2; the fast loops use this */
 	bool bare;    /* delta is not used */
 	/* How the fast loops over vectors evaluate others (far/vortex-pairs.h). */
-	enum pm_mollifier_loop { PM_LOOP_OWN, PM_LOOP_GAUSSIAN, PM_LOOP_ALGEBRAIC } loop;
+	enum pm_mollifier_loop { PM_LOOP_OWN, PM_LOOP_GAUSSIAN, PM_LOOP_GAUSSIAN_4, PM_LOOP_ALGEBRAIC } loop;
 };
 
 extern const struct pm_mollifier *const pm_mollifiers[]; /* generated from lib/mollifier/, NULL ends */

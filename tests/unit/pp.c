@@ -188,6 +188,34 @@ static void promises(const struct pm_mollifier *m, const char *name, int dim)
 		check_near(far, 0, 4e-16, text);
 }
 
+/* The field of a Gaussian exp(-r^2)/pi^(dim/2), summed over a lattice of particles with the mollifier: its error falls as delta^order. */
+static void fitted(const struct pm_mollifier *m, int dim, int order)
+{
+	static const double at[3][3] = {{0.3, 0.2, 0.1}, {0.7, -0.4, 0.5}, {1.1, 0.9, -0.2}};
+	double h[3], e[3];
+	char text[128];
+	for (int k = 0; k < 3; k++) {
+		const double delta = 0.16 * pow(0.8, k), spacing = delta / 1.5; /* overlap 1.5: the sum in place of the integral leaves 1e-9 */
+		const int n = (int)(4.2 / spacing);
+		h[k] = delta, e[k] = 0;
+		for (int t = 0; t < 3; t++) {
+			const double want = pm_mollifier_find("gaussian")->force(at[t][0] * at[t][0] + (dim > 1) * at[t][1] * at[t][1] +
+				(dim > 2) * at[t][2] * at[t][2], 1, dim) * at[t][0];
+			double sum = 0;
+			for (int i = -n; i <= n; i++)
+				for (int j = dim > 1 ? -n : 0; j <= (dim > 1 ? n : 0); j++)
+					for (int l = dim > 2 ? -n : 0; l <= (dim > 2 ? n : 0); l++) {
+						const double x = i * spacing, y = j * spacing, z = l * spacing, dx = at[t][0] - x,
+							dy = dim > 1 ? at[t][1] - y : 0, dz = dim > 2 ? at[t][2] - z : 0;
+						sum += exp(-x * x - y * y - z * z) * m->force(dx * dx + dy * dy + dz * dz, delta, dim) * dx;
+					}
+			check_worst(&e[k], fabs(sum * pow(spacing / sqrt(pm_pi), dim) - want));
+		}
+	}
+	snprintf(text, sizeof text, "%s in %d-D: the field of a Gaussian", m->name, dim);
+	check_order(3, h, e, order, text);
+}
+
 /* HC-19: a pair at distance r: its own forces and the force on a third particle. */
 static void close_pair(double r, double eps, bool half)
 {
@@ -218,6 +246,10 @@ int main(void)
 				promises(pm_mollifiers[i], pm_mollifier_names[i], dim);
 				loops(pm_mollifiers[i], dim);
 			}
+	for (int dim = 1; dim < 4; dim++) {
+		fitted(pm_mollifier_find("gaussian"), dim, 2);
+		fitted(pm_mollifier_find("gaussian-4"), dim, 4);
+	}
 	threads();
 	for (int half = 0; half < 2; half++)
 		for (int i = 0; i < 3; i++)
