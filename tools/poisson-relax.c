@@ -3,6 +3,7 @@
 
 #include "poisson-relax/relaxation.h"
 #include "stage/solver-options.h"
+#include "world/world.h"
 
 struct config {
 	struct pm_problem_names names;
@@ -80,10 +81,10 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 static int ready(struct state *t, int component)
 {
 	struct pm_grid g = pm_problem_grid(&t->problem, component);
-	if (t->solver && pm_relaxation_fits(t->solver, &g, t->choice.method))
+	if (t->solver && pm_relaxation_fits(t->solver, &g, t->choice.method) && pm_relaxation_same_planes(t->solver, t->problem.source))
 		return 0;
 	pm_relaxation_free(t->solver);
-	t->solver = pm_relaxation_new(&g, t->choice.method);
+	t->solver = pm_relaxation_new_of(&g, t->choice.method, t->problem.source);
 	return t->solver ? 0 : -PM_DATA;
 }
 
@@ -108,7 +109,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		struct pm_homogeneous m = {0};
 		double *phi = pm_out(t->problem.target, c);
 		t->choice.start = t->from ? phi : NULL;
-		if (!(status = ready(t, c)) && !(status = pm_problem_move(&t->problem, f, c, 2, NULL, &m)))
+		if (!(status = pm_world_agree(ready(t, c))) && !(status = pm_problem_move(&t->problem, f, c, 2, NULL, &m)))
 			status = pm_relaxation_solve(t->solver, &t->choice, m.c, m.s, phi, &r);
 		if (!status && r.singular)
 			pm_solver_report_removed(s, f, &t->problem, c, r.mean, &m, r.incompatible);
@@ -121,6 +122,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!status)
 		report(s, f, t->choice.method, t->choice.exactly, &longest);
 	return status;
+}
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	const struct state *t = s->state;
+	return f && !t->problem.given.any && pm_relaxation_shares(&t->problem.grid, t->choice.method);
 }
 
 static void release(struct pm_stage *s)
@@ -154,5 +161,6 @@ const struct pm_tool tool_poisson_relax = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

@@ -3,6 +3,7 @@
  * gradients work, and a singular problem is solvable if the weighted mean of its right-hand side is 0. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/laplacian.h"
 #include "base/in-order.h"
+#include "world/world.h"
 
 #include <string.h>
 
@@ -93,8 +94,50 @@ double pm_laplacian_row_residual(const struct pm_laplacian *l, const struct pm_l
 	return a->weight * row_product(&l->axis[0], r, r);
 }
 
+void pm_laplacian_share(struct pm_laplacian *l, struct pm_laplacian_ranks *ranks)
+{
+	l->ranks = ranks;
+	l->size = ranks->planes.here * ranks->planes.size;
+	l->rows = l->size / l->axis[0].points;
+	l->first = pm_planes_row(&ranks->planes, 0);
+}
+
+void pm_laplacian_beside(const struct pm_laplacian *l, double *u)
+{
+	if (!l->ranks)
+		return;
+	const struct pm_planes *p = &l->ranks->planes;
+	const struct pm_halo halo = {.from = p->from, .bytes = p->size * sizeof *u, .wide = 1, .periodic = p->periodic};
+	l->ranks->status = pm_world_halo(l->ranks->status, &halo, u);
+}
+
+double pm_laplacian_most(const struct pm_laplacian *l, double here)
+{
+	if (l->ranks)
+		l->ranks->status = pm_world_largest(l->ranks->status, 1, &here);
+	return here;
+}
+
+struct rows {
+	size_t points;
+	const double *sums;
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct rows *r = data;
+	(void)to;
+	pm_sum_add(part, r->sums[from / r->points]);
+}
+
 double pm_laplacian_total(const struct pm_laplacian *l, const double *sums)
 {
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
+	struct pm_sum all = {0, 0};
+	if (l->ranks) {
+		l->ranks->status = pm_planes_over(l->ranks->status, &l->ranks->planes, &parts, &(struct rows){l->axis[0].points, sums}, &all);
+		return pm_sum_total(all);
+	}
 	return pm_sum_of_rows((const size_t[3]){l->axis[0].points, l->axis[1].points, l->axis[2].points}, sums);
 }
 
@@ -102,9 +145,10 @@ double pm_laplacian_total(const struct pm_laplacian *l, const double *sums)
 static double over_rows(const struct pm_laplacian *l, double *u, const double *f, double *r, double *sums)
 {
 	size_t nx = l->axis[0].points, ny = l->axis[1].points;
+	pm_laplacian_beside(l, u);
 	#pragma omp parallel for schedule(static) if (l->size > pm_laplacian_parallel)
 	for (size_t q = 0; q < l->rows; q++) {
-		size_t j = q % ny, k = q / ny;
+		size_t j = (l->first + q) % ny, k = (l->first + q) / ny;
 		sums[q] = 0;
 		if (!pm_laplacian_inside(l, j, k)) {
 			memset(r + q * nx, 0, nx * sizeof *r);
@@ -130,7 +174,7 @@ double pm_laplacian_product(const struct pm_laplacian *l, const double *a, const
 	size_t nx = l->axis[0].points, ny = l->axis[1].points;
 	#pragma omp parallel for schedule(static) if (l->size > pm_laplacian_parallel)
 	for (size_t q = 0; q < l->rows; q++) {
-		size_t j = q % ny, k = q / ny;
+		size_t j = (l->first + q) % ny, k = (l->first + q) / ny;
 		sums[q] = 0;
 		if (pm_laplacian_inside(l, j, k))
 			sums[q] = pm_laplacian_weight(&l->axis[1], j) * pm_laplacian_weight(&l->axis[2], k) * row_product(&l->axis[0], a + q * nx, b + q * nx);
@@ -146,7 +190,8 @@ double pm_laplacian_mean(const struct pm_laplacian *l, const double *a, double *
 		struct pm_sum row = {0};
 		for (size_t i = 0; i < x->points; i++)
 			pm_sum_add(&row, pm_laplacian_weight(x, i) * a[q * x->points + i]);
-		sums[q] = pm_laplacian_weight(y, q % y->points) * pm_laplacian_weight(z, q / y->points) * pm_sum_total(row);
+		const size_t at = l->first + q;
+		sums[q] = pm_laplacian_weight(y, at % y->points) * pm_laplacian_weight(z, at / y->points) * pm_sum_total(row);
 	}
 	return pm_laplacian_total(l, sums) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }

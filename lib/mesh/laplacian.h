@@ -4,7 +4,7 @@
 #ifndef PM_MESH_LAPLACIAN_H
 #define PM_MESH_LAPLACIAN_H
 
-#include "mesh/grid.h"
+#include "mesh/planes.h"
 #include "mesh/index-fold.h"
 
 struct pm_laplacian_axis {
@@ -20,8 +20,16 @@ struct pm_laplacian {
 	struct pm_laplacian_axis axis[3];
 	double diagonal;     /* 2 (wx + wy + wz): lap u = sum of w (neighbours) - diagonal u */
 	bool singular;       /* constants are in its kernel */
-	size_t size, rows, unknowns;
+	size_t size, rows, unknowns; /* values and rows on this rank; unknowns of the whole mesh */
+	size_t first;        /* row of the mesh that is the first one here */
+	struct pm_laplacian_ranks *ranks; /* NULL: all rows are here. Else meshes have room for a plane on either side */
 	double highest, lowest; /* of the average over neighbours, sum w cos(k h)/sum w, over all modes but a constant: Jacobi's eigenvalues; -1 <= ... < 1 */
+};
+
+/* The planes of a rank, and the status that all ranks have agreed on. */
+struct pm_laplacian_ranks {
+	struct pm_planes planes;
+	int status;
 };
 
 enum { pm_laplacian_parallel = 16384 }; /* values below which threads are not worth it */
@@ -35,6 +43,11 @@ struct pm_laplacian_row {
 };
 
 struct pm_laplacian pm_laplacian_of(const struct pm_grid *g); /* faces periodic, wall, neumann */
+/* Only the planes of a rank from now on; all ranks call the functions below in the same order. */
+void pm_laplacian_share(struct pm_laplacian *l, struct pm_laplacian_ranks *ranks);
+/* Brings the planes beside those of this rank, of a mesh that is read at neighbours by other functions than these. */
+void pm_laplacian_beside(const struct pm_laplacian *l, double *u);
+double pm_laplacian_most(const struct pm_laplacian *l, double here); /* the largest over all ranks */
 
 static inline size_t pm_laplacian_below(const struct pm_laplacian_axis *a, size_t i)
 {
@@ -53,13 +66,26 @@ static inline bool pm_laplacian_inside(const struct pm_laplacian *l, size_t j, s
 	return j >= l->axis[1].first && j < l->axis[1].end && k >= l->axis[2].first && k < l->axis[2].end;
 }
 
+/* The row (0, j, k) of the mesh, counted from the first one here. */
+static inline size_t pm_laplacian_row_of(const struct pm_laplacian *l, size_t j, size_t k) { return j + l->axis[1].points * k - l->first; }
+
+/* The way from node i to its neighbour, along axis 1 or 2: at a periodic end that is divided it lies beyond. */
+static inline ptrdiff_t pm_laplacian_way(const struct pm_laplacian *l, int d, size_t i, int up)
+{
+	const struct pm_laplacian_axis *a = &l->axis[d];
+	if (l->ranks && a->periodic && d == l->ranks->planes.axis)
+		return up ? 1 : -1;
+	return (ptrdiff_t)(up ? pm_laplacian_above(a, i) : pm_laplacian_below(a, i)) - (ptrdiff_t)i;
+}
+
 static inline struct pm_laplacian_row pm_laplacian_row_at(const struct pm_laplacian *l, double *u, const double *f, size_t j, size_t k)
 {
 	const struct pm_laplacian_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
-	size_t nx = x->points, ny = y->points;
-	return (struct pm_laplacian_row){.u = u + nx * (j + ny * k), .f = f + nx * (j + ny * k),
-		.y = {u + nx * (pm_laplacian_below(y, j) + ny * k), u + nx * (pm_laplacian_above(y, j) + ny * k)},
-		.z = {u + nx * (j + ny * pm_laplacian_below(z, k)), u + nx * (j + ny * pm_laplacian_above(z, k))},
+	const size_t nx = x->points, at = nx * pm_laplacian_row_of(l, j, k);
+	const ptrdiff_t row = (ptrdiff_t)nx, plane = row * (ptrdiff_t)y->points;
+	return (struct pm_laplacian_row){.u = u + at, .f = f + at,
+		.y = {u + at + row * pm_laplacian_way(l, 1, j, 0), u + at + row * pm_laplacian_way(l, 1, j, 1)},
+		.z = {u + at + plane * pm_laplacian_way(l, 2, k, 0), u + at + plane * pm_laplacian_way(l, 2, k, 1)},
 		.left = pm_laplacian_below(x, 0), .right = pm_laplacian_above(x, nx - 1), .weight = pm_laplacian_weight(y, j) * pm_laplacian_weight(z, k)};
 }
 

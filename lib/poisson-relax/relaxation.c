@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-relax/relaxation.h"
 #include "james/james.h"
+#include "world/world.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -16,6 +17,7 @@ struct pm_relaxation {
 	struct pm_laplacian lap;
 	struct pm_relax_work work;
 	double *f, *r; /* right-hand side; the residual */
+	struct pm_laplacian_ranks ranks; /* planes.divided: lap has those of this rank */
 	struct pm_james *james; /* open faces; lap is then that between walls */
 };
 
@@ -47,7 +49,19 @@ int pm_relaxation_check(const struct pm_grid *given, const struct pm_relax *meth
 	return 0;
 }
 
-struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method)
+/* A mesh, with a plane more on either side where planes are divided. */
+static double *mesh_new(const struct pm_relaxation *p)
+{
+	const size_t room = p->lap.ranks ? p->ranks.planes.size : 0;
+	double *a = pm_zalloc(p->lap.size + 2 * room + 1, sizeof *a);
+	return a ? a + room : NULL;
+}
+
+static void mesh_free(const struct pm_relaxation *p, double *a) { pm_free(a ? a - (p->lap.ranks ? p->ranks.planes.size : 0) : NULL); }
+
+struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method) { return pm_relaxation_new_of(g, method, NULL); }
+
+struct pm_relaxation *pm_relaxation_new_of(const struct pm_grid *g, const struct pm_relax *method, const struct pm_field *field)
 {
 	struct pm_relaxation *p = pm_zalloc(1, sizeof *p);
 	if (!p)
@@ -56,15 +70,18 @@ struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm
 	p->method = method;
 	struct pm_grid walled = pm_james_walled(g);
 	p->lap = pm_laplacian_of(pm_james_wanted(g) ? &walled : g);
-	size_t size = p->lap.size;
+	if (field && field->here && pm_planes_init(&p->ranks.planes, g, field))
+		return pm_relaxation_free(p);
+	if (field && field->here)
+		pm_laplacian_share(&p->lap, &p->ranks);
 	p->work.lap = &p->lap;
-	p->work.f = p->f = pm_zalloc(size, sizeof(double));
-	p->r = pm_zalloc(size, sizeof(double));
-	p->work.u = pm_zalloc(size, sizeof(double));
-	p->work.sums = pm_zalloc(p->lap.rows, sizeof(double));
+	p->work.f = p->f = mesh_new(p);
+	p->r = mesh_new(p);
+	p->work.u = mesh_new(p);
+	p->work.sums = pm_zalloc(p->lap.rows + 1, sizeof(double));
 	bool good = p->f && p->r && p->work.u && p->work.sums;
 	for (int i = 0; i < method->extra; i++)
-		good = (p->work.extra[i] = pm_zalloc(size, sizeof(double))) && good;
+		good = (p->work.extra[i] = mesh_new(p)) && good;
 	if (pm_james_wanted(g))
 		good = (p->james = pm_james_new(g)) && good;
 	return good ? p : pm_relaxation_free(p);
@@ -74,9 +91,10 @@ struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p)
 {
 	if (!p)
 		return NULL;
-	pm_free(p->f), pm_free(p->r), pm_free(p->work.u), pm_free(p->work.sums);
+	mesh_free(p, p->f), mesh_free(p, p->r), mesh_free(p, p->work.u), pm_free(p->work.sums);
 	for (int i = 0; i < PM_RELAX_EXTRA; i++)
-		pm_free(p->work.extra[i]);
+		mesh_free(p, p->work.extra[i]);
+	pm_planes_free(&p->ranks.planes);
 	pm_james_free(p->james);
 	return pm_free(p);
 }
@@ -86,6 +104,17 @@ bool pm_relaxation_fits(const struct pm_relaxation *p, const struct pm_grid *g, 
 	return p->method == method && p->grid.dim == g->dim && !memcmp(p->grid.points, g->points, sizeof g->points) &&
 		!memcmp(p->grid.cells, g->cells, sizeof g->cells) && !memcmp(p->grid.h, g->h, sizeof g->h) && !memcmp(p->grid.face, g->face, sizeof g->face);
 }
+
+bool pm_relaxation_same_planes(const struct pm_relaxation *p, const struct pm_field *field)
+{
+	const uint64_t *from = p->ranks.planes.from;
+	bool same = (field && field->here) == (from != NULL);
+	for (int r = 0; r <= pm_world_size() && from && same; r++)
+		same = from[r] * p->ranks.planes.size == field->from[r];
+	return same;
+}
+
+bool pm_relaxation_shares(const struct pm_grid *g, const struct pm_relax *method) { return method->in_planes && g->dim > 1 && !pm_james_wanted(g); }
 
 bool pm_relaxation_open(const struct pm_grid *g) { return pm_james_wanted(g); }
 struct pm_relax_work *pm_relaxation_work(struct pm_relaxation *p) { return &p->work; }
@@ -97,7 +126,7 @@ static void load(const struct pm_laplacian *l, double factor, double average, co
 	size_t ny = l->axis[1].points;
 	for (size_t q = 0; q < l->rows; q++)
 		for (size_t i = 0; i < x->points; i++) {
-			bool unknown = from && i >= x->first && i < x->end && pm_laplacian_inside(l, q % ny, q / ny);
+			bool unknown = from && i >= x->first && i < x->end && pm_laplacian_inside(l, (l->first + q) % ny, (l->first + q) / ny);
 			to[q * x->points + i] = unknown ? factor * (from[q * x->points + i] - average) : 0;
 		}
 }
@@ -143,14 +172,14 @@ static void look(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 static void iterate(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double source, struct pm_relaxation_record *r)
 {
 	double met = 1, left = 1;
-	while (o->exactly && r->sweeps < o->most)
+	while (o->exactly && r->sweeps < o->most && !p->ranks.status)
 		p->method->sweep(&p->work), r->sweeps++;
 	if (o->exactly) {
 		look(p, o, source, r);
 		r->converged = true;
 		return;
 	}
-	while (!r->converged && r->sweeps < o->most && met < 1e30) {
+	while (!r->converged && r->sweeps < o->most && met < 1e30 && !p->ranks.status) {
 		met = sqrt(p->method->sweep(&p->work)) / source;
 		r->sweeps++;
 		bool mark = (r->sweeps & (r->sweeps - 1)) == 0 && r->n < PM_RELAXATION_MARKS;
@@ -180,11 +209,12 @@ static double largest(size_t n, const double *s)
 }
 
 /* The power of two at the largest |c (s - average)|: squares must neither vanish nor overflow, and it rounds nothing. */
-static double unit_of(size_t n, double c, double average, const double *s)
+static double unit_of(const struct pm_laplacian *l, double c, double average, const double *s)
 {
 	double most = 0;
-	for (size_t i = 0; i < n; i++)
+	for (size_t i = 0; i < l->size; i++)
 		most = fmax(most, fabs(c * (s[i] - average)));
+	most = pm_laplacian_most(l, most);
 	return most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1;
 }
 
@@ -193,12 +223,13 @@ static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 {
 	const struct pm_laplacian *l = &p->lap;
 	*r = (struct pm_relaxation_record){.singular = l->singular, .factor = factor_of(l, p->method, o->factor), .radius = NAN};
+	p->ranks.status = 0;
 	r->mean = l->singular ? pm_laplacian_mean(l, s, p->work.sums) : 0;
-	r->incompatible = r->mean != 0 ? fabs(r->mean) / largest(l->size, s) : 0;
+	r->incompatible = r->mean != 0 ? fabs(r->mean) / pm_laplacian_most(l, largest(l->size, s)) : 0;
 	r->expected = l->diagonal > 0 ? p->method->radius(l, r->factor) : NAN;
-	double unit = unit_of(l->size, c, r->mean, s);
+	double unit = unit_of(l, c, r->mean, s);
 	if (o->start)
-		unit = fmax(unit, unit_of(l->size, 1, 0, o->start));
+		unit = fmax(unit, unit_of(l, 1, 0, o->start));
 	load(l, c / unit, r->mean, s, p->f);
 	load(l, 1 / unit, 0, o->start, p->work.u);
 	p->work.factor = r->factor;
@@ -210,6 +241,8 @@ static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 	double mean = l->singular ? pm_laplacian_mean(l, p->work.u, p->work.sums) : 0;
 	for (size_t i = 0; i < l->size; i++)
 		phi[i] = unit * (p->work.u[i] - mean);
+	if (p->ranks.status)
+		return p->ranks.status;
 	return r->converged ? 0 : not_converged(p->method, r, o);
 }
 

@@ -37,6 +37,10 @@ struct pm_relaxation; /* the meshes of a method, for one pm_grid */
 int pm_relaxation_check(const struct pm_grid *g, const struct pm_relax *method, double factor);
 bool pm_relaxation_open(const struct pm_grid *g); /* is any face open? */
 struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method); /* NULL with a message */
+/* The same on the planes of a field that ranks share (NULL: all): s, start and phi are then those, and all ranks solve together. */
+struct pm_relaxation *pm_relaxation_new_of(const struct pm_grid *g, const struct pm_relax *method, const struct pm_field *field);
+bool pm_relaxation_same_planes(const struct pm_relaxation *p, const struct pm_field *field);
+bool pm_relaxation_shares(const struct pm_grid *g, const struct pm_relax *method); /* can ranks? */
 struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p);
 bool pm_relaxation_fits(const struct pm_relaxation *p, const struct pm_grid *g, const struct pm_relax *method);
 

@@ -10,15 +10,17 @@ double pm_jacobi_sweep(struct pm_relax_work *w)
 	size_t nx = l->axis[0].points, ny = l->axis[1].points;
 	const double factor = w->factor / l->diagonal;
 	double *next = w->extra[0];
+	pm_laplacian_beside(l, w->u);
 	#pragma omp parallel for schedule(static) if (l->size > pm_laplacian_parallel)
 	for (size_t q = 0; q < l->rows; q++) {
 		double *out = next + q * nx;
+		const size_t j = (l->first + q) % ny, k = (l->first + q) / ny;
 		w->sums[q] = 0;
-		if (!pm_laplacian_inside(l, q % ny, q / ny)) {
+		if (!pm_laplacian_inside(l, j, k)) {
 			memcpy(out, w->u + q * nx, nx * sizeof *out); /* a wall */
 			continue;
 		}
-		struct pm_laplacian_row a = pm_laplacian_row_at(l, w->u, w->f, q % ny, q / ny);
+		struct pm_laplacian_row a = pm_laplacian_row_at(l, w->u, w->f, j, k);
 		w->sums[q] = pm_laplacian_row_residual(l, &a, out);
 		for (size_t i = 0; i < nx; i++)
 			out[i] = a.u[i] + factor * out[i];

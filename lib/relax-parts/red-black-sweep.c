@@ -27,13 +27,14 @@ double pm_red_black_sweep(struct pm_relax_work *w)
 	const double factor = w->factor / l->diagonal;
 	const bool seam = at_seam(y, y->points - 1) || at_seam(z, z->points - 1);
 	for (size_t colour = 0; colour < 2; colour++)
-		for (int late = 0; late <= seam; late++) {
+		for (int late = 0; late <= 2 * seam; late++) { /* rows at the seam of y, then the plane at that of z: what is beside them has changed */
+			pm_laplacian_beside(l, w->u);
 			#pragma omp parallel for schedule(static) if (!late && l->size > pm_laplacian_parallel)
 			for (size_t q = 0; q < l->rows; q++) {
-				size_t j = q % y->points, k = q / y->points;
+				size_t j = (l->first + q) % y->points, k = (l->first + q) / y->points;
 				if (!colour && !late)
 					w->sums[q] = 0;
-				if (pm_laplacian_inside(l, j, k) && (at_seam(y, j) || at_seam(z, k)) == late)
+				if (pm_laplacian_inside(l, j, k) && (at_seam(z, k) ? 2 : at_seam(y, j) ? 1 : 0) == late)
 					w->sums[q] += sweep_row(l, factor, j + k + colour, pm_laplacian_row_at(l, w->u, w->f, j, k));
 			}
 		}

@@ -19,6 +19,7 @@ const struct pm_relax relax_cg = {
 	.source = "Hestenes and Stiefel 1952",
 	.bound = true,
 	.extra = 3,
+	.in_planes = true,
 	.radius = radius,
 	.sweep = sweep,
 };

@@ -17,6 +17,7 @@ const struct pm_relax relax_jacobi = {
 	.source = "Jacobi 1845; Varga 1962, section 3.1",
 	.extra = 1,
 	.factor = factor,
+	.in_planes = true,
 	.radius = pm_jacobi_radius,
 	.sweep = pm_jacobi_sweep,
 };

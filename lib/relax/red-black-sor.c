@@ -9,6 +9,7 @@ const struct pm_relax relax_red_black_sor = {
 	.sentence = "over-relaxation of every second node, then of the others, by default with Young's best factor",
 	.source = "Young 1954",
 	.factor = pm_young_best,
+	.in_planes = true,
 	.radius = pm_red_black_radius,
 	.sweep = pm_red_black_sweep,
 };

@@ -15,6 +15,7 @@ const struct pm_relax relax_red_black = {
 	.sentence = "Gauss-Seidel on every second node, then on the others",
 	.source = "Young 1954; Varga 1962, section 4.1",
 	.factor = factor,
+	.in_planes = true,
 	.radius = pm_red_black_radius,
 	.sweep = pm_red_black_sweep,
 };

@@ -22,6 +22,7 @@ struct pm_relax_work {
 struct pm_relax {
 	const char *name, *sentence, *source;
 	bool bound;                    /* radius is only a bound, and sweeps depend on earlier ones: conjugate gradients */
+	bool in_planes;                /* no order of the nodes beyond colours: ranks can share it, each with its planes */
 	int extra;                     /* meshes it needs besides u and f */
 	double (*factor)(const struct pm_laplacian *l); /* its own relaxation factor; NULL: it has none */
 	/* Spectral radius: the asymptotic error reduction per sweep by the published formula; NAN if that does not apply. 1 or more: no convergence. */

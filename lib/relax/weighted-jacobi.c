@@ -14,6 +14,7 @@ const struct pm_relax relax_weighted_jacobi = {
 	.source = "Briggs, Henson, McCormick 2000, chapter 2",
 	.extra = 1,
 	.factor = factor,
+	.in_planes = true,
 	.radius = pm_jacobi_radius,
 	.sweep = pm_jacobi_sweep,
 };

@@ -128,6 +128,23 @@ charged() {
 		stab - --law electromagnetic --dt 0.01 "$@" | p2m | maxwell --gauss | sel --drop rho
 }
 
+@test "any number of ranks: relaxation by colours, of old values and by conjugate gradients, with and without seams" {
+	local method
+	pinit uniform -n 300 >box
+	pinit uniform -n 300 --faces wall,neumann,wall >walled
+	for method in red-black-sor weighted-jacobi; do
+		same "push drift | p2m -n 6x7x9 | poisson-relax --method $method --tolerance 1e-2" --store all <box
+	done
+	same "push drift | p2m -n 6x5x2 | poisson-relax --method red-black --sweeps 3" --store all <box
+	same "push drift | p2m -n 6x7x9 | poisson-relax" --store all <walled
+	pinit uniform -n 300 --dim 2 | same "push drift | p2m -n 17x37 | poisson-relax" --store all
+	shares "p2m -n 8, poisson-relax, mgrad, m2p, push drift" "p2m -n 8 | poisson-relax | mgrad | m2p | push drift" <box
+	shares "p2m -n 8, mgrad, m2p, push drift" "p2m -n 8 | poisson-relax --method sor --tolerance 1e-2 | mgrad | m2p | push drift" <walled
+	cycle -q -n 1 "p2m -n 8 | poisson-relax --max-sweeps 2 | push drift" <box 2>want >/dev/null && return 1
+	on 3 cycle -q -n 1 "p2m -n 8 | poisson-relax --max-sweeps 2 | push drift" <box 2>got >/dev/null && return 1
+	cmp want got
+}
+
 @test "any number of ranks: Yee's mesh at all faces, with absorbing layers, more ranks than planes" {
 	local step="push boris/2 | p2m --current | maxwell --layers 3 | push drift | m2p | push boris/2"
 	charged 3 --box 0,0,0,1,1.1,1.2 --faces absorbing,periodic,wall --particle-faces reflect -n 12x7x16 | same "$step" --store all
