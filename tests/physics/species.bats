@@ -29,3 +29,20 @@ rates() { sed -n 's/^# .* gamma \([^ ]*\) .* omega \([^,]*\),.*/\1 \2/p'; }
 		1836.15267343 1.006166 1400 0.05437200 0.03558870
 	END
 }
+
+@test "docs/methods/electrostatic.md: electrons in two steps of dt/2 to one of the ions are as exact as plain steps of dt/2, with order 2" {
+	sed -n "/^    cycle -n 60 'push --set ions/,/^\$/p" "$top/docs/methods/electrostatic.md" | tr -d '\n' | sed "s/^ *cycle -n 60 '//; s/'\$//" >sentence
+	pinit plasma --background 0 | species electrons -n 4000 --profile '1 + 0.1*cos(x/2)' | species ions -n 4000 --charge 1 --mass 100 --vth 0.01 >a
+	run_with() { smod --dt "$1" <a | cycle -q -n "$(calc "6 / $1")" "${2:-$step}" | sel --set electrons --field x,v >b; }
+	run_with 0.0125
+	mv b reference
+	for dt in 0.4 0.2 0.1; do
+		run_with $dt "$(cat sentence)"
+		scmp --field v b reference >c || true
+		column l2 <c >sub$dt
+	done
+	run_with 0.1
+	scmp --field v b reference >c || true
+	order 2 0.4 "$(cat sub0.4)" 0.2 "$(cat sub0.2)" 0.1 "$(cat sub0.1)"
+	within "$(cat sub0.2)" "$(column l2 <c)" "$(calc "0.1 * $(column l2 <c)")" # electrons see the same steps
+}
