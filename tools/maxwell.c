@@ -1,11 +1,14 @@
 /* maxwell: E and B on the mesh through one step (lib/maxwell, lib/maxwell-parts). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "maxwell-step/maxwell-frame.h"
 #include "stage/stage.h"
 
 struct config {
 	const char *mesh, *method;
 	int64_t layers;
-	bool gauss;
+	bool gauss, nodal;
+	struct pm_vector drift;
 };
 struct state {
 	struct pm_maxwell_job job; /* from declare to frame */
@@ -15,14 +18,24 @@ static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
 	s->advances = true;
+	if (o->drift.n && strcmp(o->method, "psatd"))
+		return pm_fail(PM_USAGE, "--current-drift belongs to --method psatd");
+	if (o->nodal && !(o->gauss && !strcmp(o->method, "psatd")))
+		return pm_fail(PM_USAGE, "--nodal says where --gauss --method psatd makes E (a step takes E where it is)");
+	if (o->drift.n > 3)
+		return pm_fail(PM_USAGE, "--current-drift has more than 3 components");
 	return o->gauss && pm_given(s, "layers") ? pm_fail(PM_USAGE, "--gauss advances nothing (leave out --layers)") : 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	const struct pm_maxwell_choice choice = {.mesh = o->mesh,
-		.method = o->gauss && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss, .layers = (int)o->layers};
+	struct pm_maxwell_choice choice = {.mesh = o->mesh,
+		.method = o->gauss && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss, .nodal = o->nodal, .layers = (int)o->layers};
+	for (int d = 0; d < o->drift.n; d++)
+		choice.drift[d] = o->drift.x[d];
+	if (o->drift.n > f->dim)
+		return pm_fail(PM_DATA, "--current-drift has %d components, and the mesh %d axes", o->drift.n, f->dim);
 	return pm_maxwell_declare(&choice, f, &((struct state *)s->state)->job);
 }
 
@@ -51,6 +64,10 @@ static const struct pm_option options[] = {
 		.text = "thickness of the layers that absorb waves inside open faces"},
 	{.name = "gauss", .kind = PM_FLAG, PM_AT(gauss),
 		.text = "instead of a step: correct E so that div E = rho/eps0, or make it; rho is that of p2m"},
+	{.name = "nodal", .kind = PM_FLAG, PM_AT(nodal),
+		.text = "with --gauss --method psatd: all components of E, and B, on the nodes; against numerical Cherenkov radiation"},
+	{.name = "current-drift", .kind = PM_VECTOR, .unit = "length/time", PM_AT(drift),
+		.text = "of --method psatd: currents move on with this velocity during a step, that of a beam; against numerical Cherenkov radiation"},
 	{0},
 };
 static const struct pm_example examples[] = {

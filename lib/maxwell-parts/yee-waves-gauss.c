@@ -11,7 +11,8 @@ enum { C = PM_WAVES_CHUNK };
 struct waves {
 	const struct pm_yee_waves *w;
 	const double *re[3], *im[3];
-	size_t at, count;
+	size_t at;
+	bool shortest; /* left out: fields on the nodes do not have it */
 };
 
 static void each(const struct pm_yee_waves *w, void (*act)(const struct waves *e, size_t q))
@@ -21,7 +22,7 @@ static void each(const struct pm_yee_waves *w, void (*act)(const struct waves *e
 		for (size_t i = 0; i < a[0].modes; i++) {
 			const size_t j = row % a[1].n, k = row / a[1].n;
 			const struct waves e = {.w = w, .re = {a[0].re + i, a[1].re + j, a[2].re + k}, .im = {a[0].im + i, a[1].im + j, a[2].im + k},
-				.at = (row * w->chunks + i / C) * 2 * C};
+				.at = (row * w->chunks + i / C) * 2 * C, .shortest = pm_yee_waves_shortest(w, i, j, k)};
 			act(&e, i % C);
 		}
 }
@@ -36,6 +37,10 @@ static void divergence(const struct waves *e, size_t q)
 		im += di * f[0] - dr * f[C];
 	}
 	double *to = e->w->field[0] + e->at + q;
+	if (e->shortest) {
+		to[0] = to[C] = 0;
+		return;
+	}
 	to[0] = (re - (e->w->field[3] ? e->w->field[3][e->at + q] : 0)) * e->w->norm;
 	to[C] = (im - (e->w->field[3] ? e->w->field[3][e->at + C + q] : 0)) * e->w->norm;
 }
@@ -65,7 +70,7 @@ int pm_yee_waves_divergence(const struct pm_yee *y, const double *rho, double *t
 {
 	struct pm_yee_waves w;
 	const size_t n = pm_grid_size(&y->grid);
-	int status = pm_yee_waves_init(&w, &y->grid, rho ? 4 : 3);
+	int status = pm_yee_waves_init(&w, y, rho ? 4 : 3);
 	for (int c = 0; c < 3 && !status; c++)
 		pm_yee_waves_forward(&w, y->e[c], c);
 	if (!status && rho) {
@@ -86,7 +91,7 @@ int pm_yee_waves_correct(const struct pm_yee *y, const double *residual)
 	struct pm_yee_waves w;
 	const size_t n = pm_grid_size(&y->grid);
 	double *room = pm_alloc(n, sizeof *room);
-	int status = pm_yee_waves_init(&w, &y->grid, 3) || !room ? -PM_DATA : 0;
+	int status = pm_yee_waves_init(&w, y, 3) || !room ? -PM_DATA : 0;
 	if (!status) {
 		pm_yee_waves_forward(&w, residual, 0);
 		each(&w, gradient);

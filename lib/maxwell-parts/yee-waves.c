@@ -5,27 +5,30 @@
 
 #include "maxwell-parts/yee-waves.h"
 
-enum { L = PM_FFT_LINES };
+enum { L = PM_FFT_LINES, TABLES = 6 };
 
-static void fill_axis(struct pm_wave_axis *a, double h, bool varies)
+static void fill_axis(struct pm_wave_axis *a, double h, bool varies, bool nodal)
 {
 	for (size_t m = 0; m < a->modes && varies; m++) {
 		const double turn = 2 * m > a->n ? -(double)(a->n - m) : (double)m, k = 2 * pm_pi * turn / ((double)a->n * h);
 		double c, s;
 		pm_fft_circle(2 * m > a->n ? a->n - m : m, 2 * a->n, &c, &s); /* of |k| h/2 */
-		a->re[m] = -fabs(k) * s;
-		a->im[m] = k * c;
 		a->k[m] = 2 * m == a->n ? 0 : k;
+		a->re[m] = nodal ? 0 : -fabs(k) * s;
+		a->im[m] = nodal ? a->k[m] : k * c;
+		a->turn[0][m] = c;
+		a->turn[1][m] = k > 0 ? -s : s;
 		a->ratio[m] = m ? s / (fabs(k) * h / 2) : 1;
 	}
 	for (size_t m = 0; m < a->modes && !varies; m++)
-		a->ratio[m] = 1;
+		a->ratio[m] = a->turn[0][m] = 1;
 }
 
-int pm_yee_waves_init(struct pm_yee_waves *w, const struct pm_grid *g, int fields)
+int pm_yee_waves_init(struct pm_yee_waves *w, const struct pm_yee *y, int fields)
 {
+	const struct pm_grid *g = &y->grid;
 	size_t all = 0;
-	*w = (struct pm_yee_waves){.plans = pm_fft_plans_new(), .norm = 1};
+	*w = (struct pm_yee_waves){.plans = pm_fft_plans_new(), .nodal = y->nodal, .norm = 1};
 	for (int d = 0; d < 3; d++) {
 		struct pm_wave_axis *a = &w->axis[d];
 		a->n = g->points[d];
@@ -40,12 +43,13 @@ int pm_yee_waves_init(struct pm_yee_waves *w, const struct pm_grid *g, int field
 	w->chunks = (w->axis[0].modes + PM_WAVES_CHUNK - 1) / PM_WAVES_CHUNK;
 	w->size = w->axis[2].n * w->axis[1].n * w->chunks * L;
 	w->scratch = pm_alloc((size_t)pm_threads() * w->lot, sizeof *w->scratch);
-	w->tables = pm_zalloc(4 * all, sizeof *w->tables);
+	w->tables = pm_zalloc(TABLES * all, sizeof *w->tables);
 	double *at = w->tables;
-	for (int d = 0; d < 3 && at; at += 4 * w->axis[d++].modes) {
+	for (int d = 0; d < 3 && at; at += TABLES * w->axis[d++].modes) {
 		struct pm_wave_axis *a = &w->axis[d];
 		a->re = at, a->im = at + a->modes, a->k = at + 2 * a->modes, a->ratio = at + 3 * a->modes;
-		fill_axis(a, g->h[d], pm_yee_varies(g, d));
+		a->turn[0] = at + 4 * a->modes, a->turn[1] = at + 5 * a->modes;
+		fill_axis(a, g->h[d], pm_yee_varies(g, d), y->nodal);
 	}
 	for (int i = 0; i < fields && at; i++)
 		if (!(w->field[i] = pm_alloc(w->size, sizeof **w->field)))

@@ -7,13 +7,14 @@
 
 enum { PM_WAVES_MOST = 9, PM_WAVES_CHUNK = PM_FFT_LINES / 2 };
 
-/* Of an axis: i k exp(i k h/2), which takes a wave's value on the nodes to its derivative half a cell up; minus the conjugate takes it back. Along x from
- * frequency 0 to n/2, along y and z all n. */
+/* Of an axis: the derivative of a wave, i k exp(i k h/2), from the nodes to half a cell up; minus the conjugate takes it back. Where E and B are on the nodes,
+ * i k. Along x from frequency 0 to n/2, along y and z all n. */
 struct pm_wave_axis {
 	size_t n, modes;
 	const struct pm_fft *fft;
 	double *re, *im; /* [1/length] */
 	double *k;       /* [1/length] signed; 0 at the Nyquist frequency, where a sign is not defined */
+	double *turn[2]; /* cos and -sin of k h/2: from half a cell up to the nodes */
 	double *ratio;   /* of two-point differences to derivatives: sin(k h/2)/(k h/2) */
 };
 
@@ -21,6 +22,7 @@ struct pm_yee_waves {
 	struct pm_wave_axis axis[3];
 	size_t chunks;   /* of eight frequencies along x: eight real parts, then eight imaginary ones; those beyond n/2 are zeros */
 	size_t size;     /* numbers of one field: ((z n_y + y) chunks + chunk) 2 PM_WAVES_CHUNK */
+	bool nodal;      /* fields on the nodes: their shortest waves along an axis have no derivative, and are left out */
 	double norm;     /* forward and backward together multiply by 1/norm */
 	struct pm_fft_plans *plans;
 	double *tables, *scratch; /* of each thread `lot` numbers */
@@ -28,8 +30,14 @@ struct pm_yee_waves {
 	double *field[PM_WAVES_MOST];
 };
 
+/* Is the wave left out? */
+static inline bool pm_yee_waves_shortest(const struct pm_yee_waves *w, size_t i, size_t j, size_t k)
+{
+	return w->nodal && (2 * i == w->axis[0].n || 2 * j == w->axis[1].n || 2 * k == w->axis[2].n);
+}
+
 /* Room for the waves of so many fields; 0 or failure. Then free, also after a failure. */
-int pm_yee_waves_init(struct pm_yee_waves *w, const struct pm_grid *g, int fields);
+int pm_yee_waves_init(struct pm_yee_waves *w, const struct pm_yee *y, int fields);
 void pm_yee_waves_free(struct pm_yee_waves *w);
 /* Points to waves, field[to] of from; and back, not normalised. */
 void pm_yee_waves_forward(const struct pm_yee_waves *w, const double *from, int to);

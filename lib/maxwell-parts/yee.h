@@ -14,6 +14,8 @@ struct pm_yee {
 	const struct pm_planes *planes; /* two-point differences: NULL, or the planes of this rank, which alone are the points then */
 	const double *beside[3]; /* with them the field whose curl is taken, with a plane more on either side */
 	const double *j[3];      /* [charge/(time length^(dim - 1))]; NULL none */
+	double drift[3];         /* [length/time] with which the current moves on in a step (psatd) */
+	bool nodal;              /* E and B are on the nodes, all components (psatd); J sits where Yee has E */
 	int layers;              /* [cells] of the absorbing layers inside open faces */
 	double *pml[3][PM_PML_FIELDS]; /* [points]; NULL: the axis has no open face */
 };

@@ -14,39 +14,44 @@ struct pm_yee pm_yee_of(const struct pm_frame *f, const struct pm_mesh *m)
 	return (struct pm_yee){.grid = pm_grid_of(f, m), .c = pm_frame_constant(f, "c", 1), .eps0 = pm_frame_constant(f, "eps0", 1)};
 }
 
-static void stagger(struct pm_field *field, int dim, bool electric)
+enum where { ON_NODES, AS_E, AS_B };
+
+static void stagger(struct pm_field *field, int dim, enum where where)
 {
 	for (int c = 0; c < 3; c++)
 		for (int d = 0; d < dim; d++)
-			field->staggered[c][d] = (c == d) == electric;
+			field->staggered[c][d] = where != ON_NODES && (c == d) == (where == AS_E);
 }
 
-bool pm_yee_staggered(const struct pm_field *field, int dim, bool electric)
+static bool sits(const struct pm_field *field, int dim, enum where where)
 {
 	struct pm_field want = {.components = 3};
-	stagger(&want, dim, electric);
+	stagger(&want, dim, where);
 	return field->components == 3 && !memcmp(want.staggered, field->staggered, 3 * sizeof *want.staggered);
 }
+
+bool pm_yee_staggered(const struct pm_field *field, int dim, bool electric) { return sits(field, dim, electric ? AS_E : AS_B); }
 
 /* E or B of the mesh, to be changed; made of zeros where that is allowed. */
 static struct pm_field *take(struct pm_frame *f, const struct pm_maxwell_job *j, const char *name, bool electric, bool make)
 {
+	const enum where where = j->yee.nodal ? ON_NODES : electric ? AS_E : AS_B;
 	struct pm_field *field = pm_frame_field(f, j->mesh->name, name);
 	if (!field && !make) {
 		pm_fail(PM_DATA, "no field '%s' on mesh '%s' (p2m | maxwell --gauss makes it of the charge)", name, j->mesh->name);
 		return NULL;
 	}
 	if (field && field->uniform && field->components == 3 && field->role == PM_STATE)
-		stagger(field, f->dim, electric); /* the same anywhere */
-	if (field && (field->role != PM_STATE || !pm_yee_staggered(field, f->dim, electric))) {
-		pm_fail(PM_DATA, "'%s' on mesh '%s' is not a state of 3 components half a cell off the nodes (drop it: sel --drop %s; p2m | maxwell "
-			"--gauss makes E)", name, j->mesh->name, name);
+		stagger(field, f->dim, where); /* the same anywhere */
+	if (field && (field->role != PM_STATE || !sits(field, f->dim, where))) {
+		pm_fail(PM_DATA, "'%s' on mesh '%s' is not a state of 3 components %s the nodes (drop it: sel --drop %s; p2m | maxwell "
+			"--gauss makes E)", name, j->mesh->name, j->yee.nodal ? "on" : "half a cell off", name);
 		return NULL;
 	}
 	if (field)
 		return pm_changes(f, j->mesh->name, name);
 	if ((field = pm_makes(f, j->mesh->name, name, 3, PM_STATE)))
-		stagger(field, f->dim, electric);
+		stagger(field, f->dim, where);
 	return field;
 }
 
@@ -136,8 +141,10 @@ int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n CELLS makes one)", choice->mesh ? " " : "", choice->mesh ? choice->mesh : "");
 	j->yee = pm_yee_of(f, j->mesh);
 	j->yee.layers = choice->layers;
+	memcpy(j->yee.drift, choice->drift, sizeof j->yee.drift);
 	const struct pm_field *before = pm_frame_field(f, j->mesh->name, law->field);
 	j->spectral = j->method->spectral || (choice->gauss && !choice->method && before && pm_yee_spectral(before));
+	j->yee.nodal = choice->nodal || (j->spectral && before && !before->uniform && sits(before, f->dim, ON_NODES));
 	j->e = take(f, j, law->field, true, choice->gauss);
 	if (!j->e || check_faces(f, j))
 		return -PM_DATA;

@@ -85,6 +85,7 @@ static int residual(const struct pm_measure *how, const struct pm_grid *g, const
 	for (int c = 0; c < 3; c++)
 		y.e[c] = (double *)pm_in(e, c);
 	int status = 0;
+	y.nodal = !e->staggered[0][0];
 	if (pm_yee_spectral(e))
 		status = pm_yee_waves_divergence(&y, rho, room);
 	else
