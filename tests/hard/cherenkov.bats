@@ -37,8 +37,8 @@ growth() {
 	for dim in 1 ${PM_LONG:+2}; do
 		sh_ok "$(declare -f beam); v=$v; beam $dim 32 $((256 * dim * dim)) $whole | p2m --kernel pcs |
 			maxwell --gauss --method psatd --nodal >start.pm"
-		sh_ok "cycle -n 10000 'push vay/2 | p2m --current --kernel pcs | smooth | maxwell --method psatd --current-drift $v | push drift | m2p | push vay/2' \
-			<start.pm >end.pm"
+		sh_ok "cycle -n 10000 <start.pm >end.pm \
+			'push vay/2 | p2m --current --kernel pcs | smooth | maxwell --method psatd --current-drift $v | push drift | m2p | push vay/2'"
 		was=$(diag start.pm --columns energy_kinetic | tail -n 1)
 		within "$(diag end.pm --columns energy_kinetic | tail -n 1)" "$was" "$(awk -v e="$was" 'BEGIN { print 1e-6 * e }')" "dim $dim"
 		below "$(diag end.pm --columns energy_magnetic | tail -n 1)" 0.1
