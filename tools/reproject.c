@@ -55,6 +55,8 @@ static const struct pm_option options[] = {
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(choice.mesh), .text = "the mesh (default: the first)"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(choice.order),
 		.text = "order of divergence and gradient (default: spectral; 6 where a face is open)"},
+	{.name = "passes", .kind = PM_INTEGER, .fallback = "1", .low = 1, .high = 1000, PM_AT(choice.passes),
+		.text = "of differences: each removes what the one before left near the mesh's own wave length"},
 	{.name = "every", .kind = PM_INTEGER, .unit = "steps", .fallback = "1", .low = 1, .high = 1e15, PM_AT(every),
 		.text = "act only if the step number is a multiple of this"},
 	{.name = "above", .kind = PM_REAL, .fallback = "0", .high = 1e9, PM_AT(choice.above),

@@ -4,7 +4,8 @@
  * which near the point is the bare field at (r^2 + delta^2)^(1/2), and far away +-1/(2 L) on both sides. D = (cosh ky - cos kx + d^2)/2 with Krasny's
  * d = k delta/2^(1/2). The functions of a difference come from those of the particles by addition, to 1e-16 of the period, as x.
  * Source: Krasny 1986, J. Comput. Phys. 65, 292, equation (5). Targets in the lanes, sources in blocks of 1024 in their order: the same bytes for any
- * number of threads and ranks. Assumes at most 95 periods across. Cost: N^2, 17 operations and a division per pair. SPDX-License-Identifier: GPL-3.0-or-later */
+ * number of threads and ranks. Assumes at most 95 periods across. Cost: N^2, 17 operations and a division per pair.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "base/simd.h"

@@ -13,7 +13,9 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
 	const double volume = m->h[0] * m->h[1] * m->h[2];
-	const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
+	size_t from[3];
+	for (int d = 0; d < 3; d++)
+		from[d] = f->face[d][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	double *x[3] = {NULL}, *alpha[3] = {NULL};
 	size_t points[3], n = 0;
 	pm_mesh_points(f, m, points);
@@ -22,9 +24,9 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 		if (fill && pm_scene_vortex_set(f, 3, n, volume, x, alpha))
 			return -PM_DATA;
 		n = 0;
-		for (size_t k = from; k + from < points[2]; k++)
-			for (size_t j = from; j + from < points[1]; j++)
-				for (size_t i = from; i + from < points[0]; i++) {
+		for (size_t k = from[2]; k + from[2] < points[2]; k++)
+			for (size_t j = from[1]; j + from[1] < points[1]; j++)
+				for (size_t i = from[0]; i + from[0] < points[0]; i++) {
 					const double at[3] = {m->lo[0] + (double)i * m->h[0], m->lo[1] + (double)j * m->h[1], m->lo[2] + (double)k * m->h[2]};
 					double w[3] = {0};
 					omega(c, at, w);

@@ -1,9 +1,12 @@
 /* Reprojection: lap chi = div omega, omega -= grad chi, which leaves the curl of a vector potential (the Helmholtz projection). omega is that of the
  * particles on the mesh; alpha -= volume grad chi at their positions: exact for particles on nodes and a kernel that interpolates.
  * Source: Cottet and Koumoutsakos 2000, section 3.3; Cocle, Winckelmans and Daeninck 2008, J. Comput. Phys. 227, 9091.
+ * Differences of order 2, 4, 6 with the inverse of the spectral Laplacian leave the part 1 - k'^2/k^2 of a wave (k' its difference quotient), large for waves
+ * near the grid's own; each further pass takes as much of what is left (defect correction).
  * Keeps the total of omega in periodic boxes to round-off. Beyond a wall chi has an odd image, as the tangential components of omega have.
  * Cost: a spread, a gather, one solution and four derivatives. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
 #include "fft/axis-transform.h"
 #include "stream/declare.h"
@@ -19,7 +22,7 @@ static bool open(const struct pm_grid *g)
 
 int pm_reprojection_declare(const struct pm_reprojection_choice *c, struct pm_frame *f, struct pm_reprojection *r)
 {
-	*r = (struct pm_reprojection){.law = pm_law_of(f), .mesh = pm_frame_mesh(f, c->mesh), .above = c->above};
+	*r = (struct pm_reprojection){.law = pm_law_of(f), .mesh = pm_frame_mesh(f, c->mesh), .above = c->above, .passes = c->passes};
 	if (!r->law)
 		return -PM_DATA;
 	if (!r->law->vector)
@@ -100,11 +103,31 @@ static double largest(size_t n, int components, const double *const y[])
 	return sqrt(most);
 }
 
+/* work: room for a gradient, div omega, and room for two more scalars of n. div omega becomes chi. */
+static int potential_of(const struct pm_reprojection *r, const struct pm_operator *div, const struct pm_operator *grad, struct pm_poisson_fft *solver,
+	size_t n, double *work)
+{
+	double *const slope[3] = {work, work + n, work + 2 * n}, *rest = work + 3 * n, *chi = work + 4 * n, *part = work + 5 * n;
+	int status = 0;
+	for (int64_t pass = 0; pass < r->passes && !status; pass++) {
+		status = pm_poisson_fft_solve(solver, 1, rest, part, NULL);
+		for (size_t i = 0; i < n; i++)
+			chi[i] += part[i];
+		status = status ? status : pm_operator_apply(grad, 1, (const double *const[]){part}, slope, NULL);
+		status = status ? status : pm_operator_apply(div, 1, (const double *const *)slope, (double *const[]){part}, NULL);
+		for (size_t i = 0; i < n; i++)
+			rest[i] -= part[i];
+	}
+	memcpy(rest, chi, n * sizeof *rest);
+	return status;
+}
+
 int pm_reprojection_apply(const struct pm_reprojection *r, struct pm_frame *f, struct pm_fft_plans *plans, struct pm_fft_solvers *solvers, double *divergence)
 {
 	const struct pm_grid g = pm_grid_of(f, r->mesh);
 	const size_t n = pm_grid_size(&g);
-	double *work = pm_zalloc(4 * n, sizeof *work), *const omega[3] = {work, work + n, work + 2 * n}, *div = work + 3 * n;
+	const size_t arrays = r->passes > 1 ? 6 : 4;
+	double *work = pm_zalloc(arrays * n, sizeof *work), *const omega[3] = {work, work + n, work + 2 * n}, *div = work + 3 * n;
 	struct pm_operator first = r->div, slope = r->grad;
 	int status = work ? spread(r, f, &g, omega) : -PM_DATA, changed = 0;
 	if (!status)
@@ -119,7 +142,7 @@ int pm_reprojection_apply(const struct pm_reprojection *r, struct pm_frame *f, s
 	if (!status && changed) {
 		struct pm_poisson_fft *solver = pm_fft_solvers_find(solvers, &g, &r->solver);
 		solver = solver ? solver : pm_fft_solvers_add(solvers, &g, &r->solver, true);
-		status = solver ? pm_poisson_fft_solve(solver, 1, div, div, NULL) : -PM_DATA;
+		status = !solver ? -PM_DATA : r->passes > 1 ? potential_of(r, &first, &slope, solver, n, work) : pm_poisson_fft_solve(solver, 1, div, div, NULL);
 		if (!status)
 			status = pm_operator_apply(&slope, -1, (const double *const[]){div}, omega, NULL);
 		if (!status)

@@ -8,6 +8,7 @@
 
 struct pm_reprojection_choice {
 	const char *kernel, *mesh, *order; /* NULL: the law's, the first, spectral or with an open face 6 */
+	int64_t passes;                    /* 1 or more: each takes the divergence that the one before left */
 	double above;                      /* act only beyond this divergence, max |div omega| h/max |omega| */
 };
 
@@ -19,6 +20,7 @@ struct pm_reprojection {
 	struct pm_sets sets;
 	struct pm_operator div, grad;
 	struct pm_poisson_fft_choice solver;
+	int64_t passes;
 	double above;
 };
 

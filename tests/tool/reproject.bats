@@ -34,6 +34,23 @@ error() {
 	done
 }
 
+@test "passes with differences leave less and less divergence, as the chain of words does" {
+	mixed 16 >a
+	divergence() { p2m | diag --columns divergence | tail -1; }
+	for order in 2 6; do
+		reproject --order $order --passes 3 <a >three
+		reproject --order $order <a | reproject --order $order | reproject --order $order >chain
+		sh_ok "scmp --field alpha --tolerance 1e-13 chain three"
+	done
+	# the wave (1, 2, 0) at 16 cells: 1 - k'^2/k^2 of order 6 is 1e-3
+	one=$(reproject --order 6 <a | divergence)
+	below "$(reproject --order 6 --passes 2 <a | divergence)" "$(calc "0.01 * $one")"
+	below "$(reproject --order 6 --passes 8 <a | divergence)" 1e-14
+	same_as <(reproject --order 6 --passes 1 <a | stab --plain) <(reproject --order 6 <a | stab --plain)
+	for t in 1 2 7; do reproject --order 6 --passes 3 --threads $t <a >$t.pm; done
+	same_as 1.pm 2.pm && same_as 1.pm 7.pm
+}
+
 @test "it acts between steps, at multiples of --every, above --above; in the plane and under other laws there is nothing to do" {
 	mixed >a
 	run -0 bash -o pipefail -c 'reproject --above 10 <a | sls --report'
