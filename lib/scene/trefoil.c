@@ -27,7 +27,8 @@ static void curve(double R, double b, int i, double x[3], double dx[3])
 {
 	const double ds = 2 * pm_pi / POINTS, s = i * ds, r = R + b * cos(3 * s), slope = -3 * b * sin(3 * s);
 	x[0] = r * cos(2 * s), x[1] = r * sin(2 * s), x[2] = b * sin(3 * s);
-	dx[0] = ds * (slope * cos(2 * s) - 2 * r * sin(2 * s)), dx[1] = ds * (slope * sin(2 * s) + 2 * r * cos(2 * s)), dx[2] = ds * 3 * b * cos(3 * s);
+	dx[0] = ds * (slope * cos(2 * s) - 2 * r * sin(2 * s));
+	dx[1] = ds * (slope * sin(2 * s) + 2 * r * cos(2 * s)), dx[2] = ds * 3 * b * cos(3 * s);
 }
 
 static void omega(const struct pm_scene_choice *c, const double x[3], double w[3])
@@ -72,7 +73,8 @@ static struct integrals integrals_of(double R, double b, double core)
 			const double z[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]}, r = sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]), s = r / core;
 			const double along = dx[0] * dy[0] + dx[1] * dy[1] + dx[2] * dy[2];
 			sum.energy += 0.5 * along * (r > 0 ? erf(s) / r : 2 / (sqrt(pm_pi) * core)) / (4 * pm_pi);
-			const double twist = dx[0] * (dy[1] * z[2] - dy[2] * z[1]) + dx[1] * (dy[2] * z[0] - dy[0] * z[2]) + dx[2] * (dy[0] * z[1] - dy[1] * z[0]);
+			const double twist = dx[0] * (dy[1] * z[2] - dy[2] * z[1]) + /* dX . dY x (X - Y) */
+				 dx[1] * (dy[2] * z[0] - dy[0] * z[2]) + dx[2] * (dy[0] * z[1] - dy[1] * z[0]);
 			sum.helicity += r > 0 ? twist * (erf(s) - 2 * s * exp(-s * s) / sqrt(pm_pi)) / (4 * pm_pi * r * r * r) : 0;
 		}
 	}

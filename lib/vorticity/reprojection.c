@@ -142,7 +142,8 @@ int pm_reprojection_apply(const struct pm_reprojection *r, struct pm_frame *f, s
 	if (!status && changed) {
 		struct pm_poisson_fft *solver = pm_fft_solvers_find(solvers, &g, &r->solver);
 		solver = solver ? solver : pm_fft_solvers_add(solvers, &g, &r->solver, true);
-		status = !solver ? -PM_DATA : r->passes > 1 ? potential_of(r, &first, &slope, solver, n, work) : pm_poisson_fft_solve(solver, 1, div, div, NULL);
+		status = !solver ? -PM_DATA : r->passes == 1 ? pm_poisson_fft_solve(solver, 1, div, div, NULL) :
+			potential_of(r, &first, &slope, solver, n, work);
 		if (!status)
 			status = pm_operator_apply(&slope, -1, (const double *const[]){div}, omega, NULL);
 		if (!status)
