@@ -14,19 +14,6 @@
 #pragma GCC diagnostic ignored "-Wpsabi" /* how vectors are passed to functions: all of ours are inlined */
 #endif
 
-enum { PM_SIMD_WIDTH = 8 };
-typedef double pm_simd __attribute__((vector_size(64)));
-typedef int64_t pm_simd_bits __attribute__((vector_size(64)));
-typedef uint64_t pm_simd_words __attribute__((vector_size(64)));
-
-/* Two, four and eight doubles and four whole numbers at any address: what a pointer into an array of doubles (or int32_t) may be turned into. */
-typedef double pm_simd_at __attribute__((vector_size(64), may_alias)); /* 64-byte aligned */
-typedef int64_t pm_simd_bits_at __attribute__((vector_size(64), may_alias));
-typedef double pm_simd2_at __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
-typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
-
 /* What one register holds: 8, 4 or 2 doubles. A compiler keeps wider vectors in memory, at six times the cost, so loops over lanes that do not know of each
  * other go part by part: the same bytes. */
 #if defined __AVX512F__
@@ -39,6 +26,24 @@ enum { PM_SIMD_PART = 2 };
 typedef double pm_simd_part __attribute__((vector_size(PM_SIMD_PART * sizeof(double))));
 typedef double pm_simd_part_at __attribute__((vector_size(PM_SIMD_PART * sizeof(double)), may_alias)); /* aligned to its size */
 
+/* Files whose lanes are things of their own, eight of which need not be together, say PM_SIMD_NARROW and get vectors of one register. */
+#ifdef PM_SIMD_NARROW
+enum { PM_SIMD_WIDTH = PM_SIMD_PART };
+#else
+enum { PM_SIMD_WIDTH = 8 };
+#endif
+typedef double pm_simd __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double))));
+typedef int64_t pm_simd_bits __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double))));
+typedef uint64_t pm_simd_words __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double))));
+
+/* Two, four and eight doubles and four whole numbers at any address: what a pointer into an array of doubles (or int32_t) may be turned into. */
+typedef double pm_simd_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double)), may_alias)); /* aligned to its size */
+typedef int64_t pm_simd_bits_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double)), may_alias));
+typedef double pm_simd2_at __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
+
 /* Before a short loop over vectors, which must vanish if they are to stay in registers. */
 #ifdef __clang__
 #define PM_SIMD_UNROLL _Pragma("unroll")
@@ -48,7 +53,28 @@ typedef double pm_simd_part_at __attribute__((vector_size(PM_SIMD_PART * sizeof(
 
 #define PM_SIMD_INLINE static inline __attribute__((always_inline, unused))
 
-PM_SIMD_INLINE pm_simd pm_simd_all(double x) { return (pm_simd){x, x, x, x, x, x, x, x}; }
+PM_SIMD_INLINE pm_simd pm_simd_all(double x)
+{
+#if !defined PM_SIMD_NARROW || defined __AVX512F__
+	return (pm_simd){x, x, x, x, x, x, x, x};
+#elif defined __AVX__
+	return (pm_simd){x, x, x, x};
+#else
+	return (pm_simd){x, x};
+#endif
+}
+
+/* 0, 1, 2, ... */
+PM_SIMD_INLINE pm_simd_bits pm_simd_lanes(void)
+{
+#if !defined PM_SIMD_NARROW || defined __AVX512F__
+	return (pm_simd_bits){0, 1, 2, 3, 4, 5, 6, 7};
+#elif defined __AVX__
+	return (pm_simd_bits){0, 1, 2, 3};
+#else
+	return (pm_simd_bits){0, 1};
+#endif
+}
 
 PM_SIMD_INLINE pm_simd pm_simd_load(const double *p) { return *(const pm_simd_at *)p; } /* 64-byte aligned */
 
@@ -91,6 +117,7 @@ PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)
 #endif
 }
 
+#ifndef PM_SIMD_NARROW
 /* The vector one lane on: the last of `before`, then seven of `here`; and one lane back: seven of `here`, then the first of `after`. */
 PM_SIMD_INLINE pm_simd pm_simd_shift_up(pm_simd before, pm_simd here) { return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14); }
 PM_SIMD_INLINE pm_simd pm_simd_shift_down(pm_simd here, pm_simd after) { return __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8); }
@@ -107,8 +134,17 @@ PM_SIMD_INLINE pm_simd pm_simd_masked(pm_simd v, const int64_t *mask)
 	return (pm_simd)((pm_simd_bits)v & *(const pm_simd_bits_at *)mask);
 }
 
-/* Sum of the lanes, in a fixed order. */
-PM_SIMD_INLINE double pm_simd_sum(pm_simd v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
+#endif
+
+/* Sum of the lanes, in a fixed order: of halves, until one is left. */
+PM_SIMD_INLINE double pm_simd_sum(pm_simd v)
+{
+	PM_SIMD_UNROLL
+	for (int half = PM_SIMD_WIDTH / 2; half > 0; half /= 2)
+		for (int l = 0; l < half; l++)
+			v[l] += v[l + half];
+	return v[0];
+}
 
 /* True if a < b in any lane. */
 PM_SIMD_INLINE int pm_simd_any_below(pm_simd a, pm_simd b)
@@ -117,7 +153,11 @@ PM_SIMD_INLINE int pm_simd_any_below(pm_simd a, pm_simd b)
 	return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0;
 #else
 	pm_simd_bits m = a < b;
-	return ((m[0] | m[1]) | (m[2] | m[3]) | (m[4] | m[5]) | (m[6] | m[7])) != 0;
+	int64_t any = 0;
+	PM_SIMD_UNROLL
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		any |= m[l];
+	return any != 0;
 #endif
 }
 
@@ -137,7 +177,7 @@ PM_SIMD_INLINE pm_simd pm_simd_between(size_t from, size_t to, pm_simd v, pm_sim
 #ifdef __AVX512F__
 	return (pm_simd)_mm512_mask_mov_pd((__m512d)other, (__mmask8)(((1u << (to < 8 ? to : 8)) - 1) & ~((1u << (from < 8 ? from : 8)) - 1)), (__m512d)v);
 #else
-	pm_simd_bits lane = {0, 1, 2, 3, 4, 5, 6, 7}, in = (lane >= (int64_t)from) & (lane < (int64_t)to);
+	pm_simd_bits lane = pm_simd_lanes(), in = (lane >= (int64_t)from) & (lane < (int64_t)to);
 	return (pm_simd)((in & (pm_simd_bits)v) | (~in & (pm_simd_bits)other));
 #endif
 }
@@ -186,8 +226,8 @@ PM_SIMD_INLINE pm_simd pm_simd_rsqrt_start(pm_simd x)
 #else
 	pm_simd y;
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		y[l] = 1 / sqrt(x[l]);
-	return y;
+		y[l] = sqrt(x[l]);
+	return 1 / y;
 #endif
 }
 

@@ -1,8 +1,9 @@
-/* Pairs of points, eight at a time: force factor and potential of a mollified source, for every method that sums over pairs.
+/* Pairs of points, as many at a time as a register holds: force factor and potential of a mollified source, for every method that sums over pairs.
  * 1/r^dim from the 14-bit reciprocals with a correction of fourth order (6e-16). SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FAR_PAIR_FORCES_H
 #define PM_FAR_PAIR_FORCES_H
 
+#define PM_SIMD_NARROW
 #include "base/simd.h"
 #include "mollifier/mollifier.h"
 
@@ -81,12 +82,12 @@ PM_SIMD_INLINE void pm_pairs_meet(const struct pm_field_pairs *p, int dim, enum 
 PM_SIMD_INLINE pm_simd pm_pairs_others(size_t first, size_t i, pm_simd v)
 {
 	int64_t at = (int64_t)i - (int64_t)first;
-	return (pm_simd)((pm_simd_bits)v & ((pm_simd_bits){0, 1, 2, 3, 4, 5, 6, 7} != at));
+	return (pm_simd)((pm_simd_bits)v & (pm_simd_lanes() != at));
 }
 PM_SIMD_INLINE pm_simd pm_pairs_after(size_t first, size_t i, pm_simd v)
 {
 	int64_t at = (int64_t)i - (int64_t)first;
-	return (pm_simd)((pm_simd_bits)v & ((pm_simd_bits){0, 1, 2, 3, 4, 5, 6, 7} > at));
+	return (pm_simd)((pm_simd_bits)v & (pm_simd_lanes() > at));
 }
 
 /* How many of the lanes, of which lane l is particle first + l, are in [from, to) and coincide. */
