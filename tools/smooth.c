@@ -1,4 +1,6 @@
 /* smooth: the binomial filter on mesh fields (lib/mesh/smooth.c). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "law/law.h"
 #include "mesh/smooth.h"
 #include "stage/stage.h"
@@ -25,6 +27,16 @@ static int check(const struct pm_frame *f, const struct pm_field *field)
 					"'%s' is half a cell off the nodes along an axis that is not periodic, and how it goes on there depends "
 					"on what it is (smooth it on periodic axes only)", field->name);
 	return field->type == PM_I64 ? pm_fail(PM_DATA, "'%s' is of integers (scalc makes a field of reals of it)", field->name) : 0;
+}
+
+static int begin(struct pm_stage *s)
+{
+	const struct config *o = s->config;
+	for (int i = 0; i < o->fields.n; i++)
+		for (int k = 0; k < i; k++)
+			if (!strcmp(o->fields.item[i], o->fields.item[k]))
+				return pm_fail(PM_USAGE, "--field names '%s' twice, but it is smoothed once (--passes 2)", o->fields.item[i]);
+	return 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
@@ -101,6 +113,7 @@ const struct pm_tool tool_smooth = {
 	.config = sizeof(struct config),
 	.options = options,
 	.examples = examples,
+	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.divided = divided,

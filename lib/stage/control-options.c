@@ -1,4 +1,5 @@
 /* Options and reports of error-controlled steps. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <float.h>
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -17,6 +18,9 @@ int pm_control_begin(const struct pm_stage *s, const struct pm_push *p)
 				"midpoint-double)", names[i]);
 	if (p->dense && !(p->scheme && p->scheme->embedded))
 		return pm_fail(PM_USAGE, "--dense belongs to an embedded pair (push rk45, rk23, rk4-double, midpoint-double)");
+	if (p->scheme && p->scheme->embedded && p->tolerance > 0 && p->tolerance < DBL_EPSILON)
+		return pm_fail(PM_USAGE, "--tolerance %g of the state is below rounding, %.2g, and no step meets it (1e-14 is the least that makes sense)",
+			p->tolerance, DBL_EPSILON);
 	if (p->floor > p->most)
 		return pm_fail(PM_USAGE, "--min %g is above --max %g", p->floor, p->most);
 	if (pm_control_chosen(p) && pm_step_adapts(p->scheme) && p->tolerance > 0 && pm_given(s, "dt"))

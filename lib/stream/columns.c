@@ -27,6 +27,8 @@ static int meaning(const char *name, char field[PM_NAME])
 		return snprintf(field, PM_NAME, "x"), *name - 'x';
 	if (n == 2 && *name == 'v' && name[1] >= 'x' && name[1] <= 'z')
 		return snprintf(field, PM_NAME, "v"), name[1] - 'x';
+	if (n == 7 && !strncmp(name, "alpha_", 6) && name[6] >= 'x' && name[6] <= 'z') /* of vortices in space, as diag writes it */
+		return snprintf(field, PM_NAME, "alpha"), name[6] - 'x';
 	while (k > 0 && name[k - 1] >= '0' && name[k - 1] <= '9')
 		k--;
 	if (k > 1 && k < n && n - k < 3 && name[k - 1] == '_') {

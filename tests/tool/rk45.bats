@@ -50,6 +50,15 @@ words='pp | push rk45 --tolerance 1e-6'
 	grep -q '"below_min":[1-9]' report
 }
 
+@test "a tolerance below rounding is refused by the pairs, and one above is met" {
+	spring() { printf 'x vx\n1 0\n' | stab - --law free --dt 0.1 | cycle -q -n 2 "field acc=-x | push $1" 2>&1 >end; }
+	for scheme in rk45 rk23 rk4-double midpoint-double; do
+		run -2 spring "$scheme --tolerance 1e-30"
+		[[ $output == *"--tolerance 1e-30 of the state is below rounding, 2.2e-16, and no step meets it"* ]]
+	done
+	run -0 spring "rk45 --tolerance 1e-13"
+}
+
 @test "rk45 and the end of a run: --exact ends there; a step is at most --max; with --tolerance 0 all are dt" {
 	pinit kepler --dt 50 >a
 	cycle -t 2 --exact 'pp | push rk45' <a | sls >text

@@ -71,6 +71,8 @@ mesh() { printf 'x%s mass\n' "${3:+ $3}" | stab - --box 0,1 -n "$1" --faces "${4
 	refused "no field 'rho' on 'mesh' (p2m makes it from particles, or choose --field)" 'pinit plummer -n 10 | smooth'
 	refused 'is half a cell off the nodes along an axis that is not periodic' 'pinit uniform -n 9 --dim 1 --dispersion 1 --cells 8 --faces wall \
 		--particle-faces reflect | smod --law electromagnetic | scalc --extensive "charge = mass" | p2m --current | smooth'
+	run -2 --separate-stderr smooth --field rho,rho a
+	[[ $stderr == "smooth: --field names 'rho' twice, but it is smoothed once (--passes 2)" ]]
 	pinit em-wave --cells 8 --no-history >e
 	smooth --no-history <e | cmp e -
 }

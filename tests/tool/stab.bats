@@ -23,6 +23,15 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	[ "${lines[1]}" = "1e+300 -0 0.5 4 5 6 1e-300 -3" ]
 }
 
+@test "alpha_x alpha_y alpha_z are a vector strength, as alpha_0 alpha_1 alpha_2 are" {
+	for names in 'alpha_x alpha_y alpha_z' 'alpha_0 alpha_1 alpha_2'; do
+		printf 'x y z %s volume\n0 0 0 1 2 3 1\n' "$names" | stab - --law vortex --no-history | sls | grep -E ' alpha ' >>seen
+	done
+	[ "$(sort -u seen)" = "    alpha       3 f64 state strength" ]
+	run -1 --separate-stderr bash -c "printf 'x alpha_y\n0 1\n' | stab -"
+	[[ $stderr == *"the columns of 'alpha' must be all its components in order"* ]]
+}
+
 @test "the names of the bodies travel with them" {
 	sh_ok "stab $top/data/solar-system.tsv --law gravity --constant G=2.95912208286e-4 | stab --plain | cut -f1 | paste -sd,"
 	[ "$output" = "name,sun,jupiter,saturn,uranus,neptune,pluto" ]
