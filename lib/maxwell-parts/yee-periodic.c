@@ -15,41 +15,59 @@ struct lines {
 
 static size_t wrapped(size_t i, int k, size_t n) { return (i + (size_t)((ptrdiff_t)n + k) % n) % n; }
 
-/* The weighted difference at a point; the offsets across are those of axes e and g. */
-static double difference(const struct lines *l, const size_t at[3], int e, int by_e, int g, int by_g)
+/* A row along x, and how far to go along it. */
+struct row {
+	const double *at;
+	int by;
+};
+
+static struct row row_of(const struct lines *l, const int by[3], size_t j, size_t k)
 {
-	const struct pm_grid *grid = &l->y->grid;
-	const size_t *n = grid->points;
-	size_t p[3] = {at[0], at[1], at[2]};
-	double value[4]; /* at -3/2, -1/2, 1/2, 3/2 */
-	p[e] = wrapped(at[e], by_e, n[e]);
-	p[g] = wrapped(at[g], by_g, n[g]);
-	for (int k = 0; k < 4; k++) {
-		p[l->axis] = wrapped(at[l->axis], k - 2 + l->up, n[l->axis]);
-		value[k] = l->from[(p[2] * n[1] + p[1]) * n[0] + p[0]];
+	const size_t *n = l->y->grid.points;
+	return (struct row){l->from + (wrapped(k, by[2], n[2]) * n[1] + wrapped(j, by[1], n[1])) * n[0], by[0]};
+}
+
+/* to += weight (high - low) */
+static void add_row(size_t n, double weight, struct row high, struct row low, double *to)
+{
+	const size_t edge = n > 4 ? 2 : n, end = n > 4 ? n - 2 : n;
+	for (size_t i = 0; i < n; i = i + 1 == edge ? end : i + 1)
+		to[i] += weight * (high.at[wrapped(i, high.by, n)] - low.at[wrapped(i, low.by, n)]);
+	if (n <= 4)
+		return;
+	const double *const h = high.at + high.by, *const b = low.at + low.by;
+	for (size_t i = edge; i < end; i++)
+		to[i] += weight * (h[i] - b[i]);
+}
+
+/* The differences of a row of points beside them by `by`. */
+static void differences(const struct lines *l, const int by[3], double weight, size_t j, size_t k, double *to)
+{
+	const size_t n = l->y->grid.points[0];
+	struct row row[4]; /* at -3/2, -1/2, 1/2, 3/2 */
+	for (int q = 0; q < 4; q++) {
+		int at[3] = {by[0], by[1], by[2]};
+		at[l->axis] = q - 2 + l->up;
+		row[q] = row_of(l, at, j, k);
 	}
-	return l->s->near * (value[2] - value[1]) + l->s->far * (value[3] - value[0]);
+	add_row(n, weight * l->s->near, row[2], row[1], to);
+	if (l->s->far != 0)
+		add_row(n, weight * l->s->far, row[3], row[0], to);
 }
 
 static void add(const struct lines *l)
 {
 	const struct pm_grid *g = &l->y->grid;
 	const int a = l->axis, e = (a + 1) % 3, f = (a + 2) % 3;
-	const double middle = l->s->middle[a], side_e = l->s->side[a][0], side_f = l->s->side[a][1], corner = l->s->corner[a];
-#pragma omp parallel for collapse(2) schedule(static) if (pm_grid_size(g) > 4096)
+#pragma omp parallel for collapse(2) schedule(static) num_threads(pm_threads()) if (pm_grid_size(g) > 4096)
 	for (size_t k = 0; k < g->points[2]; k++)
 		for (size_t j = 0; j < g->points[1]; j++)
-			for (size_t i = 0; i < g->points[0]; i++) {
-				const size_t at[3] = {i, j, k};
-				double sum = middle * difference(l, at, e, 0, f, 0);
-				if (side_e != 0)
-					sum += side_e * (difference(l, at, e, 1, f, 0) + difference(l, at, e, -1, f, 0));
-				if (side_f != 0)
-					sum += side_f * (difference(l, at, e, 0, f, 1) + difference(l, at, e, 0, f, -1));
-				if (corner != 0)
-					sum += corner * (difference(l, at, e, 1, f, 1) + difference(l, at, e, -1, f, 1) + difference(l, at, e, 1, f, -1) +
-						difference(l, at, e, -1, f, -1));
-				l->to[(k * g->points[1] + j) * g->points[0] + i] += l->factor * sum;
+			for (int q = 0; q < 9; q++) {
+				int by[3] = {0};
+				by[e] = q % 3 - 1, by[f] = q / 3 - 1;
+				const double weight = by[e] && by[f] ? l->s->corner[a] : by[e] ? l->s->side[a][0] : by[f] ? l->s->side[a][1] : l->s->middle[a];
+				if (weight != 0)
+					differences(l, by, l->factor * weight, j, k, l->to + (k * g->points[1] + j) * g->points[0]);
 			}
 }
 

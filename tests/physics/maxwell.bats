@@ -55,3 +55,19 @@ growth() {
 	# vth = 0.03, so that the theory, which is not relativistic, holds: the hot velocities are 0.095 c, (gamma - 1) 1 %
 	within "$(growth 100:170 -n 8192 --vth 0.03 --wave-field 1e-6)" 0.0498102792 0.0015
 }
+
+@test "psatd: light in a cold plasma to second order in the cell and the step, filamentation at its rate, both where Yee has the fields and on the nodes" {
+	local step="${step/maxwell/maxwell --method psatd}"
+	for cells in 16 32 64; do
+		w[cells]=$(pinit em-wave --standing 1 -n 1024 --cells $cells --wave-field 1e-4 | cycle -n 4 --every 1 "$step" | omega 1.4142135623731)
+	done
+	order 2 1 "$(awk -v a="${w[64]}" 'BEGIN { print 1 - a }')" 2 "$(awk -v a="${w[32]}" 'BEGIN { print 1 - a }')" \
+		4 "$(awk -v a="${w[16]}" 'BEGIN { print 1 - a }')"
+	echo "${w[*]}"
+	within "$(growth 30:50 -n 1024 --vth 0 --v0 0.2 --wave-field 1e-6)" 0.141385211908858 0.0014
+	pinit weibel --cells 32 -n 1024 --vth 0 --v0 0.2 --wave-field 1e-6 >w.pm
+	sh_ok "sel --drop E,B <w.pm | p2m | maxwell --gauss --method psatd --nodal | scalc --mesh mesh 'B = B_0, B_1, 1e-6*cos(x)' >nodal.pm"
+	got=$(cycle -t 50 --every 12 "$step" <nodal.pm | diag --columns time --growth energy_magnetic --window 30:50 |
+		sed -n 's/.* gamma \([-0-9.e+]*\) .*/\1/p' | awk '{ printf "%.9g", $1 / 2 }')
+	within "$got" 0.141385211908858 0.0014
+}
