@@ -51,6 +51,7 @@ input() {
 	case $1 in
 	cycle | modes | pp) pinit plummer -n 12 --seed 3 --cells 4 ;;
 	m2p) cloud | p2m | poisson-fft | mgrad ;;
+	dispersion) pinit landau -n 12 --cells 4 | cycle -q -n 15 --every 1 "push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2" ;;
 	mgrad | mlevel) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse | spectrum | smooth) cloud | p2m ;;
 	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
