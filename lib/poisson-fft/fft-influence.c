@@ -2,10 +2,34 @@
  * faces. Cost: a table of an eighth of the mesh, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
 #include "poisson-fft/influence-table.h"
+#include "world/world.h"
 
 static double symbol(const void *choice, double theta, double h)
 {
 	return pm_symbol_value(((const struct pm_poisson_fft_choice *)choice)->symbol, theta, h);
+}
+
+/* fold: of each row of a plane of modes its mode j, then the place of that mode in the table, which has those of the rows of this rank alone (in 2-D all).
+ * mode: the modes of the table, as many as are returned. */
+static size_t held(const struct pm_poisson_fft *p, size_t modes, size_t *mode)
+{
+	const bool some = p->from && p->grid.dim == 3;
+	const size_t me = (size_t)pm_world_rank(), first = some ? p->units_of[me] : 0, end = some ? p->units_of[me + 1] : p->modes[Y];
+	size_t n = 0;
+	for (size_t j = 0; j < modes; j++) {
+		bool here = false;
+		for (size_t y = first; y < end; y++)
+			here |= p->fold[y] == j;
+		mode[n] = j;
+		n += here;
+	}
+	for (size_t y = first; y < end; y++)
+		for (size_t i = 0; i < n; i++)
+			if (mode[i] == p->fold[y]) {
+				p->fold[y] = i;
+				break;
+			}
+	return n;
 }
 
 int pm_poisson_fft_influence(struct pm_poisson_fft *p)
@@ -21,16 +45,20 @@ int pm_poisson_fft_influence(struct pm_poisson_fft *p)
 		status = pm_influence_axis_init(&axis[a], f, p->line[a].n, h[a], symbol, &p->choice);
 	p->green_row = (p->chunks * H + L - 1) / L * L;
 	p->green_slab = p->green_row * axis[Z].count;
-	if (!status && (!(p->green = pm_zalloc(axis[Y].count * p->green_slab, sizeof *p->green)) || !(p->fold = pm_alloc(p->modes[Y], sizeof *p->fold))))
-		status = -PM_DATA;
-	for (size_t i = 0, n = p->modes[Y]; i < n && !status; i++)
+	size_t *mode = status ? NULL : pm_alloc(axis[Y].count + 1, sizeof *mode);
+	p->fold = mode ? pm_alloc(p->modes[Y], sizeof *p->fold) : NULL;
+	for (size_t i = 0, n = p->modes[Y]; i < n && p->fold; i++)
 		p->fold[p->line[Y].fft->at[i]] = i <= n - i ? i : n - i;
-	size_t rows = status ? 0 : axis[Y].count * axis[Z].count;
+	const size_t modes = p->fold ? held(p, axis[Y].count, mode) : 0;
+	p->green = p->fold ? pm_zalloc(modes * p->green_slab + 1, sizeof *p->green) : NULL;
+	status = status || p->green ? status : -PM_DATA;
+	size_t rows = status ? 0 : modes * axis[Z].count;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(pm_threads()) if (rows * axis[X].count > 16384)
 	for (size_t r = 0; r < rows; r++) {
 		size_t j = r / axis[Z].count, k = r % axis[Z].count;
-		pm_influence_row(f, axis, p->choice.screening * p->choice.screening, j, k, p->green + j * p->green_slab + k * p->green_row);
+		pm_influence_row(f, axis, p->choice.screening * p->choice.screening, mode[j], k, p->green + j * p->green_slab + k * p->green_row);
 	}
+	pm_free(mode);
 	for (int a = X; a <= Z; a++)
 		pm_influence_axis_free(&axis[a]);
 	return status;
