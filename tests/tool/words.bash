@@ -28,6 +28,7 @@ words() {
 	penalize) echo "penalize --body 'x - 1'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	redistance) echo "redistance" ;;
+	beale) echo "beale --eps 0.1 --iterations 2" ;;
 	filament) echo "filament" ;;
 	walk) echo "walk --nu 0.1" ;;
 	jump) echo "jump '9: v = -vx, -vy, -vz'" ;;
@@ -60,6 +61,7 @@ input() {
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	filament) cloud | smod --faces open | scalc --role state 'core = 0.1' 'circulation = 1' | scalc --role state --type i64 'node = id' 'curve = 0' ;;
+	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	redistance) pinit lattice -n 64 --cells 4 --spacing 1 | scalc --extensive 'volume = 1' | scalc --role state 'level = x - 1.2' ;;
 	walk | jump) cloud | smod --dt 0.01 ;;
 	collide) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 | smod --law electrostatic | scalc --extensive 'charge = mass' ;;
