@@ -50,6 +50,15 @@ static void report(const struct pm_stage *s, struct pm_frame *f, const struct pm
 	pm_report(s, f, "vectors", m->found.vectors);
 }
 
+/* The sign of its growth is not known. */
+static void tell(const struct pm_stage *s, const struct pm_modes *m, const struct config *c, int k)
+{
+	const struct pm_mode mode = pm_modes_mode(m, &c->choice, k);
+	if (mode.error > c->choice.neutral)
+		pm_note(s, "mode %d is not converged: after %d vectors its growth is %.2g +- %.2g a step (more --vectors)", k + 1, m->found.vectors,
+			mode.growth, mode.error);
+}
+
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
@@ -58,6 +67,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	const int k = (int)c->mode - 1;
 	if (!status && !c->table && k >= m.found.values)
 		status = pm_fail(PM_USAGE, "--mode %d: there are %d modes", k + 1, m.found.values);
+	if (!status && m.found.values)
+		tell(s, &m, c, c->table ? 0 : k);
 	if (!status && c->table)
 		print(&m, c);
 	if (!status && !c->table) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "measure/diag-table.h"
+#include "measure/measure-field.h"
 #include "measure/known-energy.h"
 #include "measure/separation.h"
 #include "measure/species-moments.h"
@@ -225,6 +226,9 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 		return -PM_DATA;
 	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
 		no_velocity(f, &how, t->note);
+	if (!t->note[0] && (how.flux || how.field_errors) && !pm_field_known(&how, f))
+		snprintf(t->note, sizeof t->note, "%s nan: no mesh has the density and the potential of the law (a solver before diag: poisson-fft)",
+			how.flux ? "flux and flux_enclosed are" : "field_residual and field_curl are");
 	for (int i = 0; i < t->n; i++)
 		value[i] = pm_diag_value(&t->column[i], &m, f);
 	if (remember(t, value, f->time))

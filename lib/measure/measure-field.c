@@ -26,6 +26,8 @@ static const struct pm_mesh *solved(const struct pm_measure *how, const struct p
 	return NULL;
 }
 
+bool pm_field_known(const struct pm_measure *how, const struct pm_frame *f) { return solved(how, f) != NULL; }
+
 /* The nodes of the box of the flux along an axis: first <= i < end. */
 static void nodes(const struct pm_measure *how, const struct pm_grid *g, int d, size_t *first, size_t *end)
 {

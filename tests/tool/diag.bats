@@ -207,6 +207,16 @@ load ../helper
 	refused 2 "not a whole number of waves" "pinit langmuir -n 64 | diag --modes 1.5"
 }
 
+@test "--flux-box and --field-errors without a potential print nan, and a line says why" {
+	pinit uniform -n 20 --dim 2 | p2m -n 8 >a
+	run -0 --separate-stderr diag --flux-box 0.2,0.2,0.8,0.8 --columns time a
+	[[ $output == *nan* && $stderr == "diag: flux and flux_enclosed are nan: no mesh has the density and the potential of the law"* ]]
+	run -0 --separate-stderr diag --field-errors --columns time a
+	[[ $stderr == "diag: field_residual and field_curl are nan: no mesh has "* ]]
+	run -0 --separate-stderr bash -o pipefail -c 'poisson-fft a | diag --field-errors --columns time'
+	[ -z "$stderr" ]
+}
+
 @test "the energy of a sentence that softens pp is conserved in diag --pair and --until: its softening and mollifier count, not the frame's" {
 	pinit plummer -n 50 >a
 	for words in 'push kick/2 drift | pp --softening 0.5 | push kick/2' 'pp --softening 0.5 | push rk4' \

@@ -65,6 +65,15 @@ column() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	awk '{ exit !($1 > 1.41 && $1 < 1.4112 && ($1 - $2) ^ 2 < 1e-10) }' t || { cat t; false; } # 1.4106736 of both
 }
 
+@test "a leading mode that is not converged is told, once, and a converged one is not" {
+	s='push --unsafe --dt 0.2 kick/2 drift | p2m | poisson-fft | mgrad | m2p | push --unsafe kick/2'
+	pinit langmuir -n 256 --cells 32 --amplitude 0 >a
+	run -0 --separate-stderr bash -c "modes --table --vectors 8 '$s' <a"
+	[[ $stderr == "modes: mode 1 is not converged: after 8 vectors its growth is "*" a step (more --vectors)" && $(wc -l <<<"$stderr") = 1 ]]
+	run -0 --separate-stderr bash -c "modes --table '$s' <a"
+	[ -z "$stderr" ]
+}
+
 @test "what has no modes is refused in one line" {
 	run -2 --separate-stderr modes --table --moving -n 20 'pp | push ias15' < <(pinit two-body --eccentricity 0 --dt 0.01)
 	[[ $stderr == "modes: frame 1: the sentence chooses its steps"*"--tolerance 0"* && $(wc -l <<<"$stderr") = 1 ]]
