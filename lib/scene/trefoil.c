@@ -33,7 +33,8 @@ static void curve(double R, double b, int i, double x[3], double dx[3])
 
 static void omega(const struct pm_scene_choice *c, const double x[3], double w[3])
 {
-	const double R = c->value[RADIUS], b = c->value[WINDING] * R, a2 = pow(c->value[CORE] * R, 2), peak = c->value[GAMMA] / (pow(pm_pi, 1.5) * a2 * sqrt(a2));
+	const double R = c->value[RADIUS], b = c->value[WINDING] * R, a2 = pow(c->value[CORE] * R, 2);
+	const double peak = c->value[GAMMA] / (pow(pm_pi, 1.5) * a2 * sqrt(a2));
 	w[0] = w[1] = w[2] = 0;
 	if (fabs(hypot(hypot(x[0], x[1]) - R, x[2]) - b) > 6 * sqrt(a2)) /* of the torus on which the curve lies */
 		return;
