@@ -1,8 +1,9 @@
 /* a(t) = exp(gamma t) (C cos(omega t) + S sin(omega t)) fitted to a part of a series, C and S complex: standing, travelling, or C alone where it does
- * not oscillate, or C exp(-i omega t) of a travelling wave within less than one and a half turns; for a column of diag also
- * with a constant, exp(gamma t) (B + C cos + S sin). Least squares of the residual over exp(gamma t), so that every e-folding counts the same: gamma and omega by Gauss and Newton's method, the linear parameters projected out (Golub and Pereyra 1973). The standard
- * error of gamma takes the residuals of neighbours as correlated (Bartlett 1946), and the change of gamma between the halves of the window is
- * added where it is larger than its own error. Cost: about 30 passes over the points. SPDX-License-Identifier: GPL-3.0-or-later */
+ * not oscillate, or C exp(-i omega t) of a travelling wave within less than one and a half turns; for a column of diag also with a constant, exp(gamma
+ * t) (B + C cos + S sin). Least squares of the residual over exp(gamma t), so that every e-folding counts the same: gamma and omega by Gauss and
+ * Newton's method, the linear parameters projected out (Golub and Pereyra 1973). The standard error of gamma takes the residuals of neighbours as
+ * correlated (Bartlett 1946), and the change of gamma between the halves of the window is added where it is larger than its own error. Cost: about 30
+ * passes over the points. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/exponential-fit.h"
 
 enum { STEADY = 1, WAVE = 2, BEAT = 3, ROUNDS = 8 }; /* the number of functions: 1; cos, sin; 1, cos, sin */
