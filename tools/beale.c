@@ -1,8 +1,6 @@
 /* beale: strengths for which the smoothed particles are the function itself (lib/near/beale.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include <string.h>
 
-#include "law/law.h"
 #include "near/beale.h"
 #include "stage/stage.h"
 #include "stage/strength-report.h"
@@ -24,35 +22,13 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-/* The strength and its set, as sample takes them. */
-static int choose(const struct config *o, const struct pm_frame *f, struct pm_sample_choice *c)
-{
-	const struct pm_law *law = pm_law_of(f);
-	if (!law)
-		return -PM_DATA;
-	*c = o->choice;
-	c->mollifier = "gaussian";
-	c->field = c->field ? c->field : law->strength;
-	if (!c->field)
-		return pm_fail(PM_DATA, "the law %s has no strength (--field NAME)", law->name);
-	for (size_t i = 0; i < f->nsets && !c->set; i++)
-		if (pm_frame_field(f, f->sets[i]->name, c->field))
-			c->set = f->sets[i]->name;
-	const struct pm_field *q = c->set ? pm_frame_field(f, c->set, c->field) : NULL;
-	if (!q || !q->extensive)
-		return pm_fail(PM_DATA, "no strength '%s' on %s%s%s (sls lists what there is)", c->field, c->set ? "'" : "any set", c->set ? c->set : "",
-			c->set ? "'" : "");
-	c->at = c->set;
-	return pm_frame_field(f, c->set, "volume") ? 0 : pm_fail(PM_DATA, "no field 'volume' on '%s', by which a strength is a value (remesh gives volumes)",
-		c->set);
-}
-
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct config *o = s->config;
 	struct pm_sample_choice c;
 	if (f->substep)
 		return PM_PASS;
-	return choose(s->config, f, &c) || pm_sample_declare(&c, f) || !pm_changes(f, c.set, c.field) ? -PM_DATA : 0;
+	return pm_beale_choose(&o->choice, f, &c) || pm_sample_declare(&c, f) || !pm_changes(f, c.set, c.field) ? -PM_DATA : 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
@@ -61,7 +37,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_sample_choice c;
 	struct pm_strengths before, after;
 	struct pm_beale_gain gain;
-	int status = choose(o, f, &c);
+	int status = pm_beale_choose(&o->choice, f, &c);
 	if (!status) {
 		pm_strengths_of(f, c.set, &before);
 		status = pm_beale(&c, f, (int)o->iterations, o->tolerance, &gain);

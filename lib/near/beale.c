@@ -4,8 +4,31 @@
  * whatever the number of iterations, and the total is not conserved. Cost: a sum over neighbours an iteration. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "law/law.h"
 #include "near/beale.h"
 #include "stream/declare.h"
+
+int pm_beale_choose(const struct pm_sample_choice *typed, const struct pm_frame *f, struct pm_sample_choice *c)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law)
+		return -PM_DATA;
+	*c = *typed;
+	c->mollifier = "gaussian";
+	c->field = c->field ? c->field : law->strength;
+	if (!c->field)
+		return pm_fail(PM_DATA, "the law %s has no strength (--field NAME)", law->name);
+	for (size_t i = 0; i < f->nsets && !c->set; i++)
+		if (pm_frame_field(f, f->sets[i]->name, c->field))
+			c->set = f->sets[i]->name;
+	const struct pm_field *q = c->set ? pm_frame_field(f, c->set, c->field) : NULL;
+	if (!q || !q->extensive)
+		return pm_fail(PM_DATA, "no strength '%s' on %s%s%s (sls lists what there is)", c->field, c->set ? "'" : "any set", c->set ? c->set : "",
+			c->set ? "'" : "");
+	c->at = c->set;
+	return pm_frame_field(f, c->set, "volume") ? 0 : pm_fail(PM_DATA, "no field 'volume' on '%s', by which a strength is a value (remesh gives volumes)",
+		c->set);
+}
 
 /* Largest |wanted - smoothed| over the components, and its largest value. */
 static double worst(const struct pm_field *smoothed, double *const wanted, size_t n)
