@@ -43,6 +43,8 @@ typedef double pm_simd2_at __attribute__((vector_size(16), aligned(8), may_alias
 typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
+typedef int32_t pm_simd_int __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t))));
+typedef int32_t pm_simd_int_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t)), aligned(4), may_alias));
 
 /* Before a short loop over vectors, which must vanish if they are to stay in registers. */
 #ifdef __clang__
@@ -200,6 +202,78 @@ PM_SIMD_INLINE pm_simd pm_simd_fnma(pm_simd a, pm_simd b, pm_simd c)
 	return c - a * b;
 #endif
 }
+
+/* a/b, rounded once, where r is 1/b: with multiply-adds by Markstein's correction (IBM J. Res. Dev. 34 (1990) 111), which is three operations instead of
+ * one that takes as long as sixteen. Quotients below 1e-290 may be rounded twice; infinite ones are NaN. */
+PM_SIMD_INLINE pm_simd pm_simd_divide(pm_simd a, pm_simd b, pm_simd r)
+{
+#ifdef __AVX512F__
+	pm_simd q = a * r;
+	return pm_simd_fma(pm_simd_fnma(q, b, a), r, q);
+#else
+	(void)r;
+	return a / b;
+#endif
+}
+
+/* Lanes with not low <= v <= high, NaN included, as bits. */
+PM_SIMD_INLINE unsigned pm_simd_outside(pm_simd v, pm_simd low, pm_simd high)
+{
+#ifdef __AVX512F__
+	return (unsigned)_mm512_cmp_pd_mask((__m512d)v, (__m512d)low, _CMP_NGE_UQ) | (unsigned)_mm512_cmp_pd_mask((__m512d)v, (__m512d)high, _CMP_NLE_UQ);
+#else
+	pm_simd_bits in = (v >= low) & (v <= high);
+	unsigned out = 0;
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		out |= (unsigned)!in[l] << l;
+	return out;
+#endif
+}
+
+/* The whole part of v >= 0, below 2^31, and what is left of v. */
+PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
+{
+#ifdef __AVX512F__
+	__m256i cell = _mm512_cvttpd_epi32((__m512d)v);
+	*whole = (pm_simd_int)cell;
+	return v - (pm_simd)_mm512_cvtepi32_pd(cell);
+#else
+	*whole = __builtin_convertvector(v, pm_simd_int);
+	return v - __builtin_convertvector(*whole, pm_simd);
+#endif
+}
+
+#if !defined PM_SIMD_NARROW || defined __AVX512F__
+/* Eight values, four at each address. */
+PM_SIMD_INLINE pm_simd pm_simd_fours(const double *a, const double *b)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(a)), _mm256_loadu_pd(b), 1);
+#else
+	return (pm_simd){a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
+#endif
+}
+
+/* Four values twice; and 1 - x four times, then x four times. */
+PM_SIMD_INLINE pm_simd pm_simd_twice(const double *p)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p));
+#else
+	return (pm_simd){p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3]};
+#endif
+}
+
+PM_SIMD_INLINE pm_simd pm_simd_below_above(double x)
+{
+#ifdef __AVX512F__
+	return (pm_simd)_mm512_mask_sub_pd((__m512d)pm_simd_all(x), 0x0f, (__m512d)pm_simd_all(1), (__m512d)pm_simd_all(x));
+#else
+	double y = 1 - x;
+	return (pm_simd){y, y, y, y, x, x, x, x};
+#endif
+}
+#endif
 
 /* exp(x) for |x| <= 700, to 4e-16: 2^n exp(r) with |r| <= ln(2)/2, the polynomial of degree 10 with the least relative error there (2.1e-16; Remez's
  * exchange). Lanes beyond hold anything. */

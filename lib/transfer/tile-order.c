@@ -44,26 +44,84 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 	}
 }
 
-/* Counts; returns whether the chunk is in order and without strays. */
-static bool count_chunk(struct pm_tile_order *o, const struct pm_axis axes[3], int chunk, const double *const x[], struct pm_strays *strays)
+/* The tiles of m particles from p on, in eights, straight from the positions. False if any of them is outside the range of the lanes. */
+PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
 {
-	uint32_t falls = 0;
+	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
+	unsigned any = 0;
+	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
+		pm_simd_int at = {0}, cell;
+		for (int d = 0; d < dim; d++) {
+			unsigned outside;
+			pm_simd_split(pm_axis_locate_eight(&lanes[d], pm_simd_load_any(o->x[d] + p + i), &outside), &cell);
+			__builtin_prefetch(o->x[d] + p + i + PM_TILE_AHEAD);
+			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
+			any |= outside;
+		}
+		*(pm_simd_int_at *)(tile + i) = at;
+	}
+	return !any;
+}
+
+static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
+{
+	double u[3][batch];
+	if ((int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0 && (o->dim == 1 ? tiles_of(1, o, lanes, p, m, tile) :
+		o->dim == 2 ? tiles_of(2, o, lanes, p, m, tile) : tiles_of(3, o, lanes, p, m, tile)))
+		return true;
+	if (!locate(o->axes, o->dim, p, m, o->x, u))
+		return false;
+	find_tiles(o, m, u, tile);
+	return true;
+}
+
+/* Counts the tiles of a chunk as long as it is in order and without strays: then the tile of each particle need not be kept. ends: the first tile and the
+ * last. False where the order is broken; the counts are then void. */
+static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
+{
+	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
+	struct pm_axis_lanes lanes[3];
+	uint32_t tile[1 + batch] = {0};
+	for (int d = 0; d < o->dim; d++)
+		lanes[d] = pm_axis_lanes(&o->axes[d]);
+	memset(count, 0, (o->tiles + 1) * sizeof *count);
+	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
+		size_t m = to - p < batch ? to - p : batch;
+		uint32_t falls = 0;
+		if (!batch_tiles(o, lanes, p, m, tile + 1))
+			return false;
+		for (size_t i = 0; i < m; i++)
+			falls |= tile[i + 1] < tile[i];
+		if (falls)
+			return false;
+		if (tile[1] == tile[m])
+			count[tile[1]] += m;
+		else
+			for (size_t i = 1; i <= m; i++)
+				count[tile[i]]++;
+		if (p == chunk_from(o, chunk))
+			ends[0] = tile[1];
+		ends[1] = tile[0] = tile[m];
+	}
+	return true;
+}
+
+/* Counts, and keeps the tile of each. */
+static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
+{
 	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	double u[3][batch];
 	memset(count, 0, (o->tiles + 1) * sizeof *count);
 	*strays = (struct pm_strays){.count = 0};
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
-		bool all = locate(axes, o->dim, p, m, x, u);
+		bool all = locate(o->axes, o->dim, p, m, o->x, u);
 		find_tiles(o, m, u, o->tile + p);
 		if (!all)
-			find_strays(o, p, m, u, x, strays);
+			find_strays(o, p, m, u, o->x, strays);
 		for (size_t i = 0; i < m; i++)
 			count[o->tile[p + i]]++;
-		for (size_t i = p + (p == chunk_from(o, chunk)); i < p + m; i++)
-			falls |= o->tile[i] < o->tile[i - 1];
 	}
-	return !falls && !strays->count;
 }
 
 /* Counts become the first place of each chunk in each tile. Row 0 is that of chunk 0 for good; row c+1 is used up by chunk c and is then
@@ -117,22 +175,49 @@ void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool 
 static int allocate(struct pm_tile_order *o)
 {
 	size_t columns = o->tiles + 1;
-	o->tile = pm_alloc(o->n, sizeof *o->tile);
 	o->begin = pm_alloc(columns + 1, sizeof *o->begin);
 	o->cursor = pm_alloc((size_t)(o->chunks + 1) * columns, sizeof *o->cursor);
-	return o->tile && o->begin && o->cursor ? 0 : -PM_DATA;
+	return o->begin && o->cursor ? 0 : -PM_DATA;
 }
 
-static int move(struct pm_tile_order *o)
+/* True if the stream is in the order of tiles and has no strays; the cursors then hold its counts. */
+static bool in_order(struct pm_tile_order *o)
+{
+	uint32_t(*ends)[2] = pm_alloc((size_t)o->chunks, sizeof *ends);
+	int falls = !ends; /* no memory: said again where more is asked for */
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : falls) if (ends)
+	for (int chunk = 0; chunk < (ends ? o->chunks : 0); chunk++)
+		falls |= !count_in_order(o, chunk, ends[chunk]);
+	for (int chunk = 1; chunk < o->chunks && !falls; chunk++)
+		falls |= ends[chunk][0] < ends[chunk - 1][1];
+	pm_free(ends);
+	return !falls;
+}
+
+/* The tiles of a stream in any order, and its records in theirs. */
+static int move(struct pm_tile_order *o, struct pm_strays *strays)
 {
 	size_t doubles = o->n * (size_t)o->stride;
+	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
+	o->tile = pm_alloc(o->n, sizeof *o->tile);
 	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
-	if (!o->records)
-		return -PM_DATA;
+	if (!each || !o->tile || !o->records)
+		return pm_free(each), -PM_DATA;
 	memset(o->records + doubles, 0, 4 * sizeof *o->records);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
+		count_chunk(o, chunk, &each[chunk]);
+	add_up(o);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
 		move_chunk(o, chunk);
+	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
+		uint64_t count = strays->count;
+		if (each[chunk].count)
+			*strays = each[chunk];
+		strays->count = count + each[chunk].count;
+	}
+	pm_free(each);
 	return 0;
 }
 
@@ -159,31 +244,17 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 		o->x[d] = p->x[d];
 	for (int c = 0; c < nvalues; c++)
 		o->values[c] = p->values[c];
-	int status = count_tiles(o, axes), falls = 0;
+	int status = count_tiles(o, axes);
 	if (status)
 		return status;
 	while (o->chunks > 1 && ((size_t)o->chunks * 4096 > n || (size_t)o->chunks * o->tiles > 4 * n)) /* not worth the rows of the cursors */
 		o->chunks--;
 	if ((status = allocate(o)))
 		return status;
-	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
-	if (!each)
-		return -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : falls)
-	for (int chunk = 0; chunk < o->chunks; chunk++)
-		falls |= !count_chunk(o, axes, chunk, p->x, &each[chunk]);
-	for (int chunk = 1; chunk < o->chunks; chunk++)
-		falls |= o->tile[chunk_from(o, chunk)] < o->tile[chunk_from(o, chunk) - 1];
+	if (!in_order(o))
+		return move(o, strays);
 	add_up(o);
-	status = falls ? move(o) : 0;
-	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
-		uint64_t count = strays->count;
-		if (each[chunk].count)
-			*strays = each[chunk];
-		strays->count = count + each[chunk].count;
-	}
-	pm_free(each);
-	return status;
+	return 0;
 }
 
 void pm_tile_order_free(struct pm_tile_order *o)

@@ -9,7 +9,7 @@ struct pm_tile_order {
 	int dim, chunks;
 	size_t n, tiles;
 	uint32_t across[3];   /* tiles per axis; x runs fastest */
-	uint32_t *tile;       /* [n] of each particle; `tiles` for strays */
+	uint32_t *tile;       /* [n] of each particle; `tiles` for strays; NULL where the stream is in order */
 	size_t *begin;        /* [tiles+2] first record of each tile */
 	size_t *cursor;       /* [chunks+1][tiles+1] */
 	int stride;           /* doubles per record */
@@ -33,7 +33,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 void pm_tile_order_free(struct pm_tile_order *o);
 /* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. Only where values are asked for need those
  * of the order still be there. */
-enum { PM_TILE_ORDER_PACK = 256 };
+enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */

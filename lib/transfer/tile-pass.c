@@ -51,6 +51,20 @@ static void add_row(const struct pm_axis *a, const double *put, size_t first, si
 	memset(row, 0, n * sizeof *row);
 }
 
+/* Asks for the points of a row some rows on, which are too few for the processor to foresee. [n[2]][n[1]] rows of a block at `first`. */
+static void fetch_row(const struct pm_tile_pass *p, const struct pm_tile_target *t, const size_t first[3], const size_t n[3], size_t row, const double *mesh)
+{
+	enum { rows_on = 8, line = 8 }; /* line: doubles per cache line */
+	const size_t soon = row + rows_on;
+	const struct pm_axis *const *a = t->axes;
+	if (soon >= n[1] * n[2])
+		return;
+	const size_t at_line = a[2]->at[first[2] + soon / n[1]] * p->grid->points[1] + a[1]->at[first[1] + soon % n[1]];
+	const double *at = mesh + at_line * p->grid->points[0] + a[0]->at[first[0]];
+	for (size_t i = 0; i < n[0] + line - 1; i += line)
+		__builtin_prefetch(at + i, 1);
+}
+
 /* The rows of a job's block that belong to this thread. */
 void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, int thread, int threads,
 	double *block, double *mesh)
@@ -64,6 +78,7 @@ void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j
 	for (size_t z = 0; z < n[2]; z++)
 		for (size_t y = 0; y < n[1]; y++) {
 			size_t sz = first[2] + z, sy = first[1] + y, line = a[2]->at[sz] * g->points[1] + a[1]->at[sy];
+			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			if (line % (size_t)threads == (size_t)thread)
 				add_row(a[0], a[0]->put[flip[0]], first[0], n[0], t->scale * a[2]->put[flip[2]][sz] * a[1]->put[flip[1]][sy],
 					block + z * plane + y * row, mesh + line * g->points[0]);
@@ -114,6 +129,7 @@ void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *
 	for (size_t z = 0; z < n[2]; z++)
 		for (size_t y = 0; y < n[1]; y++) {
 			size_t sz = first[2] + z, sy = first[1] + y, line = a[2]->at[sz] * g->points[1] + a[1]->at[sy];
+			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			load_row(a[0], a[0]->get[flip[0]], first[0], n[0], a[2]->get[flip[2]][sz] * a[1]->get[flip[1]][sy],
 				mesh + line * g->points[0], block + z * plane + y * row);
 		}

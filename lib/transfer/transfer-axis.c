@@ -3,6 +3,7 @@
  * the total strength of a neumann mesh exact: an end node receives its share once, as density twice.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
+#include <string.h>
 
 #include "mesh/index-fold.h"
 #include "transfer/transfer-axis.h"
@@ -187,28 +188,68 @@ bool pm_axis_locate(const struct pm_axis *a, double x, double *u)
 	return s >= a->low && s <= a->high;
 }
 
-bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *restrict x, double *restrict u)
+bool pm_axis_locate_far(const struct pm_axis *a, unsigned outside, size_t n, const double *x, double *u)
 {
-	int bad = 0;
-	if (a->periodic)
-		for (size_t i = 0; i < n; i++) {
-			u[i] = wrap_near(a, x[i]);
-			bad |= !(u[i] >= 0 && u[i] < a->n);
-		}
-	else
-		for (size_t i = 0; i < n; i++) {
-			double s = (x[i] - a->lo) / a->h;
-			u[i] = (s > a->n ? a->n : s) + a->add;
-			bad |= !(s >= a->low && s <= a->high);
-		}
-	if (!bad)
-		return true;
 	bool all = true;
 	for (size_t i = 0; i < n; i++)
-		if (!pm_axis_locate(a, x[i], &u[i])) {
+		if (outside >> i & 1 && !pm_axis_locate(a, x[i], &u[i])) {
 			u[i] = -1;
 			all = false;
 		}
+	return all;
+}
+
+struct pm_axis_lanes pm_axis_lanes(const struct pm_axis *a)
+{
+	return (struct pm_axis_lanes){.lo = pm_simd_all(a->lo), .h = pm_simd_all(a->h), .inverse = pm_simd_all(1 / a->h), .add = pm_simd_all(a->add),
+		.low = pm_simd_all(a->periodic ? 0 : a->low), .high = pm_simd_all(a->periodic ? nextafter(a->n, 0) : fmin(a->high, a->n)),
+		.periodic = a->periodic};
+}
+
+/* The same where eight do not fit a register, for the compiler to choose how many. */
+static bool locate_by_one(const struct pm_axis *a, size_t n, const double *restrict x, double *restrict u)
+{
+	const double low = a->periodic ? 0 : a->low, high = a->periodic ? nextafter(a->n, 0) : fmin(a->high, a->n);
+	int far = 0;
+	if (a->periodic)
+		for (size_t i = 0; i < n; i++) {
+			u[i] = (x[i] - a->lo) / a->h + a->add;
+			far |= !(u[i] >= low && u[i] <= high);
+		}
+	else
+		for (size_t i = 0; i < n; i++) {
+			const double s = (x[i] - a->lo) / a->h;
+			u[i] = s + a->add;
+			far |= !(s >= low && s <= high);
+		}
+	bool all = true;
+	for (size_t i = 0; i < n && far; i++)
+		all &= pm_axis_locate_far(a, 1, 1, x + i, u + i);
+	return all;
+}
+
+/* The usual particle is inside the range. Each is treated by itself, whatever its neighbours need. */
+bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *restrict x, double *restrict u)
+{
+	const struct pm_axis_lanes lanes = pm_axis_lanes(a);
+	unsigned outside;
+	bool all = true;
+	size_t i = 0;
+	if ((int)PM_SIMD_PART < (int)PM_SIMD_WIDTH)
+		return locate_by_one(a, n, x, u);
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH) {
+		pm_simd_store_any(u + i, pm_axis_locate_eight(&lanes, pm_simd_load_any(x + i), &outside));
+		if (outside)
+			all &= pm_axis_locate_far(a, outside, PM_SIMD_WIDTH, x + i, u + i);
+	}
+	if (i < n) {
+		pm_simd few = lanes.lo;
+		memcpy(&few, x + i, (n - i) * sizeof *x);
+		few = pm_axis_locate_eight(&lanes, few, &outside);
+		memcpy(u + i, &few, (n - i) * sizeof *u);
+		if (outside)
+			all &= pm_axis_locate_far(a, outside, n - i, x + i, u + i);
+	}
 	return all;
 }
 

@@ -3,6 +3,7 @@
 #ifndef PM_TRANSFER_AXIS_H
 #define PM_TRANSFER_AXIS_H
 
+#include "base/simd.h"
 #include "transfer/transfer.h"
 
 /* A particle at x has u = (x - lo)/h + add, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
@@ -34,6 +35,21 @@ void pm_axis_path_room(const struct pm_grid *g, int d, int width, size_t beyond[
 bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
 /* The same for n particles; u is -1 for those outside. False if there is one. */
 bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, double *u);
+
+/* The same for eight particles; those outside the range, as bits, need pm_axis_locate_far. */
+struct pm_axis_lanes {
+	pm_simd lo, h, inverse, add, low, high; /* low..high: where no particle needs folding or a limit */
+	bool periodic;
+};
+struct pm_axis_lanes pm_axis_lanes(const struct pm_axis *a);
+
+PM_SIMD_INLINE pm_simd pm_axis_locate_eight(const struct pm_axis_lanes *a, pm_simd x, unsigned *outside)
+{
+	const pm_simd s = pm_simd_divide(x - a->lo, a->h, a->inverse), u = s + a->add;
+	*outside = pm_simd_outside(a->periodic ? u : s, a->low, a->high);
+	return u;
+}
+bool pm_axis_locate_far(const struct pm_axis *a, unsigned outside, size_t n, const double *x, double *u); /* n <= 8 */
 
 /* Records a stray; the one with the smallest index is kept. */
 void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis);

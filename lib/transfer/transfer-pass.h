@@ -15,12 +15,12 @@ struct pm_pass {
 	struct pm_tile_pass p; /* its jobs, on the axes of o */
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
 	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
-	double *corners; /* NULL or [threads][PM_TILE_CELLS][PM_CORNERS], zero */
+	double *corners; /* NULL or [threads][each][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
 bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w);
-int pm_pass_corners(struct pm_pass *w, int threads); /* those that its jobs need; 0 or failure */
+int pm_pass_corners(struct pm_pass *w, int threads, int each); /* `each` for a thread, if jobs need them; 0 or failure */
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block);
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block);

@@ -327,7 +327,7 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 		for (int c = 0; c < v.w.components; c++)
 			values[c] = strength[v.w.which[c]];
 		status = begin(status, &v, n, x, v.w.components, values);
-		status = status ? status : pm_pass_corners(&v.w, threads);
+		status = status ? status : pm_pass_corners(&v.w, threads, 1);
 		if (!status && !(v.w.blocks = pm_zalloc(pm_tile_under_way(threads) * PM_BLOCK_MOST, sizeof *v.w.blocks)))
 			status = pm_failed();
 		status = pm_world_agree(status);

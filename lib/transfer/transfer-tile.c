@@ -2,6 +2,7 @@
  * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the faces are
  * handled when blocks are added to or read from the mesh (transfer.c). Cost: width^dim products per particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-cic.h"
 #include "transfer/tile-lanes.h"
 
 /* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
@@ -119,67 +120,9 @@ PM_SIMD_INLINE void gather_star(int dim, const struct pm_tile *t)
 	}
 }
 
-/* Weights of the corner of a cell at x*4 + y*2 + z. */
-static void spread_corners(const struct pm_tile *t)
-{
-	const int *shift = pm_tile_shift[3];
-	const pm_simd8_at one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
-	const pm_simd8_at sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
-	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
-	const pm_simd4_int_at first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
-	for (size_t i = 0; i < t->count; i++) {
-		const double *record = t->records + i * stride;
-		double distance[4];
-		int32_t cell[4];
-		pm_simd4_at u = *(const pm_simd4_at *)record;
-		pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at);
-		*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at);
-		*(pm_simd4_int_at *)cell = floor_u - first;
-		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
-		pm_simd8_at *corners = (pm_simd8_at *)(t->corners + at * PM_CORNERS);
-		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
-	}
-}
-
 bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
 {
 	return dim == 3 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
-}
-
-/* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each. */
-static void fold_row(size_t n, double *restrict corners, double *restrict to)
-{
-	pm_simd4_at before = {0};
-	const pm_simd4_at zero = {0};
-	for (size_t i = 0; i < n; i++) {
-		pm_simd4_at *cell = (pm_simd4_at *)(corners + i * PM_CORNERS);
-		*(pm_simd4_at *)(to + 4 * i) = cell[0] + before;
-		before = cell[1];
-		cell[0] = cell[1] = zero;
-	}
-	*(pm_simd4_at *)(to + 4 * n) = before;
-}
-
-void pm_tile_fold(const struct pm_tile *t, const size_t cells[3])
-{
-	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
-	double folded[(32 + 1) * 4], before[(32 + 1) * 2];
-	for (size_t z = 0; z < cells[2]; z++) {
-		memset(before, 0, sizeof before);
-		for (size_t y = 0; y <= cells[1]; y++) {
-			double *restrict low = t->block + z * plane + y * row, *restrict high = low + plane;
-			if (y < cells[1])
-				fold_row(cells[0], t->corners + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_CORNERS << pm_tile_shift[3][0]), folded);
-			else
-				memset(folded, 0, sizeof folded);
-			for (size_t x = 0; x <= cells[0]; x++) {
-				low[x] += folded[4 * x] + before[2 * x];
-				high[x] += folded[4 * x + 1] + before[2 * x + 1];
-				before[2 * x] = folded[4 * x + 2];
-				before[2 * x + 1] = folded[4 * x + 3];
-			}
-		}
-	}
 }
 
 /* One function per dimension and width for the degree width-1 (B-splines, M'4 and M'6), and one for any degree. */
@@ -215,7 +158,7 @@ static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline
 
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 {
-	return corners ? spread_corners : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+	return corners ? pm_tile_cic_spread_records : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
 }
 
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k)

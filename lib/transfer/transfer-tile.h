@@ -28,7 +28,7 @@ struct pm_tile {
 	double *records;        /* [count][stride] */
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
-	double *corners;        /* spread: NULL, or [PM_TILE_CELLS][PM_CORNERS], zero, which pm_tile_fold adds to the block */
+	double *corners;        /* NULL, or [PM_TILE_CELLS][PM_CORNERS] (tile-cic.h): spread: zero before and after; gather: [components] of them */
 };
 
 /* Chosen by dim and the kernel's width and degree. */
@@ -36,9 +36,8 @@ typedef void pm_tile_loop(const struct pm_tile *t);
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners);
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
 
-/* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), a particle is
- * one addition of eight numbers to its cell, and the corners are added up once. */
+/* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), those of every cell
+ * are stored side by side. A particle is one addition of eight numbers to its cell, and the corners are added up once; or it reads eight numbers. */
 bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count);
-void pm_tile_fold(const struct pm_tile *t, const size_t cells[3]); /* of the tile; leaves corners zero */
 
 #endif

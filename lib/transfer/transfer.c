@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transfer/tile-cic.h"
 #include "transfer/transfer-pass.h"
 
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block)
@@ -19,6 +20,13 @@ struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j
 	return t;
 }
 
+static void cells_of(const struct pm_pass *w, const struct pm_tile_job *j, size_t cells[3])
+{
+	size_t first;
+	for (int d = 0; d < 3; d++)
+		cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
+}
+
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
@@ -26,21 +34,26 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	t.value = w->o->order.dim + value;
 	t.corners = corners ? w->corners + (size_t)omp_get_thread_num() * PM_TILE_CELLS * PM_CORNERS : NULL;
 	if (t.records)
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		if (corners && PM_TILE_CIC_EIGHT) {
+			batch.p = p, batch.m = t.count;
+			pm_tile_cic_spread(&t, &batch, w->o->order.values[value] + p);
+			continue;
+		}
 		t.records = packed;
 		pm_tile_order_pack(&w->o->order, p, t.count, true, packed);
 		loop(&t);
 	}
 	if (corners) {
-		size_t cells[3], first;
-		for (int d = 0; d < 3; d++)
-			cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
-		pm_tile_fold(&t, cells);
+		size_t cells[3];
+		cells_of(w, j, cells);
+		pm_tile_cic_fold(&t, cells);
 	}
 }
 
@@ -62,14 +75,8 @@ static void spread_component(const struct pm_pass *w, int value, int threads, do
 	}
 }
 
-/* The place of the values of a stream that is in order; otherwise they stay in the records. */
-struct results {
-	const double *const *factor;
-	const bool *set;
-	double *const *to;
-};
-
-static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct results *r)
+/* Of a stream that is in order. t: with the blocks of the job. */
+static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	bool finite = true;
@@ -84,8 +91,22 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 	return finite;
 }
 
+/* The same by corners of cells. */
+static bool gather_by_corners(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
+{
+	const size_t each = (size_t)PM_TILE_CELLS * PM_CORNERS;
+	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
+	size_t cells[3];
+	t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
+	cells_of(w, j, cells);
+	for (int c = 0; c < w->components; c++)
+		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
+	batch.p = j->from, batch.m = j->to - j->from;
+	return pm_tile_cic_gather(&t, &batch, r);
+}
+
 /* True if the values are finite; those in records are checked later. */
-static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct results *r)
+static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
 {
 	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
 	const struct pm_axis *a = w->o->axes;
@@ -100,6 +121,8 @@ static bool gather_pass(const struct pm_pass *w, int threads, const double *cons
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
 		if (t.records)
 			loop(&t);
+		else if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+			bad |= !gather_by_corners(w, &w->p.job[j], t, r);
 		else
 			bad |= !gather_in_order(w, &w->p.job[j], t, loop, r);
 	}
@@ -137,6 +160,16 @@ static int begin_spread(struct pm_pass *w, size_t n, const double *const x[], co
 	return begin_pass(w, pm_tile_under_way(threads), 1);
 }
 
+int pm_pass_corners(struct pm_pass *w, int threads, int each)
+{
+	bool used = false;
+	for (size_t j = 0; j < w->p.jobs && !used; j++)
+		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
+	if (used)
+		w->corners = pm_zalloc((size_t)threads * (size_t)each * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
+	return used && !w->corners ? -PM_DATA : 0;
+}
+
 /* A kept order must not be changed, so the results get their own memory. */
 static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], int threads)
 {
@@ -145,19 +178,11 @@ static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], in
 	bool found = w->o && w->o->order.records;
 	if (!w->o)
 		w->o = pm_order_cache_new(w->t, staggered, n, x, 0, NULL, w->components);
+	const bool records = w->o && w->o->order.records;
 	if (found && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
-	return begin_pass(w, (size_t)threads, (size_t)w->components);
-}
-
-int pm_pass_corners(struct pm_pass *w, int threads)
-{
-	bool used = false;
-	for (size_t j = 0; j < w->p.jobs && !used; j++)
-		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
-	if (used)
-		w->corners = pm_zalloc((size_t)threads * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
-	return used && !w->corners ? -PM_DATA : 0;
+	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
+	return status || records || !PM_TILE_CIC_EIGHT ? status : pm_pass_corners(w, threads, w->components);
 }
 
 void pm_pass_end(struct pm_pass *w)
@@ -179,7 +204,7 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 		return pm_spread_ranks(t, n, x, strength, mesh, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
-		status = status ? status : pm_pass_corners(&w, threads);
+		status = status ? status : pm_pass_corners(&w, threads, 1);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		if (!status)
@@ -208,7 +233,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 			to[c] = out[w.which[c]];
 			times[c] = factor ? factor[w.which[c]] : NULL;
 		}
-		const struct results r = {times, set, to};
+		const struct pm_tile_results r = {times, set, to};
 		status = begin_gather(&w, n, x, threads);
 		bool seen = !status && gather_pass(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;

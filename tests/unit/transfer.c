@@ -276,10 +276,9 @@ static void put_in_order(struct problem *a)
 }
 
 /* In order: nothing is moved; the sums are those of the plain loop for 1 to 3 threads. Values are set, then added. */
-static void check_in_order(int dim, const size_t cells[3], size_t n)
+static void check_in_order(int dim, const size_t cells[3], size_t n, const char *kernel, const int rules[3])
 {
-	const int rules[3] = {0, 0, 0};
-	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find("tsc"), dim, n), b;
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find(kernel), dim, n), b;
 	struct pm_strays strays;
 	struct pm_axis axes[3];
 	struct pm_tile_order order;
@@ -304,6 +303,7 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 			a.t.set[c] = true;
 		}
 		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		strays.finite = false;
 		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 		for (int c = 0; c < dim; c++)
 			check_worst(&worst, difference(a.points, a.mesh[c], b.mesh[c])), check_worst(&worst, difference(n, a.out[c], b.out[c]));
@@ -312,13 +312,39 @@ static void check_in_order(int dim, const size_t cells[3], size_t n)
 	a.t.set[0] = false;
 	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 	check(fabs(a.out[0][n / 2] - 2 * b.out[0][n / 2]) <= 1e-13 * fabs(b.out[0][n / 2]), "%d-D: values are added where they are not set", dim);
-	b.mesh[0][0] = INFINITY;
+	for (size_t i = 0; i < 100; i++)
+		b.mesh[0][b.points / 2 + i] = INFINITY;
 	pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 	check(!strays.finite, "%d-D: an infinite value is detected", dim);
-	check(worst <= 1e-13, "%d-D: spread and gather in order are the plain loops with 1, 2 and 3 threads (off by %.2g, tolerance 1e-13)", dim, worst);
+	check(worst <= 1e-13, "%d-D, %s: spread and gather in order are the plain loops with 1, 2 and 3 threads (off by %.2g, tolerance 1e-13)", dim, kernel,
+		worst);
 	pm_threads_use(threads);
 	problem_free(&a);
 	problem_free(&b);
+}
+
+/* The second half of the stream is one tile before the first half: the only fall is between two batches, and with two threads between their chunks. */
+static void check_fall(void)
+{
+	const size_t n = 16384;
+	struct problem a = problem_new(grid_of(1, (const size_t[]){9001, 1, 1}, (const int[]){0, 0, 0}), pm_kernel_find("cic"), 1, n), b;
+	struct pm_strays strays;
+	const int threads = pm_threads();
+	double worst = 0;
+	for (size_t p = 0; p < n; p++)
+		a.x[0][p] = a.t.grid.lo[0] + a.t.grid.h[0] * ((p < n / 2 ? 5000.1 : 10.1) + 1e-3 * (double)p);
+	for (int count = 1; count <= 2; count++) {
+		b = problem_new(a.t.grid, a.t.kernel, 1, n);
+		pm_threads_use(count);
+		memset(a.mesh[0], 0, a.points * sizeof(double));
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_spread_plain(&b.t, n, in(a.x), in(a.q), b.mesh, &strays);
+		check_worst(&worst, difference(a.points, a.mesh[0], b.mesh[0]));
+		problem_free(&b);
+	}
+	check(worst <= 1e-13, "a stream whose second half lies before its first is put in order (off by %.2g, tolerance 1e-13)", worst);
+	pm_threads_use(threads);
+	problem_free(&a);
 }
 
 /* A gather that reuses the order of a spread gives the same bytes as one that sorts itself, also a second time; for other positions or another width the
@@ -758,11 +784,15 @@ int main(void)
 	check_plain(3, (const size_t[]){33, 17, 9}, 6000); /* as many particles as cells: corners */
 	check_plain(3, (const size_t[]){3, 17, 2}, 100);
 	check_threads(1, (const size_t[]){9001, 1, 1}, "tsc");
-	check_in_order(1, (const size_t[]){9001, 1, 1}, 4000);
+	check_in_order(1, (const size_t[]){9001, 1, 1}, 4000, "tsc", (const int[]){0, 0, 0});
+	check_fall();
 	check_threads(2, (const size_t[]){130, 67, 1}, "tsc");
-	check_in_order(2, (const size_t[]){130, 67, 1}, 4000);
+	check_in_order(2, (const size_t[]){130, 67, 1}, 4000, "tsc", (const int[]){0, 0, 0});
 	check_threads(3, (const size_t[]){35, 20, 33}, "tsc");
-	check_in_order(3, (const size_t[]){35, 20, 33}, 8000);
+	check_in_order(3, (const size_t[]){35, 20, 33}, 8000, "tsc", (const int[]){0, 0, 0});
+	for (int rule = 0; rule < 4; rule++) /* enough for corners, and a whole and a broken number of eights */
+		check_in_order(3, (const size_t[]){35, 20, 33}, rule % 2 ? 30000 : 30003, "cic", (const int[]){rule, rule ? rule % 3 + 1 : 0, 0});
+	check_in_order(3, (const size_t[]){7, 5, 9}, 4101, "cic", (const int[]){0, 2, 0});
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
 	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
 	check_kept(2, (const size_t[]){130, 67, 1}, "pcs");

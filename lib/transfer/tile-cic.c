@@ -1,0 +1,262 @@
+/* Cloud in cell in 3-D, the everyday kernel. Spread: the eight corners of a cell lie side by side, so that a particle is one addition of eight numbers to its
+ * cell; the corners are added up once a tile. Where the stream is in the order of tiles, eight particles at a time find their places and weights, which are
+ * then turned into one vector a particle. Gather: the two points of a row are loaded for eight particles and turned into two vectors.
+ * Every sum has the order of the loops for all kernels: the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-cic.h"
+#include "base/simd.h"
+
+/* Weights of the corner of a cell at x*4 + y*2 + z. */
+void pm_tile_cic_spread_records(const struct pm_tile *t)
+{
+	const int *shift = pm_tile_shift[3];
+	const pm_simd8_at one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
+	const pm_simd8_at sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
+	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
+	const pm_simd4_int_at first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * stride;
+		double distance[4];
+		int32_t cell[4];
+		pm_simd4_at u = *(const pm_simd4_at *)record;
+		pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at);
+		*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at);
+		*(pm_simd4_int_at *)cell = floor_u - first;
+		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
+		pm_simd8_at *corners = (pm_simd8_at *)(t->corners + at * PM_CORNERS);
+		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
+	}
+}
+
+/* A matrix of 4 x 8 turned in two halves of 4 x 4: lane l of v[k] becomes lane k of to[l], and lane 4 + l lane 4 + k. */
+PM_SIMD_INLINE void turn(const pm_simd v[4], pm_simd to[4])
+{
+	const pm_simd a = __builtin_shufflevector(v[0], v[1], 0, 8, 2, 10, 4, 12, 6, 14), b = __builtin_shufflevector(v[0], v[1], 1, 9, 3, 11, 5, 13, 7, 15);
+	const pm_simd c = __builtin_shufflevector(v[2], v[3], 0, 8, 2, 10, 4, 12, 6, 14), d = __builtin_shufflevector(v[2], v[3], 1, 9, 3, 11, 5, 13, 7, 15);
+	to[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
+	to[1] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
+	to[2] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
+	to[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/* w[k][l] to to[turned[l] + k]. */
+static const size_t turned[PM_SIMD_WIDTH] = {0, 8, 16, 24, 4, 12, 20, 28};
+
+PM_SIMD_INLINE void turn_out(const pm_simd w[4], double *to)
+{
+	pm_simd v[4];
+	turn(w, v);
+	PM_SIMD_UNROLL
+	for (size_t k = 0; k < 4; k++)
+		pm_simd_store(to + PM_SIMD_WIDTH * k, v[k]);
+}
+
+/* Eight particles: cell within the tile, distances from its lower corner. */
+struct eight {
+	pm_simd_int cell[3];
+	pm_simd distance[3];
+};
+
+/* Those of a batch from i on. The last ones of a batch may be fewer: the first of them stands in for the rest. */
+PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_tile_batch *b, size_t i)
+{
+	struct eight e;
+	for (int d = 0; d < 3; d++) {
+		const double *x = b->order->x[d] + b->p + i;
+		double few[PM_SIMD_WIDTH];
+		unsigned outside;
+		if (i + PM_SIMD_WIDTH > b->m) {
+			for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+				few[l] = x[i + l < b->m ? l : 0];
+			x = few;
+		}
+		__builtin_prefetch(x + PM_TILE_AHEAD);
+		pm_simd u = pm_axis_locate_eight(&b->lanes[d], pm_simd_load_any(x), &outside);
+		if (outside) {
+			double far[PM_SIMD_WIDTH];
+			pm_simd_store_any(far, u);
+			pm_axis_locate_far(&b->order->axes[d], outside, PM_SIMD_WIDTH, x, far);
+			u = pm_simd_load_any(far);
+		}
+		e.distance[d] = pm_simd_split(u, &e.cell[d]);
+		e.cell[d] -= (int32_t)t->cell[d];
+	}
+	return e;
+}
+
+/* Their cells, x fastest. */
+PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)
+{
+	return (((e->cell[2] << pm_tile_shift[3][1]) + e->cell[1]) << pm_tile_shift[3][0]) + e->cell[0];
+}
+
+PM_SIMD_INLINE void add_to_cell(double *restrict corners, int32_t cell, const double *yz, double x)
+{
+	double *to = corners + (size_t)(uint32_t)cell * PM_CORNERS;
+	pm_simd_store(to, pm_simd_load(to) + pm_simd_twice(yz) * pm_simd_below_above(x));
+}
+
+void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *batch, const double *q)
+{
+	const size_t m = batch->m;
+	double yz[PM_TILE_ORDER_PACK * 4] __attribute__((aligned(64))), x[PM_TILE_ORDER_PACK] __attribute__((aligned(64))), few[PM_SIMD_WIDTH] = {0};
+	int32_t at[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
+	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
+		const struct eight e = find_eight(t, batch, i);
+		pm_simd strength;
+		if (i + PM_SIMD_WIDTH <= m) {
+			strength = pm_simd_load_any(q + i);
+		} else {
+			memcpy(few, q + i, (m - i) * sizeof *q);
+			strength = pm_simd_load_any(few);
+		}
+		__builtin_prefetch(q + i + PM_TILE_AHEAD);
+		*(pm_simd_int_at *)(at + i) = cell_of(&e);
+		pm_simd_store(x + i, e.distance[0]);
+		const pm_simd low = (1 - e.distance[2]) * strength, high = e.distance[2] * strength, y = e.distance[1], below = 1 - y;
+		turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, yz + 4 * i);
+	}
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= m; i += PM_SIMD_WIDTH) {
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+			add_to_cell(t->corners, at[i + l], yz + 4 * i + turned[l], x[i + l]);
+	}
+	for (size_t l = 0; i + l < m; l++)
+		add_to_cell(t->corners, at[i + l], yz + 4 * i + turned[l], x[i + l]);
+}
+
+/* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each, zero beyond n. */
+static void fold_row(size_t n, double *restrict corners, double *restrict to)
+{
+	const pm_simd zero = {0};
+	pm_simd before = zero;
+	size_t i = 0;
+	for (; i < n; i += 2) { /* rows of corners are of even length */
+		const pm_simd a = pm_simd_load(corners + i * PM_CORNERS), b = pm_simd_load(corners + (i + 1) * PM_CORNERS);
+		const pm_simd lower = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+		const pm_simd upper = __builtin_shufflevector(before, a, 4, 5, 6, 7, 12, 13, 14, 15);
+		pm_simd_store(to + 4 * i, lower + upper);
+		pm_simd_store(corners + i * PM_CORNERS, zero);
+		pm_simd_store(corners + (i + 1) * PM_CORNERS, zero);
+		before = b;
+	}
+	pm_simd_store(to + 4 * i, __builtin_shufflevector(before, zero, 4, 5, 6, 7, 8, 9, 10, 11));
+	for (i += 2; i % PM_SIMD_WIDTH; i += 2)
+		pm_simd_store(to + 4 * i, zero);
+}
+
+/* The pairs [y] of a folded row, with those that the row before has left, to two rows of the block; the pairs [y + 1] are left for the next. */
+static void add_pairs(size_t n, const double *restrict folded, double *restrict before, bool first, double *restrict low, double *restrict high)
+{
+	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH) {
+		pm_simd here[2];
+		for (size_t k = 0; k < 2; k++) {
+			const pm_simd a = pm_simd_load(folded + 4 * i + 16 * k), b = pm_simd_load(folded + 4 * i + 16 * k + 8);
+			double *left = before + 2 * i + 8 * k;
+			here[k] = __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13) + pm_simd_load(left);
+			pm_simd_store(left, __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15));
+		}
+		const pm_simd even = pm_simd_even(here[0], here[1]);
+		pm_simd_store_any(low + i, first ? even : pm_simd_load_any(low + i) + even);
+		pm_simd_store_any(high + i, pm_simd_odd(here[0], here[1]));
+	}
+}
+
+void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3])
+{
+	enum { points = 40 }; /* 33 of a row, filled up to whole vectors, which a row of the block has room for */
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
+	double folded[points * 4] __attribute__((aligned(64))), before[points * 2] __attribute__((aligned(64)));
+	for (size_t z = 0; z < cells[2]; z++) {
+		memset(before, 0, sizeof before);
+		for (size_t y = 0; y <= cells[1]; y++) {
+			double *low = t->block + z * plane + y * row;
+			if (y < cells[1])
+				fold_row(cells[0], t->corners + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_CORNERS << pm_tile_shift[3][0]), folded);
+			else
+				memset(folded, 0, sizeof folded);
+			add_pairs(cells[0] + 1, folded, before, z == 0, low, low + plane);
+		}
+	}
+}
+
+/* The block of a component to the corners of its cells: column x of four rows is the lower half of cell x and the upper half of cell x-1. */
+void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners)
+{
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3], edge = (size_t)1 << pm_tile_shift[3][0];
+	double columns[PM_SIMD_WIDTH * 4] __attribute__((aligned(64)));
+	for (size_t z = 0; z < cells[2]; z++)
+		for (size_t y = 0; y < cells[1]; y++) {
+			const double *low = block + z * plane + y * row;
+			double *to = corners + (((z << pm_tile_shift[3][1]) + y) << pm_tile_shift[3][0]) * PM_CORNERS;
+			for (size_t x = 0; x <= cells[0]; x += PM_SIMD_WIDTH) {
+				const double *at = low + x;
+				turn_out((const pm_simd[]){pm_simd_load_any(at), pm_simd_load_any(at + plane), pm_simd_load_any(at + row),
+					pm_simd_load_any(at + plane + row)}, columns);
+				for (size_t l = 0; l < PM_SIMD_WIDTH && x + l <= edge; l++) {
+					const pm_simd4_at column = *(const pm_simd4_at *)(columns + turned[l]);
+					double *cell = to + (x + l) * PM_CORNERS;
+					if (x + l < edge)
+						*(pm_simd4_at *)cell = column;
+					if (x + l > 0)
+						*(pm_simd4_at *)(cell - 4) = column;
+				}
+			}
+		}
+}
+
+/* The eight corners of eight cells to eight vectors, one a corner. */
+PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_simd to[8])
+{
+	PM_SIMD_UNROLL
+	for (int half = 0; half < 2; half++) {
+		const double *from = corners + 4 * half;
+		pm_simd v[4];
+		PM_SIMD_UNROLL
+		for (int k = 0; k < 4; k++)
+			v[k] = pm_simd_fours(from + (size_t)(uint32_t)at[k] * PM_CORNERS, from + (size_t)(uint32_t)at[k + 4] * PM_CORNERS);
+		turn(v, to + 4 * half);
+	}
+}
+
+/* The first n of eight values to their places. v - v is 0, or NaN if v is not finite. */
+PM_SIMD_INLINE void deliver(pm_simd v, size_t n, const double *factor, bool set, double *to, pm_simd *nothing)
+{
+	if (n == PM_SIMD_WIDTH) {
+		v = factor ? pm_simd_load_any(factor) * v : v;
+		v = set ? v : pm_simd_load_any(to) + v;
+		pm_simd_store_any(to, v);
+		__builtin_prefetch(to + PM_TILE_AHEAD, 1);
+		*nothing += v - v;
+		return;
+	}
+	double few[PM_SIMD_WIDTH];
+	pm_simd_store_any(few, v);
+	for (size_t l = 0; l < n; l++) {
+		const double value = factor ? factor[l] * few[l] : few[l];
+		to[l] = set ? value : to[l] + value;
+		*nothing += to[l] - to[l];
+	}
+}
+
+bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
+{
+	pm_simd nothing = {0};
+	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
+		const struct eight e = find_eight(t, batch, i);
+		const pm_simd x = e.distance[0], y = e.distance[1], z = e.distance[2], x0 = 1 - x, y0 = 1 - y, z0 = 1 - z;
+		const pm_simd w[4] = {z0 * y0, z * y0, z0 * y, z * y}; /* y*2 + z */
+		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
+		int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
+		*(pm_simd_int_at *)at = cell_of(&e);
+		for (int c = 0; c < t->components; c++) {
+			pm_simd v[8];
+			turn_corners(t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS, at, v);
+			/* in the order of the loop for all kernels: rows y, then z */
+			const pm_simd below = ((v[0] * w[0] + v[2] * w[2]) + v[1] * w[1]) + v[3] * w[3];
+			const pm_simd above = ((v[4] * w[0] + v[6] * w[2]) + v[5] * w[1]) + v[7] * w[3];
+			deliver(below * x0 + above * x, n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, &nothing);
+		}
+	}
+	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}

@@ -1,0 +1,40 @@
+/* Loops for the kernel of two linear points in 3-D, over particles straight from the stream. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_TILE_CIC_H
+#define PM_TRANSFER_TILE_CIC_H
+
+#include "transfer/tile-order.h"
+
+/* Whether eight particles at a time are worth it: where a register holds less, the loops over records are faster. */
+enum { PM_TILE_CIC_EIGHT = (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH };
+
+/* m particles of the stream from p on, all on the mesh, m <= PM_TILE_ORDER_PACK; axes are those of the order. */
+struct pm_tile_batch {
+	const struct pm_tile_order *order;
+	struct pm_axis_lanes lanes[3];
+	size_t p, m;
+};
+static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
+{
+	struct pm_tile_batch b = {.order = o};
+	for (int d = 0; d < o->dim && o->axes; d++)
+		b.lanes[d] = pm_axis_lanes(&o->axes[d]);
+	return b;
+}
+/* With strengths q[m] to the corners of t. The sums are those of the loop over records. */
+void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);
+void pm_tile_cic_spread_records(const struct pm_tile *t);
+/* The corners of the cells[3] cells of the tile to its block, whose values are set, not added to; leaves corners zero. */
+void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3]);
+/* The block of a component to corners[PM_TILE_CELLS][PM_CORNERS], those of each cell. */
+void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners);
+/* The places of values: to[c][p] = (where set) or += factor[c][p] * value; factor[c] NULL: 1. */
+struct pm_tile_results {
+	const double *const *factor;
+	const bool *set;
+	double *const *to;
+};
+/* Values of t's components from their corners [components][PM_TILE_CELLS][PM_CORNERS]. True if what is left is finite. */
+bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
+
+#endif
