@@ -91,7 +91,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 }
 
 static const struct pm_option options[] = {
-	{.name = "core", .kind = PM_WORD, .fallback = "uniform", .choices = pm_filament_core_names, PM_AT(core),
+	{.name = "core-profile", .kind = PM_WORD, .fallback = "uniform", .choices = pm_filament_core_names, PM_AT(core),
 		.text = "what the field core is the radius of: uniform vorticity, a Gaussian exp(-r^2/a^2), no fluid, or the smoothing length itself"},
 	{.name = "local", .kind = PM_REAL, .unit = "length", .low = 1e-300, .high = 1e300, PM_AT(local),
 		.text = "local induction alone, of this length to both sides of a node (4 R of a ring); default: Biot and Savart over all elements"},

@@ -1,6 +1,6 @@
-/* Pairs of vortices in space, as many at a time as a register holds: the factors f and f'/r of a mollified vector potential, u = sum f alpha x s, and the potential itself.
- * All from 1/r to 2e-16. The Gaussian core: erf(s) = 1 - exp(-s^2) P(1/(s + 3)), with P the polynomial of degree 15 with the least error for s in 0.7..6.5
- * (7e-17; Chebyshev's expansion by mpmath.chebyfit, 40 digits), and below s^2 = 1/2 polynomials of degree 9 for f and its slope (5e-17).
+/* Pairs of vortices in space, as many at a time as a register holds: the factors f and f'/r of a mollified vector potential, u = sum f alpha x s, and the
+ * potential itself. All from 1/r to 2e-16. The Gaussian core: erf(s) = 1 - exp(-s^2) P(1/(s + 3)), with P the polynomial of degree 15 with the least error
+ * for s in 0.7..6.5 (7e-17; Chebyshev's expansion by mpmath.chebyfit, 40 digits), and below s^2 = 1/2 polynomials of degree 9 for f and its slope (5e-17).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_FAR_VORTEX_PAIRS_H
 #define PM_FAR_VORTEX_PAIRS_H

@@ -16,10 +16,10 @@ mean() { sls --data | awk -v f="$1" -v c="${2:-0}:" '$1 == f { on = 1; next } on
 	for n in 32 64 128; do
 		within "$(ring $n 0.05 | filament | mean vel 2)" 0.3839378 5e-5
 	done
-	within "$(ring 64 0.05 | filament --core gaussian | mean vel 2)" 0.3594653 1e-3
+	within "$(ring 64 0.05 | filament --core-profile gaussian | mean vel 2)" 0.3594653 1e-3
 	within "$(ring 64 0.1 | filament | mean vel 2)" 0.3288162 0.003
 	within "$(ring 64 0.05 | filament --local 4 | mean vel 2)" 0.3839752 1e-5 # ln(2 l/sigma) - 1 = ln(8 R/a) - 1/4, but for (sigma/l)^2
-	within "$(ring 64 0.1 | filament --core smoothed --local 2 | mean vel 2)" "$(calc '(log(40) - 1) / (4 * pi)')" 3e-4
+	within "$(ring 64 0.1 | filament --core-profile smoothed --local 2 | mean vel 2)" "$(calc '(log(40) - 1) / (4 * pi)')" 3e-4
 }
 
 @test "Kelvin's waves turn at their frequency, of order 2 in the elements, against their sense" {

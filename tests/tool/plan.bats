@@ -238,6 +238,11 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 			[[ $output == *"no plan for the law electromagnetic yet"*"smod --law electrostatic"* ]] || { echo "$s: $output"; return 1; }
 			continue
 		fi
+		if [ "$s" = plasma ]; then # a box for the word species
+			run -1 plan --check <start
+			[[ $output == *"no particle that moves"* ]] || { echo "$s: $output"; return 1; }
+			continue
+		fi
 		run -0 plan --check <start
 		[[ $output == *"self field"* ]] || { echo "$s: $output"; return 1; }
 	done
