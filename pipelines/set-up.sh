@@ -23,6 +23,8 @@ there() {
 	parallel) parallel --version 2>/dev/null | grep -q 'GNU parallel' ;;
 	netpbm) command -v pngtopnm >/dev/null 2>&1 ;;
 	bsdutils) command -v script >/dev/null 2>&1 ;;
+	openmpi-bin) command -v mpirun >/dev/null 2>&1 ;;
+	libopenmpi-dev) command -v mpicc >/dev/null 2>&1 ;;
 	gnuplot-nox) command -v gnuplot >/dev/null 2>&1 ;;
 	debhelper) command -v dh >/dev/null 2>&1 ;;
 	python3-venv) /usr/bin/python3 -c 'import ensurepip' 2>/dev/null ;;
