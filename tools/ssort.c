@@ -28,6 +28,8 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 
 static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_particle_order_apply(&((const struct config *)s->config)->order, f); }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+
 static const struct pm_example examples[] = {
 	{"Particles by the cell of the mesh they are in.", "pinit plummer -n 2000 | ssort | sls"},
 	{"Back in the order of their ids.", "pinit plummer -n 2000 > a; ssort < a | ssort --by id > b; scmp --by-index --set matter --tolerance 0 a b"},
@@ -51,4 +53,5 @@ const struct pm_tool tool_ssort = {
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cell/radix-sort.h"
+#include "cell/sort-ranks.h"
 #include "expression/expression.h"
 #include "expression/particle-order.h"
 #include "stream/declare.h"
@@ -70,20 +71,37 @@ static int keys(const struct pm_particle_order *o, struct pm_frame *f, const cha
 	return 0;
 }
 
+/* A field of the set that the word uses: how many of its particles are here. NULL: none. */
+static const struct pm_field *used_on(const struct pm_frame *f, const char *on)
+{
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, on) && f->fields[i]->use)
+			return f->fields[i];
+	return NULL;
+}
+
+static bool permuted(const struct pm_field *p, const char *on) { return !strcmp(p->on, on) && p->use & PM_USE_CHANGE; }
+
 static int sort_set(const struct pm_particle_order *o, struct pm_frame *f, const struct pm_set *set)
 {
-	size_t n = set->n;
+	const struct pm_field *used = used_on(f, set->name);
+	const uint64_t *from = used ? used->from : NULL; /* the set is divided over the ranks */
+	size_t n = used ? used->count : (size_t)set->n;
 	uint64_t *key = pm_alloc(n ? 4 * n : 1, sizeof *key);
 	size_t *order = (size_t *)(key + 2 * n);
+	struct pm_sort_ranks ranks;
 	int status = key ? keys(o, f, set->name, n, key, (double *)(key + n)) : -PM_DATA;
-	if (!status) {
-		for (size_t i = 0; o->reverse && i < n; i++)
-			key[i] = ~key[i];
+	for (size_t i = 0; o->reverse && !status && i < n; i++)
+		key[i] = ~key[i];
+	if (from)
+		status = pm_sort_ranks_init(status, from, n, key, &ranks);
+	else if (!status)
 		pm_keys_order(n, key, key + n, order, order + n);
-	}
-	for (size_t i = 0; i < f->nfields && !status; i++)
-		if (!strcmp(f->fields[i]->on, set->name) && f->fields[i]->use & PM_USE_CHANGE)
-			status = pm_field_permute(f->fields[i], order);
+	for (size_t i = 0; i < f->nfields; i++)
+		if (permuted(f->fields[i], set->name) && (from || !status))
+			status = from ? pm_sort_ranks_permute(status, &ranks, f->fields[i]) : pm_field_permute(f->fields[i], order);
+	if (from)
+		pm_sort_ranks_free(&ranks);
 	pm_free(key);
 	return status;
 }

@@ -42,7 +42,7 @@ vortices() {
 	pinit plummer -n 12 | sel --where 'mass > 1' | same "push drift"
 	for n in 1 4096 4097 8191 13000; do
 		pinit uniform -n $n --dispersion 0.3 | same "$(kicks "field 'acc = -x, -2*y, vx'")"
-		pinit uniform -n $n --dispersion 0.3 | same "push drift | ssort" # on rank 0 alone, in place
+		pinit uniform -n $n --dispersion 0.3 | same "push drift | ssort"
 	done
 }
 
@@ -213,7 +213,7 @@ charged() {
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | same "$(kicks "$(force 64)")" --every 1
 }
 
-@test "push, walk, field, scalc, p2m, poisson-fft, mgrad, m2p, pp, dt and diag are shared by the ranks, and ssort is not; --timing says so" {
+@test "push, walk, field, scalc, p2m, poisson-fft, mgrad, m2p, pp, ssort, dt and diag are shared by the ranks, and sel is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
@@ -222,13 +222,14 @@ charged() {
 	shares "push kick/2 drift, p2m -n 8, poisson-fft, mgrad, m2p, push kick/2" "$(kicks "$(force 8)")" <start
 	shares "p2m -n 8, scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
 	shares "p2m -n 8, poisson-fft, m2p, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
+	shares "push drift, ssort --by x" "push drift | ssort --by x" <start
 	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
 	shares "pp, diag --tee table, push rk2" "pp | diag --tee table | push rk2" <cluster
-	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "pp | push rk2 | ssort" 2>said >/dev/null
+	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "pp | push rk2 | sel --where 'mass > 0'" 2>said >/dev/null
 	grep -qE '^pp .* all ranks: .* in [0-9]+ messages, slowest/mean [0-9.]+$' said
-	grep -qE '^ssort .* rank 0 alone$' said
+	grep -qE '^sel .* rank 0 alone$' said
 	grep -qE '^all .* sent, with what is given out and brought together: .*B in [0-9]+ messages$' said
 	# positions and masses of all to all, four numbers of 8 bytes, at each of the two stages of three steps: 1.728 MB, and less than 1 % for the status
 	on 3 cycle --timing - -n 3 "pp | push rk2" <cluster 2>said >/dev/null
@@ -271,6 +272,37 @@ charged() {
 	same "$(kicks "$(force 17x20)")" <walled
 	same "$(kicks "p2m -n 16x24 | poisson-mg | mgrad --order 4 | m2p")" <walled
 	pinit uniform -n 5000 --dispersion 0.2 | same "$(kicks "p2m -n 12x17x10 | poisson-fft | mgrad --order spectral | m2p")"
+}
+
+@test "any number of ranks: sorted by cells, ids, expressions; equal keys, one cell, letters, uniform fields, two sets, every other step" {
+	local n s
+	for n in 1 4097 13000; do
+		pinit uniform -n $n --dispersion 0.3 | scalc --role state --type i64 'side = 5*x' |
+			scalc --role state --type f32 'w = x, y' | scalc --role state 'one = 3' >cloud.pm
+		for s in "--every 2" "--by id --reverse" "--by side" "--by side --reverse" "--by 'hypot(x,y)'" "--by one" "--by 'x*y'"; do
+			same "push drift | ssort $s" <cloud.pm || return
+		done
+	done
+	same "push drift | ssort --by 'side - w.x' | ssort --by side" <cloud.pm
+	pinit uniform -n 13000 --dispersion 0.3 | scalc 'x = 0.01*x, 0.01*y, 0.01*z' | same "p2m -n 8 | ssort | push drift"
+	pinit uniform -n 9000 --dispersion 1 --dim 1 >one.pm
+	pinit uniform -n 300 --dim 1 --seed 7 | smod --rename matter=probes >two.pm
+	stack one.pm two.pm >both.pm
+	same "p2m -n 70 | ssort | push drift" <both.pm
+	same "ssort --by v --set matter | push drift | ssort --by -v --set probes" <both.pm
+	awk 'BEGIN { print "x v name id"; for (i = 0; i < 9000; i++) print i*0.618%1, i%3, substr("abcdefg", i%7 + 1, 1), i }' | stab - --dt 0.1 >names.pm
+	same "push drift | ssort --by x" <names.pm
+	# one rank alone has a value that is not finite: the words of a run alone
+	pinit uniform -n 9000 | scalc --role state 'bad = id == 8999 ? 0 : 1' >bad.pm
+	cycle -n 1 "ssort --by 1/bad | push drift" <bad.pm 2>said >/dev/null && return 1
+	grep -q 'is not finite' said
+	for n in 2 3; do
+		on $n cycle -n 1 "ssort --by 1/bad | push drift" <bad.pm 2>ranks >/dev/null && return 1
+		cmp said ranks || return 1
+	done
+	# what travels: a set in order sends nothing but counts
+	ssort --by x <both.pm | on 3 cycle --timing - -n 1 "ssort --by x | push drift" 2>said >/dev/null
+	grep -E '^ssort .* all ranks: [0-9.]+ kB' said || { cat said; return 1; }
 }
 
 @test "every tool with ranks: the bytes, messages and exit code of a run alone" {
