@@ -1,7 +1,7 @@
 /* A stable order of a divided set. Each rank sorts what it has; the key at which each rank's new stretch begins is found exactly, bit by bit, by counting the
  * smaller keys of all ranks; particles with that very key go to the left in the order of the stream until the stretch before is full. What arrives comes in the
- * order of ranks, so that a stable sort of it is the order of all. Cost: two sorts of N/P keys; at most 64 counts of P - 1 numbers; of each particle that changes
- * its rank 8 bytes for its key and 8 for each component travel. SPDX-License-Identifier: GPL-3.0-or-later */
+ * order of ranks, so that a stable sort of it is the order of all. Cost: two sorts of N/P keys; at most 64 counts of P - 1 numbers; of each particle that
+ * changes its rank 8 bytes for its key and 8 for each component travel. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 

@@ -80,12 +80,14 @@ static void promises_in_space(const struct pm_scene *s, struct pm_frame *f)
 		good = good && pm_in_i64(id, 0)[i] == (int64_t)i;
 	}
 	check(good, "%s: finite, inside its mesh for kernels of width 6, ids in order", s->name);
+	/* Rings and waves are symmetric about the nodes; of other curves what is below 1e-7 of the peak is missing. */
+	const double least = !strcmp(s->name, "trefoil") || !strcmp(s->name, "vortex-tube") ? 1e-7 : 1e-12;
 	for (int d = 0; d < 3 && good; d++) {
 		char name[32];
 		snprintf(name, sizeof name, "alpha_%c", axis[d]);
 		const double all = s->exact(f, name, f->time);
-		if (!isnan(all)) /* symmetric sums */
-			check_near(pm_sum_total(total[d]), all, 1e-12 * pm_sum_total(scale), "and the total");
+		if (!isnan(all))
+			check_near(pm_sum_total(total[d]), all, least * pm_sum_total(scale), "and the total");
 		snprintf(name, sizeof name, "impulse_%c", axis[d]);
 		const double push = s->exact(f, name, f->time);
 		if (!isnan(push)) /* vorticity below 1e-7 of the peak is left out */
