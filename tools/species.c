@@ -63,6 +63,10 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--range takes the lowest and the highest velocity (--range=-3,3)");
 	if (o->range.n && !o->f[0] && !o->f[1] && !o->f[2])
 		return pm_fail(PM_USAGE, "--range is for --fx, --fy and --fz");
+	if (pm_given(s, "kappa") && strcmp(o->distribution, "kappa") != 0)
+		return pm_fail(PM_USAGE, "--kappa is for --distribution kappa");
+	if (pm_given(s, "ring") && strcmp(o->distribution, "ring") != 0)
+		return pm_fail(PM_USAGE, "--ring is for --distribution ring");
 	if (!strcmp(o->loading, pm_loading_names[PM_LATTICE]))
 		return pm_fail(PM_USAGE, "--loading lattice is for scenes (bit-reversed and sobol are the quiet starts here)");
 	if (o->widths.n && pm_given(s, "vth"))

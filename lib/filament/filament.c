@@ -144,6 +144,9 @@ static int curve_of(struct work *w, const struct key *key, size_t n)
 		double l2 = 0;
 		if (k + 1 < n && key[k].node == key[k + 1].node)
 			return pm_fail(PM_DATA, "curve %lld has two nodes %lld", (long long)key[k].curve, (long long)key[k].node);
+		if (!(fabs(f->circulation[i] - f->circulation[j]) <= 1e-9 * fabs(f->circulation[i])))
+			return pm_fail(PM_DATA, "the circulation of curve %lld is %g at node %lld and %g at the next, but a filament has one (Helmholtz)",
+				(long long)key[k].curve, f->circulation[i], (long long)key[k].node, f->circulation[j]);
 		if (!(f->core[i] > 0))
 			return pm_fail(PM_DATA, "node %lld of curve %lld has the core %g (a radius above 0)", (long long)key[k].node,
 				(long long)key[k].curve, f->core[i]);

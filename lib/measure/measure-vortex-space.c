@@ -181,15 +181,19 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 	const struct pm_field *omega = NULL;
 	if (!how->vortices || !how->vector)
 		return 0;
+	bool any = false;
 	for (size_t i = 0; i < f->nsets; i++)
-		if (counts(how, f, f->sets[i]))
+		if (counts(how, f, f->sets[i])) {
 			add_sums(pm_frame_field(f, f->sets[i]->name, "x"), pm_frame_field(f, f->sets[i]->name, how->strength), &s);
-	for (int d = 0; d < 3; d++) {
+			any = true;
+		}
+	for (int d = 0; d < 3 && any; d++) {
 		m->value[PM_ALPHA + d] = pm_sum_total(s.alpha[d]);
 		m->value[PM_IMPULSE + d] = pm_sum_total(s.impulse[d]);
 		m->value[PM_ANGULAR_IMPULSE_OF + d] = pm_sum_total(s.angular[d]);
 	}
-	of_ring(how, f, &s, m);
+	if (any)
+		of_ring(how, f, &s, m);
 	for (size_t i = 0; i < f->nmeshes && !omega; i++)
 		omega = pm_frame_field(f, f->meshes[i]->name, how->density);
 	if (!omega || omega->components != 3)

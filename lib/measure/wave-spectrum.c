@@ -101,7 +101,8 @@ int pm_wave_add(struct pm_wave_spectrum *s, const struct pm_measure *how, const 
 		status = pm_fail(PM_DATA, "no field '%s' in this frame", how->field);
 	const struct pm_grid g = status ? (struct pm_grid){0} : pm_grid_of(f, pm_frame_mesh(f, law.field->on));
 	if (!status && 2 * (size_t)s->modes > g.points[0])
-		status = pm_fail(PM_USAGE, "--modes %d: a mesh of %zu points has %zu waves", s->modes, g.points[0], g.points[0] / 2);
+		status = pm_fail(PM_USAGE, "%d waves are asked for, and a mesh of %zu points has %zu (dispersion -n %zu)", s->modes, g.points[0],
+			g.points[0] / 2, g.points[0] / 2);
 	if (!status && !s->n) {
 		s->k1 = 2 * pm_pi / (f->hi[0] - f->lo[0]);
 		find_species(s, f);

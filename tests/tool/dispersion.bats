@@ -55,5 +55,5 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 	run -1 --separate-stderr bash -c "(cycle -q -n 20 --every 1 '$step' <a; cycle -q -n 40 --every 20 '$step' <a) | dispersion -n 1"
 	[[ $stderr == *"not equally spaced in time"* ]]
 	run -2 --separate-stderr bash -c "pinit landau -n 500 --cells 8 | cycle -q -n 20 --every 1 '$step' | dispersion -n 5"
-	[[ $stderr == *"a mesh of 8 points has 4 waves"* ]]
+	[[ $stderr == *"a mesh of 8 points has 4 (dispersion -n 4)"* ]]
 }

@@ -79,6 +79,7 @@ pair() {
 		1;scalc 'core = -1' | filament;has the core -1 (a radius above 0)
 		1;sel --where 'node < 2' | filament;curve 7 has 2 nodes (a closed curve needs 3 and more)
 		1;scalc --type i64 'node = 3' | filament;curve 7 has two nodes 3
+		1;scalc 'circulation = x' | filament;but a filament has one (Helmholtz)
 		1;scalc 'x = 1, 2, 3' | filament;nodes 0 and 1 of curve 7 coincide
 		1;sel --drop curve | filament;no set of filaments
 		1;pinit lamb-oseen --cells 8 | filament;filaments are curves in space

@@ -107,6 +107,8 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 	refused "-n 10 --fx 'exp(-v^2)' --range 3,1" 2 "--range takes the lowest and the highest"
 	refused "-n 10 --fy 'exp(-v^2)'" 2 "--fy, but v has 1 components"
 	refused "-n 10 --distribution kappa" 2 "--kappa above 1.5"
+	refused "-n 10 --kappa 3" 2 "--kappa is for --distribution kappa"
+	refused "-n 10 --ring 3" 2 "--ring is for --distribution ring"
 	refused "-n 10 --distribution ring --velocities 1" 2 "needs 2 components"
 	refused "-n 10 --distribution juettner" 2 "speed of light"
 	refused "-n 10 --widths=-1" 2 "negative"
