@@ -1,5 +1,5 @@
-/* The main of programs that are built for several levels of x86-64 (make DISPATCH=1): takes the highest that the processor has, or that PM_INSTRUCTIONS (x86-64,
- * x86-64-v3) allows. Levels: System V ABI, AMD64 supplement, 2023. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The main of programs that are built for several levels of x86-64 (make DISPATCH=1): takes the highest that the processor has, or that PM_INSTRUCTIONS
+ * (x86-64, x86-64-v3) allows. Levels: System V ABI, AMD64 supplement, 2023. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>

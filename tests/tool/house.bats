@@ -69,7 +69,7 @@ long_lines() {
 	printf '\t%0153d\n' 0 | tee d.c e.py >f.sh
 	printf '@test "%0145d" {\n}\n' 0 >g.bats
 	[ "$(long_lines ?.*)" = $'d.c:1: 161 columns\ne.py:1: 161 columns\nf.sh:1: 161 columns' ]
-	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs python -type f |
+	bad=$(cd "$top" && long_lines Makefile .ci/run $(find lib tools tests bench pipelines docs packaging python -type f |
 		grep -E '\.([ch]|sh|bats|bash|awk|py|js|css)$'))
 	echo "$bad"
 	[ -z "$bad" ]
