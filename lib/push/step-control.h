@@ -14,6 +14,7 @@ struct pm_controlled {
 	bool unconverged;         /* it was completed after as many iterations as there may be */
 	bool rounded;             /* its error is less than rounding lets see */
 	bool least;               /* the next step would have been below the least one */
+	uint64_t beyond;          /* particles of an implicit step whose solution is not known to go over into the start as dt falls */
 	int iterations;           /* of a step that was completed or rejected */
 	double dt, next;          /* [time] of that step; of the next */
 	double error;             /* of that step: the last term of a rate over the rate */

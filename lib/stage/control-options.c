@@ -33,8 +33,15 @@ static void tell(struct pm_stage *s, struct pm_frame *f, const struct pm_step *s
 {
 	if (!scheme->embedded)
 		pm_report_count(s, f, "iterations", (uint64_t)done->iterations);
-	if (scheme->implicit)
+	if (scheme->implicit) {
+		if (done->beyond)
+			pm_report_count(s, f, "beyond", done->beyond);
+		if (done->beyond)
+			pm_tell_once(s, "the step to time %.9g: for %" PRIu64 " particles dt %g is beyond 1/growth, or another solution than the one "
+				"that goes over into the start as dt falls was found (det(1 - dt J) < 0; counted as beyond; a shorter dt)", f->time,
+				done->beyond, done->dt);
 		return;
+	}
 	pm_report(s, f, "error", done->error);
 	pm_report_count(s, f, "rejected", done->rejected);
 	pm_report_count(s, f, "below_min", done->least);

@@ -51,6 +51,53 @@ after() {
 	[[ $output == *'times the limit of rk4'* ]]
 }
 
+@test "Robertson's kinetics, rates of 0.04, 1e4 and 3e7: implicit Euler, trapezoid and midpoint come to 0.71582707 at t = 40, and no step finds another root" {
+	rates="field 'vel = -0.04*x+1e4*y*z, 0.04*x-1e4*y*z-3e7*y^2, 3e7*y^2'"
+	printf 'x y z\n1 0 0\n' | stab - --law free --dt 0.1 >a
+	for scheme in implicit-euler:4e-4 trapezoid:2e-3 implicit-midpoint:1e-5; do # the first of order 1; trapezoid lets the first fast decay ring
+		cycle -n 400 "$rates | push ${scheme%:*}" <a 2>said >b
+		within "$(stab --plain b | awk 'END { print $1 }')" 0.71582707 "${scheme#*:}" "${scheme%:*}" # Hairer and Wanner 1996, IV.10
+		run ! grep 'another solution' said
+	done
+	cycle -q -n 1 "$rates | push implicit-euler" <a | stab --plain | awk 'END { print $2 }' >y
+	# y of the first step is the positive root; the other is -7e-5
+	below 0 "$(cat y)"
+	smod --dt 40 <a | cycle -q -n 1 "$rates | push implicit-euler" | stab --plain | awk 'END { print $1 + $2 + $3 - 1, $2 }' >end
+	within "$(cut -d' ' -f1 end)" 0 1e-12 # ten residuals
+	below 0 "$(cut -d' ' -f2 end)"
+}
+
+@test "implicit Euler of x' = -x^3 finds the one real root for any dt; one beyond the growth is told and counted" {
+	for dt in 1 100 1e12; do
+		within "$(after implicit-euler '-x^3' $dt | awk -v dt=$dt '{ print $1 + dt * $1^3 }')" 2 1e-12 # ten residuals
+	done
+	printf 'x\n1\n' | stab - --law free --dt 1 >a
+	cycle -n 3 "field 'vel = 3*x' | push implicit-euler" <a 2>said >b
+	[ "$(grep -c 'for 1 particles dt 1 is beyond 1/growth' said)" = 1 ]
+	sls --report b | grep -qE '"?beyond"?:? *3' || { sls --report b >&2; return 1; }
+	cycle -n 3 "field 'vel = 0.9*x' | push implicit-euler" <a 2>said >b
+	run ! grep growth said
+}
+
+@test "equal bytes by Newton's method: stiff rates of three values, two sets with different numbers of them, any engine, threads, resumed" {
+	seq 5000 | awk 'BEGIN { print "x y z vx vy vz" } { print $1 / 5000, 1, 0, 0, 1 / $1, 0 }' | stab - --law free --dt 0.3 --set a --no-history >a
+	seq 50 | awk 'BEGIN { print "x y z" } { print 1, $1 / 50, 0 }' | stab - --law free --dt 0.3 --set b --no-history >b
+	stack --no-history a b >now
+	words="field --set a 'acc = -30*vx - x - 100*x^3, -1e3*vy^3, -vz' | field --set b 'vel = -1e3*x*y, -1e3*y^3 - z, 10*y' | push implicit-euler"
+	cycle -q --no-history -n 3 "$words" <now >want
+	for threads in 1 3; do
+		for engine in fused pipes; do
+			OMP_NUM_THREADS=$threads cycle -q --no-history -n 3 --engine $engine "$words" <now >got
+			same_as want got
+		done
+	done
+	cycle -q --no-history -n 1 --checkpoint c "$words" <now >got
+	cycle -q --no-history -n 3 --resume c "$words" >got
+	same_as want got
+	cycle -q --no-history -n 3 --ranks 3 "$words" <now >got
+	same_as want got
+}
+
 @test "equal bytes: implicit midpoint of bodies that attract each other, fused, as processes, with 1 and 3 threads, resumed, and from the middle of a step" {
 	pinit plummer -n 30 --softening 0.1 --dt 0.2 --no-history >now
 	words='pp | push implicit-midpoint'
