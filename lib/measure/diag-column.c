@@ -15,8 +15,6 @@
 enum { exact = -1, first_mode = PM_COLUMNS + PM_COMPONENTS, first_separation = first_mode + PM_COMPONENTS,
 	first_field = first_separation + 2, first_species = first_field + PM_FIELD_COLUMNS };
 
-static const char *const fields[PM_FIELD_COLUMNS] = {"flux", "flux_enclosed", "field_residual", "field_curl"};
-static const char *const separations[] = {"separation", "separation_v"};
 
 const struct pm_scene *pm_diag_scene(const struct pm_frame *f)
 {
@@ -110,9 +108,9 @@ struct pm_diag_column pm_diag_mode(const struct pm_diag_request *g, int k)
 	return named(first_mode + k, name);
 }
 
-struct pm_diag_column pm_diag_separation(int k) { return named(first_separation + k, separations[k]); }
+struct pm_diag_column pm_diag_separation(int k) { return named(first_separation + k, pm_column_names[PM_COLUMNS + PM_FIELD_COLUMNS + k]); }
 
-struct pm_diag_column pm_diag_field(enum pm_field_column k) { return named(first_field + (int)k, fields[k]); }
+struct pm_diag_column pm_diag_field(enum pm_field_column k) { return named(first_field + (int)k, pm_column_names[PM_COLUMNS + (int)k]); }
 
 struct pm_diag_column pm_diag_moment(const struct pm_frame *f, size_t set, enum pm_moment k)
 {
@@ -143,8 +141,13 @@ bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_co
 		if (!strcmp(name, pm_column_names[c]))
 			return *column = pm_diag_column((enum pm_column)c), true;
 	for (int k = 0; k < 2; k++)
-		if (g->separation[0] && !strcmp(name, separations[k]))
+		if (g->separation[0] && !strcmp(name, pm_diag_separation(k).name))
 			return *column = pm_diag_separation(k), true;
+	for (int k = 0; k < PM_FIELD_COLUMNS; k++)
+		if (!strcmp(name, pm_diag_field((enum pm_field_column)k).name) && (k >= PM_FIELD_RESIDUAL || g->flux)) {
+			g->field_errors = g->field_errors || k >= PM_FIELD_RESIDUAL;
+			return *column = pm_diag_field((enum pm_field_column)k), true;
+		}
 	if (!strncmp(name, "exact_", strlen("exact_")))
 		return *column = pm_diag_exact(name + strlen("exact_")), true;
 	if (numbered(name, "radius_", &x) && x > 0 && x <= 1 && g->nradii < PM_COMPONENTS) {

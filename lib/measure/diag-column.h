@@ -39,7 +39,8 @@ struct pm_diag_column pm_diag_field(enum pm_field_column k);
 struct pm_diag_column pm_diag_separation(int k); /* of positions, of velocities */
 struct pm_diag_column pm_diag_moment(const struct pm_frame *f, size_t set, enum pm_moment k); /* of the set with that number */
 struct pm_diag_column pm_diag_exact(const char *name);
-/* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M (the latter two are added to *g). False: there is none. */
+/* A column by its name: one of diag's, exact_NAME, radius_FRACTION, mode_M, field_residual, field_curl (the latter four are added to *g), and those of
+ * the box of the flux and of the separation that *g asks for. False: there is none. */
 bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_column *column);
 /* NAN where it cannot be computed. */
 double pm_diag_value(const struct pm_diag_column *column, const struct pm_measures *m, const struct pm_frame *f);

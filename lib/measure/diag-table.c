@@ -52,6 +52,11 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 		.separation = {c->separation[0], c->separation[1]}, .species = c->species, .field_errors = c->field_errors,
 		.flux = c->flux, .nflux = c->nflux}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
+	struct pm_diag_column column;
+	for (int i = 0; i < c->ncolumns; i++)
+		if (!pm_diag_find(g, c->columns[i], &column))
+			return pm_fail(PM_USAGE, "--columns %s needs %s", c->columns[i], !strncmp(c->columns[i], "flux", strlen("flux")) ?
+				"the box (--flux-box LOW,HIGH, its corners)" : "the two sets (--separation SET,SET)");
 	if (check(c))
 		return -PM_USAGE;
 	for (int k = 0; k < c->nradii; k++)
@@ -69,9 +74,20 @@ static void add(struct pm_diag_table *t, const struct pm_frame *f, struct pm_dia
 		t->column[t->n++] = pm_diag_exact(column.name);
 }
 
-/* All columns that exist here, or those given by --column in their order; radii and modes last. They stay the same over the stream. */
+/* One that an option adds, where --columns does not name it or its kind already. */
+static void add_last(struct pm_diag_table *t, const struct pm_frame *f, struct pm_diag_column column)
+{
+	const size_t kind = strcspn(column.name, "_");
+	for (int i = 0; i < t->choice.ncolumns; i++)
+		if (!strncmp(t->choice.columns[i], column.name, kind))
+			return;
+	add(t, f, column);
+}
+
+/* All columns that exist here, or those given by --columns in their order; radii and modes last. They stay the same over the stream. */
 static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 {
+	struct pm_diag_column column;
 	const struct pm_diag_choice *c = &t->choice;
 	int vdim = 0;
 	const struct pm_measure how = pm_diag_how(&t->request, f);
@@ -85,17 +101,16 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 			(k != PM_OUTSIDE || pm_measure_has_outside(&how, f)))
 			add(t, f, pm_diag_column((enum pm_column)k));
 	for (int i = 0; i < c->ncolumns; i++)
-		for (int k = 0; k < PM_COLUMNS; k++)
-			if (!strcmp(c->columns[i], pm_column_names[k]))
-				add(t, f, pm_diag_column((enum pm_column)k));
+		if (pm_diag_find(&t->request, c->columns[i], &column))
+			add(t, f, column);
 	for (int k = 0; k < c->nradii; k++)
 		add(t, f, pm_diag_radius(&t->request, k));
 	for (int k = 0; k < c->nmodes; k++)
 		add(t, f, pm_diag_mode(&t->request, k));
 	for (int k = 0; k < 2 && c->separation[0]; k++)
-		add(t, f, pm_diag_separation(k));
+		add_last(t, f, pm_diag_separation(k));
 	for (int k = c->flux ? PM_FLUX : PM_FIELD_RESIDUAL; k < (c->field_errors ? PM_FIELD_COLUMNS : PM_FIELD_RESIDUAL); k++)
-		add(t, f, pm_diag_field((enum pm_field_column)k));
+		add_last(t, f, pm_diag_field((enum pm_field_column)k));
 	for (size_t i = 0; i < f->nsets && c->species; i++) {
 		const struct pm_field *v = pm_frame_field(f, f->sets[i]->name, "v");
 		for (int k = 0; k < PM_MOMENTS; k++)

@@ -6,7 +6,7 @@
 #include "law/law.h"
 #include "measure/measure.h"
 
-const char *const pm_column_names[PM_COLUMNS + 1] = {
+const char *const pm_column_names[PM_NAMED_COLUMNS + 1] = {
 	[PM_STEP] = "step", [PM_TIME] = "time", [PM_ENERGY_KINETIC] = "energy_kinetic", [PM_ENERGY_MESH] = "energy_field_mesh",
 	[PM_ENERGY_PAIR] = "energy_field_pair", [PM_ENERGY] = "energy",
 	[PM_MOMENTUM] = "momentum_x", "momentum_y", "momentum_z", [PM_MOMENTUM_SCALE] = "momentum_scale",
@@ -25,6 +25,7 @@ const char *const pm_column_names[PM_COLUMNS + 1] = {
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
 	[PM_STRENGTH_OUTSIDE] = "strength_outside", [PM_STRENGTH_GIVEN] = "strength_given", [PM_OUTSIDE] = "outside",
 	[PM_LEVEL_INSIDE] = "level_inside", [PM_LEVEL_INTERFACE] = "level_interface", [PM_LEVEL_DIFFERENCE] = "level_difference",
+	[PM_COLUMNS] = "flux", "flux_enclosed", "field_residual", "field_curl", "separation", "separation_v",
 };
 
 bool pm_column_exists(enum pm_column c, int dim, int vdim)

@@ -59,7 +59,6 @@ enum pm_column {
 	PM_STRENGTH_SCALE, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE,
 	PM_LEVEL_INSIDE, PM_LEVEL_INTERFACE, PM_LEVEL_DIFFERENCE, PM_COLUMNS
 };
-extern const char *const pm_column_names[PM_COLUMNS + 1]; /* NULL ends */
 /* Does it exist in dim dimensions with velocities of vdim components? */
 bool pm_column_exists(enum pm_column c, int dim, int vdim);
 struct pm_measure;
@@ -68,6 +67,9 @@ bool pm_column_suits(enum pm_column c, const struct pm_measure *how);
 
 /* Flux of the field through a box, how far a potential is from its equation, and its field from a gradient (measure-field.c). */
 enum pm_field_column { PM_FLUX, PM_FLUX_ENCLOSED, PM_FIELD_RESIDUAL, PM_FIELD_CURL, PM_FIELD_COLUMNS };
+/* Then those of the field, and the separation of two sets in position and velocity, which options ask for. */
+enum { PM_NAMED_COLUMNS = (int)PM_COLUMNS + (int)PM_FIELD_COLUMNS + 2 };
+extern const char *const pm_column_names[PM_NAMED_COLUMNS + 1]; /* NULL ends */
 
 /* Of every set (species-moments.c): particles; kinetic energy; mean velocity x, y, z; covariance of the velocities xx, yy, zz, xy, xz, yz. */
 enum pm_moment { PM_MOMENT_PARTICLES, PM_MOMENT_KINETIC, PM_MOMENT_DRIFT, PM_MOMENT_COVARIANCE = PM_MOMENT_DRIFT + 3,

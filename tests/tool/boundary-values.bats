@@ -104,6 +104,8 @@ mesh() {
 		[ "$(wc -l <<<"$stderr")" = 1 ]
 		tail -c 600 p | grep -aq '"flux":1.5'
 		tail -c 600 p | grep -aq '"mean_removed":-0.5'
+		run -0 --separate-stderr $s --coefficient 1 --x-low=-0.5 --x-high 1 -o p <m
+		[[ $stderr == *"the integral of c*rho is 1, that of the fluxes 0.5;"* ]] # both are outwards
 		run -0 --separate-stderr $s --coefficient 1 --x-high 1 -o p <m
 		[ -z "$stderr" ]
 		scalc --mesh mesh 'phi=x^2/2-1/6-1/3072' <m >e # the mean of x^2/2 by trapezoids is 1/6 + h^2/12

@@ -217,6 +217,16 @@ load ../helper
 	[ -z "$stderr" ]
 }
 
+@test "--columns names what --flux-box, --field-errors and --separation add, or says which of them it needs" {
+	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$3"; [[ $stderr == *"$2"* ]] || { echo "$stderr"; return 1; }; }
+	pinit uniform -n 20 --dim 2 | p2m -n 8 | poisson-fft >a
+	[ "$(diag --columns flux,time --flux-box 0.2,0.2,0.8,0.8 a | head -n 1)" = $'flux\ttime' ]
+	[ "$(diag --columns time,field_curl a | head -n 1)" = $'time\tfield_curl' ]
+	[ "$(diag --columns field_residual a)" = "$(diag --columns time --field-errors a | awk -F'\t' -v OFS='\t' '{ print $2 }')" ]
+	refused 2 "--columns flux_enclosed needs the box (--flux-box LOW,HIGH, its corners)" "diag --columns flux_enclosed a"
+	refused 2 "--columns separation needs the two sets (--separation SET,SET)" "diag --columns separation a"
+}
+
 @test "the energy of a sentence that softens pp is conserved in diag --pair and --until: its softening and mollifier count, not the frame's" {
 	pinit plummer -n 50 >a
 	for words in 'push kick/2 drift | pp --softening 0.5 | push kick/2' 'pp --softening 0.5 | push rk4' \
@@ -370,7 +380,7 @@ load ../helper
 	[[ $(pinit landau --wavenumber 0.3 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648" ]]
 	[[ $(pinit two-stream -n 2000 | theory mode:1) == *"; theory: gamma 0.353553391 omega 0" ]]
 	[[ $(pinit two-stream --v0 3 --vth 1 --wavenumber 0.2 -n 8000 | theory mode:1) == *"; theory: gamma 0.284509686 omega 0" ]]
-	[[ $(pinit landau -n 2000 | theory mode:2) != *theory* ]]
+	[[ $(pinit two-stream -n 2000 | theory mode:2) != *theory* ]] # twice the scene's wave
 	[[ $(pinit landau -n 2000 --mode 2 --wavenumber 0.25 | theory mode:2) == *"; theory: gamma -0.153359467 omega 1.41566189" ]]
 	[[ $(pinit landau -n 2000 | cycle -q -n 100 --every 2 "$step" | diag --columns time --growth mode:1 --exact --format json | tail -n 1) == \
 		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189}' ]]
