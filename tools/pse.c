@@ -15,7 +15,12 @@ struct config {
 
 static int begin(struct pm_stage *s)
 {
-	return pm_given(s, "eps") && pm_given(s, "overlap") ? pm_fail(PM_USAGE, "--eps or --overlap, not both: either is the width") : 0;
+	const struct config *o = s->config;
+	if (pm_given(s, "eps") && pm_given(s, "overlap"))
+		return pm_fail(PM_USAGE, "--eps or --overlap, not both: either is the width");
+	if (!strcmp(o->method, "dc") && !strcmp(o->order, "8"))
+		return pm_fail(PM_USAGE, "--method dc has orders 2, 4 and 6 (order 8 would need the moments of 219 monomials in 3-D)");
+	return 0;
 }
 
 /* The sets, and what is the same for all of them. */
@@ -76,7 +81,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", NULL}, *const walls[] = {"images", "none", NULL};
+static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", "6", "8", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, PM_AT(method),
 		.text = "exchange: conserves the sum, for particles without distortion; dc: corrected for the positions of the partners (DC-PSE), does not "
@@ -87,7 +92,7 @@ static const struct pm_option options[] = {
 	{.name = "overlap", .kind = PM_REAL, .fallback = "1", .low = 1e-3, .high = 1e3, PM_AT(overlap),
 		.text = "eps over the spacing (mean volume)^(1/dim); must be at least 1 on a lattice, and more for distorted particles"},
 	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, PM_AT(cutoff),
-		.text = "partners farther apart than this do not exchange; by default 8 for order 2, 9 for order 4; of dc 3.1 and 4.1"},
+		.text = "partners farther apart than this do not exchange; by default 8, 9, 10 and 11 for orders 2 to 8; of dc 3.1, 4.1 and 5.1"},
 	PM_VISCOSITY_ROW,
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each separately"},
@@ -110,11 +115,11 @@ const struct pm_tool tool_pse = {
 	.name = "pse",
 	.summary = "add viscosity by exchange of strength between particles",
 	.about = "d(strength)_p += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, as the term diffusion: no mesh, the sum of the "
-		"strengths conserved to round-off. Gaussians of order 2 and 4, cut off; periodic images and mirror images at walls. Explicit: push refuses "
+		"strengths conserved to round-off. Gaussians of order 2 to 8, cut off; periodic images and mirror images at walls. Explicit: push refuses "
 		"a step beyond the "
-		 "limit, nu dt/eps^2 <= 2 "
-		 "(order 2) or 1 (order 4) for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, "
-		 "fastest_dt, and the number of particles without a partner (alone). --method dc solves for the weights of each particle: order 2 or 4 also "
+		 "limit, nu dt/eps^2 <= 4/order "
+		 "for euler on a lattice. Needs volumes, and particles that are not distorted: remesh. Reports eps, cutoff, "
+		 "fastest_dt, and the number of particles without a partner (alone). --method dc solves for the weights of each particle: order 2, 4 or 6 also "
 		"for "
 		 "distorted particles and at boundaries. If nu is 0 the frame is passed on unchanged. See docs/methods/pse.md.",
 	.kind = PM_FILTER,

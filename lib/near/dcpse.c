@@ -1,9 +1,10 @@
-/* Discretisation-corrected PSE: lap f(x_p) = eps^-2 sum_q (f_q - f_p) eta_p(z_q), z_q = (x_p - x_q)/eps, eta_p = polynomial times exp(-z^2), with the
- * polynomial of each particle such that the moments over its own partners are exact: 2 for z_i^2, 0 for all others of degree 1 .. order + 1.
+/* Discretisation-corrected PSE: D f(x_p) = eps^-m sum_q (f_q - f_p) eta_p(z_q), z_q = (x_p - x_q)/eps, eta_p = polynomial times exp(-z^2), with the
+ * polynomial of each particle such that the moments over its own partners are exact to degree order + m - 1: (-1)^m a! for z^a of a derivative
+ * D = d^a of degree m = |a|, 0 for all others; of the Laplacian (m = 2) 2 for every z_i^2. Partners may be those on one side alone.
  * Source: Schrader, Reboux, Sbalzarini 2010, J. Comput. Phys. 229, 4159. Error O(eps^order) for any points that determine the moments, at boundaries too. Not
  * conserving, no volumes. The smallest weights in the window's norm, by Householder's QR with pivots (Golub and Van Loan 2013, 5.4) of the window times
  * the monomials, not of its square. Points that do not determine them (on a line, too few) are found by the rank and refused.
- * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations.
+ * Cost: partners times moments squared for each particle: 2 (30 partners, 9 moments) to 300 (290, 55) thousand operations, 8 million for order 6 in 3-D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@
 static const double poor_pivot = 1e-2, least_pivot = 1e-9;
 static const double wider = 1.19; /* four steps to twice the reach */
 
-double pm_dc_cutoff(int order) { return order == 4 ? 4.1 : 3.1; }
+double pm_dc_cutoff(int order) { return 2.1 + order / 2; }
 
 /* Exponents of the monomials, and the moments wanted. */
 struct moments {
@@ -23,16 +24,18 @@ struct moments {
 	double wanted[PM_DC_MOMENTS];
 };
 
-static struct moments moments_of(int dim, int order)
+static struct moments moments_of(const struct pm_dc *o)
 {
+	const int *want = o->power, degree = want[0] + want[1] + want[2], most = o->order + (degree ? degree : 2) - 1;
 	struct moments m = {.n = 0};
-	for (int i = 0; i <= order + 1; i++)
-		for (int j = 0; j <= (dim > 1 ? order + 1 - i : 0); j++)
-			for (int k = 0; k <= (dim > 2 ? order + 1 - i - j : 0); k++) {
+	for (int i = 0; i <= most; i++)
+		for (int j = 0; j <= (o->dim > 1 ? most - i : 0); j++)
+			for (int k = 0; k <= (o->dim > 2 ? most - i - j : 0); k++) {
+				const bool square = i + j + k == 2 && (i == 2 || j == 2 || k == 2), this = i == want[0] && j == want[1] && k == want[2];
 				if (i + j + k == 0)
 					continue;
 				m.power[m.n][0] = i, m.power[m.n][1] = j, m.power[m.n][2] = k;
-				m.wanted[m.n++] = i + j + k == 2 && (i == 2 || j == 2 || k == 2) ? 2 : 0;
+				m.wanted[m.n++] = degree ? (this ? (degree % 2 ? -1 : 1) * tgamma(i + 1) * tgamma(j + 1) * tgamma(k + 1) : 0) : square ? 2 : 0;
 			}
 	return m;
 }
@@ -69,6 +72,7 @@ static void partners_free(struct partners *s)
 static void partners_of(const struct pm_dc *o, const struct pm_cell_list *l, double reach, size_t i, size_t ranges, const struct pm_neighbour_range *s,
 	struct partners *p)
 {
+	const double width = o->eps * reach / o->reach; /* of the window: it widens with the reach, or partners added would have no weight */
 	p->n = 0;
 	for (size_t k = 0; k < ranges; k++)
 		for (size_t j = s[k].from; j < s[k].to; j++) {
@@ -78,10 +82,10 @@ static void partners_of(const struct pm_dc *o, const struct pm_cell_list *l, dou
 				p->z[d][p->n] = s[k].side[d] * r / o->eps; /* x_p less the partner's image */
 				r2 += r * r;
 			}
-			if (r2 > reach * reach || (s[k].kind == PM_HERE && j == i))
-				continue;
+			if (r2 > reach * reach || (s[k].kind == PM_HERE && j == i) || (o->side && o->side * p->z[o->axis][p->n] > 1e-9))
+				continue; /* z is the particle less its partner */
 			p->who[p->n] = l->order[j], p->sign[p->n] = s[k].sign;
-			p->window[p->n++] = exp(-0.5 * r2 / (o->eps * o->eps)); /* its square is the window of the kernel */
+			p->window[p->n++] = exp(-0.5 * r2 / (width * width)); /* its square is the window of the kernel */
 		}
 }
 
@@ -195,10 +199,10 @@ static double particle(const struct work *w, size_t i, size_t ranges, const stru
 	for (size_t q = 0; q < p->n; q++)
 		sum += p->eta[q], size += fabs(p->eta[q]);
 	for (int f = 0; f < w->fields; f++) {
-		double lap = 0;
+		double derivative = 0;
 		for (size_t q = 0; q < p->n; q++)
-			lap += (p->sign[q] * w->value[f][p->who[q]] - w->value[f][me]) * p->eta[q];
-		w->rate[f][me] += w->factor * lap;
+			derivative += (p->sign[q] * w->value[f][p->who[q]] - w->value[f][me]) * p->eta[q];
+		w->rate[f][me] += w->factor * derivative;
 	}
 	return fabs(sum) + size;
 }
@@ -225,7 +229,9 @@ static bool cell(const struct work *w, size_t c, struct pm_neighbour_range *s, s
 int pm_dc_add(const struct pm_dc *o, const struct pm_cell_list *l, double nu, int fields, const double *const value[], double *const rate[],
 	struct pm_dc_found *found)
 {
-	struct work w = {.o = o, .l = l, .m = moments_of(o->dim, o->order), .factor = nu / (o->eps * o->eps), .fields = fields, .value = value, .rate = rate};
+	const int degree = o->power[0] + o->power[1] + o->power[2];
+	const double scale = pow(o->eps, degree ? degree : 2);
+	struct work w = {.o = o, .l = l, .m = moments_of(o), .factor = nu / scale, .fields = fields, .value = value, .rate = rate};
 	bool bad = false;
 	*found = (struct pm_dc_found){.stuck = SIZE_MAX};
 #pragma omp parallel if (l->n > 64)
@@ -249,6 +255,6 @@ int pm_dc_add(const struct pm_dc *o, const struct pm_cell_list *l, double nu, in
 		partners_free(&p);
 		pm_free(s);
 	}
-	found->fastest /= o->eps * o->eps;
+	found->fastest /= scale;
 	return bad ? -PM_DATA : found->stuck < SIZE_MAX ? -PM_NUMERICS : 0;
 }

@@ -1,8 +1,9 @@
 /* Particle strength exchange: dG_p/dt = (nu/eps^2) sum_q (V_p G_q - V_q G_p) eta_eps(x_p - x_q), the Laplacian as an exchange between particles.
- * Source: Degond and Mas-Gallic 1989; Eldredge, Leonard, Colonius 2002; the Gaussians of order 2 and 4 have the width exp(-z^2/4) and the transforms
- * exp(-k^2) and (2 + k^2) exp(-k^2), which are positive: so the largest rate of decay is at most the largest sum_q V_q eta_eps(x_p - x_q),
- * which a lattice with eps >= h reaches up to exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not
- * distorted. Conserves the sum of G without walls. Order 4 has negative weights beyond z^2 = 8 + 2 dim: no maximum principle.
+ * Source: Degond and Mas-Gallic 1989; Eldredge, Leonard, Colonius 2002; eta(z) = (4 pi)^(-dim/2) L(z^2/4) exp(-z^2/4), L the
+ * associated Laguerre polynomial of degree m = order/2 - 1 and parameter dim/2 + 1. Its transform is exp(-s) times the sum of (m + 1 - j) s^j/j!, j <= m,
+ * s = k^2, which is positive: so the largest rate of decay is at most the largest sum_q V_q eta_eps(x_p - x_q), which a lattice with eps >= h reaches up
+ * to exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not distorted. Conserves the sum of G without walls. Above
+ * order 2 some weights are negative (order 4: beyond z^2 = 8 + 2 dim): no maximum principle.
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
  * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weakness: N^2 if all particles are within the cut-off
  * of each other.
@@ -12,9 +13,17 @@
 
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 {
-	struct pm_pse p = {.dim = dim, .order = order, .eps = eps, .cutoff = cutoff, .reach = pm_pse_reach(eps, cutoff), .constant = 1, .total = 1};
-	if (order == 4)
-		p.constant = 2 + 0.5 * dim, p.square = -0.25, p.total = 2;
+	const int m = order / 2 - 1;
+	struct pm_pse p = {.dim = dim, .order = order, .eps = eps, .cutoff = cutoff, .reach = pm_pse_reach(eps, cutoff), .total = m + 1};
+	/* L_m(y) = sum_i (-1)^i binomial(m + a, m - i) y^i/i!, a = dim/2 + 1 */
+	for (int i = 0; i <= m; i++) {
+		double c = i % 2 ? -1 : 1;
+		for (int k = 1; k <= m - i; k++)
+			c *= (0.5 * dim + 1 + i + k) / k;
+		for (int k = 1; k <= i; k++)
+			c /= 4.0 * k;
+		p.coefficient[i] = c;
+	}
 	/* sphere * integral of r^(dim-1) |eta| from the cut-off, by the midpoint rule */
 	double sphere = dim == 1 ? 2 : dim == 2 ? 2 * pm_pi : 4 * pm_pi, step = 1.0 / 64;
 	for (double r = cutoff + step / 2; r < cutoff + 12; r += step)
@@ -22,11 +31,12 @@ struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 	return p;
 }
 
-double pm_pse_cutoff(int order) { return order == 4 ? 9 : 8; } /* second moments right to 7e-6 and better (docs/methods/pse.md) */
+double pm_pse_cutoff(int order) { return 7 + order / 2; } /* second moments right to 7e-6 and better (docs/methods/pse.md) */
 
 double pm_pse_value(const struct pm_pse *p, double z2)
 {
-	return pow(4 * pm_pi, -0.5 * p->dim) * (p->constant + p->square * z2) * exp(-z2 / 4);
+	const double *c = p->coefficient;
+	return pow(4 * pm_pi, -0.5 * p->dim) * (c[0] + z2 * (c[1] + z2 * (c[2] + z2 * c[3]))) * exp(-z2 / 4);
 }
 
 enum { ROWS = 2, PIECE = 4096, SMALL = 16 }; /* targets at a time; places of a piece; below so many pieces a quarter of that, for threads to share */
@@ -36,7 +46,7 @@ struct work {
 	const struct pm_cell_list *list;
 	double *volume, *strength;
 	double *exchange, *weight; /* sums over partners of (V_p G_q - V_q G_p) eta and of V_q eta, without the factor */
-	double reach2, exponent, constant, square, factor; /* eta/eps^2 = factor (constant + square r^2) exp(exponent r^2) */
+	double reach2, exponent, coefficient[PM_PSE_TERMS], factor; /* eta/eps^2 = factor sum_i coefficient_i r^2i exp(exponent r^2) */
 };
 
 /* The contribution of a piece of the work to the sums, nonzero only at the places low..high-1; zero between pieces. */
@@ -80,8 +90,13 @@ PM_SIMD_INLINE void meet(const struct work *w, const struct how how, size_t j, b
 		if (!whole)
 			r2 = pm_simd_between(from[k], to, r2, pm_simd_all(HUGE_VAL));
 		eta = pm_simd_exp(r2 * pm_simd_all(w->exponent));
-		if (how.order == 4)
-			eta *= pm_simd_fma(r2, pm_simd_all(w->square), pm_simd_all(w->constant));
+		if (how.order > 2) {
+			pm_simd polynomial = pm_simd_all(w->coefficient[how.order / 2 - 1]);
+			PM_SIMD_UNROLL
+			for (int i = how.order / 2 - 2; i >= 0; i--)
+				polynomial = pm_simd_fma(r2, polynomial, pm_simd_all(w->coefficient[i]));
+			eta *= polynomial;
+		}
 		eta = pm_simd_where_not_below(pm_simd_all(w->reach2), r2, eta);
 		traded = r->volume[k] * g - q * r->strength[k]; /* antisymmetric: no fma within */
 		r->exchange[k] = pm_simd_fma(traded, eta, r->exchange[k]);
@@ -157,13 +172,14 @@ PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t
 	{ \
 		rows(w, dim, order, 2, i, n, s, own); \
 	}
-LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4)
+LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4) LOOPS(1, 6) LOOPS(2, 6) LOOPS(3, 6) LOOPS(1, 8) LOOPS(2, 8) LOOPS(3, 8)
 struct loops {
 	void (*one)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
 	void (*two)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
 };
-static const struct loops table[2][3] = {
-	{{one_1_2, two_1_2}, {one_2_2, two_2_2}, {one_3_2, two_3_2}}, {{one_1_4, two_1_4}, {one_2_4, two_2_4}, {one_3_4, two_3_4}}};
+static const struct loops table[PM_PSE_TERMS][3] = {
+	{{one_1_2, two_1_2}, {one_2_2, two_2_2}, {one_3_2, two_3_2}}, {{one_1_4, two_1_4}, {one_2_4, two_2_4}, {one_3_4, two_3_4}},
+	{{one_1_6, two_1_6}, {one_2_6, two_2_6}, {one_3_6, two_3_6}}, {{one_1_8, two_1_8}, {one_2_8, two_2_8}, {one_3_8, two_3_8}}};
 
 /* The occupied cell in which a place is. */
 static size_t cell_of(const struct pm_cell_list *l, size_t place)
@@ -241,7 +257,7 @@ static void found_by(const struct work *w, double nu, double *rate, struct pm_ps
 	double most = 0;
 	for (size_t i = 0; i < w->list->n; i++) {
 		rate[w->list->order[i]] += nu * w->factor * w->exchange[i];
-		most = fmax(most, w->constant * w->volume[i] + w->weight[i]);
+		most = fmax(most, w->coefficient[0] * w->volume[i] + w->weight[i]);
 		found->alone += w->weight[i] == 0;
 	}
 	found->fastest = w->factor * most;
@@ -252,10 +268,11 @@ int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, 
 {
 	double eps2 = p->eps * p->eps;
 	struct work w = {.list = l, .volume = by_place(l, volume), .strength = by_place(l, strength), .reach2 = l->reach * l->reach,
-		.exponent = -0.25 / eps2, .constant = p->constant, .square = p->square / eps2,
-		.factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
+		.exponent = -0.25 / eps2, .factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
+	for (int i = 0; i < PM_PSE_TERMS; i++)
+		w.coefficient[i] = p->coefficient[i] / pow(eps2, i);
 	w.exchange = pm_zalloc(l->n + 1, sizeof *w.exchange), w.weight = pm_zalloc(l->n + 1, sizeof *w.weight);
-	int status = w.volume && w.strength && w.exchange && w.weight ? pieces(&w, &table[p->order == 4][p->dim - 1]) : -PM_DATA;
+	int status = w.volume && w.strength && w.exchange && w.weight ? pieces(&w, &table[p->order / 2 - 1][p->dim - 1]) : -PM_DATA;
 	*found = (struct pm_pse_found){0};
 	if (!status)
 		found_by(&w, nu, rate, found);

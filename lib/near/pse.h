@@ -4,13 +4,15 @@
 
 #include "cell/cell-list.h"
 
-/* eta(z) = (4 pi)^(-dim/2) (constant + square z^2) exp(-z^2/4): even, its second moments are 2, those of order 4 .. order vanish. */
+enum { PM_PSE_TERMS = 4 };
+
+/* eta(z) = (4 pi)^(-dim/2) sum_i coefficient_i z^2i exp(-z^2/4): even, its second moments are 2, those of order 4 .. order vanish. */
 struct pm_pse {
-	int dim, order;          /* 1, 2, 3; 2 or 4 */
+	int dim, order;          /* 1, 2, 3; 2, 4, 6 or 8 */
 	double eps, cutoff;      /* [length]; in eps, at most 40 */
 	double reach;            /* [length] */
-	double constant, square;
-	double total;            /* zeroth moment of eta: 1 or 2 */
+	double coefficient[PM_PSE_TERMS];
+	double total;            /* zeroth moment of eta: order/2 */
 	double beyond;           /* integral of |eta| beyond the cut-off, over total */
 };
 

@@ -25,6 +25,7 @@ words() {
 	stretch) echo "stretch --order 2" ;;
 	reproject) echo "reproject --kernel cic --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
+	pgrad) echo "pgrad --method integral" ;;
 	penalize) echo "penalize --body 'x - 1'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	redistance) echo "redistance" ;;
@@ -59,7 +60,7 @@ input() {
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
-	pse) cloud | scalc --extensive 'volume = 1 / 12' ;;
+	pse | pgrad) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	filament) cloud | smod --faces open | scalc --role state 'core = 0.1' 'circulation = 1' | scalc --role state --type i64 'node = id' 'curve = 0' ;;
 	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	redistance) pinit lattice -n 64 --cells 4 --spacing 1 | scalc --extensive 'volume = 1' | scalc --role state 'level = x - 1.2' ;;

@@ -11,12 +11,13 @@ static struct pm_domain domain;
 static size_t n;
 static double x[3][MOST], value[MOST], rate[MOST];
 
-static int add(const struct pm_dc *o, struct pm_dc_found *found)
+/* widest: the reach of the cell list over that of the method. */
+static int add_within(const struct pm_dc *o, double widest, struct pm_dc_found *found)
 {
 	struct pm_cell_list l;
 	const double *at[3] = {x[0], x[1], x[2]}, *values[] = {value};
 	double *rates[] = {rate};
-	int status = pm_cell_list_init(&l, &domain, n, at, o->reach * pm_dc_widest, o->eps);
+	int status = pm_cell_list_init(&l, &domain, n, at, o->reach * widest, o->eps);
 	memset(rate, 0, sizeof rate);
 	if (!status)
 		status = pm_dc_add(o, &l, 1, 1, values, rates, found);
@@ -24,7 +25,12 @@ static int add(const struct pm_dc *o, struct pm_dc_found *found)
 	return status;
 }
 
-static struct pm_dc method(int dim, int order, double eps) { return (struct pm_dc){dim, order, eps, eps * pm_dc_cutoff(order)}; }
+static int add(const struct pm_dc *o, struct pm_dc_found *found) { return add_within(o, pm_dc_widest, found); }
+
+static struct pm_dc method(int dim, int order, double eps)
+{
+	return (struct pm_dc){.dim = dim, .order = order, .eps = eps, .reach = eps * pm_dc_cutoff(order)};
+}
 
 /* m^dim points, moved at random by jitter of their spacing. */
 static void points(int dim, size_t m, double jitter)
@@ -51,7 +57,7 @@ static void polynomials(void)
 	static const double a[3] = {0.7, -0.4, 0.5};
 	static const size_t sides[] = {40, 16, 8};
 	for (int dim = 1; dim <= 3; dim++)
-		for (int order = 2; order <= 4; order += 2) {
+		for (int order = 2; order <= 6; order += 2) {
 			struct pm_dc_found found;
 			double worst = 0, a2 = 0;
 			points(dim, sides[dim - 1], 0.3);
@@ -89,7 +95,8 @@ static void differences(void)
 		for (int d = 0; d < dim; d++)
 			domain.face[d][0] = domain.face[d][1] = PM_PERIODIC;
 		double h = 1 / (double)m, want = 0;
-		struct pm_dc o = {dim, 2, h / 2.2, 2.5 * h}; /* the window of second neighbours is exp(-14) of that of the first */
+		/* the window of second neighbours is exp(-14) of that of the first */
+		struct pm_dc o = {.dim = dim, .order = 2, .eps = h / 2.2, .reach = 2.5 * h};
 		for (size_t i = 0; i < n; i++)
 			value[i] = sin(7 * x[0][i]) * (dim > 1 ? cos(5 * x[1][i]) : 1) * (dim > 2 ? 1 + x[2][i] : 1);
 		for (int d = 0; d < dim; d++, stride *= m)
@@ -97,10 +104,64 @@ static void differences(void)
 		stride = 1;
 		for (int d = 0; d < dim; d++, stride *= m)
 			want += (value[middle + stride] - 2 * value[middle] + value[middle - stride]) / (h * h);
-		int status = add(&o, &found);
+		int status = add_within(&o, 1, &found); /* else it widens until far partners count */
 		check(!status, "the lattice determines the moments");
 		check_near(rate[middle], want, 1e-2 * fabs(want), "F10: a narrow window on a lattice gives the second differences");
 	}
+}
+
+/* As many partners as moments leave no choice: the differences of the textbook, whatever the window. */
+static void stencils(void)
+{
+	static const double centred[3][7] = {{0, 0, -1 / 2., 0, 1 / 2., 0, 0}, {0, 1 / 12., -8 / 12., 0, 8 / 12., -1 / 12., 0},
+		{-1 / 60., 9 / 60., -45 / 60., 0, 45 / 60., -9 / 60., 1 / 60.}};
+	static const double below[3][7] = {{0, 1 / 2., -4 / 2., 3 / 2., 0, 0, 0}}; /* order 2, one side */
+	points(1, 40, 0);
+	for (size_t i = 0; i < n; i++)
+		value[i] = sin(7 * x[0][i]) + x[0][i];
+	for (int side = -1; side <= 1; side++)
+		for (int order = 2; order <= (side ? 2 : 6); order += 2) {
+			const struct pm_dc o = {.dim = 1, .order = order, .power = {1}, .eps = 0.05, .side = side,
+				.reach = (side ? 2.5 : order / 2 + 0.5) / 40};
+			struct pm_dc_found found;
+			double want = 0, middle[7];
+			domain.face[0][0] = domain.face[0][1] = PM_PERIODIC; /* so that no particle is without partners */
+			int status = add_within(&o, 1, &found);
+			memcpy(middle, value + 17, sizeof middle);
+			for (int k = 0; k < 7; k++)
+				want += 40 * (side ? -side * below[0][side < 0 ? k : 6 - k] : centred[order / 2 - 1][k]) * middle[k];
+			check(!status, "order %d, side %d: the lattice determines the moments", order, side);
+			check(fabs(rate[20] - want) < 1e-11, "F10: the stencil of order %d on side %d (%.17g, not %.17g)", order, side, rate[20], want);
+		}
+}
+
+/* Every derivative of degree 1 to 4 of a polynomial of degree order + degree - 1, on moved points, from all partners or one side's. */
+static void derivatives(void)
+{
+	static const int powers[][3] = {{1, 0}, {0, 1}, {1, 1}, {0, 2}, {2, 1}, {3, 0}, {2, 2}};
+	static const double a[2] = {0.7, -0.4};
+	struct pm_dc_found found;
+	points(2, 20, 0.3);
+	for (size_t t = 0; t < sizeof powers / sizeof *powers; t++)
+		for (int side = -1; side <= 1; side++) {
+			const int degree = powers[t][0] + powers[t][1], order = side ? 2 : 4, k = order + degree - 1;
+			struct pm_dc o = method(2, order, side ? 0.075 : 0.05);
+			double factor = 1, worst = 0;
+			memcpy(o.power, powers[t], sizeof o.power);
+			o.side = side, o.axis = 1;
+			for (int d = 0; d < 2; d++) /* one side alone needs points there: periodic, and the middle is looked at */
+				domain.face[d][0] = domain.face[d][1] = side ? PM_PERIODIC : PM_OPEN;
+			for (int i = 0; i < degree; i++)
+				factor *= (k - i) * a[i >= powers[t][0]];
+			for (size_t i = 0; i < n; i++)
+				value[i] = pow(0.5 + a[0] * x[0][i] + a[1] * x[1][i], k);
+			int status = add(&o, &found);
+			for (size_t i = 0; i < n && !status; i++)
+				if (!side || (fabs(x[0][i] - 0.5) < 0.04 && fabs(x[1][i] - 0.5) < 0.04))
+					check_worst(&worst, fabs(rate[i] - factor * pow(0.5 + a[0] * x[0][i] + a[1] * x[1][i], k - degree)));
+			check(!status && worst < 1e-6 && worst > 0, "side %d: the derivative %d%d of a polynomial of degree %d (%.2g)", side, powers[t][0],
+				powers[t][1], k, status ? NAN : worst); /* rounding over eps^4: 1e-16 1.6e5 times weights of 1e3 */
+		}
 }
 
 /* An odd field between walls, an even one between neumann faces, continued beyond the faces. */
@@ -171,6 +232,8 @@ int main(void)
 {
 	polynomials();
 	differences();
+	stencils();
+	derivatives();
 	images();
 	stuck();
 	threads();

@@ -125,6 +125,32 @@ static void moments(void)
 		}
 }
 
+/* The symbol of a lattice, total - sum eta cos(k x): k^2 with an error of order + 2 in k, in every order and dimension. */
+static void symbols(void)
+{
+	for (int dim = 1; dim <= 3; dim++)
+		for (int order = 2; order <= 8; order += 2) {
+			const struct pm_pse p = pm_pse_of(dim, order, 1, pm_pse_cutoff(order));
+			const int cut = (int)p.cutoff;
+			double off[3], sum = 0;
+			for (int t = 0; t < 3; t++) {
+				const double wave = 0.5 * pow(1.3, t);
+				sum = 0;
+				for (int k = dim > 2 ? -cut : 0; k <= (dim > 2 ? cut : 0); k++)
+					for (int j = dim > 1 ? -cut : 0; j <= (dim > 1 ? cut : 0); j++)
+						for (int i = -cut; i <= cut; i++)
+							if (i * i + j * j + k * k <= p.reach * p.reach)
+								sum += (1 - cos(wave * i)) * pm_pse_value(&p, i * i + j * j + k * k);
+				off[t] = fabs(sum - wave * wave);
+			}
+			const double slope = log(off[2] / off[0]) / log(1.69);
+			check(fabs(slope - order - 2) < 0.8, "order %d in %d-D: the symbol's error goes as k^%.2f", order, dim, slope);
+			/* exp(-s) (1/(m+1)! + ...) s^(m+2), m + 1 = order/2 */
+			const double s = 0.25, lead = pow(s, order / 2 + 1) / tgamma(order / 2 + 1) * (order / 2) / (order / 2 + 1);
+			check(off[0] < lead, "order %d in %d-D: %.2g of %.2g", order, dim, off[0], lead);
+		}
+}
+
 /* The loss of the second moment of a lattice with eps = h at the cut-offs 5 to 9, and the number of partners: the tables of docs/methods/pse.md, to the
  * digits printed there. */
 static void cutoffs(void)
@@ -359,6 +385,7 @@ int main(void)
 {
 	exponential();
 	moments();
+	symbols();
 	cutoffs();
 	images();
 	faces();
