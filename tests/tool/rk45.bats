@@ -48,6 +48,7 @@ words='pp | push rk45 --tolerance 1e-6'
 	[[ $output == *'rk45 would need steps of '*'the rates are not smooth there'* ]]
 	cycle -q -t 3 "field 'acc = x > 0 ? -1 : 1' | push rk45 --min 1e-3" <a | sls --report >report
 	grep -q '"below_min":[1-9]' report
+	counted 2
 }
 
 @test "a tolerance below rounding is refused by the pairs, and one above is met" {
@@ -57,6 +58,7 @@ words='pp | push rk45 --tolerance 1e-6'
 		[[ $output == *"--tolerance 1e-30 of the state is below rounding, 2.2e-16, and no step meets it"* ]]
 	done
 	run -0 spring "rk45 --tolerance 1e-13"
+	counted 4
 }
 
 @test "rk45 and the end of a run: --exact ends there; a step is at most --max; with --tolerance 0 all are dt" {
