@@ -46,8 +46,9 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	return pm_gradient_declare(&((const struct config *)s->config)->choice, f, &((struct state *)s->state)->gradient);
 }
 
-/* Round-off. A body with 1e-3 of the mass, in the last cells of 32, exerts on itself about a tenth of the force that all others do (docs/methods/mgrad.md). */
-static const double rim_told = 1e-14;
+/* Below it the force is less than 1e-10 of that of all: a body with 1e-3 of the mass, in the last cells of 32, exerts on itself about a tenth of the force
+ * that all others do (docs/methods/mgrad.md). */
+static const double rim_told = 1e-12;
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {

@@ -5,6 +5,7 @@
  * particles have no lattice to return to. Source: Hieber and Koumoutsakos 2005, J. Comput. Phys. 210, 342.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <string.h>
 
 #include "effect-parts/effect-decision.h"
 #include "effect-parts/effect-words.h"
@@ -108,7 +109,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 {
 	const struct pm_decision *d = c->decision;
 	const struct pm_frame *f = c->frame;
-	char words[160], every[32] = "", edge[96] = "";
+	char words[160], kernel[64] = "", every[32] = "", edge[96] = "";
 	bool open = false;
 	if (d->answer != PM_PUT_IN)
 		return;
@@ -119,7 +120,9 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	if (open) /* only nodes with strength become particles; those that diffusion needs are kept, and the mesh grows with them */
 		snprintf(edge, sizeof edge, " --cut-off %.2g%s%s", c->scales->accuracy * 1e-3, pm_effect_in(c, "diffusion") ? " --rim 2" : "",
 			c->method->grow ? " --outside grow" : "");
-	snprintf(words, sizeof words, "remesh --kernel %s%s%s", c->method->kernel, every, edge);
+	if (strcmp(c->method->kernel, c->law->kernel))
+		snprintf(kernel, sizeof kernel, " --kernel %s", c->method->kernel);
+	snprintf(words, sizeof words, "remesh%s%s%s", kernel, every, edge);
 	if (d->every > 1)
 		pm_words_add(w, PM_SLOT_AFTER, words, "remesh: every %d steps, %s", d->every, d->text);
 	else

@@ -265,7 +265,9 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	struct work w = {.r = pm_remesh_on(&g, c->kernel)};
 	struct pm_strays strays = {.count = 0};
 	struct pm_strengths before;
+	double square, kept;
 	pm_strengths_of(f, set, &before);
+	pm_remesh_squared(f, set, &square);
 	w.r.mask = c->mask;
 	int status = collect(f, set, c, &w, &strays);
 	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
@@ -282,6 +284,8 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	}
 	for (int i = 0; i < w.n && !status; i++)
 		status = renew(f, set, &w, c, &w.entry[i]);
+	if (!status && pm_remesh_squared(f, set, &kept) && square > 0)
+		loss->square = 1 - kept / square;
 	if (!status)
 		status = balance(f, set, &before, loss);
 	if (!status && c->overlap)

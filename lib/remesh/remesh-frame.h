@@ -22,6 +22,7 @@ struct pm_remesh_choice {
 struct pm_remesh_loss {
 	uint64_t cut, strays;                 /* nodes below the cut-off; particles outside the mesh */
 	struct pm_strengths under, outside;   /* their strengths */
+	double square;                        /* of sum q^2/volume, the part that is gone (below 0: gained); 0 where there is no volume */
 };
 
 /* Where nothing was chosen (cut_off nan, rim below 0): 0, but with an open face the cut-off is 1e-6, and the rim 2 if there is a viscosity and no value is
@@ -35,6 +36,8 @@ int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm
 int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c);
 /* Drops the fields that are invalid after the particles of the set are replaced: its change and derived fields and registers, and those of the meshes. */
 void pm_remesh_drops(struct pm_frame *f, const char *set);
+/* sum of q^2/volume, all components, of the set's first strength q (remesh-square.c), which is returned; NULL and 0 if it or the volume is missing. */
+const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, double *square);
 /* For frame() of a stage that holds: the particles of the set are now the nodes of the mesh. */
 int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss);
 

@@ -450,7 +450,7 @@ love() {
 	ellipse "$1" "$2" 48 | awk -v a="$1" -v b="$2" 'BEGIN { OFMT = CONVFMT = "%.17g" } NR == 1 { print; next }
 		{ c = a * a - b * b; print $1 + 1e-3 * (4 * ($1 * $1 - $2 * $2) / c - 1), $2 - 8e-3 * $1 * $2 / c, $3, $4 }' |
 			stab - --law vortex --box -3.5,3.5 -n 336 --dt 0.1 |
-		cycle -t 16 --every 80 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-4' | stab --plain |
+		cycle -t 16 --every 80 'p2m --kernel m4prime | poisson-fft | mgrad | m2p | push lsrk3 | remesh --kernel m4prime --cut-off 1e-4' | stab --plain |
 		awk 'function frame(p) { if (!n) return; X /= Q; Y /= Q
 				for (p = 1; p <= n; p++) { x = at[p] - X; y = up[p] - Y; q = of[p]; d += q * (x*x - y*y); m += 2 * q * x * y;
 					r += q * (x*x*x - 3*x*y*y); s += q * (3*x*x*y - y*y*y) }

@@ -26,7 +26,7 @@ step='p2m | poisson-fft | mgrad | diffuse | m2p'
 			END { print m; exit !(NR == 257 && m < 1e-11) }' b # values of 3e2, 40 roundings
 	done
 	sh_ok 'diffuse <a | sls'
-	[[ $output =~ "domega      1 f64 change value of circulation terms diffusion kernel m4prime" ]]
+	[[ $output =~ "domega      1 f64 change value of circulation terms diffusion kernel m6prime" ]]
 }
 
 @test "diffuse converges with its order" {

@@ -25,7 +25,7 @@ small() {
 @test "a stage a line with its reason behind it; run as it stands, comments and all" {
 	pinit shear-layer --cells 32 --nu 1e-4 >start
 	plan --no-cost <start >text
-	[ "$(sed -n 1p text | sed 's/ *|.*//')" = "p2m --kernel m6prime" ]
+	[ "$(sed -n 1p text | sed 's/ *|.*//')" = p2m ]
 	grep -qE '^diffuse  *\|  # diffusion: on, nu dt/h\^2 = 0.00051' text # 1e-4 * 0.005 * 32^2
 	grep -q '^# stretching  *off  *2-D$' text
 	cycle -n 2 "$(cat text)" <start >a
@@ -100,13 +100,12 @@ small() {
 	done
 	for s in exb gyration; do [ "$(sentence $s)" = 'push boris/2 drift | m2p | push boris/2' ]; done
 	for s in polygon vortex-pair point-vortices; do [[ "$(sentence $s)" = 'pp | push '@(lsrk3|rk4) ]]; done
-	[ "$(sentence shear-layer --cells 64)" = 'p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime' ]
+	[ "$(sentence shear-layer --cells 64)" = 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ]
 	[ "$(sentence cone-vortex --cells 64)" = \
-		"p2m --kernel m6prime --rim 2 --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | \
-remesh --kernel m6prime --cut-off 1e-05 --outside grow" ]
+		"p2m --rim 2 --outside grow | poisson-fft | mgrad | m2p | push lsrk3 | remesh --cut-off 1e-05 --outside grow" ]
 	[[ "$(sentence lamb-oseen --cells 64)" = \
-		'p2m --kernel m6prime --rim 2 --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | '*' --outside grow' ]]
-	[[ "$(sentence lamb-oseen --cells 64)" = *' | remesh --kernel m6prime '*'--cut-off 1e-05 --rim 2 --outside grow' ]]
+		'p2m --rim 2 --outside grow | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | '*' --outside grow' ]]
+	[[ "$(sentence lamb-oseen --cells 64)" = *' | remesh '*'--cut-off 1e-05 --rim 2 --outside grow' ]]
 }
 
 # error FIELD A B: relative l2 of a field of the first set that has it.
@@ -376,7 +375,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 @test "point vortices on a mesh are softened points, not a vorticity: the plan's velocity is right to the accuracy, or the plan says what is missing" {
 	pinit point-vortices -n 20000 >start
 	words=$(plan --sentence <start)
-	[[ "$words" = "p2m -n 512 --kernel m6prime --rim 2 | poisson-fft --green plummer | mgrad | m2p | push "* ]]
+	[[ "$words" = "p2m -n 512 --rim 2 | poisson-fft --green plummer | mgrad | m2p | push "* ]]
 	sh_ok "{ ${words%% | push*}; } <start >got; pp <start >want; scmp --field vel --tolerance 0.01 got want" # 2.3e-3, as it says; 0.26 before
 	pinit point-vortices -n 20000 --softening 0 | plan --no-cost | grep -q '^# near field  *needed .*the error of the mesh is 1,'
 }

@@ -10,7 +10,7 @@ block() {
 @test "README: the first result is within 40 lines" {
 	first=$(grep -n '^```sh$' "$top/README.md" | head -n 1 | cut -d: -f1)
 	[ "$first" -le 40 ]
-	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 11) ]]
+	[[ $(block 1) == "sh pipelines/demo.sh" && $(block 2) == "sh tests/check.sh" && -z $(block 12) ]]
 }
 
 @test "README: the demo ends with numbers and a picture that exists" {
@@ -59,21 +59,29 @@ block() {
 	[[ "$(tail -n 1 table)" == *"${want#* }" ]]
 }
 
+@test "README: the ring goes as far as a thin one, within 2 per cent, and light in a plasma keeps its energy" {
+	block 7 >space.sh
+	sh_ok 'bash -euo pipefail space.sh > out'
+	awk '/^time/ { table++; next } { print > ("table" table) }' out
+	within "$(awk 'END { print $2 }' table1)" 0.152970 0.003 "the ring" # (ln 80 - 0.558)/(4 pi) 0.50265, a/R = 0.1; measured 0.1524
+	within "$(awk 'NR == 1 { e = $2 } END { print $2 / e - 1 }' table2)" 0 1e-3 "light" # of the current's noise
+}
+
 @test "README: what accuracy costs: eight sentences, a front, a page" {
-	block 7 >cost.sh
+	block 8 >cost.sh
 	sh_ok 'bash -euo pipefail cost.sh'
 	[ "$(grep -cE '^[*~ ] +[1-8] ' <<<"$output")" = 8 ]
 	[[ $output == *$'\n* '* && -s report/index.html ]]
 }
 
 @test "README: the sentence that plan chooses: a sentence with its reasons, and its run" {
-	block 8 >plan.sh
+	block 9 >plan.sh
 	sh_ok 'bash -euo pipefail plan.sh'
 	[[ $output == *"diffusion: on, nu dt/h^2 = "* && $output == *circulation* ]]
 }
 
 @test "README: how far from the edge: the limit of the leapfrog, 2, and a page" {
-	block 9 >edge.sh
+	block 10 >edge.sh
 	sh_ok 'bash -euo pipefail edge.sh'
 	[[ $output == *" yes "* && -s edge/index.html ]]
 }

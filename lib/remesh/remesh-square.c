@@ -1,0 +1,43 @@
+/* The square of a strength's density: sum of q^2/volume over particles, of vorticity twice the enstrophy, which moving particles does not change in the plane
+ * and remeshing does. By the law of sums (base/in-order.h). SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "remesh/remesh-frame.h"
+#include "stream/field-value.h"
+#include "stream/over-stretches.h"
+
+struct values {
+	const double *q;
+	const struct pm_field *volume;
+};
+
+static void block(const void *data, size_t from, size_t to, void *part)
+{
+	const struct values *v = data;
+	for (; from < to; from++) {
+		const double volume = pm_value_at(v->volume, 0, from);
+		pm_sum_add(part, volume > 0 ? v->q[from] * v->q[from] / volume : 0);
+	}
+}
+
+const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, double *square)
+{
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = block, .join = pm_join_sums};
+	struct values v = {.volume = pm_frame_field(f, set, "volume")};
+	*square = 0;
+	if (!v.volume || !(v.volume->buffer || v.volume->uniform) || v.volume->components != 1)
+		return NULL;
+	for (size_t i = 0; i < f->nfields; i++) {
+		const struct pm_field *q = f->fields[i];
+		if (strcmp(q->on, set) || !pm_is_strength(q) || !q->buffer)
+			continue;
+		struct pm_sum all = {0, 0};
+		for (int c = 0; c < q->components; c++) {
+			v.q = pm_in(q, c);
+			pm_over_stretches(q, &parts, &v, &all);
+		}
+		*square = pm_sum_total(all);
+		return q;
+	}
+	return NULL;
+}
