@@ -49,6 +49,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	pm_report(s, f, "iterations", gain.iterations);
 	pm_report(s, f, "before", gain.before);
 	pm_report(s, f, "after", gain.after);
+	if (gain.after > 0.5 * gain.before && gain.after > o->tolerance)
+		pm_tell_once(s, "the smoothed function differs from the given one by %.2g of its largest value, as good as unchanged: the mollifier is too "
+			"narrow for the spacing or wide for the function (--overlap 1.5, more particles)", gain.after);
 	return 0;
 }
 

@@ -54,7 +54,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 				k > 2 ? "one integer a node (scalc --type i64)" : k ? "one real number a node" : "a position in space");
 	}
 	if (o->carry && (!strcmp(o->carry, set) || !pm_frame_set(f, o->carry) || !pm_reads(f, o->carry, "x")))
-		return pm_fail(PM_DATA, "--carry %s: no other set of that name with positions", o->carry);
+		return pm_fail(PM_DATA, "--carry %s: no other set of that name with positions (sls lists the sets)", o->carry);
 	if (o->carry && !pm_contributes(f, o->carry, "vel", "x", 3, "filament", o->replace))
 		return -PM_DATA;
 	return faces(f) || !pm_contributes(f, set, "vel", "x", 3, "filament", o->replace) ? -PM_DATA : 0;

@@ -25,7 +25,7 @@ struct state {
 static const char *const formats[] = {"text", "tsv", "csv", NULL};
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "matter", PM_AT(table.set),
-		.text = "name of the set made from a plain table; with --plain the set to write (if the default does not exist, the first)"},
+		.text = "name of the set made from a plain table; with --plain the set to write (if the default does not exist, the first that has particles)"},
 	{.name = "law", .kind = PM_WORD, .fallback = "free", .choices = pm_law_names, PM_AT(table.law), .text = "the law of the particles of a plain table"},
 	{.name = "constant", .kind = PM_LIST, .unit = "NAME=VALUE", PM_AT(table.constants), .text = "constants: G=2.95912208286e-4, softening=0"},
 	{.name = "dt", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(table.dt),
@@ -82,7 +82,10 @@ static const char *table_of(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct config *c = s->config;
 	bool other = !pm_given(s, "set") && f->nsets && !pm_frame_set(f, c->table.set);
-	return c->mesh ? c->mesh : other ? f->sets[0]->name : c->table.set;
+	size_t first = 0;
+	while (first < f->nsets && !f->sets[first]->n)
+		first++;
+	return c->mesh ? c->mesh : other ? f->sets[first < f->nsets ? first : 0]->name : c->table.set;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)

@@ -238,8 +238,8 @@ static int wrong_rate(const struct pm_jump_process *p, const struct jumping *j, 
 	for (int c = 0; c < p->channels; c++) {
 		const double a = j->rate[(size_t)c * j->n + i];
 		if (!(a >= 0 && isfinite(a)))
-			return pm_fail(PM_NUMERICS, "the rate of channel %d is %g at index %zu, but rates are finite and not negative (max(0, ...))", c + 1, a,
-				(size_t)first + j->index[i]);
+			return pm_fail(PM_NUMERICS, "the rate of channel %d is %g at index %zu, but rates are finite and not negative (max(0, ...))", c + 1,
+				isnan(a) ? (double)NAN : a, (size_t)first + j->index[i]);
 	}
 	return -PM_NUMERICS;
 }

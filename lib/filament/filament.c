@@ -137,7 +137,8 @@ static int curve_of(struct work *w, const struct key *key, size_t n)
 	const struct pm_filament *f = w->f;
 	double wound = 0, middle[3] = {0}, total = 0, core = 0, at[3] = {f->x[0][key[0].i], f->x[1][key[0].i], f->x[2][key[0].i]};
 	if (n < 3)
-		return pm_fail(PM_DATA, "curve %lld has %zu nodes (a closed curve needs 3 and more)", (long long)key[0].curve, n);
+		return pm_fail(PM_DATA, "curve %lld has %zu nodes, and a closed curve needs 3 and more (more nodes, or the same number in 'curve' for all "
+			"of them)", (long long)key[0].curve, n);
 	for (size_t k = 0; k < n; k++) {
 		const size_t i = key[k].i, j = key[(k + 1) % n].i;
 		struct element *e = &w->element[w->n];

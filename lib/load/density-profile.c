@@ -96,13 +96,14 @@ int pm_density_profile_init(struct pm_density_profile *p, const struct pm_frame 
 	}
 	tabulate(p, &e, &names, &bad);
 	if (bad < size_of(p, p->dim))
-		return pm_fail(PM_USAGE, "the density '%s' is %g somewhere in the box, and no density", text, p->value[p->dim - 1][bad]);
+		return pm_fail(PM_USAGE, "the density '%s' is %g somewhere in the box, and a density is not negative (max(0, ...))", text,
+			p->value[p->dim - 1][bad]);
 	for (int d = p->dim - 1; d >= 0; d--)
 		integrate(p, d);
 	p->total = p->sum[0][p->n[0]];
 	for (int d = 0; d < p->dim; d++)
 		p->total *= (p->hi[d] - p->lo[d]) / (double)p->n[d];
-	return p->total > 0 ? 0 : pm_fail(PM_USAGE, "the density '%s' is 0 everywhere in the box", text);
+	return p->total > 0 ? 0 : pm_fail(PM_USAGE, "the density '%s' is 0 everywhere in the box of the frame (sls shows the box)", text);
 }
 
 /* Lines of the table around the place on the axes before, with their weights. */

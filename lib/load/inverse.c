@@ -44,7 +44,7 @@ int pm_inverse_init(struct pm_inverse *t, size_t n, double from, double to, doub
 		const double x = from + (to - from) * (double)i / (double)n;
 		t->value[i] = f(context, x);
 		if (!(t->value[i] >= 0 && t->value[i] < HUGE_VAL))
-			return pm_fail(PM_USAGE, "%s is %g at %g, and no density", what, t->value[i], x);
+			return pm_fail(PM_USAGE, "%s is %g at %g, and a density is not negative (max(0, ...), or a narrower --range)", what, t->value[i], x);
 	}
 	pm_density_integrate(t->value, n, t->sum);
 	return t->sum[n] > 0 ? 0 : pm_fail(PM_USAGE, "%s is 0 everywhere from %g to %g", what, from, to);

@@ -225,6 +225,16 @@ static void no_velocity(const struct pm_frame *f, const struct pm_measure *how, 
 	}
 }
 
+/* Filaments hold circulation and nodes in order, not alpha: the word filament sums over their elements. */
+static void filaments(const struct pm_frame *f, const struct pm_measure *how, char note[320])
+{
+	for (size_t i = 0; i < f->nsets && how->vortices && how->vector; i++) {
+		const char *set = f->sets[i]->name;
+		if (pm_frame_field(f, set, "curve") && pm_frame_field(f, set, "circulation") && !pm_frame_field(f, set, how->strength))
+			snprintf(note, 320, "'%s' are filaments, whose length and impulse are in the report of the word filament (sls --report)", set);
+	}
+}
+
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	struct pm_measures m;
@@ -241,6 +251,8 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 		return -PM_DATA;
 	if (!pm_energy_error_note(&t->energy, &how, f, &m, t->note))
 		no_velocity(f, &how, t->note);
+	if (!t->note[0])
+		filaments(f, &how, t->note);
 	if (!t->note[0] && (how.flux || how.field_errors) && !pm_field_known(&how, f))
 		snprintf(t->note, sizeof t->note, "%s nan: no mesh has the density and the potential of the law (a solver before diag: poisson-fft)",
 			how.flux ? "flux and flux_enclosed are" : "field_residual and field_curl are");

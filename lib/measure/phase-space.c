@@ -41,7 +41,7 @@ int pm_phase_declare(const struct pm_phase_choice *c, struct pm_frame *f, struct
 			return pm_fail(PM_USAGE, "an axis is one expression, without commas");
 		sets->n++;
 	}
-	return sets->n ? 0 : pm_fail(PM_DATA, "no set has particles");
+	return sets->n ? 0 : pm_fail(PM_DATA, "no set has particles (species and pinit make them)");
 }
 
 /* The box rounded outwards to a tenth of the power of ten below its width; of coordinates that of the frame. */

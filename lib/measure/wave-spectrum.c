@@ -121,7 +121,8 @@ int pm_wave_add(struct pm_wave_spectrum *s, const struct pm_measure *how, const 
 static int equally_spaced(const struct pm_wave_spectrum *s, double *dt)
 {
 	if (s->n < 16)
-		return pm_fail(PM_DATA, "%zu frames are too few for frequencies (cycle --every 1 writes every step; 16 at least)", s->n);
+		return pm_fail(PM_DATA, "%zu frame%s too few for frequencies: 16 at least (cycle --every 1 writes every step)", s->n,
+			s->n == 1 ? " is" : "s are");
 	*dt = (s->t[s->n - 1] - s->t[0]) / (double)(s->n - 1);
 	for (size_t i = 0; i < s->n; i++)
 		if (!(fabs(s->t[i] - s->t[0] - *dt * (double)i) < 1e-6 * *dt * (double)s->n))

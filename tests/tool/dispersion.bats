@@ -51,6 +51,8 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 	[[ $stderr == *"no theory: the dispersion relation is that without a magnetic field"* ]]
 	run -1 --separate-stderr bash -c "pinit landau -n 500 | cycle -q -n 5 --every 1 '$step' | dispersion"
 	[[ $stderr == *"frames are too few for frequencies"* ]]
+	run -1 --separate-stderr bash -c "pinit landau -n 500 | p2m | poisson-fft | mgrad | dispersion"
+	[[ $stderr == *"1 frame is too few for frequencies: 16 at least (cycle --every 1"* ]]
 	pinit landau -n 500 >a
 	run -1 --separate-stderr bash -c "(cycle -q -n 20 --every 1 '$step' <a; cycle -q -n 40 --every 20 '$step' <a) | dispersion -n 1"
 	[[ $stderr == *"not equally spaced in time"* ]]

@@ -16,6 +16,8 @@ mean() { sls --data | awk -v f="$1" -v c="${2:-0}:" '$1 == f { on = 1; next } on
 	for n in 32 64 128; do
 		within "$(ring $n 0.05 | filament | mean vel 2)" 0.3839378 5e-5
 	done
+	run -0 --separate-stderr diag <(ring 64 0.05)
+	[[ $stderr == *"'matter' are filaments, whose length and impulse are in the report of the word filament (sls --report)" ]]
 	within "$(ring 64 0.05 | filament --core-profile gaussian | mean vel 2)" 0.3594653 1e-3
 	within "$(ring 64 0.1 | filament | mean vel 2)" 0.3288162 0.003
 	within "$(ring 64 0.05 | filament --local 4 | mean vel 2)" 0.3839752 1e-5 # ln(2 l/sigma) - 1 = ln(8 R/a) - 1/4, but for (sigma/l)^2
@@ -77,7 +79,7 @@ pair() {
 	done <<-'END'
 		1;sel --drop core | filament;no field 'core'
 		1;scalc 'core = -1' | filament;has the core -1 (a radius above 0)
-		1;sel --where 'node < 2' | filament;curve 7 has 2 nodes (a closed curve needs 3 and more)
+		1;sel --where 'node < 2' | filament;curve 7 has 2 nodes, and a closed curve needs 3 and more (more nodes
 		1;scalc --type i64 'node = 3' | filament;curve 7 has two nodes 3
 		1;scalc 'circulation = x' | filament;but a filament has one (Helmholtz)
 		1;scalc 'x = 1, 2, 3' | filament;nodes 0 and 1 of curve 7 coincide
@@ -85,6 +87,6 @@ pair() {
 		1;pinit lamb-oseen --cells 8 | filament;filaments are curves in space
 		1;smod --faces periodic | filament;periodic along 3 axes
 		1;smod --faces wall | filament;the box is wall along x
-		1;filament --carry no;--carry no: no other set of that name
+		1;filament --carry no;--carry no: no other set of that name with positions (sls lists
 	END
 }

@@ -47,7 +47,7 @@ total() { stab --plain --mesh phase | awk -F'\t' -v c="$1" -v ends="$2" 'NR == 1
 	run -1 --separate-stderr bash -c 'phase x vq <a'
 	[[ $stderr == *"no field or number 'vq'"* ]]
 	run -1 --separate-stderr bash -c 'pinit plasma | phase x'
-	[[ $stderr == *"no set has particles"* ]]
+	[[ $stderr == *"no set has particles (species and pinit make them)"* ]]
 	run -2 --separate-stderr bash -c 'phase x vx --box 0,1 <a'
 	[[ $stderr == *"2 axes need 4: all low ends, then all high ones"* ]]
 	run -3 --separate-stderr bash -c "phase x 'log(vx)' <a"

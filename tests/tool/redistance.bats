@@ -76,6 +76,9 @@ value() { diag --columns "$1" | tail -1; }
 	lattice 16 2 '1 + x' >c
 	redistance <c | scmp - c
 	lattice 32 1 '0.2 - abs(x - 0.55)' | redistance >d # the inside is x < 0.35 and x > 0.75
+	lattice 16 2 '1 + x*x' >e
+	run -0 --separate-stderr redistance -o f e
+	[[ $stderr == "redistance: 'level' has one sign at all nodes, so there is no interface"* ]]
 	within "$(sel --where 'x < 0.01' <d | stab --plain | awk 'NR == 2 { print $3 }')" -0.25 1e-12
 }
 

@@ -101,7 +101,8 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 		[[ $status == "$2" && ${#stderr_lines[@]} == 1 && $stderr == *"$3"* ]]
 	}
 	refused "-n 10 --profile 'cos(x)'" 2 "density 'cos(x)' is -"
-	refused "-n 10 --profile 'x*0'" 2 "0 everywhere in the box"
+	refused "-n 10 --profile '-1'" 2 "is -1 somewhere in the box, and a density is not negative (max(0, ...))"
+	refused "-n 10 --profile 'x*0'" 2 "0 everywhere in the box of the frame (sls shows"
 	refused "-n 10 --profile 'q*x'" 2 "no coordinate or constant 'q'"
 	refused "-n 10 --fx '1'" 2 "does not fall to 0 (give --range LOW,HIGH)"
 	refused "-n 10 --fx 'exp(-v^2)' --range 3,1" 2 "--range takes the lowest and the highest"

@@ -223,9 +223,10 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	[ "$stderr" = "stab: standard input: it is UTF-16 (convert it to UTF-8: iconv -f UTF-16 -t UTF-8)" ]
 }
 
-@test "--plain writes the set matter, or where there is none the first one; a name that is given must be there" {
+@test "--plain writes the set matter, or where there is none the first that has particles; a name that is given must be there" {
 	cmp <(pinit two-stream -n 10 | stab --plain) <(pinit two-stream -n 10 | stab --plain --set electrons)
 	cmp <(pinit kepler | stab --plain) <(pinit kepler | stab --plain --set matter)
+	cmp <(pinit plasma | species ions -n 5 | stab --plain) <(pinit plasma | species ions -n 5 | stab --plain --set ions) # electrons has none
 	run -1 --separate-stderr bash -c 'pinit two-stream -n 10 | stab --plain --set matter'
 	[[ $stderr == *"no set 'matter'"* ]]
 }
