@@ -101,7 +101,7 @@ apart() { scalc --mesh mesh "d = max(max(abs($1.x - $2.x), abs($1.y - $2.y)), ab
 	plan --no-cost -t 1 <a >text
 	grep -qE '^stretch +\|  # stretching: on, \|grad u\| T = ' text
 	[ "$(plan --sentence -t 1 <a | sed 's/ --dt [^ ]*//')" = \
-		'p2m --kernel m6prime | poisson-fft | mgrad | stretch | m2p | push lsrk3 | remesh --kernel m6prime' ]
+		'p2m | poisson-fft | mgrad | stretch | m2p | push lsrk3 | remesh' ]
 	[[ $(pinit vortex-ring --cells 32x32x16 | plan --sentence -t 1) == *' | stretch | '*' --outside grow' ]]
 	run --separate-stderr cycle -n 1 'p2m | poisson-fft | mgrad | m2p | push lsrk3' <a
 	[[ $stderr == "cycle: the frame has vorticity in space, but no word of the sentence acts by it (stretch, pp): "* ]]
