@@ -50,7 +50,8 @@ force() { sls --report | sed -n 's/.*penalize.*"force_'"$1"'":\([^,}]*\).*/\1/p'
 		cycle -q -t 80 --every 5 "p2m | poisson-fft | mgrad | penalize --edge 0.5 --body 'hypot(x, y) - 0.5' --velocity '0, 0.3*(time < 3)' \
 			--stream '1, 0' | diffuse | m2p | field 'vel = 1, 0' | push lsrk3 | remesh --cut-off 1e-4 --rim 1" | force y >lift
 	# from upward zero to upward zero, frames 0.1 apart, behind t = 40
-	awk '{ t += 0.1; if (t > 40 && was < 0 && $1 >= 0) { z = t - 0.1 * $1 / ($1 - was); if (!n++) first = z } was = $1 } END { print (n - 1) / (z - first) }' lift >f
+	awk '{ t += 0.1; if (t > 40 && was < 0 && $1 >= 0) { z = t - 0.1 * $1 / ($1 - was); if (!n++) first = z } was = $1 }
+		END { print (n - 1) / (z - first) }' lift >f
 	within "$(<f)" 0.164 0.0033 "Strouhal number"
 }
 
