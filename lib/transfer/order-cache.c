@@ -30,6 +30,7 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 	o->width = t->kernel->width;
 	o->rim = t->rim;
 	o->cut = t->cut;
+	memcpy(o->given, t->given, sizeof o->given);
 	o->n = n;
 	memcpy(o->staggered, staggered, sizeof o->staggered);
 	for (int d = 0; d < t->grid.dim; d++)
@@ -54,7 +55,7 @@ struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const un
 	if (!t->kept || !*t->kept || (*t->kept)->free != free_note)
 		return NULL;
 	struct pm_order_cache *o = (struct pm_order_cache *)*t->kept;
-	bool same = o->n == n && o->width == t->kernel->width && o->rim == t->rim && o->cut == t->cut &&
+	bool same = o->n == n && o->width == t->kernel->width && o->rim == t->rim && o->cut == t->cut && !memcmp(o->given, t->given, sizeof o->given) &&
 		!memcmp(o->staggered, staggered, sizeof o->staggered) &&
 		same_grid(&o->grid, &t->grid);
 	for (int d = 0; d < t->grid.dim && same; d++)

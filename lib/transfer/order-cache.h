@@ -10,7 +10,7 @@ struct pm_order_cache {
 	struct pm_note note;     /* first member: it may be attached to the field of the positions */
 	struct pm_grid grid;     /* what the order depends on, with n and the positions */
 	int width, rim;
-	bool cut;
+	bool cut, given[3][2];
 	unsigned char staggered[3];
 	size_t n;
 	const double *x[3];

@@ -180,3 +180,12 @@ ROWS
 	run -2 --separate-stderr poisson-mg --dirichlet 1 <m
 	[[ $stderr == *"--dirichlet: no face of the box is a wall or open"* ]]
 }
+
+@test "particles beside a face with given values get the same force in one process, through pipes and from a file" {
+	s='p2m | poisson-fft --x-low 0.3 | mgrad | m2p'
+	pinit plasma --background 0 | smod --faces neumann,wall --particle-faces absorb | species electrons -n 2000 --no-history >a
+	cycle -q --no-history -n 2 "push kick/2 drift | $s | push kick/2" <a >b
+	same_as b <(cycle -q --no-history -n 2 --engine pipes "push kick/2 drift | $s | push kick/2" <a)
+	same_as <(sel --field acc b | stab --plain --set electrons) <(sel --drop acc b | bash -o pipefail -c "${s}" | sel --field acc |
+		stab --plain --set electrons)
+}
