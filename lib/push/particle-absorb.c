@@ -4,6 +4,7 @@
 
 #include "base/in-order.h"
 #include "mesh/particle-faces.h"
+#include "push/electrode-charge.h"
 #include "push/push-set.h"
 #include "stream/declare.h"
 
@@ -93,8 +94,10 @@ int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *ab
 		return -PM_DATA;
 	*absorbed = mark(f, m, gone);
 	lost->n = 0;
-	if (*absorbed)
+	if (*absorbed) {
 		note_loss(f, m, gone, *absorbed, lost);
+		pm_electrodes_collect(f, m->set->name);
+	}
 	for (size_t i = 0; i < f->nfields && *absorbed; i++) {
 		struct pm_field *field = f->fields[i];
 		unsigned char *bytes = strcmp(field->on, m->set->name) ? NULL : pm_field_bytes(field);

@@ -273,6 +273,11 @@ static void plasma(void)
 	pm_frame_parameter_set(f, "v0", sqrt(0.375));
 	check_near(pm_scene_find("two-stream")->exact(f, "gamma", 0), 0.353553390593274, 1e-14, "PIC-02: and at 1/sqrt 8 at most");
 	check_near(pm_scene_find("ionic-chain")->exact(f, "potential", 0), 1.3985527798610, 2e-13, "ionic chain: potential at (1/4, 1/4), by Bessel functions");
+	const struct pm_scene *sheath = pm_scene_find("sheath"); /* scipy's brentq on the equations in the head of lib/scene/sheath.c */
+	check_near(sheath->exact(f, "potential_wall", 0), -1.7147984280919264, 1e-14, "sheath: the collector");
+	check_near(sheath->exact(f, "potential_plasma", 0), -0.7913382144016985, 1e-13, "sheath: the plasma");
+	check_near(sheath->exact(f, "density", 0), 0.41377398793211234, 1e-13, "sheath: density of the plasma");
+	check_near(sheath->exact(f, "ion_speed", 0), 0.17354790916446, 1e-13, "sheath: mean velocity of the ions");
 	pm_frame_free(f);
 }
 
