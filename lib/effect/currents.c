@@ -16,6 +16,13 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "electrostatic: the frame has no speed of light c");
 		return;
 	}
+	if (s->light) {
+		pm_effect_by(d, s, beta, fmax(beta * beta, s->magnetic));
+		d->brought = true;
+		snprintf(d->text, sizeof d->text, "(v/c)^2 = %.1g, B has %.1g of the energy%s", beta * beta, s->magnetic, d->answer == PM_PUT_IN ? ""
+			: "; the law has them (without: sel --drop E,B | smod --law electrostatic | plan)");
+		return;
+	}
 	pm_effect_by(d, s, beta, beta * beta);
 	snprintf(d->text, sizeof d->text, "(v/c)^2 = %.1g of the electric force", beta * beta);
 }

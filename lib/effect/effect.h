@@ -15,6 +15,7 @@ struct pm_scales {
 	int dim;
 	const char *law;             /* its name */
 	enum { PM_NO_FIELD, PM_CARRIED, PM_MASSES, PM_CHARGES, PM_VORTICES } kind; /* free, passive, gravity, plasmas, vortices */
+	bool light;                  /* the fields evolve by Maxwell's equations: they are states of the mesh, and light is among them */
 	bool second;                 /* second order in time: the particles have v and an acceleration */
 	bool pairs;                  /* the far field is summed pair by pair, not on a mesh */
 	bool singular;               /* vortices that do not fill their mesh: a field of points, not a vorticity that the mesh represents */
@@ -36,6 +37,8 @@ struct pm_scales {
 	double debye;                /* [length] v/omega, v the rms of one component of v about its mean */
 	double overlap, width;       /* mean |H - 1| of the particles, 0 for a lattice that represents a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
+	double courant;              /* [time] longest step of light on the mesh (maxwell --method yee); NAN: no light */
+	double magnetic, wiggle;     /* c^2 B^2 over E^2 + c^2 B^2 + 2 kinetic/eps0, energies of the box; [1/length] sqrt(|lap B|/|B|) in l2, light alone */
 	double given, cyclotron;     /* [length/time^2] largest (q/m) E given on a mesh; [1/time] largest (q/m) B */
 	double self, self_max;       /* rms and largest contribution of the self field to acc [length/time^2] or vel [length/time] */
 	double strain, rough;        /* [1/time] largest |grad u|; [1/length^2] |lap density|/|density| in l2 */
@@ -74,6 +77,7 @@ struct pm_decision {
 	double number;   /* the number that decided; NAN: none was needed */
 	double share;    /* relative change caused by leaving it out, within the time of the run; NAN: unknown */
 	int every;       /* interval in steps of an action that is not done in every step; 0 none */
+	bool brought;    /* it is put in by the words of another effect */
 	char text[160];  /* the reason, with the number */
 };
 

@@ -11,6 +11,10 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
 	const double gain = s->given * s->time, share = gain / (gain + s->v_rms);
+	if (s->light) {
+		pm_effect_off(d, "the fields of the mesh are those that the particles and light make");
+		return;
+	}
 	if (isnan(s->given)) {
 		pm_effect_off(d, "none is given");
 		return;
@@ -34,7 +38,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	const bool in = c->decision->answer == PM_PUT_IN, self = pm_effect_in(c, "self-field");
 	const struct pm_mesh *m = pm_effect_given_mesh(c->frame, c->law);
 	char words[160];
-	if ((!in && !pm_effect_in(c, "magnetic-rotation")) || !m || (self && !*pm_effect_own_mesh(c->frame, c->law)))
+	if (c->scales->light || (!in && !pm_effect_in(c, "magnetic-rotation")) || !m || (self && !*pm_effect_own_mesh(c->frame, c->law)))
 		return;
 	snprintf(words, sizeof words, c->frame->nmeshes > 1 || self ? "m2p --mesh %s" : "m2p", m->name);
 	pm_words_add(w, PM_SLOT_FORCES, words, "external field: %s, %s", in ? "on" : "off", c->decision->text);
@@ -46,7 +50,7 @@ static void stays(const struct pm_effect_case *c, char why[160])
 		snprintf(why, 160, "the field %s is in the frame (sel --drop %s)", c->law->field, c->law->field);
 }
 
-static bool reversible(const struct pm_effect_case *c) { return c->scales->given > 0; }
+static bool reversible(const struct pm_effect_case *c) { return c->scales->given > 0 && !c->scales->light; }
 
 /* A given field of zeros: m2p requires it on the mesh of the magnetic field. */
 static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)

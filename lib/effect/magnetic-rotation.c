@@ -35,7 +35,7 @@ static void stays(const struct pm_effect_case *c, char why[160])
 
 static void ask(const struct pm_effect_case *c, struct pm_method *m)
 {
-	if (c->decision->answer == PM_PUT_IN)
+	if (c->decision->answer == PM_PUT_IN && !c->scales->light)
 		m->kick = "boris/2";
 }
 
@@ -48,7 +48,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_amend(w, PM_SLOT_FORCES, "m2p", "", "; brings B");
 }
 
-static bool reversible(const struct pm_effect_case *c) { return !isnan(c->scales->cyclotron); }
+static bool reversible(const struct pm_effect_case *c) { return !isnan(c->scales->cyclotron) && !c->scales->light; }
 
 static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)
 {

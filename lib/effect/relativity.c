@@ -5,6 +5,7 @@
 
 #include "effect-parts/effect-decision.h"
 #include "effect-parts/effect-words.h"
+#include "law/law.h"
 
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
@@ -28,6 +29,10 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 /* The kick of gamma v, which turns it about a magnetic field, too; a whole scheme has none. */
 static void ask(const struct pm_effect_case *c, struct pm_method *m)
 {
+	if (c->law->relativistic) { /* its boris turns gamma v; in crossed fields higuera-cary drifts at E x B/B^2, whatever the speed */
+		m->kick = c->scales->v_max > 0.9 * c->scales->c ? "higuera-cary/2" : m->kick;
+		return;
+	}
 	if (c->decision->answer != PM_PUT_IN)
 		return;
 	m->kick = "relativistic/2";
@@ -40,7 +45,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 		pm_words_amend(w, PM_SLOT_OPENING, "push", "", "; relativity: on, %s", c->decision->text);
 }
 
-static bool reversible(const struct pm_effect_case *c) { return c->scales->second && !isnan(c->scales->c); }
+static bool reversible(const struct pm_effect_case *c) { return c->scales->second && !isnan(c->scales->c) && !c->law->relativistic; }
 
 const struct pm_effect effect_relativity = {
 	.name = "relativity",

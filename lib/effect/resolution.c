@@ -8,9 +8,27 @@
 
 #include "effect-parts/effect-decision.h"
 
+/* Waves of light on Yee's mesh are slower by (k h)^2/24 (1 - (c dt/h)^2) of themselves along an axis, where they are slowest. */
+static void light(const struct pm_scales *s, struct pm_decision *d)
+{
+	const double kh = s->wiggle * s->h, off = kh * kh / 24 * (1 - pow(s->c * s->dt / s->h, 2));
+	if (!(s->magnetic > 0.5 * s->accuracy) || isnan(kh)) {
+		pm_effect_off(d, "no light to speak of");
+		return;
+	}
+	pm_effect_by(d, s, kh, fmin(1, off * s->c * s->wiggle * s->time));
+	d->answer = d->share > s->accuracy ? PM_PUT_IN : PM_LEFT_OUT;
+	snprintf(d->text, sizeof d->text, "k h = %.2g of the light: slower by %.1g, phases off by %.1g%s", kh, off, d->share,
+		d->answer == PM_PUT_IN ? "; more cells, or maxwell --method psatd" : "");
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	if (s->light) {
+		light(s, d);
+		return;
+	}
 	const bool vortices = s->kind == PM_VORTICES, open = s->open && !s->periodic && !s->walls;
 	const double ratio = s->h / s->length, grown = vortices ? 1 : fmax(1, 0.5 * s->omega * s->time);
 	if (s->pairs || s->singular || pm_effect_alone(s) || !(s->length > 0) || isnan(s->mesh_error) || (open && !vortices)) {

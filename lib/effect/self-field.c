@@ -28,6 +28,11 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, "the law has none");
 		return;
 	}
+	if (s->light) {
+		pm_effect_by(d, s, phase, 1);
+		snprintf(d->text, sizeof d->text, s->sources < 1 ? "light alone, no charges" : "omega_p T = %.2g; without it light would stand still", phase);
+		return;
+	}
 	if (s->kind == PM_VORTICES && !s->second) {
 		vortices(s, d);
 		return;
@@ -108,10 +113,31 @@ static void on_mesh(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_add(w, PM_SLOT_PARTICLES, words, "%s at the particles", c->law->field);
 }
 
+/* Maxwell's equations: the current of the way from x to x + v dt, before the particles go it. */
+static void with_light(const struct pm_effect_case *c, struct pm_words *w)
+{
+	char words[160], text[64];
+	snprintf(words, sizeof words, "p2m --current%s", option("kernel", c->method->kernel, c->law->kernel, text));
+	pm_words_add(w, PM_SLOT_DENSITY, words, "the current of the particles on their way, which keeps charge");
+	pm_words_add(w, PM_SLOT_POTENTIAL, "maxwell", "self field: on, %s", c->decision->text);
+	pm_words_add(w, PM_SLOT_MESH, "push drift", "the way itself");
+	pm_words_add(w, PM_SLOT_PARTICLES, "m2p", "%s and %s at the particles", c->law->field, c->law->magnetic);
+}
+
+static void ask(const struct pm_effect_case *c, struct pm_method *m)
+{
+	if (c->scales->light && !strcmp(m->kick, "kick/2"))
+		m->kick = "boris/2";
+}
+
 static void words(const struct pm_effect_case *c, struct pm_words *w)
 {
 	if (c->decision->answer != PM_PUT_IN)
 		return;
+	if (c->scales->light) {
+		with_light(c, w);
+		return;
+	}
 	if (c->method->pairs)
 		pm_words_add(w, PM_SLOT_PARTICLES, "pp", "self field: on, %s; pair by pair: %s", c->decision->text, c->method->why_far);
 	else
@@ -121,7 +147,7 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 static bool reversible(const struct pm_effect_case *c)
 {
 	const struct pm_scales *s = c->scales;
-	return c->law->strength && (c->decision->answer == PM_PUT_IN || s->sources > 0) && (isnan(s->cyclotron) || !isnan(s->given));
+	return !s->light && c->law->strength && (c->decision->answer == PM_PUT_IN || s->sources > 0) && (isnan(s->cyclotron) || !isnan(s->given));
 }
 
 const struct pm_effect effect_self_field = {
@@ -131,6 +157,7 @@ const struct pm_effect effect_self_field = {
 	.force = true,
 	.decide = decide,
 	.reconsider = reconsider,
+	.ask = ask,
 	.words = words,
 	.reversible = reversible,
 };

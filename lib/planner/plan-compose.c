@@ -70,6 +70,7 @@ static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 {
 	const bool leaps = forced && p->scales.second && !strcmp(p->method.scheme, "leapfrog");
 	char actions[32];
+	const char *with = p->scales.light ? "" : " drift"; /* which is a word of its own behind the current */
 	const bool chosen = !isnan(p->method.tolerance); /* its step is known after it */
 	if (forced && !chosen)
 		follow(p, w, leaps ? PM_SLOT_OPENING : PM_SLOT_CLOSING);
@@ -77,7 +78,7 @@ static void pushes(struct pm_plan *p, struct pm_words *w, bool forced)
 		p->method.dt = NAN; /* any step is possible */
 		push(p, w, PM_SLOT_OPENING, true, "drift", "no force: straight lines");
 	} else if (leaps) {
-		snprintf(actions, sizeof actions, "%s drift", p->method.kick);
+		snprintf(actions, sizeof actions, "%s%s", p->method.kick, with);
 		push(p, w, PM_SLOT_OPENING, true, actions, p->method.why_step);
 		push(p, w, PM_SLOT_CLOSING, false, p->method.kick, "the second half of the kick");
 	} else

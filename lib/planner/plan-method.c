@@ -48,7 +48,7 @@ void pm_plan_method(const struct pm_frame *f, struct pm_plan *p)
 	const struct pm_scales *s = &p->scales;
 	*m = (struct pm_method){.dt = NAN, .follow = NAN, .tolerance = NAN, .evaluations = NAN,
 		.kernel = p->law->kernel, .order = p->law->order, .scheme = s->second ? "leapfrog" : "rk4"};
-	m->pairs = (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
+	m->pairs = !s->light && (s->kind == PM_MASSES || s->kind == PM_CHARGES || s->kind == PM_VORTICES) && pairs(f, p, m->why_far);
 	p->scales.singular = s->kind == PM_VORTICES && f->nmeshes && !is_field(s) && !p->law->vector;
 	/* A patch of vorticity stays together, so its mesh may follow it; bodies escape, and the mesh would grow with each: they keep p2m's monopole.
 	 * 4: half the widest kernel. */
@@ -164,7 +164,7 @@ void pm_plan_few_bodies(const struct pm_frame *f, struct pm_plan *p)
 	const double near = s->dim == 1 ? s->spacing : s->nearest; /* the force of sheets does not depend on their distance */
 	const double apart = s->softening > 0 ? hypot(near, s->softening) : near;
 	int factor = 1;
-	if (s->pairs || !f->nmeshes || !(s->n < 32) || (s->kind != PM_MASSES && s->kind != PM_CHARGES))
+	if (s->pairs || s->light || !f->nmeshes || !(s->n < 32) || (s->kind != PM_MASSES && s->kind != PM_CHARGES))
 		return;
 	while (0.25 * pow(s->h / (factor * apart), 2) > 0.5 * s->accuracy && room(s, 2 * factor) < (factor < 8 ? 3e7 : 4.2e6))
 		factor *= 2;
@@ -183,7 +183,7 @@ void pm_plan_mesh(const struct pm_frame *f, struct pm_plan *p)
 		/* a coarse mesh folds short waves onto long ones, and the beams of a quiet start onto waves that the density has not */
 		s->length = pm_effect_quiet(s) ? s->wave_length : fmin(s->length, s->wave_length);
 	const double h = s->h / s->length;
-	if (m->pairs || !f->nmeshes || !(s->length > 0))
+	if (m->pairs || s->light || !f->nmeshes || !(s->length > 0))
 		return;
 	if (s->kind == PM_VORTICES) {
 		if (s->singular)

@@ -39,7 +39,7 @@ static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_
 		e->decision = (struct pm_decision){.answer = PM_LEFT_OUT};
 		e->effect->decide(&c, &e->decision);
 		overrule(e, choice);
-		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words && !e->decision.error;
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words && !e->decision.error && !e->decision.brought;
 	}
 	for (int i = 0; i < p->neffects; i++)
 		if (p->effect[i].effect->reconsider) {
@@ -148,9 +148,6 @@ static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struc
 	*p = (struct pm_plan){.law = pm_law_of(f)};
 	if (!p->law)
 		return -PM_DATA;
-	if (p->law->evolves)
-		return pm_fail(PM_DATA, "no plan for the law %s yet, and plan never changes a law (the step is 'push boris/2 | p2m --current | maxwell | "
-			"push drift | m2p | push boris/2'; without waves and magnetic fields: sel --drop E,B | smod --law electrostatic | plan)", p->law->name);
 	if (f->substep)
 		return pm_fail(PM_DATA, "the frame is inside a step (substep %d): plans begin between steps", f->substep);
 	if (f->dt == 0 && (isnan(c->time) || c->time == f->time))
@@ -158,9 +155,14 @@ static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struc
 	int status = pm_scales_of(f, p->law, &p->scales);
 	if (status)
 		return status;
+	if (p->scales.kind == PM_VORTICES && !(p->scales.sources > 0))
+		return pm_fail(PM_DATA, "no particle has %s %s yet: nothing to plan (penalize makes that of a body's layer)", p->law->vector ? "an" : "a",
+			p->law->strength);
 	p->scales.accuracy = c->accuracy;
 	p->scales.time = isnan(c->time) || c->time == f->time ? 100 * fabs(f->dt) : fabs(c->time - f->time);
-	if (!(p->scales.n > 0))
+	if (p->law->evolves && !(p->scales.courant > 0))
+		return pm_fail(PM_DATA, "no fields %s and %s on a mesh (p2m | maxwell --gauss makes them)", p->law->field, p->law->magnetic);
+	if (!(p->scales.n > 0) && !p->law->evolves)
 		return pm_fail(PM_DATA, "no particle that moves: nothing to plan");
 	pm_plan_method(f, p);
 	p->scales.pairs = p->method.pairs;

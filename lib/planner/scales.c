@@ -230,7 +230,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 			s->ratio = fmax(s->ratio, m && pm_value_at(m, 0, i) > 0 ? a / pm_value_at(m, 0, i) : squares ? 0 : 1);
 		}
 	}
-	const double c = law->coefficient ? fabs(law->coefficient(f)) : 0;
+	const double c = law->coefficient ? fabs(law->coefficient(f)) : s->light ? 1 / pm_frame_constant(f, "eps0", 1) : 0;
 	const double sum = pm_sum_total(total);
 	s->omega = turns ? fmax(dense, sum / s->volume) : sqrt(c * sum / s->volume);
 	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
@@ -306,11 +306,12 @@ static void geometry(const struct pm_frame *f, struct pm_scales *s)
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
 {
 	*s = (struct pm_scales){.dim = f->dim, .law = law->name, .dt = f->dt, .time = NAN, .accuracy = NAN, .self = NAN, .self_max = NAN, .strain = NAN,
-		.rough = NAN, .length = NAN, .mesh_error = NAN, .overlap = NAN, .width = NAN};
+		.rough = NAN, .length = NAN, .mesh_error = NAN, .overlap = NAN, .width = NAN, .courant = NAN, .magnetic = NAN, .wiggle = NAN};
 	s->kind = !law->field ? PM_NO_FIELD : !law->strength ? PM_CARRIED : law->of_potential == PM_CURL ? PM_VORTICES : law->per ? PM_CHARGES : PM_MASSES;
 	s->softening = pm_frame_constant(f, "softening", 0);
 	s->nu = pm_frame_constant(f, "nu", 0);
-	s->c = pm_frame_constant(f, "c", NAN);
+	s->light = law->evolves;
+	s->c = pm_frame_constant(f, "c", s->light ? 1 : NAN);
 	for (size_t k = 0; k < f->nsets; k++)
 		s->n += pm_set_moves(f, f->sets[k]) ? (double)f->sets[k]->n : 0;
 	geometry(f, s);
@@ -321,6 +322,7 @@ int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_s
 	s->given = law->per ? field * s->ratio : field;
 	s->cyclotron = B * s->ratio;
 	pm_scales_orbits(f, law, s);
+	status = status || !s->light ? status : pm_scales_light(f, law, s);
 	return status || s->kind != PM_VORTICES ? status : coverage(f, s);
 }
 

@@ -12,6 +12,8 @@ enum {
 
 /* Scales of the particles and of fields given on meshes; the caller sets time, accuracy and those that need the force. All data must be in memory. */
 int pm_scales_of(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
+/* scales-light.c: of fields that evolve by Maxwell's equations: courant, magnetic, wiggle. 0 or failure. */
+int pm_scales_light(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* Scales of the force: the same frame with the law's change field and, if they were made, density and field on a mesh. */
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s);
 /* sampling.c: the particles as a sample of a smooth density. 0 or failure. */

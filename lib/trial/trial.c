@@ -97,6 +97,10 @@ static void add_up(const struct pm_trials *t, struct pm_trial *r)
 		if (r->worst < 0 || r->row[largest].error > r->row[r->worst].error)
 			r->worst = largest;
 	}
+	if (r->worst < 0) {
+		r->verdict = PM_TRIAL_UNKNOWN; /* nothing could be compared */
+		return;
+	}
 	r->verdict = r->error + r->uncertain <= accuracy ? PM_TRIAL_PASS : r->error - r->uncertain > accuracy ? PM_TRIAL_FAIL : PM_TRIAL_UNKNOWN;
 }
 
