@@ -21,8 +21,8 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_by(d, s, part, fmin(1, part * part));
 		d->answer = PM_PUT_IN;
 		d->kept = true;
-		snprintf(d->text, sizeof d->text, "the box is periodic, spread/box = %.2g; %s includes them at no cost",
-			part, s->light ? "the mesh" : "the Fourier transform");
+		snprintf(d->text, sizeof d->text, "the box is periodic, spread/box = %.2g; %s includes them at no cost", part,
+			s->light ? "the mesh" : "the Fourier transform");
 	}
 }
 
@@ -32,7 +32,10 @@ static void stays(const struct pm_effect_case *c, char why[160])
 		snprintf(why, 160, "they belong to the faces of the frame (smod --faces open)");
 }
 
-static bool reversible(const struct pm_effect_case *c) { return c->scales->periodic && !c->scales->light && !c->method->pairs && pm_effect_in(c, "self-field"); }
+static bool reversible(const struct pm_effect_case *c)
+{
+	return c->scales->periodic && !c->scales->light && !c->method->pairs && pm_effect_in(c, "self-field");
+}
 
 /* Open faces, which have no spectral symbol, and a mesh that follows the particles. */
 static int reverse(const struct pm_effect_case *c, bool in, struct pm_frame *f, struct pm_method *m)
