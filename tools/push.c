@@ -163,7 +163,8 @@ const struct pm_tool tool_push = {
 	.options = options,
 	.arguments = "ACTION...",
 	.arguments_choices = pm_step_names,
-	.arguments_text = "kick, drift (with /N a part of the step), boris/2, boris-tan/2, relativistic/2, vay/2, higuera-cary/2, clear; or a scheme: "
+	.arguments_text = "kick, drift (with /N a part of the step), boris/2, boris-tan/2, relativistic/2, vay/2, higuera-cary/2, "
+		"landau-lifshitz/2, clear; or a scheme: "
 		"euler, rk2, midpoint, lsrk3, rk4, ab2, ab3, leapfrog2, yoshida4, yoshida6, blanes-moan4, blanes-moan6; implicit-euler, implicit-midpoint, "
 		"trapezoid; with error control ias15, rk45, rk23, rk4-double, midpoint-double",
 	.least = 1,

@@ -8,14 +8,19 @@
 /* The state whose rate of change `name` is; NULL: none. */
 static const char *state_of(const char *name) { return !strcmp(name, "acc") ? "v" : !strcmp(name, "vel") ? "x" : name[0] == 'd' && name[1] ? name + 1 : NULL; }
 
+/* A magnetic field, which is no rate of a state: the kicks of push turn v about it (lib/transfer/magnetic-field.c adds that of a mesh). */
+static bool is_magnetic(const char *name) { return !strcmp(name, "bfield"); }
+
 int pm_given_rate_check(const char *text)
 {
 	char name[PM_NAME];
 	const char *expression;
 	if (pm_expression_named(text, name, &expression))
 		return -PM_USAGE;
+	if (is_magnetic(name))
+		return 0;
 	if (!state_of(name) || !strcmp(name, "dx") || !strcmp(name, "dv"))
-		return pm_fail(PM_USAGE, "'%s' is no rate of change (acc of v, vel of x, or d before any other state: dcirculation)", name);
+		return pm_fail(PM_USAGE, "'%s' is no rate of change (acc of v, vel of x, bfield, or d before any other state: dcirculation)", name);
 	return 0;
 }
 
@@ -44,17 +49,18 @@ static int fits(const struct pm_frame *f, const struct pm_field *state, const ch
 static int declare_on(struct pm_expression_jobs *jobs, const struct pm_given_rate_choice *c, struct pm_frame *f, const char *set, const char *name,
 	const char *expression)
 {
-	const struct pm_field *state = pm_frame_field(f, set, state_of(name));
+	const struct pm_field *state = is_magnetic(name) ? NULL : pm_frame_field(f, set, state_of(name));
 	struct pm_expression_job *job = pm_expression_jobs_next(jobs);
 	int status = job ? pm_expression_compile(&job->e, f, set, expression) : -PM_DATA;
 	if (!status)
-		status = fits(f, state, name, &job->e);
+		status = state ? fits(f, state, name, &job->e) : job->e.nparts == 3 ? 0 :
+			pm_fail(PM_DATA, "a magnetic field has 3 components, and '%s' here %d (one expression each, commas between)", name, job->e.nparts);
 	if (status)
 		return status;
-	job->field = pm_contributes(f, set, name, state->name, job->e.nparts, c->term, c->replace);
+	job->field = pm_contributes(f, set, name, state ? state->name : "", job->e.nparts, c->term, c->replace);
 	if (!job->field)
 		return -PM_DATA;
-	job->field->extensive = state->extensive;
+	job->field->extensive = state && state->extensive;
 	if (job->field->use & PM_USE_NEW)
 		job->field->use |= PM_USE_FILL;
 	jobs->n++;
@@ -69,7 +75,7 @@ int pm_given_rate_declare(struct pm_expression_jobs *jobs, const struct pm_given
 	int status = pm_expression_named(text, name, &expression);
 	if (!status && c->set && !pm_frame_set(f, c->set))
 		return pm_fail(PM_DATA, "no set '%s' (sls lists the sets)", c->set);
-	const char *of = state_of(name);
+	const char *of = status || is_magnetic(name) ? "v" : state_of(name);
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		if ((!c->set || !strcmp(c->set, f->sets[i]->name)) && moves(f, f->sets[i]->name, of))
 			status = declare_on(jobs, c, f, f->sets[i]->name, name, expression);
@@ -103,7 +109,8 @@ int pm_given_rates_add(const struct pm_expression_jobs *jobs, const struct pm_fr
 			pm_expression_assign(&job->e, f, job->field);
 		else
 			status = add(f, job);
-		status = pm_given_limits_add(status, job, f);
+		if (job->field->of[0]) /* a magnetic field limits no step */
+			status = pm_given_limits_add(status, job, f);
 	}
 	return status;
 }

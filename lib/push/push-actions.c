@@ -22,7 +22,8 @@ static int unknown(const char *word)
 	for (int i = 0; pm_steps[i]; i++)
 		if (pm_steps[i]->kind == PM_SCHEME)
 			snprintf(schemes + strlen(schemes), sizeof schemes - strlen(schemes), "%s%s", *schemes ? ", " : "", pm_step_names[i]);
-	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, boris-tan/2, relativistic/2, vay/2, higuera-cary/2, clear, or one "
+	return pm_fail(PM_USAGE, "no action '%s'%s%s%s (kick[/N], drift[/N], boris/2, boris-tan/2, relativistic/2, vay/2, higuera-cary/2, "
+		"landau-lifshitz/2, clear, or one "
 		"of %s)", word,
 		near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "", schemes);
 }

@@ -92,9 +92,11 @@ static int declare_magnetic(struct pm_frame *f, struct pm_moving *m, const struc
 		return pm_fail(PM_DATA, "%s is not relativistic, and the law '%s' is (push boris/2, vay/2 or higuera-cary/2)", step->name, f->law);
 	if (step->relativistic && !(pm_law_constant(f, "c", NAN) > 0))
 		return pm_fail(PM_DATA, "the frame has no speed of light c (smod --constant c=C, or push kick/2)");
+	if (step->radiates && !(pm_frame_constant(f, "radiation_time", NAN) >= 0))
+		return pm_fail(PM_DATA, "the frame has no radiation_time, e^2/(6 pi eps0 m c^3) of a charge of |q/m| = 1 (smod --constant radiation_time=T)");
 	if (step->relativistic && !m->v)
 		return pm_fail(PM_DATA, "relativistic advances velocities, and '%s' has none", on);
-	if (step->relativistic && !pm_frame_field(f, on, "bfield"))
+	if (step->relativistic && !step->radiates && !pm_frame_field(f, on, "bfield"))
 		return 0;
 	if (!m->v || m->v->components < 2 || m->v->components > 3)
 		return pm_fail(PM_DATA, "boris turns velocities of 2 or 3 components, and '%s' has %d (pinit --velocities 3, or push kick/2 without a magnetic "

@@ -38,7 +38,7 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
-	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN)};
+	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN), .radiation_time = pm_frame_constant(f, "radiation_time", NAN)};
 	size_t n = m->v->count, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	if (m->b)
 		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);

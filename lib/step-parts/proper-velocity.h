@@ -63,4 +63,16 @@ static inline void pm_proper_solve(const struct pm_magnetic *m, const double tau
 	}
 }
 
+/* Half a step of Higuera and Cary 2017. */
+static inline void pm_proper_higuera_cary(const struct pm_magnetic *m, bool closing, double dt, size_t i, double u[3])
+{
+	double tau[3];
+	pm_proper_angle(m, dt, i, tau);
+	if (!closing)
+		pm_proper_cross(m, tau, u);
+	pm_proper_kick(m, dt, i, u);
+	if (closing)
+		pm_proper_solve(m, tau, u);
+}
+
 #endif

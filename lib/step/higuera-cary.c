@@ -9,14 +9,9 @@
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
 	for (size_t i = from; i < to; i++) {
-		double u[3], tau[3];
+		double u[3];
 		pm_proper_load(m, i, u);
-		pm_proper_angle(m, dt, i, tau);
-		if (!closing)
-			pm_proper_cross(m, tau, u);
-		pm_proper_kick(m, dt, i, u);
-		if (closing)
-			pm_proper_solve(m, tau, u);
+		pm_proper_higuera_cary(m, closing, dt, i, u);
 		pm_proper_store(m, i, u);
 	}
 }

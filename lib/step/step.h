@@ -31,6 +31,7 @@ struct pm_magnetic {
 	const double *acc[3], *b[3];      /* [length/time^2] without v x B; [magnetic field] */
 	const double *charge, *mass;
 	double c;                         /* [length/time] of relativistic kicks; b may then be absent */
+	double radiation_time;            /* [time] of one that radiates: e^2/(6 pi eps0 m c^3) of a charge of |q/m| = 1 */
 };
 
 /* One component of a state under an error-controlled scheme, n values each. A position whose rate is this state (x beside v) goes with it. */
@@ -105,6 +106,7 @@ struct pm_step {
 	void (*pass)(int pass, double dt, size_t n, double *restrict y, const double *restrict k, double *const *q);
 	/* For magnetic kicks, which rotate v about B: particles from..to-1, half a step of dt; every other state is kicked by pass. NULL: none. */
 	bool relativistic; /* a magnetic kick that needs the constant c, and no magnetic field */
+	bool radiates;     /* and the constant radiation_time, charge and mass */
 	void (*magnetic)(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m);
 	const struct pm_control *control; /* of an error-controlled scheme, which has no pass; NULL */
 	const struct pm_implicit *implicit; /* likewise; NULL */

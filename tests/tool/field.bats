@@ -113,3 +113,23 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	field 'acc = -x, -y, -z' <a | cycle -n 2 "push kick/2 drift | field 'acc = -x, -y, -z' | push kick/2" >c
 	scmp --tolerance 0 b c
 }
+
+@test "bfield: a uniform field is that of a mesh, a gradient makes charges drift, a mirror keeps those outside its loss cone" {
+	pinit exb --dim 2 -n 5 --speed 0.3 --no-history >a
+	sel --drop E,B a | cycle -q -n 30 "push boris/2 drift | field 'acc = 0, -0.1' 'bfield = 0, 0, 1' | push boris/2" | sel --field x | stab --plain >b
+	same_as <(cycle -q -n 30 'push boris/2 drift | m2p | push boris/2' <a | sel --field x | stab --plain) b
+	printf 'x y vx vy mass charge\n0 0 0 0.1 1 1\n' | stab - --law electrostatic --box=-9,9 --dt 0.05 | cycle -q -t 125.66370614359172 \
+		"push boris/2 drift | field 'acc = 0, 0' 'bfield = 0, 0, 1 + 0.02*x' | push boris/2" | scalc 'centre = y - vx/(1 + 0.02*x)' | stab --plain |
+		awk '/vx/ { for (k = 1; k <= NF; k++) if ($k == "centre") c = k; next } { print $c }' >y
+	within "$(cat y)" "$(calc '0.01*0.02/2*40*pi')" 1.3e-4 # the next order is a part (0.02 0.1)^2; of the step 0.05^2/12: 1 % is allowed
+	pinit uniform --dim 3 -n 4000 --dispersion 1 | smod --law electrostatic --box=-1,1 --faces open --particle-faces absorb --dt 0.2 |
+		scalc --extensive 'charge = mass' | scalc 'x = 0, 0, 0' | scalc --role state 'w = 0.02/sqrt(vx^2 + vy^2 + vz^2)' 'across = 1 - (vz*w/0.02)^2' |
+		scalc 'v = vx*w, vy*w, vz*w' |
+		cycle -q -t 300 "push boris/2 drift | field 'acc = 0, 0, 0' 'bfield = -x*z, -y*z, 1 + z^2' | push boris/2" >b
+	within "$(sls b | awk '$2 == "matter:" { print $3 }')" 2828 90 # sqrt(1 - 1/2) of all, three standard errors
+	stab --plain b |
+		awk '/vx/ { for (k = 1; k <= NF; k++) if ($k == "across") c = k; next } least == "" || $c < least { least = $c } END { print least }' >least
+	above "$(cat least)" 0.498 # the circle is 0.02 wide
+	run -1 --separate-stderr bash -o pipefail -c "field 'bfield = 0, 1' <a | sls"
+	[[ $stderr == *'a magnetic field has 3 components'* ]]
+}

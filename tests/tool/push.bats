@@ -296,3 +296,28 @@ limits() {
 		within "$(cat order)" 2 0.05 "column $k" # the next term is dt^2 of it, 1/400 to 1/6400
 	done
 }
+
+@test "landau-lifshitz: a gyrating electron loses energy as the exact solution, order 2 there and in crossed fields; without radiation_time it is refused" {
+	# radiating N VELOCITIES FIELDS COMPONENTS: a charge of c = 1 to t = 20 in N steps; prints gamma and vx
+	radiating() {
+		printf 'x y z vx vy vz mass charge\n0 0 0 %s 1 -1\n' "$2" | stab - --law electrostatic --box=-100,100 --dt "$(calc 20/$1)" |
+			smod --constant c=1,radiation_time=2e-3 | cycle -q -n $1 "push landau-lifshitz/2 drift | field $3 | push landau-lifshitz/2" >a
+		stab --plain a | awk '/vx/ { for (k = 1; k <= NF; k++) c[$k] = k; next }
+			{ v = $c["vx"]^2 + $c["vy"]^2 + $c["vz"]^2; printf "%.15g %.15g\n", 1 / sqrt(1 - v), $c["vx"] }'
+	}
+	circle= crossed=
+	for n in 100 200 400; do
+		read -r gamma _ < <(radiating $n "0 $(calc 'sqrt(0.99)') 0" "'acc = 0, 0, 0' 'bfield = 0, 0, 1'")
+		circle="$circle $(calc 20/$n) $(calc "$gamma - 7.172505597275912")" # coth(0.04 + arcoth 10)
+		read -r _ v < <(radiating $n "0.9 0.1 0.2" "'acc = 0.3, 0.2, -0.1' 'bfield = 0.2, -0.4, 1'")
+		crossed="$crossed $(calc 20/$n) $(calc "$v - 0.49289967")" # scipy's solve_ivp to 1e-11
+	done
+	order 2 $circle
+	order 2 $crossed
+	within "$gamma" 7.172505597275912 1e-6
+	read -r gamma _ < <(radiating 50 "0.6 0 0" "'acc = 0.5, 0, 0'  'bfield = 0, 0, 0'") # along a field that is even nothing is lost
+	within "$gamma" "$(calc 'sqrt(1 + 10.75^2)')" 1e-9
+	run -1 --separate-stderr bash -o pipefail -c "printf 'x y vx vy mass charge\n0 0 0 0 1 1\n' | stab - --law electrostatic --dt 1 | smod --constant c=1 |
+		field 'acc = 0, 0' 'bfield = 0, 0, 1' | push landau-lifshitz/2 | sls"
+	[[ $stderr == *'the frame has no radiation_time'* ]]
+}
