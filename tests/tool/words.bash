@@ -13,6 +13,7 @@ words() {
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
+	antenna) echo "antenna --place 1 'Ey = sin(3*time+1)*x'" ;;
 	collide) echo "collide --statistical-weight 0.01 --quiet" ;;
 	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
@@ -58,7 +59,7 @@ input() {
 	dispersion) pinit landau -n 12 --cells 4 | cycle -q -n 15 --every 1 "push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2" ;;
 	mgrad | mlevel) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse | spectrum | smooth) cloud | p2m ;;
-	maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
+	antenna | maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
