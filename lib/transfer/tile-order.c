@@ -140,9 +140,10 @@ static void add_up(struct pm_tile_order *o)
 	o->begin[columns] = at;
 }
 
-static void move_chunk(struct pm_tile_order *o, int chunk)
+/* cursor: the places of the chunk's first record in each tile; used up. */
+static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 {
-	size_t *cursor = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1), stride = (size_t)o->stride;
+	const size_t stride = (size_t)o->stride;
 	double u[3][batch];
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
@@ -194,23 +195,31 @@ static bool in_order(struct pm_tile_order *o)
 	return !falls;
 }
 
+static int allocate_records(struct pm_tile_order *o)
+{
+	size_t doubles = o->n * (size_t)o->stride;
+	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
+	if (!o->records)
+		return -PM_DATA;
+	memset(o->records + doubles, 0, 4 * sizeof *o->records);
+	return 0;
+}
+
 /* The tiles of a stream in any order, and its records in theirs. */
 static int move(struct pm_tile_order *o, struct pm_strays *strays)
 {
-	size_t doubles = o->n * (size_t)o->stride;
+	const size_t columns = o->tiles + 1;
 	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
 	o->tile = pm_alloc(o->n, sizeof *o->tile);
-	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
-	if (!each || !o->tile || !o->records)
+	if (!each || !o->tile || allocate_records(o))
 		return pm_free(each), -PM_DATA;
-	memset(o->records + doubles, 0, 4 * sizeof *o->records);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
 		count_chunk(o, chunk, &each[chunk]);
 	add_up(o);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		move_chunk(o, chunk);
+		move_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
 	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
 		uint64_t count = strays->count;
 		if (each[chunk].count)
@@ -218,6 +227,27 @@ static int move(struct pm_tile_order *o, struct pm_strays *strays)
 		strays->count = count + each[chunk].count;
 	}
 	pm_free(each);
+	return 0;
+}
+
+void pm_tile_order_spend(struct pm_tile_order *o)
+{
+	o->records = pm_free(o->records);
+	o->nvalues = 0;
+}
+
+int pm_tile_order_again(struct pm_tile_order *o, int room)
+{
+	const size_t rows = (size_t)o->chunks * (o->tiles + 1);
+	size_t *cursors = pm_alloc(rows, sizeof *cursors);
+	o->stride = o->dim > room ? o->dim : room;
+	if (!cursors || allocate_records(o))
+		return pm_free(cursors), -PM_DATA;
+	memcpy(cursors, o->cursor, rows * sizeof *cursors);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
+		move_chunk(o, chunk, cursors + (size_t)chunk * (o->tiles + 1));
+	pm_free(cursors);
 	return 0;
 }
 

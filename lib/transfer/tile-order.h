@@ -13,7 +13,7 @@ struct pm_tile_order {
 	size_t *begin;        /* [tiles+2] first record of each tile */
 	size_t *cursor;       /* [chunks+1][tiles+1] */
 	int stride;           /* doubles per record */
-	double *records;      /* [n][stride]: u of each axis, then the values; NULL: the stream is in the order of tiles already */
+	double *records;      /* [n][stride]: u of each axis, then the values; NULL: spent, or, without tile[], the stream is in order */
 	const struct pm_axis *axes;
 	const double *x[3];
 	int nvalues;
@@ -31,6 +31,10 @@ struct pm_tile_particles {
  * any case. */
 int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], const struct pm_tile_particles *p, int room, struct pm_strays *strays);
 void pm_tile_order_free(struct pm_tile_order *o);
+/* Gives the records back when they hold results; the tiles stay. `again` makes those of the positions, which must be the same, with room for `room` doubles. */
+void pm_tile_order_spend(struct pm_tile_order *o);
+int pm_tile_order_again(struct pm_tile_order *o, int room);
+static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o->tile && !o->records; }
 /* Records of the m particles of the stream from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order. Only where values are asked for need those
  * of the order still be there. */
 enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */

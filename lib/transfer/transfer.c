@@ -170,16 +170,18 @@ int pm_pass_corners(struct pm_pass *w, int threads, int each)
 	return used && !w->corners ? -PM_DATA : 0;
 }
 
-/* A kept order must not be changed, so the results get their own memory. */
+/* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
+ * moved again. They would be 24 bytes a particle, at the peak of a step. */
 static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], int threads)
 {
 	const unsigned char *staggered = w->t->staggered[w->which[0]];
 	w->o = pm_order_cache_find(w->t, staggered, n, x);
-	bool found = w->o && w->o->order.records;
 	if (!w->o)
 		w->o = pm_order_cache_new(w->t, staggered, n, x, 0, NULL, w->components);
+	else if (pm_tile_order_spent(&w->o->order) && pm_tile_order_again(&w->o->order, w->components))
+		return -PM_DATA;
 	const bool records = w->o && w->o->order.records;
-	if (found && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
+	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
 	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
 	return status || records || !PM_TILE_CIC_EIGHT ? status : pm_pass_corners(w, threads, w->components);
@@ -243,9 +245,11 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 		finite = finite && seen;
 		if (!status)
 			*strays = w.o->strays;
-		bool in_use = t->kept && *t->kept == &w.o->note;
+		bool in_use = w.o && t->kept && *t->kept == &w.o->note;
+		if (in_use && !w.results)
+			pm_tile_order_spend(&w.o->order);
 		pm_pass_end(&w);
-		if (!in_use) /* its records have been overwritten */
+		if (!in_use)
 			pm_order_cache_free(w.o);
 	}
 	strays->finite = finite;
