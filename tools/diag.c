@@ -74,12 +74,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *state = s->state;
 	int status = pm_diag_table_row(&state->table, f);
-	const bool many = state->table.many && !state->table.readable.n; /* which has its own notes */
+	const bool lacks = state->table.lacks[0] && !state->table.readable.n; /* which has its own notes */
 	if (!status && state->table.unknown[0] && !state->told)
 		pm_note(s, "energy is nan: %s (energy_kinetic and energy_field_... are its known parts)", state->table.unknown);
-	else if (!status && many && !state->told)
+	else if (!status && lacks && !state->told)
 		pm_note(s, "energy is nan: %s", state->table.lacks);
-	state->told = state->told || state->table.unknown[0] || many;
+	state->told = state->told || state->table.unknown[0] || lacks;
 	for (int i = 0; i < PM_READABLE_NOTES && !status && state->table.readable.note[i][0]; i++) {
 		pm_note(s, "%s", state->table.readable.note[i]);
 		state->table.readable.note[i][0] = 0;

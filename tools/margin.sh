@@ -96,7 +96,7 @@ axes() {
 
 settle() {
 	read_options "$@"
-	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing"
+	[ ${#positional[@]} != 0 ] || usage "SENTENCE is missing ($arguments_text)"
 	[ ${#positional[@]} = 1 ] || usage "one SENTENCE, in quotes, not ${#positional[@]} arguments"
 	criterion=${opt_unstable_when:-} from=${opt_from:-below} tolerance=${opt_tolerance:-1e-3} jobs=${opt_jobs:-1} \
 		format=${opt_format:-table} growth=${opt_column:-} scan=${opt_scan:-16}

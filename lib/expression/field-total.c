@@ -14,8 +14,8 @@ int pm_total_declare(struct pm_frame *f, const struct pm_field *field, const cha
 	if (field->type == PM_I64 || field->type == PM_U8)
 		return pm_fail(PM_DATA, "'%s' holds whole numbers, but --total needs a real field (another name)", field->name);
 	if (per && (!group || group->components != 1))
-		return pm_fail(PM_DATA, group ? "'%s' on '%s' is a vector, but --per needs one number a particle" : "no field '%s' on '%s' for --per",
-			per, field->on);
+		return pm_fail(PM_DATA, group ? "'%s' on '%s' is a vector, but --per needs one number a particle"
+			: "no field '%s' on '%s' for --per (sls lists the fields)", per, field->on);
 	return per && !pm_reads(f, field->on, per) ? -PM_DATA : 0;
 }
 

@@ -13,6 +13,7 @@
 #include "world/world.h"
 
 enum { jump_bits = 24 }; /* of the counter of random numbers: jumps of a particle in a step; the other 40 are the step */
+enum { jumps_looked_at = 1 << 12 }; /* by then a rate that runs away is known by its pace */
 
 /* The length of the rate: up to the first colon that is not the second half of a ?: . */
 static size_t rate_length(const char *text)
@@ -273,6 +274,15 @@ static int round_of(const struct pm_jump_process *p, size_t s, struct pm_frame *
 	return status;
 }
 
+/* Does a particle, at its pace so far, need more jumps than the counter holds? */
+static bool runs_away(const struct jumping *j, double dt, double jumps)
+{
+	bool away = false;
+	for (size_t i = 0; i < j->n; i++)
+		away = away || dt - j->left[i] < dt * jumps / (1 << jump_bits);
+	return away;
+}
+
 static int jump_set(const struct pm_jump_process *p, size_t s, struct pm_frame *f, uint64_t *jumps)
 {
 	const struct pm_jump_channel *channel = p->channel + s * (size_t)p->channels;
@@ -292,8 +302,9 @@ static int jump_set(const struct pm_jump_process *p, size_t s, struct pm_frame *
 		j.left[i] = f->dt;
 	}
 	for (uint64_t k = 0; j.n && !status; k++)
-		status = k >> jump_bits ? pm_fail(PM_NUMERICS, "a particle jumps more than %d times in a step (a shorter dt, or a rate that does not run away)",
-			1 << jump_bits) : round_of(p, s, f, (uint64_t)f->step << jump_bits | k, id ? pm_in_i64(id, 0) : NULL, some->first, &j, jumps);
+		status = k >> jump_bits || (k == jumps_looked_at && runs_away(&j, f->dt, (double)k)) ? pm_fail(PM_NUMERICS,
+			"a particle jumps more than %d times in a step (a shorter dt, or a rate that does not run away)", 1 << jump_bits)
+			: round_of(p, s, f, (uint64_t)f->step << jump_bits | k, id ? pm_in_i64(id, 0) : NULL, some->first, &j, jumps);
 	if (!status && x && x->use & PM_USE_CHANGE) {
 		double *at[3] = {NULL};
 		for (int d = 0; d < f->dim; d++)

@@ -182,7 +182,6 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 		t->request.pair = false;
 		status = pm_measure_frame(how, f, m);
 	}
-	t->many = lacks && pairs == PM_PAIRS_MANY;
 	snprintf(t->lacks, sizeof t->lacks, "%s", lacks ? why : "");
 	t->unknown[0] = 0;
 	for (int i = 0; i < t->n; i++)

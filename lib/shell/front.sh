@@ -153,8 +153,8 @@ choose() {
 
 # answer_again: without a sentence, --until-error, --within and --format tsv or json are answered from the finished sweep in the directory of -o.
 answer_again() {
-	[[ -n $keep && ( -n $until$within_seconds || ${format:-table} != table ) ]] || usage "SENTENCE is missing"
-	[ -s "$keep/pareto.tsv" ] || usage "SENTENCE is missing, and '$keep' holds no finished sweep (pareto.tsv)"
+	[[ -n $keep && ( -n $until$within_seconds || ${format:-table} != table ) ]] || usage "SENTENCE is missing ($arguments_text)"
+	[ -s "$keep/pareto.tsv" ] || usage "SENTENCE is missing ($arguments_text), and '$keep' holds no finished sweep (pareto.tsv)"
 	if [ -n "$until$within_seconds" ]; then choose "$keep/pareto.tsv"; else cat -- "$keep/pareto.$format"; fi
 }
 

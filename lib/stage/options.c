@@ -49,7 +49,8 @@ static int unknown_option(const struct pm_tool *tool, const char *typed, const c
 			best = pm_nearer(name, o->name, best, &least);
 	if (best)
 		return pm_fail(PM_USAGE, "no option '%s' (did you mean --%s?)", typed, best);
-	return pm_fail(PM_USAGE, "no option '%s' (%s --help lists them)", typed, tool->name);
+	return pm_fail(PM_USAGE, tool->arguments ? "no option '%s' (%s --help lists them; behind -- an argument may begin with -)"
+		: "no option '%s' (%s --help lists them)", typed, tool->name);
 }
 
 /* ---- values ---- */
@@ -303,6 +304,9 @@ static int arguments_check(const struct pm_stage *s)
 	return 0;
 }
 
+/* `-` is standard input, and -1 begins a number: no option has a digit for its letter. */
+static bool begins_option(const char *text) { return text[0] == '-' && text[1] && !strchr("0123456789.", text[1]); }
+
 int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 {
 	const struct pm_option *rows[PM_ROWS];
@@ -326,7 +330,7 @@ int pm_options_parse(struct pm_stage *s, int argc, char **argv)
 		if (!only_words && !strcmp(argv[i], "--")) {
 			only_words = true;
 			i++;
-		} else if (!only_words && argv[i][0] == '-' && argv[i][1]) {
+		} else if (!only_words && begins_option(argv[i])) {
 			int took = option(s, argc, argv, i);
 			if (took < 0)
 				return took;

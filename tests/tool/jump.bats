@@ -143,6 +143,10 @@ master() {
 	refused 2 "is not NAME = EXPRESSION" "jump 'a: b' <a"
 	refused 2 "the rate 'a, b' has 2 parts" "jump 'a, b: b = 1' <a"
 	refused 3 "the rate of channel 1 is -4 at index 0" "jump -- '-a: b = 1' <a"
+	refused 3 "the rate of channel 1 is -1 at index 0" "jump '-1: b = 1' <a" # a number, not an option
+	refused 2 "behind -- an argument may begin with -" "jump '-a: b = 1' <a"
+	refused 3 "a particle jumps more than 16777216 times in a step (a shorter dt" "timeout 5 jump '1e30: b = 1' <a"
+	jump '1e30*b: b = b-1' <a | sls --data | grep -qE ' 0( |$)' # an instant reaction that ends
 	refused 3 "the rate of channel 1 is nan at index 0" "jump '0/0: b = 1' <a"
 	refused 3 "'b' would jump to inf at index 0" "jump '9e9: b = 1/(a-4)' <a"
 	refused 1 "no set has the state 'c' (scalc --role state 'c = 0' makes one)" "jump '1: c = 1' <a"

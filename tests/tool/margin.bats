@@ -249,7 +249,7 @@ rk2 - -" ] || { cat t; false; }
 }
 
 @test "an invalid search: one clear line, exit 2" {
-	told 'SENTENCE is missing' --vary a:1:2
+	told 'SENTENCE is missing (Words joined by |' --vary a:1:2
 	told '--vary is missing' 'a {b,c}'
 	told 'nowhere in the sentence' 'a' --vary a:1:2
 	told 'not below the second' 'a {a}' --vary a:2:1

@@ -49,6 +49,11 @@ beam() {
 	done
 }
 
+@test "every kernel has its row of measured heating" {
+	diff <(cd "$top/lib/kernel" && printf '%s\n' -- *.c | sed -n 's/\.c$//p' | sort) \
+		<(sed -n 's/^\t{"\([^"]*\)", .*/\1/p' "$top/lib/effect/grid-heating.c" | sort)
+}
+
 @test "plan: the noise of a sample is foreseen from the frame: a random start is warned of, a quiet one is not, and the amplitude spreads as it says" {
 	pinit landau --loading random --amplitude 0.1 --seed 1 >random
 	plan --no-cost <random | says 'sampling noise' | grep -q '^error .*20000 particles: noise '

@@ -72,6 +72,8 @@ col() { stab --plain | awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++)
 	run -2 scalc --per id 'k = 1' <a
 	run -1 --separate-stderr bash -c "scalc --total --per x 'k = 1' <a | sls"
 	[[ $stderr == *"'x' on 'matter' is a vector, but --per needs one number a particle"* ]]
+	run -1 --separate-stderr bash -c "scalc --total --per none 'k = 1' <a | sls"
+	[[ $stderr == *"no field 'none' on 'matter' for --per (sls lists the fields)"* ]]
 	run -1 --separate-stderr bash -c "scalc --total 'id = 1' <a | sls"
 	[[ $stderr == *"holds whole numbers, but --total needs a real field"* ]]
 }
