@@ -100,6 +100,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		two-stream;10;gravity;| diag --exact;mass=1e-12 charge=1e-12
 		ionic-chain;10;gravity;| diag --exact;mass=1e-12 charge=1e-12 speed_rms=1e-9 energy_kinetic=1e-12
 		plasma;1;gravity;| diag;
+		sheath;1;gravity;| diag;
 		landau;10;gravity;| diag --exact;mass=1e-11 charge=1e-11
 		gyration;50;magnetic;| diag --exact;energy_kinetic=1e-12 centre_x=2e-3 centre_y=2e-3
 		exb;50;magnetic;| diag --exact;energy_kinetic=4e-3 momentum_x=2e-3

@@ -232,7 +232,7 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	for s in $(scenes); do
 		# shellcheck disable=SC2046 # a scene and its options
 		pinit $(small "$s") >start
-		if [ "$s" = plasma ]; then # a box for the word species
+		if [[ $s == plasma || $s == sheath ]]; then # boxes for the words species and inject
 			run -1 plan --check <start
 			[[ $output == *"no particle that moves"* ]] || { echo "$s: $output"; return 1; }
 			continue
