@@ -37,19 +37,14 @@ static int begin(struct pm_stage *s)
 	return 0;
 }
 
-static struct pm_remesh_choice choice_of(const struct config *o, const struct pm_law *law)
-{
-	return (struct pm_remesh_choice){.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off,
-		.rim = o->rim >= 0 ? (int)o->rim : -1, .by = o->by, .drop = o->drop.item, .ndrop = o->drop.n,
-		.out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")};
-}
-
 static int job_of(const struct config *o, const struct pm_frame *f, struct job *j)
 {
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = choice_of(o, law)};
+	*j = (struct job){.choice = {.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off,
+		.rim = o->rim >= 0 ? (int)o->rim : -1, .by = o->by, .drop = o->drop.item, .ndrop = o->drop.n,
+		.out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")}};
 	pm_remesh_defaults(f, &j->choice);
 	j->mesh = pm_frame_mesh(f, o->mesh);
 	if (!j->mesh)
@@ -77,9 +72,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 static int fit(const struct config *o, struct pm_frame *f, struct job *j)
 {
 	const int status = pm_mesh_take_cells(f, j->mesh, &o->cells);
-	if (status || strcmp(o->outside, "grow"))
-		return status < 0 ? status : 0;
-	return pm_remesh_grow(f, j->mesh, j->choice.kernel, &j->sets);
+	return status ? (status < 0 ? status : 0) : strcmp(o->outside, "grow") ? 0 : pm_remesh_grow(f, j->mesh, j->choice.kernel, &j->sets);
 }
 
 /* What is removed is added over frames. */
@@ -125,6 +118,13 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		pm_report_count(s, f, "remeshings", 1);
 	pm_free(mask);
 	return status;
+}
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	const struct config *o = s->config;
+	struct job j;
+	return !o->mask && strcmp(o->when, "distortion") && !job_of(o, f, &j) && pm_remesh_divides(f, &j.sets);
 }
 
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "drop", "grow", NULL};
@@ -175,4 +175,5 @@ const struct pm_tool tool_remesh = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

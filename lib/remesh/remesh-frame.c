@@ -1,11 +1,14 @@
 /* Remeshing a set: every strength is distributed to the nodes, the volume becomes that of the nodes, uniform values are kept, other values are an error,
  * dropped, or remeshed as strength times value (momentum for a velocity), whose total is then conserved like that of a strength.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
 
 #include "remesh/distortion.h"
 #include "remesh/remesh-frame.h"
 #include "stream/declare.h"
+#include "stream/parts.h"
+#include "world/world.h"
 
 /* The treatment of a field. */
 enum part { GONE, POSITION, STRENGTH, VALUE, VOLUME, UNIFORM, REFUSED };
@@ -23,6 +26,9 @@ struct work {
 	struct entry entry[PM_REMESH_VALUES];
 	size_t particles;
 	const double *x[3], *by;
+	bool shared;            /* with other ranks: particles and nodes are those here */
+	struct pm_planes planes;
+	uint64_t *from, all;    /* [ranks + 1] the first of the kept nodes of every rank; the last is all */
 };
 
 static bool is_real(const struct pm_field *field) { return field->type == PM_F64 || field->type == PM_F32; }
@@ -109,6 +115,16 @@ int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_
 	return 0;
 }
 
+bool pm_remesh_divides(const struct pm_frame *f, const struct pm_sets *sets)
+{
+	bool all = true;
+	for (size_t k = 0; k < f->nfields; k++)
+		for (size_t i = 0; i < sets->n; i++)
+			all = all && (strcmp(f->fields[k]->on, sets->name[i]) || f->fields[k]->use || !(pm_is_strength(f->fields[k]) ||
+				!strcmp(f->fields[k]->name, "volume")));
+	return all;
+}
+
 void pm_remesh_drops(struct pm_frame *f, const char *set)
 {
 	unsigned roles = 1u << PM_CHANGE | 1u << PM_DERIVED;
@@ -140,7 +156,8 @@ static int add(struct work *w, struct entry *e, struct pm_strays *strays)
 		}
 	}
 	e->first = w->r.n;
-	int status = room ? pm_remesh_add(&w->r, w->particles, w->x, e->old->components, q, e->part == STRENGTH, strays) : -PM_DATA;
+	int status = pm_world_agree(room ? 0 : -PM_DATA);
+	status = status ? status : pm_remesh_add(&w->r, w->particles, w->x, e->old->components, q, e->part == STRENGTH, strays);
 	for (int c = 0; c < e->old->components; c++)
 		pm_free(made[c]);
 	return status;
@@ -150,7 +167,7 @@ static int add(struct work *w, struct entry *e, struct pm_strays *strays)
 static int collect(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, struct work *w, struct pm_strays *strays)
 {
 	int status = 0;
-	w->particles = pm_frame_set(f, set)->n;
+	w->particles = pm_frame_field(f, set, "x")->count;
 	w->by = c->by ? pm_in(pm_frame_field(f, set, c->by), 0) : NULL;
 	pm_positions(f, set, w->x);
 	for (size_t i = 0; i < f->nfields && !status; i++) {
@@ -167,13 +184,32 @@ static int collect(struct pm_frame *f, const char *set, const struct pm_remesh_c
 	return status;
 }
 
+/* Component k of what the kept nodes have of a field. With other ranks they hold it as their planes have it, and it travels to where the new particles are. */
+static int fill(int status, const struct work *w, const struct entry *e, int k, const uint64_t *to, double *out)
+{
+	double *own = status ? NULL : w->shared ? pm_alloc(w->r.kept + 1, sizeof *own) : out;
+	if (!status && !own)
+		status = pm_failed();
+	if (!status && e->part == POSITION)
+		pm_remesh_position(&w->r, k, own);
+	else if (!status && e->part == VOLUME)
+		pm_remesh_volume(&w->r, own);
+	else if (!status)
+		pm_remesh_value(&w->r, e->first + k, own);
+	if (w->shared) {
+		status = pm_world_recut(status, w->from, to, sizeof *own, own, out);
+		pm_free(own);
+	}
+	return status;
+}
+
 static int divide(const struct work *w, const struct pm_remesh_choice *c, struct pm_field *made)
 {
-	double *by = pm_alloc(made->count, sizeof *by);
+	double *by = pm_alloc(made->count + 1, sizeof *by);
 	int status = by ? 0 : -PM_DATA;
-	for (int i = 0; i < w->n && by; i++)
+	for (int i = 0; i < w->n; i++)
 		if (!strcmp(w->entry[i].old->name, c->by))
-			pm_remesh_value(&w->r, w->entry[i].first, by);
+			status = fill(status, w, &w->entry[i], 0, made->from, by);
 	for (size_t p = 0; p < made->count && !status; p++)
 		if (by[p] == 0)
 			status = pm_fail(PM_DATA, "a node has no '%s' but another strength: '%s' is not defined there (--drop %s, or a positive kernel)", c->by,
@@ -193,26 +229,25 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 		return 0;
 	}
 	struct pm_field *made = pm_makes(f, set, old->name, old->components, PM_STATE);
-	if (!made)
-		return -PM_DATA;
-	json_decref(made->more);
-	made->more = json_deep_copy(old->more);
-	made->extensive = old->extensive;
-	made->type = old->type;
-	made->uniform = e->part == UNIFORM;
-	made->use |= PM_USE_FILL;
-	memcpy(made->unit, old->unit, sizeof made->unit);
-	memcpy(made->value, old->value, sizeof made->value);
-	if (pm_field_ready(made))
-		return -PM_DATA;
-	for (int k = 0; k < made->components; k++)
-		if (e->part == POSITION)
-			pm_remesh_position(&w->r, k, pm_out(made, k));
-		else if (e->part == VOLUME)
-			pm_remesh_volume(&w->r, pm_out(made, k));
-		else if (e->part != UNIFORM)
-			pm_remesh_value(&w->r, e->first + k, pm_out(made, k));
-	return e->part == VALUE ? divide(w, c, made) : 0;
+	int status = made ? 0 : -PM_DATA;
+	if (made) {
+		json_decref(made->more);
+		made->more = json_deep_copy(old->more);
+		made->extensive = old->extensive;
+		made->type = old->type;
+		made->uniform = e->part == UNIFORM;
+		made->use |= PM_USE_FILL;
+		memcpy(made->unit, old->unit, sizeof made->unit);
+		memcpy(made->value, old->value, sizeof made->value);
+		status = w->shared ? pm_field_share(made, pm_sum_block) : 0;
+		status = status ? status : pm_field_ready(made);
+	}
+	status = pm_world_agree(status);
+	for (int k = 0; !status && e->part != UNIFORM && k < made->components; k++)
+		status = fill(status, w, e, k, made->from, pm_out(made, k));
+	if (!status && e->part == VALUE)
+		status = divide(w, c, made);
+	return pm_world_agree(status);
 }
 
 static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mesh *m)
@@ -259,6 +294,54 @@ static int balance(const struct pm_frame *f, const char *set, const struct pm_st
 	return 0;
 }
 
+/* The planes of this rank, where the particles are divided. */
+static int share(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_grid *g, struct work *w)
+{
+	struct pm_field nodes = {.count = pm_grid_size(g)};
+	if (!(w->shared = pm_frame_field(f, set, "x")->here))
+		return 0;
+	int status = pm_field_share(&nodes, pm_division_grain(f, m->name));
+	status = pm_world_agree(status ? status : pm_planes_init(&w->planes, g, &nodes));
+	free((void *)(uintptr_t)nodes.from);
+	if (!status)
+		pm_remesh_share(&w->r, &w->planes);
+	return status;
+}
+
+/* How many particles there will be, and whose planes have them. */
+static int count(struct work *w)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	w->all = w->r.kept;
+	if (!w->shared)
+		return 0;
+	int status = (w->from = calloc(ranks + 1, sizeof *w->from)) ? 0 : pm_no_memory();
+	if (!status)
+		w->from[pm_world_rank() + 1] = w->r.kept;
+	status = pm_world_count(status, PM_SUM_OF, ranks + 1, (int64_t *)w->from);
+	for (size_t r = 0; r < ranks && !status; r++)
+		w->from[r + 1] += w->from[r];
+	w->all = status ? 0 : w->from[ranks];
+	return status;
+}
+
+/* Particles that the mesh has no room for. Their number becomes that of all ranks. */
+static int judge(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const struct pm_remesh_choice *c,
+	struct pm_strays *strays)
+{
+	int status = 0;
+	int64_t all = (int64_t)strays->count;
+	strays->first += pm_frame_field(f, set, "x")->first;
+	if (strays->count && !c->out && c->mask)
+		status = pm_fail(PM_DATA, "particle %zu of '%s' is beyond the mesh, or deeper in a body than 16 cells (a smaller step, or --outside "
+			"drop)", strays->first, set);
+	else if (strays->count && !c->out)
+		status = pm_strays_refuse(strays, set, m, t, "a larger box, --outside grow or drop, or a --cut-off that keeps particles from spreading");
+	status = pm_world_count(status, PM_SUM_OF, 1, &all);
+	strays->count = (uint64_t)all;
+	return status;
+}
+
 int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss)
 {
 	const struct pm_grid g = pm_grid_of(f, m);
@@ -269,18 +352,15 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	pm_strengths_of(f, set, &before);
 	pm_remesh_squared(f, set, &square);
 	w.r.mask = c->mask;
-	int status = collect(f, set, c, &w, &strays);
 	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
-	if (!status && strays.count && !c->out && c->mask)
-		status = pm_fail(PM_DATA, "particle %zu of '%s' is beyond the mesh, or deeper in a body than 16 cells (a smaller step, or --outside "
-			"drop)", strays.first, set);
-	if (!status && strays.count && !c->out)
-		status = pm_strays_refuse(&strays, set, m, &t, "a larger box, --outside grow or drop, or a --cut-off that keeps particles from spreading");
-	if (!status)
-		status = pm_remesh_keep(&w.r, c->cut_off, c->rim);
+	int status = share(f, set, m, &g, &w);
+	status = status ? status : collect(f, set, c, &w, &strays);
+	status = status ? status : judge(f, set, m, &t, c, &strays);
+	status = status ? status : pm_remesh_keep(&w.r, c->cut_off, c->rim);
+	status = status ? status : count(&w);
 	if (!status) {
 		note_loss(&w, &before, &strays, loss);
-		pm_frame_set(f, set)->n = w.r.kept;
+		pm_frame_set(f, set)->n = w.all;
 	}
 	for (int i = 0; i < w.n && !status; i++)
 		status = renew(f, set, &w, c, &w.entry[i]);
@@ -291,5 +371,7 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	if (!status && c->overlap)
 		status = keep_overlap(f, set, m);
 	pm_remesh_free(&w.r);
+	pm_planes_free(&w.planes);
+	free(w.from);
 	return status;
 }

@@ -34,6 +34,8 @@ int pm_remesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_kernel
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
 /* For declare(): fails for fields that cannot be distributed to nodes, declares the others as read. */
 int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c);
+/* Behind that: can ranks share it? Where every strength of the sets and the volume is read, because their sums are compared. */
+bool pm_remesh_divides(const struct pm_frame *f, const struct pm_sets *sets);
 /* Drops the fields that are invalid after the particles of the set are replaced: its change and derived fields and registers, and those of the meshes. */
 void pm_remesh_drops(struct pm_frame *f, const char *set);
 /* sum of q^2/volume, all components, of the set's first strength q (remesh-square.c), which is returned; NULL and 0 if it or the volume is missing. */

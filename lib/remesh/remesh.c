@@ -8,8 +8,12 @@
 #include "remesh/remesh.h"
 #include "base/in-order.h"
 #include "transfer/one-sided.h"
+#include "world/world.h"
 
-static size_t rows_of(const struct pm_remesh *r) { return r->grid.points[1] * r->grid.points[2]; }
+static size_t rows_of(const struct pm_remesh *r) { return r->points / r->grid.points[0]; }
+
+/* The number in the mesh of the first row here. */
+static size_t first_row(const struct pm_remesh *r) { return r->planes ? pm_planes_row(r->planes, 0) : 0; }
 
 /* Of node i of a row. */
 static double volume_of(const struct pm_grid *g, size_t row, size_t i)
@@ -27,13 +31,20 @@ struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k
 	return r;
 }
 
+void pm_remesh_share(struct pm_remesh *r, const struct pm_planes *planes)
+{
+	r->planes = planes;
+	r->points = planes->here * planes->size;
+}
+
 /* Densities to strengths: times the volume of each node. */
 static void weigh(const struct pm_remesh *r, double *node)
 {
+	const size_t first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
 	for (size_t row = 0; row < rows_of(r); row++)
 		for (size_t i = 0, n = r->grid.points[0]; i < n; i++)
-			node[row * n + i] *= volume_of(&r->grid, row, i);
+			node[row * n + i] *= volume_of(&r->grid, first + row, i);
 }
 
 /* Copies of the positions and strengths in which those of which[] stand in the middle of the mesh and have none. */
@@ -79,40 +90,45 @@ static int add_beside(const struct pm_remesh *r, size_t n, const double *const x
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
 	struct pm_strays *strays)
 {
-	const struct pm_transfer t = {.grid = r->grid, .kernel = r->kernel, .components = components};
-	int first = r->n;
+	const struct pm_transfer t = {.grid = r->grid, .kernel = r->kernel, .components = components, .planes = r->planes};
+	int first = r->n, status = 0;
 	if (first + components > PM_REMESH_VALUES)
 		return pm_fail(PM_DATA, "more than %d values per particle to remesh (leave some out with --drop)", PM_REMESH_VALUES);
-	for (int c = 0; c < components; c++, r->n++) {
-		r->node[r->n] = pm_zalloc(r->points, sizeof(double));
-		if (!r->node[r->n])
-			return -PM_DATA;
+	for (int c = 0; c < components && !status; c++, r->n++) {
+		r->node[r->n] = pm_zalloc(r->points + 1, sizeof(double));
+		status = r->node[r->n] ? 0 : -PM_DATA;
 		r->field[r->n] = decides ? first : -1;
 	}
-	int status = r->mask ? 0 : pm_spread(&t, n, x, q, r->node + first, strays);
-	if (r->mask)
-		status = add_beside(r, n, x, components, q, first, strays);
+	status = pm_world_agree(status);
+	if (!status)
+		status = r->mask ? add_beside(r, n, x, components, q, first, strays) : pm_spread(&t, n, x, q, r->node + first, strays);
 	for (int i = first; i < r->n && !status; i++) {
 		if (!r->mask)
 			weigh(r, r->node[i]);
 		if (!pm_finite(r->points, r->node[i]))
 			status = pm_fail(PM_NUMERICS, "a remeshed strength is not finite (strengths this large overflow)");
 	}
-	return status;
+	return pm_world_agree(status);
 }
 
-static void thresholds(const struct pm_remesh *r, double cut_off, double least[])
+static int thresholds(const struct pm_remesh *r, double cut_off, double least[])
 {
+	double largest[PM_REMESH_VALUES];
 	for (int i = 0; i < r->n; i++) {
 		double most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most) if (r->points > 16384)
 		for (size_t p = 0; p < r->points; p++)
 			most = fmax(most, fabs(r->node[i][p]));
-		least[i] = cut_off * most;
+		largest[i] = most;
+	}
+	const int status = pm_world_largest(0, (size_t)r->n, largest);
+	for (int i = 0; i < r->n; i++) {
+		least[i] = cut_off * largest[i];
 		if (r->field[i] >= 0 && r->field[i] < i) /* components share the largest */
 			for (int c = r->field[i]; c <= i; c++)
 				least[c] = fmax(least[r->field[i]], least[i]);
 	}
+	return status;
 }
 
 /* Marks the nodes that become particles. */
@@ -137,27 +153,34 @@ static bool has_room(const struct pm_remesh *r, int d, size_t k)
 	return (low == PM_PERIODIC || low == PM_NEUMANN || k >= room) && (high == PM_PERIODIC || high == PM_NEUMANN || k + room <= r->grid.cells[d]);
 }
 
-/* Every node within `rim` cells of a marked one along each axis is marked as well. */
+/* Every node within `rim` cells of a marked one along each axis is marked as well. Along a divided axis the marks of the neighbours' planes are brought. */
 static int widen(struct pm_remesh *r, int rim)
 {
-	unsigned char *from = pm_alloc(r->points, 1);
+	const int dim = r->grid.dim, across = r->planes && r->planes->axis ? r->planes->axis : dim;
+	const size_t last = r->grid.points[dim - 1], most = (size_t)rim < last ? (size_t)rim : last - 1, beside = across < dim ? most * r->planes->size : 0;
+	unsigned char *room = pm_zalloc(r->points + 2 * beside + 1, 1), *from = room ? room + beside : NULL;
+	int status = pm_world_agree(room ? 0 : -PM_DATA);
 	size_t stride = 1;
-	for (int d = 0; d < r->grid.dim && from; stride *= r->grid.points[d++]) {
-		const size_t n = r->grid.points[d], reach = (size_t)rim < n ? (size_t)rim : n - 1;
+	for (int d = 0; d < dim && !status; stride *= r->grid.points[d++]) {
+		const size_t n = r->grid.points[d], reach = (size_t)rim < n ? (size_t)rim : n - 1, first = d == across ? r->planes->first : 0;
 		const bool round = r->grid.face[d][0] == PM_PERIODIC;
+		const size_t turn = d == across ? 0 : n * stride; /* a halo has the planes beyond the seam where they would be */
 		memcpy(from, r->keep, r->points);
+		if (d == across)
+			status = pm_world_halo(0, &(struct pm_halo){.from = r->planes->from, .bytes = stride, .wide = (int)reach, .periodic = round}, from);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
 		for (size_t p = 0; p < r->points; p++) {
-			const size_t k = p / stride % n, row = p - k * stride;
-			bool keep = from[p];
+			const size_t k = first + p / stride % n;
+			const unsigned char *at = from + p;
+			bool keep = *at;
 			for (size_t s = 1; s <= reach && !keep && has_room(r, d, k); s++)
-				keep = (k >= s ? from[row + (k - s) * stride] : round && from[row + (k + n - s) * stride]) ||
-					(k + s < n ? from[row + (k + s) * stride] : round && from[row + (k + s - n) * stride]);
+				keep = (k >= s ? *(at - s * stride) : round && *(at + turn - s * stride)) ||
+					(k + s < n ? *(at + s * stride) : round && *(at + s * stride - turn));
 			r->keep[p] = keep && !(r->mask && r->mask[p]);
 		}
 	}
-	pm_free(from);
-	return from ? 0 : -PM_DATA;
+	pm_free(room);
+	return status;
 }
 
 /* What the nodes cut off held. */
@@ -184,7 +207,7 @@ static size_t count_row(const struct pm_remesh *r, size_t row, uint64_t *cut)
 	return kept;
 }
 
-static void count(struct pm_remesh *r)
+static int count(struct pm_remesh *r)
 {
 	const size_t rows = rows_of(r);
 	uint64_t cut = 0;
@@ -196,33 +219,40 @@ static void count(struct pm_remesh *r)
 	r->before[0] = 0;
 	for (size_t row = 0; row < rows; row++)
 		r->before[row + 1] += r->before[row];
-	pm_over_mesh(&parts, r, r->grid.points, lost);
+	int64_t all = (int64_t)cut;
+	int status = pm_world_count(0, PM_SUM_OF, 1, &all);
+	if (r->planes)
+		status = pm_planes_over(status, r->planes, &parts, r, lost);
+	else
+		pm_over_mesh(&parts, r, r->grid.points, lost);
 	for (int i = 0; i < r->n; i++)
 		r->lost[i] = pm_sum_total(lost[i]);
-	r->cut = cut;
+	r->cut = (uint64_t)all;
 	r->kept = r->before[rows];
+	return status;
 }
 
 int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim)
 {
 	double least[PM_REMESH_VALUES];
-	r->keep = pm_alloc(r->points, 1);
+	r->keep = pm_alloc(r->points + 1, 1);
 	r->before = pm_alloc(rows_of(r) + 1, sizeof *r->before);
-	int status = r->keep && r->before ? 0 : -PM_DATA;
+	int status = pm_world_agree(r->keep && r->before ? 0 : -PM_DATA);
+	status = status ? status : thresholds(r, cut_off, least);
 	if (!status) {
-		thresholds(r, cut_off, least);
 		mark(r, least);
 		status = rim ? widen(r, rim) : 0;
 	}
-	if (!status)
-		count(r);
-	return status;
+	return status ? status : count(r);
 }
 
 double pm_remesh_total(const struct pm_remesh *r, int i)
 {
 	struct pm_sum all = {0, 0};
-	pm_sum_of_mesh(r->grid.points, r->node[i], NULL, NULL, &all);
+	if (!r->planes)
+		pm_sum_of_mesh(r->grid.points, r->node[i], NULL, NULL, &all);
+	else if (pm_planes_sum(0, r->planes, r->node[i], NULL, NULL, &all))
+		pm_cannot_go_on();
 	return pm_sum_total(all);
 }
 
@@ -238,24 +268,24 @@ void pm_remesh_value(const struct pm_remesh *r, int i, double *out)
 
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x)
 {
-	const size_t n = r->grid.points[0];
+	const size_t n = r->grid.points[0], first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
 	for (size_t row = 0; row < rows_of(r); row++)
 		for (size_t i = 0, to = r->before[row]; i < n; i++)
 			if (r->keep[row * n + i]) {
-				const size_t at[3] = {i, row % r->grid.points[1], row / r->grid.points[1]};
+				const size_t at[3] = {i, (first + row) % r->grid.points[1], (first + row) / r->grid.points[1]};
 				x[to++] = r->grid.lo[d] + (double)at[d] * r->grid.h[d];
 			}
 }
 
 void pm_remesh_volume(const struct pm_remesh *r, double *volume)
 {
-	const size_t n = r->grid.points[0];
+	const size_t n = r->grid.points[0], first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
 	for (size_t row = 0; row < rows_of(r); row++)
 		for (size_t i = 0, to = r->before[row]; i < n; i++)
 			if (r->keep[row * n + i])
-				volume[to++] = volume_of(&r->grid, row, i);
+				volume[to++] = volume_of(&r->grid, first + row, i);
 }
 
 void pm_remesh_free(struct pm_remesh *r)

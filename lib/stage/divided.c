@@ -50,6 +50,43 @@ static void uses_free(struct uses *u)
 	u->n = 0;
 }
 
+static bool is_used(const struct uses *u, const struct pm_field *field)
+{
+	for (size_t i = 0; i < u->n; i++)
+		if (u->of[i].field == field)
+			return true;
+	return false;
+}
+
+/* Behind frame(): the fields that it made and divided, whose parts get numbers, and those that it dropped. */
+static int adopt(int status, struct uses *u, struct pm_frame *f)
+{
+	const size_t before = u->n;
+	struct used *of = realloc(u->of, (u->n + f->nfields + 1) * sizeof *of);
+	uint64_t *id = calloc(f->nfields + 1, sizeof *id);
+	if (!status && !(of && id))
+		status = pm_no_memory();
+	u->of = of ? of : u->of;
+	for (size_t i = 0; of && i < f->nfields; i++)
+		if (f->fields[i]->here && !is_used(u, f->fields[i])) {
+			f->fields[i]->order = (int)i;
+			u->of[u->n++] = (struct used){.field = f->fields[i], .from = (uint64_t *)(uintptr_t)f->fields[i]->from};
+		}
+	for (size_t i = 0; i < u->n; i++)
+		for (size_t k = 0; k < f->ndropped; k++)
+			u->of[i].dropped |= u->of[i].field == f->dropped[k];
+	status = pm_world_agree(status);
+	if (!status && u->n > before) {
+		for (size_t i = before; i < u->n && !pm_world_rank(); i++)
+			id[i - before] = pm_parts_number();
+		status = pm_world_share(status, 0, id, (u->n - before) * sizeof *id);
+		for (size_t i = before; i < u->n && !status; i++)
+			u->of[i].is = id[i - before];
+	}
+	free(id);
+	return status;
+}
+
 /* On every rank: the same operations in the same order, whatever its status. */
 static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int status)
 {
@@ -65,6 +102,7 @@ static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int
 		status = s->tool->frame(s, f);
 		pm_work_since(s, began);
 		status = pm_world_agree(status < 0 ? status : status > 0 ? pm_fail(PM_DATA, "a divided word cannot leave a frame out") : 0);
+		status = adopt(status, u, f);
 		if (!status)
 			status = pm_world_agree(pm_frame_settle(f));
 		else
@@ -301,7 +339,7 @@ int pm_divided_follow(const struct pm_tool *tool, const char *text)
 	for (size_t i = 0; i < u.n; i++) {
 		struct pm_field *p = u.of[i].field;
 		struct pm_buffer *b = p ? pm_parts_of(u.of[i].is, false) : NULL; /* there already: it was read alone */
-		if (p && p->buffer && !b && pm_parts_keep(u.of[i].is, p->buffer))
+		if (u.of[i].is && p && p->buffer && !b && pm_parts_keep(u.of[i].is, p->buffer))
 			pm_cannot_go_on();
 		pm_buffer_free(b);
 	}

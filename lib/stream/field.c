@@ -228,6 +228,12 @@ int pm_field_enter(struct pm_field *field, const uint64_t *from)
 	return 0;
 }
 
+int pm_field_share(struct pm_field *field, uint64_t grain)
+{
+	const uint64_t *from = pm_division_new(field->count, grain);
+	return from ? pm_field_enter(field, from) : -PM_DATA;
+}
+
 void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id)
 {
 	const size_t ranks = (size_t)pm_world_size();

@@ -41,6 +41,8 @@ struct pm_buffer *pm_parts_of(uint64_t id, bool take);
 int pm_parts_keep(uint64_t id, struct pm_buffer *b);                                 /* a further use */
 void pm_parts_free(void);
 
+/* A field made in frame() of a divided frame, on all ranks: count is of all, and becomes that of this rank. Whoever runs the stage frees from. 0 or failure. */
+int pm_field_share(struct pm_field *field, uint64_t grain);
 /* Between these the field is this rank's stretch alone: field->count values, the first of them number field->first. */
 int pm_field_enter(struct pm_field *field, const uint64_t *from);
 void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id); /* id: of the parts that the field has now */

@@ -128,16 +128,38 @@ int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm
 		high, remedy);
 }
 
+/* As pm_transfer_grow; with other ranks of the corners of the box around all particles, which decide. */
+static int grow_set(const struct pm_frame *f, const struct pm_transfer *t, const char *set, size_t need[2][3])
+{
+	const struct pm_field *positions = pm_frame_field(f, set, "x");
+	const double *x[3];
+	double most[6], corner[3][2];
+	pm_positions(f, set, x);
+	if (!positions->here)
+		return pm_transfer_grow(t, positions->count, x, need[0], need[1]);
+	for (int d = 0; d < f->dim; d++) {
+		most[2 * d] = most[2 * d + 1] = -INFINITY;
+		for (size_t p = 0; p < positions->count; p++) {
+			most[2 * d] = fmax(most[2 * d], -x[d][p]);
+			most[2 * d + 1] = fmax(most[2 * d + 1], x[d][p]);
+		}
+	}
+	const int status = pm_world_largest(0, 2 * (size_t)f->dim, most);
+	for (int d = 0; d < f->dim; d++) {
+		corner[d][0] = -most[2 * d], corner[d][1] = most[2 * d + 1];
+		x[d] = corner[d];
+	}
+	return status ? status : pm_transfer_grow(t, isfinite(most[0]) ? 2 : 0, x, need[0], need[1]);
+}
+
 int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer *t, const struct pm_sets *sets)
 {
 	size_t need[2][3] = {{0}}, cells[3] = {1, 1, 1};
 	double lo[3];
 	bool grown = false;
 	for (size_t i = 0; i < sets->n; i++) {
-		const double *x[3];
 		size_t here[2][3];
-		pm_positions(f, sets->name[i], x);
-		int status = pm_transfer_grow(t, pm_frame_set(f, sets->name[i])->n, x, here[0], here[1]);
+		int status = grow_set(f, t, sets->name[i], here);
 		if (status)
 			return status;
 		for (int side = 0; side < 2; side++)

@@ -155,6 +155,62 @@ charged() {
 	shares "maxwell --layers 3, push drift, m2p" "$step" <plane
 }
 
+# blobs D N: particles at random with strengths of both signs, in D dimensions.
+blobs() {
+	awk -v d="$1" -v n="$2" 'BEGIN { srand(3); print substr("x y z ", 1, 2*d) (d == 3 ? "alpha_x alpha_y alpha_z" : "circulation") " volume"
+		for (i = 0; i < n; i++) { for (k = 0; k < d; k++) printf "%g ", rand()
+			for (k = 0; k < (d == 3 ? 3 : 1); k++) printf "%g ", rand() - 0.3; print 1/n } }' |
+			stab - --law vortex --dt 0.1 -n 40 "${@:3}"
+}
+
+@test "any number of ranks: remesh cuts the new particles anew: open boxes that grow, rims wider than a rank, walls, values, two sets" {
+	local flow="field 'vel = 2 - y, x' | push euler" kernel
+	blobs 2 9000 --box 0,0,1,1 --faces periodic --particle-faces periodic >periodic
+	blobs 2 9000 --box 0,0,1,1 --faces open --particle-faces open >open
+	same "$flow | remesh --rim 9" <open
+	same "$flow | remesh --kernel cic --cut-off 0.4 --rim 60 -n 70x90" <periodic
+	same "$flow | remesh --kernel lambda-4-4 --cut-off 0.8 --drop volume" <periodic
+	same "$flow | remesh --when distortion | remesh --mask 'x < 0.1' --kernel cic" <periodic
+	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push rk2 | remesh"
+	pinit uniform -n 9000 --dispersion 0.3 >box
+	same "push drift | remesh -n 18 --by mass --kernel tsc | ssort" --store f32 <box
+	pinit uniform -n 5000 --dim 1 --dispersion 0.3 | same "push drift | remesh -n 5000 --by mass --kernel tsc --every 2"
+	pinit uniform -n 5000 --dispersion 0.3 --faces wall,neumann,periodic,periodic,neumann,wall \
+		--particle-faces reflect,reflect,periodic,periodic,reflect,reflect | same "push drift | remesh -n 16x15x17 --by mass --kernel tsc"
+	pinit plummer -n 1000 | smod --rename matter=b >two
+	pinit plummer -n 5000 | stack - two | same "push drift | p2m -n 16 | remesh --by mass --kernel tsc --cut-off 1e-4"
+	shares "field vel = 2 - y, x, push euler, remesh" "$flow | remesh" <periodic
+	for kernel in m6prime cic; do
+		cycle -q -n 1 "$flow | remesh --kernel $kernel --outside error" <open 2>want >/dev/null && return 1
+		on 3 cycle -q -n 1 "$flow | remesh --kernel $kernel --outside error" <open 2>got >/dev/null && return 1
+		cmp want got
+	done
+}
+
+# sent WORD TABLE: kB that all ranks sent for it, as --timing says.
+sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 * ($2 == "kB" ? 1 : $2 == "MB" ? 1000 : 1e-3) }' "$2"; }
+
+@test "what remesh sends: what p2m does, and x and the strength of nodes that change their rank; without memory on a rank it ends in one line" {
+	pinit uniform -n 9000 --dispersion 0.3 >box
+	on 3 cycle -q -n 1 --timing - "push drift | p2m -n 20 --kernel tsc | remesh --drop v --kernel tsc" <box 2>table >/dev/null
+	# 8000 nodes in 20 planes, 6, 7 and 7 a rank; as particles 0, 4096 and 3904: 2400 and 1104 change, of 4 numbers each; 3 kB of sums and counts
+	awk -v p="$(sent p2m table)" -v r="$(sent remesh table)" 'BEGIN { more = r - p - (2400 + 1104)*4*8/1000; print p, r, more
+		exit !(p > 100 && more > 0 && more < 4) }'
+	local s="push drift | remesh -n 20 --by mass --kernel tsc" rank call failed=0 code
+	cycle -n 1 -i box -o alone "$s"
+	for rank in 0 1 2; do
+		for call in 20 30 45 60 80 100; do
+			code=0
+			OMP_NUM_THREADS=1 PM_REHEARSE="memory=$rank:$call" on 3 cycle -n 1 -i box -o file "$s" 2>said || code=$?
+			if [ $code -eq 0 ]; then cmp file alone; else
+				[ $code -eq 1 ] && grep -q "out of memory" said && [ "$(wc -l <said)" -eq 1 ] || { cat said; return 1; }
+				grep -q "remesh.*out of memory" said && failed=$((failed + 1))
+			fi
+		done
+	done
+	[ $failed -gt 3 ]
+}
+
 @test "any number of ranks: steps by the strain of a flow, energies on meshes in the table of diag" {
 	local start words n
 	vortices | same "p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3"
