@@ -253,8 +253,9 @@ int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f)
 	if (!t->note[0])
 		filaments(f, &how, t->note);
 	if (!t->note[0] && (how.flux || how.field_errors) && !pm_field_known(&how, f))
-		snprintf(t->note, sizeof t->note, "%s nan: no mesh has the density and the potential of the law (a solver before diag: poisson-fft)",
-			how.flux ? "flux and flux_enclosed are" : "field_residual and field_curl are");
+		snprintf(t->note, sizeof t->note, "%s nan: no mesh has %s",
+			how.flux ? "flux and flux_enclosed are" : "field_residual and field_curl are", how.evolves ? "E and B where Yee has them (for which "
+			"flux is that of the energy)" : "the density and the potential of the law (a solver before diag: poisson-fft)");
 	for (int i = 0; i < t->n; i++)
 		value[i] = pm_diag_value(&t->column[i], &m, f);
 	if (remember(t, value, f->time))

@@ -3,6 +3,7 @@
  *   flux_enclosed   = -c sum of rho over the nodes of the box, less its mean where no face fixes phi
  *   field_residual  = rms (c rho - lap phi) over rms (c rho), differences of order 2, on nodes that are on no face; without walls up to a constant
  *   field_curl      = largest |curl F| h over the largest |F|, with the differences that made F, away from faces; h the smallest spacing
+ * Of fields that evolve by Maxwell's equations flux and flux_enclosed are those of the energy (measure-poynting.c).
  * Differences of order 2 on both sides make flux and flux_enclosed equal to round-off for poisson-fft --symbol fd2, poisson-mg and poisson-relax; others leave
  * order h^2. Cost: passes over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure-field.h"
@@ -16,7 +17,20 @@
 #include "mesh/mesh-sum.h"
 #include "stream/declare.h"
 
+static const char *const magnetic = "B";
+
 static bool wanted(const struct pm_measure *how) { return (how->field_errors || how->flux) && !how->vector && !how->evolves; }
+
+/* The mesh with Yee's E and B, if their flux is wanted. */
+static const struct pm_mesh *lit(const struct pm_measure *how, const struct pm_frame *f)
+{
+	for (size_t i = 0; how->flux && how->evolves && i < f->nmeshes; i++) {
+		const struct pm_field *e = pm_frame_field(f, f->meshes[i]->name, how->field), *b = pm_frame_field(f, f->meshes[i]->name, magnetic);
+		if (e && b && e->components == 3 && b->components == 3 && e->staggered[0][0])
+			return f->meshes[i];
+	}
+	return NULL;
+}
 
 static const struct pm_mesh *solved(const struct pm_measure *how, const struct pm_frame *f)
 {
@@ -26,10 +40,9 @@ static const struct pm_mesh *solved(const struct pm_measure *how, const struct p
 	return NULL;
 }
 
-bool pm_field_known(const struct pm_measure *how, const struct pm_frame *f) { return solved(how, f) != NULL; }
+bool pm_field_known(const struct pm_measure *how, const struct pm_frame *f) { return solved(how, f) || lit(how, f); }
 
-/* The nodes of the box of the flux along an axis: first <= i < end. */
-static void nodes(const struct pm_measure *how, const struct pm_grid *g, int d, size_t *first, size_t *end)
+void pm_flux_nodes(const struct pm_measure *how, const struct pm_grid *g, int d, size_t *first, size_t *end)
 {
 	const double slack = 1e-9 * g->h[d];
 	*first = 0, *end = d < g->dim ? 0 : 1;
@@ -44,18 +57,21 @@ static void nodes(const struct pm_measure *how, const struct pm_grid *g, int d, 
 
 int pm_field_reads(const struct pm_measure *how, struct pm_frame *f)
 {
-	const struct pm_mesh *mesh = solved(how, f);
+	const struct pm_mesh *light = lit(how, f), *mesh = light ? light : solved(how, f);
 	if (!mesh)
 		return 0;
-	pm_reads(f, mesh->name, how->density), pm_reads(f, mesh->name, how->potential);
-	if (how->field_errors)
+	if (light)
+		pm_reads(f, mesh->name, how->field), pm_reads(f, mesh->name, magnetic);
+	else
+		pm_reads(f, mesh->name, how->density), pm_reads(f, mesh->name, how->potential);
+	if (how->field_errors && !light)
 		pm_law_field_reads(how, f);
 	const struct pm_grid g = pm_grid_of(f, mesh);
 	if (how->flux && how->nflux != 2 * g.dim)
 		return pm_fail(PM_USAGE, "--flux-box needs %d numbers, the lower corner of a box and the upper one", 2 * g.dim);
 	for (int d = 0; d < g.dim && how->flux; d++) {
 		size_t first, end;
-		nodes(how, &g, d, &first, &end);
+		pm_flux_nodes(how, &g, d, &first, &end);
 		if (first >= end || first == 0 || end >= g.points[d])
 			return pm_fail(PM_DATA, "--flux-box must have nodes of the mesh inside and around it, but along %c it goes from %g to %g "
 				"in a mesh from %g to %g", "xyz"[d], how->flux[d], how->flux[g.dim + d], g.lo[d], g.lo[d] + (double)(g.points[d] - 1) * g.h[d]);
@@ -89,7 +105,7 @@ static void flux(const struct pm_measure *how, const struct pm_grid *g, const do
 	struct pm_sum surface = {0, 0}, inside = {0, 0};
 	const double cells = (double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2], mean = unfixed(g) ? pm_grid_sum(g, rho, NULL) / cells : 0;
 	for (int d = 0; d < 3; d++)
-		nodes(how, g, d, &first[d], &end[d]);
+		pm_flux_nodes(how, g, d, &first[d], &end[d]);
 	for (size_t k = first[2]; k < end[2]; k++)
 		for (size_t j = first[1]; j < end[1]; j++)
 			for (size_t i = first[0]; i < end[0]; i++) {
@@ -168,9 +184,14 @@ out:
 
 int pm_field_of(const struct pm_measure *how, const struct pm_frame *f, double value[PM_FIELD_COLUMNS])
 {
-	const struct pm_mesh *mesh = solved(how, f);
+	const struct pm_mesh *mesh = solved(how, f), *light = lit(how, f);
 	for (int k = 0; k < PM_FIELD_COLUMNS; k++)
 		value[k] = NAN;
+	if (light) {
+		const struct pm_grid g = pm_grid_of(f, light);
+		pm_poynting_of(how, &g, pm_frame_field(f, light->name, how->field), pm_frame_field(f, light->name, magnetic), &value[PM_FLUX],
+			&value[PM_FLUX_ENCLOSED]);
+	}
 	if (!mesh)
 		return 0;
 	const struct pm_field *rho = pm_frame_field(f, mesh->name, how->density), *phi = pm_frame_field(f, mesh->name, how->potential);

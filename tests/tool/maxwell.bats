@@ -93,3 +93,24 @@ residual() { p2m "$@" | maxwell --gauss | sls --report | grep -o '"residual":[-0
 		[[ $particles = reflect ]] || below "$(column particles <t)" 399
 	done
 }
+
+@test "diag --flux-box: the energy of light in a box changes by what flows out, of order 2, in 1-D to 3-D; a wave carries eps0 c E^2" {
+	local box=('' 1,2.3 1,1.5,2.3,3.1 1,1.5,0.5,2.3,2.6,2.1) points
+	for dim in 1 2 3; do # the wave goes along the diagonal
+		points=()
+		for n in 16 24 36; do
+			pinit em-wave --dim $dim --axes $dim --cells $n --dt "$(calc "2.4 / $n")" | cycle -q -n $((n / 2)) --every 1 "$step" |
+				diag --flux-box="${box[dim]}" --columns time,flux,flux_enclosed >t
+			points+=("$(calc "1/$n")" "$(awk 'NR > 1 { if (NR > 2) out += ($1 - s) * ($2 + f) / 2; else start = $3; s = $1; f = $2; last = $3 }
+				END { d = (last - start + out) / (out < 0 ? -out : out); print d < 0 ? -d : d }' t)")
+		done
+		echo "$dim: ${points[*]}"
+		order 2 "${points[@]}"
+		below "${points[5]}" 0.02 "$dim-D" # of what has flown through
+	done
+	# between walls half a wave apart the whole flux is eps0 c E0^2 cos^2 at one end less that at the other
+	pinit em-wave --cells 400 | diag --flux-box="1,$(calc '1 + pi / 2')" --columns flux | tail -1 >flux
+	within "$(<flux)" "$(calc '1e-4 * (cos(1 + pi/2)^2 - cos(1)^2)')" 1e-6
+	run -1 --separate-stderr bash -c 'pinit em-wave --cells 400 | diag --flux-box=-9,-9'
+	[[ $stderr == *'must have nodes of the mesh inside and around it'* ]]
+}
