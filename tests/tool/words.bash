@@ -19,6 +19,7 @@ words() {
 	diffuse) echo "diffuse --nu 0.1" ;;
 	species) echo "species ions -n 7 --charge 1" ;;
 	inject) echo "inject matter --at volume --influx 100 --charge 1 -n 5" ;;
+	neutrals) echo "neutrals --set matter --density 1 'elastic: 1'" ;;
 	ecsim) echo "ecsim --gauss" ;;
 	circuit) echo "circuit --at x-high --current-source 0.1" ;;
 	dispersion) echo "dispersion -n 1" ;;
@@ -69,6 +70,7 @@ input() {
 	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	redistance) pinit lattice -n 64 --cells 4 --spacing 1 | scalc --extensive 'volume = 1' | scalc --role state 'level = x - 1.2' ;;
 	inject) cloud | smod --law electrostatic --dt 0.1 | scalc --extensive 'charge = mass' | scalc --role state 'v = 0, 0, 0' ;;
+	neutrals) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 ;;
 	ecsim) pinit langmuir -n 12 --cells 4 ;;
 	circuit) pinit sheath --cells 4 | sel --set electrons | species electrons -n 12 --profile 1 ;;
 	walk | jump) cloud | smod --dt 0.01 ;;

@@ -1,0 +1,40 @@
+/* Collisions of particles with a gas that stays as it is. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_COLLIDE_NEUTRAL_GAS_H
+#define PM_COLLIDE_NEUTRAL_GAS_H
+
+#include "expression/expression.h"
+#include "load/density-profile.h"
+#include "stream/frame.h"
+
+enum { PM_GAS_PROCESSES = 8 };
+enum pm_gas_kind { PM_GAS_ELASTIC, PM_GAS_EXCHANGE, PM_GAS_EXCITE };
+
+struct pm_gas_process {
+	enum pm_gas_kind kind;
+	double threshold;      /* energy that is lost between the two, of PM_GAS_EXCITE */
+	const char *section;   /* the cross-section [area], an expression in g, energy and the frame's constants */
+	struct pm_expression e;
+	struct pm_density_names names;
+};
+
+struct pm_gas {
+	const char *set;
+	double mass, gas_mass, density, vth; /* of a real particle, of an atom; atoms per volume; standard deviation of a component of their velocity */
+	double drift[3];
+	uint64_t seed;
+	int n;
+	struct pm_gas_process process[PM_GAS_PROCESSES];
+};
+
+struct pm_gas_record {
+	uint64_t collisions;
+	double most; /* the largest probability of a collision in the step */
+};
+
+/* "elastic: EXPRESSION", "exchange: EXPRESSION", "excite ENERGY: EXPRESSION". 0 or failure. */
+int pm_gas_process_of(const char *text, struct pm_gas_process *p);
+/* Header, then data. 0 or failure. */
+int pm_gas_declare(const struct pm_gas *g, struct pm_frame *f);
+int pm_gas_step(struct pm_gas *g, struct pm_frame *f, struct pm_gas_record *r);
+
+#endif
