@@ -122,7 +122,7 @@ static const struct pm_option options[] = {
 	{.name = "species", .kind = PM_FLAG, .cosmetic = true, PM_AT(species),
 		.text = "add for every set particles, kinetic energy, mean and covariance of the velocities (the temperature tensor over the mass)"},
 	{.name = "flux-box", .kind = PM_VECTOR, .unit = "LOW,HIGH", .cosmetic = true, PM_AT(flux),
-		.text = "add the flux of -grad phi out of the box between these corners and Gauss's charge inside; of light the power out of it and the energy inside"},
+		.text = "add the flux of -grad phi out of the box between these corners and Gauss's charge inside; of light its power and the energy inside"},
 	{.name = "field-errors", .kind = PM_FLAG, .cosmetic = true, PM_AT(field),
 		.text = "add field_residual, of lap phi = c rho, and field_curl, of the law's field"},
 	{.name = "average", .kind = PM_FLAG, .cosmetic = true, PM_AT(average),
