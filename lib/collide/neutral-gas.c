@@ -6,7 +6,7 @@
  * An atom is drawn for every particle, so no bound on sigma g is needed (the null-collision method needs it to draw fewer). One collision a step at most, so
  * rates have an error of first order in the probability. Random numbers belong to seed, set, id and step.
  * Source: Birdsall 1991 (IEEE Trans. Plasma Sci. 19, 65), section IV; Vahedi and Surendra 1995 (Comput. Phys. Commun. 87, 179); Turner et al. 2013
- * (Phys. Plasmas 20, 013507), the processes. Cost: seven random numbers a particle, and the expressions. SPDX-License-Identifier: GPL-3.0-or-later */
+ * (Phys. Plasmas 20, 013507), the processes. Cost: eight random numbers a particle, and the expressions. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
