@@ -48,3 +48,22 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 	OUT=$PWD run -1 --separate-stderr bash "$top/docs/gallery.sh" nothing
 	[[ ${#stderr_lines[@]} = 1 && $stderr == "gallery: docs/gallery.md has no picture 'nothing'"* ]]
 }
+
+@test "README, glossary and gallery name every word, glossary and gallery every scene" {
+	{
+		for name in $(cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//'); do printf '%s\n' "README.md $name" "docs/glossary.md $name" "docs/gallery.md $name"; done
+		for name in $(cd "$top/lib/scene" && ls -- *.c | sed 's/\.c$//'); do printf '%s\n' "docs/glossary.md $name" "docs/gallery.md $name"; done
+	} >wanted
+	while read -r page name; do
+		grep -qE "(^|[^a-z0-9-])$name([^a-z0-9-]|$)" "$top/$page" || { echo "$page does not name $name"; return 1; }
+	done <wanted
+}
+
+@test "the sentences at the heads of dispersion, phase and filament run as typed" {
+	for page in dispersion phase filament; do # lines set off that begin with a program, and not with a formula
+		sed -n 's/^    //p' "$top/docs/methods/$page.md" | grep -E '^( *cycle|pinit|awk|stab|dispersion) ' >sentence.sh
+		[ "$(wc -l <sentence.sh)" -ge 2 ]
+		run -0 bash -euo pipefail sentence.sh
+	done
+	[[ -s waves.png && -s phase.png && $output == *'"filament"'* ]]
+}
