@@ -51,7 +51,9 @@ listed() { sed -n 's|^!\[.*](gallery/\([^)]*\)\.png)$|\1|p' "$top/docs/gallery.m
 
 @test "README, glossary and gallery name every word, glossary and gallery every scene" {
 	{
-		for name in $(cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//'); do printf '%s\n' "README.md $name" "docs/glossary.md $name" "docs/gallery.md $name"; done
+		for name in $(cd "$top/tools" && ls -- *.c *.sh | sed 's/\.[a-z]*$//'); do
+			printf '%s\n' "README.md $name" "docs/glossary.md $name" "docs/gallery.md $name"
+		done
 		for name in $(cd "$top/lib/scene" && ls -- *.c | sed 's/\.c$//'); do printf '%s\n' "docs/glossary.md $name" "docs/gallery.md $name"; done
 	} >wanted
 	while read -r page name; do
