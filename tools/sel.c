@@ -61,16 +61,27 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *st = s->state;
 	const struct pm_selection selection = selection_of(c);
 	struct pm_strengths before, after;
-	pm_strengths_of(f, NULL, &before);
-	int status = c->where ? pm_selection_apply(&selection, f) : 0;
-	pm_strengths_of(f, NULL, &after);
-	if (!status && c->where)
+	int status = 0;
+	if (c->where) {
+		pm_strengths_of(f, NULL, &before);
+		status = pm_selection_apply(&selection, f);
+	}
+	if (c->where && !status) {
+		pm_strengths_of(f, NULL, &after);
 		pm_report_strengths(s, f, "given", &before, &after);
+	}
 	if (status || !c->last)
 		return status;
 	pm_frame_free(st->kept);
 	st->kept = pm_frame_copy(f);
 	return st->kept ? PM_SKIP : -PM_DATA;
+}
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	const struct config *c = s->config;
+	const struct pm_selection selection = selection_of(c);
+	return !c->last && pm_selection_divides(&selection, f);
 }
 
 static int flush(struct pm_stage *s, struct pm_writer *w)
@@ -104,6 +115,7 @@ const struct pm_tool tool_sel = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.flush = flush,
 	.free = done,
 };

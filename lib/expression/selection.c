@@ -8,6 +8,8 @@
 #include "expression/selection.h"
 #include "stream/declare.h"
 #include "stream/join.h"
+#include "stream/strengths.h"
+#include "world/world.h"
 
 static bool listed(const struct pm_names *list, const struct pm_field *p)
 {
@@ -110,7 +112,10 @@ int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
 static int select_particles(const struct pm_selection *s, struct pm_frame *f, struct pm_set *set)
 {
 	struct pm_expression e;
-	size_t n = set->n;
+	size_t n = set->n, first = 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, set->name) && f->fields[i]->here)
+			n = f->fields[i]->count, first = (size_t)f->fields[i]->first;
 	double *y = pm_alloc(n ? n : 1, sizeof *y);
 	unsigned char *keep = (unsigned char *)y;
 	int status = y ? pm_expression_compile(&e, f, set->name, s->where) : -PM_DATA;
@@ -120,13 +125,30 @@ static int select_particles(const struct pm_selection *s, struct pm_frame *f, st
 			double v = y[i]; /* the bytes overwrite numbers that were already tested */
 			keep[i] = v != 0;
 			if (isnan(v))
-				status = pm_fail(PM_NUMERICS, "--where is not a number for the particle at index %zu of '%s'", i, set->name);
+				status = pm_fail(PM_NUMERICS, "--where is not a number for the particle at index %zu of '%s'", first + i, set->name);
 		}
 	}
+	status = pm_world_agree(status);
 	if (!status)
 		status = pm_frame_select(f, set, keep);
 	pm_free(y);
 	return status;
+}
+
+bool pm_selection_divides(const struct pm_selection *s, const struct pm_frame *f)
+{
+	bool can = s->where;
+	for (size_t i = 0; i < f->nsets; i++) {
+		bool divided = !takes_part(s, f->sets[i]->name);
+		for (size_t k = 0; k < f->nfields; k++) {
+			const struct pm_field *p = f->fields[k];
+			const bool here = !strcmp(p->on, f->sets[i]->name);
+			divided |= here && p->use & PM_USE_CHANGE;
+			can = can && !(here && pm_is_strength(p) && !p->uniform && !p->use);
+		}
+		can = can && divided;
+	}
+	return can;
 }
 
 int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f)

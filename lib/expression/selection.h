@@ -20,6 +20,8 @@ int pm_selection_check(const struct pm_selection *s, const struct pm_frame *cons
 void pm_selection_leave_out(const struct pm_selection *s, struct pm_frame *f);
 /* Header: every name must exist; without `where` everything not chosen is removed at once. 0 or failure. */
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f);
+/* Behind that: can ranks share it? With `where`, if every set that is chosen has values to divide, and every strength is used, because sums are compared. */
+bool pm_selection_divides(const struct pm_selection *s, const struct pm_frame *f);
 /* Data, only with `where`: keeps the particles for which it is not 0, then removes everything that was not chosen. 0 or failure. */
 int pm_selection_apply(const struct pm_selection *s, struct pm_frame *f);
 

@@ -234,6 +234,28 @@ int pm_field_share(struct pm_field *field, uint64_t grain)
 	return from ? pm_field_enter(field, from) : -PM_DATA;
 }
 
+int pm_field_recut(int status, struct pm_field *field, const uint64_t *from, const uint64_t *to)
+{
+	const size_t me = (size_t)pm_world_rank(), division = ((size_t)pm_world_size() + 1) * sizeof *to, size = pm_field_memory(field);
+	const size_t before = field->count, after = (size_t)(to[me + 1] - to[me]);
+	struct pm_buffer *b = field->buffer;
+	char *part = status ? NULL : pm_alloc(after * (size_t)field->components + 1, size);
+	status = status ? status : part ? 0 : pm_failed();
+	for (int c = 0; c < field->components; c++)
+		status = pm_world_recut(status, from, to, size, (char *)b->part + (size_t)c * before * size, part ? part + (size_t)c * after * size : NULL);
+	if (status) {
+		pm_free(part);
+		return status;
+	}
+	forget_note(field);
+	pm_free(b->part);
+	b->part = part;
+	if (b->from)
+		memcpy(b->from, to, division);
+	memcpy((uint64_t *)(uintptr_t)field->from, to, division);
+	return pm_field_enter(field, field->from);
+}
+
 void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id)
 {
 	const size_t ranks = (size_t)pm_world_size();

@@ -4,7 +4,9 @@
 
 #include "stream/frame-time.h"
 #include "stream/join.h"
+#include "stream/parts.h"
 #include "stream/run.h"
+#include "world/world.h"
 
 /* ---- less ---- */
 
@@ -45,9 +47,47 @@ static void compact(struct pm_field *field, const unsigned char *keep)
 	}
 }
 
+/* In a divided frame: what is kept here, then cut anew among the ranks. */
+static int select_here(struct pm_frame *f, struct pm_set *set, size_t n, const unsigned char *keep)
+{
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
+	uint64_t *from = calloc(ranks + 1, sizeof *from), *to = NULL;
+	for (size_t i = 0; from && i < n; i++)
+		from[me + 1] += keep[i] != 0;
+	int status = pm_world_count(from ? 0 : pm_no_memory(), PM_SUM_OF, ranks + 1, (int64_t *)from);
+	for (size_t r = 0; r < ranks && !status; r++)
+		from[r + 1] += from[r];
+	if (!status && !(to = pm_division_new(from[ranks], pm_sum_block)))
+		status = pm_failed();
+	status = pm_world_agree(status);
+	for (size_t i = 0; i < f->nfields && !status; i++) {
+		struct pm_field *field = f->fields[i];
+		if (strcmp(field->on, set->name))
+			continue;
+		if (field->here && !field->uniform) {
+			compact(field, keep);
+			status = pm_field_recut(status, field, from, to);
+			continue;
+		}
+		pm_field_forget(field); /* equal values need no data */
+		if (field->here) {
+			memcpy((uint64_t *)(uintptr_t)field->from, to, (ranks + 1) * sizeof *to);
+			pm_field_enter(field, field->from);
+		} else
+			field->count = (size_t)from[ranks];
+	}
+	if (!status)
+		set->n = from[ranks];
+	free(from), free(to);
+	return status;
+}
+
 int pm_frame_select(struct pm_frame *f, struct pm_set *set, const unsigned char *keep)
 {
 	size_t left = 0;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (!strcmp(f->fields[i]->on, set->name) && f->fields[i]->here)
+			return select_here(f, set, f->fields[i]->count, keep);
 	for (size_t i = 0; i < set->n; i++)
 		left += keep[i] != 0;
 	for (size_t i = 0; i < f->nfields; i++)

@@ -6,7 +6,8 @@
 
 /* Removes a set or mesh with its fields, if it exists. */
 void pm_frame_remove(struct pm_frame *f, const char *name);
-/* Keeps the particles where keep[i] is not 0; every field of the set must be loaded or uniform. 0 or failure. */
+/* Keeps the particles where keep[i] is not 0; every field of the set must be loaded or uniform. In a divided frame
+ * all ranks call it, keep is of the particles here, and they are divided anew. 0 or failure. */
 int pm_frame_select(struct pm_frame *f, struct pm_set *set, const unsigned char *keep);
 
 struct pm_join {

@@ -43,6 +43,9 @@ void pm_parts_free(void);
 
 /* A field made in frame() of a divided frame, on all ranks: count is of all, and becomes that of this rank. Whoever runs the stage frees from. 0 or failure. */
 int pm_field_share(struct pm_field *field, uint64_t grain);
+/* A field of a divided frame: the values that are divided as `from` in its part, the first of them in front, are divided as `to` now. Takes the caller's status
+ * and returns the agreed one. */
+int pm_field_recut(int status, struct pm_field *field, const uint64_t *from, const uint64_t *to);
 /* Between these the field is this rank's stretch alone: field->count values, the first of them number field->first. */
 int pm_field_enter(struct pm_field *field, const uint64_t *from);
 void pm_field_leave(struct pm_field *field, const uint64_t *from, uint64_t id); /* id: of the parts that the field has now */

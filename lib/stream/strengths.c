@@ -6,6 +6,7 @@
 #include "base/simd-sum.h"
 #include "stream/over-stretches.h"
 #include "stream/strengths.h"
+#include "world/world.h"
 
 enum { SUM, SCALE, SUMS };
 
@@ -68,10 +69,10 @@ void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 			return;
 		s->n++;
 		snprintf(one->on, sizeof one->on, "%s", field->on);
-		if (field->buffer)
+		if (!field->uniform)
 			sums(field, pm_in(field, c), one);
 		else {
-			one->sum = (double)field->count * field->value[c];
+			one->sum = (double)(field->here ? field->from[pm_world_size()] : field->count) * field->value[c];
 			one->scale = fabs(one->sum);
 		}
 		largest = fmax(largest, one->scale);

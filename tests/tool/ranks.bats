@@ -187,6 +187,27 @@ blobs() {
 	done
 }
 
+@test "any number of ranks: sel --where leaves particles out on every rank and cuts what is left anew" {
+	pinit uniform -n 13000 --dispersion 0.3 >box
+	same "push drift | sel --where 'x < 0.9'" <box
+	scalc --role state --type i64 'side = 3*x' <box |
+		same "push drift | sel --where 'side < 2 && vx > 0' | p2m -n 8 | sel --where 'side' | ssort" --store f32
+	same "push drift | sel --where 'id > 9000' --field x,v,id" <box
+	same "push drift | sel --where 'z > 2'" <box
+	pinit plummer -n 9000 | smod --rename matter=b >two
+	pinit plummer -n 5000 | stack - two >both
+	same "p2m -n 8 | push drift | sel --where 'x^2+y^2+z^2 < 4' | p2m -n 8" <both
+	same "p2m -n 8 | push drift | sel --where 'x^2+y^2+z^2 < 4' --set b | p2m" <both
+	shares "push drift, sel --where x < 0.9" "push drift | sel --where 'x < 0.9'" <box
+	cycle -q -n 1 "push drift | sel --where 'sqrt(12000.5 - id)'" <box 2>want >/dev/null && return 1
+	grep -q 'index 12001 of' want
+	on 3 cycle -q -n 1 "push drift | sel --where 'sqrt(12000.5 - id)'" <box 2>got >/dev/null && return 1
+	cmp want got
+	# every particle leaves where it is: 13000 as 4096, 4096, 4808; half of them left are 6500 as 0, 4096, 2404; x and v travel, id too
+	on 3 cycle -q -n 1 --timing - "push drift | sel --where 'id < 6500'" <box 2>table >/dev/null
+	awk -v s="$(sent sel table)" 'BEGIN { print s; more = s - (4096 + 2404)*7*8/1000; exit !(more > -0.5 && more < 2) }'
+}
+
 # sent WORD TABLE: kB that all ranks sent for it, as --timing says.
 sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 * ($2 == "kB" ? 1 : $2 == "MB" ? 1000 : 1e-3) }' "$2"; }
 
