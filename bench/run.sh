@@ -102,6 +102,7 @@ part_transfer() {
 	keep "$b/transfer" 1024 1 2 cic pcs
 }
 part_step() {
+	PYTHONPATH=$top/python keep "${PM_PYTHON:-python3}" "$top/bench/numpy-step.py" 128 || true
 	pinit uniform -n 2097152 --cells 128 | OMP_NUM_THREADS=1 keep "$b/step"
 	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it needs 8 GB)' >&2 && return; }
 	pinit uniform -n 16777216 --cells 256 | keep "$b/step"
