@@ -44,7 +44,8 @@ measures() {
 }
 # rows N STEPS LESS MORE: of the rounds in the files LESS.* and MORE.*, which differ by so many steps.
 rows() {
-	for r in $rounds; do paste <(sort "$3.$r") <(sort "$4.$r"); done | awk -v n="$1" -v k="$2" '{ print $1, n, ($4 - $2) / k / n * 1e9 }' | sort -k1,1 -k3,3g |
+	for r in $rounds; do paste <(sort "$3.$r") <(sort "$4.$r"); done | awk -v n="$1" -v k="$2" '{ print $1, n, ($4 - $2) / k / n * 1e9 }' |
+		sort -k1,1 -k3,3g |
 		awk '$1 != w && w { print line[int((m + 1) / 2)] } $1 != w { m = 0; w = $1 } { line[++m] = $0 } END { print line[int((m + 1) / 2)] }'
 }
 for cells; do
