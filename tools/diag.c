@@ -74,7 +74,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *state = s->state;
 	int status = pm_diag_table_row(&state->table, f);
-	const bool lacks = state->table.lacks[0] && !state->table.readable.n; /* which has its own notes */
+	const bool lacks = state->table.lacks[0] && state->table.expected && !state->table.readable.n; /* which has its own notes */
 	if (!status && state->table.unknown[0] && !state->told)
 		pm_note(s, "energy is nan: %s (energy_kinetic and energy_field_... are its known parts)", state->table.unknown);
 	else if (!status && lacks && !state->told)

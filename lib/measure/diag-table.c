@@ -183,6 +183,7 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 		status = pm_measure_frame(how, f, m);
 	}
 	snprintf(t->lacks, sizeof t->lacks, "%s", lacks ? why : "");
+	t->expected = lacks && (pairs == PM_PAIRS_MANY || t->choice.ncolumns); /* where all are written, those that are nan show themselves */
 	t->unknown[0] = 0;
 	for (int i = 0; i < t->n; i++)
 		if (t->column[i].from == PM_ENERGY)

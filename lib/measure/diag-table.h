@@ -48,6 +48,7 @@ struct pm_diag_table {
 	bool energies, unasked; /* a column needs the energy of the field; the first row needed the sum over pairs for it, unasked */
 	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
 	char lacks[200];   /* why it is nan, if no mesh and no particle holds the potential; "" */
+	bool expected;     /* a column was asked for that needs it, or the particles are too many to sum pairs unasked */
 	struct pm_energy_error energy;
 	struct pm_readable readable;
 	char note[320];               /* a sentence about the last row for stderr; "" none */

@@ -8,6 +8,7 @@ subjects="p2m diag cycle"
 command_of() {
 	case $1 in
 	cycle) echo "cycle -n 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'" ;;
+	diag) echo 'diag -q' ;;
 	*) echo "$1" ;;
 	esac
 }

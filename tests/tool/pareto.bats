@@ -263,7 +263,7 @@ errors() { column error <"$1/pareto.tsv" | grep -v '^-' | sort -g; }
 
 @test "a finished directory answers --until-error, --within and --tsv without the sentence; a directory whose sentences all failed takes the corrected one" {
 	run -2 --separate-stderr pareto -o d --until-error 0.1
-	[[ $stderr == *"SENTENCE is missing, and 'd' holds no finished sweep"* ]]
+	[[ $stderr == *"SENTENCE is missing"*", and 'd' holds no finished sweep"* ]]
 	pinit uniform -n 50 | p2m | poisson-fft | mgrad | m2p >one.pm
 	run -1 pareto 'pinit uniform -n 50 | p2m -n {8,16} | poisson-fft | mgrad --source nothing | m2p' --against one.pm --field acc --repeat 1 -o d
 	[[ $output == *"every sentence failed"* ]]

@@ -11,6 +11,7 @@ words() {
 	case $1 in
 	again) echo "again in.pm" ;;
 	cycle) echo "cycle -n 1 'push kick/2 drift | pp | push kick/2'" ;;
+	diag) echo "diag --quiet" ;;
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
 	antenna) echo "antenna --place 1 'Ey = sin(3*time+1)*x'" ;;
@@ -34,7 +35,7 @@ words() {
 	penalize) echo "penalize --body 'x - 1'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	redistance) echo "redistance" ;;
-	beale) echo "beale --eps 0.1 --iterations 2" ;;
+	beale) echo "beale --eps 0.1 --iterations 2 --quiet" ;;
 	filament) echo "filament" ;;
 	walk) echo "walk --nu 0.1" ;;
 	jump) echo "jump '9: v = -vx, -vy, -vz'" ;;
