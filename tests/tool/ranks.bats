@@ -484,7 +484,7 @@ END
 	cycle -n 2 -i in.pm -o alone "$s"
 	ended=0 failed=0
 	for rank in 0 1 2; do
-		for call in 3 5 9 14 20 27 35 60 120; do
+		for call in 3 5 9 14 20 27 35 60 120 300; do
 			code=0
 			OMP_NUM_THREADS=1 PM_REHEARSE="memory=$rank:$call" on 3 cycle -n 2 -i in.pm -o file "$s" 2>said || code=$?
 			if [ $code -eq 0 ]; then cmp file alone && ended=$((ended + 1)); else
