@@ -290,7 +290,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | same "$(kicks "$(force 64)")" --every 1
 }
 
-@test "push, walk, field, scalc, p2m, poisson-fft, mgrad, m2p, pp, ssort, dt and diag are shared by the ranks, and sel is not; --timing says so" {
+@test "push, walk, field, scalc, p2m, poisson-fft, mgrad, m2p, pp, ssort, dt and diag are shared by the ranks, and smove is not; --timing says so" {
 	pinit uniform -n 9000 --dispersion 0.3 >start
 	shares "push kick/2 drift, field acc = -x, -2*y, vx, push kick/2" "push kick/2 drift | field 'acc = -x, -2*y, vx' | push kick/2" <start
 	shares "push drift, walk --nu 0.1, scalc k = 3*x" "push drift | walk --nu 0.1 | scalc 'k = 3*x'" <start
@@ -304,9 +304,9 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
 	shares "pp, diag --tee table, push rk2" "pp | diag --tee table | push rk2" <cluster
-	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "pp | push rk2 | sel --where 'mass > 0'" 2>said >/dev/null
+	pinit plummer -n 100 | on 2 cycle --timing - -n 1 "pp | push kick drift | smove --shift 1,0,0" 2>said >/dev/null
 	grep -qE '^pp .* all ranks: .* in [0-9]+ messages, slowest/mean [0-9.]+$' said
-	grep -qE '^sel .* rank 0 alone$' said
+	grep -qE '^smove .* rank 0 alone$' said
 	grep -qE '^all .* sent, with what is given out and brought together: .*B in [0-9]+ messages$' said
 	# positions and masses of all to all, four numbers of 8 bytes, at each of the two stages of three steps: 1.728 MB, and less than 1 % for the status
 	on 3 cycle --timing - -n 3 "pp | push rk2" <cluster 2>said >/dev/null
