@@ -7,6 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 file=${COUNTS:-$PWD/bench/counts.tsv}
 CC=${CC:-gcc}
+CC=${CC##* } # of "ccache gcc" the compiler
 compiler="$(basename "$CC") $("$CC" -dumpfullversion 2>/dev/null || "$CC" -dumpversion) $("$CC" -dumpmachine)"
 
 skip() { echo "counts: skipped, $1" && exit 0; }
