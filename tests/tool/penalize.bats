@@ -55,6 +55,41 @@ force() { sls --report | sed -n 's/.*penalize.*"force_'"$1"'":\([^,}]*\).*/\1/p'
 	within "$(<f)" 0.164 0.0033 "Strouhal number"
 }
 
+# cavity CELLS TIME NU: the driven cavity at this time, then the rms of its u on x = 1/2 less that of the table ghia.
+cavity() {
+	pinit cavity --cells "$1" --nu "$3" | cycle -q -t "$2" "p2m | poisson-fft | mgrad | penalize --body 'min(min(x, 1 - x), min(y, 1 - y))' \
+		--velocity 'y > 0.99 ? 1 : 0, 0' --stream '0.1, 0' | diffuse | m2p | field 'vel = 0.1, 0' | push lsrk3 | remesh" >flow
+	stab ghia --set probe --law vortex --constant nu="$3" --time "$2" --box=-0.125,1.125 --faces periodic >probe
+	stack flow probe | p2m | poisson-fft | mgrad | m2p --set probe --field u | stab --plain --set probe |
+		awk 'NR > 1 { s += ($4 + 0.1 - $3) ^ 2; if ($4 < low) low = $4 } END { print sqrt(s / (NR - 1)), low + 0.1 }'
+}
+# ghia U...: table I of Ghia, Ghia and Shin 1982, whose nodes are these, without the walls.
+ghia() {
+	local y u=("$@") i=0
+	echo 'x y ghia'
+	for y in 0.9766 0.9688 0.9609 0.9531 0.8516 0.7344 0.6172 0.5 0.4531 0.2813 0.1719 0.1016 0.0703 0.0625 0.0547; do echo "0.5 $y ${u[i++]}"; done
+}
+re100=(0.84123 0.78871 0.73722 0.68717 0.23151 0.00332 -0.13641 -0.20581 -0.21090 -0.15662 -0.10150 -0.06434 -0.04775 -0.04192 -0.03717)
+re400=(0.75837 0.68439 0.61756 0.55892 0.29093 0.16256 0.02135 -0.11477 -0.17119 -0.32726 -0.24299 -0.14612 -0.10338 -0.09266 -0.08186)
+
+@test "the driven cavity at Re = 100 has the velocities of Ghia, Ghia and Shin 1982, within 1.8 % of the lid's with 32 cells of the side" {
+	ghia "${re100[@]}" >ghia
+	read -r rms low < <(cavity 40 8 0.01) # measured 0.0157 and -0.176, of order 1 in the cell
+	below "$rms" 0.018 "rms error"
+	within "$low" -0.20581 0.04 "the lowest of the table's nodes near the middle"
+}
+
+@test "the driven cavity: an error of order 1 in the cell at Re = 100, and Re = 400" {
+	[ -n "${PM_LONG:-}" ] || skip "long: make check-long"
+	ghia "${re100[@]}" >ghia
+	read -r coarse _ < <(cavity 40 12 0.01)
+	read -r fine _ < <(cavity 80 12 0.01)
+	within "$(calc "$coarse / $fine")" 2 0.3 "errors with 32 and 64 cells of the side" # measured 0.0157 and 0.0076
+	ghia "${re400[@]}" >ghia
+	read -r rms _ < <(cavity 80 40 0.0025)
+	below "$rms" 0.027 "rms error at Re = 400, 64 cells" # measured 0.0243
+}
+
 @test "a sphere in space is pushed along the stream alone, a rate slows it down, and bytes do not depend on threads" {
 	pinit taylor-green-3d --cells 16 --speed 0 --dt 0.02 >a
 	words="p2m | poisson-fft | mgrad | penalize --body 'hypot(hypot(x - pi, y - pi), z - pi) - 1' --stream '0, 0, 1.5'"
