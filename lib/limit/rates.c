@@ -4,11 +4,34 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/simd.h"
 #include "limit/rates.h"
 #include "mesh/planes.h"
 #include "stream/over-stretches.h"
 
-enum { BLOCK = 4096 };
+enum { BLOCK = 1024 };
+
+/* Eight largest values, NaN left out. */
+static void raise_eight(pm_simd *most, pm_simd v)
+{
+	const pm_simd_bits above = v > *most;
+	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
+}
+
+/* Of at most BLOCK vectors, v[m][n]: the largest |v|^2, or with h the largest |v_d|/h_d. */
+static double most_of_block(int m, size_t n, const double *const v[], const double *h)
+{
+	double here[BLOCK] __attribute__((aligned(64))) = {0};
+	pm_simd most = {0};
+	for (int d = 0; d < m; d++)
+		for (size_t i = 0; i < n; i++)
+			here[i] = h ? fmax(here[i], fabs(v[d][i]) / h[d]) : here[i] + v[d][i] * v[d][i];
+	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH) /* zero beyond n */
+		raise_eight(&most, pm_simd_load(here + i));
+	for (int l = 1; l < PM_SIMD_WIDTH; l++)
+		most[0] = fmax(most[0], most[l]);
+	return most[0];
+}
 
 double pm_most(const struct pm_field *y, const double *h)
 {
@@ -16,15 +39,12 @@ double pm_most(const struct pm_field *y, const double *h)
 	int m = y->components < 3 || !h ? y->components : 3;
 	pm_field_bring(y);
 #pragma omp parallel for schedule(static) reduction(max : most) if (y->count > 16384)
-	for (size_t b = 0; b < y->count; b += BLOCK)
-		for (size_t i = b; i < y->count && i < b + BLOCK; i++) {
-			double here = 0;
-			for (int d = 0; d < m; d++) {
-				double v = pm_in(y, d)[i];
-				here = h ? fmax(here, fabs(v) / h[d]) : here + v * v;
-			}
-			most = fmax(most, here);
-		}
+	for (size_t b = 0; b < y->count; b += BLOCK) {
+		const double *v[PM_COMPONENTS];
+		for (int d = 0; d < m; d++)
+			v[d] = pm_in(y, d) + b;
+		most = fmax(most, most_of_block(m, y->count - b < BLOCK ? y->count - b : BLOCK, v, h));
+	}
 	return pm_most_of_stretches(y, most);
 }
 
@@ -110,8 +130,11 @@ double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
 static void make_sizes(const void *data, size_t from, size_t to, void *part)
 {
 	const struct pm_field *q = data;
+	const double *each = q->uniform ? NULL : pm_in(q, 0);
+	struct pm_sum sum = *(struct pm_sum *)part; /* in registers */
 	for (size_t p = from; p < to; p++)
-		pm_sum_add(part, fabs(q->uniform ? q->value[0] : pm_in(q, 0)[p]));
+		pm_sum_add(&sum, fabs(each ? each[p] : q->value[0]));
+	*(struct pm_sum *)part = sum;
 }
 
 double pm_strength_total(const struct pm_frame *f, const char *strength)

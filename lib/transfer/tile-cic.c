@@ -1,6 +1,6 @@
 /* Cloud in cell in 3-D, the everyday kernel. Spread: the eight corners of a cell lie side by side, so that a particle is one addition of eight numbers to its
- * cell; the corners are added up once a tile. Where the stream is in the order of tiles, eight particles at a time find their places and weights, which are
- * then turned into one vector a particle. Gather: the two points of a row are loaded for eight particles and turned into two vectors.
+ * cell; the corners are added up once a tile. Eight particles at a time, from records or straight from a stream in the order of tiles, find their places and
+ * weights, which are then turned into one vector a particle. Gather: the two points of a row are loaded for eight particles and turned into two vectors.
  * Every sum has the order of the loops for all kernels: the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-cic.h"
 #include "base/simd.h"
@@ -56,7 +56,29 @@ struct eight {
 	pm_simd distance[3];
 };
 
-/* Those of a batch from i on. The last ones of a batch may be fewer: the first of them stands in for the rest. */
+/* Of m records, those from i on; *fourth: what comes behind the position in each. The last ones may be fewer: the first of them stands in for the rest. */
+PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_t i, pm_simd *fourth)
+{
+	struct eight e;
+	const double *record[PM_SIMD_WIDTH];
+	pm_simd v[4], u[4];
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
+	PM_SIMD_UNROLL
+	for (size_t k = 0; k < 4; k++)
+		v[k] = pm_simd_fours(record[k], record[k + 4]);
+	turn(v, u);
+	PM_SIMD_UNROLL
+	for (int d = 0; d < 3; d++) {
+		e.distance[d] = pm_simd_split(u[d], &e.cell[d]);
+		e.cell[d] -= (int32_t)t->cell[d];
+	}
+	*fourth = u[3];
+	return e;
+}
+
+/* Those of a batch from i on, in the same way. */
 PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_tile_batch *b, size_t i)
 {
 	struct eight e;
@@ -95,11 +117,37 @@ PM_SIMD_INLINE void add_to_cell(double *restrict corners, int32_t cell, const do
 	pm_simd_store(to, pm_simd_load(to) + pm_simd_twice(yz) * pm_simd_below_above(x));
 }
 
+/* What eight particles add to the corners of their cells, for the loop that adds. */
+struct shares {
+	double yz[PM_TILE_ORDER_PACK * 4] __attribute__((aligned(64))), x[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
+	int32_t at[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
+};
+
+PM_SIMD_INLINE void share(const struct eight *e, pm_simd strength, size_t i, struct shares *s)
+{
+	const pm_simd low = (1 - e->distance[2]) * strength, high = e->distance[2] * strength, y = e->distance[1], below = 1 - y;
+	*(pm_simd_int_at *)(s->at + i) = cell_of(e);
+	pm_simd_store(s->x + i, e->distance[0]);
+	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, s->yz + 4 * i);
+}
+
+PM_SIMD_INLINE void add_shares(const struct shares *s, size_t m, double *corners)
+{
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= m; i += PM_SIMD_WIDTH) {
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+			add_to_cell(corners, s->at[i + l], s->yz + 4 * i + turned[l], s->x[i + l]);
+	}
+	for (size_t l = 0; i + l < m; l++)
+		add_to_cell(corners, s->at[i + l], s->yz + 4 * i + turned[l], s->x[i + l]);
+}
+
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *batch, const double *q)
 {
 	const size_t m = batch->m;
-	double yz[PM_TILE_ORDER_PACK * 4] __attribute__((aligned(64))), x[PM_TILE_ORDER_PACK] __attribute__((aligned(64))), few[PM_SIMD_WIDTH] = {0};
-	int32_t at[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
+	struct shares s;
+	double few[PM_SIMD_WIDTH] = {0};
 	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 		const struct eight e = find_eight(t, batch, i);
 		pm_simd strength;
@@ -110,19 +158,31 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 			strength = pm_simd_load_any(few);
 		}
 		__builtin_prefetch(q + i + PM_TILE_AHEAD);
-		*(pm_simd_int_at *)(at + i) = cell_of(&e);
-		pm_simd_store(x + i, e.distance[0]);
-		const pm_simd low = (1 - e.distance[2]) * strength, high = e.distance[2] * strength, y = e.distance[1], below = 1 - y;
-		turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, yz + 4 * i);
+		share(&e, strength, i, &s);
 	}
-	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= m; i += PM_SIMD_WIDTH) {
-		PM_SIMD_UNROLL
-		for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-			add_to_cell(t->corners, at[i + l], yz + 4 * i + turned[l], x[i + l]);
+	add_shares(&s, m, t->corners);
+}
+
+void pm_tile_cic_spread_eight(const struct pm_tile *all)
+{
+	struct pm_tile t = *all;
+	struct shares s;
+	for (size_t from = 0; from < all->count; from += PM_TILE_ORDER_PACK) {
+		t.records = all->records + from * (size_t)t.stride;
+		t.count = all->count - from < PM_TILE_ORDER_PACK ? all->count - from : PM_TILE_ORDER_PACK;
+		for (size_t i = 0; i < t.count; i += PM_SIMD_WIDTH) {
+			pm_simd strength;
+			const struct eight e = find_eight_of_records(&t, i, &strength);
+			if (t.value != 3) {
+				double few[PM_SIMD_WIDTH];
+				for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+					few[l] = t.records[(i + (i + l < t.count ? l : 0)) * (size_t)t.stride + (size_t)t.value];
+				strength = pm_simd_load_any(few);
+			}
+			share(&e, strength, i, &s);
+		}
+		add_shares(&s, t.count, t.corners);
 	}
-	for (size_t l = 0; i + l < m; l++)
-		add_to_cell(t->corners, at[i + l], yz + 4 * i + turned[l], x[i + l]);
 }
 
 /* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each, zero beyond n. */
@@ -239,24 +299,67 @@ PM_SIMD_INLINE void deliver(pm_simd v, size_t n, const double *factor, bool set,
 	}
 }
 
+/* Weights of four rows, [y*2 + z]; x of the two halves of each. */
+struct rows {
+	pm_simd w[4], x, x0;
+	int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
+};
+
+PM_SIMD_INLINE struct rows rows_of(const struct eight *e)
+{
+	const pm_simd x = e->distance[0], y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
+	struct rows r = {.w = {z0 * y0, z * y0, z0 * y, z * y}, .x = x, .x0 = 1 - x};
+	*(pm_simd_int_at *)r.at = cell_of(e);
+	return r;
+}
+
+/* A component at eight particles: in the order of the loop for all kernels, rows y, then z. */
+PM_SIMD_INLINE pm_simd value_of(const struct rows *r, const double *corners)
+{
+	pm_simd v[8];
+	turn_corners(corners, r->at, v);
+	const pm_simd below = ((v[0] * r->w[0] + v[2] * r->w[2]) + v[1] * r->w[1]) + v[3] * r->w[3];
+	const pm_simd above = ((v[4] * r->w[0] + v[6] * r->w[2]) + v[5] * r->w[1]) + v[7] * r->w[3];
+	return below * r->x0 + above * r->x;
+}
+
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
 	pm_simd nothing = {0};
 	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
 		const struct eight e = find_eight(t, batch, i);
-		const pm_simd x = e.distance[0], y = e.distance[1], z = e.distance[2], x0 = 1 - x, y0 = 1 - y, z0 = 1 - z;
-		const pm_simd w[4] = {z0 * y0, z * y0, z0 * y, z * y}; /* y*2 + z */
+		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
-		int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
-		*(pm_simd_int_at *)at = cell_of(&e);
-		for (int c = 0; c < t->components; c++) {
-			pm_simd v[8];
-			turn_corners(t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS, at, v);
-			/* in the order of the loop for all kernels: rows y, then z */
-			const pm_simd below = ((v[0] * w[0] + v[2] * w[2]) + v[1] * w[1]) + v[3] * w[3];
-			const pm_simd above = ((v[4] * w[0] + v[6] * w[2]) + v[5] * w[1]) + v[7] * w[3];
-			deliver(below * x0 + above * x, n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, &nothing);
-		}
+		for (int c = 0; c < t->components; c++)
+			deliver(value_of(&rows, t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS), n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c],
+				r->to[c] + p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
+
+void pm_tile_cic_gather_eight(const struct pm_tile *t)
+{
+	const size_t to = (size_t)t->to;
+	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
+		pm_simd fourth;
+		const struct eight e = find_eight_of_records(t, i, &fourth);
+		const struct rows rows = rows_of(&e);
+		const size_t n = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
+		for (int c = 0; c < t->components; c += 4) {
+			const int some = t->components - c < 4 ? t->components - c : 4;
+			pm_simd v[4];
+			double out[PM_SIMD_WIDTH * 4] __attribute__((aligned(64)));
+			PM_SIMD_UNROLL
+			for (int k = 0; k < 4; k++)
+				v[k] = k < some ? value_of(&rows, t->corners + (size_t)(c + k) * PM_TILE_CELLS * PM_CORNERS) : fourth;
+			turn_out(v, out);
+			for (size_t l = 0; l < n; l++) {
+				double *result = t->results + (i + l) * to + c;
+				if (to == 4 && some > 2) /* the fourth may be written too: nothing else is there */
+					*(pm_simd4_at *)result = *(const pm_simd4_at *)(out + turned[l]);
+				else
+					memcpy(result, out + turned[l], (size_t)some * sizeof *result);
+			}
+		}
+	}
 }

@@ -1,4 +1,4 @@
-/* Loops for the kernel of two linear points in 3-D, over particles straight from the stream. Private to lib/transfer.
+/* Loops for the kernel of two linear points in 3-D, over particles straight from the stream and over records. Private to lib/transfer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_CIC_H
 #define PM_TRANSFER_TILE_CIC_H
@@ -24,6 +24,7 @@ static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
 /* With strengths q[m] to the corners of t. The sums are those of the loop over records. */
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);
 void pm_tile_cic_spread_records(const struct pm_tile *t);
+void pm_tile_cic_spread_eight(const struct pm_tile *t); /* the same, eight records at a time */
 /* The corners of the cells[3] cells of the tile to its block, whose values are set, not added to; leaves corners zero. */
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3]);
 /* The block of a component to corners[PM_TILE_CELLS][PM_CORNERS], those of each cell. */
@@ -36,5 +37,6 @@ struct pm_tile_results {
 };
 /* Values of t's components from their corners [components][PM_TILE_CELLS][PM_CORNERS]. True if what is left is finite. */
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
+void pm_tile_cic_gather_eight(const struct pm_tile *t); /* from records to results, which may be the records */
 
 #endif

@@ -158,7 +158,9 @@ static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline
 
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 {
-	return corners ? pm_tile_cic_spread_records : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+	if (corners)
+		return PM_TILE_CIC_EIGHT ? pm_tile_cic_spread_eight : pm_tile_cic_spread_records;
+	return k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
 }
 
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k)

@@ -91,16 +91,18 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 	return finite;
 }
 
-/* The same by corners of cells. */
+/* The same by corners of cells; with records, whose results are checked later, too. */
 static bool gather_by_corners(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
 {
 	const size_t each = (size_t)PM_TILE_CELLS * PM_CORNERS;
-	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	size_t cells[3];
 	t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
 	cells_of(w, j, cells);
 	for (int c = 0; c < w->components; c++)
 		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
+	if (t.records)
+		return pm_tile_cic_gather_eight(&t), true;
+	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	batch.p = j->from, batch.m = j->to - j->from;
 	return pm_tile_cic_gather(&t, &batch, r);
 }
@@ -119,10 +121,10 @@ static bool gather_pass(const struct pm_pass *w, int threads, const double *cons
 		for (int c = 0; c < w->components; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
-		if (t.records)
-			loop(&t);
-		else if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+		if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
 			bad |= !gather_by_corners(w, &w->p.job[j], t, r);
+		else if (t.records)
+			loop(&t);
 		else
 			bad |= !gather_in_order(w, &w->p.job[j], t, loop, r);
 	}
@@ -184,7 +186,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], in
 	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
 	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
-	return status || records || !PM_TILE_CIC_EIGHT ? status : pm_pass_corners(w, threads, w->components);
+	return status || !PM_TILE_CIC_EIGHT ? status : pm_pass_corners(w, threads, w->components);
 }
 
 void pm_pass_end(struct pm_pass *w)
