@@ -2,8 +2,7 @@
  * cell; the corners are added up once a tile. Eight particles at a time, from records or straight from a stream in the order of tiles, find their places and
  * weights, which are then turned into one vector a particle. Gather: the two points of a row are loaded for eight particles and turned into two vectors.
  * Every sum has the order of the loops for all kernels: the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "transfer/tile-cic.h"
-#include "base/simd.h"
+#include "transfer/tile-eight.h"
 
 /* Weights of the corner of a cell at x*4 + y*2 + z. */
 void pm_tile_cic_spread_records(const struct pm_tile *t)
@@ -25,90 +24,6 @@ void pm_tile_cic_spread_records(const struct pm_tile *t)
 		pm_simd8_at *corners = (pm_simd8_at *)(t->corners + at * PM_CORNERS);
 		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
 	}
-}
-
-/* A matrix of 4 x 8 turned in two halves of 4 x 4: lane l of v[k] becomes lane k of to[l], and lane 4 + l lane 4 + k. */
-PM_SIMD_INLINE void turn(const pm_simd v[4], pm_simd to[4])
-{
-	const pm_simd a = __builtin_shufflevector(v[0], v[1], 0, 8, 2, 10, 4, 12, 6, 14), b = __builtin_shufflevector(v[0], v[1], 1, 9, 3, 11, 5, 13, 7, 15);
-	const pm_simd c = __builtin_shufflevector(v[2], v[3], 0, 8, 2, 10, 4, 12, 6, 14), d = __builtin_shufflevector(v[2], v[3], 1, 9, 3, 11, 5, 13, 7, 15);
-	to[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
-	to[1] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
-	to[2] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
-	to[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-
-/* w[k][l] to to[turned[l] + k]. */
-static const size_t turned[PM_SIMD_WIDTH] = {0, 8, 16, 24, 4, 12, 20, 28};
-
-PM_SIMD_INLINE void turn_out(const pm_simd w[4], double *to)
-{
-	pm_simd v[4];
-	turn(w, v);
-	PM_SIMD_UNROLL
-	for (size_t k = 0; k < 4; k++)
-		pm_simd_store(to + PM_SIMD_WIDTH * k, v[k]);
-}
-
-/* Eight particles: cell within the tile, distances from its lower corner. */
-struct eight {
-	pm_simd_int cell[3];
-	pm_simd distance[3];
-};
-
-/* Of m records, those from i on; *fourth: what comes behind the position in each. The last ones may be fewer: the first of them stands in for the rest. */
-PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_t i, pm_simd *fourth)
-{
-	struct eight e;
-	const double *record[PM_SIMD_WIDTH];
-	pm_simd v[4], u[4];
-	PM_SIMD_UNROLL
-	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
-	PM_SIMD_UNROLL
-	for (size_t k = 0; k < 4; k++)
-		v[k] = pm_simd_fours(record[k], record[k + 4]);
-	turn(v, u);
-	PM_SIMD_UNROLL
-	for (int d = 0; d < 3; d++) {
-		e.distance[d] = pm_simd_split(u[d], &e.cell[d]);
-		e.cell[d] -= (int32_t)t->cell[d];
-	}
-	*fourth = u[3];
-	return e;
-}
-
-/* Those of a batch from i on, in the same way. */
-PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_tile_batch *b, size_t i)
-{
-	struct eight e;
-	for (int d = 0; d < 3; d++) {
-		const double *x = b->order->x[d] + b->p + i;
-		double few[PM_SIMD_WIDTH];
-		unsigned outside;
-		if (i + PM_SIMD_WIDTH > b->m) {
-			for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-				few[l] = x[i + l < b->m ? l : 0];
-			x = few;
-		}
-		__builtin_prefetch(x + PM_TILE_AHEAD);
-		pm_simd u = pm_axis_locate_eight(&b->lanes[d], pm_simd_load_any(x), &outside);
-		if (outside) {
-			double far[PM_SIMD_WIDTH];
-			pm_simd_store_any(far, u);
-			pm_axis_locate_far(&b->order->axes[d], outside, PM_SIMD_WIDTH, x, far);
-			u = pm_simd_load_any(far);
-		}
-		e.distance[d] = pm_simd_split(u, &e.cell[d]);
-		e.cell[d] -= (int32_t)t->cell[d];
-	}
-	return e;
-}
-
-/* Their cells, x fastest. */
-PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)
-{
-	return (((e->cell[2] << pm_tile_shift[3][1]) + e->cell[1]) << pm_tile_shift[3][0]) + e->cell[0];
 }
 
 PM_SIMD_INLINE void add_to_cell(double *restrict corners, int32_t cell, const double *yz, double x)
@@ -279,26 +194,6 @@ PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_si
 	}
 }
 
-/* The first n of eight values to their places. v - v is 0, or NaN if v is not finite. */
-PM_SIMD_INLINE void deliver(pm_simd v, size_t n, const double *factor, bool set, double *to, pm_simd *nothing)
-{
-	if (n == PM_SIMD_WIDTH) {
-		v = factor ? pm_simd_load_any(factor) * v : v;
-		v = set ? v : pm_simd_load_any(to) + v;
-		pm_simd_store_any(to, v);
-		__builtin_prefetch(to + PM_TILE_AHEAD, 1);
-		*nothing += v - v;
-		return;
-	}
-	double few[PM_SIMD_WIDTH];
-	pm_simd_store_any(few, v);
-	for (size_t l = 0; l < n; l++) {
-		const double value = factor ? factor[l] * few[l] : few[l];
-		to[l] = set ? value : to[l] + value;
-		*nothing += to[l] - to[l];
-	}
-}
-
 /* Weights of four rows, [y*2 + z]; x of the two halves of each. */
 struct rows {
 	pm_simd w[4], x, x0;
@@ -331,7 +226,7 @@ bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *bat
 		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		for (int c = 0; c < t->components; c++)
-			deliver(value_of(&rows, t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS), n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c],
+			deliver_eight(value_of(&rows, t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS), n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c],
 				r->to[c] + p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});

@@ -47,4 +47,28 @@ PM_SIMD_INLINE void find_weights(int width, int degree, const double *coefficien
 			w[i] = v[width - 1 - i];
 }
 
+/* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
+PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, const double *record,
+	double w[3][lanes])
+{
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	double distance[4];
+	int32_t cell[4];
+	pm_simd4_at u = *(const pm_simd4_at *)record; /* lanes from dim on hold other values */
+	pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at); /* u >= 0 */
+	*(pm_simd4_int_at *)cell = floor_u;
+	*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at) - t->shift;
+	for (int d = 0; d < 3; d++)
+		if (d < dim)
+			find_weights(width, degree, coefficients, distance[d], w[d]);
+		else
+			w[d][0] = 1;
+	size_t place = (size_t)cell[0] - t->cell[0];
+	if (dim > 1)
+		place += ((size_t)cell[1] - t->cell[1]) * (size_t)row;
+	if (dim > 2)
+		place += ((size_t)cell[2] - t->cell[2]) * (size_t)plane;
+	return place;
+}
+
 #endif

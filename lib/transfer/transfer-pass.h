@@ -15,6 +15,7 @@ struct pm_pass {
 	struct pm_tile_pass p; /* its jobs, on the axes of o */
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
 	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
+	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
 	double *corners; /* NULL or [threads][each][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 

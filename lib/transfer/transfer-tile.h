@@ -28,6 +28,7 @@ struct pm_tile {
 	double *records;        /* [count][stride] */
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
+	double *nodes;          /* gather: NULL, or the components of each point of the block side by side, four numbers (tile-vector.h) */
 	double *corners;        /* NULL, or [PM_TILE_CELLS][PM_CORNERS] (tile-cic.h): spread: zero before and after; gather: [components] of them */
 };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "transfer/tile-cic.h"
+#include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
 
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block)
@@ -107,6 +108,24 @@ static bool gather_by_corners(const struct pm_pass *w, const struct pm_tile_job 
 	return pm_tile_cic_gather(&t, &batch, r);
 }
 
+/* All components at once; with records too. */
+static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
+{
+	pm_tile_loop *loop = pm_tile_gather_vector(w->t->kernel);
+	size_t slots[3], first;
+	for (int d = 0; d < 3; d++)
+		slots[d] = pm_tile_slots(&w->p, j->tile, d, &first);
+	t.nodes = w->nodes + (size_t)omp_get_thread_num() * PM_VECTOR_NODES;
+	pm_tile_weave(t.block, w->components, slots, t.nodes);
+	if (t.records)
+		return loop(&t), true;
+	if (loop != pm_tile_cic_gather_vectors)
+		return gather_in_order(w, j, t, loop, r);
+	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
+	batch.p = j->from, batch.m = j->to - j->from;
+	return pm_tile_cic_gather_vectors_in_order(&t, &batch, r);
+}
+
 /* True if the values are finite; those in records are checked later. */
 static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
 {
@@ -121,7 +140,9 @@ static bool gather_pass(const struct pm_pass *w, int threads, const double *cons
 		for (int c = 0; c < w->components; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
-		if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+		if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
+			bad |= !gather_vectors(w, &w->p.job[j], t, r);
+		else if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
 			bad |= !gather_by_corners(w, &w->p.job[j], t, r);
 		else if (t.records)
 			loop(&t);
@@ -172,6 +193,17 @@ int pm_pass_corners(struct pm_pass *w, int threads, int each)
 	return used && !w->corners ? -PM_DATA : 0;
 }
 
+/* Nodes of a vector for a thread, if jobs need them; else corners. */
+static int begin_vectors(struct pm_pass *w, int threads)
+{
+	for (size_t j = 0; j < w->p.jobs && !w->nodes; j++)
+		if (pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, w->p.job[j].to - w->p.job[j].from)) {
+			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
+			return w->nodes ? 0 : -PM_DATA;
+		}
+	return pm_pass_corners(w, threads, w->components);
+}
+
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
  * moved again. They would be 24 bytes a particle, at the peak of a step. */
 static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], int threads)
@@ -186,11 +218,12 @@ static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], in
 	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
 	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
-	return status || !PM_TILE_CIC_EIGHT ? status : pm_pass_corners(w, threads, w->components);
+	return status || !PM_TILE_CIC_EIGHT ? status : begin_vectors(w, threads);
 }
 
 void pm_pass_end(struct pm_pass *w)
 {
+	pm_free(w->nodes);
 	pm_free(w->corners);
 	pm_free(w->blocks);
 	pm_tile_pass_free(&w->p);

@@ -1,0 +1,153 @@
+/* Gather of a vector in 3-D where a register holds eight numbers: the three (or four) components of a node lie side by side, as four numbers, so that a load
+ * is that of two nodes of a row and the weights serve all components. Every sum has the order of the loops for all kernels (transfer-tile.c): the same bytes.
+ * Cost: width^3/2 products of eight numbers per particle, and two moves per node of the tile.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-eight.h"
+#include "transfer/tile-lanes.h"
+#include "transfer/tile-vector.h"
+
+enum { node_row = 4 * (32 + 12), node_plane = node_row * (16 + 10) }; /* doubles per row and plane of a block of nodes */
+_Static_assert((int)PM_VECTOR_NODES == 4 * (int)PM_BLOCK_MOST, "four numbers a node");
+
+bool pm_tile_has_vectors(int dim, const struct pm_kernel *k, int components, size_t count)
+{
+	return PM_TILE_CIC_EIGHT && dim == 3 && (components == 3 || components == 4) && k->width > 1 && k->width <= 8 && !k->star
+		&& count >= PM_TILE_CELLS / 16;
+}
+
+void pm_tile_weave(const double *blocks, int components, const size_t slots[3], double *nodes)
+{
+	for (size_t z = 0; z < slots[2]; z++)
+		for (size_t y = 0; y < slots[1]; y++)
+			for (size_t x = 0; x < slots[0]; x += PM_SIMD_WIDTH) { /* whole vectors: a row has room, or the next one is written later */
+				const double *from = blocks + z * (node_plane / 4) + y * (node_row / 4) + x;
+				double *to = nodes + z * node_plane + y * node_row + 4 * x;
+				pm_simd v[4], u[4];
+				PM_SIMD_UNROLL
+				for (int c = 0; c < 4; c++)
+					v[c] = pm_simd_load_any(from + (size_t)(c < components ? c : 0) * PM_BLOCK_MOST);
+				turn(v, u);
+				pm_simd_store_any(to, __builtin_shufflevector(u[0], u[1], 0, 1, 2, 3, 8, 9, 10, 11));
+				pm_simd_store_any(to + 8, __builtin_shufflevector(u[2], u[3], 0, 1, 2, 3, 8, 9, 10, 11));
+				pm_simd_store_any(to + 16, __builtin_shufflevector(u[0], u[1], 4, 5, 6, 7, 12, 13, 14, 15));
+				pm_simd_store_any(to + 24, __builtin_shufflevector(u[2], u[3], 4, 5, 6, 7, 12, 13, 14, 15));
+			}
+}
+
+#define LOWER(v) __builtin_shufflevector(v, v, 0, 1, 2, 3)
+#define UPPER(v) __builtin_shufflevector(v, v, 4, 5, 6, 7)
+
+PM_SIMD_INLINE void put(const struct pm_tile *t, size_t i, pm_simd4_at value)
+{
+	double *result = t->results + i * (size_t)t->to;
+	if (t->to >= 4) /* of three components the fourth number is nobody's any more (transfer.c, begin_gather) */
+		*(pm_simd4_at *)result = value;
+	else {
+		*(pm_simd2_at *)result = __builtin_shufflevector(value, value, 0, 1);
+		result[2] = value[2];
+	}
+}
+
+PM_SIMD_INLINE void gather_vector(int width, int degree, const struct pm_tile *t)
+{
+	const int n = padded(width), pairs = width / 2;
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes];
+	pad_coefficients(t->kernel, width, degree, coefficients);
+	for (size_t i = 0; i < t->count; i++) {
+		const double *from = t->nodes + 4 * find_support(3, width, degree, t, coefficients, t->records + i * (size_t)t->stride, w);
+		pm_simd8_at sum[4] = {{0}};
+		pm_simd4_at last = {0}, total = {0};
+		for (int z = 0; z < width; z++) {
+			row_set(n, w[2][z], w[1], f);
+			PM_SIMD_UNROLL
+			for (int y = 0; y < width; y++) {
+				const double *row = from + z * node_plane + y * node_row;
+				PM_SIMD_UNROLL
+				for (int k = 0; k < pairs; k++)
+					sum[k] += *(const pm_simd8_at *)(row + 8 * k) * f[y];
+				if (width % 2)
+					last += *(const pm_simd4_at *)(row + 8 * pairs) * f[y];
+			}
+		}
+		PM_SIMD_UNROLL
+		for (int k = 0; k < pairs; k++) {
+			total += LOWER(sum[k]) * w[0][2 * k];
+			total += UPPER(sum[k]) * w[0][2 * k + 1];
+		}
+		if (width % 2)
+			total += last * w[0][width - 1];
+		put(t, i, total);
+	}
+}
+
+#define LOOPS(width) \
+	static void gather_spline_##width(const struct pm_tile *t) { gather_vector(width, width - 1, t); } \
+	static void gather_any_##width(const struct pm_tile *t) { gather_vector(width, t->kernel->degree, t); }
+LOOPS(2)
+LOOPS(3)
+LOOPS(4)
+LOOPS(5)
+LOOPS(6)
+LOOPS(7)
+LOOPS(8)
+#define ROW(name) {name##_2, name##_3, name##_4, name##_5, name##_6, name##_7, name##_8}
+static pm_tile_loop *const gathers[2][7] = {ROW(gather_spline), ROW(gather_any)};
+
+pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k)
+{
+	return k->width == 2 && k->degree == 1 ? pm_tile_cic_gather_vectors : gathers[k->degree != k->width - 1][k->width - 2];
+}
+
+/* ---- cic, eight particles at a time ---- */
+
+PM_SIMD_INLINE void values_of(const struct pm_tile *t, const struct eight *e, pm_simd4_at value[PM_SIMD_WIDTH])
+{
+	const pm_simd y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
+	double w[4][PM_SIMD_WIDTH] __attribute__((aligned(64))), x[PM_SIMD_WIDTH] __attribute__((aligned(64))); /* w[y*2 + z] */
+	int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
+	*(pm_simd_int_at *)at = e->cell[2] * node_plane + e->cell[1] * node_row + e->cell[0] * 4;
+	pm_simd_store(w[0], z0 * y0), pm_simd_store(w[1], z * y0), pm_simd_store(w[2], z0 * y), pm_simd_store(w[3], z * y), pm_simd_store(x, e->distance[0]);
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
+		const double *from = t->nodes + (size_t)(uint32_t)at[l];
+		pm_simd rows = pm_simd_load_any(from) * w[0][l];
+		rows += pm_simd_load_any(from + node_row) * w[2][l];
+		rows += pm_simd_load_any(from + node_plane) * w[1][l];
+		rows += pm_simd_load_any(from + node_plane + node_row) * w[3][l];
+		rows *= pm_simd_below_above(x[l]);
+		value[l] = LOWER(rows) + UPPER(rows);
+	}
+}
+
+void pm_tile_cic_gather_vectors(const struct pm_tile *t)
+{
+	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
+		pm_simd fourth;
+		pm_simd4_at value[PM_SIMD_WIDTH];
+		const struct eight e = find_eight_of_records(t, i, &fourth);
+		values_of(t, &e, value);
+		for (size_t l = 0; l < PM_SIMD_WIDTH && i + l < t->count; l++)
+			put(t, i + l, value[l]);
+	}
+}
+
+bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
+{
+	pm_simd nothing = {0};
+	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
+		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
+		const struct eight e = find_eight(t, batch, i);
+		pm_simd4_at value[PM_SIMD_WIDTH];
+		pm_simd v[4], component[4];
+		values_of(t, &e, value);
+		PM_SIMD_UNROLL
+		for (int k = 0; k < 4; k++)
+			v[k] = __builtin_shufflevector(value[k], value[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+		turn(v, component);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 4; c++)
+			if (c < t->components)
+				deliver_eight(component[c], n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, &nothing);
+	}
+	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
