@@ -60,7 +60,7 @@ static void fetch_row(const struct pm_tile_pass *p, const struct pm_tile_target 
 	if (soon >= n[1] * n[2])
 		return;
 	const size_t at_line = a[2]->at[first[2] + soon / n[1]] * p->grid->points[1] + a[1]->at[first[1] + soon % n[1]];
-	const double *at = mesh + at_line * p->grid->points[0] + a[0]->at[first[0]];
+	const double *at = mesh + (at_line - t->line) * p->grid->points[0] + a[0]->at[first[0]];
 	for (size_t i = 0; i < n[0] + line - 1; i += line)
 		__builtin_prefetch(at + i, 1);
 }
@@ -81,7 +81,7 @@ void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j
 			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			if (line % (size_t)threads == (size_t)thread)
 				add_row(a[0], a[0]->put[flip[0]], first[0], n[0], t->scale * a[2]->put[flip[2]][sz] * a[1]->put[flip[1]][sy],
-					block + z * plane + y * row, mesh + line * g->points[0]);
+					block + z * plane + y * row, mesh + (line - t->line) * g->points[0]);
 		}
 }
 
@@ -131,35 +131,20 @@ void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *
 			size_t sz = first[2] + z, sy = first[1] + y, line = a[2]->at[sz] * g->points[1] + a[1]->at[sy];
 			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			load_row(a[0], a[0]->get[flip[0]], first[0], n[0], a[2]->get[flip[2]][sz] * a[1]->get[flip[1]][sy],
-				mesh + line * g->points[0], block + z * plane + y * row);
+				mesh + (line - t->line) * g->points[0], block + z * plane + y * row);
 		}
 }
 
-
 /* ---- row by row, for blocks whose rows are on other ranks ---- */
 
-size_t pm_tile_line(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, size_t *count)
-{
-	size_t first[3];
-	for (int d = 2; d >= 0; d--)
-		*count = pm_tile_slots(p, tile, d, &first[d]);
-	return t->axes[2]->at[first[2] + z] * p->grid->points[1] + t->axes[1]->at[first[1] + y];
-}
-
-void pm_tile_add_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, double *row, double *line)
+void pm_tile_add_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, double *row, double *line)
 {
 	const struct pm_axis *const *a = t->axes;
-	size_t first[3], n = 0;
-	for (int d = 2; d >= 0; d--)
-		n = pm_tile_slots(p, tile, d, &first[d]);
 	add_row(a[0], a[0]->put[t->flip[0]], first[0], n, t->scale * a[2]->put[t->flip[2]][first[2] + z] * a[1]->put[t->flip[1]][first[1] + y], row, line);
 }
 
-void pm_tile_load_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, const double *line, double *row)
+void pm_tile_load_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, const double *line, double *row)
 {
 	const struct pm_axis *const *a = t->axes;
-	size_t first[3], n = 0;
-	for (int d = 2; d >= 0; d--)
-		n = pm_tile_slots(p, tile, d, &first[d]);
 	load_row(a[0], a[0]->get[t->flip[0]], first[0], n, a[2]->get[t->flip[2]][first[2] + z] * a[1]->get[t->flip[1]][first[1] + y], line, row);
 }

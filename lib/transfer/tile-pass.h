@@ -22,6 +22,7 @@ struct pm_tile_target {
 	const struct pm_axis *axes[3]; /* with the slots of the order's axes */
 	const unsigned char *flip;     /* [3] of transfer.h */
 	double scale;                  /* of what is added to the mesh */
+	size_t line;                   /* the first line (j + points[1] k) of the mesh in memory: 0, or that of a rank's planes */
 };
 
 /* 0 or failure; free in any case. */
@@ -37,10 +38,9 @@ size_t pm_tile_under_way(int threads);
 /* The rows of a job's block that belong to this thread, added to the mesh; they are zero afterwards. */
 void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, int thread, int threads,
 	double *block, double *mesh);
-/* One row of a block, at slot z, y of its tile: its line of the mesh (j + points[1] k), how many points; and to and from the points of that line. */
-size_t pm_tile_line(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, size_t *count);
-void pm_tile_add_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, double *row, double *line);
-void pm_tile_load_row(const struct pm_tile_pass *p, size_t tile, const struct pm_tile_target *t, size_t z, size_t y, const double *line, double *row);
+/* One row of a block, of n slots, at slot z, y of its tile, to and from the points of its line; first: the slots where the tile begins. */
+void pm_tile_add_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, double *row, double *line);
+void pm_tile_load_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, const double *line, double *row);
 enum { PM_TILE_PIECE = 16384 }; /* particles per job: a crowded tile is divided among threads and ranks */
 /* The block of a job, read from the mesh. */
 void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, const double *mesh, double *block);

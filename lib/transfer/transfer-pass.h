@@ -5,6 +5,7 @@
 
 #include "mesh/planes.h"
 #include "transfer/order-cache.h"
+#include "transfer/tile-cic.h"
 #include "transfer/tile-pass.h"
 
 /* The components that sit at the same offset. */
@@ -22,9 +23,12 @@ struct pm_pass {
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
 bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w);
 int pm_pass_corners(struct pm_pass *w, int threads, int each); /* `each` for a thread, if jobs need them; 0 or failure */
+int pm_pass_vectors(struct pm_pass *w, int threads); /* gather: nodes of a vector for a thread, if jobs need them; else corners */
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block);
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block);
+/* The values of a job's particles from its block: of a stream in order to their places, else to the results of its records. True if the former are finite. */
+bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double *block, const struct pm_tile_results *r);
 void pm_pass_end(struct pm_pass *w);
 
 /* pm_spread and pm_gather where particles and planes of the mesh are divided among the ranks (transfer-ranks.c). Strays are those here. */

@@ -1,318 +1,249 @@
-/* Spread and gather where the particles are divided in the order of the stream and the mesh in planes. The unit is the job of a transfer alone: a tile's
- * records in the order of the stream, at most PM_TILE_PIECE of them. Counts per tile, added over the ranks, define the jobs; these are dealt in the order of
- * tiles by equal numbers of records, so a crowded tile is shared too. Records travel to the rank of their job. A spread sends the rows of the job's block,
- * unsummed, to the ranks that have their lines of the mesh, which add them in the order of jobs: the sums of a transfer alone. A gather is the transpose:
- * lines become rows of blocks where they are, rows travel to the jobs, values back to the particles.
- * Travels: of a record dim + values numbers there, in a gather its values back; of each tile (1 + (width - 1)/edge)^dim numbers a cell and component.
- * Memory: two copies of the records under way, and the blocks of a rank's jobs. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spread and gather where the particles are divided in the order of the stream and the mesh in planes, by the jobs of shared-jobs.c. A job whose block lies
+ * on the planes here is done as by a transfer alone, without a message. Of the others (the edge of a rank's jobs) a spread sends the rows, unsummed, to the
+ * ranks that have their lines of the mesh, which add all rows of a line in the order of jobs: the sums of a transfer alone. A gather is the transpose: rows
+ * of lines travel to the jobs, values back to the particles.
+ * Travels, beside records: of tiles at an edge (1 + (width - 1)/edge)^dim numbers a cell and component; in a gather the values of records that travelled.
+ * Memory: the rows of an edge, once where they come from, once where they go. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "transfer/transfer-pass.h"
+#include "transfer/shared-jobs.h"
 #include "world/world.h"
 
-enum { ROWS_MOST = 384 }; /* of a block */
+enum { LAYERS_MOST = 80 }; /* of a block: 64 + 10 in 2-D */
+static const size_t inside = SIZE_MAX;
 
-struct travel {
-	const struct pm_transfer *t;
-	const struct pm_planes *planes;
-	size_t ranks, me;
-	struct pm_order_cache *local; /* the particles here, by tile */
-	bool in_order;                /* as the stream has them */
-	struct pm_order_cache mine;   /* records of the jobs of this rank */
-	struct pm_pass w;             /* its jobs */
-	int64_t *total, *before;      /* [tiles] records, of all ranks and of those before this one */
-	size_t jobs;                  /* of all ranks */
-	struct pm_tile_job *job;      /* from, to: in the order of all records */
-	size_t *job_of, *record_of;   /* the first job and record of every rank, one more than ranks */
-	size_t *out, *in;             /* [ranks] bytes; behind those that came of records those of rows */
-	size_t *place;                /* of each record that came, in the order of jobs */
-	int *holder;                  /* of each plane */
+struct pass {
+	struct pm_shared_jobs jobs;
+	struct pm_tile_target to;  /* the mesh under way; of all components of a pass the slots are on the same points */
+	int threads;
+	size_t *edge_of;           /* of each job of this rank: its number in the edge; inside: its block is on the planes here alone */
+	size_t (*at)[LAYERS_MOST]; /* of each job of the edge, and of each layer of its block: the place among those of the layer's rank */
+	size_t *size, *bytes;      /* [ranks] doubles of these layers, of a component; what is sent */
 };
 
-static void travel_free(struct travel *v)
+/* ---- layers of blocks ---- */
+
+/* What a plane of the mesh takes of a block is a layer: in 3-D all rows of a slot z, in 2-D a row, in 1-D the block. */
+struct layers {
+	size_t first[3], n[3]; /* slots */
+	size_t count, rows;    /* layers, rows of one */
+	int dim;
+};
+
+static struct layers layers_of(const struct pass *a, size_t tile)
 {
-	pm_free(v->mine.order.records);
-	pm_order_cache_free(v->local);
-	pm_free(v->total), pm_free(v->job), pm_free(v->place);
-	free(v->job_of), free(v->holder);
-	pm_pass_end(&v->w);
+	struct layers l = {.dim = a->jobs.local->order.dim};
+	for (int d = 0; d < 3; d++)
+		l.n[d] = pm_tile_slots(&a->jobs.w.p, tile, d, &l.first[d]);
+	l.count = l.dim == 1 ? 1 : l.n[l.dim - 1];
+	l.rows = l.dim == 3 ? l.n[1] : 1;
+	return l;
 }
 
-/* ---- jobs, and records to them ---- */
-
-static int count(int status, struct travel *v)
+static size_t rank_of(const struct pass *a, const struct layers *l, size_t layer)
 {
-	const struct pm_tile_order *o = v->local ? &v->local->order : NULL;
-	const size_t tiles = o ? o->tiles : 0;
-	v->total = status ? NULL : pm_alloc(2 * tiles + 1, sizeof *v->total);
-	status = status ? status : v->total ? 0 : pm_failed();
-	v->before = v->total ? v->total + tiles : NULL;
-	for (size_t i = 0; v->total && i < tiles; i++)
-		v->total[i] = v->before[i] = (int64_t)(o->begin[i + 1] - o->begin[i]);
-	status = pm_world_count(status, PM_SUM_OF, tiles, v->total);
-	return pm_world_count(status, PM_SUM_BEFORE, tiles, v->before);
+	const int d = l->dim - 1;
+	return (size_t)a->jobs.holder[d ? a->to.axes[d]->at[l->first[d] + layer] : 0];
 }
 
-static int deal(struct travel *v)
+static bool is_on(const struct pass *a, const struct layers *l, bool here)
 {
-	const size_t tiles = v->local->order.tiles;
-	size_t all = 0, most = 0, at = 0, rank = 0;
-	for (size_t i = 0; i < tiles; i++) {
-		all += (size_t)v->total[i];
-		most += ((size_t)v->total[i] + PM_TILE_PIECE - 1) / PM_TILE_PIECE;
-	}
-	v->job = pm_alloc(most + 1, sizeof *v->job);
-	v->job_of = calloc(5 * (v->ranks + 1), sizeof *v->job_of);
-	v->holder = malloc((v->planes->all + 1) * sizeof *v->holder);
-	if (!v->job || !v->job_of || !v->holder)
-		return pm_no_memory();
-	v->record_of = v->job_of + v->ranks + 1, v->out = v->record_of + v->ranks + 1, v->in = v->out + v->ranks;
-	for (size_t i = 0; i < tiles; i++)
-		for (size_t end = at + (size_t)v->total[i]; at < end; at = v->job[v->jobs++].to) {
-			for (; rank < at * v->ranks / all; rank++)
-				v->job_of[rank + 1] = v->jobs, v->record_of[rank + 1] = at;
-			v->job[v->jobs] = (struct pm_tile_job){i, at, end - at < PM_TILE_PIECE ? end : at + PM_TILE_PIECE};
-		}
-	for (; rank < v->ranks; rank++)
-		v->job_of[rank + 1] = v->jobs, v->record_of[rank + 1] = at;
-	for (size_t r = 0; r < v->ranks; r++)
-		for (size_t k = v->planes->from[r]; k < v->planes->from[r + 1]; k++)
-			v->holder[k] = (int)r;
-	return 0;
+	for (size_t k = 0; k < l->count; k++)
+		if ((rank_of(a, l, k) == a->jobs.me) == here)
+			return true;
+	return false;
 }
 
-/* How many records of this rank each rank needs: in the order of tiles they are in the order of ranks. */
-static void records_out(struct travel *v)
-{
-	size_t at = 0, rank = 0;
-	for (size_t i = 0; i < v->local->order.tiles; at += (size_t)v->total[i++]) {
-		size_t a = at + (size_t)v->before[i];
-		const size_t *begin = v->local->order.begin, end = a + begin[i + 1] - begin[i];
-		while (a < end) {
-			while (v->record_of[rank + 1] <= a)
-				rank++;
-			const size_t to = v->record_of[rank + 1] < end ? v->record_of[rank + 1] : end;
-			v->out[rank] += to - a;
-			a = to;
-		}
-	}
-}
-
-static void in_bytes(size_t *count, size_t ranks, size_t bytes)
-{
-	for (size_t r = 0; r < ranks; r++)
-		count[r] *= bytes;
-}
-
-static size_t tile_of(const struct travel *v, const double *u)
-{
-	const struct pm_tile_order *o = &v->local->order;
-	size_t tile = 0;
-	for (int d = o->dim - 1; d >= 0; d--)
-		tile = tile * o->across[d] + ((size_t)u[d] >> pm_tile_shift[o->dim][d]);
-	return tile;
-}
-
-/* What came is in the order of ranks, so of the stream, and of each rank by tile: a stable sort by tile puts it in the order of jobs. */
-static int sort(struct travel *v, const double *came, size_t n)
-{
-	const size_t first = v->job_of[v->me], jobs = v->job_of[v->me + 1] - first, begin = v->record_of[v->me], stride = (size_t)v->mine.order.stride;
-	const size_t least = jobs ? v->job[first].tile : 0, tiles = jobs ? v->job[first + jobs - 1].tile - least + 1 : 0;
-	size_t *cursor = pm_alloc(tiles + 1, sizeof *cursor);
-	double *records = pm_alloc(n * stride + 4, sizeof *records); /* 4: records are read as vectors */
-	v->place = pm_alloc(n + 1, sizeof *v->place);
-	v->w.p.job = pm_alloc(jobs + 1, sizeof *v->w.p.job);
-	v->mine.order.records = records;
-	if (!cursor || !records || !v->place || !v->w.p.job)
-		return pm_free(cursor), -PM_DATA;
-	for (size_t i = jobs; i-- > 0;) {
-		const struct pm_tile_job *j = &v->job[first + i];
-		v->w.p.job[i] = (struct pm_tile_job){j->tile, j->from - begin, j->to - begin};
-		cursor[j->tile - least] = j->from - begin; /* of several the first */
-	}
-	v->w.p.jobs = jobs;
-	for (size_t i = 0; i < n; i++) {
-		v->place[i] = cursor[tile_of(v, came + i * stride) - least]++;
-		memcpy(records + v->place[i] * stride, came + i * stride, stride * sizeof *records);
-	}
-	memset(records + n * stride, 0, 4 * sizeof *records);
-	pm_free(cursor);
-	return 0;
-}
-
-/* The records here in the order of tiles, also where the stream has it. */
-static double *packed(const struct pm_tile_order *o)
-{
-	double *records = pm_alloc(o->n * (size_t)o->stride + 1, sizeof *records);
-	for (size_t p = 0; records && p < o->n; p += PM_TILE_ORDER_PACK)
-		pm_tile_order_pack(o, p, o->n - p < PM_TILE_ORDER_PACK ? o->n - p : PM_TILE_ORDER_PACK, true, records + p * (size_t)o->stride);
-	return records;
-}
-
-/* Jobs and records of a pass. Takes the caller's status and returns the agreed one. */
-static int begin(int status, struct travel *v, size_t n, const double *const x[], int nvalues, const double *const values[])
-{
-	v->ranks = (size_t)pm_world_size(), v->me = (size_t)pm_world_rank();
-	v->planes = v->t->planes;
-	if (!status && !(v->local = pm_order_cache_new(v->t, v->t->staggered[v->w.which[0]], n, x, nvalues, values, 0)))
-		status = pm_failed();
-	status = pm_world_agree(status); /* all know the number of tiles */
-	if (status)
-		return status;
-	struct pm_tile_order *o = &v->local->order;
-	double *own = o->records;
-	v->in_order = !own;
-	void *came = NULL;
-	status = count(status, v);
-	status = status ? status : deal(v);
-	if (!status && !own && !(own = packed(o)))
-		status = pm_failed();
-	status = pm_world_agree(status);
-	if (!status) {
-		const size_t bytes = (size_t)o->stride * sizeof *own;
-		records_out(v);
-		in_bytes(v->out, v->ranks, bytes);
-		status = pm_world_exchange(status, own, v->out, &came, v->in);
-		if (own != o->records)
-			pm_free(own);
-		o->records = pm_free(o->records);
-		v->mine = (struct pm_order_cache){.grid = v->t->grid, .order = {.dim = o->dim, .tiles = o->tiles, .stride = o->stride, .nvalues = nvalues}};
-		memcpy(v->mine.axes, v->local->axes, sizeof v->mine.axes);
-		memcpy(v->mine.order.across, o->across, sizeof o->across);
-		v->mine.order.axes = v->mine.axes;
-		v->mine.order.n = status ? 0 : v->record_of[v->me + 1] - v->record_of[v->me];
-		v->w.o = &v->mine;
-		v->w.p = (struct pm_tile_pass){.grid = &v->t->grid, .order = &v->mine.order, .axes = v->mine.axes};
-		status = status ? status : sort(v, came, v->mine.order.n);
-	}
-	pm_free(came);
-	return status;
-}
-
-/* ---- rows of blocks, and the lines of the mesh ---- */
-
-/* A row of the block of a tile: the rank of its line, the line there, its length. */
+/* Row i of a layer: slots, line of the mesh, place in the block. */
 struct row {
-	size_t rank, line, count;
+	size_t z, y, line, in_block;
 };
 
-static struct row row_of(const struct travel *v, size_t tile, const struct pm_tile_target *to, size_t z, size_t y)
+static struct row row_of(const struct pass *a, const struct layers *l, size_t layer, size_t i)
 {
-	struct row r;
-	const size_t line = pm_tile_line(&v->w.p, tile, to, z, y, &r.count);
-	r.rank = (size_t)v->holder[line * v->planes->points[0] / v->planes->size];
-	r.line = line - pm_planes_row(v->planes, 0);
+	struct row r = {.z = l->dim == 3 ? layer : 0, .y = l->dim == 3 ? i : layer};
+	r.line = a->to.axes[2]->at[l->first[2] + r.z] * a->jobs.planes->points[1] + a->to.axes[1]->at[l->first[1] + r.y];
+	r.in_block = (r.z * (size_t)pm_block_rows[l->dim] + r.y) * (size_t)pm_block_row[l->dim];
 	return r;
 }
 
-/* Rows of a plane, and of the whole block of a tile. */
-static void shape_of(const struct travel *v, size_t tile, size_t rows[2])
-{
-	size_t first;
-	rows[0] = pm_tile_slots(&v->w.p, tile, 1, &first);
-	rows[1] = rows[0] * pm_tile_slots(&v->w.p, tile, 2, &first);
-}
+/* Points of the line of a row, which is on a plane here. */
+static size_t points_of(const struct pass *a, const struct row *r) { return (r->line - a->to.line) * a->jobs.planes->points[0]; }
 
-static double *in_block(const struct travel *v, double *block, size_t z, size_t y)
+/* Which jobs are at the edge, and where their layers are. share: jobs of one tile have them in common. */
+static int find_edge(struct pass *a, bool share)
 {
-	const int dim = v->mine.order.dim;
-	return block + (z * (size_t)pm_block_rows[dim] + y) * (size_t)pm_block_row[dim];
-}
-
-/* Doubles of the rows of a tile to or from each rank are added to `sum`; at: NULL, or what sum was before each row. */
-static void add_rows(const struct travel *v, size_t tile, const struct pm_tile_target *to, size_t *sum, size_t *at)
-{
-	size_t rows[2];
-	shape_of(v, tile, rows);
-	for (size_t i = 0; i < rows[1]; i++) {
-		const struct row r = row_of(v, tile, to, i / rows[0], i % rows[0]);
-		if (at)
-			at[i] = sum[r.rank];
-		sum[r.rank] += r.count;
+	const struct pm_shared_jobs *v = &a->jobs;
+	const struct pm_tile_job *job = v->w.p.job;
+	size_t edges = 0;
+	a->to = (struct pm_tile_target){.axes = {&v->local->axes[0], &v->local->axes[1], &v->local->axes[2]}, .line = pm_planes_row(v->planes, 0)};
+	a->edge_of = pm_alloc(v->w.p.jobs + 1, sizeof *a->edge_of);
+	a->size = pm_zalloc(2 * v->ranks, sizeof *a->size);
+	if (!a->edge_of || !a->size)
+		return -PM_DATA;
+	a->bytes = a->size + v->ranks;
+	for (size_t i = 0; i < v->w.p.jobs; i++) {
+		const struct layers l = layers_of(a, job[i].tile);
+		a->edge_of[i] = !is_on(a, &l, false) ? inside : share && i && job[i].tile == job[i - 1].tile ? a->edge_of[i - 1] : edges++;
 	}
-}
-
-static void begin_at(size_t *sum, size_t ranks)
-{
-	for (size_t r = 0, at = 0; r < ranks; r++) {
-		const size_t n = sum[r];
-		sum[r] = at;
-		at += n;
+	if (!(a->at = pm_alloc(edges + 1, sizeof *a->at)))
+		return -PM_DATA;
+	for (size_t i = 0, next = 0; i < v->w.p.jobs; i++) {
+		const struct layers l = layers_of(a, job[i].tile);
+		for (size_t k = 0; k < l.count && a->edge_of[i] == next; k++) {
+			const size_t r = rank_of(a, &l, k);
+			a->at[next][k] = a->size[r];
+			a->size[r] += l.rows * l.n[0];
+		}
+		next += a->edge_of[i] == next;
 	}
+	return 0;
 }
 
-/* The blocks of this rank's jobs, as rows in the order of ranks. */
-static void fill_rows(const struct travel *v, int value, const struct pm_tile_target *to, int threads, size_t *sum, size_t (*at)[ROWS_MOST], double *out)
+/* Where what is for or of each rank begins, but this one, which keeps its own: places in at[] count from there. Returns the doubles of all. */
+static size_t begin_at(const struct pass *a, const size_t *size, size_t *begin)
 {
-	const size_t under_way = pm_tile_under_way(threads);
-	for (size_t from = 0; from < v->w.p.jobs; from += under_way) {
-		const size_t end = v->w.p.jobs - from < under_way ? v->w.p.jobs : from + under_way;
-		for (size_t j = from; j < end; j++)
-			add_rows(v, v->w.p.job[j].tile, to, sum, at[j - from]);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-		for (size_t j = from; j < end; j++) {
-			double *block = v->w.blocks + (j - from) * PM_BLOCK_MOST;
-			size_t rows[2], tile = v->w.p.job[j].tile;
-			shape_of(v, tile, rows);
-			pm_pass_spread(&v->w, &v->w.p.job[j], value, block);
-			for (size_t i = 0; i < rows[1]; i++) {
-				double *row = in_block(v, block, i / rows[0], i % rows[0]);
-				const size_t n = row_of(v, tile, to, i / rows[0], i % rows[0]).count;
-				memcpy(out + at[j - from][i], row, n * sizeof *row);
-				memset(row, 0, n * sizeof *row);
+	size_t all = 0;
+	for (size_t r = 0; r < a->jobs.ranks; r++) {
+		begin[r] = r == a->jobs.me ? 0 : all;
+		all += r == a->jobs.me ? 0 : size[r];
+	}
+	return all;
+}
+
+static void pass_free(struct pass *a, bool keep)
+{
+	pm_free(a->edge_of), pm_free(a->at), pm_free(a->size);
+	pm_shared_jobs_free(&a->jobs, keep);
+}
+
+/* Threads for the records of this rank's jobs, which may be more than its particles. */
+static int threads_of(const struct pm_shared_jobs *v)
+{
+	const struct pm_tile_job *job = v->w.p.job;
+	size_t n = 0;
+	for (size_t i = 0; i < v->w.p.jobs; i++)
+		n += job[i].to - job[i].from;
+	return pm_tile_threads(n);
+}
+
+/* ---- spread ---- */
+
+/* Blocks at the edge: layers for other ranks to out, from begin[] on, layers of this rank to own. */
+static void fill_edge(const struct pass *a, int value, const size_t *begin, double *out, double *own)
+{
+	const struct pm_shared_jobs *v = &a->jobs;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(a->threads) if (a->threads > 1)
+	for (size_t i = 0; i < v->w.p.jobs; i++) {
+		double *block = v->w.blocks + (size_t)omp_get_thread_num() * PM_BLOCK_MOST;
+		if (a->edge_of[i] == inside)
+			continue;
+		const struct layers l = layers_of(a, v->w.p.job[i].tile);
+		const struct pm_pass w = pm_shared_jobs_pass(v, i);
+		pm_pass_spread(&w, &v->w.p.job[i], value, block);
+		for (size_t k = 0; k < l.count; k++) {
+			const size_t r = rank_of(a, &l, k);
+			double *layer = (r == v->me ? own : out + begin[r]) + a->at[a->edge_of[i]][k];
+			for (size_t y = 0; y < l.rows; y++) {
+				double *row = block + row_of(a, &l, k, y).in_block;
+				memcpy(layer + y * l.n[0], row, l.n[0] * sizeof *row);
+				memset(row, 0, l.n[0] * sizeof *row);
 			}
 		}
 	}
 }
 
-/* The rows of all jobs that belong to lines here, added in the order of jobs; every thread has its own lines. */
-static void add_to_lines(const struct travel *v, const struct pm_tile_target *to, int threads, double *rows_in, double *mesh)
+/* One layer of this rank's planes to the mesh; every thread has its own lines. */
+static void add_layer(const struct pass *a, const struct layers *l, size_t layer, size_t thread, size_t share, double *rows, double *mesh)
 {
-#pragma omp parallel num_threads(threads) if (threads > 1)
+	for (size_t y = 0; y < l->rows; y++) {
+		const struct row r = row_of(a, l, layer, y);
+		if (r.line % share == thread)
+			pm_tile_add_row(&a->to, l->first, l->n[0], r.z, r.y, rows + y * l->n[0], mesh + points_of(a, &r));
+	}
+}
+
+/* What came of the jobs from..end-1 of other ranks, in their order. Returns what is behind it. */
+static double *add_others(const struct pass *a, size_t from, size_t end, double *came, double *mesh)
+{
+	double *behind = came;
+#pragma omp parallel num_threads(a->threads) if (a->threads > 1)
 	{
 		const size_t share = (size_t)omp_get_num_threads(), thread = (size_t)omp_get_thread_num();
-		double *row = rows_in;
-		for (size_t j = 0; j < v->jobs; j++) {
-			size_t rows[2], tile = v->job[j].tile;
-			shape_of(v, tile, rows);
-			for (size_t i = 0; i < rows[1]; i++) {
-				const struct row r = row_of(v, tile, to, i / rows[0], i % rows[0]);
-				if (r.rank != v->me)
-					continue;
-				if (r.line % share == thread)
-					pm_tile_add_row(&v->w.p, tile, to, i / rows[0], i % rows[0], row, mesh + r.line * v->planes->points[0]);
-				row += r.count;
-			}
+		double *at = came;
+		for (size_t j = from; j < end; j++) {
+			const struct layers l = layers_of(a, a->jobs.job[j].tile);
+			for (size_t k = 0; k < l.count; k++)
+				if (rank_of(a, &l, k) == a->jobs.me) {
+					add_layer(a, &l, k, thread, share, at, mesh);
+					at += l.rows * l.n[0];
+				}
 		}
+		if (!thread)
+			behind = at;
+	}
+	return behind;
+}
+
+/* The jobs of this rank, in waves as by a transfer alone; those at the edge have been made. */
+static void add_own(const struct pass *a, int value, double *own, double *mesh)
+{
+	const struct pm_shared_jobs *v = &a->jobs;
+	const struct pm_tile_job *job = v->w.p.job;
+	const size_t under_way = pm_tile_under_way(a->threads);
+#pragma omp parallel num_threads(a->threads) if (a->threads > 1)
+	for (size_t from = 0; from < v->w.p.jobs; from += under_way) {
+		const size_t end = v->w.p.jobs - from < under_way ? v->w.p.jobs : from + under_way, thread = (size_t)omp_get_thread_num();
+#pragma omp for schedule(dynamic, 1)
+		for (size_t i = from; i < end; i++)
+			if (a->edge_of[i] == inside) {
+				const struct pm_pass w = pm_shared_jobs_pass(v, i);
+				pm_pass_spread(&w, &job[i], value, v->w.blocks + (i - from) * PM_BLOCK_MOST);
+			}
+		for (size_t i = from; i < end; i++) {
+			if (a->edge_of[i] == inside) {
+				pm_tile_add_block(&v->w.p, &job[i], &a->to, (int)thread, a->threads, v->w.blocks + (i - from) * PM_BLOCK_MOST, mesh);
+				continue;
+			}
+			const struct layers l = layers_of(a, job[i].tile);
+			for (size_t k = 0; k < l.count; k++)
+				if (rank_of(a, &l, k) == v->me)
+					add_layer(a, &l, k, thread, (size_t)a->threads, own + a->at[a->edge_of[i]][k], mesh);
+		}
+#pragma omp barrier
 	}
 }
 
-static int spread(int status, struct travel *v, int value, int threads, double *mesh)
+static int spread(int status, struct pass *a, int value, double *mesh)
 {
-	const struct pm_axis *a = v->mine.axes;
-	const struct pm_tile_target to = {.axes = {&a[0], &a[1], &a[2]}, .flip = v->t->flip[v->w.which[value]], .scale = 1 / pm_grid_cell(&v->t->grid)};
-	size_t all = 0, *sum = calloc(v->ranks, sizeof *sum), (*at)[ROWS_MOST] = pm_alloc(pm_tile_under_way(threads), sizeof *at);
-	double *out = NULL;
-	void *in = NULL;
-	status = status ? status : sum && at ? 0 : pm_no_memory();
-	for (size_t j = 0; j < v->w.p.jobs && !status; j++)
-		add_rows(v, v->w.p.job[j].tile, &to, sum, NULL);
-	for (size_t r = 0; r < v->ranks && !status; r++)
-		all += sum[r], v->out[r] = sum[r] * sizeof *out;
-	if (!status && !(out = pm_alloc(all + 1, sizeof *out)))
-		status = pm_failed();
+	const struct pm_shared_jobs *v = &a->jobs;
+	size_t *begin = status ? NULL : pm_alloc(2 * v->ranks, sizeof *begin), all = 0;
+	double *out = NULL, *own = NULL;
+	void *came = NULL;
+	status = status ? status : begin ? 0 : pm_failed();
 	if (!status) {
-		begin_at(sum, v->ranks);
-		fill_rows(v, value, &to, threads, sum, at, out);
+		a->to.flip = v->t->flip[v->w.which[value]];
+		a->to.scale = 1 / pm_grid_cell(&v->t->grid);
+		all = begin_at(a, a->size, begin);
+		out = pm_alloc(all + 1, sizeof *out);
+		own = pm_alloc(a->size[v->me] + 1, sizeof *own);
+		status = out && own ? 0 : pm_failed();
 	}
-	size_t *came = v->in + v->ranks;
-	status = pm_world_exchange(status, out, v->out, &in, came);
-	pm_free(out);
+	for (size_t r = 0; r < v->ranks && !status; r++)
+		a->bytes[r] = r == v->me ? 0 : a->size[r] * sizeof *out;
 	if (!status)
-		add_to_lines(v, &to, threads, in, mesh);
-	pm_free(in), pm_free(at), free(sum);
+		fill_edge(a, value, begin, out, own);
+	status = pm_world_exchange(status, out, a->bytes, &came, begin ? begin + v->ranks : NULL);
+	pm_free(out);
+	if (!status) {
+		double *behind = add_others(a, 0, v->job_of[v->me], came, mesh);
+		add_own(a, value, own, mesh);
+		add_others(a, v->job_of[v->me + 1], v->jobs, behind, mesh);
+	}
+	pm_free(came), pm_free(own), pm_free(begin);
 	return status;
 }
 
@@ -320,193 +251,231 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 	struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false};
-	struct travel v = {.t = t};
-	int status = 0, threads = pm_tile_threads(n);
-	while (!status && pm_pass_next(t, done, &v.w)) {
+	struct pass a = {.jobs = {.t = t}};
+	int status = 0;
+	while (!status && pm_pass_next(t, done, &a.jobs.w)) {
+		struct pm_pass *w = &a.jobs.w;
 		const double *values[PM_COMPONENTS];
-		for (int c = 0; c < v.w.components; c++)
-			values[c] = strength[v.w.which[c]];
-		status = begin(status, &v, n, x, v.w.components, values);
-		status = status ? status : pm_pass_corners(&v.w, threads, 1);
-		if (!status && !(v.w.blocks = pm_zalloc(pm_tile_under_way(threads) * PM_BLOCK_MOST, sizeof *v.w.blocks)))
+		for (int c = 0; c < w->components; c++)
+			values[c] = strength[w->which[c]];
+		status = pm_shared_jobs_init(status, &a.jobs, n, x, w->components, values, 0);
+		status = status ? status : find_edge(&a, false);
+		a.threads = status ? 1 : threads_of(&a.jobs);
+		status = status ? status : pm_pass_corners(w, a.threads, 1);
+		if (!status && !(w->blocks = pm_zalloc(pm_tile_under_way(a.threads) * PM_BLOCK_MOST, sizeof *w->blocks)))
 			status = pm_failed();
 		status = pm_world_agree(status);
-		for (int c = 0; c < v.w.components && !status; c++)
-			status = spread(status, &v, c, threads, mesh[v.w.which[c]]);
+		for (int c = 0; c < w->components && !status; c++)
+			status = spread(status, &a, c, mesh[w->which[c]]);
 		if (!status)
-			*strays = v.local->strays;
-		travel_free(&v);
-		v = (struct travel){.t = t};
+			*strays = a.jobs.local->strays;
+		pass_free(&a, !status);
+		a = (struct pass){.jobs = {.t = t}};
 	}
 	return status;
 }
 
 /* ---- gather ---- */
 
-/* Rows of a component for the tiles of every rank's jobs, of the lines here; consecutive jobs of a tile share them. out NULL: only their lengths. */
-static void rows_for_jobs(const struct travel *v, const struct pm_tile_target *to, const double *mesh, size_t *sum, double *out)
+/* Layers of planes here for the jobs of each other rank; consecutive jobs of a tile share them. out NULL: size[] becomes the doubles of a component. Else
+ * what each gets begins at begin[], component by component. */
+static void layers_for_jobs(struct pass *a, const double *const mesh[], const size_t *begin, size_t *size, double *out)
 {
-	size_t at = 0;
-	for (size_t r = 0; r < v->ranks; r++)
-		for (size_t j = v->job_of[r]; j < v->job_of[r + 1]; j++) {
-			size_t rows[2], tile = v->job[j].tile;
-			if (j > v->job_of[r] && tile == v->job[j - 1].tile)
+	const struct pm_shared_jobs *v = &a->jobs;
+	for (size_t r = 0; r < v->ranks; r++) {
+		size_t at = 0;
+		for (size_t j = v->job_of[r]; j < v->job_of[r + 1] && r != v->me; j++) {
+			const struct layers l = layers_of(a, v->job[j].tile);
+			if (j > v->job_of[r] && v->job[j].tile == v->job[j - 1].tile)
 				continue;
-			shape_of(v, tile, rows);
-			for (size_t i = 0; i < rows[1]; i++) {
-				const struct row w = row_of(v, tile, to, i / rows[0], i % rows[0]);
-				if (w.rank != v->me)
+			for (size_t k = 0; k < l.count; k++) {
+				if (rank_of(a, &l, k) != v->me)
 					continue;
-				if (out)
-					pm_tile_load_row(&v->w.p, tile, to, i / rows[0], i % rows[0], mesh + w.line * v->planes->points[0], out + at);
-				else
-					sum[r] += w.count;
-				at += w.count;
+				for (size_t i = 0; i < l.rows * (size_t)v->w.components && out; i++) {
+					const size_t c = i / l.rows, y = i % l.rows;
+					const struct row row = row_of(a, &l, k, y);
+					a->to.flip = v->t->flip[v->w.which[c]];
+					pm_tile_load_row(&a->to, l.first, l.n[0], row.z, row.y, mesh[v->w.which[c]] + points_of(a, &row),
+						out + begin[r] + c * size[r] + at + y * l.n[0]);
+				}
+				at += l.rows * l.n[0];
 			}
 		}
-}
-
-static struct pm_tile_target target(const struct travel *v, int c)
-{
-	const struct pm_axis *a = v->mine.axes;
-	return (struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = v->t->flip[v->w.which[c]]};
-}
-
-static int send_rows(int status, struct travel *v, int c, const double *mesh, void **in)
-{
-	const struct pm_tile_target to = target(v, c);
-	size_t all = 0, *sum = calloc(v->ranks, sizeof *sum);
-	double *out = NULL;
-	status = status ? status : sum ? 0 : pm_no_memory();
-	if (!status)
-		rows_for_jobs(v, &to, NULL, sum, NULL);
-	for (size_t r = 0; r < v->ranks && !status; r++)
-		all += sum[r], v->out[r] = sum[r] * sizeof *out;
-	if (!status && !(out = pm_alloc(all + 1, sizeof *out)))
-		status = pm_failed();
-	if (!status)
-		rows_for_jobs(v, &to, mesh, sum, out);
-	status = pm_world_exchange(status, out, v->out, in, v->in + v->ranks);
-	pm_free(out), free(sum);
-	return status;
-}
-
-/* The values of the records of this rank's jobs from the rows that came, component by component. */
-static int gather_jobs(const struct travel *v, int threads, double *const rows_in[])
-{
-	const size_t under_way = pm_tile_under_way(threads), each = (size_t)v->w.components * PM_BLOCK_MOST;
-	const struct pm_tile_target to = target(v, 0);
-	pm_tile_loop *loop = pm_tile_gather(v->mine.order.dim, v->t->kernel);
-	size_t *sum = calloc(v->ranks, sizeof *sum), (*at)[ROWS_MOST] = pm_alloc(under_way + 1, sizeof *at);
-	if (!sum || !at)
-		return free(sum), pm_free(at), pm_no_memory();
-	for (size_t r = 0; r < v->ranks; r++)
-		sum[r] = v->in[v->ranks + r] / sizeof(double);
-	begin_at(sum, v->ranks);
-	const struct pm_tile_job *job = v->w.p.job;
-	for (size_t from = 0; from < v->w.p.jobs; from += under_way) {
-		const size_t end = v->w.p.jobs - from < under_way ? v->w.p.jobs : from + under_way;
-		for (size_t j = from; j < end; j++) /* at[0]: of the job before */
-			if (j && job[j].tile == job[j - 1].tile)
-				memcpy(at[j - from + 1], at[j - from], sizeof *at);
-			else
-				add_rows(v, job[j].tile, &to, sum, at[j - from + 1]);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-		for (size_t j = from; j < end; j++) {
-			double *block = v->w.blocks + (size_t)omp_get_thread_num() * each;
-			struct pm_tile t = pm_pass_tile(&v->w, &job[j], block);
-			size_t rows[2];
-			t.components = v->w.components;
-			shape_of(v, job[j].tile, rows);
-			for (size_t i = 0; i < rows[1]; i++)
-				for (int c = 0; c < v->w.components; c++)
-					memcpy(in_block(v, block + (size_t)c * PM_BLOCK_MOST, i / rows[0], i % rows[0]), rows_in[c] + at[j - from + 1][i],
-						row_of(v, job[j].tile, &to, i / rows[0], i % rows[0]).count * sizeof *block);
-			loop(&t);
-		}
-		memcpy(at[0], at[end - from], sizeof *at);
+		if (!out)
+			size[r] = at;
 	}
-	free(sum), pm_free(at);
-	return 0;
 }
 
-/* Values of all components back to the ranks of their particles, in the order of tiles there. */
-static int send_back(int status, struct travel *v, void **back)
+static int send_layers(int status, struct pass *a, const double *const mesh[], void **came)
 {
-	const size_t n = v->mine.order.n, k = (size_t)v->w.components, stride = (size_t)v->mine.order.stride;
-	double *out = status ? NULL : pm_alloc(n * k + 1, sizeof *out);
-	status = status ? status : out ? 0 : pm_failed();
-	for (size_t i = 0; i < n && out; i++)
-		memcpy(out + i * k, v->w.results + v->place[i] * k, k * sizeof *out);
-	for (size_t r = 0; r < v->ranks; r++)
-		v->out[r] = v->in[r] / stride * k;
-	status = pm_world_exchange(status, out, v->out, back, v->in);
-	pm_free(out);
-	return status;
-}
-
-/* One pass; *back: the values of the particles here. */
-static int gather(int status, struct travel *v, int threads, const double *const mesh[], void **back)
-{
-	void *rows_in[PM_COMPONENTS] = {NULL};
+	const struct pm_shared_jobs *v = &a->jobs;
 	const size_t k = (size_t)v->w.components;
+	size_t *size = status ? NULL : pm_zalloc(3 * v->ranks, sizeof *size), *begin = size ? size + v->ranks : NULL;
+	double *out = NULL;
+	status = status ? status : size ? 0 : pm_failed();
 	if (!status) {
-		v->w.results = pm_alloc(v->mine.order.n * k + 1, sizeof *v->w.results);
-		v->w.blocks = pm_zalloc((size_t)threads * k * PM_BLOCK_MOST, sizeof *v->w.blocks);
-		status = v->w.results && v->w.blocks ? 0 : pm_failed();
+		layers_for_jobs(a, mesh, NULL, size, NULL);
+		const size_t all = begin_at(a, size, begin) * k;
+		for (size_t r = 0; r < v->ranks; r++)
+			begin[r] *= k, a->bytes[r] = size[r] * k * sizeof *out;
+		if (!(out = pm_alloc(all + 1, sizeof *out)))
+			status = pm_failed();
 	}
-	for (int c = 0; c < v->w.components; c++)
-		status = send_rows(status, v, c, mesh[v->w.which[c]], &rows_in[c]);
 	if (!status)
-		status = gather_jobs(v, threads, (double *const *)rows_in);
-	for (int c = 0; c < v->w.components; c++)
-		pm_free(rows_in[c]);
-	return send_back(status, v, back);
+		layers_for_jobs(a, mesh, begin, size, out);
+	status = pm_world_exchange(status, out, a->bytes, came, size ? size + 2 * v->ranks : NULL);
+	pm_free(out), pm_free(size);
+	return status;
 }
 
-/* The values that came back, in the order of tiles, to the particles here. */
-static int to_particles(const struct travel *v, const double *back, const double *const times[], const bool set[], double *const to[], bool *finite)
+/* The block of a component at the edge: layers of other ranks from what came, others from the mesh. */
+static void load_edge(const struct pass *a, const struct pm_tile_target *to, size_t i, int c, const size_t *begin, const double *came, const double *mesh,
+	double *block)
 {
-	const struct pm_tile_order *o = &v->local->order;
-	const int k = v->w.components;
-	int bad = 0;
-	if (!v->in_order)
-		return pm_tile_order_return(o, back, k, k, times, set, to, finite);
-#pragma omp parallel for schedule(static) reduction(| : bad) if (o->n > 16384)
-	for (size_t p = 0; p < o->n; p += PM_TILE_ORDER_PACK)
-		bad |= !pm_tile_order_unpack(p, o->n - p < PM_TILE_ORDER_PACK ? o->n - p : PM_TILE_ORDER_PACK, k, back + p * (size_t)k, k, times, set, to);
-	*finite = !bad;
+	const struct pm_shared_jobs *v = &a->jobs;
+	const struct layers l = layers_of(a, v->w.p.job[i].tile);
+	for (size_t k = 0; k < l.count; k++) {
+		const size_t r = rank_of(a, &l, k);
+		const double *layer = came + begin[r] * (size_t)v->w.components + (size_t)c * a->size[r] + a->at[a->edge_of[i]][k];
+		for (size_t y = 0; y < l.rows; y++) {
+			const struct row row = row_of(a, &l, k, y);
+			if (r == v->me)
+				pm_tile_load_row(to, l.first, l.n[0], row.z, row.y, mesh + points_of(a, &row), block + row.in_block);
+			else
+				memcpy(block + row.in_block, layer + y * l.n[0], l.n[0] * sizeof *block);
+		}
+	}
+}
+
+/* The values of the records of this rank's jobs. 0, or failure; *bad where one of those that are at their place already is not finite. */
+static int gather_jobs(const struct pass *a, const double *came, const double *const mesh[], const struct pm_tile_results *results, int *bad)
+{
+	const struct pm_shared_jobs *v = &a->jobs;
+	size_t *begin = pm_alloc(v->ranks, sizeof *begin);
+	int worse = 0;
+	if (!begin)
+		return -PM_DATA;
+	begin_at(a, a->size, begin);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(a->threads) reduction(| : worse) if (a->threads > 1)
+	for (size_t i = 0; i < v->w.p.jobs; i++) {
+		double *block = v->w.blocks + (size_t)omp_get_thread_num() * (size_t)v->w.components * PM_BLOCK_MOST;
+		for (int c = 0; c < v->w.components; c++) {
+			struct pm_tile_target to = a->to;
+			to.flip = v->t->flip[v->w.which[c]];
+			if (a->edge_of[i] == inside)
+				pm_tile_load_block(&v->w.p, &v->w.p.job[i], &to, mesh[v->w.which[c]], block + (size_t)c * PM_BLOCK_MOST);
+			else
+				load_edge(a, &to, i, c, begin, came, mesh[v->w.which[c]], block + (size_t)c * PM_BLOCK_MOST);
+		}
+		const struct pm_pass w = pm_shared_jobs_pass(v, i);
+		worse |= !pm_pass_gather(&w, &v->w.p.job[i], block, results);
+	}
+	*bad |= worse;
+	pm_free(begin);
 	return 0;
+}
+
+/* n values of the particles from `at` on in the order of tiles: to their results, or, where the stream has this order, to their places. */
+static void put_back(const struct pass *a, size_t at, size_t n, const double *values, size_t stride, const struct pm_tile_results *r, int *bad)
+{
+	const struct pm_shared_jobs *v = &a->jobs;
+	const struct pm_tile_order *o = &v->local->order;
+	const size_t k = (size_t)v->w.components, to = v->w.results ? k : (size_t)o->stride;
+	double *results = v->w.results ? v->w.results : o->records;
+	for (size_t p = 0; p < n && o->tile; p++)
+		memcpy(results + (at + p) * to, values + p * stride, k * sizeof *values);
+	for (size_t p = 0, m; p < n && !o->tile; p += m) {
+		m = n - p < PM_TILE_ORDER_PACK ? n - p : PM_TILE_ORDER_PACK;
+		*bad |= !pm_tile_order_unpack(at + p, m, (int)stride, values + p * stride, (int)k, r->factor, r->set, r->to);
+	}
+}
+
+/* The values of copies: to the ranks that sent their records, and to the particles here. */
+static int send_back(int status, struct pass *a, const struct pm_tile_results *r, int *bad)
+{
+	struct pm_shared_jobs *v = &a->jobs;
+	const size_t k = (size_t)v->w.components, stride = (size_t)v->mixed.order.stride;
+	size_t n = 0, *came = status ? NULL : pm_alloc(v->ranks, sizeof *came);
+	for (size_t q = 0; q < v->ranks && !status; q++)
+		n += v->in[q], a->bytes[q] = v->in[q] * k * sizeof(double);
+	double *out = status ? NULL : pm_alloc(n * k + 1, sizeof *out);
+	void *back = NULL;
+	status = status ? status : out && came ? 0 : pm_failed();
+	for (size_t i = 0; i < n && !status; i++)
+		memcpy(out + i * k, v->mixed.order.records + v->place[i] * stride, k * sizeof *out);
+	status = pm_world_exchange(status, out, a->bytes, &back, came);
+	if (!status) {
+		const double *values = back;
+		const size_t end = v->local->order.begin[v->local->order.tiles];
+		put_back(a, 0, v->sent[0], values, k, r, bad);
+		put_back(a, v->sent[1], end - v->sent[1], values + v->sent[0] * k, k, r, bad);
+		for (size_t i = 0; i < v->w.p.jobs; i++)
+			if (v->own[i].mixed)
+				put_back(a, v->own[i].local, v->own[i].here, v->mixed.order.records + v->own[i].copy * stride, stride, r, bad);
+	}
+	pm_free(out), pm_free(back), pm_free(came);
+	return status;
+}
+
+static int begin_gather(struct pass *a)
+{
+	struct pm_pass *w = &a->jobs.w;
+	const struct pm_tile_order *o = &a->jobs.local->order;
+	const size_t k = (size_t)w->components;
+	a->threads = threads_of(&a->jobs);
+	if (o->tile && k > (size_t)o->stride && !(w->results = pm_alloc(o->n * k + 1, sizeof *w->results)))
+		return -PM_DATA;
+	w->blocks = pm_zalloc((size_t)a->threads * k * PM_BLOCK_MOST, sizeof *w->blocks);
+	return !w->blocks ? -PM_DATA : !PM_TILE_CIC_EIGHT ? 0 : pm_pass_vectors(w, a->threads);
+}
+
+/* One pass, with its jobs. */
+static int gather(int status, struct pass *a, const double *const mesh[], const struct pm_tile_results *results, bool *finite)
+{
+	struct pm_shared_jobs *v = &a->jobs;
+	void *came = NULL;
+	int bad = 0;
+	status = status ? status : find_edge(a, true);
+	status = status ? status : begin_gather(a);
+	status = send_layers(status, a, mesh, &came);
+	status = status ? status : gather_jobs(a, came, mesh, results, &bad);
+	pm_free(came);
+	status = send_back(status, a, results, &bad);
+	*finite = !bad;
+	if (!status && v->local->order.tile) {
+		const struct pm_tile_order *o = &v->local->order;
+		const int k = v->w.components;
+		status = pm_tile_order_return(o, v->w.results ? v->w.results : o->records, v->w.results ? k : o->stride, k, results->factor, results->set,
+			results->to, finite);
+		if (!v->w.results)
+			pm_tile_order_spend(&v->local->order);
+	}
+	return status;
 }
 
 int pm_gather_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false}, finite = true;
-	struct travel v = {.t = t};
-	int status = 0, threads = pm_tile_threads(n);
-	while (!status && pm_pass_next(t, done, &v.w)) {
+	struct pass a = {.jobs = {.t = t}};
+	int status = 0;
+	while (!status && pm_pass_next(t, done, &a.jobs.w)) {
 		double *to[PM_COMPONENTS];
 		const double *times[PM_COMPONENTS];
 		bool set[PM_COMPONENTS], seen = false;
-		void *back = NULL;
-		for (int c = 0; c < v.w.components; c++) {
-			const int k = v.w.which[c];
+		for (int c = 0; c < a.jobs.w.components; c++) {
+			const int k = a.jobs.w.which[c];
 			set[c] = t->set[k], to[c] = out[k], times[c] = factor ? factor[k] : NULL;
 		}
-		status = begin(status, &v, n, x, 0, NULL);
-		status = pm_world_agree(status);
-		if (!status)
-			status = gather(status, &v, threads, mesh, &back);
-		if (!status)
-			status = to_particles(&v, back, times, set, to, &seen);
+		const struct pm_tile_results results = {times, set, to};
+		status = pm_shared_jobs_init(status, &a.jobs, n, x, 0, NULL, a.jobs.w.components);
+		status = gather(status, &a, mesh, &results, &seen);
 		status = pm_world_agree(status);
 		finite = finite && seen;
 		if (!status)
-			*strays = v.local->strays;
-		pm_free(back);
-		travel_free(&v);
-		v = (struct travel){.t = t};
+			*strays = a.jobs.local->strays;
+		pass_free(&a, false);
+		a = (struct pass){.jobs = {.t = t}};
 	}
 	strays->finite = finite;
 	return status;

@@ -5,7 +5,6 @@
 #include <omp.h>
 #include <string.h>
 
-#include "transfer/tile-cic.h"
 #include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
 
@@ -126,28 +125,33 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	return pm_tile_cic_gather_vectors_in_order(&t, &batch, r);
 }
 
+bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double *block, const struct pm_tile_results *r)
+{
+	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
+	struct pm_tile t = pm_pass_tile(w, j, block);
+	t.components = w->components;
+	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
+		return gather_vectors(w, j, t, r);
+	if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+		return gather_by_corners(w, j, t, r);
+	if (!t.records)
+		return gather_in_order(w, j, t, loop, r);
+	loop(&t);
+	return true;
+}
+
 /* True if the values are finite; those in records are checked later. */
 static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
 {
-	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
 	const struct pm_axis *a = w->o->axes;
 	int bad = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->p.jobs; j++) {
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
-		struct pm_tile t = pm_pass_tile(w, &w->p.job[j], block);
-		t.components = w->components;
 		for (int c = 0; c < w->components; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
-		if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
-			bad |= !gather_vectors(w, &w->p.job[j], t, r);
-		else if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
-			bad |= !gather_by_corners(w, &w->p.job[j], t, r);
-		else if (t.records)
-			loop(&t);
-		else
-			bad |= !gather_in_order(w, &w->p.job[j], t, loop, r);
+		bad |= !pm_pass_gather(w, &w->p.job[j], block, r);
 	}
 	return !bad;
 }
@@ -193,8 +197,7 @@ int pm_pass_corners(struct pm_pass *w, int threads, int each)
 	return used && !w->corners ? -PM_DATA : 0;
 }
 
-/* Nodes of a vector for a thread, if jobs need them; else corners. */
-static int begin_vectors(struct pm_pass *w, int threads)
+int pm_pass_vectors(struct pm_pass *w, int threads)
 {
 	for (size_t j = 0; j < w->p.jobs && !w->nodes; j++)
 		if (pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, w->p.job[j].to - w->p.job[j].from)) {
@@ -218,7 +221,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], in
 	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
 	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
-	return status || !PM_TILE_CIC_EIGHT ? status : begin_vectors(w, threads);
+	return status || !PM_TILE_CIC_EIGHT ? status : pm_pass_vectors(w, threads);
 }
 
 void pm_pass_end(struct pm_pass *w)
