@@ -615,13 +615,38 @@ mpi_here() {
 	sls rest >/dev/null
 }
 
-@test "under mpirun with 2 and 3 ranks: twelve sentences, the bytes of a run alone (all of them in check-long, else two)" {
+# Sets that the words inject and circuit, ecsim, neutrals, antenna, pgrad begin with.
+diode() { pinit plasma --background 0 | smod --faces neumann,wall --particle-faces absorb --constant charge_x_low=0 | species electrons -n 0; }
+diode_step="push kick/2 drift | inject electrons --density 0.1 -n 2000 | circuit --voltage=-5 -R 10 |
+	p2m -n 33 | poisson-fft --x-low charge_x_low/eps0 | mgrad | m2p | push kick/2"
+streams() { pinit two-stream -n 9000 --cells 33 --dt 1 | ecsim --gauss; }
+beam() { pinit plasma | species electrons -n 9000 --velocities 3 --drift 2 --vth 0.1; }
+light() { pinit em-wave --cells 133 | sel --drop E,B | smod --faces open --constant background=0 | p2m | maxwell --gauss; }
+light_step="push boris/2 | p2m --current | antenna 'Ey = sin(8*time)*exp(-(time-1.5)^2)' | maxwell | push drift | m2p | push boris/2"
+pgrad_step="field 'vel = 0' | pgrad --field f --method integral | field 'df = -derivative' | push euler"
+steps() { awk 'BEGIN { print "x f volume"; for (i = 0; i < 9000; i++) print (i + 0.5)/9000, (i < 4000), 1/9000 }' |
+	stab - --box 0,1 --faces periodic --dt 0.001; }
+
+@test "any number of ranks: electrons that come in, a circuit, a gas, an antenna, charges and field in one step, derivatives on particles" {
+	diode | same "$diode_step"
+	streams | same "push drift/2 | ecsim | push kick drift/2"
+	beam | same "push drift | neutrals --density 0.1 'elastic: 1/g'"
+	light | same "$light_step"
+	steps | same "$pgrad_step"
+}
+
+@test "under mpirun with 2 and 3 ranks: eighteen sentences, the bytes of a run alone (all of them in check-long, else two)" {
 	mpi_here
 	pinit uniform -n 9000 --dispersion 0.3 >box
 	pinit plummer -n 9000 >cluster
 	vortices >vortex
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 >streams
 	pinit taylor-green-3d --cells 12 >space
+	diode >diode
+	streams >poor
+	beam >beam
+	light >light
+	steps >steps
 	ran=0
 	while IFS='#' read -r file words; do
 		[ $ran -lt 2 ] || [ -n "${PM_LONG:-}" ] || break
@@ -643,8 +668,14 @@ vortex#p2m | poisson-fft | mgrad | dt --lcfl 0.2 | diffuse | m2p | push lsrk3
 streams#$(kicks "$(force 33)")
 streams#dt --courant 0.2 --plasma 0.1 --max 0.5 | push drift | diag --tee table
 space#p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push rk2 | remesh
+box#push drift | sel --where 'x < 0.6 - 0.02*time'
+diode#$(tr -d '\n\t' <<<"$diode_step")
+poor#push drift/2 | ecsim | push kick drift/2
+beam#push drift | neutrals --density 0.1 'elastic: 1/g'
+light#$light_step
+steps#$pgrad_step
 END
-	[ $ran -eq "$([ -n "${PM_LONG:-}" ] && echo 12 || echo 2)" ]
+	[ $ran -eq "$([ -n "${PM_LONG:-}" ] && echo 18 || echo 2)" ]
 }
 
 @test "a plan with ranks: what files gave to all ranks is brought together before threads ask for it" {

@@ -171,3 +171,36 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 		sel --drop mesh --no-history > ions
 	all_ways two "$(force 33)" "push kick/2 drift | $(force 33) | push kick/2" 1
 }
+
+@test "equal bytes: a diode: electrons come in at a face, leave at another, and a circuit holds the voltage" {
+	diode() { pinit plasma --background 0 --no-history | smod --faces neumann,wall --particle-faces absorb --constant charge_x_low=0 --no-history |
+		species electrons -n 0 "$@"; }
+	force="circuit --voltage=-5 -R 10 | p2m -n 33 | poisson-fft --x-low charge_x_low/eps0 | mgrad | m2p"
+	all_ways diode "$force" "push kick/2 drift | inject electrons --density 0.1 -n 50 | $force | push kick/2" 1
+}
+
+@test "equal bytes: charges and their field in one step (ecsim)" {
+	streams() { pinit two-stream -n 1000 --cells 33 --dt 1 --no-history | ecsim --gauss "$@"; }
+	all_ways streams "" "push drift/2 | ecsim | push kick drift/2" 1
+}
+
+@test "equal bytes: electrons that meet a gas" {
+	beam() { pinit plasma --no-history | species electrons -n 1001 --velocities 3 --drift 2 --vth 0.1 "$@"; }
+	all_ways beam "" "push drift | neutrals --density 0.1 'elastic: 1/g'" 1
+}
+
+@test "equal bytes: light from an antenna on particles" {
+	light() { pinit em-wave --cells 33 --no-history | sel --drop E,B --no-history | smod --faces open --constant background=0 --no-history |
+		p2m --no-history | maxwell --gauss "$@"; }
+	all_ways light m2p "push boris/2 | p2m --current | antenna 'Ey = sin(8*time)*exp(-(time-1.5)^2)' | maxwell | push drift | m2p | push boris/2" 1
+}
+
+@test "equal bytes: a derivative on particles that moves a step of density" {
+	steps() { awk 'BEGIN { print "x f volume"; for (i = 0; i < 40; i++) print (i + 0.5)/40, (i < 20), 1/40 }' |
+		stab - --box 0,1 --faces periodic --dt 0.01 "$@"; }
+	all_ways steps "" "field 'vel = 0' | pgrad --field f --method integral --side below | field 'df = -derivative' | push euler" 1
+}
+
+@test "equal bytes: particles that are left out behind a plane" {
+	all_ways "pinit uniform -n 1001 --dispersion 0.3" "" "push drift | sel --where 'x < 0.6 - 0.02*time'" 1
+}
