@@ -57,14 +57,18 @@ static int shelf_trim(struct block *out[shelf_size])
 	return n;
 }
 
+/* The smallest block of at least this size, of those freed last, and at most a quarter larger: what ranks send each other differs from step to step. */
 static struct block *shelf_take(size_t bytes)
 {
 	struct block *found = NULL;
+	int best = -1;
 	pthread_mutex_lock(&shelf_lock);
-	for (int i = 0; i < shelved && !found; i++)
-		if (shelf[i]->bytes == bytes)
-			found = off_shelf(i);
-	alive += bytes;
+	for (int i = 0; i < shelved; i++)
+		if (shelf[i]->bytes >= bytes && shelf[i]->bytes - bytes <= bytes / 4 && (best < 0 || shelf[i]->bytes < shelf[best]->bytes))
+			best = i;
+	if (best >= 0)
+		found = off_shelf(best);
+	alive += found ? found->bytes : bytes;
 	note_use();
 	pthread_mutex_unlock(&shelf_lock);
 	return found;
@@ -150,8 +154,8 @@ void *pm_alloc(size_t count, size_t size)
 		}
 		if (bytes >= large)
 			madvise(b, bytes, MADV_HUGEPAGE);
+		b->bytes = bytes;
 	}
-	b->bytes = bytes;
 	return (char *)b + head;
 }
 

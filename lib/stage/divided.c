@@ -299,6 +299,12 @@ static int frame_of(struct pm_stage *s, const json_t *all, struct pm_frame **f)
 	return plan > 0 && plan != PM_HOLD ? pm_fail(PM_DATA, "rank %d sees another frame than rank 0", pm_world_rank()) : plan < 0 ? plan : 0;
 }
 
+static void hand_over(struct pm_note **from, struct pm_note **to)
+{
+	*to = *from;
+	*from = NULL;
+}
+
 static int take_parts(const json_t *fields, struct uses *u)
 {
 	if (json_array_size(fields) != u->n)
@@ -319,6 +325,8 @@ static int take_parts(const json_t *fields, struct uses *u)
 		p->buffer = one->was ? pm_parts_of(one->was, one->was == one->is && p->use & PM_USE_CHANGE) : NULL;
 		if (one->was && !p->buffer)
 			return pm_fail(PM_DATA, "rank %d has no part of '%s'", pm_world_rank(), p->name);
+		if (p->buffer)
+			hand_over(&p->buffer->note, &p->note);
 	}
 	return 0;
 }
@@ -341,6 +349,8 @@ int pm_divided_follow(const struct pm_tool *tool, const char *text)
 		struct pm_buffer *b = p ? pm_parts_of(u.of[i].is, false) : NULL; /* there already: it was read alone */
 		if (u.of[i].is && p && p->buffer && !b && pm_parts_keep(u.of[i].is, p->buffer))
 			pm_cannot_go_on();
+		if (u.of[i].is && p && p->buffer && !p->buffer->note)
+			hand_over(&p->note, &p->buffer->note);
 		pm_buffer_free(b);
 	}
 	uses_free(&u);

@@ -117,6 +117,8 @@ struct pm_buffer *pm_buffer_free(struct pm_buffer *b)
 {
 	if (b && atomic_fetch_sub(&b->users, 1) == 1) {
 		pm_buffer_undivide(b);
+		if (b->note)
+			b->note->free(b->note);
 		pm_free(b->data);
 		free(b);
 	}

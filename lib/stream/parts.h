@@ -16,6 +16,7 @@ struct pm_buffer {
 	uint64_t *from; /* the beginnings of the stretches, one more than ranks; with id */
 	size_t size;    /* [bytes] of a value; with id */
 	int components; /* with id */
+	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
