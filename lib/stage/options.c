@@ -18,7 +18,8 @@ const struct pm_option pm_common_options[] = {
 	{.name = "ranks", .kind = PM_INTEGER, .unit = "1", .low = 1, .high = PM_RANKS_MOST, .cosmetic = true, AT(ranks),
 		.text = "number of processes on this machine that share the work, to rehearse a run by an MPI launcher; results do not depend on it"},
 	{.name = "timing", .kind = PM_TEXT, .unit = "FILE", .cosmetic = true, AT(timing),
-		.text = "append a line to FILE: word, seconds of set-up, of work, of the processors in this work; -: on standard error, to read"},
+		.text = "append a line to FILE: word, seconds of set-up, of work, of the processors in this work; -: on standard error, to read, "
+			"of cycle a table of its words, with their sum in the line 'all'"},
 	{.name = "no-history", .kind = PM_FLAG, .cosmetic = true, AT(no_history), .text = "add no entry to the history of the stream"},
 	{.name = "quiet", .letter = 'q', .kind = PM_FLAG, .cosmetic = true, AT(quiet), .text = "print no notes on standard error, only errors"},
 	{.name = "verbose", .letter = 'v', .kind = PM_FLAG, .cosmetic = true, AT(verbose), .text = "print decisions on standard error"},
