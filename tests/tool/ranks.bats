@@ -499,6 +499,28 @@ END
 	[ $ended -gt 3 ] && [ $failed -gt 3 ]
 }
 
+# Limits half way between what a run alone and a rank of 4 need, found by bisection: 130 and 60 MB, 154 and 54 MB, 111 and 75 MB. Tables and notes of solvers count.
+@test "a set and a mesh that no rank may hold: with a limit of memory a run alone ends, and 4 ranks do particle-mesh, vortex and plasma steps" {
+	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
+	export OMP_NUM_THREADS=1
+	pinit uniform -n 300000 --dispersion 0.1 | ssort >gravity
+	pinit taylor-green-2d --cells 512 >vortex
+	pinit langmuir --dim 2 --axes 2 -n 600625 --cells 256 --amplitude 0.1 >plasma
+	ran=0
+	while IFS='#' read -r file limit words; do
+		cycle -q -n 2 -i $file -o alone "$words" </dev/null
+		run -1 bash -c "ulimit -v $limit; cycle -q -n 2 -i $file -o small '$words'" </dev/null
+		[[ $output == *"out of memory"* ]]
+		(ulimit -v $limit; on 4 cycle -q -n 2 -i $file -o ranks "$words" </dev/null) && cmp alone ranks || { echo "$words"; return 1; }
+		ran=$((ran + 1))
+	done <<END
+gravity#90000#$(kicks "$(force 96)")
+vortex#95000#p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-6
+plasma#92000#$(kicks "p2m | poisson-fft | mgrad | m2p")
+END
+	[ $ran -eq 3 ]
+}
+
 @test "two sets that fail on different ranks: the failure that a run alone meets first" {
 	pinit uniform -n 13000 --dispersion 0.3 >one
 	smod --rename matter=probes <one >two
