@@ -42,7 +42,7 @@ static int job_of(const struct config *o, const struct pm_frame *f, struct job *
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	*j = (struct job){.choice = {.kernel = pm_kernel_choose(o->kernel, NULL, law, "m4prime"), .cut_off = o->cut_off,
+	*j = (struct job){.choice = {.kernel = pm_remesh_kernel(o->kernel, o->by, law), .cut_off = o->cut_off,
 		.rim = o->rim >= 0 ? (int)o->rim : -1, .by = o->by, .drop = o->drop.item, .ndrop = o->drop.n,
 		.out = !strcmp(o->outside, "drop"), .overlap = !strcmp(o->when, "distortion")}};
 	pm_remesh_defaults(f, &j->choice);
@@ -130,7 +130,7 @@ static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "drop", "grow", NULL};
 static const struct pm_option options[] = {
 	{.name = "kernel", .letter = 'k', .kind = PM_WORD, .choices = pm_kernel_names, PM_AT(kernel),
-		.text = "the interpolation kernel (default: the law's, else m4prime)"},
+		.text = "the interpolation kernel (default: with --by volume m6prime, else the law's, else m4prime)"},
 	PM_MESH_ROWS,
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set (default: every set with a strength that is not fixed)"},
 	{.name = "cut-off", .kind = PM_REAL, .high = 1, PM_AT(cut_off),

@@ -93,7 +93,24 @@ void pm_level_reads(struct pm_frame *f, const char *only)
 				pm_reads(f, f->sets[i]->name, names[k]);
 }
 
-int pm_level_of(const struct pm_frame *f, const char *only, struct pm_level_measures *m)
+/* exact on the nodes; *node stays NULL where it is not known at this time. */
+static int exact_on_mesh(const struct pm_frame *f, const struct pm_grid *g, pm_level_function *exact, double **node)
+{
+	const size_t n = pm_grid_size(g);
+	if (!exact || isnan(exact(f, g->lo, f->time)))
+		return 0;
+	*node = pm_alloc(n, sizeof **node);
+	for (size_t i = 0; i < n && *node; i++) {
+		const size_t at[3] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
+		double x[3];
+		for (int d = 0; d < 3; d++)
+			x[d] = d < g->dim ? g->lo[d] + (double)at[d] * g->h[d] : 0;
+		(*node)[i] = exact(f, x, f->time);
+	}
+	return *node ? 0 : -PM_DATA;
+}
+
+int pm_level_of(const struct pm_frame *f, const char *only, pm_level_function *exact, struct pm_level_measures *m)
 {
 	*m = (struct pm_level_measures){NAN, NAN, NAN};
 	if (!pm_level_there(f, only))
@@ -110,6 +127,8 @@ int pm_level_of(const struct pm_frame *f, const char *only, struct pm_level_meas
 		status = on_mesh(f, set, "level", &g, &a);
 		if (!status && scalar(pm_frame_field(f, set, "exact_level")))
 			status = on_mesh(f, set, "exact_level", &g, &b);
+		else if (!status)
+			status = exact_on_mesh(f, &g, exact, &b);
 		status = status ? status : pm_level_measure(&g, a, b, &one);
 		if (!status)
 			m->inside += one.inside, m->interface += one.interface, m->difference += one.difference;

@@ -32,13 +32,19 @@ static double centre_of(const struct pm_frame *f, int d)
 	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
 }
 
+static double (*level_of(const struct pm_frame *f))(const struct pm_frame *, const double[], double)
+{
+	const struct pm_scene *scene = pm_diag_scene(f);
+	return scene ? scene->level : NULL;
+}
+
 struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
 	struct pm_measure how = {.set = g->set, .strength = law->strength, .density = law->density, .potential = law->potential,
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
-		.fraction = g->fraction, .outside = true, .level = pm_level_there(f, g->set), .plasma = law->background != NULL,
+		.fraction = g->fraction, .outside = true, .level = pm_level_there(f, g->set), .exact_level = level_of(f), .plasma = law->background != NULL,
 		.field = law->field, .wave = law->wave, .nmodes = g->nmodes,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]},
 		.species = g->species, .field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};

@@ -117,7 +117,7 @@ static int radii(const struct pm_measure *how, size_t n, const struct pm_measure
 static int of_level(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {
 	struct pm_level_measures level = {NAN, NAN, NAN};
-	const int status = how->level ? pm_level_of(f, how->set, &level) : 0;
+	const int status = how->level ? pm_level_of(f, how->set, how->exact_level, &level) : 0;
 	m->value[PM_LEVEL_INSIDE] = level.inside;
 	m->value[PM_LEVEL_INTERFACE] = level.interface;
 	m->value[PM_LEVEL_DIFFERENCE] = level.difference;

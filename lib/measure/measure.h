@@ -99,6 +99,7 @@ struct pm_measure { /* what to measure of a frame */
 	double nu;                   /* [length^2/time] viscosity of the frame */
 	double centre[2];            /* [length] where omega is looked at */
 	bool level;                  /* a set carries a level (level/level-frame.h) */
+	double (*exact_level)(const struct pm_frame *f, const double x[], double t); /* of the scene; NULL: it knows none */
 	bool outside;                /* count those beyond the mesh, and their energy */
 	bool plasma;                 /* the law is electrostatic, or has a background of charge */
 	bool evolves;                /* the law's field is a state, with a magnetic one */

@@ -70,6 +70,11 @@ static bool qualifies(const struct pm_frame *f, const char *set, const struct pm
 	return position && strength;
 }
 
+const struct pm_kernel *pm_remesh_kernel(const char *option, const char *by, const struct pm_law *law)
+{
+	return pm_kernel_choose(!option && by && !strcmp(by, "volume") ? "m6prime" : option, NULL, law, "m4prime");
+}
+
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets)
 {
 	sets->n = 0;

@@ -30,6 +30,8 @@ struct pm_remesh_loss {
 void pm_remesh_defaults(const struct pm_frame *f, struct pm_remesh_choice *c);
 /* Enlarges the mesh until every particle of the sets lies inside, and the new ones have room to move. 0 or failure. */
 int pm_remesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_kernel *kernel, const struct pm_sets *sets);
+/* The one typed (NULL: none); else m6prime by volume, because cic smooths a value away that nothing makes anew; else the law's, else m4prime. */
+const struct pm_kernel *pm_remesh_kernel(const char *option, const char *by, const struct pm_law *law);
 /* The sets that have positions and a strength and are not fixed, or the one named only; fails with a sentence if there is none. */
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
 /* For declare(): fails for fields that cannot be distributed to nodes, declares the others as read. */

@@ -38,6 +38,8 @@ struct pm_scene {
 	int (*make)(const struct pm_scene_choice *c, struct pm_frame *f);
 	/* The exact value of one of diag's columns (or of a number in the scene's head) at time t; NAN if it has none of that name. May be NULL. */
 	double (*exact)(const struct pm_frame *f, const char *quantity, double t);
+	/* The exact level at the point x at time t, below 0 inside; NAN at a time when it is not known. NULL: no level. */
+	double (*level)(const struct pm_frame *f, const double x[], double t);
 };
 
 extern const struct pm_scene *const pm_scenes[]; /* generated from lib/scene/, NULL ends */

@@ -70,6 +70,8 @@ kepler() {
 gravity='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' orbit='push kick/2 drift | pp | push kick/2'
 magnetic='push boris/2 drift | m2p | push boris/2' vorticity='p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' points='pp | push lsrk3'
 space='p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push lsrk3 | remesh'
+turn="field 'vel = -2*pi*(y - 0.5), 2*pi*(x - 0.5)' | push rk4 | remesh --by volume"
+swirl="field 'vel = -sin(pi*x)^2*sin(2*pi*y), sin(pi*y)^2*sin(2*pi*x)' | push rk4 | remesh --by volume"
 light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 
 @test "every scene of pinit --help, typed bare, has the exact values of its page after some steps of its law's plain sentence" {
@@ -78,7 +80,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 	local row scene steps sentence rest columns name tolerance
 	export OMP_NUM_THREADS=1 # small
 	while IFS=';' read -r scene steps sentence rest columns; do
-		sh_ok "pinit $scene | cycle -n $steps '${!sentence}' $rest > t"
+		sh_ok "pinit $scene | cycle -n $steps \"${!sentence}\" $rest > t"
 		for row in $columns; do
 			name=${row%=*} tolerance=${row#*=}
 			awk -F'\t' -v name="$name" -v tol="$tolerance" 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
@@ -120,6 +122,8 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		lamb-dipole;2;vorticity;| p2m | diag --exact;circulation=1e-9 impulse_x=1e-3 angular_impulse=1e-9 enstrophy=1e-3 omega_max=0.03
 		cylinder;2;vorticity;| p2m | diag --exact;circulation=1e-12
 		cavity;2;vorticity;| p2m | diag --exact;circulation=1e-12
+		zalesak;2;turn;| diag --exact;level_inside=0.01
+		single-vortex;2;swirl;| diag --exact;level_inside=1e-3
 		vortex-rings;2;space;| p2m | diag --exact;alpha_x=1e-9 alpha_y=1e-9 alpha_z=1e-9 impulse_z=1e-4
 		tanh-layer;2;vorticity;| p2m | diag --exact;circulation=1e-6
 		vortex-merger;2;vorticity;| p2m | diag --exact;circulation=1e-5 impulse_x=1e-9 impulse_y=1e-9 angular_impulse=1e-3
