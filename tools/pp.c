@@ -50,8 +50,10 @@ static const struct pm_option options[] = {
 		.text = "length over which a point is smoothed (default: the frame's constant softening)"},
 	{.name = "overlap", .kind = PM_REAL, .fallback = "1.5", .low = 0.01, .high = 1e3, PM_AT(pp.overlap),
 		.text = "of vortices in space without a softening: their core over their spacing (mean volume)^(1/3)"},
+	{.name = "core-spreading", .kind = PM_REAL, .unit = "time", .low = -1e300, .high = 1e300, PM_AT(pp.spreading),
+		.text = "viscosity of vortices without a mesh: the softening is that of this time, and its square grows by 4 nu a time"},
 	{.name = "mollifier", .kind = PM_WORD, .choices = pm_mollifier_names, PM_AT(pp.mollifier),
-		.text = "how a point is smoothed (default: the law's)"},
+		.text = "how a point is smoothed (default: the law's; gaussian, and no other, where cores spread)"},
 	{.name = "loop", .kind = PM_WORD, .fallback = "half", .choices = loops, PM_AT(loop),
 		.text = "each pair once by symmetry, or each target over all sources; equal to round-off (of vortices in space and periodic rows always full)"},
 	{.name = "form", .kind = PM_WORD, .fallback = "transpose", .choices = pm_pp_form_names, PM_AT(form),
@@ -64,6 +66,9 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"accelerations and potential of a star cluster", "pinit plummer -n 500 | pp --potential | sls"},
 	{"a vortex ring without a mesh, a step", "pinit vortex-ring --core 0.2 --cells 24x24x12 | cycle -n 1 'pp | push rk2' | sls"},
+	{"a point vortex becomes Lamb and Oseen's, by the growth of its core",
+		"awk 'BEGIN { print \"x y circulation\\n0 0 1\\n0.2 0 0\" }' | stab - --law vortex --constant nu=0.01 --dt 0.1 --box -1,1 | "
+		"cycle -n 5 'pp --core-spreading 0 --softening 0 | push rk4' | sls"},
 	{"two ways of summing, compared", "pinit plummer -n 500 > a; pp --loop full < a > b; pp < a | scmp --field acc --tolerance 1e-12 b -"},
 	{0},
 };

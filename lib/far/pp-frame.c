@@ -39,10 +39,28 @@ static int open_space(const struct pm_frame *f)
 	return 0;
 }
 
+/* Core spreading: exp(-r^2/delta^2)/(pi delta^2) solves the heat equation if delta^2 grows by 4 nu a time, in the plane and in space (Kuwahara and Takami
+ * 1973, J. Phys. Soc. Japan 34, 247). The cores are those of the frame's time, in Runge-Kutta schemes of the pass. */
+static int spread(const struct pm_pp_choice *c, const struct pm_frame *f, const struct pm_law *law, struct pm_pp *p)
+{
+	const double age = f->time - c->spreading, nu = pm_frame_constant(f, "nu", 0);
+	if (law->of_potential != PM_CURL)
+		return pm_fail(PM_DATA, "--core-spreading is the viscosity of vortices, and the law is %s (leave it out)", f->law);
+	if (strcmp(p->mollifier->name, "gaussian"))
+		return pm_fail(PM_DATA, "cores of the mollifier %s do not spread as the heat equation has it (--mollifier gaussian)", p->mollifier->name);
+	if (!(p->delta >= 0))
+		return pm_fail(PM_DATA, "no softening length from which the cores spread (--softening LENGTH)");
+	if (age < 0)
+		return pm_fail(PM_DATA, "the cores have their softening at time %g, and it is %g (--core-spreading of an earlier time)", c->spreading, f->time);
+	p->delta = sqrt(p->delta * p->delta + 4 * nu * age);
+	return 0;
+}
+
 /* What to sum, from the law, the frame and the options. */
 static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const struct pm_law *law, struct pm_pp *p)
 {
-	const char *name = c->mollifier ? c->mollifier : law->mollifier ? law->mollifier : "plummer";
+	const bool spreads = !isnan(c->spreading);
+	const char *name = c->mollifier ? c->mollifier : spreads ? "gaussian" : law->mollifier ? law->mollifier : "plummer";
 	*p = (struct pm_pp){.dim = f->dim, .half = c->half, .mollifier = pm_mollifier_find(name)};
 	if (!p->mollifier)
 		return -PM_DATA;
@@ -52,13 +70,13 @@ static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const 
 		return pm_fail(PM_DATA, "the mollifier %s has no smoothed velocity gradient, which stretches (gaussian, algebraic)", name);
 	if (periodic_axis(f) >= 0 && !p->mollifier->square)
 		return pm_fail(PM_DATA, "the mollifier %s has no sum over periodic images (krasny and none have)", name);
-	if (p->mollifier->bare)
+	if (p->mollifier->bare && !spreads)
 		return 0;
 	p->delta = isnan(c->softening) ? pm_frame_constant(f, "softening", NAN) : c->softening;
 	if (!(p->delta >= 0) && !law->vector)
 		return pm_fail(PM_DATA, "no softening length (--softening LENGTH, which may be 0; smod --constant softening=LENGTH for the frame; or "
 			"--mollifier none)");
-	return 0;
+	return spreads ? spread(c, f, law, p) : 0;
 }
 
 static const struct pm_field *volume_of(const struct pm_frame *f, const struct pm_set *set, const struct pm_law *law)

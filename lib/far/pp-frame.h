@@ -9,6 +9,7 @@ struct pm_pp_choice {
 	const char *mollifier;    /* NULL: the law's, else plummer */
 	const char *set;          /* the only set acted on; NULL all */
 	double softening;         /* [length]; NAN: the frame's constant */
+	double spreading;         /* [time] when the softening of vortices was this one; its square grows by 4 nu a time. NAN: it stays */
 	double overlap;           /* of vector strengths without either: the core over their spacing (mean volume)^(1/3) */
 	int form;                 /* of vector strengths: enum pm_pp_form */
 	bool half;                /* each pair once; of scalar strengths */
