@@ -13,8 +13,8 @@
 #include "load/density-profile.h"
 #include "load/inverse.h"
 #include "load/injection.h"
+#include "load/newcomers.h"
 #include "push/electrode-charge.h"
-#include "push/push-set.h"
 #include "scene-parts/scene-loading.h"
 #include "stream/declare.h"
 #include "stream/edit.h"
@@ -26,8 +26,7 @@ struct arrivals {
 	struct pm_expression share;
 	struct pm_density_names names;
 	uint64_t key;
-	uint64_t n; /* that come, of which a share is taken */
-	double *x[3], *v[3];
+	struct pm_newcomers room; /* for all that come, of which a share is taken */
 };
 
 double pm_injection_flux(double d, double vth)
@@ -63,49 +62,6 @@ static int weigh(struct pm_injection *s, const struct pm_frame *f, const struct 
 	return 0;
 }
 
-static int make_set(const struct pm_injection *s, struct pm_frame *f)
-{
-	static const struct { const char *name, *unit; } row[] = {{"x", "length"}, {"v", "length/time"}, {"mass", "mass"}, {"charge", "charge"}, {"id", ""}};
-	const int components[] = {f->dim, s->velocities, 1, 1, 1};
-	if (!pm_frame_set(f, s->set) && !pm_frame_set_new(f, s->set, 0))
-		return -PM_DATA;
-	for (int i = 0; i < 5; i++) {
-		const struct pm_field *old = pm_frame_field(f, s->set, row[i].name);
-		struct pm_field *field = pm_makes(f, s->set, row[i].name, i == 1 && old ? old->components : components[i], PM_STATE);
-		if (!field)
-			return -PM_DATA;
-		snprintf(field->unit, sizeof field->unit, "%s", row[i].unit);
-		field->type = i == 4 ? PM_I64 : PM_F64;
-		field->extensive = field->uniform = i == 2 || i == 3;
-		field->value[0] = (i == 2 ? s->mass : s->charge) * s->weight;
-	}
-	return 0;
-}
-
-/* The fields of a set that has particles: all are held, and those of new values made one a particle. */
-static int grow(const struct pm_injection *s, struct pm_frame *f, struct pm_set *set)
-{
-	static const char *const own[] = {"x", "v", "mass", "charge", "id", NULL};
-	const struct pm_moving m = {.set = set};
-	for (size_t i = 0; i < f->nfields; i++) {
-		const struct pm_field *field = f->fields[i];
-		bool known = strcmp(field->on, s->set) != 0 || field->uniform;
-		for (int k = 0; own[k]; k++)
-			known = known || !strcmp(field->name, own[k]);
-		if (!known)
-			return pm_fail(PM_DATA, "new particles have no '%s', which '%s' has (sel --drop %s)", field->name, s->set, field->name);
-	}
-	for (int k = 0; own[k]; k++) {
-		const struct pm_field *field = pm_frame_field(f, s->set, own[k]);
-		const double value = k == 2 ? s->mass * s->weight : s->charge * s->weight;
-		if (!field)
-			return pm_fail(PM_DATA, "'%s' has no '%s' (species makes sets with x, v, mass, charge and id)", s->set, own[k]);
-		if (field->uniform && (k < 2 || k > 3 || !alike(field->value[0], value)) && !pm_changes(f, s->set, own[k]))
-			return -PM_DATA;
-	}
-	return pm_moving_shrinks(f, &m);
-}
-
 static int refuse(const struct pm_injection *s, const struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -120,7 +76,12 @@ static int refuse(const struct pm_injection *s, const struct pm_frame *f)
 	if (s->axis >= 0 && f->pface[s->axis][s->side] == PM_PFOLD)
 		return pm_fail(PM_DATA, "the %s face along %c is periodic: nothing is beyond it (--at volume, or smod --faces, --particle-faces absorb)",
 			s->side ? "high" : "low", 'x' + s->axis);
-	return pm_frame_mesh(f, s->set) ? pm_fail(PM_DATA, "'%s' is a mesh of this frame (another name)", s->set) : 0;
+	return 0;
+}
+
+static struct pm_newcomers newcomers(const struct pm_injection *s)
+{
+	return (struct pm_newcomers){.set = s->set, .velocities = s->velocities, .equal = true, .mass = s->mass * s->weight, .charge = s->charge * s->weight};
 }
 
 int pm_injection_declare(struct pm_injection *s, struct pm_frame *f)
@@ -143,10 +104,8 @@ int pm_injection_declare(struct pm_injection *s, struct pm_frame *f)
 			return pm_fail(PM_DATA, "'%s' has '%s' already, which new particles lack (put inject behind the drift, in front of the forces)", s->set,
 				f->fields[i]->name);
 	status = !f->substep && pm_frame_outdate(f) ? -PM_DATA : weigh(s, f, set);
-	for (size_t i = 0; i < f->nsets && !status; i++)
-		if (pm_frame_field(f, f->sets[i]->name, "id") && !pm_reads(f, f->sets[i]->name, "id"))
-			status = -PM_DATA;
-	status = status ? status : set && set->n ? grow(s, f, set) : make_set(s, f);
+	const struct pm_newcomers a = newcomers(s);
+	status = status ? status : pm_newcomers_declare(f, &a);
 	return status ? status : PM_INJECTION_ACTS;
 }
 
@@ -166,7 +125,6 @@ static int prepare(struct arrivals *a)
 	int status = 0;
 	if (!(n < 1e9))
 		return pm_fail(PM_DATA, "%g particles a step (a larger -w)", n);
-	a->n = (uint64_t)n;
 	a->key = s->seed ^ (uint64_t)pm_crc32c(0, s->set, strlen(s->set)) << 20 ^ (uint64_t)(2 * (s->axis + 1) + s->side) << 56;
 	if (s->axis >= 0 && s->vth[s->axis] > 0 && inward(s) != 0) {
 		const double d = inward(s), w = 10 * s->vth[s->axis];
@@ -175,11 +133,8 @@ static int prepare(struct arrivals *a)
 	a->names = (struct pm_density_names){.f = f, .variable = variable, .n = 4};
 	if (!status && s->share)
 		status = pm_expression_compile_numbers(&a->share, pm_density_name, &a->names, "number (of a place: x y z, time)", s->share);
-	for (int d = 0; d < 3 && !status; d++) {
-		a->x[d] = d < f->dim ? pm_alloc(a->n + 1, sizeof(double)) : NULL;
-		a->v[d] = d < s->velocities ? pm_alloc(a->n + 1, sizeof(double)) : NULL;
-		status = (d < f->dim && !a->x[d]) || (d < s->velocities && !a->v[d]) ? -PM_DATA : 0;
-	}
+	a->room = newcomers(s);
+	status = status ? status : pm_newcomers_room(f, &a->room, (uint64_t)n);
 	return status;
 }
 
@@ -223,50 +178,10 @@ static int arrive(const struct arrivals *a, uint64_t i, double x[3], double v[3]
 	return u[7] < share;
 }
 
-static int64_t next_id(const struct pm_frame *f)
-{
-	int64_t most = -1;
-	for (size_t k = 0; k < f->nsets; k++) {
-		const struct pm_field *id = pm_frame_field(f, f->sets[k]->name, "id");
-		if (!id || id->type != PM_I64 || !id->count)
-			continue;
-		const int64_t *number = pm_in_i64(id, 0);
-#pragma omp parallel for schedule(static) reduction(max:most) if (id->count > 16384)
-		for (size_t i = 0; i < id->count; i++)
-			most = number[i] > most ? number[i] : most;
-	}
-	return most + 1;
-}
-
-/* The first `came` places and velocities of a become the last particles of the set. */
-static int append(const struct arrivals *a, struct pm_frame *f, uint64_t came)
-{
-	const struct pm_injection *s = a->s;
-	struct pm_set *set = pm_frame_set(f, s->set);
-	const uint64_t old = set->n;
-	const int64_t first = next_id(f);
-	if (pm_frame_set_resize(f, set, old + came))
-		return -PM_DATA;
-	struct pm_field *x = pm_frame_field(f, s->set, "x"), *v = pm_frame_field(f, s->set, "v"), *id = pm_frame_field(f, s->set, "id");
-	for (int d = 0; d < f->dim; d++)
-		memcpy(pm_out(x, d) + old, a->x[d], came * sizeof(double));
-	for (int d = 0; d < s->velocities; d++)
-		memcpy(pm_out(v, d) + old, a->v[d], came * sizeof(double));
-	for (uint64_t i = 0; i < came; i++)
-		pm_out_i64(id, 0)[old + i] = first + (int64_t)i;
-	for (int k = 0; k < 2; k++) {
-		struct pm_field *strength = pm_frame_field(f, s->set, k ? "charge" : "mass");
-		double *value = strength->uniform ? NULL : pm_out(strength, 0);
-		for (uint64_t i = 0; value && i < came; i++)
-			value[old + i] = (k ? s->charge : s->mass) * s->weight;
-	}
-	return 0;
-}
-
 static int take(struct arrivals *a, struct pm_frame *f, uint64_t *came)
 {
 	const struct pm_injection *s = a->s;
-	for (uint64_t i = 0; i < a->n; i++) {
+	for (uint64_t i = 0; i < a->room.room; i++) {
 		double x[3], v[3];
 		const int taken = arrive(a, i, x, v);
 		if (taken < 0)
@@ -274,12 +189,13 @@ static int take(struct arrivals *a, struct pm_frame *f, uint64_t *came)
 		if (taken && s->axis >= 0 && !(x[s->axis] >= f->lo[s->axis] && x[s->axis] <= f->hi[s->axis]))
 			return pm_fail(PM_DATA, "a particle that comes in at %g crosses the whole box within a step (a shorter --dt)", v[s->axis]);
 		for (int d = 0; d < f->dim && taken; d++)
-			a->x[d][*came] = x[d];
+			a->room.x[d][a->room.n] = x[d];
 		for (int d = 0; d < s->velocities && taken; d++)
-			a->v[d][*came] = v[d];
-		*came += taken;
+			a->room.v[d][a->room.n] = v[d];
+		a->room.n += (uint64_t)taken;
 	}
-	return append(a, f, *came);
+	*came = a->room.n;
+	return pm_newcomers_append(&a->room, f);
 }
 
 int pm_injection_step(struct pm_injection *s, struct pm_frame *f, uint64_t *came)
@@ -292,9 +208,6 @@ int pm_injection_step(struct pm_injection *s, struct pm_frame *f, uint64_t *came
 	if (!status && s->axis >= 0 && pm_electrode(f, s->axis, s->side))
 		pm_electrode_add(f, s->axis, s->side, -s->charge * s->weight * (double)*came);
 	pm_inverse_free(&a.normal);
-	for (int d = 0; d < 3; d++) {
-		pm_free(a.x[d]);
-		pm_free(a.v[d]);
-	}
+	pm_newcomers_free(&a.room);
 	return status;
 }
