@@ -20,6 +20,7 @@ small() {
 	cylinder) echo "$1 --cells 32x24" ;;
 	cavity) echo "$1 --cells 40" ;;
 	zalesak | single-vortex) echo "$1 --cells 32" ;;
+	wakefield) echo "$1 --cells 300 --waves 3" ;;
 	vortex-ring | vortex-rings) echo "$1 --cells 20x20x12" ;;
 	*) echo "$1 --cells 16" ;;
 	esac
@@ -30,6 +31,7 @@ small() {
 plain() {
 	case $1 in
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;
+	wakefield) echo 'push boris/2 | p2m --current | maxwell | push drift | window electrons -n 1 | m2p | push boris/2' ;;
 	em-wave | weibel) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
 	lamb-oseen) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --rim 2 --cut-off 1e-4' ;;
 	ellipse | shear-layer | taylor-green-2d | tanh-layer | random-vorticity) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;

@@ -129,6 +129,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		vortex-merger;2;vorticity;| p2m | diag --exact;circulation=1e-5 impulse_x=1e-9 impulse_y=1e-9 angular_impulse=1e-3
 		random-vorticity;2;vorticity;| p2m | diag --exact;circulation=1e-9
 		em-wave;10;light;| diag --exact;mass=1e-12 charge=1e-12
+		wakefield;2;light;| diag;
 		weibel;10;light;| diag --exact;mass=1e-12 charge=1e-12
 	END
 	pinit --help | awk '/^The scenes:/ { on = 1; next } !NF { on = 0 } on { print $1 }' | sort > all

@@ -15,6 +15,7 @@ words() {
 	dt) echo "dt --courant 0.5" ;;
 	maxwell) echo "maxwell --layers 1" ;;
 	antenna) echo "antenna --place 1 'Ey = sin(3*time+1)*x'" ;;
+	window) echo "window electrons --speed 9" ;;
 	collide) echo "collide --statistical-weight 0.01 --quiet" ;;
 	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
@@ -63,6 +64,8 @@ input() {
 	mgrad | mlevel) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse | spectrum | smooth) cloud | p2m ;;
 	antenna | maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
+	window) pinit wakefield --cells 8 --waves 2 --dt 0.5 | species electrons -n 12 --velocities 3 |
+		m2p | push boris/2 | p2m --current | maxwell --layers 1 | push drift ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
