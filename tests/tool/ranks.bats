@@ -499,7 +499,8 @@ END
 	[ $ended -gt 3 ] && [ $failed -gt 3 ]
 }
 
-# Limits half way between what a run alone and a rank of 4 need, found by bisection: 130 and 60 MB, 154 and 54 MB, 111 and 75 MB. Tables and notes of solvers count.
+# Limits half way between what a run alone and a rank of 4 need, found by bisection: 130 and 60 MB, 154 and 54 MB, 111 and 75 MB. Tables and notes of
+# solvers count.
 @test "a set and a mesh that no rank may hold: with a limit of memory a run alone ends, and 4 ranks do particle-mesh, vortex and plasma steps" {
 	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
 	export OMP_NUM_THREADS=1
