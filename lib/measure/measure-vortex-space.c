@@ -1,7 +1,8 @@
 /* Integrals of vortices in space. Of the particles: total alpha = sum alpha, impulse 1/2 sum x x alpha, angular impulse 1/3 sum x x (x x alpha); of a ring in
- * open space its circulation, radius and position. Of omega on the first mesh that holds it: enstrophy 1/2 int omega^2, dissipation 2 nu times that, the
- * largest |omega|, divergence = max |div omega| h/max |omega| (differences of order 6, h the largest spacing). With the velocity there (or its potential,
- * law-field.c): energy 1/2 int u^2, helicity int u . omega. The other formula of the energy, 1/2 int psi . omega, is that of every law (measure-frame.c).
+ * open space its circulation, radius and position. Of omega on the first mesh that holds it: enstrophy 1/2 int omega^2, dissipation 2 nu times that,
+ * Kolmogorov's scales, the largest |omega|, divergence = max |div omega| h/max |omega| (differences of order 6, h the largest spacing). With the velocity
+ * there (or its potential, law-field.c): energy 1/2 int u^2, helicity int u . omega. The other formula of the energy, 1/2 int psi . omega, is that of every
+ * law (measure-frame.c).
  * A ring: its axis n is the direction of the impulse I; position = sum (x . n) w/sum w, w = 1/2 (x x alpha) . n; circulation 1/(2 pi) sum alpha_phi/r
  * about the axis through the centre of |alpha|; radius sqrt(|I|/(pi circulation)).
  * Missing quantities are NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
@@ -138,6 +139,20 @@ static double largest(size_t n, int components, const double *const y[])
 	return sqrt(most);
 }
 
+/* The smallest scales of turbulence, from the dissipation eps of a unit mass: length (nu^3/eps)^(1/4), time (nu/eps)^(1/2) (Pope 2000, 5.7). An open box has
+ * no mean to take eps from. */
+static void kolmogorov(const struct pm_frame *f, double nu, struct pm_measures *m)
+{
+	double volume = 1;
+	for (int d = 0; d < 3; d++)
+		volume *= f->face[d][0] == PM_OPEN || f->face[d][1] == PM_OPEN ? NAN : f->hi[d] - f->lo[d];
+	const double eps = m->value[PM_DISSIPATION] / volume;
+	if (!(eps > 0))
+		return;
+	m->value[PM_KOLMOGOROV_LENGTH] = sqrt(nu * sqrt(nu / eps));
+	m->value[PM_KOLMOGOROV_TIME] = sqrt(nu / eps);
+}
+
 static int of_mesh(const struct pm_measure *how, const struct pm_grid *g, const double *const omega[3], struct pm_measures *m)
 {
 	struct pm_operator div;
@@ -201,5 +216,6 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 	const struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, omega->on));
 	const double *const values[3] = {pm_in(omega, 0), pm_in(omega, 1), pm_in(omega, 2)};
 	int status = of_mesh(how, &g, values, m);
+	kolmogorov(f, how->nu, m);
 	return status ? status : of_flow(how, f, omega, m);
 }

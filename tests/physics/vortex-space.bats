@@ -121,6 +121,16 @@ abc_error() {
 	within "$(paste <(column ring_position <d) <(column exact_ring_position <d) | tail -1 | awk '{ print $1 / $2 }')" 1 0.03
 }
 
+@test "Kolmogorov's scales of Taylor-Green at the start: dissipation 3/4 nu of a unit mass; none in open space, nor without viscosity" {
+	pinit taylor-green-3d --cells 16 --nu 0.02 | p2m | diag --columns kolmogorov_length,kolmogorov_time >d
+	within "$(column kolmogorov_length <d)" "$(calc '(8e-6 / 0.015) ^ 0.25')" 1e-12
+	within "$(column kolmogorov_time <d)" "$(calc 'sqrt(4 / 3)')" 1e-12
+	for scene in "vortex-ring --nu 0.01" "taylor-green-3d --nu 0"; do
+		# shellcheck disable=SC2086 # options
+		[ "$(pinit $scene --cells 24 | p2m | diag --columns kolmogorov_length | tail -1)" = nan ]
+	done
+}
+
 @test "Taylor-Green at Re = 100 to t = 8: dissipation within 1 % of a spectral code on 64^3 cells" {
 	[ -n "${PM_LONG:-}" ] || skip "PM_LONG"
 	pinit taylor-green-3d --cells 64 --dt 0.1 | cycle -n 80 --every 10 "$step" | p2m --kernel m6prime | diag --exact --columns time,dissipation >d
