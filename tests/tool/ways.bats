@@ -195,6 +195,11 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 	all_ways light m2p "push boris/2 | p2m --current | antenna 'Ey = sin(8*time)*exp(-(time-1.5)^2)' | maxwell | push drift | m2p | push boris/2" 1
 }
 
+@test "equal bytes: a window that moves with light, and lets electrons in" {
+	pulse() { pinit wakefield --cells 60 --waves 2 "$@"; }
+	all_ways pulse m2p "push boris/2 | p2m --current | maxwell | push drift | window electrons --vth 0.01 --from=-1 | m2p | push boris/2" 1
+}
+
 @test "equal bytes: a derivative on particles that moves a step of density" {
 	steps() { awk 'BEGIN { print "x f volume"; for (i = 0; i < 40; i++) print (i + 0.5)/40, (i < 20), 1/40 }' |
 		stab - --box 0,1 --faces periodic --dt 0.01 "$@"; }
