@@ -36,9 +36,12 @@ static int fill(struct pm_frame *f, const char *name, bool electric, double (*va
 		for (size_t p = 0; p < pm_grid_size(&g); p++) {
 			const size_t at[3] = {p % g.points[0], p / g.points[0] % g.points[1], p / g.points[0] / g.points[1]};
 			double x[3] = {0};
-			for (int d = 0; d < f->dim; d++)
+			bool inside = true; /* what would sit half a cell beyond the last face stays 0 */
+			for (int d = 0; d < f->dim; d++) {
+				inside &= !field->staggered[c][d] || at[d] < g.cells[d];
 				x[d] = g.lo[d] + ((double)at[d] + 0.5 * field->staggered[c][d]) * g.h[d];
-			pm_out(field, c)[p] = value(c, x, data);
+			}
+			pm_out(field, c)[p] = inside ? value(c, x, data) : 0;
 		}
 	return 0;
 }

@@ -32,7 +32,7 @@ plain() {
 	case $1 in
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;
 	wakefield) echo 'push boris/2 | p2m --current | maxwell | push drift | window electrons -n 1 | m2p | push boris/2' ;;
-	em-wave | weibel) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
+	em-wave | gem | weibel) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
 	lamb-oseen) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --rim 2 --cut-off 1e-4' ;;
 	ellipse | shear-layer | taylor-green-2d | tanh-layer | random-vorticity) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;
 	# the mesh would grow with what they leave behind

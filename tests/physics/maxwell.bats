@@ -71,3 +71,40 @@ growth() {
 		sed -n 's/.* gamma \([-0-9.e+]*\) .*/\1/p' | awk '{ printf "%.9g", $1 / 2 }')
 	within "$got" 0.141385211908858 0.0014
 }
+
+@test "gem: the pressures of the field and of both species add up to the same across the sheet, and each species' force holds its pressure" {
+	sh_ok "pinit gem --perturbation 0 --cells 128x128 | m2p >a.pm" # cells of 0.2 d: B at the particles is smoothed by 0.4 %
+	within "$(diag <a.pm | column energy_magnetic)" "$(diag --exact <a.pm | column exact_energy_magnetic)" 0.4 # the differences' h^2/24 B'', 2e-4
+	for s in electrons ions; do stab --plain --set $s a.pm >$s; done
+	# mass vy^2 in sixteen strips, of 2900 to 14000 particles, and B^2/2 of their eight rows: 1.2 B0^2/2; noise below sqrt(2/2900) of a sixth
+	awk 'FNR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { p[int(($c["y"] + 32) / 4)] += $c["mass"] * $c["vy"]^2 / 512 }
+		END { for (j = 0; j < 16; j++) print j, p[j] }' electrons ions >strips
+	stab --plain --mesh mesh a.pm | awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["x"] == 0 && $c["y"] < 32 {
+		p[int(($c["y"] + 32) / 4)] += $c["B_0"]^2 / 16 } END { for (j = 0; j < 16; j++) print j, p[j] }' >>strips
+	below "$(awk '{ p[$1] += $2 } END { for (j in p) { d = p[j] / 0.15 - 1; d = d < 0 ? -d : d; m = d > m ? d : m } print m }' strips)" 0.02 "pressure"
+	# sum of q vz B_x away from the middle: -2 T L_x of each; noise q vth sqrt(N)/2 of N in the sheet: 0.34 and 0.15
+	force() { awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
+		$c["id"] < 18400 { f += ($c["y"] < 0 ? -1 : 1) * $c["charge"] * $c["vz"] * $c["bfield_0"] } END { print f }' "$1"; }
+	within "$(force electrons)" -5.3333 1
+	within "$(force ions)" -26.6667 0.6
+}
+
+@test "gem: the sheet without perturbation stays for two gyrations of ions over 2 pi, and Gauss's law holds between conductors" {
+	sh_ok "pinit gem --perturbation 0 -n 16384 --cells 64x32 >a.pm"
+	sh_ok "cycle -n 100 '${step/current/current --kernel tsc}' <a.pm | p2m --kernel tsc | diag >b"
+	# with ions that do not drift B loses 1.5 % and E has 78; E of the noise of so few particles has 6
+	within "$(column energy_magnetic <b)" "$(diag <a.pm | column energy_magnetic)" 4.7
+	below "$(column energy_electric <b)" 10
+	below "$(column gauss_residual <b)" 1e-11
+}
+
+@test "gem: a fifth of B0 v_A of flux reconnects a time once the sheet is open, as in the GEM challenge" {
+	[ -n "$PM_LONG" ] || skip "long: make check-long"
+	# half of int |B_y| dx across y = 0 of every frame, in units of B0 d_i = 2.5: at 0, 6, 12, 18 gyrations over 2 pi
+	sh_ok "pinit gem | cycle -t 900 --every-time 300 --field B '${step/current/current --kernel tsc}' | stab --plain --mesh mesh >b"
+	awk '$1 == "x" { if (n++) print s / 5; s = 0; for (i = 1; i <= NF; i++) c[$i] = i; next }
+		NF && $c["y"] == 0 { b = $c["B_1"]; s += b < 0 ? -b : b } END { print s / 5 }' b >flux
+	within "$(sed -n 1p flux)" 0.2 0.001 # 2 psi0
+	holds between "$(awk '{ a[NR] = $1 } END { print (a[4] - a[3]) / 6 }' flux)" 0.17 0.25
+	holds between "$(sed -n 4p flux)" 1.7 2.6
+}

@@ -131,6 +131,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		em-wave;10;light;| diag --exact;mass=1e-12 charge=1e-12
 		wakefield;2;light;| diag;
 		weibel;10;light;| diag --exact;mass=1e-12 charge=1e-12
+		gem;10;light;| diag --exact;mass=1e-12 charge=1e-12
 	END
 	pinit --help | awk '/^The scenes:/ { on = 1; next } !NF { on = 0 } on { print $1 }' | sort > all
 	sort done | diff all -

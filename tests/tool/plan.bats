@@ -17,6 +17,7 @@ small() {
 	cold-sphere | plummer | uniform | point-vortices) echo "$1 -n 300 --cells 16" ;;
 	lattice) echo "$1 -n 512 --cells 16" ;;
 	two-stream) echo "$1 -n 1000" ;;
+	gem) echo "$1 -n 1000 --cells 32x16" ;;
 	cone-vortex | ellipse | lamb-oseen | random-vorticity | shear-layer | tanh-layer | taylor-green-2d | vortex-merger) echo "$1 --cells 32" ;;
 	*) echo "$1" ;;
 	esac

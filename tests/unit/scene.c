@@ -47,7 +47,7 @@ static bool centred(const struct pm_frame *f, const char *name)
 	return true;
 }
 
-/* Kernels of width 4 touch floor-1 .. floor+2; on an open mesh of n cells that lies in 1..n-1. */
+/* Kernels of width 4 touch floor-1 .. floor+2; on an open mesh of n cells that lies in 1..n-1. Faces that reflect fold kernels. */
 static bool inside(const struct pm_frame *f, size_t cells)
 {
 	for (size_t s = 0; s < f->nsets; s++) {
@@ -55,7 +55,8 @@ static bool inside(const struct pm_frame *f, size_t cells)
 		for (int d = 0; d < f->dim; d++)
 			for (size_t i = 0; i < x->count; i++) {
 				const double at = (pm_in(x, d)[i] - f->lo[d]) / (f->hi[d] - f->lo[d]) * (double)cells;
-				if (f->face[d][0] == PM_PERIODIC ? !(at >= 0 && at < (double)cells) : !(floor(at) >= 2 && floor(at) + 2 <= (double)cells - 1))
+				const bool folds = f->face[d][0] == PM_PERIODIC || f->pface[d][0] == PM_PREFLECT;
+				if (folds ? !(at >= 0 && at < (double)cells) : !(floor(at) >= 2 && floor(at) + 2 <= (double)cells - 1))
 					return false;
 			}
 	}
