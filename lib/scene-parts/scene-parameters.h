@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-enum { PM_SCENE_ROWS = 64 };
+enum { PM_SCENE_ROWS = 128 }; /* at most; tests/unit/scene.c counts */
 
 /* Index of a name in rows[0..n-1], n if it is not there. */
 int pm_scene_row_at(const struct pm_scene_parameter *const *rows, int n, const char *name);

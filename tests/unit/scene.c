@@ -4,7 +4,9 @@
 
 #include "law/law.h"
 #include "mesh/grid.h"
+#include "scene-parts/scene-parameters.h"
 #include "scene-parts/kepler-orbit.h"
+#include "scene-parts/scene-parameters.h"
 #include "scene/scene.h"
 #include "check.h"
 
@@ -207,10 +209,21 @@ static void collapse(void)
 	pm_frame_free(f);
 }
 
-static bool of_vortices(const struct pm_scene *s)
+/* Every parameter that pinit offers fits its list. */
+static void room_for_parameters(void)
+{
+	const struct pm_scene_parameter *rows[PM_SCENE_ROWS];
+	const int n = pm_scene_rows(rows);
+	for (int s = 0; pm_scenes[s]; s++)
+		for (const struct pm_scene_parameter *p = pm_scenes[s]->parameters; p->name; p++)
+			check(pm_scene_row_at(rows, n, p->name) < n, "%s: pinit has --%s", pm_scenes[s]->name, p->name);
+}
+
+/* Of vortices, or of tracers alone. */
+static bool massless(const struct pm_scene *s)
 {
 	struct pm_frame *f = make(s, s->dim, s->n, 1);
-	const bool is = f && !strcmp(f->law, "vortex");
+	const bool is = f && (!strcmp(f->law, "vortex") || !strcmp(f->law, "passive"));
 	pm_frame_free(f);
 	return is;
 }
@@ -284,9 +297,10 @@ static void plasma(void)
 
 int main(void)
 {
+	room_for_parameters();
 	for (int i = 0; pm_scenes[i]; i++) {
 		check(!strcmp(pm_scenes[i]->name, pm_scene_names[i]), "%s is named like its file", pm_scene_names[i]);
-		if (of_vortices(pm_scenes[i]))
+		if (massless(pm_scenes[i]))
 			continue; /* no mass and no velocity: tests/unit/scene-vortex.c */
 		for (int dim = 1; dim <= 3; dim++)
 			if (pm_scenes[i]->dims >> dim & 1)
