@@ -42,13 +42,14 @@ model() {
 	awk -v name="$1" -v dim="$2" -v n="$3" -v N="$4" -v n0="$5" -v N0="$6" -v passes="$7" -v T=$threads -v a=$latency -v b=$band '
 		function mesh(w) { return w ~ /^(poisson|mgrad|diffuse|stretch)/ }
 		# what a rank sends and waits for, in a step, where the word is shared
-		function travels(w, P,   plane) {
+		function travels(w, P,   plane, rows) {
 			plane = 8 * n ^ (dim - 1)
 			if (P == 1 || w ~ /^push/) return P == 1 ? 0 : 2 * a * log(P) / log(2)
 			if (w ~ /^poisson/) return 2 * (8 * M / (P * b) + a * P)                      # two transpositions
 			if (mesh(w)) return 4 * plane / b + 4 * a                                     # planes of neighbours
-			# records out of place, sorted every ten steps; rows of blocks, of cic in 3-D 1.23 numbers a cell
-			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 8 * 1.23 * M / (P * b) + 2 * a * P
+			# records out of place, sorted every ten steps; rows of the tiles at both ends of a rank, of 8 (64) planes: of cic 1.23 numbers a cell
+			rows = 2 * (dim == 3 ? 8 : 64) * n ^ (dim - 1)
+			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 8 * 1.23 * (rows < M / P ? rows : M / P) / b + 2 * a * P
 		}
 		# and where it is not: its input to rank 0, its output to all
 		function gathers(w, P) {
@@ -102,7 +103,7 @@ echo
 awk '{ printf "%s: all shared, twice the cores gain less than a factor of 1.5 from %d cores on\n", $1, $2 }' ends
 {
 	echo step cores time
-	awk '{ print $1 "-as-it-stands", $2, $3; print $1 "-all-shared", $2, $4 }' curves
+	awk '$3 == $4 { print $1, $2, $3; next } { print $1 "-as-it-stands", $2, $3; print $1 "-all-shared", $2, $4 }' curves
 } >table
 splot time -i table -x cores --by step --log --slope -1 -o "$out" --title "A model, not a measurement: one step of each method" --x-label cores \
 	--y-label 'time of a step [s]'
