@@ -34,6 +34,7 @@ words() {
 	pse) echo "pse --nu 0.1" ;;
 	pgrad) echo "pgrad --method integral" ;;
 	penalize) echo "penalize --body 'x - 1'" ;;
+	panels) echo "panels --curve '9+cos(2*pi*s), sin(2*pi*s)' -n 12 --stream '1, 0'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	redistance) echo "redistance" ;;
 	beale) echo "beale --eps 0.1 --iterations 2 --quiet" ;;
@@ -69,6 +70,7 @@ input() {
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
+	panels) pinit point-vortices -n 12 --cells 4 ;;
 	pse | pgrad) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	filament) cloud | smod --faces open | scalc --role state 'core = 0.1' 'circulation = 1' | scalc --role state --type i64 'node = id' 'curve = 0' ;;
 	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;

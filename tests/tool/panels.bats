@@ -1,0 +1,95 @@
+# panels: the circle, an ellipse that turns, Foeppl's pair, an orbit, two bodies, refusals.
+# SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+circle="--curve cos(2*pi*s),sin(2*pi*s)"
+open='--box=-4,4 --faces open'
+probe() { printf 'x y\n%s\n' "$1" | stab - --law passive $open --set probe; }
+# value FIELD: of the last particle of the set probe or matter.
+value() {
+	sel --set "${2:-probe}" | stab --plain --set "${2:-probe}" | awk -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i } END { print $c }'
+}
+vortices() { { echo 'x y circulation'; cat; } | stab - --law vortex --strength circulation $open --dt 0.5; }
+report() { sls --report | sed -n 's/.*"'"$1"'":\([^,}]*\).*/\1/p'; }
+
+@test "potential flow past a circle: the slip and the velocity away from it, of order 2 in the panels, by a sheet and by sources" {
+	for n in 50 100 200; do
+		probe '1.5 0.3' | panels $circle -n $n --stream '1, 0' >sheet
+		sel --set panels <sheet | stab --plain --set panels | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+			{ e = $at["sheet"] + 2 * $at["y"] / sqrt($at["x"]^2 + $at["y"]^2); if (e * e > most) most = e * e } END { print sqrt(most) }' >>slip
+		report leak <sheet >>leak
+		for kind in vortex source; do # U - U conj(1/z^2)
+			calc "sqrt(($(probe '1.5 0.3' | panels $circle -n $n --kind $kind --stream '1, 0' | value vel_0) + (1.5^2 - 0.3^2) / 2.34^2)^2)" >>$kind
+			echo >>$kind
+		done
+	done
+	for what in slip leak vortex source; do # measured 2.0 each
+		within "$(awk 'NF { e[++n] = $1 } END { print log(e[1] / e[3]) / log(4) }' $what)" 2 0.1 "order of $what"
+	done
+	below "$(tail -1 slip)" 2e-4 # measured 1.66e-4
+	below "$(sed -n '/./p' source | tail -1)" 4e-5 # measured 3.2e-5
+}
+
+@test "Foeppl's pair behind a circle stands still, of order 2, and a vortex goes round a circle at the speed of its image" {
+	for n in 50 100 200; do
+		awk 'BEGIN { y = 0.75; x = sqrt(4 - y * y); g = 4 * atan2(0, -1) * y * (1 - 1 / 16)
+			printf "%.17g %.17g %.17g\n%.17g %.17g %.17g\n", x, y, -g, x, -y, g }' | vortices |
+			pp --softening 0 | panels $circle -n $n --stream '1, 0' | field 'vel = 1, 0' | value vel_1 matter >>speed
+	done
+	within "$(awk '{ e[NR] = $1 } END { print log(e[1] / e[3]) / log(4) }' speed)" 2 0.1
+	below "$(tail -1 speed)" 6e-5
+	# -Gamma/(2 pi) (1/(r - 1/r) - 1/r) at r = 1.5: half a round and more
+	echo '1.5 0 1' | vortices | cycle -q -n 60 "panels $circle -n 50 | push rk4" >a
+	within "$(calc "sqrt(($(value x matter <a))^2 + ($(value y matter <a))^2)")" 1.5 1e-4
+	turned=$(calc "-atan2($(value y matter <a), $(value x matter <a))")
+	within "$turned" "$(calc '30 * 0.0848826363156775 / 1.5')" "$(calc '0.012 * 1.7')" "angle" # 50 panels are 1 % slow
+}
+
+@test "an ellipse that turns, a wall that grows, a circle that moves, circulation" {
+	for n in 50 100 200; do # w = -i/4 (a + b)^2 exp(-2 zeta), z = sqrt(a^2 - b^2) cosh zeta: u = 0.1268365320550 at (3, 1)
+		u=$(probe '3 1' | panels --kind source -n $n --curve '2*cos(2*pi*s), sin(2*pi*s)' --velocity '-y, x' | value vel_0)
+		calc "0.1268365320550302 - ($u)" >>e
+		echo >>e
+	done
+	within "$(awk 'NF { e[++n] = $1 } END { print log(e[1] / e[3]) / log(4) }' e)" 2 0.1
+	# a polygon of 200 sides whose wall moves outwards: the flux of the wall over 2 pi r
+	within "$(probe '2 0' | panels --kind source $circle --velocity 'x, y' | value vel_0)" 0.5 3e-4
+	within "$(probe '0 3' | panels $circle --circulation 2.5 | value vel_0)" "$(calc '-2.5 / (6 * pi)')" 1e-9
+	# a wall that moves and a stream differ by that motion
+	within "$(probe '1.5 0.3' | panels $circle --velocity '-1, 0' | value vel_0)" "$(probe '1.5 0.3' | panels $circle --stream '1, 0' | value vel_0)" 1e-12
+}
+
+@test "two bodies from corners, bytes whatever the threads, and beside a mesh" {
+	awk 'BEGIN { n = 60; h = atan2(0, -1) / 30; print "corners_0 corners_1 corners_2 corners_3 x y"
+		for (c = -1.5; c < 2; c += 3) for (i = 0; i < n; i++) { j = (i + 1) % n
+			printf "%.17g %.17g %.17g %.17g 0 0\n", cos(i * h), c + sin(i * h), cos(j * h), c + sin(j * h) } }' >corners
+	stab corners --law passive --set panels $open | stack --merge - <(probe '0 0') >two
+	panels --stream '1, 0' <two >a
+	below "$(report leak <a)" 0.003 # measured 0.00244
+	between "$(value vel_0 <a)" 0.8889 1.2 # that of two dipoles, 2/1.5^2, and their images
+	within "$(value vel_1 <a)" 0 1e-12
+	panels --stream '1, 0' --threads 3 <two | scmp --quiet a -
+	pinit lamb-oseen --cells 16 | smod --faces open --dt 0.1 >b
+	words="p2m --outside grow | poisson-fft | mgrad | m2p | panels --curve '0.1*cos(2*pi*s), 3+0.1*sin(2*pi*s)' -n 20 | push rk2"
+	cycle -n 2 "$words" <b | sls >/dev/null
+}
+
+@test "panels: refusals in one sentence" {
+	probe '2 0' >a
+	while IFS=';' read -r code command text; do
+		run "-$code" --separate-stderr bash -c "$command" <a
+		[[ $stderr == *"$text"* ]] || { echo "$command: $stderr"; return 1; }
+		counted 1
+	done <<-'END'
+		2;panels;no --curve, and no set 'panels' with 'corners' (--curve
+		1;panels --curve 's, s*s';is not closed: s = 1 is 1.41421 away from s = 0
+		1;panels --curve 'cos(2*pi*s), -sin(2*pi*s)';corners go round counter-clockwise
+		1;panels --curve '1, 0';panel 0 has the length 0
+		2;panels --curve 's';--curve 's' has 1 components, and the plane has 2
+		2;panels --curve 'cos(2*pi*s), sin(2*pi*s)' --velocity '-y, x';no sheet can follow that (--kind source)
+		2;panels --curve 'cos(2*pi*s), sin(2*pi*s)' --kind source --circulation 1;sources have no circulation (--kind vortex)
+		1;smod --faces periodic | panels --curve 'cos(2*pi*s), sin(2*pi*s)';periodic along x, but panels are in open space
+		1;panels --curve 'cos(2*pi*s), sin(2*pi*s)' --panels probe;the set 'probe' is there, of other panels or of particles
+		1;pinit plummer -n 9 | panels --curve 'cos(2*pi*s), sin(2*pi*s)';panels are walls in a plane flow (law vortex or passive)
+	END
+}
