@@ -94,7 +94,7 @@ static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_mo
 	for (int r = 0; r < m->n; r++)
 		pm_acting_note(f, m->rates[r].rate);
 	pm_moving_given(f, m, &before);
-	if (pm_moving_run(f, m, p, h, crossed))
+	if (pm_world_agree(pm_moving_run(f, m, p, h, crossed)))
 		return -PM_DATA;
 	pm_moving_given(f, m, &after);
 	pm_report_strengths(s, f, "given", &before, &after);

@@ -38,7 +38,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && !pm_moving_face(f, PM_PABSORB); }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static const struct pm_option options[] = {
 	PM_VISCOSITY_ROW,

@@ -2,8 +2,8 @@
  * particles, in frames with electrodes alone. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
-#include "base/in-order.h"
 #include "push/electrode-charge.h"
+#include "stream/over-stretches.h"
 
 struct leaving {
 	int dim;
@@ -58,16 +58,16 @@ void pm_electrodes_collect(struct pm_frame *f, const char *set)
 			l.takes[a][side] = f->pface[a][side] == PM_PABSORB;
 			any = any || (l.takes[a][side] && pm_electrode(f, a, side));
 		}
-	if (!any || !q || !x->count)
+	if (!any || !q || !pm_frame_set(f, set)->n)
 		return;
-	l.q = q->buffer ? pm_in(q, 0) : NULL;
+	l.q = q->uniform ? NULL : pm_in(q, 0);
 	l.each = q->value[0];
 	for (int a = 0; a < f->dim; a++) {
 		l.lo[a] = f->lo[a];
 		l.hi[a] = f->hi[a];
 		l.x[a] = pm_in(x, a);
 	}
-	pm_over_set(&parts, &l, x->count, sum);
+	pm_over_stretches(x, &parts, &l, sum);
 	for (int a = 0; a < f->dim; a++)
 		for (int side = 0; side < 2; side++)
 			if (l.takes[a][side] && pm_electrode(f, a, side))

@@ -2,11 +2,13 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "mesh/particle-faces.h"
 #include "push/electrode-charge.h"
 #include "push/push-set.h"
 #include "stream/declare.h"
+#include "stream/join.h"
+#include "stream/over-stretches.h"
+#include "world/world.h"
 
 bool pm_moving_face(const struct pm_frame *f, enum pm_particle_face face)
 {
@@ -31,7 +33,8 @@ int pm_moving_shrinks(struct pm_frame *f, const struct pm_moving *m)
 
 static size_t mark(const struct pm_frame *f, const struct pm_moving *m, unsigned char *gone)
 {
-	size_t n = m->set->n, count = 0;
+	const size_t n = m->x->count;
+	size_t count = 0;
 	for (int a = 0; a < f->dim && a < m->x->components; a++) {
 		const bool side[2] = {f->pface[a][0] == PM_PABSORB, f->pface[a][1] == PM_PABSORB};
 		if (side[0] || side[1])
@@ -40,20 +43,6 @@ static size_t mark(const struct pm_frame *f, const struct pm_moving *m, unsigned
 	for (size_t i = 0; i < n; i++)
 		count += gone[i];
 	return count;
-}
-
-/* Moves the values with gone 0 to the front, in order; size bytes each. Returns their number. */
-static size_t compact(size_t n, const unsigned char *gone, size_t size, void *values)
-{
-	unsigned char *p = values;
-	size_t left = 0;
-	for (size_t i = 0; i < n; i++)
-		if (!gone[i]) {
-			if (left != i)
-				memcpy(p + left * size, p + i * size, size);
-			left++;
-		}
-	return left;
 }
 
 struct leaving {
@@ -78,33 +67,29 @@ static void note_loss(const struct pm_frame *f, const struct pm_moving *m, const
 		for (int c = 0; !strcmp(field->on, m->set->name) && pm_is_strength(field) && c < field->components && lost->n < PM_STRENGTHS; c++) {
 			struct pm_strength *one = &lost->of[lost->n++];
 			struct pm_sum sum = {0, 0};
-			if (field->buffer)
-				pm_over_set(&parts, &(struct leaving){gone, pm_in(field, c)}, field->count, &sum);
+			if (!field->uniform)
+				pm_over_stretches(field, &parts, &(struct leaving){gone, pm_in(field, c)}, &sum);
 			pm_strength_name(field, c, one->name);
-			one->sum = field->buffer ? pm_sum_total(sum) : (double)absorbed * field->value[c];
+			one->sum = field->uniform ? (double)absorbed * field->value[c] : pm_sum_total(sum);
 		}
 	}
 }
 
 int pm_moving_absorb(struct pm_frame *f, const struct pm_moving *m, uint64_t *absorbed, struct pm_strengths *lost)
 {
-	size_t n = m->set->n;
+	const size_t n = m->x->count;
 	unsigned char *gone = pm_zalloc(n ? n : 1, 1);
-	if (!gone)
-		return -PM_DATA;
-	*absorbed = mark(f, m, gone);
+	int64_t all = gone ? (int64_t)mark(f, m, gone) : 0;
+	int status = pm_world_count(gone ? 0 : -PM_DATA, PM_SUM_OF, 1, &all);
+	*absorbed = (uint64_t)all;
 	lost->n = 0;
-	if (*absorbed) {
+	if (!status && all) {
 		note_loss(f, m, gone, *absorbed, lost);
 		pm_electrodes_collect(f, m->set->name);
-	}
-	for (size_t i = 0; i < f->nfields && *absorbed; i++) {
-		struct pm_field *field = f->fields[i];
-		unsigned char *bytes = strcmp(field->on, m->set->name) ? NULL : pm_field_bytes(field);
-		size_t size = field->type == PM_U8 ? 1 : 8;
-		for (int c = 0; bytes && c < field->components; c++)
-			compact(n, gone, size, bytes + (size_t)c * n * size);
+		for (size_t i = 0; i < n; i++)
+			gone[i] = !gone[i];
+		status = pm_frame_select(f, m->set, gone); /* now those that stay */
 	}
 	pm_free(gone);
-	return *absorbed ? pm_frame_set_resize(f, m->set, n - *absorbed) : 0; /* keeps the first values of every component */
+	return status;
 }

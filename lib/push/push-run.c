@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "push/push-set.h"
+#include "world/world.h"
 
 /* Component c of a state with its rate and registers, for the loops. */
 static struct pm_advanced line(const struct pm_moving *m, const struct pm_rate *r, int c)
@@ -51,14 +52,15 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	}
 	for (size_t i = 0; i < n && m->b && !a.v[2]; i++)
 		if (a.b[0][i] != 0 || a.b[1][i] != 0)
-			return pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in the plane turns them out of it "
-				"(give v 3 components)", m->set->name);
+			return pm_world_place(0, 0, 0, m->v->first + i), pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in "
+				"the plane turns them out of it (give v 3 components)", m->set->name);
 	for (size_t i = 0; i < n && step->relativistic; i++) {
 		double v2 = 0;
 		for (int c = 0; c < 3; c++)
 			v2 += a.v[c] ? a.v[c][i] * a.v[c][i] : 0;
 		if (!(v2 < a.c * a.c))
-			return pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g", i, m->set->name, sqrt(v2), a.c);
+			return pm_world_place(1, 0, 0, m->v->first + i), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g",
+				(size_t)m->v->first + i, m->set->name, sqrt(v2), a.c);
 	}
 #pragma omp parallel for schedule(static) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
@@ -70,7 +72,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 
 bool pm_moving_divided(const struct pm_push *p, const struct pm_frame *f)
 {
-	return !(p->scheme && pm_step_decides(p->scheme)) && !p->magnetic && !(p->moves && pm_moving_face(f, PM_PABSORB));
+	return f && !(p->scheme && pm_step_decides(p->scheme));
 }
 
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)

@@ -152,7 +152,19 @@ charged() {
 	charged 3 --box 0,0,0,1,1.1,1.2 --faces periodic --particle-faces periodic -n 6x7x3 | same "$step" --store all
 	charged 2 --box 0,0,1,1.1 --faces wall,absorbing --particle-faces reflect -n 9x37 >plane
 	same "$step" --store all <plane
-	shares "maxwell --layers 3, push drift, m2p" "$step" <plane
+	shares "push boris/2, maxwell --layers 3, push drift, m2p, push boris/2" "$step" <plane
+}
+
+@test "any number of ranks: particles leave at absorbing faces, from push and from walk, till none are left; electrodes collect" {
+	pinit uniform -n 13000 --dispersion 1 --dt 0.05 | smod --faces open --particle-faces absorb >box
+	same "push drift | walk --nu 0.05" <box
+	same "push drift | ssort | walk --nu 0.05 | sel --where 'x < 0.8'" <box
+	shares "push drift, walk --nu 0.05" "push drift | walk --nu 0.05" <box
+	scalc --role state 'v = 1, 0, 0' <box | same "push drift" --store f32 --until 'particles < 1' -n 30
+	smod --rename matter=b <box >two
+	pinit uniform -n 5000 --dispersion 1 --dt 0.05 | smod --faces open --particle-faces absorb | stack - two | same "field 'acc = -x, vx, 1' | push rk2"
+	pinit two-stream -n 9000 --vth 0.5 --amplitude 0.1 | smod --faces open --particle-faces absorb --constant background=0,charge_x_low=0,charge_x_high=0 |
+		same "push drift" --store all
 }
 
 # blobs D N: particles at random with strengths of both signs, in D dimensions.
@@ -206,6 +218,13 @@ blobs() {
 	# every particle leaves where it is: 13000 as 4096, 4096, 4808; half of them left are 6500 as 0, 4096, 2404; x and v travel, id too
 	on 3 cycle -q -n 1 --timing - "push drift | sel --where 'id < 6500'" <box 2>table >/dev/null
 	awk -v s="$(sent sel table)" 'BEGIN { print s; more = s - (4096 + 2404)*7*8/1000; exit !(more > -0.5 && more < 2) }'
+}
+
+@test "what absorbing faces send: particles that change their rank" {
+	pinit uniform -n 13000 --dt 1 | smod --faces open --particle-faces absorb | scalc --role state 'v = 10*(id < 6500), 0, 0' >box
+	on 3 cycle -q -n 1 --timing - "push drift" <box 2>table >/dev/null
+	# 13000 as 4096, 4096, 4808; the last 6500 are left, 0, 1692, 4808 of them, as 0, 4096, 2404; x, v and id travel
+	awk -v s="$(sent "push drift" table)" 'BEGIN { print s; more = s - 2404*7*8/1000; exit !(more > -0.5 && more < 4) }'
 }
 
 # sent WORD TABLE: kB that all ranks sent for it, as --timing says.
