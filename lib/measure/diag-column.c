@@ -32,6 +32,9 @@ static double centre_of(const struct pm_frame *f, int d)
 	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
 }
 
+/* Waves are those around a ring. */
+static bool of_ring(const struct pm_frame *f, const struct pm_law *law) { return law->vector && f->face[0][0] == PM_OPEN; }
+
 static double (*level_of(const struct pm_frame *f))(const struct pm_frame *, const double[], double)
 {
 	const struct pm_scene *scene = pm_diag_scene(f);
@@ -45,7 +48,7 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 		.coefficient = law->coefficient ? law->coefficient(f) : 0, .vortices = law->of_potential == PM_CURL && law->strength, .vector = law->vector,
 		.nu = pm_frame_constant(f, "nu", 0), .nradii = g->nradii,
 		.fraction = g->fraction, .outside = true, .level = pm_level_there(f, g->set), .exact_level = level_of(f), .plasma = law->background != NULL,
-		.field = law->field, .wave = law->wave, .nmodes = g->nmodes,
+		.field = law->field, .wave = law->wave, .nmodes = of_ring(f, law) ? 0 : g->nmodes, .nring_modes = of_ring(f, law) ? g->nmodes : 0,
 		.centre = {centre_of(f, 0), centre_of(f, 1)}, .separation = {g->separation[0], g->separation[1]},
 		.species = g->species, .field_errors = g->field_errors, .flux = g->flux, .nflux = g->nflux};
 	if (law->evolves) {
@@ -62,6 +65,8 @@ struct pm_measure pm_diag_how(const struct pm_diag_request *g, const struct pm_f
 static int has_mode(const struct pm_frame *f, const struct pm_law *law)
 {
 	const struct pm_measure how = {.field = law->field, .potential = law->potential};
+	if (of_ring(f, law))
+		return 0;
 	if (f->face[0][0] != PM_PERIODIC)
 		return pm_fail(PM_DATA, "modes need a box that is periodic in x (pinit --faces periodic)");
 	return pm_law_field_mesh(&how, f) ? 0 : pm_fail(PM_DATA, "no field '%s' on a mesh for the modes (p2m | poisson-fft | mgrad makes one)",

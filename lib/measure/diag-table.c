@@ -154,7 +154,7 @@ static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struc
 	if (!t->series.n)
 		ask_theory(t, f);
 	const double value[2] = {t->mode < 0 ? pm_diag_value(&t->growth, m, f) : 0, 0};
-	return pm_series_add(&t->series, f->time, t->mode < 0 ? value : m->mode[t->mode], t->mode < 0 ? 0 : m->field_most);
+	return pm_series_add(&t->series, f->time, t->mode < 0 ? value : m->mode[t->mode], t->mode < 0 || isnan(m->field_most) ? 0 : m->field_most);
 }
 
 static bool needs_energy(const struct pm_diag_table *t)

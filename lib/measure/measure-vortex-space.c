@@ -4,7 +4,8 @@
  * there (or its potential, law-field.c): energy 1/2 int u^2, helicity int u . omega. The other formula of the energy, 1/2 int psi . omega, is that of every
  * law (measure-frame.c).
  * A ring: its axis n is the direction of the impulse I; position = sum (x . n) w/sum w, w = 1/2 (x x alpha) . n; circulation 1/(2 pi) sum alpha_phi/r
- * about the axis through the centre of |alpha|; radius sqrt(|I|/(pi circulation)).
+ * about the axis through the centre of |alpha|; radius sqrt(|I|/(pi circulation)). Its wave m: amplitude of the core's displacement from the axis,
+ * 2 sum W r exp(-i m phi)/sum W, W = alpha_phi/r: a where the core is at r = R + a cos(m phi).
  * Missing quantities are NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
  * Source: Saffman 1992, sections 3.2 to 3.9 and 10.2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -48,6 +49,8 @@ struct sums {
 struct vortices {
 	const struct pm_field *at, *strength;
 	const double *centre, *axis; /* of a ring */
+	const double *from, *quarter; /* unit vectors across the axis: phi = 0 and a quarter of a turn on */
+	int mode;                    /* waves around it */
 };
 
 static void make_sums(const void *data, size_t from, size_t to, void *part)
@@ -91,10 +94,53 @@ static void make_ring(const void *data, size_t from, size_t to, void *part)
 	}
 }
 
+/* Sums of W, and of W r exp(-i m phi) */
+static void make_wave(const void *data, size_t first, size_t to, void *part)
+{
+	const struct vortices *v = data;
+	struct pm_sum *wave = part;
+	for (size_t i = first; i < to; i++) {
+		double x[3], alpha[3], turn[3], x1 = 0, x2 = 0, about = 0;
+		particle(v->at, v->strength, v->centre, i, x, alpha);
+		cross(x, alpha, turn);
+		for (int d = 0; d < 3; d++)
+			x1 += x[d] * v->from[d], x2 += x[d] * v->quarter[d], about += turn[d] * v->axis[d];
+		const double r = hypot(x1, x2), w = r > 0 ? about / (r * r) : 0, angle = v->mode * atan2(x2, x1);
+		pm_sum_add(&wave[0], w);
+		pm_sum_add(&wave[1], w * r * cos(angle));
+		pm_sum_add(&wave[2], -w * r * sin(angle));
+	}
+}
+
+static void ring_waves(const struct pm_measure *how, const struct pm_frame *f, const double centre[3], const double axis[3], struct pm_measures *m)
+{
+	double from[3] = {0}, quarter[3];
+	int least = 0;
+	for (int d = 1; d < 3; d++)
+		least = fabs(axis[d]) < fabs(axis[least]) ? d : least;
+	for (int d = 0; d < 3; d++)
+		from[d] = (d == least) - axis[least] * axis[d];
+	const double size = length(from);
+	for (int d = 0; d < 3; d++)
+		from[d] /= size;
+	cross(axis, from, quarter);
+	for (int k = 0; k < how->nring_modes; k++) {
+		const struct pm_parts parts = {.size = 3 * sizeof(struct pm_sum), .make = make_wave, .join = pm_join_sums};
+		struct pm_sum wave[3] = {0};
+		for (size_t i = 0; i < f->nsets; i++) {
+			const struct pm_field *at = pm_frame_field(f, f->sets[i]->name, "x"), *q = pm_frame_field(f, f->sets[i]->name, how->strength);
+			if (counts(how, f, f->sets[i]))
+				pm_over_stretches(at, &parts, &(struct vortices){at, q, centre, axis, from, quarter, how->modes[k]}, wave);
+		}
+		for (int c = 0; c < 2; c++)
+			m->mode[k][c] = 2 * pm_sum_total(wave[1 + c]) / pm_sum_total(wave[0]);
+	}
+}
+
 static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3], struct pm_sum ring[3])
 {
 	const struct pm_parts parts = {.size = 3 * sizeof *ring, .make = make_ring, .join = pm_join_sums};
-	pm_over_stretches(at, &parts, &(struct vortices){at, strength, centre, axis}, ring);
+	pm_over_stretches(at, &parts, &(struct vortices){.at = at, .strength = strength, .centre = centre, .axis = axis}, ring);
 }
 
 static void add_sums(const struct pm_field *at, const struct pm_field *strength, struct sums *s)
@@ -125,6 +171,7 @@ static void of_ring(const struct pm_measure *how, const struct pm_frame *f, cons
 	m->value[PM_RING_CIRCULATION] = circulation;
 	m->value[PM_RING_RADIUS] = circulation > 0 ? sqrt(I / (pm_pi * circulation)) : NAN;
 	m->value[PM_RING_POSITION] = pm_sum_total(ring[2]) / pm_sum_total(ring[1]) + centre[0] * axis[0] + centre[1] * axis[1] + centre[2] * axis[2];
+	ring_waves(how, f, centre, axis, m);
 }
 
 static double largest(size_t n, int components, const double *const y[])
@@ -196,6 +243,8 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 	const struct pm_field *omega = NULL;
 	if (!how->vortices || !how->vector)
 		return 0;
+	for (int k = 0; k < how->nring_modes; k++)
+		m->mode[k][0] = m->mode[k][1] = NAN;
 	bool any = false;
 	for (size_t i = 0; i < f->nsets; i++)
 		if (counts(how, f, f->sets[i])) {

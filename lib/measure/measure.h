@@ -108,6 +108,7 @@ struct pm_measure { /* what to measure of a frame */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
+	int nring_modes;             /* or so many of them around a vortex ring in open space */
 	const char *separation[2];   /* two sets; NULL: none */
 	bool species;                /* the moments of every set */
 	bool field_errors;           /* residual and curl */

@@ -131,6 +131,25 @@ abc_error() {
 	done
 }
 
+@test "waves around a ring: diag --modes has their amplitude, whichever way the ring looks" {
+	# the core at r + 0.03 cos(4 phi + 0.7); the strengths grow as the elements of the curve do
+	f='(1 + 0.03*cos(4*atan2(y, x) + 0.7)/hypot(x, y))'
+	pinit vortex-ring --cells 32x32x16 | scalc "alpha = alpha.x*$f, alpha.y*$f, alpha.z*$f" | scalc "x = x*$f, y*$f, z" >a
+	scalc 'alpha = alpha.z, alpha.x, alpha.y' <a | scalc 'x = z, x, y' >b
+	for s in a b; do
+		diag --modes 3,4 --columns time $s >t
+		within "$(column mode_4 <t)" 0.03 2e-4 # the cells of the round ring have 1.3e-4 of it
+		below "$(column mode_3 <t)" 1e-14
+	done
+	pinit vortex-ring --cells 32x32x16 | diag --modes 4 --columns time >t
+	below "$(column mode_4 <t)" 2e-4
+	for k in 0 1 2 3 4; do # a wave that grows as exp(0.5 t)
+		g="(1 + 0.001*exp(0.5*$k)*cos(3*atan2(y, x))/hypot(x, y))"
+		pinit vortex-ring --cells 32x32x16 | scalc "alpha = alpha.x*$g, alpha.y*$g, alpha.z*$g" | scalc "x = x*$g, y*$g, z" | smod --time $k
+	done | diag --modes 3 --columns time --growth mode:3 | tail -1 >t
+	within "$(sed 's/.*gamma \([^ ]*\) .*/\1/' t)" 0.5 1e-6
+}
+
 @test "Taylor-Green at Re = 100 to t = 8: dissipation within 1 % of a spectral code on 64^3 cells" {
 	[ -n "${PM_LONG:-}" ] || skip "PM_LONG"
 	pinit taylor-green-3d --cells 64 --dt 0.1 | cycle -n 80 --every 10 "$step" | p2m --kernel m6prime | diag --exact --columns time,dissipation >d
