@@ -133,3 +133,29 @@ one() { local v=$1; shift; printf 'x y a b\n%s\n' "$v" | stab - --law free --dt 
 	run -1 --separate-stderr bash -o pipefail -c "field 'bfield = 0, 1' <a | sls"
 	[[ $stderr == *'a magnetic field has 3 components'* ]]
 }
+
+# charges VALUES: charges of 1 and mass 1, lines of x y z vx vy vz.
+charges() { printf "x y z vx vy vz charge mass\n$1" | stab - --law electrostatic --constant c=1 --box=-200,200 --dt "$2"; }
+
+@test "bfield: a quadrupole focuses along x and not along y, a dipole turns guiding centres about its axis" {
+	charges '0.1 0 0 0 0 1 1 1\n0 0.01 0 0 0 1 1 1\n' 0.05 |
+		cycle -q -n 100 "push boris/2 drift | field 'acc = 0, 0, 0' 'bfield = 0.25*y, 0.25*x, 0' | push boris/2" | stab --format tsv >b
+	within "$(column x <b | sed -n 1p)" "$(calc '0.1*cos(2.5)')" 1e-4 # vz falls by vx^2/2 = 1.3e-3 at most
+	within "$(column y <b | sed -n 2p)" "$(calc '0.01*(exp(2.5)+exp(-2.5))/2')" 6e-5
+	# 3 v^2 r^2/2 at the guiding centre r = 0.98: an angle of 3 v^2 r t/2, to a part of order v/r; r + v x B/B^2 is the centre to v^2
+	charges '1 0 0 0 0.02 0 1 1\n' 0.05 | cycle -q -n 2500 "push boris/2 drift | field 'acc = 0, 0, 0' 'bfield = 3*x*z/(x^2+y^2+z^2)^2.5,
+		3*y*z/(x^2+y^2+z^2)^2.5, (2*z^2-x^2-y^2)/(x^2+y^2+z^2)^2.5' | push boris/2" | scalc 'b = -(x^2+y^2)^-1.5' |
+		scalc 'angle = atan2(y - vx/b, x + vy/b)' | stab --format tsv >b
+	within "$(column angle <b)" "$(calc '1.5*0.02^2*0.98*125')" 0.0015
+}
+
+@test "field: a charge in a plane wave keeps gamma (1 - vx) and its canonical momentum, to second order in the step" {
+	for n in 250 500 1000; do
+		charges '0 0 0 0 0 0 1 1\n' "$(calc 10/$n)" | cycle -q -n $n "push higuera-cary/2 drift | field 'acc = 0, 2*charge/mass*cos(x-time), 0' \
+			'bfield = 0, 0, 2*cos(x-time)' | push higuera-cary/2" | scalc 'g = 1/sqrt(1 - vx^2 - vy^2)' |
+			scalc 'light = g*(1 - vx) - 1' 'canonical = g*vy + 2*sin(x - time)' | stab --format tsv >b
+		light[n]=$(column light <b | sed 's/^-//') canonical[n]=$(column canonical <b | sed 's/^-//')
+	done
+	order 2 4 "${light[250]}" 2 "${light[500]}" 1 "${light[1000]}"
+	order 2 4 "${canonical[250]}" 2 "${canonical[500]}" 1 "${canonical[1000]}"
+}
