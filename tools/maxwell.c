@@ -6,7 +6,7 @@
 
 struct config {
 	const char *mesh, *method;
-	int64_t layers;
+	int64_t layers, marder;
 	bool gauss, nodal;
 	struct pm_vector drift;
 };
@@ -24,14 +24,16 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--nodal says where --gauss --method psatd makes E (a step takes E where it is)");
 	if (o->drift.n > 3)
 		return pm_fail(PM_USAGE, "--current-drift has more than 3 components");
-	return o->gauss && pm_given(s, "layers") ? pm_fail(PM_USAGE, "--gauss advances nothing (leave out --layers)") : 0;
+	if (o->gauss && o->marder)
+		return pm_fail(PM_USAGE, "--gauss or --marder, not both: the first leaves nothing for the second");
+	return (o->gauss || o->marder) && pm_given(s, "layers") ? pm_fail(PM_USAGE, "--%s advances nothing (leave out --layers)", o->gauss ? "gauss" : "marder") : 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
 	struct pm_maxwell_choice choice = {.mesh = o->mesh,
-		.method = o->gauss && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss, .nodal = o->nodal, .layers = (int)o->layers};
+		.method = (o->gauss || o->marder) && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss || o->marder, .marder = (int)o->marder, .nodal = o->nodal, .layers = (int)o->layers};
 	for (int d = 0; d < o->drift.n; d++)
 		choice.drift[d] = o->drift.x[d];
 	if (o->drift.n > f->dim)
@@ -64,6 +66,8 @@ static const struct pm_option options[] = {
 		.text = "thickness of the layers that absorb waves inside open faces"},
 	{.name = "gauss", .kind = PM_FLAG, PM_AT(gauss),
 		.text = "instead of a step: correct E so that div E = rho/eps0, or make it; rho is that of p2m"},
+	{.name = "marder", .kind = PM_INTEGER, .unit = "PASSES", .fallback = "0", .high = 1000000, PM_AT(marder),
+		.text = "instead of a step: diffuse what is wrong in div E = rho/eps0 away, the shortest waves at once, longer ones slowly"},
 	{.name = "nodal", .kind = PM_FLAG, PM_AT(nodal),
 		.text = "with --gauss --method psatd: all components of E, and B, on the nodes; against numerical Cherenkov radiation"},
 	{.name = "current-drift", .kind = PM_VECTOR, .unit = "length/time", PM_AT(drift),
@@ -84,7 +88,7 @@ const struct pm_tool tool_maxwell = {
 		"perfect conductor; neumann, a plane of symmetry in which E lies; open and absorbing, absorbing layers inside the mesh. A step above "
 		"the limit of the method is refused. Constants c and eps0 of the frame, both 1 if absent.",
 	.kind = PM_FILTER,
-	.reads = "J (mesh); with --gauss rho",
+	.reads = "J (mesh); with --gauss, --marder rho",
 	.changes = "E, B, and the memory of absorbing layers pml_x, pml_y, pml_z (mesh)",
 	.adds = "B of zeros where there is none; with --gauss E",
 	.config = sizeof(struct config),

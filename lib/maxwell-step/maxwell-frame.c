@@ -1,5 +1,7 @@
 /* One step: B by half of it, E, B by the other half, so that both are at the time of the frame before and after it. --gauss: lap psi = div E - rho/eps0 with
  * the symbol of the mesh's own differences, E -= grad psi (Boris 1970); then div E = rho/eps0 to round-off, and the other part of E is as it was.
+ * --marder: E += d grad(div E - rho/eps0) (Marder 1987), d = 1/K^2 of the shortest waves, K^2 = 4 sum 1/h^2: a pass takes K(k)^2/K^2 of what is wrong in a
+ * wave, all of it in the shortest, for a divergence and a gradient instead of a solution. Stable up to twice this d.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
@@ -145,7 +147,9 @@ int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *
 	const struct pm_field *before = pm_frame_field(f, j->mesh->name, law->field);
 	j->spectral = j->method->spectral || (choice->gauss && !choice->method && before && pm_yee_spectral(before));
 	j->yee.nodal = choice->nodal || (j->spectral && before && !before->uniform && sits(before, f->dim, ON_NODES));
-	j->e = take(f, j, law->field, true, choice->gauss);
+	if (choice->marder && j->spectral)
+		return pm_fail(PM_DATA, "--marder has two-point differences, and E on '%s' those of waves (maxwell --gauss is exact there)", j->mesh->name);
+	j->e = take(f, j, law->field, true, choice->gauss && !choice->marder);
 	if (!j->e || check_faces(f, j))
 		return -PM_DATA;
 	if (j->spectral && json_object_set_new(j->e->more, PM_DIFFERENCES, json_string("spectral")))
@@ -254,6 +258,22 @@ static int project_differences(struct pm_maxwell_job *j, double *psi, struct pm_
 	return status;
 }
 
+static void relax_differences(struct pm_maxwell_job *j, double *room, struct pm_gauss_record *r)
+{
+	const struct pm_grid *g = &j->yee.grid;
+	const size_t n = pm_grid_size(g);
+	double shortest = 0;
+	for (int d = 0; d < g->dim; d++)
+		shortest += g->cells[d] > 1 ? 4 / (g->h[d] * g->h[d]) : 0;
+	for (int pass = 0; pass < j->choice.marder && shortest > 0; pass++) {
+		pm_yee_divergence(&j->yee, pm_in(j->rho, 0), room);
+		r->before = pass ? r->before : largest(n, room);
+		for (size_t i = 0; i < n; i++)
+			room[i] /= -shortest;
+		pm_yee_subtract_gradient(&j->yee, room);
+	}
+}
+
 int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
 {
 	double *room = pm_alloc(pm_grid_size(&j->yee.grid), sizeof *room);
@@ -261,7 +281,11 @@ int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
 	if (!room)
 		return -PM_DATA;
 	fill(j);
-	int status = j->spectral ? project_waves(j, room, r) : project_differences(j, room, r);
+	int status = 0;
+	if (j->choice.marder)
+		relax_differences(j, room, r);
+	else
+		status = j->spectral ? project_waves(j, room, r) : project_differences(j, room, r);
 	pm_free(room);
 	return status;
 }

@@ -8,6 +8,7 @@
 struct pm_maxwell_choice {
 	const char *mesh, *method; /* mesh NULL: the first; method NULL: yee, and with gauss that of E */
 	bool gauss;                /* E is corrected by the charge; nothing advances */
+	int marder;                /* with gauss: by so many passes of diffusion; 0: exactly */
 	bool nodal;                /* with gauss: E is made on the nodes */
 	int layers;                /* [cells] */
 	double drift[3];           /* [length/time] of currents in a step (psatd) */
