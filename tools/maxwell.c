@@ -26,14 +26,17 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--current-drift has more than 3 components");
 	if (o->gauss && o->marder)
 		return pm_fail(PM_USAGE, "--gauss or --marder, not both: the first leaves nothing for the second");
-	return (o->gauss || o->marder) && pm_given(s, "layers") ? pm_fail(PM_USAGE, "--%s advances nothing (leave out --layers)", o->gauss ? "gauss" : "marder") : 0;
+	if ((o->gauss || o->marder) && pm_given(s, "layers"))
+		return pm_fail(PM_USAGE, "--%s advances nothing (leave out --layers)", o->gauss ? "gauss" : "marder");
+	return 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	struct pm_maxwell_choice choice = {.mesh = o->mesh,
-		.method = (o->gauss || o->marder) && !pm_given(s, "method") ? NULL : o->method, .gauss = o->gauss || o->marder, .marder = (int)o->marder, .nodal = o->nodal, .layers = (int)o->layers};
+	const bool corrects = o->gauss || o->marder;
+	struct pm_maxwell_choice choice = {.mesh = o->mesh, .method = corrects && !pm_given(s, "method") ? NULL : o->method, .gauss = corrects,
+		.marder = (int)o->marder, .nodal = o->nodal, .layers = (int)o->layers};
 	for (int d = 0; d < o->drift.n; d++)
 		choice.drift[d] = o->drift.x[d];
 	if (o->drift.n > f->dim)

@@ -128,7 +128,8 @@ residual() { p2m "$@" | maxwell --gauss | sls --report | grep -o '"residual":[-0
 			"$(calc "(1 - (16^2*sin(pi/8)^2 + 12^2*sin(pi/4)^2)/(16^2 + 12^2))^$n")" 1e-13 "2-D, $n"
 	done
 	for face in wall neumann open; do
-		pinit em-wave --dim 2 --cells 8x6 | sel --drop E,B | smod --faces $face --particle-faces absorb --constant background=0 | p2m | maxwell --gauss |
+		pinit em-wave --dim 2 --cells 8x6 | sel --drop E,B |
+			smod --faces $face --particle-faces absorb --constant background=0 | p2m | maxwell --gauss |
 			scalc --mesh mesh --role state 'E = sin(37*x*x + 9*y), cos(23*x*y), 0' | p2m >b
 		was=$(maxwell --gauss <b | left)
 		below "$(calc "$(maxwell --marder 3000 <b | maxwell --gauss | left) / $was")" 1e-6 "$face"
