@@ -3,14 +3,16 @@
 #define PM_STEP_PARTS_MAGNETIC_TURN_H
 
 #include "base/base.h"
+#include "base/simd.h"
 
 static inline double pm_magnetic_component(const double *const *a, int c, size_t i) { return a[c] ? a[c][i] : 0; }
 
 /* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would change |v| by a few 1e-17 with the same sign in every
  * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. */
-static inline void pm_magnetic_turn(const double tau[3], double v[3])
+PM_SIMD_INLINE void pm_magnetic_turn(const double tau[3], double v[3])
 {
 	double high = 1, low = 0;
+	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++) { /* 1 + tau^2 in two parts */
 		const double square = tau[c] * tau[c], sum = high + square, part = sum - high;
 		low += fma(tau[c], tau[c], -square) + ((high - (sum - part)) + (square - part));
@@ -18,6 +20,7 @@ static inline void pm_magnetic_turn(const double tau[3], double v[3])
 	}
 	const double s = 2 / high, s_low = (fma(-s, high, 2) - s * low) / high;
 	const double w[3] = {v[0] + (v[1] * tau[2] - v[2] * tau[1]), v[1] + (v[2] * tau[0] - v[0] * tau[2]), v[2] + (v[0] * tau[1] - v[1] * tau[0])};
+	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++) {
 		const int d = (c + 1) % 3, e = (c + 2) % 3;
 		const double cross = w[d] * tau[e] - w[e] * tau[d];

@@ -3,44 +3,50 @@
  * Without a magnetic field only the kick. The frame keeps v; c is its constant.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
  * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three square roots a particle. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "step-parts/magnetic-turn.h"
+#include "step-parts/magnetic-lanes.h"
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
-static double square(const double x[3]) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
+PM_SIMD_INLINE double square(const double x[3]) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
 
 /* Half of the rotation of u, whose gamma it keeps. */
-static void rotate(double dt, const struct pm_magnetic *m, size_t i, double u[3])
+PM_SIMD_INLINE void rotate(double dt, double light, const struct pm_magnetic_one *p, double u[3])
 {
-	const double gamma = sqrt(1 + square(u) / (m->c * m->c)), half = 0.5 * dt * m->charge[i] / (m->mass[i] * gamma);
-	double t[3], tau[3];
-	for (int c = 0; c < 3; c++)
-		t[c] = half * m->b[c][i];
-	for (int c = 0; c < 3; c++)
-		tau[c] = t[c] / (1 + sqrt(1 + square(t)));
+	const double gamma = sqrt(1 + square(u) / (light * light)), half = 0.5 * dt * p->charge / (p->mass * gamma);
+	const double t[3] = {half * p->b[0], half * p->b[1], half * p->b[2]}, below = 1 + sqrt(1 + square(t));
+	const double tau[3] = {t[0] / below, t[1] / below, t[2] / below};
 	pm_magnetic_turn(tau, u);
+}
+
+PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, struct pm_magnetic_one *p)
+{
+	const double gamma = 1 / sqrt(1 - square(p->v) / (light * light));
+	double u[3] = {p->v[0] * gamma, p->v[1] * gamma, p->v[2] * gamma};
+	if (opens)
+		rotate(dt, light, p, u);
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		u[c] += 0.5 * dt * p->acc[c];
+	if (closes)
+		rotate(dt, light, p, u);
+	const double slower = 1 / sqrt(1 + square(u) / (light * light));
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		p->v[c] = u[c] * slower;
 }
 
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
-	for (size_t i = from; i < to; i++) {
-		double u[3];
-		for (int c = 0; c < 3; c++)
-			u[c] = pm_magnetic_component((const double *const *)m->v, c, i);
-		const double gamma = 1 / sqrt(1 - square(u) / (m->c * m->c));
-		for (int c = 0; c < 3; c++)
-			u[c] *= gamma;
-		if (!closing && m->b[0])
-			rotate(dt, m, i, u);
-		for (int c = 0; c < 3; c++)
-			u[c] += 0.5 * dt * pm_magnetic_component(m->acc, c, i);
-		if (closing && m->b[0])
-			rotate(dt, m, i, u);
-		const double slower = 1 / sqrt(1 + square(u) / (m->c * m->c));
-		for (int c = 0; c < 3; c++)
-			if (m->v[c])
-				m->v[c][i] = u[c] * slower;
-	}
+	const double light = m->c;
+#define STRAIGHT(p) kick(false, false, dt, light, p)
+#define OPENING(p) kick(true, false, dt, light, p)
+#define CLOSING(p) kick(false, true, dt, light, p)
+	if (!m->b[0])
+		PM_MAGNETIC_LOOP(m, from, to, STRAIGHT)
+	else if (closing)
+		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+	else
+		PM_MAGNETIC_LOOP(m, from, to, OPENING)
 }
 
 const struct pm_step step_relativistic = {
