@@ -62,7 +62,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_spread_job *j = &((const struct state *)s->state)->spread;
-	return f && !((const struct config *)s->config)->current && !j->grow && !j->choice.interlace;
+	return f && (((const struct config *)s->config)->current || (!j->grow && !j->choice.interlace));
 }
 
 static const char *const outside[] = {"monopole", "drop", "grow", "error", NULL};

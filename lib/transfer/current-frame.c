@@ -4,8 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesh/planes.h"
 #include "stream/declare.h"
 #include "transfer/current-frame.h"
+#include "world/world.h"
 
 static const char *const name = "J";
 
@@ -85,19 +87,24 @@ static int add_set(struct pm_current_job *j, struct pm_frame *f, const char *set
 {
 	struct pm_field *field = pm_frame_field(f, j->mesh->name, name);
 	const struct pm_field *vel = pm_frame_field(f, set, "v");
-	const size_t n = pm_frame_set(f, set)->n;
+	const size_t n = pm_frame_field(f, set, "x")->count;
+	struct pm_planes planes;
 	const double *x[3] = {NULL}, *v[3], *q[PM_COMPONENTS];
 	double *mesh[3], *made = NULL;
-	size_t stray = n;
+	size_t stray = SIZE_MAX;
 	pm_positions(f, set, x);
 	for (int d = 0; d < 3; d++) {
 		v[d] = d < vel->components ? pm_in(vel, d) : NULL;
 		mesh[d] = pm_out(field, d);
 	}
-	int status = pm_strengths(f, set, j->law->strength, q, &made);
-	if (!status && (status = pm_current_add(&j->current, n, x, v, q[0], mesh, &stray)) && stray < n)
+	int status = pm_planes_init(&planes, &j->current.grid, field);
+	j->current.planes = &planes;
+	status = pm_world_agree(status ? status : pm_strengths(f, set, j->law->strength, q, &made));
+	if (!status && (status = pm_current_add(&j->current, n, x, v, q[0], mesh, &stray)) && stray < pm_frame_set(f, set)->n)
 		status = pm_fail(PM_DATA, "particle %zu of '%s' is outside the box (push folds, reflects or absorbs them at its faces)", stray, set);
 	pm_free(made);
+	pm_planes_free(&planes);
+	j->current.planes = NULL;
 	return status;
 }
 

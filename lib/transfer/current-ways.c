@@ -136,7 +136,7 @@ static bool straight(const struct pm_current *c, size_t p, const double *const x
 }
 
 /* The arrays for n pieces in one block. */
-static int allocate(struct pm_ways *w, int dim, size_t n)
+int pm_ways_new(struct pm_ways *w, int dim, size_t n)
 {
 	w->n = n;
 	double *next = w->memory = pm_alloc(n * (size_t)(2 * dim + 1 + 3 - dim) + 1, sizeof *w->memory);
@@ -172,7 +172,7 @@ int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const 
 			walk(&k);
 			more += k.pieces - 1;
 		}
-	if (allocate(w, dim, n + more))
+	if (pm_ways_new(w, dim, n + more))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static) if (n > 16384)
 	for (size_t p = 0; p < n; p++) {

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "mesh/particle-faces.h"
+#include "transfer/current-parts.h"
 #include "transfer/current-tile.h"
-#include "transfer/current.h"
-#include "transfer/tile-pass.h"
+#include "world/world.h"
 
 const char *const pm_deposit_names[] = {"esirkepov", "villasenor-buneman", "direct", NULL};
 
@@ -39,15 +39,15 @@ struct spread {
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
 };
 
-static void deposit_job(const struct spread *s, const struct pm_tile_job *j, double *block)
+void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block)
 {
-	const struct pm_tile_order *o = s->pass->order;
-	struct pm_current_tile t = {.kernel = s->c->kernel, .shift = s->nodes[0].shift, .stride = o->stride,
+	const struct pm_tile_order *o = p->order;
+	struct pm_current_tile t = {.kernel = s->c->kernel, .shift = s->shift, .stride = o->stride,
 		.block = {block, block + PM_BLOCK_MOST, block + 2 * PM_BLOCK_MOST}};
 	pm_current_loop *loop = pm_current_deposit(o->dim, s->c->kernel);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	for (int d = 0; d < 3; d++)
-		pm_tile_slots(s->pass, j->tile, d, &t.cell[d]);
+		pm_tile_slots(p, j->tile, d, &t.cell[d]);
 	if (o->records) {
 		t.records = o->records + j->from * (size_t)o->stride;
 		t.count = j->to - j->from;
@@ -55,44 +55,57 @@ static void deposit_job(const struct spread *s, const struct pm_tile_job *j, dou
 		return;
 	}
 	t.records = packed;
-	for (size_t p = j->from; p < j->to; p += t.count) {
-		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_order_pack(o, p, t.count, true, packed);
+	for (size_t at = j->from; at < j->to; at += t.count) {
+		t.count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
+		pm_tile_order_pack(o, at, t.count, true, packed);
 		loop(&t);
 	}
 }
 
-static struct pm_tile_target target(const struct spread *s, int component, unsigned char flip[3])
+struct pm_tile_target pm_current_target(const struct pm_current *c, const struct pm_axis nodes[3], const struct pm_axis halves[3], int component,
+	unsigned char flip[3])
 {
-	const struct pm_grid *g = &s->c->grid;
+	const struct pm_grid *g = &c->grid;
 	struct pm_tile_target t = {.flip = flip, .scale = 1 / pm_grid_cell(g)};
 	for (int d = 0; d < 3; d++) {
-		t.axes[d] = d == component && d < g->dim ? &s->halves[d] : &s->nodes[d];
+		t.axes[d] = d == component && d < g->dim ? &halves[d] : &nodes[d];
 		flip[d] = d == component; /* at a wall the current along it has the opposite image, that through it the same */
 	}
 	if (component < g->dim)
-		t.scale *= g->h[component] / s->c->dt;
+		t.scale *= g->h[component] / c->dt;
 	return t;
 }
 
 static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
 {
 	const struct pm_tile_pass *w = s->pass;
+	const struct pm_current_fill fill = {s->c, s->nodes[0].shift};
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++)
-			deposit_job(s, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST);
+			pm_current_fill(&fill, w, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST);
 		for (size_t j = from; j < to; j++)
 			for (int c = 0; c < 3; c++) {
 				unsigned char flip[3];
-				const struct pm_tile_target t = target(s, c, flip);
+				const struct pm_tile_target t = pm_current_target(s->c, s->nodes, s->halves, c, flip);
 				pm_tile_add_block(w, &w->job[j], &t, omp_get_thread_num(), threads, s->blocks + ((j - from) * 3 + (size_t)c) * PM_BLOCK_MOST,
 					mesh[c]);
 			}
 #pragma omp barrier
 	}
+}
+
+struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, const double *values[PM_COMPONENTS])
+{
+	const int dim = c->grid.dim;
+	for (int d = 0; d < dim; d++)
+		values[d] = ways->way[d];
+	values[dim] = ways->q;
+	for (int d = dim; d < 3; d++)
+		values[dim + 1 + d - dim] = ways->along[d];
+	return (struct pm_tile_particles){.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = (const double *const *)ways->at, .values = values};
 }
 
 static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, double *const mesh[3], size_t *stray)
@@ -102,16 +115,10 @@ static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, 
 	struct pm_tile_pass pass = {.jobs = 0};
 	struct pm_strays strays = {.count = 0};
 	struct spread s = {.pass = &pass, .c = c, .nodes = nodes, .halves = halves};
-	const int dim = c->grid.dim, threads = pm_tile_threads(ways->n);
+	const int threads = pm_tile_threads(ways->n);
 	const double *values[PM_COMPONENTS] = {0};
 	size_t under_way = threads == 1 ? 1 : 8 * (size_t)threads;
-	for (int d = 0; d < dim; d++)
-		values[d] = ways->way[d];
-	values[dim] = ways->q;
-	for (int d = dim; d < 3; d++)
-		values[dim + 1 + d - dim] = ways->along[d];
-	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = (const double *const *)ways->at,
-		.values = values};
+	const struct pm_tile_particles particles = pm_ways_particles(c, ways, values);
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	if (!status)
 		status = pm_tile_order_init(&order, nodes, &particles, 0, &strays);
@@ -136,11 +143,11 @@ static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, 
 static int deposit_direct(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const mesh[3])
 {
 	const int dim = c->grid.dim;
-	struct pm_transfer t = {.grid = c->grid, .kernel = c->kernel, .components = 3};
+	struct pm_transfer t = {.grid = c->grid, .kernel = c->kernel, .components = 3, .planes = c->planes};
 	struct pm_strays strays;
 	double *memory = pm_alloc(n * 6 + 1, sizeof *memory), *middle[3], *current[3];
-	if (!memory)
-		return -PM_DATA;
+	if (pm_world_agree(memory ? 0 : pm_failed()))
+		return pm_free(memory), -PM_DATA;
 	for (int d = 0; d < 3; d++) {
 		middle[d] = memory + n * (size_t)d;
 		current[d] = memory + n * (size_t)(3 + d);
@@ -165,13 +172,16 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 	size_t *stray)
 {
 	struct pm_ways ways;
-	*stray = n;
-	if (!n)
+	const bool divided = c->planes && c->planes->divided;
+	*stray = divided ? SIZE_MAX : n;
+	if (!n && !divided)
 		return 0;
 	if (c->deposit == PM_DIRECT)
 		return deposit_direct(c, n, x, v, q, j);
 	int status = pm_ways_init(&ways, c, n, x, v, q);
-	if (!status)
+	if (divided)
+		status = pm_current_ranks(status, c, &ways, n, j, stray);
+	else if (!status)
 		status = deposit_ways(c, &ways, j, stray);
 	pm_ways_free(&ways);
 	return status;

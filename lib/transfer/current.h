@@ -16,6 +16,7 @@ struct pm_current {
 	enum pm_particle_face face[3][2]; /* what push does with the particles there */
 	double lo[3], hi[3];              /* [length] the box, where these faces are */
 	double dt;                        /* [time] of the drift; negative: backwards */
+	const struct pm_planes *planes;   /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call */
 };
 
 /* 0, or the sentence that says which faces or kernel cannot be had. */
@@ -23,7 +24,8 @@ int pm_current_check(const struct pm_current *c);
 
 /* j[3][points] [charge/(time length^(dim - 1))] += the mean current during dt of n particles of charge q at x[dim][n] that move with v[3][n] (NULL: 0),
  * component k half a cell up axis k. Except with PM_DIRECT the density that p2m makes of the particles before and after changes by -dt div j, to round-off,
- * at all nodes but those of wall faces and of open ones. 0 or failure; *stray is the first particle outside the box, n if there is none (a failure).
+ * at all nodes but those of wall faces and of open ones. 0 or failure; *stray is the first particle outside the box (a failure), n if there is none; where
+ * planes are divided its number in the whole stream, and SIZE_MAX.
  * The same bytes for any number of threads. */
 int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const j[3],
 	size_t *stray);
@@ -38,6 +40,7 @@ struct pm_ways {
 	double *memory;
 };
 int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q);
+int pm_ways_new(struct pm_ways *w, int dim, size_t n); /* room for n; 0 or failure */
 void pm_ways_free(struct pm_ways *w);
 
 PM_C_END

@@ -192,16 +192,15 @@ static int order_of(struct pm_shared_jobs *v, size_t n, const double *const x[],
 	return v->local ? 0 : pm_failed();
 }
 
-int pm_shared_jobs_init(int status, struct pm_shared_jobs *v, size_t n, const double *const x[], int nvalues, const double *const values[], int room)
+int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int room)
 {
 	v->ranks = (size_t)pm_world_size(), v->me = (size_t)pm_world_rank();
 	v->planes = v->t->planes;
-	status = status ? status : order_of(v, n, x, nvalues, values, room);
 	status = pm_world_agree(status); /* all know the number of tiles */
 	if (status)
 		return status;
 	const struct pm_tile_order *o = &v->local->order;
-	const int width = o->dim + nvalues;
+	const int nvalues = o->nvalues, width = o->dim + nvalues;
 	status = count(status, v);
 	status = status ? status : deal(v);
 	if (!status)
@@ -214,6 +213,11 @@ int pm_shared_jobs_init(int status, struct pm_shared_jobs *v, size_t n, const do
 	v->w.o = v->local;
 	v->w.p = (struct pm_tile_pass){.grid = &v->t->grid, .order = o, .axes = v->local->axes};
 	return bring(status, v, (size_t)width);
+}
+
+int pm_shared_jobs_init(int status, struct pm_shared_jobs *v, size_t n, const double *const x[], int nvalues, const double *const values[], int room)
+{
+	return pm_shared_jobs_of_order(status ? status : order_of(v, n, x, nvalues, values, room), v, room);
 }
 
 void pm_shared_jobs_free(struct pm_shared_jobs *v, bool keep)

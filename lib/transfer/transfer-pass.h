@@ -37,4 +37,15 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 int pm_gather_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays);
 
+/* What a job adds to the mesh component by component: where this goes, and who adds it to the block, which is zero, of a job. */
+struct pm_job_blocks {
+	int n;
+	const struct pm_tile_target *to; /* [n] */
+	void (*fill)(const void *data, const struct pm_tile_pass *p, const struct pm_tile_job *j, int component, double *block);
+	const void *data;
+};
+/* The same of records of another kind, whose order here is `local` (NULL with a status; it is freed): in t grid, kernel and planes count. Takes the caller's
+ * status and returns the agreed one. */
+int pm_spread_jobs_ranks(int status, const struct pm_transfer *t, struct pm_order_cache *local, const struct pm_job_blocks *b, double *const mesh[]);
+
 #endif

@@ -17,6 +17,7 @@ static const size_t inside = SIZE_MAX;
 
 struct pass {
 	struct pm_shared_jobs jobs;
+	const struct pm_job_blocks *blocks; /* spread: NULL or those of another kind of records */
 	struct pm_tile_target to;  /* the mesh under way; of all components of a pass the slots are on the same points */
 	int threads;
 	size_t *edge_of;           /* of each job of this rank: its number in the edge; inside: its block is on the planes here alone */
@@ -73,13 +74,24 @@ static struct row row_of(const struct pass *a, const struct layers *l, size_t la
 /* Points of the line of a row, which is on a plane here. */
 static size_t points_of(const struct pass *a, const struct row *r) { return (r->line - a->to.line) * a->jobs.planes->points[0]; }
 
-/* Which jobs are at the edge, and where their layers are. share: jobs of one tile have them in common. */
-static int find_edge(struct pass *a, bool share)
+/* A component of job i to its block. */
+static void fill(const struct pass *a, size_t i, int value, double *block)
+{
+	const struct pm_pass w = pm_shared_jobs_pass(&a->jobs, i);
+	if (a->blocks)
+		a->blocks->fill(a->blocks->data, &w.p, &w.p.job[i], value, block);
+	else
+		pm_pass_spread(&w, &w.p.job[i], value, block);
+}
+
+/* Which jobs are at the edge, and where their layers are, on the points of the slots of `to`. share: jobs of one tile have them in common. */
+static int find_edge_of(struct pass *a, const struct pm_tile_target *to, bool share)
 {
 	const struct pm_shared_jobs *v = &a->jobs;
 	const struct pm_tile_job *job = v->w.p.job;
 	size_t edges = 0;
-	a->to = (struct pm_tile_target){.axes = {&v->local->axes[0], &v->local->axes[1], &v->local->axes[2]}, .line = pm_planes_row(v->planes, 0)};
+	a->to = *to;
+	a->to.line = pm_planes_row(v->planes, 0);
 	a->edge_of = pm_alloc(v->w.p.jobs + 1, sizeof *a->edge_of);
 	a->size = pm_zalloc(2 * v->ranks, sizeof *a->size);
 	if (!a->edge_of || !a->size)
@@ -101,6 +113,12 @@ static int find_edge(struct pass *a, bool share)
 		next += a->edge_of[i] == next;
 	}
 	return 0;
+}
+
+static int find_edge(struct pass *a, bool share)
+{
+	const struct pm_axis *x = a->jobs.local->axes;
+	return find_edge_of(a, &(struct pm_tile_target){.axes = {&x[0], &x[1], &x[2]}}, share);
 }
 
 /* Where what is for or of each rank begins, but this one, which keeps its own: places in at[] count from there. Returns the doubles of all. */
@@ -142,8 +160,7 @@ static void fill_edge(const struct pass *a, int value, const size_t *begin, doub
 		if (a->edge_of[i] == inside)
 			continue;
 		const struct layers l = layers_of(a, v->w.p.job[i].tile);
-		const struct pm_pass w = pm_shared_jobs_pass(v, i);
-		pm_pass_spread(&w, &v->w.p.job[i], value, block);
+		fill(a, i, value, block);
 		for (size_t k = 0; k < l.count; k++) {
 			const size_t r = rank_of(a, &l, k);
 			double *layer = (r == v->me ? own : out + begin[r]) + a->at[a->edge_of[i]][k];
@@ -199,10 +216,8 @@ static void add_own(const struct pass *a, int value, double *own, double *mesh)
 		const size_t end = v->w.p.jobs - from < under_way ? v->w.p.jobs : from + under_way, thread = (size_t)omp_get_thread_num();
 #pragma omp for schedule(dynamic, 1)
 		for (size_t i = from; i < end; i++)
-			if (a->edge_of[i] == inside) {
-				const struct pm_pass w = pm_shared_jobs_pass(v, i);
-				pm_pass_spread(&w, &job[i], value, v->w.blocks + (i - from) * PM_BLOCK_MOST);
-			}
+			if (a->edge_of[i] == inside)
+				fill(a, i, value, v->w.blocks + (i - from) * PM_BLOCK_MOST);
 		for (size_t i = from; i < end; i++) {
 			if (a->edge_of[i] == inside) {
 				pm_tile_add_block(&v->w.p, &job[i], &a->to, (int)thread, a->threads, v->w.blocks + (i - from) * PM_BLOCK_MOST, mesh);
@@ -225,8 +240,10 @@ static int spread(int status, struct pass *a, int value, double *mesh)
 	void *came = NULL;
 	status = status ? status : begin ? 0 : pm_failed();
 	if (!status) {
-		a->to.flip = v->t->flip[v->w.which[value]];
-		a->to.scale = 1 / pm_grid_cell(&v->t->grid);
+		if (!a->blocks) {
+			a->to.flip = v->t->flip[v->w.which[value]];
+			a->to.scale = 1 / pm_grid_cell(&v->t->grid);
+		}
 		all = begin_at(a, a->size, begin);
 		out = pm_alloc(all + 1, sizeof *out);
 		own = pm_alloc(a->size[v->me] + 1, sizeof *own);
@@ -272,6 +289,23 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 		pass_free(&a, !status);
 		a = (struct pass){.jobs = {.t = t}};
 	}
+	return status;
+}
+
+int pm_spread_jobs_ranks(int status, const struct pm_transfer *t, struct pm_order_cache *local, const struct pm_job_blocks *b, double *const mesh[])
+{
+	struct pass a = {.jobs = {.t = t, .local = local}, .blocks = b};
+	status = pm_shared_jobs_of_order(status, &a.jobs, 0);
+	if (!status && !(a.jobs.w.blocks = pm_zalloc(pm_tile_under_way(threads_of(&a.jobs)) * PM_BLOCK_MOST, sizeof(double))))
+		status = pm_failed();
+	status = pm_world_agree(status);
+	for (int c = 0; c < b->n && !status; c++) {
+		pm_free(a.edge_of), pm_free(a.at), pm_free(a.size);
+		a.edge_of = NULL, a.at = NULL, a.size = NULL;
+		a.threads = threads_of(&a.jobs);
+		status = spread(find_edge_of(&a, &b->to[c], false), &a, c, mesh[c]);
+	}
+	pass_free(&a, false);
 	return status;
 }
 

@@ -152,7 +152,29 @@ charged() {
 	charged 3 --box 0,0,0,1,1.1,1.2 --faces periodic --particle-faces periodic -n 6x7x3 | same "$step" --store all
 	charged 2 --box 0,0,1,1.1 --faces wall,absorbing --particle-faces reflect -n 9x37 >plane
 	same "$step" --store all <plane
-	shares "push boris/2, maxwell --layers 3, push drift, m2p, push boris/2" "$step" <plane
+	shares "push boris/2, p2m --current, maxwell --layers 3, push drift, m2p, push boris/2" "$step" <plane
+}
+
+@test "any number of ranks: currents by every deposit, of ways cut at cells and at faces; the electromagnetic step has no word on rank 0 alone" {
+	local how
+	awk 'BEGIN { print "x y vx vy vz mass charge"; for (i = 0; i < 9000; i++)
+		print i*0.618%1, 1.1*(i*0.324%1), 0.2*(i%5) - 0.4, 0.2*(i%7) - 0.5, 0.1*(i%3), 1, (i%2)*2 - 1 }' >rows
+	for faces in periodic,absorbing neumann,wall; do
+		stab rows --law electromagnetic --dt 0.01 --box 0,0,1,1.1 --faces $faces -n 12x40 --particle-faces \
+			$([ $faces = neumann,wall ] && echo reflect,absorb || echo periodic,absorb) | p2m | maxwell --gauss | sel --drop rho >start.$faces
+		for how in "" "--kernel tsc" "--deposit villasenor-buneman" "--deposit direct"; do
+			same "push boris/2 | p2m --current $how | maxwell | push drift | m2p | push boris/2" --store all <start.$faces
+		done
+	done
+	on 3 cycle -v -n 1 "push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2" <start.neumann,wall 2>said >/dev/null
+	grep -q "on rank 0 alone: no word" said
+	# what a relativistic kick refuses has the number that it has alone
+	scalc --role state 'v = vx, vy, vz + 100*(x > 0.999)' <start.neumann,wall >fast
+	for s in "push relativistic/2" "push drift --open | p2m --current"; do
+		cycle -q -n 1 "$s" <fast 2>want >/dev/null && return 1
+		on 3 cycle -q -n 1 "$s" <fast 2>got >/dev/null && return 1
+		cmp want got || { cat want got; return 1; }
+	done
 }
 
 @test "any number of ranks: particles leave at absorbing faces, from push and from walk, till none are left; electrodes collect" {
@@ -220,7 +242,12 @@ blobs() {
 	awk -v s="$(sent sel table)" 'BEGIN { print s; more = s - (4096 + 2404)*7*8/1000; exit !(more > -0.5 && more < 2) }'
 }
 
-@test "what absorbing faces send: particles that change their rank" {
+@test "what p2m --current sends: the ways of a tile to its rank, dim + 4 numbers each; what absorbing faces send: particles that change their rank" {
+	awk 'BEGIN { print "x y vx vy vz mass charge"; for (i = 0; i < 9000; i++) print i*0.618%1, i*0.324%1, 0.1, 0.2, 0.3, 1, (i%2)*2 - 1 }' |
+		stab - --law electromagnetic --dt 0.01 --box 0,0,1,1 --faces periodic --particle-faces periodic -n 12x8 | p2m | maxwell --gauss >start
+	on 3 cycle -q -n 1 --timing - "p2m --current | maxwell | push drift" <start 2>table >/dev/null
+	# one tile, whose job is rank 0's: 4096 and 808 ways travel; the mesh is the last rank's: three blocks of (12 + 2) x (8 + 2) points travel
+	awk -v s="$(sent "p2m --current" table)" 'BEGIN { print s; more = s - (4096 + 808)*6*8/1000 - 3*14*10*8/1000; exit !(more > -0.5 && more < 2) }'
 	pinit uniform -n 13000 --dt 1 | smod --faces open --particle-faces absorb | scalc --role state 'v = 10*(id < 6500), 0, 0' >box
 	on 3 cycle -q -n 1 --timing - "push drift" <box 2>table >/dev/null
 	# 13000 as 4096, 4096, 4808; the last 6500 are left, 0, 1692, 4808 of them, as 0, 4096, 2404; x, v and id travel

@@ -1,0 +1,24 @@
+/* What the current of a run alone and of several ranks share: the blocks of a job, where they go, the ways as records. Private to lib/transfer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_TRANSFER_CURRENT_PARTS_H
+#define PM_TRANSFER_CURRENT_PARTS_H
+
+#include "transfer/current.h"
+#include "transfer/transfer-pass.h"
+
+/* The three blocks of a job, added to. */
+struct pm_current_fill {
+	const struct pm_current *c;
+	double shift; /* of the axes */
+};
+void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block);
+/* Where the blocks of a component go; flip is its room. */
+struct pm_tile_target pm_current_target(const struct pm_current *c, const struct pm_axis nodes[3], const struct pm_axis halves[3], int component,
+	unsigned char flip[3]);
+/* The ways as particles to be sorted; values is their room. */
+struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, const double *values[PM_COMPONENTS]);
+/* pm_current_add of ways where they and the mesh are divided: `firsts` of them are first pieces, the further ones follow. ways may be cut anew. Takes the
+ * caller's status and returns the agreed one. */
+int pm_current_ranks(int status, const struct pm_current *c, struct pm_ways *ways, size_t firsts, double *const mesh[3], size_t *stray);
+
+#endif
