@@ -5,16 +5,16 @@
 #include "stage/stage.h"
 
 struct config {
-	const char *mesh, *axis, *density;
-	double speed, from, each;
+	const char *mesh, *axis, *profile;
+	double speed, start, each;
 	int64_t seed;
-	struct pm_vector charge, mass, vth;
+	struct pm_vector charges, masses, thermal;
 };
 
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
-	const struct { const char *name; const struct pm_vector *of; } per[] = {{"charge", &o->charge}, {"mass", &o->mass}, {"vth", &o->vth}};
+	const struct { const char *name; const struct pm_vector *of; } per[] = {{"charges", &o->charges}, {"masses", &o->masses}, {"thermal", &o->thermal}};
 	s->advances = true;
 	for (int i = 0; i < 3; i++) {
 		if (per[i].of->n > 1 && per[i].of->n != s->nargs)
@@ -31,12 +31,12 @@ static double of(const struct pm_vector *v, int set, double otherwise) { return 
 static struct pm_window window_of(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	struct pm_window w = {.axis = *o->axis - 'x', .speed = o->speed, .from = o->from, .mesh = o->mesh, .sets = s->nargs, .set = s->args,
-		.each = (int)o->each, .density = o->density, .seed = pm_given(s, "seed") ? (uint64_t)o->seed : f->seed};
+	struct pm_window w = {.axis = *o->axis - 'x', .speed = o->speed, .from = o->start, .mesh = o->mesh, .sets = s->nargs, .set = s->args,
+		.each = (int)o->each, .density = o->profile, .seed = pm_given(s, "seed") ? (uint64_t)o->seed : f->seed};
 	for (int i = 0; i < s->nargs; i++) {
-		w.charge[i] = of(&o->charge, i, -1);
-		w.mass[i] = of(&o->mass, i, 1);
-		w.vth[i] = of(&o->vth, i, 0);
+		w.charge[i] = of(&o->charges, i, -1);
+		w.mass[i] = of(&o->masses, i, 1);
+		w.vth[i] = of(&o->thermal, i, 0);
 	}
 	return w;
 }
@@ -70,15 +70,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const struct pm_option options[] = {
-	{.name = "density", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(density),
+	{.name = "profile", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(profile),
 		.text = "real particles per volume of the plasma that comes in, in x, y, z and the frame's constants (default: 1)"},
 	{.name = "per-cell", .letter = 'n', .kind = PM_REAL, .fallback = "2", .low = 1, .high = 100, PM_AT(each),
 		.text = "particles of a set in a cell, along every axis"},
-	{.name = "charge", .kind = PM_VECTOR, .unit = "charge", PM_AT(charge), .text = "of one real particle, one number or one a set (default: -1)"},
-	{.name = "mass", .kind = PM_VECTOR, .unit = "mass", PM_AT(mass), .text = "the same of the mass (default: 1)"},
-	{.name = "vth", .kind = PM_VECTOR, .unit = "length/time", PM_AT(vth), .text = "standard deviation of each component of v (default: 0)"},
+	{.name = "charges", .kind = PM_VECTOR, .unit = "charge", PM_AT(charges), .text = "of one real particle, one number or one a set (default: -1)"},
+	{.name = "masses", .kind = PM_VECTOR, .unit = "mass", PM_AT(masses), .text = "the same of the mass (default: 1)"},
+	{.name = "thermal", .kind = PM_VECTOR, .unit = "length/time", PM_AT(thermal), .text = "standard deviation of each component of v (default: 0)"},
 	{.name = "speed", .kind = PM_REAL, .unit = "length/time", .low = 0, .high = 1e300, PM_AT(speed), .text = "of the window (default: c of the law)"},
-	{.name = "from", .kind = PM_REAL, .unit = "time", .fallback = "0", .low = -1e300, .high = 1e300, PM_AT(from), .text = "the time at which it sets out"},
+	{.name = "start", .kind = PM_REAL, .unit = "time", .fallback = "0", .low = -1e300, .high = 1e300, PM_AT(start), .text = "the time at which it sets out"},
 	{.name = "axis", .kind = PM_WORD, .fallback = "x", .choices = axes, PM_AT(axis), .text = "along which it moves, upward"},
 	{.name = "seed", .kind = PM_INTEGER, .high = 9e15, PM_AT(seed), .text = "seed of the random numbers; by default the frame's"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
@@ -87,7 +87,7 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"a pulse of light makes a wake in the plasma that it enters",
 		"pinit wakefield --cells 400 | cycle -n 100 --every 50 'push boris/2 | p2m --current | maxwell | push drift | "
-		"window electrons --density \"x > 22\" | m2p | push boris/2' | diag"},
+		"window electrons --profile \"x > 22\" | m2p | push boris/2' | diag"},
 	{0},
 };
 const struct pm_tool tool_window = {
@@ -95,7 +95,7 @@ const struct pm_tool tool_window = {
 	.summary = "let the box move with the light: plasma comes in in front, and falls out behind",
 	.about = "The box and its mesh move along --axis with --speed, by whole cells, once a step, behind the drift (push drift | window ... | m2p). Fields "
 		"keep their place in space; new cells in front have none, and get --per-cell particles of each SET along every axis, with weights by "
-		"--density. Without SET nothing comes in. What is behind the window is removed, and reported. See docs/methods/window.md.",
+		"--profile. Without SET nothing comes in. What is behind the window is removed, and reported. See docs/methods/window.md.",
 	.kind = PM_FILTER,
 	.changes = "the box, the state of the mesh, x, v, mass, charge, id",
 	.config = sizeof(struct config),

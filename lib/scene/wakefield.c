@@ -12,11 +12,11 @@
 #include "scene-parts/scene-electromagnetic.h"
 #include "stream/declare.h"
 
-enum { A0, WAVES, PULSE, WAIST, LENGTH };
+enum { A0, WAVENUMBER, PULSE, WAIST, LENGTH };
 
 static const struct pm_scene_parameter rows[] = {
 	{.name = "a0", .otherwise = 0.1, .low = 0, .high = 1e3, .text = "amplitude of the pulse, e A/(m c)"},
-	{.name = "waves", .unit = "omega_p/c", .otherwise = 10, .low = 1.5, .high = 1e6, .text = "wave number of the light"},
+	{.name = "wavenumber", .unit = "omega_p/c", .otherwise = 10, .low = 1.5, .high = 1e6, .text = "wave number of the light"},
 	{.name = "pulse", .unit = "c/omega_p", .otherwise = 1, .low = 1e-3, .high = 1e6, .text = "length L of the pulse exp(-xi^2/(2 L^2))"},
 	{.name = "waist", .unit = "c/omega_p", .otherwise = 5, .low = 1e-3, .high = 1e6, .text = "half width w of the beam exp(-y^2/w^2) in the plane"},
 	{.name = "length", .unit = "c/omega_p", .otherwise = 24, .low = 1e-3, .high = 1e6, .text = "of the box"},
@@ -59,7 +59,7 @@ static double magnetic(int component, const double x[3], const void *data)
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const struct pulse p = {.a0 = c->value[A0], .k = c->value[WAVES], .L = c->value[PULSE], .w = c->value[WAIST],
+	const struct pulse p = {.a0 = c->value[A0], .k = c->value[WAVENUMBER], .L = c->value[PULSE], .w = c->value[WAIST],
 		.x0 = c->value[LENGTH] - 5 * c->value[PULSE], .plane = c->dim == 2};
 	double *x[3], *v[3], inverse = 0;
 	if (c->n)
@@ -85,7 +85,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
-	const double a0 = pm_frame_parameter(f, "a0", 0.1), k = pm_frame_parameter(f, "waves", 10), L = pm_frame_parameter(f, "pulse", 1);
+	const double a0 = pm_frame_parameter(f, "a0", 0.1), k = pm_frame_parameter(f, "wavenumber", 10), L = pm_frame_parameter(f, "pulse", 1);
 	const double w = f->dim == 2 ? pm_frame_parameter(f, "waist", 5) : HUGE_VAL, across = f->dim == 2 ? w * sqrt(pm_pi / 2) : 1;
 	if (!strcmp(quantity, "wake_field"))
 		return sqrt(pm_pi) / 4 * a0 * a0 * L * exp(-L * L / 4);

@@ -20,7 +20,8 @@ small() {
 	cylinder) echo "$1 --cells 32x24" ;;
 	cavity) echo "$1 --cells 40" ;;
 	zalesak | single-vortex) echo "$1 --cells 32" ;;
-	wakefield) echo "$1 --cells 300 --waves 3" ;;
+	wakefield) echo "$1 --cells 300 --wavenumber 3" ;;
+	gem) echo "$1 -n 2000 --cells 32x16" ;;
 	vortex-ring | vortex-rings) echo "$1 --cells 20x20x12" ;;
 	*) echo "$1 --cells 16" ;;
 	esac

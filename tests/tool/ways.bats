@@ -196,8 +196,8 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 }
 
 @test "equal bytes: a window that moves with light, and lets electrons in" {
-	pulse() { pinit wakefield --cells 60 --waves 2 "$@"; }
-	all_ways pulse m2p "push boris/2 | p2m --current | maxwell | push drift | window electrons --vth 0.01 --from=-1 | m2p | push boris/2" 1
+	pulse() { pinit wakefield --cells 60 --wavenumber 2 "$@"; }
+	all_ways pulse m2p "push boris/2 | p2m --current | maxwell | push drift | window electrons --thermal 0.01 --start=-1 | m2p | push boris/2" 1
 }
 
 @test "equal bytes: a derivative on particles that moves a step of density" {

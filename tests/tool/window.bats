@@ -26,7 +26,7 @@ wake() {
 	within "$(calc "$amplitude / $want")" 1 0.01 "amplitude" # measured 0.996; the theory leaves out 1/k^2 = 0.01 and a0^2
 	within "$k" "$(calc '1 / sqrt(0.99)')" 0.0015 "wave number" # measured 1.0053
 	[ -n "${PM_LONG:-}" ] || return 0
-	read -r amplitude k < <(pinit wakefield --dim 2 --waves 5 | cycle -q -t 30 "$(step electrons)" | wake 22 9)
+	read -r amplitude k < <(pinit wakefield --dim 2 --wavenumber 5 | cycle -q -t 30 "$(step electrons)" | wake 22 9)
 	within "$(calc "$amplitude / $want")" 1 0.035 "amplitude on the axis" # measured 0.976: the beam spreads
 	within "$k" "$(calc '1 / sqrt(0.96)')" 0.006 "wave number on the axis"
 }
@@ -35,15 +35,15 @@ wake() {
 dark() { pinit em-wave --cells "$@" | sel --drop E,B | smod --faces open --particle-faces absorb --constant background=0 | p2m | maxwell --gauss; }
 
 @test "fields keep their place: with a window of five cells a node has the bytes of the fifth behind it without one, and new nodes have 0" {
-	pinit wakefield --length 12 --waves 3 --cells 300 >a1
-	pinit wakefield --dim 2 --length 12 --waves 3 --waist 2 --cells 120x24 >a2
+	pinit wakefield --length 12 --wavenumber 3 --cells 300 >a1
+	pinit wakefield --dim 2 --length 12 --wavenumber 3 --waist 2 --cells 120x24 >a2
 	dark 30x24 --dim 2 --dt 0.1 |
 		cycle -n 20 "push boris/2 | p2m --current | antenna --place 3 'Ez = sin(5*time)' | maxwell | push drift | m2p | push boris/2" >a3
 	while read -r a axis h; do
 		dt=$(sls "$a" | sed -n 's/.* dt \([^ ]*\).*/\1/p')
 		cycle -n 1 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' <"$a" | stab --mesh mesh --plain >still
 		start=$(sls "$a" | sed -n 's/.*: time \([^ ]*\).*/\1/p')
-		cycle -n 1 "$(step "--axis $axis --speed $(calc "5.001 * $h / $dt") --from $start")" <"$a" | stab --mesh mesh --plain >moved
+		cycle -n 1 "$(step "--axis $axis --speed $(calc "5.001 * $h / $dt") --start $start")" <"$a" | stab --mesh mesh --plain >moved
 		counted "$(wc -l <moved)"
 		awk -v axis="$axis" -v h="$h" 'function key() { return sprintf("%.3f %.3f", $1, dim > 1 ? $2 : 0) }
 			function values(s) { for (c in name) s = s " " $at[name[c]]; return s }
@@ -63,7 +63,7 @@ dark() { pinit em-wave --cells "$@" | sel --drop E,B | smod --faces open --parti
 @test "every new cell gets n particles an axis of the density there, evenly; what is behind leaves; the account adds up; ids are each there once" {
 	density='(x>25)*(x-25)*(1+0.5*y)'
 	pinit wakefield --dim 2 --cells 240x8 --waist 1 --a0 0 | species ions -n 0 --velocities 3 >a # cells of 0.1 and 0.5, along y from -2 on
-	cycle -n 40 "$(step "electrons ions -n 3 --density '$density' --charge=-1,1 --mass 1,3000 --speed 1.5")" <a >b
+	cycle -n 40 "$(step "electrons ions -n 3 --profile '$density' --charges=-1,1 --masses 1,3000 --speed 1.5")" <a >b
 	stab --plain --set ions b | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 		{ x = $at["x"]; y = $at["y"]; w = (x - 25) * (1 + 0.5 * y) * 0.05 / 9
 			bad += ($at["charge"] - w) ^ 2 > 1e-20 || ($at["mass"] - 3000 * w) ^ 2 > 1e-14 || seen[$at["id"]]++ || x <= 25
@@ -75,7 +75,7 @@ dark() { pinit em-wave --cells "$@" | sel --drop E,B | smod --faces open --parti
 		/^  box/ { gsub(/[][,]/, ""); print t, $3 }' s)
 	within "$front" "$(calc "24 + 0.1 * int(15 * $t + 1e-6)")" 1e-9
 	# it falls out behind: 24 of length are left of a plasma that has passed
-	cycle -t 40 "$(step 'electrons -n 1 --vth 0.01')" <a >c
+	cycle -t 40 "$(step 'electrons -n 1 --thermal 0.01')" <a >c
 	read -r charge particles < <(diag --columns charge,particles c | tail -1)
 	within "$particles" 1920 5 # of the last cells behind some have gone by their own motion
 	within "$charge" "$(calc "-0.05 * $particles")" 1e-9
@@ -91,8 +91,8 @@ dark() { pinit em-wave --cells "$@" | sel --drop E,B | smod --faces open --parti
 }
 
 @test "the same bytes for any threads, engines, parts of a run and ranks" {
-	pinit wakefield --dim 2 --cells 160x8 --waves 3 >a
-	w="electrons --vth 0.01 --density '1+0.1*sin(y)'"
+	pinit wakefield --dim 2 --cells 160x8 --wavenumber 3 >a
+	w="electrons --thermal 0.01 --profile '1+0.1*sin(y)'"
 	for t in 1 3; do OMP_NUM_THREADS=$t cycle --no-history -n 50 "$(step "$w")" <a >t$t; done
 	cycle --no-history -n 50 --engine pipes "$(step "$w")" <a >pipes
 	cycle --no-history -n 21 "$(step "$w")" <a | cycle --no-history -n 29 "$(step "$w")" >parts
@@ -110,14 +110,14 @@ dark() { pinit em-wave --cells "$@" | sel --drop E,B | smod --faces open --parti
 		1;pinit em-wave --cells 8 | cycle -n 1 '$(step electrons)';the box is periodic along x, and a window has an end (smod --faces open,
 		1;pinit landau -n 20 | window;window: frame 1: the fields of the law 'electrostatic' are made anew of all particles
 		1;window electrons <a;window: frame 1: a window moves within a step, behind the drift (push drift | window ... | m2p)
-		1;cycle -n 9 '$(step "electrons --density x-30")' <a;the density 'x-30' is -
+		1;cycle -n 9 '$(step "electrons --profile x-30")' <a;the density 'x-30' is -
 		1;cycle -n 9 '$(step '--speed 1000')' <a;cells within a step, over all
 		1;cycle -n 9 '$(step '--axis y')' <a;a window along y in 1-D (--axis)
-		2;cycle -n 9 '$(step 'electrons ions --mass 1,2,3')' <a;--mass has 3 numbers for 2 sets (one for each, or one for all)
+		2;cycle -n 9 '$(step 'electrons ions --masses 1,2,3')' <a;--masses has 3 numbers for 2 sets (one for each, or one for all)
 		1;cycle -n 9 '$(step ions)' <a;no set 'ions' (species ions -n 0 in front of the steps makes it)
 		2;cycle -n 9 '$(step 'electrons electrons')' <a;'electrons' twice
 		2;cycle -n 9 '$(step 'electrons -n 1.5')' <a;--per-cell 1.5 is not a whole number
-		2;cycle -n 9 '$(step 'electrons --vth=-1')' <a;--vth -1 is negative
+		2;cycle -n 9 '$(step 'electrons --thermal=-1')' <a;--thermal -1 is negative
 		1;cycle -n 9 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2 | window' <a;behind the drift
 		2;pinit wakefield -n 5;the scene wakefield begins empty
 		2;pinit wakefield --length 9;does not fit the box of length 9 (--length above 10 times --pulse)

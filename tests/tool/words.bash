@@ -65,7 +65,7 @@ input() {
 	mgrad | mlevel) cloud | p2m | poisson-fft ;;
 	poisson-* | diffuse | spectrum | smooth) cloud | p2m ;;
 	antenna | maxwell) pinit em-wave -n 4 --cells 4 | p2m --current ;;
-	window) pinit wakefield --cells 8 --waves 2 --dt 0.5 | species electrons -n 12 --velocities 3 --vth 0.01 |
+	window) pinit wakefield --cells 8 --wavenumber 2 --dt 0.5 | species electrons -n 12 --velocities 3 --vth 0.01 |
 		m2p | push boris/2 | p2m --current | maxwell --layers 1 | push drift ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
