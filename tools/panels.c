@@ -47,7 +47,7 @@ static const char *const kinds[] = {"vortex", "source", NULL};
 static const struct pm_option options[] = {
 	{.name = "curve", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(choice.curve),
 		.text = "the wall, counter-clockwise: x and y of s = 0 to 1 with a comma between, closed, also of time (default: the corners are in the set)"},
-	{.name = "panels", .letter = 'n', .kind = PM_INTEGER, .unit = "panels", .fallback = "200", .low = 3, .high = 20000, PM_AT(n),
+	{.name = "pieces", .letter = 'n', .kind = PM_INTEGER, .unit = "panels", .fallback = "200", .low = 3, .high = 20000, PM_AT(n),
 		.text = "panels of the curve, at equal steps of s"},
 	{.name = "kind", .kind = PM_WORD, .fallback = "vortex", .choices = kinds, PM_AT(kind),
 		.text = "a vortex sheet, which is the slip at the wall, or sources, for walls that turn or grow"},
