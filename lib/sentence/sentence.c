@@ -145,17 +145,17 @@ static int word_make(struct word *w, const struct pm_list *moves)
 		return pm_fail(PM_USAGE, "'%s' cannot be part of a sentence", w->argv[0]);
 	int status = 0;
 	w->stage = pm_stage_make(w->tool, w->argc, w->argv, &status);
-	if (w->stage && !status)
-		status = pm_stage_begin(w->stage);
 	if (status)
+		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
+	const struct pm_common *k = &w->stage->run->common; /* before begin, for beside --help arguments are not counted */
+	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version || k->ranks > 0)
+		return pm_fail(PM_USAGE, "'%s': options for files, ranks, timing and help belong to cycle itself, not inside the sentence", w->stage->word);
+	if ((status = pm_stage_begin(w->stage)))
 		return pm_fail(-status, "%s: %s", w->argv[0], pm_message());
 	w->makes = w->makes && !w->stage->advances;
 	if (w->stage->files && w->stage->nargs)
 		return pm_fail(PM_USAGE, "%s: unexpected argument '%s' (inside a sentence no word reads files: cycle -i FILE does)", w->argv[0],
 			w->stage->args[0]);
-	const struct pm_common *k = &w->stage->run->common;
-	if (k->input || k->output || k->timing || k->help || k->man || k->examples || k->complete || k->version || k->ranks > 0)
-		return pm_fail(PM_USAGE, "'%s': options for files, ranks, timing and help belong to cycle itself, not inside the sentence", w->stage->word);
 	if (w->stage->leaves_out)
 		return pm_fail(PM_USAGE, "'%s' leaves frames out, but inside a sentence every frame must be passed on", w->stage->word);
 	if (w->stage->kind == PM_SINK)

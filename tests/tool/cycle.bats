@@ -163,6 +163,8 @@ steps_of() { diag | column step | tr '\n' ' '; }
 		[[ $output == *"leaves frames out"* ]]
 		run -2 bash -c "timeout 10 cycle -n 2 --engine $engine 'pp -i a | push rk2' < a > b"
 		[[ $output == *"belong to cycle itself"* ]]
+		run -2 bash -c "timeout 10 cycle -n 2 --engine $engine 'phase --help x y z vx vy vz | push rk2' < a > b" # more arguments than it takes
+		[[ $output == *"belong to cycle itself"* ]]
 	done
 }
 

@@ -291,12 +291,12 @@ rk2 - -" ] || { cat t; false; }
 @test "more than one limit between the end points is reported if a run shows it" {
 	gate
 	# stable below 2, and from 5.5 to 6.5.
-	cat >bin/window <<-'SH'
+	cat >bin/islands <<-'SH'
 		#!/bin/sh
 		if awk -v x="$1" 'BEGIN { exit !(x < 2 || (x > 5.5 && x < 6.5)) }'; then exec cat; else exec gate 1 0; fi
 	SH
-	chmod +x bin/window
-	run -0 margin 'pinit uniform -n 3 | window {a} | cycle -n 1 "push drift"' --vary a:1:9 --tolerance 0.01 --unstable-when 'particles > 3' -o d
+	chmod +x bin/islands
+	run -0 margin 'pinit uniform -n 3 | islands {a} | cycle -n 1 "push drift"' --vary a:1:9 --tolerance 0.01 --unstable-when 'particles > 3' -o d
 	[[ $output == *"again at "*": there is more than one limit"* ]]
 	[[ $(grep again <<<"$output") != *for* ]]
 	jq -r '.limits[0].reason' d/margin.json | grep -q 'more than one limit'
@@ -316,12 +316,12 @@ rk2 - -" ] || { cat t; false; }
 	[[ $(number reason <t) == "stable again between 2.3"*" and 2.7: "* ]]
 	# a window from 5.5 to 6.5, and below 2
 	gate
-	cat >bin/window <<-'SH'
+	cat >bin/islands <<-'SH'
 		#!/bin/sh
 		if awk -v x="$1" 'BEGIN { exit !(x < 2 || x > 5.5) }'; then exec cat; else exec gate 1 0; fi
 	SH
-	chmod +x bin/window
-	margin 'pinit uniform -n 3 | window {a}' --vary a:1:9 --from above --format tsv >t
+	chmod +x bin/islands
+	margin 'pinit uniform -n 3 | islands {a}' --vary a:1:9 --from above --format tsv >t
 	within "$(number limit <t)" 5.5 "$(number uncertainty <t)"
 	[[ $(number reason <t) == "stable again between 1 and 1.5: there is more than one limit, and this is the first from above" ]]
 }

@@ -346,7 +346,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	shares "p2m -n 8, scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
 	shares "p2m -n 8, poisson-fft, m2p, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift" <start
 	shares "push drift, ssort --by x" "push drift | ssort --by x" <start
-	smod --particle-faces absorb --faces open <start | shares "no word" "push drift"
+	smod --particle-faces absorb --faces open <start | shares "push drift" "push drift"
 	pinit plummer -n 9000 >cluster
 	shares "pp, dt --acceleration 0.01 --softening 0.1, push rk2" "pp | dt --acceleration 0.01 --softening 0.1 | push rk2" <cluster
 	shares "pp, diag --tee table, push rk2" "pp | diag --tee table | push rk2" <cluster
