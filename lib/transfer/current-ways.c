@@ -120,19 +120,33 @@ static void start(struct walker *k, size_t p, const double *const x[3], const do
 	k->place = p;
 }
 
-/* Is the way one piece? */
-static bool straight(const struct pm_current *c, size_t p, const double *const x[3], const double *const v[3])
+enum { together = 512 }; /* particles: their ways are looked at axis by axis, eight at a time */
+
+/* bent[i] |= the way of particle i is more than one piece, by what it does along axis d. v NULL: at rest. */
+static void mark_bent(const struct pm_current *c, int d, size_t n, const double *x, const double *v, unsigned char *bent)
 {
-	bool one = true;
-	for (int d = 0; d < c->grid.dim; d++) {
-		const double a = x[d][p], b = a + c->dt * (v[d] ? v[d][p] : 0), low = fmin(a, b), high = fmax(a, b), h = c->grid.h[d];
-		one &= high - low <= h;
-		if (c->grid.face[d][0] != PM_PERIODIC)
-			one &= low >= c->lo[d] && high <= c->hi[d];
-		if (c->deposit == PM_VILLASENOR_BUNEMAN)
-			one &= floor((low - c->grid.lo[d]) / h) == floor((high - c->grid.lo[d]) / h);
+	const bool shut = c->grid.face[d][0] != PM_PERIODIC, cut = c->deposit == PM_VILLASENOR_BUNEMAN;
+	const double least = shut ? c->lo[d] : -INFINITY, most = shut ? c->hi[d] : INFINITY, h = c->grid.h[d], dt = c->dt;
+	for (size_t p = 0; p < n; p++) {
+		const double a = x[p], b = a + dt * (v ? v[p] : 0), low = a < b ? a : b, high = a < b ? b : a;
+		bent[p] |= !(high - low <= h) | !(low >= least) | !(high <= most);
 	}
-	return one;
+	for (size_t p = 0; p < n && cut; p++) {
+		const double a = x[p], b = a + dt * (v ? v[p] : 0), from = c->grid.lo[d];
+		bent[p] |= floor((a - from) / h) != floor((b - from) / h);
+	}
+}
+
+/* Marks of the m particles from p on; how many are bent. */
+static size_t find_bent(const struct pm_current *c, size_t p, size_t m, const double *const x[3], const double *const v[3], unsigned char bent[together])
+{
+	size_t many = 0;
+	memset(bent, 0, m);
+	for (int d = 0; d < c->grid.dim; d++)
+		mark_bent(c, d, m, x[d] + p, v[d] ? v[d] + p : NULL, bent);
+	for (size_t i = 0; i < m; i++)
+		many += bent[i];
+	return many;
 }
 
 /* The arrays for n pieces in one block. */
@@ -151,48 +165,70 @@ int pm_ways_new(struct pm_ways *w, int dim, size_t n)
 	return 0;
 }
 
+/* The way of every particle as one piece. */
+static void lay_out(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, struct pm_ways *w)
+{
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t from = 0; from < n; from += together) {
+		const size_t end = n - from < together ? n : from + together;
+		for (int d = 0; d < c->grid.dim; d++) {
+			const double *along = v[d];
+			const double h = c->grid.h[d], dt = c->dt;
+			double *restrict at = w->at[d], *restrict way = w->way[d];
+			for (size_t p = from; p < end; p++) {
+				const double a = x[d][p], b = a + dt * (along ? along[p] : 0);
+				at[p] = a < b ? a : b;
+				way[p] = (b - a) / h;
+			}
+		}
+		memcpy(w->q + from, q + from, (end - from) * sizeof *q);
+		for (int d = c->grid.dim; d < 3; d++)
+			for (size_t p = from; p < end; p++)
+				w->along[d][p] = v[d] ? q[p] * v[d][p] : 0;
+	}
+}
+
+/* Walks along every way that is bent, with charges q if these are given; returns the further pieces. */
+static size_t walk_bent(struct walker *k, size_t n, const double *const x[3], const double *const v[3], const double *q)
+{
+	unsigned char bent[together];
+	size_t more = 0;
+	for (size_t p = 0; p < n; p++) {
+		if (p % together == 0)
+			find_bent(k->c, p, n - p < together ? n - p : together, x, v, bent);
+		if (!bent[p % together])
+			continue;
+		start(k, p, x, v);
+		k->q = q ? q[p] : 0;
+		walk(k);
+		more += k->pieces - 1;
+	}
+	return more;
+}
+
 int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q)
 {
-	const int dim = c->grid.dim;
 	struct walker k = {.c = c};
-	size_t many = 0, more = 0;
+	size_t many = 0;
 	*w = (struct pm_ways){.n = 0};
-	for (int d = 0; d < dim; d++) {
+	for (int d = 0; d < c->grid.dim; d++) {
 		size_t beyond[2];
 		pm_axis_path_room(&c->grid, d, c->kernel->width, beyond);
 		for (int s = 0; s < 2; s++)
 			k.room[d][s] = (double)beyond[s] * c->grid.h[d];
 	}
 #pragma omp parallel for schedule(static) reduction(+ : many) if (n > 16384)
-	for (size_t p = 0; p < n; p++)
-		many += !straight(c, p, x, v);
-	for (size_t p = 0; p < n && many; p++)
-		if (!straight(c, p, x, v)) {
-			start(&k, p, x, v);
-			walk(&k);
-			more += k.pieces - 1;
-		}
-	if (pm_ways_new(w, dim, n + more))
-		return -PM_DATA;
-#pragma omp parallel for schedule(static) if (n > 16384)
-	for (size_t p = 0; p < n; p++) {
-		for (int d = 0; d < dim; d++) {
-			const double a = x[d][p], b = a + c->dt * (v[d] ? v[d][p] : 0);
-			w->at[d][p] = fmin(a, b);
-			w->way[d][p] = (b - a) / c->grid.h[d];
-		}
-		w->q[p] = q[p];
-		for (int d = dim; d < 3; d++)
-			w->along[d][p] = v[d] ? q[p] * v[d][p] : 0;
+	for (size_t p = 0; p < n; p += together) {
+		unsigned char bent[together];
+		many += find_bent(c, p, n - p < together ? n - p : together, x, v, bent);
 	}
+	if (pm_ways_new(w, c->grid.dim, n + (many ? walk_bent(&k, n, x, v, NULL) : 0)))
+		return -PM_DATA;
+	lay_out(c, n, x, v, q, w);
 	k.w = w;
 	k.next = n;
-	for (size_t p = 0; p < n && many; p++)
-		if (!straight(c, p, x, v)) {
-			start(&k, p, x, v);
-			k.q = q[p];
-			walk(&k);
-		}
+	if (many)
+		walk_bent(&k, n, x, v, q);
 	return 0;
 }
 
