@@ -11,6 +11,7 @@ struct pm_gather_arrays {
 	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
 	double *out[PM_COMPONENTS];
 	size_t n;
+	bool magnetic; /* the components of an evolving B are among them, behind those of E */
 };
 
 /* Particles beside bodies and faces: who they are, and what their targets held. */

@@ -214,10 +214,11 @@ static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const st
 }
 
 /* The field and the changes in one gather; a given field before them, because its images differ. */
-static int gather(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_gather_arrays *a, struct pm_strays *strays)
+static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char *set, struct pm_gather_arrays *a, struct pm_strays *strays)
 {
 	int status = 0;
 	if (j->field->role == PM_STATE) {
+		a->magnetic = !j->choice.field && j->law->magnetic && !j->interlaced && pm_bfield_append(f, set, j->mesh, j->law->magnetic, a);
 		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
 			: pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
 		a->t.components = 0;
@@ -253,7 +254,7 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	pm_free(ratio), pm_gather_beside_free(&b);
 	strays.first += target->first;
 	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
-	if (!status && law && j->law->magnetic)
+	if (!status && law && j->law->magnetic && !a.magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && j->outside == PM_OUTSIDE_ERROR)
 		status = pm_strays_refuse(&strays, set, j->mesh, &a.t, "--outside drop leaves it without; p2m --outside grow enlarges the mesh");

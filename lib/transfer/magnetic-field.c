@@ -25,6 +25,24 @@ int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m,
 	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, term, replace) ? 0 : -PM_DATA;
 }
 
+bool pm_bfield_append(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, struct pm_gather_arrays *a)
+{
+	const struct pm_field *given = pm_frame_field(f, m->name, name);
+	struct pm_field *to = given && !given->uniform && evolves(f) ? pm_frame_field(f, set, target) : NULL;
+	struct pm_transfer own = {.components = 0};
+	pm_transfer_maxwell(&own, false);
+	for (int c = 0; c < 3 && to; c++) {
+		const int k = a->t.components++;
+		memcpy(a->t.staggered[k], given->staggered[c], sizeof a->t.staggered[k]);
+		memcpy(a->t.flip[k], own.flip[c], sizeof a->t.flip[k]);
+		a->t.set[k] = false;
+		a->mesh[k] = pm_in(given, c);
+		a->out[k] = pm_out(to, c);
+		a->factor[k] = NULL;
+	}
+	return to;
+}
+
 int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, const struct pm_transfer *t)
 {
 	const struct pm_field *given = pm_frame_field(f, m->name, name);

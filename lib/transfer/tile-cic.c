@@ -158,20 +158,20 @@ void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3])
 /* The block of a component to the corners of its cells: column x of four rows is the lower half of cell x and the upper half of cell x-1. */
 void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners)
 {
-	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3], edge = (size_t)1 << pm_tile_shift[3][0];
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
 	double columns[PM_SIMD_WIDTH * 4] __attribute__((aligned(64)));
 	for (size_t z = 0; z < cells[2]; z++)
 		for (size_t y = 0; y < cells[1]; y++) {
 			const double *low = block + z * plane + y * row;
-			double *to = corners + (((z << pm_tile_shift[3][1]) + y) << pm_tile_shift[3][0]) * PM_CORNERS;
+			double *to = corners + (z * PM_GATHER_ROWS + y) * PM_GATHER_ROW * PM_CORNERS;
 			for (size_t x = 0; x <= cells[0]; x += PM_SIMD_WIDTH) {
 				const double *at = low + x;
 				turn_out((const pm_simd[]){pm_simd_load_any(at), pm_simd_load_any(at + plane), pm_simd_load_any(at + row),
 					pm_simd_load_any(at + plane + row)}, columns);
-				for (size_t l = 0; l < PM_SIMD_WIDTH && x + l <= edge; l++) {
+				for (size_t l = 0; l < PM_SIMD_WIDTH && x + l <= cells[0]; l++) {
 					const pm_simd4_at column = *(const pm_simd4_at *)(columns + turned[l]);
 					double *cell = to + (x + l) * PM_CORNERS;
-					if (x + l < edge)
+					if (x + l < cells[0])
 						*(pm_simd4_at *)cell = column;
 					if (x + l > 0)
 						*(pm_simd4_at *)(cell - 4) = column;
@@ -204,7 +204,7 @@ PM_SIMD_INLINE struct rows rows_of(const struct eight *e)
 {
 	const pm_simd x = e->distance[0], y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
 	struct rows r = {.w = {z0 * y0, z * y0, z0 * y, z * y}, .x = x, .x0 = 1 - x};
-	*(pm_simd_int_at *)r.at = cell_of(e);
+	*(pm_simd_int_at *)r.at = gather_cell_of(e);
 	return r;
 }
 
@@ -226,7 +226,7 @@ bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *bat
 		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		for (int c = 0; c < t->components; c++)
-			deliver_eight(value_of(&rows, t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS), n, r->factor[c] ? r->factor[c] + p : NULL,
+			deliver_eight(value_of(&rows, t->corners + (size_t)c * PM_GATHER_CELLS * PM_CORNERS), n, r->factor[c] ? r->factor[c] + p : NULL,
 				r->set[c], r->to[c] + p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
@@ -246,7 +246,7 @@ void pm_tile_cic_gather_eight(const struct pm_tile *t)
 			double out[PM_SIMD_WIDTH * 4] __attribute__((aligned(64)));
 			PM_SIMD_UNROLL
 			for (int k = 0; k < 4; k++)
-				v[k] = k < some ? value_of(&rows, t->corners + (size_t)(c + k) * PM_TILE_CELLS * PM_CORNERS) : fourth;
+				v[k] = k < some ? value_of(&rows, t->corners + (size_t)(c + k) * PM_GATHER_CELLS * PM_CORNERS) : fourth;
 			turn_out(v, out);
 			for (size_t l = 0; l < n; l++) {
 				double *result = t->results + (i + l) * to + c;

@@ -82,14 +82,13 @@ static int axis_init(struct pm_axis *a, const struct pm_transfer *t, int d, bool
 {
 	const struct pm_grid *g = &t->grid;
 	const int width = d < g->dim ? t->kernel->width : 1, rim = d < g->dim ? t->rim : 0;
-	bool odd = width % 2, lift;
 	size_t beyond[2] = {0, 0};
 	a->periodic = g->face[d][0] == PM_PERIODIC;
 	a->lo = g->lo[d];
 	a->h = g->h[d];
 	a->n = (double)g->cells[d];
-	a->shift = odd ? 0.5 : 0;
-	lift = !a->periodic && half && !odd; /* keeps u >= 0 */
+	a->shift = width % 2 ? 0.5 : 0;
+	a->half = half ? 0.5 : 0;
 	set_range(a, g, d, width, rim);
 	if (t->cut) {
 		pm_axis_path_room(g, d, width, beyond);
@@ -97,10 +96,10 @@ static int axis_init(struct pm_axis *a, const struct pm_transfer *t, int d, bool
 		a->high = beyond[1] ? a->n + (double)beyond[1] : a->high;
 		a->n += (double)beyond[1];
 	}
-	a->add = a->shift - (half ? 0.5 : 0) + lift + (double)beyond[0];
-	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1];
+	a->add = a->shift + (double)beyond[0];
+	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1] + half;
 	a->slots = a->count + (size_t)width - 1;
-	return make_slots(a, g, d, t->given[d], half, -((width - 1) / 2) - lift - (ptrdiff_t)beyond[0]);
+	return make_slots(a, g, d, t->given[d], half, -((width - 1) / 2) - half - (ptrdiff_t)beyond[0]);
 }
 
 static int path_axis(struct pm_axis *a, const struct pm_grid *g, int d, int width, bool half)
@@ -180,11 +179,13 @@ static bool wrap_far(const struct pm_axis *a, double x, double *u)
 bool pm_axis_locate(const struct pm_axis *a, double x, double *u)
 {
 	if (a->periodic) {
-		*u = wrap_near(a, x);
-		return (*u >= 0 && *u < a->n) || wrap_far(a, x, u);
+		double at = wrap_near(a, x);
+		const bool found = (at >= 0 && at < a->n) || wrap_far(a, x, &at);
+		*u = at + a->half;
+		return found;
 	}
-	double s = (x - a->lo) / a->h;
-	*u = (s > a->n ? a->n : s) + a->add;
+	const double s = (x - a->lo) / a->h;
+	*u = (s > a->n ? a->n : s) + a->add + a->half;
 	return s >= a->low && s <= a->high;
 }
 
@@ -202,6 +203,7 @@ bool pm_axis_locate_far(const struct pm_axis *a, unsigned outside, size_t n, con
 struct pm_axis_lanes pm_axis_lanes(const struct pm_axis *a)
 {
 	return (struct pm_axis_lanes){.lo = pm_simd_all(a->lo), .h = pm_simd_all(a->h), .inverse = pm_simd_all(1 / a->h), .add = pm_simd_all(a->add),
+		.half = pm_simd_all(a->half),
 		.low = pm_simd_all(a->periodic ? 0 : a->low), .high = pm_simd_all(a->periodic ? nextafter(a->n, 0) : fmin(a->high, a->n)),
 		.periodic = a->periodic};
 }
@@ -213,13 +215,14 @@ static bool locate_by_one(const struct pm_axis *a, size_t n, const double *restr
 	int far = 0;
 	if (a->periodic)
 		for (size_t i = 0; i < n; i++) {
-			u[i] = (x[i] - a->lo) / a->h + a->add;
-			far |= !(u[i] >= low && u[i] <= high);
+			const double at = (x[i] - a->lo) / a->h + a->add;
+			u[i] = at + a->half;
+			far |= !(at >= low && at <= high);
 		}
 	else
 		for (size_t i = 0; i < n; i++) {
 			const double s = (x[i] - a->lo) / a->h;
-			u[i] = s + a->add;
+			u[i] = s + a->add + a->half;
 			far |= !(s >= low && s <= high);
 		}
 	bool all = true;

@@ -6,14 +6,14 @@
 #include "base/simd.h"
 #include "transfer/transfer.h"
 
-/* A particle at x has u = (x - lo)/h + add, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
- * cell..cell+width-1, and slot i is mesh point at[i]. */
+/* A particle at x has u = ((x - lo)/h + add) + half, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
+ * cell..cell+width-1, and slot i is mesh point at[i]. For points half a cell up, u is that among the nodes and half a cell, to the last bit. */
 struct pm_axis {
 	bool periodic;
 	double lo, h;      /* [length] */
 	double n;          /* cells of the mesh */
 	double low, high;  /* non-periodic: where (x-lo)/h may be, inclusive */
-	double add, shift; /* [cells] */
+	double add, half, shift; /* [cells] */
 	size_t count, slots;
 	size_t *at;        /* [slots] */
 	double *put[2];    /* [flip][slots] factor of what is spread to the slot: sign of the image, 1/weight of the point */
@@ -38,7 +38,7 @@ bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, dou
 
 /* The same for eight particles; those outside the range, as bits, need pm_axis_locate_far. */
 struct pm_axis_lanes {
-	pm_simd lo, h, inverse, add, low, high; /* low..high: where no particle needs folding or a limit */
+	pm_simd lo, h, inverse, add, half, low, high; /* low..high: where no particle needs folding or a limit */
 	bool periodic;
 };
 struct pm_axis_lanes pm_axis_lanes(const struct pm_axis *a);
@@ -47,7 +47,7 @@ PM_SIMD_INLINE pm_simd pm_axis_locate_eight(const struct pm_axis_lanes *a, pm_si
 {
 	const pm_simd s = pm_simd_divide(x - a->lo, a->h, a->inverse), u = s + a->add;
 	*outside = pm_simd_outside(a->periodic ? u : s, a->low, a->high);
-	return u;
+	return u + a->half;
 }
 bool pm_axis_locate_far(const struct pm_axis *a, unsigned outside, size_t n, const double *x, double *u); /* n <= 8 */
 

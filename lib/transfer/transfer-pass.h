@@ -15,21 +15,29 @@ struct pm_pass {
 	struct pm_order_cache *o;
 	struct pm_tile_pass p; /* its jobs, on the axes of o */
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
-	double *results; /* gather: [n][components] where the records are not to be overwritten, else NULL */
+	double *results; /* gather: [n][to] where the records are not to be overwritten, else NULL */
+	int to;          /* 0: components */
+	double lift[4];  /* gather: of transfer-tile.h; the axes of p are then those of the points, with the cells of the order's */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
-	double *corners; /* NULL or [threads][each][PM_TILE_CELLS][PM_CORNERS], zero */
+	double *corners; /* NULL or [threads][each][PM_TILE_CELLS or PM_GATHER_CELLS][PM_CORNERS], zero */
 };
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
 bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w);
-int pm_pass_corners(struct pm_pass *w, int threads, int each); /* `each` for a thread, if jobs need them; 0 or failure */
+int pm_pass_corners(struct pm_pass *w, int threads, size_t cells); /* of so many cells for a thread, if jobs need them; 0 or failure */
 int pm_pass_vectors(struct pm_pass *w, int threads); /* gather: nodes of a vector for a thread, if jobs need them; else corners */
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block);
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block);
 /* The values of a job's particles from its block: of a stream in order to their places, else to the results of its records. True if the former are finite. */
 bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double *block, const struct pm_tile_results *r);
+/* All jobs of a gather. True if the values are finite; those in records are checked later. */
+bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r);
 void pm_pass_end(struct pm_pass *w);
+
+/* pm_gather where the components sit at several offsets (gather-staggered.c). */
+int pm_gather_staggered(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
+	double *const out[], struct pm_strays *strays);
 
 /* pm_spread and pm_gather where particles and planes of the mesh are divided among the ranks (transfer-ranks.c). Strays are those here. */
 int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],

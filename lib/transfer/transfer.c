@@ -13,8 +13,10 @@ struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j
 	struct pm_tile t = {.kernel = w->t->kernel, .shift = w->o->axes[0].shift, .count = j->to - j->from, .stride = w->o->order.stride, .block = block};
 	if (w->o->order.records)
 		t.records = w->o->order.records + j->from * (size_t)w->o->order.stride;
-	t.results = w->results ? w->results + j->from * (size_t)w->components : t.records;
-	t.to = w->results ? w->components : t.stride;
+	const int to = w->to ? w->to : w->components;
+	t.results = w->results ? w->results + j->from * (size_t)to : t.records;
+	t.to = w->results ? to : t.stride;
+	memcpy(t.lift, w->lift, sizeof t.lift);
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(&w->p, j->tile, d, &t.cell[d]);
 	return t;
@@ -24,7 +26,7 @@ static void cells_of(const struct pm_pass *w, const struct pm_tile_job *j, size_
 {
 	size_t first;
 	for (int d = 0; d < 3; d++)
-		cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (w->o->axes[d].slots - w->o->axes[d].count);
+		cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (size_t)(w->t->kernel->width - 1);
 }
 
 /* The particles of a job to its block. */
@@ -79,12 +81,14 @@ static void spread_component(const struct pm_pass *w, int value, int threads, do
 static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	struct pm_tile_order o = w->o->order; /* one that was kept may have narrower records than there are values */
 	bool finite = true;
+	o.stride = o.stride < w->components ? w->components : o.stride;
 	t.records = t.results = packed;
-	t.to = t.stride;
+	t.to = t.stride = o.stride;
 	for (size_t p = j->from; p < j->to; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_order_pack(&w->o->order, p, t.count, false, packed);
+		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
 		finite &= pm_tile_order_unpack(p, t.count, t.stride, packed, w->components, r->factor, r->set, r->to);
 	}
@@ -94,7 +98,7 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 /* The same by corners of cells; with records, whose results are checked later, too. */
 static bool gather_by_corners(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
 {
-	const size_t each = (size_t)PM_TILE_CELLS * PM_CORNERS;
+	const size_t each = (size_t)PM_GATHER_CELLS * PM_CORNERS;
 	size_t cells[3];
 	t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
 	cells_of(w, j, cells);
@@ -140,10 +144,9 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	return true;
 }
 
-/* True if the values are finite; those in records are checked later. */
-static bool gather_pass(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
+bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
 {
-	const struct pm_axis *a = w->o->axes;
+	const struct pm_axis *a = w->p.axes;
 	int bad = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->p.jobs; j++) {
@@ -187,13 +190,13 @@ static int begin_spread(struct pm_pass *w, size_t n, const double *const x[], co
 	return begin_pass(w, pm_tile_under_way(threads), 1);
 }
 
-int pm_pass_corners(struct pm_pass *w, int threads, int each)
+int pm_pass_corners(struct pm_pass *w, int threads, size_t cells)
 {
 	bool used = false;
 	for (size_t j = 0; j < w->p.jobs && !used; j++)
 		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
 	if (used)
-		w->corners = pm_zalloc((size_t)threads * (size_t)each * PM_TILE_CELLS * PM_CORNERS, sizeof *w->corners);
+		w->corners = pm_zalloc((size_t)threads * cells * PM_CORNERS, sizeof *w->corners);
 	return used && !w->corners ? -PM_DATA : 0;
 }
 
@@ -204,7 +207,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
-	return pm_pass_corners(w, threads, w->components);
+	return pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS);
 }
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
@@ -244,7 +247,7 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 		return pm_spread_ranks(t, n, x, strength, mesh, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
-		status = status ? status : pm_pass_corners(&w, threads, 1);
+		status = status ? status : pm_pass_corners(&w, threads, PM_TILE_CELLS);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		if (!status)
@@ -264,6 +267,9 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided)
 		return pm_gather_ranks(t, n, x, mesh, factor, out, strays);
+	for (int c = 1; c < t->components; c++)
+		if (n && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]))
+			return pm_gather_staggered(t, n, x, mesh, factor, out, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		double *to[PM_COMPONENTS];
 		const double *times[PM_COMPONENTS];
@@ -275,7 +281,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 		}
 		const struct pm_tile_results r = {times, set, to};
 		status = begin_gather(&w, n, x, threads);
-		bool seen = !status && gather_pass(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
+		bool seen = !status && pm_pass_gather_all(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
 		if (o && o->records)
 			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set,
