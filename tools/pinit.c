@@ -116,6 +116,12 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 	return status ? status : 1;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	(void)f;
+	return ((const struct state *)s->state)->scene->shared;
+}
+
 static const struct pm_option options[] = {
 	{.name = "particles", .letter = 'n', .kind = PM_INTEGER, .high = 1e12, PM_AT(n), .text = "number of particles (default: the scene's)"},
 	{.name = "seed", .kind = PM_INTEGER, .fallback = "1", .high = 9e15, PM_AT(seed), .text = "seed of the random numbers"},
@@ -158,4 +164,5 @@ const struct pm_tool tool_pinit = {
 	.examples = examples,
 	.begin = begin,
 	.source = source,
+	.divided = divided,
 };

@@ -4,6 +4,8 @@
 
 #include "scene-parts/scene-bodies.h"
 #include "stream/declare.h"
+#include "stream/parts.h"
+#include "world/over-ranks.h"
 
 void pm_scene_world(struct pm_frame *f, double lo, double hi, enum pm_face face, double softening, double dt)
 {
@@ -26,6 +28,12 @@ int pm_scene_mesh(struct pm_frame *f, size_t cells)
 	return pm_frame_mesh_new(f, "mesh", c) ? 0 : -PM_DATA;
 }
 
+static int ready(struct pm_field *p)
+{
+	const int status = pm_world_size() > 1 ? pm_field_share(p, pm_sum_block) : 0;
+	return status ? status : pm_field_ready(p);
+}
+
 int pm_scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, double mass, struct pm_scene_body *b)
 {
 	struct pm_set *set = pm_frame_set_new(f, name, n);
@@ -42,27 +50,38 @@ int pm_scene_set(struct pm_frame *f, const char *name, uint64_t n, bool moves, d
 	id->type = PM_I64;
 	m->uniform = !isnan(mass);
 	m->value[0] = m->uniform ? mass : 0;
-	if (pm_field_ready(x) || pm_field_ready(id) || (v && pm_field_ready(v)) || (!m->uniform && pm_field_ready(m)))
+	if (pm_world_agree(ready(x) || ready(id) || (v && ready(v)) || (!m->uniform && ready(m)) ? pm_failed() : 0))
 		return -PM_DATA;
-	*b = (struct pm_scene_body){.mass = m->uniform ? NULL : pm_out(m, 0), .id = pm_out_i64(id, 0)};
+	*b = (struct pm_scene_body){.here = x->count, .first = x->first, .mass = m->uniform ? NULL : pm_out(m, 0), .id = pm_out_i64(id, 0)};
 	for (int d = 0; d < f->dim; d++) {
 		b->x[d] = pm_out(x, d);
 		b->v[d] = v ? pm_out(v, d) : NULL;
 	}
 	if (v)
 		snprintf(v->unit, sizeof v->unit, "length/time");
-	for (uint64_t i = 0; i < n; i++)
-		b->id[i] = (int64_t)i;
+	for (uint64_t i = 0; i < b->here; i++)
+		b->id[i] = (int64_t)(b->first + i);
 	return 0;
+}
+
+static double sum(uint64_t n, const double *x, const double *y)
+{
+	struct pm_sum all = {0};
+	if (pm_world_sum_of_set(0, n, x, y, &all))
+		pm_cannot_go_on();
+	return pm_sum_total(all);
 }
 
 void pm_scene_centre(uint64_t n, const double *weight, double *a)
 {
-	if (!n)
+	int64_t all = (int64_t)n;
+	if (pm_world_count(0, PM_SUM_OF, 1, &all))
+		pm_cannot_go_on();
+	if (!all)
 		return;
-	const double total = weight ? pm_sum_array(n, weight) : (double)n;
+	const double total = weight ? sum(n, weight, NULL) : (double)all;
 	for (int pass = 0; pass < 2; pass++) {
-		const double mean = (weight ? pm_sum_products(n, weight, a) : pm_sum_array(n, a)) / total;
+		const double mean = (weight ? sum(n, weight, a) : sum(n, a, NULL)) / total;
 #pragma omp parallel for schedule(static)
 		for (uint64_t i = 0; i < n; i++)
 			a[i] -= mean;

@@ -17,25 +17,28 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 	for (int d = 0; d < 3; d++)
 		from[d] = f->face[d][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	double *x[3] = {NULL}, *alpha[3] = {NULL};
-	size_t points[3], n = 0;
+	size_t points[3], n = 0, first, end;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
+	const size_t across = points[1] > 2 * from[1] ? points[1] - 2 * from[1] : 0, up = points[2] > 2 * from[2] ? points[2] - 2 * from[2] : 0;
+	pm_scene_rows_here(across * up, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
 		if (fill && pm_scene_vortex_set(f, 3, n, volume, x, alpha))
 			return -PM_DATA;
 		n = 0;
-		for (size_t k = from[2]; k + from[2] < points[2]; k++)
-			for (size_t j = from[1]; j + from[1] < points[1]; j++)
-				for (size_t i = from[0]; i + from[0] < points[0]; i++) {
-					const double at[3] = {m->lo[0] + (double)i * m->h[0], m->lo[1] + (double)j * m->h[1], m->lo[2] + (double)k * m->h[2]};
-					double w[3] = {0};
-					omega(c, at, w);
-					if (!(sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) > least))
-						continue;
-					for (int d = 0; d < 3 && fill; d++)
-						x[d][n] = at[d], alpha[d][n] = w[d] * volume;
-					n++;
-				}
+		for (size_t row = first; row < end; row++) {
+			const size_t j = from[1] + row % across, k = from[2] + row / across;
+			for (size_t i = from[0]; i + from[0] < points[0]; i++) {
+				const double at[3] = {m->lo[0] + (double)i * m->h[0], m->lo[1] + (double)j * m->h[1], m->lo[2] + (double)k * m->h[2]};
+				double w[3] = {0};
+				omega(c, at, w);
+				if (!(sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) > least))
+					continue;
+				for (int d = 0; d < 3 && fill; d++)
+					x[d][n] = at[d], alpha[d][n] = w[d] * volume;
+				n++;
+			}
+		}
 	}
-	return 0;
+	return pm_scene_vortex_cut(f);
 }

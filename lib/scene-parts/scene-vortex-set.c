@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "scene-parts/scene-vortex-set.h"
 #include "stream/declare.h"
+#include "stream/parts.h"
+#include "world/world.h"
 
 int pm_scene_vortex_box(const struct pm_scene_choice *c, struct pm_frame *f, int dim, const double lo[3], const double hi[3], enum pm_face face,
 	const size_t cells[3])
@@ -20,17 +24,68 @@ int pm_scene_vortex_box(const struct pm_scene_choice *c, struct pm_frame *f, int
 	return pm_frame_mesh_new(f, "mesh", n) ? 0 : -PM_DATA;
 }
 
+void pm_scene_rows_here(size_t rows, size_t *first, size_t *end)
+{
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
+	*first = rows * me / ranks;
+	*end = rows * (me + 1) / ranks;
+}
+
+/* How many all ranks have found before each; one more than ranks, free() it. */
+static uint64_t *found_before(uint64_t here)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	uint64_t *from = calloc(ranks + 1, sizeof *from);
+	if (from)
+		from[pm_world_rank() + 1] = here;
+	const int status = pm_world_count(from ? 0 : pm_no_memory(), PM_SUM_OF, ranks + 1, (int64_t *)from);
+	for (size_t r = 0; r < ranks && !status; r++)
+		from[r + 1] += from[r];
+	if (!status)
+		return from;
+	free(from);
+	return NULL;
+}
+
+static int ready(struct pm_field *p, const uint64_t *from)
+{
+	const size_t bytes = ((size_t)pm_world_size() + 1) * sizeof *from;
+	uint64_t *own = pm_world_size() > 1 ? malloc(bytes) : NULL; /* whoever runs the stage frees it */
+	if (pm_world_size() > 1 && !own)
+		return pm_no_memory();
+	if (own)
+		pm_field_enter(p, memcpy(own, from, bytes));
+	return pm_field_ready(p);
+}
+
+int pm_scene_vortex_cut(struct pm_frame *f)
+{
+	const char *const names[] = {"x", f->dim == 2 ? "circulation" : "alpha", "id"};
+	const struct pm_set *set = pm_frame_set(f, "vortices");
+	if (pm_world_size() == 1)
+		return 0;
+	uint64_t *from = found_before(pm_frame_field(f, "vortices", "x")->count), *to = from ? pm_division_new(set->n, pm_sum_block) : NULL;
+	int status = pm_world_agree(to ? 0 : pm_failed());
+	for (size_t i = 0; i < sizeof names / sizeof *names && !status; i++)
+		status = pm_field_recut(status, pm_frame_field(f, "vortices", names[i]), from, to);
+	free(from), free(to);
+	return status;
+}
+
 int pm_scene_vortex_set(struct pm_frame *f, int dim, uint64_t n, double volume, double *x[], double *strength[])
 {
 	const char *on = "vortices";
 	const int components = dim == 2 ? 1 : 3;
-	struct pm_set *set = pm_frame_set_new(f, on, n);
+	uint64_t *from = found_before(n);
+	struct pm_set *set = from ? pm_frame_set_new(f, on, from[pm_world_size()]) : NULL;
 	struct pm_field *at = set ? pm_makes(f, on, "x", dim, PM_STATE) : NULL;
 	struct pm_field *q = at ? pm_makes(f, on, dim == 2 ? "circulation" : "alpha", components, PM_STATE) : NULL;
 	struct pm_field *w = q ? pm_makes(f, on, "volume", 1, PM_STATE) : NULL;
 	struct pm_field *id = w ? pm_makes(f, on, "id", 1, PM_STATE) : NULL;
-	if (!id)
-		return -PM_DATA;
+	if (!id) {
+		free(from);
+		return from ? -PM_DATA : pm_failed();
+	}
 	snprintf(at->unit, sizeof at->unit, "length");
 	snprintf(q->unit, sizeof q->unit, "length^%d/time", dim);
 	snprintf(w->unit, sizeof w->unit, "length^%d", dim);
@@ -38,14 +93,17 @@ int pm_scene_vortex_set(struct pm_frame *f, int dim, uint64_t n, double volume, 
 	w->uniform = true;
 	w->value[0] = volume;
 	id->type = PM_I64;
-	if (pm_field_ready(at) || pm_field_ready(q) || pm_field_ready(id))
-		return -PM_DATA;
+	const uint64_t first = from[pm_world_rank()];
+	const int status = pm_world_agree(ready(at, from) || ready(q, from) || ready(id, from) ? pm_failed() : 0);
+	free(from);
+	if (status)
+		return status;
 	for (int d = 0; d < dim; d++)
 		x[d] = pm_out(at, d);
 	for (int d = 0; d < components; d++)
 		strength[d] = pm_out(q, d);
 	for (uint64_t i = 0; i < n; i++)
-		pm_out_i64(id, 0)[i] = (int64_t)i;
+		pm_out_i64(id, 0)[i] = (int64_t)(first + i);
 	return 0;
 }
 

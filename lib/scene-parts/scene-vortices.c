@@ -18,15 +18,16 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
 	struct pm_scene_vortices v = {0};
-	size_t points[3], n = 0;
+	size_t points[3], n = 0, first, end;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
+	const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
+	pm_scene_rows_here(points[1] > 2 * from ? points[1] - 2 * from : 0, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
 		if (fill && pm_scene_vortices(f, n, m->h[0] * m->h[1], &v))
 			return -PM_DATA;
-		const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 		n = 0;
-		for (size_t j = from; j + from < points[1]; j++)
+		for (size_t j = from + first; j < from + end; j++)
 			for (size_t i = from; i + from < points[0]; i++) {
 				const double x = m->lo[0] + (double)i * m->h[0], y = m->lo[1] + (double)j * m->h[1], w = omega(c, x, y);
 				if (!(fabs(w) > least))
@@ -36,5 +37,5 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 				n++;
 			}
 	}
-	return 0;
+	return pm_scene_vortex_cut(f);
 }

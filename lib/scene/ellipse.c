@@ -50,6 +50,7 @@ const struct pm_scene scene_ellipse = {
 	.dims = 1u << 2,
 	.dim = 2,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -52,6 +52,7 @@ const struct pm_scene scene_lamb_dipole = {
 	.dims = 1u << 2,
 	.dim = 2,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -66,15 +66,15 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (pm_scene_mesh(f, 64) || pm_scene_set(f, "matter", c->n, true, c->n ? kept / (double)c->n : 0, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)
-	for (uint64_t i = 0; i < c->n; i++) {
+	for (uint64_t i = 0; i < b.here; i++) {
 		double x[3], v[3];
-		particle(c->seed, i, kept, x, v);
+		particle(c->seed, b.first + i, kept, x, v);
 		for (int d = 0; d < 3; d++)
 			b.x[d][i] = x[d], b.v[d][i] = v[d];
 	}
 	for (int d = 0; d < 3; d++) {
-		pm_scene_centre(c->n, NULL, b.x[d]);
-		pm_scene_centre(c->n, NULL, b.v[d]);
+		pm_scene_centre(b.here, NULL, b.x[d]);
+		pm_scene_centre(b.here, NULL, b.v[d]);
 	}
 	return 0;
 }
@@ -111,6 +111,7 @@ const struct pm_scene scene_plummer = {
 	.dim = 3,
 	.n = 10000,
 	.random = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

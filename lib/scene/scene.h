@@ -32,6 +32,7 @@ struct pm_scene {
 	uint64_t n;              /* default, in its default dimension */
 	bool n_fixed;            /* n cannot be changed; with n 0 the particles are nodes of the mesh, whose cells give their number */
 	bool random;             /* depends on the seed */
+	bool shared;             /* several ranks make it together, each its own stretch of the particles (docs/distributed.md) */
 	bool loads;              /* has all loadings, and is quiet by default: PM_LATTICE */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
 	/* Fills a new frame of c->dim: law, constants, box, faces, sets with their data, the mesh "mesh", dt. 0 or failure. */

@@ -57,6 +57,7 @@ const struct pm_scene scene_shear_layer = {
 	.dims = 1u << 2,
 	.dim = 2,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -70,6 +70,7 @@ const struct pm_scene scene_taylor_green_3d = {
 	.dims = 1u << 3,
 	.dim = 3,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -104,6 +104,7 @@ const struct pm_scene scene_trefoil = {
 	.dims = 1u << 3,
 	.dim = 3,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

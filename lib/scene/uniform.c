@@ -19,13 +19,14 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
-static void particle(const struct pm_scene_choice *c, uint64_t i, const struct pm_scene_body *b)
+static void particle(const struct pm_scene_choice *c, uint64_t id, const struct pm_scene_body *b)
 {
+	const uint64_t i = id - b->first;
 	double u[2], w[2], z[2], z2[2];
-	pm_random(c->seed, i, 0, u);
-	pm_random(c->seed, i, 1, w);
-	pm_random_normal(c->seed, i, 2, z);
-	pm_random_normal(c->seed, i, 3, z2);
+	pm_random(c->seed, id, 0, u);
+	pm_random(c->seed, id, 1, w);
+	pm_random_normal(c->seed, id, 2, z);
+	pm_random_normal(c->seed, id, 3, z2);
 	const double place[3] = {u[0], u[1], w[0]}, velocity[3] = {z[0], z[1], z2[0]};
 	for (int d = 0; d < c->dim; d++) {
 		b->x[d][i] = c->value[LENGTH] * place[d];
@@ -54,10 +55,10 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (pm_scene_mesh(f, cells[c->dim]) || pm_scene_set(f, "matter", c->n, true, c->value[SPREAD] > 0 ? NAN : mass, &b))
 		return -PM_DATA;
 #pragma omp parallel for schedule(static)
-	for (uint64_t i = 0; i < c->n; i++)
-		particle(c, i, &b);
+	for (uint64_t i = 0; i < b.here; i++)
+		particle(c, b.first + i, &b);
 	for (int d = 0; d < c->dim && c->value[DISPERSION] > 0; d++)
-		pm_scene_centre(c->n, b.mass, b.v[d]);
+		pm_scene_centre(b.here, b.mass, b.v[d]);
 	return 0;
 }
 
@@ -82,6 +83,7 @@ const struct pm_scene scene_uniform = {
 	.dim = 3,
 	.n = 10000,
 	.random = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -65,6 +65,7 @@ const struct pm_scene scene_vortex_rings = {
 	.dims = 1u << 3,
 	.dim = 3,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

@@ -62,6 +62,7 @@ const struct pm_scene scene_vortex_tube = {
 	.dims = 1u << 3,
 	.dim = 3,
 	.n_fixed = true,
+	.shared = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

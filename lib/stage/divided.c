@@ -174,11 +174,17 @@ static int divide(struct used *u, const struct pm_frame *f)
 	return status;
 }
 
-static char *request(const struct pm_stage *s, const char *header, const struct uses *u)
+static json_t *words_of(const struct pm_stage *s)
 {
-	json_t *words = json_array(), *fields = json_array();
+	json_t *words = json_array();
 	for (int i = 0; i < s->argc; i++)
 		json_array_append_new(words, json_string(s->argv[i]));
+	return words;
+}
+
+static char *request(const struct pm_stage *s, const char *header, const struct uses *u)
+{
+	json_t *words = words_of(s), *fields = json_array();
 	for (size_t i = 0; i < u->n; i++) {
 		json_t *from = json_array();
 		for (int r = 0; r <= pm_world_size(); r++)
@@ -331,6 +337,20 @@ static int take_parts(const json_t *fields, struct uses *u)
 	return 0;
 }
 
+/* The parts stay when the frame is gone. */
+static void keep(const struct uses *u)
+{
+	for (size_t i = 0; i < u->n; i++) {
+		struct pm_field *p = u->of[i].field;
+		struct pm_buffer *b = p ? pm_parts_of(u->of[i].is, false) : NULL; /* there already: it was read alone */
+		if (u->of[i].is && p && p->buffer && !b && pm_parts_keep(u->of[i].is, p->buffer))
+			pm_cannot_go_on();
+		if (u->of[i].is && p && p->buffer && !p->buffer->note)
+			hand_over(&p->note, &p->buffer->note);
+		pm_buffer_free(b);
+	}
+}
+
 int pm_divided_follow(const struct pm_tool *tool, const char *text)
 {
 	json_error_t error;
@@ -344,19 +364,62 @@ int pm_divided_follow(const struct pm_tool *tool, const char *text)
 	status = status ? status : take_parts(json_object_get(all, "fields"), &u);
 	status = run_here(s, f, &u, status);
 	leave(&u);
-	for (size_t i = 0; i < u.n; i++) {
-		struct pm_field *p = u.of[i].field;
-		struct pm_buffer *b = p ? pm_parts_of(u.of[i].is, false) : NULL; /* there already: it was read alone */
-		if (u.of[i].is && p && p->buffer && !b && pm_parts_keep(u.of[i].is, p->buffer))
-			pm_cannot_go_on();
-		if (u.of[i].is && p && p->buffer && !p->buffer->note)
-			hand_over(&p->note, &p->buffer->note);
-		pm_buffer_free(b);
-	}
+	keep(&u);
 	uses_free(&u);
 	pm_frame_free(f);
 	json_decref(all);
 	return status;
+}
+
+/* ---- sources ---- */
+
+/* Every rank, with its status. s NULL: it could not be made. */
+static int source_here(struct pm_stage *s, int status, struct uses *u, struct pm_frame **f)
+{
+	const struct pm_world_traffic before = pm_world_traffic();
+	*f = NULL;
+	status = pm_world_agree(status);
+	if (status)
+		return status;
+	const int got = s->tool->source(s, f);
+	status = pm_world_agree(got < 0 ? got : 0);
+	if (!status && got > 0) {
+		status = adopt(status, u, *f);
+		status = pm_world_agree(status ? status : pm_frame_settle(*f));
+		leave(u);
+	}
+	const struct pm_world_traffic now = pm_world_traffic();
+	s->sent[0] += now.bytes - before.bytes, s->sent[1] += now.messages - before.messages;
+	return status ? status : got;
+}
+
+int pm_divided_source(struct pm_stage *s, struct pm_frame **f)
+{
+	struct uses u = {0, NULL};
+	json_t *all = json_pack("{s:s,s:o}", "word", s->tool->name, "words", words_of(s));
+	char *text = all ? pm_json_line(all) : NULL;
+	int status = text ? pm_request_send(PM_REQUEST_SOURCE, text, strlen(text)) : pm_no_memory();
+	json_decref(all), free(text);
+	status = status ? status : source_here(s, 0, &u, f);
+	uses_free(&u);
+	if (status < 0)
+		*f = pm_frame_free(*f);
+	return status;
+}
+
+void pm_divided_source_follow(const struct pm_tool *tool, const char *text)
+{
+	struct uses u = {0, NULL};
+	struct pm_stage *s = NULL;
+	struct pm_frame *f = NULL;
+	json_error_t error;
+	json_t *all = json_loads(text, 0, &error);
+	const int status = all ? stage_of(tool, all, &s) : wrong("a request of rank 0", &error);
+	source_here(s, status, &u, &f);
+	keep(&u);
+	uses_free(&u);
+	pm_frame_free(f);
+	json_decref(all);
 }
 
 /* ---- what they did ---- */
@@ -373,9 +436,7 @@ static int tally(int status, double seconds, const uint64_t sent[2], struct pm_t
 
 int pm_divided_tally(const struct pm_stage *s, double seconds, const uint64_t sent[2], struct pm_tally *t)
 {
-	json_t *words = json_array();
-	for (int i = 0; s && i < s->argc; i++)
-		json_array_append_new(words, json_string(s->argv[i]));
+	json_t *words = s ? words_of(s) : json_array();
 	json_t *all = s ? json_pack("{s:s,s:o}", "word", s->tool->name, "words", words) : words;
 	char *text = all ? pm_json_line(all) : NULL;
 	int status = text ? pm_request_send(PM_REQUEST_TALLY, text, strlen(text)) : pm_no_memory();

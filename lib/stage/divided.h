@@ -14,6 +14,9 @@ int pm_divided_apply(struct pm_stage *s, struct pm_frame *f, const char *header)
 /* The other ranks, asked to: the same. tool: the word that this program is. */
 int pm_divided_follow(const struct pm_tool *tool, const char *text);
 void pm_divided_free(void);
+/* Rank 0: source() of a word that is divided, on all ranks, whose frame has parts then. As source(): 1 and a frame, 0 no more, or failure. */
+int pm_divided_source(struct pm_stage *s, struct pm_frame **f);
+void pm_divided_source_follow(const struct pm_tool *tool, const char *text);
 
 /* What all ranks did in the divided frames of a word, or (s NULL) sent in all. */
 struct pm_tally {

@@ -133,6 +133,8 @@ int pm_ranks_follow(const struct pm_tool *tool)
 				pm_divided_follow(tool, more);
 			else if (what == PM_REQUEST_TALLY)
 				pm_divided_tally_follow(tool, more);
+			else if (what == PM_REQUEST_SOURCE)
+				pm_divided_source_follow(tool, more);
 			else if (what == PM_REQUEST_READ || what == PM_REQUEST_WRITE)
 				pm_parts_file_follow(what, more, bytes);
 			else if (what != PM_REQUEST_END)

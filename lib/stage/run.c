@@ -12,6 +12,7 @@
 #include "stage/ranks.h"
 #include "stream/run.h"
 #include "stage/apply.h"
+#include "stage/divided.h"
 #include "world/launch.h"
 #include "world/world.h"
 
@@ -28,6 +29,31 @@ struct pm_writer *pm_stage_writer(struct pm_stage *s)
 	if (!s->run->writer)
 		s->run->writer = pm_h5_pipe_is(path) ? pm_h5_pipe_write(path, &s->run->rest) : pm_writer_open(path);
 	return s->run->writer;
+}
+
+/* Several ranks could share the frame, whose header has been read. What reads the output of a pipe sees an abort behind the data that it would see alone, so
+ * there the frame goes through rank 0. */
+static bool shared(struct pm_stage *s, const struct pm_writer *w, const struct pm_frame *f)
+{
+	if (pm_world_size() == 1 || !s->tool->divided || (w && !pm_writer_to_file(w)))
+		return false;
+	struct pm_frame *h = pm_frame_header(f);
+	s->trial = true;
+	const int plan = h ? pm_stage_declare(s, h) : -PM_DATA;
+	const bool can = (!plan || plan == PM_HOLD) && !pm_frame_affordable(h) && pm_divided_can(s, h);
+	s->trial = false;
+	pm_frame_free(h);
+	return can;
+}
+
+static int share_frame(struct pm_stage *s, struct pm_reader *r, struct pm_writer *w, struct pm_frame *f)
+{
+	int status = pm_read_payload(r, f, true, NULL);
+	status = status ? status : pm_stage_apply(s, f);
+	if (status || !w)
+		return status < 0 ? status : 0;
+	pm_history_add(s, f);
+	return pm_write_frame(w, f);
 }
 
 /* One frame through a filter. The header goes out before the data are read, unless it depends on them. */
@@ -72,12 +98,27 @@ static int run_filter(struct pm_stage *s)
 			status = w && s->tool->flush ? s->tool->flush(s, w) : 0;
 			status = w && !status ? pm_write_end(w) : status;
 		} else {
-			status = filter_frame(s, r, w, f);
+			status = shared(s, w, f) ? share_frame(s, r, w, f) : filter_frame(s, r, w, f);
 			pm_frame_free(f);
 		}
 		if (status)
 			return status;
 	}
+}
+
+/* By all ranks, if the word says that they can. */
+static int source(struct pm_stage *s, struct pm_frame **f)
+{
+	if (pm_world_size() == 1 || !s->tool->divided)
+		return s->tool->source(s, f);
+	const bool shared = s->tool->divided(s, NULL);
+	s->frames[shared]++;
+	if (shared)
+		return pm_divided_source(s, f);
+	const bool apart = pm_world_apart(true);
+	const int more = s->tool->source(s, f);
+	pm_world_apart(apart);
+	return more;
 }
 
 static int run_source(struct pm_stage *s)
@@ -87,7 +128,7 @@ static int run_source(struct pm_stage *s)
 	int more, status = w ? 0 : pm_failed();
 	while (!status) {
 		struct pm_clock began = pm_clock();
-		more = s->tool->source(s, &f);
+		more = source(s, &f);
 		pm_work_since(s, began);
 		if (more <= 0) {
 			status = more;
@@ -223,6 +264,8 @@ static int lead(const struct pm_tool *tool, struct pm_stage *s, int made)
 	if (s && !status && !printed)
 		status = run(s);
 	running.tool = NULL;
+	if (!status && s && s->frames[0] + s->frames[1])
+		pm_say(s, s->frames[1] ? "%d ranks share the work" : "rank 0 of %d alone does the work", pm_world_size());
 	if (status < 0 && s && s->run->rest)
 		status = pm_h5_pipe_reason(s->run->rest, status);
 	if (status < 0)

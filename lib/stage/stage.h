@@ -106,6 +106,7 @@ struct pm_tool {
 	int (*declare)(struct pm_stage *s, struct pm_frame *f);   /* the header alone: declare fields (pm_reads ...), change attributes; 0, PM_..., failure */
 	int (*frame)(struct pm_stage *s, struct pm_frame *f);  /* the data are there: compute */
 	/* Behind declare(): can the ranks share this frame, each with its own stretch of every field in use (docs/distributed.md)? NULL: never. */
+	/* Of a source f is NULL: can they make the frames together, each its own stretch? */
 	bool (*divided)(const struct pm_stage *s, const struct pm_frame *f);
 	int (*flush)(struct pm_stage *s, struct pm_writer *w); /* filters: before an end marker goes out; may write frames held back */
 	int (*end)(struct pm_stage *s);    /* the input ended well */

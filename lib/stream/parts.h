@@ -33,7 +33,7 @@ void pm_buffer_undivide(struct pm_buffer *b);/* all values will change here: the
 uint64_t pm_parts_number(void);              /* a number for new parts */
 
 enum pm_request { PM_REQUEST_END, PM_REQUEST_APPLY, PM_REQUEST_DIVIDE, PM_REQUEST_JOIN, PM_REQUEST_FORGET, PM_REQUEST_READ, PM_REQUEST_WRITE,
-	PM_REQUEST_TALLY };
+	PM_REQUEST_TALLY, PM_REQUEST_SOURCE };
 int pm_request_send(enum pm_request what, const void *more, size_t bytes);           /* rank 0 */
 int pm_request_take(enum pm_request *what, void **more, size_t *bytes);              /* the others; free(*more) */
 int pm_request_parts(enum pm_request what, const void *more, size_t bytes);          /* does one that concerns parts alone */

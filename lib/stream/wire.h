@@ -39,6 +39,7 @@ void pm_reader_give_up(struct pm_reader *r, bool (*when)(void)); /* asked five t
 struct pm_writer *pm_writer_open(const char *path);
 struct pm_writer *pm_writer_lasting(const char *path); /* also where no file is there yet, and on the disk before it counts as written */
 int pm_writer_file(const struct pm_writer *w);         /* its descriptor */
+bool pm_writer_to_file(const struct pm_writer *w);     /* all ranks may write it, at their own offsets */
 struct pm_writer *pm_writer_of_fd(int fd);
 int pm_writer_close(struct pm_writer *w);           /* 0 or failure; frees in any case */
 bool pm_writer_dirty(const struct pm_writer *w);    /* something has been written */

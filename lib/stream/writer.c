@@ -74,6 +74,8 @@ struct pm_writer *pm_writer_lasting(const char *path) { return writer_of_file(pa
 
 int pm_writer_file(const struct pm_writer *w) { return w->fd; }
 
+bool pm_writer_to_file(const struct pm_writer *w) { return w->file.fd >= 0 && (w->file.path || w->path); }
+
 int pm_writer_close(struct pm_writer *w)
 {
 	if (!w)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bats
 # The same bytes for every way of running a sentence: a shell loop, fused, processes on pipes; 1, 2 and 3 threads; even and odd meshes; fresh and
-# resumed. SPDX-License-Identifier: GPL-3.0-or-later
+# resumed; words newly shared by ranks with 1, 2, 3, 4 and 7 of them (all other sentences: ranks.bats). SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 steps=4
@@ -208,4 +208,44 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 
 @test "equal bytes: particles that are left out behind a plane" {
 	all_ways "pinit uniform -n 1001 --dispersion 0.3" "" "push drift | sel --where 'x < 0.6 - 0.02*time'" 1
+}
+
+# ranks HOW WORD...: a word as a process; 1, 2, 3, 4 and 7 ranks times 1, 2 threads write the file that it writes alone. HOW: shared, or whole, is what it says.
+ranks() {
+	local how=$1 word=$2 ran=0
+	shift 2
+	OMP_NUM_THREADS=1 $word "$@" -o alone
+	for n in 1 2 3 4 7; do
+		for threads in 1 2; do
+			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 $word --ranks $n --verbose "$@" -o file 2>said && cmp alone file ||
+				{ echo "$n ranks, $threads threads: $word $*"; return 1; }
+			case $n,$how in
+			1,*) ;;
+			*,shared) grep -qx "$word: $n ranks share the work" said ;;
+			*) ! grep -q "ranks share the work" said ;;
+			esac || { echo "$n ranks: $word $* is not $how"; return 1; }
+			ran=$((ran + 1))
+		done
+	done
+	[ $ran -eq 10 ]
+}
+
+@test "equal bytes with ranks: scenes that each rank makes a stretch of, and others" {
+	for n in 0 1 4096 4097 13000; do ranks shared pinit uniform -n $n --dispersion 0.3 --mass-spread 1; done
+	ranks shared pinit plummer -n 8191
+	ranks shared pinit lamb-oseen --cells 90x70    # nothing where there is no vorticity
+	ranks shared pinit cylinder
+	ranks shared pinit taylor-green-3d --cells 17x9x3
+	ranks whole pinit two-stream -n 5000
+}
+
+@test "equal bytes with ranks: words outside cycle, from file to file" {
+	pinit uniform -n 9000 --dispersion 0.3 >box
+	p2m -n 12x10x9 -i box -o mesh
+	ranks shared push drift -i box
+	ranks shared p2m -n 12x10x9 -i box
+	ranks shared poisson-fft -i mesh
+	ranks shared ssort -i box
+	ranks shared sel --where 'x < 0.3' -i box
+	ranks whole smod --dt 0.3 -i box
 }
