@@ -114,6 +114,12 @@ static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int
 	return status;
 }
 
+static void sent_since(struct pm_stage *s, const struct pm_world_traffic before)
+{
+	const struct pm_world_traffic now = pm_world_traffic();
+	s->sent[0] += now.bytes - before.bytes, s->sent[1] += now.messages - before.messages;
+}
+
 /* The same, counted. s NULL: it could not be made. */
 static int run_here(struct pm_stage *s, struct pm_frame *f, struct uses *u, int status)
 {
@@ -121,8 +127,7 @@ static int run_here(struct pm_stage *s, struct pm_frame *f, struct uses *u, int 
 	const double seconds = s ? s->seconds : 0;
 	status = run_frame(s, f, u, status);
 	if (s) {
-		const struct pm_world_traffic now = pm_world_traffic();
-		s->sent[0] += now.bytes - before.bytes, s->sent[1] += now.messages - before.messages;
+		sent_since(s, before);
 		s->shared += s->seconds - seconds;
 	}
 	return status;
@@ -388,8 +393,7 @@ static int source_here(struct pm_stage *s, int status, struct uses *u, struct pm
 		status = pm_world_agree(status ? status : pm_frame_settle(*f));
 		leave(u);
 	}
-	const struct pm_world_traffic now = pm_world_traffic();
-	s->sent[0] += now.bytes - before.bytes, s->sent[1] += now.messages - before.messages;
+	sent_since(s, before);
 	return status ? status : got;
 }
 
