@@ -2,22 +2,26 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "measure/wave-spectrum.h"
+#include "picture/view.h"
 #include "stage/stage.h"
 #include "stream/wire.h"
 
 struct config {
 	int64_t waves;
 	bool map;
-	double highest;
+	double lowest, highest;
+	const char *component;
 };
 struct state {
 	struct pm_wave_spectrum spectrum;
 };
 
-static struct pm_measure how_of(const struct pm_frame *f)
+static struct pm_measure how_of(const struct pm_stage *s, const struct pm_frame *f)
 {
+	const struct config *o = s->config;
 	const struct pm_law *law = pm_law_of(f);
-	return law ? (struct pm_measure){.field = law->field, .potential = law->potential, .wave = law->wave} : (struct pm_measure){.field = NULL};
+	return law ? (struct pm_measure){.field = law->field, .potential = law->potential, .wave = o->component ? pm_view_component(o->component) : law->wave}
+		: (struct pm_measure){.field = NULL};
 }
 
 static int begin(struct pm_stage *s)
@@ -26,12 +30,14 @@ static int begin(struct pm_stage *s)
 	((struct state *)s->state)->spectrum.modes = (int)o->waves;
 	s->kind = o->map ? PM_FILTER : PM_SINK;
 	s->leaves_out = true;
+	if (o->component && (pm_view_component(o->component) < 0 || pm_view_component(o->component) > 2))
+		return pm_fail(PM_USAGE, "--component '%s' is none of x, y, z", o->component);
 	return o->map && o->waves < 2 ? pm_fail(PM_USAGE, "a mesh needs two waves at least (--waves 2)") : 0;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct pm_measure how = how_of(f);
+	const struct pm_measure how = how_of(s, f);
 	const int status = f->substep ? pm_fail(PM_DATA, "frames inside a step have fields and times of different instants (cycle writes whole steps)")
 		: pm_wave_reads(&how, f);
 	return status ? status : s->kind == PM_FILTER ? PM_HOLD : 0;
@@ -39,7 +45,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct pm_measure how = how_of(f);
+	const struct pm_measure how = how_of(s, f);
 	int status = pm_wave_add(&((struct state *)s->state)->spectrum, &how, f);
 	return status ? status : s->kind == PM_FILTER ? PM_SKIP : 0;
 }
@@ -62,9 +68,12 @@ static int end(struct pm_stage *s)
 		return 0;
 	if (pm_wave_done(spectrum))
 		return -PM_DATA;
-	if (spectrum->why[0])
-		pm_note(s, "no theory: %s", spectrum->why);
-	pm_wave_print(spectrum, ((const struct config *)s->config)->highest, stdout);
+	if (spectrum->theory.why[0])
+		pm_note(s, "no theory: %s", spectrum->theory.why);
+	else
+		pm_note(s, "theory: %s", pm_wave_theory_name(&spectrum->theory));
+	const struct config *o = s->config;
+	pm_wave_print(spectrum, (const double[2]){o->lowest, o->highest}, stdout);
 	return 0;
 }
 
@@ -73,8 +82,12 @@ static void release(struct pm_stage *s) { pm_wave_free(&((struct state *)s->stat
 static const struct pm_option options[] = {
 	{.name = "waves", .letter = 'n', .kind = PM_INTEGER, .fallback = "16", .low = 1, .high = 1e5, PM_AT(waves),
 		.text = "waves in the box along x: 1 to this"},
+	{.name = "component", .kind = PM_TEXT, .unit = "x|y|z|NUMBER", PM_AT(component),
+		.text = "component of the field (default: x, of light and of flows y)"},
 	{.name = "as-mesh", .kind = PM_FLAG, PM_AT(map),
 		.text = "write a frame of the mesh `waves` with the axes k and omega, for sdraw, in place of the table"},
+	{.name = "lowest", .kind = PM_REAL, .unit = "1/time", .fallback = "0", .low = 0, .high = 1e300, PM_AT(lowest),
+		.text = "lowest omega that is looked at in the table (for waves above what stands still)"},
 	{.name = "highest", .kind = PM_REAL, .unit = "1/time", .fallback = "1e300", .low = 0, .high = 1e300, PM_AT(highest),
 		.text = "highest omega that is looked at, in the table and the map (default: all; for slow waves beside fast ones)"},
 	{0},
@@ -93,10 +106,11 @@ const struct pm_tool tool_dispersion = {
 	.summary = "waves of a saved run by wave number and frequency, beside the dispersion relation of its species",
 	.about = "Reads all frames of a run, which must be equally spaced in time, and takes the waves along x of the law's field apart in time, under "
 		"Hann's window. The table has for every wave number the frequency of the largest power, the resolution 2 pi/T, that power, and the nearest "
-		"root omega + i gamma of the electrostatic dispersion relation of Maxwellian species: each set counts as one, with its plasma frequency, "
-		"drift and width in the first frame. See docs/methods/dispersion.md.",
+		"root omega + i gamma of the dispersion relation of Maxwellian species, of electrostatic waves or of light, with or without a uniform magnetic "
+		"field along x or across it: each set counts as one, with its plasma frequency, drift and width in the first frame. See "
+		"docs/methods/dispersion.md.",
 	.kind = PM_SINK,
-	.reads = "the law's field or potential on a mesh; v, mass, charge",
+	.reads = "the law's field or potential on a mesh; v, mass, charge, bfield, B",
 	.config = sizeof(struct config),
 	.state = sizeof(struct state),
 	.options = options,

@@ -1,6 +1,6 @@
 /* E(x, t) of a saved run as waves exp(i k x - i omega t). In x the modes of the mesh, averaged over the other axes; in time a discrete transform under Hann's
- * window, whose lobe is 4 pi/T wide. The theory has every set as a Maxwellian species along x, with the plasma frequency, drift and width that it has
- * in the first frame (lib/plasma/dispersion.c), so it is printed beside numbers it owes nothing to but the choice among its roots.
+ * window, whose lobe is 4 pi/T wide. The theory is that of the species and the magnetic field of the first frame (wave-theory.c), so it is printed beside
+ * numbers it owes nothing to but the choice among its roots.
  * Source: Birdsall and Langdon 1985, section 5-7; Harris 1978, Proc. IEEE 66, 51 (windows). Cost: points times modes a frame, and a transform a mode.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
@@ -10,72 +10,18 @@
 
 #include "measure/growth.h"
 #include "measure/law-field.h"
-#include "measure/species-moments.h"
 #include "measure/wave-spectrum.h"
 #include "stream/declare.h"
 
 int pm_wave_reads(const struct pm_measure *how, struct pm_frame *f)
 {
-	const char *const names[] = {"v", "mass", "charge"};
 	if (f->face[0][0] != PM_PERIODIC)
 		return pm_fail(PM_DATA, "waves along x need a box that is periodic in x");
 	if (!pm_law_field_mesh(how, f))
 		return pm_fail(PM_DATA, "no field '%s' on a mesh (p2m | poisson-fft | mgrad makes one)", how->field ? how->field : "");
 	pm_law_field_reads(how, f);
-	for (size_t i = 0; i < f->nsets; i++)
-		for (int k = 0; k < 3; k++)
-			if (pm_frame_field(f, f->sets[i]->name, names[k]))
-				pm_reads(f, f->sets[i]->name, names[k]);
+	pm_wave_theory_reads(f);
 	return 0;
-}
-
-/* Fourth moment of v_x about the mean over the square of the second; 3 of a Maxwellian. */
-static double kurtosis(const struct pm_measured *b, double mean)
-{
-	double s = 0, s2 = 0, s4 = 0;
-	for (size_t i = 0; i < b->n; i++) {
-		const double m = b->mass ? b->mass[i] : 1, v = b->v[0][i] - mean;
-		s += m, s2 += m * v * v, s4 += m * v * v * v * v;
-	}
-	return s2 > 0 ? s4 * s / (s2 * s2) : 3;
-}
-
-static void one_species(struct pm_wave_spectrum *s, const struct pm_frame *f, const struct pm_set *set, double volume)
-{
-	const struct pm_field *q = pm_frame_field(f, set->name, "charge"), *m = pm_frame_field(f, set->name, "mass"), *v = pm_frame_field(f, set->name, "v");
-	double moment[PM_MOMENTS], w2 = 0;
-	if (!set->n || set->fixed || !q || !m || !v || s->nspecies == PM_SPECIES_MOST)
-		return;
-	const struct pm_measured b = {.n = set->n, .vdim = 1, .v = {pm_in(v, 0)}, .mass = pm_in(m, 0)};
-	pm_moments_of(&b, moment);
-	for (size_t i = 0; i < set->n; i++)
-		w2 += pm_in(q, 0)[i] * (pm_in(q, 0)[i] / b.mass[i]);
-	const double vth = sqrt(moment[PM_MOMENT_COVARIANCE]), frequency = sqrt(w2 / volume / pm_frame_constant(f, "eps0", 1)), drift = moment[PM_MOMENT_DRIFT];
-	/* the velocity of a wave that starts in cold particles is no temperature */
-	const bool cold = vth * s->k1 < 0.02 * frequency;
-	const double fourth = kurtosis(&b, drift);
-	if (!cold && fabs(fourth - 3) > 0.3 && !s->why[0])
-		snprintf(s->why, sizeof s->why, "the velocities of '%s' are not Maxwellian (fourth moment %.2g, not 3): make every beam a set",
-			set->name, fourth);
-	if (frequency > 0)
-		s->species[s->nspecies++] = (struct pm_wave_species){frequency, drift, cold ? 0 : vth};
-}
-
-static void find_species(struct pm_wave_spectrum *s, const struct pm_frame *f)
-{
-	double volume = 1;
-	for (int d = 0; d < f->dim; d++)
-		volume *= f->hi[d] - f->lo[d];
-	if (strcmp(f->law, "electrostatic"))
-		snprintf(s->why, sizeof s->why, "the dispersion relation is that of the law electrostatic");
-	for (size_t i = 0; i < f->nfields && !s->why[0]; i++)
-		if (!strcmp(f->fields[i]->name, "B"))
-			snprintf(s->why, sizeof s->why, "the dispersion relation is that without a magnetic field");
-	for (size_t i = 0; i < f->nsets; i++)
-		one_species(s, f, f->sets[i], volume);
-	if (!s->nspecies && !s->why[0])
-		snprintf(s->why, sizeof s->why, "no set has charge, mass and velocity");
-	s->nspecies = s->why[0] ? 0 : s->nspecies;
 }
 
 static int more_room(struct pm_wave_spectrum *s)
@@ -100,16 +46,19 @@ int pm_wave_add(struct pm_wave_spectrum *s, const struct pm_measure *how, const 
 	if (!status && !law.field)
 		status = pm_fail(PM_DATA, "no field '%s' in this frame", how->field);
 	const struct pm_grid g = status ? (struct pm_grid){0} : pm_grid_of(f, pm_frame_mesh(f, law.field->on));
+	if (!status && how->wave >= law.field->components)
+		status = pm_fail(PM_USAGE, "the field '%s' has %d component%s (--component x)", how->field, law.field->components,
+			law.field->components == 1 ? "" : "s");
 	if (!status && 2 * (size_t)s->modes > g.points[0])
 		status = pm_fail(PM_USAGE, "%d waves are asked for, and a mesh of %zu points has %zu (dispersion -n %zu)", s->modes, g.points[0],
 			g.points[0] / 2, g.points[0] / 2);
 	if (!status && !s->n) {
 		s->k1 = 2 * pm_pi / (f->hi[0] - f->lo[0]);
-		find_species(s, f);
+		pm_wave_theory_of(&s->theory, f, s->k1, how->wave);
 	}
 	for (int m = 1; m <= s->modes && !status; m++) {
 		double a[2];
-		status = pm_mode(&g, pm_in(law.field, how->wave < law.field->components ? how->wave : 0), m, a);
+		status = pm_mode(&g, pm_in(law.field, how->wave), m, a);
 		s->a[s->n * (size_t)s->modes + (size_t)(m - 1)] = a[0] + I * a[1];
 	}
 	s->t[s->n] = f->time;
@@ -169,11 +118,14 @@ static size_t rows_below(const struct pm_wave_spectrum *s, double highest)
 	return rows < (double)s->half && rows >= 1 ? (size_t)rows : s->half;
 }
 
-double pm_wave_peak(const struct pm_wave_spectrum *s, int mode, double highest, double *power)
+double pm_wave_peak(const struct pm_wave_spectrum *s, int mode, const double range[2], double *power)
 {
 	const double *p = s->power + (size_t)(mode - 1) * (s->half + 1);
-	size_t at = 1;
-	for (size_t j = 2; j < rows_below(s, highest); j++)
+	const size_t last = rows_below(s, range[1]);
+	size_t at = (size_t)fmin(fmax(1, ceil(range[0] / s->step)), (double)s->half);
+	if (at >= s->half || (at > 1 && at >= last))
+		return *power = NAN;
+	for (size_t j = at + 1; j < last; j++)
 		at = p[j] > p[at] ? j : at;
 	*power = p[at];
 	if (!(p[at] > 0 && p[at - 1] > 0 && p[at + 1] > 0))
@@ -182,13 +134,13 @@ double pm_wave_peak(const struct pm_wave_spectrum *s, int mode, double highest, 
 	return s->step * ((double)at + (bend < 0 ? 0.5 * (a - c) / bend : 0));
 }
 
-void pm_wave_print(const struct pm_wave_spectrum *s, double highest, FILE *out)
+void pm_wave_print(const struct pm_wave_spectrum *s, const double range[2], FILE *out)
 {
 	fprintf(out, "mode\tk\tomega\tresolution\tpower\ttheory_omega\ttheory_gamma\n");
 	for (int m = 1; m <= s->modes; m++) {
 		double power;
-		const double k = s->k1 * m, omega = pm_wave_peak(s, m, highest, &power);
-		const double complex root = s->nspecies && !isnan(omega) ? pm_wave_nearest(s->species, s->nspecies, k, omega) : NAN;
+		const double k = s->k1 * m, omega = pm_wave_peak(s, m, range, &power);
+		const double complex root = pm_wave_theory_nearest(&s->theory, k, omega);
 		const double values[] = {k, omega, s->step, power, creal(root), isnan(creal(root)) ? NAN : cimag(root)};
 		fprintf(out, "%d", m);
 		for (size_t i = 0; i < sizeof values / sizeof *values; i++)

@@ -5,8 +5,7 @@
 
 #include <stdio.h>
 
-#include "measure/measure.h"
-#include "plasma/dispersion.h"
+#include "measure/wave-theory.h"
 
 struct pm_wave_spectrum {
 	int modes;                 /* 1..modes along x */
@@ -14,9 +13,7 @@ struct pm_wave_spectrum {
 	double *t;                 /* [time] of each */
 	double complex *a;         /* [frame][mode - 1] amplitude of exp(i k x) */
 	double k1;                 /* [1/length] of mode 1 */
-	int nspecies;              /* of the first frame; 0: no theory, and why */
-	struct pm_wave_species species[PM_SPECIES_MOST];
-	char why[200];
+	struct pm_wave_theory theory; /* of the first frame */
 	double *power;             /* [mode - 1][0..half]: see pm_wave_spectrum_done */
 	size_t half;
 	double step;               /* [1/time] of the frequencies */
@@ -29,10 +26,10 @@ int pm_wave_add(struct pm_wave_spectrum *s, const struct pm_measure *how, const 
 /* Transforms in time of all frames: power[j] = |A(j step)|^2 + |A(-j step)|^2 with A the mean of a exp(i omega t) under Hann's window, over the mean of the
  * window, so that a steady wave of amplitude 1 has 1 at its frequency. 0 or failure: too few frames, or not equally spaced. */
 int pm_wave_done(struct pm_wave_spectrum *s);
-/* Frequency of the largest power of a mode up to `highest` [1/time], between the frequencies by a parabola through the logarithms; NAN: no power. */
-double pm_wave_peak(const struct pm_wave_spectrum *s, int mode, double highest, double *power);
+/* Frequency of the largest power of a mode in the range [1/time], between the frequencies by a parabola through the logarithms; NAN: no power. */
+double pm_wave_peak(const struct pm_wave_spectrum *s, int mode, const double range[2], double *power);
 /* A line per mode: k, the peak, its power, the resolution, and the root of the dispersion relation nearest to it. */
-void pm_wave_print(const struct pm_wave_spectrum *s, double highest, FILE *out);
+void pm_wave_print(const struct pm_wave_spectrum *s, const double range[2], FILE *out);
 /* A frame of the mesh `waves` with axes k and omega and the fields power and log_power (to base 10). NULL: failure. */
 struct pm_frame *pm_wave_frame(const struct pm_wave_spectrum *s, double highest);
 void pm_wave_free(struct pm_wave_spectrum *s);

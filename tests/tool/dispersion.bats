@@ -46,9 +46,14 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 	pinit two-stream -n 1000 --vth 0.3 | cycle -q -n 40 --every 2 "$step" >run
 	run -0 --separate-stderr dispersion -n 1 run
 	[[ $stderr == *"no theory: the velocities of 'electrons' are not Maxwellian"*"make every beam a set"* && $output == *nan ]]
-	pinit langmuir -n 256 --velocities 3 | scalc --mesh mesh --role state 'B = 0, 0, 1' >a
+	pinit langmuir -n 256 --velocities 3 | scalc --mesh mesh --role state 'B = 1, 0, 1' >a
 	run -0 --separate-stderr bash -c "cycle -q -n 20 --every 1 '${step//kick/boris}' <a | dispersion -n 1"
-	[[ $stderr == *"no theory: the dispersion relation is that without a magnetic field"* ]]
+	[[ $stderr == *"no theory: the magnetic field is neither along x nor across it"* ]]
+	scalc --mesh mesh 'B = 0, 0, cos(x)' <a >b
+	run -0 --separate-stderr bash -c "cycle -q -n 20 --every 1 '${step//kick/boris}' <b | dispersion -n 1"
+	[[ $stderr == *"no theory: the magnetic field is not uniform"* ]]
+	run -2 --separate-stderr bash -c "cycle -q -n 20 --every 1 '${step//kick/boris}' <a | dispersion -n 1 --component y"
+	[[ $stderr == *"the field 'E' has 1 component (--component x)"* ]]
 	run -1 --separate-stderr bash -c "pinit landau -n 500 | cycle -q -n 5 --every 1 '$step' | dispersion"
 	[[ $stderr == *"frames are too few for frequencies"* ]]
 	run -1 --separate-stderr bash -c "pinit landau -n 500 | p2m | poisson-fft | mgrad | dispersion"
@@ -68,4 +73,35 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 		# measured 0.0014 to 0.003 below, a twentieth of the resolution: cic lowers omega_p by 1.2e-3
 		within "$(row 1 omega)" "$(calc "sqrt(1 + $wc^2)")" 0.006 "$wc"
 	done
+}
+
+@test "dispersion: thermal electrons across a magnetic field have the upper hybrid wave and Bernstein's modes" {
+	pinit plasma --length 20 --cells 64 --dt 0.1 | species electrons -n 10000 --velocities 3 --loading random |
+		scalc --mesh mesh --role state 'B = 0, 0, 1' | cycle -q -n 1500 --every 4 "${step//kick/boris}" >run
+	run -0 --separate-stderr dispersion -n 5 --lowest 0.5 run
+	[[ $stderr == *"theory: electrostatic waves across the magnetic field (Bernstein)" ]]
+	tr ' ' '\t' <<<"$output" >t
+	# measured 0.002 to 0.011 below, as cic lowers omega_p by cos(k h/2): a third of the resolution of 0.042
+	for m in 1 2 3 4 5; do within "$(row $m omega)" "$(row $m theory_omega)" 0.014 "mode $m"; done
+	within "$(row 1 theory_omega)" "$(calc 'sqrt(2)')" 0.06 # the upper hybrid wave: at k = 0.31 lowered by 3 %
+	dispersion -q -n 5 --lowest 1.7 --highest 2.3 run >t # between harmonics 2 and 3, where the cold plasma has no wave
+	for m in 2 3 4; do within "$(row $m omega)" "$(row $m theory_omega)" 0.014 "mode $m" && within "$(row $m theory_omega)" 2.1 0.02 "mode $m"; done
+}
+
+@test "dispersion: light in a thermal plasma along and across a magnetic field: right, left, ordinary, extraordinary, and none" {
+	local light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
+	pinit plasma --length 20 --cells 64 | species electrons -n 4096 --velocities 3 --vth 0.05 --loading random |
+		smod --law electromagnetic --constant c=1 --dt 0.15 | p2m | maxwell --gauss >a
+	# B; component; what is looked at; words of the note. Measured within 0.009, cells of 0.3: a third of the resolution of 0.042 is allowed
+	while IFS=';' read -r field component range words; do
+		scalc --mesh mesh "B = $field" <a | cycle -q -n 1000 --every 4 "$light" | dispersion -n 2 --component $component $range >t 2>said
+		grep -q "$words" said
+		for m in 1 2; do within "$(row $m omega)" "$(row $m theory_omega)" 0.014 "$field $component $range $m"; done
+	done <<-END
+		0.5, 0, 0;y;--lowest 1.1;right and left waves along the magnetic field
+		0, 0.5, 0;y;--lowest 0.3;ordinary waves across
+		0, 0.5, 0;z;--lowest 1.1;extraordinary waves across
+		0, 0.5, 0;z;--highest 1.1;extraordinary waves across
+		0, 0, 0;y;--lowest 0.3;waves of light
+	END
 }

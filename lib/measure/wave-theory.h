@@ -1,0 +1,25 @@
+/* The waves that the species of a frame should have along x. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PM_MEASURE_WAVE_THEORY_H
+#define PM_MEASURE_WAVE_THEORY_H
+
+#include "measure/measure.h"
+#include "plasma/magnetised.h"
+
+struct pm_wave_theory {
+	enum { PM_NO_THEORY, PM_ELECTROSTATIC, PM_BERNSTEIN, PM_ALONG_FIELD, PM_ORDINARY_WAVE, PM_EXTRAORDINARY_WAVE } kind;
+	int n;
+	struct pm_gyrating species[PM_SPECIES_MOST];
+	double c, field[3]; /* [length/time]; mean magnetic field */
+	char why[200];      /* PM_NO_THEORY: why not */
+};
+
+/* Header: the reads. */
+void pm_wave_theory_reads(struct pm_frame *f);
+/* Data: species and magnetic field of this frame, and what waves of that component of E are. k1 [1/length]: the smallest wave number. */
+void pm_wave_theory_of(struct pm_wave_theory *t, const struct pm_frame *f, double k1, int component);
+/* Its words, for people. */
+const char *pm_wave_theory_name(const struct pm_wave_theory *t);
+/* The root nearest to a frequency that was measured, damped by less than half of it; NAN: none, or no memory. */
+double complex pm_wave_theory_nearest(const struct pm_wave_theory *t, double k, double omega);
+
+#endif
