@@ -1,6 +1,7 @@
 /* Waves across a magnetic field: eps(omega, k) = 1 - sum over species s, n >= 1 of
- *     2 (omega_s^2/(k^2 v^2)) exp(-l) I_n(l) n^2 Omega^2/(omega^2 - n^2 Omega^2), l = (k v/Omega)^2; cold: omega_s^2/(omega^2 - Omega^2). It rises from -infinity to infinity between two harmonics, so there is one root in each of these bands,
- * found by halving, and none below the first. I_n by Miller's recurrence from above.
+ *     2 (omega_s^2/(k^2 v^2)) exp(-l) I_n(l) n^2 Omega^2/(omega^2 - n^2 Omega^2), l = (k v/Omega)^2; cold: omega_s^2/(omega^2 - Omega^2).
+ * It rises from -infinity to infinity between two harmonics, so there is one root in each of these bands, found by halving, and none below the first.
+ * I_n by Miller's recurrence from above.
  * Source: Bernstein 1958, Physical Review 109, 10; Stix 1992, section 11-10; Abramowitz and Stegun 9.12 (Miller). Cost: a harmonic each of 10 + 8 k v/Omega.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
