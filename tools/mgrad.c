@@ -1,6 +1,7 @@
 /* mgrad: derivatives of mesh fields (lib/mesh/gradient-frame.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fft/axis-transform.h"
 #include "mesh/gradient-frame.h"
+#include "world/world.h"
 #include "stage/plan-option.h"
 #include "stage/stage.h"
 
@@ -55,7 +56,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct state *t = s->state;
 	(void)f;
 	struct pm_clock began = pm_clock();
-	int status = pm_gradient_plan(&t->gradient, &t->planner);
+	int status = pm_world_agree(pm_gradient_plan(&t->gradient, &t->planner));
 	pm_setup_since(s, began);
 	double rim = 0;
 	status = status ? status : pm_gradient_rim(&t->gradient, &rim);
@@ -66,10 +67,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status ? status : pm_gradient_apply(&t->gradient);
 }
 
-/* Lines of transforms cross the planes of ranks. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	return f && ((const struct state *)s->state)->gradient.operator.order;
+	(void)s;
+	return f;
 }
 
 static void release(struct pm_stage *s)

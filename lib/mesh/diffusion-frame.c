@@ -6,6 +6,7 @@
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/diffusion-frame.h"
+#include "world/world.h"
 #include "mesh/gradient-parts.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
@@ -80,7 +81,7 @@ int pm_diffusion_add(struct pm_diffusion *t, struct pm_fft_plans *plans)
 {
 	if (plans->n > PM_FFT_PLANS - 3) /* frames of many sizes: empty the collection */
 		pm_fft_plans_clear(plans);
-	int status = pm_operator_plan(&t->operator, plans);
+	int status = pm_world_agree(pm_operator_plan(&t->operator, plans));
 	if (!status)
 		status = add(t);
 	pm_limits_add(t->change, (struct pm_limits){.decay = t->nu * pm_operator_fastest(&t->operator)});

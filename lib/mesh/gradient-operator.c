@@ -4,6 +4,7 @@
 
 #include "fft/axis-transform.h"
 #include "mesh/gradient-parts.h"
+#include "world/world.h"
 
 const char *const pm_operator_names[] = {"grad", "curl", "div", "lap", NULL};
 const char *const pm_order_names[] = {"2", "4", "6", "spectral", NULL};
@@ -142,8 +143,14 @@ int pm_operator_apply_planes(const struct pm_operator *o, double factor, const s
 	if (!field->here)
 		return pm_operator_apply(o, factor, in, out, seen);
 	int status = pm_planes_init(&planes, &o->grid, field);
-	status = pm_planes_halo(status, &planes, status ? 0 : pm_operator_reach(o, &planes), o->in, in, with, &room);
 	here.planes = &planes;
+	if (!o->order) { /* lines cross the planes of ranks: all work together */
+		status = pm_world_agree(status);
+		status = status ? status : pm_operator_apply(&here, factor, in, out, seen);
+		pm_planes_free(&planes);
+		return status;
+	}
+	status = pm_planes_halo(status, &planes, status ? 0 : pm_operator_reach(o, &planes), o->in, in, with, &room);
 	if (!status && planes.here)
 		status = pm_operator_apply(&here, factor, with, out, seen);
 	pm_free(room);

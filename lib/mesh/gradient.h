@@ -34,7 +34,7 @@ struct pm_operator {
 	int nterms;     /* in order of out */
 	struct pm_operator_term term[PM_TERMS_MOST];
 	bool add;       /* to out, instead of replacing it */
-	const struct pm_planes *planes; /* differences: NULL, or those of this rank (mesh/gradient-parts.h) */
+	const struct pm_planes *planes; /* NULL, or those of this rank (mesh/gradient-parts.h) */
 	const double *weight[3]; /* fields of the grid's points that terms are multiplied by */
 	struct pm_fft_plans *plans; /* spectral: of pm_operator_plan, to be there as long as the operator */
 };

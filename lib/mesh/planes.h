@@ -25,6 +25,12 @@ void pm_planes_free(struct pm_planes *p);
  * to the first own plane, *room is to be freed with pm_free. Takes the caller's status and returns the agreed one (world/world.h). */
 int pm_planes_halo(int status, const struct pm_planes *p, int wide, int n, const double *const in[], const double *with[], double **room);
 
+/* Lines along the divided axis: each rank gets whole columns of the planes, beginning at multiples of a row in 3-D, of 16 values in 2-D (what is transformed
+ * together stays together): *lines has all planes of the mesh, of the *columns values that are this rank's. back: these to the planes of the rank, in `out`;
+ * *lines is freed either way. Both take the caller's status and return the agreed one. Divided only. */
+int pm_planes_turn(int status, const struct pm_planes *p, const double *in, double **lines, size_t *columns);
+int pm_planes_turn_back(int status, const struct pm_planes *p, double **lines, double *out);
+
 /* As pm_over_mesh, called by all ranks in the same order, with the values here: make() counts from the first one here, so rows of the mesh begin at
  * first * points[1] (pm_planes_row). `all` is joined to on rank 0, and is then the same on all ranks. */
 int pm_planes_over(int status, const struct pm_planes *p, const struct pm_parts *parts, const void *data, void *all);

@@ -62,7 +62,7 @@ static int apply(const struct pm_stretching *t, int component, bool add, struct 
 	o.add = add;
 	for (int d = 0; d < 3; d++)
 		o.weight[d] = pm_in(t->omega, d);
-	status = status ? status : pm_operator_plan(&o, plans); /* fails on all ranks or none: differences need no plans */
+	status = pm_world_agree(status ? status : pm_operator_plan(&o, plans));
 	return status ? status : pm_operator_apply_planes(&o, 1, t->omega, in, out, NULL);
 }
 

@@ -249,3 +249,33 @@ ranks() {
 	ranks shared sel --where 'x < 0.3' -i box
 	ranks whole smod --dt 0.3 -i box
 }
+
+# shared WORDS... < frame: a step in which ranks share every word; 1, 2, 3, 4 and 7 ranks times 1, 2 threads write what a run alone does.
+shared() {
+	cat >start
+	ran=0
+	OMP_NUM_THREADS=1 cycle -q -n 2 -i start -o alone "$1"
+	[ "$(wc -c <alone)" -gt 1000 ]
+	for n in 1 2 3 4 7; do
+		for threads in 1 2; do
+			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 cycle --ranks $n --verbose -n 2 -i start -o file "$1" 2>said && cmp alone file ||
+				{ echo "$n ranks, $threads threads: $1"; return 1; }
+			[ $n -eq 1 ] || grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
+			ran=$((ran + 1))
+		done
+	done
+	[ $ran -eq 10 ]
+}
+
+@test "equal bytes with ranks: spectral derivatives, whose lines cross the planes of ranks" {
+	for n in 16 15x17x18 6x33x5; do
+		pinit uniform -n 2000 --dispersion 0.3 | shared "push kick/2 drift | p2m -n $n | poisson-fft | mgrad --order spectral | m2p | push kick/2"
+	done
+	pinit uniform -n 2000 --dim 2 --faces wall,neumann --particle-faces reflect |
+		shared "push kick/2 drift | p2m -n 33x47 | poisson-fft | mgrad --order spectral | m2p | push kick/2"
+	pinit uniform -n 500 --dim 1 | shared "push kick/2 drift | p2m -n 35 | poisson-fft | mgrad --order spectral | m2p | push kick/2"
+	pinit shear-layer --cells 48 | shared "p2m | poisson-fft | mgrad --order spectral | diffuse --order spectral | m2p | push rk2"
+	pinit taylor-green-3d --cells 12 |
+		shared "p2m | poisson-fft | mgrad --order spectral | stretch --order spectral | diffuse --order spectral | m2p | push rk2 | remesh"
+	pinit taylor-green-3d --cells 9x8x7 | shared "p2m | poisson-fft | mgrad | stretch --form mixed --order spectral | m2p | push rk2"
+}
