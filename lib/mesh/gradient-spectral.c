@@ -1,7 +1,7 @@
 /* Spectral derivatives on a mesh: each line along an axis to wave numbers, times i*k (Nyquist zeroed) or -k^2, and back; odd images at a wall, even
  * ones at a neumann face. Exact for all waves that the mesh resolves. The first derivative is antisymmetric, so there is no self-force.
  * Source: Trefethen 2000, chapter 3. Oscillates where the field is not smooth on the mesh (case PM-02: cic).
- * Cost: n log n per line, one pass over memory per term. On many ranks lines along the divided axis are brought together, an exchange there and one back a term.
+ * Cost: n log n per line, one pass over memory per term. On many ranks lines along the divided axis are brought together, by two exchanges a term.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>

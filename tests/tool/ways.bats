@@ -258,7 +258,8 @@ shared() {
 	[ "$(wc -c <alone)" -gt 1000 ]
 	for n in 1 2 3 4 7; do
 		for threads in 1 2; do
-			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 cycle --ranks $n --verbose -n 2 -i start -o file "$1" 2>said && cmp alone file ||
+			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 \
+				cycle --ranks $n --verbose -n 2 -i start -o file "$1" 2>said && cmp alone file ||
 				{ echo "$n ranks, $threads threads: $1"; return 1; }
 			[ $n -eq 1 ] || grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
 			ran=$((ran + 1))
