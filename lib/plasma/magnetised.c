@@ -83,7 +83,7 @@ static double worth(double near, double complex root)
 {
 	if (isnan(near))
 		return cimag(root);
-	return -cimag(root) > 0.5 * fabs(creal(root)) + 1e-9 ? -INFINITY : -fabs(creal(root) - near);
+	return -cimag(root) > 0.5 * fabs(creal(root)) + 1e-9 ? -INFINITY : -cabs(root - near);
 }
 
 static double complex better(const struct pm_light_case *l, double complex start, double near, double complex best)

@@ -25,7 +25,7 @@ struct pm_light_case {
 double complex pm_light_function(const struct pm_light_case *l, double complex omega, double complex *slope);
 /* Newton's method from a start; NAN where it does not converge. */
 double complex pm_light_root(const struct pm_light_case *l, double complex start);
-/* The root nearest to a frequency, among those damped by less than half of theirs; NAN if none. */
+/* The root nearest to a frequency in the complex plane, among those damped by less than half of theirs; NAN if none. */
 double complex pm_light_nearest(const struct pm_light_case *l, double omega);
 /* The root that grows most, or is damped least. */
 double complex pm_light_strongest(const struct pm_light_case *l);

@@ -10,6 +10,7 @@ small() {
 	plummer | cold-sphere) echo "$1 -n 200 --cells 16" ;;
 	cold-collapse | landau | langmuir) echo "$1 -n 128 --cells 16" ;;
 	two-stream) echo "$1 -n 200 --cells 16" ;;
+	bernstein | whistler) echo "$1 -n 256 --cells 16" ;;
 	uniform) echo "$1 -n 50 --dim 2 --cells 8" ;;
 	lattice) echo "$1 -n 64 --dim 2 --cells 8" ;;
 	point-vortices) echo "$1 -n 30 --cells 16" ;;
@@ -32,8 +33,9 @@ small() {
 plain() {
 	case $1 in
 	exb | gyration) echo 'push boris/2 drift | m2p | push boris/2' ;;
+	bernstein) echo 'push boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2' ;;
 	wakefield) echo 'push boris/2 | p2m --current | maxwell | push drift | window electrons -n 1 | m2p | push boris/2' ;;
-	em-wave | gem | weibel) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
+	em-wave | gem | weibel | whistler) echo 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' ;;
 	lamb-oseen) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --rim 2 --cut-off 1e-4' ;;
 	ellipse | shear-layer | taylor-green-2d | tanh-layer | random-vorticity) echo 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' ;;
 	# the mesh would grow with what they leave behind

@@ -72,6 +72,22 @@ growth() {
 	within "$got" 0.141385211908858 0.0014
 }
 
+@test "whistler: the frequency of cold and of warm electrons along a magnetic field, and the damping near the gyration frequency" {
+	rate() { pinit whistler --cells 32 "$@" | cycle -q -n "$n" --every 4 "$step" | diag --columns time --growth mode:1 ${window:+--window $window} --exact | tail -1; }
+	local window=
+	n=600 # measured 9e-4 above: k h = 0.2, (k h)^2/24 = 1.6e-3 of light
+	rate -n 1024 | tr -d , >t
+	within "$(awk '{ print $8 }' t)" 0.445041867912629 0.0013
+	within "$(sed 's/.* //' t)" 0.445041867912629 2e-9 # 2 sin(pi/14), nine digits printed
+	n=720 window=8:35
+	rate -n 16384 --vth 0.04 --wavenumber 2.5 | tr -d , >t # electrons are heavier by 3 vth^2/2: 0.0024 of the gyration frequency, which is measured
+	within "$(awk '{ print $8 }' t)" 0.792261224 0.005
+	within "$(sed 's/.* omega //' t)" 0.792261224 1e-8
+	within "$(awk '{ print $4 }' t)" -0.0303799345 0.006 # its error bar; measured -0.033
+	run -2 pinit whistler --wave-field 0.9
+	[[ $output == *"would be faster than light"* ]]
+}
+
 @test "gem: the pressures of the field and of both species add up to the same across the sheet, and each species' force holds its pressure" {
 	sh_ok "pinit gem --perturbation 0 --cells 128x128 | m2p >a.pm" # cells of 0.2 d: B at the particles is smoothed by 0.4 %
 	within "$(diag <a.pm | column energy_magnetic)" "$(diag --exact <a.pm | column exact_energy_magnetic)" 0.4 # the differences' h^2/24 B'', 2e-4

@@ -68,7 +68,8 @@ kepler() {
 
 # The laws' plain sentences.
 gravity='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' orbit='push kick/2 drift | pp | push kick/2'
-magnetic='push boris/2 drift | m2p | push boris/2' vorticity='p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' points='pp | push lsrk3'
+magnetic='push boris/2 drift | m2p | push boris/2' across='push boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2'
+vorticity='p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' points='pp | push lsrk3'
 space='p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push lsrk3 | remesh'
 turn="field 'vel = -2*pi*(y - 0.5), 2*pi*(x - 0.5)' | push rk4 | remesh --by volume"
 swirl="field 'vel = -sin(pi*x)^2*sin(2*pi*y), sin(pi*y)^2*sin(2*pi*x)' | push rk4 | remesh --by volume"
@@ -104,6 +105,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		plasma;1;gravity;| diag;
 		sheath;1;gravity;| diag;
 		landau;10;gravity;| diag --exact;mass=1e-11 charge=1e-11
+		bernstein;10;across;| diag --exact;mass=1e-12 charge=1e-12
 		gyration;50;magnetic;| diag --exact;energy_kinetic=1e-12 centre_x=2e-3 centre_y=2e-3
 		exb;50;magnetic;| diag --exact;energy_kinetic=4e-3 momentum_x=2e-3
 		lamb-oseen;5;vorticity;| p2m | diag --exact;circulation=1e-5 angular_impulse=1e-3 enstrophy=1e-3 palinstrophy=2e-3 omega_max=1e-3
@@ -130,6 +132,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		random-vorticity;2;vorticity;| p2m | diag --exact;circulation=1e-9
 		em-wave;10;light;| diag --exact;mass=1e-12 charge=1e-12
 		wakefield;2;light;| diag;
+		whistler;10;light;| diag --exact;mass=1e-12 charge=1e-12
 		weibel;10;light;| diag --exact;mass=1e-12 charge=1e-12
 		gem;10;light;| diag --exact;mass=1e-12 charge=1e-12
 	END
