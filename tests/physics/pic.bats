@@ -108,7 +108,8 @@ turning() { stab --plain --set electrons | awk -v dt="$1" '/x/ { for (i = 1; i <
 
 @test "bernstein: the wave is the sum of Bernstein's modes with the amplitudes of theory, and dispersion finds three of them" {
 	pinit bernstein --cells 128 --amplitude 0.1 | cycle -q -n 700 --every 4 "${step//kick/boris}" >run
-	# frequencies and amplitudes: scipy's brentq and ive as in tests/unit/dispersion.c, 2 (1 + k^2)/(omega_j eps'(omega_j)); what is missing adds up to 0.002; 0.02 from the step, (dt)^2 t/12 of the phase
+	# frequencies and amplitudes: scipy's brentq and ive as in tests/unit/dispersion.c, 2 (1 + k^2)/(omega_j eps'(omega_j));
+	# what is missing adds up to 0.002; 0.02 from the step, (dt)^2 t/12 of the phase
 	diag --columns time --modes 1 run | awk 'function size(y) { return y < 0 ? -y : y } NR == 2 { first = $2 } NR > 1 && $1 < 30 {
 		d = size($2/first - size(0.30358 + 0.4385*cos(1.163872*$1) + 0.2112*cos(2.106416*$1) + 0.0415*cos(3.027774*$1) + 0.0048*cos(4.0044*$1)))
 		if (d > most) most = d } END { print most }' >t # diag prints the size of the amplitude
