@@ -8,7 +8,7 @@
 #include "panels/panels-frame.h"
 #include "stream/declare.h"
 
-static bool moved(const struct pm_panels_choice *c, const struct pm_frame *f, const struct pm_set *set)
+bool pm_panels_moves(const struct pm_panels_choice *c, const struct pm_frame *f, const struct pm_set *set)
 {
 	return pm_set_moves(f, set) && strcmp(set->name, c->name) && (!c->set || !strcmp(c->set, set->name)) && !pm_frame_field(f, set->name, "v");
 }
@@ -19,11 +19,11 @@ static const struct pm_field *vortices(const struct pm_frame *f, const struct pm
 	return q && x && q->role == PM_STATE ? q : NULL;
 }
 
-static int vector(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text, const char *option)
+int pm_panels_vector(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text, const char *option)
 {
 	int status = text ? pm_expression_compile(e, f, on, text) : 0;
-	return status || !text || e->nparts == 2 ? status : pm_fail(PM_USAGE, "--%s '%s' has %d components, and the plane has 2 (with a comma between)",
-		option, text, e->nparts);
+	return status || !text || e->nparts == f->dim ? status : pm_fail(PM_USAGE, "--%s '%s' has %d components, and %s has %d (with a comma between)",
+		option, text, e->nparts, f->dim == 2 ? "the plane" : "space", f->dim);
 }
 
 static int declare_panels(const struct pm_panels_choice *c, struct pm_frame *f)
@@ -81,7 +81,7 @@ int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 			return -PM_DATA;
 		if (vortices(f, f->sets[i], "circulation") && vortices(f, f->sets[i], "volume") && !pm_reads(f, on, "volume"))
 			return -PM_DATA;
-		if (!moved(c, f, f->sets[i]))
+		if (!pm_panels_moves(c, f, f->sets[i]))
 			continue;
 		if (!pm_reads(f, on, "x") || !pm_contributes(f, on, "vel", "x", 2, "panels", c->replace))
 			return -PM_DATA;
@@ -89,10 +89,10 @@ int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 	}
 	if (!found)
 		return pm_fail(PM_DATA, "no particles%s%s that a flow could move (sls lists the sets)", c->set ? " in the set " : "", c->set ? c->set : "");
-	status = vector(&job->curve, f, c->name, c->curve, "curve");
+	status = pm_panels_vector(&job->curve, f, c->name, c->curve, "curve");
 	if (!status)
-		status = vector(&job->velocity, f, c->name, c->velocity, "velocity");
-	return status ? status : vector(&job->stream, f, c->name, c->stream, "stream");
+		status = pm_panels_vector(&job->velocity, f, c->name, c->velocity, "velocity");
+	return status ? status : pm_panels_vector(&job->stream, f, c->name, c->stream, "stream");
 }
 
 static int corners(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels *p)
@@ -206,7 +206,7 @@ int pm_panels_apply(const struct pm_panels_choice *c, struct pm_frame *f, const 
 		status = pm_panels_solve(&p, &flow, solver, strength, done);
 	}
 	for (size_t k = 0; k < f->nsets && !status; k++)
-		if (moved(c, f, f->sets[k])) {
+		if (pm_panels_moves(c, f, f->sets[k])) {
 			struct pm_field *x = pm_frame_field(f, f->sets[k]->name, "x"), *vel = pm_frame_field(f, f->sets[k]->name, "vel");
 			const double *at[2] = {pm_in(x, 0), pm_in(x, 1)};
 			double *to[2] = {pm_out(vel, 0), pm_out(vel, 1)};

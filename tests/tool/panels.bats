@@ -74,6 +74,73 @@ report() { sls --report | sed -n 's/.*"'"$1"'":\([^,}]*\).*/\1/p'; }
 	cycle -n 2 "$words" <b | sls >/dev/null
 }
 
+space() { printf 'x y z\n%s\n' "$1" | stab - --law passive --box=-4,4 --faces open --set probe; }
+
+@test "in space: a sphere and a spheroid in a stream, of order 2, whose sources add up to nothing" {
+	ahead=$(awk 'function q(s) { return log((s + 1) / (s - 1)) / 2 - s / (s * s - 1) } BEGIN { printf "%.15g", -q(sqrt(3)) / q(2 / sqrt(3)) }')
+	for n in 80 320 1280; do # on the axis -1/z^3
+		space '0 0 1.5' | panels --surface 'x, y, z' -n $n --stream '0, 0, 1' >a
+		calc "$(value vel_2 <a) + 1 / 1.5^3" >>sphere
+		sel --set panels <a | stab --plain --set panels | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+			{ sum += $at["source"] * $at["area"]; all += sqrt(($at["source"] * $at["area"])^2) } END { print sum / all }' >>total
+		below "$(report leak <a)" 1e-13
+		# twice as long along the stream: by Legendre's function of the second kind
+		calc "$(space '0 0 3' | panels --surface 'x, y, 2*z' -n $n --stream '0, 0, 1' | value vel_2) - ($ahead)" >>spheroid
+		echo | tee -a sphere >>spheroid
+	done
+	for what in sphere spheroid; do # measured 1.95 and 1.94
+		within "$(awk 'NF { e[++n] = $1 } END { print log(e[1] / e[3]) / log(4) }' $what)" 1.95 0.1 "order of $what"
+		awk 'NF && ++n == 3 { exit !($1^2 < 0.002^2) }' $what # measured 0.0019 and 0.0007
+	done
+	awk '$1^2 > 1e-26 { exit 1 }' total # the solid angles of a closed surface add up
+	within "$(space '0 3 0' | panels --surface 'x, y, z' -n 320 --velocity 'x, y, z' | value vel_1)" "$(calc '1 / 9')" 0.007 # a sphere that grows
+}
+
+@test "in space: Lewis' image of a ring in a sphere, of order 2" {
+	# rho = hypot(1.2, 1.6) = 2: the image has 1/4 of the coordinates and -2 of the circulation
+	awk 'BEGIN { n = 200; pi = atan2(0, -1); print "x y z alpha_0 alpha_1 alpha_2 volume"; for (i = 0; i < n; i++) { a = 2 * pi * i / n
+		l = 2 * pi * 1.2 / n
+		printf "%.17g %.17g 1.6 %.17g %.17g 0 1e-3\n", 1.2 * cos(a), 1.2 * sin(a), -l * sin(a), l * cos(a) } }' >ring
+	u=$(awk 'BEGIN { n = 20000; pi = atan2(0, -1); R = 0.3; for (i = 0; i < n; i++) { a = 2 * pi * i / n
+		rx = 0.5 - R * cos(a); ry = -R * sin(a); rz = 1.3 - 0.4
+		r3 = (rx * rx + ry * ry + rz * rz)^1.5
+		uz += -2 * 2 * pi * R / n / (4 * pi) * (-sin(a) * ry - cos(a) * rx) / r3 } printf "%.12g", uz }')
+	for n in 80 320 1280; do
+		stab ring --law vortex --strength alpha,volume --box=-4,4 --faces open | stack --merge - <(space '0.5 0 1.3' | smod --law vortex) |
+			panels --surface 'x, y, z' --softening 0 -n $n >a
+		calc "sqrt(($(value vel_2 <a) - ($u))^2)" >>e
+		echo >>e
+	done
+	within "$(awk 'NF { e[++n] = $1 } END { print log(e[1] / e[3]) / log(4) }' e)" 2 0.2
+	below "$(sed -n '/./p' e | tail -1)" "$(calc "sqrt(($u)^2) / 50")"
+}
+
+@test "in space: panels stretch vortices by the gradient of their flow, near and far" {
+	one() { printf 'x y z alpha_0 alpha_1 alpha_2 volume\n%s\n' "$1" | stab - --law vortex --strength alpha,volume --box=-4,4 --faces open; }
+	for z in 1.1 1.5 3; do # alpha along z: 3/z^4, and the difference quotient of the velocities
+		one "0.1 0.2 $z 1e-9 2e-9 1e-9 1" >v
+		panels --surface 'x, y, z' -n 320 --stream '0, 0, 1' --softening 1 <v >a
+		for s in + -; do
+			scalc "x = x $s 1e-4, y $s 2e-4, z $s 1e-4" <v |
+				panels --surface 'x, y, z' -n 320 --stream '0, 0, 1' --softening 1 | value vel_2 matter
+		done >two
+		within "$(calc "$(value dalpha_2 matter <a) * 1e9")" "$(awk '{ u[NR] = $1 } END { printf "%.12g", (u[1] - u[2]) / 2e-4 }' two)" 2e-6 "at $z"
+	done
+	within "$(calc "$(one '0 0 2 0 0 1e-9 1' | panels --surface 'x, y, z' --stream '0, 0, 1' | value dalpha_2 matter) * 1e9")" 0.1875 0.003
+}
+
+@test "in space: two bodies from corners, one that moves, bytes whatever the threads" {
+	space '0 0 0' | panels --surface '0.5*x, 0.5*y, 0.5*z + 1' -n 80 | sel --set panels | stab --plain --set panels | cut -f1-9 >up
+	space '0 0 0' | panels --surface '0.5*x, 0.5*y, 0.5*z - 1' -n 80 | sel --set panels | stab --plain --set panels | cut -f1-9 | tail -n +2 >down
+	cat up down | awk 'NR == 1 { print $0, "x y z" } NR > 1 { print $0, 0, 0, 0 }' | stab - --law passive --set panels --box=-4,4 --faces open >both
+	stack --merge both <(space '0 0 0') | panels --stream '1, 0, 0' >a
+	between "$(value vel_0 <a)" 0.1 0.14 # that of two dipoles, 2 * 0.5^3/2, and their images
+	stack --merge both <(space '0 0 0') | panels --stream '1, 0, 0' --threads 3 | scmp --quiet a -
+	space '1.5 0.3 0.2' | panels --surface 'x, y, z' -n 80 --velocity '-1, 0, 0' | value vel_0 >moves
+	space '1.5 0.3 0.2' | panels --surface 'x, y, z' -n 80 --stream '1, 0, 0' | value vel_0 >stands
+	within "$(cat moves)" "$(cat stands)" 1e-12
+}
+
 @test "panels: refusals in one sentence" {
 	probe '2 0' >a
 	while IFS=';' read -r code command text; do
@@ -90,6 +157,24 @@ report() { sls --report | sed -n 's/.*"'"$1"'":\([^,}]*\).*/\1/p'; }
 		2;panels --curve 'cos(2*pi*s), sin(2*pi*s)' --kind source --circulation 1;sources have no circulation (--kind vortex)
 		1;smod --faces periodic | panels --curve 'cos(2*pi*s), sin(2*pi*s)';periodic along x, but panels are in open space
 		1;panels --curve 'cos(2*pi*s), sin(2*pi*s)' --panels probe;the set 'probe' is there, of other panels or of particles
-		1;pinit plummer -n 9 | panels --curve 'cos(2*pi*s), sin(2*pi*s)';panels are walls in a plane flow (law vortex or passive)
+		1;pinit plummer -n 9 | panels --surface 'x, y, z';panels are walls in a flow (law vortex or passive), and this frame is of the law 'gravity'
+		2;panels --surface 'x, y, z';--surface is a wall in space, and this frame is in 2-D (--curve)
+	END
+	space '2 0 0' >a
+	printf '%s\n' '# ' 'x y z corners_0 corners_1 corners_2 corners_3 corners_4 corners_5 corners_6 corners_7 corners_8' '0 0 0 0 0 0 1 0 0 0 1 0' >one
+	while IFS=';' read -r code command text; do
+		run "-$code" --separate-stderr bash -c "$command" <a
+		[[ $stderr == *"$text"* ]] || { echo "$command: $stderr"; return 1; }
+		counted 1
+	done <<-'END'
+		2;panels;no --surface, and no set 'panels' with 'corners' (--surface
+		2;panels --curve 'cos(2*pi*s), sin(2*pi*s)';--curve is a wall in the plane, and this frame is in 3-D (--surface
+		2;panels --surface 'x, y, z' -n 100;100 triangles do not divide a sphere evenly: 20 m^2 do (-n 80 or 180)
+		2;panels --surface 'x, y, z' --kind vortex;walls in space are of sources
+		2;panels --surface 'x, y';--surface 'x, y' has 2 components, and space has 3
+		1;panels --surface 'x, y, 0';has no area (its three corners lie on a line)
+		1;panels --surface 'x, y, -z' -n 80;has the volume -
+		1;smod --faces periodic | panels --surface 'x, y, z';periodic along x, but panels are in open space
+		1;stack --merge <(tail -n +2 one | stab - --law passive --set panels --box=-4,4 --faces open) - | panels;which no other triangle has (a closed
 	END
 }
