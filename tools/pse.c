@@ -81,6 +81,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+/* Weights of the corrected form are solved for on rank 0. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !strcmp(((const struct config *)s->config)->method, "exchange"); }
+
 static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", "6", "8", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "exchange", .choices = methods, PM_AT(method),
@@ -132,4 +135,5 @@ const struct pm_tool tool_pse = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

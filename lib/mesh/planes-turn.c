@@ -1,5 +1,5 @@
-/* Planes to lines along the divided axis and back. Planes of a rank come from it in their order, rank after rank, so what arrives is in order already; on the
- * way back what leaves is. Cost: one exchange each way, of which the part 1 - 1/ranks travels; a second copy of what is here, and a third while it is exchanged.
+/* Planes to lines along the divided axis and back. Planes come from their rank in order, rank after rank, so what arrives is in order already; on the way
+ * back what leaves is. Cost: one exchange each way, of which the part 1 - 1/ranks travels; a second copy of what is here, and a third while it is exchanged.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,14 @@
-/* Particle strength exchange of a set: the width from the mean volume, the images from the faces, the change field.
+/* Particle strength exchange of a set: the width from the mean volume, the images from the faces, the change field; on many
+ * ranks all particles on each.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <string.h>
 
 #include "near/pse-frame.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
+#include "stream/over-stretches.h"
+#include "world/world.h"
 
 static void change_name(const struct pm_pse_set *s, char name[PM_NAME]) { snprintf(name, PM_NAME, "d%.62s", s->field); }
 
@@ -26,31 +30,71 @@ int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace)
 	return to ? 0 : -PM_DATA;
 }
 
-static int check_volumes(const struct pm_pse_set *s, size_t n, const double *volume, bool value)
+/* The particles of a set; with ranks that share the frame all of them on each rank. */
+struct whole {
+	size_t n;              /* of all */
+	const double *x[3], *volume;
+	const double *own;     /* volumes of the particles here */
+	double *room;          /* with ranks: the memory of the others */
+};
+
+/* The values of all ranks, in the order of the stream. */
+static int bring(int status, const struct pm_field *like, const double *here, double *all)
 {
-	for (size_t i = 0; i < n; i++)
-		if (!(volume[i] >= 0) || (value && volume[i] == 0))
-			return pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g, and %s", i, s->set, volume[i],
+	if (!status && like->count)
+		memcpy(all + like->first, here, like->count * sizeof *all);
+	for (int r = 0; r < pm_world_size(); r++)
+		status = pm_world_share(status, r, status ? NULL : all + like->from[r], (size_t)(like->from[r + 1] - like->from[r]) * sizeof *all);
+	return status;
+}
+
+/* Behind the checks. Takes a status and returns the agreed one. */
+static int bring_all(int status, const struct pm_frame *f, const struct pm_field *g, struct whole *w)
+{
+	status = pm_world_agree(status);
+	if (!g->here)
+		return status;
+	w->room = status ? NULL : pm_alloc((size_t)(f->dim + 1) * w->n + 1, sizeof *w->room);
+	status = status ? status : w->room ? 0 : pm_failed();
+	for (int d = 0; d <= f->dim; d++) {
+		double *all = w->room ? w->room + (size_t)d * w->n : NULL;
+		status = bring(status, g, d < f->dim ? w->x[d] : w->own, all);
+		*(d < f->dim ? &w->x[d] : &w->volume) = all;
+	}
+	return status;
+}
+
+static int check_volumes(const struct pm_pse_set *s, const struct pm_field *g, const double *volume, bool value)
+{
+	for (size_t i = 0; i < g->count; i++)
+		if (!(volume[i] >= 0) || (value && volume[i] == 0)) {
+			pm_world_place(2, 0, 0, g->first + i);
+			return pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g, and %s", (size_t)g->first + i, s->set, volume[i],
 				volume[i] < 0 ? "negative volumes amplify instead of damping" : "its value is strength over volume");
+		}
 	return 0;
 }
 
 /* A particle beyond a wall would be a neighbour of its own image. */
-static int check_faces(const struct pm_pse_set *s, const struct pm_domain *d, size_t n, const double *const x[])
+static int check_faces(const struct pm_pse_set *s, const struct pm_domain *d, const struct pm_field *g, const double *const x[])
 {
 	for (int a = 0; a < d->dim; a++)
 		for (int side = 0; side < 2; side++)
-			for (size_t i = 0; i < n && (d->face[a][side] == PM_WALL || d->face[a][side] == PM_NEUMANN); i++)
-				if (side ? x[a][i] > d->hi[a] : x[a][i] < d->lo[a])
+			for (size_t i = 0; i < g->count && (d->face[a][side] == PM_WALL || d->face[a][side] == PM_NEUMANN); i++)
+				if (side ? x[a][i] > d->hi[a] : x[a][i] < d->lo[a]) {
+					pm_world_place(3, 0, 2 * a + side, g->first + i);
 					return pm_fail(PM_DATA,
 						"particle %zu of '%s' is at %c = %g, behind a face that mirrors it (reflect particles there, or --wall none)",
-						i, s->set, "xyz"[a], x[a][i]);
+						(size_t)g->first + i, s->set, "xyz"[a], x[a][i]);
+				}
 	return 0;
 }
 
-static int width(struct pm_pse_set *s, int dim, size_t n, const double *volume, double *spacing)
+static int width(struct pm_pse_set *s, int dim, const struct pm_field *g, const struct whole *w, double *spacing)
 {
-	*spacing = pow(pm_sum_array(n, volume) / (double)n, 1.0 / dim);
+	struct pm_sum sum = {0};
+	pm_sum_of_stretches(g, w->own, NULL, &sum);
+	*spacing = pow(pm_sum_total(sum) / (double)w->n, 1.0 / dim);
 	if (isnan(s->eps))
 		s->eps = s->overlap * *spacing;
 	if (isnan(s->cutoff))
@@ -58,32 +102,44 @@ static int width(struct pm_pse_set *s, int dim, size_t n, const double *volume, 
 	return s->eps >= 1e-60 && s->eps <= 1e60 ? 0 : pm_fail(PM_DATA, "the volumes on '%s' make a width of %g (--eps LENGTH)", s->set, s->eps);
 }
 
+/* strength: of the particles here. */
+static int add(int status, const struct pm_pse *p, const struct pm_cell_list *l, double nu, const struct whole *w, const struct pm_field *g,
+	const double *strength, double *rate, struct pm_pse_found *found)
+{
+	if (!g->here)
+		return status ? status : pm_pse_add(p, l, nu, w->volume, strength, rate, found);
+	double *all = status ? NULL : pm_alloc(w->n + 1, sizeof *all);
+	status = bring(status ? status : all ? 0 : pm_failed(), g, strength, all);
+	status = pm_pse_add_here(status, p, l, nu, &(struct pm_pse_all){w->volume, all, g->from}, rate, found);
+	pm_free(all);
+	return status;
+}
+
 /* One component; a value is exchanged as value times volume. */
-static int component(struct pm_pse_set *s, const struct pm_pse *p, const struct pm_cell_list *l, const struct pm_field *g, int c, const double *volume,
+static int component(struct pm_pse_set *s, const struct pm_pse *p, const struct pm_cell_list *l, const struct pm_field *g, int c, const struct whole *w,
 	double *rate, struct pm_pse_found *found)
 {
 	const double *in = pm_in(g, c);
 	if (g->extensive)
-		return pm_pse_add(p, l, s->nu, volume, in, rate, found);
-	double *strength = pm_alloc(l->n, sizeof *strength), *sum = pm_zalloc(l->n, sizeof *sum);
-	int status = strength && sum ? 0 : -PM_DATA;
-	for (size_t i = 0; i < l->n && !status; i++)
-		strength[i] = volume[i] * in[i];
-	if (!status)
-		status = pm_pse_add(p, l, s->nu, volume, strength, sum, found);
-	for (size_t i = 0; i < l->n && !status; i++)
-		rate[i] += sum[i] / volume[i];
+		return add(0, p, l, s->nu, w, g, in, rate, found);
+	double *strength = pm_alloc(g->count + 1, sizeof *strength), *sum = pm_zalloc(g->count + 1, sizeof *sum);
+	int status = strength && sum ? 0 : pm_failed();
+	for (size_t i = 0; i < g->count && !status; i++)
+		strength[i] = w->own[i] * in[i];
+	status = add(status, p, l, s->nu, w, g, strength, sum, found);
+	for (size_t i = 0; i < g->count && !status; i++)
+		rate[i] += sum[i] / w->own[i];
 	pm_free(strength), pm_free(sum);
 	return status;
 }
 
-static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const double *volume, struct pm_field *change,
+static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const struct whole *w, struct pm_field *change,
 	struct pm_pse_found *found)
 {
 	struct pm_pse p = pm_pse_of(dim, s->order, s->eps, s->cutoff);
 	int status = 0;
 	for (int c = 0; c < g->components && !status; c++)
-		status = component(s, &p, l, g, c, volume, pm_out(change, c), found);
+		status = component(s, &p, l, g, c, w, pm_out(change, c), found);
 	return status;
 }
 
@@ -95,9 +151,10 @@ static int stuck(const struct pm_pse_set *s, const struct pm_dc_found *found, do
 }
 
 /* All components at once, because the weights are the same. A strength is its value times volume. */
-static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const double *volume, struct pm_field *change,
+static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const struct whole *w, struct pm_field *change,
 	struct pm_pse_found *found)
 {
+	const double *volume = w->volume;
 	const size_t n = l->n, fields = (size_t)g->components;
 	struct pm_dc o = {.dim = dim, .order = s->order, .eps = s->eps, .reach = l->reach / pm_dc_widest};
 	struct pm_dc_found dc;
@@ -122,35 +179,36 @@ static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, 
 int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *found)
 {
 	char name[PM_NAME];
-	const double *x[3], *volume = pm_in(pm_frame_field(f, s->set, "volume"), 0);
+	struct whole w = {.n = pm_frame_set(f, s->set)->n, .own = pm_in(pm_frame_field(f, s->set, "volume"), 0)};
 	const struct pm_field *g = pm_frame_field(f, s->set, s->field);
 	struct pm_domain domain = pm_domain_of(f);
 	struct pm_cell_list list = {.n = 0};
-	double spacing;
+	double spacing = 0;
 	*found = (struct pm_pse_found){0};
+	w.volume = w.own;
 	for (int d = 0; d < f->dim; d++) {
-		x[d] = pm_in(pm_frame_field(f, s->set, "x"), d);
+		w.x[d] = pm_in(pm_frame_field(f, s->set, "x"), d);
 		for (int side = 0; side < 2 && !s->images; side++)
 			if (domain.face[d][side] != PM_PERIODIC)
 				domain.face[d][side] = PM_OPEN;
 	}
-	if (!g->count)
+	if (!w.n)
 		return 0;
-	int status = check_volumes(s, g->count, volume, s->corrected || !g->extensive);
+	int status = pm_world_agree(check_volumes(s, g, w.own, s->corrected || !g->extensive));
+	status = pm_world_agree(status ? status : check_faces(s, &domain, g, w.x));
+	status = status ? status : width(s, f->dim, g, &w, &spacing); /* the same on all ranks */
+	status = bring_all(status, f, g, &w);
 	if (!status)
-		status = check_faces(s, &domain, g->count, x);
-	if (!status)
-		status = width(s, f->dim, g->count, volume, &spacing);
-	if (status)
-		return status;
-	status = pm_cell_list_init(&list, &domain, g->count, x, pm_pse_reach(s->eps, s->cutoff) * (s->corrected ? pm_dc_widest : 1),
-		(s->corrected ? 1 : 2) * spacing);
+		status = pm_cell_list_init(&list, &domain, w.n, w.x, pm_pse_reach(s->eps, s->cutoff) * (s->corrected ? pm_dc_widest : 1),
+			(s->corrected ? 1 : 2) * spacing);
+	status = pm_world_agree(status);
 	change_name(s, name);
 	struct pm_field *change = pm_frame_field(f, s->set, name);
 	if (!status)
-		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, volume, change, found);
+		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, &w, change, found);
 	if (!status)
 		pm_limits_add(change, (struct pm_limits){.decay = s->nu * found->fastest});
 	pm_cell_list_free(&list);
+	pm_free(w.room);
 	return status;
 }

@@ -5,11 +5,12 @@
  * to exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not distorted. Conserves the sum of G without walls. Above
  * order 2 some weights are negative (order 4: beyond z^2 = 8 + 2 dim): no maximum principle.
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
- * order. Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weakness: N^2 if all particles are within the cut-off
- * of each other.
+ * order, on many ranks too (near/pse-ranks.h). Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weakness: N^2 if
+ * all particles are within the cut-off of each other.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near/pse.h"
 #include "base/simd.h"
+#include "near/pse-ranks.h"
 
 struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 {
@@ -47,6 +48,7 @@ struct work {
 	double *volume, *strength;
 	double *exchange, *weight; /* sums over partners of (V_p G_q - V_q G_p) eta and of V_q eta, without the factor */
 	double reach2, exponent, coefficient[PM_PSE_TERMS], factor; /* eta/eps^2 = factor sum_i coefficient_i r^2i exp(exponent r^2) */
+	struct pm_pse_kept *kept;  /* with ranks: what pieces give, piece after piece; else NULL */
 };
 
 /* The contribution of a piece of the work to the sums, nonzero only at the places low..high-1; zero between pieces. */
@@ -213,34 +215,40 @@ static void piece(const struct work *w, const struct loops *loops, size_t from, 
 
 static void take(const struct work *w, struct sums *own)
 {
+	if (w->kept) {
+		pm_pse_keep(w->kept, own->low, own->high, own->exchange, own->weight);
+		return;
+	}
 	for (size_t i = own->low; i < own->high; i++) {
 		w->exchange[i] += own->exchange[i], own->exchange[i] = 0;
 		w->weight[i] += own->weight[i], own->weight[i] = 0;
 	}
 }
 
-/* Pieces end at multiples of their size, whatever the threads; their sums are added in order. */
-static int pieces(const struct work *w, const struct loops *loops)
+static size_t piece_size(size_t n) { return n < SMALL * PIECE ? PIECE / 4 : PIECE; }
+
+/* Pieces end at multiples of their size, whatever the threads; their sums are added in order. Those of the places begin..end-1. */
+static int pieces(const struct work *w, const struct loops *loops, size_t begin, size_t end)
 {
 	const struct pm_cell_list *l = w->list;
-	const size_t size = l->n < SMALL * PIECE ? PIECE / 4 : PIECE, m = (l->n + size - 1) / size;
+	const size_t size = piece_size(l->n);
 	int bad = 0;
-#pragma omp parallel if (m > 1) reduction(| : bad)
+#pragma omp parallel if (end - begin > size) reduction(| : bad)
 	{
 		struct pm_neighbour_range *s = pm_alloc(l->most, sizeof *s);
 		struct sums own = {.exchange = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double)), .weight = pm_zalloc(l->n + PM_CELLS_PAD, sizeof(double))};
 		bad = !s || !own.exchange || !own.weight;
 #pragma omp for ordered schedule(dynamic, 1)
-		for (size_t c = 0; c < m; c++) {
+		for (size_t c = begin / size; c < (end + size - 1) / size; c++) {
 			if (!bad)
-				piece(w, loops, c * size, (c + 1) * size < l->n ? (c + 1) * size : l->n, s, &own);
+				piece(w, loops, c * size, (c + 1) * size < end ? (c + 1) * size : end, s, &own);
 #pragma omp ordered
 			if (!bad)
 				take(w, &own);
 		}
 		pm_free(s), pm_free(own.exchange), pm_free(own.weight);
 	}
-	return bad ? pm_no_memory() : 0;
+	return bad || (w->kept && w->kept->bad) ? pm_no_memory() : 0;
 }
 
 static double *by_place(const struct pm_cell_list *l, const double *values)
@@ -251,32 +259,66 @@ static double *by_place(const struct pm_cell_list *l, const double *values)
 	return to;
 }
 
-/* Copies the sums to the particles; finds the largest weight, and the particles without a partner. */
-static void found_by(const struct work *w, double nu, double *rate, struct pm_pse_found *found)
+/* The largest weight of the places begin..end-1, and the particles without a partner. */
+static void found_at(const struct work *w, size_t begin, size_t end, struct pm_pse_found *found)
 {
-	double most = 0;
-	for (size_t i = 0; i < w->list->n; i++) {
-		rate[w->list->order[i]] += nu * w->factor * w->exchange[i];
-		most = fmax(most, w->coefficient[0] * w->volume[i] + w->weight[i]);
+	for (size_t i = begin; i < end; i++) {
+		found->fastest = fmax(found->fastest, w->coefficient[0] * w->volume[i] + w->weight[i]);
 		found->alone += w->weight[i] == 0;
 	}
-	found->fastest = w->factor * most;
 }
+
+static int work_init(struct work *w, const struct pm_pse *p, const struct pm_cell_list *l, const double *volume, const double *strength)
+{
+	const double eps2 = p->eps * p->eps;
+	*w = (struct work){.list = l, .volume = by_place(l, volume), .strength = by_place(l, strength), .reach2 = l->reach * l->reach,
+		.exponent = -0.25 / eps2, .factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
+	for (int i = 0; i < PM_PSE_TERMS; i++)
+		w->coefficient[i] = p->coefficient[i] / pow(eps2, i);
+	w->exchange = pm_zalloc(l->n + 1, sizeof *w->exchange), w->weight = pm_zalloc(l->n + 1, sizeof *w->weight);
+	return w->volume && w->strength && w->exchange && w->weight ? 0 : pm_failed();
+}
+
+static void work_free(struct work *w) { pm_free(w->volume), pm_free(w->strength), pm_free(w->exchange), pm_free(w->weight); }
+
+static const struct loops *loops_of(const struct pm_pse *p) { return &table[p->order / 2 - 1][p->dim - 1]; }
 
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found)
 {
-	double eps2 = p->eps * p->eps;
-	struct work w = {.list = l, .volume = by_place(l, volume), .strength = by_place(l, strength), .reach2 = l->reach * l->reach,
-		.exponent = -0.25 / eps2, .factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
-	for (int i = 0; i < PM_PSE_TERMS; i++)
-		w.coefficient[i] = p->coefficient[i] / pow(eps2, i);
-	w.exchange = pm_zalloc(l->n + 1, sizeof *w.exchange), w.weight = pm_zalloc(l->n + 1, sizeof *w.weight);
-	int status = w.volume && w.strength && w.exchange && w.weight ? pieces(&w, &table[p->order / 2 - 1][p->dim - 1]) : -PM_DATA;
+	struct work w;
+	int status = work_init(&w, p, l, volume, strength);
+	status = status ? status : pieces(&w, loops_of(p), 0, l->n);
+	*found = (struct pm_pse_found){0};
+	for (size_t i = 0; i < l->n && !status; i++)
+		rate[l->order[i]] += nu * w.factor * w.exchange[i];
+	if (!status)
+		found_at(&w, 0, l->n, found);
+	found->fastest *= w.factor * (1 + p->beyond);
+	work_free(&w);
+	return status;
+}
+
+int pm_pse_add_here(int status, const struct pm_pse *p, const struct pm_cell_list *l, double nu, const struct pm_pse_all *all, double *rate,
+	struct pm_pse_found *found)
+{
+	struct pm_pse_kept kept = {.n = 0};
+	struct work w = {.kept = NULL};
+	size_t begin, end;
+	pm_pse_places(l->n, piece_size(l->n), pm_world_rank(), &begin, &end);
+	status = status ? status : work_init(&w, p, l, all->volume, all->strength);
+	w.kept = &kept;
+	status = status ? status : pieces(&w, loops_of(p), begin, end);
+	status = pm_pse_bring(status, &kept, l->n, piece_size(l->n), w.exchange, w.weight);
 	*found = (struct pm_pse_found){0};
 	if (!status)
-		found_by(&w, nu, rate, found);
-	found->fastest *= 1 + p->beyond;
-	pm_free(w.volume), pm_free(w.strength), pm_free(w.exchange), pm_free(w.weight);
+		found_at(&w, begin, end, found);
+	status = pm_pse_found_all(status, found);
+	status = pm_pse_return(status, l, piece_size(l->n), all->from, w.exchange);
+	for (size_t i = 0; i < l->n && !status; i++)
+		if (l->order[i] >= all->from[pm_world_rank()] && l->order[i] < all->from[pm_world_rank() + 1])
+			rate[l->order[i] - all->from[pm_world_rank()]] += nu * w.factor * w.exchange[i];
+	found->fastest *= w.factor * (1 + p->beyond);
+	work_free(&w), pm_free(kept.of);
 	return status;
 }

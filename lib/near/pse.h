@@ -33,6 +33,15 @@ struct pm_pse_found {
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found);
 
+/* All particles of a set, on every rank: what pm_pse_add takes; and the first of every rank, one more than ranks. */
+struct pm_pse_all {
+	const double *volume, *strength;
+	const uint64_t *from;
+};
+/* The same, the work shared by the ranks; rate is that of the particles here. Takes the caller's status and returns the agreed one. */
+int pm_pse_add_here(int status, const struct pm_pse *p, const struct pm_cell_list *l, double nu, const struct pm_pse_all *all, double *rate,
+	struct pm_pse_found *found);
+
 /* The same by the plain double loop with the library's exp: the reference in tests. */
 int pm_pse_plain(const struct pm_pse *p, const struct pm_domain *domain, double nu, size_t n, const double *const x[], const double *volume,
 	const double *strength, double *rate);

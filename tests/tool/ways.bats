@@ -280,3 +280,11 @@ shared() {
 		shared "p2m | poisson-fft | mgrad --order spectral | stretch --order spectral | diffuse --order spectral | m2p | push rk2 | remesh"
 	pinit taylor-green-3d --cells 9x8x7 | shared "p2m | poisson-fft | mgrad | stretch --form mixed --order spectral | m2p | push rk2"
 }
+
+@test "equal bytes with ranks: vortices and a value that are exchanged between particles (pse)" {
+	vortices --no-history | shared "p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6"
+	pinit shear-layer --cells 96 | shared "p2m | poisson-fft | mgrad | m2p | pse | push rk2" # 9 pieces, periodic
+	pinit taylor-green-3d --cells 17 | shared "p2m | poisson-fft | mgrad | m2p | pse | push euler"
+	awk 'BEGIN { print "x y f volume"; for (i = 0; i < 4900; i++) print (i % 70 + 0.5)/70, (int(i/70) + 0.5)/70, (i < 2000), 1/4900 }' |
+		stab - --box 0,0,1,1 --faces wall,neumann --particle-faces reflect --dt 1e-5 | shared "field 'vel = 0, 0' | pse --field f --nu 0.1 | push rk2"
+}
