@@ -36,6 +36,7 @@ struct whole {
 	const double *x[3], *volume;
 	const double *own;     /* volumes of the particles here */
 	double *room;          /* with ranks: the memory of the others */
+	const struct pm_field *g; /* what is exchanged, of the particles here */
 };
 
 /* The values of all ranks, in the order of the stream. */
@@ -103,9 +104,10 @@ static int width(struct pm_pse_set *s, int dim, const struct pm_field *g, const 
 }
 
 /* strength: of the particles here. */
-static int add(int status, const struct pm_pse *p, const struct pm_cell_list *l, double nu, const struct whole *w, const struct pm_field *g,
-	const double *strength, double *rate, struct pm_pse_found *found)
+static int add(int status, const struct pm_pse *p, const struct pm_cell_list *l, double nu, const struct whole *w, const double *strength,
+	double *rate, struct pm_pse_found *found)
 {
+	const struct pm_field *g = w->g;
 	if (!g->here)
 		return status ? status : pm_pse_add(p, l, nu, w->volume, strength, rate, found);
 	double *all = status ? NULL : pm_alloc(w->n + 1, sizeof *all);
@@ -121,12 +123,12 @@ static int component(struct pm_pse_set *s, const struct pm_pse *p, const struct 
 {
 	const double *in = pm_in(g, c);
 	if (g->extensive)
-		return add(0, p, l, s->nu, w, g, in, rate, found);
+		return add(0, p, l, s->nu, w, in, rate, found);
 	double *strength = pm_alloc(g->count + 1, sizeof *strength), *sum = pm_zalloc(g->count + 1, sizeof *sum);
 	int status = strength && sum ? 0 : pm_failed();
 	for (size_t i = 0; i < g->count && !status; i++)
 		strength[i] = w->own[i] * in[i];
-	status = add(status, p, l, s->nu, w, g, strength, sum, found);
+	status = add(status, p, l, s->nu, w, strength, sum, found);
 	for (size_t i = 0; i < g->count && !status; i++)
 		rate[i] += sum[i] / w->own[i];
 	pm_free(strength), pm_free(sum);
@@ -185,7 +187,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	struct pm_cell_list list = {.n = 0};
 	double spacing = 0;
 	*found = (struct pm_pse_found){0};
-	w.volume = w.own;
+	w.volume = w.own, w.g = g;
 	for (int d = 0; d < f->dim; d++) {
 		w.x[d] = pm_in(pm_frame_field(f, s->set, "x"), d);
 		for (int side = 0; side < 2 && !s->images; side++)
