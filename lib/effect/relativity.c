@@ -29,6 +29,8 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 /* The kick of gamma v, which turns it about a magnetic field, too; a whole scheme has none. */
 static void ask(const struct pm_effect_case *c, struct pm_method *m)
 {
+	if (pm_effect_in(c, "radiation-reaction")) /* whose kick is relativistic */
+		return;
 	if (c->law->relativistic) { /* its boris turns gamma v; in crossed fields higuera-cary drifts at E x B/B^2, whatever the speed */
 		m->kick = c->scales->v_max > 0.9 * c->scales->c ? "higuera-cary/2" : m->kick;
 		return;
@@ -45,7 +47,10 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 		pm_words_amend(w, PM_SLOT_OPENING, "push", "", "; relativity: on, %s", c->decision->text);
 }
 
-static bool reversible(const struct pm_effect_case *c) { return c->scales->second && !isnan(c->scales->c) && !c->law->relativistic; }
+static bool reversible(const struct pm_effect_case *c)
+{
+	return c->scales->second && !isnan(c->scales->c) && !c->law->relativistic && !pm_effect_in(c, "radiation-reaction");
+}
 
 const struct pm_effect effect_relativity = {
 	.name = "relativity",

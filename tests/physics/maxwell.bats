@@ -74,7 +74,8 @@ growth() {
 
 @test "whistler: the frequency of cold and of warm electrons along a magnetic field, and the damping near the gyration frequency" {
 	rate() {
-		pinit whistler --cells 32 "$@" | cycle -q -n "$n" --every 4 "$step" | diag --columns time --growth mode:1 ${window:+--window $window} --exact | tail -1
+		pinit whistler --cells 32 "$@" | cycle -q -n "$n" --every 4 "$step" |
+			diag --columns time --growth mode:1 ${window:+--window $window} --exact | tail -1
 	}
 	local window=
 	n=600 # measured 9e-4 above: k h = 0.2, (k h)^2/24 = 1.6e-3 of light

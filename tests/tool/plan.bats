@@ -185,6 +185,24 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	! decide shear-layer --cells 320 | grep -q '^# .* error ' || false
 }
 
+@test "radiation reaction: by the part of the energy lost, which is that of the run; nothing without radiation_time" {
+	pinit gyration --speed 0.9 | smod --constant c=1,radiation_time=1e-3 >start
+	plan --no-cost -t 10 <start | says 'radiation reaction' >said
+	[[ "$(cat said)" = "on     the fastest particle loses 0.032 of its kinetic energy" ]]
+	[ "$(plan --sentence -t 10 <start | grep -o landau-lifshitz/2 | wc -l)" = 2 ]
+	cycle -q -t 10 --plan <start | stab --format tsv >end
+	gamma=$(calc "1/sqrt(1 - ($(column vx <end))^2 - ($(column vy <end))^2)")
+	within "$gamma" 2.2526 0.0008 # coth(0.01 + arcoth gamma_0); of the step, 1.2e-3 of v^2 at most
+	within "$(calc "(2.2942 - $gamma)/1.2942")" 0.032 0.001
+	plan --check -t 10 <start >check
+	! grep -q wrong check
+	[[ "$(plan --no-cost -t 1 <start | says 'radiation reaction')" = off*"loses 0.0033 of its kinetic energy"* ]]
+	[ "$(plan --sentence -t 1 <start | grep -o relativistic/2 | wc -l)" = 2 ]
+	[[ "$(pinit gyration --speed 0.9 | smod --constant c=1 | plan --no-cost | says 'radiation reaction')" = off*"no radiation_time"* ]]
+	cycle -t 10 'push boris/2 drift | m2p | push boris/2' <start 2>said >/dev/null # cycle says once what the sentence leaves out
+	grep -q 'radiation_time = 0.001' said
+}
+
 @test "relativity and currents: by v/c; currents needed are named, and the result lacks them" {
 	pinit two-stream -n 100 --v0 0.4 | smod --constant c=1 | plan --no-cost >fast
 	[ "$(says relativity <fast)" = 'on     max v/c = 0.4' ]
