@@ -1,9 +1,11 @@
 /* The current where particles are divided among the ranks in the order of the stream, and the mesh in planes. Alone, the ways have the order: the first piece
  * of every particle, then all further ones. If there are any of these, the ways are cut anew in that order; then they travel to the jobs of their tiles,
- * and rows of their blocks to the planes, as those of a density (transfer-ranks.c), a component at a time, for which the blocks of a job are made
- * three times.
+ * and rows of their blocks to the planes, as those of a density (transfer-ranks.c), a component at a time. The three blocks of a job are made together,
+ * with the first, and of the others the rows that are not zero wait: about twice the mesh of a component, of what a rank has. Where there is no memory for
+ * them, they are made again.
  * Travels: dim + 4 numbers a way to its job, as many of one that changes its rank before; the rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -81,13 +83,88 @@ static int order_here(int status, const struct pm_current *c, const struct pm_wa
 	return status;
 }
 
-/* One of the three blocks of a job. The others are made again for theirs: blocks of a rank wait for no message. */
+/* The rows of a block that are not zero. */
+struct waiting {
+	size_t n;
+	struct waiting_row {
+		size_t at;
+		double value[];
+	} *row; /* NULL: made anew */
+};
+
+struct filling {
+	struct pm_current_fill fill;
+	int dim;
+	double *three;           /* [threads][3][PM_BLOCK_MOST], zero between jobs */
+	struct waiting *waiting; /* [jobs][2]; NULL: no memory */
+	size_t jobs;
+};
+
+static size_t row_bytes(int dim) { return sizeof(struct waiting_row) + (size_t)pm_block_row[dim] * sizeof(double); }
+
+static struct waiting_row *row_at(const struct waiting *w, int dim, size_t i) { return (struct waiting_row *)(void *)((char *)w->row + i * row_bytes(dim)); }
+
+static bool is_zero(const double *row, size_t n)
+{
+	bool zero = true;
+	for (size_t i = 0; i < n; i++)
+		zero &= row[i] == 0;
+	return zero;
+}
+
+/* Rows of a block to where they wait. */
+static void keep(const double *block, int dim, struct waiting *w)
+{
+	const size_t row = (size_t)pm_block_row[dim], rows = PM_BLOCK_MOST / row;
+	size_t n = 0;
+	for (size_t r = 0; r < rows; r++)
+		n += !is_zero(block + r * row, row);
+	if (!(w->row = malloc((n + 1) * row_bytes(dim))))
+		return;
+	for (size_t r = 0; r < rows; r++)
+		if (!is_zero(block + r * row, row)) {
+			struct waiting_row *to = row_at(w, dim, w->n++);
+			to->at = r * row;
+			memcpy(to->value, block + r * row, row * sizeof *block);
+		}
+}
+
+static int begin(const void *data, size_t jobs, int threads)
+{
+	struct filling *f = (struct filling *)(uintptr_t)data;
+	f->three = pm_zalloc((size_t)threads * 3 * PM_BLOCK_MOST, sizeof *f->three);
+	f->waiting = calloc(2 * jobs + 1, sizeof *f->waiting);
+	f->jobs = jobs;
+	return f->three ? 0 : pm_failed();
+}
+
+static void filling_free(struct filling *f)
+{
+	for (size_t i = 0; f->waiting && i < 2 * f->jobs; i++)
+		free(f->waiting[i].row);
+	free(f->waiting), pm_free(f->three);
+}
+
+/* One of the three blocks of a job: blocks of a rank wait for no message. */
 static void fill_one(const void *data, const struct pm_tile_pass *p, const struct pm_tile_job *j, int component, double *block)
 {
-	double three[3 * PM_BLOCK_MOST];
-	memset(three, 0, sizeof three);
-	pm_current_fill(data, p, j, three);
+	const struct filling *f = data;
+	const size_t row = (size_t)pm_block_row[f->dim];
+	struct waiting *two = f->waiting ? f->waiting + 2 * (size_t)(j - p->job) : NULL;
+	if (component && two && two[component - 1].row) {
+		struct waiting *w = &two[component - 1];
+		for (size_t i = 0; i < w->n; i++)
+			memcpy(block + row_at(w, f->dim, i)->at, row_at(w, f->dim, i)->value, row * sizeof *block);
+		free(w->row);
+		w->row = NULL;
+		return;
+	}
+	double *three = f->three + (size_t)omp_get_thread_num() * 3 * PM_BLOCK_MOST;
+	pm_current_fill(&f->fill, p, j, three);
+	for (int k = 1; k < 3 && !component && two; k++)
+		keep(three + k * PM_BLOCK_MOST, f->dim, &two[k - 1]);
 	memcpy(block, three + component * PM_BLOCK_MOST, PM_BLOCK_MOST * sizeof *block);
+	memset(three, 0, 3 * PM_BLOCK_MOST * sizeof *three);
 }
 
 int pm_current_ranks(int status, const struct pm_current *c, struct pm_ways *ways, size_t firsts, double *const mesh[3], size_t *stray)
@@ -101,10 +178,11 @@ int pm_current_ranks(int status, const struct pm_current *c, struct pm_ways *way
 	status = deal(status ? status : local ? 0 : pm_no_memory(), ways, c->grid.dim, firsts, &first);
 	status = order_here(status, c, ways, first, local, halves, stray);
 	if (!status) {
-		const struct pm_current_fill fill = {c, local->axes[0].shift};
+		struct filling fill = {.fill = {c, local->axes[0].shift}, .dim = c->grid.dim};
 		for (int k = 0; k < 3; k++)
 			to[k] = pm_current_target(c, local->axes, halves, k, flip[k]);
-		status = pm_spread_jobs_ranks(status, &t, local, &(struct pm_job_blocks){3, to, fill_one, &fill}, mesh);
+		status = pm_spread_jobs_ranks(status, &t, local, &(struct pm_job_blocks){3, to, fill_one, begin, &fill}, mesh);
+		filling_free(&fill);
 	} else
 		pm_order_cache_free(local);
 	pm_axes_free(halves);

@@ -50,6 +50,7 @@ struct pm_job_blocks {
 	int n;
 	const struct pm_tile_target *to; /* [n] */
 	void (*fill)(const void *data, const struct pm_tile_pass *p, const struct pm_tile_job *j, int component, double *block);
+	int (*begin)(const void *data, size_t jobs, int threads); /* before any; 0 or failure */
 	const void *data;
 };
 /* The same of records of another kind, whose order here is `local` (NULL with a status; it is freed): in t grid, kernel and planes count. Takes the caller's

@@ -298,7 +298,7 @@ int pm_spread_jobs_ranks(int status, const struct pm_transfer *t, struct pm_orde
 	status = pm_shared_jobs_of_order(status, &a.jobs, 0);
 	if (!status && !(a.jobs.w.blocks = pm_zalloc(pm_tile_under_way(threads_of(&a.jobs)) * PM_BLOCK_MOST, sizeof(double))))
 		status = pm_failed();
-	status = pm_world_agree(status);
+	status = pm_world_agree(status ? status : b->begin(b->data, a.jobs.w.p.jobs, threads_of(&a.jobs)));
 	for (int c = 0; c < b->n && !status; c++) {
 		pm_free(a.edge_of), pm_free(a.at), pm_free(a.size);
 		a.edge_of = NULL, a.at = NULL, a.size = NULL;

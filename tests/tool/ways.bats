@@ -288,3 +288,12 @@ shared() {
 	awk 'BEGIN { print "x y f volume"; for (i = 0; i < 4900; i++) print (i % 70 + 0.5)/70, (int(i/70) + 0.5)/70, (i < 2000), 1/4900 }' |
 		stab - --box 0,0,1,1 --faces wall,neumann --particle-faces reflect --dt 1e-5 | shared "field 'vel = 0, 0' | pse --field f --nu 0.1 | push rk2"
 }
+
+@test "equal bytes with ranks: a step with light (p2m --current), faces that absorb until a rank has no particles left" {
+	awk 'BEGIN { print "x y z vx vy vz mass charge"; for (i = 0; i < 9000; i++)
+		print i*0.618%1, 1.1*(i*0.324%1), i*0.7548%1, 0.2*(i%5) - 0.4, 0.2*(i%7) - 0.5, 0.1*(i%3), 1, (i%2)*2 - 1 }' >rows
+	stab rows --law electromagnetic --dt 0.01 --box 0,0,0,1,1.1,1 --faces neumann,wall,periodic --particle-faces reflect,absorb,periodic -n 7x12x9 |
+		p2m | maxwell --gauss | sel --drop rho | shared "push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2"
+	pinit uniform -n 13000 --dispersion 1 --dt 0.2 | smod --faces open --particle-faces absorb | shared "push drift"
+	pinit uniform -n 9000 --dispersion 0.1 --dt 20 | smod --faces open --particle-faces absorb | shared "push drift" # 97 are left, on one rank
+}
