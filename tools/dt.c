@@ -72,8 +72,7 @@ static const struct pm_option options[] = {
 		.text = "dt = C/omega_p, of the mean densities in the box; leapfrog is stable below 2, 0.2 is usual"},
 	{.name = "oscillation", .kind = PM_REAL, .low = 1e-9, .high = 1e9, PM_AT(rules.oscillation),
 		.text = "dt = C/omega, omega the fastest oscillation that the words which made acc have stated, of pp the orbit of the largest acceleration"},
-	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(rules.softening),
-		.text = "the softening in that rule (default: the frame's constant softening)"},
+	{.name = "softening", .kind = PM_REAL, .unit = "length", .high = 1e300, PM_AT(rules.softening), .text = "of that rule (default: the frame's)"},
 	{.name = "max", .kind = PM_REAL, .unit = "time", .low = 1e-300, .high = 1e300, PM_AT(most), .text = "upper limit of the step"},
 	{.name = "min", .kind = PM_REAL, .unit = "time", .fallback = "0", .high = 1e300, PM_AT(least),
 		.text = "lower limit of the step; frames whose rules need a shorter one are counted as below_min"},
@@ -95,10 +94,8 @@ const struct pm_tool tool_dt = {
 	.name = "dt",
 	.summary = "write the time step that the state allows",
 	.about = "The smallest step over the rules and over the particles of every set that moves: C h/|v_d| (--courant), sqrt(ETA softening/|acc|) "
-		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma), C/omega of what "
-		"oscillates fastest (--oscillation). Written at substep 0; inside a step the frame is "
-		"passed on "
-		"unchanged. With a variable step leapfrog is not reversible, and its energy error is not bounded.",
+		"(--acceleration), C/|grad u| (--lcfl, with a flow on the mesh), C/omega_p (--plasma), C/omega of what oscillates fastest (--oscillation). "
+		"Inside a step the frame is passed on unchanged. With a variable step leapfrog is not reversible, and its energy error is not bounded.",
 	.kind = PM_FILTER,
 	.reads = "v or vel, acc; the flow u of the mesh; charge and mass",
 	.changes = "the attribute dt",

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "stage/h5-pipe.h"
+#include "stream/declare.h"
 
 struct pm_h5_pipe {
 	pid_t pid;
@@ -163,4 +164,16 @@ int pm_h5_pipe_close(struct pm_h5_pipe *r)
 	close(r->said);
 	free(r);
 	return status ? -(code ? code : PM_DATA) : 0;
+}
+
+int pm_h5_pipe_first(const char *path, struct pm_frame **f)
+{
+	struct pm_reader *r = pm_h5_pipe_open(path);
+	const int got = r ? pm_read_frame(r, f) : -PM_DATA;
+	int status = got < 0 ? got : got == PM_GOT_FRAME ? 0 : pm_fail(PM_DATA, "%s holds no frame", path);
+	for (size_t i = 0; !status && i < (*f)->nfields; i++)
+		status = pm_field_ready((*f)->fields[i]);
+	if (r)
+		pm_reader_close(r);
+	return status;
 }

@@ -13,6 +13,7 @@ enum pm_file_kind { PM_FILE_OTHER, PM_FILE_STREAM, PM_FILE_HDF5 };
 enum pm_file_kind pm_file_kind(const char *path);
 int pm_h5_pipe_fd(const char *path); /* the file as a stream, to read; a failure to read it arrives there as an abort */
 struct pm_reader *pm_h5_pipe_open(const char *path); /* a stream in a file of either kind, or standard input for NULL and "-" */
+int pm_h5_pipe_first(const char *path, struct pm_frame **f); /* its first frame, whole; 0 or failure */
 struct pm_writer *pm_h5_pipe_write(const char *path, struct pm_h5_pipe **rest);
 /* After a failure of the stage: if sh5 failed first, its reason becomes the message; else returns status unchanged. */
 int pm_h5_pipe_reason(struct pm_h5_pipe *rest, int status);

@@ -159,3 +159,54 @@ charges() { printf "x y z vx vy vz charge mass\n$1" | stab - --law electrostatic
 	order 2 4 "${light[250]}" 2 "${light[500]}" 1 "${light[1000]}"
 	order 2 4 "${canonical[250]}" 2 "${canonical[500]}" 1 "${canonical[1000]}"
 }
+
+@test "bfield: a charge in a mirror oscillates at sqrt(2 mu) and keeps its magnetic moment" {
+	# B = 1 + z^2 on the axis, mu = vy^2/(2 B) = 2e-4: z'' = -2 mu z; over two periods. The orbit is 0.02 wide: corrections of 0.02^2
+	charges '0 0 0 0 0.02 0.01 1 1\n' 0.1 | cycle -q -n 6280 --every 10 "push boris/2 drift | field 'acc = 0, 0, 0' 'bfield = -x*z, -y*z, 1 + z^2' |
+		push boris/2" | scalc 'bx = -x*z' 'by = -y*z' 'bz = 1 + z^2' 'along = (vx*bx + vy*by + vz*bz)/hypot(bx, by, bz)' \
+		'mu = (vx^2 + vy^2 + vz^2 - along^2)/2/hypot(bx, by, bz)' |
+		sel --field mu,x --no-history | stab --plain | awk '/mu/ { for (k = 1; k <= NF; k++) c[$k] = k; next } NF { print $c["z"] "\t" $c["mu"] }' >t
+	awk -F'\t' '{ d = $1 - 0.5*sin(0.02*(NR - 1)); d = d < 0 ? -d : d; if (d > z) z = d; m = $2/2e-4 - 1; m = m < 0 ? -m : m; if (m > mu) mu = m }
+		END { print z, mu, NR }' t >most
+	read -r z mu n <most
+	[ "$n" = 629 ]
+	below "$z" 0.002 # of 0.5; measured 8e-4
+	below "$mu" 0.001 # measured 4e-4 = 0.02^2
+}
+
+# given FIELDS: a frame with these on a mesh of 32^3 cells (or as `cells` says) in the box -2..2, its faces open.
+given() { printf 'x y z\n0 0 0\n' | stab - --law electrostatic --box=-2,2 --faces open -n "${cells:-32}" | scalc --mesh mesh --role state "$@"; }
+
+@test "field --file: a field that is linear in space is that of its expression, a mirror to the second order of the cell" {
+	given 'B = 0.25*y, 0.25*x, 0' 'E = 0.1*z, 0.2, -0.1*x' >g
+	charges '0.1 0 0 0 0.1 0.2 1 1\n0 0.01 0.3 0.1 0 0.2 -2 1\n' 0.05 >a
+	cycle -q -n 50 "push boris/2 drift | field --file g | push boris/2" <a >b
+	cycle -q -n 50 "push boris/2 drift | field 'acc = charge/mass*0.1*z, charge/mass*0.2, -charge/mass*0.1*x' 'bfield = 0.25*y, 0.25*x, 0' |
+		push boris/2" <a >c
+	scmp --field x --tolerance 1e-13 b c
+	scmp --field v --tolerance 1e-12 b c
+	for n in 8 16 32; do # cic: h^2/8 of the second derivative, 2
+		cells=$n given 'B = -x*z, -y*z, 1 + z^2' >g
+		charges '0.013 0.031 0.29 0 0.02 0.01 1 1\n' 0.1 | field --file g | stab --format tsv | column bfield_2 >"b$n"
+	done
+	order 2 4 "$(calc "$(cat b8) - 1.0841")" 2 "$(calc "$(cat b16) - 1.0841")" 1 "$(calc "$(cat b32) - 1.0841")"
+}
+
+@test "field --file: refusals, a line each" {
+	given 'B = 0, 0, 1' >g
+	given 'w = 0, 0, 1' >w
+	charges '0.1 0 0 0 0.1 0.2 1 1\n' 0.05 >a
+	refused() { run -"$1" --separate-stderr bash -o pipefail -c "$2 <a | sls"; [[ $stderr == *"$3"* ]] || { echo "$2: $stderr"; return 1; }; }
+	refused 2 "field" "field needs rates of change, or --file"
+	refused 2 "field --file g 'acc = 0, 0, 0'" "of both a word each"
+	refused 2 "field --kernel tsc 'acc = 0, 0, 0'" "--kernel belongs to --file"
+	refused 2 "field --file -" "--file reads a file of its own"
+	refused 1 "field --file nothing" "nothing"
+	refused 1 "field --file w" "w: no mesh has the law's field 'E', nor a magnetic one"
+	smove --shift 2,0,0 <a >far
+	field --file g <a >once
+	refused 1 "field --file g -i far" "the mesh of --file must contain all particles"
+	refused 1 "field --file g -i once" "already holds the term 'external'"
+	pinit exb >two
+	refused 1 "field --file two" "two has 2 dimensions, and this frame 3"
+}
