@@ -26,7 +26,7 @@ int pm_panels_vector(struct pm_expression *e, struct pm_frame *f, const char *on
 		option, text, e->nparts, f->dim == 2 ? "the plane" : "space", f->dim);
 }
 
-static int declare_panels(const struct pm_panels_choice *c, struct pm_frame *f)
+static int declare_set(const struct pm_panels_choice *c, struct pm_frame *f)
 {
 	static const struct {
 		const char *name;
@@ -57,6 +57,20 @@ static int declare_panels(const struct pm_panels_choice *c, struct pm_frame *f)
 	return 0;
 }
 
+int pm_panels_declare_wall(const struct pm_panels_choice *c, struct pm_frame *f, struct pm_panels_job *job)
+{
+	for (int a = 0; a < 4; a++)
+		if (f->face[a / 2][a % 2] != PM_OPEN)
+			return pm_fail(PM_DATA, "the box is %s along %c, but panels are in open space (smod --faces open)",
+				pm_face_names[f->face[a / 2][a % 2]], "xy"[a / 2]);
+	int status = declare_set(c, f);
+	if (!status)
+		status = pm_panels_vector(&job->curve, f, c->name, c->curve, "curve");
+	if (!status)
+		status = pm_panels_vector(&job->velocity, f, c->name, c->velocity, "velocity");
+	return status ? status : pm_panels_vector(&job->stream, f, c->name, c->stream, "stream");
+}
+
 int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, struct pm_panels_job *job)
 {
 	const struct pm_law *law = pm_law_of(f);
@@ -66,11 +80,7 @@ int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 	if (f->dim != 2 || !law->change || strcmp(law->change, "vel"))
 		return pm_fail(PM_DATA, "panels are walls in a plane flow (law vortex or passive), and this frame is of the law '%s' in %d-D", law->name,
 			f->dim);
-	for (int a = 0; a < 4; a++)
-		if (f->face[a / 2][a % 2] != PM_OPEN)
-			return pm_fail(PM_DATA, "the box is %s along %c, but panels are in open space (smod --faces open)",
-				pm_face_names[f->face[a / 2][a % 2]], "xy"[a / 2]);
-	int status = declare_panels(c, f);
+	int status = pm_panels_declare_wall(c, f, job);
 	if (status)
 		return status;
 	for (size_t i = 0; i < f->nsets; i++) {
@@ -89,10 +99,7 @@ int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 	}
 	if (!found)
 		return pm_fail(PM_DATA, "no particles%s%s that a flow could move (sls lists the sets)", c->set ? " in the set " : "", c->set ? c->set : "");
-	status = pm_panels_vector(&job->curve, f, c->name, c->curve, "curve");
-	if (!status)
-		status = pm_panels_vector(&job->velocity, f, c->name, c->velocity, "velocity");
-	return status ? status : pm_panels_vector(&job->stream, f, c->name, c->stream, "stream");
+	return 0;
 }
 
 static int corners(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels *p)
@@ -115,6 +122,15 @@ static int corners(const struct pm_panels_choice *c, struct pm_frame *f, const s
 	if (!(gap <= 1e-9 * hypot(p->corner[2][n / 2] - p->corner[0][0], p->corner[3][n / 2] - p->corner[1][0])))
 		return pm_fail(PM_DATA, "--curve '%s' is not closed: s = 1 is %g away from s = 0 (2*pi*s in place of s?)", c->curve, gap);
 	return 0;
+}
+
+int pm_panels_wall(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels *p)
+{
+	p->length = pm_out(pm_frame_field(f, c->name, "length"), 0);
+	for (int d = 0; d < 2; d++)
+		p->x[d] = pm_out(pm_frame_field(f, c->name, "x"), d), p->normal[d] = pm_out(pm_frame_field(f, c->name, "normal"), d);
+	const int status = corners(c, f, job, p);
+	return status ? status : pm_panels_measure(p);
 }
 
 /* The core of the vortices, squared. */
@@ -148,7 +164,7 @@ static void add_vortices(const struct pm_panels_choice *c, const struct pm_frame
 	}
 }
 
-static void add_given(const struct pm_expression *e, const struct pm_frame *f, size_t n, double sign, double *work, double *const u[2])
+void pm_panels_add_given(const struct pm_expression *e, const struct pm_frame *f, size_t n, double sign, double *work, double *const u[2])
 {
 	for (int d = 0; d < 2; d++) {
 		pm_expression_eval(e, f, d, n, work);
@@ -188,20 +204,15 @@ int pm_panels_apply(const struct pm_panels_choice *c, struct pm_frame *f, const 
 		pm_free(work), pm_free(p.curve);
 		return -PM_DATA;
 	}
-	p.length = pm_out(pm_frame_field(f, c->name, "length"), 0);
-	for (int d = 0; d < 2; d++)
-		p.x[d] = pm_out(pm_frame_field(f, c->name, "x"), d), p.normal[d] = pm_out(pm_frame_field(f, c->name, "normal"), d);
-	int status = corners(c, f, job, &p);
-	if (!status)
-		status = pm_panels_measure(&p);
+	int status = pm_panels_wall(c, f, job, &p);
 	if (!status && c->velocity)
-		add_given(&job->velocity, f, n, -1, work + 5 * n, wall);
+		pm_panels_add_given(&job->velocity, f, n, -1, work + 5 * n, wall);
 	if (!status)
 		status = totals(c, &p, wall, work + 4 * n);
 	if (!status) {
 		memcpy(u[0], wall[0], 2 * n * sizeof *work);
 		if (c->stream)
-			add_given(&job->stream, f, n, 1, work + 5 * n, u);
+			pm_panels_add_given(&job->stream, f, n, 1, work + 5 * n, u);
 		add_vortices(c, f, &p, u);
 		status = pm_panels_solve(&p, &flow, solver, strength, done);
 	}

@@ -34,4 +34,10 @@ int pm_panels_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 int pm_panels_apply(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels_solver *solver,
 	struct pm_panels_solved *done);
 
+/* For words that have such a wall: the set with its expressions, and the geometry now; p->n and p->curve are given. */
+int pm_panels_declare_wall(const struct pm_panels_choice *c, struct pm_frame *f, struct pm_panels_job *job);
+int pm_panels_wall(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels *p);
+/* u += sign times the expression at the n panels. work: n. */
+void pm_panels_add_given(const struct pm_expression *e, const struct pm_frame *f, size_t n, double sign, double *work, double *const u[2]);
+
 #endif

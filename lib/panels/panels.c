@@ -81,6 +81,19 @@ static void mean(const struct pm_panels *p, size_t i, size_t j, int side, double
 	*along = creal(sum), *out = cimag(sum);
 }
 
+void pm_panels_along(const struct pm_panels *p, const double *strength, double *along)
+{
+#pragma omp parallel for schedule(static) if (p->n > 64)
+	for (size_t i = 0; i < p->n; i++) {
+		double sum = 0, one, out;
+		for (size_t j = 0; j < p->n; j++) {
+			mean(p, i, j, -1, &one, &out);
+			sum += strength[j] * one;
+		}
+		along[i] += sum;
+	}
+}
+
 void pm_panels_solver_free(struct pm_panels_solver *s)
 {
 	pm_free(s->key), pm_free(s->through);

@@ -41,6 +41,9 @@ struct pm_panels_solved {
 int pm_panels_solve(const struct pm_panels *p, const struct pm_panels_flow *flow, struct pm_panels_solver *s, double *strength,
 	struct pm_panels_solved *done);
 
+/* along[n] += the mean velocity along the inside of each panel, of all panels with these strengths. Cost: n^2. */
+void pm_panels_along(const struct pm_panels *p, const double *strength, double *along);
+
 /* Adds the panels' velocity at other points: x[2][n], u[2][n]. The same bytes for any number of threads. Cost: points times panels. */
 void pm_panels_at(const struct pm_panels *p, const double *strength, size_t n, const double *const x[2], double *const u[2]);
 
