@@ -1,5 +1,4 @@
 /* noslip: walls without slip in a viscous plane flow (lib/panels/). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "law/law.h"
 #include "panels/noslip-frame.h"
 #include "stage/viscosity-options.h"
 
@@ -27,7 +26,9 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (f->substep)
 		return PM_PASS;
 	t->job.nu = pm_viscosity(f, o->nu);
-	int status = pm_law_of(f) ? pm_viscosity_check(s, t->job.nu) : -PM_DATA;
+	int status = pm_noslip_law(f);
+	if (!status)
+		status = pm_viscosity_check(s, t->job.nu);
 	return status ? status : pm_noslip_declare(&o->choice, f, &t->job);
 }
 
@@ -73,8 +74,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_noslip = {
 	.name = "noslip",
 	.summary = "walls without slip: the vorticity that a wall gives to a viscous plane flow",
-	.about = "The viscous part of a step, for particles on the nodes of the mesh (behind remesh --mask BODY; in place of diffuse): diffusion without flux "
-		"through the wall, then the vortex sheet that is the slip left at the wall enters the fluid as a flux of vorticity. The circulation at infinity "
+	.about = "The viscous part of a step, for particles on the nodes of the mesh (behind remesh --mask BODY; in place of diffuse): diffusion without "
+		"flux through the wall, then the vortex sheet that is the slip left at the wall enters the fluid as a flux of vorticity. The circulation at infinity "
 		"stays to round-off. Reports the slip, the force and torque on the body over the fluid's density. See docs/methods/noslip.md.",
 	.kind = PM_FILTER,
 	.reads = "x, circulation",

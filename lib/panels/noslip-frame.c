@@ -25,13 +25,17 @@ static int vortices(const struct pm_panels_choice *c, struct pm_frame *f, struct
 	return pm_reads(f, job->on, "x") && pm_changes(f, job->on, "circulation") ? 0 : -PM_DATA;
 }
 
-int pm_noslip_declare(const struct pm_panels_choice *c, struct pm_frame *f, struct pm_noslip_job *job)
+int pm_noslip_law(const struct pm_frame *f)
 {
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	if (f->dim != 2 || strcmp(law->name, "vortex"))
-		return pm_fail(PM_DATA, "noslip is for vortices in the plane, and this frame is of the law '%s' in %d-D", law->name, f->dim);
+	return f->dim == 2 && !strcmp(law->name, "vortex") ? 0 :
+		pm_fail(PM_DATA, "noslip is for vortices in the plane, and this frame is of the law '%s' in %d-D", law->name, f->dim);
+}
+
+int pm_noslip_declare(const struct pm_panels_choice *c, struct pm_frame *f, struct pm_noslip_job *job)
+{
 	if (!pm_frame_mesh(f, NULL))
 		return pm_fail(PM_DATA, "no mesh whose nodes the particles are (remesh -n CELLS makes one)");
 	if (!(f->dt > 0))
@@ -43,16 +47,19 @@ int pm_noslip_declare(const struct pm_panels_choice *c, struct pm_frame *f, stru
 /* Sums over the particles. */
 struct moments {
 	double circulation, impulse[2], angular; /* sum Gamma, Gamma (y, -x), -Gamma r^2/2 */
+	bool any;                                /* is one not 0? */
 };
 
 static struct moments moments_of(const struct pm_wall_fluid *w)
 {
 	struct pm_sum sum[4] = {0};
+	bool any = false;
 	for (size_t i = 0; i < w->n; i++) {
 		const double q = w->circulation[i], x = w->x[0][i], y = w->x[1][i];
+		any |= q != 0;
 		pm_sum_add(&sum[0], q), pm_sum_add(&sum[1], q * y), pm_sum_add(&sum[2], -q * x), pm_sum_add(&sum[3], -0.5 * q * (x * x + y * y));
 	}
-	return (struct moments){pm_sum_total(sum[0]), {pm_sum_total(sum[1]), pm_sum_total(sum[2])}, pm_sum_total(sum[3])};
+	return (struct moments){pm_sum_total(sum[0]), {pm_sum_total(sum[1]), pm_sum_total(sum[2])}, pm_sum_total(sum[3]), any};
 }
 
 /* The velocity along the wall, and what of it a translation does not explain enters u by its sources. work: 2 n. */
@@ -131,7 +138,7 @@ static int step(const struct pm_panels_choice *c, struct pm_frame *f, const stru
 	pm_wall_diffuse(w, job->nu, f->dt, work);
 	status = slip(c, f, job, w, p, solver, sheet, work);
 	if (!status)
-		status = pm_wall_flux(w, p, sheet, job->nu, f->dt, &done->plain);
+		status = pm_wall_flux(w, p, sheet, job->nu, f->dt, !before.any, &done->plain);
 	const struct moments after = moments_of(w);
 	for (size_t i = 0; i < p->n; i++)
 		done->slip = fmax(done->slip, fabs(sheet[i]));

@@ -1,11 +1,11 @@
 /* The slip of the fluid at a wall becomes vorticity in the fluid: nu d omega/dn = -sheet/dt over a step. In the half-plane beside a panel of half-length b
  * the flux of a time dt leaves, at the height y and the place x along the panel, in proportion to
  *     K = integral_0^1 exp(-y^2/(s q)^2) 1/2 (erf((x + b)/(s q)) - erf((x - b)/(s q))) dq,    s^2 = 4 nu dt
- * (heat kernels of the panel and of its image, tau = dt q^2), by 8 nodes of Gauss and Legendre. The mean height is 4/(3 sqrt(pi)) sqrt(nu dt).
- * A particle's share is K (a + b x + c y): the circulation is that of the panel, and its centre lies at the mean height above the middle, so that the
- * impulse is right although there are few nodes in the layer.
- * Source: Koumoutsakos, Leonard and Pepin 1994, J. Comput. Phys. 113, 52; Koumoutsakos and Leonard 1995, J. Fluid Mech. 296, 1; the shares' polynomial is
- * ours. Cost: panels times particles for the slip. SPDX-License-Identifier: GPL-3.0-or-later */
+ * (heat kernels of the panel and of its image, tau = dt q^2), by 8 nodes of Gauss and Legendre; a sheet that is there at once, the integrand at q = 1.
+ * The mean of y^2 is nu dt, or 2 nu dt. A particle's share is K (a + b x + c y^2), such that the circulation is that of the panel, its centre is beside
+ * the middle, and the mean of y^2 is exact: this one grows by 2 nu a time, so an error of it would be a wrong time for as long as the layer lives.
+ * Source: Koumoutsakos, Leonard and Pepin 1994, J. Comput. Phys. 113, 52; Koumoutsakos and Leonard 1995, J. Fluid Mech. 296, 1; the polynomial is ours.
+ * Cost: panels times particles for the slip. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "panels/wall-flux.h"
@@ -69,7 +69,8 @@ size_t pm_wall_diffuse(const struct pm_wall_fluid *w, double nu, double time, do
 		for (size_t j = 0; j < ny; j++)
 			for (size_t i = 0; i < nx; i++) {
 				const size_t k = j * nx + i, me = w->at[k];
-				const size_t beside[4] = {i ? w->at[k - 1] : 0, i + 1 < nx ? w->at[k + 1] : 0, j ? w->at[k - nx] : 0, j + 1 < ny ? w->at[k + nx] : 0};
+				const size_t beside[4] = {i ? w->at[k - 1] : 0, i + 1 < nx ? w->at[k + 1] : 0, j ? w->at[k - nx] : 0,
+					j + 1 < ny ? w->at[k + nx] : 0};
 				for (int b = 0; b < 4 && me; b++)
 					if (beside[b])
 						w->circulation[me - 1] += rate[b / 2] * (work[beside[b] - 1] - work[me - 1]);
@@ -108,9 +109,11 @@ void pm_wall_slip(const struct pm_wall_fluid *w, const struct pm_panels *p, doub
 static const double gauss[4][2] = {{0.1834346424956498, 0.3626837833783620}, {0.5255324099163290, 0.3137066458778873}, {0.7966664774136267, 0.2223810344533745},
 	{0.9602898564975363, 0.1012285362903763}};
 
-static double kernel(double x, double y, double half, double s)
+static double kernel(double x, double y, double half, double s, bool sudden)
 {
 	double sum = 0;
+	if (sudden)
+		return 0.5 * exp(-y * y / (s * s)) * (erf((x + half) / s) - erf((x - half) / s));
 	for (int k = 0; k < 8; k++) {
 		const double q = s * 0.5 * (1 + (k % 2 ? 1 : -1) * gauss[k / 2][0]);
 		sum += 0.25 * gauss[k / 2][1] * exp(-y * y / (q * q)) * (erf((x + half) / q) - erf((x - half) / q));
@@ -124,7 +127,7 @@ struct beside {
 	double *x, *y, *k; /* [length] along the panel and away from it; the kernel, then the share */
 };
 
-static int gather(const struct pm_wall_fluid *w, const struct pm_panels *p, size_t i, double s, struct beside *b)
+static int gather(const struct pm_wall_fluid *w, const struct pm_panels *p, size_t i, double s, bool sudden, struct beside *b)
 {
 	const struct pm_grid *g = &w->grid;
 	const double half = 0.5 * p->length[i], h = fmax(g->h[0], g->h[1]), reach = half + 3.5 * s + h;
@@ -153,22 +156,23 @@ static int gather(const struct pm_wall_fluid *w, const struct pm_panels *p, size
 				}
 				if (b->n) {
 					memcpy(which, b->which, b->n * sizeof *which);
-					memcpy(v, b->x, b->n * sizeof *v), memcpy(v + room, b->y, b->n * sizeof *v), memcpy(v + 2 * room, b->k, b->n * sizeof *v);
+					memcpy(v, b->x, b->n * sizeof *v), memcpy(v + room, b->y, b->n * sizeof *v);
+					memcpy(v + 2 * room, b->k, b->n * sizeof *v);
 				}
 				pm_free(b->which), pm_free(b->x);
 				b->which = which, b->x = v, b->y = v + room, b->k = v + 2 * room, b->room = room;
 			}
-			b->which[b->n] = me - 1, b->x[b->n] = along, b->y[b->n] = off, b->k[b->n] = kernel(along, off, half, s), b->n++;
+			b->which[b->n] = me - 1, b->x[b->n] = along, b->y[b->n] = off, b->k[b->n] = kernel(along, off, half, s, sudden), b->n++;
 		}
 	return 0;
 }
 
-/* a, b, c of K (a + b x + c y) with the moments 1, 0 and the height. false: too few nodes, or shares that would alternate. */
-static bool moments(const struct beside *b, double unit, double height, double c[3])
+/* a, b, c of K (a + b x + c y^2) with the moments 1, 0 and the mean square of y. false: too few nodes, or shares that would alternate. */
+static bool moments(const struct beside *b, double unit, double square, double c[3])
 {
-	double m[3][4] = {{0, 0, 0, 1}, {0}, {0, 0, 0, height / unit}}, size = 0;
+	double m[3][4] = {{0, 0, 0, 1}, {0}, {0, 0, 0, square / (unit * unit)}}, size = 0;
 	for (size_t j = 0; j < b->n; j++) {
-		const double e[3] = {1, b->x[j] / unit, pow(b->y[j] / unit, 2)};
+		const double e[3] = {1, b->x[j] / unit, b->y[j] * b->y[j] / (unit * unit)};
 		for (int r = 0; r < 3; r++)
 			for (int k = 0; k < 3; k++)
 				m[r][k] += b->k[j] * e[r] * e[k];
@@ -186,17 +190,17 @@ static bool moments(const struct beside *b, double unit, double height, double c
 	for (int r = 0; r < 3; r++)
 		c[r] = m[r][3] / m[r][r];
 	for (size_t j = 0; j < b->n; j++)
-		size += fabs(b->k[j] * (c[0] + (c[1] * b->x[j] + 0) / unit + c[2] * pow(b->y[j] / unit, 2)));
+		size += fabs(b->k[j] * (c[0] + c[1] * b->x[j] / unit + c[2] * b->y[j] * b->y[j] / (unit * unit)));
 	return size < 5; /* of a sum of 1 */
 }
 
 /* The shares, in place of the kernel. 1: only their sum is exact. */
-static int shares(struct beside *b, double unit, double height)
+static int shares(struct beside *b, double unit, double square)
 {
 	double c[3], total = 0;
-	const bool whole = moments(b, unit, height, c);
+	const bool whole = moments(b, unit, square, c);
 	for (size_t j = 0; j < b->n; j++) {
-		b->k[j] *= whole ? c[0] + (c[1] * b->x[j] + 0) / unit + c[2] * pow(b->y[j] / unit, 2) : 1;
+		b->k[j] *= whole ? c[0] + c[1] * b->x[j] / unit + c[2] * b->y[j] * b->y[j] / (unit * unit) : 1;
 		total += b->k[j];
 	}
 	for (size_t j = 0; j < b->n; j++)
@@ -204,19 +208,20 @@ static int shares(struct beside *b, double unit, double height)
 	return !whole;
 }
 
-int pm_wall_flux(const struct pm_wall_fluid *w, const struct pm_panels *p, const double *sheet, double nu, double time, size_t *plain)
+int pm_wall_flux(const struct pm_wall_fluid *w, const struct pm_panels *p, const double *sheet, double nu, double time, bool sudden, size_t *plain)
 {
-	const double h = fmax(w->grid.h[0], w->grid.h[1]), depth = sqrt(nu * time), s = fmax(2 * depth, 1.5 * h); /* a layer thinner than a cell: its centre stays */
+	const double h = fmax(w->grid.h[0], w->grid.h[1]), square = (sudden ? 2 : 1) * nu * time;
+	const double s = fmax(2 * sqrt(nu * time), 1.5 * h); /* only the moments are right where cells are thicker; with 1 more slip is left */
 	struct beside b = {0};
 	int status = 0;
 	*plain = 0;
 	for (size_t i = 0; i < p->n && !status; i++) {
-		status = gather(w, p, i, s, &b);
+		status = gather(w, p, i, s, sudden, &b);
 		if (!status && !b.n)
-			status = pm_fail(PM_DATA, "no particles beside the panel at %g %g (they must be there, of circulation 0 if need be: remesh --rim)", p->x[0][i],
-				p->x[1][i]);
+			status = pm_fail(PM_DATA, "no particles beside the panel at %g %g (remesh --rim keeps those without circulation)",
+				p->x[0][i], p->x[1][i]);
 		if (!status)
-			*plain += (size_t)shares(&b, h, depth * depth / h);
+			*plain += (size_t)shares(&b, h, square);
 		for (size_t j = 0; j < b.n && !status; j++)
 			w->circulation[b.which[j]] += sheet[i] * p->length[i] * b.k[j];
 	}

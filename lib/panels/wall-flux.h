@@ -21,8 +21,8 @@ int pm_wall_fluid_find(struct pm_wall_fluid *w, const struct pm_panels *p);
 size_t pm_wall_diffuse(const struct pm_wall_fluid *w, double nu, double time, double *work);
 /* u[2][panels] += the mean velocity along each panel that the particles induce, as a vector along the panel. Cost: panels times particles. */
 void pm_wall_slip(const struct pm_wall_fluid *w, const struct pm_panels *p, double *const u[2]);
-/* The circulation sheet*length of each panel goes into the fluid as a flux that is even over a time, with viscosity nu. *plain: panels for which only the
- * circulation is exact, not its centre. 0, or failure: a panel without particles beside it. */
-int pm_wall_flux(const struct pm_wall_fluid *w, const struct pm_panels *p, const double *sheet, double nu, double time, size_t *plain);
+/* The circulation sheet*length of each panel goes into the fluid as a flux that is even over a time, or suddenly at its beginning, with viscosity nu.
+ * *plain: panels for which only the circulation is exact, not its moments. 0, or failure: a panel without particles beside it. */
+int pm_wall_flux(const struct pm_wall_fluid *w, const struct pm_panels *p, const double *sheet, double nu, double time, bool sudden, size_t *plain);
 
 #endif

@@ -35,6 +35,7 @@ words() {
 	pgrad) echo "pgrad --method integral" ;;
 	penalize) echo "penalize --body 'x - 1'" ;;
 	panels) echo "panels --curve '9+cos(2*pi*s), sin(2*pi*s)' -n 12 --stream '1, 0'" ;;
+	noslip) echo "noslip --curve '0.5*cos(2*pi*s), 0.5*sin(2*pi*s)' -n 8 --stream '1, 0'" ;;
 	sample) echo "sample --eps 0.5" ;;
 	redistance) echo "redistance" ;;
 	beale) echo "beale --eps 0.1 --iterations 2 --quiet" ;;
@@ -71,6 +72,7 @@ input() {
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	panels) pinit point-vortices -n 12 --cells 4 ;;
+	noslip) pinit cylinder --cells 8x6 | sel --where 'hypot(x, y) > 0.5001' ;;
 	pse | pgrad) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	filament) cloud | smod --faces open | scalc --role state 'core = 0.1' 'circulation = 1' | scalc --role state --type i64 'node = id' 'curve = 0' ;;
 	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;
