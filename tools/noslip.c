@@ -74,9 +74,10 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_noslip = {
 	.name = "noslip",
 	.summary = "walls without slip: the vorticity that a wall gives to a viscous plane flow",
-	.about = "The viscous part of a step, for particles on the nodes of the mesh (behind remesh --mask BODY; in place of diffuse): diffusion without "
-		"flux through the wall, then the vortex sheet that is the slip left at the wall enters the fluid as a flux of vorticity. The circulation at infinity "
-		"stays to round-off. Reports the slip, the force and torque on the body over the fluid's density. See docs/methods/noslip.md.",
+	.about = "The viscous part of a step, for particles on the nodes of the mesh (behind remesh --mask BODY; in place of diffuse): diffusion "
+		"without flux through the wall, then the vortex sheet that is the slip left at the wall enters the fluid as a flux of vorticity. The "
+		"circulation at infinity stays to round-off. Reports the slip, the force and torque on the body over the fluid's density. "
+		"See docs/methods/noslip.md.",
 	.kind = PM_FILTER,
 	.reads = "x, circulation",
 	.changes = "circulation",
