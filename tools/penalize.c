@@ -33,6 +33,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f)
+{
+	(void)s;
+	return f;
+}
+
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->planner); }
 
 static const struct pm_option options[] = {
@@ -76,5 +82,6 @@ const struct pm_tool tool_penalize = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.free = release,
 };

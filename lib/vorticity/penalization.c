@@ -8,9 +8,11 @@
 
 #include "fft/axis-transform.h"
 #include "law/law.h"
+#include "mesh/gradient-parts.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 #include "vorticity/penalization.h"
+#include "world/world.h"
 
 static int vector(struct pm_expression *e, struct pm_frame *f, const char *on, const char *text, const char *option, bool *there)
 {
@@ -72,10 +74,12 @@ static double inside(double phi, double w)
 /* The factor of u_s - u, 1/time. */
 static double pull(const struct pm_penalization *p, double chi) { return isnan(p->rate) ? chi / p->dt : p->rate * chi / (1 + p->rate * p->dt * chi); }
 
-/* b of every component, from its expressions; *most of the factors. work: 3 n. */
-static void drive(const struct pm_penalization *p, const struct pm_frame *f, size_t n, double *factor, double *b, double force[3], double *most)
+/* b of every component, from its expressions; *most of the factors. work: 3 n. Sums and most are those of all planes; called by all ranks. */
+static int drive(const struct pm_penalization *p, const struct pm_frame *f, size_t n, double *factor, double *b, double force[3], double *most)
 {
 	double *other = b + (size_t)f->dim * n, cell = 1;
+	struct pm_planes planes;
+	int status = pm_planes_init(&planes, &p->grid, p->u);
 	pm_expression_eval(&p->body, f, 0, n, factor);
 	*most = 0;
 	for (size_t i = 0; i < n; i++)
@@ -96,9 +100,12 @@ static void drive(const struct pm_penalization *p, const struct pm_frame *f, siz
 				to[i] += k ? -other[i] : other[i];
 		}
 		for (size_t i = 0; i < n; i++)
-			to[i] *= factor[i], pm_sum_add(&sum, to[i]);
+			to[i] *= factor[i];
+		status = pm_planes_sum(status, &planes, to, NULL, NULL, &sum);
 		force[d] = -cell * pm_sum_total(sum);
 	}
+	pm_planes_free(&planes);
+	return pm_world_largest(status, 1, most);
 }
 
 int pm_penalization_add(struct pm_penalization *p, struct pm_frame *f, struct pm_fft_plans *plans, double force[3])
@@ -107,19 +114,20 @@ int pm_penalization_add(struct pm_penalization *p, struct pm_frame *f, struct pm
 	double *b = pm_alloc((size_t)(f->dim + 2) * n + 1, sizeof *b), most;
 	const double *in[3];
 	double *out[3];
-	int status = b ? 0 : -PM_DATA;
+	int status = pm_world_agree(b ? 0 : -PM_DATA);
 	if (plans->n > PM_FFT_PLANS - 3) /* frames of many sizes: empty the collection */
 		pm_fft_plans_clear(plans);
 	if (!status)
-		status = pm_operator_plan(&p->curl, plans);
+		status = pm_world_agree(pm_operator_plan(&p->curl, plans));
+	if (!status)
+		status = drive(p, f, n, b + (size_t)(f->dim + 1) * n, b, force, &most);
 	if (!status) {
-		drive(p, f, n, b + (size_t)(f->dim + 1) * n, b, force, &most);
 		for (int d = 0; d < 3; d++) {
 			in[d] = b + (size_t)(d < f->dim ? d : 0) * n;
 			out[d] = pm_out(p->change, d < p->change->components ? d : 0);
 		}
 		p->curl.add = p->change->nterms > 1;
-		status = pm_operator_apply(&p->curl, 1, in, out, NULL);
+		status = pm_operator_apply_planes(&p->curl, 1, p->u, in, out, NULL);
 		pm_limits_add(p->change, (struct pm_limits){.decay = most});
 	}
 	pm_free(b);

@@ -297,3 +297,11 @@ shared() {
 	pinit uniform -n 13000 --dispersion 1 --dt 0.2 | smod --faces open --particle-faces absorb | shared "push drift"
 	pinit uniform -n 9000 --dispersion 0.1 --dt 20 | smod --faces open --particle-faces absorb | shared "push drift" # 97 are left, on one rank
 }
+
+@test "equal bytes with ranks: a body in a flow (penalize), in the plane and in space" {
+	pinit taylor-green-2d --cells 48 --speed 0 --dt 0.05 | shared "p2m | poisson-fft | mgrad | penalize --body 'hypot(x - pi, y - pi) - 1' \
+		--velocity '1, 0.1*y' | diffuse | m2p | push lsrk3 | remesh"
+	pinit taylor-green-2d --cells 37 --dt 0.05 |
+		shared "p2m | poisson-fft | mgrad --order spectral | penalize --body 'x - 2' --stream '1, 0' --order spectral | m2p | push rk2"
+	pinit taylor-green-3d --cells 9x8x7 | shared "p2m | poisson-fft | mgrad | penalize --body 'z - 1' --rate 2 --velocity 'u_y, 0, 1' | m2p | push rk2"
+}
