@@ -20,6 +20,7 @@ small() {
 	tanh-layer) echo "$1 --cells 16x24" ;;
 	cylinder) echo "$1 --cells 32x24" ;;
 	cavity) echo "$1 --cells 40" ;;
+	sphere) echo "$1 --cells 16x12x12" ;;
 	zalesak | single-vortex) echo "$1 --cells 32" ;;
 	wakefield) echo "$1 --cells 300 --wavenumber 3" ;;
 	gem) echo "$1 -n 2000 --cells 32x16" ;;
@@ -42,6 +43,8 @@ plain() {
 	lamb-dipole | vortex-merger) echo 'p2m | poisson-fft | mgrad | m2p | push lsrk3 | remesh --outside drop' ;;
 	cylinder) echo "p2m | poisson-fft | mgrad | penalize --body 'hypot(x, y) - 0.5' --stream '1, 0' | diffuse | m2p | field 'vel = 1, 0' | push lsrk3 |
 		remesh --cut-off 1e-3 --outside drop" ;;
+	sphere) echo "p2m | poisson-fft | mgrad | stretch | penalize --body 'sqrt(x^2 + y^2 + z^2) - 0.5' --stream '1, 0, 0' | diffuse | m2p |
+		field 'vel = 1, 0, 0' | push lsrk3 | remesh --cut-off 1e-2 --outside drop" ;;
 	cavity) echo "p2m | poisson-fft | mgrad | penalize --body 'min(min(x, 1 - x), min(y, 1 - y))' --velocity 'y > 0.99 ? 1 : 0, 0' --stream '0.1, 0' |
 		diffuse | m2p | field 'vel = 0.1, 0' | push lsrk3 | remesh" ;;
 	taylor-green-3d | vortex-tube) echo 'p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push lsrk3 | remesh' ;;
@@ -77,7 +80,7 @@ lives() {
 @test "no scene dies in 10 000 steps of plan's sentence" {
 	[ -n "${PM_LONG:-}" ] || skip "long: make check-long"
 	local scene dead=0
-	for scene in $(scenes | grep -vxE 'cavity|cylinder|sheath|zalesak|single-vortex'); do lives "$scene" --plan || dead=$((dead + 1)); done
+	for scene in $(scenes | grep -vxE 'cavity|cylinder|sphere|sheath|zalesak|single-vortex'); do lives "$scene" --plan || dead=$((dead + 1)); done
 	[ $dead = 0 ]
 }
 

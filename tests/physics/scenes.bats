@@ -123,6 +123,7 @@ light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 		vortex-ring;2;space;| p2m | diag --exact;ring_circulation=1e-4 ring_radius=1e-4 ring_position=0.03 impulse_z=1e-4
 		lamb-dipole;2;vorticity;| p2m | diag --exact;circulation=1e-9 impulse_x=1e-3 angular_impulse=1e-9 enstrophy=1e-3 omega_max=0.03
 		cylinder;2;vorticity;| p2m | diag --exact;circulation=1e-12
+		sphere;2;space;| p2m | diag --exact;alpha_x=1e-12 alpha_y=1e-12 alpha_z=1e-12
 		cavity;2;vorticity;| p2m | diag --exact;circulation=1e-12
 		zalesak;2;turn;| diag --exact;level_inside=0.01
 		single-vortex;2;swirl;| diag --exact;level_inside=1e-3

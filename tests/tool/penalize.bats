@@ -66,6 +66,18 @@ force() { sls --report | sed -n 's/.*penalize.*"force_'"$1"'":\([^,}]*\).*/\1/p'
 	within "$(<f)" 0.164 0.0033 "Strouhal number"
 }
 
+@test "the drag of a sphere at Re = 100 after eight diameters, with 8 and 12 cells of the diameter" {
+	[ -n "${PM_LONG:-}" ] || skip "long: make check-long"
+	for n in 8 12; do
+		pinit sphere --cells $((4 * n))x$((3 * n))x$((3 * n)) |
+			cycle -q -t 8 --every 10 "p2m | poisson-fft | mgrad | stretch | penalize --edge 0.5 --body 'sqrt(x*x + y*y + z*z) - 0.5' \
+				--stream '1, 0, 0' | diffuse | m2p | field 'vel = 1, 0, 0' | push lsrk3 | remesh --cut-off 1e-3 --rim 1" | force x | tail -n 1
+	done >drag
+	# published 1.08 to 1.10; measured 1.228 and 1.146: too large by the edge, which falls with the cell
+	between "$(awk 'NR == 1 { print $1 * 8 / (4 * atan2(1, 1)) }' drag)" 1.16 1.24
+	between "$(awk 'END { print $1 * 8 / (4 * atan2(1, 1)) }' drag)" 1.08 1.16
+}
+
 # cavity CELLS TIME NU: the driven cavity at this time, then the rms of its u on x = 1/2 less that of the table ghia.
 cavity() {
 	pinit cavity --cells "$1" --nu "$3" | cycle -q -t "$2" "p2m | poisson-fft | mgrad | penalize --body 'min(min(x, 1 - x), min(y, 1 - y))' \

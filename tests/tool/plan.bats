@@ -261,9 +261,9 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 			[[ $output == *"nothing moves in this frame"* ]] || { echo "$s: $output"; return 1; }
 			continue
 		fi
-		if [[ $s == cavity || $s == cylinder ]]; then # whose vorticity the word penalize makes
+		if [[ $s == cavity || $s == cylinder || $s == sphere ]]; then # whose vorticity the word penalize makes
 			run -1 plan --check <start
-			[[ $output == *"no particle has a circulation yet: nothing to plan (penalize makes that of a body's layer)"* ]]
+			[[ $output == *" yet: nothing to plan (penalize makes that of a body's layer)"* ]]
 			continue
 		fi
 		run -0 plan --check <start

@@ -235,6 +235,7 @@ ranks() {
 	ranks shared pinit plummer -n 8191
 	ranks shared pinit lamb-oseen --cells 90x70    # nothing where there is no vorticity
 	ranks shared pinit cylinder
+	ranks shared pinit sphere --cells 20x15x15
 	ranks shared pinit taylor-green-3d --cells 17x9x3
 	ranks whole pinit two-stream -n 5000
 }
