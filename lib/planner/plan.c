@@ -68,6 +68,7 @@ static bool measured(const struct pm_plan *p, const char *effect)
 static int alone(const struct pm_frame *f, const struct pm_plan *p, struct pm_plan *q)
 {
 	*q = *p;
+	q->method.grow = q->method.grow || (q->scales.kind == PM_VORTICES && q->scales.edge < HUGE_VAL); /* trials without remeshing go on to the rim */
 	for (int i = 0; i < q->neffects; i++)
 		q->effect[i].decision.answer = measured(p, q->effect[i].effect->name) ? PM_PUT_IN : PM_LEFT_OUT;
 	return pm_plan_compose(f, q);

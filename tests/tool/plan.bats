@@ -34,6 +34,36 @@ small() {
 	scmp a b >/dev/null --tolerance 0
 }
 
+@test "plan says when a flow is about to outgrow its mesh: a dipole that reaches a face, not within a shorter time" {
+	pinit lamb-dipole --cells 32 >dipole # radius 1, speed 1, faces at -2 and 2: the front is at the face after 1
+	[[ "$(plan --no-cost -t 0.5 <dipole | says outgrowing)" = 'off '*'0 of the vorticity leaves'* ]]
+	[[ "$(plan --no-cost -t 3 <dipole | says outgrowing)" = 'error '*'1 of the vorticity leaves the mesh from t = '* ]]
+	from=$(plan --no-cost -t 3 <dipole | says outgrowing | sed 's/.*from t = \([0-9.]*\).*/\1/')
+	within "$from" 0.9 0.2 # 1 less two cells of 1/8, and what is below the accuracy
+	cycle -t 3 "$(plan --sentence -t 3 <dipole)" <dipole 2>/dev/null | sls | awk '$1 == "mesh" { exit !($3 > 40) }' # of 32 at the start: it has followed
+	plan --no-cost -t 3 --format json <dipole | grep -q '"outgrowing"'
+	[[ "$(decide taylor-green-2d --cells 16 | says outgrowing)" = 'off '*'no face is open'* ]]
+}
+
+@test "plan says when a turbulent flow has eddies below its cells: by Pao's spectrum" {
+	[[ "$(decide taylor-green-3d --cells 16 | says 'smallest scales')" = 'error '*'(pinit --cells 42)' ]]
+	[[ "$(decide taylor-green-3d --cells 16 --nu 0.1 | says 'smallest scales')" = 'off '* ]]
+	[[ "$(decide taylor-green-3d --cells 42 | says 'smallest scales')" = 'off '* ]] # what it asks for is enough
+	[[ "$(decide taylor-green-2d --cells 16 | says 'smallest scales')" = 'off '*'no turbulence in space' ]]
+}
+
+@test "plan takes the divergence out of the vorticity only where a number asks for it" {
+	[[ "$(sentence taylor-green-3d --cells 16)" = *'| remesh | reproject' ]]
+	[[ "$(pinit taylor-green-3d --cells 16 | plan --sentence -t 0.2)" != *reproject* ]]
+	[[ "$(decide taylor-green-2d --cells 16 | says 'vorticity divergence')" = 'off '*'2-D' ]]
+	pinit taylor-green-3d --cells 16 >start
+	for s in "$(plan --sentence <start)" "$(plan --sentence --off vorticity-divergence <start)"; do
+		cycle -n 8 "$s" <start | p2m | poisson-fft | mgrad | diag --columns divergence | tail -n 1
+	done >both
+	[ "$(head -n 1 both)" != "$(tail -n 1 both)" ]
+	below "$(head -n 1 both)" "$(awk 'NR == 2 { print 0.8 * $1 }' both)" "what reproject leaves"
+}
+
 @test "cycle --plan runs the sentence of the first frame: the same bytes as if it had been typed, history too" {
 	pinit taylor-green-2d --cells 16 >start
 	cycle -t 0.4 --every 4 --plan <start >a
@@ -68,7 +98,7 @@ small() {
 		same_as $format.1 $format.2
 		same_as $format.1 $format.3
 	done
-	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 18 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
+	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 21 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
 }
 
 @test "fields computed earlier do not change the plan" {
