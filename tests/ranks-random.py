@@ -97,7 +97,8 @@ def draw(r):
         if "polygon" in scene:
             return scene, more("pp" + maybe(0.3, "| field 'dcirculation = -0.1*circulation'") + " | push " + pick("rk4", "rk2", "ab3"))
         kernel = maybe(0.5, "--kernel m6prime")
-        words = f"p2m{kernel} | poisson-fft | mgrad{maybe(0.3, '--order', pick('2', '4', '6'))} | "
+        body = maybe(0.2, "| penalize --body 'hypot(x - 0.5, y) - 0.4' --velocity '1, 0.1*y'")
+        words = f"p2m{kernel} | poisson-fft | mgrad{maybe(0.3, '--order', pick('2', '4', '6'))}{body} | "
         words += pick("diffuse | m2p", "dt --lcfl 0.2 | diffuse | m2p", "m2p | pse", "m2p | pse --order 4", "m2p") + " | push " + pick("rk2", "lsrk3", "rk4")
         return scene, words + pick("", " | walk", " | remesh --cut-off 1e-6", " | remesh --kernel m6prime --cut-off 1e-6 | ssort")
 
