@@ -70,7 +70,7 @@ static int end(struct pm_stage *s)
 		return -PM_DATA;
 	if (spectrum->theory.why[0])
 		pm_note(s, "no theory: %s", spectrum->theory.why);
-	else
+	else if (spectrum->theory.kind != PM_ELECTROSTATIC) /* what is expected where nothing is said */
 		pm_note(s, "theory: %s", pm_wave_theory_name(&spectrum->theory));
 	const struct config *o = s->config;
 	pm_wave_print(spectrum, (const double[2]){o->lowest, o->highest}, stdout);
