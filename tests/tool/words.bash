@@ -72,7 +72,7 @@ input() {
 	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	panels) pinit point-vortices -n 12 --cells 4 ;;
-	noslip) pinit cylinder --cells 8x6 | sel --where 'hypot(x, y) > 0.5001' ;;
+	noslip) pinit cylinder --cells 64x48 | sel --where 'hypot(x, y) > 0.5001 && (y > -0.66 || abs(x) < 0.03)' ;; # the first is alone in its row
 	pse | pgrad) cloud | scalc --extensive 'volume = 1 / 12' ;;
 	filament) cloud | smod --faces open | scalc --role state 'core = 0.1' 'circulation = 1' | scalc --role state --type i64 'node = id' 'curve = 0' ;;
 	beale) cloud | scalc --extensive 'volume = 1 / 12' ;;
