@@ -38,7 +38,8 @@ force_head() {
 		# Error of the acceleration and what it costs, p2m to m2p or pp. Made by bash docs/accuracy/atlas.sh (figures force-smooth and
 		# force-clustered of docs/accuracy/).
 		# smooth: 216000 particles of a periodic plane wave, scale 1/k = 1/(2 pi); clustered: 20000 bodies of a Plummer sphere of scale 1 in open
-		# space, against pp.
+		# space, against pp; vortex: vortices in space that fill a cube, scale (abs(omega)/abs(lap omega))^(1/2), with a mesh as large as the cube
+		# or (vortex-quarter) four times as large; the error of their velocity against the exact one (figure force-vortex).
 		# error: relative l2. ns_per_particle: without set-up, one thread of: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1);
 		# of the mesh's work every particle has its part.
 	END
@@ -50,6 +51,12 @@ force() {
 	awk -F'\t' -v OFS='\t' -v scene="$1" -v n="$3" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 		$at["error"] != "-" { print scene, $at["solver"], $at["kernel"], $at["gradient"], $at["h_over_scale"], $at["error"], sprintf("%.4g",
 			$at["seconds"] / n * 1e9) }' "$2"
+}
+
+# vortex FILE: of the velocity of vortices in space; its numbers have a column of each method and of the part of the mesh that is full.
+vortex() {
+	awk -F'\t' -v OFS='\t' 'NR > 1 { mesh = $2 == "mesh"; solver = mesh ? "poisson-fft" : $2 == "pp" ? "pp" : "pp --mollifier gaussian-4"
+		print $1 == 1 ? "vortex" : "vortex-quarter", solver, mesh ? "m6prime" : "-", mesh ? 6 : "-", $7, $5, $8 }' "$1"
 }
 
 step_head() {
@@ -77,6 +84,7 @@ done
 if [ $# = 0 ]; then
 	atlas=${OUT:-$top/data/atlas}
 	mkdir -p "$atlas"
-	{ force_head; force smooth "$out/force-smooth.tsv" 216000; force clustered "$out/force-clustered.tsv" 20000; } >"$atlas/force.tsv"
+	{ force_head; force smooth "$out/force-smooth.tsv" 216000; force clustered "$out/force-clustered.tsv" 20000
+		vortex "$out/force-vortex.tsv"; } >"$atlas/force.tsv"
 	{ step_head; sed 1d "$out/steps.tsv"; } >"$atlas/step.tsv"
 fi

@@ -117,7 +117,7 @@ static void vortex_mesh(struct pm_plan *p)
 {
 	struct pm_scales *s = &p->scales;
 	const double hk = s->h * sqrt(s->rough);
-	s->mesh_error = pm_atlas_force_error("smooth", "poisson-fft", p->method.kernel, "6", hk);
+	s->mesh_error = pm_atlas_force_error(p->law->vector ? "vortex" : "smooth", "poisson-fft", p->method.kernel, "6", hk);
 	s->length = 1 / sqrt(s->rough);
 	snprintf(p->method.why_mesh, sizeof p->method.why_mesh, "h k = %.2g, error of the velocity %.1g", hk, s->mesh_error);
 }
