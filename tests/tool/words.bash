@@ -30,6 +30,7 @@ words() {
 	modes) echo "modes --moving 'push kick/2 drift | pp | push kick/2'" ;;
 	field) echo "field 'acc = -x, -2*y, vx'" ;;
 	stretch) echo "stretch --order 2" ;;
+	subgrid) echo "subgrid --order 2" ;;
 	reproject) echo "reproject --kernel cic --order 2" ;;
 	pse) echo "pse --nu 0.1" ;;
 	pgrad) echo "pgrad --method integral" ;;
@@ -69,7 +70,7 @@ input() {
 	window) pinit wakefield --cells 8 --wavenumber 2 --dt 0.5 | species electrons -n 12 --velocities 3 --vth 0.01 |
 		m2p | push boris/2 | p2m --current | maxwell --layers 1 | push drift ;;
 	reproject) pinit taylor-green-3d --cells 4 | scalc 'alpha = volume*sin(x), 0, 0' ;;
-	stretch) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
+	stretch | subgrid) pinit taylor-green-3d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	penalize) pinit taylor-green-2d --cells 4 | p2m --kernel cic | poisson-fft | mgrad --order 2 ;;
 	panels) pinit point-vortices -n 12 --cells 4 ;;
 	noslip) pinit cylinder --cells 64x48 | sel --where 'hypot(x, y) > 0.5001 && (y > -0.66 || abs(x) < 0.03)' ;; # the first is alone in its row
