@@ -6,7 +6,7 @@
  *   wale         nu_t = (C D)^2 (Z:Z)^(3/2)/((S:S)^(5/2) + (Z:Z)^(5/4)), C = 0.5, Z the symmetric part of a a without trace (Nicoud, Ducros 1999,
  *                Flow Turb. Combust. 62, 183): 0 in pure shear
  *   vreman       nu_t = c D^2 sqrt(B/(a:a)), c = 0.07, B the sum of the principal 2 by 2 minors of a a^T (Vreman 2004, Phys. Fluids 16, 3670): 0 in shear
- * In the plane the third row and column are 0. Cost: pointwise; dynamic 24 filterings in space. SPDX-License-Identifier: GPL-3.0-or-later */
+ * In the plane the third row and column are 0. Cost: pointwise; dynamic 21 filterings in space. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
 
