@@ -344,7 +344,8 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	shares "push drift, scalc mass = 2*mass" "push drift | scalc 'mass = 2*mass'" <start
 	shares "push kick/2 drift, p2m -n 8, poisson-fft, mgrad, m2p, push kick/2" "$(kicks "$(force 8)")" <start
 	shares "p2m -n 8, scalc --mesh mesh s = rho*y, push drift" "p2m -n 8 | scalc --mesh mesh 's = rho*y' | push drift" <start
-	shares "p2m -n 8, poisson-fft, mgrad --order spectral, m2p, push drift" "p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift | smove --shift 1,0,0" <start
+	shares "p2m -n 8, poisson-fft, mgrad --order spectral, m2p, push drift" \
+		"p2m -n 8 | poisson-fft | mgrad --order spectral | m2p | push drift | smove --shift 1,0,0" <start
 	shares "push drift, ssort --by x" "push drift | ssort --by x" <start
 	smod --particle-faces absorb --faces open <start | shares "push drift" "push drift"
 	pinit plummer -n 9000 >cluster
