@@ -67,8 +67,9 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"the drag of a cylinder that a stream meets suddenly, after 10 steps",
-		"pinit cylinder --cells 64x48 --dt 0.01 | sel --where 'hypot(x, y) > 0.5001' | cycle -q -n 10 \"noslip --curve '0.5*cos(2*pi*s), 0.5*sin(2*pi*s)' "
-		"-n 50 --stream '1, 0' | p2m | poisson-fft | mgrad | m2p | field 'vel = 1, 0' | push rk2 | remesh --mask 'hypot(x, y) <= 0.5001' --rim 4\" | sls --report"},
+		"pinit cylinder --cells 64x48 --dt 0.01 | sel --where 'hypot(x, y) > 0.5001' | cycle -q -n 10 \"noslip --curve '0.5*cos(2*pi*s), "
+		"0.5*sin(2*pi*s)' -n 50 --stream '1, 0' | p2m | poisson-fft | mgrad | m2p | field 'vel = 1, 0' | push rk2 | "
+		"remesh --mask 'hypot(x, y) <= 0.5001' --rim 4\" | sls --report"},
 	{0},
 };
 const struct pm_tool tool_noslip = {
