@@ -31,10 +31,10 @@ checked_log() {
 	cat -- "$work/log" >"$state/log"
 }
 
-# why STATUS [FILE]: of the messages of a run, the first that does not merely forward the message of another word.
+# why STATUS [FILE]: of the messages of a run, the last that does not merely forward the message of another word: warnings come before it.
 why() {
 	local line
-	line=$(grep -v ': stopped by ' "${2:-$work/said}" | head -n 1 | tr '\t' ' ')
+	line=$(grep -v ': stopped by ' "${2:-$work/said}" | tail -n 1 | tr '\t' ' ')
 	line=${line#bash: line 1: }
 	echo "${line:-exit status $1, without a word}"
 }

@@ -11,7 +11,7 @@ setup_file() {
 # [kB] of address space; the sanitizers need terabytes of it, and refuse huge requests by themselves.
 memory=${PM_SANITIZED:+unlimited}
 memory=${memory:-500000}
-[ -z "$PM_SANITIZED" ] || export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=500
+[ -z "$PM_SANITIZED" ] || export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}allocator_may_return_null=1:max_allocation_size_mb=500
 
 # refused FILE PATTERN: by a filter, a sink and cycle: exit 1 within a second and 500 MB, one printable line that matches.
 refused() {
