@@ -96,13 +96,13 @@ part_cycle() {
 }
 
 part_transfer() {
-	python3 "$top/bench/pmesh.py" 160 >>"$PM_PEERS" || true
+	python3 "$top/bench/pmesh-painter.py" 160 >>"$PM_PEERS" || true
 	keep "$b/transfer" 160 1
 	keep "$b/transfer" 96 8 3 cic
 	keep "$b/transfer" 1024 1 2 cic pcs
 }
 part_step() {
-	PYTHONPATH=$top/python keep "${PM_PYTHON:-python3}" "$top/bench/numpy-step.py" 128 || true
+	PYTHONPATH=$top/python keep "${PM_PYTHON:-python3}" "$top/bench/python-step.py" 128 || true
 	pinit uniform -n 2097152 --cells 128 | OMP_NUM_THREADS=1 keep "$b/step"
 	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it needs 8 GB)' >&2 && return; }
 	pinit uniform -n 16777216 --cells 256 | keep "$b/step"

@@ -1,5 +1,5 @@
 /* Speed of spread and gather, million particles per second: kernels in random and in tile order, one scalar and (gather) a vector, beside FINUFFT where its
- * library is found (finufft.h) and pmesh where bench/pmesh.py found it.
+ * library is found (finufft.h) and pmesh where bench/pmesh-painter.py found it.
  * transfer [cells per axis [particles per cell [dim [kernel ...]]]], `all` for all kernels; on one thread and, where there are more, on all.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-order.h"

@@ -1,5 +1,5 @@
 """Rows of pmesh's painter on one process, particles in the order of cells: what, kernel, threads, million particles per second. One line and status 1 where
-it is not installed. python3 pmesh.py [cells per axis]. SPDX-License-Identifier: GPL-3.0-or-later"""
+it is not installed. python3 pmesh-painter.py [cells per axis]. SPDX-License-Identifier: GPL-3.0-or-later"""
 import statistics
 import sys
 import time
