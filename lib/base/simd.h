@@ -119,24 +119,43 @@ PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)
 #endif
 }
 
-#ifndef PM_SIMD_NARROW
-/* The vector one lane on: the last of `before`, then seven of `here`; and one lane back: seven of `here`, then the first of `after`. */
-PM_SIMD_INLINE pm_simd pm_simd_shift_up(pm_simd before, pm_simd here) { return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14); }
-PM_SIMD_INLINE pm_simd pm_simd_shift_down(pm_simd here, pm_simd after) { return __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8); }
+/* Lanes of two vectors: which, where a vector has eight, four and two. */
+#define PM_SIMD_LANES(...) __VA_ARGS__
+#if !defined PM_SIMD_NARROW || defined __AVX512F__
+#define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES eight)
+#elif defined __AVX__
+#define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES four)
+#else
+#define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES two)
+#endif
 
-/* Sixteen values in order to those of even and of odd number, and back. */
-PM_SIMD_INLINE pm_simd pm_simd_even(pm_simd low, pm_simd high) { return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14); }
-PM_SIMD_INLINE pm_simd pm_simd_odd(pm_simd low, pm_simd high) { return __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15); }
-PM_SIMD_INLINE pm_simd pm_simd_zip_low(pm_simd even, pm_simd odd) { return __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11); }
-PM_SIMD_INLINE pm_simd pm_simd_zip_high(pm_simd even, pm_simd odd) { return __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15); }
+/* The vector one lane on: the last of `before`, then the others of `here`; and one lane back: those of `here` but the first, then the first of `after`. */
+PM_SIMD_INLINE pm_simd pm_simd_shift_up(pm_simd before, pm_simd here)
+{
+	return PM_SIMD_PICK(before, here, (7, 8, 9, 10, 11, 12, 13, 14), (3, 4, 5, 6), (1, 2));
+}
+PM_SIMD_INLINE pm_simd pm_simd_shift_down(pm_simd here, pm_simd after)
+{
+	return PM_SIMD_PICK(here, after, (1, 2, 3, 4, 5, 6, 7, 8), (1, 2, 3, 4), (1, 2));
+}
 
-/* v where the mask, 64-byte aligned, is -1, and 0 where it is 0. */
+/* Two vectors in order to the values of even and of odd number, and back. */
+PM_SIMD_INLINE pm_simd pm_simd_even(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (0, 2, 4, 6, 8, 10, 12, 14), (0, 2, 4, 6), (0, 2)); }
+PM_SIMD_INLINE pm_simd pm_simd_odd(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (1, 3, 5, 7, 9, 11, 13, 15), (1, 3, 5, 7), (1, 3)); }
+PM_SIMD_INLINE pm_simd pm_simd_zip_low(pm_simd even, pm_simd odd)
+{
+	return PM_SIMD_PICK(even, odd, (0, 8, 1, 9, 2, 10, 3, 11), (0, 4, 1, 5), (0, 2));
+}
+PM_SIMD_INLINE pm_simd pm_simd_zip_high(pm_simd even, pm_simd odd)
+{
+	return PM_SIMD_PICK(even, odd, (4, 12, 5, 13, 6, 14, 7, 15), (2, 6, 3, 7), (1, 3));
+}
+
+/* v where the mask, aligned as a vector, is -1, and 0 where it is 0. */
 PM_SIMD_INLINE pm_simd pm_simd_masked(pm_simd v, const int64_t *mask)
 {
 	return (pm_simd)((pm_simd_bits)v & *(const pm_simd_bits_at *)mask);
 }
-
-#endif
 
 /* Sum of the lanes, in a fixed order: of halves, until one is left. */
 PM_SIMD_INLINE double pm_simd_sum(pm_simd v)

@@ -45,6 +45,7 @@ struct mg_level {
 	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
 };
 
+static inline size_t mg_whole(size_t n) { return (n + mg_lanes - 1) / mg_lanes * mg_lanes; } /* with its padding */
 static inline size_t mg_slot(const struct mg_level *l, size_t i) { return (i & 1) * l->half + i / 2; } /* of node i in its row */
 
 static inline size_t mg_fold(ptrdiff_t i, const struct mg_axis *a) { return pm_index_fold(i, a->points, a->periodic); }

@@ -4,8 +4,13 @@
  * each row (mg-level.h) and every value computed is used. On a periodic axis with an odd number of nodes two nodes of one colour are neighbours: along x
  * each uses the old value of the other, along y and z the order of the sweep decides, always the same.
  * Cost: 13 operations per node and sweep. SPDX-License-Identifier: GPL-3.0-or-later */
+#define PM_SIMD_NARROW /* vectors of one register */
 #include "base/simd.h"
 #include "poisson-mg/mg-hierarchy.h"
+
+#include <string.h>
+
+enum { W = PM_SIMD_WIDTH };
 
 struct rows {
 	double *u;
@@ -36,10 +41,10 @@ PM_SIMD_INLINE pm_simd along_z(const struct rows *a, size_t i) { return pm_simd_
 		result -= diagonal * (here); \
 	} while (0)
 
-/* u += change at p, only where there is an unknown; walls and padding are in the first and the last vector of half a row. */
+/* u += change at p, only where there is an unknown; walls and padding are in the first and the last eight of half a row. */
 #define CHANGE(p, here, change, mask, i, n) \
 	do { \
-		if ((i) == 0 || (i) + mg_lanes >= (n)) \
+		if ((i) < mg_lanes || (i) + mg_lanes >= (n)) \
 			change = pm_simd_masked(change, (mask) + (i)); \
 		pm_simd_store(p, (here) + change); \
 	} while (0)
@@ -54,8 +59,8 @@ PM_SIMD_INLINE void relax_row(const int dim, const struct mg_level *l, double fa
 	last += mg_left_end(l, a.u);
 	if (odd)
 		last = pm_simd_load(other);
-	for (size_t i = 0; i < n; i += mg_lanes) {
-		next = pm_simd_load(other + i + (odd ? mg_lanes : 0));
+	for (size_t i = 0, end = mg_whole(n); i < end; i += W) {
+		next = pm_simd_load(other + i + (odd ? W : 0));
 		here = pm_simd_load(a.u + at + i);
 		if (odd)
 			sides = last + pm_simd_shift_down(last, next);
@@ -80,9 +85,9 @@ PM_SIMD_INLINE void relax_pair(const struct mg_level *l, double factor, struct r
 	pm_simd e_last = {0}, e_next, o_last, o_next, here, lap, sides, change;
 	e_last += mg_left_end(l, e.u);
 	o_last = pm_simd_load(o.u);
-	for (size_t i = 0; i < n; i += mg_lanes) {
+	for (size_t i = 0, end = mg_whole(n); i < end; i += W) {
 		e_next = pm_simd_load(e.u + half + i);
-		o_next = pm_simd_load(o.u + i + mg_lanes);
+		o_next = pm_simd_load(o.u + i + W);
 		here = pm_simd_load(e.u + i);
 		sides = pm_simd_shift_up(e_last, e_next) + e_next;
 		LAPLACIAN(lap, sides, pm_simd_load(beyond_e + i) + o_last, along_z(&e, i), here);
@@ -164,23 +169,29 @@ PM_SIMD_INLINE double residual_row(const int dim, const struct mg_level *l, stru
 	const double wx = l->axis[0].w, wy = l->axis[1].w, wz = l->axis[2].w, diagonal = l->diagonal;
 	const size_t half = l->half;
 	const int64_t *mask[2] = {l->mask[0], l->mask[1]};
-	pm_simd before = {0}, even, odd, after, lap, v, w, sum = {0};
+	pm_simd before = {0}, even, odd, after, lap, v, w, sum[mg_lanes / W] = {{0}};
 	before += mg_left_end(l, a.u);
 	even = pm_simd_load(a.u);
-	for (size_t i = 0; 2 * i < l->axis[0].points; i += mg_lanes) {
-		odd = pm_simd_load(a.u + half + i);
-		after = pm_simd_load(a.u + i + mg_lanes);
-		LAPLACIAN(lap, pm_simd_shift_up(before, odd) + odd, along_y(&a, i), along_z(&a, i), even);
-		v = pm_simd_masked(pm_simd_load(a.f + i) - lap, mask[0] + i);
-		LAPLACIAN(lap, even + pm_simd_shift_down(even, after), along_y(&a, half + i), along_z(&a, half + i), odd);
-		w = pm_simd_masked(pm_simd_load(a.f + half + i) - lap, mask[1] + i);
-		sum += v * v + w * w;
-		pm_simd_store(r + i, v);
-		pm_simd_store(r + half + i, w);
-		before = odd;
-		even = after;
+	for (size_t block = 0; 2 * block < l->axis[0].points; block += mg_lanes) {
+		PM_SIMD_UNROLL
+		for (size_t part = 0; part < mg_lanes / W; part++) {
+			const size_t i = block + part * W;
+			odd = pm_simd_load(a.u + half + i);
+			after = pm_simd_load(a.u + i + W);
+			LAPLACIAN(lap, pm_simd_shift_up(before, odd) + odd, along_y(&a, i), along_z(&a, i), even);
+			v = pm_simd_masked(pm_simd_load(a.f + i) - lap, mask[0] + i);
+			LAPLACIAN(lap, even + pm_simd_shift_down(even, after), along_y(&a, half + i), along_z(&a, half + i), odd);
+			w = pm_simd_masked(pm_simd_load(a.f + half + i) - lap, mask[1] + i);
+			sum[part] += v * v + w * w;
+			pm_simd_store(r + i, v);
+			pm_simd_store(r + half + i, w);
+			before = odd;
+			even = after;
+		}
 	}
-	return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+	double s[mg_lanes];
+	memcpy(s, sum, sizeof s);
+	return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
 double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r)

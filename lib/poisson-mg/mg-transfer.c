@@ -4,8 +4,11 @@
  * ratio n/n_c. As 1/h^2 stays in the operator, no scaling is needed (texts that multiply by h^2 omit a factor of 4).
  * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
+#define PM_SIMD_NARROW /* vectors of one register */
 #include "base/simd.h"
 #include "poisson-mg/mg-ranks.h"
+
+enum { W = PM_SIMD_WIDTH };
 
 static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
 {
@@ -18,14 +21,14 @@ static struct mg_parents parents_linear(const struct mg_map *map, const struct m
 
 void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
 {
-	for (size_t i = 0; i < n; i += mg_lanes)
+	for (size_t i = 0, end = mg_whole(n); i < end; i += W)
 		pm_simd_store(y + i, pm_simd_load(y + i) + w * pm_simd_load(x + i));
 }
 
 void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
 {
-	for (size_t i = 0; i < l->half; i += mg_lanes) {
-		pm_simd a = pm_simd_load(t + 2 * i), b = pm_simd_load(t + 2 * i + mg_lanes);
+	for (size_t i = 0, end = mg_whole(l->half); i < end; i += W) {
+		pm_simd a = pm_simd_load(t + 2 * i), b = pm_simd_load(t + 2 * i + W);
 		pm_simd_store(row + i, pm_simd_even(a, b));
 		pm_simd_store(row + l->half + i, pm_simd_odd(a, b));
 	}
@@ -34,14 +37,14 @@ void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *
 /* n rows with weights w, from rows to node after node. */
 PM_SIMD_INLINE void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
 {
-	for (size_t i = 0; i < c->half; i += mg_lanes) {
+	for (size_t i = 0, end = mg_whole(c->half); i < end; i += W) {
 		pm_simd even = w[0] * pm_simd_load(row[0] + i), odd = w[0] * pm_simd_load(row[0] + c->half + i);
 		for (int m = 1; m < n; m++) {
 			even += w[m] * pm_simd_load(row[m] + i);
 			odd += w[m] * pm_simd_load(row[m] + c->half + i);
 		}
 		pm_simd_store(t + 2 * i, pm_simd_zip_low(even, odd));
-		pm_simd_store(t + 2 * i + mg_lanes, pm_simd_zip_high(even, odd));
+		pm_simd_store(t + 2 * i + W, pm_simd_zip_high(even, odd));
 	}
 }
 
@@ -74,8 +77,8 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
 {
 	double *restrict odd = u + fine->half;
-	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
-		pm_simd a = pm_simd_load(t + i), b = pm_simd_load(t + i + mg_lanes);
+	for (size_t i = 0, end = mg_whole((fine->axis[0].points + 1) / 2); i < end; i += W) {
+		pm_simd a = pm_simd_load(t + i), b = pm_simd_load(t + i + W);
 		pm_simd_store(u + i, pm_simd_load(u + i) + a);
 		pm_simd_store(odd + i, pm_simd_load(odd + i) + 0.5 * (a + pm_simd_shift_down(a, b)));
 	}
@@ -109,7 +112,7 @@ PM_SIMD_INLINE void collect_half(const struct mg_level *fine, const double side,
 {
 	pm_simd before = {0};
 	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
-	for (size_t i = 0; 2 * i < fine->axis[0].points; i += mg_lanes) {
+	for (size_t i = 0, end = mg_whole((fine->axis[0].points + 1) / 2); i < end; i += W) {
 		pm_simd odd = pm_simd_load(r + fine->half + i);
 		pm_simd_store(c + i, side * (pm_simd_shift_up(before, odd) + odd) + middle * pm_simd_load(r + i));
 		before = odd;
