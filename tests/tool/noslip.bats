@@ -44,6 +44,17 @@ report() { sls --report | sed -n 's/.*noslip.*"'"$1"'":\([^,}]*\).*/\1/p'; }
 	done
 }
 
+# Read off the figure of Koumoutsakos and Leonard 1995 by others (github.com/barbagroup/cuIBM at 1c740f5, validation-data/cylinderRe550-KL95.txt), time in radii,
+# linear between its points, at T = U t/D less half a step.
+@test "the drag at Re = 550 until the wake is long, beside that of Koumoutsakos and Leonard" {
+	local of=(0.790 0.703 0.793 0.945 1.109 1.227 1.281) k
+	fluid 64 0.01 0.00181818182 | cycle -q -n 140 --every 20 "noslip $round -n 100 --stream '1, 0' | $flow | field 'vel = 1, 0' | $behind" >a
+	report force_x <a >drag
+	for k in 0 1 2 3 4 5 6; do # measured 1.016, 1.058, 1.054, 1.046, 1.036, 1.035, 1.031; with 128 cells 1.008, 1.043 ... 1.025
+		within "$(calc "2 * $(sed -n $((k + 1))p drag) / ${of[k]}")" 1 0.065 "T = 0.$((2 * k + 2))"
+	done
+}
+
 @test "a cylinder drawn through fluid at rest, and one beside a stream, have the same drag" {
 	fluid 48 0.01 0.005 >a
 	cycle -i a -q -n 12 "noslip $round -n 72 --stream '1, 0' | $flow | field 'vel = 1, 0' | $behind" >b
