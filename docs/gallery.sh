@@ -28,6 +28,10 @@ make_one() {
 		echo "gallery: $name left as it is: no chromium here (apt-get install chromium)" >&2
 		return
 	fi
+	if grep -q ' ffmpeg ' <<<" ${commands//$'\n'/ } " && ! command -v ffmpeg >/dev/null; then
+		echo "gallery: $name left as it is: no ffmpeg here (apt-get install ffmpeg)" >&2
+		return
+	fi
 	mkdir "$work/$name"
 	ln -s "$top/data" "$top/docs" "$top/pipelines" "$top/tests" "$work/$name"
 	(cd "$work/$name" && bash -euo pipefail -c "$commands" </dev/null >"$work/log") || { echo "gallery: $name failed" >&2; return 1; }

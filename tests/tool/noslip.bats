@@ -44,7 +44,7 @@ report() { sls --report | sed -n 's/.*noslip.*"'"$1"'":\([^,}]*\).*/\1/p'; }
 	done
 }
 
-# Read off the figure of Koumoutsakos and Leonard 1995 by others (github.com/barbagroup/cuIBM at 1c740f5, validation-data/cylinderRe550-KL95.txt), time in radii,
+# Read off the figure of Koumoutsakos and Leonard 1995 by others (github.com/barbagroup/cuIBM 1c740f5, validation-data/cylinderRe550-KL95.txt), time in radii,
 # linear between its points, at T = U t/D less half a step.
 @test "the drag at Re = 550 until the wake is long, beside that of Koumoutsakos and Leonard" {
 	local of=(0.790 0.703 0.793 0.945 1.109 1.227 1.281) k
