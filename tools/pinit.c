@@ -80,12 +80,16 @@ static int begin(struct pm_stage *s)
 }
 
 /* Options replace the scene's own box, faces, mesh and step. */
-static int adjust(const struct config *o, struct pm_frame *f)
+static int adjust(const struct config *o, const struct pm_scene *scene, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
 	for (size_t i = 0; i < f->nfields && o->faces.n; i++)
 		if (!strcmp(f->fields[i]->on, m->name) && !f->fields[i]->uniform)
 			return pm_fail(PM_USAGE, "the fields of this scene are made for its own faces (leave out --faces)");
+	const bool nodes = scene->n_fixed && !scene->n; /* whose lattice would no longer fill it */
+	for (int d = 0; d < f->dim && o->box.n && nodes; d++)
+		if (f->face[d][0] == PM_PERIODIC)
+			return pm_fail(PM_USAGE, "the particles of the scene %s are a lattice that fills its own periodic box (leave out --box)", scene->name);
 	if (pm_attributes_box(f, &o->box) || pm_attributes_faces(f, &o->faces) || pm_attributes_particle_faces(f, &o->particle_faces) ||
 		(o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
@@ -111,7 +115,7 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 	for (int i = 0; scene->parameters[i].name; i++)
 		pm_frame_parameter_set(f, scene->parameters[i].name, c->value[i]);
 	int status = scene->make(c, f);
-	status = status ? status : adjust(s->config, f);
+	status = status ? status : adjust(s->config, scene, f);
 	*out = status ? pm_frame_free(f) : f;
 	return status ? status : 1;
 }
