@@ -98,7 +98,7 @@ small() {
 		same_as $format.1 $format.2
 		same_as $format.1 $format.3
 	done
-	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 21 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
+	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 22 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
 }
 
 @test "fields computed earlier do not change the plan" {
@@ -242,6 +242,32 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[ "$(says relativity <slow)" = 'off    max v/c = 0.003, error below 1e-05' ]
 	[[ "$(says relativity < <(decide two-stream -n 100))" = *"no speed of light"* ]]
 	pinit two-stream -n 100 --v0 0.003 | smod --constant c=1 | plan --no-cost --accuracy 1e-6 | says relativity | grep -q ^on
+}
+
+@test "ion motion: by omega_pi T and Buneman's rate, of sets that move or stand still and of a background with an ion_mass" {
+	two() { # mass of an ion, drift of the electrons
+		pinit plasma --background 0 --length 12.566 | species electrons -n 2000 --drift "$2" --profile '1 + 0.05*cos(x/2)' |
+			species ions -n 2000 --charge 1 --mass "$1" --vth 0.02
+	}
+	told() { plan --no-cost -t "$1" | says 'ion motion'; }
+	two 100 0 >start
+	[ "$(told 2 <start)" = "on     omega_pi T = 0.2, q/m 0.01 of the electrons'" ]
+	[[ "$(told 0.9 <start)" = off*"omega_pi T = 0.09, "*"smod --fixed ions)" ]] # (omega_pi T)^2/2 = 0.004, below half of 0.01
+	two 1836 0 | told 2 | grep -q '^off .*omega_pi T = 0.047'
+	[[ "$(smod --fixed ions <start | told 2)" = error*"omega_pi T = 0.2,"*"they are fixed (smod --loose ions)" ]]
+	[[ "$(smod --fixed ions <start | told 0.9)" = off*"0.01 of the electrons'" ]]
+	# 1 - cos(0.687 1e4^(-1/3) T) is beyond 0.005 from T = 3.1 on, of omega_pi alone from 10
+	[[ "$(two 1e4 3 | told 5)" = on*"which drift" && "$(two 1e4 0 | told 5)" = off* ]]
+	[[ "$(pinit landau -n 2000 | told 30)" = off*"a background at rest; protons would have omega_pi T = 0.7 "* ]]
+	pinit landau -n 2000 | smod --constant ion_mass=1836 >behind
+	[[ "$(told 30 <behind)" = error*"omega_pi T = 0.7, "*"they are a background (species, --constant background=0)" ]]
+	[[ "$(told 1 <behind)" = off* ]]
+	[[ "$(pinit weibel -n 2000 | smod --constant background=0 | told 30)" = "off    no ions: no species is heavier than the others" ]]
+	two 4 0.5 >light
+	plan --check -t 0.9 <start | grep -q '^ion motion  *off  *0.0006.*right: negligible'
+	plan --check -t 40 -n 100 <light | grep -q '^ion motion  *on  *0.18 .*right'
+	run -3 plan --check -t 40 -n 100 --off ion-motion <light
+	[[ $output == *"ion motion "*"wrong: it matters"* ]]
 }
 
 @test "diffusion: nu dt/h^2 is printed, nu T |lap omega|/|omega| decides" {
