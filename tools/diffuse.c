@@ -1,4 +1,6 @@
 /* diffuse: viscosity on the mesh; the Laplacian is lib/mesh/gradient.c, the rest lib/mesh/diffusion-frame.c. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "fft/axis-transform.h"
 #include "law/law.h"
 #include "mesh/diffusion-frame.h"
@@ -6,28 +8,39 @@
 #include "stage/viscosity-options.h"
 
 struct config {
-	const char *field, *order, *mesh, *plan;
-	double nu;
+	const char *field, *order, *mesh, *plan, *nu;
 	bool replace;
 };
 struct state {
 	struct pm_fft_plans planner;
 	struct pm_diffusion diffusion;
+	struct pm_viscosity nu;
 };
+
+static int begin(struct pm_stage *s) { return pm_viscosity_typed(((const struct config *)s->config)->nu); }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *o = s->config;
-	const struct pm_diffusion_choice choice = {.field = o->field, .mesh = o->mesh, .order = o->order, .nu = pm_viscosity(f, o->nu), .replace = o->replace};
-	int status = pm_law_of(f) ? pm_viscosity_check(s, choice.nu) : -PM_DATA;
-	return status ? status : pm_diffusion_declare(&choice, f, &((struct state *)s->state)->diffusion);
+	struct state *t = s->state;
+	struct pm_diffusion_choice choice = {.field = o->field, .mesh = o->mesh, .order = o->order, .replace = o->replace};
+	const struct pm_mesh *mesh = pm_frame_mesh(f, o->mesh);
+	int status = !pm_law_of(f) ? -PM_DATA : mesh || !o->nu ? pm_viscosity_of(s, f, mesh ? mesh->name : "", o->nu, &t->nu) : 0;
+	memcpy(choice.nu, t->nu.axis, sizeof choice.nu);
+	return status ? status : pm_diffusion_declare(&choice, f, &t->diffusion);
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
-	int status = pm_diffusion_add(&t->diffusion, &t->planner);
-	pm_report(s, f, "fastest_dt", t->diffusion.nu * pm_operator_fastest(&t->diffusion.operator) * f->dt);
+	const size_t n = t->diffusion.density->count;
+	struct pm_diffusion_nu varies = {NULL};
+	double decay = 0, *nu = t->nu.varies ? pm_alloc(n + 1, sizeof *nu) : NULL;
+	int status = t->nu.varies ? pm_viscosity_values(nu ? 0 : pm_failed(), &t->nu, f, n, nu, &varies.least, &varies.most) : 0;
+	varies.at = nu;
+	status = status ? status : pm_diffusion_add(&t->diffusion, &varies, &t->planner, &decay);
+	pm_report(s, f, "fastest_dt", decay * f->dt);
+	pm_free(nu);
 	return status;
 }
 
@@ -44,7 +57,7 @@ static const struct pm_option options[] = {
 		.text = "a strength or value that p2m --strength NAME --field NAME has deposited (default: the law's density)"},
 	{.name = "order", .kind = PM_WORD, .choices = pm_order_names, PM_AT(order),
 		.text = "order of the differences, or spectral (default: that of the law's gradients)"},
-	PM_VISCOSITY_ROW,
+	PM_VISCOSITY_FIELD_ROW,
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "the mesh (default: the first)"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change instead of refusing to add it twice"},
 	PM_PLAN_ROW,
@@ -78,6 +91,7 @@ const struct pm_tool tool_diffuse = {
 	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
+	.begin = begin,
 	.declare = declare,
 	.frame = frame,
 	.divided = divided,

@@ -8,8 +8,8 @@
 #include "stage/viscosity-options.h"
 
 struct config {
-	const char *method, *order, *set, *field, *wall;
-	double nu, eps, overlap, cutoff;
+	const char *method, *order, *set, *field, *wall, *nu;
+	double eps, overlap, cutoff;
 	bool replace;
 };
 
@@ -20,17 +20,29 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--eps or --overlap, not both: either is the width");
 	if (!strcmp(o->method, "dc") && !strcmp(o->order, "8"))
 		return pm_fail(PM_USAGE, "--method dc has orders 2, 4 and 6 (order 8 would need the moments of 219 monomials in 3-D)");
-	return 0;
+	return pm_viscosity_typed(o->nu);
 }
 
 /* The sets, and what is the same for all of them. */
 static int choose(const struct config *o, const struct pm_frame *f, struct pm_pse_set *p, struct pm_sets *sets)
 {
 	const char *field = o->field ? o->field : pm_law_of(f)->strength;
-	*p = (struct pm_pse_set){.field = field, .nu = pm_viscosity(f, o->nu), .corrected = !strcmp(o->method, "dc"), .order = atoi(o->order),
+	*p = (struct pm_pse_set){.field = field, .corrected = !strcmp(o->method, "dc"), .order = atoi(o->order),
 		.eps = o->eps, .overlap = o->overlap, .cutoff = o->cutoff, .images = !strcmp(o->wall, "images")};
 	const char *const needs[] = {"x", field, NULL};
 	return pm_sets_choose(f, o->set, needs, "stab reads it from a table", sets);
+}
+
+static int viscosity(struct pm_stage *s, struct pm_frame *f, struct pm_pse_set *p, struct pm_viscosity *v)
+{
+	const struct config *o = s->config;
+	int status = pm_viscosity_of(s, f, p->set, o->nu, v);
+	p->nu = v->least;
+	memcpy(p->axis, v->ratio, sizeof p->axis);
+	if (!status && !(p->nu > 0))
+		return pm_fail(PM_USAGE, "--nu %s is 0 along an axis, and particles exchange along all (diffuse does it on a mesh)", o->nu);
+	return status || !v->varies || !p->corrected ? status :
+		pm_fail(PM_USAGE, "--method dc takes one nu, or one for each axis; where it varies use --method exchange");
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
@@ -38,18 +50,40 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	const struct config *o = s->config;
 	struct pm_pse_set p;
 	struct pm_sets sets;
+	struct pm_viscosity v;
 	const struct pm_law *law = pm_law_of(f);
-	int status = law ? pm_viscosity_check(s, pm_viscosity(f, o->nu)) : -PM_DATA;
+	int status = law ? o->nu ? 0 : pm_viscosity_check(s, pm_viscosity(f, NAN)) : -PM_DATA;
 	if (!status && !o->field && !law->strength)
 		return pm_fail(PM_DATA, "the law '%s' has no strength to diffuse (--field NAME)", law->name);
 	if (!status)
 		status = choose(o, f, &p, &sets);
 	for (size_t i = 0; !status && i < sets.n; i++) {
 		p.set = sets.name[i];
-		status = pm_reads_positions(f, p.set);
+		status = viscosity(s, f, &p, &v);
+		status = status ? status : pm_reads_positions(f, p.set);
 		if (!status)
 			status = pm_pse_plan(f, &p, o->replace);
 	}
+	return status;
+}
+
+/* Exchange in a set; what varies is put into a share of the largest nu. */
+static int apply(struct pm_stage *s, struct pm_frame *f, struct pm_pse_set *p, struct pm_pse_found *found)
+{
+	struct pm_viscosity v;
+	const size_t n = pm_frame_field(f, p->set, "x")->count;
+	double least, *share = NULL;
+	int status = viscosity(s, f, p, &v);
+	*found = (struct pm_pse_found){0};
+	if (!status && v.varies) {
+		share = pm_alloc(n + 1, sizeof *share);
+		status = pm_viscosity_values(share ? 0 : pm_failed(), &v, f, n, share, &least, &p->nu);
+		for (size_t i = 0; i < n && !status; i++)
+			share[i] = p->nu > 0 ? share[i] / p->nu : 1;
+		p->share = share;
+	}
+	status = status ? status : pm_pse_apply(f, p, found);
+	pm_free(share);
 	return status;
 }
 
@@ -63,9 +97,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		struct pm_pse_set p = common;
 		struct pm_pse_found found;
 		p.set = sets.name[i];
-		if ((status = pm_pse_apply(f, &p, &found)) || !pm_frame_set(f, p.set)->n)
+		if ((status = apply(s, f, &p, &found)) || !pm_frame_set(f, p.set)->n)
 			continue;
-		fastest = fmax(fastest, p.nu * found.fastest);
+		fastest = fmax(fastest, found.fastest);
 		pm_report(s, f, "eps", p.eps);
 		pm_report(s, f, "cutoff", p.cutoff);
 		if (found.alone)
@@ -96,7 +130,7 @@ static const struct pm_option options[] = {
 		.text = "eps over the spacing (mean volume)^(1/dim); must be at least 1 on a lattice, and more for distorted particles"},
 	{.name = "cutoff", .kind = PM_REAL, .unit = "eps", .low = 1, .high = 40, PM_AT(cutoff),
 		.text = "partners farther apart than this do not exchange; by default 8, 9, 10 and 11 for orders 2 to 8; of dc 3.1, 4.1 and 5.1"},
-	PM_VISCOSITY_ROW,
+	PM_VISCOSITY_FIELD_ROW,
 	{.name = "field", .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "diffuse this field, a strength or a value; by default the law's strength"},
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(set), .text = "only this set; by default every set with the field, each separately"},
 	{.name = "wall", .kind = PM_WORD, .fallback = "images", .choices = walls, PM_AT(wall),

@@ -109,8 +109,10 @@ double pm_operator_fastest(const struct pm_operator *o)
 {
 	const double at_grid_frequency[] = {pm_pi * pm_pi, 4, 16.0 / 3, 272.0 / 45}; /* order 0 (spectral), 2, 4, 6 */
 	double sum = 0;
-	for (int d = 0; d < o->grid.dim; d++)
-		sum += at_grid_frequency[o->order / 2] / (o->grid.h[d] * o->grid.h[d]);
+	for (int k = 0; k < o->nterms; k++) {
+		const double h = o->grid.h[o->term[k].axis];
+		sum += o->term[k].out ? 0 : fabs(o->term[k].sign) * at_grid_frequency[o->order / 2] / (h * h);
+	}
 	return sum;
 }
 

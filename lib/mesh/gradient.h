@@ -53,7 +53,8 @@ int pm_operator_plan(struct pm_operator *o, struct pm_fft_plans *p);
  * is finite. */
 int pm_operator_apply(const struct pm_operator *o, double factor, const double *const in[], double *const out[], bool *seen);
 
-/* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2, summed over the axes. */
+/* The largest absolute eigenvalue of lap, 1/length^2, where nothing is open: 4, 16/3, 272/45, pi^2 over h^2 times the sign of the term, summed over the
+ * axes. */
 double pm_operator_fastest(const struct pm_operator *o);
 
 PM_C_END

@@ -36,6 +36,9 @@ struct whole {
 	const double *x[3], *volume;
 	const double *own;     /* volumes of the particles here */
 	double *room;          /* with ranks: the memory of the others */
+	const double *share;   /* NULL: none */
+	double *scaled;        /* positions where axes differ in nu */
+	double nu;             /* of pm_pse_add */
 	const struct pm_field *g; /* what is exchanged, of the particles here */
 };
 
@@ -52,17 +55,42 @@ static int bring(int status, const struct pm_field *like, const double *here, do
 /* Behind the checks. Takes a status and returns the agreed one. */
 static int bring_all(int status, const struct pm_frame *f, const struct pm_field *g, struct whole *w)
 {
+	const int last = f->dim + (w->share ? 1 : 0);
 	status = pm_world_agree(status);
 	if (!g->here)
 		return status;
-	w->room = status ? NULL : pm_alloc((size_t)(f->dim + 1) * w->n + 1, sizeof *w->room);
+	w->room = status ? NULL : pm_alloc((size_t)(last + 1) * w->n + 1, sizeof *w->room);
 	status = status ? status : w->room ? 0 : pm_failed();
-	for (int d = 0; d <= f->dim; d++) {
+	for (int d = 0; d <= last; d++) {
+		const double **of = d < f->dim ? &w->x[d] : d == f->dim ? &w->volume : &w->share;
 		double *all = w->room ? w->room + (size_t)d * w->n : NULL;
-		status = bring(status, g, d < f->dim ? w->x[d] : w->own, all);
-		*(d < f->dim ? &w->x[d] : &w->volume) = all;
+		status = bring(status, g, *of, all);
+		*of = all;
 	}
 	return status;
+}
+
+/* Axes of different nu: lengths over the root of their ratio, where nu is the same along all; volumes there are smaller by the product of the roots, which
+ * values do not feel. */
+static int scale_axes(int status, const struct pm_pse_set *s, struct pm_domain *domain, struct whole *w)
+{
+	bool any = false;
+	w->nu = s->nu;
+	for (int d = 0; d < domain->dim; d++)
+		any = any || s->axis[d] != 1;
+	if (status || !any)
+		return status;
+	w->scaled = pm_alloc((size_t)domain->dim * w->n + 1, sizeof *w->scaled);
+	for (int d = 0; d < domain->dim && w->scaled; d++) {
+		const double root = sqrt(s->axis[d]);
+		double *to = w->scaled + (size_t)d * w->n;
+		for (size_t i = 0; i < w->n; i++)
+			to[i] = w->x[d][i] / root;
+		w->x[d] = to;
+		domain->lo[d] /= root, domain->hi[d] /= root;
+		w->nu /= s->corrected ? 1 : root;
+	}
+	return w->scaled ? 0 : pm_failed();
 }
 
 static int check_volumes(const struct pm_pse_set *s, const struct pm_field *g, const double *volume, bool value)
@@ -118,17 +146,17 @@ static int add(int status, const struct pm_pse *p, const struct pm_cell_list *l,
 }
 
 /* One component; a value is exchanged as value times volume. */
-static int component(struct pm_pse_set *s, const struct pm_pse *p, const struct pm_cell_list *l, const struct pm_field *g, int c, const struct whole *w,
+static int component(const struct pm_pse *p, const struct pm_cell_list *l, const struct pm_field *g, int c, const struct whole *w,
 	double *rate, struct pm_pse_found *found)
 {
 	const double *in = pm_in(g, c);
 	if (g->extensive)
-		return add(0, p, l, s->nu, w, in, rate, found);
+		return add(0, p, l, w->nu, w, in, rate, found);
 	double *strength = pm_alloc(g->count + 1, sizeof *strength), *sum = pm_zalloc(g->count + 1, sizeof *sum);
 	int status = strength && sum ? 0 : pm_failed();
 	for (size_t i = 0; i < g->count && !status; i++)
 		strength[i] = w->own[i] * in[i];
-	status = add(status, p, l, s->nu, w, strength, sum, found);
+	status = add(status, p, l, w->nu, w, strength, sum, found);
 	for (size_t i = 0; i < g->count && !status; i++)
 		rate[i] += sum[i] / w->own[i];
 	pm_free(strength), pm_free(sum);
@@ -140,8 +168,9 @@ static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l,
 {
 	struct pm_pse p = pm_pse_of(dim, s->order, s->eps, s->cutoff);
 	int status = 0;
+	p.share = w->share;
 	for (int c = 0; c < g->components && !status; c++)
-		status = component(s, &p, l, g, c, w, pm_out(change, c), found);
+		status = component(&p, l, g, c, w, pm_out(change, c), found);
 	return status;
 }
 
@@ -168,7 +197,7 @@ static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, 
 		for (size_t i = 0; i < n; i++)
 			value[c * n + i] = pm_in(g, (int)c)[i] / (g->extensive ? volume[i] : 1);
 	}
-	if (!status && (status = pm_dc_add(&o, l, s->nu, g->components, values, rates, &dc)) == -PM_NUMERICS)
+	if (!status && (status = pm_dc_add(&o, l, w->nu, g->components, values, rates, &dc)) == -PM_NUMERICS)
 		status = stuck(s, &dc, l->reach);
 	for (size_t c = 0; c < fields && !status; c++)
 		for (size_t i = 0; i < n; i++)
@@ -187,7 +216,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	struct pm_cell_list list = {.n = 0};
 	double spacing = 0;
 	*found = (struct pm_pse_found){0};
-	w.volume = w.own, w.g = g;
+	w.volume = w.own, w.g = g, w.share = s->share;
 	for (int d = 0; d < f->dim; d++) {
 		w.x[d] = pm_in(pm_frame_field(f, s->set, "x"), d);
 		for (int side = 0; side < 2 && !s->images; side++)
@@ -200,6 +229,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	status = pm_world_agree(status ? status : check_faces(s, &domain, g, w.x));
 	status = status ? status : width(s, f->dim, g, &w, &spacing); /* the same on all ranks */
 	status = bring_all(status, f, g, &w);
+	status = scale_axes(status, s, &domain, &w);
 	if (!status)
 		status = pm_cell_list_init(&list, &domain, w.n, w.x, pm_pse_reach(s->eps, s->cutoff) * (s->corrected ? pm_dc_widest : 1),
 			(s->corrected ? 1 : 2) * spacing);
@@ -208,9 +238,10 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	struct pm_field *change = pm_frame_field(f, s->set, name);
 	if (!status)
 		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, &w, change, found);
+	found->fastest *= w.nu;
 	if (!status)
-		pm_limits_add(change, (struct pm_limits){.decay = s->nu * found->fastest});
+		pm_limits_add(change, (struct pm_limits){.decay = found->fastest});
 	pm_cell_list_free(&list);
-	pm_free(w.room);
+	pm_free(w.room), pm_free(w.scaled);
 	return status;
 }

@@ -8,10 +8,12 @@
 
 struct pm_pse_set {
 	const char *set, *field; /* what is diffused: a strength, or a value of particles with volumes */
-	double nu;               /* [length^2/time] */
+	double nu;               /* [length^2/time]; along the axis of the least, of the particles the largest */
+	double axis[3];          /* nu along each axis over that, at least 1 */
+	const double *share;     /* NULL, or nu of each particle here over nu, from 0 to 1 */
 	bool corrected;          /* dcpse.h; else pse.h */
 	int order;
-	double eps;              /* [length]; NAN: overlap times the spacing of the particles */
+	double eps;              /* [length], along the axis of the least nu; NAN: overlap times the spacing of the particles */
 	double overlap;          /* eps over that spacing, (mean volume)^(1/dim) */
 	double cutoff;           /* in eps; NAN: that of the order */
 	bool images;             /* mirror images at walls */

@@ -30,6 +30,7 @@ int pm_pse_plain(const struct pm_pse *s, const struct pm_domain *domain, double 
 		status = pm_images_of(domain->lo[d], domain->hi[d], domain->face[d], s->reach, &m[d]);
 	for (size_t p = 0; p < n && !status; p++)
 		for (size_t q = 0; q < n; q++)
-			rate[p] += nu / (s->eps * s->eps) * pow(s->eps, -s->dim) * pair(s, m, x, p, q, volume[q] * strength[p], volume[p] * strength[q]);
+			rate[p] += (s->share ? (s->share[p] + s->share[q]) / 2 : 1) * nu / (s->eps * s->eps) * pow(s->eps, -s->dim) *
+				pair(s, m, x, p, q, volume[q] * strength[p], volume[p] * strength[q]);
 	return status;
 }

@@ -4,6 +4,9 @@
  * s = k^2, which is positive: so the largest rate of decay is at most the largest sum_q V_q eta_eps(x_p - x_q), which a lattice with eps >= h reaches up
  * to exp(-pi^2). Error O(eps^order) + quadrature, which needs eps >= h and particles that are not distorted. Conserves the sum of G without walls. Above
  * order 2 some weights are negative (order 4: beyond z^2 = 8 + 2 dim): no maximum principle.
+ * With a share s of every particle (s_p + s_q)/2 multiplies a pair (Degond and Mas-Gallic 1989): since eta takes a function g to lap g, this is
+ * (s lap f + lap(s f) - f lap s)/2 = div(s grad f), with the order of eta. Where eta > 0 no mode decays faster than without; a negative weight that lacks
+ * its share adds at most twice itself.
  * Partners come from a cell list, eight at a time for two targets; each pair is taken once for both. Fixed pieces of the work sum on their own and are added in
  * order, on many ranks too (near/pse-ranks.h). Cost: N times half the particles within the cut-off, and two numbers a particle and thread. Weakness: N^2 if
  * all particles are within the cut-off of each other.
@@ -29,6 +32,8 @@ struct pm_pse pm_pse_of(int dim, int order, double eps, double cutoff)
 	double sphere = dim == 1 ? 2 : dim == 2 ? 2 * pm_pi : 4 * pm_pi, step = 1.0 / 64;
 	for (double r = cutoff + step / 2; r < cutoff + 12; r += step)
 		p.beyond += step * sphere * pow(r, dim - 1) * fabs(pm_pse_value(&p, r * r)) / p.total;
+	for (double r = step / 2; order > 2 && r < cutoff; r += step)
+		p.negative += step * sphere * pow(r, dim - 1) * fmax(0, -pm_pse_value(&p, r * r)) / p.total;
 	return p;
 }
 
@@ -45,7 +50,7 @@ enum { ROWS = 2, PIECE = 4096, SMALL = 16 }; /* targets at a time; places of a p
 /* By place in the cell list, padded; and the kernel in terms of r^2. */
 struct work {
 	const struct pm_cell_list *list;
-	double *volume, *strength;
+	double *volume, *strength, *half; /* half: of the share; NULL: none */
 	double *exchange, *weight; /* sums over partners of (V_p G_q - V_q G_p) eta and of V_q eta, without the factor */
 	double reach2, exponent, coefficient[PM_PSE_TERMS], factor; /* eta/eps^2 = factor sum_i coefficient_i r^2i exp(exponent r^2) */
 	struct pm_pse_kept *kept;  /* with ranks: what pieces give, piece after piece; else NULL */
@@ -59,13 +64,13 @@ struct sums {
 
 /* The particles of one cell, shifted for one neighbour range, and their sums. */
 struct rows {
-	pm_simd x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], exchange[ROWS], weight[ROWS];
+	pm_simd x[3][ROWS], shift[3], volume[ROWS], strength[ROWS], half[ROWS], exchange[ROWS], weight[ROWS];
 };
 
-/* Constants for which the compiler makes a separate loop: rows n at a time; both directions; shifted images. */
+/* Constants for which the compiler makes a separate loop: rows n at a time; shares; both directions; shifted images. */
 struct how {
 	int dim, order, n;
-	bool half, moved;
+	bool shares, half, moved;
 };
 
 /* Partners at j..j+7 of n rows, those outside of from..to-1 left out; half: both ways, with the partners' sums at own. */
@@ -73,7 +78,9 @@ PM_SIMD_INLINE void meet(const struct work *w, const struct how how, size_t j, b
 {
 	const int dim = how.dim, n = how.n;
 	const bool half = how.half;
-	pm_simd y[3], q = pm_simd_load_any(w->volume + j), g = pm_simd_load_any(w->strength + j), exchange = {0}, weight = {0};
+	pm_simd y[3], q = pm_simd_load_any(w->volume + j), g = pm_simd_load_any(w->strength + j), exchange = {0}, weight = {0}, share = {0};
+	if (how.shares)
+		share = pm_simd_load_any(w->half + j);
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
 		y[d] = pm_simd_load_any(w->list->x[d] + j);
@@ -101,6 +108,8 @@ PM_SIMD_INLINE void meet(const struct work *w, const struct how how, size_t j, b
 		}
 		eta = pm_simd_where_not_below(pm_simd_all(w->reach2), r2, eta);
 		traded = r->volume[k] * g - q * r->strength[k]; /* antisymmetric: no fma within */
+		if (how.shares)
+			traded *= r->half[k] + share;
 		r->exchange[k] = pm_simd_fma(traded, eta, r->exchange[k]);
 		r->weight[k] = pm_simd_fma(q, eta, r->weight[k]);
 		if (half)
@@ -125,7 +134,7 @@ PM_SIMD_INLINE void range_sums(const struct work *w, const struct how how, size_
 		meet(w, how, j, false, none, to - j, own, r);
 }
 
-PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, const struct pm_neighbour_range *s, struct rows *r)
+PM_SIMD_INLINE void rows_see(const struct work *w, int dim, bool shares, int n, size_t i, const struct pm_neighbour_range *s, struct rows *r)
 {
 	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
@@ -134,6 +143,8 @@ PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, con
 			r->x[d][t] = pm_simd_all(s->side[d] * w->list->x[d][i + (size_t)t]);
 		r->volume[t] = pm_simd_all(s->sign * w->volume[i + (size_t)t]); /* instead of the strengths of the images */
 		r->strength[t] = pm_simd_all(w->strength[i + (size_t)t]);
+		if (shares)
+			r->half[t] = pm_simd_all(w->half[i + (size_t)t]);
 	}
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
@@ -141,22 +152,28 @@ PM_SIMD_INLINE void rows_see(const struct work *w, int dim, int n, size_t i, con
 }
 
 /* The n particles at place i: pairs with later ones and with images shifted up, in both directions; and contributions of mirror images. */
-PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t i, size_t ranges, const struct pm_neighbour_range *s, struct sums *own)
+PM_SIMD_INLINE void rows(const struct work *w, const struct how all, size_t i, size_t ranges, const struct pm_neighbour_range *s, struct sums *own)
 {
+	const int n = all.n;
 	struct rows r = {.exchange = {{0}}};
+	struct how how = all;
 	static const size_t none[ROWS] = {0}, later[ROWS] = {0, 1};
 	for (size_t k = 0; k < ranges; k++) {
 		bool here = s[k].kind == PM_HERE;
 		size_t from = here && s[k].from < i + 1 ? i + 1 : s[k].from;
 		if (from >= s[k].to)
 			continue;
-		rows_see(w, dim, n, i, s + k, &r);
-		if (here)
-			range_sums(w, (struct how){dim, order, n, true, false}, from, s[k].to, from == i + 1 ? later : none, own, &r);
-		else if (s[k].kind == PM_AHEAD)
-			range_sums(w, (struct how){dim, order, n, true, true}, from, s[k].to, none, own, &r);
-		else
-			range_sums(w, (struct how){dim, order, n, false, true}, from, s[k].to, none, own, &r);
+		rows_see(w, all.dim, all.shares, n, i, s + k, &r);
+		if (here) {
+			how.half = true, how.moved = false;
+			range_sums(w, how, from, s[k].to, from == i + 1 ? later : none, own, &r);
+		} else if (s[k].kind == PM_AHEAD) {
+			how.half = true, how.moved = true;
+			range_sums(w, how, from, s[k].to, none, own, &r);
+		} else {
+			how.half = false, how.moved = true;
+			range_sums(w, how, from, s[k].to, none, own, &r);
+		}
 	}
 	PM_SIMD_UNROLL
 	for (int t = 0; t < n; t++) {
@@ -165,23 +182,23 @@ PM_SIMD_INLINE void rows(const struct work *w, int dim, int order, int n, size_t
 	}
 }
 
-#define LOOPS(dim, order) \
-	static void one_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own) \
-	{ \
-		rows(w, dim, order, 1, i, n, s, own); \
-	} \
-	static void two_##dim##_##order(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own) \
-	{ \
-		rows(w, dim, order, 2, i, n, s, own); \
-	}
-LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4) LOOPS(1, 6) LOOPS(2, 6) LOOPS(3, 6) LOOPS(1, 8) LOOPS(2, 8) LOOPS(3, 8)
+typedef void loop(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
 struct loops {
-	void (*one)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
-	void (*two)(const struct work *w, size_t i, size_t n, const struct pm_neighbour_range *s, struct sums *own);
+	loop *one, *two;
 };
-static const struct loops table[PM_PSE_TERMS][3] = {
-	{{one_1_2, two_1_2}, {one_2_2, two_2_2}, {one_3_2, two_3_2}}, {{one_1_4, two_1_4}, {one_2_4, two_2_4}, {one_3_4, two_3_4}},
-	{{one_1_6, two_1_6}, {one_2_6, two_2_6}, {one_3_6, two_3_6}}, {{one_1_8, two_1_8}, {one_2_8, two_2_8}, {one_3_8, two_3_8}}};
+#define LOOP(name, dim, order, n, shares) \
+	static void name(const struct work *w, size_t i, size_t ranges, const struct pm_neighbour_range *s, struct sums *own) \
+	{ \
+		rows(w, (struct how){dim, order, n, shares, true, false}, i, ranges, s, own); \
+	}
+#define LOOPS(dim, order) \
+	LOOP(one_##dim##_##order, dim, order, 1, false) LOOP(two_##dim##_##order, dim, order, 2, false) \
+	LOOP(one_shares_##dim##_##order, dim, order, 1, true) LOOP(two_shares_##dim##_##order, dim, order, 2, true) \
+	static const struct loops loops_##dim##_##order[2] = { \
+		{one_##dim##_##order, two_##dim##_##order}, {one_shares_##dim##_##order, two_shares_##dim##_##order}};
+LOOPS(1, 2) LOOPS(2, 2) LOOPS(3, 2) LOOPS(1, 4) LOOPS(2, 4) LOOPS(3, 4) LOOPS(1, 6) LOOPS(2, 6) LOOPS(3, 6) LOOPS(1, 8) LOOPS(2, 8) LOOPS(3, 8)
+static const struct loops *const table[PM_PSE_TERMS][3] = {
+	{loops_1_2, loops_2_2, loops_3_2}, {loops_1_4, loops_2_4, loops_3_4}, {loops_1_6, loops_2_6, loops_3_6}, {loops_1_8, loops_2_8, loops_3_8}};
 
 /* The occupied cell in which a place is. */
 static size_t cell_of(const struct pm_cell_list *l, size_t place)
@@ -251,11 +268,11 @@ static int pieces(const struct work *w, const struct loops *loops, size_t begin,
 	return bad || (w->kept && w->kept->bad) ? pm_no_memory() : 0;
 }
 
-static double *by_place(const struct pm_cell_list *l, const double *values)
+static double *by_place(const struct pm_cell_list *l, const double *values, double times)
 {
 	double *to = pm_alloc(l->n + PM_CELLS_PAD, sizeof *to);
 	for (size_t i = 0; to && i < l->n + PM_CELLS_PAD; i++)
-		to[i] = i < l->n ? values[l->order[i]] : 0;
+		to[i] = i < l->n ? times * values[l->order[i]] : 0;
 	return to;
 }
 
@@ -271,17 +288,27 @@ static void found_at(const struct work *w, size_t begin, size_t end, struct pm_p
 static int work_init(struct work *w, const struct pm_pse *p, const struct pm_cell_list *l, const double *volume, const double *strength)
 {
 	const double eps2 = p->eps * p->eps;
-	*w = (struct work){.list = l, .volume = by_place(l, volume), .strength = by_place(l, strength), .reach2 = l->reach * l->reach,
+	*w = (struct work){.list = l, .volume = by_place(l, volume, 1), .strength = by_place(l, strength, 1),
+		.half = p->share ? by_place(l, p->share, 0.5) : NULL, .reach2 = l->reach * l->reach,
 		.exponent = -0.25 / eps2, .factor = pow(4 * pm_pi, -0.5 * p->dim) * pow(p->eps, -p->dim) / eps2};
 	for (int i = 0; i < PM_PSE_TERMS; i++)
 		w->coefficient[i] = p->coefficient[i] / pow(eps2, i);
 	w->exchange = pm_zalloc(l->n + 1, sizeof *w->exchange), w->weight = pm_zalloc(l->n + 1, sizeof *w->weight);
-	return w->volume && w->strength && w->exchange && w->weight ? 0 : pm_failed();
+	return w->volume && w->strength && w->exchange && w->weight && (w->half || !p->share) ? 0 : pm_failed();
 }
 
-static void work_free(struct work *w) { pm_free(w->volume), pm_free(w->strength), pm_free(w->exchange), pm_free(w->weight); }
+static void work_free(struct work *w) { pm_free(w->volume), pm_free(w->strength), pm_free(w->half), pm_free(w->exchange), pm_free(w->weight); }
 
-static const struct loops *loops_of(const struct pm_pse *p) { return &table[p->order / 2 - 1][p->dim - 1]; }
+static const struct loops *loops_of(const struct pm_pse *p) { return &table[p->order / 2 - 1][p->dim - 1][p->share != NULL]; }
+
+/* What shares that differ may add to the largest rate: negative weights count up to twice more. */
+static double slack(const struct pm_pse *p, size_t n)
+{
+	double least = 1;
+	for (size_t i = 0; i < n && p->share; i++)
+		least = fmin(least, p->share[i]);
+	return 2 * (1 - least) * p->negative;
+}
 
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found)
@@ -294,7 +321,7 @@ int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, 
 		rate[l->order[i]] += nu * w.factor * w.exchange[i];
 	if (!status)
 		found_at(&w, 0, l->n, found);
-	found->fastest *= w.factor * (1 + p->beyond);
+	found->fastest *= w.factor * (1 + p->beyond + slack(p, l->n));
 	work_free(&w);
 	return status;
 }
@@ -318,7 +345,7 @@ int pm_pse_add_here(int status, const struct pm_pse *p, const struct pm_cell_lis
 	for (size_t i = 0; i < l->n && !status; i++)
 		if (l->order[i] >= all->from[pm_world_rank()] && l->order[i] < all->from[pm_world_rank() + 1])
 			rate[l->order[i] - all->from[pm_world_rank()]] += nu * w.factor * w.exchange[i];
-	found->fastest *= w.factor * (1 + p->beyond);
+	found->fastest *= w.factor * (1 + p->beyond + slack(p, l->n));
 	work_free(&w), pm_free(kept.of);
 	return status;
 }

@@ -14,6 +14,8 @@ struct pm_pse {
 	double coefficient[PM_PSE_TERMS];
 	double total;            /* zeroth moment of eta: order/2 */
 	double beyond;           /* integral of |eta| beyond the cut-off, over total */
+	double negative;         /* integral of |eta| where eta < 0, over total */
+	const double *share;     /* NULL, or of every particle from 0 to 1: a pair exchanges the mean of its two times as much */
 };
 
 /* The cut-off as a length, plus 1e-9 of it, so that lattice neighbours exactly at the cut-off are included despite round-off. */
@@ -23,13 +25,14 @@ double pm_pse_cutoff(int order); /* the default, in eps */
 double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-off */
 
 struct pm_pse_found {
-	double fastest; /* no mode decays faster than nu times this [1/length^2] */
+	double fastest; /* no mode decays faster than nu times this [1/length^2]; of pse-frame.h nu is in it [1/time] */
 	uint64_t alone; /* particles without any neighbour or image */
 	uint64_t widened; /* of the corrected form: particles that needed partners from beyond the cut-off */
 };
 
 /* rate[p] += (nu/eps^2) sum over q of (V_p G_q - V_q G_p) eta((x_p - x_q)/eps)/eps^dim, partners and images within the cut-off, which is the list's
- * reach. Each pair is antisymmetric to the last bit, so that the sum over p is zero to round-off. The same bytes for any number of threads. */
+ * reach; times (share_p + share_q)/2. Each pair is antisymmetric to the last bit, so that the sum over p is zero to round-off. The same bytes
+ * for any number of threads. */
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found);
 

@@ -235,3 +235,77 @@ ROWS
 		within "$(column omega_max <d | tail -1)" 0.443137275856 0.0044 "$rate" # 1 % of it
 	done
 }
+
+# varied N [stab options]: f = 2 + sin(2 pi x) cos(2 pi y) on the nodes of N x N cells, nu = visc = 1 + cos(2 pi x)/2; rate, tensor: what df shall be
+# with it and with the tensor 2, 0.5.
+varied() {
+	local n=$1
+	shift
+	lattice $n 1 "$@" | p2m -n $n | scalc --mesh mesh 'f = 2 + sin(2*pi*x)*cos(2*pi*y)' 'visc = 1 + cos(2*pi*x)/2' \
+		'tensor = -10*pi^2*sin(2*pi*x)*cos(2*pi*y)' 'rate = -pi^2*(8*visc + 2*cos(2*pi*x))*sin(2*pi*x)*cos(2*pi*y)' |
+		scalc --role state 'f = 0'
+}
+off() { mesh | awk -v w="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { d = $at["df"] - $at[w]; d = d < 0 ? -d : d; if (d > m) m = d
+	s += $at["df"] } END { print m, s }'; }
+
+@test "diffuse --nu of a tensor and of a field converge with their order, and the sum stays" {
+	for order in 2 4 6 spectral; do
+		local tensor=() rates=() e s
+		for n in 32 40 48; do
+			varied $n >a
+			read -r e s < <(diffuse --field f --order $order --nu 2,0.5 <a | off tensor)
+			tensor+=("$(calc "1/$n")" "$e")
+			read -r e s < <(diffuse --field f --order $order --nu visc <a | off rate)
+			rates+=("$(calc "1/$n")" "$e")
+			below "$s" 1e-8 "sum of 2304 rates" # of terms nu f/h^2 up to 1e5: 1e5 * 1.1e-16 * sqrt(2304 * 20) = 2e-9; a lost flux is 100
+		done
+		if [ $order = spectral ]; then # exact for few waves; round-off of (n/2)^2 pi^2 times 3
+			below "${tensor[5]}" 1e-9
+			below "${rates[5]}" 1e-9
+		else
+			order $order "${tensor[@]}"
+			order $order "${rates[@]}"
+		fi
+	done
+	# an expression is the field
+	within "$(diffuse --field f --order 4 --nu '1 + cos(2*pi*x)/2' <a | off rate | cut -d ' ' -f 1)" \
+		"$(diffuse --field f --order 4 --nu visc <a | off rate | cut -d ' ' -f 1)" 1e-12
+}
+
+@test "diffuse --nu of a field, order 2: the fluxes of faces with mean nu, between walls and at neumann faces too" {
+	for faces in periodic wall neumann; do
+		awk 'BEGIN { print "x f volume"; for (i = 0; i <= 8; i++) print i/8, 0, 1/8 }' | stab - --law passive --box 0,1 -n 8 --faces $faces \
+			--particle-faces $([ $faces = periodic ] && echo periodic || echo reflect) |
+			p2m --strength f --field f | scalc --mesh mesh 'f = (x + 0.1)*(x - 1)^2*x' 'visc = 1 + x^2' |
+			diffuse --field f --order 2 --nu visc | mesh | awk -v faces=$faces 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+				{ f[NR-2] = $at["f"]; v[NR-2] = $at["visc"]; d[NR-2] = $at["df"]; n = NR - 1 }
+				END { image = faces == "wall" ? -1 : 1; round = faces == "periodic"
+					f[-1] = round ? f[n-1] : image * f[1]; v[-1] = round ? v[n-1] : v[1]
+					f[n] = round ? f[0] : image * f[n-2]; v[n] = round ? v[0] : v[n-2]
+					for (i = 0; i < n; i++) {
+						want = 64 * ((v[i] + v[i+1])/2 * (f[i+1] - f[i]) - (v[i] + v[i-1])/2 * (f[i] - f[i-1]))
+					e = want - d[i]; e = e < 0 ? -e : e; if (e > m) m = e }
+					print m; exit !(n >= 8 && m < 1e-12) }'
+	done
+}
+
+@test "diffuse --nu: white noise with nu up to 1 is stable below the limit and not above; what cannot be is refused" {
+	for order in 2 4 6 spectral; do
+		lattice 16 'sin(12.9898*(x*31 + y*977)^2*1e3)' >a
+		f=$(p2m <a | diffuse --order $order --nu '1 - 0.5*(x < 0.25)' | sls --report --format json | grep -o '"fastest_dt":[0-9.e+-]*' | cut -d : -f 2)
+		for c in 1.98 2.8; do
+			smod --dt "$(calc "0.01*$c/$f")" <a | cycle -q -n 300 \
+				"p2m | diffuse --order $order --nu '1 - 0.5*(x < 0.25)' | m2p --changes | field 'vel = 0, 0' | push --unsafe euler" |
+				stab --plain | column circulation | awk '{ a = $1 < 0 ? -$1 : $1; if (a > m) m = a } END { print m }'
+		done >grown
+		awk 'NR == 1 { a = $1 } END { print a, $1; exit !(a < 0.004 && $1 > 1) }' grown # 1/256 is the largest strength at first
+	done
+	varied 16 >a
+	run -2 bash -o pipefail -c 'diffuse --field f --nu 1,2,3 <a | sls'
+	[[ $output == *"--nu '1,2,3' has 3 components: give one, or one for each of the 2 axes"* ]]
+	run -2 bash -o pipefail -c 'diffuse --field f --nu visc,1 <a | sls'
+	[[ $output == *"a tensor takes numbers, what varies is one expression for all axes"* ]]
+	run -1 bash -o pipefail -c "diffuse --field f --nu 'visc - 1' <a | sls"
+	[[ $output == *"somewhere on 'mesh': negative diffusion has no solution"* ]]
+	sh_ok 'diffuse --field f --nu 0,1 <a | sls' # along y alone
+}

@@ -62,8 +62,9 @@ load words
 	# Words that rightly differ: cycle --plan is not the --plan of transforms. pareto is about runs, not frames: its --time is a clock, its --size one of
 	# its names, its --axes those of its picture, and in pinit they are those of a wave. pinit --mode counts
 	# waves, and modes --mode is one of those it found.
+	# pse and diffuse --nu may be a field, elsewhere it is a number.
 	# cycle --until ends a run by the columns of diag, dt --until at a time.
-	awk '/^--(plan cycle|(time|size|axes) [A-Z]+ pareto|mode N modes|until X dt)$/ { next } {
+	awk '/^--(plan cycle|(time|size|axes) [A-Z]+ pareto|mode N modes|nu EXPRESSION (pse|diffuse)|until X dt)$/ { next } {
 		kind = NF < 3 ? "flag" : $2 ~ /^(N|X|CELLS|X,Y,.*)$/ ? $2 : "words"; if ($1 in seen && seen[$1] != kind) {
 		print $1 ": " seen[$1] " and " kind " in " $NF; bad = 1 } seen[$1] = kind } END { exit bad }' all
 }

@@ -194,3 +194,65 @@ rest="field 'vel = 0'"
 	run -3 bash -o pipefail -c "field 'vel = 0, 0' <a | pse --field heat --nu 1 --method dc | push euler | sls"
 	[[ $output == *"times the limit of euler"* ]]
 }
+
+# plane N [NU]: f = 2 + sin(2 pi x) cos(2 pi y) on N x N points, with nu = NU and what the rates shall be: of that nu, and of the tensor 1.5, 1.
+plane() {
+	awk -v OFMT=%.17g -v n="$1" 'BEGIN { k = 2 * atan2(0, -1); h = 1 / n; print "x y f visc volume varies tensor"
+		for (i = 0; i < n; i++) for (j = 0; j < n; j++) { x = (i + 0.5) * h; y = (j + 0.5) * h; s = sin(k*x); c = cos(k*x); C = cos(k*y); v = 1 + c/2
+			print x, y, 2 + s*C, v, h*h, -2*k*k*v*s*C - k*k/2*s*c*C, -2.5*k*k*s*C } }' |
+		stab - --law passive --box 0,1 --faces periodic --dt 1e-5
+}
+# off NAME: the largest difference of df from NAME.
+off() { stab --plain | awk -v w="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { d = $at["df"] - $at[w]; d = d < 0 ? -d : d
+	if (d > m) m = d } END { print m }'; }
+
+@test "pse --nu of a tensor and of a field have the order of the kernel, and the sum stays" {
+	for order in 2 4 6; do # farther cut-off than usual, whose error of 1e-7 would hide order 6
+		local tensor=() varies=() o="--field f --order $order --cutoff 12"
+		for n in 48 64 80; do
+			plane $n >a
+			tensor+=("$(calc "1/$n")" "$(pse $o --nu 1.5,1 <a | off tensor)")
+			varies+=("$(calc "1/$n")" "$(pse $o --nu visc <a | tee b | off varies)")
+		done
+		order $order "${tensor[@]}"
+		order $order "${varies[@]}"
+		# a sum of 6400 rates of size 100, each rounded: 1e-13 times sqrt(6400)
+		below "$(stab --plain <b | column df | awk '{ s += $1 } END { print s }')" 1e-11 sum
+	done
+	within "$(pse --field f --nu '1 + cos(2*pi*x)/2' <a | off varies)" "$(pse --field f --nu visc <a | off varies)" 1e-9
+}
+
+@test "pse --nu 0.02,0.01: a Gaussian becomes an ellipse as it must" {
+	# exact: exp(-x^2/(1 + 4 nu_x t) - y^2/(1 + 4 nu_y t)) over the root of the product
+	local e=()
+	for n in 48 64 80; do
+		awk -v OFMT=%.17g -v n=$n 'BEGIN { h = 12 / n; print "x y f volume"; for (i = 0; i < n; i++) for (j = 0; j < n; j++) {
+			x = -6 + (i + 0.5) * h; y = -6 + (j + 0.5) * h; print x, y, exp(-x*x - y*y), h*h } }' |
+			stab - --law passive --box -6,6 --dt 2.5 | cycle -n 10 "field 'vel = 0, 0' | pse --field f --nu 0.02,0.01 | push rk2" >b
+		e+=("$(calc "1/$n")" "$(stab --plain <b | awk 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { x = $at["x"]; y = $at["y"]
+			d = $at["f"] - exp(-x*x/3 - y*y/2)/sqrt(6); d = d < 0 ? -d : d; if (d > m) m = d } END { print m }')")
+	done
+	order 2 "${e[@]}"
+}
+
+@test "pse --nu: the limit goes by the largest nu; what cannot be is refused" {
+	plane 16 >a
+	fastest() { pse --field f "$@" <a | sls --report --format json | grep -o '"fastest_dt":[0-9.e+-]*' | cut -d : -f 2; }
+	# the lattice has visc up to 1 + cos(pi/16)/2
+	within "$(fastest --nu visc)" "$(fastest --nu "$(calc '1 + cos(3.14159265358979/16)/2')")" 1e-12
+	# half the length along x doubles the partners, and half the volume: 1/eps^2 stays that of the least nu
+	within "$(fastest --nu 2,0.5)" "$(fastest --nu 0.5)" 1e-7
+	run -2 bash -o pipefail -c "pse --field f --nu 1,2,3 <a | sls"
+	[[ $output == *"--nu '1,2,3' has 3 components: give one, or one for each of the 2 axes"* ]]
+	run -2 bash -o pipefail -c "pse --field f --nu visc,1 <a | sls"
+	[[ $output == *"a tensor takes numbers, what varies is one expression for all axes"* ]]
+	run -2 bash -o pipefail -c "pse --field f --nu 1,0 <a | sls"
+	[[ $output == *"is 0 along an axis, and particles exchange along all (diffuse does it on a mesh)"* ]]
+	run -2 bash -o pipefail -c "pse --field f --nu 1,-1 <a | sls"
+	[[ $output == *"negative diffusion has no solution"* ]]
+	run -1 bash -o pipefail -c "pse --field f --nu 'visc - 1' <a | sls"
+	[[ $output == *"somewhere on 'matter': negative diffusion has no solution"* ]]
+	run -2 bash -o pipefail -c "pse --field f --nu visc --method dc <a | sls"
+	[[ $output == *"where it varies use --method exchange"* ]]
+	below "$(pse --field f --nu 1.5,1 --method dc --order 4 <a | off tensor)" 1 # of 99; dc takes a tensor
+}

@@ -102,6 +102,8 @@ vortices() {
 
 @test "equal bytes: vortices that exchange their strength (pse), two passes a step (rk2), remeshed" {
 	all_ways vortices "" "p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6" 2
+	all_ways vortices "" "p2m | poisson-fft | mgrad | m2p | pse --nu 'nu*(2 + y)' | push rk2 | remesh --cut-off 1e-6" 2
+	all_ways vortices "" "p2m | poisson-fft | mgrad | diffuse --nu 'nu*(1 + x^2)' | m2p | push rk2 | remesh --cut-off 1e-6" 2
 }
 
 @test "equal bytes: vortices that walk at random after the last pass of a step (rk2)" {
@@ -286,6 +288,10 @@ shared() {
 	vortices --no-history | shared "p2m | poisson-fft | mgrad | m2p | pse --order 4 | push rk2 | remesh --cut-off 1e-6"
 	pinit shear-layer --cells 96 | shared "p2m | poisson-fft | mgrad | m2p | pse | push rk2" # 9 pieces, periodic
 	pinit taylor-green-3d --cells 17 | shared "p2m | poisson-fft | mgrad | m2p | pse | push euler"
+	pinit shear-layer --cells 64 | shared "p2m | poisson-fft | mgrad | m2p | pse --nu 'nu*(1 + x)' | push rk2"
+	pinit shear-layer --cells 64 | shared "p2m | poisson-fft | mgrad | m2p | pse --nu 1e-4,2e-4 | push rk2"
+	pinit shear-layer --cells 48 | shared "p2m | poisson-fft | mgrad | diffuse --nu 'nu*(1 + x)' | m2p | push rk2"
+	pinit taylor-green-3d --cells 12 | shared "p2m | poisson-fft | mgrad | diffuse --order spectral --nu 'nu*(2 + cos(z))' | m2p | push rk2"
 	awk 'BEGIN { print "x y f volume"; for (i = 0; i < 4900; i++) print (i % 70 + 0.5)/70, (int(i/70) + 0.5)/70, (i < 2000), 1/4900 }' |
 		stab - --box 0,0,1,1 --faces wall,neumann --particle-faces reflect --dt 1e-5 | shared "field 'vel = 0, 0' | pse --field f --nu 0.1 | push rk2"
 }

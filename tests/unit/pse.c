@@ -13,7 +13,7 @@ enum { MOST = 4096 };
 struct bodies {
 	struct pm_domain domain;
 	size_t n;
-	double x[3][MOST], volume[MOST], strength[MOST];
+	double x[3][MOST], volume[MOST], strength[MOST], share[MOST];
 };
 static struct bodies b;
 static double rate[MOST], plain[MOST];
@@ -48,6 +48,7 @@ static void scatter(int dim, size_t n)
 			b.x[d][i] = uniform(i, (uint64_t)d);
 		b.volume[i] = (0.5 + uniform(i, 8)) / (double)n;
 		b.strength[i] = uniform(i, 9) - 0.4;
+		b.share[i] = uniform(i, 10);
 	}
 }
 
@@ -265,6 +266,7 @@ static void faces(void)
 					memcpy(b.domain.face[d], pairs[(k / 5 + 2 * d) % 7], sizeof pairs[0]);
 				b.x[0][5] = 0, b.x[dim - 1][6] = b.domain.face[dim - 1][0] == PM_PERIODIC ? 0 : 1; /* on faces */
 				struct pm_pse p = pm_pse_of(dim, order, reach / 5, 5);
+				p.share = k % 2 ? b.share : NULL;
 				double d = differs(&p, k % 3 ? 0.07 : reach);
 				check_worst(&worst, d);
 			}
@@ -303,6 +305,7 @@ static void conserves(void)
 				b.domain.face[d][0] = b.domain.face[d][1] = kinds[k];
 			struct pm_pse p = pm_pse_of(dim, 4, 0.03, 8.3);
 			struct pm_pse_found found;
+			p.share = b.share;
 			memset(rate, 0, sizeof rate);
 			add(&p, 0.05, rate, &found);
 			for (size_t i = 0; i < b.n; i++)
