@@ -20,6 +20,10 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "--at SET or --mesh NAME, not both: either are the points");
 	if (!strcmp(o->choice.mollifier, "algebraic") && pm_given(s, "order") && o->choice.order != 4)
 		return pm_fail(PM_USAGE, "the algebraic mollifier has order 4 (leave out --order)");
+	if (strcmp(o->choice.correct, "none") && strcmp(o->choice.operator, "value"))
+		return pm_fail(PM_USAGE, "--correct is of the value (leave out --operator)");
+	if (!strcmp(o->choice.correct, "linear") && (o->choice.order != 2 || !strcmp(o->choice.mollifier, "algebraic")))
+		return pm_fail(PM_USAGE, "--correct linear needs a mollifier without negative parts (the Gaussian of order 2; or --correct unity)");
 	return 0;
 }
 
@@ -27,10 +31,14 @@ static int declare(struct pm_stage *s, struct pm_frame *f) { return pm_sample_de
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
-	double eps = 0;
-	int status = pm_sample_apply(&((const struct config *)s->config)->choice, f, &eps);
+	struct pm_sample_found found;
+	int status = pm_sample_apply(&((const struct config *)s->config)->choice, f, &found);
 	if (!status)
-		pm_report(s, f, "eps", eps);
+		pm_report(s, f, "eps", found.eps);
+	if (!status && found.bare) {
+		pm_report_count(s, f, "bare", found.bare);
+		pm_say(s, "%zu points have hardly a particle in reach (volumes that sum to less than 0.02) and are not corrected", found.bare);
+	}
 	return status;
 }
 
@@ -47,6 +55,9 @@ static const struct pm_option options[] = {
 		.text = "the function, its gradient or its Laplacian"},
 	{.name = "mollifier", .kind = PM_WORD, .fallback = "gaussian", .choices = pm_sample_kind_names, PM_AT(choice.mollifier),
 		.text = "exp(-r^2/(2 eps^2)), or a rational function without exponentials"},
+	{.name = "correct", .kind = PM_WORD, .fallback = "none", .choices = pm_sample_correction_names, PM_AT(choice.correct),
+		.text = "at an open rim and between irregular particles: unity divides by the sum of the volumes, so that a constant stays (Shepard 1968); "
+			"linear is exact for linear functions (reproducing kernels, Liu, Jun and Zhang 1995)"},
 	{.name = "order", .kind = PM_WORD, .fallback = "2", .choices = orders, PM_AT(order),
 		.text = "of the Gaussian: the error is eps^2, or eps^4 with negative parts; the algebraic one has 4"},
 	{.name = "eps", .kind = PM_REAL, .unit = "length", .low = 1e-60, .high = 1e60, PM_AT(choice.eps), .text = "width (default: from --overlap)"},

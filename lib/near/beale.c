@@ -47,7 +47,8 @@ int pm_beale(const struct pm_sample_choice *choice, struct pm_frame *f, int most
 	struct pm_field *q = pm_frame_field(f, choice->set, choice->field), *smoothed = pm_frame_field(f, choice->set, choice->target);
 	const double *volume = pm_in(pm_frame_field(f, choice->set, "volume"), 0);
 	const size_t n = q->count, all = n * (size_t)q->components;
-	double *wanted = pm_alloc(all + 1, sizeof *wanted), *kept = pm_alloc(all + 1, sizeof *kept), eps;
+	double *wanted = pm_alloc(all + 1, sizeof *wanted), *kept = pm_alloc(all + 1, sizeof *kept);
+	struct pm_sample_found found;
 	int status = wanted && kept ? 0 : -PM_DATA;
 	*gain = (struct pm_beale_gain){0};
 	for (size_t i = 0; i < n && !status; i++)
@@ -56,7 +57,7 @@ int pm_beale(const struct pm_sample_choice *choice, struct pm_frame *f, int most
 	for (int c = 0; c < q->components && !status; c++)
 		for (size_t i = 0; i < n; i++)
 			wanted[(size_t)c * n + i] = pm_in(q, c)[i] / volume[i];
-	status = status ? status : pm_sample_apply(choice, f, &eps);
+	status = status ? status : pm_sample_apply(choice, f, &found);
 	if (!status)
 		gain->before = gain->after = worst(smoothed, wanted, n);
 	while (!status && gain->iterations < most && gain->after > tolerance) {
@@ -65,12 +66,12 @@ int pm_beale(const struct pm_sample_choice *choice, struct pm_frame *f, int most
 			for (size_t i = 0; i < n; i++)
 				pm_out(q, c)[i] += volume[i] * (wanted[(size_t)c * n + i] - pm_in(smoothed, c)[i]);
 		}
-		status = pm_sample_apply(choice, f, &eps);
+		status = pm_sample_apply(choice, f, &found);
 		const double now = status ? 0 : worst(smoothed, wanted, n);
 		if (!status && !(now < gain->after)) {
 			for (int c = 0; c < q->components; c++)
 				memcpy(pm_out(q, c), kept + (size_t)c * n, n * sizeof *kept);
-			status = pm_sample_apply(choice, f, &eps);
+			status = pm_sample_apply(choice, f, &found);
 			break;
 		}
 		gain->after = now;

@@ -9,6 +9,7 @@ struct job {
 	const char *set, *field, *on; /* sources; where the points are */
 	bool nodes;                   /* of a mesh */
 	enum pm_sample_operator operator;
+	enum pm_sample_correction correction;
 };
 
 static int find(const struct pm_sample_choice *o, const struct pm_frame *f, struct job *j)
@@ -20,6 +21,8 @@ static int find(const struct pm_sample_choice *o, const struct pm_frame *f, stru
 	*j = (struct job){.set = o->set, .field = o->field ? o->field : law->strength, .nodes = !o->at, .on = o->at ? o->at : mesh ? mesh->name : NULL};
 	while (strcmp(pm_sample_operator_names[j->operator], o->operator))
 		j->operator++;
+	while (o->correct && strcmp(pm_sample_correction_names[j->correction], o->correct))
+		j->correction++;
 	if (!j->field)
 		return pm_fail(PM_DATA, "the law %s has no strength (--field NAME)", law->name);
 	for (size_t i = 0; i < f->nsets && !j->set; i++)
@@ -45,8 +48,9 @@ int pm_sample_declare(const struct pm_sample_choice *o, struct pm_frame *f)
 		return -PM_DATA;
 	if (q->type != PM_F64 && q->type != PM_F32)
 		return pm_fail(PM_DATA, "'%s' does not hold real numbers", j.field);
-	if ((!q->extensive || isnan(o->eps)) && !pm_frame_field(f, j.set, "volume"))
+	if ((!q->extensive || isnan(o->eps) || j.correction) && !pm_frame_field(f, j.set, "volume"))
 		return pm_fail(PM_DATA, "no field 'volume' on '%s', %s (remesh gives volumes; or scalc, or a column of the table)", j.set,
+			j.correction ? "which --correct sums" :
 			q->extensive ? "from which --overlap takes the width (or --eps LENGTH)" : "with which a value becomes a strength");
 	if (pm_frame_field(f, j.set, "volume") && !pm_reads(f, j.set, "volume"))
 		return -PM_DATA;
@@ -103,13 +107,50 @@ static void strengths(const struct pm_frame *f, const struct job *j, int c, size
 		q[sources + i] = 0;
 }
 
-int pm_sample_apply(const struct pm_sample_choice *o, struct pm_frame *f, double *eps)
+/* Room for the sums that an operator makes at n points. */
+static double *room_for(struct pm_sample *s, enum pm_sample_operator operator, size_t n, double *of[PM_SAMPLE_SUMS])
+{
+	s->operator = operator;
+	double *room = pm_alloc((size_t)pm_sample_components(s) * n + 1, sizeof *room);
+	for (int c = 0; c < pm_sample_components(s); c++)
+		of[c] = room ? room + (size_t)c * n : NULL;
+	return room;
+}
+
+/* Every component of the target, corrected by the moments of the volumes. */
+static int correct(const struct pm_frame *f, const struct job *j, struct pm_sample s, const struct pm_cell_list *l, size_t sources, double *q,
+	struct pm_field *target, size_t *bare)
+{
+	const bool slopes = j->correction == PM_SAMPLE_LINEAR;
+	const size_t points = target->count;
+	const enum pm_sample_operator first = slopes ? PM_SAMPLE_FIRST : PM_SAMPLE_VALUE;
+	double *moment[PM_SAMPLE_SUMS], *sum[PM_SAMPLE_SUMS], *moments = room_for(&s, slopes ? PM_SAMPLE_SECOND : PM_SAMPLE_VALUE, points, moment);
+	int status = moments ? 0 : pm_failed();
+	for (size_t i = 0; i < sources + points; i++)
+		q[i] = i < sources ? pm_in(pm_frame_field(f, j->set, "volume"), 0)[i] : 0;
+	s.even = true;
+	status = status ? status : pm_sample_sum(&s, l, q, sources, points, moment);
+	s.even = false;
+	double *sums = room_for(&s, first, points, sum);
+	status = status ? status : sums ? 0 : pm_failed();
+	for (int c = 0; c < target->components && !status; c++) {
+		strengths(f, j, c, sources, points, q);
+		status = pm_sample_sum(&s, l, q, sources, points, sum);
+		if (!status)
+			pm_sample_correct(j->correction, s.dim, points, (const double *const *)sum, (const double *const *)moment, pm_out(target, c), bare);
+	}
+	pm_free(moments), pm_free(sums);
+	return status;
+}
+
+int pm_sample_apply(const struct pm_sample_choice *o, struct pm_frame *f, struct pm_sample_found *found)
 {
 	struct job j;
 	struct pm_sample s;
 	struct pm_cell_list list = {.n = 0};
 	double *x[3] = {NULL}, *q = NULL;
 	int status = find(o, f, &j);
+	*found = (struct pm_sample_found){0};
 	if (status)
 		return status;
 	struct pm_field *target = pm_frame_field(f, j.on, o->target);
@@ -121,14 +162,16 @@ int pm_sample_apply(const struct pm_sample_choice *o, struct pm_frame *f, double
 		status = pm_cell_list_init(&list, &domain, sources + points, (const double *const *)x, s.reach, 0.25 * s.reach);
 	if (!status && !(q = pm_alloc(sources + points, sizeof *q)))
 		status = -PM_DATA;
-	for (int c = 0; c < (s.operator == PM_SAMPLE_GRAD ? 1 : target->components) && !status; c++) {
+	if (!status && j.correction)
+		status = correct(f, &j, s, &list, sources, q, target, &found->bare);
+	for (int c = 0; c < (s.operator == PM_SAMPLE_GRAD ? 1 : target->components) && !status && !j.correction; c++) {
 		double *out[3] = {pm_out(target, c)};
 		for (int d = 1; d < f->dim && s.operator == PM_SAMPLE_GRAD; d++)
 			out[d] = pm_out(target, d);
 		strengths(f, &j, c, sources, points, q);
 		status = pm_sample_sum(&s, &list, q, sources, points, out);
 	}
-	*eps = s.eps;
+	found->eps = s.eps;
 	pm_cell_list_free(&list);
 	pm_free(x[0]), pm_free(x[1]), pm_free(x[2]), pm_free(q);
 	return status;

@@ -161,3 +161,63 @@ ROWS
 	run -1 --separate-stderr sample --field heat <c
 	[[ $stderr == *"no field 'volume' on 'matter', from which --overlap takes the width"* ]]
 }
+
+# rim N FUNCTION: values f on N^2 points of the unit square moved by a third of their distance, open faces, sampled on a mesh of 8 x 8 cells.
+rim() {
+	awk -v n="$1" 'function r(k) { k = sin(12.9898 * k) * 43758.5453; return k - int(k) } BEGIN { h = 1 / n; print "x y f volume"
+		for (i = 0; i < n; i++) for (j = 0; j < n; j++) { x = (i + 0.5 + r(i*n + j)/3)*h; y = (j + 0.5 + r(j*n + i + 0.5)/3)*h
+			printf "%.17g %.17g %.17g %.17g\n", x, y, '"$2"', h*h } }' | stab - --law passive --box 0,1 --faces open -n 8
+}
+
+@test "--correct: a constant is 1 and a linear function exact up to an open rim and its corners, to round-off (000:S19)" {
+	rim 20 1 >one
+	rim 20 '1 + 2*x - 3*y' >line
+	sample --field f one | scalc --mesh mesh 'sampled = 1' >1
+	sample --field f line | scalc --mesh mesh 'sampled = 1 + 2*x - 3*y' >2
+	sample --field f one >b
+	above "$(most b 1)" 0.5 "without it"
+	for o in '' '--order 4' '--mollifier algebraic'; do
+		sample --field f --correct unity $o one >b
+		below "$(most b 1)" 1e-13 "unity $o"
+	done
+	sample --field f --correct unity line >b
+	above "$(most b 2)" 0.05 "unity, a slope"
+	sample --field f --correct linear one >b
+	below "$(most b 1)" 1e-12 constant
+	sample --field f --correct linear line >b
+	below "$(most b 2)" 1e-12 linear # condition of M in a corner 50: 50 * 4 * 1e-16 * sqrt(400)
+	for t in 1 3; do OMP_NUM_THREADS=$t sample --no-history --field f --correct linear line >t$t; done
+	same_as t1 t3
+}
+
+@test "--correct linear is of second order up to the rim, unity of first; mirrors and their signs are as without" {
+	unity=() linear=()
+	for n in 16 32 64; do
+		awk -v n=$n 'BEGIN { print "x f volume"; for (i = 0; i < n; i++) printf "%.17g %.17g %.17g\n", (i + 0.5)/n, exp((i + 0.5)/n), 1/n }' |
+			stab - --law passive --box 0,1 --faces open -n 64 >a
+		sample --field f a | scalc --mesh mesh 'sampled = exp(x)' >c
+		sample --field f --correct unity a >b
+		unity+=("$(calc 1/$n)" "$(most b c)")
+		sample --field f --correct linear a >b
+		linear+=("$(calc 1/$n)" "$(most b c)")
+	done
+	order 1 "${unity[@]}"
+	order 2 "${linear[@]}"
+	echo "${unity[@]}" "${linear[@]}" >&2
+	for faces in neumann wall periodic; do # complete by images: 1 already, so nothing changes but round-off
+		awk 'BEGIN { print "x f volume"; for (i = 0; i < 16; i++) printf "%.17g %.17g %.17g\n", (i + 0.5)/16, i, 1/16 }' |
+			stab - --law passive --box 0,1 --faces $faces -n 16 >a
+		sample --field f a >b
+		for c in unity linear; do
+			sample --field f --correct $c a >c
+			below "$(most b c)" 1e-6 "$faces $c" # that of the sum at overlap 1.5
+		done
+	done
+	run -2 sample --correct linear --order 4
+	[[ $output == *"--correct linear needs a mollifier without negative parts (the Gaussian of order 2; or --correct unity)"* ]]
+	run -2 sample --correct unity --operator lap
+	[[ $output == *"--correct is of the value (leave out --operator)"* ]]
+	stab - --law passive --box 0,9 --faces open -n 9 <<<$'x f volume\n1 1 1' >a
+	run -0 bash -c 'sample --verbose --field f --correct linear a 2>&1 >b'
+	[[ $output == *"5 points have hardly a particle in reach"* ]]
+}
