@@ -31,7 +31,7 @@ static int declare_set(const struct pm_panels_choice *c, struct pm_frame *f)
 	static const struct {
 		const char *name;
 		int components;
-	} makes[] = {{"s", 1}, {"corners", 4}, {"x", 2}, {"normal", 2}, {"length", 1}};
+	} makes[] = {{"s", 1}, {"corners", 4}, {"x", 2}, {"normal", 2}, {"area", 1}}; /* of a panel in the plane: a length */
 	struct pm_set *set = pm_frame_set(f, c->name);
 	if (set && c->curve && (!pm_frame_field(f, c->name, "corners") || set->n != c->n))
 		return pm_fail(PM_DATA, "the set '%s' is there, of other panels or of particles (--panels NAME, or without --curve)", c->name);
@@ -126,7 +126,7 @@ static int corners(const struct pm_panels_choice *c, struct pm_frame *f, const s
 
 int pm_panels_wall(const struct pm_panels_choice *c, struct pm_frame *f, const struct pm_panels_job *job, struct pm_panels *p)
 {
-	p->length = pm_out(pm_frame_field(f, c->name, "length"), 0);
+	p->length = pm_out(pm_frame_field(f, c->name, "area"), 0);
 	for (int d = 0; d < 2; d++)
 		p->x[d] = pm_out(pm_frame_field(f, c->name, "x"), d), p->normal[d] = pm_out(pm_frame_field(f, c->name, "normal"), d);
 	const int status = corners(c, f, job, p);

@@ -178,3 +178,11 @@ space() { printf 'x y z\n%s\n' "$1" | stab - --law passive --box=-4,4 --faces op
 		1;stack --merge <(tail -n +2 one | stab - --law passive --set panels --box=-4,4 --faces open) - | panels;which no other triangle has (a closed
 	END
 }
+
+@test "panels have corners, normal, area and their strength in the plane as in space; the area of a curve is the length of its polygon" {
+	probe '1.5 0.3' | panels $circle -n 12 --stream '1, 0' >a
+	# 12 chords of a circle, 2 sin(pi/12) each
+	within "$(sel --set panels <a | stab --plain --set panels | column area | awk '{ s += $1 } END { printf "%.17g", s }')" "$(calc '24*sin(pi/12)')" 1e-14
+	run -0 bash -c 'sls a'
+	[[ $output =~ corners\ +4\ f64\ state && $output =~ normal\ +2\ f64 && $output =~ area\ +1\ f64\ derived\ value\ \[length\] && $output =~ sheet\ +1\ f64 ]]
+}
