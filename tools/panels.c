@@ -77,7 +77,8 @@ const struct pm_tool tool_panels = {
 	.about = "vel += the flow of a vortex sheet, or of sources, on flat panels of constant strength (in space: sources on triangles), such "
 		"that with the vortices and the stream nothing "
 		"flows through the wall. The strengths follow from dense equations, factored once for a shape. Makes the fixed set panels with corners, "
-		"normal, area (in the plane a length), and the strength, sheet or source. In space vortices are stretched too (dalpha). Reports the largest mean flow "
+		"normal, area (in the plane a length), and the strength, sheet or source. In space vortices are stretched too (dalpha). Reports the "
+		"largest mean flow "
 		"through a panel (leak). See docs/methods/panels.md.",
 	.kind = PM_FILTER,
 	.makes = true,
