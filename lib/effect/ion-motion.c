@@ -1,7 +1,7 @@
 /* Ion motion: in a field that stays, ions shift as their plasma oscillation begins, by 1 - cos(omega_pi T), (omega_pi T)^2/2 at first, of what would
- * neutralise it; where electrons drift through them faster than 1.3 of their thermal velocity, Buneman's instability grows at 0.687 (omega_pi/omega_p)^(2/3)
- * neutralise it; where electrons drift through them faster than 1.3 of their thermal velocity, Buneman's instability grows at 0.687 (omega_pi/omega_p)^(2/3)
- * |c rho|/M, M the constant ion_mass. Ions may stand still by `smod --fixed`; plan changes no set, it says what to type.
+ * neutralise it. Where electrons drift through them faster than 1.3 of their thermal velocity, Buneman's instability grows at
+ * 0.687 (omega_pi/omega_p)^(2/3) omega_p, which counts in place of omega_pi if it is faster. omega_pi^2 = |c| sum q^2/m/V over the sets whose q/m is below
+ * half of the largest; of a background |c rho|/M, M the constant ion_mass. Ions may stand still by `smod --fixed`; plan changes no set, it says what to type.
  * Source: Birdsall and Langdon 1985, sections 5-8 and 5-9; Buneman 1959, Phys. Rev. 115, 503. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
