@@ -103,7 +103,8 @@ const struct pm_tool tool_inject = {
 	.name = "inject",
 	.summary = "let particles come in at a face of the box, or in its volume, in every step",
 	.about = "Through a face comes the half of a drifting Maxwellian that moves inward (normal velocities have the density v f(v)), each particle at a "
-		"random moment of the step. It stands behind the drift (push kick/2 drift | inject | p2m ...) or behind the last push, and acts once a "
+		"random moment of the step. It stands behind the drift (push kick/2 drift | inject | p2m ...) or behind the last push, "
+		"with light in front of p2m --current, and acts once a "
 		"step. Numbers and random numbers depend on seed, set, face and step: not on threads, and a run that was interrupted goes on with the same "
 		"particles. A face with a constant charge_x_low (charge_x_high, ...) is an electrode: the charge that comes in is taken from it. Reports "
 		"injected, given_charge and given_mass. See docs/methods/inject.md.",

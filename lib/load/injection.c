@@ -1,8 +1,10 @@
 /* Particles that come in during a step. Through a face: the half of a drifting Maxwellian that moves inward, normal velocities with the density
  * v exp(-(v - d)^2/(2 vth^2)), v > 0, so that its density of flux is
  *     n (vth exp(-d^2/(2 vth^2))/sqrt(2 pi) + d/2 (1 + erf(d/(sqrt 2 vth))));
- * each at a random moment of the step, from where it moves freely to the end. In the volume: a Maxwellian at random places. Step k has
- * floor((k + 1) R) - floor(k R) particles, R = flux area dt/weight, which depends on the header alone: a run that is interrupted goes on with the same ones.
+ * each at a random moment of the step, from where it moves freely to the end. Under a law whose field currents change it stands in front of the current: then
+ * it is put beyond the face, from where the drift to come takes it through the face at that moment; its current begins there (current-ways.c). In the volume:
+ * a Maxwellian at random places. Step k has floor((k + 1) R) - floor(k R) particles, R = flux area dt/weight, which depends on the header alone: a run that is
+ * interrupted goes on with the same ones.
  * Random numbers are functions of (seed, set, face, step, number). Source: Birdsall and Langdon 1985, section 16-3; Bird 1994, section 4.2 (flux).
  * Cost: the particles that come in, and a pass over ids. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
@@ -26,6 +28,8 @@ struct arrivals {
 	struct pm_expression share;
 	struct pm_density_names names;
 	uint64_t key;
+	bool current;             /* the drift of this step is to come, and a current with it */
+	double c;                 /* [length/time] HUGE_VAL without */
 	struct pm_newcomers room; /* for all that come, of which a share is taken */
 };
 
@@ -67,8 +71,8 @@ static int refuse(const struct pm_injection *s, const struct pm_frame *f)
 	const struct pm_law *law = pm_law_of(f);
 	if (!law)
 		return -PM_DATA;
-	if (law->relativistic)
-		return pm_fail(PM_DATA, "inject puts no current on the mesh, which the law '%s' needs (smod --law electrostatic)", f->law);
+	if (law->evolves && s->axis < 0)
+		return pm_fail(PM_DATA, "a charge that appears in the volume breaks Gauss's law, and '%s' has no other (a face: --at x-low)", f->law);
 	if (!(f->dt > 0))
 		return pm_fail(PM_DATA, "the time step is %g, and particles come in per time (smod --dt)", f->dt);
 	if (s->axis >= f->dim)
@@ -84,6 +88,17 @@ static struct pm_newcomers newcomers(const struct pm_injection *s)
 	return (struct pm_newcomers){.set = s->set, .velocities = s->velocities, .equal = true, .mass = s->mass * s->weight, .charge = s->charge * s->weight};
 }
 
+/* With a current: after the first half of the kick, before J and the drift. */
+static int in_front_of_current(const struct pm_frame *f, const struct pm_set *set)
+{
+	bool made = false;
+	for (size_t i = 0; i < f->nfields; i++)
+		made = made || (pm_frame_mesh(f, f->fields[i]->on) && f->fields[i]->role == PM_CHANGE);
+	return f->substep && !(set->drift > 0) && !made ? 0
+		: pm_fail(PM_DATA, "under the law '%s' inject stands in front of the current (push boris/2 | inject | p2m --current | maxwell | push drift | "
+			"m2p | push boris/2)", f->law);
+}
+
 int pm_injection_declare(struct pm_injection *s, struct pm_frame *f)
 {
 	struct pm_set *set = pm_frame_set(f, s->set);
@@ -93,12 +108,17 @@ int pm_injection_declare(struct pm_injection *s, struct pm_frame *f)
 		return status;
 	if (f->substep && !set)
 		return pm_fail(PM_DATA, "no set '%s' (species %s -n 0 in front of the steps makes it)", s->set, s->set);
-	if (f->substep && !(set->drift > 1 - 1e-9))
+	const bool current = pm_law_of(f)->evolves;
+	if (current && (status = in_front_of_current(f, set)))
+		return status;
+	if (f->substep && !current && !(set->drift > 1 - 1e-9))
 		return PM_INJECTION_WAITS;
 	if (v)
 		s->velocities = v->components;
 	if (f->substep) /* behind the drift: the next force includes those that came in */
 		pm_drops_roles(f, NULL, 1u << PM_CHANGE | 1u << PM_DERIVED);
+	if (current) /* the kick has used them, and m2p makes them anew */
+		pm_drops_roles(f, s->set, 1u << PM_CHANGE);
 	for (size_t i = 0; i < f->nfields && f->substep; i++)
 		if (!strcmp(f->fields[i]->on, s->set) && (f->fields[i]->role == PM_CHANGE || f->fields[i]->role == PM_REGISTER))
 			return pm_fail(PM_DATA, "'%s' has '%s' already, which new particles lack (put inject behind the drift, in front of the forces)", s->set,
@@ -174,7 +194,7 @@ static int arrive(const struct arrivals *a, uint64_t i, double x[3], double v[3]
 			return -1;
 	}
 	if (s->axis >= 0)
-		x[s->axis] += v[s->axis] * f->dt * u[6];
+		x[s->axis] += v[s->axis] * f->dt * (a->current ? u[6] - 1 : u[6]);
 	return u[7] < share;
 }
 
@@ -186,7 +206,10 @@ static int take(struct arrivals *a, struct pm_frame *f, uint64_t *came)
 		const int taken = arrive(a, i, x, v);
 		if (taken < 0)
 			return pm_fail(PM_DATA, "the share '%s' is not between 0 and 1 everywhere", s->share);
-		if (taken && s->axis >= 0 && !(x[s->axis] >= f->lo[s->axis] && x[s->axis] <= f->hi[s->axis]))
+		if (taken && v[0] * v[0] + (s->velocities > 1 ? v[1] * v[1] : 0) + (s->velocities > 2 ? v[2] * v[2] : 0) >= a->c * a->c)
+			return pm_fail(PM_DATA, "a particle comes in faster than light, c = %g (--drift, --vth)", a->c);
+		const double end = s->axis < 0 ? 0 : x[s->axis] + (a->current ? v[s->axis] * f->dt : 0);
+		if (taken && s->axis >= 0 && !(end >= f->lo[s->axis] && end <= f->hi[s->axis]))
 			return pm_fail(PM_DATA, "a particle that comes in at %g crosses the whole box within a step (a shorter --dt)", v[s->axis]);
 		for (int d = 0; d < f->dim && taken; d++)
 			a->room.x[d][a->room.n] = x[d];
@@ -200,7 +223,8 @@ static int take(struct arrivals *a, struct pm_frame *f, uint64_t *came)
 
 int pm_injection_step(struct pm_injection *s, struct pm_frame *f, uint64_t *came)
 {
-	struct arrivals a = {.s = s, .f = f};
+	const struct pm_law *law = pm_law_of(f);
+	struct arrivals a = {.s = s, .f = f, .current = law->evolves, .c = law->relativistic ? pm_frame_constant(f, "c", 1) : HUGE_VAL};
 	*came = 0;
 	int status = weigh(s, f, pm_frame_set(f, s->set));
 	status = status ? status : prepare(&a);

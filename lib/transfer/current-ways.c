@@ -1,7 +1,8 @@
 /* The ways of particles through one step, x to x + v dt, as push moves and folds them. Most are one straight piece. One that is longer than a cell on an axis
  * is cut into equal pieces (Villasenor and Buneman's: at each face of a cell it passes); one that meets a reflecting face is cut there and goes on mirrored.
  * At an absorbing face a particle ends on a wall, where its image takes its charge, and goes on through an open one until its kernel is off the mesh. Beyond
- * an open face a piece is cut off where the kernel no longer touches the mesh.
+ * an open face a piece is cut off where the kernel no longer touches the mesh. One that starts beyond an absorbing face (inject) comes in the same way:
+ * its way through the step begins at the face.
  * Cost: one pass; pieces beyond the first are made by one thread. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -81,11 +82,34 @@ static void leave(struct walker *k, int d, int side)
 	}
 }
 
+/* From where the kernel is off the mesh to an absorbing face beyond which the particle starts, at no time; the rest of its way begins there. */
+static void enter(struct walker *k)
+{
+	const struct pm_current *c = k->c;
+	for (int d = 0; d < c->grid.dim; d++)
+		for (int s = 0; s < 2; s++) {
+			const double face = s ? c->hi[d] : c->lo[d], h = c->grid.h[d], part = (face - k->p[d]) / (k->to[d] - k->p[d]);
+			if (c->face[d][s] != PM_PABSORB || !(s ? k->p[d] > face && k->to[d] < face : k->p[d] < face && k->to[d] > face))
+				continue;
+			for (int e = 0; e < c->grid.dim; e++)
+				k->p[e] += part * (k->to[e] - k->p[e]);
+			k->left *= 1 - part;
+			for (double away = k->room[d][s]; away > 0; away -= h) {
+				double end[3] = {k->p[0], k->p[1], k->p[2]};
+				k->p[d] = s ? face + away : face - away;
+				end[d] = s ? k->p[d] - h : k->p[d] + h;
+				emit(k, end, 0);
+			}
+			k->p[d] = face;
+		}
+}
+
 static void walk(struct walker *k)
 {
 	const struct pm_current *c = k->c;
 	k->left = 1;
 	k->pieces = 0;
+	enter(k);
 	for (int guard = 0; guard < 1 << 24; guard++) {
 		int axis, side = 0;
 		double end[3] = {0};

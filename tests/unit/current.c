@@ -57,6 +57,11 @@ static struct state state_new(const struct pm_current *c, double cells)
 			s.x[d][p] = d < c->grid.dim ? fmin(c->grid.lo[d] + place * c->grid.h[d], c->hi[d]) : 0;
 			s.v[d][p] = p % 32 == 5 ? 0 : cells * (2 * u[1] - 1) * c->grid.h[d] / c->dt;
 			s.q[p] = w[0] - 0.4;
+			if (d == 0 && c->face[0][0] == PM_PABSORB && p % 8 == 6) { /* beyond a face, and on its way in, as inject puts it */
+				const double way = cells * (0.1 + 0.9 * u[1]) * c->grid.h[0];
+				s.x[0][p] = p % 16 == 6 ? c->lo[0] - u[0] * way : c->hi[0] + u[0] * way;
+				s.v[0][p] = (p % 16 == 6 ? way : -way) / c->dt;
+			}
 		}
 	}
 	return s;
@@ -73,14 +78,14 @@ static void state_free(struct state *s)
 	pm_free(s->rho);
 }
 
-/* rho += sign times the density of the particles. */
+/* rho += sign times the density of the particles in the box. */
 static void density(const struct pm_current *c, const struct state *s, double sign)
 {
 	const struct pm_transfer t = {.grid = c->grid, .kernel = c->kernel, .components = 1, .cut = true};
 	double *q = pm_alloc(N, sizeof *q);
 	struct pm_strays strays;
 	for (size_t p = 0; p < N; p++)
-		q[p] = sign * s->q[p];
+		q[p] = c->face[0][0] == PM_PABSORB && (s->x[0][p] < c->lo[0] || s->x[0][p] > c->hi[0]) ? 0 : sign * s->q[p]; /* not in yet */
 	pm_spread(&t, N, (const double *const *)s->x, (const double *const[]){q}, (double *const[]){s->rho}, &strays);
 	pm_free(q);
 }
