@@ -3,7 +3,7 @@
 #include "stage/stage.h"
 
 struct config {
-	const char *set;
+	const char *set, *ions;
 	double density, mass, gas_mass, vth;
 	struct pm_vector drift;
 	int64_t seed;
@@ -12,7 +12,7 @@ struct config {
 static int gas_of(const struct pm_stage *s, const struct pm_frame *f, struct pm_gas *g)
 {
 	const struct config *o = s->config;
-	*g = (struct pm_gas){.set = o->set, .mass = o->mass, .gas_mass = o->gas_mass, .density = o->density, .vth = o->vth, .n = s->nargs,
+	*g = (struct pm_gas){.set = o->set, .ions = o->ions, .mass = o->mass, .gas_mass = o->gas_mass, .density = o->density, .vth = o->vth, .n = s->nargs,
 		.seed = f && !pm_given(s, "seed") ? f->seed : (uint64_t)o->seed};
 	for (int c = 0; c < 3; c++)
 		g->drift[c] = c < o->drift.n ? o->drift.x[c] : 0;
@@ -33,12 +33,14 @@ static int begin(struct pm_stage *s)
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	struct pm_gas g;
-	const int status = gas_of(s, f, &g);
-	return status ? status : f->substep ? PM_PASS : pm_gas_declare(&g, f);
+	int status = gas_of(s, f, &g);
+	status = status ? status : pm_gas_declare(&g, f);
+	return status < 0 ? status : status == PM_GAS_WAITS ? PM_PASS : g.ions ? PM_HOLD : 0;
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
+	const struct config *o = s->config;
 	struct pm_gas g;
 	struct pm_gas_record r;
 	int status = gas_of(s, f, &g);
@@ -47,6 +49,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		return status;
 	pm_report_count(s, f, "collisions", r.collisions);
 	pm_report(s, f, "probability", r.most);
+	if (o->ions) {
+		pm_report_count(s, f, "ionisations", r.pairs);
+		pm_report_sum(s, f, "given_mass", r.given_mass);
+	}
 	if (r.most > 0.2)
 		pm_tell_once(s, "a particle collides with the probability %.2g in a step, and more than once is left out (a shorter dt)", r.most);
 	return 0;
@@ -54,6 +60,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "electrons", PM_AT(set), .text = "the particles that collide"},
+	{.name = "ions", .kind = PM_TEXT, .unit = "NAME", PM_AT(ions), .text = "the set to which 'ionise' adds"},
 	{.name = "density", .kind = PM_REAL, .unit = "1/volume", .low = 0, .high = 1e300, PM_AT(density), .text = "atoms per volume"},
 	{.name = "mass", .kind = PM_REAL, .unit = "mass", .fallback = "1", .low = 1e-300, .high = 1e300, PM_AT(mass), .text = "of one real particle"},
 	{.name = "gas-mass", .kind = PM_REAL, .unit = "mass", .fallback = "1836", .low = 1e-300, .high = 1e300, PM_AT(gas_mass), .text = "of one atom"},
@@ -75,16 +82,17 @@ const struct pm_tool tool_neutrals = {
 	.summary = "collisions of particles with a gas of neutral atoms",
 	.about = "Each PROCESS is KIND: CROSS-SECTION, an expression in the relative speed g, the energy m M/(m + M) g^2/2 and the frame's constants. elastic "
 		"turns the relative velocity to any direction; exchange gives the particle the velocity of the atom; 'excite E' does as elastic and takes E "
-		"of the energy. The probability in a step is 1 - exp(-n sigma g dt) for an atom drawn from the gas, which stays as it is. It stands behind "
-		"the last push, once a step. v needs 3 components. Random numbers depend on seed, set, id (or index) and step, not on threads. Reports "
-		"collisions and the largest probability. See docs/methods/neutrals.md.",
+		"of the energy; 'ionise E' shares what is left above E equally with a second particle like it, and adds an ion to the set --ions. "
+		"The probability in a step is 1 - exp(-n sigma g dt) for an atom drawn from the gas, which stays as it is. It stands behind the last push, "
+		"with ionise behind the drift, once a step. v needs 3 components. Random numbers depend on seed, set, id (or index) and step, not on "
+		"threads. Reports collisions, the largest probability and ionisations. See docs/methods/neutrals.md.",
 	.kind = PM_FILTER,
 	.reads = "id",
 	.changes = "v",
 	.config = sizeof(struct config),
 	.options = options,
 	.arguments = "PROCESS...",
-	.arguments_text = "'elastic: SIGMA', 'exchange: SIGMA', 'excite ENERGY: SIGMA'",
+	.arguments_text = "'elastic: SIGMA', 'exchange: SIGMA', 'excite ENERGY: SIGMA', 'ionise ENERGY: SIGMA'",
 	.least = 1,
 	.most = PM_GAS_PROCESSES,
 	.examples = examples,

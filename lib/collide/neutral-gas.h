@@ -7,18 +7,18 @@
 #include "stream/frame.h"
 
 enum { PM_GAS_PROCESSES = 8 };
-enum pm_gas_kind { PM_GAS_ELASTIC, PM_GAS_EXCHANGE, PM_GAS_EXCITE };
+enum pm_gas_kind { PM_GAS_ELASTIC, PM_GAS_EXCHANGE, PM_GAS_EXCITE, PM_GAS_IONISE };
 
 struct pm_gas_process {
 	enum pm_gas_kind kind;
-	double threshold;      /* energy that is lost between the two, of PM_GAS_EXCITE */
+	double threshold;      /* energy that is lost between the two, of PM_GAS_EXCITE and PM_GAS_IONISE */
 	const char *section;   /* the cross-section [area], an expression in g, energy and the frame's constants */
 	struct pm_expression e;
 	struct pm_density_names names;
 };
 
 struct pm_gas {
-	const char *set;
+	const char *set, *ions; /* ions: the set that PM_GAS_IONISE adds to; NULL none */
 	double mass, gas_mass, density, vth; /* of a real particle, of an atom; atoms per volume; standard deviation of a component of their velocity */
 	double drift[3];
 	uint64_t seed;
@@ -27,13 +27,15 @@ struct pm_gas {
 };
 
 struct pm_gas_record {
-	uint64_t collisions;
+	uint64_t collisions, pairs; /* of an electron and an ion that were made */
+	double given_mass;          /* of these */
 	double most; /* the largest probability of a collision in the step */
 };
 
-/* "elastic: EXPRESSION", "exchange: EXPRESSION", "excite ENERGY: EXPRESSION". 0 or failure. */
+/* "elastic: EXPRESSION", "exchange: EXPRESSION", "excite ENERGY: EXPRESSION", "ionise ENERGY: EXPRESSION". 0 or failure. */
 int pm_gas_process_of(const char *text, struct pm_gas_process *p);
-/* Header, then data. 0 or failure. */
+/* Header: one of pm_gas_act, or failure. It acts between steps; with PM_GAS_IONISE also within one, where its set has drifted. Data: 0 or failure. */
+enum pm_gas_act { PM_GAS_WAITS, PM_GAS_ACTS };
 int pm_gas_declare(const struct pm_gas *g, struct pm_frame *f);
 int pm_gas_step(struct pm_gas *g, struct pm_frame *f, struct pm_gas_record *r);
 

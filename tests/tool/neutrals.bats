@@ -72,3 +72,38 @@ moments() {
 	refused 'v of '\''electrons'\'' has 1 components (species --velocities 3)' "pinit landau | neutrals --density 1 'elastic: 1'" 1
 	refused 'how dense is the gas?' "neutrals 'elastic: 1' <a" 2
 }
+
+@test "ionisation makes an electron and an ion where it happens: charge, mass and energy are accounted for, the atom's velocity goes on with the ion" {
+	gas --drift 2 --vth 0 | species ions -n 0 --charge 1 --mass 99 --velocities 3 --no-history >a
+	ion="neutrals --density 0.1 --gas-mass 100 --ions ions"
+	s="push drift | $ion 'ionise 0.75: 1/g'"
+	cycle -q --no-history -n 10 "$s" <a >b
+	n=$(sls --report b | grep -o '"ionisations":[0-9]*' | cut -d: -f2)
+	within "$n" "$(calc '40000*(1 - exp(-0.1))')" 240 # four standard errors; the halves, 0.62, are below the threshold
+	[ "$(sls b | awk '$2 == "ions:" { print $3 }')" = "$n" ]
+	diag --columns mass,charge --format tsv b | tail -1 >sums
+	read -r mass charge <sums
+	within "$charge" "$(calc '-4*pi')" 1e-9 # what is made is neutral
+	within "$mass" "$(calc "4*pi*(1 + 100*$n/40000)")" 1e-8
+	stab --plain --set electrons b | awk '/vx/ { for (k = 1; k <= NF; k++) c[$k] = k; next }
+		{ w = $c["vx"]^2 + $c["vy"]^2 + $c["vz"]^2; if (w < 3.99) { n++; t += $c["vx"]; if ((w - u) ^ 2 > 1e-20 && n > 1) bad++; u = w } }
+		END { printf "%d %.12g %.6g %d\n", n, u, t / n, bad }' >born # those that were born, and those that made them
+	read -r many square mean bad <born
+	[ "$many" = $((2 * n)) ]
+	[ "$bad" = 0 ]
+	within "$square" "$(calc '2*100/101 - 0.75')" 1e-9 # v^2/2 is a half of m M/(m + M) g^2/2 - 0.75
+	within "$mean" 0 0.04 # any direction; four standard errors
+	[ "$(stab --plain --set ions b | column vx | sort -u)" = 0 ]
+	cycle -q --no-history -n 10 --threads 1 "$s" <a | same_as b -
+	cycle -q --no-history -n 4 "$s" <a | cycle -q --no-history -n 6 --engine pipes "$s" | same_as b -
+	stab --plain b --set electrons | column id | sort | uniq -d >twice
+	[ ! -s twice ]
+	# inside the step of a plasma, behind the drift; nothing below the threshold
+	force='p2m | poisson-fft | mgrad | m2p'
+	cycle -q -n 4 "push kick/2 drift | $ion --vth 0.1 'ionise 0.75: 1' | $force | push kick/2" <a | sls | grep -q 'set ions: [1-9]'
+	cycle -q -n 4 "push drift | $ion 'ionise 2: 1'" <a | sls | grep -q 'set ions: 0'
+	run -1 --separate-stderr neutrals --density 1 --ions none 'ionise 1: 1' <a
+	[[ $stderr == *"no set 'none' of ions with 3 components of v (species none -n 0 --velocities 3)"* ]]
+	run -2 --separate-stderr neutrals --density 1 'ionise 1: 1' <a
+	[[ $stderr == *"of which set? (--ions NAME)"* ]]
+}
