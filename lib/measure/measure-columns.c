@@ -20,7 +20,7 @@ const char *const pm_column_names[PM_NAMED_COLUMNS + 1] = {
 	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DIVERGENCE] = "divergence", [PM_DISSIPATION] = "dissipation",
 	[PM_KOLMOGOROV_LENGTH] = "kolmogorov_length", [PM_KOLMOGOROV_TIME] = "kolmogorov_time", [PM_ENERGY_FLOW] = "energy_flow",
 	[PM_HELICITY] = "helicity", [PM_RING_CIRCULATION] = "ring_circulation", [PM_RING_RADIUS] = "ring_radius", [PM_RING_POSITION] = "ring_position",
-	[PM_DISTORTION] = "distortion",
+	[PM_RING_SPEED] = "ring_speed", [PM_DISTORTION] = "distortion",
 	[PM_CHARGE] = "charge", [PM_ENERGY_COMPONENT] = "energy_field_x", "energy_field_y", "energy_field_z",
 	[PM_ENERGY_ELECTRIC] = "energy_electric", [PM_ENERGY_MAGNETIC] = "energy_magnetic", [PM_GAUSS_RESIDUAL] = "gauss_residual",
 	[PM_STRENGTH_SCALE] = "strength_scale", [PM_STRENGTH_ABSORBED] = "strength_absorbed", [PM_STRENGTH_CUT] = "strength_cut_off",
@@ -41,7 +41,7 @@ bool pm_column_exists(enum pm_column c, int dim, int vdim)
 	if (c == PM_CIRCULATION || c == PM_ANGULAR_IMPULSE || c == PM_PALINSTROPHY || c == PM_OMEGA_CENTRE)
 		return dim == 2;
 	if ((c >= PM_ALPHA && c < PM_ALPHA + 3) || c == PM_IMPULSE + 2 || (c >= PM_ANGULAR_IMPULSE_OF && c < PM_ANGULAR_IMPULSE_OF + 3) ||
-		(c >= PM_DIVERGENCE && c <= PM_RING_POSITION))
+		(c >= PM_DIVERGENCE && c <= PM_RING_SPEED))
 		return dim == 3;
 	if (c >= PM_CROSSING_TIME && c <= PM_RELAXATION_TIME)
 		return dim == 3;

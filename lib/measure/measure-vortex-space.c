@@ -6,6 +6,8 @@
  * A ring: its axis n is the direction of the impulse I; position = sum (x . n) w/sum w, w = 1/2 (x x alpha) . n; circulation 1/(2 pi) sum alpha_phi/r
  * about the axis through the centre of |alpha|; radius sqrt(|I|/(pi circulation)). Its wave m: amplitude of the core's displacement from the axis,
  * 2 sum W r exp(-i m phi)/sum W, W = alpha_phi/r: a where the core is at r = R + a cos(m phi).
+ * Its speed, from the velocities of its particles (the change vel): the rate of position, with dw/dt = 2 w u_r/r, since alpha_phi goes as r when circulation
+ * is kept: sum of w (u . n + 2 (x . n - position) u_r/r) over sum w. So it is of rings round the axis without swirl (Helmholtz 1858; Saffman 1992, 10.2).
  * Missing quantities are NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
  * Source: Saffman 1992, sections 3.2 to 3.9 and 10.2. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
@@ -23,8 +25,12 @@ static bool counts(const struct pm_measure *how, const struct pm_frame *f, const
 
 void pm_vortex_space_reads(const struct pm_measure *how, struct pm_frame *f)
 {
-	if (how->vortices && how->vector)
-		pm_law_field_reads(how, f);
+	if (!how->vortices || !how->vector)
+		return;
+	pm_law_field_reads(how, f);
+	for (size_t i = 0; i < f->nsets; i++)
+		if (counts(how, f, f->sets[i]) && pm_frame_field(f, f->sets[i]->name, "vel"))
+			pm_reads(f, f->sets[i]->name, "vel");
 }
 
 static void cross(const double a[3], const double b[3], double c[3])
@@ -47,7 +53,7 @@ struct sums {
 };
 
 struct vortices {
-	const struct pm_field *at, *strength;
+	const struct pm_field *at, *strength, *vel; /* vel: of a ring; NULL: none */
 	const double *centre, *axis; /* of a ring */
 	const double *from, *quarter; /* unit vectors across the axis: phi = 0 and a quarter of a turn on */
 	int mode;                    /* waves around it */
@@ -73,7 +79,11 @@ static void make_sums(const void *data, size_t from, size_t to, void *part)
 	}
 }
 
-/* [0] 2 pi circulation, [1] sum of weights, [2] their moment along the axis */
+enum { RING_SUMS = 6 };
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* [0] 2 pi circulation, [1] sum of weights, [2] their moment along the axis; of w u . n, of w u_r/r, and the moment of that */
 static void make_ring(const void *data, size_t from, size_t to, void *part)
 {
 	const struct vortices *v = data;
@@ -83,7 +93,7 @@ static void make_ring(const void *data, size_t from, size_t to, void *part)
 		double x[3], alpha[3], turn[3];
 		particle(v->at, v->strength, v->centre, i, x, alpha);
 		cross(x, alpha, turn);
-		const double along = x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2], about = turn[0] * axis[0] + turn[1] * axis[1] + turn[2] * axis[2];
+		const double along = dot(x, axis), about = dot(turn, axis);
 		double across[3];
 		for (int d = 0; d < 3; d++)
 			across[d] = x[d] - along * axis[d];
@@ -91,6 +101,12 @@ static void make_ring(const void *data, size_t from, size_t to, void *part)
 		pm_sum_add(&ring[0], r > 0 ? about / (r * r) : 0);
 		pm_sum_add(&ring[1], about);
 		pm_sum_add(&ring[2], about * along);
+		if (!v->vel)
+			continue;
+		const double u[3] = {pm_in(v->vel, 0)[i], pm_in(v->vel, 1)[i], pm_in(v->vel, 2)[i]}, wider = r > 0 ? about * dot(u, across) / (r * r) : 0;
+		pm_sum_add(&ring[3], about * dot(u, axis));
+		pm_sum_add(&ring[4], wider);
+		pm_sum_add(&ring[5], wider * along);
 	}
 }
 
@@ -130,17 +146,18 @@ static void ring_waves(const struct pm_measure *how, const struct pm_frame *f, c
 		for (size_t i = 0; i < f->nsets; i++) {
 			const struct pm_field *at = pm_frame_field(f, f->sets[i]->name, "x"), *q = pm_frame_field(f, f->sets[i]->name, how->strength);
 			if (counts(how, f, f->sets[i]))
-				pm_over_stretches(at, &parts, &(struct vortices){at, q, centre, axis, from, quarter, how->modes[k]}, wave);
+				pm_over_stretches(at, &parts, &(struct vortices){at, q, NULL, centre, axis, from, quarter, how->modes[k]}, wave);
 		}
 		for (int c = 0; c < 2; c++)
 			m->mode[k][c] = 2 * pm_sum_total(wave[1 + c]) / pm_sum_total(wave[0]);
 	}
 }
 
-static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3], struct pm_sum ring[3])
+static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3],
+	const struct pm_field *vel, struct pm_sum ring[RING_SUMS])
 {
-	const struct pm_parts parts = {.size = 3 * sizeof *ring, .make = make_ring, .join = pm_join_sums};
-	pm_over_stretches(at, &parts, &(struct vortices){.at = at, .strength = strength, .centre = centre, .axis = axis}, ring);
+	const struct pm_parts parts = {.size = RING_SUMS * sizeof *ring, .make = make_ring, .join = pm_join_sums};
+	pm_over_stretches(at, &parts, &(struct vortices){.at = at, .strength = strength, .vel = vel, .centre = centre, .axis = axis}, ring);
 }
 
 static void add_sums(const struct pm_field *at, const struct pm_field *strength, struct sums *s)
@@ -152,7 +169,8 @@ static void add_sums(const struct pm_field *at, const struct pm_field *strength,
 static void of_ring(const struct pm_measure *how, const struct pm_frame *f, const struct sums *s, struct pm_measures *m)
 {
 	double centre[3], axis[3], impulse[3];
-	struct pm_sum ring[3] = {0};
+	struct pm_sum ring[RING_SUMS] = {0};
+	bool moves = true;
 	const double size = pm_sum_total(s->size);
 	for (int d = 0; d < 3; d++)
 		impulse[d] = m->value[PM_IMPULSE + d], centre[d] = pm_sum_total(s->centre[d]) / size;
@@ -165,12 +183,19 @@ static void of_ring(const struct pm_measure *how, const struct pm_frame *f, cons
 	for (int d = 0; d < 3; d++)
 		axis[d] = impulse[d] / I;
 	for (size_t i = 0; i < f->nsets; i++)
-		if (counts(how, f, f->sets[i]))
-			add_ring(pm_frame_field(f, f->sets[i]->name, "x"), pm_frame_field(f, f->sets[i]->name, how->strength), centre, axis, ring);
+		if (counts(how, f, f->sets[i])) {
+			const char *set = f->sets[i]->name;
+			const struct pm_field *vel = pm_frame_field(f, set, "vel");
+			moves = moves && vel && vel->components == 3;
+			add_ring(pm_frame_field(f, set, "x"), pm_frame_field(f, set, how->strength), centre, axis, moves ? vel : NULL, ring);
+		}
 	const double circulation = pm_sum_total(ring[0]) / (2 * pm_pi);
 	m->value[PM_RING_CIRCULATION] = circulation;
 	m->value[PM_RING_RADIUS] = circulation > 0 ? sqrt(I / (pm_pi * circulation)) : NAN;
-	m->value[PM_RING_POSITION] = pm_sum_total(ring[2]) / pm_sum_total(ring[1]) + centre[0] * axis[0] + centre[1] * axis[1] + centre[2] * axis[2];
+	const double weight = pm_sum_total(ring[1]), middle = pm_sum_total(ring[2]) / weight;
+	m->value[PM_RING_POSITION] = middle + dot(centre, axis);
+	if (moves)
+		m->value[PM_RING_SPEED] = (pm_sum_total(ring[3]) + 2 * (pm_sum_total(ring[5]) - middle * pm_sum_total(ring[4]))) / weight;
 	ring_waves(how, f, centre, axis, m);
 }
 
