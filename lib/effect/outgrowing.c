@@ -1,9 +1,10 @@
-/* Outgrowing: the flow carries its vorticity beyond the open faces of its mesh. The vorticity as a whole moves with its mean velocity U = sum |q| u/sum |q|;
- * the number is the part of sum |q| whose straight way U T ends beyond a face, or within the two nodes that order 6 needs beside it. p2m and remesh --outside
- * grow follow it, with more points from then on; without them it is lost. What turns in place, and what viscosity spreads, does not count.
+/* Outgrowing: the flow carries its vorticity beyond the open faces of its mesh. The vorticity as a whole moves with its mean velocity U = sum |q| u/sum |q|
+ * and the stream; the number is the part of sum |q| whose straight way U T ends beyond a face, or within the two nodes that order 6 needs beside it. p2m
+ * and remesh --outside grow follow it, with more points from then on; without them it is lost. What turns in place, and what viscosity spreads, does not count.
  * Source: Cottet and Koumoutsakos 2000, section 7.3 (grid-free vorticity on a finite mesh). SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
+#include "effect-parts/body-in-flow.h"
 #include "effect-parts/effect-decision.h"
 #include "law/law.h"
 #include "stream/field-value.h"
@@ -43,8 +44,10 @@ static void mean_velocity(const struct pm_effect_case *c, const struct pm_frame 
 			for (int d = 0; d < f->dim; d++)
 				U[d] += q * pm_value_at(of[2], d, i);
 		}
+	struct pm_scene_solid b;
+	pm_effect_body(f, &b);
 	for (int d = 0; d < 3; d++)
-		U[d] = all > 0 ? U[d] / all : 0;
+		U[d] = (all > 0 ? U[d] / all : 0) + b.stream[d];
 }
 
 static void ways(const struct pm_effect_case *c, const struct pm_frame *f, const double U[3], struct leaving *l)

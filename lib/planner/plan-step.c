@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "effect-parts/body-in-flow.h"
 #include "planner/atlas.h"
 #include "mesh/gradient.h"
 #include "planner/plan.h"
@@ -102,7 +103,9 @@ static double bounded(const struct pm_frame *f, const struct pm_plan *p, double 
 		if (pm_operator_init(&lap, &g, PM_OP_LAP, pm_order_find(p->law->order), 1, false))
 			break;
 		fastest = pm_operator_fastest(&lap);
-		viscous = 0.9 * pm_step_find(p->method.scheme)->real_limit / (s->nu * fastest);
+		struct pm_scene_solid body;
+		const double wall = pm_effect_body(f, &body); /* penalize decays at 1/dt, which push adds to the rate of diffusion */
+		viscous = 0.9 * (pm_step_find(p->method.scheme)->real_limit - wall) / (s->nu * fastest);
 	}
 	if (strain < dt)
 		*what = "the strain";
@@ -178,6 +181,8 @@ int pm_plan_step(const struct pm_frame *f, struct pm_plan *p)
 		follow(f, p, orbit);
 		return 0;
 	}
+	struct pm_scene_solid body;
+	c.steady = c.steady && !(s->kind == PM_VORTICES && pm_effect_body(f, &body)); /* penalize takes the step of the frame, push --dt comes after it */
 	const char *what = few ? orbit : c.what;
 	double allowed = few ? m->dt : c.omega > 0 ? cheapest(p, &c) : NAN;
 	m->dt = NAN;

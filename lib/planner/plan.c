@@ -2,6 +2,7 @@
  * effect needs them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "effect-parts/body-in-flow.h"
 #include "effect-parts/effect-decision.h"
 #include "planner/scales.h"
 #include "planner/plan.h"
@@ -171,7 +172,37 @@ static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struc
 	return 0;
 }
 
-int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
+/* Fluid at rest around a body: the same frame with the vorticity that its first step makes at the wall; else NULL, or with a message if *status. */
+static struct pm_frame *started(const struct pm_frame *f, int *status)
+{
+	const struct pm_law *law = pm_law_of(f);
+	struct pm_scene_solid b;
+	struct pm_scales s;
+	char sentence[512];
+	*status = law ? 0 : -PM_DATA;
+	if (*status || law->of_potential != PM_CURL || !law->strength || !f->nmeshes || f->substep || f->dt == 0 || !pm_effect_body(f, &b))
+		return NULL;
+	*status = pm_scales_of(f, law, &s);
+	if (*status || s.sources > 0)
+		return NULL;
+	pm_effect_layer(f, sentence);
+	struct pm_frame *g = pm_plan_run(f, sentence, 1), *bare = g ? pm_plan_bare(g) : NULL;
+	pm_frame_free(g);
+	if (bare)
+		bare->time = f->time, bare->step = f->step;
+	*status = bare ? 0 : pm_failed();
+	return bare;
+}
+
+/* The first step's sheet is as thin as the cells; it soon is as thick as the layer. */
+static void spread(const struct pm_frame *f, struct pm_scales *s)
+{
+	const double delta = pm_effect_layer_thickness(f, s->nu, s->self);
+	if (delta > 0)
+		s->rough = fmin(s->rough, pow(delta, -2));
+}
+
+static int plan_of(const struct pm_frame *f, bool begun, const struct pm_plan_choice *c, struct pm_plan *p)
 {
 	int status = begin(f, c, p);
 	status = status ? status : by_hand(f, p, c);
@@ -179,6 +210,8 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	if (!status)
 		pm_plan_few_bodies(f, p);
 	status = status ? status : measure_force(f, p, NULL);
+	if (!status && begun)
+		spread(f, &p->scales);
 	if (!status)
 		pm_plan_mesh(f, p), pm_plan_cure(f, p);
 	status = status ? status : pm_plan_step(f, p);
@@ -194,6 +227,15 @@ int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, stru
 	status = status || c->untested ? status : pm_plan_digits(f, p);
 	status = status || !c->cost ? status : pm_plan_price(f, p);
 	return status || !c->cost ? status : pm_plan_savings(f, p);
+}
+
+int pm_plan_frame(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
+{
+	int status;
+	struct pm_frame *g = started(f, &status);
+	status = status ? status : plan_of(g ? g : f, g, c, p);
+	pm_frame_free(g);
+	return status;
 }
 
 int pm_plan_decide(const struct pm_frame *f, const struct pm_effect *effect, const struct pm_plan_choice *c, struct pm_decision *d)

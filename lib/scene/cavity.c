@@ -3,6 +3,7 @@
  *     penalize --body 'min(min(x, 1 - x), min(y, 1 - y))' --velocity 'y > 0.99 ? 1 : 0, 0' --stream '0.1, 0'   and   field 'vel = 0.1, 0'
  * The stream is the mean velocity of the box: that of the strip, times its tenth of the height. Re = U/nu; velocities on the middle lines at Re 100 to 10000:
  * Ghia, Ghia and Shin 1982, J. Comput. Phys. 48, 387. Exact: circulation 0 at any time. Cost: nodes of the box. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "scene-parts/scene-vortex-set.h"
@@ -41,6 +42,14 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	return strcmp(quantity, "circulation") ? NAN : 0;
 }
 
+static void body(const struct pm_frame *f, struct pm_scene_solid *b)
+{
+	b->speed = pm_frame_parameter(f, "speed", rows[SPEED].otherwise);
+	b->stream[0] = 0.1 * b->speed;
+	snprintf(b->level, sizeof b->level, "min(min(x, 1 - x), min(y, 1 - y))");
+	snprintf(b->velocity, sizeof b->velocity, "y > 0.99 ? %.10g : 0, 0", b->speed);
+}
+
 const struct pm_scene scene_cavity = {
 	.name = "cavity",
 	.sentence = "fluid at rest in a square whose lid starts to move",
@@ -52,4 +61,5 @@ const struct pm_scene scene_cavity = {
 	.parameters = rows,
 	.make = make,
 	.exact = exact,
+	.body = body,
 };

@@ -4,6 +4,7 @@
  * Re = U D/nu. Drag 4 sqrt(pi/(Re T)) at small T = U t/D (Bar-Lev and Yang 1975, J. Fluid Mech. 72, 625); from Re = 47 on vortices leave in turn, with
  * the Strouhal number f D/U = 0.164 at Re = 100 (Williamson 1996, Annu. Rev. Fluid Mech. 28, 477; VM-13 of the reference cases).
  * Exact: circulation 0 at any time. Cost: nodes of the body. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "scene-parts/scene-vortex-set.h"
@@ -47,6 +48,12 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	return strcmp(quantity, "circulation") ? NAN : 0;
 }
 
+static void body(const struct pm_frame *f, struct pm_scene_solid *b)
+{
+	b->stream[0] = b->speed = pm_frame_parameter(f, "speed", rows[SPEED].otherwise);
+	snprintf(b->level, sizeof b->level, "hypot(x, y) - %.10g", 0.5 * pm_frame_parameter(f, "diameter", rows[DIAMETER].otherwise));
+}
+
 const struct pm_scene scene_cylinder = {
 	.name = "cylinder",
 	.sentence = "fluid at rest around a cylinder that a stream meets suddenly",
@@ -58,4 +65,5 @@ const struct pm_scene scene_cylinder = {
 	.parameters = rows,
 	.make = make,
 	.exact = exact,
+	.body = body,
 };

@@ -25,6 +25,12 @@ struct pm_scene_choice { /* the options of pinit, defaults filled in and ranges 
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
 };
 
+/* A solid body in the flow, as penalize takes it: its level and its velocity as expressions, the stream past it, and its largest speed along the wall. */
+struct pm_scene_solid {
+	char level[96], velocity[64]; /* velocity "": at rest */
+	double stream[3], speed;      /* [length/time] */
+};
+
 struct pm_scene {
 	const char *name, *sentence, *source;
 	unsigned dims;           /* bit 1u<<dim for each dimension it exists in */
@@ -41,6 +47,8 @@ struct pm_scene {
 	double (*exact)(const struct pm_frame *f, const char *quantity, double t);
 	/* The exact level at the point x at time t, below 0 inside; NAN at a time when it is not known. NULL: no level. */
 	double (*level)(const struct pm_frame *f, const double x[], double t);
+	/* The body in the flow, from the scene's parameters. NULL: none. */
+	void (*body)(const struct pm_frame *f, struct pm_scene_solid *b);
 };
 
 extern const struct pm_scene *const pm_scenes[]; /* generated from lib/scene/, NULL ends */

@@ -3,6 +3,7 @@
  *     penalize --body 'sqrt(x^2 + y^2 + z^2) - 0.5' --stream '1, 0, 0'   and   field 'vel = 1, 0, 0'
  * Re = U D/nu. The wake is steady and round to Re = 210; drag coefficient F/(pi D^2 U^2/8) = 1.08 to 1.10 at Re = 100 (Johnson and Patel 1999, J. Fluid Mech.
  * 378, 19; Clift, Grace and Weber 1978). Exact: total of the vorticity 0 at any time. Cost: nodes of the body. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "scene-parts/scene-space.h"
@@ -46,6 +47,12 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	return !strcmp(quantity, "alpha_x") || !strcmp(quantity, "alpha_y") || !strcmp(quantity, "alpha_z") ? 0 : NAN;
 }
 
+static void body(const struct pm_frame *f, struct pm_scene_solid *b)
+{
+	b->stream[0] = b->speed = pm_frame_parameter(f, "speed", rows[SPEED].otherwise);
+	snprintf(b->level, sizeof b->level, "sqrt(x*x + y*y + z*z) - %.10g", 0.5 * pm_frame_parameter(f, "diameter", rows[DIAMETER].otherwise));
+}
+
 const struct pm_scene scene_sphere = {
 	.name = "sphere",
 	.sentence = "fluid at rest around a sphere that a stream meets suddenly",
@@ -57,4 +64,5 @@ const struct pm_scene scene_sphere = {
 	.parameters = rows,
 	.make = make,
 	.exact = exact,
+	.body = body,
 };

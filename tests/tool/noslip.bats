@@ -46,7 +46,7 @@ report() { sls --report | sed -n 's/.*noslip.*"'"$1"'":\([^,}]*\).*/\1/p'; }
 
 # Read off the figure of Koumoutsakos and Leonard 1995 by others (github.com/barbagroup/cuIBM 1c740f5, validation-data/cylinderRe550-KL95.txt), time in radii,
 # linear between its points, at T = U t/D less half a step.
-@test "the drag at Re = 550 until the wake is long, beside that of Koumoutsakos and Leonard" {
+@test "the drag at Re = 550 until the wake is long, beside Koumoutsakos and Leonard's" {
 	local of=(0.790 0.703 0.793 0.945 1.109 1.227 1.281) k
 	fluid 64 0.01 0.00181818182 | cycle -q -n 140 --every 20 "noslip $round -n 100 --stream '1, 0' | $flow | field 'vel = 1, 0' | $behind" >a
 	report force_x <a >drag
