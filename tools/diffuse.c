@@ -34,7 +34,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *t = s->state;
 	const size_t n = t->diffusion.density->count;
-	struct pm_diffusion_nu varies = {NULL};
+	struct pm_diffusion_nu varies = {.at = NULL};
 	double decay = 0, *nu = t->nu.varies ? pm_alloc(n + 1, sizeof *nu) : NULL;
 	int status = t->nu.varies ? pm_viscosity_values(nu ? 0 : pm_failed(), &t->nu, f, n, nu, &varies.least, &varies.most) : 0;
 	varies.at = nu;

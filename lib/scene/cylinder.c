@@ -36,7 +36,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	if (pm_scene_vortex_box(c, f, 2, lo, hi, PM_OPEN, cells) || pm_scene_vorticity(f, beside, c, 0))
 		return -PM_DATA;
 	struct pm_field *circulation = pm_frame_field(f, "vortices", "circulation");
-	if (!circulation->count)
+	if (!pm_frame_set(f, "vortices")->n) /* on all ranks */
 		return pm_fail(PM_USAGE, "no node of so few cells is far enough from the faces for particles beside the cylinder (--cells 64x48)");
 	memset(pm_out(circulation, 0), 0, circulation->count * sizeof(double));
 	return 0;

@@ -36,6 +36,8 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	if (pm_scene_space(c, f, lo, hi, PM_OPEN, cells) || pm_scene_space_vorticity(f, beside, c, 0))
 		return -PM_DATA;
+	if (!pm_frame_set(f, "vortices")->n) /* on all ranks */
+		return pm_fail(PM_USAGE, "no node of so few cells is far enough from the faces for particles beside the sphere (--cells 32x24x24)");
 	struct pm_field *alpha = pm_frame_field(f, "vortices", "alpha");
 	memset(pm_out(alpha, 0), 0, alpha->count * sizeof(double));
 	return 0;

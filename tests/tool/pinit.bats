@@ -47,8 +47,10 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	[[ $stderr == *"take -n 1000000 or 1030301"* ]]
 	run -2 --separate-stderr pinit lattice -n 27 --spacing 1.5
 	[[ $stderr == *"do not fill whole cells"* ]]
-	run -2 --separate-stderr pinit cylinder --cells 8x6
-	[[ $stderr == "pinit: no node of so few cells is far enough from the faces"* ]]
+	for few in 'cylinder --cells 8x6' 'sphere --cells 8x6x6'; do
+		run -2 --separate-stderr pinit $few
+		[[ $stderr == "pinit: no node of so few cells is far enough from the faces"* ]]
+	done
 	run -2 --separate-stderr pinit taylor-green-2d --box=0,1
 	[[ $stderr == "pinit: the particles of the scene taylor-green-2d are a lattice that fills its own periodic box (leave out --box)"* ]]
 	run -2 --separate-stderr pinit uniform --box 3,1

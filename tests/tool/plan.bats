@@ -136,7 +136,7 @@ small() {
 		same_as $format.1 $format.2
 		same_as $format.1 $format.3
 	done
-	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 22 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
+	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 25 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
 }
 
 @test "fields computed earlier do not change the plan" {
