@@ -112,6 +112,16 @@ static int check_beside(const struct pm_gather_job *j)
 		j->name) : 0;
 }
 
+/* Panels have positions, and are no particles. */
+static void leave_panels(const struct pm_frame *f, struct pm_sets *sets)
+{
+	size_t n = 0;
+	for (size_t i = 0; i < sets->n; i++)
+		if (!pm_frame_field(f, sets->name[i], "corners"))
+			sets->name[n++] = sets->name[i];
+	sets->n = n ? n : sets->n;
+}
+
 int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	*j = (struct pm_gather_job){.choice = *choice, .law = pm_law_of(f)};
@@ -127,6 +137,8 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 		status = pm_sets_choose(f, choice->set, choice->field ? any : law, "stab reads it from a table", &j->sets);
 	if (status)
 		return status;
+	if (!choice->set && !choice->field)
+		leave_panels(f, &j->sets);
 	j->transfer = (struct pm_transfer){.grid = pm_grid_of(f, j->mesh), .components = j->field->components, .rim = j->field->rim};
 	if ((status = choose_kernel(f, j)))
 		return status;

@@ -5,7 +5,7 @@ load ../helper
 	# 32^3 to t = 10, past the peak; with PM_LONG 64^3 to t = 20, without a model of what the mesh does not hold and with two of them.
 	# 0.0128 |u|^3 is the peak of resolved flows (VM-20), by the volume (2 pi)^3.
 	local cells=32 steps=100 models=('') model
-	[ -z "${PM_LONG:-}" ] || cells=64 steps=200 models=('' '| subgrid' '| subgrid --model smagorinsky')
+	[ -z "${PM_LONG:-}" ] || cells=64 steps=200 models=('' '| subgrid' '| subgrid --model dynamic')
 	for model in "${models[@]}"; do
 		pinit taylor-green-3d --cells $cells --nu 6.25e-4 --dt 0.1 |
 			cycle -q -n $steps --every 1 \

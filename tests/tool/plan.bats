@@ -72,6 +72,28 @@ small() {
 	[[ "$(pinit cylinder | plan --no-cost --accuracy 0.1 | says 'boundary layer')" = 'off '* ]]
 }
 
+@test "plan puts in walls of panels by what they change in the velocities, in plane and space; no mesh need hold them; cycle says that they are left out" {
+	pinit vortex-pair | panels --curve '3 + cos(2*pi*s), sin(2*pi*s)' --stream '1, 0' >start
+	[[ "$(plan --sentence <start)" = 'pp | panels | push '* ]]
+	[[ "$(smod --constant stream_x=1 <start | plan --sentence)" = *"| field 'vel = 1, 0' | panels --stream '1, 0' | push"* ]]
+	plan --check --no-cost <start >proof
+	awk '$1 == "walls" { print; exit !($2 == "on" && $3 > 0.05 && $5 == "right") }' proof # foreseen and found 0.1
+	# a wall far away: (a/d)^2 of it
+	[[ "$(pinit vortex-pair | panels --curve '30 + cos(2*pi*s), sin(2*pi*s)' | plan --no-cost | says walls)" = 'off '*'200 panels make '* ]]
+	pinit vortex-pair | panels --kind source --curve '3 + cos(2*pi*s), sin(2*pi*s)' | plan --sentence | grep -q '| panels --kind source |'
+	run -0 --separate-stderr cycle -n 1 'pp | push rk4' <start
+	[[ $stderr == *"cycle: the frame has walls of panels, but no word of the sentence acts by it (panels, noslip, penalize): 200 panels of 'panels'"* ]]
+	pinit vortex-ring --cells 16 | panels --surface '0.5*x, 0.5*y, 0.5*z + 1' -n 320 | plan --sentence | grep -q '| m2p | panels | push'
+}
+
+@test "plan puts a subgrid model in where the cells are too coarse and nothing is remeshed" {
+	pinit taylor-green-3d --cells 16 --nu 6e-4 >start
+	[[ "$(plan --no-cost <start | says subgrid)" = 'off '*'and remeshing takes it' ]]
+	plan --sentence --off remeshing <start | grep -q '| subgrid --model dynamic | m2p |'
+	[[ "$(pinit taylor-green-3d --cells 16 --nu 0.05 | plan --no-cost --off remeshing | says subgrid)" = 'off '*'is below the cells' ]]
+	[[ "$(decide taylor-green-2d --cells 16 | says subgrid)" = 'off '*'2-D'* ]]
+}
+
 @test "plan sees a stream: that of the scene or of the constants; beside faster flows it is left out; the wake that it takes out of the mesh is told" {
 	pinit lamb-oseen --cells 32 >vortex
 	[[ "$(plan --no-cost <vortex | says stream)" = 'off '*'none is given'* ]]
@@ -136,7 +158,7 @@ small() {
 		same_as $format.1 $format.2
 		same_as $format.1 $format.3
 	done
-	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 25 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
+	python3 -c 'import json; p = json.load(open("json.1")); assert len(p["effects"]) == 27 and p["sentence"] == " | ".join(s["words"] for s in p["stages"])'
 }
 
 @test "fields computed earlier do not change the plan" {
