@@ -144,6 +144,15 @@ static int by_hand(const struct pm_frame *f, const struct pm_plan *p, const stru
 	return 0;
 }
 
+/* Why a law of vortices has nothing to plan: curves of the word filament, or no vorticity yet. */
+static int no_vorticity(const struct pm_frame *f, const struct pm_law *law)
+{
+	for (size_t i = 0; i < f->nsets && law->vector; i++)
+		if (pm_frame_field(f, f->sets[i]->name, "curve") && pm_frame_field(f, f->sets[i]->name, "core"))
+			return pm_fail(PM_DATA, "'%s' are filaments, which no effect of a plan is about (cycle 'filament | push rk4')", f->sets[i]->name);
+	return pm_fail(PM_DATA, "no particle has %s %s yet: nothing to plan (penalize makes that of a body's layer)", law->vector ? "an" : "a", law->strength);
+}
+
 /* The scales that need no force, and the method. */
 static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struct pm_plan *p)
 {
@@ -158,8 +167,7 @@ static int begin(const struct pm_frame *f, const struct pm_plan_choice *c, struc
 	if (status)
 		return status;
 	if (p->scales.kind == PM_VORTICES && !(p->scales.sources > 0))
-		return pm_fail(PM_DATA, "no particle has %s %s yet: nothing to plan (penalize makes that of a body's layer)", p->law->vector ? "an" : "a",
-			p->law->strength);
+		return no_vorticity(f, p->law);
 	p->scales.accuracy = c->accuracy;
 	p->scales.time = isnan(c->time) || c->time == f->time ? 100 * fabs(f->dt) : fabs(c->time - f->time);
 	if (p->law->evolves && !(p->scales.courant > 0))

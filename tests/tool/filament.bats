@@ -18,6 +18,8 @@ mean() { sls --data | awk -v f="$1" -v c="${2:-0}:" '$1 == f { on = 1; next } on
 	done
 	run -0 --separate-stderr diag <(ring 64 0.05)
 	[[ $stderr == *"'matter' are filaments, whose length and impulse are in the report of the word filament (sls --report)" ]]
+	run -1 plan < <(ring 16 0.05)
+	[[ $output == *"'matter' are filaments, which no effect of a plan is about (cycle 'filament | push rk4')" ]]
 	within "$(ring 64 0.05 | filament --core-profile gaussian | mean vel 2)" 0.3594653 1e-3
 	within "$(ring 64 0.1 | filament | mean vel 2)" 0.3288162 0.003
 	within "$(ring 64 0.05 | filament --local 4 | mean vel 2)" 0.3839752 1e-5 # ln(2 l/sigma) - 1 = ln(8 R/a) - 1/4, but for (sigma/l)^2
