@@ -117,7 +117,7 @@ static const struct pm_option options[] = {
 		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
 	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
 		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others); "
-			"in open space of a vortex ring the amplitudes [length] of these waves around it"},
+			"in open space the amplitudes [length] of these waves around a vortex, a ring of vortices or a vortex ring"},
 	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
 		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},
 	{.name = "species", .kind = PM_FLAG, .cosmetic = true, PM_AT(species),

@@ -77,7 +77,7 @@ const struct pm_tool tool_pp = {
 	.summary = "far field by direct summation over all pairs",
 	.about = "Adds the law's field of every particle at every other (gravity: acc = -G sum m_j (x_i - x_j)/(r^2 + softening^2)^(3/2) in 3-D, "
 		"2 G m/r in 2-D, 2 pi G m in 1-D; vortices in space: vel by Biot and Savart, and dalpha, their stretching). "
-		"In open space, or in the plane with one periodic axis. "
+		"In open space, beside walls by images, or in the plane with one periodic axis. "
 		"Cost N^2: 4 billion pairs per second and core on AVX-512. The bytes do not depend on the number of threads. "
 		"Coincident particles without softening exert no force on each other and are counted.",
 	.kind = PM_FILTER,

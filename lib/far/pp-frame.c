@@ -7,6 +7,7 @@
 #include "far/pp-periodic.h"
 #include "far/pp-vortex.h"
 #include "far/pp.h"
+#include "far/wall-images.h"
 #include "law/law.h"
 #include "stream/acting-forces.h"
 #include "stream/declare.h"
@@ -19,7 +20,11 @@ static struct pm_far far_of(const struct pm_law *law, const struct pm_pp_choice 
 		.vector = law->vector, .turning = law->vector && c->form != PM_PP_NONE ? "dalpha" : NULL};
 }
 
-static bool open_along(const struct pm_frame *f, int axis) { return f->face[axis][0] == PM_OPEN && f->face[axis][1] == PM_OPEN; }
+/* Open, or a half of it beside one wall. */
+static bool open_along(const struct pm_frame *f, int axis)
+{
+	return (f->face[axis][0] == PM_OPEN && f->face[axis][1] == PM_OPEN) || pm_wall_alone(f, axis);
+}
 
 /* The periodic axis of a plane that is open along the other; -1: none. */
 static int periodic_axis(const struct pm_frame *f)
@@ -32,10 +37,10 @@ static int periodic_axis(const struct pm_frame *f)
 
 static int open_space(const struct pm_frame *f)
 {
-	for (int a = 0; a < 2 * f->dim; a++)
-		if (f->face[a / 2][a % 2] != PM_OPEN && periodic_axis(f) != a / 2)
-			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space, or in the plane with one periodic axis "
-				"(use p2m | poisson-fft | mgrad | m2p)", pm_face_names[f->face[a / 2][a % 2]], "xyz"[a / 2]);
+	for (int a = 0; a < f->dim; a++)
+		if (!open_along(f, a) && periodic_axis(f) != a)
+			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space, beside one wall an axis, or in the plane with one periodic "
+				"axis (use p2m | poisson-fft | mgrad | m2p)", pm_face_names[f->face[a][0]], "xyz"[a]);
 	return 0;
 }
 
@@ -173,6 +178,8 @@ int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, struct pm_pp_d
 	if (status)
 		return status;
 	status = pm_bodies_gather(f, &far, &b);
+	if (!status && (status = pm_wall_images(f, &far, &b)))
+		pm_bodies_free(&b);
 	p.sets = b.sets, p.count = b.count, p.own = b.own;
 	if (!status && law->vector)
 		status = vortices(c, &p, &b, &done->coincident);

@@ -32,8 +32,11 @@ static double centre_of(const struct pm_frame *f, int d)
 	return isnan(x) ? 0.5 * (f->lo[d] + f->hi[d]) : x;
 }
 
-/* Waves are those around a ring. */
-static bool of_ring(const struct pm_frame *f, const struct pm_law *law) { return law->vector && f->face[0][0] == PM_OPEN; }
+/* Waves are those around a ring, or in the plane around a vortex. */
+static bool of_ring(const struct pm_frame *f, const struct pm_law *law)
+{
+	return law->strength && law->of_potential == PM_CURL && f->face[0][0] == PM_OPEN;
+}
 
 static double (*level_of(const struct pm_frame *f))(const struct pm_frame *, const double[], double)
 {
@@ -80,9 +83,11 @@ int pm_diag_reads(const struct pm_diag_request *g, struct pm_frame *f)
 		return -PM_DATA;
 	if (g->set && !pm_frame_set(f, g->set))
 		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", g->set);
-	for (int d = 0; d < f->dim && g->pair; d++)
-		if (f->face[d][0] == PM_PERIODIC)
-			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, but this box is periodic (leave --pair out)");
+	for (int k = 0; k < 2 * f->dim && g->pair; k++) {
+		const enum pm_face face = f->face[k / 2][k % 2];
+		if (face == PM_PERIODIC || face == PM_WALL || face == PM_NEUMANN)
+			return pm_fail(PM_USAGE, "--pair sums over pairs in open space, but this box is %s (leave --pair out)", pm_face_names[face]);
+	}
 	if (g->nmodes && has_mode(f, law))
 		return -PM_DATA;
 	if (g->species && f->nsets > PM_SPECIES_MOST)

@@ -162,7 +162,8 @@ static bool needs_energy(const struct pm_diag_table *t)
 	bool needs = false;
 	for (int i = 0; i <= t->n; i++) {
 		const int from = i < t->n ? t->column[i].from : t->choice.growth ? t->growth.from : 0;
-		needs = needs || from == PM_ENERGY_PAIR || from == PM_ENERGY || (from >= PM_VIRIAL_RATIO && from <= PM_RELAXATION_TIME);
+		needs = needs || from == PM_ENERGY_PAIR || from == PM_ENERGY || from == PM_ENERGY_LOSS ||
+			(from >= PM_VIRIAL_RATIO && from <= PM_RELAXATION_TIME);
 	}
 	return needs;
 }
@@ -188,6 +189,9 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 	for (int i = 0; i < t->n; i++)
 		if (t->column[i].from == PM_ENERGY)
 			memcpy(t->unknown, how->unknown, sizeof t->unknown);
+	if (how->vortices && !begins && f->time > t->before[0])
+		m->value[PM_ENERGY_LOSS] = (t->before[1] - m->value[PM_ENERGY]) / (f->time - t->before[0]);
+	t->before[0] = f->time, t->before[1] = m->value[PM_ENERGY];
 	return status;
 }
 

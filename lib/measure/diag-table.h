@@ -45,6 +45,7 @@ struct pm_diag_table {
 	double *rows;                 /* of --average: n values and the time each; NULL: none */
 	size_t nrows, room;
 	int64_t step;                 /* of the last row */
+	double before[2];             /* time and energy of the last row */
 	bool energies, unasked; /* a column needs the energy of the field; the first row needed the sum over pairs for it, unasked */
 	char unknown[200]; /* why the column energy is nan, if the forces are the reason; "" */
 	char lacks[200];   /* why it is nan, if no mesh and no particle holds the potential; "" */

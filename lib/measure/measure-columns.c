@@ -17,7 +17,7 @@ const char *const pm_column_names[PM_NAMED_COLUMNS + 1] = {
 	[PM_CIRCULATION] = "circulation", [PM_ALPHA] = "alpha_x", "alpha_y", "alpha_z", [PM_IMPULSE] = "impulse_x", "impulse_y", "impulse_z",
 	[PM_ANGULAR_IMPULSE] = "angular_impulse", [PM_ANGULAR_IMPULSE_OF] = "angular_impulse_x", "angular_impulse_y", "angular_impulse_z",
 	[PM_ENSTROPHY] = "enstrophy", [PM_PALINSTROPHY] = "palinstrophy", [PM_OMEGA_MAX] = "omega_max",
-	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DIVERGENCE] = "divergence", [PM_DISSIPATION] = "dissipation",
+	[PM_OMEGA_CENTRE] = "omega_centre", [PM_DISSIPATION] = "dissipation", [PM_ENERGY_LOSS] = "energy_loss", [PM_DIVERGENCE] = "divergence",
 	[PM_KOLMOGOROV_LENGTH] = "kolmogorov_length", [PM_KOLMOGOROV_TIME] = "kolmogorov_time", [PM_ENERGY_FLOW] = "energy_flow",
 	[PM_HELICITY] = "helicity", [PM_RING_CIRCULATION] = "ring_circulation", [PM_RING_RADIUS] = "ring_radius", [PM_RING_POSITION] = "ring_position",
 	[PM_RING_SPEED] = "ring_speed", [PM_DISTORTION] = "distortion",

@@ -1,7 +1,8 @@
 /* Integrals of vortices in the plane: circulation sum G, impulse (sum G y, -sum G x), angular impulse -1/2 sum G r^2 of the particles;
- * enstrophy 1/2 int omega^2, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given point (by m6prime, exact at a
- * node) on the first mesh that holds omega; the largest distortion of the sets. Missing quantities are NAN. Sums follow the
- * law of sums (base/in-order.h). Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
+ * enstrophy 1/2 int omega^2, dissipation 2 nu times that, palinstrophy 1/2 int |grad omega|^2 (differences of order 6) and max |omega|, omega at a given
+ * point (by m6prime, exact at a node) on the first mesh that holds omega; the largest distortion of the sets. In open space waves around the centre of
+ * |G|: 2 sum G r exp(-i m phi)/sum G, as of a ring in space. Missing quantities are NAN. Sums follow the law of sums (base/in-order.h).
+ * Cost N and points of the mesh. Source: Saffman 1992, sections 3.2 to 3.7. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/measure.h"
@@ -61,6 +62,52 @@ static void of_particles(const struct pm_field *at, const struct pm_field *circu
 	pm_over_stretches(at, &parts, &(struct vortices){pm_in(at, 0), pm_in(at, 1), pm_in(circulation, 0)}, sum);
 }
 
+struct wave {
+	const double *x, *y, *q, *centre; /* centre NULL: the sums that give it, of |G|, |G| x, |G| y */
+	int mode;
+};
+
+/* Sums of G, and of G r exp(-i m phi) about the centre. */
+static void make_wave(const void *data, size_t from, size_t to, void *part)
+{
+	const struct wave *v = data;
+	struct pm_sum *sum = part;
+	for (size_t i = from; i < to; i++) {
+		const double size = fabs(v->q[i]), x = v->x[i] - (v->centre ? v->centre[0] : 0), y = v->y[i] - (v->centre ? v->centre[1] : 0);
+		const double r = hypot(x, y), angle = v->mode * atan2(y, x);
+		pm_sum_add(&sum[0], v->centre ? v->q[i] : size);
+		pm_sum_add(&sum[1], v->centre ? v->q[i] * r * cos(angle) : size * x);
+		pm_sum_add(&sum[2], v->centre ? -v->q[i] * r * sin(angle) : size * y);
+	}
+}
+
+static void wave_sums(const struct pm_measure *how, const struct pm_frame *f, const double *centre, int mode, double total[3])
+{
+	const struct pm_parts parts = {.size = 3 * sizeof(struct pm_sum), .make = make_wave, .join = pm_join_sums};
+	struct pm_sum sum[3] = {0};
+	for (size_t i = 0; i < f->nsets; i++) {
+		const struct pm_field *at = pm_frame_field(f, f->sets[i]->name, "x"), *q = pm_frame_field(f, f->sets[i]->name, how->strength);
+		if (counts(how, f, f->sets[i]))
+			pm_over_stretches(at, &parts, &(struct wave){pm_in(at, 0), pm_in(at, 1), pm_in(q, 0), centre, mode}, sum);
+	}
+	for (int k = 0; k < 3; k++)
+		total[k] = pm_sum_total(sum[k]);
+}
+
+static void waves_around(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	double total[3];
+	if (!how->nring_modes)
+		return;
+	wave_sums(how, f, NULL, 0, total);
+	const double centre[2] = {total[1] / total[0], total[2] / total[0]};
+	for (int k = 0; k < how->nring_modes; k++) {
+		wave_sums(how, f, centre, how->modes[k], total);
+		for (int c = 0; c < 2; c++)
+			m->mode[k][c] = 2 * total[1 + c] / total[0];
+	}
+}
+
 /* 1/2 int |grad omega|^2; NAN if the mesh is too small for the differences, or without memory. */
 static double palinstrophy(const struct pm_grid *g, const double *omega)
 {
@@ -92,6 +139,7 @@ static void of_mesh(const struct pm_measure *how, const struct pm_frame *f, cons
 		most = fmax(most, fabs(omega[i]));
 	m->value[PM_OMEGA_MAX] = most;
 	m->value[PM_ENSTROPHY] = pm_energy_on_mesh(&g, omega, omega);
+	m->value[PM_DISSIPATION] = 2 * how->nu * m->value[PM_ENSTROPHY];
 	m->value[PM_OMEGA_CENTRE] = at_place(&g, omega, how->centre);
 	m->value[PM_PALINSTROPHY] = palinstrophy(&g, omega);
 }
@@ -120,6 +168,7 @@ void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct
 	static const int column[] = {PM_CIRCULATION, PM_IMPULSE, PM_IMPULSE + 1, PM_ANGULAR_IMPULSE};
 	for (int k = 0; k < 4; k++)
 		m->value[column[k]] = pm_sum_total(sum[k]);
+	waves_around(how, f, m);
 	if (mesh)
 		of_mesh(how, f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
 }

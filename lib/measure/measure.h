@@ -53,8 +53,8 @@ enum pm_column {
 	PM_MASS = PM_ANGULAR + 3, PM_PARTICLES, PM_CENTRE, PM_SPEED_RMS = PM_CENTRE + 3, PM_DISTANCE_MAX, PM_VIRIAL_RATIO,
 	PM_CROSSING_TIME, PM_COULOMB_LOGARITHM, PM_RELAXATION_TIME,
 	PM_CIRCULATION, PM_ALPHA, PM_IMPULSE = PM_ALPHA + 3, PM_ANGULAR_IMPULSE = PM_IMPULSE + 3, PM_ANGULAR_IMPULSE_OF,
-	PM_ENSTROPHY = PM_ANGULAR_IMPULSE_OF + 3, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE, PM_DIVERGENCE, PM_DISSIPATION, PM_KOLMOGOROV_LENGTH,
-	PM_KOLMOGOROV_TIME, PM_ENERGY_FLOW, PM_HELICITY,
+	PM_ENSTROPHY = PM_ANGULAR_IMPULSE_OF + 3, PM_PALINSTROPHY, PM_OMEGA_MAX, PM_OMEGA_CENTRE, PM_DISSIPATION, PM_ENERGY_LOSS, PM_DIVERGENCE,
+	PM_KOLMOGOROV_LENGTH, PM_KOLMOGOROV_TIME, PM_ENERGY_FLOW, PM_HELICITY,
 	PM_RING_CIRCULATION, PM_RING_RADIUS, PM_RING_POSITION, PM_RING_SPEED, PM_DISTORTION,
 	PM_CHARGE, PM_ENERGY_COMPONENT, PM_ENERGY_ELECTRIC = PM_ENERGY_COMPONENT + 3, PM_ENERGY_MAGNETIC, PM_GAUSS_RESIDUAL,
 	PM_STRENGTH_SCALE, PM_STRENGTH_ABSORBED, PM_STRENGTH_CUT, PM_STRENGTH_OUTSIDE, PM_STRENGTH_GIVEN, PM_OUTSIDE,
@@ -108,7 +108,7 @@ struct pm_measure { /* what to measure of a frame */
 	const char *field;           /* of the law on the mesh; NULL none */
 	int wave;                    /* component of it that waves along x have */
 	int nmodes, modes[PM_COMPONENTS]; /* waves along x */
-	int nring_modes;             /* or so many of them around a vortex ring in open space */
+	int nring_modes;             /* or so many of them around a vortex or a vortex ring in open space */
 	const char *separation[2];   /* two sets; NULL: none */
 	bool species;                /* the moments of every set */
 	bool field_errors;           /* residual and curl */

@@ -386,3 +386,20 @@ load ../helper
 	[[ $(pinit landau -n 2000 | cycle -q -n 100 --every 2 "$step" | diag --columns time --growth mode:1 --exact --format json | tail -n 1) == \
 		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189}' ]]
 }
+
+@test "diag --modes in the open plane: the amplitude of a wave around a ring of vortices, and its growth; dissipation and energy_loss in the plane" {
+	# 360 vortices at r = 1 + 0.01 cos(3 phi) about (0.2, -0.1): mode_3 is 0.01, the others are of second order
+	awk 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation"; for (i = 0; i < 360; i++) { p = i * atan2(0, -1) / 180; r = 1 + 0.01 * cos(3 * p)
+		print 0.2 + r * cos(p), -0.1 + r * sin(p), 1 } }' | stab - --law vortex | diag --columns time --modes 2,3,4 >d
+	within "$(column mode_3 <d)" 0.01 1e-8
+	below "$(column mode_2 <d)" 1e-4
+	# the octagon's alternating wave grows at sqrt(32) Gamma/(4 pi R^2) (VM-07); measured to 1e-6
+	pinit polygon -n 8 --disturbance 1e-6 | cycle -q -n 300 --every 10 'pp | push rk4' | diag --columns time --modes 4 --growth mode:4 | tail -1 >line
+	within "$(sed 's/.*gamma \([^ ]*\) .*/\1/' line)" "$(calc 'sqrt(32) / (4 * pi)')" 1e-3
+	pinit lamb-oseen --cells 64 --dt 0.05 | cycle -q -n 4 --every 1 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' |
+		p2m | poisson-fft | diag -q --columns time,enstrophy,dissipation,energy_loss >d
+	within "$(calc "$(column dissipation <d | head -1) / $(column enstrophy <d | head -1)")" 0.02 1e-15 # 2 nu
+	# in free space the energy of a vortex is known up to a constant, and falls by 2 nu Z
+	within "$(awk 'NR > 3 { print 2 * $4 / ($3 + z) } { z = $3 }' d | tail -1)" 1 2e-3
+	[ "$(column energy_loss <d | head -1)" = nan ]
+}

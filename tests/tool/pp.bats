@@ -45,9 +45,61 @@ fixture() {
 }
 
 @test "a periodic box and a wall are refused, with the words that support them" {
-	refuses 1 "periodic along x, but pp sums in open space, or in the plane with one periodic axis (use p2m | poisson-fft | mgrad | m2p)" "pinit pair | pp"
+	refuses 1 "periodic along x, but pp sums in open space, beside one wall an axis, or in the plane with one periodic axis (use p2m | poisson-fft" \
+		"pinit pair | pp"
 	fixture > t
 	refuses 1 "the box is wall along x" "stab t --law gravity --faces wall | pp --softening 0"
+}
+
+# beside COLUMNS FACES BOX OPEN_BOX: the bodies t between walls, and with their images (awk's mirrors.awk makes them) in open space, the field of both.
+beside() {
+	stab t $1 --box "$3" --faces "$2" | pp $5 --potential --no-history >walls.pm
+	stab --plain walls.pm >a
+	stab images $1 --box "$4" | pp $5 --potential | stab --plain | head -"$(wc -l <a)" >b
+	paste a b | awk 'NR > 1 { for (i = 1; i <= NF / 2; i++) { d = $i - $(NF / 2 + i); d = d < 0 ? -d : d; m = d > m ? d : m } } END { print m + 0 }'
+}
+
+@test "beside walls and neumann faces pp sums over images: as the images put there by hand, in half and quarter spaces, of scalars and of vectors" {
+	printf 'x y circulation\n0.3 0.2 1.5\n0.5 0.9 -0.7\n0.8 0.1 0\n' >t
+	awk 'NR == 1 { print; next } { r[NR] = $0; print } END { for (k = 2; k <= NR; k++) { split(r[k], v); print -v[1], v[2], -v[3]; print v[1], -v[2], -v[3]
+		print -v[1], -v[2], v[3] } }' t >images
+	below "$(beside '--law vortex' wall,open,wall,open 0,0,2,2 -2,-2,2,2 '--softening 0.05')" 1e-14 "a corner of walls"
+	printf 'x y z mass\n0.3 0.2 0.1 1.5\n0.5 0.9 0.4 0.7\n' >t
+	awk 'NR == 1 { print; next } { r[NR] = $0; print } END { for (k = 2; k <= NR; k++) { split(r[k], v); print v[1], 4 - v[2], v[3], v[4]
+		print v[1], v[2], -v[3], -v[4]; print v[1], 4 - v[2], -v[3], -v[4] } }' t >images
+	for loop in half full; do
+		below "$(beside '--law gravity --constant G=1,softening=0.05' open,open,open,neumann,wall,open -2,0,0,2,2,2 -2,0,-2,2,4,2 \
+			"--loop $loop")" 1e-13 "$loop loop"
+	done
+	for r in 2 3; do
+		pp --replace --potential --loop full --no-history --ranks $r walls.pm >divided.pm
+		same_as walls.pm divided.pm
+	done
+	printf 'x y z alpha_0 alpha_1 alpha_2\n0.3 0.2 0.1 1.5 0.3 -0.2\n0.5 0.9 0.4 0.7 -1 0.5\n' >t
+	awk 'NR == 1 { print; next } { r[NR] = $0; print } END { for (k = 2; k <= NR; k++) { split(r[k], v)
+		print -v[1], v[2], v[3], v[4], -v[5], -v[6] } }' t >images
+	below "$(beside '--law vortex' wall,open,open,open,open,open 0,-2,-2,2,2,2 -2,-2,-2,2,2,2 '--softening 0.1')" 1e-13 \
+		"nothing flows through a wall"
+	awk 'NR == 1 { print; next } { r[NR] = $0; print } END { for (k = 2; k <= NR; k++) { split(r[k], v)
+		print -v[1], v[2], v[3], -v[4], v[5], v[6] } }' t >images
+	below "$(beside '--law vortex' neumann,open,open,open,open,open 0,-2,-2,2,2,2 -2,-2,-2,2,2,2 '--softening 0.1')" 1e-13 \
+		"nothing flows along a neumann face"
+	printf 'x y circulation\n0.3 0.2 1.5\n0.9 0.5 -1\n' >t
+	awk 'NR == 1 { print; next } { r[NR] = $0; print } END { for (k = 2; k <= NR; k++) { split(r[k], v); print v[1], -v[2], -v[3] } }' t >images
+	stab t --law vortex --box 0,0,2,2 --faces periodic,periodic,wall,open | pp --softening 0.1 | stab --plain >a
+	stab images --law vortex --box 0,-2,2,2 --faces periodic,open | pp --softening 0.1 | stab --plain | head -3 | diff a -
+	printf 'x y circulation\n0.3 0.2 1.5\n-0.1 1 1\n' >t
+	refuses 1 "a particle at x = -0.1 is outside the wall at 0, where there is no field" \
+		"stab t --law vortex --box 0,0,2,2 --faces wall,open,open,open | pp --softening 0.1"
+}
+
+@test "the energy of bodies beside a wall is that of pp --potential: half of that of their images; diag --pair refuses" {
+	# a vortex of circulation G at the distance y of a wall: psi of its image, energy G^2 ln(2 y)/(4 pi)
+	printf 'x y circulation\n0.3 0.4 1.5\n' >t
+	stab t --law vortex --box 0,0,2,2 --faces open,open,wall,open | pp --softening 0 --potential >w
+	within "$(diag -q --columns energy w | column energy)" "$(calc '1.5 ^ 2 * log(0.8) / (4 * pi)')" 1e-15
+	run -2 bash -o pipefail -c "diag --pair w >/dev/null"
+	[[ $output == *"--pair sums over pairs in open space, but this box is"* ]]
 }
 
 # row PERIODIC: two vortices and a probe; periodic along x with period 2, or else the second vortex with 2000 images on either side.

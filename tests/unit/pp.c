@@ -249,6 +249,7 @@ int main(void)
 	for (int dim = 1; dim < 4; dim++) {
 		fitted(pm_mollifier_find("gaussian"), dim, 2);
 		fitted(pm_mollifier_find("gaussian-4"), dim, 4);
+		fitted(pm_mollifier_find("gaussian-6"), dim, 6);
 	}
 	threads();
 	for (int half = 0; half < 2; half++)
