@@ -9,16 +9,23 @@ struct config {
 	int64_t seed;
 };
 
+struct state {
+	struct pm_cross_section table[PM_GAS_PROCESSES]; /* of @FILE */
+};
+
 static int gas_of(const struct pm_stage *s, const struct pm_frame *f, struct pm_gas *g)
 {
 	const struct config *o = s->config;
+	const struct state *state = s->state;
 	*g = (struct pm_gas){.set = o->set, .ions = o->ions, .mass = o->mass, .gas_mass = o->gas_mass, .density = o->density, .vth = o->vth, .n = s->nargs,
 		.seed = f && !pm_given(s, "seed") ? f->seed : (uint64_t)o->seed};
 	for (int c = 0; c < 3; c++)
 		g->drift[c] = c < o->drift.n ? o->drift.x[c] : 0;
 	int status = 0;
-	for (int k = 0; k < s->nargs && !status; k++)
+	for (int k = 0; k < s->nargs && !status; k++) {
 		status = pm_gas_process_of(s->args[k], &g->process[k]);
+		g->process[k].table = state->table[k];
+	}
 	return status;
 }
 
@@ -27,7 +34,12 @@ static int begin(struct pm_stage *s)
 	struct pm_gas g;
 	if (!pm_given(s, "density"))
 		return pm_fail(PM_USAGE, "how dense is the gas? (--density atoms per volume)");
-	return gas_of(s, NULL, &g);
+	int status = gas_of(s, NULL, &g);
+	for (int k = 0; k < s->nargs && !status; k++) {
+		const char *file = pm_gas_file_of(g.process[k].section);
+		status = file ? pm_cross_section_read(&((struct state *)s->state)->table[k], file) : 0;
+	}
+	return status;
 }
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
@@ -58,6 +70,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
+static void done(struct pm_stage *s)
+{
+	for (int k = 0; k < PM_GAS_PROCESSES; k++)
+		pm_cross_section_free(&((struct state *)s->state)->table[k]);
+}
+
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", .fallback = "electrons", PM_AT(set), .text = "the particles that collide"},
 	{.name = "ions", .kind = PM_TEXT, .unit = "NAME", PM_AT(ions), .text = "the set to which 'ionise' adds"},
@@ -80,7 +98,8 @@ static const struct pm_example examples[] = {
 const struct pm_tool tool_neutrals = {
 	.name = "neutrals",
 	.summary = "collisions of particles with a gas of neutral atoms",
-	.about = "Each PROCESS is KIND: CROSS-SECTION, an expression in the relative speed g, the energy m M/(m + M) g^2/2 and the frame's constants. elastic "
+	.about = "Each PROCESS is KIND: CROSS-SECTION, an expression in the relative speed g, the energy m M/(m + M) g^2/2 and the frame's constants, or "
+		"@FILE, a table of energy and cross-section, linear between its rows. elastic "
 		"turns the relative velocity to any direction; exchange gives the particle the velocity of the atom; 'excite E' does as elastic and takes E "
 		"of the energy; 'ionise E' shares what is left above E equally with a second particle like it, and adds an ion to the set --ions. "
 		"The probability in a step is 1 - exp(-n sigma g dt) for an atom drawn from the gas, which stays as it is. It stands behind the last push, "
@@ -90,6 +109,7 @@ const struct pm_tool tool_neutrals = {
 	.reads = "id",
 	.changes = "v",
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.arguments = "PROCESS...",
 	.arguments_text = "'elastic: SIGMA', 'exchange: SIGMA', 'excite ENERGY: SIGMA', 'ionise ENERGY: SIGMA'",
@@ -99,4 +119,5 @@ const struct pm_tool tool_neutrals = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.free = done,
 };

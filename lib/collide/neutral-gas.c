@@ -8,7 +8,8 @@
  * An atom is drawn for every particle, so no bound on sigma g is needed (the null-collision method needs it to draw fewer). One collision a step at most, so
  * rates have an error of first order in the probability. Random numbers belong to seed, set, id and step.
  * Source: Birdsall 1991 (IEEE Trans. Plasma Sci. 19, 65), section IV; Vahedi and Surendra 1995 (Comput. Phys. Commun. 87, 179); Turner et al. 2013
- * (Phys. Plasmas 20, 013507), the processes. Cost: eight random numbers a particle, and the expressions. SPDX-License-Identifier: GPL-3.0-or-later */
+ * (Phys. Plasmas 20, 013507), the processes. Cost: two random numbers a particle, eight where the gas is warm, and the cross-sections.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,6 +37,12 @@ int pm_gas_process_of(const char *text, struct pm_gas_process *p)
 			return 0;
 	}
 	return pm_fail(PM_USAGE, "'%s' is no process ('elastic: SIGMA', 'exchange: SIGMA', 'excite ENERGY: SIGMA', 'ionise ENERGY: SIGMA')", text);
+}
+
+const char *pm_gas_file_of(const char *section)
+{
+	section += strspn(section, " \t");
+	return *section == '@' ? section + 1 : NULL;
 }
 
 static bool ionises(const struct pm_gas *g)
@@ -104,11 +111,15 @@ static double frequencies(const struct pm_gas *g, double speed, double nu[PM_GAS
 	const double reduced = g->mass * g->gas_mass / (g->mass + g->gas_mass), energy = 0.5 * reduced * speed * speed;
 	double sum = 0;
 	for (int k = 0; k < g->n; k++) {
-		double number[64];
-		memcpy(number, g->process[k].names.number, sizeof number);
-		number[0] = speed;
-		number[1] = energy;
-		const double sigma = pm_expression_number(&g->process[k].e, number);
+		double number[64], sigma;
+		if (g->process[k].table.n) {
+			sigma = pm_cross_section_at(&g->process[k].table, energy);
+		} else {
+			memcpy(number, g->process[k].names.number, sizeof number);
+			number[0] = speed;
+			number[1] = energy;
+			sigma = pm_expression_number(&g->process[k].e, number);
+		}
 		nu[k] = !(speed > 0) || energy < g->process[k].threshold ? 0 : g->density * sigma * speed; /* also of sections such as 1/g */
 		sum += nu[k] >= 0 && isfinite(nu[k]) ? nu[k] : NAN;
 	}
@@ -140,17 +151,18 @@ struct meeting {
 /* One particle; its probability. */
 static double meet(const struct pm_gas *g, double dt, uint64_t key, uint64_t id, uint64_t step, double v[3], struct meeting *o)
 {
-	double z[4], u[4], atom[3], nu[PM_GAS_PROCESSES], square = 0;
-	for (int k = 0; k < 2; k++) {
+	double z[4] = {0}, u[4], atom[3], nu[PM_GAS_PROCESSES], square = 0;
+	for (int k = 0; k < 2 && g->vth > 0; k++)
 		pm_random_normal(key, id, step * 4 + (uint64_t)k, z + 2 * k);
-		pm_random(key, id, step * 4 + 2 + (uint64_t)k, u + 2 * k);
-	}
+	pm_random(key, id, step * 4 + 2, u);
 	for (int c = 0; c < 3; c++) {
 		atom[c] = g->drift[c] + g->vth * z[c];
 		square += (v[c] - atom[c]) * (v[c] - atom[c]);
 	}
 	const double speed = sqrt(square), sum = frequencies(g, speed, nu), probability = -expm1(-sum * dt);
 	*o = (struct meeting){.collided = u[0] < probability};
+	if (o->collided)
+		pm_random(key, id, step * 4 + 3, u + 2);
 	double share = u[1] * sum;
 	int k = 0;
 	while (o->collided && k < g->n - 1 && share >= nu[k])
@@ -214,7 +226,8 @@ int pm_gas_step(struct pm_gas *g, struct pm_frame *f, struct pm_gas_record *r)
 	double *made = pm_alloc(pair ? 6 * n + 1 : 1, sizeof *made);
 	for (int k = 0; k < g->n; k++) {
 		g->process[k].names = (struct pm_density_names){.f = f, .variable = variable, .n = 2};
-		if (pm_expression_compile_numbers(&g->process[k].e, pm_density_name, &g->process[k].names, "number (g, energy)", g->process[k].section))
+		if (!g->process[k].table.n && pm_expression_compile_numbers(&g->process[k].e, pm_density_name, &g->process[k].names, "number (g, energy)",
+			g->process[k].section))
 			return pm_free(born), pm_free(made), -PM_USAGE;
 	}
 	if (!born || !made)

@@ -2,6 +2,7 @@
 #ifndef PM_COLLIDE_NEUTRAL_GAS_H
 #define PM_COLLIDE_NEUTRAL_GAS_H
 
+#include "collide/cross-section.h"
 #include "expression/expression.h"
 #include "load/density-profile.h"
 #include "stream/frame.h"
@@ -12,7 +13,8 @@ enum pm_gas_kind { PM_GAS_ELASTIC, PM_GAS_EXCHANGE, PM_GAS_EXCITE, PM_GAS_IONISE
 struct pm_gas_process {
 	enum pm_gas_kind kind;
 	double threshold;      /* energy that is lost between the two, of PM_GAS_EXCITE and PM_GAS_IONISE */
-	const char *section;   /* the cross-section [area], an expression in g, energy and the frame's constants */
+	const char *section;   /* the cross-section [area], an expression in g, energy and the frame's constants, or @FILE */
+	struct pm_cross_section table; /* of @FILE, made by the caller with pm_cross_section_read(pm_gas_file_of(section)) */
 	struct pm_expression e;
 	struct pm_density_names names;
 };
@@ -34,6 +36,8 @@ struct pm_gas_record {
 
 /* "elastic: EXPRESSION", "exchange: EXPRESSION", "excite ENERGY: EXPRESSION", "ionise ENERGY: EXPRESSION". 0 or failure. */
 int pm_gas_process_of(const char *text, struct pm_gas_process *p);
+/* The name behind @; NULL: the section is an expression. */
+const char *pm_gas_file_of(const char *section);
 /* Header: one of pm_gas_act, or failure. It acts between steps; with PM_GAS_IONISE also within one, where its set has drifted. Data: 0 or failure. */
 enum pm_gas_act { PM_GAS_WAITS, PM_GAS_ACTS };
 int pm_gas_declare(const struct pm_gas *g, struct pm_frame *f);

@@ -73,6 +73,25 @@ moments() {
 	refused 'how dense is the gas?' "neutrals 'elastic: 1' <a" 2
 }
 
+@test "a table of cross-sections is linear between its rows and constant beyond them: the same velocities as by expressions; wrong tables are refused" {
+	gas --drift 2 --vth 1 >a
+	printf '# energy sigma\n0.5 0.375\n1 0.5\n3 1\n' >t
+	with() { cycle -q --no-history -n 10 "push drift | neutrals --density 0.1 '$1' 'exchange: 0.2'" <a | sel --field v,id | stab --plain --set electrons; }
+	same_as <(with 'elastic: @t') <(with 'elastic: 0.25 + 0.25*max(0.5, min(energy, 3))')
+	same_as <(with 'excite 0.7: @t') <(with 'excite 0.7: 0.25 + 0.25*max(0.5, min(energy, 3))')
+	refused() {
+		run --separate-stderr neutrals --density 1 "elastic: @${3:-u}" <a
+		[[ $status = 1 && $stderr == *"$1"* ]] || { echo "$1: $status $stderr"; return 1; }
+	}
+	printf '1 2\n1 3\n' >u
+	refused "'u': row 2, 1 3: energies must ascend, and no cross-section be negative"
+	printf '1 2\n2 -3\n' >u
+	refused "row 2, 2 -3"
+	printf '1 2 3\n2 3 4\n' >u
+	refused "'u' has 3 columns and 2 rows, not two columns, energy and cross-section"
+	refused 'nowhere' '' nowhere
+}
+
 @test "ionisation makes an electron and an ion where it happens: charge, mass and energy are accounted for, the atom's velocity goes on with the ion" {
 	gas --drift 2 --vth 0 | species ions -n 0 --charge 1 --mass 99 --velocities 3 --no-history >a
 	ion="neutrals --density 0.1 --gas-mass 100 --ions ions"
