@@ -10,6 +10,8 @@
 #include "stage/file-operands.h"
 #include "stage/internal.h"
 #include "stage/ranks.h"
+#include "stream/hand-over.h"
+#include "stream/parts.h"
 #include "stream/run.h"
 #include "stage/apply.h"
 #include "stage/divided.h"
@@ -65,6 +67,7 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 		return status;
 	pm_history_add(s, f);
 	status = pm_frame_affordable(f);
+	pm_buffers_share(emit && pm_writer_hands(w)); /* what is read and made here is handed on */
 	if (!status && emit && !hold)
 		status = pm_write_header(w, f);
 	if (!status)
@@ -79,7 +82,9 @@ static int filter_frame(struct pm_stage *s, struct pm_reader *r, struct pm_write
 	if (status >= 0)
 		status = pm_frame_settle(f);
 	if (status >= 0 && emit)
-		status = hold ? pm_write_frame(w, f) : pm_write_payload(w, f);
+		status = hold ? pm_write_header(w, f) : 0;
+	if (status >= 0 && emit)
+		status = pm_write_last(w, f);
 	return status < 0 ? status : 0;
 }
 

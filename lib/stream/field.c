@@ -13,11 +13,13 @@ size_t pm_field_memory(const struct pm_field *field) { return field->type == PM_
 
 static size_t values(const struct pm_field *field) { return field->count * (size_t)field->components; }
 
+/* The values will change: what is known of them is not true any longer. */
 static void forget_note(struct pm_field *field)
 {
 	if (field->note)
 		field->note->free(field->note);
 	field->note = NULL;
+	field->summed = false;
 }
 
 /* The values: in a divided frame this rank's, else all of them, brought together where they are divided. */
@@ -33,9 +35,11 @@ static void *base_of(const struct pm_field *field)
 }
 
 /* All values will change on rank 0. */
-static void *base_to_change(const struct pm_field *field)
+static void *base_to_change(struct pm_field *field)
 {
 	void *base = base_of(field);
+	if (field->summed) /* threads may ask, after the first one has */
+		field->summed = false;
 	if (!field->here && field->buffer->id)
 		pm_buffer_undivide(field->buffer);
 	return base;
@@ -131,7 +135,7 @@ int pm_field_ready(struct pm_field *field)
 		base_to_change(field);
 	else if (field->buffer)
 		base_of(field);
-	if (field->buffer && field->use & PM_USE_CHANGE && atomic_load(&field->buffer->users) > 1) {
+	if (field->buffer && field->use & PM_USE_CHANGE && !pm_buffer_alone(field->buffer)) {
 		struct pm_buffer *b = pm_buffer_new(values(field), pm_field_memory(field), false);
 		if (!b)
 			return -PM_DATA;

@@ -76,6 +76,8 @@ struct pm_field {
 	int order;            /* then: among the fields in use, for the place of a failure */
 	unsigned use;         /* PM_USE_... bits of the running stage */
 	bool finite;          /* known to hold only finite values */
+	bool summed;          /* crc is the checksum of the values as they are in the stream */
+	uint32_t crc;
 	struct pm_note *note; /* NULL: none */
 	struct pm_buffer *buffer; /* NULL: not loaded (passed on), uniform and not expanded, or a header only */
 	json_t *more;         /* unknown keys; passed on */

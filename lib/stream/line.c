@@ -12,9 +12,14 @@ static int damaged(void) { return pm_fail(PM_DATA, "a line of the stream is dama
 
 static int numbers_of(const char *word)
 {
-	if (!strcmp(word, "frame") || !strcmp(word, "abort"))
-		return 2;
-	return !strcmp(word, "tail") || !strcmp(word, "end") ? 1 : -1;
+	static const char *const two[] = {"frame", "abort", "shared", "given"}, *const one[] = {"tail", "end", "copied"};
+	for (size_t i = 0; i < sizeof two / sizeof *two; i++)
+		if (!strcmp(word, two[i]))
+			return 2;
+	for (size_t i = 0; i < sizeof one / sizeof *one; i++)
+		if (!strcmp(word, one[i]))
+			return 1;
+	return -1;
 }
 
 static bool decimal(const char *text, size_t n, uint64_t *out)

@@ -5,8 +5,8 @@
 #include "stream/wire.h"
 
 struct pm_line {
-	char word[16];      /* frame, tail, end, abort, or another in small letters */
-	uint64_t number[2]; /* frame and abort have two, tail and end one */
+	char word[16];      /* frame, tail, end, abort, or another in small letters; shared, given and copied: hand-over.h */
+	uint64_t number[2]; /* frame, abort, shared and given have two, the others one */
 	bool sealed;        /* false: of a version that wrote no checksum */
 	uint32_t crc, seal; /* CRC-32C of the words before the checksum; the checksum of the line */
 };

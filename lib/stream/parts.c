@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/hand-over.h"
 #include "stream/parts.h"
 #include "world/world.h"
 
@@ -43,8 +44,33 @@ uint64_t *pm_division_new(uint64_t n, uint64_t grain)
 	return from;
 }
 
+static bool share_new;
+
+void pm_buffers_share(bool yes) { share_new = yes; }
+
+struct pm_buffer *pm_buffer_of_shared(struct pm_shared *shared)
+{
+	struct pm_buffer *b = calloc(1, sizeof *b);
+	if (!b) {
+		pm_shared_drop(shared);
+		pm_no_memory();
+		return NULL;
+	}
+	atomic_init(&b->users, 1);
+	b->shared = shared;
+	b->data = shared->data;
+	return b;
+}
+
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero)
 {
+	size_t bytes;
+	struct pm_shared *shared = share_new && !__builtin_mul_overflow(n, size, &bytes) && bytes >= PM_HAND_LEAST ? pm_shared_new(bytes) : NULL;
+	if (shared) {
+		if (zero)
+			memset(shared->data, 0, bytes);
+		return pm_buffer_of_shared(shared);
+	}
 	struct pm_buffer *b = calloc(1, sizeof *b);
 	void *data = zero ? pm_zalloc(n, size) : pm_alloc(n, size);
 	if (!b || !data) {
@@ -56,6 +82,8 @@ struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero)
 	b->data = data;
 	return b;
 }
+
+bool pm_buffer_alone(const struct pm_buffer *b) { return atomic_load(&b->users) == 1 && (!b->shared || pm_shared_alone(b->shared)); }
 
 /* ---- requests ---- */
 
@@ -119,7 +147,10 @@ struct pm_buffer *pm_buffer_free(struct pm_buffer *b)
 		pm_buffer_undivide(b);
 		if (b->note)
 			b->note->free(b->note);
-		pm_free(b->data);
+		if (b->shared)
+			pm_shared_drop(b->shared);
+		else
+			pm_free(b->data);
 		free(b);
 	}
 	return NULL;

@@ -6,6 +6,7 @@
 
 #include <stdatomic.h>
 
+#include "base/shared-block.h"
 #include "stream/frame.h"
 
 struct pm_buffer {
@@ -16,10 +17,14 @@ struct pm_buffer {
 	uint64_t *from; /* the beginnings of the stretches, one more than ranks; with id */
 	size_t size;    /* [bytes] of a value; with id */
 	int components; /* with id */
+	struct pm_shared *shared; /* data are in this block, which other processes may read; NULL: they are of this process */
 	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
+struct pm_buffer *pm_buffer_of_shared(struct pm_shared *b);        /* takes over a use of it; NULL: failure, and the use is given up */
+void pm_buffers_share(bool yes);                                   /* large new ones are in blocks that can be handed over (hand-over.h) */
+bool pm_buffer_alone(const struct pm_buffer *b);                   /* one use, here and in other processes: it may be written */
 
 /* The division of n values: beginnings at multiples of a grain, as even as these allow; free() it. NULL: no memory. */
 uint64_t *pm_division_new(uint64_t n, uint64_t grain);

@@ -8,12 +8,15 @@
 #include <unistd.h>
 
 #include "stream/forward.h"
+#include "stream/hand-over.h"
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/line.h"
 #include "stream/parts-file.h"
+#include "stream/parts.h"
 #include "stream/run.h"
 #include "stream/wire.h"
+#include "world/world.h"
 
 enum { most_text = 16 << 20 }; /* bytes of a header, tail or message */
 
@@ -22,6 +25,7 @@ struct item { /* one field of the current frame, as it was when its header was r
 	size_t bytes, count;
 	enum pm_type type;
 	uint32_t crc;
+	bool given;  /* handed over, and so not summed again */
 	char key[PM_LIMITS_KEY]; /* of its limits in the tail: a stage may have renamed it by then */
 };
 
@@ -33,6 +37,8 @@ struct pm_reader {
 	void *from;
 	bool stream, any, aborted; /* between the first frame and the end marker; anything read at all */
 	bool whole;                /* the current frame has been read to its tail; it stays current until the next begins */
+	struct pm_hands *hands;    /* of the writer of this pipe; NULL: none */
+	bool shared;               /* the current frame is handed over: a line before every field that has data */
 	uint64_t frame, frames;    /* number of the current frame, from 1; frames of this stream */
 	size_t nitems;
 	struct item *items;
@@ -48,6 +54,8 @@ static void input_is(struct pm_reader *r, int fd)
 	free(r->path);
 	r->path = NULL;
 	fcntl(fd, F_SETPIPE_SZ, 1 << 20); /* harmless if it is not a pipe or not permitted */
+	pm_hands_close(r->hands);
+	r->hands = pm_world_size() == 1 ? pm_hands_listen(fd) : NULL;
 }
 
 struct pm_reader *pm_reader_of_fd(int fd)
@@ -81,6 +89,7 @@ struct pm_reader *pm_reader_close(struct pm_reader *r)
 	if (r) {
 		if (r->fd != STDIN_FILENO)
 			close(r->fd);
+		pm_hands_close(r->hands);
 		free(r->items), free(r->path);
 		free(r);
 	}
@@ -224,7 +233,7 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 	uint64_t total = 0; /* n < 2^48, 16 components, 8 bytes: a field fits; the sum is checked */
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
-		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0, ""};
+		items[i] = (struct item){p, pm_field_wire(p), p->count, p->type, 0, false, ""};
 		pm_limits_key(p, items[i].key);
 		if (__builtin_add_overflow(total, pm_line_padded(items[i].bytes), &total))
 			return pm_fail(PM_DATA, "the fields of the header are too large");
@@ -250,6 +259,7 @@ static int get_frame(struct pm_reader *r, const struct pm_line *l, struct pm_fra
 		return status;
 	}
 	r->stream = true;
+	r->shared = !strcmp(l->word, "shared");
 	r->frames++;
 	*out = f;
 	return PM_GOT_FRAME;
@@ -292,7 +302,7 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 	int status = pm_line_parse(text, &l);
 	if (status)
 		return status;
-	if (!strcmp(l.word, "frame"))
+	if (!strcmp(l.word, "frame") || !strcmp(l.word, "shared"))
 		return get_frame(r, &l, f);
 	if (!strcmp(l.word, "abort"))
 		return get_abort(r, &l);
@@ -346,9 +356,56 @@ static int get_parts(struct pm_reader *r, struct item *it, const struct pm_frame
 	return 1;
 }
 
+/* A block that the word before hands over: the field has it if it is loaded, and the writer hands it on. */
+static int get_given(struct pm_reader *r, struct item *it, const struct pm_line *l, bool load, struct pm_writer *w)
+{
+	const struct pm_given g = pm_given_of(l->number[0], l->number[1]);
+	struct pm_shared *b = pm_hands_take(r->hands, &g);
+	struct pm_field *p = it->field, before = *p;
+	if (!b)
+		return pm_failed();
+	if (b->bytes / pm_field_memory(p) / (size_t)p->components < it->count) {
+		pm_shared_drop(b);
+		return pm_fail(PM_DATA, "field %zu of %zu was handed over with too few bytes: the stream is damaged", (size_t)(it - r->items) + 1, r->nitems);
+	}
+	pm_field_forget(p);
+	if (!(p->buffer = pm_buffer_of_shared(b)))
+		return pm_failed();
+	it->given = true;
+	p->summed = g.summed, p->crc = g.crc, p->finite = g.finite;
+	const int status = w ? pm_forward_held(w, p) : 0;
+	if (!load) {
+		pm_field_forget(p);
+		p->finite = before.finite;
+	}
+	return status;
+}
+
+/* The line before a field of a frame that is handed over. 1: done; 0: its data follow; or failure. */
+static int get_before(struct pm_reader *r, struct item *it, bool load, struct pm_writer *w)
+{
+	char text[PM_LINE];
+	struct pm_line l;
+	int status = must_get(r, text, PM_LINE, "the data");
+	status = status ? status : pm_line_parse(text, &l);
+	if (!status && !strcmp(l.word, "abort"))
+		return get_abort(r, &l);
+	status = status ? status : pm_line_check(&l, NULL, 0, "the line before a field");
+	if (!status && !strcmp(l.word, "given"))
+		return (status = get_given(r, it, &l, load, w)) ? status : 1;
+	if (!status && (strcmp(l.word, "copied") || l.number[0] != pm_line_padded(it->bytes)))
+		status = pm_fail(PM_DATA, "'%s' before field %zu of %zu: the stream is damaged", l.word, (size_t)(it - r->items) + 1, r->nitems);
+	return status;
+}
+
 static int get_field(struct pm_reader *r, struct item *it, bool load, bool there, struct pm_writer *w)
 {
-	int status = load && !there ? pm_field_hold(it->field) : 0;
+	int status = r->shared ? get_before(r, it, load, w) : 0;
+	if (status)
+		return status < 0 ? status : 0;
+	status = load && !there ? pm_field_hold(it->field) : 0;
+	const bool whole = load && w && it->bytes >= PM_HAND_LEAST; /* handed on when all of it is there */
+	status = status || !w || whole ? status : pm_forward_begin(w, it->bytes);
 	char *base = load && !there && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
 	for (size_t done = there ? it->bytes : 0; done < it->bytes && !status;) {
 		size_t n = it->bytes - done < PM_PIECE ? it->bytes - done : PM_PIECE;
@@ -359,7 +416,7 @@ static int get_field(struct pm_reader *r, struct item *it, bool load, bool there
 		it->crc = pm_crc32c(it->crc, piece, n);
 		if (load && !base)
 			store(it, done, piece, n);
-		if (w)
+		if (w && !whole)
 			status = pm_forward(w, piece, n);
 		done += n;
 	}
@@ -371,7 +428,9 @@ static int get_field(struct pm_reader *r, struct item *it, bool load, bool there
 		ored |= pad[i];
 	if (ored)
 		status = pm_fail(PM_DATA, "the bytes behind field %zu of %zu are not zero: the data are damaged", (size_t)(it - r->items) + 1, r->nitems);
-	return !status && w ? pm_forward_done(w, it->field, it->crc) : status;
+	if (load && !status)
+		it->field->summed = true, it->field->crc = it->crc;
+	return status || !w ? status : whole ? pm_forward_held(w, it->field) : pm_forward_done(w, it->field, it->crc);
 }
 
 static int get_tail(struct pm_reader *r, struct pm_frame *f)
@@ -394,7 +453,7 @@ static int get_tail(struct pm_reader *r, struct pm_frame *f)
 	if (!json_is_array(crcs) || json_array_size(crcs) != r->nitems || (report && !json_is_object(report)))
 		status = pm_fail(PM_DATA, "the tail does not fit the fields of the frame");
 	for (size_t i = 0; i < r->nitems && !status; i++)
-		if (json_integer_value(json_array_get(crcs, i)) != (json_int_t)r->items[i].crc)
+		if (!r->items[i].given && json_integer_value(json_array_get(crcs, i)) != (json_int_t)r->items[i].crc)
 			status = pm_fail(PM_DATA, "the checksum of field %zu of %zu is wrong: the data are damaged", i + 1, r->nitems);
 	if (!status)
 		status = pm_limits_check(limits);

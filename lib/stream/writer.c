@@ -9,11 +9,15 @@
 
 #include "base/replace.h"
 #include "stream/forward.h"
+#include "stream/hand-over.h"
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/line.h"
+#include "stream/run.h"
 #include "stream/parts-file.h"
+#include "stream/parts.h"
 #include "world/launch.h"
+#include "world/world.h"
 
 struct pm_writer {
 	int fd;
@@ -24,6 +28,8 @@ struct pm_writer {
 	uint64_t frames, left; /* of this stream; bytes of the frame's payload announced but not yet written */
 	size_t next, ncrc;     /* current field; room in crc */
 	uint32_t *crc;
+	struct pm_hands *hands; /* to the reader of this pipe; NULL: it has none, or has not been looked for */
+	bool shares;           /* the current frame is handed over */
 };
 
 struct pm_writer *pm_writer_of_fd(int fd)
@@ -85,6 +91,7 @@ int pm_writer_close(struct pm_writer *w)
 	if (close(w->fd) && !status)
 		status = pm_fail_errno("cannot close the output");
 	free(w->crc), free(w->path);
+	pm_hands_close(w->hands);
 	free(w);
 	return status;
 }
@@ -124,6 +131,13 @@ static int put_text(struct pm_writer *w, const char *format, unsigned long long 
 	return status;
 }
 
+bool pm_writer_hands(struct pm_writer *w)
+{
+	if (!w->hands && pm_world_size() == 1)
+		w->hands = pm_hands_connect(w->fd);
+	return w->hands;
+}
+
 int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 {
 	json_t *j = pm_header_json(f);
@@ -143,11 +157,30 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 		w->ncrc = w->crc ? f->nfields : 0;
 		status = w->crc ? 0 : pm_no_memory();
 	}
+	w->shares = payload >= PM_HAND_LEAST && pm_writer_hands(w);
 	if (!status)
-		status = put_text(w, "PMPIPE/1 frame %llu %llu", payload, true, text);
+		status = put_text(w, w->shares ? "PMPIPE/1 shared %llu %llu" : "PMPIPE/1 frame %llu %llu", payload, true, text);
 	free(text);
-	w->left = payload;
+	w->left = w->shares ? 0 : payload; /* there an abort may stand before any field */
 	w->next = 0;
+	return status;
+}
+
+static int put_line(struct pm_writer *w, const char *words)
+{
+	char text[PM_LINE];
+	pm_line_seal(text, words, NULL, 0);
+	return put(w, text, PM_LINE);
+}
+
+int pm_forward_begin(struct pm_writer *w, size_t bytes)
+{
+	char words[PM_LINE];
+	if (!w->shares)
+		return 0;
+	snprintf(words, sizeof words, "PMPIPE/1 copied %llu", (unsigned long long)pm_line_padded(bytes));
+	const int status = put_line(w, words);
+	w->left = status ? 0 : pm_line_padded(bytes);
 	return status;
 }
 
@@ -181,14 +214,39 @@ static int put_parts(struct pm_writer *w, const struct pm_field *p, uint32_t *cr
 	return lseek(w->fd, (off_t)bytes, SEEK_CUR) < 0 ? pm_fail_errno("cannot write the output") : 1;
 }
 
+/* Hands over the block that the values are in, or have been copied to. 1: done; 0: no block can be had; or failure. */
+static int give(struct pm_writer *w, struct pm_field *p)
+{
+	const size_t bytes = p->count * (size_t)p->components * pm_field_memory(p);
+	struct pm_shared *b = p->buffer ? p->buffer->shared : NULL, *made = b || bytes < PM_HAND_LEAST ? NULL : pm_shared_new(bytes);
+	struct pm_given g = {.crc = p->crc, .summed = p->summed, .finite = p->finite};
+	char words[PM_LINE];
+	if (!b && !made)
+		return 0;
+	if (made)
+		memcpy(made->data, pm_in_u8(p, 0), bytes);
+	b = b ? b : made;
+	g.id = b->id;
+	int status = pm_hands_give(w->hands, b, &g.comes);
+	if (made)
+		pm_shared_drop(made);
+	snprintf(words, sizeof words, "PMPIPE/1 given %llu %llu", (unsigned long long)g.id, (unsigned long long)pm_given_bits(&g));
+	status = status ? status : put_line(w, words);
+	w->crc[w->next++] = g.summed ? g.crc : 0;
+	return status ? status : 1;
+}
+
 static int put_field(struct pm_writer *w, struct pm_field *p)
 {
 	static _Thread_local float narrow[PM_PIECE / 4];
 	size_t bytes = pm_field_wire(p);
 	uint32_t crc = 0;
-	int status = put_parts(w, p, &crc);
+	int status = w->shares && bytes ? give(w, p) : 0;
 	if (status)
+		return status < 0 ? status : 0;
+	if ((status = put_parts(w, p, &crc)))
 		return status < 0 ? status : pm_forward_done(w, p, crc);
+	status = bytes ? pm_forward_begin(w, bytes) : 0;
 	const char *data = p->buffer ? (const char *)pm_in_u8(p, 0) : NULL; /* of any type; the parts stay valid */
 	for (size_t done = 0; done < bytes && !status;) {
 		size_t n = bytes - done < PM_PIECE ? bytes - done : PM_PIECE;
@@ -199,7 +257,7 @@ static int put_field(struct pm_writer *w, struct pm_field *p)
 				narrow[i] = (float)y[i];
 			piece = narrow;
 		}
-		crc = pm_crc32c(crc, piece, n);
+		crc = p->summed ? p->crc : pm_crc32c(crc, piece, n);
 		status = pm_forward(w, piece, n);
 		done += n;
 	}
@@ -227,6 +285,18 @@ int pm_write_payload(struct pm_writer *w, struct pm_frame *f)
 	int status = 0;
 	while (w->next < f->nfields && !status)
 		status = put_field(w, f->fields[w->next]);
+	return status ? status : put_tail(w, f);
+}
+
+int pm_forward_held(struct pm_writer *w, struct pm_field *field) { return put_field(w, field); }
+
+int pm_write_last(struct pm_writer *w, struct pm_frame *f)
+{
+	int status = 0;
+	while (w->next < f->nfields && !status)
+		status = put_field(w, f->fields[w->next]);
+	for (size_t i = 0; i < f->nfields && w->shares; i++) /* before the tail: then the next word goes on, and has them alone */
+		pm_field_forget(f->fields[i]);
 	return status ? status : put_tail(w, f);
 }
 
