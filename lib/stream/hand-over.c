@@ -18,6 +18,7 @@ enum { remembered = 64 }; /* blocks whose descriptor the other end has */
 
 struct pm_hands {
 	int listens, fd; /* -1: none (yet) */
+	bool owed; /* the writer's: the reader has not said yet that it has read the last frame */
 	uint64_t sent[remembered];
 	unsigned nsent;
 };
@@ -50,7 +51,7 @@ struct pm_hands *pm_hands_listen(int pipe)
 	if (!name_of(pipe, &a, &bytes))
 		return NULL;
 	int s = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-	if (s >= 0 && (bind(s, (struct sockaddr *)&a, bytes) || listen(s, 4))) {
+	if (s >= 0 && (bind(s, (struct sockaddr *)&a, bytes) || listen(s, 1))) {
 		close(s);
 		s = -1;
 	}
@@ -108,6 +109,7 @@ int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes)
 	struct msghdr m = {.msg_iov = &part, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof control};
 	pm_shared_use(b); /* before it is asked whether its maker has left: shared-block.c */
 	*comes = pm_shared_left(b) || !was_sent(h, b->id);
+	h->owed = true;
 	if (!*comes)
 		return 0;
 	control.head = (struct cmsghdr){.cmsg_len = CMSG_LEN(sizeof(int)), .cmsg_level = SOL_SOCKET, .cmsg_type = SCM_RIGHTS};
@@ -117,11 +119,27 @@ int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes)
 		n = sendmsg(h->fd, &m, MSG_NOSIGNAL);
 	while (n < 0 && errno == EINTR);
 	if (n < 0) {
+		const bool gone = errno == EPIPE || errno == ECONNRESET;
+		const int status = gone ? 0 : pm_fail_errno("cannot write the output"); /* gone: what is written to the pipe next ends this program as ever */
 		pm_shared_drop(b);
-		return pm_fail_errno("cannot write the output");
+		return status;
 	}
 	h->sent[h->nsent++ % remembered] = b->id;
 	return 0;
+}
+
+void pm_hands_wait(struct pm_hands *h)
+{
+	char said;
+	while (h->owed && recv(h->fd, &said, 1, 0) < 0 && errno == EINTR)
+		;
+	h->owed = false; /* or nobody reads any more, which writing says */
+}
+
+void pm_hands_taken(struct pm_hands *h)
+{
+	if (h && h->fd >= 0)
+		send(h->fd, "", 1, MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
 /* The descriptor of the next message; -1: none. A writer that follows another on the same pipe has a connection of its own. */
@@ -172,6 +190,8 @@ struct pm_hands *pm_hands_listen(int pipe) { return (void)pipe, NULL; }
 struct pm_hands *pm_hands_connect(int pipe) { return (void)pipe, NULL; }
 struct pm_hands *pm_hands_close(struct pm_hands *h) { return (void)h, NULL; }
 int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes) { return (void)h, (void)b, (void)comes, -PM_DATA; }
+void pm_hands_wait(struct pm_hands *h) { (void)h; }
+void pm_hands_taken(struct pm_hands *h) { (void)h; }
 struct pm_shared *pm_hands_take(struct pm_hands *h, const struct pm_given *what)
 {
 	(void)h, (void)what;

@@ -491,6 +491,11 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 	if (!status)
 		status = get_tail(r, f);
 	for (size_t i = 0; i < r->nitems && !status; i++)
+		if (r->items[i].given) {
+			pm_hands_taken(r->hands);
+			break;
+		}
+	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (r->items[i].bytes && r->items[i].field->use & (PM_USE_READ | PM_USE_CHANGE))
 			status = pm_field_check(r->items[i].field, PM_DATA);
 	r->whole = !status;

@@ -1,5 +1,6 @@
 /* Memory handed over along a pipe, both ends of which are ours (stream/hand-over.h): what goes through the pipe, whose memory it is, who may write it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -172,6 +173,39 @@ static void failures(void)
 	unsetenv("PM_HANDOVER");
 }
 
+/* A reader that is slow: no more than one frame is on its way, though hundreds of such lines fit into the pipe. */
+static void *slow_reader(void *p)
+{
+	struct pm_reader *r = p;
+	struct pm_frame *g = NULL;
+	usleep(100000);
+	for (int got = PM_GOT_FRAME; got == PM_GOT_FRAME; g = pm_frame_free(g))
+		got = pm_read_frame(r, &g);
+	return NULL;
+}
+
+static void back_pressure(void)
+{
+	int pipes[2], most = 0;
+	pthread_t thread;
+	if (pipe(pipes))
+		exit(1);
+	struct pm_reader *r = pm_reader_of_fd(pipes[0]);
+	struct pm_writer *w = pm_writer_of_fd(pipes[1]);
+	struct pm_frame *f = sample(0);
+	if (pthread_create(&thread, NULL, slow_reader, r))
+		exit(1);
+	for (int i = 0; i < 10; i++) {
+		pm_write_frame(w, f);
+		most = waiting(pipes) > most ? waiting(pipes) : most;
+	}
+	pm_write_end(w);
+	pm_writer_close(w);
+	pthread_join(thread, NULL);
+	check(most < 4096, "a writer waits until the frame before has been read: at most %d bytes are on their way, a frame has 1472", most);
+	pm_reader_close(r), pm_frame_free(f);
+}
+
 /* `{ one; another; } | reader` */
 static void two_writers(void)
 {
@@ -203,6 +237,7 @@ int main(void)
 	recorded();
 	failures();
 	two_writers();
+	back_pressure();
 #endif
 	return check_done();
 }
