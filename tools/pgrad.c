@@ -58,6 +58,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
+
 static const char *const methods[] = {"dc", "integral", NULL}, *const orders[] = {"2", "4", "6", "8", NULL}, *const signs[] = {"minus", "plus", NULL},
 	*const sides[] = {"both", "below", "above", NULL}, *const walls[] = {"images", "none", NULL};
 static const struct pm_option options[] = {
@@ -109,4 +111,5 @@ const struct pm_tool tool_pgrad = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 };

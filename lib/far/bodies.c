@@ -6,6 +6,7 @@
 
 #include "far/bodies.h"
 #include "limit/rates.h"
+#include "stream/all-values.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 #include "stream/over-stretches.h"
@@ -82,28 +83,15 @@ int pm_far_plan(struct pm_frame *f, const struct pm_far *far, const char *term, 
 	return status;
 }
 
-/* All values of a component; in a divided frame each rank gives its own to all. */
-static int all_of(int status, const struct pm_field *field, int c, double *to)
-{
-	if (!status)
-		memcpy(to + field->first, pm_in(field, c), field->count * sizeof *to);
-	for (int rank = 0; field->here && rank < pm_world_size(); rank++) {
-		uint64_t stretch[2] = {field->first, field->count};
-		status = pm_world_share(status, rank, stretch, sizeof stretch);
-		status = pm_world_share(status, rank, status ? NULL : to + stretch[0], status ? 0 : stretch[1] * sizeof *to);
-	}
-	return status;
-}
-
 static int put(int status, const struct pm_frame *f, const struct pm_set *s, const struct pm_far *far, struct pm_bodies *b)
 {
 	const struct pm_field *q = state_of(f, s, far->strength), *x = state_of(f, s, "x");
 	for (int d = 0; d < f->dim; d++)
-		status = all_of(status, x, d, status ? NULL : b->x[d] + b->n);
+		status = pm_all_values(status, x, pm_in(x, d), status ? NULL : b->x[d] + b->n);
 	if (q && !far->vector)
-		status = all_of(status, q, 0, status ? NULL : b->q + b->n);
+		status = pm_all_values(status, q, pm_in(q, 0), status ? NULL : b->q + b->n);
 	for (int d = 0; q && far->vector && d < 3; d++)
-		status = all_of(status, q, d, status ? NULL : b->alpha[d] + b->n);
+		status = pm_all_values(status, q, pm_in(q, d), status ? NULL : b->alpha[d] + b->n);
 	if (status)
 		return status;
 	b->own[2 * b->sets] = x->first, b->own[2 * b->sets + 1] = x->first + x->count;

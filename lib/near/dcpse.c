@@ -202,7 +202,7 @@ static double particle(const struct work *w, size_t i, size_t ranges, const stru
 		double derivative = 0;
 		for (size_t q = 0; q < p->n; q++)
 			derivative += (p->sign[q] * w->value[f][p->who[q]] - w->value[f][me]) * p->eta[q];
-		w->rate[f][me] += w->factor * derivative;
+		w->rate[f][me - (w->o->here ? w->o->here[0] : 0)] += w->factor * derivative;
 	}
 	return fabs(sum) + size;
 }
@@ -211,6 +211,7 @@ static double particle(const struct work *w, size_t i, size_t ranges, const stru
 static bool cell(const struct work *w, size_t c, struct pm_neighbour_range *s, struct partners *p, struct pm_dc_found *found)
 {
 	size_t n = pm_cell_list_around(w->l, c, false, s), room = 0;
+	const uint64_t *here = w->o->here;
 	for (size_t k = 0; k < n; k++)
 		room += s[k].to - s[k].from;
 	if (!partners_room(p, room, w->m.n))
@@ -218,6 +219,8 @@ static bool cell(const struct work *w, size_t c, struct pm_neighbour_range *s, s
 	for (size_t i = w->l->start[c]; i < w->l->start[c + 1]; i++) {
 		int rank;
 		bool widened = false;
+		if (here && (w->l->order[i] < here[0] || w->l->order[i] >= here[1]))
+			continue;
 		found->fastest = fmax(found->fastest, particle(w, i, n, s, p, &rank, &widened));
 		found->widened += widened;
 		if (rank < w->m.n && w->l->order[i] < found->stuck)

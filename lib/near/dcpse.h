@@ -11,6 +11,7 @@ struct pm_dc {
 	int power[3];   /* the derivative, of degree 1 to 4: times each axis; all 0: the Laplacian, whose degree is 2. Degree + order - 1 is at most 7 */
 	int axis, side; /* partners on one side alone: side -1 those below along axis (x_q <= x_p), +1 those above; 0 both */
 	double eps;     /* [length] the window is exp(-(r/eps)^2) */
+	const uint64_t *here; /* [2] the first particle that is wanted, and the one behind the last; NULL: all. Rates are of these alone */
 	double reach;   /* [length] partners are no farther, unless they do not determine the moments well: then up to the reach of the cell list */
 };
 
@@ -25,8 +26,8 @@ struct pm_dc_found {
 double pm_dc_cutoff(int order); /* the default reach, in eps */
 static const double pm_dc_widest = 2; /* reach of the cell list over reach */
 
-/* rate[f][p] += nu times the derivative of value[f] at p, from the values of its partners and their images. PM_NUMERICS (without a message) where
- * found->stuck is one. The same bytes for any number of threads. */
+/* rate[f][p] (p counted from the first wanted) += nu times the derivative of value[f] at p, from the values of its partners and their images. PM_NUMERICS
+ * (without a message) where found->stuck is one. The same bytes for any number of threads. */
 int pm_dc_add(const struct pm_dc *o, const struct pm_cell_list *l, double nu, int fields, const double *const value[], double *const rate[],
 	struct pm_dc_found *found);
 

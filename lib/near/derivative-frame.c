@@ -6,8 +6,10 @@
 
 #include "near/derivative-frame.h"
 #include "near/pse.h"
+#include "stream/all-values.h"
 #include "stream/declare.h"
 #include "transfer/transfer-frame.h"
+#include "world/world.h"
 
 /* The operators of a name: one, or as many as the gradient or the Laplacian has axes. */
 struct operators {
@@ -81,8 +83,34 @@ int pm_derivative_declare(const struct pm_derivative_choice *o, struct pm_frame 
 	return pm_makes(f, set, o->target, components, PM_DERIVED) ? 0 : -PM_DATA;
 }
 
-/* One operator on one component, added to rate. */
-static int add(const struct pm_derivative_choice *o, const struct pm_cell_list *l, const int power[3], const double *volume, const double *value,
+/* The particles of the set; with ranks that share the frame all of them on each rank. */
+struct whole {
+	size_t n;
+	const double *x[3], *volume; /* volume NULL: none */
+	double *room;      /* with ranks: the memory of them */
+	uint64_t here[2];  /* the first particle that is here, and the one behind the last */
+};
+
+static int bring(const struct pm_frame *f, const char *set, const struct pm_field *q, struct whole *w)
+{
+	const struct pm_field *v = pm_frame_field(f, set, "volume");
+	*w = (struct whole){.n = pm_frame_set(f, set)->n, .volume = v ? pm_in(v, 0) : NULL, .here = {q->first, q->first + q->count}};
+	pm_positions(f, set, w->x);
+	if (!q->here)
+		return 0;
+	w->room = pm_alloc((size_t)(f->dim + 1) * w->n + 1, sizeof *w->room);
+	int status = w->room ? 0 : -PM_DATA;
+	for (int a = 0; a < f->dim + (v != NULL); a++) {
+		const double **of = a < f->dim ? &w->x[a] : &w->volume;
+		double *all = status ? NULL : w->room + (size_t)a * w->n;
+		status = pm_all_values(status, q, *of, all);
+		*of = all;
+	}
+	return status;
+}
+
+/* One operator on one component, added to the rates of the particles here. */
+static int add(const struct pm_derivative_choice *o, const struct pm_cell_list *l, const int power[3], const struct whole *w, const double *value,
 	double *rate, struct pm_derivative_took *took)
 {
 	int axis = 0;
@@ -90,27 +118,34 @@ static int add(const struct pm_derivative_choice *o, const struct pm_cell_list *
 		axis++;
 	if (!o->corrected)
 		return pm_derivative_add(&(struct pm_derivative){.dim = l->domain.dim, .order = o->order, .power = {power[0], power[1], power[2]},
-			.eps = took->eps, .plus = o->plus, .axis = axis, .side = o->side}, l, volume, value, rate);
+			.eps = took->eps, .plus = o->plus, .here = w->here, .axis = axis, .side = o->side}, l, w->volume, value, rate);
 	const struct pm_dc dc = {.dim = l->domain.dim, .order = o->order, .power = {power[0], power[1], power[2]}, .axis = axis, .side = o->side,
-		.eps = took->eps, .reach = l->reach / pm_dc_widest};
+		.here = w->here, .eps = took->eps, .reach = l->reach / pm_dc_widest};
 	struct pm_dc_found found;
-	const int status = pm_dc_add(&dc, l, 1, 1, &value, &rate, &found);
-	took->widened = found.widened > took->widened ? found.widened : took->widened;
-	return status != -PM_NUMERICS ? status : pm_fail(PM_DATA, "particle %zu has %zu partners within %g%s, which do not determine the derivative "
-		"(rank %d of %d; a larger --cutoff or --overlap, remesh, or --method integral)", found.stuck, found.partners, l->reach,
-		o->side ? " on that side" : "", found.rank, found.wanted);
+	int status = pm_dc_add(&dc, l, 1, 1, &value, &rate, &found);
+	if (status == -PM_NUMERICS) {
+		pm_world_place(1, 0, 0, found.stuck);
+		status = pm_fail(PM_DATA, "particle %zu has %zu partners within %g%s, which do not determine the derivative "
+			"(rank %d of %d; a larger --cutoff or --overlap, remesh, or --method integral)", found.stuck, found.partners, l->reach,
+			o->side ? " on that side" : "", found.rank, found.wanted);
+	}
+	int64_t widened = (int64_t)found.widened;
+	status = pm_world_count(status, PM_SUM_OF, 1, &widened);
+	took->widened = (uint64_t)widened > took->widened ? (uint64_t)widened : took->widened;
+	return status;
 }
 
 static int components(const struct pm_derivative_choice *o, const struct operators *d, const struct pm_cell_list *l, const struct pm_field *q,
-	const double *volume, struct pm_field *target, struct pm_derivative_took *took)
+	const struct whole *w, struct pm_field *target, struct pm_derivative_took *took)
 {
-	double *value = pm_alloc(l->n + 1, sizeof *value);
-	int status = value ? 0 : -PM_DATA;
+	double *value = pm_alloc(w->n + 1, sizeof *value);
+	int status = pm_world_agree(value ? 0 : -PM_DATA);
 	for (int c = 0; c < q->components && !status; c++) {
-		for (size_t i = 0; i < l->n; i++)
-			value[i] = pm_in(q, c)[i] / (q->extensive ? volume[i] : 1);
+		for (size_t i = q->first; i < q->first + q->count; i++)
+			value[i] = pm_in(q, c)[i - q->first] / (q->extensive ? w->volume[i] : 1);
+		status = pm_all_values(0, q, value + q->first, value);
 		for (int k = 0; k < d->n && !status; k++)
-			status = add(o, l, d->power[k], volume, value, pm_out(target, d->gradient ? k : c), took);
+			status = pm_world_agree(add(o, l, d->power[k], w, value, pm_out(target, d->gradient ? k : c), took));
 	}
 	pm_free(value);
 	return status;
@@ -119,34 +154,37 @@ static int components(const struct pm_derivative_choice *o, const struct operato
 int pm_derivative_apply(const struct pm_derivative_choice *o, struct pm_frame *f, struct pm_derivative_took *took)
 {
 	const char *set = set_of(o, f);
-	const struct pm_field *q = pm_frame_field(f, set, o->field), *v = pm_frame_field(f, set, "volume");
+	const struct pm_field *q = pm_frame_field(f, set, o->field);
 	struct pm_field *target = pm_frame_field(f, set, o->target);
-	const double *x[3], *volume = v ? pm_in(v, 0) : NULL, n = (double)q->count;
 	struct pm_domain domain = pm_domain_of(f);
 	struct pm_cell_list list = {.n = 0};
 	struct operators d;
-	int status = parse(o, f->dim, &d);
+	struct whole w;
 	*took = (struct pm_derivative_took){.eps = o->eps, .cutoff = o->cutoff};
-	for (size_t i = 0; i < q->count && !status && volume; i++)
-		if (!(volume[i] > 0))
-			status = pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g (above 0)", i, set, volume[i]);
-	if (status || !q->count)
-		return status;
+	if (!pm_frame_set(f, set)->n)
+		return parse(o, f->dim, &d);
+	int status = bring(f, set, q, &w);
+	status = status ? status : parse(o, f->dim, &d);
+	for (size_t i = 0; i < w.n && !status && w.volume; i++)
+		if (!(w.volume[i] > 0))
+			status = pm_fail(PM_DATA, "particle %zu of '%s' has the volume %g (above 0)", i, set, w.volume[i]);
 	for (int a = 0; a < f->dim; a++)
 		for (int side = 0; side < 2 && !o->images; side++)
 			if (domain.face[a][side] != PM_PERIODIC)
 				domain.face[a][side] = PM_OPEN;
-	const double spacing = volume ? pow(pm_sum_array(q->count, volume) / n, 1.0 / f->dim) : o->eps;
+	const double spacing = status ? NAN : w.volume ? pow(pm_sum_array(w.n, w.volume) / (double)w.n, 1.0 / f->dim) : o->eps;
 	if (isnan(took->eps))
 		took->eps = o->overlap * spacing;
-	if (isnan(took->cutoff))
+	if (isnan(took->cutoff) && !status)
 		took->cutoff = o->corrected ? pm_dc_cutoff(o->order + (d.degree > 2 ? d.degree - 1 : 0)) : pm_pse_cutoff(o->order) + 0.5 * d.degree;
-	if (!(took->eps >= 1e-60 && took->eps <= 1e60))
-		return pm_fail(PM_DATA, "the volumes on '%s' make a width of %g (--eps LENGTH)", set, took->eps);
-	pm_positions(f, set, x);
-	status = pm_cell_list_init(&list, &domain, q->count, x, pm_pse_reach(took->eps, took->cutoff) * (o->corrected ? pm_dc_widest : 1), 2 * spacing);
+	if (!status && !(took->eps >= 1e-60 && took->eps <= 1e60))
+		status = pm_fail(PM_DATA, "the volumes on '%s' make a width of %g (--eps LENGTH)", set, took->eps);
 	if (!status)
-		status = components(o, &d, &list, q, volume, target, took);
+		status = pm_cell_list_init(&list, &domain, w.n, w.x, pm_pse_reach(took->eps, took->cutoff) * (o->corrected ? pm_dc_widest : 1), 2 * spacing);
+	status = pm_world_agree(status);
+	if (!status)
+		status = components(o, &d, &list, q, &w, target, took);
 	pm_cell_list_free(&list);
+	pm_free(w.room);
 	return status;
 }

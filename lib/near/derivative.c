@@ -75,6 +75,7 @@ static double particle(const struct pm_derivative *o, const struct kernel *k, co
 int pm_derivative_add(const struct pm_derivative *o, const struct pm_cell_list *l, const double *volume, const double *f, double *rate)
 {
 	const struct kernel k = kernel_of(o);
+	const uint64_t all[2] = {0, l->n}, *here = o->here ? o->here : all;
 	bool bad = false;
 #pragma omp parallel if (l->n > 64) reduction(|| : bad)
 	{
@@ -84,7 +85,8 @@ int pm_derivative_add(const struct pm_derivative *o, const struct pm_cell_list *
 		for (size_t c = 0; c < l->occupied; c++) {
 			const size_t ranges = s ? pm_cell_list_around(l, c, false, s) : 0;
 			for (size_t i = l->start[c]; s && i < l->start[c + 1]; i++)
-				rate[l->order[i]] += particle(o, &k, l, i, ranges, s, volume, f);
+				if (l->order[i] >= here[0] && l->order[i] < here[1])
+					rate[l->order[i] - here[0]] += particle(o, &k, l, i, ranges, s, volume, f);
 		}
 		pm_free(s);
 	}

@@ -12,6 +12,7 @@ struct pm_derivative {
 	int power[3];     /* of each axis; the sum, the degree, is 1 to 4 */
 	double eps;       /* [length] of the Gaussian exp(-(r/eps)^2/4) */
 	bool plus;        /* f_q + f_p instead of f_q - f_p: of odd degree conserves the total, and diverges on points that are not a lattice */
+	const uint64_t *here; /* [2] the first particle that is wanted, and the one behind the last; NULL: all. Rates are of these alone */
 	int axis, side;   /* partners on one side alone (-1 below, +1 above along axis), twice; 0 both. Of a first derivative, then of order 1 */
 };
 

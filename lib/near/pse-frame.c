@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "near/pse-frame.h"
+#include "stream/all-values.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 #include "stream/over-stretches.h"
@@ -42,16 +43,6 @@ struct whole {
 	const struct pm_field *g; /* what is exchanged, of the particles here */
 };
 
-/* The values of all ranks, in the order of the stream. */
-static int bring(int status, const struct pm_field *like, const double *here, double *all)
-{
-	if (!status && like->count)
-		memcpy(all + like->first, here, like->count * sizeof *all);
-	for (int r = 0; r < pm_world_size(); r++)
-		status = pm_world_share(status, r, status ? NULL : all + like->from[r], (size_t)(like->from[r + 1] - like->from[r]) * sizeof *all);
-	return status;
-}
-
 /* Behind the checks. Takes a status and returns the agreed one. */
 static int bring_all(int status, const struct pm_frame *f, const struct pm_field *g, struct whole *w)
 {
@@ -64,7 +55,7 @@ static int bring_all(int status, const struct pm_frame *f, const struct pm_field
 	for (int d = 0; d <= last; d++) {
 		const double **of = d < f->dim ? &w->x[d] : d == f->dim ? &w->volume : &w->share;
 		double *all = w->room ? w->room + (size_t)d * w->n : NULL;
-		status = bring(status, g, *of, all);
+		status = pm_all_values(status, g, *of, all);
 		*of = all;
 	}
 	return status;
@@ -139,7 +130,7 @@ static int add(int status, const struct pm_pse *p, const struct pm_cell_list *l,
 	if (!g->here)
 		return status ? status : pm_pse_add(p, l, nu, w->volume, strength, rate, found);
 	double *all = status ? NULL : pm_alloc(w->n + 1, sizeof *all);
-	status = bring(status ? status : all ? 0 : pm_failed(), g, strength, all);
+	status = pm_all_values(status ? status : all ? 0 : pm_failed(), g, strength, all);
 	status = pm_pse_add_here(status, p, l, nu, &(struct pm_pse_all){w->volume, all, g->from}, rate, found);
 	pm_free(all);
 	return status;
@@ -176,32 +167,46 @@ static int exchange(struct pm_pse_set *s, int dim, const struct pm_cell_list *l,
 
 static int stuck(const struct pm_pse_set *s, const struct pm_dc_found *found, double reach)
 {
+	pm_world_place(4, 0, 0, found->stuck);
 	return pm_fail(PM_DATA, "particle %zu of '%s' has %zu partners within %g, which do not determine the Laplacian (rank %d of %d; a larger --cutoff or "
 		"--overlap, "
 		"remesh, or --method exchange)", found->stuck, s->set, found->partners, reach, found->rank, found->wanted);
+}
+
+/* The largest row sum of all ranks, and the particles that widened. */
+static int over_ranks(int status, struct pm_dc_found *dc)
+{
+	int64_t widened = status ? 0 : (int64_t)dc->widened;
+	status = pm_world_largest(status, 1, &dc->fastest);
+	status = pm_world_count(status, PM_SUM_OF, 1, &widened);
+	dc->widened = (uint64_t)widened;
+	return status;
 }
 
 /* All components at once, because the weights are the same. A strength is its value times volume. */
 static int correct(struct pm_pse_set *s, int dim, const struct pm_cell_list *l, const struct pm_field *g, const struct whole *w, struct pm_field *change,
 	struct pm_pse_found *found)
 {
-	const double *volume = w->volume;
-	const size_t n = l->n, fields = (size_t)g->components;
-	struct pm_dc o = {.dim = dim, .order = s->order, .eps = s->eps, .reach = l->reach / pm_dc_widest};
-	struct pm_dc_found dc;
-	double *value = pm_alloc(n * fields, sizeof *value), *sum = pm_zalloc(n * fields, sizeof *sum), *rates[PM_DC_FIELDS];
+	const size_t n = l->n, here = g->count, fields = (size_t)g->components;
+	const uint64_t wanted[2] = {g->first, g->first + here};
+	struct pm_dc o = {.dim = dim, .order = s->order, .here = wanted, .eps = s->eps, .reach = l->reach / pm_dc_widest};
+	struct pm_dc_found dc = {.fastest = 0};
+	double *value = pm_alloc(n * fields, sizeof *value), *sum = pm_zalloc(here * fields + 1, sizeof *sum), *rates[PM_DC_FIELDS];
 	const double *values[PM_DC_FIELDS];
 	int status = value && sum ? 0 : -PM_DATA;
-	for (size_t c = 0; c < fields && !status; c++) {
-		values[c] = value + c * n, rates[c] = sum + c * n;
-		for (size_t i = 0; i < n; i++)
-			value[c * n + i] = pm_in(g, (int)c)[i] / (g->extensive ? volume[i] : 1);
+	for (size_t c = 0; c < fields; c++) {
+		double *own = status ? NULL : value + c * n + g->first;
+		for (size_t i = 0; i < here && own; i++)
+			own[i] = pm_in(g, (int)c)[i] / (g->extensive ? w->own[i] : 1);
+		values[c] = value + c * n, rates[c] = sum + c * here;
+		status = pm_all_values(status, g, own, status ? NULL : value + c * n);
 	}
 	if (!status && (status = pm_dc_add(&o, l, w->nu, g->components, values, rates, &dc)) == -PM_NUMERICS)
 		status = stuck(s, &dc, l->reach);
+	status = over_ranks(status, &dc);
 	for (size_t c = 0; c < fields && !status; c++)
-		for (size_t i = 0; i < n; i++)
-			pm_out(change, (int)c)[i] += sum[c * n + i] * (g->extensive ? volume[i] : 1);
+		for (size_t i = 0; i < here; i++)
+			pm_out(change, (int)c)[i] += sum[c * here + i] * (g->extensive ? w->own[i] : 1);
 	found->fastest = status ? 0 : dc.fastest, found->widened = status ? 0 : dc.widened;
 	pm_free(value), pm_free(sum);
 	return status;

@@ -708,6 +708,19 @@ steps() { awk 'BEGIN { print "x f volume"; for (i = 0; i < 9000; i++) print (i +
 	beam | same "push drift | neutrals --density 0.1 'elastic: 1/g'"
 	light | same "$light_step"
 	steps | same "$pgrad_step"
+	steps | same "field 'vel = 0' | pgrad --field f --order 4 --side below | pse --field f --nu 1e-6 --method dc --order 4 | push euler"
+	# the last of 9001, on the last rank, has no partners
+	{ steps | stab --plain | tail -n +1; echo "0.9 0 1e-4"; } | awk 'NR == 1 { print; next } { print $1 / (NR < 9002 ? 4 : 1), $2, $3 }' |
+		stab - --box 0,1 --faces open >apart
+	for words in "pgrad --field f" "pse --field f --nu 1 --method dc"; do
+		run -1 bash -o pipefail -c "$words apart 2>&1 >/dev/null"
+		alone=$output
+		[[ $alone == *"particle 9000 "*"partners"* ]]
+		for n in 2 3; do
+			run -1 bash -o pipefail -c "$words --ranks $n apart 2>&1 >/dev/null"
+			[ "$output" = "$alone" ]
+		done
+	done
 }
 
 @test "under mpirun with 2 and 3 ranks: eighteen sentences, the bytes of a run alone (all of them in check-long, else two)" {
