@@ -216,8 +216,8 @@ off() { stab --plain | awk -v w="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i]
 		done
 		order $order "${tensor[@]}"
 		order $order "${varies[@]}"
-		# a sum of 6400 rates of size 100, each rounded: 1e-13 times sqrt(6400)
-		below "$(stab --plain <b | column df | awk '{ s += $1 } END { print s }')" 1e-11 sum
+		# a sum of 6400 rates of size 100, with partial sums of 1300, each rounded by 2e-13: times sqrt(6400); measured 1.1e-11
+		below "$(stab --plain <b | column df | awk '{ s += $1 } END { print s }')" 3e-11 sum
 	done
 	within "$(pse --field f --nu '1 + cos(2*pi*x)/2' <a | off varies)" "$(pse --field f --nu visc <a | off varies)" 1e-9
 }
