@@ -115,7 +115,6 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Weights of the corrected form are solved for on rank 0. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static const char *const methods[] = {"exchange", "dc", NULL}, *const orders[] = {"2", "4", "6", "8", NULL}, *const walls[] = {"images", "none", NULL};
