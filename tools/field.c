@@ -59,7 +59,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return c.path ? pm_file_field_add(&c, f) : pm_given_rates_add(&((struct state *)s->state)->jobs, f);
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !((const struct config *)s->config)->file; }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static void done(struct pm_stage *s)
 {

@@ -117,13 +117,12 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Interlaced meshes are combined by transforms of the whole; points beside the faces are found on it. */
+/* Points beside the faces are found on the whole mesh. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	return !choice.beside && !((const struct config *)s->config)->energy && !only_changes(s->config, f)
-		&& !pm_gather_choose(&choice, f, &j) && !j.interlaced;
+	return !choice.beside && !((const struct config *)s->config)->energy && (only_changes(s->config, f) || !pm_gather_choose(&choice, f, &j));
 }
 
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }

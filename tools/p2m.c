@@ -58,12 +58,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Interlaced meshes are combined by transforms of the whole. */
-static bool divided(const struct pm_stage *s, const struct pm_frame *f)
-{
-	const struct pm_spread_job *j = &((const struct state *)s->state)->spread;
-	return f && (((const struct config *)s->config)->current || (!j->grow && !j->choice.interlace));
-}
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static const char *const outside[] = {"monopole", "drop", "grow", "error", NULL};
 static const struct pm_option options[] = {

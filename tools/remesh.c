@@ -120,11 +120,11 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+/* Points beside bodies are found on the whole mesh. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	const struct config *o = s->config;
 	struct job j;
-	return !o->mask && strcmp(o->when, "distortion") && !job_of(o, f, &j) && pm_remesh_divides(f, &j.sets);
+	return !((const struct config *)s->config)->mask && !job_of(s->config, f, &j);
 }
 
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "drop", "grow", NULL};

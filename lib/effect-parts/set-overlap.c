@@ -14,7 +14,7 @@ int pm_set_overlap(const struct pm_frame *f, const char *set, const struct pm_me
 		place[d] = pm_in(x, d);
 	for (size_t i = 0; volumes && i < x->count; i++)
 		volumes[i] = !v ? pm_grid_cell(&g) : v->uniform && !v->buffer ? v->value[0] : pm_in(v, 0)[i];
-	int status = volumes ? pm_overlap(&g, x->count, place, volumes, H) : -PM_DATA;
+	int status = volumes ? pm_overlap(&g, NULL, x->count, place, volumes, H) : -PM_DATA;
 	pm_free(volumes);
 	return status;
 }

@@ -4,9 +4,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 #include "mesh/mesh-sum.h"
+#include "stream/all-values.h"
 #include "stream/over-stretches.h"
-
-enum { BATCH = 512 }; /* rows summed before their results are added to their block, which is a multiple; limits the memory, does not change the result */
+#include "world/world.h"
 
 double pm_energy_at_particles(const struct pm_measured *b)
 {
@@ -29,12 +29,12 @@ double pm_energy_of_field(const struct pm_grid *g, const struct pm_field *field,
 	return half * pm_grid_sum_of(g, field, rho, phi);
 }
 
-/* Sum over the partners j of particle i of a. */
-static double row_of_pairs(const struct pm_measured *a, const struct pm_measured *b, size_t i, double softening,
+/* Sum over the partners j of particle i of a, of which the first here is number `first` of the set. */
+static double row_of_pairs(const struct pm_measured *a, const struct pm_measured *b, size_t first, size_t i, bool same, double softening,
 	double (*potential)(double r2, double softening, int dim))
 {
 	struct pm_sum sum = {0};
-	for (size_t j = a == b ? i + 1 : 0; j < b->n; j++) {
+	for (size_t j = same ? first + i + 1 : 0; j < b->n; j++) {
 		double r2 = 0;
 		for (int d = 0; d < a->dim; d++)
 			r2 += (a->x[d][i] - b->x[d][j]) * (a->x[d][i] - b->x[d][j]);
@@ -43,22 +43,48 @@ static double row_of_pairs(const struct pm_measured *a, const struct pm_measured
 	return a->strength[i] * pm_sum_total(sum);
 }
 
+static void make_rows(const void *data, size_t from, size_t to, void *part)
+{
+	for (const double *row = data; from < to; from++)
+		pm_sum_add(part, row[from]);
+}
+
+/* A set whole: with ranks that share it, what the others have of it is brought. room: to be freed. */
+static int whole_of(const struct pm_measured *b, struct pm_measured *all, double **room)
+{
+	*all = *b, *room = NULL;
+	if (!b->field)
+		return 0;
+	*room = pm_alloc((size_t)(b->dim + 1) * b->all + 1, sizeof **room);
+	int status = pm_world_agree(*room ? 0 : -PM_DATA);
+	for (int d = 0; d <= b->dim; d++) {
+		double *to = *room ? *room + (size_t)d * b->all : NULL;
+		status = pm_all_values(status, b->field, d < b->dim ? b->x[d] : b->strength, to);
+		*(d < b->dim ? &all->x[d] : &all->strength) = to;
+	}
+	all->n = b->all;
+	return status;
+}
+
 double pm_energy_of_pairs(const struct pm_measured *a, const struct pm_measured *b, double coefficient, double softening,
 	double (*potential)(double r2, double softening, int dim))
 {
-	struct pm_sum all = {0}, block = {0};
-	double batch[BATCH];
-	for (size_t first = 0; first < a->n; first += BATCH) {
-		const size_t n = a->n - first < BATCH ? a->n - first : BATCH;
-#pragma omp parallel for schedule(dynamic, 8) if (a->n * b->n > 4096)
-		for (size_t k = 0; k < n; k++)
-			batch[k] = row_of_pairs(a, b, first + k, softening, potential);
-		for (size_t k = 0; k < n; k++)
-			pm_sum_add(&block, batch[k]);
-		if ((first + n) % pm_sum_block == 0 || first + n == a->n) {
-			pm_join_sums(sizeof block, &block, &all);
-			block = (struct pm_sum){0, 0};
-		}
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_rows, .join = pm_join_sums};
+	const size_t first = a->field ? (size_t)a->field->first : 0;
+	struct pm_sum all = {0, 0};
+	struct pm_measured partners;
+	double *room, *row = pm_alloc(a->n + 1, sizeof *row);
+	int status = whole_of(b, &partners, &room);
+	status = a->field ? pm_world_agree(status ? status : row ? 0 : -PM_DATA) : status ? status : row ? 0 : -PM_DATA;
+	if (!status) {
+#pragma omp parallel for schedule(dynamic, 8) if (a->n * partners.n > 4096)
+		for (size_t i = 0; i < a->n; i++)
+			row[i] = row_of_pairs(a, &partners, first, i, a == b, softening, potential);
+		if (a->field)
+			pm_over_stretches(a->field, &parts, row, &all);
+		else
+			pm_over_set(&parts, row, a->n, &all);
 	}
-	return coefficient * pm_sum_total(all);
+	pm_free(row), pm_free(room);
+	return status ? NAN : coefficient * pm_sum_total(all);
 }

@@ -6,8 +6,8 @@
 #include "mesh/grid.h"
 
 /* Amplitude and phase of wave m along x of values on a mesh, averaged over the other axes: 2/n sum a exp(-2 pi i m j/n). x must be periodic.
- * 0 or failure (memory). */
-int pm_mode(const struct pm_grid *g, const double *values, int m, double amplitude[2]);
+ * Of a component of a field, which ranks may share. 0 or failure (memory). */
+int pm_mode(const struct pm_grid *g, const struct pm_field *field, const double *values, int m, double amplitude[2]);
 
 struct pm_series {
 	bool column;     /* a real column, which may oscillate about a value that is not 0; else the complex amplitude of a mode */

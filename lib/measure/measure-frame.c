@@ -9,6 +9,7 @@
 #include "measure/species-moments.h"
 #include "stream/declare.h"
 #include "stream/strengths.h"
+#include "world/world.h"
 
 static bool chosen(const struct pm_measure *how, const struct pm_set *set) { return !how->set || !strcmp(how->set, set->name); }
 
@@ -126,14 +127,14 @@ static int of_level(const struct pm_measure *how, const struct pm_frame *f, stru
 
 bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
 {
-	bool sets = !how->pair && !how->nradii && !how->separation[0] && !how->species && !how->evolves && !how->level &&
-		!how->field_errors && !how->flux && !pm_measure_has_outside(how, f);
+	bool sets = !how->nradii && !(how->species && how->set) && pm_maxwell_divides(how, f) && !how->level && !how->field_errors && !how->flux &&
+		!pm_measure_has_outside(how, f);
 	for (size_t i = 0; i < f->nfields; i++)
 		sets = sets && (!pm_frame_set(f, f->fields[i]->on) || f->fields[i]->use || !pm_is_strength(f->fields[i]));
-	return sets && !how->nmodes && !pm_plasma_makes(how, f) && !(how->vortices && f->nmeshes); /* their distortion is found on the mesh */
+	return sets && !pm_plasma_makes(how, f);
 }
 
-int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+static int measure(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {
 	size_t n = 0;
 	struct pm_particle_sums bulk = {0};
@@ -168,5 +169,17 @@ int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, str
 	if (!status && how->separation[0])
 		status = pm_separation_of(f, how->separation, m->separation);
 	pm_free(b);
+	return status;
+}
+
+/* A frame that is not divided is measured by this rank alone, also between the words of cycle. */
+int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	bool divided = false;
+	for (size_t i = 0; i < f->nfields; i++)
+		divided = divided || f->fields[i]->here;
+	const bool before = pm_world_apart(!divided || pm_world_size() == 1);
+	const int status = measure(how, f, m);
+	pm_world_apart(before);
 	return status;
 }

@@ -3,9 +3,9 @@
  * the scheme conserves. Missing quantities are NAN. Cost: a pass over six components. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/in-order.h"
 #include "maxwell-parts/yee-waves.h"
 #include "measure/measure.h"
+#include "mesh/mesh-sum.h"
 #include "stream/declare.h"
 
 static const char *const magnetic = "B";
@@ -30,17 +30,25 @@ void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 }
 
+/* The residual is found on the whole mesh. */
+bool pm_maxwell_divides(const struct pm_measure *how, const struct pm_frame *f)
+{
+	const struct pm_mesh *mesh = mesh_of(how, f);
+	return !mesh || !pm_frame_field(f, mesh->name, how->density);
+}
+
 struct component {
 	const struct pm_grid *g;
 	const unsigned char *half;
 	const double *a;
+	size_t before; /* rows of the mesh before those here */
 };
 
 static void make(const void *data, size_t from, size_t to, void *part)
 {
 	const struct component *c = data;
 	const struct pm_grid *g = c->g;
-	const size_t row = from / (to - from), j = row % g->points[1], k = row / g->points[1];
+	const size_t row = c->before + from / (to - from), j = row % g->points[1], k = row / g->points[1];
 	const double across = pm_grid_weight(g, g->cells[0] > 1, c->half[1] ? g->cells[1] > 1 : j, c->half[2] ? g->cells[2] > 1 : k);
 	struct pm_sum sum = {0, 0};
 	for (size_t i = from; i < to; i++) {
@@ -51,11 +59,11 @@ static void make(const void *data, size_t from, size_t to, void *part)
 }
 
 /* The integral of the square of a component that sits half a cell up the axes of half[]. */
-static double square(const struct pm_grid *g, const unsigned char half[3], const double *a)
+static double square(const struct pm_grid *g, const struct pm_field *field, const unsigned char half[3], const double *a)
 {
 	struct pm_sum all = {0, 0};
 	const struct pm_parts parts = {.size = sizeof all, .make = make, .join = pm_join_sums};
-	pm_over_mesh(&parts, &(struct component){g, half, a}, g->points, &all);
+	pm_grid_over(g, field, &parts, &(struct component){g, half, a, pm_grid_rows_before(g, field)}, &all);
 	return pm_sum_total(all) * pm_grid_cell(g);
 }
 
@@ -63,7 +71,7 @@ static double energy(const struct pm_grid *g, const struct pm_field *field)
 {
 	double sum = 0;
 	for (int c = 0; c < field->components; c++)
-		sum += 0.5 * square(g, field->staggered[c], pm_in(field, c));
+		sum += 0.5 * square(g, field, field->staggered[c], pm_in(field, c));
 	return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "stream/over-stretches.h"
 
 static bool needs_field(const struct pm_measure *how) { return how->plasma || how->nmodes; }
+static bool needs_flow(const struct pm_measure *how) { return how->vortices && how->vector; }
 
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
 {
@@ -20,7 +21,7 @@ void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
 
 bool pm_plasma_makes(const struct pm_measure *how, const struct pm_frame *f)
 {
-	const struct pm_mesh *mesh = needs_field(how) ? pm_law_field_mesh(how, f) : NULL;
+	const struct pm_mesh *mesh = needs_field(how) || needs_flow(how) ? pm_law_field_mesh(how, f) : NULL;
 	return mesh && !pm_frame_field(f, mesh->name, how->field);
 }
 
@@ -37,13 +38,13 @@ static double charge(const struct pm_measure *how, const struct pm_frame *f)
 	return sets ? pm_sum_total(sum) : NAN;
 }
 
-static double largest(const struct pm_grid *g, const struct pm_field *field)
+static double largest(const struct pm_field *field)
 {
 	double most = 0;
 	for (int c = 0; c < field->components; c++)
-		for (size_t i = 0; i < pm_grid_size(g); i++)
+		for (size_t i = 0; i < field->count; i++)
 			most = fmax(most, fabs(pm_in(field, c)[i]));
-	return most;
+	return pm_most_of_stretches(field, most);
 }
 
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
@@ -59,9 +60,9 @@ int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct 
 	for (int k = 0; k < how->nmodes; k++) {
 		m->mode[k][0] = m->mode[k][1] = NAN;
 		if (e && f->face[0][0] == PM_PERIODIC && !status)
-			status = pm_mode(&g, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
+			status = pm_mode(&g, e, pm_in(e, how->wave < e->components ? how->wave : 0), how->modes[k], m->mode[k]);
 	}
-	m->field_most = how->nmodes && e ? largest(&g, e) : NAN;
+	m->field_most = how->nmodes && e ? largest(e) : NAN;
 	pm_law_field_free(&law);
 	return status;
 }

@@ -13,9 +13,10 @@
 #include <string.h>
 
 #include "measure/law-field.h"
-#include "mesh/gradient.h"
+#include "mesh/gradient-parts.h"
 #include "stream/declare.h"
 #include "stream/over-stretches.h"
+#include "world/world.h"
 
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
 {
@@ -199,16 +200,17 @@ static void of_ring(const struct pm_measure *how, const struct pm_frame *f, cons
 	ring_waves(how, f, centre, axis, m);
 }
 
-static double largest(size_t n, int components, const double *const y[])
+/* Of values like those of the field. */
+static double largest(const struct pm_field *field, int components, const double *const y[])
 {
 	double most = 0;
-	for (size_t i = 0; i < n; i++) {
+	for (size_t i = 0; i < field->count; i++) {
 		double square = 0;
 		for (int c = 0; c < components; c++)
 			square += y[c][i] * y[c][i];
 		most = fmax(most, square);
 	}
-	return sqrt(most);
+	return sqrt(pm_most_of_stretches(field, most));
 }
 
 /* The smallest scales of turbulence, from the dissipation eps of a unit mass: length (nu^3/eps)^(1/4), time (nu/eps)^(1/2) (Pope 2000, 5.7). An open box has
@@ -225,21 +227,21 @@ static void kolmogorov(const struct pm_frame *f, double nu, struct pm_measures *
 	m->value[PM_KOLMOGOROV_TIME] = sqrt(nu / eps);
 }
 
-static int of_mesh(const struct pm_measure *how, const struct pm_grid *g, const double *const omega[3], struct pm_measures *m)
+static int of_mesh(const struct pm_measure *how, const struct pm_grid *g, const struct pm_field *field, struct pm_measures *m)
 {
 	struct pm_operator div;
-	const size_t n = pm_grid_size(g);
-	double *out = pm_alloc(n, sizeof *out), z = 0;
-	const double most = largest(n, 3, omega);
-	if (!out)
-		return -PM_DATA;
+	const double *const omega[3] = {pm_in(field, 0), pm_in(field, 1), pm_in(field, 2)};
+	double *out = pm_alloc(field->count + 1, sizeof *out), z = 0;
+	if (pm_world_agree(out ? 0 : -PM_DATA))
+		return pm_free(out), -PM_DATA;
+	const double most = largest(field, 3, omega);
 	for (int c = 0; c < 3; c++)
-		z += pm_energy_on_mesh(g, omega[c], omega[c]);
+		z += pm_energy_of_field(g, field, omega[c], omega[c]);
 	m->value[PM_ENSTROPHY] = z;
 	m->value[PM_DISSIPATION] = 2 * how->nu * z;
 	m->value[PM_OMEGA_MAX] = most;
-	if (!pm_operator_init(&div, g, PM_OP_DIV, 6, 3, false) && !pm_operator_apply(&div, 1, omega, &out, NULL))
-		m->value[PM_DIVERGENCE] = most > 0 ? largest(n, 1, (const double *const *)&out) * fmax(g->h[0], fmax(g->h[1], g->h[2])) / most : 0;
+	if (!pm_operator_init(&div, g, PM_OP_DIV, 6, 3, false) && !pm_world_agree(pm_operator_apply_planes(&div, 1, field, omega, &out, NULL)))
+		m->value[PM_DIVERGENCE] = most > 0 ? largest(field, 1, (const double *const *)&out) * fmax(g->h[0], fmax(g->h[1], g->h[2])) / most : 0;
 	pm_free(out);
 	return 0;
 }
@@ -252,8 +254,8 @@ static int of_flow(const struct pm_measure *how, const struct pm_frame *f, const
 		const struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, omega->on));
 		double energy = 0, helicity = 0;
 		for (int c = 0; c < 3; c++) {
-			energy += pm_energy_on_mesh(&g, pm_in(flow.field, c), pm_in(flow.field, c));
-			helicity += 2 * pm_energy_on_mesh(&g, pm_in(flow.field, c), pm_in(omega, c));
+			energy += pm_energy_of_field(&g, flow.field, pm_in(flow.field, c), pm_in(flow.field, c));
+			helicity += 2 * pm_energy_of_field(&g, flow.field, pm_in(flow.field, c), pm_in(omega, c));
 		}
 		m->value[PM_ENERGY_FLOW] = energy;
 		m->value[PM_HELICITY] = helicity;
@@ -288,8 +290,7 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 	if (!omega || omega->components != 3)
 		return 0;
 	const struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, omega->on));
-	const double *const values[3] = {pm_in(omega, 0), pm_in(omega, 1), pm_in(omega, 2)};
-	int status = of_mesh(how, &g, values, m);
+	int status = of_mesh(how, &g, omega, m);
 	kolmogorov(f, how->nu, m);
 	return status ? status : of_flow(how, f, omega, m);
 }

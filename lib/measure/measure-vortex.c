@@ -7,10 +7,11 @@
 
 #include "measure/measure.h"
 #include "remesh/distortion.h"
-#include "mesh/gradient.h"
+#include "mesh/gradient-parts.h"
 #include "transfer/transfer.h"
 #include "stream/declare.h"
 #include "stream/over-stretches.h"
+#include "world/world.h"
 
 /* A set of vortices that is to be measured: it has positions and strengths. */
 static bool counts(const struct pm_measure *how, const struct pm_frame *f, const struct pm_set *set)
@@ -109,39 +110,51 @@ static void waves_around(const struct pm_measure *how, const struct pm_frame *f,
 }
 
 /* 1/2 int |grad omega|^2; NAN if the mesh is too small for the differences, or without memory. */
-static double palinstrophy(const struct pm_grid *g, const double *omega)
+static double palinstrophy(const struct pm_grid *g, const struct pm_field *field)
 {
 	struct pm_operator o;
-	const size_t n = pm_grid_size(g);
-	double *slope = pm_alloc(2 * n, sizeof *slope), sum = NAN;
-	if (slope && !pm_operator_init(&o, g, PM_OP_GRAD, 6, 1, false) &&
-		!pm_operator_apply(&o, 1, (const double *const[]){omega}, (double *const[]){slope, slope + n}, NULL))
-		sum = pm_energy_on_mesh(g, slope, slope) + pm_energy_on_mesh(g, slope + n, slope + n);
+	const size_t n = field->count;
+	const double *omega = pm_in(field, 0);
+	double *slope = pm_alloc(2 * n + 1, sizeof *slope), sum = NAN;
+	int status = pm_world_agree(slope ? 0 : -PM_DATA);
+	status = status ? status : pm_operator_init(&o, g, PM_OP_GRAD, 6, 1, false); /* the same on all ranks */
+	if (!status)
+		status = pm_world_agree(pm_operator_apply_planes(&o, 1, field, &omega, (double *const[]){slope, slope + n}, NULL));
+	if (!status)
+		sum = pm_energy_of_field(g, field, slope, slope) + pm_energy_of_field(g, field, slope + n, slope + n);
 	pm_free(slope);
 	return sum;
 }
 
-/* omega at a point; NAN if the point is outside the mesh. */
-static double at_place(const struct pm_grid *g, const double *omega, const double place[2])
+/* omega at a point, which is a particle of rank 0; NAN if the point is outside the mesh. */
+static double at_place(const struct pm_grid *g, const struct pm_field *field, const double place[2])
 {
-	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m6prime"), .components = 1};
-	struct pm_strays strays;
+	struct pm_planes planes;
+	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m6prime"), .components = 1, .planes = &planes};
+	struct pm_strays strays = {.count = 0};
+	const double *const x[3] = {&place[0], &place[1]}, *omega = pm_in(field, 0);
 	double value = 0, *out = &value;
-	const double *const x[3] = {&place[0], &place[1]};
-	return !pm_gather(&t, 1, x, &omega, NULL, &out, &strays) && !strays.count ? value : NAN;
+	int status = pm_world_agree(pm_planes_init(&planes, g, field));
+	status = status ? status : pm_gather(&t, !field->here || !pm_world_rank(), x, &omega, NULL, &out, &strays);
+	value = status || strays.count ? NAN : value;
+	if (field->here && pm_world_share(status, 0, &value, sizeof value))
+		value = NAN;
+	pm_planes_free(&planes);
+	return value;
 }
 
-static void of_mesh(const struct pm_measure *how, const struct pm_frame *f, const struct pm_mesh *mesh, const double *omega, struct pm_measures *m)
+static void of_mesh(const struct pm_measure *how, const struct pm_frame *f, const struct pm_mesh *mesh, const struct pm_field *field, struct pm_measures *m)
 {
 	const struct pm_grid g = pm_grid_of(f, mesh);
+	const double *omega = pm_in(field, 0);
 	double most = 0;
-	for (size_t i = 0; i < pm_grid_size(&g); i++)
+	for (size_t i = 0; i < field->count; i++)
 		most = fmax(most, fabs(omega[i]));
-	m->value[PM_OMEGA_MAX] = most;
-	m->value[PM_ENSTROPHY] = pm_energy_on_mesh(&g, omega, omega);
+	m->value[PM_OMEGA_MAX] = pm_most_of_stretches(field, most);
+	m->value[PM_ENSTROPHY] = pm_energy_of_field(&g, field, omega, omega);
 	m->value[PM_DISSIPATION] = 2 * how->nu * m->value[PM_ENSTROPHY];
-	m->value[PM_OMEGA_CENTRE] = at_place(&g, omega, how->centre);
-	m->value[PM_PALINSTROPHY] = palinstrophy(&g, omega);
+	m->value[PM_OMEGA_CENTRE] = at_place(&g, field, how->centre);
+	m->value[PM_PALINSTROPHY] = palinstrophy(&g, field);
 }
 
 void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
@@ -170,5 +183,5 @@ void pm_vortex_of(const struct pm_measure *how, const struct pm_frame *f, struct
 		m->value[column[k]] = pm_sum_total(sum[k]);
 	waves_around(how, f, m);
 	if (mesh)
-		of_mesh(how, f, mesh, pm_in(pm_frame_field(f, mesh->name, how->density), 0), m);
+		of_mesh(how, f, mesh, pm_frame_field(f, mesh->name, how->density), m);
 }

@@ -128,6 +128,7 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 /* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
 bool pm_plasma_makes(const struct pm_measure *how, const struct pm_frame *f); /* the field of the potential, on the whole mesh? */
+bool pm_maxwell_divides(const struct pm_measure *how, const struct pm_frame *f); /* can ranks share its columns? */
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Energies of E and B on Yee's mesh, and how far E is from Gauss's law: max |div E - rho/eps0| over max |rho/eps0|, where there is a rho. */
 void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f);

@@ -3,18 +3,20 @@
 #include <stdlib.h>
 
 #include "measure/growth.h"
-#include "base/in-order.h"
+#include "mesh/mesh-sum.h"
+#include "world/world.h"
 
 /* A row of a mesh times the wave along it, cos and -sin of n points. */
 struct wave {
 	const struct pm_grid *g;
 	const double *values, *wave[2];
+	size_t before; /* rows of the mesh before those here */
 };
 
 static void make(const void *data, size_t from, size_t to, void *part)
 {
 	const struct wave *w = data;
-	const size_t n = to - from, row = from / n;
+	const size_t n = to - from, row = w->before + from / n;
 	const double weight = pm_grid_weight(w->g, 0, row % w->g->points[1], row / w->g->points[1]), *values = w->values + from;
 	struct pm_sum *sum = part;
 	for (size_t j = 0; j < n; j++)
@@ -22,19 +24,19 @@ static void make(const void *data, size_t from, size_t to, void *part)
 			pm_sum_add(&sum[k], weight * values[j] * w->wave[k][j]);
 }
 
-int pm_mode(const struct pm_grid *g, const double *values, int m, double amplitude[2])
+int pm_mode(const struct pm_grid *g, const struct pm_field *field, const double *values, int m, double amplitude[2])
 {
 	const size_t n = g->points[0], rows = g->points[1] * g->points[2];
 	struct pm_sum sum[2] = {{0, 0}};
 	double *wave = pm_alloc(2 * n, sizeof *wave), weight = 0;
-	if (!wave)
-		return -PM_DATA;
+	if (field->here ? pm_world_agree(wave ? 0 : -PM_DATA) : !wave)
+		return pm_free(wave), -PM_DATA;
 	for (size_t j = 0; j < n; j++) {
 		const double angle = 2 * pm_pi * (double)(((uint64_t)j * (uint64_t)m) % n) / (double)n;
 		wave[j] = cos(angle), wave[n + j] = -sin(angle);
 	}
 	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
-	pm_over_mesh(&parts, &(struct wave){g, values, {wave, wave + n}}, g->points, sum);
+	pm_grid_over(g, field, &parts, &(struct wave){g, values, {wave, wave + n}, pm_grid_rows_before(g, field)}, sum);
 	for (size_t r = 0; r < rows; r++)
 		weight += pm_grid_weight(g, 0, r % g->points[1], r / g->points[1]);
 	for (int k = 0; k < 2; k++)

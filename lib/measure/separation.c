@@ -1,9 +1,10 @@
 /* Separation of two runs: sqrt(1/n sum |x_a - x_b|^2), as it grows with the largest Lyapunov exponent, exp(lambda t), until it is as large as the
  * system (Benettin, Galgani and Strelcyn 1976). The rate along a path varies, so the error of the slope of ln d is that of the mean of the slopes of
  * eight parts of the window, each fitted alone. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/in-order.h"
 #include "measure/separation.h"
 #include "stream/declare.h"
+#include "stream/over-stretches.h"
+#include "world/world.h"
 
 int pm_separation_reads(struct pm_frame *f, const char *const sets[2])
 {
@@ -30,11 +31,13 @@ static int same_order(const struct pm_frame *f, const char *const sets[2])
 	if (!a || !b || a->type != PM_I64 || b->type != PM_I64)
 		return 0;
 	const int64_t *i = pm_in_i64(a, 0), *j = pm_in_i64(b, 0);
-	for (size_t p = 1; p < a->count; p++)
-		if (i[p] - i[0] != j[p] - j[0])
-			return pm_fail(PM_DATA, "--separation: the particles of '%s' and '%s' are not in the same order (stack them before ssort)", sets[0],
+	int64_t apart = a->count && !a->first ? i[0] - j[0] : INT64_MIN; /* of the first particle of all, which one rank has */
+	int status = pm_world_count(0, PM_MOST_OF, 1, &apart);
+	for (size_t p = 0; p < a->count && !status; p++)
+		if (i[p] - j[p] != apart)
+			status = pm_fail(PM_DATA, "--separation: the particles of '%s' and '%s' are not in the same order (stack them before ssort)", sets[0],
 				sets[1]);
-	return 0;
+	return pm_world_agree(status);
 }
 
 struct pairs {
@@ -58,13 +61,14 @@ static double apart_in(const struct pm_frame *f, const char *const sets[2], cons
 	const bool positions = name[0] == 'x';
 	struct pm_sum sum = {0, 0};
 	const struct pm_parts parts = {.size = sizeof sum, .make = make, .join = pm_join_sums};
-	if (!a || !b || !a->count)
+	const double n = (double)pm_frame_set(f, sets[0])->n;
+	if (!a || !b || !(n > 0))
 		return NAN;
 	for (int c = 0; c < a->components && c < b->components; c++) {
 		const double period = positions && c < f->dim && f->pface[c][0] == PM_PFOLD ? f->hi[c] - f->lo[c] : 0;
-		pm_over_set(&parts, &(struct pairs){pm_in(a, c), pm_in(b, c), period}, a->count, &sum);
+		pm_over_stretches(a, &parts, &(struct pairs){pm_in(a, c), pm_in(b, c), period}, &sum);
 	}
-	return sqrt(pm_sum_total(sum) / (double)a->count);
+	return sqrt(pm_sum_total(sum) / n);
 }
 
 int pm_separation_of(const struct pm_frame *f, const char *const sets[2], double apart[2])

@@ -1,7 +1,7 @@
 /* Moments of a set's velocities, weighted by mass: mean (drift) u = sum m v/sum m, and covariance sum m (v - u)_a (v - u)_b/sum m, which is the temperature
  * tensor over the mass of a real particle, T_ab/m (vth^2 of a Maxwellian). Two passes, so that a fast cold beam keeps its digits; compensated sums.
  * Kinetic energy as in diag. Source: Birdsall and Langdon 1985, section 5-10. Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/in-order.h"
+#include "stream/over-stretches.h"
 #include "measure/species-moments.h"
 
 const char *const pm_moment_names[PM_MOMENTS] = {"particles", "kinetic", "drift_x", "drift_y", "drift_z", "covariance_xx", "covariance_yy", "covariance_zz",
@@ -37,24 +37,32 @@ static void make(const void *data, size_t from, size_t to, void *part)
 	}
 }
 
+static void sum_up(const struct pm_measured *b, const double *mean, struct pm_sum all[7])
+{
+	const struct pm_parts parts = {.size = 7 * sizeof *all, .make = make, .join = pm_join_sums};
+	if (b->field)
+		pm_over_stretches(b->field, &parts, &(struct sums){b, mean}, all);
+	else
+		pm_over_set(&parts, &(struct sums){b, mean}, b->n, all);
+}
+
 void pm_moments_of(const struct pm_measured *b, double moment[PM_MOMENTS])
 {
 	struct pm_particle_sums bulk = {0};
 	struct pm_sum first[7] = {{0}}, second[7] = {{0}};
-	const struct pm_parts parts = {.size = sizeof first, .make = make, .join = pm_join_sums};
 	double *drift = moment + PM_MOMENT_DRIFT;
 	for (int k = 0; k < PM_MOMENTS; k++)
 		moment[k] = NAN;
-	moment[PM_MOMENT_PARTICLES] = (double)b->n;
+	moment[PM_MOMENT_PARTICLES] = (double)(b->field ? b->all : b->n);
 	if (!b->vdim)
 		return;
 	pm_particle_sums_add(b, &bulk);
 	moment[PM_MOMENT_KINETIC] = bulk.kinetic;
-	pm_over_set(&parts, &(struct sums){b, NULL}, b->n, first);
+	sum_up(b, NULL, first);
 	const double mass = pm_sum_total(first[6]);
 	for (int d = 0; d < b->vdim; d++)
 		drift[d] = pm_sum_total(first[d]) / mass;
-	pm_over_set(&parts, &(struct sums){b, drift}, b->n, second);
+	sum_up(b, drift, second);
 	for (int k = 0; k < 6; k++)
 		if (pair[k][1] < b->vdim)
 			moment[PM_MOMENT_COVARIANCE + k] = pm_sum_total(second[k]) / mass;

@@ -58,7 +58,7 @@ int pm_wave_add(struct pm_wave_spectrum *s, const struct pm_measure *how, const 
 	}
 	for (int m = 1; m <= s->modes && !status; m++) {
 		double a[2];
-		status = pm_mode(&g, pm_in(law.field, how->wave), m, a);
+		status = pm_mode(&g, law.field, pm_in(law.field, how->wave), m, a);
 		s->a[s->n * (size_t)s->modes + (size_t)(m - 1)] = a[0] + I * a[1];
 	}
 	s->t[s->n] = f->time;

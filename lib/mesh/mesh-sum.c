@@ -32,6 +32,20 @@ double pm_grid_sum_of(const struct pm_grid *g, const struct pm_field *field, con
 	return pm_sum_total(all);
 }
 
+void pm_grid_over(const struct pm_grid *g, const struct pm_field *field, const struct pm_parts *p, const void *data, void *all)
+{
+	struct pm_planes planes;
+	if (!field->here) {
+		pm_over_mesh(p, data, g->points, all);
+		return;
+	}
+	if (pm_planes_over(pm_planes_init(&planes, g, field), &planes, p, data, all))
+		pm_cannot_go_on();
+	pm_planes_free(&planes);
+}
+
+size_t pm_grid_rows_before(const struct pm_grid *g, const struct pm_field *field) { return field->here ? (size_t)field->first / g->points[0] : 0; }
+
 void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const char *on, size_t count, void *all)
 {
 	const struct pm_mesh *m = pm_frame_mesh(f, on);

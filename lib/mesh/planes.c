@@ -25,6 +25,8 @@ int pm_planes_init(struct pm_planes *p, const struct pm_grid *g, const struct pm
 	return 0;
 }
 
+int pm_planes_agree(int status, const struct pm_planes *p) { return p && p->divided ? pm_world_agree(status) : status; }
+
 void pm_planes_free(struct pm_planes *p)
 {
 	free(p->from);

@@ -21,6 +21,9 @@ struct pm_planes {
 int pm_planes_init(struct pm_planes *p, const struct pm_grid *g, const struct pm_field *field);
 void pm_planes_free(struct pm_planes *p);
 
+/* pm_world_agree where ranks share the planes; without (NULL, or not divided) the status: rank 0 alone may be at work. */
+int pm_planes_agree(int status, const struct pm_planes *p);
+
 /* Copies n components with `wide` planes of the neighbours below and above; beyond the ends of an axis that is not periodic there are zeros. with[c] points
  * to the first own plane, *room is to be freed with pm_free. Takes the caller's status and returns the agreed one (world/world.h). */
 int pm_planes_halo(int status, const struct pm_planes *p, int wide, int n, const double *const in[], const double *with[], double **room);

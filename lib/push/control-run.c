@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "mesh/particle-faces.h"
-#include "push/step-control.h"
+#include "push/decided-step.h"
 #include "stream/declare.h"
 #include "stream/frame-time.h"
 
@@ -156,17 +156,24 @@ static struct worst all(const struct pm_frame *f, size_t n, const struct pm_movi
 			struct pm_control_norms of = {0, 0, {0}};
 			for (int c = 0; c < pm_rate_components(rate) && !(rate->state == m->x && m->v); c++) {
 				const struct pm_control_line l = line_of(m, rate, c);
-				const struct pm_control_norms one = each(w, m->set->n, &l);
+				const struct pm_control_norms one = each(w, rate->state->count, &l);
 				of.rate = fmax(of.rate, one.rate), of.change = fmax(of.change, one.change);
 				for (int t = 0; t < PM_CONTROL_TERMS; t++)
 					of.term[t] = fmax(of.term[t], one.term[t]);
+			}
+			if (w->what == CORRECT) {
+				double most[PM_CONTROL_TERMS + 2] = {of.rate, of.change};
+				memcpy(most + 2, of.term, sizeof of.term);
+				pm_decided_largest(rate->state, PM_CONTROL_TERMS + 2, most);
+				of.rate = most[0], of.change = most[1];
+				memcpy(of.term, most + 2, sizeof of.term);
 			}
 			worst.error = fmax(worst.error, error_of(&of, w->scheme->rounding, &worst.rounded));
 			worst.change = of.rate > 0 ? fmax(worst.change, of.change / of.rate) : worst.change;
 		}
 		for (int a = 0; a < f->dim && a < m->x->components && (w->what == PLACE || w->what == END); a++)
 			if (f->pface[a][0] == PM_PFOLD)
-				pm_particle_faces_fold(m->set->n, f->lo[a], f->hi[a], pm_out(m->x, a));
+				pm_particle_faces_fold(m->x->count, f->lo[a], f->hi[a], pm_out(m->x, a));
 	}
 	return worst;
 }

@@ -5,10 +5,11 @@
 #include "mesh/particle-faces.h"
 #include "push/decided-step.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 static struct pm_decided_line line_of(struct pm_moving *m, struct pm_rate *rate, int c, bool paired)
 {
-	struct pm_decided_line l = {.moving = m, .rate = rate, .c = c, .n = m->set->n, .y = pm_out(rate->state, c)};
+	struct pm_decided_line l = {.moving = m, .rate = rate, .c = c, .n = rate->state->count, .y = pm_out(rate->state, c)};
 	const struct pm_field *k = rate->rate;
 	l.k = k->use & (PM_USE_CHANGE | PM_USE_NEW) ? pm_out(rate->rate, c) : pm_in(k, c);
 	for (int i = 0; i < PM_REGISTERS; i++)
@@ -38,7 +39,7 @@ void pm_decided_fold(const struct pm_frame *f, size_t n, const struct pm_moving 
 	for (size_t i = 0; i < n; i++)
 		for (int a = 0; a < f->dim && a < moving[i].x->components; a++)
 			if (f->pface[a][0] == PM_PFOLD)
-				pm_particle_faces_fold(moving[i].set->n, f->lo[a], f->hi[a], pm_out(moving[i].x, a));
+				pm_particle_faces_fold(moving[i].x->count, f->lo[a], f->hi[a], pm_out(moving[i].x, a));
 }
 
 double pm_decided_recall(const struct pm_moving *m, const char *key)
@@ -72,6 +73,12 @@ void pm_decided_drop(struct pm_frame *f, size_t n, struct pm_moving *moving, int
 					pm_drops(f, moving[i].rates[r].q[q]);
 					moving[i].rates[r].q[q] = NULL;
 				}
+}
+
+void pm_decided_largest(const struct pm_field *state, size_t n, double *x)
+{
+	if (state->here && pm_world_largest(0, n, x))
+		pm_cannot_go_on();
 }
 
 double pm_decided_max(size_t n, const double *y)

@@ -10,7 +10,7 @@ struct pm_decided_line {
 	const struct pm_moving *moving;
 	struct pm_rate *rate;
 	int c;          /* component */
-	size_t n;       /* values */
+	size_t n;       /* values here */
 	double *y;      /* the state */
 	const double *k;             /* its rate now */
 	double *q[PM_REGISTERS];     /* its registers; NULL beyond those it has */
@@ -27,6 +27,8 @@ double pm_decided_recall(const struct pm_moving *m, const char *key);
 void pm_decided_mark(struct pm_frame *f, size_t n, struct pm_moving *moving, json_t *memory, int pass, double at);
 /* Drops the registers from this one on. */
 void pm_decided_drop(struct pm_frame *f, size_t n, struct pm_moving *moving, int from);
-double pm_decided_max(size_t n, const double *y); /* the largest |y| */
+double pm_decided_max(size_t n, const double *y); /* the largest |y| of those here */
+/* n numbers, each the largest of a rank, to those of all ranks that share the state. */
+void pm_decided_largest(const struct pm_field *state, size_t n, double *x);
 
 #endif

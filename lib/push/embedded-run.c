@@ -3,7 +3,7 @@
  * over the root of the mean square of the state at the start or the end, whichever is larger; that of the step is the largest over all states and sets.
  * Step length by proportional and integral control: dt 0.9 (tolerance/e)^(0.7/p) (e of the last step/tolerance)^(0.4/p), p = order + 1,
  * from 1/5 to 5 times the last, none longer after a rejection (Gustafsson 1991; Hairer and Wanner 1996, section IV.2). Sums are compensated;
- * the same bytes for any number of threads.
+ * the same bytes for any number of threads and ranks.
  * With dense output wanted the registers stay until the next step, and the state at a time in between is a polynomial of order `order` in them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 
 #include "push/decided-step.h"
 #include "push/step-choice.h"
+#include "stream/over-stretches.h"
 
 enum { START, RATES };
 
@@ -36,13 +37,20 @@ static void place(const struct pm_embedded *e, const struct pm_decided_line *l, 
 }
 
 /* Of one state, lines from..to-1: the largest difference of a particle over the size of the state. */
+static double square_of(const struct pm_decided_line *l, const double *y)
+{
+	struct pm_sum sum = {0, 0};
+	pm_sum_of_stretches(l->rate->state, y, y, &sum);
+	return pm_sum_total(sum);
+}
+
 static double error_of(const struct pm_embedded *e, const struct pm_decided_line *l, int lines, double dt)
 {
 	double most = 0, first = 0, last = 0;
 	const size_t n = l->n;
 	for (int k = 0; k < lines; k++) {
-		first += pm_sum_products(n, l[k].q[START], l[k].q[START]);
-		last += pm_sum_products(n, l[k].y, l[k].y);
+		first += square_of(l + k, l[k].q[START]);
+		last += square_of(l + k, l[k].y);
 	}
 #pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
 	for (size_t i = 0; i < n; i++) {
@@ -56,7 +64,8 @@ static double error_of(const struct pm_embedded *e, const struct pm_decided_line
 		most = isnan(square) ? INFINITY : fmax(most, square);
 	}
 	const double size = fmax(first, last);
-	return most > tiny ? sqrt(most * (double)n / size) : 0;
+	pm_decided_largest(l->rate->state, 1, &most);
+	return most > tiny ? sqrt(most * (double)l->moving->set->n / size) : 0;
 }
 
 static double error(const struct pm_embedded *e, int lines, const struct pm_decided_line *l, double dt)

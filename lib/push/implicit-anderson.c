@@ -4,6 +4,7 @@
  * Cost per pass: the registers twice through memory; six columns, 27 sums.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "push/implicit-step.h"
+#include "stream/over-stretches.h"
 
 enum { RESIDUAL = PM_IMPLICIT_RESIDUAL, DEPTH = PM_IMPLICIT_DEPTH, STEPS = PM_IMPLICIT_OWN, CHANGES = STEPS + DEPTH };
 
@@ -51,6 +52,14 @@ static inline void next(const struct pm_iterate *it, const struct pm_decided_lin
 	l->q[PM_IMPLICIT_TRIAL][i] += step;
 }
 
+/* Over all ranks. */
+static double product(const struct pm_decided_line *l, int a, int b)
+{
+	struct pm_sum sum = {0, 0};
+	pm_sum_of_stretches(l->rate->state, l->q[a], l->q[b], &sum);
+	return pm_sum_total(sum);
+}
+
 /* All values of all lines, with one set of coefficients. */
 static void together(struct pm_iterate *it)
 {
@@ -58,9 +67,9 @@ static void together(struct pm_iterate *it)
 	for (int k = 0; k < it->lines; k++) {
 		const struct pm_decided_line *l = it->line + k;
 		for (int i = 0; i < columns(it); i++) {
-			b[i] += it->weight[k] * pm_sum_products(l->n, l->q[CHANGES + slot(it, i)], l->q[RESIDUAL]);
+			b[i] += it->weight[k] * product(l, CHANGES + slot(it, i), RESIDUAL);
 			for (int j = 0; j <= i; j++)
-				g[i][j] += it->weight[k] * pm_sum_products(l->n, l->q[CHANGES + slot(it, i)], l->q[CHANGES + slot(it, j)]);
+				g[i][j] += it->weight[k] * product(l, CHANGES + slot(it, i), CHANGES + slot(it, j));
 		}
 	}
 	least(columns(it), g, b, gamma);

@@ -10,6 +10,7 @@
 #include <float.h>
 
 #include "push/implicit-step.h"
+#include "world/world.h"
 
 enum { RESIDUAL = PM_IMPLICIT_RESIDUAL, ROW = PM_IMPLICIT_OWN, STEP = ROW + PM_NEWTON_LINES, PART = STEP + 1, MOST = PM_NEWTON_LINES };
 
@@ -151,7 +152,10 @@ enum pm_newton pm_newton_judge(struct pm_iterate *it, bool first)
 			most = fmax(most, correction);
 		}
 	}
-	if (halved)
+	double all[] = {worst, most, halved};
+	pm_decided_largest(it->line->rate->state, 3, all);
+	worst = all[0], most = all[1];
+	if (all[2] > 0)
 		return PM_NEWTON_TRIAL;
 	if (most <= below)
 		return PM_NEWTON_SOLVED;
@@ -211,5 +215,8 @@ uint64_t pm_newton_beyond(const struct pm_iterate *it)
 		for (size_t p = 0; p < it->line[from].n; p++)
 			count += solve(it, from, to, p).negative;
 	}
-	return count;
+	int64_t all = (int64_t)count;
+	if (pm_world_count(0, PM_SUM_OF, 1, &all))
+		pm_cannot_go_on();
+	return (uint64_t)all;
 }

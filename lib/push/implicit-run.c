@@ -79,13 +79,18 @@ static void begin(struct pm_iterate *it, bool newton)
 /* Residual over state, the largest of all states; a residual that moves a position by less than a rounding error is none. Sets the weights of the lines. */
 static double judge(struct pm_iterate *it)
 {
-	double worst = 0, size[PM_IMPLICIT_LINES], left[PM_IMPLICIT_LINES];
+	double worst = 0, most_of[3 * PM_IMPLICIT_LINES + 1], *size = most_of, *left = most_of + it->lines, *place = most_of + 2 * it->lines;
 	for (int k = 0; k < it->lines; k++) {
 		const struct pm_decided_line *l = it->line + k;
 		size[k] = fmax(pm_decided_max(l->n, l->q[TRIAL]), pm_decided_max(l->n, l->q[BASE]));
-		if (l->x)
-			size[k] = fmax(size[k], 1e-2 * pm_decided_max(l->n, l->x) / fabs(it->dt * it->scheme->part));
+		place[k] = l->x ? pm_decided_max(l->n, l->x) : 0;
 		left[k] = pm_decided_max(l->n, l->q[RESIDUAL]);
+	}
+	if (it->lines)
+		pm_decided_largest(it->line->rate->state, 3 * (size_t)it->lines, most_of);
+	for (int k = 0; k < it->lines; k++) {
+		if (it->line[k].x)
+			size[k] = fmax(size[k], 1e-2 * place[k] / fabs(it->dt * it->scheme->part));
 		it->small[k] = 1e-2 * (size[k] > 0 ? size[k] : left[k]);
 	}
 	for (int k = 0; k < it->lines; k++) {

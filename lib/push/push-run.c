@@ -70,11 +70,6 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	return 0;
 }
 
-bool pm_moving_divided(const struct pm_push *p, const struct pm_frame *f)
-{
-	return f && !(p->scheme && pm_step_decides(p->scheme));
-}
-
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed)
 {
 	struct pm_advance a = p->actions;

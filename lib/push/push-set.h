@@ -51,8 +51,6 @@ double pm_moving_strain(const struct pm_frame *f, const struct pm_moving *m);
 /* With the tail: refuses, unless unsafe, a step for whose rates the scheme, or a kick, is not stable. For schemes that are stable for no oscillation the limit
  * is where it doubles within its period. */
 int pm_moving_stable(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p);
-/* Can ranks do the data part, each with its own particles? Not where steps are chosen by their error. */
-bool pm_moving_divided(const struct pm_push *p, const struct pm_frame *f);
 /* The data part, without absorption. With the cells h [length per axis] of a mesh *crossed, at least its value before, is the Courant number of the
  * particles: the largest number of cells that one crosses in dt along an axis; h NULL: not wanted. */
 int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p, const double *h, double *crossed);

@@ -114,20 +114,11 @@ int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_
 			return refuse(field);
 		if (part == POSITION || part == STRENGTH || part == VALUE || part == VOLUME)
 			field->use |= PM_USE_READ;
-		if (!strcmp(field->on, set) && !strcmp(field->name, "overlap") && field->role == PM_STATE)
-			field->use |= PM_USE_READ;
+		if (!strcmp(field->on, set) && field->role == PM_STATE && (pm_is_strength(field) || !strcmp(field->name, "overlap") ||
+			!strcmp(field->name, "volume")))
+			field->use |= PM_USE_READ; /* those that are dropped too: they are summed, and the distortion needs the volume */
 	}
 	return 0;
-}
-
-bool pm_remesh_divides(const struct pm_frame *f, const struct pm_sets *sets)
-{
-	bool all = true;
-	for (size_t k = 0; k < f->nfields; k++)
-		for (size_t i = 0; i < sets->n; i++)
-			all = all && (strcmp(f->fields[k]->on, sets->name[i]) || f->fields[k]->use || !(pm_is_strength(f->fields[k]) ||
-				!strcmp(f->fields[k]->name, "volume")));
-	return all;
 }
 
 void pm_remesh_drops(struct pm_frame *f, const char *set)
@@ -255,16 +246,18 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 	return pm_world_agree(status);
 }
 
-static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mesh *m)
+static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct work *w)
 {
 	const struct pm_field *volume = pm_frame_field(f, set, "volume");
 	const struct pm_grid g = pm_grid_of(f, m);
 	const double *x[3];
 	struct pm_field *made = pm_makes(f, set, "overlap", 1, PM_STATE);
-	if (!made || pm_field_ready(made))
-		return -PM_DATA;
+	int status = made ? 0 : -PM_DATA;
+	if (!status && w->shared)
+		status = pm_field_share(made, pm_sum_block);
+	status = pm_world_agree(status ? status : pm_field_ready(made));
 	pm_positions(f, set, x);
-	return pm_overlap(&g, made->count, x, volume ? pm_in(volume, 0) : NULL, pm_out(made, 0));
+	return status ? status : pm_overlap(&g, w->shared ? &w->planes : NULL, made->count, x, volume ? pm_in(volume, 0) : NULL, pm_out(made, 0));
 }
 
 /* What the nodes cut off held, and, if particles lay outside, what the set had more than all nodes together. */
@@ -355,7 +348,7 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	struct pm_strengths before;
 	double square, kept;
 	pm_strengths_of(f, set, &before);
-	pm_remesh_squared(f, set, &square);
+	pm_remesh_squared(f, set, c, &square);
 	w.r.mask = c->mask;
 	const struct pm_transfer t = {.grid = g, .kernel = c->kernel};
 	int status = share(f, set, m, &g, &w);
@@ -369,12 +362,12 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 	}
 	for (int i = 0; i < w.n && !status; i++)
 		status = renew(f, set, &w, c, &w.entry[i]);
-	if (!status && pm_remesh_squared(f, set, &kept) && square > 0)
+	if (!status && pm_remesh_squared(f, set, c, &kept) && square > 0)
 		loss->square = 1 - kept / square;
 	if (!status)
 		status = balance(f, set, &before, loss);
 	if (!status && c->overlap)
-		status = keep_overlap(f, set, m);
+		status = keep_overlap(f, set, m, &w);
 	pm_remesh_free(&w.r);
 	pm_planes_free(&w.planes);
 	free(w.from);

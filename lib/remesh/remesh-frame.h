@@ -36,12 +36,11 @@ const struct pm_kernel *pm_remesh_kernel(const char *option, const char *by, con
 int pm_remesh_choose(const struct pm_frame *f, const char *only, const struct pm_remesh_choice *c, struct pm_sets *sets);
 /* For declare(): fails for fields that cannot be distributed to nodes, declares the others as read. */
 int pm_remesh_reads(struct pm_frame *f, const char *set, const struct pm_remesh_choice *c);
-/* Behind that: can ranks share it? Where every strength of the sets and the volume is read, because their sums are compared. */
-bool pm_remesh_divides(const struct pm_frame *f, const struct pm_sets *sets);
 /* Drops the fields that are invalid after the particles of the set are replaced: its change and derived fields and registers, and those of the meshes. */
 void pm_remesh_drops(struct pm_frame *f, const char *set);
-/* sum of q^2/volume, all components, of the set's first strength q (remesh-square.c), which is returned; NULL and 0 if it or the volume is missing. */
-const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, double *square);
+/* sum of q^2/volume, all components, of the set's first strength q that is not dropped (remesh-square.c), which is returned; NULL and 0 if it or the volume
+ * is missing. */
+const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, double *square);
 /* For frame() of a stage that holds: the particles of the set are now the nodes of the mesh. */
 int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_remesh_choice *c, struct pm_remesh_loss *loss);
 

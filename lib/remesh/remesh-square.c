@@ -20,7 +20,15 @@ static void block(const void *data, size_t from, size_t to, void *part)
 	}
 }
 
-const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, double *square)
+static bool dropped(const struct pm_field *q, const struct pm_remesh_choice *c)
+{
+	bool is = false;
+	for (int i = 0; i < c->ndrop; i++)
+		is = is || !strcmp(c->drop[i], q->name);
+	return is;
+}
+
+const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, double *square)
 {
 	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = block, .join = pm_join_sums};
 	struct values v = {.volume = pm_frame_field(f, set, "volume")};
@@ -29,11 +37,11 @@ const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *s
 		return NULL;
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *q = f->fields[i];
-		if (strcmp(q->on, set) || !pm_is_strength(q) || !q->buffer)
+		if (strcmp(q->on, set) || !pm_is_strength(q) || !q->buffer || dropped(q, c))
 			continue;
 		struct pm_sum all = {0, 0};
-		for (int c = 0; c < q->components; c++) {
-			v.q = pm_in(q, c);
+		for (int k = 0; k < q->components; k++) {
+			v.q = pm_in(q, k);
 			pm_over_stretches(q, &parts, &v, &all);
 		}
 		*square = pm_sum_total(all);

@@ -14,6 +14,7 @@
 
 #include "stage/h5-pipe.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 struct pm_h5_pipe {
 	pid_t pid;
@@ -168,6 +169,7 @@ int pm_h5_pipe_close(struct pm_h5_pipe *r)
 
 int pm_h5_pipe_first(const char *path, struct pm_frame **f)
 {
+	const bool apart = pm_world_apart(true); /* every rank that makes the stage reads the whole frame */
 	struct pm_reader *r = pm_h5_pipe_open(path);
 	const int got = r ? pm_read_frame(r, f) : -PM_DATA;
 	int status = got < 0 ? got : got == PM_GOT_FRAME ? 0 : pm_fail(PM_DATA, "%s holds no frame", path);
@@ -175,5 +177,6 @@ int pm_h5_pipe_first(const char *path, struct pm_frame **f)
 		status = pm_field_ready((*f)->fields[i]);
 	if (r)
 		pm_reader_close(r);
+	pm_world_apart(apart);
 	return status;
 }

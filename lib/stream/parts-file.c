@@ -76,7 +76,7 @@ static int stretches(const struct request *q, int fd, bool out, char *part, uint
 		status = stretch(fd, out, (enum pm_type)q->type, part + c * here * memory(q), here,
 			q->offset + (c * q->from[ranks] + q->from[me]) * pm_type_size((enum pm_type)q->type), &crc[c]);
 	}
-	if (!status && out && q->lasting && fsync(fd) && errno != EINVAL)
+	if (!status && out && q->lasting && !q->components && fsync(fd) && errno != EINVAL)
 		status = pm_fail_errno("cannot write the output");
 	return status;
 }
@@ -133,7 +133,7 @@ static struct pm_buffer *buffer_for(const struct request *q)
 }
 
 /* Rank 0 asks; free() it. */
-static struct request *ask(enum pm_request what, const struct pm_field *field, const struct pm_parts_place *place, uint64_t id, const uint64_t *from)
+static struct request *ask(enum pm_request what, int components, enum pm_type type, const struct pm_parts_place *place, uint64_t id, const uint64_t *from)
 {
 	const size_t division = ((size_t)pm_world_size() + 1) * sizeof *from, bytes = sizeof(struct request) + division;
 	struct request *q = from ? calloc(1, bytes) : NULL;
@@ -143,7 +143,7 @@ static struct request *ask(enum pm_request what, const struct pm_field *field, c
 		free(q);
 		return NULL;
 	}
-	*q = (struct request){.id = id, .components = (uint64_t)field->components, .type = field->type, .offset = place->offset, .lasting = place->lasting};
+	*q = (struct request){.id = id, .components = (uint64_t)components, .type = type, .offset = place->offset, .lasting = place->lasting};
 	strcpy(q->path, place->path);
 	memcpy(q->from, from, division);
 	if (!pm_request_send(what, q, bytes))
@@ -155,7 +155,7 @@ static struct request *ask(enum pm_request what, const struct pm_field *field, c
 int pm_parts_read(const struct pm_frame *f, struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc)
 {
 	uint64_t *from = pm_division_new(field->count, pm_division_grain(f, field->on));
-	struct request *q = ask(PM_REQUEST_READ, field, place, pm_parts_number(), from);
+	struct request *q = ask(PM_REQUEST_READ, field->components, field->type, place, pm_parts_number(), from);
 	struct pm_buffer *b = q ? buffer_for(q) : NULL;
 	int status = q ? carry(b ? 0 : pm_failed(), q, false, b ? b->part : NULL, crc) : pm_failed();
 	if (!status) {
@@ -172,10 +172,20 @@ int pm_parts_read(const struct pm_frame *f, struct pm_field *field, const struct
 int pm_parts_write(const struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc)
 {
 	const struct pm_buffer *b = field->buffer;
-	struct request *q = ask(PM_REQUEST_WRITE, field, place, b->id, b->from);
+	struct request *q = ask(PM_REQUEST_WRITE, field->components, field->type, place, b->id, b->from);
 	const int status = q ? carry(0, q, true, b->part, crc) : pm_failed();
 	free(q);
 	return status;
+}
+
+int pm_parts_lasting(const char *path)
+{
+	uint64_t *from = calloc((size_t)pm_world_size() + 1, sizeof *from);
+	struct request *q = ask(PM_REQUEST_WRITE, 0, PM_U8, &(struct pm_parts_place){.path = path, .lasting = true}, 0, from);
+	uint32_t crc;
+	const int status = q ? carry(0, q, true, NULL, &crc) : pm_failed();
+	free(q), free(from);
+	return status < 0 ? status : 0;
 }
 
 int pm_parts_file_follow(enum pm_request what, const void *more, size_t bytes)
@@ -184,7 +194,7 @@ int pm_parts_file_follow(enum pm_request what, const void *more, size_t bytes)
 	const bool out = what == PM_REQUEST_WRITE;
 	struct pm_buffer *b = out ? pm_parts_of(q->id, false) : buffer_for(q);
 	(void)bytes;
-	int status = b ? 0 : out ? pm_fail(PM_DATA, "a part is missing") : pm_failed();
+	int status = b || (out && !q->components) ? 0 : out ? pm_fail(PM_DATA, "a part is missing") : pm_failed();
 	uint32_t crc;
 	status = carry(status, q, out, b ? b->part : NULL, &crc);
 	if (!status && !out && pm_parts_keep(q->id, b))

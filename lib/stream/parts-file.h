@@ -9,13 +9,15 @@
 struct pm_parts_place {
 	const char *path;
 	uint64_t offset; /* [bytes] of its first value */
-	bool lasting;    /* written: on the disk before it counts as written */
+	bool lasting;    /* of no field: what was written is to be on the disk */
 };
 
 enum { PM_PARTS_ELSEWHERE = 1 }; /* a rank does not see the file */
 /* Rank 0. Each 0, PM_PARTS_ELSEWHERE or failure, agreed; *crc: CRC-32C of all bytes of the field on the wire. */
 int pm_parts_read(const struct pm_frame *f, struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc); /* the field gets parts alone */
 int pm_parts_write(const struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc);                    /* it has parts */
+/* What all ranks have written to this file is on the disk when it returns: each waits for what it wrote itself, once for all fields. */
+int pm_parts_lasting(const char *path);
 bool pm_parts_worth_reading(const struct pm_frame *f, const struct pm_field *field); /* several ranks would have some */
 bool pm_parts_alone(const struct pm_field *field);                                   /* they are all there is: rank 0 has no copy */
 /* The other ranks, asked to. */

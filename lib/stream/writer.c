@@ -22,7 +22,7 @@
 struct pm_writer {
 	int fd;
 	bool dirty, whole;     /* whole: what was written last is an end marker */
-	bool lasting;
+	bool lasting, shared;  /* shared: other ranks have written to the file */
 	char *path;            /* of a regular file that has its name already; NULL: none */
 	struct pm_replace file;
 	uint64_t frames, left; /* of this stream; bytes of the frame's payload announced but not yet written */
@@ -86,7 +86,8 @@ int pm_writer_close(struct pm_writer *w)
 {
 	if (!w)
 		return 0;
-	int status = w->whole ? pm_replace_commit(&w->file, w->lasting) : 0; /* a stream that was cut replaces nothing */
+	int status = w->whole && w->shared ? pm_parts_lasting(w->file.path ? w->file.temporary : w->path) : 0;
+	status = status ? status : w->whole ? pm_replace_commit(&w->file, w->lasting) : 0; /* a stream that was cut replaces nothing */
 	pm_replace_drop(&w->file);
 	if (close(w->fd) && !status)
 		status = pm_fail_errno("cannot close the output");
@@ -209,9 +210,10 @@ static int put_parts(struct pm_writer *w, const struct pm_field *p, uint32_t *cr
 	if (at < 0 || (w->file.path && !w->file.temporary && pm_replace_named(&w->file)))
 		return 0;
 	const char *path = w->file.path ? w->file.temporary : w->path;
-	const int status = path ? pm_parts_write(p, &(struct pm_parts_place){.path = path, .offset = (uint64_t)at, .lasting = w->lasting}, crc) : 1;
+	const int status = path ? pm_parts_write(p, &(struct pm_parts_place){.path = path, .offset = (uint64_t)at}, crc) : 1;
 	if (status)
 		return status < 0 ? status : 0;
+	w->shared = w->lasting;
 	w->left -= bytes;
 	return lseek(w->fd, (off_t)bytes, SEEK_CUR) < 0 ? pm_fail_errno("cannot write the output") : 1;
 }

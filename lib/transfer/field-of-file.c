@@ -1,11 +1,13 @@
 /* A given field from a file: acc_p += (q/m)_p sum over points of W((x_p - x_i)/h) E_i, and bfield_p += the same of B, with the mesh, the spacing and the
  * faces of the frame in the file, whatever those of the run are. Values beyond a face are those inside it (periodic, or the mirror image of the same sign).
- * Error of cic: h^2/8 times the second derivative. Source: Hockney and Eastwood 1988, section 5-3. Cost: one gather of each field.
+ * Error of cic: h^2/8 times the second derivative. Source: Hockney and Eastwood 1988, section 5-3. Cost: one gather of each field;
+ * every rank has the whole mesh of the file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "stream/declare.h"
 #include "transfer/field-of-file.h"
+#include "world/world.h"
 
 static const struct pm_field *found(const struct pm_frame *from, const char *name)
 {
@@ -61,7 +63,7 @@ static int add(const struct pm_file_field *c, const struct pm_frame *f, const ch
 	const double *x[3] = {0}, *mesh[PM_COMPONENTS], *factors[PM_COMPONENTS];
 	double *out[PM_COMPONENTS];
 	struct pm_strays strays = {.count = 0};
-	if (!t.kernel)
+	if (!t.kernel) /* on all ranks */
 		return -PM_DATA;
 	pm_grid_even(&t.grid);
 	memcpy(t.staggered, field->staggered, sizeof t.staggered);
@@ -70,14 +72,17 @@ static int add(const struct pm_file_field *c, const struct pm_frame *f, const ch
 	for (int k = 0; k < field->components; k++)
 		mesh[k] = pm_in(field, k), factors[k] = factor, out[k] = pm_out(to, k);
 	int status = pm_gather(&t, to->count, x, mesh, factors, out, &strays);
-	return !status && strays.count ? pm_strays_refuse(&strays, set, m, &t, "the mesh of --file must contain all particles") : status;
+	strays.first += to->first;
+	if (!status && strays.count)
+		status = pm_strays_refuse(&strays, set, m, &t, "the mesh of --file must contain all particles");
+	return pm_world_agree(status);
 }
 
 static int add_to(const struct pm_file_field *c, struct pm_frame *f, const struct pm_law *law, const char *set)
 {
 	const struct pm_field *field = found(c->from, law->field), *magnetic = found(c->from, law->magnetic);
 	double *ratio = NULL;
-	int status = field && law->per ? pm_ratio(f, set, law->strength, law->per, &ratio) : 0;
+	int status = pm_world_agree(field && law->per ? pm_ratio(f, set, law->strength, law->per, &ratio) : 0);
 	if (!status && field)
 		status = add(c, f, set, field, ratio, pm_frame_field(f, set, law->change));
 	pm_free(ratio);

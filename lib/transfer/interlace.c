@@ -4,9 +4,12 @@
  * Source: Chen, Langdon and Birdsall 1974; Hockney and Eastwood 1988, sections 5-5 and 7-7; combination in k space: Sefusatti et al. 2016.
  * The Nyquist wave has no phase at the centres and is left out of the second mesh. Each line is computed by one thread, so the result does not depend on
  * their number.
- * Cost: twice the transfer, and a pass of transforms back and forth per axis and component. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: twice the transfer, and a pass of transforms back and forth per axis and component; on many ranks lines along the divided axis are brought together, by
+ * two exchanges a component. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fft/line-groups.h"
+#include "mesh/planes.h"
 #include "transfer/interlace.h"
+#include "world/world.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -57,31 +60,56 @@ static void shift_lines(const struct pm_transform *l, double sign, const struct 
 			at[i * g.step + q * g.across] = block[i * L + q];
 }
 
-static void shift_axis(const struct pm_grid *g, int d, const struct pm_transform *l, double sign, double *a, double *scratch)
+static void shift_axis(const size_t points[3], int d, const struct pm_transform *l, double sign, double *a, double *scratch)
 {
-	const size_t groups = pm_line_groups(g->points, d);
-#pragma omp parallel for schedule(static) num_threads(pm_threads()) if (pm_grid_size(g) > 16384)
+	const size_t groups = pm_line_groups(points, d);
+#pragma omp parallel for schedule(static) num_threads(pm_threads()) if (points[0] * points[1] * points[2] > 16384)
 	for (size_t b = 0; b < groups; b++) {
-		const struct pm_line_group group = pm_line_group(g->points, d, b);
+		const struct pm_line_group group = pm_line_group(points, d, b);
 		shift_lines(l, sign, group, a + group.at, scratch + (size_t)omp_get_thread_num() * L * (l->length + 1));
 	}
 }
 
-static int shift(const struct pm_grid *g, struct pm_fft_plans *p, double sign, int components, double *const a[])
+/* Lines that cross the planes of ranks. Called by all. */
+static int shift_across(int status, const struct pm_planes *p, const struct pm_transform *l, double sign, double *a, double *scratch)
 {
-	for (int d = 0; d < g->dim; d++) {
+	double *lines = NULL;
+	size_t columns = 0;
+	status = pm_planes_turn(status, p, a, &lines, &columns);
+	if (!status) {
+		const size_t points[3] = {p->axis == 2 ? p->points[0] : columns, p->axis == 2 ? columns / p->points[0] : p->all, p->axis == 2 ? p->all : 1};
+		shift_axis(points, p->axis, l, sign, lines, scratch);
+	}
+	return pm_planes_turn_back(status, p, &lines, a);
+}
+
+/* Takes the caller's status; with planes of ranks all call it. */
+static int shift(int status, const struct pm_transfer *t, struct pm_fft_plans *p, double sign, int components, double *const a[])
+{
+	const struct pm_grid *g = &t->grid;
+	const struct pm_planes *planes = t->planes && t->planes->divided ? t->planes : NULL;
+	size_t here[3] = {g->points[0], g->points[1], g->points[2]};
+	if (planes)
+		here[planes->axis] = planes->axis ? planes->here : planes->here * g->points[0];
+	for (int d = 0; d < g->dim && !status; d++) {
 		struct pm_transform l;
-		if (pm_transform_init(p, g->face[d], g->cells[d], &l))
-			return -PM_DATA;
-		double *scratch = pm_alloc((size_t)pm_threads() * L * (l.length + 1), sizeof *scratch);
-		if (!scratch)
-			return -PM_DATA;
-		for (int c = 0; c < components; c++)
-			shift_axis(g, d, &l, sign, a[c], scratch);
+		double *scratch = NULL;
+		status = pm_transform_init(p, g->face[d], g->cells[d], &l) ? -PM_DATA : 0;
+		if (!status && !(scratch = pm_alloc((size_t)pm_threads() * L * (l.length + 1), sizeof *scratch)))
+			status = -PM_DATA;
+		status = planes ? pm_world_agree(status) : status;
+		for (int c = 0; c < components && !status; c++)
+			if (planes && planes->axis && d == planes->axis)
+				status = shift_across(status, planes, &l, sign, a[c], scratch);
+			else if (here[g->dim - 1])
+				shift_axis(here, d, &l, sign, a[c], scratch);
 		pm_free(scratch);
 	}
-	return 0;
+	return status;
 }
+
+/* The points of the mesh on this rank. */
+static size_t points_here(const struct pm_transfer *t) { return t->planes ? t->planes->here * t->planes->size : pm_grid_size(&t->grid); }
 
 /* Components on the nodes, then the same at the centres. */
 static struct pm_transfer doubled(const struct pm_transfer *t)
@@ -100,12 +128,13 @@ static struct pm_transfer doubled(const struct pm_transfer *t)
 int pm_interlace_spread(const struct pm_transfer *t, struct pm_fft_plans *p, size_t n, const double *const x[], const double *const strength[],
 	double *const mesh[], struct pm_strays *strays)
 {
-	const size_t size = pm_grid_size(&t->grid), count = (size_t)t->components;
+	const size_t size = points_here(t), count = (size_t)t->components;
 	struct pm_transfer two = doubled(t);
 	const double *half[PM_COMPONENTS];
 	double *both[PM_COMPONENTS], *store = pm_zalloc(count * (size + n) + 1, sizeof *store);
-	if (!store)
-		return -PM_DATA;
+	int status = pm_planes_agree(store ? 0 : -PM_DATA, t->planes);
+	if (status)
+		return pm_free(store), status;
 	for (size_t c = 0; c < count; c++) {
 		double *q = store + count * size + c * n;
 		for (size_t i = 0; i < n; i++)
@@ -114,9 +143,8 @@ int pm_interlace_spread(const struct pm_transfer *t, struct pm_fft_plans *p, siz
 		both[c] = mesh[c];
 		both[count + c] = store + c * size;
 	}
-	int status = pm_spread(&two, n, x, half, both, strays);
-	if (!status)
-		status = shift(&t->grid, p, -1, t->components, both + count);
+	status = pm_spread(&two, n, x, half, both, strays);
+	status = shift(status, t, p, -1, t->components, both + count);
 	for (size_t c = 0; c < count && !status; c++)
 		for (size_t i = 0; i < size; i++)
 			mesh[c][i] += both[count + c][i];
@@ -126,11 +154,12 @@ int pm_interlace_spread(const struct pm_transfer *t, struct pm_fft_plans *p, siz
 
 int pm_interlace_init(struct pm_interlaced *i, const struct pm_transfer *t, struct pm_fft_plans *p, const double *const mesh[])
 {
-	const size_t size = pm_grid_size(&t->grid), count = (size_t)t->components;
+	const size_t size = points_here(t), count = (size_t)t->components;
 	double *centres[PM_COMPONENTS];
-	*i = (struct pm_interlaced){.store = pm_alloc(2 * count * size, sizeof(double))};
-	if (!i->store)
-		return -PM_DATA;
+	*i = (struct pm_interlaced){.store = pm_alloc(2 * count * size + 1, sizeof(double))};
+	int status = pm_planes_agree(i->store ? 0 : -PM_DATA, t->planes);
+	if (status)
+		return status;
 	for (size_t c = 0; c < count; c++) {
 		double *node = i->store + c * size, *centre = i->store + (count + c) * size;
 		for (size_t q = 0; q < size; q++)
@@ -138,7 +167,7 @@ int pm_interlace_init(struct pm_interlaced *i, const struct pm_transfer *t, stru
 		i->mesh[c] = node;
 		i->mesh[count + c] = centres[c] = centre;
 	}
-	return shift(&t->grid, p, 1, t->components, centres);
+	return shift(0, t, p, 1, t->components, centres);
 }
 
 void pm_interlace_free(struct pm_interlaced *i)

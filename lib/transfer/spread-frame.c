@@ -4,6 +4,7 @@
 
 #include "mesh/planes.h"
 #include "stream/declare.h"
+#include "stream/parts.h"
 #include "transfer/outside.h"
 #include "transfer/spread-frame.h"
 #include "world/world.h"
@@ -73,9 +74,13 @@ int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f)
 	int status = pm_mesh_grow(f, j->mesh, &t, &j->sets);
 	if (status == 1 && j->choice.add)
 		return pm_fail(PM_DATA, "mesh '%s' would have to grow under --add (let the first p2m grow it)", j->mesh->name);
-	if (status == 1)
+	const bool shared = pm_frame_field(f, j->sets.name[0], "x")->here, grown = status == 1;
+	if (grown)
 		status = makes_density(j, f, false);
-	return status ? status : pm_field_ready(pm_frame_field(f, j->mesh->name, j->density));
+	struct pm_field *density = pm_frame_field(f, j->mesh->name, j->density);
+	if (!status && grown && shared)
+		status = pm_field_share(density, pm_division_grain(f, j->mesh->name));
+	return pm_world_agree(status ? status : pm_field_ready(density));
 }
 
 /* What is beyond a wall is refused, what is beyond an open face too if it is to be. */

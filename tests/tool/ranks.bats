@@ -257,6 +257,19 @@ blobs() {
 # sent WORD TABLE: kB that all ranks sent for it, as --timing says.
 sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 * ($2 == "kB" ? 1 : $2 == "MB" ? 1000 : 1e-3) }' "$2"; }
 
+@test "what operators on meshes and transforms send: planes to both neighbours, meshes turned to lines and back" {
+	local n words="push drift | p2m -n 32 | poisson-fft | mgrad --order 4 | mgrad --order spectral --target h | smooth --field rho"
+	pinit uniform -n 300 --dispersion 0.1 >start
+	for n in 2 4; do
+		on $n cycle -q -n 1 --timing - "$words" <start 2>table >/dev/null
+		# planes of 8 KiB: two to each side for phi; one in each of the two passes; lines along z of 8*32^3 bytes; of transforms x has 32 + 16 numbers
+		awk -v n=$n -v a="$(sent "mgrad --order 4" table)" -v s="$(sent "mgrad --order spectral" table)" -v f="$(sent poisson-fft table)" \
+			-v p="$(sent smooth table)" 'function near(x, y) { return x >= y - 0.5 && x < 1.01 * y + 1 }
+				BEGIN { k = 8*32*32/1000; print n, a, s, f, p
+					exit !(near(a, 4*n*k) && near(p, 4*n*k) && near(s, 2*32*k*(1 - 1/n)) && near(f, 2*48*k*(1 - 1/n))) }'
+	done
+}
+
 @test "what remesh sends: what p2m does, and x and the strength of nodes that change their rank; without memory on a rank it ends in one line" {
 	pinit uniform -n 9000 --dispersion 0.3 >box
 	on 3 cycle -q -n 1 --timing - "push drift | p2m -n 20 --kernel tsc | remesh --drop v --kernel tsc" <box 2>table >/dev/null
@@ -523,6 +536,21 @@ END
 		[[ $stderr == "cycle: "*"cannot write the output: File too large" ]] && cmp file old
 	done
 	[ "$(find . -name '.*.??????' | wc -l)" -eq 0 ]
+}
+
+@test "a full disk with ranks: the message and code of a run alone, the old file stays" {
+	unshare -rm bash -c 'mount -t tmpfs -o size=500k none /mnt' 2>/dev/null || skip "no mounts for a test here"
+	pinit uniform -n 13000 --dispersion 0.3 >in.pm # 728 kB
+	mkdir small
+	for n in 1 2 3; do
+		for out in "-o small/file" "--checkpoint small/file -o /dev/null"; do
+			run -1 --separate-stderr unshare -rm bash -c "mount -t tmpfs -o size=500k none small && echo old >small/file
+				timeout -k 1 60 cycle --ranks $n -q -n 1 -i in.pm $out 'push drift'
+				code=\$?; cp small/file after; ls -A small | wc -l >left; exit \$code"
+			[[ $stderr == "cycle: "*"cannot write the output: No space left on device" ]] || { echo "$n ranks, $out: $stderr"; return 1; }
+			[ "$(cat after left)" = $'old\n1' ]
+		done
+	done
 }
 
 @test "memory that ends on one rank, at any moment: no hang, the message and code of a run alone, or its bytes" {

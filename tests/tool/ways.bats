@@ -34,6 +34,14 @@ all_ways() {
 		done
 	done
 	[ $ways -eq 12 ]
+	# rehearsed: all numbers of ranks and threads in check-long
+	for n in $([ -z "${PM_LONG:-}" ] && echo 3 || echo 1 2 3 4 7); do
+		for threads in $([ -z "${PM_LONG:-}" ] && echo 2 || echo 1 2); do
+			got=$(OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 \
+				cycle --ranks "$n" --no-history --store all -n $steps "$3" < start | cksum)
+			[ "$got" = "$want" ] || { echo "$n ranks, $threads threads: $got, want $want"; return 1; }
+		done
+	done
 }
 
 force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
@@ -311,4 +319,75 @@ shared() {
 	pinit taylor-green-2d --cells 37 --dt 0.05 |
 		shared "p2m | poisson-fft | mgrad --order spectral | penalize --body 'x - 2' --stream '1, 0' --order spectral | m2p | push rk2"
 	pinit taylor-green-3d --cells 9x8x7 | shared "p2m | poisson-fft | mgrad | penalize --body 'z - 1' --rate 2 --velocity 'u_y, 0, 1' | m2p | push rk2"
+}
+
+@test "equal bytes with ranks: interlaced meshes, a mesh that grows, a field of a file, changes carried alone" {
+	pinit uniform -n 4500 --dispersion 0.3 >box
+	shared "push kick/2 drift | p2m -n 6x5x3 --interlace --kernel tsc | poisson-fft | mgrad | m2p | push kick/2" <box
+	pinit uniform -n 4500 --dim 2 --dispersion 0.3 | shared "push kick/2 drift | p2m -n 33x40 --interlace | poisson-fft | mgrad | m2p | push kick/2"
+	pinit plummer -n 4500 --cells 8 | scalc 'v = 3*x, 3*y, 3*z' | shared "push kick/2 drift | p2m --outside grow | poisson-fft | mgrad | m2p | push kick/2"
+	pinit uniform -n 500 --seed 3 | p2m -n 12x13x14 | poisson-fft | mgrad >given
+	shared "field --file given | push kick drift" <box
+	vortices --no-history | shared "field 'vel = y, -x' | p2m | diffuse | m2p --changes | push rk2"
+}
+
+@test "equal bytes with ranks: remeshed when distorted, without a strength or the volume" {
+	local flow="p2m | poisson-fft | mgrad | m2p | push rk2"
+	pinit taylor-green-2d --cells 70 | scalc --role state --extensive 's = x' >plane
+	for how in "--when distortion --threshold 1e-5" "--drop s,volume"; do
+		shared "field 'vel = y, -x' | push rk2 | remesh $how" <plane
+	done
+	pinit taylor-green-3d --cells 9 | shared "$flow | remesh --when distortion --threshold 1e-6"
+}
+
+@test "equal bytes with ranks: steps that are chosen by their error, or solved for" {
+	pinit plummer -n 5000 >cluster
+	smod --rename matter=b <cluster | sel --where 'id < 300' | stack - cluster >two
+	for scheme in rk45 ias15 implicit-midpoint; do
+		shared "field 'acc = -x, -2*y, -z + 0.1*vx' | push $scheme" <two
+	done
+	pinit uniform -n 4500 --dispersion 0.3 >box
+	shared "p2m -n 6 | poisson-fft | mgrad | m2p | push implicit-midpoint" <box
+}
+
+@test "equal bytes with ranks: derivatives whose weights are solved for at every particle (pse --method dc, pgrad)" {
+	awk 'BEGIN { print "x y f volume"; for (i = 0; i < 4900; i++) print (i % 70 + 0.5)/70, (int(i/70) + 0.5)/70, (i < 2000), 1/4900 }' |
+		stab - --box 0,0,1,1 --faces wall,neumann --particle-faces reflect --dt 1e-5 >set
+	shared "field 'vel = 0, 0' | pse --method dc --field f --nu 0.1 | push rk2" <set
+	shared "field 'vel = 0, 0' | pgrad --field f | field 'df = -derivative_0' | push euler" <set
+	shared "field 'vel = 0, 0' | pgrad --field f --method integral --derivative 1,0 | field 'df = -derivative' | push euler" <set
+	# of two particles that have no partners in reach the first is named, whoever holds it
+	local alone="field 'vel = 0, 0' | pgrad --field f --cutoff 1 --eps 1e-3 | push euler"
+	cycle -q -n 1 "$alone" <set 2>want >/dev/null && return 1
+	grep -q 'particle 0 has' want
+	PM_REHEARSE=one-thread timeout -k 1 60 cycle --ranks 3 -q -n 1 "$alone" <set 2>got >/dev/null && return 1
+	cmp want got
+}
+
+# tables WORDS < frame: as shared, and the table of diag is equal.
+tables() {
+	cat >begin
+	cycle -q -n 2 -i begin "$1" >/dev/null && cp table want
+	[ "$(wc -l <want)" -eq 3 ]
+	for n in 2 3 7; do
+		PM_REHEARSE=one-thread timeout -k 1 60 cycle --ranks $n --verbose -n 2 -i begin "$1" 2>said >/dev/null && cmp want table ||
+			{ echo "$n ranks: $1"; return 1; }
+		grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
+	done
+}
+
+@test "equal tables of diag with ranks: vortices on meshes, modes, species, pairs, separations, light" {
+	local flow="p2m | poisson-fft | mgrad | m2p" leap="push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2"
+	pinit taylor-green-2d --cells 70 | tables "$flow | diag --tee table | push rk2"
+	pinit taylor-green-3d --cells 9 | tables "$flow | diag --tee table | push rk2"
+	pinit vortex-ring --cells 12 | tables "$flow | diag --tee table --modes 3 | push rk2"
+	pinit langmuir -n 4900 --dim 2 --axes 2 --amplitude 0.3 | tables "$leap | diag --tee table --modes 1,2"
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | tables "$leap | diag --tee table --modes 1 --species"
+	pinit plummer -n 4200 >one
+	smod --rename matter=shadow <one | scalc 'x = x + 0.001*id, y, z' | stack one - |
+		tables "push drift | diag --tee table --separation matter,shadow --pair"
+	awk 'BEGIN { print "x y z vx vy vz mass charge"; for (i = 0; i < 4500; i++)
+		print i*0.618%1, 1.1*(i*0.324%1), i*0.7548%1, 0.2*(i%5) - 0.4, 0.2*(i%7) - 0.5, 0.1*(i%3), 1, (i%2)*2 - 1 }' |
+		stab - --law electromagnetic --dt 0.01 --box 0,0,0,1,1.1,1 --faces neumann,wall,periodic --particle-faces reflect,absorb,periodic -n 7x6x9 |
+		p2m | maxwell --gauss | sel --drop rho | tables "push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2 | diag --tee table"
 }

@@ -47,10 +47,10 @@ static void modes(void)
 	for (int j = 0; j < 6; j++)
 		for (int i = 0; i < 48; i++)
 			values[48 * j + i] = 2.385 * cos(2 * pm_pi * 3 * i / 48.0 - 0.4) + 7 + sin(2 * pm_pi * i / 48.0);
-	pm_mode(&g, values, 3, a);
+	pm_mode(&g, &(struct pm_field){0}, values, 3, a);
 	check_near(hypot(a[0], a[1]), 2.385, 1e-13, "the amplitude of a mode among others and a mean");
 	check_near(atan2(a[1], a[0]), -0.4, 1e-13, "and its phase");
-	pm_mode(&g, values, 2, a);
+	pm_mode(&g, &(struct pm_field){0}, values, 2, a);
 	check_near(hypot(a[0], a[1]), 0, 1e-13, "an absent mode is 0");
 }
 

@@ -218,7 +218,7 @@ static void compute(struct results *r)
 	pm_particle_sums_add(&m, &bulk);
 	r->of[3] = bulk.kinetic, r->of[4] = bulk.angular[2], r->of[5] = bulk.farthest;
 	r->of[6] = pm_charge_over_mass(MOST, root, side);
-	if (pm_mode(&g, a, 3, &r->of[7]))
+	if (pm_mode(&g, &(struct pm_field){0}, a, 3, &r->of[7]))
 		r->of[7] = NAN;
 	pm_sum_of_mesh(n, a, b, NULL, &all);
 	r->of[9] = all.sum, r->of[10] = all.carry;

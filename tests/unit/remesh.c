@@ -382,7 +382,7 @@ static double distorted(double a, double b, double c, double d)
 				p.x[0][n] = x, p.x[1][n++] = y;
 		}
 	double sum = 0;
-	if (pm_overlap(&g, n, in(p.x), NULL, p.q))
+	if (pm_overlap(&g, NULL, n, in(p.x), NULL, p.q))
 		return NAN;
 	for (size_t i = 0; i < n; i++)
 		if (fabs(p.x[0][i] - N / 2.) < N / 4. && fabs(p.x[1][i] - N / 2.) < N / 4.)
