@@ -7,6 +7,10 @@
 #include "fft/fft-vector.h"
 
 enum { W = PM_SIMD_PART };
+#ifdef __SSE2__
+#include <immintrin.h>
+#define PM_STREAMS
+#endif
 
 /* W rows, W elements of each, transposed; fewer at the ends. */
 PM_SIMD_INLINE void tile_in(const double *const *row, size_t at, pm_simd_part *t)
@@ -142,21 +146,37 @@ void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[
 			pack(f, rows, row, from, k, part_of(block, (int)(from / W)));
 }
 
+#ifdef PM_STREAMS
+/* One register. */
+PM_SIMD_INLINE void past(double *to, const double *from)
+{
+#if defined __AVX512F__
+	_mm512_stream_pd(to, _mm512_loadu_pd(from));
+#elif defined __AVX__
+	_mm256_stream_pd(to, _mm256_loadu_pd(from));
+#else
+	_mm_stream_pd(to, _mm_loadu_pd(from));
+#endif
+}
+#endif
+
 void pm_stream(double *to, const double *from, size_t n)
 {
 	size_t i = 0;
-#ifdef __AVX512F__
+#ifdef PM_STREAMS
 	for (; i < n && (uintptr_t)(to + i) % 64; i++)
 		to[i] = from[i];
-	for (; i + 8 <= n; i += 8)
-		_mm512_stream_pd(to + i, _mm512_loadu_pd(from + i));
+	for (; i + 8 <= n; i += 8) /* whole lines of the cache */
+		PM_SIMD_UNROLL
+		for (size_t q = 0; q < 8; q += W)
+			past(to + i + q, from + i + q);
 #endif
 	memcpy(to + i, from + i, (n - i) * sizeof *to);
 }
 
 void pm_stream_end(void)
 {
-#ifdef __AVX512F__
+#ifdef PM_STREAMS
 	_mm_sfence();
 #endif
 }

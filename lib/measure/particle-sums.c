@@ -1,76 +1,126 @@
 /* Bulk quantities of particles: mass, kinetic energy, momentum and its scale sum m|v|, angular momentum, first moment, largest distance.
- * Each is a sum over particles, compensated (Neumaier 1974), with eight partial sums per block of pm_sum_block particles; partial sums and blocks are added
- * in the order of the stream (base/in-order.h). Cost N. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Each is a sum over particles, with eight partial sums per block of pm_sum_block particles, lane by lane: a lane adds the values of eight particles by pairs,
+ * pairs of pairs and so on, which is exact for equal ones, then the result to its compensated sum (Neumaier 1974). So each value is rounded three times more
+ * than as a product, and the long sum is not. Partial sums and blocks are added in the order of the stream (base/in-order.h). Cost N.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/measure.h"
 #include "base/simd-sum.h"
 #include "stream/over-stretches.h"
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
+enum { lanes_all = 8, group = 8, lot = lanes_all * group, parts_of = lanes_all / PM_SIMD_PART };
 
 struct block {
 	struct pm_sum sum[SUMS];
 	double farthest2;
 };
 
-/* The running sums of a block, for eight particles side by side. */
+/* The running sums of a block, of eight lanes as registers have them. */
 struct lanes {
-	struct pm_simd_sum sum[SUMS];
-	pm_simd farthest2;
+	pm_simd_part sum[parts_of][SUMS], carry[parts_of][SUMS], farthest2[parts_of];
 };
 
-PM_SIMD_INLINE pm_simd load(const double *p, size_t n) { return n == PM_SIMD_WIDTH ? pm_simd_load_any(p) : pm_simd_load_few(p, n); }
+/* Arrays of particles, and what all of them share. */
+struct particles {
+	const double *x[3], *v[3], *mass;
+	double c;
+};
 
-PM_SIMD_INLINE pm_simd root(pm_simd v)
+PM_SIMD_INLINE pm_simd_part load(const double *p)
 {
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+	pm_simd_part v;
+	memcpy(&v, p, sizeof v);
+	return v;
+}
+
+PM_SIMD_INLINE pm_simd_part root(pm_simd_part v)
+{
+	for (int l = 0; l < PM_SIMD_PART; l++)
 		v[l] = sqrt(v[l]);
 	return v;
 }
 
-PM_SIMD_INLINE pm_simd larger(pm_simd a, pm_simd b)
+PM_SIMD_INLINE pm_simd_part larger(pm_simd_part a, pm_simd_part b)
 {
-	pm_simd_bits below = a < b;
-	return (pm_simd)(((pm_simd_bits)b & below) | ((pm_simd_bits)a & ~below));
+	const __typeof__(a < b) below = a < b;
+	return (pm_simd_part)(((__typeof__(below))b & below) | ((__typeof__(below))a & ~below));
 }
 
-/* Loads n particles from i on; the rest of the eight are 0. */
-PM_SIMD_INLINE void add_particles(int dim, int vdim, const struct pm_measured *b, size_t i, size_t n, struct lanes *s)
+/* The terms of the particles i .. of one register; those that there are not stay as they are. */
+PM_SIMD_INLINE void terms_of(const int dim, const int vdim, const struct particles *b, size_t i, pm_simd_part *t, pm_simd_part *farthest2)
 {
-	pm_simd x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0};
-	const pm_simd m = b->mass ? load(b->mass + i, n) : pm_simd_all(NAN);
+	pm_simd_part x[3] = {{0}}, v[3] = {{0}}, x2 = {0}, v2 = {0}, m = {0};
+	m = b->mass ? load(b->mass + i) : m + (double)NAN;
+	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
-		x[d] = load(b->x[d] + i, n), x2 += x[d] * x[d];
+		x[d] = load(b->x[d] + i), x2 += x[d] * x[d], t[MOMENT + d] = m * x[d];
+	PM_SIMD_UNROLL
 	for (int d = 0; d < vdim; d++)
-		v[d] = load(b->v[d] + i, n), v2 += v[d] * v[d];
-	s->farthest2 = larger(s->farthest2, x2);
-	pm_simd_sum_add(&s->sum[MASS], m);
-	for (int d = 0; d < 3; d++)
-		pm_simd_sum_add(&s->sum[MOMENT + d], m * x[d]);
+		v[d] = load(b->v[d] + i), v2 += v[d] * v[d];
+	*farthest2 = larger(*farthest2, x2);
+	t[MASS] = m;
 	if (!vdim)
 		return;
-	pm_simd p = m; /* momentum over velocity */
+	pm_simd_part p = m; /* momentum over velocity */
 	if (b->c > 0) {
-		const pm_simd gamma = 1 / root(1 - v2 / (b->c * b->c));
+		const pm_simd_part gamma = 1 / root(1 - v2 / (b->c * b->c));
 		p = m * gamma;
-		pm_simd_sum_add(&s->sum[KINETIC], p * v2 * (gamma / (1 + gamma)));
+		t[KINETIC] = p * v2 * (gamma / (1 + gamma));
 	} else
-		pm_simd_sum_add(&s->sum[KINETIC], 0.5 * m * v2);
-	pm_simd_sum_add(&s->sum[SCALE], p * root(v2));
-	pm_simd_sum_add(&s->sum[SQUARE], v2);
+		t[KINETIC] = 0.5 * m * v2;
+	t[SCALE] = p * root(v2);
+	t[SQUARE] = v2;
+	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++) {
-		const int e = (d + 1) % 3, g = (d + 2) % 3;
-		pm_simd_sum_add(&s->sum[MOMENTUM + d], p * v[d]);
-		pm_simd_sum_add(&s->sum[ANGULAR + d], p * (x[e] * v[g] - x[g] * v[e]));
+		const int e = (d + 1) % 3, f = (d + 2) % 3;
+		t[MOMENTUM + d] = p * v[d];
+		t[ANGULAR + d] = p * (x[e] * v[f] - x[f] * v[e]);
 	}
 }
 
-PM_SIMD_INLINE void add_block(int dim, int vdim, const struct pm_measured *b, size_t from, size_t to, struct lanes *s)
+/* A lot of particles from i on. */
+PM_SIMD_INLINE void add_lot(const int dim, const int vdim, const struct particles *b, size_t i, struct lanes *to)
 {
-	size_t i = from;
-	for (; i + PM_SIMD_WIDTH <= to; i += PM_SIMD_WIDTH)
-		add_particles(dim, vdim, b, i, PM_SIMD_WIDTH, s);
-	if (i < to)
-		add_particles(dim, vdim, b, i, to - i, s);
+	for (size_t part = 0; part < parts_of; part++) {
+		pm_simd_part pair[group / 2][SUMS], t[2][SUMS] = {{{0}}}, farthest2 = to->farthest2[part], *sum = to->sum[part], *carry = to->carry[part];
+		for (size_t q = 0; q < group / 2; q++) {
+			PM_SIMD_UNROLL
+			for (size_t m = 0; m < 2; m++)
+				terms_of(dim, vdim, b, i + (2 * q + m) * lanes_all + part * PM_SIMD_PART, t[m], &farthest2);
+			PM_SIMD_UNROLL
+			for (int s = 0; s < SUMS; s++)
+				pair[q][s] = t[0][s] + t[1][s];
+		}
+		to->farthest2[part] = farthest2;
+		PM_SIMD_UNROLL
+		for (int s = 0; s < SUMS; s++) {
+			const pm_simd_part g = (pair[0][s] + pair[1][s]) + (pair[2][s] + pair[3][s]), all = sum[s] + g, z = all - sum[s];
+			carry[s] += (sum[s] - (all - z)) + (g - z);
+			sum[s] = all;
+		}
+	}
+}
+
+/* The last particles are followed by such of no mass at 0. */
+PM_SIMD_INLINE void add_block(const int dim, const int vdim, const struct pm_measured *b, size_t from, size_t to, struct lanes *lanes)
+{
+	double last[7][lot] = {{0}};
+	struct particles p = {.mass = b->mass, .c = b->c};
+	for (int d = 0; d < 3; d++)
+		p.x[d] = b->x[d], p.v[d] = b->v[d];
+	for (; from + lot <= to; from += lot)
+		add_lot(dim, vdim, &p, from, lanes);
+	if (from == to)
+		return;
+	for (int d = 0; d < 3; d++) {
+		if (d < dim)
+			p.x[d] = memcpy(last[d], b->x[d] + from, (to - from) * sizeof(double));
+		if (d < vdim)
+			p.v[d] = memcpy(last[3 + d], b->v[d] + from, (to - from) * sizeof(double));
+	}
+	if (b->mass)
+		p.mass = memcpy(last[6], b->mass + from, (to - from) * sizeof(double));
+	add_lot(dim, vdim, &p, 0, lanes);
 }
 
 static void make_block(const void *data, size_t from, size_t to, void *part)
@@ -82,10 +132,16 @@ static void make_block(const void *data, size_t from, size_t to, void *part)
 		add_block(3, 3, b, from, to, &lanes);
 	else
 		add_block(b->dim, b->vdim, b, from, to, &lanes);
-	for (int s = 0; s < SUMS; s++)
-		pm_simd_sum_join(&block->sum[s], &lanes.sum[s]);
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		block->farthest2 = fmax(block->farthest2, lanes.farthest2[l]);
+	for (int s = 0; s < SUMS; s++) {
+		struct pm_simd_sum all;
+		for (size_t r = 0; r < parts_of; r++) {
+			memcpy((char *)&all.sum + r * sizeof(pm_simd_part), &lanes.sum[r][s], sizeof(pm_simd_part));
+			memcpy((char *)&all.carry + r * sizeof(pm_simd_part), &lanes.carry[r][s], sizeof(pm_simd_part));
+		}
+		pm_simd_sum_join(&block->sum[s], &all);
+	}
+	for (int l = 0; l < lanes_all; l++)
+		block->farthest2 = fmax(block->farthest2, lanes.farthest2[l / PM_SIMD_PART][l % PM_SIMD_PART]);
 }
 
 static void join(size_t size, const void *part, void *all)
