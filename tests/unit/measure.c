@@ -41,7 +41,8 @@ static void round_off(void)
 		double u[2], w[2];
 		pm_random(6, i, 0, u), pm_random(6, i, 1, w);
 		x[i] = u[0], v[i] = u[1] - 0.5, m[i] = 1 + w[0];
-		mass += (long double)m[i], momentum += (long double)m[i] * (long double)v[i], kinetic += 0.5L * (long double)m[i] * (long double)v[i] * (long double)v[i];
+		const long double p = (long double)m[i] * (long double)v[i];
+		mass += (long double)m[i], momentum += p, kinetic += 0.5L * p * (long double)v[i];
 	}
 	const struct pm_measured b = {.n = n, .dim = 1, .vdim = 1, .x = {x}, .v = {v}, .mass = m};
 	struct pm_particle_sums bulk = {0};
