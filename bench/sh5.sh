@@ -15,14 +15,19 @@ sh5 -o there.h5 <stream.pm
 h5-datasets write plain.h5 "$n" >/dev/null
 
 seconds() { local TIMEFORMAT='%U %S'; { time "$@" >"$work/said"; } 2>&1 | awk '{ print $1 + $2 }'; }
-into() { rm -f new.h5 && sh5 -o new.h5 <stream.pm; }
-outof() { sh5 there.h5 >/dev/null; }
-plain_into() { rm -f new.h5 && h5-datasets write new.h5 "$n"; }
+# shellcheck disable=SC2317 # called by seconds
+sh5_write() { rm -f new.h5 && sh5 -o new.h5 <stream.pm; }
+# shellcheck disable=SC2317
+sh5_read() { sh5 there.h5 >/dev/null; }
+# shellcheck disable=SC2317
+plain_write() { rm -f new.h5 && h5-datasets write new.h5 "$n"; }
+# shellcheck disable=SC2317
+plain_read() { h5-datasets read plain.h5 "$n"; }
 median() { sort -g "$1" | awk '{ v[NR] = $1 } END { printf "%.2f", v[int((NR + 1) / 2)] }'; }
 for _ in $(seq "${ROUNDS:-7}"); do
 	for way in write read; do
-		ours=$([ $way = write ] && seconds into || seconds outof)
-		whole=$([ $way = write ] && seconds plain_into || seconds h5-datasets read plain.h5 "$n")
+		ours=$(seconds "sh5_$way")
+		whole=$(seconds "plain_$way")
 		awk -v o="$ours" -v w="$whole" -v f=$way '{ print w / o >>(f ".whole"); print $1 / o >>(f ".calls") }' said
 	done
 done
