@@ -1,14 +1,19 @@
 /* Collisions: encounters, which a smooth field leaves out. Bodies relax in N/(8 ln N) crossing times (spread/v), that is, velocities; the mean square of their
  * energies' change over v^2 is 0.42 of T over that time. Charges: what T is of the time in which their velocities become isotropic, in 3-D N_D/(0.075 ln L)
  * plasma periods over 2 pi (N_D in a sphere of the Debye length, L the lesser of 9 N_D and the cells in a Debye length), in 2-D N_D/0.155; in 1-D 10 N_D^2,
- * in which they become Maxwellian. All measured: docs/plan-errors.sh. Summing pairs includes collisions; cold particles
- * keep their order. Particles that stand for more bodies than there are (the constant `bodies`; charges always, unless it is given) have encounters that
- * those have not: two-body relaxation, an error. With pairs ln N is ln(R/softening), on a mesh ln(R/h), R the spread, if that is less.
+ * in which they become Maxwellian. All measured: docs/plan-errors.sh. Summing pairs includes collisions; cold particles keep their order.
+ * Charges on a mesh that stand for a number of real ones, the constant `bodies`, and have v of 3 components, scatter as those by the word collide: N_D and
+ * L = 9 N_D of the real ones, in 1-D and 2-D too. Particles that stand for more bodies than there are (the constant `bodies`; charges always, unless it is
+ * given) have encounters that those have not: two-body relaxation, an error. With pairs ln N is ln(R/softening), on a mesh ln(R/h), R the spread, if that is
+ * less.
  * Source: Binney and Tremaine 2008, equation 1.38; NRL Plasma Formulary (Huba 2016), temperature isotropization; Dawson 1964, Phys. Fluids 7, 419.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <string.h>
 
 #include "effect-parts/effect-decision.h"
+#include "effect-parts/effect-words.h"
+#include "stream/frame.h"
 
 /* Charges whose pairs are summed are points, unless the frame says otherwise. */
 static bool sample(const struct pm_scales *s) { return s->bodies > s->n && (!s->pairs || isfinite(s->bodies)); }
@@ -53,9 +58,38 @@ static void charges(const struct pm_scales *s, double per_debye, struct pm_decis
 	d->error = sample(s);
 }
 
+/* Is it known how many real charges there are, and can collide turn their velocities? */
+static bool scatters(const struct pm_effect_case *c)
+{
+	const struct pm_scales *s = c->scales;
+	bool space = s->kind == PM_CHARGES && !s->pairs && isfinite(s->bodies);
+	for (size_t k = 0; k < c->frame->nsets; k++) {
+		const struct pm_field *v = pm_frame_field(c->frame, c->frame->sets[k]->name, "v");
+		space = space && (!v || v->components == 3);
+	}
+	return space;
+}
+
+/* Of as many charges in space as there are bodies: the collisions that are physics, if they matter; beside them those of the sample. */
+static bool physical(const struct pm_effect_case *c, struct pm_decision *d)
+{
+	const struct pm_scales *s = c->scales;
+	const double n = fmax(s->bodies / s->volume * 4 * pm_pi / 3 * pow(s->debye, 3), 1e-300), share = s->omega * s->time * 0.075 * fmax(1, log(9 * n)) / n;
+	const double of_sample = d->share;
+	if (!(share > s->accuracy))
+		return false;
+	pm_effect_by(d, s, n, share);
+	d->error = false;
+	snprintf(d->text, sizeof d->text, "%.2g charges in a Debye sphere, T is %.1g of the time between collisions", n, share);
+	if (sample(s) && of_sample > 0.1 * share)
+		snprintf(d->text + strlen(d->text), sizeof d->text - strlen(d->text), "; the sample adds %.1g", of_sample);
+	return true;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	bool placed = false;
 	if (s->kind != PM_MASSES && s->kind != PM_CHARGES)
 		pm_effect_off(d, "the law has none");
 	else if (pm_effect_alone(s))
@@ -66,8 +100,17 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		pm_effect_off(d, s->dim == 1 && s->kind == PM_MASSES ? "sheets pass through each other" : "cold: no random velocities");
 	else if (s->kind == PM_MASSES)
 		bodies(s, d);
-	else
+	else {
 		charges(s, c->own[0], d);
+		placed = scatters(c) && physical(c, d);
+	}
+	d->named = !placed;
+}
+
+static void words(const struct pm_effect_case *c, struct pm_words *w)
+{
+	if (c->decision->answer == PM_PUT_IN && !c->decision->error && !c->decision->named)
+		pm_words_add(w, PM_SLOT_AFTER, "collide", "collisions: on, %s", c->decision->text);
 }
 
 const struct pm_effect effect_collisions = {
@@ -77,4 +120,5 @@ const struct pm_effect effect_collisions = {
 	.word = "collide",
 	.measure = measure,
 	.decide = decide,
+	.words = words,
 };

@@ -24,7 +24,8 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		return;
 	}
 	pm_effect_by(d, s, beta, beta * beta);
-	snprintf(d->text, sizeof d->text, "(v/c)^2 = %.1g of the electric force", beta * beta);
+	snprintf(d->text, sizeof d->text, "(v/c)^2 = %.1g of the electric force%s", beta * beta, d->answer != PM_PUT_IN ? ""
+		: " (with them: smod --law electromagnetic | p2m | maxwell --gauss | plan)");
 }
 
 const struct pm_effect effect_currents = {

@@ -34,6 +34,7 @@ struct pm_scales {
 	double few;                  /* bodies of all sets, fixed ones too, where there are few masses in 3-D (orbits.c); else NAN */
 	double anomaly, stated;      /* [1] mean anomaly of that orbit now; the frequency that pp states at a distance, times the 1/omega of its circle */
 	double pericentre;           /* [length] of that orbit */
+	int components;              /* of v; of several sets the most */
 	double debye;                /* [length] v/omega, v the rms of one component of v about its mean */
 	double overlap, width;       /* mean |H - 1| of the particles, 0 for a lattice that represents a field; NAN: no volumes. [length] mean volume^(1/dim) */
 	double ratio;                /* largest q/m */
@@ -78,6 +79,7 @@ struct pm_decision {
 	double share;    /* relative change caused by leaving it out, within the time of the run; NAN: unknown */
 	int every;       /* interval in steps of an action that is not done in every step; 0 none */
 	bool brought;    /* it is put in by the words of another effect */
+	bool named;      /* its words do not do it for this frame: plan names it, and the result lacks it */
 	char text[160];  /* the reason, with the number */
 };
 

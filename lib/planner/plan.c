@@ -40,7 +40,8 @@ static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_
 		e->decision = (struct pm_decision){.answer = PM_LEFT_OUT};
 		e->effect->decide(&c, &e->decision);
 		overrule(e, choice);
-		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && !e->effect->words && !e->decision.error && !e->decision.brought;
+		e->lacking = e->decision.answer == PM_PUT_IN && e->effect->word && (!e->effect->words || e->decision.named) && !e->decision.error &&
+			!e->decision.brought;
 	}
 	for (int i = 0; i < p->neffects; i++)
 		if (p->effect[i].effect->reconsider) {

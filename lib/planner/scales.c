@@ -85,6 +85,7 @@ static void speeds(const struct pm_frame *f, const struct pm_law *law, struct pm
 		if (v) {
 			pm_over_set(&parts, &(struct speeds){v, q, q && q->count ? pm_sum_total(share) / (double)q->count : 0}, v->count, sum);
 			s->v_max = fmax(s->v_max, fastest(v));
+			s->components = v->components > s->components ? v->components : s->components;
 		}
 		n += v ? (double)v->count : 0;
 		s->second = s->second || v;
@@ -235,7 +236,7 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 	s->omega = turns ? fmax(dense, sum / s->volume) : sqrt(c * sum / s->volume);
 	const double r = fmax(s->softening, s->nearest), sphere[4] = {1, 2, 2 * pm_pi * r, 4 * pm_pi * r * r};
 	s->encounter = turns ? largest_pull / (pm_pi * r * r) : sqrt(2 * c * largest_pull / (sphere[f->dim] * r));
-	s->debye = s->omega > 0 ? s->v_thermal / sqrt(s->dim) / s->omega : NAN;
+	s->debye = s->omega > 0 ? s->v_thermal / sqrt(s->components > 0 ? s->components : s->dim) / s->omega : NAN;
 }
 
 /* Largest magnitude of a state field on a mesh; NAN if there is none. */

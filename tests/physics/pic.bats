@@ -50,6 +50,50 @@ swing() {
 	order 1.8 8 "$e32" 16 "$e16" 32 "$e8" # the cells in units of the smallest
 }
 
+@test "PIC-08: a Maxwellian whose Debye length is a tenth of a cell grows at the rates of the aliases' dispersion relation, within 10 %" {
+	# 64 cells of 1, the wave of the largest rate; 0.001 of the density, for ngp 0.02: a wave that moves no particle to another node makes no force
+	while read -r kernel vth mode steps amplitude gamma; do
+		[ "$kernel$vth" = cic0.1 ] || [ -n "$PM_LONG" ] || continue
+		within "$(pinit landau --mode "$mode" --wavenumber 0.09817477042468103 --vth "$vth" --cells 64 -n 40960 --amplitude "$amplitude" |
+			cycle -q -n "$steps" --every 4 "${step/p2m/p2m --kernel $kernel}" | diag --columns time --growth mode:"$mode" |
+			sed -n 's/^# .* gamma \([^ ]*\) .*/\1/p')" "$gamma" "$(calc "0.1 * $gamma")" "$kernel, $vth" # measured 0.0131, 0.0253, 0.00079, 0.0906
+	done <<-END
+		cic 0.1 17 800 0.001 0.013720
+		cic 0.05 23 800 0.001 0.024077
+		tsc 0.1 15 800 0.001 0.000798
+		ngp 0.1 17 400 0.02 0.096181
+	END
+}
+
+@test "PIC-15: waves of a thermal plasma have 1/(1 + (k lambda_D)^2) of the energy of equipartition" {
+	# a(t) of mode m: L a^2/4 for sine and cosine together, so W v^2 in equipartition, W = L/n; 64 electrons in a Debye length, from random places: waves of
+	# k = 0.2 and 0.3 keep the 1/k^2 that these give them, because Landau's damping takes 1e4 plasma times; 1e4/omega_p of the others
+	pinit plasma --length 62.83185307179586 --cells 128 --dt 0.2 | species electrons -n 4000 --loading random |
+		cycle -q -n 10000 --every 10 "$step" | diag --columns time --modes 5,8 |
+		awk 'NR > 60 { a += $2^2; b += $3^2; n++ } END { print 1000 * a / n, 1000 * b / n }' >t # L/4 over L/n, n = 4000
+	read -r five eight <t
+	within "$five" "$(calc "cos(pi * 5 / 128)^2 / 1.25")" 0.12 "k = 0.5" # 300 correlation times
+	within "$eight" "$(calc "cos(pi * 8 / 128)^2 / 1.64")" 0.09 "k = 0.8"
+}
+
+@test "PIC-16: a cold wave of any amplitude swings at omega_p: displacements of -A half a period on, 1/(1 - A) of the density at the crest" {
+	for A in 0.1 0.5; do
+		pinit langmuir -n 4096 --cells 64 --dt 0.031415926535897932 --amplitude $A >s
+		cycle -q -n 100 "$step" <s >half
+		for f in s half; do
+			stab --plain --set electrons <$f | awk '/x/ { for (i = 1; i <= NF; i++) c[$i] = i; next } { print $c["id"], $c["x"] }'
+		done >both # the way is twice the displacement, -2 A sin(k q)
+		within "$(awk 'NR <= 4096 { x[$1] = $2; next } { d = $2 - x[$1]; if (d > 3) d -= 6.283185307179586; if (d < m) m = d }
+			END { print m / 2 }' both)" -$A 1e-3 "A = $A"
+		for cells in 64 128 256; do
+			n[cells]=$(p2m -n $cells <s | stab --plain --mesh mesh | awk '/rho/ { for (i = 1; i <= NF; i++) c[$i] = i; next }
+				NF && 1 - $c["rho"] > m { m = 1 - $c["rho"] } END { print m }') # the ions are 1, electrons -n
+		done
+		within "${n[256]}" "$(calc "1 / (1 - $A)")" 1e-3 "crest, A = $A"
+	done
+	order 2 1 "$(calc "2 - ${n[256]}")" 2 "$(calc "2 - ${n[128]}")" 4 "$(calc "2 - ${n[64]}")"
+}
+
 # wave DIM AXES: the frequency w of a wave along x or a diagonal on 8 cells an axis, corrected for the leapfrog, from the velocity of one electron.
 wave() {
 	pinit langmuir --dim "$1" --axes "$2" -n $((32 ** $1)) --cells 8 --amplitude 1e-5 --dt 0.1 | cycle -n 8 --every 1 "$step" |

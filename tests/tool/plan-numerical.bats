@@ -112,6 +112,17 @@ unlike() { stab --plain "$2" | awk -v d="$1" 'NR == 1 { for (i = 1; i <= NF; i++
 	between "$(awk "BEGIN { print $(share collisions -t 5 <start) / $(cat wander) }")" 0.5 2 "stars"
 }
 
+@test "plan: charges that stand for a known number collide as these do, by the word collide, and lose what is foreseen; many more do not" {
+	pinit plasma | species electrons -n 20000 --velocities 3 --loading random --widths 1.2,0.9,0.9 >many
+	smod --constant bodies=50 <many >start
+	words=$(plan --sentence -t 10 <start)
+	[[ $words = *"| push kick/2 | collide" ]]
+	cycle -q -t 10 "$words" <start >end
+	lost=$(awk "BEGIN { print log($(unlike 3 start) / $(unlike 3 end)) }")
+	between "$(awk "BEGIN { print $(share collisions -t 10 --accuracy 1e-3 <start) / $lost }")" 0.5 2
+	[[ $(smod --constant bodies=1e9 <many | plan --sentence -t 10) != *collide* ]]
+}
+
 @test "plan: a close pair of cold bodies on a mesh is needed though few bodies have neighbours; gravity gets no mesh against the heating of plasmas" {
 	# frames that a random search found silently wrong: by 0.81 at accuracy 0.01, and with tsc by 0.051 at 0.01
 	pinit uniform -n 77 --cells 16 --softening 0.00454 --seed 74 --mass-spread 2 | plan --no-cost -t 0.0525 |
