@@ -382,6 +382,8 @@ tables() {
 	pinit taylor-green-3d --cells 9 | tables "$flow | diag --tee table | push rk2"
 	pinit vortex-ring --cells 12 | tables "$flow | diag --tee table --modes 3 | push rk2"
 	pinit langmuir -n 4900 --dim 2 --axes 2 --amplitude 0.3 | tables "$leap | diag --tee table --modes 1,2"
+	pinit uniform -n 4200 --dim 2 --dispersion 0.1 --faces periodic,neumann --particle-faces periodic,reflect |
+		tables "push kick/2 drift | p2m -n 16x33 | poisson-fft | mgrad | m2p | push kick/2 | diag --tee table --modes 1" # rows of half weight
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | tables "$leap | diag --tee table --modes 1 --species"
 	pinit plummer -n 4200 >one
 	smod --rename matter=shadow <one | scalc 'x = x + 0.001*id, y, z' | stack one - |
