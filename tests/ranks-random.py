@@ -38,8 +38,11 @@ def draw(r):
     def solver(dim, periodic):
         fft = "poisson-fft" + maybe(0.2, "--symbol", pick("fd2", "fd4")) if periodic else "poisson-fft" + maybe(0.2, "--open-faces sum")
         fft += maybe(0.15, "--influence optimal") if periodic and "--symbol" not in fft else ""
-        if not periodic and r.random() < 0.7:
-            return fft
+        given = maybe(0.25, "--dirichlet", pick("'1 + 0.1*x'", "'x*x + time'", "2")) if not periodic else ""
+        if not periodic and r.random() < 0.6:
+            return fft + (given if "sum" not in fft else "")
+        if given:
+            return pick("poisson-fft", "poisson-mg", "poisson-mg --order 4", "poisson-relax --tolerance 1e-3") + given
         return pick(fft, fft, "poisson-mg" + maybe(0.3, "--cycle", pick("v", "w", "fmg")) + maybe(0.2, "--order 4"),
             "poisson-relax --tolerance 1e-3 --method " + pick("red-black", "red-black-sor", "cg", "weighted-jacobi"))
 

@@ -148,10 +148,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-/* Boundary values, and those of James' method, are computed for the whole mesh. */
+/* The boundary values of James' method are computed for the whole mesh. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
-	return f && !((const struct state *)s->state)->problem.given.any && !((const struct state *)s->state)->choice.james;
+	return f && !((const struct state *)s->state)->choice.james;
 }
 
 static void release(struct pm_stage *s) { pm_fft_solvers_clear(&((struct state *)s->state)->solvers); }

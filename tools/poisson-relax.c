@@ -127,7 +127,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct state *t = s->state;
-	return f && !t->problem.given.any && pm_relaxation_shares(&t->problem.grid, t->choice.method);
+	return f && pm_relaxation_shares(&t->problem.grid, t->choice.method);
 }
 
 static void release(struct pm_stage *s)

@@ -59,11 +59,11 @@ static void load(const struct pm_expression_value *v, const struct pm_frame *f, 
 	const struct pm_mesh *m = pm_frame_mesh(f, on);
 	size_t points[3], stride = 1;
 	pm_mesh_points(f, m, points);
-	first += index ? 0 : first_here(f, on);
+	const size_t here = (size_t)first_here(f, on);
 	for (int a = 0; a < v->axis; a++)
 		stride *= points[a];
 	for (size_t i = 0; i < n; i++)
-		out[i] = m->lo[v->axis] + (double)((index ? index[first + i] : first + i) / stride % points[v->axis]) * m->h[v->axis];
+		out[i] = m->lo[v->axis] + (double)((here + (index ? index[first + i] : first + i)) / stride % points[v->axis]) * m->h[v->axis];
 }
 
 #define EACH(expression)                   \

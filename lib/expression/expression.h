@@ -38,7 +38,7 @@ int pm_expression_compile_numbers(struct pm_expression *e, int (*slot)(void *con
 double pm_expression_number(const struct pm_expression *e, const double *number); /* number[slot - 1] */
 /* Part k for every value of the set or mesh; out must not be an input of it. Cost: constant per value; the same bytes for any number of threads. */
 void pm_expression_eval(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, double *out);
-/* The same at n chosen values or points alone: those of index. */
+/* The same at n chosen values or points alone: those of index, counted from the first one here. */
 void pm_expression_eval_at(const struct pm_expression *e, const struct pm_frame *f, int k, size_t n, const size_t *index, double *out);
 /* All parts at once into the components of a field that may be an input. */
 void pm_expression_assign(const struct pm_expression *e, const struct pm_frame *f, struct pm_field *field);

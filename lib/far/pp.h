@@ -13,7 +13,8 @@ struct pm_pp {
 	bool half;    /* each pair once, by symmetry; else each target over all sources */
 	size_t sets;  /* the particles are those of so many sets, one behind the other, the targets whole sets in front; 0: of one set, all targets or not */
 	const size_t *count; /* [sets] particles of each */
-	const size_t *own;   /* [2 sets] of each the first target that is wanted and the one behind the last, multiples of 4096 or the end; NULL: all */
+	const size_t *own;   /* [2 sets] of each the first target that is wanted and the one behind the last, multiples of 4096 (of the full loop: of 256) or
+	                      * the end; NULL: all */
 };
 
 /* For each of the first `targets` of n particles: gradient[c][i] = sum over j != i of q[j] d(phi1)/dx_c (x_i - x_j), and

@@ -3,6 +3,7 @@
  * Assumes: the values are smooth in the modes of the other axes: where walls meet they vanish. Cost: a solve for each axis and kind of face.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-boundary.h"
+#include "world/world.h"
 
 int pm_poisson_fft_boundary_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
@@ -24,16 +25,22 @@ static unsigned faces_of(const struct pm_boundary *b, int d, bool neumann)
 	return faces;
 }
 
+static size_t points_here(const struct pm_boundary *b) { return b->planes ? b->planes->here * b->planes->size : pm_grid_size(&b->grid); }
+
 static int add(struct pm_fft_solvers *s, const struct pm_poisson_fft_choice *o, const struct pm_boundary *b, unsigned faces, double *known, double *u,
 	double *phi)
 {
 	struct pm_poisson_fft *solver = pm_fft_solvers_find(s, &b->grid, o);
 	struct pm_poisson_fft_record r;
+	int status = 0;
 	if (!solver && !(solver = pm_fft_solvers_add(s, &b->grid, o, false)))
-		return -PM_DATA;
-	pm_boundary_known(b, 2, faces, NULL, known);
-	int status = pm_poisson_fft_solve(solver, -1, known, u, &r);
-	for (size_t i = 0; i < pm_grid_size(&b->grid) && !status; i++)
+		status = -PM_DATA;
+	status = pm_world_agree(status);
+	if (!status)
+		pm_boundary_known(b, 2, faces, NULL, known);
+	if (!status)
+		status = pm_poisson_fft_solve(solver, -1, known, u, &r);
+	for (size_t i = 0; i < points_here(b) && !status; i++)
 		phi[i] += u[i];
 	return status;
 }
@@ -59,10 +66,10 @@ static double on_edges(const struct pm_boundary *b)
 
 int pm_poisson_fft_boundary(struct pm_fft_solvers *s, const struct pm_poisson_fft_choice *o, const struct pm_boundary *b, double *phi)
 {
-	const size_t n = pm_grid_size(&b->grid);
+	const size_t n = points_here(b) + 1;
 	double *known = pm_alloc(n, sizeof *known), *u = pm_alloc(n, sizeof *u);
 	const double edges = on_edges(b);
-	int status = known && u ? 0 : -PM_DATA;
+	int status = pm_world_agree(known && u ? 0 : -PM_DATA);
 	if (!status && edges > 1e-6)
 		status = pm_fail(PM_DATA, "the boundary values are %.2g of the largest where walls meet, and there the series of --symbol spectral, fd4 and "
 			"fd6 do not converge (leave --symbol out, or poisson-mg --order 4)", edges);

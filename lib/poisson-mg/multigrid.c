@@ -55,7 +55,7 @@ static bool any_open(const struct pm_grid *g)
 
 bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_problem *p)
 {
-	return p->grid.dim > 1 && !p->given.any && !o->variable && !o->galerkin && !any_open(&p->grid);
+	return p->grid.dim > 1 && !o->variable && !o->galerkin && !any_open(&p->grid);
 }
 
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g)

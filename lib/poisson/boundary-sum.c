@@ -6,7 +6,9 @@
 
 #include "far/pp.h"
 #include "poisson/boundary-sum.h"
+#include "stream/all-values.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 static bool source(const struct pm_frame *f, const struct pm_set *s, const struct pm_law *law, const struct pm_field *density)
 {
@@ -56,10 +58,10 @@ static int room(const struct pm_frame *f, const struct pm_law *law, const struct
 	return good ? 0 : -PM_DATA;
 }
 
-static void fill(const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c, const struct pm_grid *g, struct bodies *b)
+static int fill(int status, const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c, const struct pm_grid *g, struct bodies *b)
 {
 	size_t at = 0;
-	for (int a = 0; a < 2 * g->dim; a++) {
+	for (int a = 0; a < 2 * g->dim && !status; a++) {
 		const int d = a / 2, t[2] = {d == 0, d == 2 ? 1 : 2};
 		for (size_t i = 0; i < pm_boundary_points(g, d); i++, at++) {
 			size_t p[3] = {0, 0, 0};
@@ -73,24 +75,43 @@ static void fill(const struct pm_frame *f, const struct pm_law *law, const struc
 		if (!source(f, s, law, density))
 			continue;
 		const struct pm_field *x = pm_frame_field(f, s->name, "x"), *q = pm_frame_field(f, s->name, law->strength);
-		memcpy(b->q + at, pm_in(q, c), s->n * sizeof(double));
+		status = pm_all_values(status, q, pm_in(q, c), status ? NULL : b->q + at);
 		for (int e = 0; e < g->dim; e++)
-			memcpy(b->x[e] + at, pm_in(x, e), s->n * sizeof(double));
+			status = pm_all_values(status, x, pm_in(x, e), status ? NULL : b->x[e] + at);
 		at += s->n;
 	}
+	return status;
+}
+
+/* The nodes of faces are shared by the ranks in groups of 256; then all get all values. */
+static int sum(int status, const struct pm_grid *g, bool divided, struct bodies *all)
+{
+	enum { group = 256 };
+	const size_t groups = (all->targets + group - 1) / group, ranks = divided ? (size_t)pm_world_size() : 1;
+	const size_t me = divided ? (size_t)pm_world_rank() : 0;
+	size_t own[2] = {groups * me / ranks * group, groups * (me + 1) / ranks * group}, bytes = 0;
+	own[1] = me + 1 == ranks ? all->targets : own[1];
+	const struct pm_pp pp = {.dim = g->dim, .mollifier = pm_mollifier_find("none"), .sets = 1, .count = &all->n, .own = own};
+	uint64_t coincident = 0;
+	void *phi = NULL;
+	if (!status)
+		status = pm_pp_sum(&pp, all->targets, all->n, (const double *const *)all->x, all->q, all->gradient, all->phi, &coincident);
+	if (!divided)
+		return status;
+	status = pm_world_gather(status, all->phi + own[0], (own[1] - own[0]) * sizeof(double), &phi, &bytes);
+	if (phi)
+		memcpy(all->phi, phi, bytes);
+	pm_free(phi);
+	return pm_world_share(status, 0, all->phi, all->targets * sizeof(double));
 }
 
 int pm_boundary_sum(const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c, double coefficient, struct pm_boundary *b)
 {
 	const struct pm_grid *g = &b->grid;
-	const struct pm_pp pp = {.dim = g->dim, .mollifier = pm_mollifier_find("none")};
 	struct bodies all;
-	uint64_t coincident = 0;
 	int status = room(f, law, density, g, &all);
-	if (!status) {
-		fill(f, law, density, c, g, &all);
-		status = pm_pp_sum(&pp, all.targets, all.n, (const double *const *)all.x, all.q, all.gradient, all.phi, &coincident);
-	}
+	status = fill(status, f, law, density, c, g, &all);
+	status = sum(status, g, density->here, &all);
 	size_t at = 0;
 	for (int a = 0; a < 2 * g->dim && !status; a++) {
 		status = pm_boundary_room(b, a / 2, a % 2);
@@ -98,5 +119,5 @@ int pm_boundary_sum(const struct pm_frame *f, const struct pm_law *law, const st
 			b->value[a / 2][a % 2][i] = coefficient * all.phi[at];
 	}
 	bodies_free(&all);
-	return status;
+	return pm_world_agree(status);
 }

@@ -9,6 +9,7 @@
 
 #include "base/in-order.h"
 #include "poisson/boundary.h"
+#include "world/world.h"
 
 struct stencil {
 	int order;
@@ -41,6 +42,51 @@ void pm_boundary_free(struct pm_boundary *b)
 	for (int d = 0; d < 3; d++)
 		for (int side = 0; side < 2; side++)
 			b->value[d][side] = pm_free(b->value[d][side]);
+}
+
+/* Rows of the mesh that are here, and the number of the first. */
+static size_t rows_here(const struct pm_boundary *b, size_t *first)
+{
+	const struct pm_grid *g = &b->grid;
+	*first = b->planes ? pm_planes_row(b->planes, 0) : 0;
+	return b->planes ? b->planes->here * b->planes->size / g->points[0] : g->points[1] * g->points[2];
+}
+
+void pm_boundary_here(const struct pm_boundary *b, int d, int side, size_t *from, size_t *to)
+{
+	const struct pm_planes *p = b->planes;
+	const size_t n = pm_boundary_points(&b->grid, d);
+	*from = 0, *to = n;
+	if (!p || !p->divided)
+		return;
+	const size_t each = n / p->all, end = side && p->axis ? p->all - 1 : 0; /* a plane of the mesh has a row of the face, or, at an end, all of it */
+	if (d != p->axis)
+		*from = each * p->first, *to = each * (p->first + p->here);
+	else if (end < p->first || end >= p->first + p->here)
+		*to = 0;
+}
+
+size_t pm_boundary_node(const struct pm_boundary *b, int d, int side, size_t i)
+{
+	const size_t *n = b->grid.points, step[3] = {1, n[0], n[0] * n[1]};
+	int t[2];
+	across(d, t);
+	return i % n[t[0]] * step[t[0]] + i / n[t[0]] * step[t[1]] + (side ? n[d] - 1 : 0) * step[d] - (b->planes ? b->planes->first * b->planes->size : 0);
+}
+
+int pm_boundary_share(int status, const struct pm_boundary *b, int d, int side, double *value)
+{
+	const struct pm_planes *p = b->planes;
+	size_t from, to, bytes = 0, n = pm_boundary_points(&b->grid, d);
+	void *all = NULL;
+	if (!p || !p->divided)
+		return status;
+	pm_boundary_here(b, d, side, &from, &to);
+	status = pm_world_gather(status, value + from, (to - from) * sizeof *value, &all, &bytes);
+	if (all)
+		memcpy(value, all, bytes);
+	pm_free(all);
+	return pm_world_share(status, 0, value, n * sizeof *value);
 }
 
 static struct stencil stencil_of(const struct pm_grid *g, int order, unsigned faces)
@@ -168,7 +214,8 @@ static double with_eps(const struct pm_boundary *b, const struct stencil *s, con
 {
 	const struct pm_grid *g = &b->grid;
 	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
-	const double *eps = e->eps + (size_t)at[0] + step[1] * (size_t)at[1] + step[2] * (size_t)at[2];
+	const size_t first = b->planes ? b->planes->first * b->planes->size : 0;
+	const double *eps = e->eps + ((size_t)at[0] + step[1] * (size_t)at[1] + step[2] * (size_t)at[2] - first);
 	double sum = 0;
 	for (int d = 0; d < g->dim; d++)
 		for (int side = 0; side < 2; side++) {
@@ -193,9 +240,11 @@ void pm_boundary_known(const struct pm_boundary *b, int order, unsigned faces, c
 	const struct pm_grid *g = &b->grid;
 	const struct stencil s = stencil_of(g, order, faces);
 	const size_t *n = g->points;
+	size_t first;
+	const size_t rows = rows_here(b, &first);
 #pragma omp parallel for schedule(static) num_threads(pm_threads())
-	for (size_t row = 0; row < n[1] * n[2]; row++) {
-		size_t j = row % n[1], k = row / n[1];
+	for (size_t row = 0; row < rows; row++) {
+		size_t j = (first + row) % n[1], k = (first + row) / n[1];
 		bool all = near_face(b, 1, j) || near_face(b, 2, k);
 		for (size_t i = 0; i < n[0]; i++) {
 			const ptrdiff_t at[3] = {(ptrdiff_t)i, (ptrdiff_t)j, (ptrdiff_t)k};
@@ -210,10 +259,13 @@ void pm_boundary_known(const struct pm_boundary *b, int order, unsigned faces, c
 void pm_boundary_set(const struct pm_boundary *b, double *phi)
 {
 	const size_t *n = b->grid.points;
-	for (size_t row = 0; row < n[1] * n[2]; row++)
+	size_t first;
+	const size_t rows = rows_here(b, &first);
+	for (size_t row = 0; row < rows; row++)
 		for (size_t i = 0; i < n[0]; i++) {
-			const ptrdiff_t at[3] = {(ptrdiff_t)i, (ptrdiff_t)(row % n[1]), (ptrdiff_t)(row / n[1])};
-			bool wall = false, all = near_face(b, 1, row % n[1]) || near_face(b, 2, row / n[1]);
+			const size_t j = (first + row) % n[1], k = (first + row) / n[1];
+			const ptrdiff_t at[3] = {(ptrdiff_t)i, (ptrdiff_t)j, (ptrdiff_t)k};
+			bool wall = false, all = near_face(b, 1, j) || near_face(b, 2, k);
 			double value = all || near_face(b, 0, i) ? wall_value(b, PM_BOUNDARY_ALL, at, &wall) : 0;
 			if (wall)
 				phi[row * n[0] + i] = value;
@@ -223,8 +275,7 @@ void pm_boundary_set(const struct pm_boundary *b, double *phi)
 /* A face of the box, a mesh of the two other axes. */
 struct face {
 	const struct pm_grid *g;
-	const struct pm_boundary_eps *eps;
-	const double *value;
+	const double *value, *eps; /* of the nodes of the face; eps NULL: 1 */
 	int d, side, t[2];
 };
 
@@ -241,24 +292,36 @@ static void make_flux(const void *data, size_t from, size_t to, void *part)
 		for (int k = 0; k < 2; k++)
 			if (f->t[k] < g->dim && g->points[f->t[k]] > g->cells[f->t[k]] && (at[f->t[k]] == 0 || at[f->t[k]] == g->cells[f->t[k]]))
 				weight *= 0.5;
-		at[f->d] = f->side ? g->cells[f->d] : 0;
-		weight *= f->eps ? f->eps->eps[at[0] + g->points[0] * (at[1] + g->points[1] * at[2])] : 1;
+		weight *= f->eps ? f->eps[i] : 1;
 		pm_sum_add(&sum[0], weight * f->value[i]);
 		pm_sum_add(&sum[1], fabs(weight * f->value[i]));
 	}
 }
 
-struct pm_boundary_flux pm_boundary_flux(const struct pm_boundary *b, const struct pm_boundary_eps *eps)
+int pm_boundary_flux(int status, const struct pm_boundary *b, const struct pm_boundary_eps *eps, struct pm_boundary_flux *flux)
 {
 	const struct pm_grid *g = &b->grid;
 	struct pm_sum sum[2] = {{0, 0}};
 	const struct pm_parts parts = {.size = sizeof sum, .make = make_flux, .join = pm_join_sums};
-	for (int d = 0; d < g->dim; d++)
-		for (int side = 0; side < 2; side++) {
-			struct face face = {.g = g, .eps = eps, .value = b->value[d][side], .d = d, .side = side};
-			across(d, face.t);
-			if (g->face[d][side] == PM_NEUMANN && face.value)
-				pm_over_mesh(&parts, &face, (const size_t[3]){g->points[face.t[0]], g->points[face.t[1]], 1}, sum);
-		}
-	return (struct pm_boundary_flux){pm_sum_total(sum[0]), pm_sum_total(sum[1])};
+	for (int a = 0; a < 2 * g->dim; a++) {
+		const int d = a / 2, side = a % 2;
+		struct face face = {.g = g, .value = b->value[d][side], .d = d, .side = side};
+		size_t from, to;
+		if (g->face[d][side] != PM_NEUMANN || !face.value)
+			continue;
+		double *here = eps && !status ? pm_alloc(pm_boundary_points(g, d), sizeof *here) : NULL;
+		status = status || !eps || here ? status : -PM_DATA;
+		pm_boundary_here(b, d, side, &from, &to);
+		for (size_t i = from; here && i < to; i++)
+			here[i] = eps->eps[pm_boundary_node(b, d, side, i)];
+		if (eps)
+			status = pm_boundary_share(status, b, d, side, here);
+		face.eps = here;
+		across(d, face.t);
+		if (!status)
+			pm_over_mesh(&parts, &face, (const size_t[3]){g->points[face.t[0]], g->points[face.t[1]], 1}, sum);
+		pm_free(here);
+	}
+	*flux = (struct pm_boundary_flux){pm_sum_total(sum[0]), pm_sum_total(sum[1])};
+	return status;
 }

@@ -73,27 +73,22 @@ int pm_given_declare(struct pm_given_values *v, struct pm_frame *f, const char *
 	return status;
 }
 
-/* The nodes of a face, in the order of boundary.h. */
-static size_t *nodes_of(const struct pm_grid *g, int d, int side)
-{
-	const size_t *n = g->points, first = d == 0, second = d == 2 ? 1 : 2;
-	size_t count = pm_boundary_points(g, d), step[3] = {1, n[0], n[0] * n[1]}, *node = pm_alloc(count, sizeof *node);
-	for (size_t i = 0; node && i < count; i++)
-		node[i] = i % n[first] * step[first] + i / n[first] * step[second] + (side ? n[d] - 1 : 0) * step[d];
-	return node;
-}
-
+/* Each rank takes the nodes that it has. */
 static int evaluate(const struct pm_given_values *v, const struct pm_frame *f, int d, int side, int c, struct pm_boundary *b)
 {
 	const struct pm_expression *e = &v->e[d][side];
-	size_t n = pm_boundary_points(&b->grid, d), *node = nodes_of(&b->grid, d, side);
+	size_t from, to;
+	pm_boundary_here(b, d, side, &from, &to);
+	size_t n = to - from, *node = pm_alloc(n + 1, sizeof *node);
 	int status = node ? pm_boundary_room(b, d, side) : -PM_DATA;
+	for (size_t i = 0; node && i < n; i++)
+		node[i] = pm_boundary_node(b, d, side, from + i);
 	if (!status)
-		pm_expression_eval_at(e, f, e->nparts > 1 ? c : 0, n, node, b->value[d][side]);
-	if (!status && !pm_finite_few(n, b->value[d][side]))
+		pm_expression_eval_at(e, f, e->nparts > 1 ? c : 0, n, node, b->value[d][side] + from);
+	if (!status && !pm_finite_few(n, b->value[d][side] + from))
 		status = pm_fail(PM_NUMERICS, "'%s' is not finite at a node of the face %s", v->text[d][side], pm_face_places[d][side]);
 	pm_free(node);
-	return status;
+	return pm_boundary_share(status, b, d, side, b->value[d][side]);
 }
 
 int pm_given_evaluate(const struct pm_given_values *v, const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c,

@@ -5,6 +5,7 @@
 #include "mesh/given-faces.h"
 #include "poisson/problem.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 const char *const pm_wall_rule_names[] = {"tangential", "normal", "all", NULL};
 
@@ -100,13 +101,14 @@ struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
 struct charges {
 	const struct pm_grid *g;
 	const double *s;
+	size_t first; /* row of the mesh */
 };
 
 /* The charge of a row, and without its sign. */
 static void make_charges(const void *data, size_t from, size_t to, void *part)
 {
 	const struct charges *c = data;
-	const size_t row = from / (to - from), j = row % c->g->points[1], k = row / c->g->points[1];
+	const size_t row = c->first + from / (to - from), j = row % c->g->points[1], k = row / c->g->points[1];
 	struct pm_sum *sum = part;
 	for (size_t i = from; i < to; i++) {
 		const double charge = pm_grid_weight(c->g, i - from, j, k) * c->s[i];
@@ -116,15 +118,15 @@ static void make_charges(const void *data, size_t from, size_t to, void *part)
 }
 
 /* The integrals whose difference a problem without walls must not have. */
-static void integrals(struct pm_homogeneous *m, double c, const double *s, const struct pm_boundary_eps *eps)
+static int integrals(int status, struct pm_homogeneous *m, double c, const double *s, const struct pm_boundary_eps *eps)
 {
 	const struct pm_grid *g = &m->boundary.grid;
 	struct pm_sum sum[2] = {{0, 0}};
 	const struct pm_parts parts = {.size = sizeof sum, .make = make_charges, .join = pm_join_sums};
-	pm_over_mesh(&parts, &(struct charges){g, s}, g->points, sum);
+	status = pm_planes_over(status, &m->planes, &parts, &(struct charges){g, s, pm_planes_row(&m->planes, 0)}, sum);
 	m->charge = c * pm_grid_cell(g) * pm_sum_total(sum[0]);
 	m->charge_absolute = fabs(c) * pm_grid_cell(g) * pm_sum_total(sum[1]);
-	m->flux = pm_boundary_flux(&m->boundary, eps);
+	return pm_boundary_flux(status, &m->boundary, eps, &m->flux);
 }
 
 int pm_problem_move(const struct pm_problem *p, const struct pm_frame *f, int c, int order, const struct pm_boundary_eps *eps, struct pm_homogeneous *m)
@@ -132,20 +134,21 @@ int pm_problem_move(const struct pm_problem *p, const struct pm_frame *f, int c,
 	*m = (struct pm_homogeneous){.c = p->c, .s = pm_in(p->source, c), .boundary = {.grid = pm_problem_grid(p, c)}};
 	if (!p->given.any)
 		return 0;
-	const size_t n = pm_grid_size(&p->grid);
-	int status = pm_given_evaluate(&p->given, f, p->law, p->source, c, p->c, &m->boundary);
-	if (status || !(m->source = pm_alloc(n, sizeof(double))) || !(m->moved = pm_alloc(n, sizeof(double)))) {
+	int status = pm_world_agree(pm_planes_init(&m->planes, &m->boundary.grid, p->source));
+	const size_t n = m->planes.here * m->planes.size;
+	m->boundary.planes = &m->planes;
+	if (!status)
+		status = pm_given_evaluate(&p->given, f, p->law, p->source, c, p->c, &m->boundary);
+	if (!status && (!(m->source = pm_alloc(n + 1, sizeof(double))) || !(m->moved = pm_alloc(n + 1, sizeof(double)))))
+		status = -PM_DATA;
+	status = integrals(status, m, p->c, m->s, eps);
+	if (status)
 		pm_homogeneous_free(m);
-		return status ? status : -PM_DATA;
-	}
-	if (order == 0) {
-		integrals(m, p->c, m->s, eps);
-		return 0;
-	}
+	if (status || order == 0)
+		return status;
 	pm_boundary_known(&m->boundary, order, PM_BOUNDARY_ALL, eps, m->moved);
 	for (size_t i = 0; i < n; i++)
 		m->source[i] = p->c * m->s[i] - (order == 4 ? 0 : m->moved[i]);
-	integrals(m, p->c, m->s, eps);
 	m->c = 1;
 	m->s = m->source;
 	m->known = order == 4 ? m->moved : NULL;
@@ -162,6 +165,7 @@ void pm_homogeneous_close(struct pm_homogeneous *m, double *phi)
 void pm_homogeneous_free(struct pm_homogeneous *m)
 {
 	pm_boundary_free(&m->boundary);
+	pm_planes_free(&m->planes);
 	m->source = pm_free(m->source);
 	m->moved = pm_free(m->moved);
 }

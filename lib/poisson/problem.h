@@ -38,6 +38,7 @@ struct pm_homogeneous {
 	const double *known;  /* of compact differences of order 4, which the solver subtracts behind its own treatment of s; else NULL */
 	double charge, charge_absolute; /* the integral of the law's c s and its absolute value, if values are given */
 	struct pm_boundary_flux flux;
+	struct pm_planes planes; /* of the source */
 	struct pm_boundary boundary;
 	double *source, *moved;
 };
@@ -48,7 +49,8 @@ void pm_problem_not_of_law(struct pm_problem *p); /* the target is not the law's
 /* A coefficient beside the source: one component on the nodes of the same mesh; read. */
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field);
 /* Data: component c with its boundary values moved to the right-hand side, for differences of order 2 or 4; 0: not moved, boundary has them; eps NULL: 1.
- * Where no values are given, c and s are the problem's own. pm_homogeneous_close writes the values onto the walls of phi; free in any case. 0 or failure. */
+ * Where no values are given, c and s are the problem's own. pm_homogeneous_close writes the values onto the walls of phi; free in any case. 0 or failure,
+ * which the ranks agree on. */
 int pm_problem_move(const struct pm_problem *p, const struct pm_frame *f, int c, int order, const struct pm_boundary_eps *eps, struct pm_homogeneous *m);
 void pm_homogeneous_close(struct pm_homogeneous *m, double *phi);
 void pm_homogeneous_free(struct pm_homogeneous *m);

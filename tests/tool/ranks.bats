@@ -325,6 +325,26 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	grep -q 'poisson-mg.*out of memory' said
 }
 
+@test "any number of ranks: values given on faces and sums over the particles on open ones, by each solver" {
+	local s
+	pinit uniform -n 300 --faces wall,neumann,wall,neumann,neumann,wall --particle-faces reflect --dispersion 0.3 >mixed
+	pinit uniform -n 300 --dim 2 --faces wall --particle-faces reflect --dispersion 0.3 >walls
+	pinit uniform -n 5000 --dim 2 --faces open --particle-faces reflect --dispersion 0.3 >open
+	for s in poisson-fft "poisson-mg --order 4" "poisson-relax --tolerance 1e-4"; do
+		same "push drift | p2m -n 9x8x7 | scalc --mesh mesh 'k = rho*x' | $s --dirichlet 'k + time*y' --flux x+z | mgrad | m2p" <mixed
+	done
+	same "$(kicks "p2m -n 17x40 | poisson-mg --dirichlet '1 + x*y' | mgrad | m2p")" <walls
+	same "push drift | p2m -n 17x40 | poisson-fft --symbol spectral --dirichlet 'x*y*(1 - x)*(1 - y)'" --store all <walls
+	pinit uniform -n 300 --faces neumann --particle-faces reflect | same "push drift | p2m -n 9x8x9 | poisson-mg --flux x" --store all # what is too much
+	pinit uniform -n 300 --dim 1 --faces wall,neumann | same "push drift | p2m -n 33 | poisson-fft --x-low 3 --flux 1" --store all
+	same "push drift | p2m -n 33x20 | poisson-fft --open-faces sum" --store all <open
+	shares "push drift, p2m -n 33x20, poisson-mg --open-faces sum" "push drift | p2m -n 33x20 | poisson-mg --open-faces sum" <open
+	cycle -q -n 1 "p2m -n 9x8x7 | poisson-fft --dirichlet 'log(z)' --flux 1 | push drift" <mixed 2>want >/dev/null && return 1
+	on 3 cycle -q -n 1 "p2m -n 9x8x7 | poisson-fft --dirichlet 'log(z)' --flux 1 | push drift" <mixed 2>got >/dev/null && return 1
+	grep -q 'not finite at a node' want
+	cmp want got
+}
+
 @test "any number of ranks: viscosity, stretching and the binomial filter, periodic and beside walls, more ranks than planes" {
 	pinit taylor-green-3d --cells 7 >space
 	same "p2m | poisson-fft | mgrad | stretch --form mixed --order 4 | diffuse --order 6 | m2p | push rk2" <space
