@@ -23,16 +23,18 @@ int pm_poisson_fft_fitted(struct pm_poisson_fft *p)
 	const bool neumann = (p->choice.fitted - 1) % 2;
 	p->green_row = p->chunks * L;
 	p->green_slab = p->green_row * p->modes[Z];
-	p->green = pm_zalloc(p->modes[Y] * p->modes[Z], p->green_row * sizeof *p->green);
+	size_t first, end;
+	pm_poisson_fft_rows_here(p, &first, &end);
+	p->green = pm_zalloc((end - first) * p->modes[Z] + 1, p->green_row * sizeof *p->green);
 	p->fold = pm_alloc(p->modes[Y], sizeof *p->fold);
 	if (!p->green || !p->fold)
 		return -PM_DATA;
-	for (size_t j = 0; j < p->modes[Y]; j++)
-		p->fold[j] = j;
+	for (size_t j = first; j < end; j++)
+		p->fold[j] = j - first;
 #pragma omp parallel for schedule(static) num_threads(pm_threads()) if (p->modes[Y] * p->green_slab > 16384)
-	for (size_t r = 0; r < p->modes[Y] * p->modes[Z]; r++)
+	for (size_t r = 0; r < (end - first) * p->modes[Z]; r++)
 		for (size_t i = 0; i < p->modes[X]; i++) {
-			const double lambda[3] = {p->lambda[X][i], p->lambda[Y][r / p->modes[Z]], p->lambda[Z][r % p->modes[Z]] + shift};
+			const double lambda[3] = {p->lambda[X][i], p->lambda[Y][first + r / p->modes[Z]], p->lambda[Z][r % p->modes[Z]] + shift};
 			double rest = -shift;
 			for (int a = X; a <= Z; a++)
 				rest += a == axis ? 0 : lambda[a];

@@ -2,7 +2,6 @@
  * faces. Cost: a table of an eighth of the mesh, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-fft/fft-passes.h"
 #include "poisson-fft/influence-table.h"
-#include "world/world.h"
 
 static double symbol(const void *choice, double theta, double h)
 {
@@ -13,9 +12,8 @@ static double symbol(const void *choice, double theta, double h)
  * mode: the modes of the table, as many as are returned. */
 static size_t held(const struct pm_poisson_fft *p, size_t modes, size_t *mode)
 {
-	const bool some = p->from && p->grid.dim == 3;
-	const size_t me = (size_t)pm_world_rank(), first = some ? p->units_of[me] : 0, end = some ? p->units_of[me + 1] : p->modes[Y];
-	size_t n = 0;
+	size_t n = 0, first, end;
+	pm_poisson_fft_rows_here(p, &first, &end);
 	for (size_t j = 0; j < modes; j++) {
 		bool here = false;
 		for (size_t y = first; y < end; y++)

@@ -2,6 +2,7 @@
  * distance is sampled there. A transform known in closed form is sampled on frequencies of a period that keeps the box and the cut function
  * apart, at least n h + reach, brought to separations 0 ... n by a cosine transform and from there to the doubled domain: the 4n of Vico, Greengard
  * and Ferrando 2016, folded once. Axes do not mix, so planes take x and y, then pencils take z.
+ * Several ranks: each makes its planes, one exchange turns them into blocks of columns, which it transforms, and one gives every rank what it wants.
  * Determinism: every number by one thread, no reductions. Cost: transforms of the octant, by closed form of twice its length or a little
  * more per axis (elongated boxes: (n h + reach)/(n h) times). Memory: two octants while it works.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -10,6 +11,7 @@
 
 #include "poisson-fft/fft-lattice.h"
 #include "poisson-fft/fft-octant.h"
+#include "world/world.h"
 
 enum { L = PM_FFT_LINES };
 
@@ -248,30 +250,119 @@ static int scratch(struct work *w)
 	return w->scratch ? 0 : -PM_DATA;
 }
 
-double *pm_octant_spectrum(struct pm_octant *o, struct pm_fft_plans *planner)
+/* Of `slab` columns in blocks of L, the first that rank r transforms. */
+static size_t column_of(size_t slab, size_t r)
+{
+	const size_t at = (slab + L - 1) / L * r / (size_t)pm_world_size() * L;
+	return at < slab ? at : slab;
+}
+
+/* From planes `first` to `end`, one behind the other, to the columns of this rank along all planes. */
+static int turn(int status, const struct work *w, const double *planes, size_t first, size_t end, size_t *bytes, double **in)
+{
+	const size_t ranks = (size_t)pm_world_size(), slab = w->side[1].size * w->o->row;
+	double *out = status ? NULL : pm_alloc((end - first) * slab + 1, sizeof *out), *to = out;
+	for (size_t r = 0; r < ranks; r++) {
+		const size_t from = column_of(slab, r), n = column_of(slab, r + 1) - from;
+		for (size_t z = 0; z < end - first && out; z++, to += n)
+			memcpy(to, planes + z * slab + from, n * sizeof *to);
+		bytes[r] = n * (end - first) * sizeof *to;
+	}
+	status = pm_world_exchange(status ? status : out ? 0 : pm_failed(), out, bytes, (void **)in, bytes + ranks);
+	pm_free(out);
+	return status;
+}
+
+/* From columns to the planes that ranks want. */
+static int deal(int status, const struct work *w, const double *columns, size_t *bytes, double **all)
+{
+	const struct pm_octant *o = w->o;
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank(), slab = w->side[1].size * o->row;
+	const size_t n = column_of(slab, me + 1) - column_of(slab, me), held = o->held_of[me + 1] - o->held_of[me];
+	double *out = status ? NULL : pm_alloc(o->held_of[ranks] * n + 1, sizeof *out), *in = NULL;
+	for (size_t i = 0; i < o->held_of[ranks] && out; i++)
+		memcpy(out + i * n, columns + o->held[i] * n, n * sizeof *out);
+	for (size_t r = 0; r < ranks; r++)
+		bytes[r] = (o->held_of[r + 1] - o->held_of[r]) * n * sizeof *out;
+	status = pm_world_exchange(status ? status : out ? 0 : pm_failed(), out, bytes, (void **)&in, bytes + ranks);
+	pm_free(out);
+	*all = status ? NULL : pm_alloc(held * slab + 1, sizeof **all);
+	const double *from = in;
+	for (size_t r = 0; r < ranks && *all; r++) {
+		const size_t at = column_of(slab, r), wide = column_of(slab, r + 1) - at;
+		for (size_t i = 0; i < held; i++, from += wide)
+			memcpy(*all + i * slab + at, from, wide * sizeof *from);
+	}
+	pm_free(in);
+	return pm_world_agree(status ? status : *all ? 0 : pm_failed());
+}
+
+static int spectrum_of_ranks(int status, const struct work *w, double **all)
+{
+	const struct side *z = &w->side[2];
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank(), slab = w->side[1].size * w->o->row;
+	const size_t first = z->samples * me / ranks, end = z->samples * (me + 1) / ranks, *held = w->o->held + w->o->held_of[me];
+	const size_t n = z->open ? end - first : w->o->held_of[me + 1] - w->o->held_of[me];
+	const size_t wide = column_of(slab, me + 1) - column_of(slab, me);
+	double *planes = status ? NULL : pm_alloc(n * slab + 1, sizeof *planes), *columns_in = NULL;
+	size_t *bytes = status ? NULL : pm_alloc(2 * ranks, sizeof *bytes);
+	status = pm_world_agree(status ? status : planes && bytes ? 0 : pm_failed());
+#pragma omp parallel for schedule(dynamic) num_threads(pm_threads()) if (n * slab > 16384)
+	for (size_t i = 0; i < (status ? 0 : n); i++)
+		plane(w, z->open ? first + i : held[i], planes + i * slab);
+	if (status || !z->open) {
+		*all = status ? pm_free(planes) : planes;
+		pm_free(bytes);
+		return status;
+	}
+	status = turn(status, w, planes, first, end, bytes, &columns_in);
+	pm_free(planes);
+#pragma omp parallel for schedule(static) num_threads(pm_threads()) if (z->samples * wide > 16384)
+	for (size_t b = 0; b < (status ? 0 : (wide + L - 1) / L); b++) {
+		double *block = w->scratch + (size_t)omp_get_thread_num() * (2 * w->block + w->plane);
+		columns(z, wide - b * L < L ? wide - b * L : L, wide, columns_in + b * L, block, block + w->block);
+	}
+	status = status ? status : deal(status, w, columns_in, bytes, all);
+	pm_free(columns_in), pm_free(bytes);
+	return status;
+}
+
+/* All planes here. */
+static int spectrum(const struct work *w, double **out)
+{
+	const struct side *z = &w->side[2];
+	const size_t slab = w->side[1].size * w->o->row;
+	double *all = pm_alloc(z->samples * slab, sizeof *all);
+	if (!all)
+		return -PM_DATA;
+	planes(w, all);
+	if (z->open)
+		pencils(w, all);
+	*out = all;
+	if (z->samples == z->size)
+		return 0;
+	if ((*out = pm_alloc(z->size * slab, sizeof *all)))
+		memcpy(*out, all, z->size * slab * sizeof *all);
+	pm_free(all);
+	return *out ? 0 : -PM_DATA;
+}
+
+int pm_octant_spectrum(int status, struct pm_octant *o, struct pm_fft_plans *planner, double **all)
 {
 	struct work w = {.o = o};
-	double *all = NULL, *out = NULL;
-	bool screened = cases(&w);
-	w.fold = !o->green->at || (screened && o->green->transform && o->green->smooth(w.cases));
-	if (!w.cases || lattice(&w) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
-		goto out;
-	size_t slab = w.side[1].size * o->row;
-	if (!(all = pm_alloc(w.side[2].samples * slab, sizeof *all)))
-		goto out;
-	planes(&w, all);
-	if (w.side[2].open)
-		pencils(&w, all);
-	if (w.side[2].samples == w.side[2].size) {
-		out = all, all = NULL;
-		goto out;
+	*all = NULL;
+	if (!status) {
+		bool screened = cases(&w);
+		w.fold = !o->green->at || (screened && o->green->transform && o->green->smooth(w.cases));
+		if (!w.cases || lattice(&w) || side_init(&w, 0, planner) || side_init(&w, 1, planner) || side_init(&w, 2, planner) || scratch(&w))
+			status = -PM_DATA;
 	}
-	if ((out = pm_alloc(w.side[2].size * slab, sizeof *out)))
-		memcpy(out, all, w.side[2].size * slab * sizeof *out);
-out:
-	pm_free(all);
+	if (o->held_of)
+		status = spectrum_of_ranks(status, &w, all);
+	else if (!status)
+		status = spectrum(&w, all);
 	pm_free(w.scratch);
 	pm_free(w.cases);
 	pm_lattice_free(w.lattice);
-	return out;
+	return status;
 }

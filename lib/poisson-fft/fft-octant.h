@@ -20,9 +20,11 @@ struct pm_octant {
 	} axis[3];               /* x, y, z as they lie in memory */
 	size_t rows, *map;       /* numbers in a row, and of each which frequency or mode along x it is; 0 where that is none */
 	size_t row;              /* [doubles] stride of rows */
+	size_t *held, *held_of;  /* NULL, or of several ranks those along axis 2 that each wants, one rank behind the other, and where each rank begins */
 };
 
-/* spectrum[z][y][x] with the strides row and axis[0..1], of sum over nodes of h^d G s for unit s: pm_alloc'ed; NULL with a message. */
-double *pm_octant_spectrum(struct pm_octant *o, struct pm_fft_plans *planner);
+/* *all: spectrum[z][y][x] with the strides row and axis[0..1], of sum over nodes of h^d G s for unit s, pm_alloc'ed; of several ranks z counts those that this
+ * one wants. Takes the caller's status, and returns it or a failure; of several ranks the one that they agree on. */
+int pm_octant_spectrum(int status, struct pm_octant *o, struct pm_fft_plans *planner, double **all);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "poisson-fft/fft-octant.h"
 #include "poisson-fft/fft-passes.h"
+#include "world/world.h"
 
 extern const struct pm_green green_hockney, green_lattice;
 
@@ -74,6 +75,32 @@ static void axis(const struct pm_poisson_fft *p, int a, double h, struct pm_octa
 	o->axis[at].lambda = lambda[a];
 }
 
+/* In space each rank has the rows of its own pencils (j and 2n - j may have two owners, who both have it); fold becomes the place among these. */
+static int held(struct pm_poisson_fft *p, size_t rows, struct pm_octant *o)
+{
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
+	size_t *place = pm_alloc(rows, sizeof *place), n = 0;
+	o->held = pm_alloc(p->modes[Y] + 1, sizeof *o->held), o->held_of = pm_alloc(ranks + 1, sizeof *o->held_of);
+	if (!place || !o->held || !o->held_of)
+		return pm_free(place), -PM_DATA;
+	for (size_t r = 0; r < ranks; r++) {
+		const size_t none = (size_t)-1;
+		o->held_of[r] = n;
+		for (size_t i = 0; i < rows; i++)
+			place[i] = none;
+		for (uint64_t j = p->units_of[r]; j < p->units_of[r + 1]; j++)
+			place[p->fold[j]] = 0;
+		for (size_t i = 0; i < rows; i++)
+			if (place[i] != none)
+				o->held[n] = i, place[i] = n++ - o->held_of[r];
+		for (uint64_t j = p->units_of[r]; j < p->units_of[r + 1] && r == me; j++)
+			p->fold[j] = place[p->fold[j]];
+	}
+	o->held_of[ranks] = n;
+	pm_free(place);
+	return 0;
+}
+
 int pm_poisson_fft_green(struct pm_poisson_fft *p)
 {
 	const struct pm_grid *g = &p->grid;
@@ -98,13 +125,18 @@ int pm_poisson_fft_green(struct pm_poisson_fft *p)
 		o.map[i] = i < p->modes[X] ? row_of(&p->line[X], i) : (size_t)-1;
 	for (size_t i = 0; fine && i < p->modes[Y]; i++)
 		p->fold[p->complex ? p->line[Y].fft->at[i] : i] = row_of(&p->line[Y], i);
-	if (fine && (p->green = pm_octant_spectrum(&o, &p->planner))) {
+	const bool some = p->from && g->dim == 3;
+	fine = fine && !(some && held(p, o.axis[2].n + 1, &o));
+	int status = some ? pm_world_agree(fine ? 0 : pm_failed()) : fine ? 0 : -PM_DATA;
+	if (!status)
+		status = pm_octant_spectrum(status, &o, &p->planner, &p->green);
+	if (!status) {
 		p->green_row = o.row;
 		p->green_slab = o.row * o.axis[1].size;
 		p->green_least = row_of(&p->line[Z], 0);
 	}
-	pm_free(o.map);
+	pm_free(o.map), pm_free(o.held), pm_free(o.held_of);
 	for (int a = X; a <= Z; a++)
 		pm_free(lambda[a]);
-	return p->green ? 0 : -PM_DATA;
+	return status;
 }

@@ -27,7 +27,7 @@ struct pm_poisson_fft {
 	double *lambda[3];             /* [1/length^2]: X per lane, padded with -1; Y per row of a plane of modes; Z per mode */
 	double *green;                 /* open: transform of the Green's function over open axes (fft-open.c) */
 	size_t green_row, green_slab;  /* [doubles] green[y][z][x], x in the order of the modes */
-	size_t *fold, green_least;     /* open: of each row of a plane of modes the row y of green; the row z of the first mode */
+	size_t *fold, green_least;     /* open: of each row of a plane of modes (of this rank) the row y of green; the row z of the first mode */
 	int threads;
 	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
 	double *scratch;
@@ -61,6 +61,9 @@ int pm_poisson_fft_to_planes(int status, struct pm_poisson_fft *p, double **penc
 /* One unit of them, nodes[Z] rows of modes (in 2-D of L numbers), to a slab or back; and the mode of constants, which one rank has, to all. */
 void pm_poisson_fft_unit(const struct pm_poisson_fft *p, size_t unit, double *pencils, double *slab, bool back);
 int pm_poisson_fft_zero(int status, struct pm_poisson_fft *p);
+
+/* Rows y of a plane of modes whose pencils are of this rank (in 2-D all). */
+void pm_poisson_fft_rows_here(const struct pm_poisson_fft *p, size_t *first, size_t *end);
 
 /* Eigenvalues of the modes of an axis by the row they are in, -1 beyond up to size; NULL with a message. */
 double *pm_poisson_fft_eigenvalues(const struct pm_transform *l, size_t modes, size_t size, bool in_place, enum pm_symbol symbol, double h);

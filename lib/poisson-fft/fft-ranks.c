@@ -50,6 +50,13 @@ bool pm_poisson_fft_same_ranks(const struct pm_poisson_fft *p, const struct pm_p
 	return divided == (p->from != NULL) && (!divided || !memcmp(p->from, planes->from, ((size_t)pm_world_size() + 1) * sizeof *p->from));
 }
 
+void pm_poisson_fft_rows_here(const struct pm_poisson_fft *p, size_t *first, size_t *end)
+{
+	const bool some = p->from && thick(p);
+	*first = some ? (size_t)p->units_of[pm_world_rank()] : 0;
+	*end = some ? (size_t)p->units_of[pm_world_rank() + 1] : p->modes[Y];
+}
+
 /* In 2-D rows of chunks to units, or back. */
 static void turn_rows(const struct pm_poisson_fft *p, double *units, bool back)
 {

@@ -3,6 +3,7 @@
 
 #include "poisson-fft/fft-passes.h"
 #include "poisson-fft/fft-solvers.h"
+#include "world/world.h"
 
 static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 {
@@ -12,11 +13,15 @@ static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 
 struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
 {
-	for (const struct pm_fft_made *m = s->made; m < s->made + s->n; m++)
+	const struct pm_fft_made *m = s->made;
+	for (; m < s->made + s->n; m++)
 		if (o->symbol == m->symbol && o->fitted == m->fitted && o->softening == m->softening && pm_influence_same(&o->influence, &m->influence) &&
 			same_grid(g, &m->grid) && pm_poisson_fft_same_ranks(m->solver, o->planes))
-			return m->solver;
-	return NULL;
+			break;
+	double lacks = m == s->made + s->n;
+	if (o->planes && o->planes->divided && pm_world_largest(0, 1, &lacks))
+		return NULL;
+	return lacks > 0 ? NULL : m->solver;
 }
 
 struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, bool alone)

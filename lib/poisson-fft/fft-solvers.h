@@ -19,7 +19,8 @@ struct pm_fft_solvers {
 	} made[PM_FFT_SOLVERS];
 };
 
-/* The solver for a grid; NULL if there is none yet. Of the choice only symbol, fitted, softening, influence and planes may differ between calls. */
+/* The solver for a grid; NULL if there is none yet, of several ranks on any of them (one is made by all together). Of the choice only symbol,
+ * fitted, softening, influence and planes may differ between calls. */
 struct pm_poisson_fft *pm_fft_solvers_find(const struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 /* Makes one; a scalar source (alone) needs no other beside it. NULL with a message. */
 struct pm_poisson_fft *pm_fft_solvers_add(struct pm_fft_solvers *s, const struct pm_grid *g, const struct pm_poisson_fft_choice *o, bool alone);

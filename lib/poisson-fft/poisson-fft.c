@@ -194,6 +194,7 @@ static int symbols(struct pm_poisson_fft *p)
 	return p->choice.wave > 0 && !p->empty && !p->choice.fitted ? pm_poisson_fft_resonance(p) : 0;
 }
 
+/* Ranks that share the mesh call it together. */
 static int multipliers(struct pm_poisson_fft *p)
 {
 	const struct pm_poisson_fft_choice *o = &p->choice;
@@ -212,11 +213,13 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 {
 	if (pm_poisson_fft_check(g, o))
 		return NULL;
+	const bool divided = o->planes && o->planes->divided;
 	struct pm_poisson_fft *p = calloc(1, sizeof *p);
-	if (!p) {
-		pm_no_memory();
+	int status = p ? 0 : pm_no_memory();
+	if (!p && divided)
+		pm_world_agree(status);
+	if (!p)
 		return NULL;
-	}
 	p->grid = *g;
 	p->choice = *o;
 	p->singular = pm_poisson_fft_singular(g, o);
@@ -226,9 +229,12 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		p->open = p->open || open[0] || open[1];
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	if (o->james ? !(p->james = pm_fft_james_new(g)) : layout(p) || multipliers(p))
-		p = pm_poisson_fft_free(p);
-	return p;
+	status = !o->james ? layout(p) : (p->james = pm_fft_james_new(g)) ? 0 : -PM_DATA;
+	if (divided)
+		status = pm_world_agree(status);
+	if (!status && !o->james)
+		status = multipliers(p);
+	return status ? pm_poisson_fft_free(p) : p;
 }
 
 struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)

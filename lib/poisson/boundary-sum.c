@@ -58,7 +58,8 @@ static int room(const struct pm_frame *f, const struct pm_law *law, const struct
 	return good ? 0 : -PM_DATA;
 }
 
-static int fill(int status, const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c, const struct pm_grid *g, struct bodies *b)
+static int fill(int status, const struct pm_frame *f, const struct pm_law *law, const struct pm_field *density, int c, const struct pm_grid *g,
+	struct bodies *b)
 {
 	size_t at = 0;
 	for (int a = 0; a < 2 * g->dim && !status; a++) {
