@@ -8,9 +8,10 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifdef __AVX512F__
+#ifdef __AVX__
 #include <immintrin.h>
-#else
+#endif
+#ifndef __AVX512F__
 #pragma GCC diagnostic ignored "-Wpsabi" /* how vectors are passed to functions: all of ours are inlined */
 #endif
 
@@ -26,11 +27,16 @@ enum { PM_SIMD_PART = 2 };
 typedef double pm_simd_part __attribute__((vector_size(PM_SIMD_PART * sizeof(double))));
 typedef double pm_simd_part_at __attribute__((vector_size(PM_SIMD_PART * sizeof(double)), may_alias)); /* aligned to its size */
 
-/* Files whose lanes are things of their own, eight of which need not be together, say PM_SIMD_NARROW and get vectors of one register. */
-#ifdef PM_SIMD_NARROW
-enum { PM_SIMD_WIDTH = PM_SIMD_PART };
-#else
+/* Files whose lanes are things of their own, eight of which need not be together, say PM_SIMD_NARROW and get vectors of one register; those that turn
+ * matrices of four rows say PM_SIMD_FOURS and get eight lanes where a register holds them, else four. */
+#if !defined PM_SIMD_NARROW && !defined PM_SIMD_FOURS || defined __AVX512F__
+#define PM_SIMD_EIGHT
 enum { PM_SIMD_WIDTH = 8 };
+#elif defined PM_SIMD_FOURS || defined __AVX__
+#define PM_SIMD_FOUR
+enum { PM_SIMD_WIDTH = 4 };
+#else
+enum { PM_SIMD_WIDTH = 2 };
 #endif
 typedef double pm_simd __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double))));
 typedef int64_t pm_simd_bits __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(double))));
@@ -57,9 +63,9 @@ typedef int32_t pm_simd_int_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof
 
 PM_SIMD_INLINE pm_simd pm_simd_all(double x)
 {
-#if !defined PM_SIMD_NARROW || defined __AVX512F__
+#if defined PM_SIMD_EIGHT
 	return (pm_simd){x, x, x, x, x, x, x, x};
-#elif defined __AVX__
+#elif defined PM_SIMD_FOUR
 	return (pm_simd){x, x, x, x};
 #else
 	return (pm_simd){x, x};
@@ -69,9 +75,9 @@ PM_SIMD_INLINE pm_simd pm_simd_all(double x)
 /* 0, 1, 2, ... */
 PM_SIMD_INLINE pm_simd_bits pm_simd_lanes(void)
 {
-#if !defined PM_SIMD_NARROW || defined __AVX512F__
+#if defined PM_SIMD_EIGHT
 	return (pm_simd_bits){0, 1, 2, 3, 4, 5, 6, 7};
-#elif defined __AVX__
+#elif defined PM_SIMD_FOUR
 	return (pm_simd_bits){0, 1, 2, 3};
 #else
 	return (pm_simd_bits){0, 1};
@@ -121,9 +127,9 @@ PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)
 
 /* Lanes of two vectors: which, where a vector has eight, four and two. */
 #define PM_SIMD_LANES(...) __VA_ARGS__
-#if !defined PM_SIMD_NARROW || defined __AVX512F__
+#if defined PM_SIMD_EIGHT
 #define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES eight)
-#elif defined __AVX__
+#elif defined PM_SIMD_FOUR
 #define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES four)
 #else
 #define PM_SIMD_PICK(a, b, eight, four, two) __builtin_shufflevector(a, b, PM_SIMD_LANES two)
@@ -229,6 +235,9 @@ PM_SIMD_INLINE pm_simd pm_simd_divide(pm_simd a, pm_simd b, pm_simd r)
 #ifdef __AVX512F__
 	pm_simd q = a * r;
 	return pm_simd_fma(pm_simd_fnma(q, b, a), r, q);
+#elif defined PM_SIMD_FOUR && defined __FMA__
+	__m256d q = (__m256d)(a * r);
+	return (pm_simd)_mm256_fmadd_pd(_mm256_fnmadd_pd(q, (__m256d)b, (__m256d)a), (__m256d)r, q);
 #else
 	(void)r;
 	return a / b;
@@ -240,6 +249,8 @@ PM_SIMD_INLINE unsigned pm_simd_outside(pm_simd v, pm_simd low, pm_simd high)
 {
 #ifdef __AVX512F__
 	return (unsigned)_mm512_cmp_pd_mask((__m512d)v, (__m512d)low, _CMP_NGE_UQ) | (unsigned)_mm512_cmp_pd_mask((__m512d)v, (__m512d)high, _CMP_NLE_UQ);
+#elif defined PM_SIMD_FOUR && defined __AVX__
+	return 15u ^ (unsigned)_mm256_movemask_pd((__m256d)((v >= low) & (v <= high)));
 #else
 	pm_simd_bits in = (v >= low) & (v <= high);
 	unsigned out = 0;
@@ -256,33 +267,121 @@ PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
 	__m256i cell = _mm512_cvttpd_epi32((__m512d)v);
 	*whole = (pm_simd_int)cell;
 	return v - (pm_simd)_mm512_cvtepi32_pd(cell);
+#elif defined PM_SIMD_FOUR && defined __AVX__
+	__m128i cell = _mm256_cvttpd_epi32((__m256d)v);
+	*whole = (pm_simd_int)cell;
+	return v - (pm_simd)_mm256_cvtepi32_pd(cell);
 #else
 	*whole = __builtin_convertvector(v, pm_simd_int);
 	return v - __builtin_convertvector(*whole, pm_simd);
 #endif
 }
 
-#if !defined PM_SIMD_NARROW || defined __AVX512F__
-/* Eight values, four at each address. */
-PM_SIMD_INLINE pm_simd pm_simd_fours(const double *a, const double *b)
+/* The same for four. */
+PM_SIMD_INLINE pm_simd4_at pm_simd4_split(pm_simd4_at v, pm_simd4_int_at *whole)
 {
-#ifdef __AVX512F__
-	return (pm_simd)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(a)), _mm256_loadu_pd(b), 1);
+#ifdef __AVX__
+	__m128i cell = _mm256_cvttpd_epi32((__m256d)v);
+	*whole = (pm_simd4_int_at)cell;
+	return v - (pm_simd4_at)_mm256_cvtepi32_pd(cell);
 #else
+	*whole = __builtin_convertvector(v, pm_simd4_int_at);
+	return v - __builtin_convertvector(*whole, pm_simd4_at);
+#endif
+}
+
+#if defined PM_SIMD_EIGHT || defined PM_SIMD_FOUR
+/* A matrix of 4 rows to columns, of 4 x 8 in two halves: lane l of v[k] becomes lane k of to[l], and lane 4 + l lane 4 + k. */
+PM_SIMD_INLINE void pm_simd_turn(const pm_simd v[4], pm_simd to[4])
+{
+#ifdef PM_SIMD_EIGHT
+#define PM_SIMD_TURN(a, b, eight, four) __builtin_shufflevector(a, b, PM_SIMD_LANES eight)
+#else
+#define PM_SIMD_TURN(a, b, eight, four) __builtin_shufflevector(a, b, PM_SIMD_LANES four)
+#endif
+	const pm_simd a = PM_SIMD_TURN(v[0], v[1], (0, 8, 2, 10, 4, 12, 6, 14), (0, 4, 2, 6));
+	const pm_simd b = PM_SIMD_TURN(v[0], v[1], (1, 9, 3, 11, 5, 13, 7, 15), (1, 5, 3, 7));
+	const pm_simd c = PM_SIMD_TURN(v[2], v[3], (0, 8, 2, 10, 4, 12, 6, 14), (0, 4, 2, 6));
+	const pm_simd d = PM_SIMD_TURN(v[2], v[3], (1, 9, 3, 11, 5, 13, 7, 15), (1, 5, 3, 7));
+	to[0] = PM_SIMD_TURN(a, c, (0, 1, 8, 9, 4, 5, 12, 13), (0, 1, 4, 5));
+	to[1] = PM_SIMD_TURN(b, d, (0, 1, 8, 9, 4, 5, 12, 13), (0, 1, 4, 5));
+	to[2] = PM_SIMD_TURN(a, c, (2, 3, 10, 11, 6, 7, 14, 15), (2, 3, 6, 7));
+	to[3] = PM_SIMD_TURN(b, d, (2, 3, 10, 11, 6, 7, 14, 15), (2, 3, 6, 7));
+#undef PM_SIMD_TURN
+}
+
+/* Four values at each address: those of at[k], and in eight lanes those of at[k + 4]. */
+PM_SIMD_INLINE pm_simd pm_simd_fours(const double *const at[], size_t k)
+{
+#if defined PM_SIMD_FOUR
+	return pm_simd_load_any(at[k]);
+#elif defined __AVX512F__
+	return (pm_simd)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at[k])), _mm256_loadu_pd(at[k + 4]), 1);
+#else
+	const double *a = at[k], *b = at[k + 4];
 	return (pm_simd){a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
 #endif
 }
 
-/* Four values twice; and 1 - x four times, then x four times. */
-PM_SIMD_INLINE pm_simd pm_simd_twice(const double *p)
+/* The columns of such a matrix one behind the other. */
+PM_SIMD_INLINE void pm_simd_store_columns(double *to, const pm_simd v[4])
 {
-#ifdef __AVX512F__
-	return (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p));
+	pm_simd u[4];
+	pm_simd_turn(v, u);
+#ifdef PM_SIMD_EIGHT
+	for (int k = 0; k < 4; k += 2) {
+		pm_simd_store_any(to + 4 * k, __builtin_shufflevector(u[k], u[k + 1], 0, 1, 2, 3, 8, 9, 10, 11));
+		pm_simd_store_any(to + 4 * k + 16, __builtin_shufflevector(u[k], u[k + 1], 4, 5, 6, 7, 12, 13, 14, 15));
+	}
 #else
-	return (pm_simd){p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3]};
+	for (int k = 0; k < 4; k++)
+		pm_simd_store_any(to + 4 * k, u[k]);
 #endif
 }
 
+/* Rows of four, of as many things as there are lanes, to one vector of the things for each of the four. */
+PM_SIMD_INLINE void pm_simd_rows_to_lanes(const pm_simd4_at row[], pm_simd to[4])
+{
+	pm_simd v[4];
+	PM_SIMD_UNROLL
+	for (int k = 0; k < 4; k++)
+#ifdef PM_SIMD_EIGHT
+		v[k] = __builtin_shufflevector(row[k], row[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+		v[k] = row[k];
+#endif
+	pm_simd_turn(v, to);
+}
+
+/* Two neighbours at each of four addresses: the first ones and the second ones. */
+PM_SIMD_INLINE void pm_simd4_pairs(const double *const at[4], size_t on, pm_simd4_at to[2])
+{
+	pm_simd2_at p[4];
+	PM_SIMD_UNROLL
+	for (int l = 0; l < 4; l++)
+		p[l] = *(const pm_simd2_at *)(at[l] + on);
+	const pm_simd4_at even = __builtin_shufflevector(p[0], p[2], 0, 1, 2, 3), odd = __builtin_shufflevector(p[1], p[3], 0, 1, 2, 3);
+	to[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+	to[1] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+}
+
+/* to[0..3] += (1 - x) p[0..3], to[4..7] += x p[0..3]; `to` aligned as a line of the cache. */
+PM_SIMD_INLINE void pm_simd_add_below_above(double *to, const double *p, double x)
+{
+#ifdef __AVX512F__
+	const __m512d part = _mm512_mask_sub_pd(_mm512_set1_pd(x), 0x0f, _mm512_set1_pd(1), _mm512_set1_pd(x));
+	pm_simd_store(to, pm_simd_load(to) + (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p)) * (pm_simd)part);
+#else
+	pm_simd4_at *at = (pm_simd4_at *)to;
+	const pm_simd4_at four = *(const pm_simd4_at *)p;
+	at[0] += four * (1 - x);
+	at[1] += four * x;
+#endif
+}
+#endif
+
+#ifdef PM_SIMD_EIGHT
+/* 1 - x four times, then x four times. */
 PM_SIMD_INLINE pm_simd pm_simd_below_above(double x)
 {
 #ifdef __AVX512F__

@@ -5,8 +5,10 @@
 
 #include "transfer/tile-order.h"
 
-/* Whether eight particles at a time are worth it: where a register holds less, the loops over records are faster. */
+/* Whether eight or four particles at a time are worth it: where a register holds less, the loops over records are faster. */
 enum { PM_TILE_CIC_EIGHT = (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH };
+/* Whether a gather reads the corners of cells; where a register holds four, the two points of each row are read from the block. */
+enum { PM_TILE_CIC_CORNERS = (int)PM_SIMD_PART == 8 };
 
 /* m particles of the stream from p on, all on the mesh, m <= PM_TILE_ORDER_PACK; axes are those of the order. */
 struct pm_tile_batch {

@@ -1,29 +1,18 @@
-/* Eight particles of a tile at a time, for cic in 3-D: from records or from the stream, to records or to the stream. Private to lib/transfer.
+/* Eight particles of a tile at a time (four, where a register holds no more), for cic in 3-D: from records or from the stream, to records or to the stream.
+ * Private to lib/transfer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_EIGHT_H
 #define PM_TRANSFER_TILE_EIGHT_H
 
-#include "base/simd.h"
 #include "transfer/tile-cic.h"
 
-/* A matrix of 4 x 8 turned in two halves of 4 x 4: lane l of v[k] becomes lane k of to[l], and lane 4 + l lane 4 + k. */
-PM_SIMD_INLINE void turn(const pm_simd v[4], pm_simd to[4])
-{
-	const pm_simd a = __builtin_shufflevector(v[0], v[1], 0, 8, 2, 10, 4, 12, 6, 14), b = __builtin_shufflevector(v[0], v[1], 1, 9, 3, 11, 5, 13, 7, 15);
-	const pm_simd c = __builtin_shufflevector(v[2], v[3], 0, 8, 2, 10, 4, 12, 6, 14), d = __builtin_shufflevector(v[2], v[3], 1, 9, 3, 11, 5, 13, 7, 15);
-	to[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
-	to[1] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
-	to[2] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
-	to[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-
-/* w[k][l] to to[turned[l] + k]. */
-static const size_t turned[PM_SIMD_WIDTH] = {0, 8, 16, 24, 4, 12, 20, 28};
+/* w[k][l] to to[turned(l) + k]. */
+PM_SIMD_INLINE size_t turned(size_t l) { return l % 4 * PM_SIMD_WIDTH + l / 4 * 4; }
 
 PM_SIMD_INLINE void turn_out(const pm_simd w[4], double *to)
 {
 	pm_simd v[4];
-	turn(w, v);
+	pm_simd_turn(w, v);
 	PM_SIMD_UNROLL
 	for (size_t k = 0; k < 4; k++)
 		pm_simd_store(to + PM_SIMD_WIDTH * k, v[k]);
@@ -46,8 +35,8 @@ PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_
 		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
 	PM_SIMD_UNROLL
 	for (size_t k = 0; k < 4; k++)
-		v[k] = pm_simd_fours(record[k], record[k + 4]);
-	turn(v, u);
+		v[k] = pm_simd_fours(record, k);
+	pm_simd_turn(v, u);
 	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++) {
 		e.distance[d] = pm_simd_split(u[d] + t->lift[d], &e.cell[d]);
@@ -92,6 +81,12 @@ PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)
 PM_SIMD_INLINE pm_simd_int gather_cell_of(const struct eight *e)
 {
 	return (e->cell[2] * PM_GATHER_ROWS + e->cell[1]) * PM_GATHER_ROW + e->cell[0];
+}
+
+/* Their first points in a block. */
+PM_SIMD_INLINE pm_simd_int node_of(const struct eight *e)
+{
+	return (e->cell[2] * pm_block_rows[3] + e->cell[1]) * pm_block_row[3] + e->cell[0];
 }
 
 /* The first n of eight values to their places. v - v is 0, or NaN if v is not finite. */

@@ -3,7 +3,6 @@
 #ifndef PM_TRANSFER_TILE_LANES_H
 #define PM_TRANSFER_TILE_LANES_H
 
-#include "base/simd.h"
 #include "transfer/transfer-tile.h"
 
 enum { lanes = 12 }; /* of the largest width */
@@ -11,19 +10,78 @@ enum { lanes = 12 }; /* of the largest width */
 /* Vector length for a width. */
 PM_SIMD_INLINE int padded(int width) { return width <= 2 ? width : width <= 4 ? 4 : width <= 8 ? 8 : lanes; }
 
-/* y = a * x, y += a * x, y = y * a + x, for n lanes. */
-#define PART(type, from, y, x, statement) { typedef type vec; vec *v = (vec *)((y) + (from)); const vec *u = (const vec *)((x) + (from)); statement; }
-#define LANES(n, y, x, statement) \
+/* A row of n lanes in parts of one register, which stay there where all indices are constants. */
+struct row {
+	pm_simd8_at eight;
+	pm_simd4_at four[lanes / 4];
+	pm_simd2_at two[lanes / 2];
+	double one;
+};
+#define ROW_TWOS(OP, from) OP(two[(from) / 2], from) OP(two[(from) / 2 + 1], (from) + 2)
+#define ROW_FOUR(OP, from) if ((int)PM_SIMD_PART >= 4) { OP(four[(from) / 4], from) } else { ROW_TWOS(OP, from) }
+#define ROW_EIGHT(OP) if ((int)PM_SIMD_PART == 8) { OP(eight, 0) } else { ROW_FOUR(OP, 0) ROW_FOUR(OP, 4) }
+#define ROW_PARTS(n, OP) \
 	switch (n) { \
-	case 2: PART(pm_simd2_at, 0, y, x, statement) break; \
-	case 4: PART(pm_simd4_at, 0, y, x, statement) break; \
-	case 8: PART(pm_simd8_at, 0, y, x, statement) break; \
-	case lanes: PART(pm_simd8_at, 0, y, x, statement) PART(pm_simd4_at, 8, y, x, statement) break; \
-	default: { double *v = (y); const double *u = (x); statement; } \
+	case 2: OP(two[0], 0) break; \
+	case 4: ROW_FOUR(OP, 0) break; \
+	case 8: ROW_EIGHT(OP) break; \
+	case lanes: ROW_EIGHT(OP) ROW_FOUR(OP, 8) break; \
+	default: OP(one, 0) \
 	}
-PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *u * a) }
-PM_SIMD_INLINE void row_add(int n, double a, const double *x, double *y) { LANES(n, y, x, *v += *u * a) }
-PM_SIMD_INLINE void row_horner(int n, double a, const double *x, double *y) { LANES(n, y, x, *v = *v * a + *u) }
+#define ROW_AT(p, part, from) (*(__typeof__(((struct row *)0)->part) *)((p) + (from)))
+#define ROW_CONST(p, part, from) (*(const __typeof__(((struct row *)0)->part) *)((p) + (from)))
+
+PM_SIMD_INLINE struct row row_zero(void) { return (struct row){{0}, {{0}}, {{0}}, 0}; }
+
+/* y = a * x, y += a * x; r = a * x, r += a * x, r = r * a + x, y = r. */
+PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y)
+{
+#define SET(part, from) ROW_AT(y, part, from) = ROW_CONST(x, part, from) * a;
+	ROW_PARTS(n, SET)
+#undef SET
+}
+PM_SIMD_INLINE void row_add(int n, double a, const double *x, double *y)
+{
+#define ADD(part, from) ROW_AT(y, part, from) += ROW_CONST(x, part, from) * a;
+	ROW_PARTS(n, ADD)
+#undef ADD
+}
+PM_SIMD_INLINE void row_take(int n, double a, const double *x, struct row *r)
+{
+#define TAKE(part, from) r->part = ROW_CONST(x, part, from) * a;
+	ROW_PARTS(n, TAKE)
+#undef TAKE
+}
+PM_SIMD_INLINE void row_more(int n, double a, const double *x, struct row *r)
+{
+#define MORE(part, from) r->part += ROW_CONST(x, part, from) * a;
+	ROW_PARTS(n, MORE)
+#undef MORE
+}
+PM_SIMD_INLINE void row_horner(int n, double a, const double *x, struct row *r)
+{
+#define HORNER(part, from) r->part = r->part * a + ROW_CONST(x, part, from);
+	ROW_PARTS(n, HORNER)
+#undef HORNER
+}
+PM_SIMD_INLINE void row_put(int n, const struct row *r, double *y)
+{
+#define PUT(part, from) ROW_AT(y, part, from) = r->part;
+	ROW_PARTS(n, PUT)
+#undef PUT
+}
+/* The lanes of r, times those of w, from the first on. */
+PM_SIMD_INLINE double row_sum(int n, int width, const struct row *r, const double *w)
+{
+	double product[lanes], sum = 0;
+#define TIMES(part, from) ROW_AT(product, part, from) = r->part * ROW_CONST(w, part, from);
+	ROW_PARTS(n, TIMES)
+#undef TIMES
+	PM_SIMD_UNROLL
+	for (int x = 0; x < width; x++)
+		sum += product[x];
+	return sum;
+}
 
 /* coefficients[power][lane], lanes beyond the width are 0. */
 PM_SIMD_INLINE void pad_coefficients(const struct pm_kernel *k, int width, int degree, double *to)
@@ -37,14 +95,18 @@ PM_SIMD_INLINE void find_weights(int width, int degree, const double *coefficien
 {
 	const int n = padded(width);
 	const bool fold = pm_kernel_folds(width, degree, t);
-	double v[lanes];
-	row_set(n, 1, coefficients + degree * n, v);
+	const double s = fold ? 1 - t : t;
+	struct row v;
+	row_take(n, 1, coefficients + degree * n, &v);
 	for (int power = degree - 1; power >= 0; power--)
-		row_horner(n, fold ? 1 - t : t, coefficients + power * n, v);
-	row_set(n, 1, v, w);
+		row_horner(n, s, coefficients + power * n, &v);
+	row_put(n, &v, w);
 	if (fold)
-		for (int i = 0; i < width; i++)
-			w[i] = v[width - 1 - i];
+		for (int i = 0; 2 * i < width - 1; i++) {
+			const double other = w[i];
+			w[i] = w[width - 1 - i];
+			w[width - 1 - i] = other;
+		}
 }
 
 /* Place of a particle's first point in the block, and its weights; axes above dim have the weight 1. */
@@ -55,9 +117,7 @@ PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct 
 	double distance[4];
 	int32_t cell[4];
 	pm_simd4_at u = *(const pm_simd4_at *)record + *(const pm_simd4_at *)t->lift; /* lanes from dim on hold other values */
-	pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at); /* u >= 0 */
-	*(pm_simd4_int_at *)cell = floor_u;
-	*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at) - t->shift;
+	*(pm_simd4_at *)distance = pm_simd4_split(u, (pm_simd4_int_at *)cell) - t->shift; /* u >= 0 */
 	for (int d = 0; d < 3; d++)
 		if (d < dim)
 			find_weights(width, degree, coefficients, distance[d], w[d]);

@@ -11,8 +11,8 @@ _Static_assert((int)PM_VECTOR_NODES == 4 * (int)PM_BLOCK_MOST, "four numbers a n
 
 bool pm_tile_has_vectors(int dim, const struct pm_kernel *k, int components, size_t count)
 {
-	return PM_TILE_CIC_EIGHT && dim == 3 && (components == 3 || components == 4) && k->width > 1 && k->width <= 8 && !k->star
-		&& count >= PM_TILE_CELLS / 16;
+	const bool cic = k->width == 2 && k->degree == 1, wide = (int)PM_SIMD_PART == 8 && k->width > 1 && k->width <= 8 && !k->star;
+	return PM_TILE_CIC_EIGHT && dim == 3 && (components == 3 || components == 4) && (cic || wide) && count >= PM_TILE_CELLS / 16;
 }
 
 void pm_tile_weave(const double *blocks, int components, const size_t slots[3], double *nodes)
@@ -22,15 +22,11 @@ void pm_tile_weave(const double *blocks, int components, const size_t slots[3], 
 			for (size_t x = 0; x < slots[0]; x += PM_SIMD_WIDTH) { /* whole vectors: a row has room, or the next one is written later */
 				const double *from = blocks + z * (node_plane / 4) + y * (node_row / 4) + x;
 				double *to = nodes + z * node_plane + y * node_row + 4 * x;
-				pm_simd v[4], u[4];
+				pm_simd v[4];
 				PM_SIMD_UNROLL
 				for (int c = 0; c < 4; c++)
 					v[c] = pm_simd_load_any(from + (size_t)(c < components ? c : 0) * PM_BLOCK_MOST);
-				turn(v, u);
-				pm_simd_store_any(to, __builtin_shufflevector(u[0], u[1], 0, 1, 2, 3, 8, 9, 10, 11));
-				pm_simd_store_any(to + 8, __builtin_shufflevector(u[2], u[3], 0, 1, 2, 3, 8, 9, 10, 11));
-				pm_simd_store_any(to + 16, __builtin_shufflevector(u[0], u[1], 4, 5, 6, 7, 12, 13, 14, 15));
-				pm_simd_store_any(to + 24, __builtin_shufflevector(u[2], u[3], 4, 5, 6, 7, 12, 13, 14, 15));
+				pm_simd_store_columns(to, v);
 			}
 }
 
@@ -100,6 +96,25 @@ pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k)
 
 /* ---- cic, eight particles at a time ---- */
 
+PM_SIMD_INLINE pm_simd4_at value_by_eight(const double *from, const double w[4], double x)
+{
+	pm_simd8_at rows = *(const pm_simd8_at *)from * w[0];
+	const double y = 1 - x;
+	rows += *(const pm_simd8_at *)(from + node_row) * w[2];
+	rows += *(const pm_simd8_at *)(from + node_plane) * w[1];
+	rows += *(const pm_simd8_at *)(from + node_plane + node_row) * w[3];
+	rows *= (pm_simd8_at){y, y, y, y, x, x, x, x};
+	return LOWER(rows) + UPPER(rows);
+}
+
+PM_SIMD_INLINE pm_simd4_at value_by_four(const double *from, const double w[4], double x)
+{
+	const pm_simd4_at *row = (const pm_simd4_at *)from, *back = row + node_row / 4, *above = row + node_plane / 4, *both = above + node_row / 4;
+	const pm_simd4_at low = ((row[0] * w[0] + back[0] * w[2]) + above[0] * w[1]) + both[0] * w[3];
+	const pm_simd4_at high = ((row[1] * w[0] + back[1] * w[2]) + above[1] * w[1]) + both[1] * w[3];
+	return low * (1 - x) + high * x;
+}
+
 PM_SIMD_INLINE void values_of(const struct pm_tile *t, const struct eight *e, pm_simd4_at value[PM_SIMD_WIDTH])
 {
 	const pm_simd y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
@@ -110,12 +125,8 @@ PM_SIMD_INLINE void values_of(const struct pm_tile *t, const struct eight *e, pm
 	PM_SIMD_UNROLL
 	for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
 		const double *from = t->nodes + (size_t)(uint32_t)at[l];
-		pm_simd rows = pm_simd_load_any(from) * w[0][l];
-		rows += pm_simd_load_any(from + node_row) * w[2][l];
-		rows += pm_simd_load_any(from + node_plane) * w[1][l];
-		rows += pm_simd_load_any(from + node_plane + node_row) * w[3][l];
-		rows *= pm_simd_below_above(x[l]);
-		value[l] = LOWER(rows) + UPPER(rows);
+		const double f[4] = {w[0][l], w[1][l], w[2][l], w[3][l]};
+		value[l] = (int)PM_SIMD_PART == 8 ? value_by_eight(from, f, x[l]) : value_by_four(from, f, x[l]);
 	}
 }
 
@@ -138,12 +149,9 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		const struct eight e = find_eight(t, batch, i);
 		pm_simd4_at value[PM_SIMD_WIDTH];
-		pm_simd v[4], component[4];
+		pm_simd component[4];
 		values_of(t, &e, value);
-		PM_SIMD_UNROLL
-		for (int k = 0; k < 4; k++)
-			v[k] = __builtin_shufflevector(value[k], value[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-		turn(v, component);
+		pm_simd_rows_to_lanes(value, component);
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 4; c++)
 			if (c < t->components)

@@ -3,8 +3,11 @@
 #ifndef PM_TRANSFER_AXIS_H
 #define PM_TRANSFER_AXIS_H
 
+#define PM_SIMD_FOURS
 #include "base/simd.h"
 #include "transfer/transfer.h"
+
+_Static_assert((int)PM_SIMD_WIDTH == ((int)PM_SIMD_PART < 8 ? 4 : 8), "what includes simd.h before this header has to say PM_SIMD_FOURS");
 
 /* A particle at x has u = ((x - lo)/h + add) + half, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
  * cell..cell+width-1, and slot i is mesh point at[i]. For points half a cell up, u is that among the nodes and half a cell, to the last bit. */
@@ -36,7 +39,7 @@ bool pm_axis_locate(const struct pm_axis *a, double x, double *u);
 /* The same for n particles; u is -1 for those outside. False if there is one. */
 bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *x, double *u);
 
-/* The same for eight particles; those outside the range, as bits, need pm_axis_locate_far. */
+/* The same for eight (or four) particles; those outside the range, as bits, need pm_axis_locate_far. */
 struct pm_axis_lanes {
 	pm_simd lo, h, inverse, add, half, low, high; /* low..high: where no particle needs folding or a limit */
 	bool periodic;

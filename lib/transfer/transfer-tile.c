@@ -21,30 +21,104 @@ PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile 
 	}
 }
 
+/* The weights of the rows around a particle, and the place of the first. */
+struct around {
+	double f[lanes][lanes], x[lanes];
+	size_t place;
+};
+
+PM_SIMD_INLINE void look_around(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, size_t i, struct around *a)
+{
+	double w[3][lanes];
+	a->place = find_support(dim, width, degree, t, coefficients, t->records + i * (size_t)t->stride, w);
+	row_set(padded(width), 1, w[0], a->x);
+	for (int z = 0; z < (dim > 2 ? width : 1); z++)
+		row_set(dim > 1 ? padded(width) : 1, w[2][z], w[1], a->f[z]);
+}
+
+/* Values from `n` blocks at once: a sum has the order of its rows, each waits for the one before it, and so others are made meanwhile. */
+PM_SIMD_INLINE void read_rows(int dim, int width, int n, const struct around *const a[], const double *const block[], double *const to[])
+{
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim], rows = dim > 1 ? width : 1;
+	struct row sum[4];
+	PM_SIMD_UNROLL
+	for (int k = 0; k < n; k++)
+		sum[k] = row_zero();
+	for (int z = 0; z < (dim > 2 ? width : 1); z++)
+		for (int y = 0; y < rows; y++) {
+			PM_SIMD_UNROLL
+			for (int k = 0; k < n; k++)
+				row_more(padded(width), a[k]->f[z][y], block[k] + z * plane + y * row, &sum[k]);
+		}
+	PM_SIMD_UNROLL
+	for (int k = 0; k < n; k++)
+		*to[k] = row_sum(padded(width), width, &sum[k], a[k]->x);
+}
+
+/* One component at two particles. */
+PM_SIMD_INLINE void gather_two(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, size_t i, size_t j)
+{
+	struct around one, other;
+	look_around(dim, width, degree, t, coefficients, i, &one);
+	look_around(dim, width, degree, t, coefficients, j, &other);
+	read_rows(dim, width, 2, (const struct around *const[]){&one, &other}, (const double *const[]){t->block + one.place, t->block + other.place},
+		(double *const[]){t->results + i * (size_t)t->to, t->results + j * (size_t)t->to});
+}
+
+/* All components at one particle, three at a time. */
+PM_SIMD_INLINE void gather_several(int dim, int width, int degree, const struct pm_tile *t, const double *coefficients, size_t i)
+{
+	struct around a;
+	const struct around *const same[] = {&a, &a, &a};
+	double *result = t->results + i * (size_t)t->to;
+	look_around(dim, width, degree, t, coefficients, i, &a);
+	const double *block = t->block + a.place;
+	int c = 0;
+	for (; c + 3 <= t->components; c += 3, block += 3 * PM_BLOCK_MOST)
+		read_rows(dim, width, 3, same, (const double *const[]){block, block + PM_BLOCK_MOST, block + 2 * PM_BLOCK_MOST},
+			(double *const[]){result + c, result + c + 1, result + c + 2});
+	for (; c < t->components; c++, block += PM_BLOCK_MOST)
+		read_rows(dim, width, 1, same, &block, (double *const[]){result + c});
+}
+
+/* Particles of a tile in space in the order of their cells, at most PM_TILE_CELLS of them: those that come one after the other then read the same points, while
+ * they are in the nearest cache. Which comes first changes no value. */
+static void order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t *index)
+{
+	enum { bits = 9, along_x = 12 - bits }; /* the points of some cells along x are a line or two of the cache */
+	uint16_t key[PM_TILE_CELLS], at[(1 << bits) + 1] = {0};
+	const int *shift = pm_tile_shift[3];
+	for (size_t i = 0; i < m; i++) {
+		pm_simd4_int_at cell;
+		int32_t c[4];
+		pm_simd4_split(*(const pm_simd4_at *)(t->records + (from + i) * (size_t)t->stride), &cell);
+		*(pm_simd4_int_at *)c = cell;
+		const int row = (c[2] & ((1 << shift[2]) - 1)) << shift[1] | (c[1] & ((1 << shift[1]) - 1));
+		key[i] = (uint16_t)((row << shift[0] | (c[0] & ((1 << shift[0]) - 1))) >> along_x);
+		at[key[i] + 1]++;
+	}
+	for (int k = 0; k < 1 << bits; k++)
+		at[k + 1] = (uint16_t)(at[k + 1] + at[k]);
+	for (size_t i = 0; i < m; i++)
+		index[at[key[i]]++] = (uint16_t)i;
+}
+
 PM_SIMD_INLINE void gather(int dim, int width, int degree, const struct pm_tile *t)
 {
-	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes][lanes], sum[lanes];
+	const bool wide = dim == 3 && width > 4 && t->components > 1; /* below, sorting costs more than it saves */
+	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
+	uint16_t index[PM_TILE_CELLS];
 	pad_coefficients(t->kernel, width, degree, coefficients);
-	for (size_t i = 0; i < t->count; i++) {
-		const double *record = t->records + i * (size_t)t->stride;
-		double *result = t->results + i * (size_t)t->to;
-		size_t place = find_support(dim, width, degree, t, coefficients, record, w);
-		for (int z = 0; z < (dim > 2 ? width : 1); z++)
-			row_set(dim > 1 ? n : 1, w[2][z], w[1], f[z]);
-		for (int c = 0; c < t->components; c++) {
-			const double *block = t->block + (size_t)c * PM_BLOCK_MOST + place;
-			double total = 0;
-			for (int z = 0; z < (dim > 2 ? width : 1); z++)
-				for (int y = 0; y < (dim > 1 ? width : 1); y++)
-					if (z + y == 0)
-						row_set(n, f[z][y], block, sum);
-					else
-						row_add(n, f[z][y], block + z * plane + y * row, sum);
-			for (int x = 0; x < n; x++)
-				total += sum[x] * w[0][x];
-			result[c] = total;
-		}
+	for (size_t from = 0; from < t->count; from += PM_TILE_CELLS) {
+		const size_t m = t->count - from < PM_TILE_CELLS ? t->count - from : PM_TILE_CELLS;
+		const bool sorted = wide && m >= 128;
+		size_t i = 0;
+		if (sorted)
+			order_cells(t, from, m, index);
+		for (; t->components == 1 && i + 2 <= m; i += 2)
+			gather_two(dim, width, degree, t, coefficients, from + (sorted ? index[i] : i), from + (sorted ? index[i + 1] : i + 1));
+		for (; i < m; i++)
+			gather_several(dim, width, degree, t, coefficients, from + (sorted ? index[i] : i));
 	}
 }
 

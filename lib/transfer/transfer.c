@@ -95,14 +95,15 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 	return finite;
 }
 
-/* The same by corners of cells; with records, whose results are checked later, too. */
-static bool gather_by_corners(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
+/* The same of cic, by corners of cells or from the block; with records, whose results are checked later, too. */
+static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
 {
 	const size_t each = (size_t)PM_GATHER_CELLS * PM_CORNERS;
 	size_t cells[3];
-	t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
+	if (PM_TILE_CIC_CORNERS)
+		t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
 	cells_of(w, j, cells);
-	for (int c = 0; c < w->components; c++)
+	for (int c = 0; c < w->components && PM_TILE_CIC_CORNERS; c++)
 		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
 	if (t.records)
 		return pm_tile_cic_gather_eight(&t), true;
@@ -136,8 +137,9 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	t.components = w->components;
 	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
 		return gather_vectors(w, j, t, r);
-	if (PM_TILE_CIC_EIGHT && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
-		return gather_by_corners(w, j, t, r);
+	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
+	if (lanes && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+		return gather_cic(w, j, t, r);
 	if (!t.records)
 		return gather_in_order(w, j, t, loop, r);
 	loop(&t);
@@ -207,7 +209,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
-	return pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS);
+	return PM_TILE_CIC_CORNERS ? pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS) : 0;
 }
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
