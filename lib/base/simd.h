@@ -290,6 +290,17 @@ PM_SIMD_INLINE pm_simd4_at pm_simd4_split(pm_simd4_at v, pm_simd4_int_at *whole)
 #endif
 }
 
+/* 1 - x four times, then x four times. */
+PM_SIMD_INLINE pm_simd8_at pm_simd8_below_above(double x)
+{
+#ifdef __AVX512F__
+	return (pm_simd8_at)_mm512_mask_sub_pd(_mm512_set1_pd(x), 0x0f, _mm512_set1_pd(1), _mm512_set1_pd(x));
+#else
+	const double y = 1 - x;
+	return (pm_simd8_at){y, y, y, y, x, x, x, x};
+#endif
+}
+
 #if defined PM_SIMD_EIGHT || defined PM_SIMD_FOUR
 /* A matrix of 4 rows to columns, of 4 x 8 in two halves: lane l of v[k] becomes lane k of to[l], and lane 4 + l lane 4 + k. */
 PM_SIMD_INLINE void pm_simd_turn(const pm_simd v[4], pm_simd to[4])
@@ -369,26 +380,12 @@ PM_SIMD_INLINE void pm_simd4_pairs(const double *const at[4], size_t on, pm_simd
 PM_SIMD_INLINE void pm_simd_add_below_above(double *to, const double *p, double x)
 {
 #ifdef __AVX512F__
-	const __m512d part = _mm512_mask_sub_pd(_mm512_set1_pd(x), 0x0f, _mm512_set1_pd(1), _mm512_set1_pd(x));
-	pm_simd_store(to, pm_simd_load(to) + (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p)) * (pm_simd)part);
+	pm_simd_store(to, pm_simd_load(to) + (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p)) * pm_simd8_below_above(x));
 #else
 	pm_simd4_at *at = (pm_simd4_at *)to;
 	const pm_simd4_at four = *(const pm_simd4_at *)p;
 	at[0] += four * (1 - x);
 	at[1] += four * x;
-#endif
-}
-#endif
-
-#ifdef PM_SIMD_EIGHT
-/* 1 - x four times, then x four times. */
-PM_SIMD_INLINE pm_simd pm_simd_below_above(double x)
-{
-#ifdef __AVX512F__
-	return (pm_simd)_mm512_mask_sub_pd((__m512d)pm_simd_all(x), 0x0f, (__m512d)pm_simd_all(1), (__m512d)pm_simd_all(x));
-#else
-	double y = 1 - x;
-	return (pm_simd){y, y, y, y, x, x, x, x};
 #endif
 }
 #endif

@@ -99,11 +99,10 @@ pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k)
 PM_SIMD_INLINE pm_simd4_at value_by_eight(const double *from, const double w[4], double x)
 {
 	pm_simd8_at rows = *(const pm_simd8_at *)from * w[0];
-	const double y = 1 - x;
 	rows += *(const pm_simd8_at *)(from + node_row) * w[2];
 	rows += *(const pm_simd8_at *)(from + node_plane) * w[1];
 	rows += *(const pm_simd8_at *)(from + node_plane + node_row) * w[3];
-	rows *= (pm_simd8_at){y, y, y, y, x, x, x, x};
+	rows *= pm_simd8_below_above(x);
 	return LOWER(rows) + UPPER(rows);
 }
 
