@@ -35,6 +35,25 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 		.mirror = {f->pface[axis][0] == PM_PREFLECT, f->pface[axis][1] == PM_PREFLECT}};
 }
 
+static double speed2(const struct pm_magnetic *a, size_t i)
+{
+	double v2 = 0;
+	for (int c = 0; c < 3; c++)
+		v2 += a->v[c] ? a->v[c][i] * a->v[c][i] : 0;
+	return v2;
+}
+
+/* The first of the particles from..to-1 that is not slower than light; to: none. */
+static size_t first_fast(const struct pm_magnetic *a, size_t from, size_t to)
+{
+	int any = 0;
+	for (size_t i = from; i < to; i++)
+		any |= !(speed2(a, i) < a->c * a->c);
+	while (any && from < to && speed2(a, from) < a->c * a->c)
+		from++;
+	return any ? from : to;
+}
+
 /* Rotates the velocities about bfield and kicks them, all components of a particle together. */
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
@@ -54,19 +73,24 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 		if (a.b[0][i] != 0 || a.b[1][i] != 0)
 			return pm_world_place(0, 0, 0, m->v->first + i), pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in "
 				"the plane turns them out of it (give v 3 components)", m->set->name);
-	for (size_t i = 0; i < n && step->relativistic; i++) {
-		double v2 = 0;
-		for (int c = 0; c < 3; c++)
-			v2 += a.v[c] ? a.v[c][i] * a.v[c][i] : 0;
-		if (!(v2 < a.c * a.c))
-			return pm_world_place(1, 0, 0, m->v->first + i), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g",
-				(size_t)m->v->first + i, m->set->name, sqrt(v2), a.c);
-	}
-#pragma omp parallel for schedule(static) if (n > 16384)
+	size_t fast = n;
+	int bad = 0;
+#pragma omp parallel for schedule(static) reduction(min : fast) reduction(| : bad) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
-		size_t i = block * PM_ADVANCE_BLOCK;
-		step->magnetic(m->closing, f->dt, i, n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK, &a);
+		const size_t i = block * PM_ADVANCE_BLOCK, end = n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK;
+		const size_t found = step->relativistic ? first_fast(&a, i, end) : end;
+		if (found < end) {
+			fast = found < fast ? found : fast;
+			continue;
+		}
+		step->magnetic(m->closing, f->dt, i, end, &a);
+		for (int c = 0; c < 3; c++)
+			bad |= a.v[c] && !pm_finite_few(end - i, a.v[c] + i);
 	}
+	if (fast < n)
+		return pm_world_place(1, 0, 0, m->v->first + fast), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g",
+			(size_t)m->v->first + fast, m->set->name, sqrt(speed2(&a, fast)), a.c);
+	m->v->use |= bad ? 0 : PM_USE_SEEN;
 	return 0;
 }
 

@@ -10,6 +10,7 @@
 struct pm_current_fill {
 	const struct pm_current *c;
 	double shift; /* of the axes */
+	const double *const *v; /* [3] where the order is of particles in the stream, for the axes above dim; else NULL */
 };
 void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block);
 /* Where the blocks of a component go; flip is its room. */

@@ -178,7 +178,7 @@ int pm_current_ranks(int status, const struct pm_current *c, struct pm_ways *way
 	status = deal(status ? status : local ? 0 : pm_no_memory(), ways, c->grid.dim, firsts, &first);
 	status = order_here(status, c, ways, first, local, halves, stray);
 	if (!status) {
-		struct filling fill = {.fill = {c, local->axes[0].shift}, .dim = c->grid.dim};
+		struct filling fill = {.fill = {c, local->axes[0].shift, NULL}, .dim = c->grid.dim};
 		for (int k = 0; k < 3; k++)
 			to[k] = pm_current_target(c, local->axes, halves, k, flip[k]);
 		status = pm_spread_jobs_ranks(status, &t, local, &(struct pm_job_blocks){3, to, fill_one, begin, &fill}, mesh);

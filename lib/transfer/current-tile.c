@@ -1,87 +1,99 @@
 /* Esirkepov's current: with S0 and S1 the weights along an axis at both ends of the way, D = S1 - S0 and A = (S0 + S1)/2, the charge that passes from point i
  * to i + 1 along x is -q sum_{i' <= i} D_x(i') [A_y A_z + D_y D_z/12], and likewise along y and z: eq. 31 of the paper, in symmetric form. An axis above dim
- * has A = 1, D = 0, and the current along it is q v [A_x A_y + D_x D_y/12]. It holds for any kernel, because D sums to 0.
- * Source: Esirkepov 2001, Computer Physics Communications 135, 144. Cost: 3 (width + 1)^dim products a particle.
+ * has A = 1, D = 0, and the current along it is q v [A_x A_y + D_x D_y/12]. It holds for any kernel, because D sums to 0. A way whose ends have the same points
+ * on every axis has a window of width points (of up to four), any other one of width + 1. The weights of all axes are found together, an axis a lane.
+ * Source: Esirkepov 2001, Computer Physics Communications 135, 144. Cost: 3 width^dim products a particle, or 3 (width + 1)^dim.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/current-tile.h"
-#include "transfer/tile-lanes.h"
+#include "transfer/tile-by-axis.h"
 
-enum { room = 2 * PM_KERNEL_WIDTH };
+enum { room = lanes };
 
-/* What one axis has: mean, difference, and charge passed from each point to the next; lanes beyond width are 0. */
+/* What each axis has: mean, difference, and charge passed from each point to the next; lanes beyond the window are 0. */
 struct along {
-	double mean[room], change[room], passed[room];
+	double mean[3][room], change[3][room], passed[3][room];
 };
 
-PM_SIMD_INLINE int window(int width) { return width < 8 ? padded(width + 1) : width + 1; }
+/* Lanes of a window. */
+PM_SIMD_INLINE int window(int points) { return points == 1 ? 1 : padded(points); }
 
-/* Weights of a window of width + 1 points at u, which is in its first cell or the next. */
-PM_SIMD_INLINE void place_weights(int width, int degree, const double *coefficients, double u, double shift, int32_t cell, double *w)
+/* The window of `points` points from the cell on, which has both ends of the way. */
+PM_SIMD_INLINE void find_along(int dim, int points, int width, const pm_by_axis *low, const pm_by_axis *high, pm_by_axis way, pm_mask_by_axis on, struct along *a)
 {
-	const int32_t own = (int32_t)u > cell ? cell + 1 : cell; /* a way of one cell may round up to the next but one */
-	double v[lanes];
-	find_weights(width, degree, coefficients, u - own - shift, v);
-	for (int i = 0; i < window(width); i++)
-		w[i] = 0;
-	for (int i = 0; i < width; i++)
-		w[i + (own > cell)] = v[i];
+	pm_by_axis mean[room], change[room], passed[room], sum = {0};
+	const pm_mask_by_axis back = way < 0;
+	PM_SIMD_UNROLL
+	for (int k = 0; k < (points + 3) / 4 * 4; k++) {
+		const pm_by_axis here = k < width ? low[k] : all_axes(0), same = k < width ? high[k] : all_axes(0);
+		const pm_by_axis there = points == width ? same : where(on, k > 0 && k <= width ? high[k - 1] : all_axes(0), same), difference = there - here;
+		mean[k] = 0.5 * (here + there);
+		change[k] = where(back, -difference, difference);
+		sum -= change[k];
+		passed[k] = k < points - 1 ? sum : all_axes(0);
+	}
+	rows_of_axes(dim, window(points), mean, a->mean);
+	rows_of_axes(dim, window(points), change, a->change);
+	rows_of_axes(dim, window(points), passed, a->passed);
 }
 
-PM_SIMD_INLINE void find_along(int width, int degree, const double *coefficients, double u, double way, double shift, int32_t cell, struct along *a)
+/* A way within `points` points on every axis to the blocks; charge of each component. */
+PM_SIMD_INLINE void deposit_window(int dim, int points, const struct along *a, const double charge[3], size_t at, double *const block[3])
 {
-	double low[room], high[room], sum = 0;
-	const double sign = way < 0 ? -1 : 1;
-	place_weights(width, degree, coefficients, u, shift, cell, low);
-	place_weights(width, degree, coefficients, u + fabs(way), shift, cell, high);
-	for (int i = 0; i < window(width); i++) {
-		a->mean[i] = 0.5 * (low[i] + high[i]);
-		a->change[i] = sign * (high[i] - low[i]);
+	const int n = window(points), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	const int rows = dim > 1 ? points : 1, planes = dim > 2 ? points : 1, passed_rows = dim > 1 ? points - 1 : 1, passed_planes = dim > 2 ? points - 1 : 1;
+	double across[room], of_row[room][room], of_plane[room]; /* of x: a number a row; of z: a row for each y; of y: a row for each z */
+	for (int y = 0; y < rows; y++) {
+		row_set(n, a->mean[1][y], a->mean[0], of_row[y]);
+		row_add(n, a->change[1][y] * (1. / 12), a->change[0], of_row[y]);
 	}
-	for (int i = 0; i < window(width); i++) {
-		sum -= a->change[i];
-		a->passed[i] = i < width ? sum : 0;
+	PM_SIMD_UNROLL
+	for (int z = 0; z < planes; z++) {
+		const double mean = a->mean[2][z], change = a->change[2][z] * (1. / 12), through = charge[2] * a->passed[2][z];
+		const size_t from = at + (size_t)(z * plane);
+		row_set(dim > 1 ? n : 1, charge[0] * mean, a->mean[1], across);
+		row_add(dim > 1 ? n : 1, charge[0] * change, a->change[1], across);
+		row_set(n, charge[1] * mean, a->mean[0], of_plane);
+		row_add(n, charge[1] * change, a->change[0], of_plane);
+		PM_SIMD_UNROLL
+		for (int y = 0; y < rows; y++) {
+			row_add(n, across[y], a->passed[0], block[0] + from + y * row);
+			if (y < passed_rows)
+				row_add(n, a->passed[1][y], of_plane, block[1] + from + y * row);
+			if (z < passed_planes)
+				row_add(n, through, of_row[y], block[2] + from + y * row);
+		}
 	}
-}
-
-/* row += f x + g y. */
-PM_SIMD_INLINE void add_two(int n, double f, const double *restrict x, double g, const double *restrict y, double *restrict row)
-{
-	for (int i = 0; i < n; i++)
-		row[i] += f * x[i] + g * y[i];
 }
 
 PM_SIMD_INLINE void deposit(int dim, int width, int degree, const struct pm_current_tile *t)
 {
-	const int n = window(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	const int points[3] = {width + 1, dim > 1 ? width + 1 : 1, dim > 2 ? width + 1 : 1};
-	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes];
-	struct along a[3] = {{{0}, {0}, {0}}};
-	pad_coefficients(t->kernel, width, degree, coefficients);
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	struct along a = {{{0}}, {{0}}, {{0}}};
 	for (int d = dim; d < 3; d++)
-		a[d].mean[0] = a[d].passed[0] = 1;
+		a.mean[d][0] = a.passed[d][0] = 1;
 	for (size_t p = 0; p < t->count; p++) {
 		const double *record = t->records + p * (size_t)t->stride, q = record[2 * dim];
-		double charge[3] = {q, q, q};
-		size_t at = 0;
-		for (int d = dim - 1; d >= 0; d--) {
-			const int32_t cell = (int32_t)record[d];
-			find_along(width, degree, coefficients, record[d], record[dim + d], t->shift, cell, &a[d]);
-			at += ((size_t)cell - t->cell[d]) * (size_t)(d == 0 ? 1 : d == 1 ? row : plane);
+		const pm_by_axis u = axes_from(dim, record), way = axes_from(dim, record + dim), length = where(way < 0, -way, way);
+		const pm_simd4_int_at cell = __builtin_convertvector(u, pm_simd4_int_at), end = __builtin_convertvector(u + length, pm_simd4_int_at);
+		const pm_by_axis from = __builtin_convertvector(cell, pm_by_axis);
+		/* A way of one cell may round up to the next but one. */
+		const pm_mask_by_axis on = __builtin_convertvector(end > cell, pm_mask_by_axis);
+		pm_by_axis low[room], high[room];
+		find_by_axis(t->kernel, width, degree, u - from - t->shift, low);
+		find_by_axis(t->kernel, width, degree, u + length - (from + where(on, all_axes(1), all_axes(0))) - t->shift, high);
+		const double charge[3] = {q, dim > 1 ? q : record[dim + 2], dim > 2 ? q : record[dim + 3]};
+		size_t at = (size_t)(cell[0] - (int32_t)t->cell[0]);
+		if (dim > 1)
+			at += (size_t)(cell[1] - (int32_t)t->cell[1]) * (size_t)row;
+		if (dim > 2)
+			at += (size_t)(cell[2] - (int32_t)t->cell[2]) * (size_t)plane;
+		if (width > 4 || on[0] | on[1] | on[2]) { /* of many points one more costs little */
+			find_along(dim, width + 1, width, low, high, way, on, &a);
+			deposit_window(dim, width + 1, &a, charge, at, t->block);
+		} else {
+			find_along(dim, width, width, low, high, way, on, &a);
+			deposit_window(dim, width, &a, charge, at, t->block);
 		}
-		for (int d = dim; d < 3; d++)
-			charge[d] = record[dim + 1 + d];
-		for (int z = 0; z < points[2]; z++)
-			for (int y = 0; y < points[1]; y++) {
-				const double my = a[1].mean[y], dy = a[1].change[y] * (1. / 12), mz = a[2].mean[z], dz = a[2].change[z];
-				const size_t line = at + (size_t)(z * plane + y * row);
-				const double across = charge[0] * (my * mz + dy * dz);
-				double *restrict to = t->block[0] + line;
-				for (int x = 0; x < n; x++)
-					to[x] += across * a[0].passed[x];
-				const double fy = charge[1] * a[1].passed[y], fz = charge[2] * a[2].passed[z];
-				add_two(n, fy * mz, a[0].mean, fy * dz * (1. / 12), a[0].change, t->block[1] + line);
-				add_two(n, fz * my, a[0].mean, fz * dy, a[0].change, t->block[2] + line);
-			}
 	}
 }
 

@@ -230,10 +230,22 @@ static size_t walk_bent(struct walker *k, size_t n, const double *const x[3], co
 	return more;
 }
 
+static size_t count_bent(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3])
+{
+	size_t many = 0;
+#pragma omp parallel for schedule(static) reduction(+ : many) if (n > 16384)
+	for (size_t p = 0; p < n; p += together) {
+		unsigned char bent[together];
+		many += find_bent(c, p, n - p < together ? n - p : together, x, v, bent);
+	}
+	return many;
+}
+
+bool pm_ways_straight(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3]) { return !count_bent(c, n, x, v); }
+
 int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q)
 {
 	struct walker k = {.c = c};
-	size_t many = 0;
 	*w = (struct pm_ways){.n = 0};
 	for (int d = 0; d < c->grid.dim; d++) {
 		size_t beyond[2];
@@ -241,11 +253,7 @@ int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const 
 		for (int s = 0; s < 2; s++)
 			k.room[d][s] = (double)beyond[s] * c->grid.h[d];
 	}
-#pragma omp parallel for schedule(static) reduction(+ : many) if (n > 16384)
-	for (size_t p = 0; p < n; p += together) {
-		unsigned char bent[together];
-		many += find_bent(c, p, n - p < together ? n - p : together, x, v, bent);
-	}
+	const size_t many = count_bent(c, n, x, v);
 	if (pm_ways_new(w, c->grid.dim, n + (many ? walk_bent(&k, n, x, v, NULL) : 0)))
 		return -PM_DATA;
 	lay_out(c, n, x, v, q, w);

@@ -36,6 +36,7 @@ struct spread {
 	const struct pm_tile_pass *pass;
 	const struct pm_current *c;
 	const struct pm_axis *nodes, *halves;
+	const double *const *v; /* of pm_current_fill */
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
 };
 
@@ -58,6 +59,11 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	for (size_t at = j->from; at < j->to; at += t.count) {
 		t.count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(o, at, t.count, true, packed);
+		for (size_t i = 0; i < t.count && s->v; i++)
+			for (int d = o->dim; d < 3; d++) {
+				double *record = packed + i * (size_t)t.stride + o->dim;
+				record[1 + d] = s->v[d] ? record[o->dim] * s->v[d][pm_tile_order_place(o, at + i)] : 0;
+			}
 		loop(&t);
 	}
 }
@@ -79,7 +85,7 @@ struct pm_tile_target pm_current_target(const struct pm_current *c, const struct
 static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
 {
 	const struct pm_tile_pass *w = s->pass;
-	const struct pm_current_fill fill = {s->c, s->nodes[0].shift};
+	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->v};
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
@@ -108,35 +114,61 @@ struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const str
 	return (struct pm_tile_particles){.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = (const double *const *)ways->at, .values = values};
 }
 
-static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, double *const mesh[3], size_t *stray)
+/* The order of the particles, whose pass and blocks are then those of s. */
+static int deposit_order(struct spread *s, struct pm_tile_order *order, size_t n, double *const mesh[3])
+{
+	struct pm_tile_pass pass = {.jobs = 0};
+	const int threads = pm_tile_threads(n);
+	size_t under_way = threads == 1 ? 1 : 8 * (size_t)threads;
+	int status = pm_tile_pass_init(&pass, &s->c->grid, order, s->nodes);
+	under_way = pass.jobs < under_way ? pass.jobs : under_way;
+	s->pass = &pass;
+	s->blocks = status ? NULL : pm_zalloc(under_way * 3 * PM_BLOCK_MOST + 1, sizeof *s->blocks);
+	if (!status && s->blocks && pass.jobs)
+		spread_all(s, threads, under_way, mesh);
+	status = status ? status : s->blocks ? 0 : -PM_DATA;
+	pm_free(s->blocks);
+	pm_tile_pass_free(&pass);
+	return status;
+}
+
+/* Sorts, and deposits unless a particle is outside the box or `far` says that the stream is far from the order of tiles (NULL: it does not matter). */
+static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, double *const mesh[3], size_t *stray, bool *far)
 {
 	struct pm_axis nodes[3], halves[3];
 	struct pm_tile_order order = {.n = 0};
-	struct pm_tile_pass pass = {.jobs = 0};
 	struct pm_strays strays = {.count = 0};
-	struct spread s = {.pass = &pass, .c = c, .nodes = nodes, .halves = halves};
-	const int threads = pm_tile_threads(ways->n);
-	const double *values[PM_COMPONENTS] = {0};
-	size_t under_way = threads == 1 ? 1 : 8 * (size_t)threads;
-	const struct pm_tile_particles particles = pm_ways_particles(c, ways, values);
+	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .v = p->v};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	if (!status)
-		status = pm_tile_order_init(&order, nodes, &particles, 0, &strays);
-	if (!status && strays.count)
+		status = pm_tile_order_init(&order, nodes, p, 2 * c->grid.dim + 1 + (3 - c->grid.dim), &strays);
+	if (!status && strays.count) {
 		*stray = strays.first;
-	if (!status)
-		status = strays.count ? -PM_DATA : pm_tile_pass_init(&pass, &c->grid, &order, nodes);
-	under_way = pass.jobs < under_way ? pass.jobs : under_way;
-	s.blocks = status ? NULL : pm_zalloc(under_way * 3 * PM_BLOCK_MOST + 1, sizeof *s.blocks);
-	if (!status && s.blocks && pass.jobs)
-		spread_all(&s, threads, under_way, mesh);
-	status = status ? status : s.blocks ? 0 : -PM_DATA;
-	pm_free(s.blocks);
-	pm_tile_pass_free(&pass);
+		status = -PM_DATA;
+	}
+	if (far)
+		*far = !status && !order.place && pm_tile_order_spent(&order);
+	if (!status && !(far && *far))
+		status = deposit_order(&s, &order, p->n, mesh);
 	pm_tile_order_free(&order);
 	pm_axes_free(nodes);
 	pm_axes_free(halves);
 	return status;
+}
+
+static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, double *const mesh[3], size_t *stray)
+{
+	const double *values[PM_COMPONENTS] = {0};
+	const struct pm_tile_particles particles = pm_ways_particles(c, ways, values);
+	return deposit_particles(c, &particles, mesh, stray, NULL);
+}
+
+/* Ways that are all straight pieces are found again where they are wanted, from particles that stay in the stream. */
+static int deposit_straight(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const mesh[3],
+	size_t *stray, bool *far)
+{
+	const struct pm_tile_particles particles = {.dim = c->grid.dim, .nvalues = 1, .n = n, .x = x, .values = &q, .v = v, .dt = c->dt};
+	return deposit_particles(c, &particles, mesh, stray, far);
 }
 
 /* q v W at the middle of the way, folded. */
@@ -178,6 +210,12 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 		return 0;
 	if (c->deposit == PM_DIRECT)
 		return deposit_direct(c, n, x, v, q, j);
+	bool far = divided || !pm_ways_straight(c, n, x, v);
+	if (!far) {
+		const int done = deposit_straight(c, n, x, v, q, j, stray, &far);
+		if (!far)
+			return done;
+	}
 	int status = pm_ways_init(&ways, c, n, x, v, q);
 	if (divided)
 		status = pm_current_ranks(status, c, &ways, n, j, stray);

@@ -12,6 +12,7 @@ struct pm_gather_arrays {
 	double *out[PM_COMPONENTS];
 	size_t n;
 	bool magnetic; /* the components of an evolving B are among them, behind those of E */
+	bool finite;   /* of a field that is a state: all that was gathered */
 };
 
 /* Particles beside bodies and faces: who they are, and what their targets held. */

@@ -233,6 +233,7 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 		a->magnetic = !j->choice.field && j->law->magnetic && !j->interlaced && pm_bfield_append(f, set, j->mesh, j->law->magnetic, a);
 		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
 			: pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
 	}
@@ -262,10 +263,12 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	if (!status)
 		status = gather(j, f, set, &a, &strays);
 	if (!status && j->choice.beside)
-		status = pm_gather_beside(j, &a, set, &b), strays.count = 0, strays.finite = false;
+		status = pm_gather_beside(j, &a, set, &b), strays.count = 0, strays.finite = a.finite = false;
 	pm_free(ratio), pm_gather_beside_free(&b);
 	strays.first += target->first;
-	target->use |= !status && strays.finite && a.t.components == target->components ? PM_USE_SEEN : 0;
+	target->use |= !status && (a.finite || (strays.finite && a.t.components == target->components)) ? PM_USE_SEEN : 0;
+	if (!status && a.finite && a.magnetic)
+		pm_frame_field(f, set, "bfield")->use |= PM_USE_SEEN;
 	if (!status && law && j->law->magnetic && !a.magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status && strays.count && j->outside == PM_OUTSIDE_ERROR)

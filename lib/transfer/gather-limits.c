@@ -56,10 +56,13 @@ double pm_gather_limits_most(const struct pm_gather_job *j, const struct pm_fram
 static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, const struct pm_field *b)
 {
 	const double *q = pm_in(pm_frame_field(f, b->on, j->law->strength), 0), *m = pm_in(pm_frame_field(f, b->on, j->law->per), 0);
+	const double *x = pm_in(b, 0), *y = pm_in(b, 1), *z = pm_in(b, 2);
+	const size_t n = b->count;
 	double most = 0;
-	for (size_t i = 0; i < b->count; i++) {
-		const double x = pm_in(b, 0)[i], y = pm_in(b, 1)[i], z = pm_in(b, 2)[i];
-		most = fmax(most, fabs(q[i] / m[i]) * sqrt(x * x + y * y + z * z));
+#pragma omp parallel for simd schedule(static) reduction(max : most) if (n > 16384)
+	for (size_t i = 0; i < n; i++) {
+		const double rate = fabs(q[i] / m[i]) * sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+		most = rate > most ? rate : most;
 	}
 	return pm_most_of_stretches(b, most);
 }

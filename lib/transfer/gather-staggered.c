@@ -1,100 +1,163 @@
-/* Gather of components at several offsets, as those of E and B on Yee's mesh, from one order of the particles: that among the nodes. A point half a cell up is
- * looked for in the particle's own cell of halves and the next (transfer-axis.h), so a tile has one slot more of them; what is gathered for a particle does
- * not depend on the order, so ranks may sort for every offset and get the same bytes (transfer-ranks.c). Cost: one sort, width^dim products a component.
+/* Gather of components at several offsets, as those of E and B on Yee's mesh, in one pass over the particles in their order among the nodes (staggered-tile.c).
+ * A point half a cell up is looked for in the particle's own cell of halves and the next (transfer-axis.h), so a tile has one slot more of them; what is
+ * gathered for a particle does not depend on the order, so ranks may sort for every offset and get the same bytes (transfer-ranks.c). A thread keeps the
+ * blocks of its tile from job to job. Cost: one sort, or a reading of positions where the particles are nearly in order; width^dim products a component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
+#include <omp.h>
 
+#include "transfer/staggered-tile.h"
 #include "transfer/transfer-pass.h"
 
-/* What all passes have in common. */
+/* What all jobs have in common. */
 struct staggered {
 	const struct pm_transfer *t;
-	struct pm_order_cache *o;
-	int threads;
-	double *results; /* NULL where the stream is in order, else [n][components], a pass behind the other */
-	/* Of the components in the order of the passes. */
-	double *to[PM_COMPONENTS];
-	const double *times[PM_COMPONENTS];
-	bool set[PM_COMPONENTS], finite;
-	int done;
+	struct pm_axis nodes[3], axes[PM_COMPONENTS][3]; /* of the order; of each component, with the cells of the nodes */
+	struct pm_tile_order own;
+	const struct pm_tile_order *o; /* own, or the one that the density left */
+	struct pm_strays strays;
+	struct pm_tile_pass pass;
+	double *blocks;  /* [threads][components][PM_BLOCK_MOST] */
+	double *results; /* where there are records: [n][components] */
+	struct pm_tile_results to;
 };
 
-/* The order among the nodes, as the density left it or made anew, with its records. */
+/* The order among the nodes, as the density left it or made anew. */
 static int find_order(struct staggered *s, size_t n, const double *const x[])
 {
 	const unsigned char nodes[3] = {0, 0, 0};
-	s->o = pm_order_cache_find(s->t, nodes, n, x);
-	if (!s->o)
-		s->o = pm_order_cache_new(s->t, nodes, n, x, 0, NULL, 0);
-	else if (pm_tile_order_spent(&s->o->order) && pm_tile_order_again(&s->o->order, 0))
-		return -PM_DATA;
-	if (!s->o)
-		return -PM_DATA;
-	if (s->o->order.records && !(s->results = pm_alloc(n * (size_t)s->t->components, sizeof *s->results)))
-		return -PM_DATA;
-	return 0;
-}
-
-/* The axes of an offset, with the cells of the nodes'. */
-static int axes_of(const struct staggered *s, struct pm_pass *w, struct pm_axis axes[3])
-{
-	if (pm_axes_init(axes, s->t, s->t->staggered[w->which[0]]))
-		return -PM_DATA;
-	for (int d = 0; d < 3; d++) {
-		w->lift[d] = axes[d].half;
-		axes[d].count = s->o->axes[d].count;
-	}
-	return 0;
-}
-
-static int one_pass(struct staggered *s, struct pm_pass *w, const double *const mesh[])
-{
-	struct pm_axis axes[3] = {{0}};
-	const struct pm_tile_results r = {s->times + s->done, s->set + s->done, s->to + s->done};
-	w->o = s->o;
-	int status = axes_of(s, w, axes);
-	if (!status)
-		status = pm_tile_pass_init(&w->p, &s->t->grid, &s->o->order, axes);
-	const int threads = (size_t)s->threads < w->p.jobs ? s->threads : (int)w->p.jobs + !w->p.jobs;
-	if (!status && !(w->blocks = pm_zalloc((size_t)threads * (size_t)w->components * PM_BLOCK_MOST, sizeof *w->blocks)))
+	struct pm_order_cache *left = pm_order_cache_find(s->t, nodes, n, x);
+	const struct pm_tile_particles particles = {.dim = s->t->grid.dim, .n = n, .x = x, .stays = true};
+	int status = pm_axes_init(s->nodes, s->t, nodes);
+	if (left && pm_tile_order_spent(&left->order))
+		status = status ? status : pm_tile_order_again(&left->order, 0);
+	if (left)
+		s->strays = left->strays;
+	else
+		status = status ? status : pm_tile_order_init(&s->own, s->nodes, &particles, 0, &s->strays);
+	s->o = left ? &left->order : &s->own;
+	if (!status && s->o->records && !(s->results = pm_alloc(n * (size_t)s->t->components, sizeof *s->results)))
 		status = -PM_DATA;
-	if (!status && PM_TILE_CIC_EIGHT)
-		status = pm_pass_vectors(w, threads);
-	if (s->results)
-		w->results = s->results + s->done, w->to = s->t->components;
-	if (!status)
-		s->finite &= pm_pass_gather_all(w, threads, mesh, &r);
-	w->results = NULL; /* they are of all passes */
-	pm_pass_end(w);
-	pm_axes_free(axes);
 	return status;
+}
+
+static int find_axes(struct staggered *s)
+{
+	int status = pm_tile_pass_init(&s->pass, &s->t->grid, s->o, s->nodes);
+	for (int c = 0; c < s->t->components && !status; c++) {
+		status = pm_axes_init(s->axes[c], s->t, s->t->staggered[c]);
+		for (int d = 0; d < 3 && !status; d++)
+			s->axes[c][d].count = s->nodes[d].count;
+	}
+	return status;
+}
+
+/* The blocks of all components of a job's tile. */
+static void load_blocks(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], double *block)
+{
+	for (int c = 0; c < s->t->components; c++) {
+		const struct pm_axis *a = s->axes[c];
+		struct pm_tile_pass p = s->pass;
+		p.axes = a;
+		pm_tile_load_block(&p, j, &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = s->t->flip[c]}, mesh[c],
+			block + (size_t)c * PM_BLOCK_MOST);
+	}
+}
+
+/* A job: to the results of the records, or, true if finite, to the particles. */
+static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, const double *block)
+{
+	const struct pm_tile_order *o = s->o;
+	const size_t components = (size_t)s->t->components;
+	double packed[PM_TILE_ORDER_PACK * 3], values[PM_TILE_ORDER_PACK * PM_COMPONENTS];
+	struct pm_staggered_tile t = {.kernel = s->t->kernel, .shift = s->nodes[0].shift, .stride = o->stride, .components = s->t->components,
+		.staggered = s->t->staggered, .block = block};
+	pm_staggered_loop *loop = pm_staggered_gather(o->dim, t.kernel, t.components, t.staggered);
+	struct pm_tile_order positions = *o;
+	bool finite = true;
+	for (int d = 0; d < 3; d++)
+		pm_tile_slots(&s->pass, j->tile, d, &t.cell[d]);
+	if (o->records) {
+		t.count = j->to - j->from;
+		t.records = o->records + j->from * (size_t)o->stride;
+		t.results = s->results + j->from * components;
+		return loop(&t), true;
+	}
+	positions.stride = t.stride = o->dim; /* that of a density has room for strengths */
+	t.records = packed, t.results = values;
+	for (size_t p = j->from; p < j->to; p += t.count) {
+		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		pm_tile_order_pack(&positions, p, t.count, false, packed);
+		loop(&t);
+		finite &= o->place ? pm_tile_order_unpack_to(o->place + p, t.count, t.components, values, t.components, s->to.factor, s->to.set, s->to.to)
+			: pm_tile_order_unpack(p, t.count, t.components, values, t.components, s->to.factor, s->to.set, s->to.to);
+	}
+	return finite;
+}
+
+static int gather_all(struct staggered *s, size_t n, const double *const mesh[], bool *finite)
+{
+	const int most = pm_tile_threads(n), threads = (size_t)most < s->pass.jobs ? most : (int)s->pass.jobs + !s->pass.jobs;
+	const size_t each = (size_t)s->t->components * PM_BLOCK_MOST;
+	int bad = 0;
+	if (!(s->blocks = pm_zalloc((size_t)threads * each, sizeof *s->blocks)))
+		return -PM_DATA;
+#pragma omp parallel num_threads(threads) reduction(| : bad)
+	{
+		double *block = s->blocks + (size_t)omp_get_thread_num() * each;
+		size_t tile = SIZE_MAX;
+#pragma omp for schedule(dynamic, 1)
+		for (size_t j = 0; j < s->pass.jobs; j++) {
+			const struct pm_tile_job *job = &s->pass.job[j];
+			if (job->tile != tile)
+				load_blocks(s, job, mesh, block);
+			tile = job->tile;
+			bad |= !gather_job(s, job, block);
+		}
+	}
+	*finite = !bad;
+	return 0;
+}
+
+static void no_factors(const double *times[PM_COMPONENTS], int n)
+{
+	for (int c = 0; c < n; c++)
+		times[c] = NULL;
+}
+
+/* Strays of particles that stay have places too, and get 0. */
+static void leave_strays(const struct staggered *s)
+{
+	const struct pm_tile_order *o = s->o;
+	for (size_t p = o->place ? o->begin[o->tiles] : o->n; p < o->n; p++)
+		for (int c = 0; c < s->t->components; c++) {
+			double *to = s->to.to[c] + o->place[p];
+			*to = s->to.set[c] ? 0 : *to + 0;
+		}
 }
 
 int pm_gather_staggered(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
-	struct staggered s = {.t = t, .threads = pm_tile_threads(n), .finite = true};
-	bool done[PM_COMPONENTS] = {false};
-	struct pm_pass w;
+	struct staggered s = {.t = t};
+	const double *none[PM_COMPONENTS];
+	bool finite = true;
+	no_factors(none, t->components);
+	s.to = (struct pm_tile_results){factor ? factor : none, t->set, out};
 	int status = find_order(&s, n, x);
-	while (!status && pm_pass_next(t, done, &w)) {
-		for (int i = 0; i < w.components; i++) {
-			const int c = w.which[i];
-			s.to[s.done + i] = out[c];
-			s.times[s.done + i] = factor ? factor[c] : NULL;
-			s.set[s.done + i] = t->set[c];
-		}
-		status = one_pass(&s, &w, mesh);
-		s.done += w.components;
-	}
+	status = status ? status : find_axes(&s);
+	status = status ? status : gather_all(&s, n, mesh, &finite);
 	if (!status && s.results)
-		status = pm_tile_order_return(&s.o->order, s.results, t->components, t->components, s.times, s.set, s.to, &s.finite);
+		status = pm_tile_order_return(s.o, s.results, t->components, t->components, s.to.factor, s.to.set, s.to.to, &finite);
 	if (!status) {
-		*strays = s.o->strays;
-		strays->finite = s.finite;
+		leave_strays(&s);
+		*strays = s.strays;
+		strays->finite = finite;
 	}
-	pm_free(s.results);
-	if (s.o && !(t->kept && *t->kept == &s.o->note))
-		pm_order_cache_free(s.o);
+	pm_free(s.results), pm_free(s.blocks);
+	pm_tile_pass_free(&s.pass);
+	pm_tile_order_free(&s.own);
+	pm_axes_free(s.nodes);
+	for (int c = 0; c < t->components; c++)
+		pm_axes_free(s.axes[c]);
 	return status;
 }

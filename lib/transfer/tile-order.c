@@ -11,12 +11,32 @@ enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
 
+/* The lower ends of m ways; length: NULL, or room for their signed lengths [cells]. v NULL: at rest. */
+static void find_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict low, double *restrict length)
+{
+	for (size_t i = 0; i < m; i++) {
+		const double a = x[i], b = a + dt * (v ? v[i] : 0);
+		low[i] = a < b ? a : b;
+		if (length)
+			length[i] = (b - a) / h;
+	}
+}
+
+/* u of m particles on axis d; false if there are strays (-1). Ways as in find_ways. */
+static bool locate_axis(const struct pm_tile_order *o, int d, size_t m, const double *x, const double *v, double *u, double *length)
+{
+	double low[batch];
+	if (o->ways)
+		find_ways(o->dt, o->axes[d].h, m, x, v, low, length);
+	return pm_axis_locate_many(&o->axes[d], m, o->ways ? low : x, u);
+}
+
 /* u[d][0..m-1] of the particles from p on; false if there are strays (-1). */
-static bool locate(const struct pm_axis axes[3], int dim, size_t p, size_t m, const double *const x[], double u[3][batch])
+static bool locate(const struct pm_tile_order *o, size_t p, size_t m, double u[3][batch])
 {
 	bool all = true;
-	for (int d = 0; d < dim; d++)
-		all &= pm_axis_locate_many(&axes[d], m, x[d] + p, u[d]);
+	for (int d = 0; d < o->dim; d++)
+		all &= locate_axis(o, d, m, o->x[d] + p, o->v[d] ? o->v[d] + p : NULL, u[d], NULL);
 	return all;
 }
 
@@ -66,10 +86,10 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
 {
 	double u[3][batch];
-	if ((int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0 && (o->dim == 1 ? tiles_of(1, o, lanes, p, m, tile) :
+	if (!o->ways && (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0 && (o->dim == 1 ? tiles_of(1, o, lanes, p, m, tile) :
 		o->dim == 2 ? tiles_of(2, o, lanes, p, m, tile) : tiles_of(3, o, lanes, p, m, tile)))
 		return true;
-	if (!locate(o->axes, o->dim, p, m, o->x, u))
+	if (!locate(o, p, m, u))
 		return false;
 	find_tiles(o, m, u, tile);
 	return true;
@@ -115,7 +135,7 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 	*strays = (struct pm_strays){.count = 0};
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
-		bool all = locate(o->axes, o->dim, p, m, o->x, u);
+		bool all = locate(o, p, m, u);
 		find_tiles(o, m, u, o->tile + p);
 		if (!all)
 			find_strays(o, p, m, u, o->x, strays);
@@ -147,7 +167,7 @@ static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 	double u[3][batch];
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
-		locate(o->axes, o->dim, p, m, o->x, u);
+		locate(o, p, m, u);
 		for (size_t i = 0; i < m; i++) {
 			uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < to ? p + i + ahead : p + i];
 			double *record = o->records + stride * cursor[tile]++;
@@ -160,17 +180,42 @@ static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 	}
 }
 
+/* The places of a chunk's particles; cursor as above. */
+static void place_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
+{
+	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p++)
+		o->place[cursor[o->tile[p]]++] = (uint32_t)p;
+}
+
+/* m values from p on in order: where they stand together those of the stream, else put together in few. */
+static const double *take(const struct pm_tile_order *o, size_t p, size_t m, const double *from, double few[batch])
+{
+	const uint32_t *place = o->place ? o->place + p : NULL;
+	if (!from)
+		return NULL;
+	if (!place || place[m - 1] - place[0] == m - 1)
+		return from + (place ? place[0] : p);
+	for (size_t i = 0; i < m; i++)
+		few[i] = from[place[i]];
+	return few;
+}
+
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records)
 {
-	double u[3][batch];
-	const size_t stride = (size_t)o->stride;
-	locate(o->axes, o->dim, p, m, o->x, u);
-	for (int d = 0; d < o->dim; d++)
+	double u[batch], length[batch], few[2][batch];
+	const size_t stride = (size_t)o->stride, first = (size_t)(o->ways ? 2 * o->dim : o->dim);
+	for (int d = 0; d < o->dim; d++) {
+		locate_axis(o, d, m, take(o, p, m, o->x[d], few[0]), take(o, p, m, o->v[d], few[1]), u, length);
 		for (size_t i = 0; i < m; i++)
-			records[i * stride + (size_t)d] = u[d][i];
-	for (int c = 0; c < (values ? o->nvalues : 0); c++)
+			records[i * stride + (size_t)d] = u[i];
+		for (size_t i = 0; i < m && o->ways; i++)
+			records[i * stride + (size_t)(o->dim + d)] = length[i];
+	}
+	for (int c = 0; c < (values ? o->nvalues : 0); c++) {
+		const double *value = take(o, p, m, o->values[c], few[0]);
 		for (size_t i = 0; i < m; i++)
-			records[i * stride + (size_t)(o->dim + c)] = o->values[c][p + i];
+			records[i * stride + first + (size_t)c] = value[i];
+	}
 }
 
 static int allocate(struct pm_tile_order *o)
@@ -205,21 +250,49 @@ static int allocate_records(struct pm_tile_order *o)
 	return 0;
 }
 
+/* Most particles have the tile of the one before. */
+static bool is_near(const struct pm_tile_order *o)
+{
+	size_t changes = 0;
+	for (size_t p = 1; p < o->n; p++)
+		changes += o->tile[p] != o->tile[p - 1];
+	return changes <= o->n / 8 && o->n <= UINT32_MAX;
+}
+
+/* Room for the places of particles that stay, or for records. */
+static int allocate_order(struct pm_tile_order *o, bool stays)
+{
+	if (o->ways || stays) {
+		if (is_near(o))
+			return (o->place = pm_alloc(o->n, sizeof *o->place)) ? 0 : -PM_DATA;
+		if (o->ways)
+			return 0;
+	}
+	return allocate_records(o);
+}
+
 /* The tiles of a stream in any order, and its records in theirs. */
-static int move(struct pm_tile_order *o, struct pm_strays *strays)
+static int move(struct pm_tile_order *o, bool stays, struct pm_strays *strays)
 {
 	const size_t columns = o->tiles + 1;
 	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
 	o->tile = pm_alloc(o->n, sizeof *o->tile);
-	if (!each || !o->tile || allocate_records(o))
+	if (!each || !o->tile)
 		return pm_free(each), -PM_DATA;
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
 		count_chunk(o, chunk, &each[chunk]);
 	add_up(o);
+	if (allocate_order(o, stays))
+		return pm_free(each), -PM_DATA;
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		move_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
+		if (o->place)
+			place_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
+		else if (o->records)
+			move_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
+	if (o->place)
+		o->tile = pm_free(o->tile);
 	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
 		uint64_t count = strays->count;
 		if (each[chunk].count)
@@ -266,12 +339,13 @@ static int count_tiles(struct pm_tile_order *o, const struct pm_axis axes[3])
 
 int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], const struct pm_tile_particles *p, int room, struct pm_strays *strays)
 {
-	int dim = p->dim, nvalues = p->nvalues, need = dim + nvalues;
+	int dim = p->dim, nvalues = p->nvalues, need = (p->v ? 2 * dim : dim) + nvalues;
 	size_t n = p->n;
-	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues};
+	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues,
+		.ways = p->v, .dt = p->dt};
 	*strays = (struct pm_strays){.count = 0};
 	for (int d = 0; d < dim; d++)
-		o->x[d] = p->x[d];
+		o->x[d] = p->x[d], o->v[d] = p->v ? p->v[d] : NULL;
 	for (int c = 0; c < nvalues; c++)
 		o->values[c] = p->values[c];
 	int status = count_tiles(o, axes);
@@ -282,7 +356,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	if ((status = allocate(o)))
 		return status;
 	if (!in_order(o))
-		return move(o, strays);
+		return move(o, p->stays, strays);
 	add_up(o);
 	return 0;
 }
@@ -293,7 +367,26 @@ void pm_tile_order_free(struct pm_tile_order *o)
 	pm_free(o->begin);
 	pm_free(o->cursor);
 	pm_free(o->records);
+	pm_free(o->place);
 	*o = (struct pm_tile_order){.n = 0};
+}
+
+bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const double *const factor[],
+	const bool set[], double *const to[])
+{
+	double nothing = 0; /* v - v is 0, or NaN if v is not finite */
+	for (int c = 0; c < nvalues; c++) {
+		double *restrict y = to[c];
+		const double *f = factor[c];
+		for (size_t i = 0; i < m; i++) {
+			const size_t p = place[i];
+			double value = records[i * (size_t)stride + (size_t)c];
+			value = f ? f[p] * value : value;
+			y[p] = set[c] ? value : y[p] + value;
+			nothing += y[p] - y[p];
+		}
+	}
+	return nothing == 0;
 }
 
 bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],

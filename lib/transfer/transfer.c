@@ -270,7 +270,7 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 	if (t->planes && t->planes->divided)
 		return pm_gather_ranks(t, n, x, mesh, factor, out, strays);
 	for (int c = 1; c < t->components; c++)
-		if (n && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]))
+		if (n && !t->kernel->star && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]))
 			return pm_gather_staggered(t, n, x, mesh, factor, out, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		double *to[PM_COMPONENTS];
