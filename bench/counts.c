@@ -5,6 +5,7 @@
 
 #include "far/pp.h"
 #include "mesh/gradient.h"
+#include "transfer/current.h"
 #include "transfer/transfer.h"
 #include "poisson-fft/poisson-fft.h"
 #include "poisson-mg/mg.h"
@@ -16,6 +17,7 @@ enum { CELLS = 32, POINTS = CELLS * CELLS * CELLS, NODES = (CELLS + 1) * (CELLS 
 struct work {
 	double *x[3], *v[3], *a[3], *q, *rho, *phi, *g[3];
 	struct pm_transfer transfer;
+	struct pm_current current;
 	struct pm_poisson_fft *fft;
 	struct pm_mg *mg;
 	struct pm_operator gradient;
@@ -71,6 +73,33 @@ static void push(struct work *w)
 	}
 }
 
+static void current(struct work *w)
+{
+	size_t stray;
+	must(pm_current_add(&w->current, POINTS, (const double *const *)w->x, (const double *const *)w->v, w->q, w->g, &stray));
+}
+
+/* E and B on Yee's mesh. */
+static void light(struct work *w)
+{
+	const double *const mesh[] = {w->g[0], w->g[1], w->g[2], w->g[0], w->g[1], w->g[2]};
+	double *const out[] = {w->a[0], w->a[1], w->a[2], w->rho, w->phi, w->q};
+	struct pm_strays strays;
+	w->transfer.components = 6;
+	for (int c = 0; c < 6; c++)
+		for (int d = 0; d < 3; d++)
+			w->transfer.set[c] = true, w->transfer.staggered[c][d] = (c % 3 == d) == (c < 3);
+	must(pm_gather(&w->transfer, POINTS, (const double *const *)w->x, mesh, NULL, out, &strays));
+}
+
+static void kick(struct work *w)
+{
+	struct pm_magnetic m = {.charge = w->q, .mass = w->q, .c = 10};
+	for (int d = 0; d < 3; d++)
+		m.v[d] = w->v[d], m.acc[d] = w->a[d], m.b[d] = w->g[d];
+	pm_step_find("relativistic")->magnetic(true, 0.01, 0, POINTS, &m);
+}
+
 static void run(struct work *w, const char *name, const char *per, double items, void (*f)(struct work *))
 {
 	f(w);
@@ -89,6 +118,18 @@ static void fill(struct work *w)
 			w->x[d][p] = u[0] * CELLS, w->v[d][p] = u[1], w->q[p] = 1;
 		}
 	}
+}
+
+/* In the order of cells, up to ways of a twentieth: most have the tile of the one before. */
+static void in_order(struct work *w)
+{
+	for (size_t p = 0; p < POINTS; p++)
+		for (int d = 0; d < 3; d++) {
+			const size_t cell[3] = {p % CELLS, p / CELLS % CELLS, p / CELLS / CELLS};
+			w->x[d][p] = (double)cell[d] + w->v[d][p];
+			w->v[d][p] = 0.1 * w->v[d][p] - 0.05;
+		}
+	w->current = (struct pm_current){.grid = w->transfer.grid, .dt = 1, .hi = {CELLS, CELLS, CELLS}};
 }
 
 /* Poisson's equation with one kind of face all around. */
@@ -134,5 +175,15 @@ int main(void)
 	w.pp.half = true;
 	run(&w, "pp half", "pair", (double)BODIES * BODIES, pairs);
 	run(&w, "push kick/2 drift", "particle", POINTS, push);
+	in_order(&w);
+	for (int k = 0; k < 2; k++) {
+		w.transfer.kernel = w.current.kernel = pm_kernel_find(k ? "tsc" : "cic");
+		snprintf(name, sizeof name, "p2m --current %s", w.current.kernel->name), run(&w, name, "particle", POINTS, current);
+	}
+	run(&w, "push relativistic/2", "particle", POINTS, kick);
+	for (int k = 0; k < 2; k++) {
+		w.transfer.kernel = pm_kernel_find(k ? "tsc" : "cic");
+		snprintf(name, sizeof name, "m2p of E and B, %s", w.transfer.kernel->name), run(&w, name, "particle", POINTS, light);
+	}
 	return 0;
 }

@@ -2,12 +2,14 @@
  * if dt |grad u| < 1 in a matrix norm; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
  * Lagrangian CFL). Plasma frequency: omega_p^2 = sum q^2/m/(eps0 V), with V the box (Birdsall and Langdon 1985, section 1-2). Cost N, points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/simd.h"
 #include "limit/rates.h"
 #include "mesh/planes.h"
 #include "stream/over-stretches.h"
+#include "world/world.h"
 
 enum { BLOCK = 1024 };
 
@@ -113,14 +115,58 @@ double pm_charge_over_mass(size_t n, const double *q, const double *m)
 	return pm_sum_total(sum);
 }
 
+/* The sum of a set, kept as notes of both fields: each knows the other one's, so that none is taken when the values of either have changed. */
+struct kept_sum {
+	struct pm_note note; /* first member */
+	const struct kept_sum *with;
+	struct pm_sum sum;
+};
+
+static void free_kept(struct pm_note *note) { free(note); }
+
+static struct kept_sum *kept_of(const struct pm_field *field)
+{
+	return field->note && field->note->free == free_kept ? (struct kept_sum *)field->note : NULL;
+}
+
+static struct kept_sum *keep(struct pm_field *field, struct pm_sum sum)
+{
+	struct kept_sum *k = calloc(1, sizeof *k); /* without memory nothing is kept */
+	if (!k)
+		return NULL;
+	*k = (struct kept_sum){.note.free = free_kept, .sum = sum};
+	if (field->note)
+		field->note->free(field->note);
+	field->note = &k->note;
+	return k;
+}
+
+/* sum q^2/m of a set; ranks, who must all do the same, count anew. */
+static struct pm_sum set_sum(struct pm_field *q, struct pm_field *m)
+{
+	const struct kept_sum *of_q = kept_of(q), *of_m = kept_of(m);
+	struct pm_sum sum = {0, 0};
+	if (of_q && of_m && of_q->with == of_m && of_m->with == of_q && pm_world_size() == 1)
+		return of_q->sum;
+	pm_over_stretches(q, &squares, &(struct charges){pm_in(q, 0), pm_in(m, 0)}, &sum);
+	if (pm_world_size() > 1 || q == m)
+		return sum;
+	struct kept_sum *a = keep(q, sum), *b = keep(m, sum);
+	if (a && b)
+		a->with = b, b->with = a;
+	return sum;
+}
+
 double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
 {
 	struct pm_sum sum = {0, 0};
 	double box = 1;
 	for (size_t i = 0; i < f->nsets; i++) {
-		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
-		if (q && m && pm_set_moves(f, f->sets[i]))
-			pm_over_stretches(q, &squares, &(struct charges){pm_in(q, 0), pm_in(m, 0)}, &sum);
+		struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
+		if (q && m && pm_set_moves(f, f->sets[i])) {
+			const struct pm_sum of_set = set_sum(q, m);
+			pm_join_sums(sizeof sum, &of_set, &sum);
+		}
 	}
 	for (int d = 0; d < f->dim; d++)
 		box *= f->hi[d] - f->lo[d];

@@ -18,8 +18,11 @@ struct pm_magnetic_one {
 
 PM_SIMD_INLINE void pm_magnetic_take(double *to, const double *from, size_t i, size_t n, double none)
 {
-	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++)
-		to[l] = from && l < n ? from[i + l] : none;
+	if (from && n == PM_MAGNETIC_LANES)
+		memcpy(to, from + i, PM_MAGNETIC_LANES * sizeof *to);
+	else
+		for (size_t l = 0; l < PM_MAGNETIC_LANES; l++)
+			to[l] = from && l < n ? from[i + l] : none;
 }
 
 /* KICK(p) changes the velocity of struct pm_magnetic_one *p. */

@@ -18,7 +18,7 @@ PM_SIMD_INLINE void pm_magnetic_turn(const double tau[3], double v[3])
 		low += fma(tau[c], tau[c], -square) + ((high - (sum - part)) + (square - part));
 		high = sum;
 	}
-	const double s = 2 / high, s_low = (fma(-s, high, 2) - s * low) / high;
+	const double s = 2 / high, s_low = (fma(-s, high, 2) - s * low) * (0.5 * s);
 	const double w[3] = {v[0] + (v[1] * tau[2] - v[2] * tau[1]), v[1] + (v[2] * tau[0] - v[0] * tau[2]), v[2] + (v[0] * tau[1] - v[1] * tau[0])};
 	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++) {

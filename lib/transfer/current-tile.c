@@ -18,7 +18,8 @@ struct along {
 PM_SIMD_INLINE int window(int points) { return points == 1 ? 1 : padded(points); }
 
 /* The window of `points` points from the cell on, which has both ends of the way. */
-PM_SIMD_INLINE void find_along(int dim, int points, int width, const pm_by_axis *low, const pm_by_axis *high, pm_by_axis way, pm_mask_by_axis on, struct along *a)
+PM_SIMD_INLINE void find_along(int dim, int points, int width, const pm_by_axis *low, const pm_by_axis *high, pm_by_axis way, pm_mask_by_axis on,
+	struct along *a)
 {
 	pm_by_axis mean[room], change[room], passed[room], sum = {0};
 	const pm_mask_by_axis back = way < 0;
