@@ -44,7 +44,9 @@ alone := tools/sh5.c
 
 tables := collision distribution effect green law kernel maxwell mollifier relax scene step
 lib_src := $(sort $(filter-out lib/h5/% lib/world/mpi.c,$(wildcard lib/*/*.c)))
-lib_obj := $(lib_src:%.c=$(B)/%.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o $(B)/tables/viewer-text.o
+# The hierarchies of poisson-mg, of double and of single numbers (lib/poisson-mg/mg-number.h).
+mg_twice := compact cycle full hierarchy level pyramid ranks relax sweep transfer
+lib_obj := $(lib_src:%.c=$(B)/%.o) $(mg_twice:%=$(B)/lib/poisson-mg/mg-%-single.o) $(tables:%=$(B)/tables/%.o) $(B)/tables/atlas.o $(B)/tables/viewer-text.o
 tool_src := $(sort $(wildcard tools/*.c))
 word_src := $(filter-out $(alone),$(tool_src))
 tool_obj := $(word_src:%.c=$(B)/%.o)
@@ -67,6 +69,10 @@ words: $(tools) $(bin_dir)/pmpipe $(mpi_object)
 $(B)/pmpipe-mpi.so: lib/world/mpi.c lib/world/transport.h
 	@mkdir -p $(@D)
 	$(MPICC) -std=c11 -O2 -g -fPIC -shared $(WARN) -o $@ $<
+
+$(B)/lib/poisson-mg/mg-%-single.o: lib/poisson-mg/mg-%.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS_ALL) -DMG_SINGLE -c -o $@ $<
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)

@@ -12,8 +12,8 @@
 enum { rows_most = 9, rows_beside = 5 }; /* itself, south, north, back, front; then the four corners in yz, of which only the node above counts */
 
 struct around {
-	const double *same[rows_most], *left[rows_beside], *right[rows_beside]; /* of half a row: neighbours of node i of it stand at place i */
-	double end[rows_beside]; /* left of node 0 */
+	const mg_number *same[rows_most], *left[rows_beside], *right[rows_beside]; /* of half a row: neighbours of node i of it stand at place i */
+	mg_number end[rows_beside]; /* left of node 0 */
 };
 
 void pm_mg_compact_init(struct mg_level *l)
@@ -39,7 +39,7 @@ static struct around around(const struct mg_level *l, size_t j, size_t k, int od
 	static const int at[rows_most][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
 	struct around a;
 	for (int m = 0; m < rows_most; m++) {
-		const double *row = l->u + mg_plane(l, ks[at[m][1]]) + js[at[m][0]] * l->stride;
+		const mg_number *row = l->u + mg_plane(l, ks[at[m][1]]) + js[at[m][0]] * l->stride;
 		a.same[m] = row + (odd ? l->half : 0);
 		if (m >= rows_beside)
 			continue;
@@ -51,43 +51,45 @@ static struct around around(const struct mg_level *l, size_t j, size_t k, int od
 }
 
 /* f - A u at place i, given the values on the left. */
-static inline __attribute__((always_inline)) double defect(const int dim, const struct mg_level *l, const struct around *a, const double *f, size_t i,
-	const double left[rows_beside])
+static inline __attribute__((always_inline)) mg_number defect(const int dim, const struct mg_level *l, const struct around *a, const mg_number *f, size_t i,
+	const mg_number left[rows_beside])
 {
-	const double *const *s = a->same, *const *r = a->right;
-	double sum = l->side[0] * (left[0] + r[0][i]);
+	const mg_number *const *s = a->same, *const *r = a->right;
+	const mg_number side[3] = {(mg_number)l->side[0], (mg_number)l->side[1], (mg_number)l->side[2]}, diagonal = (mg_number)l->diagonal;
+	const mg_number cross[3] = {(mg_number)l->cross[0], (mg_number)l->cross[1], (mg_number)l->cross[2]};
+	mg_number sum = side[0] * (left[0] + r[0][i]);
 	if (dim >= 2)
-		sum += l->side[2] * (s[3][i] + s[4][i]) + l->cross[1] * ((left[3] + r[3][i]) + (left[4] + r[4][i]));
+		sum += side[2] * (s[3][i] + s[4][i]) + cross[1] * ((left[3] + r[3][i]) + (left[4] + r[4][i]));
 	if (dim == 3) {
-		sum += l->side[1] * (s[1][i] + s[2][i]) + l->cross[0] * ((left[1] + r[1][i]) + (left[2] + r[2][i]));
-		sum += l->cross[2] * ((s[5][i] + s[6][i]) + (s[7][i] + s[8][i]));
+		sum += side[1] * (s[1][i] + s[2][i]) + cross[0] * ((left[1] + r[1][i]) + (left[2] + r[2][i]));
+		sum += cross[2] * ((s[5][i] + s[6][i]) + (s[7][i] + s[8][i]));
 	}
-	return f[i] - (sum - l->diagonal * s[0][i]);
+	return f[i] - (sum - diagonal * s[0][i]);
 }
 
-static inline __attribute__((always_inline)) void defects(const int dim, const struct mg_level *l, const struct around *a, const double *f, size_t from,
+static inline __attribute__((always_inline)) void defects(const int dim, const struct mg_level *l, const struct around *a, const mg_number *f, size_t from,
 	size_t to,
-	double *restrict d)
+	mg_number *restrict d)
 {
-	const double *left[rows_beside];
+	const mg_number *left[rows_beside];
 	for (int m = 0; m < rows_beside; m++)
 		left[m] = a->left[m];
 	for (size_t i = from ? from : 1; i < to; i++) {
-		const double here[rows_beside] = {left[0][i], left[1][i], left[2][i], left[3][i], left[4][i]};
+		const mg_number here[rows_beside] = {left[0][i], left[1][i], left[2][i], left[3][i], left[4][i]};
 		d[i] = defect(dim, l, a, f, i, here);
 	}
 }
 
 /* d = f - A u on the unknowns of half a row: places range[0] <= i < range[1] of it. */
-static void defect_half(const struct mg_level *l, size_t j, size_t k, int odd, size_t range[2], double *d)
+static void defect_half(const struct mg_level *l, size_t j, size_t k, int odd, size_t range[2], mg_number *d)
 {
 	const struct mg_axis *x = &l->axis[0];
-	const double *f = l->f + mg_plane(l, k) + j * l->stride + (odd ? l->half : 0);
+	const mg_number *f = l->f + mg_plane(l, k) + j * l->stride + (odd ? l->half : 0);
 	struct around a = around(l, j, k, odd);
 	range[0] = odd ? 0 : (x->first + 1) / 2;
 	range[1] = odd ? x->end / 2 : (x->end + 1) / 2;
 	if (range[0] == 0 && range[1]) {
-		double left[rows_beside];
+		mg_number left[rows_beside];
 		for (int m = 0; m < rows_beside; m++)
 			left[m] = odd ? a.left[m][0] : a.end[m];
 		d[0] = defect(l->dim, l, &a, f, 0, left);
@@ -101,10 +103,10 @@ static void defect_half(const struct mg_level *l, size_t j, size_t k, int odd, s
 }
 
 /* u -= (omega/D) (f - A u) on the nodes of one colour. */
-void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, double *w)
+void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, mg_number *w)
 {
 	const struct mg_axis *y = &l->axis[1];
-	double factor = relaxation / l->diagonal;
+	const mg_number factor = (mg_number)(relaxation / l->diagonal);
 	size_t shift = l->dim == 3 ? k : 0, range[2];
 	int odd = (int)(((size_t)colour + shift) & 1);
 	if (l->dim < 3 && (k & 1) != (size_t)(colour >> 1))
@@ -112,7 +114,7 @@ void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour,
 	for (size_t j = y->first; j < y->end; j++) {
 		if (l->dim == 3 && ((j + k) & 1) != (size_t)(colour >> 1))
 			continue;
-		double *row = l->u + mg_plane(l, k) + j * l->stride, *u = row + (odd ? l->half : 0);
+		mg_number *row = l->u + mg_plane(l, k) + j * l->stride, *u = row + (odd ? l->half : 0);
 		defect_half(l, j, k, odd, range, w);
 		for (size_t i = range[0]; i < range[1]; i++)
 			u[i] -= factor * w[i];
@@ -120,10 +122,10 @@ void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour,
 	}
 }
 
-void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, double *w)
+void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, mg_number *w)
 {
 	const struct mg_axis *y = &l->axis[1];
-	double factor = relaxation / l->diagonal;
+	const mg_number factor = (mg_number)(relaxation / l->diagonal);
 	size_t range[2];
 	for (size_t j = y->first; j < y->end; j++)
 		for (int odd = 0; odd < 2; odd++) {
@@ -139,18 +141,19 @@ void pm_mg_keep_plane(const struct mg_level *l, size_t k)
 	const struct mg_axis *y = &l->axis[1];
 	for (size_t j = y->first; j < y->end; j++) {
 		size_t at = mg_plane(l, k) + j * l->stride;
-		memcpy(l->u + at, l->v + at, l->stride * sizeof(double)); /* v is zero where there is no unknown */
+		memcpy(l->u + at, l->v + at, l->stride * sizeof *l->u); /* v is zero where there is no unknown */
 		mg_close_row(l, l->u + at);
 	}
 }
 
-double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, double *r)
+double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, mg_number *r)
 {
-	double sum = 0, lane[mg_lanes] = {0};
+	double sum = 0;
+	mg_number lane[mg_lanes] = {0};
 	size_t range[2];
 	memset(r, 0, l->stride * sizeof *r);
 	for (int odd = 0; odd < 2; odd++) {
-		double *d = r + (odd ? l->half : 0);
+		mg_number *d = r + (odd ? l->half : 0);
 		defect_half(l, j, k, odd, range, d);
 		for (size_t i = 0; i < l->half; i += mg_lanes)
 			for (size_t q = 0; q < mg_lanes; q++)

@@ -13,6 +13,28 @@ size_t pm_mg_unknowns(const struct mg_level *l)
 	return n;
 }
 
+double pm_mg_squares(struct pm_mg *mg, const mg_number *values)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
+	size_t range[2];
+	mg_range(l, range);
+	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	for (size_t k = range[0]; k < range[1]; k++) {
+		struct pm_sum plane = {0, 0};
+		for (size_t j = y->first; j < y->end; j++)
+			for (int odd = 0; odd < 2; odd++) {
+				const mg_number *v = values + mg_plane(l, k) + j * l->stride + (size_t)odd * l->half;
+				double sum = 0;
+				for (size_t i = 0; i < l->half; i++)
+					sum += l->mask[odd][i] ? (double)v[i] * (double)v[i] : 0;
+				pm_sum_add(&plane, sum);
+			}
+		mg->sums[k] = pm_sum_total(plane);
+	}
+	return pm_mg_total(mg, z->first, z->end);
+}
+
 /* n sweeps behind the stage `first`; MG_RED stands for no such stage. */
 static void smooth(struct pm_mg *mg, int at, const struct pm_mg_choice *o, enum mg_stage first, int n)
 {

@@ -72,7 +72,7 @@ static struct mg_parents parents(const struct mg_map *map, int way, size_t i)
 }
 
 /* Node i of a fine row from the coarse values t, by the table. */
-static double interpolated(const struct mg_map *map, size_t i, const double *t)
+static double interpolated(const struct mg_map *map, size_t i, const mg_number *t)
 {
 	const size_t *four = map->four[0] + mg_cubic * i;
 	const double *c = map->cubic[0] + mg_cubic * i;
@@ -80,29 +80,29 @@ static double interpolated(const struct mg_map *map, size_t i, const double *t)
 }
 
 /* u_2i = t_i, u_2i+1 = (-t_i-1 + 9 t_i + 9 t_i+1 - t_i+2)/16, one-sided at the ends unless periodic. */
-static void interpolate_half(const struct mg_level *fine, const struct mg_axis *coarse, const double *restrict t, double *restrict u)
+static void interpolate_half(const struct mg_level *fine, const struct mg_axis *coarse, const mg_number *restrict t, mg_number *restrict u)
 {
 	const struct mg_axis *x = &fine->axis[0];
-	double *odd = u + fine->half;
+	mg_number *odd = u + fine->half;
 	ptrdiff_t n = (ptrdiff_t)(x->points / 2); /* signed, for i - 1 is below zero in the first one */
 	for (size_t i = 0; i < coarse->points; i++)
 		u[i] = t[i];
 	for (ptrdiff_t i = 0; i < n; i++)
-		odd[i] = 0.0625 * (9 * (t[i] + t[i + 1]) - (t[i - 1] + t[i + 2]));
+		odd[i] = (mg_number)0.0625 * (9 * (t[i] + t[i + 1]) - (t[i - 1] + t[i + 2]));
 	if (!x->periodic) {
 		odd[0] = interpolated(&fine->map[0], 1, t);
 		odd[n - 1] = interpolated(&fine->map[0], 2 * (size_t)n - 1, t);
 	}
 }
 
-void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
+void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, mg_number *w)
 {
 	const struct mg_axis *x = &fine->axis[0], *y = &fine->axis[1];
 	struct mg_parents pz = parents(&fine->map[2], 0, k);
-	double *t = w + mg_lanes;
+	mg_number *t = w + mg_lanes;
 	for (size_t j = y->first; j < y->end; j++) {
 		struct mg_parents py = parents(&fine->map[1], 0, j);
-		double *u = fine->u + mg_plane(fine, k) + j * fine->stride;
+		mg_number *u = fine->u + mg_plane(fine, k) + j * fine->stride;
 		pm_mg_gather(coarse, &py, &pz, t);
 		if (fine->map[0].half)
 			interpolate_half(fine, &coarse->axis[0], t, u);
@@ -114,10 +114,10 @@ void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level 
 }
 
 /* c_i = (16 f_2i + 9 (f_2i-1 + f_2i+1) - (f_2i-3 + f_2i+3))/32, node after node; w: room for the odd half with two values more at each end. */
-static void collect_half(const struct mg_level *fine, size_t points, const double *restrict f, double *restrict c, double *restrict w)
+static void collect_half(const struct mg_level *fine, size_t points, const mg_number *restrict f, mg_number *restrict c, mg_number *restrict w)
 {
 	const struct mg_axis *x = &fine->axis[0];
-	double *odd = w + mg_lanes;
+	mg_number *odd = w + mg_lanes;
 	size_t n = x->points / 2;
 	memcpy(odd, f + fine->half, n * sizeof *odd);
 	for (ptrdiff_t o = -2; o <= 2; o++) { /* -3, -1 on the left; on the right the next two */
@@ -125,14 +125,14 @@ static void collect_half(const struct mg_level *fine, size_t points, const doubl
 		odd[i] = f[mg_slot(fine, mg_fold(2 * i + 1, x))];
 	}
 	for (ptrdiff_t i = 0; i < (ptrdiff_t)points; i++)
-		c[i] = 0.03125 * (16 * f[i] + 9 * (odd[i - 1] + odd[i]) - (odd[i - 2] + odd[i + 1]));
+		c[i] = (mg_number)0.03125 * (16 * f[i] + 9 * (odd[i - 1] + odd[i]) - (odd[i - 2] + odd[i + 1]));
 }
 
 /* A row of f onto a coarse row c. */
-static void collect(const struct mg_level *fine, const struct mg_level *coarse, const double *f, double *c)
+static void collect(const struct mg_level *fine, const struct mg_level *coarse, const mg_number *f, mg_number *c)
 {
 	const struct mg_axis *x = &fine->axis[0];
-	double *t = c + coarse->stride, *w = t + coarse->stride;
+	mg_number *t = c + coarse->stride, *w = t + coarse->stride;
 	if (fine->map[0].half) {
 		collect_half(fine, coarse->axis[0].points, f, t, w);
 		pm_mg_fold_row(coarse, t, c);
@@ -145,11 +145,11 @@ static void collect(const struct mg_level *fine, const struct mg_level *coarse, 
 }
 
 /* Coarse planes range[0] <= K < range[1], each summed in the order of the fine rows. */
-static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], double *c)
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], mg_number *c)
 {
 	const struct mg_axis *y = &fine->axis[1], *z = &fine->axis[2];
 	if (range[0] < range[1])
-		memset(coarse->f + mg_plane(coarse, range[0]), 0, (range[1] - range[0]) * coarse->plane * sizeof(double));
+		memset(coarse->f + mg_plane(coarse, range[0]), 0, (range[1] - range[0]) * coarse->plane * sizeof *coarse->f);
 	for (size_t k = z->first; k < z->end; k++) {
 		struct mg_parents pz = parents(&fine->map[2], 1, k);
 		bool any = false;

@@ -32,7 +32,7 @@ static bool build_down(struct pm_mg *mg)
 	}
 	mg->threads = pm_threads();
 	mg->room = 4 * (mg->level[0].stride + 4 * mg_lanes);
-	mg->scratch = pm_zalloc(mg->room * (size_t)mg->threads, sizeof(double));
+	mg->scratch = pm_zalloc(mg->room * (size_t)mg->threads, sizeof *mg->scratch);
 	mg->sums = pm_zalloc(mg->level[0].axis[2].points, sizeof(double));
 	return mg->scratch && mg->sums;
 }
@@ -58,7 +58,7 @@ bool pm_mg_build(struct pm_mg *mg, const struct pm_grid *g, int order, const str
 bool pm_mg_room(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
 	for (int i = 0; i < mg->levels && o->smoother == PM_MG_JACOBI; i++)
-		if (!mg->level[i].v && !(mg->level[i].v = pm_zalloc(mg_held(&mg->level[i]), sizeof(double))))
+		if (!mg->level[i].v && !(mg->level[i].v = pm_zalloc(mg_held(&mg->level[i]), sizeof(mg_number))))
 			return false;
 	return !mg->whole || pm_mg_room(mg->whole, o);
 }

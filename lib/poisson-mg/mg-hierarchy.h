@@ -12,12 +12,13 @@ struct pm_mg {
 	struct pm_grid grid;
 	int levels, threads, order;
 	struct mg_level level[mg_levels_most];
-	double *scratch;       /* per thread: four rows */
+	mg_number *scratch;    /* per thread: four rows */
 	size_t room;           /* of scratch per thread, a multiple of mg_lanes */
 	double *sums;          /* per plane of the finest grid */
 	int shared;            /* grids 0 .. shared-1 are in planes on all ranks; the next one is too, to hand over to `whole`; 0: alone */
 	struct pm_mg *whole;   /* rank 0: that one and the coarser grids */
 	int status;            /* agreed by all ranks since the solution began */
+	struct pm_mg_single *single; /* for its corrections (mg-refine.c); NULL: not made yet, or this is one */
 };
 
 /* The sum of one number per plane, n of them; of a plane the rows are added first (base/in-order.h). */
@@ -30,14 +31,14 @@ enum { mg_stages_most = 4 * 32 + 1 };
 /* mg-relax.c */
 void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
-double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, double *r); /* as a row, closed behind its end; returns the sum of squares */
+double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, mg_number *r); /* as a row, closed behind its end; returns the sum of squares */
 
 /* mg-compact.c */
 void pm_mg_compact_init(struct mg_level *l); /* the weights, also those of order 2 */
-void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, double *w); /* w: room for a row */
-void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, double *w); /* v from u */
+void pm_mg_colour_plane(const struct mg_level *l, double relaxation, int colour, size_t k, mg_number *w); /* w: room for a row */
+void pm_mg_jacobi_plane(const struct mg_level *l, double relaxation, size_t k, mg_number *w); /* v from u */
 void pm_mg_keep_plane(const struct mg_level *l, size_t k);                                  /* u from v */
-double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, double *r);     /* as pm_mg_residual_row */
+double pm_mg_compact_residual(const struct mg_level *l, size_t j, size_t k, mg_number *r);  /* as pm_mg_residual_row */
 /* The right-hand side of order 4 for lap u = s; on planes of a grid l,
  * of which s has two more on either side where they are not all. */
 void pm_mg_compact_source(const struct pm_grid *g, const struct mg_level *l, const double *s, double *out);
@@ -48,11 +49,11 @@ struct mg_parents { /* of one node along one axis, without those of weight 0 */
 	size_t node[mg_cubic];
 	double w[mg_cubic];
 };
-void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y); /* y += w x; n a multiple of mg_lanes */
-void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row); /* from node after node to a row */
+void pm_mg_add_row(size_t n, double w, const mg_number *restrict x, mg_number *restrict y); /* y += w x; n a multiple of mg_lanes */
+void pm_mg_fold_row(const struct mg_level *l, const mg_number *restrict t, mg_number *restrict row); /* from node after node to a row */
 /* A combination of coarse rows, node after node in t, closed at its ends if periodic: t[-1] ... t[n+1]. */
-void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t);
-void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, mg_number *t);
+void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, mg_number *w);
 double pm_mg_restrict(struct pm_mg *mg, int fine, bool half_weighting); /* of f - lap u; returns its sum of squares on the finest grid */
 
 /* mg-pyramid.c */
@@ -62,7 +63,7 @@ bool pm_mg_pyramid(struct pm_mg *mg, double factor, const double *s); /* order 4
 /* Lagrange weights of up to four nodes of an axis around x [cells]; below = floor(x). */
 void pm_mg_lagrange(const struct mg_axis *a, ptrdiff_t below, double x, size_t *node, double *w);
 bool pm_mg_full_tables(const struct mg_axis *fine, const struct mg_axis *coarse, struct mg_map *map);
-void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w);
+void pm_mg_interpolate_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, mg_number *w);
 void pm_mg_restrict_source(struct pm_mg *mg, int fine);
 
 /* mg-sweep.c */
@@ -73,8 +74,15 @@ void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const en
 int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi,
 	struct pm_mg_record *r);
 
+/* mg-refine.c: cycles in single numbers, residuals in double ones. Is that for this problem? And the solution from u = 0 and f: false where it stalls, to be
+ * continued in double numbers. */
+bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o);
+bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r);
+bool pm_mg_at_roundoff(struct pm_mg *mg, double residual, double source); /* mg.c */
+
 /* mg-cycle.c */
 size_t pm_mg_unknowns(const struct mg_level *l);
+double pm_mg_squares(struct pm_mg *mg, const mg_number *values); /* their sum over the unknowns of u or f of the finest grid */
 void pm_mg_solve_coarsest(struct pm_mg *mg); /* one unknown, or none, or a constant that may be anything */
 double pm_mg_cycle_down(struct pm_mg *mg, int at, const struct pm_mg_choice *o, bool zero); /* relax, restrict; sum of squares of the residual, finest grid */
 void pm_mg_cycle_up(struct pm_mg *mg, int at, const struct pm_mg_choice *o);                /* the coarser grids, correct, relax */

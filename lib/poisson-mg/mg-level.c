@@ -126,17 +126,17 @@ static bool level_alloc(struct mg_level *l)
 	l->half = mg_lanes * ((x->points + 2 * mg_lanes - 1) / (2 * mg_lanes) + 1);
 	l->stride = 2 * l->half;
 	l->plane = l->stride * l->axis[1].points;
-	if (l->plane % 512 == 0 && l->axis[1].points > 1) /* planes a multiple of 4 KiB apart would share the sets of the cache */
+	if (l->plane % (4096 / sizeof *l->u) == 0 && l->axis[1].points > 1) /* planes a multiple of 4 KiB apart would share the sets of the cache */
 		l->plane += mg_lanes;
 	for (int d = 0; d < 3; d++)
 		l->fixed |= !axis_free(&l->axis[d]);
 	l->here = l->axis[2].points;
 	if (l->from && !planes_place(l))
 		return false;
-	l->u = pm_zalloc(mg_held(l), sizeof(double));
-	l->f = pm_zalloc(mg_held(l), sizeof(double));
+	l->u = pm_zalloc(mg_held(l), sizeof *l->u);
+	l->f = pm_zalloc(mg_held(l), sizeof *l->f);
 	for (int m = 0; m < 2; m++)
-		if (!(l->mask[m] = pm_zalloc(l->half, sizeof(int64_t))))
+		if (!(l->mask[m] = pm_zalloc(l->half, sizeof *l->mask[m])))
 			return false;
 	for (size_t i = x->first; i < x->end; i++)
 		l->mask[i & 1][i / 2] = -1;

@@ -7,9 +7,10 @@
 #define PM_POISSON_MG_MG_LEVEL_H
 
 #include "mesh/planes.h"
+#include "poisson-mg/mg-number.h"
 #include "mesh/index-fold.h"
 
-enum { mg_lanes = 8, mg_cubic = 4, mg_parallel = 131072, mg_beyond = 3 }; /* values below which a grid is not worth the barriers of threads */
+enum { mg_cubic = 4, mg_parallel = 131072, mg_beyond = 3 }; /* values below which a grid is not worth the barriers of threads */
 
 struct mg_axis {
 	size_t cells, points;  /* 1 cell, 1 point, w = 0: an axis on which nothing varies */
@@ -40,8 +41,8 @@ struct mg_level {
 	uint64_t *from;        /* the first plane of every rank, one more than ranks; NULL: all are here */
 	size_t *at;            /* [values] where a plane is, own ones and mg_beyond of other ranks below and above; NULL: one behind the other */
 	bool beside;           /* f of the planes of other ranks is up to date */
-	double *u, *f, *v;     /* v: room for Jacobi's sweeps, if there were any */
-	int64_t *mask[2];      /* per half: -1 for an unknown, else 0 */
+	mg_number *u, *f, *v;     /* v: room for Jacobi's sweeps, if there were any */
+	mg_mask *mask[2];      /* per half: -1 for an unknown, else 0 */
 	struct mg_map map[3];  /* to the next level; not filled on the coarsest */
 };
 
@@ -66,14 +67,14 @@ static inline void mg_range(const struct mg_level *l, size_t range[2])
 }
 
 /* Every row of u is kept closed by who changes it: behind its last node stands the right neighbour of that, folded at the face. */
-static inline void mg_close_row(const struct mg_level *l, double *u)
+static inline void mg_close_row(const struct mg_level *l, mg_number *u)
 {
 	const struct mg_axis *x = &l->axis[0];
 	u[mg_slot(l, x->points)] = u[mg_slot(l, mg_above(x, x->points - 1))];
 }
 
 /* Left of node 0, folded at the face. */
-static inline double mg_left_end(const struct mg_level *l, const double *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
+static inline mg_number mg_left_end(const struct mg_level *l, const mg_number *u) { return u[mg_slot(l, mg_below(&l->axis[0], 0))]; }
 
 /* The finest grid of a mesh, or its planes on this rank; the next coarser one with fine->map[].parent, w and a, *more false if there is none.
  * False: no memory. */

@@ -106,7 +106,7 @@ static double *coarser(struct pm_mg *mg, const struct mg_level *f, const struct 
 			continue;
 		if (planes) {
 			const size_t inner = pm_grid_size(&g) / g.points[d];
-			pm_mg_beside_own(mg, f, a, inner, mg_beyond);
+			pm_mg_beside_own(mg, f, a, inner * sizeof *a, mg_beyond);
 			along_planes(f, c, inner, a, b);
 		} else {
 			struct pm_grid here = g;
@@ -138,7 +138,7 @@ bool pm_mg_pyramid(struct pm_mg *mg, double factor, const double *s)
 		a = coarser(mg, &mg->level[at - 1], c, a, a == room[0] + own ? room[1] + own : room[0] + own);
 		double *b = a == room[0] + own ? room[1] + own : room[0] + own;
 		const struct pm_grid g = grid_of(c);
-		pm_mg_beside_own(mg, c, a, pm_grid_size(&g) / c->axis[2].points, 2);
+		pm_mg_beside_own(mg, c, a, pm_grid_size(&g) / c->axis[2].points * sizeof *a, 2);
 		pm_mg_compact_source(&g, c, a, b);
 		load(mg, c, factor, b);
 	}

@@ -6,14 +6,17 @@
 #include "poisson-mg/mg-ranks.h"
 #include "world/world.h"
 
-void pm_mg_beside_own(struct pm_mg *mg, const struct mg_level *l, double *own, size_t plane, int wide)
+void pm_mg_beside_own(struct pm_mg *mg, const struct mg_level *l, void *own, size_t bytes, int wide)
 {
-	const struct pm_halo halo = {.from = l->from, .bytes = plane * sizeof *own, .wide = wide, .periodic = l->axis[2].periodic, .empty = true};
+	const struct pm_halo halo = {.from = l->from, .bytes = bytes, .wide = wide, .periodic = l->axis[2].periodic, .empty = true};
 	if (l->from)
 		mg->status = pm_world_halo(mg->status, &halo, own);
 }
 
-void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, double *values, int wide) { pm_mg_beside_own(mg, l, values + mg_own(l), l->plane, wide); }
+void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, mg_number *values, int wide)
+{
+	pm_mg_beside_own(mg, l, values + mg_own(l), l->plane * sizeof *values, wide);
+}
 
 double pm_mg_total(struct pm_mg *mg, size_t from, size_t to)
 {
@@ -40,15 +43,15 @@ double pm_mg_most(struct pm_mg *mg, double here)
 }
 
 /* Planes of the grid `shared` to the whole one on rank 0, or back. */
-static void move(struct pm_mg *mg, bool back, double *part, double *whole)
+static void move(struct pm_mg *mg, bool back, mg_number *part, mg_number *whole)
 {
 	const struct mg_level *l = &mg->level[mg->shared];
-	const size_t ranks = (size_t)pm_world_size(), bytes = l->plane * sizeof(double);
+	const size_t ranks = (size_t)pm_world_size(), bytes = l->plane * sizeof *part;
 	uint64_t *first = pm_alloc(ranks + 1, sizeof *first);
 	for (size_t r = 0; r <= ranks && first; r++)
 		first[r] = r ? l->axis[2].points : 0;
 	mg->status = pm_world_agree(mg->status ? mg->status : first ? 0 : pm_failed());
-	double *own = part + mg_own(l);
+	mg_number *own = part + mg_own(l);
 	if (!mg->status)
 		mg->status = pm_world_recut(0, back ? first : l->from, back ? l->from : first, bytes, back ? whole : own, back ? own : whole);
 	pm_free(first);

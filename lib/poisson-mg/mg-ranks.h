@@ -13,9 +13,9 @@ bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_pr
 struct pm_mg *pm_mg_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes);
 bool pm_mg_same_planes(const struct pm_mg *mg, const struct pm_planes *planes);
 
-/* Brings the planes of other ranks, if there are any; of values laid out as u and f, and of planes of so many values from the first own one on. */
-void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, double *values, int wide);
-void pm_mg_beside_own(struct pm_mg *mg, const struct mg_level *l, double *own, size_t plane, int wide);
+/* Brings the planes of other ranks, if there are any; of values laid out as u and f, and of planes of so many bytes from the first own one on. */
+void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, mg_number *values, int wide);
+void pm_mg_beside_own(struct pm_mg *mg, const struct mg_level *l, void *own, size_t bytes, int wide); /* of a plane */
 double pm_mg_total(struct pm_mg *mg, size_t from, size_t to); /* of mg->sums, planes from <= k < to */
 double pm_mg_most(struct pm_mg *mg, double here);
 void pm_mg_hand_over(struct pm_mg *mg); /* f of grid `shared` to the whole one */

@@ -16,12 +16,12 @@ struct sweep {
 	const enum mg_stage *stages;
 };
 
-static void stage_plane(const struct sweep *s, int stage, size_t k, double *w)
+static void stage_plane(const struct sweep *s, int stage, size_t k, mg_number *w)
 {
 	struct mg_level *l = s->level;
 	switch (s->stages[stage]) {
 	case MG_ZERO:
-		memset(l->u + mg_plane(l, k), 0, l->axis[1].points * l->stride * sizeof(double));
+		memset(l->u + mg_plane(l, k), 0, l->axis[1].points * l->stride * sizeof *l->u);
 		break;
 	case MG_CORRECT:
 		pm_mg_correct_plane(l, l + 1, k, w);
@@ -45,7 +45,7 @@ static void stage_plane(const struct sweep *s, int stage, size_t k, double *w)
 }
 
 /* Stage by stage: small grids. */
-static void sweep_plain(const struct sweep *s, double *w)
+static void sweep_plain(const struct sweep *s, mg_number *w)
 {
 	const struct mg_axis *z = &s->level->axis[2];
 	for (int stage = 0; stage < s->n; stage++) {
@@ -57,7 +57,7 @@ static void sweep_plain(const struct sweep *s, double *w)
 }
 
 /* Planes from <= k < to, stage s keeping s + seam planes away from a low cut and s from a high one. */
-static void sweep_slab(const struct sweep *s, const ptrdiff_t range[2], const bool cut[2], bool seam, double *w)
+static void sweep_slab(const struct sweep *s, const ptrdiff_t range[2], const bool cut[2], bool seam, mg_number *w)
 {
 	for (ptrdiff_t front = range[0]; front < range[1] + s->n; front++)
 		for (int stage = 0; stage < s->n; stage++) {
@@ -68,7 +68,7 @@ static void sweep_slab(const struct sweep *s, const ptrdiff_t range[2], const bo
 }
 
 /* The wedge left at a cut. */
-static void sweep_wedge(const struct sweep *s, ptrdiff_t cut, bool seam, double *w)
+static void sweep_wedge(const struct sweep *s, ptrdiff_t cut, bool seam, mg_number *w)
 {
 	ptrdiff_t n = (ptrdiff_t)s->level->axis[2].points;
 	for (int stage = 0; stage < s->n; stage++)

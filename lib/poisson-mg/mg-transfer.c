@@ -4,11 +4,8 @@
  * ratio n/n_c. As 1/h^2 stays in the operator, no scaling is needed (texts that multiply by h^2 omit a factor of 4).
  * Sources: Trottenberg, Oosterlee, Schueller 2001, sections 2.3 and 2.6.
  * Every coarse value is summed in the order of the fine rows, whatever the threads. SPDX-License-Identifier: GPL-3.0-or-later */
-#define PM_SIMD_NARROW /* vectors of one register */
-#include "base/simd.h"
+#include "poisson-mg/mg-vector.h"
 #include "poisson-mg/mg-ranks.h"
-
-enum { W = PM_SIMD_WIDTH };
 
 static struct mg_parents parents_linear(const struct mg_map *map, const struct mg_axis *coarse, size_t i)
 {
@@ -19,44 +16,45 @@ static struct mg_parents parents_linear(const struct mg_map *map, const struct m
 	return p;
 }
 
-void pm_mg_add_row(size_t n, double w, const double *restrict x, double *restrict y)
+void pm_mg_add_row(size_t n, double weight, const mg_number *restrict x, mg_number *restrict y)
 {
+	const mg_number w = (mg_number)weight;
 	for (size_t i = 0, end = mg_whole(n); i < end; i += W)
-		pm_simd_store(y + i, pm_simd_load(y + i) + w * pm_simd_load(x + i));
+		mg_store(y + i, mg_load(y + i) + w * mg_load(x + i));
 }
 
-void pm_mg_fold_row(const struct mg_level *l, const double *restrict t, double *restrict row)
+void pm_mg_fold_row(const struct mg_level *l, const mg_number *restrict t, mg_number *restrict row)
 {
 	for (size_t i = 0, end = mg_whole(l->half); i < end; i += W) {
-		pm_simd a = pm_simd_load(t + 2 * i), b = pm_simd_load(t + 2 * i + W);
-		pm_simd_store(row + i, pm_simd_even(a, b));
-		pm_simd_store(row + l->half + i, pm_simd_odd(a, b));
+		mg_vector a = mg_load(t + 2 * i), b = mg_load(t + 2 * i + W);
+		mg_store(row + i, mg_even(a, b));
+		mg_store(row + l->half + i, mg_odd(a, b));
 	}
 }
 
 /* n rows with weights w, from rows to node after node. */
-PM_SIMD_INLINE void combine(const struct mg_level *c, const int n, const double *const *row, const double *w, double *restrict t)
+PM_SIMD_INLINE void combine(const struct mg_level *c, const int n, const mg_number *const *row, const mg_number *w, mg_number *restrict t)
 {
 	for (size_t i = 0, end = mg_whole(c->half); i < end; i += W) {
-		pm_simd even = w[0] * pm_simd_load(row[0] + i), odd = w[0] * pm_simd_load(row[0] + c->half + i);
+		mg_vector even = w[0] * mg_load(row[0] + i), odd = w[0] * mg_load(row[0] + c->half + i);
 		for (int m = 1; m < n; m++) {
-			even += w[m] * pm_simd_load(row[m] + i);
-			odd += w[m] * pm_simd_load(row[m] + c->half + i);
+			even += w[m] * mg_load(row[m] + i);
+			odd += w[m] * mg_load(row[m] + c->half + i);
 		}
-		pm_simd_store(t + 2 * i, pm_simd_zip_low(even, odd));
-		pm_simd_store(t + 2 * i + W, pm_simd_zip_high(even, odd));
+		mg_store(t + 2 * i, mg_zip_low(even, odd));
+		mg_store(t + 2 * i + W, mg_zip_high(even, odd));
 	}
 }
 
-void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, double *t)
+void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const struct mg_parents *z, mg_number *t)
 {
-	const double *row[mg_cubic * mg_cubic];
-	double w[mg_cubic * mg_cubic];
+	const mg_number *row[mg_cubic * mg_cubic];
+	mg_number w[mg_cubic * mg_cubic];
 	size_t points = c->axis[0].points;
 	int n = 0;
 	for (int a = 0; a < z->n; a++)
 		for (int b = 0; b < y->n; b++, n++) {
-			w[n] = z->w[a] * y->w[b];
+			w[n] = (mg_number)(z->w[a] * y->w[b]);
 			row[n] = c->u + mg_plane(c, z->node[a]) + y->node[b] * c->stride;
 		}
 	if (n == 1)
@@ -74,17 +72,17 @@ void pm_mg_gather(const struct mg_level *c, const struct mg_parents *y, const st
 }
 
 /* u_2i += t_i, u_2i+1 += (t_i + t_i+1)/2, also past the end of the row, where the values are not used. */
-static void spread_half(const struct mg_level *fine, const double *restrict t, double *restrict u)
+static void spread_half(const struct mg_level *fine, const mg_number *restrict t, mg_number *restrict u)
 {
-	double *restrict odd = u + fine->half;
+	mg_number *restrict odd = u + fine->half;
 	for (size_t i = 0, end = mg_whole((fine->axis[0].points + 1) / 2); i < end; i += W) {
-		pm_simd a = pm_simd_load(t + i), b = pm_simd_load(t + i + W);
-		pm_simd_store(u + i, pm_simd_load(u + i) + a);
-		pm_simd_store(odd + i, pm_simd_load(odd + i) + 0.5 * (a + pm_simd_shift_down(a, b)));
+		mg_vector a = mg_load(t + i), b = mg_load(t + i + W);
+		mg_store(u + i, mg_load(u + i) + a);
+		mg_store(odd + i, mg_load(odd + i) + (mg_number)0.5 * (a + mg_shift_down(a, b)));
 	}
 }
 
-static void spread_row(const struct mg_level *fine, const double *t, double *u)
+static void spread_row(const struct mg_level *fine, const mg_number *t, mg_number *u)
 {
 	const struct mg_map *x = &fine->map[0];
 	if (x->half)
@@ -95,7 +93,7 @@ static void spread_row(const struct mg_level *fine, const double *t, double *u)
 	mg_close_row(fine, u);
 }
 
-void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, double *w)
+void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coarse, size_t k, mg_number *w)
 {
 	const struct mg_axis *y = &fine->axis[1];
 	struct mg_parents pz = parents_linear(&fine->map[2], &coarse->axis[2], k);
@@ -107,20 +105,20 @@ void pm_mg_correct_plane(const struct mg_level *fine, const struct mg_level *coa
 }
 
 /* c_i = side (r_2i-1 + r_2i+1) + middle r_2i, node after node */
-PM_SIMD_INLINE void collect_half(const struct mg_level *fine, const double side, const double middle, const double *restrict r,
-	double *restrict c)
+PM_SIMD_INLINE void collect_half(const struct mg_level *fine, const mg_number side, const mg_number middle, const mg_number *restrict r,
+	mg_number *restrict c)
 {
-	pm_simd before = {0};
+	mg_vector before = {0};
 	before += r[mg_slot(fine, mg_below(&fine->axis[0], 0))];
 	for (size_t i = 0, end = mg_whole((fine->axis[0].points + 1) / 2); i < end; i += W) {
-		pm_simd odd = pm_simd_load(r + fine->half + i);
-		pm_simd_store(c + i, side * (pm_simd_shift_up(before, odd) + odd) + middle * pm_simd_load(r + i));
+		mg_vector odd = mg_load(r + fine->half + i);
+		mg_store(c + i, side * (mg_shift_up(before, odd) + odd) + middle * mg_load(r + i));
 		before = odd;
 	}
 }
 
 /* A fine row r onto a coarse row c; w: room for one. */
-static void collect_row(const struct mg_level *fine, const struct mg_level *coarse, const double *r, double *c, double *w)
+static void collect_row(const struct mg_level *fine, const struct mg_level *coarse, const mg_number *r, mg_number *c, mg_number *w)
 {
 	const struct mg_map *map = &fine->map[0];
 	if (map->same) {
@@ -138,7 +136,8 @@ static void collect_row(const struct mg_level *fine, const struct mg_level *coar
 
 /* Half weighting: 1/2 of the node and 1/(4n) of each of its neighbours along the n axes that are coarsened, instead of the product of (1 2 1)/4. In row j, k:
  * what collect_row does, and the factor that makes the weights of mg_map those. 0: the row has no part in it. */
-static double collect_half_weighting(const struct mg_level *fine, const struct mg_level *coarse, size_t j, size_t k, const double *r, double *c, double *w)
+static double collect_half_weighting(const struct mg_level *fine, const struct mg_level *coarse, size_t j, size_t k, const mg_number *r, mg_number *c,
+	mg_number *w)
 {
 	const struct mg_map *x = &fine->map[0], *y = x + 1, *z = x + 2;
 	bool odd[2] = {!y->same && (j & 1), !z->same && (k & 1)};
@@ -150,9 +149,9 @@ static double collect_half_weighting(const struct mg_level *fine, const struct m
 		return scale * (odd[0] || odd[1] ? side : 0.5);
 	}
 	if (odd[0] || odd[1])
-		collect_half(fine, 0, side, r, w);
+		collect_half(fine, 0, (mg_number)side, r, w);
 	else
-		collect_half(fine, side, 0.5, r, w);
+		collect_half(fine, (mg_number)side, 0.5, r, w);
 	pm_mg_fold_row(coarse, w, c);
 	return scale;
 }
@@ -166,13 +165,14 @@ static bool halves(const struct mg_level *fine)
 }
 
 /* The rows of fine plane k (unfolded: -n < k < n) are added to coarse planes from <= K < to. Returns the sum of squares. */
-static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, bool half, ptrdiff_t k, const size_t range[2], double *w)
+static double restrict_plane(const struct mg_level *fine, const struct mg_level *coarse, bool half, ptrdiff_t k, const size_t range[2], mg_number *w)
 {
 	const struct mg_axis *y = &fine->axis[1], *cy = &coarse->axis[1];
 	const struct mg_map *my = &fine->map[1], *mz = &fine->map[2];
 	size_t here = mg_fold(k, &fine->axis[2]);
 	ptrdiff_t shift = k < 0 ? (ptrdiff_t)coarse->axis[2].points : 0;
-	double *r = w, *c = r + fine->stride, *t = c + coarse->stride, scale = 1;
+	mg_number *r = w, *c = r + fine->stride, *t = c + coarse->stride;
+	double scale = 1;
 	struct pm_sum sum = {0, 0};
 	for (size_t j = y->first; j < y->end; j++) {
 		pm_sum_add(&sum, pm_mg_residual_row(fine, j, here, r));
@@ -228,13 +228,13 @@ static void counted(const struct mg_level *fine, const struct mg_level *coarse, 
 }
 
 /* Coarse planes range[0] <= K < range[1]. */
-static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], const ptrdiff_t mine[2], double *w,
+static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, bool half, const size_t range[2], const ptrdiff_t mine[2], mg_number *w,
 	double *sums)
 {
 	const bool none = range[0] == range[1];
 	const ptrdiff_t from = none ? mine[0] : first_child(fine, coarse, range[0]), to = none ? mine[1] - 1 : last_child(fine, coarse, range[1] - 1);
 	for (size_t K = range[0]; K < range[1]; K++)
-		memset(coarse->f + mg_plane(coarse, K), 0, coarse->axis[1].points * coarse->stride * sizeof(double));
+		memset(coarse->f + mg_plane(coarse, K), 0, coarse->axis[1].points * coarse->stride * sizeof *coarse->f);
 	for (ptrdiff_t k = from < mine[0] ? from : mine[0]; k <= to || k < mine[1]; k++) {
 		double sum = restrict_plane(fine, coarse, half, k, range, w);
 		if (k >= mine[0] && k < mine[1] && sums)

@@ -6,6 +6,7 @@
  * Cost: O(N) per cycle, 3-D V(2,2) about 6 passes over u and f. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg.h"
 #include "poisson-mg/mg-ranks.h"
+#include "poisson-mg/mg-single.h"
 #include "world/world.h"
 
 #include <float.h>
@@ -60,7 +61,7 @@ bool pm_mg_fits(const struct pm_mg *mg, const struct pm_grid *g, int order)
 struct pm_mg *pm_mg_free(struct pm_mg *mg)
 {
 	if (mg)
-		pm_mg_demolish(mg);
+		pm_mg_single_free(mg->single), pm_mg_demolish(mg);
 	return pm_free(mg);
 }
 
@@ -86,29 +87,6 @@ static double mean(struct pm_mg *mg, const double *values)
 		mg->sums[k] = half(z, k) * pm_sum_total(plane);
 	}
 	return pm_mg_total(mg, 0, z->points) / ((double)x->cells * (double)y->cells * (double)z->cells);
-}
-
-/* Sum of squares over the unknowns of u or f. */
-static double squares(struct pm_mg *mg, const double *values)
-{
-	const struct mg_level *l = &mg->level[0];
-	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
-	size_t range[2];
-	mg_range(l, range);
-	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
-	for (size_t k = range[0]; k < range[1]; k++) {
-		struct pm_sum plane = {0, 0};
-		for (size_t j = y->first; j < y->end; j++)
-			for (int odd = 0; odd < 2; odd++) {
-				const double *v = values + mg_plane(l, k) + j * l->stride + (size_t)odd * l->half;
-				double sum = 0;
-				for (size_t i = 0; i < l->half; i++)
-					sum += l->mask[odd][i] ? v[i] * v[i] : 0;
-				pm_sum_add(&plane, sum);
-			}
-		mg->sums[k] = pm_sum_total(plane);
-	}
-	return pm_mg_total(mg, z->first, z->end);
 }
 
 /* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
@@ -189,9 +167,9 @@ void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
 
 /* Is the residual (root of the sum of squares, as the source) at the level of rounding errors of its terms? Each of the 2 dim + 2 terms of f - lap u is
  * rounded to half a unit. */
-static bool at_roundoff(struct pm_mg *mg, double residual, double source)
+bool pm_mg_at_roundoff(struct pm_mg *mg, double residual, double source)
 {
-	double terms = mg->level[0].diagonal * sqrt(squares(mg, mg->level[0].u)) + source;
+	double terms = mg->level[0].diagonal * sqrt(pm_mg_squares(mg, mg->level[0].u)) + source;
 	return residual <= 2 * DBL_EPSILON * terms;
 }
 
@@ -217,7 +195,7 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 		r->history[r->n++] = r->after = now;
 		r->converged = now == 0 || (now <= o->tolerance && r->cycles >= least);
 		bool slow = r->n > 1 && !(now < 0.5 * r->history[r->n - 2]);
-		if (!r->converged && slow && at_roundoff(mg, residual, source))
+		if (!r->converged && slow && pm_mg_at_roundoff(mg, residual, source))
 			r->converged = r->floor = true;
 		if (mg->status || r->converged || r->cycles == o->most || !(now < 1e3 * r->history[0]))
 			break;
@@ -245,14 +223,15 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	double most = pm_mg_most(mg, largest(here, c, r->mean, s));
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
 	load(mg, c / unit, r->mean, s, NULL);
-	double source = sqrt(squares(mg, l->f));
+	double source = sqrt(pm_mg_squares(mg, l->f));
 	r->converged = source == 0 || mg->levels == 1;
 	if (source != 0 && mg->levels == 1)
 		pm_mg_solve_coarsest(mg);
-	if (!r->converged) {
-		if (o->cycle == PM_MG_FMG && (!point || (!pm_mg_pyramid(mg, c / unit, point) && !l->from)))
+	const bool refines = !r->converged && pm_mg_refines(mg, o);
+	if (!r->converged && !(refines && pm_mg_refine(mg, o, source, r))) {
+		if (!refines && o->cycle == PM_MG_FMG && (!point || (!pm_mg_pyramid(mg, c / unit, point) && !l->from)))
 			pm_mg_start_sources(mg);
-		if (o->cycle == PM_MG_FMG)
+		if (!refines && o->cycle == PM_MG_FMG)
 			pm_mg_start_full(mg, o);
 		iterate(mg, o, source, r);
 	}
@@ -274,7 +253,7 @@ int pm_mg_solve(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const 
 	if (with && !mg->status)
 		memcpy(with + own, s, here * sizeof *with);
 	if (mg->order == 4)
-		pm_mg_beside_own(mg, l, with ? with + own : NULL, plane, 2);
+		pm_mg_beside_own(mg, l, with ? with + own : NULL, plane * sizeof *with, 2);
 	status = mg->status;
 	if (compact && !status)
 		pm_mg_compact_source(&mg->grid, l, with ? with + own : s, compact);

@@ -326,6 +326,11 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	pinit uniform -n 300 --faces wall | same "push drift | p2m -n 6x5x17 | poisson-mg --order 4 --cycle v --smoother jacobi" --store all
 	pinit uniform -n 300 --dim 2 --faces wall | same "push drift | p2m -n 33x70 | poisson-mg --restriction half" --store all
 	pinit uniform -n 300 --dim 2 | same "push drift | p2m -n 20x129 | poisson-mg --order 4" --store all
+	# corrections in single numbers, above 131072 points
+	pinit uniform -n 300 --faces wall,neumann,periodic,periodic,wall,wall >walls
+	cycle -n 1 --store all "p2m -n 52x50x53 | poisson-mg | push drift" <walls >want
+	OMP_NUM_THREADS=2 on 3 cycle -n 1 --store all "p2m -n 52x50x53 | poisson-mg | push drift" <walls >got
+	cmp want got
 	shares "p2m -n 16, poisson-mg, mgrad, m2p, push drift" "p2m -n 16 | poisson-mg | mgrad | m2p | push drift" <box
 	cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>want >/dev/null && return 1
 	on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>got >/dev/null && return 1

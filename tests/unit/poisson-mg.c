@@ -289,6 +289,36 @@ static void test_floor(void)
 	check(strstr(pm_message(), "did not converge: 2 cycles") && strstr(pm_message(), "--max-cycles"), "and the message has the remedy: %s", pm_message());
 }
 
+/* Cycles in single numbers with residuals in double ones, against cycles in double ones. */
+static void test_single(void)
+{
+	static struct pm_mg_record r[2];
+	const struct pm_grid grids[] = {grid(3, (size_t[]){56, 49, 60}, (double[]){1e-9, 1.2e-9, 1e-9}, "nnwwpp"), grid(2, (size_t[]){373, 380},
+		(double[]){3e20, 1e20}, "pppp"), grid(3, (size_t[]){64, 64, 33}, (double[]){1, 1, 6}, "wwwnpp"), cube(1, 140000, "wn")};
+	for (size_t i = 0; i < 4; i++) {
+		const struct pm_grid *g = &grids[i];
+		const size_t n = pm_grid_size(g);
+		double *s = values(n), *phi[2] = {values(n), values(n)}, most;
+		struct pm_mg *mg = pm_mg_new(g, 2);
+		bool single[2];
+		noise(n, s);
+		for (int q = 0; q < 2; q++) {
+			struct pm_mg_choice o = usual;
+			o.cycle = q ? PM_MG_V : PM_MG_FMG, o.tolerance = 1e-12;
+			single[q] = pm_mg_refines(mg, &o);
+			if (pm_mg_solve(mg, &o, 1e25, s, phi[q], &r[q]))
+				check(false, "%s", pm_message());
+		}
+		most = largest(n, phi[1], NULL);
+		check(single[0] && !single[1], "%d-D, %zu cells: full multigrid refines, V-cycles do not", g->dim, g->cells[0]);
+		/* noise has 1/sqrt(n) of f in the longest wave, where a residual of 1e-12 may be: 1e-12 sqrt(n) */
+		check_near(largest(n, phi[0], phi[1]) / most, 0, i == 3 ? 1e-6 : 5e-10, "with the same solution");
+		check(r[0].after <= fmax(1e-12, 2 * r[1].after), "and residual: %.1e, %.1e", r[0].after, r[1].after);
+		check(r[0].cycles <= r[1].cycles + (i == 3 ? 8 : 1), "and no more cycles: %d, %d", r[0].cycles, r[1].cycles);
+		pm_mg_free(mg), pm_free(s), pm_free(phi[0]), pm_free(phi[1]);
+	}
+}
+
 static void test_scales(void)
 {
 	struct pm_grid g = grid(2, (size_t[]){24, 20}, (double[]){1, 1}, "wwnn");
@@ -457,6 +487,7 @@ int main(void)
 	test_sizes();
 	test_stretched();
 	test_floor();
+	test_single();
 	test_scales();
 	test_threads();
 	return check_done();

@@ -1,0 +1,160 @@
+/* Iterative refinement: multigrid cycles in single numbers for the residual in double ones.
+ *   r = f - lap u;  lap e = r by cycles on the hierarchy of mg-single.h;  u += e
+ * until r is at the tolerance (Moler, J. ACM 14 (1967) 316). Vectors have twice the lanes and half the bytes. A round of cycles ends where single numbers
+ * round: at 1e-5 of its residual or the rounding of the terms of lap e, which is eps/h^2 |e|. Lengths are in units of the smallest spacing and r is scaled
+ * by a power of 2, so that single numbers neither overflow nor vanish. If a round does not halve the residual (at its floor, or on meshes so fine that
+ * single numbers cannot resolve the differences), the solution goes on in double numbers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg-ranks.h"
+#include "poisson-mg/mg-single.h"
+#include "world/world.h"
+
+#include <omp.h>
+
+bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o)
+{
+	const bool colours = o->smoother == PM_MG_RED_BLACK || o->smoother == PM_MG_SOR;
+	if (mg->order != 2 || o->cycle != PM_MG_FMG || o->half_weighting || !colours || mg->levels == 1 || pm_grid_size(&mg->grid) <= mg_parallel)
+		return false;
+	if (!mg->single) {
+		struct pm_grid g = mg->grid;
+		double least = INFINITY;
+		for (int d = 0; d < g.dim; d++)
+			least = fmin(least, g.h[d]);
+		for (int d = 0; d < g.dim; d++)
+			g.h[d] /= least;
+		mg->single = pm_mg_single_new(&g, mg->level[0].from);
+	}
+	const int status = mg->status ? mg->status : mg->single ? 0 : pm_failed();
+	mg->status = mg->level[0].from ? pm_world_agree(status) : status; /* every time: one rank may have its hierarchy from before, another not */
+	return !mg->status;
+}
+
+/* The smallest spacing squared, by which lap of the single hierarchy is larger. */
+static double unit_of(const struct pm_mg *mg)
+{
+	double least = INFINITY;
+	for (int d = 0; d < mg->grid.dim; d++)
+		least = fmin(least, mg->grid.h[d]);
+	return least * least;
+}
+
+/* A power of 2 that makes a residual, root of the sum of squares, one of about 1 a node. */
+static double scale_of(const struct pm_mg *mg, double residual)
+{
+	const double each = residual / sqrt(fmax(1, (double)pm_mg_unknowns(&mg->level[0])));
+	return each > 0 && isfinite(each) ? ldexp(1, -ilogb(each)) : 1;
+}
+
+/* u += factor e in plane k, kept closed. */
+static void add_plane(struct pm_mg *mg, double factor, size_t k)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	for (size_t j = y->first; j < y->end; j++) {
+		double *u = l->u + mg_plane(l, k) + j * l->stride;
+		const float *e[2];
+		pm_mg_single_solution(mg->single, j, k, e);
+		for (size_t odd = 0; odd < 2; odd++)
+			for (size_t i = 0, n = (x->points + 1 - odd) / 2; i < n; i++)
+				u[odd * l->half + i] += factor * (double)e[odd][i];
+		mg_close_row(l, u);
+	}
+}
+
+/* The residual of plane k, times scale, is the right-hand side of the single hierarchy; its sum of squares. zero: it is f, for u is 0. */
+static double residual_plane(struct pm_mg *mg, bool zero, double scale, size_t k, double *room)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	struct pm_sum sum = {0, 0};
+	for (size_t j = y->first; j < y->end; j++) {
+		float *f[2];
+		const double *r = zero ? l->f + mg_plane(l, k) + j * l->stride : room;
+		if (!zero)
+			pm_sum_add(&sum, pm_mg_residual_row(l, j, k, room));
+		pm_mg_single_source(mg->single, j, k, f);
+		for (size_t odd = 0; odd < 2; odd++)
+			for (size_t i = 0, n = (x->points + 1 - odd) / 2; i < n; i++)
+				f[odd][i] = (float)(scale * r[odd * l->half + i]);
+	}
+	return pm_sum_total(sum);
+}
+
+/* Adds the correction, if there is one (factor not 0), and finds the residual, root of the sum of squares; without one u is 0, and the result too. */
+static double correct(struct pm_mg *mg, double factor, double scale)
+{
+	struct mg_level *l = &mg->level[0];
+	const struct mg_axis *z = &l->axis[2];
+	size_t range[2];
+	mg_range(l, range);
+	if (factor != 0) {
+		#pragma omp parallel for num_threads(mg->threads) schedule(static) if (mg->threads > 1)
+		for (size_t k = range[0]; k < range[1]; k++)
+			add_plane(mg, factor, k);
+	}
+	pm_mg_beside(mg, l, l->u, 1);
+	#pragma omp parallel for num_threads(mg->threads) schedule(static) if (mg->threads > 1)
+	for (size_t k = range[0]; k < range[1]; k++)
+		mg->sums[k] = residual_plane(mg, factor == 0, scale, k, mg->scratch + (size_t)omp_get_thread_num() * mg->room);
+	return sqrt(pm_mg_total(mg, z->first, z->end));
+}
+
+static void record(struct pm_mg_record *r, double now)
+{
+	r->history[r->cycles] = r->after = now;
+	r->n = r->cycles + 1;
+}
+
+/* Cycles until single numbers have given what they can; at: the residual of the round's beginning; factor: from the residual of the single hierarchy to ours,
+ * relative to the source. */
+static void round_of_cycles(struct pm_mg *mg, const struct pm_mg_choice *o, bool full, double at, double factor, struct pm_mg_record *r)
+{
+	const int noise_known = !full; /* cycles after which |e| has about its final size */
+	double limit = 1e-5 * at, before = INFINITY;
+	for (int i = 0;; i++) {
+		if (i == noise_known)
+			limit = fmax(limit, factor * pm_mg_single_noise(mg->single));
+		const double now = factor * pm_mg_single_down(mg->single, o, !full && !i);
+		record(r, now);
+		if ((now <= o->tolerance && r->cycles) || r->cycles == o->most || pm_mg_single_status(mg->single))
+			return;
+		pm_mg_single_up(mg->single, o);
+		r->cycles++;
+		if (now < 10 * limit || !(now < 0.5 * before)) /* the next cycle would end at the limit */
+			return;
+		before = now;
+	}
+}
+
+bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r)
+{
+	double before = 1, scale = scale_of(mg, source);
+	correct(mg, 0, scale);
+	for (bool full = true;; full = false) {
+		const int first = r->cycles;
+		pm_mg_single_start(mg->single, o, full, mg->status);
+		round_of_cycles(mg, o, full, before, 1 / (scale * source), r);
+		mg->status = pm_mg_single_status(mg->single);
+		const double factor = unit_of(mg) / scale;
+		scale = scale_of(mg, r->after * source);
+		const double residual = correct(mg, factor, scale), now = residual / source;
+		record(r, now);
+		for (int i = first; i < r->cycles; i++) /* what single numbers saw beyond the rounding of double ones was not there */
+			r->history[i] = fmax(r->history[i], now);
+		const bool slow = !(now < 0.5 * before);
+		r->converged = now == 0 || (now <= o->tolerance && r->cycles >= 1);
+		if (!mg->status && !r->converged && r->cycles < o->most && slow) {
+			r->n = r->cycles; /* the next residual is of the same cycle */
+			return false;
+		}
+		if (mg->status || r->converged || r->cycles == o->most)
+			break;
+		before = now;
+	}
+	r->before = r->history[0];
+	const int last = r->n - 1 - r->floor;
+	if (last > 0)
+		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
+	return true;
+}
