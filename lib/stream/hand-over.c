@@ -8,6 +8,7 @@
 
 #ifdef __linux__
 #include <errno.h>
+#include <fcntl.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <sys/socket.h>
@@ -71,8 +72,9 @@ struct pm_hands *pm_hands_connect(int pipe)
 	socklen_t bytes;
 	if (!name_of(pipe, &a, &bytes))
 		return NULL;
-	int s = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-	if (s >= 0 && (connect(s, (struct sockaddr *)&a, bytes) || !same_user(s))) {
+	/* Without waiting: of writers that follow each other on one pipe and give nothing, the reader takes up no connection, and only so many are held for it. */
+	int s = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+	if (s >= 0 && (connect(s, (struct sockaddr *)&a, bytes) || !same_user(s) || fcntl(s, F_SETFL, 0))) {
 		close(s);
 		s = -1;
 	}

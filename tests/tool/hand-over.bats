@@ -20,6 +20,15 @@ both_ways() {
 	both_ways 'pinit uniform -n 30000 | sel --where "x < 0.4" | ssort | push drift'
 }
 
+@test "many writers one after the other on a pipe, of fields too small to be handed over and of large ones, keep nobody waiting" {
+	for n in 200 20000; do
+		timeout 20 bash -c "for k in 0 1 2 3 4 5; do pinit uniform -n $n | smod --time \$k; done | stab | grep -c time" >seen
+		[ "$(cat seen)" -ge 6 ]
+	done
+	# the first gives nothing, so that nobody takes up its connection; those that follow do
+	both_ways 'for n in 200 200 200 200 20000 200 30000; do pinit uniform -n $n --no-history; done | push drift'
+}
+
 @test "processes of cycle give the bytes of the fused run, with foreign words among them" {
 	pinit uniform -n 20000 --no-history > start.pm
 	local step='push kick/2 drift | p2m -n 24 | poisson-fft | mgrad | m2p | push kick/2'
