@@ -72,7 +72,7 @@ struct pm_hands *pm_hands_connect(int pipe)
 	socklen_t bytes;
 	if (!name_of(pipe, &a, &bytes))
 		return NULL;
-	/* Without waiting: of writers that follow each other on one pipe and give nothing, the reader takes up no connection, and only so many are held for it. */
+	/* Without waiting: the reader takes up no connection of writers that follow each other on one pipe and give nothing, and only so many are kept. */
 	int s = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
 	if (s >= 0 && (connect(s, (struct sockaddr *)&a, bytes) || !same_user(s) || fcntl(s, F_SETFL, 0))) {
 		close(s);

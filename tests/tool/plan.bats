@@ -613,11 +613,12 @@ pythagoras() {
 	grep -qE '^# not promised: the places of these 10 bodies .* agree until [0-9.]+ only \(chaos' text
 	cycle -t 100 --plan <start 2>&1 >end | grep -q '^cycle: not promised: the places of these 10 bodies'
 	plan --sentence -t 100 <start 2>&1 >words | grep -q '^plan: not promised: the places of these 10 bodies'
-	# two bodies that fall together at t = 2.22, and a third: r^(3/2) at their closest is 1e-18
+	# two bodies that fall together at t = 2.22, and a third: r^(3/2) at their closest is 1e-18. The last bit of the sums, other ones with AVX2 and AVX-512,
+	# decides whether they stick there or part with an energy that ends the trial later.
 	printf 'x y z vx vy vz mass\n-1 0 0 0 1e-6 0 1\n1 0 0 0 -1e-6 0 1\n0 9 0 0 0 0 1e-3\n' |
 		stab - --law gravity --constant G=1,softening=0 --dt 1e-3 >start
 	run -3 plan --no-cost -t 5 <start
-	[[ $output =~ "no plan for these 3 bodies: steps of 0.025/omega of their fastest orbit change the energy by "[0-9.e+]+" within t = 2.22" ]]
+	[[ $output =~ "no plan for these 3 bodies: steps of 0.025/omega of their fastest orbit change the energy by "[0-9.e+]+" within t = "(2.22|5) ]]
 }
 
 @test "ias15 is planned where it needs the fewest forces: orbits to 1e-8, three bodies to 1e-9, and the places are right" {
