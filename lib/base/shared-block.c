@@ -203,6 +203,7 @@ struct pm_shared *pm_shared_map(uint64_t id, int fd)
 	const int wanted = F_SEAL_SHRINK | F_SEAL_GROW, seals = fcntl(fd, F_GET_SEALS);
 	struct stat st;
 	pthread_mutex_lock(&lock);
+	sweep(); /* new blocks may come from a process that left its old ones, as where fields grow */
 	struct block *b = find(id);
 	if (b)
 		close(fd);

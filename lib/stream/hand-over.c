@@ -130,12 +130,16 @@ int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes)
 	return 0;
 }
 
-void pm_hands_wait(struct pm_hands *h)
+bool pm_hands_wait(struct pm_hands *h)
 {
 	char said;
-	while (h->owed && recv(h->fd, &said, 1, 0) < 0 && errno == EINTR)
+	ssize_t n = 1;
+	while (h->owed && (n = recv(h->fd, &said, 1, 0)) < 0 && errno == EINTR)
 		;
-	h->owed = false; /* or nobody reads any more, which writing says */
+	h->owed = false;
+	if (n > 0) /* it may have ended behind that frame */
+		n = recv(h->fd, &said, 1, MSG_PEEK | MSG_DONTWAIT);
+	return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
 void pm_hands_taken(struct pm_hands *h)
@@ -152,9 +156,10 @@ static int descriptor(struct pm_hands *h, uint64_t *id)
 		char room[CMSG_SPACE(sizeof(int))];
 	} control;
 	struct iovec part = {id, sizeof *id};
-	struct msghdr m = {.msg_iov = &part, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof control};
+	struct msghdr m = {.msg_iov = &part, .msg_iovlen = 1, .msg_control = &control};
 	int fd;
 	for (;;) {
+		m.msg_controllen = sizeof control;
 		/* It was sent before the line that names it. */
 		ssize_t n = h->fd < 0 ? 0 : recvmsg(h->fd, &m, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
 		if (n < 0 && errno == EINTR)
@@ -164,10 +169,13 @@ static int descriptor(struct pm_hands *h, uint64_t *id)
 		int s = accept4(h->listens, NULL, NULL, SOCK_CLOEXEC);
 		if (s < 0)
 			return -1;
+		if (!same_user(s)) {
+			close(s);
+			continue;
+		}
 		if (h->fd >= 0)
 			close(h->fd);
 		h->fd = s;
-		m.msg_controllen = sizeof control;
 	}
 	if (m.msg_controllen < CMSG_LEN(sizeof fd) || control.head.cmsg_type != SCM_RIGHTS)
 		return -1;
@@ -192,7 +200,7 @@ struct pm_hands *pm_hands_listen(int pipe) { return (void)pipe, NULL; }
 struct pm_hands *pm_hands_connect(int pipe) { return (void)pipe, NULL; }
 struct pm_hands *pm_hands_close(struct pm_hands *h) { return (void)h, NULL; }
 int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes) { return (void)h, (void)b, (void)comes, -PM_DATA; }
-void pm_hands_wait(struct pm_hands *h) { (void)h; }
+bool pm_hands_wait(struct pm_hands *h) { return (void)h, false; }
 void pm_hands_taken(struct pm_hands *h) { (void)h; }
 struct pm_shared *pm_hands_take(struct pm_hands *h, const struct pm_given *what)
 {

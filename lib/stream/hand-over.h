@@ -24,8 +24,9 @@ struct pm_hands *pm_hands_close(struct pm_hands *h);
 
 int pm_hands_give(struct pm_hands *h, struct pm_shared *b, bool *comes);          /* counts a use for the other end; 0 or failure */
 struct pm_shared *pm_hands_take(struct pm_hands *h, const struct pm_given *what); /* with that use; NULL and a message */
-/* A frame on its way holds its memory, and as many bytes of a pipe would hold hundreds of them: a writer waits until the one before has been read. */
-void pm_hands_wait(struct pm_hands *h);
+/* A frame on its way holds its memory, and as many bytes of a pipe would hold hundreds of them: a writer waits until the one before has been read. False: the
+ * other end has ended. */
+bool pm_hands_wait(struct pm_hands *h);
 void pm_hands_taken(struct pm_hands *h); /* the reader: of a frame in which something was given */
 
 uint64_t pm_given_bits(const struct pm_given *g);

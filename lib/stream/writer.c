@@ -160,8 +160,10 @@ int pm_write_header(struct pm_writer *w, const struct pm_frame *f)
 		status = w->crc ? 0 : pm_no_memory();
 	}
 	w->shares = payload >= PM_HAND_LEAST && pm_writer_hands(w);
-	if (w->shares)
-		pm_hands_wait(w->hands);
+	if (w->shares && !pm_hands_wait(w->hands)) { /* another program may read on */
+		w->hands = pm_hands_close(w->hands);
+		w->shares = pm_writer_hands(w);
+	}
 	if (!status)
 		status = put_text(w, w->shares ? "PMPIPE/1 shared %llu %llu" : "PMPIPE/1 frame %llu %llu", payload, true, text);
 	free(text);

@@ -29,6 +29,13 @@ both_ways() {
 	both_ways 'for n in 200 200 200 200 20000 200 30000; do pinit uniform -n $n --no-history; done | push drift'
 }
 
+@test "memory of fields that grow from frame to frame is given up by the next word, with its descriptors" {
+	for k in {1..40}; do pinit uniform -n $((9000 + 700 * k)) --no-history; done > grows.pm
+	PM_HANDOVER=0 bash -o pipefail -c 'push drift < grows.pm | push drift' > want.pm
+	(ulimit -n 48; push drift < grows.pm | push drift > seen.pm)
+	cmp want.pm seen.pm
+}
+
 @test "processes of cycle give the bytes of the fused run, with foreign words among them" {
 	pinit uniform -n 20000 --no-history > start.pm
 	local step='push kick/2 drift | p2m -n 24 | poisson-fft | mgrad | m2p | push kick/2'

@@ -229,6 +229,24 @@ static void two_writers(void)
 	close(pipes[1]), pm_reader_close(r);
 }
 
+/* `writer | { reader; cat; }`, whose reader ends early. */
+static void reader_ends(void)
+{
+	int pipes[2];
+	char words[16] = "";
+	if (pipe(pipes))
+		exit(1);
+	const int rest = dup(pipes[0]);
+	struct pm_reader *r = pm_reader_of_fd(pipes[0]);
+	struct pm_writer *w = pm_writer_of_fd(pipes[1]);
+	struct pm_frame *f = sample(0), *g = sent(w, r, f, false);
+	pm_reader_close(r);
+	pm_write_header(w, f);
+	check(g && read(rest, words, sizeof words) == sizeof words && !memcmp(words, "PMPIPE/1 frame ", 15),
+		"whoever reads on behind a reader that has ended gets a plain frame");
+	close(rest), pm_writer_close(w), pm_frame_free(f), pm_frame_free(g);
+}
+
 int main(void)
 {
 	plain_end();
@@ -238,6 +256,7 @@ int main(void)
 	failures();
 	two_writers();
 	back_pressure();
+	reader_ends();
 #endif
 	return check_done();
 }
