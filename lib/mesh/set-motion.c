@@ -102,8 +102,7 @@ static int declare_field(struct pm_set_motion *m, struct pm_frame *f, struct pm_
 		return pm_fail(PM_DATA, "'%s' is a %s field, which is computed again, not scaled", p->name, pm_role_names[p->role]);
 	*touched = true;
 	if (p->uniform && !moves && !job.x) { /* stays uniform: no data to load; positions are folded */
-		for (int i = 0; i < p->components; i++)
-			p->value[i] *= job.by;
+		pm_uniform_scale(p, job.by);
 		return 0;
 	}
 	*taken = true;

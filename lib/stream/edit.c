@@ -76,6 +76,13 @@ int pm_frame_store(struct pm_frame *f, const char *choice)
 	return 0;
 }
 
+void pm_uniform_scale(struct pm_field *field, double by)
+{
+	for (int i = 0; i < field->components; i++)
+		field->value[i] *= by;
+	pm_field_forget(field);
+}
+
 void pm_frame_stretch(struct pm_frame *f, double by)
 {
 	for (int a = 0; a < f->dim; a++) {

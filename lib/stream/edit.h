@@ -13,5 +13,7 @@ int pm_frame_meshes_free(const struct pm_frame *f);
 int pm_frame_outdate(struct pm_frame *f);
 /* In declare(): "f32", or "x=f64". Changes the type of real fields; those with data are marked as changed, so that they are rounded. */
 int pm_frame_store(struct pm_frame *f, const char *choice);
+/* In declare(): multiplies the value of a uniform field, and forgets what an earlier word within a cycle has filled in. */
+void pm_uniform_scale(struct pm_field *field, double by);
 
 #endif

@@ -30,6 +30,15 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 	[ "$output" = 0 ]
 }
 
+@test "a uniform field that is scaled within a cycle is read anew by the words behind it" {
+	pinit plasma --length 1 | species electrons -n 1000 --vth 0.1 | smod --dt 0.001 >start
+	for engine in fused pipes; do
+		sh_ok "cycle --engine $engine --moves smove -q -n 3 'push kick drift | dt --plasma 0.2 | smove --scale charge=2 |
+			p2m -n 64 | poisson-fft | mgrad | m2p' <start | sls | head -1 | grep -o 'dt [^ ]*'"
+		[ "$output" = "dt 0.05" ] # the charge is twice as large after each of the two steps before
+	done
+}
+
 @test "a uniform field stays uniform when it is scaled" {
 	sh_ok 'pinit plummer -n 10 | smove --scale mass=2 | sls | grep mass'
 	[[ "$output" == *"uniform 0.19"* ]]
