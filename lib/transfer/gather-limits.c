@@ -59,7 +59,11 @@ static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, 
 	const double *x = pm_in(b, 0), *y = pm_in(b, 1), *z = pm_in(b, 2);
 	const size_t n = b->count;
 	double most = 0;
+#ifdef __clang__ /* makes no vectors of a maximum that a NaN may stand beside, and warns */
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
+#else
 #pragma omp parallel for simd schedule(static) reduction(max : most) if (n > 16384)
+#endif
 	for (size_t i = 0; i < n; i++) {
 		const double rate = fabs(q[i] / m[i]) * sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
 		most = rate > most ? rate : most;
