@@ -7,23 +7,22 @@ stability() { PAGE=${copy:-$page} OUT=$PWD bash "$top/docs/stability.sh" "$@"; }
 rows() { awk '/^## /{ on = !/^## No word/ } on && /^\|/ && !/^\|---/ && !/^\| case/ { gsub(/\\\|/, "/"); print }' "$page"; }
 
 @test "a few sections measured anew agree with the page, within both uncertainties" {
-	run -0 stability --check leapfrog flow relaxation misprints
-	[ "$output" = "leapfrog: 6 rows
-flow: 2 rows
-relaxation: 3 rows
+	run -0 stability --check ${PM_LONG:+leapfrog} relaxation misprints # flow is measured below
+	[ "$output" = "${PM_LONG:+leapfrog: 6 rows
+}relaxation: 3 rows
 misprints and their effect: 4 rows" ]
 }
 
 @test "a number on the page that differs from the measured one, and a row without a measurement, are found" {
 	copy=$PWD/copy.md
-	sed '/^| crossing/s/| 0\.9[0-9]* |/| 2.1 |/' "$page" >copy.md
+	sed '/^| sor /s/| 2 | 8/| 2.1 | 8/' "$page" >copy.md
 	run ! cmp -s copy.md "$page"
-	run -1 stability --check flow
-	[[ $output == *"crossing is "*", on the page 2.1" ]]
-	sed '/^| crossing/d' "$page" >copy.md
-	run -1 stability --check flow
-	run -1 stability flow
-	[[ $output == *"section"*"has 1 rows, and 2 are measured"* ]]
+	run -1 stability --check relaxation
+	[[ $output == *"sor is "*", on the page 2.1" ]]
+	sed '/^| sor /d' "$page" >copy.md
+	run -1 stability --check relaxation
+	run -1 stability relaxation
+	[[ $output == *"section"*"has 2 rows, and 3 are measured"* ]]
 }
 
 @test "measured values are written into the page, which is otherwise unchanged" {
