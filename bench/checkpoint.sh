@@ -3,7 +3,8 @@
 # bytes of the checkpoint (disks of virtual machines are faster with zeros), of one rank, of RANKS (4) rehearsed ranks, and the last over the two of dd
 # (target 0.8).
 #   cd DIRECTORY; bench/checkpoint.sh [TURNS]
-# dd writes as many bytes from memory, as a new file that takes the place of the old one, and waits until they are on the disk (conv=fsync), as a checkpoint does.
+# dd writes as many bytes from memory, as a new file that takes the place of the old one, and waits until they are on the disk (conv=fsync), as a
+# checkpoint does.
 # The time of a checkpoint is that of four steps with four checkpoints less that of the steps without any, over four. 3 GB of disk, 4 GB of memory.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail

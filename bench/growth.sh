@@ -23,12 +23,13 @@ if [ "${1:-}" = --cores ]; then
 	# shellcheck disable=SC2016 # awk's
 	model='NR == FNR { one[$1, $2] = $3; next } ($1, $2) in one && $1 !~ /^bytes/ { g = one[$1, $2] / $3; s = g < 2 ? 2 / g - 1 : 0'
 	awk "$model"'
-		printf "%s\t%d\tgain of the second thread %.2f\tserial %.3f\tmodel of 64 cores: %.1f times one\n", $1, $2, g, s, 1 / (s + (1 - s) / 64) }' "$2" "$3"
+		printf "%s\t%d\tgain of the second thread %.2f\tserial %.3f\tmodel of 64 cores: %.1f times one\n", $1, $2, g, s, 1 / (s + (1 - s) / 64) }' \
+		"$2" "$3"
 	{
 		echo word cores speed
 		sort -k1,1 -s "$3" | awk -v n="${N:-2097152}" "$model"'; if ($2 == n) for (c = 1; c <= 64; c *= 2) print $1, c, 1 / (s + (1 - s) / c) }' "$2" -
-	} | splot speed -i /dev/stdin -x cores --by word --log -o "${OUT:-$top/docs/cores-model.png}" --x-label 'cores' --y-label 'times the speed of one core' \
-		--theory 'ideal = x' --title "A model, not a measurement: 64 cores from the gain of the second, ${N:-2097152} particles"
+	} | splot speed -i /dev/stdin -x cores --by word --log -o "${OUT:-$top/docs/cores-model.png}" --x-label 'cores' \
+		--y-label 'times the speed of one core' --theory 'ideal = x' --title "A model, not a measurement: 64 cores from the gain of the second, ${N:-2097152} particles"
 	exit
 fi
 [ $# != 0 ] || set -- 10 16 32 64 128 256 320

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/past-cache.h"
 #include "stream/parts-file.h"
 #include "stream/run.h"
 #include "stream/wire.h"
@@ -66,16 +67,31 @@ static int stretch(int fd, bool out, enum pm_type type, char *values, size_t n, 
 	return status;
 }
 
+/* The same of a file that will be waited for, of numbers as they are in memory. */
+static int lasting_stretch(struct pm_past_cache *past, int fd, const char *values, size_t bytes, uint64_t offset, uint32_t *crc)
+{
+	*crc = pm_crc32c(*crc, values, bytes);
+	return pm_past_cache_write(past, fd, values, bytes, offset) ? pm_fail_errno("cannot write the output") : 0;
+}
+
 /* Every rank: its stretches. crc: of each component. */
 static int stretches(const struct request *q, int fd, bool out, char *part, uint32_t *crc)
 {
 	const size_t me = (size_t)pm_world_rank(), ranks = (size_t)pm_world_size(), here = q->from[me + 1] - q->from[me];
+	const size_t size = pm_type_size((enum pm_type)q->type);
+	struct pm_past_cache past = {.fd = -1};
+	const bool direct = out && q->lasting && size == memory(q) && here * size >= PM_PAST_CACHE_LEAST;
 	int status = 0;
+	if (direct)
+		pm_past_cache_open(&past, fd);
 	for (uint64_t c = 0; c < q->components && !status; c++) {
 		pm_world_place(1, 0, (int)c, q->from[me]);
-		status = stretch(fd, out, (enum pm_type)q->type, part + c * here * memory(q), here,
-			q->offset + (c * q->from[ranks] + q->from[me]) * pm_type_size((enum pm_type)q->type), &crc[c]);
+		char *values = part + c * here * memory(q);
+		const uint64_t offset = q->offset + (c * q->from[ranks] + q->from[me]) * size;
+		status = direct ? lasting_stretch(&past, fd, values, here * size, offset, &crc[c]) :
+			stretch(fd, out, (enum pm_type)q->type, values, here, offset, &crc[c]);
 	}
+	pm_past_cache_close(&past);
 	if (!status && out && q->lasting && !q->components && fsync(fd) && errno != EINVAL)
 		status = pm_fail_errno("cannot write the output");
 	return status;

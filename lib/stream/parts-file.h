@@ -9,7 +9,7 @@
 struct pm_parts_place {
 	const char *path;
 	uint64_t offset; /* [bytes] of its first value */
-	bool lasting;    /* of no field: what was written is to be on the disk */
+	bool lasting;    /* it will be waited for */
 };
 
 enum { PM_PARTS_ELSEWHERE = 1 }; /* a rank does not see the file */

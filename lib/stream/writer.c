@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/past-cache.h"
 #include "base/replace.h"
 #include "stream/forward.h"
 #include "stream/hand-over.h"
@@ -213,7 +214,7 @@ static int put_parts(struct pm_writer *w, const struct pm_field *p, uint32_t *cr
 	if (at < 0 || (w->file.path && !w->file.temporary && pm_replace_named(&w->file)))
 		return 0;
 	const char *path = w->file.path ? w->file.temporary : w->path;
-	const int status = path ? pm_parts_write(p, &(struct pm_parts_place){.path = path, .offset = (uint64_t)at}, crc) : 1;
+	const int status = path ? pm_parts_write(p, &(struct pm_parts_place){.path = path, .offset = (uint64_t)at, .lasting = w->lasting}, crc) : 1;
 	if (status)
 		return status < 0 ? status : 0;
 	w->shared = w->lasting;
@@ -243,6 +244,25 @@ static int give(struct pm_writer *w, struct pm_field *p)
 	return status ? status : 1;
 }
 
+/* Past the cache, where the file will be waited for. 1: done; 0: it is to be written by put(); or failure. */
+static int put_lasting(struct pm_writer *w, struct pm_field *p, uint32_t *crc)
+{
+	const size_t bytes = pm_field_wire(p);
+	const off_t at = w->lasting && p->type != PM_F32 && p->buffer && bytes >= PM_PAST_CACHE_LEAST ? lseek(w->fd, 0, SEEK_CUR) : -1;
+	if (at < 0)
+		return 0;
+	const void *data = pm_in_u8(p, 0);
+	struct pm_past_cache past;
+	*crc = p->summed ? p->crc : pm_crc32c(0, data, bytes);
+	pm_past_cache_open(&past, w->fd);
+	const int status = pm_past_cache_write(&past, w->fd, data, bytes, (uint64_t)at);
+	pm_past_cache_close(&past);
+	if (status || lseek(w->fd, at + (off_t)bytes, SEEK_SET) < 0)
+		return pm_fail_errno("cannot write the output");
+	w->left -= bytes;
+	return 1;
+}
+
 static int put_field(struct pm_writer *w, struct pm_field *p)
 {
 	size_t bytes = pm_field_wire(p);
@@ -250,7 +270,7 @@ static int put_field(struct pm_writer *w, struct pm_field *p)
 	int status = w->shares && bytes ? give(w, p) : 0;
 	if (status)
 		return status < 0 ? status : 0;
-	if ((status = put_parts(w, p, &crc)))
+	if ((status = put_parts(w, p, &crc)) || (status = put_lasting(w, p, &crc)))
 		return status < 0 ? status : pm_forward_done(w, p, crc);
 	if (p->type == PM_F32 && !w->narrow && !(w->narrow = malloc(PM_PIECE)))
 		return pm_no_memory();
