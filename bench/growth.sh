@@ -28,8 +28,9 @@ if [ "${1:-}" = --cores ]; then
 	{
 		echo word cores speed
 		sort -k1,1 -s "$3" | awk -v n="${N:-2097152}" "$model"'; if ($2 == n) for (c = 1; c <= 64; c *= 2) print $1, c, 1 / (s + (1 - s) / c) }' "$2" -
-	} | splot speed -i /dev/stdin -x cores --by word --log -o "${OUT:-$top/docs/cores-model.png}" --x-label 'cores' \
-		--y-label 'times the speed of one core' --theory 'ideal = x' --title "A model, not a measurement: 64 cores from the gain of the second, ${N:-2097152} particles"
+	} | splot speed -i /dev/stdin -x cores --by word --log -o "${OUT:-$top/docs/cores-model.png}" \
+		--x-label 'cores' --y-label 'times the speed of one core' --theory 'ideal = x' \
+		--title "A model, not a measurement: 64 cores from the gain of the second, ${N:-2097152} particles"
 	exit
 fi
 [ $# != 0 ] || set -- 10 16 32 64 128 256 320
