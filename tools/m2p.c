@@ -95,7 +95,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		return frame_of_changes(s, f);
 	status = pm_gather_choose(&choice, f, &j);
 	if (!status && choice.beside)
-		status = pm_mesh_mask(f, j.mesh, ((const struct config *)s->config)->mask, &mask);
+		status = pm_mesh_mask(f, j.mesh, ((const struct config *)s->config)->mask, pm_frame_field(f, j.sets.name[0], "x")->here, &mask);
 	j.choice.mask = mask;
 	if (!status)
 		status = pm_gather_prepare(&j, f, &((struct state *)s->state)->plans);
@@ -117,12 +117,13 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Points beside the faces are found on the whole mesh. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	return !choice.beside && !((const struct config *)s->config)->energy && (only_changes(s->config, f) || !pm_gather_choose(&choice, f, &j));
+	if (((const struct config *)s->config)->energy)
+		return !pm_gather_energy_choose(&choice, f, &j);
+	return only_changes(s->config, f) || !pm_gather_choose(&choice, f, &j);
 }
 
 static void release(struct pm_stage *s) { pm_fft_plans_clear(&((struct state *)s->state)->plans); }

@@ -105,7 +105,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		return status;
 	unsigned char *mask = NULL;
 	status = fit(o, f, &j);
-	status = !status && o->mask ? pm_mesh_mask(f, j.mesh, o->mask, &mask) : status;
+	status = !status && o->mask ? pm_mesh_mask(f, j.mesh, o->mask, pm_frame_field(f, j.sets.name[0], "x")->here, &mask) : status;
 	j.choice.mask = mask;
 	for (size_t i = 0; i < j.sets.n && !status; i++) {
 		struct pm_remesh_loss loss;
@@ -120,11 +120,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-/* Points beside bodies are found on the whole mesh. */
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	struct job j;
-	return !((const struct config *)s->config)->mask && !job_of(s->config, f, &j);
+	return !job_of(s->config, f, &j);
 }
 
 static const char *const when[] = {"always", "distortion", NULL}, *const outside[] = {"error", "drop", "grow", NULL};

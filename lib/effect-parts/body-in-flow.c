@@ -69,7 +69,7 @@ double pm_effect_body_size(const struct pm_frame *f, const struct pm_scene_solid
 	double part = 0, cell = 1;
 	size_t n[3];
 	snprintf(inside, sizeof inside, "(%s) < 0", b->level);
-	const bool known = copy && !pm_mesh_mask_declare(copy, copy->meshes[0], inside) && !pm_mesh_mask(copy, copy->meshes[0], inside, &mask);
+	const bool known = copy && !pm_mesh_mask_declare(copy, copy->meshes[0], inside) && !pm_mesh_mask(copy, copy->meshes[0], inside, false, &mask);
 	const size_t points = known ? pm_mesh_points(copy, copy->meshes[0], n) : 0;
 	for (size_t i = 0; i < points; i++)
 		part += mask[i];

@@ -4,8 +4,9 @@
 
 #include "expression/expression.h"
 
-/* Header: the expression in x, y, z, time and states of the mesh is understood. Data: (*mask)[nodes], to be freed. Each 0 or failure. */
+/* Header: the expression in x, y, z, time and states of the mesh is understood. Data: (*mask)[nodes], to be freed; shared: all ranks call, each evaluates its
+ * nodes and has all of the mask. Each 0 or failure. */
 int pm_mesh_mask_declare(struct pm_frame *f, const struct pm_mesh *m, const char *text);
-int pm_mesh_mask(struct pm_frame *f, const struct pm_mesh *m, const char *text, unsigned char **mask);
+int pm_mesh_mask(struct pm_frame *f, const struct pm_mesh *m, const char *text, bool shared, unsigned char **mask);
 
 #endif

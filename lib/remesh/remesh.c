@@ -67,13 +67,14 @@ static double *apart(const struct pm_remesh *r, size_t n, const struct pm_one_si
 static int add_beside(const struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], int first,
 	struct pm_strays *strays)
 {
-	const struct pm_transfer t = {.grid = r->grid, .kernel = r->kernel, .components = components};
-	const struct pm_one_sided o = {.grid = r->grid, .kernel = r->kernel, .mask = r->mask};
+	const struct pm_transfer t = {.grid = r->grid, .kernel = r->kernel, .components = components, .planes = r->planes};
+	const struct pm_one_sided o = {.grid = r->grid, .kernel = r->kernel, .mask = r->mask, .planes = r->planes};
 	const double *xs[3] = {NULL}, *qs[PM_REMESH_VALUES];
 	struct pm_one_sided_few few;
 	int status = pm_one_sided_find(&o, n, x, &few);
 	double *copy = status ? NULL : apart(r, n, &few, components, q, xs, qs);
-	status = status ? status : copy ? pm_spread(&t, n, xs, qs, r->node + first, strays) : -PM_DATA;
+	status = pm_world_agree(status ? status : copy ? 0 : pm_failed());
+	status = status ? status : pm_spread(&t, n, xs, qs, r->node + first, strays);
 	for (int c = 0; c < components && !status; c++)
 		weigh(r, r->node[first + c]);
 	if (!status)
@@ -176,7 +177,7 @@ static int widen(struct pm_remesh *r, int rim)
 			for (size_t s = 1; s <= reach && !keep && has_room(r, d, k); s++)
 				keep = (k >= s ? *(at - s * stride) : round && *(at + turn - s * stride)) ||
 					(k + s < n ? *(at + s * stride) : round && *(at + s * stride - turn));
-			r->keep[p] = keep && !(r->mask && r->mask[p]);
+			r->keep[p] = keep && !(r->mask && r->mask[first_row(r) * r->grid.points[0] + p]);
 		}
 	}
 	pm_free(room);

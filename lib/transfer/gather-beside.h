@@ -22,9 +22,10 @@ struct pm_gather_beside {
 	double *values; /* [2][components][few.count]: before; gathered */
 };
 
-/* Each 0 or failure: before the gather of all, and after it, where their values are computed anew. Free in any case. */
+/* Each 0 or failure: before the gather of all, and after it, where their values are computed anew (x: positions of the set; all ranks). Free in any
+ * case. */
 int pm_gather_beside_find(const struct pm_gather_job *j, const struct pm_gather_arrays *a, struct pm_gather_beside *b);
-int pm_gather_beside(const struct pm_gather_job *j, const struct pm_gather_arrays *a, const char *set, struct pm_gather_beside *b);
+int pm_gather_beside(const struct pm_gather_job *j, const struct pm_gather_arrays *a, const struct pm_field *x, struct pm_gather_beside *b);
 void pm_gather_beside_free(struct pm_gather_beside *b);
 
 #endif

@@ -3,15 +3,17 @@
  * the nodes, gathered with the lower kernel along its own axis. Energy is conserved in the limit dt -> 0; momentum is not, and a particle feels its own images
  * on the mesh. The other way, m2p of mgrad's field, conserves momentum and not energy.
  * Source: Lewis 1970, J. Comput. Phys. 6, 136; Birdsall and Langdon 1985, chapter 10. Cost: dim width^dim products a particle, read in the order of the
- * particles. SPDX-License-Identifier: GPL-3.0-or-later */
+ * particles. With ranks the planes that its particles reach come to a rank, some at a time. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "mesh/force-words.h"
+#include "mesh/planes-some.h"
 #include "stream/declare.h"
 #include "transfer/gather-energy.h"
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
 #include "transfer/transfer-axis.h"
+#include "world/world.h"
 
 static int check_kernel(const struct pm_kernel *k)
 {
@@ -91,7 +93,7 @@ static bool support_of(const struct pm_transfer *t, const struct pm_axis axes[3]
 }
 
 /* The gradient of the potential at a particle; points of axes above dim are one. */
-static void gradient_at(const struct pm_transfer *t, const struct pm_axis axes[3], const struct support *s, const double *phi, double gradient[3])
+static void gradient_at(const struct pm_transfer *t, const struct pm_axis axes[3], const struct support *s, const double *const plane[], double gradient[3])
 {
 	const struct pm_grid *g = &t->grid;
 	const int n = t->kernel->width, ny = g->dim > 1 ? n : 1, nz = g->dim > 2 ? n : 1;
@@ -100,7 +102,7 @@ static void gradient_at(const struct pm_transfer *t, const struct pm_axis axes[3
 		for (int j = 0; j < ny; j++) {
 			const size_t sz = g->dim > 2 ? s->slot[2] + (size_t)k : 0, sy = g->dim > 1 ? s->slot[1] + (size_t)j : 0;
 			const double sign = (g->dim > 2 ? axes[2].get[0][sz] : 1) * (g->dim > 1 ? axes[1].get[0][sy] : 1);
-			const double *row = phi + ((g->dim > 2 ? axes[2].at[sz] : 0) * g->points[1] + (g->dim > 1 ? axes[1].at[sy] : 0)) * g->points[0];
+			const double *row = g->dim > 2 ? plane[axes[2].at[sz]] + axes[1].at[sy] * g->points[0] : plane[g->dim > 1 ? axes[1].at[sy] : 0];
 			double value = 0, slope = 0;
 			for (int i = 0; i < n; i++) {
 				const double p = axes[0].get[0][s->slot[0] + (size_t)i] * row[axes[0].at[s->slot[0] + (size_t)i]];
@@ -116,12 +118,18 @@ static void gradient_at(const struct pm_transfer *t, const struct pm_axis axes[3
 		gradient[d] /= g->h[d];
 }
 
+/* The particles whose support begins at the slots from..to-1 of the last axis, and the planes of the mesh around these. */
+struct window {
+	size_t from, to;
+	const double *const *plane;
+};
+
 /* Particles whose kernel leaves the mesh get nothing, and are counted. */
-static void gather(const struct pm_gather_job *j, const struct pm_axis axes[3], const struct pm_frame *f, const char *set, const double *ratio,
-	uint64_t *strays)
+static uint64_t gather_window(const struct pm_gather_job *j, const struct pm_axis axes[3], const struct pm_frame *f, const char *set, const double *ratio,
+	const struct window *w)
 {
 	const struct pm_field *target = pm_frame_field(f, set, j->law->change);
-	const double *phi = pm_in(j->field, 0), *x[3];
+	const double *x[3];
 	double *out[3];
 	uint64_t lost = 0;
 	pm_positions(f, set, x);
@@ -135,11 +143,68 @@ static void gather(const struct pm_gather_job *j, const struct pm_axis axes[3], 
 			lost++;
 			continue;
 		}
-		gradient_at(&j->transfer, axes, &s, phi, gradient);
+		const size_t slot = s.slot[f->dim - 1];
+		if (slot < w->from || slot >= w->to)
+			continue;
+		gradient_at(&j->transfer, axes, &s, w->plane, gradient);
 		for (int d = 0; d < f->dim; d++)
 			out[d][p] += (ratio ? ratio[p] : 1) * j->law->sign * gradient[d];
 	}
-	*strays = lost;
+	return lost;
+}
+
+/* The slots at which supports of particles here begin, along the last axis. */
+static void mark_slots(const struct pm_axis *last, size_t n, const double *x, unsigned char *any)
+{
+	for (size_t p = 0; p < n; p++) {
+		double u;
+		if (pm_axis_locate(last, x[p], &u))
+			any[(size_t)floor(u)] = 1;
+	}
+}
+
+/* In as many rounds as the rank needs whose particles reach most planes. */
+static int gather(int status, const struct pm_gather_job *j, const struct pm_axis axes[3], const struct pm_frame *f, const char *set, const double *ratio,
+	uint64_t *strays)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x");
+	const struct pm_axis *last = &axes[f->dim - 1];
+	const size_t width = (size_t)j->transfer.kernel->width, at_once = j->planes.axis ? pm_planes_at_once(&j->planes, width) - width : last->count;
+	const double *phi[] = {pm_in(j->field, 0)};
+	unsigned char *any = status ? NULL : pm_zalloc(last->count + j->planes.all, 1), *wanted = any ? any + last->count : NULL;
+	struct window w = {0, 0, NULL};
+	int64_t left = 1;
+	status = status || any ? status : pm_failed();
+	if (!status && j->planes.divided)
+		mark_slots(last, x->count, pm_in(x, f->dim - 1), any);
+	else if (!status)
+		memset(any, 1, last->count);
+	for (bool first = true; left; first = false) {
+		struct pm_some_planes some;
+		for (w.from = w.to; any && w.from < last->count && !any[w.from]; w.from++)
+			;
+		w.to = w.from + at_once < last->count ? w.from + at_once : last->count;
+		if (any)
+			memset(wanted, 0, j->planes.all);
+		for (size_t slot = w.from; any && slot < w.to; slot++)
+			for (size_t i = slot; any[slot] && i < slot + width; i++)
+				wanted[j->planes.axis ? last->at[i] : 0] = 1;
+		status = pm_planes_some(status, &j->planes, wanted, 1, phi, &some);
+		w.plane = some.at;
+		const uint64_t lost = status ? 0 : gather_window(j, axes, f, set, ratio, &w);
+		*strays = first ? lost : *strays;
+		pm_planes_some_free(&some);
+		left = 0;
+		for (size_t slot = w.to; any && slot < last->count; slot++)
+			left |= any[slot];
+		status = pm_world_count(status, PM_MOST_OF, 1, &left);
+		left = status ? 0 : left;
+	}
+	pm_free(any);
+	int64_t all = (int64_t)*strays;
+	status = pm_world_count(status, PM_SUM_OF, 1, &all);
+	*strays = (uint64_t)all;
+	return status;
 }
 
 static int one_set(const struct pm_gather_job *j, const struct pm_axis axes[3], struct pm_frame *f, const char *set)
@@ -148,8 +213,7 @@ static int one_set(const struct pm_gather_job *j, const struct pm_axis axes[3], 
 	double *ratio = NULL;
 	uint64_t lost = 0;
 	int status = j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
-	if (!status)
-		gather(j, axes, f, set, ratio, &lost);
+	status = gather(status, j, axes, f, set, ratio, &lost);
 	pm_free(ratio);
 	if (!status && lost)
 		status = pm_fail(PM_DATA, "the kernels of %llu particles of '%s' leave the mesh '%s' (a larger box, or m2p without --energy-conserving)",
@@ -165,11 +229,13 @@ int pm_gather_energy(struct pm_gather_job *j, struct pm_frame *f)
 {
 	struct pm_axis axes[3];
 	int status = pm_axes_init(axes, &j->transfer, j->transfer.staggered[0]);
-	if (status)
-		return status;
-	pm_gather_limits_prepare(j, f);
+	status = pm_world_agree(status ? status : pm_planes_init(&j->planes, &j->transfer.grid, j->field));
+	j->transfer.planes = &j->planes;
+	if (!status)
+		pm_gather_limits_prepare(j, f);
 	for (size_t i = 0; i < j->sets.n && !status; i++)
 		status = one_set(j, axes, f, j->sets.name[i]);
 	pm_axes_free(axes);
+	pm_planes_free(&j->planes);
 	return status;
 }

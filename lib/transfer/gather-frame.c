@@ -263,7 +263,7 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	if (!status)
 		status = gather(j, f, set, &a, &strays);
 	if (!status && j->choice.beside)
-		status = pm_gather_beside(j, &a, set, &b), strays.count = 0, strays.finite = a.finite = false;
+		status = pm_gather_beside(j, &a, pm_frame_field(f, set, "x"), &b), strays.count = 0, strays.finite = a.finite = false;
 	pm_free(ratio), pm_gather_beside_free(&b);
 	strays.first += target->first;
 	target->use |= !status && (a.finite || (strays.finite && a.t.components == target->components)) ? PM_USE_SEEN : 0;

@@ -260,6 +260,7 @@ int pm_one_sided_share(const struct pm_one_sided *o, const double x[3], struct p
 		if (room_for(s, &b, wide * (dim > 1 ? wide : 1) * (dim > 2 ? wide : 1)))
 			return -PM_DATA;
 		const size_t own = fill(o, u, first, reach, s, &b);
+		s->low = first[dim - 1] - reach, s->high = first[dim - 1] + o->kernel->width - 1 + reach;
 		const bool last = reach >= 1 + most / 2;
 		for (int degree = most; degree > 0 && own && (degree == most || last); degree--)
 			if (correct(&b, dim, degree, s))
@@ -308,7 +309,14 @@ static void note_lost(struct pm_one_sided_few *few, size_t from, size_t n, const
 		}
 }
 
-int pm_one_sided_spread(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const q[], double *const node[])
+/* Where a node is in the planes here; SIZE_MAX: not here. */
+static size_t here(const struct pm_planes *p, size_t node)
+{
+	const size_t at = p ? node - p->first * p->size : node; /* wraps where it is below */
+	return p && at >= p->here * p->size ? SIZE_MAX : at;
+}
+
+int pm_one_sided_spread_here(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const q[], double *const node[])
 {
 	struct shares *a = pm_zalloc(1, sizeof *a);
 	int status = a ? 0 : -PM_DATA;
@@ -319,16 +327,20 @@ int pm_one_sided_spread(const struct pm_one_sided *o, struct pm_one_sided_few *f
 		note_lost(few, from, n, a);
 		for (size_t k = 0; k < n && !status; k++) /* in the order of the stream, whatever the threads */
 			for (int c = 0; c < components && !a->none[k]; c++)
-				for (size_t i = 0; i < a->s[k].n; i++)
-					node[c][a->s[k].node[i]] += a->s[k].w[i] * q[c][few->which[from + k]];
+				for (size_t i = 0; i < a->s[k].n; i++) {
+					const size_t at = here(o->planes, a->s[k].node[i]);
+					if (at != SIZE_MAX)
+						node[c][at] += a->s[k].w[i] * q[c][few->which[from + k]];
+				}
 	}
 	free_shares(a);
 	return status;
 }
 
-int pm_one_sided_gather(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const mesh[], double *const value[])
+int pm_one_sided_gather_here(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const plane[], double *const value[])
 {
 	struct shares *a = pm_zalloc(1, sizeof *a);
+	const size_t all = o->planes ? o->planes->all : 1, size = pm_grid_size(&o->grid) / all;
 	int status = a ? 0 : -PM_DATA;
 	few->lost = few->first = 0;
 	for (size_t from = 0; from < few->count && !status; from += batch) {
@@ -339,12 +351,41 @@ int pm_one_sided_gather(const struct pm_one_sided *o, struct pm_one_sided_few *f
 			for (int c = 0; c < components; c++) {
 				double sum = 0;
 				for (size_t i = 0; i < a->s[k].n && !a->none[k]; i++)
-					sum += a->s[k].w[i] * mesh[c][a->s[k].node[i]];
+					sum += a->s[k].w[i] * plane[(size_t)c * all + a->s[k].node[i] / size][a->s[k].node[i] % size];
 				value[c][from + k] = sum;
 			}
 	}
 	free_shares(a);
 	return status;
+}
+
+int pm_one_sided_reaches(const struct pm_one_sided *o, struct pm_one_sided_few *few, struct pm_one_sided_reach *reach)
+{
+	struct shares *a = pm_zalloc(1, sizeof *a);
+	int status = a ? 0 : -PM_DATA;
+	few->lost = few->first = 0;
+	for (size_t from = 0; from < few->count && !status; from += batch) {
+		const size_t n = few->count - from < batch ? few->count - from : batch;
+		status = make_shares(o, few, from, n, a);
+		note_lost(few, from, n, a);
+		for (size_t k = 0; k < n && !status; k++)
+			reach[from + k] = a->none[k] ? (struct pm_one_sided_reach){0, -1} : (struct pm_one_sided_reach){a->s[k].low, a->s[k].high};
+	}
+	free_shares(a);
+	return status;
+}
+
+static bool shared(const struct pm_one_sided *o) { return o->planes && o->planes->divided; }
+
+int pm_one_sided_spread(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const q[], double *const node[])
+{
+	return shared(o) ? pm_one_sided_spread_ranks(o, few, components, q, node) : pm_one_sided_spread_here(o, few, components, q, node);
+}
+
+int pm_one_sided_gather(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const mesh[], double *const value[])
+{
+	const struct pm_one_sided whole = {.grid = o->grid, .kernel = o->kernel, .mask = o->mask};
+	return shared(o) ? pm_one_sided_gather_ranks(o, few, components, mesh, value) : pm_one_sided_gather_here(&whole, few, components, mesh, value);
 }
 
 void pm_one_sided_share_free(struct pm_one_sided_share *s)
