@@ -99,7 +99,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && !((const struct config *)s->config)->per; }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
 static void done(struct pm_stage *s) { pm_expression_jobs_free(&((struct state *)s->state)->jobs); }
 
