@@ -4,16 +4,18 @@
  * cells crossed. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "level/level.h"
 #include "transfer/transfer.h"
+#include "world/world.h"
 
 enum { CORNERS = 8 };
 
-int pm_level_on_mesh(const struct pm_grid *g, size_t n, const double *const x[], const double *volume, const double *level, double *node)
+int pm_level_on_mesh(const struct pm_grid *g, const struct pm_planes *planes, size_t n, const double *const x[], const double *volume, const double *level,
+	double *node)
 {
-	const size_t points = pm_grid_size(g);
-	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m4prime"), .components = 2, .cut = true};
+	const size_t points = planes->here * planes->size;
+	const struct pm_transfer t = {.grid = *g, .kernel = pm_kernel_find("m4prime"), .components = 2, .cut = true, .planes = planes};
 	struct pm_strays strays;
-	double *q = pm_alloc(n + 1, sizeof *q), *cover = pm_alloc(points, sizeof *cover);
-	int status = q && cover ? 0 : -PM_DATA;
+	double *q = pm_alloc(n + 1, sizeof *q), *cover = pm_alloc(points + 1, sizeof *cover);
+	int status = pm_planes_agree(q && cover ? 0 : -PM_DATA, planes);
 	for (size_t p = 0; p < n && !status; p++)
 		q[p] = volume[p] * level[p];
 	for (size_t i = 0; i < points && !status; i++)
@@ -26,14 +28,15 @@ int pm_level_on_mesh(const struct pm_grid *g, size_t n, const double *const x[],
 	return status;
 }
 
-/* Its corners, x fastest; false: one of them has no level. */
-static bool corners(const struct pm_grid *g, const double *phi, const size_t c[3], double v[CORNERS])
+/* Of a cell the corners, x fastest; false: one of them has no level. c counts from the planes here, behind which those of the next rank follow. */
+static bool corners(const struct pm_grid *g, const struct pm_planes *planes, const double *phi, const size_t c[3], double v[CORNERS])
 {
 	bool all = true;
 	for (int k = 0; k < 1 << g->dim; k++) {
 		size_t at = 0, stride = 1;
 		for (int d = 0; d < g->dim; d++) {
-			at += stride * ((c[d] + (k >> d & 1)) % g->points[d]);
+			const size_t i = c[d] + (k >> d & 1);
+			at += stride * (planes->divided && d > 0 && d == planes->axis ? i : i % g->points[d]);
 			stride *= g->points[d];
 		}
 		v[k] = phi[at];
@@ -95,27 +98,49 @@ static void of_cell(const struct pm_grid *g, const double a[CORNERS], const doub
 			}
 }
 
-int pm_level_measure(const struct pm_grid *g, const double *a, const double *b, struct pm_level_measures *m)
+/* Rows of cells whose first plane is here. */
+static size_t rows_here(const struct pm_grid *g, const struct pm_planes *p)
 {
-	const size_t rows = g->cells[1] * g->cells[2];
-	double *row = pm_alloc(3 * rows, sizeof *row);
-	if (!row)
-		return -PM_DATA;
+	const size_t cells = g->cells[p->axis], end = p->first + p->here;
+	if (!p->axis || !p->divided)
+		return p->here ? g->cells[1] * g->cells[2] : 0;
+	return end > p->first && p->first < cells ? ((end < cells ? end : cells) - p->first) * (p->axis == 2 ? g->cells[1] : 1) : 0;
+}
+
+/* The sum over the rows of all ranks, in their order. */
+static int sum_rows(int status, const struct pm_planes *p, size_t rows, const double *row, double *sum)
+{
+	void *all = NULL;
+	size_t bytes = rows * sizeof *row;
+	if (p->divided)
+		status = pm_world_gather(status, row, bytes, &all, &bytes);
+	*sum = status ? NAN : pm_sum_array(bytes / sizeof *row, p->divided ? all : row);
+	pm_free(all);
+	return p->divided ? pm_world_share(status, 0, sum, sizeof *sum) : status;
+}
+
+int pm_level_measure(const struct pm_grid *g, const struct pm_planes *planes, const double *a, const double *b, struct pm_level_measures *m)
+{
+	const size_t rows = rows_here(g, planes);
+	const double cell = pm_grid_cell(g), *level[2] = {a, b};
+	double *row = pm_alloc(3 * rows + 1, sizeof *row), *room = NULL, sums[3];
+	int status = row ? 0 : -PM_DATA;
+	if (planes->divided)
+		status = pm_planes_halo(status, planes, 1, b ? 2 : 1, (const double *const[]){a, b}, level, &room);
 #pragma omp parallel for schedule(static)
-	for (size_t r = 0; r < rows; r++) {
+	for (size_t r = 0; r < (status ? 0 : rows); r++) {
 		double sum[3] = {0}, va[CORNERS], vb[CORNERS];
 		for (size_t i = 0; i < g->cells[0]; i++) {
 			const size_t c[3] = {i, r % g->cells[1], r / g->cells[1]};
-			if (corners(g, a, c, va) && (!b || corners(g, b, c, vb)))
+			if (corners(g, planes, level[0], c, va) && (!b || corners(g, planes, level[1], c, vb)))
 				of_cell(g, va, b ? vb : NULL, sum);
 		}
 		for (int k = 0; k < 3; k++)
 			row[(size_t)k * rows + r] = sum[k];
 	}
-	const double cell = pm_grid_cell(g);
-	m->inside = cell * pm_sum_array(rows, row);
-	m->interface = cell * pm_sum_array(rows, row + rows);
-	m->difference = b ? cell * pm_sum_array(rows, row + 2 * rows) : NAN;
-	pm_free(row);
-	return 0;
+	for (int k = 0; k < 3; k++)
+		status = sum_rows(status, planes, rows, row ? row + (size_t)k * rows : NULL, &sums[k]);
+	*m = (struct pm_level_measures){.inside = cell * sums[0], .interface = cell * sums[1], .difference = b ? cell * sums[2] : NAN};
+	pm_free(row), pm_free(room);
+	return status;
 }

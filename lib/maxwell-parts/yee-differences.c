@@ -31,7 +31,7 @@ static struct pair pair_at(const struct pm_yee *y, int d, bool up, size_t i)
 	const ptrdiff_t s = (ptrdiff_t)stride_of(g, d), last = (ptrdiff_t)g->points[d] - 1;
 	const bool periodic = g->face[d][0] == PM_PERIODIC;
 	struct pair p = {.high = up ? s : 0, .low = up ? 0 : -s, .w_high = 1, .w_low = 1};
-	const bool ahead = y->planes && d == y->planes->axis; /* what is beyond a periodic end lies beside it */
+	const bool ahead = y->planes && d > 0 && d == y->planes->axis; /* what is beyond a periodic end lies beside it */
 	if (up && (ptrdiff_t)i == last && !ahead)
 		p.high = -last * s;
 	if (!up && i == 0 && periodic && !ahead)
@@ -206,19 +206,19 @@ static bool on_conductor(const struct pm_grid *g, const size_t at[3])
 void pm_yee_divergence(const struct pm_yee *y, const double *rho, double *to)
 {
 	const struct pm_grid *g = &y->grid;
-#pragma omp parallel for collapse(2) schedule(static) if (pm_grid_size(g) > 8192)
-	for (size_t k = 0; k < g->points[2]; k++)
-		for (size_t j = 0; j < g->points[1]; j++)
-			for (size_t i = 0; i < g->points[0]; i++) {
-				const size_t at[3] = {i, j, k}, p = (k * g->points[1] + j) * g->points[0] + i;
-				double sum = 0;
-				for (int d = 0; d < g->dim; d++) {
-					const struct pair s = pair_at(y, d, false, at[d]);
-					const double *e = y->e[d] + p;
-					sum += (s.w_high * e[s.high] - s.w_low * e[s.low]) / g->h[d];
-				}
-				to[p] = on_conductor(g, at) ? 0 : sum - (rho ? rho[p] / y->eps0 : 0);
+	const size_t rows = (y->planes ? y->planes->here * y->planes->size : pm_grid_size(g)) / g->points[0], before = y->planes ? pm_planes_row(y->planes, 0) : 0;
+#pragma omp parallel for schedule(static) if (pm_grid_size(g) > 8192)
+	for (size_t row = 0; row < rows; row++)
+		for (size_t i = 0; i < g->points[0]; i++) {
+			const size_t at[3] = {i, (before + row) % g->points[1], (before + row) / g->points[1]}, p = row * g->points[0] + i;
+			double sum = 0;
+			for (int d = 0; d < g->dim; d++) {
+				const struct pair s = pair_at(y, d, false, at[d]);
+				const double *e = (y->planes ? y->beside[d] : y->e[d]) + p;
+				sum += (s.w_high * e[s.high] - s.w_low * e[s.low]) / g->h[d];
 			}
+			to[p] = on_conductor(g, at) ? 0 : sum - (rho ? rho[p] / y->eps0 : 0);
+		}
 }
 
 void pm_yee_subtract_gradient(const struct pm_yee *y, const double *psi)

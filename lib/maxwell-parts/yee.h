@@ -44,7 +44,7 @@ void pm_yee_wide(const struct pm_yee *y, const struct pm_yee_stencil *s, bool el
 /* Waves with the differences d(theta)/h along each axis are bounded for c dt up to 1/sqrt(sum (factor/h)^2), factor 1 for two points. */
 double pm_yee_limit(const struct pm_grid *g, double factor);
 
-/* to = div E - rho/eps0 on the nodes (0 where E along a face is zero); rho NULL: 0. */
+/* to = div E - rho/eps0 on the nodes (0 where E along a face is zero); rho NULL: 0. On planes of a rank E is beside[]. */
 void pm_yee_divergence(const struct pm_yee *y, const double *rho, double *to);
 /* E -= grad psi, psi on the nodes. */
 void pm_yee_subtract_gradient(const struct pm_yee *y, const double *psi);

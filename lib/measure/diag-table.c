@@ -10,6 +10,7 @@
 #include "measure/separation.h"
 #include "measure/species-moments.h"
 #include "measure/time-average.h"
+#include "world/world.h"
 
 static int check(const struct pm_diag_choice *c)
 {
@@ -177,7 +178,10 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 	int status = pm_measure_frame(how, f, m);
 	const bool lacks = t->energies && !t->choice.pair && isnan(m->value[PM_ENERGY_PAIR]) && isnan(m->value[PM_ENERGY_MESH]);
 	const enum pm_pairs pairs = lacks || t->unasked ? pm_pairs_unasked(f, pm_law_of(f), how, why) : PM_PAIRS_NO;
-	if (!status && pairs == PM_PAIRS_SUM && ((begins && lacks) || t->unasked)) {
+	bool again = pairs == PM_PAIRS_SUM && ((begins && lacks) || t->unasked);
+	if (pm_measure_divided(f)) /* rank 0 has seen all frames of the run */
+		status = pm_world_share(status, 0, &again, sizeof again);
+	if (!status && again) {
 		t->unasked = t->request.pair = true;
 		*how = pm_diag_how(&t->request, f);
 		t->request.pair = false;
@@ -197,9 +201,8 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 
 bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f)
 {
-	char why[200];
 	const struct pm_measure how = pm_diag_how(&t->request, f);
-	return pm_measure_shared(&how, f) && pm_pairs_unasked(f, pm_law_of(f), &how, why) != PM_PAIRS_SUM;
+	return pm_measure_shared(&how, f);
 }
 
 static void print_row(struct pm_diag_table *t, const double *value, bool first)

@@ -8,6 +8,7 @@
 struct pm_law_field {
 	const struct pm_field *field; /* with data; NULL: there is none, and it cannot be made */
 	struct pm_frame *made;        /* holds it where it was made; else NULL */
+	uint64_t *from;               /* the division of a field that ranks made, else NULL */
 };
 
 /* The first mesh that has the field, or a potential beside which it was left out; else the first that has a potential. NULL: none. */

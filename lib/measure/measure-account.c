@@ -12,9 +12,13 @@ void pm_account_of(const struct pm_measure *how, const struct pm_frame *f, struc
 		enum pm_column column;
 		const char *key;
 	} part[] = {{PM_STRENGTH_ABSORBED, "absorbed"}, {PM_STRENGTH_CUT, "lost"}, {PM_STRENGTH_OUTSIDE, "outside"}, {PM_STRENGTH_GIVEN, "given"}};
-	struct pm_strengths s;
+	struct pm_strengths s = {.n = 0};
 	m->value[PM_STRENGTH_SCALE] = NAN;
-	pm_strengths_of(f, how->set, &s);
+	for (size_t i = 0; i < f->nsets && how->strength; i++) {
+		const struct pm_field *q = how->set && strcmp(how->set, f->sets[i]->name) ? NULL : pm_frame_field(f, f->sets[i]->name, how->strength);
+		if (q && pm_is_strength(q))
+			pm_strengths_add(q, &s);
+	}
 	for (size_t k = 0; k < sizeof part / sizeof *part; k++)
 		m->value[part[k].column] = how->strength ? 0 : NAN;
 	for (int c = 0; how->strength && c < (how->vector ? 3 : 1); c++) {

@@ -14,7 +14,7 @@ int pm_field_of(const struct pm_measure *how, const struct pm_frame *f, double v
 
 /* The nodes of the box of the flux along an axis: first <= i < end. */
 void pm_flux_nodes(const struct pm_measure *how, const struct pm_grid *g, int d, size_t *first, size_t *end);
-/* measure-poynting.c: of Yee's E and B, the power that leaves the box, and the energy in it. */
-void pm_poynting_of(const struct pm_measure *how, const struct pm_grid *g, const struct pm_field *e, const struct pm_field *b, double *flux, double *inside);
+/* measure-poynting.c: of Yee's E and B, the power that leaves the box, and the energy in it. 0 or failure. */
+int pm_poynting_of(const struct pm_measure *how, const struct pm_grid *g, const struct pm_field *e, const struct pm_field *b, double *flux, double *inside);
 
 #endif

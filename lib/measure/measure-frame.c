@@ -125,14 +125,7 @@ static int of_level(const struct pm_measure *how, const struct pm_frame *f, stru
 	return status;
 }
 
-bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f)
-{
-	bool sets = !how->nradii && !(how->species && how->set) && pm_maxwell_divides(how, f) && !how->level && !how->field_errors && !how->flux &&
-		!pm_measure_has_outside(how, f);
-	for (size_t i = 0; i < f->nfields; i++)
-		sets = sets && (!pm_frame_set(f, f->fields[i]->on) || f->fields[i]->use || !pm_is_strength(f->fields[i]));
-	return sets && !pm_plasma_makes(how, f);
-}
+bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f) { return !how->nradii && pm_maxwell_divides(how, f); }
 
 static int measure(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {
@@ -172,13 +165,18 @@ static int measure(const struct pm_measure *how, const struct pm_frame *f, struc
 	return status;
 }
 
-/* A frame that is not divided is measured by this rank alone, also between the words of cycle. */
-int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+bool pm_measure_divided(const struct pm_frame *f)
 {
 	bool divided = false;
 	for (size_t i = 0; i < f->nfields; i++)
 		divided = divided || f->fields[i]->here;
-	const bool before = pm_world_apart(!divided || pm_world_size() == 1);
+	return divided;
+}
+
+/* A frame that is not divided is measured by this rank alone, also between the words of cycle. */
+int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	const bool before = pm_world_apart(!pm_measure_divided(f) || pm_world_size() == 1);
 	const int status = measure(how, f, m);
 	pm_world_apart(before);
 	return status;

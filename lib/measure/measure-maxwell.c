@@ -7,6 +7,7 @@
 #include "measure/measure.h"
 #include "mesh/mesh-sum.h"
 #include "stream/declare.h"
+#include "stream/over-stretches.h"
 
 static const char *const magnetic = "B";
 
@@ -30,11 +31,11 @@ void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 }
 
-/* The residual is found on the whole mesh. */
+/* The residual by derivatives of waves is found on the whole mesh. */
 bool pm_maxwell_divides(const struct pm_measure *how, const struct pm_frame *f)
 {
 	const struct pm_mesh *mesh = mesh_of(how, f);
-	return !mesh || !pm_frame_field(f, mesh->name, how->density);
+	return !mesh || !pm_frame_field(f, mesh->name, how->density) || !pm_yee_spectral(pm_frame_field(f, mesh->name, how->field));
 }
 
 struct component {
@@ -75,31 +76,34 @@ static double energy(const struct pm_grid *g, const struct pm_field *field)
 	return sum;
 }
 
-static double largest(size_t n, const double *a)
+static double largest(const struct pm_field *field, const double *a)
 {
 	double most = 0;
-	for (size_t i = 0; i < n; i++)
+	for (size_t i = 0; i < field->count; i++)
 		most = fmax(most, fabs(a[i]));
-	return most;
+	return pm_most_of_stretches(field, most);
 }
 
-/* Of what is charged anywhere; NAN without charge. */
-static int residual(const struct pm_measure *how, const struct pm_grid *g, const struct pm_field *e, const double *rho, double *got)
+/* Of what is charged anywhere; NAN without charge. Of ranks each has a plane more of E on either side. */
+static int residual(const struct pm_measure *how, const struct pm_grid *g, const struct pm_field *e, const struct pm_field *rho, double *got)
 {
-	struct pm_yee y = {.grid = *g, .c = how->c, .eps0 = how->eps0};
-	double *room = pm_alloc(pm_grid_size(g), sizeof *room);
-	if (!room)
-		return -PM_DATA;
+	struct pm_yee y = {.grid = *g, .c = how->c, .eps0 = how->eps0, .nodal = !e->staggered[0][0]};
+	struct pm_planes planes;
+	double *div = pm_alloc(e->count + 1, sizeof *div), *room = NULL;
+	int status = div ? pm_planes_init(&planes, g, e) : (planes.from = NULL, -PM_DATA);
 	for (int c = 0; c < 3; c++)
 		y.e[c] = (double *)pm_in(e, c);
-	int status = 0;
-	y.nodal = !e->staggered[0][0];
-	if (pm_yee_spectral(e))
-		status = pm_yee_waves_divergence(&y, rho, room);
-	else
-		pm_yee_divergence(&y, rho, room);
-	*got = largest(pm_grid_size(g), room) * how->eps0 / largest(pm_grid_size(g), rho);
-	pm_free(room);
+	if (e->here) {
+		y.planes = &planes;
+		status = pm_planes_halo(status, &planes, 1, 3, (const double *const *)y.e, y.beside, &room);
+	}
+	if (!status && pm_yee_spectral(e))
+		status = pm_yee_waves_divergence(&y, pm_in(rho, 0), div);
+	else if (!status)
+		pm_yee_divergence(&y, pm_in(rho, 0), div);
+	if (!status)
+		*got = largest(e, div) * how->eps0 / largest(rho, pm_in(rho, 0));
+	pm_planes_free(&planes), pm_free(div), pm_free(room);
 	return status;
 }
 
@@ -114,5 +118,5 @@ int pm_maxwell_of(const struct pm_measure *how, const struct pm_frame *f, struct
 	const struct pm_grid g = pm_grid_of(f, mesh);
 	m->value[PM_ENERGY_ELECTRIC] = how->eps0 * energy(&g, e);
 	m->value[PM_ENERGY_MAGNETIC] = how->eps0 * how->c * how->c * energy(&g, b);
-	return rho && e->components == 3 ? residual(how, &g, e, pm_in(rho, 0), &m->value[PM_GAUSS_RESIDUAL]) : 0;
+	return rho && e->components == 3 ? residual(how, &g, e, rho, &m->value[PM_GAUSS_RESIDUAL]) : 0;
 }

@@ -4,6 +4,7 @@
 #include "measure/measure.h"
 #include "stream/declare.h"
 #include "transfer/outside.h"
+#include "world/world.h"
 
 /* 1: prepared for the first mesh with a density, potential or field of the law; 0: there is none, or it is not open; or failure. */
 static int find(const struct pm_measure *how, const struct pm_frame *f, struct pm_outside_force *o, enum pm_outside *what)
@@ -48,7 +49,9 @@ int pm_outside_of(const struct pm_measure *how, const struct pm_frame *f, double
 	status = 0;
 	for (size_t i = 0; i < o.sources.n && !any && !status; i++)
 		status = pm_outside_any(f, o.sources.name[i], &o.transfer, &any);
-	if (!any || status)
+	int64_t anywhere = any; /* of all ranks */
+	status = pm_world_count(status, PM_MOST_OF, 1, &anywhere);
+	if (!anywhere || status)
 		return status;
 	status = pm_outside_measure(&o, f);
 	*count = (double)o.count;

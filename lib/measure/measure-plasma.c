@@ -11,18 +11,11 @@
 #include "stream/over-stretches.h"
 
 static bool needs_field(const struct pm_measure *how) { return how->plasma || how->nmodes; }
-static bool needs_flow(const struct pm_measure *how) { return how->vortices && how->vector; }
 
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f)
 {
 	if (needs_field(how))
 		pm_law_field_reads(how, f);
-}
-
-bool pm_plasma_makes(const struct pm_measure *how, const struct pm_frame *f)
-{
-	const struct pm_mesh *mesh = needs_field(how) || needs_flow(how) ? pm_law_field_mesh(how, f) : NULL;
-	return mesh && !pm_frame_field(f, mesh->name, how->field);
 }
 
 static double charge(const struct pm_measure *how, const struct pm_frame *f)
