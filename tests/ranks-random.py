@@ -49,6 +49,8 @@ def draw(r):
     def force(dim, periodic, *sides):
         kernel = maybe(0.3, "-k", pick("cic", "tsc", "pcs", "ngp"))
         filtered = maybe(0.15, "| smooth", pick("", "--passes 2"))
+        if periodic and r.random() < 0.15:
+            return f"p2m -n {cells(dim, *sides)}{maybe(0.3, '-k', pick('tsc', 'pcs'))}{filtered} | {solver(dim, periodic)} | m2p --energy-conserving"
         return (f"p2m -n {cells(dim, *sides)}{kernel}{maybe(0.15, '--interlace') if periodic else ''}{filtered} | {solver(dim, periodic)} | "
             f"mgrad{maybe(0.4, '--order', pick('2', '4', '6', *(['spectral'] if periodic else [])))} | m2p")
 
@@ -62,7 +64,8 @@ def draw(r):
         words += maybe(0.15, "| ssort" + maybe(0.5, "--every 2"))
         words += maybe(0.12, "| walk --nu 0.01")
         words += maybe(0.12, "| scalc 'k = floor(9*x) + n'")
-        words += maybe(0.1, "| diag --tee table --columns mass,momentum_x,energy_kinetic")
+        words += maybe(0.08, "| scalc 'side = floor(7*x)' | scalc --total --per side 'all = 1/3 + x' 'w = x, 0.1'")
+        words += maybe(0.15, "| diag --tee table", pick("--columns mass,momentum_x,energy_kinetic", "", "--field-errors"))
         return words
 
     def gravity():
@@ -102,8 +105,11 @@ def draw(r):
         kernel = maybe(0.5, "--kernel m6prime")
         body = maybe(0.2, "| penalize --body 'hypot(x - 0.5, y) - 0.4' --velocity '1, 0.1*y'")
         words = f"p2m{kernel} | poisson-fft | mgrad{maybe(0.3, '--order', pick('2', '4', '6'))}{body} | "
-        words += pick("diffuse | m2p", "dt --lcfl 0.2 | diffuse | m2p", "m2p | pse", "m2p | pse --order 4", "m2p") + " | push " + pick("rk2", "lsrk3", "rk4")
-        return scene, words + pick("", " | walk", " | remesh --cut-off 1e-6", " | remesh --kernel m6prime --cut-off 1e-6 | ssort")
+        within = f"'hypot(x - {pick(0.1, 0.4)}, y) < {pick(0.15, 0.3)}'"
+        words += pick("diffuse | m2p", "dt --lcfl 0.2 | diffuse | m2p", "m2p | pse", "m2p | pse --order 4", "m2p", f"m2p --mask {within}")
+        words += " | push " + pick("rk2", "lsrk3", "rk4")
+        return scene, words + pick("", " | walk", " | remesh --cut-off 1e-6", " | remesh --kernel m6prime --cut-off 1e-6 | ssort",
+            f" | remesh --cut-off 1e-6 --mask {within}")
 
     def space():
         scene = pick("pinit taylor-green-3d --cells 8", "pinit vortex-ring --cells 12", "pinit taylor-green-3d --cells 17")

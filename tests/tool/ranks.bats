@@ -88,6 +88,87 @@ vortices() {
 	on 3 cycle -n 2 --plan <start | cmp - alone
 }
 
+@test "any number of ranks: the force of the potential itself, in 1-D to 3-D, sorted or not; more planes than a rank asks for at once" {
+	local e="poisson-fft | m2p --energy-conserving"
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | same "$(kicks "p2m -n 33 --kernel tsc | $e")"
+	pinit langmuir -n 9025 --dim 2 --axes 2 --amplitude 0.3 | same "$(kicks "p2m -n 17x70 | $e")"
+	pinit uniform -n 9000 --dispersion 0.3 >box
+	same "$(kicks "p2m -n 6x7x99 --kernel pcs | $e")" <box # 99 planes, of which 7 ranks ask for 52 at a time
+	same "ssort | $(kicks "p2m -n 12x8x9 | $e")" <box
+	pinit uniform -n 9000 --dispersion 0.3 --faces wall,neumann,wall --particle-faces reflect | same "$(kicks "p2m -n 8x9x17 | $e")"
+	shares "push kick/2 drift, p2m -n 8, poisson-fft, m2p --energy-conserving, push kick/2" "$(kicks "p2m -n 8 | $e")" <box
+	pinit plummer -n 5000 | scalc 'x = 2*x, 2*y, 2*z' >wide
+	cycle -q -n 1 "p2m -n 16 --outside drop | $e | push drift" <wide 2>want >/dev/null && return 1
+	on 3 cycle -q -n 1 "p2m -n 16 --outside drop | $e | push drift" <wide 2>got >/dev/null && return 1
+	grep -q 'leave the mesh' want && cmp want got
+}
+
+@test "any number of ranks: bodies: one-sided kernels of m2p and remesh, in 1-D to 3-D; a mask of a field; who is too deep in a body" {
+	local flow="field 'vel = 0.3 - y, x' | push euler" go="field 'vel = 0.3*x, 0, 0' | push euler" body="hypot(x - 0.5, y - 0.4) < 0.2" s
+	blobs 1 9000 --box 0,1 --faces periodic --particle-faces periodic --law passive --strength circulation >line
+	same "field 'vel = 0.3*x' | push euler | scalc --mesh mesh 'f = x^2' | m2p --field f --mask 'x < 0.2' | remesh --drop volume --mask 'x < 0.1'" <line
+	blobs 2 9000 --box 0,0,1,1 --faces wall,neumann --particle-faces reflect >walls
+	blobs 2 9000 --box 0,0,1,1 --faces periodic --particle-faces periodic >periodic
+	blobs 3 5000 --box 0,0,0,1,1,1 --faces periodic,wall,periodic --particle-faces periodic,reflect,periodic -n 12 >space
+	same "$flow | scalc --mesh mesh 'f = x*y + 1' | m2p --field f --mask '$body'" --store all <walls
+	same "$flow | remesh --mask '$body' --rim 3" <walls
+	same "$flow | ssort | remesh --mask '$body' --kernel m6prime -n 70x33" <periodic
+	same "$flow | scalc --mesh mesh 'deep = 0.2 - hypot(x - 0.5, y)' | scalc --mesh mesh 'f = y' | m2p --field f --mask 'deep > 0' | remesh --mask '$body'" <periodic
+	same "$go | scalc --mesh mesh 'f = x*z' | m2p --field f --kernel cic --mask 'hypot(x, y, z) < 0.5' | remesh --kernel cic --mask 'hypot(x, z) < 0.3'" <space
+	shares "field vel = 0.3 - y, x, push euler, scalc --mesh mesh f = x, m2p --field f --mask $body, remesh --mask $body" \
+		"$flow | scalc --mesh mesh 'f = x' | m2p --field f --mask '$body' | remesh --mask '$body'" <periodic
+	for s in "scalc --mesh mesh 'f = x' | m2p --field f --mask 'x > 0.3'" "remesh --mask 'y > 0.3'"; do
+		cycle -q -n 1 "$flow | $s" <walls 2>want >/dev/null && return 1
+		on 3 cycle -q -n 1 "$flow | $s" <walls 2>got >/dev/null && return 1
+		grep -q 'deeper in a body' want
+		cmp want got || { cat want got; return 1; }
+	done
+}
+
+# tables WORDS [OPTION...] < frame: the table that diag --tee writes within these words is that of a run alone, and diag is shared.
+tables() {
+	local words=$1 n
+	shift
+	cat >start
+	cycle -q -n 2 "$@" "$words" <start >/dev/null || return
+	mv table alone.tsv
+	grep -q . alone.tsv || return
+	for n in 2 3 7; do
+		on $n cycle -v -n 2 "$@" "$words" <start 2>said >/dev/null && cmp table alone.tsv && grep -q 'on rank 0 alone: no word' said ||
+			{ cat said; diff table alone.tsv; echo "$n ranks: $words"; return 1; }
+	done
+}
+
+@test "any number of ranks: columns of diag that need derivatives on a mesh, a field made again, bodies beyond the mesh, levels, pairs that nobody asked for" {
+	local d="diag --tee table" l="push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2 | p2m"
+	pinit plummer -n 5000 >cluster
+	scalc 'x = 3*x, 3*y, 3*z' <cluster | tables "$(kicks "p2m -n 16 --outside monopole | poisson-fft | mgrad | m2p") | $d --columns energy,outside"
+	awk 'NR > 1 && $2 > 100 { n++ } END { exit n != 2 }' alone.tsv # bodies are beyond
+	tables "push drift | p2m -n 16x9x15 | poisson-fft | $d --flux-box=-4,-4,-4,4,4,4 --field-errors --columns flux,flux_enclosed,field_residual,field_curl" <cluster
+	pinit langmuir -n 9025 --dim 2 --axes 2 --amplitude 0.3 | sel --drop mesh |
+		tables "p2m -n 17x40 | poisson-fft | $d --modes 1,2 --flux-box 0.5,0.5,1.5,1.5 --field-errors | push drift"
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | tables "p2m -n 33 | poisson-fft | $d --growth mode:1 --field-errors | push drift"
+	pinit vortex-ring --cells 12 | tables "p2m | poisson-fft | $d | mgrad | m2p | push rk2"
+	pinit plummer -n 300 | tables "push drift | $d"
+	smod --rename matter=b <cluster >two
+	stack cluster two | scalc --extensive 'q = x' | tables "push drift | $d --set b"
+	pinit em-wave --dim 1 -n 9000 --cells 40 | tables "push boris/2 | push drift | m2p | push boris/2 | p2m | $d --flux-box 1,3"
+	pinit em-wave --dim 2 -n 9025 --cells 40 | tables "$l | $d --flux-box 1,1,3,3"
+	pinit em-wave --dim 3 -n 9261 --cells 8 | tables "$l | $d --flux-box 1,1,1,4,4,4"
+	pinit zalesak >disk
+	tables "field 'vel = y, -x' | push rk2 | $d --columns level_inside,level_interface,level_difference" <disk
+	scalc 'exact_level = level + 0.01*x' <disk | tables "field 'vel = y, -x' | push rk2 | $d --columns level_inside,level_interface,level_difference"
+}
+
+@test "any number of ranks: sums of groups, by whole numbers, reals of both signs of 0, one group, a group a particle" {
+	pinit uniform -n 13000 --dispersion 0.3 | scalc --role state --type i64 'side = 9*x' | scalc --role state 'tenth = round(10*vx)/10' >box
+	for per in side id tenth; do
+		same "push drift | scalc --total --per $per 'k = 1/3 + vx' 'w = x, y, z'" <box
+	done
+	same "push drift | scalc --type f32 'one = 1' | scalc --total --per one --type f32 'k = x'" <box
+	shares "push drift, scalc --total --per side k = x" "push drift | scalc --total --per side 'k = x'" <box
+}
+
 @test "any number of ranks: a run resumed with another number of ranks" {
 	pinit plummer -n 5000 >start
 	s=$(kicks "$(force 16)")
