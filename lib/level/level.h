@@ -14,7 +14,8 @@ struct pm_level_measures {
 /* sum V level W/sum V W on the nodes by m4prime, so that particles on nodes keep their values; NAN on a node to which the particles give less than a tenth
  * of a cell. x[d][n], volume[n], level[n], node[points]. The mesh has no walls (pm_grid_even). Where ranks share its planes, n and
  * the nodes are those here, and all call. 0 or failure, agreed. */
-int pm_level_on_mesh(const struct pm_grid *g, const struct pm_planes *planes, size_t n, const double *const x[], const double *volume, const double *level, double *node);
+int pm_level_on_mesh(const struct pm_grid *g, const struct pm_planes *planes, size_t n, const double *const x[], const double *volume, const double *level,
+	double *node);
 /* Of levels on the nodes, linear along each axis in between; b NULL: none. Cells with a NAN corner do not count. Order 2 in h. Ranks as above. 0 or
  * failure, agreed. */
 int pm_level_measure(const struct pm_grid *g, const struct pm_planes *planes, const double *a, const double *b, struct pm_level_measures *m);

@@ -206,7 +206,8 @@ static bool on_conductor(const struct pm_grid *g, const size_t at[3])
 void pm_yee_divergence(const struct pm_yee *y, const double *rho, double *to)
 {
 	const struct pm_grid *g = &y->grid;
-	const size_t rows = (y->planes ? y->planes->here * y->planes->size : pm_grid_size(g)) / g->points[0], before = y->planes ? pm_planes_row(y->planes, 0) : 0;
+	const size_t rows = (y->planes ? y->planes->here * y->planes->size : pm_grid_size(g)) / g->points[0];
+	const size_t before = y->planes ? pm_planes_row(y->planes, 0) : 0;
 #pragma omp parallel for schedule(static) if (pm_grid_size(g) > 8192)
 	for (size_t row = 0; row < rows; row++)
 		for (size_t i = 0; i < g->points[0]; i++) {

@@ -15,7 +15,8 @@ struct pm_some_planes {
 int pm_planes_some(int status, const struct pm_planes *p, const unsigned char *wanted, int n, const double *const in[], struct pm_some_planes *s);
 void pm_planes_some_free(struct pm_some_planes *s);
 
-/* How many planes a rank asks for at once, so that it never holds many more than its own, also where its particles are everywhere. width: of what reads them. */
+/* How many planes a rank asks for at once, so that it never holds many more than its own, also where its particles are
+ * everywhere. width: of what reads them. */
 size_t pm_planes_at_once(const struct pm_planes *p, size_t width);
 
 #endif
