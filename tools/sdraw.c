@@ -33,12 +33,10 @@ static const struct pm_option options[] = {
 	{.name = "output", .letter = 'o', .kind = PM_TEXT, .unit = "FILE", .fallback = "frame-%04d.png", .cosmetic = true, PM_AT(output),
 		.text = "the file to write, whose ending says its kind; %d or %04d stands for the number of the frame"},
 	{.name = "format", .kind = PM_WORD, .choices = pm_picture_kinds, .cosmetic = true, PM_AT(format),
-		.text = "the kind where --output has no ending; png: one file per frame; ppm: all frames in sequence, to "
-		"standard output unless --output is given"},
+		.text = "the kind where --output has no ending; png: a file a frame; ppm: all frames in sequence, to standard output unless --output is given"},
 	{.name = "fps", .kind = PM_REAL, .unit = "1/s", .fallback = "25", .low = 0.1, .high = 240, PM_AT(fps),
 		.text = "pictures per second of a movie (.mp4)"},
-	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", PM_AT(field),
-		.text = "draw this mesh field; if only the particles have it, colour them by it"},
+	{.name = "field", .letter = 'f', .kind = PM_TEXT, .unit = "NAME", PM_AT(field), .text = "draw this mesh field; if only particles have it, as colour"},
 	{.name = "mesh", .kind = PM_TEXT, .unit = "NAME", PM_AT(mesh), .text = "draw a field of this mesh (the last field if --field is missing)"},
 	{.name = "component", .kind = PM_TEXT, .unit = "x|y|z|NUMBER", PM_AT(component), .text = "component of a vector field (default: its length)"},
 	{.name = "axis", .kind = PM_WORD, .fallback = "z", .choices = axes, PM_AT(axis), .text = "the axis normal to the slice or along the projection (3-D)"},
@@ -53,11 +51,10 @@ static const struct pm_option options[] = {
 		.text = "points, or density; auto: density from 4000 particles on unless they are coloured"},
 	{.name = "log", .kind = PM_FLAG, PM_AT(log), .text = "logarithmic colour scale"},
 	{.name = "linear", .kind = PM_FLAG, PM_AT(linear), .text = "linear colour scale for a density, not logarithmic"},
-	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "values at the ends of the colour scale (default: the range of each "
-		"frame)"},
+	{.name = "range", .kind = PM_VECTOR, .unit = "LO,HI", PM_AT(range), .text = "values at the ends of the colour scale (default: the frame's range)"},
 	{.name = "area", .kind = PM_VECTOR, .unit = "XLO,XHI,YLO,YHI", PM_AT(window), .text = "the area to show (default: the box)"},
-	{.name = "map", .kind = PM_WORD, .fallback = "auto", .choices = maps, PM_AT(map),
-		.text = "colours; auto: viridis for fields, inferno for densities, coolwarm for numbers of both signs"},
+	{.name = "map", .kind = PM_WORD, .fallback = "auto", .choices = maps, PM_AT(map), .text = "colours; auto: viridis for fields, inferno for densities, "
+		"coolwarm for numbers of both signs"},
 	{.name = "size", .kind = PM_INTEGER, .unit = "pixels", .fallback = "640", .low = 64, .high = 8192, PM_AT(size),
 		.text = "the longer side of the data area"},
 	{.name = "title", .kind = PM_TEXT, .unit = "TEXT", PM_AT(title), .text = "title (default: scene, field, time and step)"},
@@ -132,6 +129,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
+/* A curve is of a mesh in 1-D, which is on one rank, and a page holds whole frames. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return !is_page(s) && !(((struct state *)s->state)->view.on_mesh && f->dim == 1); }
+
 static int end(struct pm_stage *s)
 {
 	struct state *st = s->state;
@@ -162,9 +162,8 @@ const struct pm_tool tool_sdraw = {
 	.name = "sdraw",
 	.summary = "pictures of a mesh field or of particles",
 	.about = "Draws every frame as a PNG file and prints the names of the files. Without options the particles of the first set, as points or as "
-		"density; with --field a mesh "
-		 "field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar means that some values "
-		"lie beyond it. "
+		"density; with --field a mesh field: a slice or a projection in 3-D, the field in 2-D, a curve in 1-D. A triangle at an end of the colour bar "
+		"means that some values lie beyond it. "
 		 "A movie: sdraw -o run.mp4 --range LO,HI, which needs ffmpeg. A page with all frames for a browser: sdraw -o run.html.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
@@ -174,6 +173,7 @@ const struct pm_tool tool_sdraw = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.end = end,
 	.free = done,
 };

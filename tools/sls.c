@@ -49,6 +49,8 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && ((const struct config *)s->config)->listing.data; }
+
 static int end(struct pm_stage *s)
 {
 	if (!strcmp(((const struct config *)s->config)->format, "text"))
@@ -78,5 +80,6 @@ const struct pm_tool tool_sls = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.end = end,
 };

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/range.h"
 #include "mesh/mesh-sum.h"
+#include "stream/over-stretches.h"
+#include "world/world.h"
 
 struct component {
 	const struct pm_field *field;
@@ -51,8 +53,16 @@ struct pm_range pm_range_of(const struct pm_frame *f, const struct pm_field *fie
 	const struct part none = {.min = HUGE_VAL, .max = -HUGE_VAL, .least = HUGE_VAL};
 	const struct pm_parts parts = {.size = sizeof none, .none = &none, .make = make, .join = join};
 	struct part all = none;
-	if (!field->count)
+	const size_t count = field->here ? (size_t)field->from[pm_world_size()] : field->count;
+	const struct pm_mesh *m = pm_frame_mesh(f, field->on);
+	if (!count)
 		return (struct pm_range){NAN, NAN, NAN, HUGE_VAL};
-	pm_over_field(&parts, &(struct component){field, c}, f, field->on, field->count, &all);
-	return (struct pm_range){all.min, all.max, pm_sum_total(all.sum) / (double)field->count, all.least};
+	pm_field_bring(field);
+	if (m) {
+		const struct pm_grid g = pm_grid_of(f, m);
+		pm_grid_over(&g, field, &parts, &(struct component){field, c}, &all);
+	} else {
+		pm_over_stretches(field, &parts, &(struct component){field, c}, &all);
+	}
+	return (struct pm_range){all.min, all.max, pm_sum_total(all.sum) / (double)count, all.least};
 }

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "picture/picture-file.h"
+#include "world/world.h"
 
 /* Where the number of the frame goes: %d or %0Nd once. *width is N. 0 none, 1 there, -1 wrong. */
 static int number_place(const char *name, const char **place, const char **behind, int *width)
@@ -85,6 +86,8 @@ int pm_picture_files_write(struct pm_picture_files *c, const struct pm_picture *
 {
 	const bool ppm = c->kind == PM_PICTURE_PPM, series = ppm && !strchr(c->name, '%');
 	char name[4096];
+	if (pm_world_rank()) /* rank 0 has the picture */
+		return 0;
 	if (c->kind == PM_PICTURE_MP4)
 		return add_movie(c, p);
 	int status = name_of(c, frame, series, name);

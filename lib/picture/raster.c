@@ -1,8 +1,13 @@
-/* Numbers on a plane. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers on a plane. Of ranks each makes the rows of its planes; a projection along the divided axis goes from rank to rank.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "measure/range.h"
 #include "picture/raster.h"
 #include "mesh/grid.h"
 #include "mesh/index-fold.h"
+#include "mesh/planes.h"
+#include "world/world.h"
 
 void pm_raster_free(struct pm_raster *r) { r->value = pm_free(r->value); }
 
@@ -31,13 +36,142 @@ static void stagger(struct pm_raster *r, const struct pm_field *field, int compo
 		r->lo[k] += 0.5 * field->staggered[component][across[k]] * r->h[k];
 }
 
+/* ---- a field that ranks share: a rank has consecutive planes of the last axis ---- */
+
+/* Rows of the raster here, those of all ranks joined on rank 0. */
+static int gather_rows(int status, struct pm_raster *r, size_t rows)
+{
+	void *all = NULL;
+	size_t bytes = 0;
+	status = pm_world_gather(status, r->value, rows * r->n[0] * sizeof *r->value, &all, &bytes);
+	if (!status && all)
+		memcpy(r->value, all, bytes);
+	pm_free(all);
+	return status;
+}
+
+struct slice {
+	size_t stride[3], low, high;
+	const struct pm_field *field;
+	int component;
+	double t;
+};
+
+/* Rows from..to-1 of those here. */
+static void slice_rows(const struct pm_raster *r, const struct slice *s, size_t from, size_t to, double *value)
+{
+	for (size_t j = from; j < to; j++)
+		for (size_t i = 0; i < r->n[0]; i++) {
+			size_t p = i * s->stride[0] + j * s->stride[1];
+			double a = pm_field_value(s->field, s->component, p + s->low * s->stride[2]),
+				b = s->t > 0 ? pm_field_value(s->field, s->component, p + s->high * s->stride[2]) : a;
+			value[i + j * r->n[0]] = (1 - s->t) * a + s->t * b;
+		}
+}
+
+/* A plane of the divided axis, from the rank that has it, to all. */
+static int share_plane(int status, const struct pm_raster *r, const struct pm_planes *p, const struct slice *s, size_t k, double *value)
+{
+	int root = 0;
+	while (!status && p->from[root + 1] <= k)
+		root++;
+	if (!status && root == pm_world_rank())
+		slice_rows(r, &(struct slice){.stride = {s->stride[0], s->stride[1], s->stride[2]}, .field = s->field, .component = s->component,
+			.low = k - p->first}, 0, r->n[1], value);
+	return pm_world_share(status, root, value, r->n[0] * r->n[1] * sizeof *value);
+}
+
+static int slice_ranks(struct pm_raster *r, const struct pm_grid *g, int axis, const struct slice *s)
+{
+	struct pm_planes p;
+	const size_t n = r->n[0] * r->n[1];
+	double *second = NULL;
+	int status = pm_planes_init(&p, g, s->field);
+	if (g->dim < 3 || axis < 2) {
+		if (!status)
+			slice_rows(r, s, 0, p.here, r->value);
+		status = gather_rows(status, r, p.here);
+	} else {
+		second = pm_alloc(n + 1, sizeof *second);
+		status = pm_world_agree(status ? status : second ? 0 : -PM_DATA);
+		status = share_plane(status, r, &p, s, s->low, r->value);
+		status = share_plane(status, r, &p, s, s->t > 0 ? s->high : s->low, second);
+		for (size_t i = 0; i < n && !status; i++)
+			r->value[i] = (1 - s->t) * r->value[i] + s->t * second[i];
+	}
+	pm_planes_free(&p), pm_free(second);
+	return status;
+}
+
+struct ray {
+	size_t stride[3], n;
+	const struct pm_field *field;
+	int component;
+	double h;
+	bool half; /* weights at the ends */
+};
+
+/* Adds points from..to-1 of a ray, of which the first here has number `first`. */
+static void add_ray(const struct ray *a, size_t at, size_t first, size_t from, size_t to, struct pm_sum *sum)
+{
+	for (size_t k = from; k < to; k++) {
+		bool end = a->half && (k == 0 || k == a->n - 1);
+		pm_sum_add(sum, (end ? 0.5 : 1) * pm_field_value(a->field, a->component, at + (k - first) * a->stride[2]));
+	}
+}
+
+static int project_rows(struct pm_raster *r, const struct ray *a, size_t rows)
+{
+	for (size_t j = 0; j < rows; j++)
+		for (size_t i = 0; i < r->n[0]; i++) {
+			struct pm_sum sum = {0, 0};
+			add_ray(a, i * a->stride[0] + j * a->stride[1], 0, 0, a->n, &sum);
+			r->value[i + j * r->n[0]] = pm_sum_total(sum) * a->h;
+		}
+	return 0;
+}
+
+/* Along the divided axis the sums go from rank to rank: planes are added in their order. */
+static int project_ranks(struct pm_raster *r, const struct pm_grid *g, int axis, const struct ray *a)
+{
+	struct pm_planes p;
+	const size_t n = r->n[0] * r->n[1], ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
+	int status = pm_planes_init(&p, g, a->field);
+	if (g->dim < 3 || axis < 2) {
+		status = status ? status : project_rows(r, a, p.here);
+		status = gather_rows(status, r, p.here);
+		pm_planes_free(&p);
+		return status;
+	}
+	struct pm_sum *sum = pm_zalloc(n + 1, sizeof *sum);
+	size_t *bytes = pm_alloc(2 * ranks, sizeof *bytes);
+	status = pm_world_agree(status ? status : sum && bytes ? 0 : -PM_DATA);
+	for (size_t turn = 0; turn < ranks && !status; turn++) {
+		void *came = NULL;
+		if (turn == me)
+			for (size_t i = 0; i < n; i++)
+				add_ray(a, i % r->n[0] * a->stride[0] + i / r->n[0] * a->stride[1], p.first, p.first, p.first + p.here, &sum[i]);
+		for (size_t q = 0; q < ranks; q++)
+			bytes[q] = turn == me && q == (me + 1) % ranks ? n * sizeof *sum : 0; /* from the last one to rank 0 */
+		status = pm_world_exchange(status, sum, bytes, &came, bytes + ranks);
+		if (!status && me == (turn + 1) % ranks)
+			memcpy(sum, came, n * sizeof *sum);
+		pm_free(came);
+	}
+	for (size_t i = 0; i < n && !status; i++)
+		r->value[i] = pm_sum_total(sum[i]) * a->h;
+	pm_free(sum), pm_free(bytes), pm_planes_free(&p);
+	return status;
+}
+
 int pm_raster_slice(struct pm_raster *r, const struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *field, int component, int axis, double at)
 {
 	struct pm_grid g = pm_grid_of(f, m);
 	size_t stride[3], low = 0, high = 0;
 	double t = 0;
-	if (plane(r, &g, axis, stride))
-		return -PM_DATA;
+	int status = plane(r, &g, axis, stride);
+	if ((status = field->here ? pm_world_agree(status) : status))
+		return status;
 	stagger(r, field, component, axis, g.dim);
 	if (g.dim == 3) {
 		double s = (at - g.lo[axis]) / g.h[axis] - (component >= 0 ? 0.5 * field->staggered[component][axis] : 0), last = (double)g.points[axis] - 1;
@@ -47,43 +181,34 @@ int pm_raster_slice(struct pm_raster *r, const struct pm_frame *f, const struct 
 		t = s - floor(s);
 		high = pm_index_fold((ptrdiff_t)low + 1, g.points[axis], periodic);
 	}
-	for (size_t j = 0; j < r->n[1]; j++)
-		for (size_t i = 0; i < r->n[0]; i++) {
-			size_t p = i * stride[0] + j * stride[1];
-			double a = pm_field_value(field, component, p + low * stride[2]),
-				b = t > 0 ? pm_field_value(field, component, p + high * stride[2]) : a;
-			r->value[i + j * r->n[0]] = (1 - t) * a + t * b;
-		}
-	return 0;
+	struct slice s = {.stride = {stride[0], stride[1], stride[2]}, .field = field, .component = component, .low = low, .high = high, .t = t};
+	return field->here ? slice_ranks(r, &g, axis, &s) : (slice_rows(r, &s, 0, r->n[1], r->value), 0);
 }
 
 int pm_raster_project(struct pm_raster *r, const struct pm_frame *f, const struct pm_mesh *m, const struct pm_field *field, int component, int axis)
 {
 	struct pm_grid g = pm_grid_of(f, m);
 	size_t stride[3], n;
-	if (plane(r, &g, axis, stride))
-		return -PM_DATA;
+	int status = plane(r, &g, axis, stride);
+	if ((status = field->here ? pm_world_agree(status) : status))
+		return status;
 	stagger(r, field, component, axis, g.dim);
 	n = g.dim == 3 ? g.points[axis] : 1;
-	for (size_t j = 0; j < r->n[1]; j++)
-		for (size_t i = 0; i < r->n[0]; i++) {
-			struct pm_sum sum = {0, 0};
-			for (size_t k = 0; k < n; k++) {
-				bool end = g.dim == 3 && g.face[axis][0] != PM_PERIODIC && (k == 0 || k == n - 1);
-				pm_sum_add(&sum, (end ? 0.5 : 1) * pm_field_value(field, component, i * stride[0] + j * stride[1] + k * stride[2]));
-			}
-			r->value[i + j * r->n[0]] = pm_sum_total(sum) * (g.dim == 3 ? g.h[axis] : 1);
-		}
-	return 0;
+	const struct ray ray = {.stride = {stride[0], stride[1], stride[2]}, .field = field, .component = component, .n = n, .h = g.dim == 3 ? g.h[axis] : 1,
+		.half = g.dim == 3 && g.face[axis][0] != PM_PERIODIC};
+	return field->here ? project_ranks(r, &g, axis, &ray) : project_rows(r, &ray, r->n[1]);
 }
 
 /* The unit in which n weights are counted: all together are below 2^62 of it. */
-static double quantum(const struct pm_raster_points *points)
+static int quantum(int status, const struct pm_raster_points *points, double *unit)
 {
-	double most = points->w || !points->n ? 0 : 1;
+	const size_t n = points->shared ? points->all : points->n;
+	double most = points->w || !n ? 0 : 1;
 	for (size_t p = 0; points->w && p < points->n; p++)
 		most = fmax(most, fabs(points->w[p]));
-	return most > 0 ? fmax(0x1p-1022, ldexp(1, ilogb(most) + 1 + ilogb((double)points->n) + 1 - 62)) : 1;
+	status = points->shared ? pm_world_largest(status, 1, &most) : status;
+	*unit = most > 0 ? fmax(0x1p-1022, ldexp(1, ilogb(most) + 1 + ilogb((double)n) + 1 - 62)) : 1;
+	return status;
 }
 
 /* Weights are counted as integers, so the order of the points does not matter. */
@@ -95,14 +220,11 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 		r->n[k] = bins[k], r->h[k] = (hi[k] - lo[k]) / (double)bins[k];
 		r->lo[k] = lo[k] + r->h[k] / 2, r->wrap[k] = false;
 	}
-	const double unit = quantum(points);
-	int64_t *count = pm_zalloc(bins[0] * bins[1], sizeof *count);
+	double unit = 1;
+	int64_t *count = pm_zalloc(bins[0] * bins[1] + 1, sizeof *count); /* behind the bins: outside */
 	r->value = pm_zalloc(bins[0] * bins[1], sizeof *r->value);
-	if (!r->value || !count) {
-		pm_free(count);
-		return -PM_DATA;
-	}
-	for (size_t p = 0; p < points->n; p++) {
+	int status = quantum(r->value && count ? 0 : -PM_DATA, points, &unit);
+	for (size_t p = 0; p < points->n && !status; p++) {
 		double s[2] = {(x[p] - r->lo[0]) / r->h[0], (y[p] - r->lo[1]) / r->h[1]}, value = (w ? w[p] : 1) / unit;
 		if (!(x[p] >= lo[0] && x[p] <= hi[0] && y[p] >= lo[1] && y[p] <= hi[1])) {
 			++*outside;
@@ -116,10 +238,15 @@ int pm_raster_density(struct pm_raster *r, const size_t bins[2], const double lo
 				count[(size_t)i + (size_t)j * bins[0]] += llrint(share * value);
 			}
 	}
-	for (size_t b = 0; b < bins[0] * bins[1]; b++)
+	if (!status)
+		count[bins[0] * bins[1]] = (int64_t)*outside;
+	status = points->shared ? pm_world_count(status, PM_SUM_OF, bins[0] * bins[1] + 1, count) : status;
+	for (size_t b = 0; b < bins[0] * bins[1] && !status; b++)
 		r->value[b] = (double)count[b] * (unit / (r->h[0] * r->h[1]));
+	if (!status)
+		*outside = (size_t)count[bins[0] * bins[1]];
 	pm_free(count);
-	return 0;
+	return status;
 }
 
 /* 1-2-1 filter along a line of n values; at the ends the outer weight is added to the end value, so the sum is kept. */

@@ -1,5 +1,6 @@
 /* A view of a frame. A mesh field is a slice or an integral along an axis (3-D), as it is (2-D), or a curve (1-D); particles are points, or, where they are
- * many, their density over the plane of two expressions. SPDX-License-Identifier: GPL-3.0-or-later */
+ * many, their density over the plane of two expressions. Ranks make the density together; points are brought to rank 0, which draws.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include "picture/view.h"
 #include "mesh/grid.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 enum { many = 4000 };
 static const unsigned char dark[3] = {17, 18, 28}, light[3] = {250, 250, 252};
@@ -219,7 +221,12 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 	double lo[2] = {f->lo[x], f->lo[y]}, hi[2] = {f->hi[x], f->hi[y]};
 	if (v->nwindow)
 		lo[0] = v->window[0], hi[0] = v->window[1], lo[1] = v->window[2], hi[1] = v->window[3];
-	if (!(status = mesh_raster(v, f, m, field, &r, what, name)) && !(status = scale_raster(v, &r, 0, v->log, pm_colour_find("viridis"), &s)) &&
+	status = mesh_raster(v, f, m, field, &r, what, name);
+	if (field->here && pm_world_rank()) { /* rank 0 has the values */
+		pm_raster_free(&r);
+		return status;
+	}
+	if (!status && !(status = scale_raster(v, &r, 0, v->log, pm_colour_find("viridis"), &s)) &&
 		!(status = pm_plot_new(p, v->size, aspect_of(lo, hi), lo, hi, true, dark))) {
 		with_unit(v->project && f->dim == 3 ? what : name, v->project && f->dim == 3 ? "" : field->unit, label);
 		s.label = label;
@@ -235,29 +242,63 @@ static int draw_mesh(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 
 /* ---- particles ---- */
 
+/* The particles of a set, or of one that ranks share those here. */
+struct drawn {
+	size_t n, all;
+	bool shared;
+	double *x, *y, *extra; /* one block; extra may be NULL */
+};
+
 /* The range of an axis: the box for a position, else the range of the numbers and a small margin. */
-static void window(const struct pm_expression *e, const struct pm_frame *f, size_t n, const double *y, double *lo, double *hi)
+static int window(int status, const struct pm_expression *e, const struct pm_frame *f, const struct drawn *d, const double *y, double *lo, double *hi)
 {
 	const struct pm_field *p = plain(e, f);
 	if (p && !strcmp(p->name, "x") && e->value[0].component < f->dim) {
 		*lo = f->lo[e->value[0].component], *hi = f->hi[e->value[0].component];
-		return;
+		return status;
 	}
-	*lo = HUGE_VAL, *hi = -HUGE_VAL;
-	for (size_t i = 0; i < n; i++)
-		*lo = fmin(*lo, y[i]), *hi = fmax(*hi, y[i]);
-	if (!n)
-		*lo = 0, *hi = 1;
+	double most[2] = {-HUGE_VAL, -HUGE_VAL}; /* of -y and y */
+	for (size_t i = 0; i < d->n; i++)
+		most[0] = fmax(most[0], -y[i]), most[1] = fmax(most[1], y[i]);
+	status = d->shared ? pm_world_largest(status, 2, most) : status;
+	*lo = d->all ? -most[0] : 0, *hi = d->all ? most[1] : 1;
 	double pad = *hi > *lo ? 0.04 * (*hi - *lo) : *lo != 0 ? fabs(*lo) / 2 : 0.5;
 	*lo -= pad, *hi += pad;
+	return status;
 }
 
-static int draw_density(struct pm_view *v, struct pm_plot *p, size_t n, const double *x, const double *y, const double *w, struct pm_scale *s, size_t *outside)
+/* All of them on rank 0; what it had here is freed. */
+static int bring(int status, struct drawn *d)
+{
+	double *const own[] = {d->x, d->y, d->extra}, *all = NULL;
+	for (int k = 0; k < (d->extra ? 3 : 2); k++) {
+		void *came = NULL;
+		size_t bytes = 0;
+		status = pm_world_gather(status, own[k], d->n * sizeof *all, &came, &bytes);
+		if (!status && came && !all && !(all = pm_alloc(3 * d->all + 1, sizeof *all)))
+			status = pm_failed();
+		if (all && came)
+			memcpy(all + (size_t)k * d->all, came, bytes);
+		pm_free(came);
+	}
+	status = pm_world_agree(status);
+	if (!status && all) {
+		pm_free(d->x);
+		*d = (struct drawn){.n = d->all, .all = d->all, .x = all, .y = all + d->all, .extra = d->extra ? all + 2 * d->all : NULL};
+	} else
+		pm_free(all);
+	return status;
+}
+
+static int draw_density(int status, struct pm_view *v, struct pm_plot *p, const struct drawn *d, struct pm_scale *s, size_t *outside)
 {
 	struct pm_raster r = {.value = NULL};
+	const size_t n = d->all;
+	const struct pm_raster_points points = {.n = d->n, .all = n, .x = d->x, .y = d->y, .w = d->extra, .shared = d->shared};
 	double longer = fmin(fmax(2 * sqrt((double)n), 64), v->size), aspect = (double)(p->x1 - p->x0) / (p->y1 - p->y0), total = 0;
 	const size_t bins[2] = {(size_t)fmax(longer * fmin(aspect, 1), 8), (size_t)fmax(longer / fmax(aspect, 1), 8)};
-	int status = pm_raster_density(&r, bins, p->lo, p->hi, &(struct pm_raster_points){n, x, y, w}, outside);
+	status = d->shared ? pm_world_agree(status) : status;
+	status = status ? status : pm_raster_density(&r, bins, p->lo, p->hi, &points, outside);
 	for (size_t i = 0; !status && i < bins[0] * bins[1]; i++)
 		total += r.value[i];
 	double one = n > *outside ? total / (double)(n - *outside) : 1; /* the density of one particle in one bin */
@@ -278,19 +319,23 @@ static double point_radius(int size, size_t n)
 	return fmin(fmax(0.14 * size / sqrt((double)n + 1), fmax(0.9, unit)), 4 * fmax(unit, 0.5));
 }
 
-static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, size_t n, const double *x, const double *y, const double *extra)
+static bool is_density(const struct pm_view *v, size_t n) { return v->density || (!v->points && !*v->drawn && (n > many || v->weight)); }
+
+static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, const struct drawn *d)
 {
+	const size_t n = d->all;
+	const double *x = d->x, *y = d->y, *extra = d->extra;
 	struct pm_scale s = {.label = v->drawn};
 	char note[96], title[256], labels[3][160];
 	size_t outside = 0;
-	bool density = v->density || (!v->points && !*v->drawn && (n > many || v->weight));
+	const bool density = is_density(v, n);
 	double aspect = plain(&v->ex, f) && plain(&v->ex, f) == plain(&v->ey, f) ? aspect_of(p->lo, p->hi) : 1.25;
 	double lo[2] = {p->lo[0], p->lo[1]}, hi[2] = {p->hi[0], p->hi[1]};
 	int status = pm_plot_new(p, v->size, aspect, lo, hi, density || *v->drawn, dark);
 	for (size_t i = 0; !density && i < n; i++)
 		outside += !(x[i] >= lo[0] && x[i] <= hi[0] && y[i] >= lo[1] && y[i] <= hi[1]);
-	if (!status && density && n)
-		status = draw_density(v, p, n, x, y, extra, &s, &outside);
+	if (density && n)
+		status = draw_density(status, v, p, d, &s, &outside);
 	else if (!status) {
 		double min = HUGE_VAL, max = -HUGE_VAL, least = HUGE_VAL;
 		for (size_t i = 0; extra && i < n; i++)
@@ -316,27 +361,42 @@ static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, siz
 	return 0;
 }
 
+static struct drawn particles_of(const struct pm_frame *f, const char *set)
+{
+	struct drawn d = {.all = pm_frame_set(f, set)->n};
+	d.n = d.all;
+	for (size_t i = 0; i < f->nfields; i++)
+		if (f->fields[i]->here && !strcmp(f->fields[i]->on, set))
+			d.n = f->fields[i]->count, d.shared = true;
+	return d;
+}
+
 static int draw_set(struct pm_view *v, struct pm_frame *f, struct pm_plot *p)
 {
-	size_t n = pm_frame_set(f, v->on)->n;
+	struct drawn d = particles_of(f, v->on);
 	const struct pm_expression *third = *v->drawn ? &v->ecolour : v->weight ? &v->eweight : NULL;
-	double *x = pm_alloc(n ? 3 * n : 1, sizeof *x), *y = x + n, *extra = third ? y + n : NULL;
-	if (!x)
-		return -PM_DATA;
-	pm_expression_eval(&v->ex, f, 0, n, x);
-	pm_expression_eval(&v->ey, f, 0, n, y);
-	if (third)
-		pm_expression_eval(third, f, 0, n, extra);
-	if (!pm_finite(n, x) || !pm_finite(n, y) || (third && !pm_finite(n, extra))) {
-		pm_free(x);
-		return pm_fail(PM_NUMERICS, "an expression to draw is not finite everywhere (choose particles with sel --where)");
+	const size_t n = d.n;
+	int status = (d.x = pm_alloc(3 * n + 1, sizeof *d.x)) ? 0 : -PM_DATA;
+	d.y = d.x + n, d.extra = third ? d.y + n : NULL;
+	if (!status) {
+		pm_expression_eval(&v->ex, f, 0, n, d.x);
+		pm_expression_eval(&v->ey, f, 0, n, d.y);
+		if (third)
+			pm_expression_eval(third, f, 0, n, d.extra);
+		if (!pm_finite(n, d.x) || !pm_finite(n, d.y) || (third && !pm_finite(n, d.extra)))
+			status = pm_fail(PM_NUMERICS, "an expression to draw is not finite everywhere (choose particles with sel --where)");
 	}
-	window(&v->ex, f, n, x, &p->lo[0], &p->hi[0]);
-	window(&v->ey, f, n, y, &p->lo[1], &p->hi[1]);
+	status = d.shared ? pm_world_agree(status) : status;
+	status = window(status, &v->ex, f, &d, d.x, &p->lo[0], &p->hi[0]);
+	status = window(status, &v->ey, f, &d, d.y, &p->lo[1], &p->hi[1]);
 	if (v->nwindow)
 		p->lo[0] = v->window[0], p->hi[0] = v->window[1], p->lo[1] = v->window[2], p->hi[1] = v->window[3];
-	int status = draw_on(v, f, p, n, x, y, extra);
-	pm_free(x);
+	const bool points = d.shared && !is_density(v, d.all);
+	if (points)
+		status = bring(status, &d);
+	if (!status && !(points && pm_world_rank()))
+		status = draw_on(v, f, p, &d);
+	pm_free(d.x);
 	return status;
 }
 

@@ -80,7 +80,7 @@ static void planes(void)
 	check_near(pm_raster_at(&r, 1, 1), 2 * 11 + 200, 1e-12, "an integral counts end points half");
 	pm_raster_free(&r);
 	double x[4] = {0, 4, 1.3, 5}, y[4] = {0, 3, 2.9, 1}, w[4] = {1, 2, 4, 8}, lo[2] = {0, 0}, hi[2] = {4, 3}, sum = 0;
-	pm_raster_density(&r, bins, lo, hi, &(struct pm_raster_points){4, x, y, w}, &outside);
+	pm_raster_density(&r, bins, lo, hi, &(struct pm_raster_points){.n = 4, .x = x, .y = y, .w = w}, &outside);
 	pm_raster_smooth(&r);
 	for (size_t i = 0; i < 20; i++)
 		sum += r.value[i] * 4 * 3 / 20;
@@ -93,7 +93,7 @@ static void planes(void)
 		for (int d = 0; d < 3; d++)
 			many[d][0][i] = many[d][1][399 - i] = d < 2 ? fmod(0.385 * (i + 1) * (i + 1 + d), 3) : exp(fmod(2.385 * i * i, 20) - 10);
 	for (int k = 0; k < 2; k++)
-		pm_raster_density(&both[k], bins, lo, hi, &(struct pm_raster_points){400, many[0][k], many[1][k], many[2][k]}, &outside);
+		pm_raster_density(&both[k], bins, lo, hi, &(struct pm_raster_points){.n = 400, .x = many[0][k], .y = many[1][k], .w = many[2][k]}, &outside);
 	check(both[0].value[7] > 0 && !memcmp(both[0].value, both[1].value, bins[0] * bins[1] * sizeof(double)),
 		"a density does not depend on the order of its points, to the last bit");
 	pm_raster_free(&both[0]), pm_raster_free(&both[1]);
