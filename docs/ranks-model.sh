@@ -42,14 +42,16 @@ model() {
 	awk -v name="$1" -v dim="$2" -v n="$3" -v N="$4" -v n0="$5" -v N0="$6" -v passes="$7" -v T=$threads -v a=$latency -v b=$band '
 		function mesh(w) { return w ~ /^(poisson|mgrad|diffuse|stretch)/ }
 		# what a rank sends and waits for, in a step, where the word is shared
-		function travels(w, P,   plane, rows) {
+		function travels(w, P,   plane, rows, counts) {
 			plane = 8 * n ^ (dim - 1)
 			if (P == 1 || w ~ /^push/) return P == 1 ? 0 : 2 * a * log(P) / log(2)
 			if (w ~ /^poisson/) return 2 * (8 * M / (P * b) + a * P)                      # two transpositions
 			if (mesh(w)) return 4 * plane / b + 4 * a                                     # planes of neighbours
 			# records out of place, sorted every ten steps; rows of the tiles at both ends of a rank, of 8 (64) planes: of cic 1.23 numbers a cell
 			rows = 2 * (dim == 3 ? 8 : 64) * n ^ (dim - 1)
-			return 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 8 * 1.23 * (rows < M / P ? rows : M / P) / b + 2 * a * P
+			# counts of the records of each tile of 4096 cells, added over all ranks and over those before
+			counts = 2 * log(P) / log(2) * (8 * M / 4096 / b + a)
+			return counts + 4 * N / (P * b) + (w == "m2p" ? dim : 1) * 8 * 1.23 * (rows < M / P ? rows : M / P) / b + 2 * a * P
 		}
 		# and where it is not: its input to rank 0, its output to all
 		function gathers(w, P) {

@@ -17,6 +17,7 @@
 #include "h5/apart.h"
 #include "h5/node.h"
 #include "stream/run.h"
+#include "world/world.h"
 
 static double number_of(const char *variable, double otherwise)
 {
@@ -144,6 +145,8 @@ int pm_h5_read_apart(const char *path, struct pm_writer *w, void (*seen)(void *w
 
 int pm_h5_write_apart(void)
 {
+	if (pm_world_size() > 1) /* the others talk to this process */
+		return 0;
 	pid_t pid = fork();
 	if (pid < 0)
 		return pm_fail_errno("cannot start a process");

@@ -14,6 +14,8 @@
 #include "h5/node.h"
 #include "stream/header.h"
 #include "stream/limits.h"
+#include "stream/parts-file.h"
+#include "world/world.h"
 
 /* Powers of length, mass, time, current, temperature, amount, luminous intensity. A density is divided by a length per dimension. */
 static const struct dimension {
@@ -307,6 +309,9 @@ int pm_h5_finish(struct pm_h5 *h)
 	if (status)
 		return status;
 	h->file = -1;
+	status = pm_world_size() > 1 ? pm_parts_lasting(h->part) : 0;
+	if (status)
+		return status;
 	int fd = open(h->part, O_WRONLY | O_CLOEXEC); /* lasting, for it may be a checkpoint */
 	if (fd < 0 || (fsync(fd) && errno != EINVAL))
 		status = pm_fail_errno("cannot write '%s'", h->path);

@@ -15,7 +15,7 @@
 #include "world/world.h"
 
 struct request {
-	uint64_t id, components, type, offset, lasting;
+	uint64_t id, components, before, type, offset, lasting; /* before: components of the part that come first and do not count */
 	char path[PATH_MAX];
 	uint64_t from[]; /* one more than ranks */
 };
@@ -86,7 +86,7 @@ static int stretches(const struct request *q, int fd, bool out, char *part, uint
 		pm_past_cache_open(&past, fd);
 	for (uint64_t c = 0; c < q->components && !status; c++) {
 		pm_world_place(1, 0, (int)c, q->from[me]);
-		char *values = part + c * here * memory(q);
+		char *values = part + (q->before + c) * here * memory(q);
 		const uint64_t offset = q->offset + (c * q->from[ranks] + q->from[me]) * size;
 		status = direct ? lasting_stretch(&past, fd, values, here * size, offset, &crc[c]) :
 			stretch(fd, out, (enum pm_type)q->type, values, here, offset, &crc[c]);
@@ -159,7 +159,8 @@ static struct request *ask(enum pm_request what, int components, enum pm_type ty
 		free(q);
 		return NULL;
 	}
-	*q = (struct request){.id = id, .components = (uint64_t)components, .type = type, .offset = place->offset, .lasting = place->lasting};
+	*q = (struct request){.id = id, .components = place->only ? 1 : (uint64_t)components, .before = place->only ? (uint64_t)place->only - 1 : 0,
+		.type = type, .offset = place->offset, .lasting = place->lasting};
 	strcpy(q->path, place->path);
 	memcpy(q->from, from, division);
 	if (!pm_request_send(what, q, bytes))

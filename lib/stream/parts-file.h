@@ -10,6 +10,7 @@ struct pm_parts_place {
 	const char *path;
 	uint64_t offset; /* [bytes] of its first value */
 	bool lasting;    /* it will be waited for */
+	int only;        /* to write this component alone, counted from 1; 0: all of them, one after the other */
 };
 
 enum { PM_PARTS_ELSEWHERE = 1 }; /* a rank does not see the file */

@@ -200,6 +200,27 @@ tables() {
 	drawn sls --data --format json -i ../plane.pm
 }
 
+@test "any number of ranks: sh5 writes the HDF5 file of a run alone, each rank its own bytes of a field; under mpirun too" {
+	local n
+	pinit plummer -n 13000 | p2m -n 16x17x15 -o frame.pm
+	cat frame.pm frame.pm >two.pm
+	sh5 -i two.pm -o alone.h5
+	cycle -q -n 1 --store f32 'push drift' -i frame.pm -o single.pm
+	sh5 -i single.pm -o single.h5
+	for n in 2 3 7; do
+		on $n sh5 -i two.pm -o got.h5
+		cmp alone.h5 got.h5
+		on $n sh5 -i single.pm -o got.h5
+		cmp single.h5 got.h5
+	done
+	[ -z "$(command -v mpirun)" ] || [ ! -e "$top/build/pmpipe-mpi.so" ] || {
+		timeout 60 mpirun --allow-run-as-root --oversubscribe -n 2 sh5 -i two.pm -o got.h5
+		cmp alone.h5 got.h5
+	}
+	(ulimit -f 200; run -1 --separate-stderr on 3 sh5 -i two.pm -o limit.h5; [[ $stderr == *"File too large"* ]]) # KiB; the file is above 1 MB
+	[ ! -e limit.h5 ]
+}
+
 @test "any number of ranks: a run resumed with another number of ranks" {
 	pinit plummer -n 5000 >start
 	s=$(kicks "$(force 16)")
