@@ -108,6 +108,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return c->plain ? pm_plain_table_write(stdout, !strcmp(c->format, "csv"), f, table_of(s, f), c->mesh) : pm_text_frame_write(stdout, f);
 }
 
+/* Writing. */
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && s->kind == PM_SINK; }
+
 static int end(struct pm_stage *s)
 {
 	const struct config *c = s->config;
@@ -151,6 +154,7 @@ const struct pm_tool tool_stab = {
 	.begin = begin,
 	.declare = declare,
 	.frame = frame,
+	.divided = divided,
 	.end = end,
 	.free = done,
 	.source = source,

@@ -22,7 +22,7 @@ static void coordinates(const struct pm_frame *f, const struct pm_mesh *m, struc
 	size_t points[3];
 	pm_mesh_points(f, m, points);
 	for (size_t p = 0; p < x->count; p++) {
-		size_t at[3] = {p % points[0], p / points[0] % points[1], p / points[0] / points[1]};
+		const size_t i = (size_t)x->first + p, at[3] = {i % points[0], i / points[0] % points[1], i / points[0] / points[1]};
 		for (int a = 0; a < f->dim; a++)
 			pm_out(x, a)[p] = m->lo[a] + (double)at[a] * m->h[a];
 	}

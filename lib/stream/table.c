@@ -4,12 +4,14 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/decimal.h"
 #include "stream/csv.h"
 #include "stream/table.h"
+#include "world/world.h"
 
 static const size_t piece_bytes = 1 << 20;
 
@@ -460,21 +462,14 @@ static size_t rows_write(char *out, bool csv, size_t first, size_t last, int n, 
 	return (size_t)(o - out);
 }
 
-int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+/* The rows here, as text. */
+static int rows_print(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
 {
 	enum { blocks = 16 };
 	size_t per = n ? 32768 / (size_t)n : 1, room = per * (size_t)n * (3 * PM_COMPONENTS + 1), length[blocks];
 	char *text = n ? pm_alloc(blocks, room) : NULL;
 	if (n && !text)
 		return -PM_DATA;
-	for (int i = 0; i < n; i++) {
-		char name[2 * PM_NAME + 2];
-		if (csv)
-			fwrite(name, 1, pm_csv_write(name, column[i].name, strlen(column[i].name)), out);
-		else
-			fputs(column[i].name, out);
-		fputc(i + 1 == n ? '\n' : csv ? ',' : '\t', out);
-	}
 	for (size_t first = 0; n && first < rows; first += blocks * per) {
 #pragma omp parallel for schedule(dynamic)
 		for (size_t b = 0; b < blocks; b++) {
@@ -486,4 +481,38 @@ int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_colu
 	}
 	pm_free(text);
 	return 0;
+}
+
+/* The rows of the other ranks, which all make theirs at once; rank 0 writes them rank after rank. */
+static int rows_of_ranks(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+{
+	char *own = NULL;
+	size_t bytes = 0;
+	FILE *to = pm_world_rank() ? open_memstream(&own, &bytes) : out;
+	int status = to ? rows_print(to, csv, rows, n, column) : pm_no_memory();
+	if (to && to != out && fclose(to) && !status)
+		status = pm_no_memory();
+	for (int r = 1; r < pm_world_size(); r++) {
+		void *text = NULL;
+		size_t length = 0;
+		status = pm_world_gather(status, own, r == pm_world_rank() ? bytes : 0, &text, &length);
+		if (text)
+			fwrite(text, 1, length, out);
+		pm_free(text);
+	}
+	free(own);
+	return status;
+}
+
+int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+{
+	for (int i = 0; i < n; i++) {
+		char name[2 * PM_NAME + 2];
+		if (csv)
+			fwrite(name, 1, pm_csv_write(name, column[i].name, strlen(column[i].name)), out);
+		else
+			fputs(column[i].name, out);
+		fputc(i + 1 == n ? '\n' : csv ? ',' : '\t', out);
+	}
+	return n && column[0].field->here ? rows_of_ranks(out, csv, rows, n, column) : rows_print(out, csv, rows, n, column);
 }

@@ -39,6 +39,7 @@ int pm_table_read(struct pm_text *t, size_t end, int ncolumns, const struct pm_c
 
 /* The columns of the fields of `on` without uniform ones: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; all different. Returns their number. */
 int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column);
+/* rows: of fields that ranks share those here; then all call, and rank 0 writes. */
 int pm_table_write(FILE *out, bool csv, size_t rows, int ncolumns, const struct pm_column *column);
 
 #endif

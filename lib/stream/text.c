@@ -19,14 +19,6 @@ static const char *owner(const struct pm_frame *f, size_t n, const char **kind)
 	return n < f->nsets ? f->sets[n]->name : n - f->nsets < f->nmeshes ? f->meshes[n - f->nsets]->name : NULL;
 }
 
-static size_t rows_of(const struct pm_frame *f, const char *on)
-{
-	for (size_t i = 0; i < f->nfields; i++)
-		if (!strcmp(f->fields[i]->on, on))
-			return f->fields[i]->count;
-	return 0;
-}
-
 static int json_write(FILE *out, const char *mark, const json_t *j)
 {
 	char *line = j ? pm_json_line(j) : NULL;
@@ -53,7 +45,7 @@ int pm_text_frame_write(FILE *out, struct pm_frame *f)
 		int n = pm_table_columns(f, on, column);
 		if (n > 0)
 			fprintf(out, "#%s %s\n", kind, on);
-		status = n < 0 ? n : pm_table_write(out, false, rows_of(f, on), n, column);
+		status = n < 0 ? n : pm_table_write(out, false, n > 0 ? column[0].field->count : 0, n, column);
 	}
 	json_decref(header);
 	pm_free(column);

@@ -170,7 +170,7 @@ tables() {
 	shares "push drift, scalc --total --per side k = x" "push drift | scalc --total --per side 'k = x'" <box
 }
 
-@test "any number of ranks: pictures of densities, points, slices and integrals, the ranges of sls; a page and an error are those of a run alone" {
+@test "any number of ranks: pictures of densities, points, slices and integrals, the ranges of sls, tables of stab; a page and an error are those of a run alone" {
 	local n how
 	pinit plummer -n 5000 | p2m -n 16x17x15 -o space.pm
 	pinit uniform -n 5000 --dim 2 | p2m -n 33x40 -o plane.pm
@@ -198,6 +198,10 @@ tables() {
 	drawn alone sdraw -o page.html -i ../plane.pm
 	drawn sls --data -i ../space.pm
 	drawn sls --data --format json -i ../plane.pm
+	for how in "" "--plain" "--plain --mesh mesh" "--format csv"; do
+		# shellcheck disable=SC2086 # words
+		drawn stab $how -i ../space.pm || return
+	done
 }
 
 @test "any number of ranks: sh5 writes the HDF5 file of a run alone, each rank its own bytes of a field; under mpirun too" {
