@@ -5,6 +5,7 @@
 #include "stage/attribute-options.h"
 #include "stage/h5-pipe.h"
 #include "stream/join.h"
+#include "world/world.h"
 
 struct config {
 	struct pm_list names;
@@ -77,7 +78,7 @@ static int join_next(struct pm_stage *s, int i, struct pm_frame *f, struct pm_jo
 	return got;
 }
 
-static int source(struct pm_stage *s, struct pm_frame **f)
+static int stacked(struct pm_stage *s, struct pm_frame **f)
 {
 	const struct config *c = s->config;
 	struct state *st = s->state;
@@ -106,6 +107,15 @@ static int source(struct pm_stage *s, struct pm_frame **f)
 	if (status)
 		*f = pm_frame_free(*f);
 	return status ? status : 1;
+}
+
+/* Ranks keep what they have read of a file; of ids rank 0 looks at all. */
+static int source(struct pm_stage *s, struct pm_frame **f)
+{
+	const bool apart = pm_world_apart(false);
+	const int more = stacked(s, f);
+	pm_world_apart(apart);
+	return more;
 }
 
 static void done(struct pm_stage *s)

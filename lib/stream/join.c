@@ -4,7 +4,7 @@
 
 #include "stream/frame-time.h"
 #include "stream/join.h"
-#include "stream/parts.h"
+#include "stream/parts-file.h"
 #include "stream/run.h"
 #include "world/world.h"
 
@@ -186,7 +186,8 @@ static void values_copy(struct pm_field *to, size_t at, const struct pm_field *f
 		pm_out_i64(to, 0)[at + i] += offset;
 }
 
-static struct pm_field *field_like(struct pm_frame *f, const char *on, const struct pm_field *p)
+/* parts: with the values, which ranks have. */
+static struct pm_field *field_like(struct pm_frame *f, const char *on, const struct pm_field *p, bool parts)
 {
 	struct pm_field *q = pm_makes(f, on, p->name, p->components, p->role);
 	if (!q)
@@ -195,7 +196,15 @@ static struct pm_field *field_like(struct pm_frame *f, const char *on, const str
 	memcpy(q->value, p->value, sizeof q->value);
 	memcpy(q->unit, p->unit, PM_NAME), memcpy(q->of, p->of, PM_NAME);
 	json_object_update(q->more, p->more);
-	return pm_field_ready(q) ? NULL : q;
+	if (parts) {
+		q->use = 0;
+		q->buffer = p->buffer;
+		atomic_fetch_add(&q->buffer->users, 1);
+		return q;
+	}
+	const bool ready = !pm_field_ready(q);
+	q->use = 0; /* values are copied, whatever they are */
+	return ready ? q : NULL;
 }
 
 static bool same_value(const struct pm_field *p, const struct pm_field *q)
@@ -227,17 +236,54 @@ static int field_append(struct pm_frame *a, const char *on, const struct pm_fiel
 	return status;
 }
 
+static bool same_kind(const struct pm_field *p, const struct pm_field *q)
+{
+	return p->components == q->components && p->type == q->type && p->extensive == q->extensive;
+}
+
+/* Values that ranks have, of fields of any of which rank 0 has no copy: appended by all, in front of the others. made: of each field of a; NULL: not so. */
+static int parts_append(struct pm_frame *a, struct pm_set *into, const struct pm_frame *b, const char *set, int64_t offset, struct pm_buffer **made)
+{
+	int status = 0;
+	for (size_t i = 0; i < a->nfields && !status; i++) {
+		struct pm_field *p = a->fields[i];
+		const struct pm_field *q = strcmp(p->on, into->name) ? NULL : pm_frame_field(b, set, p->name);
+		if (!q || !same_kind(p, q) || p->uniform || q->uniform || (offset && !strcmp(p->name, "id")) || !(pm_parts_alone(p) || pm_parts_alone(q)))
+			continue;
+		uint64_t *cut[] = {pm_division_new(p->count, pm_sum_block), pm_division_new(q->count, pm_sum_block), pm_division_new(p->count + q->count,
+			pm_sum_block)};
+		status = cut[0] && cut[1] && cut[2] && p->buffer && q->buffer ? 0 : pm_no_memory();
+		status = status ? status : pm_buffer_divide(p->buffer, p->components, pm_field_memory(p), cut[0]);
+		status = status ? status : pm_buffer_divide(q->buffer, q->components, pm_field_memory(q), cut[1]);
+		status = status ? status : pm_buffer_append(p->buffer, q->buffer, cut[2], &made[i]);
+		free(cut[0]), free(cut[1]), free(cut[2]);
+		if (!status)
+			p->buffer = pm_buffer_free(p->buffer); /* there is nothing to resize */
+	}
+	return status;
+}
+
 static int set_merge(struct pm_frame *a, struct pm_set *into, const struct pm_frame *b, const struct pm_set *set, int64_t offset)
 {
 	size_t before = into->n, nfields = 0, expected = 0;
-	int status = pm_frame_set_resize(a, into, into->n + set->n);
-	for (size_t i = 0; i < a->nfields; i++)
+	struct pm_buffer **made = calloc(a->nfields + 1, sizeof *made);
+	int status = made ? parts_append(a, into, b, set->name, offset, made) : pm_no_memory();
+	status = status ? status : pm_frame_set_resize(a, into, into->n + set->n);
+	for (size_t i = 0; made && i < a->nfields; i++) {
 		expected += !strcmp(a->fields[i]->on, into->name);
+		if (made[i])
+			a->fields[i]->buffer = made[i], a->fields[i]->finite = false;
+	}
 	for (size_t i = 0; i < b->nfields && !status; i++)
 		if (!strcmp(b->fields[i]->on, set->name) && !(passing >> b->fields[i]->role & 1)) {
-			status = field_append(a, into->name, b->fields[i], before, strcmp(b->fields[i]->name, "id") ? 0 : offset);
+			bool done = false;
+			for (size_t k = 0; k < a->nfields; k++)
+				done |= made[k] && !strcmp(a->fields[k]->name, b->fields[i]->name);
+			if (!done)
+				status = field_append(a, into->name, b->fields[i], before, strcmp(b->fields[i]->name, "id") ? 0 : offset);
 			nfields++;
 		}
+	free(made);
 	return status ? status : nfields == expected ? 0
 		: pm_fail(PM_DATA, "'%s' has fields that are missing in some scene (--merge needs the same fields; sel --drop)", into->name);
 }
@@ -252,10 +298,11 @@ static int set_add(struct pm_frame *a, const char *name, const struct pm_frame *
 		const struct pm_field *p = b->fields[i];
 		if (strcmp(p->on, set->name) || passing >> p->role & 1)
 			continue;
-		struct pm_field *q = field_like(a, name, p);
+		const bool parts = pm_parts_alone(p) && !(offset && !strcmp(p->name, "id"));
+		struct pm_field *q = field_like(a, name, p, parts);
 		if (!q)
 			return -PM_DATA;
-		if (!p->uniform)
+		if (!p->uniform && !parts)
 			values_copy(q, 0, p, strcmp(p->name, "id") ? 0 : offset);
 	}
 	return 0;

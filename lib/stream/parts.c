@@ -288,6 +288,79 @@ int pm_buffer_join(struct pm_buffer *b)
 	return status;
 }
 
+/* What a request to append says, then the divisions of a, of b and of both. */
+struct append {
+	uint64_t a, b, made, size, components;
+	uint64_t from[];
+};
+
+/* Division `to` of the values of both, as one of n of them that begin at number `before`. */
+static void clip(const uint64_t *to, uint64_t before, uint64_t n, uint64_t *clipped)
+{
+	for (int r = 0; r <= pm_world_size(); r++) {
+		const uint64_t at = to[r] > before ? to[r] - before : 0;
+		clipped[r] = at < n ? at : n;
+	}
+}
+
+/* Every rank, with its status. */
+static int append(int status, const struct append *q, const struct pm_buffer *a, const struct pm_buffer *b, struct pm_buffer **made)
+{
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank(), table = (ranks + 1) * sizeof(uint64_t);
+	const uint64_t *const from[2] = {q->from, q->from + ranks + 1}, *const to = q->from + 2 * (ranks + 1);
+	const struct pm_buffer *const old[2] = {a, b};
+	const size_t here = to[me + 1] - to[me];
+	struct pm_buffer *m = calloc(1, sizeof *m);
+	char *part = pm_alloc(here * q->components + 1, q->size);
+	uint64_t *division = malloc(3 * table), *const clipped[2] = {division + ranks + 1, division ? division + 2 * (ranks + 1) : NULL};
+	status = status ? status : m && part && division ? 0 : pm_no_memory();
+	if (division) {
+		memcpy(division, to, table);
+		clip(to, 0, from[0][ranks], clipped[0]);
+		clip(to, from[0][ranks], from[1][ranks], clipped[1]);
+	}
+	for (uint64_t c = 0; c < q->components; c++)
+		for (int k = 0; k < 2; k++) {
+			const char *in = status ? NULL : (char *)old[k]->part + c * (from[k][me + 1] - from[k][me]) * q->size;
+			char *out = status ? NULL : part + (c * here + (k ? clipped[0][me + 1] - clipped[0][me] : 0)) * q->size;
+			status = pm_world_recut(status, from[k], division ? clipped[k] : from[k], q->size, in, out);
+		}
+	if (status) {
+		free(m), pm_free(part), free(division);
+		return status;
+	}
+	atomic_init(&m->users, 1);
+	m->part = part, m->from = division, m->id = q->made, m->size = q->size, m->components = (int)q->components;
+	*made = m;
+	return 0;
+}
+
+int pm_buffer_append(const struct pm_buffer *a, const struct pm_buffer *b, const uint64_t *to, struct pm_buffer **made)
+{
+	const size_t table = ((size_t)pm_world_size() + 1) * sizeof *to, bytes = sizeof(struct append) + 3 * table;
+	struct append *q = calloc(1, bytes);
+	if (!q)
+		return pm_no_memory();
+	*q = (struct append){a->id, b->id, pm_parts_number(), a->size, (uint64_t)a->components};
+	memcpy(q->from, a->from, table);
+	memcpy((char *)q->from + table, b->from, table);
+	memcpy((char *)q->from + 2 * table, to, table);
+	int status = pm_request_send(PM_REQUEST_APPEND, q, bytes);
+	status = status ? status : append(0, q, a, b, made);
+	free(q);
+	return status;
+}
+
+static int follow_append(const struct append *q)
+{
+	struct pm_buffer *a = pm_parts_of(q->a, false), *b = pm_parts_of(q->b, false), *made = NULL;
+	const int status = append(a && b ? 0 : pm_fail(PM_DATA, "a part is missing"), q, a, b, &made);
+	if (!status && pm_parts_keep(q->made, made))
+		pm_cannot_go_on();
+	pm_buffer_free(a), pm_buffer_free(b), pm_buffer_free(made);
+	return status;
+}
+
 int pm_request_parts(enum pm_request what, const void *more, size_t bytes)
 {
 	struct shape s;
@@ -297,6 +370,8 @@ int pm_request_parts(enum pm_request what, const void *more, size_t bytes)
 			pm_buffer_free(pm_parts_of(((const uint64_t *)more)[i], true));
 		return 0;
 	}
+	if (what == PM_REQUEST_APPEND)
+		return follow_append(more);
 	memcpy(&s, more, sizeof s);
 	if (what == PM_REQUEST_JOIN) {
 		struct pm_buffer *b = pm_parts_of(s.id, false);

@@ -34,11 +34,13 @@ uint64_t pm_division_grain(const struct pm_frame *f, const char *on);
 /* Rank 0. 0 or failure. */
 int pm_buffer_divide(struct pm_buffer *b, int components, size_t size, const uint64_t *from); /* gives every rank its part, if it has none */
 int pm_buffer_join(struct pm_buffer *b);     /* brings all values together, if they are not; the parts stay valid */
+/* The values of b behind those of a, whose parts they have; divided as `to`: *made has parts alone. */
+int pm_buffer_append(const struct pm_buffer *a, const struct pm_buffer *b, const uint64_t *to, struct pm_buffer **made);
 void pm_buffer_undivide(struct pm_buffer *b);/* all values will change here: the parts are forgotten */
 uint64_t pm_parts_number(void);              /* a number for new parts */
 
 enum pm_request { PM_REQUEST_END, PM_REQUEST_APPLY, PM_REQUEST_DIVIDE, PM_REQUEST_JOIN, PM_REQUEST_FORGET, PM_REQUEST_READ, PM_REQUEST_WRITE,
-	PM_REQUEST_TALLY, PM_REQUEST_SOURCE };
+	PM_REQUEST_TALLY, PM_REQUEST_SOURCE, PM_REQUEST_APPEND };
 int pm_request_send(enum pm_request what, const void *more, size_t bytes);           /* rank 0 */
 int pm_request_take(enum pm_request *what, void **more, size_t *bytes);              /* the others; free(*more) */
 int pm_request_parts(enum pm_request what, const void *more, size_t bytes);          /* does one that concerns parts alone */

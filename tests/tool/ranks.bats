@@ -225,6 +225,34 @@ tables() {
 	[ ! -e limit.h5 ]
 }
 
+@test "any number of ranks: stack joins what ranks have read, as sets and as one, with ids and without, of one stretch too; a cut file" {
+	local n how
+	pinit plummer -n 13000 >a
+	pinit plummer -n 9000 --seed 2 >b
+	pinit plummer -n 100 --seed 3 >c
+	cat a a >aa
+	for how in a b c; do sel --drop id <$how >$how.plain; done
+	for how in "a b" "--merge a c b" "--merge a.plain b.plain c.plain" "c a --as p,q" "--merge aa aa"; do
+		# shellcheck disable=SC2086 # words
+		stack $how -o one
+		for n in 2 3 7; do
+			# shellcheck disable=SC2086
+			on $n stack $how -o two
+			cmp one two || { echo "$n ranks: $how"; return 1; }
+		done
+	done
+	head -c 200000 a >cut
+	stack cut b -o one 2>want && return 1
+	on 3 stack cut b -o two 2>got && return 1
+	cmp want got
+	# no rank holds the set of both: alone it takes more than 90 MB, of three ranks each less than 60
+	pinit uniform -n 400000 | sel --drop id >large
+	stack --merge large large -o one
+	run -1 bash -c "ulimit -v 75000; stack --merge large large -o two"
+	(ulimit -v 75000; on 3 stack --merge large large -o two)
+	cmp one two
+}
+
 @test "any number of ranks: a run resumed with another number of ranks" {
 	pinit plummer -n 5000 >start
 	s=$(kicks "$(force 16)")
