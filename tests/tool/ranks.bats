@@ -170,7 +170,7 @@ tables() {
 	shares "push drift, scalc --total --per side k = x" "push drift | scalc --total --per side 'k = x'" <box
 }
 
-@test "any number of ranks: pictures of densities, points, slices and integrals, the ranges of sls, tables of stab; a page and an error are those of a run alone" {
+@test "any number of ranks: pictures of densities, points, slices and integrals, ranges of sls, tables of stab; a page and an error too" {
 	local n how
 	pinit plummer -n 5000 | p2m -n 16x17x15 -o space.pm
 	pinit uniform -n 5000 --dim 2 | p2m -n 33x40 -o plane.pm
