@@ -1,67 +1,48 @@
-/* CRC-32C (Castagnoli, reflected polynomial 0x82F63B78; RFC 3720 appendix B.4). With SSE4.2 three interleaved streams, joined by the matrix
- * of the shift by their length; a table otherwise. SPDX-License-Identifier: GPL-3.0-or-later */
+/* CRC-32C (Castagnoli, reflected polynomial 0x82F63B78; RFC 3720 appendix B.4). With SSE4.2 three interleaved streams, joined by the factor
+ * of their length; a table otherwise. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "base/base.h"
 
 static const uint32_t polynomial = 0x82F63B78u;
 
-/* The operator "append `bytes` zero bytes" applied to crc, by squaring the operator of one zero bit (Adler's crc32_combine). */
-static uint32_t times(const uint32_t matrix[32], uint32_t v)
+/* Polynomials over two elements, x^31 in the lowest bit: the product modulo that polynomial. */
+static uint32_t times(uint32_t a, uint32_t b)
 {
-	uint32_t r = 0;
-	for (int i = 0; v; i++, v >>= 1)
-		if (v & 1)
-			r ^= matrix[i];
-	return r;
-}
-
-static void square(uint32_t out[32], const uint32_t in[32])
-{
-	for (int i = 0; i < 32; i++)
-		out[i] = times(in, in[i]);
-}
-
-static uint32_t shift(uint32_t crc, size_t bytes)
-{
-	uint32_t a[32], b[32];
-	a[0] = polynomial; /* one zero bit */
-	for (int i = 1; i < 32; i++)
-		a[i] = 1u << (i - 1);
-	square(b, a), square(a, b), square(b, a); /* 2, 4, 8 bits: b is one byte */
-	for (uint32_t *m = b, *s = a; bytes; bytes >>= 1) {
-		if (bytes & 1)
-			crc = times(m, crc);
-		square(s, m);
-		uint32_t *t = m;
-		m = s, s = t;
+	uint32_t product = 0;
+	for (; a; a <<= 1) {
+		product ^= a >> 31 ? b : 0;
+		b = b >> 1 ^ (b & 1 ? polynomial : 0);
 	}
-	return crc;
+	return product;
 }
 
-uint32_t pm_crc32c_join(uint32_t first, uint32_t second, size_t bytes) { return shift(first, bytes) ^ second; }
+/* x^(8 bytes): the factor of a checksum for as many zero bytes behind (Adler's crc32_combine). */
+static uint32_t behind(size_t bytes)
+{
+	uint32_t product = 1u << 31; /* x^0 */
+	for (uint32_t power = 1u << 23; bytes; bytes >>= 1, power = times(power, power)) /* from x^8 on */
+		product = bytes & 1 ? times(power, product) : product;
+	return product;
+}
+
+uint32_t pm_crc32c_join(uint32_t first, uint32_t second, size_t bytes) { return times(behind(bytes), first) ^ second; }
 
 #ifdef __SSE4_2__
 #include <nmmintrin.h>
 
 enum { lane = 4096 }; /* bytes of each of the three streams */
 
-static uint32_t lane_shift[4][256]; /* shift by `lane` bytes, byte by byte of the crc */
+static uint32_t lane_shift[4][256]; /* for `lane` bytes, byte by byte of the crc */
 
-__attribute__((constructor)) static void lane_shift_fill(void)
+__attribute__((constructor)) static void lane_shift_fill(void) /* every start of a program pays for it */
 {
-	uint32_t a[32], b[32], *bit = a, *next = b;
-	a[0] = polynomial;
-	for (int i = 1; i < 32; i++)
-		a[i] = 1u << (i - 1);
-	for (int bits = 1; bits < 8 * lane; bits *= 2) { /* lane is a power of two: squaring is enough */
-		square(next, bit);
-		uint32_t *t = bit;
-		bit = next, next = t;
-	}
+	const uint32_t by = behind(lane);
 	for (int k = 0; k < 4; k++)
-		for (uint32_t v = 0; v < 256; v++)
-			lane_shift[k][v] = times(bit + 8 * k, v);
+		for (uint32_t v = 1; v < 256; v++) {
+			const uint32_t others = v & (v - 1); /* it is linear: without the lowest bit, and that bit */
+			lane_shift[k][v] = others ? lane_shift[k][others] ^ lane_shift[k][v ^ others] : times(by, v << 8 * k);
+		}
 }
 
 static uint32_t shift_lane(uint32_t c)

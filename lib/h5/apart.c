@@ -16,6 +16,8 @@
 
 #include "h5/apart.h"
 #include "h5/node.h"
+#include "stream/forward.h"
+#include "stream/hand-over.h"
 #include "stream/run.h"
 #include "world/world.h"
 
@@ -119,10 +121,14 @@ static int relay(struct pm_reader *r, struct pm_writer *w, void (*seen)(void *wh
 int pm_h5_read_apart(const char *path, struct pm_writer *w, void (*seen)(void *who, const struct pm_frame *f), void *who)
 {
 	int out[2];
+	struct pm_ring *ring = pm_writer_hands(w) ? NULL : pm_ring_new(); /* NULL: blocks go through both processes as they are */
 	pid_t pid = pipe2(out, O_CLOEXEC) ? -1 : fork();
 	if (pid < 0)
 		return pm_fail_errno("cannot start a process");
+	if (ring)
+		pm_ring_end(ring, pid == 0);
 	if (pid == 0) {
+		pm_writer_forked(w, ring);
 		int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
 		prctl(PR_SET_PDEATHSIG, SIGKILL);
 		dup2(out[1], STDOUT_FILENO);
@@ -132,11 +138,14 @@ int pm_h5_read_apart(const char *path, struct pm_writer *w, void (*seen)(void *w
 	}
 	close(out[1]);
 	struct pm_reader *r = pm_reader_of_fd(out[0]);
+	if (r)
+		pm_reader_ring(r, ring);
 	int status = r ? relay(r, w, seen, who) : -PM_DATA;
 	bool said = r && pm_reader_aborted(r);
 	char text[1024];
 	snprintf(text, sizeof text, "%s", pm_message());
 	pm_reader_close(r);
+	pm_ring_free(ring);
 	int how = wait_for(pid), end = said || (status && WIFSIGNALED(how) && WTERMSIG(how) == SIGPIPE) ? 0 : how_it_ended(how, "reads the file");
 	if (end || !status)
 		return end;

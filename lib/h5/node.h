@@ -54,8 +54,10 @@ hid_t pm_h5_type(enum pm_type type);                                        /* i
 /* A checksum as an attribute, name NULL: pmpipeCrc32c. check: 0 if it agrees or is not there; what: for the message. */
 int pm_h5_put_checksum(hid_t at, const char *name, uint32_t crc);
 int pm_h5_check(hid_t at, const char *name, uint32_t crc, const char *what);
-hid_t pm_h5_put_data(hid_t at, const char *name, struct pm_field *p, int c, int rank, const hsize_t *dims); /* made; negative with a message */
-int pm_h5_get_data(hid_t d, const char *path, struct pm_field *p, int c); /* the field has its room; f32 is widened */
+/* The values of a component: the next of the stream, or with r NULL those that the field holds. Made; negative with a message. */
+hid_t pm_h5_put_data(hid_t at, const char *name, struct pm_field *p, int c, int rank, const hsize_t *dims, struct pm_reader *r);
+int pm_h5_get_data(hid_t d, const char *path, struct pm_field *p, int c, uint32_t *crc); /* the field has its room; f32 is widened */
+int pm_h5_send_data(hid_t d, const char *path, const struct pm_field *p, struct pm_writer *w, uint32_t *crc); /* the same onto a stream, piece by piece */
 
 /* The paths of the fields of a frame: "particles/matter/position", "meshes/rho". room for f->nfields. */
 void pm_h5_paths(const struct pm_frame *f, char (*path)[PM_H5_PATH]);

@@ -7,8 +7,11 @@
 
 #include "h5/apart.h"
 #include "h5/gadget.h"
+#include "stream/forward.h"
+#include "stream/hand-over.h"
 #include "stream/header.h"
 #include "stream/limits.h"
+#include "stream/parts.h"
 #include "stream/run.h"
 
 /* ---- the file ---- */
@@ -178,35 +181,60 @@ static bool stored(hid_t d, const struct pm_field *p)
 	return !plain || H5Dget_storage_size(d) == p->count * pm_type_size(p->type);
 }
 
-static int get_component(hid_t at, const char *path, const struct pm_frame *f, struct pm_field *p, int c)
+static int check_component(hid_t at, const char *path, const struct pm_frame *f, const struct pm_field *p)
 {
 	hid_t d = H5Lexists(at, path, H5P_DEFAULT) > 0 ? H5Dopen2(at, path, H5P_DEFAULT) : -1;
 	if (d < 0)
 		return differs(path);
 	int status = fits(d, f, p) && stored(d, p) ? 0 : differs(path);
-	if (!status && c == 0)
-		status = pm_field_hold(p);
-	pm_h5_goes_on(p->count * pm_field_memory(p));
-	if (!status)
-		status = pm_h5_get_data(d, path, p, c);
 	H5Dclose(d);
 	return status;
 }
 
-static int get_field(hid_t at, const char *path, const struct pm_frame *f, struct pm_field *p)
+static void component_path(const struct pm_field *p, int c, const char *path, char full[PM_H5_PATH + 16])
 {
-	char full[PM_H5_PATH + 16], name[8];
+	char name[8];
+	pm_h5_component(p, c, name);
+	snprintf(full, PM_H5_PATH + 16, pm_h5_is_vector(p) ? "%s/%s" : "%s", path, name);
+}
+
+static int check_field(hid_t at, const char *path, const struct pm_frame *f, const struct pm_field *p)
+{
+	char full[PM_H5_PATH + 16];
 	int status = 0;
 	if (H5Lexists(at, path, H5P_DEFAULT) <= 0)
 		return differs(path);
 	for (int c = 0; c < p->components && !status; c++) {
-		pm_h5_component(p, c, name);
-		snprintf(full, sizeof full, pm_h5_is_vector(p) ? "%s/%s" : "%s", path, name);
+		component_path(p, c, path, full);
 		if (p->uniform)
 			status = H5Lexists(at, full, H5P_DEFAULT) > 0 ? get_constant(at, full, p->value[c]) : differs(full);
 		else
-			status = get_component(at, full, f, p, c);
+			status = check_component(at, full, f, p);
 	}
+	return status;
+}
+
+/* Handed over, where the next word takes it so; else piece by piece. */
+static int send_field(hid_t at, const char *path, struct pm_field *p, struct pm_writer *w)
+{
+	const size_t bytes = pm_field_wire(p);
+	const bool held = bytes >= PM_HAND_LEAST && pm_writer_hands(w);
+	char full[PM_H5_PATH + 16];
+	uint32_t sum, all = 0;
+	int status = held ? pm_field_hold(p) : bytes ? pm_forward_begin(w, bytes) : 0;
+	for (int c = 0; c < p->components && bytes && !status; c++) {
+		component_path(p, c, path, full);
+		pm_h5_goes_on(bytes);
+		hid_t d = H5Dopen2(at, full, H5P_DEFAULT);
+		status = d < 0 ? differs(full) : held ? pm_h5_get_data(d, full, p, c, &sum) : pm_h5_send_data(d, full, p, w, &sum);
+		H5Dclose(d);
+		all = pm_crc32c_join(all, sum, bytes / (size_t)p->components);
+	}
+	if (status || !held)
+		return status ? status : pm_forward_done(w, p, all);
+	p->summed = true, p->crc = all;
+	status = pm_forward_held(w, p);
+	pm_field_forget(p);
 	return status;
 }
 
@@ -220,6 +248,17 @@ static bool folder_is_there(hid_t at, const char *path)
 			return false;
 	}
 	return true;
+}
+
+/* free() it; NULL with a message. */
+static char (*paths_of(const struct pm_frame *f))[PM_H5_PATH]
+{
+	char(*path)[PM_H5_PATH] = calloc(f->nfields + 1, sizeof *path);
+	if (path)
+		pm_h5_paths(f, path);
+	else
+		pm_no_memory();
+	return path;
 }
 
 static int get_own(struct pm_h5 *h, hid_t at, struct pm_frame **out)
@@ -238,21 +277,52 @@ static int get_own(struct pm_h5 *h, hid_t at, struct pm_frame **out)
 		status = limits ? pm_limits_take_all(limits, f) : -PM_DATA;
 		json_decref(limits);
 	}
-	char(*path)[PM_H5_PATH] = status ? NULL : calloc(f->nfields + 1, sizeof *path);
-	if (!status && !path)
-		status = pm_no_memory();
-	if (path)
-		pm_h5_paths(f, path);
+	char(*path)[PM_H5_PATH] = status ? NULL : paths_of(f);
 	for (size_t i = 0; path && i < f->nfields && !status; i++)
-		status = folder_is_there(at, path[i]) ? get_field(at, path[i], f, f->fields[i]) : differs(path[i]);
+		status = folder_is_there(at, path[i]) ? check_field(at, path[i], f, f->fields[i]) : differs(path[i]);
+	status = status || path ? status : -PM_DATA;
 	free(path);
 	*out = status ? pm_frame_free(f) : f;
 	return status;
 }
 
+/* The failure with the name of the iteration in front. */
+static int in_iteration(const struct pm_h5 *h, int status)
+{
+	char why[512];
+	if (!status)
+		return 0;
+	snprintf(why, sizeof why, "%s", pm_message());
+	return pm_fail(-status, "iteration %llu: %s", (unsigned long long)h->iterations[h->at - 1], why);
+}
+
+static hid_t iteration_open(const struct pm_h5 *h)
+{
+	char name[32];
+	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->iterations[h->at - 1]);
+	hid_t at = H5Gopen2(h->file, name, H5P_DEFAULT);
+	if (at < 0)
+		pm_h5_fail("cannot open '%s'", name);
+	return at;
+}
+
+int pm_h5_send(struct pm_h5 *h, struct pm_frame *f, struct pm_writer *w)
+{
+	int status = pm_write_header(w, f);
+	char(*path)[PM_H5_PATH] = status ? NULL : paths_of(f);
+	hid_t at = path ? iteration_open(h) : -1;
+	pm_buffers_share(true);
+	for (size_t i = 0; at >= 0 && i < f->nfields && !status; i++)
+		status = in_iteration(h, send_field(at, path[i], f->fields[i], w));
+	pm_buffers_share(false);
+	status = status || at >= 0 ? status : -PM_DATA;
+	free(path);
+	H5Gclose(at);
+	return status ? status : pm_write_payload(w, f);
+}
+
 int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
 {
-	char name[32], why[512];
 	if (h->stream == h->nstreams) {
 		const uint32_t crc = pm_crc32c(h->crc, h->streams, h->nstreams * sizeof *h->streams);
 		int bad = h->own ? pm_h5_check(h->file, NULL, crc, "the sequence of the frames") : 0;
@@ -263,23 +333,20 @@ int pm_h5_get(struct pm_h5 *h, struct pm_frame **f, bool *foreign)
 		h->frames = 0;
 		return PM_GOT_END;
 	}
-	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->iterations[h->at++]);
-	h->frames++;
+	h->at++, h->frames++;
 	pm_h5_goes_on(0);
 	*foreign = true;
 	if (h->gadget)
 		return pm_gadget_frame(h, f) ? -PM_DATA : PM_GOT_FRAME;
-	hid_t at = H5Gopen2(h->file, name, H5P_DEFAULT);
+	hid_t at = iteration_open(h);
 	if (at < 0)
-		return pm_h5_fail("cannot open '%s'", name);
+		return -PM_DATA;
+	char name[32];
+	snprintf(name, sizeof name, "%llu", (unsigned long long)h->iterations[h->at - 1]);
 	*foreign = !pm_h5_has(at, "pmpipeHeader");
 	h->own |= !*foreign;
-	int status = !*foreign ? get_own(h, at, f) : !pm_h5_has(h->file, "pmpipeStreams") ? pm_h5_get_foreign(at, name + 6, f)
+	int status = !*foreign ? get_own(h, at, f) : !pm_h5_has(h->file, "pmpipeStreams") ? pm_h5_get_foreign(at, name, f)
 		: pm_fail(PM_DATA, "no attribute 'pmpipeHeader', but the file is one of sh5's: it is damaged");
 	H5Gclose(at);
-	if (status) {
-		snprintf(why, sizeof why, "%s", pm_message());
-		return pm_fail(-status, "iteration %s: %s", name + 6, why);
-	}
-	return PM_GOT_FRAME;
+	return status ? in_iteration(h, status) : PM_GOT_FRAME;
 }

@@ -1,4 +1,4 @@
-/* Copies frames between a stream and an HDF5 file, one frame in memory at a time. Cost: that of the disk.
+/* Copies frames between a stream and an HDF5 file, whose own frames go piece by piece. Cost: that of the disk.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 
@@ -18,11 +18,11 @@ int pm_h5_from_stream(struct pm_h5 *h, struct pm_reader *r)
 {
 	for (;;) {
 		struct pm_frame *f = NULL;
-		int got = pm_read_frame(r, &f), status = got < 0 ? got : 0;
+		int got = pm_read_header(r, &f), status = got < 0 ? got : 0;
 		if (got == PM_GOT_EOF)
 			return pm_h5_finish(h);
 		if (got == PM_GOT_FRAME)
-			status = pm_h5_put(h, f);
+			status = pm_h5_put(h, f, r);
 		else if (got == PM_GOT_END)
 			status = pm_h5_put_end(h);
 		pm_frame_free(f);
@@ -42,7 +42,7 @@ int pm_h5_to_stream(struct pm_h5 *h, struct pm_writer *w, json_t *entry)
 		if (got == PM_GOT_FRAME && foreign && entry) /* sh5 changes nothing, so it adds no entry */
 			json_array_append(f->history, entry);
 		if (!status)
-			status = got == PM_GOT_END ? pm_write_end(w) : pm_write_frame(w, f);
+			status = got == PM_GOT_END ? pm_write_end(w) : foreign ? pm_write_frame(w, f) : pm_h5_send(h, f, w);
 		pm_frame_free(f);
 		if (status)
 			return status;

@@ -12,6 +12,7 @@
 #include "base/replace.h"
 #include "h5/apart.h"
 #include "h5/node.h"
+#include "stream/forward.h"
 #include "stream/header.h"
 #include "stream/limits.h"
 #include "stream/parts-file.h"
@@ -78,12 +79,12 @@ static hid_t put_constant(hid_t at, const char *name, double value, int rank, co
 	return g < 0 || pm_h5_put_reals(g, "value", 0, &value) || pm_h5_put_counts(g, "shape", rank, as) ? -1 : g;
 }
 
-static hid_t put_component(hid_t at, const char *name, const struct pm_frame *f, struct pm_field *p, int c)
+static hid_t put_component(hid_t at, const char *name, const struct pm_frame *f, struct pm_field *p, int c, struct pm_reader *r)
 {
 	hsize_t dims[3];
 	double one = 1, place[3];
 	int rank = shape(f, p, dims), status;
-	hid_t o = p->uniform ? put_constant(at, name, p->value[c], rank, dims) : pm_h5_put_data(at, name, p, c, rank, dims);
+	hid_t o = p->uniform ? put_constant(at, name, p->value[c], rank, dims) : pm_h5_put_data(at, name, p, c, rank, dims, r);
 	if (o < 0)
 		return -1;
 	status = pm_h5_put_reals(o, "unitSI", 0, &one);
@@ -124,13 +125,13 @@ static int put_record(hid_t at, const struct pm_frame *f, const struct pm_field 
 	return status;
 }
 
-static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field *p, const char *path)
+static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field *p, const char *path, struct pm_reader *r)
 {
 	char name[8];
 	hid_t g, o;
 	int status = 0;
 	if (!pm_h5_is_vector(p)) { /* the group was made before */
-		if ((o = put_component(iteration, path, f, p, 0)) < 0)
+		if ((o = put_component(iteration, path, f, p, 0, r)) < 0)
 			return -PM_DATA;
 		status = put_record(o, f, p);
 		H5Oclose(o);
@@ -140,7 +141,7 @@ static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field 
 		return -PM_DATA;
 	for (int c = 0; c < p->components && !status; c++) {
 		pm_h5_component(p, c, name);
-		status = (o = put_component(g, name, f, p, c)) < 0 ? -PM_DATA : 0;
+		status = (o = put_component(g, name, f, p, c, r)) < 0 ? -PM_DATA : 0;
 		if (!status)
 			H5Oclose(o);
 	}
@@ -150,14 +151,14 @@ static int put_field(hid_t iteration, const struct pm_frame *f, struct pm_field 
 }
 
 /* Positions are absolute, so the positionOffset required by openPMD is 0. path: that of x. */
-static int put_offset(hid_t iteration, const struct pm_frame *f, struct pm_field *x, const char *path)
+static int put_offset(hid_t iteration, const struct pm_frame *f, const struct pm_field *x, const char *path)
 {
 	struct pm_field offset = *x;
 	char longer[PM_H5_PATH + 8];
 	offset.uniform = true;
 	memset(offset.value, 0, sizeof offset.value);
 	snprintf(longer, sizeof longer, "%sOffset", path);
-	return put_field(iteration, f, &offset, longer);
+	return put_field(iteration, f, &offset, longer, NULL);
 }
 
 /* The group of a path, made if it does not exist. */
@@ -182,7 +183,7 @@ static int put_folder(hid_t iteration, const char *path)
 	return 0;
 }
 
-static int put_fields(hid_t iteration, struct pm_frame *f)
+static int put_fields(hid_t iteration, const struct pm_frame *f, struct pm_reader *r)
 {
 	char(*path)[PM_H5_PATH] = calloc(f->nfields + 1, sizeof *path);
 	int status = path ? 0 : pm_no_memory();
@@ -192,7 +193,7 @@ static int put_fields(hid_t iteration, struct pm_frame *f)
 		struct pm_field *p = f->fields[i];
 		status = put_folder(iteration, path[i]);
 		if (!status)
-			status = put_field(iteration, f, p, path[i]);
+			status = put_field(iteration, f, p, path[i], r);
 		if (!status && pm_frame_set(f, p->on) && !strcmp(p->name, "x"))
 			status = put_offset(iteration, f, p, path[i]);
 	}
@@ -210,27 +211,37 @@ static int put_checked(struct pm_h5 *h, hid_t at, const char *name, const char *
 	return status ? status : pm_h5_put_checksum(at, checksum, pm_crc32c(0, text, strlen(text)));
 }
 
+static int put_json(struct pm_h5 *h, hid_t at, const char *name, const json_t *j)
+{
+	char *text = j ? pm_json_line(j) : NULL;
+	int status = text ? put_checked(h, at, name, text) : pm_fail(PM_DATA, "the attribute '%s' cannot be written as JSON", name);
+	free(text);
+	return status;
+}
+
 static int put_header(struct pm_h5 *h, hid_t at, const struct pm_frame *f)
 {
 	double one = 1;
 	json_t *header = pm_header_json(f);
-	char *text = header ? pm_json_line(header) : NULL, *report = pm_json_line(f->report);
-	int status = !text || !report ? pm_fail(PM_DATA, "the header cannot be written as JSON") : put_checked(h, at, "pmpipeHeader", text);
-	if (!status)
-		status = put_checked(h, at, "pmpipeReport", report);
-	if (!status && (pm_h5_put_reals(at, "time", 0, &f->time) || pm_h5_put_reals(at, "dt", 0, &f->dt) || pm_h5_put_reals(at, "timeUnitSI", 0, &one)))
-		status = -PM_DATA;
+	int status = put_json(h, at, "pmpipeHeader", header);
+	json_decref(header);
+	return status || pm_h5_put_reals(at, "time", 0, &f->time) || pm_h5_put_reals(at, "dt", 0, &f->dt) || pm_h5_put_reals(at, "timeUnitSI", 0, &one)
+		? -PM_DATA : 0;
+}
+
+/* What is in the tail of the frame in the stream. */
+static int put_tail(struct pm_h5 *h, hid_t at, const struct pm_frame *f)
+{
 	json_t *limits = pm_limits_json(f);
-	char *line = limits ? pm_json_line(limits) : NULL;
+	int status = put_json(h, at, "pmpipeReport", f->report);
 	if (!status && limits)
-		status = line ? put_checked(h, at, "pmpipeLimits", line) : pm_fail(PM_DATA, "the limits cannot be written as JSON");
-	json_decref(header), json_decref(limits);
-	free(text), free(report), free(line);
+		status = put_json(h, at, "pmpipeLimits", limits);
+	json_decref(limits);
 	return status;
 }
 
 /* An iteration is named by its step, or by the next free number if the step does not increase, so that names sort in the order of the frames. */
-int pm_h5_put(struct pm_h5 *h, struct pm_frame *f)
+int pm_h5_put(struct pm_h5 *h, struct pm_frame *f, struct pm_reader *r)
 {
 	char name[64];
 	bool first = !h->nstreams && !h->frames;
@@ -238,9 +249,15 @@ int pm_h5_put(struct pm_h5 *h, struct pm_frame *f)
 	h->frames++;
 	snprintf(name, sizeof name, "/data/%llu", (unsigned long long)h->last);
 	hid_t g = pm_h5_group(h->file, name);
-	int status = g < 0 ? -PM_DATA : put_header(h, g, f);
-	if (!status)
-		status = put_fields(g, f);
+	int status = g < 0 ? -PM_DATA : 0;
+	if (pm_world_size() > 1) { /* each rank takes and writes its part of the values */
+		status = status ? status : pm_read_payload(r, f, true, NULL);
+		r = NULL;
+	}
+	status = status ? status : put_header(h, g, f);
+	status = status ? status : put_fields(g, f, r);
+	status = status || !r ? status : pm_read_tail(r, f);
+	status = status ? status : put_tail(h, g, f);
 	H5Gclose(g);
 	return status;
 }

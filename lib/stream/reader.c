@@ -42,6 +42,10 @@ struct pm_reader {
 	uint64_t frame, frames;    /* number of the current frame, from 1; frames of this stream */
 	size_t nitems;
 	struct item *items;
+	size_t item, done;         /* pm_read_values: the field under way, bytes of it */
+	uint32_t sum;              /* of the component */
+	bool given;                /* that field is */
+	struct pm_ring *ring;      /* data come from there; NULL: from the descriptor */
 	size_t at, have;
 	char piece[PM_PIECE], scratch[PM_PIECE];
 };
@@ -100,6 +104,8 @@ void pm_reader_give_up(struct pm_reader *r, bool (*when)(void)) { r->give_up = w
 
 void pm_reader_then(struct pm_reader *r, int (*next)(void *from, int *fd), void *from) { r->next = next, r->from = from; }
 
+void pm_reader_ring(struct pm_reader *r, struct pm_ring *ring) { r->ring = ring; }
+
 uint64_t pm_reader_frame(const struct pm_reader *r) { return r->frame; }
 
 bool pm_reader_aborted(const struct pm_reader *r) { return r->aborted; }
@@ -147,12 +153,24 @@ static ssize_t get(struct pm_reader *r, void *to, size_t n)
 	return (ssize_t)done;
 }
 
+static int cut(const char *what) { return pm_fail(PM_DATA, "the input ends in %s: it was cut (run the whole pipeline again)", what); }
+
 static int must_get(struct pm_reader *r, void *to, size_t n, const char *what)
 {
 	ssize_t k = get(r, to, n);
 	if (k < 0)
 		return pm_fail_errno("cannot read");
-	return (size_t)k == n ? 0 : pm_fail(PM_DATA, "the input ends in %s: it was cut (run the whole pipeline again)", what);
+	return (size_t)k == n ? 0 : cut(what);
+}
+
+/* The next data: n bytes in the room, or fewer elsewhere. */
+static int get_data(struct pm_reader *r, void *room, const void **data, size_t *n)
+{
+	*data = room;
+	if (!r->ring)
+		return must_get(r, room, *n, "the data");
+	const int status = pm_ring_take(r->ring, data, n);
+	return status || *n ? status : cut("the data");
 }
 
 /* The text behind a line, a multiple of 64 bytes; free() it. */
@@ -230,6 +248,7 @@ static int items_fill(struct pm_reader *r, const struct pm_frame *f, uint64_t pa
 		return pm_no_memory();
 	r->items = items;
 	r->nitems = f->nfields;
+	r->item = 0;
 	uint64_t total = 0; /* n < 2^48, 16 components, 8 bytes: a field fits; the sum is checked */
 	for (size_t i = 0; i < f->nfields; i++) {
 		struct pm_field *p = f->fields[i];
@@ -398,6 +417,23 @@ static int get_before(struct pm_reader *r, struct item *it, bool load, struct pm
 	return status;
 }
 
+/* The zeros behind a field. */
+static int get_padding(struct pm_reader *r, const struct item *it)
+{
+	char room[PM_LINE], ored = 0;
+	int status = 0;
+	size_t n;
+	for (size_t rest = pm_line_padded(it->bytes) - it->bytes; rest && !status; rest -= n) {
+		const void *data;
+		n = rest;
+		status = get_data(r, room, &data, &n);
+		for (size_t i = 0; i < n && !status; i++)
+			ored |= ((const char *)data)[i];
+	}
+	return status || !ored ? status : pm_fail(PM_DATA, "the bytes behind field %zu of %zu are not zero: the data are damaged",
+		(size_t)(it - r->items) + 1, r->nitems);
+}
+
 static int get_field(struct pm_reader *r, struct item *it, bool load, bool there, struct pm_writer *w)
 {
 	int status = r->shared ? get_before(r, it, load, w) : 0;
@@ -409,25 +445,18 @@ static int get_field(struct pm_reader *r, struct item *it, bool load, bool there
 	char *base = load && !there && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
 	for (size_t done = there ? it->bytes : 0; done < it->bytes && !status;) {
 		size_t n = it->bytes - done < PM_PIECE ? it->bytes - done : PM_PIECE;
-		char *piece = base ? base + done : r->scratch;
-		status = must_get(r, piece, n, "the data");
+		const void *piece;
+		status = get_data(r, base ? base + done : r->scratch, &piece, &n);
 		if (status)
 			break;
 		it->crc = pm_crc32c(it->crc, piece, n);
-		if (load && !base)
+		if (load && !(base && piece == base + done))
 			store(it, done, piece, n);
 		if (w && !whole)
 			status = pm_forward(w, piece, n);
 		done += n;
 	}
-	char pad[PM_LINE], ored = 0;
-	size_t rest = pm_line_padded(it->bytes) - it->bytes;
-	if (!status && rest)
-		status = must_get(r, pad, rest, "the data");
-	for (size_t i = 0; i < rest && !status; i++)
-		ored |= pad[i];
-	if (ored)
-		status = pm_fail(PM_DATA, "the bytes behind field %zu of %zu are not zero: the data are damaged", (size_t)(it - r->items) + 1, r->nitems);
+	status = status ? status : get_padding(r, it);
 	if (load && !status)
 		it->field->summed = true, it->field->crc = it->crc;
 	return status || !w ? status : whole ? pm_forward_held(w, it->field) : pm_forward_done(w, it->field, it->crc);
@@ -477,6 +506,64 @@ static bool stays(const struct pm_frame *f, const struct pm_field *field)
 	return true;
 }
 
+int pm_read_tail(struct pm_reader *r, struct pm_frame *f)
+{
+	const int status = get_tail(r, f);
+	for (size_t i = 0; i < r->nitems && !status; i++)
+		if (r->items[i].given) {
+			pm_hands_taken(r->hands);
+			break;
+		}
+	r->whole = !status;
+	return status;
+}
+
+/* The field that is given has doubles, where the stream has floats. */
+static const void *given_values(struct pm_reader *r, const struct item *it, size_t bytes)
+{
+	const char *base = pm_field_bytes(it->field);
+	if (it->type != PM_F32)
+		return base + r->done;
+	const double *x = (const double *)(const void *)base + r->done / sizeof(float);
+	for (size_t i = 0; i < bytes / sizeof(float); i++) {
+		const float v = (float)x[i];
+		memcpy(r->scratch + i * sizeof v, &v, sizeof v);
+	}
+	return r->scratch;
+}
+
+int pm_read_values(struct pm_reader *r, size_t bytes, const void **values)
+{
+	while (!r->items[r->item].bytes)
+		r->item++;
+	struct item *it = r->items + r->item;
+	const size_t component = it->bytes / (size_t)it->field->components;
+	int status = 0;
+	if (r->done == 0) {
+		r->sum = 0;
+		status = r->shared ? get_before(r, it, true, NULL) : 0;
+		r->given = status > 0;
+	}
+	*values = r->scratch;
+	if (status >= 0 && r->given)
+		*values = given_values(r, it, bytes);
+	else if (!status)
+		status = must_get(r, r->scratch, bytes, "the data");
+	if (status < 0)
+		return status;
+	r->sum = pm_crc32c(r->done % component ? r->sum : 0, *values, bytes);
+	r->done += bytes;
+	if (r->done % component == 0)
+		it->crc = pm_crc32c_join(it->crc, r->sum, component);
+	if (r->done < it->bytes)
+		return 0;
+	r->item++;
+	r->done = 0;
+	return r->given ? 0 : get_padding(r, it);
+}
+
+uint32_t pm_reader_sum(const struct pm_reader *r) { return r->sum; }
+
 int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w)
 {
 	int status = 0;
@@ -488,13 +575,7 @@ int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct p
 		else if (pass)
 			status = pm_forward_done(w, it->field, 0);
 	}
-	if (!status)
-		status = get_tail(r, f);
-	for (size_t i = 0; i < r->nitems && !status; i++)
-		if (r->items[i].given) {
-			pm_hands_taken(r->hands);
-			break;
-		}
+	status = status ? status : pm_read_tail(r, f);
 	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (r->items[i].bytes && r->items[i].field->use & (PM_USE_READ | PM_USE_CHANGE))
 			status = pm_field_check(r->items[i].field, PM_DATA);

@@ -31,7 +31,8 @@ struct pm_writer {
 	uint32_t *crc;
 	struct pm_hands *hands; /* to the reader of this pipe; NULL: it has none, or has not been looked for */
 	bool shares;           /* the current frame is handed over */
-	float *narrow;         /* PM_PIECE bytes for f32; NULL: not needed yet (256 KB of each thread's own memory cost 0.2 ms at the start of a program) */
+	void *room;            /* PM_PIECE bytes; NULL: not needed yet (256 KB of each thread's own memory cost 0.2 ms at the start of a program) */
+	struct pm_ring *ring;  /* data go there; NULL: onto the descriptor */
 };
 
 struct pm_writer *pm_writer_of_fd(int fd)
@@ -93,10 +94,16 @@ int pm_writer_close(struct pm_writer *w)
 	pm_replace_drop(&w->file);
 	if (close(w->fd) && !status)
 		status = pm_fail_errno("cannot close the output");
-	free(w->crc), free(w->path), free(w->narrow);
+	free(w->crc), free(w->path), free(w->room);
 	pm_hands_close(w->hands);
 	free(w);
 	return status;
+}
+
+void pm_writer_forked(struct pm_writer *w, struct pm_ring *ring)
+{
+	w->hands = pm_hands_close(w->hands);
+	w->ring = ring;
 }
 
 bool pm_writer_dirty(const struct pm_writer *w) { return w->dirty; }
@@ -136,7 +143,7 @@ static int put_text(struct pm_writer *w, const char *format, unsigned long long 
 
 bool pm_writer_hands(struct pm_writer *w)
 {
-	if (!w->hands && pm_world_size() == 1)
+	if (!w->hands && !w->ring && pm_world_size() == 1)
 		w->hands = pm_hands_connect(w->fd);
 	return w->hands;
 }
@@ -191,9 +198,18 @@ int pm_forward_begin(struct pm_writer *w, size_t bytes)
 	return status;
 }
 
+void *pm_forward_room(struct pm_writer *w)
+{
+	if (w->ring)
+		return pm_ring_room(w->ring);
+	if (!w->room && !(w->room = malloc(PM_PIECE)))
+		pm_no_memory();
+	return w->room;
+}
+
 int pm_forward(struct pm_writer *w, const void *piece, size_t n)
 {
-	int status = put(w, piece, n);
+	int status = !n ? 0 : w->ring ? pm_ring_give(w->ring, piece, n) : put(w, piece, n);
 	w->left -= status ? 0 : n;
 	return status;
 }
@@ -272,8 +288,6 @@ static int put_field(struct pm_writer *w, struct pm_field *p)
 		return status < 0 ? status : 0;
 	if ((status = put_parts(w, p, &crc)) || (status = put_lasting(w, p, &crc)))
 		return status < 0 ? status : pm_forward_done(w, p, crc);
-	if (p->type == PM_F32 && !w->narrow && !(w->narrow = malloc(PM_PIECE)))
-		return pm_no_memory();
 	status = bytes ? pm_forward_begin(w, bytes) : 0;
 	const char *data = p->buffer ? (const char *)pm_in_u8(p, 0) : NULL; /* of any type; the parts stay valid */
 	for (size_t done = 0; done < bytes && !status;) {
@@ -281,9 +295,12 @@ static int put_field(struct pm_writer *w, struct pm_field *p)
 		const void *piece = data + done;
 		if (p->type == PM_F32) {
 			const double *y = (const double *)(const void *)data + done / 4;
+			float *narrow = pm_forward_room(w);
+			if (!narrow)
+				return pm_failed();
 			for (size_t i = 0; i < n / 4; i++)
-				w->narrow[i] = (float)y[i];
-			piece = w->narrow;
+				narrow[i] = (float)y[i];
+			piece = narrow;
 		}
 		crc = p->summed ? p->crc : pm_crc32c(crc, piece, n);
 		status = pm_forward(w, piece, n);

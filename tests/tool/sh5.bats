@@ -413,6 +413,38 @@ flip() {
 	says 1 "sh5: iteration *: no attribute 'pmpipeHeader', but the file is one of sh5's: it is damaged" sh5 headless.h5
 }
 
+# Fields of several pieces (256 KB): particles of f64, f32 and i64; rows, planes and parts of rows of meshes.
+@test "fields of several pieces: through a file, handed over, from chunks of another program; cut or damaged within one they end no stream well" {
+	wire edit <(pinit uniform -n 70001 --seed 3 --cells 37x41x43) '
+h["fields"].append({"name": "T", "on": "matter", "components": 2, "type": "f32", "role": "state", "kind": "value", "unit": ""})
+data.append(bytearray(struct.pack("<140002f", *(k % 997 / 7 for k in range(140002)))))' | p2m >a.pm
+	(pinit uniform --dim 2 -n 100 --cells 40000x3 && pinit uniform -n 100 --cells 190x201x3) | p2m >b.pm
+	cat a.pm b.pm >c.pm
+	there_and_back c.pm
+	mv back.h5 whole.h5
+	PM_HANDOVER=0 sh5 -o back.h5 <c.pm
+	cmp back.h5 whole.h5
+	cat c.pm | sel | sh5 -o back.h5 # handed over
+	sh5 back.h5 | sel --no-history | scmp --tolerance 0 - c.pm >/dev/null
+	sh5 whole.h5 | sel --no-history | cmp - c.pm
+	sh5 whole.h5 | PM_HANDOVER=0 sel --no-history | cmp - c.pm
+	if command -v h5repack >/dev/null; then
+		h5repack -l /data/0/particles/matter/T/x:CHUNK=5000 -f /data/0/particles/matter/T/x:GZIP=1 whole.h5 chunks.h5
+		sh5 chunks.h5 | cmp - c.pm
+	fi
+	for bytes in 300000 1900000 4000000; do
+		head -c $bytes c.pm >cut.pm
+		says 1 "sh5: frame 1: the input ends in the data: it was cut*" sh5 -o cut.h5 <cut.pm
+	done
+	[ ! -e cut.h5 ]
+	flip whole.h5 "0x$(python3 -c 'import struct; print(struct.pack("<4f", *(k % 997 / 7 for k in range(66000, 66004))).hex())')" 5
+	sh5 damaged.h5 >damaged.pm 2>said && return 1
+	grep -q "^sh5: iteration 0: the checksum of 'particles/matter/T/x' is wrong" said
+	[ "$(wc -l <said)" = 1 ]
+	says 1 "sls: stopped by sh5: iteration 0: the checksum of 'particles/matter/T/x' is wrong*" sls <damaged.pm
+	says 1 "sls: stopped by sh5: iteration 0: the checksum of 'particles/matter/T/x' is wrong*" sls -i damaged.h5
+}
+
 @test "of 60 files with a bit flipped and 30 with 30 bytes overwritten none gives another stream, and none ends sh5 by a signal" {
 	run -0 python3 "$top/tests/flip-hdf5.py" 60 5
 	echo "$output"
