@@ -12,7 +12,7 @@ export PM_MACHINE=$b/machine.tsv PM_PEERS=$b/peers.tsv
 markdown=
 [ "${1:-}" != --markdown ] || { markdown=1 && shift; }
 parts=("$@")
-[ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp pse push mgrad step)
+[ $# != 0 ] || parts=(start pass cycle transfer poisson-fft poisson-mg pp pse push mgrad step es1d vortex-step)
 rows=$b/rows.tsv
 cores=${OMP_NUM_THREADS:-$(nproc)}
 busy=$(cut -d' ' -f1 /proc/loadavg)
@@ -106,6 +106,16 @@ part_step() {
 	pinit uniform -n 2097152 --cells 128 | OMP_NUM_THREADS=1 keep "$b/step"
 	awk '/^MemAvailable/ { exit $2 < 8e6 }' /proc/meminfo || { echo 'bench: skipped the step of 16.8 million particles (it needs 8 GB)' >&2 && return; }
 	pinit uniform -n 16777216 --cells 256 | keep "$b/step"
+}
+# What users would run instead: ZPIC (PM_ZPIC), FINUFFT with FFTW (PM_FINUFFT).
+part_es1d() {
+	pinit langmuir -n 2097152 --cells 1024 --dim 1 --amplitude 0.5 | OMP_NUM_THREADS=1 keep "$b/es1d"
+	pinit landau -n 2097152 --cells 1024 | OMP_NUM_THREADS=1 keep "$b/es1d"
+	pinit langmuir -n 131072 --cells 1024 --dim 1 --dt 0.01 | OMP_NUM_THREADS=1 keep "$b/es1d" 628
+}
+part_vortex-step() {
+	pinit taylor-green-2d --cells 512 --dt 0.0125 | keep "$b/vortex-step"
+	pinit taylor-green-2d --cells 1024 --dt 0.00625 | keep "$b/vortex-step"
 }
 
 cd "$scratch"

@@ -50,31 +50,76 @@ double pm_most(const struct pm_field *y, const double *h)
 	return pm_most_of_stretches(y, most);
 }
 
-/* |du/dx_d| at point i here, of number first + i in the mesh, the k-th of `points` along axis d. halo: beyond the ends of the axis the neighbours follow. */
-static double slope(const struct pm_grid *g, int d, const double *u, ptrdiff_t i, size_t first, ptrdiff_t stride, bool halo)
+/* The neighbours along axis d of point i here, of number first + i in the mesh, and how far apart they are; points > 1. halo: beyond the ends of the axis the
+ * neighbours follow. */
+static double neighbours(const struct pm_grid *g, int d, ptrdiff_t i, size_t first, ptrdiff_t stride, bool halo, ptrdiff_t *below, ptrdiff_t *above)
 {
 	const size_t points = g->points[d], k = ((size_t)i + first) / (size_t)stride % points;
 	const bool round = g->face[d][0] == PM_PERIODIC;
 	const ptrdiff_t over = halo ? -1 : (ptrdiff_t)points - 1;
-	const ptrdiff_t below = k ? i - stride : round ? i + over * stride : i;
-	const ptrdiff_t above = k + 1 < points ? i + stride : round ? i - over * stride : i;
-	const double apart = round || (k && k + 1 < points) ? 2 : 1;
-	return points > 1 ? fabs(u[above] - u[below]) / (apart * g->h[d]) : 0;
+	*below = k ? i - stride : round ? i + over * stride : i;
+	*above = k + 1 < points ? i + stride : round ? i - over * stride : i;
+	return (round || (k && k + 1 < points) ? 2 : 1) * g->h[d];
+}
+
+/* Neighbours of a row along the other axes: the first of each, and how far they are apart; 0: the axis has one point. */
+struct beside {
+	const double *below[3], *above[3];
+	double apart[3];
+};
+
+/* The largest sum of |du/dx_d| over d among the points from .. from+n-1 of a row, n at most BLOCK. line: the first of them, between its neighbours in the row,
+ * which are so far apart. */
+static double most_of_row(int dim, size_t from, size_t n, const double *line, double apart, const struct beside *b)
+{
+	double here[BLOCK] __attribute__((aligned(64)));
+	pm_simd most = {0};
+	for (size_t i = 0; i < n; i++)
+		here[i] = fabs(line[i + 1] - line[i - 1]) / apart;
+	for (int d = 1; d < dim; d++)
+		for (size_t i = 0; i < n && b->apart[d] > 0; i++)
+			here[i] += fabs(b->above[d][from + i] - b->below[d][from + i]) / b->apart[d];
+	for (size_t i = n; i % PM_SIMD_WIDTH; i++)
+		here[i] = 0;
+	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH)
+		raise_eight(&most, pm_simd_load(here + i));
+	for (int l = 1; l < PM_SIMD_WIDTH; l++)
+		most[0] = fmax(most[0], most[l]);
+	return most[0];
+}
+
+/* Row by row of one component; those at the ends of a row have neighbours elsewhere. */
+static double strain_of_row(const struct pm_grid *g, const struct pm_planes *p, size_t at, size_t first, const double *u)
+{
+	const size_t n = g->points[0];
+	struct beside b = {.apart = {0}};
+	ptrdiff_t stride = (ptrdiff_t)n, below, above;
+	double most = 0;
+	for (int d = 1; d < g->dim; stride *= (ptrdiff_t)g->points[d++])
+		if (g->points[d] > 1) {
+			b.apart[d] = neighbours(g, d, (ptrdiff_t)at, first, stride, p->divided && d == p->axis, &below, &above);
+			b.below[d] = u + below, b.above[d] = u + above;
+		}
+	for (size_t i = 1; i + 1 < n; i += BLOCK)
+		most = fmax(most, most_of_row(g->dim, i, n - 1 - i < BLOCK ? n - 1 - i : BLOCK, u + at + i, 2 * g->h[0], &b));
+	for (size_t end = 0; end < n; end += n > 1 ? n - 1 : 1) {
+		double ends[3] = {0, 0, 0}; /* below, and above, of one point */
+		const double apart = n > 1 ? neighbours(g, 0, (ptrdiff_t)(at + end), first, 1, false, &below, &above) : 1;
+		if (n > 1)
+			ends[0] = u[below], ends[2] = u[above];
+		most = fmax(most, most_of_row(g->dim, end, 1, ends + 1, apart, &b));
+	}
+	return most;
 }
 
 static double strain(const struct pm_grid *g, const struct pm_planes *p, int components, const double *const u[])
 {
-	const size_t n = p->here * p->size, first = p->first * p->size;
+	const size_t n = g->points[0], rows = p->here * p->size / n, first = p->first * p->size;
 	double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
-	for (size_t i = 0; i < n; i++)
-		for (int c = 0; c < components; c++) {
-			double row = 0;
-			size_t stride = 1;
-			for (int d = 0; d < g->dim; stride *= g->points[d++])
-				row += slope(g, d, u[c], (ptrdiff_t)i, first, (ptrdiff_t)stride, p->divided && d > 0 && d == p->axis);
-			most = fmax(most, row);
-		}
+#pragma omp parallel for schedule(static) reduction(max : most) if (rows * n > 16384)
+	for (size_t row = 0; row < rows; row++)
+		for (int c = 0; c < components; c++)
+			most = fmax(most, strain_of_row(g, p, row * n, first, u[c]));
 	return most;
 }
 

@@ -306,13 +306,16 @@ int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], co
 static int grow_axis(const struct pm_grid *g, int d, double r, size_t n, const double *x, double *below, double *above)
 {
 	double least = INFINITY, most = -INFINITY, cells = (double)g->cells[d];
+	*below = *above = 0;
+	if (g->face[d][0] == PM_PERIODIC)
+		return 0;
 	for (size_t p = 0; p < n; p++) {
 		double s = (x[p] - g->lo[d]) / g->h[d];
 		least = fmin(least, s);
 		most = fmax(most, s);
 	}
-	*below = g->face[d][0] != PM_PERIODIC && least < r ? floor(r - least) + 1 : 0;
-	*above = g->face[d][0] != PM_PERIODIC && most > cells - r ? floor(most - (cells - r)) + 1 : 0;
+	*below = least < r ? floor(r - least) + 1 : 0;
+	*above = most > cells - r ? floor(most - (cells - r)) + 1 : 0;
 	for (int side = 0; side < 2; side++) {
 		bool closed = g->face[d][side] == PM_WALL || g->face[d][side] == PM_NEUMANN;
 		if (closed && (side ? most > cells : least < 0))
