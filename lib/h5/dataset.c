@@ -104,7 +104,9 @@ hid_t pm_h5_put_data(hid_t at, const char *name, struct pm_field *p, int c, int 
 	H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY); /* it has its place at once, also alone, so that the bytes are the same */
 	hid_t d = H5Dcreate2(at, name, pm_h5_type(p->type), space, H5P_DEFAULT, how, H5P_DEFAULT);
 	uint32_t crc = 0;
-	int status = d < 0 ? pm_h5_fail("cannot write '%s' of '%s'", p->name, p->on) : r ? put_pieces(d, space, p, rank, dims, r, &crc) : put_parts(d, p, c, &crc);
+	int status = d < 0 ? pm_h5_fail("cannot write '%s' of '%s'", p->name, p->on) : 0;
+	if (!status)
+		status = r ? put_pieces(d, space, p, rank, dims, r, &crc) : put_parts(d, p, c, &crc);
 	status = status == 1 ? put_values(d, pm_h5_type(p->type), p, c, &crc) : status;
 	status = status ? status : pm_h5_put_checksum(d, NULL, crc);
 	H5Sclose(space);
