@@ -148,11 +148,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-/* The boundary values of James' method are computed for the whole mesh. */
-static bool divided(const struct pm_stage *s, const struct pm_frame *f)
-{
-	return f && !((const struct state *)s->state)->choice.james;
-}
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && (f->dim > 1 || !((const struct state *)s->state)->choice.james); }
 
 static void release(struct pm_stage *s) { pm_fft_solvers_clear(&((struct state *)s->state)->solvers); }
 

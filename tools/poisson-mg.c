@@ -4,7 +4,7 @@
 
 #include "green/green.h"
 #include "poisson-mg/mg-medium.h"
-#include "poisson-mg/mg-ranks.h"
+#include "poisson-mg/multigrid.h"
 #include "stage/solver-options.h"
 #include "world/world.h"
 
@@ -105,11 +105,14 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 	const struct pm_mg_record *r = &t->record;
 	struct pm_grid g = pm_problem_grid(p, c);
 	char key[32], residuals[12 * (PM_MG_MOST + 1)] = "";
-	const double *eps = t->eps ? pm_in(t->eps, 0) : NULL;
-	const struct pm_boundary_eps medium = pm_mg_medium(eps, t->choice.mean);
+	double *room = NULL;
+	const double *eps = NULL;
 	struct pm_homogeneous m = {0};
 	struct pm_clock began = pm_clock();
-	int status = pm_world_agree(pm_multigrid_prepare(t->solver, &t->choice, &g, eps));
+	int status = t->eps ? pm_problem_coefficient_values(p, t->eps, &eps, &room) : 0;
+	const struct pm_boundary_eps medium = pm_mg_medium(eps, t->choice.mean);
+	if (!status)
+		status = pm_world_agree(pm_multigrid_prepare(t->solver, &t->choice, &g, eps));
 	pm_setup_since(s, began);
 	if (!status)
 		status = pm_problem_move(p, f, c, t->choice.order, eps ? &medium : NULL, &m);
@@ -123,6 +126,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c)
 		n += snprintf(residuals + n, sizeof residuals - (size_t)n, "%s%.3e", i ? " " : "", r->history[i]);
 	if (!status)
 		pm_report_text(s, f, pm_solver_key(p, "residuals", c, key), residuals);
+	pm_free(room);
 	return status;
 }
 
@@ -145,11 +149,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return status;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f)
-{
-	const struct state *t = s->state;
-	return f && pm_multigrid_shares(&t->choice, &t->problem);
-}
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f && f->dim > 1; }
 static void release(struct pm_stage *s) { pm_multigrid_free(((struct state *)s->state)->solver); }
 
 const struct pm_tool tool_poisson_mg = {

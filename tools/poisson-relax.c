@@ -81,7 +81,10 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 static int ready(struct state *t, int component)
 {
 	struct pm_grid g = pm_problem_grid(&t->problem, component);
-	if (t->solver && pm_relaxation_fits(t->solver, &g, t->choice.method) && pm_relaxation_same_planes(t->solver, t->problem.source))
+	double lacks = !(t->solver && pm_relaxation_fits(t->solver, &g, t->choice.method) && pm_relaxation_same_planes(t->solver, t->problem.source));
+	if (t->problem.source->here && pm_world_largest(0, 1, &lacks)) /* what one rank lacks, all make together */
+		return pm_failed();
+	if (lacks == 0)
 		return 0;
 	pm_relaxation_free(t->solver);
 	t->solver = pm_relaxation_new_of(&g, t->choice.method, t->problem.source);

@@ -25,6 +25,18 @@ int pm_planes_init(struct pm_planes *p, const struct pm_grid *g, const struct pm
 	return 0;
 }
 
+int pm_planes_copy(struct pm_planes *p, const struct pm_grid *g, const struct pm_planes *from)
+{
+	if (!from || !from->divided)
+		return pm_planes_init(p, g, &(struct pm_field){.here = false});
+	const size_t bytes = ((size_t)pm_world_size() + 1) * sizeof *p->from;
+	*p = *from;
+	if (!(p->from = malloc(bytes)))
+		return pm_no_memory();
+	memcpy(p->from, from->from, bytes);
+	return 0;
+}
+
 int pm_planes_agree(int status, const struct pm_planes *p) { return p && p->divided ? pm_world_agree(status) : status; }
 
 void pm_planes_free(struct pm_planes *p)

@@ -19,6 +19,8 @@ struct pm_planes {
 
 /* The planes of a field on a grid. 0 or failure (memory); free in any case. */
 int pm_planes_init(struct pm_planes *p, const struct pm_grid *g, const struct pm_field *field);
+/* A copy that outlives them; `from` NULL: all planes of the grid. */
+int pm_planes_copy(struct pm_planes *p, const struct pm_grid *g, const struct pm_planes *from);
 void pm_planes_free(struct pm_planes *p);
 
 /* pm_world_agree where ranks share the planes; without (NULL, or not divided) the status: rank 0 alone may be at work. */

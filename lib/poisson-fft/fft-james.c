@@ -6,10 +6,9 @@
 #include "poisson-fft/fft-passes.h"
 
 struct pm_fft_james {
-	struct pm_grid grid;
 	struct pm_poisson_fft *walled;
 	struct pm_james *outer;
-	double *u; /* the grounded solution, of the points of the grid */
+	double *u; /* the grounded solution, of the points of the grid here */
 };
 
 int pm_fft_james_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o)
@@ -29,28 +28,29 @@ struct pm_fft_james *pm_fft_james_free(struct pm_fft_james *j)
 	return pm_free(j);
 }
 
-struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g)
+struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g, const struct pm_planes *planes)
 {
-	struct pm_fft_james *j = pm_zalloc(1, sizeof *j);
+	const size_t n = planes && planes->divided ? planes->here * planes->size + 1 : pm_grid_size(g);
 	const struct pm_grid walled = pm_james_walled(g);
-	if (!j)
-		return NULL;
-	j->grid = *g;
-	if (!(j->walled = pm_poisson_fft_new(&walled, &(struct pm_poisson_fft_choice){.symbol = PM_FD2})) || !(j->outer = pm_james_new(g)) ||
-		!(j->u = pm_alloc(pm_grid_size(g), sizeof *j->u)))
-		return pm_fft_james_free(j);
-	return j;
+	struct pm_fft_james *j = pm_zalloc(1, sizeof *j);
+	int status = pm_planes_agree(j && (j->u = pm_alloc(n, sizeof *j->u)) ? 0 : pm_failed(), planes);
+	if (!status && !(j->walled = pm_poisson_fft_new(&walled, &(struct pm_poisson_fft_choice){.symbol = PM_FD2, .planes = planes})))
+		status = pm_failed(); /* on all ranks or on none */
+	if (!status && !(j->outer = pm_james_new(g, planes)))
+		status = pm_failed();
+	return status ? pm_fft_james_free(j) : j;
 }
 
 int pm_fft_james_solve(struct pm_fft_james *j, double c, const double *s, double *phi)
 {
-	const double *wall = NULL, *f = NULL;
+	const double *f = NULL;
 	int status = pm_poisson_fft_solve(j->walled, c, s, j->u, NULL);
-	if (!status)
-		status = pm_james_values(j->outer, c, s, j->u, &wall, &f);
+	status = pm_james_source(status, j->outer, c, s, j->u, phi, &f);
 	if (!status)
 		status = pm_poisson_fft_solve(j->walled, 1, f, phi, NULL);
-	for (size_t i = 0; i < pm_grid_size(&j->grid) && !status; i++)
-		phi[i] += wall[i]; /* phi is 0 there */
+	if (!status)
+		pm_james_set(j->outer, phi);
 	return status;
 }
+
+const struct pm_poisson_fft *pm_fft_james_walled(const struct pm_fft_james *j) { return j->walled; }

@@ -74,10 +74,11 @@ int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: th
 int pm_poisson_fft_resonance(struct pm_poisson_fft *p); /* of fft-wave.c: failure at a resonance */
 int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-fitted.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
-/* Of fft-james.c: what cannot be solved so; NULL with a message; as pm_poisson_fft_solve. */
+/* Of fft-james.c: what cannot be solved so; NULL with a message, on all ranks that share the planes; as pm_poisson_fft_solve; the solver between walls. */
 int pm_fft_james_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
-struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g);
+struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g, const struct pm_planes *planes);
 struct pm_fft_james *pm_fft_james_free(struct pm_fft_james *j);
 int pm_fft_james_solve(struct pm_fft_james *j, double c, const double *s, double *phi);
+const struct pm_poisson_fft *pm_fft_james_walled(const struct pm_fft_james *j);
 
 #endif

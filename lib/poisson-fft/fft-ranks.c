@@ -47,6 +47,8 @@ int pm_poisson_fft_ranks(struct pm_poisson_fft *p, const struct pm_planes *plane
 bool pm_poisson_fft_same_ranks(const struct pm_poisson_fft *p, const struct pm_planes *planes)
 {
 	const bool divided = planes && planes->divided;
+	if (p->james)
+		return pm_poisson_fft_same_ranks(pm_fft_james_walled(p->james), planes);
 	return divided == (p->from != NULL) && (!divided || !memcmp(p->from, planes->from, ((size_t)pm_world_size() + 1) * sizeof *p->from));
 }
 

@@ -229,7 +229,7 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		p->open = p->open || open[0] || open[1];
 		p->complex = p->complex && (g->face[d][0] == PM_PERIODIC || (open[0] && open[1]));
 	}
-	status = !o->james ? layout(p) : (p->james = pm_fft_james_new(g)) ? 0 : -PM_DATA;
+	status = !o->james ? layout(p) : (p->james = pm_fft_james_new(g, o->planes)) ? 0 : pm_failed();
 	if (divided)
 		status = pm_world_agree(status);
 	if (!status && !o->james)

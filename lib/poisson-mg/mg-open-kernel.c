@@ -40,29 +40,6 @@ struct mg_stencil pm_mg_stencil(const struct pm_grid *g, int order)
 	return a;
 }
 
-void pm_mg_lift(const struct pm_grid *g, const struct mg_stencil *a, const double *walls, double *f)
-{
-	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
-	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++)
-		for (size_t i = 0; i < g->points[0]; i++) {
-			const size_t at[3] = {i, row % g->points[1], row / g->points[1]};
-			bool beside = false, wall = false;
-			for (int d = 0; d < g->dim; d++) {
-				beside |= (at[d] == 1 && g->face[d][0] == PM_WALL) || at[d] + 2 == g->points[d];
-				wall |= (at[d] == 0 && g->face[d][0] == PM_WALL) || at[d] + 1 == g->points[d];
-			}
-			for (int o = 0; o < a->n && beside && !wall; o++) {
-				size_t to = 0;
-				for (int d = 0; d < 3; d++) {
-					ptrdiff_t x = (ptrdiff_t)at[d] + a->shift[o][d];
-					to += step[d] * (size_t)(x < 0 ? -x : x); /* even images below a neumann face */
-				}
-				f[i + row * step[1]] -= a->w[o] * walls[to];
-			}
-		}
-}
-
 static double far(const struct pm_grid *g, int order, const size_t at[3])
 {
 	double x2[3] = {0}, r2 = 0, volume = pm_grid_cell(g), sum = 0;
@@ -95,61 +72,90 @@ static struct pm_grid octant(const struct pm_grid *g)
 	return n;
 }
 
-static bool on_high_face(const struct pm_grid *g, const size_t at[3])
+struct mg_lattice {
+	struct pm_grid grid, octant; /* near: of the points of the octant; NULL in 1-D, where far() is exact everywhere */
+	int order;
+	double *near;
+};
+
+struct mg_lattice *pm_mg_lattice_free(struct mg_lattice *l)
 {
-	bool on = false;
-	for (int d = 0; d < g->dim; d++)
-		on |= at[d] + 1 == g->points[d];
-	return on;
+	if (l)
+		pm_free(l->near);
+	return pm_free(l);
 }
 
-/* value: of the points of n, f: room for as many */
-static int solve_near(const struct pm_grid *n, int order, double *value, double *f)
+/* The values on the high faces of the octant. */
+static int far_faces(const struct mg_lattice *l, struct pm_boundary *b)
 {
-	struct mg_stencil a = pm_mg_stencil(n, order);
-	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-13,
+	const struct pm_grid *n = &l->octant;
+	for (int d = 0; d < n->dim; d++) {
+		const int low = d == 0, high = d == 2 ? 1 : 2;
+		if (pm_boundary_room(b, d, 1))
+			return -PM_DATA;
+		for (size_t i = 0; i < pm_boundary_points(n, d); i++) {
+			size_t at[3];
+			at[d] = n->points[d] - 1, at[low] = i % n->points[low], at[high] = i / n->points[low];
+			b->value[d][1][i] = far(n, l->order, at);
+		}
+	}
+	return 0;
+}
+
+/* near of the octant; f: room for as many */
+static int solve_near(struct mg_lattice *l, double *f)
+{
+	const struct pm_grid *n = &l->octant;
+	struct pm_mg_choice o = {.pre = 2, .post = 2, .smoother = l->order == 4 ? PM_MG_FOUR_COLOUR : PM_MG_SOR, .cycle = PM_MG_FMG, .tolerance = 1e-13,
 		.most = 60};
 	struct pm_mg_record *r = pm_alloc(1, sizeof *r);
-	struct pm_mg *mg = pm_mg_new(n, order);
-	size_t size = pm_grid_size(n), at[3];
-	o.relaxation = pm_mg_relaxation(o.smoother, n->dim, order);
-	for (size_t p = 0; p < size; p++) {
-		at[0] = p % n->points[0], at[1] = p / n->points[0] % n->points[1], at[2] = p / n->points[0] / n->points[1];
-		f[p] = p == 0;
-		value[p] = on_high_face(n, at) ? far(n, order, at) : 0;
+	struct pm_mg *mg = pm_mg_new(n, l->order);
+	struct pm_boundary b = {.grid = *n};
+	int status = mg && r ? far_faces(l, &b) : pm_failed();
+	o.relaxation = pm_mg_relaxation(o.smoother, n->dim, l->order);
+	if (!status) {
+		pm_boundary_known(&b, l->order, PM_BOUNDARY_ALL, NULL, f);
+		for (size_t p = 0; p < pm_grid_size(n); p++)
+			f[p] = (p == 0) - f[p];
+		status = pm_mg_solve_differences(mg, &o, 1, f, NULL, l->near, r);
+		pm_boundary_set(&b, l->near);
 	}
-	pm_mg_lift(n, &a, value, f);
-	int status = mg && r ? pm_mg_solve_differences(mg, &o, 1, f, NULL, f, r) : -PM_DATA;
-	for (size_t p = 0; p < size; p++)
-		value[p] += f[p]; /* 0 on the faces */
+	pm_boundary_free(&b);
 	pm_mg_free(mg), pm_free(r);
 	return status;
 }
 
-static void fill(const struct pm_grid *g, int order, const struct pm_grid *n, const double *near, double *table)
+struct mg_lattice *pm_mg_lattice_new(const struct pm_grid *g, int order)
 {
-	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++) {
-		size_t at[3] = {0, row % g->points[1], row / g->points[1]};
-		for (at[0] = 0; at[0] < g->points[0]; at[0]++) {
-			bool inside = near && at[0] < n->points[0] && at[1] < n->points[1] && at[2] < n->points[2];
-			table[at[0] + row * g->points[0]] = inside ? near[at[0] + n->points[0] * (at[1] + n->points[1] * at[2])] : far(g, order, at);
-		}
-	}
+	struct mg_lattice *l = pm_zalloc(1, sizeof *l);
+	if (!l)
+		return NULL;
+	l->grid = *g;
+	l->order = order;
+	l->octant = octant(g);
+	const size_t size = pm_grid_size(&l->octant);
+	double *f = g->dim == 1 ? NULL : pm_alloc(size, sizeof *f);
+	if (g->dim > 1 && (!f || !(l->near = pm_alloc(size, sizeof *f)) || solve_near(l, f)))
+		l = pm_mg_lattice_free(l);
+	pm_free(f);
+	return l;
+}
+
+double pm_mg_lattice_value(const struct mg_lattice *l, const size_t at[3])
+{
+	const size_t *n = l->octant.points;
+	const bool near = l->near && at[0] < n[0] && at[1] < n[1] && at[2] < n[2];
+	return near ? l->near[at[0] + n[0] * (at[1] + n[1] * at[2])] : far(&l->grid, l->order, at);
 }
 
 int pm_mg_lattice(const struct pm_grid *g, int order, double *table)
 {
-	struct pm_grid n = octant(g);
-	size_t size = pm_grid_size(&n);
-	if (g->dim == 1) { /* exact everywhere */
-		fill(g, order, &n, NULL, table);
-		return 0;
-	}
-	double *near = pm_alloc(size, sizeof *near), *f = pm_alloc(size, sizeof *f);
-	int status = near && f ? solve_near(&n, order, near, f) : -PM_DATA;
-	if (!status)
-		fill(g, order, &n, near, table);
-	pm_free(near), pm_free(f);
+	struct mg_lattice *l = pm_mg_lattice_new(g, order);
+	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
+	for (size_t row = 0; row < (l ? g->points[1] * g->points[2] : 0); row++)
+		for (size_t i = 0; i < g->points[0]; i++)
+			table[i + row * g->points[0]] = pm_mg_lattice_value(l, (size_t[]){i, row % g->points[1], row / g->points[1]});
+	const int status = l ? 0 : pm_failed();
+	pm_mg_lattice_free(l);
 	return status;
 }

@@ -4,6 +4,8 @@
  * or 4, and no domain is doubled. The source must vanish outside, at order 4 on the walls too. Sources: James 1977; Trottenberg, Oosterlee, Schueller 2001
  * for the solver. Cost: two solutions, and 100 N^3 operations for the walls; memory: four more grids in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-open-parts.h"
+#include "poisson-mg/mg-ranks.h"
+#include "world/world.h"
 
 #include <string.h>
 
@@ -13,9 +15,8 @@ struct pm_mg_open {
 	struct pm_grid grid, walled;
 	int order;
 	struct pm_mg *mg;
-	struct mg_stencil stencil;
-	struct mg_faces *faces;
-	double *f, *charge, *wall; /* of the points of the grid */
+	struct mg_walls *walls;
+	double *f; /* of the points of the grid here */
 };
 
 int pm_mg_open_check(const struct pm_grid *g)
@@ -37,88 +38,53 @@ int pm_mg_open_check(const struct pm_grid *g)
 struct pm_mg_open *pm_mg_open_free(struct pm_mg_open *m)
 {
 	if (m)
-		pm_mg_free(m->mg), pm_mg_faces_free(m->faces), pm_free(m->f), pm_free(m->charge), pm_free(m->wall);
+		pm_mg_free(m->mg), pm_mg_walls_free(m->walls), pm_free(m->f);
 	return pm_free(m);
 }
 
-static bool build(struct pm_mg_open *m)
+struct pm_mg_open *pm_mg_open_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes)
 {
-	size_t n = pm_grid_size(&m->grid);
-	m->walled = m->grid;
-	for (int d = 0; d < m->grid.dim; d++)
-		m->walled.face[d][0] = m->walled.face[d][1] = PM_WALL;
-	m->stencil = pm_mg_stencil(&m->grid, m->order);
-	m->f = pm_zalloc(n, sizeof(double));
-	m->charge = pm_zalloc(n, sizeof(double));
-	m->wall = pm_zalloc(n, sizeof(double));
-	if (!m->f || !m->charge || !m->wall || pm_mg_lattice(&m->grid, m->order, m->f))
-		return false;
-	m->faces = pm_mg_faces_new(&m->grid, m->f);
-	m->mg = pm_mg_new(&m->walled, m->order);
-	return m->faces && m->mg;
-}
-
-struct pm_mg_open *pm_mg_open_new(const struct pm_grid *g, int order)
-{
+	const bool divided = planes && planes->divided;
 	struct pm_mg_open *m = pm_mg_open_check(g) ? NULL : pm_zalloc(1, sizeof *m);
-	if (!m)
-		return NULL;
+	int status = pm_planes_agree(m ? 0 : pm_failed(), planes);
+	if (status)
+		return pm_mg_open_free(m);
 	m->grid = *g;
+	m->walled = pm_mg_walled(g);
 	m->order = order;
-	return build(m) ? m : pm_mg_open_free(m);
+	m->walls = pm_mg_walls_new(g, order, planes);
+	m->mg = m->walls ? pm_mg_new_planes(&m->walled, order, planes) : NULL;
+	m->f = pm_zalloc(divided ? planes->here * planes->size + 1 : pm_grid_size(g), sizeof *m->f);
+	status = pm_planes_agree(m->walls && m->mg && m->f ? 0 : pm_failed(), planes);
+	return status ? pm_mg_open_free(m) : m;
 }
 
-bool pm_mg_open_fits(const struct pm_mg_open *m, const struct pm_grid *g, int order)
+struct pm_mg_open *pm_mg_open_new(const struct pm_grid *g, int order) { return pm_mg_open_new_planes(g, order, NULL); }
+
+bool pm_mg_open_fits(const struct pm_mg_open *m, const struct pm_grid *g, int order, const struct pm_planes *planes)
 {
-	struct pm_grid walled = *g;
 	for (int d = 0; d < g->dim; d++)
 		for (int s = 0; s < 2; s++)
-			if (walled.face[d][s] != PM_OPEN)
+			if (g->face[d][s] != PM_OPEN)
 				return false;
-			else
-				walled.face[d][s] = PM_WALL;
-	return pm_mg_fits(m->mg, &walled, order);
+	const struct pm_grid walled = pm_mg_walled(g);
+	return pm_mg_fits(m->mg, &walled, order) && pm_mg_same_planes(m->mg, planes);
 }
 
-/* The source of the differences: with zeros beyond the box. */
+/* The source of the differences: with zeros beyond the box. s has a plane more on either side where ranks share it. */
 static void source(struct pm_mg_open *m, double c, const double *s)
 {
 	const struct pm_grid *g = &m->grid;
-	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
-	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++)
+	const struct pm_planes *planes = pm_mg_walls_planes(m->walls);
+	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]}, first = pm_planes_row(planes, 0);
+	#pragma omp parallel for num_threads(pm_threads()) if (planes->here * planes->size > mg_parallel)
+	for (size_t row = 0; row < planes->here * planes->size / g->points[0]; row++)
 		for (size_t i = 0; i < g->points[0]; i++) {
-			const size_t at[3] = {i, row % g->points[1], row / g->points[1]}, p = i + row * g->points[0];
+			const size_t at[3] = {i, (first + row) % g->points[1], (first + row) / g->points[1]}, p = i + row * g->points[0];
 			double sum = 0;
 			for (int d = 0; d < g->dim && m->order == 4; d++)
-				sum += (at[d] ? s[p - step[d]] : 0) + (at[d] + 1 < g->points[d] ? s[p + step[d]] : 0) - 2 * s[p];
+				sum += (at[d] ? *(s + p - step[d]) : 0) + (at[d] + 1 < g->points[d] ? s[p + step[d]] : 0) - 2 * s[p];
 			m->f[p] = c * (s[p] + sum / 12);
-		}
-}
-
-/* The charge on the grounded box: A u - f on its walls; u is zero there. */
-static void induced(struct pm_mg_open *m, const double *u)
-{
-	const struct pm_grid *g = &m->grid;
-	const size_t step[3] = {1, g->points[0], g->points[0] * g->points[1]};
-	#pragma omp parallel for num_threads(pm_threads()) if (pm_grid_size(g) > mg_parallel)
-	for (size_t row = 0; row < g->points[1] * g->points[2]; row++)
-		for (size_t i = 0; i < g->points[0]; i++) {
-			const size_t at[3] = {i, row % g->points[1], row / g->points[1]}, p = i + row * g->points[0];
-			bool wall = false;
-			for (int d = 0; d < g->dim; d++)
-				wall |= at[d] == 0 || at[d] + 1 == g->points[d];
-			m->charge[p] = wall ? -m->f[p] : 0;
-			for (int o = 0; o < m->stencil.n && wall; o++) {
-				size_t to = 0;
-				bool inside = true;
-				for (int d = 0; d < 3; d++) {
-					size_t x = at[d] + (size_t)(ptrdiff_t)m->stencil.shift[o][d];
-					inside &= x < g->points[d];
-					to += step[d] * x;
-				}
-				m->charge[p] += inside ? m->stencil.w[o] * u[to] : 0;
-			}
 		}
 }
 
@@ -136,25 +102,27 @@ static void join(const struct pm_mg_record *first, struct pm_mg_record *r)
 
 int pm_mg_open_solve(struct pm_mg_open *m, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
+	const struct pm_planes *planes = pm_mg_walls_planes(m->walls);
 	struct pm_mg_record *first = pm_alloc(1, sizeof *first);
-	size_t n = pm_grid_size(&m->grid);
-	int status = first ? 0 : -PM_DATA;
-	source(m, c, s);
-	if (!status)
+	double *copy = NULL, *room = pm_alloc(planes->here * planes->size + 1, sizeof *room);
+	int status = pm_planes_agree(first && room ? 0 : pm_failed(), planes);
+	if (m->order == 4 && planes->divided)
+		status = pm_planes_halo(status, planes, 1, 1, &s, &s, &copy);
+	if (!status) {
+		source(m, c, s);
 		status = pm_mg_solve_differences(m->mg, o, 1, m->f, NULL, phi, r);
+	}
+	pm_free(copy);
 	if (!status) {
 		*first = *r;
-		induced(m, phi);
-		memset(m->wall, 0, n * sizeof *m->wall);
-		status = pm_mg_faces_apply(m->faces, m->charge, m->wall);
+		status = pm_mg_walls_source(status, m->walls, phi, m->f, room);
 	}
 	if (!status) {
-		pm_mg_lift(&m->walled, &m->stencil, m->wall, m->f);
 		status = pm_mg_solve_differences(m->mg, o, 1, m->f, NULL, phi, r);
 		join(first, r);
 	}
-	for (size_t p = 0; p < n && !status; p++)
-		phi[p] += m->wall[p]; /* phi is 0 there */
-	pm_free(first);
+	if (!status)
+		pm_mg_walls_set(m->walls, phi);
+	pm_free(first), pm_free(room);
 	return status;
 }

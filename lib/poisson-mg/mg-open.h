@@ -2,6 +2,7 @@
 #ifndef PM_POISSON_MG_MG_OPEN_H
 #define PM_POISSON_MG_MG_OPEN_H
 
+#include "mesh/planes.h"
 #include "poisson-mg/mg.h"
 
 struct pm_mg_open;
@@ -10,7 +11,9 @@ struct pm_mg_open;
 int pm_mg_open_check(const struct pm_grid *g);
 struct pm_mg_open *pm_mg_open_new(const struct pm_grid *g, int order); /* NULL with a message */
 struct pm_mg_open *pm_mg_open_free(struct pm_mg_open *m);
-bool pm_mg_open_fits(const struct pm_mg_open *m, const struct pm_grid *g, int order);
+/* The same for the planes of a rank: s and phi are then those, and all ranks make it and solve together. */
+struct pm_mg_open *pm_mg_open_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes);
+bool pm_mg_open_fits(const struct pm_mg_open *m, const struct pm_grid *g, int order, const struct pm_planes *planes);
 
 /* As pm_mg_solve, with phi = -1/(4 pi r), ln(r)/(2 pi) or |x|/2 of a unit point source. The record counts the cycles of both solutions, and its history is
  * theirs one after the other. */

@@ -2,12 +2,8 @@
 #ifndef PM_POISSON_MG_MG_RANKS_H
 #define PM_POISSON_MG_MG_RANKS_H
 
-#include "poisson/problem.h"
 #include "poisson-mg/mg-hierarchy.h"
 #include "poisson-mg/multigrid.h"
-
-/* Can ranks share it? Coefficients that vary and James' method are for a whole mesh, and in 1-D there is one plane. */
-bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_problem *p);
 
 /* pm_mg_new for the planes of a rank; s and phi of pm_mg_solve are then those, and all ranks solve together. */
 struct pm_mg *pm_mg_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes);

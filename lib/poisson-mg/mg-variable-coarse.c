@@ -6,39 +6,57 @@
  * parent. Axes are coarsened where their spacing is within sqrt 2 of the smallest. Constants are interpolated exactly. Cost: 4000 operations per coarse node
  * in 3-D, once. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
+#include "world/world.h"
 
 #include <string.h>
 
-static bool halves(const struct mgv_level *l, int d) { return d < l->dim && l->m[d] > 1; }
+/* An unknown of the mesh, and where it is stored, counted from the first one here: in a plane of ghosts where it belongs to another rank. */
+struct node {
+	size_t at[3];
+	ptrdiff_t where[3];
+};
+
+static bool halves(const struct mgv_level *l, int d) { return d < l->dim && l->all[d] > 1; }
 
 /* Is unknown i between coarse ones along axis d? */
 static bool between(const struct mgv_level *l, int d, size_t i) { return l->halved[d] && ((i + l->start[d]) & 1); }
 
-/* The unknown one step along from i, folded; false if there is none. */
-static bool step(const struct mgv_level *l, int d, size_t i, int s, size_t *to)
+/* Goes s steps along, folded; false if there is nothing. */
+static bool step(const struct mgv_level *l, int d, int s, struct node *n)
 {
-	*to = i + (size_t)(ptrdiff_t)s;
-	if (s == 0 || (s > 0 ? i + 1 < l->m[d] : i > 0))
-		return true;
-	*to = s > 0 ? 0 : l->m[d] - 1;
-	return l->periodic[d];
+	const size_t i = n->at[d];
+	const bool inside = s == 0 || (s > 0 ? i + 1 < l->all[d] : i > 0);
+	n->at[d] = inside ? i + (size_t)(ptrdiff_t)s : s > 0 ? 0 : l->all[d] - 1;
+	n->where[d] = l->from && d == l->dim - 1 ? n->where[d] + s : (ptrdiff_t)n->at[d];
+	return inside || l->periodic[d];
 }
 
-static size_t place(const struct mgv_level *l, const size_t at[3]) { return l->origin + at[0] + at[1] * l->stride[1] + at[2] * l->stride[2]; }
+static size_t place(const struct mgv_level *l, const struct node *n)
+{
+	return l->origin + (size_t)(n->where[0] + n->where[1] * (ptrdiff_t)l->stride[1] + n->where[2] * (ptrdiff_t)l->stride[2]);
+}
+
+static struct node node_of(const struct mgv_level *l, size_t x, size_t y, size_t z)
+{
+	struct node n = {.at = {x, y, z}};
+	for (int d = 0; d < 3; d++)
+		n.where[d] = (ptrdiff_t)n.at[d] - (ptrdiff_t)l->begin[d];
+	return n;
+}
 
 /* The weights of one node from those of the nodes it lies between; odd: bits of its axes that lie between. */
-static void weigh(const struct mgv_level *l, const size_t at[3], unsigned odd)
+static void weigh(const struct mgv_level *l, const struct node *n, unsigned odd)
 {
-	size_t here = place(l, at);
+	const size_t here = place(l, n);
 	double middle = 0, w[mgv_parents] = {0};
 	for (int o = 0; o < l->n; o++) {
 		double a = l->w[o][here];
-		size_t to[3];
+		struct node to = *n;
 		unsigned left = odd, up = 0;
 		bool there = true;
 		for (int d = 0; d < 3; d++) {
 			int s = odd >> d & 1 ? l->shift[o][d] : 0;
-			there &= step(l, d, at[d], s, &to[d]);
+			there &= step(l, d, s, &to);
 			left &= s ? ~(1u << d) : ~0u;
 			up |= (unsigned)(s > 0) << d;
 		}
@@ -46,7 +64,7 @@ static void weigh(const struct mgv_level *l, const size_t at[3], unsigned odd)
 			middle += a;
 		for (unsigned e = 0; e < mgv_parents && left != odd && there && a != 0; e++)
 			if (!(e & ~odd) && (e & odd & ~left) == up)
-				w[e] -= a * l->p[e & left][place(l, to)];
+				w[e] -= a * l->p[e & left][place(l, &to)];
 	}
 	for (unsigned e = 0; e < 1u << l->dim; e++)
 		l->p[e][here] = middle > 0 ? w[e] / middle : 0;
@@ -57,15 +75,17 @@ static void weigh_all(const struct mgv_level *l, unsigned odd)
 {
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(l); row++) {
-		size_t at[3] = {0, row % l->m[1], row / l->m[1]};
-		for (at[0] = 0; at[0] < l->m[0]; at[0]++) {
+		size_t at[3];
+		mgv_at(l, row, at);
+		for (size_t i = 0; i < l->m[0]; i++) {
+			const struct node n = node_of(l, i, at[1], at[2]);
 			unsigned kind = 0;
 			for (int d = 0; d < 3; d++)
-				kind |= (unsigned)between(l, d, at[d]) << d;
+				kind |= (unsigned)between(l, d, n.at[d]) << d;
 			if (kind == odd && odd)
-				weigh(l, at, odd);
+				weigh(l, &n, odd);
 			else if (kind == odd)
-				l->p[0][place(l, at)] = 1;
+				l->p[0][place(l, &n)] = 1;
 		}
 	}
 }
@@ -73,21 +93,32 @@ static void weigh_all(const struct mgv_level *l, unsigned odd)
 static bool interpolation(struct mgv_level *l)
 {
 	static const unsigned kinds[mgv_parents] = {0, 1, 2, 4, 3, 5, 6, 7}; /* by the number of axes */
-	for (int e = 0; e < mgv_parents; e++)
-		if (e < 1 << l->dim && !(l->p[e] = pm_zalloc(l->size, sizeof(double))))
-			return false;
-	for (int e = 0; e < mgv_parents; e++)
-		if (kinds[e] < 1u << l->dim)
-			weigh_all(l, kinds[e]);
+	bool good = true;
 	for (int e = 0; e < 1 << l->dim; e++)
-		pm_mgv_ghosts(l, l->p[e]);
-	return true;
+		good = (l->p[e] = pm_zalloc(l->size, sizeof(double))) && good;
+	if (l->from)
+		*l->status = pm_world_agree(good ? *l->status : pm_failed());
+	if (!good || *l->status)
+		return false;
+	for (int k = 0; k < mgv_parents; k++) {
+		if (kinds[k] >= 1u << l->dim)
+			continue;
+		weigh_all(l, kinds[k]);
+		for (unsigned e = 0; e <= kinds[k] && l->from; e++)
+			if (!(e & ~kinds[k]))
+				pm_mgv_ghosts(l, l->p[e]);
+	}
+	for (int e = 0; e < 1 << l->dim; e++)
+		pm_mgv_ghosts_wide(l, l->p[e], l->beyond);
+	for (int o = 0; o < l->n && l->from; o++)
+		pm_mgv_ghosts(l, l->w[o]);
+	return !*l->status;
 }
 
 /* The coarse step from node C to the parent of fine unknown i that bit `up` names; false if there is none. */
 static bool parent(const struct mgv_level *f, const struct mgv_level *c, int d, size_t C, size_t i, bool up, int *shift)
 {
-	ptrdiff_t n = (ptrdiff_t)c->m[d], to = (ptrdiff_t)i;
+	ptrdiff_t n = (ptrdiff_t)c->all[d], to = (ptrdiff_t)i;
 	if (f->halved[d])
 		to = ((ptrdiff_t)i - (ptrdiff_t)f->start[d] + 1 + between(f, d, i)) / 2 - between(f, d, i) + up;
 	if (!c->periodic[d] && (to < 0 || to >= n))
@@ -99,53 +130,73 @@ static bool parent(const struct mgv_level *f, const struct mgv_level *c, int d, 
 	return true;
 }
 
-/* Adds a times the parents of the fine node `at` to the row of coarse node C. */
-static void add(const struct mgv_level *f, const struct mgv_level *c, const size_t C[3], const size_t at[3], double a, double row[mgv_neighbours])
+/* Adds a times the parents of a fine node to the row of coarse node C. */
+static void add(const struct mgv_level *f, const struct mgv_level *c, const size_t C[3], const struct node *n, double a, double row[mgv_neighbours])
 {
 	unsigned odd = 0;
 	for (int d = 0; d < 3; d++)
-		odd |= (unsigned)between(f, d, at[d]) << d;
+		odd |= (unsigned)between(f, d, n->at[d]) << d;
 	for (unsigned e = 0; e < mgv_parents; e++) {
 		int s[3];
 		bool there = !(e & ~odd);
 		for (int d = 0; there && d < 3; d++)
-			there = parent(f, c, d, C[d], at[d], e >> d & 1, &s[d]);
+			there = parent(f, c, d, C[d], n->at[d], e >> d & 1, &s[d]);
 		if (there)
-			row[(s[0] + 1) + 3 * (s[1] + 1) + 9 * (s[2] + 1)] += a * f->p[e][place(f, at)];
+			row[(s[0] + 1) + 3 * (s[1] + 1) + 9 * (s[2] + 1)] += a * f->p[e][place(f, n)];
 	}
 }
 
-/* Where the fine unknown lies `s` from coarse node C along axis d, if C is its parent there. */
-static bool child(const struct mgv_level *f, int d, size_t C, int s, size_t *i)
+/* Goes from coarse node C to the fine unknown that lies `s` from it along axis d; false if C is not its parent there. */
+static bool child(const struct mgv_level *f, int d, int s, struct node *n)
 {
-	size_t at = f->halved[d] ? f->start[d] + 2 * C : C;
-	return (s == 0 || f->halved[d]) && step(f, d, at, s, i) && (s == 0 || between(f, d, *i));
+	return (s == 0 || f->halved[d]) && step(f, d, s, n) && (s == 0 || between(f, d, n->at[d]));
 }
 
 /* The row of coarse node C: its fine nodes, their neighbours, and the parents of these. */
 static void galerkin(const struct mgv_level *f, const struct mgv_level *c, const size_t C[3])
 {
+	const struct node middle = node_of(f, f->halved[0] ? f->start[0] + 2 * C[0] : C[0], f->halved[1] ? f->start[1] + 2 * C[1] : C[1],
+		f->halved[2] ? f->start[2] + 2 * C[2] : C[2]), coarse = node_of(c, C[0], C[1], C[2]);
 	double row[mgv_neighbours] = {0};
 	for (int o = 0; o < mgv_neighbours; o++) {
 		const int s[3] = {o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
-		size_t at[3], to[3];
+		struct node at = middle;
 		unsigned e = 0;
 		bool there = true;
 		for (int d = 0; d < 3; d++) {
-			there = there && child(f, d, C[d], s[d], &at[d]);
+			there = there && child(f, d, s[d], &at);
 			e |= (unsigned)(s[d] < 0) << d; /* a node below has C as the parent above */
 		}
+		const size_t from = there ? place(f, &at) : 0;
 		for (int q = 0; there && q < f->n; q++) {
-			double a = f->w[q][place(f, at)] * f->p[e][place(f, at)];
+			double a = f->w[q][from] * f->p[e][from];
 			bool inside = a != 0;
+			struct node to = at;
 			for (int d = 0; d < 3; d++)
-				inside = inside && step(f, d, at[d], f->shift[q][d], &to[d]);
+				inside = inside && step(f, d, f->shift[q][d], &to);
 			if (inside)
-				add(f, c, C, to, a, row);
+				add(f, c, C, &to, a, row);
 		}
 	}
 	for (int q = 0; q < c->n; q++)
-		c->w[q][place(c, C)] = row[(c->shift[q][0] + 1) + 3 * (c->shift[q][1] + 1) + 9 * (c->shift[q][2] + 1)];
+		c->w[q][place(c, &coarse)] = row[(c->shift[q][0] + 1) + 3 * (c->shift[q][1] + 1) + 9 * (c->shift[q][2] + 1)];
+}
+
+/* A coarse plane is where the fine one at or below it is: the first coarse plane of every rank. */
+static bool divide(const struct mgv_level *f, struct mgv_level *c)
+{
+	const int last = f->dim - 1;
+	const size_t ranks = (size_t)pm_world_size();
+	c->status = f->status;
+	if (!f->from)
+		return true;
+	if (!(c->from = pm_alloc(ranks + 1, sizeof *c->from)))
+		return false;
+	for (size_t r = 0; r <= ranks; r++) {
+		const uint64_t at = f->from[r], start = f->start[last];
+		c->from[r] = !f->halved[last] ? at : at > start ? (at - start + 1) / 2 : 0;
+	}
+	return true;
 }
 
 bool pm_mgv_coarser(struct mgv_level *f, struct mgv_level *c, bool *more)
@@ -160,16 +211,19 @@ bool pm_mgv_coarser(struct mgv_level *f, struct mgv_level *c, bool *more)
 	*c = (struct mgv_level){.dim = f->dim};
 	for (int d = 0; d < 3; d++) {
 		f->halved[d] = halves(f, d) && f->h[d] < 1.42 * smallest;
-		c->m[d] = !f->halved[d] ? f->m[d] : (f->m[d] + 1 - f->start[d]) / 2;
+		c->all[d] = !f->halved[d] ? f->all[d] : (f->all[d] + 1 - f->start[d]) / 2;
 		c->h[d] = f->halved[d] ? 2 * f->h[d] : f->h[d];
 		c->periodic[d] = f->periodic[d];
 		c->start[d] = f->start[d];
 	}
-	if (!interpolation(f) || !pm_mgv_alloc(c, false))
+	if (!interpolation(f) || !divide(f, c) || !pm_mgv_alloc(c, false))
 		return false;
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(f) > mgv_parallel)
-	for (size_t row = 0; row < mgv_rows(c); row++)
-		for (size_t i = 0; i < c->m[0]; i++)
-			galerkin(f, c, (size_t[]){i, row % c->m[1], row / c->m[1]});
+	for (size_t row = 0; row < mgv_rows(c); row++) {
+		size_t at[3];
+		mgv_at(c, row, at);
+		for (at[0] = 0; at[0] < c->m[0]; at[0]++)
+			galerkin(f, c, at);
+	}
 	return true;
 }

@@ -21,15 +21,15 @@ static int colours(const struct mgv_level *l, bool checker, struct colour *c)
 {
 	int n = 0, seams = 0;
 	for (int d = 0; d < l->dim; d++)
-		seams |= (l->periodic[d] && l->m[d] > 1 && l->m[d] % 2) << d;
+		seams |= (l->periodic[d] && l->all[d] > 1 && l->all[d] % 2) << d;
 	for (int seam = 0; seam < 1 << l->dim; seam++) {
 		if (seam & ~seams)
 			continue;
 		for (int parity = 0; parity < (checker ? 2 : 1 << l->dim); parity++, n++) {
 			c[n] = (struct colour){.checker = checker, .parity = parity};
 			for (int d = 0; d < 3; d++) {
-				c[n].from[d] = seam >> d & 1 ? l->m[d] - 1 : 0;
-				c[n].to[d] = seam >> d & 1 || !(seams >> d & 1) ? l->m[d] : l->m[d] - 1;
+				c[n].from[d] = seam >> d & 1 ? l->all[d] - 1 : 0;
+				c[n].to[d] = seam >> d & 1 || !(seams >> d & 1) ? l->all[d] : l->all[d] - 1;
 			}
 		}
 	}
@@ -55,7 +55,7 @@ static void relax_colour(const struct mgv_level *l, const struct colour *c, doub
 {
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(l); row++) {
-		size_t j = row % l->m[1], k = row / l->m[1], place = mgv_row(l, row), i = c->from[0];
+		size_t j = row % l->m[1] + l->begin[1], k = row / l->m[1] + l->begin[2], place = mgv_row(l, row), i = c->from[0];
 		if (j < c->from[1] || j >= c->to[1] || k < c->from[2] || k >= c->to[2])
 			continue;
 		if (!c->checker && ((int)(j & 1) != (c->parity >> 1 & 1) || (int)(k & 1) != (c->parity >> 2 & 1)))
@@ -120,7 +120,7 @@ static bool child(const struct mgv_level *f, const struct mgv_level *c, int d, s
 		return true;
 	if (!f->halved[d])
 		return false;
-	return !(f->periodic[d] && f->m[d] % 2 && (s < 0 ? C == 0 : C + 1 == c->m[d]));
+	return !(f->periodic[d] && f->all[d] % 2 && (s < 0 ? C == 0 : C + 1 == c->all[d]));
 }
 
 /* f_c = P^T r */
@@ -129,9 +129,10 @@ static void restriction(const struct mgv_level *f, const struct mgv_level *c, do
 	pm_mgv_ghosts(f, r);
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(f) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(c); row++) {
-		size_t C[3] = {0, row % c->m[1], row / c->m[1]}, at = mgv_row(c, row), base = f->origin;
+		size_t C[3], at = mgv_row(c, row), base = f->origin;
+		mgv_at(c, row, C);
 		for (int d = 1; d < 3; d++)
-			base += f->stride[d] * (f->halved[d] ? f->start[d] + 2 * C[d] : C[d]);
+			base += f->stride[d] * ((f->halved[d] ? f->start[d] + 2 * C[d] : C[d]) - f->begin[d]);
 		memset(c->f + at, 0, c->m[0] * sizeof(double));
 		for (int o = 0; o < mgv_neighbours; o++) {
 			const int s[3] = {o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
@@ -161,7 +162,8 @@ static void correct(const struct mgv_level *f, const struct mgv_level *c)
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(f) > mgv_parallel)
 	for (size_t row = 0; row < mgv_rows(f); row++) {
 		bool odd[3];
-		ptrdiff_t y = below(f, 1, row % f->m[1], &odd[1]), z = below(f, 2, row / f->m[1], &odd[2]);
+		ptrdiff_t y = below(f, 1, row % f->m[1] + f->begin[1], &odd[1]) - (ptrdiff_t)c->begin[1];
+		ptrdiff_t z = below(f, 2, row / f->m[1] + f->begin[2], &odd[2]) - (ptrdiff_t)c->begin[2];
 		const double *base = c->u + (ptrdiff_t)c->origin + y * (ptrdiff_t)c->stride[1] + z * (ptrdiff_t)c->stride[2];
 		size_t at = mgv_row(f, row);
 		for (size_t i = 0; i < f->m[0]; i++) {
@@ -183,7 +185,8 @@ static void solve_coarsest(const struct pm_mg_variable *v)
 {
 	const struct mgv_level *l = &v->level[v->levels - 1];
 	size_t p = l->origin;
-	l->u[p] = v->fixed ? l->f[p] / l->w[0][p] : 0;
+	if (mgv_unknowns(l)) /* of one rank */
+		l->u[p] = v->fixed ? l->f[p] / l->w[0][p] : 0;
 	pm_mgv_ghosts(l, l->u);
 }
 

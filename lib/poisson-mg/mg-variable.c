@@ -6,6 +6,7 @@
  * per node in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 #include "mesh/mesh-sum.h"
+#include "world/over-ranks.h"
 
 #include <float.h>
 #include <string.h>
@@ -15,66 +16,136 @@ struct pm_mg_variable *pm_mg_variable_free(struct pm_mg_variable *v)
 	for (int i = 0; v && i < mgv_levels; i++)
 		pm_mgv_free(&v->level[i]);
 	if (v)
-		pm_free(v->eps), pm_free(v->x), pm_free(v->d), pm_free(v->q), pm_free(v->before), pm_free(v->best), pm_free(v->sums);
+		pm_free(v->eps), pm_free(v->x), pm_free(v->d), pm_free(v->q), pm_free(v->before), pm_free(v->best), pm_free(v->sums), pm_planes_free(&v->planes);
 	return pm_free(v);
 }
 
-static int check_positive(const struct pm_grid *g, const double *eps)
+/* Of the planes here. */
+static int check_positive(const struct pm_grid *g, const struct pm_planes *planes, const double *eps)
 {
-	for (size_t p = 0; p < pm_grid_size(g); p++)
-		if (!(eps[p] > 0) || !isfinite(eps[p]))
+	const size_t first = planes->first * planes->size;
+	for (size_t i = 0; i < planes->here * planes->size; i++)
+		if (!(eps[i] > 0) || !isfinite(eps[i])) {
+			const size_t p = first + i;
+			pm_world_place(0, 0, 0, p);
 			return pm_fail(PM_DATA, "the permittivity must be positive everywhere, and at node %zu,%zu,%zu it is %g (a conductor is a large "
 				"value, not infinity)",
-				p % g->points[0], p / g->points[0] % g->points[1], p / g->points[0] / g->points[1], eps[p]);
+				p % g->points[0], p / g->points[0] % g->points[1], p / g->points[0] / g->points[1], eps[i]);
+		}
 	return 0;
 }
 
-static bool build(struct pm_mg_variable *v, const struct pm_grid *g, const double *eps)
+static int arrays(struct pm_mg_variable *v)
 {
-	size_t n = pm_grid_size(g);
-	bool more = true;
-	v->grid = *g;
-	if (!(v->eps = pm_alloc(n, sizeof *eps)))
-		return false;
-	v->constant = !eps;
-	for (size_t p = 0; p < n; p++)
-		v->eps[p] = eps ? eps[p] : 1;
-	if (pm_mgv_finest(v))
-		return false;
-	if (!mgv_unknowns(&v->level[0]))
-		return true;
-	for (v->levels = 1; more && v->levels < mgv_levels; v->levels += more)
-		if (!pm_mgv_coarser(&v->level[v->levels - 1], &v->level[v->levels], &more))
-			return false;
 	size_t size = v->level[0].size;
 	v->x = pm_zalloc(size, sizeof(double));
 	v->d = pm_zalloc(size, sizeof(double));
 	v->q = pm_zalloc(size, sizeof(double));
 	v->before = pm_zalloc(size, sizeof(double));
 	v->best = pm_zalloc(size, sizeof(double));
-	v->sums = pm_zalloc(mgv_rows(&v->level[0]), sizeof(double));
-	return v->x && v->d && v->q && v->before && v->best && v->sums;
+	v->sums = pm_zalloc(mgv_rows(&v->level[0]) + 1, sizeof(double));
+	return v->x && v->d && v->q && v->before && v->best && v->sums ? 0 : pm_failed();
+}
+
+/* The finest grid: all ranks have come so far, or none. */
+static int begin(struct pm_mg_variable *v, const double *eps)
+{
+	const size_t more = v->planes.divided ? v->planes.size : 0, n = v->planes.here * v->planes.size + 2 * more;
+	if (!(v->eps = pm_alloc(n + 1, sizeof *eps)))
+		return pm_failed();
+	v->constant = !eps;
+	for (size_t p = 0; p < n; p++)
+		v->eps[p] = eps ? *(eps + p - more) : 1;
+	if (pm_mgv_finest(v))
+		return pm_failed();
+	return v->level[0].size ? arrays(v) : 0;
+}
+
+static int build(struct pm_mg_variable *v, const double *eps)
+{
+	bool more = true;
+	v->status = pm_planes_agree(begin(v, eps), &v->planes);
+	if (v->status || !mgv_total(&v->level[0]))
+		return v->status;
+	for (v->levels = 1; more && v->levels < mgv_levels; v->levels += more) {
+		const bool good = pm_mgv_coarser(&v->level[v->levels - 1], &v->level[v->levels], &more);
+		v->status = pm_planes_agree(good ? v->status : pm_failed(), &v->planes);
+		if (v->status)
+			return v->status;
+	}
+	return 0;
+}
+
+struct pm_mg_variable *pm_mg_variable_new_planes(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes)
+{
+	struct pm_mg_variable *v = pm_mg_check(g) ? NULL : pm_zalloc(1, sizeof *v);
+	int status = v ? pm_planes_copy(&v->planes, g, planes) : pm_failed();
+	if (!status && eps)
+		status = check_positive(g, &v->planes, eps);
+	status = pm_planes_agree(status, planes);
+	if (!status) {
+		v->grid = *g;
+		v->mean = mean;
+		status = build(v, eps);
+	}
+	return status ? pm_mg_variable_free(v) : v;
 }
 
 struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
 {
-	struct pm_mg_variable *v = pm_mg_check(g) || (eps && check_positive(g, eps)) ? NULL : pm_zalloc(1, sizeof *v);
-	if (!v)
-		return NULL;
-	v->mean = mean;
-	return build(v, g, eps) ? v : pm_mg_variable_free(v);
+	return pm_mg_variable_new_planes(g, eps, mean, NULL);
 }
 
-bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
+static bool same_planes(const struct pm_planes *a, const struct pm_planes *b)
+{
+	const bool divided = b && b->divided;
+	return divided == a->divided && (!divided || !memcmp(a->from, b->from, ((size_t)pm_world_size() + 1) * sizeof *a->from));
+}
+
+bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes)
 {
 	const struct pm_grid *a = &v->grid;
-	return v->mean == mean && a->dim == g->dim && !memcmp(a->points, g->points, sizeof g->points) && !memcmp(a->cells, g->cells, sizeof g->cells) &&
-		!memcmp(a->h, g->h, sizeof g->h) && !memcmp(a->face, g->face, sizeof g->face) &&
-		(eps ? !memcmp(v->eps, eps, pm_grid_size(g) * sizeof *eps) : v->constant);
+	if (v->mean != mean || a->dim != g->dim || memcmp(a->points, g->points, sizeof g->points) || memcmp(a->cells, g->cells, sizeof g->cells) ||
+		memcmp(a->h, g->h, sizeof g->h) || memcmp(a->face, g->face, sizeof g->face) || !same_planes(&v->planes, planes))
+		return false;
+	const double *own = v->eps + (v->planes.divided ? v->planes.size : 0);
+	return eps ? !memcmp(own, eps, v->planes.here * v->planes.size * sizeof *eps) : v->constant;
+}
+
+/* Of one number per row of the finest grid, in v->sums. */
+struct rows {
+	size_t points;
+	const double *sums;
+};
+
+static void make(const void *data, size_t from, size_t to, void *part)
+{
+	const struct rows *r = data;
+	(void)to;
+	pm_sum_add(part, r->sums[from / r->points]);
+}
+
+static double total(struct pm_mg_variable *v)
+{
+	const struct mgv_level *l = &v->level[0];
+	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
+	const size_t here = l->m[l->dim - 1] * (l->dim == 3 && l->all[2] == 1 ? l->all[1] : 1); /* one plane is joined by rows, as in 2-D */
+	struct pm_sum all = {0, 0};
+	if (!v->planes.divided)
+		return pm_sum_of_rows(l->m, v->sums);
+	v->status = pm_world_over_mesh(v->status, &parts, &(struct rows){l->m[0], v->sums}, l->all, here, &all);
+	return pm_sum_total(all);
+}
+
+static double most_of(struct pm_mg_variable *v, double here)
+{
+	if (v->planes.divided)
+		v->status = pm_world_largest(v->status, 1, &here);
+	return here;
 }
 
 /* The sum of a (b - c) over the unknowns, c NULL: of a b; rows in order. */
-static double product(const struct pm_mg_variable *v, const double *a, const double *b, const double *c)
+static double product(struct pm_mg_variable *v, const double *a, const double *b, const double *c)
 {
 	const struct mgv_level *l = &v->level[0];
 	#pragma omp parallel for num_threads(pm_threads()) if (mgv_unknowns(l) > mgv_parallel)
@@ -84,7 +155,7 @@ static double product(const struct pm_mg_variable *v, const double *a, const dou
 			sum += a[p] * (c ? b[p] - c[p] : b[p]);
 		v->sums[row] = sum;
 	}
-	return pm_sum_of_rows(l->m, v->sums);
+	return total(v);
 }
 
 /* y = x + a y, or y += a x: one of the two factors is 1. */
@@ -96,13 +167,19 @@ static void combine(const struct pm_mg_variable *v, double mine, double a, const
 		y[p] = mine * y[p] + a * x[p];
 }
 
-static double mean(const struct pm_grid *g, const double *values)
+static double mean(struct pm_mg_variable *v, const double *values)
 {
-	return pm_grid_sum(g, values, NULL) / ((double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2]);
+	const struct pm_grid *g = &v->grid;
+	double end[3][2];
+	struct pm_sum all = {0, 0};
+	for (int d = 0; d < 3; d++)
+		end[d][0] = end[d][1] = g->points[d] > g->cells[d] ? 0.5 : 1;
+	v->status = pm_planes_sum(v->status, &v->planes, values, NULL, end, &all);
+	return pm_sum_total(all) / ((double)g->cells[0] * (double)g->cells[1] * (double)g->cells[2]);
 }
 
 /* Is the residual at the level of rounding errors of its terms? */
-static bool at_roundoff(const struct pm_mg_variable *v, double residual, double source)
+static bool at_roundoff(struct pm_mg_variable *v, double residual, double source)
 {
 	const struct mgv_level *l = &v->level[0];
 	for (size_t row = 0; row < mgv_rows(l); row++) {
@@ -110,7 +187,7 @@ static bool at_roundoff(const struct pm_mg_variable *v, double residual, double 
 		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
 			v->sums[row] += l->w[0][p] * v->x[p] * (l->w[0][p] * v->x[p]);
 	}
-	return residual <= 4 * DBL_EPSILON * (sqrt(pm_sum_of_rows(l->m, v->sums)) + source);
+	return residual <= 4 * DBL_EPSILON * (sqrt(total(v)) + source);
 }
 
 /* f - M x into f of the finest level; its sum, which must vanish in a singular problem, is taken out before round-off in it grows. */
@@ -126,10 +203,10 @@ static void residual(struct pm_mg_variable *v, const double *source)
 			pm_sum_add(&sum, l->f[p]);
 		v->sums[row] = pm_sum_total(sum);
 	}
-	const double total = pm_sum_of_rows(l->m, v->sums);
+	const double sum = total(v);
 	for (size_t row = 0; row < mgv_rows(l); row++)
 		for (size_t p = mgv_row(l, row); p < mgv_row(l, row) + l->m[0]; p++)
-			l->f[p] -= total / (double)mgv_unknowns(l);
+			l->f[p] -= sum / (double)mgv_total(l);
 }
 
 /* One iteration: from the residual in f of the finest level to the next; before: z.r of the last one, 0 at first. Returns z.r. */
@@ -177,7 +254,7 @@ static void iterate(struct pm_mg_variable *v, const struct pm_mg_choice *o, cons
 			memcpy(v->best, v->x, l->size * sizeof(double)), best = now;
 		if (!r->converged && slow > 2 && at_roundoff(v, now * norm, norm))
 			r->converged = r->floor = true;
-		if (r->converged || r->cycles == o->most || !isfinite(now))
+		if (v->status || r->converged || r->cycles == o->most || !isfinite(now))
 			break;
 		before = iteration(v, o, source, before);
 	}
@@ -191,15 +268,17 @@ static void iterate(struct pm_mg_variable *v, const struct pm_mg_choice *o, cons
 
 int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o, double c, const double *s, double *phi, struct pm_mg_record *r)
 {
-	const struct pm_grid *g = &v->grid;
-	*r = (struct pm_mg_record){.singular = !v->fixed, .mean = v->fixed ? 0 : mean(g, s), .converged = true};
-	double most = 0, whole = 0, shift = 0, *source = v->levels ? pm_zalloc(v->level[0].size, sizeof *source) : NULL;
-	for (size_t p = 0; p < pm_grid_size(g); p++)
+	const size_t n = v->planes.here * v->planes.size;
+	double most = 0, whole = 0, *source = v->levels ? pm_zalloc(v->level[0].size, sizeof *source) : NULL;
+	v->status = pm_planes_agree(v->levels && !source ? pm_failed() : 0, &v->planes);
+	if (v->status)
+		return pm_free(source), v->status;
+	*r = (struct pm_mg_record){.singular = !v->fixed, .mean = v->fixed ? 0 : mean(v, s), .converged = true};
+	for (size_t p = 0; p < n; p++)
 		most = fmax(most, fabs(c * (s[p] - r->mean))), whole = fmax(whole, fabs(s[p]));
+	most = most_of(v, most), whole = most_of(v, whole);
 	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow */
-	if (v->levels && !source)
-		return -PM_DATA;
 	if (source) {
 		pm_mgv_load(v, c / unit, r->mean, s, source);
 		double norm = sqrt(product(v, source, source, NULL));
@@ -208,11 +287,11 @@ int pm_mg_variable_solve(struct pm_mg_variable *v, const struct pm_mg_choice *o,
 			iterate(v, o, source, norm, r);
 		pm_mgv_store(v, unit, v->x, phi);
 	} else {
-		memset(phi, 0, pm_grid_size(g) * sizeof *phi);
+		memset(phi, 0, n * sizeof *phi);
 	}
-	shift = r->singular ? mean(g, phi) : 0;
-	for (size_t p = 0; p < pm_grid_size(g) && r->singular; p++)
+	const double shift = r->singular ? mean(v, phi) : 0;
+	for (size_t p = 0; p < n && r->singular; p++)
 		phi[p] -= shift;
 	pm_free(source);
-	return r->converged ? 0 : pm_mg_not_converged(r, o, false);
+	return v->status ? v->status : r->converged ? 0 : pm_mg_not_converged(r, o, false);
 }

@@ -53,11 +53,6 @@ static bool any_open(const struct pm_grid *g)
 	return any;
 }
 
-bool pm_multigrid_shares(const struct pm_multigrid_choice *o, const struct pm_problem *p)
-{
-	return p->grid.dim > 1 && !o->variable && !o->galerkin && !any_open(&p->grid);
-}
-
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g)
 {
 	if (!any_open(g))
@@ -90,25 +85,46 @@ static struct pm_mg *constant(struct pm_multigrid *m, const struct pm_multigrid_
 	return mg;
 }
 
+/* Ranks make together what one of them lacks: rank 0 may have begun anew. */
+static bool all_have(bool here, const struct pm_planes *planes)
+{
+	double lacks = !here;
+	return !(planes->divided && pm_world_largest(0, 1, &lacks)) && lacks == 0;
+}
+
 static struct pm_mg_open *open_space(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g)
 {
-	for (int i = 0; i < kept; i++)
-		if (m->open[i] && pm_mg_open_fits(m->open[i], g, o->order))
-			return m->open[i];
-	pm_mg_open_free(m->open[m->next]);
-	struct pm_mg_open *open = m->open[m->next] = pm_mg_open_new(g, o->order);
-	m->next = (m->next + 1) % kept;
+	struct pm_planes planes = {.divided = false};
+	struct pm_mg_open *open = NULL;
+	if (o->field && pm_planes_agree(pm_planes_init(&planes, g, o->field), &planes))
+		return NULL;
+	for (int i = 0; i < kept && !open; i++)
+		if (m->open[i] && pm_mg_open_fits(m->open[i], g, o->order, &planes))
+			open = m->open[i];
+	if (!all_have(open, &planes)) {
+		pm_mg_open_free(m->open[m->next]);
+		open = m->open[m->next] = pm_mg_open_new_planes(g, o->order, &planes);
+		m->next = (m->next + 1) % kept;
+	}
+	pm_planes_free(&planes);
 	return open;
 }
 
 static struct pm_mg_variable *variable(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps)
 {
-	for (int i = 0; i < kept; i++)
-		if (m->variable[i] && pm_mg_variable_fits(m->variable[i], g, eps, o->mean))
-			return m->variable[i];
-	pm_mg_variable_free(m->variable[m->next]);
-	struct pm_mg_variable *v = m->variable[m->next] = pm_mg_variable_new(g, eps, o->mean);
-	m->next = (m->next + 1) % kept;
+	struct pm_planes planes = {.divided = false};
+	struct pm_mg_variable *v = NULL;
+	if (o->field && pm_planes_agree(pm_planes_init(&planes, g, o->field), &planes))
+		return NULL;
+	for (int i = 0; i < kept && !v; i++)
+		if (m->variable[i] && pm_mg_variable_fits(m->variable[i], g, eps, o->mean, &planes))
+			v = m->variable[i];
+	if (!all_have(v, &planes)) {
+		pm_mg_variable_free(m->variable[m->next]);
+		v = m->variable[m->next] = pm_mg_variable_new_planes(g, eps, o->mean, &planes);
+		m->next = (m->next + 1) % kept;
+	}
+	pm_planes_free(&planes);
 	return v;
 }
 
@@ -127,11 +143,13 @@ int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice 
 		cycle.relaxation = pm_mg_relaxation(cycle.smoother, g->dim, o->order);
 	if (o->variable || o->galerkin) {
 		struct pm_mg_variable *v = variable(m, o, g, eps);
-		return v ? pm_mg_variable_solve(v, &cycle, c, s, phi, r) : pm_failed();
+		const int status = pm_world_agree(v ? 0 : pm_failed());
+		return status ? status : pm_mg_variable_solve(v, &cycle, c, s, phi, r);
 	}
 	if (any_open(g)) {
 		struct pm_mg_open *open = open_space(m, o, g);
-		return open ? pm_mg_open_solve(open, &cycle, c, s, phi, r) : pm_failed();
+		const int status = pm_world_agree(open ? 0 : pm_failed());
+		return status ? status : pm_mg_open_solve(open, &cycle, c, s, phi, r);
 	}
 	struct pm_mg *mg = constant(m, o, g);
 	const int status = pm_world_agree(mg ? 0 : pm_failed());

@@ -27,7 +27,7 @@ int pm_multigrid_choose(struct pm_multigrid_choice *o, const char *smoother, dou
 int pm_multigrid_check(const struct pm_multigrid_choice *o, const struct pm_grid *g);
 /* Makes the hierarchy that pm_multigrid_solve would make; for measuring its cost. */
 int pm_multigrid_prepare(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps);
-/* As pm_mg_solve; eps NULL: 1. */
+/* As pm_mg_solve; eps NULL: 1; where ranks share the mesh it has a plane of the neighbours on either side, here as in pm_multigrid_prepare. */
 int pm_multigrid_solve(struct pm_multigrid *m, const struct pm_multigrid_choice *o, const struct pm_grid *g, const double *eps, double c, const double *s,
 	double *phi,
 	struct pm_mg_record *r);

@@ -61,17 +61,14 @@ static void mesh_free(const struct pm_relaxation *p, double *a) { pm_free(a ? a 
 
 struct pm_relaxation *pm_relaxation_new(const struct pm_grid *g, const struct pm_relax *method) { return pm_relaxation_new_of(g, method, NULL); }
 
-struct pm_relaxation *pm_relaxation_new_of(const struct pm_grid *g, const struct pm_relax *method, const struct pm_field *field)
+static int allocate(struct pm_relaxation *p, const struct pm_grid *g, const struct pm_relax *method, const struct pm_field *field)
 {
-	struct pm_relaxation *p = pm_zalloc(1, sizeof *p);
-	if (!p)
-		return NULL;
+	const struct pm_grid walled = pm_james_walled(g);
 	p->grid = *g;
 	p->method = method;
-	struct pm_grid walled = pm_james_walled(g);
 	p->lap = pm_laplacian_of(pm_james_wanted(g) ? &walled : g);
 	if (field && field->here && pm_planes_init(&p->ranks.planes, g, field))
-		return pm_relaxation_free(p);
+		return pm_failed();
 	if (field && field->here)
 		pm_laplacian_share(&p->lap, &p->ranks);
 	p->work.lap = &p->lap;
@@ -82,9 +79,18 @@ struct pm_relaxation *pm_relaxation_new_of(const struct pm_grid *g, const struct
 	bool good = p->f && p->r && p->work.u && p->work.sums;
 	for (int i = 0; i < method->extra; i++)
 		good = (p->work.extra[i] = mesh_new(p)) && good;
-	if (pm_james_wanted(g))
-		good = (p->james = pm_james_new(g)) && good;
-	return good ? p : pm_relaxation_free(p);
+	return good ? 0 : pm_failed();
+}
+
+struct pm_relaxation *pm_relaxation_new_of(const struct pm_grid *g, const struct pm_relax *method, const struct pm_field *field)
+{
+	struct pm_relaxation *p = pm_zalloc(1, sizeof *p);
+	int status = p ? allocate(p, g, method, field) : pm_failed();
+	if (pm_james_wanted(g) && field && field->here)
+		status = pm_world_agree(status);
+	if (!status && pm_james_wanted(g) && !(p->james = pm_james_new(g, &p->ranks.planes)))
+		status = pm_failed();
+	return status ? pm_relaxation_free(p) : p;
 }
 
 struct pm_relaxation *pm_relaxation_free(struct pm_relaxation *p)
@@ -114,7 +120,7 @@ bool pm_relaxation_same_planes(const struct pm_relaxation *p, const struct pm_fi
 	return same;
 }
 
-bool pm_relaxation_shares(const struct pm_grid *g, const struct pm_relax *method) { return method->in_planes && g->dim > 1 && !pm_james_wanted(g); }
+bool pm_relaxation_shares(const struct pm_grid *g, const struct pm_relax *method) { return method->in_planes && g->dim > 1; }
 
 bool pm_relaxation_open(const struct pm_grid *g) { return pm_james_wanted(g); }
 struct pm_relax_work *pm_relaxation_work(struct pm_relaxation *p) { return &p->work; }
@@ -249,17 +255,18 @@ static int solve(struct pm_relaxation *p, const struct pm_relaxation_choice *o, 
 /* Grounded, then with the boundary values of free space; the record is that of the second solution, with the sweeps of both. */
 static int solve_open(struct pm_relaxation *p, const struct pm_relaxation_choice *o, double c, const double *s, double *phi, struct pm_relaxation_record *r)
 {
-	const double *wall, *f;
-	double *u = pm_alloc(p->lap.size, sizeof *u);
-	int status = u ? solve(p, o, c, s, u, r) : -PM_DATA;
+	const double *f;
+	double *u = pm_alloc(p->lap.size + 1, sizeof *u);
+	int status = pm_planes_agree(u ? 0 : pm_failed(), &p->ranks.planes);
+	if (!status)
+		status = solve(p, o, c, s, u, r);
 	int64_t sweeps = status ? 0 : r->sweeps;
 	bool floor = !status && r->floor;
-	if (!status)
-		status = pm_james_values(p->james, c, s, u, &wall, &f);
+	status = pm_james_source(status, p->james, c, s, u, phi, &f);
 	if (!status)
 		status = solve(p, o, 1, f, phi, r);
-	for (size_t i = 0; i < p->lap.size && !status; i++)
-		phi[i] += wall[i]; /* phi is 0 there */
+	if (!status)
+		pm_james_set(p->james, phi);
 	r->sweeps += sweeps;
 	r->floor |= floor;
 	pm_free(u);

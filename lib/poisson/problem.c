@@ -88,6 +88,18 @@ int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const
 	return 0;
 }
 
+int pm_problem_coefficient_values(const struct pm_problem *p, const struct pm_field *field, const double **values, double **room)
+{
+	struct pm_planes planes;
+	int status = pm_planes_init(&planes, &p->grid, field);
+	*values = pm_in(field, 0);
+	*room = NULL;
+	if (planes.divided)
+		status = pm_planes_halo(status, &planes, 1, 1, values, values, room);
+	pm_planes_free(&planes);
+	return status;
+}
+
 struct pm_grid pm_problem_grid(const struct pm_problem *p, int c)
 {
 	struct pm_grid g = p->grid;

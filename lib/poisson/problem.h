@@ -48,6 +48,9 @@ int pm_problem_declare(struct pm_frame *f, struct pm_problem *p); /* reads the s
 void pm_problem_not_of_law(struct pm_problem *p); /* the target is not the law's potential of the particles, so m2p does not know it beyond the mesh */
 /* A coefficient beside the source: one component on the nodes of the same mesh; read. */
 int pm_problem_coefficient(struct pm_frame *f, const struct pm_problem *p, const char *name, const struct pm_field **field);
+/* Its values, those of the planes here; where ranks share the mesh, with a plane of the neighbours on either side: *room is to be freed with pm_free. 0 or
+ * failure, which the ranks agree on. */
+int pm_problem_coefficient_values(const struct pm_problem *p, const struct pm_field *field, const double **values, double **room);
 /* Data: component c with its boundary values moved to the right-hand side, for differences of order 2 or 4; 0: not moved, boundary has them; eps NULL: 1.
  * Where no values are given, c and s are the problem's own. pm_homogeneous_close writes the values onto the walls of phi; free in any case. 0 or failure,
  * which the ranks agree on. */
