@@ -43,6 +43,8 @@ def draw(r):
             return fft + (given if "sum" not in fft else "")
         if given:
             return pick("poisson-fft", "poisson-mg", "poisson-mg --order 4", "poisson-relax --tolerance 1e-3") + given
+        if r.random() < 0.15:
+            return "poisson-mg --coarse galerkin --tolerance 1e-3" if periodic else "poisson-fft --free-space james"
         return pick(fft, fft, "poisson-mg" + maybe(0.3, "--cycle", pick("v", "w", "fmg")) + maybe(0.2, "--order 4"),
             "poisson-relax --tolerance 1e-3 --method " + pick("red-black", "red-black-sor", "cg", "weighted-jacobi"))
 
@@ -118,12 +120,28 @@ def draw(r):
         return scene, f"p2m | poisson-fft | mgrad | stretch{form} | diffuse{maybe(0.4, '--order', pick(*orders))} | m2p | push " + \
             pick("lsrk3", "rk2") + maybe(0.3, "| remesh")
 
+    def medium():
+        dim = pick(2, 3)
+        faces = pick("", f" --faces {','.join(pick('wall', 'neumann') for _ in range(2 * dim))} --particle-faces reflect")
+        eps = pick("1 + x*x", "x + y < 0.9 ? 1 : 100", "1 + time + rho*rho")
+        solver = f"poisson-mg --permittivity eps --tolerance 1e-3{maybe(0.3, '--cycle', pick('v', 'w'))}{maybe(0.2, '--mean arithmetic')}"
+        return f"pinit uniform -n {count(50, 300)} --dim {dim} --dispersion 0.3 --dt 0.05{faces}", \
+            more(f"push drift | p2m -n {cells(dim, 4, 7, 9, 16)} | scalc --mesh mesh 'eps = {eps}' | {solver} | mgrad | m2p | push kick")
+
+    def light():
+        dim, method = pick(1, 2, 3), pick("yee", "fourth", "cole-karkkainen", "psatd")
+        scene = f"pinit langmuir --dim {dim} --axes {dim} -n {pick(4, 7, 17) ** dim} --amplitude 0.3 --velocities 3 | smod --law electromagnetic --dt 0.02 | "
+        scene += f"p2m -n {cells(dim, 5, 8, 11, 17)} | maxwell --gauss --method {method} | sel --drop rho"
+        step = f"push boris/2 | p2m --current | maxwell --method {method} | push drift | m2p | push boris/2"
+        waves = method == "psatd"
+        return scene, more(step + maybe(0.4, "| p2m | maxwell --gauss --method", method) + (maybe(0.2, "| p2m | maxwell --marder 2") if not waves else ""))
+
     def free():
         scene = f"pinit uniform -n {count(0, 1001, 13000)} --dim {pick(1, 2, 3)} --dispersion {pick(0.3, 1)} --dt 0.1"
         scene += pick("", " | smod --faces open --particle-faces absorb", " | smod --faces wall --particle-faces reflect")
         return scene, more("push drift")
 
-    return r.choice([gravity, gravity, cluster, cluster, plasma, two_sets, vortices, vortices, space, free])()
+    return r.choice([gravity, gravity, cluster, cluster, plasma, two_sets, vortices, vortices, space, light, medium, free])()
 
 
 def run(command, directory, threads):

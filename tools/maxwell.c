@@ -59,7 +59,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return 0;
 }
 
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && pm_maxwell_shares(&((const struct state *)s->state)->job); }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f && f->dim > 1; }
 
 static const struct pm_option options[] = {
 	{.name = "method", .kind = PM_WORD, .fallback = "yee", .choices = pm_maxwell_names, PM_AT(method),

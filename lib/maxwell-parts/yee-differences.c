@@ -228,6 +228,8 @@ void pm_yee_subtract_gradient(const struct pm_yee *y, const double *psi)
 		size_t first[3], end[3];
 		const struct term t = {.y = y, .axis = d, .up = true, .factor = -1, .from = psi, .to = y->e[d]};
 		range(&y->grid, true, d, first, end);
+		if (y->planes)
+			range_here(y->planes, first, end);
 		for (size_t k = first[2]; k < end[2]; k++)
 			for (size_t j = first[1]; j < end[1]; j++)
 				row_of(&t, first, end, j, k);

@@ -18,13 +18,13 @@ struct waves {
 static void each(const struct pm_yee_waves *w, void (*act)(const struct waves *e, size_t q))
 {
 	const struct pm_wave_axis *a = w->axis;
-	for (size_t row = 0; row < a[1].n * a[2].n; row++)
-		for (size_t i = 0; i < a[0].modes; i++) {
-			const size_t j = row % a[1].n, k = row / a[1].n;
-			const struct waves e = {.w = w, .re = {a[0].re + i, a[1].re + j, a[2].re + k}, .im = {a[0].im + i, a[1].im + j, a[2].im + k},
-				.at = (row * w->chunks + i / C) * 2 * C, .shortest = pm_yee_waves_shortest(w, i, j, k)};
-			act(&e, i % C);
-		}
+	for (size_t k = 0; k < a[2].n; k++)
+		for (size_t j = w->y[0]; j < w->y[1]; j++)
+			for (size_t i = w->chunk[0] * C; i < w->chunk[1] * C && i < a[0].modes; i++) {
+				const struct waves e = {.w = w, .re = {a[0].re + i, a[1].re + j, a[2].re + k}, .im = {a[0].im + i, a[1].im + j, a[2].im + k},
+					.at = pm_yee_waves_at(w, i / C, j, k), .shortest = pm_yee_waves_shortest(w, i, j, k)};
+				act(&e, i % C);
+			}
 }
 
 /* field 0 = -conj D . (fields 0 to 2), less field 3. */
@@ -66,22 +66,22 @@ bool pm_yee_spectral(const struct pm_field *e)
 	return differences && !strcmp(differences, "spectral");
 }
 
+static size_t points_of(const struct pm_yee *y) { return y->planes ? y->planes->here * y->planes->size : pm_grid_size(&y->grid); }
+
 int pm_yee_waves_divergence(const struct pm_yee *y, const double *rho, double *to)
 {
 	struct pm_yee_waves w;
-	const size_t n = pm_grid_size(&y->grid);
 	int status = pm_yee_waves_init(&w, y, rho ? 4 : 3);
-	for (int c = 0; c < 3 && !status; c++)
-		pm_yee_waves_forward(&w, y->e[c], c);
-	if (!status && rho) {
-		for (size_t i = 0; i < n; i++)
+	for (int c = 0; c < 3; c++)
+		status = pm_yee_waves_forward(status, &w, y->e[c], c);
+	if (rho) {
+		for (size_t i = 0; i < points_of(y); i++)
 			to[i] = rho[i] / y->eps0;
-		pm_yee_waves_forward(&w, to, 3);
+		status = pm_yee_waves_forward(status, &w, to, 3);
 	}
-	if (!status) {
+	if (!status)
 		each(&w, divergence);
-		pm_yee_waves_backward(&w, 0, to);
-	}
+	status = pm_yee_waves_backward(status, &w, 0, to);
 	pm_yee_waves_free(&w);
 	return status;
 }
@@ -89,16 +89,19 @@ int pm_yee_waves_divergence(const struct pm_yee *y, const double *rho, double *t
 int pm_yee_waves_correct(const struct pm_yee *y, const double *residual)
 {
 	struct pm_yee_waves w;
-	const size_t n = pm_grid_size(&y->grid);
-	double *room = pm_alloc(n, sizeof *room);
-	int status = pm_yee_waves_init(&w, y, 3) || !room ? -PM_DATA : 0;
-	if (!status) {
-		pm_yee_waves_forward(&w, residual, 0);
+	const size_t n = points_of(y);
+	double *room = pm_alloc(n + 1, sizeof *room);
+	int status = pm_yee_waves_init(&w, y, 3);
+	status = pm_planes_agree(status ? status : room ? 0 : pm_failed(), y->planes);
+	status = pm_yee_waves_forward(status, &w, residual, 0);
+	for (int d = 1; d < 3 && y->planes && !status; d++)
+		status = (w.field[d] = pm_alloc(w.size + 1, sizeof *room)) ? 0 : pm_failed();
+	status = pm_planes_agree(status, y->planes);
+	if (!status)
 		each(&w, gradient);
-	}
-	for (int c = 0; c < 3 && !status; c++) {
-		pm_yee_waves_backward(&w, c, room);
-		for (size_t i = 0; i < n; i++)
+	for (int c = 0; c < 3; c++) {
+		status = pm_yee_waves_backward(status, &w, c, room);
+		for (size_t i = 0; i < n && !status; i++)
 			y->e[c][i] -= room[i];
 	}
 	pm_yee_waves_free(&w);

@@ -11,8 +11,8 @@ struct pm_yee {
 	struct pm_grid grid;
 	double c, eps0;          /* [length/time], [charge^2 time^2/(mass length^dim)] */
 	double *e[3], *b[3];     /* [points] */
-	const struct pm_planes *planes; /* two-point differences: NULL, or the planes of this rank, which alone are the points then */
-	const double *beside[3]; /* with them the field whose curl is taken, with a plane more on either side */
+	const struct pm_planes *planes; /* differences: NULL, or the planes of this rank, which alone are the points then */
+	const double *beside[3]; /* with them the field whose curl or divergence is taken, with planes of the neighbours on either side */
 	const double *j[3];      /* [charge/(time length^(dim - 1))]; NULL none */
 	double drift[3];         /* [length/time] with which the current moves on in a step (psatd) */
 	bool nodal;              /* E and B are on the nodes, all components (psatd); J sits where Yee has E */
@@ -46,7 +46,7 @@ double pm_yee_limit(const struct pm_grid *g, double factor);
 
 /* to = div E - rho/eps0 on the nodes (0 where E along a face is zero); rho NULL: 0. On planes of a rank E is beside[]. */
 void pm_yee_divergence(const struct pm_yee *y, const double *rho, double *to);
-/* E -= grad psi, psi on the nodes. */
+/* E -= grad psi, psi on the nodes, with a plane of the neighbours on either side where ranks share the mesh. */
 void pm_yee_subtract_gradient(const struct pm_yee *y, const double *psi);
 
 #endif

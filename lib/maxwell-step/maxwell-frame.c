@@ -10,6 +10,7 @@
 #include "maxwell-parts/yee-waves.h"
 #include "maxwell-step/maxwell-frame.h"
 #include "stream/declare.h"
+#include "world/world.h"
 
 struct pm_yee pm_yee_of(const struct pm_frame *f, const struct pm_mesh *m)
 {
@@ -175,12 +176,12 @@ static void fill(struct pm_maxwell_job *j)
 	}
 }
 
-/* B or E through dt from the curl of the other, which has a plane of the neighbours on either side. */
+/* B or E through dt from the curl of the other, which has planes of the neighbours on either side. */
 static int advance_planes(int status, struct pm_maxwell_job *j, bool electric, double dt)
 {
 	struct pm_yee *y = &j->yee;
 	double *room = NULL;
-	status = pm_planes_halo(status, y->planes, 1, 3, electric ? (const double *const *)y->b : (const double *const *)y->e, y->beside, &room);
+	status = pm_planes_halo(status, y->planes, j->method->beside, 3, electric ? (const double *const *)y->b : (const double *const *)y->e, y->beside, &room);
 	if (!status && electric)
 		j->method->electric(y, dt);
 	else if (!status)
@@ -194,15 +195,18 @@ static int step_planes(struct pm_maxwell_job *j, double dt)
 	struct pm_planes planes;
 	int status = pm_planes_init(&planes, &j->yee.grid, j->e);
 	j->yee.planes = &planes;
-	status = advance_planes(status, j, false, 0.5 * dt);
-	status = advance_planes(status, j, true, dt);
-	status = advance_planes(status, j, false, 0.5 * dt);
+	if (j->method->advance) {
+		status = pm_world_agree(status);
+		status = status ? status : j->method->advance(&j->yee, dt);
+	} else {
+		status = advance_planes(status, j, false, 0.5 * dt);
+		status = advance_planes(status, j, true, dt);
+		status = advance_planes(status, j, false, 0.5 * dt);
+	}
 	j->yee.planes = NULL;
 	pm_planes_free(&planes);
 	return status;
 }
-
-bool pm_maxwell_shares(const struct pm_maxwell_job *j) { return j->method->in_planes && !j->choice.gauss && j->yee.grid.dim > 1; }
 
 int pm_maxwell_step(struct pm_maxwell_job *j, double dt)
 {
@@ -227,65 +231,103 @@ static double largest(size_t n, const double *a)
 
 static int project_waves(struct pm_maxwell_job *j, double *room, struct pm_gauss_record *r)
 {
-	const size_t n = pm_grid_size(&j->yee.grid);
+	const struct pm_grid *g = &j->yee.grid;
+	const struct pm_planes *p = j->yee.planes;
+	const double end[3][2] = {{1, 1}, {1, 1}, {1, 1}};
 	struct pm_sum mean = {0, 0};
 	int status = pm_yee_waves_divergence(&j->yee, pm_in(j->rho, 0), room);
-	r->before = status ? 0 : largest(n, room);
-	for (size_t i = 0; i < n && !status; i++)
-		pm_sum_add(&mean, room[i]);
-	r->mean = pm_sum_total(mean) / (double)n;
+	r->before = status ? 0 : largest(p ? p->here * p->size : pm_grid_size(g), room);
+	if (p) {
+		status = pm_world_largest(status, 1, &r->before);
+		status = pm_planes_sum(status, p, room, NULL, end, &mean);
+	} else if (!status) {
+		pm_sum_of_mesh(g->points, room, NULL, end, &mean);
+	}
+	r->mean = pm_sum_total(mean) / (double)pm_grid_size(g);
 	return status ? status : pm_yee_waves_correct(&j->yee, room);
+}
+
+/* div E - rho/eps0 of the planes here, and its largest value on the whole mesh. */
+static int wrong(int status, struct pm_maxwell_job *j, double *to, double *most)
+{
+	struct pm_yee *y = &j->yee;
+	const struct pm_planes *p = y->planes;
+	double *room = NULL;
+	const int last = y->grid.dim - 1; /* along the others no neighbour is on another rank */
+	for (int d = 0; d < 3 && p; d++)
+		y->beside[d] = y->e[d];
+	if (p)
+		status = pm_planes_halo(status, p, 1, 1, (const double *const *)&y->e[last], &y->beside[last], &room);
+	if (!status)
+		pm_yee_divergence(y, pm_in(j->rho, 0), to);
+	*most = status ? 0 : largest(p ? p->here * p->size : pm_grid_size(&y->grid), to);
+	pm_free(room);
+	return p ? pm_world_largest(status, 1, most) : status;
+}
+
+static int subtract_gradient(int status, struct pm_maxwell_job *j, const double *psi)
+{
+	double *room = NULL;
+	if (j->yee.planes)
+		status = pm_planes_halo(status, j->yee.planes, 1, 1, &psi, &psi, &room);
+	if (!status)
+		pm_yee_subtract_gradient(&j->yee, psi);
+	pm_free(room);
+	return status;
 }
 
 static int project_differences(struct pm_maxwell_job *j, double *psi, struct pm_gauss_record *r)
 {
 	struct pm_grid g = j->yee.grid;
-	const struct pm_poisson_fft_choice choice = {.symbol = PM_FD2};
+	const struct pm_poisson_fft_choice choice = {.symbol = PM_FD2, .planes = j->yee.planes};
 	struct pm_poisson_fft_record record = {0, 0};
 	for (int d = 0; d < g.dim; d++)
 		for (int s = 0; s < 2; s++)
 			g.face[d][s] = pm_yee_open(g.face[d][s]) ? PM_WALL : g.face[d][s];
 	struct pm_poisson_fft *solver = pm_poisson_fft_new(&g, &choice);
-	if (!solver)
-		return -PM_DATA;
-	pm_yee_divergence(&j->yee, pm_in(j->rho, 0), psi);
-	r->before = largest(pm_grid_size(&g), psi);
-	int status = pm_poisson_fft_solve(solver, 1, psi, psi, &record);
-	r->mean = record.mean;
+	int status = pm_planes_agree(solver ? 0 : pm_failed(), j->yee.planes);
+	status = wrong(status, j, psi, &r->before);
 	if (!status)
-		pm_yee_subtract_gradient(&j->yee, psi);
+		status = pm_poisson_fft_solve(solver, 1, psi, psi, &record);
+	r->mean = record.mean;
+	status = subtract_gradient(status, j, psi);
 	pm_poisson_fft_free(solver);
 	return status;
 }
 
-static void relax_differences(struct pm_maxwell_job *j, double *room, struct pm_gauss_record *r)
+static int relax_differences(struct pm_maxwell_job *j, double *room, struct pm_gauss_record *r)
 {
 	const struct pm_grid *g = &j->yee.grid;
-	const size_t n = pm_grid_size(g);
-	double shortest = 0;
+	const size_t n = j->yee.planes ? j->yee.planes->here * j->yee.planes->size : pm_grid_size(g);
+	double shortest = 0, most = 0;
+	int status = 0;
 	for (int d = 0; d < g->dim; d++)
 		shortest += g->cells[d] > 1 ? 4 / (g->h[d] * g->h[d]) : 0;
-	for (int pass = 0; pass < j->choice.marder && shortest > 0; pass++) {
-		pm_yee_divergence(&j->yee, pm_in(j->rho, 0), room);
-		r->before = pass ? r->before : largest(n, room);
+	for (int pass = 0; pass < j->choice.marder && shortest > 0 && !status; pass++) {
+		status = wrong(0, j, room, &most);
+		r->before = pass ? r->before : most;
 		for (size_t i = 0; i < n; i++)
 			room[i] /= -shortest;
-		pm_yee_subtract_gradient(&j->yee, room);
+		status = subtract_gradient(status, j, room);
 	}
+	return status;
 }
 
 int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r)
 {
-	double *room = pm_alloc(pm_grid_size(&j->yee.grid), sizeof *room);
+	struct pm_planes planes = {.divided = false};
+	int status = j->e->here ? pm_planes_init(&planes, &j->yee.grid, j->e) : 0;
+	double *room = status ? NULL : pm_alloc(j->e->here ? planes.here * planes.size + 1 : pm_grid_size(&j->yee.grid), sizeof *room);
 	*r = (struct pm_gauss_record){0, 0};
-	if (!room)
-		return -PM_DATA;
 	fill(j);
-	int status = 0;
-	if (j->choice.marder)
-		relax_differences(j, room, r);
-	else
+	j->yee.planes = j->e->here ? &planes : NULL;
+	status = pm_planes_agree(room ? 0 : pm_failed(), j->yee.planes);
+	if (!status && j->choice.marder)
+		status = relax_differences(j, room, r);
+	else if (!status)
 		status = j->spectral ? project_waves(j, room, r) : project_differences(j, room, r);
+	j->yee.planes = NULL;
+	pm_planes_free(&planes);
 	pm_free(room);
 	return status;
 }

@@ -34,7 +34,6 @@ struct pm_gauss_record {
 /* Each 0 or failure. */
 int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *f, struct pm_maxwell_job *j);
 int pm_maxwell_step(struct pm_maxwell_job *j, double dt);
-bool pm_maxwell_shares(const struct pm_maxwell_job *j); /* can ranks share the step? */
 int pm_maxwell_project(struct pm_maxwell_job *j, struct pm_gauss_record *r);
 
 /* The law's constants and the geometry; no data. */

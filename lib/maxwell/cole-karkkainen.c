@@ -45,6 +45,7 @@ const struct pm_maxwell maxwell_cole_karkkainen = {
 	.source = "Cowan et al. 2013",
 	.order = 2,
 	.limit = least,
+	.beside = 1,
 	.magnetic = magnetic,
 	.electric = pm_yee_electric,
 };

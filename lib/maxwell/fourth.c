@@ -15,6 +15,7 @@ const struct pm_maxwell maxwell_fourth = {
 	.source = "Fang 1989",
 	.order = 4,
 	.limit = limit,
+	.beside = 2,
 	.magnetic = magnetic,
 	.electric = electric,
 };

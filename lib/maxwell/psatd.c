@@ -114,11 +114,11 @@ static void advance_wave(const struct pm_yee *y, const struct complex3 *d, doubl
 static void advance_row(const struct pm_yee *y, const struct pm_yee_waves *w, double dt, size_t j, size_t k)
 {
 	const struct pm_wave_axis *a = w->axis;
-	struct place p = {w, (k * a[1].n + j) * w->chunks * 2 * C};
+	struct place p = {.w = w};
 	struct complex3 d = {.re = {0, a[1].re[j], a[2].re[k]}, .im = {0, a[1].im[j], a[2].im[k]}};
-	for (size_t i = 0; i < a[0].modes; i++) {
+	for (size_t i = w->chunk[0] * C; i < w->chunk[1] * C && i < a[0].modes; i++) {
 		const size_t q = i % C;
-		p.at += i && !q ? 2 * C : 0;
+		p.at = pm_yee_waves_at(w, i / C, j, k);
 		const size_t mode[3] = {i, j, k};
 		struct complex3 e = load(&p, E, q), b = load(&p, B, q), current = {0};
 		for (int c = 0; c < 3 && y->j[c]; c++) {
@@ -139,19 +139,19 @@ static int advance(const struct pm_yee *y, double dt)
 {
 	struct pm_yee_waves w;
 	int status = pm_yee_waves_init(&w, y, y->j[0] ? 9 : 6);
-	for (int c = 0; c < 3 && !status; c++) {
-		pm_yee_waves_forward(&w, y->e[c], E + c);
-		pm_yee_waves_forward(&w, y->b[c], B + c);
+	for (int c = 0; c < 3; c++) {
+		status = pm_yee_waves_forward(status, &w, y->e[c], E + c);
+		status = pm_yee_waves_forward(status, &w, y->b[c], B + c);
 		if (y->j[c])
-			pm_yee_waves_forward(&w, y->j[c], J + c);
+			status = pm_yee_waves_forward(status, &w, y->j[c], J + c);
 	}
-	const size_t rows = status ? 0 : w.axis[1].n * w.axis[2].n;
+	const size_t wide = w.y[1] - w.y[0], rows = status ? 0 : wide * w.axis[2].n;
 #pragma omp parallel for schedule(static) num_threads(pm_threads()) if (rows > 64)
 	for (size_t i = 0; i < rows; i++)
-		advance_row(y, &w, dt, i % w.axis[1].n, i / w.axis[1].n);
-	for (int c = 0; c < 3 && !status; c++) {
-		pm_yee_waves_backward(&w, E + c, y->e[c]);
-		pm_yee_waves_backward(&w, B + c, y->b[c]);
+		advance_row(y, &w, dt, i % wide + w.y[0], i / wide);
+	for (int c = 0; c < 3; c++) {
+		status = pm_yee_waves_backward(status, &w, E + c, y->e[c]);
+		status = pm_yee_waves_backward(status, &w, B + c, y->b[c]);
 	}
 	pm_yee_waves_free(&w);
 	return status;

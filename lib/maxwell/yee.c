@@ -13,7 +13,7 @@ const struct pm_maxwell maxwell_yee = {
 	.order = 2,
 	.any_face = true,
 	.limit = limit,
-	.in_planes = true,
+	.beside = 1,
 	.magnetic = pm_yee_magnetic,
 	.electric = pm_yee_electric,
 };

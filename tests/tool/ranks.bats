@@ -504,6 +504,48 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	grep -q 'poisson-mg.*out of memory' said
 }
 
+@test "any number of ranks: maxwell's methods fourth, cole-karkkainen and psatd, Gauss's law by differences and waves, --marder, in 2-D and in space" {
+	local method dim
+	for dim in 2 3; do
+		pinit langmuir --dim $dim --axes $dim -n $((dim == 2 ? 49 : 64)) --amplitude 0.3 --velocities 3 | smod --law electromagnetic --dt 0.02 |
+			p2m -n $([ $dim = 2 ] && echo 11x37 || echo 5x6x7) >charged
+		for method in fourth cole-karkkainen psatd; do
+			maxwell --gauss --method $method <charged | sel --drop rho | same "push boris/2 | p2m --current | maxwell --method $method |
+				push drift | p2m | maxwell --gauss --method $method | m2p | push boris/2" --store all
+		done
+		same "push drift | p2m | maxwell --gauss | maxwell --marder 3" --store all <charged
+	done
+	shares "p2m, maxwell --gauss --method psatd, push drift" "p2m | maxwell --gauss --method psatd | push drift" <charged
+}
+
+@test "any number of ranks: James' method in open space by each solver, both orders, in 2-D and in space" {
+	pinit plummer -n 300 >cluster
+	same "push drift | p2m -n 7x6x8 | poisson-fft --free-space james" --store all <cluster
+	same "push drift | p2m -n 6x7x3 | poisson-mg --order 4 --tolerance 1e-4" --store all <cluster # more ranks than planes
+	same "push drift | p2m -n 5x6x7 | poisson-relax --tolerance 1e-2" --store all <cluster
+	pinit uniform -n 300 --dim 2 --faces open | same "push drift | p2m -n 17x40 | poisson-mg --tolerance 1e-3 | mgrad | m2p"
+	shares "p2m -n 8, poisson-fft --free-space james, mgrad, m2p, push drift" "p2m -n 8 | poisson-fft --free-space james | mgrad | m2p | push drift" <cluster
+	PM_REHEARSE="one-thread memory=2:40" on 3 cycle -q -n 1 "p2m -n 8 | poisson-fft --free-space james | push drift" <cluster 2>said >/dev/null && return 1
+	grep -q 'poisson-fft.*out of memory' said
+}
+
+@test "any number of ranks: multigrid with a permittivity and with Galerkin matrices, odd and even axes, all faces" {
+	local jump="scalc --mesh mesh 'eps = x + z < 0.9 ? 1 : 1e4'"
+	pinit uniform -n 300 >box
+	pinit uniform -n 300 --faces wall,neumann,neumann,wall,neumann,wall --particle-faces reflect --dispersion 0.3 >mixed
+	same "push drift | p2m -n 5x6x9 | $jump | poisson-mg --permittivity eps --tolerance 1e-3" --store all <box
+	same "push drift | p2m -n 4x5x2 | $jump | poisson-mg --permittivity eps --cycle w --mean arithmetic --tolerance 0.1" --store all <box
+	same "push drift | p2m -n 5x6x7 | scalc --mesh mesh 'eps = 1 + rho*rho' | poisson-mg --permittivity eps --flux x*y --dirichlet 1+z --tolerance 1e-2" \
+		--store all <mixed
+	pinit uniform -n 300 --dim 2 | same "push drift | p2m -n 9x70 | poisson-mg --coarse galerkin --cycle v --tolerance 1e-3" --store all
+	shares "p2m -n 4, scalc --mesh mesh eps = 2, poisson-mg --permittivity eps, push drift" \
+		"p2m -n 4 | scalc --mesh mesh 'eps = 2' | poisson-mg --permittivity eps | push drift" <mixed
+	cycle -q -n 1 "p2m -n 8x8x9 | scalc --mesh mesh 'eps = 0.5 - z' | poisson-mg --permittivity eps | push drift" <box 2>want >/dev/null && return 1
+	on 3 cycle -q -n 1 "p2m -n 8x8x9 | scalc --mesh mesh 'eps = 0.5 - z' | poisson-mg --permittivity eps | push drift" <box 2>got >/dev/null && return 1
+	grep -q 'must be positive everywhere, and at node 0,0,5' want
+	cmp want got
+}
+
 @test "any number of ranks: values given on faces and sums over the particles on open ones, by each solver" {
 	local s
 	pinit uniform -n 300 --faces wall,neumann,wall,neumann,neumann,wall --particle-faces reflect --dispersion 0.3 >mixed
