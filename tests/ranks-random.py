@@ -126,7 +126,7 @@ def draw(r):
         eps = pick("1 + x*x", "x + y < 0.9 ? 1 : 100", "1 + time + rho*rho")
         solver = f"poisson-mg --permittivity eps --tolerance 1e-3{maybe(0.3, '--cycle', pick('v', 'w'))}{maybe(0.2, '--mean arithmetic')}"
         return f"pinit uniform -n {count(50, 300)} --dim {dim} --dispersion 0.3 --dt 0.05{faces}", \
-            more(f"push drift | p2m -n {cells(dim, 4, 7, 9, 16)} | scalc --mesh mesh 'eps = {eps}' | {solver} | mgrad | m2p | push kick")
+            more(f"push drift --open | p2m -n {cells(dim, 4, 7, 9, 16)} | scalc --mesh mesh 'eps = {eps}' | {solver} | mgrad | m2p | push kick")
 
     def light():
         dim, method = pick(1, 2, 3), pick("yee", "fourth", "cole-karkkainen", "psatd")

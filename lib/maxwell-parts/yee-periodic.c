@@ -26,7 +26,8 @@ static struct row row_of(const struct lines *l, const int by[3], size_t j, size_
 	const size_t *n = l->y->grid.points;
 	const struct pm_planes *p = l->y->planes;
 	if (p && p->axis == 2)
-		return (struct row){l->from + (((ptrdiff_t)(k - p->first) + by[2]) * (ptrdiff_t)n[1] + (ptrdiff_t)wrapped(j, by[1], n[1])) * (ptrdiff_t)n[0], by[0]};
+		return (struct row){l->from + (((ptrdiff_t)(k - p->first) + by[2]) * (ptrdiff_t)n[1] + (ptrdiff_t)wrapped(j, by[1], n[1])) * (ptrdiff_t)n[0],
+			by[0]};
 	if (p)
 		return (struct row){l->from + ((ptrdiff_t)(j - p->first) + by[1]) * (ptrdiff_t)n[0], by[0]};
 	return (struct row){l->from + (wrapped(k, by[2], n[2]) * n[1] + wrapped(j, by[1], n[1])) * n[0], by[0]};

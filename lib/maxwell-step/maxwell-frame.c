@@ -181,7 +181,8 @@ static int advance_planes(int status, struct pm_maxwell_job *j, bool electric, d
 {
 	struct pm_yee *y = &j->yee;
 	double *room = NULL;
-	status = pm_planes_halo(status, y->planes, j->method->beside, 3, electric ? (const double *const *)y->b : (const double *const *)y->e, y->beside, &room);
+	const double *const *of = electric ? (const double *const *)y->b : (const double *const *)y->e;
+	status = pm_planes_halo(status, y->planes, j->method->beside, 3, of, y->beside, &room);
 	if (!status && electric)
 		j->method->electric(y, dt);
 	else if (!status)

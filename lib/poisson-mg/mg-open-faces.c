@@ -255,9 +255,10 @@ static void lines_out(const struct mg_faces *s, const struct face *f, int c, con
 static size_t gap(size_t a, size_t b) { return a > b ? a - b : b - a; }
 
 /* Mode k, of hat number `row`, of lines t0 <= t < t1 of target face b from source face a. */
-static void multiply(const struct mg_faces *s, const struct face *a, const struct face *b, int c, size_t k, size_t row, const size_t t[2],
+static void multiply(const struct mg_faces *s, const struct face *a, const struct face *b, size_t k, size_t row, const size_t t[2],
 	double *const source[2], double *const target[2])
 {
+	const int c = shared(a->axis, b->axis);
 	const size_t wide = s->n[higher(c)] + 1, from = a->lines, to = b->lines, at = at_of(s, a), other = at_of(s, b);
 	const double *hat = s->hat[c] + row * (s->n[lower(c)] + 1) * wide;
 	for (size_t l = t[0]; l < t[1]; l++) {
@@ -319,7 +320,7 @@ static void convolve(const struct mg_faces *s, int c, int n, const struct face f
 				mine(s, face[target].lines, &t[0], &t[1]);
 			for (int source = 0; source < n; source++)
 				if (shared(face[source].axis, face[target].axis) == c)
-					multiply(s, &face[source], &face[target], c, k, k - from, t, in[source], sum[target]);
+					multiply(s, &face[source], &face[target], k, k - from, t, in[source], sum[target]);
 		}
 }
 

@@ -8,6 +8,10 @@
 /* pm_mg_new for the planes of a rank; s and phi of pm_mg_solve are then those, and all ranks solve together. */
 struct pm_mg *pm_mg_new_planes(const struct pm_grid *g, int order, const struct pm_planes *planes);
 bool pm_mg_same_planes(const struct pm_mg *mg, const struct pm_planes *planes);
+/* pm_mg_variable_new for the planes of a rank, NULL: all. s and phi are then those, and eps has a plane of the neighbours on either side; all ranks make it
+ * and solve together. Each says for itself whether it fits. */
+struct pm_mg_variable *pm_mg_variable_new_planes(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes);
+bool pm_mg_variable_same_planes(const struct pm_mg_variable *v, const struct pm_planes *planes);
 
 /* Brings the planes of other ranks, if there are any; of values laid out as u and f, and of planes of so many bytes from the first own one on. */
 void pm_mg_beside(struct pm_mg *mg, const struct mg_level *l, mg_number *values, int wide);

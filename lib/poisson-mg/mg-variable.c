@@ -6,6 +6,7 @@
  * per node in 3-D. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "poisson-mg/mg-variable-level.h"
 #include "mesh/mesh-sum.h"
+#include "poisson-mg/mg-ranks.h"
 #include "world/over-ranks.h"
 
 #include <float.h>
@@ -16,7 +17,8 @@ struct pm_mg_variable *pm_mg_variable_free(struct pm_mg_variable *v)
 	for (int i = 0; v && i < mgv_levels; i++)
 		pm_mgv_free(&v->level[i]);
 	if (v)
-		pm_free(v->eps), pm_free(v->x), pm_free(v->d), pm_free(v->q), pm_free(v->before), pm_free(v->best), pm_free(v->sums), pm_planes_free(&v->planes);
+		pm_free(v->eps), pm_free(v->x), pm_free(v->d), pm_free(v->q), pm_free(v->before), pm_free(v->best), pm_free(v->sums),
+			pm_planes_free(&v->planes);
 	return pm_free(v);
 }
 
@@ -96,17 +98,17 @@ struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double 
 	return pm_mg_variable_new_planes(g, eps, mean, NULL);
 }
 
-static bool same_planes(const struct pm_planes *a, const struct pm_planes *b)
+bool pm_mg_variable_same_planes(const struct pm_mg_variable *v, const struct pm_planes *planes)
 {
-	const bool divided = b && b->divided;
-	return divided == a->divided && (!divided || !memcmp(a->from, b->from, ((size_t)pm_world_size() + 1) * sizeof *a->from));
+	const uint64_t *from = planes && planes->divided ? planes->from : NULL, *has = v->planes.divided ? v->planes.from : NULL;
+	return from && has ? !memcmp(from, has, ((size_t)pm_world_size() + 1) * sizeof *from) : !from && !has;
 }
 
-bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes)
+bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean)
 {
 	const struct pm_grid *a = &v->grid;
 	if (v->mean != mean || a->dim != g->dim || memcmp(a->points, g->points, sizeof g->points) || memcmp(a->cells, g->cells, sizeof g->cells) ||
-		memcmp(a->h, g->h, sizeof g->h) || memcmp(a->face, g->face, sizeof g->face) || !same_planes(&v->planes, planes))
+		memcmp(a->h, g->h, sizeof g->h) || memcmp(a->face, g->face, sizeof g->face))
 		return false;
 	const double *own = v->eps + (v->planes.divided ? v->planes.size : 0);
 	return eps ? !memcmp(own, eps, v->planes.here * v->planes.size * sizeof *eps) : v->constant;

@@ -3,7 +3,6 @@
 #ifndef PM_POISSON_MG_MG_VARIABLE_H
 #define PM_POISSON_MG_MG_VARIABLE_H
 
-#include "mesh/planes.h"
 #include "poisson-mg/mg.h"
 
 PM_C_BEGIN
@@ -16,10 +15,7 @@ struct pm_mg_variable; /* the hierarchy of grids and matrices, for one grid and 
 /* eps on the points of the grid; NULL: 1. NULL with a message, also where eps is not positive or the faces are others than those of pm_mg_check. */
 struct pm_mg_variable *pm_mg_variable_new(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean);
 struct pm_mg_variable *pm_mg_variable_free(struct pm_mg_variable *v);
-/* The same for the planes of a rank, NULL: all. s and phi are then those, and eps has a plane of the neighbours on either side; all ranks make it and solve
- * together. Each says for itself whether it fits. */
-struct pm_mg_variable *pm_mg_variable_new_planes(const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes);
-bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean, const struct pm_planes *planes);
+bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g, const double *eps, enum pm_mg_mean mean);
 
 /* As pm_mg_solve: div(eps grad phi) = c*s by conjugate gradients preconditioned with a cycle (FMG: the first guess by full multigrid, then V). One cycle of the
  * record is one iteration. */

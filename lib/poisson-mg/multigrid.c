@@ -117,7 +117,7 @@ static struct pm_mg_variable *variable(struct pm_multigrid *m, const struct pm_m
 	if (o->field && pm_planes_agree(pm_planes_init(&planes, g, o->field), &planes))
 		return NULL;
 	for (int i = 0; i < kept && !v; i++)
-		if (m->variable[i] && pm_mg_variable_fits(m->variable[i], g, eps, o->mean, &planes))
+		if (m->variable[i] && pm_mg_variable_fits(m->variable[i], g, eps, o->mean) && pm_mg_variable_same_planes(m->variable[i], &planes))
 			v = m->variable[i];
 	if (!all_have(v, &planes)) {
 		pm_mg_variable_free(m->variable[m->next]);

@@ -524,7 +524,8 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	same "push drift | p2m -n 6x7x3 | poisson-mg --order 4 --tolerance 1e-4" --store all <cluster # more ranks than planes
 	same "push drift | p2m -n 5x6x7 | poisson-relax --tolerance 1e-2" --store all <cluster
 	pinit uniform -n 300 --dim 2 --faces open | same "push drift | p2m -n 17x40 | poisson-mg --tolerance 1e-3 | mgrad | m2p"
-	shares "p2m -n 8, poisson-fft --free-space james, mgrad, m2p, push drift" "p2m -n 8 | poisson-fft --free-space james | mgrad | m2p | push drift" <cluster
+	shares "p2m -n 8, poisson-fft --free-space james, mgrad, m2p, push drift" \
+		"p2m -n 8 | poisson-fft --free-space james | mgrad | m2p | push drift" <cluster
 	PM_REHEARSE="one-thread memory=2:40" on 3 cycle -q -n 1 "p2m -n 8 | poisson-fft --free-space james | push drift" <cluster 2>said >/dev/null && return 1
 	grep -q 'poisson-fft.*out of memory' said
 }
