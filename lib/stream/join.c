@@ -220,7 +220,7 @@ static int field_append(struct pm_frame *a, const char *on, const struct pm_fiel
 		return pm_fail(PM_DATA, "'%s' on '%s' is missing in some scene, or differs in kind (--merge needs the same fields; sel --drop)", q->name, on);
 	if (same_value(p, q))
 		return 0;
-	if (p->uniform) { /* ready fills the values in */
+	if (p->uniform || !p->buffer) { /* ready fills the values in; those of no particles have no memory yet */
 		p->uniform = false, p->use = PM_USE_CHANGE;
 		if (!p->buffer && pm_field_ready(p))
 			return -PM_DATA;
@@ -250,9 +250,11 @@ static int parts_append(struct pm_frame *a, struct pm_set *into, const struct pm
 		const struct pm_field *q = strcmp(p->on, into->name) ? NULL : pm_frame_field(b, set, p->name);
 		if (!q || !same_kind(p, q) || p->uniform || q->uniform || (offset && !strcmp(p->name, "id")) || !(pm_parts_alone(p) || pm_parts_alone(q)))
 			continue;
+		if (!p->buffer || !q->buffer) /* of no particles */
+			continue;
 		uint64_t *cut[] = {pm_division_new(p->count, pm_sum_block), pm_division_new(q->count, pm_sum_block), pm_division_new(p->count + q->count,
 			pm_sum_block)};
-		status = cut[0] && cut[1] && cut[2] && p->buffer && q->buffer ? 0 : pm_no_memory();
+		status = cut[0] && cut[1] && cut[2] ? 0 : pm_no_memory();
 		status = status ? status : pm_buffer_divide(p->buffer, p->components, pm_field_memory(p), cut[0]);
 		status = status ? status : pm_buffer_divide(q->buffer, q->components, pm_field_memory(q), cut[1]);
 		status = status ? status : pm_buffer_append(p->buffer, q->buffer, cut[2], &made[i]);

@@ -66,6 +66,11 @@ col() { awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c
 @test "scenes of no particles can be combined" {
 	printf 'x mass id\n' | stab - >a; printf 'x mass id\n1 2 3\n' | stab - --box 0,1 >b
 	sh_ok 'stack --merge a b | sls | grep "1 particles"; stack --merge b a | sls | grep "1 particles"; stack --merge a a | sls | grep "0 particles"'
+	pinit plummer -n 9000 >all
+	sel --where 'mass > 1' <all >none # whose fields are not uniform
+	stack --merge none all | scmp --set matter --tolerance 0 - all
+	stack --merge all none | scmp --set matter --tolerance 0 - all
+	stack --merge --ranks 3 none all | cmp - <(stack --merge none all)
 }
 
 @test "ids that could meet others move up just as far as they must, those above stay" {
