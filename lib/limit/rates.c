@@ -2,12 +2,12 @@
  * if dt |grad u| < 1 in a matrix norm; here the largest row sum, which bounds distances along the axes (Cottet and Koumoutsakos 2000, section 7.1:
  * Lagrangian CFL). Plasma frequency: omega_p^2 = sum q^2/m/(eps0 V), with V the box (Birdsall and Langdon 1985, section 1-2). Cost N, points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/simd.h"
 #include "limit/rates.h"
 #include "mesh/planes.h"
+#include "stream/kept.h"
 #include "stream/over-stretches.h"
 #include "world/world.h"
 
@@ -160,45 +160,20 @@ double pm_charge_over_mass(size_t n, const double *q, const double *m)
 	return pm_sum_total(sum);
 }
 
-/* The sum of a set, kept as notes of both fields: each knows the other one's, so that none is taken when the values of either have changed. */
-struct kept_sum {
-	struct pm_note note; /* first member */
-	const struct kept_sum *with;
-	struct pm_sum sum;
-};
-
-static void free_kept(struct pm_note *note) { free(note); }
-
-static struct kept_sum *kept_of(const struct pm_field *field)
+/* sum q^2/m of a set; kept as long as charges and masses stay. */
+static struct pm_sum set_sum(const struct pm_field *q, const struct pm_field *m)
 {
-	return field->note && field->note->free == free_kept ? (struct kept_sum *)field->note : NULL;
-}
-
-static struct kept_sum *keep(struct pm_field *field, struct pm_sum sum)
-{
-	struct kept_sum *k = calloc(1, sizeof *k); /* without memory nothing is kept */
-	if (!k)
-		return NULL;
-	*k = (struct kept_sum){.note.free = free_kept, .sum = sum};
-	if (field->note)
-		field->note->free(field->note);
-	field->note = &k->note;
-	return k;
-}
-
-/* sum q^2/m of a set; ranks, who must all do the same, count anew. */
-static struct pm_sum set_sum(struct pm_field *q, struct pm_field *m)
-{
-	const struct kept_sum *of_q = kept_of(q), *of_m = kept_of(m);
-	struct pm_sum sum = {0, 0};
-	if (of_q && of_m && of_q->with == of_m && of_m->with == of_q && pm_world_size() == 1)
-		return of_q->sum;
+	static const char name[] = "sum of q^2/m";
+	const struct pm_sum *kept = pm_kept(q, m, name);
+	struct pm_sum sum = {0, 0}, *copy;
+	if (kept)
+		return *kept;
 	pm_over_stretches(q, &squares, &(struct charges){pm_in(q, 0), pm_in(m, 0)}, &sum);
-	if (pm_world_size() > 1 || q == m)
-		return sum;
-	struct kept_sum *a = keep(q, sum), *b = keep(m, sum);
-	if (a && b)
-		a->with = b, b->with = a;
+	if ((copy = pm_alloc(1, sizeof *copy))) {
+		*copy = sum;
+		if (!pm_keep(q, m, name, copy))
+			pm_free(copy);
+	}
 	return sum;
 }
 
@@ -207,7 +182,7 @@ double pm_plasma_frequency(const struct pm_frame *f, const struct pm_law *law)
 	struct pm_sum sum = {0, 0};
 	double box = 1;
 	for (size_t i = 0; i < f->nsets; i++) {
-		struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
+		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, law->strength), *m = pm_frame_field(f, f->sets[i]->name, law->per);
 		if (q && m && pm_set_moves(f, f->sets[i])) {
 			const struct pm_sum of_set = set_sum(q, m);
 			pm_join_sums(sizeof sum, &of_set, &sum);
@@ -228,16 +203,35 @@ static void make_sizes(const void *data, size_t from, size_t to, void *part)
 	*(struct pm_sum *)part = sum;
 }
 
+/* Of the first set, kept; a uniform strength may be given another value. */
+struct total {
+	bool uniform;
+	double value;
+	struct pm_sum sum;
+};
+
 double pm_strength_total(const struct pm_frame *f, const char *strength)
 {
+	static const char name[] = "sum of |strength|";
+	const struct total *kept;
 	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make_sizes, .join = pm_join_sums};
 	struct pm_sum sum = {0, 0};
 	for (size_t i = 0; i < f->nsets; i++) {
 		const struct pm_field *q = pm_frame_field(f, f->sets[i]->name, strength);
+		const bool first = sum.sum == 0 && sum.carry == 0;
+		if (q && first && (kept = pm_kept(q, NULL, name)) && kept->uniform == q->uniform && kept->value == q->value[0]) {
+			sum = kept->sum;
+			continue;
+		}
 		if (q && !q->uniform)
 			pm_field_bring(q);
 		if (q)
 			pm_over_stretches(q, &parts, q, &sum);
+		struct total *copy = q && first ? pm_alloc(1, sizeof *copy) : NULL;
+		if (copy)
+			*copy = (struct total){q->uniform, q->value[0], sum};
+		if (copy && !pm_keep(q, NULL, name, copy))
+			pm_free(copy);
 	}
 	return pm_sum_total(sum);
 }

@@ -4,6 +4,7 @@
 
 #include "base/in-order.h"
 #include "base/simd-sum.h"
+#include "stream/kept.h"
 #include "stream/over-stretches.h"
 #include "stream/strengths.h"
 #include "world/world.h"
@@ -41,13 +42,26 @@ static void block(const void *data, size_t from, size_t to, void *part)
 		pm_simd_sum_join(&total[k], &s[k]);
 }
 
-static void sums(const struct pm_field *field, const double *x, struct pm_strength *s)
+/* Sum and scale of each component. They are asked for after every step, and mostly nothing has changed. */
+static void sums(const struct pm_field *field, double to[][SUMS])
 {
-	struct pm_sum all[SUMS] = {{0, 0}};
-	const struct pm_parts parts = {.size = sizeof all, .make = block, .join = pm_join_sums};
-	pm_over_stretches(field, &parts, x, all);
-	s->sum = pm_sum_total(all[SUM]);
-	s->scale = pm_sum_total(all[SCALE]);
+	static const char name[] = "sums of a strength";
+	const size_t bytes = (size_t)field->components * sizeof *to;
+	const void *kept = pm_kept(field, NULL, name);
+	if (kept) {
+		memcpy(to, kept, bytes);
+		return;
+	}
+	for (int c = 0; c < field->components; c++) {
+		struct pm_sum all[SUMS] = {{0, 0}};
+		const struct pm_parts parts = {.size = sizeof all, .make = block, .join = pm_join_sums};
+		pm_over_stretches(field, &parts, pm_in(field, c), all);
+		to[c][SUM] = pm_sum_total(all[SUM]);
+		to[c][SCALE] = pm_sum_total(all[SCALE]);
+	}
+	void *copy = pm_alloc(1, bytes);
+	if (copy && !pm_keep(field, NULL, name, memcpy(copy, to, bytes)))
+		pm_free(copy);
 }
 
 const struct pm_strength *pm_strength_find(const struct pm_strengths *s, const char *on, const char *name)
@@ -61,7 +75,9 @@ const struct pm_strength *pm_strength_find(const struct pm_strengths *s, const c
 void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 {
 	const int first = s->n;
-	double largest = 0;
+	double largest = 0, of[PM_COMPONENTS][SUMS];
+	if (!field->uniform)
+		sums(field, of);
 	for (int c = 0; c < field->components && s->n < PM_STRENGTHS; c++) {
 		struct pm_strength *one = &s->of[s->n];
 		pm_strength_name(field, c, one->name);
@@ -70,7 +86,7 @@ void pm_strengths_add(const struct pm_field *field, struct pm_strengths *s)
 		s->n++;
 		snprintf(one->on, sizeof one->on, "%s", field->on);
 		if (!field->uniform)
-			sums(field, pm_in(field, c), one);
+			one->sum = of[c][SUM], one->scale = of[c][SCALE];
 		else {
 			one->sum = (double)(field->here ? field->from[pm_world_size()] : field->count) * field->value[c];
 			one->scale = fabs(one->sum);

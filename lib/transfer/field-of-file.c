@@ -81,11 +81,12 @@ static int add(const struct pm_file_field *c, const struct pm_frame *f, const ch
 static int add_to(const struct pm_file_field *c, struct pm_frame *f, const struct pm_law *law, const char *set)
 {
 	const struct pm_field *field = found(c->from, law->field), *magnetic = found(c->from, law->magnetic);
-	double *ratio = NULL;
-	int status = pm_world_agree(field && law->per ? pm_ratio(f, set, law->strength, law->per, &ratio) : 0);
+	const double *ratio = NULL;
+	double *made = NULL;
+	int status = pm_world_agree(field && law->per ? pm_ratio(f, set, law->strength, law->per, &ratio, &made) : 0);
 	if (!status && field)
 		status = add(c, f, set, field, ratio, pm_frame_field(f, set, law->change));
-	pm_free(ratio);
+	pm_free(made);
 	return !status && magnetic ? add(c, f, set, magnetic, NULL, pm_frame_field(f, set, "bfield")) : status;
 }
 

@@ -210,11 +210,12 @@ static int gather(int status, const struct pm_gather_job *j, const struct pm_axi
 static int one_set(const struct pm_gather_job *j, const struct pm_axis axes[3], struct pm_frame *f, const char *set)
 {
 	const double before = pm_gather_limits_most(j, f, set);
-	double *ratio = NULL;
+	const double *ratio = NULL;
+	double *made = NULL;
 	uint64_t lost = 0;
-	int status = j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
+	int status = j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made) : 0;
 	status = gather(status, j, axes, f, set, ratio, &lost);
-	pm_free(ratio);
+	pm_free(made);
 	if (!status && lost)
 		status = pm_fail(PM_DATA, "the kernels of %llu particles of '%s' leave the mesh '%s' (a larger box, or m2p without --energy-conserving)",
 			(unsigned long long)lost, set, j->mesh->name);

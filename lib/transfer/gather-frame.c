@@ -252,8 +252,9 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	const bool law = !j->choice.field;
 	struct pm_field *target = pm_gather_target(j, f, set);
 	struct pm_strays strays = {.count = 0};
-	double *ratio = NULL;
-	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio) : 0;
+	const double *ratio = NULL;
+	double *made = NULL;
+	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made) : 0;
 	struct pm_gather_arrays a = arrays_of(j, f, set, target, ratio);
 	const double before = law ? pm_gather_limits_most(j, f, set) : 0;
 	struct pm_gather_beside b = {.values = NULL};
@@ -264,7 +265,7 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 		status = gather(j, f, set, &a, &strays);
 	if (!status && j->choice.beside)
 		status = pm_gather_beside(j, &a, pm_frame_field(f, set, "x"), &b), strays.count = 0, strays.finite = a.finite = false;
-	pm_free(ratio), pm_gather_beside_free(&b);
+	pm_free(made), pm_gather_beside_free(&b);
 	strays.first += target->first;
 	target->use |= !status && (a.finite || (strays.finite && a.t.components == target->components)) ? PM_USE_SEEN : 0;
 	if (!status && a.finite && a.magnetic)

@@ -84,15 +84,16 @@ static int finish_set(const struct pm_gather_job *j, const struct pm_frame *f, c
 	struct pm_field *target = pm_gather_target(j, f, set);
 	unsigned char *mask = pm_alloc(target->count + 1, 1);
 	struct pm_strays closed;
-	double *ratio = NULL;
+	const double *ratio = NULL;
+	double *made = NULL;
 	int status = mask ? pm_outside_find(f, set, &j->far.transfer, mask, &closed) : pm_failed();
 	if (!status && closed.count)
 		status = pm_strays_refuse(&closed, set, j->mesh, &j->transfer, "--outside drop leaves it without");
 	if (!status && !j->choice.field && j->law->per)
-		status = pm_ratio(f, set, j->law->strength, j->law->per, &ratio);
+		status = pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made);
 	if (!status)
 		add(j, f, set, mask, ratio, target);
-	pm_free(ratio);
+	pm_free(made);
 	pm_free(mask);
 	return pm_world_agree(status);
 }

@@ -126,6 +126,15 @@ static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
 	return true;
 }
 
+/* Are m particles in one tile? As a rule, where the stream is nearly in order; counters that are raised one by one would wait for each other. */
+static bool in_one(const uint32_t *tile, size_t m)
+{
+	uint32_t differ = 0;
+	for (size_t i = 1; i < m; i++)
+		differ |= tile[i] ^ tile[0];
+	return !differ;
+}
+
 /* Counts, and keeps the tile of each. */
 static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
 {
@@ -139,8 +148,11 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 		find_tiles(o, m, u, o->tile + p);
 		if (!all)
 			find_strays(o, p, m, u, o->x, strays);
-		for (size_t i = 0; i < m; i++)
-			count[o->tile[p + i]]++;
+		if (in_one(o->tile + p, m))
+			count[o->tile[p]] += m;
+		else
+			for (size_t i = 0; i < m; i++)
+				count[o->tile[p + i]]++;
 	}
 }
 
@@ -183,9 +195,21 @@ static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 /* The places of a chunk's particles; cursor as above. */
 static void place_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 {
-	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p++)
-		o->place[cursor[o->tile[p]]++] = (uint32_t)p;
+	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
+		const size_t m = to - p < batch ? to - p : batch;
+		if (in_one(o->tile + p, m)) {
+			uint32_t *at = o->place + cursor[o->tile[p]];
+			for (size_t i = 0; i < m; i++)
+				at[i] = (uint32_t)(p + i);
+			cursor[o->tile[p]] += m;
+		} else
+			for (size_t i = p; i < p + m; i++)
+				o->place[cursor[o->tile[i]]++] = (uint32_t)i;
+	}
 }
+
+/* m places, which rise. */
+static bool stand_together(const uint32_t *place, size_t m) { return place[m - 1] - place[0] == m - 1; }
 
 /* m values from p on in order: where they stand together those of the stream, else put together in few. */
 static const double *take(const struct pm_tile_order *o, size_t p, size_t m, const double *from, double few[batch])
@@ -193,7 +217,7 @@ static const double *take(const struct pm_tile_order *o, size_t p, size_t m, con
 	const uint32_t *place = o->place ? o->place + p : NULL;
 	if (!from)
 		return NULL;
-	if (!place || place[m - 1] - place[0] == m - 1)
+	if (!place || stand_together(place, m))
 		return from + (place ? place[0] : p);
 	for (size_t i = 0; i < m; i++)
 		few[i] = from[place[i]];
@@ -371,24 +395,6 @@ void pm_tile_order_free(struct pm_tile_order *o)
 	*o = (struct pm_tile_order){.n = 0};
 }
 
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const double *const factor[],
-	const bool set[], double *const to[])
-{
-	double nothing = 0; /* v - v is 0, or NaN if v is not finite */
-	for (int c = 0; c < nvalues; c++) {
-		double *restrict y = to[c];
-		const double *f = factor[c];
-		for (size_t i = 0; i < m; i++) {
-			const size_t p = place[i];
-			double value = records[i * (size_t)stride + (size_t)c];
-			value = f ? f[p] * value : value;
-			y[p] = set[c] ? value : y[p] + value;
-			nothing += y[p] - y[p];
-		}
-	}
-	return nothing == 0;
-}
-
 bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],
 	double *const to[])
 {
@@ -404,6 +410,29 @@ bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records,
 		finite &= pm_finite_few(m, y);
 	}
 	return finite;
+}
+
+bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const double *const factor[],
+	const bool set[], double *const to[])
+{
+	const uint64_t one = (uint64_t)1 << 52, exponent = 0x7ff * one;
+	uint64_t over = 0; /* the highest bit if the exponent of a value is the largest there is: it is not finite */
+	if (stand_together(place, m))
+		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, factor, set, to);
+	for (int c = 0; c < nvalues; c++) {
+		double *restrict y = to[c];
+		const double *f = factor[c];
+		for (size_t i = 0; i < m; i++) {
+			const size_t p = place[i];
+			uint64_t bits;
+			double value = records[i * (size_t)stride + (size_t)c];
+			value = f ? f[p] * value : value;
+			y[p] = value = set[c] ? value : y[p] + value;
+			memcpy(&bits, &value, sizeof bits);
+			over |= (bits & exponent) + one;
+		}
+	}
+	return !(over >> 63);
 }
 
 /* Particles p..p+m-1 of a chunk that ends at `end`. */

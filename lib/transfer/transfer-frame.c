@@ -6,6 +6,7 @@
 #include "mesh/regrid.h"
 #include "transfer/transfer-frame.h"
 #include "stream/declare.h"
+#include "stream/kept.h"
 #include "world/world.h"
 
 enum { grow_block = 8 }; /* cells */
@@ -96,20 +97,26 @@ int pm_strengths(const struct pm_frame *f, const char *set, const char *name, co
 	return 0;
 }
 
-int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, double **ratio)
+int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double **ratio, double **made)
 {
-	const struct pm_field *top = pm_frame_field(f, set, strength);
-	const double *q = pm_in(top, 0), *m = pm_in(pm_frame_field(f, set, per), 0);
-	*ratio = pm_alloc(top->count, sizeof **ratio);
-	if (!*ratio)
+	static const char name[] = "quotient of strengths";
+	const struct pm_field *top = pm_frame_field(f, set, strength), *bottom = pm_frame_field(f, set, per);
+	const double *q = pm_in(top, 0), *m = pm_in(bottom, 0);
+	*made = NULL;
+	if ((*ratio = pm_kept(top, bottom, name)))
+		return 0;
+	*ratio = *made = pm_alloc(top->count, sizeof **made);
+	if (!*made)
 		return -PM_DATA;
 	for (size_t p = 0; p < top->count; p++) {
 		if (m[p] == 0) {
 			pm_world_place(2, 0, 0, top->first + p);
 			return pm_fail(PM_DATA, "'%s' of particle %zu of '%s' is 0: %s/%s is not defined", per, (size_t)top->first + p, set, strength, per);
 		}
-		(*ratio)[p] = q[p] / m[p];
+		(*made)[p] = q[p] / m[p];
 	}
+	if (pm_keep(top, bottom, name, *made))
+		*made = NULL;
 	return 0;
 }
 

@@ -24,8 +24,8 @@ int pm_reads_strength(struct pm_frame *f, const char *set, const char *name);
 /* q[c][n]: the field, times volume if it is a value; *made is to be freed. */
 int pm_strengths(const struct pm_frame *f, const char *set, const char *name, const double *q[], double **made);
 
-/* strength/per, particle by particle; to be freed. */
-int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, double **ratio);
+/* strength/per, particle by particle, which is kept while both stay; *made is to be freed. */
+int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double **ratio, double **made);
 
 /* Refuses particles outside the mesh with a sentence that names the first, and the remedies of the tool. */
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy);
