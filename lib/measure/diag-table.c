@@ -202,7 +202,7 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_measure how = pm_diag_how(&t->request, f);
-	return pm_measure_shared(&how, f);
+	return pm_measure_shared(&how);
 }
 
 static void print_row(struct pm_diag_table *t, const double *value, bool first)

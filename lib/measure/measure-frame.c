@@ -125,7 +125,7 @@ static int of_level(const struct pm_measure *how, const struct pm_frame *f, stru
 	return status;
 }
 
-bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f) { return !how->nradii && pm_maxwell_divides(how, f); }
+bool pm_measure_shared(const struct pm_measure *how) { return !how->nradii; }
 
 static int measure(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
 {

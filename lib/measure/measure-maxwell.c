@@ -31,13 +31,6 @@ void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f)
 		pm_reads(f, mesh->name, how->density);
 }
 
-/* The residual by derivatives of waves is found on the whole mesh. */
-bool pm_maxwell_divides(const struct pm_measure *how, const struct pm_frame *f)
-{
-	const struct pm_mesh *mesh = mesh_of(how, f);
-	return !mesh || !pm_frame_field(f, mesh->name, how->density) || !pm_yee_spectral(pm_frame_field(f, mesh->name, how->field));
-}
-
 struct component {
 	const struct pm_grid *g;
 	const unsigned char *half;

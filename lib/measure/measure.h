@@ -127,7 +127,6 @@ void pm_vortex_space_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Charge, energy of the components of the field, modes. 0, or failure without memory. */
 void pm_plasma_reads(const struct pm_measure *how, struct pm_frame *f);
-bool pm_maxwell_divides(const struct pm_measure *how, const struct pm_frame *f); /* can ranks share its columns? */
 int pm_plasma_of(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 /* Energies of E and B on Yee's mesh, and how far E is from Gauss's law: max |div E - rho/eps0| over max |rho/eps0|, where there is a rho. */
 void pm_maxwell_reads(const struct pm_measure *how, struct pm_frame *f);
@@ -139,7 +138,7 @@ bool pm_measure_has_outside(const struct pm_measure *how, const struct pm_frame 
 void pm_outside_of_reads(const struct pm_measure *how, struct pm_frame *f);
 int pm_outside_of(const struct pm_measure *how, const struct pm_frame *f, double *count, double *energy);
 /* Behind the reads: can ranks share them? Not order statistics. */
-bool pm_measure_shared(const struct pm_measure *how, const struct pm_frame *f);
+bool pm_measure_shared(const struct pm_measure *how);
 bool pm_measure_divided(const struct pm_frame *f); /* with the data: do they? */
 int pm_measure_frame(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m);
 

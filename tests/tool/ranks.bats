@@ -511,7 +511,8 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 			p2m -n $([ $dim = 2 ] && echo 11x37 || echo 5x6x7) >charged
 		for method in fourth cole-karkkainen psatd; do
 			maxwell --gauss --method $method <charged | sel --drop rho | same "push boris/2 | p2m --current | maxwell --method $method |
-				push drift | p2m | maxwell --gauss --method $method | m2p | push boris/2" --store all
+				push drift | p2m | maxwell --gauss --method $method | m2p | push boris/2 |
+				diag --tee /dev/null --columns gauss_residual" --store all
 		done
 		same "push drift | p2m | maxwell --gauss | maxwell --marder 3" --store all <charged
 	done
