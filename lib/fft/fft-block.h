@@ -9,7 +9,7 @@ enum { PM_FFT_PASSES = 40, PM_PRIME = 13 };
 
 struct pm_fft {
 	size_t n;
-	size_t *at;                /* frequency k comes out in row at[k], and goes in there on the way back */
+	size_t *at;                /* frequency k comes out in row at[k], and goes in there on the way back; n as 0 */
 	int stages;                /* 0: by FFTW */
 	int radix[PM_FFT_PASSES];
 	double *twiddle[PM_FFT_PASSES];/* of stage s: cos, sin of 2 pi j p/N for j < N/radix, p = 1 .. radix-1 */
@@ -32,6 +32,17 @@ void pm_fft_circle(size_t i, size_t n, double *c, double *s);
 void pm_fft_forward(const struct pm_fft *f, double *block);
 void pm_fft_backward(const struct pm_fft *f, double *block);
 
+/* The same from rows of memory, row i of 16 numbers at at + i*step, to such rows, by way of a block (which they may be, with the step PM_FFT_LINES; at 128-byte
+ * steps and aligned as it is). */
+struct pm_fft_place {
+	double *at;
+	size_t step; /* [doubles] */
+};
+void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);
+void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);
+/* Forward, times u, and back; u: double [length][PM_FFT_LINES/2], the factors of the frequency that row i of the block would hold, one for each line. */
+void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const double *u, double *block, struct pm_fft_place to);
+
 /* PM_FFT_LINES rows of memory, anywhere, to and from a block: rows 0-7 become the real, 8-15 the imaginary lanes; rows from `rows` on are missing and
  * count as zero. Element i goes to block row at[i] on the way in, and comes from there on the way out (at NULL: row i). */
 void pm_fft_rows_in(const double *const row[PM_FFT_LINES], size_t rows, size_t n, const size_t *at, double *block);
@@ -39,9 +50,9 @@ void pm_fft_rows_out(const double *block, const size_t *at, size_t n, size_t row
 
 /* The same for rows of reals and their spectra. out: the pair transforms in a block (rows q and q+8 as real and imaginary part) to frequencies
  * 0 .. n/2 of each row, in chunks of eight: real parts, then imaginary parts, the last chunk filled up with zeros, 64-byte aligned. in: the way back;
- * imaginary parts of frequencies 0 and n/2 are ignored. */
-void pm_spectra_out(const struct pm_fft *f, const double *block, size_t rows, double *const row[PM_FFT_LINES]);
-void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[PM_FFT_LINES], double *block);
+ * imaginary parts of frequencies 0 and n/2 are ignored. shared (even n): frequency n/2 is the imaginary part of frequency 0, and none is beyond n/2 - 1. */
+void pm_spectra_out(const struct pm_fft *f, const double *block, size_t rows, bool shared, double *const row[PM_FFT_LINES]);
+void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[PM_FFT_LINES], bool shared, double *block);
 
 /* Copies n doubles past the caches where the processor can. end: before others read them. */
 void pm_stream(double *to, const double *from, size_t n);

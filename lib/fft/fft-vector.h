@@ -27,6 +27,13 @@ PM_SIMD_INLINE void put(struct c8 *x, struct lanes a) { x->re = a.re, x->im = a.
 PM_SIMD_INLINE struct lanes plus(struct lanes a, struct lanes b) { return (struct lanes){a.re + b.re, a.im + b.im}; }
 PM_SIMD_INLINE struct lanes minus(struct lanes a, struct lanes b) { return (struct lanes){a.re - b.re, a.im - b.im}; }
 
+/* The larger of most and |v|, lane by lane; most where v is NaN. */
+PM_SIMD_INLINE pm_simd_part larger(pm_simd_part most, pm_simd_part v)
+{
+	const __typeof__(v > most) below = v < 0, size = ((__typeof__(below))v & ~below) | ((__typeof__(below))-v & below), more = (pm_simd_part)size > most;
+	return (pm_simd_part)((size & more) | ((__typeof__(below))most & ~more));
+}
+
 /* times exp(-i x) forward, exp(+i x) back; w = cos x, sin x */
 PM_SIMD_INLINE struct lanes twisted(struct lanes a, const double *w, bool back)
 {

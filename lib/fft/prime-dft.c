@@ -44,19 +44,20 @@ static void dft(int p, const double *circle, bool back, struct lanes *a)
 	}
 }
 
-void pm_prime_stage(const struct pm_fft *f, int s, size_t length, bool back, struct c8 *x)
+void pm_prime_stage(const struct pm_fft *f, int s, bool back, struct pm_stage_rows at)
 {
-	const size_t r = (size_t)f->radix[s], m = length / r;
+	const size_t r = (size_t)f->radix[s], m = at.length / r;
 	struct lanes a[PM_PRIME_MOST];
-	for (size_t base = 0; base < f->n; base += length)
+	for (size_t base = at.first; base < at.end; base += at.length)
 		for (size_t i = 0; i < m * PM_FFT_PARTS; i++) {
 			const size_t j = i / PM_FFT_PARTS;
 			const double *w = f->twiddle[s] + 2 * (r - 1) * j;
-			struct c8 *y = part_of((const double *)(x + base + j), (int)(i % PM_FFT_PARTS));
+			const struct c8 *x = part_of((const double *)(at.x + (base + j) * at.x_step), (int)(i % PM_FFT_PARTS));
+			struct c8 *y = part_of((const double *)(at.y + (base + j) * at.y_step), (int)(i % PM_FFT_PARTS));
 			for (size_t q = 0; q < r; q++)
-				a[q] = back && q && m > 1 ? twisted(take(y + q * m), w + 2 * (q - 1), true) : take(y + q * m);
+				a[q] = back && q && m > 1 ? twisted(take(x + q * m * at.x_step), w + 2 * (q - 1), true) : take(x + q * m * at.x_step);
 			dft((int)r, f->circle[s], back, a);
 			for (size_t q = 0; q < r; q++)
-				put(y + q * m, !back && q && m > 1 ? twisted(a[q], w + 2 * (q - 1), false) : a[q]);
+				put(y + q * m * at.y_step, !back && q && m > 1 ? twisted(a[q], w + 2 * (q - 1), false) : a[q]);
 		}
 }

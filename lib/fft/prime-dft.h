@@ -7,7 +7,16 @@
 
 enum { PM_PRIME_MOST = 251 };
 
-/* Stage s of f, of radix at most PM_PRIME_MOST, on blocks of `length` rows of x. */
-void pm_prime_stage(const struct pm_fft *f, int s, size_t length, bool back, struct c8 *x);
+/* Where a stage works: rows first to end-1, in pieces of length, of x and of y, whose rows are so many apart. */
+struct pm_stage_rows {
+	size_t first, end, length;
+	const struct c8 *x;
+	size_t x_step;
+	struct c8 *y;
+	size_t y_step;
+};
+
+/* Stage s of f, of radix at most PM_PRIME_MOST. */
+void pm_prime_stage(const struct pm_fft *f, int s, bool back, struct pm_stage_rows at);
 
 #endif

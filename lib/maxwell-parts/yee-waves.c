@@ -97,14 +97,14 @@ static void rows(const struct pm_yee_waves *w, size_t first, size_t count, bool 
 	for (size_t r = 0; r < count; r++)
 		point[r] = points + (first + r) * a->n, wave[r] = waves + (first + r) * w->chunks * L;
 	if (back) {
-		pm_spectra_in(a->fft, count, (const double *const *)wave, block);
+		pm_spectra_in(a->fft, count, (const double *const *)wave, false, block);
 		pm_fft_backward(a->fft, block);
 		pm_fft_rows_out(block, NULL, a->n, count, point);
 		return;
 	}
 	pm_fft_rows_in((const double *const *)point, count, a->n, NULL, block);
 	pm_fft_forward(a->fft, block);
-	pm_spectra_out(a->fft, block, count, wave);
+	pm_spectra_out(a->fft, block, count, false, wave);
 }
 
 /* So many planes of rows; no block has rows of two planes. */

@@ -41,7 +41,7 @@ int pm_poisson_fft_influence(struct pm_poisson_fft *p)
 		made.factor = p->choice.green->factor, made.softening = p->choice.softening;
 	for (int a = X; a <= Z && !status; a++)
 		status = pm_influence_axis_init(&axis[a], f, p->line[a].n, h[a], symbol, &p->choice);
-	p->green_row = (p->chunks * H + L - 1) / L * L;
+	p->green_row = (pm_poisson_fft_multipliers(p) + L - 1) / L * L;
 	p->green_slab = p->green_row * axis[Z].count;
 	size_t *mode = status ? NULL : pm_alloc(axis[Y].count + 1, sizeof *mode);
 	p->fold = mode ? pm_alloc(p->modes[Y], sizeof *p->fold) : NULL;

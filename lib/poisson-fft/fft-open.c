@@ -116,7 +116,7 @@ int pm_poisson_fft_green(struct pm_poisson_fft *p)
 		o.width = fmax(o.width, open_line(g->face[d]) ? 2 * g->h[d] : 0); /* Hejlesen et al. 2013 */
 	if (p->choice.softening > 0 || o.green->factor)
 		o.width = p->choice.softening / (o.green->factor ? 1 : sqrt(2));
-	o.rows = p->chunks * (p->complex ? H : L);
+	o.rows = pm_poisson_fft_multipliers(p);
 	o.row = (o.rows + L - 1) / L * L;
 	o.map = pm_alloc(o.rows, sizeof *o.map);
 	p->fold = pm_alloc(p->modes[Y], sizeof *p->fold);

@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "fft/fft-vector.h"
 #include "poisson-fft/fft-passes.h"
 #include "world/world.h"
 
@@ -32,15 +33,22 @@ static void copy_out(const struct pm_poisson_fft *p, double *to, const double *f
 		memcpy(to, from, n * sizeof *to);
 }
 
+/* n rows of L doubles are wanted in the caches soon, to be read and written. */
+static inline void soon(const double *at, size_t step, size_t n)
+{
+	for (size_t i = 0; i < n; i++, at += step)
+		__builtin_prefetch(at, 1), __builtin_prefetch(at + L / 2, 1);
+}
+
 /* Scratch of a thread. Memory is read and written in long pieces; the rest happens in cache. */
 struct scratch {
-	double *block, *rows, *modes;
+	double *block, *rows, *factors, *modes;
 };
 
 static struct scratch thread_scratch(const struct pm_poisson_fft *p)
 {
 	double *s = p->scratch + (size_t)omp_get_thread_num() * p->lot;
-	return (struct scratch){s, s + p->block, s + p->block + p->rows};
+	return (struct scratch){s, s + p->block, s + p->block + p->rows, s + p->block + p->rows + p->factors};
 }
 
 /* A slab is what one thread transforms at a time: a plane, in 2-D L rows. */
@@ -95,12 +103,14 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 /* Of the nodes of a block; one accumulator per lane. */
 static double largest_of(const double *block, size_t n)
 {
-	double most[L] = {0}, all = 0;
-	for (size_t i = 0; i < n; i++)
-		for (int q = 0; q < L; q++)
-			most[q] = fabs(block[i * L + (size_t)q]) > most[q] ? fabs(block[i * L + (size_t)q]) : most[q];
-	for (int q = 0; q < L; q++)
-		all = most[q] > all ? most[q] : all;
+	double all = 0;
+	for (int part = 0; part < L; part += PM_SIMD_PART) {
+		pm_simd_part most = {0};
+		for (size_t i = 0; i < n; i++)
+			most = larger(most, *(const pm_simd_part_at *)(block + i * L + (size_t)part));
+		for (int q = 0; q < PM_SIMD_PART; q++)
+			all = most[q] > all ? most[q] : all;
+	}
 	return all;
 }
 
@@ -113,9 +123,9 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 	for (size_t r = 0; r < g->rows; r++) {
 		double *row = s.rows + r * p->nodes[X];
 		const double *from = io->from(io, g->j + r * g->dj, g->k + r * g->dk, row);
-		if (from != row)
-			memcpy(row, from, p->nodes[X] * sizeof *row);
-		in[r] = row, out[r] = to + r * p->row;
+		if (from != row && p->streams)
+			memcpy(row, from, p->nodes[X] * sizeof *row), from = row;
+		in[r] = from, out[r] = to + r * p->row;
 	}
 	pm_fft_rows_in(in, g->rows, p->nodes[X], NULL, s.block + l->row * L);
 	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
@@ -123,7 +133,7 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 		weigh(p, g, s.block);
 	if (p->complex) {
 		pm_transform_forward(l, false, s.block);
-		pm_spectra_out(l->fft, s.block, g->rows, out);
+		pm_spectra_out(l->fft, s.block, g->rows, p->shared, out);
 		return largest;
 	}
 	pm_transform_real(l, s.block);
@@ -139,17 +149,17 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 	const double *in[L];
 	double *out[L];
 	for (size_t r = 0; r < g->rows; r++)
-		in[r] = from + r * p->row, out[r] = s.rows + r * p->nodes[X];
+		in[r] = from + r * p->row, out[r] = p->streams ? s.rows + r * p->nodes[X] : io->to(io, g->j + r * g->dj, g->k + r * g->dk);
 	if (p->complex) {
-		pm_spectra_in(l->fft, g->rows, in, s.block);
+		pm_spectra_in(l->fft, g->rows, in, p->shared, s.block);
 		pm_fft_backward(l->fft, s.block);
 	} else {
 		pm_fft_rows_in(in, g->rows, p->modes[X], l->map, s.block);
 		pm_transform_real_back(l, s.block);
 	}
 	pm_fft_rows_out(s.block + l->row * L, NULL, p->nodes[X], g->rows, out);
-	for (size_t r = 0; r < g->rows; r++)
-		copy_out(p, io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
+	for (size_t r = 0; r < g->rows && p->streams; r++)
+		pm_stream(io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
 }
 
 /* n rows of a block, as at[] has them, from and to memory. */
@@ -165,48 +175,97 @@ static void scatter_real(const double *block, const size_t *at, size_t n, size_t
 		memcpy(to + i * stride, block + at[i] * L, L * sizeof *to);
 }
 
-/* Columns of a plane: L lanes at a time. Real modes are put in order, complex ones stay as they come. */
-static void columns(const struct pm_poisson_fft *p, double *plane, bool forward, double *block)
+/* A plane, from row to row. */
+struct plane {
+	double *at;
+	size_t step;
+};
+
+/* Rows of the first and the last place of a pair of frequencies y hold F_0 + i F_{N/2} of x, F of real lines: to F_0 in row k and F_{N/2} in row N-k. */
+static void part_shared(const struct pm_poisson_fft *p, bool back, struct plane w)
 {
 	const struct pm_transform *l = &p->line[Y];
-	for (size_t c = 0; c < p->chunks; c++, plane += L) {
-		if (forward)
-			gather(plane, p->row, p->nodes[Y], block + l->row * L);
-		else if (p->complex)
-			gather(plane, p->row, p->modes[Y], block);
+	for (size_t k = 1; k < pm_transform_partner(l, k); k++) {
+		double *a = w.at + l->fft->at[k] * w.step, *b = w.at + l->fft->at[l->length - k] * w.step, ar = a[0], ai = a[H], br = b[0], bi = b[H];
+		if (back) /* F_0 + i F_{N/2}, conj F_0 + i conj F_{N/2} */
+			a[0] = ar - bi, a[H] = ai + br, b[0] = ar + bi, b[H] = br - ai;
 		else
-			gather_real(plane, p->row, l->map, p->modes[Y], block);
-		if (!p->complex && forward) {
-			pm_transform_real(l, block);
-			scatter_real(block, l->map, p->modes[Y], p->row, plane);
-		} else if (forward) {
-			pm_transform_forward(l, false, block);
-			scatter(block, p->modes[Y], p->row, plane);
-		} else {
-			(p->complex ? pm_transform_backward : pm_transform_real_back)(l, block);
-			scatter(block + l->row * L, p->nodes[Y], p->row, plane);
-		}
+			a[0] = 0.5 * (ar + br), a[H] = 0.5 * (ai - bi), b[0] = 0.5 * (ai + bi), b[H] = 0.5 * (br - ar);
 	}
 }
 
+/* Columns of a plane of complex modes, which stay as they come, L lanes at a time: from the plane of the rows to w, or back. */
+static void complex_columns(const struct pm_poisson_fft *p, struct plane x, struct plane w, bool forward, double *block)
+{
+	const struct pm_transform *l = &p->line[Y];
+	const struct pm_fft_place own = {block, L};
+	const bool whole = l->face[0] == PM_PERIODIC;
+	if (!forward && p->shared)
+		part_shared(p, true, w);
+	for (size_t c = 0; c < p->chunks; c++) {
+		const struct pm_fft_place rows = {x.at + c * L, x.step}, modes = {w.at + c * L, w.step};
+		if (modes.step != rows.step && c + 1 < p->chunks)
+			soon(modes.at + L, w.step, p->modes[Y]);
+		if (!whole && forward) {
+			gather(rows.at, x.step, p->nodes[Y], block);
+			pm_transform_extend(l, false, block);
+		}
+		if (forward)
+			pm_fft_forward_moving(l->fft, whole ? rows : own, block, modes);
+		else
+			pm_fft_backward_moving(l->fft, modes, block, whole ? rows : own);
+		if (!whole && !forward)
+			scatter(block, p->nodes[Y], x.step, rows.at);
+	}
+	if (forward && p->shared)
+		part_shared(p, false, w);
+}
+
+/* Columns of a plane of real modes, which are put in order. */
+static void real_columns(const struct pm_poisson_fft *p, double *plane, bool forward, double *block)
+{
+	const struct pm_transform *l = &p->line[Y];
+	for (size_t c = 0; c < p->chunks; c++, plane += L)
+		if (forward) {
+			gather(plane, p->row, p->nodes[Y], block + l->row * L);
+			pm_transform_real(l, block);
+			scatter_real(block, l->map, p->modes[Y], p->row, plane);
+		} else {
+			gather_real(plane, p->row, l->map, p->modes[Y], block);
+			pm_transform_real_back(l, block);
+			scatter(block + l->row * L, p->nodes[Y], p->row, plane);
+		}
+}
+
+/* Complex modes of a mesh in the caches go to w as they come; else, and real ones, in long pieces. */
 static double plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
+	const struct plane here = {s.modes, p->row}, w = {p->w + k * p->row, p->slab};
+	const bool direct = p->complex && !p->streams;
 	double largest = 0;
 	for (size_t j = 0; j < p->nodes[Y]; j += L) {
 		struct group g = group_of(p, k, j);
 		largest = fmax(largest, rows_forward(p, io, &g, s, s.modes + j * p->row));
 	}
-	columns(p, s.modes, true, s.block);
-	for (size_t j = 0; j < p->modes[Y]; j++)
-		copy_out(p, p->w + (j * p->zhere + k) * p->row, s.modes + j * p->row, p->chunks * L);
+	if (p->complex)
+		complex_columns(p, here, direct ? w : here, true, s.block);
+	else
+		real_columns(p, s.modes, true, s.block);
+	for (size_t j = 0; j < p->modes[Y] && !direct; j++)
+		copy_out(p, w.at + j * w.step, s.modes + j * p->row, p->chunks * L);
 	return largest;
 }
 
 static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
-	for (size_t j = 0; j < p->modes[Y]; j++)
-		memcpy(s.modes + j * p->row, p->w + (j * p->zhere + k) * p->row, p->chunks * L * sizeof *p->w);
-	columns(p, s.modes, false, s.block);
+	const struct plane here = {s.modes, p->row}, w = {p->w + k * p->row, p->slab};
+	const bool direct = p->complex && !p->streams;
+	for (size_t j = 0; j < p->modes[Y] && !direct; j++)
+		memcpy(s.modes + j * p->row, w.at + j * w.step, p->chunks * L * sizeof *p->w);
+	if (p->complex)
+		complex_columns(p, here, direct ? w : here, false, s.block);
+	else
+		real_columns(p, s.modes, false, s.block);
 	for (size_t j = 0; j < p->nodes[Y]; j += L) {
 		struct group g = group_of(p, k, j);
 		rows_backward(p, io, &g, s, s.modes + j * p->row);
@@ -254,12 +313,6 @@ static inline void multiplier(const struct pm_poisson_fft *p, size_t j, size_t k
 		u[0] = 0;
 }
 
-static void times(const double *u, double *a)
-{
-	for (int q = 0; q < H; q++)
-		a[q] *= u[q], a[q + H] *= u[q];
-}
-
 /* Frequencies k and k' of lines whose multipliers differ between a and b: with u on a and v on b F'_k = (u+v)/2 F_k + (u-v)/2 conj F_k'. */
 static void pair_times(const double *u, double *a, double *b)
 {
@@ -271,16 +324,93 @@ static void pair_times(const double *u, double *a, double *b)
 	}
 }
 
-static void complex_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
+/* The multiplier of frequency N/2 along x. */
+static double nyquist(const struct pm_poisson_fft *p, size_t j, size_t k, double factor)
+{
+	const size_t i = p->modes[X] - 1;
+	if (p->green)
+		return factor * p->green[p->fold[j] * p->green_slab + (k + p->green_least) * p->green_row + i];
+	return factor / (p->lambda[X][i] + (p->lambda[Y][j] + p->lambda[Z][k]));
+}
+
+/* factor over the sums of eigenvalues of a chunk, for two rows. */
+static inline void two_rows(const double *lx, double rest, double factor, double *a, double *b)
+{
+	for (int q = 0; q < H; q += PM_SIMD_PART) {
+		const pm_simd_part u = factor / (*(const pm_simd_part_at *)(lx + q) + rest);
+		*(pm_simd_part_at *)(a + q) = *(pm_simd_part_at *)(b + q) = u;
+	}
+}
+
+/* The multipliers of a chunk of pencils by rows of the block. */
+static void factors_of(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *u)
+{
+	const struct pm_transform *l = &p->line[Z];
+	const double *lx = p->lambda[X] + (p->green ? 0 : c * H);
+	for (size_t k = 0; k <= l->length - k; k++) {
+		double *a = u + l->fft->at[k] * H, *b = u + l->fft->at[l->length - k] * H;
+		if (p->green) {
+			multiplier(p, j, k, c, H, factor, a);
+			memmove(b, a, H * sizeof *u);
+		} else {
+			two_rows(lx, p->lambda[Y][j] + p->lambda[Z][k], factor, a, b);
+		}
+		if (c == 0 && p->holds[j] == SHARED_NYQUIST)
+			a[0] = b[0] = nyquist(p, j, k, factor);
+	}
+	if (p->singular && !p->green && j == 0 && c == 0)
+		u[0] = 0;
+}
+
+/* F_0 + i F_{N/2} of x in the first lane: F of real lines, so that frequencies k and k' belong together. */
+static void times_shared(const struct pm_poisson_fft *p, size_t j, double factor, const double *u, double *block)
 {
 	const struct pm_transform *l = &p->line[Z];
 	for (size_t k = 0; k <= l->length - k; k++) {
-		double u[H], *a = block + l->fft->at[k] * L, *b = block + l->fft->at[pm_transform_partner(l, k)] * L;
-		multiplier(p, j, k, c, H, factor, u);
-		times(u, a);
-		if (a != b)
-			times(u, b);
+		const size_t at = l->fft->at[k], partner = l->fft->at[pm_transform_partner(l, k)];
+		const double v = nyquist(p, j, k, factor), s = 0.5 * (u[at * H] + v), d = 0.5 * (u[at * H] - v);
+		double *a = block + at * L, *b = block + partner * L, ar = a[0], ai = a[H], br = b[0], bi = b[H];
+		if (a == b) { /* both are real */
+			a[0] = u[at * H] * ar, a[H] = v * ai;
+			continue;
+		}
+		a[0] = s * ar + d * br, a[H] = s * ai - d * bi;
+		b[0] = s * br + d * ar, b[H] = s * bi - d * ai;
 	}
+}
+
+/* The lanes from `least` on. */
+static void times(const double *u, size_t n, size_t least, double *a)
+{
+	for (size_t i = 0; i < n; i++, u += H, a += L)
+		for (size_t q = least; q < H; q++)
+			a[q] *= u[q], a[q + H] *= u[q];
+}
+
+/* The mode of constants, and modes that share a place, are looked at between forward and back; all others only multiplied. */
+static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, size_t stride)
+{
+	const struct pm_transform *l = &p->line[Z];
+	const bool whole = l->face[0] == PM_PERIODIC, shared = p->shared && c == 0 && p->holds[j] == SHARED_BOTH;
+	const struct pm_fft_place here = {at, stride}, own = {s.block, L};
+	if (!whole) {
+		gather(at, stride, p->nodes[Z], s.block);
+		pm_transform_extend(l, false, s.block);
+	}
+	factors_of(p, j, c, factor, s.factors);
+	if (shared || (j == 0 && c == 0)) {
+		pm_fft_forward_moving(l->fft, whole ? here : own, s.block, own);
+		if (j == 0 && c == 0)
+			p->zero = s.block[0];
+		if (shared)
+			times_shared(p, j, factor, s.factors, s.block);
+		times(s.factors, l->length, shared, s.block);
+		pm_fft_backward_moving(l->fft, own, s.block, whole ? here : own);
+	} else {
+		pm_fft_times_moving(l->fft, whole ? here : own, s.factors, s.block, whole ? here : own);
+	}
+	if (!whole)
+		scatter(s.block, p->nodes[Z], stride, at);
 }
 
 static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
@@ -299,11 +429,6 @@ static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, dou
 		memset(block, 0, L * sizeof *block), memset(block + l->fft->at[l->length / 2] * L, 0, L * sizeof *block);
 }
 
-static void forward(const struct pm_transform *l, double *block)
-{
-	pm_transform_forward(l, false, block);
-}
-
 static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
 {
 	const struct pm_transform *l = &p->line[Z];
@@ -315,30 +440,35 @@ static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, d
 	}
 }
 
-static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block, double *at, size_t stride)
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, size_t stride)
 {
 	const struct pm_transform *l = &p->line[Z];
-	gather(at, stride, p->nodes[Z], block + l->row * L);
-	(l->fold ? pm_transform_real : forward)(l, block);
-	if (j == 0 && c == 0)
-		p->zero = block[0];
-	if (p->complex)
-		complex_pencils(p, j, c, factor, block);
-	else if (l->fold)
-		folded_pencils(p, j, c, factor, block);
+	if (p->complex) {
+		complex_pencils(p, j, c, factor, s, at, stride);
+		return;
+	}
+	gather(at, stride, p->nodes[Z], s.block + l->row * L);
+	if (l->fold)
+		pm_transform_real(l, s.block);
 	else
-		real_pencils(p, j, c, factor, block);
-	(l->fold ? pm_transform_real_back : pm_transform_backward)(l, block);
-	scatter(block + l->row * L, p->nodes[Z], stride, at);
+		pm_transform_forward(l, false, s.block);
+	if (j == 0 && c == 0)
+		p->zero = s.block[0];
+	(l->fold ? folded_pencils : real_pencils)(p, j, c, factor, s.block);
+	(l->fold ? pm_transform_real_back : pm_transform_backward)(l, s.block);
+	scatter(s.block + l->row * L, p->nodes[Z], stride, at);
 }
 
 /* A unit of pencils: a slab of a row of modes y, in 2-D one chunk. */
 static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scratch s, double *slab)
 {
 	if (!thick(p))
-		pencils(p, 0, u, factor, s.block, slab, p->from ? L : p->row);
-	for (size_t c = 0; c < p->chunks && thick(p); c++)
-		pencils(p, u, c, factor, s.block, slab + c * L, p->row);
+		pencils(p, 0, u, factor, s, slab, p->from ? L : p->row);
+	for (size_t c = 0; c < p->chunks && thick(p); c++) {
+		if (!p->streams && c + 1 < p->chunks)
+			soon(slab + (c + 1) * L, p->row, p->nodes[Z]);
+		pencils(p, u, c, factor, s, slab + c * L, p->row);
+	}
 }
 
 void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own)
@@ -346,17 +476,18 @@ void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own
 	const bool plane = thick(p);
 	const size_t me = own ? (size_t)pm_world_rank() : 0, first = own ? p->units_of[me] : 0, size = p->nodes[Z] * p->row;
 	const size_t units = own ? p->units_of[me + 1] - first : plane ? p->modes[Y] : p->chunks;
+	const bool copies = plane && p->streams; /* long pieces of memory */
 #pragma omp parallel for schedule(static) num_threads(p->threads)
 	for (size_t i = 0; i < units; i++) {
 		struct scratch s = thread_scratch(p);
 		if (own)
 			pm_poisson_fft_unit(p, i, own, s.modes, false);
-		else if (plane)
-			memcpy(s.modes, p->w + i * size, size * sizeof *p->w);
-		unit(p, first + i, factor, s, own || plane ? s.modes : p->w + i * L);
+		else if (copies)
+			memcpy(s.modes, p->w + i * p->slab, size * sizeof *p->w);
+		unit(p, first + i, factor, s, own || copies ? s.modes : p->w + i * (plane ? p->slab : L));
 		if (own)
 			pm_poisson_fft_unit(p, i, own, s.modes, true);
-		else if (plane)
-			memcpy(p->w + i * size, s.modes, size * sizeof *p->w);
+		else if (copies)
+			memcpy(p->w + i * p->slab, s.modes, size * sizeof *p->w);
 	}
 }

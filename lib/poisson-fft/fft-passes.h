@@ -7,6 +7,7 @@
 #include "poisson-fft/poisson-fft.h"
 
 enum { L = PM_FFT_LINES, H = PM_FFT_LINES / 2, X = 0, Y = 1, Z = 2 };
+enum shared { SHARED_FIRST, SHARED_NYQUIST, SHARED_BOTH };
 
 struct pm_poisson_fft {
 	struct pm_grid grid;
@@ -17,8 +18,11 @@ struct pm_poisson_fft {
 	struct pm_transform line[3];        /* x along rows, y across a plane, z across planes; in 2-D y is trivial, z the mesh's second axis */
 	size_t nodes[3], modes[3];     /* that take part; modes complex numbers or reals */
 	size_t chunks;                 /* per row of modes: L reals, or H complex numbers as H real parts and H imaginary parts */
+	bool shared;                   /* complex modes: frequencies 0 and N/2 along x, where rows have real spectra, share the first place of a row */
+	char *holds;                   /* which of them is there (enum shared), for each row y of a plane of modes */
 	size_t row;                    /* [doubles] stride of rows */
 	double *w;                     /* [modes[Y]][zhere][row]: a pencil's slab is in one piece, a plane's rows are not */
+	size_t slab;                   /* [doubles] from one of these slabs to the next */
 	size_t planes, first;          /* of the mesh, those here and the number of the first one (mesh/planes.h) */
 	size_t zhere, zfirst;          /* those that take part, nodes along z: all of them and 0, or those of this rank */
 	uint64_t *from;                /* NULL, or the division of the planes among the ranks, ranks + 1 numbers, and behind it: */
@@ -29,7 +33,7 @@ struct pm_poisson_fft {
 	size_t green_row, green_slab;  /* [doubles] green[y][z][x], x in the order of the modes */
 	size_t *fold, green_least;     /* open: of each row of a plane of modes (of this rank) the row y of green; the row z of the first mode */
 	int threads;
-	size_t block, rows, lot;       /* [doubles] of scratch per thread: a block; L rows of nodes; with a plane or slab of modes */
+	size_t block, rows, factors, lot; /* [doubles] of scratch per thread: a block; L rows of nodes; H factors a row; with a plane or slab of modes */
 	double *scratch;
 	bool streams;                  /* w is larger than the caches */
 	double distance;               /* with a wave: to the nearest eigenvalue, |lambda + a^2|/a^2 */
@@ -45,6 +49,13 @@ struct rows {
 	const double *(*from)(const struct rows *r, size_t j, size_t k, double *buffer);
 	double *(*to)(const struct rows *r, size_t j, size_t k);
 };
+
+/* The multipliers of a row along x: those of the modes, filled up to whole chunks. */
+static inline size_t pm_poisson_fft_multipliers(const struct pm_poisson_fft *p)
+{
+	const size_t lanes = p->complex ? H : L;
+	return (p->modes[X] + lanes - 1) / lanes * lanes;
+}
 
 /* Forward it returns the largest absolute source of a singular problem. */
 double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);

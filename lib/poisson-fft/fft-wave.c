@@ -9,7 +9,7 @@ int pm_poisson_fft_resonance(struct pm_poisson_fft *p)
 {
 	const double a2 = p->choice.wave * p->choice.wave;
 	double nearest = INFINITY, at = 0;
-	for (size_t i = p->modes[X]; i < p->chunks * (p->complex ? H : L); i++)
+	for (size_t i = p->modes[X]; i < pm_poisson_fft_multipliers(p); i++)
 		p->lambda[X][i] = -INFINITY; /* no modes: nothing there is divided by zero */
 	for (size_t k = 0; k < p->modes[Z]; k++)
 		for (size_t j = 0; j < p->modes[Y]; j++)

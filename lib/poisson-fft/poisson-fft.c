@@ -88,7 +88,7 @@ static void zero_walls(const struct pm_poisson_fft *p, double *phi)
 
 int pm_poisson_fft_work(struct pm_poisson_fft *p)
 {
-	return p->w || p->empty || (p->w = pm_zalloc(p->modes[Y] * p->zhere + 1, p->row * sizeof *p->w)) ? 0 : -PM_DATA;
+	return p->w || p->empty || (p->w = pm_zalloc(p->modes[Y] * p->slab + L, sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
 /* Along z: here, or with the planes of the other ranks turned to pencils and back. */
@@ -142,6 +142,19 @@ static size_t odd_stride(size_t doubles)
 	return ((doubles + L - 1) / L | 1) * L;
 }
 
+/* Row k of a plane of modes has frequency 0 along x in the shared place, row N-k frequency N/2. */
+static int shares(struct pm_poisson_fft *p)
+{
+	const struct pm_transform *l = &p->line[Y];
+	if (p->complex && !(p->holds = pm_zalloc(l->length, 1)))
+		return -PM_DATA;
+	for (size_t k = 0; k < l->length && p->shared; k++) {
+		const size_t partner = pm_transform_partner(l, k);
+		p->holds[l->fft->at[k]] = k == partner ? SHARED_BOTH : k < partner ? SHARED_FIRST : SHARED_NYQUIST;
+	}
+	return 0;
+}
+
 static int layout(struct pm_poisson_fft *p)
 {
 	const struct pm_grid *g = &p->grid;
@@ -158,16 +171,19 @@ static int layout(struct pm_poisson_fft *p)
 		p->empty = p->empty || p->nodes[a] == 0;
 		most = p->line[a].length > most ? p->line[a].length : most;
 	}
-	p->chunks = p->complex ? (p->modes[X] + H - 1) / H : (p->modes[X] + L - 1) / L;
+	p->shared = p->complex && p->line[X].length % L == 0; /* one chunk less */
+	p->chunks = p->complex ? (p->modes[X] - p->shared + H - 1) / H : (p->modes[X] + L - 1) / L;
 	p->row = odd_stride(p->chunks * L);
 	p->streams = p->modes[Y] * p->nodes[Z] * p->row > (size_t)1 << 20; /* 8 MiB */
 	p->block = odd_stride((most + 1) * L);
 	p->rows = odd_stride(p->nodes[X] * L);
 	size_t slab = p->modes[Y] > p->nodes[Z] ? p->modes[Y] : p->nodes[Z];
-	p->lot = p->block + p->rows + (g->dim == 3 ? odd_stride((slab + L) * p->row) : p->choice.planes ? odd_stride((p->nodes[Z] + 1) * L) : 0);
+	p->factors = odd_stride(p->line[Z].length * H);
+	p->lot = p->block + p->rows + p->factors + (g->dim == 3 ? odd_stride((slab + L) * p->row) : p->choice.planes ? odd_stride((p->nodes[Z] + 1) * L) : 0);
 	const int status = pm_poisson_fft_ranks(p, p->choice.planes);
 	p->choice.planes = NULL; /* the caller's */
-	return status ? status : pm_poisson_fft_work(p);
+	p->slab = p->zhere * p->row + (p->from ? 0 : L); /* so that a plane's rows do not fall on the same sets of the cache */
+	return status || shares(p) ? -PM_DATA : pm_poisson_fft_work(p);
 }
 
 /* Of X, Y, Z; a line of fd2 is fitted (fft-fitted.c). */
@@ -183,7 +199,7 @@ static int symbols(struct pm_poisson_fft *p)
 	const struct pm_grid *g = &p->grid;
 	const double h[3] = {g->h[0], g->h[1], g->dim == 2 ? g->h[1] : g->h[2]};
 	for (int a = X; a <= Z && !p->empty; a++) {
-		size_t size = a == X ? p->chunks * (p->complex ? H : L) : p->modes[a];
+		size_t size = a == X ? pm_poisson_fft_multipliers(p) : p->modes[a];
 		p->lambda[a] = pm_poisson_fft_eigenvalues(&p->line[a], p->modes[a], size, a == Y && p->complex,
 			p->choice.fitted && a == fitted_axis(p) ? PM_FD2 : p->choice.symbol, h[a]);
 		if (!p->lambda[a])
@@ -246,6 +262,7 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
 	free(p->from), free(p->bytes);
 	pm_free(p->w);
 	pm_free(p->green);
+	pm_free(p->holds);
 	pm_free(p->fold);
 	pm_free(p->scratch);
 	for (int a = X; a <= Z; a++)

@@ -188,6 +188,10 @@ static void sizes(void)
 	against_direct(grid(2, 1, 37, 1, PM_PERIODIC, PM_NEUMANN, 0), "2-D periodic x neumann 1x37");
 	against_direct(grid(2, 19, 32, 1, PM_WALL, PM_PERIODIC, 0), "2-D wall x periodic 19x32");
 	against_direct(grid(3, 96, 64, 20, PM_PERIODIC, PM_PERIODIC, PM_PERIODIC), "3-D periodic 96x64x20");
+	against_direct(grid(3, 16, 9, 32, PM_PERIODIC, PM_PERIODIC, PM_PERIODIC), "3-D periodic 16x9x32, frequencies 0 and 8 share a place");
+	against_direct(grid(2, 32, 64, 1, PM_PERIODIC, PM_PERIODIC, 0), "2-D periodic 32x64, likewise");
+	against_direct(grid(3, 16, 5, 2, PM_PERIODIC, PM_PERIODIC, PM_PERIODIC), "3-D periodic 16x5x2, likewise");
+	against_direct(grid(1, 48, 1, 1, PM_PERIODIC, 0, 0), "1-D periodic 48, likewise");
 	against_direct(grid(3, 16, 1, 9, PM_PERIODIC, PM_PERIODIC, PM_PERIODIC), "3-D periodic 16x1x9");
 	against_direct(grid(3, 9, 2, 17, PM_WALL, PM_WALL, PM_WALL), "3-D wall 9x2x17");
 	against_direct(grid(3, 24, 17, 5, PM_WALL, PM_WALL, PM_WALL), "3-D wall 24x17x5");
