@@ -93,6 +93,14 @@ static int declare_where(const struct pm_selection *s, struct pm_frame *f, const
 	return status;
 }
 
+/* What leaves with a set is accounted for: its strengths are summed. */
+static void declare_left_out(struct pm_frame *f, const char *on)
+{
+	for (size_t k = 0; k < f->nfields; k++)
+		if (!strcmp(f->fields[k]->on, on) && pm_is_strength(f->fields[k]) && !f->fields[k]->uniform)
+			f->fields[k]->use |= f->fields[k]->use & PM_USE_READ ? 0 : PM_USE_ANY;
+}
+
 int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
 {
 	const struct pm_frame *const one[] = {f};
@@ -101,9 +109,12 @@ int pm_selection_declare(const struct pm_selection *s, struct pm_frame *f)
 		return status;
 	if (s->where && !f->nsets)
 		return pm_fail(PM_DATA, "no particles for --where to choose from");
-	for (size_t i = 0; s->where && i < f->nsets && !status; i++)
+	for (size_t i = 0; s->where && i < f->nsets && !status; i++) {
 		if (takes_part(s, f->sets[i]->name))
 			status = declare_where(s, f, f->sets[i]->name);
+		else
+			declare_left_out(f, f->sets[i]->name);
+	}
 	if (!s->where)
 		pm_selection_leave_out(s, f);
 	return status;
@@ -140,12 +151,8 @@ bool pm_selection_divides(const struct pm_selection *s, const struct pm_frame *f
 	bool can = s->where;
 	for (size_t i = 0; i < f->nsets; i++) {
 		bool divided = !takes_part(s, f->sets[i]->name);
-		for (size_t k = 0; k < f->nfields; k++) {
-			const struct pm_field *p = f->fields[k];
-			const bool here = !strcmp(p->on, f->sets[i]->name);
-			divided |= here && p->use & PM_USE_CHANGE;
-			can = can && !(here && pm_is_strength(p) && !p->uniform && !p->use);
-		}
+		for (size_t k = 0; k < f->nfields && !divided; k++)
+			divided = !strcmp(f->fields[k]->on, f->sets[i]->name) && f->fields[k]->use & PM_USE_CHANGE;
 		can = can && divided;
 	}
 	return can;

@@ -406,6 +406,9 @@ blobs() {
 	pinit plummer -n 5000 | stack - two >both
 	same "p2m -n 8 | push drift | sel --where 'x^2+y^2+z^2 < 4' | p2m -n 8" <both
 	same "p2m -n 8 | push drift | sel --where 'x^2+y^2+z^2 < 4' --set b | p2m" <both
+	scalc --set matter --extensive 'mass = (1 + x^2)/5000' <both >left # the strengths that leave with a set are summed
+	same "push drift | sel --where 'x < 0.9' --set b" <left
+	shares "push drift, sel --where x < 0.9 --set b" "push drift | sel --where 'x < 0.9' --set b" <left
 	shares "push drift, sel --where x < 0.9" "push drift | sel --where 'x < 0.9'" <box
 	cycle -q -n 1 "push drift | sel --where 'sqrt(12000.5 - id)'" <box 2>want >/dev/null && return 1
 	grep -q 'index 12001 of' want
