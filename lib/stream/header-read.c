@@ -112,7 +112,9 @@ static void take_object(struct look *l, const char *key, json_t **out)
 static struct look look_at(const json_t *j, const char *what)
 {
 	struct look l = {json_is_object(j) ? json_copy((json_t *)(uintptr_t)j) : NULL, what, false};
-	if (!l.j)
+	if (!l.j && json_is_object(j))
+		l.bad = pm_no_memory() != 0;
+	else if (!l.j)
 		complain(&l, "", "is not an object");
 	return l;
 }

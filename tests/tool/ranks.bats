@@ -455,6 +455,8 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 		exit !(p > 100 && more > 0 && more < 4) }'
 	local s="push drift | remesh -n 20 --by mass --kernel tsc" rank call failed=0 code
 	cycle -n 1 -i box -o alone "$s"
+	PM_REHEARSE="one-thread memory=1:5" on 3 cycle -q -n 1 "p2m -n 6x7x39 --kernel pcs | push drift" <box 2>said >/dev/null && return 1
+	grep -q "p2m.*: out of memory" said # not that the header is wrong
 	for rank in 0 1 2; do
 		for call in 20 30 45 60 80 100; do
 			code=0
