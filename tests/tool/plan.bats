@@ -380,6 +380,8 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 		fi
 		run -0 plan --check <start
 		[[ $output == *"self field"* ]] || { echo "$s: $output"; return 1; }
+		# its mesh grows with what flows off: two runs to the end took more than an hour
+		[[ $s != sphere || $output == *"two runs agree to t = "*", where the mesh has grown so far"* ]]
 	done
 }
 
