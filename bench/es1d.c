@@ -1,7 +1,7 @@
 /* A step of an electrostatic plasma on a line, fused as in cycle, beside es1d of ZPIC (github.com/ricardo-fonseca/zpic), which sorts its particles every 16
- * steps and computes in single precision, on the same electrons, in turn: 16 steps a round. ZPIC is a shared library of its files without main.c, found at run
- * time (PM_ZPIC=FILE); nothing of it is needed to build. After that, for a cold wave, the positions of both against the exact ones. Reads one frame:
- * pinit langmuir -n N --cells C --dt DT | es1d [STEPS], N a multiple of C; STEPS of the comparison. SPDX-License-Identifier: GPL-3.0-or-later */
+ * steps and computes in single precision, on the same electrons, in turn: 16 steps a round. ZPIC is a shared library of its files but the one with main(),
+ * found at run time (PM_ZPIC=FILE); nothing of it is needed to build. After that, for a cold wave, the positions of both against the exact ones. Reads one
+ * frame: pinit langmuir -n N --cells C --dt DT | es1d [STEPS], N a multiple of C; STEPS of the comparison. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <dlfcn.h>
 
 #include "sentence/sentence.h"

@@ -3,7 +3,7 @@
  * velocity of the particles, with its error, beside whole transforms of FINUFFT, of types 1 and 2, at the least power of ten as tolerance that makes their
  * error as large as ours. Reads one frame, of the flow u = sin x cos y, v = -cos x sin y:
  * pinit taylor-green-2d --cells C --dt DT | vortex-step. Without FINUFFT (finufft.h) only the step. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "finufft.h" /* before fftw3.h, which then has complex numbers of C */
+#include "finufft.h" /* before FFTW's header, which then has complex numbers of C */
 
 #include <fftw3.h>
 
