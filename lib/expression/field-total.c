@@ -85,7 +85,7 @@ static int join(size_t n, size_t components, const double *part, double *total)
 	for (size_t i = 0; i < n; i++)
 		m[i] = (struct member){part[i * length(components)], i};
 	qsort(m, n, sizeof *m, by_group);
-	for (size_t from = 0, to; from < n; from = to)
+	for (size_t from = 0, to = 0; from < n; from = to)
 		for (size_t c = 0; c < components; c++) {
 			struct pm_sum all = {0, 0};
 			for (to = from; to < n && m[to].group == m[from].group; to++) {
