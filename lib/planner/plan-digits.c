@@ -96,8 +96,8 @@ int pm_plan_digits(const struct pm_frame *f, struct pm_plan *p)
 		}
 		held = status ? held : x->time;
 		if (!status && k < PIECES && !affordable(x, p, 1 - (double)k / PIECES)) {
-			snprintf(p->unproved, sizeof p->unproved, "single orbits may part: two runs agree to t = %.3g, where the mesh has grown so far that the rest is "
-				"too long to test here (the word digits does)", held);
+			snprintf(p->unproved, sizeof p->unproved, "single orbits may part: two runs agree to t = %.3g, where the mesh has grown so far "
+				"that the rest is too long to test here (the word digits does)", held);
 			break;
 		}
 	}
