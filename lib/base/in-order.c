@@ -172,3 +172,12 @@ double pm_sum_of_rows(const size_t points[3], const double *row)
 	}
 	return pm_sum_total(all);
 }
+
+static void number_of_row(const void *data, size_t from, size_t to, void *part)
+{
+	const struct pm_row_values *v = data;
+	(void)to;
+	pm_sum_add(part, v->row[from / v->points]);
+}
+
+const struct pm_parts pm_row_sums = {.size = sizeof(struct pm_sum), .make = number_of_row, .join = pm_join_sums};

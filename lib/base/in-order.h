@@ -43,5 +43,11 @@ struct pm_mesh_values {
 extern const struct pm_parts pm_mesh_sums;
 /* Of one number per row. */
 double pm_sum_of_rows(const size_t points[3], const double *row);
+/* The same as parts over a mesh, whose data are these: numbers from the first row here on, of rows of so many points. */
+struct pm_row_values {
+	const double *row;
+	size_t points;
+};
+extern const struct pm_parts pm_row_sums;
 
 #endif

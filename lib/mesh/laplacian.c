@@ -118,24 +118,11 @@ double pm_laplacian_most(const struct pm_laplacian *l, double here)
 	return here;
 }
 
-struct rows {
-	size_t points;
-	const double *sums;
-};
-
-static void make(const void *data, size_t from, size_t to, void *part)
-{
-	const struct rows *r = data;
-	(void)to;
-	pm_sum_add(part, r->sums[from / r->points]);
-}
-
 double pm_laplacian_total(const struct pm_laplacian *l, const double *sums)
 {
-	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
 	struct pm_sum all = {0, 0};
 	if (l->ranks) {
-		l->ranks->status = pm_planes_over(l->ranks->status, &l->ranks->planes, &parts, &(struct rows){l->axis[0].points, sums}, &all);
+		l->ranks->status = pm_planes_over(l->ranks->status, &l->ranks->planes, &pm_row_sums, &(struct pm_row_values){sums, l->axis[0].points}, &all);
 		return pm_sum_total(all);
 	}
 	return pm_sum_of_rows((const size_t[3]){l->axis[0].points, l->axis[1].points, l->axis[2].points}, sums);

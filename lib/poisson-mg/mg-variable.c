@@ -114,28 +114,15 @@ bool pm_mg_variable_fits(const struct pm_mg_variable *v, const struct pm_grid *g
 	return eps ? !memcmp(own, eps, v->planes.here * v->planes.size * sizeof *eps) : v->constant;
 }
 
-/* Of one number per row of the finest grid, in v->sums. */
-struct rows {
-	size_t points;
-	const double *sums;
-};
-
-static void make(const void *data, size_t from, size_t to, void *part)
-{
-	const struct rows *r = data;
-	(void)to;
-	pm_sum_add(part, r->sums[from / r->points]);
-}
-
+/* Of the numbers that rows of the finest grid have. */
 static double total(struct pm_mg_variable *v)
 {
 	const struct mgv_level *l = &v->level[0];
-	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
 	const size_t here = l->m[l->dim - 1] * (l->dim == 3 && l->all[2] == 1 ? l->all[1] : 1); /* one plane is joined by rows, as in 2-D */
 	struct pm_sum all = {0, 0};
 	if (!v->planes.divided)
 		return pm_sum_of_rows(l->m, v->sums);
-	v->status = pm_world_over_mesh(v->status, &parts, &(struct rows){l->m[0], v->sums}, l->all, here, &all);
+	v->status = pm_world_over_mesh(v->status, &pm_row_sums, &(struct pm_row_values){v->sums, l->m[0]}, l->all, here, &all);
 	return pm_sum_total(all);
 }
 

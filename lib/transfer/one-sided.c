@@ -309,6 +309,26 @@ static void note_lost(struct pm_one_sided_few *few, size_t from, size_t n, const
 		}
 }
 
+/* What is done with a particle's share; k: of few->which; NULL: it has none. */
+typedef void use_of(const struct pm_one_sided *o, const struct pm_one_sided_few *few, size_t k, const struct pm_one_sided_share *s, const void *data);
+
+/* In the order of the stream, whatever the threads. */
+static int each(const struct pm_one_sided *o, struct pm_one_sided_few *few, use_of *use, const void *data)
+{
+	struct shares *a = pm_zalloc(1, sizeof *a);
+	int status = a ? 0 : -PM_DATA;
+	few->lost = few->first = 0;
+	for (size_t from = 0; from < few->count && !status; from += batch) {
+		const size_t n = few->count - from < batch ? few->count - from : batch;
+		status = make_shares(o, few, from, n, a);
+		note_lost(few, from, n, a);
+		for (size_t k = 0; k < n && !status; k++)
+			use(o, few, from + k, a->none[k] ? NULL : &a->s[k], data);
+	}
+	free_shares(a);
+	return status;
+}
+
 /* Where a node is in the planes here; SIZE_MAX: not here. */
 static size_t here(const struct pm_planes *p, size_t node)
 {
@@ -316,63 +336,56 @@ static size_t here(const struct pm_planes *p, size_t node)
 	return p && at >= p->here * p->size ? SIZE_MAX : at;
 }
 
+struct numbers {
+	int components;
+	const double *const *in;
+	double *const *out;
+};
+
+static void spread(const struct pm_one_sided *o, const struct pm_one_sided_few *few, size_t k, const struct pm_one_sided_share *s, const void *data)
+{
+	const struct numbers *a = data;
+	for (int c = 0; c < a->components && s; c++)
+		for (size_t i = 0; i < s->n; i++) {
+			const size_t at = here(o->planes, s->node[i]);
+			if (at != SIZE_MAX)
+				a->out[c][at] += s->w[i] * a->in[c][few->which[k]];
+		}
+}
+
 int pm_one_sided_spread_here(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const q[], double *const node[])
 {
-	struct shares *a = pm_zalloc(1, sizeof *a);
-	int status = a ? 0 : -PM_DATA;
-	few->lost = few->first = 0;
-	for (size_t from = 0; from < few->count && !status; from += batch) {
-		const size_t n = few->count - from < batch ? few->count - from : batch;
-		status = make_shares(o, few, from, n, a);
-		note_lost(few, from, n, a);
-		for (size_t k = 0; k < n && !status; k++) /* in the order of the stream, whatever the threads */
-			for (int c = 0; c < components && !a->none[k]; c++)
-				for (size_t i = 0; i < a->s[k].n; i++) {
-					const size_t at = here(o->planes, a->s[k].node[i]);
-					if (at != SIZE_MAX)
-						node[c][at] += a->s[k].w[i] * q[c][few->which[from + k]];
-				}
+	return each(o, few, spread, &(struct numbers){components, q, node});
+}
+
+static void gather(const struct pm_one_sided *o, const struct pm_one_sided_few *few, size_t k, const struct pm_one_sided_share *s, const void *data)
+{
+	const struct numbers *a = data;
+	const size_t all = o->planes ? o->planes->all : 1, size = pm_grid_size(&o->grid) / all;
+	(void)few;
+	for (int c = 0; c < a->components; c++) {
+		double sum = 0;
+		for (size_t i = 0; s && i < s->n; i++)
+			sum += s->w[i] * a->in[(size_t)c * all + s->node[i] / size][s->node[i] % size];
+		a->out[c][k] = sum;
 	}
-	free_shares(a);
-	return status;
 }
 
 int pm_one_sided_gather_here(const struct pm_one_sided *o, struct pm_one_sided_few *few, int components, const double *const plane[], double *const value[])
 {
-	struct shares *a = pm_zalloc(1, sizeof *a);
-	const size_t all = o->planes ? o->planes->all : 1, size = pm_grid_size(&o->grid) / all;
-	int status = a ? 0 : -PM_DATA;
-	few->lost = few->first = 0;
-	for (size_t from = 0; from < few->count && !status; from += batch) {
-		const size_t n = few->count - from < batch ? few->count - from : batch;
-		status = make_shares(o, few, from, n, a);
-		note_lost(few, from, n, a);
-		for (size_t k = 0; k < n && !status; k++)
-			for (int c = 0; c < components; c++) {
-				double sum = 0;
-				for (size_t i = 0; i < a->s[k].n && !a->none[k]; i++)
-					sum += a->s[k].w[i] * plane[(size_t)c * all + a->s[k].node[i] / size][a->s[k].node[i] % size];
-				value[c][from + k] = sum;
-			}
-	}
-	free_shares(a);
-	return status;
+	return each(o, few, gather, &(struct numbers){components, plane, value});
+}
+
+static void reached(const struct pm_one_sided *o, const struct pm_one_sided_few *few, size_t k, const struct pm_one_sided_share *s, const void *data)
+{
+	struct pm_one_sided_reach *const *reach = data;
+	(void)o, (void)few;
+	(*reach)[k] = s ? (struct pm_one_sided_reach){s->low, s->high} : (struct pm_one_sided_reach){0, -1};
 }
 
 int pm_one_sided_reaches(const struct pm_one_sided *o, struct pm_one_sided_few *few, struct pm_one_sided_reach *reach)
 {
-	struct shares *a = pm_zalloc(1, sizeof *a);
-	int status = a ? 0 : -PM_DATA;
-	few->lost = few->first = 0;
-	for (size_t from = 0; from < few->count && !status; from += batch) {
-		const size_t n = few->count - from < batch ? few->count - from : batch;
-		status = make_shares(o, few, from, n, a);
-		note_lost(few, from, n, a);
-		for (size_t k = 0; k < n && !status; k++)
-			reach[from + k] = a->none[k] ? (struct pm_one_sided_reach){0, -1} : (struct pm_one_sided_reach){a->s[k].low, a->s[k].high};
-	}
-	free_shares(a);
-	return status;
+	return each(o, few, reached, &reach);
 }
 
 static bool shared(const struct pm_one_sided *o) { return o->planes && o->planes->divided; }
