@@ -156,6 +156,8 @@ struct pm_effect {
 	void (*reconsider)(const struct pm_effect_case *c, struct pm_decision *d);
 	/* The reason why the user cannot leave it out, with the remedy; "" if he can. NULL: he always can. */
 	void (*stays)(const struct pm_effect_case *c, char why[160]);
+	/* What its words need and the frame has not, so that the user cannot put it in. NULL: nothing, for any frame. */
+	const char *(*lacks)(const struct pm_effect_case *c);
 	/* The share with other scales of the mesh and another method: plan looks for one where it is small enough. NULL: nothing avoids it. */
 	double (*share)(const struct pm_effect_case *c);
 	/* Its requirements on the method, called whatever the decision. NULL: none. */

@@ -70,6 +70,12 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and the change of their strengths at the wall");
 }
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	struct pm_scene_solid b;
+	return c->scales->kind == PM_VORTICES && pm_effect_body(c->frame, &b) ? NULL : "no body in this frame (the mesh state `body`, or a scene that has one)";
+}
+
 static bool reversible(const struct pm_effect_case *c)
 {
 	struct pm_scene_solid b;
@@ -91,6 +97,7 @@ const struct pm_effect effect_penalization = {
 	.measure = measure,
 	.decide = decide,
 	.words = words,
+	.lacks = lacks,
 	.reversible = reversible,
 	.test = test,
 };

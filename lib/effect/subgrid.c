@@ -42,6 +42,11 @@ static void words(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_amend(w, PM_SLOT_PARTICLES, "m2p", "", ", and the change of their strengths by the model");
 }
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return c->scales->kind == PM_VORTICES && c->scales->dim == 3 && !c->scales->pairs ? NULL : "no vorticity in space on a mesh";
+}
+
 /* Beside remeshing a model changes what the mesh holds, which proves nothing about what it does not. */
 static bool reversible(const struct pm_effect_case *c)
 {
@@ -64,6 +69,7 @@ const struct pm_effect effect_subgrid = {
 	.decide = decide,
 	.reconsider = reconsider,
 	.words = words,
+	.lacks = lacks,
 	.reversible = reversible,
 	.test = test,
 };

@@ -102,6 +102,8 @@ static bool asked(const struct pm_frame *f, const struct pm_law *law, char what[
 	return panels;
 }
 
+static const char *lacks(const struct pm_effect_case *c) { return panels_of(c->frame) ? NULL : "no panels in this frame (panels --curve or --surface makes them)"; }
+
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && panels_of(c->frame); }
 
 const struct pm_effect effect_walls = {
@@ -114,5 +116,6 @@ const struct pm_effect effect_walls = {
 	.measure = measure,
 	.decide = decide,
 	.words = words,
+	.lacks = lacks,
 	.reversible = reversible,
 };

@@ -15,6 +15,8 @@ static bool in(const struct pm_list *list, const char *name)
 	return false;
 }
 
+static const char by_the_user[] = " (by hand)";
+
 /* The user's decision, if there is one. */
 static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 {
@@ -22,8 +24,8 @@ static void overrule(struct pm_plan_effect *e, const struct pm_plan_choice *c)
 	char text[sizeof e->decision.text - 16];
 	if (!on && !off)
 		return;
-	snprintf(text, sizeof text, "%s", e->decision.text);
-	snprintf(e->decision.text, sizeof e->decision.text, "%s (by hand)", text);
+	snprintf(text, sizeof text, "%.*s", (int)sizeof text - 1, e->decision.text);
+	snprintf(e->decision.text, sizeof e->decision.text, "%s%s", text, by_the_user);
 	e->decision.answer = on ? PM_PUT_IN : PM_LEFT_OUT;
 	e->decision.every = on && !e->decision.every ? 1 : e->decision.every;
 	e->decision.kept = false;
@@ -47,6 +49,8 @@ static void decide(const struct pm_frame *f, struct pm_plan *p, const struct pm_
 		if (p->effect[i].effect->reconsider) {
 			pm_plan_case(f, p, i, &c);
 			p->effect[i].effect->reconsider(&c, &p->effect[i].decision);
+			if (p->effect[i].effect->word && in(&choice->on, p->effect[i].effect->name) && !strstr(p->effect[i].decision.text, by_the_user))
+				overrule(&p->effect[i], choice);
 		}
 }
 
@@ -135,13 +139,17 @@ static int by_hand(const struct pm_frame *f, const struct pm_plan *p, const stru
 {
 	struct pm_effect_case c;
 	char why[160] = "";
-	for (int i = 0; i < p->neffects; i++)
-		if (p->effect[i].effect->stays && in(&choice->off, p->effect[i].effect->name)) {
-			pm_plan_case(f, p, i, &c);
-			p->effect[i].effect->stays(&c, why);
-			if (*why)
-				return pm_fail(PM_USAGE, "--off %s: %s", p->effect[i].effect->name, why);
-		}
+	for (int i = 0; i < p->neffects; i++) {
+		const struct pm_effect *e = p->effect[i].effect;
+		pm_plan_case(f, p, i, &c);
+		if (e->stays && in(&choice->off, e->name))
+			e->stays(&c, why);
+		if (*why)
+			return pm_fail(PM_USAGE, "--off %s: %s", e->name, why);
+		const char *lacks = e->lacks && in(&choice->on, e->name) ? e->lacks(&c) : NULL;
+		if (lacks)
+			return pm_fail(PM_USAGE, "--on %s: %s", e->name, lacks);
+	}
 	return 0;
 }
 

@@ -346,7 +346,7 @@ static inline void two_rows(const double *lx, double rest, double factor, double
 static void factors_of(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *u)
 {
 	const struct pm_transform *l = &p->line[Z];
-	const double *lx = p->lambda[X] + (p->green ? 0 : c * H);
+	const double *lx = p->green ? NULL : p->lambda[X] + c * H;
 	for (size_t k = 0; k <= l->length - k; k++) {
 		double *a = u + l->fft->at[k] * H, *b = u + l->fft->at[l->length - k] * H;
 		if (p->green) {

@@ -638,3 +638,19 @@ pythagoras() {
 	pythagoras >start # no step of blanes-moan6 is short enough
 	plan --sentence -t 20 --accuracy 1e-9 <start 2>/dev/null | grep -q '^pp | push ias15'
 }
+
+@test "--on: an effect whose words need what the frame has not is refused in one line; one that another would replace is put in" {
+	while IFS=';' read -r scene effect text; do
+		run -2 --separate-stderr bash -c "pinit $scene | plan --on $effect"
+		[[ $stderr == "plan: frame 1: --on $effect: $text"* && $(wc -l <<<"$stderr") = 1 ]] || { echo "$scene: $stderr"; return 1; }
+	done <<-'END'
+		vortex-pair;walls;no panels in this frame
+		plummer -n 99;walls;no panels in this frame
+		shear-layer --cells 32;penalization;no body in this frame
+		plummer -n 99;penalization;no body in this frame
+		shear-layer --cells 32;subgrid;no vorticity in space on a mesh
+	END
+	pinit taylor-green-3d --cells 12 --nu 6e-4 | plan -q --on subgrid >text 2>said
+	grep -q '^subgrid .*subgrid: on, .* (by hand)$' text
+	grep -q '^remesh ' text
+}
