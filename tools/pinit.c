@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/nearest-name.h"
+#include "scene-parts/scene-box.h"
 #include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-parameters.h"
 #include "stage/attribute-options.h"
@@ -72,6 +73,9 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "the scene %s always has -n %d", scene->name, (int)scene->n);
 	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
 		return -PM_USAGE;
+	state->choice.box = o->box.n > 0;
+	if (o->box.n && pm_attributes_corners(&o->box, state->choice.dim, state->choice.lo, state->choice.hi))
+		return -PM_USAGE;
 	if (o->loading && !scene->loads)
 		return pm_fail(PM_USAGE, "the scene %s has no --loading: its particles are %s", scene->name, scene->random ? "at random" : "given");
 	while (o->loading && strcmp(o->loading, pm_loading_names[state->choice.loading]))
@@ -80,18 +84,11 @@ static int begin(struct pm_stage *s)
 }
 
 /* Options replace the scene's own box, faces, mesh and step. */
-static int adjust(const struct config *o, const struct pm_scene *scene, struct pm_frame *f)
+static int adjust(const struct config *o, const struct state *state, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
-	for (size_t i = 0; i < f->nfields && o->faces.n; i++)
-		if (!strcmp(f->fields[i]->on, m->name) && !f->fields[i]->uniform)
-			return pm_fail(PM_USAGE, "the fields of this scene are made for its own faces (leave out --faces)");
-	const bool nodes = scene->n_fixed && !scene->n; /* whose lattice would no longer fill it */
-	for (int d = 0; d < f->dim && o->box.n && nodes; d++)
-		if (f->face[d][0] == PM_PERIODIC)
-			return pm_fail(PM_USAGE, "the particles of the scene %s are a lattice that fills its own periodic box (leave out --box)", scene->name);
-	if (pm_attributes_box(f, &o->box) || pm_attributes_faces(f, &o->faces) || pm_attributes_particle_faces(f, &o->particle_faces) ||
-		(o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
+	if (pm_scene_box(state->scene, &state->choice, f, o->faces.n > 0) || pm_attributes_faces(f, &o->faces) ||
+		pm_attributes_particle_faces(f, &o->particle_faces) || (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
 	for (int d = 0; d < f->dim; d++) {
 		m->lo[d] = f->lo[d];
@@ -115,7 +112,7 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 	for (int i = 0; scene->parameters[i].name; i++)
 		pm_frame_parameter_set(f, scene->parameters[i].name, c->value[i]);
 	int status = scene->make(c, f);
-	status = status ? status : adjust(s->config, scene, f);
+	status = status ? status : adjust(s->config, state, f);
 	*out = status ? pm_frame_free(f) : f;
 	return status ? status : 1;
 }

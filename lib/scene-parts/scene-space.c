@@ -18,11 +18,14 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 		from[d] = f->face[d][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	double *x[3] = {NULL}, *alpha[3] = {NULL};
 	size_t points[3], n = 0, first, end;
+	double largest = 0, margin = 0;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
 	const size_t across = points[1] > 2 * from[1] ? points[1] - 2 * from[1] : 0, up = points[2] > 2 * from[2] ? points[2] - 2 * from[2] : 0;
 	pm_scene_rows_here(across * up, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
+		if (fill && pm_scene_vortex_inside(largest, margin))
+			return pm_failed();
 		if (fill && pm_scene_vortex_set(f, 3, n, volume, x, alpha))
 			return -PM_DATA;
 		n = 0;
@@ -32,8 +35,14 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 				const double at[3] = {m->lo[0] + (double)i * m->h[0], m->lo[1] + (double)j * m->h[1], m->lo[2] + (double)k * m->h[2]};
 				double w[3] = {0};
 				omega(c, at, w);
-				if (!(sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) > least))
+				const double size = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+				if (!(size > least))
 					continue;
+				largest = fmax(largest, size);
+				for (int d = 0; d < 3; d++) {
+					const size_t node = d == 0 ? i : d == 1 ? j : k;
+					margin = from[d] && (node == from[d] || node + from[d] + 1 == points[d]) ? fmax(margin, size) : margin;
+				}
 				for (int d = 0; d < 3 && fill; d++)
 					x[d][n] = at[d], alpha[d][n] = w[d] * volume;
 				n++;

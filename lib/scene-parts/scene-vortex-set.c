@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scene-parts/scene-vortex-set.h"
+#include "scene-parts/scene-vortices.h"
 #include "stream/declare.h"
 #include "stream/parts.h"
 #include "world/world.h"
@@ -14,7 +15,8 @@ int pm_scene_vortex_box(const struct pm_scene_choice *c, struct pm_frame *f, int
 	size_t n[3] = {1, 1, 1};
 	snprintf(f->law, sizeof f->law, "vortex");
 	for (int d = 0; d < dim; d++) {
-		f->lo[d] = lo[d], f->hi[d] = hi[d];
+		f->lo[d] = c->box && face == PM_OPEN ? c->lo[d] : lo[d];
+		f->hi[d] = c->box && face == PM_OPEN ? c->hi[d] : hi[d];
 		n[d] = c->cells[d] ? c->cells[d] : cells[d];
 		for (int side = 0; side < 2; side++) {
 			f->face[d][side] = face;
@@ -56,6 +58,16 @@ static int ready(struct pm_field *p, const uint64_t *from)
 	if (own)
 		pm_field_enter(p, memcpy(own, from, bytes));
 	return pm_field_ready(p);
+}
+
+int pm_scene_vortex_inside(double largest, double at_the_margin)
+{
+	double all[] = {largest, at_the_margin};
+	const int status = pm_world_largest(0, 2, all);
+	if (status || !(all[1] > 1e-3 * all[0]))
+		return status;
+	return pm_fail(PM_USAGE, "open faces cut this scene: %.2g of its largest vorticity %d cells inside of them (take a larger --box, or more --cells)",
+		all[1] / all[0], PM_SCENE_MARGIN);
 }
 
 int pm_scene_vortex_cut(struct pm_frame *f)

@@ -19,11 +19,14 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
 	struct pm_scene_vortices v = {0};
 	size_t points[3], n = 0, first, end;
+	double largest = 0, margin = 0;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
 	const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	pm_scene_rows_here(points[1] > 2 * from ? points[1] - 2 * from : 0, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
+		if (fill && from && pm_scene_vortex_inside(largest, margin))
+			return pm_failed();
 		if (fill && pm_scene_vortices(f, n, m->h[0] * m->h[1], &v))
 			return -PM_DATA;
 		n = 0;
@@ -32,6 +35,9 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 				const double x = m->lo[0] + (double)i * m->h[0], y = m->lo[1] + (double)j * m->h[1], w = omega(c, x, y);
 				if (!(fabs(w) > least))
 					continue;
+				largest = fmax(largest, fabs(w));
+				if (j == from || i == from || j + from + 1 == points[1] || i + from + 1 == points[0])
+					margin = fmax(margin, fabs(w));
 				if (fill)
 					v.x[0][n] = x, v.x[1][n] = y, v.circulation[n] = w * (m->h[0] * m->h[1]);
 				n++;

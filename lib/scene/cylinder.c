@@ -12,7 +12,7 @@
 #include "stream/declare.h"
 
 enum { SPEED, DIAMETER, NU };
-enum { BESIDE = 4, ACROSS = 40 }; /* cells with particles around the body; of its diameter */
+enum { BESIDE = 4, ACROSS = 40, LONG = 4 }; /* cells with particles around the body; of its diameter; diameters of the box */
 
 static const struct pm_scene_parameter rows[] = {
 	{.name = "speed", .unit = "length/time", .otherwise = 1, .low = 1e-300, .high = 1e300, .text = "speed of the stream, which only sets the step"},
@@ -21,20 +21,28 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
+/* Side of a cell along x. */
+static double cell(const struct pm_scene_choice *c)
+{
+	const double width = c->box ? c->hi[0] - c->lo[0] : LONG * c->value[DIAMETER];
+	return width / (double)(c->cells[0] ? c->cells[0] : LONG * ACROSS);
+}
+
+/* A mark of the nodes with particles, whose vorticity is none; small beside the body, so that it counts for nothing at the faces. */
 static double beside(const struct pm_scene_choice *c, double x, double y)
 {
-	const double d = c->value[DIAMETER], h = d / (c->cells[0] ? (double)c->cells[0] / 4 : ACROSS);
-	return hypot(x, y) < d / 2 + BESIDE * h;
+	const double r = hypot(x, y), radius = c->value[DIAMETER] / 2;
+	return r < radius ? 1 : r < radius + BESIDE * cell(c) ? 1e-6 : 0;
 }
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	const double d = c->value[DIAMETER], lo[3] = {-d, -1.5 * d}, hi[3] = {3 * d, 1.5 * d};
-	const size_t cells[3] = {4 * ACROSS, 3 * ACROSS, 1};
-	f->dt = 0.4 * d / (c->value[SPEED] * (c->cells[0] ? (double)c->cells[0] / 4 : ACROSS));
+	const double d = c->value[DIAMETER], lo[3] = {-d, -1.5 * d}, hi[3] = {(LONG - 1) * d, 1.5 * d};
+	const size_t cells[3] = {LONG * ACROSS, 3 * ACROSS, 1};
+	f->dt = 0.4 * d / (c->value[SPEED] * (d / cell(c)));
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	if (pm_scene_vortex_box(c, f, 2, lo, hi, PM_OPEN, cells) || pm_scene_vorticity(f, beside, c, 0))
-		return -PM_DATA;
+		return pm_failed();
 	struct pm_field *circulation = pm_frame_field(f, "vortices", "circulation");
 	if (!pm_frame_set(f, "vortices")->n) /* on all ranks */
 		return pm_fail(PM_USAGE, "no node of so few cells is far enough from the faces for particles beside the cylinder (--cells 64x48)");

@@ -69,6 +69,7 @@ const struct pm_scene scene_exb = {
 	.dims = 1u << 2 | 1u << 3,
 	.dim = 2,
 	.n = 1,
+	.any_box = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

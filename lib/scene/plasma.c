@@ -35,6 +35,7 @@ const struct pm_scene scene_plasma = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.dim = 1,
 	.n = 0,
+	.any_box = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

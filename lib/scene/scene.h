@@ -22,6 +22,8 @@ struct pm_scene_choice { /* the options of pinit, defaults filled in and ranges 
 	uint64_t n, seed;
 	enum pm_loading loading;
 	size_t cells[3];                   /* of the default mesh, from the options; 0: the scene's own */
+	bool box;                          /* given: lo to hi */
+	double lo[3], hi[3];
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
 };
 
@@ -38,6 +40,7 @@ struct pm_scene {
 	uint64_t n;              /* default, in its default dimension */
 	bool n_fixed;            /* n cannot be changed; with n 0 the particles are nodes of the mesh, whose cells give their number */
 	bool random;             /* depends on the seed */
+	bool any_box;            /* periodic, and right in any box */
 	bool shared;             /* several ranks make it together, each its own stretch of the particles (docs/distributed.md) */
 	bool loads;              /* has all loadings, and is quiet by default: PM_LATTICE */
 	const struct pm_scene_parameter *parameters; /* {0} ends */

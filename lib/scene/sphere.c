@@ -19,13 +19,19 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
-static double cell(const struct pm_scene_choice *c) { return c->value[DIAMETER] / (c->cells[0] ? (double)c->cells[0] / LONG : ACROSS); }
+/* Side of a cell along x. */
+static double cell(const struct pm_scene_choice *c)
+{
+	const double width = c->box ? c->hi[0] - c->lo[0] : LONG * c->value[DIAMETER];
+	return width / (double)(c->cells[0] ? c->cells[0] : LONG * ACROSS);
+}
 
-/* A mark of the nodes with particles, whose vorticity is none. */
+/* A mark of the nodes with particles, whose vorticity is none; small beside the body, so that it counts for nothing at the faces. */
 static void beside(const struct pm_scene_choice *c, const double x[3], double w[3])
 {
 	const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-	w[0] = r < c->value[DIAMETER] / 2 + BESIDE * cell(c), w[1] = w[2] = 0;
+	w[0] = r < c->value[DIAMETER] / 2 ? 1 : r < c->value[DIAMETER] / 2 + BESIDE * cell(c) ? 1e-6 : 0;
+	w[1] = w[2] = 0;
 }
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
@@ -35,7 +41,7 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	f->dt = 0.4 * cell(c) / c->value[SPEED];
 	pm_frame_constant_set(f, "nu", c->value[NU]);
 	if (pm_scene_space(c, f, lo, hi, PM_OPEN, cells) || pm_scene_space_vorticity(f, beside, c, 0))
-		return -PM_DATA;
+		return pm_failed();
 	if (!pm_frame_set(f, "vortices")->n) /* on all ranks */
 		return pm_fail(PM_USAGE, "no node of so few cells is far enough from the faces for particles beside the sphere (--cells 32x24x24)");
 	struct pm_field *alpha = pm_frame_field(f, "vortices", "alpha");

@@ -29,10 +29,11 @@ static void particle(const struct pm_scene_choice *c, uint64_t id, const struct 
 	pm_random_normal(c->seed, id, 3, z2);
 	const double place[3] = {u[0], u[1], w[0]}, velocity[3] = {z[0], z[1], z2[0]};
 	for (int d = 0; d < c->dim; d++) {
-		b->x[d][i] = c->value[LENGTH] * place[d];
+		const double lo = c->box ? c->lo[d] : 0, hi = c->box ? c->hi[d] : c->value[LENGTH];
+		b->x[d][i] = lo + (hi - lo) * place[d];
 		b->v[d][i] = c->value[DISPERSION] * velocity[d];
-		if (b->x[d][i] >= c->value[LENGTH]) /* rounding of the product */
-			b->x[d][i] = 0;
+		if (b->x[d][i] >= hi) /* rounding */
+			b->x[d][i] = lo;
 	}
 	if (b->mass)
 		b->mass[i] = c->value[MASS] / (double)c->n * pow(10, c->value[SPREAD] * (w[1] - 0.5));
@@ -83,6 +84,7 @@ const struct pm_scene scene_uniform = {
 	.dim = 3,
 	.n = 10000,
 	.random = true,
+	.any_box = true,
 	.shared = true,
 	.parameters = rows,
 	.make = make,

@@ -107,20 +107,19 @@ int pm_attributes_rename(struct pm_frame *f, const struct pm_list *list)
 	return 0;
 }
 
-int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box)
+int pm_attributes_corners(const struct pm_vector *box, int dim, double lo[], double hi[])
 {
-	if (!box->n)
-		return 0;
-	if (box->n != 2 && box->n != 2 * f->dim)
-		return pm_fail(PM_USAGE, "--box needs lo,hi or all %d lo and then all %d hi, not %d numbers", f->dim, f->dim, box->n);
-	for (int a = 0; a < f->dim; a++) {
-		double lo = box->n == 2 ? box->x[0] : box->x[a], hi = box->n == 2 ? box->x[1] : box->x[a + f->dim];
-		if (!(hi > lo))
-			return pm_fail(PM_USAGE, "--box: %g is not below %g", lo, hi);
-		f->lo[a] = lo, f->hi[a] = hi;
+	if (box->n != 2 && box->n != 2 * dim)
+		return pm_fail(PM_USAGE, "--box needs lo,hi or all %d lo and then all %d hi, not %d numbers", dim, dim, box->n);
+	for (int a = 0; a < dim; a++) {
+		lo[a] = box->n == 2 ? box->x[0] : box->x[a], hi[a] = box->n == 2 ? box->x[1] : box->x[a + dim];
+		if (!(hi[a] > lo[a]))
+			return pm_fail(PM_USAGE, "--box: %g is not below %g", lo[a], hi[a]);
 	}
 	return 0;
 }
+
+int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box) { return box->n ? pm_attributes_corners(box, f->dim, f->lo, f->hi) : 0; }
 
 /* The words of a list for every face; out[axis][side] are indices into names. */
 static int words(const struct pm_list *list, int dim, const char *const *names, const char *option, int out[3][2])

@@ -14,7 +14,8 @@ int pm_attributes_units(struct pm_frame *f, const char *on, const struct pm_list
 int pm_attributes_units_anywhere(struct pm_frame *f, const struct pm_list *list); /* on every set and mesh that has the field; at least one must */
 int pm_attributes_fixed(struct pm_frame *f, const struct pm_list *list, bool fixed); /* sets that push must not move; sets that it moves again */
 int pm_attributes_rename(struct pm_frame *f, const struct pm_list *list); /* OLD=NEW, sets, meshes and fields */
-int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box);      /* lo,hi of every axis, or all lo, then all hi */
+int pm_attributes_corners(const struct pm_vector *box, int dim, double lo[], double hi[]); /* lo,hi of every axis, or all lo, then all hi */
+int pm_attributes_box(struct pm_frame *f, const struct pm_vector *box);      /* of the frame, if given */
 /* One word for all faces, one per axis, or low,high per axis. If an axis becomes periodic for the fields, or stops being so, the same is done for the
  * particles. */
 int pm_attributes_faces(struct pm_frame *f, const struct pm_list *list);

@@ -51,8 +51,14 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 		run -2 --separate-stderr pinit $few
 		[[ $stderr == "pinit: no node of so few cells is far enough from the faces"* ]]
 	done
-	run -2 --separate-stderr pinit taylor-green-2d --box=0,1
-	[[ $stderr == "pinit: the particles of the scene taylor-green-2d are a lattice that fills its own periodic box (leave out --box)"* ]]
+	for scene in taylor-green-2d vortex-tube tanh-layer landau lattice vortex-sheet; do
+		run -2 --separate-stderr pinit $scene --box=-30,90
+		[[ $stderr == "pinit: the particles of the scene $scene fill its own periodic box (leave out --box)"* ]]
+	done
+	run -2 --separate-stderr pinit wakefield --box=0,1
+	[[ $stderr == "pinit: the fields of the scene wakefield are made for its own box (leave out --box)"* ]]
+	run -2 --separate-stderr pinit lamb-oseen --box=-0.4,0.4
+	[[ $stderr == "pinit: open faces cut this scene: "*" of its largest vorticity 4 cells inside of them (take a larger --box, or more --cells)"* ]]
 	run -2 --separate-stderr pinit uniform --box 3,1
 	[[ $stderr == *"3 is not below 1"* ]]
 	run -2 --separate-stderr pinit uniform --faces wall,wall
@@ -69,6 +75,23 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	sh_ok 'pinit uniform --dim 2 -n 10 --box 0,-2,1,2 --faces wall,open,neumann,neumann --particle-faces absorb > b'
 	[ "$(field b "h['box']['lo'], h['box']['hi'], h['box']['fields'], h['box']['particles'][0]")" = \
 		"[0.0, -2.0] [1.0, 2.0] [['wall', 'open'], ['neumann', 'neumann']] ['absorb', 'absorb']" ]
+}
+
+@test "pinit: vortices on nodes are on those of the box that is typed, and uniform particles fill it" {
+	while IFS=';' read -r scene box cells; do # cells of 1/8
+		pinit $scene --box="$box" --cells "$cells" >a
+		scalc 'off = abs(8*x - floor(8*x + 0.5)) + abs(8*y - floor(8*y + 0.5))' <a | sls --data >text
+		awk '$1 == "off" { getline; good = $5 < 1e-9 } END { exit !good }' text || { echo "$scene"; cat text; return 1; }
+		[ "$(diag --columns particles <a | tail -1)" -gt 99 ]
+	done <<-'END'
+		lamb-dipole;-4,-3,4,3;64x48
+		cylinder --diameter 2;-4,-3,8,5;96x64
+		vortex-ring --radius 1.5 --core 0.2;-5,5;80
+		sphere --diameter 2;-3,-3,-4,5,3,4;64x48x64
+	END
+	pinit uniform --dim 2 -n 1000 --box=-1,2,3,4 | diag --columns centre_x,centre_y >centre
+	within "$(column centre_x <centre)" 1 0.15 x # sigma of the mean is 4/sqrt(12 n) = 0.037
+	within "$(column centre_y <centre)" 3 0.08 y
 }
 
 @test "pinit: the parameters, the seed and equal masses are in the header, not in the data" {
