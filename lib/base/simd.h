@@ -376,6 +376,20 @@ PM_SIMD_INLINE void pm_simd4_pairs(const double *const at[4], size_t on, pm_simd
 	to[1] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 }
 
+/* a[l], b[l] to[l]. */
+PM_SIMD_INLINE void pm_simd_to_pairs(pm_simd a, pm_simd b, pm_simd2_at to[])
+{
+#ifdef PM_SIMD_EIGHT
+	const pm_simd even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14), odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+	to[4] = __builtin_shufflevector(even, even, 4, 5), to[6] = __builtin_shufflevector(even, even, 6, 7);
+	to[5] = __builtin_shufflevector(odd, odd, 4, 5), to[7] = __builtin_shufflevector(odd, odd, 6, 7);
+#else
+	const pm_simd even = __builtin_shufflevector(a, b, 0, 4, 2, 6), odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+#endif
+	to[0] = __builtin_shufflevector(even, even, 0, 1), to[2] = __builtin_shufflevector(even, even, 2, 3);
+	to[1] = __builtin_shufflevector(odd, odd, 0, 1), to[3] = __builtin_shufflevector(odd, odd, 2, 3);
+}
+
 /* to[0..3] += (1 - x) p[0..3], to[4..7] += x p[0..3]; `to` aligned as a line of the cache. */
 PM_SIMD_INLINE void pm_simd_add_below_above(double *to, const double *p, double x)
 {

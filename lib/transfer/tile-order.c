@@ -83,9 +83,29 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 	return !any;
 }
 
+/* Whether no particle is outside the range of the lanes. */
+static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m)
+{
+	unsigned any = o->ways || m % PM_SIMD_WIDTH != 0;
+	for (int d = 0; d < o->dim && !any; d++) {
+		const struct pm_axis_lanes a = lanes[d];
+		for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
+			unsigned outside;
+			__builtin_prefetch(o->x[d] + p + i + PM_TILE_AHEAD);
+			pm_axis_locate_eight(&a, pm_simd_load_any(o->x[d] + p + i), &outside);
+			any |= outside;
+		}
+	}
+	return !any;
+}
+
 static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
 {
 	double u[3][batch];
+	if (o->tiles == 1) { /* any particle that is no stray is in order */
+		memset(tile, 0, m * sizeof *tile);
+		return all_inside(o, lanes, p, m) || locate(o, p, m, u);
+	}
 	if (!o->ways && (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0 && (o->dim == 1 ? tiles_of(1, o, lanes, p, m, tile) :
 		o->dim == 2 ? tiles_of(2, o, lanes, p, m, tile) : tiles_of(3, o, lanes, p, m, tile)))
 		return true;

@@ -2,8 +2,8 @@
  * of an axis are found at once, so that widths 2, 4 and 8 fill a vector (3 and 6 are filled up with zeros). Block points are not wrapped: the faces are
  * handled when blocks are added to or read from the mesh (transfer.c). Cost: width^dim products per particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "transfer/tile-cic.h"
 #include "transfer/tile-lanes.h"
+#include "transfer/tile-line.h"
 
 PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
@@ -172,7 +172,7 @@ PM_SIMD_INLINE void gather_star(int dim, const struct pm_tile *t)
 
 bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
 {
-	return dim == 3 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
+	return dim != 2 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
 }
 
 /* One function per dimension and width for the degree width-1 (B-splines, M'4 and M'6), and one for any degree. */
@@ -208,6 +208,8 @@ static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline
 
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 {
+	if (corners && dim == 1)
+		return pm_tile_line_spread_records;
 	if (corners)
 		return PM_TILE_CIC_EIGHT ? pm_tile_cic_spread_eight : pm_tile_cic_spread_records;
 	return k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];

@@ -31,7 +31,7 @@ struct pm_tile {
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
 	double *nodes;          /* gather: NULL, or the components of each point of the block side by side, four each (tile-vector.h) */
-	double *corners;        /* NULL, or (tile-cic.h) spread: [PM_TILE_CELLS][PM_CORNERS], zero before, after; gather: [components][PM_GATHER_CELLS][..] */
+	double *corners;        /* NULL, or (tile-cic.h) spread: [PM_TILE_CELLS][PM_CORNERS], on a line tile-line.h, zero before, after; gather: [components][PM_GATHER_CELLS][..] */
 };
 
 /* Chosen by dim and the kernel's width and degree. */
@@ -40,7 +40,8 @@ pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners);
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
 
 /* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), those of every cell
- * are stored side by side. A particle is one addition of eight numbers to its cell, and the corners are added up once; or it reads eight numbers. */
+ * are stored side by side. A particle is one addition of eight numbers to its cell, and the corners are added up once; or it reads eight numbers.
+ * On a line those of a cell are two. */
 bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count);
 
 #endif

@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transfer/tile-line.h"
 #include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
 
@@ -45,7 +46,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		if (corners && PM_TILE_CIC_EIGHT) {
 			batch.p = p, batch.m = t.count;
-			pm_tile_cic_spread(&t, &batch, w->o->order.values[value] + p);
+			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, w->o->order.values[value] + p);
 			continue;
 		}
 		t.records = packed;
@@ -55,7 +56,10 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	if (corners) {
 		size_t cells[3];
 		cells_of(w, j, cells);
-		pm_tile_cic_fold(&t, cells);
+		if (w->o->order.dim == 1)
+			pm_tile_line_fold(&t, cells[0]);
+		else
+			pm_tile_cic_fold(&t, cells);
 	}
 }
 
@@ -137,8 +141,14 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	t.components = w->components;
 	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
 		return gather_vectors(w, j, t, r);
+	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
+	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records) {
+		struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
+		batch.p = j->from, batch.m = t.count;
+		return pm_tile_line_gather(&t, &batch, r);
+	}
 	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
-	if (lanes && pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count))
+	if (lanes && corners && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);
 	if (!t.records)
 		return gather_in_order(w, j, t, loop, r);
@@ -209,7 +219,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
-	return PM_TILE_CIC_CORNERS ? pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS) : 0;
+	return PM_TILE_CIC_CORNERS && w->o->order.dim == 3 ? pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS) : 0;
 }
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are

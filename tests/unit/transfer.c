@@ -780,12 +780,16 @@ int main(void)
 			for (int dim = 1; dim <= 3; dim++)
 				check_total(dim, (const size_t[]){13, 12, 11}, rule);
 	check_plain(1, (const size_t[]){5003, 1, 1}, 3000);
+	check_plain(1, (const size_t[]){70, 1, 1}, 6001); /* one tile, and enough for pairs */
 	check_plain(2, (const size_t[]){131, 70, 1}, 3000);
 	check_plain(3, (const size_t[]){33, 18, 20}, 3000);
 	check_plain(3, (const size_t[]){33, 17, 9}, 6000); /* as many particles as cells: corners */
 	check_plain(3, (const size_t[]){3, 17, 2}, 100);
 	check_threads(1, (const size_t[]){9001, 1, 1}, "tsc");
 	check_in_order(1, (const size_t[]){9001, 1, 1}, 4000, "tsc", (const int[]){0, 0, 0});
+	for (int rule = 0; rule < 4; rule++) /* enough for pairs */
+		check_in_order(1, (const size_t[]){9001, 1, 1}, rule % 2 ? 20000 : 20003, "cic", (const int[]){rule, 0, 0});
+	check_threads(1, (const size_t[]){9001, 1, 1}, "cic");
 	check_fall();
 	check_threads(2, (const size_t[]){130, 67, 1}, "tsc");
 	check_in_order(2, (const size_t[]){130, 67, 1}, 4000, "tsc", (const int[]){0, 0, 0});

@@ -1,0 +1,169 @@
+/* Cloud in cell on a line, four or eight particles at a time straight from the stream. Spread: the two points of a cell lie side by side, so that a particle
+ * is one addition of two numbers to its cell; particles take turns between two such pairs, because in a stream that is in the order of cells a sum waits for
+ * the one before it. The pairs are added up once a job. Gather: the sums are those of the loops for all kernels, to the last bit.
+ * Cost: a pass over the particles, and one over the cells of the tile. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-eight.h"
+#include "transfer/tile-line.h"
+
+enum { cell_size = 2 * PM_LINE_PAIRS };
+
+void pm_tile_line_spread_records(const struct pm_tile *t)
+{
+	for (size_t i = 0; i < t->count; i++) {
+		const double *record = t->records + i * (size_t)t->stride;
+		const int32_t cell = (int32_t)record[0]; /* not negative */
+		const double x = record[0] - (double)cell, q = record[t->value];
+		pm_simd2_at *to = (pm_simd2_at *)(t->corners + ((size_t)cell - t->cell[0]) * cell_size);
+		to[i % PM_LINE_PAIRS] += (pm_simd2_at){(1 - x) * q, x * q};
+	}
+}
+
+/* What the loops over a batch keep in registers. simple: a periodic axis and points on the nodes, where nothing is added to a position. */
+struct line {
+	struct pm_axis_lanes lanes;
+	const struct pm_axis *axis;
+	int32_t first;
+	const double *x;
+	size_t m;
+};
+
+static struct line line_of(const struct pm_tile *t, const struct pm_tile_batch *b)
+{
+	return (struct line){b->lanes[0], &b->order->axes[0], (int32_t)t->cell[0], b->order->x[0] + b->p, b->m};
+}
+
+static bool is_simple(const struct line *l) { return l->axis->periodic && l->axis->add + l->axis->half == 0; }
+
+/* Cells, and distances from their lower ends, of whole vectors. */
+PM_SIMD_INLINE pm_simd find(bool simple, const struct line *l, const double *x, pm_simd_int *cell)
+{
+	unsigned outside;
+	pm_simd u;
+	if (simple) {
+		u = pm_simd_divide(pm_simd_load_any(x) - l->lanes.lo, l->lanes.h, l->lanes.inverse);
+		outside = pm_simd_outside(u, l->lanes.low, l->lanes.high);
+	} else
+		u = pm_axis_locate_eight(&l->lanes, pm_simd_load_any(x), &outside);
+	if (outside) {
+		double far[PM_SIMD_WIDTH];
+		pm_simd_store_any(far, u);
+		pm_axis_locate_far(l->axis, outside, PM_SIMD_WIDTH, x, far);
+		u = pm_simd_load_any(far);
+	}
+	const pm_simd distance = pm_simd_split(u, cell);
+	*cell -= l->first;
+	return distance;
+}
+
+/* The last n < PM_SIMD_WIDTH numbers from i on, with the first of them in the place of the rest. */
+static const double *last_few(const double *from, size_t n, double few[PM_SIMD_WIDTH])
+{
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		few[l] = from[l < n ? l : 0];
+	return few;
+}
+
+/* The first n of a vector of particles. */
+PM_SIMD_INLINE void add_pairs(size_t n, pm_simd_int cell, pm_simd x, pm_simd q, double *corners)
+{
+	int32_t at[PM_SIMD_WIDTH];
+	pm_simd2_at pair[PM_SIMD_WIDTH];
+	*(pm_simd_int_at *)at = cell * cell_size;
+	pm_simd_to_pairs((1 - x) * q, x * q, pair);
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		if (l < n)
+			*(pm_simd2_at *)(corners + (size_t)(uint32_t)at[l] + l % PM_LINE_PAIRS * 2) += pair[l];
+}
+
+PM_SIMD_INLINE void spread(bool simple, struct line l, const double *q, double *corners)
+{
+	pm_simd_int cell;
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
+		const pm_simd x = find(simple, &l, l.x + i, &cell);
+		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
+		__builtin_prefetch(q + i + PM_TILE_AHEAD);
+		add_pairs(PM_SIMD_WIDTH, cell, x, pm_simd_load_any(q + i), corners);
+	}
+	if (i < l.m) {
+		double few[2][PM_SIMD_WIDTH];
+		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few[0]), &cell);
+		add_pairs(l.m - i, cell, x, pm_simd_load_any(last_few(q + i, l.m - i, few[1])), corners);
+	}
+}
+
+void pm_tile_line_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	const struct line l = line_of(t, b);
+	if (is_simple(&l))
+		spread(true, l, q, t->corners);
+	else
+		spread(false, l, q, t->corners);
+}
+
+void pm_tile_line_fold(const struct pm_tile *t, size_t cells)
+{
+	const pm_simd2_at zero = {0};
+	double before = 0;
+	for (size_t i = 0; i < cells; i++) {
+		pm_simd2_at *cell = (pm_simd2_at *)(t->corners + i * cell_size);
+		const pm_simd2_at both = cell[0] + cell[1];
+		t->block[i] = before + both[0];
+		before = both[1];
+		cell[0] = cell[1] = zero;
+	}
+	t->block[cells] = before;
+}
+
+/* The two points of each cell. */
+PM_SIMD_INLINE void load_pairs(const double *block, const int32_t *at, pm_simd *low, pm_simd *high)
+{
+	PM_SIMD_UNROLL
+	for (size_t some = 0; some < PM_SIMD_WIDTH; some += 4) {
+		const double *from[4];
+		pm_simd4_at pair[2];
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < 4; l++)
+			from[l] = block + (size_t)(uint32_t)at[some + l];
+		pm_simd4_pairs(from, 0, pair);
+		memcpy((double *)low + some, &pair[0], sizeof pair[0]);
+		memcpy((double *)high + some, &pair[1], sizeof pair[1]);
+	}
+}
+
+/* The first n of a vector of particles, to the places from p on. */
+PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const struct pm_tile *t, const struct pm_tile_results *r, size_t p, pm_simd *nothing)
+{
+	int32_t at[PM_SIMD_WIDTH];
+	*(pm_simd_int_at *)at = cell;
+	for (int c = 0; c < t->components; c++) {
+		pm_simd low, high;
+		load_pairs(t->block + (size_t)c * PM_BLOCK_MOST, at, &low, &high);
+		deliver_eight(0 + low * (1 - x) + high * x, n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, nothing);
+	}
+}
+
+PM_SIMD_INLINE bool gather(bool simple, struct line l, const struct pm_tile *t, const struct pm_tile_results *r, size_t p)
+{
+	pm_simd nothing = {0};
+	pm_simd_int cell;
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
+		const pm_simd x = find(simple, &l, l.x + i, &cell);
+		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
+		gather_some(PM_SIMD_WIDTH, cell, x, t, r, p + i, &nothing);
+	}
+	if (i < l.m) {
+		double few[PM_SIMD_WIDTH];
+		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few), &cell);
+		gather_some(l.m - i, cell, x, t, r, p + i, &nothing);
+	}
+	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
+
+bool pm_tile_line_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r)
+{
+	const struct line l = line_of(t, b);
+	return is_simple(&l) ? gather(true, l, t, r, b->p) : gather(false, l, t, r, b->p);
+}
