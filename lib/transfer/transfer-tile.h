@@ -31,7 +31,8 @@ struct pm_tile {
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
 	double *nodes;          /* gather: NULL, or the components of each point of the block side by side, four each (tile-vector.h) */
-	double *corners;        /* NULL, or (tile-cic.h) spread: [PM_TILE_CELLS][PM_CORNERS], on a line tile-line.h, zero before, after; gather: [components][PM_GATHER_CELLS][..] */
+	double *corners;        /* NULL, or (tile-cic.h, tile-line.h) spread: [PM_TILE_CELLS][PM_CORNERS], zero before, after; gather:
+	                         * [components][PM_GATHER_CELLS][PM_CORNERS] */
 };
 
 /* Chosen by dim and the kernel's width and degree. */
