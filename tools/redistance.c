@@ -22,6 +22,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	if (!status) {
 		pm_report(s, f, "crossed", (double)made.crossed);
 		pm_report(s, f, "linear", (double)made.linear);
+		pm_report(s, f, "unsettled", (double)made.unsettled);
 		if (!made.crossed)
 			pm_tell_once(s, "'%s' has one sign at all nodes, so there is no interface and it stays as it is", o->field);
 	}

@@ -7,6 +7,7 @@
 struct pm_redistance {
 	size_t crossed; /* nodes beside the interface; 0: there is none, and nothing was changed */
 	size_t linear;  /* of those the ones whose nearest point was taken from crossings of the mesh lines, because Newton's method failed (edges, corners) */
+	size_t unsettled; /* particles whose distance is that from a point of a node around, because the search from there did not settle */
 };
 
 /* node[points]: the level, all finite; x[d][n], level[n]: replaced by the signed distance of the particles. The mesh has no walls (pm_grid_even). 0 or

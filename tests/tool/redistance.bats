@@ -90,6 +90,23 @@ draw() { echo "field 'vel = -sin(pi*x)^2*sin(2*pi*y)*cos(pi*time/$1), sin(pi*y)^
 	below "$(tail -1 errors)" 4e-7
 }
 
+@test "redistance between the nodes: right up to the middle of a circle and of a sphere and to the faces, and the report counts no search that failed" {
+	while IFS=';' read -r what level words most; do
+		rm -f a
+		case $what in
+		circle) pinit lattice --dim 2 -n 1024 --cells 32 --spacing 1 --offset 0.5 ;;
+		sphere) pinit lattice --dim 3 -n 4096 --cells 16 --spacing 1 --offset 0.5 ;;
+		esac | scalc --extensive 'volume = 1' | scalc --role state "level = $level" | bash -c "$words" | scalc "wrong = abs(level - ($level))" >a
+		below "$(sls --data <a | awk '/^    wrong / { getline; print $5 }')" "$most" # of a cell; measured 7.0e-4, 5.1e-4, 2.8e-3, 2.9e-3
+		[[ $(sls --report <a) =~ '"linear":0.0,"unsettled":0.0' ]]
+	done <<-'END'
+		circle;hypot(x - 16, y - 16) - 8;redistance;1e-3
+		circle;hypot(x - 16, y - 16) - 8;remesh --by volume | redistance;1e-3
+		circle;hypot(x - 16, y - 16) - 8;scalc 'level = level*(2 + sin(pi*x/16)*cos(pi*y/16))' | redistance;3.5e-3
+		sphere;sqrt((x - 8)^2 + (y - 8)^2 + (z - 8)^2) - 5;redistance;4e-3
+	END
+}
+
 @test "length, area, volume and surface of the inside are of order 2 in 1, 2 and 3 dimensions, and known where redistance has been" {
 	within "$(lattice 50 1 'abs(x - 0.47) - 0.213' | value level_inside)" 0.426 1e-12
 	within "$(lattice 50 1 'abs(x - 0.47) - 0.213' | value level_interface)" 2 1e-9
