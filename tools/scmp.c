@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "measure/compare-streams.h"
+#include "stage/apply.h"
 #include "stage/h5-pipe.h"
 #include "stage/stage.h"
 
@@ -11,6 +12,10 @@ struct config {
 	double tolerance;
 	const char *norm;
 	bool common, by_index;
+};
+
+struct state {
+	struct pm_norms norms[PM_FIELD_PAIRS]; /* of the joint frame under way */
 };
 
 static const struct pm_option options[] = {
@@ -24,12 +29,26 @@ static const struct pm_option options[] = {
 	{0},
 };
 
+/* Of a joint frame, which ranks share. */
+static int declare(struct pm_stage *s, struct pm_frame *joint)
+{
+	(void)s;
+	pm_joint_declare(joint);
+	return 0;
+}
+
+static int frame(struct pm_stage *s, struct pm_frame *joint) { return pm_joint_norms(joint, ((struct state *)s->state)->norms); }
+
+static bool divided(const struct pm_stage *s, const struct pm_frame *joint) { return s && joint; }
+
+static int joint_apply(void *s, struct pm_frame *joint) { return pm_stage_apply(s, joint); }
+
 static int whole(struct pm_stage *s)
 {
 	const struct config *c = s->config;
 	struct pm_reader *r[2] = {NULL, NULL};
 	struct pm_comparison compare = {.choice = {.fields = c->fields.item, .on = c->on.item, .common = c->common, .by_index = c->by_index},
-		.tolerance = c->tolerance, .out = stdout};
+		.tolerance = c->tolerance, .out = stdout, .joint = joint_apply, .stage = s, .norms = ((struct state *)s->state)->norms};
 	int status = 0;
 	if (c->fields.n == PM_LIST_MOST || c->on.n == PM_LIST_MOST) /* the lists end in NULL */
 		return pm_fail(PM_USAGE, "--field and --set allow at most %d names", PM_LIST_MOST - 1);
@@ -66,11 +85,15 @@ const struct pm_tool tool_scmp = {
 		 "are exit 1. Without --field and --set the times are compared too.",
 	.kind = PM_SINK,
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.arguments = "A B",
 	.arguments_text = "Two streams; - is standard input.",
 	.least = 2,
 	.most = 2,
 	.examples = examples,
+	.declare = declare,
+	.frame = frame,
+	.divided = divided,
 	.whole = whole,
 };

@@ -108,8 +108,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	return c->plain ? pm_plain_table_write(stdout, !strcmp(c->format, "csv"), f, table_of(s, f), c->mesh) : pm_text_frame_write(stdout, f);
 }
 
-/* Writing. */
-static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f && s->kind == PM_SINK; }
+static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return f ? s->kind == PM_SINK : pm_table_source_by_ranks(s); }
 
 static int end(struct pm_stage *s)
 {

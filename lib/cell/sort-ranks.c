@@ -71,6 +71,19 @@ static int deal(int status, const uint64_t *from, size_t n, const uint64_t *sort
 	return status;
 }
 
+/* to[at[i]] = from[i], or with `take` to[i] = from[at[i]]. */
+static void reorder(size_t n, size_t size, const size_t *at, bool take, const void *from, void *to)
+{
+#pragma omp parallel for
+	for (size_t i = 0; i < n; i++) {
+		const size_t j = take ? at[i] : i, k = take ? i : at[i];
+		if (size == 1)
+			((unsigned char *)to)[k] = ((const unsigned char *)from)[j];
+		else
+			((uint64_t *)to)[k] = ((const uint64_t *)from)[j];
+	}
+}
+
 /* n values of `size` bytes in the order of leave[] to their ranks; *in: those that arrived, pm_free. */
 static int move(int status, const struct pm_sort_ranks *s, size_t size, const void *values, void **in)
 {
@@ -80,19 +93,28 @@ static int move(int status, const struct pm_sort_ranks *s, size_t size, const vo
 	*in = NULL;
 	if (!status && !(ordered && bytes))
 		status = bytes ? -PM_DATA : pm_no_memory();
-	if (!status && size == 8) {
-		const uint64_t *from = values;
-		uint64_t *to = (void *)ordered;
-#pragma omp parallel for
-		for (size_t i = 0; i < s->n; i++)
-			to[i] = from[s->leave[i]];
-	} else if (!status)
-		for (size_t i = 0; i < s->n; i++)
-			memcpy(ordered + i * size, (const unsigned char *)values + s->leave[i] * size, size);
+	if (!status)
+		reorder(s->n, size, s->leave, true, values, ordered);
 	for (size_t r = 0; r < ranks && !status; r++)
 		bytes[r] = s->out[r] * size;
 	status = pm_world_exchange(status, ordered, bytes, in, bytes ? bytes + ranks : NULL);
+	for (size_t r = 0; r < ranks && !status; r++)
+		s->in[r] = bytes[ranks + r] / size;
 	pm_free(ordered), free(bytes);
+	return status;
+}
+
+/* n values of `size` bytes in the order in which they arrived, to the ranks they came from; *out: as they left these, pm_free. */
+static int move_back(int status, const struct pm_sort_ranks *s, size_t size, const void *values, void **out)
+{
+	const size_t ranks = (size_t)pm_world_size();
+	size_t *bytes = calloc(2 * ranks, sizeof *bytes);
+	*out = NULL;
+	status = status ? status : bytes ? 0 : pm_no_memory();
+	for (size_t r = 0; r < ranks && !status; r++)
+		bytes[r] = s->in[r] * size;
+	status = pm_world_exchange(status, values, bytes, out, bytes ? bytes + ranks : NULL);
+	free(bytes);
 	return status;
 }
 
@@ -104,7 +126,8 @@ int pm_sort_ranks_init(int status, const uint64_t *from, size_t n, const uint64_
 	*s = (struct pm_sort_ranks){.n = n};
 	if (!status) {
 		s->leave = pm_alloc(room, sizeof *s->leave), s->arrive = pm_alloc(room, sizeof *s->arrive);
-		s->out = calloc((size_t)pm_world_size(), sizeof *s->out);
+		s->out = calloc(2 * (size_t)pm_world_size(), sizeof *s->out);
+		s->in = s->out ? s->out + pm_world_size() : NULL;
 		work = pm_alloc(2 * room, sizeof *work), sorted = pm_alloc(room, sizeof *sorted);
 		status = !s->out ? pm_no_memory() : s->leave && s->arrive && work && sorted ? 0 : -PM_DATA;
 	}
@@ -128,16 +151,28 @@ int pm_sort_ranks_permute(int status, const struct pm_sort_ranks *s, struct pm_f
 	for (int c = 0; c < field->components; c++) {
 		void *in, *y = status ? NULL : bytes ? (void *)pm_out_u8(field, c) : (void *)pm_out(field, c); /* eight bytes of either kind */
 		status = move(status, s, bytes ? 1 : sizeof(uint64_t), y, &in);
-		if (!status) {
-#pragma omp parallel for
-			for (size_t i = 0; i < s->n; i++)
-				if (bytes)
-					((unsigned char *)y)[i] = ((const unsigned char *)in)[s->arrive[i]];
-				else
-					((uint64_t *)y)[i] = ((const uint64_t *)in)[s->arrive[i]];
-		}
+		if (!status)
+			reorder(s->n, bytes ? 1 : sizeof(uint64_t), s->arrive, true, in, y);
 		pm_free(in);
 	}
+	return status;
+}
+
+int pm_sort_ranks_return(int status, const struct pm_sort_ranks *s, struct pm_field *field)
+{
+	const size_t size = pm_field_memory(field);
+	void *came = status ? NULL : pm_alloc(s->n + 1, size);
+	status = status ? status : came ? 0 : pm_failed();
+	for (int c = 0; c < field->components; c++) {
+		void *left, *y = status ? NULL : size == 1 ? (void *)pm_out_u8(field, c) : (void *)pm_out(field, c);
+		if (!status)
+			reorder(s->n, size, s->arrive, false, y, came);
+		status = move_back(status, s, size, came, &left);
+		if (!status)
+			reorder(s->n, size, s->leave, false, left, y);
+		pm_free(left);
+	}
+	pm_free(came);
 	return status;
 }
 

@@ -1,24 +1,26 @@
 /* Two streams compared frame by frame and field by field: norms of the difference as a table, particles matched by id. Holds one frame of each.
- * Cost: one pass over the data, and a sort of the ids. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: one pass over the data, and a sort of the ids; over ranks as match-ranks.c says. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "measure/compare-streams.h"
-#include "measure/norms.h"
+#include "stream/joint-frame.h"
+#include "stream/parts-file.h"
+#include "world/world.h"
 
 const char *const pm_norm_names[] = {"l1", "l2", "max", "relative_l2", "relative_max", NULL};
 
 /* Where the difference is largest, in words. */
-static void place(const struct pm_frame *f, const struct pm_field *a, bool id, size_t worst, char out[64])
+static void place(const struct pm_frame *f, const struct pm_field *a, bool id, const struct pm_norms *d, char out[64])
 {
 	size_t points[3];
 	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
 	if (m) {
 		pm_mesh_points(f, m, points);
-		snprintf(out, 64, "%zu,%zu,%zu", worst % points[0], worst / points[0] % points[1], worst / points[0] / points[1]);
+		snprintf(out, 64, "%zu,%zu,%zu", d->worst % points[0], d->worst / points[0] % points[1], d->worst / points[0] / points[1]);
 	} else if (id && a->count)
-		snprintf(out, 64, "%lld", (long long)pm_in_i64(pm_frame_field(f, a->on, "id"), 0)[worst]);
+		snprintf(out, 64, "%lld", (long long)d->worst_id);
 	else
-		snprintf(out, 64, "%zu", worst);
+		snprintf(out, 64, "%zu", d->worst);
 }
 
 static void words(struct pm_comparison *c)
@@ -44,27 +46,40 @@ static void row(struct pm_comparison *c, const char *on, const char *name, size_
 	fprintf(c->out, "\t%s\n", at);
 }
 
-static int field_row(struct pm_comparison *c, const struct pm_frame *f, const struct pm_frame *g, const struct pm_field *a, const struct pm_field *b)
+/* Pairs first .. first + n - 1, which are on the same set or mesh. */
+static int rows(struct pm_comparison *c, struct pm_frame *const f[2], const struct pm_field_pairs *p, int first, int n)
 {
 	char at[64];
-	size_t *match = NULL, *work = NULL;
-	double *weight = NULL;
-	const struct pm_mesh *m = pm_frame_mesh(f, a->on);
-	bool id = pm_field_pairs_by_id(&c->choice, f, g, a->on);
+	const bool id = pm_field_pairs_by_id(&c->choice, f[0], f[1], p->a[first]->on);
+	struct pm_frame *joint = pm_joint_frame(f[0], f[1], p->a + first, p->b + first, n, id);
+	const int status = joint ? c->joint(c->stage, joint) : pm_failed();
+	pm_frame_free(joint);
+	for (int i = 0; i < n && !status; i++) {
+		const struct pm_field *a = p->a[first + i];
+		place(f[0], a, id, &c->norms[i], at);
+		row(c, a->on, a->name, a->count, &c->norms[i], at);
+	}
+	return status;
+}
+
+/* What ranks have read is finite. */
+static int check(struct pm_comparison *c, struct pm_frame *f)
+{
+	struct pm_frame *those = pm_joint_check(f);
+	const int status = those ? c->joint(c->stage, those) : pm_failed();
+	pm_frame_free(those);
+	for (size_t i = 0; i < f->nfields && !status; i++)
+		f->fields[i]->finite |= f->fields[i]->use != 0;
+	return status;
+}
+
+static int read_both(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *const f[2])
+{
 	int status = 0;
-	if (m && !(weight = pm_field_pairs_weights(f, m)))
-		status = -PM_DATA;
-	if (id && a->count) {
-		match = pm_alloc(a->count, sizeof *match), work = pm_alloc(a->count, sizeof *work);
-		const int64_t *from = pm_in_i64(pm_frame_field(f, a->on, "id"), 0), *to = pm_in_i64(pm_frame_field(g, a->on, "id"), 0);
-		status = match && work ? pm_norms_match(a->count, from, to, match, work) : -PM_DATA;
+	for (int i = 0; i < 2 && !status; i++) {
+		status = pm_world_size() == 1 ? pm_read_declared(r[i], f[i]) : pm_read_by_ranks(r[i], f[i]);
+		status = status || pm_world_size() == 1 ? status : check(c, f[i]);
 	}
-	if (!status) {
-		struct pm_norms d = pm_norms_of(f, a, b, match, weight);
-		place(f, a, id, d.worst, at);
-		row(c, a->on, a->name, a->count, &d, at);
-	}
-	pm_free(match), pm_free(work), pm_free(weight);
 	return status;
 }
 
@@ -72,15 +87,17 @@ static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct
 {
 	struct pm_field_pairs p;
 	int status = pm_field_pairs_of(&c->choice, f[0], f[1], &p);
-	for (int i = 0; i < 2 && !status; i++)
-		status = pm_read_declared(r[i], f[i]);
+	status = status ? status : read_both(c, r, f);
 	if (!status && !c->choice.fields[0] && !c->choice.on[0]) {
 		double dt = fabs(f[0]->time - f[1]->time), relative = dt == 0 ? 0 : dt / fabs(f[1]->time);
-		struct pm_norms d = {dt, dt, dt, relative, relative, 0};
+		struct pm_norms d = {dt, dt, dt, relative, relative, 0, 0};
 		row(c, "-", "time", 1, &d, "-");
 	}
-	for (int i = 0; i < p.n && !status; i++)
-		status = field_row(c, f[0], f[1], p.a[i], p.b[i]);
+	for (int first = 0, n = 0; first < p.n && !status; first += n) {
+		for (n = 1; first + n < p.n && !strcmp(p.a[first + n]->on, p.a[first]->on);)
+			n++;
+		status = rows(c, f, &p, first, n);
+	}
 	return status;
 }
 

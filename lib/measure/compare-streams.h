@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "measure/field-pairs.h"
+#include "measure/joint-norms.h"
 #include "stream/wire.h"
 
 extern const char *const pm_norm_names[]; /* NULL ends */
@@ -15,6 +16,10 @@ struct pm_comparison {
 	double tolerance; /* NAN: none */
 	FILE *out;        /* gets the table */
 	uint64_t frame;   /* under way, from 1 */
+	/* pm_joint_declare() and pm_joint_norms() on this frame, by all ranks or here: the norms. */
+	int (*joint)(void *stage, struct pm_frame *joint);
+	void *stage;
+	const struct pm_norms *norms;
 	bool begun, over; /* the line of column names has been printed; a norm exceeded the tolerance */
 };
 

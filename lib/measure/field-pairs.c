@@ -91,13 +91,14 @@ int pm_field_pairs_of(const struct pm_field_pairs_choice *c, struct pm_frame *f,
 	return status;
 }
 
-double *pm_field_pairs_weights(const struct pm_frame *f, const struct pm_mesh *m)
+double *pm_field_pairs_weights(const struct pm_frame *f, const struct pm_field *field)
 {
-	struct pm_grid g = pm_grid_of(f, m);
-	double *w = pm_alloc(pm_grid_size(&g), sizeof *w), *o = w;
-	for (size_t k = 0; w && k < g.points[2]; k++)
-		for (size_t j = 0; j < g.points[1]; j++)
-			for (size_t i = 0; i < g.points[0]; i++)
-				*o++ = pm_grid_weight(&g, i, j, k);
+	const struct pm_grid g = pm_grid_of(f, pm_frame_mesh(f, field->on));
+	double *w = pm_alloc(field->count + 1, sizeof *w), *o = w;
+	for (size_t p = 0; w && p < field->count; p += g.points[0]) {
+		const size_t row = ((size_t)field->first + p) / g.points[0];
+		for (size_t i = 0; i < g.points[0]; i++)
+			*o++ = pm_grid_weight(&g, i, row % g.points[1], row / g.points[1]);
+	}
 	return w;
 }

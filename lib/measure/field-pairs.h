@@ -21,7 +21,7 @@ struct pm_field_pairs {
 int pm_field_pairs_of(const struct pm_field_pairs_choice *c, struct pm_frame *f, struct pm_frame *g, struct pm_field_pairs *p);
 /* Are the particles of this set matched by id? */
 bool pm_field_pairs_by_id(const struct pm_field_pairs_choice *c, const struct pm_frame *f, const struct pm_frame *g, const char *on);
-/* The weight of every point of a mesh in a mean: points on faces have half weight. pm_free it; NULL without memory. */
-double *pm_field_pairs_weights(const struct pm_frame *f, const struct pm_mesh *m);
+/* The weight in a mean of every point of a mesh field that is here: points on faces have half weight. pm_free it; NULL without memory. */
+double *pm_field_pairs_weights(const struct pm_frame *f, const struct pm_field *field);
 
 #endif

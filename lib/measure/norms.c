@@ -12,6 +12,7 @@ struct pair {
 	const struct pm_field *a, *b;
 	const size_t *match;
 	const double *weight;
+	const int64_t *id;
 	double scale[2];
 };
 
@@ -19,6 +20,7 @@ struct part {
 	struct pm_sum one, two, reference, weight; /* joined as four */
 	double max, reference_max;
 	size_t worst;
+	int64_t worst_id;
 };
 
 static double value(const struct pm_field *f, int c, size_t i)
@@ -54,7 +56,7 @@ static void make(const void *data, size_t first, size_t last, void *part)
 		pm_sum_add(&p.reference, w * (r * q->scale[1]) * (r * q->scale[1]));
 		pm_sum_add(&p.weight, w);
 		if (d > p.max)
-			p.max = d, p.worst = i;
+			p.max = d, p.worst = (size_t)a->first + i, p.worst_id = q->id ? q->id[i] : 0;
 		p.reference_max = fmax(p.reference_max, r);
 	}
 	*(struct part *)part = p;
@@ -67,7 +69,7 @@ static void join(size_t size, const void *part, void *all)
 	struct part *to = all;
 	pm_join_sums(offsetof(struct part, max), from, to);
 	if (from->max > to->max)
-		to->max = from->max, to->worst = from->worst;
+		to->max = from->max, to->worst = from->worst, to->worst_id = from->worst_id;
 	to->reference_max = fmax(to->reference_max, from->reference_max);
 }
 
@@ -77,17 +79,17 @@ static struct part all_of(const struct pair *q)
 {
 	const struct pm_parts parts = {.size = sizeof(struct part), .make = make, .join = join};
 	struct part all = {.max = 0};
-	pm_over_field(&parts, q, q->f, q->a->on, q->a->count, &all);
+	pm_over_field(&parts, q, q->f, q->a, &all);
 	return all;
 }
 
 /* A power of two that scales x to about 1, so that its square neither overflows nor underflows; 1 if there is no such risk. */
 static double scale_of(double x) { return x > 1e-140 && x < 1e140 ? 1 : x > 0 ? ldexp(1, -ilogb(x) < 1000 ? -ilogb(x) : 1000) : 1; }
 
-struct pm_norms pm_norms_of(const struct pm_frame *f, const struct pm_field *a, const struct pm_field *b, const size_t *match,
-	const double *weight)
+struct pm_norms pm_norms_with_ids(const struct pm_frame *f, const struct pm_field *a, const struct pm_field *b, const size_t *match,
+	const double *weight, const int64_t *id)
 {
-	struct pair q = {.f = f, .a = a, .b = b, .match = match, .weight = weight, .scale = {1, 1}};
+	struct pair q = {.f = f, .a = a, .b = b, .match = match, .weight = weight, .id = id, .scale = {1, 1}};
 	struct part all = all_of(&q);
 	q.scale[0] = scale_of(all.max), q.scale[1] = scale_of(all.reference_max);
 	if (q.scale[0] != 1 || q.scale[1] != 1)
@@ -95,7 +97,12 @@ struct pm_norms pm_norms_of(const struct pm_frame *f, const struct pm_field *a, 
 	double w = pm_sum_total(all.weight), two = sqrt(pm_sum_total(all.two)) / q.scale[0], reference = sqrt(pm_sum_total(all.reference)) / q.scale[1];
 	w = w > 0 ? w : 1;
 	return (struct pm_norms){.l1 = pm_sum_total(all.one) / w, .l2 = two / sqrt(w), .max = all.max,
-		.relative_l2 = ratio(two, reference), .relative_max = ratio(all.max, all.reference_max), .worst = all.worst};
+		.relative_l2 = ratio(two, reference), .relative_max = ratio(all.max, all.reference_max), .worst = all.worst, .worst_id = all.worst_id};
+}
+
+struct pm_norms pm_norms_of(const struct pm_frame *f, const struct pm_field *a, const struct pm_field *b, const size_t *match, const double *weight)
+{
+	return pm_norms_with_ids(f, a, b, match, weight, NULL);
 }
 
 static int by_id(const void *p, const void *q, void *ids)

@@ -1,6 +1,7 @@
 /* Sums over a mesh, and over what a field is on. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh/mesh-sum.h"
 #include "mesh/planes.h"
+#include "stream/over-stretches.h"
 
 /* Weights of quadrature at the ends of each axis. */
 static void ends(const struct pm_grid *g, double end[3][2])
@@ -46,13 +47,13 @@ void pm_grid_over(const struct pm_grid *g, const struct pm_field *field, const s
 
 size_t pm_grid_rows_before(const struct pm_grid *g, const struct pm_field *field) { return field->here ? (size_t)field->first / g->points[0] : 0; }
 
-void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const char *on, size_t count, void *all)
+void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const struct pm_field *field, void *all)
 {
-	const struct pm_mesh *m = pm_frame_mesh(f, on);
+	const struct pm_mesh *m = pm_frame_mesh(f, field->on);
 	if (!m) {
-		pm_over_set(p, data, count, all);
+		pm_over_stretches(field, p, data, all);
 		return;
 	}
 	const struct pm_grid g = pm_grid_of(f, m);
-	pm_over_mesh(p, data, g.points, all);
+	pm_grid_over(&g, field, p, data, all);
 }

@@ -12,7 +12,7 @@ double pm_grid_sum_of(const struct pm_grid *g, const struct pm_field *field, con
 /* pm_over_mesh of base/in-order.h in the same way, with the values here; rows before the first of these: pm_grid_rows_before. */
 void pm_grid_over(const struct pm_grid *g, const struct pm_field *field, const struct pm_parts *p, const void *data, void *all);
 size_t pm_grid_rows_before(const struct pm_grid *g, const struct pm_field *field);
-/* Parts over count values per component of what is called `on` in the frame, a set or a mesh. */
-void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const char *on, size_t count, void *all);
+/* Parts over the values of a field of the frame, on a set or on a mesh; of all ranks where it is divided, each with the values here. */
+void pm_over_field(const struct pm_parts *p, const void *data, const struct pm_frame *f, const struct pm_field *field, void *all);
 
 #endif

@@ -2,12 +2,14 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "stage/attribute-options.h"
 #include "stage/table-source.h"
 #include "stream/columns.h"
 #include "stream/declare.h"
 #include "stream/text.h"
+#include "world/world.h"
 
 const char *pm_table_option_given(const struct pm_stage *s)
 {
@@ -84,22 +86,71 @@ static int frames(struct pm_stage *s, struct pm_table_source *st, struct pm_fram
 	return pm_text_frame_read(&st->text, f, &st->frames);
 }
 
-/* The next frame of the current text. */
-static int next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+/* The next frame of the current text, which is open. fresh: it has just been opened. */
+static int next_here(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, bool fresh, struct pm_frame **f)
 {
-	int status = st->open ? 0 : pm_text_open(&st->text, s->args[st->file]);
-	if (status || st->over)
-		return status;
-	if (!st->open && pm_nemo_is(st->text.data, st->text.size))
+	int status = 0;
+	if (fresh && !st->text.ranks && pm_nemo_is(st->text.data, st->text.size))
 		st->nemo = (struct pm_nemo){.data = st->text.data, .size = st->text.size};
-	st->over = !st->open && !st->nemo.data && !pm_text_is_frames(&st->text);
-	st->open = true;
+	st->over = fresh && !st->nemo.data && !pm_text_is_frames(&st->text);
 	if (st->nemo.data)
 		return snapshot(s, &st->nemo, options, f);
+	if (fresh && !st->over)
+		status = pm_text_frames_index(&st->text);
 	if (!st->over)
-		return frames(s, st, f);
+		return status ? status : frames(s, st, f);
 	status = table(s, &st->text, options, f);
 	return status ? status : 1;
+}
+
+static int next_alone(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+{
+	const bool fresh = !st->open;
+	int status = fresh ? pm_text_open(&st->text, s->args[st->file]) : 0;
+	if (status || st->over)
+		return status;
+	st->open = true;
+	return next_here(s, st, options, fresh, f);
+}
+
+/* Rank 0 reads, and the others have a frame without fields. */
+static int next_of_first(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+{
+	int got = 0;
+	if (pm_world_rank() == 0) {
+		const bool apart = pm_world_apart(true);
+		got = next_alone(s, st, options, f);
+		pm_world_apart(apart);
+	}
+	const int status = pm_world_share(got < 0 ? got : 0, 0, &got, sizeof got);
+	if (!status && got && pm_world_rank() && !(*f = pm_frame_new(1)))
+		return pm_failed();
+	return status ? status : got;
+}
+
+static bool is_nemo(struct pm_text *t)
+{
+	size_t end;
+	const char *first = pm_text_line(t, 0, &end);
+	return pm_nemo_is(first, t->size);
+}
+
+static int next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
+{
+	const bool fresh = !st->open && !st->first_only;
+	if (pm_world_size() == 1)
+		return next_alone(s, st, options, f);
+	if (fresh) {
+		const int got = pm_text_open_by_ranks(&st->text, s->args[st->file]);
+		if (got < 0)
+			return got;
+		st->open = got, st->first_only = !got;
+	}
+	if (fresh && st->open && is_nemo(&st->text)) { /* its numbers are where its first bytes say */
+		pm_text_close(&st->text);
+		st->open = false, st->first_only = true;
+	}
+	return st->first_only ? next_of_first(s, st, options, f) : st->over ? 0 : next_here(s, st, options, fresh, f);
 }
 
 int pm_table_source_next(struct pm_stage *s, struct pm_table_source *st, struct pm_table_options *options, struct pm_frame **f)
@@ -109,7 +160,7 @@ int pm_table_source_next(struct pm_stage *s, struct pm_table_source *st, struct 
 	*f = NULL;
 	for (; st->file < s->nargs && !(status = next(s, st, options, f)); st->file++) {
 		pm_table_source_close(st);
-		st->over = false;
+		st->over = st->first_only = false;
 		st->frames = 0;
 	}
 	if (status < 0 && st->open) { /* a failure to open names the file itself */
@@ -119,6 +170,15 @@ int pm_table_source_next(struct pm_stage *s, struct pm_table_source *st, struct 
 		return pm_fail(-status, "%s: %s", strcmp(path, "-") ? path : "standard input", why);
 	}
 	return status;
+}
+
+bool pm_table_source_by_ranks(const struct pm_stage *s)
+{
+	struct stat st;
+	for (int i = 0; i < s->nargs; i++)
+		if (!strcmp(s->args[i], "-") || stat(s->args[i], &st) || !S_ISREG(st.st_mode))
+			return false;
+	return s->nargs;
 }
 
 void pm_table_source_close(struct pm_table_source *t)

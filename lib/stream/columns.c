@@ -2,8 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/in-order.h"
 #include "stream/columns.h"
+#include "stream/over-stretches.h"
+#include "stream/parts.h"
 #include "stream/run.h"
+#include "world/world.h"
 
 static bool among(const char *name, const char *const *list)
 {
@@ -101,7 +105,8 @@ static struct pm_field *field_make(struct pm_frame *f, const struct pm_columns_c
 	return field;
 }
 
-static int frame_make(int n, struct pm_column *column, const struct plan *plan, const struct pm_columns_choice *choice, size_t rows, struct pm_frame *f)
+static int frame_make(const struct pm_text *t, int n, struct pm_column *column, const struct plan *plan, const struct pm_columns_choice *choice, size_t rows,
+	struct pm_frame *f)
 {
 	if (!pm_frame_set_new(f, choice->set, rows))
 		return -PM_DATA;
@@ -115,19 +120,22 @@ static int frame_make(int n, struct pm_column *column, const struct plan *plan, 
 		column[i].text = text;
 		column[i].component = plan[i].component < 0 ? 0 : plan[i].component;
 	}
+	for (size_t i = 0; i < f->nfields; i++)
+		if (pm_table_field(t, f->fields[i]))
+			return -PM_DATA;
 	return pm_frame_ready(f);
 }
 
-static int number_rows(struct pm_frame *f, const char *set)
+static int number_rows(const struct pm_text *t, struct pm_frame *f, const char *set)
 {
 	struct pm_field *id = pm_frame_field(f, set, "id") ? NULL : pm_makes(f, set, "id", 1, PM_STATE);
 	if (!id)
 		return pm_fail(PM_DATA, "the table has a column id already (leave --number out)");
 	id->type = PM_I64;
-	if (pm_field_ready(id))
+	if ((t->ranks && pm_field_share(id, pm_sum_block)) || pm_field_ready(id))
 		return -PM_DATA;
 	for (size_t i = 0; i < id->count; i++)
-		pm_out_i64(id, 0)[i] = (int64_t)i;
+		pm_out_i64(id, 0)[i] = (int64_t)(id->first + i);
 	id->use = 0;
 	return 0;
 }
@@ -144,13 +152,16 @@ int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, 
 	if (!status && (n = pm_text_names(t, t->size, column)) <= 0)
 		status = n < 0 ? n : pm_fail(PM_DATA, "line %lu: the text ends before a line of column names", (unsigned long)t->line);
 	if (!status && !(status = group(n, column, choice, plan)))
-		dim = positions(n, plan, choice->dim), status = dim < 0 ? dim : pm_table_count(t, t->size, &rows);
+		dim = positions(n, plan, choice->dim), status = dim < 0 ? dim : 0;
+	status = pm_table_count(status, t, t->size, &rows);
 	if (!status && !(*f = pm_frame_new(dim)))
 		status = -PM_DATA;
-	if (!status && !(status = frame_make(n, column, plan, choice, rows, *f)) && !(status = pm_table_read(t, t->size, n, column)))
-		status = pm_frame_settle(*f);
+	status = status ? status : frame_make(t, n, column, plan, choice, rows, *f);
+	status = pm_table_read(status, t, t->size, *f, n < 0 ? 0 : n, column);
+	status = status ? status : pm_frame_settle(*f);
 	if (!status && choice->number)
-		status = number_rows(*f, choice->set);
+		status = number_rows(t, *f, choice->set);
+	status = t->ranks ? pm_world_agree(status) : status;
 	if (status)
 		*f = pm_frame_free(*f);
 	pm_free(column), pm_free(plan);
@@ -161,15 +172,17 @@ void pm_columns_box(struct pm_frame *f, const char *set)
 {
 	const struct pm_field *x = pm_frame_field(f, set, "x");
 	double side = 0, centre[3] = {0}, far = 0;
-	for (int a = 0; x->count && a < f->dim; a++) {
+	const bool any = pm_frame_set(f, set)->n;
+	for (int a = 0; any && a < f->dim; a++) {
 		double low = HUGE_VAL, high = -HUGE_VAL;
 		for (size_t i = 0; i < x->count; i++)
 			low = fmin(low, pm_in(x, a)[i]), high = fmax(high, pm_in(x, a)[i]);
+		low = -pm_most_of_stretches(x, -low), high = pm_most_of_stretches(x, high);
 		side = fmax(side, high - low);
 		centre[a] = low / 2 + high / 2;
 		far = fmax(far, fabs(centre[a]));
 	}
 	side = side > far * 1e-9 ? side : fmax(far, 0.5);
-	for (int a = 0; x->count && a < f->dim; a++)
+	for (int a = 0; any && a < f->dim; a++)
 		f->lo[a] = centre[a] - side, f->hi[a] = centre[a] + side;
 }

@@ -13,6 +13,10 @@ struct pm_parts_place {
 	int only;        /* to write this component alone, counted from 1; 0: all of them, one after the other */
 };
 
+struct pm_reader;
+/* As pm_read_declared (wire.h), by all ranks where the input is a file: what they read stays with them, and is not checked to be finite. */
+int pm_read_by_ranks(struct pm_reader *r, struct pm_frame *f);
+
 enum { PM_PARTS_ELSEWHERE = 1 }; /* a rank does not see the file */
 /* Rank 0. Each 0, PM_PARTS_ELSEWHERE or failure, agreed; *crc: CRC-32C of all bytes of the field on the wire. */
 int pm_parts_read(const struct pm_frame *f, struct pm_field *field, const struct pm_parts_place *place, uint32_t *crc); /* the field gets parts alone */

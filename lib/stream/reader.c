@@ -564,18 +564,24 @@ int pm_read_values(struct pm_reader *r, size_t bytes, const void **values)
 
 uint32_t pm_reader_sum(const struct pm_reader *r) { return r->sum; }
 
-int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w)
+/* ranks: they may read what is loaded. */
+static int payload(struct pm_reader *r, struct pm_frame *f, bool hold, bool ranks, struct pm_writer *w)
 {
 	int status = 0;
 	for (size_t i = 0; i < r->nitems && !status; i++) {
 		struct item *it = r->items + i;
 		bool load = hold || it->field->use & (PM_USE_READ | PM_USE_CHANGE), pass = w && stays(f, it->field);
 		if (it->bytes)
-			status = get_field(r, it, load, hold && !w && get_parts(r, it, f), pass ? w : NULL);
+			status = get_field(r, it, load, ranks && load && get_parts(r, it, f), pass ? w : NULL);
 		else if (pass)
 			status = pm_forward_done(w, it->field, 0);
 	}
-	status = status ? status : pm_read_tail(r, f);
+	return status ? status : pm_read_tail(r, f);
+}
+
+int pm_read_payload(struct pm_reader *r, struct pm_frame *f, bool hold, struct pm_writer *w)
+{
+	int status = payload(r, f, hold, hold && !w, w);
 	for (size_t i = 0; i < r->nitems && !status; i++)
 		if (r->items[i].bytes && r->items[i].field->use & (PM_USE_READ | PM_USE_CHANGE))
 			status = pm_field_check(r->items[i].field, PM_DATA);
@@ -588,6 +594,8 @@ int pm_read_declared(struct pm_reader *r, struct pm_frame *f)
 	int status = pm_read_payload(r, f, false, NULL);
 	return status ? status : pm_frame_ready(f);
 }
+
+int pm_read_by_ranks(struct pm_reader *r, struct pm_frame *f) { return payload(r, f, false, true, NULL); }
 
 int pm_read_frame(struct pm_reader *r, struct pm_frame **f)
 {

@@ -11,6 +11,7 @@
 #include "base/decimal.h"
 #include "stream/csv.h"
 #include "stream/table.h"
+#include "stream/text-ranks.h"
 #include "world/world.h"
 
 static const size_t piece_bytes = 1 << 20;
@@ -25,6 +26,7 @@ struct complaint {
 struct piece {
 	size_t begin, end, rows; /* rows: of the piece, after the prefix sum of all pieces before it */
 	uint64_t lines;
+	bool failed;    /* its text could not be had by one thread of many: the first one tries again, and says why */
 	struct complaint wrong;
 };
 
@@ -45,6 +47,7 @@ static int text_more(struct pm_text *t, size_t *room)
 /* Byte order marks that editors write, and that would become part of the first name. */
 static int mark_check(const struct pm_text *t, const char *path)
 {
+	path = strcmp(path, "-") ? path : "standard input";
 	if (t->size >= 3 && !memcmp(t->data, "\xEF\xBB\xBF", 3))
 		return pm_fail(PM_DATA, "%s: it begins with a byte order mark, three bytes that do not belong to the table (remove them: tail -c +4)", path);
 	if (t->size >= 2 && (!memcmp(t->data, "\xFF\xFE", 2) || !memcmp(t->data, "\xFE\xFF", 2)))
@@ -70,23 +73,47 @@ int pm_text_open(struct pm_text *t, const char *path)
 	if (fd != STDIN_FILENO)
 		close(fd);
 	if (!status)
-		status = mark_check(t, strcmp(path, "-") ? path : "standard input");
+		status = mark_check(t, path);
 	if (status)
 		return pm_text_close(t), status;
 	t->data[t->size] = 0;
 	return 0;
 }
 
+int pm_text_open_by_ranks(struct pm_text *t, const char *path)
+{
+	size_t end;
+	const int got = pm_text_ranks_open(t, path);
+	if (got <= 0)
+		return got;
+	pm_text_line(t, 0, &end); /* the first bytes are there */
+	const int status = mark_check(t, path);
+	if (status)
+		pm_text_close(t);
+	return status ? status : 1;
+}
+
 void pm_text_close(struct pm_text *t)
 {
+	pm_text_ranks_close(t);
 	pm_free(t->data);
 	*t = (struct pm_text){0};
 }
 
-size_t pm_text_line_end(const struct pm_text *t, size_t at)
+const char *pm_text_line(struct pm_text *t, size_t at, size_t *end)
 {
+	if (t->ranks)
+		return pm_text_ranks_line(t, at, end);
 	const char *e = memchr(t->data + at, '\n', t->size - at);
-	return e ? (size_t)(e - t->data) : t->size;
+	*end = e ? (size_t)(e - t->data) : t->size;
+	return t->data + at;
+}
+
+size_t pm_text_line_end(struct pm_text *t, size_t at)
+{
+	size_t end;
+	pm_text_line(t, at, &end);
+	return end;
 }
 
 static const char *blanks(const char *s, const char *e)
@@ -112,9 +139,10 @@ static bool is_row(const char *s, const char *e)
 int pm_text_separator(struct pm_text *t)
 {
 	size_t at = t->at, stop;
-	for (; (stop = pm_text_line_end(t, at)) < t->size && !is_row(t->data + at, t->data + stop); at = stop + 1)
-		;
-	const char found = pm_csv_separator(t->data + at, t->data + stop);
+	const char *s = pm_text_line(t, at, &stop);
+	for (; stop < t->size && !is_row(s, s + (stop - at)); s = pm_text_line(t, at, &stop))
+		at = stop + 1;
+	const char found = pm_csv_separator(s, s + (stop - at));
 	t->csv = found == ',';
 	return found == ';' ? pm_fail(PM_DATA, "semicolons separate its columns, but a table has commas, tabs or blanks there (tr ';' ',' where 0.5 has a "
 		"point; tr ',;' '.,' where it is written 0,5)") : 0;
@@ -147,8 +175,8 @@ static int csv_names(const struct pm_text *t, const char *s, const char *e, stru
 int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
 {
 	for (int n = 0; t->at < end;) {
-		size_t stop = pm_text_line_end(t, t->at);
-		const char *s = t->data + t->at, *e = t->data + stop;
+		size_t stop;
+		const char *s = pm_text_line(t, t->at, &stop), *e = s + (stop - t->at);
 		t->at = stop < t->size ? stop + 1 : stop;
 		t->line++;
 		if (!is_row(s, e))
@@ -168,11 +196,10 @@ int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
 
 /* ---- reading rows ---- */
 
-static struct piece *pieces_new(const struct pm_text *t, size_t end, size_t *n)
+static struct piece *pieces_new(struct pm_text *t, size_t at, size_t end, size_t *n)
 {
-	size_t most = (end - t->at) / piece_bytes + 1;
+	size_t most = (end - at) / piece_bytes + 1;
 	struct piece *p = pm_zalloc(most, sizeof *p);
-	size_t at = t->at;
 	for (*n = 0; p && *n < most && at < end;) {
 		size_t stop = end - at > piece_bytes ? pm_text_line_end(t, at + piece_bytes) + 1 : end;
 		p[*n].begin = at;
@@ -181,28 +208,41 @@ static struct piece *pieces_new(const struct pm_text *t, size_t end, size_t *n)
 	return p;
 }
 
-static void piece_count(const struct pm_text *t, struct piece *p)
+/* The text of a piece; *own: to be freed. NULL: failure. */
+static const char *piece_text(const struct pm_text *t, const struct piece *p, char **own)
 {
-	for (const char *s = t->data + p->begin, *stop = t->data + p->end; s < stop;) {
+	*own = t->ranks ? pm_text_ranks_piece(t, p->begin, p->end) : NULL;
+	return t->ranks ? *own : t->data + p->begin;
+}
+
+static bool piece_count(const struct pm_text *t, struct piece *p)
+{
+	char *own;
+	const char *text = piece_text(t, p, &own);
+	for (const char *s = text, *stop = text ? text + (p->end - p->begin) : NULL; s < stop;) {
 		const char *e = memchr(s, '\n', (size_t)(stop - s));
 		e = e ? e : stop;
 		p->rows += is_row(s, e);
 		p->lines++;
 		s = e + 1;
 	}
+	pm_free(own);
+	return text;
 }
 
-/* Counts the rows and lines of all pieces and computes the prefix sums. */
-static struct piece *pieces_counted(const struct pm_text *t, size_t end, size_t *n, size_t *rows, uint64_t *lines)
+/* Counts the rows and lines of all pieces from `at` on and computes the prefix sums. */
+static struct piece *pieces_counted(struct pm_text *t, size_t at, size_t end, size_t *n, size_t *rows, uint64_t *lines)
 {
-	struct piece *p = pieces_new(t, end, n);
+	struct piece *p = pieces_new(t, at, end, n);
 	*rows = 0, *lines = 0;
 	if (!p)
 		return NULL;
 #pragma omp parallel for schedule(dynamic)
 	for (size_t i = 0; i < *n; i++)
-		piece_count(t, p + i);
+		p[i].failed = !piece_count(t, p + i);
 	for (size_t i = 0; i < *n; i++) {
+		if (p[i].failed && !piece_count(t, p + i))
+			return pm_free(p);
 		size_t r = p[i].rows;
 		uint64_t l = p[i].lines;
 		p[i].rows = *rows, p[i].lines = *lines;
@@ -211,16 +251,29 @@ static struct piece *pieces_counted(const struct pm_text *t, size_t end, size_t 
 	return p;
 }
 
-int pm_table_count(const struct pm_text *t, size_t end, size_t *rows)
+/* The pieces that are read here. *first: the row before them, of all ranks; rows and lines: of all. */
+static int pieces_here(int status, struct pm_text *t, size_t end, struct piece **p, size_t *n, size_t *rows, uint64_t *line, uint64_t *lines)
+{
+	size_t at = t->at, first = 0;
+	*rows = 0, *lines = 0, *line = 0;
+	if (t->ranks && !status)
+		pm_text_ranks_share(t, &at, &end);
+	*p = status ? NULL : pieces_counted(t, at, end, n, rows, lines);
+	status = status ? status : *p ? 0 : pm_failed();
+	return t->ranks ? pm_text_ranks_count(status, t, rows, lines, &first, line) : status;
+}
+
+int pm_table_count(int status, struct pm_text *t, size_t end, size_t *rows)
 {
 	size_t n;
-	uint64_t lines;
-	struct piece *p = pieces_counted(t, end, &n, rows, &lines);
-	if (!p)
-		return -PM_DATA;
+	uint64_t line, lines;
+	struct piece *p;
+	status = pieces_here(status, t, end, &p, &n, rows, &line, &lines);
 	pm_free(p);
-	return 0;
+	return status;
 }
+
+int pm_table_field(const struct pm_text *t, struct pm_field *field) { return t->ranks ? pm_text_ranks_field(t, field) : 0; }
 
 /* Stores letters in the components of a row. %41 encodes a letter that a table cannot contain (a blank, # or %), a single % is the empty name. */
 static bool letters(const struct pm_field *field, size_t row, const char *s, const char *e)
@@ -321,19 +374,24 @@ static bool row_read(const char *s, const char *e, int n, const struct pm_column
 	return i == n;
 }
 
-static void piece_read(const struct pm_text *t, int n, const struct pm_column *column, struct piece *p)
+/* line: of the first piece here. False: the text could not be had. */
+static bool piece_read(const struct pm_text *t, uint64_t line, int n, const struct pm_column *column, struct piece *p)
 {
+	char *own;
 	size_t row = p->rows;
-	uint64_t line = t->line + p->lines;
-	for (const char *s = t->data + p->begin, *stop = t->data + p->end; s < stop; line++) {
+	const char *text = piece_text(t, p, &own);
+	line += p->lines;
+	for (const char *s = text, *stop = text ? text + (p->end - p->begin) : NULL; s < stop; line++) {
 		const char *e = memchr(s, '\n', (size_t)(stop - s));
 		e = e ? e : stop;
 		if (is_row(s, e) && !(t->csv ? csv_row_read : row_read)(s, e, n, column, row++, &p->wrong)) {
 			p->wrong.line = line;
-			return;
+			break;
 		}
 		s = e + 1;
 	}
+	pm_free(own);
+	return text;
 }
 
 static int complain(const struct complaint *w, int n, const struct pm_column *column)
@@ -345,21 +403,36 @@ static int complain(const struct complaint *w, int n, const struct pm_column *co
 	return pm_fail(PM_DATA, "line %lu, column %d '%s': '%s' %s", (unsigned long)w->line, w->column + 1, column[w->column].name, w->token, why[w->what]);
 }
 
-int pm_table_read(struct pm_text *t, size_t end, int ncolumns, const struct pm_column *column)
+/* The rows of the pieces here. Of several errors that of the first line is said, whichever rank has it. */
+static int pieces_read(const struct pm_text *t, uint64_t line, size_t n, struct piece *p, int ncolumns, const struct pm_column *column)
 {
-	size_t n, rows;
-	uint64_t lines;
-	int status = 0;
-	struct piece *p = pieces_counted(t, end, &n, &rows, &lines);
-	if (!p)
-		return -PM_DATA;
 #pragma omp parallel for schedule(dynamic)
 	for (size_t i = 0; i < n; i++)
-		piece_read(t, ncolumns, column, p + i);
-	for (size_t i = 0; i < n && !status; i++)
-		if (p[i].wrong.line)
-			status = complain(&p[i].wrong, ncolumns, column);
+		p[i].failed = !piece_read(t, line, ncolumns, column, p + i);
+	for (size_t i = 0; i < n; i++) {
+		if (p[i].failed && !piece_read(t, line, ncolumns, column, p + i))
+			return pm_failed();
+		if (p[i].wrong.line) {
+			pm_world_place(1, 0, 0, p[i].wrong.line);
+			return complain(&p[i].wrong, ncolumns, column);
+		}
+	}
+	return 0;
+}
+
+int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_frame *f, int ncolumns, const struct pm_column *column)
+{
+	size_t n, rows;
+	uint64_t line, lines;
+	struct piece *p;
+	status = pieces_here(status, t, end, &p, &n, &rows, &line, &lines);
+	status = status ? status : pieces_read(t, t->line + line, n, p, ncolumns, column);
 	pm_free(p);
+	if (t->ranks)
+		status = pm_world_agree(status);
+	for (int i = 0; i < ncolumns && t->ranks && !status; i++)
+		if (column[i].field && !column[i].component)
+			status = pm_text_ranks_settle(status, t, f, column[i].field);
 	t->at = end;
 	t->line += lines;
 	return status;

@@ -9,6 +9,8 @@
 #include "stream/limits.h"
 #include "stream/run.h"
 #include "stream/text.h"
+#include "stream/text-ranks.h"
+#include "world/world.h"
 
 static const char frame_mark[] = "#pmpipe ", report_mark[] = "#report ", limits_mark[] = "#limits ", end_mark[] = "#end ";
 
@@ -54,19 +56,21 @@ int pm_text_frame_write(FILE *out, struct pm_frame *f)
 
 void pm_text_end_write(FILE *out, uint64_t frames) { fprintf(out, "%s%llu\n", end_mark, (unsigned long long)frames); }
 
-static bool starts(const struct pm_text *t, const char *mark)
+static bool starts(struct pm_text *t, const char *mark)
 {
-	return !strncmp(t->data + t->at, mark, strlen(mark)); /* the text ends in a 0 */
+	size_t end;
+	return !strncmp(pm_text_line(t, t->at, &end), mark, strlen(mark)); /* a newline or a 0 follows */
 }
 
-bool pm_text_is_frames(const struct pm_text *t) { return starts(t, frame_mark) || starts(t, end_mark); }
+bool pm_text_is_frames(struct pm_text *t) { return starts(t, frame_mark) || starts(t, end_mark); }
 
 /* Parses the JSON after the mark of this line, and goes to the next line. */
 static json_t *json_read(struct pm_text *t, const char *mark)
 {
 	json_error_t why;
-	size_t end = pm_text_line_end(t, t->at), at = t->at + strlen(mark);
-	json_t *j = json_loadb(t->data + at, end - at, JSON_REJECT_DUPLICATES, &why);
+	size_t end;
+	const char *s = pm_text_line(t, t->at, &end) + strlen(mark);
+	json_t *j = json_loadb(s, end - t->at - strlen(mark), JSON_REJECT_DUPLICATES, &why);
 	if (!j)
 		pm_fail(PM_DATA, "line %lu: the JSON after %sis wrong: %s", (unsigned long)t->line, mark, why.text);
 	t->at = end < t->size ? end + 1 : end;
@@ -74,14 +78,26 @@ static json_t *json_read(struct pm_text *t, const char *mark)
 	return j;
 }
 
+static bool is_mark(const char *line)
+{
+	static const char *const marks[] = {"#pmpipe ", "#report ", "#limits ", "#set ", "#mesh ", "#end ", NULL};
+	for (int i = 0; *line == '#' && marks[i]; i++)
+		if (!strncmp(line, marks[i], strlen(marks[i])))
+			return true;
+	return false;
+}
+
+int pm_text_frames_index(struct pm_text *t) { return t->ranks ? pm_text_ranks_marks(t, is_mark) : 0; }
+
 /* The next line that starts with one of our marks. */
 static size_t table_end(const struct pm_text *t)
 {
-	static const char *const marks[] = {"\n#pmpipe ", "\n#report ", "\n#limits ", "\n#set ", "\n#mesh ", "\n#end ", NULL};
-	for (const char *s = t->data + t->at; (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
-		for (int i = 0; s[1] == '#' && marks[i]; i++)
-			if (!strncmp(s, marks[i], strlen(marks[i])))
-				return (size_t)(s + 1 - t->data);
+	for (size_t i = 0; t->ranks && i < t->ranks->nmarks; i++)
+		if (t->ranks->mark[i] > t->at)
+			return t->ranks->mark[i];
+	for (const char *s = t->ranks ? NULL : t->data + t->at; s && (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
+		if (is_mark(s + 1))
+			return (size_t)(s + 1 - t->data);
 	return t->size;
 }
 
@@ -102,7 +118,7 @@ static int match(const struct pm_text *t, int n, struct pm_column *column, int n
 	return n == nwant ? 0 : pm_fail(PM_DATA, "line %lu: %d columns, but the header of the frame needs %d", (unsigned long)t->line - 1, n, nwant);
 }
 
-static int rows_hold(struct pm_frame *f, const char *on, size_t rows, uint64_t line)
+static int rows_hold(const struct pm_text *t, struct pm_frame *f, const char *on, size_t rows, uint64_t line)
 {
 	struct pm_set *set = pm_frame_set(f, on);
 	if (set && set->n != rows) {
@@ -116,8 +132,10 @@ static int rows_hold(struct pm_frame *f, const char *on, size_t rows, uint64_t l
 			continue;
 		if (field->count != rows)
 			return pm_fail(PM_DATA, "line %lu: %zu rows, but the mesh '%s' has %zu points", (unsigned long)line, rows, on, field->count);
-		if (pm_field_hold(field))
+		field->use = PM_USE_NEW | PM_USE_FILL;
+		if (pm_table_field(t, field) || pm_field_ready(field))
 			return -PM_DATA;
+		field->use = 0;
 	}
 	return 0;
 }
@@ -133,13 +151,16 @@ static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, con
 	if (nwant <= 0)
 		return nwant;
 	size_t length = (size_t)snprintf(mark, sizeof mark, "#%s %s\n", kind, on);
-	if (t->size - t->at < length || memcmp(t->data + t->at, mark, length))
+	const char *s = pm_text_line(t, t->at, &end);
+	if (t->size - t->at < length || end - t->at + 1 != length || memcmp(s, mark, length))
 		return pm_fail(PM_DATA, "line %lu: no table of %s '%s', which the header of the frame needs", (unsigned long)line, kind, on);
 	t->at += length, t->line++;
 	end = table_end(t);
-	if ((n = pm_text_names(t, end, column)) < 0 || match(t, n, column, nwant, want) || pm_table_count(t, end, &rows) || rows_hold(f, on, rows, line))
-		return -PM_DATA;
-	return pm_table_read(t, end, n, column);
+	n = pm_text_names(t, end, column);
+	int status = n < 0 ? n : match(t, n, column, nwant, want);
+	status = pm_table_count(status, t, end, &rows);
+	status = status ? status : rows_hold(t, f, on, rows, line);
+	return pm_table_read(status, t, end, f, n < 0 ? 0 : n, column);
 }
 
 static int frame_tables(struct pm_text *t, struct pm_frame *f)
@@ -158,6 +179,7 @@ static int frame_tables(struct pm_text *t, struct pm_frame *f)
 		status = limits ? pm_limits_take_all(limits, f) : -PM_DATA;
 		json_decref(limits);
 	}
+	status = t->ranks ? pm_world_agree(status) : status;
 	for (size_t i = 0; !status && (on = owner(f, i, &kind)); i++)
 		status = table_read(t, f, on, kind, column);
 	pm_free(column);
@@ -168,10 +190,10 @@ int pm_text_frame_read(struct pm_text *t, struct pm_frame **f, uint64_t *frames)
 {
 	while (starts(t, end_mark)) { /* several texts may follow each other */
 		int64_t count;
-		if (!pm_integer_read(t->data + t->at + strlen(end_mark), &count) || (uint64_t)count != *frames)
+		size_t end;
+		if (!pm_integer_read(pm_text_line(t, t->at, &end) + strlen(end_mark), &count) || (uint64_t)count != *frames)
 			return pm_fail(PM_DATA, "line %lu: the end line does not count the %lu frames before it",
 				(unsigned long)t->line, (unsigned long)*frames);
-		size_t end = pm_text_line_end(t, t->at);
 		t->at = end < t->size ? end + 1 : end, t->line++;
 		*frames = 0;
 		if (t->at == t->size)
@@ -184,6 +206,7 @@ int pm_text_frame_read(struct pm_text *t, struct pm_frame **f, uint64_t *frames)
 	json_t *header = json_read(t, frame_mark);
 	int status = header ? pm_header_frame(header, f) : -PM_DATA;
 	json_decref(header);
+	status = t->ranks ? pm_world_agree(status) : status;
 	if (!status && (status = frame_tables(t, *f)) < 0)
 		*f = pm_frame_free(*f);
 	++*frames;

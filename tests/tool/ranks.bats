@@ -253,6 +253,93 @@ tables() {
 	cmp one two
 }
 
+@test "any number of ranks: scmp of two files, matched by id in order and in disorder, by index, on meshes; ids that do not fit, values that are no numbers" {
+	local n how
+	pinit uniform -n 13000 --dispersion 0.3 >box
+	p2m -n 16x17x15 -i box -o a
+	scalc 'v = vx, 1.01*vy, vz + (id == 7777)' 'mass = mass*(1 + 0.1*x)' <box | ssort | p2m -n 16x17x15 -o b
+	scalc --type i64 'id = id == 9000 ? 3 : id == 5 ? 70000 : id' <box | ssort | p2m -n 16x17x15 -o twice
+	scalc --type i64 'id = 13000 - id' <box | p2m -n 16x17x15 -o shifted
+	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | p2m -n 33 -o line
+	pinit uniform -n 5000 --dim 2 --faces wall,neumann --particle-faces reflect | p2m -n 33x40 -o plane
+	scalc --mesh mesh 'rho = rho + y^3' -i plane -o other
+	pinit plummer -n 12 | sel --where 'mass > 1' -o none
+	cat a b >ab
+	cat b a >ba
+	compared() { # SHARED OPTION...: the table, message and code of a run alone
+		local shared=$1 code=0 got
+		shift
+		scmp "$@" <a >want 2>message || code=$?
+		for n in 2 3 7; do
+			got=0
+			OMP_NUM_THREADS=$((1 + n % 2)) on $n scmp -v "$@" <a >table 2>said || got=$?
+			[ "$shared" = no ] || grep -q "ranks share the work" said || { cat said; echo "$n ranks: scmp $* alone"; return 1; }
+			grep -v "ranks share the work" said >left || true
+			{ [ $code = $got ] && cmp want table && cmp message left; } || { diff want table; cat message left; echo "$n ranks: scmp $*"; return 1; }
+		done
+	}
+	for how in "a b" "b a" "--by-index a b" "--set matter a b" "--field rho,x b a" "a a" "ab ba" "- b" "line line" "plane other" "none none"; do
+		# shellcheck disable=SC2086 # words
+		compared yes $how || return
+	done
+	scmp --field v a b | awk -F'\t' '$3 == "v" { exit $10 != 7777 }' # the order of b is another one
+	python3 "$top/tests/wire.py" edit box 'put("v", 0, float("nan")); put("x", 12999, float("nan"))' >nan # on the first and the last rank
+	for how in "a twice" "twice a" "twice twice" "a shifted" "a plane" "a line" "--tolerance 1e-3 a b" "box nan" "nan box"; do
+		# shellcheck disable=SC2086
+		compared no $how || return
+		[ -s message ] || { echo "scmp $how has nothing to say"; return 1; }
+	done
+	grep -q "'x' of 'matter' is not finite: component 0, index 12999" message
+	# no rank holds the two: alone they take 103 MB, each of four ranks 28, beside what programs map
+	pinit uniform -n 600000 -o large
+	run -1 bash -c "ulimit -v 75000; scmp -q large large"
+	(ulimit -v 75000; on 4 scmp -q -t 0 large large | cut -f 3 | xargs) | grep -q 'field time x v mass id'
+}
+
+@test "any number of ranks: stab reads text, tables and whole frames, of one file and of several, each rank its share; a wrong line, a cut text, a snapshot" {
+	local n how
+	pinit plummer -n 13000 | p2m -n 16x17x15 >frame.pm
+	stab <frame.pm >frame.txt
+	pinit uniform -n 9000 | p2m -n 9 >more.pm
+	cat frame.pm more.pm | stab >two.txt
+	pinit uniform -n 9000 | stab --plain >plain.txt
+	{ echo "x,y,name,id" && awk 'BEGIN { for (i = 0; i < 9000; i++) printf "%.17g,%d,\"a, %d\",%d\n", i*0.618%1, i%7, i%3, i }'; } >names.csv
+	printf 'x y\n1 2\n3 4' >bodies
+	printf 'x y\n' >none
+	sed '5000s/^/q/; 8000s/^/z/' plain.txt >wrong.txt # the first wrong line is said, whichever rank has it
+	sed '14000d' frame.txt >short.txt                  # of the mesh
+	head -c 300000 frame.txt >cut.txt
+	python3 -I -S "$top/tests/nemo.py" f8 >snap
+	: >empty
+	read() { # SHARED OPTION...: the stream, message and code of a run alone
+		local shared=$1 code=0 got
+		shift
+		stab "$@" -o one 2>want || code=$?
+		for n in 2 3 7; do
+			got=0
+			OMP_NUM_THREADS=$((1 + n % 2)) on $n stab -v "$@" -o two 2>said || got=$?
+			[ "$shared" = no ] || grep -q "ranks share the work" said || { cat said; echo "$n ranks: stab $* is not shared"; return 1; }
+			grep -v "ranks share the work" said >left || true
+			{ [ $code = $got ] && cmp one two && cmp want left; } || { cat left; echo "$n ranks: stab $*"; return 1; }
+		done
+	}
+	for how in frame.txt two.txt "frame.txt two.txt" plain.txt "plain.txt bodies" names.csv none "--number --skip id --strength vx --dt 0.1 plain.txt"; do
+		# shellcheck disable=SC2086 # words
+		read yes $how || return
+	done
+	stab frame.txt | cmp - frame.pm
+	for how in wrong.txt short.txt cut.txt empty nowhere snap "snap bodies snap"; do
+		# shellcheck disable=SC2086
+		read no $how || return
+	done
+	# no rank holds the table of all: text and numbers
+	pinit uniform -n 400000 | stab --plain >large.txt
+	run -1 bash -c "ulimit -v 75000; stab large.txt -o two"
+	stab large.txt -o one
+	(ulimit -v 75000; on 4 stab large.txt -o two)
+	cmp one two
+}
+
 @test "any number of ranks: a run resumed with another number of ranks" {
 	pinit plummer -n 5000 >start
 	s=$(kicks "$(force 16)")
