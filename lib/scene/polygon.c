@@ -49,6 +49,8 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		return -0.5 * n * gamma * r * r;
 	if (!strcmp(quantity, "rate"))
 		return (n - 1) * unit;
+	if (!strcmp(quantity, "mode")) /* the wave around the circle that grows fastest, whose rate is growth */
+		return m;
 	if (!strcmp(quantity, "growth"))
 		return s > 0 ? sqrt(s) * fabs(unit) : 0;
 	return NAN;
