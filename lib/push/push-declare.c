@@ -56,15 +56,27 @@ static void forget_registers(struct pm_frame *f, const struct pm_moving *m, int 
 	}
 }
 
+/* Schemes have registers, which are doubles. */
+static void takes_columns(struct pm_field *field, const struct pm_push *p)
+{
+	if (field && !p->scheme)
+		field->use |= PM_USE_COLUMNS;
+}
+
 static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct pm_push *p)
 {
 	for (int r = 0; r < m->n; r++) {
 		if (!pm_changes(f, m->set->name, m->rates[r].state->name))
 			return -PM_DATA;
 		m->rates[r].rate->use |= PM_USE_READ;
+		takes_columns(m->rates[r].state, p);
+		if (!m->rates[r].rate->uniform)
+			takes_columns(m->rates[r].rate, p);
 	}
 	if (m->v && p->moves && pm_moving_face(f, PM_PREFLECT) && !pm_changes(f, m->set->name, "v"))
 		return -PM_DATA;
+	for (int k = 0; k < 3 && m->turned && m->v->type == PM_F32; k++)
+		takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)
 			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))

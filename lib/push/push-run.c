@@ -2,13 +2,15 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "push/push-set.h"
+#include "stream/column.h"
 #include "world/world.h"
 
 /* Component c of a state with its rate and registers, for the loops. */
 static struct pm_advanced line(const struct pm_moving *m, const struct pm_rate *r, int c)
 {
-	struct pm_advanced l = {.y = pm_out(r->state, c), .position = r->state == m->x};
-	l.k = r->rate->use & (PM_USE_CHANGE | PM_USE_NEW) ? pm_out(r->rate, c) : pm_in(r->rate, c);
+	struct pm_advanced l = {.position = r->state == m->x, .y_floats = pm_column_floats(r->state, c), .k_floats = pm_column_floats(r->rate, c)};
+	l.y = l.y_floats ? NULL : pm_out(r->state, c);
+	l.k = l.k_floats ? NULL : r->rate->use & (PM_USE_CHANGE | PM_USE_NEW) ? pm_out(r->rate, c) : pm_in(r->rate, c);
 	for (int i = 0; i < PM_REGISTERS; i++)
 		l.q[i] = r->q[i] ? pm_out(r->q[i], c) : NULL;
 	return l;
@@ -35,6 +37,16 @@ static struct pm_bounds bounds_of(const struct pm_frame *f, int axis)
 		.mirror = {f->pface[axis][0] == PM_PREFLECT, f->pface[axis][1] == PM_PREFLECT}};
 }
 
+/* Where the positions, and the velocities that a mirror changes, of an axis are. */
+static void moved_of(const struct pm_moving *m, int c, struct pm_bounds *b, double **x, double **v)
+{
+	const bool turns = m->v && c < m->v->components && (b->mirror[0] || b->mirror[1]);
+	b->x_floats = pm_column_floats(m->x, c);
+	b->v_floats = turns ? pm_column_floats(m->v, c) : NULL;
+	*x = b->x_floats ? NULL : pm_out(m->x, c);
+	*v = turns && !b->v_floats ? pm_out(m->v, c) : NULL;
+}
+
 static double speed2(const struct pm_magnetic *a, size_t i)
 {
 	double v2 = 0;
@@ -54,30 +66,98 @@ static size_t first_fast(const struct pm_magnetic *a, size_t from, size_t to)
 	return any ? from : to;
 }
 
+static double speed2_of(const struct pm_field *v, size_t i)
+{
+	double v2 = 0;
+	for (int c = 0; c < v->components; c++)
+		v2 += pm_in(v, c)[i] * pm_in(v, c)[i];
+	return v2;
+}
+
+/* Velocities that are held as floats, and what turns them. */
+struct columns {
+	float *v[3];
+	bool acc[3], b;
+	struct pm_column of[8]; /* acc, B, charge, mass */
+};
+
+static struct columns columns_of(const struct pm_moving *m, const struct pm_field *acc)
+{
+	struct columns w = {.b = m->b};
+	for (int c = 0; c < 3; c++) {
+		w.v[c] = c < m->v->components ? pm_column_floats(m->v, c) : NULL;
+		if ((w.acc[c] = c < acc->components))
+			w.of[c] = pm_column_of(acc, c);
+		if (m->b)
+			w.of[3 + c] = pm_column_of(m->b, c);
+	}
+	if (m->b)
+		w.of[6] = pm_column_of(m->charge, 0), w.of[7] = pm_column_of(m->mass, 0);
+	return w;
+}
+
+/* Particles from..end-1, a few at a time as doubles; the first that is not slower than light, and end: none. */
+static size_t turn_floats(const struct columns *w, size_t from, size_t end, bool closing, double dt, const struct pm_step *step, const struct pm_magnetic *as)
+{
+	enum { few = 256 }; /* 11 arrays of them stay in the first cache */
+	for (size_t p = from; p < end; p += few) {
+		const size_t m = end - p < few ? end - p : few;
+		double v[3][few], room[8][few];
+		struct pm_magnetic a = *as;
+		for (int c = 0; c < 3; c++) {
+			for (size_t i = 0; i < m && w->v[c]; i++)
+				v[c][i] = w->v[c][p + i];
+			a.v[c] = w->v[c] ? v[c] : NULL;
+			a.acc[c] = w->acc[c] ? pm_column_take(&w->of[c], p, m, room[c]) : NULL;
+			a.b[c] = w->b ? pm_column_take(&w->of[3 + c], p, m, room[3 + c]) : NULL;
+		}
+		a.charge = w->b ? pm_column_take(&w->of[6], p, m, room[6]) : NULL;
+		a.mass = w->b ? pm_column_take(&w->of[7], p, m, room[7]) : NULL;
+		const size_t fast = step->relativistic ? first_fast(&a, 0, m) : m;
+		if (fast < m)
+			return p + fast;
+		step->magnetic(closing, dt, 0, m, &a);
+		for (int c = 0; c < 3; c++)
+			for (size_t i = 0; i < m && w->v[c]; i++)
+				w->v[c][p + i] = (float)v[c][i];
+	}
+	return end;
+}
+
 /* Rotates the velocities about bfield and kicks them, all components of a particle together. */
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
+	struct columns w = {.v = {NULL}};
 	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN), .radiation_time = pm_frame_constant(f, "radiation_time", NAN)};
 	size_t n = m->v->count, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
-	if (m->b)
-		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
+	const bool floats = pm_column_floats(m->v, 0), plane = m->b && m->v->components < 3;
+	const double *across[2] = {plane ? pm_in(m->b, 0) : NULL, plane ? pm_in(m->b, 1) : NULL};
 	for (int r = 0; r < m->n; r++)
 		acc = m->rates[r].state == m->v ? m->rates[r].rate : acc;
-	for (int c = 0; c < 3; c++) {
+	if (floats)
+		w = columns_of(m, acc);
+	else if (m->b)
+		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
+	for (int c = 0; c < 3 && !floats; c++) {
 		a.v[c] = c < m->v->components ? pm_out(m->v, c) : NULL;
 		a.acc[c] = c < acc->components ? pm_in(acc, c) : NULL;
 		a.b[c] = m->b ? pm_in(m->b, c) : NULL;
 	}
-	for (size_t i = 0; i < n && m->b && !a.v[2]; i++)
-		if (a.b[0][i] != 0 || a.b[1][i] != 0)
+	for (size_t i = 0; i < n && plane; i++)
+		if (across[0][i] != 0 || across[1][i] != 0)
 			return pm_world_place(0, 0, 0, m->v->first + i), pm_fail(PM_DATA, "'%s' has velocities of 2 components, and a magnetic field in "
 				"the plane turns them out of it (give v 3 components)", m->set->name);
 	size_t fast = n;
-	int bad = 0;
+	int bad = floats; /* what is stored is checked later, rounded */
 #pragma omp parallel for schedule(static) reduction(min : fast) reduction(| : bad) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
 		const size_t i = block * PM_ADVANCE_BLOCK, end = n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK;
+		if (floats) {
+			const size_t found = turn_floats(&w, i, end, m->closing, f->dt, step, &a);
+			fast = found < end && found < fast ? found : fast;
+			continue;
+		}
 		const size_t found = step->relativistic ? first_fast(&a, i, end) : end;
 		if (found < end) {
 			fast = found < fast ? found : fast;
@@ -89,7 +169,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	}
 	if (fast < n)
 		return pm_world_place(1, 0, 0, m->v->first + fast), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g",
-			(size_t)m->v->first + fast, m->set->name, sqrt(speed2(&a, fast)), a.c);
+			(size_t)m->v->first + fast, m->set->name, sqrt(floats ? speed2_of(m->v, fast) : speed2(&a, fast)), a.c);
 	m->v->use |= bad ? 0 : PM_USE_SEEN;
 	return 0;
 }
@@ -113,10 +193,11 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 		struct pm_bounds b = bounds_of(f, c < f->dim ? c : 0);
 		bool faces = p->moves && c < f->dim && c < m->x->components;
 		int n = lines_of(m, c, true, lines);
-		double *v = faces && m->v && c < m->v->components && (b.mirror[0] || b.mirror[1]) ? pm_out(m->v, c) : NULL;
-		double fastest = 0;
+		double *x = NULL, *v = NULL, fastest = 0;
+		if (faces)
+			moved_of(m, c, &b, &x, &v);
 		if (n)
-			finite &= pm_advance_axis(here, &a, n, lines, faces ? pm_out(m->x, c) : NULL, v, &b, h && faces ? &fastest : NULL);
+			finite &= pm_advance_axis(here, &a, n, lines, x, v, &b, h && faces ? &fastest : NULL);
 		if (h && faces)
 			*crossed = fmax(*crossed, fastest * fabs(f->dt) / h[c]);
 		n = lines_of(m, c, false, lines);

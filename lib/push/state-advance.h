@@ -14,6 +14,8 @@ struct pm_advanced {
 	const double *k;
 	double *q[PM_REGISTERS]; /* NULL beyond those in use */
 	bool position;
+	float *y_floats;         /* where y is NULL: it is held as floats */
+	const float *k_floats;
 };
 
 /* What one push does to one group of lines. */
@@ -32,6 +34,7 @@ struct pm_advance {
 struct pm_bounds {
 	double lo, hi; /* [length] */
 	bool fold, mirror[2];
+	float *x_floats, *v_floats; /* where x and v are NULL: they are held as floats */
 };
 
 /* Advances n particles along one axis (or, with x NULL, states without an axis). lines: positions first, because their rate is the velocity

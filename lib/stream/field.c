@@ -22,13 +22,79 @@ static void forget_note(struct pm_field *field)
 	field->summed = false;
 }
 
+/* ---- f32 ---- */
+
+bool pm_field_rests(const struct pm_field *field) { return field->type == PM_F32 && !field->here && pm_world_alone(); }
+
+float *pm_field_floats(const struct pm_field *field) { return field->buffer && !field->here ? field->buffer->floats : NULL; }
+
+static void to_doubles(size_t n, const float *from, double *to)
+{
+#pragma omp parallel for schedule(static) if (n > 65536)
+	for (size_t i = 0; i < n; i++)
+		to[i] = from[i];
+}
+
+/* Doubles beside the floats. */
+static int widen(const struct pm_field *field)
+{
+	struct pm_buffer *b = field->buffer;
+	double *data = pm_alloc(values(field), sizeof *data);
+	if (!data)
+		return -PM_DATA;
+	to_doubles(values(field), b->floats, data);
+	b->data = data;
+	return 0;
+}
+
+static struct pm_buffer *new_floats(const struct pm_field *field, bool zero)
+{
+	struct pm_buffer *b = pm_buffer_new(values(field), sizeof *b->floats, zero);
+	if (b)
+		pm_buffer_to_floats(b);
+	return b;
+}
+
+/* Floats alone, rounded. */
+static int narrow(struct pm_field *field)
+{
+	struct pm_buffer *b = field->buffer, *made = b->floats ? NULL : new_floats(field, false);
+	const double *data = b->data;
+	const size_t n = values(field);
+	if (!b->floats && !made)
+		return -PM_DATA;
+	if (!b->floats) {
+		float *restrict to = made->floats;
+#pragma omp parallel for schedule(static) if (n > 65536)
+		for (size_t i = 0; i < n; i++)
+			to[i] = (float)data[i];
+	}
+	pm_buffer_drop_data(b);
+	if (made) { /* the buffer stays: other frames may have it */
+		b->floats = made->floats, b->shared = made->shared;
+		made->floats = NULL, made->shared = NULL;
+		pm_buffer_free(made);
+	}
+	return 0;
+}
+
+int pm_field_hold_floats(struct pm_field *field)
+{
+	struct pm_buffer *b = new_floats(field, false);
+	if (!b)
+		return -PM_DATA;
+	pm_field_forget(field);
+	field->buffer = b;
+	return 0;
+}
+
 /* The values: in a divided frame this rank's, else all of them, brought together where they are divided. */
 static void *base_of(const struct pm_field *field)
 {
 	struct pm_buffer *b = field->buffer;
 	if (!field->here && !b->data) {
 #pragma omp critical(pm_join) /* whoever asks first: threads may do so in a loop */
-		if (!b->data && pm_buffer_join(b))
+		if (!b->data && (b->floats ? widen(field) : pm_buffer_join(b)))
 			pm_cannot_go_on();
 	}
 	return field->here ? b->part : b->data;
@@ -38,6 +104,8 @@ static void *base_of(const struct pm_field *field)
 static void *base_to_change(struct pm_field *field)
 {
 	void *base = base_of(field);
+	if (!field->here && field->buffer->floats) /* the same */
+		pm_buffer_drop_floats(field->buffer);
 	if (field->summed) /* threads may ask, after the first one has */
 		field->summed = false;
 	if (!field->here && field->buffer->id)
@@ -125,12 +193,52 @@ static int ready_here(struct pm_field *field)
 	return 0;
 }
 
+/* One that rests, of a stage that takes columns. */
+static int ready_floats(struct pm_field *field)
+{
+	struct pm_buffer *old = field->buffer, *b;
+	const bool change = field->use & PM_USE_CHANGE, made = field->use & PM_USE_NEW;
+	if (!old && field->uniform && (made || !change))
+		return 0;
+	if (old && !old->floats && narrow(field))
+		return -PM_DATA;
+	if (old && change && old->data)
+		pm_buffer_drop_data(old);
+	if (old && (!change || pm_buffer_alone(old)))
+		return 0;
+	if (!(b = new_floats(field, made && !(field->use & PM_USE_FILL))))
+		return -PM_DATA;
+	if (old)
+		memcpy(b->floats, old->floats, values(field) * sizeof *b->floats);
+	for (size_t i = 0, n = field->count; i < n * (size_t)field->components && !old && !made; i++)
+		b->floats[i] = (float)field->value[i / n];
+	pm_buffer_free(old);
+	field->buffer = b;
+	return 0;
+}
+
+/* Doubles of its own for one whose floats others have too. */
+static int copy_of_floats(struct pm_field *field)
+{
+	struct pm_buffer *b = pm_buffer_new(values(field), sizeof(double), false);
+	if (!b)
+		return -PM_DATA;
+	to_doubles(values(field), field->buffer->floats, b->data);
+	pm_buffer_free(field->buffer);
+	field->buffer = b;
+	return 0;
+}
+
 int pm_field_ready(struct pm_field *field)
 {
 	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
 		forget_note(field);
 	if (field->here)
 		return ready_here(field);
+	if (field->use & PM_USE_COLUMNS && pm_field_rests(field))
+		return ready_floats(field);
+	if (field->buffer && field->buffer->floats && field->use & PM_USE_CHANGE && !pm_buffer_alone(field->buffer))
+		return copy_of_floats(field);
 	if (field->buffer && field->use & PM_USE_CHANGE) /* before threads do */
 		base_to_change(field);
 	else if (field->buffer)
@@ -174,11 +282,20 @@ static int not_finite(const struct pm_field *field, int code)
 	return 0;
 }
 
+static bool finite_floats(size_t n, const float *x)
+{
+	int bad = 0;
+#pragma omp parallel for schedule(static) reduction(| : bad) if (n > 65536)
+	for (size_t i = 0; i < n; i++)
+		bad |= !(x[i] - x[i] == 0);
+	return !bad;
+}
+
 int pm_field_check(struct pm_field *field, int code)
 {
 	if (field->finite || !is_real(field) || !field->buffer || field->use & PM_USE_ANY)
 		return 0;
-	field->finite = pm_finite(values(field), base_of(field));
+	field->finite = pm_field_floats(field) ? finite_floats(values(field), pm_field_floats(field)) : pm_finite(values(field), base_of(field));
 	return field->finite ? 0 : not_finite(field, code);
 }
 
@@ -186,10 +303,13 @@ int pm_field_settle(struct pm_field *field)
 {
 	unsigned use = field->use;
 	field->use = 0;
+	const bool rests = field->buffer && pm_field_rests(field);
+	if (rests && field->buffer->data && narrow(field))
+		return -PM_DATA;
 	if (!(use & (PM_USE_CHANGE | PM_USE_NEW)) || field->uniform || !is_real(field) || !field->buffer)
 		return 0;
-	double *y = base_of(field);
-	if (field->type == PM_F32)
+	double *y = rests ? NULL : base_of(field);
+	if (field->type == PM_F32 && !rests)
 		for (size_t i = 0, n = values(field); i < n; i++)
 			y[i] = (float)y[i];
 	field->finite = use & PM_USE_SEEN && field->type == PM_F64;

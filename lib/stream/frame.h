@@ -30,11 +30,13 @@ size_t pm_type_size(enum pm_type type); /* bytes of a value in the stream */
 enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* new, and the stage writes every value: no zeros needed */,
 	PM_USE_SEEN = 16 /* the stage has checked every value in its own loop, and all are finite */,
 	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */,
-	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */ };
+	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */,
+	PM_USE_COLUMNS = 128 /* the stage takes the values as columns (column.h): those held as floats stay so, uniform ones that are read are one number */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 
-/* In memory real fields (f64, f32) are always double; an f32 field is rounded to f32 when a stage has changed it. i64 is int64_t, u8 bytes. */
+/* Real fields (f64, f32) are doubles for a stage; an f32 field is rounded to f32 when a stage has changed it, and where there are no ranks is held as floats
+ * between two stages: pm_in and pm_out widen it, the end of the stage narrows it again. i64 is int64_t, u8 bytes. */
 /* Something computed from a field's values and kept for the next stage in the same process; dropped when the values change. Never part of the stream:
  * results must not depend on it. */
 struct pm_note {

@@ -210,15 +210,15 @@ struct pm_shared *pm_hands_take(struct pm_hands *h, const struct pm_given *what)
 }
 #endif
 
-enum { summed_bit = 32, finite_bit, comes_bit }; /* behind the checksum */
+enum { summed_bit = 32, finite_bit, comes_bit, floats_bit }; /* behind the checksum */
 
 uint64_t pm_given_bits(const struct pm_given *g)
 {
-	return g->crc | (uint64_t)g->summed << summed_bit | (uint64_t)g->finite << finite_bit | (uint64_t)g->comes << comes_bit;
+	return g->crc | (uint64_t)g->summed << summed_bit | (uint64_t)g->finite << finite_bit | (uint64_t)g->comes << comes_bit | (uint64_t)g->floats << floats_bit;
 }
 
 struct pm_given pm_given_of(uint64_t id, uint64_t bits)
 {
 	return (struct pm_given){.id = id, .crc = (uint32_t)bits,
-		.summed = bits >> summed_bit & 1, .finite = bits >> finite_bit & 1, .comes = bits >> comes_bit & 1};
+		.summed = bits >> summed_bit & 1, .finite = bits >> finite_bit & 1, .comes = bits >> comes_bit & 1, .floats = bits >> floats_bit & 1};
 }

@@ -14,6 +14,7 @@ struct pm_given {
 	uint64_t id;
 	uint32_t crc;    /* if summed: the checksum of its bytes in the stream */
 	bool summed, finite;
+	bool floats;     /* the block has floats, where the field is of type f32; else doubles */
 	bool comes;      /* with a descriptor on the socket */
 };
 

@@ -83,6 +83,33 @@ struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero)
 	return b;
 }
 
+void pm_buffer_to_floats(struct pm_buffer *b)
+{
+	b->floats = b->data;
+	b->data = NULL;
+}
+
+static void drop(struct pm_buffer *b, void *values)
+{
+	if (b->shared && values == b->shared->data) {
+		pm_shared_drop(b->shared);
+		b->shared = NULL;
+	} else
+		pm_free(values);
+}
+
+void pm_buffer_drop_data(struct pm_buffer *b)
+{
+	drop(b, b->data);
+	b->data = NULL;
+}
+
+void pm_buffer_drop_floats(struct pm_buffer *b)
+{
+	drop(b, b->floats);
+	b->floats = NULL;
+}
+
 bool pm_buffer_alone(const struct pm_buffer *b) { return atomic_load(&b->users) == 1 && (!b->shared || pm_shared_alone(b->shared)); }
 
 /* ---- requests ---- */
@@ -147,10 +174,7 @@ struct pm_buffer *pm_buffer_free(struct pm_buffer *b)
 		pm_buffer_undivide(b);
 		if (b->note)
 			b->note->free(b->note);
-		if (b->shared)
-			pm_shared_drop(b->shared);
-		else
-			pm_free(b->data);
+		pm_buffer_drop_data(b), pm_buffer_drop_floats(b);
 		free(b);
 	}
 	return NULL;

@@ -17,12 +17,16 @@ struct pm_buffer {
 	uint64_t *from; /* the beginnings of the stretches, one more than ranks; with id */
 	size_t size;    /* [bytes] of a value; with id */
 	int components; /* with id */
-	struct pm_shared *shared; /* data are in this block, which other processes may read; NULL: they are of this process */
+	float *floats;  /* the values of an f32 field that rests (run.h), beside data or in their place; NULL: data alone has them */
+	struct pm_shared *shared; /* data, or where there are floats these, are in this block, which other processes may read; NULL: they are of this process */
 	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
 struct pm_buffer *pm_buffer_of_shared(struct pm_shared *b);        /* takes over a use of it; NULL: failure, and the use is given up */
+void pm_buffer_to_floats(struct pm_buffer *b);                     /* data becomes floats: the caller has filled it with them, or will */
+void pm_buffer_drop_data(struct pm_buffer *b);                     /* the floats stay */
+void pm_buffer_drop_floats(struct pm_buffer *b);                   /* data stays */
 void pm_buffers_share(bool yes);                                   /* large new ones are in blocks that can be handed over (hand-over.h) */
 bool pm_buffer_alone(const struct pm_buffer *b);                   /* one use, here and in other processes: it may be written */
 

@@ -383,13 +383,16 @@ static int get_given(struct pm_reader *r, struct item *it, const struct pm_line 
 	struct pm_field *p = it->field, before = *p;
 	if (!b)
 		return pm_failed();
-	if (b->bytes / pm_field_memory(p) / (size_t)p->components < it->count) {
+	const size_t each = g.floats ? sizeof(float) : it->type == PM_U8 ? 1 : 8;
+	if ((g.floats && it->type != PM_F32) || b->bytes / each / (size_t)p->components < it->count) {
 		pm_shared_drop(b);
 		return pm_fail(PM_DATA, "field %zu of %zu was handed over with too few bytes: the stream is damaged", (size_t)(it - r->items) + 1, r->nitems);
 	}
 	pm_field_forget(p);
 	if (!(p->buffer = pm_buffer_of_shared(b)))
 		return pm_failed();
+	if (g.floats)
+		pm_buffer_to_floats(p->buffer);
 	it->given = true;
 	p->summed = g.summed, p->crc = g.crc, p->finite = g.finite;
 	const int status = w ? pm_forward_held(w, p) : 0;
@@ -439,10 +442,11 @@ static int get_field(struct pm_reader *r, struct item *it, bool load, bool there
 	int status = r->shared ? get_before(r, it, load, w) : 0;
 	if (status)
 		return status < 0 ? status : 0;
-	status = load && !there ? pm_field_hold(it->field) : 0;
+	const bool floats = load && !there && it->type == PM_F32 && pm_world_alone();
+	status = load && !there ? (floats ? pm_field_hold_floats(it->field) : pm_field_hold(it->field)) : 0;
 	const bool whole = load && w && it->bytes >= PM_HAND_LEAST; /* handed on when all of it is there */
 	status = status || !w || whole ? status : pm_forward_begin(w, it->bytes);
-	char *base = load && !there && it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
+	char *base = status || !load || there ? NULL : floats ? (char *)pm_field_floats(it->field) : it->type != PM_F32 ? pm_field_bytes(it->field) : NULL;
 	for (size_t done = there ? it->bytes : 0; done < it->bytes && !status;) {
 		size_t n = it->bytes - done < PM_PIECE ? it->bytes - done : PM_PIECE;
 		const void *piece;
@@ -518,9 +522,12 @@ int pm_read_tail(struct pm_reader *r, struct pm_frame *f)
 	return status;
 }
 
-/* The field that is given has doubles, where the stream has floats. */
+/* The field that is given may have doubles, where the stream has floats. */
 static const void *given_values(struct pm_reader *r, const struct item *it, size_t bytes)
 {
+	const float *floats = pm_field_floats(it->field);
+	if (floats)
+		return (const char *)floats + r->done;
 	const char *base = pm_field_bytes(it->field);
 	if (it->type != PM_F32)
 		return base + r->done;

@@ -241,14 +241,15 @@ static int put_parts(struct pm_writer *w, const struct pm_field *p, uint32_t *cr
 /* Hands over the block that the values are in, or have been copied to. 1: done; 0: no block can be had; or failure. */
 static int give(struct pm_writer *w, struct pm_field *p)
 {
-	const size_t bytes = p->count * (size_t)p->components * pm_field_memory(p);
+	const float *floats = pm_field_floats(p);
+	const size_t bytes = p->count * (size_t)p->components * (floats ? sizeof *floats : pm_field_memory(p));
 	struct pm_shared *b = p->buffer ? p->buffer->shared : NULL, *made = b || bytes < PM_HAND_LEAST ? NULL : pm_shared_new(bytes);
-	struct pm_given g = {.crc = p->crc, .summed = p->summed, .finite = p->finite};
+	struct pm_given g = {.crc = p->crc, .summed = p->summed, .finite = p->finite, .floats = floats};
 	char words[PM_LINE];
 	if (!b && !made)
 		return 0;
 	if (made)
-		memcpy(made->data, pm_in_u8(p, 0), bytes);
+		memcpy(made->data, floats ? (const void *)floats : pm_in_u8(p, 0), bytes);
 	b = b ? b : made;
 	g.id = b->id;
 	int status = pm_hands_give(w->hands, b, &g.comes);
@@ -264,10 +265,11 @@ static int give(struct pm_writer *w, struct pm_field *p)
 static int put_lasting(struct pm_writer *w, struct pm_field *p, uint32_t *crc)
 {
 	const size_t bytes = pm_field_wire(p);
-	const off_t at = w->lasting && p->type != PM_F32 && p->buffer && bytes >= PM_PAST_CACHE_LEAST ? lseek(w->fd, 0, SEEK_CUR) : -1;
+	const float *floats = pm_field_floats(p);
+	const off_t at = w->lasting && (p->type != PM_F32 || floats) && p->buffer && bytes >= PM_PAST_CACHE_LEAST ? lseek(w->fd, 0, SEEK_CUR) : -1;
 	if (at < 0)
 		return 0;
-	const void *data = pm_in_u8(p, 0);
+	const void *data = floats ? (const void *)floats : pm_in_u8(p, 0);
 	struct pm_past_cache past;
 	*crc = p->summed ? p->crc : pm_crc32c(0, data, bytes);
 	pm_past_cache_open(&past, w->fd);
@@ -289,11 +291,12 @@ static int put_field(struct pm_writer *w, struct pm_field *p)
 	if ((status = put_parts(w, p, &crc)) || (status = put_lasting(w, p, &crc)))
 		return status < 0 ? status : pm_forward_done(w, p, crc);
 	status = bytes ? pm_forward_begin(w, bytes) : 0;
-	const char *data = p->buffer ? (const char *)pm_in_u8(p, 0) : NULL; /* of any type; the parts stay valid */
+	const float *floats = pm_field_floats(p);
+	const char *data = floats ? (const char *)floats : p->buffer ? (const char *)pm_in_u8(p, 0) : NULL; /* of any type; the parts stay valid */
 	for (size_t done = 0; done < bytes && !status;) {
 		size_t n = bytes - done < PM_PIECE ? bytes - done : PM_PIECE;
 		const void *piece = data + done;
-		if (p->type == PM_F32) {
+		if (p->type == PM_F32 && !floats) {
 			const double *y = (const double *)(const void *)data + done / 4;
 			float *narrow = pm_forward_room(w);
 			if (!narrow)

@@ -35,6 +35,7 @@ bool pm_world_apart(bool apart)
 	return was;
 }
 
+bool pm_world_alone(void) { return !world.set || world.t.size == 1; }
 bool pm_world_broken(void) { return world.broken; }
 struct pm_world_traffic pm_world_traffic(void) { return world.sent; }
 void pm_world_cut(size_t bytes) { world.cut = bytes; }

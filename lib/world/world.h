@@ -56,6 +56,7 @@ struct pm_world_traffic pm_world_traffic(void);
 /* For the layer that runs stages, and tests. */
 /* apart: what follows is done by this rank alone (a word that is not divided), so that it sees a world of one. Returns what was before. */
 bool pm_world_apart(bool apart);
+bool pm_world_alone(void); /* there are no other ranks, of which this one may be apart */
 void pm_world_set(const struct pm_transport *t); /* from now on this is the world; copied */
 int pm_world_end(void);                          /* all ranks have ended: 0 or failure; afterwards the world is of one */
 void pm_world_abort(int code);                   /* ends the other ranks, and where they are MPI's this one too; alone it does nothing */
