@@ -7,6 +7,7 @@
 #include "base/simd.h"
 #include "limit/rates.h"
 #include "mesh/planes.h"
+#include "stream/column.h"
 #include "stream/kept.h"
 #include "stream/over-stretches.h"
 #include "world/world.h"
@@ -35,17 +36,30 @@ static double most_of_block(int m, size_t n, const double *const v[], const doub
 	return most[0];
 }
 
+/* As f32 values will be at the end of the stage. */
+static const double *rounded(const struct pm_column *c, size_t b, size_t n, double *few)
+{
+	const double *v = pm_column_take(c, b, n, few);
+	for (size_t i = 0; i < n; i++)
+		few[i] = (float)v[i];
+	return few;
+}
+
 double pm_most(const struct pm_field *y, const double *h)
 {
 	double most = 0;
 	int m = y->components < 3 || !h ? y->components : 3;
-	pm_field_bring(y);
+	struct pm_column column[PM_COMPONENTS];
+	for (int d = 0; d < m; d++)
+		column[d] = pm_column_of(y, d);
 #pragma omp parallel for schedule(static) reduction(max : most) if (y->count > 16384)
 	for (size_t b = 0; b < y->count; b += BLOCK) {
+		const size_t n = y->count - b < BLOCK ? y->count - b : BLOCK;
 		const double *v[PM_COMPONENTS];
+		double few[PM_COMPONENTS][BLOCK];
 		for (int d = 0; d < m; d++)
-			v[d] = pm_in(y, d) + b;
-		most = fmax(most, most_of_block(m, y->count - b < BLOCK ? y->count - b : BLOCK, v, h));
+			v[d] = y->type == PM_F32 ? rounded(&column[d], b, n, few[d]) : pm_column_take(&column[d], b, n, few[d]);
+		most = fmax(most, most_of_block(m, n, v, h));
 	}
 	return pm_most_of_stretches(y, most);
 }
@@ -141,14 +155,14 @@ double pm_strain(const struct pm_grid *g, const struct pm_field *field, const do
 }
 
 struct charges {
-	const double *q, *m;
+	struct pm_column q, m;
 };
 
 static void make_squares(const void *data, size_t from, size_t to, void *part)
 {
 	const struct charges *c = data;
 	for (size_t p = from; p < to; p++)
-		pm_sum_add(part, c->q[p] * c->q[p] / c->m[p]);
+		pm_sum_add(part, pm_column_at(&c->q, p) * pm_column_at(&c->q, p) / pm_column_at(&c->m, p));
 }
 
 static const struct pm_parts squares = {.size = sizeof(struct pm_sum), .make = make_squares, .join = pm_join_sums};
@@ -156,7 +170,7 @@ static const struct pm_parts squares = {.size = sizeof(struct pm_sum), .make = m
 double pm_charge_over_mass(size_t n, const double *q, const double *m)
 {
 	struct pm_sum sum = {0, 0};
-	pm_over_set(&squares, &(struct charges){q, m}, n, &sum);
+	pm_over_set(&squares, &(struct charges){pm_column_doubles(q), pm_column_doubles(m)}, n, &sum);
 	return pm_sum_total(sum);
 }
 
@@ -168,7 +182,7 @@ static struct pm_sum set_sum(const struct pm_field *q, const struct pm_field *m)
 	struct pm_sum sum = {0, 0}, *copy;
 	if (kept)
 		return *kept;
-	pm_over_stretches(q, &squares, &(struct charges){pm_in(q, 0), pm_in(m, 0)}, &sum);
+	pm_over_stretches(q, &squares, &(struct charges){pm_column_of(q, 0), pm_column_of(m, 0)}, &sum);
 	if ((copy = pm_alloc(1, sizeof *copy))) {
 		*copy = sum;
 		if (!pm_keep(q, m, name, copy))

@@ -164,6 +164,9 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 			continue;
 		}
 		step->magnetic(m->closing, f->dt, i, end, &a);
+		for (int c = 0; c < 3 && m->v->type == PM_F32; c++) /* before a drift uses it, as where it is held as floats */
+			for (size_t p = i; p < end && a.v[c]; p++)
+				a.v[c][p] = (float)a.v[c][p];
 		for (int c = 0; c < 3; c++)
 			bad |= a.v[c] && !pm_finite_few(end - i, a.v[c] + i);
 	}

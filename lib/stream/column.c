@@ -1,6 +1,6 @@
 /* Columns of fields (column.h). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stream/column.h"
-#include "stream/run.h"
+#include "stream/parts.h"
 
 struct pm_column pm_column_of(const struct pm_field *field, int c)
 {

@@ -214,7 +214,8 @@ enum { summed_bit = 32, finite_bit, comes_bit, floats_bit }; /* behind the check
 
 uint64_t pm_given_bits(const struct pm_given *g)
 {
-	return g->crc | (uint64_t)g->summed << summed_bit | (uint64_t)g->finite << finite_bit | (uint64_t)g->comes << comes_bit | (uint64_t)g->floats << floats_bit;
+	return g->crc | (uint64_t)g->summed << summed_bit | (uint64_t)g->finite << finite_bit | (uint64_t)g->comes << comes_bit |
+		(uint64_t)g->floats << floats_bit;
 }
 
 struct pm_given pm_given_of(uint64_t id, uint64_t bits)

@@ -17,7 +17,7 @@ struct pm_buffer {
 	uint64_t *from; /* the beginnings of the stretches, one more than ranks; with id */
 	size_t size;    /* [bytes] of a value; with id */
 	int components; /* with id */
-	float *floats;  /* the values of an f32 field that rests (run.h), beside data or in their place; NULL: data alone has them */
+	float *floats;  /* the values of an f32 field that rests (below), beside data or in their place; NULL: data alone has them */
 	struct pm_shared *shared; /* data, or where there are floats these, are in this block, which other processes may read; NULL: they are of this process */
 	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
@@ -29,6 +29,11 @@ void pm_buffer_drop_data(struct pm_buffer *b);                     /* the floats
 void pm_buffer_drop_floats(struct pm_buffer *b);                   /* data stays */
 void pm_buffers_share(bool yes);                                   /* large new ones are in blocks that can be handed over (hand-over.h) */
 bool pm_buffer_alone(const struct pm_buffer *b);                   /* one use, here and in other processes: it may be written */
+
+/* An f32 field between two stages, where there are no ranks: */
+bool pm_field_rests(const struct pm_field *field);    /* it is held as floats */
+int pm_field_hold_floats(struct pm_field *field);     /* a buffer of its own, contents undefined */
+float *pm_field_floats(const struct pm_field *field); /* all components; NULL: it is not */
 
 /* The division of n values: beginnings at multiples of a grain, as even as these allow; free() it. NULL: no memory. */
 uint64_t *pm_division_new(uint64_t n, uint64_t grain);

@@ -16,9 +16,6 @@ int pm_frame_ready(struct pm_frame *f);
 int pm_frame_settle(struct pm_frame *f);
 
 int pm_field_hold(struct pm_field *field);            /* a buffer of its own, contents undefined */
-bool pm_field_rests(const struct pm_field *field);    /* as floats between two stages */
-int pm_field_hold_floats(struct pm_field *field);     /* the same for floats, of one that rests */
-float *pm_field_floats(const struct pm_field *field); /* all components; NULL: they are not held as floats */
 void pm_field_forget(struct pm_field *field);         /* frees the data, as after a change of the uniform value */
 int pm_field_settle(struct pm_field *field);
 int pm_field_resize(struct pm_field *field, size_t count);

@@ -7,6 +7,7 @@
 #include "mesh/planes.h"
 #include "stream/declare.h"
 #include "transfer/current-frame.h"
+#include "transfer/current-parts.h"
 #include "world/world.h"
 
 static const char *const name = "J";
@@ -58,6 +59,15 @@ static int check_set(const struct pm_frame *f, const char *name_of)
 	return f->dt != 0 && isfinite(f->dt) ? 0 : pm_fail(PM_DATA, "the frame has no time step (smod --dt, or the word dt)");
 }
 
+static void takes_columns(const struct pm_current_job *j, const struct pm_frame *f, const char *set)
+{
+	struct pm_field *x = pm_frame_field(f, set, "x"), *q = pm_frame_field(f, set, j->law->strength);
+	x->use |= PM_USE_COLUMNS;
+	pm_frame_field(f, set, "v")->use |= PM_USE_COLUMNS;
+	if (q->extensive)
+		q->use |= PM_USE_COLUMNS;
+}
+
 int pm_current_declare(struct pm_current_job *j, struct pm_frame *f)
 {
 	struct pm_current *c = &j->current;
@@ -70,6 +80,8 @@ int pm_current_declare(struct pm_current_job *j, struct pm_frame *f)
 		status = status ? status : pm_reads_strength(f, set, j->law->strength);
 		if (!status && !pm_reads(f, set, "v"))
 			status = -PM_DATA;
+		if (!status)
+			takes_columns(j, f, set);
 	}
 	struct pm_field *field = status ? NULL : pm_makes(f, j->mesh->name, name, 3, PM_CHANGE);
 	if (!field)
@@ -83,6 +95,25 @@ int pm_current_declare(struct pm_current_job *j, struct pm_frame *f)
 	return 0;
 }
 
+/* As columns, where they are not all doubles and the ways allow it: 1 done, 0 not, or failure. */
+static int add_columns(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3], size_t *stray)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *q = pm_frame_field(f, set, j->law->strength);
+	struct pm_column at[3], along[3] = {{.value = 0}}, charge;
+	bool far = false;
+	if (!q->extensive || (j->current.planes && j->current.planes->divided))
+		return 0;
+	for (int d = 0; d < f->dim; d++)
+		at[d] = pm_column_of(x, d);
+	for (int d = 0; d < 3 && d < v->components; d++)
+		along[d] = pm_column_of(v, d);
+	charge = pm_column_of(q, 0);
+	if (!at[0].floats)
+		return 0;
+	const int status = pm_current_columns(&j->current, x->count, at, along, &charge, mesh, stray, &far);
+	return status ? status : !far;
+}
+
 static int add_set(struct pm_current_job *j, struct pm_frame *f, const char *set)
 {
 	struct pm_field *field = pm_frame_field(f, j->mesh->name, name);
@@ -92,15 +123,21 @@ static int add_set(struct pm_current_job *j, struct pm_frame *f, const char *set
 	const double *x[3] = {NULL}, *v[3], *q[PM_COMPONENTS];
 	double *mesh[3], *made = NULL;
 	size_t stray = SIZE_MAX;
-	pm_positions(f, set, x);
-	for (int d = 0; d < 3; d++) {
-		v[d] = d < vel->components ? pm_in(vel, d) : NULL;
+	for (int d = 0; d < 3; d++)
 		mesh[d] = pm_out(field, d);
-	}
 	int status = pm_planes_init(&planes, &j->current.grid, field);
 	j->current.planes = &planes;
-	status = pm_world_agree(status ? status : pm_strengths(f, set, j->law->strength, q, &made));
-	if (!status && (status = pm_current_add(&j->current, n, x, v, q[0], mesh, &stray)) && stray < pm_frame_set(f, set)->n)
+	const int done = status ? status : add_columns(j, f, set, mesh, &stray);
+	if (!done) {
+		pm_positions(f, set, x);
+		for (int d = 0; d < 3; d++)
+			v[d] = d < vel->components ? pm_in(vel, d) : NULL;
+		status = pm_strengths(f, set, j->law->strength, q, &made);
+	}
+	status = pm_world_agree(done < 0 ? done : status);
+	if (!status && !done)
+		status = pm_current_add(&j->current, n, x, v, q[0], mesh, &stray);
+	if (status && stray < pm_frame_set(f, set)->n)
 		status = pm_fail(PM_DATA, "particle %zu of '%s' is outside the box (push folds, reflects or absorbs them at its faces)", stray, set);
 	pm_free(made);
 	pm_planes_free(&planes);

@@ -10,14 +10,21 @@
 struct pm_current_fill {
 	const struct pm_current *c;
 	double shift; /* of the axes */
-	const double *const *v; /* [3] where the order is of particles in the stream, for the axes above dim; else NULL */
+	const bool *rests; /* [3] of an order of particles, whose values are charge and velocity: no velocity along this axis above dim; of ways NULL */
 };
 void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block);
 /* Where the blocks of a component go; flip is its room. */
 struct pm_tile_target pm_current_target(const struct pm_current *c, const struct pm_axis nodes[3], const struct pm_axis halves[3], int component,
 	unsigned char flip[3]);
-/* The ways as particles to be sorted; values is their room. */
-struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, const double *values[PM_COMPONENTS]);
+/* The ways as particles to be sorted; columns is room for what that points to. */
+struct pm_ways_columns {
+	struct pm_column at[3], values[PM_COMPONENTS];
+};
+struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, struct pm_ways_columns *columns);
+bool pm_ways_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3]); /* every way is one piece */
+/* pm_current_add of columns, alone; *far: nothing was done, because ways are cut, or doubles are far from the order of tiles (pm_current_add does it). */
+int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
+	double *const j[3], size_t *stray, bool *far);
 /* pm_current_add of ways where they and the mesh are divided: `firsts` of them are first pieces, the further ones follow. ways may be cut anew. Takes the
  * caller's status and returns the agreed one. */
 int pm_current_ranks(int status, const struct pm_current *c, struct pm_ways *ways, size_t firsts, double *const mesh[3], size_t *stray);

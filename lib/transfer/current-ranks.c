@@ -70,8 +70,8 @@ static int deal(int status, struct pm_ways *w, int dim, size_t firsts, uint64_t 
 static int order_here(int status, const struct pm_current *c, const struct pm_ways *ways, uint64_t first, struct pm_order_cache *local,
 	struct pm_axis halves[3], size_t *stray)
 {
-	const double *values[PM_COMPONENTS] = {0};
-	const struct pm_tile_particles particles = pm_ways_particles(c, ways, values);
+	struct pm_ways_columns columns;
+	const struct pm_tile_particles particles = pm_ways_particles(c, ways, &columns);
 	status = status ? status : pm_axes_path(local->axes, halves, &c->grid, c->kernel->width);
 	status = status ? status : pm_tile_order_init(&local->order, local->axes, &particles, 0, &local->strays);
 	int64_t outside = !status && local->strays.count ? (int64_t)(first + local->strays.first) : INT64_MAX;

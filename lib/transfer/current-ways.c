@@ -6,7 +6,7 @@
  * Cost: one pass; pieces beyond the first are made by one thread. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "transfer/current.h"
+#include "transfer/current-parts.h"
 #include "transfer/transfer-axis.h"
 
 /* One particle on its way. */
@@ -146,28 +146,29 @@ static void start(struct walker *k, size_t p, const double *const x[3], const do
 
 enum { together = 512 }; /* particles: their ways are looked at axis by axis, eight at a time */
 
-/* bent[i] |= the way of particle i is more than one piece, by what it does along axis d. v NULL: at rest. */
+/* bent[i] |= the way of particle i is more than one piece, by what it does along axis d. */
 static void mark_bent(const struct pm_current *c, int d, size_t n, const double *x, const double *v, unsigned char *bent)
 {
 	const bool shut = c->grid.face[d][0] != PM_PERIODIC, cut = c->deposit == PM_VILLASENOR_BUNEMAN;
 	const double least = shut ? c->lo[d] : -INFINITY, most = shut ? c->hi[d] : INFINITY, h = c->grid.h[d], dt = c->dt;
 	for (size_t p = 0; p < n; p++) {
-		const double a = x[p], b = a + dt * (v ? v[p] : 0), low = a < b ? a : b, high = a < b ? b : a;
+		const double a = x[p], b = a + dt * v[p], low = a < b ? a : b, high = a < b ? b : a;
 		bent[p] |= !(high - low <= h) | !(low >= least) | !(high <= most);
 	}
 	for (size_t p = 0; p < n && cut; p++) {
-		const double a = x[p], b = a + dt * (v ? v[p] : 0), from = c->grid.lo[d];
+		const double a = x[p], b = a + dt * v[p], from = c->grid.lo[d];
 		bent[p] |= floor((a - from) / h) != floor((b - from) / h);
 	}
 }
 
 /* Marks of the m particles from p on; how many are bent. */
-static size_t find_bent(const struct pm_current *c, size_t p, size_t m, const double *const x[3], const double *const v[3], unsigned char bent[together])
+static size_t find_bent(const struct pm_current *c, size_t p, size_t m, const struct pm_column x[3], const struct pm_column v[3], unsigned char bent[together])
 {
+	double few[2][together];
 	size_t many = 0;
 	memset(bent, 0, m);
 	for (int d = 0; d < c->grid.dim; d++)
-		mark_bent(c, d, m, x[d] + p, v[d] ? v[d] + p : NULL, bent);
+		mark_bent(c, d, m, pm_column_take(&x[d], p, m, few[0]), pm_column_take(&v[d], p, m, few[1]), bent);
 	for (size_t i = 0; i < m; i++)
 		many += bent[i];
 	return many;
@@ -215,11 +216,13 @@ static void lay_out(const struct pm_current *c, size_t n, const double *const x[
 /* Walks along every way that is bent, with charges q if these are given; returns the further pieces. */
 static size_t walk_bent(struct walker *k, size_t n, const double *const x[3], const double *const v[3], const double *q)
 {
+	struct pm_column at[3], along[3];
 	unsigned char bent[together];
 	size_t more = 0;
+	pm_columns_of(k->c->grid.dim, x, at), pm_columns_of(3, v, along);
 	for (size_t p = 0; p < n; p++) {
 		if (p % together == 0)
-			find_bent(k->c, p, n - p < together ? n - p : together, x, v, bent);
+			find_bent(k->c, p, n - p < together ? n - p : together, at, along, bent);
 		if (!bent[p % together])
 			continue;
 		start(k, p, x, v);
@@ -230,7 +233,7 @@ static size_t walk_bent(struct walker *k, size_t n, const double *const x[3], co
 	return more;
 }
 
-static size_t count_bent(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3])
+static size_t count_bent(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3])
 {
 	size_t many = 0;
 #pragma omp parallel for schedule(static) reduction(+ : many) if (n > 16384)
@@ -241,7 +244,7 @@ static size_t count_bent(const struct pm_current *c, size_t n, const double *con
 	return many;
 }
 
-bool pm_ways_straight(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3]) { return !count_bent(c, n, x, v); }
+bool pm_ways_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3]) { return !count_bent(c, n, x, v); }
 
 int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q)
 {
@@ -253,7 +256,9 @@ int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const 
 		for (int s = 0; s < 2; s++)
 			k.room[d][s] = (double)beyond[s] * c->grid.h[d];
 	}
-	const size_t many = count_bent(c, n, x, v);
+	struct pm_column start_of[3], along[3];
+	pm_columns_of(c->grid.dim, x, start_of), pm_columns_of(3, v, along);
+	const size_t many = count_bent(c, n, start_of, along);
 	if (pm_ways_new(w, c->grid.dim, n + (many ? walk_bent(&k, n, x, v, NULL) : 0)))
 		return -PM_DATA;
 	lay_out(c, n, x, v, q, w);

@@ -36,7 +36,7 @@ struct spread {
 	const struct pm_tile_pass *pass;
 	const struct pm_current *c;
 	const struct pm_axis *nodes, *halves;
-	const double *const *v; /* of pm_current_fill */
+	const bool *rests; /* of pm_current_fill */
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
 };
 
@@ -59,10 +59,10 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	for (size_t at = j->from; at < j->to; at += t.count) {
 		t.count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(o, at, t.count, true, packed);
-		for (size_t i = 0; i < t.count && s->v; i++)
+		for (size_t i = 0; i < t.count && s->rests; i++)
 			for (int d = o->dim; d < 3; d++) {
 				double *record = packed + i * (size_t)t.stride + o->dim;
-				record[1 + d] = s->v[d] ? record[o->dim] * s->v[d][pm_tile_order_place(o, at + i)] : 0;
+				record[1 + d] = s->rests[d] ? 0 : record[o->dim] * record[1 + d];
 			}
 		loop(&t);
 	}
@@ -85,7 +85,7 @@ struct pm_tile_target pm_current_target(const struct pm_current *c, const struct
 static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
 {
 	const struct pm_tile_pass *w = s->pass;
-	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->v};
+	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->rests};
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
@@ -103,15 +103,17 @@ static void spread_all(const struct spread *s, int threads, size_t under_way, do
 	}
 }
 
-struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, const double *values[PM_COMPONENTS])
+struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, struct pm_ways_columns *columns)
 {
 	const int dim = c->grid.dim;
-	for (int d = 0; d < dim; d++)
-		values[d] = ways->way[d];
-	values[dim] = ways->q;
+	for (int d = 0; d < dim; d++) {
+		columns->at[d] = pm_column_doubles(ways->at[d]);
+		columns->values[d] = pm_column_doubles(ways->way[d]);
+	}
+	columns->values[dim] = pm_column_doubles(ways->q);
 	for (int d = dim; d < 3; d++)
-		values[dim + 1 + d - dim] = ways->along[d];
-	return (struct pm_tile_particles){.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = (const double *const *)ways->at, .values = values};
+		columns->values[1 + d] = pm_column_doubles(ways->along[d]);
+	return (struct pm_tile_particles){.dim = dim, .nvalues = pm_current_values(dim), .n = ways->n, .x = columns->at, .values = columns->values};
 }
 
 /* The order of the particles, whose pass and blocks are then those of s. */
@@ -133,12 +135,12 @@ static int deposit_order(struct spread *s, struct pm_tile_order *order, size_t n
 }
 
 /* Sorts, and deposits unless a particle is outside the box or `far` says that the stream is far from the order of tiles (NULL: it does not matter). */
-static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, double *const mesh[3], size_t *stray, bool *far)
+static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, double *const mesh[3], size_t *stray, bool *far)
 {
 	struct pm_axis nodes[3], halves[3];
 	struct pm_tile_order order = {.n = 0};
 	struct pm_strays strays = {.count = 0};
-	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .v = p->v};
+	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	if (!status)
 		status = pm_tile_order_init(&order, nodes, p, 2 * c->grid.dim + 1 + (3 - c->grid.dim), &strays);
@@ -158,17 +160,24 @@ static int deposit_particles(const struct pm_current *c, const struct pm_tile_pa
 
 static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, double *const mesh[3], size_t *stray)
 {
-	const double *values[PM_COMPONENTS] = {0};
-	const struct pm_tile_particles particles = pm_ways_particles(c, ways, values);
-	return deposit_particles(c, &particles, mesh, stray, NULL);
+	struct pm_ways_columns columns;
+	const struct pm_tile_particles particles = pm_ways_particles(c, ways, &columns);
+	return deposit_particles(c, &particles, NULL, mesh, stray, NULL);
 }
 
 /* Ways that are all straight pieces are found again where they are wanted, from particles that stay in the stream. */
-static int deposit_straight(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const mesh[3],
-	size_t *stray, bool *far)
+static int deposit_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
+	double *const mesh[3], size_t *stray, bool *far)
 {
-	const struct pm_tile_particles particles = {.dim = c->grid.dim, .nvalues = 1, .n = n, .x = x, .values = &q, .v = v, .dt = c->dt};
-	return deposit_particles(c, &particles, mesh, stray, far);
+	const int dim = c->grid.dim;
+	struct pm_column values[4] = {*q};
+	bool rests[3] = {false};
+	for (int d = dim; d < 3; d++) {
+		values[1 + d - dim] = v[d];
+		rests[d] = !v[d].doubles && !v[d].floats && v[d].value == 0;
+	}
+	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim) - dim, .n = n, .x = x, .values = values, .v = v, .dt = c->dt};
+	return deposit_particles(c, &particles, rests, mesh, stray, far);
 }
 
 /* q v W at the middle of the way, folded. */
@@ -200,6 +209,17 @@ static int deposit_direct(const struct pm_current *c, size_t n, const double *co
 	return status;
 }
 
+int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
+	double *const j[3], size_t *stray, bool *far)
+{
+	*stray = n;
+	*far = false;
+	if (!n)
+		return 0;
+	*far = c->deposit == PM_DIRECT || !pm_ways_straight(c, n, x, v);
+	return *far ? 0 : deposit_straight(c, n, x, v, q, j, stray, far);
+}
+
 int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const j[3],
 	size_t *stray)
 {
@@ -210,9 +230,11 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 		return 0;
 	if (c->deposit == PM_DIRECT)
 		return deposit_direct(c, n, x, v, q, j);
-	bool far = divided || !pm_ways_straight(c, n, x, v);
+	bool far = divided;
 	if (!far) {
-		const int done = deposit_straight(c, n, x, v, q, j, stray, &far);
+		struct pm_column at[3], along[3], charge = pm_column_doubles(q);
+		pm_columns_of(c->grid.dim, x, at), pm_columns_of(3, v, along);
+		const int done = pm_current_columns(c, n, at, along, &charge, j, stray, &far);
 		if (!far)
 			return done;
 	}

@@ -39,7 +39,6 @@ struct pm_ways {
 	double *along[3];/* [n] axes above dim: charge times velocity times the part of dt */
 	double *memory;
 };
-bool pm_ways_straight(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3]); /* every way is one piece */
 int pm_ways_init(struct pm_ways *w, const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q);
 int pm_ways_new(struct pm_ways *w, int dim, size_t n); /* room for n; 0 or failure */
 void pm_ways_free(struct pm_ways *w);

@@ -4,12 +4,16 @@
 
 #include "transfer/gather-frame.h"
 #include "transfer/one-sided.h"
+#include "transfer/transfer-columns.h"
 
 /* The fields gathered to one set. */
 struct pm_gather_arrays {
 	struct pm_transfer t;
 	const double *x[3], *mesh[PM_COMPONENTS], *factor[PM_COMPONENTS];
 	double *out[PM_COMPONENTS];
+	bool columns; /* these are in place of x, factor and out */
+	struct pm_column at[3], times[PM_COMPONENTS];
+	struct pm_target to[PM_COMPONENTS];
 	size_t n;
 	bool magnetic; /* the components of an evolving B are among them, behind those of E */
 	bool finite;   /* of a field that is a state: all that was gathered */

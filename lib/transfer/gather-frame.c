@@ -153,6 +153,36 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 	return status;
 }
 
+/* Can the gather to the set take columns? All that it reads and writes is then in one pm_gather_columns; what the monopole adds would be rounded twice. */
+static bool by_columns(const struct pm_gather_job *j, const struct pm_frame *f, const char *set)
+{
+	bool can = !j->interlaced && !j->choice.beside && !j->choice.field && j->outside != PM_OUTSIDE_MONOPOLE;
+	for (size_t i = 0; i < f->nfields && can; i++)
+		can = !pm_mesh_change_concerns(f, set, j->mesh, f->fields[i]);
+	return can;
+}
+
+/* A rate that is made has the type of the state it changes. */
+static void as_state(const struct pm_frame *f, const char *set, const char *state, struct pm_field *rate)
+{
+	const struct pm_field *y = pm_frame_field(f, set, state);
+	if (rate && rate->use & PM_USE_NEW && y && y->type == PM_F32)
+		rate->type = PM_F32;
+}
+
+static void take_columns(const struct pm_gather_job *j, struct pm_frame *f, const char *set, struct pm_field *target)
+{
+	struct pm_field *b = pm_frame_field(f, set, "bfield");
+	target->use |= PM_USE_COLUMNS;
+	pm_frame_field(f, set, "x")->use |= PM_USE_COLUMNS;
+	if (j->law->per) {
+		pm_frame_field(f, set, j->law->strength)->use |= PM_USE_COLUMNS;
+		pm_frame_field(f, set, j->law->per)->use |= PM_USE_COLUMNS;
+	}
+	if (b && j->law->magnetic && j->law->evolves)
+		b->use |= PM_USE_COLUMNS;
+}
+
 /* A set receives the law's field, the changes on the mesh and the magnetic field. */
 static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const char *set)
 {
@@ -165,8 +195,16 @@ static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const 
 		return -PM_DATA;
 	if (target->use & PM_USE_NEW)
 		target->use |= PM_USE_FILL;
+	as_state(f, set, j->law->of, target);
+	const bool columns = by_columns(j, f, set);
 	int status = pm_mesh_changes_declare(f, set, j->mesh, replace);
-	return status || !j->law->magnetic ? status : pm_bfield_plan(f, set, j->mesh, j->law->magnetic, replace);
+	if (!status && j->law->magnetic)
+		status = pm_bfield_plan(f, set, j->mesh, j->law->magnetic, replace);
+	if (!status && j->law->magnetic)
+		as_state(f, set, j->law->of, pm_frame_field(f, set, "bfield"));
+	if (!status && columns)
+		take_columns(j, f, set, target);
+	return status;
 }
 
 static int declare_field(const struct pm_gather_job *j, struct pm_frame *f, const char *set)
@@ -210,19 +248,33 @@ int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct 
 	return status || !j->interlaced ? status : interlace(j, plans);
 }
 
-static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_field *target, const double *ratio)
+static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_field *target, const double *ratio,
+	double same)
 {
-	struct pm_gather_arrays a = {.t = j->transfer, .n = target->count};
+	struct pm_gather_arrays a = {.t = j->transfer, .n = target->count, .columns = target->use & PM_USE_COLUMNS};
 	const double *volume = j->choice.field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
-	pm_positions(f, set, a.x);
+	for (int d = 0; d < f->dim && a.columns; d++)
+		a.at[d] = pm_column_of(pm_frame_field(f, set, "x"), d);
+	if (!a.columns)
+		pm_positions(f, set, a.x);
 	a.t.kept = &pm_frame_field(f, set, "x")->note;
 	for (int c = 0; c < a.t.components; c++) {
 		a.t.set[c] = target->use & PM_USE_FILL;
 		a.mesh[c] = pm_in(j->field, c);
-		a.out[c] = pm_out(target, c);
 		a.factor[c] = volume ? volume : ratio;
+		a.times[c] = (struct pm_column){.doubles = ratio, .value = same};
+		if (a.columns)
+			a.to[c] = pm_target_of(target, c);
+		else
+			a.out[c] = pm_out(target, c);
 	}
 	return a;
+}
+
+static int gather_arrays(const struct pm_gather_arrays *a, struct pm_strays *strays)
+{
+	return a->columns ? pm_gather_columns(&a->t, a->n, a->at, a->mesh, a->times, a->to, strays)
+			  : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
 }
 
 /* The field and the changes in one gather; a given field before them, because its images differ. */
@@ -231,8 +283,7 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	int status = 0;
 	if (j->field->role == PM_STATE) {
 		a->magnetic = !j->choice.field && j->law->magnetic && !j->interlaced && pm_bfield_append(f, set, j->mesh, j->law->magnetic, a);
-		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
-			: pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays) : gather_arrays(a, strays);
 		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
@@ -243,8 +294,7 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 		return status;
 	if (j->interlaced && j->changes.n)
 		return pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
-	return j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays)
-			     : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+	return j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays) : gather_arrays(a, strays);
 }
 
 int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)
@@ -253,9 +303,10 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	struct pm_field *target = pm_gather_target(j, f, set);
 	struct pm_strays strays = {.count = 0};
 	const double *ratio = NULL;
-	double *made = NULL;
-	int status = law && j->law->per ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made) : 0;
-	struct pm_gather_arrays a = arrays_of(j, f, set, target, ratio);
+	double *made = NULL, same = 1;
+	const bool one = law && j->law->per && target->use & PM_USE_COLUMNS && pm_ratio_is_one(f, set, j->law->strength, j->law->per, &same);
+	int status = law && j->law->per && !one ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made) : 0;
+	struct pm_gather_arrays a = arrays_of(j, f, set, target, ratio, same);
 	const double before = law ? pm_gather_limits_most(j, f, set) : 0;
 	struct pm_gather_beside b = {.values = NULL};
 	if (!status && j->choice.beside)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "limit/rates.h"
+#include "stream/column.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
 #include "stream/over-stretches.h"
@@ -52,21 +53,43 @@ double pm_gather_limits_most(const struct pm_gather_job *j, const struct pm_fram
 	return j->pull > 0 && !(change->use & PM_USE_FILL) ? sqrt(pm_most(change, NULL)) : 0;
 }
 
+/* Of m particles: charge, mass and the components of B. */
+static double largest_rate(size_t m, const double *const v[5])
+{
+	const double *q = v[0], *mass = v[1], *x = v[2], *y = v[3], *z = v[4];
+	double most = 0;
+#ifndef __clang__ /* makes no vectors of a maximum that a NaN may stand beside, and warns */
+#pragma omp simd reduction(max : most)
+#endif
+	for (size_t i = 0; i < m; i++) {
+		const double rate = fabs(q[i] / mass[i]) * sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+		most = rate > most ? rate : most;
+	}
+	return most;
+}
+
 /* Largest |q B/m|. */
 static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, const struct pm_field *b)
 {
-	const double *q = pm_in(pm_frame_field(f, b->on, j->law->strength), 0), *m = pm_in(pm_frame_field(f, b->on, j->law->per), 0);
-	const double *x = pm_in(b, 0), *y = pm_in(b, 1), *z = pm_in(b, 2);
+	enum { few = 512 };
+	struct pm_column column[5] = {pm_column_of(pm_frame_field(f, b->on, j->law->strength), 0), pm_column_of(pm_frame_field(f, b->on, j->law->per), 0)};
 	const size_t n = b->count;
 	double most = 0;
-#ifdef __clang__ /* makes no vectors of a maximum that a NaN may stand beside, and warns */
+	for (int c = 0; c < 3; c++)
+		column[2 + c] = pm_column_of(b, c);
 #pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
-#else
-#pragma omp parallel for simd schedule(static) reduction(max : most) if (n > 16384)
-#endif
-	for (size_t i = 0; i < n; i++) {
-		const double rate = fabs(q[i] / m[i]) * sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-		most = rate > most ? rate : most;
+	for (size_t from = 0; from < n; from += few) {
+		const size_t m = n - from < few ? n - from : few;
+		double room[5][few];
+		const double *v[5];
+		for (int c = 0; c < 5; c++) {
+			v[c] = pm_column_take(&column[c], from, m, room[c]);
+			for (size_t i = 0; i < m && c > 1 && b->type == PM_F32; i++)
+				room[c][i] = (float)v[c][i]; /* as at the end of the stage */
+			v[c] = c > 1 && b->type == PM_F32 ? room[c] : v[c];
+		}
+		const double here = largest_rate(m, v);
+		most = here > most ? here : most;
 	}
 	return pm_most_of_stretches(b, most);
 }

@@ -4,6 +4,7 @@
  * blocks of its tile from job to job. Cost: one sort, or a reading of positions where the particles are nearly in order; width^dim products a component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
+#include <string.h>
 
 #include "transfer/staggered-tile.h"
 #include "transfer/transfer-pass.h"
@@ -18,11 +19,12 @@ struct staggered {
 	struct pm_tile_pass pass;
 	double *blocks;  /* [threads][components][PM_BLOCK_MOST] */
 	double *results; /* where there are records: [n][components] */
+	float *few;      /* the same of records of floats, rounded; NULL */
 	struct pm_tile_results to;
 };
 
 /* The order among the nodes, as the density left it or made anew. */
-static int find_order(struct staggered *s, size_t n, const double *const x[])
+static int find_order(struct staggered *s, size_t n, const struct pm_column x[])
 {
 	const unsigned char nodes[3] = {0, 0, 0};
 	struct pm_order_cache *left = pm_order_cache_find(s->t, nodes, n, x);
@@ -35,7 +37,8 @@ static int find_order(struct staggered *s, size_t n, const double *const x[])
 	else
 		status = status ? status : pm_tile_order_init(&s->own, s->nodes, &particles, 0, &s->strays);
 	s->o = left ? &left->order : &s->own;
-	if (!status && s->o->records && !(s->results = pm_alloc(n * (size_t)s->t->components, sizeof *s->results)))
+	s->few = !status && s->o->floats && pm_tile_results_round(s->t->components, &s->to) ? pm_alloc(n * (size_t)s->t->components, sizeof *s->few) : NULL;
+	if (!status && (s->o->records || (s->o->floats && !s->few)) && !(s->results = pm_alloc(n * (size_t)s->t->components, sizeof *s->results)))
 		status = -PM_DATA;
 	return status;
 }
@@ -88,8 +91,13 @@ static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, c
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(&positions, p, t.count, false, packed);
 		loop(&t);
-		finite &= o->place ? pm_tile_order_unpack_to(o->place + p, t.count, t.components, values, t.components, s->to.factor, s->to.set, s->to.to)
-			: pm_tile_order_unpack(p, t.count, t.components, values, t.components, s->to.factor, s->to.set, s->to.to);
+		if (s->few)
+			pm_tile_results_few(p, t.count, t.components, values, t.components, &s->to, s->few, t.components);
+		else if (s->results)
+			memcpy(s->results + p * components, values, t.count * components * sizeof *values);
+		else
+			finite &= o->place ? pm_tile_order_unpack_to(o->place + p, t.count, t.components, values, t.components, &s->to)
+				: pm_tile_order_unpack(p, t.count, t.components, values, t.components, &s->to);
 	}
 	return finite;
 }
@@ -118,42 +126,39 @@ static int gather_all(struct staggered *s, size_t n, const double *const mesh[],
 	return 0;
 }
 
-static void no_factors(const double *times[PM_COMPONENTS], int n)
-{
-	for (int c = 0; c < n; c++)
-		times[c] = NULL;
-}
-
 /* Strays of particles that stay have places too, and get 0. */
 static void leave_strays(const struct staggered *s)
 {
 	const struct pm_tile_order *o = s->o;
 	for (size_t p = o->place ? o->begin[o->tiles] : o->n; p < o->n; p++)
 		for (int c = 0; c < s->t->components; c++) {
-			double *to = s->to.to[c] + o->place[p];
-			*to = s->to.set[c] ? 0 : *to + 0;
+			const struct pm_target *to = &s->to.to[c];
+			if (to->floats)
+				to->floats[o->place[p]] = s->to.set[c] ? 0 : to->floats[o->place[p]] + 0;
+			else
+				to->doubles[o->place[p]] = s->to.set[c] ? 0 : to->doubles[o->place[p]] + 0;
 		}
 }
 
-int pm_gather_staggered(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
-	double *const out[], struct pm_strays *strays)
+int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
+	const struct pm_target out[], struct pm_strays *strays)
 {
 	struct staggered s = {.t = t};
-	const double *none[PM_COMPONENTS];
 	bool finite = true;
-	no_factors(none, t->components);
-	s.to = (struct pm_tile_results){factor ? factor : none, t->set, out};
+	s.to = (struct pm_tile_results){factor, t->set, out};
 	int status = find_order(&s, n, x);
 	status = status ? status : find_axes(&s);
 	status = status ? status : gather_all(&s, n, mesh, &finite);
-	if (!status && s.results)
-		status = pm_tile_order_return(s.o, s.results, t->components, t->components, s.to.factor, s.to.set, s.to.to, &finite);
+	if (!status && s.few)
+		status = pm_tile_order_return_floats(s.o, s.few, t->components, t->components, &s.to);
+	else if (!status && s.results)
+		status = pm_tile_order_return(s.o, s.results, t->components, t->components, &s.to, &finite);
 	if (!status) {
 		leave_strays(&s);
 		*strays = s.strays;
 		strays->finite = finite;
 	}
-	pm_free(s.results), pm_free(s.blocks);
+	pm_free(s.results), pm_free(s.few), pm_free(s.blocks);
 	pm_tile_pass_free(&s.pass);
 	pm_tile_order_free(&s.own);
 	pm_axes_free(s.nodes);

@@ -37,8 +37,12 @@ bool pm_bfield_append(struct pm_frame *f, const char *set, const struct pm_mesh 
 		memcpy(a->t.flip[k], own.flip[c], sizeof a->t.flip[k]);
 		a->t.set[k] = false;
 		a->mesh[k] = pm_in(given, c);
-		a->out[k] = pm_out(to, c);
 		a->factor[k] = NULL;
+		if (a->columns) {
+			a->to[k] = pm_target_of(to, c);
+			a->times[k] = (struct pm_column){.value = 1};
+		} else
+			a->out[k] = pm_out(to, c);
 	}
 	return to;
 }

@@ -17,8 +17,8 @@ struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o)
 
 static void free_note(struct pm_note *note) { pm_order_cache_free((struct pm_order_cache *)note); }
 
-struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[], int nvalues,
-	const double *const values[], int room)
+struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
+	const struct pm_column values[], int room)
 {
 	struct pm_order_cache *o = calloc(1, sizeof *o);
 	if (!o) {
@@ -50,7 +50,7 @@ static bool same_grid(const struct pm_grid *a, const struct pm_grid *b)
 	return same;
 }
 
-struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[])
+struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[])
 {
 	if (!t->kept || !*t->kept || (*t->kept)->free != free_note)
 		return NULL;
@@ -59,7 +59,7 @@ struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const un
 		!memcmp(o->staggered, staggered, sizeof o->staggered) &&
 		same_grid(&o->grid, &t->grid);
 	for (int d = 0; d < t->grid.dim && same; d++)
-		same = o->x[d] == x[d];
+		same = o->x[d].doubles == x[d].doubles && o->x[d].floats == x[d].floats && (x[d].doubles || x[d].floats);
 	return same ? o : NULL;
 }
 

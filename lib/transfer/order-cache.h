@@ -13,18 +13,18 @@ struct pm_order_cache {
 	bool cut, given[3][2];
 	unsigned char staggered[3];
 	size_t n;
-	const double *x[3];
+	struct pm_column x[3];
 	struct pm_axis axes[3];
 	struct pm_tile_order order;
 	struct pm_strays strays;
 };
 
 /* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. */
-struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[], int nvalues,
-	const double *const values[], int room);
+struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
+	const struct pm_column values[], int room);
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o);
 /* The one attached there, if it belongs to these positions; NULL if none. */
-struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const double *const x[]);
+struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[]);
 /* Attaches it there, or frees it if that is not possible. */
 void pm_order_cache_leave(const struct pm_transfer *t, struct pm_order_cache *o);
 

@@ -184,9 +184,12 @@ static int bring(int status, struct pm_shared_jobs *v, size_t width)
 static int order_of(struct pm_shared_jobs *v, size_t n, const double *const x[], int nvalues, const double *const values[], int room)
 {
 	const unsigned char *staggered = v->t->staggered[v->w.which[0]];
-	v->local = nvalues ? NULL : pm_order_cache_find(v->t, staggered, n, x);
+	struct pm_column at[3], strength[PM_COMPONENTS];
+	pm_columns_of(v->t->grid.dim, x, at);
+	pm_columns_of(nvalues, values, strength);
+	v->local = nvalues ? NULL : pm_order_cache_find(v->t, staggered, n, at);
 	if (!v->local)
-		v->local = pm_order_cache_new(v->t, staggered, n, x, nvalues, values, room);
+		v->local = pm_order_cache_new(v->t, staggered, n, at, nvalues, strength, room);
 	else if (pm_tile_order_spent(&v->local->order))
 		return pm_tile_order_again(&v->local->order, room);
 	return v->local ? 0 : pm_failed();

@@ -6,6 +6,7 @@
 #include "stream/declare.h"
 #include "stream/parts.h"
 #include "transfer/outside.h"
+#include "transfer/transfer-columns.h"
 #include "transfer/spread-frame.h"
 #include "world/world.h"
 
@@ -65,6 +66,12 @@ int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f)
 	for (size_t i = 0; i < j->sets.n && !status; i++)
 		if (!(status = pm_reads_positions(f, j->sets.name[i])))
 			status = pm_reads_strength(f, j->sets.name[i], j->strength);
+	for (size_t i = 0; i < j->sets.n && !status && !j->choice.interlace; i++) {
+		struct pm_field *q = pm_frame_field(f, j->sets.name[i], j->strength);
+		pm_frame_field(f, j->sets.name[i], "x")->use |= PM_USE_COLUMNS;
+		if (q->extensive)
+			q->use |= PM_USE_COLUMNS;
+	}
 	return status ? status : makes_density(j, f, j->choice.add);
 }
 
@@ -105,14 +112,24 @@ int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char 
 	const double *x[3], *q[PM_COMPONENTS];
 	double *mesh[PM_COMPONENTS], *made = NULL;
 	struct pm_strays strays = {.count = 0};
-	pm_positions(f, set, x);
+	const struct pm_field *strength = pm_frame_field(f, set, j->strength);
+	const bool columns = !j->choice.interlace && strength->extensive;
+	struct pm_column at[3], values[PM_COMPONENTS];
+	for (int d = 0; d < f->dim && columns; d++)
+		at[d] = pm_column_of(positions, d);
+	for (int c = 0; c < t.components && columns; c++)
+		values[c] = pm_column_of(strength, c);
+	if (!columns)
+		pm_positions(f, set, x);
 	t.kept = &positions->note;
 	for (int c = 0; c < t.components; c++)
 		mesh[c] = pm_out(density, c);
 	int status = pm_planes_init(&planes, &t.grid, density);
 	t.planes = &planes;
-	status = pm_world_agree(status ? status : pm_strengths(f, set, j->strength, q, &made));
-	if (!status)
+	status = pm_world_agree(status || columns ? status : pm_strengths(f, set, j->strength, q, &made));
+	if (!status && columns)
+		status = pm_spread_columns(&t, n, at, values, mesh, &strays);
+	else if (!status)
 		status = j->choice.interlace ? pm_interlace_spread(&t, plans, n, x, q, mesh, &strays) : pm_spread(&t, n, x, q, mesh, &strays);
 	pm_free(made);
 	pm_planes_free(&planes);

@@ -303,8 +303,8 @@ bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *bat
 		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		for (int c = 0; c < t->components; c++)
-			deliver_eight(value_of(&rows, component(t, c)), n, r->factor[c] ? r->factor[c] + p : NULL,
-				r->set[c], r->to[c] + p, &nothing);
+			deliver_eight(value_of(&rows, component(t, c)), n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL,
+				r->set[c], r->to[c].doubles + p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

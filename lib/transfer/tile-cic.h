@@ -31,12 +31,6 @@ void pm_tile_cic_spread_eight(const struct pm_tile *t); /* the same, eight recor
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3]);
 /* The block of a component to corners[PM_GATHER_CELLS][PM_CORNERS], those of each cell. */
 void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners);
-/* The places of values: to[c][p] = (where set) or += factor[c][p] * value; factor[c] NULL: 1. */
-struct pm_tile_results {
-	const double *const *factor;
-	const bool *set;
-	double *const *to;
-};
 /* Values of t's components from their corners [components][PM_GATHER_CELLS][PM_CORNERS]. True if what is left is finite. */
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
 void pm_tile_cic_gather_eight(const struct pm_tile *t); /* from records to results, which may be the records */

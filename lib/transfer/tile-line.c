@@ -29,7 +29,7 @@ struct line {
 
 static struct line line_of(const struct pm_tile *t, const struct pm_tile_batch *b)
 {
-	return (struct line){b->lanes[0], &b->order->axes[0], (int32_t)t->cell[0], b->order->x[0] + b->p, b->m};
+	return (struct line){b->lanes[0], &b->order->axes[0], (int32_t)t->cell[0], b->order->x[0].doubles + b->p, b->m};
 }
 
 static bool is_simple(const struct line *l) { return l->axis->periodic && l->axis->add + l->axis->half == 0; }
@@ -140,7 +140,8 @@ PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const str
 	for (int c = 0; c < t->components; c++) {
 		pm_simd low, high;
 		load_pairs(t->block + (size_t)c * PM_BLOCK_MOST, at, &low, &high);
-		deliver_eight(0 + low * (1 - x) + high * x, n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, nothing);
+		deliver_eight(0 + low * (1 - x) + high * x, n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL, r->set[c], r->to[c].doubles + p,
+			nothing);
 	}
 }
 

@@ -11,11 +11,11 @@ enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
 
-/* The lower ends of m ways; length: NULL, or room for their signed lengths [cells]. v NULL: at rest. */
+/* The lower ends of m ways; length: NULL, or room for their signed lengths [cells]. */
 static void find_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict low, double *restrict length)
 {
 	for (size_t i = 0; i < m; i++) {
-		const double a = x[i], b = a + dt * (v ? v[i] : 0);
+		const double a = x[i], b = a + dt * v[i];
 		low[i] = a < b ? a : b;
 		if (length)
 			length[i] = (b - a) / h;
@@ -35,18 +35,22 @@ static bool locate_axis(const struct pm_tile_order *o, int d, size_t m, const do
 static bool locate(const struct pm_tile_order *o, size_t p, size_t m, double u[3][batch])
 {
 	bool all = true;
+	double few[2][batch];
 	for (int d = 0; d < o->dim; d++)
-		all &= locate_axis(o, d, m, o->x[d] + p, o->v[d] ? o->v[d] + p : NULL, u[d], NULL);
+		all &= locate_axis(o, d, m, pm_column_take(&o->x[d], p, m, few[0]), o->ways ? pm_column_take(&o->v[d], p, m, few[1]) : NULL, u[d], NULL);
 	return all;
 }
 
-static void find_strays(struct pm_tile_order *o, size_t p, size_t m, double u[3][batch], const double *const x[], struct pm_strays *strays)
+static void find_strays(struct pm_tile_order *o, size_t p, size_t m, double u[3][batch], struct pm_strays *strays)
 {
 	for (size_t i = 0; i < m; i++)
 		for (int d = 0; d < o->dim; d++)
 			if (u[d][i] < 0) {
 				o->tile[p + i] = (uint32_t)o->tiles;
-				pm_strays_note(strays, p + i, o->dim, x, d);
+				double at[3] = {0};
+				for (int e = 0; e < o->dim; e++)
+					at[e] = pm_column_at(&o->x[e], p + i);
+				pm_strays_note_at(strays, p + i, at, d);
 				break;
 			}
 }
@@ -64,8 +68,8 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 	}
 }
 
-/* The tiles of m particles from p on, in eights, straight from the positions. False if any of them is outside the range of the lanes. */
-PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
+/* The tiles of m particles at x[dim], in eights, straight from the positions. False if any of them is outside the range of the lanes. */
+PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3], size_t m, uint32_t *tile)
 {
 	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
 	unsigned any = 0;
@@ -73,8 +77,8 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 		pm_simd_int at = {0}, cell;
 		for (int d = 0; d < dim; d++) {
 			unsigned outside;
-			pm_simd_split(pm_axis_locate_eight(&lanes[d], pm_simd_load_any(o->x[d] + p + i), &outside), &cell);
-			__builtin_prefetch(o->x[d] + p + i + PM_TILE_AHEAD);
+			pm_simd_split(pm_axis_locate_eight(&lanes[d], pm_simd_load_any(x[d] + i), &outside), &cell);
+			__builtin_prefetch(x[d] + i + PM_TILE_AHEAD);
 			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
 		}
@@ -87,12 +91,14 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m)
 {
 	unsigned any = o->ways || m % PM_SIMD_WIDTH != 0;
+	double few[batch];
 	for (int d = 0; d < o->dim && !any; d++) {
 		const struct pm_axis_lanes a = lanes[d];
+		const double *x = pm_column_take(&o->x[d], p, m, few);
 		for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 			unsigned outside;
-			__builtin_prefetch(o->x[d] + p + i + PM_TILE_AHEAD);
-			pm_axis_locate_eight(&a, pm_simd_load_any(o->x[d] + p + i), &outside);
+			__builtin_prefetch(x + i + PM_TILE_AHEAD);
+			pm_axis_locate_eight(&a, pm_simd_load_any(x + i), &outside);
 			any |= outside;
 		}
 	}
@@ -106,9 +112,13 @@ static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lane
 		memset(tile, 0, m * sizeof *tile);
 		return all_inside(o, lanes, p, m) || locate(o, p, m, u);
 	}
-	if (!o->ways && (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0 && (o->dim == 1 ? tiles_of(1, o, lanes, p, m, tile) :
-		o->dim == 2 ? tiles_of(2, o, lanes, p, m, tile) : tiles_of(3, o, lanes, p, m, tile)))
-		return true;
+	if (!o->ways && (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0) {
+		const double *x[3] = {NULL};
+		for (int d = 0; d < o->dim; d++)
+			x[d] = pm_column_take(&o->x[d], p, m, u[d]);
+		if (o->dim == 1 ? tiles_of(1, o, lanes, x, m, tile) : o->dim == 2 ? tiles_of(2, o, lanes, x, m, tile) : tiles_of(3, o, lanes, x, m, tile))
+			return true;
+	}
 	if (!locate(o, p, m, u))
 		return false;
 	find_tiles(o, m, u, tile);
@@ -167,7 +177,7 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 		bool all = locate(o, p, m, u);
 		find_tiles(o, m, u, o->tile + p);
 		if (!all)
-			find_strays(o, p, m, u, o->x, strays);
+			find_strays(o, p, m, u, strays);
 		if (in_one(o->tile + p, m))
 			count[o->tile[p]] += m;
 		else
@@ -207,8 +217,35 @@ static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 			for (int d = 0; d < o->dim; d++)
 				record[d] = u[d][i];
 			for (int c = 0; c < o->nvalues; c++)
-				record[o->dim + c] = o->values[c][p + i];
+				record[o->dim + c] = pm_column_at(&o->values[c], p + i);
 		}
+	}
+}
+
+/* The columns that a record of floats has: positions, velocities of ways, values. */
+static int columns_of(const struct pm_tile_order *o, const float *columns[PM_COMPONENTS + 6])
+{
+	int n = 0;
+	for (int d = 0; d < o->dim; d++)
+		columns[n++] = o->x[d].floats;
+	for (int d = 0; d < o->dim && o->ways; d++)
+		columns[n++] = o->v[d].floats;
+	for (int c = 0; c < o->nvalues; c++)
+		if (o->values[c].floats)
+			columns[n++] = o->values[c].floats;
+	return n;
+}
+
+static void move_floats(struct pm_tile_order *o, int chunk, size_t *cursor)
+{
+	const float *columns[PM_COMPONENTS + 6];
+	const size_t packed = (size_t)o->packed, to = chunk_to(o, chunk);
+	const int n = columns_of(o, columns);
+	for (size_t p = chunk_from(o, chunk); p < to; p++) {
+		float *record = o->floats + packed * cursor[o->tile[p]]++;
+		__builtin_prefetch(o->floats + packed * cursor[o->tile[p + ahead < to ? p + ahead : p]], 1);
+		for (int k = 0; k < n; k++)
+			record[k] = columns[k][p];
 	}
 }
 
@@ -232,31 +269,46 @@ static void place_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 static bool stand_together(const uint32_t *place, size_t m) { return place[m - 1] - place[0] == m - 1; }
 
 /* m values from p on in order: where they stand together those of the stream, else put together in few. */
-static const double *take(const struct pm_tile_order *o, size_t p, size_t m, const double *from, double few[batch])
+static const double *take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double few[batch])
 {
 	const uint32_t *place = o->place ? o->place + p : NULL;
-	if (!from)
-		return NULL;
 	if (!place || stand_together(place, m))
-		return from + (place ? place[0] : p);
+		return pm_column_take(from, place ? place[0] : p, m, few);
 	for (size_t i = 0; i < m; i++)
-		few[i] = from[place[i]];
+		few[i] = pm_column_at(from, place[i]);
 	return few;
+}
+
+/* The same for column k of a record of floats, unless it is one number. */
+static const double *take_packed(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, int *k, double few[batch])
+{
+	if (!from->floats)
+		return take(o, p, m, from, few);
+	const float *record = o->floats + p * (size_t)o->packed + (*k)++;
+	for (size_t i = 0; i < m; i++)
+		few[i] = record[i * (size_t)o->packed];
+	return few;
+}
+
+static const double *taken(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, int *k, double few[batch])
+{
+	return o->floats ? take_packed(o, p, m, from, k, few) : take(o, p, m, from, few);
 }
 
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records)
 {
 	double u[batch], length[batch], few[2][batch];
 	const size_t stride = (size_t)o->stride, first = (size_t)(o->ways ? 2 * o->dim : o->dim);
+	int x = 0, v = o->dim, k = (int)first; /* of a record of floats */
 	for (int d = 0; d < o->dim; d++) {
-		locate_axis(o, d, m, take(o, p, m, o->x[d], few[0]), take(o, p, m, o->v[d], few[1]), u, length);
+		locate_axis(o, d, m, taken(o, p, m, &o->x[d], &x, few[0]), o->ways ? taken(o, p, m, &o->v[d], &v, few[1]) : NULL, u, length);
 		for (size_t i = 0; i < m; i++)
 			records[i * stride + (size_t)d] = u[i];
 		for (size_t i = 0; i < m && o->ways; i++)
 			records[i * stride + (size_t)(o->dim + d)] = length[i];
 	}
 	for (int c = 0; c < (values ? o->nvalues : 0); c++) {
-		const double *value = take(o, p, m, o->values[c], few[0]);
+		const double *value = taken(o, p, m, &o->values[c], &k, few[0]);
 		for (size_t i = 0; i < m; i++)
 			records[i * stride + first + (size_t)c] = value[i];
 	}
@@ -284,8 +336,25 @@ static bool in_order(struct pm_tile_order *o)
 	return !falls;
 }
 
+/* Are x, v of ways and all values floats or one number? Then so are the records. */
+static bool packs(const struct pm_tile_order *o)
+{
+	bool all = true;
+	for (int d = 0; d < o->dim; d++)
+		all = all && o->x[d].floats && (!o->ways || o->v[d].floats);
+	for (int c = 0; c < o->nvalues; c++)
+		all = all && !o->values[c].doubles;
+	return all;
+}
+
 static int allocate_records(struct pm_tile_order *o)
 {
+	const float *columns[PM_COMPONENTS + 6];
+	if (packs(o)) {
+		o->packed = columns_of(o, columns);
+		o->floats = pm_alloc(o->n * (size_t)o->packed + 1, sizeof *o->floats);
+		return o->floats ? 0 : -PM_DATA;
+	}
 	size_t doubles = o->n * (size_t)o->stride;
 	o->records = pm_alloc(doubles + 4, sizeof *o->records); /* 4: records are read as vectors */
 	if (!o->records)
@@ -309,10 +378,18 @@ static int allocate_order(struct pm_tile_order *o, bool stays)
 	if (o->ways || stays) {
 		if (is_near(o))
 			return (o->place = pm_alloc(o->n, sizeof *o->place)) ? 0 : -PM_DATA;
-		if (o->ways)
+		if (o->ways && !packs(o))
 			return 0;
 	}
 	return allocate_records(o);
+}
+
+static void move_records(struct pm_tile_order *o, int chunk, size_t *cursor)
+{
+	if (o->floats)
+		move_floats(o, chunk, cursor);
+	else
+		move_chunk(o, chunk, cursor);
 }
 
 /* The tiles of a stream in any order, and its records in theirs. */
@@ -333,8 +410,8 @@ static int move(struct pm_tile_order *o, bool stays, struct pm_strays *strays)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
 		if (o->place)
 			place_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
-		else if (o->records)
-			move_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
+		else if (o->records || o->floats)
+			move_records(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
 	if (o->place)
 		o->tile = pm_free(o->tile);
 	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
@@ -350,6 +427,7 @@ static int move(struct pm_tile_order *o, bool stays, struct pm_strays *strays)
 void pm_tile_order_spend(struct pm_tile_order *o)
 {
 	o->records = pm_free(o->records);
+	o->floats = pm_free(o->floats);
 	o->nvalues = 0;
 }
 
@@ -363,7 +441,7 @@ int pm_tile_order_again(struct pm_tile_order *o, int room)
 	memcpy(cursors, o->cursor, rows * sizeof *cursors);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		move_chunk(o, chunk, cursors + (size_t)chunk * (o->tiles + 1));
+		move_records(o, chunk, cursors + (size_t)chunk * (o->tiles + 1));
 	pm_free(cursors);
 	return 0;
 }
@@ -388,10 +466,14 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues,
 		.ways = p->v, .dt = p->dt};
 	*strays = (struct pm_strays){.count = 0};
-	for (int d = 0; d < dim; d++)
-		o->x[d] = p->x[d], o->v[d] = p->v ? p->v[d] : NULL;
+	for (int d = 0; d < dim; d++) {
+		o->x[d] = p->x[d];
+		o->columns |= !p->x[d].doubles;
+		if (p->v)
+			o->v[d] = p->v[d], o->columns |= !p->v[d].doubles;
+	}
 	for (int c = 0; c < nvalues; c++)
-		o->values[c] = p->values[c];
+		o->values[c] = p->values[c], o->columns |= !p->values[c].doubles;
 	int status = count_tiles(o, axes);
 	if (status)
 		return status;
@@ -411,43 +493,73 @@ void pm_tile_order_free(struct pm_tile_order *o)
 	pm_free(o->begin);
 	pm_free(o->cursor);
 	pm_free(o->records);
+	pm_free(o->floats);
 	pm_free(o->place);
 	*o = (struct pm_tile_order){.n = 0};
 }
 
-bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],
-	double *const to[])
+bool pm_tile_results_round(int n, const struct pm_tile_results *r)
+{
+	bool all = true;
+	for (int c = 0; c < n; c++)
+		all = all && r->to[c].floats && (r->set[c] || r->to[c].zero) && !r->factor[c].doubles && !r->factor[c].floats;
+	return all;
+}
+
+static bool is_one(const struct pm_column *c) { return !c->doubles && !c->floats && c->value == 1; }
+
+/* m values of a component, times their factors, to floats. */
+static void unpack_floats(size_t m, int stride, const double *records, const double *f, bool set, float *restrict y)
+{
+	for (size_t i = 0; i < m; i++) {
+		double value = records[i * (size_t)stride];
+		value = f ? f[i] * value : value;
+		y[i] = (float)(set ? value : y[i] + value);
+	}
+}
+
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
 {
 	bool finite = true;
+	double few[batch];
 	for (int c = 0; c < nvalues; c++) {
-		double *restrict y = to[c] + p;
-		const double *f = factor[c] ? factor[c] + p : NULL;
+		const bool set = r->set[c];
+		const double *f = is_one(&r->factor[c]) ? NULL : pm_column_take(&r->factor[c], p, m, few);
+		if (r->to[c].floats) {
+			unpack_floats(m, stride, records + c, f, set, r->to[c].floats + p);
+			continue; /* checked where the stage ends */
+		}
+		double *restrict y = r->to[c].doubles + p;
 		for (size_t i = 0; i < m; i++) {
 			double value = records[i * (size_t)stride + (size_t)c];
 			value = f ? f[i] * value : value;
-			y[i] = set[c] ? value : y[i] + value;
+			y[i] = set ? value : y[i] + value;
 		}
 		finite &= pm_finite_few(m, y);
 	}
 	return finite;
 }
 
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const double *const factor[],
-	const bool set[], double *const to[])
+bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
 {
 	const uint64_t one = (uint64_t)1 << 52, exponent = 0x7ff * one;
 	uint64_t over = 0; /* the highest bit if the exponent of a value is the largest there is: it is not finite */
 	if (stand_together(place, m))
-		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, factor, set, to);
+		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, r);
 	for (int c = 0; c < nvalues; c++) {
-		double *restrict y = to[c];
-		const double *f = factor[c];
+		const bool plain = is_one(&r->factor[c]), set = r->set[c];
+		double *restrict y = r->to[c].doubles;
+		float *restrict z = r->to[c].floats;
 		for (size_t i = 0; i < m; i++) {
 			const size_t p = place[i];
 			uint64_t bits;
 			double value = records[i * (size_t)stride + (size_t)c];
-			value = f ? f[p] * value : value;
-			y[p] = value = set[c] ? value : y[p] + value;
+			value = plain ? value : pm_column_at(&r->factor[c], p) * value;
+			if (z) {
+				z[p] = (float)(set ? value : z[p] + value);
+				continue;
+			}
+			y[p] = value = set ? value : y[p] + value;
 			memcpy(&bits, &value, sizeof bits);
 			over |= (bits & exponent) + one;
 		}
@@ -472,8 +584,29 @@ static void collect(const struct pm_tile_order *o, const double *results, size_t
 	}
 }
 
-int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
-	double *const to[], bool *finite)
+int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *results, int stride, int nvalues, const struct pm_tile_results *r)
+{
+	const size_t columns = o->tiles + 1, each = (size_t)stride;
+	size_t *cursors = pm_alloc((size_t)o->chunks * columns, sizeof *cursors);
+	if (!cursors)
+		return -PM_DATA;
+	memcpy(cursors, o->cursor, (size_t)o->chunks * columns * sizeof *cursors);
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++) {
+		size_t *cursor = cursors + (size_t)chunk * columns;
+		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p++) {
+			const uint32_t tile = o->tile[p];
+			const float *record = results + each * cursor[tile]++;
+			__builtin_prefetch(results + each * cursor[o->tile[p + ahead < end ? p + ahead : p]]);
+			for (int c = 0; c < nvalues; c++)
+				r->to[c].floats[p] = tile == o->tiles ? 0 : record[c];
+		}
+	}
+	pm_free(cursors);
+	return 0;
+}
+
+int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite)
 {
 	size_t columns = o->tiles + 1, *cursors = pm_alloc((size_t)o->chunks * columns, sizeof *cursors);
 	int bad = 0;
@@ -487,7 +620,7 @@ int pm_tile_order_return(const struct pm_tile_order *o, const double *results, i
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
 			size_t m = end - p < batch ? end - p : batch;
 			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, records);
-			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, factor, set, to);
+			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, r);
 		}
 	}
 	pm_free(cursors);

@@ -3,6 +3,8 @@
 #ifndef PM_TRANSFER_TILE_ORDER_H
 #define PM_TRANSFER_TILE_ORDER_H
 
+#include "stream/column.h"
+#include "transfer/transfer-columns.h"
 #include "transfer/transfer-tile.h"
 
 struct pm_tile_order {
@@ -14,26 +16,38 @@ struct pm_tile_order {
 	size_t *cursor;       /* [chunks+1][tiles+1] */
 	int stride;           /* doubles per record */
 	double *records;      /* [n][stride]: u of each axis, then the values; NULL: spent, or, without tile[], the stream is in order */
+	float *floats;        /* [n][packed] in place of records, where positions are floats: x, v of ways, and the values that are not one number; NULL */
+	int packed;           /* floats per record there */
+	bool columns;         /* positions or values are floats or one number: they are read through blocks (pm_tile_order_pack) */
 	uint32_t *place;      /* [n] the particles in the order of the tiles, where they stay in the stream; NULL */
 	const struct pm_axis *axes;
-	const double *x[3], *v[3];
+	struct pm_column x[3], v[3];
 	bool ways;            /* placed by the lower end of x..x + v dt */
 	double dt;
 	int nvalues;
-	const double *values[PM_COMPONENTS];
+	struct pm_column values[PM_COMPONENTS];
 };
 
-/* Particles: n positions x[dim][n], and values[nvalues][n] that travel along. `stays`: where most have the tile of the one before, they are not moved, and
- * only their places are kept. v[3] not NULL (one of them may be: 0): the order is that of the lower ends of the ways x..x + v dt, which always stay: from a
- * stream that is far from the order of tiles neither records nor places are made. */
+/* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: where most have the tile of the one before, they are not moved, and
+ * only their places are kept. v[dim] not NULL: the order is that of the lower ends of the ways x..x + v dt, which stay, or become floats: from a
+ * stream of doubles that is far from the order of tiles neither records nor places are made. */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;
-	const double *const *x, *const *values;
+	const struct pm_column *x, *values;
 	bool stays;
-	const double *const *v;
+	const struct pm_column *v;
 	double dt;
 };
+
+/* The places of values: to[c][p] = (where set) or += factor[c][p] * value. */
+struct pm_tile_results {
+	const struct pm_column *factor;
+	const bool *set;
+	const struct pm_target *to;
+};
+/* All targets are floats that can be written over, and all factors one number: a result may be rounded before it is at its place. */
+bool pm_tile_results_round(int n, const struct pm_tile_results *r);
 
 /* Sorts particles by tile; within a tile they keep the order of the stream. The records have room for at least `room` doubles. 0 or failure; free in
  * any case. */
@@ -42,7 +56,7 @@ void pm_tile_order_free(struct pm_tile_order *o);
 /* Gives the records back when they hold results; the tiles stay. `again` makes those of the positions, which must be the same, with room for `room` doubles. */
 void pm_tile_order_spend(struct pm_tile_order *o);
 int pm_tile_order_again(struct pm_tile_order *o, int room);
-static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o->tile && !o->records; }
+static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o->tile && !o->records && !o->floats; }
 static inline size_t pm_tile_order_place(const struct pm_tile_order *o, size_t p) { return o->place ? o->place[p] : p; }
 /* Records of the m particles in order from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order, or stays. Only where values are asked for need those
  * of the order still be there. Of ways a record is: the lower end, the signed length [cells] on each axis, the values. */
@@ -50,12 +64,11 @@ enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whos
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */
-int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const double *const factor[], const bool set[],
-	double *const to[], bool *finite);
+int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite);
+/* The same of results that are floats, for targets that are, times factor already: they are set. 0 or failure. */
+int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *results, int stride, int nvalues, const struct pm_tile_results *r);
 /* The same for m particles from p on, or at these places, whose records are given. */
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const double *const factor[],
-	const bool set[], double *const to[]);
-bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const double *const factor[], const bool set[],
-	double *const to[]);
+bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
 
 #endif

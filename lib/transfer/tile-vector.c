@@ -154,7 +154,8 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 4; c++)
 			if (c < t->components)
-				deliver_eight(component[c], n, r->factor[c] ? r->factor[c] + p : NULL, r->set[c], r->to[c] + p, &nothing);
+				deliver_eight(component[c], n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL, r->set[c], r->to[c].doubles + p,
+					&nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

@@ -256,13 +256,20 @@ bool pm_axis_locate_many(const struct pm_axis *a, size_t n, const double *restri
 	return all;
 }
 
-void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis)
+void pm_strays_note_at(struct pm_strays *s, size_t index, const double x[3], int axis)
 {
 	if (!s->count || index < s->first) {
 		s->first = index;
 		s->axis = axis;
-		for (int d = 0; d < 3; d++)
-			s->x[d] = d < dim ? x[d][index] : 0;
+		memcpy(s->x, x, sizeof s->x);
 	}
 	s->count++;
+}
+
+void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis)
+{
+	double at[3] = {0};
+	for (int d = 0; d < dim; d++)
+		at[d] = x[d][index];
+	pm_strays_note_at(s, index, at, axis);
 }

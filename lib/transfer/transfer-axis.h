@@ -56,5 +56,6 @@ bool pm_axis_locate_far(const struct pm_axis *a, unsigned outside, size_t n, con
 
 /* Records a stray; the one with the smallest index is kept. */
 void pm_strays_note(struct pm_strays *s, size_t index, int dim, const double *const x[], int axis);
+void pm_strays_note_at(struct pm_strays *s, size_t index, const double x[3], int axis);
 
 #endif

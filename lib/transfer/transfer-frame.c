@@ -6,6 +6,7 @@
 #include "mesh/regrid.h"
 #include "transfer/transfer-frame.h"
 #include "stream/declare.h"
+#include "stream/column.h"
 #include "stream/kept.h"
 #include "world/world.h"
 
@@ -75,11 +76,26 @@ int pm_reads_strength(struct pm_frame *f, const char *set, const char *name)
 	return 0;
 }
 
+static int expand(const struct pm_field *field, const double *q[], double **made)
+{
+	const size_t n = field->count;
+	if (!(*made = pm_alloc(n * (size_t)field->components + 1, sizeof **made)))
+		return -PM_DATA;
+	for (int c = 0; c < field->components; c++) {
+		for (size_t p = 0; p < n; p++)
+			(*made)[(size_t)c * n + p] = field->value[c];
+		q[c] = *made + (size_t)c * n;
+	}
+	return 0;
+}
+
 int pm_strengths(const struct pm_frame *f, const char *set, const char *name, const double *q[], double **made)
 {
 	const struct pm_field *strength = pm_frame_field(f, set, name);
 	size_t n = strength->count;
 	*made = NULL;
+	if (strength->uniform && !strength->buffer) /* of a stage that takes columns */
+		return expand(strength, q, made);
 	for (int c = 0; c < strength->components; c++)
 		q[c] = pm_in(strength, c);
 	if (strength->extensive)
@@ -97,11 +113,19 @@ int pm_strengths(const struct pm_frame *f, const char *set, const char *name, co
 	return 0;
 }
 
+bool pm_ratio_is_one(const struct pm_frame *f, const char *set, const char *strength, const char *per, double *ratio)
+{
+	const struct pm_field *top = pm_frame_field(f, set, strength), *bottom = pm_frame_field(f, set, per);
+	const bool one = top->uniform && !top->buffer && bottom->uniform && !bottom->buffer && bottom->value[0] != 0;
+	*ratio = one ? top->value[0] / bottom->value[0] : 1;
+	return one;
+}
+
 int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double **ratio, double **made)
 {
 	static const char name[] = "quotient of strengths";
 	const struct pm_field *top = pm_frame_field(f, set, strength), *bottom = pm_frame_field(f, set, per);
-	const double *q = pm_in(top, 0), *m = pm_in(bottom, 0);
+	const struct pm_column q = pm_column_of(top, 0), m = pm_column_of(bottom, 0);
 	*made = NULL;
 	if ((*ratio = pm_kept(top, bottom, name)))
 		return 0;
@@ -109,11 +133,11 @@ int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, co
 	if (!*made)
 		return -PM_DATA;
 	for (size_t p = 0; p < top->count; p++) {
-		if (m[p] == 0) {
+		if (pm_column_at(&m, p) == 0) {
 			pm_world_place(2, 0, 0, top->first + p);
 			return pm_fail(PM_DATA, "'%s' of particle %zu of '%s' is 0: %s/%s is not defined", per, (size_t)top->first + p, set, strength, per);
 		}
-		(*made)[p] = q[p] / m[p];
+		(*made)[p] = pm_column_at(&q, p) / pm_column_at(&m, p);
 	}
 	if (pm_keep(top, bottom, name, *made))
 		*made = NULL;

@@ -24,6 +24,8 @@ int pm_reads_strength(struct pm_frame *f, const char *set, const char *name);
 /* q[c][n]: the field, times volume if it is a value; *made is to be freed. */
 int pm_strengths(const struct pm_frame *f, const char *set, const char *name, const double *q[], double **made);
 
+/* The same quotient for all, where neither field has more than one value and it is defined. */
+bool pm_ratio_is_one(const struct pm_frame *f, const char *set, const char *strength, const char *per, double *ratio);
 /* strength/per, particle by particle, which is kept while both stay; *made is to be freed. */
 int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double **ratio, double **made);
 

@@ -15,7 +15,10 @@ struct pm_pass {
 	struct pm_order_cache *o;
 	struct pm_tile_pass p; /* its jobs, on the axes of o */
 	double *blocks; /* [threads or jobs under way][components at once][PM_BLOCK_MOST] */
+	float *few;      /* gather: [n][few_to] rounded, of an order of floats; NULL */
+	int few_to;
 	double *results; /* gather: [n][to] where the records are not to be overwritten, else NULL */
+	bool blockwise;  /* gather: positions, factors or targets are not doubles */
 	int to;          /* 0: components */
 	double lift[4];  /* gather: of transfer-tile.h; the axes of p are then those of the points, with the cells of the order's */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
@@ -36,8 +39,10 @@ bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *cons
 void pm_pass_end(struct pm_pass *w);
 
 /* pm_gather where the components sit at several offsets (gather-staggered.c). */
-int pm_gather_staggered(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
-	double *const out[], struct pm_strays *strays);
+int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
+	const struct pm_target out[], struct pm_strays *strays);
+/* m results of particles in order of floats, from p on: times factor, to the floats few[n][stride], rounded. */
+void pm_tile_results_few(size_t p, size_t m, int stride, const double *results, int n, const struct pm_tile_results *r, float *few, int to);
 
 /* pm_spread and pm_gather where particles and planes of the mesh are divided among the ranks (transfer-ranks.c). Strays are those here. */
 int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],

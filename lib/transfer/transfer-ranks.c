@@ -420,7 +420,7 @@ static void put_back(const struct pass *a, size_t at, size_t n, const double *va
 		memcpy(results + (at + p) * to, values + p * stride, k * sizeof *values);
 	for (size_t p = 0, m; p < n && !o->tile; p += m) {
 		m = n - p < PM_TILE_ORDER_PACK ? n - p : PM_TILE_ORDER_PACK;
-		*bad |= !pm_tile_order_unpack(at + p, m, (int)stride, values + p * stride, (int)k, r->factor, r->set, r->to);
+		*bad |= !pm_tile_order_unpack(at + p, m, (int)stride, values + p * stride, (int)k, r);
 	}
 }
 
@@ -479,8 +479,7 @@ static int gather(int status, struct pass *a, const double *const mesh[], const 
 	if (!status && v->local->order.tile) {
 		const struct pm_tile_order *o = &v->local->order;
 		const int k = v->w.components;
-		status = pm_tile_order_return(o, v->w.results ? v->w.results : o->records, v->w.results ? k : o->stride, k, results->factor, results->set,
-			results->to, finite);
+		status = pm_tile_order_return(o, v->w.results ? v->w.results : o->records, v->w.results ? k : o->stride, k, results, finite);
 		if (!v->w.results)
 			pm_tile_order_spend(&v->local->order);
 	}
@@ -494,12 +493,13 @@ int pm_gather_ranks(const struct pm_transfer *t, size_t n, const double *const x
 	struct pass a = {.jobs = {.t = t}};
 	int status = 0;
 	while (!status && pm_pass_next(t, done, &a.jobs.w)) {
-		double *to[PM_COMPONENTS];
-		const double *times[PM_COMPONENTS];
+		struct pm_target to[PM_COMPONENTS];
+		struct pm_column times[PM_COMPONENTS];
 		bool set[PM_COMPONENTS], seen = false;
 		for (int c = 0; c < a.jobs.w.components; c++) {
 			const int k = a.jobs.w.which[c];
-			set[c] = t->set[k], to[c] = out[k], times[c] = factor ? factor[k] : NULL;
+			set[c] = t->set[k], to[c] = (struct pm_target){.doubles = out[k]};
+			times[c] = (struct pm_column){.doubles = factor ? factor[k] : NULL, .value = 1};
 		}
 		const struct pm_tile_results results = {times, set, to};
 		status = pm_shared_jobs_init(status, &a.jobs, n, x, 0, NULL, a.jobs.w.components);

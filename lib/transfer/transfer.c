@@ -44,9 +44,9 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		if (corners && PM_TILE_CIC_EIGHT) {
+		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.columns) {
 			batch.p = p, batch.m = t.count;
-			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, w->o->order.values[value] + p);
+			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, w->o->order.values[value].doubles + p);
 			continue;
 		}
 		t.records = packed;
@@ -81,7 +81,24 @@ static void spread_component(const struct pm_pass *w, int value, int threads, do
 	}
 }
 
-/* Of a stream that is in order. t: with the blocks of the job. */
+void pm_tile_results_few(size_t p, size_t m, int stride, const double *results, int n, const struct pm_tile_results *r, float *few, int to)
+{
+	for (size_t i = 0; i < m; i++)
+		for (int c = 0; c < n; c++)
+			few[(p + i) * (size_t)to + (size_t)c] = (float)(r->factor[c].value * results[i * (size_t)stride + (size_t)c]);
+}
+
+/* What a batch of an order of floats becomes. */
+static bool leave_results(const struct pm_pass *w, size_t p, size_t m, int stride, const double *packed, const struct pm_tile_results *r)
+{
+	if (w->few)
+		pm_tile_results_few(p, m, stride, packed, w->components, r, w->few, w->few_to);
+	for (size_t i = 0; i < m && !w->few; i++)
+		memcpy(w->results + (p + i) * (size_t)w->components, packed + i * (size_t)stride, (size_t)w->components * sizeof *packed);
+	return true;
+}
+
+/* Of a stream that is in order, or whose records are floats. t: with the blocks of the job. */
 static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
@@ -94,7 +111,7 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
-		finite &= pm_tile_order_unpack(p, t.count, t.stride, packed, w->components, r->factor, r->set, r->to);
+		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r) : pm_tile_order_unpack(p, t.count, t.stride, packed, w->components, r);
 	}
 	return finite;
 }
@@ -111,6 +128,8 @@ static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, str
 		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
 	if (t.records)
 		return pm_tile_cic_gather_eight(&t), true;
+	if (w->blockwise)
+		return gather_in_order(w, j, t, pm_tile_cic_gather_eight, r);
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	batch.p = j->from, batch.m = j->to - j->from;
 	return pm_tile_cic_gather(&t, &batch, r);
@@ -127,7 +146,7 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	pm_tile_weave(t.block, w->components, slots, t.nodes);
 	if (t.records)
 		return loop(&t), true;
-	if (loop != pm_tile_cic_gather_vectors)
+	if (loop != pm_tile_cic_gather_vectors || w->blockwise)
 		return gather_in_order(w, j, t, loop, r);
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	batch.p = j->from, batch.m = j->to - j->from;
@@ -142,7 +161,7 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
 		return gather_vectors(w, j, t, r);
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
-	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records) {
+	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->blockwise) {
 		struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 		batch.p = j->from, batch.m = t.count;
 		return pm_tile_line_gather(&t, &batch, r);
@@ -193,9 +212,9 @@ static int begin_pass(struct pm_pass *w, size_t at_once, size_t each)
 }
 
 /* The particles in order, with the values that go along. */
-static int begin_spread(struct pm_pass *w, size_t n, const double *const x[], const double *const strength[], int threads)
+static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[], const struct pm_column strength[], int threads)
 {
-	const double *values[PM_COMPONENTS];
+	struct pm_column values[PM_COMPONENTS];
 	for (int c = 0; c < w->components; c++)
 		values[c] = strength[w->which[c]];
 	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0);
@@ -224,7 +243,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
  * moved again. They would be 24 bytes a particle, at the peak of a step. */
-static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], int threads)
+static int begin_gather(struct pm_pass *w, size_t n, const struct pm_column x[], const struct pm_tile_results *r, int threads)
 {
 	const unsigned char *staggered = w->t->staggered[w->which[0]];
 	w->o = pm_order_cache_find(w->t, staggered, n, x);
@@ -232,7 +251,17 @@ static int begin_gather(struct pm_pass *w, size_t n, const double *const x[], in
 		w->o = pm_order_cache_new(w->t, staggered, n, x, 0, NULL, w->components);
 	else if (pm_tile_order_spent(&w->o->order) && pm_tile_order_again(&w->o->order, w->components))
 		return -PM_DATA;
-	const bool records = w->o && w->o->order.records;
+	struct pm_tile_order *o = w->o ? &w->o->order : NULL;
+	const bool records = o && o->records;
+	for (int c = 0; c < w->components && o; c++)
+		w->blockwise |= o->columns || o->floats || r->to[c].floats || r->factor[c].floats || (!r->factor[c].doubles && r->factor[c].value != 1);
+	if (o && o->floats && pm_tile_results_round(w->components, r)) {
+		w->few_to = w->components > o->packed ? w->components : o->packed;
+		w->few = w->components > o->packed ? pm_alloc(n * (size_t)w->few_to, sizeof *w->few) : o->floats;
+		if (!w->few)
+			return -PM_DATA;
+	} else if (o && o->floats && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
+		return -PM_DATA;
 	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
 	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
@@ -246,17 +275,43 @@ void pm_pass_end(struct pm_pass *w)
 	pm_free(w->blocks);
 	pm_tile_pass_free(&w->p);
 	pm_free(w->results);
+	if (w->few && (!w->o || w->few != w->o->order.floats))
+		pm_free(w->few);
+}
+
+void pm_columns_of(int n, const double *const x[], struct pm_column to[])
+{
+	for (int c = 0; c < n; c++)
+		to[c] = pm_column_doubles(x[c]);
+}
+
+static void doubles_of(int n, const struct pm_column from[], const double *to[])
+{
+	for (int c = 0; c < n; c++)
+		to[c] = from[c].doubles;
 }
 
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
+	struct pm_strays *strays)
+{
+	struct pm_column at[3], values[PM_COMPONENTS];
+	pm_columns_of(t->grid.dim, x, at);
+	pm_columns_of(t->components, strength, values);
+	return pm_spread_columns(t, n, at, values, mesh, strays);
+}
+
+int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const struct pm_column strength[], double *const mesh[],
 	struct pm_strays *strays)
 {
 	bool done[PM_COMPONENTS] = {false};
 	struct pm_pass w;
 	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
-	if (t->planes && t->planes->divided)
-		return pm_spread_ranks(t, n, x, strength, mesh, strays);
+	if (t->planes && t->planes->divided) {
+		const double *at[3], *values[PM_COMPONENTS];
+		doubles_of(t->grid.dim, x, at), doubles_of(t->components, strength, values);
+		return pm_spread_ranks(t, n, at, values, mesh, strays);
+	}
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
 		status = status ? status : pm_pass_corners(&w, threads, PM_TILE_CELLS);
@@ -273,36 +328,64 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 int pm_gather(const struct pm_transfer *t, size_t n, const double *const x[], const double *const mesh[], const double *const factor[],
 	double *const out[], struct pm_strays *strays)
 {
+	struct pm_column at[3], times[PM_COMPONENTS];
+	struct pm_target to[PM_COMPONENTS];
+	pm_columns_of(t->grid.dim, x, at);
+	for (int c = 0; c < t->components; c++) {
+		times[c] = (struct pm_column){.doubles = factor ? factor[c] : NULL, .value = 1};
+		to[c] = (struct pm_target){.doubles = out[c]};
+	}
+	return pm_gather_columns(t, n, at, mesh, times, to, strays);
+}
+
+static int gather_ranks(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
+	const struct pm_target out[], struct pm_strays *strays)
+{
+	const double *at[3], *times[PM_COMPONENTS];
+	double *to[PM_COMPONENTS];
+	doubles_of(t->grid.dim, x, at), doubles_of(t->components, factor, times);
+	for (int c = 0; c < t->components; c++)
+		to[c] = out[c].doubles;
+	return pm_gather_ranks(t, n, at, mesh, times, to, strays);
+}
+
+int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
+	const struct pm_target out[], struct pm_strays *strays)
+{
 	bool done[PM_COMPONENTS] = {false}, finite = true;
 	struct pm_pass w;
 	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided)
-		return pm_gather_ranks(t, n, x, mesh, factor, out, strays);
+		return gather_ranks(t, n, x, mesh, factor, out, strays);
 	for (int c = 1; c < t->components; c++)
 		if (n && !t->kernel->star && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]))
 			return pm_gather_staggered(t, n, x, mesh, factor, out, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
-		double *to[PM_COMPONENTS];
-		const double *times[PM_COMPONENTS];
+		struct pm_target to[PM_COMPONENTS];
+		struct pm_column times[PM_COMPONENTS];
 		bool set[PM_COMPONENTS];
 		for (int c = 0; c < w.components; c++) {
 			set[c] = t->set[w.which[c]];
 			to[c] = out[w.which[c]];
-			times[c] = factor ? factor[w.which[c]] : NULL;
+			times[c] = factor[w.which[c]];
 		}
 		const struct pm_tile_results r = {times, set, to};
-		status = begin_gather(&w, n, x, threads);
+		status = begin_gather(&w, n, x, &r, threads);
 		bool seen = !status && pm_pass_gather_all(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
-		if (o && o->records)
-			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, times, set,
-				to, &seen);
+		if (o && w.few)
+			status = pm_tile_order_return_floats(o, w.few, w.few_to, w.components, &r);
+		else if (o && (o->records || o->floats))
+			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, &r, &seen);
 		finite = finite && seen;
 		if (!status)
 			*strays = w.o->strays;
 		bool in_use = w.o && t->kept && *t->kept == &w.o->note;
-		if (in_use && !w.results)
+		const bool used_up = in_use && !w.results && (!w.few || w.few == w.o->order.floats);
+		if (used_up && w.few)
+			w.few = NULL;
+		if (used_up)
 			pm_tile_order_spend(&w.o->order);
 		pm_pass_end(&w);
 		if (!in_use)

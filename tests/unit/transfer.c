@@ -289,7 +289,9 @@ static void check_in_order(int dim, const size_t cells[3], size_t n, const char 
 	for (int d = 0; d < dim; d++)
 		memcpy(b.x[d], a.x[d], n * sizeof(double));
 	pm_axes_init(axes, &a.t, a.t.staggered[0]);
-	pm_tile_order_init(&order, axes, &(struct pm_tile_particles){.dim = dim, .n = n, .x = in(a.x)}, dim, &strays);
+	struct pm_column x[3];
+	pm_columns_of(dim, in(a.x), x);
+	pm_tile_order_init(&order, axes, &(struct pm_tile_particles){.dim = dim, .n = n, .x = x}, dim, &strays);
 	check(!order.records && order.tiles > 1, "%d-D: a stream in the order of %zu tiles is not moved", dim, order.tiles);
 	pm_tile_order_free(&order);
 	pm_axes_free(axes);
@@ -371,12 +373,14 @@ static void check_kept(int dim, const size_t cells[3], const char *other)
 		for (int c = 0; c < dim; c++)
 			same = same && !memcmp(a.out[c], b.out[c], n * sizeof(double));
 	}
-	const struct pm_order_cache *kept = pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x));
+	struct pm_column here[3], there[3];
+	pm_columns_of(dim, in(a.x), here), pm_columns_of(dim, in(b.x), there);
+	const struct pm_order_cache *kept = pm_order_cache_find(&a.t, a.t.staggered[0], n, here);
 	check(left && note == left && kept && same, "%d-D: a gather uses the order a spread has left, and gives equal bytes", dim);
 	check(kept && pm_tile_order_spent(&kept->order), "%d-D: its results took the place of the records, which are given back", dim);
-	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(b.x)), "%d-D: it is not that of other positions", dim);
+	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, there), "%d-D: it is not that of other positions", dim);
 	a.t.kernel = pm_kernel_find(other);
-	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, in(a.x)), "%d-D: nor that of kernel %s", dim, other);
+	check(!pm_order_cache_find(&a.t, a.t.staggered[0], n, here), "%d-D: nor that of kernel %s", dim, other);
 	note->free(note);
 	problem_free(&a);
 	problem_free(&b);
