@@ -69,12 +69,11 @@ static int narrow(struct pm_field *field)
 		for (size_t i = 0; i < n; i++)
 			to[i] = (float)data[i];
 	}
-	pm_buffer_drop_data(b);
-	if (made) { /* the buffer stays: other frames may have it */
-		b->floats = made->floats, b->shared = made->shared;
-		made->floats = NULL, made->shared = NULL;
-		pm_buffer_free(made);
-	}
+	if (made) { /* other frames may have the doubles, as such */
+		pm_buffer_free(b);
+		field->buffer = made;
+	} else
+		pm_buffer_drop_data(b);
 	return 0;
 }
 
@@ -196,12 +195,12 @@ static int ready_here(struct pm_field *field)
 /* One that rests, of a stage that takes columns. */
 static int ready_floats(struct pm_field *field)
 {
-	struct pm_buffer *old = field->buffer, *b;
 	const bool change = field->use & PM_USE_CHANGE, made = field->use & PM_USE_NEW;
-	if (!old && field->uniform && (made || !change))
+	if (!field->buffer && field->uniform && (made || !change))
 		return 0;
-	if (old && !old->floats && narrow(field))
+	if (field->buffer && !field->buffer->floats && narrow(field))
 		return -PM_DATA;
+	struct pm_buffer *old = field->buffer, *b;
 	if (old && change && old->data)
 		pm_buffer_drop_data(old);
 	if (old && (!change || pm_buffer_alone(old)))

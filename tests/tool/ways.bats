@@ -71,6 +71,20 @@ force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
 	all_ways "pinit uniform -n 300" "$f" "push kick/2 drift | $f | push kick/2" 1
 }
 
+single() { pinit "$@" | smod --no-history --store f32; } # fields that are held as floats between the words
+
+@test "equal bytes: single precision, leapfrog in a periodic box" {
+	all_ways "single uniform -n 5000 --dispersion 1" "$(force 15)" "push kick/2 drift | $(force 15) | push kick/2" 1
+}
+
+@test "equal bytes: single precision with light, particles near and far from the order of tiles" {
+	local step="push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2"
+	all_ways "single em-wave --dim 3 --cells 12 -n 5832" "m2p" "$step" 1
+	electrons() { pinit em-wave --dim 3 --cells 40x8x8 | smod --constant background=1 --rename electrons=none | species electrons -n 3000 --vth 0.3 |
+		smod --no-history --store f32; }
+	all_ways "electrons" "m2p" "$step" 1
+}
+
 @test "equal bytes: direct sum, leapfrog" {
 	all_ways "pinit plummer -n 300" "pp" "push kick/2 drift | pp | push kick/2" 1
 }

@@ -1,0 +1,63 @@
+#!/usr/bin/env bats
+# Fields of type f32 are held as floats between the words, and push, p2m and m2p take them as such (docs/stage.md): half the memory of a run. That the bytes are
+# the same for every way of running: ways.bats. SPDX-License-Identifier: GPL-3.0-or-later
+load ../helper
+
+# peak FILE SENTENCE: [kB] the largest memory of three steps on one thread.
+peak() {
+	OMP_NUM_THREADS=1 python3 -c 'import resource, subprocess, sys
+subprocess.run(["cycle", "-q", "-n", "3", sys.argv[2], "-i", sys.argv[1]], stdout=subprocess.DEVNULL, check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "$1" "$2"
+}
+
+# halves SCENE... SENTENCE (SCENE -n N): what 400000 particles add in f32 is at most 0.58 of what they add in f64. Their numbers are whole in both: of 104 bytes
+# a particle (3-D, light) 56 would be 0.54; a column widened to doubles for a word would be 0.1 more.
+halves() {
+	local sentence=${*: -1} few many part
+	set -- "${@:1:$#-1}"
+	"$@" 1000 >few
+	"$@" 400000 >many
+	smod --store f32 few >few32
+	smod --store f32 many >many32
+	few=$(peak few "$sentence") many=$(peak many "$sentence")
+	part=$(awk -v a="$(peak many32 "$sentence")" -v b="$(peak few32 "$sentence")" -v c="$many" -v d="$few" 'BEGIN { print (a - b)/(c - d) }')
+	[ $((many - few)) -gt 20000 ] # 50 bytes a particle
+	awk -v p="$part" 'BEGIN { exit !(p < 0.58) }' || { echo "f32 needs $part of the memory of f64: $sentence"; return 1; }
+}
+
+box() { pinit uniform --dispersion 1 --dt 0.001 --cells 32 -n "$1"; }
+wave() { pinit landau --loading bit-reversed --cells 64 -n $((4 * $1)); }
+light() { pinit em-wave --dim 3 --cells 16 | smod --constant background=1 --rename electrons=none | species electrons -n "$1" --vth 0.1 --loading random; }
+sorted_light() { light "$1" | ssort; }
+
+@test "an electrostatic or gravitational step in f32 needs half the memory of one in f64" {
+	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
+	halves box "push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2"
+	halves wave "push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2"
+}
+
+@test "so does a step with light, whatever the order of the particles" {
+	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
+	halves light "push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2"
+	halves sorted_light "push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2"
+}
+
+@test "a word that knows nothing of floats reads and changes f32 fields as it did: the numbers are those of f64 fields rounded after each word" {
+	local words="smove --shift 0.3,0,0.1 | scalc --role state 'k = x*vx' | smove --shift=-0.1,0.2,0"
+	pinit uniform -n 3000 --dispersion 1 | smod --store f32 >start
+	for engine in fused pipes; do
+		cycle -q --engine $engine --no-history -n 2 "push drift | scalc --role state --type f32 'k = 0.99*vx' | ssort" -i start -o "$engine"
+	done
+	cmp fused pipes
+	bash -c "cat start | $words" >ours
+	smod --store f64 start | smove --shift 0.3,0,0.1 | smod --store f32 | smod --store f64 | scalc --role state 'k = x*vx' |
+		smove --shift=-0.1,0.2,0 | smod --store f32 >theirs
+	for f in ours theirs; do sel --field x,v $f | stab --plain >$f.txt; done
+	[ "$(wc -l <ours.txt)" -gt 2900 ]
+	cmp ours.txt theirs.txt
+}
+
+@test "a rate that m2p makes has the type of the state it changes" {
+	pinit uniform -n 100 --cells 8 | smod --store v=f32 | p2m | poisson-fft | mgrad | m2p | sls | grep -q 'acc *3 f32 change'
+	pinit uniform -n 100 --cells 8 | smod --store x=f32 | p2m | poisson-fft | mgrad | m2p | sls | grep -q 'acc *3 f64 change'
+}
