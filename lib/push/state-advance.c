@@ -71,12 +71,14 @@ static int64_t largest(int64_t most, size_t n, const double *k)
 }
 
 /* Blocks of floats as doubles, each once: the rate of a position is a state too. */
+enum { few = 256 };
+
 struct widened {
 	int n;
 	struct {
 		const float *from;
 		float *to; /* NULL: only read */
-		double room[PM_ADVANCE_BLOCK];
+		double room[few];
 	} of[2 * PM_RATES + 2];
 };
 
@@ -114,33 +116,67 @@ static void lines_from(size_t i, size_t m, int n, const struct pm_advanced *line
 	}
 }
 
+/* What all blocks of an axis have in common. */
+struct axis {
+	const struct pm_advance *a;
+	int nlines;
+	const struct pm_advanced *lines;
+	double *x, *v;
+	const struct pm_bounds *b;
+	bool fastest;
+};
+
+/* m particles from i on; w: room for floats, NULL where there are none. */
+static int block_of(const struct axis *s, size_t i, size_t m, struct widened *w, int64_t *most)
+{
+	const bool kick_first = s->a->actions && (s->a->action[0].step->kind == PM_KICK || s->a->action[0].step->kicks);
+	const struct pm_bounds *b = s->b;
+	struct pm_advanced here[PM_RATES];
+	int bad = 0;
+	lines_from(i, m, s->nlines, s->lines, w, here);
+	for (int l = 0; l < s->nlines; l++) {
+		const struct pm_advanced *line = here + (kick_first ? s->nlines - 1 - l : l);
+		advance(m, s->a, line);
+		if (s->fastest && line->position)
+			*most = largest(*most, m, line->k);
+	}
+	if (b && (s->x || b->x_floats)) {
+		double *place = s->x ? s->x + i : widen(w, b->x_floats, b->x_floats, i, m);
+		take_through_faces(m, b, place, s->v ? s->v + i : b->v_floats ? widen(w, b->v_floats, b->v_floats, i, m) : NULL, s->nlines, here);
+	}
+	for (int l = 0; l < s->nlines; l++)
+		bad |= !all_finite(m, here + l);
+	if (w)
+		put_back(w, i, m);
+	return bad;
+}
+
+/* A few at a time, with room on the stack that doubles do not need. */
+__attribute__((noinline)) static int block_of_floats(const struct axis *s, size_t from, size_t end, int64_t *most)
+{
+	struct widened w;
+	int bad = 0;
+	for (size_t i = from; i < end; i += few) {
+		w.n = 0;
+		bad |= block_of(s, i, end - i < few ? end - i : few, &w, most);
+	}
+	return bad;
+}
+
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
 	const struct pm_bounds *b, double *fastest)
 {
-	bool kick_first = a->actions && (a->action[0].step->kind == PM_KICK || a->action[0].step->kicks);
+	const struct axis s = {a, nlines, lines, x, v, b, fastest};
 	size_t blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
+	bool floats = b && (b->x_floats || b->v_floats);
 	int bad = 0;
 	int64_t most = 0;
+	for (int l = 0; l < nlines; l++)
+		floats |= lines[l].y_floats || lines[l].k_floats;
 #pragma omp parallel for schedule(static) reduction(| : bad) reduction(max : most) if (n > 16384)
 	for (size_t block = 0; block < blocks; block++) {
-		size_t i = block * PM_ADVANCE_BLOCK, m = n - i < PM_ADVANCE_BLOCK ? n - i : PM_ADVANCE_BLOCK;
-		struct pm_advanced here[PM_RATES];
-		struct widened w;
-		w.n = 0;
-		lines_from(i, m, nlines, lines, &w, here);
-		for (int l = 0; l < nlines; l++) {
-			const struct pm_advanced *line = here + (kick_first ? nlines - 1 - l : l);
-			advance(m, a, line);
-			if (fastest && line->position)
-				most = largest(most, m, line->k);
-		}
-		if (b && (x || b->x_floats)) {
-			double *place = x ? x + i : widen(&w, b->x_floats, b->x_floats, i, m);
-			take_through_faces(m, b, place, v ? v + i : b->v_floats ? widen(&w, b->v_floats, b->v_floats, i, m) : NULL, nlines, here);
-		}
-		for (int l = 0; l < nlines; l++)
-			bad |= !all_finite(m, here + l);
-		put_back(&w, i, m);
+		const size_t i = block * PM_ADVANCE_BLOCK, end = n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK;
+		bad |= floats ? block_of_floats(&s, i, end, &most) : block_of(&s, i, end - i, NULL, &most);
 	}
 	if (fastest)
 		memcpy(fastest, &most, sizeof most);
