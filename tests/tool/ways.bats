@@ -80,7 +80,7 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 @test "equal bytes: single precision with light, particles near and far from the order of tiles" {
 	local step="push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2"
 	all_ways "single em-wave --dim 3 --cells 12 -n 5832" "m2p" "$step" 1
-	electrons() { pinit em-wave --dim 3 --cells 40x8x8 | smod --constant background=1 --rename electrons=none | species electrons -n 3000 --vth 0.3 |
+	electrons() { pinit em-wave --dim 3 --cells 40x8x8 | smod --constant background=1 --rename electrons=none | species electrons -n 3000 --vth 0.15 |
 		smod --no-history --store f32; }
 	all_ways "electrons" "m2p" "$step" 1
 }
