@@ -22,7 +22,7 @@ static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 		d->answer = PM_PUT_IN;
 		d->kept = true;
 		snprintf(d->text, sizeof d->text, "the box is periodic, spread/box = %.2g; %s includes them at no cost", part,
-			s->light ? "the mesh" : "the Fourier transform");
+			s->light ? "the mesh" : s->pairs ? "the sum over pairs" : "the Fourier transform");
 	}
 }
 

@@ -102,7 +102,10 @@ static bool asked(const struct pm_frame *f, const struct pm_law *law, char what[
 	return panels;
 }
 
-static const char *lacks(const struct pm_effect_case *c) { return panels_of(c->frame) ? NULL : "no panels in this frame (panels --curve or --surface makes them)"; }
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return panels_of(c->frame) ? NULL : "no panels in this frame (panels --curve or --surface makes them)";
+}
 
 static bool reversible(const struct pm_effect_case *c) { return c->scales->kind == PM_VORTICES && panels_of(c->frame); }
 

@@ -34,14 +34,14 @@ static bool may_part(const struct pm_plan *p)
 		fastest * s->omega * s->time > log(s->accuracy / DBL_EPSILON);
 }
 
-/* Of both runs from a frame on, over a part of the time. A mesh may have grown since the first. */
-static bool affordable(const struct pm_frame *f, const struct pm_plan *p, double part)
+/* Of both runs from frame x on, over a part of the time. Its mesh may have grown; f, the first, has the step that was not cut to end a piece. */
+static bool affordable(const struct pm_frame *f, const struct pm_frame *x, const struct pm_plan *p, double part)
 {
 	struct pm_edit e;
 	if (!pm_edit_read(&e, p->sentence))
 		return false;
 	const double dt = pm_edit_step(&e, f), known = isnan(dt) ? pm_plan_steps(f, p) : p->scales.time / fabs(dt);
-	return 2 * part * (isfinite(known) ? known : 5000 /* a guess, of a sentence that chooses its steps */) * pm_edit_cost(&e, f, p) < budget;
+	return 2 * part * (isfinite(known) ? known : 5000 /* a guess, of a sentence that chooses its steps */) * pm_edit_cost(&e, x, p) < budget;
 }
 
 /* One piece of both runs; x and y are replaced by their ends. */
@@ -72,7 +72,7 @@ int pm_plan_digits(const struct pm_frame *f, struct pm_plan *p)
 	p->refused[0] = 0;
 	if (!may_part(p))
 		return 0;
-	if (!affordable(f, p, 1)) {
+	if (!affordable(f, f, p, 1)) {
 		snprintf(p->unproved, sizeof p->unproved,
 			"single orbits may part: sqrt(4 pi G rho) T = %.2g; two runs are too long to test it here (the word digits does)",
 			p->scales.omega * p->scales.time);
@@ -95,7 +95,7 @@ int pm_plan_digits(const struct pm_frame *f, struct pm_plan *p)
 			break;
 		}
 		held = status ? held : x->time;
-		if (!status && k < PIECES && !affordable(x, p, 1 - (double)k / PIECES)) {
+		if (!status && k < PIECES && !affordable(f, x, p, 1 - (double)k / PIECES)) {
 			snprintf(p->unproved, sizeof p->unproved, "single orbits may part: two runs agree to t = %.3g, where the mesh has grown so far "
 				"that the rest is too long to test here (the word digits does)", held);
 			break;

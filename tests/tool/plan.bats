@@ -654,3 +654,13 @@ pythagoras() {
 	grep -q '^subgrid .*subgrid: on, .* (by hand)$' text
 	grep -q '^remesh ' text
 }
+
+@test "point vortices in a row: pairs where a mesh softens by another law, or where they cost less" {
+	pinit vortex-sheet | plan --no-cost >text 2>said
+	grep -q '^pp .*pair by pair: the softening is that of a row, a mesh differs by 0.04;' text
+	[ "$(grep -c 'may part' text)" = 0 ] # two runs of 100 steps are short
+	pinit vortex-sheet -n 2000 --smoothing 0.25 | plan --sentence --no-cost 2>/dev/null | grep -q '^pp |'
+	pinit vortex-sheet -n 2000 --smoothing 0.05 | plan --sentence --no-cost 2>/dev/null | grep -q 'p2m .* | poisson-fft --green plummer'
+	pinit vortex-sheet --smoothing 0.05 | plan --sentence --no-cost 2>/dev/null | grep -q '^pp |' # by cost
+	pinit vortex-sheet | smod --faces periodic | plan --sentence --no-cost 2>/dev/null | grep -q 'poisson-fft' # no sum over the images of two axes
+}
