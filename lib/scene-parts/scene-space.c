@@ -24,7 +24,7 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 	const size_t across = points[1] > 2 * from[1] ? points[1] - 2 * from[1] : 0, up = points[2] > 2 * from[2] ? points[2] - 2 * from[2] : 0;
 	pm_scene_rows_here(across * up, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
-		if (fill && pm_scene_vortex_inside(largest, margin))
+		if (fill && pm_scene_vortex_inside(c, largest, margin))
 			return pm_failed();
 		if (fill && pm_scene_vortex_set(f, 3, n, volume, x, alpha))
 			return -PM_DATA;

@@ -25,7 +25,7 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 	const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	pm_scene_rows_here(points[1] > 2 * from ? points[1] - 2 * from : 0, &first, &end);
 	for (int fill = 0; fill < 2; fill++) {
-		if (fill && from && pm_scene_vortex_inside(largest, margin))
+		if (fill && from && pm_scene_vortex_inside(c, largest, margin))
 			return pm_failed();
 		if (fill && pm_scene_vortices(f, n, m->h[0] * m->h[1], &v))
 			return -PM_DATA;
