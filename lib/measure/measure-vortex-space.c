@@ -6,6 +6,8 @@
  * A ring: its axis n is the direction of the impulse I; position = sum (x . n) w/sum w, w = 1/2 (x x alpha) . n; circulation 1/(2 pi) sum alpha_phi/r
  * about the axis through the centre of |alpha|; radius sqrt(|I|/(pi circulation)). Its wave m: amplitude of the core's displacement from the axis,
  * 2 sum W r exp(-i m phi)/sum W, W = alpha_phi/r: a where the core is at r = R + a cos(m phi).
+ * Waves of a tube along the only periodic axis n, of length L, with X and Y across it: 2 sum alpha_n (X + i Y) exp(-2 pi i m n/L)/sum alpha_n: a exp(i theta)
+ * where the axis is displaced by a cos(2 pi m n/L) in the plane at theta; its phase turns with that plane.
  * Its speed, from the velocities of its particles (the change vel): the rate of position, with dw/dt = 2 w u_r/r, since alpha_phi goes as r when circulation
  * is kept: sum of w (u . n + 2 (x . n - position) u_r/r) over sum w. So it is of rings round the axis without swirl (Helmholtz 1858; Saffman 1992, 10.2).
  * Missing quantities are NAN. Sums are compensated and serial, so that threads do not matter. Cost N and points of the mesh.
@@ -57,7 +59,9 @@ struct vortices {
 	const struct pm_field *at, *strength, *vel; /* vel: of a ring; NULL: none */
 	const double *centre, *axis; /* of a ring */
 	const double *from, *quarter; /* unit vectors across the axis: phi = 0 and a quarter of a turn on */
-	int mode;                    /* waves around it */
+	int mode;                    /* waves around it, or along a tube */
+	int along;                   /* axis of a tube */
+	double period;
 };
 
 static void make_sums(const void *data, size_t from, size_t to, void *part)
@@ -129,6 +133,49 @@ static void make_wave(const void *data, size_t first, size_t to, void *part)
 	}
 }
 
+/* Sums of alpha along the tube, and of alpha (X + i Y) exp(-i m k n) */
+static void make_bend(const void *data, size_t first, size_t to, void *part)
+{
+	const struct vortices *v = data;
+	struct pm_sum *wave = part;
+	const double *x = pm_in(v->at, (v->along + 1) % 3), *y = pm_in(v->at, (v->along + 2) % 3), *n = pm_in(v->at, v->along);
+	const double *alpha = pm_in(v->strength, v->along);
+	for (size_t i = first; i < to; i++) {
+		const double angle = 2 * pm_pi * v->mode * (n[i] / v->period), c = cos(angle), s = sin(angle);
+		pm_sum_add(&wave[0], alpha[i]);
+		pm_sum_add(&wave[1], alpha[i] * (x[i] * c + y[i] * s));
+		pm_sum_add(&wave[2], alpha[i] * (y[i] * c - x[i] * s));
+	}
+}
+
+/* The sums of a wave over all sets: 2 (wave[1] + i wave[2])/wave[0]. */
+static void wave_of(const struct pm_measure *how, const struct pm_frame *f, struct vortices *v, void (*make)(const void *, size_t, size_t, void *),
+	double mode[2])
+{
+	const struct pm_parts parts = {.size = 3 * sizeof(struct pm_sum), .make = make, .join = pm_join_sums};
+	struct pm_sum wave[3] = {0};
+	for (size_t i = 0; i < f->nsets; i++) {
+		v->at = pm_frame_field(f, f->sets[i]->name, "x"), v->strength = pm_frame_field(f, f->sets[i]->name, how->strength);
+		if (counts(how, f, f->sets[i]))
+			pm_over_stretches(v->at, &parts, v, wave);
+	}
+	for (int c = 0; c < 2; c++)
+		mode[c] = 2 * pm_sum_total(wave[1 + c]) / pm_sum_total(wave[0]);
+}
+
+static void tube_waves(const struct pm_measure *how, const struct pm_frame *f, struct pm_measures *m)
+{
+	int along = -1;
+	for (int d = 0; d < 3; d++) {
+		if (f->face[d][0] == PM_PERIODIC)
+			along = along < 0 ? d : 3;
+		else if (f->face[d][0] != PM_OPEN || f->face[d][1] != PM_OPEN)
+			return;
+	}
+	for (int k = 0; k < how->nring_modes && along >= 0 && along < 3; k++)
+		wave_of(how, f, &(struct vortices){.mode = how->modes[k], .along = along, .period = f->hi[along] - f->lo[along]}, make_bend, m->mode[k]);
+}
+
 static void ring_waves(const struct pm_measure *how, const struct pm_frame *f, const double centre[3], const double axis[3], struct pm_measures *m)
 {
 	double from[3] = {0}, quarter[3];
@@ -141,17 +188,8 @@ static void ring_waves(const struct pm_measure *how, const struct pm_frame *f, c
 	for (int d = 0; d < 3; d++)
 		from[d] /= size;
 	cross(axis, from, quarter);
-	for (int k = 0; k < how->nring_modes; k++) {
-		const struct pm_parts parts = {.size = 3 * sizeof(struct pm_sum), .make = make_wave, .join = pm_join_sums};
-		struct pm_sum wave[3] = {0};
-		for (size_t i = 0; i < f->nsets; i++) {
-			const struct pm_field *at = pm_frame_field(f, f->sets[i]->name, "x"), *q = pm_frame_field(f, f->sets[i]->name, how->strength);
-			if (counts(how, f, f->sets[i]))
-				pm_over_stretches(at, &parts, &(struct vortices){at, q, NULL, centre, axis, from, quarter, how->modes[k]}, wave);
-		}
-		for (int c = 0; c < 2; c++)
-			m->mode[k][c] = 2 * pm_sum_total(wave[1 + c]) / pm_sum_total(wave[0]);
-	}
+	for (int k = 0; k < how->nring_modes; k++)
+		wave_of(how, f, &(struct vortices){.centre = centre, .axis = axis, .from = from, .quarter = quarter, .mode = how->modes[k]}, make_wave, m->mode[k]);
 }
 
 static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3],
@@ -284,7 +322,7 @@ int pm_vortex_space_of(const struct pm_measure *how, const struct pm_frame *f, s
 		m->value[PM_ANGULAR_IMPULSE_OF + d] = pm_sum_total(s.angular[d]);
 	}
 	if (any)
-		of_ring(how, f, &s, m);
+		of_ring(how, f, &s, m), tube_waves(how, f, m);
 	for (size_t i = 0; i < f->nmeshes && !omega; i++)
 		omega = pm_frame_field(f, f->meshes[i]->name, how->density);
 	if (!omega || omega->components != 3)

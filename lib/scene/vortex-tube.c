@@ -3,7 +3,7 @@
  * which has no divergence. For k A and k a << 1 the plane of the wave turns, against the sense of the vortex, as Kelvin's slowest bending wave:
  *   Omega = Gamma k^2/(4 pi) (ln(2/(k a)) - gamma + C), gamma Euler's constant, C = (gamma - ln 2)/2 of a Gaussian core (1/4 of Kelvin's uniform one).
  * Source: Thomson (Kelvin) 1880, Phil. Mag. 10, 155; Saffman 1992, sections 11.2 and 12.1. Exact: the total (0, 0, Gamma 2 pi/k), helicity 0; to the order
- * named, without viscosity, rate = -Omega. Cost: nodes of the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
+ * named, without viscosity, rate = -Omega, and of mode 1 omega = |Omega| and gamma = 0. Cost: nodes of the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "scene-parts/scene-space.h"
@@ -50,9 +50,10 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		return 0;
 	if (!strcmp(quantity, "alpha_z"))
 		return gamma * 2 * pm_pi / k;
-	if (!strcmp(quantity, "rate") && pm_frame_parameter(f, "nu", 0) == 0)
-		return -gamma * k * k / (4 * pm_pi) * (log(2 / ka) - euler + (euler - log(2)) / 2);
-	return NAN;
+	const double rate = -gamma * k * k / (4 * pm_pi) * (log(2 / ka) - euler + (euler - log(2)) / 2);
+	if (pm_frame_parameter(f, "nu", 0) != 0)
+		return NAN;
+	return !strcmp(quantity, "rate") ? rate : !strcmp(quantity, "omega") ? fabs(rate) : !strcmp(quantity, "gamma") ? 0 : NAN; /* of mode 1 */
 }
 
 const struct pm_scene scene_vortex_tube = {

@@ -110,6 +110,18 @@ abc_error() {
 	thick=$(calc "$(turned 0.2 40) - 1") thin=$(calc "$(turned 0.1 60) - 1")
 	within "$thin" 0 0.01
 	between "$thick" 0.02 0.04
+	# the same by diag, whose wave of the tube turns in phase; theory as above, 1.032 measured
+	pinit vortex-tube --cells 32x32x8 --amplitude 0.02 --core 0.2 | cycle -n 160 --every 8 "$step" 2>/dev/null >a
+	diag --columns time --modes 1,2 --growth mode:1 --exact <a >d
+	within "$(column mode_1 <d | head -1)" 0.02 1e-7 "k A at the start"
+	below "$(column mode_2 <d | head -1)" 1e-12
+	sed -n 's/^# mode:1 gamma \([^ ]*\) .* omega \([^,]*\),.*; theory: gamma 0 omega \(.*\)$/\1 \2 \3/p' d >fitted
+	read -r gamma omega theory <fitted
+	within "$gamma" 0 0.01 "neutral; the remeshing takes 4 %"
+	within "$(calc "$omega / $theory")" 1.03 0.015
+	# X + i Y = a exp(i z) is twice a wave of one plane
+	pinit vortex-tube --amplitude 0 --cells 32x32x8 | scalc 'x = x + 0.1*cos(z), y + 0.1*sin(z), z' >b
+	within "$(diag --columns time --modes 1 <b | column mode_1)" 0.2 1e-12
 }
 
 @test "the trefoil knot begins with the impulse, helicity and energy of its curve, in order 4, and keeps helicity and energy" {
