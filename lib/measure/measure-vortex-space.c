@@ -188,8 +188,11 @@ static void ring_waves(const struct pm_measure *how, const struct pm_frame *f, c
 	for (int d = 0; d < 3; d++)
 		from[d] /= size;
 	cross(axis, from, quarter);
-	for (int k = 0; k < how->nring_modes; k++)
-		wave_of(how, f, &(struct vortices){.centre = centre, .axis = axis, .from = from, .quarter = quarter, .mode = how->modes[k]}, make_wave, m->mode[k]);
+	struct vortices v = {.centre = centre, .axis = axis, .from = from, .quarter = quarter};
+	for (int k = 0; k < how->nring_modes; k++) {
+		v.mode = how->modes[k];
+		wave_of(how, f, &v, make_wave, m->mode[k]);
+	}
 }
 
 static void add_ring(const struct pm_field *at, const struct pm_field *strength, const double centre[3], const double axis[3],

@@ -397,11 +397,13 @@ load ../helper
 	pinit polygon -n 8 --disturbance 1e-6 | cycle -q -n 300 --every 10 'pp | push rk4' | diag --columns time --modes 4 --growth mode:4 | tail -1 >line
 	within "$(sed 's/.*gamma \([^ ]*\) .*/\1/' line)" "$(calc 'sqrt(32) / (4 * pi)')" 1e-3
 	# and the scenes' own numbers stand beside what is measured, for the wave that they belong to
-	for m in 3 4; do pinit polygon -n 8 --disturbance 1e-6 | cycle -q -n 60 --every 2 'pp | push rk4' | diag --columns time --growth mode:$m --exact | tail -1; done >line
+	pinit polygon -n 8 --disturbance 1e-6 | cycle -q -n 60 --every 2 'pp | push rk4' >frames
+	for m in 3 4; do diag --columns time --growth mode:$m --exact <frames | tail -1; done >line
 	[[ $(tail -1 line) == *"; theory: gamma 0.450158158 "* ]]
 	[[ $(head -1 line) != *theory* ]]
 	for scene in "tanh-layer --cells 32x48;0.189702026" "vortex-sheet -n 64 --cells 32;1.81379936"; do
-		pinit ${scene%;*} | cycle -q -n 30 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk4' | p2m | poisson-fft | mgrad | diag -q --columns time --growth mode:1 --exact | tail -1 >line
+		pinit ${scene%;*} | cycle -q -n 30 --every 1 'p2m | poisson-fft | mgrad | m2p | push rk4' | p2m | poisson-fft | mgrad >frames
+		diag -q --columns time --growth mode:1 --exact <frames | tail -1 >line
 		[[ $(cat line) == *"; theory: gamma ${scene#*;} "* ]]
 	done
 	pinit lamb-oseen --cells 64 --dt 0.05 | cycle -q -n 4 --every 1 'p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh' |

@@ -275,7 +275,8 @@ tables() {
 			OMP_NUM_THREADS=$((1 + n % 2)) on $n scmp -v "$@" <a >table 2>said || got=$?
 			[ "$shared" = no ] || grep -q "ranks share the work" said || { cat said; echo "$n ranks: scmp $* alone"; return 1; }
 			grep -v "ranks share the work" said >left || true
-			{ [ $code = $got ] && cmp want table && cmp message left; } || { diff want table; cat message left; echo "$n ranks: scmp $*"; return 1; }
+			{ [ $code = $got ] && cmp want table && cmp message left; } ||
+				{ diff want table; cat message left; echo "$n ranks: scmp $*"; return 1; }
 		done
 	}
 	for how in "a b" "b a" "--by-index a b" "--set matter a b" "--field rho,x b a" "a a" "ab ba" "- b" "line line" "plane other" "none none"; do
