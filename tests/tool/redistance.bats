@@ -148,3 +148,17 @@ draw() { echo "field 'vel = -sin(pi*x)^2*sin(2*pi*y)*cos(pi*time/$1), sin(pi*y)^
 		1;sel --drop mass | remesh --by volume;no set has positions 'x' and a strength
 	END
 }
+
+@test "level_interface of planes along the mesh is exact wherever they lie, on nodes too, and after rounding; that of Zalesak's slot does not depend on it" {
+	for at in 0.25 0.251 0.2578125 0.26 0.28125 0.3; do # nodes are at 1/32, small cells end at 1/256
+		pinit lattice --dim 2 -n 1024 --cells 32 --spacing 1 | smod --box=0,1 | scalc --role state 'x = x/32, y/32' |
+			scalc --role state "level = max($at - x, x - $at - 0.375)" 'volume = 1/1024' >a
+		within "$(diag --columns level_interface <a | tail -1)" 2 1e-13 "a slab from $at"
+		scalc 'level = level + 1e-17*cos(32*pi*y)' <a | diag --columns level_interface | tail -1 >b
+		within "$(cat b)" 2 1e-13 "a slab from $at, rounded"
+	done
+	for n in 80 100 200; do # the slot's walls are between nodes or on them; its four corners are rounded by half a cell
+		pinit zalesak --cells $n | redistance -q | diag --exact --columns level_interface >b
+		within "$(column level_interface <b)" "$(column exact_level_interface <b)" "$(calc "1.8 / $n")" "$n cells"
+	done
+}
