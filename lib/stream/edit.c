@@ -78,8 +78,10 @@ int pm_frame_store(struct pm_frame *f, const char *choice)
 
 void pm_uniform_scale(struct pm_field *field, double by)
 {
-	for (int i = 0; i < field->components; i++)
+	for (int i = 0; i < field->components; i++) {
 		field->value[i] *= by;
+		field->value[i] = field->type == PM_F32 ? (float)field->value[i] : field->value[i];
+	}
 	pm_field_forget(field);
 }
 

@@ -87,16 +87,36 @@ int pm_field_hold_floats(struct pm_field *field)
 	return 0;
 }
 
+/* One number as doubles, for a stage that takes columns and yet asks for them. */
+static int expand(const struct pm_field *field)
+{
+	struct pm_buffer *b = pm_buffer_new(values(field), sizeof(double), false);
+	double *y = b ? b->data : NULL;
+	if (!b)
+		return -PM_DATA;
+	for (int c = 0; c < field->components; c++)
+		for (size_t i = 0; i < field->count; i++)
+			*y++ = field->value[c];
+	((struct pm_field *)(uintptr_t)field)->buffer = b; /* the values are the same */
+	return 0;
+}
+
+static int bring(const struct pm_field *field)
+{
+	if (!field->buffer)
+		return field->uniform && is_real(field) ? expand(field) : pm_fail(PM_DATA, "the values of '%s' are not here", field->name);
+	return field->buffer->data ? 0 : field->buffer->floats ? widen(field) : pm_buffer_join(field->buffer);
+}
+
 /* The values: in a divided frame this rank's, else all of them, brought together where they are divided. */
 static void *base_of(const struct pm_field *field)
 {
-	struct pm_buffer *b = field->buffer;
-	if (!field->here && !b->data) {
+	if (!field->here && !(field->buffer && field->buffer->data)) {
 #pragma omp critical(pm_join) /* whoever asks first: threads may do so in a loop */
-		if (!b->data && (b->floats ? widen(field) : pm_buffer_join(b)))
+		if (bring(field))
 			pm_cannot_go_on();
 	}
-	return field->here ? b->part : b->data;
+	return field->here ? field->buffer->part : field->buffer->data;
 }
 
 /* All values will change on rank 0. */
@@ -303,7 +323,9 @@ int pm_field_settle(struct pm_field *field)
 	unsigned use = field->use;
 	field->use = 0;
 	const bool rests = field->buffer && pm_field_rests(field);
-	if (rests && field->buffer->data && narrow(field))
+	if (rests && field->uniform) /* its value need not be one that a float has */
+		field->buffer = pm_buffer_free(field->buffer);
+	else if (rests && field->buffer->data && narrow(field))
 		return -PM_DATA;
 	if (!(use & (PM_USE_CHANGE | PM_USE_NEW)) || field->uniform || !is_real(field) || !field->buffer)
 		return 0;

@@ -337,11 +337,12 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 	return PM_GOT_END;
 }
 
-/* f32 is widened to double on the way in; other types are the same in memory and in the stream. */
+/* f32 that is not held as floats is widened to double on the way in; all else is the same in memory and in the stream. */
 static void store(struct item *it, size_t offset, const char *piece, size_t n)
 {
-	char *base = pm_field_bytes(it->field);
-	if (it->type != PM_F32) {
+	float *floats = pm_field_floats(it->field);
+	char *base = floats ? (char *)floats : pm_field_bytes(it->field);
+	if (floats || it->type != PM_F32) {
 		if (piece != base + offset)
 			memcpy(base + offset, piece, n);
 		return;

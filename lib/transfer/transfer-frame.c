@@ -76,26 +76,11 @@ int pm_reads_strength(struct pm_frame *f, const char *set, const char *name)
 	return 0;
 }
 
-static int expand(const struct pm_field *field, const double *q[], double **made)
-{
-	const size_t n = field->count;
-	if (!(*made = pm_alloc(n * (size_t)field->components + 1, sizeof **made)))
-		return -PM_DATA;
-	for (int c = 0; c < field->components; c++) {
-		for (size_t p = 0; p < n; p++)
-			(*made)[(size_t)c * n + p] = field->value[c];
-		q[c] = *made + (size_t)c * n;
-	}
-	return 0;
-}
-
 int pm_strengths(const struct pm_frame *f, const char *set, const char *name, const double *q[], double **made)
 {
 	const struct pm_field *strength = pm_frame_field(f, set, name);
 	size_t n = strength->count;
 	*made = NULL;
-	if (strength->uniform && !strength->buffer) /* of a stage that takes columns */
-		return expand(strength, q, made);
 	for (int c = 0; c < strength->components; c++)
 		q[c] = pm_in(strength, c);
 	if (strength->extensive)

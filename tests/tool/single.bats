@@ -61,3 +61,14 @@ sorted_light() { light "$1" | ssort; }
 	pinit uniform -n 100 --cells 8 | smod --store v=f32 | p2m | poisson-fft | mgrad | m2p | sls | grep -q 'acc *3 f32 change'
 	pinit uniform -n 100 --cells 8 | smod --store x=f32 | p2m | poisson-fft | mgrad | m2p | sls | grep -q 'acc *3 f64 change'
 }
+
+@test "one number for all particles is rounded to f32 by a word that changes it, and is the same for every word after that" {
+	pinit landau --loading bit-reversed -n 500 | smod --no-history --store f32 | smove --no-history --scale charge=1.1,mass=1.1 >scaled
+	sls scaled | grep -q 'charge .* f32 .* uniform'
+	smod --no-history --store f64 scaled | smod --no-history --store f32 | cmp - scaled
+	for engine in fused pipes; do
+		cycle -q --engine $engine --no-history -n 2 --store all "scalc --role state 'k = x*charge' | p2m | poisson-fft | mgrad | m2p | push kick drift" \
+			-i scaled -o "$engine"
+	done
+	cmp fused pipes
+}

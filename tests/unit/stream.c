@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "stream/column.h"
 #include "stream/header.h"
 #include "stream/run.h"
 #include "stream/wire.h"
@@ -182,11 +183,31 @@ static void hostile(void)
 		check(header(bad[i]) == -PM_DATA, "hostile header %zu is refused: %s", i, pm_message());
 }
 
+/* 0.1 is no float. */
+static void one_number_in_f32(void)
+{
+	struct pm_frame *f = pm_frame_new(1);
+	pm_frame_set_new(f, "matter", 5);
+	struct pm_field *q = pm_makes(f, "matter", "charge", 1, PM_STATE);
+	q->type = PM_F32, q->uniform = true, q->value[0] = 0.1;
+	check(!pm_frame_ready(f) && !pm_frame_settle(f), "a field of one number is made");
+	pm_reads(f, "matter", "charge");
+	check(!pm_frame_ready(f) && pm_in(q, 0)[4] == 0.1, "a word that reads it finds the number of the header");
+	check(!pm_frame_settle(f) && !q->buffer, "and leaves no values, rounded, for the next word");
+	pm_reads(f, "matter", "charge")->use |= PM_USE_COLUMNS;
+	check(!pm_frame_ready(f), "a word may take it as a column");
+	const struct pm_column c = pm_column_of(q, 0);
+	check(!c.doubles && !c.floats && c.value == 0.1, "that is the number");
+	check(pm_in(q, 0)[4] == 0.1, "and ask for its values too");
+	pm_frame_settle(f), pm_frame_free(f);
+}
+
 int main(void)
 {
 	round_trip();
 	long_fields();
 	declarations();
 	hostile();
+	one_number_in_f32();
 	return check_done();
 }
