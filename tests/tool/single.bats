@@ -67,7 +67,7 @@ sorted_light() { light "$1" | ssort; }
 	sls scaled | grep -q 'charge .* f32 .* uniform'
 	smod --no-history --store f64 scaled | smod --no-history --store f32 | cmp - scaled
 	for engine in fused pipes; do
-		cycle -q --engine $engine --no-history -n 2 --store all "scalc --role state 'k = x*charge' | p2m | poisson-fft | mgrad | m2p | push kick drift" \
+		cycle -q --engine $engine --no-history -n 2 "scalc --role state 'k = x*charge' | p2m | poisson-fft | mgrad | m2p | push kick drift" \
 			-i scaled -o "$engine"
 	done
 	cmp fused pipes
