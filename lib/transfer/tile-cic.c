@@ -285,8 +285,9 @@ PM_SIMD_INLINE pm_simd value_of(const struct rows *r, const double *from)
 		turn_corners(from, r->at, v);
 	else
 		load_rows(from, r->at, v);
-	const pm_simd below = ((v[0] * r->w[0] + v[2] * r->w[2]) + v[1] * r->w[1]) + v[3] * r->w[3];
-	const pm_simd above = ((v[4] * r->w[0] + v[6] * r->w[2]) + v[5] * r->w[1]) + v[7] * r->w[3];
+	/* 0 +: as the loop begins, so that no sum is -0 */
+	const pm_simd below = ((0 + v[0] * r->w[0] + v[2] * r->w[2]) + v[1] * r->w[1]) + v[3] * r->w[3];
+	const pm_simd above = ((0 + v[4] * r->w[0] + v[6] * r->w[2]) + v[5] * r->w[1]) + v[7] * r->w[3];
 	return below * r->x0 + above * r->x;
 }
 

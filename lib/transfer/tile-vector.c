@@ -98,7 +98,7 @@ pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k)
 
 PM_SIMD_INLINE pm_simd4_at value_by_eight(const double *from, const double w[4], double x)
 {
-	pm_simd8_at rows = *(const pm_simd8_at *)from * w[0];
+	pm_simd8_at rows = 0 + *(const pm_simd8_at *)from * w[0]; /* no sum is -0: see tile-cic.c */
 	rows += *(const pm_simd8_at *)(from + node_row) * w[2];
 	rows += *(const pm_simd8_at *)(from + node_plane) * w[1];
 	rows += *(const pm_simd8_at *)(from + node_plane + node_row) * w[3];
@@ -109,8 +109,8 @@ PM_SIMD_INLINE pm_simd4_at value_by_eight(const double *from, const double w[4],
 PM_SIMD_INLINE pm_simd4_at value_by_four(const double *from, const double w[4], double x)
 {
 	const pm_simd4_at *row = (const pm_simd4_at *)from, *back = row + node_row / 4, *above = row + node_plane / 4, *both = above + node_row / 4;
-	const pm_simd4_at low = ((row[0] * w[0] + back[0] * w[2]) + above[0] * w[1]) + both[0] * w[3];
-	const pm_simd4_at high = ((row[1] * w[0] + back[1] * w[2]) + above[1] * w[1]) + both[1] * w[3];
+	const pm_simd4_at low = ((0 + row[0] * w[0] + back[0] * w[2]) + above[0] * w[1]) + both[0] * w[3];
+	const pm_simd4_at high = ((0 + row[1] * w[0] + back[1] * w[2]) + above[1] * w[1]) + both[1] * w[3];
 	return low * (1 - x) + high * x;
 }
 

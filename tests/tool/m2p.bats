@@ -255,3 +255,14 @@ field_energy() { scalc --set matter "$1" <a | p2m --kernel "$kernel" | poisson-f
 	done
 	same_as 1 3
 }
+
+@test "m2p: no sum of zeros is -0, few particles or many, one component or several" {
+	local n what
+	for n in 3 9000; do
+		for what in "q = -(0*rho)" "q = -(0*rho), -(0*rho), -(0*rho)"; do
+			pinit uniform -n $n --cells 8 | p2m --kernel cic | scalc --mesh mesh "$what" | m2p --kernel cic --field q | stab --plain >table
+			[ "$(wc -l <table)" = $((n + 1)) ]
+			run -1 grep -q -- '-0$' table
+		done
+	done
+}
