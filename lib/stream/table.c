@@ -19,12 +19,13 @@ static const size_t piece_bytes = 1 << 20;
 struct complaint {
 	uint64_t line; /* 0: none */
 	int column, count;
-	enum { COUNT, NUMBER, FINITE, WHOLE, LETTERS, QUOTE } what;
+	enum { COUNT, NUMBER, FINITE, WHOLE, LETTERS, QUOTE, CHANGED } what;
 	char token[32];
 };
 
 struct piece {
 	size_t begin, end, rows; /* rows: of the piece, after the prefix sum of all pieces before it */
+	size_t after;            /* rows of all pieces up to this one */
 	uint64_t lines;
 	bool failed;    /* its text could not be had by one thread of many: the first one tries again, and says why */
 	struct complaint wrong;
@@ -247,6 +248,7 @@ static struct piece *pieces_counted(struct pm_text *t, size_t at, size_t end, si
 		uint64_t l = p[i].lines;
 		p[i].rows = *rows, p[i].lines = *lines;
 		*rows += r, *lines += l;
+		p[i].after = *rows;
 	}
 	return p;
 }
@@ -384,20 +386,29 @@ static bool piece_read(const struct pm_text *t, uint64_t line, int n, const stru
 	for (const char *s = text, *stop = text ? text + (p->end - p->begin) : NULL; s < stop; line++) {
 		const char *e = memchr(s, '\n', (size_t)(stop - s));
 		e = e ? e : stop;
-		if (is_row(s, e) && !(t->csv ? csv_row_read : row_read)(s, e, n, column, row++, &p->wrong)) {
+		const bool more = is_row(s, e) && row == p->after;
+		if (more)
+			p->wrong.what = CHANGED;
+		if (more || (is_row(s, e) && !(t->csv ? csv_row_read : row_read)(s, e, n, column, row++, &p->wrong))) {
 			p->wrong.line = line;
 			break;
 		}
 		s = e + 1;
 	}
+	if (text && row != p->after && !p->wrong.line)
+		p->wrong.what = CHANGED, p->wrong.line = line;
 	pm_free(own);
 	return text;
 }
+
+static int changed(void) { return pm_fail(PM_DATA, "the file has changed while it was read"); }
 
 static int complain(const struct complaint *w, int n, const struct pm_column *column)
 {
 	static const char *const why[] = {"", "is not a number", "is not finite", "is not an integer of 64 bits", "has too many letters",
 		"has quotes that do not end before a comma"};
+	if (w->what == CHANGED)
+		return changed();
 	if (w->what == COUNT)
 		return pm_fail(PM_DATA, "line %lu: %d columns, but the line of names has %d", (unsigned long)w->line, w->count, n);
 	return pm_fail(PM_DATA, "line %lu, column %d '%s': '%s' %s", (unsigned long)w->line, w->column + 1, column[w->column].name, w->token, why[w->what]);
@@ -426,6 +437,9 @@ int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_fra
 	uint64_t line, lines;
 	struct piece *p;
 	status = pieces_here(status, t, end, &p, &n, &rows, &line, &lines);
+	for (int i = 0; i < ncolumns && t->ranks && !status; i++)
+		if (column[i].field && column[i].field->count != (n ? p[n - 1].after : 0))
+			status = changed();
 	status = status ? status : pieces_read(t, t->line + line, n, p, ncolumns, column);
 	pm_free(p);
 	if (t->ranks)
