@@ -259,6 +259,7 @@ tables() {
 	p2m -n 16x17x15 -i box -o a
 	scalc 'v = vx, 1.01*vy, vz + (id == 7777)' 'mass = mass*(1 + 0.1*x)' <box | ssort | p2m -n 16x17x15 -o b
 	scalc --type i64 'id = id == 9000 ? 3 : id == 5 ? 70000 : id' <box | ssort | p2m -n 16x17x15 -o twice
+	scalc --type i64 'id = id == 4096 ? 4095 : id == 8192 ? 8191 : id' <box | ssort | p2m -n 16x17x15 -o border # the two of an id on two ranks
 	scalc --type i64 'id = 13000 - id' <box | p2m -n 16x17x15 -o shifted
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 | p2m -n 33 -o line
 	pinit uniform -n 5000 --dim 2 --faces wall,neumann --particle-faces reflect | p2m -n 33x40 -o plane
@@ -285,7 +286,7 @@ tables() {
 	done
 	scmp --field v a b | awk -F'\t' '$3 == "v" { exit $10 != 7777 }' # the order of b is another one
 	python3 "$top/tests/wire.py" edit box 'put("v", 0, float("nan")); put("x", 12999, float("nan"))' >nan # on the first and the last rank
-	for how in "a twice" "twice a" "twice twice" "a shifted" "a plane" "a line" "--tolerance 1e-3 a b" "box nan" "nan box"; do
+	for how in "a twice" "twice a" "twice twice" "a border" "border a" "a shifted" "a plane" "a line" "--tolerance 1e-3 a b" "box nan" "nan box"; do
 		# shellcheck disable=SC2086
 		compared no $how || return
 		[ -s message ] || { echo "scmp $how has nothing to say"; return 1; }
@@ -312,7 +313,7 @@ tables() {
 	head -c 300000 frame.txt >cut.txt
 	python3 -I -S "$top/tests/nemo.py" f8 >snap
 	: >empty
-	read() { # SHARED OPTION...: the stream, message and code of a run alone
+	text_read() { # SHARED OPTION...: the stream, message and code of a run alone
 		local shared=$1 code=0 got
 		shift
 		stab "$@" -o one 2>want || code=$?
@@ -326,12 +327,12 @@ tables() {
 	}
 	for how in frame.txt two.txt "frame.txt two.txt" plain.txt "plain.txt bodies" names.csv none "--number --skip id --strength vx --dt 0.1 plain.txt"; do
 		# shellcheck disable=SC2086 # words
-		read yes $how || return
+		text_read yes $how || return
 	done
 	stab frame.txt | cmp - frame.pm
 	for how in wrong.txt short.txt cut.txt empty nowhere snap "snap bodies snap"; do
 		# shellcheck disable=SC2086
-		read no $how || return
+		text_read no $how || return
 	done
 	# no rank holds the table of all: text and numbers
 	pinit uniform -n 400000 | stab --plain >large.txt
