@@ -59,6 +59,7 @@ const struct pm_scene scene_lattice = {
 	.dims = 1u << 1 | 1u << 2 | 1u << 3,
 	.dim = 3,
 	.n = 4096,
+	.any_box = true,
 	.parameters = rows,
 	.make = make,
 	.exact = exact,

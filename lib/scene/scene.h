@@ -40,7 +40,7 @@ struct pm_scene {
 	uint64_t n;              /* default, in its default dimension */
 	bool n_fixed;            /* n cannot be changed; with n 0 the particles are nodes of the mesh, whose cells give their number */
 	bool random;             /* depends on the seed */
-	bool any_box;            /* periodic, and right in any box */
+	bool any_box;            /* periodic, and any box may be typed: it fills it, or is placed by who types it */
 	bool shared;             /* several ranks make it together, each its own stretch of the particles (docs/distributed.md) */
 	bool loads;              /* has all loadings, and is quiet by default: PM_LATTICE */
 	const struct pm_scene_parameter *parameters; /* {0} ends */
