@@ -88,8 +88,9 @@ static double most_of_row(int dim, size_t from, size_t n, const double *line, do
 {
 	double here[BLOCK] __attribute__((aligned(64)));
 	pm_simd most = {0};
+	const double *before = line - 1;
 	for (size_t i = 0; i < n; i++)
-		here[i] = fabs(line[i + 1] - line[i - 1]) / apart;
+		here[i] = fabs(before[i + 2] - before[i]) / apart;
 	for (int d = 1; d < dim; d++)
 		for (size_t i = 0; i < n && b->apart[d] > 0; i++)
 			here[i] += fabs(b->above[d][from + i] - b->below[d][from + i]) / b->apart[d];
