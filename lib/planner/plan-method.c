@@ -26,7 +26,7 @@ static double row_period(const struct pm_frame *f, const struct pm_scales *s)
 }
 
 /* pp softens the sum over the row, cosh ky - cos kx + (k delta)^2/2 (Krasny); a mesh adds softened images, cosh k(y^2 + delta^2)^(1/2) - cos kx: near a vortex
- * the two differ by this part. Krasny's sheet with k delta = 0.71 and 0.35 grows 3 and 0.9 % slower by the mesh. */
+ * the two differ by this part. */
 static double row_error(double period, double softening) { return period > 0 ? pow(2 * pm_pi * softening / period, 2) / 12 : 0; }
 
 /* Vortices that represent a field: their volumes fill the mesh. */

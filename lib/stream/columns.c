@@ -50,7 +50,7 @@ struct plan {
 };
 
 /* Groups the columns into fields. */
-static int group(int n, const struct pm_column *column, const struct pm_columns_choice *choice, struct plan *plan)
+static int group(int n, const struct pm_table_column *column, const struct pm_columns_choice *choice, struct plan *plan)
 {
 	for (int i = 0; i < n; i++) {
 		bool whole = among(column[i].name, choice->text);
@@ -105,8 +105,8 @@ static struct pm_field *field_make(struct pm_frame *f, const struct pm_columns_c
 	return field;
 }
 
-static int frame_make(const struct pm_text *t, int n, struct pm_column *column, const struct plan *plan, const struct pm_columns_choice *choice, size_t rows,
-	struct pm_frame *f)
+static int frame_make(const struct pm_text *t, int n, struct pm_table_column *column, const struct plan *plan,
+	const struct pm_columns_choice *choice, size_t rows, struct pm_frame *f)
 {
 	if (!pm_frame_set_new(f, choice->set, rows))
 		return -PM_DATA;
@@ -142,7 +142,7 @@ static int number_rows(const struct pm_text *t, struct pm_frame *f, const char *
 
 int pm_columns_frame(struct pm_text *t, const struct pm_columns_choice *choice, struct pm_frame **f)
 {
-	struct pm_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
+	struct pm_table_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
 	struct plan *plan = pm_zalloc(PM_COLUMNS, sizeof *plan);
 	size_t rows = 0;
 	int n = 0, dim = 0, status = column && plan ? 0 : -PM_DATA;

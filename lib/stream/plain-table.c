@@ -30,7 +30,7 @@ static void coordinates(const struct pm_frame *f, const struct pm_mesh *m, struc
 
 int pm_plain_table_write(FILE *out, bool csv, struct pm_frame *f, const char *on, bool mesh)
 {
-	struct pm_column column[PM_COLUMNS + 3];
+	struct pm_table_column column[PM_COLUMNS + 3];
 	size_t rows = 0;
 	for (size_t i = 0; i < f->nfields; i++)
 		if (!strcmp(f->fields[i]->on, on))
@@ -40,7 +40,7 @@ int pm_plain_table_write(FILE *out, bool csv, struct pm_frame *f, const char *on
 		coordinates(f, pm_frame_mesh(f, on), pm_frame_field(f, on, "x"));
 	if (n < 0)
 		return n;
-	struct pm_column *first = column + 3 - axes;
+	struct pm_table_column *first = column + 3 - axes;
 	memmove(first, column + 3 + n - axes, (size_t)axes * sizeof *column); /* x was made last and comes first */
 	return pm_table_write(out, csv, rows, n, first);
 }

@@ -149,18 +149,18 @@ int pm_text_separator(struct pm_text *t)
 		"point; tr ',;' '.,' where it is written 0,5)") : 0;
 }
 
-static int name_add(const struct pm_text *t, struct pm_column *column, int n, const char *s, size_t length)
+static int name_add(const struct pm_text *t, struct pm_table_column *column, int n, const char *s, size_t length)
 {
 	if (n == PM_COLUMNS || !length || length >= PM_NAME || memchr(s, 0, length))
 		return pm_fail(PM_DATA, "line %lu: column %d has no name of 1 to 63 letters (at most %d columns)", (unsigned long)t->line - 1, n + 1,
 			PM_COLUMNS);
-	column[n] = (struct pm_column){.component = 0};
+	column[n] = (struct pm_table_column){.component = 0};
 	memcpy(column[n].name, s, length);
 	return 0;
 }
 
 /* The names of a line with commas; a name may be in quotes. */
-static int csv_names(const struct pm_text *t, const char *s, const char *e, struct pm_column *column)
+static int csv_names(const struct pm_text *t, const char *s, const char *e, struct pm_table_column *column)
 {
 	int n = 0;
 	for (struct pm_csv_cell cell; s; n++) {
@@ -173,7 +173,7 @@ static int csv_names(const struct pm_text *t, const char *s, const char *e, stru
 	return n;
 }
 
-int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column)
+int pm_text_names(struct pm_text *t, size_t end, struct pm_table_column *column)
 {
 	for (int n = 0; t->at < end;) {
 		size_t stop;
@@ -298,7 +298,7 @@ static bool letters(const struct pm_field *field, size_t row, const char *s, con
 }
 
 /* One value; returns what is wrong with it, or -1. */
-static int value_read(const struct pm_column *c, size_t row, const char *s, const char *e)
+static int value_read(const struct pm_table_column *c, size_t row, const char *s, const char *e)
 {
 	size_t length = (size_t)(e - s);
 	double x;
@@ -346,7 +346,7 @@ static bool csv_letters(const struct pm_field *field, size_t row, const struct p
 	return s >= cell->e;
 }
 
-static bool csv_row_read(const char *s, const char *e, int n, const struct pm_column *column, size_t row, struct complaint *wrong)
+static bool csv_row_read(const char *s, const char *e, int n, const struct pm_table_column *column, size_t row, struct complaint *wrong)
 {
 	int i = 0;
 	for (struct pm_csv_cell cell; s; i++) {
@@ -362,7 +362,7 @@ static bool csv_row_read(const char *s, const char *e, int n, const struct pm_co
 	return i == n;
 }
 
-static bool row_read(const char *s, const char *e, int n, const struct pm_column *column, size_t row, struct complaint *wrong)
+static bool row_read(const char *s, const char *e, int n, const struct pm_table_column *column, size_t row, struct complaint *wrong)
 {
 	int i = 0;
 	for (s = blanks(s, e); s < e; s = blanks(s, e), i++) {
@@ -377,7 +377,7 @@ static bool row_read(const char *s, const char *e, int n, const struct pm_column
 }
 
 /* line: of the first piece here. False: the text could not be had. */
-static bool piece_read(const struct pm_text *t, uint64_t line, int n, const struct pm_column *column, struct piece *p)
+static bool piece_read(const struct pm_text *t, uint64_t line, int n, const struct pm_table_column *column, struct piece *p)
 {
 	char *own;
 	size_t row = p->rows;
@@ -403,7 +403,7 @@ static bool piece_read(const struct pm_text *t, uint64_t line, int n, const stru
 
 static int changed(void) { return pm_fail(PM_DATA, "the file has changed while it was read"); }
 
-static int complain(const struct complaint *w, int n, const struct pm_column *column)
+static int complain(const struct complaint *w, int n, const struct pm_table_column *column)
 {
 	static const char *const why[] = {"", "is not a number", "is not finite", "is not an integer of 64 bits", "has too many letters",
 		"has quotes that do not end before a comma"};
@@ -415,7 +415,7 @@ static int complain(const struct complaint *w, int n, const struct pm_column *co
 }
 
 /* The rows of the pieces here. Of several errors that of the first line is said, whichever rank has it. */
-static int pieces_read(const struct pm_text *t, uint64_t line, size_t n, struct piece *p, int ncolumns, const struct pm_column *column)
+static int pieces_read(const struct pm_text *t, uint64_t line, size_t n, struct piece *p, int ncolumns, const struct pm_table_column *column)
 {
 #pragma omp parallel for schedule(dynamic)
 	for (size_t i = 0; i < n; i++)
@@ -431,7 +431,7 @@ static int pieces_read(const struct pm_text *t, uint64_t line, size_t n, struct 
 	return 0;
 }
 
-int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_frame *f, int ncolumns, const struct pm_column *column)
+int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_frame *f, int ncolumns, const struct pm_table_column *column)
 {
 	size_t n, rows;
 	uint64_t line, lines;
@@ -469,7 +469,7 @@ static void column_name(const struct pm_frame *f, const struct pm_field *field, 
 			*s = '_';
 }
 
-int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column)
+int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_table_column *column)
 {
 	int n = 0;
 	for (size_t i = 0; i < f->nfields; i++) {
@@ -480,7 +480,7 @@ int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column 
 		for (int c = 0; c < (text ? 1 : field->components); c++, n++) {
 			if (n == PM_COLUMNS)
 				return pm_fail(PM_DATA, "'%s' has more than %d columns (leave some out with sel --drop)", on, PM_COLUMNS);
-			column[n] = (struct pm_column){.field = field, .component = c, .text = text};
+			column[n] = (struct pm_table_column){.field = field, .component = c, .text = text};
 			if (text)
 				snprintf(column[n].name, PM_NAME, "%s", field->name);
 			else
@@ -524,7 +524,7 @@ static size_t csv_letters_write(char *out, const struct pm_field *field, size_t 
 	return pm_csv_write(out, text, (size_t)n);
 }
 
-static size_t value_write(char *o, bool csv, const struct pm_column *c, size_t row)
+static size_t value_write(char *o, bool csv, const struct pm_table_column *c, size_t row)
 {
 	const struct pm_field *field = c->field;
 	if (c->text && csv)
@@ -538,7 +538,7 @@ static size_t value_write(char *o, bool csv, const struct pm_column *c, size_t r
 	return pm_decimal_write(o, pm_in(field, c->component)[row], field->type == PM_F32);
 }
 
-static size_t rows_write(char *out, bool csv, size_t first, size_t last, int n, const struct pm_column *column)
+static size_t rows_write(char *out, bool csv, size_t first, size_t last, int n, const struct pm_table_column *column)
 {
 	char *o = out;
 	for (size_t row = first; row < last; row++)
@@ -550,7 +550,7 @@ static size_t rows_write(char *out, bool csv, size_t first, size_t last, int n, 
 }
 
 /* The rows here, as text. */
-static int rows_print(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+static int rows_print(FILE *out, bool csv, size_t rows, int n, const struct pm_table_column *column)
 {
 	enum { blocks = 16 };
 	size_t per = n ? 32768 / (size_t)n : 1, room = per * (size_t)n * (3 * PM_COMPONENTS + 1), length[blocks];
@@ -571,7 +571,7 @@ static int rows_print(FILE *out, bool csv, size_t rows, int n, const struct pm_c
 }
 
 /* The rows of the other ranks, which all make theirs at once; rank 0 writes them rank after rank. */
-static int rows_of_ranks(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+static int rows_of_ranks(FILE *out, bool csv, size_t rows, int n, const struct pm_table_column *column)
 {
 	char *own = NULL;
 	size_t bytes = 0;
@@ -591,7 +591,7 @@ static int rows_of_ranks(FILE *out, bool csv, size_t rows, int n, const struct p
 	return status;
 }
 
-int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_column *column)
+int pm_table_write(FILE *out, bool csv, size_t rows, int n, const struct pm_table_column *column)
 {
 	for (int i = 0; i < n; i++) {
 		char name[2 * PM_NAME + 2];

@@ -10,7 +10,7 @@
 
 enum { PM_COLUMNS = 256 };
 
-struct pm_column {
+struct pm_table_column {
 	char name[PM_NAME];
 	struct pm_field *field; /* NULL: skip the column */
 	int component;
@@ -34,7 +34,7 @@ const char *pm_text_line(struct pm_text *t, size_t at, size_t *end); /* the text
 /* Before a plain table: sets csv by its line of names; refuses semicolons. */
 int pm_text_separator(struct pm_text *t);
 /* The next line that is neither empty nor a comment, split into names; 0 at the end of the text. */
-int pm_text_names(struct pm_text *t, size_t end, struct pm_column *column);
+int pm_text_names(struct pm_text *t, size_t end, struct pm_table_column *column);
 size_t pm_text_line_end(struct pm_text *t, size_t at); /* the newline, or the end of the text */
 /* Of a text that ranks share all call the following with their status and get the agreed one; else a failure is returned as it is. */
 /* Rows between the current position and end. */
@@ -42,11 +42,11 @@ int pm_table_count(int status, struct pm_text *t, size_t end, size_t *rows);
 /* Before it holds data: a field gets as many values as rows will be read here. */
 int pm_table_field(const struct pm_text *t, struct pm_field *field);
 /* Reads the rows that were counted into fields that hold data for them. Errors are reported with line and column. */
-int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_frame *f, int ncolumns, const struct pm_column *column);
+int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_frame *f, int ncolumns, const struct pm_table_column *column);
 
 /* The columns of the fields of `on` without uniform ones: x y z for x, vx vy vz for v, NAME, or NAME_0 NAME_1 ...; all different. Returns their number. */
-int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_column *column);
+int pm_table_columns(const struct pm_frame *f, const char *on, struct pm_table_column *column);
 /* rows: of fields that ranks share those here; then all call, and rank 0 writes. */
-int pm_table_write(FILE *out, bool csv, size_t rows, int ncolumns, const struct pm_column *column);
+int pm_table_write(FILE *out, bool csv, size_t rows, int ncolumns, const struct pm_table_column *column);
 
 #endif

@@ -33,7 +33,7 @@ static int json_write(FILE *out, const char *mark, const json_t *j)
 
 int pm_text_frame_write(FILE *out, struct pm_frame *f)
 {
-	struct pm_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
+	struct pm_table_column *column = pm_alloc(PM_COLUMNS, sizeof *column);
 	json_t *header = pm_header_json(f);
 	const char *on, *kind;
 	int status = column && header ? json_write(out, frame_mark, header) : -PM_DATA;
@@ -102,7 +102,7 @@ static size_t table_end(const struct pm_text *t)
 }
 
 /* Assigns a field to each column; the columns must be exactly those of the header. */
-static int match(const struct pm_text *t, int n, struct pm_column *column, int nwant, const struct pm_column *want)
+static int match(const struct pm_text *t, int n, struct pm_table_column *column, int nwant, const struct pm_table_column *want)
 {
 	for (int i = 0; i < n; i++) {
 		int k = 0;
@@ -141,12 +141,12 @@ static int rows_hold(const struct pm_text *t, struct pm_frame *f, const char *on
 }
 
 /* One table: names and rows into the fields of `on`. column: room for twice PM_COLUMNS. */
-static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, const char *kind, struct pm_column *column)
+static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, const char *kind, struct pm_table_column *column)
 {
 	char mark[PM_NAME + 16];
 	size_t rows, end;
 	uint64_t line = t->line;
-	struct pm_column *want = column + PM_COLUMNS;
+	struct pm_table_column *want = column + PM_COLUMNS;
 	int nwant = pm_table_columns(f, on, want), n;
 	if (nwant <= 0)
 		return nwant;
@@ -165,7 +165,7 @@ static int table_read(struct pm_text *t, struct pm_frame *f, const char *on, con
 
 static int frame_tables(struct pm_text *t, struct pm_frame *f)
 {
-	struct pm_column *column = pm_alloc(2 * PM_COLUMNS, sizeof *column);
+	struct pm_table_column *column = pm_alloc(2 * PM_COLUMNS, sizeof *column);
 	const char *on, *kind;
 	int status = column ? 0 : -PM_DATA;
 	if (!status && starts(t, report_mark)) {

@@ -57,7 +57,6 @@ void pm_tile_order_free(struct pm_tile_order *o);
 void pm_tile_order_spend(struct pm_tile_order *o);
 int pm_tile_order_again(struct pm_tile_order *o, int room);
 static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o->tile && !o->records && !o->floats; }
-static inline size_t pm_tile_order_place(const struct pm_tile_order *o, size_t p) { return o->place ? o->place[p] : p; }
 /* Records of the m particles in order from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order, or stays. Only where values are asked for need those
  * of the order still be there. Of ways a record is: the lower end, the signed length [cells] on each axis, the values. */
 enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */
