@@ -7,16 +7,18 @@
 #include "law/law.h"
 #include "stream/declare.h"
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return c->scales->light ? "the fields of the mesh are those that the particles and light make" : isnan(c->scales->given) ? "none is given" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	const char *missing = lacks(c);
 	const double gain = s->given * s->time, share = gain / (gain + s->v_rms);
-	if (s->light) {
-		pm_effect_off(d, "the fields of the mesh are those that the particles and light make");
-		return;
-	}
-	if (isnan(s->given)) {
-		pm_effect_off(d, "none is given");
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	if (s->given == 0) {
@@ -73,6 +75,7 @@ const struct pm_effect effect_external_field = {
 	.source = "Birdsall and Langdon 1985, section 4-3",
 	.force = true,
 	.decide = decide,
+	.lacks = lacks,
 	.stays = stays,
 	.words = words,
 	.reversible = reversible,

@@ -7,11 +7,17 @@
 #include "law/law.h"
 #include "stream/declare.h"
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return isnan(c->scales->cyclotron) ? "no magnetic field" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
-	if (isnan(s->cyclotron)) {
-		pm_effect_off(d, "no magnetic field");
+	const char *missing = lacks(c);
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	pm_effect_by(d, s, s->cyclotron * s->dt, s->cyclotron * s->time);
@@ -69,6 +75,7 @@ const struct pm_effect effect_magnetic_rotation = {
 	.asked = asked,
 	.done_by = (const char *const[]){"boris", "boris-tan", "relativistic", "vay", "higuera-cary", "landau-lifshitz", NULL},
 	.decide = decide,
+	.lacks = lacks,
 	.stays = stays,
 	.ask = ask,
 	.words = words,

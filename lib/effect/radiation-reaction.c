@@ -21,19 +21,22 @@ static double lost(const struct pm_effect_case *c)
 	return x / (1 + x);
 }
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	const struct pm_scales *s = c->scales;
+	if (!s->second || s->kind != PM_CHARGES)
+		return "no charges move";
+	if (!(time_of(c->frame) > 0))
+		return "the frame has no radiation_time";
+	return isnan(s->c) ? "the frame has no speed of light c" : isnan(s->cyclotron) ? "no magnetic field, which the kick landau-lifshitz needs" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
-	if (!s->second || s->kind != PM_CHARGES) {
-		pm_effect_off(d, "no charges move");
-		return;
-	}
-	if (!(time_of(c->frame) > 0)) {
-		pm_effect_off(d, "the frame has no radiation_time");
-		return;
-	}
-	if (isnan(s->c) || isnan(s->cyclotron)) {
-		pm_effect_off(d, isnan(s->c) ? "the frame has no speed of light c" : "no magnetic field, which the kick landau-lifshitz needs");
+	const char *missing = lacks(c);
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	const double share = lost(c);
@@ -75,6 +78,7 @@ const struct pm_effect effect_radiation_reaction = {
 	.asked = asked,
 	.done_by = (const char *const[]){"landau-lifshitz", NULL},
 	.decide = decide,
+	.lacks = lacks,
 	.ask = ask,
 	.words = words,
 	.reversible = reversible,

@@ -7,16 +7,18 @@
 #include "effect-parts/effect-words.h"
 #include "law/law.h"
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return !c->scales->second ? "the particles have no inertia" : isnan(c->scales->c) ? "the frame has no speed of light c" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	const char *missing = lacks(c);
 	const double beta = s->v_max / s->c;
-	if (!s->second) {
-		pm_effect_off(d, "the particles have no inertia");
-		return;
-	}
-	if (isnan(s->c)) {
-		pm_effect_off(d, "the frame has no speed of light c");
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	pm_effect_by(d, s, beta, beta * beta);
@@ -58,6 +60,7 @@ const struct pm_effect effect_relativity = {
 	.source = "Birdsall and Langdon 1985, section 15-4",
 	.word = "push relativistic/2",
 	.decide = decide,
+	.lacks = lacks,
 	.ask = ask,
 	.words = words,
 	.reversible = reversible,

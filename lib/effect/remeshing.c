@@ -73,12 +73,18 @@ static double distortion(const struct pm_effect_case *c, double steps)
 	return fmax(measured(c, steps), fmax(strain * strain / 16, pow(strain, 10. / 3)));
 }
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return c->scales->kind != PM_VORTICES || isnan(c->scales->overlap) ? "the particles do not carry a field on a lattice" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	const char *missing = lacks(c);
 	const double end = distortion(c, s->time / fabs(s->dt));
-	if (s->kind != PM_VORTICES || isnan(s->overlap)) {
-		pm_effect_off(d, "the particles do not carry a field on a lattice");
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	if (s->pairs || s->singular) {
@@ -146,6 +152,7 @@ const struct pm_effect effect_remeshing = {
 	.replaces = true,
 	.measure = measure,
 	.decide = decide,
+	.lacks = lacks,
 	.ask = ask,
 	.words = words,
 	.reversible = reversible,

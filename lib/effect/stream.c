@@ -8,15 +8,27 @@
 #include "effect-parts/effect-decision.h"
 #include "effect-parts/effect-words.h"
 
-static void decide(const struct pm_effect_case *c, struct pm_decision *d)
+/* [length/time] The stream past the vortices; 0: none. */
+static double speed(const struct pm_effect_case *c)
 {
-	const struct pm_scales *s = c->scales;
 	struct pm_scene_solid b;
 	char text[96];
 	pm_effect_body(c->frame, &b);
-	const double U = pm_effect_stream(c->frame, &b, text);
-	if (s->kind != PM_VORTICES || !(U > 0)) {
-		pm_effect_off(d, s->kind != PM_VORTICES ? "no vorticity" : "none is given (smod --constant stream_x=U)");
+	return pm_effect_stream(c->frame, &b, text);
+}
+
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return c->scales->kind != PM_VORTICES ? "no vorticity" : speed(c) > 0 ? NULL : "none is given (smod --constant stream_x=U)";
+}
+
+static void decide(const struct pm_effect_case *c, struct pm_decision *d)
+{
+	const struct pm_scales *s = c->scales;
+	const double U = speed(c);
+	const char *missing = lacks(c);
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	pm_effect_by(d, s, U, U / (U + s->self));
@@ -43,6 +55,7 @@ const struct pm_effect effect_stream = {
 	.source = "Cottet and Koumoutsakos 2000, section 4.1",
 	.word = "field",
 	.decide = decide,
+	.lacks = lacks,
 	.words = words,
 	.reversible = reversible,
 };

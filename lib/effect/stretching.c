@@ -6,16 +6,18 @@
 #include "effect-parts/effect-words.h"
 #include "law/law.h"
 
+static const char *lacks(const struct pm_effect_case *c)
+{
+	return c->scales->kind != PM_VORTICES ? "no vorticity" : c->scales->dim < 3 ? "2-D" : NULL;
+}
+
 static void decide(const struct pm_effect_case *c, struct pm_decision *d)
 {
 	const struct pm_scales *s = c->scales;
+	const char *missing = lacks(c);
 	const double share = s->strain * s->time;
-	if (s->kind != PM_VORTICES) {
-		pm_effect_off(d, "no vorticity");
-		return;
-	}
-	if (s->dim < 3) {
-		pm_effect_off(d, "2-D");
+	if (missing) {
+		pm_effect_off(d, missing);
 		return;
 	}
 	pm_effect_by(d, s, share, share);
@@ -55,6 +57,7 @@ const struct pm_effect effect_stretching = {
 	.asked = asked,
 	.done_by = (const char *const[]){"stretch", "pp", NULL},
 	.decide = decide,
+	.lacks = lacks,
 	.words = words,
 	.reversible = reversible,
 	.test = test,

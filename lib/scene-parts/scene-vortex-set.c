@@ -63,8 +63,12 @@ static int ready(struct pm_field *p, const uint64_t *from)
 int pm_scene_vortex_inside(const struct pm_scene_choice *c, double largest, double at_the_margin)
 {
 	double all[] = {largest, at_the_margin};
-	const int status = c->box ? pm_world_largest(0, 2, all) : 0;
-	if (status || !c->box || !(all[1] > 1e-3 * all[0]))
+	if (!c->box)
+		return 0;
+	const int status = pm_world_largest(0, 2, all);
+	if (!status && !(all[0] > 0))
+		return pm_fail(PM_USAGE, "no node of this box has vortices of the scene (another --box, or more --cells)");
+	if (status || !(all[1] > 1e-3 * all[0]))
 		return status;
 	return pm_fail(PM_USAGE, "open faces cut this scene: %.2g of its largest vorticity %d cells inside of them (take a larger --box, or more --cells)",
 		all[1] / all[0], PM_SCENE_MARGIN);

@@ -12,7 +12,7 @@ int pm_scene_vortex_box(const struct pm_scene_choice *c, struct pm_frame *f, int
 int pm_scene_vortex_set(struct pm_frame *f, int dim, uint64_t n, double volume, double *x[], double *strength[]);
 /* Behind it, when the arrays are full: these are cut anew, to the stretches of the ranks. 0 or failure, agreed. */
 int pm_scene_vortex_cut(struct pm_frame *f);
-/* Refuses a box given by the user that cuts the scene: largest |omega| of all nodes with vortices, and of those next to the margin. Agreed. */
+/* Refuses a box given by the user that cuts or misses the scene: largest |omega| of all nodes with vortices, and of those next to the margin. Agreed. */
 int pm_scene_vortex_inside(const struct pm_scene_choice *c, double largest, double at_the_margin);
 /* The rows of nodes, 0 <= row < rows, that this rank looks at: from *first to before *end. */
 void pm_scene_rows_here(size_t rows, size_t *first, size_t *end);

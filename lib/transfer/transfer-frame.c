@@ -188,8 +188,14 @@ int pm_mesh_grow(struct pm_frame *f, struct pm_mesh *m, const struct pm_transfer
 		lo[d] = m->lo[d] - (double)below * m->h[d];
 		grown = grown || below || above;
 	}
-	int status = grown ? pm_mesh_regrid(f, m, cells, lo, m->h) : 0;
-	return status ? status : grown;
+	if (!grown)
+		return 0;
+	/* Once more: places on the other side may be rounded to beyond the last ones, seen from the new corner. */
+	int status = pm_mesh_regrid(f, m, cells, lo, m->h);
+	struct pm_transfer larger = *t;
+	larger.grid = pm_grid_of(f, m);
+	status = status ? status : pm_mesh_grow(f, m, &larger, sets);
+	return status < 0 ? status : 1;
 }
 
 const struct pm_kernel *pm_kernel_choose(const char *option, const struct pm_field *field, const struct pm_law *law, const char *otherwise)

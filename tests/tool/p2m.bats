@@ -208,3 +208,13 @@ assert all((f[n]["kernel"], f[n]["interlaced"]) == ("tsc", True) for n in ("rho"
 	m2p --kernel tsc <g >one # as it is, from one mesh
 	run -2 --separate-stderr m2p --kernel interlaced-tsc <g
 }
+
+@test "--outside grow holds particles on the last places of a mesh, where places and spacing are rounded" {
+	for row in "1.344 1.68 50 --rim 2" "1.4166666666666667 1.7 36" "1.848 2.1 100 --rim 3" "1.4784 1.68 50 --rim 1"; do
+		read -r y side cells rim <<<"$row"
+		printf 'x y circulation\n0 %s 1\n0 -%s 1\n' "$y" "$y" | stab - --law vortex --box=-$side,$side -n "$cells" |
+			p2m --kernel m6prime $rim --outside grow >a || { echo "$row"; return 1; }
+		total=$(stab --plain --mesh mesh <a | column omega | awk '{ s += $1 } END { printf "%.17g", s }')
+		within "$(calc "$total * (2 * $side / $cells) ^ 2")" 2 1e-12 "$row" # two charges of 1, on points of 300 times as much
+	done
+}

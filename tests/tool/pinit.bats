@@ -57,6 +57,10 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	done
 	run -2 --separate-stderr pinit wakefield --box=0,1
 	[[ $stderr == "pinit: the fields of the scene wakefield are made for its own box (leave out --box)"* ]]
+	for box in 5,9 0.1,0.2; do
+		run -2 --separate-stderr pinit vortex-ring --box=$box
+		[[ $stderr == "pinit: no node of this box has vortices of the scene (another --box, or more --cells)"* ]]
+	done
 	run -2 --separate-stderr pinit lamb-oseen --box=-0.4,0.4
 	[[ $stderr == "pinit: open faces cut this scene: "*" of its largest vorticity 4 cells inside of them (take a larger --box, or more --cells)"* ]]
 	run -2 --separate-stderr pinit uniform --box 3,1

@@ -649,6 +649,13 @@ pythagoras() {
 		shear-layer --cells 32;penalization;no body in this frame
 		plummer -n 99;penalization;no body in this frame
 		shear-layer --cells 32;subgrid;no vorticity in space on a mesh
+		shear-layer --cells 32;stretching;2-D
+		shear-layer --cells 32;stream;none is given (smod --constant stream_x=U)
+		taylor-green-2d --cells 16;radiation-reaction;no charges move
+		plummer -n 99;relativity;the frame has no speed of light c
+		plummer -n 99;magnetic-rotation;no magnetic field
+		plummer -n 99;remeshing;the particles do not carry a field on a lattice
+		ionic-chain;external-field;none is given
 	END
 	pinit taylor-green-3d --cells 12 --nu 6e-4 | plan -q --on subgrid >text 2>said
 	grep -q '^subgrid .*subgrid: on, .* (by hand)$' text
