@@ -197,9 +197,13 @@ $(bin_dir)/pmpipe: lib/command/pmpipe.sh $(shell_parts)
 		'{ sub(/@SIMD@/, simd); sub(/@LEVELS@/, levels); sub(/@BUILD@/, build); sub(/@LIBRARIES@/, libraries); print }' > $@.part
 	@chmod +x $@.part && mv $@.part $@
 
-# Unit tests and measuring programs link every tool.
-$(unit) $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
+# Measuring programs link every tool; so do the unit tests, from one library that they share: sixty copies of it are 1.5 GB, sanitized 4.
+$(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
+$(B)/libwhole.so: $(lib_obj) $(tool_obj) $(B)/tables/tools.o
+	$(CC) -shared -fopenmp $(CFLAGS) -Wl,-Bsymbolic-functions -o $@ $^ $(LDLIBS_ALL)
+$(unit): $(B)/%: $(B)/%.o $(B)/libwhole.so
+	$(CC) -fopenmp $(CFLAGS) -Wl,-rpath,'$$ORIGIN/../..' -o $@ $^ $(LDLIBS_ALL)
 $(B)/bench/h5-datasets.o: CFLAGS_ALL += $(h5_include)
 $(B)/bench/h5-datasets: LDLIBS_PROGRAM += $(h5_libs)
 # Of the library no more than these loops need: half of it, for a check that is to be quick.
@@ -211,6 +215,7 @@ $(B)/counts.a: $(counts_obj)
 $(B)/bench/counts: $(B)/bench/counts.o $(B)/counts.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 unit: $(unit)
+unit-objects: $(unit:%=%.o)
 benches: $(bench)
 
 demo:
@@ -225,14 +230,16 @@ mutants:
 
 # The sanitizers see the unit tests and the tests that feed the tools what they do not like. Those of gcc and of clang see different things:
 # make asan CC=clang asan_build=build/asan-clang. What clang makes there serves the fuzzers too.
-SANITIZERS = address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANITIZERS = address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1
 SANITIZE = -fsanitize=$(if $(findstring clang,$(CC)),fuzzer-no-link,address),$(SANITIZERS) $(if $(findstring clang,$(CC)),,-Wno-format-truncation)
 asan_tests ?= $(wildcard tests/tool/contract.bats tests/tool/cut-stream.bats tests/tool/examples.bats tests/hard/pipe-contract.bats)
 asan_build ?= build/asan
 # The leak checker of clang 14 crashes where it meets the threads of libomp (Tracer caught signal 11): leaks are looked for by gcc's.
 asan_leaks = $(if $(findstring clang,$(CC)),ASAN_OPTIONS=detect_leaks=0)
+# unit-objects: the unit tests are only compiled, and LEAVE_OUT='.*' keeps them from being run.
+asan_unit ?= unit
 asan:
-	+$(MAKE) B=$(asan_build) OPT=-O1 CFLAGS='$(SANITIZE)' all unit
+	+$(MAKE) B=$(asan_build) OPT=-O1 CFLAGS='$(SANITIZE)' all $(asan_unit)
 	B=$(asan_build) PM_SANITIZED=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0 $(asan_leaks) bash tests/run.sh $(asan_tests)
 # Fuzzing (docs/reliability.md), SECONDS for each harness; FUZZ="reader table" runs these alone. The inputs that were found stay in build/asan-clang/fuzz/.
 fuzz_src := $(sort $(wildcard tests/fuzz/*.c))
@@ -347,6 +354,6 @@ deb-check:
 clean:
 	rm -rf $(B) bin
 
-.PHONY: $(B)/pmpipe.pc all words public unit benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
+.PHONY: $(B)/pmpipe.pc all words public unit unit-objects benches demo check check-long mutants asan fuzz fuzzers valgrind bench counts counts-check \
 	gallery stability atlas hard-cases measure lint man install uninstall deb deb-check clean
 -include $(lib_obj:.o=.d) $(h5_obj:.o=.d) $(tool_obj:.o=.d) $(B)/tools/sh5.d $(unit:=.d) $(bench:=.d) $(fuzzers:=.d)
