@@ -126,8 +126,8 @@ abc_error() {
 
 @test "the trefoil knot begins with the impulse, helicity and energy of its curve, in order 4, and keeps helicity and energy" {
 	points=() points2=()
-	for n in 48 64 80; do
-		pinit trefoil --cells ${n}x${n}x$((n * 5 / 8)) | p2m | poisson-fft | mgrad | diag --exact --columns impulse_z,helicity,energy,divergence >d
+	for n in 48 56 68; do
+		pinit trefoil --cells ${n}x${n}x$((n * 5 / 8)) | tee knot.$n | p2m | poisson-fft | mgrad | diag --exact --columns impulse_z,helicity,energy,divergence >d
 		within "$(calc "$(column impulse_z <d) / $(column exact_impulse_z <d)")" 1 1e-6
 		points+=("$(calc "1 / $n")" "$(calc "sqrt(($(column helicity <d) / $(column exact_helicity <d) - 1) ^ 2)")")
 		points2+=("$(calc "1 / $n")" "$(calc "$(column energy <d) / $(column exact_energy <d) - 1")")
@@ -136,7 +136,7 @@ abc_error() {
 	order 4 "${points[@]}"
 	order 3 "${points2[@]}"
 	step='p2m --kernel m6prime | poisson-fft | mgrad | stretch | m2p | push lsrk3 | remesh --kernel m6prime'
-	pinit trefoil --cells 48x48x30 | cycle -n 6 "$step" 2>/dev/null | p2m --kernel m6prime | poisson-fft | mgrad | diag --exact --columns helicity,energy >d
+	cycle -n 6 "$step" <knot.48 2>/dev/null | p2m --kernel m6prime | poisson-fft | mgrad | diag --exact --columns helicity,energy >d
 	within "$(calc "$(column helicity <d) / $(column exact_helicity <d)")" 1 0.01
 	within "$(calc "$(column energy <d) / $(column exact_energy <d)")" 1 0.01
 }

@@ -3,36 +3,51 @@
 load ../helper
 load words
 
-@test "--help of every tool: its name, its options, its examples, exit 0, nothing on stderr" {
+# What every tool says, once.
+setup_file() {
+	cd "$BATS_FILE_TMPDIR" || return
 	for t in $(tools); do
 		run -0 --separate-stderr "$t" --help
-		[[ $output == "$t: "* && -z $stderr ]] || { echo "$t"; return 1; }
-		while read -r option _; do
-			grep -q -- "$option" <<<"$output" || { echo "$t --help lacks $option"; return 1; }
-		done < <("$t" --complete)
-		while IFS= read -r example; do
-			grep -qF -- "$example" <<<"$output" || { echo "$t --help lacks $example"; return 1; }
-		done < <("$t" --examples)
+		[ -z "$stderr" ] || { echo "$t"; return 1; }
+		echo "$output" >"$t.help"
+		"$t" --complete >"$t.complete"
+	done
+}
+setup() {
+	cd "$BATS_TEST_TMPDIR" || return
+	said=$BATS_FILE_TMPDIR
+}
+
+# lacks TEXT LINES: prints the lines that are nowhere in the text.
+lacks() { awk 'NR == FNR { text = text "\n" $0; next } !index(text, $0)' "$1" "$2"; }
+
+@test "--help of every tool: its name, its options, its examples, exit 0, nothing on stderr" {
+	for t in $(tools); do
+		[[ $(head -n 1 "$said/$t.help") == "$t: "* ]] || { echo "$t"; return 1; }
+		{ cut -d' ' -f1 "$said/$t.complete" && "$t" --examples; } >wanted
+		[ -s wanted ]
+		missing=$(lacks "$said/$t.help" wanted)
+		[ -z "$missing" ] || { echo "$t --help lacks $missing"; return 1; }
 	done
 }
 
 @test "--help: every option has a sentence, and no option is there twice" {
 	for t in $(tools); do
-		[ -z "$("$t" --complete | cut -d' ' -f1 | sort | uniq -d)" ] || { echo "$t: twice"; return 1; }
-		"$t" --help | awk -v t="$t" '/^  (-|   )/ && /--/ && NF < 3 { print t ": " $0; bad = 1 } END { exit bad }'
+		[ -z "$(cut -d' ' -f1 "$said/$t.complete" | sort | uniq -d)" ] || { echo "$t: twice"; return 1; }
+		awk -v t="$t" '/^  (-|   )/ && /--/ && NF < 3 { print t ": " $0; bad = 1 } END { exit bad }' "$said/$t.help"
 	done
 }
 
 @test "--help writes options the same way in every tool: -x, --name or --name" {
 	for t in $(tools); do
-		! "$t" --help | sed -n '/^options/,/^examples/p' | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' ||
+		! sed -n '/^options/,/^examples/p' "$said/$t.help" | grep -E '^  .*--' | grep -vE '^  (-[a-zA-Z], |    )--[a-z]' | grep -vE '^ {20}' ||
 			{ echo "$t"; return 1; }
 	done
 }
 
 @test "--help: no letter stands for two options" {
 	for t in $(tools); do
-		[ -z "$("$t" --help | grep -oE '^  -[a-zA-Z],' | sort | uniq -d)" ] || { echo "$t"; return 1; }
+		[ -z "$(grep -oE '^  -[a-zA-Z],' "$said/$t.help" | sort | uniq -d)" ] || { echo "$t"; return 1; }
 	done
 }
 
@@ -42,9 +57,8 @@ load words
 		run mandoc -T lint -W warning "$t.1"
 		[ -z "$output" ] || { echo "$output"; return 1; }
 		mandoc -T utf8 "$t.1" | sed 's/.\x08//g; s/‐/-/g' >text
-		while read -r option _; do
-			grep -q -- "$option" text || { echo "$t.1 lacks $option"; return 1; }
-		done < <("$t" --complete)
+		missing=$(cut -d' ' -f1 "$said/$t.complete" | lacks text -)
+		[ -z "$missing" ] || { echo "$t.1 lacks $missing"; return 1; }
 	done
 }
 
@@ -57,7 +71,7 @@ load words
 
 @test "the same option word means the same kind of value in every tool" {
 	for t in $(tools); do
-		"$t" --help | awk -v t="$t" '/^  (-|   )/ && match($0, /--[a-z0-9-]+( [A-Z][A-Z,.]*)?/) { print substr($0, RSTART, RLENGTH), t }'
+		awk -v t="$t" '/^  (-|   )/ && match($0, /--[a-z0-9-]+( [A-Z][A-Z,.]*)?/) { print substr($0, RSTART, RLENGTH), t }' "$said/$t.help"
 	done | sort -u >all
 	# Words that rightly differ: cycle --plan is not the --plan of transforms. pareto is about runs, not frames: its --time is a clock, its --size one of
 	# its names, its --axes those of its picture, and in pinit they are those of a wave. pinit --mode counts

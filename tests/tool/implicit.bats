@@ -80,16 +80,14 @@ after() {
 }
 
 @test "equal bytes by Newton's method: stiff rates of three values, two sets with different numbers of them, any engine, threads, resumed" {
-	seq 5000 | awk 'BEGIN { print "x y z vx vy vz" } { print $1 / 5000, 1, 0, 0, 1 / $1, 0 }' | stab - --law free --dt 0.3 --set a --no-history >a
+	seq 4200 | awk 'BEGIN { print "x y z vx vy vz" } { print $1 / 4200, 1, 0, 0, 1 / $1, 0 }' | stab - --law free --dt 0.3 --set a --no-history >a
 	seq 50 | awk 'BEGIN { print "x y z" } { print 1, $1 / 50, 0 }' | stab - --law free --dt 0.3 --set b --no-history >b
 	stack --no-history a b >now
 	words="field --set a 'acc = -30*vx - x - 100*x^3, -1e3*vy^3, -vz' | field --set b 'vel = -1e3*x*y, -1e3*y^3 - z, 10*y' | push implicit-euler"
 	cycle -q --no-history -n 3 "$words" <now >want
-	for threads in 1 3; do
-		for engine in fused pipes; do
-			OMP_NUM_THREADS=$threads cycle -q --no-history -n 3 --engine $engine "$words" <now >got
-			same_as want got
-		done
+	for way in "1 fused" "3 fused" "3 pipes"; do
+		OMP_NUM_THREADS=${way% *} cycle -q --no-history -n 3 --engine ${way#* } "$words" <now >got
+		same_as want got
 	done
 	cycle -q --no-history -n 1 --checkpoint c "$words" <now >got
 	cycle -q --no-history -n 3 --resume c "$words" >got
