@@ -63,6 +63,14 @@ static void reconsider(const struct pm_effect_case *c, struct pm_decision *d)
 	snprintf(d->text + at, sizeof d->text - at, ", but m2p wants %s beside %s", c->law->field, c->law->magnetic);
 }
 
+/* E and B of a mesh are gathered by the m2p that these words bring. */
+static void stays(const struct pm_effect_case *c, char why[160])
+{
+	if (c->scales->light)
+		snprintf(why, 160, "light is in the frame, and would stand still (sel --drop %s,%s | smod --law free goes on without fields)", c->law->field,
+			c->law->magnetic);
+}
+
 /* The option of p2m for more cells, or for a separate mesh. */
 static void cells(const struct pm_effect_case *c, const char *own, char text[64])
 {
@@ -157,6 +165,7 @@ const struct pm_effect effect_self_field = {
 	.force = true,
 	.decide = decide,
 	.reconsider = reconsider,
+	.stays = stays,
 	.ask = ask,
 	.words = words,
 	.reversible = reversible,

@@ -497,6 +497,9 @@ error() { scmp --field "$1" --set "$2" "$3" "$4" | column relative_l2; }
 	[[ $output == *"smod --faces open"* ]]
 	run -2 plan --off magnetic-rotation < <(pinit exb)
 	[[ $output == *"sel --drop B"* ]]
+	pinit whistler --cells 8 -n 64 >light
+	run -2 plan --off self-field <light
+	[[ $output == *"--off self-field: light is in the frame"*"sel --drop E,B | smod --law free"* ]]
 	run -2 plan --on diffusion --off diffusion < <(pinit exb)
 	run -2 plan -n 3 < <(pinit exb)
 	run -1 plan -t -1 < <(pinit exb)
