@@ -73,21 +73,32 @@ static int check(struct pm_comparison *c, struct pm_frame *f)
 	return status;
 }
 
-static int read_both(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *const f[2])
+/* failed: which of the two could not be read, where one could not. */
+static int read_both(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *const f[2], int *failed)
 {
 	int status = 0;
 	for (int i = 0; i < 2 && !status; i++) {
+		*failed = i;
 		status = pm_world_size() == 1 ? pm_read_declared(r[i], f[i]) : pm_read_by_ranks(r[i], f[i]);
 		status = status || pm_world_size() == 1 ? status : check(c, f[i]);
 	}
 	return status;
 }
 
-static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *f[2])
+/* Puts the file and frame in front of the message of the failure. */
+static int at_frame(const struct pm_comparison *c, const char *stream, int status)
+{
+	char why[1024];
+	snprintf(why, sizeof why, "%s", pm_message());
+	return pm_fail(-status, "frame %llu%s%s: %s", (unsigned long long)c->frame, *stream ? " of " : "", stream, why);
+}
+
+static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct pm_frame *f[2], const char *const name[2])
 {
 	struct pm_field_pairs p;
-	int status = pm_field_pairs_of(&c->choice, f[0], f[1], &p);
-	status = status ? status : read_both(c, r, f);
+	int status = pm_field_pairs_of(&c->choice, f[0], f[1], &p), failed = 0;
+	if (!status && (status = read_both(c, r, f, &failed)))
+		return at_frame(c, name[failed], status);
 	if (!status && !c->choice.fields[0] && !c->choice.on[0]) {
 		double dt = fabs(f[0]->time - f[1]->time), relative = dt == 0 ? 0 : dt / fabs(f[1]->time);
 		struct pm_norms d = {dt, dt, dt, relative, relative, 0, 0};
@@ -98,7 +109,7 @@ static int compare(struct pm_comparison *c, struct pm_reader *const r[2], struct
 			n++;
 		status = rows(c, f, &p, first, n);
 	}
-	return status;
+	return status ? at_frame(c, "", status) : 0;
 }
 
 /* The next frame, across the end markers of concatenated streams; 0 at the end of the input. */
@@ -109,14 +120,6 @@ static int next(struct pm_reader *r, struct pm_frame **f)
 		got = pm_read_header(r, f);
 	while (got == PM_GOT_END);
 	return got;
-}
-
-/* Puts the file and frame in front of the message of the failure. */
-static int at_frame(const struct pm_comparison *c, const char *stream, int status)
-{
-	char why[1024];
-	snprintf(why, sizeof why, "%s", pm_message());
-	return pm_fail(-status, "frame %llu%s%s: %s", (unsigned long long)c->frame, *stream ? " of " : "", stream, why);
 }
 
 int pm_compare_streams(struct pm_comparison *c, struct pm_reader *const r[2], const char *const name[2])
@@ -131,8 +134,8 @@ int pm_compare_streams(struct pm_comparison *c, struct pm_reader *const r[2], co
 		if (!status && got[0] != got[1])
 			status = pm_fail(PM_DATA, "'%s' ends after %llu frames, '%s' has more", name[got[0] != 0], (unsigned long long)c->frame - 1,
 				name[got[0] == 0]);
-		if (!status && got[0] && (status = compare(c, r, f)))
-			status = at_frame(c, "", status);
+		if (!status && got[0])
+			status = compare(c, r, f, name);
 		pm_frame_free(f[0]), pm_frame_free(f[1]);
 	}
 	if (!status)

@@ -123,6 +123,10 @@ row() { awk -F'\t' -v f="$1" '$3 == f'; }
 @test "a truncated, empty or missing input is exit 1; - given twice is exit 2" {
 	pinit plummer -n 100 >a; head -c 3000 a >cut; : >empty
 	for bad in cut empty /nonexistent; do run -1 scmp a $bad; run -1 scmp $bad a; done
+	run -1 --separate-stderr scmp cut a
+	[[ "$stderr" = "scmp: frame 1 of cut: the input ends in the data: "* ]]
+	run -1 --separate-stderr scmp a cut
+	[[ "$stderr" = "scmp: frame 1 of cut: the input ends in the data: "* ]]
 	run -2 scmp - - <a
 	run -2 scmp a
 	run -1 bash -c 'scmp a a >/dev/full'
