@@ -289,6 +289,13 @@ static void place(const struct pm_field *field, int code, int c, size_t i)
 		pm_world_place(code == PM_DATA ? 1 : 3, code == PM_DATA ? field->order : 255 - field->order, c, field->first + i);
 }
 
+static const char *remedy(const struct pm_field *field, int code)
+{
+	if (code == PM_DATA)
+		return "made by an earlier word; sel --drop removes the field";
+	return field->type == PM_F32 ? "f32 ends at 3.4e38: smod --store f64, or a smaller dt, or a larger softening" : "a smaller dt, or a larger softening";
+}
+
 /* The place of the first value that is not finite; called only if there is one. */
 static int not_finite(const struct pm_field *field, int code)
 {
@@ -296,8 +303,7 @@ static int not_finite(const struct pm_field *field, int code)
 		for (size_t i = 0; i < field->count; i++)
 			if (!isfinite(pm_in(field, c)[i]))
 				return place(field, code, c, i), pm_fail(code, "'%s' of '%s' is not finite: component %d, index %zu (%s)", field->name,
-					field->on, c, (size_t)field->first + i, code == PM_DATA ? "made by an earlier word; sel --drop removes the field" :
-					"a smaller dt, or a larger softening");
+					field->on, c, (size_t)field->first + i, remedy(field, code));
 	return 0;
 }
 

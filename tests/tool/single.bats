@@ -72,3 +72,13 @@ sorted_light() { light "$1" | ssort; }
 	done
 	cmp fused pipes
 }
+
+@test "what is beyond the range of f32 is refused, with the word that stores f64" {
+	pinit uniform -n 10 | scalc 'q = 1e30*x' >wide
+	run -3 --separate-stderr smod --store f32 < <(scalc 'q = 1e30*q' <wide)
+	[[ "$stderr" = "smod: frame 1: 'q' of 'matter' is not finite: component 0, index 0 (f32 ends at 3.4e38: smod --store f64"* ]]
+	run -3 --separate-stderr scalc 'q = 1e30*q' < <(smod --store f32 wide)
+	[[ "$stderr" = *"(f32 ends at 3.4e38: smod --store f64"* ]]
+	run -3 --separate-stderr scalc 'q = 1e300*q' <wide
+	[[ "$stderr" = *"index 0 (a smaller dt, or a larger softening)"* ]]
+}
