@@ -4,6 +4,16 @@ load ../helper
 t() { printf 'x y vx vy mass id\n1 2 3 4 5 6\n-1 0.5 0 0 1 7\n' | stab - --constant G=2.5 --faces periodic --box -4,4 --cells 2 --dt 0.5 --time 3; }
 col() { stab --plain | awk -F'\t' -v n="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == n) c = i; next } { print $c }' | paste -sd' '; }
 
+@test "expressions need little of the stack: a limit of 100 kB is enough" {
+	[ -z "$PM_SANITIZED" ] || skip "a sanitizer needs more"
+	pinit uniform -n 3000 >in
+	for ranks in 1 2; do
+		(ulimit -s 100 && scalc --ranks $ranks --threads 2 'q = x + y*z, max(x, y)' <in >small$ranks)
+		scalc 'q = x + y*z, max(x, y)' <in >free
+		scmp --tolerance 0 small$ranks free
+	done
+}
+
 @test "a field is computed from others, several in the order given" {
 	[ "$(t | scalc 'speed = hypot(vx, vy)' 'e = mass * speed^2 / 2 + G' | col e)" = "65 2.5" ]
 }
