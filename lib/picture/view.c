@@ -290,6 +290,9 @@ static int bring(int status, struct drawn *d)
 	return status;
 }
 
+/* Is this a rank that has counted its points, and leaves the drawing to rank 0? */
+static bool others(const struct drawn *d) { return d->shared && pm_world_rank(); }
+
 static int draw_density(int status, struct pm_view *v, struct pm_plot *p, const struct drawn *d, struct pm_scale *s, size_t *outside)
 {
 	struct pm_raster r = {.value = NULL};
@@ -299,6 +302,10 @@ static int draw_density(int status, struct pm_view *v, struct pm_plot *p, const 
 	const size_t bins[2] = {(size_t)fmax(longer * fmin(aspect, 1), 8), (size_t)fmax(longer / fmax(aspect, 1), 8)};
 	status = d->shared ? pm_world_agree(status) : status;
 	status = status ? status : pm_raster_density(&r, bins, p->lo, p->hi, &points, outside);
+	if (others(d)) {
+		pm_raster_free(&r);
+		return status;
+	}
 	for (size_t i = 0; !status && i < bins[0] * bins[1]; i++)
 		total += r.value[i];
 	double one = n > *outside ? total / (double)(n - *outside) : 1; /* the density of one particle in one bin */
@@ -346,7 +353,7 @@ static int draw_on(struct pm_view *v, struct pm_frame *f, struct pm_plot *p, con
 		if (!status)
 			pm_plot_points(p, n, x, y, n ? extra : NULL, &s, point_radius(v->size, n));
 	}
-	if (status)
+	if (status || (density && others(d)))
 		return status;
 	snprintf(note, sizeof note, outside ? "n = %zu, %zu outside" : "n = %zu", n - outside, outside);
 	title_of(v, f, "", title);
