@@ -26,8 +26,7 @@ static bool open_along(const struct pm_frame *f, int axis)
 	return (f->face[axis][0] == PM_OPEN && f->face[axis][1] == PM_OPEN) || pm_wall_alone(f, axis);
 }
 
-/* The periodic axis of a plane that is open along the other; -1: none. */
-static int periodic_axis(const struct pm_frame *f)
+int pm_pp_periodic_axis(const struct pm_frame *f)
 {
 	for (int a = 0; a < f->dim; a++)
 		if (f->dim == 2 && f->face[a][0] == PM_PERIODIC && open_along(f, !a))
@@ -38,7 +37,7 @@ static int periodic_axis(const struct pm_frame *f)
 static int open_space(const struct pm_frame *f)
 {
 	for (int a = 0; a < f->dim; a++)
-		if (!open_along(f, a) && periodic_axis(f) != a)
+		if (!open_along(f, a) && pm_pp_periodic_axis(f) != a)
 			return pm_fail(PM_DATA, "the box is %s along %c, but pp sums in open space, beside one wall an axis, or in the plane with one periodic "
 				"axis (use p2m | poisson-fft | mgrad | m2p)", pm_face_names[f->face[a][0]], "xyz"[a]);
 	return 0;
@@ -73,7 +72,7 @@ static int method(const struct pm_pp_choice *c, const struct pm_frame *f, const 
 		return pm_fail(PM_DATA, "the mollifier %s is not defined in %d-D (plummer, rankine and gaussian are)", name, f->dim);
 	if (law->vector && !p->mollifier->slope)
 		return pm_fail(PM_DATA, "the mollifier %s has no smoothed velocity gradient, which stretches (gaussian, algebraic)", name);
-	if (periodic_axis(f) >= 0 && !p->mollifier->square)
+	if (pm_pp_periodic_axis(f) >= 0 && !p->mollifier->square)
 		return pm_fail(PM_DATA, "the mollifier %s has no sum over periodic images (krasny and none have)", name);
 	if (p->mollifier->bare && !spreads)
 		return 0;
@@ -183,8 +182,8 @@ int pm_pp_apply(const struct pm_pp_choice *c, struct pm_frame *f, struct pm_pp_d
 	p.sets = b.sets, p.count = b.count, p.own = b.own;
 	if (!status && law->vector)
 		status = vortices(c, &p, &b, &done->coincident);
-	else if (!status && periodic_axis(f) >= 0)
-		status = plane_with_images(&p, f, periodic_axis(f), &b, &done->coincident);
+	else if (!status && pm_pp_periodic_axis(f) >= 0)
+		status = plane_with_images(&p, f, pm_pp_periodic_axis(f), &b, &done->coincident);
 	else if (!status)
 		status = pm_pp_sum(&p, b.targets, b.n, (const double *const *)b.x, b.q, b.gradient, b.potential, &done->coincident);
 	int64_t pairs = (int64_t)done->coincident;

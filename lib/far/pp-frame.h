@@ -16,6 +16,8 @@ struct pm_pp_choice {
 	bool potential, replace;  /* also the potential; the term self anew */
 };
 
+/* The periodic axis of a plane that is open along the other, whose images pp sums; -1: none. */
+int pm_pp_periodic_axis(const struct pm_frame *f);
 /* Each 0 or failure. Header: */
 int pm_pp_declare(const struct pm_pp_choice *c, struct pm_frame *f);
 struct pm_pp_done {

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "effect-parts/effect-decision.h"
+#include "far/pp-frame.h"
 #include "planner/force-error.h"
 #include "planner/plan.h"
 
@@ -17,12 +18,11 @@ double pm_plan_force_seconds(const struct pm_scales *s) { return 1e-9 * (s->pair
 
 static bool all_open(const struct pm_scales *s) { return s->open && !s->periodic && !s->walls; }
 
-/* The period of a plane that is periodic along one axis and open along the other, whose images pp sums for softened point vortices; 0: another box. */
+/* The period of a row of softened point vortices whose images pp sums, without a wall beside it; 0: another box. */
 static double row_period(const struct pm_frame *f, const struct pm_scales *s)
 {
-	const int axis = f->face[0][0] == PM_PERIODIC ? 0 : 1;
-	const bool open = f->dim == 2 && f->face[!axis][0] == PM_OPEN && f->face[!axis][1] == PM_OPEN;
-	return open && f->face[axis][0] == PM_PERIODIC && s->kind == PM_VORTICES ? f->hi[axis] - f->lo[axis] : 0;
+	const int axis = pm_pp_periodic_axis(f);
+	return axis >= 0 && f->face[!axis][0] == PM_OPEN && f->face[!axis][1] == PM_OPEN && s->kind == PM_VORTICES ? f->hi[axis] - f->lo[axis] : 0;
 }
 
 /* pp softens the sum over the row, cosh ky - cos kx + (k delta)^2/2 (Krasny); a mesh adds softened images, cosh k(y^2 + delta^2)^(1/2) - cos kx: near a vortex
