@@ -447,6 +447,9 @@ int pm_table_read(int status, struct pm_text *t, size_t end, const struct pm_fra
 	for (int i = 0; i < ncolumns && t->ranks && !status; i++)
 		if (column[i].field && !column[i].component)
 			status = pm_text_ranks_settle(status, t, f, column[i].field);
+	for (int i = 0; i < ncolumns && t->ranks && status; i++)
+		if (column[i].field && !column[i].component)
+			pm_text_ranks_field_free(column[i].field);
 	t->at = end;
 	t->line += lines;
 	return status;

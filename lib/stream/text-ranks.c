@@ -157,6 +157,20 @@ int pm_text_ranks_marks(struct pm_text *t, bool (*is)(const char *line))
 	return status;
 }
 
+size_t pm_text_ranks_mark(const struct pm_text *t, size_t at)
+{
+	const struct pm_text_ranks *r = t->ranks;
+	size_t low = 0, high = r->nmarks; /* marks below low are not beyond it, from high on they are */
+	while (low < high) {
+		const size_t middle = low + (high - low) / 2;
+		if (r->mark[middle] > at)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return low < r->nmarks ? r->mark[low] : t->size;
+}
+
 int pm_text_ranks_count(int status, struct pm_text *t, size_t *rows, uint64_t *lines, size_t *first, uint64_t *line)
 {
 	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
@@ -186,6 +200,12 @@ int pm_text_ranks_field(const struct pm_text *t, struct pm_field *field)
 		return pm_no_memory();
 	memcpy(from, t->ranks->rows, bytes);
 	return pm_field_enter(field, from);
+}
+
+void pm_text_ranks_field_free(struct pm_field *field)
+{
+	free((uint64_t *)(uintptr_t)field->from);
+	field->from = NULL;
 }
 
 int pm_text_ranks_settle(int status, const struct pm_text *t, const struct pm_frame *f, struct pm_field *field)

@@ -21,9 +21,11 @@ char *pm_text_ranks_piece(const struct pm_text *t, size_t begin, size_t end); /*
 void pm_text_ranks_share(struct pm_text *t, size_t *begin, size_t *end);
 /* Where lines begin that `is` one of interest. */
 int pm_text_ranks_marks(struct pm_text *t, bool (*is)(const char *line));
+size_t pm_text_ranks_mark(const struct pm_text *t, size_t at); /* the first of these beyond there, or the end of the text */
 /* Rows and lines of each rank: *first and *line become what there is before this one, *rows and *lines what all have. */
 int pm_text_ranks_count(int status, struct pm_text *t, size_t *rows, uint64_t *lines, size_t *first, uint64_t *line);
 int pm_text_ranks_field(const struct pm_text *t, struct pm_field *field); /* the rows read here are its values: without a status. 0 or failure */
+void pm_text_ranks_field_free(struct pm_field *field); /* of a table whose reading failed, so that no stage gets it */
 int pm_text_ranks_settle(int status, const struct pm_text *t, const struct pm_frame *f, struct pm_field *field); /* now divided as every field is */
 
 #endif

@@ -92,10 +92,9 @@ int pm_text_frames_index(struct pm_text *t) { return t->ranks ? pm_text_ranks_ma
 /* The next line that starts with one of our marks. */
 static size_t table_end(const struct pm_text *t)
 {
-	for (size_t i = 0; t->ranks && i < t->ranks->nmarks; i++)
-		if (t->ranks->mark[i] > t->at)
-			return t->ranks->mark[i];
-	for (const char *s = t->ranks ? NULL : t->data + t->at; s && (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
+	if (t->ranks)
+		return pm_text_ranks_mark(t, t->at);
+	for (const char *s = t->data + t->at; s && (s = memchr(s, '\n', t->size - (size_t)(s - t->data))); s++)
 		if (is_mark(s + 1))
 			return (size_t)(s + 1 - t->data);
 	return t->size;
