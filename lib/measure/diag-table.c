@@ -139,14 +139,13 @@ static int remember(struct pm_diag_table *t, const double *value, double time)
 	return 0;
 }
 
-/* Of the wave that the scene starts with, where its rate is asked for; `mode` of a scene is the wave that `growth` belongs to. */
+/* Of the wave that the scene starts with, where its rate is asked for; `mode` of a scene is the wave that `gamma` belongs to. */
 static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_scene *scene = t->choice.exact && t->mode >= 0 ? pm_diag_scene(f) : NULL;
 	const double known = scene ? scene->exact(f, "mode", f->time) : NAN, mode = isnan(known) ? pm_frame_parameter(f, "mode", 1) : known;
 	const bool its = scene && t->request.mode[t->mode] == (int)mode;
 	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
-	t->theory[0] = its && isnan(t->theory[0]) ? scene->exact(f, "growth", f->time) : t->theory[0];
 	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
 }
 

@@ -1,7 +1,7 @@
 /* N equal point vortices on a circle (Thomson's polygon) in open space: it turns as a solid body at Omega = (N - 1) Gamma/(4 pi R^2). Disturbances
  * of wave number m grow at sqrt(q (q - 2 (N - 1))) Gamma/(4 pi R^2), q = m (N - m), if that is real: never for N < 7; neutral for N = 7; sqrt(32)
  * = 5.65685 for N = 8. --disturbance moves vortex i outwards by that fraction of R times cos(2 pi m i/N), m = N/2.
- * Source: Thomson 1883; Havelock 1931, Phil. Mag. 11, 617; VM-07 of the reference cases. Exact: circulation, angular_impulse, rate, growth. Cost N.
+ * Source: Thomson 1883; Havelock 1931, Phil. Mag. 11, 617; VM-07 of the reference cases. Exact: circulation, angular_impulse, rate, gamma. Cost N.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -49,9 +49,9 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		return -0.5 * n * gamma * r * r;
 	if (!strcmp(quantity, "rate"))
 		return (n - 1) * unit;
-	if (!strcmp(quantity, "mode")) /* the wave around the circle that grows fastest, whose rate is growth */
+	if (!strcmp(quantity, "mode")) /* the wave around the circle that grows fastest, whose rate is gamma */
 		return m;
-	if (!strcmp(quantity, "growth"))
+	if (!strcmp(quantity, "gamma"))
 		return s > 0 ? sqrt(s) * fabs(unit) : 0;
 	return NAN;
 }

@@ -46,7 +46,7 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	(void)t;
 	if (!strcmp(quantity, "circulation"))
 		return -4 * pm_pi * u / k;
-	for (size_t i = 0; i < sizeof known / sizeof *known && !strcmp(quantity, "growth"); i++)
+	for (size_t i = 0; i < sizeof known / sizeof *known && !strcmp(quantity, "gamma"); i++)
 		if (fabs(k * d - known[i].kd) < 1e-9 && pm_frame_parameter(f, "nu", 0) == 0)
 			return known[i].rate * u / d;
 	return NAN;

@@ -3,7 +3,7 @@
  * which the instability of Kelvin and Helmholtz rolls up. Krasny's delta, by which cosh(2 pi y/L) - cos(2 pi x/L) is increased, is the softening
  * delta L/(2^(1/2) pi). Waves of number m of the flat sheet grow at pi Gamma/L^2 (m exp(-m b) (1 - exp(-m b))/sinh b)^(1/2), cosh b = 1 + delta^2
  * (delta 0: pi m Gamma/L^2); in the wave that grows displacements are in the ratio y/x = -(m exp(-m b) sinh b/(1 - exp(-m b)))^(1/2).
- * Source: Krasny 1986, J. Comput. Phys. 65, 292, and J. Fluid Mech. 167, 65; VM-12 of the reference cases. Exact: circulation, growth (m = 1). Cost n.
+ * Source: Krasny 1986, J. Comput. Phys. 65, 292, and J. Fluid Mech. 167, 65; VM-12 of the reference cases. Exact: circulation, gamma (m = 1). Cost n.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -53,7 +53,7 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	(void)t;
 	if (!strcmp(quantity, "circulation"))
 		return gamma;
-	if (!strcmp(quantity, "growth"))
+	if (!strcmp(quantity, "gamma"))
 		return pm_pi * fabs(gamma) / (L * L) * (b > 0 ? sqrt(exp(-b) * -expm1(-b) / sinh(b)) : 1);
 	return NAN;
 }
