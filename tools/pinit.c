@@ -7,6 +7,7 @@
 #include "scene-parts/scene-box.h"
 #include "scene-parts/scene-loading.h"
 #include "scene-parts/scene-parameters.h"
+#include "scene-parts/scene-vortices.h"
 #include "stage/attribute-options.h"
 
 struct config {
@@ -21,6 +22,7 @@ struct config {
 struct state {
 	const struct pm_scene *scene;
 	struct pm_scene_choice choice;
+	double cut; /* the part of the vorticity that open faces leave out */
 	bool done;
 };
 
@@ -73,6 +75,7 @@ static int begin(struct pm_stage *s)
 		return pm_fail(PM_USAGE, "the scene %s always has -n %d", scene->name, (int)scene->n);
 	if (o->cells.n && pm_cells_for(&o->cells, state->choice.dim, state->choice.cells))
 		return -PM_USAGE;
+	state->choice.cut = &state->cut;
 	state->choice.box = o->box.n > 0;
 	if (o->box.n && pm_attributes_corners(&o->box, state->choice.dim, state->choice.lo, state->choice.hi))
 		return -PM_USAGE;
@@ -84,12 +87,16 @@ static int begin(struct pm_stage *s)
 }
 
 /* Options replace the scene's own box, faces, mesh and step. */
-static int adjust(const struct config *o, const struct state *state, struct pm_frame *f)
+static int adjust(const struct pm_stage *s, const struct config *o, const struct state *state, struct pm_frame *f)
 {
 	struct pm_mesh *m = pm_frame_mesh(f, NULL);
+	const int periods = pm_scene_periods(f);
 	if (pm_scene_box(state->scene, &state->choice, f, o->faces.n > 0) || pm_attributes_faces(f, &o->faces) ||
 		pm_attributes_particle_faces(f, &o->particle_faces) || (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
+	if (pm_scene_periods(f) < periods && !state->scene->random && !o->box.n && state->choice.n)
+		pm_note(s, "the particles of the scene %s repeat in its periodic box: at other faces they have an edge, and what it states as exact does not hold",
+			state->scene->name);
 	for (int d = 0; d < f->dim; d++) {
 		m->lo[d] = f->lo[d];
 		m->h[d] = (f->hi[d] - f->lo[d]) / (double)m->cells[d];
@@ -112,7 +119,10 @@ static int source(struct pm_stage *s, struct pm_frame **out)
 	for (int i = 0; scene->parameters[i].name; i++)
 		pm_frame_parameter_set(f, scene->parameters[i].name, c->value[i]);
 	int status = scene->make(c, f);
-	status = status ? status : adjust(s->config, state, f);
+	if (!status && state->cut > 1e-6)
+		pm_note(s, "open faces leave out %.2g of the vorticity, what is within %d cells of them (more --cells, or a larger --box)", state->cut,
+			PM_SCENE_MARGIN);
+	status = status ? status : adjust(s, s->config, state, f);
 	*out = status ? pm_frame_free(f) : f;
 	return status ? status : 1;
 }

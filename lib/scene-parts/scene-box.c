@@ -30,3 +30,11 @@ int pm_scene_box(const struct pm_scene *scene, const struct pm_scene_choice *c, 
 		return pm_fail(PM_USAGE, "the particles of the scene %s fill its own periodic box (leave out --box)", scene->name);
 	return 0;
 }
+
+int pm_scene_periods(const struct pm_frame *f)
+{
+	int n = 0;
+	for (int d = 0; d < f->dim; d++)
+		n += f->face[d][0] == PM_PERIODIC;
+	return n;
+}

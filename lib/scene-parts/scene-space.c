@@ -18,7 +18,7 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 		from[d] = f->face[d][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
 	double *x[3] = {NULL}, *alpha[3] = {NULL};
 	size_t points[3], n = 0, first, end;
-	double largest = 0, margin = 0;
+	double largest = 0, margin = 0, kept = 0;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
 	const size_t across = points[1] > 2 * from[1] ? points[1] - 2 * from[1] : 0, up = points[2] > 2 * from[2] ? points[2] - 2 * from[2] : 0;
@@ -39,6 +39,7 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 				if (!(size > least))
 					continue;
 				largest = fmax(largest, size);
+				kept += fill ? size : 0;
 				for (int d = 0; d < 3; d++) {
 					const size_t node = d == 0 ? i : d == 1 ? j : k;
 					margin = from[d] && (node == from[d] || node + from[d] + 1 == points[d]) ? fmax(margin, size) : margin;
@@ -49,5 +50,7 @@ int pm_scene_space_vorticity(struct pm_frame *f, void (*omega)(const struct pm_s
 			}
 		}
 	}
-	return pm_scene_vortex_cut(f);
+	const struct pm_scene_omega both = {.space = omega};
+	const int status = pm_scene_vortex_lost(c, f, &both, least, kept, from);
+	return status ? status : pm_scene_vortex_cut(f);
 }

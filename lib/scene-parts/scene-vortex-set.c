@@ -26,6 +26,11 @@ int pm_scene_vortex_box(const struct pm_scene_choice *c, struct pm_frame *f, int
 	return pm_frame_mesh_new(f, "mesh", n) ? 0 : -PM_DATA;
 }
 
+double pm_scene_vortex_cell(const struct pm_scene_choice *c, double length, size_t cells)
+{
+	return (c->box ? c->hi[0] - c->lo[0] : length) / (double)(c->cells[0] ? c->cells[0] : cells);
+}
+
 void pm_scene_rows_here(size_t rows, size_t *first, size_t *end)
 {
 	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
@@ -72,6 +77,50 @@ int pm_scene_vortex_inside(const struct pm_scene_choice *c, double largest, doub
 		return status;
 	return pm_fail(PM_USAGE, "open faces cut this scene: %.2g of its largest vorticity %d cells inside of them (take a larger --box, or more --cells)",
 		all[1] / all[0], PM_SCENE_MARGIN);
+}
+
+static double size_of(const struct pm_scene_choice *c, const struct pm_scene_omega *omega, const double x[3])
+{
+	double w[3] = {0};
+	if (omega->plane)
+		return fabs(omega->plane(c, x[0], x[1]));
+	omega->space(c, x, w);
+	return sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+}
+
+int pm_scene_vortex_lost(const struct pm_scene_choice *c, const struct pm_frame *f, const struct pm_scene_omega *omega, double least, double kept,
+	const size_t margin[3])
+{
+	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
+	size_t n[3], first, end, bytes;
+	double sum[2] = {kept, 0}, *all = NULL; /* of all on rank 0, which speaks */
+	if (!c->cut || !(margin[0] || margin[1] || margin[2]))
+		return 0;
+	pm_mesh_points(f, m, n);
+	pm_scene_rows_here(n[1] * n[2], &first, &end);
+	for (size_t row = first; row < end; row++) {
+		const size_t j = row % n[1], k = row / n[1];
+		const bool outside = j < margin[1] || j + margin[1] >= n[1] || k < margin[2] || k + margin[2] >= n[2];
+		for (size_t i = 0; i < n[0]; i++) {
+			if (!outside && i == margin[0] && n[0] > 2 * margin[0])
+				i = n[0] - margin[0];
+			if (i == n[0])
+				break;
+			const size_t at[3] = {i, j, k};
+			double x[3] = {0};
+			for (int d = 0; d < f->dim; d++)
+				x[d] = m->lo[d] + (double)at[d] * m->h[d];
+			const double size = size_of(c, omega, x);
+			sum[1] += size > least ? size : 0;
+		}
+	}
+	const int status = pm_world_gather(0, sum, sizeof sum, (void **)&all, &bytes);
+	double total[2] = {0};
+	for (size_t r = 0; !status && r < bytes / sizeof sum; r++)
+		total[0] += all[2 * r], total[1] += all[2 * r + 1];
+	*c->cut = total[1] > 0 ? total[1] / (total[0] + total[1]) : 0;
+	pm_free(all);
+	return status;
 }
 
 int pm_scene_vortex_cut(struct pm_frame *f)

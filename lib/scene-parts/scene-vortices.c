@@ -19,7 +19,7 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 	const struct pm_mesh *m = pm_frame_mesh(f, "mesh");
 	struct pm_scene_vortices v = {0};
 	size_t points[3], n = 0, first, end;
-	double largest = 0, margin = 0;
+	double largest = 0, margin = 0, kept = 0;
 	pm_mesh_points(f, m, points);
 	pm_scene_vortex_dt(f, m);
 	const size_t from = f->face[0][0] == PM_PERIODIC ? 0 : PM_SCENE_MARGIN;
@@ -36,6 +36,7 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 				if (!(fabs(w) > least))
 					continue;
 				largest = fmax(largest, fabs(w));
+				kept += fill ? fabs(w) : 0;
 				if (j == from || i == from || j + from + 1 == points[1] || i + from + 1 == points[0])
 					margin = fmax(margin, fabs(w));
 				if (fill)
@@ -43,5 +44,7 @@ int pm_scene_vorticity(struct pm_frame *f, double (*omega)(const struct pm_scene
 				n++;
 			}
 	}
-	return pm_scene_vortex_cut(f);
+	const struct pm_scene_omega both = {.plane = omega};
+	const int status = pm_scene_vortex_lost(c, f, &both, least, kept, (const size_t[3]){from, from, 0});
+	return status ? status : pm_scene_vortex_cut(f);
 }

@@ -21,12 +21,7 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
-/* Side of a cell along x. */
-static double cell(const struct pm_scene_choice *c)
-{
-	const double width = c->box ? c->hi[0] - c->lo[0] : LONG * c->value[DIAMETER];
-	return width / (double)(c->cells[0] ? c->cells[0] : LONG * ACROSS);
-}
+static double cell(const struct pm_scene_choice *c) { return pm_scene_vortex_cell(c, LONG * c->value[DIAMETER], LONG * ACROSS); }
 
 /* A mark of the nodes with particles, whose vorticity is none; small beside the body, so that it counts for nothing at the faces. */
 static double beside(const struct pm_scene_choice *c, double x, double y)

@@ -25,6 +25,7 @@ struct pm_scene_choice { /* the options of pinit, defaults filled in and ranges 
 	bool box;                          /* given: lo to hi */
 	double lo[3], hi[3];
 	double value[PM_SCENE_PARAMETERS]; /* in the order of the rows */
+	double *cut;                       /* out: the part of the sum of |strength| that open faces leave out; NULL: nobody asks */
 };
 
 /* A solid body in the flow, as penalize takes it: its level and its velocity as expressions, the stream past it, and its largest speed along the wall. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene-parts/scene-space.h"
+#include "scene-parts/scene-vortex-set.h"
 #include "stream/declare.h"
 
 enum { SPEED, DIAMETER, NU };
@@ -19,12 +20,7 @@ static const struct pm_scene_parameter rows[] = {
 	{0},
 };
 
-/* Side of a cell along x. */
-static double cell(const struct pm_scene_choice *c)
-{
-	const double width = c->box ? c->hi[0] - c->lo[0] : LONG * c->value[DIAMETER];
-	return width / (double)(c->cells[0] ? c->cells[0] : LONG * ACROSS);
-}
+static double cell(const struct pm_scene_choice *c) { return pm_scene_vortex_cell(c, LONG * c->value[DIAMETER], LONG * ACROSS); }
 
 /* A mark of the nodes with particles, whose vorticity is none; small beside the body, so that it counts for nothing at the faces. */
 static void beside(const struct pm_scene_choice *c, const double x[3], double w[3])

@@ -63,6 +63,16 @@ scenes="cold-collapse cold-sphere exb gyration kepler landau langmuir lattice pa
 	done
 	run -2 --separate-stderr pinit lamb-oseen --box=-0.4,0.4
 	[[ $stderr == "pinit: open faces cut this scene: "*" of its largest vorticity 4 cells inside of them (take a larger --box, or more --cells)"* ]]
+	run -0 --separate-stderr pinit vortex-ring --cells 16
+	[[ $stderr == "pinit: open faces leave out 0.087 of the vorticity, what is within 4 cells of them (more --cells, or a larger --box)" ]]
+	run -0 --separate-stderr pinit --ranks 3 vortex-ring --cells 16
+	[[ $stderr == "pinit: open faces leave out 0.087 of the vorticity, "* ]]
+	for scene in vortex-ring 'vortex-merger --cells 48' 'uniform -n 9 --faces wall'; do
+		run -0 --separate-stderr pinit $scene
+		[ -z "$stderr" ]
+	done
+	run -0 --separate-stderr pinit lattice -n 64 --faces open
+	[[ $stderr == "pinit: the particles of the scene lattice repeat in its periodic box: at other faces they have an edge"* ]]
 	run -2 --separate-stderr pinit uniform --box 3,1
 	[[ $stderr == *"3 is not below 1"* ]]
 	run -2 --separate-stderr pinit uniform --faces wall,wall
