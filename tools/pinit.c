@@ -95,7 +95,7 @@ static int adjust(const struct pm_stage *s, const struct config *o, const struct
 		pm_attributes_particle_faces(f, &o->particle_faces) || (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
 	if (pm_scene_periods(f) < periods && !state->scene->random && !o->box.n && state->choice.n)
-		pm_note(s, "the particles of the scene %s repeat in its periodic box: at other faces they have an edge, and what it states as exact does not hold",
+		pm_note(s, "the particles of the scene %s repeat in its periodic box: at other faces they have an edge, and what it states does not hold",
 			state->scene->name);
 	for (int d = 0; d < f->dim; d++) {
 		m->lo[d] = f->lo[d];

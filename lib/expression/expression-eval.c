@@ -1,5 +1,6 @@
 /* Evaluates a compiled expression: a stack machine whose stack holds blocks of 128 values, so that decoding a step is paid once per block, the loops are
- * vectorised, and a thread with a small stack has room for it (16 kB). Blocks are independent, so threads do not change the result. Cost: about 1 ns a value for arithmetic, 5 to 20 for a function.
+ * vectorised, and a thread with a small stack has room for it (16 kB). Blocks are independent, so threads do not change the result. Cost: about 1 ns a value
+ * for arithmetic, 5 to 20 for a function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

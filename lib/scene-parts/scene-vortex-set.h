@@ -21,7 +21,7 @@ struct pm_scene_omega {
 	double (*plane)(const struct pm_scene_choice *c, double x, double y);
 	void (*space)(const struct pm_scene_choice *c, const double x[3], double w[3]);
 };
-/* c->cut, where it is asked for: of |omega| > least on nodes, `kept` (the sum of this rank) beside what stands within margin[d] nodes of the faces of axis d. */
+/* c->cut, where it is asked for: of |omega| > least on nodes, `kept` (the sum of this rank) beside what is within margin[d] nodes of the faces of axis d. */
 int pm_scene_vortex_lost(const struct pm_scene_choice *c, const struct pm_frame *f, const struct pm_scene_omega *omega, double least, double kept,
 	const size_t margin[3]);
 /* The rows of nodes, 0 <= row < rows, that this rank looks at: from *first to before *end. */

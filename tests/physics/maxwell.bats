@@ -57,8 +57,8 @@ growth() {
 }
 
 @test "PIC-09: the same at vth = 0.05 c, within 5 % of theory that is not relativistic and 3 % of theory that is" {
-	# D(g) = g^2 + k^2 + <(1 - vy^2)/G> + 2 i k <vx vy^2/(G s)> - k^2 <vy^2 (1 - vx^2)/(G s^2)> = 0, s = g + i k vx, G = 1/sqrt(1 - v^2): the linear response of
-	# orbits with u = G v; 0.0806298 by sums over the velocities of the scene, with G = 1 the 0.0828699 of the case
+	# D(g) = g^2 + k^2 + <(1 - vy^2)/G> + 2 i k <vx vy^2/(G s)> - k^2 <vy^2 (1 - vx^2)/(G s^2)> = 0, s = g + i k vx, G = 1/sqrt(1 - v^2): the linear
+	# response of orbits with u = G v; 0.0806298 by sums over the velocities of the scene, with G = 1 the 0.0828699 of the case
 	got=$(growth 50:100 -n 16384 --wave-field 1e-6)
 	within "$got" 0.0828703529 0.0041
 	within "$got" 0.0806298254 0.0024
