@@ -80,7 +80,8 @@ away() {
 		# PM-11, to ten digits; measured 2.3e-10, and 0.015 with a tolerance of 1e-3. The closest approach multiplies rounding by some 1e5.
 		cycle -q -t 20 --exact 'pp | push ias15 --tolerance 1e-10' <a | stab --plain |
 			awk 'BEGIN { split("3.0042926367 0.5119252350 -1.3886265375 -0.4704760503 -0.6916743520 0.0692256992", want, " ") }
-				NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { for (k = 0; k < 2; k++) { d = $c[k ? "y" : "x"] - want[++n]; d = d < 0 ? -d : d
+				NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
+				{ for (k = 0; k < 2; k++) { d = $c[k ? "y" : "x"] - want[++n]; d = d < 0 ? -d : d
 					if (!(d <= m)) m = d } } END { print n == 6 ? m : 1e9 }' >off
 		below "$(cat off)" 1e-8
 		return 0

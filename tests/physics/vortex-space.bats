@@ -127,7 +127,8 @@ abc_error() {
 @test "the trefoil knot begins with the impulse, helicity and energy of its curve, in order 4, and keeps helicity and energy" {
 	points=() points2=()
 	for n in 48 56 68; do
-		pinit trefoil --cells ${n}x${n}x$((n * 5 / 8)) | tee knot.$n | p2m | poisson-fft | mgrad | diag --exact --columns impulse_z,helicity,energy,divergence >d
+		pinit trefoil --cells ${n}x${n}x$((n * 5 / 8)) >knot.$n
+		p2m <knot.$n | poisson-fft | mgrad | diag --exact --columns impulse_z,helicity,energy,divergence >d
 		within "$(calc "$(column impulse_z <d) / $(column exact_impulse_z <d)")" 1 1e-6
 		points+=("$(calc "1 / $n")" "$(calc "sqrt(($(column helicity <d) / $(column exact_helicity <d) - 1) ^ 2)")")
 		points2+=("$(calc "1 / $n")" "$(calc "$(column energy <d) / $(column exact_energy <d) - 1")")
