@@ -104,14 +104,14 @@ miss_turns() {
 			{ x = $c["x"] + 1 + e; y = $c["y"]; printf "%.3g\n", sqrt(x * x + y * y) }'
 }
 
-@test "ias15: orbits of e = 0.99, 0.999, 0.9999 are back at their apocentre after 1 and 10 turns" {
+@test "ias15: orbits of e = 0.99, 0.999, 0.9999 are back at their apocentre after 1 and 10 turns (10 of the last in check-long)" {
 	# Measured 9e-15 and 6e-14, 2e-13 and 1e-13 for the first two. Rounding at the pericentre, relative 1e-16/(1 - e) moves the period by as much.
 	below "$(miss_turns 0.99 1 1e-9)" 2e-13
 	below "$(miss_turns 0.99 10 1e-9)" 1e-12
 	below "$(miss_turns 0.999 1 1e-9)" 2e-12
 	below "$(miss_turns 0.999 10 1e-9)" 1e-11
 	below "$(miss_turns 0.9999 1 1e-9)" 2e-11
-	below "$(miss_turns 0.9999 10 1e-9)" 1e-10
+	[ -z "${PM_LONG:-}" ] || below "$(miss_turns 0.9999 10 1e-9)" 1e-10
 	above "$(miss_turns 0.999 1 1e-3)" 2e-12 # with too long steps it is not
 }
 

@@ -26,7 +26,10 @@ kernel='function g(x, v, m, s) { s = 0; for (m = -3; m < 4; m++) s += exp(-(x - 
 lattice() {
 	local dim=$1 n=$2 box=$3 e=$4
 	shift 4
-	awk -v n="$n" -v dim="$dim" -v l="$box" "$kernel"'BEGIN { h = 2 * l / n; V = h^dim; print substr("x y z", 1, 2 * dim - 1) " heat volume"
+	# each value of g once
+	awk -v n="$n" -v dim="$dim" -v l="$box" "${kernel/function g(/function sum(}"'
+		function g(x, v) { if (!((x, v) in kept)) kept[x, v] = sum(x, v); return kept[x, v] }
+		BEGIN { CONVFMT = "%.17g"; h = 2 * l / n; V = h^dim; print substr("x y z", 1, 2 * dim - 1) " heat volume"
 		for (i = 0; i < n; i++) for (j = 0; j < (dim > 1 ? n : 1); j++) for (k = 0; k < (dim > 2 ? n : 1); k++) {
 			x = -l + i * h; y = dim > 1 ? -l + j * h : 0; z = dim > 2 ? -l + k * h : 0
 			printf "%.17g ", x; if (dim > 1) printf "%.17g ", y; if (dim > 2) printf "%.17g ", z; printf "%.17g %.17g\n", V * ('"$e"'), V } }' |
