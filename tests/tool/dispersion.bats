@@ -66,7 +66,7 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 }
 
 @test "dispersion: across a magnetic field cold electrons oscillate at the upper hybrid frequency" {
-	for wc in 0.5 1 2; do # a kick, not a displacement: that has a part of frequency 0
+	for wc in 0.5 2; do # a kick, not a displacement: that has a part of frequency 0
 		pinit langmuir -n 1024 --velocities 3 --amplitude 0 --dt 0.05 | scalc --set electrons 'v = 1e-3*cos(x), 0, 0' |
 			cycle -q -n 2000 --every 4 "push boris/2 drift | p2m | poisson-fft | mgrad | m2p | field 'bfield = 0, 0, $wc' | push boris/2" >run
 		dispersion -q -n 1 run >t
@@ -94,7 +94,9 @@ row() { awk -F'\t' -v m="$1" -v n="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (
 		smod --law electromagnetic --constant c=1 --dt 0.15 | p2m | maxwell --gauss >a
 	# B; component; what is looked at; words of the note. Measured within 0.009, cells of 0.3: a third of the resolution of 0.042 is allowed
 	while IFS=';' read -r field component range words; do
-		scalc --mesh mesh "B = $field" <a | cycle -q -n 1000 --every 4 "$light" | dispersion -n 2 --component $component $range >t 2>said
+		run=run.${field//, /-}
+		[ -s "$run" ] || scalc --mesh mesh "B = $field" <a | cycle -q -n 1000 --every 4 "$light" >"$run"
+		dispersion -n 2 --component $component $range "$run" >t 2>said
 		grep -q "$words" said
 		for m in 1 2; do within "$(row $m omega)" "$(row $m theory_omega)" 0.014 "$field $component $range $m"; done
 	done <<-END
