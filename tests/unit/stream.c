@@ -7,6 +7,7 @@
 #include "stream/column.h"
 #include "stream/header.h"
 #include "stream/run.h"
+#include "stream/table.h"
 #include "stream/wire.h"
 
 static struct pm_frame *sample(void)
@@ -202,8 +203,39 @@ static void one_number_in_f32(void)
 	pm_frame_settle(f), pm_frame_free(f);
 }
 
+static void write_text(const char *path, const char *text)
+{
+	FILE *file = fopen(path, "w");
+	check(file && fputs(text, file) >= 0 && !fclose(file), "a text is written");
+}
+
+/* A table of three rows that is `then` when its numbers are read. */
+static void changed_table(const char *then, const char *message)
+{
+	char path[] = "/tmp/pmpipe-stream-XXXXXX";
+	const int fd = mkstemp(path);
+	struct pm_table_column column[PM_COLUMNS];
+	struct pm_text t;
+	size_t rows = 0;
+	write_text(path, "x\n1\n2\n3\n");
+	check(fd >= 0 && pm_text_open_by_ranks(&t, path) == 1 && pm_text_names(&t, t.size, column) == 1 && !pm_table_count(0, &t, t.size, &rows) && rows == 3,
+		"three rows are counted");
+	struct pm_frame *f = pm_frame_new(1);
+	pm_frame_set_new(f, "matter", rows);
+	column[0].field = pm_makes(f, "matter", "x", 1, PM_STATE);
+	column[0].component = 0, column[0].text = false;
+	check(!pm_table_field(&t, column[0].field) && !pm_field_ready(column[0].field), "there is room for them");
+	write_text(path, then);
+	check(pm_table_read(0, &t, t.size, f, 1, column) == -PM_DATA && strstr(pm_message(), message), "'%s' is said of %s: %s", message, then, pm_message());
+	pm_text_close(&t), pm_frame_free(f);
+	close(fd), unlink(path);
+}
+
 int main(void)
 {
+	changed_table("x\n12345\n", "has changed while it was read");
+	changed_table("x\n1\n\n\n23\n", "has changed while it was read");
+	changed_table("x\n1\n", "has become shorter while it was read");
 	round_trip();
 	long_fields();
 	declarations();
