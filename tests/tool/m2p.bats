@@ -260,9 +260,12 @@ field_energy() { scalc --set matter "$1" <a | p2m --kernel "$kernel" | poisson-f
 	local n what
 	for n in 3 9000; do
 		for what in "q = -(0*rho)" "q = -(0*rho), -(0*rho), -(0*rho)"; do
-			pinit uniform -n $n --cells 8 | p2m --kernel cic | scalc --mesh mesh "$what" | m2p --kernel cic --field q | stab --plain >table
-			[ "$(wc -l <table)" = $((n + 1)) ]
-			run -1 grep -q -- '-0$' table
+			for dim in 1 3; do
+				pinit uniform --dim $dim -n $n --cells 8 | p2m --kernel cic | scalc --mesh mesh "$what" | m2p --kernel cic --field q |
+					stab --plain >table
+				[ "$(wc -l <table)" = $((n + 1)) ]
+				run -1 grep -q -- '-0$' table
+			done
 		done
 	done
 }
