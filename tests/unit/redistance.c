@@ -162,6 +162,25 @@ static void corners(void)
 	}
 }
 
+/* A level that changes sign from node to node has no zero set that a search could follow: what does not settle is counted, and gets the distance of a node. */
+static void noise(void)
+{
+	enum { N = 24, MANY = 4 * N * N };
+	const struct pm_grid g = {.dim = 2, .cells = {N, N, 1}, .points = {N, N, 1}, .h = {1, 1, 1}};
+	static double node[N * N], x[2 * MANY], level[MANY];
+	struct pm_redistance made;
+	double worst = 0;
+	for (size_t i = 0; i < N * N; i++)
+		node[i] = sin(1.7 * (double)(i * i % 1009));
+	for (size_t p = 0; p < MANY; p++)
+		x[p] = 0.5 * (double)(p % (2 * N)), x[MANY + p] = 0.5 * (double)(p / (2 * N)), level[p] = p & 1 ? 1 : -1;
+	check(!pm_redistance(&g, node, MANY, (const double *const[]){x, x + MANY}, level, &made), "a level of noise is taken");
+	for (size_t p = 0; p < MANY; p++)
+		check_worst(&worst, fabs(level[p]));
+	check(made.unsettled > 0 && made.unsettled < MANY, "a level of noise: searches that do not settle are counted (%zu of %d)", made.unsettled, MANY);
+	check_below(worst, 2, "a level of noise: distances are those of crossings nearby all the same");
+}
+
 int main(void)
 {
 	const double radius[3] = {4, 8, 16}, shorter[3] = {4, 6, 9}, longer[3] = {6, 12, 24};
@@ -172,5 +191,6 @@ int main(void)
 	smooth("two disks, and what is between them", DISKS, radius, 6, 0.31, 0.17, 6e-4); /* 3.9e-4; the smaller has 0.6 of the radius */
 	smooth("a sphere", SPHERE, shorter, 3, 0.31, 0.17, 1e-3);                   /* 7.3e-4 */
 	corners();
+	noise();
 	return check_done();
 }
