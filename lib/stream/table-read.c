@@ -1,5 +1,5 @@
-/* Reads tables of text. The text is split into pieces of about a MiB at line ends; one pass counts the rows of each, the next reads them, with the first row and line
- * of every piece known, so that any number of threads gives the same fields and the same error: that of the first wrong line.
+/* Reads tables of text. The text is split into pieces of about a MiB at line ends; one pass counts their rows, the next reads them, with the first row and
+ * line of every piece known, so that any number of threads gives the same fields and the same error: that of the first wrong line.
  * Cost: 20 to 200 ns a number, see lib/base/decimal.c. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ctype.h>
 #include <string.h>
