@@ -25,10 +25,12 @@ double pm_mg_squares(struct pm_mg *mg, const mg_number *values)
 		for (size_t j = y->first; j < y->end; j++)
 			for (int odd = 0; odd < 2; odd++) {
 				const mg_number *v = values + mg_plane(l, k) + j * l->stride + (size_t)odd * l->half;
-				double sum = 0;
-				for (size_t i = 0; i < l->half; i++)
-					sum += l->mask[odd][i] ? (double)v[i] * (double)v[i] : 0;
-				pm_sum_add(&plane, sum);
+				const mg_mask *mask = l->mask[odd];
+				double lane[8] = {0};
+				for (size_t i = 0; i + 8 <= l->half; i += 8)
+					for (size_t q = 0; q < 8; q++)
+						lane[q] += mask[i + q] ? (double)v[i + q] * (double)v[i + q] : 0;
+				pm_sum_add(&plane, ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7])));
 			}
 		mg->sums[k] = pm_sum_total(plane);
 	}

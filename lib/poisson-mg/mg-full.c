@@ -144,26 +144,34 @@ static void collect(const struct mg_level *fine, const struct mg_level *coarse, 
 			c[mg_slot(coarse, fine->map[0].four[1][m])] += fine->map[0].cubic[1][m] * f[mg_slot(fine, i)];
 }
 
-/* Coarse planes range[0] <= K < range[1], each summed in the order of the fine rows. */
+/* Coarse planes range[0] <= K < range[1], each summed in the order of the fine planes, of which each is summed along y first, where u of the first coarse plane
+ * is: u is not in use yet and is 0 again at the end. */
 static void restrict_range(const struct mg_level *fine, const struct mg_level *coarse, const size_t range[2], mg_number *c)
 {
 	const struct mg_axis *y = &fine->axis[1], *z = &fine->axis[2];
-	if (range[0] < range[1])
-		memset(coarse->f + mg_plane(coarse, range[0]), 0, (range[1] - range[0]) * coarse->plane * sizeof *coarse->f);
+	if (range[0] == range[1])
+		return;
+	mg_number *sum = coarse->u + mg_plane(coarse, range[0]);
+	memset(coarse->f + mg_plane(coarse, range[0]), 0, (range[1] - range[0]) * coarse->plane * sizeof *coarse->f);
 	for (size_t k = z->first; k < z->end; k++) {
 		struct mg_parents pz = parents(&fine->map[2], 1, k);
 		bool any = false;
 		for (int a = 0; a < pz.n; a++)
 			any |= pz.node[a] >= range[0] && pz.node[a] < range[1];
-		for (size_t j = y->first; any && j < y->end; j++) {
+		if (!any)
+			continue;
+		memset(sum, 0, coarse->plane * sizeof *sum);
+		for (size_t j = y->first; j < y->end; j++) {
 			struct mg_parents py = parents(&fine->map[1], 1, j);
 			collect(fine, coarse, fine->f + mg_plane(fine, k) + j * fine->stride, c);
-			for (int a = 0; a < pz.n; a++)
-				for (int b = 0; b < py.n && pz.node[a] >= range[0] && pz.node[a] < range[1]; b++)
-					pm_mg_add_row(coarse->stride, pz.w[a] * py.w[b], c,
-						coarse->f + mg_plane(coarse, pz.node[a]) + py.node[b] * coarse->stride);
+			for (int b = 0; b < py.n; b++)
+				pm_mg_add_row(coarse->stride, py.w[b], c, sum + py.node[b] * coarse->stride);
 		}
+		for (int a = 0; a < pz.n; a++)
+			if (pz.node[a] >= range[0] && pz.node[a] < range[1])
+				pm_mg_add_row(coarse->plane, pz.w[a], sum, coarse->f + mg_plane(coarse, pz.node[a]));
 	}
+	memset(sum, 0, coarse->plane * sizeof *sum);
 }
 
 void pm_mg_restrict_source(struct pm_mg *mg, int at)

@@ -74,9 +74,17 @@ void pm_mg_sweep(struct pm_mg *mg, int level, double relaxation, int n, const en
 int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi,
 	struct pm_mg_record *r);
 
-/* mg-refine.c: cycles in single numbers, residuals in double ones. Is that for this problem? And the solution from u = 0 and f: false where it stalls, to be
- * continued in double numbers. */
+/* mg-load.c */
+double pm_mg_mean(struct pm_mg *mg, const double *values);                             /* with the weights of quadrature */
+double pm_mg_largest(size_t n, double c, double average, const double *s);             /* |c (s - average)| */
+void pm_mg_clear(struct pm_mg *mg);                                                    /* u of the finest grid = 0 */
+double pm_mg_load(struct pm_mg *mg, double c, double average, const double *s, bool refines); /* f, of the single hierarchy too; its sum of squares */
+void pm_mg_store(const struct pm_mg *mg, double factor, double average, double *phi);
+
+/* mg-refine.c: cycles in single numbers, residuals in double ones. Is that for this problem? Their right-hand side in row j of plane k is scale r. And the
+ * solution from f, of both hierarchies, whatever u is: false where it stalls, to be continued in double numbers. */
 bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o);
+void pm_mg_refine_source(struct pm_mg *mg, double scale, size_t j, size_t k, const double *r);
 bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r);
 bool pm_mg_at_roundoff(struct pm_mg *mg, double residual, double source); /* mg.c */
 

@@ -9,8 +9,6 @@
 #include "poisson-mg/mg-single.h"
 #include "world/world.h"
 
-#include <omp.h>
-
 bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
 	const bool colours = o->smoother == PM_MG_RED_BLACK || o->smoother == PM_MG_SOR;
@@ -46,8 +44,8 @@ static double scale_of(const struct pm_mg *mg, double residual)
 	return each > 0 && isfinite(each) ? ldexp(1, -ilogb(each)) : 1;
 }
 
-/* u += factor e in plane k, kept closed. */
-static void add_plane(struct pm_mg *mg, double factor, size_t k)
+/* u += factor e in plane k, kept closed; first: u was anything. */
+static void add_plane(struct pm_mg *mg, bool first, double factor, size_t k)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
@@ -55,48 +53,69 @@ static void add_plane(struct pm_mg *mg, double factor, size_t k)
 		double *u = l->u + mg_plane(l, k) + j * l->stride;
 		const float *e[2];
 		pm_mg_single_solution(mg->single, j, k, e);
-		for (size_t odd = 0; odd < 2; odd++)
-			for (size_t i = 0, n = (x->points + 1 - odd) / 2; i < n; i++)
-				u[odd * l->half + i] += factor * (double)e[odd][i];
+		for (size_t odd = 0; odd < 2; odd++) {
+			double *to = u + odd * l->half;
+			const size_t n = (x->points + 1 - odd) / 2;
+			if (first)
+				for (size_t i = 0; i < n; i++)
+					to[i] = 0 + factor * (double)e[odd][i]; /* no zero with a sign */
+			else
+				for (size_t i = 0; i < n; i++)
+					to[i] += factor * (double)e[odd][i];
+		}
 		mg_close_row(l, u);
 	}
 }
 
-/* The residual of plane k, times scale, is the right-hand side of the single hierarchy; its sum of squares. zero: it is f, for u is 0. */
-static double residual_plane(struct pm_mg *mg, bool zero, double scale, size_t k, double *room)
+void pm_mg_refine_source(struct pm_mg *mg, double scale, size_t j, size_t k, const double *r)
 {
 	const struct mg_level *l = &mg->level[0];
-	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	float *f[2];
+	pm_mg_single_source(mg->single, j, k, f);
+	for (size_t odd = 0; odd < 2; odd++)
+		for (size_t i = 0, n = (l->axis[0].points + 1 - odd) / 2; i < n; i++)
+			f[odd][i] = (float)(scale * r[odd * l->half + i]);
+}
+
+/* The residual of plane k, times scale, is the right-hand side of the single hierarchy; its sum of squares. */
+static double residual_plane(struct pm_mg *mg, double scale, size_t k, double *room)
+{
+	const struct mg_level *l = &mg->level[0];
 	struct pm_sum sum = {0, 0};
-	for (size_t j = y->first; j < y->end; j++) {
-		float *f[2];
-		const double *r = zero ? l->f + mg_plane(l, k) + j * l->stride : room;
-		if (!zero)
-			pm_sum_add(&sum, pm_mg_residual_row(l, j, k, room));
-		pm_mg_single_source(mg->single, j, k, f);
-		for (size_t odd = 0; odd < 2; odd++)
-			for (size_t i = 0, n = (x->points + 1 - odd) / 2; i < n; i++)
-				f[odd][i] = (float)(scale * r[odd * l->half + i]);
+	for (size_t j = l->axis[1].first; j < l->axis[1].end; j++) {
+		pm_sum_add(&sum, pm_mg_residual_row(l, j, k, room));
+		pm_mg_refine_source(mg, scale, j, k, room);
 	}
 	return pm_sum_total(sum);
 }
 
-/* Adds the correction, if there is one (factor not 0), and finds the residual, root of the sum of squares; without one u is 0, and the result too. */
-static double correct(struct pm_mg *mg, double factor, double scale)
+/* Adds the correction and finds the residual, root of the sum of squares. A plane has its residual as soon as the one behind it is corrected, while it is in
+ * the cache; the first and the last plane of a thread wait for other threads and ranks. */
+static double correct(struct pm_mg *mg, bool first, double factor, double scale)
 {
 	struct mg_level *l = &mg->level[0];
 	const struct mg_axis *z = &l->axis[2];
+	const size_t parts = (size_t)mg->threads;
 	size_t range[2];
 	mg_range(l, range);
-	if (factor != 0) {
-		#pragma omp parallel for num_threads(mg->threads) schedule(static) if (mg->threads > 1)
-		for (size_t k = range[0]; k < range[1]; k++)
-			add_plane(mg, factor, k);
+	const size_t n = range[1] - range[0];
+	#pragma omp parallel for num_threads(mg->threads) schedule(static, 1) if (parts > 1)
+	for (size_t p = 0; p < parts; p++) {
+		const size_t from = range[0] + n * p / parts, to = range[0] + n * (p + 1) / parts;
+		for (size_t k = from; k < to; k++) {
+			add_plane(mg, first, factor, k);
+			if (k > from + 1)
+				mg->sums[k - 1] = residual_plane(mg, scale, k - 1, mg->scratch + p * mg->room);
+		}
 	}
 	pm_mg_beside(mg, l, l->u, 1);
-	#pragma omp parallel for num_threads(mg->threads) schedule(static) if (mg->threads > 1)
-	for (size_t k = range[0]; k < range[1]; k++)
-		mg->sums[k] = residual_plane(mg, factor == 0, scale, k, mg->scratch + (size_t)omp_get_thread_num() * mg->room);
+	#pragma omp parallel for num_threads(mg->threads) schedule(static, 1) if (parts > 1)
+	for (size_t p = 0; p < parts; p++) {
+		const size_t from = range[0] + n * p / parts, to = range[0] + n * (p + 1) / parts;
+		for (size_t k = from; k < to; k++)
+			if (k == from || k + 1 == to)
+				mg->sums[k] = residual_plane(mg, scale, k, mg->scratch + p * mg->room);
+	}
 	return sqrt(pm_mg_total(mg, z->first, z->end));
 }
 
@@ -110,17 +129,19 @@ static void record(struct pm_mg_record *r, double now)
  * relative to the source. */
 static void round_of_cycles(struct pm_mg *mg, const struct pm_mg_choice *o, bool full, double at, double factor, struct pm_mg_record *r)
 {
-	const int noise_known = !full; /* cycles after which |e| has about its final size */
 	double limit = 1e-5 * at, before = INFINITY;
 	for (int i = 0;; i++) {
-		if (i == noise_known)
-			limit = fmax(limit, factor * pm_mg_single_noise(mg->single));
-		const double now = factor * pm_mg_single_down(mg->single, o, !full && !i);
+		const double now = factor * pm_mg_single_down(mg->single, o, !full && !i); /* smoothed once more than u will be */
+		const double next = i ? now * now / before : now;
 		record(r, now);
 		if ((now <= o->tolerance && r->cycles) || r->cycles == o->most || pm_mg_single_status(mg->single))
 			return;
 		pm_mg_single_up(mg->single, o);
 		r->cycles++;
+		if (next * (i ? 4 : 1) <= o->tolerance) /* the residual in double numbers tells */
+			return;
+		if (!i) /* by now |e| has about its final size */
+			limit = fmax(limit, factor * pm_mg_single_noise(mg->single));
 		if (now < 10 * limit || !(now < 0.5 * before)) /* the next cycle would end at the limit */
 			return;
 		before = now;
@@ -129,8 +150,7 @@ static void round_of_cycles(struct pm_mg *mg, const struct pm_mg_choice *o, bool
 
 bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r)
 {
-	double before = 1, scale = scale_of(mg, source);
-	correct(mg, 0, scale);
+	double before = 1, scale = 1;
 	for (bool full = true;; full = false) {
 		const int first = r->cycles;
 		pm_mg_single_start(mg->single, o, full, mg->status);
@@ -138,7 +158,7 @@ bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source,
 		mg->status = pm_mg_single_status(mg->single);
 		const double factor = unit_of(mg) / scale;
 		scale = scale_of(mg, r->after * source);
-		const double residual = correct(mg, factor, scale), now = residual / source;
+		const double residual = correct(mg, full, factor, scale), now = residual / source;
 		record(r, now);
 		for (int i = first; i < r->cycles; i++) /* what single numbers saw beyond the rounding of double ones was not there */
 			r->history[i] = fmax(r->history[i], now);

@@ -67,76 +67,27 @@ struct pm_mg *pm_mg_free(struct pm_mg *mg)
 
 int pm_mg_levels(const struct pm_mg *mg) { return mg->levels; }
 
-static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (i == 0 || i + 1 == a->points) ? 0.5 : 1; }
-
-/* With the weights of quadrature; rows and planes are added in order. */
-static double mean(struct pm_mg *mg, const double *values)
-{
-	const struct mg_level *l = &mg->level[0];
-	const struct mg_axis *x = &l->axis[0], *y = x + 1, *z = x + 2;
-	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
-	for (size_t k = l->first; k < l->first + l->here; k++) {
-		struct pm_sum plane = {0};
-		for (size_t j = 0; j < y->points; j++) {
-			const double *v = values + ((k - l->first) * y->points + j) * x->points;
-			double sum = x->periodic ? 0 : -0.5 * (v[0] + v[x->points - 1]);
-			for (size_t i = 0; i < x->points; i++)
-				sum += v[i];
-			pm_sum_add(&plane, half(y, j) * sum);
-		}
-		mg->sums[k] = half(z, k) * pm_sum_total(plane);
-	}
-	return pm_mg_total(mg, 0, z->points) / ((double)x->cells * (double)y->cells * (double)z->cells);
-}
-
-/* f = c (s - average) on the unknowns, 0 elsewhere; u or 0. */
-static void load(struct pm_mg *mg, double c, double average, const double *s, const double *u)
+/* u on the unknowns. */
+static void load_start(struct pm_mg *mg, const double *u)
 {
 	struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1], *z = &l->axis[2];
-	l->beside = false;
-	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
-	for (size_t k = l->first; k < l->first + l->here; k++)
-		for (size_t j = 0; j < y->points; j++) {
-			for (size_t odd = 0; odd < 2; odd++) {
-				bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
-				size_t from = ((k - l->first) * y->points + j) * x->points + odd, to = mg_plane(l, k) + j * l->stride + odd * l->half;
-				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++) {
-					bool unknown = inside && l->mask[odd][i];
-					l->f[to + i] = unknown ? c * (s[from + 2 * i] - average) : 0;
-					l->u[to + i] = unknown && u ? u[from + 2 * i] : 0;
-				}
-			}
-			mg_close_row(l, l->u + mg_plane(l, k) + j * l->stride);
+	for (size_t k = z->first; k < z->end; k++)
+		for (size_t j = y->first; j < y->end; j++) {
+			double *row = l->u + mg_plane(l, k) + j * l->stride;
+			for (size_t i = x->first; i < x->end; i++)
+				row[mg_slot(l, i)] = u[(k * y->points + j) * x->points + i];
+			mg_close_row(l, row);
 		}
 }
 
-/* phi = factor u - average */
-static void store(const struct pm_mg *mg, double factor, double average, double *phi)
+void pm_mg_start(struct pm_mg *mg, const double *f, const double *u)
 {
-	const struct mg_level *l = &mg->level[0];
-	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
-	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
-	for (size_t k = l->first; k < l->first + l->here; k++)
-		for (size_t j = 0; j < y->points; j++)
-			for (size_t odd = 0; odd < 2; odd++)
-				for (size_t i = 0; i < (x->points + 1 - odd) / 2; i++)
-					phi[((k - l->first) * y->points + j) * x->points + 2 * i + odd] =
-						factor * l->u[mg_plane(l, k) + j * l->stride + odd * l->half + i] - average;
+	pm_mg_load(mg, 1, 0, f, false);
+	pm_mg_clear(mg);
+	if (u)
+		load_start(mg, u);
 }
-
-/* The largest |c (s - average)|. */
-static double largest(size_t n, double c, double average, const double *s)
-{
-	double most = 0;
-	for (size_t i = 0; i < n; i++) {
-		double v = fabs(c * (s[i] - average));
-		most = v > most ? v : most;
-	}
-	return most;
-}
-
-void pm_mg_start(struct pm_mg *mg, const double *f, const double *u) { load(mg, 1, 0, f, u); }
 
 void pm_mg_once(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
@@ -163,7 +114,7 @@ double pm_mg_residual(const struct pm_mg *mg)
 	return sqrt(pm_mg_planes(z->end - z->first, mg->sums + z->first) / fmax(1, (double)pm_mg_unknowns(l)));
 }
 
-void pm_mg_values(const struct pm_mg *mg, double *u) { store(mg, 1, 0, u); }
+void pm_mg_values(const struct pm_mg *mg, double *u) { pm_mg_store(mg, 1, 0, u); }
 
 /* Is the residual (root of the sum of squares, as the source) at the level of rounding errors of its terms? Each of the 2 dim + 2 terms of f - lap u is
  * rounded to half a unit. */
@@ -217,17 +168,18 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	if (mg->status)
 		return mg->status;
 	const size_t here = l->here * l->axis[0].points * l->axis[1].points;
-	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : mean(mg, s)};
-	double whole = l->fixed ? 0 : pm_mg_most(mg, largest(here, 1, 0, s));
+	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : pm_mg_mean(mg, s)};
+	double whole = l->fixed ? 0 : pm_mg_most(mg, pm_mg_largest(here, 1, 0, s));
 	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
-	double most = pm_mg_most(mg, largest(here, c, r->mean, s));
+	double most = pm_mg_most(mg, pm_mg_largest(here, c, r->mean, s));
 	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
-	load(mg, c / unit, r->mean, s, NULL);
-	double source = sqrt(pm_mg_squares(mg, l->f));
+	const bool refines = pm_mg_refines(mg, o);
+	const double source = sqrt(pm_mg_load(mg, c / unit, r->mean, s, refines));
 	r->converged = source == 0 || mg->levels == 1;
+	if (!refines || source == 0)
+		pm_mg_clear(mg);
 	if (source != 0 && mg->levels == 1)
 		pm_mg_solve_coarsest(mg);
-	const bool refines = !r->converged && pm_mg_refines(mg, o);
 	if (!r->converged && !(refines && pm_mg_refine(mg, o, source, r))) {
 		if (!refines && o->cycle == PM_MG_FMG && (!point || (!pm_mg_pyramid(mg, c / unit, point) && !l->from)))
 			pm_mg_start_sources(mg);
@@ -235,9 +187,9 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 			pm_mg_start_full(mg, o);
 		iterate(mg, o, source, r);
 	}
-	store(mg, unit, 0, phi);
+	pm_mg_store(mg, unit, 0, phi);
 	if (r->singular)
-		store(mg, unit, mean(mg, phi), phi);
+		pm_mg_store(mg, unit, pm_mg_mean(mg, phi), phi);
 	if (mg->status)
 		return mg->status;
 	return r->converged ? 0 : pm_mg_not_converged(r, o, true);

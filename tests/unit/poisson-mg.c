@@ -315,6 +315,11 @@ static void test_single(void)
 		check_near(largest(n, phi[0], phi[1]) / most, 0, i == 3 ? 1e-6 : 5e-10, "with the same solution");
 		check(r[0].after <= fmax(1e-12, 2 * r[1].after), "and residual: %.1e, %.1e", r[0].after, r[1].after);
 		check(r[0].cycles <= r[1].cycles + (i == 3 ? 8 : 1), "and no more cycles: %d, %d", r[0].cycles, r[1].cycles);
+		struct pm_mg_choice again = usual;
+		again.cycle = PM_MG_FMG, again.tolerance = 1e-12;
+		check(!pm_mg_solve(mg, &again, 1e25, s, phi[1], &r[1]) && !memcmp(phi[0], phi[1], n * sizeof *s), "and the same bytes after another solve");
+		memset(s, 0, n * sizeof *s);
+		check(!pm_mg_solve(mg, &again, 1, s, phi[1], &r[1]) && largest(n, phi[1], NULL) == 0, "and no potential where there is no source");
 		pm_mg_free(mg), pm_free(s), pm_free(phi[0]), pm_free(phi[1]);
 	}
 }
