@@ -54,7 +54,8 @@ static double difference(size_t n, const double *a, const double *b)
 	return most / scale;
 }
 
-/* Direct sum of the Green's function at every node. */
+/* Direct sum of the Green's function over all nodes, at every fifth of many: 5 divides no number of points in 2-D and 3-D below, so that all places of every
+ * axis are among them. */
 static void against_sum(struct pm_grid g, const struct pm_green *green, double screening)
 {
 	struct pm_poisson_fft_choice o = {.symbol = green->differences ? PM_FD2 : PM_SPECTRAL, .screening = screening, .green = green,
@@ -65,19 +66,22 @@ static void against_sum(struct pm_grid g, const struct pm_green *green, double s
 	size_t n = pm_grid_size(&g);
 	double *s = noise(n), *phi = malloc(n * sizeof *phi), *want = calloc(n, sizeof *want);
 	const size_t *p = g.points;
-	for (size_t a = 0; a < n; a++)
+	size_t looked = 0, stride = n < 100 ? 1 : 5;
+	solve(&g, &o, 3.1, s, phi);
+	for (size_t a = 0; a < n; a += stride, looked++) {
 		for (size_t b = 0; b < n; b++) {
 			double r2 = 0;
 			size_t ia[3] = {a % p[0], a / p[0] % p[1], a / p[0] / p[1]}, ib[3] = {b % p[0], b / p[0] % p[1], b / p[0] / p[1]};
 			for (int d = 0; d < g.dim; d++)
 				r2 += pow(g.h[d] * ((double)ia[d] - (double)ib[d]), 2);
-			want[a] += 3.1 * pm_grid_cell(&g) * pm_grid_weight(&g, ib[0], ib[1], ib[2]) * s[b] * green->at(&c, r2);
+			want[looked] += 3.1 * pm_grid_cell(&g) * pm_grid_weight(&g, ib[0], ib[1], ib[2]) * s[b] * green->at(&c, r2);
 		}
-	solve(&g, &o, 3.1, s, phi);
+		phi[looked] = phi[a];
+	}
 	char name[160];
 	snprintf(name, sizeof name, "%s, open, %d-D %zux%zux%zu%s: equals the direct sum", green->name, g.dim, g.cells[0], g.cells[1], g.cells[2],
 		screening > 0 ? ", screened" : "");
-	check_near(difference(n, phi, want), 0, 1e-12, name); /* round-off of sums of 2000 terms */
+	check_near(difference(looked, phi, want), 0, 1e-12, name); /* round-off of sums of 2000 terms */
 	free(s), free(phi), free(want);
 }
 
