@@ -34,8 +34,8 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 }
 
 @test "a smaller --tolerance narrows the bracket, at one run for each halving" {
-	leap --tolerance 0.1 --format tsv >a
-	leap --tolerance 0.00078125 --format tsv >b
+	leap --scan 0 --tolerance 0.1 --format tsv >a
+	leap --scan 0 --tolerance 0.00078125 --format tsv >b
 	[ "$(($(number runs <b) - $(number runs <a)))" = 7 ]
 	awk -v u="$(number uncertainty <a)" 'BEGIN { exit !(u <= 0.2 && u > 0.05) }'
 }
@@ -110,12 +110,12 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 
 @test "-t is lengthened as -n is, options inside the sentence are not, and without a length nothing is run longer" {
 	s='printf "x vx\n1 0\n" | stab - --law free --dt 0.1 | cycle -t 2e2 "push --dt {dt} kick/2 drift | field acc=-x | push kick/2"'
-	margin "$s" --vary dt:0.5:4 --unstable-when 'distance_max > 100' -o d >/dev/null
+	margin "$s" --scan 0 --vary dt:0.5:4 --unstable-when 'distance_max > 100' -o d >/dev/null
 	grep -qF 'cycle --until '"'distance_max &gt; 100'"' -t 400 ' d/index.html
 	gate
-	run -0 margin 'pinit uniform -n 3 | gate {a} 0.3' --vary a:1e-3:1e2
+	run -0 margin 'pinit uniform -n 3 | gate {a} 0.3' --scan 0 --vary a:1e-3:1e2
 	[[ $output == *"nothing was run longer: no cycle whose -n or -t is a number"* ]]
-	run -0 margin "pinit uniform -n 3 | gate {a} 0.3 | cycle -n 3 'push --dt 0.1 drift | p2m -n 8'" --vary a:1e-3:1e2 -o e
+	run -0 margin "pinit uniform -n 3 | gate {a} 0.3 | cycle -n 3 'push --dt 0.1 drift | p2m -n 8'" --scan 0 --vary a:1e-3:1e2 -o e
 	grep -qF "cycle -n 6 'push --unsafe --dt 0.1 drift | p2m -n 8'" e/index.html
 }
 
@@ -188,12 +188,12 @@ number() { awk -F'\t' -v n="$1" -v r="${2:-1}" 'NR == 1 { for (i = 1; i <= NF; i
 	grep -qE '^rk4 .* 2\.828427125 .* yes' t
 	grep -qE '^rk4 .* 2\.828427125 .* yes' t
 	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{w}*x | push {euler,rk4,rk2}"' --vary w:0.2:3 --expect \
-		'rk4=2.8, euler=1+1' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+		'rk4=2.8, euler=1+1' --unstable-when 'distance_max > 2' --scan 0 --tolerance 0.01 --format tsv >t
 	[ "$(awk -F'\t' 'NR > 1 { print $2, $8, $10 }' t)" = "euler 2 yes
 rk4 2.8 yes
 rk2 - -" ] || { cat t; false; }
 	margin 'printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"' --vary w:0.2:3 --vary k=1,2 --expect \
-		'2/{k}' --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >t
+		'2/{k}' --unstable-when 'distance_max > 2' --scan 0 --tolerance 0.01 --format tsv >t
 	[ "$(awk -F'\t' 'NR > 1 { print $2, $3, ($3 == "euler" ? $11 : "") }' t)" = "1 euler yes
 1 rk4 
 2 euler yes
@@ -217,29 +217,29 @@ rk2 - -" ] || { cat t; false; }
 	within "$(number spread <t)" 0.1 0.006
 	[ "$(number seeds <t)" = 3 ]
 	awk -v u="$(number uncertainty <t)" -v s="$(number spread <t)" 'BEGIN { exit !(u > s) }'
-	run -0 margin 'pinit uniform -n 3 --seed {seed} | gate {a} 0.$((4 + {seed}))' --vary a:0.1:1 --tolerance 0.01 --seeds 2
+	run -0 margin 'pinit uniform -n 3 --seed {seed} | gate {a} 0.$((4 + {seed}))' --scan 0 --vary a:0.1:1 --tolerance 0.01 --seeds 2
 	[[ $output == *"2 seeds; "* ]]
-	run -0 margin 'pinit uniform -n 3 | gate {a} 0.4' --vary a:0.1:1 --tolerance 0.1
+	run -0 margin 'pinit uniform -n 3 | gate {a} 0.4' --scan 0 --vary a:0.1:1 --tolerance 0.1
 	[[ $output == *"no {seed} in the sentence: every run is deterministic"* ]]
 }
 
 @test "the criterion is put into every cycle, and the first that reaches it decides" {
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel={a}*x | push euler" | scalc x=1 | cycle -n 5 "field vel=0*x | push euler"'
-	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --given-length --format tsv >t # (1 + a)^5 = 32
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --scan 0 --tolerance 1e-4 --given-length --format tsv >t # (1 + a)^5 = 32
 	within "$(number limit <t)" 1 "$(number uncertainty <t)"
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 5 "field vel=0*x | push euler" | scalc x=1 | cycle -n 5 "field vel={a}*x | push euler"'
-	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --tolerance 1e-4 --given-length --format tsv >t
+	margin "$s" --vary a:0.1:3 --unstable-when 'distance_max > 32' --scan 0 --tolerance 1e-4 --given-length --format tsv >t
 	within "$(number limit <t)" 1 "$(number uncertainty <t)"
 }
 
 @test "--format json is JSON with numbers; tsv and json hold the same" {
-	leap --expect '1 + {k}' --vary k=1 --format json >j 2>err || true
+	leap --scan 0 --expect '1 + {k}' --vary k=1 --format json >j 2>err || true
 	grep -q "nowhere in the sentence" err
-	leap --expect '4/2' --format json >j
+	leap --scan 0 --expect '4/2' --format json >j
 	[ "$(jq -r .sentence <j)" = "$spring" ]
 	[ "$(jq -r .unstable_when <j)" = 'distance_max > 100' ]
 	[ "$(jq '.limits[0] | [.expected, .spread, .seeds]' -c <j)" = "[2,null,1]" ]
-	leap --expect 2 --format tsv >t
+	leap --scan 0 --expect 2 --format tsv >t
 	[ "$(jq '.limits[0].limit' <j)" = "$(number limit <t)" ]
 }
 
@@ -358,8 +358,8 @@ rk2 - -" ] || { cat t; false; }
 
 @test "--jobs: the same limits from several runs at a time" {
 	s='printf "x\n1\n" | stab - --law free --dt 1 | cycle -n 300 "field vel=-{k}*x*{w} | push {euler,rk4}"'
-	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv >a
-	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --tolerance 0.01 --format tsv --jobs 3 >b
+	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --scan 4 --tolerance 0.01 --format tsv >a
+	margin "$s" --vary w:0.2:3 --vary k=1,2 --unstable-when 'distance_max > 2' --scan 4 --tolerance 0.01 --format tsv --jobs 3 >b
 	cmp a b
 }
 
