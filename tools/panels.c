@@ -68,7 +68,8 @@ static const struct pm_option options[] = {
 static const struct pm_example examples[] = {
 	{"the slip at a cylinder in a stream, -2 sin(2 pi s)", "pinit vortex-pair | panels --curve '9+cos(2*pi*s), 9+sin(2*pi*s)' -n 40 --stream '1, 0' | "
 		"sel --set panels | stab --plain --set panels"},
-	{"the largest slip at a sphere in a stream, 1.5", "pinit vortex-ring --cells 8 | panels --surface 'x, y, z+9' -n 320 --stream '0, 0, 1' | sls"},
+	{"the largest slip at a sphere in a stream, 1.5",
+		"pinit vortex-ring --core 0.2 --cells 32x32x16 | panels --surface 'x, y, z+9' -n 320 --stream '0, 0, 1' | sls"},
 	{0},
 };
 const struct pm_tool tool_panels = {

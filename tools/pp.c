@@ -65,7 +65,7 @@ static const struct pm_option options[] = {
 };
 static const struct pm_example examples[] = {
 	{"accelerations and potential of a star cluster", "pinit plummer -n 500 | pp --potential | sls"},
-	{"a vortex ring without a mesh, a step", "pinit vortex-ring --core 0.2 --cells 24x24x12 | cycle -n 1 'pp | push rk2' | sls"},
+	{"a vortex ring without a mesh, a step", "pinit vortex-ring --core 0.15 --cells 28x28x14 | cycle -n 1 'pp | push rk2' | sls"},
 	{"a point vortex becomes Lamb and Oseen's, by the growth of its core",
 		"awk 'BEGIN { print \"x y circulation\\n0 0 1\\n0.2 0 0\" }' | stab - --law vortex --constant nu=0.01 --dt 0.1 --box -1,1 | "
 		"cycle -n 5 'pp --core-spreading 0 --softening 0 | push rk4' | sls"},
