@@ -75,8 +75,9 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 	}
 	if (m->v && p->moves && pm_moving_face(f, PM_PREFLECT) && !pm_changes(f, m->set->name, "v"))
 		return -PM_DATA;
-	for (int k = 0; k < 3 && m->turned && m->v->type == PM_F32; k++)
-		takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
+	for (int k = 0; k < 3 && m->turned; k++)
+		if (k > 0 || m->v->type == PM_F32)
+			takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)
 			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))

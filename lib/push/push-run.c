@@ -124,11 +124,38 @@ static size_t turn_floats(const struct columns *w, size_t from, size_t end, bool
 	return end;
 }
 
+/* Charge and mass as columns, one[] holding those that are one number for all, block after block. */
+static void strengths_of(const struct pm_moving *m, double one[2][PM_ADVANCE_BLOCK], struct pm_column strength[2])
+{
+	strength[0] = pm_column_of(m->charge, 0), strength[1] = pm_column_of(m->mass, 0);
+	for (int k = 0; k < 2; k++)
+		for (size_t i = 0; i < PM_ADVANCE_BLOCK && !strength[k].doubles; i++)
+			one[k][i] = strength[k].value;
+}
+
+/* The particles from p on, at most a block; strength: NULL or charge and mass. */
+static struct pm_magnetic piece_of(const struct pm_magnetic *all, size_t p, const struct pm_column *strength, double one[2][PM_ADVANCE_BLOCK])
+{
+	struct pm_magnetic a = *all;
+	for (int c = 0; c < 3; c++) {
+		a.v[c] = all->v[c] ? all->v[c] + p : NULL;
+		a.acc[c] = all->acc[c] ? all->acc[c] + p : NULL;
+		a.b[c] = all->b[c] ? all->b[c] + p : NULL;
+	}
+	if (strength) {
+		a.charge = strength[0].doubles ? strength[0].doubles + p : one[0];
+		a.mass = strength[1].doubles ? strength[1].doubles + p : one[1];
+	}
+	return a;
+}
+
 /* Rotates the velocities about bfield and kicks them, all components of a particle together. */
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
 	struct columns w = {.v = {NULL}};
+	double one[2][PM_ADVANCE_BLOCK];
+	struct pm_column strength[2] = {{NULL}};
 	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN), .radiation_time = pm_frame_constant(f, "radiation_time", NAN)};
 	size_t n = m->v->count, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	const bool floats = pm_column_floats(m->v, 0), plane = m->b && m->v->components < 3;
@@ -138,7 +165,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	if (floats)
 		w = columns_of(m, acc);
 	else if (m->b)
-		a.charge = pm_in(m->charge, 0), a.mass = pm_in(m->mass, 0);
+		strengths_of(m, one, strength);
 	for (int c = 0; c < 3 && !floats; c++) {
 		a.v[c] = c < m->v->components ? pm_out(m->v, c) : NULL;
 		a.acc[c] = c < acc->components ? pm_in(acc, c) : NULL;
@@ -163,7 +190,8 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 			fast = found < fast ? found : fast;
 			continue;
 		}
-		step->magnetic(m->closing, f->dt, i, end, &a);
+		const struct pm_magnetic here = piece_of(&a, i, m->b ? strength : NULL, one);
+		step->magnetic(m->closing, f->dt, 0, end - i, &here);
 		for (int c = 0; c < 3 && m->v->type == PM_F32; c++) /* before a drift uses it, as where it is held as floats */
 			for (size_t p = i; p < end && a.v[c]; p++)
 				a.v[c][p] = (float)a.v[c][p];

@@ -256,6 +256,8 @@ int pm_field_ready(struct pm_field *field)
 		return ready_here(field);
 	if (field->use & PM_USE_COLUMNS && pm_field_rests(field))
 		return ready_floats(field);
+	if (field->use & PM_USE_COLUMNS && field->uniform && !field->buffer && !(field->use & (PM_USE_CHANGE | PM_USE_NEW)))
+		return 0;
 	if (field->buffer && field->buffer->floats && field->use & PM_USE_CHANGE && !pm_buffer_alone(field->buffer))
 		return copy_of_floats(field);
 	if (field->buffer && field->use & PM_USE_CHANGE) /* before threads do */

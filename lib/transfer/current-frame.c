@@ -95,7 +95,7 @@ int pm_current_declare(struct pm_current_job *j, struct pm_frame *f)
 	return 0;
 }
 
-/* As columns, where they are not all doubles and the ways allow it: 1 done, 0 not, or failure. */
+/* As columns, where positions are floats, or the charge is one number, and the ways allow it: 1 done, 0 not, or failure. */
 static int add_columns(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3], size_t *stray)
 {
 	const struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *q = pm_frame_field(f, set, j->law->strength);
@@ -108,7 +108,7 @@ static int add_columns(const struct pm_current_job *j, const struct pm_frame *f,
 	for (int d = 0; d < 3 && d < v->components; d++)
 		along[d] = pm_column_of(v, d);
 	charge = pm_column_of(q, 0);
-	if (!at[0].floats)
+	if (!at[0].floats && charge.doubles)
 		return 0;
 	const int status = pm_current_columns(&j->current, x->count, at, along, &charge, mesh, stray, &far);
 	return status ? status : !far;

@@ -298,14 +298,16 @@ PM_SIMD_INLINE const double *component(const struct pm_tile *t, int c)
 
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
+	struct delivery to[PM_COMPONENTS];
 	pm_simd nothing = {0};
+	for (int c = 0; c < t->components; c++)
+		to[c] = delivery_of(r, c);
 	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
 		const struct eight e = find_eight(t, batch, i);
 		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		for (int c = 0; c < t->components; c++)
-			deliver_eight(value_of(&rows, component(t, c)), n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL,
-				r->set[c], r->to[c].doubles + p, &nothing);
+			deliver_eight(value_of(&rows, component(t, c)), n, &to[c], p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

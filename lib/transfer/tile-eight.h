@@ -89,12 +89,24 @@ PM_SIMD_INLINE pm_simd_int node_of(const struct eight *e)
 	return (e->cell[2] * pm_block_rows[3] + e->cell[1]) * pm_block_row[3] + e->cell[0];
 }
 
-/* The first n of eight values to their places. v - v is 0, or NaN if v is not finite. */
-PM_SIMD_INLINE void deliver_eight(pm_simd v, size_t n, const double *factor, bool set, double *to, pm_simd *nothing)
+/* Where the values of a component go: outside of the loops, since what these store might be what is read here. */
+struct delivery {
+	const double *factor; /* NULL: times */
+	double times, *to;
+	bool set;
+};
+PM_SIMD_INLINE struct delivery delivery_of(const struct pm_tile_results *r, int c)
 {
+	return (struct delivery){r->factor[c].doubles, r->factor[c].value, r->to[c].doubles, r->set[c]};
+}
+
+/* The first n of eight values to the particles from p on. v - v is 0, or NaN if v is not finite. */
+PM_SIMD_INLINE void deliver_eight(pm_simd v, size_t n, const struct delivery *d, size_t p, pm_simd *nothing)
+{
+	double *to = d->to + p;
 	if (n == PM_SIMD_WIDTH) {
-		v = factor ? pm_simd_load_any(factor) * v : v;
-		v = set ? v : pm_simd_load_any(to) + v;
+		v = (d->factor ? pm_simd_load_any(d->factor + p) : pm_simd_all(d->times)) * v;
+		v = d->set ? v : pm_simd_load_any(to) + v;
 		pm_simd_store_any(to, v);
 		__builtin_prefetch(to + PM_TILE_AHEAD, 1);
 		*nothing += v - v;
@@ -103,8 +115,8 @@ PM_SIMD_INLINE void deliver_eight(pm_simd v, size_t n, const double *factor, boo
 	double few[PM_SIMD_WIDTH];
 	pm_simd_store_any(few, v);
 	for (size_t l = 0; l < n; l++) {
-		const double value = factor ? factor[l] * few[l] : few[l];
-		to[l] = set ? value : to[l] + value;
+		const double value = (d->factor ? d->factor[p + l] : d->times) * few[l];
+		to[l] = d->set ? value : to[l] + value;
 		*nothing += to[l] - to[l];
 	}
 }

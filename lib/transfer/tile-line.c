@@ -133,32 +133,34 @@ PM_SIMD_INLINE void load_pairs(const double *block, const int32_t *at, pm_simd *
 }
 
 /* The first n of a vector of particles, to the places from p on. */
-PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const struct pm_tile *t, const struct pm_tile_results *r, size_t p, pm_simd *nothing)
+PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const struct pm_tile *t, const struct delivery to[], size_t p, pm_simd *nothing)
 {
 	int32_t at[PM_SIMD_WIDTH];
 	*(pm_simd_int_at *)at = cell;
 	for (int c = 0; c < t->components; c++) {
 		pm_simd low, high;
 		load_pairs(t->block + (size_t)c * PM_BLOCK_MOST, at, &low, &high);
-		deliver_eight(0 + low * (1 - x) + high * x, n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL, r->set[c], r->to[c].doubles + p,
-			nothing);
+		deliver_eight(0 + low * (1 - x) + high * x, n, &to[c], p, nothing);
 	}
 }
 
 PM_SIMD_INLINE bool gather(bool simple, struct line l, const struct pm_tile *t, const struct pm_tile_results *r, size_t p)
 {
 	pm_simd nothing = {0};
+	struct delivery to[PM_COMPONENTS];
 	pm_simd_int cell;
 	size_t i = 0;
+	for (int c = 0; c < t->components; c++)
+		to[c] = delivery_of(r, c);
 	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
 		const pm_simd x = find(simple, &l, l.x + i, &cell);
 		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
-		gather_some(PM_SIMD_WIDTH, cell, x, t, r, p + i, &nothing);
+		gather_some(PM_SIMD_WIDTH, cell, x, t, to, p + i, &nothing);
 	}
 	if (i < l.m) {
 		double few[PM_SIMD_WIDTH];
 		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few), &cell);
-		gather_some(l.m - i, cell, x, t, r, p + i, &nothing);
+		gather_some(l.m - i, cell, x, t, to, p + i, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

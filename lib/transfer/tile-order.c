@@ -274,8 +274,12 @@ static const double *take(const struct pm_tile_order *o, size_t p, size_t m, con
 	const uint32_t *place = o->place ? o->place + p : NULL;
 	if (!place || stand_together(place, m))
 		return pm_column_take(from, place ? place[0] : p, m, few);
-	for (size_t i = 0; i < m; i++)
-		few[i] = pm_column_at(from, place[i]);
+	if (from->doubles)
+		for (size_t i = 0; i < m; i++)
+			few[i] = from->doubles[place[i]];
+	else
+		for (size_t i = 0; i < m; i++)
+			few[i] = pm_column_at(from, place[i]);
 	return few;
 }
 
@@ -473,7 +477,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 			o->v[d] = p->v[d], o->columns |= !p->v[d].doubles;
 	}
 	for (int c = 0; c < nvalues; c++)
-		o->values[c] = p->values[c], o->columns |= !p->values[c].doubles;
+		o->values[c] = p->values[c], o->columns |= p->values[c].floats != NULL;
 	int status = count_tiles(o, axes);
 	if (status)
 		return status;

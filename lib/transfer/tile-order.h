@@ -18,7 +18,7 @@ struct pm_tile_order {
 	double *records;      /* [n][stride]: u of each axis, then the values; NULL: spent, or, without tile[], the stream is in order */
 	float *floats;        /* [n][packed] in place of records, where positions are floats: x, v of ways, and the values that are not one number; NULL */
 	int packed;           /* floats per record there */
-	bool columns;         /* positions or values are floats or one number: they are read through blocks (pm_tile_order_pack) */
+	bool columns;         /* positions or values are floats: they are read through blocks (pm_tile_order_pack) */
 	uint32_t *place;      /* [n] the particles in the order of the tiles, where they stay in the stream; NULL */
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];

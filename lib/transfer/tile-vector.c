@@ -143,7 +143,10 @@ void pm_tile_cic_gather_vectors(const struct pm_tile *t)
 
 bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
+	struct delivery to[4];
 	pm_simd nothing = {0};
+	for (int c = 0; c < t->components; c++)
+		to[c] = delivery_of(r, c);
 	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
 		const struct eight e = find_eight(t, batch, i);
@@ -154,8 +157,7 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 4; c++)
 			if (c < t->components)
-				deliver_eight(component[c], n, r->factor[c].doubles ? r->factor[c].doubles + p : NULL, r->set[c], r->to[c].doubles + p,
-					&nothing);
+				deliver_eight(component[c], n, &to[c], p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

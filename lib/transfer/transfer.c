@@ -46,7 +46,8 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.columns) {
 			batch.p = p, batch.m = t.count;
-			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, w->o->order.values[value].doubles + p);
+			const double *q = pm_column_take(&w->o->order.values[value], p, t.count, packed);
+			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
 			continue;
 		}
 		t.records = packed;
@@ -254,7 +255,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const struct pm_column x[],
 	struct pm_tile_order *o = w->o ? &w->o->order : NULL;
 	const bool records = o && o->records;
 	for (int c = 0; c < w->components && o; c++)
-		w->blockwise |= o->columns || o->floats || r->to[c].floats || r->factor[c].floats || (!r->factor[c].doubles && r->factor[c].value != 1);
+		w->blockwise |= o->columns || o->floats || r->to[c].floats || r->factor[c].floats;
 	if (o && o->floats && pm_tile_results_round(w->components, r)) {
 		w->few_to = w->components > o->packed ? w->components : o->packed;
 		w->few = w->components > o->packed ? pm_alloc(n * (size_t)w->few_to, sizeof *w->few) : o->floats;

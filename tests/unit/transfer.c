@@ -325,6 +325,49 @@ static void check_in_order(int dim, const size_t cells[3], size_t n, const char 
 	problem_free(&b);
 }
 
+/* One number for all strengths or factors: the bytes of an array of them, in order and from any order. */
+static void check_one_number(int dim, const size_t cells[3], size_t n, const char *kernel)
+{
+	for (int sorted_first = 0; sorted_first < 2; sorted_first++) {
+		struct problem a = problem_new(grid_of(dim, cells, (const int[]){0, 0, 0}), pm_kernel_find(kernel), dim, n);
+		struct pm_strays strays;
+		struct pm_column x[3], q[MOST], factor[MOST];
+		struct pm_target out[MOST];
+		double *mesh[MOST], *array[MOST];
+		bool same = true;
+		if (sorted_first)
+			put_in_order(&a);
+		pm_columns_of(dim, in(a.x), x);
+		for (int c = 0; c < dim; c++) {
+			const double number = 0.37 - 1.1 * c;
+			q[c] = factor[c] = (struct pm_column){.value = number};
+			array[c] = pm_alloc(n, sizeof(double));
+			for (size_t p = 0; p < n; p++)
+				array[c][p] = number;
+			out[c] = (struct pm_target){.doubles = a.out[c]};
+			mesh[c] = pm_zalloc(a.points, sizeof(double));
+		}
+		pm_spread_columns(&a.t, n, x, q, a.mesh, &strays);
+		pm_spread(&a.t, n, in(a.x), in(array), mesh, &strays);
+		for (int c = 0; c < dim; c++)
+			same = same && !memcmp(mesh[c], a.mesh[c], a.points * sizeof(double));
+		check(same, "%d-D, %s: one strength for all is spread as an array of them", dim, kernel);
+		same = true;
+		for (int add = 0; add < 2; add++) {
+			for (int c = 0; c < dim; c++)
+				fill_mesh(&a, c, a.mesh[c]), memcpy(a.q[c], a.out[c], n * sizeof(double)), a.t.set[c] = !add;
+			pm_gather_columns(&a.t, n, x, in(a.mesh), factor, out, &strays);
+			pm_gather(&a.t, n, in(a.x), in(a.mesh), in(array), a.q, &strays);
+			for (int c = 0; c < dim; c++)
+				same = same && !memcmp(a.q[c], a.out[c], n * sizeof(double));
+		}
+		check(same, "%d-D, %s: one factor for all is that of an array of them", dim, kernel);
+		for (int c = 0; c < dim; c++)
+			pm_free(mesh[c]), pm_free(array[c]);
+		problem_free(&a);
+	}
+}
+
 /* The second half of the stream is one tile before the first half: the only fall is between two batches, and with two threads between their chunks. */
 static void check_fall(void)
 {
@@ -803,6 +846,9 @@ int main(void)
 		check_in_order(3, (const size_t[]){35, 20, 33}, rule % 2 ? 30000 : 30003, "cic", (const int[]){rule, rule ? rule % 3 + 1 : 0, 0});
 	check_in_order(3, (const size_t[]){7, 5, 9}, 4101, "cic", (const int[]){0, 2, 0});
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
+	check_one_number(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
+	check_one_number(2, (const size_t[]){130, 67, 1}, 5001, "tsc");
+	check_one_number(3, (const size_t[]){35, 20, 33}, 30003, "cic");
 	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
 	check_kept(2, (const size_t[]){130, 67, 1}, "pcs");
 	check_kept(3, (const size_t[]){35, 20, 33}, "tsc");
