@@ -51,7 +51,7 @@ PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_
 {
 	struct eight e;
 	for (int d = 0; d < 3; d++) {
-		const double *x = b->order->x[d].doubles + b->p + i;
+		const double *x = b->x[d] + i;
 		double few[PM_SIMD_WIDTH];
 		unsigned outside;
 		if (i + PM_SIMD_WIDTH > b->m) {

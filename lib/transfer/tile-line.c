@@ -29,7 +29,7 @@ struct line {
 
 static struct line line_of(const struct pm_tile *t, const struct pm_tile_batch *b)
 {
-	return (struct line){b->lanes[0], &b->order->axes[0], (int32_t)t->cell[0], b->order->x[0].doubles + b->p, b->m};
+	return (struct line){b->lanes[0], &b->order->axes[0], (int32_t)t->cell[0], b->x[0], b->m};
 }
 
 static bool is_simple(const struct line *l) { return l->axis->periodic && l->axis->add + l->axis->half == 0; }

@@ -36,7 +36,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	struct pm_tile t = pm_pass_tile(w, j, block);
 	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
-	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[3][PM_TILE_ORDER_PACK];
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	t.value = w->o->order.dim + value;
 	t.corners = corners ? w->corners + (size_t)omp_get_thread_num() * PM_TILE_CELLS * PM_CORNERS : NULL;
@@ -44,8 +44,8 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.columns) {
-			batch.p = p, batch.m = t.count;
+		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
+			pm_tile_batch_take(&batch, p, t.count, few);
 			const double *q = pm_column_take(&w->o->order.values[value], p, t.count, packed);
 			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
 			continue;
@@ -132,7 +132,7 @@ static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, str
 	if (w->blockwise)
 		return gather_in_order(w, j, t, pm_tile_cic_gather_eight, r);
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	batch.p = j->from, batch.m = j->to - j->from;
+	pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
 	return pm_tile_cic_gather(&t, &batch, r);
 }
 
@@ -150,8 +150,33 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	if (loop != pm_tile_cic_gather_vectors || w->blockwise)
 		return gather_in_order(w, j, t, loop, r);
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	batch.p = j->from, batch.m = j->to - j->from;
+	pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
 	return pm_tile_cic_gather_vectors_in_order(&t, &batch, r);
+}
+
+/* On a line; what is gathered to floats, or times floats, goes by way of doubles. */
+static bool gather_line(const struct pm_pass *w, const struct pm_tile_job *j, const struct pm_tile *t, const struct pm_tile_results *r)
+{
+	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
+	double few[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS][PM_TILE_ORDER_PACK];
+	struct pm_column one[PM_COMPONENTS];
+	struct pm_target to[PM_COMPONENTS];
+	bool set[PM_COMPONENTS], finite = true;
+	if (!w->blockwise) {
+		pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
+		return pm_tile_line_gather(t, &batch, r);
+	}
+	for (int c = 0; c < w->components; c++)
+		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]};
+	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
+		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		pm_tile_batch_take(&batch, p, m, few);
+		batch.p = 0;
+		pm_tile_line_gather(t, &batch, &(struct pm_tile_results){one, set, to});
+		for (int c = 0; c < w->components; c++)
+			finite &= pm_tile_order_unpack(p, m, 1, values[c], 1, &(struct pm_tile_results){&r->factor[c], &r->set[c], &r->to[c]});
+	}
+	return finite;
 }
 
 bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double *block, const struct pm_tile_results *r)
@@ -162,11 +187,8 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
 		return gather_vectors(w, j, t, r);
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
-	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->blockwise) {
-		struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-		batch.p = j->from, batch.m = t.count;
-		return pm_tile_line_gather(&t, &batch, r);
-	}
+	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
+		return gather_line(w, j, &t, r);
 	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
 	if (lanes && corners && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);

@@ -368,6 +368,35 @@ static void check_one_number(int dim, const size_t cells[3], size_t n, const cha
 	}
 }
 
+/* Positions that are floats: the bytes of doubles with their values; what is gathered to floats is that, rounded. */
+static void check_floats(int dim, const size_t cells[3], size_t n)
+{
+	struct problem a = problem_new(grid_of(dim, cells, (const int[]){0, 0, 0}), pm_kernel_find("cic"), 1, n);
+	struct pm_strays strays;
+	struct pm_column x[3], q[1] = {pm_column_doubles(a.q[0])}, factor[1] = {{.value = 0.37}};
+	float *at = pm_alloc(n * (size_t)dim, sizeof *at), *out = pm_zalloc(n, sizeof *out);
+	double *times = pm_alloc(n, sizeof *times);
+	bool same = true;
+	put_in_order(&a);
+	for (int d = 0; d < dim; d++)
+		for (size_t p = 0; p < n; p++)
+			at[(size_t)d * n + p] = (float)a.x[d][p], a.x[d][p] = at[(size_t)d * n + p], times[p] = 0.37;
+	for (int d = 0; d < dim; d++)
+		x[d] = (struct pm_column){.floats = at + (size_t)d * n};
+	pm_spread_columns(&a.t, n, x, q, a.mesh, &strays);
+	pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh + 1, &strays);
+	same = !memcmp(a.mesh[0], a.mesh[1], a.points * sizeof(double));
+	check(same, "%d-D: positions that are floats are spread as doubles with their values", dim);
+	a.t.set[0] = true;
+	pm_gather_columns(&a.t, n, x, in(a.mesh), factor, &(struct pm_target){.floats = out}, &strays);
+	pm_gather(&a.t, n, in(a.x), in(a.mesh), (const double *const[]){times}, a.out, &strays);
+	for (size_t p = 0; p < n; p++)
+		same = same && out[p] == (float)a.out[0][p];
+	check(same, "%d-D: what is gathered to floats is what doubles get, rounded", dim);
+	pm_free(at), pm_free(out), pm_free(times);
+	problem_free(&a);
+}
+
 /* The second half of the stream is one tile before the first half: the only fall is between two batches, and with two threads between their chunks. */
 static void check_fall(void)
 {
@@ -847,6 +876,8 @@ int main(void)
 	check_in_order(3, (const size_t[]){7, 5, 9}, 4101, "cic", (const int[]){0, 2, 0});
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
 	check_one_number(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
+	check_floats(1, (const size_t[]){4000, 1, 1}, 20003); /* one tile, in whatever order */
+	check_floats(3, (const size_t[]){35, 20, 33}, 30003);
 	check_one_number(2, (const size_t[]){130, 67, 1}, 5001, "tsc");
 	check_one_number(3, (const size_t[]){35, 20, 33}, 30003, "cic");
 	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
