@@ -155,7 +155,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
 	struct columns w = {.v = {NULL}};
 	double one[2][PM_ADVANCE_BLOCK];
-	struct pm_column strength[2] = {{NULL}};
+	struct pm_column strength[2] = {{.value = 0}, {.value = 0}};
 	struct pm_magnetic a = {.c = pm_law_constant(f, "c", NAN), .radiation_time = pm_frame_constant(f, "radiation_time", NAN)};
 	size_t n = m->v->count, blocks = (n + PM_ADVANCE_BLOCK - 1) / PM_ADVANCE_BLOCK;
 	const bool floats = pm_column_floats(m->v, 0), plane = m->b && m->v->components < 3;
