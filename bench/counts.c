@@ -146,6 +146,23 @@ static void solve(struct work *w, enum pm_face face)
 	w->fft = pm_poisson_fft_free(w->fft);
 }
 
+static void gather_line(struct work *w)
+{
+	struct pm_strays strays;
+	must(pm_gather(&w->transfer, POINTS, (const double *const *)w->x, (const double *const *)w->g, NULL, w->a, &strays));
+}
+
+/* cic on a line, straight from the stream. */
+static void on_a_line(struct work *w)
+{
+	struct pm_grid g = {.dim = 1, .cells = {1024, 1, 1}, .points = {1024, 1, 1}, .h = {CELLS / 1024., 1, 1}};
+	for (int d = 0; d < 3; d++)
+		g.face[d][0] = g.face[d][1] = PM_PERIODIC;
+	w->transfer = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find("cic"), .components = 1};
+	run(w, "p2m cic, 1-D", "particle", POINTS, spread);
+	run(w, "m2p cic, 1-D", "particle", POINTS, gather_line);
+}
+
 int main(void)
 {
 	static const char *const kernels[] = {"cic", "pcs", "m6prime"};
@@ -185,5 +202,6 @@ int main(void)
 		w.transfer.kernel = pm_kernel_find(k ? "tsc" : "cic");
 		snprintf(name, sizeof name, "m2p of E and B, %s", w.transfer.kernel->name), run(&w, name, "particle", POINTS, light);
 	}
+	on_a_line(&w);
 	return 0;
 }

@@ -94,7 +94,7 @@ static int adjust(const struct pm_stage *s, const struct config *o, const struct
 	if (pm_scene_box(state->scene, &state->choice, f, o->faces.n > 0) || pm_attributes_faces(f, &o->faces) ||
 		pm_attributes_particle_faces(f, &o->particle_faces) || (o->cells.n && pm_cells_for(&o->cells, f->dim, m->cells)))
 		return -PM_USAGE;
-	if (pm_scene_periods(f) < periods && !state->scene->random && !o->box.n && state->choice.n)
+	if (pm_scene_periods(f) < periods && !state->scene->random && !o->box.n && !o->particle_faces.n && state->choice.n)
 		pm_note(s, "the particles of the scene %s repeat in its periodic box: at other faces they have an edge, and what it states does not hold",
 			state->scene->name);
 	for (int d = 0; d < f->dim; d++) {

@@ -209,7 +209,7 @@ void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corn
 	for (size_t z = 0; z < cells[2]; z++)
 		for (size_t y = 0; y < cells[1]; y++) {
 			const double *low = block + z * plane + y * row;
-			double *to = corners + (z * PM_GATHER_ROWS + y) * PM_GATHER_ROW * PM_CORNERS;
+			double *to = corners + (((z << pm_tile_shift[3][1]) + y) << pm_tile_shift[3][0]) * PM_CORNERS;
 			for (size_t x = 0; x <= cells[0]; x += PM_SIMD_WIDTH) {
 				const double *at = low + x;
 				turn_out((const pm_simd[]){pm_simd_load_any(at), pm_simd_load_any(at + plane), pm_simd_load_any(at + row),
@@ -253,7 +253,7 @@ PM_SIMD_INLINE struct rows rows_of(const struct eight *e)
 {
 	const pm_simd x = e->distance[0], y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
 	struct rows r = {.w = {z0 * y0, z * y0, z0 * y, z * y}, .x = x, .x0 = 1 - x};
-	*(pm_simd_int_at *)r.at = PM_TILE_CIC_CORNERS ? gather_cell_of(e) : node_of(e);
+	*(pm_simd_int_at *)r.at = PM_TILE_CIC_CORNERS ? cell_of(e) : node_of(e);
 	return r;
 }
 
@@ -293,7 +293,7 @@ PM_SIMD_INLINE pm_simd value_of(const struct rows *r, const double *from)
 
 PM_SIMD_INLINE const double *component(const struct pm_tile *t, int c)
 {
-	return PM_TILE_CIC_CORNERS ? t->corners + (size_t)c * PM_GATHER_CELLS * PM_CORNERS : t->block + (size_t)c * PM_BLOCK_MOST;
+	return PM_TILE_CIC_CORNERS ? t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS : t->block + (size_t)c * PM_BLOCK_MOST;
 }
 
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)

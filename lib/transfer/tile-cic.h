@@ -37,9 +37,9 @@ void pm_tile_cic_spread_records(const struct pm_tile *t);
 void pm_tile_cic_spread_eight(const struct pm_tile *t); /* the same, eight records at a time */
 /* The corners of the cells[3] cells of the tile to its block, whose values are set, not added to; leaves corners zero. */
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3]);
-/* The block of a component to corners[PM_GATHER_CELLS][PM_CORNERS], those of each cell. */
+/* The block of a component to corners[PM_TILE_CELLS][PM_CORNERS], those of each cell. */
 void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners);
-/* Values of t's components from their corners [components][PM_GATHER_CELLS][PM_CORNERS]. True if what is left is finite. */
+/* Values of t's components from their corners [components][PM_TILE_CELLS][PM_CORNERS]. True if what is left is finite. */
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
 void pm_tile_cic_gather_eight(const struct pm_tile *t); /* from records to results, which may be the records */
 

@@ -39,7 +39,7 @@ PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_
 	pm_simd_turn(v, u);
 	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++) {
-		e.distance[d] = pm_simd_split(u[d] + t->lift[d], &e.cell[d]);
+		e.distance[d] = pm_simd_split(u[d], &e.cell[d]);
 		e.cell[d] -= (int32_t)t->cell[d];
 	}
 	*fourth = u[3];
@@ -67,20 +67,16 @@ PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_
 			pm_axis_locate_far(&b->order->axes[d], outside, PM_SIMD_WIDTH, x, far);
 			u = pm_simd_load_any(far);
 		}
-		e.distance[d] = pm_simd_split(u + t->lift[d], &e.cell[d]);
+		e.distance[d] = pm_simd_split(u, &e.cell[d]);
 		e.cell[d] -= (int32_t)t->cell[d];
 	}
 	return e;
 }
 
-/* Their cells, x fastest; those of a gather. */
+/* Their cells, x fastest. */
 PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)
 {
 	return (((e->cell[2] << pm_tile_shift[3][1]) + e->cell[1]) << pm_tile_shift[3][0]) + e->cell[0];
-}
-PM_SIMD_INLINE pm_simd_int gather_cell_of(const struct eight *e)
-{
-	return (e->cell[2] * PM_GATHER_ROWS + e->cell[1]) * PM_GATHER_ROW + e->cell[0];
 }
 
 /* Their first points in a block. */

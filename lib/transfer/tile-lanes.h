@@ -116,7 +116,7 @@ PM_SIMD_INLINE size_t find_support(int dim, int width, int degree, const struct 
 	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
 	double distance[4];
 	int32_t cell[4];
-	pm_simd4_at u = *(const pm_simd4_at *)record + *(const pm_simd4_at *)t->lift; /* lanes from dim on hold other values */
+	pm_simd4_at u = *(const pm_simd4_at *)record; /* lanes from dim on hold other values */
 	*(pm_simd4_at *)distance = pm_simd4_split(u, (pm_simd4_int_at *)cell) - t->shift; /* u >= 0 */
 	for (int d = 0; d < 3; d++)
 		if (d < dim)

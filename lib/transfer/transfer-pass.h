@@ -20,9 +20,8 @@ struct pm_pass {
 	double *results; /* gather: [n][to] where the records are not to be overwritten, else NULL */
 	bool blockwise;  /* gather: positions, factors or targets are not doubles */
 	int to;          /* 0: components */
-	double lift[4];  /* gather: of transfer-tile.h; the axes of p are then those of the points, with the cells of the order's */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
-	double *corners; /* NULL or [threads][each][PM_TILE_CELLS or PM_GATHER_CELLS][PM_CORNERS], zero */
+	double *corners; /* NULL or [threads][each][PM_TILE_CELLS][PM_CORNERS], zero */
 };
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */

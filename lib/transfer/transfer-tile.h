@@ -13,14 +13,12 @@ static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4,
 static const int pm_block_row[4] = {0, 4096 + 12, 64 + 12, 32 + 12};
 static const int pm_block_rows[4] = {0, 1, 64 + 10, 16 + 10};
 static const int pm_block_planes[4] = {0, 1, 1, 8 + 10};
-enum { PM_BLOCK_MOST = 44 * 26 * 18, PM_TILE_CELLS = 4096, PM_CORNERS = 8,
-	PM_GATHER_ROW = 33, PM_GATHER_ROWS = 17, PM_GATHER_CELLS = PM_GATHER_ROW * PM_GATHER_ROWS * 9 }; /* of points half a cell up there is one more */
+enum { PM_BLOCK_MOST = 44 * 26 * 18, PM_TILE_CELLS = 4096, PM_CORNERS = 8 };
 
 /* Arguments of the loops over particles. */
 struct pm_tile {
 	const struct pm_kernel *kernel;
 	double shift;           /* of the axes: t = u - cell - shift */
-	double lift[4];         /* [cells] gather: added to u, 0.5 for points half a cell up where the order is that of the nodes */
 	size_t cell[3];         /* the first of the tile */
 	size_t count;           /* particles */
 	int stride;             /* doubles per record */
@@ -31,8 +29,7 @@ struct pm_tile {
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
 	double *nodes;          /* gather: NULL, or the components of each point of the block side by side, four each (tile-vector.h) */
-	double *corners;        /* NULL, or (tile-cic.h, tile-line.h) spread: [PM_TILE_CELLS][PM_CORNERS], zero before, after; gather:
-	                         * [components][PM_GATHER_CELLS][PM_CORNERS] */
+	double *corners;        /* NULL, or (tile-cic.h, tile-line.h) spread: [PM_TILE_CELLS][PM_CORNERS], zero before, after; gather: so for each component */
 };
 
 /* Chosen by dim and the kernel's width and degree. */

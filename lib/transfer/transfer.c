@@ -17,7 +17,6 @@ struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j
 	const int to = w->to ? w->to : w->components;
 	t.results = w->results ? w->results + j->from * (size_t)to : t.records;
 	t.to = w->results ? to : t.stride;
-	memcpy(t.lift, w->lift, sizeof t.lift);
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(&w->p, j->tile, d, &t.cell[d]);
 	return t;
@@ -120,7 +119,7 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 /* The same of cic, by corners of cells or from the block; with records, whose results are checked later, too. */
 static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
 {
-	const size_t each = (size_t)PM_GATHER_CELLS * PM_CORNERS;
+	const size_t each = (size_t)PM_TILE_CELLS * PM_CORNERS;
 	size_t cells[3];
 	if (PM_TILE_CIC_CORNERS)
 		t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
@@ -261,7 +260,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
-	return PM_TILE_CIC_CORNERS && w->o->order.dim == 3 ? pm_pass_corners(w, threads, (size_t)w->components * PM_GATHER_CELLS) : 0;
+	return PM_TILE_CIC_CORNERS && w->o->order.dim == 3 ? pm_pass_corners(w, threads, (size_t)w->components * PM_TILE_CELLS) : 0;
 }
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
