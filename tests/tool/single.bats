@@ -10,9 +10,9 @@ subprocess.run(["cycle", "-q", "-n", "3", sys.argv[2], "-i", sys.argv[1]], stdou
 print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "$1" "$2"
 }
 
-# halves SCENE... SENTENCE (SCENE -n N): what 350000 particles add in f32 is at most 0.58 of what they add in f64, their ids, 8 bytes in both, apart. With light 56 of
-# 104 bytes are 0.54, 8 of both the order of particles; a column widened to doubles for a word would be 0.08 more. Memory comes in pieces of 2 MB, which vectors of
-# 170000 and 520000 particles nearly fill; the fewer need more than python3, whose memory is counted until cycle begins.
+# halves SCENE... SENTENCE (SCENE -n N): what 350000 particles add in f32 is at most 0.58 of what they add in f64, their ids, 8 bytes in both, apart. With light
+# 56 of 104 bytes are 0.54, 8 of both the order of particles; a column widened to doubles for a word would be 0.08 more. Memory comes in pieces of 2 MB, which
+# vectors of 170000 and 520000 particles nearly fill; the fewer need more than python3, whose memory is counted until cycle begins.
 halves() {
 	local sentence=${*: -1} few many ids part
 	set -- "${@:1:$#-1}"
