@@ -1,32 +1,26 @@
 #!/usr/bin/env bats
-# The same bytes, messages and exit codes for any number of ranks: rehearsed with 2, 3, 4 and 7 on this machine, and under mpirun where it is there.
+# The same bytes, messages and exit codes for any number of ranks: rehearsed with 1, 2, 3, 4 and 7 on this machine, and under mpirun where it is there.
 # Every run has a watchdog. SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 # on N COMMAND...: with N ranks; it may not hang.
 on() { local n=$1 word=$2; shift 2; PM_REHEARSE=${PM_REHEARSE:-one-thread} timeout -k 1 60 "$word" --ranks "$n" "$@"; }
 
-few=$([ -z "${PM_LONG:-}" ] && echo 3 7 || echo 2 3 7)
-
-# same SENTENCE [OPTION...] < frame: cycle with ranks writes what it writes alone: with two numbers of ranks, the sentences of a test in turn 2 (both
-# neighbours are one rank) and 7 (often more than planes), 3 and 4. In check-long every sentence with all of them, and 1, and a step more.
+# same SENTENCE [OPTION...] < frame: cycle with every number of ranks writes what it writes alone.
 same() {
-	local sentence=$1 n ran=0 few=("3 4" "7 2") numbers="1 2 3 4 7"
+	local sentence=$1 n ran=0
 	shift
-	echo >>turns # in a file: after a pipe this is another shell
-	[ -n "${PM_LONG:-}" ] || numbers=${few[$(wc -l <turns) % 2]}
-	set -- -n "$([ -z "${PM_LONG:-}" ] && echo 2 || echo 3)" "$@"
 	cat >start
-	OMP_NUM_THREADS=1 cycle "$@" "$sentence" <start >alone
+	OMP_NUM_THREADS=1 cycle -n 3 "$@" "$sentence" <start >alone
 	[ "$(wc -c <alone)" -gt 1000 ]
-	for n in $numbers; do
+	for n in 1 2 3 4 7; do
 		for threads in $([ -z "${PM_LONG:-}" ] && echo $((1 + n % 2)) || echo 1 2); do
-			OMP_NUM_THREADS=$threads on "$n" cycle "$@" "$sentence" <start >ranks || return
+			OMP_NUM_THREADS=$threads on "$n" cycle -n 3 "$@" "$sentence" <start >ranks || return
 			cmp alone ranks || { echo "$n ranks, $threads threads: $sentence"; return 1; }
 			ran=$((ran + 1))
 		done
 	done
-	[ $ran -ge 2 ]
+	[ $ran -ge 5 ]
 }
 
 force() { echo "p2m -n $1 | poisson-fft | mgrad | m2p"; }
@@ -61,7 +55,7 @@ vortices() {
 @test "any number of ranks: direct sums, a tide that turns, a scheme with a memory, ias15" {
 	pinit plummer -n 300 | same "$(kicks pp)"
 	pinit plummer -n 300 | same "$(kicks "pp | field 'acc = 0.1*cos(time)*x, -0.1*cos(time)*y, -0.2*z'")"
-	pinit plummer -n 200 | same "pp | push ab3" -n 5 # its start, and steps after it
+	pinit plummer -n 200 | same "pp | push ab3"
 	pinit two-body | same "pp | push ias15"
 }
 
@@ -140,7 +134,7 @@ tables() {
 	cycle -q -n 2 "$@" "$words" <start >/dev/null || return
 	mv table alone.tsv
 	grep -q . alone.tsv || return
-	for n in 3 7; do
+	for n in 2 3 7; do
 		on $n cycle -v -n 2 "$@" "$words" <start 2>said >/dev/null && cmp table alone.tsv && grep -q 'on rank 0 alone: no word' said ||
 			{ cat said; diff table alone.tsv; echo "$n ranks: $words"; return 1; }
 	done
@@ -185,7 +179,7 @@ tables() {
 		[ "$1" = alone ] && shared=nothing && shift
 		mkdir -p one two
 		(cd one && "$@" -q >out 2>err) || true
-		for n in $few; do
+		for n in 2 3 7; do
 			(cd two && timeout 60 "$1" --ranks $n -v "${@:2}" >out 2>err) || true
 			[ $shared = nothing ] || grep -q "ranks share the work" two/err
 			grep -v "ranks share the work" two/err >left || true
@@ -217,7 +211,7 @@ tables() {
 	sh5 -i two.pm -o alone.h5
 	cycle -q -n 1 --store f32 'push drift' -i frame.pm -o single.pm
 	sh5 -i single.pm -o single.h5
-	for n in $few; do
+	for n in 2 3 7; do
 		on $n sh5 -i two.pm -o got.h5
 		cmp alone.h5 got.h5
 		on $n sh5 -i single.pm -o got.h5
@@ -241,7 +235,7 @@ tables() {
 	for how in "a b" "--merge a c b" "--merge a.plain b.plain c.plain" "c a --as p,q" "--merge aa aa"; do
 		# shellcheck disable=SC2086 # words
 		stack $how -o one
-		for n in $few; do
+		for n in 2 3 7; do
 			# shellcheck disable=SC2086
 			on $n stack $how -o two
 			cmp one two || { echo "$n ranks: $how"; return 1; }
@@ -277,7 +271,7 @@ tables() {
 		local shared=$1 code=0 got
 		shift
 		scmp "$@" <a >want 2>message || code=$?
-		for n in $few; do
+		for n in 2 3 7; do
 			got=0
 			OMP_NUM_THREADS=$((1 + n % 2)) on $n scmp -v "$@" <a >table 2>said || got=$?
 			[ "$shared" = no ] || grep -q "ranks share the work" said || { cat said; echo "$n ranks: scmp $* alone"; return 1; }
@@ -323,7 +317,7 @@ tables() {
 		local shared=$1 code=0 got
 		shift
 		stab "$@" -o one 2>want || code=$?
-		for n in $few; do
+		for n in 2 3 7; do
 			got=0
 			OMP_NUM_THREADS=$((1 + n % 2)) on $n stab -v "$@" -o two 2>said || got=$?
 			[ "$shared" = no ] || grep -q "ranks share the work" said || { cat said; echo "$n ranks: stab $* is not shared"; return 1; }
@@ -477,7 +471,7 @@ blobs() {
 	pinit vortex-ring --cells 12 | same "p2m | poisson-fft | mgrad | stretch | diffuse | m2p | push rk2 | remesh"
 	pinit uniform -n 9000 --dispersion 0.3 >box
 	same "push drift | remesh -n 18 --by mass --kernel tsc | ssort" --store f32 <box
-	pinit uniform -n 5000 --dim 1 --dispersion 0.3 | same "push drift | remesh -n 5000 --by mass --kernel tsc --every 2" -n 3
+	pinit uniform -n 5000 --dim 1 --dispersion 0.3 | same "push drift | remesh -n 5000 --by mass --kernel tsc --every 2"
 	pinit uniform -n 5000 --dispersion 0.3 --faces wall,neumann,periodic,periodic,neumann,wall \
 		--particle-faces reflect,reflect,periodic,periodic,reflect,reflect | same "push drift | remesh -n 16x15x17 --by mass --kernel tsc"
 	pinit plummer -n 1000 | smod --rename matter=b >two
@@ -575,7 +569,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	for start in box wave; do
 		cycle -q -n 3 "$words" <$start >/dev/null
 		cp table alone.tsv
-		for n in $few; do on $n cycle -q -n 3 "$words" <$start >/dev/null && cmp table alone.tsv || return 1; done
+		for n in 2 3 7; do on $n cycle -q -n 3 "$words" <$start >/dev/null && cmp table alone.tsv || return 1; done
 	done
 	awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "energy_field_mesh") c = i } END { exit !(c && $c > 0) }' table
 	shares "push kick/2 drift, p2m -n 17x40, poisson-fft, mgrad, m2p, push kick/2, diag --tee table" "$words" <wave
@@ -746,17 +740,17 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 }
 
 @test "any number of ranks: sums over pairs of several stretches, steps by every rule of sets, tables of diag" {
-	pinit plummer -n 4200 >cluster
+	pinit plummer -n 9500 >cluster
 	smod --rename matter=twins <cluster >twins # each coincides with one of the others
 	stack cluster twins >two
-	pinit plummer -n 8200 | OMP_NUM_THREADS=2 same "$(kicks "pp --loop full --potential")" --store all -n 1 # three stretches of 4096
+	OMP_NUM_THREADS=2 same "$(kicks "pp --loop full --potential")" --store all <cluster
 	same "pp --softening 0 | push rk2 --unsafe" --store all <two
 	same "pp | dt --acceleration 0.05 --softening 0.1 --oscillation 0.2 | push rk2" <cluster
 	pinit two-stream -n 9000 --vth 0.1 --amplitude 0.1 >streams
 	same "dt --courant 0.2 --plasma 0.1 --max 0.5 | push drift" <streams
 	sel --drop mesh <streams | cycle -n 3 'diag --tee table | push drift' >/dev/null
 	cp table alone.tsv
-	for n in $few; do sel --drop mesh <streams | on $n cycle -n 3 'diag --tee table | push drift' >/dev/null && cmp table alone.tsv || return 1; done
+	for n in 2 3 7; do sel --drop mesh <streams | on $n cycle -n 3 'diag --tee table | push drift' >/dev/null && cmp table alone.tsv || return 1; done
 	[ "$(wc -l <table)" -eq 4 ]
 }
 
@@ -812,7 +806,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 		command=$(words "$t")
 		[ "$t" != plan ] || command="plan --no-cost"
 		bash -c "$command" <in.pm >alone 2>said && code=0 || code=$?
-		for n in $([ -z "${PM_LONG:-}" ] && echo 3 || echo 2 3); do
+		for n in 2 3; do
 			got=0
 			bash -c "timeout -k 1 60 ${command/$t/$t --ranks $n}" <in.pm >ranks 2>says || got=$?
 			[ "$got" = "$code" ] && cmp alone ranks && diff said says || { echo "$t, $n ranks: $got, alone $code"; return 1; }
@@ -828,7 +822,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	failed=0
 	while IFS='#' read -r file words; do
 		bash -c "$words" <"$file" >alone 2>said && return 1 || code=$?
-		for n in $few; do
+		for n in 2 3 7; do
 			got=0
 			bash -c "timeout -k 1 60 ${words/ / --ranks $n }" <"$file" >ranks 2>says || got=$?
 			[ "$got" = "$code" ] && diff said says && cmp alone ranks || { echo "$n ranks: $words: $got, alone $code"; return 1; }
@@ -850,7 +844,7 @@ good#cycle -n 2 'push drift --ranks 2'
 good#cycle -n 2 'nothing | push drift'
 good#diag no-such-file
 END
-	[ $failed -eq $((14 * $(wc -w <<<"$few"))) ]
+	[ $failed -eq 42 ]
 }
 
 @test "files with ranks: each reads and writes its own part, with the bytes of a run alone; several streams, f32, i64, a checkpoint over another" {
@@ -858,7 +852,7 @@ END
 	cat in.pm in.pm >twice.pm
 	for s in "push drift" "$(kicks "field 'acc = -x, -y, -z'")" "push drift | ssort"; do
 		cycle -n 3 --no-history --checkpoint c -i twice.pm -o alone "$s"
-		for n in $few; do
+		for n in 2 3 7; do
 			for again in new old; do # a file that is there is replaced
 				on $n cycle -n 3 --no-history --checkpoint d -i twice.pm -o file "$s" && cmp alone file && cmp c d ||
 					{ echo "$n ranks: $s, $again"; return 1; }
@@ -975,7 +969,7 @@ END
 		run -3 --separate-stderr cycle -n 1 "$s" <both
 		said=$stderr
 		[[ $said == *"'a' of '"* ]]
-		for n in $few; do run -3 --separate-stderr on $n cycle -n 1 "$s" <both && [ "$stderr" = "$said" ]; done
+		for n in 2 3 7; do run -3 --separate-stderr on $n cycle -n 1 "$s" <both && [ "$stderr" = "$said" ]; done
 	done
 }
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
-# The same bytes for every way of running a sentence: a shell loop, fused, processes on pipes; 1 and 3 threads; even and odd meshes; fresh and
-# resumed; words newly shared by ranks (all other sentences: ranks.bats). In check-long every number of threads with every engine, and 1, 2, 3, 4 and 7 ranks
-# with 1 and 2 threads each; else two of these. SPDX-License-Identifier: GPL-3.0-or-later
+# The same bytes for every way of running a sentence: a shell loop, fused, processes on pipes; 1, 2 and 3 threads; even and odd meshes; fresh and
+# resumed; words newly shared by ranks with 1, 2, 3, 4 and 7 of them (all other sentences: ranks.bats). SPDX-License-Identifier: GPL-3.0-or-later
 load ../helper
 
 steps=4
@@ -24,8 +23,8 @@ all_ways() {
 	want=$(OMP_NUM_THREADS=1 loop "$(quiet "$3")" "$(quiet "$2")" $((steps * $4)) < start | cksum)
 	loop true "" 0 < start | cksum | grep -qvF "$want" # something was computed
 	[ "${want##* }" -gt 1000 ]
-	for threads in $([ -z "${PM_LONG:-}" ] && echo 1 3 || echo 1 2 3); do
-		for engine in $([ -z "${PM_LONG:-}" ] && [ $threads = 1 ] && echo fused || echo fused pipes); do
+	for threads in 1 2 3; do
+		for engine in fused pipes; do
 			got=$(OMP_NUM_THREADS=$threads cycle --no-history --store all -n $steps --engine $engine "$3" < start | cksum)
 			[ "$got" = "$want" ] || { echo "$engine, $threads threads: $got, the shell loop: $want"; return 1; }
 			OMP_NUM_THREADS=$threads cycle --no-history -n 2 --checkpoint half --engine $engine "$3" < start > /dev/null
@@ -34,7 +33,7 @@ all_ways() {
 			ways=$((ways + 2))
 		done
 	done
-	[ $ways -eq "$([ -z "${PM_LONG:-}" ] && echo 6 || echo 12)" ]
+	[ $ways -eq 12 ]
 	# rehearsed: all numbers of ranks and threads in check-long
 	for n in $([ -z "${PM_LONG:-}" ] && echo 3 || echo 1 2 3 4 7); do
 		for threads in $([ -z "${PM_LONG:-}" ] && echo 2 || echo 1 2); do
@@ -235,30 +234,24 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 	all_ways "pinit uniform -n 1001 --dispersion 0.3" "" "push drift | sel --where 'x < 0.6 - 0.02*time'" 1
 }
 
-# numbers: of ranks and threads. In check-long all; else, the sentences of a test in turn, 2 ranks (both neighbours are one rank) and 7, or 3 and 4.
-numbers() {
-	local few=("3,2 4,1" "7,2 2,1")
-	echo >>turns # in a file: after a pipe this is another shell
-	if [ -n "${PM_LONG:-}" ]; then echo {1,2,3,4,7},{1,2}; else echo "${few[$(wc -l <turns) % 2]}"; fi
-}
-
-# ranks HOW WORD...: a word as a process; with ranks and threads it writes the file that it writes alone. HOW: shared, or whole, is what it says.
+# ranks HOW WORD...: a word as a process; 1, 2, 3, 4 and 7 ranks times 1, 2 threads write the file that it writes alone. HOW: shared, or whole, is what it says.
 ranks() {
-	local how=$1 word=$2 ran=0 n threads each
+	local how=$1 word=$2 ran=0
 	shift 2
 	OMP_NUM_THREADS=1 $word "$@" -o alone
-	for each in $(numbers); do
-		n=${each%,*} threads=${each#*,}
-		OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 $word --ranks $n --verbose "$@" -o file 2>said && cmp alone file ||
-			{ echo "$n ranks, $threads threads: $word $*"; return 1; }
-		case $n,$how in
-		1,*) ;;
-		*,shared) grep -qx "$word: $n ranks share the work" said ;;
-		*) ! grep -q "ranks share the work" said ;;
-		esac || { echo "$n ranks: $word $* is not $how"; return 1; }
-		ran=$((ran + 1))
+	for n in 1 2 3 4 7; do
+		for threads in 1 2; do
+			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 $word --ranks $n --verbose "$@" -o file 2>said && cmp alone file ||
+				{ echo "$n ranks, $threads threads: $word $*"; return 1; }
+			case $n,$how in
+			1,*) ;;
+			*,shared) grep -qx "$word: $n ranks share the work" said ;;
+			*) ! grep -q "ranks share the work" said ;;
+			esac || { echo "$n ranks: $word $* is not $how"; return 1; }
+			ran=$((ran + 1))
+		done
 	done
-	[ $ran -ge 2 ]
+	[ $ran -eq 10 ]
 }
 
 @test "equal bytes with ranks: scenes that each rank makes a stretch of, and others" {
@@ -282,21 +275,22 @@ ranks() {
 	ranks whole smod --dt 0.3 -i box
 }
 
-# shared WORDS... < frame: a step in which ranks share every word; with ranks and threads it writes what a run alone does.
+# shared WORDS... < frame: a step in which ranks share every word; 1, 2, 3, 4 and 7 ranks times 1, 2 threads write what a run alone does.
 shared() {
-	local ran=0 n threads each
 	cat >start
+	ran=0
 	OMP_NUM_THREADS=1 cycle -q -n 2 -i start -o alone "$1"
 	[ "$(wc -c <alone)" -gt 1000 ]
-	for each in $(numbers); do
-		n=${each%,*} threads=${each#*,}
-		OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 \
-			cycle --ranks $n --verbose -n 2 -i start -o file "$1" 2>said && cmp alone file ||
-			{ echo "$n ranks, $threads threads: $1"; return 1; }
-		[ $n -eq 1 ] || grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
-		ran=$((ran + 1))
+	for n in 1 2 3 4 7; do
+		for threads in 1 2; do
+			OMP_NUM_THREADS=$threads PM_REHEARSE=one-thread timeout -k 1 60 \
+				cycle --ranks $n --verbose -n 2 -i start -o file "$1" 2>said && cmp alone file ||
+				{ echo "$n ranks, $threads threads: $1"; return 1; }
+			[ $n -eq 1 ] || grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
+			ran=$((ran + 1))
+		done
 	done
-	[ $ran -ge 2 ]
+	[ $ran -eq 10 ]
 }
 
 @test "equal bytes with ranks: spectral derivatives, whose lines cross the planes of ranks" {
@@ -389,7 +383,7 @@ tables() {
 	cat >begin
 	cycle -q -n 2 -i begin "$1" >/dev/null && cp table want
 	[ "$(wc -l <want)" -eq 3 ]
-	for n in 3 7; do
+	for n in 2 3 7; do
 		PM_REHEARSE=one-thread timeout -k 1 60 cycle --ranks $n --verbose -n 2 -i begin "$1" 2>said >/dev/null && cmp want table ||
 			{ echo "$n ranks: $1"; return 1; }
 		grep -q "^cycle: $n ranks share:.*on rank 0 alone: no word$" said || { grep share: said; return 1; }
