@@ -101,8 +101,7 @@ static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int
 		struct pm_clock began = pm_clock();
 		status = s->tool->frame(s, f);
 		pm_work_since(s, began);
-		status = pm_world_agree(status < 0 ? status : status > 0 ? pm_fail(PM_DATA, "a divided word cannot leave a frame out") : 0);
-		status = adopt(status, u, f);
+		status = adopt(status < 0 ? status : status > 0 ? pm_fail(PM_DATA, "a divided word cannot leave a frame out") : 0, u, f);
 		if (!status)
 			status = pm_world_agree(pm_frame_settle(f));
 		else

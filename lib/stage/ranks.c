@@ -140,7 +140,6 @@ int pm_ranks_follow(const struct pm_tool *tool)
 			else if (what != PM_REQUEST_END)
 				pm_request_parts(what, more, bytes);
 		}
-		free(more);
 	}
 	pm_divided_free();
 	pm_parts_free();

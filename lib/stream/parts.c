@@ -114,11 +114,20 @@ bool pm_buffer_alone(const struct pm_buffer *b) { return atomic_load(&b->users) 
 
 /* ---- requests ---- */
 
+/* What goes to all in one message; the rest of a long request follows. */
+struct request {
+	int64_t what, bytes;
+	char begins[4080];
+};
+
 static int send(enum pm_request what, const void *more, size_t bytes)
 {
-	int64_t head[2] = {what, (int64_t)bytes};
-	const int status = pm_world_share(0, 0, head, sizeof head);
-	return bytes ? pm_world_share(status, 0, (void *)(uintptr_t)more, bytes) : status;
+	struct request r = {.what = what, .bytes = (int64_t)bytes};
+	const size_t here = bytes < sizeof r.begins ? bytes : sizeof r.begins;
+	if (here)
+		memcpy(r.begins, more, here);
+	const int status = pm_world_tell(&r, sizeof r);
+	return bytes > here ? pm_world_share(status, 0, (char *)(uintptr_t)more + here, bytes - here) : status;
 }
 
 int pm_request_send(enum pm_request what, const void *more, size_t bytes)
@@ -131,19 +140,33 @@ int pm_request_send(enum pm_request what, const void *more, size_t bytes)
 
 int pm_request_take(enum pm_request *what, void **more, size_t *bytes)
 {
-	int64_t head[2];
-	int status = pm_world_share(0, 0, head, sizeof head);
+	static struct {
+		struct request r;
+		char end; /* of a text that fits */
+	} got; /* no memory is needed, so that no rank can fail here alone */
+	static char *whole;
+	free(whole);
+	whole = NULL;
+	int status = pm_world_tell(&got.r, sizeof got.r);
 	*more = NULL;
 	if (status)
 		return status;
-	*what = (enum pm_request)head[0];
-	*bytes = (size_t)head[1];
-	if (*bytes && !(*more = malloc(*bytes + 1)))
-		status = pm_no_memory();
-	status = *bytes ? pm_world_share(status, 0, *more, *bytes) : status;
-	if (*more)
-		((char *)*more)[status ? 0 : *bytes] = 0;
-	return status;
+	*what = (enum pm_request)got.r.what;
+	*bytes = (size_t)got.r.bytes;
+	const size_t room = sizeof got.r.begins;
+	if (*bytes <= room) {
+		*more = got.r.begins;
+		(*bytes < room ? got.r.begins + *bytes : &got.end)[0] = 0;
+		return 0;
+	}
+	whole = malloc(*bytes + 1);
+	status = pm_world_share(whole ? 0 : pm_no_memory(), 0, whole ? whole + room : NULL, *bytes - room);
+	if (status)
+		return status;
+	memcpy(whole, got.r.begins, room);
+	whole[*bytes] = 0;
+	*more = whole;
+	return 0;
 }
 
 /* ---- parts ---- */

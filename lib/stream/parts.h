@@ -51,7 +51,7 @@ uint64_t pm_parts_number(void);              /* a number for new parts */
 enum pm_request { PM_REQUEST_END, PM_REQUEST_APPLY, PM_REQUEST_DIVIDE, PM_REQUEST_JOIN, PM_REQUEST_FORGET, PM_REQUEST_READ, PM_REQUEST_WRITE,
 	PM_REQUEST_TALLY, PM_REQUEST_SOURCE, PM_REQUEST_APPEND };
 int pm_request_send(enum pm_request what, const void *more, size_t bytes);           /* rank 0 */
-int pm_request_take(enum pm_request *what, void **more, size_t *bytes);              /* the others; free(*more) */
+int pm_request_take(enum pm_request *what, void **more, size_t *bytes);              /* the others; *more stays until the next */
 int pm_request_parts(enum pm_request what, const void *more, size_t bytes);          /* does one that concerns parts alone */
 /* Ranks other than 0: the part of this number, with a further use of it; NULL if there is none. take: it is given up here. */
 struct pm_buffer *pm_parts_of(uint64_t id, bool take);

@@ -103,21 +103,23 @@ static int shared(int root, void *data, size_t bytes)
 	return 0;
 }
 
+/* The place of this rank's failure; INT64_MAX: it has not failed. */
+static int64_t failure_of(int status)
+{
+	const int64_t place = status < 0 ? world.place >= 0 ? world.place : here()->rank : INT64_MAX;
+	world.place = -1;
+	return place;
+}
+
 /* The failure with the least place, of several in one place that of the least rank, becomes everybody's. */
-static int agreed(int status)
+static int failed_at(int status, int64_t mine, int64_t least)
 {
 	struct pm_transport *t = here();
 	struct {
 		int64_t code;
 		char text[1024];
 	} said = {status, ""};
-	const int64_t mine = status < 0 ? world.place >= 0 ? world.place : t->rank : INT64_MAX;
-	int64_t least = mine, who;
-	world.place = -1;
-	if (world.broken)
-		return broken();
-	if (reduced(PM_LEAST_OF, 1, &least))
-		return -PM_DATA;
+	int64_t who;
 	if (least == INT64_MAX)
 		return 0;
 	who = mine == least ? t->rank : INT64_MAX;
@@ -127,6 +129,42 @@ static int agreed(int status)
 	if (shared((int)who, &said, sizeof said))
 		return -PM_DATA;
 	return pm_fail((int)-said.code, "%s", said.text);
+}
+
+static int agreed(int status)
+{
+	const int64_t mine = failure_of(status);
+	int64_t least = mine;
+	if (world.broken)
+		return broken();
+	return reduced(PM_LEAST_OF, 1, &least) ? -PM_DATA : failed_at(status, mine, least);
+}
+
+/* A reduction of a few numbers takes the statuses with it, so that ranks wait for each other once: the least place of the failures, the most of its complement,
+ * or how many have failed, of whom the place is then asked. */
+static int reduced_with(int status, enum pm_reduction how, size_t n, int64_t *x)
+{
+	int64_t all[64];
+	if (n >= sizeof all / sizeof *all || how == PM_SUM_BEFORE) {
+		status = agreed(status);
+		return status ? status : reduced(how, n, x);
+	}
+	if (world.broken)
+		return broken();
+	const int64_t place = world.place, mine = failure_of(status);
+	all[0] = how == PM_SUM_OF ? mine != INT64_MAX : how == PM_MOST_OF ? ~mine : mine;
+	memcpy(all + 1, x, n * sizeof *x);
+	if (reduced(how, n + 1, all))
+		return -PM_DATA;
+	if (how == PM_SUM_OF) {
+		world.place = place;
+		status = all[0] ? agreed(status) : 0;
+		world.place = -1;
+	} else
+		status = failed_at(status, mine, how == PM_MOST_OF ? ~all[0] : all[0]);
+	if (!status)
+		memcpy(x, all + 1, n * sizeof *x);
+	return status;
 }
 
 /* The status with which an operation begins; alone it is the caller's. */
@@ -148,8 +186,19 @@ int pm_world_share(int status, int root, void *data, size_t bytes)
 	return status || here()->size == 1 ? status : shared(root, data, bytes);
 }
 
+int pm_world_tell(void *data, size_t bytes)
+{
+	world.sent.calls++;
+	world.place = -1;
+	return here()->size == 1 ? 0 : shared(0, data, bytes);
+}
+
 int pm_world_count(int status, enum pm_reduction how, size_t n, int64_t *x)
 {
+	if (here()->size > 1) {
+		world.sent.calls++;
+		return reduced_with(status, how, n, x);
+	}
 	status = enter(status);
 	return status ? status : reduced(how, n, x);
 }
@@ -176,13 +225,17 @@ static double of_key(int64_t key)
 
 int pm_world_largest(int status, size_t n, double *x)
 {
-	status = enter(status);
-	if (status || here()->size == 1)
-		return status;
-	for (size_t i = 0; i < n && !status; i++) { /* few numbers: nobody shares fields by this */
-		int64_t key = key_of(x[i]);
-		status = reduced(PM_MOST_OF, 1, &key);
-		x[i] = status ? x[i] : of_key(key);
+	if (here()->size == 1)
+		return enter(status);
+	world.sent.calls++;
+	for (size_t i = 0, m = 0; i == 0 || (i < n && !status); i += m) { /* few numbers: nobody shares fields by this */
+		int64_t key[32];
+		m = n - i < 32 ? n - i : 32;
+		for (size_t k = 0; k < m; k++)
+			key[k] = key_of(x[i + k]);
+		status = reduced_with(status, PM_MOST_OF, m, key);
+		for (size_t k = 0; k < m && !status; k++)
+			x[i + k] = of_key(key[k]);
 	}
 	return status;
 }
@@ -214,11 +267,10 @@ static int add(struct parts *p, int rank, void *data, size_t bytes)
 	return 0;
 }
 
-/* Sends all if every rank could list its messages, and frees the lists. */
+/* Sends all, where every rank could list its messages, and frees the lists. */
 static int moved(int status, struct parts *out, struct parts *in)
 {
 	struct pm_transport *t = here();
-	status = agreed(status);
 	if (!status && t->move(t, out->n, out->part, in->n, in->part))
 		status = broken();
 	for (size_t i = 0; i < out->n && !status; i++)
@@ -228,25 +280,41 @@ static int moved(int status, struct parts *out, struct parts *in)
 	return status;
 }
 
+enum { FEW = 64 }; /* ranks whose numbers are on the stack */
+
+/* The lengths of what goes to each rank and comes from it. A rank that has failed says so with them. */
+static int lengths(int status, const size_t *out_bytes, uint64_t *length)
+{
+	struct pm_transport *t = here();
+	const size_t ranks = (size_t)t->size;
+	bool failed = false;
+	for (size_t r = 0; r < ranks; r++)
+		length[r] = status < 0 ? UINT64_MAX : out_bytes[r];
+	if (world.broken || t->turn(t, length, length + ranks))
+		return broken();
+	world.sent.bytes += 8 * (ranks - 1);
+	world.sent.messages += ranks - 1;
+	for (size_t r = 0; r < ranks; r++)
+		failed |= length[ranks + r] == UINT64_MAX;
+	if (failed)
+		return agreed(status);
+	world.place = -1;
+	return 0;
+}
+
 int pm_world_exchange(int status, const void *out, const size_t *out_bytes, void **in, size_t *in_bytes)
 {
 	struct pm_transport *t = here();
 	const size_t ranks = (size_t)t->size;
 	struct parts to = {0, 0, NULL}, from = {0, 0, NULL};
-	uint64_t *length = NULL;
+	uint64_t few[2 * FEW], *length = ranks > FEW ? calloc(2 * ranks, sizeof *length) : few;
 	*in = NULL;
-	status = enter(status);
-	if (status)
-		return status;
-	if (!(length = calloc(2 * ranks, sizeof *length)))
-		status = pm_no_memory();
-	status = agreed(status);
-	for (size_t r = 0; r < ranks && !status; r++)
-		length[r] = out_bytes[r];
-	if (!status && t->turn(t, length, length + ranks))
-		status = broken();
-	world.sent.bytes += 8 * (ranks - 1);
-	world.sent.messages += ranks - 1;
+	if (ranks > FEW || ranks == 1)
+		status = enter(status || length ? status : pm_no_memory());
+	else
+		world.sent.calls++;
+	if (!status || (ranks > 1 && ranks <= FEW))
+		status = lengths(status, out_bytes, length);
 	size_t total = 0, at = 0, have = 0;
 	for (size_t r = 0; r < ranks && !status; r++)
 		total += in_bytes[r] = (size_t)length[ranks + r];
@@ -260,8 +328,9 @@ int pm_world_exchange(int status, const void *out, const size_t *out_bytes, void
 			status = add(&from, (int)r, got + at, in_bytes[r]) || add(&to, (int)r, mine, out_bytes[r]) ? -PM_DATA : 0;
 		have += out_bytes[r], at += in_bytes[r];
 	}
-	status = moved(status, &to, &from);
-	free(length);
+	status = moved(ranks > 1 ? agreed(status) : status, &to, &from);
+	if (length != few)
+		free(length);
 	*in = status ? pm_free(got) : got;
 	return status;
 }
@@ -270,12 +339,10 @@ int pm_world_gather(int status, const void *mine, size_t bytes, void **all, size
 {
 	struct pm_transport *t = here();
 	const size_t ranks = (size_t)t->size;
-	size_t *length = NULL;
+	size_t few[2 * FEW] = {0}, *length = ranks > FEW ? calloc(2 * ranks, sizeof *length) : few;
 	*all = NULL;
 	*total = 0;
-	status = enter(status);
-	if (!status && !(length = calloc(2 * ranks, sizeof *length)))
-		status = pm_no_memory();
+	status = status || length ? status : pm_no_memory();
 	if (length)
 		length[0] = bytes;
 	status = pm_world_exchange(status, mine, length, all, length ? length + ranks : NULL);
@@ -283,7 +350,8 @@ int pm_world_gather(int status, const void *mine, size_t bytes, void **all, size
 		*total += length[ranks + r];
 	if (!status && t->rank)
 		*all = pm_free(*all);
-	free(length);
+	if (length != few)
+		free(length);
 	return status;
 }
 
@@ -292,18 +360,22 @@ int pm_world_recut(int status, const uint64_t *from, const uint64_t *to, size_t 
 	struct pm_transport *t = here();
 	const int me = t->rank;
 	struct parts give = {0, 0, NULL}, take = {0, 0, NULL};
-	status = enter(status);
+	status = status < 0 ? status : 0;
 	for (int r = 0; r < t->size && !status; r++) {
+		if (r == me)
+			continue;
 		uint64_t a = from[me] > to[r] ? from[me] : to[r], b = from[me + 1] < to[r + 1] ? from[me + 1] : to[r + 1];
-		if (a < b && r == me && in != out)
-			memmove((char *)out + (a - to[me]) * bytes, (const char *)in + (a - from[me]) * bytes, (b - a) * bytes);
-		else if (a < b && r != me)
+		if (a < b)
 			status = add(&give, r, (char *)(uintptr_t)in + (a - from[me]) * bytes, (b - a) * bytes);
 		a = from[r] > to[me] ? from[r] : to[me], b = from[r + 1] < to[me + 1] ? from[r + 1] : to[me + 1];
-		if (a < b && r != me && !status)
+		if (a < b && !status)
 			status = add(&take, r, (char *)out + (a - to[me]) * bytes, (b - a) * bytes);
 	}
-	return t->size == 1 ? status : moved(status, &give, &take);
+	status = enter(status);
+	const uint64_t a = from[me] > to[me] ? from[me] : to[me], b = from[me + 1] < to[me + 1] ? from[me + 1] : to[me + 1];
+	if (a < b && in != out && !status)
+		memmove((char *)out + (a - to[me]) * bytes, (const char *)in + (a - from[me]) * bytes, (b - a) * bytes);
+	return moved(status, &give, &take);
 }
 
 /* ---- planes of the neighbours ---- */
@@ -335,17 +407,15 @@ int pm_world_halo(int status, const struct pm_halo *h, void *data)
 	const int64_t mine = (int64_t)h->from[me];
 	struct parts give = {0, 0, NULL}, take = {0, 0, NULL};
 	struct wanted w;
-	status = enter(status);
+	status = status < 0 ? status : 0;
 	for (int r = 0; r < t->size && !status; r++) {
-		for (int64_t at = 0; !status && next_wanted(h, t->size, r, me, &at, &w);) {
-			char *from = (char *)data + (w.plane - mine) * (int64_t)h->bytes;
-			if (r == me)
-				memcpy((char *)data + (w.plane + w.shift - mine) * (int64_t)h->bytes, from, h->bytes);
-			else
-				status = add(&give, r, from, h->bytes);
-		}
+		for (int64_t at = 0; r != me && !status && next_wanted(h, t->size, r, me, &at, &w);)
+			status = add(&give, r, (char *)data + (w.plane - mine) * (int64_t)h->bytes, h->bytes);
 		for (int64_t at = 0; r != me && !status && next_wanted(h, t->size, me, r, &at, &w);)
 			status = add(&take, r, (char *)data + (w.plane + w.shift - mine) * (int64_t)h->bytes, h->bytes);
 	}
-	return t->size == 1 ? status : moved(status, &give, &take);
+	status = enter(status);
+	for (int64_t at = 0; !status && next_wanted(h, t->size, me, me, &at, &w);)
+		memcpy((char *)data + (w.plane + w.shift - mine) * (int64_t)h->bytes, (char *)data + (w.plane - mine) * (int64_t)h->bytes, h->bytes);
+	return moved(status, &give, &take);
 }

@@ -22,6 +22,8 @@ void pm_world_place(int check, int set, int component, uint64_t index);
 
 /* 1. The bytes of one rank to all. */
 int pm_world_share(int status, int root, void *data, size_t bytes);
+/* The same from rank 0 where no rank can have failed since the last operation: nothing is agreed, so that ranks wait once. */
+int pm_world_tell(void *data, size_t bytes);
 /* 2. The pieces of all ranks, joined in the order of ranks, on rank 0: *all of *total bytes, to be freed with pm_free; NULL and 0 elsewhere. */
 int pm_world_gather(int status, const void *mine, size_t bytes, void **all, size_t *total);
 /* 3. To every rank its own piece: out holds the pieces for rank 0, 1, ... one after the other, out_bytes their lengths. *in holds what arrived, in the order

@@ -547,7 +547,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	PM_REHEARSE="one-thread memory=1:5" on 3 cycle -q -n 1 "p2m -n 6x7x39 --kernel pcs | push drift" <box 2>said >/dev/null && return 1
 	grep -q "p2m.*: out of memory" said # not that the header is wrong
 	for rank in 0 1 2; do
-		for call in 20 30 45 60 80 100; do
+		for call in 12 20 28 36 45 55; do
 			code=0
 			OMP_NUM_THREADS=1 PM_REHEARSE="memory=$rank:$call" on 3 cycle -n 1 -i box -o file "$s" 2>said || code=$?
 			if [ $code -eq 0 ]; then cmp file alone; else
@@ -594,7 +594,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>want >/dev/null && return 1
 	on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg --max-cycles 1 | push drift" <box 2>got >/dev/null && return 1
 	cmp want got
-	PM_REHEARSE="one-thread memory=2:40" on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg | push drift" <box 2>said >/dev/null && return 1
+	PM_REHEARSE="one-thread memory=2:22" on 3 cycle -q -n 1 "p2m -n 16 | poisson-mg | push drift" <box 2>said >/dev/null && return 1
 	grep -q 'poisson-mg.*out of memory' said
 }
 
@@ -623,7 +623,7 @@ sent() { awk -v w="$1" 'index($0, w) == 1 { sub(/.*all ranks: /, ""); print $1 *
 	pinit uniform -n 300 --dim 2 --faces open | same "push drift | p2m -n 17x40 | poisson-mg --tolerance 1e-3 | mgrad | m2p"
 	shares "p2m -n 8, poisson-fft --free-space james, mgrad, m2p, push drift" \
 		"p2m -n 8 | poisson-fft --free-space james | mgrad | m2p | push drift" <cluster
-	PM_REHEARSE="one-thread memory=2:40" on 3 cycle -q -n 1 "p2m -n 8 | poisson-fft --free-space james | push drift" <cluster 2>said >/dev/null && return 1
+	PM_REHEARSE="one-thread memory=2:22" on 3 cycle -q -n 1 "p2m -n 8 | poisson-fft --free-space james | push drift" <cluster 2>said >/dev/null && return 1
 	grep -q 'poisson-fft.*out of memory' said
 }
 

@@ -113,6 +113,30 @@ static void integers(void)
 	must(y[0] == (double)size - 4 && isnan(y[1]) && y[2] == 0 && y[3] == 0 && y[4] == -5e-324, "largest");
 }
 
+/* More numbers than travel with a status. */
+static void many(void)
+{
+	const int64_t me = pm_world_rank(), size = pm_world_size();
+	int64_t sum[100];
+	double largest[70];
+	for (int i = 0; i < 100; i++)
+		sum[i] = me + i;
+	for (int i = 0; i < 70; i++)
+		largest[i] = (double)(me * i);
+	must(!pm_world_count(0, PM_SUM_OF, 100, sum) && !pm_world_largest(0, 70, largest), "many numbers");
+	for (int i = 0; i < 100; i++)
+		must(sum[i] == size * (size - 1) / 2 + size * i, "a hundred sums");
+	for (int i = 0; i < 70; i++)
+		must(largest[i] == (double)((size - 1) * i), "the largest of seventy numbers");
+}
+
+static void tell(void)
+{
+	char text[40] = "";
+	snprintf(text, sizeof text, "rank %d", pm_world_rank());
+	must(!pm_world_tell(text, sizeof text) && !strcmp(text, "rank 0"), "tell brings the bytes of rank 0");
+}
+
 static void recut(int a, int b)
 {
 	uint64_t from[most_ranks + 1], to[most_ranks + 1];
@@ -132,6 +156,8 @@ static void results(void)
 	share_and_gather();
 	exchange();
 	integers();
+	many();
+	tell();
 	for (int a = 0; a < 4; a++)
 		for (int b = 0; b < 4; b++)
 			recut(a, b);
@@ -159,6 +185,9 @@ static int operation(int which, int status)
 	case 4: return pm_world_largest(status, 1, x);
 	case 5: return pm_world_agree(status);
 	case 6: return pm_world_count(status, PM_SUM_OF, 1, &k);
+	case 7: return pm_world_count(status, PM_LEAST_OF, 1, &k);
+	case 8: return pm_world_count(status, PM_MOST_OF, 1, &k);
+	case 9: return pm_world_count(status, PM_SUM_BEFORE, 1, &k);
 	default: return pm_world_recut(status, from, to, 8, x, x + 4);
 	}
 }
@@ -167,7 +196,7 @@ static int operation(int which, int status)
 static void failures(void)
 {
 	const int me = pm_world_rank(), size = pm_world_size();
-	for (int which = 0; which < 8; which++)
+	for (int which = 0; which <= 10; which++)
 		for (int a = 0; a < size; a++) {
 			const int b = (a + 1) % size;
 			int status = 0;
@@ -196,10 +225,10 @@ static void traffic(void)
 	const struct pm_world_traffic before = pm_world_traffic();
 	must(!pm_world_recut(0, from, to, 1, data, data), "recut in place of one rank's items");
 	const struct pm_world_traffic after = pm_world_traffic();
-	const uint64_t agreed = size == 1 ? 0 : 16, own = to[size] - to[size - 1]; /* two agreements, of 8 bytes each */
+	const uint64_t agreed = size == 1 ? 0 : 8, own = to[size] - to[size - 1]; /* one agreement */
 	const uint64_t pieces = pm_world_rank() == (int)size - 1 && size > 1 ? 3000 - own : 0;
 	must(after.bytes - before.bytes == pieces + agreed, "bytes are counted");
-	uint64_t messages = size == 1 ? 0 : 2;
+	uint64_t messages = size == 1 ? 0 : 1;
 	for (uint64_t r = 0; r + 1 < size && pieces; r++)
 		messages += (to[r + 1] - to[r] + 6) / 7;
 	pm_world_cut(7);
