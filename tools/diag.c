@@ -67,7 +67,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	struct state *state = s->state;
 	state->within = state->within || f->substep;
-	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_reads(&state->table.request, f);
+	return f->substep ? PM_PASS /* state is not at the header's time */ : pm_diag_table_reads(&state->table, f);
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f)

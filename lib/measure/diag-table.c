@@ -139,6 +139,19 @@ static int remember(struct pm_diag_table *t, const double *value, double time)
 	return 0;
 }
 
+/* Waves whose theory is that of the species, where the scene states none: --exact with the growth of a mode. */
+static bool wants_theory(const struct pm_diag_table *t, const struct pm_frame *f)
+{
+	return t->choice.exact && t->mode >= 0 && (!strcmp(f->law, "electrostatic") || !strcmp(f->law, "electromagnetic"));
+}
+
+int pm_diag_table_reads(const struct pm_diag_table *t, struct pm_frame *f)
+{
+	if (wants_theory(t, f))
+		pm_wave_theory_reads(f);
+	return pm_diag_reads(&t->request, f);
+}
+
 /* Of the wave that the scene starts with, where its rate is asked for; `mode` of a scene is the wave that `gamma` belongs to. */
 static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
 {
@@ -147,6 +160,11 @@ static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
 	const bool its = scene && t->request.mode[t->mode] == (int)mode;
 	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
 	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
+	if (wants_theory(t, f) && isnan(t->theory[0]) && isnan(t->theory[1])) {
+		const double k1 = 2 * pm_pi / (f->hi[0] - f->lo[0]);
+		t->k = k1 * t->request.mode[t->mode];
+		pm_wave_theory_of(&t->waves, f, k1, pm_diag_how(&t->request, f).wave);
+	}
 }
 
 static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struct pm_measures *m)
@@ -203,7 +221,7 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_measure how = pm_diag_how(&t->request, f);
-	return pm_measure_shared(&how);
+	return pm_measure_shared(&how) && !wants_theory(t, f); /* rank 0 keeps the species of the first frame */
 }
 
 static void print_row(struct pm_diag_table *t, const double *value, bool first)
@@ -291,12 +309,12 @@ static void print_growth(FILE *out, bool json, const char *of, const struct pm_g
 	number(out, json, n[2], g->error);
 	number(out, json, n[3], g->omega);
 	if (g->reason[0]) {
-		fprintf(out, json ? ",\"points\":%zu,\"none\":\"%s\"}\n" : ", none of %zu points: %s\n", g->points, g->reason);
-		return;
+		fprintf(out, json ? ",\"points\":%zu,\"none\":\"%s\"" : ", none of %zu points: %s", g->points, g->reason);
+	} else {
+		number(out, json, n[4], g->from);
+		number(out, json, n[5], g->to);
+		fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g" : ", %zu points, %.3g times the noise", g->points, g->over_noise);
 	}
-	number(out, json, n[4], g->from);
-	number(out, json, n[5], g->to);
-	fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g" : ", %zu points, %.3g times the noise", g->points, g->over_noise);
 	if (isfinite(theory[0])) {
 		number(out, json, json ? ",\"theory_gamma\":" : "; theory: gamma ", theory[0]);
 		number(out, json, json ? ",\"theory_omega\":" : " omega ", theory[1]);
@@ -358,6 +376,10 @@ int pm_diag_table_end(struct pm_diag_table *t)
 		return print_divergence(t);
 	if (pm_growth_of(&t->series, c->from, c->to, &g))
 		return -PM_DATA;
+	if (t->k > 0) {
+		const double complex root = pm_wave_theory_close(&t->waves, t->k, g.omega + I * g.gamma);
+		t->theory[0] = isnan(creal(root)) ? NAN : cimag(root), t->theory[1] = creal(root);
+	}
 	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g, t->theory);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }

@@ -8,6 +8,7 @@
 #include "measure/energy-error.h"
 #include "measure/growth.h"
 #include "measure/readable-table.h"
+#include "measure/wave-theory.h"
 
 enum { PM_DIAG_ASKED = 32, PM_DIAG_WIDEST = 2 * (PM_DIAG_ASKED + PM_COLUMNS + 2 * PM_COMPONENTS + PM_FIELD_COLUMNS + PM_SPECIES_MOST * PM_MOMENTS) };
 
@@ -41,6 +42,8 @@ struct pm_diag_table {
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	double theory[2];             /* [1/time] gamma and omega that the scene states for this mode; NAN: none */
+	struct pm_wave_theory waves;  /* else of the species of the first frame */
+	double k;                     /* [1/length] of the mode; 0: no theory of waves is asked for */
 	struct pm_series series;
 	double *rows;                 /* of --average: n values and the time each; NULL: none */
 	size_t nrows, room;
@@ -59,6 +62,8 @@ struct pm_diag_table {
 int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, FILE *out);
 /* Can ranks share the measures of a row? Sums over pairs that nobody asked for are for rank 0, which alone knows what the first row had. */
 bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f);
+/* In declare(): what the rows need. */
+int pm_diag_table_reads(const struct pm_diag_table *t, struct pm_frame *f);
 /* 0 or failure. The first row is preceded by the line of names; end prints the line of the growth rate, or that there is none and why. */
 int pm_diag_table_row(struct pm_diag_table *t, const struct pm_frame *f);
 int pm_diag_table_end(struct pm_diag_table *t);

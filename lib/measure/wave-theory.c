@@ -199,3 +199,34 @@ double complex pm_wave_theory_nearest(const struct pm_wave_theory *t, double k, 
 	const double complex right = light(t, PM_RIGHT, k, omega), left = light(t, PM_LEFT, k, omega);
 	return isnan(creal(right)) || fabs(creal(left) - omega) < fabs(creal(right) - omega) ? left : right;
 }
+
+/* Of two roots, as waves along k or against it, the one nearer to what was measured. */
+static double complex nearer(double complex a, double complex b, double complex measured)
+{
+	const double complex root = fabs(creal(b)) + I * cimag(b);
+	return isnan(creal(b)) || (!isnan(creal(a)) && cabs(a - measured) <= cabs(root - measured)) ? a : root;
+}
+
+static double complex root_from(const struct pm_wave_theory *t, int kind, double k, double complex start)
+{
+	const struct pm_light_case l = {(enum pm_light)kind, t->species, t->n, k, t->c};
+	struct pm_wave_species s[PM_SPECIES_MOST];
+	for (int i = 0; i < t->n; i++)
+		s[i] = (struct pm_wave_species){t->species[i].frequency, t->species[i].drift, t->species[i].vth};
+	return t->kind == PM_ELECTROSTATIC ? pm_wave_root(s, t->n, k, start) : pm_light_root(&l, start);
+}
+
+double complex pm_wave_theory_close(const struct pm_wave_theory *t, double k, double complex measured)
+{
+	const double complex m = fabs(creal(measured)) + I * cimag(measured);
+	const int first = t->kind == PM_EXTRAORDINARY_WAVE ? PM_EXTRAORDINARY : t->kind == PM_ORDINARY_WAVE ? PM_ORDINARY : PM_RIGHT;
+	const int last = t->kind == PM_ALONG_FIELD ? PM_LEFT : first;
+	double complex best = NAN;
+	if (t->kind == PM_NO_THEORY || isnan(creal(m)) || isnan(cimag(m)))
+		return NAN;
+	if (t->kind == PM_BERNSTEIN)
+		return bernstein(t, k, creal(m));
+	for (int kind = first; kind <= last; kind++) /* from both sides of the real axis too, as a wave may run against k */
+		best = nearer(nearer(best, root_from(t, kind, k, m), m), root_from(t, kind, k, -conj(m)), m);
+	return best;
+}

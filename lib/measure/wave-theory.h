@@ -21,5 +21,7 @@ void pm_wave_theory_of(struct pm_wave_theory *t, const struct pm_frame *f, doubl
 const char *pm_wave_theory_name(const struct pm_wave_theory *t);
 /* The root nearest to a frequency that was measured, damped by less than half of it; NAN: none, or no memory. */
 double complex pm_wave_theory_nearest(const struct pm_wave_theory *t, double k, double omega);
+/* The root that Newton's method finds from a measured omega + i gamma, omega >= 0; NAN: none. */
+double complex pm_wave_theory_close(const struct pm_wave_theory *t, double k, double complex measured);
 
 #endif

@@ -73,6 +73,8 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
 	const double k1 = pm_frame_parameter(f, "wavenumber", 1);
 	(void)t;
+	if (!strcmp(quantity, "gamma"))
+		return 0;
 	if (!strcmp(quantity, "omega"))
 		return strongest(k1 * pm_frame_parameter(f, "mode", 1), pm_frame_parameter(f, "vth", 1), pm_frame_parameter(f, "magnetic-field", 1));
 	return !strcmp(quantity, "mass") ? 2 * pm_pi / k1 : !strcmp(quantity, "charge") ? -2 * pm_pi / k1 : NAN;

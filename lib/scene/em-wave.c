@@ -81,6 +81,8 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	(void)t;
 	if (!strcmp(quantity, "mass") || !strcmp(quantity, "charge"))
 		return !set || !set->n ? 0 : (*quantity == 'm' ? 1 : -1) * pow(pm_frame_parameter(f, "length", 1), f->dim);
+	if (!strcmp(quantity, "gamma"))
+		return 0;
 	return !strcmp(quantity, "omega") ? omega_of(k, pm_frame_parameter(f, "axes", 1), set && set->n) : NAN;
 }
 

@@ -387,6 +387,34 @@ load ../helper
 		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189}' ]]
 }
 
+@test "diag --growth mode:1 --exact: where the scene states no rate, that of the dispersion relation of the species, or none" {
+	line() { diag --columns time --growth mode:1 --exact | tail -n 1; }
+	theory() { line | sed -n 's/.* gamma \([^ ]*\) .* omega \([^ ,]*\),.*theory: gamma \([^ ]*\) omega \(.*\)/\1 \2 \3 \4/p'; }
+	step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+	# Buneman, M = 25, k v = 1: the root of the quartic is 0.152347043 + 0.202993092 i; measured within 1 % of its modulus
+	pinit plasma --length 6.283185307179586 | smod --constant background=0 | species e -n 512 --vth 0 --drift 1 --profile '1 + 1e-4*cos(x)' |
+		species i -n 512 --charge 1 --mass 25 --vth 0 >buneman
+	cycle -q -t 45 --every 4 "$step" <buneman >run
+	read -r gamma omega g w <<<"$(theory <run)"
+	within "$g" 0.202993092 1e-6
+	within "$w" 0.152347043 1e-6
+	within "$gamma" "$g" 0.0025
+	within "$omega" "$w" 0.0025
+	cmp <(diag --growth mode:1 --exact --ranks 2 <run) <(diag --growth mode:1 --exact <run)
+	# the same beam in a magnetic field across it, and two beams in one set: no theory
+	[[ $(scalc --mesh mesh 'B = 0, 0, 1' --role state <run | line) != *theory* ]]
+	# cold electrons across B: sqrt(1 + B^2), of which cic on 64 cells takes 6e-4
+	pinit langmuir -n 1024 --velocities 3 --amplitude 0 --dt 0.05 | scalc --set electrons 'v = 1e-3*cos(x), 0, 0' |
+		scalc --mesh mesh 'B = 0, 0, 2' --role state | cycle -q -n 400 --every 4 "${step//kick/boris}" >run
+	read -r gamma omega g w <<<"$(theory <run)"
+	within "$w" 2.2360679775 1e-6
+	within "$omega" "$w" 0.005
+	pinit em-wave -n 1024 --cells 32 | cycle -q -t 20 --every 2 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' >run
+	read -r gamma omega g w <<<"$(theory <run)"
+	within "$w" 1.41421356237 1e-8
+	within "$omega" "$w" 0.005
+}
+
 @test "diag --modes in the open plane: the amplitude of a wave around a ring of vortices, and its growth; dissipation and energy_loss in the plane" {
 	# 360 vortices at r = 1 + 0.01 cos(3 phi) about (0.2, -0.1): mode_3 is 0.01, the others are of second order
 	awk 'BEGIN { OFMT = CONVFMT = "%.17g"; print "x y circulation"; for (i = 0; i < 360; i++) { p = i * atan2(0, -1) / 180; r = 1 + 0.01 * cos(3 * p)
