@@ -26,6 +26,7 @@ step='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 	refuses 1 "pinit em-wave -n 16 --cells 8 | p2m --current | maxwell | maxwell" "no current 'J'"
 	refuses 1 "pinit langmuir -n 16 --cells 8 | scalc --mesh mesh 'E = x' --role state | smod --law electromagnetic | maxwell" "'E' on mesh"
 	refuses 1 "pinit em-wave --cells 8 | maxwell --gauss" "no density 'rho'"
+	refuses 2 "pinit em-wave --cells 8 | p2m | poisson-fft" "p2m --current | maxwell makes them"
 	refuses 1 "pinit langmuir -n 0 --cells 8 --faces wall | smod --law electromagnetic | p2m | maxwell --gauss | maxwell --method fourth" "periodic boxes"
 	refuses 1 "pinit langmuir -n 0 --cells 8 --faces open | smod --law electromagnetic | p2m | maxwell --gauss | maxwell" "layers of 10 cells do not fit"
 	refuses 2 "pinit em-wave --cells 8 | maxwell --current-drift 0.9" "belongs to --method psatd"
