@@ -1,5 +1,5 @@
-/* An empty box for a plasma: the law electrostatic with eps0 = 1, immobile ions of the charge density --background, faces periodic, and the empty set
- * electrons. The word species fills it. With electrons of density 1, charge -1 and mass 1, omega_p = 1, and with vth = 1 lambda_D = 1.
+/* An empty box for a plasma: the law electrostatic with eps0 = 1, immobile ions of the charge density --background, faces periodic, and no
+ * particles. The word species fills it. With electrons of density 1, charge -1 and mass 1, omega_p = 1, and with vth = 1 lambda_D = 1.
  * Exact: mass, charge (0). Cost 1. Source: Birdsall and Langdon 1985, section 2-4. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -15,11 +15,10 @@ static const struct pm_scene_parameter rows[] = {
 
 static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 {
-	double *x[3], *v[3];
 	if (c->n)
 		return pm_fail(PM_USAGE, "the scene plasma is an empty box (without -n; species fills it)");
 	pm_scene_plasma_world(f, c->value[LENGTH], c->value[BACKGROUND], 0.1);
-	return pm_scene_mesh(f, c->dim == 1 ? 64 : 32) || pm_scene_plasma_set(f, 0, c->dim, 0, 0, x, v) ? -PM_DATA : 0;
+	return pm_scene_mesh(f, c->dim == 1 ? 64 : 32) ? -PM_DATA : 0;
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)

@@ -39,7 +39,7 @@ total() { stab --plain --mesh phase | awk -F'\t' -v c="$1" -v ends="$2" 'NR == 1
 	pinit plasma | species e -n 1000 | species i -n 500 --mass 2 --vth 0.1 >a
 	within "$(phase x --set i -n 4 <a | total 3.141592653589793 '')" "$(calc '2 * 4 * pi')" 1e-9
 	within "$(phase x -n 4 <a | total 3.141592653589793 '')" "$(calc '3 * 4 * pi')" 1e-9
-	phase x vx --set electrons -n 4 <a | sls | grep -q ' f '
+	species none -n 0 <a | phase x vx --set none -n 4 | sls | grep -q ' f '
 	for t in 1 3; do phase x vx --threads $t --no-history <a >$t; done
 	same_as 1 3
 	pinit two-stream -n 200 | cycle -n 3 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' |
