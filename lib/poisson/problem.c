@@ -19,7 +19,8 @@ int pm_problem_find(const struct pm_frame *f, const struct pm_problem_names *nam
 		return pm_fail(PM_DATA, "no mesh%s%s (p2m -n makes one)", names->mesh ? " named " : "", names->mesh ? names->mesh : "");
 	const char *source = names->source ? names->source : law->density, *target = names->target ? names->target : law->potential;
 	if ((!source || !target) && law->evolves)
-		return pm_fail(PM_USAGE, "the fields of the law %s are no potential's (p2m --current | maxwell makes them, or give --source and --target)", law->name);
+		return pm_fail(PM_USAGE, "the fields of the law %s have no potential (p2m --current | maxwell makes them, or give --source and --target)",
+			law->name);
 	if (!source || !target)
 		return pm_fail(PM_USAGE, "the law %s names no density and potential (give --source and --target)", law->name);
 	if (!strcmp(source, target))
