@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifdef __AVX__
+#if defined __AVX__ || defined __SSE2__
 #include <immintrin.h>
 #endif
 #ifndef __AVX512F__
@@ -96,6 +96,28 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { *(pm_simd_at *)p = v; }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
+
+/* What one register holds to an aligned address, past the caches where the processor can: whole lines of 64 bytes, one after the other, and an end before
+ * others read them. */
+PM_SIMD_INLINE void pm_simd_part_past(double *to, pm_simd_part v)
+{
+#if defined __AVX512F__
+	_mm512_stream_pd(to, (__m512d)v);
+#elif defined __AVX__
+	_mm256_stream_pd(to, (__m256d)v);
+#elif defined __SSE2__
+	_mm_stream_pd(to, (__m128d)v);
+#else
+	*(pm_simd_part_at *)to = v;
+#endif
+}
+
+PM_SIMD_INLINE void pm_simd_past_end(void)
+{
+#ifdef __SSE2__
+	_mm_sfence();
+#endif
+}
 
 /* PM_SIMD_PART rows of as many numbers: rows become columns. */
 PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)

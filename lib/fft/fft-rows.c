@@ -7,10 +7,6 @@
 #include "fft/fft-vector.h"
 
 enum { W = PM_SIMD_PART };
-#ifdef __SSE2__
-#include <immintrin.h>
-#define PM_STREAMS
-#endif
 
 enum { L = PM_FFT_LINES, H = L / 2, REACH = 64 }; /* REACH: elements of all lines that are moved before the next ones, in the L1 cache */
 
@@ -238,37 +234,21 @@ void pm_spectra_in(const struct pm_fft *f, size_t rows, const double *const row[
 	}
 }
 
-#ifdef PM_STREAMS
-/* One register. */
-PM_SIMD_INLINE void past(double *to, const double *from)
-{
-#if defined __AVX512F__
-	_mm512_stream_pd(to, _mm512_loadu_pd(from));
-#elif defined __AVX__
-	_mm256_stream_pd(to, _mm256_loadu_pd(from));
-#else
-	_mm_stream_pd(to, _mm_loadu_pd(from));
-#endif
-}
-#endif
-
 void pm_stream(double *to, const double *from, size_t n)
 {
 	size_t i = 0;
-#ifdef PM_STREAMS
+#ifdef __SSE2__
 	for (; i < n && (uintptr_t)(to + i) % 64; i++)
 		to[i] = from[i];
 	for (; i + 8 <= n; i += 8) /* whole lines of the cache */
 		PM_SIMD_UNROLL
-		for (size_t q = 0; q < 8; q += W)
-			past(to + i + q, from + i + q);
+		for (size_t q = 0; q < 8; q += W) {
+			pm_simd_part v;
+			memcpy(&v, from + i + q, sizeof v);
+			pm_simd_part_past(to + i + q, v);
+		}
 #endif
 	memcpy(to + i, from + i, (n - i) * sizeof *to);
 }
 
-void pm_stream_end(void)
-{
-#ifdef PM_STREAMS
-	_mm_sfence();
-#endif
-}
+void pm_stream_end(void) { pm_simd_past_end(); }

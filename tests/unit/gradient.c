@@ -286,6 +286,39 @@ static void large(int dim, size_t nx, size_t ny, size_t nz)
 		free(out[d]), free(wave[d]), free(slope[d]);
 }
 
+/* Sums in registers beside those of the taps one after the other, to which `add` leads: written past the caches and, of the first planes alone, not. */
+static void by_registers(enum pm_face x, size_t nx, size_t nz)
+{
+	struct pm_grid g = box(3, nx, 101, nz, x, PM_PERIODIC, PM_OPEN);
+	const size_t n = pm_grid_size(&g);
+	double *in[3] = {noise(n, 11), noise(n, 12), noise(n, 13)}, *fast[3] = {field(n), field(n), field(n)}, *slow[3];
+	const double *const from[3] = {in[0], in[1], in[2]};
+	for (int order = 2; order <= 6; order += 2)
+		for (enum pm_operator_kind kind = PM_OP_GRAD; kind <= PM_OP_LAP; kind++) {
+			struct pm_operator o;
+			bool seen = false, same = true, spoiled = true;
+			const int components = kind == PM_OP_CURL || kind == PM_OP_DIV ? 3 : 1;
+			for (int c = 0; c < 3; c++)
+				slow[c] = field(n);
+			bool bad = pm_operator_init(&o, &g, kind, order, components, false) || pm_operator_apply(&o, 0.7, from, fast, &seen);
+			o.add = true;
+			bad = bad || pm_operator_apply(&o, 0.7, from, slow, NULL);
+			for (int c = 0; c < o.out; c++)
+				for (size_t i = 0; i < n; i++)
+					same = same && fast[c][i] == slow[c][i];
+			o.add = false;
+			in[0][n / 2 + 1] = INFINITY;
+			bad = bad || pm_operator_apply(&o, 0.7, from, slow, &spoiled);
+			in[0][n / 2 + 1] = 0.25;
+			check(!bad && same && seen && !spoiled, "%s, order %d, %zux101x%zu, %s: sums in registers are those of the taps one by one, and "
+				"infinity is found", pm_operator_names[kind], order, nx, nz, pm_face_names[x]);
+			for (int c = 0; c < 3; c++)
+				free(slow[c]);
+		}
+	for (int c = 0; c < 3; c++)
+		free(in[c]), free(fast[c]);
+}
+
 static void threads(void)
 {
 	struct pm_grid g = box(3, 33, 18, 20, PM_PERIODIC, PM_WALL, PM_NEUMANN);
@@ -324,6 +357,10 @@ int main(void)
 	orders();
 	large(2, 1031, 1020, 1);
 	large(3, 103, 101, 102);
+	by_registers(PM_WALL, 101, 102);
+	by_registers(PM_PERIODIC, 104, 103);
+	by_registers(PM_OPEN, 25, 7);
+	by_registers(PM_PERIODIC, 24, 7);
 	threads();
 	refusals();
 	return check_done();
