@@ -76,6 +76,20 @@ swing() {
 	within "$eight" "$(calc "cos(pi * 8 / 128)^2 / 1.64")" 0.09 "k = 0.8"
 }
 
+@test "PIC-15: waves of k lambda_D = 0.2, which Landau's damping renews in 1e4 plasma times, have that energy too once they are renewed" {
+	[ -n "$PM_LONG" ] || skip "long: make check-long"
+	# evenly spaced electrons at random velocities, 5 in a Debye length: 0.84 of it until t = 1000; the power of E is k^2 that of phi, in equipartition
+	# v^2 L/n
+	pinit plasma --length 6283.185307179586 --cells 8192 --dt 0.2 | species electrons -n 32768 --loading random |
+		scalc --set electrons 'x = Lx*(id + 0.5)/32768' |
+		cycle -q -n 60000 --every 500 'push kick/2 drift | p2m --kernel pcs | poisson-fft | mgrad | m2p | push kick/2' |
+		diag --columns time,energy_kinetic --tee kinetic | spectrum --field phi --shell 0.02 >t
+	awk 'FNR == NR { v2[FNR > 1 ? $1 : -1] = 2 * $2 / 6283.185307179586; next }
+		$1 > 0.17 && $1 < 0.23 && $5 > 6000 { e += $1^2 * $4 * 32768 / 6283.185307179586 / v2[$5]; w += v2[$5]; n++ }
+		END { print e / n * (1 + 0.04 * w / n) }' kinetic t >ratio
+	within "$(cat ratio)" 1 0.1 # 60 waves a frame
+}
+
 @test "PIC-16: a cold wave of any amplitude swings at omega_p: displacements of -A half a period on, 1/(1 - A) of the density at the crest" {
 	for A in 0.1 0.5; do
 		pinit langmuir -n 4096 --cells 64 --dt 0.031415926535897932 --amplitude $A >s
