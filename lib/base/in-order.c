@@ -5,7 +5,7 @@
 #include "base/in-order.h"
 #include "base/simd-sum.h"
 
-enum { WORTH = 16384 }; /* values below which threads are not worth it */
+enum { WORTH = 16384, AHEAD = 256 }; /* values below which threads are not worth it; prefetched, so many ahead */
 
 static void clear(const struct pm_parts *p, void *part)
 {
@@ -101,11 +101,24 @@ struct values {
 /* weight times n values, eight sums side by side; a loop for values and one for products. */
 PM_SIMD_INLINE void add_some(size_t n, double weight, const double *x, const double *y, bool products, struct pm_sum *sum)
 {
-	struct pm_simd_sum s = {{0}, {0}};
+	enum { P = PM_SIMD_PART, PARTS = PM_SIMD_WIDTH / P };
+	struct pm_simd_sum s;
+	pm_simd_part sum_of[PARTS] = {{0}}, carry[PARTS] = {{0}};
 	const pm_simd w = pm_simd_all(weight);
 	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
-		pm_simd_sum_add(&s, w * (products ? pm_simd_load_any(x + i) * pm_simd_load_any(y + i) : pm_simd_load_any(x + i)));
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH) {
+		__builtin_prefetch(x + i + AHEAD);
+		if (products)
+			__builtin_prefetch(y + i + AHEAD);
+		PM_SIMD_UNROLL
+		for (int q = 0; q < PARTS; q++) { /* in registers */
+			pm_simd_part a, b;
+			memcpy(&a, x + i + q * P, sizeof a);
+			memcpy(&b, (products ? y : x) + i + q * P, sizeof b);
+			pm_simd_part_sum_add(&sum_of[q], &carry[q], weight * (products ? a * b : a));
+		}
+	}
+	memcpy(&s.sum, sum_of, sizeof s.sum), memcpy(&s.carry, carry, sizeof s.carry);
 	if (i < n)
 		pm_simd_sum_add(&s, w * (products ? pm_simd_load_few(x + i, n - i) * pm_simd_load_few(y + i, n - i) : pm_simd_load_few(x + i, n - i)));
 	pm_simd_sum_join(sum, &s);

@@ -17,6 +17,14 @@ PM_SIMD_INLINE void pm_simd_sum_add(struct pm_simd_sum *s, pm_simd x)
 	s->sum = t;
 }
 
+/* The same for a part of the lanes. */
+PM_SIMD_INLINE void pm_simd_part_sum_add(pm_simd_part *sum, pm_simd_part *carry, pm_simd_part x)
+{
+	const pm_simd_part t = *sum + x, z = t - *sum;
+	*carry += (*sum - (t - z)) + (x - z);
+	*sum = t;
+}
+
 /* The lanes l and l + 4, then l and l + 2, then the last two; and their sum to the others. */
 PM_SIMD_INLINE void pm_simd_sum_join(struct pm_sum *all, const struct pm_simd_sum *s)
 {
