@@ -96,8 +96,7 @@ static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, c
 		else if (s->results)
 			memcpy(s->results + p * components, values, t.count * components * sizeof *values);
 		else
-			finite &= o->place ? pm_tile_order_unpack_to(o->place + p, t.count, t.components, values, t.components, &s->to)
-				: pm_tile_order_unpack(p, t.count, t.components, values, t.components, &s->to);
+			finite &= pm_tile_order_deliver(o, p, t.count, t.components, values, t.components, &s->to);
 	}
 	return finite;
 }
@@ -126,20 +125,6 @@ static int gather_all(struct staggered *s, size_t n, const double *const mesh[],
 	return 0;
 }
 
-/* Strays of particles that stay have places too, and get 0. */
-static void leave_strays(const struct staggered *s)
-{
-	const struct pm_tile_order *o = s->o;
-	for (size_t p = o->place ? o->begin[o->tiles] : o->n; p < o->n; p++)
-		for (int c = 0; c < s->t->components; c++) {
-			const struct pm_target *to = &s->to.to[c];
-			if (to->floats)
-				to->floats[o->place[p]] = s->to.set[c] ? 0 : to->floats[o->place[p]] + 0;
-			else
-				to->doubles[o->place[p]] = s->to.set[c] ? 0 : to->doubles[o->place[p]] + 0;
-		}
-}
-
 int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
 	const struct pm_target out[], struct pm_strays *strays)
 {
@@ -154,7 +139,7 @@ int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_c
 	else if (!status && s.results)
 		status = pm_tile_order_return(s.o, s.results, t->components, t->components, &s.to, &finite);
 	if (!status) {
-		leave_strays(&s);
+		pm_tile_order_leave_strays(s.o, t->components, &s.to);
 		*strays = s.strays;
 		strays->finite = finite;
 	}

@@ -188,7 +188,7 @@ static int order_of(struct pm_shared_jobs *v, size_t n, const double *const x[],
 	pm_columns_of(v->t->grid.dim, x, at);
 	pm_columns_of(nvalues, values, strength);
 	v->local = nvalues ? NULL : pm_order_cache_find(v->t, staggered, n, at);
-	if (!v->local)
+	if (!v->local || v->local->order.place)
 		v->local = pm_order_cache_new(v->t, staggered, n, at, nvalues, strength, room);
 	else if (pm_tile_order_spent(&v->local->order))
 		return pm_tile_order_again(&v->local->order, room);

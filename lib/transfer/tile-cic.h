@@ -24,12 +24,12 @@ static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
 		b.lanes[d] = pm_axis_lanes(&o->axes[d]);
 	return b;
 }
-/* Positions of the stream, or, where these are floats, widened to few; then m <= PM_TILE_ORDER_PACK. */
+/* Positions of the stream, or, where these are floats or stand apart, copied to few; then m <= PM_TILE_ORDER_PACK. */
 static inline void pm_tile_batch_take(struct pm_tile_batch *b, size_t p, size_t m, double few[3][PM_TILE_ORDER_PACK])
 {
 	b->p = p, b->m = m;
 	for (int d = 0; d < b->order->dim; d++)
-		b->x[d] = pm_column_take(&b->order->x[d], p, m, few ? few[d] : NULL);
+		b->x[d] = few ? pm_tile_order_take(b->order, p, m, &b->order->x[d], few[d]) : pm_column_take(&b->order->x[d], p, m, NULL);
 }
 /* With strengths q[m] to the corners of t. The sums are those of the loop over records. */
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);

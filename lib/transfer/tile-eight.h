@@ -24,15 +24,11 @@ struct eight {
 	pm_simd distance[3];
 };
 
-/* Of m records, those from i on; *fourth: what comes behind the position in each. The last ones may be fewer: the first of them stands in for the rest. */
-PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_t i, pm_simd *fourth)
+/* Of these records; *fourth: what comes behind the position in each. */
+PM_SIMD_INLINE struct eight find_eight_at(const struct pm_tile *t, const double *const record[PM_SIMD_WIDTH], pm_simd *fourth)
 {
 	struct eight e;
-	const double *record[PM_SIMD_WIDTH];
 	pm_simd v[4], u[4];
-	PM_SIMD_UNROLL
-	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
 	PM_SIMD_UNROLL
 	for (size_t k = 0; k < 4; k++)
 		v[k] = pm_simd_fours(record, k);
@@ -44,6 +40,16 @@ PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_
 	}
 	*fourth = u[3];
 	return e;
+}
+
+/* Those from i on. The last ones may be fewer: the first of them stands in for the rest. */
+PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_t i, pm_simd *fourth)
+{
+	const double *record[PM_SIMD_WIDTH];
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
+	return find_eight_at(t, record, fourth);
 }
 
 /* Those of a batch from i on, in the same way. */

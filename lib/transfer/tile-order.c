@@ -268,8 +268,9 @@ static void place_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 /* m places, which rise. */
 static bool stand_together(const uint32_t *place, size_t m) { return place[m - 1] - place[0] == m - 1; }
 
-/* m values from p on in order: where they stand together those of the stream, else put together in few. */
-static const double *take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double few[batch])
+bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m) { return stand_together(o->place + p, m); }
+
+const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few)
 {
 	const uint32_t *place = o->place ? o->place + p : NULL;
 	if (!place || stand_together(place, m))
@@ -287,7 +288,7 @@ static const double *take(const struct pm_tile_order *o, size_t p, size_t m, con
 static const double *take_packed(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, int *k, double few[batch])
 {
 	if (!from->floats)
-		return take(o, p, m, from, few);
+		return pm_tile_order_take(o, p, m, from, few);
 	const float *record = o->floats + p * (size_t)o->packed + (*k)++;
 	for (size_t i = 0; i < m; i++)
 		few[i] = record[i * (size_t)o->packed];
@@ -296,7 +297,7 @@ static const double *take_packed(const struct pm_tile_order *o, size_t p, size_t
 
 static const double *taken(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, int *k, double few[batch])
 {
-	return o->floats ? take_packed(o, p, m, from, k, few) : take(o, p, m, from, few);
+	return o->floats ? take_packed(o, p, m, from, k, few) : pm_tile_order_take(o, p, m, from, few);
 }
 
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records)
@@ -371,6 +372,7 @@ static int allocate_records(struct pm_tile_order *o)
 static bool is_near(const struct pm_tile_order *o)
 {
 	size_t changes = 0;
+#pragma omp parallel for num_threads(o->chunks) schedule(static) reduction(+ : changes)
 	for (size_t p = 1; p < o->n; p++)
 		changes += o->tile[p] != o->tile[p - 1];
 	return changes <= o->n / 8 && o->n <= UINT32_MAX;
@@ -569,6 +571,19 @@ bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const 
 		}
 	}
 	return !(over >> 63);
+}
+
+bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
+	const struct pm_tile_results *r)
+{
+	return o->place ? pm_tile_order_unpack_to(o->place + p, m, stride, records, nvalues, r) : pm_tile_order_unpack(p, m, stride, records, nvalues, r);
+}
+
+void pm_tile_order_leave_strays(const struct pm_tile_order *o, int nvalues, const struct pm_tile_results *r)
+{
+	const double zero[PM_COMPONENTS] = {0};
+	for (size_t p = o->place ? o->begin[o->tiles] : o->n; p < o->n; p++)
+		pm_tile_order_unpack_to(o->place + p, 1, nvalues, zero, nvalues, r);
 }
 
 /* Particles p..p+m-1 of a chunk that ends at `end`. */

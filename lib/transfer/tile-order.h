@@ -69,5 +69,13 @@ int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *resu
 /* The same for m particles from p on, or at these places, whose records are given. */
 bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
 bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
+/* One of the two, as the order has places or none. Strays of particles that stay have places too, and get 0. */
+bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
+	const struct pm_tile_results *r);
+void pm_tile_order_leave_strays(const struct pm_tile_order *o, int nvalues, const struct pm_tile_results *r);
+/* Are the m particles from p on, which have places, one behind the other in the stream? */
+bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m);
+/* m values from p on in order: where they stand together those of the stream, else put together in few[m]. */
+const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few);
 
 #endif

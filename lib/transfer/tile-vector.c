@@ -1,18 +1,19 @@
-/* Gather of a vector in 3-D where a register holds eight numbers: the three (or four) components of a node lie side by side, as four numbers, so that a load
- * is that of two nodes of a row and the weights serve all components. Every sum has the order of the loops for all kernels (transfer-tile.c): the same bytes.
- * Cost: width^3/2 products of eight numbers per particle, and two moves per node of the tile.
+/* Gather of a vector in 3-D: the three (or four) components of a node lie side by side, as four numbers, so that a load is that of a node, of two where a
+ * register holds eight, and the weights serve all components; here with cic, wider kernels are in tile-wide.c. Every sum has the order of the loops for all
+ * kernels (transfer-tile.c): the same bytes. Cost: width^3 products of four numbers per particle, and two moves per node of the tile.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-eight.h"
-#include "transfer/tile-lanes.h"
 #include "transfer/tile-vector.h"
+#include "transfer/tile-wide.h"
 
 enum { node_row = 4 * (32 + 12), node_plane = node_row * (16 + 10) }; /* doubles per row and plane of a block of nodes */
 _Static_assert((int)PM_VECTOR_NODES == 4 * (int)PM_BLOCK_MOST, "four numbers a node");
 
 bool pm_tile_has_vectors(int dim, const struct pm_kernel *k, int components, size_t count)
 {
-	const bool cic = k->width == 2 && k->degree == 1, wide = (int)PM_SIMD_PART == 8 && k->width > 1 && k->width <= 8 && !k->star;
-	return PM_TILE_CIC_EIGHT && dim == 3 && (components == 3 || components == 4) && (cic || wide) && count >= PM_TILE_CELLS / 16;
+	const bool cic = k->width == 2 && k->degree == 1 && components <= 4;
+	const bool wide = ((int)PM_SIMD_PART == 8 || k->width > 4) && pm_tile_gather_woven(k); /* by four lanes, less is as fast by component */
+	return PM_TILE_CIC_EIGHT && dim == 3 && components >= 3 && (cic || wide) && count >= PM_TILE_CELLS / 16;
 }
 
 void pm_tile_weave(const double *blocks, int components, const size_t slots[3], double *nodes)
@@ -44,54 +45,9 @@ PM_SIMD_INLINE void put(const struct pm_tile *t, size_t i, pm_simd4_at value)
 	}
 }
 
-PM_SIMD_INLINE void gather_vector(int width, int degree, const struct pm_tile *t)
-{
-	const int n = padded(width), pairs = width / 2;
-	double coefficients[(PM_KERNEL_DEGREE + 1) * lanes], w[3][lanes], f[lanes];
-	pad_coefficients(t->kernel, width, degree, coefficients);
-	for (size_t i = 0; i < t->count; i++) {
-		const double *from = t->nodes + 4 * find_support(3, width, degree, t, coefficients, t->records + i * (size_t)t->stride, w);
-		pm_simd8_at sum[4] = {{0}};
-		pm_simd4_at last = {0}, total = {0};
-		for (int z = 0; z < width; z++) {
-			row_set(n, w[2][z], w[1], f);
-			PM_SIMD_UNROLL
-			for (int y = 0; y < width; y++) {
-				const double *row = from + z * node_plane + y * node_row;
-				PM_SIMD_UNROLL
-				for (int k = 0; k < pairs; k++)
-					sum[k] += *(const pm_simd8_at *)(row + 8 * k) * f[y];
-				if (width % 2)
-					last += *(const pm_simd4_at *)(row + 8 * pairs) * f[y];
-			}
-		}
-		PM_SIMD_UNROLL
-		for (int k = 0; k < pairs; k++) {
-			total += LOWER(sum[k]) * w[0][2 * k];
-			total += UPPER(sum[k]) * w[0][2 * k + 1];
-		}
-		if (width % 2)
-			total += last * w[0][width - 1];
-		put(t, i, total);
-	}
-}
-
-#define LOOPS(width) \
-	static void gather_spline_##width(const struct pm_tile *t) { gather_vector(width, width - 1, t); } \
-	static void gather_any_##width(const struct pm_tile *t) { gather_vector(width, t->kernel->degree, t); }
-LOOPS(2)
-LOOPS(3)
-LOOPS(4)
-LOOPS(5)
-LOOPS(6)
-LOOPS(7)
-LOOPS(8)
-#define ROW(name) {name##_2, name##_3, name##_4, name##_5, name##_6, name##_7, name##_8}
-static pm_tile_loop *const gathers[2][7] = {ROW(gather_spline), ROW(gather_any)};
-
 pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k)
 {
-	return k->width == 2 && k->degree == 1 ? pm_tile_cic_gather_vectors : gathers[k->degree != k->width - 1][k->width - 2];
+	return k->width == 2 ? pm_tile_cic_gather_vectors : pm_tile_gather_woven(k);
 }
 
 /* ---- cic, eight particles at a time ---- */

@@ -7,6 +7,10 @@
 
 enum { PM_VECTOR_NODES = 4 * PM_BLOCK_MOST };
 
+/* Components of a node that lie side by side; of more than four there are several blocks of nodes. */
+static inline int pm_vector_group(int components) { return components > 4 ? 3 : components; }
+static inline size_t pm_vector_groups(int components) { return components > 4 ? ((size_t)components + 2) / 3 : 1; }
+
 /* Whether `count` particles of a tile are worth it, with this kernel on this processor. */
 bool pm_tile_has_vectors(int dim, const struct pm_kernel *k, int components, size_t count);
 /* blocks[components][PM_BLOCK_MOST] of which slots[3] are used, to nodes[PM_VECTOR_NODES]: the components of a node side by side. */

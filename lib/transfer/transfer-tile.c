@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-lanes.h"
 #include "transfer/tile-line.h"
+#include "transfer/tile-wide.h"
 
 PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
@@ -81,9 +82,7 @@ PM_SIMD_INLINE void gather_several(int dim, int width, int degree, const struct 
 		read_rows(dim, width, 1, same, &block, (double *const[]){result + c});
 }
 
-/* Particles of a tile in space in the order of their cells, at most PM_TILE_CELLS of them: those that come one after the other then read the same points, while
- * they are in the nearest cache. Which comes first changes no value. */
-static void order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t *index)
+void pm_tile_order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t *index)
 {
 	enum { bits = 9, along_x = 12 - bits }; /* the points of some cells along x are a line or two of the cache */
 	uint16_t key[PM_TILE_CELLS], at[(1 << bits) + 1] = {0};
@@ -93,8 +92,8 @@ static void order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t
 		int32_t c[4];
 		pm_simd4_split(*(const pm_simd4_at *)(t->records + (from + i) * (size_t)t->stride), &cell);
 		*(pm_simd4_int_at *)c = cell;
-		const int row = (c[2] & ((1 << shift[2]) - 1)) << shift[1] | (c[1] & ((1 << shift[1]) - 1));
-		key[i] = (uint16_t)((row << shift[0] | (c[0] & ((1 << shift[0]) - 1))) >> along_x);
+		const int x = c[0] & ((1 << shift[0]) - 1), y = c[1] & ((1 << shift[1]) - 1), z = c[2] & ((1 << shift[2]) - 1), half = shift[0] - 1;
+		key[i] = (uint16_t)((((z << 1 | x >> half) << shift[1] | y) << half | (x & ((1 << half) - 1))) >> along_x);
 		at[key[i] + 1]++;
 	}
 	for (int k = 0; k < 1 << bits; k++)
@@ -114,7 +113,7 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, const struct pm_tile 
 		const bool sorted = wide && m >= 128;
 		size_t i = 0;
 		if (sorted)
-			order_cells(t, from, m, index);
+			pm_tile_order_cells(t, from, m, index);
 		for (; t->components == 1 && i + 2 <= m; i += 2)
 			gather_two(dim, width, degree, t, coefficients, from + (sorted ? index[i] : i), from + (sorted ? index[i + 1] : i + 1));
 		for (; i < m; i++)
@@ -212,10 +211,12 @@ pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 		return pm_tile_line_spread_records;
 	if (corners)
 		return PM_TILE_CIC_EIGHT ? pm_tile_cic_spread_eight : pm_tile_cic_spread_records;
-	return k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
+	pm_tile_loop *wide = pm_tile_spread_wide(dim, k);
+	return wide ? wide : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
 }
 
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k)
 {
-	return k->star ? star_gathers[dim - 1] : gathers[k->degree != k->width - 1][dim - 1][k->width - 1];
+	pm_tile_loop *wide = pm_tile_gather_wide(dim, k);
+	return wide ? wide : k->star ? star_gathers[dim - 1] : gathers[k->degree != k->width - 1][dim - 1][k->width - 1];
 }

@@ -37,6 +37,10 @@ typedef void pm_tile_loop(const struct pm_tile *t);
 pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners);
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
 
+/* m particles of a tile in space, from one on, in the order of their cells, m <= PM_TILE_CELLS: those that come one after the other then read the same
+ * points, while they are in the nearest cache. Which comes first changes no value. */
+void pm_tile_order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t *index);
+
 /* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), those of every cell
  * are stored side by side. A particle is one addition of eight numbers to its cell, and the corners are added up once; or it reads eight numbers.
  * On a line those of a cell are two. */

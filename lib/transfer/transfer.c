@@ -45,7 +45,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
 			pm_tile_batch_take(&batch, p, t.count, few);
-			const double *q = pm_column_take(&w->o->order.values[value], p, t.count, packed);
+			const double *q = pm_tile_order_take(&w->o->order, p, t.count, &w->o->order.values[value], packed);
 			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
 			continue;
 		}
@@ -111,7 +111,41 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
-		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r) : pm_tile_order_unpack(p, t.count, t.stride, packed, w->components, r);
+		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r) 
+				     : pm_tile_order_deliver(&o, p, t.count, t.stride, packed, w->components, r);
+	}
+	return finite;
+}
+
+typedef bool batch_loop(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
+
+/* Of a stream in order, or whose particles have places, straight from it and to it where they stand together; else by way of a batch of doubles. */
+static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j, const struct pm_tile *t, batch_loop *loop, const struct pm_tile_results *r)
+{
+	const struct pm_tile_order *o = &w->o->order;
+	struct pm_tile_batch batch = pm_tile_batch(o);
+	double few[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS][PM_TILE_ORDER_PACK];
+	struct pm_column one[PM_COMPONENTS];
+	struct pm_target to[PM_COMPONENTS];
+	bool set[PM_COMPONENTS], finite = true;
+	if (!w->blockwise && !o->place) {
+		pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
+		return loop(t, &batch, r);
+	}
+	for (int c = 0; c < w->components; c++)
+		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]};
+	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
+		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		pm_tile_batch_take(&batch, p, m, few);
+		if (!w->blockwise && pm_tile_order_together(o, p, m)) {
+			batch.p = o->place[p];
+			finite &= loop(t, &batch, r);
+			continue;
+		}
+		batch.p = 0;
+		loop(t, &batch, &(struct pm_tile_results){one, set, to});
+		for (int c = 0; c < w->components; c++)
+			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&r->factor[c], &r->set[c], &r->to[c]});
 	}
 	return finite;
 }
@@ -128,11 +162,7 @@ static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, str
 		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
 	if (t.records)
 		return pm_tile_cic_gather_eight(&t), true;
-	if (w->blockwise)
-		return gather_in_order(w, j, t, pm_tile_cic_gather_eight, r);
-	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
-	return pm_tile_cic_gather(&t, &batch, r);
+	return w->o->order.floats ? gather_in_order(w, j, t, pm_tile_cic_gather_eight, r) : gather_batches(w, j, &t, pm_tile_cic_gather, r);
 }
 
 /* All components at once; with records too. */
@@ -142,40 +172,16 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	size_t slots[3], first;
 	for (int d = 0; d < 3; d++)
 		slots[d] = pm_tile_slots(&w->p, j->tile, d, &first);
-	t.nodes = w->nodes + (size_t)omp_get_thread_num() * PM_VECTOR_NODES;
-	pm_tile_weave(t.block, w->components, slots, t.nodes);
+	const int group = pm_vector_group(w->components);
+	t.nodes = w->nodes + (size_t)omp_get_thread_num() * pm_vector_groups(w->components) * PM_VECTOR_NODES;
+	double *nodes = t.nodes;
+	for (int c = 0; c < w->components; c += group, nodes += PM_VECTOR_NODES)
+		pm_tile_weave(t.block + (size_t)c * PM_BLOCK_MOST, w->components - c < group ? w->components - c : group, slots, nodes);
 	if (t.records)
 		return loop(&t), true;
-	if (loop != pm_tile_cic_gather_vectors || w->blockwise)
+	if (loop != pm_tile_cic_gather_vectors || w->o->order.floats)
 		return gather_in_order(w, j, t, loop, r);
-	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
-	return pm_tile_cic_gather_vectors_in_order(&t, &batch, r);
-}
-
-/* On a line; what is gathered to floats, or times floats, goes by way of doubles. */
-static bool gather_line(const struct pm_pass *w, const struct pm_tile_job *j, const struct pm_tile *t, const struct pm_tile_results *r)
-{
-	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	double few[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS][PM_TILE_ORDER_PACK];
-	struct pm_column one[PM_COMPONENTS];
-	struct pm_target to[PM_COMPONENTS];
-	bool set[PM_COMPONENTS], finite = true;
-	if (!w->blockwise) {
-		pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
-		return pm_tile_line_gather(t, &batch, r);
-	}
-	for (int c = 0; c < w->components; c++)
-		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]};
-	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
-		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_batch_take(&batch, p, m, few);
-		batch.p = 0;
-		pm_tile_line_gather(t, &batch, &(struct pm_tile_results){one, set, to});
-		for (int c = 0; c < w->components; c++)
-			finite &= pm_tile_order_unpack(p, m, 1, values[c], 1, &(struct pm_tile_results){&r->factor[c], &r->set[c], &r->to[c]});
-	}
-	return finite;
+	return gather_batches(w, j, &t, pm_tile_cic_gather_vectors_in_order, r);
 }
 
 bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double *block, const struct pm_tile_results *r)
@@ -187,7 +193,7 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 		return gather_vectors(w, j, t, r);
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
-		return gather_line(w, j, &t, r);
+		return gather_batches(w, j, &t, pm_tile_line_gather, r);
 	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
 	if (lanes && corners && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);
@@ -257,7 +263,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 {
 	for (size_t j = 0; j < w->p.jobs && !w->nodes; j++)
 		if (pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, w->p.job[j].to - w->p.job[j].from)) {
-			w->nodes = pm_zalloc((size_t)threads * PM_VECTOR_NODES, sizeof *w->nodes);
+			w->nodes = pm_alloc((size_t)threads * pm_vector_groups(w->components) * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
 	return PM_TILE_CIC_CORNERS && w->o->order.dim == 3 ? pm_pass_corners(w, threads, (size_t)w->components * PM_TILE_CELLS) : 0;
@@ -401,6 +407,8 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 		else if (o && (o->records || o->floats))
 			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, &r, &seen);
 		finite = finite && seen;
+		if (o)
+			pm_tile_order_leave_strays(o, w.components, &r);
 		if (!status)
 			*strays = w.o->strays;
 		bool in_use = w.o && t->kept && *t->kept == &w.o->note;

@@ -930,8 +930,8 @@ END
 	[ $ended -gt 3 ] && [ $failed -gt 3 ]
 }
 
-# Limits half way between what a run alone and a rank of 4 need, found by bisection: 130 and 60 MB, 154 and 54 MB, 87 and 75 MB; of light 108 and 87 MB;
-# with open faces 130 and 80 MB.
+# Limits half way between what a run alone and a rank of 4 need, found by bisection: 124 and 63 MB, 136 and 53 MB, 99 and 85 MB; of light 108 and 87 MB;
+# with open faces 134 and 85 MB.
 # Tables and notes of solvers count.
 @test "a set and a mesh that no rank may hold: a run alone ends at a limit of memory, 4 ranks do steps of PM, open faces, vortices, plasma and light" {
 	[ -z "$PM_SANITIZED" ] || skip "the memory of a sanitized program says nothing"
@@ -939,7 +939,7 @@ END
 	pinit uniform -n 300000 --dispersion 0.1 | ssort >gravity
 	pinit plummer -n 100000 >open
 	pinit taylor-green-2d --cells 512 >vortex
-	pinit langmuir --dim 2 --axes 2 -n 600625 --cells 256 --amplitude 0.1 >plasma
+	pinit langmuir --dim 2 --axes 2 -n 1000000 --cells 256 --amplitude 0.1 >plasma
 	awk 'BEGIN { print "x y vx vy vz mass charge"; for (i = 0; i < 500000; i++)
 		print i*0.618034%1, i*0.324718%1, 0.2*(i%5) - 0.4, 0.2*(i%7) - 0.5, 0.1*(i%3), 1, (i%2)*2 - 1 }' |
 		stab - --law electromagnetic --dt 0.001 --box 0,0,1,1 --faces periodic --particle-faces periodic -n 256x256 |
@@ -955,7 +955,7 @@ END
 gravity#90000#$(kicks "$(force 96)")
 open#100000#$(kicks "$(force 96)")
 vortex#95000#p2m | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --cut-off 1e-6
-plasma#81000#$(kicks "p2m | poisson-fft | mgrad | m2p")
+plasma#92000#$(kicks "p2m | poisson-fft | mgrad | m2p")
 light#97000#push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2
 END
 	[ $ran -eq 5 ]

@@ -327,6 +327,92 @@ static void check_in_order(int dim, const size_t cells[3], size_t n, const char 
 	problem_free(&b);
 }
 
+/* Nearly in order, with a stray: particles stay where they are in the stream. The sums of the plain loop with 1 to 3 threads; a value has the bytes that its
+ * particle gets in a stream in order. */
+static void check_nearly(int dim, const size_t cells[3], size_t n, const char *kernel)
+{
+	enum { apart = 97 };
+	struct problem a = problem_new(grid_of(dim, cells, (const int[]){3, 0, 2}), pm_kernel_find(kernel), dim, n), b;
+	struct pm_strays strays;
+	const int threads = pm_threads();
+	double worst = 0;
+	bool same = true, stay = true;
+	put_in_order(&a);
+	b = problem_new(a.t.grid, a.t.kernel, dim, n);
+	for (int d = 0; d < dim; d++)
+		memcpy(b.x[d], a.x[d], n * sizeof(double));
+	for (int c = 0; c < dim; c++)
+		fill_mesh(&a, c, b.mesh[c]), a.t.set[c] = b.t.set[c] = true;
+	pm_gather(&b.t, n, in(b.x), in(b.mesh), NULL, b.out, &strays);
+	for (int d = 0; d < dim; d++)
+		for (size_t p = 0; p < n / 2; p += apart) {
+			const double here = a.x[d][p];
+			a.x[d][p] = a.x[d][n - 1 - p], a.x[d][n - 1 - p] = here;
+		}
+	a.x[0][n / 3] = a.t.grid.lo[0] - 9 * a.t.grid.h[0];
+	for (int count = 1; count <= 3; count++) {
+		struct pm_note *note = NULL;
+		struct pm_column x[3];
+		pm_threads_use(count);
+		a.t.kept = &note;
+		for (int c = 0; c < dim; c++) {
+			memset(a.mesh[c], 0, a.points * sizeof(double));
+			memset(a.out[c], 255, n * sizeof(double));
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_columns_of(dim, in(a.x), x);
+		stay = stay && ((struct pm_order_cache *)note)->order.place && strays.count == 1 && strays.first == n / 3;
+		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
+		stay = stay && strays.finite && strays.count == 1;
+		for (int c = 0; c < dim; c++)
+			for (size_t p = 0; p < n; p++) {
+				const size_t twin = p < n / 2 && p % apart == 0 ? n - 1 - p : n - 1 - p < n / 2 && (n - 1 - p) % apart == 0 ? n - 1 - p : p;
+				same = same && a.out[c][p] == (p == n / 3 ? 0 : b.out[c][twin]);
+			}
+		note->free(note);
+		struct problem plain = problem_new(a.t.grid, a.t.kernel, dim, n);
+		pm_spread_plain(&plain.t, n, in(a.x), in(a.q), plain.mesh, &strays);
+		for (int c = 0; c < dim; c++)
+			check_worst(&worst, difference(a.points, a.mesh[c], plain.mesh[c]));
+		problem_free(&plain);
+	}
+	check(stay, "%d-D, %s: particles nearly in the order of tiles stay in the stream, and a stray is counted", dim, kernel);
+	check(same, "%d-D, %s: each of them gathers the bytes that it gets in order, the stray 0", dim, kernel);
+	check(worst <= 1e-13, "%d-D, %s: spread nearly in order is the plain loop with 1, 2 and 3 threads (off by %.2g, tolerance 1e-13)", dim, kernel, worst);
+	pm_threads_use(threads);
+	problem_free(&a);
+	problem_free(&b);
+}
+
+/* Several components at once, in order and from any order: the bytes of one after the other. */
+static void check_components(const size_t cells[3], size_t n, const char *kernel, int components)
+{
+	for (int ordered = 0; ordered < 2; ordered++) {
+		struct problem a = problem_new(grid_of(3, cells, (const int[]){0, 0, 0}), pm_kernel_find(kernel), components, n);
+		struct pm_strays strays;
+		double *mesh[PM_COMPONENTS], *out[PM_COMPONENTS], *one = pm_alloc(n, sizeof *one);
+		bool same = true;
+		if (ordered)
+			put_in_order(&a);
+		for (int c = 0; c < components; c++) {
+			mesh[c] = pm_alloc(a.points, sizeof(double)), out[c] = pm_alloc(n, sizeof(double));
+			for (size_t i = 0; i < a.points; i++)
+				mesh[c][i] = sin((double)i + 0.7 * c);
+			a.t.set[c] = true;
+		}
+		pm_gather(&a.t, n, in(a.x), in(mesh), NULL, out, &strays);
+		a.t.components = 1;
+		for (int c = 0; c < components; c++) {
+			pm_gather(&a.t, n, in(a.x), in(&mesh[c]), NULL, &one, &strays);
+			same = same && !memcmp(one, out[c], n * sizeof *one);
+			pm_free(mesh[c]), pm_free(out[c]);
+		}
+		check(same, "%s, %d components%s have the bytes of one after the other", kernel, components, ordered ? " in order" : "");
+		pm_free(one);
+		problem_free(&a);
+	}
+}
+
 /* One number for all strengths or factors: the bytes of an array of them, in order and from any order. */
 static void check_one_number(int dim, const size_t cells[3], size_t n, const char *kernel)
 {
@@ -877,6 +963,14 @@ int main(void)
 		check_in_order(3, (const size_t[]){35, 20, 33}, rule % 2 ? 30000 : 30003, "cic", (const int[]){rule, rule ? rule % 3 + 1 : 0, 0});
 	check_in_order(3, (const size_t[]){7, 5, 9}, 4101, "cic", (const int[]){0, 2, 0});
 	check_threads(3, (const size_t[]){35, 20, 33}, "cic");
+	check_in_order(3, (const size_t[]){35, 20, 33}, 8001, "m6prime", (const int[]){0, 0, 0});
+	for (int k = 0; k < 5; k++)
+		check_components((const size_t[]){35, 20, 33}, 9001, (const char *const[]){"cic", "tsc", "pcs", "m6prime", "lambda-6-4"}[k],
+			(const int[]){4, 3, 5, 6, 4}[k]);
+	check_nearly(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
+	check_nearly(2, (const size_t[]){130, 67, 1}, 9001, "tsc");
+	check_nearly(3, (const size_t[]){35, 20, 33}, 60003, "cic");
+	check_nearly(3, (const size_t[]){35, 20, 33}, 30003, "pcs");
 	check_one_number(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
 	check_floats(1, (const size_t[]){4000, 1, 1}, 20003); /* one tile, in whatever order */
 	check_floats(3, (const size_t[]){35, 20, 33}, 30003);
