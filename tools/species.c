@@ -17,14 +17,28 @@ struct config {
 static int components(const struct config *o, int n, struct pm_distribution_choice *c)
 {
 	if (o->drift.n > n || (o->widths.n && o->widths.n != n))
-		return pm_fail(PM_USAGE, "--%s has %d numbers, and v has %d components (--velocities)", o->drift.n > n ? "drift" : "widths",
-			o->drift.n > n ? o->drift.n : o->widths.n, n);
+		return pm_fail(PM_USAGE, "--%s has %d numbers, and v has %d component%s (--velocities)", o->drift.n > n ? "drift" : "widths",
+			o->drift.n > n ? o->drift.n : o->widths.n, n, n == 1 ? "" : "s");
 	for (int d = 0; d < n; d++) {
 		c->drift[d] = d < o->drift.n ? o->drift.x[d] : 0;
 		c->vth[d] = o->widths.n ? o->widths.x[d] : o->vth;
 		if (c->vth[d] < 0)
 			return pm_fail(PM_USAGE, "--widths %g is negative", c->vth[d]);
 	}
+	return 0;
+}
+
+/* What would change nothing is a mistake. */
+static int unused(const struct pm_stage *s, int velocities)
+{
+	const struct config *o = s->config;
+	static const char *const given[] = {"vth", "widths", "drift"};
+	bool all = true;
+	for (int k = 0; k < velocities; k++)
+		all = all && o->f[k];
+	for (int k = 0; all && k < 3; k++)
+		if (pm_given(s, given[k]))
+			return pm_fail(PM_USAGE, "--%s, but every component of v has its distribution by an expression (leave one out)", given[k]);
 	return 0;
 }
 
@@ -53,7 +67,7 @@ static int species_of(const struct pm_stage *s, const struct pm_frame *f, struct
 				: "--f%c gives that component's distribution; the others can only be maxwellian", 'x' + k, velocities);
 	if (d->isotropic && o->widths.n)
 		return pm_fail(PM_USAGE, "%s has one width for all components (--vth)", d->name);
-	return components(o, velocities, c) ? -PM_USAGE : d->check ? d->check(c) : 0;
+	return unused(s, velocities) || components(o, velocities, c) ? -PM_USAGE : d->check ? d->check(c) : 0;
 }
 
 static int begin(struct pm_stage *s)

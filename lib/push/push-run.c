@@ -199,8 +199,9 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 			bad |= a.v[c] && !pm_finite_few(end - i, a.v[c] + i);
 	}
 	if (fast < n)
-		return pm_world_place(1, 0, 0, m->v->first + fast), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g",
-			(size_t)m->v->first + fast, m->set->name, sqrt(floats ? speed2_of(m->v, fast) : speed2(&a, fast)), a.c);
+		return pm_world_place(1, 0, 0, m->v->first + fast), pm_fail(PM_DATA, "particle %zu of '%s' has the speed %.6g, and c is %.6g "
+			"(slower ones, or smod --constant c=C)", (size_t)m->v->first + fast, m->set->name,
+			sqrt(floats ? speed2_of(m->v, fast) : speed2(&a, fast)), a.c);
 	m->v->use |= bad ? 0 : PM_USE_SEEN;
 	return 0;
 }

@@ -118,6 +118,8 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 	refused "-n 10 --fx '1'" 2 "does not fall to 0 (give --range LOW,HIGH)"
 	refused "-n 10 --fx 'exp(-v^2)' --range 3,1" 2 "--range takes the lowest and the highest"
 	refused "-n 10 --fy 'exp(-v^2)'" 2 "--fy, but v has 1 components"
+	refused "-n 10 --fx 'exp(-v^2)' --vth 2" 2 "--vth, but every component of v has its distribution by an expression"
+	refused "-n 10 --drift 1,2" 2 "--drift has 2 numbers, and v has 1 component ("
 	refused "-n 10 --distribution kappa" 2 "--kappa above 1.5"
 	refused "-n 10 --kappa 3" 2 "--kappa is for --distribution kappa"
 	refused "-n 10 --ring 3" 2 "--ring is for --distribution ring"
