@@ -1,12 +1,12 @@
 /* Gather of components at several offsets, as those of E and B on Yee's mesh, in one pass over the particles in their order among the nodes (staggered-tile.c).
  * A point half a cell up is looked for in the particle's own cell of halves and the next (transfer-axis.h), so a tile has one slot more of them; what is
  * gathered for a particle does not depend on the order, so ranks may sort for every offset and get the same bytes (transfer-ranks.c). A thread keeps the
- * blocks of its tile from job to job. Cost: one sort, or a reading of positions where the particles are nearly in order; width^dim products a component.
+ * blocks of its tile from job to job, and its nodes where there are many particles (staggered-nodes.c). Cost: one sort, or a reading of positions where the particles are nearly in order; width^dim products a component.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>
 
-#include "transfer/staggered-tile.h"
+#include "transfer/staggered-nodes.h"
 #include "transfer/transfer-pass.h"
 
 /* What all jobs have in common. */
@@ -18,6 +18,7 @@ struct staggered {
 	struct pm_strays strays;
 	struct pm_tile_pass pass;
 	double *blocks;  /* [threads][components][PM_BLOCK_MOST] */
+	double *woven;   /* [threads][PM_STAGGERED_NODES], or NULL */
 	double *results; /* where there are records: [n][components] */
 	float *few;      /* the same of records of floats, rounded; NULL */
 	struct pm_tile_results to;
@@ -66,20 +67,51 @@ static void load_blocks(const struct staggered *s, const struct pm_tile_job *j, 
 	}
 }
 
+/* Particles p..p+m-1 of the order, whose values are arrays: to the results, or, true if finite, to the particles. */
+static bool put_arrays(const struct staggered *s, size_t p, size_t m, const double *values)
+{
+	const struct pm_tile_order *o = s->o;
+	const int components = s->t->components;
+	if (!s->few && !s->results)
+		return pm_tile_order_unpack_arrays(p, o->place ? o->place + p : NULL, m, values, components, &s->to);
+	double results[PM_TILE_ORDER_PACK * PM_COMPONENTS], *to = s->few ? results : s->results + p * (size_t)components;
+	for (size_t i = 0; i < m; i++)
+		for (int c = 0; c < components; c++)
+			to[i * (size_t)components + (size_t)c] = values[c * PM_TILE_ORDER_PACK + (int)i];
+	if (s->few)
+		pm_tile_results_few(p, m, components, results, components, &s->to, s->few, components);
+	return true;
+}
+
+/* A job from nodes. */
+static bool gather_nodes(const struct staggered *s, const struct pm_tile_job *j, struct pm_staggered_tile t)
+{
+	double u[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS * PM_TILE_ORDER_PACK];
+	pm_staggered_loop *loop = pm_staggered_gather_nodes(s->o->dim, t.kernel);
+	bool finite = true;
+	t.results = values;
+	for (int d = 0; d < 3; d++)
+		t.u[d] = u[d];
+	for (size_t p = j->from; p < j->to; p += t.count) {
+		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		pm_tile_order_columns(s->o, p, t.count, false, (double *[]){u[0], u[1], u[2]});
+		loop(&t);
+		finite &= put_arrays(s, p, t.count, values);
+	}
+	return finite;
+}
+
 /* A job: to the results of the records, or, true if finite, to the particles. */
-static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, const double *block)
+static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, struct pm_staggered_tile t)
 {
 	const struct pm_tile_order *o = s->o;
 	const size_t components = (size_t)s->t->components;
 	double packed[PM_TILE_ORDER_PACK * 3], values[PM_TILE_ORDER_PACK * PM_COMPONENTS];
-	struct pm_staggered_tile t = {.kernel = s->t->kernel, .shift = s->nodes[0].shift, .stride = o->stride, .components = s->t->components,
-		.staggered = s->t->staggered, .block = block};
 	pm_staggered_loop *loop = pm_staggered_gather(o->dim, t.kernel, t.components, t.staggered);
 	struct pm_tile_order positions = *o;
 	bool finite = true;
-	for (int d = 0; d < 3; d++)
-		pm_tile_slots(&s->pass, j->tile, d, &t.cell[d]);
 	if (o->records) {
+		t.stride = o->stride;
 		t.count = j->to - j->from;
 		t.records = o->records + j->from * (size_t)o->stride;
 		t.results = s->results + j->from * components;
@@ -101,25 +133,48 @@ static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, c
 	return finite;
 }
 
+/* What a thread has of a tile. */
+struct loaded {
+	size_t tile;
+	double *block, *nodes;
+	bool woven;
+};
+
+/* A job, whose tile is loaded if it is not yet. */
+static bool gather_tile(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], struct loaded *l)
+{
+	struct pm_staggered_tile t = {.kernel = s->t->kernel, .shift = s->nodes[0].shift, .components = s->t->components, .staggered = s->t->staggered,
+		.block = l->block, .nodes = l->nodes};
+	size_t slots[3] = {1, 1, 1};
+	for (int d = 0; d < 3; d++)
+		slots[d] = pm_tile_slots(&s->pass, j->tile, d, &t.cell[d]) + (d < s->o->dim);
+	if (l->tile != j->tile) {
+		load_blocks(s, j, mesh, l->block);
+		l->woven = l->nodes && s->o->begin[j->tile + 1] - s->o->begin[j->tile] >= pm_staggered_worth_nodes(slots);
+		if (l->woven)
+			pm_staggered_weave(s->o->dim, l->block, slots, l->nodes);
+		l->tile = j->tile;
+	}
+	return l->woven ? gather_nodes(s, j, t) : gather_job(s, j, t);
+}
+
 static int gather_all(struct staggered *s, size_t n, const double *const mesh[], bool *finite)
 {
 	const int most = pm_tile_threads(n), threads = (size_t)most < s->pass.jobs ? most : (int)s->pass.jobs + !s->pass.jobs;
 	const size_t each = (size_t)s->t->components * PM_BLOCK_MOST;
 	int bad = 0;
+	const bool nodes = pm_staggered_has_nodes(s->t->grid.dim, s->t->kernel, s->t->components, s->t->staggered) && n >= PM_TILE_PIECE;
 	if (!(s->blocks = pm_zalloc((size_t)threads * each, sizeof *s->blocks)))
+		return -PM_DATA;
+	if (nodes && !(s->woven = pm_alloc((size_t)threads * PM_STAGGERED_NODES, sizeof *s->woven)))
 		return -PM_DATA;
 #pragma omp parallel num_threads(threads) reduction(| : bad)
 	{
-		double *block = s->blocks + (size_t)omp_get_thread_num() * each;
-		size_t tile = SIZE_MAX;
+		const size_t me = (size_t)omp_get_thread_num();
+		struct loaded l = {.tile = SIZE_MAX, .block = s->blocks + me * each, .nodes = nodes ? s->woven + me * PM_STAGGERED_NODES : NULL};
 #pragma omp for schedule(dynamic, 1)
-		for (size_t j = 0; j < s->pass.jobs; j++) {
-			const struct pm_tile_job *job = &s->pass.job[j];
-			if (job->tile != tile)
-				load_blocks(s, job, mesh, block);
-			tile = job->tile;
-			bad |= !gather_job(s, job, block);
-		}
+		for (size_t j = 0; j < s->pass.jobs; j++)
+			bad |= !gather_tile(s, &s->pass.job[j], mesh, &l);
 	}
 	*finite = !bad;
 	return 0;
@@ -143,7 +198,7 @@ int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_c
 		*strays = s.strays;
 		strays->finite = finite;
 	}
-	pm_free(s.results), pm_free(s.few), pm_free(s.blocks);
+	pm_free(s.results), pm_free(s.few), pm_free(s.blocks), pm_free(s.woven);
 	pm_tile_pass_free(&s.pass);
 	pm_tile_order_free(&s.own);
 	pm_axes_free(s.nodes);

@@ -49,7 +49,7 @@ PM_SIMD_INLINE double component(int dim, int width, const struct support *s, con
 enum { yee_components = 6 };
 PM_SIMD_INLINE bool yee_half(int dim, int c, int d) { return d < dim && (c % 3 == d) == (c < 3); }
 
-static bool is_yee(int dim, int components, const unsigned char (*staggered)[3])
+bool pm_staggered_is_yee(int dim, int components, const unsigned char (*staggered)[3])
 {
 	bool is = components == yee_components;
 	for (int c = 0; c < components && is; c++)
@@ -109,6 +109,6 @@ static pm_staggered_loop *const yee[3][3] = {{yee_1_2, yee_1_3, yee_1_4}, {yee_2
 
 pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, int components, const unsigned char (*staggered)[3])
 {
-	const bool spline = k->width >= 2 && k->width <= 4 && k->degree == k->width - 1 && is_yee(dim, components, staggered);
+	const bool spline = k->width >= 2 && k->width <= 4 && k->degree == k->width - 1 && pm_staggered_is_yee(dim, components, staggered);
 	return spline ? yee[dim - 1][k->width - 2] : any[dim - 1][k->width - 1];
 }

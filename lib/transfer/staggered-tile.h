@@ -16,8 +16,11 @@ struct pm_staggered_tile {
 	const unsigned char (*staggered)[3]; /* of transfer.h */
 	const double *block;    /* [components][PM_BLOCK_MOST] */
 	double *results;        /* [count][components] */
+	const double *nodes, *u[3]; /* in place of block and records (staggered-nodes.h); the results are then [components][PM_TILE_ORDER_PACK] */
 };
 
+/* E and B, six components half a cell up as on Yee's mesh. */
+bool pm_staggered_is_yee(int dim, int components, const unsigned char (*staggered)[3]);
 typedef void pm_staggered_loop(const struct pm_staggered_tile *t);
 pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, int components, const unsigned char (*staggered)[3]);
 

@@ -319,6 +319,27 @@ void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool 
 	}
 }
 
+void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *const to[])
+{
+	double few[2][batch];
+	const int dim = o->dim, first = o->ways && values ? 2 * dim : dim, all = first + (values ? o->nvalues : 0);
+	int x = 0, v = dim, k = o->ways ? 2 * dim : dim; /* of a record of floats */
+	if (o->records) {
+		const double *record = o->records + p * (size_t)o->stride;
+		for (size_t i = 0; i < m; i++, record += o->stride)
+			for (int c = 0; c < all; c++)
+				to[c][i] = record[c];
+		return;
+	}
+	for (int d = 0; d < dim; d++)
+		locate_axis(o, d, m, taken(o, p, m, &o->x[d], &x, few[0]), o->ways ? taken(o, p, m, &o->v[d], &v, few[1]) : NULL, to[d],
+			o->ways && values ? to[dim + d] : NULL);
+	for (int c = first; c < all; c++) {
+		const double *value = taken(o, p, m, &o->values[c - first], &k, few[0]);
+		memcpy(to[c], value, m * sizeof *value);
+	}
+}
+
 static int allocate(struct pm_tile_order *o)
 {
 	size_t columns = o->tiles + 1;
@@ -524,20 +545,21 @@ static void unpack_floats(size_t m, int stride, const double *records, const dou
 	}
 }
 
-bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
+/* Value i of component c: values[i * stride + c * next]. */
+PM_SIMD_INLINE bool unpack(size_t p, size_t m, size_t stride, size_t next, const double *values, int nvalues, const struct pm_tile_results *r)
 {
 	bool finite = true;
 	double few[batch];
 	for (int c = 0; c < nvalues; c++) {
 		const bool set = r->set[c];
-		const double *f = is_one(&r->factor[c]) ? NULL : pm_column_take(&r->factor[c], p, m, few);
+		const double *f = is_one(&r->factor[c]) ? NULL : pm_column_take(&r->factor[c], p, m, few), *from = values + (size_t)c * next;
 		if (r->to[c].floats) {
-			unpack_floats(m, stride, records + c, f, set, r->to[c].floats + p);
+			unpack_floats(m, (int)stride, from, f, set, r->to[c].floats + p);
 			continue; /* checked where the stage ends */
 		}
 		double *restrict y = r->to[c].doubles + p;
 		for (size_t i = 0; i < m; i++) {
-			double value = records[i * (size_t)stride + (size_t)c];
+			double value = from[i * stride];
 			value = f ? f[i] * value : value;
 			y[i] = set ? value : y[i] + value;
 		}
@@ -546,12 +568,15 @@ bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records,
 	return finite;
 }
 
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
+bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
+{
+	return unpack(p, m, (size_t)stride, 1, records, nvalues, r);
+}
+
+PM_SIMD_INLINE bool unpack_to(const uint32_t *place, size_t m, size_t stride, size_t next, const double *values, int nvalues, const struct pm_tile_results *r)
 {
 	const uint64_t one = (uint64_t)1 << 52, exponent = 0x7ff * one;
 	uint64_t over = 0; /* the highest bit if the exponent of a value is the largest there is: it is not finite */
-	if (stand_together(place, m))
-		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, r);
 	for (int c = 0; c < nvalues; c++) {
 		const bool plain = is_one(&r->factor[c]), set = r->set[c];
 		double *restrict y = r->to[c].doubles;
@@ -559,7 +584,7 @@ bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const 
 		for (size_t i = 0; i < m; i++) {
 			const size_t p = place[i];
 			uint64_t bits;
-			double value = records[i * (size_t)stride + (size_t)c];
+			double value = values[i * stride + (size_t)c * next];
 			value = plain ? value : pm_column_at(&r->factor[c], p) * value;
 			if (z) {
 				z[p] = (float)(set ? value : z[p] + value);
@@ -571,6 +596,20 @@ bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const 
 		}
 	}
 	return !(over >> 63);
+}
+
+bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
+{
+	if (stand_together(place, m))
+		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, r);
+	return unpack_to(place, m, (size_t)stride, 1, records, nvalues, r);
+}
+
+bool pm_tile_order_unpack_arrays(size_t p, const uint32_t *place, size_t m, const double *values, int nvalues, const struct pm_tile_results *r)
+{
+	if (place && !stand_together(place, m))
+		return unpack_to(place, m, 1, batch, values, nvalues, r);
+	return unpack(place ? place[0] : p, m, 1, batch, values, nvalues, r);
 }
 
 bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,

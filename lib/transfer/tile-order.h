@@ -61,6 +61,8 @@ static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o
  * of the order still be there. Of ways a record is: the lower end, the signed length [cells] on each axis, the values. */
 enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
+/* The same as arrays to[numbers of a record][m]; without values only u of each axis. */
+void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *const to[]);
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite);
@@ -69,6 +71,8 @@ int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *resu
 /* The same for m particles from p on, or at these places, whose records are given. */
 bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
 bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
+/* The same of arrays values[nvalues][PM_TILE_ORDER_PACK]; places: NULL or [m]. */
+bool pm_tile_order_unpack_arrays(size_t p, const uint32_t *place, size_t m, const double *values, int nvalues, const struct pm_tile_results *r);
 /* One of the two, as the order has places or none. Strays of particles that stay have places too, and get 0. */
 bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
 	const struct pm_tile_results *r);

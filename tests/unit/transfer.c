@@ -7,12 +7,12 @@
 #include "check.h"
 #include "transfer/order-cache.h"
 
-enum { MOST = 3 }; /* components */
+enum { MOST = 6 }; /* components */
 
 struct problem {
 	struct pm_transfer t;
 	size_t n, points;
-	double *x[3], *q[MOST], *mesh[MOST], *out[MOST];
+	double *x[MOST], *q[MOST], *mesh[MOST], *out[MOST];
 };
 
 static const enum pm_face faces[][2] = {{PM_PERIODIC, PM_PERIODIC}, {PM_WALL, PM_WALL}, {PM_NEUMANN, PM_NEUMANN}, {PM_OPEN, PM_OPEN},
@@ -934,6 +934,48 @@ static void check_exact(void)
 	}
 }
 
+/* E and B on Yee's mesh at once, where a tile has enough particles for nodes, against each component alone: particles in any order, in the order of tiles, and
+ * nearly so. */
+static void check_yee(int dim, const size_t cells[3], size_t n, const char *kernel, const int rules[3])
+{
+	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find(kernel), 6, n);
+	const double *const factor[MOST] = {NULL, a.q[0], NULL, a.q[1], NULL, NULL};
+	double *alone = pm_zalloc(n + 1, sizeof *alone);
+	struct pm_strays strays;
+	bool same = true;
+	for (int c = 0; c < 6; c++)
+		for (int d = 0; d < 3; d++)
+			a.t.staggered[c][d] = d < dim && (c % 3 == d) == (c < 3), a.t.flip[c][d] = (c % 3 == d) != (c < 3);
+	for (int c = 0; c < 6; c++)
+		fill_mesh(&a, c, a.mesh[c]);
+	for (int order = 0; order < 3; order++) {
+		if (order == 1) { /* that of the nodes */
+			a.t.staggered[0][0] = 0;
+			put_in_order(&a);
+			a.t.staggered[0][0] = 1;
+		}
+		for (size_t p = 0; order == 2 && p + 1000 < n; p += 100)
+			for (int d = 0; d < dim; d++) {
+				const double x = a.x[d][p];
+				a.x[d][p] = a.x[d][p + 999], a.x[d][p + 999] = x;
+			}
+		for (int c = 0; c < 6; c++)
+			memset(a.out[c], 0, n * sizeof *a.out[c]);
+		pm_gather(&a.t, n, in(a.x), in(a.mesh), factor, a.out, &strays);
+		for (int c = 0; c < 6; c++) {
+			struct pm_transfer one = a.t;
+			one.components = 1;
+			memcpy(one.staggered[0], a.t.staggered[c], 3), memcpy(one.flip[0], a.t.flip[c], 3);
+			memset(alone, 0, n * sizeof *alone);
+			pm_gather(&one, n, in(a.x), in(a.mesh + c), factor + c, &alone, &strays);
+			same = same && !memcmp(alone, a.out[c], n * sizeof *alone);
+		}
+	}
+	check(same, "%d-D, %s, faces %d: E and B gathered at once by %zu particles are each component alone, to the last bit", dim, kernel, rules[0], n);
+	pm_free(alone);
+	problem_free(&a);
+}
+
 int main(void)
 {
 	check_adjoint(1, (const size_t[]){13, 1, 1});
@@ -985,6 +1027,12 @@ int main(void)
 	check_formula(3, (const size_t[]){11, 12, 13}, 4);
 	for (int dim = 1; dim <= 3; dim++)
 		check_crowd(dim, "cic", true), check_crowd(dim, "m4prime", false);
+	for (int k = 0; k < 3; k++) { /* several tiles, and one */
+		const char *kernel = (const char *[]){"cic", "tsc", "pcs"}[k];
+		check_yee(3, (const size_t[]){33, 17, 9}, 30001, kernel, (const int[]){0, 0, 0});
+		check_yee(3, (const size_t[]){13, 12, 7}, 16390, kernel, (const int[]){1, 2, 0});
+		check_yee(2, (const size_t[]){70, 66, 1}, 16387, kernel, (const int[]){k % 2, 0, 0});
+	}
 	check_images(1, -1);
 	check_images(2, 1);
 	check_edges();
