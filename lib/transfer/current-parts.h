@@ -3,6 +3,7 @@
 #ifndef PM_TRANSFER_CURRENT_PARTS_H
 #define PM_TRANSFER_CURRENT_PARTS_H
 
+#include "transfer/current-cells.h"
 #include "transfer/current.h"
 #include "transfer/transfer-pass.h"
 
@@ -12,7 +13,8 @@ struct pm_current_fill {
 	double shift; /* of the axes */
 	const bool *rests; /* [3] of an order of particles, whose values are charge and velocity: no velocity along this axis above dim; of ways NULL */
 };
-void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block);
+void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block,
+	struct pm_current_cells *cells); /* of this thread, or NULL where there are none */
 /* Where the blocks of a component go; flip is its room. */
 struct pm_tile_target pm_current_target(const struct pm_current *c, const struct pm_axis nodes[3], const struct pm_axis halves[3], int component,
 	unsigned char flip[3]);

@@ -96,6 +96,7 @@ struct filling {
 	struct pm_current_fill fill;
 	int dim;
 	double *three;           /* [threads][3][PM_BLOCK_MOST], zero between jobs */
+	struct pm_current_cells *cells; /* [threads], or NULL */
 	struct waiting *waiting; /* [jobs][2]; NULL: no memory */
 	size_t jobs;
 };
@@ -135,7 +136,7 @@ static int begin(const void *data, size_t jobs, int threads)
 	f->three = pm_zalloc((size_t)threads * 3 * PM_BLOCK_MOST, sizeof *f->three);
 	f->waiting = calloc(2 * jobs + 1, sizeof *f->waiting);
 	f->jobs = jobs;
-	return f->three ? 0 : pm_failed();
+	return f->three && !pm_current_cells_new(&f->cells, threads, f->dim, f->fill.c->kernel) ? 0 : pm_failed();
 }
 
 static void filling_free(struct filling *f)
@@ -143,6 +144,7 @@ static void filling_free(struct filling *f)
 	for (size_t i = 0; f->waiting && i < 2 * f->jobs; i++)
 		free(f->waiting[i].row);
 	free(f->waiting), pm_free(f->three);
+	f->cells = pm_current_cells_free(f->cells);
 }
 
 /* One of the three blocks of a job: blocks of a rank wait for no message. */
@@ -160,7 +162,7 @@ static void fill_one(const void *data, const struct pm_tile_pass *p, const struc
 		return;
 	}
 	double *three = f->three + (size_t)omp_get_thread_num() * 3 * PM_BLOCK_MOST;
-	pm_current_fill(&f->fill, p, j, three);
+	pm_current_fill(&f->fill, p, j, three, f->cells ? f->cells + omp_get_thread_num() : NULL);
 	for (int k = 1; k < 3 && !component && two; k++)
 		keep(three + k * PM_BLOCK_MOST, f->dim, &two[k - 1]);
 	memcpy(block, three + component * PM_BLOCK_MOST, PM_BLOCK_MOST * sizeof *block);

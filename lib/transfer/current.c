@@ -38,9 +38,35 @@ struct spread {
 	const struct pm_axis *nodes, *halves;
 	const bool *rests; /* of pm_current_fill */
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
+	struct pm_current_cells *cells; /* [threads], or NULL */
 };
 
-void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block)
+/* A job by sums of cells; the ways that have none as records. */
+static void fill_cells(const struct pm_tile_order *o, const struct pm_tile_job *j, struct pm_current_tile *t, struct pm_current_cells *cells)
+{
+	double *const columns[] = {cells->u[0], cells->u[1], cells->u[2], cells->way[0], cells->way[1], cells->way[2], cells->q};
+	enum { numbers = sizeof columns / sizeof *columns };
+	double records[PM_TILE_ORDER_PACK * numbers + 4];
+	uint32_t others[PM_TILE_ORDER_PACK];
+	pm_current_loop *loop = pm_current_deposit(o->dim, t->kernel);
+	struct pm_current_tile few = *t;
+	few.stride = numbers, few.records = records;
+	cells->shift = t->shift;
+	memcpy(cells->cell, t->cell, sizeof cells->cell);
+	for (size_t at = j->from; at < j->to; at += cells->count) {
+		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
+		pm_tile_order_columns(o, at, cells->count, true, columns);
+		few.count = pm_current_cells_add(cells, others);
+		for (size_t i = 0; i < few.count; i++)
+			for (int c = 0; c < numbers; c++)
+				records[i * numbers + (size_t)c] = columns[c][others[i]];
+		loop(&few);
+	}
+	pm_current_cells_fold(cells, t->block);
+}
+
+void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block,
+	struct pm_current_cells *cells)
 {
 	const struct pm_tile_order *o = p->order;
 	struct pm_current_tile t = {.kernel = s->c->kernel, .shift = s->shift, .stride = o->stride,
@@ -49,6 +75,10 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(p, j->tile, d, &t.cell[d]);
+	if (cells && j->to - j->from >= PM_CURRENT_CELLS_LEAST) {
+		fill_cells(o, j, &t, cells);
+		return;
+	}
 	if (o->records) {
 		t.records = o->records + j->from * (size_t)o->stride;
 		t.count = j->to - j->from;
@@ -91,7 +121,8 @@ static void spread_all(const struct spread *s, int threads, size_t under_way, do
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++)
-			pm_current_fill(&fill, w, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST);
+			pm_current_fill(&fill, w, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST,
+				s->cells ? s->cells + omp_get_thread_num() : NULL);
 		for (size_t j = from; j < to; j++)
 			for (int c = 0; c < 3; c++) {
 				unsigned char flip[3];
@@ -126,10 +157,12 @@ static int deposit_order(struct spread *s, struct pm_tile_order *order, size_t n
 	under_way = pass.jobs < under_way ? pass.jobs : under_way;
 	s->pass = &pass;
 	s->blocks = status ? NULL : pm_zalloc(under_way * 3 * PM_BLOCK_MOST + 1, sizeof *s->blocks);
+	status = status ? status : pm_current_cells_new(&s->cells, threads, order->dim, s->c->kernel);
 	if (!status && s->blocks && pass.jobs)
 		spread_all(s, threads, under_way, mesh);
 	status = status ? status : s->blocks ? 0 : -PM_DATA;
 	pm_free(s->blocks);
+	s->cells = pm_current_cells_free(s->cells);
 	pm_tile_pass_free(&pass);
 	return status;
 }
