@@ -68,8 +68,16 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 	}
 }
 
-/* The tiles of m particles at x[dim], in eights, straight from the positions. False if any of them is outside the range of the lanes. */
-PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3], size_t m, uint32_t *tile)
+PM_SIMD_INLINE pm_simd lower(pm_simd a, pm_simd b)
+{
+	const pm_simd_bits below = a < b;
+	return (pm_simd)((below & (pm_simd_bits)a) | (~below & (pm_simd_bits)b));
+}
+
+/* The tiles of m particles at x[dim], or of their ways with v[dim], in eights, straight from the stream. False if any of them is outside the range of the
+ * lanes. */
+PM_SIMD_INLINE bool tiles_of(int dim, bool ways, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3],
+	const double *const v[3], size_t m, uint32_t *tile)
 {
 	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
 	unsigned any = 0;
@@ -77,8 +85,11 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 		pm_simd_int at = {0}, cell;
 		for (int d = 0; d < dim; d++) {
 			unsigned outside;
-			pm_simd_split(pm_axis_locate_eight(&lanes[d], pm_simd_load_any(x[d] + i), &outside), &cell);
+			const pm_simd a = pm_simd_load_any(x[d] + i);
+			pm_simd_split(pm_axis_locate_eight(&lanes[d], ways ? lower(a, a + o->dt * pm_simd_load_any(v[d] + i)) : a, &outside), &cell);
 			__builtin_prefetch(x[d] + i + PM_TILE_AHEAD);
+			if (ways)
+				__builtin_prefetch(v[d] + i + PM_TILE_AHEAD);
 			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
 		}
@@ -105,6 +116,22 @@ static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes
 	return !any;
 }
 
+/* The tiles of particles none of which is outside the range of the lanes; else false. */
+static bool usual_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, double u[3][batch], uint32_t *tile)
+{
+	double few[3][batch];
+	const double *x[3] = {NULL}, *v[3] = {NULL};
+	if ((int)PM_SIMD_PART != (int)PM_SIMD_WIDTH || m % PM_SIMD_WIDTH != 0)
+		return false;
+	for (int d = 0; d < o->dim; d++) {
+		x[d] = pm_column_take(&o->x[d], p, m, u[d]);
+		v[d] = o->ways ? pm_column_take(&o->v[d], p, m, few[d]) : NULL;
+	}
+#define TILES_OF(dim) (o->ways ? tiles_of(dim, true, o, lanes, x, v, m, tile) : tiles_of(dim, false, o, lanes, x, v, m, tile))
+	return o->dim == 1 ? TILES_OF(1) : o->dim == 2 ? TILES_OF(2) : TILES_OF(3);
+#undef TILES_OF
+}
+
 static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
 {
 	double u[3][batch];
@@ -112,13 +139,8 @@ static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lane
 		memset(tile, 0, m * sizeof *tile);
 		return all_inside(o, lanes, p, m) || locate(o, p, m, u);
 	}
-	if (!o->ways && (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH && m % PM_SIMD_WIDTH == 0) {
-		const double *x[3] = {NULL};
-		for (int d = 0; d < o->dim; d++)
-			x[d] = pm_column_take(&o->x[d], p, m, u[d]);
-		if (o->dim == 1 ? tiles_of(1, o, lanes, x, m, tile) : o->dim == 2 ? tiles_of(2, o, lanes, x, m, tile) : tiles_of(3, o, lanes, x, m, tile))
-			return true;
-	}
+	if (usual_tiles(o, lanes, p, m, u, tile))
+		return true;
 	if (!locate(o, p, m, u))
 		return false;
 	find_tiles(o, m, u, tile);
@@ -170,14 +192,19 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 {
 	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	double u[3][batch];
+	struct pm_axis_lanes lanes[3];
+	for (int d = 0; d < o->dim; d++)
+		lanes[d] = pm_axis_lanes(&o->axes[d]);
 	memset(count, 0, (o->tiles + 1) * sizeof *count);
 	*strays = (struct pm_strays){.count = 0};
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
-		bool all = locate(o, p, m, u);
-		find_tiles(o, m, u, o->tile + p);
-		if (!all)
-			find_strays(o, p, m, u, strays);
+		if (!usual_tiles(o, lanes, p, m, u, o->tile + p)) {
+			bool all = locate(o, p, m, u);
+			find_tiles(o, m, u, o->tile + p);
+			if (!all)
+				find_strays(o, p, m, u, strays);
+		}
 		if (in_one(o->tile + p, m))
 			count[o->tile[p]] += m;
 		else
@@ -270,14 +297,23 @@ static bool stand_together(const uint32_t *place, size_t m) { return place[m - 1
 
 bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m) { return stand_together(o->place + p, m); }
 
+enum { run = 8 }; /* places that are looked at together: where the stream is nearly in order most stand so */
+static bool runs(const uint32_t *place, size_t i, size_t m) { return i + run <= m && stand_together(place + i, run); }
+
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few)
 {
 	const uint32_t *place = o->place ? o->place + p : NULL;
 	if (!place || stand_together(place, m))
 		return pm_column_take(from, place ? place[0] : p, m, few);
 	if (from->doubles)
-		for (size_t i = 0; i < m; i++)
-			few[i] = from->doubles[place[i]];
+		for (size_t i = 0; i < m;)
+			if (runs(place, i, m)) {
+				memcpy(few + i, from->doubles + place[i], run * sizeof *few);
+				i += run;
+			} else {
+				few[i] = from->doubles[place[i]];
+				i++;
+			}
 	else
 		for (size_t i = 0; i < m; i++)
 			few[i] = pm_column_at(from, place[i]);
@@ -558,6 +594,11 @@ PM_SIMD_INLINE bool unpack(size_t p, size_t m, size_t stride, size_t next, const
 			continue; /* checked where the stage ends */
 		}
 		double *restrict y = r->to[c].doubles + p;
+		if (stride == 1 && set && !f) {
+			memcpy(y, from, m * sizeof *y);
+			finite &= pm_finite_few(m, from);
+			continue;
+		}
 		for (size_t i = 0; i < m; i++) {
 			double value = from[i * stride];
 			value = f ? f[i] * value : value;
@@ -581,7 +622,21 @@ PM_SIMD_INLINE bool unpack_to(const uint32_t *place, size_t m, size_t stride, si
 		const bool plain = is_one(&r->factor[c]), set = r->set[c];
 		double *restrict y = r->to[c].doubles;
 		float *restrict z = r->to[c].floats;
-		for (size_t i = 0; i < m; i++) {
+		size_t i = 0;
+		while (stride == 1 && plain && set && !z && i < m) {
+			const double *from = values + (size_t)c * next + i;
+			const size_t k = runs(place, i, m) ? run : 1;
+			if (k == run)
+				memcpy(y + place[i], from, run * sizeof *y);
+			else
+				y[place[i]] = *from;
+			i += k;
+		}
+		if (i) {
+			over |= pm_finite_few(m, values + (size_t)c * next) ? 0 : (uint64_t)1 << 63;
+			continue;
+		}
+		for (; i < m; i++) {
 			const size_t p = place[i];
 			uint64_t bits;
 			double value = values[i * stride + (size_t)c * next];
