@@ -11,11 +11,6 @@
 
 enum { PM_MAGNETIC_LANES = 64 };
 
-/* One particle; a component that the frame has not is 0. */
-struct pm_magnetic_one {
-	double v[3], acc[3], b[3], charge, mass;
-};
-
 /* n values from i on where they fill all lanes, else copied to few. */
 PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size_t n, double none, double few[PM_MAGNETIC_LANES])
 {
@@ -29,25 +24,26 @@ PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size
 	return few;
 }
 
-/* KICK(p) changes the velocity of struct pm_magnetic_one *p. */
+/* The pieces of the arrays for so many particles, and where their new velocities go. */
+struct pm_magnetic_lanes {
+	const double *v[3], *acc[3], *b[3], *charge, *mass;
+	double (*changed)[PM_MAGNETIC_LANES];
+};
+
+/* KICK(lanes) finds the velocities lanes->changed of all lanes of struct pm_magnetic_lanes *lanes. */
 #define PM_MAGNETIC_LOOP(m, from, to, KICK) \
 	for (size_t at = (from); at < (to); at += PM_MAGNETIC_LANES) { \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
 		double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
-		const double *v[3], *acc[3], *b[3]; \
+		struct pm_magnetic_lanes lanes = {.changed = changed}; \
 		for (int c = 0; c < 3; c++) { \
-			v[c] = pm_magnetic_take((m)->v[c], at, many, 0, few[c]); \
-			acc[c] = pm_magnetic_take((m)->acc[c], at, many, 0, few[3 + c]); \
-			b[c] = pm_magnetic_take((m)->b[c], at, many, 0, few[6 + c]); \
+			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, 0, few[c]); \
+			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, 0, few[3 + c]); \
+			lanes.b[c] = pm_magnetic_take((m)->b[c], at, many, 0, few[6 + c]); \
 		} \
-		const double *const charge = pm_magnetic_take((m)->charge, at, many, 1, few[9]); \
-		const double *const mass = pm_magnetic_take((m)->mass, at, many, 1, few[10]); \
-		for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) { \
-			struct pm_magnetic_one p = {{v[0][l], v[1][l], v[2][l]}, {acc[0][l], acc[1][l], acc[2][l]}, {b[0][l], b[1][l], b[2][l]}, \
-				charge[l], mass[l]}; \
-			KICK(&p); \
-			changed[0][l] = p.v[0], changed[1][l] = p.v[1], changed[2][l] = p.v[2]; \
-		} \
+		lanes.charge = pm_magnetic_take((m)->charge, at, many, 1, few[9]); \
+		lanes.mass = pm_magnetic_take((m)->mass, at, many, 1, few[10]); \
+		KICK(&lanes); \
 		for (int c = 0; c < 3; c++) \
 			if ((m)->v[c]) \
 				memcpy((m)->v[c] + at, changed[c], many * sizeof(double)); \

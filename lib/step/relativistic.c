@@ -8,32 +8,51 @@
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
+enum { lanes_of = PM_MAGNETIC_LANES };
+
 PM_SIMD_INLINE double square(const double x[3]) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
 
-/* Half of the rotation of u, whose gamma it keeps. slower: 1/gamma. */
-PM_SIMD_INLINE void rotate(double dt, double slower, const struct pm_magnetic_one *p, double u[3])
+/* Tangents for half of the rotation of u, whose gamma it keeps. slower: 1/gamma. */
+PM_SIMD_INLINE void find_turn(double dt, const double *slower, const struct pm_magnetic_lanes *p, double tau[3][lanes_of])
 {
-	const double half = 0.5 * dt * p->charge / p->mass * slower;
-	const double t[3] = {half * p->b[0], half * p->b[1], half * p->b[2]}, part = 1 / (1 + sqrt(1 + square(t)));
-	const double tau[3] = {t[0] * part, t[1] * part, t[2] * part};
-	pm_magnetic_turn(tau, u);
+	for (size_t l = 0; l < lanes_of; l++) {
+		const double half = 0.5 * dt * p->charge[l] / p->mass[l] * slower[l];
+		const double t[3] = {half * p->b[0][l], half * p->b[1][l], half * p->b[2][l]}, part = 1 / (1 + sqrt(1 + square(t)));
+		tau[0][l] = t[0] * part, tau[1][l] = t[1] * part, tau[2][l] = t[2] * part;
+	}
 }
 
-PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, struct pm_magnetic_one *p)
+/* In loops of few operations each: roots and quotients take long, and those of one particle wait for each other. */
+PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const struct pm_magnetic_lanes *p)
 {
-	const double per = 1 / (light * light), before = sqrt(1 - square(p->v) * per), gamma = 1 / before;
-	double u[3] = {p->v[0] * gamma, p->v[1] * gamma, p->v[2] * gamma};
+	const double per = 1 / (light * light);
+	double slower[lanes_of], gamma[lanes_of], tau[3][lanes_of], u[3][lanes_of];
+	for (size_t l = 0; l < lanes_of; l++) {
+		slower[l] = sqrt(1 - square((const double[3]){p->v[0][l], p->v[1][l], p->v[2][l]}) * per);
+		gamma[l] = 1 / slower[l];
+	}
 	if (opens)
-		rotate(dt, before, p, u);
-	PM_SIMD_UNROLL
-	for (int c = 0; c < 3; c++)
-		u[c] += 0.5 * dt * p->acc[c];
-	const double slower = 1 / sqrt(1 + square(u) * per);
+		find_turn(dt, slower, p, tau);
+	for (size_t l = 0; l < lanes_of; l++) {
+		double w[3] = {p->v[0][l] * gamma[l], p->v[1][l] * gamma[l], p->v[2][l] * gamma[l]};
+		if (opens)
+			pm_magnetic_turn((const double[3]){tau[0][l], tau[1][l], tau[2][l]}, w);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++)
+			u[c][l] = w[c] + 0.5 * dt * p->acc[c][l];
+	}
+	for (size_t l = 0; l < lanes_of; l++)
+		slower[l] = 1 / sqrt(1 + square((const double[3]){u[0][l], u[1][l], u[2][l]}) * per);
 	if (closes)
-		rotate(dt, slower, p, u);
-	PM_SIMD_UNROLL
-	for (int c = 0; c < 3; c++)
-		p->v[c] = u[c] * slower;
+		find_turn(dt, slower, p, tau);
+	for (size_t l = 0; l < lanes_of; l++) {
+		double w[3] = {u[0][l], u[1][l], u[2][l]};
+		if (closes)
+			pm_magnetic_turn((const double[3]){tau[0][l], tau[1][l], tau[2][l]}, w);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++)
+			p->changed[c][l] = w[c] * slower[l];
+	}
 }
 
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
