@@ -1,8 +1,8 @@
 /* Gather of components at several offsets, as those of E and B on Yee's mesh, in one pass over the particles in their order among the nodes (staggered-tile.c).
  * A point half a cell up is looked for in the particle's own cell of halves and the next (transfer-axis.h), so a tile has one slot more of them; what is
  * gathered for a particle does not depend on the order, so ranks may sort for every offset and get the same bytes (transfer-ranks.c). A thread keeps the
- * blocks of its tile from job to job, and its nodes where there are many particles (staggered-nodes.c). Cost: one sort, or a reading of positions where the particles are nearly in order; width^dim products a component.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * blocks of its tile from job to job, and where there are many particles its nodes (staggered-nodes.c). Cost: one sort, or a reading of positions where the
+ * particles are nearly in order; width^dim products a component. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>
 

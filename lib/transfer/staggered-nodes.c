@@ -28,7 +28,8 @@ void pm_staggered_weave(int dim, const double *blocks, const size_t slots[3], do
 		for (size_t y_up = 0; y_up < 2; y_up++)
 			for (size_t z = 0; z < (dim > 2 ? slots[2] - 1 : 1); z++)
 				for (size_t y = 0; y + 1 < slots[1]; y++) {
-					const double *at = blocks + z * plane + y * row, *right = at + y_up * row, *above = at + z_up * plane, *both = right + z_up * plane;
+					const double *at = blocks + z * plane + y * row, *right = at + y_up * row, *above = at + z_up * plane;
+					const double *both = right + z_up * plane;
 					double *to = nodes + (2 * z_up + y_up) * copy + 4 * (z * plane + y * row);
 					weave_row(slots[0], at, above + 4 * PM_BLOCK_MOST, right + 5 * PM_BLOCK_MOST, to);
 					weave_row(slots[0], right + PM_BLOCK_MOST, above + 2 * PM_BLOCK_MOST, both + 3 * PM_BLOCK_MOST, to + group);

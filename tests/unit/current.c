@@ -256,7 +256,8 @@ static void test_cells(void)
 					check_worst(&most, fabs(s.j[d][i]));
 					check_worst(&off, fabs(s.j[d][i] - t.j[d][i]));
 				}
-			check(off <= 1e-14 * most, "%s, %s: sums of cells are the sums of ways (off by %.2g of %.2g)", c.kernel->name, rules[rule].name, off, most);
+			check(off <= 1e-14 * most, "%s, %s: sums of cells are the sums of ways (off by %.2g of %.2g)", c.kernel->name, rules[rule].name, off,
+				most);
 			state_free(&s), state_free(&t);
 		}
 }
