@@ -12,7 +12,9 @@ static inline size_t pm_current_cell_values(int dim, const struct pm_kernel *k)
 	const bool has = dim == 3 && (k->width == 2 || k->width == 3) && k->degree == k->width - 1 && !k->star;
 	return has ? (size_t)(3 * (k->width - 1) * k->width * k->width + 3) / 4 * 4 : 0;
 }
-enum { PM_CURRENT_CELLS_LEAST = 2048, PM_CURRENT_CELL_ROWS = PM_TILE_CELLS / 32 }; /* particles of a job that are worth them; rows of a tile */
+/* Particles of a job that are worth them, spread over a whole tile. */
+static inline size_t pm_current_cells_least(const struct pm_kernel *k) { return k->width == 2 ? 2048 : 8192; }
+enum { PM_CURRENT_CELL_ROWS = PM_TILE_CELLS / 32 }; /* rows of a tile */
 
 /* Ways as arrays: the lower end, the signed length [cells], and the charge. */
 struct pm_current_cells {

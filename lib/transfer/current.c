@@ -41,7 +41,7 @@ struct spread {
 	struct pm_current_cells *cells; /* [threads], or NULL */
 };
 
-/* A job by sums of cells; the ways that have none as records. */
+/* A job by sums of cells; the ways that have none as records, and all that are left where most have none. */
 static void fill_cells(const struct pm_tile_order *o, const struct pm_tile_job *j, struct pm_current_tile *t, struct pm_current_cells *cells)
 {
 	double *const columns[] = {cells->u[0], cells->u[1], cells->u[2], cells->way[0], cells->way[1], cells->way[2], cells->q};
@@ -50,16 +50,18 @@ static void fill_cells(const struct pm_tile_order *o, const struct pm_tile_job *
 	uint32_t others[PM_TILE_ORDER_PACK];
 	pm_current_loop *loop = pm_current_deposit(o->dim, t->kernel);
 	struct pm_current_tile few = *t;
+	bool most = false;
 	few.stride = numbers, few.records = records;
 	cells->shift = t->shift;
 	memcpy(cells->cell, t->cell, sizeof cells->cell);
 	for (size_t at = j->from; at < j->to; at += cells->count) {
 		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
 		pm_tile_order_columns(o, at, cells->count, true, columns);
-		few.count = pm_current_cells_add(cells, others);
+		few.count = most ? cells->count : pm_current_cells_add(cells, others);
 		for (size_t i = 0; i < few.count; i++)
 			for (int c = 0; c < numbers; c++)
-				records[i * numbers + (size_t)c] = columns[c][others[i]];
+				records[i * numbers + (size_t)c] = columns[c][most ? i : others[i]];
+		most = 2 * few.count > cells->count;
 		loop(&few);
 	}
 	pm_current_cells_fold(cells, t->block);
@@ -75,7 +77,7 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(p, j->tile, d, &t.cell[d]);
-	if (cells && j->to - j->from >= PM_CURRENT_CELLS_LEAST) {
+	if (cells && j->to - j->from >= pm_current_cells_least(s->c->kernel)) {
 		fill_cells(o, j, &t, cells);
 		return;
 	}
