@@ -360,7 +360,7 @@ load ../helper
 	for c in xx:1 yy:4 zz:9 xy:0; do
 		within "$(column "covariance_${c%:*}_hot" <t)" "${c#*:}" 0.02
 	done
-	run -2 --separate-stderr bash -c "pinit plasma | diag --species --set electrons"
+	run -2 --separate-stderr bash -c "pinit landau -n 100 | diag --species --set electrons"
 	[[ $stderr == *"--species measures every set"* ]]
 }
 
