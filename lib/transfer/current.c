@@ -159,7 +159,10 @@ static int deposit_order(struct spread *s, struct pm_tile_order *order, size_t n
 	under_way = pass.jobs < under_way ? pass.jobs : under_way;
 	s->pass = &pass;
 	s->blocks = status ? NULL : pm_zalloc(under_way * 3 * PM_BLOCK_MOST + 1, sizeof *s->blocks);
-	status = status ? status : pm_current_cells_new(&s->cells, threads, order->dim, s->c->kernel);
+	bool many = false; /* of a job: the sums are set to zero first */
+	for (size_t j = 0; j < pass.jobs && !status; j++)
+		many |= pass.job[j].to - pass.job[j].from >= pm_current_cells_least(s->c->kernel);
+	status = status || !many ? status : pm_current_cells_new(&s->cells, threads, order->dim, s->c->kernel);
 	if (!status && s->blocks && pass.jobs)
 		spread_all(s, threads, under_way, mesh);
 	status = status ? status : s->blocks ? 0 : -PM_DATA;
