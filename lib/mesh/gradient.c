@@ -154,7 +154,7 @@ struct part {
 struct differences {
 	const struct pm_operator *o;
 	struct pm_difference_axis axis[PM_TERMS_MOST]; /* of each term */
-	struct part part[3];
+	struct part part[PM_OUTS_MOST];
 	int parts;
 	const double *const *in;
 	double *const *out;
@@ -246,7 +246,7 @@ int pm_operator_differences(const struct pm_operator *o, double factor, const do
 #pragma omp parallel for num_threads((int)threads) schedule(static) reduction(| : bad)
 	for (size_t t = 0; t < threads; t++) {
 		double *buffer = scratch + 2 * t * lot;
-		struct part part[3];
+		struct part part[PM_OUTS_MOST];
 		const size_t to = rows * (t + 1) / threads;
 		memcpy(part, w.part, sizeof part);
 		for (size_t r = rows * t / threads, next; r < to; r = next) {

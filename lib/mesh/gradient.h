@@ -12,7 +12,7 @@ enum pm_operator_kind { PM_OP_GRAD, PM_OP_CURL, PM_OP_DIV, PM_OP_LAP };
 extern const char *const pm_operator_names[], *const pm_order_names[]; /* NULL ends; orders 2, 4, 6, spectral */
 int pm_order_find(const char *name);                                   /* 2, 4, 6; 0 spectral; -1 and a message */
 
-enum { PM_TAPS = 8, PM_ENDS = 12, PM_TERMS_MOST = 18 };
+enum { PM_TAPS = 8, PM_ENDS = 12, PM_TERMS_MOST = 18, PM_OUTS_MOST = 9 /* the gradient of a vector */ };
 
 struct pm_planes;
 
