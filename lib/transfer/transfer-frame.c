@@ -40,7 +40,7 @@ int pm_sets_choose(const struct pm_frame *f, const char *only, const char *const
 	if (only)
 		return pm_fail(PM_DATA, "no set '%s' (sls lists them)", only);
 	if (!f->nsets)
-		return pm_fail(PM_DATA, "the frame has no particles (species, stab and pinit make them)");
+		return pm_fail(PM_DATA, "the frame has no particles (species, stab and pinit make them; species NAME -n 0: a set for a vacuum)");
 	const char *missing = f->nsets == 1 ? lacks(f, f->sets[0]->name, needs) : needs[0];
 	if (f->nsets == 1)
 		return pm_fail(PM_DATA, "no field '%s' on '%s' (%s)", missing, f->sets[0]->name, remedy);

@@ -98,7 +98,7 @@ static bool leave_results(const struct pm_pass *w, size_t p, size_t m, int strid
 	return true;
 }
 
-/* Of a stream that is in order, or whose records are floats. t: with the blocks of the job. */
+/* Of particles that stay in the stream, in order or by their places, or whose records are floats. t: with the blocks of the job. */
 static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
@@ -111,8 +111,8 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
-		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r) 
-				     : pm_tile_order_deliver(&o, p, t.count, t.stride, packed, w->components, r);
+		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r)
+				   : pm_tile_order_deliver(&o, p, t.count, t.stride, packed, w->components, r);
 	}
 	return finite;
 }

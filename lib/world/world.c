@@ -228,7 +228,7 @@ int pm_world_largest(int status, size_t n, double *x)
 	if (here()->size == 1)
 		return enter(status);
 	world.sent.calls++;
-	for (size_t i = 0, m = 0; i == 0 || (i < n && !status); i += m) { /* few numbers: nobody shares fields by this */
+	for (size_t i = 0, m = 0; !i || (i < n && !status); i += m ? m : 1) { /* few numbers: nobody shares fields by this */
 		int64_t key[32];
 		m = n - i < 32 ? n - i : 32;
 		for (size_t k = 0; k < m; k++)
@@ -372,9 +372,11 @@ int pm_world_recut(int status, const uint64_t *from, const uint64_t *to, size_t 
 			status = add(&take, r, (char *)out + (a - to[me]) * bytes, (b - a) * bytes);
 	}
 	status = enter(status);
-	const uint64_t a = from[me] > to[me] ? from[me] : to[me], b = from[me + 1] < to[me + 1] ? from[me + 1] : to[me + 1];
-	if (a < b && in != out && !status)
-		memmove((char *)out + (a - to[me]) * bytes, (const char *)in + (a - from[me]) * bytes, (b - a) * bytes);
+	if (!status) { /* `from` and `to` need not be there on a rank that has failed */
+		const uint64_t a = from[me] > to[me] ? from[me] : to[me], b = from[me + 1] < to[me + 1] ? from[me + 1] : to[me + 1];
+		if (a < b && in != out)
+			memmove((char *)out + (a - to[me]) * bytes, (const char *)in + (a - from[me]) * bytes, (b - a) * bytes);
+	}
 	return moved(status, &give, &take);
 }
 

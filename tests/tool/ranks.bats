@@ -433,7 +433,8 @@ charged() {
 
 # Alone they stay where they are, and E and B are gathered at once; ranks send records, and gather for every offset.
 @test "any number of ranks: the electromagnetic step of particles nearly in the order of tiles, in 1-D to 3-D, by splines of 2 to 6 points" {
-	for c in "1 9000 5000 cic" "1 9000 5000 tsc" "2 9025 90 cic" "2 9025 90 pcs" "3 9261 36 cic" "3 9261 36 tsc" "3 9261 36 m6prime"; do
+	for c in "1 9000 5000 cic" "1 9000 5000 tsc" "2 9025 90 cic" "2 9025 90 pcs" "3 9261 36 cic" "3 9261 36 tsc" "3 9261 36 m6prime" \
+		"3 9261 9 cic" "3 9261 8 tsc"; do # the last two by sums of cells
 		set -- $c
 		pinit em-wave --dim "$1" -n "$2" --cells "$3" | scalc --role state 'v = 0.3*sin(7*x), 0.2*cos(9*x), 0.1' | ssort |
 			same "push boris/2 | p2m --current --kernel $4 | maxwell | push drift | m2p | push boris/2"

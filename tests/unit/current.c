@@ -7,7 +7,7 @@
 #include "mesh/particle-faces.h"
 #include "transfer/current.h"
 
-enum { N = 3000, MANY = 11000 };
+enum { N = 3000, MANY = 18000 };
 
 /* How fields and particles meet a face. */
 static const struct rule {

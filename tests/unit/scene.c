@@ -70,6 +70,12 @@ static void promises(const struct pm_scene *s, int dim)
 	struct pm_frame *f = make(s, dim, s->n, 1);
 	if (!check(f != NULL, "%s in %d-D can be made by default", s->name, dim))
 		return;
+	if (!f->nsets) {
+		check(!s->n && pm_law_of(f) && f->dt > 0 && pm_frame_mesh(f, "mesh") && s->exact(f, "mass", 0) == 0, "%s in %d-D: a box without a set: law, dt, mesh",
+			s->name, dim);
+		pm_frame_free(f);
+		return;
+	}
 	const struct pm_field *x = pm_frame_field(f, moving(f), "x"), *v = pm_frame_field(f, moving(f), "v"), *m = pm_frame_field(f, moving(f), "mass");
 	const struct pm_field *id = pm_frame_field(f, moving(f), "id");
 	const struct pm_mesh *mesh = pm_frame_mesh(f, "mesh");
@@ -305,7 +311,8 @@ int main(void)
 		for (int dim = 1; dim <= 3; dim++)
 			if (pm_scenes[i]->dims >> dim & 1)
 				promises(pm_scenes[i], dim);
-		same_for_any_threads(pm_scenes[i]);
+		if (pm_scenes[i]->n)
+			same_for_any_threads(pm_scenes[i]);
 		if (pm_scenes[i]->random)
 			uncorrelated(pm_scenes[i]);
 	}
