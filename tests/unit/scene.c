@@ -71,8 +71,8 @@ static void promises(const struct pm_scene *s, int dim)
 	if (!check(f != NULL, "%s in %d-D can be made by default", s->name, dim))
 		return;
 	if (!f->nsets) {
-		check(!s->n && pm_law_of(f) && f->dt > 0 && pm_frame_mesh(f, "mesh") && s->exact(f, "mass", 0) == 0, "%s in %d-D: a box without a set: law, dt, mesh",
-			s->name, dim);
+		check(!s->n && pm_law_of(f) && f->dt > 0 && pm_frame_mesh(f, "mesh") && s->exact(f, "mass", 0) == 0,
+			"%s in %d-D: a box without a set: law, dt, mesh", s->name, dim);
 		pm_frame_free(f);
 		return;
 	}
