@@ -81,18 +81,10 @@ PM_SIMD_INLINE void find_values(int width, four q, const struct along *on, const
 	}
 }
 
-PM_SIMD_INLINE void turn(four r[fours])
-{
-	const four a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
-	const four c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
-	r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-	r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
 /* Four rows of four numbers of particles to the sums of their cells; in one cell they are added up first, because sums at one place wait for each other. */
 PM_SIMD_INLINE void to_sums(double *const sums[fours], bool one, int k, four *value)
 {
-	turn(value);
+	turn_rows(value);
 	if (one)
 		*(pm_simd4_at *)(sums[0] + k) += (value[0] + value[1]) + (value[2] + value[3]);
 	else

@@ -122,15 +122,6 @@ PM_SIMD_INLINE void gather_one(int dim, int width, const struct pm_staggered_til
 	*on_x = values_of(dim, width, t->nodes + w->at[1][l], (const double (*)[lot])&w->on[0][0][l], y[1], z[1]);
 }
 
-/* Rows become columns. */
-PM_SIMD_INLINE void turn(four r[fours])
-{
-	const four a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
-	const four c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
-	r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-	r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-}
-
 PM_SIMD_INLINE void gather(int dim, int width, const struct pm_staggered_tile *t)
 {
 	static const unsigned char which[2][3] = {{0, 4, 5}, {1, 2, 3}};
@@ -143,7 +134,7 @@ PM_SIMD_INLINE void gather(int dim, int width, const struct pm_staggered_tile *t
 			for (size_t l = 0; l < fours; l++) /* the last one again where there are fewer */
 				gather_one(dim, width, t, &w, i + l < n ? i + l : n - 1, &value[0][l], &value[1][l]);
 			for (int g = 0; g < 2; g++) {
-				turn(value[g]);
+				turn_rows(value[g]);
 				for (int c = 0; c < 3; c++)
 					*(pm_simd4_at *)(t->results + which[g][c] * PM_TILE_ORDER_PACK + from + i) = value[g][c];
 			}

@@ -33,6 +33,15 @@ PM_SIMD_INLINE void find_by_axis(const struct pm_kernel *kernel, int width, int 
 		w[k] = may_fold ? where(fold, v[width - 1 - k], v[k]) : v[k];
 }
 
+/* Four rows of four numbers become columns. */
+PM_SIMD_INLINE void turn_rows(pm_by_axis r[4])
+{
+	const pm_by_axis a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+	const pm_by_axis c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+	r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+	r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
 /* v[k] of every axis, filled up to a multiple of four, to rows of n lanes of each. */
 PM_SIMD_INLINE void rows_of_axes(int dim, int n, const pm_by_axis *v, double to[3][lanes])
 {
