@@ -139,10 +139,11 @@ static int remember(struct pm_diag_table *t, const double *value, double time)
 	return 0;
 }
 
-/* Waves whose theory is that of the species, where the scene states none: --exact with the growth of a mode. */
+/* Is this the frame whose species have the theory of a wave: the first one with --exact and the growth of a mode? Rank 0 alone knows. */
 static bool wants_theory(const struct pm_diag_table *t, const struct pm_frame *f)
 {
-	return t->choice.exact && t->mode >= 0 && (!strcmp(f->law, "electrostatic") || !strcmp(f->law, "electromagnetic"));
+	return t->choice.exact && t->mode >= 0 && !t->series.n && !pm_world_rank() &&
+		(!strcmp(f->law, "electrostatic") || !strcmp(f->law, "electromagnetic"));
 }
 
 int pm_diag_table_reads(const struct pm_diag_table *t, struct pm_frame *f)
@@ -152,19 +153,23 @@ int pm_diag_table_reads(const struct pm_diag_table *t, struct pm_frame *f)
 	return pm_diag_reads(&t->request, f);
 }
 
-/* Of the wave that the scene starts with, where its rate is asked for; `mode` of a scene is the wave that `gamma` belongs to. */
+/* Of the wave that the scene starts with, as long as the plasma is that which the scene made; `mode` of a scene is the wave that `gamma` belongs to. Else of
+ * the species. */
 static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_scene *scene = t->choice.exact && t->mode >= 0 ? pm_diag_scene(f) : NULL;
 	const double known = scene ? scene->exact(f, "mode", f->time) : NAN, mode = isnan(known) ? pm_frame_parameter(f, "mode", 1) : known;
-	const bool its = scene && t->request.mode[t->mode] == (int)mode;
-	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
-	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
-	if (wants_theory(t, f) && isnan(t->theory[0]) && isnan(t->theory[1])) {
+	bool its = scene && t->request.mode[t->mode] == (int)mode;
+	if (wants_theory(t, f)) {
 		const double k1 = 2 * pm_pi / (f->hi[0] - f->lo[0]);
 		t->k = k1 * t->request.mode[t->mode];
 		pm_wave_theory_of(&t->waves, f, k1, pm_diag_how(&t->request, f).wave);
+		its = its && pm_wave_theory_as_made(&t->waves, f, scene, t->k);
 	}
+	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
+	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
+	if (isfinite(t->theory[0]))
+		t->k = 0;
 }
 
 static int follow(struct pm_diag_table *t, const struct pm_frame *f, const struct pm_measures *m)
@@ -221,7 +226,7 @@ static int measure(struct pm_diag_table *t, const struct pm_frame *f, bool begin
 bool pm_diag_table_shared(const struct pm_diag_table *t, const struct pm_frame *f)
 {
 	const struct pm_measure how = pm_diag_how(&t->request, f);
-	return pm_measure_shared(&how) && !wants_theory(t, f); /* rank 0 keeps the species of the first frame */
+	return pm_measure_shared(&how) && !wants_theory(t, f); /* rank 0 looks at the species of the first frame */
 }
 
 static void print_row(struct pm_diag_table *t, const double *value, bool first)
@@ -300,7 +305,7 @@ static void number(FILE *out, bool json, const char *before, double x)
 }
 
 /* The line of the growth rate: for people, a comment of the table. */
-static void print_growth(FILE *out, bool json, const char *of, const struct pm_growth *g, const double theory[2])
+static void print_growth(FILE *out, bool json, const char *of, const struct pm_growth *g, const struct pm_diag_table *t)
 {
 	const char *const name[2][6] = {{"# ", " gamma ", " +- ", " omega ", ", from t = ", " to "},
 		{"{\"growth\":\"", "\",\"gamma\":", ",\"error\":", ",\"omega\":", ",\"from\":", ",\"to\":"}}, *const *n = name[json];
@@ -315,9 +320,14 @@ static void print_growth(FILE *out, bool json, const char *of, const struct pm_g
 		number(out, json, n[5], g->to);
 		fprintf(out, json ? ",\"points\":%zu,\"over_noise\":%.3g" : ", %zu points, %.3g times the noise", g->points, g->over_noise);
 	}
-	if (isfinite(theory[0])) {
-		number(out, json, json ? ",\"theory_gamma\":" : "; theory: gamma ", theory[0]);
-		number(out, json, json ? ",\"theory_omega\":" : " omega ", theory[1]);
+	if (isfinite(t->theory[0])) {
+		const char *const start = t->k > 0 ? "; theory of the species: gamma " : "; theory: gamma ";
+		number(out, json, json ? ",\"theory_gamma\":" : start, t->theory[0]);
+		number(out, json, json ? ",\"theory_omega\":" : " omega ", t->theory[1]);
+		fputs(!json ? "" : t->k > 0 ? ",\"theory_of\":\"species\"" : ",\"theory_of\":\"scene\"", out);
+	} else if (t->k > 0) {
+		fprintf(out, json ? ",\"theory_none\":\"%s\"" : "; theory of the species: none (%s)", t->waves.why[0] ? t->waves.why :
+			g->reason[0] ? "no rate from which to look for a root" : "no root near what was measured");
 	}
 	fputs(json ? "}\n" : "\n", out);
 }
@@ -378,9 +388,10 @@ int pm_diag_table_end(struct pm_diag_table *t)
 		return -PM_DATA;
 	if (t->k > 0) {
 		const double complex root = pm_wave_theory_close(&t->waves, t->k, g.omega + I * g.gamma);
-		t->theory[0] = isnan(creal(root)) ? NAN : cimag(root), t->theory[1] = creal(root);
+		const double gamma = fabs(cimag(root)) < 1e-12 * cabs(root) ? 0 : cimag(root); /* round-off of a real root */
+		t->theory[0] = isnan(creal(root)) ? NAN : gamma, t->theory[1] = creal(root);
 	}
-	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g, t->theory);
+	print_growth(t->out, c->format == PM_DIAG_JSON, c->growth, &g, t);
 	return fflush(t->out) ? pm_fail_errno("cannot write the table") : 0;
 }
 

@@ -63,8 +63,11 @@ static void one_species(struct pm_wave_theory *t, const struct pm_frame *f, cons
 	if (!cold && fabs(fourth - 3) > 0.3 && !t->why[0])
 		snprintf(t->why, sizeof t->why, "the velocities of '%s' are not Maxwellian (fourth moment %.2g, not 3): make every beam a set",
 			set->name, fourth);
-	if (frequency > 0)
+	if (frequency > 0) {
+		const double *s = moment + PM_MOMENT_COVARIANCE;
+		t->spread[0] = vth, t->spread[1] = v->components == 3 ? sqrt(0.5 * (s[1] + s[2])) : NAN;
 		t->species[t->n++] = (struct pm_gyrating){frequency, drift, cold ? 0 : vth, charge / mass, ratio_of(moment, v->components)};
+	}
 }
 
 /* Mean of the fields of that name, and the root of the mean square of what varies. */
@@ -152,6 +155,33 @@ void pm_wave_theory_of(struct pm_wave_theory *t, const struct pm_frame *f, doubl
 		snprintf(t->why, sizeof t->why, "no set has charge, mass and velocity");
 	find_field(t, f);
 	t->kind = t->why[0] ? PM_NO_THEORY : kind_of(t, !strcmp(f->law, "electromagnetic"), component, k1);
+}
+
+static bool differs(double found, double stated, double relative, double least)
+{
+	return !isnan(stated) && !isnan(found) && fabs(found - stated) > relative * fabs(stated) + least;
+}
+
+static double stated(const struct pm_frame *f, const struct pm_scene *scene, const char *quantity, double otherwise)
+{
+	const double x = scene->exact(f, quantity, f->time);
+	return isnan(x) ? otherwise : x;
+}
+
+bool pm_wave_theory_as_made(const struct pm_wave_theory *t, const struct pm_frame *f, const struct pm_scene *scene, double k)
+{
+	const double charge = stated(f, scene, "charge", 0), mass = stated(f, scene, "mass", 0);
+	double volume = pm_frame_constant(f, "eps0", 1);
+	for (int d = 0; d < f->dim; d++)
+		volume *= f->hi[d] - f->lo[d];
+	const double w = mass > 0 ? fabs(charge) / sqrt(mass * volume) : 0;
+	if (t->n != (w > 0))
+		return false;
+	return t->n == 0 || !(differs(t->species[0].frequency, w, 0.05, 0) || fabs(t->species[0].drift) * k > 0.05 * w ||
+		differs(t->spread[0], stated(f, scene, "spread_along", NAN), 0.1, 0.02 * w / k) ||
+		differs(t->spread[1], stated(f, scene, "spread_across", NAN), 0.1, 0.02 * w / k) ||
+		differs(t->field[0], stated(f, scene, "field_along", 0), 0.01, 0.001 * w) ||
+		differs(hypot(t->field[1], t->field[2]), stated(f, scene, "field_across", 0), 0.01, 0.001 * w));
 }
 
 const char *pm_wave_theory_name(const struct pm_wave_theory *t)

@@ -77,6 +77,10 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		return 0;
 	if (!strcmp(quantity, "omega"))
 		return strongest(k1 * pm_frame_parameter(f, "mode", 1), pm_frame_parameter(f, "vth", 1), pm_frame_parameter(f, "magnetic-field", 1));
+	if (!strcmp(quantity, "field_across"))
+		return pm_frame_parameter(f, "magnetic-field", 1);
+	if (!strcmp(quantity, "spread_along") || !strcmp(quantity, "spread_across"))
+		return pm_frame_parameter(f, "vth", 1);
 	return !strcmp(quantity, "mass") ? 2 * pm_pi / k1 : !strcmp(quantity, "charge") ? -2 * pm_pi / k1 : NAN;
 }
 

@@ -101,7 +101,7 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		const double complex root = pm_wave_strongest(beams, 2, k1 * pm_frame_parameter(f, "mode", 1));
 		return *quantity == 'o' ? fabs(creal(root)) < 1e-12 ? 0 : creal(root) : cimag(root);
 	}
-	return NAN;
+	return strcmp(quantity, "spread_along") ? NAN : hypot(pm_frame_parameter(f, "v0", 0), pm_frame_parameter(f, "vth", 0));
 }
 
 const struct pm_scene scene_two_stream = {

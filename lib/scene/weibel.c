@@ -116,7 +116,7 @@ static double response(const struct sums *s, double k, double g)
 	return sum;
 }
 
-/* The positive root by bisection; 0: no growth. */
+/* The positive root by bisection; NAN: no wave grows. */
 static double warm(double k, double vth, double across, double v0)
 {
 	struct sums s;
@@ -126,23 +126,30 @@ static double warm(double k, double vth, double across, double v0)
 		const double g = 0.5 * (low + high);
 		*(response(&s, k, g) < 0 ? &low : &high) = g;
 	}
-	return low;
+	return low > 0 ? low : NAN;
+}
+
+/* Growth; NAN: none. */
+static double rate(double k, double vth, double across, double v)
+{
+	const double slow = sqrt(1 - v * v), b = k * k + slow * slow * slow;
+	return vth > 0 ? warm(k, vth, across, v) : v > 0 ? sqrt(0.5 * (sqrt(b * b + 4 * k * k * v * v * slow) - b)) : NAN;
 }
 
 static double exact(const struct pm_frame *f, const char *quantity, double t)
 {
 	const double length = 2 * pm_pi / pm_frame_parameter(f, "wavenumber", 1), k = 2 * pm_pi / length * pm_frame_parameter(f, "mode", 1);
-	const double v = pm_frame_parameter(f, "v0", 0), slow = sqrt(1 - v * v), b = k * k + slow * slow * slow;
-	const double vth = pm_frame_parameter(f, "vth", 0);
+	const double v = pm_frame_parameter(f, "v0", 0), vth = pm_frame_parameter(f, "vth", 0), across = vth * sqrt(pm_frame_parameter(f, "anisotropy", 1));
 	(void)t;
 	if (!strcmp(quantity, "mass") || !strcmp(quantity, "charge"))
 		return *quantity == 'm' ? length : -length;
-	if (!strcmp(quantity, "omega"))
-		return 0;
-	if (strcmp(quantity, "gamma"))
-		return NAN;
-	return vth == 0 ? sqrt(0.5 * (sqrt(b * b + 4 * k * k * v * v * slow) - b))
-		: warm(k, vth, vth * sqrt(pm_frame_parameter(f, "anisotropy", 1)), v);
+	if (!strcmp(quantity, "spread_along"))
+		return vth;
+	if (!strcmp(quantity, "spread_across")) /* root mean square of y and z, v along y */
+		return sqrt(across * across + 0.5 * v * v);
+	if (!strcmp(quantity, "gamma"))
+		return rate(k, vth, across, v);
+	return strcmp(quantity, "omega") || isnan(rate(k, vth, across, v)) ? NAN : 0;
 }
 
 const struct pm_scene scene_weibel = {

@@ -110,6 +110,10 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 	(void)t;
 	if (!strcmp(quantity, "mass") || !strcmp(quantity, "charge"))
 		return (*quantity == 'm' ? 2 : -2) * pm_pi / k1;
+	if (!strcmp(quantity, "field_along"))
+		return field;
+	if (!strcmp(quantity, "spread_along") || !strcmp(quantity, "spread_across"))
+		return pm_frame_parameter(f, "vth", 0);
 	if (strcmp(quantity, "omega") && strcmp(quantity, "gamma"))
 		return NAN;
 	const double complex root = warm(k, field, pm_frame_parameter(f, "vth", 0));

@@ -381,15 +381,16 @@ load ../helper
 	[[ $(pinit landau --wavenumber 0.3 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648" ]]
 	[[ $(pinit two-stream -n 2000 | theory mode:1) == *"; theory: gamma 0.353553391 omega 0" ]]
 	[[ $(pinit two-stream --v0 3 --vth 1 --wavenumber 0.2 -n 8000 | theory mode:1) == *"; theory: gamma 0.284509686 omega 0" ]]
-	[[ $(pinit two-stream -n 2000 | theory mode:2) != *theory* ]] # twice the scene's wave
+	# twice the scene's wave, of two beams in one set
+	[[ $(pinit two-stream -n 2000 | theory mode:2) == "# mode:2 gamma "*"; theory of the species: none (the velocities of 'electrons' are not Maxwellian"* ]]
 	[[ $(pinit landau -n 2000 --mode 2 --wavenumber 0.25 | theory mode:2) == *"; theory: gamma -0.153359467 omega 1.41566189" ]]
 	[[ $(pinit landau -n 2000 | cycle -q -n 100 --every 2 "$step" | diag --columns time --growth mode:1 --exact --format json | tail -n 1) == \
-		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189}' ]]
+		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189,"theory_of":"scene"}' ]]
 }
 
 @test "diag --growth mode:1 --exact: where the scene states no rate, that of the dispersion relation of the species, or none" {
 	line() { diag --columns time --growth mode:1 --exact | tail -n 1; }
-	theory() { line | sed -n 's/.* gamma \([^ ]*\) .* omega \([^ ,]*\),.*theory: gamma \([^ ]*\) omega \(.*\)/\1 \2 \3 \4/p'; }
+	theory() { line | sed -n 's/.* gamma \([^ ]*\) .* omega \([^ ,]*\),.*theory of the species: gamma \([^ ]*\) omega \(.*\)/\1 \2 \3 \4/p'; }
 	step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 	# Buneman, M = 25, k v = 1: the root of the quartic is 0.152347043 + 0.202993092 i; measured within 1 % of its modulus
 	pinit plasma --length 6.283185307179586 | smod --constant background=0 | species e -n 512 --vth 0 --drift 1 --profile '1 + 1e-4*cos(x)' |
@@ -401,18 +402,59 @@ load ../helper
 	within "$gamma" "$g" 0.0025
 	within "$omega" "$w" 0.0025
 	cmp <(diag --growth mode:1 --exact --ranks 2 <run) <(diag --growth mode:1 --exact <run)
-	# the same beam in a magnetic field across it, and two beams in one set: no theory
-	[[ $(scalc --mesh mesh 'B = 0, 0, 1' --role state <run | line) != *theory* ]]
+	# the same beam in a magnetic field across it: no theory, and why
+	[[ $(scalc --mesh mesh 'B = 0, 0, 1' --role state <run | line) == "# mode:1 gamma 0.2"*"; theory of the species: none (a species drifts across the magnetic field)" ]]
 	# cold electrons across B: sqrt(1 + B^2), of which cic on 64 cells takes 6e-4
 	pinit langmuir -n 1024 --velocities 3 --amplitude 0 --dt 0.05 | scalc --set electrons 'v = 1e-3*cos(x), 0, 0' |
 		scalc --mesh mesh 'B = 0, 0, 2' --role state | cycle -q -n 400 --every 4 "${step//kick/boris}" >run
 	read -r gamma omega g w <<<"$(theory <run)"
 	within "$w" 2.2360679775 1e-6
 	within "$omega" "$w" 0.005
-	pinit em-wave -n 1024 --cells 32 | cycle -q -t 20 --every 2 'push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2' >run
-	read -r gamma omega g w <<<"$(theory <run)"
-	within "$w" 1.41421356237 1e-8
-	within "$omega" "$w" 0.005
+}
+
+@test "diag --growth mode:1 --exact: the rate that a scene states holds for the plasma that it made; a changed one has that of its species" {
+	line() { cycle -q -n 200 --every 4 "$step" | diag --columns time --growth mode:1 --exact --window "$1" | tail -n 1; }
+	# rate WINDOW "OF OMEGA": the theory's name and omega, and the omega that was measured beside it, within 1.5 %
+	rate() {
+		line "$1" | sed -n 's/^# mode:1 gamma .* omega \([^ ,]*\),.*; theory\( of the species\|\): gamma [^ ]* omega \([^ ]*\)$/\1 \3\2/p' >found
+		read -r omega w of <found
+		[ "$of" = "$2" ]
+		within "$w" "$3" 1e-4
+		within "$omega" "$w" "$(calc "0.015 * $w")"
+	}
+	step='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
+	pinit em-wave -n 512 --cells 32 >wave
+	rate 0:20 "" 1.414213562 <wave
+	# B = 3 along k: a linear wave has left and right ones, of several frequencies, and is no exponential
+	scalc --mesh mesh 'B = 3, B_1, B_2' <wave | line 0:20 >found
+	run ! grep -q 'theory: gamma' found
+	grep -q '^# mode:1 gamma .*theory of the species: ' found
+	# electrons of a tenth of the mass
+	scalc --set electrons 'mass = 0.1*mass' <wave | rate 0:5 "of the species" 3.31662479
+	pinit weibel -n 4096 >hot
+	[[ $(line 0:10 <hot) == "# mode:1 gamma "*"; theory: gamma 0.0806303"* ]]
+	scalc 'v = vx, 0.3*vy, 0.3*vz' <hot | rate 0:10 "of the species" 1.41461182
+	step='push boris/2 drift | p2m | poisson-fft | mgrad | m2p | push boris/2'
+	pinit bernstein -n 4000 >bernstein
+	[[ $(line 0:10 <bernstein) == "# mode:1 gamma "*"; theory: gamma 0 omega 1.16387241" ]]
+	scalc --mesh mesh 'B = 0, 0, 2*B_2' <bernstein | line 0:10 >found
+	run ! grep -q 'theory: gamma' found
+	step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+	while IFS=';' read -r change w; do # colder, of the density 1.21, lighter
+		pinit landau -n 2000 | scalc --set electrons "$change" | rate 0:10 "of the species" "$w"
+	done <<-END
+		v = 0.6*v;1.15984647
+		charge = 1.1*charge;1.49181591
+		mass = 0.8*mass;1.50555148
+	END
+	# rank 0 needs the species of the first frame alone
+	pinit landau -n 10000 >landau
+	cycle -n 20 "$step | diag --growth mode:1 --exact --tee alone" <landau >end
+	cycle -n 20 -v --ranks 2 "$step | diag --growth mode:1 --exact --tee shared" <landau 2>said >end
+	cmp alone shared
+	grep -q '2 ranks share: .*, diag .*; on rank 0 alone: no word' said
+	pinit landau -n 2000 | scalc 'v = v + 0.2' | line 0:10 | grep -q '^# mode:1 .*theory of the species: ' # both waves shifted: no rate
+	pinit landau -n 2000 | species ions -n 2000 --charge 1 --mass 4 --vth 0.1 | line 0:10 | grep -q 'theory of the species: '
 }
 
 @test "diag --modes in the open plane: the amplitude of a wave around a ring of vortices, and its growth; dissipation and energy_loss in the plane" {
