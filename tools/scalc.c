@@ -75,7 +75,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	for (size_t i = 0; !c->sets.n && !c->meshes.n && i < f->nsets && !status; i++)
 		status = declare_on(s, f, f->sets[i]->name, &changed);
 	if (!status && !st->jobs.n)
-		return pm_fail(PM_DATA, "no set to compute on (name a mesh with --mesh)");
+		return pm_fail(PM_DATA, "no set to compute on (species, stab and pinit make one; a mesh is named with --mesh)");
 	return !status && changed ? pm_computed_outdate(&st->jobs, f) : status;
 }
 

@@ -46,7 +46,8 @@ int pm_collide_declare(const struct pm_collide *c, struct pm_frame *f)
 	for (size_t i = 0; i < f->nsets && !status; i++)
 		if (takes(c, f, f->sets[i]))
 			status = sets++ == PM_COLLIDE_SETS ? pm_fail(PM_DATA, "more than %d sets", PM_COLLIDE_SETS) : declare_set(f, f->sets[i]->name);
-	return status ? status : sets ? 0 : pm_fail(PM_DATA, "no set that moves has charge, mass and velocity (stab --strength charge)");
+	return status ? status : sets ? 0 : pm_fail(PM_DATA, f->nsets ? "no set that moves has charge, mass and velocity (species adds one; of a table stab "
+		"--strength charge,mass)" : "no particles (species, stab and pinit make them)");
 }
 
 /* Sums over a set: charge^2, mass, mass v, mass v^2. */

@@ -35,8 +35,8 @@ int pm_walk_declare(const struct pm_walk *w, struct pm_frame *f)
 			sets++;
 		}
 	if (!status && !sets)
-		return pm_fail(PM_DATA, "no set that moves%s%s (a set with positions 'x' that is not fixed)", w->set ? " is called " : "",
-			w->set ? w->set : "");
+		return f->nsets ? pm_fail(PM_DATA, "no set that moves%s%s (a set with positions 'x' that is not fixed; sls lists the sets)",
+			w->set ? " is called " : "", w->set ? w->set : "") : pm_fail(PM_DATA, "no particles (species, stab and pinit make them)");
 	pm_drops_roles(f, NULL, 1u << PM_CHANGE | 1u << PM_DERIVED);
 	return status;
 }

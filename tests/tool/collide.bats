@@ -125,7 +125,7 @@ exchange() {
 	refused 'the time step is 0' 'smod --dt 0 <a | collide'
 	refused "have 1 component, but collisions turn them in space" 'pinit landau -n 100 | collide'
 	refused "no set 'ions'" 'collide --between matter,ions <a'
-	refused "no set that moves has charge" 'sel --drop charge <a | collide'
+	refused "no set that moves has charge, mass and velocity (species adds one; " 'sel --drop charge <a | collide'
 	refused "no mesh" 'sel --drop mesh <a | collide'
 	run -2 collide --between a,b,c -i a
 	run -0 --separate-stderr bash -o pipefail -c 'collide -w 1e-6 <a | sls'

@@ -98,6 +98,12 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 @test "species: an empty box has no set whose velocities hinder others: a species of any name turns, collides and is planned" {
 	run -1 --separate-stderr bash -o pipefail -c "pinit plasma | cycle -n 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'"
 	[[ $stderr == *"no particles (species, stab and pinit make them)"* ]]
+	for word in collide 'walk --nu 1'; do
+		run -1 --separate-stderr bash -o pipefail -c "pinit plasma --dt 0.1 | $word"
+		[[ $stderr == *"no particles (species, stab and pinit make them)"* ]]
+	done
+	run -1 --separate-stderr bash -o pipefail -c "pinit plasma | scalc 'x = x'"
+	[[ $stderr == *"no set to compute on (species, stab and pinit make one; a mesh is named with --mesh)"* ]]
 	run -1 --separate-stderr bash -o pipefail -c 'pinit plasma | p2m'
 	[[ $stderr == *"no particles (species"* ]]
 	pinit plasma --length 64 --cells 16 | species e -n 1000 --velocities 3 --loading random | smod --constant bodies=100 >a
