@@ -65,7 +65,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
 			status = pm_moving_declare(f, f->sets[i], &cfg->push, &state->moving[state->n++]);
 	if (!status && steps && !state->n)
-		return pm_fail(PM_DATA, f->nsets ? "no set that moves (with positions 'x', not fixed; species adds one)" : "no particles (species, stab and pinit make them)");
+		return pm_fail(PM_DATA, f->nsets ? "no set moves (has 'x', not fixed; species adds one)" : "no particles (species, stab and pinit make them)");
 	if (status)
 		return status;
 	if (cfg->push.clear || cfg->push.moves)

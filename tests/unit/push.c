@@ -110,7 +110,7 @@ static void refusals(void)
 	refused(g, "lsrk3", PM_MISSING, "no field 'vel' on 'matter' (compute it first");
 	refused(f, "drift --set gas", PM_DATA, "no set 'gas'");
 	f->sets[0]->fixed = true;
-	refused(f, "drift", PM_DATA, "no set that moves (with positions 'x', not fixed; species adds one)");
+	refused(f, "drift", PM_DATA, "no set moves (has 'x', not fixed; species adds one)");
 	refused(f, "drift --set matter", PM_DATA, "it is fixed");
 	f->sets[0]->fixed = false;
 	f->dt = 0;
