@@ -382,7 +382,8 @@ load ../helper
 	[[ $(pinit two-stream -n 2000 | theory mode:1) == *"; theory: gamma 0.353553391 omega 0" ]]
 	[[ $(pinit two-stream --v0 3 --vth 1 --wavenumber 0.2 -n 8000 | theory mode:1) == *"; theory: gamma 0.284509686 omega 0" ]]
 	# twice the scene's wave, of two beams in one set
-	[[ $(pinit two-stream -n 2000 | theory mode:2) == "# mode:2 gamma "*"; theory of the species: none (the velocities of 'electrons' are not Maxwellian"* ]]
+	[[ $(pinit two-stream -n 2000 | theory mode:2) == \
+		"# mode:2 gamma "*"; theory of the species: none (the velocities of 'electrons' are not Maxwellian"* ]]
 	[[ $(pinit landau -n 2000 --mode 2 --wavenumber 0.25 | theory mode:2) == *"; theory: gamma -0.153359467 omega 1.41566189" ]]
 	[[ $(pinit landau -n 2000 | cycle -q -n 100 --every 2 "$step" | diag --columns time --growth mode:1 --exact --format json | tail -n 1) == \
 		*'"theory_gamma":-0.153359467,"theory_omega":1.41566189,"theory_of":"scene"}' ]]
@@ -403,7 +404,8 @@ load ../helper
 	within "$omega" "$w" 0.0025
 	cmp <(diag --growth mode:1 --exact --ranks 2 <run) <(diag --growth mode:1 --exact <run)
 	# the same beam in a magnetic field across it: no theory, and why
-	[[ $(scalc --mesh mesh 'B = 0, 0, 1' --role state <run | line) == "# mode:1 gamma 0.2"*"; theory of the species: none (a species drifts across the magnetic field)" ]]
+	[[ $(scalc --mesh mesh 'B = 0, 0, 1' --role state <run | line) == \
+		"# mode:1 gamma 0.2"*"; theory of the species: none (a species drifts across the magnetic field)" ]]
 	# cold electrons across B: sqrt(1 + B^2), of which cic on 64 cells takes 6e-4
 	pinit langmuir -n 1024 --velocities 3 --amplitude 0 --dt 0.05 | scalc --set electrons 'v = 1e-3*cos(x), 0, 0' |
 		scalc --mesh mesh 'B = 0, 0, 2' --role state | cycle -q -n 400 --every 4 "${step//kick/boris}" >run
