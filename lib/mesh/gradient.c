@@ -164,17 +164,19 @@ struct differences {
 static void parts_of(struct differences *w, double factor)
 {
 	const struct pm_operator *o = w->o;
-	struct part *p = w->part - 1;
+	struct part *p = w->part;
 	for (int t = 0; t < o->nterms; t++) {
 		const struct pm_operator_term *q = &o->term[t];
 		w->axis[t] = axis_of(o, q->as, q->axis, factor * q->sign);
-		if (!t || q->out != q[-1].out)
-			*++p = (struct part){.first = t, .out = q->out, .plain = !o->add && o->grid.points[0] >= PM_DIFFERENCE_LEAST};
+		if (!t || q->out != q[-1].out) {
+			p += t > 0;
+			*p = (struct part){.first = t, .out = q->out, .plain = !o->add && o->grid.points[0] >= PM_DIFFERENCE_LEAST};
+		}
 		p->row[t - p->first] = (struct pm_difference_row){.axis = &w->axis[t], .d = q->axis, .in = w->in[q->in]};
 		p->last = t + 1;
 		p->plain = p->plain && !q->by && p->last - p->first <= 3;
 	}
-	w->parts = (int)(p + 1 - w->part);
+	w->parts = o->nterms ? (int)(p + 1 - w->part) : 0;
 }
 
 /* One component of a row by the taps of each term; through a buffer where the mesh streams. */
