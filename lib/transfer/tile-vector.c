@@ -6,7 +6,7 @@
 #include "transfer/tile-vector.h"
 #include "transfer/tile-wide.h"
 
-enum { node_row = 4 * (32 + 12), node_plane = node_row * (16 + 10) }; /* doubles per row and plane of a block of nodes */
+enum { node_row = PM_NODE_ROW, node_plane = PM_NODE_PLANE };
 _Static_assert((int)PM_VECTOR_NODES == 4 * (int)PM_BLOCK_MOST, "four numbers a node");
 
 bool pm_tile_has_vectors(int dim, const struct pm_kernel *k, int components, size_t count)

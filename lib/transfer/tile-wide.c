@@ -8,7 +8,7 @@
 #include "transfer/tile-vector.h"
 #include "transfer/tile-wide.h"
 
-enum { node_row = 4 * (32 + 12), node_plane = node_row * (16 + 10), most = 8 }; /* doubles per row and plane of a block of nodes; points */
+enum { node_row = PM_NODE_ROW, node_plane = PM_NODE_PLANE, most = 8 /* points */ };
 
 /* Particles side by side: their first points, and their weights. */
 struct lot {

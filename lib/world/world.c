@@ -10,6 +10,8 @@ static struct {
 	size_t cut;
 	int64_t place; /* of a failure of this rank; -1 none said */
 	struct pm_world_traffic sent;
+	uint64_t *length; /* of what goes to each rank and comes from it: there from the beginning, so that no rank fails for want of them alone */
+	size_t *piece;    /* the same of a gather */
 } world = {.cut = (size_t)1 << 30, .place = -1};
 
 static struct pm_transport *here(void)
@@ -42,6 +44,13 @@ void pm_world_cut(size_t bytes) { world.cut = bytes; }
 
 void pm_world_set(const struct pm_transport *t)
 {
+	free(world.length), free(world.piece);
+	world.length = t->size > 1 ? calloc(2 * (size_t)t->size, sizeof *world.length) : NULL;
+	world.piece = t->size > 1 ? calloc(2 * (size_t)t->size, sizeof *world.piece) : NULL;
+	if (t->size > 1 && !(world.length && world.piece)) {
+		pm_no_memory();
+		pm_cannot_go_on();
+	}
 	world.t = *t;
 	world.set = true;
 	world.broken = false;
@@ -280,8 +289,6 @@ static int moved(int status, struct parts *out, struct parts *in)
 	return status;
 }
 
-enum { FEW = 64 }; /* ranks whose numbers are on the stack */
-
 /* The lengths of what goes to each rank and comes from it. A rank that has failed says so with them. */
 static int lengths(int status, const size_t *out_bytes, uint64_t *length)
 {
@@ -307,14 +314,15 @@ int pm_world_exchange(int status, const void *out, const size_t *out_bytes, void
 	struct pm_transport *t = here();
 	const size_t ranks = (size_t)t->size;
 	struct parts to = {0, 0, NULL}, from = {0, 0, NULL};
-	uint64_t few[2 * FEW], *length = ranks > FEW ? calloc(2 * ranks, sizeof *length) : few;
+	uint64_t alone[2], *length = ranks > 1 ? world.length : alone;
 	*in = NULL;
-	if (ranks > FEW || ranks == 1)
-		status = enter(status || length ? status : pm_no_memory());
-	else
+	if (ranks == 1) {
+		status = enter(status);
+		alone[0] = alone[1] = status ? 0 : out_bytes[0];
+	} else {
 		world.sent.calls++;
-	if (!status || (ranks > 1 && ranks <= FEW))
 		status = lengths(status, out_bytes, length);
+	}
 	size_t total = 0, at = 0, have = 0;
 	for (size_t r = 0; r < ranks && !status; r++)
 		total += in_bytes[r] = (size_t)length[ranks + r];
@@ -329,8 +337,6 @@ int pm_world_exchange(int status, const void *out, const size_t *out_bytes, void
 		have += out_bytes[r], at += in_bytes[r];
 	}
 	status = moved(ranks > 1 ? agreed(status) : status, &to, &from);
-	if (length != few)
-		free(length);
 	*in = status ? pm_free(got) : got;
 	return status;
 }
@@ -339,19 +345,16 @@ int pm_world_gather(int status, const void *mine, size_t bytes, void **all, size
 {
 	struct pm_transport *t = here();
 	const size_t ranks = (size_t)t->size;
-	size_t few[2 * FEW] = {0}, *length = ranks > FEW ? calloc(2 * ranks, sizeof *length) : few;
+	size_t alone[2], *length = ranks > 1 ? world.piece : alone;
 	*all = NULL;
 	*total = 0;
-	status = status || length ? status : pm_no_memory();
-	if (length)
-		length[0] = bytes;
-	status = pm_world_exchange(status, mine, length, all, length ? length + ranks : NULL);
+	memset(length, 0, 2 * ranks * sizeof *length);
+	length[0] = bytes;
+	status = pm_world_exchange(status, mine, length, all, length + ranks);
 	for (size_t r = 0; r < ranks && !status; r++)
 		*total += length[ranks + r];
 	if (!status && t->rank)
 		*all = pm_free(*all);
-	if (length != few)
-		free(length);
 	return status;
 }
 
