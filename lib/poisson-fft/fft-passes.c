@@ -100,8 +100,7 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 			block[(l->row + i) * L + (size_t)q] *= weight[q] * end_weight(l, l->first + i);
 }
 
-/* Of the nodes of a block; one accumulator per lane. */
-static double largest_of(const double *block, size_t n)
+double pm_poisson_fft_largest(const double *block, size_t n)
 {
 	double all = 0;
 	for (int part = 0; part < L; part += PM_SIMD_PART) {
@@ -128,7 +127,7 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 		in[r] = from, out[r] = to + r * p->row;
 	}
 	pm_fft_rows_in(in, g->rows, p->nodes[X], NULL, s.block + l->row * L);
-	double largest = p->singular ? largest_of(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
+	double largest = p->singular ? pm_poisson_fft_largest(s.block, p->nodes[X]) : 0; /* no walls: nodes begin in row 0 */
 	if (p->open)
 		weigh(p, g, s.block);
 	if (p->complex) {
@@ -311,6 +310,13 @@ static inline void multiplier(const struct pm_poisson_fft *p, size_t j, size_t k
 		u[q] = factor / (lx[q] + rest);
 	if (p->singular && j == 0 && k == 0 && c == 0)
 		u[0] = 0;
+}
+
+void pm_poisson_fft_multipliers_of_row(const struct pm_poisson_fft *p, double *u)
+{
+	const size_t lanes = p->complex ? H : L;
+	for (size_t c = 0; c < pm_poisson_fft_multipliers(p) / lanes; c++)
+		multiplier(p, 0, 0, c, lanes, 1, u + c * lanes);
 }
 
 /* Frequencies k and k' of lines whose multipliers differ between a and b: with u on a and v on b F'_k = (u+v)/2 F_k + (u-v)/2 conj F_k'. */

@@ -3,6 +3,7 @@
 #define PM_POISSON_FFT_FFT_PASSES_H
 
 #include "fft/axis-transform.h"
+#include "fft/long-line.h"
 #include "mesh/planes.h"
 #include "poisson-fft/poisson-fft.h"
 
@@ -37,6 +38,9 @@ struct pm_poisson_fft {
 	double *scratch;
 	bool streams;                  /* w is larger than the caches */
 	double distance;               /* with a wave: to the nearest eigenvalue, |lambda + a^2|/a^2 */
+	bool single;                   /* a mesh that is one line of a suitable length: of what follows only these two are in use (fft-single.c) */
+	struct pm_long_line across;
+	double *nodes_of_line;         /* with images or zeros, as long as that line */
 	struct pm_fft_james *james;    /* NULL, or the solution in open space by two between walls: nothing else here is then in use */
 	double zero;                   /* the mode of constants, after the forward transform */
 };
@@ -85,6 +89,15 @@ int pm_poisson_fft_softened(struct pm_poisson_fft *p);  /* of fft-softened.c: th
 int pm_poisson_fft_resonance(struct pm_poisson_fft *p); /* of fft-wave.c: failure at a resonance */
 int pm_poisson_fft_fitted(struct pm_poisson_fft *p);    /* of fft-fitted.c: likewise, for known values on faces */
 int pm_poisson_fft_open_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
+/* The largest absolute value of n rows of a block. */
+double pm_poisson_fft_largest(const double *block, size_t n);
+/* Multipliers of a mesh in one dimension by mode, filled up to whole chunks. */
+void pm_poisson_fft_multipliers_of_row(const struct pm_poisson_fft *p, double *u);
+/* Of fft-single.c: the length of the line with its images, 0 where the solver is to take the passes; what is needed for it, the multipliers being there; and
+ * its solution, which returns the largest source of a singular problem. */
+size_t pm_fft_single_length(const struct pm_poisson_fft *p);
+int pm_fft_single_init(struct pm_poisson_fft *p);
+double pm_fft_single_solve(struct pm_poisson_fft *p, double factor, const double *s, double *phi);
 /* Of fft-james.c: what cannot be solved so; NULL with a message, on all ranks that share the planes; as pm_poisson_fft_solve; the solver between walls. */
 int pm_fft_james_check(const struct pm_grid *g, const struct pm_poisson_fft_choice *o);
 struct pm_fft_james *pm_fft_james_new(const struct pm_grid *g, const struct pm_planes *planes);

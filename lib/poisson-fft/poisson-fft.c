@@ -2,7 +2,8 @@
  * Faces, in any mixture: periodic (Fourier), wall (sine, phi = 0), neumann (cosine), a wall opposite a neumann face (quarter waves), open: the convolution
  * with a Green's function of the open axes on a domain of doubled length 2n, exact because the function is even (fft-open.c).
  * Source: Hockney and Eastwood 1988, chapters 6-5 and 6-6; Swarztrauber 1977. Symbols: -k^2, or those of the centred differences of order 2, 4, 6.
- * Three passes over memory (fft-passes.c). Periodic and open: complex spectra of real rows; otherwise real transforms (fft/axis-transform.h).
+ * Three passes over memory (fft-passes.c), except for a single line (fft-single.c). Periodic and open: complex spectra of real rows; otherwise real transforms
+ * (fft/axis-transform.h).
  * Determinism: a partition that does not depend on threads, no reductions. Cost: N log N; memory one copy of the mesh, open 4 in 3-D and one
  * for the Green's function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -88,7 +89,7 @@ static void zero_walls(const struct pm_poisson_fft *p, double *phi)
 
 int pm_poisson_fft_work(struct pm_poisson_fft *p)
 {
-	return p->w || p->empty || (p->w = pm_zalloc(p->modes[Y] * p->slab + L, sizeof *p->w)) ? 0 : -PM_DATA;
+	return p->w || p->empty || p->single || (p->w = pm_zalloc(p->modes[Y] * p->slab + L, sizeof *p->w)) ? 0 : -PM_DATA;
 }
 
 /* Along z: here, or with the planes of the other ranks turned to pencils and back. */
@@ -107,6 +108,12 @@ static int along_z(int status, struct pm_poisson_fft *p, double factor)
 	return p->singular ? pm_poisson_fft_zero(status, p) : status;
 }
 
+static void record(const struct pm_poisson_fft *p, double norm, double largest, struct pm_poisson_fft_record *r)
+{
+	if (p->singular && r)
+		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
+}
+
 int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r)
 {
 	if (r)
@@ -115,6 +122,11 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 		return pm_fft_james_solve(p->james, c, s, phi);
 	if (p->empty) {
 		memset(phi, 0, pm_grid_size(&p->grid) / (p->grid.dim == 1 ? 1 : p->grid.points[p->grid.dim - 1]) * p->planes * sizeof *phi);
+		return 0;
+	}
+	if (p->single) {
+		const double one = 1 / (double)p->across.n, most = pm_fft_single_solve(p, c * one, s, phi);
+		record(p, one, most, r);
 		return 0;
 	}
 	struct rows io = {.p = p, .s = s, .phi = phi, .from = source_row, .to = result_row};
@@ -131,8 +143,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 		return status;
 	pm_poisson_fft_planes(p, &io, false);
 	zero_walls(p, phi);
-	if (p->singular && r)
-		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
+	record(p, norm, largest, r);
 	return 0;
 }
 
@@ -182,6 +193,7 @@ static int layout(struct pm_poisson_fft *p)
 	p->lot = p->block + p->rows + p->factors + (g->dim == 3 ? odd_stride((slab + L) * p->row) : p->choice.planes ? odd_stride((p->nodes[Z] + 1) * L) : 0);
 	const int status = pm_poisson_fft_ranks(p, p->choice.planes);
 	p->choice.planes = NULL; /* the caller's */
+	p->single = pm_fft_single_length(p) && !p->from;
 	p->slab = p->zhere * p->row + (p->from ? 0 : L); /* so that a plane's rows do not fall on the same sets of the cache */
 	return status || shares(p) ? -PM_DATA : pm_poisson_fft_work(p);
 }
@@ -250,6 +262,8 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		status = pm_world_agree(status);
 	if (!status && !o->james)
 		status = multipliers(p);
+	if (!status && p->single)
+		status = pm_fft_single_init(p);
 	return status ? pm_poisson_fft_free(p) : p;
 }
 
@@ -258,6 +272,7 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p)
 	if (!p)
 		return NULL;
 	pm_fft_james_free(p->james);
+	pm_long_line_free(&p->across), pm_free(p->nodes_of_line);
 	pm_fft_plans_clear(&p->planner);
 	free(p->from), free(p->bytes);
 	pm_free(p->w);
