@@ -1,8 +1,8 @@
-/* Esirkepov's current in 3-D of ways whose ends have the same points, for cic and tsc: most ways in a step that Courant's condition limits. Each is
- * 3 (width - 1) width^2 numbers of its cell, those of current-tile.c: q p_x(i) [A_y A_z + D_y D_z/12] for every i, y and z, and likewise along y and z. They
- * are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. The other ways are left to current-tile.c.
- * Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of an operation each.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Esirkepov's current of ways whose ends have the same points, for cic and tsc, on a line pcs too: most ways in a step that Courant's condition
+ * limits. Each is a few numbers of its cell, those of current-tile.c: along x q p_x(i) [A_y A_z + D_y D_z/12] for every i, y and z, and likewise
+ * along y and z. They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. The other ways are left
+ * to current-tile.c. Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of
+ * an operation each. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/current-cells.h"
 #include "transfer/tile-by-axis.h"
 
@@ -18,7 +18,7 @@ int pm_current_cells_new(struct pm_current_cells **to, int threads, int dim, con
 		return -PM_DATA;
 	}
 	for (int i = 0; i < threads; i++)
-		(*to)[i].kernel = k, (*to)[i].sums = sums + (size_t)i * each;
+		(*to)[i].dim = dim, (*to)[i].kernel = k, (*to)[i].sums = sums + (size_t)i * each;
 	return 0;
 }
 
@@ -29,8 +29,8 @@ struct pm_current_cells *pm_current_cells_free(struct pm_current_cells *t)
 	return pm_free(t);
 }
 
-enum { width_most = 3, values_most = 56, fours = 4, row_cells = 32, rows = 16 };
-_Static_assert((int)PM_CURRENT_CELL_ROWS == (int)PM_TILE_CELLS / (int)row_cells, "");
+enum { width_most = 4, values_most = 56, fours = 4, piece = 32 };
+_Static_assert((int)PM_CURRENT_CELL_ROWS == (int)PM_TILE_CELLS / (int)piece, "");
 
 typedef pm_by_axis four; /* of four particles */
 typedef int32_t four_int __attribute__((vector_size(fours * sizeof(int32_t))));
@@ -39,6 +39,10 @@ typedef int32_t four_int __attribute__((vector_size(fours * sizeof(int32_t))));
 struct along {
 	four mean[width_most], change[width_most], passed[width_most];
 };
+
+/* The other axes of a component, where they are below dim. */
+PM_SIMD_INLINE int first_other(int c) { return c == 0 ? 1 : 0; }
+PM_SIMD_INLINE int second_other(int c) { return c == 2 ? 1 : 2; }
 
 /* `same`: which have both ends between the same points. */
 PM_SIMD_INLINE four_int find_along(int width, const struct pm_current_cells *t, int d, size_t i, struct along *a, pm_mask_by_axis *same)
@@ -61,24 +65,28 @@ PM_SIMD_INLINE four_int find_along(int width, const struct pm_current_cells *t, 
 	return cell - (int32_t)t->cell[d];
 }
 
-/* The numbers of the current along an axis: [along it][second other][first other]. */
-PM_SIMD_INLINE void find_values(int width, four q, const struct along *on, const struct along *first, const struct along *second, four *value)
+/* The numbers of component c, of a charge q (from dim on of what it carries): [along it][second other][first other]; returns how many. */
+PM_SIMD_INLINE int find_values(int dim, int width, int c, four q, const struct along *axes, four *value)
 {
+	const int first = first_other(c), second = second_other(c), nj = first < dim ? width : 1, nk = second < dim ? width : 1;
+	const int n = nj * nk, steps = c < dim ? width - 1 : 1;
 	four across[width_most * width_most];
 	PM_SIMD_UNROLL
-	for (int k = 0; k < width; k++) {
-		const four change = second->change[k] * (1. / 12);
+	for (int k = 0; k < nk; k++) {
+		const four change = nk > 1 ? axes[second].change[k] * (1. / 12) : all_axes(0);
 		PM_SIMD_UNROLL
-		for (int j = 0; j < width; j++)
-			across[k * width + j] = first->mean[j] * second->mean[k] + first->change[j] * change;
+		for (int j = 0; j < nj; j++)
+			across[k * nj + j] = nk > 1 ? axes[first].mean[j] * axes[second].mean[k] + axes[first].change[j] * change :
+				nj > 1 ? axes[first].mean[j] : all_axes(1);
 	}
 	PM_SIMD_UNROLL
-	for (int i = 0; i < width - 1; i++) {
-		const four passed = q * on->passed[i];
+	for (int i = 0; i < steps; i++) {
+		const four passed = c < dim ? q * axes[c].passed[i] : q;
 		PM_SIMD_UNROLL
-		for (int k = 0; k < width * width; k++)
-			value[i * width * width + k] = passed * across[k];
+		for (int k = 0; k < n; k++)
+			value[i * n + k] = passed * across[k];
 	}
+	return steps * n;
 }
 
 /* Four rows of four numbers of particles to the sums of their cells; in one cell they are added up first, because sums at one place wait for each other. */
@@ -93,34 +101,46 @@ PM_SIMD_INLINE void to_sums(double *const sums[fours], bool one, int k, four *va
 			*(pm_simd4_at *)(sums[l] + k) += value[l];
 }
 
-PM_SIMD_INLINE size_t add(int width, struct pm_current_cells *t, uint32_t *others)
+/* Four at a time: further ones without charge. */
+static void fill_up(struct pm_current_cells *t)
 {
-	const int n = 3 * (width - 1) * width * width, each = (n + fours - 1) / fours * fours;
-	size_t left = 0;
-	for (size_t i = t->count; i % fours; i++) { /* four at a time: further ones without charge */
-		for (int d = 0; d < 3; d++)
+	for (size_t i = t->count; i % fours; i++) {
+		for (int d = 0; d < t->dim; d++)
 			t->u[d][i] = t->u[d][i - 1], t->way[d][i] = 0;
+		for (int d = t->dim; d < 3; d++)
+			t->along[d - t->dim][i] = 0;
 		t->q[i] = 0;
 	}
+}
+
+PM_SIMD_INLINE four masked(const double *from, pm_mask_by_axis on) { return (four)((pm_mask_by_axis) * (const pm_simd4_at *)from & on); }
+
+PM_SIMD_INLINE size_t add(int dim, int width, struct pm_current_cells *t, uint32_t *others)
+{
+	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours, *shift = pm_tile_shift[dim];
+	size_t left = 0;
+	fill_up(t);
 	for (size_t i = 0; i < t->count; i += fours) {
-		struct along x, y, z;
+		struct along axes[3];
 		four value[values_most];
 		pm_mask_by_axis same = {-1, -1, -1, -1};
-		four_int at = find_along(width, t, 0, i, &x, &same);
-		at += find_along(width, t, 1, i, &y, &same) * row_cells;
-		at += find_along(width, t, 2, i, &z, &same) * (row_cells * rows);
-		const four q = (four)((pm_mask_by_axis) * (const pm_simd4_at *)(t->q + i) & same);
+		four_int at = find_along(width, t, 0, i, &axes[0], &same);
+		if (dim > 1)
+			at += find_along(width, t, 1, i, &axes[1], &same) << shift[0];
+		if (dim > 2)
+			at += find_along(width, t, 2, i, &axes[2], &same) << (shift[0] + shift[1]);
 		double *sums[fours];
 		PM_SIMD_UNROLL
 		for (int l = 0; l < fours; l++) {
 			others[left] = (uint32_t)i + (uint32_t)l;
 			left += (size_t)(same[l] + 1);
-			t->used[at[l] / row_cells] = 1;
+			t->used[at[l] / piece] = 1;
 			sums[l] = t->sums + at[l] * each;
 		}
-		find_values(width, q, &x, &y, &z, value);
-		find_values(width, q, &y, &x, &z, value + n / 3);
-		find_values(width, q, &z, &x, &y, value + 2 * n / 3);
+		int n = 0;
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++)
+			n += find_values(dim, width, c, masked((c < dim ? t->q : t->along[c - dim]) + i, same), axes, value + n);
 		for (int k = n; k < each; k++)
 			value[k] = all_axes(0);
 		if (sums[0] == sums[1] && sums[0] == sums[2] && sums[0] == sums[3])
@@ -133,36 +153,45 @@ PM_SIMD_INLINE size_t add(int width, struct pm_current_cells *t, uint32_t *other
 	return left;
 }
 
-size_t pm_current_cells_add(struct pm_current_cells *t, uint32_t others[PM_TILE_ORDER_PACK])
+/* From the sums of a piece of a row to the blocks. */
+PM_SIMD_INLINE void fold_piece(int dim, int width, double *sums, int at, double *const block[3])
 {
-	return t->kernel->width == 2 ? add(2, t, others) : add(3, t, others);
+	const int step[3] = {1, pm_block_row[dim], pm_block_row[dim] * pm_block_rows[dim]};
+	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
+	for (int c = 0, e = 0; c < 3; c++) {
+		const int first = first_other(c), second = second_other(c);
+		for (int i = 0; i < (c < dim ? width - 1 : 1); i++)
+			for (int k = 0; k < (second < dim ? width : 1); k++)
+				for (int j = 0; j < (first < dim ? width : 1); j++, e++) {
+					double *to = block[c] + at + (c < dim ? i * step[c] : 0) + (first < dim ? j * step[first] : 0) + (second < dim ? k * step[second] : 0);
+					for (int x = 0; x < piece; x++)
+						to[x] += sums[x * each + e];
+				}
+	}
+	memset(sums, 0, (size_t)(piece * each) * sizeof *sums);
 }
 
-PM_SIMD_INLINE void fold(int width, struct pm_current_cells *t, double *const block[3])
+PM_SIMD_INLINE void fold(int dim, int width, struct pm_current_cells *t, double *const block[3])
 {
-	const int step[3] = {1, pm_block_row[3], pm_block_row[3] * pm_block_rows[3]}, each = (3 * (width - 1) * width * width + fours - 1) / fours * fours;
+	const int *shift = pm_tile_shift[dim];
+	const size_t each = (size_t)(pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	for (int r = 0; r < PM_CURRENT_CELL_ROWS; r++) {
-		if (!t->used[r])
-			continue;
-		double *sums = t->sums + (size_t)r * row_cells * (size_t)each;
-		const int at = r / rows * step[2] + r % rows * step[1];
-		for (int c = 0, e = 0; c < 3; c++)
-			for (int i = 0; i < width - 1; i++)
-				for (int k = 0; k < width; k++)
-					for (int j = 0; j < width; j++, e++) {
-						double *to = block[c] + at + i * step[c] + j * step[c == 0 ? 1 : 0] + k * step[c == 2 ? 1 : 2];
-						for (int x = 0; x < row_cells; x++)
-							to[x] += sums[x * each + e];
-					}
-		memset(sums, 0, (size_t)(row_cells * each) * sizeof *sums);
+		const int cell = r * piece, x = cell & ((1 << shift[0]) - 1), y = cell >> shift[0] & ((1 << shift[1]) - 1), z = cell >> shift[0] >> shift[1];
+		if (t->used[r])
+			fold_piece(dim, width, t->sums + (size_t)cell * each, (z * pm_block_rows[dim] + y) * pm_block_row[dim] + x, block);
 		t->used[r] = 0;
 	}
 }
 
-void pm_current_cells_fold(struct pm_current_cells *t, double *const block[3])
-{
-	if (t->kernel->width == 2)
-		fold(2, t, block);
-	else
-		fold(3, t, block);
-}
+#define ADD(dim, width) static size_t add_##dim##_##width(struct pm_current_cells *t, uint32_t *others) { return add(dim, width, t, others); }
+#define FOLD(dim, width) static void fold_##dim##_##width(struct pm_current_cells *t, double *const block[3]) { fold(dim, width, t, block); }
+#define EVERY(WHAT) WHAT(1, 2) WHAT(1, 3) WHAT(1, 4) WHAT(2, 2) WHAT(2, 3) WHAT(3, 2) WHAT(3, 3)
+EVERY(ADD)
+EVERY(FOLD)
+#define ROWS(what) {{what##_1_2, what##_1_3, what##_1_4}, {what##_2_2, what##_2_3, NULL}, {what##_3_2, what##_3_3, NULL}}
+static size_t (*const adds[3][3])(struct pm_current_cells *t, uint32_t *others) = ROWS(add);
+static void (*const folds[3][3])(struct pm_current_cells *t, double *const block[3]) = ROWS(fold);
+
+size_t pm_current_cells_add(struct pm_current_cells *t, uint32_t others[PM_TILE_ORDER_PACK]) { return adds[t->dim - 1][t->kernel->width - 2](t, others); }
+
+void pm_current_cells_fold(struct pm_current_cells *t, double *const block[3]) { folds[t->dim - 1][t->kernel->width - 2](t, block); }

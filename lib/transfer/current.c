@@ -41,26 +41,42 @@ struct spread {
 	struct pm_current_cells *cells; /* [threads], or NULL */
 };
 
-/* A job by sums of cells; the ways that have none as records, and all that are left where most have none. */
-static void fill_cells(const struct pm_tile_order *o, const struct pm_tile_job *j, struct pm_current_tile *t, struct pm_current_cells *cells)
+/* What the charges carry along the axes above dim, where the values of an order are velocities. */
+static void carry(const bool rests[3], struct pm_current_cells *cells)
 {
-	double *const columns[] = {cells->u[0], cells->u[1], cells->u[2], cells->way[0], cells->way[1], cells->way[2], cells->q};
-	enum { numbers = sizeof columns / sizeof *columns };
-	double records[PM_TILE_ORDER_PACK * numbers + 4];
+	for (int d = cells->dim; d < 3; d++)
+		for (size_t i = 0; i < cells->count; i++)
+			cells->along[d - cells->dim][i] = rests[d] ? 0 : cells->q[i] * cells->along[d - cells->dim][i];
+}
+
+/* A job by sums of cells; the ways that have none as records, and all that are left where most have none. */
+static void fill_cells(const struct pm_current_fill *s, const struct pm_tile_order *o, const struct pm_tile_job *j, struct pm_current_tile *t,
+	struct pm_current_cells *cells)
+{
+	enum { most_numbers = 7 };
+	double *columns[most_numbers], records[PM_TILE_ORDER_PACK * most_numbers + 4];
+	int numbers = 0;
 	uint32_t others[PM_TILE_ORDER_PACK];
 	pm_current_loop *loop = pm_current_deposit(o->dim, t->kernel);
 	struct pm_current_tile few = *t;
 	bool most = false;
+	for (int d = 0; d < o->dim; d++)
+		columns[d] = cells->u[d], columns[o->dim + d] = cells->way[d];
+	numbers = 2 * o->dim, columns[numbers++] = cells->q;
+	for (int d = o->dim; d < 3; d++)
+		columns[numbers++] = cells->along[d - o->dim];
 	few.stride = numbers, few.records = records;
 	cells->shift = t->shift;
 	memcpy(cells->cell, t->cell, sizeof cells->cell);
 	for (size_t at = j->from; at < j->to; at += cells->count) {
 		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
 		pm_tile_order_columns(o, at, cells->count, true, columns);
+		if (s->rests)
+			carry(s->rests, cells);
 		few.count = most ? cells->count : pm_current_cells_add(cells, others);
 		for (size_t i = 0; i < few.count; i++)
 			for (int c = 0; c < numbers; c++)
-				records[i * numbers + (size_t)c] = columns[c][most ? i : others[i]];
+				records[i * (size_t)numbers + (size_t)c] = columns[c][most ? i : others[i]];
 		most = 2 * few.count > cells->count;
 		loop(&few);
 	}
@@ -78,7 +94,7 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(p, j->tile, d, &t.cell[d]);
 	if (cells && j->to - j->from >= pm_current_cells_least(s->c->kernel)) {
-		fill_cells(o, j, &t, cells);
+		fill_cells(s, o, j, &t, cells);
 		return;
 	}
 	if (o->records) {
