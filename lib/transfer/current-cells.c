@@ -163,7 +163,8 @@ PM_SIMD_INLINE void fold_piece(int dim, int width, double *sums, int at, double 
 		for (int i = 0; i < (c < dim ? width - 1 : 1); i++)
 			for (int k = 0; k < (second < dim ? width : 1); k++)
 				for (int j = 0; j < (first < dim ? width : 1); j++, e++) {
-					double *to = block[c] + at + (c < dim ? i * step[c] : 0) + (first < dim ? j * step[first] : 0) + (second < dim ? k * step[second] : 0);
+					double *to = block[c] + at + (c < dim ? i * step[c] : 0) + (first < dim ? j * step[first] : 0) +
+						(second < dim ? k * step[second] : 0);
 					for (int x = 0; x < piece; x++)
 						to[x] += sums[x * each + e];
 				}

@@ -5,13 +5,13 @@
 
 #include "transfer/tile-order.h"
 
-/* Numbers that a cell has: of a component below dim (width - 1) width^(dim - 1), of one above it width^dim. */
+/* Numbers of a cell: of a component below dim (width - 1) width^(dim - 1), of one above it width^dim. */
 static inline int pm_current_cell_numbers(int dim, int width)
 {
 	return dim == 3 ? 3 * (width - 1) * width * width : dim == 2 ? 2 * (width - 1) * width + width * width : width - 1 + 2 * width;
 }
-/* The same filled up to fours; 0 where there are no sums of cells (other kernels: those of a tile would not stay in the cache). The size of a job decides too, so that its bytes are
- * those of any run. */
+/* The same filled up to fours; 0 where there are no sums of cells (other kernels: those of a tile would not stay in the cache). The size of a job decides
+ * too, so that its bytes are those of any run. */
 static inline size_t pm_current_cell_values(int dim, const struct pm_kernel *k)
 {
 	const bool has = k->width >= 2 && k->width <= (dim == 1 ? 4 : 3) && k->degree == k->width - 1 && !k->star;
