@@ -1,6 +1,6 @@
 /* mgrad: derivatives of mesh fields (lib/mesh/gradient-frame.c). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fft/axis-transform.h"
-#include "mesh/gradient-frame.h"
+#include "mesh/gradient-later.h"
 #include "world/world.h"
 #include "stage/plan-option.h"
 #include "stage/stage.h"
@@ -64,7 +64,10 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		pm_tell_once(s, "%.2g of the density is within %d nodes of an open face, where differences of order %d are one-sided and exert a force on "
 			"what makes the field (p2m --rim %d leaves these nodes free; --order 2 has no such force)", rim, t->gradient.operator.order / 2,
 			t->gradient.operator.order, t->gradient.operator.order / 2 - 1);
-	return status ? status : pm_gradient_apply(&t->gradient);
+	bool left = false;
+	if (!status && s->fused)
+		status = pm_gradient_leave(&t->gradient, &left);
+	return status || left ? status : pm_gradient_apply(&t->gradient);
 }
 
 static bool divided(const struct pm_stage *s, const struct pm_frame *f)

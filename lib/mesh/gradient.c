@@ -113,6 +113,13 @@ static struct pm_difference_axis axis_of(const struct pm_operator *o, int compon
 	return a;
 }
 
+void pm_operator_pairs(const struct pm_operator *o, int axis, double factor, double w[3])
+{
+	const struct pm_difference_axis a = axis_of(o, 0, axis, factor * o->term[axis].sign);
+	for (int k = 0; k < o->order / 2; k++)
+		w[k] = a.regular.w[2 * k];
+}
+
 /* Regular taps and images reach order/2 nodes; one-sided ones from a node beside the face order + derivative nodes into the mesh, which a rank with few planes
  * has not. */
 int pm_operator_reach(const struct pm_operator *o, const struct pm_planes *p)

@@ -256,6 +256,7 @@ static int run_fused(struct pm_sentence *s, const struct segment *g, bool primin
 		struct word *w = s->word + i;
 		if (priming && !w->makes)
 			continue;
+		w->stage->fused = true;
 		int status = pm_stage_apply(w->stage, f);
 		if (status == PM_SKIP)
 			return pm_fail(PM_USAGE, "'%s' left the frame out, but inside a sentence every frame must be passed on", w->stage->word);

@@ -76,6 +76,7 @@ struct pm_stage {
 	bool leaves_out;     /* set by begin: some frames are not written, so it cannot be part of a sentence */
 	bool advances;       /* set by begin: it stands for a part of the step, so it is left out of priming, whatever tool->makes says */
 	bool verbose, quiet; /* --verbose, --quiet: of the word, or of cycle for all its words */
+	bool fused;          /* the next word of a sentence gets the frame in this process: values may be left to be made (stream/later.h) */
 	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */
 	bool told;           /* pm_tell_once has been used */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/later.h"
 #include "stream/parts.h"
 #include "stream/run.h"
 #include "world/world.h"
@@ -101,10 +102,51 @@ static int expand(const struct pm_field *field)
 	return 0;
 }
 
+struct pm_later *pm_later_free(struct pm_later *later)
+{
+	if (later)
+		pm_field_free(later->from);
+	free(later);
+	return NULL;
+}
+
+const struct pm_later *pm_field_later_of(const struct pm_field *field) { return field->buffer ? field->buffer->later : NULL; }
+
+int pm_field_later(struct pm_field *field, struct pm_later *later, const struct pm_field *from)
+{
+	struct pm_buffer *b = calloc(1, sizeof *b);
+	later->from = b ? pm_field_copy(from, true) : NULL;
+	if (!later->from) {
+		free(b), free(later);
+		return pm_no_memory();
+	}
+	atomic_init(&b->users, 1);
+	b->later = later;
+	pm_field_forget(field);
+	field->buffer = b;
+	return 0;
+}
+
+static int make_now(const struct pm_field *field)
+{
+	struct pm_buffer *b = field->buffer;
+	double *data = pm_alloc(values(field), sizeof *data);
+	int status = data ? b->later->make(b->later, data) : -PM_DATA;
+	if (status) {
+		pm_free(data);
+		return status;
+	}
+	b->later = pm_later_free(b->later);
+	b->data = data;
+	return 0;
+}
+
 static int bring(const struct pm_field *field)
 {
 	if (!field->buffer)
 		return field->uniform && is_real(field) ? expand(field) : pm_fail(PM_DATA, "the values of '%s' are not here", field->name);
+	if (field->buffer->later)
+		return make_now(field);
 	return field->buffer->data ? 0 : field->buffer->floats ? widen(field) : pm_buffer_join(field->buffer);
 }
 
@@ -254,6 +296,8 @@ int pm_field_ready(struct pm_field *field)
 		forget_note(field);
 	if (field->here)
 		return ready_here(field);
+	if (field->use & PM_USE_LATER && !(field->use & (PM_USE_CHANGE | PM_USE_NEW)) && pm_field_later_of(field))
+		return 0;
 	if (field->use & PM_USE_COLUMNS && pm_field_rests(field))
 		return ready_floats(field);
 	if (field->use & PM_USE_COLUMNS && field->uniform && !field->buffer && !(field->use & (PM_USE_CHANGE | PM_USE_NEW)))
@@ -337,6 +381,10 @@ int pm_field_settle(struct pm_field *field)
 		return -PM_DATA;
 	if (!(use & (PM_USE_CHANGE | PM_USE_NEW)) || field->uniform || !is_real(field) || !field->buffer)
 		return 0;
+	if (pm_field_later_of(field)) {
+		field->finite = true;
+		return 0;
+	}
 	double *y = rests ? NULL : base_of(field);
 	if (field->type == PM_F32 && !rests)
 		for (size_t i = 0, n = values(field); i < n; i++)

@@ -31,7 +31,8 @@ enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* ne
 	PM_USE_SEEN = 16 /* the stage has checked every value in its own loop, and all are finite */,
 	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */,
 	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */,
-	PM_USE_COLUMNS = 128 /* the stage takes the values as columns (column.h): those held as floats stay so, uniform ones that are read are one number */ };
+	PM_USE_COLUMNS = 128 /* the stage takes the values as columns (column.h): those held as floats stay so, uniform ones that are read are one number */,
+	PM_USE_LATER = 256 /* read, and the stage can do with values that are to be made (later.h) */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 

@@ -197,6 +197,7 @@ struct pm_buffer *pm_buffer_free(struct pm_buffer *b)
 		pm_buffer_undivide(b);
 		if (b->note)
 			b->note->free(b->note);
+		pm_later_free(b->later);
 		pm_buffer_drop_data(b), pm_buffer_drop_floats(b);
 		free(b);
 	}

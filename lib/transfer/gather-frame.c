@@ -6,6 +6,7 @@
 
 #include "mesh/force-words.h"
 #include "mesh/given-faces.h"
+#include "mesh/gradient-later.h"
 #include "stream/declare.h"
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
@@ -218,6 +219,8 @@ static int declare_field(const struct pm_gather_job *j, struct pm_frame *f, cons
 int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 {
 	int status = pm_reads(f, j->mesh->name, j->name) ? 0 : -PM_DATA;
+	if (!status)
+		j->field->use |= PM_USE_LATER;
 	for (size_t i = 0; i < j->sets.n && !status; i++) {
 		status = pm_reads_positions(f, j->sets.name[i]);
 		if (!status)
@@ -226,6 +229,13 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 	if (!status && j->outside == PM_OUTSIDE_MONOPOLE)
 		status = pm_outside_reads(&j->far, f);
 	return status || j->choice.field ? status : pm_gather_limits_declare(j, f);
+}
+
+/* The gradient that the field is left as, if it can be gathered so to all sets: nothing else is on the mesh, or asks for the field. */
+static const struct pm_gradient_later *left_of(const struct pm_gather_job *j)
+{
+	const bool alone = !j->changes.n && !j->interlaced && !j->choice.beside && j->field->role != PM_STATE && !j->law->magnetic;
+	return alone && j->transfer.components == 3 ? pm_gradient_later_of(j->field) : NULL;
 }
 
 /* The field on both of its meshes. */
@@ -252,6 +262,7 @@ static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const st
 	double same)
 {
 	struct pm_gather_arrays a = {.t = j->transfer, .n = target->count, .columns = target->use & PM_USE_COLUMNS};
+	a.t.gradient = left_of(j);
 	const double *volume = j->choice.field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
 	for (int d = 0; d < f->dim && a.columns; d++)
 		a.at[d] = pm_column_of(pm_frame_field(f, set, "x"), d);
@@ -260,7 +271,7 @@ static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const st
 	a.t.kept = &pm_frame_field(f, set, "x")->note;
 	for (int c = 0; c < a.t.components; c++) {
 		a.t.set[c] = target->use & PM_USE_FILL;
-		a.mesh[c] = pm_in(j->field, c);
+		a.mesh[c] = a.t.gradient ? NULL : pm_in(j->field, c);
 		a.factor[c] = volume ? volume : ratio;
 		a.times[c] = (struct pm_column){.doubles = ratio, .value = same};
 		if (a.columns)

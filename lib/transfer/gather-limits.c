@@ -37,7 +37,7 @@ int pm_gather_limits_declare(const struct pm_gather_job *j, struct pm_frame *f)
 void pm_gather_limits_prepare(struct pm_gather_job *j, const struct pm_frame *f)
 {
 	const double *u[PM_COMPONENTS];
-	for (int c = 0; c < j->field->components; c++)
+	for (int c = 0; c < j->field->components && is_flow(j); c++)
 		u[c] = pm_in(j->field, c);
 	if (is_flow(j))
 		j->limits.strain = pm_strain(&j->transfer.grid, j->field, u);

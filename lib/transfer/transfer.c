@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transfer/tile-gradient.h"
 #include "transfer/tile-line.h"
 #include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
@@ -175,7 +176,9 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	const int group = pm_vector_group(w->components);
 	t.nodes = w->nodes + (size_t)omp_get_thread_num() * pm_vector_groups(w->components) * PM_VECTOR_NODES;
 	double *nodes = t.nodes;
-	for (int c = 0; c < w->components; c += group, nodes += PM_VECTOR_NODES)
+	if (w->t->gradient)
+		pm_tile_gradient(w->t->gradient, &w->p, j, NULL, nodes);
+	for (int c = 0; c < w->components && !w->t->gradient; c += group, nodes += PM_VECTOR_NODES)
 		pm_tile_weave(t.block + (size_t)c * PM_BLOCK_MOST, w->components - c < group ? w->components - c : group, slots, nodes);
 	if (t.records)
 		return loop(&t), true;
@@ -189,7 +192,10 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	pm_tile_loop *loop = pm_tile_gather(w->o->order.dim, w->t->kernel);
 	struct pm_tile t = pm_pass_tile(w, j, block);
 	t.components = w->components;
-	if (w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count))
+	const bool vectors = w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count);
+	if (w->t->gradient && !vectors)
+		pm_tile_gradient(w->t->gradient, &w->p, j, block, NULL);
+	if (vectors)
 		return gather_vectors(w, j, t, r);
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
@@ -210,7 +216,7 @@ bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *cons
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
 	for (size_t j = 0; j < w->p.jobs; j++) {
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
-		for (int c = 0; c < w->components; c++)
+		for (int c = 0; c < w->components && !w->t->gradient; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
 		bad |= !pm_pass_gather(w, &w->p.job[j], block, r);

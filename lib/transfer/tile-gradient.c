@@ -1,0 +1,123 @@
+/* A gradient made for the tile of particles that needs it, from the potential: rows of nodes by whole vectors, where a row goes over the end of the
+ * box node by node. The sums are those of difference-rows.c: the same bytes. Cost: six numbers read per node and order 2, from the nearest caches but for one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-gradient.h"
+#include "transfer/tile-vector.h"
+
+enum { W = PM_SIMD_WIDTH, MOST = 3 };
+
+/* A row of the potential, and those beside it. */
+struct lines {
+	const double *here, *up[3][MOST], *down[3][MOST]; /* [axis][pair]; of the row itself the distance is added */
+	double w[3][MOST];
+	size_t n; /* nodes of the axis */
+};
+
+PM_SIMD_INLINE pm_simd component(int pairs, const struct lines *l, int d, size_t i)
+{
+	pm_simd sum = l->w[d][0] * (pm_simd_load_any(l->up[d][0] + i) - pm_simd_load_any(l->down[d][0] + i));
+	PM_SIMD_UNROLL
+	for (int k = 1; k < pairs; k++)
+		sum = sum + l->w[d][k] * (pm_simd_load_any(l->up[d][k] + i) - pm_simd_load_any(l->down[d][k] + i));
+	return sum;
+}
+
+PM_SIMD_INLINE void some_nodes(int pairs, bool woven, const struct lines *l, size_t i, double *to)
+{
+	const pm_simd x = component(pairs, l, 0, i), y = component(pairs, l, 1, i), z = component(pairs, l, 2, i);
+	if (woven)
+		pm_simd_store_columns(to, (const pm_simd[]){x, y, z, x});
+	else
+		pm_simd_store_any(to, x), pm_simd_store_any(to + PM_BLOCK_MOST, y), pm_simd_store_any(to + 2 * PM_BLOCK_MOST, z);
+}
+
+/* Node i, by itself. */
+PM_SIMD_INLINE void one_node(int pairs, bool woven, const struct lines *l, size_t i, double *to)
+{
+	for (int d = 0; d < 3; d++) {
+		double sum = 0;
+		for (int k = 0; k < pairs; k++) {
+			const size_t far = (size_t)k + 1, above = i + far < l->n ? i + far : i + far - l->n, below = i >= far ? i - far : i + l->n - far;
+			const double up = d ? l->up[d][k][i] : l->here[above], down = d ? l->down[d][k][i] : l->here[below];
+			sum = k ? sum + l->w[d][k] * (up - down) : l->w[d][0] * (up - down);
+		}
+		to[woven ? (size_t)d : (size_t)d * PM_BLOCK_MOST] = sum;
+	}
+}
+
+/* Nodes from..from+m-1. */
+PM_SIMD_INLINE void run_of(int pairs, bool woven, const struct lines *l, size_t from, size_t m, double *to)
+{
+	const size_t step = woven ? 4 : 1, low = (size_t)pairs, high = l->n - (size_t)pairs;
+	size_t i = 0, end = from + m < high ? m : high > from ? high - from : 0;
+	for (; i < m && from + i < low; i++)
+		one_node(pairs, woven, l, from + i, to + i * step);
+	if (i + W <= end) {
+		for (; i + W <= end; i += W)
+			some_nodes(pairs, woven, l, from + i, to + i * step);
+		some_nodes(pairs, woven, l, from + end - W, to + (end - W) * step);
+		i = end;
+	}
+	for (; i < m; i++)
+		one_node(pairs, woven, l, from + i, to + i * step);
+}
+
+/* Asks for rows from row `from` on of plane k: some nodes of each. */
+static void fetch(const size_t *n, const double *phi, size_t k, size_t from, size_t rows, size_t at, size_t nodes)
+{
+	enum { line = 8 };
+	for (size_t q = 0; q < rows; q++) {
+		const double *row = phi + (k % n[2] * n[1] + (from + q) % n[1]) * n[0] + at;
+		for (size_t i = 0; i < nodes + line - 1; i += line)
+			__builtin_prefetch(row + i);
+	}
+}
+
+PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *to)
+{
+	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1;
+	const size_t row = (size_t)pm_block_row[3] * step, plane = row * (size_t)pm_block_rows[3];
+	const double *phi = pm_in(g->later.from, 0);
+	const struct pm_axis *a = p->axes;
+	struct lines l = {.n = n[0]};
+	size_t first[3], slots[3];
+	for (int d = 0; d < 3; d++) {
+		slots[d] = pm_tile_slots(p, j->tile, d, &first[d]);
+		for (int k = 0; k < pairs; k++)
+			l.w[d][k] = g->weight[d][k];
+	}
+	for (size_t z = 0; z < slots[2]; z++)
+		for (size_t y = 0; y < slots[1]; y++) {
+			const size_t at[3] = {0, a[1].at[first[1] + y], a[2].at[first[2] + z]};
+			l.here = phi + (at[2] * n[1] + at[1]) * n[0];
+			PM_SIMD_UNROLL
+			for (int k = 0; k < pairs; k++) {
+				const size_t far = (size_t)k + 1;
+				l.up[0][k] = l.here + far, l.down[0][k] = l.here - far;
+				l.up[1][k] = phi + (at[2] * n[1] + (at[1] + far) % n[1]) * n[0];
+				l.down[1][k] = phi + (at[2] * n[1] + (at[1] + n[1] - far) % n[1]) * n[0];
+				l.up[2][k] = phi + ((at[2] + far) % n[2] * n[1] + at[1]) * n[0];
+				l.down[2][k] = phi + ((at[2] + n[2] - far) % n[2] * n[1] + at[1]) * n[0];
+			}
+			fetch(n, phi, at[2] + (size_t)pairs + 1, at[1], 1, a[0].at[first[0]], slots[0]);
+			if (y == 0) /* rows before and behind those of the tile, of its next plane */
+				fetch(n, phi, at[2] + 1, at[1] + n[1] - (size_t)pairs, (size_t)pairs, a[0].at[first[0]], slots[0]);
+			if (y + 1 == slots[1])
+				fetch(n, phi, at[2] + 1, at[1] + 1, (size_t)pairs, a[0].at[first[0]], slots[0]);
+			for (size_t x = 0, m; x < slots[0]; x += m) {
+				const size_t from = a[0].at[first[0] + x];
+				for (m = 1; x + m < slots[0] && a[0].at[first[0] + x + m] == from + m; m++)
+					;
+				run_of(pairs, woven, &l, from, m, to + z * plane + y * row + x * step);
+			}
+		}
+}
+
+void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block, double *nodes)
+{
+	switch (l->operator.order) {
+	case 2: nodes ? nodes_of(1, true, l, p, j, nodes) : nodes_of(1, false, l, p, j, block); break;
+	case 4: nodes ? nodes_of(2, true, l, p, j, nodes) : nodes_of(2, false, l, p, j, block); break;
+	default: nodes ? nodes_of(3, true, l, p, j, nodes) : nodes_of(3, false, l, p, j, block);
+	}
+}

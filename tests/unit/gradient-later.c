@@ -1,0 +1,133 @@
+/* A gradient that is left to be made (lib/mesh/gradient-later.c): gathered from the potential, and made for who asks, it has the bytes of the one made at once.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "check.h"
+#include "mesh/gradient-later.h"
+#include "stream/run.h"
+#include "transfer/transfer.h"
+
+enum { MOST = 20000 };
+
+struct problem {
+	struct pm_frame *f;
+	struct pm_grid grid;
+	struct pm_gradient gradient;
+	size_t points;
+	double *at_once[3], *x[3], *a[3], *b[3];
+};
+
+static double random_of(uint64_t i, uint64_t kind)
+{
+	double u[2];
+	pm_random(11, i, kind, u);
+	return u[0] - 0.5;
+}
+
+static struct pm_field *made(struct pm_frame *f, const char *name, int components)
+{
+	struct pm_field *p = pm_makes(f, "mesh", name, components, PM_DERIVED);
+	if (!p || pm_field_ready(p))
+		exit(1);
+	return p;
+}
+
+static double *room(size_t n)
+{
+	double *p = pm_zalloc(n, sizeof *p);
+	if (!p)
+		exit(1);
+	return p;
+}
+
+/* size: of the potential. A box with faces of one kind. */
+static void begin(struct problem *p, const size_t cells[3], enum pm_face face, int order, double size)
+{
+	*p = (struct problem){.f = pm_frame_new(3)};
+	for (int d = 0; d < 3; d++)
+		p->f->face[d][0] = p->f->face[d][1] = face, p->f->lo[d] = -0.3, p->f->hi[d] = 1.9 + d;
+	const struct pm_mesh *mesh = pm_frame_mesh_new(p->f, "mesh", cells);
+	struct pm_field *phi = made(p->f, "phi", 1), *g = made(p->f, "g", 3);
+	p->grid = pm_grid_of(p->f, mesh);
+	p->points = pm_grid_size(&p->grid);
+	for (size_t i = 0; i < p->points; i++)
+		pm_out(phi, 0)[i] = size * random_of(i, 0);
+	p->gradient = (struct pm_gradient){.source = phi, .target = g, .factor = -1};
+	if (pm_operator_init(&p->gradient.operator, &p->grid, PM_OP_GRAD, order, 1, false))
+		exit(1);
+	for (int c = 0; c < 3; c++) {
+		p->at_once[c] = room(p->points), p->x[c] = room(MOST), p->a[c] = room(MOST), p->b[c] = room(MOST);
+		for (size_t i = 0; i < MOST; i++)
+			p->x[c][i] = p->grid.lo[c] + (random_of(i, 1 + (uint64_t)c) + 0.5) * (double)cells[c] * p->grid.h[c];
+	}
+	const double *in[] = {pm_in(phi, 0)};
+	if (pm_operator_apply(&p->gradient.operator, p->gradient.factor, in, p->at_once, NULL))
+		exit(1);
+}
+
+static void end(struct problem *p)
+{
+	for (int c = 0; c < 3; c++)
+		pm_free(p->at_once[c]), pm_free(p->x[c]), pm_free(p->a[c]), pm_free(p->b[c]);
+	pm_frame_free(p->f);
+}
+
+static bool equal(const struct problem *p, size_t n, const char *kernel)
+{
+	struct pm_transfer t = {.grid = p->grid, .kernel = pm_kernel_find(kernel), .components = 3, .set = {true, true, true}}, left = t;
+	const double *none[3] = {NULL};
+	struct pm_strays strays;
+	bool same = true;
+	left.gradient = pm_gradient_later_of(p->gradient.target);
+	if (!left.gradient || pm_gather(&t, n, (const double *const *)p->x, (const double *const *)p->at_once, NULL, p->a, &strays) ||
+		pm_gather(&left, n, (const double *const *)p->x, none, NULL, p->b, &strays))
+		return false;
+	for (int c = 0; c < 3; c++)
+		same &= !memcmp(p->a[c], p->b[c], n * sizeof *p->a[c]);
+	return same;
+}
+
+static void gathered(const size_t cells[3], int order)
+{
+	static const char *const kernels[] = {"ngp", "cic", "tsc", "m6prime"};
+	struct problem p;
+	bool left = false, same = true;
+	begin(&p, cells, PM_PERIODIC, order, 1);
+	check(!pm_gradient_leave(&p.gradient, &left) && left && pm_gradient_later_of(p.gradient.target), "%zux%zux%zu, order %d: it is left to be made",
+		cells[0], cells[1], cells[2], order);
+	for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
+		same &= equal(&p, MOST, kernels[k]) && equal(&p, 90, kernels[k]);
+	check(same, "what m2p makes of the potential has the bytes of what it reads");
+	struct pm_field *phi = pm_frame_field(p.f, "mesh", "phi");
+	phi->use = PM_USE_CHANGE;
+	if (pm_field_ready(phi))
+		exit(1);
+	for (size_t i = 0; i < p.points; i++)
+		pm_out(phi, 0)[i] = 7;
+	same = pm_in(phi, 0)[p.points - 1] == 7;
+	for (int c = 0; c < 3; c++)
+		same &= !memcmp(p.at_once[c], pm_in(p.gradient.target, c), p.points * sizeof *p.at_once[c]);
+	check(same && !pm_gradient_later_of(p.gradient.target), "who asks has the gradient of the potential as it was");
+	end(&p);
+}
+
+static void at_once(const char *why, const size_t cells[3], enum pm_face face, int order, double size)
+{
+	struct problem p;
+	bool left = true;
+	begin(&p, cells, face, order, size);
+	check(!pm_gradient_leave(&p.gradient, &left) && !left, "made at once: %s", why);
+	end(&p);
+}
+
+int main(void)
+{
+	for (int order = 2; order <= 6; order += 2) {
+		gathered((const size_t[]){40, 33, 18}, order);
+		gathered((const size_t[]){7, 64, 9}, order);
+	}
+	at_once("walls", (const size_t[]){16, 16, 16}, PM_WALL, 2, 1);
+	at_once("an axis no longer than its differences", (const size_t[]){6, 16, 16}, PM_PERIODIC, 6, 1);
+	at_once("values that may be infinite", (const size_t[]){16, 16, 16}, PM_PERIODIC, 2, 1e308);
+	return check_done();
+}
