@@ -5,7 +5,7 @@
 
 #include "stage/stage.h"
 
-enum { PM_RANKS_MOST = 64 }; /* rehearsed: a socket for each pair */
+enum { PM_RANKS_MOST = 64 }; /* rehearsed: a lane of shared memory for each pair */
 
 int pm_ranks_launch(void);                           /* under a launcher: opens its world. 0 or failure */
 int pm_ranks_rehearse(int n);                        /* --ranks. 0 or failure */

@@ -1,33 +1,30 @@
-/* A world of n ranks on this machine: processes joined by socket pairs. For tests: what MPI does over a network, these do in milliseconds, under sanitizers,
- * with delays and a death at a chosen call. A rank that has died is seen by all others, because its sockets close.
+/* A world of n ranks on this machine: processes joined by lanes in shared memory. For tests: what MPI does over a network, these do in milliseconds, under
+ * sanitizers, with delays and a death at a chosen call, which all others see.
  * PM_REHEARSE="seed=3 delay=500 kill=2:17": each call waits up to 500 us, at random from the seed; rank 2 is killed at its 17th call. memory=1:17: from its
  * 17th call on rank 1 gets no more memory. limit=1:4096: rank 1 cannot write beyond 4096 bytes of a file. one-thread: a call where threads work side by side
  * ends the rank, because with MPI only its first thread may call.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <errno.h>
-#include <fcntl.h>
 #include <omp.h>
-#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "world/lanes.h"
 #include "world/world.h"
 
 struct rehearsal {
 	int n;
-	int *peer;      /* a socket to each rank; -1 to this one */
+	struct pm_lanes *lanes;
 	pid_t *pid;     /* rank 0: of each rank; 0: not one, or waited for */
 	struct queue {
 		size_t at, done; /* message of the list, bytes of it */
 	} *in, *out;    /* by rank */
-	struct pollfd *poll;
+	bool *gone;     /* by rank: seen to have ended */
 	uint64_t seed, calls;
 	double delay;   /* [us] */
 	bool one_thread;
@@ -72,35 +69,20 @@ static int lost(struct rehearsal *r, int rank)
 	return -1;
 }
 
-/* Bytes of one message; 0, or -1 where the other end is closed. */
-static int carry(int socket, const struct pm_message_part *part, size_t *done, bool out)
-{
-	while (*done < part->bytes) {
-		char *data = (char *)part->data + *done;
-		const ssize_t k = out ? send(socket, data, part->bytes - *done, MSG_NOSIGNAL) : recv(socket, data, part->bytes - *done, 0);
-		if (k < 0 && (errno == EAGAIN || errno == EINTR))
-			return 0;
-		if (k <= 0)
-			return -1;
-		*done += (size_t)k;
-	}
-	return 0;
-}
-
 /* To or from one rank, as far as it goes now; whether something is left. */
-static int advance(struct rehearsal *r, int rank, struct queue *q, size_t n, const struct pm_message_part *list, bool out, bool *left)
+static bool advance(struct rehearsal *r, int rank, struct queue *q, size_t n, const struct pm_message_part *list, bool out)
 {
 	for (; q->at < n; q->at++, q->done = 0) {
-		if (list[q->at].rank != rank)
+		const struct pm_message_part *part = list + q->at;
+		if (part->rank != rank || q->done == part->bytes)
 			continue;
-		if (carry(r->peer[rank], list + q->at, &q->done, out))
-			return lost(r, rank);
-		if (q->done < list[q->at].bytes) {
-			*left = true;
-			return 0;
-		}
+		char *data = (char *)part->data + q->done;
+		const size_t rest = part->bytes - q->done;
+		q->done += out ? pm_lanes_send(r->lanes, rank, data, rest) : pm_lanes_take(r->lanes, rank, data, rest);
+		if (q->done < part->bytes)
+			return true;
 	}
-	return 0;
+	return false;
 }
 
 static int messages(struct pm_transport *t, size_t nout, const struct pm_message_part *out, size_t nin, const struct pm_message_part *in)
@@ -109,18 +91,26 @@ static int messages(struct pm_transport *t, size_t nout, const struct pm_message
 	memset(r->in, 0, (size_t)r->n * sizeof *r->in);
 	memset(r->out, 0, (size_t)r->n * sizeof *r->out);
 	for (;;) {
-		nfds_t waits = 0;
+		const uint32_t rings = pm_lanes_rings(r->lanes);
+		int from = -1, ended = -1;
+		bool room = false;
 		for (int k = 0; k < r->n; k++) {
-			bool gives = false, takes = false;
-			if (k != t->rank && (advance(r, k, r->out + k, nout, out, true, &gives) || advance(r, k, r->in + k, nin, in, false, &takes)))
-				return -1;
-			if (gives || takes)
-				r->poll[waits++] = (struct pollfd){r->peer[k], (short)((gives ? POLLOUT : 0) | (takes ? POLLIN : 0)), 0};
+			const bool gives = k != t->rank && advance(r, k, r->out + k, nout, out, true);
+			const bool takes = k != t->rank && advance(r, k, r->in + k, nin, in, false);
+			room |= gives;
+			from = takes ? k : from;
+			ended = (gives || takes) && r->gone[k] ? k : ended;
 		}
-		if (!waits)
-			return 0;
-		poll(r->poll, waits, -1);
+		if (ended >= 0)
+			return lost(r, ended);
+		if (from < 0 && !room)
+			break;
+		if (pm_lanes_sleep(r->lanes, rings, from, room))
+			for (int k = 0; k < r->n; k++) /* what they had sent before their end is taken first */
+				r->gone[k] |= k != t->rank && pm_lanes_gone(r->lanes, k);
 	}
+	pm_lanes_awake(r->lanes);
+	return 0;
 }
 
 static int move(struct pm_transport *t, size_t nout, const struct pm_message_part *out, size_t nin, const struct pm_message_part *in)
@@ -223,10 +213,8 @@ static int turn(struct pm_transport *t, const uint64_t *out, uint64_t *in)
 
 static void leave(struct rehearsal *r)
 {
-	for (int k = 0; r->peer && k < r->n; k++)
-		if (r->peer[k] >= 0)
-			close(r->peer[k]);
-	free(r->peer), free(r->pid), free(r->in), free(r->out), free(r->poll), free(r);
+	pm_lanes_free(r->lanes);
+	free(r->pid), free(r->in), free(r->out), free(r->gone), free(r);
 }
 
 /* How rank k has ended: whether badly. */
@@ -247,9 +235,8 @@ static int finish(struct pm_transport *t)
 {
 	struct rehearsal *r = t->self;
 	bool bad = killed;
-	for (int k = 0; k < r->n; k++)
-		if (r->peer[k] >= 0)
-			close(r->peer[k]), r->peer[k] = -1;
+	pm_lanes_free(r->lanes);
+	r->lanes = NULL;
 	for (int k = 1, how; k < r->n && !t->rank; k++)
 		if (r->pid[k] > 0 && waitpid(r->pid[k], &how, 0) == r->pid[k])
 			bad |= ended(r, k, how);
@@ -305,31 +292,6 @@ static void read_faults(struct rehearsal *r)
 	fault(text, "limit=", &r->limit_rank, &r->limit);
 }
 
-/* All pairs; pair[a * n + b] is the end of rank a towards rank b. */
-static int pairs_make(int n, int *pair)
-{
-	for (int i = 0; i < n * n; i++)
-		pair[i] = -1;
-	for (int a = 0; a < n; a++)
-		for (int b = a + 1; b < n; b++) {
-			int both[2];
-			if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, both))
-				return pm_fail_errno("cannot join %d ranks (fewer: --ranks, or ulimit -n)", n);
-			pair[a * n + b] = both[0];
-			pair[b * n + a] = both[1];
-		}
-	return 0;
-}
-
-static void keep(struct rehearsal *r, int rank, const int *pair)
-{
-	for (int a = 0; a < r->n; a++)
-		for (int b = 0; b < r->n; b++)
-			if (a != rank && a != b)
-				close(pair[a * r->n + b]);
-	memcpy(r->peer, pair + rank * r->n, (size_t)r->n * sizeof *r->peer);
-}
-
 static struct rehearsal *rehearsal_new(int n)
 {
 	struct rehearsal *r = calloc(1, sizeof *r);
@@ -337,14 +299,11 @@ static struct rehearsal *rehearsal_new(int n)
 	if (!r)
 		return NULL;
 	r->n = n;
-	r->peer = malloc(k * sizeof *r->peer);
-	for (int i = 0; r->peer && i < n; i++)
-		r->peer[i] = -1;
 	r->pid = calloc(k, sizeof *r->pid);
 	r->in = calloc(k, sizeof *r->in);
 	r->out = calloc(k, sizeof *r->out);
-	r->poll = calloc(k, sizeof *r->poll);
-	if (r->peer && r->pid && r->in && r->out && r->poll)
+	r->gone = calloc(k, sizeof *r->gone);
+	if (r->pid && r->in && r->out && r->gone)
 		return r;
 	leave(r);
 	return NULL;
@@ -353,20 +312,19 @@ static struct rehearsal *rehearsal_new(int n)
 int pm_transport_rehearse(struct pm_transport *t, int n)
 {
 	struct rehearsal *r = rehearsal_new(n);
-	int *pair = malloc((size_t)(n * n) * sizeof *pair), status = 0, rank = 0;
+	int status = 0, rank = 0;
 	struct rlimit files;
-	if (!r || !pair) {
-		if (r)
-			leave(r);
-		free(pair);
+	if (!r)
 		return pm_no_memory();
-	}
 	read_faults(r);
 	if (!getrlimit(RLIMIT_NOFILE, &files) && files.rlim_cur < files.rlim_max) {
 		files.rlim_cur = files.rlim_max;
 		setrlimit(RLIMIT_NOFILE, &files);
 	}
-	status = pairs_make(n, pair);
+	if (!(r->lanes = pm_lanes_new(n))) {
+		leave(r);
+		return -PM_DATA;
+	}
 	const pid_t first = getpid();
 	for (int k = 1; k < n && !rank && !status; k++) {
 		if ((r->pid[k] = fork()) < 0)
@@ -378,8 +336,7 @@ int pm_transport_rehearse(struct pm_transport *t, int n)
 		limit(RLIMIT_FSIZE, r->limit);
 	if (rank && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() != first)
 		_exit(PM_DATA);
-	keep(r, rank, pair);
-	free(pair);
+	pm_lanes_keep(r->lanes, rank);
 	*t = (struct pm_transport){.rank = rank, .size = n, .self = r, .share = share, .reduce = reduce, .turn = turn, .move = move, .abort = give_up,
 		.close = finish, .reason = reason};
 	if (status) { /* those that have started see that rank 0 leaves */

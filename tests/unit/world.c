@@ -9,7 +9,7 @@
 #include "world/world.h"
 #include "check.h"
 
-enum { watchdog = 60 /* s */, places = 5000, most_ranks = 7 };
+enum { watchdog = 60 /* s */, places = 5000, many_places = 200000 /* more than the lanes of a rehearsal hold */, most_ranks = 7 };
 
 static int wrong; /* on this rank */
 
@@ -137,12 +137,12 @@ static void tell(void)
 	must(!pm_world_tell(text, sizeof text) && !strcmp(text, "rank 0"), "tell brings the bytes of rank 0");
 }
 
-static void recut(int a, int b)
+static void recut(uint64_t n, int a, int b)
 {
 	uint64_t from[most_ranks + 1], to[most_ranks + 1];
-	stretches(from, places, a), stretches(to, places, b);
+	stretches(from, n, a), stretches(to, n, b);
 	const int me = pm_world_rank();
-	uint64_t *in = calloc(places, 8), *out = calloc(places, 8);
+	uint64_t *in = calloc(n, 8), *out = calloc(n, 8);
 	for (uint64_t i = from[me]; i < from[me + 1]; i++)
 		in[i - from[me]] = value(i);
 	must(!pm_world_recut(0, from, to, 8, in, out), "recut");
@@ -160,7 +160,8 @@ static void results(void)
 	tell();
 	for (int a = 0; a < 4; a++)
 		for (int b = 0; b < 4; b++)
-			recut(a, b);
+			recut(places, a, b);
+	recut(many_places, 1, 3), recut(many_places, 0, 2), recut(many_places, 3, 0);
 	static const uint64_t planes[] = {1, 2, 5, 17, 64};
 	for (int i = 0; i < 5; i++)
 		for (int kind = 0; kind < 4; kind++)
@@ -242,7 +243,7 @@ static void cut(void)
 	pm_world_cut(7);
 	share_and_gather();
 	exchange();
-	recut(1, 3);
+	recut(places, 1, 3);
 	halo(17, 3, true, 3);
 	pm_world_cut((size_t)1 << 30);
 }
