@@ -211,6 +211,7 @@ measure_errors() {
 	done
 	[ ${#list[@]} != 0 ] || return 0
 	[ ! -t 2 ] || bar=(--bar)
+	with_parallel=1
 	export work against field set
 	export -f member_error compare compare_words norms_scmp norms_exact
 	doing="${#list[@]} were to be compared"
