@@ -111,12 +111,12 @@ static void release(struct pm_stage *s)
 
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .cosmetic = true, PM_AT(set), .text = "measure only this set (default: all)"},
-	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .cosmetic = true, PM_AT(columns),
-		.text = "print these columns in this order (default: all)"},
+	{.name = "columns", .kind = PM_LIST, .choices = pm_column_names, .numbered = pm_columns_numbered, .cosmetic = true, PM_AT(columns),
+		.text = "print these columns in this order (default: all), also mode_M and radius_F, as --modes and --radii add them"},
 	{.name = "radii", .kind = PM_VECTOR, .cosmetic = true, PM_AT(radii),
 		.text = "add Lagrangian radii about the centre of mass, for these fractions of the mass"},
 	{.name = "modes", .kind = PM_VECTOR, .cosmetic = true, PM_AT(modes),
-		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, the first component of others); "
+		.text = "add the amplitudes of these waves along x of the law's field (u.y of vortices, E.y of light, else the first component); "
 			"in open space the amplitudes [length] of these waves around a vortex, a ring of vortices or a vortex ring"},
 	{.name = "separation", .kind = PM_LIST, .unit = "SET", PM_AT(separation),
 		.text = "add the root mean square distance of two sets, particle by particle, and of their velocities: a run and its shadow (stack)"},

@@ -84,6 +84,12 @@ void pm_run_end_tell(struct pm_run_end *e, const struct pm_stage *cycle, const s
 	if (e->told || isnan(e->time) || !(off > (step > span ? round_off * step : 0.01 * span)))
 		return;
 	e->told = true;
-	pm_note(cycle, "ended at time %.9g after %lld step%s of dt %.9g, not at %.9g: it ends at the nearest step (%s)", f->time, (long long)steps,
-		steps == 1 ? "" : "s", f->dt, e->time, setter(s) ? "a shorter dt" : "--exact makes the last one shorter, or a shorter dt");
+	if (steps && f->dt < 0 && e->time > began)
+		pm_note(cycle, "ended at time %.9g after %lld step%s of dt %.9g: it goes back in time, away from -t %.9g (-n STEPS, or a time before %.9g)",
+			f->time, (long long)steps, steps == 1 ? "" : "s", f->dt, e->time, began);
+	else if (!steps && off > step)
+		pm_note(cycle, "no step: the frame is at time %.9g, beyond -t %.9g (-t is the time at the end, not the length of the run)", f->time, e->time);
+	else
+		pm_note(cycle, "ended at time %.9g after %lld step%s of dt %.9g, not at %.9g: it ends at the nearest step (%s)", f->time, (long long)steps,
+			steps == 1 ? "" : "s", f->dt, e->time, setter(s) ? "a shorter dt" : "--exact makes the last one shorter, or a shorter dt");
 }

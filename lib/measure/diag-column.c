@@ -166,13 +166,23 @@ bool pm_diag_find(struct pm_diag_request *g, const char *name, struct pm_diag_co
 		}
 	if (!strncmp(name, "exact_", strlen("exact_")))
 		return *column = pm_diag_exact(name + strlen("exact_")), true;
-	if (numbered(name, "radius_", &x) && x > 0 && x <= 1 && g->nradii < PM_COMPONENTS) {
-		g->fraction[g->nradii] = x;
-		return *column = pm_diag_radius(g, g->nradii++), true;
-	}
-	if (numbered(name, "mode_", &x) && x >= 1 && x <= 1e6 && x == floor(x) && g->nmodes < PM_COMPONENTS) {
-		g->mode[g->nmodes] = (int)x;
-		return *column = pm_diag_mode(g, g->nmodes++), true;
+	int k = 0;
+	if (numbered(name, "radius_", &x) && x > 0 && x <= 1) {
+		while (k < g->nradii && g->fraction[k] != x)
+			k++;
+		if (k < PM_COMPONENTS) {
+			g->nradii = k < g->nradii ? g->nradii : k + 1;
+			g->fraction[k] = x;
+			return *column = pm_diag_radius(g, k), true;
+		}
+	} else if (numbered(name, "mode_", &x) && x >= 1 && x <= 1e6 && x == floor(x)) {
+		while (k < g->nmodes && g->mode[k] != (int)x)
+			k++;
+		if (k < PM_COMPONENTS) {
+			g->nmodes = k < g->nmodes ? g->nmodes : k + 1;
+			g->mode[k] = (int)x;
+			return *column = pm_diag_mode(g, k), true;
+		}
 	}
 	return false;
 }

@@ -23,6 +23,17 @@ static int check(const struct pm_diag_choice *c)
 	return 0;
 }
 
+/* A column of --columns that cannot be made. */
+static int lacking(const struct pm_diag_request *g, const char *name)
+{
+	if (!strncmp(name, "mode_", strlen("mode_")) || !strncmp(name, "radius_", strlen("radius_")))
+		return g->nmodes == PM_COMPONENTS || g->nradii == PM_COMPONENTS ?
+			pm_fail(PM_USAGE, "--columns %s: at most %d of its kind", name, PM_COMPONENTS) :
+			pm_fail(PM_USAGE, "--columns %s is no wave (mode_1: 1 to 1e6) and no fraction of the mass (radius_0.5)", name);
+	return pm_fail(PM_USAGE, "--columns %s needs %s", name, !strncmp(name, "flux", strlen("flux")) ?
+		"the box (--flux-box LOW,HIGH, its corners)" : "the two sets (--separation SET,SET)");
+}
+
 /* mode:M or a column, and T0:T1. */
 static int take_growth(struct pm_diag_table *t)
 {
@@ -41,7 +52,8 @@ static int take_growth(struct pm_diag_table *t)
 	snprintf(mode, sizeof mode, "mode_%s", wave ? c->growth + strlen("mode:") : "");
 	if (!pm_diag_find(g, wave ? mode : c->growth, &t->growth))
 		return pm_fail(PM_USAGE, "--growth '%s' (mode:1 for waves in the box along x, or a column of diag)", c->growth);
-	t->mode = wave ? g->nmodes - 1 : -1;
+	for (t->mode = wave ? g->nmodes - 1 : -1; wave && g->mode[t->mode] != atoi(mode + strlen("mode_")); t->mode--)
+		;
 	t->series.column = !wave;
 	return 0;
 }
@@ -54,16 +66,15 @@ int pm_diag_table_init(struct pm_diag_table *t, const struct pm_diag_choice *c, 
 		.flux = c->flux, .nflux = c->nflux}};
 	t->readable = (struct pm_readable){.width = c->width, .asked = c->ncolumns > 0};
 	struct pm_diag_column column;
-	for (int i = 0; i < c->ncolumns; i++)
-		if (!pm_diag_find(g, c->columns[i], &column))
-			return pm_fail(PM_USAGE, "--columns %s needs %s", c->columns[i], !strncmp(c->columns[i], "flux", strlen("flux")) ?
-				"the box (--flux-box LOW,HIGH, its corners)" : "the two sets (--separation SET,SET)");
 	if (check(c))
 		return -PM_USAGE;
 	for (int k = 0; k < c->nradii; k++)
 		g->fraction[k] = c->radii[k];
 	for (int k = 0; k < c->nmodes; k++)
 		g->mode[k] = (int)c->modes[k];
+	for (int i = 0; i < c->ncolumns; i++)
+		if (!pm_diag_find(g, c->columns[i], &column))
+			return lacking(g, c->columns[i]);
 	return take_growth(t);
 }
 

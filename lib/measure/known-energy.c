@@ -58,12 +58,13 @@ enum pm_pairs pm_pairs_unasked(const struct pm_frame *f, const struct pm_law *la
 		open = open && f->face[d / 2][d % 2] == PM_OPEN;
 	for (size_t i = 0; i < f->nsets && how->strength; i++)
 		n += (!how->set || !strcmp(how->set, f->sets[i]->name)) && pm_frame_field(f, f->sets[i]->name, how->strength) ? f->sets[i]->n : 0;
-	if (!n || !how->potential || how->vector || !law->coefficient || !(law->dims >> f->dim & 1) || how->unknown[0])
+	const bool pairs = !how->vector && law->coefficient && law->dims >> f->dim & 1; /* is there a sum over pairs? */
+	if (!n || !how->potential || how->unknown[0] || !(pairs || how->vector))
 		return PM_PAIRS_NO;
-	if (!open)
+	if (!open || !pairs)
 		snprintf(why, 200, "no mesh holds %s and %s (p2m | poisson-fft, or poisson-mg, makes them)", how->density, how->potential);
 	else if (n > PM_PAIRS_UNASKED)
 		snprintf(why, 200, "no mesh and no particle holds %s, and the pairs of more than %d particles are not summed unasked (p2m | poisson-fft, pp "
 			"--potential, or diag --pair)", how->potential, PM_PAIRS_UNASKED);
-	return !open ? PM_PAIRS_NO : n > PM_PAIRS_UNASKED ? PM_PAIRS_MANY : PM_PAIRS_SUM;
+	return !open || !pairs ? PM_PAIRS_NO : n > PM_PAIRS_UNASKED ? PM_PAIRS_MANY : PM_PAIRS_SUM;
 }

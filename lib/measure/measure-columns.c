@@ -29,6 +29,8 @@ const char *const pm_column_names[PM_NAMED_COLUMNS + 1] = {
 	[PM_COLUMNS] = "flux", "flux_enclosed", "field_residual", "field_curl", "separation", "separation_v",
 };
 
+const char *const pm_columns_numbered[] = {"mode_", "radius_", NULL};
+
 bool pm_column_exists(enum pm_column c, int dim, int vdim)
 {
 	const int most = vdim > dim ? vdim : dim;

@@ -71,6 +71,7 @@ enum pm_field_column { PM_FLUX, PM_FLUX_ENCLOSED, PM_FIELD_RESIDUAL, PM_FIELD_CU
 /* Then those of the field, and the separation of two sets in position and velocity, which options ask for. */
 enum { PM_NAMED_COLUMNS = (int)PM_COLUMNS + (int)PM_FIELD_COLUMNS + 2 };
 extern const char *const pm_column_names[PM_NAMED_COLUMNS + 1]; /* NULL ends */
+extern const char *const pm_columns_numbered[];                 /* further ones, with a number behind; NULL ends */
 
 /* Of every set (species-moments.c): particles; kinetic energy; mean velocity x, y, z; covariance of the velocities xx, yy, zz, xy, xz, yz. */
 enum pm_moment { PM_MOMENT_PARTICLES, PM_MOMENT_KINETIC, PM_MOMENT_DRIFT, PM_MOMENT_COVARIANCE = PM_MOMENT_DRIFT + 3,

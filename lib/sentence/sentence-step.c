@@ -5,7 +5,8 @@ enum { most_passes = 512 }; /* ias15 iterates, and rejects steps */
 
 int pm_sentence_ready(struct pm_sentence *s, struct pm_frame **f)
 {
-	return (*f)->substep == 0 && pm_sentence_needs_priming(s, *f) ? pm_sentence_prime(s, f) : 0;
+	const int needs = (*f)->substep == 0 ? pm_sentence_needs_priming(s, *f) : 0;
+	return needs > 0 ? pm_sentence_prime(s, f) : needs;
 }
 
 int pm_sentence_step(struct pm_sentence *s, struct pm_frame **f)

@@ -292,11 +292,22 @@ int pm_sentence_end(struct pm_sentence *s)
 	return 0;
 }
 
-/* Tries declare() on a header without data: it reports missing fields without computing anything. */
-bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
+/* Does the running word drop a change that a word in front of it made? */
+static bool undoes(const struct word *w, const struct pm_frame *h)
+{
+	bool any = false;
+	for (size_t i = 0; i < h->ndropped && !w->makes; i++)
+		any |= h->dropped[i]->role == PM_CHANGE;
+	return any;
+}
+
+/* Tries declare() on a header without data: it reports missing fields without computing anything. What a word behind the force drops is missing
+ * in every pass: no priming helps. */
+int pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 {
 	struct pm_frame *h = pm_frame_header(f);
-	bool needs = false, known = h != NULL;
+	bool needs = false, known = h != NULL, made = false;
+	const struct word *undid = NULL;
 	for (int i = 0; i < s->nwords && known && !needs; i++) {
 		struct word *w = s->word + i;
 		if (!w->stage)
@@ -306,10 +317,16 @@ bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 		w->stage->trial = false;
 		needs = status == -PM_MISSING && !w->makes;
 		known = status >= 0;
+		made |= w->makes;
+		if (w->makes || (made && known && undoes(w, h)))
+			undid = w->makes ? NULL : w;
+		if (needs && undid)
+			pm_fail(PM_USAGE, "'%s' between the force and '%s' changes the state, and drops what was computed of it (behind the last push, or in "
+				"front of the words of the force)", undid->stage->word, w->stage->word);
 		pm_frame_settle(h);
 	}
 	pm_frame_free(h);
-	return needs;
+	return needs && undid ? -PM_USAGE : needs;
 }
 
 /* What a word does with the field: 0 nothing, 1 uses it, -1 it is gone or made anew; h: the header before the word, then behind it. */

@@ -11,8 +11,9 @@ struct pm_sentence;
 struct pm_sentence *pm_sentence_new(const char *text, bool fused, const struct pm_list *moves);
 void pm_sentence_notes(struct pm_sentence *s, const struct pm_stage *as); /* before the first pass: its words are as verbose or quiet as this one */
 int pm_sentence_free(struct pm_sentence *s); /* 0, or failure with the way a process ended */
-/* True if a word that changes state needs a change field that neither the frame nor an earlier word supplies. */
-bool pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
+/* 1 if a word that changes state needs a change field that neither the frame nor an earlier word supplies, else 0; failure where a word in front of it drops
+ * that field in every pass. */
+int pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f);
 /* Would the next pass use the values of this field of f? Not if a word drops it or makes it anew before any other reads it. A foreign word may read it. */
 bool pm_sentence_uses(struct pm_sentence *s, const struct pm_frame *f, const struct pm_field *field);
 /* Before a run: writes to the report of f which forces will act, as push does when they have acted (stream/acting-forces.h). Headers alone, no data. */

@@ -62,6 +62,8 @@ static int not_a_choice(const struct pm_option *o, const char *value)
 	const char *near = pm_nearest(value, o->choices);
 	for (int i = 0; o->choices[i]; i++)
 		snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", o->choices[i]);
+	if (strlen(list) + 1 == sizeof list) /* cut: too many to be read here */
+		snprintf(list, sizeof list, "those that --help lists");
 	if (near)
 		return pm_fail(PM_USAGE, "--%s '%s' is not one of %s (did you mean %s?)", o->name, value, list, near);
 	return pm_fail(PM_USAGE, "--%s '%s' is not one of %s", o->name, value, list);
@@ -72,6 +74,11 @@ static bool is_choice(const struct pm_option *o, const char *value)
 	for (int i = 0; o->choices && o->choices[i]; i++)
 		if (!strcmp(o->choices[i], value))
 			return true;
+	for (int i = 0; o->numbered && o->numbered[i]; i++) {
+		const size_t n = strlen(o->numbered[i]);
+		if (!strncmp(value, o->numbered[i], n) && value[n] && strspn(value + n, "0123456789.e-") == strlen(value + n))
+			return true;
+	}
 	return !o->choices;
 }
 

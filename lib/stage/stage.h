@@ -42,6 +42,7 @@ struct pm_option {
 	const char *fallback; /* the default, as one would type it; NULL none */
 	double low, high;     /* inclusive range of numbers; both 0: any */
 	const char *const *choices; /* of a PM_WORD (and of the items of a PM_LIST, if not NULL) */
+	const char *const *numbered; /* further ones, up to the number that ends them ("mode_"); NULL none */
 	const char *text;     /* one sentence */
 	bool cosmetic;        /* does not change the results: kept out of the history */
 	size_t offset;        /* in the config struct */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/in-order.h"
 #include "stream/columns.h"
 #include "stream/over-stretches.h"
@@ -49,9 +50,12 @@ struct plan {
 	int first;                 /* column that holds the entry of the field */
 };
 
+static int no_names(void) { return pm_fail(PM_DATA, "no column 'x' (the first line of the table names its columns: x y z vx vy vz mass ...)"); }
+
 /* Groups the columns into fields. */
 static int group(int n, const struct pm_table_column *column, const struct pm_columns_choice *choice, struct plan *plan)
 {
+	double number;
 	for (int i = 0; i < n; i++) {
 		bool whole = among(column[i].name, choice->text);
 		plan[i].component = meaning(column[i].name, plan[i].field);
@@ -62,7 +66,8 @@ static int group(int n, const struct pm_table_column *column, const struct pm_co
 			if (plan[k].first == k && !strcmp(plan[k].field, plan[i].field)) {
 				plan[i].first = k;
 				if (plan[i].component < 0 || plan[k].component < 0)
-					return pm_fail(PM_DATA, "the columns '%s' and '%s' are the same field", column[k].name, column[i].name);
+					return pm_decimal_read(column[i].name, &number) ? no_names() :
+						pm_fail(PM_DATA, "the columns '%s' and '%s' are the same field", column[k].name, column[i].name);
 			}
 		if (plan[i].first >= 0)
 			plan[plan[i].first].components++;
@@ -90,7 +95,7 @@ static int positions(int n, const struct plan *plan, int dim)
 				return pm_fail(PM_DATA, "%d position columns, but --dim is %d", plan[i].components, dim);
 			return plan[i].components;
 		}
-	return pm_fail(PM_DATA, "no column 'x' (the first line of the table names its columns: x y z vx vy vz mass ...)");
+	return no_names();
 }
 
 static struct pm_field *field_make(struct pm_frame *f, const struct pm_columns_choice *choice, const struct plan *p, const char *column, bool text)

@@ -48,7 +48,7 @@ int pm_line_parse(const char text[PM_LINE], struct pm_line *line)
 	if (!memcmp(copy, "\211HDF", 4))
 		return pm_fail(PM_DATA, "this is an HDF5 file (give its name, which ends in .h5, or put sh5 FILE before this word)");
 	if (memcmp(copy, "PMPIPE/", 7))
-		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
+		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab - reads text, sh5 reads HDF5)");
 	if (memcmp(copy, "PMPIPE/1 ", prefix))
 		return pm_fail(PM_DATA, "the stream has version %ld, this program reads version 1 (use a newer pmpipe)", strtol(copy + 7, NULL, 10));
 	size_t n = PM_LINE - 1, k = strspn(copy + prefix, "abcdefghijklmnopqrstuvwxyz");

@@ -315,7 +315,7 @@ int pm_read_header(struct pm_reader *r, struct pm_frame **f)
 	if (k == 0)
 		return pm_fail(PM_DATA, "the input ends without an end marker: it was cut (run the whole pipeline again)");
 	if (k < PM_LINE && (k < 7 || memcmp(text, "PMPIPE/", 7)))
-		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab reads text, sh5 reads HDF5)");
+		return pm_fail(PM_DATA, "this is not a pmpipe stream (stab - reads text, sh5 reads HDF5)");
 	if (k < PM_LINE)
 		return pm_fail(PM_DATA, "the input ends in a line: it was cut (run the whole pipeline again)");
 	int status = pm_line_parse(text, &l);

@@ -89,6 +89,18 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	[[ $output == *"no word that completes a step"* ]]
 }
 
+@test "a word that changes the state between the force and push is named: what it drops, no priming brings back" {
+	pinit lamb-oseen --cells 16 >a
+	for word in walk remesh; do
+		for engine in fused pipes; do
+			run -2 --separate-stderr cycle -q --engine $engine -n 1 "p2m | poisson-fft | mgrad | m2p | $word | push lsrk3" <a
+			[[ $stderr == "cycle: step 1: '$word' between the force and 'push lsrk3' changes the state"*"behind the last push"* ]]
+		done
+		cycle -q -n 1 "p2m | poisson-fft | mgrad | m2p | push lsrk3 | $word" <a >b
+		cycle -q -n 1 "$word | p2m | poisson-fft | mgrad | m2p | push lsrk3" <a >b
+	done
+}
+
 @test "what cannot be part of a sentence is refused before input is read" {
 	for word in 'sls' 'pinit plummer' 'cycle -n 1 pp' '' 'pp | | push kick' "pp 'open" 'pp --sofening 1'; do
 		run -2 bash -c "cycle -n 1 \"$word\" < /dev/null > b"

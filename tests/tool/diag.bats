@@ -34,6 +34,22 @@ load ../helper
 	[[ $stderr == *mass* ]]
 }
 
+@test "diag: --columns takes radius_F and mode_M by the names that --radii and --modes print, in any order and beside them" {
+	pinit plummer -n 100 >a
+	diag --columns time --radii 0.5,0.1 a >b
+	diag --columns time,radius_0.5,radius_0.1 a | same_as - b
+	[ "$(diag --columns radius_0.1,time --radii 0.5 a | head -n 1)" = "$(printf 'radius_0.1\ttime\tradius_0.5')" ]
+	pinit landau -n 1000 --cells 16 | cycle -n 12 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' >a
+	diag --columns time --modes 2,1 --growth mode:1 a >b
+	diag --columns time,mode_2,mode_1 --growth mode:1 a | same_as - b
+	run -2 diag --columns mode_1.5 a
+	[[ $output == *"mode_1.5 is no wave"* ]]
+	run -2 diag --columns radius_2 a
+	[[ $output == *"no fraction of the mass"* ]]
+	run -2 diag --columns mode_x a
+	[[ $output == "diag: --columns 'mode_x' is not one of those that --help lists" ]] # the whole list would not fit
+}
+
 @test "PM-09: plummer has the exact energy, Lagrangian radii and virial ratio" {
 	# radius_F is a fraction of the mass inside the truncation, so F = 0.1/0.985185 ... is a tenth of the total mass of the reference.
 	# with 1e4 particles the energy scatters by 0.7 %, the truncation at 10 a costs 0.5 %: the mean of four seeds is within the case's 1 %
@@ -292,6 +308,13 @@ load ../helper
 	# images behind walls and periodic boxes are no sum over pairs
 	run -0 --separate-stderr bash -c 'pinit plummer -n 30 --faces wall | diag --columns energy'
 	[[ ${lines[1]} == nan && $stderr == "diag: energy is nan: no mesh holds rho and phi (p2m | poisson-fft, or poisson-mg, makes them)" ]]
+}
+
+@test "diag: the energy of vortices in space is nan for want of omega and psi, not of a velocity" {
+	pinit vortex-ring --cells 16 2>/dev/null >a
+	diag --columns energy a 2>&1 | grep -qx 'diag: energy is nan: no mesh holds omega and psi (p2m | poisson-fft, or poisson-mg, makes them)'
+	diag --format table a 2>&1 | grep -q '^diag: energy cannot be computed: no mesh holds omega and psi'
+	[[ $(p2m a | poisson-fft | diag --columns energy 2>&1 | tail -n 1) == 0.* ]]
 }
 
 @test "diag decides anew for every run whether pairs are summed, and says where masses have no velocities" {

@@ -51,7 +51,7 @@ says() {
 	says '^sls: cut.pm: frame 1: the input ends in .*: it was cut' 'sls a.pm cut.pm b.pm'
 	says '^sls: open.pm: frame 3: the input ends without an end marker' 'sls open.pm b.pm'
 	says '^p2m: empty.pm: frame 1: no input: zero bytes' 'p2m a.pm empty.pm b.pm'
-	says '^sls: text: frame 1: this is not a pmpipe stream \(stab reads text' 'echo 1 2 3 >text; sls text'
+	says '^sls: text: frame 1: this is not a pmpipe stream \(stab - reads text' 'echo 1 2 3 >text; sls text'
 	says '^sls: \.: frame 1: cannot read: Is a directory' 'sls .'
 	says '^sls: frame 1: this is an HDF5 file .*sh5 FILE' 'sh5 a.pm -o a.h5; sls <a.h5'
 }

@@ -115,6 +115,9 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 		run -1 --separate-stderr bash -c "printf '$head\n' | stab -"
 		[ "${#stderr_lines[@]}" = 1 ]
 	done
+	printf '1 2 3 0 0 0 1\n4 5 6 0 0 0 1\n' >a # no line of names
+	run -1 stab a
+	[[ $output == *"no column 'x' (the first line of the table names its columns"* ]]
 }
 
 @test "columns NAME_0 NAME_1 are one field in any order of columns, a lone NAME_3 is refused" {
