@@ -37,6 +37,7 @@ void pm_fft_backward(const struct pm_fft *f, double *block);
 struct pm_fft_place {
 	double *at;
 	size_t step; /* [doubles] */
+	size_t some; /* 0, or how many rows there are: others are zero when read, and not wanted when written */
 };
 void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);
 void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);

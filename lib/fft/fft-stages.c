@@ -1,7 +1,8 @@
-/* The stages of the transforms of eight lines side by side (fft-block.c): butterflies of radix 2, 3, 4, 5, 7, 8, 11, 13 in registers. The first stage
- * reads where the lines are and the last one writes where they go, so that nothing is copied; a convolution multiplies between the last stage forward and
- * the first one back, which work on the same rows. Blocks that exceed the L1 cache with their twiddles (above 192 rows) go through the stages after the
- * first one piece by piece. Plain vector arithmetic without fused operations: the same bytes on every processor. Cost: 5 n log2 n per line, from L1.
+/* The stages of the transforms of eight lines side by side (fft-block.c): butterflies of radix 2, 3, 4, 5, 7, 8, 11, 13 in registers. The first stage reads
+ * where the lines are and the last one writes where they go, so that nothing is copied; a convolution multiplies between the last stage forward and the first
+ * one back, which work on the same rows. Of lines whose second half is zero, or not wanted, those two leave out its rows. Blocks that exceed the L1 cache
+ * with their twiddles (above 192 rows) go through the stages after the first one piece by piece. Plain vector arithmetic without fused operations: the same
+ * bytes on every processor. Cost: 5 n log2 n per line, from L1.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -9,107 +10,6 @@
 #include "fft/prime-dft.h"
 
 enum { L = PM_FFT_LINES, WHOLE = 192 };
-
-/* Odd p: pairs q and p-q share their products. */
-PM_SIMD_INLINE void dft_odd(int p, const double *cosine, const double *sine, bool back, struct lanes *a)
-{
-	struct lanes s[PM_PRIME / 2], d[PM_PRIME / 2], sum = a[0], first = a[0];
-	for (int q = 1; q <= p / 2; q++) {
-		s[q - 1] = plus(a[q], a[p - q]);
-		d[q - 1] = turn(minus(a[q], a[p - q]), back);
-		sum = plus(sum, s[q - 1]);
-	}
-	a[0] = sum;
-	for (int k = 1; k <= p / 2; k++) {
-		struct lanes even = first, odd = {{0}, {0}};
-		for (int q = 1; q <= p / 2; q++) {
-			double c = cosine[k * q % p], o = sine[k * q % p];
-			even.re += c * s[q - 1].re, even.im += c * s[q - 1].im;
-			odd.re += o * d[q - 1].re, odd.im += o * d[q - 1].im;
-		}
-		a[k] = plus(even, odd), a[p - k] = minus(even, odd);
-	}
-}
-
-/* One butterfly of elements m rows apart in x to the same of y, n apart. Radix 2, 4, 8 are written out, because the compiler would put arrays of them into
- * memory. w: twiddles or NULL for ones; BOTH: forward, times u (of each element and lane), back. */
-enum way { FORWARD, BACK, BOTH };
-PM_SIMD_INLINE struct lanes by(struct lanes a, const double *u)
-{
-	pm_simd_part t = *(const pm_simd_part_at *)u;
-	return (struct lanes){t * a.re, t * a.im};
-}
-
-PM_SIMD_INLINE void fly2(const struct c8 *x, size_t m, struct c8 *y, size_t n, const double *w, const double *u, enum way way)
-{
-	struct lanes a0 = take(x), a1 = take(x + m);
-	if (w && way == BACK)
-		a1 = twisted(a1, w, true);
-	struct lanes s = plus(a0, a1), d = minus(a0, a1);
-	if (way == BOTH) {
-		a0 = by(s, u), a1 = by(d, u + L / 2);
-		s = plus(a0, a1), d = minus(a0, a1);
-	}
-	put(y, s);
-	put(y + n, w && way != BACK ? twisted(d, w, false) : d);
-}
-
-PM_SIMD_INLINE void fly4(const struct c8 *x, size_t m, struct c8 *y, size_t n, const double *w, const double *u, enum way way)
-{
-	struct lanes a0 = take(x), a1 = take(x + m), a2 = take(x + 2 * m), a3 = take(x + 3 * m);
-	if (w && way == BACK)
-		a1 = twisted(a1, w, true), a2 = twisted(a2, w + 2, true), a3 = twisted(a3, w + 4, true);
-	dft4(&a0, &a1, &a2, &a3, way == BACK);
-	if (way == BOTH) {
-		a0 = by(a0, u), a1 = by(a1, u + L / 2), a2 = by(a2, u + L), a3 = by(a3, u + 3 * L / 2);
-		dft4(&a0, &a1, &a2, &a3, true);
-	}
-	if (w && way != BACK)
-		a1 = twisted(a1, w, false), a2 = twisted(a2, w + 2, false), a3 = twisted(a3, w + 4, false);
-	put(y, a0), put(y + n, a1), put(y + 2 * n, a2), put(y + 3 * n, a3);
-}
-
-PM_SIMD_INLINE void twist8(struct eight *a, const double *w, bool back)
-{
-	a->a1 = twisted(a->a1, w, back), a->a2 = twisted(a->a2, w + 2, back), a->a3 = twisted(a->a3, w + 4, back), a->a4 = twisted(a->a4, w + 6, back);
-	a->a5 = twisted(a->a5, w + 8, back), a->a6 = twisted(a->a6, w + 10, back), a->a7 = twisted(a->a7, w + 12, back);
-}
-
-PM_SIMD_INLINE void fly8(const struct c8 *x, size_t m, struct c8 *y, size_t n, const double *w, const double *u, enum way way)
-{
-	struct eight a = {take(x), take(x + m), take(x + 2 * m), take(x + 3 * m), take(x + 4 * m), take(x + 5 * m), take(x + 6 * m), take(x + 7 * m)};
-	if (w && way == BACK)
-		twist8(&a, w, true);
-	dft8(&a, way == BACK);
-	if (way == BOTH) {
-		enum { H = L / 2 };
-		a.a0 = by(a.a0, u), a.a1 = by(a.a1, u + H), a.a2 = by(a.a2, u + 2 * H), a.a3 = by(a.a3, u + 3 * H);
-		a.a4 = by(a.a4, u + 4 * H), a.a5 = by(a.a5, u + 5 * H), a.a6 = by(a.a6, u + 6 * H), a.a7 = by(a.a7, u + 7 * H);
-		dft8(&a, true);
-	}
-	if (w && way != BACK)
-		twist8(&a, w, false);
-	put(y, a.a0), put(y + n, a.a1), put(y + 2 * n, a.a2), put(y + 3 * n, a.a3);
-	put(y + 4 * n, a.a4), put(y + 5 * n, a.a5), put(y + 6 * n, a.a6), put(y + 7 * n, a.a7);
-}
-
-PM_SIMD_INLINE void fly_odd(int r, const struct pm_fft *f, const struct c8 *x, size_t m, struct c8 *y, size_t n, const double *w, const double *u, enum way way)
-{
-	struct lanes a[PM_PRIME];
-	for (int q = 0; q < r; q++)
-		a[q] = take(x + (size_t)q * m);
-	for (int p = 1; p < r && w && way == BACK; p++)
-		a[p] = twisted(a[p], w + 2 * (p - 1), true);
-	dft_odd(r, f->cosine[r], f->sine[r], way == BACK, a);
-	for (int q = 0; q < r && way == BOTH; q++)
-		a[q] = by(a[q], u + q * L / 2);
-	if (way == BOTH)
-		dft_odd(r, f->cosine[r], f->sine[r], true, a);
-	for (int p = 1; p < r && w && way != BACK; p++)
-		a[p] = twisted(a[p], w + 2 * (p - 1), false);
-	for (int q = 0; q < r; q++)
-		put(y + (size_t)q * n, a[q]);
-}
 
 /* Where the rows of a stage are. */
 struct rows {
@@ -124,14 +24,7 @@ PM_SIMD_INLINE void flies(int r, const struct pm_fft *f, struct rows from, struc
 		const struct c8 *x = part_of((const double *)(from.x + row * from.step), part);
 		struct c8 *y = part_of((const double *)(to.x + row * to.step), part);
 		const double *v = way == BOTH ? u + row * (L / 2) + (size_t)(part * PM_SIMD_PART) : NULL;
-		if (r == 2)
-			fly2(x, m * from.step, y, m * to.step, w, v, way);
-		else if (r == 4)
-			fly4(x, m * from.step, y, m * to.step, w, v, way);
-		else if (r == 8)
-			fly8(x, m * from.step, y, m * to.step, w, v, way);
-		else
-			fly_odd(r, f, x, m * from.step, y, m * to.step, w, v, way);
+		fly(r, f, x, m * from.step, y, m * to.step, w, v, way);
 	}
 }
 
@@ -175,12 +68,87 @@ STAGES(forward, FORWARD, PRIME(false))
 STAGES(back, BACK, PRIME(true))
 STAGES(both, BOTH, return)
 
+/* The first stage, of even radix, with `some` = n/2 or n/2+1 rows that are not zero; and the way back to so many. Elements 0, n/2 and those between them of
+ * this distance are a butterfly of their own. */
+PM_SIMD_INLINE void half_stage(int r, const struct pm_fft *f, bool back, size_t some, struct rows from, struct rows to)
+{
+	const size_t m = f->n / (size_t)r;
+	const double *w = f->twiddle[0];
+	PM_SIMD_UNROLL
+	for (int part = 0; part < PM_FFT_PARTS; part++) {
+		struct c8 own[8] __attribute__((aligned(64)));
+		const struct c8 *x = part_of((const double *)from.x, part);
+		struct c8 *y = part_of((const double *)to.x, part);
+		memset(own, 0, sizeof own);
+		for (int q = 0; q < r && !back; q++)
+			if ((size_t)q * m < some)
+				put(own + q, take(x + (size_t)q * m * from.step));
+		if (back)
+			fly(r, f, x, m * from.step, own, 1, NULL, NULL, BACK);
+		else
+			fly(r, f, own, 1, y, m * to.step, NULL, NULL, FORWARD);
+		for (int q = 0; q < r && back; q++)
+			if ((size_t)q * m < some)
+				put(y + (size_t)q * m * to.step, take(own + q));
+	}
+	for (size_t j = 1; j < m; j++) {
+		w += 2 * (r - 1);
+		PM_SIMD_UNROLL
+		for (int part = 0; part < PM_FFT_PARTS; part++) {
+			const struct c8 *x = part_of((const double *)(from.x + j * from.step), part);
+			struct c8 *y = part_of((const double *)(to.x + j * to.step), part);
+			(back ? half_back : half_forward)(r, x, m * from.step, y, m * to.step, w);
+		}
+	}
+}
+
+#define HALF(name, back) \
+	static void half_stage_##name(const struct pm_fft *f, size_t some, struct rows from, struct rows to) \
+	{ \
+		if (f->radix[0] == 8) \
+			half_stage(8, f, back, some, from, to); \
+		else if (f->radix[0] == 4) \
+			half_stage(4, f, back, some, from, to); \
+		else \
+			half_stage(2, f, back, some, from, to); \
+	}
+HALF(forward, false)
+HALF(back, true)
+
+static bool halved(const struct pm_fft *f, size_t some)
+{
+	return f->stages && f->n % 2 == 0 && (some == f->n / 2 || some == f->n / 2 + 1);
+}
+
+static void first_stage(const struct pm_fft *f, size_t some, struct rows from, struct rows to)
+{
+	if (some)
+		half_stage_forward(f, some, from, to);
+	else
+		stage_forward(f, 0, 0, f->n, f->n, NULL, from, to);
+}
+
+static void last_stage(const struct pm_fft *f, size_t some, struct rows from, struct rows to)
+{
+	if (some)
+		half_stage_back(f, some, from, to);
+	else
+		stage_back(f, 0, 0, f->n, f->n, NULL, from, to);
+}
+
 static struct rows rows_of(struct pm_fft_place p) { return (struct rows){(struct c8 *)p.at, p.step / L}; }
 
 static void copy(size_t n, struct pm_fft_place from, struct pm_fft_place to)
 {
 	for (size_t i = 0; i < n && from.at != to.at; i++)
 		memcpy(to.at + i * to.step, from.at + i * from.step, L * sizeof(double));
+}
+
+/* The rows that are not zero, with zeros behind them, to the block. */
+static void fill(const struct pm_fft *f, struct pm_fft_place from, double *block)
+{
+	copy(from.some, from, (struct pm_fft_place){block, L, 0});
+	memset(block + from.some * L, 0, (f->n - from.some) * L * sizeof *block);
 }
 
 static void by_fftw(const struct pm_fft *f, bool back, double *block)
@@ -221,12 +189,17 @@ static void up(const struct pm_fft *f, int last, size_t first, size_t end, size_
 void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L};
+	const struct pm_fft_place own = {block, L, 0};
+	if (from.some && !halved(f, from.some)) {
+		fill(f, from, block);
+		pm_fft_forward_moving(f, own, block, to);
+		return;
+	}
 	if (!f->stages) {
 		copy(f->n, from, own), by_fftw(f, false, block), copy(f->n, own, to);
 		return;
 	}
-	stage_forward(f, 0, 0, f->n, f->n, NULL, x, f->stages > 1 ? work : y);
+	first_stage(f, from.some, x, f->stages > 1 ? work : y);
 	for (size_t first = 0, size = piece(f); first < f->n && f->stages > 1; first += size)
 		down(f, f->stages, first, first + size, work, y);
 }
@@ -234,22 +207,28 @@ void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, dou
 void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L};
+	const struct pm_fft_place own = {block, L, 0};
+	if (to.some && !halved(f, to.some)) {
+		pm_fft_backward_moving(f, from, block, own);
+		copy(to.some, own, to);
+		return;
+	}
 	if (!f->stages) {
 		copy(f->n, from, own), by_fftw(f, true, block), copy(f->n, own, to);
 		return;
 	}
 	for (size_t first = 0, size = piece(f); first < f->n && f->stages > 1; first += size)
 		up(f, f->stages, first, first + size, 1, x, work);
-	stage_back(f, 0, 0, f->n, f->n, NULL, f->stages > 1 ? work : x, y);
+	last_stage(f, to.some, f->stages > 1 ? work : x, y);
 }
 
 void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const double *u, double *block, struct pm_fft_place to)
 {
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L};
+	const struct pm_fft_place own = {block, L, 0};
 	const int last = f->stages - 1;
-	if (last < 0 || f->radix[last] > PM_PRIME) {
+	const bool some = from.some || to.some;
+	if (last < 0 || f->radix[last] > PM_PRIME || (some && (last == 0 || !halved(f, from.some) || !halved(f, to.some)))) {
 		pm_fft_forward_moving(f, from, block, own);
 		times(f, u, block);
 		pm_fft_backward_moving(f, own, block, to);
@@ -259,23 +238,23 @@ void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const
 		stage_both(f, 0, 0, f->n, f->n, u, x, y);
 		return;
 	}
-	stage_forward(f, 0, 0, f->n, f->n, NULL, x, work);
+	first_stage(f, from.some, x, work);
 	for (size_t first = 0, size = piece(f); first < f->n; first += size) {
 		const size_t length = down(f, last, first, first + size, work, work);
 		stage_both(f, last, first, first + size, length, u, work, work);
 		up(f, last, first, first + size, length, work, work);
 	}
-	stage_back(f, 0, 0, f->n, f->n, NULL, work, y);
+	last_stage(f, to.some, work, y);
 }
 
 void pm_fft_forward(const struct pm_fft *f, double *block)
 {
-	const struct pm_fft_place own = {block, L};
+	const struct pm_fft_place own = {block, L, 0};
 	pm_fft_forward_moving(f, own, block, own);
 }
 
 void pm_fft_backward(const struct pm_fft *f, double *block)
 {
-	const struct pm_fft_place own = {block, L};
+	const struct pm_fft_place own = {block, L, 0};
 	pm_fft_backward_moving(f, own, block, own);
 }

@@ -142,9 +142,9 @@ static double across(const struct pm_long_line *line, size_t k, double factor, d
 	const double first = 0.5 * a[0].re[0];
 	for (int p1 = 0; p1 < 4; p1++)
 		for (int p2 = 0; p2 < 4; p2++) {
-			const pm_simd_part by = factor * *(const pm_simd_part_at *)(u + (p1 + 4 * p2) * W);
+			const pm_simd_part times = factor * *(const pm_simd_part_at *)(u + (p1 + 4 * p2) * W);
 			struct lanes *x = &a[4 * p1 + p2];
-			*x = (struct lanes){by * x->re, by * x->im};
+			*x = (struct lanes){times * x->re, times * x->im};
 		}
 	dft16(a, true);
 	for (int q = 1; q < L; q++)

@@ -151,7 +151,7 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 		in[r] = from + r * p->row, out[r] = p->streams ? s.rows + r * p->nodes[X] : io->to(io, g->j + r * g->dj, g->k + r * g->dk);
 	if (p->complex) {
 		pm_spectra_in(l->fft, g->rows, in, p->shared, s.block);
-		pm_fft_backward(l->fft, s.block);
+		pm_transform_backward(l, s.block);
 	} else {
 		pm_fft_rows_in(in, g->rows, p->modes[X], l->map, s.block);
 		pm_transform_real_back(l, s.block);
@@ -197,24 +197,17 @@ static void part_shared(const struct pm_poisson_fft *p, bool back, struct plane 
 static void complex_columns(const struct pm_poisson_fft *p, struct plane x, struct plane w, bool forward, double *block)
 {
 	const struct pm_transform *l = &p->line[Y];
-	const struct pm_fft_place own = {block, L};
-	const bool whole = l->face[0] == PM_PERIODIC;
+	const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Y];
 	if (!forward && p->shared)
 		part_shared(p, true, w);
 	for (size_t c = 0; c < p->chunks; c++) {
-		const struct pm_fft_place rows = {x.at + c * L, x.step}, modes = {w.at + c * L, w.step};
+		const struct pm_fft_place rows = {x.at + c * L, x.step, some}, modes = {w.at + c * L, w.step, 0};
 		if (modes.step != rows.step && c + 1 < p->chunks)
 			soon(modes.at + L, w.step, p->modes[Y]);
-		if (!whole && forward) {
-			gather(rows.at, x.step, p->nodes[Y], block);
-			pm_transform_extend(l, false, block);
-		}
 		if (forward)
-			pm_fft_forward_moving(l->fft, whole ? rows : own, block, modes);
+			pm_fft_forward_moving(l->fft, rows, block, modes);
 		else
-			pm_fft_backward_moving(l->fft, modes, block, whole ? rows : own);
-		if (!whole && !forward)
-			scatter(block, p->nodes[Y], x.step, rows.at);
+			pm_fft_backward_moving(l->fft, modes, block, rows);
 	}
 	if (forward && p->shared)
 		part_shared(p, false, w);
@@ -339,7 +332,7 @@ static double nyquist(const struct pm_poisson_fft *p, size_t j, size_t k, double
 	return factor / (p->lambda[X][i] + (p->lambda[Y][j] + p->lambda[Z][k]));
 }
 
-/* factor over the sums of eigenvalues of a chunk, for two rows. */
+/* factor over the sums of eigenvalues of a chunk, or times Green's function, for two rows. */
 static inline void two_rows(const double *lx, double rest, double factor, double *a, double *b)
 {
 	for (int q = 0; q < H; q += PM_SIMD_PART) {
@@ -348,16 +341,22 @@ static inline void two_rows(const double *lx, double rest, double factor, double
 	}
 }
 
+static inline void two_rows_green(const double *green, double factor, double *a, double *b)
+{
+	for (int q = 0; q < H; q += PM_SIMD_PART)
+		*(pm_simd_part_at *)(a + q) = *(pm_simd_part_at *)(b + q) = factor * *(const pm_simd_part_at *)(green + q);
+}
+
 /* The multipliers of a chunk of pencils by rows of the block. */
 static void factors_of(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *u)
 {
 	const struct pm_transform *l = &p->line[Z];
 	const double *lx = p->green ? NULL : p->lambda[X] + c * H;
+	const double *green = p->green ? p->green + p->fold[j] * p->green_slab + p->green_least * p->green_row + c * H : NULL;
 	for (size_t k = 0; k <= l->length - k; k++) {
 		double *a = u + l->fft->at[k] * H, *b = u + l->fft->at[l->length - k] * H;
 		if (p->green) {
-			multiplier(p, j, k, c, H, factor, a);
-			memmove(b, a, H * sizeof *u);
+			two_rows_green(green + k * p->green_row, factor, a, b);
 		} else {
 			two_rows(lx, p->lambda[Y][j] + p->lambda[Z][k], factor, a, b);
 		}
@@ -394,29 +393,24 @@ static void times(const double *u, size_t n, size_t least, double *a)
 }
 
 /* The mode of constants, and modes that share a place, are looked at between forward and back; all others only multiplied. */
-static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, size_t stride)
+static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, double *to, size_t stride)
 {
 	const struct pm_transform *l = &p->line[Z];
-	const bool whole = l->face[0] == PM_PERIODIC, shared = p->shared && c == 0 && p->holds[j] == SHARED_BOTH;
-	const struct pm_fft_place here = {at, stride}, own = {s.block, L};
-	if (!whole) {
-		gather(at, stride, p->nodes[Z], s.block);
-		pm_transform_extend(l, false, s.block);
-	}
+	const bool shared = p->shared && c == 0 && p->holds[j] == SHARED_BOTH;
+	const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Z];
+	const struct pm_fft_place here = {at, stride, some}, there = {to, stride, some}, own = {s.block, L, 0};
 	factors_of(p, j, c, factor, s.factors);
 	if (shared || (j == 0 && c == 0)) {
-		pm_fft_forward_moving(l->fft, whole ? here : own, s.block, own);
+		pm_fft_forward_moving(l->fft, here, s.block, own);
 		if (j == 0 && c == 0)
 			p->zero = s.block[0];
 		if (shared)
 			times_shared(p, j, factor, s.factors, s.block);
 		times(s.factors, l->length, shared, s.block);
-		pm_fft_backward_moving(l->fft, own, s.block, whole ? here : own);
+		pm_fft_backward_moving(l->fft, own, s.block, there);
 	} else {
-		pm_fft_times_moving(l->fft, whole ? here : own, s.factors, s.block, whole ? here : own);
+		pm_fft_times_moving(l->fft, here, s.factors, s.block, there);
 	}
-	if (!whole)
-		scatter(s.block, p->nodes[Z], stride, at);
 }
 
 static void real_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, double factor, double *block)
@@ -446,11 +440,12 @@ static void folded_pencils(const struct pm_poisson_fft *p, size_t j, size_t c, d
 	}
 }
 
-static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, size_t stride)
+/* From rows at `at` to those at `to`. */
+static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, double *to, size_t stride)
 {
 	const struct pm_transform *l = &p->line[Z];
 	if (p->complex) {
-		complex_pencils(p, j, c, factor, s, at, stride);
+		complex_pencils(p, j, c, factor, s, at, to, stride);
 		return;
 	}
 	gather(at, stride, p->nodes[Z], s.block + l->row * L);
@@ -462,18 +457,18 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 		p->zero = s.block[0];
 	(l->fold ? folded_pencils : real_pencils)(p, j, c, factor, s.block);
 	(l->fold ? pm_transform_real_back : pm_transform_backward)(l, s.block);
-	scatter(s.block + l->row * L, p->nodes[Z], stride, at);
+	scatter(s.block + l->row * L, p->nodes[Z], stride, to);
 }
 
 /* A unit of pencils: a slab of a row of modes y, in 2-D one chunk. */
-static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scratch s, double *slab)
+static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scratch s, double *slab, double *to)
 {
 	if (!thick(p))
-		pencils(p, 0, u, factor, s, slab, p->from ? L : p->row);
+		pencils(p, 0, u, factor, s, slab, to, p->from ? L : p->row);
 	for (size_t c = 0; c < p->chunks && thick(p); c++) {
 		if (!p->streams && c + 1 < p->chunks)
 			soon(slab + (c + 1) * L, p->row, p->nodes[Z]);
-		pencils(p, u, c, factor, s, slab + c * L, p->row);
+		pencils(p, u, c, factor, s, slab + c * L, to + c * L, p->row);
 	}
 }
 
@@ -490,10 +485,9 @@ void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own
 			pm_poisson_fft_unit(p, i, own, s.modes, false);
 		else if (copies)
 			memcpy(s.modes, p->w + i * p->slab, size * sizeof *p->w);
-		unit(p, first + i, factor, s, own || copies ? s.modes : p->w + i * (plane ? p->slab : L));
+		double *w = own ? s.modes : p->w + i * (plane ? p->slab : L);
+		unit(p, first + i, factor, s, own || copies ? s.modes : w, w);
 		if (own)
 			pm_poisson_fft_unit(p, i, own, s.modes, true);
-		else if (copies)
-			memcpy(p->w + i * p->slab, s.modes, size * sizeof *p->w);
 	}
 }
