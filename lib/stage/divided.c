@@ -98,7 +98,7 @@ static int run_frame(struct pm_stage *s, struct pm_frame *f, struct uses *u, int
 	status = status ? status : pm_frame_ready(f);
 	status = pm_world_agree(status);
 	if (!status) {
-		struct pm_clock began = pm_clock();
+		struct pm_clock began = pm_work_clock();
 		status = s->tool->frame(s, f);
 		pm_work_since(s, began);
 		status = adopt(status < 0 ? status : status > 0 ? pm_fail(PM_DATA, "a divided word cannot leave a frame out") : 0, u, f);

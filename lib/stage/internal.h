@@ -36,6 +36,7 @@ struct pm_stage *pm_stage_make(const struct pm_tool *tool, int argc, char **argv
 int pm_stage_begin(struct pm_stage *s);
 int pm_stage_frame(struct pm_stage *s, struct pm_frame *f); /* frame(), on this rank alone */
 void pm_history_add(struct pm_stage *s, struct pm_frame *f);
+struct pm_clock pm_work_clock(void);
 void pm_work_since(struct pm_stage *s, struct pm_clock began);                /* counts the time since then as work */
 void pm_timing_whole(struct pm_stage *s);                                     /* all since the stage was made is work, and that of ended processes */
 int pm_timing_write(const struct pm_stage *s, const char *file);              /* file NULL: nothing; -: a sentence on standard error */

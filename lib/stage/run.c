@@ -132,7 +132,7 @@ static int run_source(struct pm_stage *s)
 	struct pm_frame *f = NULL;
 	int more, status = w ? 0 : pm_failed();
 	while (!status) {
-		struct pm_clock began = pm_clock();
+		struct pm_clock began = pm_work_clock();
 		more = source(s, &f);
 		pm_work_since(s, began);
 		if (more <= 0) {
