@@ -18,7 +18,8 @@ suites() {
 	local f
 	if [ $# = 0 ]; then
 		{
-			printf 'tests/tool/%s.bats\n' ranks plan ways contract margin hostile house readme pareto course cut-stream python
+			printf 'tests/%s.bats\n' tool/{ranks,plan,ways,ranks-random,margin,house,pareto,hostile,contract} physics/vortex \
+				tool/{readme,course,cut-stream,python,sh5,foreign-readers,command,plan-random}
 			ls -S tests/hard/*.bats tests/physics/*.bats
 			ls -S tests/tool/*.bats
 		} | awk '!there[$0]++'
