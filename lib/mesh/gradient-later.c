@@ -1,4 +1,5 @@
-/* A gradient by differences that is left to be made. Every node of a periodic box has the same pairs of nodes; elsewhere, and by transforms, all is made at once.
+/* A gradient by differences that is left to be made. Every node of a periodic box has the same pairs of nodes; elsewhere, and by transforms, it is made at
+ * once.
  * Cost: a pass over the potential, for its largest value. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <math.h>
