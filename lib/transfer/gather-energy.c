@@ -222,7 +222,7 @@ static int one_set(const struct pm_gather_job *j, const struct pm_axis axes[3], 
 	if (!status && j->law->magnetic)
 		status = pm_bfield(f, set, j->mesh, j->law->magnetic, &j->transfer);
 	if (!status)
-		pm_gather_limits_add(j, f, set, before);
+		pm_gather_limits_add(j, f, set, before, 0);
 	return status;
 }
 

@@ -339,8 +339,9 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	int64_t all = (int64_t)strays.count;
 	status = pm_world_count(status, PM_SUM_OF, 1, &all);
 	j->strays += (uint64_t)all;
+	const bool looked = !j->choice.beside && !j->interlaced && !a.magnetic && a.t.components == target->components && target->type == PM_F64;
 	if (!status && law)
-		pm_gather_limits_add(j, f, set, before);
+		pm_gather_limits_add(j, f, set, before, looked ? strays.most : 0);
 	*dropped = j->outside == PM_OUTSIDE_DROP ? (uint64_t)all : 0;
 	return status;
 }

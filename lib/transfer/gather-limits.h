@@ -10,7 +10,7 @@ int pm_gather_limits_declare(const struct pm_gather_job *j, struct pm_frame *f);
 void pm_gather_limits_prepare(struct pm_gather_job *j, const struct pm_frame *f);
 /* Largest |change| of a set, before and after the gather. */
 double pm_gather_limits_most(const struct pm_gather_job *j, const struct pm_frame *f, const char *set);
-/* Adds the limits to the change of a set, whose largest value was `before`. */
-void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, const char *set, double before);
+/* Adds the limits to the change of a set, whose largest value was `before`; most: the largest |change|^2 now, or 0: to be looked for. */
+void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, const char *set, double before, double most);
 
 #endif

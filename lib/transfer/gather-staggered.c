@@ -185,7 +185,7 @@ int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_c
 {
 	struct staggered s = {.t = t};
 	bool finite = true;
-	s.to = (struct pm_tile_results){factor, t->set, out};
+	s.to = (struct pm_tile_results){.factor = factor, .set = t->set, .to = out};
 	int status = find_order(&s, n, x);
 	status = status ? status : find_axes(&s);
 	status = status ? status : gather_all(&s, n, mesh, &finite);

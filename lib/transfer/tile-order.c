@@ -305,7 +305,7 @@ static bool runs(const uint32_t *place, size_t i, size_t m) { return i + run <= 
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few)
 {
 	const uint32_t *place = o->place ? o->place + p : NULL;
-	if (!place || stand_together(place, m))
+	if (!place || stand_together(place, m) || (!from->doubles && !from->floats))
 		return pm_column_take(from, place ? place[0] : p, m, few);
 	if (from->doubles)
 		for (size_t i = 0; i < m;)

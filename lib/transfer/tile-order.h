@@ -45,6 +45,7 @@ struct pm_tile_results {
 	const struct pm_column *factor;
 	const bool *set;
 	const struct pm_target *to;
+	double *most; /* NULL, or raised to the largest sum of squares of what is set at a particle; INFINITY: not all were looked at */
 };
 /* All targets are floats that can be written over, and all factors one number: a result may be rounded before it is at its place. */
 bool pm_tile_results_round(int n, const struct pm_tile_results *r);

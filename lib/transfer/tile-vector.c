@@ -34,6 +34,13 @@ void pm_tile_weave(const double *blocks, int components, const size_t slots[3], 
 #define LOWER(v) __builtin_shufflevector(v, v, 0, 1, 2, 3)
 #define UPPER(v) __builtin_shufflevector(v, v, 4, 5, 6, 7)
 
+/* Larger values take their places; NaN none. */
+PM_SIMD_INLINE void raise_most(pm_simd *most, pm_simd v)
+{
+	const pm_simd_bits above = v > *most;
+	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
+}
+
 PM_SIMD_INLINE void put(const struct pm_tile *t, size_t i, pm_simd4_at value)
 {
 	double *result = t->results + i * (size_t)t->to;
@@ -100,7 +107,7 @@ void pm_tile_cic_gather_vectors(const struct pm_tile *t)
 bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
 	struct delivery to[4];
-	pm_simd nothing = {0};
+	pm_simd nothing = {0}, most = {0};
 	for (int c = 0; c < t->components; c++)
 		to[c] = delivery_of(r, c);
 	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
@@ -110,10 +117,19 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 		pm_simd component[4];
 		values_of(t, &e, value);
 		pm_simd_rows_to_lanes(value, component);
+		if (r->most) { /* of three, with one factor */
+			pm_simd square = {0};
+			PM_SIMD_UNROLL
+			for (int c = 0; c < 3; c++)
+				square = square + to[c].times * component[c] * (to[c].times * component[c]);
+			raise_most(&most, square);
+		}
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 4; c++)
 			if (c < t->components)
 				deliver_eight(component[c], n, &to[c], p, &nothing);
 	}
+	for (int l = 0; l < PM_SIMD_WIDTH && r->most; l++)
+		*r->most = most[l] > *r->most ? most[l] : *r->most;
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }

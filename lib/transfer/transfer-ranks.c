@@ -501,7 +501,7 @@ int pm_gather_ranks(const struct pm_transfer *t, size_t n, const double *const x
 			set[c] = t->set[k], to[c] = (struct pm_target){.doubles = out[k]};
 			times[c] = (struct pm_column){.doubles = factor ? factor[k] : NULL, .value = 1};
 		}
-		const struct pm_tile_results results = {times, set, to};
+		const struct pm_tile_results results = {.factor = times, .set = set, .to = to};
 		status = pm_shared_jobs_init(status, &a.jobs, n, x, 0, NULL, a.jobs.w.components);
 		status = gather(status, &a, mesh, &results, &seen);
 		status = pm_world_agree(status);

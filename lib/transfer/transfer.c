@@ -135,6 +135,7 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 	}
 	for (int c = 0; c < w->components; c++)
 		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]};
+	const struct pm_column *now = r->most ? r->factor : one, *then = r->most ? one : r->factor; /* what is looked at has its factor */
 	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
 		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_batch_take(&batch, p, m, few);
@@ -144,11 +145,17 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 			continue;
 		}
 		batch.p = 0;
-		loop(t, &batch, &(struct pm_tile_results){one, set, to});
+		loop(t, &batch, &(struct pm_tile_results){now, set, to, r->most});
 		for (int c = 0; c < w->components; c++)
-			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&r->factor[c], &r->set[c], &r->to[c]});
+			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&then[c], &r->set[c], &r->to[c], NULL});
 	}
 	return finite;
+}
+
+static void not_looked_at(const struct pm_tile_results *r)
+{
+	if (r && r->most)
+		*r->most = INFINITY;
 }
 
 /* The same of cic, by corners of cells or from the block; with records, whose results are checked later, too. */
@@ -180,9 +187,12 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 		pm_tile_gradient(w->t->gradient, &w->p, j, NULL, nodes);
 	for (int c = 0; c < w->components && !w->t->gradient; c += group, nodes += PM_VECTOR_NODES)
 		pm_tile_weave(t.block + (size_t)c * PM_BLOCK_MOST, w->components - c < group ? w->components - c : group, slots, nodes);
+	const bool straight = !t.records && loop == pm_tile_cic_gather_vectors && !w->o->order.floats;
+	if (!straight)
+		not_looked_at(r);
 	if (t.records)
 		return loop(&t), true;
-	if (loop != pm_tile_cic_gather_vectors || w->o->order.floats)
+	if (!straight)
 		return gather_in_order(w, j, t, loop, r);
 	return gather_batches(w, j, &t, pm_tile_cic_gather_vectors_in_order, r);
 }
@@ -197,6 +207,7 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 		pm_tile_gradient(w->t->gradient, &w->p, j, block, NULL);
 	if (vectors)
 		return gather_vectors(w, j, t, r);
+	not_looked_at(r);
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
 		return gather_batches(w, j, &t, pm_tile_line_gather, r);
@@ -212,15 +223,21 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r)
 {
 	const struct pm_axis *a = w->p.axes;
+	double most = 0;
 	int bad = 0;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad)
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad) reduction(max : most)
 	for (size_t j = 0; j < w->p.jobs; j++) {
+		double here = 0;
+		const struct pm_tile_results mine = {r->factor, r->set, r->to, r->most ? &here : NULL};
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
 		for (int c = 0; c < w->components && !w->t->gradient; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
 				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
-		bad |= !pm_pass_gather(w, &w->p.job[j], block, r);
+		bad |= !pm_pass_gather(w, &w->p.job[j], block, &mine);
+		most = here > most ? here : most;
 	}
+	if (r->most)
+		*r->most = most;
 	return !bad;
 }
 
@@ -388,6 +405,7 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 {
 	bool done[PM_COMPONENTS] = {false}, finite = true;
 	struct pm_pass w;
+	double most = 0;
 	int status = 0, threads = pm_tile_threads(n);
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided)
@@ -398,13 +416,14 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		struct pm_target to[PM_COMPONENTS];
 		struct pm_column times[PM_COMPONENTS];
-		bool set[PM_COMPONENTS];
+		bool set[PM_COMPONENTS], look = w.components == 3 && t->components == 3;
 		for (int c = 0; c < w.components; c++) {
 			set[c] = t->set[w.which[c]];
 			to[c] = out[w.which[c]];
 			times[c] = factor[w.which[c]];
+			look = look && set[c] && to[c].doubles && !times[c].doubles && !times[c].floats;
 		}
-		const struct pm_tile_results r = {times, set, to};
+		const struct pm_tile_results r = {times, set, to, look ? &most : NULL};
 		status = begin_gather(&w, n, x, &r, threads);
 		bool seen = !status && pm_pass_gather_all(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
@@ -428,6 +447,7 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 			pm_order_cache_free(w.o);
 	}
 	strays->finite = finite;
+	strays->most = isfinite(most) ? most : 0;
 	return status;
 }
 

@@ -36,6 +36,7 @@ struct pm_strays {
 	double x[3];   /* [length] its position */
 	int axis;      /* the axis along which it is outside */
 	bool finite;   /* gather: every value it left is a finite number */
+	double most;   /* gather: the largest sum of squares of the three components that it set at a particle; 0: not looked at */
 };
 
 /* x[d][n] positions; strength[c][n], mesh[c][points] += density. End nodes of neumann faces get twice the deposited value (half weight in mesh sums), those
