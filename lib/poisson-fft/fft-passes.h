@@ -76,6 +76,8 @@ int pm_poisson_fft_to_planes(int status, struct pm_poisson_fft *p, double **penc
 /* One unit of them, nodes[Z] rows of modes (in 2-D of L numbers), to a slab or back; and the mode of constants, which one rank has, to all. */
 void pm_poisson_fft_unit(const struct pm_poisson_fft *p, size_t unit, double *pencils, double *slab, bool back);
 int pm_poisson_fft_zero(int status, struct pm_poisson_fft *p);
+/* On a line: that mode and the largest source of a singular problem, from the rank that has the line to all. */
+int pm_poisson_fft_line_record(int status, struct pm_poisson_fft *p, double *largest);
 
 /* Rows y of a plane of modes whose pencils are of this rank (in 2-D all). */
 void pm_poisson_fft_rows_here(const struct pm_poisson_fft *p, size_t *first, size_t *end);

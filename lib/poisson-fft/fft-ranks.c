@@ -133,3 +133,14 @@ int pm_poisson_fft_zero(int status, struct pm_poisson_fft *p)
 		root++;
 	return pm_world_share(status, root, &p->zero, sizeof p->zero);
 }
+
+int pm_poisson_fft_line_record(int status, struct pm_poisson_fft *p, double *largest)
+{
+	int root = 0;
+	if (!p->from || !p->singular)
+		return status;
+	while (p->from[root + 1] == 0)
+		root++;
+	status = pm_world_largest(status, 1, largest);
+	return pm_world_share(status, root, &p->zero, sizeof p->zero);
+}

@@ -125,9 +125,11 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 		return 0;
 	}
 	if (p->single) {
-		const double one = 1 / (double)p->across.n, most = pm_fft_single_solve(p, c * one, s, phi);
+		const double one = 1 / (double)p->across.n;
+		double most = p->planes ? pm_fft_single_solve(p, c * one, s, phi) : 0; /* of several ranks one has the line */
+		const int status = pm_poisson_fft_line_record(0, p, &most);
 		record(p, one, most, r);
-		return 0;
+		return status;
 	}
 	struct rows io = {.p = p, .s = s, .phi = phi, .from = source_row, .to = result_row};
 	double norm = 1, largest = 0;
@@ -193,7 +195,7 @@ static int layout(struct pm_poisson_fft *p)
 	p->lot = p->block + p->rows + p->factors + (g->dim == 3 ? odd_stride((slab + L) * p->row) : p->choice.planes ? odd_stride((p->nodes[Z] + 1) * L) : 0);
 	const int status = pm_poisson_fft_ranks(p, p->choice.planes);
 	p->choice.planes = NULL; /* the caller's */
-	p->single = pm_fft_single_length(p) && !p->from;
+	p->single = pm_fft_single_length(p) > 0;
 	p->slab = p->zhere * p->row + (p->from ? 0 : L); /* so that a plane's rows do not fall on the same sets of the cache */
 	return status || shares(p) ? -PM_DATA : pm_poisson_fft_work(p);
 }
@@ -264,6 +266,8 @@ struct pm_poisson_fft *pm_poisson_fft_new(const struct pm_grid *g, const struct 
 		status = multipliers(p);
 	if (!status && p->single)
 		status = pm_fft_single_init(p);
+	if (divided && p->single)
+		status = pm_world_agree(status);
 	return status ? pm_poisson_fft_free(p) : p;
 }
 
