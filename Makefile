@@ -34,6 +34,8 @@ archive = $(or $(wildcard $(shell $(CC) -print-file-name=lib$(1).a)),-l$(1))
 # (mains/ below), because those that spin take the cores from the other stages of a pipe (40 times the time on a busy machine).
 gomp := $(if $(findstring gcc,$(CC)),$(wildcard $(shell $(CC) -print-file-name=libgomp.a)))
 openmp := $(if $(gomp),-pthread,-fopenmp)
+# Regions of one thread without libgomp (lib/base/one-thread.c); the name is gcc's alone.
+regions := --wrap=GOMP_parallel
 LDLIBS_PROGRAM := $(foreach l,fftw3 gsl gslcblas jansson,$(call archive,$(l))) -Wl,--as-needed -lpng $(gomp) -lm $(LDLIBS)
 
 # sh5 alone links HDF5, which costs 5 ms to start: lib/h5/ is no part of the library, and sh5 is no word of a sentence.
@@ -125,7 +127,7 @@ $(B)/exports.map: lib/exports.txt
 	@mkdir -p $(@D)
 	@{ echo '{ global:'; sed 's/$$/;/' $<; echo 'local: *; };'; } > $@
 $(B)/libpmpipe.so: $(lib_obj) $(B)/exports.map
-	$(CC) -shared -fopenmp -Wl,-soname,libpmpipe.so.$(SOVERSION) -Wl,--version-script=$(B)/exports.map -o $@ $(lib_obj) $(LDLIBS_ALL)
+	$(CC) -shared -fopenmp -Wl,$(regions) -Wl,-soname,libpmpipe.so.$(SOVERSION) -Wl,--version-script=$(B)/exports.map -o $@ $(lib_obj) $(LDLIBS_ALL)
 
 $(B)/tables/tools.c: $(word_src) $(wildcard tools) Makefile
 	@mkdir -p $(@D)
@@ -151,7 +153,7 @@ ifeq ($(and $(DISPATCH)$(LEVEL),$(levels)),)
 define program
 $(bin_dir)/$(1): $(call parts,$(1))
 	@mkdir -p $$(@D)
-	$$(CC) $$(openmp) $$(CFLAGS) -o $$@ $$^ $$(LDLIBS_PROGRAM) $(if $(filter sh5,$(1)),$$(h5_libs))
+	$$(CC) $$(openmp) -Wl,$$(regions) $$(CFLAGS) -o $$@ $$^ $$(LDLIBS_PROGRAM) $(if $(filter sh5,$(1)),$$(h5_libs))
 endef
 else
 # All that a program needs from this tree is built for each level of x86-64 and linked to one object, whose only name is its main (packaging/dispatch.c).
@@ -159,7 +161,7 @@ entry = main_$(subst -,_,$(LEVEL))
 define program
 $(B)/whole/$(1).o: $(call parts,$(1))
 	@mkdir -p $$(@D)
-	ld -r -o $$@.part $$^
+	ld -r $$(regions) -o $$@.part $$^
 	objcopy --redefine-sym main=$$(entry) --keep-global-symbol=$$(entry) $$@.part $$@ && rm $$@.part
 $(bin_dir)/$(1): $(B)/dispatch.o $(levels:%=$(B)/%/whole/$(1).o)
 	@mkdir -p $$(@D)
@@ -201,7 +203,7 @@ $(bin_dir)/pmpipe: lib/command/pmpipe.sh $(shell_parts)
 $(filter-out %/counts,$(bench)): $(B)/%: $(B)/%.o $(tool_obj) $(B)/tables/tools.o $(B)/libpmpipe.a
 	$(CC) -fopenmp $(CFLAGS) -o $@ $^ $(LDLIBS_PROGRAM)
 $(B)/libwhole.so: $(lib_obj) $(tool_obj) $(B)/tables/tools.o
-	$(CC) -shared -fopenmp $(CFLAGS) -Wl,-Bsymbolic-functions -o $@ $^ $(LDLIBS_ALL)
+	$(CC) -shared -fopenmp $(CFLAGS) -Wl,$(regions) -Wl,-Bsymbolic-functions -o $@ $^ $(LDLIBS_ALL)
 $(unit): $(B)/%: $(B)/%.o $(B)/libwhole.so
 	$(CC) -fopenmp $(CFLAGS) -Wl,-rpath,'$$ORIGIN/../..' -o $@ $^ $(LDLIBS_ALL)
 $(B)/bench/h5-datasets.o: CFLAGS_ALL += $(h5_include)
