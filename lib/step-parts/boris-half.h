@@ -3,29 +3,31 @@
 #ifndef PM_STEP_PARTS_BORIS_HALF_H
 #define PM_STEP_PARTS_BORIS_HALF_H
 
-#include "step-parts/magnetic-turn.h"
-#include "step/step.h"
+#include "step-parts/magnetic-lanes.h"
 
-/* tau, tan of half of the angle that this half turns, along B, from t = (q/m) B dt/2, whose square is t2. */
-typedef void pm_boris_angle(const double t[3], double t2, double tau[3]);
+/* What t is to be multiplied by for tau, tan of half of the angle that this half turns, along B; t = (q/m) B dt/2, t2 its square. Of all lanes. */
+typedef void pm_boris_angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MAGNETIC_LANES]);
 
-static inline void pm_boris_half(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m, pm_boris_angle *angle)
+PM_SIMD_INLINE void pm_boris_half(bool closing, double dt, const struct pm_magnetic_lanes *p, pm_boris_angles *angles)
 {
-	for (size_t i = from; i < to; i++) {
-		double v[3], a[3], t[3], tau[3], t2 = 0;
-		const double half = 0.5 * dt * m->charge[i] / m->mass[i];
+	double t[3][PM_MAGNETIC_LANES], t2[PM_MAGNETIC_LANES], part[PM_MAGNETIC_LANES];
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+		const double half = 0.5 * dt * p->charge[l] / p->mass[l], x = half * p->b[0][l], y = half * p->b[1][l], z = half * p->b[2][l];
+		t[0][l] = x, t[1][l] = y, t[2][l] = z;
+		t2[l] = x * x + y * y + z * z;
+	}
+	angles(t2, part);
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+		double v[3], a[3];
+		PM_SIMD_UNROLL
 		for (int c = 0; c < 3; c++) {
-			v[c] = pm_magnetic_component((const double *const *)m->v, c, i);
-			a[c] = 0.5 * dt * pm_magnetic_component(m->acc, c, i);
-			t[c] = half * pm_magnetic_component(m->b, c, i);
-			t2 += t[c] * t[c];
-			v[c] += closing ? a[c] : 0;
+			a[c] = 0.5 * dt * p->acc[c][l];
+			v[c] = p->v[c][l] + (closing ? a[c] : 0);
 		}
-		angle(t, t2, tau);
-		pm_magnetic_turn(tau, v);
+		pm_magnetic_turn((const double[3]){t[0][l] * part[l], t[1][l] * part[l], t[2][l] * part[l]}, v);
+		PM_SIMD_UNROLL
 		for (int c = 0; c < 3; c++)
-			if (m->v[c])
-				m->v[c][i] = v[c] + (closing ? 0 : a[c]);
+			p->changed[c][l] = v[c] + (closing ? 0 : a[c]);
 	}
 }
 

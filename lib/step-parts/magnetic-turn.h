@@ -5,8 +5,6 @@
 #include "base/base.h"
 #include "base/simd.h"
 
-static inline double pm_magnetic_component(const double *const *a, int c, size_t i) { return a[c] ? a[c][i] : 0; }
-
 /* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would change |v| by a few 1e-17 with the same sign in every
  * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. */
 PM_SIMD_INLINE void pm_magnetic_turn(const double tau[3], double v[3])

@@ -6,14 +6,23 @@
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
-static void angle(const double t[3], double t2, double tau[3])
+PM_SIMD_INLINE void angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MAGNETIC_LANES])
 {
-	const double half = sqrt(t2), factor = half > 0 ? tan(0.5 * half) / half : 0;
-	for (int c = 0; c < 3; c++)
-		tau[c] = factor * t[c];
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+		const double half = sqrt(t2[l]);
+		part[l] = half > 0 ? tan(0.5 * half) / half : 0;
+	}
 }
 
-static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m) { pm_boris_half(closing, dt, from, to, m, angle); }
+static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
+{
+#define OPENING(p) pm_boris_half(false, dt, p, angles)
+#define CLOSING(p) pm_boris_half(true, dt, p, angles)
+	if (closing)
+		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+	else
+		PM_MAGNETIC_LOOP(m, from, to, OPENING)
+}
 
 const struct pm_step step_boris_tan = {
 	.name = "boris-tan",

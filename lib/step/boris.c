@@ -3,18 +3,26 @@
  * closing half and the next opening half are that step: E/2, rotation by 2 atan(Omega dt/2), E/2.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 4-4; notes in docs/methods/boris.md.
  * Assumes v << c. Second order, keeps |v| without E to round-off, moves at exactly E x B/B^2 in uniform fields. Cost: one square root and
- * two divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
+ * three divisions a particle. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/boris-half.h"
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
-static void angle(const double t[3], double t2, double tau[3])
+PM_SIMD_INLINE void angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MAGNETIC_LANES])
 {
-	for (int c = 0; c < 3; c++)
-		tau[c] = t[c] / (1 + sqrt(1 + t2)); /* tan of half of atan |t| */
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++)
+		part[l] = 1 / (1 + sqrt(1 + t2[l])); /* tan of half of atan |t| */
 }
 
-static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m) { pm_boris_half(closing, dt, from, to, m, angle); }
+static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
+{
+#define OPENING(p) pm_boris_half(false, dt, p, angles)
+#define CLOSING(p) pm_boris_half(true, dt, p, angles)
+	if (closing)
+		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+	else
+		PM_MAGNETIC_LOOP(m, from, to, OPENING)
+}
 
 const struct pm_step step_boris = {
 	.name = "boris",

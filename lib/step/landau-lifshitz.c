@@ -20,14 +20,14 @@ static void cross(const double a[3], const double b[3], double r[3])
 		r[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
 }
 
-static struct reaction reaction_of(const struct pm_magnetic *m, size_t i, const double u[3])
+static struct reaction reaction_of(const struct pm_magnetic_lanes *p, size_t l, const double u[3])
 {
-	const double gamma = pm_proper_gamma(m, u), c2 = m->c * m->c, q = m->charge[i] / m->mass[i], tau = fabs(q) * m->radiation_time;
+	const double gamma = pm_proper_gamma(p, u), c2 = p->c * p->c, q = p->charge[l] / p->mass[l], tau = fabs(q) * p->radiation_time;
 	double v[3], a[3], w[3], f[3], turned[3];
 	for (int c = 0; c < 3; c++) {
 		v[c] = u[c] / gamma;
-		a[c] = pm_magnetic_component(m->acc, c, i);
-		w[c] = q * pm_magnetic_component(m->b, c, i);
+		a[c] = p->acc[c][l];
+		w[c] = q * p->b[c][l];
 	}
 	cross(v, w, f);
 	for (int c = 0; c < 3; c++)
@@ -40,29 +40,39 @@ static struct reaction reaction_of(const struct pm_magnetic *m, size_t i, const 
 	return r;
 }
 
-static void decelerate(const struct pm_magnetic *m, double h, size_t i, double u[3])
+static void decelerate(const struct pm_magnetic_lanes *p, double h, size_t l, double u[3])
 {
-	const struct reaction start = reaction_of(m, i, u);
+	const struct reaction start = reaction_of(p, l, u);
 	double half[3];
 	for (int c = 0; c < 3; c++)
 		half[c] = exp(-0.5 * h * start.decay) * u[c] + 0.5 * h * start.steady[c];
-	const struct reaction middle = reaction_of(m, i, half);
+	const struct reaction middle = reaction_of(p, l, half);
 	for (int c = 0; c < 3; c++)
 		u[c] = exp(-h * middle.decay) * u[c] + h * exp(-0.5 * h * middle.decay) * middle.steady[c];
 }
 
+PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes *p)
+{
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+		double u[3];
+		pm_proper_load(p, l, u);
+		if (!closing)
+			decelerate(p, 0.5 * dt, l, u);
+		pm_proper_higuera_cary(p, closing, dt, l, u);
+		if (closing)
+			decelerate(p, 0.5 * dt, l, u);
+		pm_proper_store(p, l, u);
+	}
+}
+
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
-	for (size_t i = from; i < to; i++) {
-		double u[3];
-		pm_proper_load(m, i, u);
-		if (!closing)
-			decelerate(m, 0.5 * dt, i, u);
-		pm_proper_higuera_cary(m, closing, dt, i, u);
-		if (closing)
-			decelerate(m, 0.5 * dt, i, u);
-		pm_proper_store(m, i, u);
-	}
+#define OPENING(p) kick(false, dt, p)
+#define CLOSING(p) kick(true, dt, p)
+	if (closing)
+		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+	else
+		PM_MAGNETIC_LOOP(m, from, to, OPENING)
 }
 
 const struct pm_step step_landau_lifshitz = {

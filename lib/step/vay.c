@@ -7,19 +7,29 @@
 #include "step-parts/proper-velocity.h"
 #include "step/step.h"
 
+PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes *p)
+{
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+		double u[3], tau[3];
+		pm_proper_load(p, l, u);
+		pm_proper_angle(p, dt, l, tau);
+		if (closing)
+			pm_proper_cross(p, tau, u);
+		pm_proper_kick(p, dt, l, u);
+		if (!closing)
+			pm_proper_solve(p, tau, u);
+		pm_proper_store(p, l, u);
+	}
+}
+
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
-	for (size_t i = from; i < to; i++) {
-		double u[3], tau[3];
-		pm_proper_load(m, i, u);
-		pm_proper_angle(m, dt, i, tau);
-		if (closing)
-			pm_proper_cross(m, tau, u);
-		pm_proper_kick(m, dt, i, u);
-		if (!closing)
-			pm_proper_solve(m, tau, u);
-		pm_proper_store(m, i, u);
-	}
+#define OPENING(p) kick(false, dt, p)
+#define CLOSING(p) kick(true, dt, p)
+	if (closing)
+		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+	else
+		PM_MAGNETIC_LOOP(m, from, to, OPENING)
 }
 
 const struct pm_step step_vay = {
