@@ -49,6 +49,9 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 			"are wrong where these are weights (pinit --loading random)", r.weighted);
 	if (law->relativistic && r.fastest > 0.3 * pm_frame_constant(f, "c", 1))
 		pm_tell_once(s, "the speeds reach %.2g c, and collide is not relativistic", r.fastest / pm_frame_constant(f, "c", 1));
+	if (r.single && r.pairs)
+		pm_tell_once(s, "each particle is taken for one charge; one that stands for W collides W times less (--statistical-weight W, or smod "
+			"--constant bodies=N)");
 	return 0;
 }
 

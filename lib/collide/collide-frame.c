@@ -194,7 +194,7 @@ int pm_collide_step(const struct pm_collide *c, struct pm_frame *f, struct pm_co
 	k.from[k.nsets] = n;
 	const double bodies = pm_frame_constant(f, "bodies", NAN);
 	k.weight = !isnan(c->weight) ? c->weight : isfinite(bodies) && n ? bodies / (double)n : 1;
-	*r = (struct pm_collided){.logarithm = logarithms(c, f, &k), .fastest = fastest(&k)};
+	*r = (struct pm_collided){.logarithm = logarithms(c, f, &k), .fastest = fastest(&k), .single = isnan(c->weight) && !isfinite(bodies)};
 	for (int a = 0; a < k.nsets && !r->weighted; a++)
 		r->weighted = weighted(&k.set[a]) ? k.set[a].name : NULL;
 	k.cell_of = pm_alloc(n, sizeof *k.cell_of);

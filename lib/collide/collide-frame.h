@@ -20,6 +20,7 @@ struct pm_collided {
 	double turn;       /* mean of 1 - cos of their angle, to be expected */
 	double logarithm;  /* the least used */
 	double fastest;    /* [length/time] before the collisions */
+	bool single;       /* nothing said how many charges a particle stands for: one was taken */
 	const char *weighted; /* a set whose particles have one charge over mass and unequal masses; NULL none */
 };
 
