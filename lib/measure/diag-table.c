@@ -179,6 +179,8 @@ static void ask_theory(struct pm_diag_table *t, const struct pm_frame *f)
 	}
 	t->theory[0] = its ? scene->exact(f, "gamma", f->time) : NAN;
 	t->theory[1] = its ? scene->exact(f, "omega", f->time) : NAN;
+	t->bounce = its ? scene->exact(f, "bounce", f->time) : NAN;
+	t->bounce = t->theory[0] < 0 && t->bounce > -t->theory[0] ? t->bounce : NAN;
 	if (isfinite(t->theory[0]))
 		t->k = 0;
 }
@@ -336,6 +338,9 @@ static void print_growth(FILE *out, bool json, const char *of, const struct pm_g
 		number(out, json, json ? ",\"theory_gamma\":" : start, t->theory[0]);
 		number(out, json, json ? ",\"theory_omega\":" : " omega ", t->theory[1]);
 		fputs(!json ? "" : t->k > 0 ? ",\"theory_of\":\"species\"" : ",\"theory_of\":\"scene\"", out);
+		if (isfinite(t->bounce))
+			fprintf(out, json ? ",\"bounce\":%.3g" : ", of a small wave: this one traps particles before it is damped (bounce frequency %.3g)",
+				t->bounce);
 	} else if (t->k > 0) {
 		fprintf(out, json ? ",\"theory_none\":\"%s\"" : "; theory of the species: none (%s)", t->waves.why[0] ? t->waves.why :
 			g->reason[0] ? "no rate from which to look for a root" : "no root near what was measured");

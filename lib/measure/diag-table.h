@@ -42,6 +42,7 @@ struct pm_diag_table {
 	struct pm_diag_column growth; /* the column that is fitted */
 	int mode;                     /* of the request, that is fitted with its phase; -1: a column */
 	double theory[2];             /* [1/time] gamma and omega that the scene states for this mode; NAN: none */
+	double bounce;                /* [1/time] of particles that this wave traps, where they do so before it is damped; NAN: none */
 	struct pm_wave_theory waves;  /* the species of the first frame */
 	double k;                     /* [1/length] of the mode whose theory is that of the species; 0: of the scene, or none is asked for */
 	struct pm_series series;

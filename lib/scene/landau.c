@@ -100,6 +100,8 @@ static double exact(const struct pm_frame *f, const char *quantity, double t)
 		const double complex root = pm_wave_strongest(&s, 1, 2 * pm_pi / length * pm_frame_parameter(f, "mode", 1));
 		return *quantity == 'o' ? creal(root) : cimag(root);
 	}
+	if (!strcmp(quantity, "bounce")) /* of a particle in a trough of the wave at the start: sqrt(k q E/m), k E = A */
+		return sqrt(pm_frame_parameter(f, "amplitude", 0.02));
 	if (!strcmp(quantity, "spread_along"))
 		return pm_frame_parameter(f, "vth", 1);
 	return !strcmp(quantity, "mass") ? length : !strcmp(quantity, "charge") ? -length : NAN;

@@ -401,7 +401,9 @@ load ../helper
 @test "diag --growth mode:1 --exact ends with the scene's theory for its own wave: Landau damping, cold and warm streams" {
 	step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
 	theory() { cycle -q -n 250 --every 2 "$step" | diag --columns time --growth "$1" --exact | tail -n 1; }
-	[[ $(pinit landau --wavenumber 0.3 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648" ]]
+	[[ $(pinit landau --wavenumber 0.3 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648, of a small wave: this one traps "\
+"particles before it is damped (bounce frequency 0.141)" ]]
+	[[ $(pinit landau --wavenumber 0.3 --amplitude 1e-4 -n 2000 | theory mode:1) == *"; theory: gamma -0.0126203684 omega 1.15984648" ]]
 	[[ $(pinit two-stream -n 2000 | theory mode:1) == *"; theory: gamma 0.353553391 omega 0" ]]
 	[[ $(pinit two-stream --v0 3 --vth 1 --wavenumber 0.2 -n 8000 | theory mode:1) == *"; theory: gamma 0.284509686 omega 0" ]]
 	# twice the scene's wave, of two beams in one set
