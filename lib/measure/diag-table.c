@@ -27,7 +27,7 @@ static int check(const struct pm_diag_choice *c)
 static int lacking(const struct pm_diag_request *g, const char *name)
 {
 	if (!strncmp(name, "mode_", strlen("mode_")) || !strncmp(name, "radius_", strlen("radius_")))
-		return g->nmodes == PM_COMPONENTS || g->nradii == PM_COMPONENTS ?
+		return (*name == 'm' ? g->nmodes : g->nradii) == PM_COMPONENTS ?
 			pm_fail(PM_USAGE, "--columns %s: at most %d of its kind", name, PM_COMPONENTS) :
 			pm_fail(PM_USAGE, "--columns %s is no wave (mode_1: 1 to 1e6) and no fraction of the mass (radius_0.5)", name);
 	return pm_fail(PM_USAGE, "--columns %s needs %s", name, !strncmp(name, "flux", strlen("flux")) ?
@@ -52,7 +52,7 @@ static int take_growth(struct pm_diag_table *t)
 	snprintf(mode, sizeof mode, "mode_%s", wave ? c->growth + strlen("mode:") : "");
 	if (!pm_diag_find(g, wave ? mode : c->growth, &t->growth))
 		return pm_fail(PM_USAGE, "--growth '%s' (mode:1 for waves in the box along x, or a column of diag)", c->growth);
-	for (t->mode = wave ? g->nmodes - 1 : -1; wave && g->mode[t->mode] != atoi(mode + strlen("mode_")); t->mode--)
+	for (t->mode = wave ? g->nmodes - 1 : -1; wave && g->mode[t->mode] != (int)strtod(mode + strlen("mode_"), NULL); t->mode--)
 		;
 	t->series.column = !wave;
 	return 0;
@@ -86,6 +86,14 @@ static void add(struct pm_diag_table *t, const struct pm_frame *f, struct pm_dia
 		t->column[t->n++] = pm_diag_exact(column.name);
 }
 
+static void add_new(struct pm_diag_table *t, const struct pm_frame *f, struct pm_diag_column column)
+{
+	for (int i = 0; i < t->n; i++)
+		if (!strcmp(t->column[i].name, column.name))
+			return;
+	add(t, f, column);
+}
+
 /* One that an option adds, where --columns does not name it or its kind already. */
 static void add_last(struct pm_diag_table *t, const struct pm_frame *f, struct pm_diag_column column)
 {
@@ -116,9 +124,9 @@ static int decide(struct pm_diag_table *t, const struct pm_frame *f)
 		if (pm_diag_find(&t->request, c->columns[i], &column))
 			add(t, f, column);
 	for (int k = 0; k < c->nradii; k++)
-		add(t, f, pm_diag_radius(&t->request, k));
+		add_new(t, f, pm_diag_radius(&t->request, k));
 	for (int k = 0; k < c->nmodes; k++)
-		add(t, f, pm_diag_mode(&t->request, k));
+		add_new(t, f, pm_diag_mode(&t->request, k));
 	for (int k = 0; k < 2 && c->separation[0]; k++)
 		add_last(t, f, pm_diag_separation(k));
 	for (int k = c->flux ? PM_FLUX : PM_FIELD_RESIDUAL; k < (c->field_errors ? PM_FIELD_COLUMNS : PM_FIELD_RESIDUAL); k++)

@@ -321,7 +321,7 @@ int pm_sentence_needs_priming(struct pm_sentence *s, const struct pm_frame *f)
 		if (w->makes || (made && known && undoes(w, h)))
 			undid = w->makes ? NULL : w;
 		if (needs && undid)
-			pm_fail(PM_USAGE, "'%s' between the force and '%s' changes the state, and drops what was computed of it (behind the last push, or in "
+			pm_fail(PM_USAGE, "'%s' between the force and '%s' drops what the force computed (behind the last push, or in "
 				"front of the words of the force)", undid->stage->word, w->stage->word);
 		pm_frame_settle(h);
 	}

@@ -123,7 +123,7 @@ size_t pm_lanes_send(struct pm_lanes *l, int to, const void *data, size_t bytes)
 	copy(l, i, written, (void *)(uintptr_t)data, k, true);
 	atomic_store(&l->lane[i].written, written + k);
 	const uint32_t wish = atomic_load(&l->bell[to].wish);
-	if (wish && (k < bytes || (k && wish & from_any && (wish & (from_any - 1)) == (uint32_t)l->rank)))
+	if (wish && k && (k < bytes || (wish & from_any && (wish & (from_any - 1)) == (uint32_t)l->rank)))
 		ring(l->bell + to);
 	return k;
 }

@@ -89,12 +89,12 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	[[ $output == *"no word that completes a step"* ]]
 }
 
-@test "a word that changes the state between the force and push is named: what it drops, no priming brings back" {
+@test "a word between the force and push that drops the force is named: no priming brings it back" {
 	pinit lamb-oseen --cells 16 >a
 	for word in walk remesh; do
 		for engine in fused pipes; do
 			run -2 --separate-stderr cycle -q --engine $engine -n 1 "p2m | poisson-fft | mgrad | m2p | $word | push lsrk3" <a
-			[[ $stderr == "cycle: step 1: '$word' between the force and 'push lsrk3' changes the state"*"behind the last push"* ]]
+			[[ $stderr == "cycle: step 1: '$word' between the force and 'push lsrk3' drops what the force computed"*"behind the last push"* ]]
 		done
 		cycle -q -n 1 "p2m | poisson-fft | mgrad | m2p | push lsrk3 | $word" <a >b
 		cycle -q -n 1 "$word | p2m | poisson-fft | mgrad | m2p | push lsrk3" <a >b

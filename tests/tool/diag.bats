@@ -42,6 +42,9 @@ load ../helper
 	pinit landau -n 1000 --cells 16 | cycle -n 12 --every 1 'push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' >a
 	diag --columns time --modes 2,1 --growth mode:1 a >b
 	diag --columns time,mode_2,mode_1 --growth mode:1 a | same_as - b
+	diag --modes 1,10 --growth mode:10 a | tail -n 1 >b
+	diag --modes 1,10 --growth mode:1e1 a | tail -n 1 | sed 's/mode:1e1/mode:10/' | cmp - b
+	[ "$(diag --columns time,mode_1 --modes 1 a | head -n 1)" = "$(printf 'time\tmode_1')" ]
 	run -2 diag --columns mode_1.5 a
 	[[ $output == *"mode_1.5 is no wave"* ]]
 	run -2 diag --columns radius_2 a
