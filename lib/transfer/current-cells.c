@@ -137,10 +137,9 @@ PM_SIMD_INLINE size_t add(int dim, int width, struct pm_current_cells *t, uint32
 			t->used[at[l] / piece] = 1;
 			sums[l] = t->sums + at[l] * each;
 		}
-		int n = 0;
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 3; c++)
-			n += find_values(dim, width, c, masked((c < dim ? t->q : t->along[c - dim]) + i, same), axes, value + n);
+		int n = find_values(dim, width, 0, masked(t->q + i, same), axes, value); /* one by one: constants when their loops are unrolled */
+		n += find_values(dim, width, 1, masked((dim > 1 ? t->q : t->along[0]) + i, same), axes, value + n);
+		n += find_values(dim, width, 2, masked((dim > 2 ? t->q : t->along[2 - dim]) + i, same), axes, value + n);
 		for (int k = n; k < each; k++)
 			value[k] = all_axes(0);
 		if (sums[0] == sums[1] && sums[0] == sums[2] && sums[0] == sums[3])
