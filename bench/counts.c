@@ -22,6 +22,7 @@ struct work {
 	struct pm_mg *mg;
 	struct pm_operator gradient;
 	struct pm_pp pp;
+	const char *step; /* a magnetic kick */
 };
 
 /* The function that callgrind counts. */
@@ -97,7 +98,7 @@ static void kick(struct work *w)
 	struct pm_magnetic m = {.charge = w->q, .mass = w->q, .c = 10};
 	for (int d = 0; d < 3; d++)
 		m.v[d] = w->v[d], m.acc[d] = w->a[d], m.b[d] = w->g[d];
-	pm_step_find("relativistic")->magnetic(true, 0.01, 0, POINTS, &m);
+	pm_step_find(w->step)->magnetic(true, 0.01, 0, POINTS, &m);
 }
 
 static void run(struct work *w, const char *name, const char *per, double items, void (*f)(struct work *))
@@ -161,6 +162,26 @@ static void on_a_line(struct work *w)
 	w->transfer = (struct pm_transfer){.grid = g, .kernel = pm_kernel_find("cic"), .components = 1};
 	run(w, "p2m cic, 1-D", "particle", POINTS, spread);
 	run(w, "m2p cic, 1-D", "particle", POINTS, gather_line);
+	w->fft = pm_poisson_fft_new(&g, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL});
+	must(!w->fft);
+	run(w, "poisson-fft periodic 1024", "point", 1024, fft);
+	w->fft = pm_poisson_fft_free(w->fft);
+}
+
+/* Currents by sums of cells, 32 particles in each: on a line, and in the plane. */
+static void by_cells(struct work *w)
+{
+	for (int dim = 1; dim < 3; dim++) {
+		struct pm_grid g = {.dim = dim};
+		char name[32];
+		for (int d = 0; d < 3; d++) {
+			g.cells[d] = g.points[d] = d >= dim ? 1 : dim == 1 ? 1024 : CELLS;
+			g.h[d] = dim == 1 && d == 0 ? CELLS / 1024. : 1;
+			g.face[d][0] = g.face[d][1] = PM_PERIODIC;
+		}
+		w->current = (struct pm_current){.grid = g, .kernel = pm_kernel_find("cic"), .dt = g.h[0], .hi = {CELLS, CELLS, CELLS}};
+		snprintf(name, sizeof name, "p2m --current cic, %d-D", dim), run(w, name, "particle", POINTS, current);
+	}
 }
 
 int main(void)
@@ -197,11 +218,15 @@ int main(void)
 		w.transfer.kernel = w.current.kernel = pm_kernel_find(k ? "tsc" : "cic");
 		snprintf(name, sizeof name, "p2m --current %s", w.current.kernel->name), run(&w, name, "particle", POINTS, current);
 	}
-	run(&w, "push relativistic/2", "particle", POINTS, kick);
+	for (int k = 0; k < 4; k++) {
+		w.step = (const char *const[]){"relativistic", "boris", "vay", "higuera-cary"}[k];
+		snprintf(name, sizeof name, "push %s/2", w.step), run(&w, name, "particle", POINTS, kick);
+	}
 	for (int k = 0; k < 2; k++) {
 		w.transfer.kernel = pm_kernel_find(k ? "tsc" : "cic");
 		snprintf(name, sizeof name, "m2p of E and B, %s", w.transfer.kernel->name), run(&w, name, "particle", POINTS, light);
 	}
 	on_a_line(&w);
+	by_cells(&w);
 	return 0;
 }
