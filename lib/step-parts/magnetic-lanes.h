@@ -33,8 +33,9 @@ struct pm_magnetic_lanes {
 	double c, radiation_time; /* of struct pm_magnetic */
 };
 
-/* KICK(lanes) finds the velocities lanes->changed of all lanes of struct pm_magnetic_lanes *lanes. */
-#define PM_MAGNETIC_LOOP(m, from, to, KICK) \
+/* kick(..., lanes) finds the velocities lanes->changed of all lanes of struct pm_magnetic_lanes *lanes; an inline function, whose other arguments are
+ * constants. */
+#define PM_MAGNETIC_LOOP(m, from, to, kick, ...) \
 	for (size_t at = (from); at < (to); at += PM_MAGNETIC_LANES) { \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
 		double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
@@ -46,10 +47,17 @@ struct pm_magnetic_lanes {
 		} \
 		lanes.charge = pm_magnetic_take((m)->charge, at, many, 1, few[9]); \
 		lanes.mass = pm_magnetic_take((m)->mass, at, many, 1, few[10]); \
-		KICK(&lanes); \
+		kick(__VA_ARGS__, &lanes); \
 		for (int c = 0; c < 3; c++) \
 			if ((m)->v[c]) \
 				memcpy((m)->v[c] + at, changed[c], many * sizeof(double)); \
 	}
+
+/* Both halves of kick(closing, dt, lanes), a loop for each. */
+#define PM_MAGNETIC_HALVES(m, from, to, kick, closing, dt) \
+	if (closing) \
+		PM_MAGNETIC_LOOP(m, from, to, kick, true, dt) \
+	else \
+		PM_MAGNETIC_LOOP(m, from, to, kick, false, dt)
 
 #endif

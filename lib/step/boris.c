@@ -14,14 +14,11 @@ PM_SIMD_INLINE void angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MA
 		part[l] = 1 / (1 + sqrt(1 + t2[l])); /* tan of half of atan |t| */
 }
 
+PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes *p) { pm_boris_half(closing, dt, p, angles); }
+
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
-#define OPENING(p) pm_boris_half(false, dt, p, angles)
-#define CLOSING(p) pm_boris_half(true, dt, p, angles)
-	if (closing)
-		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
-	else
-		PM_MAGNETIC_LOOP(m, from, to, OPENING)
+	PM_MAGNETIC_HALVES(m, from, to, kick, closing, dt)
 }
 
 const struct pm_step step_boris = {

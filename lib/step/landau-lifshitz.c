@@ -67,12 +67,7 @@ PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes
 
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
-#define OPENING(p) kick(false, dt, p)
-#define CLOSING(p) kick(true, dt, p)
-	if (closing)
-		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
-	else
-		PM_MAGNETIC_LOOP(m, from, to, OPENING)
+	PM_MAGNETIC_HALVES(m, from, to, kick, closing, dt)
 }
 
 const struct pm_step step_landau_lifshitz = {

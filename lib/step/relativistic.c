@@ -58,15 +58,12 @@ PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)
 {
 	const double light = m->c;
-#define STRAIGHT(p) kick(false, false, dt, light, p)
-#define OPENING(p) kick(true, false, dt, light, p)
-#define CLOSING(p) kick(false, true, dt, light, p)
 	if (!m->b[0])
-		PM_MAGNETIC_LOOP(m, from, to, STRAIGHT)
+		PM_MAGNETIC_LOOP(m, from, to, kick, false, false, dt, light)
 	else if (closing)
-		PM_MAGNETIC_LOOP(m, from, to, CLOSING)
+		PM_MAGNETIC_LOOP(m, from, to, kick, false, true, dt, light)
 	else
-		PM_MAGNETIC_LOOP(m, from, to, OPENING)
+		PM_MAGNETIC_LOOP(m, from, to, kick, true, false, dt, light)
 }
 
 const struct pm_step step_relativistic = {
