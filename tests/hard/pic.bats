@@ -216,3 +216,36 @@ heats() {
 	pinit landau -n 64 --beams 1 --amplitude 0.1 --cells 64 | cycle -q -n 100 "$step" | diag --columns momentum_x,energy >t
 	below "$(column momentum_x <t | sed 's/^-//')" 1e-13
 }
+
+@test "ionisation: a step of a thousand times 1/W and more, no field, hardly one, a huge one, no atoms, nothing left: counts, charge and momentum" {
+	units="--time-unit 2.4188843265864e-17 --length-unit 5.29177210544e-11"
+	# atoms FIELD N: argon in atomic units; ionised STREAM: the number of electrons
+	atoms() {
+		pinit plasma --length 1 --cells 4 --background 0 --dt 1 --no-history | scalc --mesh mesh --role state "E = $1" --no-history |
+			species argon -n "$2" --charge 0 --mass 72820 --velocities 3 --vth 0.1 --no-history | species electrons -n 0 --velocities 3 --no-history
+	}
+	ionised() { sls "$1" | awk '$2 == "electrons:" { print $3 }'; }
+	argon="ionise argon --element Ar --mass 72820 $units"
+	for field in 0 1e-300 1e-5; do
+		atoms $field 500 | $argon >b
+		within "$(ionised b)" 0 0
+	done
+	# all 18 at once; the smallest rate is 2.4 E^2/(2 I)^2 = 2e9 for 1e7
+	for field in 1e7 1e140; do
+		atoms $field 500 | $argon >b
+		within "$(ionised b)" 9000 0
+		diag --columns momentum_x,momentum_y,charge,mass --format tsv <(atoms $field 500) b | awk 'NR == 2 { split($0, a) } NR > 2 {
+			for (k = 1; k <= 4; k++) { d = (d = $k - a[k]) < 0 ? -d : d; if (d > worst) worst = d } } END { printf "%.17g", worst / 72820 }' >worst
+		below "$(cat worst)" 1e-14
+		$argon <b >c # nothing is left to lose
+		within "$(ionised c)" 9000 0
+	done
+	# the first eight electrons in a step of a thousand times their 1/W; then a gap of 279 eV, where the rate is 1e-14
+	atoms 1.8 500 | smod --dt 3e5 | $argon >b
+	within "$(ionised b)" 4000 0
+	# the same of numbers kept in single precision, in two steps
+	atoms 1.8 500 | smod --dt 20 | $argon | smod --store f32 | $argon | smod --store f32 | smod --dt 3e5 | $argon >b
+	within "$(ionised b)" 4000 0
+	atoms 1 0 | $argon >b
+	within "$(ionised b)" 0 0
+}

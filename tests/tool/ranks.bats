@@ -1084,17 +1084,20 @@ diode_step="push kick/2 drift | inject electrons --density 0.1 -n 2000 | circuit
 	p2m -n 33 | poisson-fft --x-low charge_x_low/eps0 | mgrad | m2p | push kick/2"
 streams() { pinit two-stream -n 9000 --cells 33 --dt 1 | ecsim --gauss; }
 beam() { pinit plasma | species electrons -n 9000 --velocities 3 --drift 2 --vth 0.1; }
+atoms() { pinit plasma --length 1 --cells 5 --background 0 --dt 4 | scalc --mesh mesh --role state 'E = 0.08' |
+	species argon -n 9000 --charge 0 --mass 72820 --vth 0.1 | species electrons -n 0; }
 light() { pinit em-wave --cells 133 | sel --drop E,B | smod --faces open --constant background=0 | p2m | maxwell --gauss; }
 light_step="push boris/2 | p2m --current | antenna 'Ey = sin(8*time)*exp(-(time-1.5)^2)' | maxwell | push drift | m2p | push boris/2"
 pgrad_step="field 'vel = 0' | pgrad --field f --method integral | field 'df = -derivative' | push euler"
 steps() { awk 'BEGIN { print "x f volume"; for (i = 0; i < 9000; i++) print (i + 0.5)/9000, (i < 4000), 1/9000 }' |
 	stab - --box 0,1 --faces periodic --dt 0.001; }
 
-@test "any number of ranks: electrons that come in, a circuit, a gas, an antenna, charges and field in one step, derivatives on particles" {
+@test "any number of ranks: electrons that come in, a circuit, a gas, atoms in a field, an antenna, charges and field in one step, derivatives on particles" {
 	diode | same "$diode_step"
 	streams | same "push drift/2 | ecsim | push kick drift/2"
 	beam | same "push drift | neutrals --density 0.1 'elastic: 1/g'"
 	light | same "$light_step"
+	atoms | same "push drift | ionise argon --element Ar --mass 72820 --time-unit 2.4188843265864e-17 --length-unit 5.29177210544e-11"
 	steps | same "$pgrad_step"
 	steps | same "field 'vel = 0' | pgrad --field f --order 4 --side below | pse --field f --nu 1e-6 --method dc --order 4 | push euler"
 	# the last of 9001, on the last rank, has no partners

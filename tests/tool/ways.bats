@@ -213,6 +213,12 @@ magnetised() { pinit gyration -n 60 --velocities 3 --speed 2 --no-history | sel 
 	all_ways beam "" "push drift | neutrals --density 0.1 'elastic: 1/g'" 1
 }
 
+@test "equal bytes: atoms that a field takes the electrons of" {
+	atoms() { pinit plasma --length 1 --cells 5 --background 0 --dt 4 --no-history | scalc --mesh mesh --role state 'E = 0.08' --no-history |
+		species argon -n 1001 --charge 0 --mass 72820 --vth 0.1 --no-history | species electrons -n 0 "$@"; }
+	all_ways atoms "" "push drift | ionise argon --element Ar --mass 72820 --time-unit 2.4188843265864e-17 --length-unit 5.29177210544e-11" 1
+}
+
 @test "equal bytes: light from an antenna on particles" {
 	light() { pinit em-wave --cells 33 --no-history | sel --drop E,B --no-history | smod --faces open --constant background=0 --no-history |
 		p2m --no-history | maxwell --gauss "$@"; }

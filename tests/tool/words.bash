@@ -23,6 +23,7 @@ words() {
 	species) echo "species ions -n 7 --charge 1" ;;
 	inject) echo "inject matter --at volume --influx 100 --charge 1 -n 5" ;;
 	neutrals) echo "neutrals --set matter --density 1 'elastic: 1'" ;;
+	ionise) echo "ionise matter --element H --mass 1 --electron-mass 1e-3 --time-unit 1e-9 --length-unit 1e-9" ;;
 	ecsim) echo "ecsim --gauss" ;;
 	circuit) echo "circuit --at x-high --current-source 0.1" ;;
 	dispersion) echo "dispersion -n 1" ;;
@@ -86,6 +87,9 @@ made() {
 	redistance) pinit lattice -n 64 --cells 4 --spacing 1 | scalc --extensive 'volume = 1' | scalc --role state 'level = x - 1.2' ;;
 	inject) cloud | smod --law electrostatic --dt 0.1 | scalc --extensive 'charge = mass' | scalc --role state 'v = 0, 0, 0' ;;
 	neutrals) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 ;;
+	ionise) pinit uniform -n 12 --seed 3 --cells 4 --dispersion 1 | smod --law electrostatic --constant background=0 --dt 0.1 |
+		scalc --extensive --role state 'charge = 0' 'mass = 1' | scalc --mesh mesh --role state 'E = 1e4, x, 0' |
+		species electrons -n 3 --velocities 3 ;;
 	ecsim) pinit langmuir -n 12 --cells 4 ;;
 	circuit) pinit sheath --cells 4 | sel --set electrons | species electrons -n 12 --profile 1 ;;
 	walk | jump) cloud | smod --dt 0.01 ;;
