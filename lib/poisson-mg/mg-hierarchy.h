@@ -32,6 +32,11 @@ enum { mg_stages_most = 4 * 32 + 1 };
 void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, size_t k); /* the same bytes, a node at a time */
 void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, size_t k);
 double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, mg_number *r); /* as a row, closed behind its end; returns the sum of squares */
+struct mg_rows { /* of u and f, and the neighbours of that of u along y and z */
+	mg_number *u;
+	const mg_number *f, *south, *north, *back, *front;
+};
+double pm_mg_residual_of(const struct mg_level *l, struct mg_rows a, mg_number *r); /* order 2: the same of rows that are anywhere */
 
 /* mg-compact.c */
 void pm_mg_compact_init(struct mg_level *l); /* the weights, also those of order 2 */
@@ -78,14 +83,25 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 double pm_mg_mean(struct pm_mg *mg, const double *values);                             /* with the weights of quadrature */
 double pm_mg_largest(size_t n, double c, double average, const double *s);             /* |c (s - average)| */
 void pm_mg_clear(struct pm_mg *mg);                                                    /* u of the finest grid = 0 */
-double pm_mg_load(struct pm_mg *mg, double c, double average, const double *s, bool refines); /* f, of the single hierarchy too; its sum of squares */
+/* f of the hierarchy and of the single one, or one of them; its sum of squares and the largest of its values. */
+enum mg_load { MG_LOAD_OWN = 1, MG_LOAD_SINGLE = 2 };
+double pm_mg_load(struct pm_mg *mg, double c, double average, const double *s, int to, double *largest);
+double pm_mg_load_row(const struct mg_level *l, double c, double average, const double *s, double *f, double *largest);
 void pm_mg_store(const struct pm_mg *mg, double factor, double average, double *phi);
+void pm_mg_store_row(const struct mg_level *l, double factor, double average, const double *u, double *to);
 
 /* mg-refine.c: cycles in single numbers, residuals in double ones. Is that for this problem? Their right-hand side in row j of plane k is scale r. And the
  * solution from f, of both hierarchies, whatever u is: false where it stalls, to be continued in double numbers. */
 bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o);
 void pm_mg_refine_source(struct pm_mg *mg, double scale, size_t j, size_t k, const double *r);
-bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r);
+struct mg_once {       /* where one round is expected to do: */
+	double c, unit;        /* f = c/unit s was loaded into the single hierarchy alone */
+	const double *s;
+	double *phi;           /* for unit times the solution */
+	bool stored;           /* it is there */
+};
+bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct mg_once *once, struct pm_mg_record *r); /* once may be NULL */
+bool pm_mg_refines_once(const struct pm_mg *mg, const struct pm_mg_choice *o);
 bool pm_mg_at_roundoff(struct pm_mg *mg, double residual, double source); /* mg.c */
 
 /* mg-cycle.c */

@@ -123,7 +123,7 @@ static bool planes_place(struct mg_level *l)
 static bool level_alloc(struct mg_level *l)
 {
 	const struct mg_axis *x = &l->axis[0];
-	l->half = mg_lanes * ((x->points + 2 * mg_lanes - 1) / (2 * mg_lanes) + 1);
+	l->half = mg_whole(x->points / 2 + 1); /* with what closes a row; vectors read on behind it, into the other half or the next row */
 	l->stride = 2 * l->half;
 	l->plane = l->stride * l->axis[1].points;
 	if (l->plane % (4096 / sizeof *l->u) == 0 && l->axis[1].points > 1) /* planes a multiple of 4 KiB apart would share the sets of the cache */
@@ -133,8 +133,8 @@ static bool level_alloc(struct mg_level *l)
 	l->here = l->axis[2].points;
 	if (l->from && !planes_place(l))
 		return false;
-	l->u = pm_zalloc(mg_held(l), sizeof *l->u);
-	l->f = pm_zalloc(mg_held(l), sizeof *l->f);
+	l->u = pm_zalloc(mg_held(l) + mg_lanes, sizeof *l->u);
+	l->f = pm_zalloc(mg_held(l) + mg_lanes, sizeof *l->f);
 	for (int m = 0; m < 2; m++)
 		if (!(l->mask[m] = pm_zalloc(l->half, sizeof *l->mask[m])))
 			return false;

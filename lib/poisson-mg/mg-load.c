@@ -1,8 +1,10 @@
 /* What goes between the arrays of a mesh, node after node, and the rows of a hierarchy: even nodes, then odd ones.
  *   f = c (s - average);  phi = factor u - average
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "poisson-mg/mg-vector.h"
 #include "poisson-mg/mg-ranks.h"
 
+#include <omp.h>
 #include <string.h>
 
 static double half(const struct mg_axis *a, size_t i) { return !a->periodic && (i == 0 || i + 1 == a->points) ? 0.5 : 1; }
@@ -27,27 +29,44 @@ double pm_mg_mean(struct pm_mg *mg, const double *values)
 	return pm_mg_total(mg, 0, z->points) / ((double)x->cells * (double)y->cells * (double)z->cells);
 }
 
-/* A row of f from one of s, a sum of squares; nodes behind the last are the padding, which stays 0. */
-static double load_row(const struct mg_level *l, double c, double average, const double *restrict s, double *restrict f)
+/* The larger of a and |b|; a where b is not a number. */
+PM_SIMD_INLINE pm_simd larger_size(pm_simd a, pm_simd b)
+{
+	const pm_simd size = (pm_simd)((pm_simd_bits)b & INT64_MAX);
+	const pm_simd_bits more = size > a;
+	return (pm_simd)((more & (pm_simd_bits)size) | (~more & (pm_simd_bits)a));
+}
+
+/* A row of f from one of s; nodes behind the last are the padding, which stays 0. Returns the sum of squares and makes `largest` as large as a value. */
+double pm_mg_load_row(const struct mg_level *l, double c, double average, const double *restrict s, double *restrict f, double *largest)
 {
 	enum { lanes = 8 };
 	const size_t n = l->axis[0].points;
 	const mg_mask *even_mask = l->mask[0], *odd_mask = l->mask[1];
-	double *odd = f + l->half, lane[lanes] = {0};
+	double *odd = f + l->half, lane[lanes], most[lanes];
+	pm_simd sum[lanes / W] = {{0}}, high[lanes / W] = {{0}};
 	size_t i = 0;
 	for (; 2 * (i + lanes) <= n; i += lanes)
-		for (size_t q = 0; q < lanes; q++) {
-			/* Loaded in any case: gcc 12.2 misplaces masked loads with a step of 2. */
-			const double here = c * (s[2 * (i + q)] - average), next = c * (s[2 * (i + q) + 1] - average);
-			const double a = even_mask[i + q] ? here : 0, b = odd_mask[i + q] ? next : 0;
-			f[i + q] = a, odd[i + q] = b;
-			lane[q] += a * a + b * b;
+		PM_SIMD_UNROLL
+		for (size_t part = 0; part < lanes / W; part++) {
+			const size_t at = i + part * W;
+			pm_simd low, next, a, b;
+			memcpy(&low, s + 2 * at, sizeof low), memcpy(&next, s + 2 * at + W, sizeof next);
+			low = c * (low - average), next = c * (next - average);
+			a = pm_simd_masked(pm_simd_even(low, next), even_mask + at), b = pm_simd_masked(pm_simd_odd(low, next), odd_mask + at);
+			pm_simd_store(f + at, a), pm_simd_store(odd + at, b);
+			sum[part] += a * a + b * b;
+			high[part] = larger_size(high[part], a), high[part] = larger_size(high[part], b);
 		}
+	memcpy(lane, sum, sizeof lane), memcpy(most, high, sizeof most);
 	for (size_t at = 2 * i; at < n; at++) {
 		double *to = at & 1 ? odd + at / 2 : f + at / 2;
 		*to = (at & 1 ? odd_mask : even_mask)[at / 2] ? c * (s[at] - average) : 0;
 		lane[at / 2 - i] += *to * *to;
+		most[0] = fmax(most[0], fabs(*to));
 	}
+	for (size_t q = 0; q < lanes; q++)
+		*largest = most[q] > *largest ? most[q] : *largest;
 	return ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
 }
 
@@ -60,47 +79,54 @@ void pm_mg_clear(struct pm_mg *mg)
 		memset(l->u + mg_plane(l, k), 0, l->axis[1].points * l->stride * sizeof *l->u);
 }
 
-/* f = c (s - average) on the unknowns, 0 elsewhere; of the single hierarchy too if cycles are in single numbers. Returns the sum of squares. */
-double pm_mg_load(struct pm_mg *mg, double c, double average, const double *s, bool refines)
+/* f = c (s - average) on the unknowns, 0 elsewhere. */
+double pm_mg_load(struct pm_mg *mg, double c, double average, const double *s, int to, double *largest)
 {
+	const bool own = to & MG_LOAD_OWN;
+	double most = 0;
 	struct mg_level *l = &mg->level[0];
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
 	l->beside = false;
-	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
+	#pragma omp parallel for num_threads(mg->threads) reduction(max : most) if (mg_held(l) > mg_parallel)
 	for (size_t k = l->first; k < l->first + l->here; k++) {
 		struct pm_sum sum = {0, 0};
 		for (size_t j = 0; j < y->points; j++) {
-			double *f = l->f + mg_plane(l, k) + j * l->stride;
+			double *f = own ? l->f + mg_plane(l, k) + j * l->stride : mg->scratch + (size_t)omp_get_thread_num() * mg->room;
 			const bool inside = k >= z->first && k < z->end && j >= y->first && j < y->end;
 			if (inside)
-				pm_sum_add(&sum, load_row(l, c, average, s + ((k - l->first) * y->points + j) * l->axis[0].points, f));
-			else
+				pm_sum_add(&sum, pm_mg_load_row(l, c, average, s + ((k - l->first) * y->points + j) * l->axis[0].points, f, &most));
+			else if (own)
 				memset(f, 0, l->stride * sizeof *f);
-			if (inside && refines)
+			if (inside && to & MG_LOAD_SINGLE)
 				pm_mg_refine_source(mg, 1, j, k, f);
 		}
 		mg->sums[k] = pm_sum_total(sum);
 	}
+	*largest = most;
 	return pm_mg_total(mg, z->first, z->end);
 }
 
-/* phi = factor u - average */
+/* A row of phi = factor u - average. */
+void pm_mg_store_row(const struct mg_level *l, double factor, double average, const double *restrict u, double *restrict to)
+{
+	const size_t n = l->axis[0].points;
+	const double *restrict odd = u + l->half;
+	for (size_t i = 0; i < n / 2; i++) {
+		to[2 * i] = factor * u[i] - average;
+		to[2 * i + 1] = factor * odd[i] - average;
+	}
+	if (n & 1)
+		to[n - 1] = factor * u[n / 2] - average;
+}
+
 void pm_mg_store(const struct pm_mg *mg, double factor, double average, double *phi)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
 	#pragma omp parallel for num_threads(mg->threads) if (mg_held(l) > mg_parallel)
 	for (size_t k = l->first; k < l->first + l->here; k++)
-		for (size_t j = 0; j < y->points; j++) {
-			const double *restrict even = l->u + mg_plane(l, k) + j * l->stride, *restrict odd = even + l->half;
-			double *restrict to = phi + ((k - l->first) * y->points + j) * x->points;
-			for (size_t i = 0; i < x->points / 2; i++) {
-				to[2 * i] = factor * even[i] - average;
-				to[2 * i + 1] = factor * odd[i] - average;
-			}
-			if (x->points & 1)
-				to[x->points - 1] = factor * even[x->points / 2] - average;
-		}
+		for (size_t j = 0; j < y->points; j++)
+			pm_mg_store_row(l, factor, average, l->u + mg_plane(l, k) + j * l->stride, phi + ((k - l->first) * y->points + j) * x->points);
 }
 
 /* The largest |c (s - average)|. */

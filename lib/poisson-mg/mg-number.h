@@ -26,6 +26,7 @@ enum { mg_lanes = 16 }; /* of the widest register */
 #define pm_mg_relax_plain pm_mg_single_relax_plain
 #define pm_mg_relax_plane pm_mg_single_relax_plane
 #define pm_mg_residual_row pm_mg_single_residual_row
+#define pm_mg_residual_of pm_mg_single_residual_of
 #define pm_mg_compact_init pm_mg_single_compact_init
 #define pm_mg_colour_plane pm_mg_single_colour_plane
 #define pm_mg_jacobi_plane pm_mg_single_jacobi_plane

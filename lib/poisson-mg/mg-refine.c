@@ -5,9 +5,12 @@
  * by a power of 2, so that single numbers neither overflow nor vanish. If a round does not halve the residual (at its floor, or on meshes so fine that
  * single numbers cannot resolve the differences), the solution goes on in double numbers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fft/fft-block.h"
 #include "poisson-mg/mg-ranks.h"
 #include "poisson-mg/mg-single.h"
 #include "world/world.h"
+
+#include <string.h>
 
 bool pm_mg_refines(struct pm_mg *mg, const struct pm_mg_choice *o)
 {
@@ -44,13 +47,13 @@ static double scale_of(const struct pm_mg *mg, double residual)
 	return each > 0 && isfinite(each) ? ldexp(1, -ilogb(each)) : 1;
 }
 
-/* u += factor e in plane k, kept closed; first: u was anything. */
-static void add_plane(struct pm_mg *mg, bool first, double factor, size_t k)
+/* u += factor e in a plane that is k of e, kept closed; first: u was anything. */
+static void add_plane(const struct pm_mg *mg, bool first, double factor, size_t k, double *plane)
 {
 	const struct mg_level *l = &mg->level[0];
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
 	for (size_t j = y->first; j < y->end; j++) {
-		double *u = l->u + mg_plane(l, k) + j * l->stride;
+		double *u = plane + j * l->stride;
 		const float *e[2];
 		pm_mg_single_solution(mg->single, j, k, e);
 		for (size_t odd = 0; odd < 2; odd++) {
@@ -103,7 +106,7 @@ static double correct(struct pm_mg *mg, bool first, double factor, double scale)
 	for (size_t p = 0; p < parts; p++) {
 		const size_t from = range[0] + n * p / parts, to = range[0] + n * (p + 1) / parts;
 		for (size_t k = from; k < to; k++) {
-			add_plane(mg, first, factor, k);
+			add_plane(mg, first, factor, k, l->u + mg_plane(l, k));
 			if (k > from + 1)
 				mg->sums[k - 1] = residual_plane(mg, scale, k - 1, mg->scratch + p * mg->room);
 		}
@@ -117,6 +120,72 @@ static double correct(struct pm_mg *mg, bool first, double factor, double scale)
 				mg->sums[k] = residual_plane(mg, scale, k, mg->scratch + p * mg->room);
 	}
 	return sqrt(pm_mg_total(mg, z->first, z->end));
+}
+
+/* May one round do, and do threads have planes enough for store_once? */
+bool pm_mg_refines_once(const struct pm_mg *mg, const struct pm_mg_choice *o)
+{
+	const struct mg_level *l = &mg->level[0];
+	return o->tolerance >= 1e-5 && l->fixed && !l->from && l->axis[2].end - l->axis[2].first >= 3 * (size_t)mg->threads;
+}
+
+/* Plane k, folded at the faces, of factor e: on a wall 0, which nobody changes, otherwise in one of the three places at ring. */
+static double *plane_once(struct pm_mg *mg, double factor, ptrdiff_t k, double *ring)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *z = &l->axis[2];
+	const size_t at = mg_fold(k, z);
+	double *plane = ring + (size_t)(k + 3) % 3 * l->plane;
+	if (at < z->first || at >= z->end)
+		return l->u + mg_plane(l, at);
+	add_plane(mg, true, factor, at, plane);
+	return plane;
+}
+
+/* Planes from <= k < to of what correct and pm_mg_store do, plane by plane in the cache; neither u nor f is written, but for three planes of u. */
+static void store_once(struct pm_mg *mg, const struct mg_once *once, double factor, size_t from, size_t to, double *room)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
+	double *ring = l->u + mg_plane(l, from), *f = room, *residual = f + l->stride, *row = residual + l->stride, largest = 0;
+	const double *below = plane_once(mg, factor, (ptrdiff_t)from - 1, ring);
+	double *here = plane_once(mg, factor, (ptrdiff_t)from, ring);
+	for (size_t k = from; k < to; k++) {
+		double *above = plane_once(mg, factor, (ptrdiff_t)k + 1, ring);
+		struct pm_sum sum = {0, 0};
+		for (size_t j = 0; j < y->points; j++) {
+			const size_t at = j * l->stride, node = (k * y->points + j) * x->points;
+			if (j >= y->first && j < y->end) {
+				pm_mg_load_row(l, once->c / once->unit, 0, once->s + node, f, &largest);
+				pm_sum_add(&sum, pm_mg_residual_of(l, (struct mg_rows){.u = here + at, .f = f, .south = here + mg_below(y, j) * l->stride,
+					.north = here + mg_above(y, j) * l->stride, .back = below + at, .front = above + at}, residual));
+			}
+			pm_mg_store_row(l, once->unit, 0, here + at, row);
+			pm_stream(once->phi + node, row, x->points);
+		}
+		mg->sums[k] = pm_sum_total(sum);
+		below = here, here = above;
+	}
+}
+
+/* The residual, root of the sum of squares, and phi if it is at the tolerance, with the bytes of correct and pm_mg_store; otherwise f and what correct does. */
+static double finish_once(struct pm_mg *mg, const struct pm_mg_choice *o, struct mg_once *once, double source, double factor, double scale)
+{
+	const struct mg_level *l = &mg->level[0];
+	const struct mg_axis *z = &l->axis[2];
+	const size_t parts = (size_t)mg->threads, n = z->end - z->first, plane = l->axis[0].points * l->axis[1].points;
+	#pragma omp parallel for num_threads(mg->threads) schedule(static, 1) if (parts > 1)
+	for (size_t p = 0; p < parts; p++)
+		store_once(mg, once, factor, z->first + n * p / parts, z->first + n * (p + 1) / parts, mg->scratch + p * mg->room);
+	for (size_t k = 0; k < z->points; k++)
+		if (k < z->first || k >= z->end)
+			memset(once->phi + k * plane, 0, plane * sizeof *once->phi);
+	double residual = sqrt(pm_mg_total(mg, z->first, z->end)), largest;
+	once->stored = residual / source <= o->tolerance;
+	if (once->stored)
+		return residual;
+	pm_mg_load(mg, once->c / once->unit, 0, once->s, MG_LOAD_OWN, &largest);
+	return correct(mg, true, factor, scale);
 }
 
 static void record(struct pm_mg_record *r, double now)
@@ -148,7 +217,7 @@ static void round_of_cycles(struct pm_mg *mg, const struct pm_mg_choice *o, bool
 	}
 }
 
-bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct pm_mg_record *r)
+bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source, struct mg_once *once, struct pm_mg_record *r)
 {
 	double before = 1, scale = 1;
 	for (bool full = true;; full = false) {
@@ -158,7 +227,7 @@ bool pm_mg_refine(struct pm_mg *mg, const struct pm_mg_choice *o, double source,
 		mg->status = pm_mg_single_status(mg->single);
 		const double factor = unit_of(mg) / scale;
 		scale = scale_of(mg, r->after * source);
-		const double residual = correct(mg, full, factor, scale), now = residual / source;
+		const double now = (once && full ? finish_once(mg, o, once, source, factor, scale) : correct(mg, full, factor, scale)) / source;
 		record(r, now);
 		for (int i = first; i < r->cycles; i++) /* what single numbers saw beyond the rounding of double ones was not there */
 			r->history[i] = fmax(r->history[i], now);

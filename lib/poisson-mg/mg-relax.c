@@ -9,23 +9,18 @@
 
 #include <string.h>
 
-struct rows {
-	mg_number *u;
-	const mg_number *f, *south, *north, *back, *front; /* neighbours along y and z */
-};
-
-PM_SIMD_INLINE struct rows rows_at(const struct mg_level *l, size_t j, size_t k)
+PM_SIMD_INLINE struct mg_rows rows_at(const struct mg_level *l, size_t j, size_t k)
 {
 	const struct mg_axis *y = &l->axis[1], *z = &l->axis[2];
 	mg_number *plane = l->u + mg_plane(l, k);
 	size_t row = j * l->stride;
-	return (struct rows){.u = plane + row, .f = l->f + mg_plane(l, k) + row,
+	return (struct mg_rows){.u = plane + row, .f = l->f + mg_plane(l, k) + row,
 		.south = plane + mg_below(y, j) * l->stride, .north = plane + mg_above(y, j) * l->stride,
 		.back = l->u + mg_plane(l, mg_below(z, k)) + row, .front = l->u + mg_plane(l, mg_above(z, k)) + row};
 }
 
-PM_SIMD_INLINE mg_vector along_y(const struct rows *a, size_t i) { return mg_load(a->south + i) + mg_load(a->north + i); }
-PM_SIMD_INLINE mg_vector along_z(const struct rows *a, size_t i) { return mg_load(a->back + i) + mg_load(a->front + i); }
+PM_SIMD_INLINE mg_vector along_y(const struct mg_rows *a, size_t i) { return mg_load(a->south + i) + mg_load(a->north + i); }
+PM_SIMD_INLINE mg_vector along_z(const struct mg_rows *a, size_t i) { return mg_load(a->back + i) + mg_load(a->front + i); }
 
 /* Laplacian from the sums of the neighbours along x, y and z and the node itself. */
 #define LAPLACIAN(result, alongx, alongy, alongz, here) \
@@ -47,7 +42,7 @@ PM_SIMD_INLINE mg_vector along_z(const struct rows *a, size_t i) { return mg_loa
 	} while (0)
 
 /* Relaxes the even (odd = 0) or the odd half of a row. */
-PM_SIMD_INLINE void relax_row(const int dim, const struct mg_level *l, mg_number factor, struct rows a, const int odd)
+PM_SIMD_INLINE void relax_row(const int dim, const struct mg_level *l, mg_number factor, struct mg_rows a, const int odd)
 {
 	const mg_number wx = (mg_number)l->axis[0].w, wy = (mg_number)l->axis[1].w, wz = (mg_number)l->axis[2].w, diagonal = (mg_number)l->diagonal;
 	const size_t at = odd ? l->half : 0, n = (l->axis[0].points + !odd) / 2;
@@ -74,7 +69,7 @@ PM_SIMD_INLINE void relax_row(const int dim, const struct mg_level *l, mg_number
 /* Relaxes the even half of row e and the odd half of row o, which are neighbours: what one has beside it along x, the other has along y, so that two
  * of five loads are saved. beyond_e and beyond_o are their outer neighbours along y. The next two rows are prefetched: pieces of half a row are too short
  * for the processor to foresee. The bytes are those of relax_row. */
-PM_SIMD_INLINE void relax_pair(const struct mg_level *l, mg_number factor, struct rows e, struct rows o, const mg_number *beyond_e,
+PM_SIMD_INLINE void relax_pair(const struct mg_level *l, mg_number factor, struct mg_rows e, struct mg_rows o, const mg_number *beyond_e,
 	const mg_number *beyond_o)
 {
 	enum { dim = 3 };
@@ -112,7 +107,7 @@ void pm_mg_relax_plain(const struct mg_level *l, double relaxation, int colour, 
 	const struct mg_axis *x = &l->axis[0], *y = &l->axis[1];
 	double factor = relaxation / l->diagonal;
 	for (size_t j = y->first; j < y->end; j++) {
-		struct rows a = rows_at(l, j, k);
+		struct mg_rows a = rows_at(l, j, k);
 		double left = mg_left_end(l, a.u);
 		for (size_t i = x->first; i < x->end; i++) {
 			size_t at = mg_slot(l, i);
@@ -144,7 +139,7 @@ static void relax_plane(const struct mg_level *l, mg_number factor, int colour, 
 	const struct mg_axis *y = &l->axis[1];
 	size_t j = y->first;
 	for (; j + 1 < y->end && y->points > 2; j += 2) {
-		struct rows a = rows_at(l, j, k), b = rows_at(l, j + 1, k);
+		struct mg_rows a = rows_at(l, j, k), b = rows_at(l, j + 1, k);
 		if ((j + k + (size_t)colour) & 1)
 			relax_pair(l, factor, b, a, b.north, a.south);
 		else
@@ -165,7 +160,7 @@ void pm_mg_relax_plane(const struct mg_level *l, double relaxation, int colour, 
 		relax_rows(1, l, factor, colour, 0, k);
 }
 
-PM_SIMD_INLINE double residual_row(const int dim, const struct mg_level *l, struct rows a, mg_number *restrict r)
+PM_SIMD_INLINE double residual_row(const int dim, const struct mg_level *l, struct mg_rows a, mg_number *restrict r)
 {
 	const mg_number wx = (mg_number)l->axis[0].w, wy = (mg_number)l->axis[1].w, wz = (mg_number)l->axis[2].w, diagonal = (mg_number)l->diagonal;
 	const size_t half = l->half;
@@ -198,12 +193,14 @@ PM_SIMD_INLINE double residual_row(const int dim, const struct mg_level *l, stru
 	return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
-double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, mg_number *r)
+double pm_mg_residual_of(const struct mg_level *l, struct mg_rows a, mg_number *r)
 {
-	if (l->order == 4)
-		return pm_mg_compact_residual(l, j, k, r);
-	struct rows a = rows_at(l, j, k);
 	double sum = l->dim == 3 ? residual_row(3, l, a, r) : l->dim == 2 ? residual_row(2, l, a, r) : residual_row(1, l, a, r);
 	mg_close_row(l, r);
 	return sum;
+}
+
+double pm_mg_residual_row(const struct mg_level *l, size_t j, size_t k, mg_number *r)
+{
+	return l->order == 4 ? pm_mg_compact_residual(l, j, k, r) : pm_mg_residual_of(l, rows_at(l, j, k), r);
 }

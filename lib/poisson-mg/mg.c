@@ -83,7 +83,8 @@ static void load_start(struct pm_mg *mg, const double *u)
 
 void pm_mg_start(struct pm_mg *mg, const double *f, const double *u)
 {
-	pm_mg_load(mg, 1, 0, f, false);
+	double largest;
+	pm_mg_load(mg, 1, 0, f, MG_LOAD_OWN, &largest);
 	pm_mg_clear(mg);
 	if (u)
 		load_start(mg, u);
@@ -158,6 +159,19 @@ static void iterate(struct pm_mg *mg, const struct pm_mg_choice *o, double sourc
 		r->contraction = pow(r->history[last] / r->history[0], 1.0 / last);
 }
 
+/* f = c/unit (s - average), the root of its sum of squares. Squares must neither vanish nor overflow, of single numbers either; the unit is a power of 2, which
+ * rounds nothing, and 1 where values are near it, so that s need not be read before. */
+static double load(struct pm_mg *mg, double c, double average, const double *s, int to, double *unit)
+{
+	double most, squares = pm_mg_load(mg, c, average, s, to, &most);
+	most = pm_mg_most(mg, most);
+	*unit = 1;
+	if (most == 0 || !isfinite(most) || (most > 0x1p-30 && most < 0x1p30))
+		return sqrt(squares);
+	*unit = ldexp(1, ilogb(most));
+	return sqrt(pm_mg_load(mg, c / *unit, average, s, to, &most));
+}
+
 int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, double c, const double *s, const double *point, double *phi,
 	struct pm_mg_record *r)
 {
@@ -171,23 +185,25 @@ int pm_mg_solve_differences(struct pm_mg *mg, const struct pm_mg_choice *o, doub
 	*r = (struct pm_mg_record){.singular = !l->fixed, .mean = l->fixed ? 0 : pm_mg_mean(mg, s)};
 	double whole = l->fixed ? 0 : pm_mg_most(mg, pm_mg_largest(here, 1, 0, s));
 	r->incompatible = whole > 0 ? fabs(r->mean) / whole : 0;
-	double most = pm_mg_most(mg, pm_mg_largest(here, c, r->mean, s));
-	double unit = most > 0 && isfinite(most) ? ldexp(1, ilogb(most)) : 1; /* squares must neither vanish nor overflow; a power of 2 rounds nothing */
 	const bool refines = pm_mg_refines(mg, o);
-	const double source = sqrt(pm_mg_load(mg, c / unit, r->mean, s, refines));
+	struct mg_once once = {.c = c, .s = s, .phi = phi};
+	const bool hopes = refines && s != phi && pm_mg_refines_once(mg, o);
+	double unit, source = load(mg, c, r->mean, s, hopes ? MG_LOAD_SINGLE : refines ? MG_LOAD_OWN | MG_LOAD_SINGLE : MG_LOAD_OWN, &unit);
+	once.unit = unit;
 	r->converged = source == 0 || mg->levels == 1;
 	if (!refines || source == 0)
 		pm_mg_clear(mg);
 	if (source != 0 && mg->levels == 1)
 		pm_mg_solve_coarsest(mg);
-	if (!r->converged && !(refines && pm_mg_refine(mg, o, source, r))) {
+	if (!r->converged && !(refines && pm_mg_refine(mg, o, source, hopes ? &once : NULL, r))) {
 		if (!refines && o->cycle == PM_MG_FMG && (!point || (!pm_mg_pyramid(mg, c / unit, point) && !l->from)))
 			pm_mg_start_sources(mg);
 		if (!refines && o->cycle == PM_MG_FMG)
 			pm_mg_start_full(mg, o);
 		iterate(mg, o, source, r);
 	}
-	pm_mg_store(mg, unit, 0, phi);
+	if (!once.stored)
+		pm_mg_store(mg, unit, 0, phi);
 	if (r->singular)
 		pm_mg_store(mg, unit, pm_mg_mean(mg, phi), phi);
 	if (mg->status)

@@ -324,6 +324,40 @@ static void test_single(void)
 	}
 }
 
+/* Where one round of cycles may do, phi is stored while the residual is found, unless it replaces s: the bytes of both ways, where one round does and where it
+ * does not. */
+static void test_once(void)
+{
+	static struct pm_mg_record r[2];
+	const struct pm_grid grids[] = {cube(3, 55, "nnwwpp"), cube(3, 52, "wwppnn"), cube(2, 384, "wnnn")};
+	for (size_t i = 0; i < 3; i++) {
+		const size_t n = pm_grid_size(&grids[i]);
+		double *s = values(n), *a = values(n), *b = values(n);
+		bool same = true, scaled = true, one = true;
+		for (int round = 0; round < 4; round++) {
+			struct pm_mg_choice o = usual;
+			o.pre = o.post = 1, o.tolerance = round % 2 ? 1e-5 : 0.9;
+			pm_threads_use(1 + round / 2 * 2);
+			struct pm_mg *mg = pm_mg_new(&grids[i], 2);
+			one &= pm_mg_refines(mg, &o) && pm_mg_refines_once(mg, &o);
+			noise(n, s), noise(n, a);
+			same &= pm_mg_solve(mg, &o, 1, s, b, &r[0]) == pm_mg_solve(mg, &o, 1, a, a, &r[1]) && !memcmp(a, b, n * sizeof *a);
+			same &= r[0].n == r[1].n && !memcmp(r[0].history, r[1].history, (size_t)r[0].n * sizeof(double)) && r[0].after == r[1].after;
+			for (int e = -700; e <= 700 && round < 2; e += 1400) {
+				pm_mg_solve(mg, &o, ldexp(1, e), s, b, &r[1]);
+				for (size_t k = 0; k < n; k++)
+					scaled &= b[k] == ldexp(a[k], e);
+			}
+			pm_mg_free(mg);
+		}
+		check(one && same, "%d-D, %zu cells: a solution stored with its residual has the bytes of one that replaces its source", grids[i].dim,
+			grids[i].cells[0]);
+		check(scaled, "and a factor of 2^-700 or 2^700 changes nothing but the factor");
+		pm_free(s), pm_free(a), pm_free(b);
+	}
+	pm_threads_use(1);
+}
+
 static void test_scales(void)
 {
 	struct pm_grid g = grid(2, (size_t[]){24, 20}, (double[]){1, 1}, "wwnn");
@@ -493,6 +527,7 @@ int main(void)
 	test_stretched();
 	test_floor();
 	test_single();
+	test_once();
 	test_scales();
 	test_threads();
 	return check_done();
