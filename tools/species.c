@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "law/law.h"
 #include "load/species.h"
 #include "stage/stage.h"
 
@@ -102,9 +103,14 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	double weight;
 	int status = species_of(s, f, &p);
 	status = status ? status : pm_species_fill(&p, f, &weight);
-	if (!status)
-		pm_report(s, f, "weight", weight);
-	return status;
+	if (status)
+		return status;
+	pm_report(s, f, "weight", weight);
+	const struct pm_law *law = pm_law_of(f);
+	if (law && law->strength && strcmp(law->strength, "charge") && p.charge != 0 && p.n)
+		pm_tell_once(s, "the law %s has no charges: '%s' are %llu particles of the mass %.4g (smod --law electrostatic in front of species; or "
+			"--charge 0, if they are meant so)", law->name, p.name, (unsigned long long)p.n, weight * p.mass);
+	return 0;
 }
 
 static const struct pm_option options[] = {

@@ -81,7 +81,8 @@ int pm_run_end_restore(struct pm_run_end *e, struct pm_frame *f)
 void pm_run_end_tell(struct pm_run_end *e, const struct pm_stage *cycle, const struct pm_sentence *s, const struct pm_frame *f, int64_t steps, double began)
 {
 	const double span = fabs(e->time - began), off = fabs(e->time - f->time), step = fabs(f->dt);
-	if (e->told || isnan(e->time) || !(off > (step > span ? round_off * step : 0.01 * span)))
+	const bool exactly = step > span || chooses(s); /* steps that a scheme chooses are long, and nobody knows where they end */
+	if (e->told || isnan(e->time) || !(off > (exactly ? round_off * fmax(step, span) : 0.01 * span)))
 		return;
 	e->told = true;
 	if (steps && f->dt < 0 && e->time > began)
@@ -89,6 +90,9 @@ void pm_run_end_tell(struct pm_run_end *e, const struct pm_stage *cycle, const s
 			f->time, (long long)steps, steps == 1 ? "" : "s", f->dt, e->time, began);
 	else if (!steps && off > step)
 		pm_note(cycle, "no step: the frame is at time %.9g, beyond -t %.9g (-t is the time at the end, not the length of the run)", f->time, e->time);
+	else if (chooses(s))
+		pm_note(cycle, "ended at time %.9g after %lld step%s, not at %.9g: it ends at the nearest step (--exact makes the last one shorter)", f->time,
+			(long long)steps, steps == 1 ? "" : "s", e->time);
 	else
 		pm_note(cycle, "ended at time %.9g after %lld step%s of dt %.9g, not at %.9g: it ends at the nearest step (%s)", f->time, (long long)steps,
 			steps == 1 ? "" : "s", f->dt, e->time, setter(s) ? "a shorter dt" : "--exact makes the last one shorter, or a shorter dt");

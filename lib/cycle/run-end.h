@@ -19,7 +19,8 @@ bool pm_run_end_reached(const struct pm_run_end *e, const struct pm_frame *f);
 /* Before a step: makes it shorter if it would pass the end. After it: the time is exactly the end, and dt again that of the run. */
 void pm_run_end_shorten(struct pm_run_end *e, struct pm_frame *f);
 int pm_run_end_restore(struct pm_run_end *e, struct pm_frame *f);
-/* A note, once, if the run has ended elsewhere than asked: by more than 1 % of its time, or with dt longer than that time. */
+/* A note, once, if the run has ended elsewhere than asked: by more than 1 % of its time, or at all with dt longer than that time
+ * and with a scheme that chooses its steps. */
 void pm_run_end_tell(struct pm_run_end *e, const struct pm_stage *cycle, const struct pm_sentence *s, const struct pm_frame *f, int64_t steps, double began);
 
 #endif

@@ -6,8 +6,9 @@
 #include "law/law.h"
 
 static const struct pm_law_constant constants[] = {
-	{.name = "c", .unit = "length/time", .otherwise = 1, .text = "speed of light"},
-	{.name = "eps0", .unit = "charge^2 time^2/(mass length^dim)", .otherwise = 1, .text = "permittivity of free space"},
+	{.name = "c", .unit = "length/time", .otherwise = 1, .text = "speed of light", .positive = true},
+	{.name = "eps0", .unit = "charge^2 time^2/(mass length^dim)", .otherwise = 1, .text = "permittivity of free space",
+		.positive = true},
 	{.name = "background", .unit = "charge/length^dim", .text = "constant density of charge, added to rho by p2m"},
 	{0},
 };

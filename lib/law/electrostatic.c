@@ -13,7 +13,8 @@ static double coefficient(const struct pm_frame *f)
 }
 
 static const struct pm_law_constant constants[] = {
-	{.name = "eps0", .unit = "charge^2 time^2/(mass length^dim)", .otherwise = 1, .text = "permittivity of free space"},
+	{.name = "eps0", .unit = "charge^2 time^2/(mass length^dim)", .otherwise = 1, .text = "permittivity of free space",
+		.positive = true},
 	{.name = "background", .unit = "charge/length^dim", .text = "constant density of charge, added to rho by p2m"},
 	{0},
 };

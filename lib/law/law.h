@@ -13,6 +13,7 @@ struct pm_law_constant {
 	const char *name, *unit;
 	double otherwise; /* default */
 	const char *text;
+	bool positive; /* no other value has a meaning */
 };
 
 struct pm_law {

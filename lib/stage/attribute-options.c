@@ -28,11 +28,21 @@ int pm_attributes_pair(const char *text, char name[PM_NAME], double *value)
 	return 0;
 }
 
+static int check_constants(const struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_find(f->law);
+	for (const struct pm_law_constant *c = law ? law->constants : NULL; c && c->name; c++)
+		if (c->positive && !(pm_frame_constant(f, c->name, c->otherwise) > 0))
+			return pm_fail(PM_USAGE, "%s=%g, but under the law %s the %s is above 0", c->name, pm_frame_constant(f, c->name, 0), law->name,
+				c->text);
+	return 0;
+}
+
 int pm_attributes_law(struct pm_frame *f, const char *law)
 {
 	const struct pm_law *l = law ? pm_law_find(law) : NULL;
 	if (!law)
-		return 0;
+		return check_constants(f);
 	if (!l)
 		return -PM_USAGE;
 	if (!(l->dims >> f->dim & 1))
@@ -41,7 +51,7 @@ int pm_attributes_law(struct pm_frame *f, const char *law)
 	for (const struct pm_law_constant *c = l->constants; c && c->name; c++)
 		if (!json_object_get(f->constants, c->name))
 			pm_frame_constant_set(f, c->name, c->otherwise);
-	return 0;
+	return check_constants(f);
 }
 
 int pm_attributes_constants(struct pm_frame *f, const struct pm_list *list)

@@ -179,10 +179,15 @@ void pm_note(const struct pm_stage *s, const char *format, ...)
 void pm_tell_once(struct pm_stage *s, const char *format, ...)
 {
 	va_list ap;
+	int k = 0;
+	while (k < PM_TOLD_MOST && s->told[k] && s->told[k] != format)
+		k++;
+	if (s->trial || k == PM_TOLD_MOST || s->told[k])
+		return;
+	s->told[k] = format; /* a note is known by its text in the program */
 	va_start(ap, format);
-	if (!s->trial && !s->told && !s->quiet)
+	if (!s->quiet)
 		say(s, format, ap, "");
-	s->told |= !s->trial;
 	va_end(ap);
 }
 

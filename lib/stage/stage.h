@@ -64,6 +64,8 @@ enum {
 	PM_HOLD = 3  /* the header of the result depends on data: everything is loaded first, and frame() may still change the header */
 };
 
+enum { PM_TOLD_MOST = 8 };
+
 struct pm_stage {
 	const struct pm_tool *tool;
 	enum pm_kind kind;   /* from the tool; begin may change it (diag --tee: a filter) */
@@ -80,7 +82,7 @@ struct pm_stage {
 	bool fused;          /* the next word of a sentence gets the frame in this process: values may be left to be made (stream/later.h) */
 	bool trial;          /* cycle tries declare() on a header without data: it must not cache or count anything */
 	bool idle;           /* it has reported that its effect is zero */
-	bool told;           /* pm_tell_once has been used */
+	const char *told[PM_TOLD_MOST]; /* formats that pm_tell_once has printed; NULL ends */
 	int argc;
 	char **argv;         /* as typed, for the other ranks */
 	uint64_t frames[2];  /* computed with several ranks: on rank 0 alone, and divided */

@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
+#include "law/law.h"
 #include "stage/attribute-options.h"
 #include "stage/table-source.h"
 #include "stream/columns.h"
@@ -44,6 +46,20 @@ static int attributes(struct pm_stage *s, struct pm_table_options *c, const char
 	return pm_frame_mesh_new(g, "mesh", cells) ? 0 : -PM_DATA;
 }
 
+/* A column that is called "m" is no mass. */
+static void tell_short_name(struct pm_stage *s, const struct pm_frame *f, const char *set)
+{
+	const struct pm_law *law = pm_law_of(f);
+	if (!law || !law->strength || pm_frame_field(f, set, law->strength))
+		return;
+	for (size_t i = 0; i < f->nfields; i++) {
+		const char *name = f->fields[i]->name;
+		if (!strcmp(f->fields[i]->on, set) && !strncasecmp(name, law->strength, strlen(name)))
+			pm_tell_once(s, "the law %s takes the column '%s', and there is '%s' (call it %s, if it is meant so)", law->name, law->strength, name,
+				law->strength);
+	}
+}
+
 static int table(struct pm_stage *s, struct pm_text *text, struct pm_table_options *c, struct pm_frame **f)
 {
 	const struct pm_columns_choice choice = {.set = c->set, .dim = c->dim > 0 ? (int)c->dim : 0, .skip = names(&c->skip), .text = names(&c->text),
@@ -52,7 +68,10 @@ static int table(struct pm_stage *s, struct pm_text *text, struct pm_table_optio
 	if (status)
 		return status;
 	(*f)->time = (*f)->start = c->time;
-	return attributes(s, c, c->law, *f);
+	status = attributes(s, c, c->law, *f);
+	if (!status)
+		tell_short_name(s, *f, c->set);
+	return status;
 }
 
 /* NEMO's units have G = 1 unless somebody says otherwise. */

@@ -136,6 +136,11 @@ exchange() {
 	run -0 --separate-stderr bash -o pipefail -c 'collide <w | sls'
 	[[ $stderr == "collide: each particle is taken for one charge; one that stands for W collides W times less (--statistical-weight W, or smod "\
 "--constant bodies=N)" ]]
+	# a note does not hide another
+	run -0 --separate-stderr bash -o pipefail -c 'smod --dt 100 <w | collide | sls'
+	[[ ${#stderr_lines[@]} = 2 && $stderr == *'a step turns pairs by 1 - cos'*'each particle is taken for one charge'* ]]
+	run -0 --separate-stderr bash -o pipefail -c "cycle -n 3 'push drift | collide' <w | sls"
+	[ "${#stderr_lines[@]}" = 1 ]
 	run -0 --separate-stderr bash -o pipefail -c 'smod --constant bodies=1e6 <w | collide | sls'
 	[ -z "$stderr" ]
 	run -0 --separate-stderr bash -o pipefail -c 'pinit landau -n 100 --velocities 3 | collide | sls'

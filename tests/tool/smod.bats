@@ -58,7 +58,8 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 @test "wrong options are usage errors, missing things data errors, in one line" {
 	t >a
 	for o in '--shift 1,2' '--boost 1' '--rotate q,3' '--rotate z' '--scale x' '--scale x=q' '--store f16' '--scale box=-1' '--box 3,1' '--faces soft' \
-		'--constant G' '--dt -1' '--law nothing'; do
+		'--constant G' '--dt -1' '--law nothing' '--law electromagnetic --constant c=-1' '--law electromagnetic --constant c=0' \
+		'--law electrostatic --constant eps0=-1'; do
 		run -2 --separate-stderr bash -c "smod $o <a >/dev/null"
 		[ "${#stderr_lines[@]}" = 1 ]
 	done
@@ -67,6 +68,9 @@ row() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) n[i] = $i
 		run -1 --separate-stderr bash -c "smod $o <a >/dev/null"
 		[ "${#stderr_lines[@]}" = 1 ]
 	done
+	smod --constant c=-1 a >b # of a law without light it is any constant
+	run -2 --separate-stderr bash -c "smod --law electromagnetic <b >/dev/null"
+	[[ $stderr == *'c=-1, but under the law electromagnetic the speed of light is above 0' ]]
 	head -c -200 a >cut
 	run -1 bash -c 'smod --dt 1 <cut >/dev/null'
 }

@@ -136,6 +136,14 @@ energies() { diag --columns energy_field_x <"$1" | sed 1d | paste -sd' '; }
 	refused "-n 10 | smod --law electromagnetic --constant c=1,eps0=1 | species ions -n 9 --vth 1" 2 "faster than light"
 }
 
+@test "species: charges under a law that has none are said to be masses; not bodies without charge, and not under laws of charges" {
+	run -0 --separate-stderr bash -o pipefail -c 'pinit plummer -n 10 | species electrons -n 8 --profile 2 | sls'
+	[ "$stderr" = "species: the law gravity has no charges: 'electrons' are 8 particles of the mass 5488 (smod --law electrostatic in front of species; \
+or --charge 0, if they are meant so)" ]
+	run -0 --separate-stderr bash -o pipefail -c 'pinit plummer -n 10 | species stars -n 8 --charge 0 | sls; pinit plasma | species electrons -n 8 | sls'
+	[ -z "$stderr" ]
+}
+
 @test "species: the same bytes with 1, 2 and 3 threads, by all sequences" {
 	for loading in sobol bit-reversed random; do
 		for t in 1 2 3; do

@@ -140,6 +140,18 @@ table() { printf 'x y z vx vy vz mass id\n0.5 0.25 -1e-17 1 2 3 2.385 7\n1e300 -
 	echo "$output" | jq -e '.box.fields == [["open","open"],["wall","wall"]] and .box.particles == [["absorb","open"],["reflect","open"]]'
 }
 
+@test "a column m is no mass, which a law that needs one says; not where the mass is there, or the law has no strength" {
+	printf 'x v m\n0 0 1\n1 0 2\n' >t
+	run -0 --separate-stderr bash -o pipefail -c 'stab t --law gravity | sls'
+	[ "$stderr" = "stab: the law gravity takes the column 'mass', and there is 'm' (call it mass, if it is meant so)" ]
+	sed 's/x v m/x v Charge/' t >u
+	run -0 --separate-stderr bash -o pipefail -c 'stab u --law electrostatic | sls'
+	[[ $stderr == *"takes the column 'charge', and there is 'Charge'"* ]]
+	printf 'x v m mass\n0 0 1 1\n' >u
+	run -0 --separate-stderr bash -o pipefail -c 'stab u --law gravity | sls; stab t | sls; stab t --law electrostatic | sls'
+	[ -z "$stderr" ]
+}
+
 @test "without --box the box is a cube of twice the extent about the particles" {
 	sh_ok 'printf "x y z\n1 0 0\n3 1 0\n" | stab - | stab | head -1 | cut -c9-'
 	echo "$output" | jq -e '.box.lo == [0,-1.5,-2] and .box.hi == [4,2.5,2]'

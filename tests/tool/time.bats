@@ -158,5 +158,9 @@ clock() { wire header "$1" | python3 -c 'import json, sys; h = json.load(sys.std
 	[[ $(said 0.26) == 'cycle: ended at time 0.3 after 3 steps of dt 0.1, not at 0.26: '* ]]
 	[[ $(said -0.2) == 'cycle: no step: the frame is at time 0, beyond -t -0.2 (-t is the time at the end'* ]]
 	[[ $(body | cycle -t 1 'push --dt -0.1 drift' 2>&1 >/dev/null) == *'after 1 step of dt -0.1: it goes back in time, away from -t 1 '* ]]
+	# steps that a scheme chooses end anywhere
+	said=$(pinit kepler --dt 50 | cycle -t 100 'pp | push ias15' 2>&1 >/dev/null)
+	[[ $said == *'cycle: ended at time '*' steps, not at 100: '*'(--exact makes the last one shorter)'* ]]
+	[ -z "$(pinit kepler --dt 50 | cycle -t 1 --exact 'pp | push ias15' 2>&1 >/dev/null | grep ended)" ]
 	[ -z "$(said 0.3)$(said 20.04)$(said 0.01 -q)$(said 0.01 --exact)$(said 0.26 -n 1)" ]
 }
