@@ -30,8 +30,8 @@ PM_SIMD_INLINE struct lanes minus(struct lanes a, struct lanes b) { return (stru
 /* The larger of most and |v|, lane by lane; most where v is NaN. */
 PM_SIMD_INLINE pm_simd_part larger(pm_simd_part most, pm_simd_part v)
 {
-	const __typeof__(v > most) below = v < 0, size = ((__typeof__(below))v & ~below) | ((__typeof__(below))-v & below), more = (pm_simd_part)size > most;
-	return (pm_simd_part)((size & more) | ((__typeof__(below))most & ~more));
+	const __typeof__(v > most) size = (__typeof__(v > most))v & INT64_MAX, more = (pm_simd_part)size > most;
+	return (pm_simd_part)((size & more) | ((__typeof__(size))most & ~more));
 }
 
 /* times exp(-i x) forward, exp(+i x) back; w = cos x, sin x */

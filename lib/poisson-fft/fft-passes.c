@@ -102,14 +102,15 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 
 double pm_poisson_fft_largest(const double *block, size_t n)
 {
+	enum { PARTS = L / PM_SIMD_PART };
+	pm_simd_part most[PARTS] = {{0}};
 	double all = 0;
-	for (int part = 0; part < L; part += PM_SIMD_PART) {
-		pm_simd_part most = {0};
-		for (size_t i = 0; i < n; i++)
-			most = larger(most, *(const pm_simd_part_at *)(block + i * L + (size_t)part));
-		for (int q = 0; q < PM_SIMD_PART; q++)
-			all = most[q] > all ? most[q] : all;
-	}
+	for (size_t i = 0; i < n; i++) /* side by side: each comparison waits for the one before it */
+		PM_SIMD_UNROLL
+		for (size_t part = 0; part < PARTS; part++)
+			most[part] = larger(most[part], *(const pm_simd_part_at *)(block + i * L + part * PM_SIMD_PART));
+	for (int q = 0; q < L; q++)
+		all = most[q / PM_SIMD_PART][q % PM_SIMD_PART] > all ? most[q / PM_SIMD_PART][q % PM_SIMD_PART] : all;
 	return all;
 }
 
