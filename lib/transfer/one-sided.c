@@ -9,7 +9,7 @@
 
 #include "transfer/one-sided.h"
 
-enum { MOMENTS = 35, NODES_WIDE = 16 }; /* degree 4 in 3-D; how far a particle inside a body looks for nodes [cells] */
+enum { MOMENTS = 35, WIDE = 36, NODES_WIDE = 16 }; /* degree 4 in 3-D; a row of them, by fours; how far a particle inside a body looks for nodes [cells] */
 static const double sum_most = 8, pivot_least = 1e-9;
 
 /* The first cell of the kernel and where the particle is [cells]; false: beyond the mesh. */
@@ -98,24 +98,26 @@ int pm_one_sided_find(const struct pm_one_sided *o, size_t n, const double *cons
 	return few->which ? 0 : -PM_DATA;
 }
 
-/* z^a for every |a| <= degree, in order of |a|; how many. */
-static int powers(int dim, int degree, const double z[3], double v[MOMENTS])
+/* z^a for every |a| <= degree, in order of |a|; how many. Each is one of the degree before times a component: the first row, then all of them times z_3. */
+static inline int powers(int dim, int degree, const double z[3], double v[WIDE])
 {
-	int n = 0;
-	for (int all = 0; all <= degree; all++)
-		for (int c = 0; c <= (dim > 2 ? all : 0); c++)
-			for (int b = 0; b <= (dim > 1 ? all - c : 0); b++) {
-				const int a = all - b - c;
-				double value = 1;
-				for (int i = 0; i < all; i++)
-					value *= z[i < a ? 0 : i < a + b ? 1 : 2];
-				v[n++] = value;
-			}
+	const double z0 = z[0], z1 = z[1], z2 = z[2];
+	int n = 1;
+	v[0] = 1;
+	for (int all = 1, before = 0; all <= degree; all++) {
+		const int from = n;
+		v[n++] = v[before] * z0;
+		for (int b = 0; dim > 1 && b < all; b++)
+			v[n++] = v[before + b] * z1;
+		for (int k = before; dim > 2 && k < from; k++)
+			v[n++] = v[k] * z2;
+		before = from;
+	}
 	return n;
 }
 
 /* M lambda = right by Cholesky; false where a pivot is too small. */
-static bool solve(int n, double M[MOMENTS][MOMENTS], double right[MOMENTS])
+static bool solve(int n, double M[MOMENTS][WIDE], double right[MOMENTS])
 {
 	for (int i = 0; i < n; i++) {
 		const double before = M[i][i];
@@ -152,13 +154,16 @@ struct box {
  * rounding errors of the first. */
 static bool correct(const struct box *b, int dim, int degree, struct pm_one_sided_share *s)
 {
-	double M[MOMENTS][MOMENTS] = {{0}}, factor[MOMENTS][MOMENTS], v[MOMENTS], sum = 0;
+	double M[MOMENTS][WIDE] = {{0}}, factor[MOMENTS][WIDE], v[WIDE] = {0}, sum = 0;
 	int count = 0;
 	for (size_t i = 0; i < s->n; i++) {
 		count = powers(dim, degree, b->z + 3 * i, v);
-		for (int a = 0; a < count; a++)
-			for (int c = 0; c <= a; c++)
-				M[a][c] += b->D[i] * v[a] * v[c];
+		for (int a = 0; a < count; a++) {
+			const double share = b->D[i] * v[a];
+			for (int c = 0; c <= a; c += 4) /* some beyond the diagonal, which nobody reads */
+				for (int k = c; k < c + 4; k++)
+					M[a][k] += share * v[k];
+		}
 		s->w[i] = b->W[i];
 	}
 	if (s->n < (size_t)count)
@@ -175,8 +180,10 @@ static bool correct(const struct box *b, int dim, int degree, struct pm_one_side
 			return false;
 		for (size_t i = 0; i < s->n; i++) {
 			powers(dim, degree, b->z + 3 * i, v);
+			double w = s->w[i];
 			for (int a = 0; a < count; a++)
-				s->w[i] += b->D[i] * right[a] * v[a];
+				w += b->D[i] * right[a] * v[a];
+			s->w[i] = w;
 		}
 	}
 	for (size_t i = 0; i < s->n; i++)
