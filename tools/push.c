@@ -89,8 +89,8 @@ static int stable(struct pm_stage *s, const struct pm_frame *f, const struct pm_
 static int move(const struct pm_stage *s, struct pm_frame *f, const struct pm_moving *m, const double *h, double *crossed)
 {
 	const struct pm_push *p = &((const struct config *)s->config)->push;
-	struct pm_strengths before, after, lost = {.n = 0};
-	uint64_t absorbed = 0;
+	struct pm_strengths before, after, lost;
+	uint64_t absorbed = lost.n = 0; /* the rest of it is large: to clear it took a tenth of a step of two bodies */
 	for (int r = 0; r < m->n; r++)
 		pm_acting_note(f, m->rates[r].rate);
 	pm_moving_given(f, m, &before);

@@ -195,7 +195,7 @@ void pm_field_inherit(struct pm_field *field, const struct pm_field *from)
 struct pm_field *pm_frame_field(const struct pm_frame *f, const char *on, const char *name)
 {
 	for (size_t i = 0; i < f->nfields; i++)
-		if (!strcmp(f->fields[i]->name, name) && !strcmp(f->fields[i]->on, on))
+		if (f->fields[i]->name[0] == name[0] && !strcmp(f->fields[i]->name, name) && !strcmp(f->fields[i]->on, on)) /* a letter is enough for most */
 			return f->fields[i];
 	return NULL;
 }

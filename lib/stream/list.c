@@ -6,7 +6,9 @@
 
 void pm_name_copy(char to[PM_NAME], const char *from)
 {
-	snprintf(to, PM_NAME, "%s", from);
+	const size_t n = strnlen(from, PM_NAME - 1);
+	memmove(to, from, n);
+	to[n] = 0;
 }
 
 void *pm_list_add(void ***list, size_t *n, void *item)

@@ -89,6 +89,12 @@ steps_of() { diag | column step | tr '\n' ' '; }
 	[[ $output == *"no word that completes a step"* ]]
 }
 
+@test "a force that is there at the beginning and dropped behind every step is computed again for the next" {
+	pinit two-body | pp >start
+	cycle -q -n 3 "push kick/2 drift | pp | push kick/2 | sel --drop acc" <start >dropped
+	cycle -q -n 3 "push kick/2 drift | pp | push kick/2" <start | sel --drop acc | stab --plain | cmp - <(stab --plain dropped)
+}
+
 @test "a word between the force and push that drops the force is named: no priming brings it back" {
 	pinit lamb-oseen --cells 16 >a
 	for word in walk remesh; do
