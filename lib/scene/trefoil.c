@@ -31,16 +31,22 @@ static void curve(double R, double b, int i, double x[3], double dx[3])
 	dx[1] = ds * (slope * sin(2 * s) + 2 * r * cos(2 * s)), dx[2] = ds * 3 * b * cos(3 * s);
 }
 
+/* The choice with the points of its curve. */
+struct knot {
+	struct pm_scene_choice choice; /* first: omega() is handed it */
+	double at[POINTS][3], dx[POINTS][3];
+};
+
 static void omega(const struct pm_scene_choice *c, const double x[3], double w[3])
 {
+	const struct knot *knot = (const struct knot *)c;
 	const double R = c->value[RADIUS], b = c->value[WINDING] * R, a2 = pow(c->value[CORE] * R, 2);
 	const double peak = c->value[GAMMA] / (pow(pm_pi, 1.5) * a2 * sqrt(a2));
 	w[0] = w[1] = w[2] = 0;
 	if (fabs(hypot(hypot(x[0], x[1]) - R, x[2]) - b) > 6 * sqrt(a2)) /* of the torus on which the curve lies */
 		return;
 	for (int i = 0; i < POINTS; i++) {
-		double at[3], dx[3];
-		curve(R, b, i, at, dx);
+		const double *at = knot->at[i], *dx = knot->dx[i];
 		const double r2 = (x[0] - at[0]) * (x[0] - at[0]) + (x[1] - at[1]) * (x[1] - at[1]) + (x[2] - at[2]) * (x[2] - at[2]);
 		for (int d = 0; d < 3 && r2 < 36 * a2; d++)
 			w[d] += peak * exp(-r2 / a2) * dx[d];
@@ -53,9 +59,12 @@ static int make(const struct pm_scene_choice *c, struct pm_frame *f)
 	const double R = c->value[RADIUS], b = c->value[WINDING] * R, a = c->value[CORE] * R, side = R + b + 8 * a, high = b + 8 * a;
 	const double lo[3] = {-side, -side, -high}, hi[3] = {side, side, high}, peak = fabs(c->value[GAMMA]) / (pm_pi * a * a);
 	const size_t cells[3] = {64, 64, 40};
+	struct knot knot = {.choice = *c};
+	for (int i = 0; i < POINTS; i++)
+		curve(R, b, i, knot.at[i], knot.dx[i]);
 	f->dt = 0.5 / fmax(peak, 1e-300);
 	pm_frame_constant_set(f, "nu", c->value[NU]);
-	return pm_scene_space(c, f, lo, hi, PM_OPEN, cells) ? -PM_DATA : pm_scene_space_vorticity(f, omega, c, 1e-7 * peak);
+	return pm_scene_space(c, f, lo, hi, PM_OPEN, cells) ? -PM_DATA : pm_scene_space_vorticity(f, omega, &knot.choice, 1e-7 * peak);
 }
 
 /* Over the curve, of Gamma = 1: the impulse along z; helicity and energy by Biot and Savart's law and the vector potential of a core. */
