@@ -70,26 +70,26 @@ static void is_the_published_step(void)
 /* Three particles at once, whose fields make the three angles. */
 static void keeps_the_speed(void)
 {
-	enum { angles = 3 };
-	static const double omega_dt[angles] = {0.1, 2, 100}, charges[angles] = {-1, -1, -1}, masses[angles] = {1, 1, 1};
+	enum { many = 3 };
+	static const double omega_dt[many] = {0.1, 2, 100}, charges[many] = {-1, -1, -1}, masses[many] = {1, 1, 1};
 	const int steps = check_sanitized() ? 10000 : 1000000; /* of the same instructions: 1e6 of them took a sanitizer's run 100 s */
 	for (int plane = 0; plane < 2; plane++) {
 		const double direction[3] = {plane ? 0 : 0.36, plane ? 0 : -0.48, plane ? 1 : 0.8}, start[3] = {0.6, 0.3, plane ? 0 : 0.7};
-		double v[3][angles], b[3][angles], worst[angles] = {0};
+		double v[3][many], b[3][many], worst[many] = {0};
 		struct pm_magnetic m = {.charge = charges, .mass = masses};
 		for (int c = 0; c < 3; c++) {
-			for (int i = 0; i < angles; i++)
+			for (int i = 0; i < many; i++)
 				v[c][i] = start[c], b[c][i] = omega_dt[i] * direction[c];
 			m.v[c] = c < 3 - plane ? v[c] : NULL;
 			m.b[c] = b[c];
 		}
 		for (int n = 0; n < steps; n++) {
-			step_boris.magnetic(true, 1, 0, angles, &m);
-			step_boris.magnetic(false, 1, 0, angles, &m);
-			for (int i = 0; i < angles; i++)
+			step_boris.magnetic(true, 1, 0, many, &m);
+			step_boris.magnetic(false, 1, 0, many, &m);
+			for (int i = 0; i < many; i++)
 				check_worst(&worst[i], fabs(length((const double[]){v[0][i], v[1][i], v[2][i]}) / length(start) - 1));
 		}
-		for (int i = 0; i < angles; i++) {
+		for (int i = 0; i < many; i++) {
 			check_below(worst[i], 1e-11, "HC-08: %g steps of Omega dt = %g keep |v|, %d components", (double)steps, omega_dt[i], 3 - plane);
 			check_below(worst[i], 1e-12, "PIC-12: and to 1e-12");
 		}
