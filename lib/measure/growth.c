@@ -166,10 +166,11 @@ static void explain(const struct pm_series *s, const struct window *w, bool give
 	char times[64];
 	snprintf(times, sizeof times, "%g to %g", w->b ? s->t[w->a] : NAN, w->b ? s->t[w->b - 1] : NAN);
 	if (w->fault == NOISE)
-		snprintf(g->reason, sizeof g->reason, "it is noise: in %s, t = %s, the amplitude is at most %.2g times the noise (%g are needed)", which, times,
-			w->over_noise, least_over_noise);
+		snprintf(g->reason, sizeof g->reason, "it is noise, or several waves at once: in %s, t = %s, the amplitude is at most %.2g times the noise "
+			"(%g are needed)", which, times, w->over_noise, least_over_noise);
 	else if (w->fault == SHORT)
-		snprintf(g->reason, sizeof g->reason, "it is noise: it is like one exponential only for short times, as from t = %s", times);
+		snprintf(g->reason, sizeof g->reason, "it is noise, or several waves at once (dispersion shows them): it is like one exponential only for "
+			"short times, as from t = %s", times);
 	else if (w->fault == BENT)
 		snprintf(g->reason, sizeof g->reason, "%s exponential: the fit to %s, t = %s, leaves %.0f %% of it",
 			given ? "the window is no" : "no window is an", which, times, 100 * w->e.residual);

@@ -26,7 +26,7 @@ struct pm_growth {
 	double from, to;     /* [time] of the first and last point used */
 	size_t points;
 	double over_noise;   /* the larger of the amplitudes at the ends of the window over the noise */
-	char reason[192];    /* empty where there is a gamma */
+	char reason[256];    /* empty where there is a gamma */
 };
 /* Between from and to; NAN: chosen as docs/methods/diag.md says. 0 or failure (memory). */
 int pm_growth_of(const struct pm_series *s, double from, double to, struct pm_growth *g);

@@ -2,7 +2,7 @@
  * velocities are Maxwellian with vth along x and vth sqrt(anisotropy) along y and z; half of the electrons stream with v0 along y, half with -v0; ions are a
  * background; omega_p = c = 1. --wave-field seeds B_z = A cos(k x), which grows at gamma; waves with k below sqrt(anisotropy - 1) grow.
  * Growth of cold streams: g^4 + g^2 (k^2 + 1/G^3) - k^2 v0^2/G = 0, G = 1/sqrt(1 - v0^2). Else the root of the response of relativistic orbits, u = G v,
- * g^2 + k^2 + <(1 - vy^2)/G> + 2 i k <vx vy^2/(G s)> - k^2 <vy^2 (1 - vx^2)/(G s^2)> = 0, s = g + i k vx: 0.0806298 for the defaults (0.05, 10, k = 1). With
+ * g^2 + k^2 + <(1 - vy^2)/G> + 2 i k <vx vy^2/(G s)> - k^2 <vy^2 (1 - vx^2)/(G s^2)> = 0, s = g + i k vx: 0.0806303 for the defaults (0.05, 10, k = 1). With
  * G = 1 that is gamma^2 + k^2 = a - 1 + a zeta Z(zeta), zeta = i gamma/(sqrt 2 k vth), a the anisotropy, of the textbooks: 0.0828704.
  * Quiet start: Hammersley's points, in groups of four at one place with both signs of vx and of (vy, vz), so that no group carries a current.
  * Source: Weibel 1959, Physical Review Letters 2, 83; Fried 1959, Physics of Fluids 2, 337; PIC-09 of the reference cases. Exact: mass, charge, gamma.
