@@ -25,6 +25,7 @@ enum { PM_SIMD_PART = 4 };
 enum { PM_SIMD_PART = 2 };
 #endif
 typedef double pm_simd_part __attribute__((vector_size(PM_SIMD_PART * sizeof(double))));
+typedef int64_t pm_simd_part_bits __attribute__((vector_size(PM_SIMD_PART * sizeof(int64_t))));
 typedef double pm_simd_part_at __attribute__((vector_size(PM_SIMD_PART * sizeof(double)), may_alias)); /* aligned to its size */
 
 /* Files whose lanes are things of their own, eight of which need not be together, say PM_SIMD_NARROW and get vectors of one register; those that turn
@@ -96,6 +97,15 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { *(pm_simd_at *)p = v; }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }
+
+/* x, loaded here: compilers move the factors of many rows to the front, where there are not enough registers for them. */
+PM_SIMD_INLINE double pm_simd_here(double x)
+{
+#ifdef __SSE2__
+	__asm__ volatile("" : "+x"(x));
+#endif
+	return x;
+}
 
 /* What one register holds to an aligned address, past the caches where the processor can: whole lines of 64 bytes, one after the other, and an end before
  * others read them. */
@@ -177,6 +187,16 @@ PM_SIMD_INLINE pm_simd pm_simd_zip_low(pm_simd even, pm_simd odd)
 PM_SIMD_INLINE pm_simd pm_simd_zip_high(pm_simd even, pm_simd odd)
 {
 	return PM_SIMD_PICK(even, odd, (4, 12, 5, 13, 6, 14, 7, 15), (2, 6, 3, 7), (1, 3));
+}
+
+PM_SIMD_INLINE pm_simd pm_simd_abs(pm_simd v) { return (pm_simd)((pm_simd_bits)v & INT64_MAX); }
+PM_SIMD_INLINE pm_simd_part pm_simd_part_abs(pm_simd_part v) { return (pm_simd_part)((pm_simd_part_bits)v & INT64_MAX); }
+
+/* Larger values take their places; NaN none. */
+PM_SIMD_INLINE void pm_simd_raise(pm_simd *most, pm_simd v)
+{
+	const pm_simd_bits above = v > *most;
+	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
 }
 
 /* v where the mask, aligned as a vector, is -1, and 0 where it is 0. */

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#define PM_SIMD_NARROW
 #include "base/simd.h"
 #include "limit/rates.h"
 #include "mesh/planes.h"
@@ -14,13 +15,6 @@
 
 enum { BLOCK = 1024 };
 
-/* Eight largest values, NaN left out. */
-static void raise_eight(pm_simd *most, pm_simd v)
-{
-	const pm_simd_bits above = v > *most;
-	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
-}
-
 /* Of at most BLOCK vectors, v[m][n]: the largest |v|^2, or with h the largest |v_d|/h_d. */
 static double most_of_block(int m, size_t n, const double *const v[], const double *h)
 {
@@ -30,7 +24,7 @@ static double most_of_block(int m, size_t n, const double *const v[], const doub
 		for (size_t i = 0; i < n; i++)
 			here[i] = h ? fmax(here[i], fabs(v[d][i]) / h[d]) : here[i] + v[d][i] * v[d][i];
 	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH) /* zero beyond n */
-		raise_eight(&most, pm_simd_load(here + i));
+		pm_simd_raise(&most, pm_simd_load(here + i));
 	for (int l = 1; l < PM_SIMD_WIDTH; l++)
 		most[0] = fmax(most[0], most[l]);
 	return most[0];
@@ -97,7 +91,7 @@ static double most_of_row(int dim, size_t from, size_t n, const double *line, do
 	for (size_t i = n; i % PM_SIMD_WIDTH; i++)
 		here[i] = 0;
 	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH)
-		raise_eight(&most, pm_simd_load(here + i));
+		pm_simd_raise(&most, pm_simd_load(here + i));
 	for (int l = 1; l < PM_SIMD_WIDTH; l++)
 		most[0] = fmax(most[0], most[l]);
 	return most[0];

@@ -3,21 +3,23 @@
 #include <string.h>
 
 #include "remesh/remesh-frame.h"
-#include "stream/field-value.h"
+#include "stream/frame.h"
 #include "stream/over-stretches.h"
 
 struct values {
-	const double *q;
-	const struct pm_field *volume;
+	const double *q, *each; /* volumes, or NULL: all */
+	double all;
 };
 
 static void block(const void *data, size_t from, size_t to, void *part)
 {
 	const struct values *v = data;
-	for (; from < to; from++) {
-		const double volume = pm_value_at(v->volume, 0, from);
-		pm_sum_add(part, volume > 0 ? v->q[from] * v->q[from] / volume : 0);
+	double square[pm_sum_block];
+	for (size_t p = from; p < to; p++) {
+		const double volume = v->each ? v->each[p] : v->all;
+		square[p - from] = volume > 0 ? v->q[p] * v->q[p] / volume : 0;
 	}
+	pm_sum_of_set(to - from, square, NULL, part);
 }
 
 static bool dropped(const struct pm_field *q, const struct pm_remesh_choice *c)
@@ -31,10 +33,11 @@ static bool dropped(const struct pm_field *q, const struct pm_remesh_choice *c)
 const struct pm_field *pm_remesh_squared(const struct pm_frame *f, const char *set, const struct pm_remesh_choice *c, double *square)
 {
 	const struct pm_parts parts = {.size = sizeof(struct pm_sum), .make = block, .join = pm_join_sums};
-	struct values v = {.volume = pm_frame_field(f, set, "volume")};
+	const struct pm_field *volume = pm_frame_field(f, set, "volume");
 	*square = 0;
-	if (!v.volume || !(v.volume->buffer || v.volume->uniform) || v.volume->components != 1)
+	if (!volume || !(volume->buffer || volume->uniform) || volume->components != 1)
 		return NULL;
+	struct values v = {.each = volume->buffer ? pm_in(volume, 0) : NULL, .all = volume->value[0]};
 	for (size_t i = 0; i < f->nfields; i++) {
 		const struct pm_field *q = f->fields[i];
 		if (strcmp(q->on, set) || !pm_is_strength(q) || !q->buffer || dropped(q, c))

@@ -5,8 +5,10 @@
  * Cost: p2m per strength and two passes over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#define PM_SIMD_NARROW
 #include "remesh/remesh.h"
 #include "base/in-order.h"
+#include "base/simd.h"
 #include "transfer/one-sided.h"
 #include "world/world.h"
 
@@ -15,10 +17,15 @@ static size_t rows_of(const struct pm_remesh *r) { return r->points / r->grid.po
 /* The number in the mesh of the first row here. */
 static size_t first_row(const struct pm_remesh *r) { return r->planes ? pm_planes_row(r->planes, 0) : 0; }
 
-/* Of node i of a row. */
-static double volume_of(const struct pm_grid *g, size_t row, size_t i)
+/* The volumes of the nodes of a row: of those at its ends, and of the others. */
+struct volumes {
+	double end, inner;
+};
+static struct volumes volumes_of(const struct pm_grid *g, size_t row)
 {
-	return pm_grid_cell(g) * pm_grid_weight(g, i, row % g->points[1], row / g->points[1]);
+	const size_t y = row % g->points[1], z = row / g->points[1];
+	const double cell = pm_grid_cell(g), end = cell * pm_grid_weight(g, 0, y, z);
+	return (struct volumes){end, g->points[0] > 2 ? cell * pm_grid_weight(g, 1, y, z) : end};
 }
 
 struct pm_remesh pm_remesh_on(const struct pm_grid *g, const struct pm_kernel *k)
@@ -42,9 +49,16 @@ static void weigh(const struct pm_remesh *r, double *node)
 {
 	const size_t first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t row = 0; row < rows_of(r); row++)
-		for (size_t i = 0, n = r->grid.points[0]; i < n; i++)
-			node[row * n + i] *= volume_of(&r->grid, first + row, i);
+	for (size_t row = 0; row < rows_of(r); row++) {
+			const struct volumes v = volumes_of(&r->grid, first + row);
+			const size_t n = r->grid.points[0];
+			double *at = node + row * n;
+			at[0] *= v.end;
+			for (size_t i = 1; i + 1 < n; i++)
+				at[i] *= v.inner;
+			if (n > 1)
+				at[n - 1] *= v.end;
+		}
 }
 
 /* Copies of the positions and strengths in which those of which[] stand in the middle of the mesh and have none. */
@@ -112,14 +126,27 @@ int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int co
 	return pm_world_agree(status);
 }
 
+static double largest_of(size_t n, const double *v)
+{
+	pm_simd most = {0};
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
+		pm_simd_raise(&most, pm_simd_abs(pm_simd_load_any(v + i)));
+	for (; i < n; i++)
+		most[0] = fmax(most[0], fabs(v[i]));
+	for (int l = 1; l < PM_SIMD_WIDTH; l++)
+		most[0] = fmax(most[0], most[l]);
+	return most[0];
+}
+
 static int thresholds(const struct pm_remesh *r, double cut_off, double least[])
 {
 	double largest[PM_REMESH_VALUES];
 	for (int i = 0; i < r->n; i++) {
 		double most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most) if (r->points > 16384)
-		for (size_t p = 0; p < r->points; p++)
-			most = fmax(most, fabs(r->node[i][p]));
+		for (size_t row = 0; row < rows_of(r); row++)
+			most = fmax(most, largest_of(r->grid.points[0], r->node[i] + row * r->grid.points[0]));
 		largest[i] = most;
 	}
 	const int status = pm_world_largest(0, (size_t)r->n, largest);
@@ -136,13 +163,20 @@ static int thresholds(const struct pm_remesh *r, double cut_off, double least[])
 static void mark(const struct pm_remesh *r, const double least[])
 {
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t p = 0; p < r->points; p++) {
-		bool keep = false;
-		for (int i = 0; i < r->n; i++)
-			keep = keep || (r->field[i] >= 0 && fabs(r->node[i][p]) > least[i]);
-		r->keep[p] = keep;
+	for (size_t row = 0; row < rows_of(r); row++) {
+		const size_t n = r->grid.points[0];
+		unsigned char *keep = r->keep + row * n;
+		memset(keep, 0, n);
+		for (int i = 0; i < r->n; i++) {
+			const double *node = r->node[i] + row * n, more = least[i];
+			for (size_t p = 0; p < n && r->field[i] >= 0; p++)
+				keep[p] |= fabs(node[p]) > more;
+		}
 	}
 }
+
+/* All nodes of a row? */
+static bool keeps_all(size_t n, const unsigned char *keep) { return !memchr(keep, 0, n); }
 
 size_t pm_remesh_room(const struct pm_kernel *k) { return (size_t)(k->width + 1) / 2 + 1; }
 
@@ -189,6 +223,8 @@ static void make_lost(const void *data, size_t from, size_t to, void *part)
 {
 	const struct pm_remesh *r = data;
 	struct pm_sum *lost = part;
+	if (keeps_all(to - from, r->keep + from))
+		return;
 	for (size_t p = from; p < to; p++)
 		for (int i = 0; i < r->n && !r->keep[p]; i++)
 			pm_sum_add(&lost[i], r->node[i][p]);
@@ -197,8 +233,11 @@ static void make_lost(const void *data, size_t from, size_t to, void *part)
 /* Counts the nodes of a row that are kept, and those that are not 0 and are not. */
 static size_t count_row(const struct pm_remesh *r, size_t row, uint64_t *cut)
 {
+	const size_t n = r->grid.points[0];
 	size_t kept = 0;
-	for (size_t n = r->grid.points[0], p = row * n; p < (row + 1) * n; p++) {
+	if (keeps_all(n, r->keep + row * n))
+		return n;
+	for (size_t p = row * n; p < (row + 1) * n; p++) {
 		bool any = false;
 		for (int i = 0; i < r->n && !r->keep[p]; i++)
 			any = any || r->node[i][p] != 0;
@@ -257,36 +296,51 @@ double pm_remesh_total(const struct pm_remesh *r, int i)
 	return pm_sum_total(all);
 }
 
+static bool is_full(const struct pm_remesh *r, size_t row) { return r->before[row + 1] - r->before[row] == r->grid.points[0]; }
+
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out)
 {
 	const size_t n = r->grid.points[0];
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t row = 0; row < rows_of(r); row++)
-		for (size_t p = row * n, to = r->before[row]; p < (row + 1) * n; p++)
-			if (r->keep[p])
-				out[to++] = r->node[i][p];
+	for (size_t row = 0; row < rows_of(r); row++) {
+		size_t to = r->before[row];
+		if (is_full(r, row))
+			memcpy(out + to, r->node[i] + row * n, n * sizeof *out);
+		else
+			for (size_t p = row * n; p < (row + 1) * n; p++)
+				if (r->keep[p])
+					out[to++] = r->node[i][p];
+	}
 }
 
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x)
 {
 	const size_t n = r->grid.points[0], first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t row = 0; row < rows_of(r); row++)
-		for (size_t i = 0, to = r->before[row]; i < n; i++)
-			if (r->keep[row * n + i]) {
-				const size_t at[3] = {i, (first + row) % r->grid.points[1], (first + row) / r->grid.points[1]};
-				x[to++] = r->grid.lo[d] + (double)at[d] * r->grid.h[d];
-			}
+	for (size_t row = 0; row < rows_of(r); row++) {
+		const size_t at = d == 1 ? (first + row) % r->grid.points[1] : (first + row) / r->grid.points[1];
+		const double lo = r->grid.lo[d], h = r->grid.h[d], here = lo + (double)at * h;
+		const bool all = is_full(r, row);
+		size_t to = r->before[row];
+		for (int i = 0; i < (all ? (int)n : 0); i++) /* int: what becomes a double four at a time */
+			x[to + (size_t)i] = d ? here : lo + (double)i * h;
+		for (size_t i = 0; i < n && !all; i++)
+			if (r->keep[row * n + i])
+				x[to++] = d ? here : lo + (double)i * h;
+	}
 }
 
 void pm_remesh_volume(const struct pm_remesh *r, double *volume)
 {
 	const size_t n = r->grid.points[0], first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t row = 0; row < rows_of(r); row++)
+	for (size_t row = 0; row < rows_of(r); row++) {
+		const struct volumes v = volumes_of(&r->grid, first + row);
+		const bool all = is_full(r, row);
 		for (size_t i = 0, to = r->before[row]; i < n; i++)
-			if (r->keep[row * n + i])
-				volume[to++] = volume_of(&r->grid, first + row, i);
+			if (all || r->keep[row * n + i])
+				volume[to++] = i && i + 1 < n ? v.inner : v.end;
+	}
 }
 
 void pm_remesh_free(struct pm_remesh *r)

@@ -21,25 +21,30 @@ void pm_strength_name(const struct pm_field *field, int c, char name[PM_STRENGTH
 	snprintf(name, PM_STRENGTH_NAME, field->components > 1 ? "%.60s_%d" : "%.60s", field->name, c);
 }
 
-PM_SIMD_INLINE void add(pm_simd x, struct pm_simd_sum s[SUMS])
-{
-	pm_simd_sum_add(&s[SUM], x);
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		x[l] = fabs(x[l]);
-	pm_simd_sum_add(&s[SCALE], x);
-}
-
 static void block(const void *data, size_t from, size_t to, void *part)
 {
 	const double *x = data;
 	struct pm_sum *total = part;
-	struct pm_simd_sum s[SUMS] = {{{0}, {0}}};
-	for (; from + PM_SIMD_WIDTH <= to; from += PM_SIMD_WIDTH)
-		add(pm_simd_load_any(x + from), s);
-	if (from < to)
-		add(pm_simd_load_few(x + from, to - from), s);
-	for (int k = 0; k < SUMS; k++)
-		pm_simd_sum_join(&total[k], &s[k]);
+	enum { P = PM_SIMD_PART, PARTS = PM_SIMD_WIDTH / P };
+	pm_simd_part sum[SUMS][PARTS] = {{{0}}}, carry[SUMS][PARTS] = {{{0}}};
+	for (; from + PM_SIMD_WIDTH <= to; from += PM_SIMD_WIDTH) {
+		PM_SIMD_UNROLL
+		for (int q = 0; q < PARTS; q++) { /* in registers */
+			pm_simd_part v;
+			memcpy(&v, x + from + q * P, sizeof v);
+			pm_simd_part_sum_add(&sum[SUM][q], &carry[SUM][q], v);
+			pm_simd_part_sum_add(&sum[SCALE][q], &carry[SCALE][q], pm_simd_part_abs(v));
+		}
+	}
+	for (int k = 0; k < SUMS; k++) {
+		struct pm_simd_sum s;
+		memcpy(&s.sum, sum[k], sizeof s.sum), memcpy(&s.carry, carry[k], sizeof s.carry);
+		if (from < to) {
+			const pm_simd few = pm_simd_load_few(x + from, to - from);
+			pm_simd_sum_add(&s, k == SUM ? few : pm_simd_abs(few));
+		}
+		pm_simd_sum_join(&total[k], &s);
+	}
 }
 
 /* Sum and scale of each component. They are asked for after every step, and mostly nothing has changed. */

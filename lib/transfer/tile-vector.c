@@ -34,13 +34,6 @@ void pm_tile_weave(const double *blocks, int components, const size_t slots[3], 
 #define LOWER(v) __builtin_shufflevector(v, v, 0, 1, 2, 3)
 #define UPPER(v) __builtin_shufflevector(v, v, 4, 5, 6, 7)
 
-/* Larger values take their places; NaN none. */
-PM_SIMD_INLINE void raise_most(pm_simd *most, pm_simd v)
-{
-	const pm_simd_bits above = v > *most;
-	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
-}
-
 PM_SIMD_INLINE void put(const struct pm_tile *t, size_t i, pm_simd4_at value)
 {
 	double *result = t->results + i * (size_t)t->to;
@@ -122,7 +115,7 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 			PM_SIMD_UNROLL
 			for (int c = 0; c < 3; c++)
 				square = square + to[c].times * component[c] * (to[c].times * component[c]);
-			raise_most(&most, square);
+			pm_simd_raise(&most, square);
 		}
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 4; c++)

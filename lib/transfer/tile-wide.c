@@ -111,6 +111,7 @@ PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile 
 PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const double *block)
 {
 	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim], rows = dim > 1 ? width : 1;
+	const bool held = dim < 3 || width == 4; /* there are registers for the factors */
 	struct row sum[PM_SIMD_WIDTH];
 	double left[PM_SIMD_WIDTH][most] __attribute__((aligned(64)));
 	pm_simd value = {0};
@@ -120,8 +121,10 @@ PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const
 	for (int z = 0; z < (dim > 2 ? width : 1); z++)
 		for (int y = 0; y < rows; y++) {
 			PM_SIMD_UNROLL
-			for (int l = 0; l < PM_SIMD_WIDTH; l++)
-				row_more(n, lot->f[(z * width + y) * PM_SIMD_WIDTH + l], block + lot->at[l] + z * plane + y * row, &sum[l]);
+			for (int l = 0; l < PM_SIMD_WIDTH; l++) {
+				const double f = lot->f[(z * width + y) * PM_SIMD_WIDTH + l];
+				row_more(n, held ? f : pm_simd_here(f), block + lot->at[l] + z * plane + y * row, &sum[l]);
+			}
 		}
 	PM_SIMD_UNROLL
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)

@@ -367,6 +367,30 @@ static void check_volume(void)
 	}
 }
 
+/* Where a strength stands on every node but some, the nodes that are kept are where these were, rows with all nodes and rows with a few; a cut-off looks at
+ * the size of negative ones too. */
+static void check_rows(void)
+{
+	const struct pm_grid g = grid_of(3, (const size_t[]){8, 6, 5}, 0);
+	struct particles p = lattice(&g, -1);
+	size_t next = 0;
+	bool same = true;
+	for (size_t i = 0; i < p.n; i++)
+		p.q[i] = i > p.n / 2 && i % 7 == 0 ? 0.3 : i % 5 ? -1 : -2;
+	struct pm_remesh r = remeshed(&g, pm_kernel_find("ngp"), &p, 0.2);
+	struct particles q = taken(&r);
+	for (size_t i = 0; i < p.n; i++) {
+		if (p.q[i] == 0.3)
+			continue;
+		for (int d = 0; d < 3 && next < q.n; d++)
+			same = same && q.x[d][next] == p.x[d][i];
+		same = same && next < q.n && fabs(q.q[next] - p.q[i]) <= 1e-15; /* density and back */
+		next++;
+	}
+	check(same && next == q.n, "nodes that are kept: %zu of %zu, their places to the last bit", q.n, p.n);
+	particles_free(&p), particles_free(&q), pm_remesh_free(&r);
+}
+
 /* Mean |H - 1| of the lattice after x -> A x about the middle, over the particles of the inner half. */
 static double distorted(double a, double b, double c, double d)
 {
@@ -430,6 +454,7 @@ int main(void)
 	check_components();
 	check_threads();
 	check_volume();
+	check_rows();
 	check_distortion();
 	return check_done();
 }
