@@ -149,22 +149,47 @@ static size_t lay_out(char *out, bool minus, const char *d, int n, int exponent)
 	return *o = 0, (size_t)(o - out);
 }
 
+/* The n digits d times 10^power, as pm_decimal_read reads them. */
+static double value(const char *d, int n, int power)
+{
+	uint64_t m = 0;
+	double x;
+	char text[40];
+	for (int i = 0; i < n; i++)
+		m = 10 * m + (uint64_t)(d[i] - '0');
+	if (quick(m, power, &x))
+		return x;
+	snprintf(text, sizeof text, "%.*se%d", n, d, power);
+	return strtod(text, NULL);
+}
+
+/* Whole numbers of at most 15 digits, many of which are in tables, need no trial. */
+static size_t whole(char *out, double x)
+{
+	char d[16];
+	int n = 0;
+	for (uint64_t m = (uint64_t)fabs(x), power = 1000000000000000; power /= 10;)
+		if (n || m / power % 10)
+			d[n++] = (char)('0' + m / power % 10);
+	return lay_out(out, x < 0, d, n, n - 1);
+}
+
 size_t pm_decimal_write(char *out, double x, bool float_digits)
 {
 	if (!isfinite(x))
 		return (size_t)sprintf(out, "%g", x);
 	if (x == 0)
 		return (size_t)sprintf(out, signbit(x) ? "-0" : "0");
+	if (!float_digits && fabs(x) < 1e15 && x == trunc(x))
+		return whole(out, x);
 	int most = float_digits ? 9 : 17, exponent;
 	char text[40], all[20], d[20];
 	snprintf(text, sizeof text, "%.*e", most - 1, fabs(x)); /* d.ddde-xx */
 	all[0] = text[0], memcpy(all + 1, text + 2, (size_t)most - 1), all[most] = 0;
 	exponent = atoi(text + most + 2);
 	for (int m = float_digits ? 6 : 15; m < most; m++) {
-		double back;
-		int longer = shorten(all, m, d);
-		snprintf(text, sizeof text, "%.*se%d", m, d, exponent + longer - (m - 1));
-		pm_decimal_read(text, &back);
+		const int longer = shorten(all, m, d);
+		const double back = value(d, m, exponent + longer - (m - 1));
 		if (float_digits ? (float)back == (float)fabs(x) : back == fabs(x))
 			return lay_out(out, x < 0, d, m, exponent + longer);
 	}
