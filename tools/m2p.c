@@ -85,7 +85,8 @@ static int frame_of_changes(struct pm_stage *s, struct pm_frame *f)
 
 static int frame(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct pm_gather_choice choice = choice_of(s->config);
+	struct pm_gather_choice choice = choice_of(s->config);
+	choice.later = s->fused;
 	struct pm_gather_job j;
 	unsigned char *mask = NULL;
 	int status;

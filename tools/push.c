@@ -46,8 +46,9 @@ static int take_dt(const struct pm_stage *s, struct pm_frame *f)
 
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
-	const struct config *cfg = s->config;
+	struct config *cfg = s->config;
 	struct state *state = s->state;
+	cfg->push.later = s->fused;
 	const struct pm_set *named = cfg->set ? pm_frame_set(f, cfg->set) : NULL;
 	bool steps = cfg->push.actions.actions > 0;
 	int status = steps ? take_dt(s, f) : 0;

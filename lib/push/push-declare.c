@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "push/kick-later.h"
 #include "push/step-control.h"
 #include "stream/declare.h"
 
@@ -78,6 +79,8 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 	for (int k = 0; k < 3 && m->turned; k++)
 		if (k > 0 || m->v->type == PM_F32)
 			takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
+	if (pm_kick_may_wait(m, p))
+		m->v->use |= PM_USE_LATER, m->rates[0].rate->use |= PM_USE_LATER, m->b->use |= PM_USE_LATER;
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)
 			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))

@@ -1,6 +1,7 @@
 /* The data part of a push of one set: rotates velocities about a magnetic field, then advances every component (state-advance.h).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
+#include "push/kick-later.h"
 #include "push/push-set.h"
 #include "stream/column.h"
 #include "world/world.h"
@@ -152,7 +153,7 @@ static struct pm_magnetic piece_of(const struct pm_magnetic *all, size_t p, cons
 /* Rotates the velocities about bfield and kicks them, all components of a particle together. */
 static int turn(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
 {
-	const struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
+	struct pm_field *acc = pm_frame_field(f, m->set->name, "acc");
 	struct columns w = {.v = {NULL}};
 	double one[2][PM_ADVANCE_BLOCK];
 	struct pm_column strength[2] = {{.value = 0}, {.value = 0}};
@@ -162,6 +163,9 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 	const double *across[2] = {plane ? pm_in(m->b, 0) : NULL, plane ? pm_in(m->b, 1) : NULL};
 	for (int r = 0; r < m->n; r++)
 		acc = m->rates[r].state == m->v ? m->rates[r].rate : acc;
+	const int left = pm_kick_leave(f, m, step, acc);
+	if (left)
+		return left < 0 ? left : 0;
 	if (floats)
 		w = columns_of(m, acc);
 	else if (m->b)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "stream/later.h"
+#include "stream/limits.h"
 #include "stream/parts.h"
 #include "stream/run.h"
 #include "world/world.h"
@@ -104,6 +105,8 @@ static int expand(const struct pm_field *field)
 
 struct pm_later *pm_later_free(struct pm_later *later)
 {
+	if (later && later->free)
+		later->free(later);
 	if (later)
 		pm_field_free(later->from);
 	free(later);
@@ -112,12 +115,14 @@ struct pm_later *pm_later_free(struct pm_later *later)
 
 const struct pm_later *pm_field_later_of(const struct pm_field *field) { return field->buffer ? field->buffer->later : NULL; }
 
+struct pm_later *pm_field_later_alone(struct pm_field *field) { return field->buffer && pm_buffer_alone(field->buffer) ? field->buffer->later : NULL; }
+
 int pm_field_later(struct pm_field *field, struct pm_later *later, const struct pm_field *from)
 {
 	struct pm_buffer *b = calloc(1, sizeof *b);
-	later->from = b ? pm_field_copy(from, true) : NULL;
+	later->from = b ? pm_field_held(from) : NULL;
 	if (!later->from) {
-		free(b), free(later);
+		free(b), pm_later_free(later);
 		return pm_no_memory();
 	}
 	atomic_init(&b->users, 1);
@@ -136,6 +141,7 @@ static int make_now(const struct pm_field *field)
 		pm_free(data);
 		return status;
 	}
+	b->oscillation = b->later->oscillation ? b->later->oscillation(b->later, data) : 0;
 	b->later = pm_later_free(b->later);
 	b->data = data;
 	return 0;
@@ -149,6 +155,8 @@ static int bring(const struct pm_field *field)
 		return make_now(field);
 	return field->buffer->data ? 0 : field->buffer->floats ? widen(field) : pm_buffer_join(field->buffer);
 }
+
+int pm_held_bring(const struct pm_field *field) { return field->buffer && field->buffer->data ? 0 : bring(field); }
 
 /* The values: in a divided frame this rank's, else all of them, brought together where they are divided. */
 static void *base_of(const struct pm_field *field)
@@ -172,6 +180,35 @@ static void *base_to_change(struct pm_field *field)
 	if (!field->here && field->buffer->id)
 		pm_buffer_undivide(field->buffer);
 	return base;
+}
+
+struct pm_field *pm_field_held(const struct pm_field *field)
+{
+	struct pm_field *c = pm_field_copy(field, false);
+	if (c && (c->buffer = field->buffer))
+		atomic_fetch_add(&c->buffer->users, 1);
+	return c;
+}
+
+void pm_held_free(struct pm_field *held) { pm_field_free(held); }
+
+struct pm_later *pm_field_later_take(struct pm_field *field)
+{
+	struct pm_later *later = field->buffer->later;
+	struct pm_field *from = later->from;
+	if (!pm_buffer_alone(from->buffer)) {
+		struct pm_buffer *b = pm_buffer_new(values(field), sizeof(double), false);
+		if (!b)
+			return NULL;
+		memcpy(b->data, from->buffer->data, values(field) * sizeof(double));
+		pm_buffer_free(from->buffer);
+		from->buffer = b;
+	}
+	field->buffer->later = NULL;
+	pm_field_forget(field);
+	field->buffer = from->buffer;
+	from->buffer = NULL;
+	return later;
 }
 
 struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
@@ -292,11 +329,13 @@ static int copy_of_floats(struct pm_field *field)
 
 int pm_field_ready(struct pm_field *field)
 {
+	if (field->use & PM_USE_CHANGE) /* other values, and the limit stays */
+		pm_limits_add(field, (struct pm_limits){.oscillation = pm_limits_of(field).oscillation});
 	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
 		forget_note(field);
 	if (field->here)
 		return ready_here(field);
-	if (field->use & PM_USE_LATER && !(field->use & (PM_USE_CHANGE | PM_USE_NEW)) && pm_field_later_of(field))
+	if (field->use & PM_USE_LATER && !(field->use & PM_USE_NEW) && pm_field_later_of(field))
 		return 0;
 	if (field->use & PM_USE_COLUMNS && pm_field_rests(field))
 		return ready_floats(field);
@@ -360,6 +399,12 @@ static bool finite_floats(size_t n, const float *x)
 	for (size_t i = 0; i < n; i++)
 		bad |= !(x[i] - x[i] == 0);
 	return !bad;
+}
+
+int pm_field_now(struct pm_field *field)
+{
+	field->use &= ~(unsigned)PM_USE_LATER;
+	return pm_field_ready(field);
 }
 
 int pm_field_check(struct pm_field *field, int code)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "stream/header.h"
+#include "stream/later.h"
 #include "stream/list.h"
 #include "stream/run.h"
 
@@ -261,6 +262,9 @@ int pm_frame_affordable(const struct pm_frame *f)
 
 int pm_frame_ready(struct pm_frame *f)
 {
+	for (size_t i = 0; i < f->ndropped; i++)
+		if (!f->dropped[i]->use && pm_field_later_of(f->dropped[i]))
+			pm_field_forget(f->dropped[i]); /* it holds others, which may be changed */
 	for (size_t i = 0; i < f->nfields; i++)
 		if (f->fields[i]->use && pm_field_ready(f->fields[i]))
 			return -PM_DATA;

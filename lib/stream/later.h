@@ -6,15 +6,38 @@
 
 #include "stream/frame.h"
 
+struct pm_later;
+
+/* Of velocities that kicks have left to be made from those before: for a pass over the particles that makes the rates of a few of them itself. */
+struct pm_kicks {
+	struct pm_field *acc, *bfield; /* may be left to be made too */
+	void (*few)(const struct pm_later *later, size_t m, double *const v[3], const double *const acc[3], const double *const b[3]); /* [m] each; NULL: no such component */
+};
+
 /* The first member of what is known of them, a block of malloc. Not where there are ranks. */
 struct pm_later {
 	int (*make)(const struct pm_later *later, double *to); /* all values, component by component, all finite; 0 or failure. Also says what kind it is */
+	void (*free)(struct pm_later *later); /* what it holds beside `from`; NULL: nothing */
+	double (*oscillation)(const struct pm_later *later, const double *values); /* [1/time] a limit (limits.h) that only the values tell; NULL: none */
+	const struct pm_kicks *kicks; /* NULL: no velocities */
 	struct pm_field *from; /* f64: its values stay as they are now; set by pm_field_later */
 };
 
-/* In frame(), for an f64 field that the stage makes: takes `later` over, also when it fails. 0 or failure. */
+/* In frame(), for an f64 field that the stage makes, or changes: takes `later` over, also when it fails. from may be the field itself. 0 or failure. */
 int pm_field_later(struct pm_field *field, struct pm_later *later, const struct pm_field *from);
 /* NULL: the values are there. A stage asks that can do without them, and has said so (PM_USE_LATER). */
 const struct pm_later *pm_field_later_of(const struct pm_field *field);
+/* In frame(): the same, to be added to; NULL also where other frames have it. */
+struct pm_later *pm_field_later_alone(struct pm_field *field);
+/* In frame(), of what pm_field_later_alone found: the field has the values of `from` again, to be changed in their place to those that were to be made. The
+ * caller frees what it gets; NULL: failure. */
+struct pm_later *pm_field_later_take(struct pm_field *field);
+struct pm_later *pm_later_free(struct pm_later *later); /* returns NULL */
+/* In frame(), of a field with PM_USE_LATER: as if that had not been said. 0 or failure. */
+int pm_field_now(struct pm_field *field);
+/* For make(): a copy that holds the values, left to be made as they may be; and then to have them. 0 or failure. */
+struct pm_field *pm_field_held(const struct pm_field *field); /* give back by pm_held_free */
+void pm_held_free(struct pm_field *held); /* or NULL */
+int pm_held_bring(const struct pm_field *field);
 
 #endif

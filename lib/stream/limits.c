@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "stream/later.h"
 #include "stream/limits.h"
+#include "stream/parts.h"
 
 static const char *const names[] = {"decay", "oscillation", "strain"};
 
@@ -17,9 +19,19 @@ void pm_limits_add(struct pm_field *change, struct pm_limits more)
 	all->strain = fmax(all->strain, usable(more.strain));
 }
 
+/* By values that were left to be made, or are. */
+static double told(const struct pm_field *change)
+{
+	const struct pm_later *later = pm_field_later_of(change);
+	if (later && later->oscillation)
+		(void)pm_in(change, 0);
+	return change->buffer ? usable(change->buffer->oscillation) : 0;
+}
+
 struct pm_limits pm_limits_of(const struct pm_field *change)
 {
 	struct pm_limits all = change->limits;
+	all.oscillation = fmax(all.oscillation, told(change));
 	all.decay += usable(json_number_value(json_object_get(change->more, "fastest")));
 	return all;
 }
@@ -30,10 +42,11 @@ json_t *pm_limits_json(const struct pm_frame *f)
 {
 	json_t *all = NULL;
 	for (size_t i = 0; i < f->nfields; i++) {
-		const struct pm_limits *l = &f->fields[i]->limits;
-		const double value[] = {l->decay, l->oscillation, l->strain};
+		struct pm_limits l = f->fields[i]->limits;
+		l.oscillation = fmax(l.oscillation, told(f->fields[i]));
+		const double value[] = {l.decay, l.oscillation, l.strain};
 		char key[PM_LIMITS_KEY];
-		if (!(l->decay > 0 || l->oscillation > 0 || l->strain > 0))
+		if (!(l.decay > 0 || l.oscillation > 0 || l.strain > 0))
 			continue;
 		json_t *entry = json_object();
 		for (int k = 0; k < 3; k++)

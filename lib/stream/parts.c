@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "stream/hand-over.h"
+#include "stream/later.h"
 #include "stream/parts.h"
 #include "world/world.h"
 

@@ -19,13 +19,13 @@ struct pm_buffer {
 	int components; /* with id */
 	float *floats;  /* the values of an f32 field that rests (below), beside data or in their place; NULL: data alone has them */
 	struct pm_shared *shared; /* data, or where there are floats these, are in this block, which other processes may read; NULL: they are of this process */
+	double oscillation;       /* [1/time] the limit (limits.h) that data told when they were made; 0: none */
 	struct pm_later *later;   /* data are made by this when they are asked for (later.h); NULL: they are there, or divided */
 	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
 struct pm_buffer *pm_buffer_of_shared(struct pm_shared *b);        /* takes over a use of it; NULL: failure, and the use is given up */
-struct pm_later *pm_later_free(struct pm_later *later);            /* returns NULL */
 void pm_buffer_to_floats(struct pm_buffer *b);                     /* data becomes floats: the caller has filled it with them, or will */
 void pm_buffer_drop_data(struct pm_buffer *b);                     /* the floats stay */
 void pm_buffer_drop_floats(struct pm_buffer *b);                   /* data stays */

@@ -47,21 +47,20 @@ PM_SIMD_INLINE int second_other(int c) { return c == 2 ? 1 : 2; }
 /* `same`: which have both ends between the same points. */
 PM_SIMD_INLINE four_int find_along(int width, const struct pm_current_cells *t, int d, size_t i, struct along *a, pm_mask_by_axis *same)
 {
-	const four u = *(const pm_simd4_at *)(t->u[d] + i), way = *(const pm_simd4_at *)(t->way[d] + i), to = u + where(way < 0, -way, way);
-	pm_simd4_int_at cell, end;
-	four low[width_most], high[width_most], sum = {0};
-	const four from = pm_simd4_split(u, &cell), rest = pm_simd4_split(to, &end); /* u >= 0 */
-	find_by_axis(t->kernel, width, width - 1, from - t->shift, low);
-	find_by_axis(t->kernel, width, width - 1, rest - t->shift, high);
+	const four way = *(const pm_simd4_at *)(t->way[d] + i);
+	pm_simd4_int_at cell;
+	four from[width_most], to[width_most], sum = {0};
+	const four begins = pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell), ends = begins + way; /* u >= 0 */
+	find_by_axis(t->kernel, width, width - 1, begins - t->shift, from);
+	find_by_axis(t->kernel, width, width - 1, ends - t->shift, to);
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width; k++) {
-		const four difference = high[k] - low[k];
-		a->mean[k] = 0.5 * (low[k] + high[k]);
-		a->change[k] = where(way < 0, -difference, difference);
+		a->mean[k] = 0.5 * (from[k] + to[k]);
+		a->change[k] = to[k] - from[k];
 		sum -= a->change[k];
 		a->passed[k] = sum;
 	}
-	*same &= __builtin_convertvector(cell == end, pm_mask_by_axis);
+	*same &= (ends >= 0) & (ends < 1);
 	return cell - (int32_t)t->cell[d];
 }
 
@@ -173,12 +172,13 @@ PM_SIMD_INLINE void fold_piece(int dim, int width, double *sums, int at, double 
 
 PM_SIMD_INLINE void fold(int dim, int width, struct pm_current_cells *t, double *const block[3])
 {
-	const int *shift = pm_tile_shift[dim];
+	const int *shift = pm_tile_shift[dim], row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	const int first = 1 + (dim > 1 ? row : 0) + (dim > 2 ? plane : 0); /* a slot below the tile on every axis */
 	const size_t each = (size_t)(pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	for (int r = 0; r < PM_CURRENT_CELL_ROWS; r++) {
 		const int cell = r * piece, x = cell & ((1 << shift[0]) - 1), y = cell >> shift[0] & ((1 << shift[1]) - 1), z = cell >> shift[0] >> shift[1];
 		if (t->used[r])
-			fold_piece(dim, width, t->sums + (size_t)cell * each, (z * pm_block_rows[dim] + y) * pm_block_row[dim] + x, block);
+			fold_piece(dim, width, t->sums + (size_t)cell * each, first + z * plane + y * row + x, block);
 		t->used[r] = 0;
 	}
 }

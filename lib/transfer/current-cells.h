@@ -21,7 +21,7 @@ static inline size_t pm_current_cell_values(int dim, const struct pm_kernel *k)
 static inline size_t pm_current_cells_least(const struct pm_kernel *k) { return k->width == 2 ? 2048 : 8192; }
 enum { PM_CURRENT_CELL_ROWS = PM_TILE_CELLS / 32 }; /* of a tile: pieces of its rows along x */
 
-/* Ways as arrays: the lower end and the signed length [cells] on each axis below dim, the charge, and what it carries along each axis above. */
+/* Ways as arrays: where they begin and the signed length [cells] on each axis below dim, the charge, and what it carries along each axis above. */
 struct pm_current_cells {
 	int dim;
 	const struct pm_kernel *kernel;

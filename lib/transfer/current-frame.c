@@ -6,8 +6,10 @@
 
 #include "mesh/planes.h"
 #include "stream/declare.h"
+#include "stream/later.h"
 #include "transfer/current-frame.h"
 #include "transfer/current-parts.h"
+#include "transfer/current-pass.h"
 #include "world/world.h"
 
 static const char *const name = "J";
@@ -63,7 +65,7 @@ static void takes_columns(const struct pm_current_job *j, const struct pm_frame 
 {
 	struct pm_field *x = pm_frame_field(f, set, "x"), *q = pm_frame_field(f, set, j->law->strength);
 	x->use |= PM_USE_COLUMNS;
-	pm_frame_field(f, set, "v")->use |= PM_USE_COLUMNS;
+	pm_frame_field(f, set, "v")->use |= PM_USE_COLUMNS | PM_USE_LATER;
 	if (q->extensive)
 		q->use |= PM_USE_COLUMNS;
 }
@@ -108,9 +110,11 @@ static int add_columns(const struct pm_current_job *j, const struct pm_frame *f,
 	for (int d = 0; d < 3 && d < v->components; d++)
 		along[d] = pm_column_of(v, d);
 	charge = pm_column_of(q, 0);
+	struct pm_current c = j->current;
+	c.kept = &pm_frame_field(f, set, "x")->note;
 	if (!at[0].floats && charge.doubles)
 		return 0;
-	const int status = pm_current_columns(&j->current, x->count, at, along, &charge, mesh, stray, &far);
+	const int status = pm_current_columns(&c, x->count, at, along, &charge, mesh, stray, &far);
 	return status ? status : !far;
 }
 
@@ -127,7 +131,11 @@ static int add_set(struct pm_current_job *j, struct pm_frame *f, const char *set
 		mesh[d] = pm_out(field, d);
 	int status = pm_planes_init(&planes, &j->current.grid, field);
 	j->current.planes = &planes;
-	const int done = status ? status : add_columns(j, f, set, mesh, &stray);
+	int done = status ? status : pm_current_pass(j, f, set, mesh);
+	if (!done && pm_field_now(pm_frame_field(f, set, "v")))
+		done = -PM_DATA;
+	if (!done)
+		done = add_columns(j, f, set, mesh, &stray);
 	if (!done) {
 		pm_positions(f, set, x);
 		for (int d = 0; d < 3; d++)

@@ -17,18 +17,23 @@ struct along {
 /* Lanes of a window. */
 PM_SIMD_INLINE int window(int points) { return points == 1 ? 1 : padded(points); }
 
-/* The window of `points` points from the cell on, which has both ends of the way. */
-PM_SIMD_INLINE void find_along(int dim, int points, int width, const pm_by_axis *low, const pm_by_axis *high, pm_by_axis way, pm_mask_by_axis on,
+/* Weight k of `width`, or, where they are one point further on, of the one before. */
+PM_SIMD_INLINE pm_by_axis weight_at(int points, int width, int k, const pm_by_axis *w, pm_mask_by_axis on)
+{
+	const pm_by_axis here = k < width ? w[k] : all_axes(0);
+	return points == width ? here : where(on, k > 0 && k <= width ? w[k - 1] : all_axes(0), here);
+}
+
+/* The window of `points` points that has both ends of the way: it ends in the cell below the one where it begins, there, or above. */
+PM_SIMD_INLINE void find_along(int dim, int points, int width, const pm_by_axis *from, const pm_by_axis *to, pm_mask_by_axis below, pm_mask_by_axis above,
 	struct along *a)
 {
 	pm_by_axis mean[room], change[room], passed[room], sum = {0};
-	const pm_mask_by_axis back = way < 0;
 	PM_SIMD_UNROLL
 	for (int k = 0; k < (points + 3) / 4 * 4; k++) {
-		const pm_by_axis here = k < width ? low[k] : all_axes(0), same = k < width ? high[k] : all_axes(0);
-		const pm_by_axis there = points == width ? same : where(on, k > 0 && k <= width ? high[k - 1] : all_axes(0), same), difference = there - here;
+		const pm_by_axis here = weight_at(points, width, k, from, below), there = weight_at(points, width, k, to, above);
 		mean[k] = 0.5 * (here + there);
-		change[k] = where(back, -difference, difference);
+		change[k] = there - here;
 		sum -= change[k];
 		passed[k] = k < points - 1 ? sum : all_axes(0);
 	}
@@ -74,25 +79,26 @@ PM_SIMD_INLINE void deposit(int dim, int width, int degree, const struct pm_curr
 		a.mean[d][0] = a.passed[d][0] = 1;
 	for (size_t p = 0; p < t->count; p++) {
 		const double *record = t->records + p * (size_t)t->stride, q = record[2 * dim];
-		const pm_by_axis u = axes_from(dim, record), way = axes_from(dim, record + dim), length = where(way < 0, -way, way);
-		const pm_simd4_int_at cell = __builtin_convertvector(u, pm_simd4_int_at), end = __builtin_convertvector(u + length, pm_simd4_int_at);
-		const pm_by_axis from = __builtin_convertvector(cell, pm_by_axis);
-		/* A way of one cell may round up to the next but one. */
-		const pm_mask_by_axis on = __builtin_convertvector(end > cell, pm_mask_by_axis);
-		pm_by_axis low[room], high[room];
-		find_by_axis(t->kernel, width, degree, u - from - t->shift, low);
-		find_by_axis(t->kernel, width, degree, u + length - (from + where(on, all_axes(1), all_axes(0))) - t->shift, high);
+		const pm_by_axis u = axes_from(dim, record), way = axes_from(dim, record + dim);
+		const pm_simd4_int_at cell = __builtin_convertvector(u, pm_simd4_int_at);
+		const pm_by_axis begins = u - __builtin_convertvector(cell, pm_by_axis), ends = begins + way; /* from the cell on */
+		const pm_mask_by_axis below = ends < 0, above = ends >= 1;
+		const pm_simd4_int_at first = cell + 1 + __builtin_convertvector(below, pm_simd4_int_at);
+		pm_by_axis from[room], to[room];
+		find_by_axis(t->kernel, width, degree, begins - t->shift, from);
+		find_by_axis(t->kernel, width, degree, ends - t->shift + (where(below, all_axes(1), all_axes(0)) - where(above, all_axes(1), all_axes(0))), to);
 		const double charge[3] = {q, dim > 1 ? q : record[dim + 2], dim > 2 ? q : record[dim + 3]};
-		size_t at = (size_t)(cell[0] - (int32_t)t->cell[0]);
+		size_t at = (size_t)(first[0] - (int32_t)t->cell[0]);
 		if (dim > 1)
-			at += (size_t)(cell[1] - (int32_t)t->cell[1]) * (size_t)row;
+			at += (size_t)(first[1] - (int32_t)t->cell[1]) * (size_t)row;
 		if (dim > 2)
-			at += (size_t)(cell[2] - (int32_t)t->cell[2]) * (size_t)plane;
-		if (width > 4 || on[0] | on[1] | on[2]) { /* of many points one more costs little */
-			find_along(dim, width + 1, width, low, high, way, on, &a);
+			at += (size_t)(first[2] - (int32_t)t->cell[2]) * (size_t)plane;
+		const pm_mask_by_axis beside = below | above;
+		if (width > 4 || beside[0] | beside[1] | beside[2]) { /* of many points one more costs little */
+			find_along(dim, width + 1, width, from, to, below, above, &a);
 			deposit_window(dim, width + 1, &a, charge, at, t->block);
 		} else {
-			find_along(dim, width, width, low, high, way, on, &a);
+			find_along(dim, width, width, from, to, below, above, &a);
 			deposit_window(dim, width, &a, charge, at, t->block);
 		}
 	}

@@ -5,7 +5,7 @@
 
 #include "transfer/transfer-tile.h"
 
-/* A record: the lower end of the way on each axis (u of transfer-axis.h), its signed length [cells], at most 1, on each, the charge, and for each axis above
+/* A record: where the way begins on each axis (u of transfer-axis.h), its signed length [cells], at most 1, on each, the charge, and for each axis above
  * dim charge times velocity times the part of the step. */
 static inline int pm_current_values(int dim) { return dim + 1 + (3 - dim); } /* beside the place */
 

@@ -32,7 +32,7 @@ static void emit(struct walker *k, const double end[3], double part)
 			a = fmin(fmax(a, low), high);
 			b = fmin(fmax(b, low), high);
 		}
-		k->w->at[d][at] = fmin(a, b);
+		k->w->at[d][at] = a;
 		k->w->way[d][at] = (b - a) / c->grid.h[d];
 	}
 	k->w->q[at] = k->q;
@@ -202,7 +202,7 @@ static void lay_out(const struct pm_current *c, size_t n, const double *const x[
 			double *restrict at = w->at[d], *restrict way = w->way[d];
 			for (size_t p = from; p < end; p++) {
 				const double a = x[d][p], b = a + dt * (along ? along[p] : 0);
-				at[p] = a < b ? a : b;
+				at[p] = a;
 				way[p] = (b - a) / h;
 			}
 		}

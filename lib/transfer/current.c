@@ -36,7 +36,8 @@ struct spread {
 	const struct pm_tile_pass *pass;
 	const struct pm_current *c;
 	const struct pm_axis *nodes, *halves;
-	const bool *rests; /* of pm_current_fill */
+	const bool *rests; /* of pm_current_fill, as few is */
+	const struct pm_current_few *few;
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
 	struct pm_current_cells *cells; /* [threads], or NULL */
 };
@@ -70,7 +71,11 @@ static void fill_cells(const struct pm_current_fill *s, const struct pm_tile_ord
 	memcpy(cells->cell, t->cell, sizeof cells->cell);
 	for (size_t at = j->from; at < j->to; at += cells->count) {
 		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
-		pm_tile_order_columns(o, at, cells->count, true, columns);
+		if (s->few) {
+			s->few->make(s->few->data, o, j, at, cells->count, columns, columns + o->dim);
+			pm_tile_order_values(o, at, cells->count, columns + 2 * o->dim);
+		} else
+			pm_tile_order_columns(o, at, cells->count, true, columns);
 		if (s->rests)
 			carry(s->rests, cells);
 		few.count = most ? cells->count : pm_current_cells_add(cells, others);
@@ -90,7 +95,7 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	struct pm_current_tile t = {.kernel = s->c->kernel, .shift = s->shift, .stride = o->stride,
 		.block = {block, block + PM_BLOCK_MOST, block + 2 * PM_BLOCK_MOST}};
 	pm_current_loop *loop = pm_current_deposit(o->dim, s->c->kernel);
-	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4];
+	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[6][PM_TILE_ORDER_PACK];
 	for (int d = 0; d < 3; d++)
 		pm_tile_slots(p, j->tile, d, &t.cell[d]);
 	if (cells && j->to - j->from >= pm_current_cells_least(s->c->kernel)) {
@@ -106,6 +111,8 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	t.records = packed;
 	for (size_t at = j->from; at < j->to; at += t.count) {
 		t.count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
+		if (s->few)
+			s->few->make(s->few->data, o, j, at, t.count, (double *[]){few[0], few[1], few[2]}, (double *[]){few[3], few[4], few[5]});
 		pm_tile_order_pack(o, at, t.count, true, packed);
 		for (size_t i = 0; i < t.count && s->rests; i++)
 			for (int d = o->dim; d < 3; d++) {
@@ -133,7 +140,7 @@ struct pm_tile_target pm_current_target(const struct pm_current *c, const struct
 static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
 {
 	const struct pm_tile_pass *w = s->pass;
-	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->rests};
+	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->rests, s->few};
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
@@ -188,6 +195,28 @@ static int deposit_order(struct spread *s, struct pm_tile_order *order, size_t n
 	return status;
 }
 
+const struct pm_tile_order *pm_current_order_left(const struct pm_current *c, size_t n, const struct pm_column x[3])
+{
+	const struct pm_transfer t = {.grid = c->grid, .kernel = c->kernel, .cut = true, .kept = c->kept}; /* cut: as for E and B */
+	for (int d = 0; d < c->grid.dim; d++)
+		if (c->grid.face[d][0] != PM_PERIODIC)
+			return NULL;
+	const struct pm_order_cache *left = pm_order_cache_find(&t, (const unsigned char[3]){0}, n, x);
+	return left && pm_order_cache_stays(left) ? &left->order : NULL;
+}
+
+/* The order that was left, as one of ways. */
+static int deposit_left(struct spread *s, const struct pm_tile_order *left, const struct pm_tile_particles *p, double *const mesh[3])
+{
+	struct pm_tile_order order = *left;
+	order.ways = true, order.dt = p->dt, order.axes = s->nodes, order.nvalues = p->nvalues, order.stride = 2 * p->dim + p->nvalues;
+	for (int d = 0; d < p->dim; d++)
+		order.v[d] = p->v[d], order.columns |= !p->v[d].doubles;
+	for (int k = 0; k < p->nvalues; k++)
+		order.values[k] = p->values[k], order.columns |= p->values[k].floats != NULL;
+	return deposit_order(s, &order, p->n, mesh);
+}
+
 /* Sorts, and deposits unless a particle is outside the box or `far` says that the stream is far from the order of tiles (NULL: it does not matter). */
 static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, double *const mesh[3], size_t *stray, bool *far)
 {
@@ -196,6 +225,14 @@ static int deposit_particles(const struct pm_current *c, const struct pm_tile_pa
 	struct pm_strays strays = {.count = 0};
 	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
+	const struct pm_tile_order *left = p->v ? pm_current_order_left(c, p->n, p->x) : NULL;
+	if (far)
+		*far = false;
+	if (!status && left) {
+		status = deposit_left(&s, left, p, mesh);
+		pm_axes_free(nodes), pm_axes_free(halves);
+		return status;
+	}
 	if (!status)
 		status = pm_tile_order_init(&order, nodes, p, 2 * c->grid.dim + 1 + (3 - c->grid.dim), &strays);
 	if (!status && strays.count) {
@@ -217,6 +254,23 @@ static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, 
 	struct pm_ways_columns columns;
 	const struct pm_tile_particles particles = pm_ways_particles(c, ways, &columns);
 	return deposit_particles(c, &particles, NULL, mesh, stray, NULL);
+}
+
+int pm_current_made(const struct pm_current *c, const struct pm_tile_order *left, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
+	const struct pm_current_few *few, double *const mesh[3])
+{
+	const int dim = c->grid.dim;
+	const bool rests[3] = {false};
+	struct pm_axis nodes[3], halves[3];
+	struct pm_column values[4] = {*q};
+	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests, .few = few};
+	for (int d = dim; d < 3; d++)
+		values[1 + d - dim] = v[d];
+	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim) - dim, .n = left->n, .x = x, .values = values, .v = v, .dt = c->dt};
+	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
+	status = status ? status : deposit_left(&s, left, &particles, mesh);
+	pm_axes_free(nodes), pm_axes_free(halves);
+	return status;
 }
 
 /* Ways that are all straight pieces are found again where they are wanted, from particles that stay in the stream. */

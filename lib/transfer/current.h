@@ -16,6 +16,7 @@ struct pm_current {
 	enum pm_particle_face face[3][2]; /* what push does with the particles there */
 	double lo[3], hi[3];              /* [length] the box, where these faces are */
 	double dt;                        /* [time] of the drift; negative: backwards */
+	struct pm_note **kept;            /* NULL, or where the order of the particles may be left, which the gather before made */
 	const struct pm_planes *planes;   /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call */
 };
 
@@ -33,7 +34,7 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 /* For pm_current_add, in parts (current-ways.c): the ways of the particles, cut where they are longer than a cell and where they meet a face. */
 struct pm_ways {
 	size_t n;
-	double *at[3];   /* [n] [length] the lower end on each axis below dim */
+	double *at[3];   /* [n] [length] where it begins on each axis below dim */
 	double *way[3];  /* [n] [cells] signed length on each axis below dim */
 	double *q;       /* [n] [charge] */
 	double *along[3];/* [n] axes above dim: charge times velocity times the part of dt */

@@ -11,6 +11,7 @@
 #include "transfer/gather-limits.h"
 #include "transfer/magnetic-field.h"
 #include "transfer/gather-beside.h"
+#include "transfer/gather-later.h"
 #include "world/world.h"
 
 /* The mesh that has the field, or the words that make it. */
@@ -201,8 +202,11 @@ static int declare_law(const struct pm_gather_job *j, struct pm_frame *f, const 
 	int status = pm_mesh_changes_declare(f, set, j->mesh, replace);
 	if (!status && j->law->magnetic)
 		status = pm_bfield_plan(f, set, j->mesh, j->law->magnetic, replace);
+	struct pm_field *b = j->law->magnetic ? pm_frame_field(f, set, "bfield") : NULL;
 	if (!status && j->law->magnetic)
-		as_state(f, set, j->law->of, pm_frame_field(f, set, "bfield"));
+		as_state(f, set, j->law->of, b);
+	if (!status && b && b->use & PM_USE_NEW && pm_bfield_sets(f, j->mesh, j->law->magnetic) && !j->interlaced && j->field->role == PM_STATE)
+		b->use |= PM_USE_FILL;
 	if (!status && columns)
 		take_columns(j, f, set, target);
 	return status;
@@ -293,7 +297,12 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 {
 	int status = 0;
 	if (j->field->role == PM_STATE) {
+		bool left = false;
 		a->magnetic = !j->choice.field && j->law->magnetic && !j->interlaced && pm_bfield_append(f, set, j->mesh, j->law->magnetic, a);
+		if (j->choice.later && a->magnetic && !j->changes.n)
+			status = pm_gather_leave(j, f, set, a, &left);
+		if (status || left)
+			return status;
 		status = j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays) : gather_arrays(a, strays);
 		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;

@@ -8,6 +8,7 @@
 #include "limit/rates.h"
 #include "stream/column.h"
 #include "stream/declare.h"
+#include "stream/later.h"
 #include "stream/limits.h"
 #include "stream/over-stretches.h"
 #include "transfer/gather-limits.h"
@@ -101,6 +102,6 @@ void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, con
 	if (j->pull > 0) /* of this field alone: at least the difference of the largest values */
 		found.oscillation = sqrt(pm_orbit_rate(f->dim, sqrt(most > 0 ? most : pm_most(change, NULL)) - before, j->pull));
 	pm_limits_add(change, found);
-	if (b && j->law->magnetic && j->law->per && b->use & (PM_USE_CHANGE | PM_USE_NEW))
+	if (b && j->law->magnetic && j->law->per && b->use & (PM_USE_CHANGE | PM_USE_NEW) && !pm_field_later_of(b))
 		pm_limits_add(b, (struct pm_limits){.oscillation = gyration(j, f, b)});
 }

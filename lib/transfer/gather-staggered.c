@@ -6,6 +6,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transfer/gather-staggered.h"
 #include "transfer/staggered-nodes.h"
 #include "transfer/transfer-pass.h"
 
@@ -14,7 +15,8 @@ struct staggered {
 	const struct pm_transfer *t;
 	struct pm_axis nodes[3], axes[PM_COMPONENTS][3]; /* of the order; of each component, with the cells of the nodes */
 	struct pm_tile_order own;
-	const struct pm_tile_order *o; /* own, or the one that the density left */
+	const struct pm_tile_order *o; /* own, or the one that was left */
+	struct pm_tile_order *left;    /* that one; NULL */
 	struct pm_strays strays;
 	struct pm_tile_pass pass;
 	double *blocks;  /* [threads][components][PM_BLOCK_MOST] */
@@ -37,7 +39,8 @@ static int find_order(struct staggered *s, size_t n, const struct pm_column x[])
 		s->strays = left->strays;
 	else
 		status = status ? status : pm_tile_order_init(&s->own, s->nodes, &particles, 0, &s->strays);
-	s->o = left ? &left->order : &s->own;
+	s->left = left ? &left->order : NULL;
+	s->o = left ? s->left : &s->own;
 	s->few = !status && s->o->floats && pm_tile_results_round(s->t->components, &s->to) ? pm_alloc(n * (size_t)s->t->components, sizeof *s->few) : NULL;
 	if (!status && (s->o->records || (s->o->floats && !s->few)) && !(s->results = pm_alloc(n * (size_t)s->t->components, sizeof *s->results)))
 		status = -PM_DATA;
@@ -141,7 +144,7 @@ struct loaded {
 };
 
 /* A job, whose tile is loaded if it is not yet. */
-static bool gather_tile(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], struct loaded *l)
+static struct pm_staggered_tile load_tile(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], struct loaded *l)
 {
 	struct pm_staggered_tile t = {.kernel = s->t->kernel, .shift = s->nodes[0].shift, .components = s->t->components, .staggered = s->t->staggered,
 		.block = l->block, .nodes = l->nodes};
@@ -155,29 +158,56 @@ static bool gather_tile(const struct staggered *s, const struct pm_tile_job *j, 
 			pm_staggered_weave(s->o->dim, l->block, slots, l->nodes);
 		l->tile = j->tile;
 	}
+	return t;
+}
+
+static bool gather_tile(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], struct loaded *l)
+{
+	const struct pm_staggered_tile t = load_tile(s, j, mesh, l);
 	return l->woven ? gather_nodes(s, j, t) : gather_job(s, j, t);
+}
+
+/* Blocks and nodes of the threads. */
+static int make_room(struct staggered *s, size_t n, int threads)
+{
+	const bool nodes = pm_staggered_has_nodes(s->t->grid.dim, s->t->kernel, s->t->components, s->t->staggered) && n >= PM_TILE_PIECE;
+	s->blocks = pm_zalloc((size_t)threads * (size_t)s->t->components * PM_BLOCK_MOST, sizeof *s->blocks);
+	s->woven = nodes && s->blocks ? pm_alloc((size_t)threads * PM_STAGGERED_NODES, sizeof *s->woven) : NULL;
+	return s->blocks && (s->woven || !nodes) ? 0 : -PM_DATA;
+}
+
+static struct loaded nothing_loaded(const struct staggered *s, int thread)
+{
+	const size_t me = (size_t)thread;
+	return (struct loaded){.tile = SIZE_MAX, .block = s->blocks + me * (size_t)s->t->components * PM_BLOCK_MOST,
+		.nodes = s->woven ? s->woven + me * PM_STAGGERED_NODES : NULL};
 }
 
 static int gather_all(struct staggered *s, size_t n, const double *const mesh[], bool *finite)
 {
 	const int most = pm_tile_threads(n), threads = (size_t)most < s->pass.jobs ? most : (int)s->pass.jobs + !s->pass.jobs;
-	const size_t each = (size_t)s->t->components * PM_BLOCK_MOST;
 	int bad = 0;
-	const bool nodes = pm_staggered_has_nodes(s->t->grid.dim, s->t->kernel, s->t->components, s->t->staggered) && n >= PM_TILE_PIECE;
-	if (!(s->blocks = pm_zalloc((size_t)threads * each, sizeof *s->blocks)))
-		return -PM_DATA;
-	if (nodes && !(s->woven = pm_alloc((size_t)threads * PM_STAGGERED_NODES, sizeof *s->woven)))
+	if (make_room(s, n, threads))
 		return -PM_DATA;
 #pragma omp parallel num_threads(threads) reduction(| : bad)
 	{
-		const size_t me = (size_t)omp_get_thread_num();
-		struct loaded l = {.tile = SIZE_MAX, .block = s->blocks + me * each, .nodes = nodes ? s->woven + me * PM_STAGGERED_NODES : NULL};
+		struct loaded l = nothing_loaded(s, omp_get_thread_num());
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = 0; j < s->pass.jobs; j++)
 			bad |= !gather_tile(s, &s->pass.job[j], mesh, &l);
 	}
 	*finite = !bad;
 	return 0;
+}
+
+static void give_back(struct staggered *s)
+{
+	pm_free(s->results), pm_free(s->few), pm_free(s->blocks), pm_free(s->woven);
+	pm_tile_pass_free(&s->pass);
+	pm_tile_order_free(&s->own);
+	pm_axes_free(s->nodes);
+	for (int c = 0; c < s->t->components; c++)
+		pm_axes_free(s->axes[c]);
 }
 
 int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
@@ -198,11 +228,80 @@ int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_c
 		*strays = s.strays;
 		strays->finite = finite;
 	}
-	pm_free(s.results), pm_free(s.few), pm_free(s.blocks), pm_free(s.woven);
-	pm_tile_pass_free(&s.pass);
-	pm_tile_order_free(&s.own);
-	pm_axes_free(s.nodes);
-	for (int c = 0; c < t->components; c++)
-		pm_axes_free(s.axes[c]);
+	if (s.left)
+		pm_tile_order_spend(s.left);
+	give_back(&s);
 	return status;
+}
+
+/* ---- a few at a time ---- */
+
+int pm_staggered_order(const struct pm_transfer *t, size_t n, const struct pm_column x[])
+{
+	const unsigned char nodes[3] = {0, 0, 0};
+	struct pm_order_cache *left = pm_order_cache_find(t, nodes, n, x);
+	if (!left) {
+		if (!(left = pm_order_cache_new(t, nodes, n, x, 0, NULL, 0)))
+			return -PM_DATA;
+		pm_order_cache_leave(t, left);
+	}
+	return pm_order_cache_stays(left);
+}
+
+struct pm_staggered_few {
+	struct pm_transfer t;
+	struct staggered s;
+	const double *mesh[PM_COMPONENTS];
+	struct loaded *loaded; /* [threads] */
+};
+
+int pm_staggered_few_new(struct pm_staggered_few **to, const struct pm_transfer *t, const struct pm_tile_order *o, const double *const mesh[], int threads)
+{
+	const unsigned char nodes[3] = {0, 0, 0};
+	struct pm_staggered_few *f = *to = pm_zalloc(1, sizeof *f);
+	if (!f || !(f->loaded = pm_alloc((size_t)threads, sizeof *f->loaded)))
+		return -PM_DATA;
+	f->t = *t;
+	f->s.t = &f->t, f->s.o = o;
+	memcpy(f->mesh, mesh, (size_t)t->components * sizeof *mesh);
+	int status = pm_axes_init(f->s.nodes, &f->t, nodes);
+	status = status ? status : find_axes(&f->s);
+	status = status ? status : make_room(&f->s, o->n, threads);
+	for (int i = 0; i < threads && !status; i++)
+		f->loaded[i] = nothing_loaded(&f->s, i);
+	return status;
+}
+
+void pm_staggered_few(struct pm_staggered_few *f, const struct pm_tile_job *j, size_t m, const double *const u[3], double *values)
+{
+	struct loaded *l = &f->loaded[omp_get_thread_num()];
+	struct pm_staggered_tile t = load_tile(&f->s, j, f->mesh, l);
+	const int dim = f->t.grid.dim;
+	double packed[PM_TILE_ORDER_PACK * 3], rows[PM_TILE_ORDER_PACK * PM_COMPONENTS];
+	t.count = m;
+	if (l->woven) {
+		for (int d = 0; d < 3; d++)
+			t.u[d] = u[d];
+		t.results = values;
+		pm_staggered_gather_nodes(dim, t.kernel)(&t);
+		return;
+	}
+	for (size_t i = 0; i < m; i++)
+		for (int d = 0; d < dim; d++)
+			packed[i * (size_t)dim + (size_t)d] = u[d][i];
+	t.stride = dim, t.records = packed, t.results = rows;
+	pm_staggered_gather(dim, t.kernel, t.components, t.staggered)(&t);
+	for (size_t i = 0; i < m; i++)
+		for (int c = 0; c < t.components; c++)
+			values[(size_t)c * PM_TILE_ORDER_PACK + i] = rows[i * (size_t)t.components + (size_t)c];
+}
+
+void pm_staggered_few_free(struct pm_staggered_few *f)
+{
+	if (!f)
+		return;
+	pm_free(f->loaded);
+	if (f->s.t)
+		give_back(&f->s);
+	pm_free(f);
 }

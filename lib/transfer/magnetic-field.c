@@ -25,17 +25,24 @@ int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m,
 	return pm_reads(f, m->name, name) && pm_contributes(f, set, target, "", 3, term, replace) ? 0 : -PM_DATA;
 }
 
+/* Is it gathered together with E, all values of the target? */
+bool pm_bfield_sets(const struct pm_frame *f, const struct pm_mesh *m, const char *name)
+{
+	const struct pm_field *given = pm_frame_field(f, m->name, name);
+	return given && !given->uniform && evolves(f);
+}
+
 bool pm_bfield_append(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, struct pm_gather_arrays *a)
 {
 	const struct pm_field *given = pm_frame_field(f, m->name, name);
-	struct pm_field *to = given && !given->uniform && evolves(f) ? pm_frame_field(f, set, target) : NULL;
+	struct pm_field *to = pm_bfield_sets(f, m, name) ? pm_frame_field(f, set, target) : NULL;
 	struct pm_transfer own = {.components = 0};
 	pm_transfer_maxwell(&own, false);
 	for (int c = 0; c < 3 && to; c++) {
 		const int k = a->t.components++;
 		memcpy(a->t.staggered[k], given->staggered[c], sizeof a->t.staggered[k]);
 		memcpy(a->t.flip[k], own.flip[c], sizeof a->t.flip[k]);
-		a->t.set[k] = false;
+		a->t.set[k] = to->use & PM_USE_FILL;
 		a->mesh[k] = pm_in(given, c);
 		a->factor[k] = NULL;
 		if (a->columns) {

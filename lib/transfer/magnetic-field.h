@@ -9,6 +9,7 @@ int pm_bfield_plan(struct pm_frame *f, const char *set, const struct pm_mesh *m,
 /* Of a magnetic field that evolves by Maxwell's equations and is not one everywhere: its components are added to those of a gather of E, which sits on the
  * same mesh at other offsets; false: pm_bfield does it. */
 bool pm_bfield_append(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, struct pm_gather_arrays *a);
+bool pm_bfield_sets(const struct pm_frame *f, const struct pm_mesh *m, const char *name); /* declare(): that gather writes every value of a new bfield */
 /* The data; a uniform field is added without interpolation. Strays are left out (those of the gather before). */
 int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, const char *name, const struct pm_transfer *t);
 

@@ -25,6 +25,11 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o);
 /* The one attached there, if it belongs to these positions; NULL if none. */
 struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[]);
+/* Particles that stay in the stream, none of them a stray. */
+static inline bool pm_order_cache_stays(const struct pm_order_cache *o)
+{
+	return !o->strays.count && !o->order.tile && !o->order.records && !o->order.floats;
+}
 /* Attaches it there, or frees it if that is not possible. */
 void pm_order_cache_leave(const struct pm_transfer *t, struct pm_order_cache *o);
 

@@ -260,7 +260,7 @@ PM_SIMD_INLINE struct rows rows_of(const struct eight *e)
 /* The two points of each of four rows of the block. */
 PM_SIMD_INLINE void load_rows(const double *block, const int32_t *at, pm_simd to[8])
 {
-	enum { row = 32 + 12, plane = row * (16 + 10) };
+	enum { row = PM_BLOCK_ROW, plane = PM_BLOCK_ROW * PM_BLOCK_ROWS };
 	PM_SIMD_UNROLL
 	for (size_t some = 0; some < PM_SIMD_WIDTH; some += 4) {
 		const double *from[4];

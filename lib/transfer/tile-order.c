@@ -11,35 +11,21 @@ enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
 
-/* The lower ends of m ways; length: NULL, or room for their signed lengths [cells]. */
-static void find_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict low, double *restrict length)
+void pm_tile_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict length)
 {
 	for (size_t i = 0; i < m; i++) {
 		const double a = x[i], b = a + dt * v[i];
-		low[i] = a < b ? a : b;
-	}
-	for (size_t i = 0; i < m && length; i++) { /* apart: gcc would make it a store of chosen lanes, which takes ten times as long on Zen */
-		const double a = x[i], b = a + dt * v[i];
 		length[i] = (b - a) / h;
 	}
-}
-
-/* u of m particles on axis d; false if there are strays (-1). Ways as in find_ways. */
-static bool locate_axis(const struct pm_tile_order *o, int d, size_t m, const double *x, const double *v, double *u, double *length)
-{
-	double low[batch];
-	if (o->ways)
-		find_ways(o->dt, o->axes[d].h, m, x, v, low, length);
-	return pm_axis_locate_many(&o->axes[d], m, o->ways ? low : x, u);
 }
 
 /* u[d][0..m-1] of the particles from p on; false if there are strays (-1). */
 static bool locate(const struct pm_tile_order *o, size_t p, size_t m, double u[3][batch])
 {
 	bool all = true;
-	double few[2][batch];
+	double few[batch];
 	for (int d = 0; d < o->dim; d++)
-		all &= locate_axis(o, d, m, pm_column_take(&o->x[d], p, m, few[0]), o->ways ? pm_column_take(&o->v[d], p, m, few[1]) : NULL, u[d], NULL);
+		all &= pm_axis_locate_many(&o->axes[d], m, pm_column_take(&o->x[d], p, m, few), u[d]);
 	return all;
 }
 
@@ -70,16 +56,9 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 	}
 }
 
-PM_SIMD_INLINE pm_simd lower(pm_simd a, pm_simd b)
-{
-	const pm_simd_bits below = a < b;
-	return (pm_simd)((below & (pm_simd_bits)a) | (~below & (pm_simd_bits)b));
-}
-
-/* The tiles of m particles at x[dim], or of their ways with v[dim], in eights, straight from the stream. False if any of them is outside the range of the
+/* The tiles of m particles at x[dim] in eights, straight from the stream. False if any of them is outside the range of the
  * lanes. */
-PM_SIMD_INLINE bool tiles_of(int dim, bool ways, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3],
-	const double *const v[3], size_t m, uint32_t *tile)
+PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3], size_t m, uint32_t *tile)
 {
 	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
 	unsigned any = 0;
@@ -88,10 +67,8 @@ PM_SIMD_INLINE bool tiles_of(int dim, bool ways, const struct pm_tile_order *o, 
 		for (int d = 0; d < dim; d++) {
 			unsigned outside;
 			const pm_simd a = pm_simd_load_any(x[d] + i);
-			pm_simd_split(pm_axis_locate_eight(&lanes[d], ways ? lower(a, a + o->dt * pm_simd_load_any(v[d] + i)) : a, &outside), &cell);
+			pm_simd_split(pm_axis_locate_eight(&lanes[d], a, &outside), &cell);
 			__builtin_prefetch(x[d] + i + PM_TILE_AHEAD);
-			if (ways)
-				__builtin_prefetch(v[d] + i + PM_TILE_AHEAD);
 			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
 		}
@@ -103,7 +80,7 @@ PM_SIMD_INLINE bool tiles_of(int dim, bool ways, const struct pm_tile_order *o, 
 /* Whether no particle is outside the range of the lanes. */
 static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m)
 {
-	unsigned any = o->ways || m % PM_SIMD_WIDTH != 0;
+	unsigned any = m % PM_SIMD_WIDTH != 0;
 	double few[batch];
 	for (int d = 0; d < o->dim && !any; d++) {
 		const struct pm_axis_lanes a = lanes[d];
@@ -121,17 +98,12 @@ static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes
 /* The tiles of particles none of which is outside the range of the lanes; else false. */
 static bool usual_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, double u[3][batch], uint32_t *tile)
 {
-	double few[3][batch];
-	const double *x[3] = {NULL}, *v[3] = {NULL};
+	const double *x[3] = {NULL};
 	if ((int)PM_SIMD_PART != (int)PM_SIMD_WIDTH || m % PM_SIMD_WIDTH != 0)
 		return false;
-	for (int d = 0; d < o->dim; d++) {
+	for (int d = 0; d < o->dim; d++)
 		x[d] = pm_column_take(&o->x[d], p, m, u[d]);
-		v[d] = o->ways ? pm_column_take(&o->v[d], p, m, few[d]) : NULL;
-	}
-#define TILES_OF(dim) (o->ways ? tiles_of(dim, true, o, lanes, x, v, m, tile) : tiles_of(dim, false, o, lanes, x, v, m, tile))
-	return o->dim == 1 ? TILES_OF(1) : o->dim == 2 ? TILES_OF(2) : TILES_OF(3);
-#undef TILES_OF
+	return o->dim == 1 ? tiles_of(1, o, lanes, x, m, tile) : o->dim == 2 ? tiles_of(2, o, lanes, x, m, tile) : tiles_of(3, o, lanes, x, m, tile);
 }
 
 static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile)
@@ -344,7 +316,10 @@ void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool 
 	const size_t stride = (size_t)o->stride, first = (size_t)(o->ways ? 2 * o->dim : o->dim);
 	int x = 0, v = o->dim, k = (int)first; /* of a record of floats */
 	for (int d = 0; d < o->dim; d++) {
-		locate_axis(o, d, m, taken(o, p, m, &o->x[d], &x, few[0]), o->ways ? taken(o, p, m, &o->v[d], &v, few[1]) : NULL, u, length);
+		const double *at = taken(o, p, m, &o->x[d], &x, few[0]);
+		pm_axis_locate_many(&o->axes[d], m, at, u);
+		if (o->ways)
+			pm_tile_ways(o->dt, o->axes[d].h, m, at, taken(o, p, m, &o->v[d], &v, few[1]), length);
 		for (size_t i = 0; i < m; i++)
 			records[i * stride + (size_t)d] = u[i];
 		for (size_t i = 0; i < m && o->ways; i++)
@@ -369,11 +344,23 @@ void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bo
 				to[c][i] = record[c];
 		return;
 	}
-	for (int d = 0; d < dim; d++)
-		locate_axis(o, d, m, taken(o, p, m, &o->x[d], &x, few[0]), o->ways ? taken(o, p, m, &o->v[d], &v, few[1]) : NULL, to[d],
-			o->ways && values ? to[dim + d] : NULL);
+	for (int d = 0; d < dim; d++) {
+		const double *at = taken(o, p, m, &o->x[d], &x, few[0]);
+		pm_axis_locate_many(&o->axes[d], m, at, to[d]);
+		if (o->ways && values)
+			pm_tile_ways(o->dt, o->axes[d].h, m, at, taken(o, p, m, &o->v[d], &v, few[1]), to[dim + d]);
+	}
 	for (int c = first; c < all; c++) {
 		const double *value = taken(o, p, m, &o->values[c - first], &k, few[0]);
+		memcpy(to[c], value, m * sizeof *value);
+	}
+}
+
+void pm_tile_order_values(const struct pm_tile_order *o, size_t p, size_t m, double *const to[])
+{
+	double few[batch];
+	for (int c = 0; c < o->nvalues; c++) {
+		const double *value = pm_tile_order_take(o, p, m, &o->values[c], few);
 		memcpy(to[c], value, m * sizeof *value);
 	}
 }

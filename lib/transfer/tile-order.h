@@ -22,15 +22,15 @@ struct pm_tile_order {
 	uint32_t *place;      /* [n] the particles in the order of the tiles, where they stay in the stream; NULL */
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];
-	bool ways;            /* placed by the lower end of x..x + v dt */
+	bool ways;            /* of the particles from x to x + v dt */
 	double dt;
 	int nvalues;
 	struct pm_column values[PM_COMPONENTS];
 };
 
 /* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: where most have the tile of the one before, they are not moved, and
- * only their places are kept. v[dim] not NULL: the order is that of the lower ends of the ways x..x + v dt, which stay, or become floats: from a
- * stream of doubles that is far from the order of tiles neither records nor places are made. */
+ * only their places are kept. v[dim] not NULL: their ways x..x + v dt, which stay, or become floats: from a stream of doubles that is far
+ * from the order of tiles neither records nor places are made. */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;
@@ -59,11 +59,14 @@ void pm_tile_order_spend(struct pm_tile_order *o);
 int pm_tile_order_again(struct pm_tile_order *o, int room);
 static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o->tile && !o->records && !o->floats; }
 /* Records of the m particles in order from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order, or stays. Only where values are asked for need those
- * of the order still be there. Of ways a record is: the lower end, the signed length [cells] on each axis, the values. */
+ * of the order still be there. Of ways a record is: where it begins, the signed length [cells] on each axis, the values. */
 enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
 /* The same as arrays to[numbers of a record][m]; without values only u of each axis. */
 void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *const to[]);
+/* Its parts, of particles that stay: the values alone; signed lengths [cells] of m ways. */
+void pm_tile_order_values(const struct pm_tile_order *o, size_t p, size_t m, double *const to[]);
+void pm_tile_ways(double dt, double h, size_t m, const double *x, const double *v, double *length);
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite);

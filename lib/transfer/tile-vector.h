@@ -7,7 +7,7 @@
 
 enum { PM_VECTOR_NODES = 4 * PM_BLOCK_MOST };
 
-enum { PM_NODE_ROW = 4 * (32 + 12), PM_NODE_PLANE = PM_NODE_ROW * (16 + 10) }; /* doubles per row and plane of a block of nodes */
+enum { PM_NODE_ROW = 4 * PM_BLOCK_ROW, PM_NODE_PLANE = PM_NODE_ROW * PM_BLOCK_ROWS }; /* doubles per row and plane of a block of nodes */
 /* Components of a node that lie side by side; of more than four there are several blocks of nodes. */
 static inline int pm_vector_group(int components) { return components > 4 ? 3 : components; }
 static inline size_t pm_vector_groups(int components) { return components > 4 ? ((size_t)components + 2) / 3 : 1; }

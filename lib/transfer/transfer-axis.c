@@ -110,11 +110,12 @@ static int path_axis(struct pm_axis *a, const struct pm_grid *g, int d, int widt
 	a->n = (double)(g->cells[d] + beyond[1]);
 	a->add = a->shift + (double)beyond[0];
 	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1];
-	a->slots = a->count + (size_t)width * (d < g->dim);
+	const size_t more = d < g->dim; /* a way down from the first cell, or up from the last one */
+	a->slots = a->count + ((size_t)width + 1) * more;
 	const double rounding = 4 * DBL_EPSILON * (a->n + fabs(a->lo) / a->h);
 	a->low = -(double)beyond[0] - rounding;
 	a->high = a->n + rounding;
-	return make_slots(a, g, d, (const bool[]){false, false}, half, -((width - 1) / 2) - (ptrdiff_t)beyond[0]);
+	return make_slots(a, g, d, (const bool[]){false, false}, half, -((width - 1) / 2) - (ptrdiff_t)(beyond[0] + more));
 }
 
 int pm_axes_path(struct pm_axis nodes[3], struct pm_axis halves[3], const struct pm_grid *g, int width)

@@ -12,7 +12,7 @@
 #include "transfer/shared-jobs.h"
 #include "world/world.h"
 
-enum { LAYERS_MOST = 80 }; /* of a block: 64 + 10 in 2-D */
+enum { LAYERS_MOST = 80 }; /* of a block: 64 + 11 in 2-D */
 static const size_t inside = SIZE_MAX;
 
 struct pass {

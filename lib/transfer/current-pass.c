@@ -1,0 +1,92 @@
+/* The end of a step and the beginning of the next in one pass: for a few particles of a tile at a time E and B are gathered from the nodes that are in the
+ * cache, the velocities are kicked by the half that closes the step and the half that opens the next one, and their currents are added to the sums of the
+ * tile. The rates are never in memory. As in VPIC, Bowers et al. 2008, but for the words that stand beside each other in a sentence. Every way is one piece:
+ * the box is periodic, and no particle passes a cell at the speed of light. Cost: positions, velocities and the order once.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "law/law.h"
+#include "stream/later.h"
+#include "transfer/current-parts.h"
+#include "transfer/current-pass.h"
+#include "transfer/gather-later.h"
+#include "transfer/gather-staggered.h"
+
+/* What makes velocities. */
+struct maker {
+	const struct pm_gather_left *left;
+	const struct pm_later *later;
+	struct pm_staggered_few *gather;
+	double *v[3];
+};
+
+static void make(void *data, const struct pm_tile_order *o, const struct pm_tile_job *j, size_t p, size_t m, double *const u[3], double *const way[3])
+{
+	const struct maker *k = data;
+	enum { pack = PM_TILE_ORDER_PACK };
+	double values[6 * pack], few[3 * pack], room[3][pack], *v[3];
+	const double *x[3];
+	const bool together = !o->place || pm_tile_order_together(o, p, m), times = k->left->factor != 1;
+	const size_t at = o->place ? o->place[p] : p;
+	for (int d = 0; d < o->dim; d++) {
+		x[d] = pm_tile_order_take(o, p, m, &o->x[d], room[d]);
+		pm_axis_locate_many(&o->axes[d], m, x[d], u[d]);
+	}
+	pm_staggered_few(k->gather, j, m, (const double *const *)u, values);
+	for (int c = 0; c < 3; c++) {
+		const struct pm_column from = pm_column_doubles(k->v[c]);
+		for (size_t i = 0; i < m && times; i++)
+			values[c * pack + (int)i] *= k->left->factor;
+		v[c] = together ? k->v[c] + at : few + c * pack;
+		if (!together)
+			pm_tile_order_take(o, p, m, &from, v[c]);
+	}
+	k->later->kicks->few(k->later, m, v, (const double *const[]){values, values + pack, values + 2 * pack},
+		(const double *const[]){values + 3 * pack, values + 4 * pack, values + 5 * pack});
+	for (int d = 0; d < o->dim; d++)
+		pm_tile_ways(o->dt, o->axes[d].h, m, x[d], v[d], way[d]);
+	if (!together) {
+		const struct pm_column one[3] = {{.value = 1}, {.value = 1}, {.value = 1}};
+		const struct pm_target to[3] = {{.doubles = k->v[0]}, {.doubles = k->v[1]}, {.doubles = k->v[2]}};
+		pm_tile_order_unpack_arrays(p, o->place + p, m, few, 3, &(struct pm_tile_results){one, (const bool[]){true, true, true}, to, NULL});
+	}
+}
+
+/* Does everything allow it? */
+static bool can(const struct pm_current *c, const struct pm_frame *f, const struct pm_gather_left *l, const struct pm_field *x, const struct pm_field *q)
+{
+	const double light = pm_law_constant(f, "c", NAN);
+	bool yes = l && c->deposit == PM_ESIRKEPOV && q->uniform && !q->buffer && l->n == x->count;
+	for (int d = 0; d < c->grid.dim && yes; d++)
+		yes = c->grid.face[d][0] == PM_PERIODIC && c->face[d][0] == PM_PFOLD && c->face[d][1] == PM_PFOLD && light * fabs(c->dt) < 0.999 * c->grid.h[d] &&
+			l->x[d].doubles == pm_column_of(x, d).doubles;
+	return yes;
+}
+
+int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3])
+{
+	struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *q = pm_frame_field(f, set, j->law->strength);
+	struct pm_current c = j->current;
+	struct pm_later *later = pm_field_later_alone(v);
+	const struct pm_gather_left *l = later && later->kicks ? pm_gather_left_of(later->kicks->acc, later->kicks->bfield) : NULL;
+	struct pm_column at[3] = {{.value = 0}}, along[3], charge;
+	c.kept = &x->note;
+	for (int d = 0; d < f->dim; d++)
+		at[d] = pm_column_of(x, d);
+	const struct pm_tile_order *left = can(&c, f, l, x, q) ? pm_current_order_left(&c, x->count, at) : NULL;
+	if (!left)
+		return 0;
+	struct maker k = {.left = l};
+	int status = pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));
+	struct pm_later *taken = status ? NULL : pm_field_later_take(v);
+	k.later = taken;
+	for (int d = 0; d < 3 && taken; d++) {
+		k.v[d] = pm_out(v, d);
+		along[d] = pm_column_doubles(k.v[d]);
+	}
+	charge = pm_column_of(q, 0);
+	status = taken ? pm_current_made(&c, left, at, along, &charge, &(struct pm_current_few){make, &k}, mesh) : -PM_DATA;
+	pm_later_free(taken);
+	pm_staggered_few_free(k.gather);
+	return status ? status : 1;
+}
