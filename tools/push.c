@@ -60,8 +60,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	if (!room)
 		return pm_no_memory();
 	state->moving = room;
-	state->n = 0;
-	state->mesh = pm_push_mesh(f);
+	state->n = 0, state->mesh = pm_push_mesh(f);
 	for (size_t i = 0; i < f->nsets && steps && !status; i++)
 		if (pm_set_moves(f, f->sets[i]) && (!named || named == f->sets[i]))
 			status = pm_moving_declare(f, f->sets[i], &cfg->push, &state->moving[state->n++]);

@@ -11,7 +11,8 @@ struct pm_later;
 /* Of velocities that kicks have left to be made from those before: for a pass over the particles that makes the rates of a few of them itself. */
 struct pm_kicks {
 	struct pm_field *acc, *bfield; /* may be left to be made too */
-	void (*few)(const struct pm_later *later, size_t m, double *const v[3], const double *const acc[3], const double *const b[3]); /* [m] each; NULL: no such component */
+	/* [m] each; NULL: no such component. */
+	void (*few)(const struct pm_later *later, size_t m, double *const v[3], const double *const acc[3], const double *const b[3]);
 };
 
 /* The first member of what is known of them, a block of malloc. Not where there are ranks. */

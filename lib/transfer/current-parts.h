@@ -32,13 +32,11 @@ struct pm_ways_columns {
 };
 struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, struct pm_ways_columns *columns);
 bool pm_ways_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3]); /* every way is one piece */
-/* pm_current_add of columns, alone; *far: nothing was done, because ways are cut, or doubles are far from the order of tiles (pm_current_add does it). */
+/* pm_current_add of columns, alone; *far: nothing was done, because ways are cut, or doubles are far from the order of tiles (pm_current_add does it).
+ * few: NULL, or what makes the velocities on the way, where pm_current_order_left has the order and no way is cut. */
 int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	double *const j[3], size_t *stray, bool *far);
-/* Straight ways of particles whose order the gather left, with velocities that are made on the way. 0 or failure. */
-int pm_current_made(const struct pm_current *c, const struct pm_tile_order *left, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	const struct pm_current_few *few, double *const mesh[3]);
-/* That order; NULL: it is not there, or particles do not stay in the stream of a periodic box. */
+	const struct pm_current_few *few, double *const j[3], size_t *stray, bool *far);
+/* The order that the gather before left; NULL: it is not there, or particles do not stay in the stream of a periodic box. */
 const struct pm_tile_order *pm_current_order_left(const struct pm_current *c, size_t n, const struct pm_column x[3]);
 /* pm_current_add of ways where they and the mesh are divided: `firsts` of them are first pieces, the further ones follow. ways may be cut anew. Takes the
  * caller's status and returns the agreed one. */

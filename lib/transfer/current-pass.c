@@ -20,7 +20,8 @@ struct maker {
 	double *v[3];
 };
 
-static void make(void *data, const struct pm_tile_order *o, const struct pm_tile_job *j, size_t p, size_t m, double *const u[3], double *const way[3])
+static void make(void *data, const struct pm_tile_order *o, const struct pm_tile_job *j, size_t p, size_t m, double *const u[3],
+	double *const way[3])
 {
 	const struct maker *k = data;
 	enum { pack = PM_TILE_ORDER_PACK };
@@ -69,7 +70,9 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 	struct pm_current c = j->current;
 	struct pm_later *later = pm_field_later_alone(v);
 	const struct pm_gather_left *l = later && later->kicks ? pm_gather_left_of(later->kicks->acc, later->kicks->bfield) : NULL;
-	struct pm_column at[3] = {{.value = 0}}, along[3], charge;
+	struct pm_column at[3] = {{.value = 0}}, along[3] = {{.value = 0}}, charge = pm_column_of(q, 0);
+	size_t stray;
+	bool far = false;
 	c.kept = &x->note;
 	for (int d = 0; d < f->dim; d++)
 		at[d] = pm_column_of(x, d);
@@ -84,8 +87,8 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 		k.v[d] = pm_out(v, d);
 		along[d] = pm_column_doubles(k.v[d]);
 	}
-	charge = pm_column_of(q, 0);
-	status = taken ? pm_current_made(&c, left, at, along, &charge, &(struct pm_current_few){make, &k}, mesh) : -PM_DATA;
+	const struct pm_current_few few = {make, &k};
+	status = taken ? pm_current_columns(&c, x->count, at, along, &charge, &few, mesh, &stray, &far) : -PM_DATA;
 	pm_later_free(taken);
 	pm_staggered_few_free(k.gather);
 	return status ? status : 1;

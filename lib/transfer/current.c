@@ -218,12 +218,13 @@ static int deposit_left(struct spread *s, const struct pm_tile_order *left, cons
 }
 
 /* Sorts, and deposits unless a particle is outside the box or `far` says that the stream is far from the order of tiles (NULL: it does not matter). */
-static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, double *const mesh[3], size_t *stray, bool *far)
+static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, const struct pm_current_few *few,
+	double *const mesh[3], size_t *stray, bool *far)
 {
 	struct pm_axis nodes[3], halves[3];
 	struct pm_tile_order order = {.n = 0};
 	struct pm_strays strays = {.count = 0};
-	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests};
+	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests, .few = few};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	const struct pm_tile_order *left = p->v ? pm_current_order_left(c, p->n, p->x) : NULL;
 	if (far)
@@ -253,29 +254,12 @@ static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, 
 {
 	struct pm_ways_columns columns;
 	const struct pm_tile_particles particles = pm_ways_particles(c, ways, &columns);
-	return deposit_particles(c, &particles, NULL, mesh, stray, NULL);
-}
-
-int pm_current_made(const struct pm_current *c, const struct pm_tile_order *left, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	const struct pm_current_few *few, double *const mesh[3])
-{
-	const int dim = c->grid.dim;
-	const bool rests[3] = {false};
-	struct pm_axis nodes[3], halves[3];
-	struct pm_column values[4] = {*q};
-	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests, .few = few};
-	for (int d = dim; d < 3; d++)
-		values[1 + d - dim] = v[d];
-	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim) - dim, .n = left->n, .x = x, .values = values, .v = v, .dt = c->dt};
-	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
-	status = status ? status : deposit_left(&s, left, &particles, mesh);
-	pm_axes_free(nodes), pm_axes_free(halves);
-	return status;
+	return deposit_particles(c, &particles, NULL, NULL, mesh, stray, NULL);
 }
 
 /* Ways that are all straight pieces are found again where they are wanted, from particles that stay in the stream. */
 static int deposit_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	double *const mesh[3], size_t *stray, bool *far)
+	const struct pm_current_few *few, double *const mesh[3], size_t *stray, bool *far)
 {
 	const int dim = c->grid.dim;
 	struct pm_column values[4] = {*q};
@@ -285,7 +269,7 @@ static int deposit_straight(const struct pm_current *c, size_t n, const struct p
 		rests[d] = !v[d].doubles && !v[d].floats && v[d].value == 0;
 	}
 	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim) - dim, .n = n, .x = x, .values = values, .v = v, .dt = c->dt};
-	return deposit_particles(c, &particles, rests, mesh, stray, far);
+	return deposit_particles(c, &particles, rests, few, mesh, stray, far);
 }
 
 /* q v W at the middle of the way, folded. */
@@ -318,14 +302,14 @@ static int deposit_direct(const struct pm_current *c, size_t n, const double *co
 }
 
 int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	double *const j[3], size_t *stray, bool *far)
+	const struct pm_current_few *few, double *const j[3], size_t *stray, bool *far)
 {
 	*stray = n;
 	*far = false;
 	if (!n)
 		return 0;
-	*far = c->deposit == PM_DIRECT || !pm_ways_straight(c, n, x, v);
-	return *far ? 0 : deposit_straight(c, n, x, v, q, j, stray, far);
+	*far = !few && (c->deposit == PM_DIRECT || !pm_ways_straight(c, n, x, v));
+	return *far ? 0 : deposit_straight(c, n, x, v, q, few, j, stray, far);
 }
 
 int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const j[3],
@@ -342,7 +326,7 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 	if (!far) {
 		struct pm_column at[3], along[3], charge = pm_column_doubles(q);
 		pm_columns_of(c->grid.dim, x, at), pm_columns_of(3, v, along);
-		const int done = pm_current_columns(c, n, at, along, &charge, j, stray, &far);
+		const int done = pm_current_columns(c, n, at, along, &charge, NULL, j, stray, &far);
 		if (!far)
 			return done;
 	}

@@ -29,8 +29,9 @@ int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsi
 void pm_axes_free(struct pm_axis axes[3]);
 
 /* The axes of the ways of particles (current.c), which begin in a cell and end there or in one beside it: there is one slot more above, and one below, so
- * that cell c has the slots c + 1..c + width. `nodes` for components on the nodes and to locate, `halves` with the same slots for components half a cell up. Beyond an open face there are slots that are not on the mesh, for particles up to `beyond` cells outside: as far
- * as their kernel reaches, and a cell to spare. 0 or failure; free both in any case. */
+ * that cell c has the slots c + 1..c + width. `nodes` for components on the nodes and to locate, `halves` with the same slots for components half a cell up.
+ * Beyond an open face there are slots that are not on the mesh, for particles up to `beyond` cells outside: as far as their kernel reaches, and a cell to
+ * spare. 0 or failure; free both in any case. */
 int pm_axes_path(struct pm_axis nodes[3], struct pm_axis halves[3], const struct pm_grid *g, int width);
 void pm_axis_path_room(const struct pm_grid *g, int d, int width, size_t beyond[2]);
 
