@@ -79,7 +79,11 @@ static double fastest(const struct pm_field *v)
 	const double *x = pm_in(v, 0), *y = pm_in(v, 1), *z = pm_in(v, 2);
 	double most = 0;
 	const size_t n = v->count;
+#ifdef __clang__ /* makes no vectors of a maximum that a NaN may stand beside, and warns */
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
+#else
 #pragma omp parallel for simd schedule(static) reduction(max : most) if (n > 16384)
+#endif
 	for (size_t i = 0; i < n; i++) {
 		const double v2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
 		most = v2 > most ? v2 : most;

@@ -114,7 +114,7 @@ static int add_columns(const struct pm_current_job *j, const struct pm_frame *f,
 	c.kept = &pm_frame_field(f, set, "x")->note;
 	if (!at[0].floats && charge.doubles)
 		return 0;
-	const int status = pm_current_columns(&c, x->count, at, along, &charge, NULL, mesh, stray, &far);
+	const int status = pm_current_columns(&c, x->count, at, along, &charge, mesh, stray, &far);
 	return status ? status : !far;
 }
 

@@ -19,7 +19,6 @@ struct pm_current_fill {
 	const struct pm_current *c;
 	double shift; /* of the axes */
 	const bool *rests; /* [3] of an order of particles, whose values are charge and velocity: no velocity along this axis above dim; of ways NULL */
-	const struct pm_current_few *few; /* NULL: velocities are there */
 };
 void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block,
 	struct pm_current_cells *cells); /* of this thread, or NULL where there are none */
@@ -33,9 +32,9 @@ struct pm_ways_columns {
 struct pm_tile_particles pm_ways_particles(const struct pm_current *c, const struct pm_ways *ways, struct pm_ways_columns *columns);
 bool pm_ways_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3]); /* every way is one piece */
 /* pm_current_add of columns, alone; *far: nothing was done, because ways are cut, or doubles are far from the order of tiles (pm_current_add does it).
- * few: NULL, or what makes the velocities on the way, where pm_current_order_left has the order and no way is cut. */
+ * With few, pm_current_order_left has the order, and no way is cut. */
 int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	const struct pm_current_few *few, double *const j[3], size_t *stray, bool *far);
+	double *const j[3], size_t *stray, bool *far);
 /* The order that the gather before left; NULL: it is not there, or particles do not stay in the stream of a periodic box. */
 const struct pm_tile_order *pm_current_order_left(const struct pm_current *c, size_t n, const struct pm_column x[3]);
 /* pm_current_add of ways where they and the mesh are divided: `firsts` of them are first pieces, the further ones follow. ways may be cut anew. Takes the

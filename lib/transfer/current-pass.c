@@ -59,8 +59,8 @@ static bool can(const struct pm_current *c, const struct pm_frame *f, const stru
 	const double light = pm_law_constant(f, "c", NAN);
 	bool yes = l && c->deposit == PM_ESIRKEPOV && q->uniform && !q->buffer && l->n == x->count;
 	for (int d = 0; d < c->grid.dim && yes; d++)
-		yes = c->grid.face[d][0] == PM_PERIODIC && c->face[d][0] == PM_PFOLD && c->face[d][1] == PM_PFOLD && light * fabs(c->dt) < 0.999 * c->grid.h[d] &&
-			l->x[d].doubles == pm_column_of(x, d).doubles;
+		yes = c->grid.face[d][0] == PM_PERIODIC && c->face[d][0] == PM_PFOLD && c->face[d][1] == PM_PFOLD &&
+			light * fabs(c->dt) < 0.999 * c->grid.h[d] && l->x[d].doubles == pm_column_of(x, d).doubles;
 	return yes;
 }
 
@@ -87,8 +87,8 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 		k.v[d] = pm_out(v, d);
 		along[d] = pm_column_doubles(k.v[d]);
 	}
-	const struct pm_current_few few = {make, &k};
-	status = taken ? pm_current_columns(&c, x->count, at, along, &charge, &few, mesh, &stray, &far) : -PM_DATA;
+	c.few = &(struct pm_current_few){make, &k};
+	status = taken ? pm_current_columns(&c, x->count, at, along, &charge, mesh, &stray, &far) : -PM_DATA;
 	pm_later_free(taken);
 	pm_staggered_few_free(k.gather);
 	return status ? status : 1;

@@ -36,8 +36,7 @@ struct spread {
 	const struct pm_tile_pass *pass;
 	const struct pm_current *c;
 	const struct pm_axis *nodes, *halves;
-	const bool *rests; /* of pm_current_fill, as few is */
-	const struct pm_current_few *few;
+	const bool *rests; /* of pm_current_fill */
 	double *blocks; /* [jobs under way][3][PM_BLOCK_MOST] */
 	struct pm_current_cells *cells; /* [threads], or NULL */
 };
@@ -71,8 +70,8 @@ static void fill_cells(const struct pm_current_fill *s, const struct pm_tile_ord
 	memcpy(cells->cell, t->cell, sizeof cells->cell);
 	for (size_t at = j->from; at < j->to; at += cells->count) {
 		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
-		if (s->few) {
-			s->few->make(s->few->data, o, j, at, cells->count, columns, columns + o->dim);
+		if (s->c->few) {
+			s->c->few->make(s->c->few->data, o, j, at, cells->count, columns, columns + o->dim);
 			pm_tile_order_values(o, at, cells->count, columns + 2 * o->dim);
 		} else
 			pm_tile_order_columns(o, at, cells->count, true, columns);
@@ -111,8 +110,8 @@ void pm_current_fill(const struct pm_current_fill *s, const struct pm_tile_pass 
 	t.records = packed;
 	for (size_t at = j->from; at < j->to; at += t.count) {
 		t.count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
-		if (s->few)
-			s->few->make(s->few->data, o, j, at, t.count, (double *[]){few[0], few[1], few[2]}, (double *[]){few[3], few[4], few[5]});
+		if (s->c->few)
+			s->c->few->make(s->c->few->data, o, j, at, t.count, (double *[]){few[0], few[1], few[2]}, (double *[]){few[3], few[4], few[5]});
 		pm_tile_order_pack(o, at, t.count, true, packed);
 		for (size_t i = 0; i < t.count && s->rests; i++)
 			for (int d = o->dim; d < 3; d++) {
@@ -140,7 +139,7 @@ struct pm_tile_target pm_current_target(const struct pm_current *c, const struct
 static void spread_all(const struct spread *s, int threads, size_t under_way, double *const mesh[3])
 {
 	const struct pm_tile_pass *w = s->pass;
-	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->rests, s->few};
+	const struct pm_current_fill fill = {s->c, s->nodes[0].shift, s->rests};
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
@@ -218,13 +217,12 @@ static int deposit_left(struct spread *s, const struct pm_tile_order *left, cons
 }
 
 /* Sorts, and deposits unless a particle is outside the box or `far` says that the stream is far from the order of tiles (NULL: it does not matter). */
-static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, const struct pm_current_few *few,
-	double *const mesh[3], size_t *stray, bool *far)
+static int deposit_particles(const struct pm_current *c, const struct pm_tile_particles *p, const bool *rests, double *const mesh[3], size_t *stray, bool *far)
 {
 	struct pm_axis nodes[3], halves[3];
 	struct pm_tile_order order = {.n = 0};
 	struct pm_strays strays = {.count = 0};
-	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests, .few = few};
+	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	const struct pm_tile_order *left = p->v ? pm_current_order_left(c, p->n, p->x) : NULL;
 	if (far)
@@ -254,12 +252,12 @@ static int deposit_ways(const struct pm_current *c, const struct pm_ways *ways, 
 {
 	struct pm_ways_columns columns;
 	const struct pm_tile_particles particles = pm_ways_particles(c, ways, &columns);
-	return deposit_particles(c, &particles, NULL, NULL, mesh, stray, NULL);
+	return deposit_particles(c, &particles, NULL, mesh, stray, NULL);
 }
 
 /* Ways that are all straight pieces are found again where they are wanted, from particles that stay in the stream. */
 static int deposit_straight(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	const struct pm_current_few *few, double *const mesh[3], size_t *stray, bool *far)
+	double *const mesh[3], size_t *stray, bool *far)
 {
 	const int dim = c->grid.dim;
 	struct pm_column values[4] = {*q};
@@ -269,7 +267,7 @@ static int deposit_straight(const struct pm_current *c, size_t n, const struct p
 		rests[d] = !v[d].doubles && !v[d].floats && v[d].value == 0;
 	}
 	const struct pm_tile_particles particles = {.dim = dim, .nvalues = pm_current_values(dim) - dim, .n = n, .x = x, .values = values, .v = v, .dt = c->dt};
-	return deposit_particles(c, &particles, rests, few, mesh, stray, far);
+	return deposit_particles(c, &particles, rests, mesh, stray, far);
 }
 
 /* q v W at the middle of the way, folded. */
@@ -302,14 +300,14 @@ static int deposit_direct(const struct pm_current *c, size_t n, const double *co
 }
 
 int pm_current_columns(const struct pm_current *c, size_t n, const struct pm_column x[3], const struct pm_column v[3], const struct pm_column *q,
-	const struct pm_current_few *few, double *const j[3], size_t *stray, bool *far)
+	double *const j[3], size_t *stray, bool *far)
 {
 	*stray = n;
 	*far = false;
 	if (!n)
 		return 0;
-	*far = !few && (c->deposit == PM_DIRECT || !pm_ways_straight(c, n, x, v));
-	return *far ? 0 : deposit_straight(c, n, x, v, q, few, j, stray, far);
+	*far = !c->few && (c->deposit == PM_DIRECT || !pm_ways_straight(c, n, x, v));
+	return *far ? 0 : deposit_straight(c, n, x, v, q, j, stray, far);
 }
 
 int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3], const double *const v[3], const double *q, double *const j[3],
@@ -326,7 +324,7 @@ int pm_current_add(const struct pm_current *c, size_t n, const double *const x[3
 	if (!far) {
 		struct pm_column at[3], along[3], charge = pm_column_doubles(q);
 		pm_columns_of(c->grid.dim, x, at), pm_columns_of(3, v, along);
-		const int done = pm_current_columns(c, n, at, along, &charge, NULL, j, stray, &far);
+		const int done = pm_current_columns(c, n, at, along, &charge, j, stray, &far);
 		if (!far)
 			return done;
 	}

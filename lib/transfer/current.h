@@ -17,6 +17,7 @@ struct pm_current {
 	double lo[3], hi[3];              /* [length] the box, where these faces are */
 	double dt;                        /* [time] of the drift; negative: backwards */
 	struct pm_note **kept;            /* NULL, or where the order of the particles may be left, which the gather before made */
+	const struct pm_current_few *few; /* NULL: the velocities are there; or what makes them (current-parts.h) */
 	const struct pm_planes *planes;   /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call */
 };
 

@@ -91,7 +91,8 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	for c in "1 3000 60 cic boris" "2 4096 16 tsc vay" "3 9261 9 cic higuera-cary" "3 8000 8 tsc boris"; do
 		set -- $c
 		local step="push $5/2 | p2m --current --kernel $4 | maxwell | push drift | m2p | push $5/2"
-		pinit em-wave --dim "$1" -n "$2" --cells "$3" | smod --constant background=0 | species ions -n 700 --charge 1 --mass 3 --vth 0.1 --velocities 3 |
+		pinit em-wave --dim "$1" -n "$2" --cells "$3" | smod --constant background=0 |
+			species ions -n 700 --charge 1 --mass 3 --vth 0.1 --velocities 3 |
 			scalc --set electrons --role state 'v = 0.3*sin(7*x), 0.2*cos(9*x), 0.1' | ssort --no-history > start
 		cycle --no-history -n 4 "$step" < start > want
 		cycle --no-history -n 1 "$step" < start | cycle --no-history -n 1 "$step" | cycle --no-history -n 2 "$step" | cmp - want
