@@ -97,6 +97,10 @@ static double gained(const struct pm_gather_left *l, double dt, double c)
 	return 2 * fabs(dt) * (fabs(l->factor) * l->most[0] + c * l->rate * l->most[1]);
 }
 
+/* One number for all; this one. */
+static bool one_for_all(const struct pm_field *strength) { return strength->uniform && !strength->buffer; }
+static bool is_one(const struct pm_field *strength, double value) { return one_for_all(strength) && strength->value[0] == value; }
+
 static bool safe(double proper, double c) { return proper < 1e6 * c; }
 
 static void add_half(struct kick_later *k, const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step)
@@ -105,11 +109,13 @@ static void add_half(struct kick_later *k, const struct pm_frame *f, const struc
 	k->halves++;
 }
 
-/* One more half to those that are left, of the same rates. */
+/* One more half to those that are left, of the same rates, charge, mass and c. */
 static bool go_on(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step, const struct pm_gather_left *l, struct pm_later *later)
 {
 	struct kick_later *k = (struct kick_later *)later;
 	if (later->make != make || k->halves != 1 || pm_gather_left_of(k->kicks.acc, k->kicks.bfield) != l || !safe(k->proper + gained(l, f->dt, k->c), k->c))
+		return false;
+	if (!is_one(m->charge, k->charge) || !is_one(m->mass, k->mass) || pm_law_constant(f, "c", NAN) != k->c)
 		return false;
 	k->proper += gained(l, f->dt, k->c);
 	add_half(k, f, m, step);
@@ -144,7 +150,8 @@ int pm_kick_leave(const struct pm_frame *f, const struct pm_moving *m, const str
 	int left = 0;
 	if (l && later)
 		left = go_on(f, m, step, l, later);
-	else if (l && !pm_field_later_of(m->v) && m->charge->uniform && !m->charge->buffer && m->mass->uniform && !m->mass->buffer)
+	else if (l && !pm_field_later_of(m->v) && one_for_all(m->charge) && one_for_all(m->mass) &&
+		fabs(m->charge->value[0] / m->mass->value[0]) == l->rate)
 		left = begin(f, m, step, l, acc);
 	return left ? left : pm_field_now(m->v) || pm_field_now(acc) || pm_field_now(m->b) ? -PM_DATA : 0;
 }

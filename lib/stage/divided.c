@@ -292,7 +292,9 @@ static int stage_of(const struct pm_tool *own, const json_t *all, struct pm_stag
 
 static int wrong(const char *what, const json_error_t *error)
 {
-	return json_error_code(error) == json_error_out_of_memory || !*error->text ? pm_no_memory() : pm_fail(PM_DATA, "%s is wrong: %s", what, error->text);
+	const bool ended = !strcmp(pm_message(), "out of memory"); /* said by the allocator of jansson, whose reader may call it a wrong token */
+	const bool memory = ended || json_error_code(error) == json_error_out_of_memory || !*error->text;
+	return memory ? pm_no_memory() : pm_fail(PM_DATA, "%s is wrong: %s", what, error->text);
 }
 
 /* The header, before and behind declare(). */

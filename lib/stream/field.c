@@ -460,6 +460,8 @@ int pm_field_resize(struct pm_field *field, size_t count)
 
 void pm_field_forget(struct pm_field *field)
 {
+	if (field->buffer) /* the limit stays */
+		pm_limits_add(field, (struct pm_limits){.oscillation = field->buffer->oscillation});
 	forget_note(field);
 	field->buffer = pm_buffer_free(field->buffer);
 }

@@ -64,6 +64,15 @@ static bool can(const struct pm_current *c, const struct pm_frame *f, const stru
 	return yes;
 }
 
+/* The order is that of the gather: of one mesh, with kernels of one width. */
+static bool is_of_gather(const struct pm_tile_order *left, const struct pm_gather_left *l, struct pm_note **kept, const struct pm_column x[3])
+{
+	struct pm_transfer t = l->t;
+	t.kept = kept;
+	const struct pm_order_cache *own = pm_order_cache_find(&t, (const unsigned char[3]){0}, l->n, x);
+	return own && &own->order == left;
+}
+
 int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3])
 {
 	struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *q = pm_frame_field(f, set, j->law->strength);
@@ -77,7 +86,7 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 	for (int d = 0; d < f->dim; d++)
 		at[d] = pm_column_of(x, d);
 	const struct pm_tile_order *left = can(&c, f, l, x, q) ? pm_current_order_left(&c, x->count, at) : NULL;
-	if (!left)
+	if (!left || !is_of_gather(left, l, c.kept, at))
 		return 0;
 	struct maker k = {.left = l};
 	int status = pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));

@@ -86,6 +86,8 @@ static bool can(const struct pm_gather_job *j, const struct pm_frame *f, const c
 	const struct pm_field *acc = pm_frame_field(f, set, j->law->change), *b = pm_frame_field(f, set, "bfield");
 	const struct pm_grid *g = &a->t.grid;
 	bool yes = pm_world_alone() && a->columns && a->magnetic && a->t.components == 6 && j->law->per && fresh(acc) && fresh(b) && a->n && !a->t.kernel->star;
+	/* Doubles beside floats are gone when the word ends. */
+	yes = yes && j->field->type == PM_F64 && pm_frame_field(f, j->mesh->name, j->law->magnetic)->type == PM_F64;
 	for (int d = 0; d < g->dim && yes; d++)
 		yes = g->face[d][0] == PM_PERIODIC && a->at[d].doubles;
 	for (int c = 0; c < 6 && yes; c++)
@@ -99,6 +101,7 @@ static bool moderate(struct pm_gather_left *l)
 	const size_t points = pm_grid_size(&l->t.grid);
 	for (int k = 0; k < 2; k++) {
 		double most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most) if (points > 65536)
 		for (size_t i = 0; i < points; i++) {
 			const double x = l->mesh[3 * k][i], y = l->mesh[3 * k + 1][i], z = l->mesh[3 * k + 2][i], square = x * x + y * y + z * z;
 			most = square > most ? square : most;

@@ -240,6 +240,8 @@ int pm_staggered_order(const struct pm_transfer *t, size_t n, const struct pm_co
 {
 	const unsigned char nodes[3] = {0, 0, 0};
 	struct pm_order_cache *left = pm_order_cache_find(t, nodes, n, x);
+	if (!t->kept)
+		return 0;
 	if (!left) {
 		if (!(left = pm_order_cache_new(t, nodes, n, x, 0, NULL, 0)))
 			return -PM_DATA;

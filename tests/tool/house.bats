@@ -254,7 +254,8 @@ public() { make -s -C "$top" public | tr ' ' '\n' | sed 's|^lib/||'; }
 
 @test "the shared library exports lib/exports.txt, which is what the installed headers declare" {
 	for h in $(public); do echo "#include \"$h\""; done >all.c
-	CCACHE_DISABLE=1 gcc -std=c11 -I"$top/lib" -fsyntax-only -aux-info declared all.c # ccache forgets this file
+	# ccache forgets the file of -aux-info
+	CCACHE_DISABLE=1 gcc -std=c11 -I"$top/lib" -fsyntax-only -aux-info declared all.c
 	{
 		sed -n 's|^/\* .*/lib/[^ ]* \*/ extern .*[ *(]\(pm_[a-z0-9_]*\) (.*|\1|p' declared
 		for h in $(public); do sed -n '/^extern [^(]*\[/p' "$top/lib/$h"; done | grep -oE '[a-z0-9_]+\[' | tr -d '['

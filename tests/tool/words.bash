@@ -20,7 +20,7 @@ words() {
 	collide) echo "collide --statistical-weight 0.01 --quiet" ;;
 	smooth) echo "smooth --passes 2" ;;
 	diffuse) echo "diffuse --nu 0.1" ;;
-	species) echo "species ions -n 7 --charge 1" ;;
+	species) echo "species ions -n 7 --charge 1 --quiet" ;;
 	inject) echo "inject matter --at volume --influx 100 --charge 1 -n 5" ;;
 	neutrals) echo "neutrals --set matter --density 1 'elastic: 1'" ;;
 	ionise) echo "ionise matter --element H --mass 1 --electron-mass 1e-3 --time-unit 1e-9 --length-unit 1e-9" ;;
