@@ -109,6 +109,12 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	step='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
 	cycle --no-history --engine pipes -n 3 "$step" <single >want
 	cycle --no-history -n 3 "$step" <single | cmp - want
+	# E and B on the nodes
+	sel --drop E -i start | sel --drop B | p2m | maxwell --gauss --method psatd --nodal | sel --drop rho --no-history >nodal
+	step='push boris/2 | p2m --current | maxwell --method psatd | push drift | m2p | push boris/2'
+	cycle --no-history --engine pipes -n 3 "$step" <nodal >want
+	cycle --no-history -n 3 "$step" <nodal | cmp - want
+	[ "$(wc -c <want)" -gt 100000 ]
 }
 
 @test "equal bytes: direct sum, leapfrog" {
