@@ -225,8 +225,6 @@ static int deposit_particles(const struct pm_current *c, const struct pm_tile_pa
 	struct spread s = {.c = c, .nodes = nodes, .halves = halves, .rests = rests};
 	int status = pm_axes_path(nodes, halves, &c->grid, c->kernel->width);
 	const struct pm_tile_order *left = p->v ? pm_current_order_left(c, p->n, p->x) : NULL;
-	if (far)
-		*far = false;
 	if (!status && left) {
 		status = deposit_left(&s, left, p, mesh);
 		pm_axes_free(nodes), pm_axes_free(halves);
