@@ -99,13 +99,13 @@ static void twist(const double *half, size_t from, size_t count, bool back, doub
 static struct pm_fft_place place(const struct pm_transform *l, double *block)
 {
 	const bool both = l->face[0] == PM_OPEN && l->face[1] == PM_OPEN;
-	return (struct pm_fft_place){block, L, both ? l->count : 0};
+	return (struct pm_fft_place){block, L, both ? l->count : 0, NULL};
 }
 
 void pm_transform_forward(const struct pm_transform *l, bool flip, double *block)
 {
 	if (place(l, block).some) {
-		pm_fft_forward_moving(l->fft, place(l, block), block, (struct pm_fft_place){block, L, 0});
+		pm_fft_forward_moving(l->fft, place(l, block), block, (struct pm_fft_place){block, L, 0, NULL});
 		return;
 	}
 	pm_transform_extend(l, flip, block);
@@ -116,7 +116,7 @@ void pm_transform_forward(const struct pm_transform *l, bool flip, double *block
 
 void pm_transform_backward(const struct pm_transform *l, double *block)
 {
-	pm_fft_backward_moving(l->fft, (struct pm_fft_place){block, L, 0}, block, place(l, block));
+	pm_fft_backward_moving(l->fft, (struct pm_fft_place){block, L, 0, NULL}, block, place(l, block));
 	if (l->shifted)
 		twist(l->fft->half, 0, l->n + 1, true, block);
 }

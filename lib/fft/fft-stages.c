@@ -11,11 +11,29 @@
 
 enum { L = PM_FFT_LINES, WHOLE = 192 };
 
+/* What is fetched into the L2 cache while butterflies are computed, so many lines of it for 16 rows that these read. */
+struct soon {
+	const char *at;
+	int lines;
+};
+
 /* Where the rows of a stage are. */
 struct rows {
 	struct c8 *x;
 	size_t step;
 };
+
+/* Rows first to end-1, in pieces of length. */
+struct span {
+	size_t first, end, length;
+	struct soon *soon; /* or NULL */
+};
+
+PM_SIMD_INLINE void fetch(struct soon *soon, int r)
+{
+	for (int i = 0; soon && i < (soon->lines * r + 15) / 16; i++, soon->at += 64)
+		__builtin_prefetch(soon->at, 0, 1);
+}
 
 PM_SIMD_INLINE void flies(int r, const struct pm_fft *f, struct rows from, struct rows to, size_t row, size_t m, const double *w, const double *u, enum way way)
 {
@@ -28,42 +46,50 @@ PM_SIMD_INLINE void flies(int r, const struct pm_fft *f, struct rows from, struc
 	}
 }
 
-/* Rows first to end-1, in pieces of length. */
-PM_SIMD_INLINE void stage(int r, const struct pm_fft *f, size_t first, size_t end, size_t length, const double *twiddle, const double *u, enum way way,
-	struct rows from, struct rows to)
+PM_SIMD_INLINE void stage(int r, const struct pm_fft *f, struct span span, const double *twiddle, const double *u, enum way way, struct rows from,
+	struct rows to)
 {
-	const size_t m = length / (size_t)r;
+	const size_t m = span.length / (size_t)r;
 	if (m == 1 || way == BOTH) {
-		for (size_t base = first; base < end; base += length)
+		for (size_t base = span.first; base < span.end; base += span.length) {
+			fetch(span.soon, r);
 			flies(r, f, from, to, base, 1, NULL, u, way);
+		}
 		return;
 	}
-	for (size_t base = first; base < end; base += length) {
+	for (size_t base = span.first; base < span.end; base += span.length) {
 		const double *w = twiddle;
-		for (size_t j = 0; j < m; j++, w += 2 * (r - 1))
+		for (size_t j = 0; j < m; j++, w += 2 * (r - 1)) {
+			fetch(span.soon, r);
 			flies(r, f, from, to, base + j, m, w, NULL, way);
+		}
 	}
 }
 
 /* The stages of radix f->radix[s]: forward, back, and the last one forward and back with factors between. */
+#define RADICES(way, span, other) \
+	switch (f->radix[s]) { \
+	case 2: stage(2, f, span, w, factors, way, from, to); break; \
+	case 3: stage(3, f, span, w, factors, way, from, to); break; \
+	case 4: stage(4, f, span, w, factors, way, from, to); break; \
+	case 5: stage(5, f, span, w, factors, way, from, to); break; \
+	case 7: stage(7, f, span, w, factors, way, from, to); break; \
+	case 8: stage(8, f, span, w, factors, way, from, to); break; \
+	case 11: stage(11, f, span, w, factors, way, from, to); break; \
+	case 13: stage(13, f, span, w, factors, way, from, to); break; \
+	default: other; \
+	}
 #define STAGES(name, way, other) \
-	static void stage_##name(const struct pm_fft *f, int s, size_t first, size_t end, size_t length, const double *factors, struct rows from, \
-		struct rows to) \
+	static void stage_##name(const struct pm_fft *f, int s, struct span span, const double *factors, struct rows from, struct rows to) \
 	{ \
 		const double *w = f->twiddle[s]; \
-		switch (f->radix[s]) { \
-		case 2: stage(2, f, first, end, length, w, factors, way, from, to); break; \
-		case 3: stage(3, f, first, end, length, w, factors, way, from, to); break; \
-		case 4: stage(4, f, first, end, length, w, factors, way, from, to); break; \
-		case 5: stage(5, f, first, end, length, w, factors, way, from, to); break; \
-		case 7: stage(7, f, first, end, length, w, factors, way, from, to); break; \
-		case 8: stage(8, f, first, end, length, w, factors, way, from, to); break; \
-		case 11: stage(11, f, first, end, length, w, factors, way, from, to); break; \
-		case 13: stage(13, f, first, end, length, w, factors, way, from, to); break; \
-		default: other; \
-		} \
+		const struct span alone = {span.first, span.end, span.length, NULL}; /* without a question at every butterfly */ \
+		if (span.soon) \
+			RADICES(way, span, other) \
+		else \
+			RADICES(way, alone, other) \
 	}
-#define PRIME(back) pm_prime_stage(f, s, back, (struct pm_stage_rows){first, end, length, from.x, from.step, to.x, to.step})
+#define PRIME(back) pm_prime_stage(f, s, back, (struct pm_stage_rows){span.first, span.end, span.length, from.x, from.step, to.x, to.step})
 STAGES(forward, FORWARD, PRIME(false))
 STAGES(back, BACK, PRIME(true))
 STAGES(both, BOTH, return)
@@ -120,23 +146,29 @@ static bool halved(const struct pm_fft *f, size_t some)
 	return f->stages && f->n % 2 == 0 && (some == f->n / 2 || some == f->n / 2 + 1);
 }
 
-static void first_stage(const struct pm_fft *f, size_t some, struct rows from, struct rows to)
+static void first_stage(const struct pm_fft *f, size_t some, struct soon *soon, struct rows from, struct rows to)
 {
 	if (some)
 		half_stage_forward(f, some, from, to);
 	else
-		stage_forward(f, 0, 0, f->n, f->n, NULL, from, to);
+		stage_forward(f, 0, (struct span){0, f->n, f->n, soon}, NULL, from, to);
 }
 
-static void last_stage(const struct pm_fft *f, size_t some, struct rows from, struct rows to)
+static void last_stage(const struct pm_fft *f, size_t some, struct soon *soon, struct rows from, struct rows to)
 {
 	if (some)
 		half_stage_back(f, some, from, to);
 	else
-		stage_back(f, 0, 0, f->n, f->n, NULL, from, to);
+		stage_back(f, 0, (struct span){0, f->n, f->n, soon}, NULL, from, to);
 }
 
 static struct rows rows_of(struct pm_fft_place p) { return (struct rows){(struct c8 *)p.at, p.step / L}; }
+
+/* Two lines a row, over so many stages. */
+static struct soon soon_of(struct pm_fft_place from, int stages)
+{
+	return (struct soon){(const char *)from.next, from.next && stages > 0 ? 32 / stages + 1 : 0};
+}
 
 static void copy(size_t n, struct pm_fft_place from, struct pm_fft_place to)
 {
@@ -147,7 +179,7 @@ static void copy(size_t n, struct pm_fft_place from, struct pm_fft_place to)
 /* The rows that are not zero, with zeros behind them, to the block. */
 static void fill(const struct pm_fft *f, struct pm_fft_place from, double *block)
 {
-	copy(from.some, from, (struct pm_fft_place){block, L, 0});
+	copy(from.some, from, (struct pm_fft_place){block, L, 0, NULL});
 	memset(block + from.some * L, 0, (f->n - from.some) * L * sizeof *block);
 }
 
@@ -171,25 +203,27 @@ static void times(const struct pm_fft *f, const double *u, double *block)
 static size_t piece(const struct pm_fft *f) { return f->n > WHOLE ? f->n / (size_t)f->radix[0] : f->n; }
 
 /* Stages 1 to last-1 of a piece, forward; block is their work. Returns the length of the next one. */
-static size_t down(const struct pm_fft *f, int last, size_t first, size_t end, struct rows block, struct rows to)
+static size_t down(const struct pm_fft *f, int last, struct span piece, struct rows block, struct rows to)
 {
-	size_t length = f->n / (size_t)f->radix[0];
-	for (int s = 1; s < last; length /= (size_t)f->radix[s++])
-		stage_forward(f, s, first, end, length, NULL, block, s == f->stages - 1 ? to : block);
-	return length;
+	for (int s = 1; s < last; piece.length /= (size_t)f->radix[s++])
+		stage_forward(f, s, piece, NULL, block, s == f->stages - 1 ? to : block);
+	return piece.length;
 }
 
 /* Stages `from`-1 to 1 of a piece, back. */
-static void up(const struct pm_fft *f, int last, size_t first, size_t end, size_t length, struct rows from, struct rows block)
+static void up(const struct pm_fft *f, int last, struct span piece, struct rows from, struct rows block)
 {
-	for (int s = last - 1; s > 0; s--)
-		stage_back(f, s, first, end, length *= (size_t)f->radix[s], NULL, s == f->stages - 1 ? from : block, block);
+	for (int s = last - 1; s > 0; s--) {
+		piece.length *= (size_t)f->radix[s];
+		stage_back(f, s, piece, NULL, s == f->stages - 1 ? from : block, block);
+	}
 }
 
 void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
+	struct soon ahead = soon_of(from, f->stages), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L, 0};
+	const struct pm_fft_place own = {block, L, 0, NULL};
 	if (from.some && !halved(f, from.some)) {
 		fill(f, from, block);
 		pm_fft_forward_moving(f, own, block, to);
@@ -199,15 +233,16 @@ void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, dou
 		copy(f->n, from, own), by_fftw(f, false, block), copy(f->n, own, to);
 		return;
 	}
-	first_stage(f, from.some, x, f->stages > 1 ? work : y);
+	first_stage(f, from.some, soon, x, f->stages > 1 ? work : y);
 	for (size_t first = 0, size = piece(f); first < f->n && f->stages > 1; first += size)
-		down(f, f->stages, first, first + size, work, y);
+		down(f, f->stages, (struct span){first, first + size, f->n / (size_t)f->radix[0], soon}, work, y);
 }
 
 void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
+	struct soon ahead = soon_of(from, f->stages), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L, 0};
+	const struct pm_fft_place own = {block, L, 0, NULL};
 	if (to.some && !halved(f, to.some)) {
 		pm_fft_backward_moving(f, from, block, own);
 		copy(to.some, own, to);
@@ -218,14 +253,15 @@ void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, do
 		return;
 	}
 	for (size_t first = 0, size = piece(f); first < f->n && f->stages > 1; first += size)
-		up(f, f->stages, first, first + size, 1, x, work);
-	last_stage(f, to.some, f->stages > 1 ? work : x, y);
+		up(f, f->stages, (struct span){first, first + size, 1, soon}, x, work);
+	last_stage(f, to.some, soon, f->stages > 1 ? work : x, y);
 }
 
 void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const double *u, double *block, struct pm_fft_place to)
 {
+	struct soon ahead = soon_of(from, 2 * f->stages - 1), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
-	const struct pm_fft_place own = {block, L, 0};
+	const struct pm_fft_place own = {block, L, 0, NULL};
 	const int last = f->stages - 1;
 	const bool some = from.some || to.some;
 	if (last < 0 || f->radix[last] > PM_PRIME || (some && (last == 0 || !halved(f, from.some) || !halved(f, to.some)))) {
@@ -235,26 +271,27 @@ void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const
 		return;
 	}
 	if (last == 0) {
-		stage_both(f, 0, 0, f->n, f->n, u, x, y);
+		stage_both(f, 0, (struct span){0, f->n, f->n, soon}, u, x, y);
 		return;
 	}
-	first_stage(f, from.some, x, work);
+	first_stage(f, from.some, soon, x, work);
 	for (size_t first = 0, size = piece(f); first < f->n; first += size) {
-		const size_t length = down(f, last, first, first + size, work, work);
-		stage_both(f, last, first, first + size, length, u, work, work);
-		up(f, last, first, first + size, length, work, work);
+		struct span span = {first, first + size, f->n / (size_t)f->radix[0], soon};
+		span.length = down(f, last, span, work, work);
+		stage_both(f, last, span, u, work, work);
+		up(f, last, span, work, work);
 	}
-	last_stage(f, to.some, work, y);
+	last_stage(f, to.some, soon, work, y);
 }
 
 void pm_fft_forward(const struct pm_fft *f, double *block)
 {
-	const struct pm_fft_place own = {block, L, 0};
+	const struct pm_fft_place own = {block, L, 0, NULL};
 	pm_fft_forward_moving(f, own, block, own);
 }
 
 void pm_fft_backward(const struct pm_fft *f, double *block)
 {
-	const struct pm_fft_place own = {block, L, 0};
+	const struct pm_fft_place own = {block, L, 0, NULL};
 	pm_fft_backward_moving(f, own, block, own);
 }

@@ -1,6 +1,9 @@
 /* The passes of the transform solver over its work array: planes forward (rows, then columns while the plane is in cache), pencils forward, times the
  * symbol, and back, planes back. A block of L lines at a time is transformed in cache (fft/fft-block.h); the modes of complex axes stay in the
  * order in which the transform leaves them. The partition does not depend on threads.
+ * Memory is read fast in long pieces and written past the caches fast anywhere. So large periodic meshes in space are turned as they are written: from
+ * planes to pencils in w, from pencils to planes in phi, which becomes the solution plane by plane; and what is read next is fetched during the transform
+ * before.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>
@@ -132,7 +135,11 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 	if (p->open)
 		weigh(p, g, s.block);
 	if (p->complex) {
-		pm_transform_forward(l, false, s.block);
+		if (p->turned) /* periodic: the rows of a plane, and planes, are one piece */
+			pm_fft_forward_moving(l->fft, (struct pm_fft_place){s.block, L, 0, in[0] + g->rows * p->nodes[X]}, s.block,
+				(struct pm_fft_place){s.block, L, 0, NULL});
+		else
+			pm_transform_forward(l, false, s.block);
 		pm_spectra_out(l->fft, s.block, g->rows, p->shared, out);
 		return largest;
 	}
@@ -202,7 +209,7 @@ static void complex_columns(const struct pm_poisson_fft *p, struct plane x, stru
 	if (!forward && p->shared)
 		part_shared(p, true, w);
 	for (size_t c = 0; c < p->chunks; c++) {
-		const struct pm_fft_place rows = {x.at + c * L, x.step, some}, modes = {w.at + c * L, w.step, 0};
+		const struct pm_fft_place rows = {x.at + c * L, x.step, some, NULL}, modes = {w.at + c * L, w.step, 0, NULL};
 		if (modes.step != rows.step && c + 1 < p->chunks)
 			soon(modes.at + L, w.step, p->modes[Y]);
 		if (forward)
@@ -230,6 +237,54 @@ static void real_columns(const struct pm_poisson_fft *p, double *plane, bool for
 		}
 }
 
+/* Blocks of L numbers, by row y of a plane of modes, chunk and plane z. */
+struct blocks {
+	double *at;
+	size_t y, c, z;
+};
+
+/* In w, where the pencils of a row y follow each other; and where they go to, where the columns of a plane do. */
+static struct blocks by_pencils(const struct pm_poisson_fft *p) { return (struct blocks){p->w, p->slab, p->nodes[Z] * L, L}; }
+
+static struct blocks by_planes(const struct pm_poisson_fft *p)
+{
+	return p->back ? (struct blocks){p->back, L, p->nodes[Y] * L, p->nodes[Y] * p->nodes[X]} : by_pencils(p);
+}
+
+/* n rows of a block past the caches. */
+static void blocks_out(const double *block, size_t n, size_t step, double *to)
+{
+	for (size_t i = 0; i < n; i++, block += L, to += step)
+		PM_SIMD_UNROLL
+		for (int q = 0; q < L; q += PM_SIMD_PART)
+			pm_simd_part_past(to + q, *(const pm_simd_part_at *)(block + q));
+}
+
+/* Columns of plane k of a mesh beyond the caches, from the plane of the rows to w; and back from where the pencils went. */
+static void turned_forward(const struct pm_poisson_fft *p, size_t k, struct scratch s)
+{
+	const struct pm_fft *f = p->line[Y].fft;
+	const struct pm_fft_place own = {s.block, L, 0, NULL};
+	const struct blocks to = by_pencils(p);
+	for (size_t c = 0; c < p->chunks; c++) {
+		pm_fft_forward_moving(f, (struct pm_fft_place){s.modes + c * L, p->row, 0, NULL}, s.block, own);
+		if (c == 0)
+			part_shared(p, false, (struct plane){s.block, L});
+		blocks_out(s.block, p->modes[Y], to.y, to.at + c * to.c + k * to.z);
+	}
+}
+
+static void turned_backward(const struct pm_poisson_fft *p, size_t k, struct scratch s)
+{
+	const struct pm_fft *f = p->line[Y].fft;
+	const struct blocks from = by_planes(p);
+	double *at = from.at + k * from.z;
+	part_shared(p, true, (struct plane){at, from.y});
+	for (size_t c = 0; c < p->chunks; c++, at += from.c)
+		pm_fft_backward_moving(f, (struct pm_fft_place){at, from.y, 0, p->back && c + 1 < p->chunks ? at + from.c : NULL}, s.block,
+			(struct pm_fft_place){s.modes + c * L, p->row, 0, NULL});
+}
+
 /* Complex modes of a mesh in the caches go to w as they come; else, and real ones, in long pieces. */
 static double plane_forward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
@@ -240,7 +295,9 @@ static double plane_forward(const struct pm_poisson_fft *p, const struct rows *i
 		struct group g = group_of(p, k, j);
 		largest = fmax(largest, rows_forward(p, io, &g, s, s.modes + j * p->row));
 	}
-	if (p->complex)
+	if (p->turned)
+		turned_forward(p, k, s);
+	else if (p->complex)
 		complex_columns(p, here, direct ? w : here, true, s.block);
 	else
 		real_columns(p, s.modes, true, s.block);
@@ -255,7 +312,9 @@ static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io
 	const bool direct = p->complex && !p->streams;
 	for (size_t j = 0; j < p->modes[Y] && !direct; j++)
 		memcpy(s.modes + j * p->row, w.at + j * w.step, p->chunks * L * sizeof *p->w);
-	if (p->complex)
+	if (p->turned)
+		turned_backward(p, k, s);
+	else if (p->complex)
 		complex_columns(p, here, direct ? w : here, false, s.block);
 	else
 		real_columns(p, s.modes, false, s.block);
@@ -394,12 +453,11 @@ static void times(const double *u, size_t n, size_t least, double *a)
 }
 
 /* The mode of constants, and modes that share a place, are looked at between forward and back; all others only multiplied. */
-static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, double *at, double *to, size_t stride)
+static void complex_pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor, struct scratch s, struct pm_fft_place here, struct pm_fft_place there)
 {
 	const struct pm_transform *l = &p->line[Z];
 	const bool shared = p->shared && c == 0 && p->holds[j] == SHARED_BOTH;
-	const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Z];
-	const struct pm_fft_place here = {at, stride, some}, there = {to, stride, some}, own = {s.block, L, 0};
+	const struct pm_fft_place own = {s.block, L, 0, NULL};
 	factors_of(p, j, c, factor, s.factors);
 	if (shared || (j == 0 && c == 0)) {
 		pm_fft_forward_moving(l->fft, here, s.block, own);
@@ -446,7 +504,8 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 {
 	const struct pm_transform *l = &p->line[Z];
 	if (p->complex) {
-		complex_pencils(p, j, c, factor, s, at, to, stride);
+		const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Z];
+		complex_pencils(p, j, c, factor, s, (struct pm_fft_place){at, stride, some, NULL}, (struct pm_fft_place){to, stride, some, NULL});
 		return;
 	}
 	gather(at, stride, p->nodes[Z], s.block + l->row * L);
@@ -473,6 +532,20 @@ static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scrat
 	}
 }
 
+/* Those of a mesh beyond the caches. */
+static void turned_unit(struct pm_poisson_fft *p, size_t j, double factor, struct scratch s)
+{
+	const struct blocks from = by_pencils(p), to = by_planes(p);
+	for (size_t c = 0; c < p->chunks; c++) {
+		double *at = from.at + j * from.y + c * from.c, *next = c + 1 < p->chunks ? at + from.c : NULL;
+		if (!next && j + 1 < p->modes[Y])
+			next = from.at + (j + 1) * from.y;
+		complex_pencils(p, j, c, factor, s, (struct pm_fft_place){at, L, 0, next}, (struct pm_fft_place){s.block, L, 0, NULL});
+		blocks_out(s.block, p->nodes[Z], to.z, to.at + j * to.y + c * to.c);
+	}
+	pm_stream_end();
+}
+
 void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own)
 {
 	const bool plane = thick(p);
@@ -482,6 +555,10 @@ void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *own
 #pragma omp parallel for schedule(static) num_threads(p->threads)
 	for (size_t i = 0; i < units; i++) {
 		struct scratch s = thread_scratch(p);
+		if (p->turned) {
+			turned_unit(p, i, factor, s);
+			continue;
+		}
 		if (own)
 			pm_poisson_fft_unit(p, i, own, s.modes, false);
 		else if (copies)

@@ -474,6 +474,27 @@ static void threads(void)
 	}
 }
 
+/* A periodic mesh beyond the caches, whose modes are turned from planes to pencils in the work array and back in phi where that is aligned. */
+static void turned(void)
+{
+	struct pm_grid g = grid(3, 64, 60, 80, PM_PERIODIC, PM_PERIODIC, PM_PERIODIC);
+	const size_t n = pm_grid_size(&g);
+	double *s = noise(n), *a = pm_alloc(n + 1, sizeof *a), *b = pm_alloc(n + 1, sizeof *b);
+	against_direct(g, "64 x 60 x 80");
+	for (int t = 1; t <= 3; t++) {
+		pm_threads_use(t);
+		for (size_t off = 0; off < 2; off++) {
+			solve(&g, PM_SPECTRAL, 1.7, s, t == 1 && !off ? a : b + off);
+			check((t == 1 && !off) || !memcmp(a, b + off, n * sizeof *a), "64 x 60 x 80: the same bytes with %d threads, phi %s", t,
+				off ? "not aligned" : "aligned");
+		}
+	}
+	memcpy(b, s, n * sizeof *s);
+	solve(&g, PM_SPECTRAL, 1.7, b, b);
+	check(!memcmp(a, b, n * sizeof *a), "64 x 60 x 80: source and result may be one array");
+	free(s), pm_free(a), pm_free(b);
+}
+
 static void refusals(void)
 {
 	struct pm_grid open = cube(3, 8, 1, PM_OPEN);
@@ -492,6 +513,7 @@ int main(void)
 	square_with_walls();
 	orders();
 	threads();
+	turned();
 	refusals();
 	return check_done();
 }
