@@ -332,6 +332,14 @@ PM_SIMD_INLINE pm_simd4_at pm_simd4_split(pm_simd4_at v, pm_simd4_int_at *whole)
 #endif
 }
 
+/* Lanes of b where a bit of the constant is set, else of a. Not a shuffle: of a number in all lanes gcc would make three instructions of it. */
+#ifdef __AVX__
+#define pm_simd4_blend(a, b, bits) ((pm_simd4_at)_mm256_blend_pd((__m256d)(a), (__m256d)(b), bits))
+#else
+#define pm_simd4_blend(a, b, bits) ((pm_simd4_at){(bits) & 1 ? (b)[0] : (a)[0], (bits) & 2 ? (b)[1] : (a)[1], (bits) & 4 ? (b)[2] : (a)[2], \
+	(bits) & 8 ? (b)[3] : (a)[3]})
+#endif
+
 /* 1 - x four times, then x four times. */
 PM_SIMD_INLINE pm_simd8_at pm_simd8_below_above(double x)
 {

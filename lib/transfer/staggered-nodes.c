@@ -77,11 +77,10 @@ PM_SIMD_INLINE void find_lot(int dim, int width, const struct pm_staggered_tile 
 	}
 }
 
-/* Lanes of b where bits are set, else of a. Not a shuffle: of one number each gcc would make three instructions of it. */
+/* Lanes of b where bits are set, else of a. */
 PM_SIMD_INLINE four blend(four a, four b, int bits)
 {
-	const pm_mask_by_axis m = {-(bits & 1), -(bits >> 1 & 1), -(bits >> 2 & 1), 0};
-	return where(m, b, a);
+	return (four)(bits == 2 ? pm_simd4_blend(a, b, 2) : bits == 4 ? pm_simd4_blend(a, b, 4) : pm_simd4_blend(a, b, 6));
 }
 
 /* The values of a group; y, z: the weights of its components. */
@@ -106,7 +105,7 @@ PM_SIMD_INLINE four values_of(int dim, int width, const double *from, const doub
 }
 
 /* Ex By Bz, Ey Ez Bx of particle l of a lot. */
-PM_SIMD_INLINE void gather_one(int dim, int width, const struct pm_staggered_tile *t, const struct weights *w, size_t l, four *up_x, four *on_x)
+PM_SIMD_INLINE void gather_one(int dim, int width, const double *nodes, const struct weights *w, size_t l, four *up_x, four *on_x)
 {
 	four y[2][width_most], z[2][width_most];
 	PM_SIMD_UNROLL
@@ -118,13 +117,15 @@ PM_SIMD_INLINE void gather_one(int dim, int width, const struct pm_staggered_til
 			z[0][k] = blend(z_on, z_up, 2), z[1][k] = blend(z_on, z_up, 6);
 		}
 	}
-	*up_x = values_of(dim, width, t->nodes + w->at[0][l], (const double (*)[lot])&w->up[0][0][l], y[0], z[0]);
-	*on_x = values_of(dim, width, t->nodes + w->at[1][l], (const double (*)[lot])&w->on[0][0][l], y[1], z[1]);
+	*up_x = values_of(dim, width, nodes + w->at[0][l], (const double (*)[lot])&w->up[0][0][l], y[0], z[0]);
+	*on_x = values_of(dim, width, nodes + w->at[1][l], (const double (*)[lot])&w->on[0][0][l], y[1], z[1]);
 }
 
 PM_SIMD_INLINE void gather(int dim, int width, const struct pm_staggered_tile *t)
 {
 	static const unsigned char which[2][3] = {{0, 4, 5}, {1, 2, 3}};
+	const double *const nodes = t->nodes;
+	double *const results = t->results;
 	struct weights w;
 	for (size_t from = 0; from < t->count; from += lot) {
 		const size_t n = t->count - from < lot ? t->count - from : lot;
@@ -132,11 +133,11 @@ PM_SIMD_INLINE void gather(int dim, int width, const struct pm_staggered_tile *t
 		for (size_t i = 0; i < n; i += fours) {
 			four value[2][fours];
 			for (size_t l = 0; l < fours; l++) /* the last one again where there are fewer */
-				gather_one(dim, width, t, &w, i + l < n ? i + l : n - 1, &value[0][l], &value[1][l]);
+				gather_one(dim, width, nodes, &w, i + l < n ? i + l : n - 1, &value[0][l], &value[1][l]);
 			for (int g = 0; g < 2; g++) {
 				turn_rows(value[g]);
 				for (int c = 0; c < 3; c++)
-					*(pm_simd4_at *)(t->results + which[g][c] * PM_TILE_ORDER_PACK + from + i) = value[g][c];
+					*(pm_simd4_at *)(results + which[g][c] * PM_TILE_ORDER_PACK + from + i) = value[g][c];
 			}
 		}
 	}

@@ -18,6 +18,10 @@ PM_SIMD_INLINE pm_by_axis axes_from(int dim, const double *x) { return (pm_by_ax
 /* w[k] of point k on every axis: those of find_weights (tile-lanes.h) to the last bit. */
 PM_SIMD_INLINE void find_by_axis(const struct pm_kernel *kernel, int width, int degree, pm_by_axis t, pm_by_axis *w)
 {
+	if (width == 2 && degree == 1) { /* cic alone has two points: what Horner would give */
+		w[0] = 1 - t, w[1] = t;
+		return;
+	}
 	const bool may_fold = pm_kernel_folds(width, degree, 1);
 	const pm_mask_by_axis fold = t > 0.5;
 	const pm_by_axis s = may_fold ? where(fold, 1 - t, t) : t;
