@@ -37,8 +37,8 @@ static void kick_few(const struct pm_later *later, size_t m, double *const v[3],
 {
 	const struct kick_later *k = (const struct kick_later *)later;
 	double charge[few_most], mass[few_most];
-	struct pm_magnetic a = {.v = {v[0], v[1], v[2]}, .acc = {acc[0], acc[1], acc[2]}, .b = {b[0], b[1], b[2]}, .charge = charge, .mass = mass, .c = k->c,
-		.radiation_time = NAN};
+	struct pm_magnetic a = {.v = {v[0], v[1], v[2]}, .acc = {acc[0], acc[1], acc[2]}, .b = {b[0], b[1], b[2]}, .charge = charge, .mass = mass,
+		.alike = true, .c = k->c, .radiation_time = NAN};
 	for (size_t i = 0; i < m; i++)
 		charge[i] = k->charge, mass[i] = k->mass;
 	for (int i = 0; i < k->halves; i++)

@@ -146,6 +146,7 @@ static struct pm_magnetic piece_of(const struct pm_magnetic *all, size_t p, cons
 	if (strength) {
 		a.charge = strength[0].doubles ? strength[0].doubles + p : one[0];
 		a.mass = strength[1].doubles ? strength[1].doubles + p : one[1];
+		a.alike = !strength[0].doubles && !strength[1].doubles;
 	}
 	return a;
 }

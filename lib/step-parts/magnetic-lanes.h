@@ -30,6 +30,7 @@ PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size
 struct pm_magnetic_lanes {
 	const double *v[3], *acc[3], *b[3], *charge, *mass;
 	double (*changed)[PM_MAGNETIC_LANES];
+	bool alike;
 	double c, radiation_time; /* of struct pm_magnetic */
 };
 
@@ -39,7 +40,7 @@ struct pm_magnetic_lanes {
 	for (size_t at = (from); at < (to); at += PM_MAGNETIC_LANES) { \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
 		double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
-		struct pm_magnetic_lanes lanes = {.changed = changed, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
+		struct pm_magnetic_lanes lanes = {.changed = changed, .alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
 		for (int c = 0; c < 3; c++) { \
 			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, 0, few[c]); \
 			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, 0, few[3 + c]); \

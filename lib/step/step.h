@@ -30,6 +30,7 @@ struct pm_magnetic {
 	double *v[3];                     /* [length/time] */
 	const double *acc[3], *b[3];      /* [length/time^2] without v x B; [magnetic field] */
 	const double *charge, *mass;
+	bool alike;                       /* all charges and masses are the first */
 	double c;                         /* [length/time] of relativistic kicks; b may then be absent */
 	double radiation_time;            /* [time] of one that radiates: e^2/(6 pi eps0 m c^3) of a charge of |q/m| = 1 */
 };

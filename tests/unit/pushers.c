@@ -117,8 +117,38 @@ static void test_gradient(void)
 	}
 }
 
+/* Particles side by side, of one charge and mass or of many, are kicked as each alone. */
+static void test_lanes(void)
+{
+	enum { many = 150 };
+	for (int k = 0; k < SCHEMES; k++)
+		for (int run = 0; run < 4; run++) {
+			const struct pm_step *s = pm_step_find(names[k]);
+			const bool alike = run % 2, closing = run / 2;
+			double of[11][many];
+			int differ = 0;
+			for (int i = 0; i < many; i++)
+				for (int c = 0; c < 11; c++)
+					of[c][i] = c < 9 ? 0.5 * sin(2.385 * i + c) : alike ? 5.5 - c / 2. : 1 + (i + c) % 7;
+			struct particle alone[many];
+			for (int i = 0; i < many; i++) {
+				alone[i] = (struct particle){.v = {of[0][i], of[1][i], of[2][i]}, .acc = {of[3][i], of[4][i], of[5][i]},
+					.b = {of[6][i], of[7][i], of[8][i]}, .charge = of[9][i], .mass = of[10][i]};
+				advance(s, &alone[i], closing, 0.731);
+			}
+			const struct pm_magnetic m = {.v = {of[0], of[1], of[2]}, .acc = {of[3], of[4], of[5]}, .b = {of[6], of[7], of[8]}, .charge = of[9],
+				.mass = of[10], .alike = alike, .c = 1};
+			s->magnetic(closing, 0.731, 0, many, &m);
+			for (int i = 0; i < many; i++)
+				for (int c = 0; c < 3; c++)
+					differ += of[c][i] != alone[i].v[c];
+			check(!differ, "%s: %d velocities of %d differ from those of a particle alone", names[k], differ, 3 * many);
+		}
+}
+
 int main(void)
 {
+	test_lanes();
 	test_step();
 	test_drift();
 	test_gradient();
