@@ -25,32 +25,37 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 {
 	const struct maker *k = data;
 	enum { pack = PM_TILE_ORDER_PACK };
-	double values[6 * pack], few[3 * pack], room[3][pack], *v[3];
-	const double *x[3];
+	double values[6 * pack], few[3][pack], room[3][pack], *v[3];
+	const double *x[3], *all[6];
 	const bool together = !o->place || pm_tile_order_together(o, p, m), times = k->left->factor != 1;
 	const size_t at = o->place ? o->place[p] : p;
-	for (int d = 0; d < o->dim; d++) {
-		x[d] = pm_tile_order_take(o, p, m, &o->x[d], room[d]);
+	const int dim = o->dim;
+	struct pm_tile_runs runs;
+	for (int d = 0; d < dim; d++)
+		all[d] = o->x[d].doubles, x[d] = together ? all[d] + at : room[d];
+	for (int c = 0; c < 3; c++)
+		all[dim + c] = k->v[c], v[c] = together ? k->v[c] + at : few[c];
+	if (o->place)
+		pm_tile_order_fetch(o, p + m, pack, dim + 3, all);
+	if (!together) {
+		double *to[6] = {NULL};
+		for (int c = 0; c < dim + 3; c++)
+			to[c] = c < dim ? room[c] : few[c - dim];
+		pm_tile_order_runs(o, p, m, &runs);
+		pm_tile_runs_take(o, p, &runs, dim + 3, all, to);
+	}
+	for (int d = 0; d < dim; d++)
 		pm_axis_locate_many(&o->axes[d], m, x[d], u[d]);
-	}
 	pm_staggered_few(k->gather, j, m, (const double *const *)u, values);
-	for (int c = 0; c < 3; c++) {
-		const struct pm_column from = pm_column_doubles(k->v[c]);
-		for (size_t i = 0; i < m && times; i++)
+	for (int c = 0; c < 3 && times; c++)
+		for (size_t i = 0; i < m; i++)
 			values[c * pack + (int)i] *= k->left->factor;
-		v[c] = together ? k->v[c] + at : few + c * pack;
-		if (!together)
-			pm_tile_order_take(o, p, m, &from, v[c]);
-	}
 	k->later->kicks->few(k->later, m, v, (const double *const[]){values, values + pack, values + 2 * pack},
 		(const double *const[]){values + 3 * pack, values + 4 * pack, values + 5 * pack});
-	for (int d = 0; d < o->dim; d++)
+	for (int d = 0; d < dim; d++)
 		pm_tile_ways(o->dt, o->axes[d].h, m, x[d], v[d], way[d]);
-	if (!together) {
-		const struct pm_column one[3] = {{.value = 1}, {.value = 1}, {.value = 1}};
-		const struct pm_target to[3] = {{.doubles = k->v[0]}, {.doubles = k->v[1]}, {.doubles = k->v[2]}};
-		pm_tile_order_unpack_arrays(p, o->place + p, m, few, 3, &(struct pm_tile_results){one, (const bool[]){true, true, true}, to, NULL});
-	}
+	if (!together)
+		pm_tile_runs_put(o, p, &runs, 3, (const double *const[]){few[0], few[1], few[2]}, k->v);
 }
 
 /* Does everything allow it? */

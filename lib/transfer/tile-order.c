@@ -294,6 +294,71 @@ const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t
 	return few;
 }
 
+void pm_tile_order_runs(const struct pm_tile_order *o, size_t p, size_t m, struct pm_tile_runs *r)
+{
+	const uint32_t *place = o->place + p;
+	r->n = 1, r->at[0] = 0;
+	for (size_t i = 1; i < m;) {
+		if (i + run <= m && place[i + run - 1] - place[i - 1] == run) {
+			i += run;
+			continue;
+		}
+		for (size_t end = i + run < m ? i + run : m; i < end; i++) {
+			r->at[r->n] = (uint32_t)i;
+			r->n += place[i] - place[i - 1] != 1;
+		}
+	}
+	r->at[r->n] = (uint32_t)m;
+}
+
+/* n numbers; those of the last eight, or four, a second time where n is no multiple. */
+PM_SIMD_INLINE void copy_run(size_t n, const double *from, double *to)
+{
+	if (n >= 8) {
+		for (size_t i = 0; i + 8 < n; i += 8)
+			memcpy(to + i, from + i, 8 * sizeof *to);
+		memcpy(to + n - 8, from + n - 8, 8 * sizeof *to);
+	} else if (n >= 4) {
+		memcpy(to, from, 4 * sizeof *to);
+		memcpy(to + n - 4, from + n - 4, 4 * sizeof *to);
+	} else
+		for (size_t i = 0; i < n; i++)
+			to[i] = from[i];
+}
+
+void pm_tile_runs_take(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[])
+{
+	for (size_t k = 0; k < r->n; k++) {
+		const size_t i = r->at[k], at = o->place[p + i], many = r->at[k + 1] - i;
+		for (int c = 0; c < n; c++)
+			copy_run(many, from[c] + at, to[c] + i);
+	}
+}
+
+void pm_tile_runs_put(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[])
+{
+	for (size_t k = 0; k < r->n; k++) {
+		const size_t i = r->at[k], at = o->place[p + i], many = r->at[k + 1] - i;
+		for (int c = 0; c < n; c++)
+			copy_run(many, from[c] + i, to[c] + at);
+	}
+}
+
+void pm_tile_order_fetch(const struct pm_tile_order *o, size_t p, size_t m, int n, const double *const from[])
+{
+	const size_t end = o->n - p < m ? o->n : p + m;
+	const uint32_t *place = o->place;
+	for (size_t i = p + (p == 0); i < end;) {
+		if (i + run <= end && place[i + run - 1] - place[i - 1] == run) {
+			i += run;
+			continue;
+		}
+		for (size_t last = i + run < end ? i + run : end; i < last; i++)
+			for (int c = 0; c < n && place[i] - place[i - 1] != 1; c++)
+				__builtin_prefetch(from[c] + place[i]);
+	}
+}
+
 /* The same for column k of a record of floats, unless it is one number. */
 static const double *take_packed(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, int *k, double few[batch])
 {

@@ -85,5 +85,16 @@ void pm_tile_order_leave_strays(const struct pm_tile_order *o, int nvalues, cons
 bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m);
 /* m values from p on in order: where they stand together those of the stream, else put together in few[m]. */
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few);
+/* The same of particles that do not, for n arrays of doubles at once, m <= PM_TILE_ORDER_PACK: from the stream to to[n][m], and back. The further ones of the
+ * order, of which `from` may take the next, are fetched. */
+struct pm_tile_runs {
+	size_t n;
+	uint32_t at[PM_TILE_ORDER_PACK + 1]; /* of the m where each begins, and m */
+};
+void pm_tile_order_runs(const struct pm_tile_order *o, size_t p, size_t m, struct pm_tile_runs *r);
+void pm_tile_runs_take(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[]);
+void pm_tile_runs_put(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[]);
+/* Fetches the places of the m particles from p on that do not stand behind the one before. */
+void pm_tile_order_fetch(const struct pm_tile_order *o, size_t p, size_t m, int n, const double *const from[]);
 
 #endif
