@@ -232,15 +232,10 @@ mutants:
 
 # The sanitizers see the unit tests and the tests that feed the tools what they do not like. Those of gcc and of clang see different things:
 # make asan CC=clang asan_build=build/asan-clang. What clang makes there serves the fuzzers too.
-SANITIZERS = address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1
+SANITIZERS = address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1 -DPM_SANITIZED
 SANITIZE = -fsanitize=$(if $(findstring clang,$(CC)),fuzzer-no-link,address),$(SANITIZERS) $(if $(findstring clang,$(CC)),,-Wno-format-truncation)
 asan_tests ?= $(wildcard tests/tool/contract.bats tests/tool/cut-stream.bats tests/tool/examples.bats tests/hard/pipe-contract.bats)
 asan_build ?= build/asan
-# Half of the time of a sanitized build went into these, whose loops are made once for each kernel, width and dimension.
-asan_slow := $(patsubst %,$(B)/lib/%.o,far/pp far/pp-vortex fft/fft-stages near/pse transfer/current-tile transfer/staggered-tile transfer/transfer-tile)
-ifneq ($(findstring -fsanitize,$(CFLAGS)),)
-$(asan_slow): CFLAGS_ALL += $(if $(findstring clang,$(CC)),-O0,-fira-region=one)
-endif
 # The leak checker of clang 14 crashes where it meets the threads of libomp (Tracer caught signal 11): leaks are looked for by gcc's.
 asan_leaks = $(if $(findstring clang,$(CC)),ASAN_OPTIONS=detect_leaks=0)
 # unit-objects: the unit tests are only compiled, and LEAVE_OUT='.*' keeps them from being run.

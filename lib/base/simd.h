@@ -493,4 +493,13 @@ PM_SIMD_INLINE pm_simd pm_simd_reciprocal_start(pm_simd x)
 #endif
 }
 
+/* A loop that is compiled for each kernel, width and dimension is compiled once and called under the sanitizers, for which its copies took a third of the
+ * time of the whole build (pse.c: 31 s, now 0.6). */
+#ifdef PM_SANITIZED
+#undef PM_SIMD_UNROLL
+#define PM_SIMD_UNROLL
+#undef PM_SIMD_INLINE
+#define PM_SIMD_INLINE static __attribute__((noinline, unused))
+#endif
+
 #endif

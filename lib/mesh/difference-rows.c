@@ -7,8 +7,6 @@
 #include "fft/fft-block.h"
 #include "mesh/difference-rows.h"
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 enum { W = PM_SIMD_WIDTH, LINE = 8, MOST = 3 };
 
 /* out[i] (+)= sum_k w[k] from[k][i] */
@@ -30,7 +28,7 @@ static void combine(const struct pm_taps *t, const double *const from[], bool ad
 }
 
 /* The same for the regular taps: pairs up and down of weight +-w (first derivative) or w (second, with the middle behind them). */
-ALWAYS void pairs(int n, int derivative, const struct pm_taps *t, const double *const from[], bool add, size_t count, double *restrict out)
+PM_SIMD_INLINE void pairs(int n, int derivative, const struct pm_taps *t, const double *const from[], bool add, size_t count, double *restrict out)
 {
 	const double *u0 = from[0], *d0 = from[1], *u1 = n > 1 ? from[2] : u0, *d1 = n > 1 ? from[3] : d0, *u2 = n > 2 ? from[4] : u0,
 		*d2 = n > 2 ? from[5] : d0, *c = derivative == 2 ? from[2 * n] : u0;
@@ -48,7 +46,7 @@ ALWAYS void pairs(int n, int derivative, const struct pm_taps *t, const double *
 	}
 }
 
-ALWAYS void pairs_add(int n, int derivative, const struct pm_taps *t, const double *const from[], bool add, size_t count, double *out)
+PM_SIMD_INLINE void pairs_add(int n, int derivative, const struct pm_taps *t, const double *const from[], bool add, size_t count, double *out)
 {
 	if (add)
 		pairs(n, derivative, t, from, true, count, out);
@@ -77,7 +75,7 @@ static ptrdiff_t nearest(const struct pm_difference_axis *a, ptrdiff_t to, size_
 }
 
 /* From the row to that of tap k. */
-ALWAYS ptrdiff_t tap_step(const struct pm_difference_row *r, const struct pm_taps *t, int k)
+PM_SIMD_INLINE ptrdiff_t tap_step(const struct pm_difference_row *r, const struct pm_taps *t, int k)
 {
 	return (t == &r->axis->regular ? t->at[k] : nearest(r->axis, t->at[k], r->at)) * r->axis->stride;
 }
@@ -90,7 +88,7 @@ static const struct pm_taps *taps_of(const struct pm_difference_row *r)
 }
 
 /* As pairs(), for one node. */
-ALWAYS double pairs_at(const double *in, const struct pm_taps *t, int n)
+PM_SIMD_INLINE double pairs_at(const double *in, const struct pm_taps *t, int n)
 {
 	const double sign = n % 2 ? 1 : -1;
 	double sum = t->w[0] * (in[t->at[0]] + sign * in[t->at[1]]);
@@ -146,7 +144,7 @@ struct pair_row {
 	double w[MOST], centre;
 };
 
-ALWAYS void pairs_of(int terms, int n, int derivative, const struct pm_difference_row *r, struct pair_row *p)
+PM_SIMD_INLINE void pairs_of(int terms, int n, int derivative, const struct pm_difference_row *r, struct pair_row *p)
 {
 	PM_SIMD_UNROLL
 	for (int m = 0; m < terms; m++) {
@@ -161,7 +159,7 @@ ALWAYS void pairs_of(int terms, int n, int derivative, const struct pm_differenc
 }
 
 /* As pairs(). */
-ALWAYS pm_simd pair_sum(int n, int derivative, const struct pair_row *p, size_t i)
+PM_SIMD_INLINE pm_simd pair_sum(int n, int derivative, const struct pair_row *p, size_t i)
 {
 	pm_simd sum = p->w[0] * (derivative == 1 ? pm_simd_load_any(p->up[0] + i) - pm_simd_load_any(p->down[0] + i) :
 		pm_simd_load_any(p->up[0] + i) + pm_simd_load_any(p->down[0] + i));
@@ -172,7 +170,7 @@ ALWAYS pm_simd pair_sum(int n, int derivative, const struct pair_row *p, size_t 
 	return derivative == 2 ? sum + p->centre * pm_simd_load_any(p->middle + i) : sum;
 }
 
-ALWAYS pm_simd sum_at(int terms, int n, int derivative, const struct pair_row *p, size_t i)
+PM_SIMD_INLINE pm_simd sum_at(int terms, int n, int derivative, const struct pair_row *p, size_t i)
 {
 	pm_simd sum = pair_sum(n, derivative, &p[0], i);
 	PM_SIMD_UNROLL
@@ -182,7 +180,7 @@ ALWAYS pm_simd sum_at(int terms, int n, int derivative, const struct pair_row *p
 }
 
 /* Nodes from..to-1, at least W, to at[i]; the last vectors overlap. What is added to `wrong`: NaN stays, infinity makes one. */
-ALWAYS pm_simd some_sums(int terms, int n, int derivative, const struct pair_row *p, size_t from, size_t to, double *at)
+PM_SIMD_INLINE pm_simd some_sums(int terms, int n, int derivative, const struct pair_row *p, size_t from, size_t to, double *at)
 {
 	pm_simd wrong = {0}, sum;
 	for (size_t i = from; i + W <= to; i += W) {
@@ -195,7 +193,7 @@ ALWAYS pm_simd some_sums(int terms, int n, int derivative, const struct pair_row
 	return wrong + (sum - sum);
 }
 
-ALWAYS void line_past(const pm_simd *line, double *out)
+PM_SIMD_INLINE void line_past(const pm_simd *line, double *out)
 {
 	PM_SIMD_UNROLL
 	for (size_t q = 0; q < LINE / W; q++)
@@ -204,7 +202,7 @@ ALWAYS void line_past(const pm_simd *line, double *out)
 
 /* Lines from..to. A line is written after the next one has been read: a processor takes a load for one of what it has just stored if the last twelve bits of
  * both addresses agree, as those of arrays of whole pages do, and waits (0.8 of the speed). */
-ALWAYS pm_simd lines_past(int terms, int n, int derivative, const struct pair_row *p, const double *ahead, size_t from, size_t to, double *out)
+PM_SIMD_INLINE pm_simd lines_past(int terms, int n, int derivative, const struct pair_row *p, const double *ahead, size_t from, size_t to, double *out)
 {
 	pm_simd wrong = {0}, line[LINE / W], wait[LINE / W] = {{0}};
 	for (size_t i = from; i < to; i += LINE) {
@@ -244,7 +242,7 @@ static bool row_end(int terms, const struct pm_difference_row *given, const stru
 }
 
 /* Regular taps as if rows went on into each other, then the ends of rows. */
-ALWAYS bool block_near(int terms, int n, int derivative, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
+PM_SIMD_INLINE bool block_near(int terms, int n, int derivative, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
 {
 	struct pair_row p[MOST];
 	bool finite = true;
@@ -256,7 +254,7 @@ ALWAYS bool block_near(int terms, int n, int derivative, const struct pm_differe
 }
 
 /* The same, lines past the caches; those with ends of rows in them through a buffer. */
-ALWAYS bool block_past(int terms, int n, int derivative, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
+PM_SIMD_INLINE bool block_past(int terms, int n, int derivative, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
 {
 	struct pair_row p[MOST];
 	const size_t all = b->n * b->rows, rows = b->low ? b->rows : 1, long_row = b->low ? b->n : all;
@@ -284,7 +282,7 @@ ALWAYS bool block_past(int terms, int n, int derivative, const struct pm_differe
 	return pm_simd_sum(wrong) == 0 && finite;
 }
 
-ALWAYS bool block_of(int terms, bool past, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
+PM_SIMD_INLINE bool block_of(int terms, bool past, const struct pm_difference_row *r, const struct pm_difference_block *b, double *out)
 {
 #define BLOCK(n, derivative) (past ? block_past(terms, n, derivative, r, b, out) : block_near(terms, n, derivative, r, b, out))
 	switch (r->axis->regular.n) {
