@@ -253,6 +253,11 @@ static void order_of(int dim, const char *faces, const struct pm_green *green, e
 	const size_t *n = green->regular ? fine : symbol == PM_FD6 ? sixth : symbol ? middle : coarse;
 	struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = screening, .green = green};
 	double h[3], error[3];
+	if (check_sanitized()) { /* orders take fine meshes; a coarse one has the same loops */
+		const double e = known_error(dim, faces, n[0] / 3, green->regular ? 19 : 14, &o, k);
+		check(e < 0.3, "%s, %s, %d-D %s: error %.2g on a coarse mesh", green->name, pm_symbol_names[symbol], dim, faces, e);
+		return;
+	}
 	for (int l = 0; l < 3; l++) {
 		h[l] = 1 / (double)n[l];
 		error[l] = known_error(dim, faces, n[l], green->regular ? 19 : 14, &o, k);
@@ -407,6 +412,8 @@ static void achieved(void)
 	} row[] = {{"cell", 3, 16, 7.881e-2}, {"cell", 3, 32, 2.035e-2}, {"cell", 3, 64, 5.127e-3}, {"vico", 3, 16, 7.741e-7}, {"vico", 3, 32, 3.827e-9},
 		{"cell", 2, 32, 8.636e-4}, {"cell", 2, 64, 2.205e-4}, {"cell", 2, 128, 5.542e-5}};
 	for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+		if (check_sanitized() && row[i].n > 32)
+			continue;
 		double e = ps09(row[i].dim, row[i].n, pm_green_find(row[i].green));
 		check(e < 1.2 * row[i].error, "PS-09: %s, %d-D, %zu cells: error %.3e, reference %.3e, factor 1.2", row[i].green, row[i].dim, row[i].n, e,
 			row[i].error);
@@ -414,7 +421,7 @@ static void achieved(void)
 			check_near(e / row[i].error, 1, 0.02, "PS-09: and it is not smaller");
 	}
 	/* Others, with the same source: the table of docs/methods/poisson-fft.md. */
-	for (int i = 0; pm_greens[i]; i++)
+	for (int i = 0; pm_greens[i] && !check_sanitized(); i++)
 		for (int dim = 2; dim <= 3 && !pm_greens[i]->differences; dim++)
 			for (size_t n = 32; n <= 64; n *= 2)
 				printf("# %s, %d-D, %zu cells: %.2e\n", pm_greens[i]->name, dim, n, ps09(dim, n, pm_greens[i]));

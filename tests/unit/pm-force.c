@@ -172,7 +172,7 @@ static void pair_force(void)
 		{"tsc", PM_FD2, 4, {1, 2, 4}, {0.4091, 1.0215, 0.9999}, {0.0268, 0.0510, 0.0203}, {0.5918, 0.0824, 0.0224}, 0.2},
 		{"tsc", PM_SPECTRAL, 0, {1, 2, 4}, {0.4090, 0.9578, 0.9931}, {0.0239, 0.0327, 0.0067}, {0.5910, 0.0739, 0.0376}, 0.5}};
 	enum { PLACES = 800, N = 32 };
-	for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+	for (size_t k = 0; k < sizeof row / sizeof *row; k += check_sanitized() ? 5 : 1) { /* 0, 5: differences, and waves */
 		double along[3] = {0}, across[3] = {0}, error[3] = {0};
 		struct pm p;
 		pm_new(&p, periodic(3, N, 1), row[k].kernel, row[k].kernel, row[k].symbol, row[k].order);

@@ -34,6 +34,11 @@ static int mixtures(int dim)
 	return dim == 1 ? KINDS : dim == 2 ? KINDS * KINDS : KINDS * KINDS * KINDS;
 }
 
+/* Under a sanitizer every 8th of the 125: 8 is prime to 5, so each pair of faces is there on each axis. */
+static int apart(int dim) { return dim == 3 && check_sanitized() ? 8 : 1; }
+
+static int looked_at(int dim) { return (mixtures(dim) + apart(dim) - 1) / apart(dim); }
+
 static const char *name_of(const struct pm_grid *g)
 {
 	static char text[120];
@@ -138,7 +143,7 @@ static void orders(int dim, double screening)
 		struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = screening};
 		double least = INFINITY, worst = 0;
 		char where[120] = "";
-		for (int m = 0; m < mixtures(dim); m++) {
+		for (int m = 0; m < mixtures(dim); m += apart(dim)) {
 			double h[3], error[3];
 			struct pm_grid g;
 			for (size_t l = 0; l < 3; l++) {
@@ -153,10 +158,10 @@ static void orders(int dim, double screening)
 		}
 		const char *which = screening > 0 ? ", screened" : "";
 		if (symbol == PM_SPECTRAL) /* 24, 32, 24 cells; sinh(sin x) has 1e-17 left of its waves after 15; round-off of sums over 1e4 nodes */
-			check(worst < 2e-13, "%d-D, all %d mixtures of faces%s: spectral is exact for smooth solutions (error %.1e)", dim, mixtures(dim), which,
+			check(worst < 2e-13, "%d-D, %d mixtures of faces%s: spectral is exact for smooth solutions (error %.1e)", dim, looked_at(dim), which,
 				worst);
 		else /* order - 0.1 as everywhere */
-			check(least >= 2 * symbol - 0.1, "%d-D, all %d mixtures of faces%s: %s has order %.2f at least (%s)", dim, mixtures(dim), which,
+			check(least >= 2 * symbol - 0.1, "%d-D, %d mixtures of faces%s: %s has order %.2f at least (%s)", dim, looked_at(dim), which,
 				pm_symbol_names[symbol], least, where);
 	}
 }
@@ -202,14 +207,14 @@ static void inverses(int dim)
 			struct pm_poisson_fft_choice o = {.symbol = symbol, .screening = 2.385 * k};
 			static const size_t size[] = {3, 9, 12, 17};
 			double worst = 0;
-			for (int m = 0; m < mixtures(dim); m++)
+			for (int m = 0; m < mixtures(dim); m += apart(dim))
 				for (int i = 0; i < 4; i++) {
 					struct pm_grid g = mixture(dim, m, size[i], false);
 					double error = round_trip(&g, &o);
 					check_worst(&worst, error);
 				}
 			/* on these meshes lap is up to 1e3 times its argument, with a round-off of 1e-16 of that */
-			check(worst < 1e-12, "%d-D, all %d mixtures of faces, %s%s: inverts lap of mgrad to round-off (error %.1e)", dim, mixtures(dim),
+			check(worst < 1e-12, "%d-D, %d mixtures of faces, %s%s: inverts lap of mgrad to round-off (error %.1e)", dim, looked_at(dim),
 				pm_symbol_names[symbol], k ? ", screened" : "", worst);
 		}
 }
@@ -233,7 +238,7 @@ static void against_multigrid(int dim)
 {
 	double worst = 0;
 	int cases = 0;
-	for (int m = 0; m < mixtures(dim); m++, cases++) {
+	for (int m = 0; m < mixtures(dim); m += apart(dim), cases++) {
 		struct pm_grid g = mixture(dim, m, 9, false);
 		size_t n = pm_grid_size(&g);
 		double *s = noise(n, 5), *a = malloc(n * sizeof *a);
@@ -246,7 +251,7 @@ static void against_multigrid(int dim)
 		pm_mg_free(mg);
 		free(s), free(a);
 	}
-	check(worst < 1e-10, "%d-D: fd2 is what multigrid converges to, all %d mixtures of faces (difference %.1e)", dim, cases, worst);
+	check(worst < 1e-10, "%d-D: fd2 is what multigrid converges to, %d mixtures of faces (difference %.1e)", dim, cases, worst);
 }
 
 /* phi'' - K^2 phi = delta/h with second differences: phi_j = -h r^|j|/(1/r - r), r + 1/r = 2 + K^2 h^2, and its images in a period of n. */
