@@ -244,6 +244,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 	if (!status)
 		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, &w, change, found);
 	found->fastest *= w.nu;
+	found->overlap *= w.nu / s->nu; /* axes: scale_axes() */
 	if (!status)
 		pm_limits_add(change, (struct pm_limits){.decay = found->fastest});
 	pm_cell_list_free(&list);

@@ -310,6 +310,14 @@ static double slack(const struct pm_pse *p, size_t n)
 	return 2 * (1 - least) * p->negative;
 }
 
+/* From the largest sum of weights. */
+static void bound(const struct work *w, const struct pm_pse *p, size_t n, struct pm_pse_found *found)
+{
+	const double integral = 0.5 * p->order;
+	found->overlap = found->fastest * w->factor * p->eps * p->eps / integral;
+	found->fastest *= w->factor * (1 + p->beyond + slack(p, n));
+}
+
 int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, const double *volume, const double *strength, double *rate,
 	struct pm_pse_found *found)
 {
@@ -321,7 +329,7 @@ int pm_pse_add(const struct pm_pse *p, const struct pm_cell_list *l, double nu, 
 		rate[l->order[i]] += nu * w.factor * w.exchange[i];
 	if (!status)
 		found_at(&w, 0, l->n, found);
-	found->fastest *= w.factor * (1 + p->beyond + slack(p, l->n));
+	bound(&w, p, l->n, found);
 	work_free(&w);
 	return status;
 }
@@ -345,7 +353,7 @@ int pm_pse_add_here(int status, const struct pm_pse *p, const struct pm_cell_lis
 	for (size_t i = 0; i < l->n && !status; i++)
 		if (l->order[i] >= all->from[pm_world_rank()] && l->order[i] < all->from[pm_world_rank() + 1])
 			rate[l->order[i] - all->from[pm_world_rank()]] += nu * w.factor * w.exchange[i];
-	found->fastest *= w.factor * (1 + p->beyond + slack(p, l->n));
+	bound(&w, p, l->n, found);
 	work_free(&w), pm_free(kept.of);
 	return status;
 }
