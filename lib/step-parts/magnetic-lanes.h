@@ -50,7 +50,9 @@ struct pm_magnetic_lanes {
 		lanes.mass = pm_magnetic_take((m)->mass, at, many, 1, few[10]); \
 		kick(__VA_ARGS__, &lanes); \
 		for (int c = 0; c < 3; c++) \
-			if ((m)->v[c]) \
+			if ((m)->v[c] && many == PM_MAGNETIC_LANES) /* a constant size is no call */ \
+				memcpy((m)->v[c] + at, changed[c], PM_MAGNETIC_LANES * sizeof(double)); \
+			else if ((m)->v[c]) \
 				memcpy((m)->v[c] + at, changed[c], many * sizeof(double)); \
 	}
 

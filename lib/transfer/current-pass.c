@@ -27,7 +27,8 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 	enum { pack = PM_TILE_ORDER_PACK };
 	double values[6 * pack], few[3][pack], room[3][pack], *v[3];
 	const double *x[3], *all[6];
-	const bool together = !o->place || pm_tile_order_together(o, p, m), times = k->left->factor != 1;
+	const bool together = !o->place || pm_tile_order_together(o, p, m);
+	const double factor = k->left->factor;
 	const size_t at = o->place ? o->place[p] : p;
 	const int dim = o->dim;
 	struct pm_tile_runs runs;
@@ -47,9 +48,11 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 	for (int d = 0; d < dim; d++)
 		pm_axis_locate_many(&o->axes[d], m, x[d], u[d]);
 	pm_staggered_few(k->gather, j, m, (const double *const *)u, values);
-	for (int c = 0; c < 3 && times; c++)
+	for (int c = 0; c < 3 && factor != 1; c++) {
+		double *restrict e = values + c * pack;
 		for (size_t i = 0; i < m; i++)
-			values[c * pack + (int)i] *= k->left->factor;
+			e[i] *= factor;
+	}
 	k->later->kicks->few(k->later, m, v, (const double *const[]){values, values + pack, values + 2 * pack},
 		(const double *const[]){values + 3 * pack, values + 4 * pack, values + 5 * pack});
 	for (int d = 0; d < dim; d++)
