@@ -38,7 +38,7 @@ struct pm_fft_place {
 	double *at;
 	size_t step; /* [doubles] */
 	size_t some; /* 0, or how many rows there are: others are zero when read, and not wanted when written */
-	const double *next; /* NULL, or what is read after these rows, as many numbers in one piece: fetched into the caches meanwhile */
+	const double *next; /* NULL, or the rows that are read after these: fetched into the caches meanwhile */
 };
 void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);
 void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to);

@@ -11,10 +11,11 @@
 
 enum { L = PM_FFT_LINES, WHOLE = 192 };
 
-/* What is fetched into the L2 cache while butterflies are computed, so many lines of it for 16 rows that these read. */
+/* Rows that are fetched into the L2 cache while butterflies are computed, so many for 16 that these read. */
 struct soon {
 	const char *at;
-	int lines;
+	size_t step, left; /* [bytes]; rows */
+	int rows;
 };
 
 /* Where the rows of a stage are. */
@@ -31,8 +32,8 @@ struct span {
 
 PM_SIMD_INLINE void fetch(struct soon *soon, int r)
 {
-	for (int i = 0; soon && i < (soon->lines * r + 15) / 16; i++, soon->at += 64)
-		__builtin_prefetch(soon->at, 0, 1);
+	for (int i = 0; soon && soon->left && i < (soon->rows * r + 15) / 16; i++, soon->at += soon->step, soon->left--)
+		__builtin_prefetch(soon->at, 0, 1), __builtin_prefetch(soon->at + 64, 0, 1);
 }
 
 PM_SIMD_INLINE void flies(int r, const struct pm_fft *f, struct rows from, struct rows to, size_t row, size_t m, const double *w, const double *u, enum way way)
@@ -165,9 +166,11 @@ static void last_stage(const struct pm_fft *f, size_t some, struct soon *soon, s
 static struct rows rows_of(struct pm_fft_place p) { return (struct rows){(struct c8 *)p.at, p.step / L}; }
 
 /* Two lines a row, over so many stages. */
-static struct soon soon_of(struct pm_fft_place from, int stages)
+static struct soon soon_of(const struct pm_fft *f, struct pm_fft_place from, bool both)
 {
-	return (struct soon){(const char *)from.next, from.next && stages > 0 ? 32 / stages + 1 : 0};
+	const int stages = (both ? 2 * f->stages - 1 : f->stages) - (from.some ? 1 + both : 0);
+	const size_t rows = from.some ? from.some : f->n;
+	return (struct soon){(const char *)from.next, from.step * sizeof(double), rows, stages > 0 ? (from.some ? 8 : 16) / stages + 1 : 0};
 }
 
 static void copy(size_t n, struct pm_fft_place from, struct pm_fft_place to)
@@ -221,7 +224,7 @@ static void up(const struct pm_fft *f, int last, struct span piece, struct rows 
 
 void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
-	struct soon ahead = soon_of(from, f->stages), *soon = from.next ? &ahead : NULL;
+	struct soon ahead = soon_of(f, from, false), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
 	const struct pm_fft_place own = {block, L, 0, NULL};
 	if (from.some && !halved(f, from.some)) {
@@ -240,7 +243,7 @@ void pm_fft_forward_moving(const struct pm_fft *f, struct pm_fft_place from, dou
 
 void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, double *block, struct pm_fft_place to)
 {
-	struct soon ahead = soon_of(from, f->stages), *soon = from.next ? &ahead : NULL;
+	struct soon ahead = soon_of(f, from, false), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
 	const struct pm_fft_place own = {block, L, 0, NULL};
 	if (to.some && !halved(f, to.some)) {
@@ -259,7 +262,7 @@ void pm_fft_backward_moving(const struct pm_fft *f, struct pm_fft_place from, do
 
 void pm_fft_times_moving(const struct pm_fft *f, struct pm_fft_place from, const double *u, double *block, struct pm_fft_place to)
 {
-	struct soon ahead = soon_of(from, 2 * f->stages - 1), *soon = from.next ? &ahead : NULL;
+	struct soon ahead = soon_of(f, from, true), *soon = from.next ? &ahead : NULL;
 	const struct rows x = rows_of(from), work = {(struct c8 *)block, 1}, y = rows_of(to);
 	const struct pm_fft_place own = {block, L, 0, NULL};
 	const int last = f->stages - 1;

@@ -1,9 +1,9 @@
 /* The passes of the transform solver over its work array: planes forward (rows, then columns while the plane is in cache), pencils forward, times the
  * symbol, and back, planes back. A block of L lines at a time is transformed in cache (fft/fft-block.h); the modes of complex axes stay in the
  * order in which the transform leaves them. The partition does not depend on threads.
- * Memory is read fast in long pieces and written past the caches fast anywhere. So large periodic meshes in space are turned as they are written: from
- * planes to pencils in w, from pencils to planes in phi, which becomes the solution plane by plane; and what is read next is fetched during the transform
- * before.
+ * Memory is read fast in long pieces and written past the caches fast anywhere. So large complex meshes in space are turned as they are written: from
+ * planes to pencils in w, where they are periodic from pencils to planes in phi, which becomes the solution plane by plane; and what is read next is
+ * fetched during the transform before.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>
@@ -117,6 +117,9 @@ double pm_poisson_fft_largest(const double *block, size_t n)
 	return all;
 }
 
+/* Of lines with zeros behind them, the nodes. */
+static size_t some_of(const struct pm_poisson_fft *p, int axis) { return p->line[axis].face[0] == PM_PERIODIC ? 0 : p->nodes[axis]; }
+
 /* Nodes to modes; to: L rows of modes. Returns the largest source of a singular problem. */
 static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, double *to)
 {
@@ -135,8 +138,8 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 	if (p->open)
 		weigh(p, g, s.block);
 	if (p->complex) {
-		if (p->turned) /* periodic: the rows of a plane, and planes, are one piece */
-			pm_fft_forward_moving(l->fft, (struct pm_fft_place){s.block, L, 0, in[0] + g->rows * p->nodes[X]}, s.block,
+		if (p->turned) /* the rows of a plane, and planes, are one piece */
+			pm_fft_forward_moving(l->fft, (struct pm_fft_place){s.block, L, some_of(p, X), in[0] + g->rows * p->nodes[X]}, s.block,
 				(struct pm_fft_place){s.block, L, 0, NULL});
 		else
 			pm_transform_forward(l, false, s.block);
@@ -205,7 +208,7 @@ static void part_shared(const struct pm_poisson_fft *p, bool back, struct plane 
 static void complex_columns(const struct pm_poisson_fft *p, struct plane x, struct plane w, bool forward, double *block)
 {
 	const struct pm_transform *l = &p->line[Y];
-	const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Y];
+	const size_t some = some_of(p, Y);
 	if (!forward && p->shared)
 		part_shared(p, true, w);
 	for (size_t c = 0; c < p->chunks; c++) {
@@ -267,7 +270,7 @@ static void turned_forward(const struct pm_poisson_fft *p, size_t k, struct scra
 	const struct pm_fft_place own = {s.block, L, 0, NULL};
 	const struct blocks to = by_pencils(p);
 	for (size_t c = 0; c < p->chunks; c++) {
-		pm_fft_forward_moving(f, (struct pm_fft_place){s.modes + c * L, p->row, 0, NULL}, s.block, own);
+		pm_fft_forward_moving(f, (struct pm_fft_place){s.modes + c * L, p->row, some_of(p, Y), NULL}, s.block, own);
 		if (c == 0)
 			part_shared(p, false, (struct plane){s.block, L});
 		blocks_out(s.block, p->modes[Y], to.y, to.at + c * to.c + k * to.z);
@@ -281,8 +284,8 @@ static void turned_backward(const struct pm_poisson_fft *p, size_t k, struct scr
 	double *at = from.at + k * from.z;
 	part_shared(p, true, (struct plane){at, from.y});
 	for (size_t c = 0; c < p->chunks; c++, at += from.c)
-		pm_fft_backward_moving(f, (struct pm_fft_place){at, from.y, 0, p->back && c + 1 < p->chunks ? at + from.c : NULL}, s.block,
-			(struct pm_fft_place){s.modes + c * L, p->row, 0, NULL});
+		pm_fft_backward_moving(f, (struct pm_fft_place){at, from.y, 0, c + 1 < p->chunks ? at + from.c : NULL}, s.block,
+			(struct pm_fft_place){s.modes + c * L, p->row, some_of(p, Y), NULL});
 }
 
 /* Complex modes of a mesh in the caches go to w as they come; else, and real ones, in long pieces. */
@@ -504,7 +507,7 @@ static void pencils(struct pm_poisson_fft *p, size_t j, size_t c, double factor,
 {
 	const struct pm_transform *l = &p->line[Z];
 	if (p->complex) {
-		const size_t some = l->face[0] == PM_PERIODIC ? 0 : p->nodes[Z];
+		const size_t some = some_of(p, Z);
 		complex_pencils(p, j, c, factor, s, (struct pm_fft_place){at, stride, some, NULL}, (struct pm_fft_place){to, stride, some, NULL});
 		return;
 	}
@@ -536,12 +539,14 @@ static void unit(struct pm_poisson_fft *p, size_t u, double factor, struct scrat
 static void turned_unit(struct pm_poisson_fft *p, size_t j, double factor, struct scratch s)
 {
 	const struct blocks from = by_pencils(p), to = by_planes(p);
+	const size_t some = some_of(p, Z);
 	for (size_t c = 0; c < p->chunks; c++) {
 		double *at = from.at + j * from.y + c * from.c, *next = c + 1 < p->chunks ? at + from.c : NULL;
 		if (!next && j + 1 < p->modes[Y])
 			next = from.at + (j + 1) * from.y;
-		complex_pencils(p, j, c, factor, s, (struct pm_fft_place){at, L, 0, next}, (struct pm_fft_place){s.block, L, 0, NULL});
-		blocks_out(s.block, p->nodes[Z], to.z, to.at + j * to.y + c * to.c);
+		complex_pencils(p, j, c, factor, s, (struct pm_fft_place){at, L, some, next}, (struct pm_fft_place){p->back ? s.block : at, L, some, NULL});
+		if (p->back)
+			blocks_out(s.block, p->nodes[Z], to.z, to.at + j * to.y + c * to.c);
 	}
 	pm_stream_end();
 }

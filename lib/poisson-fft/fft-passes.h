@@ -37,8 +37,8 @@ struct pm_poisson_fft {
 	size_t block, rows, factors, lot; /* [doubles] of scratch per thread: a block; L rows of nodes; H factors a row; with a plane or slab of modes */
 	double *scratch;
 	bool streams;                  /* w is larger than the caches */
-	bool turned;                   /* a periodic mesh in space beyond them: w is [modes[Y]][chunks][nodes[Z]][L], and its pencils go to: */
-	double *back;                  /* phi as [nodes[Z]][chunks][nodes[Y]][L], made the solution plane by plane; NULL, where phi is not aligned: w */
+	bool turned;                   /* a complex mesh in space beyond them: w is [modes[Y]][chunks][nodes[Z]][L], and its pencils go to: */
+	double *back;                  /* phi as [nodes[Z]][chunks][nodes[Y]][L], made the solution plane by plane; NULL, if it is open or phi not aligned: w */
 	double distance;               /* with a wave: to the nearest eigenvalue, |lambda + a^2|/a^2 */
 	bool single;                   /* a mesh that is one line of a suitable length: of what follows only these two are in use (fft-single.c) */
 	struct pm_long_line across;

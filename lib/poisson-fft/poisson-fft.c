@@ -135,7 +135,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	double norm = 1, largest = 0;
 	for (int a = X; a <= Z; a++)
 		norm /= (double)p->line[a].length;
-	p->back = (uintptr_t)phi % 64 ? NULL : phi;
+	p->back = (uintptr_t)phi % 64 || p->open ? NULL : phi;
 	int status = scratch_ready(p) || pm_poisson_fft_work(p) ? -PM_DATA : 0;
 	if (!status)
 		largest = pm_poisson_fft_planes(p, &io, true);
@@ -197,7 +197,7 @@ static int layout(struct pm_poisson_fft *p)
 	const int status = pm_poisson_fft_ranks(p, p->choice.planes);
 	p->choice.planes = NULL; /* the caller's */
 	p->single = pm_fft_single_length(p) > 0;
-	p->turned = g->dim == 3 && p->shared && !p->open && !p->from && p->modes[Y] * p->nodes[Z] * p->row > (size_t)1 << 18; /* 2 MiB */
+	p->turned = g->dim == 3 && p->shared && !p->from && p->modes[Y] * p->nodes[Z] * p->row > (size_t)1 << 18; /* 2 MiB */
 	p->streams = p->streams && !p->turned;
 	p->slab = p->zhere * p->row + (p->from ? 0 : L); /* so that a plane's rows do not fall on the same sets of the cache */
 	return status || shares(p) ? -PM_DATA : pm_poisson_fft_work(p);
