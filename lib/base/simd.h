@@ -94,6 +94,18 @@ PM_SIMD_INLINE pm_simd pm_simd_load_any(const double *p) /* anywhere */
 	return v;
 }
 
+/* A vector of its fours, in registers: a load of what two narrower stores have left waits for them. */
+PM_SIMD_INLINE pm_simd pm_simd_of_fours(const pm_simd4_at *four)
+{
+#if defined PM_SIMD_EIGHT
+	return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+	pm_simd v;
+	memcpy(&v, four, sizeof v);
+	return v;
+#endif
+}
+
 PM_SIMD_INLINE void pm_simd_store(double *p, pm_simd v) { *(pm_simd_at *)p = v; }
 
 PM_SIMD_INLINE void pm_simd_store_any(double *p, pm_simd v) { memcpy(p, &v, sizeof v); }

@@ -52,6 +52,70 @@ static double largest(size_t n, const double *x)
 	return value;
 }
 
+/* A row of the potential, and those beside it: the largest square of the nodes from..to-1, all of whose pairs are on the row. */
+static inline __attribute__((always_inline)) double largest_of_row(int pairs, const struct pm_gradient_later *l, const double *const up[3][3],
+	const double *const down[3][3], size_t from, size_t to)
+{
+	double most = 0;
+#ifndef __clang__ /* makes no vectors of a maximum that a NaN may stand beside, and warns */
+#pragma omp simd reduction(max : most)
+#endif
+	for (size_t i = from; i < to; i++) {
+		double square = 0;
+		for (int d = 0; d < 3; d++) {
+			double sum = 0;
+			for (int k = 0; k < pairs; k++)
+				sum += l->weight[d][k] * (up[d][k][i] - down[d][k][i]);
+			square += sum * sum;
+		}
+		most = square > most ? square : most;
+	}
+	return most;
+}
+
+/* Nodes at the ends of a row, whose pairs go over the end of the box. */
+static double largest_of_ends(int pairs, const struct pm_gradient_later *l, const double *const up[3][3], const double *const down[3][3], const double *here)
+{
+	const size_t n = l->operator.grid.points[0], reach = (size_t)pairs;
+	double most = 0;
+	for (size_t e = 0; e < 2 * reach; e++) {
+		const size_t i = e < reach ? e : n - 1 - (e - reach);
+		double square = 0;
+		for (int d = 0; d < 3; d++) {
+			double sum = 0;
+			for (size_t k = 0; k < reach; k++)
+				sum += l->weight[d][k] * (d ? up[d][k][i] - down[d][k][i] : here[(i + k + 1) % n] - here[(i + n - k - 1) % n]);
+			square += sum * sum;
+		}
+		most = fmax(most, square);
+	}
+	return most;
+}
+
+double pm_gradient_later_most(const struct pm_gradient_later *l)
+{
+	const size_t *n = l->operator.grid.points;
+	const int pairs = l->operator.order / 2;
+	const double *phi = pm_in(l->later.from, 0);
+	double most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most) if (n[0] * n[1] * n[2] > 65536)
+	for (size_t row = 0; row < n[1] * n[2]; row++) {
+		const size_t y = row % n[1], z = row / n[1];
+		const double *const here = phi + row * n[0], *up[3][3], *down[3][3];
+		for (size_t k = 0; k < 3; k++) {
+			const size_t far = (int)k < pairs ? k + 1 : 1;
+			up[0][k] = here + far, down[0][k] = here - far;
+			up[1][k] = phi + (z * n[1] + (y + far) % n[1]) * n[0], down[1][k] = phi + (z * n[1] + (y + n[1] - far) % n[1]) * n[0];
+			up[2][k] = phi + ((z + far) % n[2] * n[1] + y) * n[0], down[2][k] = phi + ((z + n[2] - far) % n[2] * n[1] + y) * n[0];
+		}
+		const size_t from = (size_t)pairs, to = n[0] - from;
+		const double inside = pairs == 1 ? largest_of_row(1, l, up, down, from, to) :
+			pairs == 2 ? largest_of_row(2, l, up, down, from, to) : largest_of_row(3, l, up, down, from, to);
+		most = fmax(most, fmax(inside, largest_of_ends(pairs, l, up, down, here)));
+	}
+	return sqrt(most) * (1 + 1e-9);
+}
+
 int pm_gradient_leave(struct pm_gradient *t, bool *left)
 {
 	*left = false;

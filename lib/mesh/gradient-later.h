@@ -15,6 +15,7 @@ struct pm_gradient_later {
 
 /* In frame(): leaves the target to be made, in a periodic box in space where no value can be infinite; *left false: it does not. 0 or failure. */
 int pm_gradient_leave(struct pm_gradient *t, bool *left);
+double pm_gradient_later_most(const struct pm_gradient_later *l);                   /* the largest |gradient| of all nodes, or a little more */
 const struct pm_gradient_later *pm_gradient_later_of(const struct pm_field *field); /* NULL: its values are there, or of another kind */
 
 #endif

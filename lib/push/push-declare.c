@@ -4,6 +4,7 @@
 
 #include "law/law.h"
 #include "push/kick-later.h"
+#include "push/motion-pass.h"
 #include "push/step-control.h"
 #include "stream/declare.h"
 
@@ -81,6 +82,7 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 			takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
 	if (pm_kick_may_wait(m, p))
 		m->v->use |= PM_USE_LATER, m->rates[0].rate->use |= PM_USE_LATER, m->b->use |= PM_USE_LATER;
+	pm_motion_declare(f, m, p);
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)
 			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
 #include "push/kick-later.h"
+#include "push/motion-pass.h"
 #include "push/push-set.h"
 #include "stream/column.h"
 #include "world/world.h"
@@ -219,6 +220,9 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 	int status = p->magnetic ? turn(f, m, pm_moving_magnetic(f, p)) : 0;
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
+	const int passed = status || p->scheme ? 0 : pm_motion_pass(f, m, &a, h, crossed);
+	if (passed)
+		return passed < 0 ? passed : 0;
 	if (p->scheme) {
 		int own = m->pass.registers - m->pass.step->registers; /* those that the requested scheme keeps come first */
 		a.action[0].step = m->pass.step, a.action[0].pass = m->pass.pass;

@@ -182,3 +182,13 @@ bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const str
 		memcpy(fastest, &most, sizeof most);
 	return !bad;
 }
+
+bool pm_advance_few(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, const struct pm_bounds *b, int64_t *most)
+{
+	const struct axis s = {a, nlines, lines, x, NULL, b, most != NULL};
+	int64_t here = most ? *most : 0;
+	const bool bad = block_of(&s, 0, n, NULL, &here);
+	if (most)
+		*most = here;
+	return !bad;
+}

@@ -43,4 +43,8 @@ struct pm_bounds {
 bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, double *v,
 	const struct pm_bounds *b, double *fastest);
 
+/* The same of n <= PM_ADVANCE_BLOCK particles, by the thread that calls, without floats and mirrors; *most (NULL: not wanted) is raised to the bits of the
+ * largest |rate| of positions. */
+bool pm_advance_few(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, const struct pm_bounds *b, int64_t *most);
+
 #endif

@@ -22,6 +22,7 @@ static void forget_note(struct pm_field *field)
 		field->note->free(field->note);
 	field->note = NULL;
 	field->summed = false;
+	field->within = 0;
 }
 
 /* ---- f32 ---- */
@@ -222,6 +223,7 @@ struct pm_field *pm_field_copy(const struct pm_field *field, bool with_data)
 	c->more = json_deep_copy(field->more);
 	c->use = 0;
 	c->note = NULL;
+	c->within = 0;
 	if (!with_data)
 		c->buffer = NULL;
 	else if (c->buffer)
@@ -329,6 +331,8 @@ static int copy_of_floats(struct pm_field *field)
 
 int pm_field_ready(struct pm_field *field)
 {
+	if (field->use & PM_USE_WAITS)
+		return 0;
 	if (field->use & PM_USE_CHANGE) /* other values, and the limit stays */
 		pm_limits_add(field, (struct pm_limits){.oscillation = pm_limits_of(field).oscillation});
 	if (field->use & (PM_USE_CHANGE | PM_USE_NEW))
@@ -403,8 +407,20 @@ static bool finite_floats(size_t n, const float *x)
 
 int pm_field_now(struct pm_field *field)
 {
-	field->use &= ~(unsigned)PM_USE_LATER;
+	field->use &= ~(unsigned)(PM_USE_LATER | PM_USE_WAITS);
 	return pm_field_ready(field);
+}
+
+bool pm_field_in_place(const struct pm_field *field, int holders)
+{
+	const struct pm_buffer *b = field->buffer;
+	return b && b->data && !b->id && !field->here && pm_buffer_users(b) == 1 + holders;
+}
+
+void pm_field_changed(struct pm_field *field)
+{
+	field->use &= ~(unsigned)PM_USE_WAITS;
+	forget_note(field);
 }
 
 int pm_field_check(struct pm_field *field, int code)

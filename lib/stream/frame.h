@@ -32,7 +32,8 @@ enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* ne
 	PM_USE_ANY = 32 /* values are only copied, so they need not be finite */,
 	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */,
 	PM_USE_COLUMNS = 128 /* the stage takes the values as columns (column.h): those held as floats stay so, uniform ones that are read are one number */,
-	PM_USE_LATER = 256 /* read, and the stage can do with values that are to be made (later.h) */ };
+	PM_USE_LATER = 256 /* read, and the stage can do with values that are to be made (later.h) */,
+	PM_USE_WAITS = 512 /* changed, and the stage makes the field ready itself (pm_field_now), or changes it in its place (later.h) */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 
@@ -81,6 +82,7 @@ struct pm_field {
 	bool finite;          /* known to hold only finite values */
 	bool summed;          /* crc is the checksum of the values as they are in the stream */
 	uint32_t crc;
+	double within;        /* no absolute value is larger; 0: not known */
 	struct pm_note *note; /* NULL: none */
 	struct pm_buffer *buffer; /* NULL: not loaded (passed on), uniform and not expanded, or a header only */
 	json_t *more;         /* unknown keys; passed on */

@@ -20,6 +20,7 @@ struct pm_later {
 	int (*make)(const struct pm_later *later, double *to); /* all values, component by component, all finite; 0 or failure. Also says what kind it is */
 	void (*free)(struct pm_later *later); /* what it holds beside `from`; NULL: nothing */
 	double (*oscillation)(const struct pm_later *later, const double *values); /* [1/time] a limit (limits.h) that only the values tell; NULL: none */
+	double most; /* [1/time] the limit is not above it; 0: not known */
 	const struct pm_kicks *kicks; /* NULL: no velocities */
 	struct pm_field *from; /* f64: its values stay as they are now; set by pm_field_later */
 };
@@ -34,8 +35,12 @@ struct pm_later *pm_field_later_alone(struct pm_field *field);
  * caller frees what it gets; NULL: failure. */
 struct pm_later *pm_field_later_take(struct pm_field *field);
 struct pm_later *pm_later_free(struct pm_later *later); /* returns NULL */
-/* In frame(), of a field with PM_USE_LATER: as if that had not been said. 0 or failure. */
+/* In frame(), of a field with PM_USE_LATER or PM_USE_WAITS: as if that had not been said. 0 or failure. */
 int pm_field_now(struct pm_field *field);
+/* Of a field with PM_USE_WAITS: nobody but `holders` (pm_field_held) has its values, so that they may be changed where they are, by a pass that still reads
+ * what the holders know of them; and then that they are changed. */
+bool pm_field_in_place(const struct pm_field *field, int holders);
+void pm_field_changed(struct pm_field *field);
 /* For make(): a copy that holds the values, left to be made as they may be; and then to have them. 0 or failure. */
 struct pm_field *pm_field_held(const struct pm_field *field); /* give back by pm_held_free */
 void pm_held_free(struct pm_field *held); /* or NULL */

@@ -36,6 +36,15 @@ struct pm_limits pm_limits_of(const struct pm_field *change)
 	return all;
 }
 
+struct pm_limits pm_limits_most(const struct pm_field *change)
+{
+	const struct pm_later *later = pm_field_later_of(change);
+	struct pm_limits all = later && later->most > 0 ? change->limits : pm_limits_of(change);
+	if (later && later->most > 0)
+		all.oscillation = fmax(all.oscillation, later->most);
+	return all;
+}
+
 void pm_limits_key(const struct pm_field *field, char key[PM_LIMITS_KEY]) { snprintf(key, PM_LIMITS_KEY, "%s/%s", field->on, field->name); }
 
 json_t *pm_limits_json(const struct pm_frame *f)

@@ -111,7 +111,9 @@ void pm_buffer_drop_floats(struct pm_buffer *b)
 	b->floats = NULL;
 }
 
-bool pm_buffer_alone(const struct pm_buffer *b) { return atomic_load(&b->users) == 1 && (!b->shared || pm_shared_alone(b->shared)); }
+int pm_buffer_users(const struct pm_buffer *b) { return atomic_load(&b->users) + (b->shared && !pm_shared_alone(b->shared)); }
+
+bool pm_buffer_alone(const struct pm_buffer *b) { return pm_buffer_users(b) == 1; }
 
 /* ---- requests ---- */
 

@@ -30,6 +30,7 @@ void pm_buffer_to_floats(struct pm_buffer *b);                     /* data becom
 void pm_buffer_drop_data(struct pm_buffer *b);                     /* the floats stay */
 void pm_buffer_drop_floats(struct pm_buffer *b);                   /* data stays */
 void pm_buffers_share(bool yes);                                   /* large new ones are in blocks that can be handed over (hand-over.h) */
+int pm_buffer_users(const struct pm_buffer *b);                    /* those of other processes count as one */
 bool pm_buffer_alone(const struct pm_buffer *b);                   /* one use, here and in other processes: it may be written */
 
 /* An f32 field between two stages, where there are no ranks: */

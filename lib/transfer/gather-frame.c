@@ -12,6 +12,7 @@
 #include "transfer/magnetic-field.h"
 #include "transfer/gather-beside.h"
 #include "transfer/gather-later.h"
+#include "transfer/rate-later.h"
 #include "world/world.h"
 
 /* The mesh that has the field, or the words that make it. */
@@ -307,6 +308,11 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
+	} else if (j->choice.later && !j->choice.field) {
+		bool left = false;
+		status = pm_rate_leave(j, f, set, a, &left);
+		if (status || left)
+			return status;
 	}
 	if (!status)
 		status = pm_mesh_changes_append(&j->changes, f, set, &a->t, a->mesh, a->factor, a->out);
@@ -315,6 +321,17 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	if (j->interlaced && j->changes.n)
 		return pm_fail(PM_DATA, "changes on the mesh are carried over with one mesh (p2m without --interlace)");
 	return j->interlaced ? pm_interlace_gather(&j->both, &a->t, a->n, a->x, a->factor, a->out, strays) : gather_arrays(a, strays);
+}
+
+/* One quotient for all, which need not be read: of particles that are parts of others of one kind. */
+static bool is_same(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, const struct pm_field *target, const double *ratio, double *same)
+{
+	double range[2];
+	if (target->here)
+		return false;
+	pm_ratio_range(f, set, j->law->strength, j->law->per, ratio, range);
+	*same = range[0] == range[1] ? range[0] : *same;
+	return range[0] == range[1];
 }
 
 int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)
@@ -326,6 +343,8 @@ int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, 
 	double *made = NULL, same = 1;
 	const bool one = law && j->law->per && target->use & PM_USE_COLUMNS && pm_ratio_is_one(f, set, j->law->strength, j->law->per, &same);
 	int status = law && j->law->per && !one ? pm_ratio(f, set, j->law->strength, j->law->per, &ratio, &made) : 0;
+	if (ratio && !status && target->use & PM_USE_COLUMNS && is_same(j, f, set, target, ratio, &same))
+		ratio = NULL;
 	struct pm_gather_arrays a = arrays_of(j, f, set, target, ratio, same);
 	const double before = law ? pm_gather_limits_most(j, f, set) : 0;
 	struct pm_gather_beside b = {.values = NULL};

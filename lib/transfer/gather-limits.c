@@ -99,7 +99,7 @@ void pm_gather_limits_add(const struct pm_gather_job *j, struct pm_frame *f, con
 {
 	struct pm_field *change = pm_frame_field(f, set, j->law->change), *b = pm_frame_field(f, set, "bfield");
 	struct pm_limits found = j->limits;
-	if (j->pull > 0) /* of this field alone: at least the difference of the largest values */
+	if (j->pull > 0 && !pm_field_later_of(change)) /* of this field alone: at least the difference of the largest values */
 		found.oscillation = sqrt(pm_orbit_rate(f->dim, sqrt(most > 0 ? most : pm_most(change, NULL)) - before, j->pull));
 	pm_limits_add(change, found);
 	if (b && j->law->magnetic && j->law->per && b->use & (PM_USE_CHANGE | PM_USE_NEW) && !pm_field_later_of(b))

@@ -121,6 +121,15 @@ static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lane
 	return true;
 }
 
+/* One tile is all of a periodic box: no particle is outside, wherever it is. */
+static bool is_whole_box(const struct pm_tile_order *o)
+{
+	bool whole = o->tiles == 1;
+	for (int d = 0; d < o->dim; d++)
+		whole = whole && o->axes[d].periodic;
+	return whole;
+}
+
 /* Counts the tiles of a chunk as long as it is in order and without strays: then the tile of each particle need not be kept. ends: the first tile and the
  * last. False where the order is broken; the counts are then void. */
 static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
@@ -131,6 +140,11 @@ static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
 	for (int d = 0; d < o->dim; d++)
 		lanes[d] = pm_axis_lanes(&o->axes[d]);
 	memset(count, 0, (o->tiles + 1) * sizeof *count);
+	if (is_whole_box(o)) {
+		count[0] = chunk_to(o, chunk) - chunk_from(o, chunk);
+		ends[0] = ends[1] = 0;
+		return true;
+	}
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		size_t m = to - p < batch ? to - p : batch;
 		uint32_t falls = 0;

@@ -40,12 +40,22 @@ struct pm_tile_particles {
 	double dt;
 };
 
+struct pm_tile_order;
+/* Who takes the results of m particles that stay in the stream, in order from p on, m <= PM_TILE_ORDER_PACK, in place of arrays of them: value[nvalues][m],
+ * which he may change, as x[dim], which is NULL, or where their positions are: in the stream, if they stand together there, else copies, [dim][PACK]. By
+ * threads, of particles that are not the same. */
+struct pm_tile_taker {
+	void (*take)(void *data, const struct pm_tile_order *o, size_t p, size_t m, double *const x[], double *const value[]);
+	void *data;
+};
+
 /* The places of values: to[c][p] = (where set) or += factor[c][p] * value. */
 struct pm_tile_results {
 	const struct pm_column *factor;
 	const bool *set;
 	const struct pm_target *to;
 	double *most; /* NULL, or raised to the largest sum of squares of what is set at a particle; INFINITY: not all were looked at */
+	const struct pm_tile_taker *taker; /* NULL, or he has them; the others are not used */
 };
 /* All targets are floats that can be written over, and all factors one number: a result may be rounded before it is at its place. */
 bool pm_tile_results_round(int n, const struct pm_tile_results *r);

@@ -131,6 +131,26 @@ int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, co
 	return 0;
 }
 
+void pm_ratio_range(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double *ratio, double range[2])
+{
+	static const char name[] = "range of quotients of strengths";
+	const struct pm_field *top = pm_frame_field(f, set, strength), *bottom = pm_frame_field(f, set, per);
+	const double *kept = pm_kept(top, bottom, name);
+	const size_t n = top->count;
+	double *keep, least = INFINITY, most = -INFINITY;
+#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most) if (!kept && n > 16384)
+	for (size_t p = 0; p < (kept ? 0 : n); p++) {
+		least = fmin(least, ratio[p]);
+		most = fmax(most, ratio[p]);
+	}
+	range[0] = kept ? kept[0] : least, range[1] = kept ? kept[1] : most;
+	if (!kept && (keep = pm_alloc(2, sizeof *keep))) {
+		keep[0] = least, keep[1] = most;
+		if (!pm_keep(top, bottom, name, keep))
+			pm_free(keep);
+	}
+}
+
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy)
 {
 	char at[96] = "";

@@ -28,6 +28,8 @@ int pm_strengths(const struct pm_frame *f, const char *set, const char *name, co
 bool pm_ratio_is_one(const struct pm_frame *f, const char *set, const char *strength, const char *per, double *ratio);
 /* strength/per, particle by particle, which is kept while both stay; *made is to be freed. */
 int pm_ratio(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double **ratio, double **made);
+/* The least and the largest of its n values, kept too. */
+void pm_ratio_range(const struct pm_frame *f, const char *set, const char *strength, const char *per, const double *ratio, double range[2]);
 
 /* Refuses particles outside the mesh with a sentence that names the first, and the remedies of the tool. */
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy);

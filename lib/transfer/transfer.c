@@ -99,6 +99,18 @@ static bool leave_results(const struct pm_pass *w, size_t p, size_t m, int strid
 	return true;
 }
 
+/* Results of a batch to who takes them, component by component. */
+static void turn_over(const struct pm_pass *w, size_t p, const struct pm_tile *t, const struct pm_tile_results *r)
+{
+	double values[PM_COMPONENTS][PM_TILE_ORDER_PACK], *value[PM_COMPONENTS];
+	for (int c = 0; c < w->components; c++) {
+		for (size_t i = 0; i < t->count; i++)
+			values[c][i] = t->results[i * (size_t)t->to + (size_t)c];
+		value[c] = values[c];
+	}
+	r->taker->take(r->taker->data, &w->o->order, p, t->count, NULL, value);
+}
+
 /* Of particles that stay in the stream, in order or by their places, or whose records are floats. t: with the blocks of the job. */
 static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
@@ -112,6 +124,10 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
+		if (r->taker) {
+			turn_over(w, p, &t, r);
+			continue;
+		}
 		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r)
 				   : pm_tile_order_deliver(&o, p, t.count, t.stride, packed, w->components, r);
 	}
@@ -128,26 +144,29 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 	double few[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS][PM_TILE_ORDER_PACK];
 	struct pm_column one[PM_COMPONENTS];
 	struct pm_target to[PM_COMPONENTS];
+	double *value[PM_COMPONENTS], *const places[3] = {few[0], few[1], few[2]};
 	bool set[PM_COMPONENTS], finite = true;
-	if (!w->blockwise && !o->place) {
+	if (!w->blockwise && !o->place && !r->taker) {
 		pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
 		return loop(t, &batch, r);
 	}
 	for (int c = 0; c < w->components; c++)
-		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]};
+		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]}, value[c] = values[c];
 	const struct pm_column *now = r->most ? r->factor : one, *then = r->most ? one : r->factor; /* what is looked at has its factor */
 	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
 		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_batch_take(&batch, p, m, few);
-		if (!w->blockwise && pm_tile_order_together(o, p, m)) {
+		if (!w->blockwise && !r->taker && pm_tile_order_together(o, p, m)) {
 			batch.p = o->place[p];
 			finite &= loop(t, &batch, r);
 			continue;
 		}
 		batch.p = 0;
-		loop(t, &batch, &(struct pm_tile_results){now, set, to, r->most});
-		for (int c = 0; c < w->components; c++)
-			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&then[c], &r->set[c], &r->to[c], NULL});
+		loop(t, &batch, &(struct pm_tile_results){now, set, to, r->most, NULL});
+		if (r->taker)
+			r->taker->take(r->taker->data, o, p, m, places, value);
+		for (int c = 0; c < w->components && !r->taker; c++)
+			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&then[c], &r->set[c], &r->to[c], NULL, NULL});
 	}
 	return finite;
 }
@@ -228,7 +247,7 @@ bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *cons
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(| : bad) reduction(max : most)
 	for (size_t j = 0; j < w->p.jobs; j++) {
 		double here = 0;
-		const struct pm_tile_results mine = {r->factor, r->set, r->to, r->most ? &here : NULL};
+		const struct pm_tile_results mine = {r->factor, r->set, r->to, r->most ? &here : NULL, r->taker};
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
 		for (int c = 0; c < w->components && !w->t->gradient; c++)
 			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
@@ -423,7 +442,7 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 			times[c] = factor[w.which[c]];
 			look = look && set[c] && to[c].doubles && !times[c].doubles && !times[c].floats;
 		}
-		const struct pm_tile_results r = {times, set, to, look ? &most : NULL};
+		const struct pm_tile_results r = {times, set, to, look ? &most : NULL, NULL};
 		status = begin_gather(&w, n, x, &r, threads);
 		bool seen = !status && pm_pass_gather_all(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
@@ -448,6 +467,23 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	}
 	strays->finite = finite;
 	strays->most = isfinite(most) ? most : 0;
+	return status;
+}
+
+int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[],
+	const struct pm_tile_taker *taker)
+{
+	bool done[PM_COMPONENTS] = {false};
+	const int threads = pm_tile_threads(n);
+	struct pm_pass w;
+	const struct pm_target to[PM_COMPONENTS] = {{.doubles = NULL}};
+	const struct pm_column one[PM_COMPONENTS] = {{.value = 1}, {.value = 1}, {.value = 1}};
+	const struct pm_tile_results r = {one, t->set, to, NULL, taker};
+	pm_pass_next(t, done, &w);
+	int status = begin_gather(&w, n, x, &r, threads);
+	if (!status)
+		pm_pass_gather_all(&w, threads, mesh, &r);
+	pm_pass_end(&w);
 	return status;
 }
 

@@ -1,0 +1,257 @@
+/* The force of a mesh left to be made: the field and the positions are held as they are. A push that kicks and moves has it gathered for a few particles at a
+ * time, whose positions and velocities it changes at once, so that the rates are never in memory; where somebody asks for them they are gathered as a whole.
+ * The limit of orbits (rates.h), which only the rates tell, is found then; until then it is known not to be above that of the largest field on the mesh.
+ * Cost: a pass over the field, for its largest value. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "limit/rates.h"
+#include "mesh/gradient-later.h"
+#include "transfer/rate-later.h"
+#include "transfer/transfer-pass.h"
+#include "world/world.h"
+
+struct pm_rate_left {
+	struct pm_later later; /* first member; from: the positions */
+	struct pm_transfer t;
+	struct pm_field *mesh;            /* the field, as it is */
+	struct pm_field *charge, *mass;   /* whose quotient the field is times, particle by particle; NULL: `factor` for all */
+	double factor, pull;
+	double most;                      /* of |rate| */
+	int dim;
+};
+
+static void let_go(struct pm_later *later)
+{
+	struct pm_rate_left *l = (struct pm_rate_left *)later;
+	pm_held_free(l->mesh), pm_held_free(l->charge), pm_held_free(l->mass);
+}
+
+/* The field as it is now: somebody may have had it made. */
+static void look_at_mesh(const struct pm_rate_left *l, struct pm_transfer *t, const double *mesh[PM_COMPONENTS])
+{
+	*t = l->t;
+	t->gradient = pm_gradient_later_of(l->mesh);
+	for (int c = 0; c < t->components; c++)
+		mesh[c] = t->gradient ? NULL : pm_in(l->mesh, c);
+}
+
+static void quotients(struct pm_column q, struct pm_column m, size_t n, double *to)
+{
+	for (size_t i = 0; i < n; i++)
+		to[i] = pm_column_at(&q, i) / pm_column_at(&m, i);
+}
+
+static int make(const struct pm_later *later, double *to)
+{
+	const struct pm_rate_left *l = (const struct pm_rate_left *)later;
+	struct pm_transfer t;
+	struct pm_column x[3], times[PM_COMPONENTS];
+	struct pm_target out[PM_COMPONENTS];
+	const double *mesh[PM_COMPONENTS];
+	struct pm_strays strays;
+	double *ratio = l->charge ? pm_alloc(later->from->count, sizeof *ratio) : NULL;
+	if (l->charge && !ratio)
+		return -PM_DATA;
+	if (ratio)
+		quotients(pm_column_of(l->charge, 0), pm_column_of(l->mass, 0), later->from->count, ratio);
+	look_at_mesh(l, &t, mesh);
+	for (int d = 0; d < l->dim; d++)
+		x[d] = pm_column_of(later->from, d);
+	for (int c = 0; c < t.components; c++) {
+		times[c] = (struct pm_column){.doubles = ratio, .value = l->factor};
+		out[c] = (struct pm_target){.doubles = to + (size_t)c * later->from->count};
+	}
+	const int status = pm_gather_columns(&t, later->from->count, x, mesh, times, out, &strays);
+	pm_free(ratio);
+	return status;
+}
+
+static double oscillation(const struct pm_later *later, const double *rate)
+{
+	const struct pm_rate_left *l = (const struct pm_rate_left *)later;
+	const size_t n = later->from->count;
+	double most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > 16384)
+	for (size_t i = 0; i < n; i++) {
+		double square = 0;
+		for (int c = 0; c < l->t.components; c++)
+			square += rate[(size_t)c * n + i] * rate[(size_t)c * n + i];
+		most = fmax(most, square);
+	}
+	return sqrt(pm_orbit_rate(l->dim, sqrt(most), l->pull));
+}
+
+const struct pm_rate_left *pm_rate_left_of(const struct pm_field *rate)
+{
+	const struct pm_later *later = pm_field_later_of(rate);
+	return later && later->make == make ? (const struct pm_rate_left *)later : NULL;
+}
+
+double pm_rate_left_most(const struct pm_rate_left *l) { return l->most; }
+
+/* The largest |field| of the nodes, and no less than that of a kernel's sums. */
+static double largest(const struct pm_rate_left *l, size_t points)
+{
+	struct pm_transfer t;
+	const double *mesh[PM_COMPONENTS];
+	double most = 0;
+	const double sums = l->t.kernel->positive ? 1 + 1e-9 : 8; /* the sizes of weights whose sum is 1 add up to 1.6 at most on an axis */
+	look_at_mesh(l, &t, mesh);
+	if (t.gradient)
+		return sums * pm_gradient_later_most(t.gradient);
+#pragma omp parallel for schedule(static) reduction(max : most) if (points > 65536)
+	for (size_t i = 0; i < points; i++) {
+		double square = 0;
+		for (int c = 0; c < t.components; c++)
+			square += mesh[c][i] * mesh[c][i];
+		most = square > most ? square : most;
+	}
+	return sums * sqrt(most);
+}
+
+static struct pm_order_cache *order_of(const struct pm_transfer *t, struct pm_note **kept, const struct pm_field *x)
+{
+	struct pm_transfer here = *t;
+	struct pm_column at[3];
+	here.kept = kept;
+	for (int d = 0; d < t->grid.dim; d++)
+		at[d] = pm_column_of(x, d);
+	struct pm_order_cache *o = pm_order_cache_find(&here, t->staggered[0], x->count, at);
+	return o && pm_order_cache_stays(o) ? o : NULL;
+}
+
+static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a)
+{
+	const struct pm_field *rate = pm_frame_field(f, set, j->law->change), *v = pm_frame_field(f, set, j->law->of), *x = pm_frame_field(f, set, "x");
+	const struct pm_transfer *t = &a->t;
+	bool yes = pm_world_alone() && a->columns && !j->changes.n && !j->interlaced && !t->kernel->star && a->n && !strcmp(j->law->of, "v") && v &&
+		rate->type == PM_F64 && rate->use & PM_USE_NEW && rate->use & PM_USE_FILL && x->type == PM_F64 && j->field->type == PM_F64;
+	for (int d = 0; d < t->grid.dim && yes; d++)
+		yes = t->grid.face[d][0] == PM_PERIODIC && a->at[d].doubles;
+	for (int c = 0; c < t->components && yes; c++)
+		yes = t->set[c] && a->times[c].doubles == a->times[0].doubles && !a->times[c].floats &&
+			!memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]);
+	const struct pm_order_cache *o = yes ? order_of(t, t->kept, x) : NULL;
+	return o && (!o->order.place || a->n >= 4 * pm_grid_size(&t->grid)); /* few that stand apart are put together at the cost of what the pass saves */
+}
+
+int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left)
+{
+	*left = false;
+	if (!can(j, f, set, a))
+		return 0;
+	struct pm_rate_left *l = calloc(1, sizeof *l);
+	if (!l)
+		return pm_no_memory();
+	*l = (struct pm_rate_left){.later = {.make = make, .free = let_go}, .t = a->t, .factor = a->times[0].value, .pull = j->pull, .dim = f->dim};
+	l->t.kept = NULL, l->t.planes = NULL, l->t.gradient = NULL;
+	const char *const q = j->law->strength, *const m = j->law->per;
+	const double *ratio = a->times[0].doubles;
+	l->mesh = pm_field_held(j->field);
+	l->charge = ratio ? pm_field_held(pm_frame_field(f, set, q)) : NULL, l->mass = ratio ? pm_field_held(pm_frame_field(f, set, m)) : NULL;
+	if (!l->mesh || (ratio && (!l->charge || !l->mass)))
+		return pm_later_free(&l->later), -PM_DATA;
+	double range[2] = {l->factor, l->factor};
+	if (ratio)
+		pm_ratio_range(f, set, q, m, ratio, range);
+	l->most = fmax(fabs(range[0]), fabs(range[1])) * largest(l, pm_grid_size(&l->t.grid));
+	if (l->pull > 0)
+		l->later.oscillation = oscillation, l->later.most = sqrt(pm_orbit_rate(l->dim, l->most, l->pull));
+	if (!(l->most < 1e100)) { /* not: the squares may have been infinite */
+		pm_later_free(&l->later);
+		return 0;
+	}
+	*left = true;
+	return pm_field_later(pm_frame_field(f, set, j->law->change), &l->later, pm_frame_field(f, set, "x"));
+}
+
+/* ---- the pass ---- */
+
+struct passing {
+	int dim, components, rates;
+	double *x[3], *v[3];
+	struct pm_column factor;
+	pm_rate_few *few;
+	void *data;
+};
+
+/* n arrays of m particles: where they are in the stream, or, apart, copied to few[n][PACK]. */
+static void take_arrays(const struct pm_tile_order *o, size_t p, size_t m, bool together, int n, double *const from[], double *few, double *to[])
+{
+	for (int c = 0; c < n; c++) {
+		const struct pm_column column = pm_column_doubles(from[c]);
+		to[c] = together ? from[c] + (o->place ? o->place[p] : p) : few + c * PM_TILE_ORDER_PACK;
+		if (!together)
+			pm_tile_order_take(o, p, m, &column, to[c]);
+	}
+}
+
+static void give_back(const struct pm_tile_order *o, size_t p, size_t m, int n, double *const to[], const double *few)
+{
+	const struct pm_column one[3] = {{.value = 1}, {.value = 1}, {.value = 1}};
+	const bool set[3] = {true, true, true};
+	struct pm_target target[3];
+	for (int c = 0; c < n; c++)
+		target[c] = (struct pm_target){.doubles = to[c]};
+	pm_tile_order_unpack_arrays(p, o->place + p, m, few, n, &(struct pm_tile_results){one, set, target, NULL, NULL});
+}
+
+static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, double *const places[], double *const rate[])
+{
+	enum { pack = PM_TILE_ORDER_PACK, line = 8 };
+	const struct passing *k = data;
+	const bool together = !o->place || pm_tile_order_together(o, p, m);
+	double few[2][3 * pack], ratio[pack], *x[3] = {NULL}, *v[3] = {NULL};
+	double *const apart = places ? places[0] : few[0];
+	if (together || !places)
+		take_arrays(o, p, m, together, k->dim, k->x, apart, x);
+	for (int d = 0; d < k->dim && !x[d]; d++)
+		x[d] = places[d];
+	take_arrays(o, p, m, together, k->components, k->v, few[1], v);
+	for (int c = 0; c < k->components && together; c++)
+		for (size_t i = 0; i < m; i += line)
+			__builtin_prefetch(v[c] + PM_TILE_AHEAD + i, 1);
+	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
+	for (size_t i = 0; i < m && factor && together; i += line)
+		__builtin_prefetch(factor + PM_TILE_AHEAD + i);
+	for (int c = 0; c < k->rates; c++)
+		for (size_t i = 0; i < m; i++)
+			rate[c][i] *= factor ? factor[i] : k->factor.value;
+	k->few(k->data, m, x, v, (const double *const *)rate);
+	if (!together)
+		give_back(o, p, m, k->dim, k->x, apart), give_back(o, p, m, k->components, k->v, few[1]);
+}
+
+static bool is_held(const struct pm_frame *f, const char *set, const struct pm_field *held)
+{
+	const struct pm_field *now = held ? pm_frame_field(f, set, held->name) : NULL;
+	return !held || (now && now->buffer == held->buffer && now->value[0] == held->value[0]);
+}
+
+bool pm_rate_can_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x)
+{
+	return pm_field_in_place(x, 1) && pm_column_of(l->later.from, 0).doubles == pm_column_of(x, 0).doubles && is_held(f, x->on, l->charge) &&
+		is_held(f, x->on, l->mass) && order_of(&l->t, &x->note, x);
+}
+
+int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x, struct pm_field *v, pm_rate_few *few, void *data)
+{
+	struct passing k = {.dim = l->dim, .components = v->components, .rates = l->t.components, .factor = {.value = l->factor}, .few = few, .data = data};
+	struct pm_transfer t;
+	struct pm_column at[3];
+	const double *mesh[PM_COMPONENTS];
+	double *made = NULL;
+	int status = l->charge ? pm_ratio(f, x->on, l->charge->name, l->mass->name, &k.factor.doubles, &made) : 0;
+	look_at_mesh(l, &t, mesh);
+	t.kept = &x->note;
+	for (int d = 0; d < l->dim; d++)
+		k.x[d] = pm_out(x, d), at[d] = pm_column_doubles(k.x[d]);
+	for (int c = 0; c < v->components; c++)
+		k.v[c] = pm_out(v, c);
+	status = status ? status : pm_gather_taken(&t, x->count, at, mesh, &(struct pm_tile_taker){take, &k});
+	pm_free(made);
+	pm_field_changed(x);
+	return status;
+}
