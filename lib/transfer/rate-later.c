@@ -177,51 +177,38 @@ struct passing {
 	void *data;
 };
 
-/* n arrays of m particles: where they are in the stream, or, apart, copied to few[n][PACK]. */
-static void take_arrays(const struct pm_tile_order *o, size_t p, size_t m, bool together, int n, double *const from[], double *few, double *to[])
-{
-	for (int c = 0; c < n; c++) {
-		const struct pm_column column = pm_column_doubles(from[c]);
-		to[c] = together ? from[c] + (o->place ? o->place[p] : p) : few + c * PM_TILE_ORDER_PACK;
-		if (!together)
-			pm_tile_order_take(o, p, m, &column, to[c]);
-	}
-}
-
-static void give_back(const struct pm_tile_order *o, size_t p, size_t m, int n, double *const to[], const double *few)
-{
-	const struct pm_column one[3] = {{.value = 1}, {.value = 1}, {.value = 1}};
-	const bool set[3] = {true, true, true};
-	struct pm_target target[3];
-	for (int c = 0; c < n; c++)
-		target[c] = (struct pm_target){.doubles = to[c]};
-	pm_tile_order_unpack_arrays(p, o->place + p, m, few, n, &(struct pm_tile_results){one, set, target, NULL, NULL});
-}
-
 static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, double *const places[], double *const rate[])
 {
 	enum { pack = PM_TILE_ORDER_PACK, line = 8 };
 	const struct passing *k = data;
-	const bool together = !o->place || pm_tile_order_together(o, p, m);
-	double few[2][3 * pack], ratio[pack], *x[3] = {NULL}, *v[3] = {NULL};
-	double *const apart = places ? places[0] : few[0];
-	if (together || !places)
-		take_arrays(o, p, m, together, k->dim, k->x, apart, x);
-	for (int d = 0; d < k->dim && !x[d]; d++)
-		x[d] = places[d];
-	take_arrays(o, p, m, together, k->components, k->v, few[1], v);
-	for (int c = 0; c < k->components && together; c++)
-		for (size_t i = 0; i < m; i += line)
-			__builtin_prefetch(v[c] + PM_TILE_AHEAD + i, 1);
+	const bool together = !o->place || pm_tile_order_together(o, p, m), known = places && !together;
+	const size_t at = o->place ? o->place[p] : p;
+	const int dim = k->dim, all = dim + k->components;
+	double few[6][pack], ratio[pack], *y[6] = {NULL}, *from[6];
+	const double *read[6];
+	struct pm_tile_runs runs;
+	for (int c = 0; c < all; c++) {
+		read[c] = from[c] = c < dim ? k->x[c] : k->v[c - dim];
+		y[c] = together ? from[c] + at : c < dim && known ? places[c] : few[c];
+		for (size_t i = 0; i < m && together && c >= dim; i += line)
+			__builtin_prefetch(y[c] + PM_TILE_AHEAD + i, 1);
+	}
+	if (o->place)
+		pm_tile_order_fetch(o, p + m, pack, all, read);
+	if (!together) {
+		const int first = known ? dim : 0;
+		pm_tile_order_runs(o, p, m, &runs);
+		pm_tile_runs_take(o, p, &runs, all - first, read + first, y + first);
+	}
 	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
 	for (size_t i = 0; i < m && factor && together; i += line)
 		__builtin_prefetch(factor + PM_TILE_AHEAD + i);
 	for (int c = 0; c < k->rates; c++)
 		for (size_t i = 0; i < m; i++)
 			rate[c][i] *= factor ? factor[i] : k->factor.value;
-	k->few(k->data, m, x, v, (const double *const *)rate);
+	k->few(k->data, m, y, y + dim, (const double *const *)rate);
 	if (!together)
-		give_back(o, p, m, k->dim, k->x, apart), give_back(o, p, m, k->components, k->v, few[1]);
+		pm_tile_runs_put(o, p, &runs, all, (const double *const *)y, from);
 }
 
 static bool is_held(const struct pm_frame *f, const char *set, const struct pm_field *held)

@@ -121,7 +121,8 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 # Particles in order without and with places, with weights and without, on one tile and several; velocities across; what looks at rates, or changes them.
 @test "equal bytes: a step by a potential in one pass over the particles, in 1-D to 3-D" {
 	local leapfrog='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick/2' look='diag --tee table --no-history'
-	local euler='p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick drift' open='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p' c step
+	local euler='p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick drift' c step
+	local open='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p'
 	for c in "landau --dim 1 -n 4000 --cells 64;cic;2;1" "landau --dim 1 -n 4000 --cells 64 --velocities 3;tsc;2;" \
 		"langmuir -n 20000 --cells 5000;cic;2;1" \
 		"uniform --dim 2 -n 30000 --cells 70 --dispersion 1;m4prime;4;1, x" "uniform -n 60000 --cells 40x17x10 --dispersion 1;cic;4;1, x, y" \
