@@ -1,6 +1,7 @@
 /* Half kicks of relativistic steps whose rates are left to be made too: the half that closes a step, and that which opens the next one, so that one pass over
  * the particles makes the rates, both halves and what needs the velocities then. Only where no particle can reach the speed of light to round-off or
- * overflow, which the largest speed and the largest fields tell before: a kick that is left cannot fail. Cost: a pass over the velocities.
+ * overflow, which the largest speed and the largest fields tell before: a kick that is left cannot fail. Cost: a pass over the velocities, but where the pass
+ * over the particles has looked at them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -124,7 +125,8 @@ static bool go_on(const struct pm_frame *f, const struct pm_moving *m, const str
 
 static int begin(const struct pm_frame *f, const struct pm_moving *m, const struct pm_step *step, const struct pm_gather_left *l, const struct pm_field *acc)
 {
-	const double c = pm_law_constant(f, "c", NAN), speed = fastest(m->v);
+	const double c = pm_law_constant(f, "c", NAN), bound = m->v->within * sqrt(3) * (1 + 1e-12);
+	const double speed = bound > 0 && bound < 0.99 * c ? bound : fastest(m->v);
 	const double proper = speed / sqrt(1 - speed * speed / (c * c)) + gained(l, f->dt, c);
 	if (!(speed < c) || !safe(proper, c))
 		return 0;

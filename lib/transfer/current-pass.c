@@ -3,6 +3,7 @@
  * tile. The rates are never in memory. As in VPIC, Bowers et al. 2008, but for the words that stand beside each other in a sentence. Every way is one piece:
  * the box is periodic, and no particle passes a cell at the speed of light. Cost: positions, velocities and the order once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
 #include <string.h>
 
 #include "law/law.h"
@@ -18,7 +19,19 @@ struct maker {
 	const struct pm_later *later;
 	struct pm_staggered_few *gather;
 	double *v[3];
+	int64_t (*most)[8]; /* [threads] the bits of the largest absolute value of v, which are ordered as the numbers are, in a line of the cache each */
 };
+
+static int64_t largest(int64_t most, size_t n, const double *v)
+{
+	for (size_t i = 0; i < n; i++) {
+		int64_t bits;
+		memcpy(&bits, v + i, sizeof bits);
+		bits &= INT64_MAX;
+		most = bits > most ? bits : most;
+	}
+	return most;
+}
 
 static void make(void *data, const struct pm_tile_order *o, const struct pm_tile_job *j, size_t p, size_t m, double *const u[3],
 	double *const way[3])
@@ -55,6 +68,9 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 	}
 	k->later->kicks->few(k->later, m, v, (const double *const[]){values, values + pack, values + 2 * pack},
 		(const double *const[]){values + 3 * pack, values + 4 * pack, values + 5 * pack});
+	int64_t *most = k->most[omp_get_thread_num()];
+	for (int c = 0; c < 3; c++)
+		*most = largest(*most, m, v[c]);
 	for (int d = 0; d < dim; d++)
 		pm_tile_ways(o->dt, o->axes[d].h, m, x[d], v[d], way[d]);
 	if (!together)
@@ -81,6 +97,16 @@ static bool is_of_gather(const struct pm_tile_order *left, const struct pm_gathe
 	return own && &own->order == left;
 }
 
+static double speed_bound(const struct maker *k)
+{
+	int64_t most = 0;
+	double value;
+	for (int t = 0; t < pm_threads(); t++)
+		most = k->most[t][0] > most ? k->most[t][0] : most;
+	memcpy(&value, &most, sizeof value);
+	return value;
+}
+
 int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3])
 {
 	struct pm_field *x = pm_frame_field(f, set, "x"), *v = pm_frame_field(f, set, "v"), *q = pm_frame_field(f, set, j->law->strength);
@@ -96,8 +122,8 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 	const struct pm_tile_order *left = can(&c, f, l, x, q) ? pm_current_order_left(&c, x->count, at) : NULL;
 	if (!left || !is_of_gather(left, l, c.kept, at))
 		return 0;
-	struct maker k = {.left = l};
-	int status = pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));
+	struct maker k = {.left = l, .most = pm_zalloc((size_t)pm_threads(), sizeof *k.most)};
+	int status = !k.most ? -PM_DATA : pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));
 	struct pm_later *taken = status ? NULL : pm_field_later_take(v);
 	k.later = taken;
 	for (int d = 0; d < 3 && taken; d++) {
@@ -106,7 +132,9 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 	}
 	c.few = &(struct pm_current_few){make, &k};
 	status = taken ? pm_current_columns(&c, x->count, at, along, &charge, mesh, &stray, &far) : -PM_DATA;
+	if (!status)
+		v->within = speed_bound(&k);
 	pm_later_free(taken);
-	pm_staggered_few_free(k.gather);
+	pm_staggered_few_free(k.gather), pm_free(k.most);
 	return status ? status : 1;
 }
