@@ -419,6 +419,9 @@ static int gather_ranks(const struct pm_transfer *t, size_t n, const struct pm_c
 	return pm_gather_ranks(t, n, at, mesh, times, to, strays);
 }
 
+/* No more than there are jobs, and blocks. */
+static int threads_of(const struct pm_pass *w, int threads) { return (size_t)threads < w->p.jobs ? threads : (int)w->p.jobs + !w->p.jobs; }
+
 int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
 	const struct pm_target out[], struct pm_strays *strays)
 {
@@ -444,7 +447,7 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 		}
 		const struct pm_tile_results r = {times, set, to, look ? &most : NULL, NULL};
 		status = begin_gather(&w, n, x, &r, threads);
-		bool seen = !status && pm_pass_gather_all(&w, (size_t)threads < w.p.jobs ? threads : (int)w.p.jobs + !w.p.jobs, mesh, &r);
+		bool seen = !status && pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
 		if (o && w.few)
 			status = pm_tile_order_return_floats(o, w.few, w.few_to, w.components, &r);
@@ -482,7 +485,7 @@ int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_colum
 	pm_pass_next(t, done, &w);
 	int status = begin_gather(&w, n, x, &r, threads);
 	if (!status)
-		pm_pass_gather_all(&w, threads, mesh, &r);
+		pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
 	pm_pass_end(&w);
 	return status;
 }
