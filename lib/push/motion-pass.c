@@ -34,11 +34,12 @@ static int make(const struct pm_later *later, double *to)
 	return 0;
 }
 
-/* A kick alone, or kicks and a drift. */
-static bool plain(const struct pm_moving *m, const struct pm_push *p)
+/* A kick alone, or kicks and a drift, of positions and velocities on the axes of the box, and velocities across. */
+static bool plain(const struct pm_frame *f, const struct pm_moving *m, const struct pm_push *p)
 {
-	bool yes = p->later && pm_world_alone() && !p->scheme && !p->magnetic && m->v && m->v->type == PM_F64 && m->x->type == PM_F64 &&
-		m->n == (p->moves ? 2 : 1) && m->rates[m->n - 1].state == m->v && m->rates[0].state == (p->moves ? m->x : m->v);
+	bool yes = m->v && m->x->components == f->dim && m->v->components >= f->dim && m->v->components <= 3 && m->v->type == PM_F64 && m->x->type == PM_F64;
+	yes = yes && p->later && pm_world_alone() && !p->scheme && !p->magnetic && m->n == (p->moves ? 2 : 1) && m->rates[m->n - 1].state == m->v &&
+		m->rates[0].state == (p->moves ? m->x : m->v);
 	for (int t = 0; t < p->actions.actions; t++)
 		yes = yes && (p->actions.action[t].step->kind == PM_KICK || p->actions.action[t].step->kind == PM_DRIFT);
 	return yes;
@@ -46,13 +47,14 @@ static bool plain(const struct pm_moving *m, const struct pm_push *p)
 
 void pm_motion_declare(const struct pm_frame *f, struct pm_moving *m, const struct pm_push *p)
 {
-	bool can = plain(m, p);
+	bool can = plain(f, m, p);
 	for (int d = 0; d < f->dim && p->moves && can; d++)
 		can = f->pface[d][0] == PM_PFOLD && f->pface[d][1] == PM_PFOLD;
 	if (!can)
 		return;
 	m->v->use |= PM_USE_LATER, m->rates[m->n - 1].rate->use |= PM_USE_LATER;
-	(p->moves ? m->x : m->v)->use |= PM_USE_WAITS;
+	if (p->moves || !(m->v->use & PM_USE_FROM_VALUE))
+		(p->moves ? m->x : m->v)->use |= PM_USE_WAITS;
 }
 
 static double fastest(const struct pm_field *v)
@@ -77,7 +79,9 @@ static int leave(const struct pm_moving *m, const struct pm_advance *a, const st
 	const struct pm_rate_left *l = pm_rate_left_of(acc);
 	if (!l || pm_field_later_of(m->v))
 		return 0;
-	const double speed = m->v->within > 0 ? m->v->within : fastest(m->v);
+	double speed = m->v->within > 0 ? m->v->within : fastest(m->v);
+	for (int t = 0; t < a->actions; t++)
+		speed += fabs(a->action[t].dt) * pm_rate_left_most(l);
 	if (!(speed < 1e100))
 		return 0;
 	struct motion_later *k = calloc(1, sizeof *k);

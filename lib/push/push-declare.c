@@ -81,7 +81,8 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 		if (k > 0 || m->v->type == PM_F32)
 			takes_columns((struct pm_field *[]){m->b, m->charge, m->mass}[k], p);
 	if (pm_kick_may_wait(m, p))
-		m->v->use |= PM_USE_LATER | PM_USE_WAITS, m->rates[0].rate->use |= PM_USE_LATER, m->b->use |= PM_USE_LATER;
+		m->v->use |= m->v->use & PM_USE_FROM_VALUE ? PM_USE_LATER : PM_USE_LATER | PM_USE_WAITS, m->rates[0].rate->use |= PM_USE_LATER,
+			m->b->use |= PM_USE_LATER;
 	pm_motion_declare(f, m, p);
 	for (int r = 0; r < m->n && p->scheme; r++)
 		for (int i = 0; i < m->pass.registers; i++)

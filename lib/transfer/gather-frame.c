@@ -330,8 +330,9 @@ static bool is_same(const struct pm_gather_job *j, const struct pm_frame *f, con
 	if (target->here)
 		return false;
 	pm_ratio_range(f, set, j->law->strength, j->law->per, ratio, range);
-	*same = range[0] == range[1] ? range[0] : *same;
-	return range[0] == range[1];
+	const bool one = range[0] == range[1] && range[0] != 0; /* zeros may have either sign */
+	*same = one ? range[0] : *same;
+	return one;
 }
 
 int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped)

@@ -143,6 +143,42 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	[ "$(wc -c <want)" -gt 100000 ]
 }
 
+# instead OLD EXPRESSIONS SET: a frame whose field OLD has the values of EXPRESSIONS, as many components as there are.
+instead() { scalc --no-history --set "$3" --role state "w_new = $2" | sel --no-history --drop "$1" | smod --no-history --rename "w_new=$1"; }
+
+# same SENTENCE N < FRAME: in one process and on pipes.
+same() {
+	cat >begin
+	cycle --no-history --engine pipes -n "$2" "$1" <begin >want
+	cycle --no-history -n "$2" "$1" <begin | cmp - want
+}
+
+@test "equal bytes: one pass over particles of other shapes and strengths" {
+	local step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2'
+	local light='push boris/2 | p2m --current | maxwell | push drift | m2p | push boris/2'
+	# velocities of four components; positions of more than the box has axes
+	pinit landau --dim 1 -n 2000 --cells 64 --dt 1e-2 | ssort --no-history |
+		instead v '0.3*sin(7*x), 0.2, 0.1*x, 0.2*x' electrons | same "$step" 3
+	pinit uniform --dim 2 -n 3000 --cells 16 --dispersion 1 | ssort --no-history |
+		instead x 'x, y, x+y' matter | instead v '0.3, 0.2, 0.1' matter | same "$step" 3
+	# one velocity for all, kicked first
+	pinit uniform --dim 1 -n 2000 --cells 64 --dt 1e-3 | sel --no-history --drop v | smod --no-history --rename mass=v |
+		scalc --no-history --set matter --role state --extensive 'mass = 0.0005 + 0*x' |
+		same 'p2m | poisson-fft | mgrad | m2p | push kick | push drift' 3
+	# charges and masses that differ, with one quotient
+	pinit em-wave --dim 2 -n 4096 --cells 16 | smod --constant background=0 | ssort --no-history |
+		scalc --no-history --set electrons --role state --extensive 'charge = -1e-3*(1+(x>0.3))' |
+		scalc --no-history --set electrons --role state --extensive 'mass = 1e-3*(1+(x>0.3))' >weights
+	cycle --no-history --store all --engine pipes -n 3 "$light" <weights >want
+	cycle --no-history --store all -n 3 "$light" <weights | cmp - want
+	# a velocity that overflows is told where it is made
+	pinit landau --dim 1 -n 1000 --cells 16 --dt 1e-2 | ssort --no-history |
+		scalc --no-history --set electrons --role state --extensive 'charge = -1e44+0*x' |
+		smod --no-history --constant background=0 --dt 1e230 >begin
+	run -3 --separate-stderr cycle -n 1 'p2m | poisson-fft | mgrad | m2p | push kick --unsafe | push drift --unsafe' <begin
+	[[ $stderr == *"push kick"*"'v' of 'electrons' is not finite"* ]]
+}
+
 # An orbit that a step resolves, or not: told of the rates themselves, not of the largest field on the mesh, which is all that is known of rates that are left.
 @test "a step of rates that are left is refused where it is refused word by word" {
 	local step='push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2' dt
