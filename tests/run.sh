@@ -30,7 +30,7 @@ suites() {
 	done
 	if [ $# = 0 ] || [[ " $* " == *" unit "* ]] || [ "$B" != build ]; then
 		{
-			printf 'tests/unit/%s.c\n' poisson-mg-variable green transfer pp-vortex poisson-mg-order dcpse
+			printf 'tests/unit/%s.c\n' poisson-mg-variable transfer transfer-ranks pm-force poisson-mg dcpse
 			ls -S tests/unit/*.c
 		} | awk '!there[$0]++' | grep -vxE "tests/unit/(${LEAVE_OUT:-})\.c"
 	fi

@@ -245,6 +245,7 @@ int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *
 		status = (s->corrected ? correct : exchange)(s, f->dim, &list, g, &w, change, found);
 	found->fastest *= w.nu;
 	found->overlap *= w.nu / s->nu; /* axes: scale_axes() */
+	found->spacing = spacing;
 	if (!status)
 		pm_limits_add(change, (struct pm_limits){.decay = found->fastest});
 	pm_cell_list_free(&list);

@@ -314,7 +314,7 @@ static double slack(const struct pm_pse *p, size_t n)
 static void bound(const struct work *w, const struct pm_pse *p, size_t n, struct pm_pse_found *found)
 {
 	const double integral = 0.5 * p->order;
-	found->overlap = found->fastest * w->factor * p->eps * p->eps / integral;
+	found->overlap = found->fastest * w->factor * p->eps * p->eps / integral, found->beyond = p->beyond;
 	found->fastest *= w->factor * (1 + p->beyond + slack(p, n));
 }
 

@@ -27,6 +27,8 @@ double pm_pse_value(const struct pm_pse *p, double z2); /* eta, without the cut-
 struct pm_pse_found {
 	double fastest; /* no mode decays faster than nu times this [1/length^2]; of pse-frame.h nu is in it [1/time] */
 	double overlap; /* largest sum over q of V_q eta_eps(x_p - x_q) over the integral of eta: 1 on a lattice; of the corrected form 0 */
+	double beyond;  /* of |eta| beyond the cut-off, over the integral; of the corrected form 0 */
+	double spacing; /* [length] of pse-frame.h: (mean volume)^(1/dim) */
 	uint64_t alone; /* particles without any neighbour or image */
 	uint64_t widened; /* of the corrected form: particles that needed partners from beyond the cut-off */
 };
