@@ -124,7 +124,7 @@ static bool batch_tiles(const struct pm_tile_order *o, const struct pm_axis_lane
 /* One tile is all of a periodic box: no particle is outside, wherever it is. */
 static bool is_whole_box(const struct pm_tile_order *o)
 {
-	bool whole = o->tiles == 1;
+	bool whole = o->finite && o->tiles == 1;
 	for (int d = 0; d < o->dim; d++)
 		whole = whole && o->axes[d].periodic;
 	return whole;
@@ -595,7 +595,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	int dim = p->dim, nvalues = p->nvalues, need = (p->v ? 2 * dim : dim) + nvalues;
 	size_t n = p->n;
 	*o = (struct pm_tile_order){.dim = dim, .n = n, .chunks = pm_threads(), .stride = need > room ? need : room, .axes = axes, .nvalues = nvalues,
-		.ways = p->v, .dt = p->dt};
+		.ways = p->v, .dt = p->dt, .finite = p->finite};
 	*strays = (struct pm_strays){.count = 0};
 	for (int d = 0; d < dim; d++) {
 		o->x[d] = p->x[d];

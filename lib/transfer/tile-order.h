@@ -22,6 +22,7 @@ struct pm_tile_order {
 	uint32_t *place;      /* [n] the particles in the order of the tiles, where they stay in the stream; NULL */
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];
+	bool finite;          /* no position is NaN */
 	bool ways;            /* of the particles from x to x + v dt */
 	double dt;
 	int nvalues;
@@ -29,13 +30,13 @@ struct pm_tile_order {
 };
 
 /* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: where most have the tile of the one before, they are not moved, and
- * only their places are kept. v[dim] not NULL: their ways x..x + v dt, which stay, or become floats: from a stream of doubles that is far
- * from the order of tiles neither records nor places are made. */
+ * only their places are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt, which stay, or become
+ * floats: from a stream of doubles that is far from the order of tiles neither records nor places are made. */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;
 	const struct pm_column *x, *values;
-	bool stays;
+	bool stays, finite;
 	const struct pm_column *v;
 	double dt;
 };
