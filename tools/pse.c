@@ -13,13 +13,6 @@ struct config {
 	bool replace;
 };
 
-/* Does the overlap say that the points are no lattice? One stretched by 2.7 has 0.002 above 1. Beyond order 2 some weights are negative, and are missing
- * beside edges (0.016 in 2-D, 0.043 in 3-D) and beyond a short cut-off. Of a width below 0.6 of the spacing the sum is not the integral on a lattice either. */
-static bool distorted(const struct pm_pse_set *p, int dim, const struct pm_pse_found *found)
-{
-	return found->overlap > 1 + (p->order > 2 ? 0.02 * dim + found->beyond : 0.002) && p->eps > 0.6 * found->spacing;
-}
-
 static int begin(struct pm_stage *s)
 {
 	const struct config *o = s->config;
@@ -107,7 +100,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 		if ((status = apply(s, f, &p, &found)) || !pm_frame_set(f, p.set)->n)
 			continue;
 		fastest = fmax(fastest, found.fastest);
-		if (distorted(&p, f->dim, &found) && f->step && !f->substep) /* points as they were given are not its affair */
+		if (pm_pse_distorted(&p, f->dim, &found) && f->step && !f->substep) /* points as they were given are not its affair */
 			pm_tell_once(s, "the spacing of '%s' is distorted (largest overlap %.4g, 1 on a lattice), so the exchange is not that of diffusion "
 				"(put remesh behind push)", p.set, found.overlap);
 		pm_report(s, f, "eps", p.eps);

@@ -23,5 +23,7 @@ struct pm_pse_set {
 int pm_pse_plan(struct pm_frame *f, const struct pm_pse_set *s, bool replace);
 /* Adds the exchange to the change field and its fastest decay; s->eps and s->cutoff hold what was taken. Does nothing if there are no particles. */
 int pm_pse_apply(struct pm_frame *f, struct pm_pse_set *s, struct pm_pse_found *found);
+/* Of what pm_pse_apply has found: does the overlap say that the points are no lattice? */
+bool pm_pse_distorted(const struct pm_pse_set *p, int dim, const struct pm_pse_found *found);
 
 #endif
