@@ -39,9 +39,10 @@ struct pm_limits pm_limits_of(const struct pm_field *change)
 struct pm_limits pm_limits_most(const struct pm_field *change)
 {
 	const struct pm_later *later = pm_field_later_of(change);
-	struct pm_limits all = later && later->most > 0 ? change->limits : pm_limits_of(change);
-	if (later && later->most > 0)
-		all.oscillation = fmax(all.oscillation, later->most);
+	if (!later || !(later->most > 0))
+		return pm_limits_of(change); /* where they are left, makes them */
+	struct pm_limits all = change->limits;
+	all.oscillation = fmax(all.oscillation, later->most);
 	return all;
 }
 
