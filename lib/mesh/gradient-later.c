@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/largest.h"
 #include "mesh/gradient-later.h"
 #include "mesh/gradient-parts.h"
 #include "world/world.h"
@@ -34,22 +35,6 @@ static bool can(const struct pm_gradient *t)
 	for (int d = 0; d < 3 && periodic; d++)
 		periodic = o->grid.face[d][0] == PM_PERIODIC && o->grid.points[d] > (size_t)o->order;
 	return periodic && t->source->type == PM_F64 && t->target->type == PM_F64;
-}
-
-/* The largest of absolute values that are finite: numbers without a sign are in the order of their bits. */
-static double largest(size_t n, const double *x)
-{
-	int64_t most = 0;
-	double value;
-#pragma omp parallel for schedule(static) reduction(max : most) if (n > 65536)
-	for (size_t i = 0; i < n; i++) {
-		int64_t bits;
-		memcpy(&bits, x + i, sizeof bits);
-		bits &= INT64_MAX;
-		most = bits > most ? bits : most;
-	}
-	memcpy(&value, &most, sizeof value);
-	return value;
 }
 
 /* A row of the potential, and those beside it: the largest square of the nodes from..to-1, all of whose pairs are on the row. */
@@ -131,7 +116,7 @@ int pm_gradient_leave(struct pm_gradient *t, bool *left)
 		for (int k = 0; k < t->operator.order / 2; k++)
 			weights = fmax(weights, fabs(l->weight[d][k]));
 	}
-	const double most = largest(pm_grid_size(&t->operator.grid), pm_in(t->source, 0));
+	const double most = pm_largest(pm_grid_size(&t->operator.grid), pm_in(t->source, 0));
 	if (!(fmax(weights, 1) * most < DBL_MAX / 8)) { /* differences of two, sums of three */
 		free(l);
 		return 0;

@@ -9,6 +9,7 @@
 #include "law/law.h"
 #include "push/kick-later.h"
 #include "stream/column.h"
+#include "stream/field-value.h"
 #include "stream/later.h"
 #include "transfer/gather-later.h"
 #include "world/world.h"
@@ -98,9 +99,7 @@ static double gained(const struct pm_gather_left *l, double dt, double c)
 	return 2 * fabs(dt) * (fabs(l->factor) * l->most[0] + c * l->rate * l->most[1]);
 }
 
-/* One number for all; this one. */
-static bool one_for_all(const struct pm_field *strength) { return strength->uniform && !strength->buffer; }
-static bool is_one(const struct pm_field *strength, double value) { return one_for_all(strength) && strength->value[0] == value; }
+static bool is_one(const struct pm_field *strength, double value) { return pm_value_is_one(strength) && strength->value[0] == value; }
 
 static bool safe(double proper, double c) { return proper < 1e6 * c; }
 
@@ -152,7 +151,7 @@ int pm_kick_leave(const struct pm_frame *f, const struct pm_moving *m, const str
 	int left = 0;
 	if (l && later)
 		left = go_on(f, m, step, l, later);
-	else if (l && !pm_field_later_of(m->v) && one_for_all(m->charge) && one_for_all(m->mass) &&
+	else if (l && !pm_field_later_of(m->v) && pm_value_is_one(m->charge) && pm_value_is_one(m->mass) &&
 		fabs(m->charge->value[0] / m->mass->value[0]) == l->rate)
 		left = begin(f, m, step, l, acc);
 	return left ? left : pm_field_now(m->v) || pm_field_now(acc) || pm_field_now(m->b) ? -PM_DATA : 0;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "base/largest.h"
 #include "mesh/particle-faces.h"
 #include "push/state-advance.h"
 #include "push/state-rates.h"
@@ -56,18 +57,6 @@ static bool all_finite(size_t n, const struct pm_advanced *l)
 	for (int r = 0; r < PM_REGISTERS; r++)
 		finite &= !l->q[r] || pm_finite_few(n, l->q[r]);
 	return finite;
-}
-
-/* The bits of the largest |k|, which are ordered as the numbers are: a loop over whole numbers runs eight at a time. */
-static int64_t largest(int64_t most, size_t n, const double *k)
-{
-	for (size_t i = 0; i < n; i++) {
-		int64_t bits;
-		memcpy(&bits, k + i, sizeof bits);
-		bits &= INT64_MAX;
-		most = bits > most ? bits : most;
-	}
-	return most;
 }
 
 /* Blocks of floats as doubles, each once: the rate of a position is a state too. */
@@ -138,7 +127,7 @@ static int block_of(const struct axis *s, size_t i, size_t m, struct widened *w,
 		const struct pm_advanced *line = here + (kick_first ? s->nlines - 1 - l : l);
 		advance(m, s->a, line);
 		if (s->fastest && line->position)
-			*most = largest(*most, m, line->k);
+			pm_largest_few(m, line->k, most);
 	}
 	if (b && (s->x || b->x_floats)) {
 		double *place = s->x ? s->x + i : widen(w, b->x_floats, b->x_floats, i, m);
@@ -179,16 +168,12 @@ bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const str
 		bad |= floats ? block_of_floats(&s, i, end, &most) : block_of(&s, i, end - i, NULL, &most);
 	}
 	if (fastest)
-		memcpy(fastest, &most, sizeof most);
+		*fastest = pm_of_bits(most);
 	return !bad;
 }
 
 bool pm_advance_few(size_t n, const struct pm_advance *a, int nlines, const struct pm_advanced *lines, double *x, const struct pm_bounds *b, int64_t *most)
 {
 	const struct axis s = {a, nlines, lines, x, NULL, b, most != NULL};
-	int64_t here = most ? *most : 0;
-	const bool bad = block_of(&s, 0, n, NULL, &here);
-	if (most)
-		*most = here;
-	return !bad;
+	return !block_of(&s, 0, n, NULL, most);
 }

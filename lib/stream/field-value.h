@@ -4,6 +4,7 @@
 
 #include "stream/frame.h"
 
-static inline double pm_value_at(const struct pm_field *f, int c, size_t i) { return f->uniform && !f->buffer ? f->value[c] : pm_in(f, c)[i]; }
+static inline bool pm_value_is_one(const struct pm_field *f) { return f->uniform && !f->buffer; } /* one for all, and no array of it */
+static inline double pm_value_at(const struct pm_field *f, int c, size_t i) { return pm_value_is_one(f) ? f->value[c] : pm_in(f, c)[i]; }
 
 #endif

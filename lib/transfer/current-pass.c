@@ -6,7 +6,9 @@
 #include <omp.h>
 #include <string.h>
 
+#include "base/largest.h"
 #include "law/law.h"
+#include "stream/field-value.h"
 #include "stream/later.h"
 #include "transfer/current-parts.h"
 #include "transfer/current-pass.h"
@@ -19,19 +21,8 @@ struct maker {
 	const struct pm_later *later;
 	struct pm_staggered_few *gather;
 	double *v[3];
-	int64_t (*most)[8]; /* [threads] the bits of the largest absolute value of v, which are ordered as the numbers are, in a line of the cache each */
+	int64_t (*most)[8]; /* [threads] of v, as pm_largest_few leaves it, in a line of the cache each */
 };
-
-static int64_t largest(int64_t most, size_t n, const double *v)
-{
-	for (size_t i = 0; i < n; i++) {
-		int64_t bits;
-		memcpy(&bits, v + i, sizeof bits);
-		bits &= INT64_MAX;
-		most = bits > most ? bits : most;
-	}
-	return most;
-}
 
 static void make(void *data, const struct pm_tile_order *o, const struct pm_tile_job *j, size_t p, size_t m, double *const u[3],
 	double *const way[3])
@@ -70,7 +61,7 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 		(const double *const[]){values + 3 * pack, values + 4 * pack, values + 5 * pack});
 	int64_t *most = k->most[omp_get_thread_num()];
 	for (int c = 0; c < 3; c++)
-		*most = largest(*most, m, v[c]);
+		pm_largest_few(m, v[c], most);
 	for (int d = 0; d < dim; d++)
 		pm_tile_ways(o->dt, o->axes[d].h, m, x[d], v[d], way[d]);
 	if (!together)
@@ -81,7 +72,7 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 static bool can(const struct pm_current *c, const struct pm_frame *f, const struct pm_gather_left *l, const struct pm_field *x, const struct pm_field *q)
 {
 	const double light = pm_law_constant(f, "c", NAN);
-	bool yes = l && c->deposit == PM_ESIRKEPOV && q->uniform && !q->buffer && l->n == x->count;
+	bool yes = l && c->deposit == PM_ESIRKEPOV && pm_value_is_one(q) && l->n == x->count;
 	for (int d = 0; d < c->grid.dim && yes; d++)
 		yes = c->grid.face[d][0] == PM_PERIODIC && c->face[d][0] == PM_PFOLD && c->face[d][1] == PM_PFOLD &&
 			light * fabs(c->dt) < 0.999 * c->grid.h[d] && l->x[d].doubles == pm_column_of(x, d).doubles;
@@ -100,11 +91,9 @@ static bool is_of_gather(const struct pm_tile_order *left, const struct pm_gathe
 static double speed_bound(const struct maker *k)
 {
 	int64_t most = 0;
-	double value;
 	for (int t = 0; t < pm_threads(); t++)
 		most = k->most[t][0] > most ? k->most[t][0] : most;
-	memcpy(&value, &most, sizeof value);
-	return value;
+	return pm_of_bits(most);
 }
 
 int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, const char *set, double *const mesh[3])

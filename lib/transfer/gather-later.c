@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "stream/field-value.h"
 #include "stream/later.h"
 #include "transfer/gather-later.h"
 #include "transfer/gather-staggered.h"
@@ -81,8 +82,6 @@ static bool fresh(const struct pm_field *field)
 	return field->type == PM_F64 && field->components == 3 && field->use & PM_USE_NEW && field->use & PM_USE_FILL;
 }
 
-static bool is_one(const struct pm_field *strength) { return strength->uniform && !strength->buffer; }
-
 static bool can(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, const struct pm_gather_arrays *a)
 {
 	const struct pm_field *acc = pm_frame_field(f, set, j->law->change), *b = pm_frame_field(f, set, "bfield");
@@ -93,7 +92,7 @@ static bool can(const struct pm_gather_job *j, const struct pm_frame *f, const c
 	for (int d = 0; d < g->dim && yes; d++)
 		yes = g->face[d][0] == PM_PERIODIC && a->at[d].doubles;
 	/* one charge and one mass, not their quotient alone */
-	yes = yes && is_one(pm_frame_field(f, set, j->law->strength)) && is_one(pm_frame_field(f, set, j->law->per));
+	yes = yes && pm_value_is_one(pm_frame_field(f, set, j->law->strength)) && pm_value_is_one(pm_frame_field(f, set, j->law->per));
 	for (int c = 0; c < 6 && yes; c++)
 		yes = a->t.set[c] && !a->times[c].doubles && !a->times[c].floats;
 	return yes;

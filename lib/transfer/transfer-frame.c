@@ -6,6 +6,7 @@
 #include "mesh/regrid.h"
 #include "transfer/transfer-frame.h"
 #include "stream/declare.h"
+#include "stream/field-value.h"
 #include "stream/column.h"
 #include "stream/kept.h"
 #include "world/world.h"
@@ -103,7 +104,7 @@ int pm_strengths(const struct pm_frame *f, const char *set, const char *name, co
 bool pm_ratio_is_one(const struct pm_frame *f, const char *set, const char *strength, const char *per, double *ratio)
 {
 	const struct pm_field *top = pm_frame_field(f, set, strength), *bottom = pm_frame_field(f, set, per);
-	const bool one = top->uniform && !top->buffer && bottom->uniform && !bottom->buffer && bottom->value[0] != 0;
+	const bool one = pm_value_is_one(top) && pm_value_is_one(bottom) && bottom->value[0] != 0;
 	*ratio = one ? top->value[0] / bottom->value[0] : 1;
 	return one;
 }
