@@ -157,8 +157,8 @@ int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	if (ratio)
 		pm_ratio_range(f, set, q, m, ratio, range);
 	l->most = fmax(fabs(range[0]), fabs(range[1])) * largest(l, pm_grid_size(&l->t.grid));
-	if (l->pull > 0)
-		l->later.oscillation = oscillation, l->later.most = sqrt(pm_orbit_rate(l->dim, l->most, l->pull));
+	l->later.most = sqrt(pm_orbit_rate(l->dim, l->most, l->pull));
+	l->later.oscillation = l->later.most > 0 ? oscillation : NULL; /* on a line none */
 	if (!(l->most < 1e100)) { /* not: the squares may have been infinite */
 		pm_later_free(&l->later);
 		return 0;
