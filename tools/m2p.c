@@ -30,7 +30,7 @@ static int begin(struct pm_stage *s)
 static struct pm_gather_choice choice_of(const struct config *o)
 {
 	return (struct pm_gather_choice){.kernel = o->kernel, .mesh = o->mesh, .set = o->set, .field = o->field, .replace = o->replace, .outside = o->outside,
-		.beside = o->mask};
+		.beside = o->mask, .conserving = o->energy};
 }
 
 /* Changes alone: asked for, or the law has no field and the mesh has changes. */
@@ -48,7 +48,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
 	int status;
-	if (((const struct config *)s->config)->energy)
+	if (pm_gather_by_potential(&choice, f))
 		return (status = pm_gather_energy_choose(&choice, f, &j)) ? status : pm_gather_energy_declare(&j, f);
 	if (only_changes(s->config, f))
 		return pm_gather_changes_declare(&choice, f);
@@ -90,7 +90,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_gather_job j;
 	unsigned char *mask = NULL;
 	int status;
-	if (((const struct config *)s->config)->energy)
+	if (pm_gather_by_potential(&choice, f))
 		return (status = pm_gather_energy_choose(&choice, f, &j)) ? status : pm_gather_energy(&j, f);
 	if (only_changes(s->config, f))
 		return frame_of_changes(s, f);
@@ -122,8 +122,8 @@ static bool divided(const struct pm_stage *s, const struct pm_frame *f)
 {
 	const struct pm_gather_choice choice = choice_of(s->config);
 	struct pm_gather_job j;
-	if (((const struct config *)s->config)->energy)
-		return !pm_gather_energy_choose(&choice, f, &j);
+	if (choice.conserving)
+		return pm_gather_by_potential(&choice, f) && !pm_gather_energy_choose(&choice, f, &j);
 	return only_changes(s->config, f) || !pm_gather_choose(&choice, f, &j);
 }
 
@@ -144,7 +144,8 @@ static const struct pm_option options[] = {
 		.text = "bodies: nodes where this is not 0 are not used ('x^2 + y^2 < 1'; 0 for none), and kernels beside them and beside faces are one-sided, "
 			"without images"},
 	{.name = "energy-conserving", .kind = PM_FLAG, PM_AT(energy),
-		.text = "the potential by the gradient of the kernel (no mgrad): conserves energy, momentum only nearly"},
+		.text = "the potential by the gradient of the kernel (no mgrad); E and B of maxwell by kernels one order lower along the axes on which "
+			"they sit half a cell up: conserves energy, momentum only nearly"},
 	{.name = "replace", .kind = PM_FLAG, PM_AT(replace), .text = "replace the change field instead of refusing to add to it twice"},
 	{0},
 };
@@ -158,11 +159,9 @@ const struct pm_tool tool_m2p = {
 	.summary = "interpolate mesh fields to the particles and add them to their rates of change",
 	.about = "value(x) = sum over mesh points of W((x - x_i)/h) value(i), the transpose of p2m, with the kernel the field was made with, so that momentum "
 		"is conserved and a particle exerts no force on itself. The law determines the field that is gathered (g, E, u) and the rate it is added to "
-		"(acc, vel); "
-		 "a given field is the term external, a computed one the term self; a magnetic field B goes to bfield. Changes on the "
-		 "mesh (domega of diffuse) are interpolated to the rates of the strengths (dcirculation), times the volume of the particle; the part that "
-		"no particle "
-		 "receives, in gaps or beyond the particles, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
+		"(acc, vel); a given field is the term external, a computed one the term self; a magnetic field B goes to bfield. Changes on the mesh (domega "
+		"of diffuse) are interpolated to the rates of the strengths (dcirculation), times the volume of the particle; the part that no particle "
+		"receives, in gaps or beyond the particles, is reported (lost_dcirculation, per time). See docs/methods/transfer.md.",
 	.kind = PM_FILTER,
 	.makes = true,
 	.reads = "x of every set that has the state the law moves; the law's mesh field (g, E, u); strengths where the law divides by another",

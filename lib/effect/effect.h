@@ -59,6 +59,7 @@ struct pm_scales {
 struct pm_method {
 	bool pairs, grow;      /* the far field pair by pair; the mesh follows particles that leave it */
 	const char *kernel, *symbol, *order, *scheme; /* symbol NULL: the law's */
+	bool conserving;       /* E and B of maxwell gathered with kernels one order lower (m2p --energy-conserving) */
 	const char *kick;      /* half a kick: "kick/2", "boris/2" */
 	size_t cells[3];       /* 0: those of the frame's mesh */
 	double dt;             /* [time]; NAN: the frame's */

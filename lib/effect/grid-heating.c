@@ -3,6 +3,7 @@
  * R is 0.5 and 0.2 times that; C and p of every kernel were measured (docs/plan.md). A drift v0 lowers it by (1 + (v0/v_th)^2)^1.5. A quiet start
  * has no noise until its beams have mixed, omega_p t = sqrt(N)/2. Beams colder than the mesh resolves are unstable at the rate gamma omega_p until their
  * spread is about sqrt(g) omega_p h/2, when the energy has changed by g (omega_p h/v0)^2.
+ * With m2p --energy-conserving the energy of light and particles stays: 0.006 of the heat was measured (docs/methods/transfer.md), 0.01 is taken.
  * Source: Birdsall and Langdon 1985, sections 8-7, 8-12, 8-13; Hockney and Eastwood 1988, section 9-2; PIC-21 of the reference cases.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
@@ -73,7 +74,7 @@ static double heat(const struct pm_effect_case *c)
 	if (s->kind != PM_CHARGES || !(all > 0))
 		return 0;
 	const double a = s->dim == 1 ? r->p - 2 : 0.6, drift = pow(1 + pow(s->drift / fmax(L * cell, 1e-30), 2), -1.5);
-	const double R = factor[s->dim] * 2 / r->p * r->C[spectral] * (six ? 1.3 : 1) / in_a_cell(s) * drift;
+	const double R = factor[s->dim] * 2 / r->p * r->C[spectral] * (six ? 1.3 : 1) * (m->conserving ? 0.01 : 1) / in_a_cell(s) * drift;
 	const double tau = fmax(0, s->omega * s->time - quiet), cold = L * cell < 1e-6 * sqrt(all) && quiet > 0;
 	if (!cold)
 		gain += s->dim * (pow(pow(L, 2 + a) + (1 + a / 2) * R * tau, 2 / (2 + a)) - L * L);

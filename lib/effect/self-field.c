@@ -129,7 +129,8 @@ static void with_light(const struct pm_effect_case *c, struct pm_words *w)
 	pm_words_add(w, PM_SLOT_DENSITY, words, "the current of the particles on their way, which keeps charge");
 	pm_words_add(w, PM_SLOT_POTENTIAL, "maxwell", "self field: on, %s", c->decision->text);
 	pm_words_add(w, PM_SLOT_MESH, "push drift", "the way itself");
-	pm_words_add(w, PM_SLOT_PARTICLES, "m2p", "%s and %s at the particles", c->law->field, c->law->magnetic);
+	pm_words_add(w, PM_SLOT_PARTICLES, c->method->conserving ? "m2p --energy-conserving" : "m2p", "%s and %s at the particles", c->law->field,
+		c->law->magnetic);
 }
 
 static void ask(const struct pm_effect_case *c, struct pm_method *m)

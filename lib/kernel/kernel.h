@@ -28,6 +28,16 @@ extern const struct pm_kernel *const pm_kernels[]; /* generated from lib/kernel/
 extern const char *const pm_kernel_names[];
 const struct pm_kernel *pm_kernel_find(const char *name); /* NULL with a message */
 
+/* The B-spline one order lower (cic of tsc), or NULL where k is none, or ngp. */
+static inline const struct pm_kernel *pm_kernel_lower(const struct pm_kernel *k)
+{
+	const bool spline = k->positive && !k->star && k->degree == k->width - 1;
+	for (int i = 0; pm_kernels[i] && spline; i++)
+		if (pm_kernels[i]->positive && !pm_kernels[i]->star && pm_kernels[i]->width == k->width - 1 && pm_kernels[i]->degree == k->degree - 1)
+			return pm_kernels[i];
+	return NULL;
+}
+
 /* Must t be measured from the point above? */
 static inline bool pm_kernel_folds(int width, int degree, double t) { return width % 2 == 0 && (degree >= width || degree >= 9) && t > 0.5; }
 

@@ -23,6 +23,12 @@ static int check_kernel(const struct pm_kernel *k)
 		k->name) : 0;
 }
 
+bool pm_gather_by_potential(const struct pm_gather_choice *choice, const struct pm_frame *f)
+{
+	const struct pm_law *law = pm_law_of(f);
+	return choice->conserving && !(law && law->evolves);
+}
+
 int pm_gather_energy_choose(const struct pm_gather_choice *choice, const struct pm_frame *f, struct pm_gather_job *j)
 {
 	char words[PM_FORCE_WORDS];

@@ -115,6 +115,19 @@ static int check_beside(const struct pm_gather_job *j)
 		j->name) : 0;
 }
 
+/* The kernels of the energy-conserving gather of E and B: a component J of Esirkepov's current has these shapes, averaged over a way. */
+static int choose_lower(const struct pm_frame *f, struct pm_gather_job *j)
+{
+	j->transfer.lower = pm_kernel_lower(j->transfer.kernel);
+	if (!j->transfer.lower)
+		return pm_fail(PM_USAGE, "--energy-conserving is not there for %s (of E and B: cic, tsc, pcs)", j->transfer.kernel->name);
+	for (int d = 0; d < f->dim; d++)
+		if (!j->transfer.staggered[d][d])
+			return pm_fail(PM_DATA, "'%s' is on the nodes of '%s', and --energy-conserving is for E and B half a cell up Yee's mesh "
+				"(maxwell --method yee, or m2p without it)", j->name, j->mesh->name);
+	return 0;
+}
+
 /* Panels have positions, and are no particles. */
 static void leave_panels(const struct pm_frame *f, struct pm_sets *sets)
 {
@@ -146,6 +159,8 @@ int pm_gather_choose(const struct pm_gather_choice *choice, const struct pm_fram
 	if ((status = choose_kernel(f, j)))
 		return status;
 	memcpy(j->transfer.staggered, j->field->staggered, sizeof j->transfer.staggered);
+	if (choice->conserving && (status = choose_lower(f, j)))
+		return status;
 	set_images(j, f->dim, &j->transfer);
 	status = j->interlaced ? pm_interlace_check(&j->transfer) : 0;
 	if (!status)

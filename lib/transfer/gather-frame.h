@@ -11,6 +11,7 @@ struct pm_gather_choice {
 	const char *kernel, *mesh, *set; /* NULL: as the field was made, the first mesh that has the field, every set that the law moves */
 	const char *field;               /* to a particle field of its name; NULL: the law's, to the change field of the law */
 	bool replace;                    /* replace a change field instead of refusing to add twice */
+	bool conserving;                 /* of E and B on Yee's mesh: with kernels one order lower along the axes on which they sit half a cell up */
 	bool later;                      /* the rates may be left to be made (gather-later.h) */
 	bool beside;                     /* beside bodies and faces kernels are one-sided (one-sided.h) */
 	const unsigned char *mask;       /* with the data: the nodes inside bodies; NULL none */

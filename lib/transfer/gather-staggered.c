@@ -31,7 +31,7 @@ static int find_order(struct staggered *s, size_t n, const struct pm_column x[])
 {
 	const unsigned char nodes[3] = {0, 0, 0};
 	struct pm_order_cache *left = pm_order_cache_find(s->t, nodes, n, x);
-	const struct pm_tile_particles particles = {.dim = s->t->grid.dim, .n = n, .x = x, .stays = true};
+	const struct pm_tile_particles particles = {.dim = s->t->grid.dim, .n = n, .x = x, .stays = PM_STAY_WIDE};
 	int status = pm_axes_init(s->nodes, s->t, nodes);
 	if (left && pm_tile_order_spent(&left->order))
 		status = status ? status : pm_tile_order_again(&left->order, 0);
@@ -90,7 +90,7 @@ static bool put_arrays(const struct staggered *s, size_t p, size_t m, const doub
 static bool gather_nodes(const struct staggered *s, const struct pm_tile_job *j, struct pm_staggered_tile t)
 {
 	double u[3][PM_TILE_ORDER_PACK], values[PM_COMPONENTS * PM_TILE_ORDER_PACK];
-	pm_staggered_loop *loop = pm_staggered_gather_nodes(s->o->dim, t.kernel);
+	pm_staggered_loop *loop = pm_staggered_gather_nodes(s->o->dim, t.kernel, t.lower);
 	bool finite = true;
 	t.results = values;
 	for (int d = 0; d < 3; d++)
@@ -110,7 +110,7 @@ static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, s
 	const struct pm_tile_order *o = s->o;
 	const size_t components = (size_t)s->t->components;
 	double packed[PM_TILE_ORDER_PACK * 3], values[PM_TILE_ORDER_PACK * PM_COMPONENTS];
-	pm_staggered_loop *loop = pm_staggered_gather(o->dim, t.kernel, t.components, t.staggered);
+	pm_staggered_loop *loop = pm_staggered_gather(o->dim, t.kernel, t.lower, t.components, t.staggered);
 	struct pm_tile_order positions = *o;
 	bool finite = true;
 	if (o->records) {
@@ -146,8 +146,8 @@ struct loaded {
 /* A job, whose tile is loaded if it is not yet. */
 static struct pm_staggered_tile load_tile(const struct staggered *s, const struct pm_tile_job *j, const double *const mesh[], struct loaded *l)
 {
-	struct pm_staggered_tile t = {.kernel = s->t->kernel, .shift = s->nodes[0].shift, .components = s->t->components, .staggered = s->t->staggered,
-		.block = l->block, .nodes = l->nodes};
+	struct pm_staggered_tile t = {.kernel = s->t->kernel, .lower = s->t->lower, .shift = s->nodes[0].shift, .components = s->t->components,
+		.staggered = s->t->staggered, .block = l->block, .nodes = l->nodes};
 	size_t slots[3] = {1, 1, 1};
 	for (int d = 0; d < 3; d++)
 		slots[d] = pm_tile_slots(&s->pass, j->tile, d, &t.cell[d]) + (d < s->o->dim);
@@ -155,7 +155,7 @@ static struct pm_staggered_tile load_tile(const struct staggered *s, const struc
 		load_blocks(s, j, mesh, l->block);
 		l->woven = l->nodes && s->o->begin[j->tile + 1] - s->o->begin[j->tile] >= pm_staggered_worth_nodes(slots);
 		if (l->woven)
-			pm_staggered_weave(s->o->dim, l->block, slots, l->nodes);
+			pm_staggered_weave(s->o->dim, t.kernel, t.lower, l->block, slots, l->nodes);
 		l->tile = j->tile;
 	}
 	return t;
@@ -285,14 +285,14 @@ void pm_staggered_few(struct pm_staggered_few *f, const struct pm_tile_job *j, s
 		for (int d = 0; d < 3; d++)
 			t.u[d] = u[d];
 		t.results = values;
-		pm_staggered_gather_nodes(dim, t.kernel)(&t);
+		pm_staggered_gather_nodes(dim, t.kernel, t.lower)(&t);
 		return;
 	}
 	for (size_t i = 0; i < m; i++)
 		for (int d = 0; d < dim; d++)
 			packed[i * (size_t)dim + (size_t)d] = u[d][i];
 	t.stride = dim, t.records = packed, t.results = rows;
-	pm_staggered_gather(dim, t.kernel, t.components, t.staggered)(&t);
+	pm_staggered_gather(dim, t.kernel, t.lower, t.components, t.staggered)(&t);
 	for (size_t i = 0; i < m; i++)
 		for (int c = 0; c < t.components; c++)
 			values[(size_t)c * PM_TILE_ORDER_PACK + i] = rows[i * (size_t)t.components + (size_t)c];

@@ -58,7 +58,7 @@ int pm_bfield(struct pm_frame *f, const char *set, const struct pm_mesh *m, cons
 {
 	const struct pm_field *given = pm_frame_field(f, m->name, name);
 	struct pm_field *to = given ? pm_frame_field(f, set, target) : NULL;
-	struct pm_transfer own = {.grid = t->grid, .kernel = t->kernel, .components = 3, .planes = t->planes};
+	struct pm_transfer own = {.grid = t->grid, .kernel = t->kernel, .lower = t->lower, .components = 3, .planes = t->planes};
 	const double *x[3] = {0}, *mesh[3];
 	double *out[3];
 	struct pm_strays strays;

@@ -37,7 +37,7 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 	for (int d = 0; d < t->grid.dim; d++)
 		o->x[d] = x[d];
 	const struct pm_tile_particles particles = {.dim = t->grid.dim, .nvalues = nvalues, .n = n, .x = x, .values = values,
-		.stays = !(t->planes && t->planes->divided), /* ranks send records */
+		.stays = t->planes && t->planes->divided ? 0 : t->cut ? PM_STAY_WIDE : PM_STAY_FEW, /* ranks send records */
 		.finite = t->kept}; /* positions of a frame */
 	if (pm_axes_init(o->axes, t, staggered) || pm_tile_order_init(&o->order, o->axes, &particles, room, &o->strays))
 		return pm_order_cache_free(o);

@@ -13,15 +13,19 @@ struct support {
 	double across[offsets][offsets][lanes][lanes]; /* [of y][of z][z][y] */
 };
 
-PM_SIMD_INLINE void find_offset(int dim, int width, int degree, const struct pm_staggered_tile *t, pm_by_axis u, int offset, struct support *s)
+/* `lower`: with the kernel one order lower, whose last weight is 0. */
+PM_SIMD_INLINE void find_offset(int dim, int width, int degree, bool lower, const struct pm_staggered_tile *t, pm_by_axis u, int offset, struct support *s)
 {
 	const size_t step[3] = {1, (size_t)pm_block_row[dim], (size_t)(pm_block_row[dim] * pm_block_rows[dim])};
 	const pm_simd4_int_at cell = __builtin_convertvector(u, pm_simd4_int_at); /* u >= 0 */
 	pm_by_axis w[lanes];
-	find_by_axis(t->kernel, width, degree, u - __builtin_convertvector(cell, pm_by_axis) - t->shift, w);
+	if (lower)
+		find_by_axis(t->lower, width - 1, width - 2, u - __builtin_convertvector(cell, pm_by_axis) - (width % 2 ? 0 : 0.5), w);
+	else
+		find_by_axis(t->kernel, width, degree, u - __builtin_convertvector(cell, pm_by_axis) - t->shift, w);
 	PM_SIMD_UNROLL
-	for (int k = width; k < (width + 3) / 4 * 4; k++)
-		w[k] = all_axes(0);
+	for (int k = width - 1; k < (width + 3) / 4 * 4; k++)
+		w[k] = k < width && !lower ? w[k] : all_axes(0);
 	rows_of_axes(dim, padded(width), w, s->w[offset]);
 	for (int d = 0; d < dim; d++)
 		s->place[offset][d] = (size_t)(cell[d] - (int32_t)t->cell[d]) * step[d];
@@ -58,7 +62,7 @@ bool pm_staggered_is_yee(int dim, int components, const unsigned char (*staggere
 	return is;
 }
 
-PM_SIMD_INLINE void gather(int dim, int width, int degree, bool yee, const struct pm_staggered_tile *t)
+PM_SIMD_INLINE void gather(int dim, int width, int degree, bool yee, bool lower, const struct pm_staggered_tile *t)
 {
 	const int n = padded(width);
 	struct support s;
@@ -68,8 +72,8 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, bool yee, const struc
 	for (size_t i = 0; i < t->count; i++) {
 		const pm_by_axis u = axes_from(dim, t->records + i * (size_t)t->stride);
 		double *result = t->results + i * (size_t)t->components;
-		find_offset(dim, width, degree, t, u, on_nodes, &s);
-		find_offset(dim, width, degree, t, u + 0.5, half_up, &s);
+		find_offset(dim, width, degree, false, t, u, on_nodes, &s);
+		find_offset(dim, width, degree, lower, t, lower ? u : u + 0.5, half_up, &s);
 		for (int y = 0; y < (dim > 1 ? offsets : 1); y++)
 			for (int z = 0; z < (dim > 2 ? offsets : 1); z++)
 				for (int k = 0; k < (dim > 2 ? width : 1); k++)
@@ -86,8 +90,10 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, bool yee, const struc
 }
 
 /* Offsets and degree are constants for the splines of two to four points, which is what plasmas use; a function per dimension and width for the rest. */
-#define LOOPS(dim, width) static void any_##dim##_##width(const struct pm_staggered_tile *t) { gather(dim, width, t->kernel->degree, false, t); }
-#define YEE(dim, width) static void yee_##dim##_##width(const struct pm_staggered_tile *t) { gather(dim, width, width - 1, true, t); }
+#define LOOPS(dim, width) static void any_##dim##_##width(const struct pm_staggered_tile *t) { gather(dim, width, t->kernel->degree, false, false, t); }
+#define YEE(dim, width) \
+	static void yee_##dim##_##width(const struct pm_staggered_tile *t) { gather(dim, width, width - 1, true, false, t); } \
+	static void lower_##dim##_##width(const struct pm_staggered_tile *t) { gather(dim, width, width - 1, false, true, t); }
 #define DIMS(loops, width) loops(1, width) loops(2, width) loops(3, width)
 DIMS(LOOPS, 1)
 DIMS(LOOPS, 2)
@@ -105,10 +111,13 @@ DIMS(YEE, 4)
 #define ROW(dim) {any_##dim##_1, any_##dim##_2, any_##dim##_3, any_##dim##_4, any_##dim##_5, any_##dim##_6, any_##dim##_7, any_##dim##_8, any_##dim##_9, \
 	any_##dim##_10}
 static pm_staggered_loop *const any[3][PM_KERNEL_WIDTH] = {ROW(1), ROW(2), ROW(3)};
-static pm_staggered_loop *const yee[3][3] = {{yee_1_2, yee_1_3, yee_1_4}, {yee_2_2, yee_2_3, yee_2_4}, {yee_3_2, yee_3_3, yee_3_4}};
+#define SPLINES(what) {{what##_1_2, what##_1_3, what##_1_4}, {what##_2_2, what##_2_3, what##_2_4}, {what##_3_2, what##_3_3, what##_3_4}}
+static pm_staggered_loop *const yee[3][3] = SPLINES(yee), *const lower[3][3] = SPLINES(lower);
 
-pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, int components, const unsigned char (*staggered)[3])
+pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, bool to_lower, int components, const unsigned char (*staggered)[3])
 {
+	if (to_lower)
+		return lower[dim - 1][k->width - 2];
 	const bool spline = k->width >= 2 && k->width <= 4 && k->degree == k->width - 1 && pm_staggered_is_yee(dim, components, staggered);
 	return spline ? yee[dim - 1][k->width - 2] : any[dim - 1][k->width - 1];
 }

@@ -8,6 +8,7 @@
 struct pm_staggered_tile {
 	const struct pm_kernel *kernel;
 	double shift;           /* of the axes */
+	const struct pm_kernel *lower; /* NULL, or that of transfer.h */
 	size_t cell[3];         /* the first of the tile */
 	size_t count;           /* particles */
 	int stride;             /* doubles per record */
@@ -22,6 +23,7 @@ struct pm_staggered_tile {
 /* E and B, six components half a cell up as on Yee's mesh. */
 bool pm_staggered_is_yee(int dim, int components, const unsigned char (*staggered)[3]);
 typedef void pm_staggered_loop(const struct pm_staggered_tile *t);
-pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, int components, const unsigned char (*staggered)[3]);
+/* to_lower: a kernel that has a lower one. */
+pm_staggered_loop *pm_staggered_gather(int dim, const struct pm_kernel *k, bool to_lower, int components, const unsigned char (*staggered)[3]);
 
 #endif

@@ -493,21 +493,21 @@ static int allocate_records(struct pm_tile_order *o)
 	return 0;
 }
 
-/* Most particles have the tile of the one before. */
-static bool is_near(const struct pm_tile_order *o)
+/* At most one particle in so many has another tile than the one before. */
+static bool is_near(const struct pm_tile_order *o, int many)
 {
 	size_t changes = 0;
 #pragma omp parallel for num_threads(o->chunks) schedule(static) reduction(+ : changes)
 	for (size_t p = 1; p < o->n; p++)
 		changes += o->tile[p] != o->tile[p - 1];
-	return changes <= o->n / 8 && o->n <= UINT32_MAX;
+	return changes <= o->n / (size_t)many && o->n <= UINT32_MAX;
 }
 
 /* Room for the places of particles that stay, or for records. */
-static int allocate_order(struct pm_tile_order *o, bool stays)
+static int allocate_order(struct pm_tile_order *o, int stays)
 {
-	if (o->ways || stays) {
-		if (is_near(o))
+	if (stays) {
+		if (is_near(o, stays))
 			return (o->place = pm_alloc(o->n, sizeof *o->place)) ? 0 : -PM_DATA;
 		if (o->ways && !packs(o))
 			return 0;
@@ -524,7 +524,7 @@ static void move_records(struct pm_tile_order *o, int chunk, size_t *cursor)
 }
 
 /* The tiles of a stream in any order, and its records in theirs. */
-static int move(struct pm_tile_order *o, bool stays, struct pm_strays *strays)
+static int move(struct pm_tile_order *o, int stays, struct pm_strays *strays)
 {
 	const size_t columns = o->tiles + 1;
 	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
@@ -613,7 +613,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	if ((status = allocate(o)))
 		return status;
 	if (!in_order(o))
-		return move(o, p->stays, strays);
+		return move(o, p->v && !p->stays ? PM_STAY_WIDE : p->stays, strays);
 	add_up(o);
 	return 0;
 }

@@ -29,14 +29,16 @@ struct pm_tile_order {
 	struct pm_column values[PM_COMPONENTS];
 };
 
-/* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: where most have the tile of the one before, they are not moved, and
- * only their places are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt, which stay, or become
- * floats: from a stream of doubles that is far from the order of tiles neither records nor places are made. */
+/* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: not 0, and where at most one in so many has another tile than the one before,
+ * they are not moved, and only their places are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt,
+ * which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor places are made. */
+enum { PM_STAY_FEW = 8, PM_STAY_WIDE = 2 }; /* measured: of one number or a vector; of E and B, or ways */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;
 	const struct pm_column *x, *values;
-	bool stays, finite;
+	int stays;
+	bool finite;
 	const struct pm_column *v;
 	double dt;
 };

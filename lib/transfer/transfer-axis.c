@@ -82,13 +82,14 @@ static int axis_init(struct pm_axis *a, const struct pm_transfer *t, int d, bool
 {
 	const struct pm_grid *g = &t->grid;
 	const int width = d < g->dim ? t->kernel->width : 1, rim = d < g->dim ? t->rim : 0;
+	const bool further = half && !t->lower; /* the lower kernel begins on the half above the first node */
 	size_t beyond[2] = {0, 0};
 	a->periodic = g->face[d][0] == PM_PERIODIC;
 	a->lo = g->lo[d];
 	a->h = g->h[d];
 	a->n = (double)g->cells[d];
 	a->shift = width % 2 ? 0.5 : 0;
-	a->half = half ? 0.5 : 0;
+	a->half = further ? 0.5 : 0;
 	set_range(a, g, d, width, rim);
 	if (t->cut) {
 		pm_axis_path_room(g, d, width, beyond);
@@ -97,9 +98,9 @@ static int axis_init(struct pm_axis *a, const struct pm_transfer *t, int d, bool
 		a->n += (double)beyond[1];
 	}
 	a->add = a->shift + (double)beyond[0];
-	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1] + half;
+	a->count = g->cells[d] + !a->periodic + beyond[0] + beyond[1] + further;
 	a->slots = a->count + (size_t)width - 1;
-	return make_slots(a, g, d, t->given[d], half, -((width - 1) / 2) - half - (ptrdiff_t)beyond[0]);
+	return make_slots(a, g, d, t->given[d], half, -((width - 1) / 2) - further - (ptrdiff_t)beyond[0]);
 }
 
 static int path_axis(struct pm_axis *a, const struct pm_grid *g, int d, int width, bool half)

@@ -10,7 +10,8 @@
 _Static_assert((int)PM_SIMD_WIDTH == ((int)PM_SIMD_PART < 8 ? 4 : 8), "what includes simd.h before this header has to say PM_SIMD_FOURS");
 
 /* A particle at x has u = ((x - lo)/h + add) + half, cell floor(u) in 0..count-1 and t = u - cell - shift; its kernel touches the slots
- * cell..cell+width-1, and slot i is mesh point at[i]. For points half a cell up, u is that among the nodes and half a cell, to the last bit. */
+ * cell..cell+width-1, and slot i is mesh point at[i]. For points half a cell up, u is that among the nodes and half a cell, to the last bit; or with the
+ * lower kernel that among the nodes, whose slots but the last one its points are. */
 struct pm_axis {
 	bool periodic;
 	double lo, h;      /* [length] */

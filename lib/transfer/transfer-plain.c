@@ -10,7 +10,7 @@ struct support {
 	bool star;
 };
 
-static bool support_of(struct support *s, const struct pm_transfer *t, const struct pm_axis axes[3], const double *const x[], size_t p,
+static bool support_of(struct support *s, const struct pm_transfer *t, int c, const struct pm_axis axes[3], const double *const x[], size_t p,
 	struct pm_strays *strays)
 {
 	s->star = t->kernel->star;
@@ -25,9 +25,10 @@ static bool support_of(struct support *s, const struct pm_transfer *t, const str
 			pm_strays_note(strays, p, t->grid.dim, x, d);
 			return false;
 		}
-		s->width[d] = t->kernel->width;
+		const struct pm_kernel *k = t->lower && t->staggered[c][d] ? t->lower : t->kernel;
+		s->width[d] = k->width;
 		s->slot[d] = (size_t)floor(u);
-		pm_kernel_weights(t->kernel, u - floor(u) - axes[d].shift, s->w[d]);
+		pm_kernel_weights(k, u - floor(u) - (k->width % 2 ? 0.5 : 0), s->w[d]);
 	}
 	return true;
 }
@@ -83,7 +84,7 @@ int pm_spread_plain(const struct pm_transfer *t, size_t n, const double *const x
 		*strays = (struct pm_strays){.count = 0};
 		for (size_t p = 0; p < n; p++) {
 			struct support s;
-			if (support_of(&s, t, axes, x, p, strays))
+			if (support_of(&s, t, c, axes, x, p, strays))
 				visit(&s, &t->grid, axes, t->flip[c], true, strength[c][p] / volume, mesh[c]);
 		}
 		pm_axes_free(axes);
@@ -102,7 +103,7 @@ int pm_gather_plain(const struct pm_transfer *t, size_t n, const double *const x
 		*strays = (struct pm_strays){.count = 0};
 		for (size_t p = 0; p < n; p++) {
 			struct support s;
-			if (support_of(&s, t, axes, x, p, strays))
+			if (support_of(&s, t, c, axes, x, p, strays))
 				out[c][p] += (factor && factor[c] ? factor[c][p] : 1) * visit(&s, &t->grid, axes, t->flip[c], false, 0, (double *)mesh[c]);
 		}
 		pm_axes_free(axes);

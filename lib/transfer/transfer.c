@@ -432,9 +432,11 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided)
 		return gather_ranks(t, n, x, mesh, factor, out, strays);
+	bool staggered = t->lower;
 	for (int c = 1; c < t->components; c++)
-		if (n && !t->kernel->star && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]))
-			return pm_gather_staggered(t, n, x, mesh, factor, out, strays);
+		staggered = staggered || (!t->kernel->star && memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]));
+	if (n && staggered)
+		return pm_gather_staggered(t, n, x, mesh, factor, out, strays);
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		struct pm_target to[PM_COMPONENTS];
 		struct pm_column times[PM_COMPONENTS];

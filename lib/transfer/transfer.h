@@ -22,6 +22,8 @@ struct pm_transfer {
 	/* The image of a component in a wall has the opposite sign, in a neumann face the same; 1 exchanges the two along that axis
 	 * (the normal component of a gradient). */
 	unsigned char flip[PM_COMPONENTS][3];
+	/* gather: NULL, or the kernel along axes on which a component sits half a cell up, one order lower than `kernel`: the shape of J, so energy is kept */
+	const struct pm_kernel *lower;
 	bool given[3][2];       /* a wall or neumann face without images: values were given on it; gathers of kernels of width 1 and 2 alone */
 	struct pm_note **kept;   /* NULL, or where the order of these positions may be found and left (the note of their field) */
 	const struct pm_planes *planes; /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call, strays are those here */

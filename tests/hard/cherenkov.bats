@@ -12,10 +12,10 @@ beam() {
 		species positrons --charge 1 -n "$3" --distribution juettner --vth 1e-7 --drift $v
 }
 
-# growth KERNEL DT SMOOTH GAUSS STEP: rate of growth of B from ln B between -9.5 and -1, or where it stays below from the second half, over 240 times.
+# growth KERNEL DT SMOOTH GAUSS STEP GATHER: rate of growth of B from ln B between -9.5 and -1, or where it stays below from the second half, over 240 times.
 growth() {
 	beam 2 32 4096 "$2" | p2m --kernel "$1" | maxwell --gauss $4 |
-		cycle -t 240 --every 4 "push boris/2 | p2m --current --kernel $1 | $3 maxwell $5 | push drift | m2p | push boris/2" |
+		cycle -t 240 --every 4 "push boris/2 | p2m --current --kernel $1 | $3 maxwell $5 | push drift | m2p $6 | push boris/2" |
 		diag --columns time,energy_magnetic |
 		awk 'NR > 1 && $2 > 0 { t[++n] = $1; a[n] = log($2) / 2 }
 			function fit(from, to,  i, k, sx, sy, sxx, sxy) {
@@ -31,6 +31,11 @@ growth() {
 	within "$(growth tsc $whole "" "--method psatd" "--method psatd")" 0.128 0.02
 	cured=$(growth tsc $whole "" "--method psatd --nodal" "--method psatd --current-drift $v")
 	below "$cured" 0.002
+}
+
+@test "numerical Cherenkov with m2p --energy-conserving: faster with short steps, and slower at c dt = 0.7 h" {
+	within "$(growth tsc 0.5 "" "" "" --energy-conserving)" 0.129 0.02
+	within "$(growth tsc 0.7 "" "" "" --energy-conserving)" 0.081 0.02
 }
 
 @test "a relativistic beam passes 1e4 cells without loss: 1-D, and 2-D with PM_LONG=1" {

@@ -29,6 +29,16 @@ plasma() {
 	within "$(column energy <t)" "$(pinit em-wave -n 64 --cells 64 | diag | column energy)" 1e-6
 }
 
+@test "charges and light on cells of ten Debye lengths for omega_p t = 400: m2p heats them by a tenth, m2p --energy-conserving keeps their energy" {
+	pinit em-wave --dim 2 --length 3.2 --cells 16 --wave-field 0 | smod --constant background=1 --rename electrons=none --dt 0.14 |
+		species electrons -n 16384 --vth 0.02 --loading random --velocities 3 | p2m | maxwell --gauss >start.pm
+	for how in "" --energy-conserving; do
+		sh_ok "cycle -q -t 400 --every-time 400 '${step/m2p/m2p $how}' <start.pm | diag --columns energy | sed 1d >t"
+		change=$(awk 'NR == 1 { a = $1 } END { print $1 / a - 1 }' t)
+		if [ "$how" ]; then below "$change" 0.01; else above "$change" 0.08; fi
+	done
+}
+
 @test "a charge at gamma = 1e6 stays below c, and one at c is refused" {
 	for speed in 0.9999999999995 1; do
 		printf 'x vx vy vz charge mass\n0.3 %s 0 0 1e-3 1\n' "$speed" |

@@ -256,6 +256,34 @@ field_energy() { scalc --set matter "$1" <a | p2m --kernel "$kernel" | poisson-f
 	same_as 1 3
 }
 
+# light DT KERNEL FORCE UNTIL CELLS: the energy of electrons at random places and of their light, whose Debye length is a tenth of a cell, over that at first.
+light() {
+	pinit em-wave --dim 2 --length "$(calc "0.2 * $5")" --cells "$5" --wave-field 0 | smod --constant background=1 --rename electrons=none --dt "$1" |
+		species electrons -n $(($5 * $5 * 64)) --vth 0.02 --loading random --velocities 3 | p2m --kernel "$2" | maxwell --gauss |
+		cycle -q -t "$4" --every-time "$4" "push boris/2 | p2m --current --kernel $2 | maxwell | push drift | $3 --kernel $2 | push boris/2" |
+		diag --columns energy | awk 'NR == 2 { a = $1 } END { printf "%.9g", $1 / a }'
+}
+
+@test "m2p --energy-conserving of E and B: the energy of charges and light is kept to second order of the step, where the Debye length is a tenth of a cell" {
+	local errors=() dt
+	for dt in 0.1 0.05 0.025; do errors+=("$dt" "$(calc "1 - $(light $dt tsc 'm2p --energy-conserving' 10 16)")"); done
+	order 2 "${errors[@]}"
+	above "$(calc "1 - $(light 0.025 tsc m2p 10 16)")" 0.002 # does not fall with the step
+	below "$(calc "sqrt(($(light 0.1 cic 'm2p --energy-conserving' 10 16) - 1)^2)")" 2e-3
+}
+
+@test "m2p --energy-conserving of E and B: refused on the nodes and for kernels that are no splines; by pipes, ranks and threads the same bytes" {
+	pinit em-wave --dim 2 --cells 16 -n 2916 | p2m | maxwell --gauss >a
+	run -2 --separate-stderr m2p --kernel m6prime --energy-conserving a
+	[[ $stderr == *"m6prime (of E and B: cic, tsc, pcs)"* ]]
+	run -1 --separate-stderr bash -c "sel --drop E,B <a | p2m | maxwell --gauss --method psatd --nodal | m2p --energy-conserving"
+	[[ $stderr == *"'E' is on the nodes of 'mesh'"* ]]
+	for how in "--threads 1" "--threads 3" "--ranks 2"; do m2p --no-history $how --energy-conserving a >"m$how"; done
+	same_as "m--threads 1" "m--threads 3" "m--ranks 2"
+	m2p --no-history a >plain
+	above "$(scmp --tolerance 1 --field acc plain "m--threads 1" | tail -n 1 | cut -f 5)" 1e-6
+}
+
 @test "m2p: no sum of zeros is -0, few particles or many, one component or several" {
 	local n what
 	for n in 3 9000; do

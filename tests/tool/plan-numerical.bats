@@ -131,6 +131,17 @@ unlike() { stab --plain "$2" | awk -v d="$1" 'NR == 1 { for (i = 1; i <= NF; i++
 	! grep -q 'against grid heating' text
 }
 
+@test "plan: cold charges with light are gathered so that their energy is kept, which it then is; not where the heat is below the accuracy, or E on the nodes" {
+	pinit em-wave --dim 2 --length 3.2 --cells 16 --wave-field 0 | smod --constant background=1 --rename electrons=none --dt 0.14 |
+		species electrons -n 16384 --vth 0.02 --loading random --velocities 3 | p2m | maxwell --gauss >start
+	words=$(plan --sentence -t 100 --accuracy 0.05 <start)
+	[[ $words = *"| m2p --energy-conserving |"* ]]
+	cycle -q -t 100 --every-time 100 "$words" <start | diag --columns energy | sed 1d >t
+	below "$(awk 'NR == 1 { a = $1 } END { print $1 / a - 1 }' t)" 0.05
+	[[ $(plan --sentence -t 100 --accuracy 1 <start) != *energy-conserving* ]]
+	[[ $(sel --drop E,B <start | p2m | maxwell --gauss --method psatd --nodal | plan --sentence -t 100 --accuracy 0.05) != *energy-conserving* ]]
+}
+
 @test "plan: warm beams at a quiet start get cells for their wave, not for single particles; where the mesh shows these, plan says so" {
 	# frames that a random search found silently wrong, by 4 and 23 times the accuracy: 512 and 64 cells, for the field of beams folded on the mesh
 	pinit two-stream -n 4960 --cells 64 --v0 0.49 --vth 0.3 | plan --no-cost -t 14.1 --accuracy 0.001 >fine

@@ -88,9 +88,10 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 # In one process rates and half kicks are left to be made, and made for a few particles at a time with their current; step by step they are made at once.
 # Particles in the order of tiles, and nearly so; charge and mass of two species; a word that looks at velocities first.
 @test "equal bytes: a step with light in one pass over the particles, in 1-D to 3-D, by every relativistic kick" {
-	for c in "1 3000 60 cic boris" "2 4096 16 tsc vay" "3 9261 9 cic higuera-cary" "3 8000 8 tsc boris"; do
+	for c in "1 3000 60 cic boris" "2 4096 16 tsc vay" "3 9261 9 cic higuera-cary" "3 8000 8 tsc boris" \
+		"1 3000 60 tsc boris --energy-conserving" "2 4096 16 pcs boris --energy-conserving" "3 9261 9 cic boris --energy-conserving"; do
 		set -- $c
-		local step="push $5/2 | p2m --current --kernel $4 | maxwell | push drift | m2p | push $5/2"
+		local step="push $5/2 | p2m --current --kernel $4 | maxwell | push drift | m2p ${6:-} | push $5/2"
 		pinit em-wave --dim "$1" -n "$2" --cells "$3" | smod --constant background=0 |
 			species ions -n 700 --charge 1 --mass 3 --vth 0.1 --velocities 3 |
 			scalc --set electrons --role state 'v = 0.3*sin(7*x), 0.2*cos(9*x), 0.1' | ssort --no-history > start

@@ -936,14 +936,17 @@ static void check_exact(void)
 }
 
 /* E and B on Yee's mesh at once, where a tile has enough particles for nodes, against each component alone: particles in any order, in the order of tiles, and
- * nearly so. */
-static void check_yee(int dim, const size_t cells[3], size_t n, const char *kernel, const int rules[3])
+ * nearly so. `lower`: with the kernel one order lower along the axes on which a component sits half a cell up, against the plain loop too. */
+static void check_yee(int dim, const size_t cells[3], size_t n, const char *kernel, const int rules[3], bool lower)
 {
 	struct problem a = problem_new(grid_of(dim, cells, rules), pm_kernel_find(kernel), 6, n);
 	const double *const factor[MOST] = {NULL, a.q[0], NULL, a.q[1], NULL, NULL};
 	double *alone = pm_zalloc(n + 1, sizeof *alone);
 	struct pm_strays strays;
+	double worst = 0;
 	bool same = true;
+	a.t.lower = lower ? pm_kernel_lower(a.t.kernel) : NULL;
+	a.t.cut = lower;
 	for (int c = 0; c < 6; c++)
 		for (int d = 0; d < 3; d++)
 			a.t.staggered[c][d] = d < dim && (c % 3 == d) == (c < 3), a.t.flip[c][d] = (c % 3 == d) != (c < 3);
@@ -970,9 +973,15 @@ static void check_yee(int dim, const size_t cells[3], size_t n, const char *kern
 			memset(alone, 0, n * sizeof *alone);
 			pm_gather(&one, n, in(a.x), in(a.mesh + c), factor + c, &alone, &strays);
 			same = same && !memcmp(alone, a.out[c], n * sizeof *alone);
+			memset(alone, 0, n * sizeof *alone);
+			pm_gather_plain(&one, n, in(a.x), in(a.mesh + c), factor + c, &alone, &strays);
+			for (size_t p = 0; p < n; p++)
+				check_worst(&worst, fabs(alone[p] - a.out[c][p]));
 		}
 	}
-	check(same, "%d-D, %s, faces %d: E and B gathered at once by %zu particles are each component alone, to the last bit", dim, kernel, rules[0], n);
+	const char *how = lower ? ", with lower kernels," : "";
+	check(same, "%d-D, %s, faces %d: E and B gathered at once%s by %zu particles are each component alone, to the last bit", dim, kernel, rules[0], how, n);
+	check(worst <= 1e-15, "%d-D, %s, faces %d: and those of the plain loop%s (off by %.2g of 0.5)", dim, kernel, rules[0], how, worst);
 	pm_free(alone);
 	problem_free(&a);
 }
@@ -1030,9 +1039,13 @@ int main(void)
 		check_crowd(dim, "cic", true), check_crowd(dim, "m4prime", false);
 	for (int k = 0; k < 3; k++) { /* several tiles, and one */
 		const char *kernel = (const char *[]){"cic", "tsc", "pcs"}[k];
-		check_yee(3, (const size_t[]){33, 17, 9}, 30001, kernel, (const int[]){0, 0, 0});
-		check_yee(3, (const size_t[]){13, 12, 7}, 16390, kernel, (const int[]){1, 2, 0});
-		check_yee(2, (const size_t[]){70, 66, 1}, 16387, kernel, (const int[]){k % 2, 0, 0});
+		for (int lower = 0; lower < 2; lower++) {
+			check_yee(3, (const size_t[]){33, 17, 9}, 30001, kernel, (const int[]){0, 0, 0}, lower);
+			check_yee(3, (const size_t[]){13, 12, 7}, 16390, kernel, (const int[]){1, 2, 0}, lower);
+			check_yee(2, (const size_t[]){70, 66, 1}, 16387, kernel, (const int[]){k % 2, 0, 0}, lower);
+		}
+		check_yee(3, (const size_t[]){13, 12, 7}, 16390, kernel, (const int[]){3, 2, 1}, true);
+		check_yee(1, (const size_t[]){70, 1, 1}, 1001, kernel, (const int[]){k, 0, 0}, true);
 	}
 	check_images(1, -1);
 	check_images(2, 1);
