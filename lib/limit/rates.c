@@ -70,53 +70,68 @@ static double neighbours(const struct pm_grid *g, int d, ptrdiff_t i, size_t fir
 	return (round || (k && k + 1 < points) ? 2 : 1) * g->h[d];
 }
 
-/* Neighbours of a row along the other axes: the first of each, and how far they are apart; 0: the axis has one point. */
+/* Neighbours of a row along the other axes: the first of each, and the reciprocal of how far they are apart; 0: the axis has one point. */
 struct beside {
 	const double *below[3], *above[3];
-	double apart[3];
+	double per[3];
 };
 
-/* The largest sum of |du/dx_d| over d among the points from .. from+n-1 of a row, n at most BLOCK. line: the first of them, between its neighbours in the row,
- * which are so far apart. */
-static double most_of_row(int dim, size_t from, size_t n, const double *line, double apart, const struct beside *b)
+/* Of PM_SIMD_WIDTH points, of number i in the row. */
+static inline __attribute__((always_inline)) pm_simd row_sums(int dim, size_t i, const double *before, double per, const struct beside *b)
 {
-	double here[BLOCK] __attribute__((aligned(64)));
+	pm_simd sum = pm_simd_abs(pm_simd_load_any(before + 2) - pm_simd_load_any(before)) * per;
+	for (int d = 1; d < dim; d++)
+		sum += pm_simd_abs(pm_simd_load_any(b->above[d] + i) - pm_simd_load_any(b->below[d] + i)) * b->per[d];
+	return sum;
+}
+
+/* The largest sum of |du/dx_d| over d among the points from .. from+n-1 of a row. line: the first of them, between its neighbours in the row, of which per is
+ * the reciprocal of how far they are apart. */
+static inline __attribute__((always_inline)) double most_in_row(int dim, size_t from, size_t n, const double *line, double per, const struct beside *b)
+{
 	pm_simd most = {0};
 	const double *before = line - 1;
-	for (size_t i = 0; i < n; i++)
-		here[i] = fabs(before[i + 2] - before[i]) / apart;
-	for (int d = 1; d < dim; d++)
-		for (size_t i = 0; i < n && b->apart[d] > 0; i++)
-			here[i] += fabs(b->above[d][from + i] - b->below[d][from + i]) / b->apart[d];
-	for (size_t i = n; i % PM_SIMD_WIDTH; i++)
-		here[i] = 0;
-	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH)
-		pm_simd_raise(&most, pm_simd_load(here + i));
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
+		pm_simd_raise(&most, row_sums(dim, from + i, before + i, per, b));
 	for (int l = 1; l < PM_SIMD_WIDTH; l++)
 		most[0] = fmax(most[0], most[l]);
+	for (; i < n; i++) {
+		double sum = fabs(before[i + 2] - before[i]) * per;
+		for (int d = 1; d < dim; d++)
+			sum += fabs(b->above[d][from + i] - b->below[d][from + i]) * b->per[d];
+		most[0] = fmax(most[0], sum);
+	}
 	return most[0];
+}
+
+static double most_of_row(int dim, size_t from, size_t n, const double *line, double per, const struct beside *b)
+{
+	return dim == 1 ? most_in_row(1, from, n, line, per, b) : dim == 2 ? most_in_row(2, from, n, line, per, b) : most_in_row(3, from, n, line, per, b);
 }
 
 /* Row by row of one component; those at the ends of a row have neighbours elsewhere. */
 static double strain_of_row(const struct pm_grid *g, const struct pm_planes *p, size_t at, size_t first, const double *u)
 {
 	const size_t n = g->points[0];
-	struct beside b = {.apart = {0}};
+	struct beside b = {.per = {0}};
 	ptrdiff_t stride = (ptrdiff_t)n, below, above;
 	double most = 0;
-	for (int d = 1; d < g->dim; stride *= (ptrdiff_t)g->points[d++])
+	for (int d = 1; d < g->dim; stride *= (ptrdiff_t)g->points[d++]) {
+		b.below[d] = b.above[d] = u + at;
 		if (g->points[d] > 1) {
-			b.apart[d] = neighbours(g, d, (ptrdiff_t)at, first, stride, p->divided && d == p->axis, &below, &above);
+			b.per[d] = 1 / neighbours(g, d, (ptrdiff_t)at, first, stride, p->divided && d == p->axis, &below, &above);
 			b.below[d] = u + below, b.above[d] = u + above;
 		}
-	for (size_t i = 1; i + 1 < n; i += BLOCK)
-		most = fmax(most, most_of_row(g->dim, i, n - 1 - i < BLOCK ? n - 1 - i : BLOCK, u + at + i, 2 * g->h[0], &b));
+	}
+	if (n > 2)
+		most = most_of_row(g->dim, 1, n - 2, u + at + 1, 1 / (2 * g->h[0]), &b);
 	for (size_t end = 0; end < n; end += n > 1 ? n - 1 : 1) {
 		double ends[3] = {0, 0, 0}; /* below, and above, of one point */
-		const double apart = n > 1 ? neighbours(g, 0, (ptrdiff_t)(at + end), first, 1, false, &below, &above) : 1;
+		const double per = n > 1 ? 1 / neighbours(g, 0, (ptrdiff_t)(at + end), first, 1, false, &below, &above) : 1;
 		if (n > 1)
 			ends[0] = u[below], ends[2] = u[above];
-		most = fmax(most, most_of_row(g->dim, end, 1, ends + 1, apart, &b));
+		most = fmax(most, most_of_row(g->dim, end, 1, ends + 1, per, &b));
 	}
 	return most;
 }

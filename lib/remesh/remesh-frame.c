@@ -243,6 +243,8 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 		status = fill(status, w, e, k, made->from, pm_out(made, k));
 	if (!status && e->part == VALUE)
 		status = divide(w, c, made);
+	if (made && made->type == PM_F64)
+		made->use |= PM_USE_DONE;
 	return pm_world_agree(status);
 }
 

@@ -44,21 +44,23 @@ void pm_remesh_share(struct pm_remesh *r, const struct pm_planes *planes)
 	r->points = planes->here * planes->size;
 }
 
-/* Densities to strengths: times the volume of each node. */
+/* One row of densities to strengths: times the volume of each node. */
+static void weigh_row(const struct pm_remesh *r, size_t row, double *at)
+{
+	const struct volumes v = volumes_of(&r->grid, first_row(r) + row);
+	const size_t n = r->grid.points[0];
+	at[0] *= v.end;
+	for (size_t i = 1; i + 1 < n; i++)
+		at[i] *= v.inner;
+	if (n > 1)
+		at[n - 1] *= v.end;
+}
+
 static void weigh(const struct pm_remesh *r, double *node)
 {
-	const size_t first = first_row(r);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
-	for (size_t row = 0; row < rows_of(r); row++) {
-			const struct volumes v = volumes_of(&r->grid, first + row);
-			const size_t n = r->grid.points[0];
-			double *at = node + row * n;
-			at[0] *= v.end;
-			for (size_t i = 1; i + 1 < n; i++)
-				at[i] *= v.inner;
-			if (n > 1)
-				at[n - 1] *= v.end;
-		}
+	for (size_t row = 0; row < rows_of(r); row++)
+		weigh_row(r, row, node + row * r->grid.points[0]);
 }
 
 /* Copies of the positions and strengths in which those of which[] stand in the middle of the mesh and have none. */
@@ -102,6 +104,37 @@ static int add_beside(const struct pm_remesh *r, size_t n, const double *const x
 	return status;
 }
 
+static double largest_of(size_t n, const double *v)
+{
+	pm_simd most = {0};
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
+		pm_simd_raise(&most, pm_simd_abs(pm_simd_load_any(v + i)));
+	for (; i < n; i++)
+		most[0] = fmax(most[0], fabs(v[i]));
+	for (int l = 1; l < PM_SIMD_WIDTH; l++)
+		most[0] = fmax(most[0], most[l]);
+	return most[0];
+}
+
+/* Strengths of value i, of densities if it is to weigh them, and their largest absolute value. False: one is not finite. */
+static bool finish(struct pm_remesh *r, int i, bool weighs)
+{
+	const size_t n = r->grid.points[0];
+	double most = 0;
+	int bad = 0;
+#pragma omp parallel for schedule(static) reduction(max : most) reduction(| : bad) if (r->points > 16384)
+	for (size_t row = 0; row < rows_of(r); row++) {
+		double *node = r->node[i] + row * n;
+		if (weighs)
+			weigh_row(r, row, node);
+		bad |= !pm_finite_few(n, node);
+		most = fmax(most, largest_of(n, node));
+	}
+	r->most[i] = most;
+	return !bad;
+}
+
 int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int components, const double *const q[], bool decides,
 	struct pm_strays *strays)
 {
@@ -117,38 +150,16 @@ int pm_remesh_add(struct pm_remesh *r, size_t n, const double *const x[], int co
 	status = pm_world_agree(status);
 	if (!status)
 		status = r->mask ? add_beside(r, n, x, components, q, first, strays) : pm_spread(&t, n, x, q, r->node + first, strays);
-	for (int i = first; i < r->n && !status; i++) {
-		if (!r->mask)
-			weigh(r, r->node[i]);
-		if (!pm_finite(r->points, r->node[i]))
+	for (int i = first; i < r->n && !status; i++)
+		if (!finish(r, i, !r->mask))
 			status = pm_fail(PM_NUMERICS, "a remeshed strength is not finite (strengths this large overflow)");
-	}
 	return pm_world_agree(status);
-}
-
-static double largest_of(size_t n, const double *v)
-{
-	pm_simd most = {0};
-	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
-		pm_simd_raise(&most, pm_simd_abs(pm_simd_load_any(v + i)));
-	for (; i < n; i++)
-		most[0] = fmax(most[0], fabs(v[i]));
-	for (int l = 1; l < PM_SIMD_WIDTH; l++)
-		most[0] = fmax(most[0], most[l]);
-	return most[0];
 }
 
 static int thresholds(const struct pm_remesh *r, double cut_off, double least[])
 {
 	double largest[PM_REMESH_VALUES];
-	for (int i = 0; i < r->n; i++) {
-		double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (r->points > 16384)
-		for (size_t row = 0; row < rows_of(r); row++)
-			most = fmax(most, largest_of(r->grid.points[0], r->node[i] + row * r->grid.points[0]));
-		largest[i] = most;
-	}
+	memcpy(largest, r->most, sizeof largest);
 	const int status = pm_world_largest(0, (size_t)r->n, largest);
 	for (int i = 0; i < r->n; i++) {
 		least[i] = cut_off * largest[i];

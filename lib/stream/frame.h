@@ -33,7 +33,8 @@ enum { PM_USE_READ = 1, PM_USE_CHANGE = 2, PM_USE_NEW = 4, PM_USE_FILL = 8 /* ne
 	PM_USE_FROM_VALUE = 64 /* changed, and was uniform */,
 	PM_USE_COLUMNS = 128 /* the stage takes the values as columns (column.h): those held as floats stay so, uniform ones that are read are one number */,
 	PM_USE_LATER = 256 /* read, and the stage can do with values that are to be made (later.h) */,
-	PM_USE_WAITS = 512 /* changed, and the stage makes the field ready itself (pm_field_now), or changes it in its place (later.h) */ };
+	PM_USE_WAITS = 512 /* changed, and the stage makes the field ready itself (pm_field_now), or changes it in its place (later.h) */,
+	PM_USE_DONE = 1024 /* set in frame(), of f64: new, and the stage has written all values, so that what is computed of them may be kept (kept.h) */ };
 
 struct pm_buffer; /* reference counted, 64-byte aligned, copied on write */
 

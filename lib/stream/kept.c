@@ -28,7 +28,7 @@ static void free_kept(struct pm_note *note)
 }
 
 /* A word that changes values may ask for sums before and after. */
-static bool changes(const struct pm_field *field) { return field && field->use & (PM_USE_CHANGE | PM_USE_NEW); }
+static bool changes(const struct pm_field *field) { return field && field->use & (PM_USE_CHANGE | PM_USE_NEW) && !(field->use & PM_USE_DONE); }
 
 static struct kept *kept_of(const struct pm_field *field)
 {

@@ -15,6 +15,7 @@ struct pm_gather_arrays {
 	struct pm_column at[3], times[PM_COMPONENTS];
 	struct pm_target to[PM_COMPONENTS];
 	size_t n;
+	const struct pm_field *on_nodes; /* NULL, or the positions, which are all on nodes */
 	bool magnetic; /* the components of an evolving B are among them, behind those of E */
 	bool finite;   /* of a field that is a state: all that was gathered */
 };

@@ -12,6 +12,7 @@
 #include "transfer/magnetic-field.h"
 #include "transfer/gather-beside.h"
 #include "transfer/gather-later.h"
+#include "transfer/on-nodes.h"
 #include "transfer/rate-later.h"
 #include "world/world.h"
 
@@ -304,14 +305,44 @@ static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const st
 
 static int gather_arrays(const struct pm_gather_arrays *a, struct pm_strays *strays)
 {
+	struct pm_column times[PM_COMPONENTS];
+	struct pm_target to[PM_COMPONENTS];
+	for (int c = 0; c < a->t.components && a->on_nodes; c++) {
+		times[c] = a->columns ? a->times[c] : (struct pm_column){.doubles = a->factor[c], .value = 1};
+		to[c] = a->columns ? a->to[c] : (struct pm_target){.doubles = a->out[c]};
+	}
+	if (a->on_nodes)
+		return pm_on_nodes_gather(&a->t, a->on_nodes, a->mesh, times, to, strays);
 	return a->columns ? pm_gather_columns(&a->t, a->n, a->at, a->mesh, a->times, a->to, strays)
 			  : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
+}
+
+/* Are all particles on nodes? Their field is then copied, and nothing of it is left to be made. */
+static int look_for_nodes(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_gather_arrays *a)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x");
+	bool on = false;
+	bool can = j->field->role != PM_STATE && !j->law->magnetic && !j->interlaced && !j->choice.beside;
+	for (int i = 0; i < j->changes.n; i++)
+		for (int c = 0; c < j->changes.change[i]->components; c++)
+			for (int d = 0; d < f->dim; d++)
+				can = can && !j->changes.change[i]->staggered[c][d];
+	const int status = can ? pm_on_nodes(&a->t, x, &on) : 0;
+	if (status || !on)
+		return status;
+	a->on_nodes = x;
+	a->t.gradient = NULL;
+	for (int c = 0; c < a->t.components; c++)
+		a->mesh[c] = pm_in(j->field, c);
+	return 0;
 }
 
 /* The field and the changes in one gather; a given field before them, because its images differ. */
 static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char *set, struct pm_gather_arrays *a, struct pm_strays *strays)
 {
-	int status = 0;
+	int status = look_for_nodes(j, f, set, a);
+	if (status)
+		return status;
 	if (j->field->role == PM_STATE) {
 		bool left = false;
 		a->magnetic = !j->choice.field && j->law->magnetic && !j->interlaced && pm_bfield_append(f, set, j->mesh, j->law->magnetic, a);
@@ -323,7 +354,7 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
-	} else if (j->choice.later && !j->choice.field) {
+	} else if (j->choice.later && !j->choice.field && !a->on_nodes) {
 		bool left = false;
 		status = pm_rate_leave(j, f, set, a, &left);
 		if (status || left)

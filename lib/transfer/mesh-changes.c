@@ -12,6 +12,7 @@
 #include "mesh/planes.h"
 #include "stream/declare.h"
 #include "stream/limits.h"
+#include "transfer/on-nodes.h"
 #include "world/world.h"
 
 bool pm_mesh_change_concerns(const struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct pm_field *c)
@@ -66,13 +67,18 @@ static int overlap(int status, const struct pm_frame *f, const struct pm_sets *s
 	pm_grid_even(&one.grid); /* particles have even images beyond a wall, for any field */
 	for (size_t i = 0; i < sets->n && !status; i++) {
 		const struct pm_field *state = pm_frame_field(f, sets->name[i], change->of);
+		const struct pm_field *at = pm_frame_field(f, sets->name[i], "x");
 		const double *x[3], *volume;
 		struct pm_strays strays;
+		bool on = false;
 		if (!state || state->role != PM_STATE || !state->extensive)
 			continue;
 		pm_positions(f, sets->name[i], x);
 		volume = pm_in(pm_frame_field(f, sets->name[i], "volume"), 0);
-		status = pm_spread(&one, pm_frame_field(f, sets->name[i], "x")->count, x, &volume, &D, &strays);
+		status = pm_on_nodes(&one, at, &on);
+		if (!status)
+			status = on ? pm_on_nodes_spread(&one, at, &(struct pm_column){.doubles = volume}, &D)
+				    : pm_spread(&one, at->count, x, &volume, &D, &strays);
 	}
 	return status;
 }

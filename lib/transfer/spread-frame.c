@@ -5,6 +5,7 @@
 #include "mesh/planes.h"
 #include "stream/declare.h"
 #include "stream/parts.h"
+#include "transfer/on-nodes.h"
 #include "transfer/outside.h"
 #include "transfer/transfer-columns.h"
 #include "transfer/spread-frame.h"
@@ -103,34 +104,52 @@ static int judge(const struct pm_spread_job *j, const struct pm_frame *f, const 
 	return !status && closed.count ? pm_strays_refuse(&closed, set, j->mesh, t, "a larger box, or --outside drop") : status;
 }
 
+/* What the spread takes, on the way. */
+struct spread_arrays {
+	bool columns;
+	const double *x[3], *q[PM_COMPONENTS];
+	struct pm_column at[3], values[PM_COMPONENTS];
+	double *mesh[PM_COMPONENTS];
+};
+
+static int spread(const struct pm_spread_job *j, const struct pm_transfer *t, const struct pm_field *x, struct spread_arrays *a, struct pm_fft_plans *plans,
+	struct pm_strays *strays)
+{
+	bool on = false;
+	int status = j->choice.interlace || j->choice.add ? 0 : pm_on_nodes(t, x, &on);
+	if (!a->columns && on)
+		pm_columns_of(t->components, a->q, a->values);
+	if (status || on)
+		return status ? status : pm_on_nodes_spread(t, x, a->values, a->mesh);
+	if (a->columns)
+		return pm_spread_columns(t, x->count, a->at, a->values, a->mesh, strays);
+	return j->choice.interlace ? pm_interlace_spread(t, plans, x->count, a->x, a->q, a->mesh, strays)
+				   : pm_spread(t, x->count, a->x, a->q, a->mesh, strays);
+}
+
 int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside)
 {
 	struct pm_transfer t = transfer_of(j, f);
 	struct pm_field *positions = pm_frame_field(f, set, "x"), *density = pm_frame_field(f, j->mesh->name, j->density);
-	const size_t n = positions->count;
 	struct pm_planes planes;
-	const double *x[3], *q[PM_COMPONENTS];
-	double *mesh[PM_COMPONENTS], *made = NULL;
+	double *made = NULL;
 	struct pm_strays strays = {.count = 0};
 	const struct pm_field *strength = pm_frame_field(f, set, j->strength);
-	const bool columns = !j->choice.interlace && strength->extensive;
-	struct pm_column at[3], values[PM_COMPONENTS];
-	for (int d = 0; d < f->dim && columns; d++)
-		at[d] = pm_column_of(positions, d);
-	for (int c = 0; c < t.components && columns; c++)
-		values[c] = pm_column_of(strength, c);
-	if (!columns)
-		pm_positions(f, set, x);
+	struct spread_arrays a = {.columns = !j->choice.interlace && strength->extensive};
+	for (int d = 0; d < f->dim && a.columns; d++)
+		a.at[d] = pm_column_of(positions, d);
+	for (int c = 0; c < t.components && a.columns; c++)
+		a.values[c] = pm_column_of(strength, c);
+	if (!a.columns)
+		pm_positions(f, set, a.x);
 	t.kept = &positions->note;
 	for (int c = 0; c < t.components; c++)
-		mesh[c] = pm_out(density, c);
+		a.mesh[c] = pm_out(density, c);
 	int status = pm_planes_init(&planes, &t.grid, density);
 	t.planes = &planes;
-	status = pm_world_agree(status || columns ? status : pm_strengths(f, set, j->strength, q, &made));
-	if (!status && columns)
-		status = pm_spread_columns(&t, n, at, values, mesh, &strays);
-	else if (!status)
-		status = j->choice.interlace ? pm_interlace_spread(&t, plans, n, x, q, mesh, &strays) : pm_spread(&t, n, x, q, mesh, &strays);
+	status = pm_world_agree(status || a.columns ? status : pm_strengths(f, set, j->strength, a.q, &made));
+	if (!status)
+		status = spread(j, &t, positions, &a, plans, &strays);
 	pm_free(made);
 	pm_planes_free(&planes);
 	t.planes = NULL;

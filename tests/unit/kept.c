@@ -94,6 +94,13 @@ int main(void)
 	check(!pm_kept(q, m, name), "what is kept of two fields is gone when the other one changes");
 	need(pm_keep(m, NULL, "a note of the mass alone", pm_alloc(1, 8)));
 	check(!pm_kept(q, m, name), "and does not come back with another note of that field");
+	struct pm_field *made = pm_makes(f, "ions", "charge", 1, PM_STATE);
+	need(made && !pm_frame_ready(f));
+	double *block = pm_alloc(1, 8);
+	const bool early = pm_keep(made, NULL, name, block);
+	made->use |= PM_USE_DONE;
+	check(!early && pm_keep(made, NULL, name, block), "of a new field something is kept when the word has written all values, not before");
+	check(pm_kept(made, NULL, name) == block && !pm_frame_settle(f) && pm_kept(made, NULL, name) == block, "and the next word has it");
 	pm_frame_free(f);
 	return check_done();
 }

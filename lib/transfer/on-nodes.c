@@ -1,0 +1,342 @@
+/* Particles that stand on nodes of a periodic mesh: density_i += strength_p / cell and out_p += factor_p value_i at the node i of particle p, since a kernel
+ * that interpolates is 1 there and 0 at all other nodes. A node is where remesh puts it, lo + i h as rounded; the general loops find such a particle some
+ * 1e-16 cells beside it. Ranks send particles to planes by these loops, on a mesh of unit cells, where that is exact: the same bytes.
+ * Cost: two passes over the positions, one over the values. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "mesh/planes.h"
+#include "stream/kept.h"
+#include "transfer/on-nodes.h"
+#include "world/world.h"
+
+enum { PIECE = 4096, FEW = 16 };
+
+struct nodes {
+	const struct pm_grid *g;
+	size_t n;
+	const double *x[3];
+	double *at[3], *room; /* [points] where the nodes of an axis are */
+};
+
+static bool interpolates(const struct pm_kernel *k)
+{
+	int ones = 0, zeros = 0;
+	for (int i = 0; i < k->width; i++)
+		ones += k->coefficients[i] == 1, zeros += k->coefficients[i] == 0;
+	return !k->star && ones == 1 && zeros == k->width - 1;
+}
+
+static bool can(const struct pm_transfer *t, const struct pm_field *x)
+{
+	bool can = interpolates(t->kernel) && x->type == PM_F64 && !x->uniform;
+	for (int d = 0; d < t->grid.dim && can; d++)
+		can = t->grid.face[d][0] == PM_PERIODIC;
+	for (int c = 0; c < t->components && can; c++)
+		for (int d = 0; d < t->grid.dim; d++)
+			can = can && !t->staggered[c][d];
+	return can;
+}
+
+static int begin(struct nodes *w, const struct pm_grid *g, const struct pm_field *x)
+{
+	*w = (struct nodes){.g = g, .n = x->count, .room = pm_alloc(g->points[0] + g->points[1] + g->points[2], sizeof *w->room)};
+	if (!w->room)
+		return -PM_DATA;
+	for (int d = 0; d < 3; d++) {
+		w->at[d] = d ? w->at[d - 1] + g->points[d - 1] : w->room;
+		w->x[d] = d < g->dim ? pm_in(x, d) : NULL;
+		for (int i = 0; i < (int)g->points[d]; i++)
+			w->at[d][i] = g->lo[d] + (double)i * g->h[d];
+	}
+	return 0;
+}
+
+/* The index along axis d of the only node that particle p may stand on; false: there is none. */
+static bool index_of(const struct nodes *w, size_t p, int d, size_t *i)
+{
+	const double u = (w->x[d][p] - w->g->lo[d]) / w->g->h[d] + 0.5;
+	if (!(u >= 0 && u < (double)w->g->points[d]))
+		return false;
+	*i = (size_t)u;
+	return true;
+}
+
+/* How many of n are equal to those of `at`, from the first on; or with one, to that. */
+static size_t same_as(size_t n, const double *x, const double *at, bool one)
+{
+	size_t i = 0;
+	for (int off = 0; i + FEW <= n; i += FEW) {
+		for (int k = 0; k < FEW; k++)
+			off |= x[i + (size_t)k] != at[one ? 0 : i + (size_t)k];
+		if (off)
+			break;
+	}
+	while (i < n && x[i] == at[one ? 0 : i])
+		i++;
+	return i;
+}
+
+/* How many particles from p on, at most those up to `end`, stand on nodes one after the other in a row, whose first is *node. 0: p stands on none. */
+static size_t run_of(const struct nodes *w, size_t p, size_t end, size_t *node)
+{
+	const size_t *points = w->g->points;
+	size_t i[3] = {0, 0, 0};
+	for (int d = 0; d < w->g->dim; d++)
+		if (!index_of(w, p, d, &i[d]))
+			return 0;
+	*node = (i[2] * points[1] + i[1]) * points[0] + i[0];
+	size_t m = points[0] - i[0] < end - p ? points[0] - i[0] : end - p;
+	m = same_as(m, w->x[0] + p, w->at[0] + i[0], false);
+	for (int d = 1; d < w->g->dim; d++)
+		m = same_as(m, w->x[d] + p, w->at[d] + i[d], true);
+	return m;
+}
+
+typedef void do_run(const void *data, size_t node, size_t p, size_t m);
+
+/* False: the particles from..to-1, or the one before, are not on nodes in the order of the mesh. */
+static bool walk_piece(const struct nodes *w, size_t from, size_t to, do_run *act, const void *data)
+{
+	size_t last = 0, node, m;
+	if (from && !run_of(w, from - 1, from, &last))
+		return false;
+	for (size_t p = from; p < to; p += m, last = node + m - 1) {
+		m = run_of(w, p, to, &node);
+		if (!m || (p && node <= last))
+			return false;
+		if (act)
+			act(data, node, p, m);
+	}
+	return true;
+}
+
+/* As many particles as nodes: each stands on that of its number. */
+static bool is_full(const struct nodes *w) { return w->n == pm_grid_size(w->g); }
+
+static bool walk(const struct nodes *w, do_run *act, const void *data)
+{
+	int bad = 0;
+	if (act && is_full(w)) {
+#pragma omp parallel for schedule(static) if (w->n > 16384)
+		for (size_t row = 0; row < w->n; row += w->g->points[0])
+			act(data, row, row, w->g->points[0]);
+		return true;
+	}
+#pragma omp parallel for schedule(static) reduction(| : bad) if (w->n > 16384)
+	for (size_t from = 0; from < w->n; from += PIECE)
+		bad = bad || !walk_piece(w, from, w->n - from < PIECE ? w->n : from + PIECE, act, data);
+	return !bad;
+}
+
+/* The particles of every rank stand behind those of the ranks before. */
+static int agree(int status, const struct nodes *w, bool *on)
+{
+	const size_t ranks = (size_t)pm_world_size(), me = (size_t)pm_world_rank();
+	int64_t *ends = pm_zalloc(1 + 2 * ranks, sizeof *ends), last = -1;
+	size_t node;
+	status = status ? status : ends ? 0 : pm_failed();
+	if (!status) {
+		ends[0] = !*on;
+		if (*on && w->n && run_of(w, 0, 1, &node))
+			ends[1 + me] = (int64_t)node;
+		if (*on && w->n && run_of(w, w->n - 1, w->n, &node))
+			ends[1 + ranks + me] = (int64_t)node + 1; /* 0: no particles */
+	}
+	status = pm_world_count(status, PM_SUM_OF, 1 + 2 * ranks, ends);
+	*on = !status && !ends[0];
+	for (size_t r = 0; r < ranks && *on; r++)
+		if (ends[1 + ranks + r]) {
+			*on = ends[1 + r] > last;
+			last = ends[1 + ranks + r] - 1;
+		}
+	pm_free(ends);
+	return status;
+}
+
+/* The mesh on whose nodes they stand is kept with the positions. */
+static const char name[] = "mesh of the nodes";
+
+static bool is_kept(const struct pm_grid *g, const struct pm_field *x)
+{
+	const struct pm_grid *kept = pm_kept(x, NULL, name);
+	bool same = kept;
+	for (int d = 0; d < g->dim && same; d++)
+		same = kept->points[d] == g->points[d] && kept->lo[d] == g->lo[d] && kept->h[d] == g->h[d];
+	return same;
+}
+
+static void keep(const struct pm_grid *g, const struct pm_field *x)
+{
+	struct pm_grid *kept = pm_alloc(1, sizeof *kept);
+	if (kept)
+		*kept = *g;
+	if (!kept || !pm_keep(x, NULL, name, kept))
+		pm_free(kept);
+}
+
+int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on)
+{
+	struct nodes w = {.room = NULL};
+	*on = can(t, x);
+	if (!*on || is_kept(&t->grid, x))
+		return 0;
+	int status = begin(&w, &t->grid, x);
+	*on = !status && walk_piece(&w, 0, w.n < FEW ? w.n : FEW, NULL, NULL) && walk(&w, NULL, NULL);
+	if (x->here)
+		status = agree(status, &w, on);
+	else
+		*on = *on && w.n;
+	if (*on)
+		keep(&t->grid, x);
+	pm_free(w.room);
+	return status;
+}
+
+/* With ranks: the same on a mesh of unit cells. */
+struct unit {
+	struct pm_transfer t;
+	double *room;
+	const double *x[3];
+	double *values[PM_COMPONENTS];
+};
+
+static void keep_indices(const void *data, size_t node, size_t p, size_t m)
+{
+	const struct unit *u = data;
+	const size_t *points = u->t.grid.points, i = node % points[0], at[] = {0, node / points[0] % points[1], node / points[0] / points[1]};
+	for (int d = 0; d < u->t.grid.dim; d++)
+		for (size_t k = 0; k < m; k++)
+			((double *)(uintptr_t)u->x[d])[p + k] = (double)(d ? at[d] : i + k);
+}
+
+static int begin_unit(struct unit *u, const struct pm_transfer *t, const struct nodes *w)
+{
+	*u = (struct unit){.t = *t, .room = pm_alloc(w->n * (size_t)(t->grid.dim + t->components) + 1, sizeof *u->room)};
+	u->t.kept = NULL;
+	for (int d = 0; d < t->grid.dim; d++) {
+		u->t.grid.lo[d] = 0, u->t.grid.h[d] = 1;
+		u->x[d] = u->room + (size_t)d * w->n;
+	}
+	for (int c = 0; c < t->components; c++)
+		u->t.set[c] = true, u->values[c] = u->room + (size_t)(t->grid.dim + c) * w->n;
+	if (!u->room)
+		return -PM_DATA;
+	walk(w, keep_indices, u);
+	return 0;
+}
+
+static int spread_ranks(int status, const struct pm_transfer *t, const struct nodes *w, const struct pm_column strength[], double *const mesh[])
+{
+	const double scale = 1 / pm_grid_cell(&t->grid);
+	struct pm_strays strays;
+	struct unit u = {.room = NULL};
+	status = pm_world_agree(status ? status : begin_unit(&u, t, w));
+	for (int c = 0; c < t->components && !status; c++)
+		for (size_t p = 0; p < w->n; p++)
+			u.values[c][p] = pm_column_at(&strength[c], p) * scale;
+	status = status ? status : pm_spread(&u.t, w->n, u.x, (const double *const *)u.values, mesh, &strays);
+	pm_free(u.room);
+	return status;
+}
+
+struct spread {
+	int components;
+	double scale;
+	const struct pm_column *strength;
+	double *const *mesh;
+};
+
+static void spread_run(const void *data, size_t node, size_t p, size_t m)
+{
+	const struct spread *s = data;
+	for (int c = 0; c < s->components; c++) {
+		double *to = s->mesh[c] + node;
+		const double *q = s->strength[c].doubles;
+		if (q)
+			for (size_t k = 0; k < m; k++)
+				to[k] += q[p + k] * s->scale;
+		else
+			for (size_t k = 0; k < m; k++)
+				to[k] += pm_column_at(&s->strength[c], p + k) * s->scale;
+	}
+}
+
+int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], double *const mesh[])
+{
+	struct nodes w;
+	int status = begin(&w, &t->grid, x);
+	if (x->here)
+		status = spread_ranks(status, t, &w, strength, mesh);
+	else if (!status)
+		walk(&w, spread_run, &(struct spread){t->components, 1 / pm_grid_cell(&t->grid), strength, mesh});
+	pm_free(w.room);
+	return status;
+}
+
+struct gather {
+	const struct pm_transfer *t;
+	const double *const *mesh; /* of ranks: what was gathered, by particles */
+	const struct pm_column *factor;
+	const struct pm_target *out;
+	int *bad;
+};
+
+/* from: the values of the particles from p on. A negative zero becomes 0, as in a sum over nodes. */
+static bool take(const struct gather *g, int c, const double *from, size_t p, size_t m)
+{
+	const struct pm_column *factor = &g->factor[c];
+	double sum = 0;
+	if (!g->out[c].doubles) {
+		for (size_t k = 0; k < m; k++) {
+			float *to = &g->out[c].floats[p + k];
+			*to = (float)((g->t->set[c] ? 0 : (double)*to) + pm_column_at(factor, p + k) * (from[k] + 0.));
+			sum += *to - *to;
+		}
+		return sum == 0;
+	}
+	double *to = g->out[c].doubles + p;
+	if (g->t->set[c] && !factor->doubles && !factor->floats)
+		for (size_t k = 0; k < m; k++)
+			to[k] = factor->value * (from[k] + 0.);
+	else
+		for (size_t k = 0; k < m; k++)
+			to[k] = (g->t->set[c] ? 0 : to[k]) + pm_column_at(factor, p + k) * (from[k] + 0.);
+	return pm_finite_few(m, to);
+}
+
+static void gather_run(const void *data, size_t node, size_t p, size_t m)
+{
+	const struct gather *g = data;
+	for (int c = 0; c < g->t->components; c++)
+		if (!take(g, c, g->mesh[c] + node, p, m))
+#pragma omp atomic write
+			*g->bad = 1;
+}
+
+static int gather_ranks(int status, const struct nodes *w, const double *const mesh[], const struct gather *g)
+{
+	struct pm_strays strays;
+	struct unit u = {.room = NULL};
+	status = pm_world_agree(status ? status : begin_unit(&u, g->t, w));
+	status = status ? status : pm_gather(&u.t, w->n, u.x, mesh, NULL, u.values, &strays);
+	for (int c = 0; c < g->t->components && !status; c++)
+		*g->bad |= !take(g, c, u.values[c], 0, w->n);
+	pm_free(u.room);
+	return status;
+}
+
+int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, const double *const mesh[], const struct pm_column factor[],
+	const struct pm_target out[], struct pm_strays *strays)
+{
+	struct nodes w;
+	int bad = 0, status = begin(&w, &t->grid, x);
+	const struct gather g = {t, mesh, factor, out, &bad};
+	*strays = (struct pm_strays){.count = 0};
+	if (x->here)
+		status = gather_ranks(status, &w, mesh, &g);
+	else if (!status)
+		walk(&w, gather_run, &g);
+	strays->finite = !bad;
+	pm_free(w.room);
+	return status;
+}
