@@ -52,12 +52,36 @@ PM_SIMD_INLINE struct eight find_eight_of_records(const struct pm_tile *t, size_
 	return find_eight_at(t, record, fourth);
 }
 
-/* Those of a batch from i on, in the same way. */
-PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_tile_batch *b, size_t i)
+/* The same in the plane; *third, *fourth: what comes behind the position. */
+PM_SIMD_INLINE struct eight find_eight_in_plane(const struct pm_tile *t, size_t i, pm_simd *third, pm_simd *fourth)
 {
 	struct eight e;
-	for (int d = 0; d < 3; d++) {
+	pm_simd v[4], u[4];
+	const double *record[PM_SIMD_WIDTH];
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		record[l] = t->records + (i + (i + l < t->count ? l : 0)) * (size_t)t->stride;
+	PM_SIMD_UNROLL
+	for (size_t k = 0; k < 4; k++)
+		v[k] = pm_simd_fours(record, k);
+	pm_simd_turn(v, u);
+	PM_SIMD_UNROLL
+	for (int d = 0; d < 2; d++) {
+		e.distance[d] = pm_simd_split(u[d], &e.cell[d]);
+		e.cell[d] -= (int32_t)t->cell[d];
+	}
+	*third = u[2], *fourth = u[3];
+	return e;
+}
+
+/* Those of a batch from i on, in the same way; `dim` axes of them. */
+PM_SIMD_INLINE struct eight find_eight_of(int dim, const struct pm_tile *t, const struct pm_tile_batch *b, size_t i)
+{
+	struct eight e;
+	PM_SIMD_UNROLL
+	for (int d = 0; d < dim; d++) {
 		const double *x = b->x[d] + i;
+		__builtin_prefetch(x + PM_TILE_AHEAD);
 		double few[PM_SIMD_WIDTH];
 		unsigned outside;
 		if (i + PM_SIMD_WIDTH > b->m) {
@@ -65,7 +89,6 @@ PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_
 				few[l] = x[i + l < b->m ? l : 0];
 			x = few;
 		}
-		__builtin_prefetch(x + PM_TILE_AHEAD);
 		pm_simd u = pm_axis_locate_eight(&b->lanes[d], pm_simd_load_any(x), &outside);
 		if (outside) {
 			double far[PM_SIMD_WIDTH];
@@ -78,6 +101,8 @@ PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_
 	}
 	return e;
 }
+
+PM_SIMD_INLINE struct eight find_eight(const struct pm_tile *t, const struct pm_tile_batch *b, size_t i) { return find_eight_of(3, t, b, i); }
 
 /* Their cells, x fastest. */
 PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)

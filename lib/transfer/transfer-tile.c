@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-lanes.h"
 #include "transfer/tile-line.h"
+#include "transfer/tile-plane.h"
 #include "transfer/tile-wide.h"
 
 PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
@@ -211,12 +212,16 @@ pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
 		return pm_tile_line_spread_records;
 	if (corners)
 		return PM_TILE_CIC_EIGHT ? pm_tile_cic_spread_eight : pm_tile_cic_spread_records;
+	if (pm_tile_has_plane(dim, k))
+		return pm_tile_plane_spread_records;
 	pm_tile_loop *wide = pm_tile_spread_wide(dim, k);
 	return wide ? wide : k->star ? star_spreads[dim - 1] : spreads[k->degree != k->width - 1][dim - 1][k->width - 1];
 }
 
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k)
 {
+	if (pm_tile_has_plane(dim, k))
+		return pm_tile_plane_gather_records;
 	pm_tile_loop *wide = pm_tile_gather_wide(dim, k);
 	return wide ? wide : k->star ? star_gathers[dim - 1] : gathers[k->degree != k->width - 1][dim - 1][k->width - 1];
 }

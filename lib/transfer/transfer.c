@@ -7,6 +7,7 @@
 
 #include "transfer/tile-gradient.h"
 #include "transfer/tile-line.h"
+#include "transfer/tile-plane.h"
 #include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
 
@@ -34,7 +35,7 @@ static void cells_of(const struct pm_pass *w, const struct pm_tile_job *j, size_
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
 	struct pm_tile t = pm_pass_tile(w, j, block);
-	bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
+	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count), plane = pm_tile_has_plane(w->o->order.dim, w->t->kernel);
 	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[3][PM_TILE_ORDER_PACK];
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
@@ -44,10 +45,10 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		if (corners && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
+		if ((corners || plane) && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
 			pm_tile_batch_take(&batch, p, t.count, few);
 			const double *q = pm_tile_order_take(&w->o->order, p, t.count, &w->o->order.values[value], packed);
-			(w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
+			(plane ? pm_tile_plane_spread : w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
 			continue;
 		}
 		t.records = packed;
@@ -230,6 +231,8 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
 	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
 		return gather_batches(w, j, &t, pm_tile_line_gather, r);
+	if (pm_tile_has_plane(w->o->order.dim, w->t->kernel) && !t.records && !w->o->order.floats)
+		return gather_batches(w, j, &t, pm_tile_plane_gather, r);
 	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
 	if (lanes && corners && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);

@@ -288,7 +288,7 @@ light() {
 	local n what
 	for n in 3 9000; do
 		for what in "q = -(0*rho)" "q = -(0*rho), -(0*rho), -(0*rho)"; do
-			for dim in 1 3; do
+			for dim in 1 2 3; do
 				pinit uniform --dim $dim -n $n --cells 8 | p2m --kernel cic | scalc --mesh mesh "$what" | m2p --kernel cic --field q |
 					stab --plain >table
 				[ "$(wc -l <table)" = $((n + 1)) ]

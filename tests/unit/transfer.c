@@ -523,7 +523,12 @@ static void check_kept(int dim, const size_t cells[3], const char *other)
 	for (int c = 0; c < dim; c++)
 		a.t.set[c] = b.t.set[c] = true;
 	a.t.kept = &note;
+	double worst = 0;
 	pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+	pm_spread_plain(&b.t, n, in(a.x), in(a.q), b.mesh, &strays);
+	for (int c = 0; c < dim; c++)
+		check_worst(&worst, difference(a.points, a.mesh[c], b.mesh[c]));
+	check(worst <= 1e-13, "%d-D: %d components are spread as by the plain loop (off by %.2g, tolerance 1e-13)", dim, dim, worst);
 	const struct pm_note *left = note;
 	for (int c = 0; c < dim; c++)
 		for (size_t i = 0; i < a.points; i++)
@@ -1009,6 +1014,9 @@ int main(void)
 	check_fall();
 	check_threads(2, (const size_t[]){130, 67, 1}, "tsc");
 	check_in_order(2, (const size_t[]){130, 67, 1}, 4000, "tsc", (const int[]){0, 0, 0});
+	for (int rule = 0; rule < 4; rule++) /* a whole and a broken number of eights */
+		check_in_order(2, (const size_t[]){130, 67, 1}, rule % 2 ? 8000 : 8003, "cic", (const int[]){rule, rule ? rule % 3 + 1 : 0, 0});
+	check_threads(2, (const size_t[]){130, 67, 1}, "cic");
 	check_threads(3, (const size_t[]){35, 20, 33}, "tsc");
 	check_in_order(3, (const size_t[]){35, 20, 33}, 8000, "tsc", (const int[]){0, 0, 0});
 	for (int rule = 0; rule < 4; rule++) /* enough for corners, and a whole and a broken number of eights */
@@ -1021,10 +1029,12 @@ int main(void)
 			(const int[]){4, 3, 5, 6, 4}[k]);
 	check_nearly(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
 	check_nearly(2, (const size_t[]){130, 67, 1}, 9001, "tsc");
+	check_nearly(2, (const size_t[]){130, 67, 1}, 9001, "cic");
 	check_nearly(3, (const size_t[]){35, 20, 33}, 60003, "cic");
 	check_nearly(3, (const size_t[]){35, 20, 33}, 30003, "pcs");
 	check_one_number(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
 	check_floats(1, (const size_t[]){4000, 1, 1}, 20003); /* one tile, in whatever order */
+	check_floats(2, (const size_t[]){130, 67, 1}, 8003);
 	check_floats(3, (const size_t[]){35, 20, 33}, 30003);
 	check_one_number(2, (const size_t[]){130, 67, 1}, 5001, "tsc");
 	check_one_number(3, (const size_t[]){35, 20, 33}, 30003, "cic");

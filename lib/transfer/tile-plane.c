@@ -1,0 +1,127 @@
+/* Cloud in cell in the plane, eight (or four) particles at a time: they find their cells and weights together, then each adds to the two points of two rows
+ * of the block, or reads them. Every sum has the order of the loops for all kernels (transfer-tile.c): the same bytes. Cost: four products a particle.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transfer/tile-eight.h"
+#include "transfer/tile-plane.h"
+
+enum { row = 64 + 12 };
+
+bool pm_tile_has_plane(int dim, const struct pm_kernel *k) { return PM_TILE_CIC_EIGHT && dim == 2 && k->width == 2 && k->degree == 1; }
+
+/* Their first points in the block. */
+PM_SIMD_INLINE void points_of(const struct eight *e, int32_t *at) { *(pm_simd_int_at *)at = e->cell[1] * row + e->cell[0]; }
+
+/* The first n of a vector of particles. */
+PM_SIMD_INLINE void add_rows(size_t n, const struct eight *e, pm_simd q, double *block)
+{
+	const pm_simd x = e->distance[0], y = e->distance[1], low = (1 - y) * q, high = y * q;
+	int32_t at[PM_SIMD_WIDTH];
+	pm_simd2_at below[PM_SIMD_WIDTH], above[PM_SIMD_WIDTH];
+	points_of(e, at);
+	pm_simd_to_pairs((1 - x) * low, x * low, below);
+	pm_simd_to_pairs((1 - x) * high, x * high, above);
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		if (l < n) {
+			double *to = block + (size_t)(uint32_t)at[l];
+			*(pm_simd2_at *)to += below[l];
+			*(pm_simd2_at *)(to + row) += above[l];
+		}
+}
+
+void pm_tile_plane_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= b->m; i += PM_SIMD_WIDTH) {
+		const struct eight e = find_eight_of(2, t, b, i);
+		__builtin_prefetch(q + i + PM_TILE_AHEAD);
+		add_rows(PM_SIMD_WIDTH, &e, pm_simd_load_any(q + i), t->block);
+	}
+	if (i < b->m) {
+		double few[PM_SIMD_WIDTH] = {0};
+		const struct eight e = find_eight_of(2, t, b, i);
+		memcpy(few, q + i, (b->m - i) * sizeof *q);
+		add_rows(b->m - i, &e, pm_simd_load_any(few), t->block);
+	}
+}
+
+void pm_tile_plane_spread_records(const struct pm_tile *t)
+{
+	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
+		const size_t n = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
+		pm_simd q, unused;
+		const struct eight e = find_eight_in_plane(t, i, &q, &unused);
+		if (t->value > 2) {
+			double few[PM_SIMD_WIDTH];
+			for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+				few[l] = t->records[(i + (l < n ? l : 0)) * (size_t)t->stride + (size_t)t->value];
+			q = pm_simd_load_any(few);
+		}
+		if (n == PM_SIMD_WIDTH)
+			add_rows(PM_SIMD_WIDTH, &e, q, t->block);
+		else
+			add_rows(n, &e, q, t->block);
+	}
+}
+
+/* The two points of a row for each. */
+PM_SIMD_INLINE void load_pairs(const double *block, const int32_t *at, pm_simd *low, pm_simd *high)
+{
+	pm_simd4_at lows[PM_SIMD_WIDTH / 4], highs[PM_SIMD_WIDTH / 4];
+	PM_SIMD_UNROLL
+	for (size_t four = 0; four < PM_SIMD_WIDTH / 4; four++) {
+		const double *from[4];
+		pm_simd4_at pair[2];
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < 4; l++)
+			from[l] = block + (size_t)(uint32_t)at[4 * four + l];
+		pm_simd4_pairs(from, 0, pair);
+		lows[four] = pair[0], highs[four] = pair[1];
+	}
+	*low = pm_simd_of_fours(lows), *high = pm_simd_of_fours(highs);
+}
+
+PM_SIMD_INLINE pm_simd value_of(const struct eight *e, const int32_t *at, const double *block)
+{
+	const pm_simd x = e->distance[0], y = e->distance[1];
+	pm_simd a, b, c, d;
+	load_pairs(block, at, &a, &b);
+	load_pairs(block + row, at, &c, &d);
+	const pm_simd below = a * (1 - y) + c * y, above = b * (1 - y) + d * y;
+	return (0 + below * (1 - x)) + above * x; /* 0 +: as the loop begins, so that no sum is -0 */
+}
+
+bool pm_tile_plane_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r)
+{
+	struct delivery to[PM_COMPONENTS];
+	pm_simd nothing = {0};
+	for (int c = 0; c < t->components; c++)
+		to[c] = delivery_of(r, c);
+	for (size_t i = 0; i < b->m; i += PM_SIMD_WIDTH) {
+		const size_t n = b->m - i < PM_SIMD_WIDTH ? b->m - i : PM_SIMD_WIDTH;
+		const struct eight e = find_eight_of(2, t, b, i);
+		int32_t at[PM_SIMD_WIDTH];
+		points_of(&e, at);
+		for (int c = 0; c < t->components; c++)
+			deliver_eight(value_of(&e, at, t->block + (size_t)c * PM_BLOCK_MOST), n, &to[c], b->p + i, &nothing);
+	}
+	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
+
+void pm_tile_plane_gather_records(const struct pm_tile *t)
+{
+	const size_t to = (size_t)t->to;
+	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
+		const size_t n = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
+		pm_simd third, fourth;
+		const struct eight e = find_eight_in_plane(t, i, &third, &fourth);
+		int32_t at[PM_SIMD_WIDTH];
+		points_of(&e, at);
+		for (int c = 0; c < t->components; c++) {
+			const pm_simd v = value_of(&e, at, t->block + (size_t)c * PM_BLOCK_MOST);
+			double *result = t->results + i * to + (size_t)c;
+			for (size_t l = 0; l < n; l++)
+				result[l * to] = v[l];
+		}
+	}
+}
