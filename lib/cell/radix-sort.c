@@ -1,33 +1,46 @@
 /* A stable order by radix sort, least digit first, 11 bits a pass; digits that are equal in all keys are skipped. A stable order is unique, so it is
- * the same for any number of threads. Cost: N per pass, 3 passes for 2^33 cells. SPDX-License-Identifier: GPL-3.0-or-later */
+ * the same for any number of threads. Cost: N per pass, of 8 bytes for up to 2^32 cells and particles, and at most 3 passes for these.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "cell/radix-sort.h"
 #include "transfer/transfer-tile.h"
 
-enum { bits = 11, digits = 1 << bits };
+enum { bits = 11, digits = 1 << bits, few_most = 256, chunks_most = 16 };
 
-static uint64_t cell_of(const struct pm_grid *g, int axis, double x)
+/* Cells on an axis of a few particles; not by fmin and fmax, which are calls. NaN is in the first. */
+static void cells_of(const struct pm_grid *g, int axis, size_t m, const double *x, uint64_t cell[few_most])
 {
-	double s = floor((x - g->lo[axis]) / g->h[axis]), n = (double)g->cells[axis];
-	if (g->face[axis][0] == PM_PERIODIC)
-		s -= n * floor(s / n);
-	return (uint64_t)fmin(fmax(s, 0), n - 1);
+	const double lo = g->lo[axis], h = g->h[axis], n = (double)g->cells[axis];
+	const bool periodic = g->face[axis][0] == PM_PERIODIC;
+	double at[few_most];
+	for (size_t i = 0; i < m; i++) {
+		double s = floor((x[i] - lo) / h);
+		s = periodic ? s - n * floor(s / n) : s;
+		s = s > 0 ? s : 0;
+		at[i] = s < n - 1 ? s : n - 1;
+	}
+	for (size_t i = 0; i < m; i++)
+		cell[i] = (uint64_t)(int64_t)at[i];
 }
 
 void pm_keys_of_cells(const struct pm_grid *g, size_t n, const double *const x[], uint64_t *key)
 {
-#pragma omp parallel for
-	for (size_t i = 0; i < n; i++) {
-		key[i] = 0;
-		uint64_t cell[3] = {0}, inside = 0;
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t p = 0; p < n; p += few_most) {
+		const size_t m = n - p < few_most ? n - p : few_most;
+		uint64_t cell[few_most], tile[few_most] = {0}, inside[few_most] = {0};
 		for (int a = g->dim - 1; a >= 0; a--) {
-			int shift = pm_tile_shift[g->dim][a];
-			cell[a] = cell_of(g, a, x[a][i]);
-			key[i] = key[i] * ((g->cells[a] >> shift) + 1) + (cell[a] >> shift);
-			inside = inside << shift | (cell[a] & ((1u << shift) - 1));
+			const int shift = pm_tile_shift[g->dim][a];
+			const uint64_t tiles = (g->cells[a] >> shift) + 1, mask = (1u << shift) - 1;
+			cells_of(g, a, m, x[a] + p, cell);
+			for (size_t i = 0; i < m; i++) {
+				tile[i] = tile[i] * tiles + (cell[i] >> shift);
+				inside[i] = inside[i] << shift | (cell[i] & mask);
+			}
 		}
-		key[i] = key[i] * PM_TILE_CELLS + inside;
+		for (size_t i = 0; i < m; i++)
+			key[p + i] = tile[i] * PM_TILE_CELLS + inside[i];
 	}
 }
 
@@ -46,12 +59,65 @@ void pm_keys_of_integers(size_t n, const int64_t *y, uint64_t *key)
 		key[i] = (uint64_t)y[i] ^ (uint64_t)1 << 63;
 }
 
+/* A pass over numbers whose upper half is the key: each of the chunks has its places for every digit. */
+static void pass(size_t n, int shift, const uint64_t *from, uint64_t *to)
+{
+	uint32_t start[chunks_most][digits];
+	const int threads = pm_threads(), chunks = n < 65536 ? 1 : threads < chunks_most ? threads : chunks_most;
+	const size_t each = (n + (size_t)chunks - 1) / (size_t)chunks;
+#pragma omp parallel for num_threads(chunks) schedule(static, 1) if (chunks > 1)
+	for (int c = 0; c < chunks; c++) {
+		const size_t begin = (size_t)c * each, end = begin + each < n ? begin + each : n;
+		memset(start[c], 0, sizeof start[c]);
+		for (size_t i = begin; i < end; i++)
+			start[c][from[i] >> shift & (digits - 1)]++;
+	}
+	uint32_t at = 0;
+	for (int d = 0; d < digits; d++)
+		for (int c = 0; c < chunks; c++) {
+			const uint32_t count = start[c][d];
+			start[c][d] = at;
+			at += count;
+		}
+#pragma omp parallel for num_threads(chunks) schedule(static, 1) if (chunks > 1)
+	for (int c = 0; c < chunks; c++) {
+		const size_t begin = (size_t)c * each, end = begin + each < n ? begin + each : n;
+		for (size_t i = begin; i < end; i++)
+			to[start[c][from[i] >> shift & (digits - 1)]++] = from[i];
+	}
+}
+
+/* Keys that differ in their lower half alone, as those of cells: they travel together with the index. */
+static void order_halves(size_t n, uint32_t differs, const uint64_t *key, uint64_t *a, uint64_t *b, size_t *order)
+{
+	uint64_t *from = a, *to = b;
+#pragma omp parallel for schedule(static) if (n > 65536)
+	for (size_t i = 0; i < n; i++)
+		a[i] = key[i] << 32 | i;
+	for (int shift = 0; shift < 32; shift += bits) {
+		if (!(differs >> shift & (digits - 1)))
+			continue;
+		pass(n, 32 + shift, from, to);
+		uint64_t *k = from;
+		from = to, to = k;
+	}
+#pragma omp parallel for schedule(static) if (n > 65536)
+	for (size_t i = 0; i < n; i++)
+		order[i] = from[i] & UINT32_MAX;
+}
+
 void pm_keys_order(size_t n, uint64_t *key, uint64_t *key_work, size_t *order, size_t *order_work)
 {
 	uint64_t *from = key, *to = key_work, differs = 0;
 	size_t *from_order = order, *to_order = order_work;
 	for (size_t i = 0; i < n; i++)
-		order[i] = i, differs |= key[i] ^ key[0];
+		differs |= key[i] ^ key[0];
+	if (!(differs >> 32) && n <= UINT32_MAX) {
+		order_halves(n, (uint32_t)differs, key, key_work, (uint64_t *)order_work, order);
+		return;
+	}
+	for (size_t i = 0; i < n; i++)
+		order[i] = i;
 	for (int shift = 0; shift < 64; shift += bits) {
 		size_t start[digits] = {0}, at = 0;
 		if (!(differs >> shift & (digits - 1)))
@@ -73,26 +139,4 @@ void pm_keys_order(size_t n, uint64_t *key, uint64_t *key_work, size_t *order, s
 	}
 	if (from_order != order)
 		memcpy(order, from_order, n * sizeof *order);
-}
-
-int pm_field_permute(struct pm_field *field, const size_t *order)
-{
-	size_t n = field->count;
-	bool bytes = field->type == PM_U8;
-	uint64_t *old = n ? pm_alloc(n, sizeof *old) : NULL;
-	if (n && !old)
-		return -PM_DATA;
-	for (int c = 0; c < field->components; c++) {
-		unsigned char *b = bytes ? pm_out_u8(field, c) : NULL, *was = (unsigned char *)old;
-		uint64_t *y = bytes ? NULL : (void *)pm_out(field, c); /* eight bytes of either kind */
-		memcpy(old, bytes ? (void *)b : (void *)y, n * (bytes ? 1 : sizeof *old));
-#pragma omp parallel for
-		for (size_t i = 0; i < n; i++)
-			if (bytes)
-				b[i] = was[order[i]];
-			else
-				y[i] = old[order[i]];
-	}
-	pm_free(old);
-	return 0;
 }

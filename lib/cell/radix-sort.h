@@ -1,4 +1,4 @@
-/* A stable order of particles by cell or by any key, and the permutation of their fields. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stable order of particles by cell or by any key. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_CELL_RADIX_SORT_H
 #define PM_CELL_RADIX_SORT_H
 
@@ -11,7 +11,5 @@ void pm_keys_of_reals(size_t n, const double *y, uint64_t *key); /* ascending; -
 void pm_keys_of_integers(size_t n, const int64_t *y, uint64_t *key);
 /* order[i] is the index of the i-th particle; equal keys keep their order. work: n values of each; key is overwritten. */
 void pm_keys_order(size_t n, uint64_t *key, uint64_t *key_work, size_t *order, size_t *order_work);
-/* Value i of every component becomes the old value order[i]. 0 or failure. */
-int pm_field_permute(struct pm_field *field, const size_t *order);
 
 #endif

@@ -7,6 +7,7 @@
 #include "expression/expression.h"
 #include "expression/particle-order.h"
 #include "stream/declare.h"
+#include "stream/later.h"
 
 static bool chosen(const struct pm_particle_order *o, const struct pm_set *set) { return !o->set || !strcmp(o->set, set->name); }
 
@@ -24,9 +25,12 @@ static void change_all(struct pm_frame *f, const char *on)
 	for (size_t k = 0, n = f->nfields; k < n;) { /* pm_changes moves a field to the end of the list */
 		struct pm_field *p = f->fields[k];
 		bool mine = !strcmp(p->on, on) && !p->uniform && !(p->use & PM_USE_CHANGE);
-		if (mine)
-			pm_changes(f, on, p->name), n--;
-		else
+		if (mine) {
+			struct pm_field *changed = pm_changes(f, on, p->name);
+			if (changed)
+				changed->use |= PM_USE_WAITS;
+			n--;
+		} else
 			k++;
 	}
 }
@@ -90,9 +94,15 @@ static int sort_set(const struct pm_particle_order *o, struct pm_frame *f, const
 	uint64_t *key = pm_alloc(n ? 4 * n : 1, sizeof *key);
 	size_t *order = (size_t *)(key + 2 * n);
 	struct pm_sort_ranks ranks;
-	int status = key ? keys(o, f, set->name, n, key, (double *)(key + n)) : -PM_DATA;
+	int status = key ? 0 : -PM_DATA;
+	for (size_t i = 0; i < f->nfields && (from || !n) && !status; i++)
+		if (permuted(f->fields[i], set->name))
+			status = pm_field_now(f->fields[i]);
+	status = status ? status : keys(o, f, set->name, n, key, (double *)(key + n));
 	for (size_t i = 0; o->reverse && !status && i < n; i++)
 		key[i] = ~key[i];
+	if (!n && !from)
+		return pm_free(key), status;
 	if (from)
 		status = pm_sort_ranks_init(status, from, n, key, &ranks);
 	else if (!status)

@@ -562,3 +562,46 @@ const int64_t *pm_in_i64(const struct pm_field *field, int c) { return in(field,
 int64_t *pm_out_i64(struct pm_field *field, int c) { return out(field, c); }
 const unsigned char *pm_in_u8(const struct pm_field *field, int c) { return in(field, c); }
 unsigned char *pm_out_u8(struct pm_field *field, int c) { return out(field, c); }
+
+/* ---- another order ---- */
+
+enum { permuted_together = 256 };
+
+static void take_bytes(size_t n, const unsigned char *from, const size_t *order, unsigned char *restrict to)
+{
+	for (size_t i = 0; i < n; i++)
+		to[i] = from[order[i]];
+}
+
+/* One by one, the further ones fetched: vectors of what is far apart take longer. order has `ahead` more. */
+static void take(size_t n, size_t ahead, const uint64_t *from, const size_t *order, uint64_t *restrict to)
+{
+	for (size_t i = 0; i < n; i++) {
+		if (ahead)
+			__builtin_prefetch(&from[order[i + ahead]]);
+		to[i] = from[order[i]];
+	}
+}
+
+int pm_field_permute(struct pm_field *field, const size_t *order)
+{
+	const size_t n = field->count, size = pm_field_memory(field);
+	const bool finite = field->finite;
+	struct pm_field *old = pm_field_held(field);
+	if (!old || pm_held_bring(old))
+		return pm_held_free(old), -PM_DATA;
+	pm_limits_add(field, (struct pm_limits){.oscillation = pm_limits_of(field).oscillation}); /* other values, and the limit stays */
+	const int status = pm_field_hold(field);
+#pragma omp parallel for schedule(static) if (n > 16384)
+	for (size_t p = 0; p < (status ? 0 : n); p += permuted_together) { /* of all components, with one reading of the order */
+		const size_t m = n - p < permuted_together ? n - p : permuted_together, ahead = p + 2 * permuted_together <= n ? permuted_together / 2 : 0;
+		for (int c = 0; c < field->components; c++)
+			if (size == 1)
+				take_bytes(m, pm_in_u8(old, c), order + p, pm_out_u8(field, c) + p);
+			else /* eight bytes of either kind */
+				take(m, ahead, (const void *)pm_in(old, c), order + p, (void *)(pm_out(field, c) + p));
+	}
+	pm_held_free(old);
+	field->use |= finite && !status ? PM_USE_SEEN : 0;
+	return status;
+}

@@ -41,6 +41,8 @@ int pm_field_now(struct pm_field *field);
  * what the holders know of them; and then that they are changed. */
 bool pm_field_in_place(const struct pm_field *field, int holders);
 void pm_field_changed(struct pm_field *field);
+/* Of a field with PM_USE_WAITS, in a frame that is not divided: value i of every component becomes the old value order[i]. 0 or failure. */
+int pm_field_permute(struct pm_field *field, const size_t *order);
 /* For make(): a copy that holds the values, left to be made as they may be; and then to have them. 0 or failure. */
 struct pm_field *pm_field_held(const struct pm_field *field); /* give back by pm_held_free */
 void pm_held_free(struct pm_field *held); /* or NULL */

@@ -83,3 +83,14 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 		last = key }' rows
 	[ "$(wc -l <rows)" -ge 3000 ]
 }
+
+@test "many particles in a random order: by three threads the order of one, which is stable, and the values travel together" {
+	pinit uniform -n 70001 --cells 40 --dispersion 1 --seed 3 >a
+	ssort --threads 3 --no-history a >three
+	ssort --threads 1 --no-history a | cmp - three
+	scalc 'cell = floor(40*x) + 40*floor(40*y) + 1600*floor(40*z)' <three | stab --plain |
+		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["cell"] == last && $c["id"] < id { bad = 1 }
+			$c["cell"] != last && seen[$c["cell"]]++ { bad = 1 } { last = $c["cell"]; id = $c["id"]; n++ } END { exit bad || n != 70001 }'
+	ssort --by id <three >back
+	scmp --by-index --tolerance 0 a back
+}
